@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/box3.h"
+#include "mesh/face_geometry.h"
+#include "mesh/mesh.h"
+#include "mesh/normalization.h"
+
+namespace asdfvk {
+
+/// 32 bytes. Boxes are in normalised coordinates, rounded outwards: they hold a triangle both as doubles and as floats.
+struct BvhNode {
+  Vec3f min;
+  uint32_t first = 0;  ///< Inner: index of the left child, the right one follows it. Leaf: its first triangle slot.
+  Vec3f max;
+  uint32_t triangleCount = 0;  ///< 0 for an inner node.
+
+  [[nodiscard]] bool isLeaf() const { return triangleCount > 0; }
+};
+
+/// A binary bounding volume hierarchy. nodes[0] is the root; without any triangle there are no nodes.
+struct Bvh {
+  std::vector<BvhNode> nodes;
+  std::vector<uint32_t> slotFaces;  ///< Face index of each triangle slot; each traceable face once.
+  uint32_t depth = 0;               ///< Levels below the root: a stack of `depth` entries is enough to walk it.
+  Normalization normalization;
+};
+
+struct BvhOptions {
+  uint32_t maxLeafTriangleCount = 4;
+  uint32_t binCount = 16;
+};
+
+/// Deepest hierarchy that a traversal stack has room for; the builder splits at the median where SAH would go deeper.
+inline constexpr uint32_t kMaxBvhDepth = 48;
+
+/// Binned surface-area heuristic (Wald 2007), parallel over subtrees, with the same result for any thread count.
+/// Holds the faces that are not degenerate and that represent themselves (see coincidentRepresentatives()).
+[[nodiscard]] Bvh buildBvh(const Mesh& mesh, const FaceGeometry& geometry,
+                           std::span<const uint32_t> representatives, const BvhOptions& options = {});
+
+}  // namespace asdfvk

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/vec3.h"
+
+namespace asdfvk {
+
+/// Shapira, Shamir and Cohen-Or 2008, section 3, as quoted in the ASDF paper, section 3.
+struct ConeOptions {
+  uint32_t rayCount = 30;            ///< 1 to kMaxRayCount.
+  double openingAngleDegrees = 120;  ///< Full angle, above 0 and below 180.
+};
+
+inline constexpr uint32_t kMaxRayCount = 1024;
+
+/// The rays of every cone, in the cone's frame (z = the axis), ordered by azimuth so that neighbours in the table are
+/// neighbours in space. directions and weights have rayCount entries.
+struct Cone {
+  std::vector<Vec3d> directions;  ///< Unit.
+  std::vector<double> weights;    ///< 1 / angle to the axis, in 1 / radians.
+};
+
+/// A golden-angle (Vogel) spiral, uniform in solid angle. Throws Error{Usage} for options out of range.
+[[nodiscard]] Cone makeCone(const ConeOptions& options);
+
+/// A right-handed orthonormal frame; a ray of the cone is x * tangent + y * bitangent + z * axis.
+struct ConeFrame {
+  Vec3d tangent, bitangent, axis;
+};
+
+/// Duff et al. 2017, "Building an Orthonormal Basis, Revisited", with the jump moved to axis.z = -0.7, where no
+/// axis-aligned wall has its normal. `axis` is a unit vector: minus the face normal.
+[[nodiscard]] ConeFrame coneFrame(const Vec3d& axis);
+
+/// Rays kept are those with |length - median| <= standard deviation + kOutlierSlack * median, so that ties (two rays
+/// are always a tie) do not depend on rounding.
+inline constexpr double kOutlierSlack = 1e-5;
+
+/// The shape diameter from the lengths of a cone's valid rays: the weighted mean of those within one standard deviation
+/// (population, about the mean) of the median (mean of the middle two for an even count). kNoValue for no rays.
+/// lengths and weights have one entry per valid ray, in the cone's order.
+[[nodiscard]] double coneValue(std::span<const double> lengths, std::span<const double> weights);
+
+}  // namespace asdfvk

@@ -1,0 +1,55 @@
+#include "mesh/face_geometry.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace asdfvk {
+namespace {
+
+struct NormalAndArea {
+  Vec3d normal;
+  double area = 0;
+};
+
+// Edges are scaled by the longest one before they are multiplied, so that tiny and huge units neither underflow nor
+// overflow.
+NormalAndArea normalAndArea(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
+  const Vec3d ab = b - a, ac = c - a, bc = c - b;
+  double longest = 0;
+  for (const Vec3d& edge : {ab, ac, bc})
+    for (size_t axis = 0; axis < 3; ++axis) longest = std::max(longest, std::abs(edge[axis]));
+  if (!(longest > 0) || !std::isfinite(longest)) return {};
+  const Vec3d scaledCross = cross(ab / longest, ac / longest);
+  const double doubledArea = length(scaledCross);
+  if (!(doubledArea > kDegenerateHeightRatio)) return {};
+  return {scaledCross / doubledArea, 0.5 * doubledArea * longest * longest};
+}
+
+}  // namespace
+
+FaceGeometry computeFaceGeometry(const Mesh& mesh) {
+  FaceGeometry geometry;
+  const size_t faceCount = mesh.faces.size();
+  geometry.barycentres.resize(faceCount);
+  geometry.normals.resize(faceCount);
+  geometry.areas.resize(faceCount);
+  tbb::parallel_for(tbb::blocked_range<size_t>(0, faceCount, 4096), [&](const tbb::blocked_range<size_t>& range) {
+    for (size_t f = range.begin(); f < range.end(); ++f) {
+      const auto [i, j, k] = mesh.faces[f];
+      const Vec3d &a = mesh.vertices[i], &b = mesh.vertices[j], &c = mesh.vertices[k];
+      geometry.barycentres[f] = a + ((b - a) + (c - a)) / 3.0;
+      const NormalAndArea face = isFinite(a) && isFinite(b) && isFinite(c) ? normalAndArea(a, b, c) : NormalAndArea{};
+      geometry.normals[f] = face.normal;
+      geometry.areas[f] = face.area;
+    }
+  });
+  for (const Face& face : mesh.faces)
+    for (uint32_t vertex : face)
+      if (isFinite(mesh.vertices[vertex])) geometry.bounds.add(mesh.vertices[vertex]);
+  return geometry;
+}
+
+}  // namespace asdfvk

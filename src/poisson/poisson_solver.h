@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/run_control.h"
+#include "poisson/poisson_system.h"
+
+namespace asdfvk {
+
+struct SolverOptions {
+  double tolerance = 1e-5;         ///< On the relative residual.
+  uint32_t maxIterations = 20000;
+};
+
+struct SolverReport {
+  std::string name;             ///< "eigen", "cg" or "jacobi".
+  uint32_t iterations = 0;
+  double relativeResidual = 0;  ///< The true one, recomputed in double from the solution.
+  bool converged = true;        ///< Not converging is data, not an error.
+};
+
+class PoissonSolver {
+ public:
+  virtual ~PoissonSolver() = default;
+
+  /// solution: one entry per unknown of the system, written whole. Throws Error{Cancelled}, Error{Device}.
+  virtual SolverReport solve(const PoissonSystem& system, const SolverOptions& options, std::span<double> solution,
+                             const RunControl& control) = 0;
+};
+
+/// Eigen's conjugate gradient with Jacobi preconditioner, in double on the CPU.
+[[nodiscard]] std::unique_ptr<PoissonSolver> makeEigenSolver();
+
+}  // namespace asdfvk
