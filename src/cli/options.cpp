@@ -201,6 +201,9 @@ CommandLine parseCommandLine(std::vector<std::string> arguments) {
   } catch (const CLI::Success&) {
     line.answer = app.help();
     return line;
+  } catch (const CLI::ArgumentMismatch& error) {
+    const std::string message = error.what();
+    throw Error(ErrorKind::Usage, message.substr(0, message.find(':')) + " takes exactly one value, once");
   } catch (const CLI::ParseError& error) {
     throw Error(ErrorKind::Usage, std::string(error.what()) + "; asdf-vk --help lists the options");
   }

@@ -36,9 +36,14 @@ Result computeMesh(Session& session, const Mesh& mesh, const CommandLine& line, 
   return session.compute(mesh, line.options, control);
 }
 
-/// Everything about one mesh. Returns Done or CheckFailed; every other failure is thrown.
-ExitCode runMesh(Session& session, const std::string& name, const std::string& output, const CommandLine& line,
-                 const std::stop_token& stop) {
+/// What a mesh leaves behind: its exit code and its line for --json.
+struct Answer {
+  ExitCode code = ExitCode::Done;
+  std::string json;
+};
+
+Answer runMesh(Session& session, const std::string& name, const std::string& output, const CommandLine& line,
+               const std::stop_token& stop) {
   requireWritablePlace(output);
   const Stopwatch readWatch;
   const Mesh mesh = readMesh(name);
@@ -60,22 +65,34 @@ ExitCode runMesh(Session& session, const std::string& name, const std::string& o
     for (const std::string& warning : result.report.warnings) printWarning(name, warning);
     writeStandardError(textReport(outcome));
   }
-  if (line.json) writeStandardOutput(jsonReport(outcome));
-  if (!result.report.check || hasPassed(*result.report.check)) return ExitCode::Done;
-  printError(name, checkFailure(*result.report.check));
-  return ExitCode::CheckFailed;
+  Answer answer{ExitCode::Done, jsonReport(outcome)};
+  if (result.report.check && !hasPassed(*result.report.check)) {
+    printError(name, checkFailure(*result.report.check));
+    answer.code = ExitCode::CheckFailed;
+  }
+  return answer;
 }
 
-/// Readers name the file themselves.
-std::string withoutName(const std::string& message, const std::string& name) {
-  const std::string prefix = name + ": ";
-  return message.starts_with(prefix) ? message.substr(prefix.size()) : message;
+/// Runs `step`, which gives an Answer; whatever it throws becomes one, told as an error of the mesh.
+template <typename Step>
+Answer answerOf(const std::string& mesh, Step step) {
+  try {
+    return step();
+  } catch (...) {
+    Failure failure = currentFailure();
+    const std::string prefix = mesh + ": ";  // Readers name the file themselves.
+    if (failure.message.starts_with(prefix)) failure.message.erase(0, prefix.size());
+    printError(mesh, failure.message);
+    return {failure.code, jsonFailure(mesh, failure.message)};
+  }
 }
 
-void reportFailure(const std::string& mesh, const std::string& message, bool json) {
-  const std::string reason = withoutName(message, mesh);
-  printError(mesh, reason);
-  if (json) writeStandardOutput(jsonFailure(mesh, reason));
+ExitCode failWithoutSession(const CommandLine& line) {
+  const Failure failure = currentFailure();
+  printError("", failure.message);
+  for (const std::string& mesh : line.meshes)
+    if (line.json) writeStandardOutput(jsonFailure(mesh, failure.message));
+  return failure.code;
 }
 
 }  // namespace
@@ -86,26 +103,17 @@ ExitCode runMeshes(const CommandLine& line, const std::stop_token& stop) {
   try {
     session.emplace(line.session);
   } catch (...) {
-    const Failure failure = currentFailure();
-    printError("", failure.message);
-    for (const std::string& mesh : line.meshes)
-      if (line.json) writeStandardOutput(jsonFailure(mesh, failure.message));
-    return failure.code;
+    return failWithoutSession(line);
   }
   if (!line.quiet) writeStandardError(oneLine("asdf-vk: " + session->deviceLine()) + "\n");
 
   ExitCode first = ExitCode::Done;
   for (size_t i = 0; i < line.meshes.size(); ++i) {
-    ExitCode code = ExitCode::Done;
-    try {
-      code = runMesh(*session, line.meshes[i], outputs[i], line, stop);
-    } catch (...) {
-      const Failure failure = currentFailure();
-      code = failure.code;
-      reportFailure(line.meshes[i], failure.message, line.json);
-    }
-    if (first == ExitCode::Done) first = code;
-    if (code == ExitCode::Cancelled) break;
+    const std::string& mesh = line.meshes[i];
+    const Answer answer = answerOf(mesh, [&] { return runMesh(*session, mesh, outputs[i], line, stop); });
+    if (first == ExitCode::Done) first = answer.code;
+    if (line.json) writeStandardOutput(answer.json);
+    if (answer.code == ExitCode::Cancelled) break;
   }
   return first;
 }
