@@ -18,11 +18,12 @@ namespace asdfvk {
 static_assert(std::endian::native == std::endian::little, "the binary formats are written as they lie in memory");
 
 AtomicFile::AtomicFile(const std::filesystem::path& target)
-    : target_(target), buffer_(std::make_unique_for_overwrite<char[]>(kBufferSize)) {
-  if (target_ == "-") {
+    : target_(target), isStandardOutput_(target == "-"), buffer_(std::make_unique_for_overwrite<char[]>(kBufferSize)) {
+  if (isStandardOutput_) {
     descriptor_ = STDOUT_FILENO;
     return;
   }
+  if (target_.empty()) throw Error(ErrorKind::Output, "the result has no file to go to: its name is empty");
   struct stat status {};
   if (::stat(target_.c_str(), &status) != 0) {
     if (errno != ENOENT) fail(errno, "");
@@ -41,11 +42,7 @@ AtomicFile::AtomicFile(const std::filesystem::path& target)
   const std::filesystem::path followed = std::filesystem::canonical(target_, ignored);
   if (!followed.empty()) target_ = followed;
   openTemporary();
-  if (::fchmod(descriptor_, status.st_mode & 07777) != 0) {
-    const int reason = errno;
-    closeAndRemove();
-    fail(reason, "");
-  }
+  if (::fchmod(descriptor_, status.st_mode & 07777) != 0) failAndRemove(errno);
 }
 
 AtomicFile::~AtomicFile() { closeAndRemove(); }
@@ -81,11 +78,7 @@ void AtomicFile::flush() {
   while (written < used_) {
     const ssize_t count = ::write(descriptor_, buffer_.get() + written, used_ - written);
     if (count < 0 && errno == EINTR) continue;
-    if (count < 0) {
-      const int reason = errno;
-      closeAndRemove();
-      fail(reason, "nothing was left behind");
-    }
+    if (count < 0) failAndRemove(errno);
     written += static_cast<size_t>(count);
   }
   used_ = 0;
@@ -94,25 +87,29 @@ void AtomicFile::flush() {
 void AtomicFile::commit() {
   flush();
   const int descriptor = std::exchange(descriptor_, -1);
-  if (descriptor == STDOUT_FILENO) return;
+  if (isStandardOutput_) return;
   // A full network disk may only tell at the close.
   if (::close(descriptor) != 0 || (!temporary_.empty() && ::rename(temporary_.c_str(), target_.c_str()) != 0)) {
-    const int reason = errno;
-    closeAndRemove();
-    fail(reason, "nothing was left behind");
+    failAndRemove(errno);
   }
   temporary_.clear();
 }
 
+void AtomicFile::failAndRemove(int errorNumber) {
+  const bool isAtomic = !temporary_.empty();
+  closeAndRemove();
+  fail(errorNumber, isAtomic ? "nothing was left behind" : "");
+}
+
 void AtomicFile::closeAndRemove() noexcept {
-  if (descriptor_ >= 0 && descriptor_ != STDOUT_FILENO) ::close(descriptor_);
+  if (descriptor_ >= 0 && !isStandardOutput_) ::close(descriptor_);
   descriptor_ = -1;
   if (!temporary_.empty()) ::unlink(temporary_.c_str());
   temporary_.clear();
 }
 
 void AtomicFile::fail(int errorNumber, const std::string& during) const {
-  const std::string name = target_ == "-" ? "standard output" : target_.string();
+  const std::string name = isStandardOutput_ ? "standard output" : target_.string();
   throw Error(ErrorKind::Output,
               fmt::format("{} cannot be written: {}{}{}", name, std::generic_category().message(errorNumber),
                           during.empty() ? "" : "; ", during));

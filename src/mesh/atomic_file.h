@@ -47,9 +47,11 @@ class AtomicFile {
   void openTemporary();
   void flush();
   void closeAndRemove() noexcept;
+  [[noreturn]] void failAndRemove(int errorNumber);
   [[noreturn]] void fail(int errorNumber, const std::string& during) const;
 
   std::filesystem::path target_, temporary_;  ///< temporary_ is empty where the target is written to directly.
+  bool isStandardOutput_ = false;
   int descriptor_ = -1;
   std::unique_ptr<char[]> buffer_;
   size_t used_ = 0;
