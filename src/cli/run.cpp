@@ -18,12 +18,7 @@ namespace asdfvk {
 namespace {
 
 void writeTo(const std::string& output, const CommandLine& line, const Mesh& mesh, const Result& result) {
-  const FaceValues values{result.sdf, result.isSeed};
-  const WriteOptions options{.ascii = line.ascii};
-  if (output == "-")
-    writeResultToStandardOutput(line.format.empty() ? "ply" : line.format, mesh, values, options);
-  else
-    writeResult(output, mesh, values, options);
+  writeResult(output, mesh, {.values = result.sdf, .isSeed = result.isSeed}, writeOptionsOf(line));
 }
 
 Result computeMesh(Session& session, const Mesh& mesh, const CommandLine& line, const std::stop_token& stop) {
