@@ -32,7 +32,7 @@ class PoissonSolver {
                              const RunControl& control) = 0;
 };
 
-/// Eigen's conjugate gradient with Jacobi preconditioner, in double on the CPU.
+/// Jacobi-preconditioned conjugate gradients with Eigen, in double on the CPU, products on all cores.
 [[nodiscard]] std::unique_ptr<PoissonSolver> makeEigenSolver();
 
 }  // namespace asdfvk

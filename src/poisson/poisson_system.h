@@ -15,7 +15,8 @@ namespace asdfvk {
 ///     sum_{g in N(f)} w_fg u(f) - sum_{g in N(f), g unknown} w_fg u(g) = sum_{g in N(f), g known} w_fg value(g) - k curv(f)
 ///
 /// Symmetric and positive definite: faces that no path of arcs joins to a known face are left out. Rows are compressed,
-/// columns ascending; the matrix entry of an off-diagonal arc is minus its weight.
+/// columns strictly ascending (two arcs to the same face are one entry with the sum of their weights); the matrix entry
+/// of an off-diagonal arc is minus its weight.
 struct PoissonSystem {
   std::vector<uint32_t> faces;          ///< #U: the face of each unknown, ascending.
   std::vector<uint32_t> rowOffsets;     ///< #U+1
@@ -28,14 +29,17 @@ struct PoissonSystem {
   [[nodiscard]] uint32_t unknownCount() const { return static_cast<uint32_t>(faces.size()); }
 };
 
-/// values: #F, finite where the face is known (a Dirichlet constraint), NaN where it is not. curvature: #F or empty when
-/// guidance is 0. Distances below 1e-9 of the box's diagonal count as that, so that coincident barycentres keep the
+/// values: #F, finite where the face is known (a Dirichlet constraint), NaN where it is not. curvature: #F, non-finite
+/// entries count as 0; or empty when guidance is 0. Distances below 1e-9 of the box's diagonal count as that, so that coincident barycentres keep the
 /// matrix finite.
 [[nodiscard]] PoissonSystem buildPoissonSystem(const DualGraph& graph, const FaceGeometry& geometry,
                                                std::span<const double> values, std::span<const double> curvature,
                                                double guidance);
 
-/// ||b - A x|| / ||b|| in double; 0 for an empty system.
+/// residual = b - A x, in double. solution, residual: #U.
+void computeResidual(const PoissonSystem& system, std::span<const double> solution, std::span<double> residual);
+
+/// ||b - A x|| / ||b|| in double; 0 for an empty system and wherever the residual is 0, infinite where only b is.
 [[nodiscard]] double relativeResidual(const PoissonSystem& system, std::span<const double> solution);
 
 }  // namespace asdfvk
