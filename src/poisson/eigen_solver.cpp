@@ -75,10 +75,9 @@ class EigenSolver final : public PoissonSolver {
                      const RunControl& control) override {
     ASDFVK_CHECK_OP(system.columns.size(), <=, static_cast<size_t>(std::numeric_limits<int>::max()));
     SolverProgress progress(system, options, control);
-    return solveByRefinement("eigen", system, options, kStrongestReduction, solution,
-                             [&](const CorrectionRequest& request) {
-                               return conjugateGradient(system, request, progress);
-                             });
+    return solveByRefinement(
+        "eigen", system, options, kStrongestReduction, solution,
+        [&](const CorrectionRequest& request) { return conjugateGradient(system, request, progress); });
   }
 };
 

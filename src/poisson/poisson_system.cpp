@@ -26,7 +26,8 @@ struct Arcs {
   const FaceGeometry& geometry;
   double shortestDistance;
 
-  /// Calls visit(g, w_fg) for each neighbour in ascending order; a neighbour over two edges comes once, its weight doubled.
+  /// Calls visit(g, w_fg) for each neighbour in ascending order; a neighbour over two edges comes once, its weight
+  /// doubled.
   template <typename Visit>
   void visit(uint32_t face, const Visit& visit) const {
     const std::span<const uint32_t> neighbours = graph.neighboursOf(face);
@@ -65,9 +66,8 @@ double meanOfKnown(std::span<const double> values) {
   for (double value : values) count += std::isfinite(value) ? 1 : 0;
   if (count == 0) return 0;
   // Divided before they are added, so that values near the end of the range do not overflow.
-  return orderedSum(values.size(), [&](size_t i) {
-    return std::isfinite(values[i]) ? values[i] / static_cast<double>(count) : 0.0;
-  });
+  return orderedSum(values.size(),
+                    [&](size_t i) { return std::isfinite(values[i]) ? values[i] / static_cast<double>(count) : 0.0; });
 }
 
 template <typename Body>

@@ -18,8 +18,7 @@ constexpr double kStagnation = 0.5;
 }  // namespace
 
 SolverReport solveByRefinement(const std::string& name, const PoissonSystem& system, const SolverOptions& options,
-                               double strongestReduction, std::span<double> solution,
-                               const CorrectionSolver& correct) {
+                               double strongestReduction, std::span<double> solution, const CorrectionSolver& correct) {
   ASDFVK_CHECK_OP(solution.size(), ==, system.faces.size());
   SolverReport report;
   report.name = name;

@@ -14,7 +14,7 @@ struct CorrectionRequest {
   std::span<const double> residual;  ///< #U
   double reduction = 0;              ///< ||residual - A e|| at or below this share of ||residual|| is enough.
   uint32_t maxIterations = 0;
-  std::span<double> correction;      ///< #U, e, to be written whole.
+  std::span<double> correction;  ///< #U, e, to be written whole.
 };
 
 /// Returns the iterations spent.

@@ -20,8 +20,8 @@ class ComponentSeeds {
   ComponentSeeds(std::span<const uint32_t> componentOf, std::span<const double> values,
                  std::span<const uint32_t> untriedFaces, uint64_t randomSeed);
 
-  /// The faces to try now, ascending, none twice over all calls; empty when every component has a value or no face left.
-  /// values: as before, with what the last batch gave.
+  /// The faces to try now, ascending, none twice over all calls; empty when every component has a value or no face
+  /// left. values: as before, with what the last batch gave.
   [[nodiscard]] std::vector<uint32_t> next(std::span<const double> values);
 
  private:
