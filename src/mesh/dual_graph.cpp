@@ -7,10 +7,7 @@
 namespace asdfvk {
 
 DualGraph buildDualGraph(const Mesh& mesh) {
-  const EdgeTable edges = EdgeTable::build(mesh, [&](uint32_t f) {
-    const auto [a, b, c] = mesh.faces[f];
-    return isFinite(mesh.vertices[a]) && isFinite(mesh.vertices[b]) && isFinite(mesh.vertices[c]);
-  });
+  const EdgeTable edges = EdgeTable::build(mesh, [&](uint32_t f) { return mesh.hasFiniteCorners(f); });
   Buckets<uint32_t> rows =
       sortIntoBuckets<uint32_t>(mesh.faces.size(), edges.vertexCount(), [&](uint32_t vertex, auto&& put) {
         edges.forEachEdgeFrom(vertex, [&](uint32_t, std::span<const EdgeEntry> around) {
