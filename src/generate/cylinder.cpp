@@ -1,0 +1,81 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "generate/analytic_shapes.h"
+
+namespace asdfvk {
+namespace {
+
+/// Rings of 6 ringCount vertices along z, closed by two discs whose k-th ring has 6 k vertices.
+class CylinderGrid {
+ public:
+  CylinderGrid(const CylinderParameters& parameters, uint32_t ringCount, uint32_t layerCount)
+      : parameters_(parameters), ringCount_(ringCount), around_(6 * ringCount), layerCount_(layerCount) {
+    for (uint32_t layer = 0; layer <= layerCount_; ++layer)
+      addRing(ringCount_, parameters_.length * (double(layer) / layerCount_ - 0.5));
+    for (uint32_t layer = 0; layer < layerCount_; ++layer) {
+      for (uint32_t q = 0; q < around_; ++q) {
+        const uint32_t a = layer * around_ + q, b = layer * around_ + (q + 1) % around_;
+        mesh_.faces.push_back({a, b, b + around_});
+        mesh_.faces.push_back({a, b + around_, a + around_});
+      }
+    }
+    addDisc(0, -0.5 * parameters_.length, true);
+    addDisc(layerCount_ * around_, 0.5 * parameters_.length, false);
+  }
+
+  Mesh take() { return std::move(mesh_); }
+
+ private:
+  // Ring 0 is the centre alone.
+  void addRing(uint32_t ring, double z) {
+    const double radius = parameters_.radius * (double(ring) / ringCount_);
+    for (uint32_t q = 0; q < std::max(1u, 6 * ring); ++q) {
+      const double angle = 2 * std::numbers::pi * q / std::max(1u, 6 * ring);
+      mesh_.vertices.push_back({radius * std::cos(angle), radius * std::sin(angle), z});
+    }
+  }
+
+  void addDisc(uint32_t firstOfRim, double z, bool downwards) {
+    const auto addFace = [&](uint32_t a, uint32_t b, uint32_t c) {
+      if (downwards) std::swap(b, c);
+      mesh_.faces.push_back({a, b, c});
+    };
+    auto inner = static_cast<uint32_t>(mesh_.vertices.size());
+    addRing(0, z);
+    for (uint32_t ring = 1; ring <= ringCount_; ++ring) {
+      uint32_t outer = firstOfRim;
+      if (ring < ringCount_) {
+        outer = static_cast<uint32_t>(mesh_.vertices.size());
+        addRing(ring, z);
+      }
+      const uint32_t innerCount = std::max(1u, 6 * (ring - 1));
+      for (uint32_t q = 0; q < 6 * ring; ++q) {
+        const uint32_t sector = q / ring, step = q % ring;
+        const uint32_t a = outer + q, b = outer + (q + 1) % (6 * ring);
+        const uint32_t i = inner + (sector * (ring - 1) + step) % innerCount;
+        addFace(a, b, i);
+        if (step + 1 < ring) addFace(i, b, inner + (sector * (ring - 1) + step + 1) % innerCount);
+      }
+      inner = outer;
+    }
+  }
+
+  CylinderParameters parameters_;
+  uint32_t ringCount_, around_, layerCount_;
+  Mesh mesh_;
+};
+
+}  // namespace
+
+GeneratedShape makeCylinder(uint64_t faceCount, const CylinderParameters& parameters) {
+  // The discs have 12 r^2 faces, the mantle 12 r per layer; r for edges of one length, then the layers for the count.
+  const double layersPerRing = parameters.length / parameters.radius * (3 / std::numbers::pi);
+  const double wished = std::max(1.0, std::round(std::sqrt(double(faceCount) / (12 * (1 + layersPerRing)))));
+  const double layers = std::max(1.0, std::round((double(faceCount) - 12 * wished * wished) / (12 * wished)));
+  CylinderGrid grid(parameters, static_cast<uint32_t>(wished), static_cast<uint32_t>(layers));
+  return withUniformDiameter(grid.take(), 2 * parameters.radius);
+}
+
+}  // namespace asdfvk

@@ -1,0 +1,45 @@
+#include "generate/shapes.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <array>
+
+#include "core/error.h"
+
+namespace asdfvk {
+namespace {
+
+struct NamedShape {
+  std::string_view name;
+  GeneratedShape (*make)(uint64_t faceCount);
+};
+
+constexpr std::array kShapes{
+    NamedShape{"sphere", [](uint64_t n) { return makeSphere(n); }},
+    NamedShape{"icosphere", [](uint64_t n) { return makeIcosphere(n); }},
+    NamedShape{"slab", [](uint64_t n) { return makeSlab(n); }},
+    NamedShape{"cylinder", [](uint64_t n) { return makeCylinder(n); }},
+    NamedShape{"torus", [](uint64_t n) { return makeTorus(n); }},
+    NamedShape{"cube", [](uint64_t n) { return makeCube(n); }},
+};
+
+}  // namespace
+
+std::vector<std::string_view> shapeNames() {
+  std::vector<std::string_view> names;
+  for (const NamedShape& shape : kShapes) names.push_back(shape.name);
+  return names;
+}
+
+GeneratedShape generateShape(std::string_view name, uint64_t faceCount) {
+  if (faceCount < kMinFaceCount || faceCount > kMaxFaceCount)
+    throw Error(ErrorKind::Usage, fmt::format("{} faces are asked for; the generator makes {} to {}", faceCount,
+                                              kMinFaceCount, kMaxFaceCount));
+  for (const NamedShape& shape : kShapes)
+    if (shape.name == name) return shape.make(faceCount);
+  throw Error(ErrorKind::Usage,
+              fmt::format("no shape is called {}; there are {}", name, fmt::join(shapeNames(), ", ")));
+}
+
+}  // namespace asdfvk
