@@ -34,8 +34,8 @@ std::vector<ConeRay> deviceRays(const Cone& cone) {
 }
 
 template <typename T>
-Buffer uploadTexels(const Device& device, const std::vector<T>& items) {
-  return uploadBuffer(device, std::as_bytes(std::span(items)), VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT);
+Buffer upload(const Device& device, const std::vector<T>& items, VkBufferUsageFlags usage) {
+  return uploadBuffer(device, std::as_bytes(std::span(items)), usage);
 }
 
 uint64_t largestChunk(const VulkanConeKernel& kernel) {
@@ -47,12 +47,11 @@ uint64_t largestChunk(const VulkanConeKernel& kernel) {
 /// The scene on the device, and room for one chunk of cones.
 struct Upload {
   Upload(const VulkanConeKernel& kernel, const DeviceBvh& bvh, const Cone& cone)
-      : nodes(uploadTexels(kernel.device(), bvh.nodes)),
-        triangles(uploadTexels(kernel.device(), bvh.triangles)),
+      : nodes(upload(kernel.device(), bvh.nodes, VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT)),
+        triangles(upload(kernel.device(), bvh.triangles, VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT)),
         nodeTexels(kernel.device(), nodes),
         triangleTexels(kernel.device(), triangles),
-        rays(uploadBuffer(kernel.device(), std::as_bytes(std::span(deviceRays(cone))),
-                          VK_BUFFER_USAGE_STORAGE_BUFFER_BIT)),
+        rays(upload(kernel.device(), deviceRays(cone), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT)),
         origins(kernel.device(), largestChunk(kernel) * sizeof(ConeOrigin), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
                 MemoryKind::HostVisible),
         results(kernel.device(), largestChunk(kernel) * sizeof(uint32_t), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
