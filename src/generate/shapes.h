@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "generate/analytic_shapes.h"
+#include "generate/creatures.h"
 #include "generate/generated_shape.h"
 
 namespace asdfvk {

@@ -1,0 +1,192 @@
+#include "generate/brick_lattice.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_reduce.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <functional>
+
+#include "core/check.h"
+#include "generate/well_composed.h"
+
+namespace asdfvk {
+namespace {
+
+using Coordinates = std::array<int32_t, 3>;
+
+uint64_t keyOf(int32_t x, int32_t y, int32_t z) {
+  const auto bits = [](int32_t c) { return static_cast<uint64_t>(static_cast<uint32_t>(c + 1) & 0x1fffffu); };
+  return bits(x) | bits(y) << 21 | bits(z) << 42;
+}
+
+template <typename Body>
+void forEachIndex(size_t count, Body body) {
+  tbb::parallel_for(tbb::blocked_range<size_t>(0, count, 16), [&](const tbb::blocked_range<size_t>& range) {
+    for (size_t i = range.begin(); i < range.end(); ++i) body(i);
+  });
+}
+
+// Below this many points in all, no brick is left out, so that repairs of coarse lattices may go anywhere.
+constexpr double kSmallLattice = 64.0 * 64.0 * 64.0;
+const double kSqrt3 = std::sqrt(3.0);
+
+}  // namespace
+
+uint32_t CellCorners::mask(int32_t x, int32_t y, int32_t z) const {
+  uint32_t mask = 0;
+  for (int32_t corner = 0; corner < 8; ++corner)
+    mask |= uint32_t{at(x + (corner & 1), y + (corner >> 1 & 1), z + (corner >> 2))} << corner;
+  return mask;
+}
+
+BrickLattice::BrickLattice(const CapsuleUnion& field, double spacing)
+    : field_(field.withRadiiAtLeast(spacing * kSqrt3 / 2)), spacing_(spacing) {
+  // Off the shape's planes of symmetry, where many points would be ties.
+  origin_ = field_.bounds().min - Vec3d{1.37, 1.61, 1.23} * spacing;
+  const Vec3d extent = field_.bounds().max - origin_ + Vec3d{2, 2, 2} * spacing;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    const double count = std::ceil(extent[axis] / (kBrickEdge * spacing));
+    ASDFVK_CHECK_OP(count, <, 1 << 20);
+    size_[axis] = static_cast<int32_t>(count);
+  }
+  refine();
+  evaluateSigns();
+  makeWellComposed();
+}
+
+Vec3d BrickLattice::position(const Brick& brick, double x, double y, double z) const {
+  return origin_ + Vec3d{brick.coordinates[0] * kBrickEdge + x, brick.coordinates[1] * kBrickEdge + y,
+                         brick.coordinates[2] * kBrickEdge + z} *
+                       spacing_;
+}
+
+int64_t BrickLattice::find(int32_t x, int32_t y, int32_t z) const {
+  const auto found = brickAt_.find(keyOf(x, y, z));
+  return found == brickAt_.end() ? -1 : static_cast<int64_t>(found->second);
+}
+
+void BrickLattice::refine() {
+  const double pointCount = double(size_[0]) * size_[1] * size_[2] * 512;
+  int level = std::bit_width(static_cast<uint32_t>(std::max({size_[0], size_[1], size_[2]}))) - 1;
+  std::vector<Coordinates> nodes;
+  for (int32_t z = 0; z <= size_[2] >> level; ++z)
+    for (int32_t y = 0; y <= size_[1] >> level; ++y)
+      for (int32_t x = 0; x <= size_[0] >> level; ++x) nodes.push_back({x, y, z});
+  for (;; --level) {
+    std::vector<char> isKept(nodes.size());
+    const double edge = std::ldexp(kBrickEdge * spacing_, level);
+    const double reach = edge * kSqrt3 / 2 + 3 * spacing_;
+    forEachIndex(nodes.size(), [&](size_t i) {
+      const auto [x, y, z] = nodes[i];
+      if (x << level >= size_[0] || y << level >= size_[1] || z << level >= size_[2]) return;
+      const Vec3d centre = origin_ + Vec3d{x + 0.5, y + 0.5, z + 0.5} * edge;
+      isKept[i] = pointCount <= kSmallLattice || std::abs(field_.value(centre)) <= reach;
+    });
+    std::vector<Coordinates> kept;
+    for (size_t i = 0; i < nodes.size(); ++i) {
+      if (!isKept[i]) continue;
+      if (level == 0) {
+        kept.push_back(nodes[i]);
+      } else {
+        for (int32_t child = 0; child < 8; ++child)
+          kept.push_back(
+              {2 * nodes[i][0] + (child & 1), 2 * nodes[i][1] + (child >> 1 & 1), 2 * nodes[i][2] + (child >> 2)});
+      }
+    }
+    nodes = std::move(kept);
+    if (level == 0) break;
+  }
+  bricks_.resize(nodes.size());
+  brickAt_.reserve(nodes.size());
+  for (uint32_t i = 0; i < nodes.size(); ++i) {
+    bricks_[i].coordinates = nodes[i];
+    brickAt_.emplace(keyOf(nodes[i][0], nodes[i][1], nodes[i][2]), i);
+  }
+}
+
+void BrickLattice::evaluateSigns() {
+  forEachIndex(bricks_.size(), [&](size_t i) {
+    Brick& brick = bricks_[i];
+    const double half = 0.5 * kBrickEdge;
+    brick.selection = field_.near(position(brick, half, half, half), (half + 2) * kSqrt3 * spacing_);
+    for (int32_t z = 0; z < kBrickEdge; ++z)
+      for (int32_t y = 0; y < kBrickEdge; ++y)
+        for (int32_t x = 0; x < kBrickEdge; ++x)
+          if (field_.value(position(brick, x, y, z), brick.selection) < 0)
+            brick.inside[static_cast<size_t>(z)] |= uint64_t{1} << (x + kBrickEdge * y);
+  });
+}
+
+CellCorners BrickLattice::corners(const Brick& brick) const {
+  CellCorners corners;
+  const auto [bx, by, bz] = brick.coordinates;
+  for (int32_t slot = 0; slot < 8; ++slot) {
+    const int32_t dx = slot & 1, dy = slot >> 1 & 1, dz = slot >> 2;
+    const int64_t owner = find(bx + dx, by + dy, bz + dz);
+    for (int32_t z = dz * kBrickEdge; z < kBrickEdge + dz; ++z)
+      for (int32_t y = dy * kBrickEdge; y < kBrickEdge + dy; ++y)
+        for (int32_t x = dx * kBrickEdge; x < kBrickEdge + dx; ++x) {
+          // A brick that was left out is all inside or all outside, and well so: the field itself tells.
+          corners.at(x, y, z) =
+              owner < 0 ? field_.value(position(brick, x, y, z)) < 0
+                        : (bricks_[static_cast<size_t>(owner)].inside[static_cast<size_t>(z % kBrickEdge)] >>
+                               (x % kBrickEdge + kBrickEdge * (y % kBrickEdge)) &
+                           1) != 0;
+        }
+  }
+  return corners;
+}
+
+void BrickLattice::makeWellComposed() {
+  using Flips = std::vector<Coordinates>;
+  // Every round adds points, so that it ends.
+  for (;;) {
+    std::vector<Flips> flipsOf(bricks_.size());
+    forEachIndex(bricks_.size(), [&](size_t i) {
+      const CellCorners signs = corners(bricks_[i]);
+      for (int32_t z = 0; z < kBrickEdge; ++z)
+        for (int32_t y = 0; y < kBrickEdge; ++y)
+          for (int32_t x = 0; x < kBrickEdge; ++x) {
+            const int32_t corner = cornerToFill(signs.mask(x, y, z));
+            if (corner < 0) continue;
+            const auto [bx, by, bz] = bricks_[i].coordinates;
+            flipsOf[i].push_back({bx * kBrickEdge + x + (corner & 1), by * kBrickEdge + y + (corner >> 1 & 1),
+                                  bz * kBrickEdge + z + (corner >> 2)});
+          }
+    });
+    bool isDone = true;
+    for (const Flips& flips : flipsOf) {
+      for (const auto& [x, y, z] : flips) {
+        const int64_t owner = find(x / kBrickEdge, y / kBrickEdge, z / kBrickEdge);
+        ASDFVK_CHECK_OP(owner, >=, 0);
+        bricks_[static_cast<size_t>(owner)].inside[static_cast<size_t>(z % kBrickEdge)] |=
+            uint64_t{1} << (x % kBrickEdge + kBrickEdge * (y % kBrickEdge));
+        isDone = false;
+      }
+    }
+    if (isDone) return;
+  }
+}
+
+uint64_t BrickLattice::crossedEdgeCount() const {
+  const auto count = [&](const tbb::blocked_range<size_t>& range, uint64_t sum) {
+    for (size_t i = range.begin(); i < range.end(); ++i) {
+      const CellCorners signs = corners(bricks_[i]);
+      for (int32_t z = 0; z < kBrickEdge; ++z)
+        for (int32_t y = 0; y < kBrickEdge; ++y)
+          for (int32_t x = 0; x < kBrickEdge; ++x) {
+            const bool here = signs.at(x, y, z);
+            sum += uint64_t{here != signs.at(x + 1, y, z)} + uint64_t{here != signs.at(x, y + 1, z)} +
+                   uint64_t{here != signs.at(x, y, z + 1)};
+          }
+    }
+    return sum;
+  };
+  return tbb::parallel_reduce(tbb::blocked_range<size_t>(0, bricks_.size(), 16), uint64_t{0}, count,
+                              std::plus<uint64_t>());
+}
+
+}  // namespace asdfvk

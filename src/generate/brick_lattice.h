@@ -1,0 +1,71 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include "core/vec3.h"
+#include "generate/capsule_union.h"
+
+namespace asdfvk {
+
+/// Lattice points per brick and axis.
+inline constexpr int32_t kBrickEdge = 8;
+
+/// 8^3 lattice points near the surface. Point (x, y, z) of the brick is bit x + 8 y of word z.
+struct Brick {
+  std::array<int32_t, 3> coordinates{};   ///< Of its lowest point, over kBrickEdge.
+  CapsuleUnion::Selection selection = 0;  ///< The capsules that matter here.
+  std::array<uint64_t, 8> inside{};
+};
+
+/// The signs of the corners of all cells whose lowest corner lies in a brick: 9^3 flags, x fastest.
+class CellCorners {
+ public:
+  [[nodiscard]] bool& at(int32_t x, int32_t y, int32_t z) { return flags_[index(x, y, z)]; }
+  [[nodiscard]] bool at(int32_t x, int32_t y, int32_t z) const { return flags_[index(x, y, z)]; }
+  /// Bit i + 2 j + 4 k is corner (x + i, y + j, z + k) of the cell.
+  [[nodiscard]] uint32_t mask(int32_t x, int32_t y, int32_t z) const;
+
+ private:
+  [[nodiscard]] static size_t index(int32_t x, int32_t y, int32_t z) {
+    return static_cast<size_t>(x + (kBrickEdge + 1) * (y + (kBrickEdge + 1) * z));
+  }
+  std::array<bool, (kBrickEdge + 1) * (kBrickEdge + 1) * (kBrickEdge + 1)> flags_{};
+};
+
+/// Which points of a cubic lattice lie inside a shape, kept only near its surface: bricks that the surface cannot
+/// reach, by the field's Lipschitz bound, are left out.
+///
+/// The set of inside points is made well-composed (Latecki, 1997): no four points around a lattice face and no eight
+/// around a cell touch only across a diagonal. Then, and only then, the boundary of the points' voxels is a closed
+/// 2-manifold, whatever the resolution. And no part thinner than a cell falls apart: for the signs, radii are raised to
+/// half a cell's diagonal.
+class BrickLattice {
+ public:
+  BrickLattice(const CapsuleUnion& field, double spacing);
+
+  [[nodiscard]] double spacing() const { return spacing_; }
+  [[nodiscard]] const std::vector<Brick>& bricks() const { return bricks_; }
+  [[nodiscard]] Vec3d position(const Brick& brick, double x, double y, double z) const;
+  [[nodiscard]] CellCorners corners(const Brick& brick) const;
+  /// The brick at these brick coordinates, or -1.
+  [[nodiscard]] int64_t find(int32_t x, int32_t y, int32_t z) const;
+  /// Lattice edges that the surface crosses: the quads of its polygonisation.
+  [[nodiscard]] uint64_t crossedEdgeCount() const;
+
+ private:
+  void refine();
+  void evaluateSigns();
+  void makeWellComposed();
+
+  CapsuleUnion field_;
+  double spacing_;
+  Vec3d origin_;
+  std::array<int32_t, 3> size_{};  ///< In bricks.
+  std::vector<Brick> bricks_;
+  std::unordered_map<uint64_t, uint32_t> brickAt_;
+};
+
+}  // namespace asdfvk

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/box3.h"
+#include "core/vec3.h"
+
+namespace asdfvk {
+
+/// The union of the balls whose centre runs from a to b while their radius goes from radiusA to radiusB.
+/// Precondition: neither end ball lies within the other.
+struct Capsule {
+  Vec3d a, b;
+  double radiusA = 1, radiusB = 1;
+  uint32_t part = 0;
+  double blend = 0;  ///< How far around a joint it melts into the capsules before it, as a length; 0 for a sharp seam.
+};
+
+/// A smooth union of at most kMaxCapsules capsules as an implicit surface: negative inside, and never changing faster
+/// than the distance walked (Lipschitz bound 1), which is what the polygoniser prunes space by.
+class CapsuleUnion {
+ public:
+  static constexpr size_t kMaxCapsules = 64;
+  /// One bit per capsule.
+  using Selection = uint64_t;
+  static constexpr Selection kAll = ~Selection{0};
+
+  explicit CapsuleUnion(std::vector<Capsule> capsules);
+
+  struct Sample {
+    double value = 0;
+    Vec3d gradient;  ///< Length at most 1.
+  };
+  [[nodiscard]] double value(const Vec3d& p, Selection selection = kAll) const;
+  [[nodiscard]] Sample sample(const Vec3d& p, Selection selection = kAll) const;
+
+  /// The capsules that shape the surface within `radius` of p.
+  [[nodiscard]] Selection near(const Vec3d& p, double radius) const;
+
+  struct Dominating {
+    uint32_t part = 0;
+    double diameter = 0;  ///< Of the ball that p is nearest to.
+  };
+  /// Of the capsule that p is nearest to (the first of equals).
+  [[nodiscard]] Dominating dominating(const Vec3d& p, Selection selection = kAll) const;
+
+  /// Holds the surface, blends included.
+  [[nodiscard]] const Box3d& bounds() const { return bounds_; }
+
+  /// The same with no radius below `radius`.
+  [[nodiscard]] CapsuleUnion withRadiiAtLeast(double radius) const;
+
+ private:
+  struct Axis {
+    Vec3d origin, direction;  ///< Unit direction from a to b.
+    double length = 0;
+    double radius = 0;       ///< At the origin.
+    double radiusSlope = 0;  ///< Change of the radius per length; above -1 and below 1.
+    double lean =
+        0;  ///< How far the nearest ball lies ahead of the foot of the perpendicular, per distance from the axis.
+    double blend = 0;
+    uint32_t part = 0;
+  };
+  struct Nearest {
+    double distance = 0;  ///< To the surface of the nearest ball; negative inside.
+    double radius = 0;    ///< Of that ball.
+    Vec3d fromCentre;     ///< From its centre to p.
+    double fromCentreLength = 0;
+  };
+  [[nodiscard]] static Nearest nearest(const Axis& axis, const Vec3d& p);
+
+  std::vector<Capsule> capsules_;
+  std::vector<Axis> axes_;
+  Selection all_ = 0;
+  double largestBlend_ = 0;
+  Box3d bounds_;
+};
+
+}  // namespace asdfvk

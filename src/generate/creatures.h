@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+
+#include "generate/capsule_union.h"
+#include "generate/generated_shape.h"
+
+namespace asdfvk {
+
+// Smooth unions of capsules with the part and the local diameter of each face. Heights are about 2, z is up.
+
+struct CreatureParameters {
+  double thickness = 1;  ///< Factor on all radii; limbs grow together above about 1.3.
+};
+
+/// Four legs. Parts: 0 torso, 1 neck, 2 head, 3 tail, 4 and 5 front legs, 6 and 7 hind legs (left, right), 8 and 9
+/// ears.
+[[nodiscard]] CapsuleUnion animalField(const CreatureParameters& parameters = {});
+/// Parts: 0 palm, 1 thumb, 2 to 5 fingers from the index on, 6 forearm.
+[[nodiscard]] CapsuleUnion handField(const CreatureParameters& parameters = {});
+/// A jointed human figure. Parts: 0 torso, 1 neck, 2 head, then left and right: 3, 4 upper arm, 5, 6 forearm,
+/// 7, 8 hand, 9, 10 thigh, 11, 12 shin, 13, 14 foot.
+[[nodiscard]] CapsuleUnion figureField(const CreatureParameters& parameters = {});
+
+[[nodiscard]] GeneratedShape makeAnimal(uint64_t faceCount, const CreatureParameters& parameters = {});
+[[nodiscard]] GeneratedShape makeHand(uint64_t faceCount, const CreatureParameters& parameters = {});
+[[nodiscard]] GeneratedShape makeFigure(uint64_t faceCount, const CreatureParameters& parameters = {});
+
+}  // namespace asdfvk
