@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <initializer_list>
 #include <limits>
 #include <numbers>
@@ -59,21 +60,27 @@ TEST_CASE("a volume below the range of a double keeps its sign") {
   CHECK(componentsOf(shapes::inverted(shapes::placed(shapes::cube(), 1e-150))).components[0].signedVolume < 0);
 }
 
-TEST_CASE("a flat pillow is closed and has no volume") {
-  Mesh sheet = shapes::placed(shapes::grid(3), 0.1, {0.3, 0.7, 0.9});
-  for (Vec3d& vertex : sheet.vertices) vertex.z = 0.3 * vertex.x + 0.7 * vertex.y;
-  Mesh pillow = sheet;
-  const Mesh back = shapes::inverted(sheet);
-  pillow.faces.insert(pillow.faces.end(), back.faces.begin(), back.faces.end());
-  for (uint32_t f = 18; f < 36; ++f)  // The back has inner vertices of its own.
-    for (uint32_t& vertex : pillow.faces[f])
-      if (vertex == 5 || vertex == 6 || vertex == 9 || vertex == 10) vertex += 100;
-  pillow.vertices.resize(116);
-  for (uint32_t vertex : {5u, 6u, 9u, 10u}) pillow.vertices[vertex + 100] = pillow.vertices[vertex];
-  const Components result = componentsOf(pillow);
-  REQUIRE(result.components.size() == 1);
-  CHECK(result.components[0].isClosed);
-  CHECK(result.components[0].signedVolume == 0);
+TEST_CASE("a flat pillow is closed and has no volume, in any plane") {
+  for (const double slope : {0.0, 0.3, 1.7}) {
+    Mesh pillow;  // Two fans over one rim, each around an apex of its own.
+    const uint32_t rimCount = 11;
+    for (uint32_t i = 0; i < rimCount; ++i) {
+      const double angle = 2 * std::numbers::pi * i / rimCount;
+      pillow.vertices.push_back({0.3 + std::cos(angle), 0.7 + std::sin(angle), 0});
+      pillow.faces.push_back({i, (i + 1) % rimCount, rimCount});
+      pillow.faces.push_back({(i + 1) % rimCount, i, rimCount + 1});
+    }
+    pillow.vertices.push_back({0.2, 0.7, 0});
+    pillow.vertices.push_back({0.5, 0.6, 0});
+    for (Vec3d& vertex : pillow.vertices) vertex.z = slope * vertex.x + 0.7 * vertex.y;
+    const Components result = componentsOf(pillow);
+    REQUIRE(result.components.size() == 1);
+    CHECK(result.components[0].isClosed);
+    CHECK(result.components[0].isConsistentlyWound);
+    CHECK(result.components[0].signedVolume == 0);
+    pillow.vertices.back().z += 1e-9;
+    CHECK(componentsOf(pillow).components[0].signedVolume < 0);
+  }
 }
 
 TEST_CASE("a missing face, a third face and a non-finite corner make a component open") {
