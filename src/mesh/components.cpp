@@ -13,8 +13,8 @@ namespace {
 
 constexpr uint32_t kUnvisited = UINT32_MAX;
 
-// Below this share of the sum of its terms' sizes, a volume is rounding noise.
-constexpr double kVolumeNoise = 1e-12;
+// A volume below this share of the sum of its terms' factors is rounding noise: a few units in the last place.
+constexpr double kVolumeNoise = 1e-15;
 
 void label(const DualGraph& graph, Components& result) {
   result.componentOf.assign(graph.faceCount(), kUnvisited);
@@ -97,19 +97,20 @@ void measureVolumes(const Mesh& mesh, Components& result) {
   for (const Vec3d& vertex : mesh.vertices)
     if (isFinite(vertex)) bounds.add(vertex);
   const double scale = normalizationOf(bounds).scale;
-  std::vector<double> sum(result.components.size(), 0), sumOfSizes(result.components.size(), 0);
+  std::vector<double> sum(result.components.size(), 0), noise(result.components.size(), 0);
   for (uint32_t f = 0; f < mesh.faceCount(); ++f) {
     const uint32_t component = result.componentOf[f];
     if (!result.components[component].isClosed) continue;
     const Vec3d& origin = mesh.vertices[mesh.faces[result.components[component].firstFace][0]];
-    const auto corner = [&](size_t i) { return (mesh.vertices[mesh.faces[f][i]] - origin) * scale; };
-    const double term = dot(corner(0), cross(corner(1), corner(2))) / 6;
-    sum[component] += term;
-    sumOfSizes[component] += std::abs(term);
+    const auto [i, j, k] = mesh.faces[f];
+    const Vec3d a = (mesh.vertices[i] - origin) * scale;
+    const Vec3d ab = (mesh.vertices[j] - mesh.vertices[i]) * scale, ac = (mesh.vertices[k] - mesh.vertices[i]) * scale;
+    sum[component] += dot(a, cross(ab, ac)) / 6;
+    noise[component] += kVolumeNoise * length(a) * length(ab) * length(ac);
   }
   using Limits = std::numeric_limits<double>;
   for (size_t i = 0; i < sum.size(); ++i) {
-    if (std::abs(sum[i]) <= kVolumeNoise * sumOfSizes[i]) continue;
+    if (std::abs(sum[i]) <= noise[i]) continue;
     const double size = std::abs(sum[i]) / scale / scale / scale;
     result.components[i].signedVolume = std::copysign(std::clamp(size, Limits::min(), Limits::max()), sum[i]);
   }
