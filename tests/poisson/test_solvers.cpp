@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cstring>
 
-#include "core/random.h"
 #include "fixtures.h"
 #include "solvers_under_test.h"
 
@@ -31,30 +30,6 @@ Solved solveTightly(SolverUnderTest& under, const PoissonSystem& system) {
   CHECK(solved.report.converged);
   CHECK(solved.report.relativeResidual <= under.tightestTolerance);
   return solved;
-}
-
-PoissonSystem chain(size_t faceCount, double first, double last) {
-  std::vector<Vec3d> barycentres;
-  std::vector<std::pair<uint32_t, uint32_t>> edges;
-  for (uint32_t i = 0; i < faceCount; ++i) {
-    barycentres.push_back({static_cast<double>(i), 0, 0});
-    if (i > 0) edges.push_back({i - 1, i});
-  }
-  std::vector<double> values(faceCount, kNoValue);
-  values.front() = first;
-  values.back() = last;
-  const HandGraph hand(barycentres, edges);
-  return buildPoissonSystem(hand.graph, hand.geometry, values, {}, 0);
-}
-
-// A torus with a known value, uniform in [1, 2), on about one face in ten.
-PoissonSystem torusSystem(uint32_t rings, uint32_t sides, double unit = 1) {
-  const Mesh mesh = torus(rings, sides);
-  Random random(5);
-  std::vector<double> values(mesh.faces.size(), kNoValue);
-  for (double& value : values)
-    if (random.index(10) == 0) value = unit * (1 + random.real());
-  return buildPoissonSystem(buildDualGraph(mesh), computeFaceGeometry(mesh), values, {}, 0);
 }
 
 std::vector<double> directSolution(const PoissonSystem& system) {
