@@ -7,9 +7,11 @@
 #include <utility>
 #include <vector>
 
+#include "core/random.h"
 #include "mesh/dual_graph.h"
 #include "mesh/face_geometry.h"
 #include "mesh/mesh.h"
+#include "poisson/poisson_system.h"
 
 namespace asdfvk {
 
@@ -55,5 +57,30 @@ struct HandGraph {
     for (const Vec3d& p : barycentres) geometry.bounds.add(p);
   }
 };
+
+/// Unit distances between the faces; the first and the last are known.
+inline PoissonSystem chain(size_t faceCount, double first, double last) {
+  std::vector<Vec3d> barycentres;
+  std::vector<std::pair<uint32_t, uint32_t>> edges;
+  for (uint32_t i = 0; i < faceCount; ++i) {
+    barycentres.push_back({static_cast<double>(i), 0, 0});
+    if (i > 0) edges.push_back({i - 1, i});
+  }
+  std::vector<double> values(faceCount, kNoValue);
+  values.front() = first;
+  values.back() = last;
+  const HandGraph hand(barycentres, edges);
+  return buildPoissonSystem(hand.graph, hand.geometry, values, {}, 0);
+}
+
+/// A torus with a known value, uniform in [1, 2), on about one face in ten.
+inline PoissonSystem torusSystem(uint32_t rings, uint32_t sides, double unit = 1) {
+  const Mesh mesh = torus(rings, sides);
+  Random random(5);
+  std::vector<double> values(mesh.faces.size(), kNoValue);
+  for (double& value : values)
+    if (random.index(10) == 0) value = unit * (1 + random.real());
+  return buildPoissonSystem(buildDualGraph(mesh), computeFaceGeometry(mesh), values, {}, 0);
+}
 
 }  // namespace asdfvk

@@ -1,14 +1,14 @@
 #include "solvers_under_test.h"
 
+#include "poisson/vulkan_cg_solver.h"
+#include "poisson/vulkan_jacobi_solver.h"
+
 namespace asdfvk {
 
-std::vector<SolverUnderTest>& solversUnderTest() {
-  static std::vector<SolverUnderTest> solvers = [] {
-    std::vector<SolverUnderTest> made;
-    made.push_back({"eigen", makeEigenSolver(), 1e-12});
-    return made;
-  }();
-  return solvers;
+SolversUnderTest::SolversUnderTest() {
+  solvers_.push_back({"eigen", makeEigenSolver(), 1e-12});
+  solvers_.push_back({"cg", makeVulkanCgSolver(*device_), 1e-10});
+  solvers_.push_back({"jacobi", makeVulkanJacobiSolver(*device_), 1e-7});
 }
 
 }  // namespace asdfvk

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "poisson/poisson_solver.h"
+#include "support/test_device.h"
 
 namespace asdfvk {
 
@@ -15,7 +15,17 @@ struct SolverUnderTest {
   double tightestTolerance;  ///< What it is asked for where a test wants the solution itself.
 };
 
-/// Every solver that this machine can run; says so with a message where there is no Vulkan device.
-[[nodiscard]] std::vector<SolverUnderTest>& solversUnderTest();
+/// Every solver, those on the device under validation. Made anew for each test, whose end hears what the layers said.
+class SolversUnderTest {
+ public:
+  SolversUnderTest();
+
+  [[nodiscard]] auto begin() { return solvers_.begin(); }
+  [[nodiscard]] auto end() { return solvers_.end(); }
+
+ private:
+  test::ValidatedDevice device_;
+  std::vector<SolverUnderTest> solvers_;
+};
 
 }  // namespace asdfvk
