@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string_view>
 
 #include "mesh/mesh.h"
 
@@ -26,5 +27,9 @@ void requireWritableExtension(const std::filesystem::path& path);
 /// not supported here. Throws Error{Output} with the reason.
 void writeResult(const std::filesystem::path& path, const Mesh& mesh, const FaceValues& face,
                  const WriteOptions& options = {});
+
+/// The same bytes on standard output; `extension` is "ply", "vtu", "npy" or "csv".
+void writeResultToStandardOutput(std::string_view extension, const Mesh& mesh, const FaceValues& face,
+                                 const WriteOptions& options = {});
 
 }  // namespace asdfvk

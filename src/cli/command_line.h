@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pipeline/asdf.h"
+
+namespace asdfvk {
+
+/// What was asked for, after every option was checked on its own and against the others.
+struct CommandLine {
+  std::vector<std::string> meshes;  ///< Paths, "-" for standard input (once at most).
+  SessionOptions session;
+  Options options;
+  std::string output;  ///< A file, a directory, "-" for standard output; empty: beside each input.
+  std::string format;  ///< "ply", "vtu", "npy" or "csv"; empty: told by `output`, else ply.
+  bool ascii = false;
+  bool json = false;
+  bool quiet = false;
+  bool listDevices = false;
+  uint32_t threadCount = 0;           ///< 0: as many as there are cores.
+  std::optional<std::string> answer;  ///< The text of --help or --version; nothing else is to be done then.
+};
+
+}  // namespace asdfvk

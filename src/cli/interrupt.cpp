@@ -1,0 +1,77 @@
+#include "cli/interrupt.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <csignal>
+#include <string_view>
+#include <system_error>
+
+#include "cli/exit_code.h"
+#include "core/check.h"
+
+namespace asdfvk {
+namespace {
+
+constexpr std::array kSignals{SIGINT, SIGTERM, SIGHUP};
+
+// All that the handler touches: lock-free atomics and a pipe. A byte in the pipe is a stop request, its closing the
+// end.
+std::atomic<bool> isListening{false};
+std::atomic<int> signalCount{0};
+std::atomic<int> pipeWriteEnd{-1};
+static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
+
+std::array<int, 2> stopPipe{-1, -1};
+std::array<struct sigaction, kSignals.size()> previousActions;
+
+extern "C" void onSignal(int) {
+  const int savedErrno = errno;
+  if (signalCount.fetch_add(1) > 0 || !isListening.load()) {
+    constexpr std::string_view message = "asdf-vk: error: cancelled\n";
+    [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, message.data(), message.size());
+    _exit(static_cast<int>(ExitCode::Cancelled));
+  }
+  [[maybe_unused]] const ssize_t written = write(pipeWriteEnd.load(), "x", 1);
+  errno = savedErrno;
+}
+
+}  // namespace
+
+Interrupt::Interrupt() {
+  ASDFVK_CHECK_OP(pipeWriteEnd.load(), ==, -1);
+  if (pipe2(stopPipe.data(), O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category(), "pipe");
+  pipeWriteEnd = stopPipe[1];
+  signalCount = 0;
+  waiter_ = std::jthread([this] {
+    char byte = 0;
+    ssize_t count = 0;
+    do count = read(stopPipe[0], &byte, 1);
+    while (count < 0 && errno == EINTR);
+    if (count == 1) source_.request_stop();
+  });
+  struct sigaction action {};
+  action.sa_handler = onSignal;
+  action.sa_flags = SA_RESTART;
+  sigfillset(&action.sa_mask);
+  for (size_t i = 0; i < kSignals.size(); ++i) {
+    sigaction(kSignals[i], nullptr, &previousActions[i]);
+    if (previousActions[i].sa_handler != SIG_IGN) sigaction(kSignals[i], &action, nullptr);
+  }
+}
+
+Interrupt::~Interrupt() {
+  for (size_t i = 0; i < kSignals.size(); ++i) sigaction(kSignals[i], &previousActions[i], nullptr);
+  pipeWriteEnd = -1;
+  close(stopPipe[1]);
+  waiter_.join();
+  close(stopPipe[0]);
+}
+
+Interrupt::Listening::Listening() { isListening = true; }
+Interrupt::Listening::~Listening() { isListening = false; }
+
+}  // namespace asdfvk

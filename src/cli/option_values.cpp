@@ -1,0 +1,82 @@
+#include "cli/option_values.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "core/error.h"
+
+namespace asdfvk {
+namespace {
+
+template <typename T>
+std::optional<T> parseWhole(std::string_view text) {
+  T value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+[[noreturn]] void reject(const std::string& text, const std::string& wanted) {
+  throw Error(ErrorKind::Usage, fmt::format("'{}' is not {}", text, wanted));
+}
+
+}  // namespace
+
+uint64_t parseWholeNumber(const std::string& text, uint64_t minimum, uint64_t maximum) {
+  const auto value = parseWhole<uint64_t>(text);
+  if (!value || *value < minimum || *value > maximum) {
+    if (maximum == std::numeric_limits<uint64_t>::max()) reject(text, fmt::format("a whole number from {}", minimum));
+    reject(text, fmt::format("a whole number from {} to {}", minimum, maximum));
+  }
+  return *value;
+}
+
+double parseNumber(const std::string& text) {
+  const auto value = parseWhole<double>(text);
+  if (!value || !std::isfinite(*value)) reject(text, "a number");
+  return *value;
+}
+
+SeedCount parseSeedCount(const std::string& text) {
+  const std::string wanted = "a share such as 10% (above 0%, at most 100%), a count of at least 1, or all";
+  SeedCount seeds;
+  if (text == "all") {
+    seeds.kind = SeedCount::Kind::All;
+  } else if (text.ends_with('%')) {
+    const auto percent = parseWhole<double>(std::string_view(text).substr(0, text.size() - 1));
+    if (!percent || !(*percent > 0 && *percent <= 100)) reject(text, wanted);
+    seeds.kind = SeedCount::Kind::Share;
+    seeds.share = *percent / 100;
+  } else {
+    const auto count = parseWhole<uint64_t>(text);
+    if (!count || *count == 0) reject(text, wanted);
+    seeds.kind = SeedCount::Kind::Count;
+    seeds.count = *count;
+  }
+  return seeds;
+}
+
+uint64_t parseCheckCount(const std::string& text) {
+  if (text == "all") return std::numeric_limits<uint64_t>::max();
+  const auto count = parseWhole<uint64_t>(text);
+  if (!count || *count == 0) reject(text, "a count of at least 1 or all");
+  return *count;
+}
+
+std::string toText(const SeedCount& seeds) {
+  switch (seeds.kind) {
+    case SeedCount::Kind::All:
+      return "all";
+    case SeedCount::Kind::Count:
+      return fmt::format("{}", seeds.count);
+    case SeedCount::Kind::Share:
+      break;
+  }
+  return fmt::format("{:.6g}%", seeds.share * 100);
+}
+
+}  // namespace asdfvk

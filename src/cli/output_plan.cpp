@@ -1,0 +1,101 @@
+#include "cli/output_plan.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <map>
+
+#include "core/error.h"
+#include "mesh/result_writer.h"
+
+namespace asdfvk {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void refuse(const std::string& message) { throw Error(ErrorKind::Usage, message); }
+
+/// "dir/horse.ply" to "horse.asdf.vtu".
+std::string resultName(const std::string& mesh, const std::string& format) {
+  const std::string stem = mesh == "-" ? "stdin" : fs::path(mesh).stem().string();
+  return stem + ".asdf." + (format.empty() ? "ply" : format);
+}
+
+/// Lower case, without the dot.
+std::string extensionOf(const fs::path& path) {
+  std::string extension = path.extension().string();
+  if (!extension.empty()) extension.erase(0, 1);
+  for (char& c : extension)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return extension;
+}
+
+std::string planOutput(const std::string& mesh, const CommandLine& line) {
+  if (line.output == "-") return "-";
+  std::error_code ignored;
+  const bool isDirectory = !line.output.empty() && fs::is_directory(line.output, ignored);
+  if (isDirectory) return (fs::path(line.output) / resultName(mesh, line.format)).string();
+  if (!line.output.empty()) return line.output;
+  if (mesh == "-") refuse("a mesh from standard input has no name to go by; say where to with -o FILE or -o -");
+  return (fs::path(mesh).parent_path() / resultName(mesh, line.format)).string();
+}
+
+/// The same file, or names that will be the same file.
+bool isSameFile(const fs::path& a, const fs::path& b) {
+  std::error_code error;
+  if (fs::equivalent(a, b, error) && !error) return true;
+  return fs::absolute(a, error).lexically_normal() == fs::absolute(b, error).lexically_normal();
+}
+
+}  // namespace
+
+std::vector<std::string> planOutputs(const CommandLine& line) {
+  std::error_code ignored;
+  if (line.meshes.size() > 1 && line.output == "-") refuse("-o - takes the result of one mesh; name one mesh");
+  if (line.meshes.size() > 1 && !line.output.empty() && !fs::is_directory(line.output, ignored))
+    refuse(fmt::format("-o {} is not a directory, which several meshes need; make it, or name one mesh", line.output));
+
+  std::vector<std::string> outputs;
+  std::map<std::string, std::string> meshOfOutput;
+  for (const std::string& mesh : line.meshes) {
+    const std::string output = planOutput(mesh, line);
+    if (output != "-") {
+      requireWritableExtension(output);
+      if (!line.format.empty() && extensionOf(output) != line.format)
+        refuse(fmt::format("-o {} and --format {} contradict each other; drop one", output, line.format));
+      const std::string key = fs::absolute(output, ignored).lexically_normal().string();
+      const auto [other, isNew] = meshOfOutput.emplace(key, mesh);
+      if (!isNew)
+        refuse(fmt::format("{} and {} would both be written to {}; run them one by one with -o", other->second, mesh,
+                           output));
+    }
+    const std::string format = output == "-" ? line.format : extensionOf(output);
+    if (line.ascii && !format.empty() && format != "ply")
+      refuse(fmt::format("--ascii is for PLY, not for .{}; drop it", format));
+    outputs.push_back(output);
+  }
+  for (const std::string& output : outputs)
+    for (const std::string& mesh : line.meshes)
+      if (output != "-" && mesh != "-" && isSameFile(output, mesh))
+        refuse(fmt::format("{} is an input and would be overwritten; choose another -o", output));
+  return outputs;
+}
+
+void requireWritablePlace(const std::string& output) {
+  if (output == "-") return;
+  const fs::path path(output);
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  const auto fail = [&](const std::string& reason) {
+    throw Error(ErrorKind::Output, fmt::format("{} cannot be written: {}", output, reason));
+  };
+  std::error_code error;
+  if (!fs::is_directory(folder, error)) fail(fmt::format("{} is no directory; make it first", folder.string()));
+  if (access(folder.c_str(), W_OK) != 0) fail(fmt::format("{}: {}", folder.string(), std::strerror(errno)));
+  if (fs::exists(path, error) && !fs::is_regular_file(path, error))
+    fail("there is something by that name that is no file; choose another -o");
+}
+
+}  // namespace asdfvk

@@ -1,0 +1,113 @@
+#include "cli/report_text.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "cli/option_values.h"
+
+namespace asdfvk {
+namespace {
+
+std::string counted(uint64_t count, const char* noun) {
+  return fmt::format("{} {}{}", groupDigits(count), noun, count == 1 ? "" : "s");
+}
+
+std::string row(const char* name, const std::string& text) { return fmt::format("  {:<9} {}\n", name, text); }
+
+/// 99.95 % of 1999 agreeing of 2000; never rounded up to 100.
+std::string percent(uint64_t part, uint64_t whole) {
+  const double share = 100.0 * static_cast<double>(part) / static_cast<double>(whole);
+  return fmt::format("{} %", std::floor(share * 100) / 100);
+}
+
+std::string meshRow(const Report& report) {
+  std::string text = counted(report.faceCount, "face");
+  if (report.triangleCount != report.faceCount) text += fmt::format(" ({})", counted(report.triangleCount, "triangle"));
+  return text + fmt::format(", {}, {}",
+                            report.vertexCount == 1 ? "1 vertex" : groupDigits(report.vertexCount) + " vertices",
+                            counted(report.componentCount, "component"));
+}
+
+std::string seedRow(const MeshOutcome& outcome) {
+  const Report& report = outcome.report;
+  std::string text =
+      fmt::format("{} cast rays ({}), {} in all, random seed {}", counted(report.seedCount, "face"),
+                  toText(outcome.line.options.seeds), counted(report.rayCount, "ray"), report.randomSeed);
+  if (report.redoneConeCount > 0)
+    text += fmt::format("; {} redone by the reference", counted(report.redoneConeCount, "cone"));
+  return text;
+}
+
+std::string timeRow(const StageSeconds& seconds) {
+  return fmt::format(
+      "read {:.3f} s, geometry {:.3f}, bvh {:.3f}, upload {:.3f}, trace {:.3f}, solve {:.3f}, write {:.3f}",
+      seconds.read, seconds.geometry, seconds.bvh, seconds.upload, seconds.trace, seconds.solve, seconds.write);
+}
+
+std::string solverRow(const SolverReport& solver) {
+  if (solver.name == "none") return "none: nothing to interpolate";
+  return fmt::format("{}, {}, relative residual {:.2g}{}", solver.name, counted(solver.iterations, "iteration"),
+                     solver.relativeResidual, solver.converged ? "" : ", NOT CONVERGED");
+}
+
+std::string valueRow(const Report& report) {
+  std::string text = std::isfinite(report.sdf.median) ? fmt::format("min {:.6g}, median {:.6g}, max {:.6g}",
+                                                                    report.sdf.min, report.sdf.median, report.sdf.max)
+                                                      : std::string("none");
+  if (report.noValueCount > 0) text += fmt::format("; {} without a value", counted(report.noValueCount, "face"));
+  return text;
+}
+
+std::string tracedCheck(const CheckReport& check) {
+  if (check.tracedCount == 0) return "no traced face was among the faces checked; ask for more of them";
+  return fmt::format("{} of {} within {:g} of the diagonal; median difference {:.2g}, worst {:.2g} (face {})",
+                     percent(check.agreeingCount, check.tracedCount), counted(check.tracedCount, "traced face"),
+                     kAgreementTolerance, check.medianDifference, check.worstDifference, check.worstFace);
+}
+
+std::string interpolatedCheck(const CheckReport& check) {
+  return fmt::format("{}: average error {:.4f}, maximum {:.4f} of the range",
+                     counted(check.interpolatedCount, "interpolated face"), check.averageInterpolationError,
+                     check.maximumInterpolationError);
+}
+
+}  // namespace
+
+std::string groupDigits(uint64_t number) {
+  std::string text = fmt::format("{}", number);
+  for (size_t i = text.size(); i > 3; i -= 3) text.insert(i - 3, 1, ',');
+  return text;
+}
+
+std::string textReport(const MeshOutcome& outcome) {
+  const Report& report = outcome.report;
+  std::string text = fmt::format("{}: {}\n", outcome.mesh, meshRow(report));
+  text += row("device", fmt::format("{} ({})", report.device, report.backend));
+  text += row("seeds", seedRow(outcome));
+  text += row("time", timeRow(report.stageSeconds));
+  text += row("speed", fmt::format("{:.3g} Mrays/s", report.raysPerSecond / 1e6));
+  text += row("solver", solverRow(report.solver));
+  text += row("diameter", valueRow(report));
+  if (report.check) {
+    text += row("check", tracedCheck(*report.check));
+    if (report.check->interpolatedCount > 0) text += row("", interpolatedCheck(*report.check));
+  }
+  text += row("output", outcome.output == "-" ? "standard output" : outcome.output);
+  return text;
+}
+
+std::string checkFailure(const CheckReport& check) {
+  return fmt::format("the check has not passed: {}", tracedCheck(check));
+}
+
+std::string textDevices(std::span<const DeviceInfo> devices, const std::string& reason) {
+  if (devices.empty()) return fmt::format("no Vulkan device: {}\n", reason);
+  std::string text;
+  for (size_t i = 0; i < devices.size(); ++i)
+    text += fmt::format("{}  {} ({}, {}): {}{}\n", i, devices[i].name, devices[i].kind, devices[i].driver,
+                        devices[i].usable ? "" : "not usable: ", devices[i].reason);
+  return text;
+}
+
+}  // namespace asdfvk

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "cli/mesh_outcome.h"
+
+namespace asdfvk {
+
+/// A few aligned lines. Warnings are not among them.
+[[nodiscard]] std::string textReport(const MeshOutcome& outcome);
+
+/// "check of 2,000 faces failed: ..." as one line, for a check that has not passed.
+[[nodiscard]] std::string checkFailure(const CheckReport& check);
+
+/// A line per device, or the reason why there is none.
+[[nodiscard]] std::string textDevices(std::span<const DeviceInfo> devices, const std::string& reason);
+
+/// 96966 as "96,966".
+[[nodiscard]] std::string groupDigits(uint64_t number);
+
+}  // namespace asdfvk

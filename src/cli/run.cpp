@@ -1,0 +1,127 @@
+#include "cli/run.h"
+
+#include <optional>
+#include <string>
+
+#include "cli/interrupt.h"
+#include "cli/output_plan.h"
+#include "cli/progress.h"
+#include "cli/report_json.h"
+#include "cli/report_text.h"
+#include "cli/terminal.h"
+#include "core/stopwatch.h"
+#include "mesh/mesh_reader.h"
+#include "mesh/result_writer.h"
+#include "pipeline/asdf.h"
+
+namespace asdfvk {
+namespace {
+
+void writeTo(const std::string& output, const CommandLine& line, const Mesh& mesh, const Result& result) {
+  const FaceValues values{result.sdf, result.isSeed};
+  const WriteOptions options{.ascii = line.ascii};
+  if (output == "-")
+    writeResultToStandardOutput(line.format.empty() ? "ply" : line.format, mesh, values, options);
+  else
+    writeResult(output, mesh, values, options);
+}
+
+Result computeMesh(Session& session, const Mesh& mesh, const CommandLine& line, const std::stop_token& stop) {
+  const Stopwatch watch;
+  std::optional<ProgressBar> bar;
+  if (!line.quiet && isStandardErrorTerminal()) bar.emplace(writeStandardError, [&watch] { return watch.seconds(); });
+  RunControl control;
+  control.stop = stop;
+  if (bar) control.progress = [&bar](double fraction) { bar->update(fraction); };
+  return session.compute(mesh, line.options, control);
+}
+
+/// What a mesh leaves behind: its exit code and its line for --json.
+struct Answer {
+  ExitCode code = ExitCode::Done;
+  std::string json;
+};
+
+Answer runMesh(Session& session, const std::string& name, const std::string& output, const CommandLine& line,
+               const std::stop_token& stop) {
+  requireWritablePlace(output);
+  const Stopwatch readWatch;
+  const Mesh mesh = readMesh(name);
+  const double readSeconds = readWatch.seconds();
+
+  Result result;
+  {
+    const Interrupt::Listening listening;
+    result = computeMesh(session, mesh, line, stop);
+    if (stop.stop_requested()) throw Error(ErrorKind::Cancelled, "cancelled");
+    const Stopwatch writeWatch;
+    writeTo(output, line, mesh, result);
+    result.report.stageSeconds.write = writeWatch.seconds();
+  }
+  result.report.stageSeconds.read = readSeconds;
+
+  const MeshOutcome outcome{name, output, line, result.report};
+  if (!line.quiet) {
+    for (const std::string& warning : result.report.warnings) printWarning(name, warning);
+    writeStandardError(textReport(outcome));
+  }
+  Answer answer{ExitCode::Done, jsonReport(outcome)};
+  if (result.report.check && !hasPassed(*result.report.check)) {
+    printError(name, checkFailure(*result.report.check));
+    answer.code = ExitCode::CheckFailed;
+  }
+  return answer;
+}
+
+/// Runs `step`, which gives an Answer; whatever it throws becomes one, told as an error of the mesh.
+template <typename Step>
+Answer answerOf(const std::string& mesh, Step step) {
+  try {
+    return step();
+  } catch (...) {
+    Failure failure = currentFailure();
+    const std::string prefix = mesh + ": ";  // Readers name the file themselves.
+    if (failure.message.starts_with(prefix)) failure.message.erase(0, prefix.size());
+    printError(mesh, failure.message);
+    return {failure.code, jsonFailure(mesh, failure.message)};
+  }
+}
+
+ExitCode failWithoutSession(const CommandLine& line) {
+  const Failure failure = currentFailure();
+  printError("", failure.message);
+  for (const std::string& mesh : line.meshes)
+    if (line.json) writeStandardOutput(jsonFailure(mesh, failure.message));
+  return failure.code;
+}
+
+}  // namespace
+
+ExitCode runMeshes(const CommandLine& line, const std::stop_token& stop) {
+  const std::vector<std::string> outputs = planOutputs(line);
+  std::optional<Session> session;
+  try {
+    session.emplace(line.session);
+  } catch (...) {
+    return failWithoutSession(line);
+  }
+  if (!line.quiet) writeStandardError(oneLine("asdf-vk: " + session->deviceLine()) + "\n");
+
+  ExitCode first = ExitCode::Done;
+  for (size_t i = 0; i < line.meshes.size(); ++i) {
+    const std::string& mesh = line.meshes[i];
+    const Answer answer = answerOf(mesh, [&] { return runMesh(*session, mesh, outputs[i], line, stop); });
+    if (first == ExitCode::Done) first = answer.code;
+    if (line.json) writeStandardOutput(answer.json);
+    if (answer.code == ExitCode::Cancelled) break;
+  }
+  return first;
+}
+
+void printDevices(const CommandLine& line) {
+  std::string reason;
+  const std::vector<DeviceInfo> devices = listDevices(&reason);
+  writeStandardOutput(line.json ? jsonDevices(devices, reason) : textDevices(devices, reason));
+}
+
+}  // namespace asdfvk
