@@ -32,7 +32,7 @@ class SurfaceNets {
     findCells();
     placeVertices();
     for (int round = 0; round < kEveningRounds; ++round) moveVertices(0.7, 1);
-    moveVertices(0, 3);
+    moveVertices(0, 4);
     addFaces();
   }
 
@@ -174,7 +174,7 @@ class SurfaceNets {
   [[nodiscard]] Vec3d newtonStep(const Vec3d& p, CapsuleUnion::Selection selection) const {
     const CapsuleUnion::Sample sample = field_.sample(p, selection);
     // Midway between two limbs the gradients cancel: take the plain distance there rather than a leap.
-    const double squared = std::max(0.25, dot(sample.gradient, sample.gradient));
+    const double squared = std::max(0.05, dot(sample.gradient, sample.gradient));
     return sample.gradient * (-sample.value / squared);
   }
 

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <filesystem>
+
+#include "generate/generated_shape.h"
+
+namespace asdfvk {
+
+/// Writes binary little-endian PLY, whole or not at all: vertices as float or double, faces as
+/// `uchar int vertex_indices`, `float diameter`, `int part`. "-" is standard output. Throws Error{Output}.
+void writeGeneratedPly(const std::filesystem::path& path, const GeneratedShape& shape, bool doubleVertices);
+
+}  // namespace asdfvk
