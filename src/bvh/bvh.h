@@ -31,15 +31,16 @@ struct Bvh {
 
 struct BvhOptions {
   uint32_t maxLeafTriangleCount = 4;
-  uint32_t binCount = 16;
+  uint32_t binCount = 16;  ///< Per axis, 2 to 32; fewer where there are few triangles.
 };
 
 /// Deepest hierarchy that a traversal stack has room for; the builder splits at the median where SAH would go deeper.
 inline constexpr uint32_t kMaxBvhDepth = 48;
 
 /// Binned surface-area heuristic (Wald 2007), parallel over subtrees, with the same result for any thread count.
-/// Holds the faces that are not degenerate and that represent themselves (see coincidentRepresentatives()).
-[[nodiscard]] Bvh buildBvh(const Mesh& mesh, const FaceGeometry& geometry,
-                           std::span<const uint32_t> representatives, const BvhOptions& options = {});
+/// Holds the faces that are not degenerate and that represent themselves (see coincidentRepresentatives()), but for any
+/// whose normalised corners are not finite, as they are in a mesh as wide as the range of double.
+[[nodiscard]] Bvh buildBvh(const Mesh& mesh, const FaceGeometry& geometry, std::span<const uint32_t> representatives,
+                           const BvhOptions& options = {});
 
 }  // namespace asdfvk

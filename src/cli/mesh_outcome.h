@@ -15,7 +15,4 @@ struct MeshOutcome {
   const Report& report;
 };
 
-/// Whether --check compared traced faces at all and they agree: a check that did not run never passes.
-[[nodiscard]] inline bool hasPassed(const CheckReport& check) { return check.tracedCount > 0 && check.passed; }
-
 }  // namespace asdfvk

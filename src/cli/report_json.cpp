@@ -84,15 +84,15 @@ Json defectsOf(const MeshDefects& defects) {
 
 Json checkOf(const std::optional<CheckReport>& check) {
   if (!check) return nullptr;
-  return {{"passed", hasPassed(*check)},
+  return {{"passed", check->passed},
           {"tracedCount", check->tracedCount},
           {"agreeingCount", check->agreeingCount},
           {"medianDifference", number(check->medianDifference)},
           {"worstDifference", number(check->worstDifference)},
           {"worstFace", check->worstFace},
           {"interpolatedCount", check->interpolatedCount},
-          {"averageInterpolationError", number(check->averageInterpolationError)},
-          {"maximumInterpolationError", number(check->maximumInterpolationError)}};
+          {"averageError", number(check->averageError)},
+          {"maximumError", number(check->maximumError)}};
 }
 
 }  // namespace

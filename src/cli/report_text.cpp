@@ -66,10 +66,9 @@ std::string tracedCheck(const CheckReport& check) {
                      kAgreementTolerance, check.medianDifference, check.worstDifference, check.worstFace);
 }
 
-std::string interpolatedCheck(const CheckReport& check) {
-  return fmt::format("{}: average error {:.4f}, maximum {:.4f} of the range",
-                     counted(check.interpolatedCount, "interpolated face"), check.averageInterpolationError,
-                     check.maximumInterpolationError);
+std::string interpolationCheck(const CheckReport& check) {
+  return fmt::format("average error {:.4f}, maximum {:.4f} of the range, {} among the faces checked",
+                     check.averageError, check.maximumError, counted(check.interpolatedCount, "interpolated face"));
 }
 
 }  // namespace
@@ -91,7 +90,7 @@ std::string textReport(const MeshOutcome& outcome) {
   text += row("diameter", valueRow(report));
   if (report.check) {
     text += row("check", tracedCheck(*report.check));
-    if (report.check->interpolatedCount > 0) text += row("", interpolatedCheck(*report.check));
+    if (report.check->interpolatedCount > 0) text += row("", interpolationCheck(*report.check));
   }
   text += row("output", outcome.output == "-" ? "standard output" : outcome.output);
   return text;

@@ -21,7 +21,7 @@ void writeTo(const std::string& output, const CommandLine& line, const Mesh& mes
   writeResult(output, mesh, {.values = result.sdf, .isSeed = result.isSeed}, writeOptionsOf(line));
 }
 
-Result computeMesh(Session& session, const Mesh& mesh, const CommandLine& line, const std::stop_token& stop) {
+Result computeMesh(Session& session, Mesh& mesh, const CommandLine& line, const std::stop_token& stop) {
   const Stopwatch watch;
   std::optional<ProgressBar> bar;
   if (!line.quiet && isStandardErrorTerminal()) bar.emplace(writeStandardError, [&watch] { return watch.seconds(); });
@@ -41,7 +41,7 @@ Answer runMesh(Session& session, const std::string& name, const std::string& out
                const std::stop_token& stop) {
   requireWritablePlace(output);
   const Stopwatch readWatch;
-  const Mesh mesh = readMesh(name);
+  Mesh mesh = readMesh(name);
   const double readSeconds = readWatch.seconds();
 
   Result result;
@@ -61,7 +61,7 @@ Answer runMesh(Session& session, const std::string& name, const std::string& out
     writeStandardError(textReport(outcome));
   }
   Answer answer{ExitCode::Done, jsonReport(outcome)};
-  if (result.report.check && !hasPassed(*result.report.check)) {
+  if (result.report.check && !result.report.check->passed) {
     printError(name, checkFailure(*result.report.check));
     answer.code = ExitCode::CheckFailed;
   }

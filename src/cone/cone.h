@@ -16,8 +16,10 @@ struct ConeOptions {
 
 inline constexpr uint32_t kMaxRayCount = 1024;
 
-/// The rays of every cone, in the cone's frame (z = the axis), ordered by azimuth so that neighbours in the table are
-/// neighbours in space. directions and weights have rayCount entries.
+/// The rays of every cone, in the cone's frame (z = the axis). The order is part of the table: by azimuth, in sectors
+/// so that each run of 8 rays from a multiple of 8 is a compact patch of the cone (a sector has one such run up to
+/// about 50 rays at 120 degrees; beyond, its runs are ordered by the angle to the axis). directions and weights have
+/// rayCount entries.
 struct Cone {
   std::vector<Vec3d> directions;  ///< Unit.
   std::vector<double> weights;    ///< 1 / angle to the axis, in 1 / radians.

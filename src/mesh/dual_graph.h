@@ -8,7 +8,8 @@
 
 namespace asdfvk {
 
-/// An edge shared by more faces than this joins each to the next ones only, so that no input makes the graph quadratic.
+/// An edge shared by more faces than this joins each to the one before and the one after it in file order only, so that
+/// no input makes the graph quadratic.
 inline constexpr uint32_t kMaxFacesJoinedAllToAll = 32;
 
 /// The dual graph: a node per face, an arc in both directions per shared mesh edge (two faces that share two edges have

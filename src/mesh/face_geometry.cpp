@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace asdfvk {
 namespace {
@@ -22,10 +23,14 @@ NormalAndArea normalAndArea(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
   for (const Vec3d& edge : {ab, ac, bc})
     for (size_t axis = 0; axis < 3; ++axis) longest = std::max(longest, std::abs(edge[axis]));
   if (!(longest > 0) || !std::isfinite(longest)) return {};
-  const Vec3d scaledCross = cross(ab / longest, ac / longest);
+  const Vec3d scaledAb = ab / longest, scaledAc = ac / longest, scaledBc = bc / longest;
+  const double longestSquared = std::max({dot(scaledAb, scaledAb), dot(scaledAc, scaledAc), dot(scaledBc, scaledBc)});
+  const Vec3d scaledCross = cross(scaledAb, scaledAc);
   const double doubledArea = length(scaledCross);
-  if (!(doubledArea > kDegenerateHeightRatio)) return {};
-  return {scaledCross / doubledArea, 0.5 * doubledArea * longest * longest};
+  if (!(doubledArea > kDegenerateHeightRatio * longestSquared)) return {};
+  // An area beyond a double's range must neither read as degenerate nor as infinite.
+  using Limits = std::numeric_limits<double>;
+  return {scaledCross / doubledArea, std::clamp(0.5 * doubledArea * longest * longest, Limits::min(), Limits::max())};
 }
 
 }  // namespace
@@ -41,7 +46,8 @@ FaceGeometry computeFaceGeometry(const Mesh& mesh) {
       const auto [i, j, k] = mesh.faces[f];
       const Vec3d &a = mesh.vertices[i], &b = mesh.vertices[j], &c = mesh.vertices[k];
       geometry.barycentres[f] = a + ((b - a) + (c - a)) / 3.0;
-      const NormalAndArea face = isFinite(a) && isFinite(b) && isFinite(c) ? normalAndArea(a, b, c) : NormalAndArea{};
+      const NormalAndArea face =
+          mesh.hasFiniteCorners(static_cast<uint32_t>(f)) ? normalAndArea(a, b, c) : NormalAndArea{};
       geometry.normals[f] = face.normal;
       geometry.areas[f] = face.area;
     }

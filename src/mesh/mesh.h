@@ -13,6 +13,11 @@ namespace asdfvk {
 /// Three vertex indices, counter-clockwise seen from outside.
 using Face = std::array<uint32_t, 3>;
 
+/// Else the face is no more than an edge or a point, whatever its coordinates.
+[[nodiscard]] constexpr bool hasDistinctVertices(const Face& face) {
+  return face[0] != face[1] && face[1] != face[2] && face[2] != face[0];
+}
+
 /// "No value" of a face: a quiet NaN.
 inline constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 
@@ -33,6 +38,11 @@ struct Mesh {
   Polygons polygons;            ///< Set only where an input face was not a triangle.
 
   [[nodiscard]] uint32_t faceCount() const { return static_cast<uint32_t>(faces.size()); }
+  /// Precondition: the face's indices are below the vertex count.
+  [[nodiscard]] bool hasFiniteCorners(uint32_t face) const {
+    const auto [a, b, c] = faces[face];
+    return isFinite(vertices[a]) && isFinite(vertices[b]) && isFinite(vertices[c]);
+  }
   /// #I, what the file calls faces.
   [[nodiscard]] uint64_t inputFaceCount() const {
     return polygons.isEmpty() ? faces.size() : polygons.firstCorner.size() - 1;

@@ -12,7 +12,7 @@ Normalization normalizationOf(const Box3d& bounds) {
   if (!(halfExtent > 0) || !std::isfinite(halfExtent)) return normalization;
   int exponent = 0;
   std::frexp(halfExtent, &exponent);  // halfExtent = m * 2^exponent with m in [0.5, 1)
-  normalization.scale = std::ldexp(1.0, std::clamp(-exponent, -1000, 1000));
+  normalization.scale = std::ldexp(1.0, std::clamp(-exponent, -1023, 1023));
   return normalization;
 }
 

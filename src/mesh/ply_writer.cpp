@@ -6,7 +6,7 @@
 
 #include "core/error.h"
 #include "mesh/colour_map.h"
-#include "mesh/input_faces.h"
+#include "mesh/input_corners.h"
 #include "mesh/number_text.h"
 #include "mesh/result_formats.h"
 

@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "mesh/base64_stream.h"
-#include "mesh/input_faces.h"
+#include "mesh/input_corners.h"
 #include "mesh/result_formats.h"
 
 namespace asdfvk {

@@ -61,43 +61,49 @@ struct StageSeconds {
 
 /// Differences between the result and the reference on random faces.
 struct CheckReport {
-  uint64_t tracedCount = 0;          ///< Checked faces whose value was traced.
-  uint64_t agreeingCount = 0;        ///< Of those, within kAgreementTolerance of the box's diagonal (or both no value).
-  double medianDifference = 0;       ///< Over the diagonal, traced faces.
-  double worstDifference = 0;        ///< Over the diagonal, traced faces; infinite if only one side has a value.
-  uint64_t worstFace = 0;            ///< Its triangle index.
-  uint64_t interpolatedCount = 0;    ///< Checked faces whose value was interpolated and whose reference has one.
-  double averageInterpolationError = 0;  ///< Over the range of the reference values, as the paper's Table 1.
-  double maximumInterpolationError = 0;
-  bool passed = true;                ///< At least kAgreementShare of the traced faces agree.
+  uint64_t tracedCount = 0;        ///< Checked faces whose value was traced.
+  uint64_t agreeingCount = 0;      ///< Of those, within kAgreementTolerance of the box's diagonal (or both no value).
+  double medianDifference = 0;     ///< Over the diagonal, traced faces.
+  double worstDifference = 0;      ///< Over the diagonal, traced faces; infinite if only one side has a value.
+  uint64_t worstFace = 0;          ///< Its input face.
+  uint64_t interpolatedCount = 0;  ///< Checked faces whose value was interpolated and whose reference has one.
+  double averageError =
+      0;  ///< Over the range of the checked faces' reference values, seeds included: Table 1 of the paper.
+  double maximumError = 0;  ///< Likewise.
+  bool passed = false;      ///< A traced face was checked at all, and kAgreementShare of them agree.
 };
 inline constexpr double kAgreementTolerance = 1e-4;
 inline constexpr double kAgreementShare = 0.999;
 
+/// Over the faces with a value; NaN when there is none.
+struct ValueRange {
+  double min = kNoValue, median = kNoValue, max = kNoValue;
+};
+
 struct Report {
-  uint64_t faceCount = 0;      ///< Input faces.
+  uint64_t faceCount = 0;  ///< Input faces.
   uint64_t triangleCount = 0;
   uint64_t vertexCount = 0;
   uint64_t componentCount = 0;
-  uint64_t seedCount = 0;      ///< Triangles that cast rays.
+  uint64_t seedCount = 0;  ///< Triangles that cast rays.
   uint64_t rayCount = 0;
   uint64_t redoneConeCount = 0;
-  uint64_t noValueCount = 0;   ///< Input faces.
+  uint64_t noValueCount = 0;  ///< Input faces.
   uint64_t randomSeed = 0;
-  std::string backend;         ///< "vulkan" or "reference".
-  std::string device;          ///< Device and driver that ran, or the CPU.
+  std::string backend;  ///< "vulkan" or "reference".
+  std::string device;   ///< Device and driver that ran, or the CPU.
   StageSeconds stageSeconds;
   double raysPerSecond = 0;
-  SolverReport solver;         ///< name "none" when every face was a seed.
-  struct { double min = kNoValue, median = kNoValue, max = kNoValue; } sdf;
+  SolverReport solver;  ///< name "none" when every face was a seed.
+  ValueRange sdf;
   MeshDefects defects;
   std::vector<std::string> warnings;  ///< One sentence each, defects included.
   std::optional<CheckReport> check;
 };
 
 struct Result {
-  std::vector<double> sdf;       ///< #I, per input face in file order, in the mesh's unit; NaN = no value.
-  std::vector<uint8_t> isSeed;   ///< #I
+  std::vector<double> sdf;      ///< #I, per input face in file order, in the mesh's unit; NaN = no value.
+  std::vector<uint8_t> isSeed;  ///< #I
   Report report;
 };
 
@@ -123,7 +129,8 @@ class Session {
 
   /// Throws Error{Input} for a mesh nothing can be computed on (no face, index out of range), Error{Usage},
   /// Error{Device}, Error{Cancelled}.
-  [[nodiscard]] Result compute(const Mesh& mesh, const Options& options, const RunControl& control = {});
+  /// Turns faces of the mesh over where options.orientation says so, and nothing else.
+  [[nodiscard]] Result compute(Mesh& mesh, const Options& options, const RunControl& control = {});
 
  private:
   struct State;

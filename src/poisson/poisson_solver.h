@@ -12,12 +12,12 @@
 namespace asdfvk {
 
 struct SolverOptions {
-  double tolerance = 1e-5;         ///< On the relative residual.
+  double tolerance = 1e-5;  ///< On the relative residual.
   uint32_t maxIterations = 20000;
 };
 
 struct SolverReport {
-  std::string name;             ///< "eigen", "cg" or "jacobi".
+  std::string name;  ///< "eigen", "cg" or "jacobi".
   uint32_t iterations = 0;
   double relativeResidual = 0;  ///< The true one, recomputed in double from the solution.
   bool converged = true;        ///< Not converging is data, not an error.
@@ -32,7 +32,7 @@ class PoissonSolver {
                              const RunControl& control) = 0;
 };
 
-/// Eigen's conjugate gradient with Jacobi preconditioner, in double on the CPU.
+/// Jacobi-preconditioned conjugate gradients with Eigen, in double on the CPU, products on all cores.
 [[nodiscard]] std::unique_ptr<PoissonSolver> makeEigenSolver();
 
 }  // namespace asdfvk

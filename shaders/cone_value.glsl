@@ -1,0 +1,49 @@
+// Reduces the lengths of one cone's rays to its value, all lanes of the cone together (the twin of coneValue() in
+// src/cone/cone.h). Needs the shared array `lengths` with the cone's kRayCount entries from `base` on, negative where the
+// ray is not valid; the shared array `middles`; `rays`; and the constants kRayCount and kLanesPerCone.
+const float kOutlierSlack = 1e-5;
+
+float lengthAt(uint base, uint ray) { return lengths[base + ray]; }
+
+// Every lane ranks its own rays among all; those of the two middle ranks give the median (twice the same for an odd
+// count). Returns the number of valid rays and their mean.
+void findMiddles(uint base, uint slot, uint lane, out uint validCount, out float mean) {
+  validCount = 0u;
+  mean = 0.0;
+  for (uint other = 0u; other < kRayCount; ++other) {
+    const float l = lengthAt(base, other);
+    validCount += l >= 0.0 ? 1u : 0u;
+    mean += max(l, 0.0);
+  }
+  mean /= float(max(validCount, 1u));
+  for (uint ray = lane; ray < kRayCount; ray += kLanesPerCone) {
+    const float own = lengthAt(base, ray);
+    uint rank = 0u;
+    for (uint other = 0u; other < kRayCount; ++other) {
+      const float l = lengthAt(base, other);
+      rank += l >= 0.0 && (l < own || (l == own && other < ray)) ? 1u : 0u;
+    }
+    if (own >= 0.0 && rank == (validCount - 1u) / 2u) middles[2u * slot] = own;
+    if (own >= 0.0 && rank == validCount / 2u) middles[2u * slot + 1u] = own;
+  }
+}
+
+// To be called by one lane, after a barrier.
+float weightedMeanAroundMedian(uint base, uint slot, uint validCount, float mean) {
+  const float median = 0.5 * (middles[2u * slot] + middles[2u * slot + 1u]);
+  float variance = 0.0;
+  for (uint ray = 0u; ray < kRayCount; ++ray) {
+    const float l = lengthAt(base, ray);
+    variance += l >= 0.0 ? (l - mean) * (l - mean) : 0.0;
+  }
+  const float bound = sqrt(variance / float(validCount)) + kOutlierSlack * median;
+  float sum = 0.0;
+  float weightSum = 0.0;
+  for (uint ray = 0u; ray < kRayCount; ++ray) {
+    const float l = lengthAt(base, ray);
+    const float weight = l >= 0.0 && abs(l - median) <= bound ? rays[ray].weight : 0.0;
+    sum += weight * l;
+    weightSum += weight;
+  }
+  return sum / weightSum;
+}

@@ -1,0 +1,26 @@
+#version 450
+// One Jacobi iteration, y' = b + S y, and the partial sums of the squared residual of y, which is y' - y.
+#extension GL_GOOGLE_include_directive : require
+#include "shared/poisson_layout.h"
+
+#include "poisson_lanes.glsl"
+#include "poisson_matrix.glsl"
+
+layout(set = 0, binding = 3) readonly buffer RightHandSide { float b[]; };
+layout(set = 0, binding = 4) readonly buffer ResidualWeights { float residualWeights[]; };
+layout(set = 0, binding = 5) readonly buffer From { float y[]; };
+layout(set = 0, binding = 6) writeonly buffer To { float next[]; };
+layout(set = 0, binding = 7) buffer Sums { PoissonSums sums; };
+
+void main() {
+  float squared = 0.0;
+  for (uint row = firstRow(); row < push.unknownCount; row += rowStride()) {
+    float value = b[row];
+    COUPLED_SUM(row, y, value)
+    next[row] = value;
+    const float residual = value - y[row];
+    squared += residual * residual * residualWeights[row];
+  }
+  const float total = workgroupSum(vec2(squared, 0.0)).x;
+  if (gl_LocalInvocationID.x == 0u) sums.residualSquared[gl_WorkGroupID.x] = total;
+}

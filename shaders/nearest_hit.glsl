@@ -1,0 +1,103 @@
+// Walks the hierarchy of shared/bvh_layout.h for the nearest hit of one ray. Needs `bvhNodes` and `bvhTriangles`, images of
+// rgba32ui texels, and the constants kFarAway and kIterationLimit.
+#include "ray_frame.glsl"
+#include "shared/bvh_layout.h"
+
+const uint kNoSlot = 0xffffffffu;
+const uint kStackEntryCount = 48u;
+const uint kWalkEnd = 0xffffffffu;
+const uint kCountShift = 28u;
+const uint kFirstMask = 0x0fffffffu;
+
+struct Hit {
+  float distance;
+  uint slot;        // kNoSlot: nothing was hit.
+  bool isComplete;  // False: the iteration guard ended the walk.
+};
+
+DeviceBvhNode loadNode(uint index) {
+  const int t = int(index * kBvhNodeTexelCount);
+  return decodeBvhNode(imageLoad(bvhNodes, t), imageLoad(bvhNodes, t + 1), imageLoad(bvhNodes, t + 2),
+                       imageLoad(bvhNodes, t + 3));
+}
+
+DeviceTriangle loadTriangle(uint slot) {
+  const int t = int(slot * kBvhTriangleTexelCount);
+  return decodeTriangle(imageLoad(bvhTriangles, t), imageLoad(bvhTriangles, t + 1), imageLoad(bvhTriangles, t + 2));
+}
+
+// Where the ray enters the box, or kFarAway when it misses it or enters beyond `limit`. The exit is moved outwards by
+// three roundings (Ize 2013), so that no box loses a triangle that it holds.
+float enterBox(vec3 boxMin, vec3 boxMax, vec3 origin, vec3 inverseDirection, float limit) {
+  const float kExitMargin = 1.0 + 6.0 * 5.9604645e-8;
+  const vec3 t0 = (boxMin - origin) * inverseDirection;
+  const vec3 t1 = (boxMax - origin) * inverseDirection;
+  const vec3 tNear = min(t0, t1);
+  const vec3 tFar = max(t0, t1);
+  const float enter = max(max(tNear.x, tNear.y), max(tNear.z, 0.0));
+  const float leave = min(min(tFar.x, tFar.y), tFar.z) * kExitMargin;
+  return enter <= min(leave, limit) ? enter : kFarAway;
+}
+
+vec3 invert(vec3 direction) {
+  const vec3 tiny = vec3(1e-20);
+  return 1.0 / mix(direction, mix(tiny, -tiny, lessThan(direction, vec3(0.0))), lessThan(abs(direction), tiny));
+}
+
+Hit findNearestHit(vec3 origin, vec3 direction, uint excludedFace, inout uint iterationCount) {
+  const RayFrame frame = makeRayFrame(direction);
+  const vec3 inverseDirection = invert(direction);
+  uint stack[kStackEntryCount];
+  uint stackSize = 0u;
+  uint current = 0u;
+  Hit hit = Hit(kFarAway, kNoSlot, true);
+
+  while (current != kWalkEnd) {
+    while (current <= kFirstMask) {
+      const DeviceBvhNode node = loadNode(current);
+      const float left = enterBox(node.leftMin, node.leftMax, origin, inverseDirection, hit.distance);
+      const float right = enterBox(node.rightMin, node.rightMax, origin, inverseDirection, hit.distance);
+      const uint leftReference = node.leftFirst | (node.leftCount << kCountShift);
+      const uint rightReference = node.rightFirst | (node.rightCount << kCountShift);
+      const bool leftIsNear = left <= right;
+      const float near = min(left, right);
+      const float far = max(left, right);
+      if (far < kFarAway) {
+        stack[stackSize] = leftIsNear ? rightReference : leftReference;
+        ++stackSize;
+      }
+      if (near < kFarAway) {
+        current = leftIsNear ? leftReference : rightReference;
+      } else if (stackSize > 0u) {
+        --stackSize;
+        current = stack[stackSize];
+      } else {
+        current = kWalkEnd;
+      }
+      if (++iterationCount > kIterationLimit) {
+        hit.isComplete = false;
+        current = kWalkEnd;
+      }
+    }
+    if (current != kWalkEnd) {
+      const uint first = current & kFirstMask;
+      const uint end = first + (current >> kCountShift);
+      for (uint slot = first; slot < end; ++slot) {
+        const DeviceTriangle triangle = loadTriangle(slot);
+        const float t = intersectTriangle(frame, triangle.v0 - origin, triangle.v1 - origin, triangle.v2 - origin);
+        if (t >= 0.0 && t < hit.distance && triangle.faceIndex != excludedFace) {
+          hit.distance = t;
+          hit.slot = slot;
+        }
+      }
+      iterationCount += end - first + 1u;
+      if (stackSize > 0u) {
+        --stackSize;
+        current = stack[stackSize];
+      } else {
+        current = kWalkEnd;
+      }
+    }
+  }
+  return hit;
+}

@@ -1,0 +1,38 @@
+// An orthonormal frame around a ray, in which its hits are found (the twin of src/trace/ray_triangle.h).
+struct RayFrame {
+  vec3 u, w, direction;
+};
+
+// Duff et al. 2017.
+RayFrame makeRayFrame(vec3 direction) {
+  const float s = direction.z < 0.0 ? -1.0 : 1.0;
+  const float a = -1.0 / (s + direction.z);
+  const float b = direction.x * direction.y * a;
+  return RayFrame(vec3(1.0 + s * direction.x * direction.x * a, s * b, -s * direction.x),
+                  vec3(b, s + direction.y * direction.y * a, -direction.y), direction);
+}
+
+// A vertex in the ray's frame depends on the vertex and the ray only: `precise` keeps it, and the edge functions made of
+// it, the same in both triangles of an edge, so that no ray slips between them.
+vec3 toRayFrame(RayFrame frame, vec3 v) {
+  precise vec3 p = vec3(frame.u.x * v.x + frame.u.y * v.y + frame.u.z * v.z,
+                        frame.w.x * v.x + frame.w.y * v.y + frame.w.z * v.z,
+                        frame.direction.x * v.x + frame.direction.y * v.y + frame.direction.z * v.z);
+  return p;
+}
+
+// The distance along the ray to the triangle a, b, c (relative to the ray's origin), or a negative number. Both sides
+// count, and so does the triangle's rim.
+float intersectTriangle(RayFrame frame, vec3 v0, vec3 v1, vec3 v2) {
+  const vec3 a = toRayFrame(frame, v0);
+  const vec3 b = toRayFrame(frame, v1);
+  const vec3 c = toRayFrame(frame, v2);
+  precise const float edgeA = c.x * b.y - c.y * b.x;
+  precise const float edgeB = a.x * c.y - a.y * c.x;
+  precise const float edgeC = b.x * a.y - b.y * a.x;
+  const float smallest = min(edgeA, min(edgeB, edgeC));
+  const float largest = max(edgeA, max(edgeB, edgeC));
+  const float det = edgeA + edgeB + edgeC;
+  const bool inside = (smallest >= 0.0 || largest <= 0.0) && det != 0.0;
+  return inside ? (edgeA * a.z + edgeB * b.z + edgeC * c.z) / det : -1.0;
+}

@@ -1,0 +1,49 @@
+// What the cone kernel reads and writes; included by C++ and by GLSL.
+#ifndef ASDFVK_CONE_LAYOUT_H
+#define ASDFVK_CONE_LAYOUT_H
+
+#ifdef __cplusplus
+#include <cstddef>
+
+#include "shared/glsl_types.h"
+namespace asdfvk {
+using glsl::uint;
+using glsl::vec3;
+#endif
+
+// Where a cone starts, 48 bytes. Normalised coordinates. The frame's axis is cross(tangent, bitangent).
+struct ConeOrigin {
+  vec3 origin;
+  uint excludedFace;  // Hits on this face are passed through: the seed face or the one that stands for its copies.
+  vec3 tangent;
+  uint unused0;
+  vec3 bitangent;
+  uint unused1;
+};
+
+// One ray of every cone, 16 bytes, in the cone's frame.
+struct ConeRay {
+  vec3 direction;
+  float weight;
+};
+
+struct ConePush {
+  uint coneCount;
+};
+
+// A result is the bits of a length in normalised units, or one of these.
+const uint kNoValueBits = 0x7fc00000u;          // No valid ray: a quiet NaN.
+const uint kIterationLimitBits = 0x7fc00001u;   // The iteration guard stopped the cone: trace it elsewhere.
+
+#ifdef __cplusplus
+static_assert(sizeof(ConeOrigin) == 48);
+static_assert(offsetof(ConeOrigin, origin) == 0 && offsetof(ConeOrigin, excludedFace) == 12);
+static_assert(offsetof(ConeOrigin, tangent) == 16 && offsetof(ConeOrigin, unused0) == 28);
+static_assert(offsetof(ConeOrigin, bitangent) == 32 && offsetof(ConeOrigin, unused1) == 44);
+static_assert(sizeof(ConeRay) == 16);
+static_assert(offsetof(ConeRay, direction) == 0 && offsetof(ConeRay, weight) == 12);
+static_assert(sizeof(ConePush) == 4);
+}  // namespace asdfvk
+#endif
+
+#endif

@@ -1,0 +1,59 @@
+// What the kernels of the Poisson solvers share with the host; included by C++ and by GLSL.
+//
+// The system is solved in the scaled form (I - S) y = b with S = D^-1/2 W D^-1/2 for the weights W and the diagonal D:
+// conjugate gradients on it are Jacobi-preconditioned conjugate gradients on D - W, without a vector to divide by.
+#ifndef ASDFVK_POISSON_LAYOUT_H
+#define ASDFVK_POISSON_LAYOUT_H
+
+#ifdef __cplusplus
+#include <cstddef>
+
+#include "shared/glsl_types.h"
+namespace asdfvk {
+using glsl::uint;
+#endif
+
+// Each workgroup leaves one partial sum per scalar, and each workgroup adds all of them up again.
+const uint kMaxPoissonWorkgroupCount = 256u;
+
+const uint kCgRunning = 0u;
+const uint kCgConverged = 1u;
+const uint kCgBrokenDown = 2u;  // p.Ap or the residual is no positive number any more: float32 has no more to give.
+
+// The scalars of the iteration, 20 bytes. There are two: an iteration reads one and writes the other, so that no
+// workgroup sees a word that another one is writing.
+struct CgState {
+  float residualDot;       // r.r of the scaled system, which is r.z of the preconditioned one.
+  float residualSquared;   // The squared norm of the unscaled residual, 1 at the start.
+  float toleranceSquared;  // At or below this residualSquared it has converged.
+  uint iterationCount;
+  uint status;             // kCgRunning, kCgConverged or kCgBrokenDown; unless running, iterations do nothing.
+};
+
+// One partial sum per workgroup, 3076 bytes.
+struct PoissonSums {
+  float productDot[kMaxPoissonWorkgroupCount];       // p.Ap
+  float residualDot[kMaxPoissonWorkgroupCount];      // As in CgState.
+  float residualSquared[kMaxPoissonWorkgroupCount];  // As in CgState.
+  uint brokenDown;                                   // 1 when the step saw a p.Ap that is no positive number.
+};
+
+struct PoissonPush {
+  uint unknownCount;
+  uint stateIndex;  // The CgState that this iteration reads; it writes the other one.
+};
+
+#ifdef __cplusplus
+static_assert(sizeof(CgState) == 20);
+static_assert(offsetof(CgState, residualDot) == 0 && offsetof(CgState, residualSquared) == 4);
+static_assert(offsetof(CgState, toleranceSquared) == 8 && offsetof(CgState, iterationCount) == 12);
+static_assert(offsetof(CgState, status) == 16);
+static_assert(sizeof(PoissonSums) == 3076);
+static_assert(offsetof(PoissonSums, productDot) == 0 && offsetof(PoissonSums, residualDot) == 1024);
+static_assert(offsetof(PoissonSums, residualSquared) == 2048 && offsetof(PoissonSums, brokenDown) == 3072);
+static_assert(sizeof(PoissonPush) == 8);
+static_assert(offsetof(PoissonPush, unknownCount) == 0 && offsetof(PoissonPush, stateIndex) == 4);
+}  // namespace asdfvk
+#endif
+
+#endif

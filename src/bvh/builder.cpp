@@ -1,0 +1,101 @@
+#include <tbb/parallel_for.h>
+#include <tbb/task_group.h>
+
+#include <cmath>
+#include <limits>
+
+#include "bvh/bvh.h"
+#include "bvh/subtree.h"
+#include "core/check.h"
+
+namespace asdfvk {
+namespace {
+
+float roundedDown(double d) {
+  const auto f = static_cast<float>(d);
+  return static_cast<double>(f) > d ? std::nextafter(f, -std::numeric_limits<float>::infinity()) : f;
+}
+
+// Rounding down is at or below rounding to nearest, so the box holds the corners as doubles and as floats.
+SplitBox outerBox(const Mesh& mesh, const Face& face, const Normalization& normalization) {
+  SplitBox box = SplitBox::empty();
+  for (const uint32_t vertex : face) {
+    const Vec3d p = normalization.toNormalized(mesh.vertices[vertex]);
+    box.grow({{roundedDown(p.x), roundedDown(p.y), roundedDown(p.z), 0, roundedDown(-p.x), roundedDown(-p.y),
+               roundedDown(-p.z), 0}});
+  }
+  return box;
+}
+
+std::vector<SplitTriangle> collectTriangles(const Mesh& mesh, const FaceGeometry& geometry,
+                                            std::span<const uint32_t> representatives,
+                                            const Normalization& normalization) {
+  const auto isFiniteFace = [&](uint32_t f) {
+    for (const uint32_t vertex : mesh.faces[f])
+      if (!isFinite(normalization.toNormalized(mesh.vertices[vertex]))) return false;
+    return true;
+  };
+  std::vector<uint32_t> faces;
+  faces.reserve(mesh.faces.size());
+  for (uint32_t f = 0; f < mesh.faceCount(); ++f)
+    if (representatives[f] == f && !geometry.isDegenerate(f) && isFiniteFace(f)) faces.push_back(f);
+  std::vector<SplitTriangle> triangles(faces.size());
+  tbb::parallel_for(size_t{0}, faces.size(), [&](size_t i) {
+    triangles[i] = {outerBox(mesh, mesh.faces[faces[i]], normalization), faces[i]};
+  });
+  return triangles;
+}
+
+// Lays the runs of a finished subtree end to end. A node's place is given by its parent; what is below it follows from
+// `next` on: first the pair of children, then all below the left one, then all below the right one.
+class Assembler {
+ public:
+  Assembler(std::vector<BvhNode>& nodes, tbb::task_group& copies) : nodes_(nodes), copies_(copies) {}
+
+  uint32_t place(const Subtree& subtree, uint32_t index, uint32_t next) {
+    if (!subtree.left) {
+      copies_.run([this, &subtree, index, next] { copyRun(subtree.nodes, index, next); });
+      return next + static_cast<uint32_t>(subtree.nodes.size()) - 1;
+    }
+    const SplitBox& box = subtree.box;
+    nodes_[index] = {{box.min(0), box.min(1), box.min(2)}, next, {box.max(0), box.max(1), box.max(2)}, 0};
+    const uint32_t afterLeft = place(*subtree.left, next, next + 2);
+    return place(*subtree.right, next + 1, afterLeft);
+  }
+
+ private:
+  void copyRun(const std::vector<BvhNode>& run, uint32_t index, uint32_t next) {
+    for (size_t i = 0; i < run.size(); ++i) {
+      BvhNode node = run[i];
+      if (!node.isLeaf()) node.first += next - 1;
+      nodes_[i == 0 ? index : next + i - 1] = node;
+    }
+  }
+
+  std::vector<BvhNode>& nodes_;
+  tbb::task_group& copies_;
+};
+
+}  // namespace
+
+Bvh buildBvh(const Mesh& mesh, const FaceGeometry& geometry, std::span<const uint32_t> representatives,
+             const BvhOptions& options) {
+  ASDFVK_CHECK_OP(representatives.size(), ==, mesh.faces.size());
+  ASDFVK_CHECK_OP(options.maxLeafTriangleCount, >, 0u);
+  Bvh bvh;
+  bvh.normalization = normalizationOf(geometry.bounds);
+  std::vector<SplitTriangle> triangles = collectTriangles(mesh, geometry, representatives, bvh.normalization);
+  if (triangles.empty()) return bvh;
+
+  const std::unique_ptr<Subtree> root = buildSubtree(triangles, 0, 0, options);
+  bvh.depth = root->depth;
+  bvh.nodes.resize(root->nodeCount());
+  tbb::task_group copies;
+  Assembler(bvh.nodes, copies).place(*root, 0, 1);
+  bvh.slotFaces.resize(triangles.size());
+  for (size_t slot = 0; slot < triangles.size(); ++slot) bvh.slotFaces[slot] = triangles[slot].face;
+  copies.wait();
+  return bvh;
+}
+
+}  // namespace asdfvk

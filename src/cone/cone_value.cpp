@@ -1,0 +1,48 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include "cone/cone.h"
+#include "core/check.h"
+#include "mesh/mesh.h"
+
+namespace asdfvk {
+namespace {
+
+// Mean of the middle two for an even count. Reorders `lengths`, which is not empty.
+double takeMedian(std::span<double> lengths) {
+  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+  std::nth_element(lengths.begin(), middle, lengths.end());
+  if (lengths.size() % 2 == 1) return *middle;
+  return 0.5 * (*middle + *std::max_element(lengths.begin(), middle));
+}
+
+double standardDeviation(std::span<const double> lengths) {
+  const double count = static_cast<double>(lengths.size());
+  const double mean = std::accumulate(lengths.begin(), lengths.end(), 0.0) / count;
+  double sum = 0;
+  for (const double length : lengths) sum += (length - mean) * (length - mean);
+  return std::sqrt(sum / count);
+}
+
+}  // namespace
+
+double coneValue(std::span<const double> lengths, std::span<const double> weights) {
+  ASDFVK_CHECK_OP(lengths.size(), ==, weights.size());
+  ASDFVK_CHECK_OP(lengths.size(), <=, size_t{kMaxRayCount});
+  if (lengths.empty()) return kNoValue;
+  std::array<double, kMaxRayCount> scratch;
+  std::copy(lengths.begin(), lengths.end(), scratch.begin());
+  const double median = takeMedian({scratch.data(), lengths.size()});
+  const double bound = standardDeviation(lengths) + kOutlierSlack * median;
+  double weightedSum = 0, weightSum = 0;
+  for (size_t i = 0; i < lengths.size(); ++i) {
+    if (std::abs(lengths[i] - median) > bound) continue;
+    weightedSum += weights[i] * lengths[i];
+    weightSum += weights[i];
+  }
+  return weightedSum / weightSum;
+}
+
+}  // namespace asdfvk

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "mesh/dual_graph.h"
+#include "mesh/mesh.h"
+
+namespace asdfvk {
+
+/// The faces of the mesh that hang together over the dual graph.
+struct Component {
+  uint32_t firstFace = 0;  ///< Its lowest face.
+  uint32_t faceCount = 0;
+  bool isClosed = false;  ///< Each edge has exactly two faces; triangles with a repeated vertex do not count.
+  bool isConsistentlyWound = false;  ///< The two faces of each such edge run through it in opposite directions.
+  double signedVolume = 0;           ///< In mesh units cubed; negative where faces look inwards, 0 where rounding hides
+                                     ///< the sign. Sound for closed, consistently wound components only.
+};
+
+struct Components {
+  std::vector<uint32_t> componentOf;  ///< #F
+  std::vector<Component> components;  ///< By lowest face.
+};
+
+/// Precondition: no index is out of range, and `graph` is the mesh's. A face with a non-finite corner is a component of
+/// its own, and the hole that it leaves makes the others open.
+[[nodiscard]] Components findComponents(const Mesh& mesh, const DualGraph& graph);
+
+}  // namespace asdfvk

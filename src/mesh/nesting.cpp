@@ -1,0 +1,168 @@
+#include "mesh/nesting.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/box3.h"
+#include "mesh/normalization.h"
+#include "mesh/plane_points.h"
+
+namespace asdfvk {
+namespace {
+
+// Rays run along the third axis of a frame that is parallel to no axis, plane or diagonal that a mesh may be built
+// along.
+struct RayFrame {
+  Normalization normalization;
+
+  [[nodiscard]] Vec3d toFrame(const Vec3d& p) const {
+    static constexpr Vec3d kX{0.80134262, -0.56937194, -0.18349152}, kY{0.50881031, 0.48112718, 0.71386211};
+    static constexpr Vec3d kZ = cross(kX, kY);  // Only nearly orthonormal, which inside and outside do not mind.
+    const Vec3d q = normalization.toNormalized(p);
+    return {dot(kX, q), dot(kY, q), dot(kZ, q)};
+  }
+};
+
+struct Probe {
+  uint32_t component = 0;
+  Vec3d point;  // In the ray frame.
+};
+
+struct ClosedComponents {
+  std::vector<Box3d> boxes;   // Of closed components, else empty.
+  std::vector<Probe> probes;  // Grouped by component, ascending.
+};
+
+ClosedComponents gatherClosed(const Mesh& mesh, const Components& components, const RayFrame& frame) {
+  const size_t count = components.components.size();
+  ClosedComponents closed{std::vector<Box3d>(count), {}};
+  std::vector<std::array<uint32_t, 6>> extremes(count);  // Vertices: lowest, highest along x, y, z.
+  for (uint32_t f = 0; f < mesh.faceCount(); ++f) {
+    const uint32_t component = components.componentOf[f];
+    if (!components.components[component].isClosed) continue;
+    std::array<uint32_t, 6>& extreme = extremes[component];
+    if (closed.boxes[component].isEmpty()) extreme.fill(mesh.faces[f][0]);
+    for (uint32_t vertex : mesh.faces[f]) {
+      const Vec3d& p = mesh.vertices[vertex];
+      closed.boxes[component].add(p);
+      for (size_t axis = 0; axis < 3; ++axis) {
+        if (p[axis] < mesh.vertices[extreme[2 * axis]][axis]) extreme[2 * axis] = vertex;
+        if (p[axis] > mesh.vertices[extreme[2 * axis + 1]][axis]) extreme[2 * axis + 1] = vertex;
+      }
+    }
+  }
+  for (uint32_t component = 0; component < count; ++component) {
+    if (closed.boxes[component].isEmpty()) continue;
+    std::array<uint32_t, 6>& extreme = extremes[component];
+    std::sort(extreme.begin(), extreme.end());
+    const auto end = std::unique(extreme.begin(), extreme.end());
+    for (auto vertex = extreme.begin(); vertex != end; ++vertex)
+      closed.probes.push_back({component, frame.toFrame(mesh.vertices[*vertex])});
+  }
+  return closed;
+}
+
+bool containsStrictly(const Box3d& outer, const Box3d& inner) {
+  for (size_t axis = 0; axis < 3; ++axis)
+    if (!(outer.min[axis] < inner.min[axis] && inner.max[axis] < outer.max[axis])) return false;
+  return true;
+}
+
+// The side of p of an edge, computed from the edge's lower vertex to its upper one, so that the two faces of an edge
+// never disagree: a ray that meets an edge crosses one of them, whatever the rounding.
+double sideOfEdge(const Face& face, const std::array<Vec3d, 3>& corners, size_t i, const Vec3d& p) {
+  const size_t j = (i + 1) % 3;
+  const auto plane = [](const Vec3d& v) { return Point2{v.x, v.y}; };
+  return face[i] < face[j] ? sideOf(plane(corners[i]), plane(corners[j]), plane(p))
+                           : -sideOf(plane(corners[j]), plane(corners[i]), plane(p));
+}
+
+bool isOnPositiveSide(const Face& face, size_t i, double side) {
+  return side > 0 || (side == 0 && face[i] < face[(i + 1) % 3]);
+}
+
+bool rayCrosses(const Face& face, const std::array<Vec3d, 3>& corners, const Vec3d& p) {
+  std::array<double, 3> sides;
+  std::array<bool, 3> isPositive;
+  for (size_t i = 0; i < 3; ++i) {
+    sides[i] = sideOfEdge(face, corners, i, p);
+    isPositive[i] = isOnPositiveSide(face, i, sides[i]);
+  }
+  if (isPositive[0] != isPositive[1] || isPositive[1] != isPositive[2]) return false;
+  const double sum = sides[0] + sides[1] + sides[2];
+  if (sum == 0) return false;
+  const double height = (sides[0] * corners[2].z + sides[1] * corners[0].z + sides[2] * corners[1].z) / sum;
+  return height > p.z;
+}
+
+// Crossings as (probe, crossed component), one entry each, in no order.
+std::vector<uint64_t> findCrossings(const Mesh& mesh, const Components& components, const RayFrame& frame,
+                                    const ClosedComponents& closed) {
+  std::vector<Point2> points;
+  points.reserve(closed.probes.size());
+  for (const Probe& probe : closed.probes) points.push_back({probe.point.x, probe.point.y});
+  const PlanePoints tree(points);
+  tbb::enumerable_thread_specific<std::vector<uint64_t>> found;
+  tbb::parallel_for(tbb::blocked_range<uint32_t>(0, mesh.faceCount(), 1024), [&](const auto& range) {
+    std::vector<uint64_t>& crossings = found.local();
+    for (uint32_t f = range.begin(); f < range.end(); ++f) {
+      const uint32_t component = components.componentOf[f];
+      const Face& face = mesh.faces[f];
+      if (closed.boxes[component].isEmpty() || !hasDistinctVertices(face)) continue;
+      std::array<Vec3d, 3> corners;
+      std::array<Point2, 3> triangle;
+      for (size_t i = 0; i < 3; ++i) {
+        corners[i] = frame.toFrame(mesh.vertices[face[i]]);
+        triangle[i] = {corners[i].x, corners[i].y};
+      }
+      tree.forEachNear(triangle, [&](uint32_t index) {
+        const Probe& probe = closed.probes[index];
+        if (containsStrictly(closed.boxes[component], closed.boxes[probe.component]) &&
+            rayCrosses(face, corners, probe.point))
+          crossings.push_back(uint64_t{index} << 32 | component);
+      });
+    }
+  });
+  std::vector<uint64_t> all;
+  for (const std::vector<uint64_t>& crossings : found) all.insert(all.end(), crossings.begin(), crossings.end());
+  return all;
+}
+
+}  // namespace
+
+std::vector<uint32_t> nestingDepths(const Mesh& mesh, const Components& components) {
+  std::vector<uint32_t> depths(components.components.size(), 0);
+  const auto isClosed = [](const Component& component) { return component.isClosed; };
+  if (std::count_if(components.components.begin(), components.components.end(), isClosed) < 2) return depths;
+  Box3d bounds;
+  for (const Vec3d& vertex : mesh.vertices)
+    if (isFinite(vertex)) bounds.add(vertex);
+  const RayFrame frame{normalizationOf(bounds)};
+  const ClosedComponents closed = gatherClosed(mesh, components, frame);
+  std::vector<uint64_t> crossings = findCrossings(mesh, components, frame, closed);
+  std::sort(crossings.begin(), crossings.end());
+
+  // One entry (component, container) for each of the component's probes that is inside the container.
+  std::vector<uint64_t> insides;
+  for (size_t begin = 0, end = 0; begin < crossings.size(); begin = end) {
+    while (end < crossings.size() && crossings[end] == crossings[begin]) ++end;
+    const uint64_t component = closed.probes[crossings[begin] >> 32].component;
+    if ((end - begin) % 2 == 1) insides.push_back(component << 32 | (crossings[begin] & UINT32_MAX));
+  }
+  std::sort(insides.begin(), insides.end());
+  std::vector<uint32_t> probeCounts(depths.size(), 0);
+  for (const Probe& probe : closed.probes) ++probeCounts[probe.component];
+  for (size_t begin = 0, end = 0; begin < insides.size(); begin = end) {
+    while (end < insides.size() && insides[end] == insides[begin]) ++end;
+    const size_t component = insides[begin] >> 32;
+    if (end - begin == probeCounts[component]) ++depths[component];
+  }
+  return depths;
+}
+
+}  // namespace asdfvk

@@ -1,0 +1,85 @@
+#include "mesh/orientation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "core/check.h"
+#include "mesh/nesting.h"
+
+namespace asdfvk {
+namespace {
+
+constexpr size_t kNamedComponents = 5;
+
+void flipPolygons(Polygons& polygons, std::span<const uint8_t> isFlipped) {
+  for (size_t f = 0; f < polygons.inputFaceOf.size(); ++f) {
+    const uint32_t input = polygons.inputFaceOf[f];
+    const bool isFirstTriangle = f == 0 || polygons.inputFaceOf[f - 1] != input;
+    if (!isFirstTriangle || !isFlipped[f]) continue;
+    const auto corner = [&](size_t i) {
+      return polygons.corners.begin() + static_cast<std::ptrdiff_t>(polygons.firstCorner[i]);
+    };
+    std::reverse(corner(input) + 1, corner(input + size_t{1}));  // The first corner stays the first.
+  }
+}
+
+}  // namespace
+
+std::string OrientationReport::sentence(const Components& components) const {
+  if (invertedComponents.empty()) return {};
+  std::string names;
+  for (size_t i = 0; i < std::min(invertedComponents.size(), kNamedComponents); ++i) {
+    const Component& component = components.components[invertedComponents[i]];
+    names += fmt::format("{}face {} and the {} connected to it", i == 0 ? "" : ", ", component.firstFace,
+                         component.faceCount - 1);
+  }
+  if (invertedComponents.size() > kNamedComponents)
+    names += fmt::format(", and {} more", invertedComponents.size() - kNamedComponents);
+  const char* form = invertedComponents.size() == 1
+                         ? "{} of {} components is inverted ({}): its rays leave the solid"
+                         : "{} of {} components are inverted ({}): their rays leave the solid";
+  return fmt::format(fmt::runtime(form), invertedComponents.size(), components.components.size(), names);
+}
+
+OrientationReport analyseOrientation(const Mesh& mesh, const Components& components) {
+  OrientationReport report;
+  report.nestingDepths = nestingDepths(mesh, components);
+  for (uint32_t i = 0; i < components.components.size(); ++i) {
+    const Component& component = components.components[i];
+    if (!component.isClosed || !component.isConsistentlyWound) continue;
+    const bool isCavity = report.nestingDepths[i] % 2 == 1;
+    if (isCavity ? component.signedVolume > 0 : component.signedVolume < 0) report.invertedComponents.push_back(i);
+  }
+  return report;
+}
+
+void flipFaces(Mesh& mesh, FaceGeometry& geometry, std::span<const uint8_t> isFlipped) {
+  ASDFVK_CHECK_OP(isFlipped.size(), ==, mesh.faces.size());
+  for (uint32_t f = 0; f < mesh.faceCount(); ++f) {
+    if (!isFlipped[f]) continue;
+    std::swap(mesh.faces[f][1], mesh.faces[f][2]);
+    if (!geometry.isDegenerate(f)) geometry.normals[f] = -geometry.normals[f];
+  }
+  flipPolygons(mesh.polygons, isFlipped);
+}
+
+void flipAllFaces(Mesh& mesh, FaceGeometry& geometry, Components& components) {
+  flipFaces(mesh, geometry, std::vector<uint8_t>(mesh.faces.size(), 1));
+  for (Component& component : components.components) component.signedVolume = -component.signedVolume;
+}
+
+void orientOutward(Mesh& mesh, FaceGeometry& geometry, Components& components, OrientationReport& report) {
+  if (report.invertedComponents.empty()) return;
+  std::vector<uint8_t> isInverted(components.components.size(), 0), isFlipped(mesh.faces.size());
+  for (uint32_t index : report.invertedComponents) {
+    isInverted[index] = 1;
+    components.components[index].signedVolume = -components.components[index].signedVolume;
+  }
+  for (size_t f = 0; f < isFlipped.size(); ++f) isFlipped[f] = isInverted[components.componentOf[f]];
+  flipFaces(mesh, geometry, isFlipped);
+  report.invertedComponents.clear();
+}
+
+}  // namespace asdfvk

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace asdfvk {
+
+struct Point2 {
+  double x = 0, y = 0;
+};
+
+/// The side of the line from a to b that p is on: positive left, negative right; rounded.
+[[nodiscard]] inline double sideOf(const Point2& a, const Point2& b, const Point2& p) {
+  return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
+}
+
+/// Points of the plane in a k-d tree, to find those that a triangle may contain.
+class PlanePoints {
+ public:
+  explicit PlanePoints(std::span<const Point2> points);
+
+  /// Calls visit(index) for every point inside the triangle, and for some outside of it near by.
+  template <typename Visit>
+  void forEachNear(const std::array<Point2, 3>& triangle, const Visit& visit) const {
+    if (!nodes_.empty()) descend(0, triangle, visit);
+  }
+
+ private:
+  struct Node {
+    Point2 min, max;
+    uint32_t begin = 0, end = 0;  // In order_.
+    uint32_t upperChild = 0;      // 0: a leaf; the lower child is the next node.
+  };
+
+  uint32_t build(std::span<const Point2> points, uint32_t begin, uint32_t end);
+  [[nodiscard]] static bool mayTouch(const Node& node, const std::array<Point2, 3>& triangle);
+
+  template <typename Visit>
+  void descend(uint32_t index, const std::array<Point2, 3>& triangle, const Visit& visit) const {
+    const Node& node = nodes_[index];
+    if (!mayTouch(node, triangle)) return;
+    if (node.upperChild == 0) {
+      for (uint32_t i = node.begin; i < node.end; ++i) visit(order_[i]);
+      return;
+    }
+    descend(index + 1, triangle, visit);
+    descend(node.upperChild, triangle, visit);
+  }
+
+  std::vector<uint32_t> order_;
+  std::vector<Node> nodes_;
+};
+
+}  // namespace asdfvk

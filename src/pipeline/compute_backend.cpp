@@ -1,0 +1,86 @@
+#include "pipeline/compute_backend.h"
+
+#include <fmt/format.h>
+
+#include <thread>
+
+#include "core/error.h"
+#include "poisson/vulkan_cg_solver.h"
+#include "poisson/vulkan_jacobi_solver.h"
+#include "trace/reference_tracer.h"
+#include "trace/vulkan_tracer.h"
+
+namespace asdfvk {
+
+ComputeBackend::ComputeBackend(const SessionOptions& options) {
+  if (options.backend == Backend::Reference) {
+    if (options.requireGpu)
+      throw Error(ErrorKind::Device, "a GPU was required and the reference runs on the CPU; drop one of the two");
+    useReference("as asked for");
+    return;
+  }
+  const bool mayFallBack = options.backend == Backend::Auto && !options.requireGpu && options.device.empty();
+  try {
+    openVulkan(options);
+  } catch (const Error& error) {
+    if (!mayFallBack || error.kind() != ErrorKind::Device) throw;
+    device_.reset();
+    instance_.reset();
+    useReference(error.what());
+  }
+}
+
+ComputeBackend::~ComputeBackend() {
+  solvers_.clear();
+  kernels_.clear();
+  device_.reset();
+}
+
+void ComputeBackend::openVulkan(const SessionOptions& options) {
+  instance_ = std::make_unique<Instance>(InstanceOptions{.validation = validationRequestedByEnvironment()});
+  OpenedDevice opened = openDevice(*instance_, {.selector = options.device, .requireGpu = options.requireGpu});
+  device_ = std::move(opened.device);
+  name_ = "vulkan";
+  deviceName_ = fmt::format("{} ({})", device_->facts().name, device_->facts().driver);
+  deviceLine_ = opened.reason;
+}
+
+void ComputeBackend::useReference(const std::string& reason) {
+  name_ = "reference";
+  deviceName_ = fmt::format("CPU, {} threads, double precision", std::max(1u, std::thread::hardware_concurrency()));
+  deviceLine_ = fmt::format("the reference runs on the CPU: {}", reason);
+}
+
+std::unique_ptr<ConeTracer> ComputeBackend::makeTracer(const TraceScene& scene, const Cone& cone) {
+  if (!device_) return makeReferenceTracer(scene, cone);
+  const auto rayCount = static_cast<uint32_t>(cone.directions.size());
+  std::unique_ptr<VulkanConeKernel>& kernel = kernels_[rayCount];
+  if (!kernel) kernel = std::make_unique<VulkanConeKernel>(*device_, rayCount);
+  return makeVulkanTracer(*kernel, scene, cone);
+}
+
+PoissonSolver& ComputeBackend::solver(SolverChoice choice) {
+  if (choice == SolverChoice::Auto) {
+    // On a device that is the CPU itself Eigen needs less time for the same iterations; see bench/NOTES.md.
+    const bool isGpu = device_ && device_->facts().kind != DeviceKind::Cpu;
+    return solver(isGpu ? SolverChoice::Cg : SolverChoice::Eigen);
+  }
+  std::unique_ptr<PoissonSolver>& solver = solvers_[choice];
+  if (solver) return *solver;
+  if (choice == SolverChoice::Eigen) return *(solver = makeEigenSolver());
+  if (!device_)
+    throw Error(ErrorKind::Device,
+                "this solver runs on a Vulkan device and the backend is the reference; use --solver eigen");
+  solver = choice == SolverChoice::Cg ? makeVulkanCgSolver(*device_) : makeVulkanJacobiSolver(*device_);
+  return *solver;
+}
+
+void ComputeBackend::requireSilentValidation() const {
+  if (!instance_ || !instance_->validationLog()) return;
+  const std::vector<std::string> messages = instance_->validationLog()->messages();
+  if (!messages.empty())
+    throw Error(ErrorKind::Device,
+                fmt::format("the validation layers report {} problems, first: {}", messages.size(), messages.front()));
+}
+
+}  // namespace asdfvk

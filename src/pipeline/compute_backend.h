@@ -1,0 +1,44 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+
+#include "pipeline/asdf.h"
+#include "poisson/poisson_solver.h"
+#include "trace/cone_tracer.h"
+#include "trace/vulkan_cone_kernel.h"
+#include "vk/open_device.h"
+
+namespace asdfvk {
+
+/// What traces and what solves: a Vulkan device with its pipelines, or the CPU. Kernels are compiled once and kept.
+class ComputeBackend {
+ public:
+  /// Throws Error{Device} when what was asked for is not there.
+  explicit ComputeBackend(const SessionOptions& options);
+  ~ComputeBackend();
+
+  [[nodiscard]] const std::string& name() const { return name_; }  ///< "vulkan" or "reference"
+  [[nodiscard]] const std::string& deviceName() const { return deviceName_; }
+  [[nodiscard]] const std::string& deviceLine() const { return deviceLine_; }
+
+  /// The scene and the cone must outlive the tracer.
+  [[nodiscard]] std::unique_ptr<ConeTracer> makeTracer(const TraceScene& scene, const Cone& cone);
+  /// Throws Error{Device} for a solver that needs a device when there is none.
+  [[nodiscard]] PoissonSolver& solver(SolverChoice choice);
+  /// Throws Error{Device} with what the validation layers said, if they are on and said something.
+  void requireSilentValidation() const;
+
+ private:
+  void openVulkan(const SessionOptions& options);
+  void useReference(const std::string& reason);
+
+  std::unique_ptr<Instance> instance_;
+  std::unique_ptr<Device> device_;                                 ///< Null: the reference.
+  std::map<uint32_t, std::unique_ptr<VulkanConeKernel>> kernels_;  ///< By ray count.
+  std::map<SolverChoice, std::unique_ptr<PoissonSolver>> solvers_;
+  std::string name_, deviceName_, deviceLine_;
+};
+
+}  // namespace asdfvk

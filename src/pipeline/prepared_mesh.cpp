@@ -1,0 +1,47 @@
+#include "pipeline/prepared_mesh.h"
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "mesh/coincident_faces.h"
+#include "mesh/orientation.h"
+
+namespace asdfvk {
+namespace {
+
+void orient(Mesh& mesh, PreparedMesh& prepared, Orientation orientation) {
+  if (orientation == Orientation::Flip) flipAllFaces(mesh, prepared.geometry, prepared.components);
+  OrientationReport report = analyseOrientation(mesh, prepared.components);
+  const size_t invertedCount = report.invertedComponents.size();
+  if (invertedCount == 0) return;
+  if (orientation == Orientation::Auto) {
+    orientOutward(mesh, prepared.geometry, prepared.components, report);
+    prepared.warnings.push_back(
+        fmt::format("{} inverted component{} turned over", invertedCount, invertedCount == 1 ? " was" : "s were"));
+  } else {
+    prepared.warnings.push_back(report.sentence(prepared.components));
+  }
+}
+
+}  // namespace
+
+PreparedMesh prepareMesh(Mesh& mesh, Orientation orientation) {
+  if (mesh.inputFaceCount() == 0)
+    throw Error(ErrorKind::Input, "the mesh has no faces; a shape diameter needs a surface");
+  if (const uint64_t count = countFacesWithIndexOutOfRange(mesh); count > 0)
+    throw Error(ErrorKind::Input,
+                fmt::format("{} faces name a vertex that does not exist (there are {})", count, mesh.vertices.size()));
+  PreparedMesh prepared;
+  prepared.geometry = computeFaceGeometry(mesh);
+  prepared.representatives = coincidentRepresentatives(mesh);
+  prepared.graph = buildDualGraph(mesh);
+  prepared.components = findComponents(mesh, prepared.graph);
+  prepared.defects = findDefects(mesh, prepared.geometry, prepared.representatives);
+  prepared.warnings = prepared.defects.sentences();
+  orient(mesh, prepared, orientation);
+  for (uint32_t face = 0; face < mesh.faceCount(); ++face)
+    if (!prepared.geometry.isDegenerate(face)) prepared.castableFaces.push_back(face);
+  return prepared;
+}
+
+}  // namespace asdfvk

@@ -1,0 +1,125 @@
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "bvh/bvh.h"
+#include "core/stopwatch.h"
+#include "pipeline/asdf.h"
+#include "pipeline/check.h"
+#include "pipeline/compute_backend.h"
+#include "pipeline/input_faces.h"
+#include "pipeline/interpolation.h"
+#include "pipeline/prepared_mesh.h"
+#include "pipeline/seed_tracing.h"
+
+namespace asdfvk {
+namespace {
+
+// Shares of the progress bar.
+constexpr double kTraceEnd = 0.85, kSolveEnd = 1.0;
+
+/// Runs `work` and adds its time to `seconds`.
+template <typename Work>
+auto timed(double& seconds, const Work& work) {
+  const Stopwatch watch;
+  auto result = work();
+  seconds += watch.seconds();
+  return result;
+}
+
+ValueRange rangeOf(const std::vector<double>& values) {
+  std::vector<double> present;
+  std::copy_if(values.begin(), values.end(), std::back_inserter(present), [](double v) { return !std::isnan(v); });
+  if (present.empty()) return {};
+  const auto [low, high] = std::minmax_element(present.begin(), present.end());
+  ValueRange range{*low, 0, *high};
+  const auto middle = present.begin() + static_cast<std::ptrdiff_t>(present.size() / 2);
+  std::nth_element(present.begin(), middle, present.end());
+  range.median = *middle;
+  return range;
+}
+
+void describeMesh(Report& report, const Mesh& mesh, const PreparedMesh& prepared, const Options& options) {
+  report.faceCount = mesh.inputFaceCount();
+  report.triangleCount = mesh.faceCount();
+  report.vertexCount = mesh.vertices.size();
+  report.componentCount = prepared.components.components.size();
+  report.defects = prepared.defects;
+  report.warnings = prepared.warnings;
+  report.randomSeed = options.randomSeed;
+}
+
+void describeTrace(Report& report, const TracedSeeds& traced) {
+  report.seedCount = traced.seedCount;
+  report.rayCount = traced.statistics.rayCount;
+  report.redoneConeCount = traced.statistics.redoneConeCount;
+  report.raysPerSecond =
+      report.stageSeconds.trace > 0 ? static_cast<double>(report.rayCount) / report.stageSeconds.trace : 0;
+}
+
+void describeValues(Report& report, const std::vector<double>& sdf) {
+  report.sdf = rangeOf(sdf);
+  report.noValueCount =
+      static_cast<uint64_t>(std::count_if(sdf.begin(), sdf.end(), [](double v) { return std::isnan(v); }));
+  if (report.noValueCount > 0)
+    report.warnings.push_back(
+        fmt::format("{} of {} faces have no value: no ray of theirs, nor of any face that they hang "
+                    "together with, found the other side of the shape",
+                    report.noValueCount, report.faceCount));
+  if (!report.solver.converged)
+    report.warnings.push_back(
+        fmt::format("the {} solver stopped after {} iterations at a relative residual of {:.1e}; "
+                    "raise --max-iterations or --tolerance",
+                    report.solver.name, report.solver.iterations, report.solver.relativeResidual));
+}
+
+}  // namespace
+
+struct Session::State {
+  explicit State(const SessionOptions& options) : backend(options) {}
+  ComputeBackend backend;
+};
+
+Session::Session(const SessionOptions& options) : state_(std::make_unique<State>(options)) {}
+Session::~Session() = default;
+
+const std::string& Session::deviceLine() const { return state_->backend.deviceLine(); }
+
+Result Session::compute(Mesh& mesh, const Options& options, const RunControl& control) {
+  ComputeBackend& backend = state_->backend;
+  Result result;
+  Report& report = result.report;
+  StageSeconds& seconds = report.stageSeconds;
+  const Cone cone = makeCone(options.cone);
+  report.backend = backend.name();
+  report.device = backend.deviceName();
+
+  control.checkpoint(0);
+  const PreparedMesh prepared = timed(seconds.geometry, [&] { return prepareMesh(mesh, options.orientation); });
+  describeMesh(report, mesh, prepared, options);
+  control.checkpoint(0);
+  const Bvh bvh = timed(seconds.bvh, [&] { return buildBvh(mesh, prepared.geometry, prepared.representatives); });
+  const TraceScene scene{mesh, prepared.geometry, prepared.representatives, bvh};
+  control.checkpoint(0);
+  const std::unique_ptr<ConeTracer> tracer = timed(seconds.upload, [&] { return backend.makeTracer(scene, cone); });
+
+  TracedSeeds traced =
+      timed(seconds.trace, [&] { return traceSeeds(prepared, *tracer, options, control.part(0, kTraceEnd)); });
+  describeTrace(report, traced);
+  std::vector<double> values = traced.values;
+  report.solver = timed(seconds.solve, [&] {
+    return interpolate(mesh, prepared, options, backend, values, control.part(kTraceEnd, kSolveEnd));
+  });
+  if (options.checkCount)
+    report.check = checkAgainstReference(mesh, prepared, scene, cone, traced, values, *options.checkCount,
+                                         options.randomSeed, {control.stop, {}});
+
+  result.sdf = valuesOfInputFaces(mesh, values, prepared.geometry.areas);
+  result.isSeed = seedsOfInputFaces(mesh, traced.isSeed);
+  describeValues(report, result.sdf);
+  backend.requireSilentValidation();
+  return result;
+}
+
+}  // namespace asdfvk

@@ -1,0 +1,52 @@
+#include "poisson/refinement.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/check.h"
+#include "poisson/ordered_sum.h"
+
+namespace asdfvk {
+namespace {
+
+// Asked of a pass beyond what is needed, so that rounding in its own residual does not cost another pass.
+constexpr double kSafety = 0.9;
+// A pass that leaves more than this share of the residual has met the limit of its precision.
+constexpr double kStagnation = 0.5;
+
+}  // namespace
+
+SolverReport solveByRefinement(const std::string& name, const PoissonSystem& system, const SolverOptions& options,
+                               double strongestReduction, std::span<double> solution, const CorrectionSolver& correct) {
+  ASDFVK_CHECK_OP(solution.size(), ==, system.faces.size());
+  SolverReport report;
+  report.name = name;
+  std::fill(solution.begin(), solution.end(), system.knownMean);
+  const double rightHandNorm = orderedNorm(system.rightHandSide);
+  if (rightHandNorm == 0) {
+    std::fill(solution.begin(), solution.end(), 0.0);
+    return report;
+  }
+  const double target = options.tolerance * rightHandNorm;
+  std::vector<double> residual(solution.size()), correction(solution.size());
+  computeResidual(system, solution, residual);
+  double norm = orderedNorm(residual);
+  while (norm > target && report.iterations < options.maxIterations) {
+    report.iterations += correct({.residual = residual,
+                                  .reduction = std::max(kSafety * target / norm, strongestReduction),
+                                  .maxIterations = options.maxIterations - report.iterations,
+                                  .correction = correction});
+    for (size_t i = 0; i < solution.size(); ++i) solution[i] += correction[i];
+    computeResidual(system, solution, residual);
+    const double newNorm = orderedNorm(residual);
+    const bool stagnates = !(newNorm <= kStagnation * norm);
+    norm = newNorm;
+    if (stagnates) break;
+  }
+  report.relativeResidual = relativeResidual(system, solution);
+  report.converged = norm <= target;
+  return report;
+}
+
+}  // namespace asdfvk

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "poisson/poisson_system.h"
+
+namespace asdfvk {
+
+/// A Poisson system as devices solve it, in float32: (I - S) y = b with S = D^-1/2 W D^-1/2, see
+/// shaders/shared/poisson_layout.h. Rows are those of the system, which must outlive this.
+class ScaledSystem {
+ public:
+  explicit ScaledSystem(const PoissonSystem& system);
+
+  [[nodiscard]] uint32_t unknownCount() const { return system_.unknownCount(); }
+  [[nodiscard]] std::span<const uint32_t> rowOffsets() const { return system_.rowOffsets; }
+  [[nodiscard]] std::span<const uint32_t> columns() const { return system_.columns; }
+  [[nodiscard]] const std::vector<float>& couplings() const { return couplings_; }  ///< Entries of S, one per column.
+  /// #U: the weights with which squares of b - (I - S) y add up to the squared norm of the unscaled residual.
+  [[nodiscard]] const std::vector<float>& residualWeights() const { return residualWeights_; }
+  [[nodiscard]] uint32_t longestRow() const { return longestRow_; }
+
+  /// The right-hand side b for A e = residual, scaled so that its weighted norm is 1.
+  [[nodiscard]] std::vector<float> scaleResidual(std::span<const double> residual, double norm) const;
+  /// e from y; norm: as given to scaleResidual().
+  void unscaleCorrection(std::span<const float> y, double norm, std::span<double> correction) const;
+
+ private:
+  const PoissonSystem& system_;
+  double meanDiagonal_ = 0;
+  uint32_t longestRow_ = 0;
+  std::vector<float> couplings_;
+  std::vector<float> residualWeights_;
+};
+
+}  // namespace asdfvk

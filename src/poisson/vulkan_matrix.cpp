@@ -1,0 +1,70 @@
+#include "poisson/vulkan_matrix.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+
+#include "core/error.h"
+#include "shared/poisson_layout.h"
+
+namespace asdfvk {
+namespace {
+
+// Small workgroups suit CPU devices, where each lane beyond the vector width is one more coroutine to switch to.
+constexpr uint32_t kGpuLaneCount = 256;
+constexpr uint32_t kCpuLaneCount = 64;
+// Fewer rows per lane than this are not worth a workgroup whose partial sum every other one has to read.
+constexpr uint32_t kRowsPerLane = 4;
+// llvmpipe ends loops after 65,535 iterations of an invocation, all its loops together.
+constexpr uint64_t kLoopIterationLimit = 60'000;
+
+uint64_t divideUp(uint64_t dividend, uint64_t divisor) { return (dividend + divisor - 1) / divisor; }
+
+template <typename T>
+Buffer uploadArray(const Device& device, std::span<const T> array) {
+  return uploadBuffer(device, std::as_bytes(array), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+}
+
+}  // namespace
+
+uint32_t poissonLaneCount(const DeviceFacts& facts) {
+  const uint32_t wanted = facts.kind == DeviceKind::Cpu ? kCpuLaneCount : kGpuLaneCount;
+  return std::bit_floor(std::min(wanted, facts.maxWorkgroupInvocations));
+}
+
+PoissonGrid choosePoissonGrid(const DeviceFacts& facts, uint32_t unknownCount) {
+  const uint32_t laneCount = poissonLaneCount(facts);
+  const uint64_t wanted = divideUp(unknownCount, uint64_t{laneCount} * kRowsPerLane);
+  return {laneCount, static_cast<uint32_t>(std::clamp<uint64_t>(wanted, 1, kMaxPoissonWorkgroupCount))};
+}
+
+void requireSystemFits(const DeviceFacts& facts, uint64_t unknownCount, uint64_t columnCount, uint64_t longestRow) {
+  const uint64_t byteCount = sizeof(uint32_t) * std::max(unknownCount + 1, columnCount);
+  if (byteCount > facts.maxStorageBufferRange)
+    throw Error(ErrorKind::Device,
+                fmt::format("the Poisson system of {} unknowns needs {} MiB in one buffer and {} allows {}; "
+                            "use --solver eigen",
+                            unknownCount, (byteCount >> 20) + 1, facts.name, facts.maxStorageBufferRange >> 20));
+  const uint64_t laneCount = poissonLaneCount(facts);
+  const uint64_t rowsPerLane = divideUp(unknownCount, laneCount * kMaxPoissonWorkgroupCount);
+  // The loops of a kernel: rows and their entries, partial sums, two reduction trees.
+  const uint64_t iterations = std::max<uint64_t>(rowsPerLane, kRowsPerLane) * (longestRow + 1) +
+                              divideUp(kMaxPoissonWorkgroupCount, laneCount) + 2u * std::bit_width(laneCount);
+  if (iterations > kLoopIterationLimit)
+    throw Error(ErrorKind::Device,
+                fmt::format("the Poisson system of {} unknowns, {} of them in one row, is too much for one kernel; "
+                            "use --solver eigen",
+                            unknownCount, longestRow));
+}
+
+VulkanMatrix::VulkanMatrix(const Device& device, const ScaledSystem& system) {
+  requireSystemFits(device.facts(), system.unknownCount(), system.columns().size(), system.longestRow());
+  grid = choosePoissonGrid(device.facts(), system.unknownCount());
+  rowOffsets = uploadArray(device, system.rowOffsets());
+  columns = uploadArray(device, system.columns());
+  couplings = uploadArray(device, std::span<const float>(system.couplings()));
+  residualWeights = uploadArray(device, std::span<const float>(system.residualWeights()));
+}
+
+}  // namespace asdfvk

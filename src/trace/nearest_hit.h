@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+#include "bvh/bvh.h"
+#include "trace/ray_triangle.h"
+
+namespace asdfvk {
+
+inline constexpr uint32_t kNoFace = std::numeric_limits<uint32_t>::max();
+
+struct RayHit {
+  double distance = kNoHit;  ///< In normalised units.
+  uint32_t face = kNoFace;   ///< kNoFace for a miss.
+};
+
+/// The nearest triangle of the hierarchy that the ray meets, other than `skippedFace`; the lowest face among equally
+/// near ones. Origin and unit direction are in normalised coordinates; the origin lies in the root's box or near it.
+[[nodiscard]] RayHit nearestHit(const Bvh& bvh, const Mesh& mesh, const Vec3d& origin, const Vec3d& direction,
+                                uint32_t skippedFace);
+
+}  // namespace asdfvk

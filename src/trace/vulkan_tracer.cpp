@@ -1,0 +1,168 @@
+#include "trace/vulkan_tracer.h"
+
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
+
+#include <bit>
+#include <numeric>
+#include <vector>
+
+#include "bvh/device_bvh.h"
+#include "core/check.h"
+#include "core/stopwatch.h"
+#include "shared/cone_layout.h"
+#include "trace/chunk_size.h"
+#include "trace/reference_tracer.h"
+#include "vk/command_list.h"
+
+namespace asdfvk {
+namespace {
+
+// A chunk's cones need 48 bytes each; this many keep it at 6 MiB.
+constexpr uint64_t kLargestChunk = 1u << 17;
+constexpr uint64_t kFirstChunk = 1u << 11;
+
+glsl::vec3 toGlsl(const Vec3d& v) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+}
+
+std::vector<ConeRay> deviceRays(const Cone& cone) {
+  std::vector<ConeRay> rays;
+  for (size_t i = 0; i < cone.directions.size(); ++i)
+    rays.push_back({toGlsl(cone.directions[i]), static_cast<float>(cone.weights[i])});
+  return rays;
+}
+
+template <typename T>
+Buffer upload(const Device& device, const std::vector<T>& items, VkBufferUsageFlags usage) {
+  return uploadBuffer(device, std::as_bytes(std::span(items)), usage);
+}
+
+uint64_t largestChunk(const VulkanConeKernel& kernel) {
+  const DeviceFacts& facts = kernel.device().facts();
+  return std::min({kLargestChunk, uint64_t{facts.maxWorkgroupCount} * kernel.shape().conesPerWorkgroup,
+                   facts.maxStorageBufferRange / sizeof(ConeOrigin)});
+}
+
+/// The scene on the device, and room for one chunk of cones.
+struct Upload {
+  Upload(const VulkanConeKernel& kernel, const DeviceBvh& bvh, const Cone& cone)
+      : nodes(upload(kernel.device(), bvh.nodes, VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT)),
+        triangles(upload(kernel.device(), bvh.triangles, VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT)),
+        nodeTexels(kernel.device(), nodes),
+        triangleTexels(kernel.device(), triangles),
+        rays(upload(kernel.device(), deviceRays(cone), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT)),
+        origins(kernel.device(), largestChunk(kernel) * sizeof(ConeOrigin), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+                MemoryKind::HostVisible),
+        results(kernel.device(), largestChunk(kernel) * sizeof(uint32_t), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+                MemoryKind::HostVisible),
+        bindings(kernel.device(), kernel.pipeline(),
+                 std::vector<Binding>{nodeTexels, triangleTexels, rays, origins, results}) {}
+
+  Buffer nodes, triangles;
+  TexelView nodeTexels, triangleTexels;
+  Buffer rays, origins, results;
+  BindingSet bindings;
+};
+
+class VulkanTracer final : public ConeTracer {
+ public:
+  VulkanTracer(const VulkanConeKernel& kernel, const TraceScene& scene, const Cone& cone)
+      : kernel_(kernel),
+        scene_(scene),
+        cone_(cone),
+        slotOfFace_(scene.geometry.areas.size(), 0),
+        upload_(kernel, encodeDeviceBvh(scene.bvh, scene.mesh), cone),
+        commands_(kernel.device()) {
+    ASDFVK_CHECK_OP(cone.directions.size(), ==, size_t{kernel.rayCount()});
+    for (uint32_t slot = 0; slot < scene.bvh.slotFaces.size(); ++slot) slotOfFace_[scene.bvh.slotFaces[slot]] = slot;
+  }
+
+  TraceStatistics trace(std::span<const uint32_t> seedFaces, std::span<double> values,
+                        const RunControl& control) override {
+    ASDFVK_CHECK_OP(seedFaces.size(), ==, values.size());
+    const std::vector<uint32_t> order = orderByHierarchy(seedFaces);
+    std::vector<uint32_t> redone;  // indices into seedFaces
+    ChunkSize chunk(kFirstChunk, largestChunk(kernel_));
+    for (size_t begin = 0; begin < order.size();) {
+      control.checkpoint(static_cast<double>(begin) / static_cast<double>(order.size()));
+      const size_t count = std::min<size_t>(chunk.current(), order.size() - begin);
+      const Stopwatch watch;
+      traceChunk(seedFaces, std::span(order).subspan(begin, count));
+      readChunk(std::span(order).subspan(begin, count), values, redone);
+      chunk.adapt(count, watch.seconds());
+      begin += count;
+    }
+    redo(seedFaces, redone, values, control);
+    return {seedFaces.size() * cone_.directions.size(), redone.size()};
+  }
+
+ private:
+  /// Neighbouring cones walk the same nodes: seeds are visited in the order of their triangles in the hierarchy.
+  std::vector<uint32_t> orderByHierarchy(std::span<const uint32_t> seedFaces) const {
+    std::vector<uint32_t> order(seedFaces.size());
+    std::iota(order.begin(), order.end(), 0u);
+    tbb::parallel_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
+      const uint32_t slotA = slotOf(seedFaces[a]), slotB = slotOf(seedFaces[b]);
+      return slotA != slotB ? slotA < slotB : a < b;
+    });
+    return order;
+  }
+
+  uint32_t slotOf(uint32_t face) const { return slotOfFace_[scene_.representatives[face]]; }
+
+  void traceChunk(std::span<const uint32_t> seedFaces, std::span<const uint32_t> order) {
+    const std::span<ConeOrigin> origins = upload_.origins.mappedAs<ConeOrigin>();
+    tbb::parallel_for(size_t{0}, order.size(), [&](size_t i) {
+      const uint32_t face = seedFaces[order[i]];
+      const ConeFrame frame = coneFrame(-scene_.geometry.normals[face]);
+      origins[i] = {toGlsl(scene_.bvh.normalization.toNormalized(scene_.geometry.barycentres[face])),
+                    scene_.representatives[face],
+                    toGlsl(frame.tangent),
+                    0,
+                    toGlsl(frame.bitangent),
+                    0};
+    });
+    const uint32_t perGroup = kernel_.shape().conesPerWorkgroup;
+    const ConePush push{static_cast<uint32_t>(order.size())};
+    commands_.begin();
+    commands_.dispatch(kernel_.pipeline(), upload_.bindings, bytesOf(push), (push.coneCount + perGroup - 1) / perGroup);
+    commands_.barrier();
+    commands_.submitAndWait();
+  }
+
+  void readChunk(std::span<const uint32_t> order, std::span<double> values, std::vector<uint32_t>& redone) const {
+    const std::span<const uint32_t> results = upload_.results.mappedAs<uint32_t>();
+    for (size_t i = 0; i < order.size(); ++i) {
+      if (results[i] == kIterationLimitBits) redone.push_back(order[i]);
+      const double length = results[i] == kNoValueBits ? kNoValue : std::bit_cast<float>(results[i]);
+      values[order[i]] = scene_.bvh.normalization.toMeshLength(length);
+    }
+  }
+
+  void redo(std::span<const uint32_t> seedFaces, const std::vector<uint32_t>& redone, std::span<double> values,
+            const RunControl& control) const {
+    if (redone.empty()) return;
+    std::vector<uint32_t> faces;
+    for (const uint32_t i : redone) faces.push_back(seedFaces[i]);
+    std::vector<double> redoneValues(faces.size());
+    makeReferenceTracer(scene_, cone_)->trace(faces, redoneValues, {.stop = control.stop, .progress = {}});
+    for (size_t i = 0; i < redone.size(); ++i) values[redone[i]] = redoneValues[i];
+  }
+
+  const VulkanConeKernel& kernel_;
+  TraceScene scene_;
+  const Cone& cone_;
+  std::vector<uint32_t> slotOfFace_;  // #F, of the faces in the hierarchy
+  Upload upload_;
+  CommandList commands_;
+};
+
+}  // namespace
+
+std::unique_ptr<ConeTracer> makeVulkanTracer(const VulkanConeKernel& kernel, const TraceScene& scene,
+                                             const Cone& cone) {
+  return std::make_unique<VulkanTracer>(kernel, scene, cone);
+}
+
+}  // namespace asdfvk

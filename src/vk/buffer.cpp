@@ -1,0 +1,146 @@
+#include "vk/buffer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+#include <utility>
+
+#include "core/error.h"
+#include "vk/command_list.h"
+#include "vk/result.h"
+
+namespace asdfvk {
+namespace {
+
+constexpr uint64_t kStagingByteCount = 64u << 20;
+constexpr VkMemoryPropertyFlags kMappable = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+
+std::optional<uint32_t> pickMemoryType(const Device& device, uint32_t allowed, MemoryKind kind) {
+  using Flags = VkMemoryPropertyFlags;
+  const Flags local = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, cached = VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
+  const Flags preferences[2][3] = {{local | kMappable | cached, local, 0}, {kMappable | cached, kMappable, kMappable}};
+  for (const Flags wanted : preferences[kind == MemoryKind::DeviceLocal ? 0 : 1])
+    if (const auto type = device.findMemoryType(allowed, wanted)) return type;
+  return {};
+}
+
+}  // namespace
+
+Buffer::Buffer(const Device& device, uint64_t byteCount, VkBufferUsageFlags usage, MemoryKind kind)
+    : device_(device.handle()), byteCount_(byteCount) {
+  const uint64_t limit = device.facts().maxMemoryAllocationSize;
+  if (limit > 0 && byteCount > limit)
+    throw Error(ErrorKind::Device,
+                fmt::format("{} allows {} MiB in one buffer and the mesh needs {}; use a smaller mesh "
+                            "or --backend reference",
+                            device.facts().name, limit >> 20, (byteCount >> 20) + 1));
+  VkBufferCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
+  info.size = byteCount;
+  info.usage = usage;
+  requireSuccess(vkCreateBuffer(device_, &info, nullptr, &buffer_), "creating a buffer");
+  Buffer guard = std::move(*this);  // frees what was made so far if something below throws
+
+  VkMemoryRequirements requirements{};
+  vkGetBufferMemoryRequirements(guard.device_, guard.buffer_, &requirements);
+  const auto type = pickMemoryType(device, requirements.memoryTypeBits, kind);
+  if (!type) throw Error(ErrorKind::Device, fmt::format("{} has no memory fit for a buffer", device.facts().name));
+  VkMemoryAllocateInfo allocation{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
+  allocation.allocationSize = requirements.size;
+  allocation.memoryTypeIndex = *type;
+  requireSuccess(vkAllocateMemory(guard.device_, &allocation, nullptr, &guard.memory_),
+                 fmt::format("allocating {} MiB on {}", (byteCount >> 20) + 1, device.facts().name));
+  requireSuccess(vkBindBufferMemory(guard.device_, guard.buffer_, guard.memory_, 0), "binding memory");
+  if ((device.memoryFlags(*type) & kMappable) == kMappable) {
+    void* pointer = nullptr;
+    requireSuccess(vkMapMemory(guard.device_, guard.memory_, 0, VK_WHOLE_SIZE, 0, &pointer), "mapping memory");
+    guard.mapped_ = static_cast<std::byte*>(pointer);
+  }
+  *this = std::move(guard);
+}
+
+Buffer::~Buffer() {
+  if (!device_) return;
+  vkDestroyBuffer(device_, buffer_, nullptr);
+  vkFreeMemory(device_, memory_, nullptr);
+}
+
+Buffer::Buffer(Buffer&& other) noexcept { *this = std::move(other); }
+
+Buffer& Buffer::operator=(Buffer&& other) noexcept {
+  std::swap(device_, other.device_);
+  std::swap(buffer_, other.buffer_);
+  std::swap(memory_, other.memory_);
+  std::swap(byteCount_, other.byteCount_);
+  std::swap(mapped_, other.mapped_);
+  return *this;
+}
+
+TexelView::TexelView(const Device& device, const Buffer& buffer) : device_(device.handle()) {
+  const uint64_t texelCount = buffer.byteCount() / 16;
+  if (texelCount > device.facts().maxTexelBufferElements)
+    throw Error(ErrorKind::Device,
+                fmt::format("the mesh needs {} texels in one buffer and {} allows {}; use a smaller mesh "
+                            "or --backend reference",
+                            texelCount, device.facts().name, device.facts().maxTexelBufferElements));
+  VkBufferViewCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO};
+  info.buffer = buffer.handle();
+  info.format = VK_FORMAT_R32G32B32A32_UINT;
+  info.range = VK_WHOLE_SIZE;
+  requireSuccess(vkCreateBufferView(device_, &info, nullptr, &view_), "creating a buffer view");
+}
+
+TexelView::~TexelView() {
+  if (device_) vkDestroyBufferView(device_, view_, nullptr);
+}
+
+TexelView::TexelView(TexelView&& other) noexcept { *this = std::move(other); }
+
+TexelView& TexelView::operator=(TexelView&& other) noexcept {
+  std::swap(device_, other.device_);
+  std::swap(view_, other.view_);
+  return *this;
+}
+
+Buffer uploadBuffer(const Device& device, std::span<const std::byte> bytes, VkBufferUsageFlags usage) {
+  Buffer buffer(device, std::max<uint64_t>(bytes.size(), 16), usage | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                MemoryKind::DeviceLocal);
+  if (bytes.empty()) return buffer;
+  if (buffer.mapped() != nullptr) {
+    std::memcpy(buffer.mapped(), bytes.data(), bytes.size());
+    return buffer;
+  }
+  const Buffer staging(device, std::min<uint64_t>(bytes.size(), kStagingByteCount), VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+                       MemoryKind::HostVisible);
+  CommandList commands(device);
+  for (uint64_t offset = 0; offset < bytes.size(); offset += kStagingByteCount) {
+    const uint64_t count = std::min<uint64_t>(kStagingByteCount, bytes.size() - offset);
+    std::memcpy(staging.mapped(), bytes.data() + offset, count);
+    commands.begin();
+    commands.copy(staging, 0, buffer, offset, count);
+    commands.barrier();
+    commands.submitAndWait();
+  }
+  return buffer;
+}
+
+void downloadBuffer(const Device& device, const Buffer& buffer, std::span<std::byte> bytes) {
+  if (bytes.empty()) return;
+  if (buffer.mapped() != nullptr) {
+    std::memcpy(bytes.data(), buffer.mapped(), bytes.size());
+    return;
+  }
+  const Buffer staging(device, std::min<uint64_t>(bytes.size(), kStagingByteCount), VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                       MemoryKind::HostVisible);
+  CommandList commands(device);
+  for (uint64_t offset = 0; offset < bytes.size(); offset += kStagingByteCount) {
+    const uint64_t count = std::min<uint64_t>(kStagingByteCount, bytes.size() - offset);
+    commands.begin();
+    commands.copy(buffer, offset, staging, 0, count);
+    commands.barrier();
+    commands.submitAndWait();
+    std::memcpy(bytes.data() + offset, staging.mapped(), count);
+  }
+}
+
+}  // namespace asdfvk

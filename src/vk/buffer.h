@@ -1,0 +1,67 @@
+#pragma once
+
+#include <volk.h>
+
+#include <cstddef>
+#include <span>
+
+#include "vk/device.h"
+
+namespace asdfvk {
+
+enum class MemoryKind {
+  DeviceLocal,  ///< Where kernels are quickest; mapped too where the device shares its memory with the host.
+  HostVisible,  ///< Mapped and coherent, cached where there is a choice.
+};
+
+/// A buffer with memory of its own. Throws Error{Device} when the device has not got that much.
+class Buffer {
+ public:
+  Buffer() = default;
+  Buffer(const Device& device, uint64_t byteCount, VkBufferUsageFlags usage, MemoryKind kind);
+  ~Buffer();
+  Buffer(Buffer&& other) noexcept;
+  Buffer& operator=(Buffer&& other) noexcept;
+
+  [[nodiscard]] VkBuffer handle() const { return buffer_; }
+  [[nodiscard]] uint64_t byteCount() const { return byteCount_; }
+  /// Null where the host cannot see the memory.
+  [[nodiscard]] std::byte* mapped() const { return mapped_; }
+  template <typename T>
+  [[nodiscard]] std::span<T> mappedAs() const {
+    return {reinterpret_cast<T*>(mapped_), static_cast<size_t>(byteCount_ / sizeof(T))};
+  }
+
+ private:
+  VkDevice device_ = VK_NULL_HANDLE;
+  VkBuffer buffer_ = VK_NULL_HANDLE;
+  VkDeviceMemory memory_ = VK_NULL_HANDLE;
+  uint64_t byteCount_ = 0;
+  std::byte* mapped_ = nullptr;
+};
+
+/// A view of a whole buffer as rgba32ui texels (16 bytes each). The buffer must have been made with
+/// VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT and must outlive the view.
+class TexelView {
+ public:
+  TexelView() = default;
+  TexelView(const Device& device, const Buffer& buffer);
+  ~TexelView();
+  TexelView(TexelView&& other) noexcept;
+  TexelView& operator=(TexelView&& other) noexcept;
+
+  [[nodiscard]] VkBufferView handle() const { return view_; }
+
+ private:
+  VkDevice device_ = VK_NULL_HANDLE;
+  VkBufferView view_ = VK_NULL_HANDLE;
+};
+
+/// A device-local buffer filled with `bytes`, through a staging buffer where the host cannot write it. At least 16
+/// bytes are allocated, so that an empty span still gives a buffer to bind.
+[[nodiscard]] Buffer uploadBuffer(const Device& device, std::span<const std::byte> bytes, VkBufferUsageFlags usage);
+
+/// Copies the first bytes of a buffer (made with VK_BUFFER_USAGE_TRANSFER_SRC_BIT) to the host.
+void downloadBuffer(const Device& device, const Buffer& buffer, std::span<std::byte> bytes);
+
+}  // namespace asdfvk

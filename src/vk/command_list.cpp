@@ -1,0 +1,68 @@
+#include "vk/command_list.h"
+
+#include "vk/result.h"
+
+namespace asdfvk {
+
+CommandList::CommandList(const Device& device) : device_(device) {
+  VkCommandBufferAllocateInfo allocation{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
+  allocation.commandPool = device.commandPool();
+  allocation.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
+  allocation.commandBufferCount = 1;
+  requireSuccess(vkAllocateCommandBuffers(device.handle(), &allocation, &commands_), "allocating a command buffer");
+  const VkFenceCreateInfo fenceInfo{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO, nullptr, 0};
+  if (const VkResult result = vkCreateFence(device.handle(), &fenceInfo, nullptr, &fence_); result != VK_SUCCESS) {
+    vkFreeCommandBuffers(device.handle(), device.commandPool(), 1, &commands_);
+    requireSuccess(result, "creating a fence");
+  }
+}
+
+CommandList::~CommandList() {
+  vkDestroyFence(device_.handle(), fence_, nullptr);
+  vkFreeCommandBuffers(device_.handle(), device_.commandPool(), 1, &commands_);
+}
+
+void CommandList::begin() {
+  VkCommandBufferBeginInfo info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
+  info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+  requireSuccess(vkBeginCommandBuffer(commands_, &info), "beginning a command buffer");
+}
+
+void CommandList::dispatch(const ComputePipeline& pipeline, const BindingSet& bindings,
+                           std::span<const std::byte> pushConstants, uint32_t workgroupCount) {
+  const VkDescriptorSet set = bindings.handle();
+  vkCmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.handle());
+  vkCmdBindDescriptorSets(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout(), 0, 1, &set, 0, nullptr);
+  if (!pushConstants.empty())
+    vkCmdPushConstants(commands_, pipeline.layout(), VK_SHADER_STAGE_COMPUTE_BIT, 0,
+                       static_cast<uint32_t>(pushConstants.size()), pushConstants.data());
+  vkCmdDispatch(commands_, workgroupCount, 1, 1);
+}
+
+void CommandList::copy(const Buffer& from, uint64_t fromOffset, const Buffer& to, uint64_t toOffset,
+                       uint64_t byteCount) {
+  const VkBufferCopy region{fromOffset, toOffset, byteCount};
+  vkCmdCopyBuffer(commands_, from.handle(), to.handle(), 1, &region);
+}
+
+void CommandList::barrier() {
+  VkMemoryBarrier memory{VK_STRUCTURE_TYPE_MEMORY_BARRIER};
+  memory.srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT;
+  memory.dstAccessMask = VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_READ_BIT |
+                         VK_ACCESS_TRANSFER_WRITE_BIT | VK_ACCESS_HOST_READ_BIT;
+  const VkPipelineStageFlags work = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT;
+  vkCmdPipelineBarrier(commands_, work, work | VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &memory, 0, nullptr, 0, nullptr);
+}
+
+void CommandList::submitAndWait() {
+  requireSuccess(vkEndCommandBuffer(commands_), "ending a command buffer");
+  VkSubmitInfo info{VK_STRUCTURE_TYPE_SUBMIT_INFO};
+  info.commandBufferCount = 1;
+  info.pCommandBuffers = &commands_;
+  requireSuccess(vkQueueSubmit(device_.queue(), 1, &info, fence_), "submitting work to " + device_.facts().name);
+  requireSuccess(vkWaitForFences(device_.handle(), 1, &fence_, VK_TRUE, kTimeoutSeconds * 1'000'000'000u),
+                 "waiting for " + device_.facts().name);
+  requireSuccess(vkResetFences(device_.handle(), 1, &fence_), "resetting a fence");
+}
+
+}  // namespace asdfvk

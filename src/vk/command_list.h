@@ -1,0 +1,45 @@
+#pragma once
+
+#include <volk.h>
+
+#include <span>
+
+#include "vk/buffer.h"
+#include "vk/compute_pipeline.h"
+#include "vk/device.h"
+
+namespace asdfvk {
+
+/// One command buffer, recorded and submitted again and again: begin(), record, submitAndWait().
+class CommandList {
+ public:
+  explicit CommandList(const Device& device);
+  ~CommandList();
+  CommandList(const CommandList&) = delete;
+  CommandList& operator=(const CommandList&) = delete;
+
+  void begin();
+  /// `pushConstants` has the byte count that the pipeline was made with.
+  void dispatch(const ComputePipeline& pipeline, const BindingSet& bindings, std::span<const std::byte> pushConstants,
+                uint32_t workgroupCount);
+  void copy(const Buffer& from, uint64_t fromOffset, const Buffer& to, uint64_t toOffset, uint64_t byteCount);
+  /// What was recorded before has finished, and its writes are seen by the kernels, copies and host reads after it.
+  void barrier();
+  /// Throws Error{Device} when the device is lost or does not answer within kTimeoutSeconds.
+  void submitAndWait();
+
+  static constexpr uint64_t kTimeoutSeconds = 120;
+
+ private:
+  const Device& device_;
+  VkCommandBuffer commands_ = VK_NULL_HANDLE;
+  VkFence fence_ = VK_NULL_HANDLE;
+};
+
+/// The bytes of a push-constant struct.
+template <typename T>
+[[nodiscard]] std::span<const std::byte> bytesOf(const T& value) {
+  return std::as_bytes(std::span<const T, 1>(&value, 1));
+}
+
+}  // namespace asdfvk

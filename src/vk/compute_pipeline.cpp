@@ -1,0 +1,105 @@
+#include "vk/compute_pipeline.h"
+
+#include "core/check.h"
+#include "vk/result.h"
+
+namespace asdfvk {
+
+ComputePipeline::ComputePipeline(const Device& device, const ComputePipelineDescription& description)
+    : device_(device.handle()), bindings_(description.bindings) {
+  VkShaderModule module = VK_NULL_HANDLE;
+  try {
+    std::vector<VkDescriptorSetLayoutBinding> layoutBindings;
+    for (uint32_t i = 0; i < bindings_.size(); ++i)
+      layoutBindings.push_back({i, bindings_[i], 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr});
+    VkDescriptorSetLayoutCreateInfo setInfo{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
+    setInfo.bindingCount = static_cast<uint32_t>(layoutBindings.size());
+    setInfo.pBindings = layoutBindings.data();
+    requireSuccess(vkCreateDescriptorSetLayout(device_, &setInfo, nullptr, &setLayout_), description.name);
+
+    const VkPushConstantRange range{VK_SHADER_STAGE_COMPUTE_BIT, 0, description.pushConstantByteCount};
+    VkPipelineLayoutCreateInfo layoutInfo{VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO};
+    layoutInfo.setLayoutCount = 1;
+    layoutInfo.pSetLayouts = &setLayout_;
+    layoutInfo.pushConstantRangeCount = description.pushConstantByteCount > 0 ? 1 : 0;
+    layoutInfo.pPushConstantRanges = &range;
+    requireSuccess(vkCreatePipelineLayout(device_, &layoutInfo, nullptr, &layout_), description.name);
+
+    VkShaderModuleCreateInfo moduleInfo{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
+    moduleInfo.codeSize = description.spirv.size_bytes();
+    moduleInfo.pCode = description.spirv.data();
+    requireSuccess(vkCreateShaderModule(device_, &moduleInfo, nullptr, &module), description.name);
+
+    std::vector<VkSpecializationMapEntry> entries;
+    for (uint32_t i = 0; i < description.specializationConstants.size(); ++i)
+      entries.push_back({i, static_cast<uint32_t>(i * sizeof(uint32_t)), sizeof(uint32_t)});
+    const VkSpecializationInfo specialization{static_cast<uint32_t>(entries.size()), entries.data(),
+                                              description.specializationConstants.size() * sizeof(uint32_t),
+                                              description.specializationConstants.data()};
+    VkComputePipelineCreateInfo info{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
+    info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
+    info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
+    info.stage.module = module;
+    info.stage.pName = "main";
+    info.stage.pSpecializationInfo = &specialization;
+    info.layout = layout_;
+    requireSuccess(vkCreateComputePipelines(device_, VK_NULL_HANDLE, 1, &info, nullptr, &pipeline_),
+                   "compiling " + description.name);
+  } catch (...) {
+    vkDestroyShaderModule(device_, module, nullptr);
+    destroy();
+    throw;
+  }
+  vkDestroyShaderModule(device_, module, nullptr);
+}
+
+ComputePipeline::~ComputePipeline() { destroy(); }
+
+void ComputePipeline::destroy() {
+  vkDestroyPipeline(device_, pipeline_, nullptr);
+  vkDestroyPipelineLayout(device_, layout_, nullptr);
+  vkDestroyDescriptorSetLayout(device_, setLayout_, nullptr);
+}
+
+BindingSet::BindingSet(const Device& device, const ComputePipeline& pipeline, std::span<const Binding> bindings)
+    : device_(device.handle()) {
+  ASDFVK_CHECK_OP(bindings.size(), ==, pipeline.bindings().size());
+  std::vector<VkDescriptorPoolSize> sizes;
+  for (const VkDescriptorType type : pipeline.bindings()) sizes.push_back({type, 1});
+  VkDescriptorPoolCreateInfo poolInfo{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
+  poolInfo.maxSets = 1;
+  poolInfo.poolSizeCount = static_cast<uint32_t>(sizes.size());
+  poolInfo.pPoolSizes = sizes.data();
+  requireSuccess(vkCreateDescriptorPool(device_, &poolInfo, nullptr, &pool_), "creating a descriptor pool");
+
+  const VkDescriptorSetLayout layout = pipeline.setLayout();
+  VkDescriptorSetAllocateInfo allocation{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO};
+  allocation.descriptorPool = pool_;
+  allocation.descriptorSetCount = 1;
+  allocation.pSetLayouts = &layout;
+  if (const VkResult result = vkAllocateDescriptorSets(device_, &allocation, &set_); result != VK_SUCCESS) {
+    vkDestroyDescriptorPool(device_, pool_, nullptr);
+    requireSuccess(result, "allocating descriptors");
+  }
+
+  std::vector<VkDescriptorBufferInfo> buffers(bindings.size());
+  std::vector<VkWriteDescriptorSet> writes(bindings.size());
+  for (uint32_t i = 0; i < bindings.size(); ++i) {
+    buffers[i] = {bindings[i].buffer, 0, VK_WHOLE_SIZE};
+    writes[i] = {VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
+    writes[i].dstSet = set_;
+    writes[i].dstBinding = i;
+    writes[i].descriptorCount = 1;
+    writes[i].descriptorType = pipeline.bindings()[i];
+    if (bindings[i].view) {
+      writes[i].pTexelBufferView = &bindings[i].view;
+    } else {
+      writes[i].pBufferInfo = &buffers[i];
+    }
+  }
+  vkUpdateDescriptorSets(device_, static_cast<uint32_t>(writes.size()), writes.data(), 0, nullptr);
+}
+
+BindingSet::~BindingSet() { vkDestroyDescriptorPool(device_, pool_, nullptr); }
+
+}  // namespace asdfvk

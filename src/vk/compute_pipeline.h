@@ -1,0 +1,68 @@
+#pragma once
+
+#include <volk.h>
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "vk/buffer.h"
+#include "vk/device.h"
+
+namespace asdfvk {
+
+/// What a compute pipeline is made of.
+struct ComputePipelineDescription {
+  std::string name;  ///< The shader's, for messages.
+  std::span<const uint32_t> spirv;
+  std::vector<VkDescriptorType> bindings;  ///< Binding i of set 0 has type bindings[i].
+  uint32_t pushConstantByteCount = 0;
+  std::vector<uint32_t> specializationConstants;  ///< Constant id i has the value [i].
+};
+
+class ComputePipeline {
+ public:
+  ComputePipeline(const Device& device, const ComputePipelineDescription& description);
+  ~ComputePipeline();
+  ComputePipeline(const ComputePipeline&) = delete;
+  ComputePipeline& operator=(const ComputePipeline&) = delete;
+
+  [[nodiscard]] VkPipeline handle() const { return pipeline_; }
+  [[nodiscard]] VkPipelineLayout layout() const { return layout_; }
+  [[nodiscard]] VkDescriptorSetLayout setLayout() const { return setLayout_; }
+  [[nodiscard]] const std::vector<VkDescriptorType>& bindings() const { return bindings_; }
+
+ private:
+  void destroy();
+  VkDevice device_;
+  std::vector<VkDescriptorType> bindings_;
+  VkDescriptorSetLayout setLayout_ = VK_NULL_HANDLE;
+  VkPipelineLayout layout_ = VK_NULL_HANDLE;
+  VkPipeline pipeline_ = VK_NULL_HANDLE;
+};
+
+/// What fills one binding: a whole buffer or a texel view.
+struct Binding {
+  Binding(const Buffer& storage) : buffer(storage.handle()) {}
+  Binding(const TexelView& texels) : view(texels.handle()) {}
+  VkBuffer buffer = VK_NULL_HANDLE;
+  VkBufferView view = VK_NULL_HANDLE;
+};
+
+/// The buffers that a pipeline's dispatches read and write; the buffers must outlive it.
+class BindingSet {
+ public:
+  BindingSet(const Device& device, const ComputePipeline& pipeline, std::span<const Binding> bindings);
+  ~BindingSet();
+  BindingSet(const BindingSet&) = delete;
+  BindingSet& operator=(const BindingSet&) = delete;
+
+  [[nodiscard]] VkDescriptorSet handle() const { return set_; }
+
+ private:
+  VkDevice device_;
+  VkDescriptorPool pool_ = VK_NULL_HANDLE;
+  VkDescriptorSet set_ = VK_NULL_HANDLE;
+};
+
+}  // namespace asdfvk

@@ -1,0 +1,95 @@
+#include "vk/device.h"
+
+#include <fmt/format.h>
+
+#include "vk/result.h"
+
+namespace asdfvk {
+namespace {
+
+DeviceKind kindOf(VkPhysicalDeviceType type) {
+  switch (type) {
+    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
+      return DeviceKind::Discrete;
+    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
+      return DeviceKind::Integrated;
+    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
+      return DeviceKind::Virtual;
+    case VK_PHYSICAL_DEVICE_TYPE_CPU:
+      return DeviceKind::Cpu;
+    default:
+      return DeviceKind::Other;
+  }
+}
+
+std::optional<uint32_t> findComputeQueueFamily(VkPhysicalDevice device) {
+  uint32_t count = 0;
+  vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
+  std::vector<VkQueueFamilyProperties> families(count);
+  vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
+  for (uint32_t i = 0; i < count; ++i)
+    if (families[i].queueFlags & VK_QUEUE_COMPUTE_BIT) return i;
+  return {};
+}
+
+}  // namespace
+
+DeviceFacts describeDevice(VkPhysicalDevice device) {
+  VkPhysicalDeviceProperties basic{};
+  vkGetPhysicalDeviceProperties(device, &basic);
+  DeviceFacts facts;
+  facts.name = basic.deviceName;
+  facts.kind = kindOf(basic.deviceType);
+  facts.apiVersion = basic.apiVersion;
+  facts.computeQueueFamily = findComputeQueueFamily(device);
+  facts.maxWorkgroupInvocations = basic.limits.maxComputeWorkGroupInvocations;
+  facts.maxWorkgroupCount = basic.limits.maxComputeWorkGroupCount[0];
+  facts.maxStorageBufferRange = basic.limits.maxStorageBufferRange;
+  facts.maxTexelBufferElements = basic.limits.maxTexelBufferElements;
+  if (basic.apiVersion < VK_API_VERSION_1_2) return facts;  // the structures below came with 1.1 and 1.2
+
+  VkPhysicalDeviceMaintenance3Properties maintenance{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES};
+  VkPhysicalDeviceSubgroupProperties subgroup{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES, &maintenance};
+  VkPhysicalDeviceDriverProperties driver{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES, &subgroup};
+  VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &driver, {}};
+  vkGetPhysicalDeviceProperties2(device, &properties);
+  facts.driver = fmt::format("{} {}", driver.driverName, driver.driverInfo);
+  facts.subgroupSize = subgroup.subgroupSize;
+  facts.maxMemoryAllocationSize = maintenance.maxMemoryAllocationSize;
+  return facts;
+}
+
+Device::Device(VkPhysicalDevice physical, DeviceFacts facts) : facts_(std::move(facts)) {
+  vkGetPhysicalDeviceMemoryProperties(physical, &memory_);
+  const float priority = 1;
+  VkDeviceQueueCreateInfo queueInfo{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
+  queueInfo.queueFamilyIndex = facts_.computeQueueFamily.value();
+  queueInfo.queueCount = 1;
+  queueInfo.pQueuePriorities = &priority;
+  VkDeviceCreateInfo info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO};
+  info.queueCreateInfoCount = 1;
+  info.pQueueCreateInfos = &queueInfo;
+  requireSuccess(vkCreateDevice(physical, &info, nullptr, &device_), "opening " + facts_.name);
+  vkGetDeviceQueue(device_, *facts_.computeQueueFamily, 0, &queue_);
+
+  VkCommandPoolCreateInfo poolInfo{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
+  poolInfo.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;
+  poolInfo.queueFamilyIndex = *facts_.computeQueueFamily;
+  if (const VkResult result = vkCreateCommandPool(device_, &poolInfo, nullptr, &commandPool_); result != VK_SUCCESS) {
+    vkDestroyDevice(device_, nullptr);
+    requireSuccess(result, "creating a command pool");
+  }
+}
+
+Device::~Device() {
+  vkDestroyCommandPool(device_, commandPool_, nullptr);
+  vkDestroyDevice(device_, nullptr);
+}
+
+std::optional<uint32_t> Device::findMemoryType(uint32_t allowedTypes, VkMemoryPropertyFlags wanted) const {
+  for (uint32_t i = 0; i < memory_.memoryTypeCount; ++i)
+    if ((allowedTypes & (1u << i)) && (memoryFlags(i) & wanted) == wanted) return i;
+  return {};
+}
+
+}  // namespace asdfvk

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <volk.h>
+
+#include "vk/device_choice.h"
+#include "vk/instance.h"
+
+namespace asdfvk {
+
+[[nodiscard]] DeviceFacts describeDevice(VkPhysicalDevice device);
+
+/// A logical device with one compute queue. Not thread-safe: one thread at a time.
+class Device {
+ public:
+  /// Precondition: `facts` describes `physical` and has a compute queue family. Throws Error{Device}.
+  Device(VkPhysicalDevice physical, DeviceFacts facts);
+  ~Device();
+  Device(const Device&) = delete;
+  Device& operator=(const Device&) = delete;
+
+  [[nodiscard]] VkDevice handle() const { return device_; }
+  [[nodiscard]] VkQueue queue() const { return queue_; }
+  [[nodiscard]] VkCommandPool commandPool() const { return commandPool_; }
+  [[nodiscard]] const DeviceFacts& facts() const { return facts_; }
+  /// The first memory type among `allowedTypes` with all of `wanted`; none when there is no such type.
+  [[nodiscard]] std::optional<uint32_t> findMemoryType(uint32_t allowedTypes, VkMemoryPropertyFlags wanted) const;
+  [[nodiscard]] VkMemoryPropertyFlags memoryFlags(uint32_t type) const {
+    return memory_.memoryTypes[type].propertyFlags;
+  }
+
+ private:
+  DeviceFacts facts_;
+  VkPhysicalDeviceMemoryProperties memory_{};
+  VkDevice device_ = VK_NULL_HANDLE;
+  VkQueue queue_ = VK_NULL_HANDLE;
+  VkCommandPool commandPool_ = VK_NULL_HANDLE;
+};
+
+}  // namespace asdfvk

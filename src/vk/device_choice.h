@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace asdfvk {
+
+enum class DeviceKind { Discrete, Integrated, Virtual, Cpu, Other };
+
+/// What a choice between devices depends on, and the limits that programs adapt to; plain data, so that the choice can
+/// be tested without a device.
+struct DeviceFacts {
+  std::string name;
+  std::string driver;
+  DeviceKind kind = DeviceKind::Other;
+  uint32_t apiVersion = 0;  ///< As VK_MAKE_API_VERSION packs it.
+  std::optional<uint32_t> computeQueueFamily;
+  uint32_t subgroupSize = 1;
+  uint32_t maxWorkgroupInvocations = 0;
+  uint32_t maxWorkgroupCount = 0;      ///< In x.
+  uint64_t maxStorageBufferRange = 0;  ///< Bytes.
+  uint64_t maxTexelBufferElements = 0;
+  uint64_t maxMemoryAllocationSize = 0;  ///< Bytes.
+};
+
+struct DeviceRequest {
+  std::string selector;     ///< A decimal index, or a part of a name without regard to case; empty: any.
+  bool requireGpu = false;  ///< Refuse CPU devices.
+};
+
+struct DeviceChoice {
+  std::optional<uint32_t> index;     ///< Into the facts; none when every device was refused.
+  std::vector<std::string> reasons;  ///< One sentence per device: why it was chosen, passed over or refused.
+};
+
+[[nodiscard]] std::string_view toString(DeviceKind kind);
+
+/// Real GPUs before CPU devices, discrete ones first, then in the order given. A CPU device ranks last but is not
+/// refused unless a GPU is required. A pure function.
+[[nodiscard]] DeviceChoice chooseDevice(std::span<const DeviceFacts> devices, const DeviceRequest& request);
+
+}  // namespace asdfvk

@@ -1,0 +1,100 @@
+#include "vk/instance.h"
+
+#include <cstdlib>
+#include <cstring>
+
+#include "core/error.h"
+#include "vk/result.h"
+
+namespace asdfvk {
+namespace {
+
+constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
+
+VKAPI_ATTR VkBool32 VKAPI_CALL onValidationMessage(VkDebugUtilsMessageSeverityFlagBitsEXT,
+                                                   VkDebugUtilsMessageTypeFlagsEXT,
+                                                   const VkDebugUtilsMessengerCallbackDataEXT* data, void* log) {
+  static_cast<ValidationLog*>(log)->add(data->pMessage);
+  return VK_FALSE;
+}
+
+VkDebugUtilsMessengerCreateInfoEXT messengerInfo(ValidationLog* log) {
+  VkDebugUtilsMessengerCreateInfoEXT info{VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT};
+  info.messageSeverity =
+      VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT;
+  info.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT;
+  info.pfnUserCallback = onValidationMessage;
+  info.pUserData = log;
+  return info;
+}
+
+void loadVulkan() {
+  static const VkResult result = volkInitialize();
+  if (result != VK_SUCCESS)
+    throw Error(ErrorKind::Device, "no Vulkan loader (libvulkan.so.1) was found; install libvulkan1");
+}
+
+}  // namespace
+
+void ValidationLog::add(std::string message) {
+  const std::lock_guard lock(mutex_);
+  messages_.push_back(std::move(message));
+}
+
+std::vector<std::string> ValidationLog::messages() const {
+  const std::lock_guard lock(mutex_);
+  return messages_;
+}
+
+Instance::Instance(const InstanceOptions& options) {
+  loadVulkan();
+  VkApplicationInfo application{VK_STRUCTURE_TYPE_APPLICATION_INFO};
+  application.pApplicationName = "asdf-vk";
+  application.apiVersion = VK_API_VERSION_1_2;
+  VkInstanceCreateInfo info{VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO};
+  info.pApplicationInfo = &application;
+
+  VkDebugUtilsMessengerCreateInfoEXT messenger{};
+  const VkValidationFeatureEnableEXT enable = VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
+  VkValidationFeaturesEXT features{VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT};
+  const char* const extension = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
+  if (options.validation) {
+    log_ = std::make_shared<ValidationLog>();
+    messenger = messengerInfo(log_.get());
+    features.enabledValidationFeatureCount = 1;
+    features.pEnabledValidationFeatures = &enable;
+    features.pNext = &messenger;
+    info.pNext = &features;
+    info.enabledLayerCount = 1;
+    info.ppEnabledLayerNames = &kValidationLayer;
+    info.enabledExtensionCount = 1;
+    info.ppEnabledExtensionNames = &extension;
+  }
+  requireSuccess(vkCreateInstance(&info, nullptr, &instance_), "creating a Vulkan instance");
+  volkLoadInstance(instance_);
+  if (options.validation)
+    requireSuccess(vkCreateDebugUtilsMessengerEXT(instance_, &messenger, nullptr, &messenger_),
+                   "creating the validation messenger");
+}
+
+Instance::~Instance() {
+  if (messenger_) vkDestroyDebugUtilsMessengerEXT(instance_, messenger_, nullptr);
+  vkDestroyInstance(instance_, nullptr);
+}
+
+std::vector<VkPhysicalDevice> Instance::physicalDevices() const {
+  uint32_t count = 0;
+  requireSuccess(vkEnumeratePhysicalDevices(instance_, &count, nullptr), "listing Vulkan devices");
+  std::vector<VkPhysicalDevice> devices(count);
+  if (count > 0)
+    requireSuccess(vkEnumeratePhysicalDevices(instance_, &count, devices.data()), "listing Vulkan devices");
+  devices.resize(count);
+  return devices;
+}
+
+bool validationRequestedByEnvironment() {
+  const char* value = std::getenv("ASDF_VK_VALIDATION");
+  return value != nullptr && std::strcmp(value, "0") != 0 && *value != '\0';
+}
+
+}  // namespace asdfvk

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <volk.h>
+
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+namespace asdfvk {
+
+/// What the validation layers said. Outlives the instance, whose destruction may still add to it.
+class ValidationLog {
+ public:
+  void add(std::string message);
+  [[nodiscard]] std::vector<std::string> messages() const;
+
+ private:
+  mutable std::mutex mutex_;
+  std::vector<std::string> messages_;
+};
+
+struct InstanceOptions {
+  bool validation = false;  ///< Core and synchronization validation; Error{Device} where the layer is not installed.
+};
+
+/// A Vulkan 1.2 instance. Throws Error{Device} with the reason when there is no loader or no driver.
+class Instance {
+ public:
+  explicit Instance(const InstanceOptions& options = {});
+  ~Instance();
+  Instance(const Instance&) = delete;
+  Instance& operator=(const Instance&) = delete;
+
+  [[nodiscard]] VkInstance handle() const { return instance_; }
+  [[nodiscard]] std::vector<VkPhysicalDevice> physicalDevices() const;
+  /// Null unless validation is on.
+  [[nodiscard]] const std::shared_ptr<ValidationLog>& validationLog() const { return log_; }
+
+ private:
+  VkInstance instance_ = VK_NULL_HANDLE;
+  VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
+  std::shared_ptr<ValidationLog> log_;
+};
+
+/// True when the environment variable ASDF_VK_VALIDATION is set and not "0": for tests and for bug reports.
+[[nodiscard]] bool validationRequestedByEnvironment();
+
+}  // namespace asdfvk

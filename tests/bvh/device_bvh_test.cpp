@@ -1,0 +1,113 @@
+#include "bvh/device_bvh.h"
+
+#include <doctest/doctest.h>
+
+#include <array>
+#include <cstring>
+
+#include "bvh_invariants.h"
+#include "bvh_meshes.h"
+
+using namespace asdfvk;
+
+namespace {
+
+using Texel = std::array<uint32_t, 4>;
+
+template <typename T>
+std::vector<Texel> texelsOf(const std::vector<T>& items) {
+  std::vector<Texel> texels(items.size() * sizeof(T) / sizeof(Texel));
+  if (!items.empty()) std::memcpy(texels.data(), items.data(), items.size() * sizeof(T));
+  return texels;
+}
+
+float asFloat(uint32_t bits) {
+  float f = 0;
+  std::memcpy(&f, &bits, 4);
+  return f;
+}
+
+Vec3f pointOf(const Texel& texel) { return {asFloat(texel[0]), asFloat(texel[1]), asFloat(texel[2])}; }
+
+// One child as the shader finds it: two texels of its parent.
+struct Child {
+  Vec3f min, max;
+  uint32_t first = 0, count = 0;
+};
+
+Child childOf(const std::vector<Texel>& texels, uint32_t node, uint32_t side) {
+  const Texel &lower = texels[4 * node + 2 * side], &upper = texels[4 * node + 2 * side + 1];
+  return {pointOf(lower), pointOf(upper), lower[3], upper[3]};
+}
+
+// Walks both trees side by side and counts the device nodes met.
+size_t countEqualNodes(const Bvh& bvh, uint32_t index, const std::vector<Texel>& texels, uint32_t deviceIndex) {
+  size_t count = 1;
+  for (uint32_t side = 0; side < 2; ++side) {
+    const uint32_t childIndex = bvh.nodes[index].first + side;
+    const BvhNode& expected = bvh.nodes[childIndex];
+    const Child child = childOf(texels, deviceIndex, side);
+    REQUIRE(child.count == expected.triangleCount);
+    REQUIRE(child.min == expected.min);
+    REQUIRE(child.max == expected.max);
+    if (expected.isLeaf())
+      REQUIRE(child.first == expected.first);
+    else
+      count += countEqualNodes(bvh, childIndex, texels, child.first);
+  }
+  return count;
+}
+
+void checkTriangles(const Bvh& bvh, const Mesh& mesh, const std::vector<Texel>& texels) {
+  REQUIRE(texels.size() == 3 * bvh.slotFaces.size());
+  for (size_t slot = 0; slot < bvh.slotFaces.size(); ++slot) {
+    const uint32_t face = bvh.slotFaces[slot];
+    REQUIRE(texels[3 * slot][3] == face);
+    REQUIRE(texels[3 * slot + 1][3] == 0);
+    REQUIRE(texels[3 * slot + 2][3] == 0);
+    for (size_t k = 0; k < 3; ++k) {
+      const Vec3d p = bvh.normalization.toNormalized(mesh.vertices[mesh.faces[face][k]]);
+      REQUIRE(pointOf(texels[3 * slot + k]) == Vec3f(p));
+    }
+  }
+}
+
+}  // namespace
+
+TEST_CASE("the device's texels decode to the same tree, boxes and triangles") {
+  for (const Mesh& mesh : {soup(5, 1), soup(1000, 2), sheet(90)}) {
+    const Bvh bvh = buildOver(mesh);
+    REQUIRE(!bvh.nodes[0].isLeaf());
+    const DeviceBvh device = encodeDeviceBvh(bvh, mesh);
+    const size_t innerCount = (bvh.nodes.size() - 1) / 2;
+    CHECK(device.nodes.size() == innerCount);
+    CHECK(countEqualNodes(bvh, 0, texelsOf(device.nodes), 0) == innerCount);
+    checkTriangles(bvh, mesh, texelsOf(device.triangles));
+  }
+}
+
+TEST_CASE("a root that is a leaf becomes a node with an empty right child") {
+  for (const uint32_t count : {1u, 4u}) {
+    const Mesh mesh = soup(count, 3, 100);  // Large triangles over each other: not worth a split.
+    const Bvh bvh = buildOver(mesh);
+    REQUIRE(bvh.nodes.size() == 1);
+    const DeviceBvh device = encodeDeviceBvh(bvh, mesh);
+    REQUIRE(device.nodes.size() == 1);
+    const std::vector<Texel> texels = texelsOf(device.nodes);
+    const Child left = childOf(texels, 0, 0), right = childOf(texels, 0, 1);
+    CHECK(left.min == bvh.nodes[0].min);
+    CHECK(left.max == bvh.nodes[0].max);
+    CHECK(left.first == 0);
+    CHECK(left.count == count);
+    for (size_t axis = 0; axis < 3; ++axis) CHECK(right.min[axis] > right.max[axis]);
+    CHECK(right.count == 1);  // A leaf all the same: whoever enters it must not take it for the root.
+    CHECK(right.first == 0);
+    checkTriangles(bvh, mesh, texelsOf(device.triangles));
+  }
+}
+
+TEST_CASE("an empty hierarchy is encoded as nothing") {
+  const DeviceBvh device = encodeDeviceBvh(Bvh{}, Mesh{});
+  CHECK(device.nodes.empty());
+  CHECK(device.triangles.empty());
+}

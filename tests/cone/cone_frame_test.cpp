@@ -1,0 +1,79 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "cone/cone.h"
+#include "core/random.h"
+
+using namespace asdfvk;
+
+namespace {
+
+Vec3d randomUnit(Random& random) {
+  for (;;) {
+    const Vec3d p{2 * random.real() - 1, 2 * random.real() - 1, 2 * random.real() - 1};
+    if (const double r = length(p); r > 0.1 && r < 1) return p / r;
+  }
+}
+
+void checkFrame(const Vec3d& axis) {
+  const ConeFrame frame = coneFrame(axis);
+  CHECK(frame.axis == axis);
+  CHECK(std::abs(length(frame.tangent) - 1) < 1e-14);
+  CHECK(std::abs(length(frame.bitangent) - 1) < 1e-14);
+  CHECK(std::abs(dot(frame.tangent, frame.bitangent)) < 1e-14);
+  CHECK(std::abs(dot(frame.tangent, axis)) < 1e-14);
+  CHECK(std::abs(dot(frame.bitangent, axis)) < 1e-14);
+}
+
+double handedness(const ConeFrame& frame) { return dot(cross(frame.tangent, frame.bitangent), frame.axis); }
+
+double largestTurn(const Vec3d& a, const Vec3d& b) {
+  const ConeFrame u = coneFrame(a), v = coneFrame(b);
+  return std::max(length(u.tangent - v.tangent), length(u.bitangent - v.bitangent));
+}
+
+Vec3d withHeight(double z, double azimuth) {
+  const double r = std::sqrt(1 - z * z);
+  return {r * std::cos(azimuth), r * std::sin(azimuth), z};
+}
+
+}  // namespace
+
+TEST_CASE("frames are orthonormal and right-handed for every axis") {
+  std::vector<Vec3d> axes = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}, {-0.0, -0.0, -1}};
+  Random random(1);
+  for (int i = 0; i < 2000; ++i) axes.push_back(randomUnit(random));
+  for (const double z : {-0.7, std::nextafter(-0.7, -1.0), std::nextafter(-0.7, 1.0), -0.99999999, 1e-300, -1e-17})
+    for (int i = 0; i < 16; ++i) axes.push_back(withHeight(z, 0.4 * i));
+  for (const Vec3d& axis : axes) {
+    checkFrame(axis);
+    CHECK(std::abs(handedness(coneFrame(axis)) - 1) < 1e-14);
+  }
+}
+
+TEST_CASE("the straight-up and straight-down frames are the ones of the formula") {
+  CHECK(coneFrame({0, 0, 1}).tangent == Vec3d{1, 0, 0});
+  CHECK(coneFrame({0, 0, 1}).bitangent == Vec3d{0, 1, 0});
+  CHECK(coneFrame({0, 0, -1}).tangent == Vec3d{1, 0, 0});
+  CHECK(coneFrame({0, 0, -1}).bitangent == Vec3d{0, -1, 0});
+}
+
+TEST_CASE("frames do not turn over on upright walls, where the published ones do") {
+  for (int i = 0; i < 64; ++i) {
+    const double azimuth = 0.1 * i;
+    CHECK(largestTurn(withHeight(1e-9, azimuth), withHeight(-1e-9, azimuth)) < 1e-8);
+  }
+}
+
+TEST_CASE("frames are continuous everywhere but at an axis height of -0.7") {
+  Random random(2);
+  for (int i = 0; i < 5000; ++i) {
+    const Vec3d axis = randomUnit(random);
+    if (std::abs(axis.z + 0.7) < 1e-5) continue;
+    const Vec3d moved = axis + Vec3d{1e-6 * random.real(), 1e-6 * random.real(), 1e-6 * random.real()};
+    CHECK(largestTurn(axis, moved / length(moved)) < 1.2e-5);
+  }
+  CHECK(largestTurn(withHeight(-0.7 - 1e-9, 0.3), withHeight(-0.7 + 1e-9, 0.3)) > 0.1);
+}

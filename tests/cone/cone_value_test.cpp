@@ -1,0 +1,61 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "cone/cone.h"
+#include "core/check.h"
+
+using namespace asdfvk;
+
+namespace {
+
+double valueOf(const std::vector<double>& lengths, const std::vector<double>& weights) {
+  return coneValue(lengths, weights);
+}
+
+}  // namespace
+
+TEST_CASE("no ray gives no value") { CHECK(std::isnan(valueOf({}, {}))); }
+
+TEST_CASE("one ray gives its length") { CHECK(valueOf({3.5}, {2}) == 3.5); }
+
+TEST_CASE("two rays are a tie and both count") {
+  // Both lie exactly one standard deviation from the median, whatever rounding says.
+  CHECK(valueOf({1, 2}, {1, 3}) == doctest::Approx(1.75));
+  for (int i = 1; i < 200; ++i) {
+    const double a = 0.1 * i, b = 1 / (0.3 + i);
+    CHECK(valueOf({a, b}, {1, 1}) == doctest::Approx(0.5 * (a + b)));
+    CHECK(valueOf({a * 1e-20, b * 1e-20}, {1, 1}) == doctest::Approx(0.5e-20 * (a + b)).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("the median of an even count is the mean of the middle two") {
+  // 0, 0, 4, 5: median 2, mean 2.25, deviation sqrt(5.1875) = 2.2776: 5 is 3 away and goes. With 0 or 4 as the median,
+  // other rays would stay.
+  CHECK(valueOf({5, 0, 4, 0}, {1, 1, 1, 1}) == doctest::Approx(4.0 / 3));
+}
+
+TEST_CASE("an outlier is dropped and the weights count") {
+  // 1, 1, 1, 2, 11: median 1, mean 3.2, deviation sqrt(15.36) = 3.919: only 11 is further than that.
+  CHECK(valueOf({1, 2, 11, 1, 1}, {1, 5, 100, 1, 1}) == doctest::Approx((1 + 10 + 1 + 1) / 8.0));
+}
+
+TEST_CASE("the deviation is the population's") {
+  // Median 3, mean 2.7, population deviation 1.4697, sample deviation 1.6432: 4.5 (1.5 away) goes only by the
+  // population's.
+  const std::vector<double> lengths = {0, 3, 3, 3, 4.5};
+  CHECK(valueOf(lengths, {1, 1, 1, 1, 1}) == doctest::Approx(3));
+}
+
+TEST_CASE("equal lengths give that length") {
+  const std::vector<double> lengths(30, 0.1), weights(30, 0.7);
+  CHECK(valueOf(lengths, weights) == doctest::Approx(0.1).epsilon(1e-15));
+  CHECK(valueOf(std::vector<double>(30, 0.0), weights) == 0);
+}
+
+TEST_CASE("a weight for each length is a precondition") {
+  CHECK_THROWS_AS(valueOf({1, 2}, {1}), CheckFailure);
+  const std::vector<double> tooMany(kMaxRayCount + 1, 1.0);
+  CHECK_THROWS_AS(valueOf(tooMany, tooMany), CheckFailure);
+}

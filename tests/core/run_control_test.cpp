@@ -1,0 +1,31 @@
+#include "core/run_control.h"
+
+#include <doctest/doctest.h>
+
+#include <vector>
+
+using namespace asdfvk;
+
+TEST_CASE("a checkpoint reports progress, or nothing where nobody listens") {
+  CHECK_NOTHROW(RunControl{}.checkpoint(0.5));
+  std::vector<double> fractions;
+  RunControl control;
+  control.progress = [&](double fraction) { fractions.push_back(fraction); };
+  control.checkpoint(0.25);
+  control.checkpoint(1);
+  CHECK(fractions == std::vector<double>{0.25, 1});
+}
+
+TEST_CASE("a checkpoint after a stop request throws Cancelled and reports nothing") {
+  std::stop_source source;
+  bool wasTold = false;
+  const RunControl control{source.get_token(), [&](double) { wasTold = true; }};
+  source.request_stop();
+  try {
+    control.checkpoint(0.5);
+    FAIL("no exception");
+  } catch (const Error& error) {
+    CHECK(error.kind() == ErrorKind::Cancelled);
+  }
+  CHECK_FALSE(wasTold);
+}

@@ -1,0 +1,143 @@
+#include "mesh/components.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <initializer_list>
+#include <limits>
+#include <numbers>
+
+#include "core/random.h"
+#include "shapes.h"
+
+using namespace asdfvk;
+
+namespace {
+
+Components componentsOf(const Mesh& mesh) { return findComponents(mesh, buildDualGraph(mesh)); }
+
+}  // namespace
+
+TEST_CASE("an empty mesh has no component") { CHECK(componentsOf({}).components.empty()); }
+
+TEST_CASE("components are numbered by their lowest face") {
+  Mesh mesh = shapes::together(shapes::cube(), shapes::placed(shapes::tetrahedron(), 1, {5, 0, 0}));
+  std::swap(mesh.faces[1], mesh.faces[13]);
+  const Components result = componentsOf(mesh);
+  REQUIRE(result.components.size() == 2);
+  CHECK(result.componentOf[0] == 0);
+  CHECK(result.componentOf[1] == 1);
+  CHECK(result.componentOf[13] == 0);
+  CHECK(result.components[1].firstFace == 1);
+  CHECK(result.components[0].faceCount == 12);
+  CHECK(result.components[1].faceCount == 4);
+}
+
+TEST_CASE("faces that meet in a vertex only are apart") {
+  const Mesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}}, {{0, 1, 2}, {0, 3, 4}}, {}};
+  CHECK(componentsOf(mesh).components.size() == 2);
+}
+
+TEST_CASE("closed shapes have their volume, negative when inverted, at any scale and shift") {
+  for (const double scale : {1e-90, 1e-30, 1.0, 1e3, 1e30, 1e90}) {
+    CAPTURE(scale);
+    const double volume = 8 * scale * scale * scale;
+    const Mesh cube = shapes::placed(shapes::cube(), scale, Vec3d{1e6, -3e6, 2e6} * scale);
+    const Component outward = componentsOf(cube).components[0];
+    const Component inward = componentsOf(shapes::inverted(cube)).components[0];
+    CHECK(outward.isClosed);
+    CHECK(outward.isConsistentlyWound);
+    CHECK(inward.isClosed);
+    CHECK(outward.signedVolume / volume == doctest::Approx(1).epsilon(1e-9));
+    CHECK(inward.signedVolume / volume == doctest::Approx(-1).epsilon(1e-9));
+  }
+  const double torusVolume = componentsOf(shapes::torus(3, 1, 400, 200)).components[0].signedVolume;
+  CHECK(torusVolume == doctest::Approx(2 * std::numbers::pi * std::numbers::pi * 3).epsilon(1e-3));
+}
+
+TEST_CASE("a volume below the range of a double keeps its sign") {
+  CHECK(componentsOf(shapes::placed(shapes::cube(), 1e-150)).components[0].signedVolume > 0);
+  CHECK(componentsOf(shapes::inverted(shapes::placed(shapes::cube(), 1e-150))).components[0].signedVolume < 0);
+}
+
+TEST_CASE("a flat pillow is closed and has no volume, in any plane") {
+  for (const double slope : {0.0, 0.3, 1.7}) {
+    Mesh pillow;  // Two fans over one rim, each around an apex of its own.
+    const uint32_t rimCount = 11;
+    for (uint32_t i = 0; i < rimCount; ++i) {
+      const double angle = 2 * std::numbers::pi * i / rimCount;
+      pillow.vertices.push_back({0.3 + std::cos(angle), 0.7 + std::sin(angle), 0});
+      pillow.faces.push_back({i, (i + 1) % rimCount, rimCount});
+      pillow.faces.push_back({(i + 1) % rimCount, i, rimCount + 1});
+    }
+    pillow.vertices.push_back({0.2, 0.7, 0});
+    pillow.vertices.push_back({0.5, 0.6, 0});
+    for (Vec3d& vertex : pillow.vertices) vertex.z = slope * vertex.x + 0.7 * vertex.y;
+    const Components result = componentsOf(pillow);
+    REQUIRE(result.components.size() == 1);
+    CHECK(result.components[0].isClosed);
+    CHECK(result.components[0].isConsistentlyWound);
+    CHECK(result.components[0].signedVolume == 0);
+    pillow.vertices.back().z += 1e-9;
+    CHECK(componentsOf(pillow).components[0].signedVolume < 0);
+  }
+}
+
+TEST_CASE("a missing face, a third face and a non-finite corner make a component open") {
+  Mesh missing = shapes::cube();
+  missing.faces.pop_back();
+  CHECK_FALSE(componentsOf(missing).components[0].isClosed);
+
+  Mesh third = shapes::cube();
+  third.vertices.push_back({0, 0, 0});
+  third.faces.push_back({0, 1, 8});
+  CHECK_FALSE(componentsOf(third).components[0].isClosed);
+
+  Mesh hole = shapes::cube();
+  hole.vertices[7].x = std::numeric_limits<double>::quiet_NaN();
+  const Components result = componentsOf(hole);
+  for (const Component& component : result.components) CHECK_FALSE(component.isClosed);
+  CHECK(result.components.size() == 1 + 6);  // Six faces at vertex 7.
+}
+
+TEST_CASE("a face with a repeated vertex neither opens a component nor is closed by itself") {
+  Mesh mesh = shapes::cube();
+  mesh.faces.push_back({0, 0, 1});
+  mesh.faces.push_back({5, 5, 5});
+  const Components result = componentsOf(mesh);
+  REQUIRE(result.components.size() == 2);
+  CHECK(result.components[0].isClosed);
+  CHECK(result.components[0].faceCount == 13);
+  CHECK_FALSE(result.components[1].isClosed);
+}
+
+TEST_CASE("books of any thickness and doubled shells are not closed") {
+  for (uint32_t pageCount : {3u, 33u, 100u}) CHECK_FALSE(componentsOf(shapes::book(pageCount)).components[0].isClosed);
+  Mesh doubled = shapes::cube();
+  const std::vector<Face> once = doubled.faces;
+  doubled.faces.insert(doubled.faces.end(), once.begin(), once.end());
+  CHECK_FALSE(componentsOf(doubled).components[0].isClosed);
+}
+
+TEST_CASE("one face wound against the others makes a component inconsistent") {
+  Mesh mesh = shapes::cube();
+  std::swap(mesh.faces[4][1], mesh.faces[4][2]);
+  const Components result = componentsOf(mesh);
+  CHECK(result.components[0].isClosed);
+  CHECK_FALSE(result.components[0].isConsistentlyWound);
+}
+
+TEST_CASE("the components of a shuffled mesh of many are all found") {
+  Mesh mesh;
+  for (int i = 0; i < 200; ++i) mesh = shapes::together(mesh, shapes::placed(shapes::sphere(1), 1, {3.0 * i, 0, 0}));
+  Random random(3);
+  random.shuffle(std::span<Face>(mesh.faces));
+  const Components result = componentsOf(mesh);
+  REQUIRE(result.components.size() == 200);
+  for (size_t i = 0; i < 200; ++i) {
+    CHECK(result.components[i].faceCount == 32);
+    CHECK(result.components[i].isClosed);
+    CHECK(result.components[i].signedVolume > 0);
+    if (i > 0) CHECK(result.components[i - 1].firstFace < result.components[i].firstFace);
+  }
+}

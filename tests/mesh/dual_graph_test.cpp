@@ -1,0 +1,157 @@
+#include "mesh/dual_graph.h"
+
+#include <doctest/doctest.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+#include "core/random.h"
+#include "shapes.h"
+
+using namespace asdfvk;
+
+namespace {
+
+std::vector<uint32_t> row(const DualGraph& graph, uint32_t face) {
+  const auto neighbours = graph.neighboursOf(face);
+  return {neighbours.begin(), neighbours.end()};
+}
+
+bool hasEdge(const Face& face, uint32_t p, uint32_t q) {
+  for (size_t i = 0; i < 3; ++i)
+    for (size_t j = 0; j < 3; ++j)
+      if (i != j && face[i] == p && face[j] == q) return true;
+  return false;
+}
+
+// Every pair of faces and every pair of vertices, no sorting: for edges of at most kMaxFacesJoinedAllToAll faces.
+std::vector<std::vector<uint32_t>> bruteForceRows(const Mesh& mesh) {
+  std::vector<std::vector<uint32_t>> rows(mesh.faces.size());
+  for (uint32_t f = 0; f < mesh.faceCount(); ++f)
+    for (uint32_t g = 0; g < mesh.faceCount(); ++g)
+      for (uint32_t p = 0; p < mesh.vertices.size(); ++p)
+        for (uint32_t q = p + 1; q < mesh.vertices.size(); ++q)
+          if (f != g && hasEdge(mesh.faces[f], p, q) && hasEdge(mesh.faces[g], p, q)) rows[f].push_back(g);
+  return rows;
+}
+
+}  // namespace
+
+TEST_CASE("the dual of an empty mesh has no node") {
+  const DualGraph graph = buildDualGraph({});
+  CHECK(graph.faceCount() == 0);
+  CHECK(graph.neighbours.empty());
+}
+
+TEST_CASE("a single face has no neighbour") {
+  const DualGraph graph = buildDualGraph({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}, {}});
+  CHECK(graph.faceCount() == 1);
+  CHECK(graph.neighbours.empty());
+}
+
+TEST_CASE("in a tetrahedron every face neighbours the other three") {
+  const DualGraph graph = buildDualGraph(shapes::tetrahedron());
+  CHECK(row(graph, 0) == std::vector<uint32_t>{1, 2, 3});
+  CHECK(row(graph, 1) == std::vector<uint32_t>{0, 2, 3});
+  CHECK(row(graph, 2) == std::vector<uint32_t>{0, 1, 3});
+  CHECK(row(graph, 3) == std::vector<uint32_t>{0, 1, 2});
+}
+
+TEST_CASE("in a cube every face has the other half of its side and two faces of other sides") {
+  const DualGraph graph = buildDualGraph(shapes::cube());
+  CHECK(graph.neighbours.size() == 36);
+  for (uint32_t f = 0; f < 12; ++f) {
+    REQUIRE(row(graph, f).size() == 3);
+    const auto neighbours = row(graph, f);
+    CHECK(std::count(neighbours.begin(), neighbours.end(), f ^ 1u) == 1);
+  }
+}
+
+TEST_CASE("an open grid has an arc pair per inner edge and none at its border") {
+  const DualGraph graph = buildDualGraph(shapes::grid(7));
+  const size_t innerEdgeCount = 7 * 7 + 2 * 7 * 6;  // Diagonals, then walls between squares.
+  CHECK(graph.neighbours.size() == 2 * innerEdgeCount);
+  CHECK(row(graph, 0) == std::vector<uint32_t>{1});
+}
+
+TEST_CASE("the pages of a book all neighbour each other") {
+  for (uint32_t pageCount : {3u, 4u, kMaxFacesJoinedAllToAll}) {
+    const DualGraph graph = buildDualGraph(shapes::book(pageCount));
+    for (uint32_t f = 0; f < pageCount; ++f) {
+      std::vector<uint32_t> others;
+      for (uint32_t g = 0; g < pageCount; ++g)
+        if (g != f) others.push_back(g);
+      CHECK(row(graph, f) == others);
+    }
+  }
+}
+
+TEST_CASE("the pages of a book of a hundred are a chain") {
+  for (uint32_t pageCount : {kMaxFacesJoinedAllToAll + 1, 100u}) {
+    const DualGraph graph = buildDualGraph(shapes::book(pageCount));
+    CHECK(graph.neighbours.size() == 2 * (pageCount - 1));
+    CHECK(row(graph, 0) == std::vector<uint32_t>{1});
+    CHECK(row(graph, 17) == std::vector<uint32_t>{16, 18});
+    CHECK(row(graph, pageCount - 1) == std::vector<uint32_t>{pageCount - 2});
+  }
+}
+
+TEST_CASE("duplicate faces share three edges and have three arcs") {
+  const DualGraph graph = buildDualGraph({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 1}}, {}});
+  CHECK(row(graph, 0) == std::vector<uint32_t>{1, 1, 1});
+  CHECK(row(graph, 1) == std::vector<uint32_t>{0, 0, 0});
+}
+
+TEST_CASE("a face with a repeated vertex joins over its one edge and never itself") {
+  for (const Face& collapsed : {Face{0, 0, 1}, Face{0, 1, 0}, Face{1, 0, 0}, Face{1, 1, 0}}) {
+    CAPTURE(collapsed[0]);
+    const DualGraph graph = buildDualGraph({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, collapsed, {2, 2, 2}}, {}});
+    CHECK(row(graph, 0) == std::vector<uint32_t>{1});
+    CHECK(row(graph, 1) == std::vector<uint32_t>{0});
+    CHECK(row(graph, 2).empty());
+  }
+}
+
+TEST_CASE("a face with a non-finite corner joins nothing") {
+  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    Mesh mesh = shapes::tetrahedron();
+    mesh.vertices[0].y = bad;
+    CHECK(buildDualGraph(mesh).neighbours.empty());
+    CHECK(row(buildDualGraph(shapes::together(mesh, shapes::tetrahedron())), 4) == std::vector<uint32_t>{5, 6, 7});
+  }
+}
+
+TEST_CASE("the dual graph of random soups is what comparing all faces gives") {
+  for (uint64_t seed = 0; seed < 60; ++seed) {
+    const uint32_t vertexCount = 4 + static_cast<uint32_t>(seed % 9);
+    const Mesh mesh = shapes::soup(vertexCount, vertexCount * 3, seed);
+    const auto rows = bruteForceRows(mesh);
+    const DualGraph graph = buildDualGraph(mesh);
+    for (uint32_t f = 0; f < mesh.faceCount(); ++f) REQUIRE(row(graph, f) == rows[f]);
+  }
+}
+
+TEST_CASE("the dual graph does not depend on the number of threads") {
+  Mesh mesh = shapes::sphere(6);
+  Random random(5);
+  random.shuffle(std::span<Face>(mesh.faces));
+  const DualGraph parallel = buildDualGraph(mesh);
+  const tbb::global_control oneThread(tbb::global_control::max_allowed_parallelism, 1);
+  const DualGraph sequential = buildDualGraph(mesh);
+  CHECK(parallel.offsets == sequential.offsets);
+  CHECK(parallel.neighbours == sequential.neighbours);
+}
+
+TEST_CASE("a fan of 200,000 faces around one vertex is a chain of them") {
+  for (const bool apexFirst : {true, false}) {
+    const uint32_t faceCount = 200000;
+    const DualGraph graph = buildDualGraph(shapes::fan(faceCount, apexFirst));
+    CHECK(graph.neighbours.size() == 2 * (faceCount - 1));
+    uint32_t wrongRowCount = 0;
+    for (uint32_t f = 1; f + 1 < faceCount; ++f)
+      if (row(graph, f) != std::vector<uint32_t>{f - 1, f + 1}) ++wrongRowCount;
+    CHECK(wrongRowCount == 0);
+  }
+}

@@ -1,0 +1,108 @@
+#include "mesh/face_geometry.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <initializer_list>
+#include <limits>
+
+#include "shapes.h"
+
+using namespace asdfvk;
+
+namespace {
+
+Mesh triangle(const Vec3d& a, const Vec3d& b, const Vec3d& c) { return {{a, b, c}, {{0, 1, 2}}, {}}; }
+
+double distance(const Vec3d& a, const Vec3d& b) { return length(a - b); }
+
+}  // namespace
+
+TEST_CASE("an empty mesh has no geometry and an empty box") {
+  const FaceGeometry geometry = computeFaceGeometry({});
+  CHECK(geometry.areas.empty());
+  CHECK(geometry.bounds.isEmpty());
+}
+
+TEST_CASE("normal, area and barycentre hold at any scale") {
+  for (const double scale : {1e-150, 1e-30, 1.0, 1e3, 1e30, 1e150}) {
+    CAPTURE(scale);
+    const FaceGeometry geometry = computeFaceGeometry(triangle({0, 0, 0}, {3 * scale, 0, 0}, {0, 6 * scale, 0}));
+    CHECK(distance(geometry.normals[0], {0, 0, 1}) < 1e-15);
+    CHECK(geometry.areas[0] / scale / scale == doctest::Approx(9).epsilon(1e-12));
+    CHECK(distance(geometry.barycentres[0] / scale, {1, 2, 0}) < 1e-14);
+    CHECK(geometry.bounds.max.y == 6 * scale);
+  }
+}
+
+TEST_CASE("an area beyond the range of a double is neither degenerate nor infinite") {
+  for (const double scale : {1e-200, 1e-300, 1e200, 1e300}) {
+    CAPTURE(scale);
+    const FaceGeometry geometry = computeFaceGeometry(triangle({0, 0, 0}, {scale, 0, 0}, {0, scale, 0}));
+    CHECK_FALSE(geometry.isDegenerate(0));
+    CHECK(std::isfinite(geometry.areas[0]));
+    CHECK(distance(geometry.normals[0], {0, 0, 1}) < 1e-15);
+  }
+}
+
+TEST_CASE("the faces of a cube look outwards and cover it") {
+  const FaceGeometry geometry = computeFaceGeometry(shapes::cube());
+  double area = 0;
+  for (size_t f = 0; f < 12; ++f) {
+    CHECK(dot(geometry.normals[f], geometry.barycentres[f]) == doctest::Approx(1));
+    area += geometry.areas[f];
+  }
+  CHECK(area == doctest::Approx(24));
+}
+
+TEST_CASE("a shift far from the origin leaves normals and areas") {
+  const Vec3d shift{1e9, -2e9, 3e9};  // Exact for the cube's corners.
+  const FaceGeometry near = computeFaceGeometry(shapes::cube());
+  const FaceGeometry far = computeFaceGeometry(shapes::placed(shapes::cube(), 1, shift));
+  CHECK(far.normals == near.normals);
+  CHECK(far.areas == near.areas);
+  for (size_t f = 0; f < 12; ++f) CHECK(distance(far.barycentres[f] - shift, near.barycentres[f]) < 1e-6);
+}
+
+TEST_CASE("a sliver has a normal down to the height ratio and none below it, in any direction") {
+  const Vec3d along{0.48, 0.6, 0.64}, across{0.8, 0, -0.6};  // Orthonormal.
+  for (const double length : {1e-20, 1.0, 1e20}) {
+    const auto sliver = [&](double heightRatio) {
+      return computeFaceGeometry(
+          triangle({}, along * length, along * (0.5 * length) + across * (heightRatio * length)));
+    };
+    const FaceGeometry thin = sliver(2e-10);
+    CHECK_FALSE(thin.isDegenerate(0));
+    CHECK(distance(thin.normals[0], cross(along, across)) < 1e-5);
+    CHECK(thin.areas[0] / length / length == doctest::Approx(1e-10).epsilon(1e-5));
+    const FaceGeometry tooThin = sliver(5e-11);
+    CHECK(tooThin.isDegenerate(0));
+    CHECK(tooThin.normals[0] == Vec3d{});
+  }
+}
+
+TEST_CASE("faces without area are degenerate") {
+  CHECK(computeFaceGeometry(triangle({1, 2, 3}, {1, 2, 3}, {1, 2, 3})).isDegenerate(0));
+  CHECK(computeFaceGeometry(triangle({0, 0, 0}, {1, 1, 1}, {3, 3, 3})).isDegenerate(0));
+  CHECK(computeFaceGeometry(triangle({0, 0, 0}, {0, 0, 0}, {3, 3, 3})).isDegenerate(0));
+  const FaceGeometry repeated = computeFaceGeometry({{{0, 0, 0}, {1, 0, 0}}, {{0, 1, 1}}, {}});
+  CHECK(repeated.isDegenerate(0));
+  CHECK(distance(repeated.barycentres[0], {2.0 / 3, 0, 0}) < 1e-15);
+}
+
+TEST_CASE("faces with a non-finite corner are degenerate and stay out of the box") {
+  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
+                           -std::numeric_limits<double>::infinity()}) {
+    const FaceGeometry geometry = computeFaceGeometry(triangle({0, 0, 0}, {1, bad, 0}, {0, 1, 0}));
+    CHECK(geometry.isDegenerate(0));
+    CHECK(geometry.normals[0] == Vec3d{});
+    CHECK_FALSE(isFinite(geometry.barycentres[0]));
+    CHECK(geometry.bounds.max == Vec3d{0, 1, 0});
+  }
+}
+
+TEST_CASE("the box holds only vertices that faces use") {
+  Mesh mesh = shapes::cube();
+  mesh.vertices.push_back({100, 0, 0});
+  CHECK(computeFaceGeometry(mesh).bounds.max == Vec3d{1, 1, 1});
+}

@@ -1,0 +1,176 @@
+#include "mesh/orientation.h"
+
+#include <doctest/doctest.h>
+#include <tbb/global_control.h>
+
+#include <vector>
+
+#include "core/check.h"
+#include "core/random.h"
+#include "shapes.h"
+
+using namespace asdfvk;
+using shapes::inverted;
+using shapes::placed;
+using shapes::sphere;
+using shapes::together;
+
+namespace {
+
+using Indices = std::vector<uint32_t>;
+
+struct Analysis {
+  Components components;
+  OrientationReport report;
+};
+
+Analysis analyse(const Mesh& mesh) {
+  Analysis result{findComponents(mesh, buildDualGraph(mesh)), {}};
+  result.report = analyseOrientation(mesh, result.components);
+  return result;
+}
+
+Indices invertedIn(const Mesh& mesh) { return analyse(mesh).report.invertedComponents; }
+Indices depthsIn(const Mesh& mesh) { return analyse(mesh).report.nestingDepths; }
+
+}  // namespace
+
+TEST_CASE("a lone closed shape is inverted when its volume is negative") {
+  CHECK(invertedIn({}).empty());
+  CHECK(invertedIn(sphere(2)).empty());
+  CHECK(invertedIn(inverted(sphere(2))) == Indices{0});
+  CHECK(invertedIn(inverted(placed(sphere(2), 1e-150))) == Indices{0});
+  CHECK(invertedIn(inverted(placed(sphere(2), 1e-3, {1e5, 1e5, 1e5}))) == Indices{0});
+}
+
+TEST_CASE("a cavity looks inwards") {
+  const Mesh outer = sphere(3), inner = placed(sphere(2), 0.5, {0.1, 0.2, 0});
+  CHECK(depthsIn(together(outer, inner)) == Indices{0, 1});
+  CHECK(invertedIn(together(outer, inverted(inner))).empty());
+  CHECK(invertedIn(together(outer, inner)) == Indices{1});
+  CHECK(invertedIn(together(inverted(inner), outer)).empty());
+  CHECK(invertedIn(together(inverted(outer), inner)) == Indices{0, 1});
+}
+
+TEST_CASE("spheres in each other alternate") {
+  const Mesh nested = together(together(sphere(2), placed(sphere(3), 0.7)), placed(sphere(2), 0.3, {0.1, 0, 0}));
+  CHECK(depthsIn(nested) == Indices{0, 1, 2});
+  CHECK(invertedIn(nested) == Indices{1});
+  CHECK(invertedIn(inverted(nested)) == Indices{0, 2});
+}
+
+TEST_CASE("a sphere in a torus's hole is in its box but not inside it") {
+  const Mesh torus = shapes::torus(3, 1, 40, 20);
+  CHECK(depthsIn(together(torus, placed(sphere(3), 0.9))) == Indices{0, 0});
+  CHECK(invertedIn(together(torus, placed(inverted(sphere(3)), 0.9))) == Indices{1});
+  CHECK(depthsIn(together(torus, placed(sphere(3), 0.9, {3, 0, 0}))) == Indices{0, 1});
+}
+
+TEST_CASE("a shape that sticks out of another one or equals it is not inside it") {
+  CHECK(depthsIn(together(sphere(3), placed(sphere(2), 0.5, {0.45, 0.45, 0.45}))) == Indices{0, 0});
+  CHECK(depthsIn(together(shapes::cube(), shapes::cube())) == Indices{0, 0});
+  CHECK(depthsIn(together(shapes::cube(), placed(shapes::cube(), 0.5, {0.5, 0, 0}))) == Indices{0, 0});  // Touches.
+}
+
+TEST_CASE("probes straight above the corners and edges of a container are judged rightly") {
+  CHECK(depthsIn(together(shapes::cube(), placed(shapes::cube(), 0.5))) == Indices{0, 1});
+  CHECK(depthsIn(together(sphere(0), placed(sphere(0), 0.5))) == Indices{0, 1});
+  CHECK(depthsIn(together(shapes::grid(4), placed(shapes::cube(), 0.5, {2, 2, 1}))) == Indices{0, 0});
+}
+
+TEST_CASE("open and inconsistently wound components are never inverted") {
+  Mesh open = inverted(sphere(2));
+  open.faces.pop_back();
+  CHECK(invertedIn(open).empty());
+  CHECK(depthsIn(together(open, placed(sphere(2), 0.5))) == Indices{0, 0});
+
+  Mesh mixed = inverted(sphere(2));
+  std::swap(mixed.faces[5][1], mixed.faces[5][2]);
+  CHECK(invertedIn(mixed).empty());
+  CHECK(depthsIn(together(mixed, placed(sphere(2), 0.5))) == Indices{0, 1});  // It still encloses.
+}
+
+TEST_CASE("depths hold at any scale, shift and number of threads") {
+  const Mesh nested = together(together(sphere(4), placed(sphere(4), 0.7)), placed(sphere(4), 0.3));
+  for (const double scale : {1e-150, 1e-30, 1e-3, 1e3, 1e30, 1e150})
+    CHECK(depthsIn(placed(nested, scale)) == Indices{0, 1, 2});
+  CHECK(depthsIn(placed(nested, 1, {1e6, -1e6, 1e6})) == Indices{0, 1, 2});
+  const tbb::global_control oneThread(tbb::global_control::max_allowed_parallelism, 1);
+  CHECK(depthsIn(nested) == Indices{0, 1, 2});
+}
+
+TEST_CASE("of thousands of components each depth is right") {
+  const int n = 12;  // Shells on a grid; every third one has a core, and all are inside of one large sphere.
+  Mesh mesh = placed(sphere(5), 40);
+  Indices expected{0};
+  Random random(11);
+  for (int i = 0; i < n * n * n; ++i) {
+    const Vec3d centre{3.0 * (i % n) - 16.5, 3.0 * (i / n % n) - 16.5, 3.0 * (i / n / n) - 16.5};
+    mesh = together(std::move(mesh), placed(sphere(1), 1, centre));
+    expected.push_back(1);
+    if (i % 3 != 0) continue;
+    mesh = together(std::move(mesh), placed(shapes::cube(), 0.3 + 0.1 * random.real(), centre));
+    expected.push_back(2);
+  }
+  CHECK(depthsIn(mesh) == expected);
+}
+
+TEST_CASE("orienting turns the inverted components only, once, and what is derived with them") {
+  Mesh mesh = together(together(inverted(sphere(2)), inverted(placed(sphere(1), 0.5))),
+                       placed(inverted(shapes::cube()), 1, {5, 0, 0}));
+  FaceGeometry geometry = computeFaceGeometry(mesh);
+  Analysis analysis = analyse(mesh);
+  CHECK(analysis.report.invertedComponents == Indices{0, 2});
+  CHECK(
+      analysis.report.sentence(analysis.components) ==
+      "2 of 3 components are inverted (face 0 and the 127 connected to it, face 160 and the 11 connected to it): their "
+      "rays leave the solid");
+  const Mesh before = mesh;
+  orientOutward(mesh, geometry, analysis.components, analysis.report);
+  CHECK(analysis.report.sentence(analysis.components).empty());
+  CHECK(invertedIn(mesh).empty());
+  CHECK(mesh.faces[128] == before.faces[128]);
+  CHECK(mesh.faces[0] == Face{before.faces[0][0], before.faces[0][2], before.faces[0][1]});
+  const FaceGeometry recomputed = computeFaceGeometry(mesh);
+  CHECK(geometry.normals == recomputed.normals);
+  CHECK(geometry.barycentres == recomputed.barycentres);
+  const Components again = analyse(mesh).components;
+  for (size_t i = 0; i < 3; ++i)
+    CHECK(analysis.components.components[i].signedVolume ==
+          doctest::Approx(again.components[i].signedVolume).epsilon(1e-12));
+}
+
+TEST_CASE("one inverted component is named in the singular") {
+  const Analysis analysis = analyse(inverted(shapes::tetrahedron()));
+  CHECK(analysis.report.sentence(analysis.components) ==
+        "1 of 1 components is inverted (face 0 and the 3 connected to it): its rays leave the solid");
+}
+
+TEST_CASE("flipping turns an input face's corners once, however many triangles it was cut into") {
+  // A pentagon of three triangles, a line, a triangle and a quad.
+  Mesh mesh;
+  mesh.vertices = {{0, 0, 0}, {2, 0, 0}, {3, 1, 0}, {1, 3, 0}, {-1, 1, 0}, {9, 9, 9}};
+  mesh.faces = {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}, {1, 2, 5}, {1, 5, 3}};
+  mesh.polygons = {{0, 5, 7, 10, 14}, {0, 1, 2, 3, 4, 0, 1, 0, 4, 5, 1, 2, 5, 3}, {0, 0, 0, 2, 3, 3}};
+  FaceGeometry geometry = computeFaceGeometry(mesh);
+  flipFaces(mesh, geometry, std::vector<uint8_t>{1, 1, 1, 0, 1, 1});
+  CHECK(mesh.polygons.corners == Indices{0, 4, 3, 2, 1, 0, 1, 0, 4, 5, 1, 3, 5, 2});
+  CHECK(mesh.faces[0] == Face{0, 2, 1});
+  CHECK(mesh.faces[3] == Face{0, 4, 5});
+  CHECK(geometry.normals[0] == Vec3d{0, 0, -1});
+  CHECK_THROWS_AS(flipFaces(mesh, geometry, std::vector<uint8_t>{1}), CheckFailure);
+}
+
+TEST_CASE("flipping all faces inverts everything, open or not, and keeps degenerate normals at zero") {
+  Mesh mesh = together(shapes::grid(2), placed(sphere(1), 1, {0, 0, 5}));
+  mesh.faces.push_back({0, 0, 1});
+  FaceGeometry geometry = computeFaceGeometry(mesh);
+  Components components = findComponents(mesh, buildDualGraph(mesh));
+  const double volume = components.components[1].signedVolume;
+  flipAllFaces(mesh, geometry, components);
+  CHECK(components.components[1].signedVolume == -volume);
+  CHECK(geometry.normals[0] == Vec3d{0, 0, -1});
+  CHECK(geometry.normals == computeFaceGeometry(mesh).normals);
+  CHECK_FALSE(std::signbit(geometry.normals.back().x));
+  CHECK(invertedIn(mesh) == Indices{1});
+}

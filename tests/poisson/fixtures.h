@@ -1,0 +1,86 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "core/random.h"
+#include "mesh/dual_graph.h"
+#include "mesh/face_geometry.h"
+#include "mesh/mesh.h"
+#include "poisson/poisson_system.h"
+
+namespace asdfvk {
+
+/// A closed torus of 2 * rings * sides triangles: enough of a surface for the solvers, at any size.
+inline Mesh torus(uint32_t rings, uint32_t sides) {
+  Mesh mesh;
+  for (uint32_t i = 0; i < rings; ++i)
+    for (uint32_t j = 0; j < sides; ++j) {
+      const double u = 2 * std::numbers::pi * i / rings, v = 2 * std::numbers::pi * j / sides;
+      const double radius = 3 + std::cos(v);
+      mesh.vertices.push_back({radius * std::cos(u), radius * std::sin(u), std::sin(v)});
+    }
+  for (uint32_t i = 0; i < rings; ++i)
+    for (uint32_t j = 0; j < sides; ++j) {
+      const uint32_t nextI = (i + 1) % rings, nextJ = (j + 1) % sides;
+      const uint32_t a = i * sides + j, b = nextI * sides + j, c = nextI * sides + nextJ, d = i * sides + nextJ;
+      mesh.faces.push_back({a, b, c});
+      mesh.faces.push_back({a, c, d});
+    }
+  return mesh;
+}
+
+/// A dual graph and barycentres given by hand: `arcs` are joined in both directions.
+struct HandGraph {
+  DualGraph graph;
+  FaceGeometry geometry;
+
+  HandGraph(const std::vector<Vec3d>& barycentres, const std::vector<std::pair<uint32_t, uint32_t>>& edges) {
+    std::vector<std::vector<uint32_t>> rows(barycentres.size());
+    for (auto [f, g] : edges) {
+      rows[f].push_back(g);
+      rows[g].push_back(f);
+    }
+    graph.offsets.push_back(0);
+    for (auto& row : rows) {
+      std::sort(row.begin(), row.end());
+      graph.neighbours.insert(graph.neighbours.end(), row.begin(), row.end());
+      graph.offsets.push_back(static_cast<uint32_t>(graph.neighbours.size()));
+    }
+    geometry.barycentres = barycentres;
+    geometry.normals.assign(barycentres.size(), {0, 0, 1});
+    geometry.areas.assign(barycentres.size(), 1.0);
+    for (const Vec3d& p : barycentres) geometry.bounds.add(p);
+  }
+};
+
+/// Unit distances between the faces; the first and the last are known.
+inline PoissonSystem chain(size_t faceCount, double first, double last) {
+  std::vector<Vec3d> barycentres;
+  std::vector<std::pair<uint32_t, uint32_t>> edges;
+  for (uint32_t i = 0; i < faceCount; ++i) {
+    barycentres.push_back({static_cast<double>(i), 0, 0});
+    if (i > 0) edges.push_back({i - 1, i});
+  }
+  std::vector<double> values(faceCount, kNoValue);
+  values.front() = first;
+  values.back() = last;
+  const HandGraph hand(barycentres, edges);
+  return buildPoissonSystem(hand.graph, hand.geometry, values, {}, 0);
+}
+
+/// A torus with a known value, uniform in [1, 2), on about one face in ten.
+inline PoissonSystem torusSystem(uint32_t rings, uint32_t sides, double unit = 1) {
+  const Mesh mesh = torus(rings, sides);
+  Random random(5);
+  std::vector<double> values(mesh.faces.size(), kNoValue);
+  for (double& value : values)
+    if (random.index(10) == 0) value = unit * (1 + random.real());
+  return buildPoissonSystem(buildDualGraph(mesh), computeFaceGeometry(mesh), values, {}, 0);
+}
+
+}  // namespace asdfvk

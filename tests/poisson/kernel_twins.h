@@ -1,0 +1,78 @@
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include "poisson/poisson_system.h"
+
+namespace asdfvk {
+
+/// What the kernels compute, in double, straight from the system's definition; nothing here is shared with src/poisson.
+struct KernelTwins {
+  const PoissonSystem& system;
+
+  using Vector = std::vector<double>;
+
+  [[nodiscard]] double meanDiagonal() const {
+    double sum = 0;
+    for (double d : system.diagonal) sum += d;
+    return sum / static_cast<double>(system.diagonal.size());
+  }
+
+  /// b of (I - S) y = b for A e = residual, scaled so that the unscaled norm is 1.
+  [[nodiscard]] Vector scaled(const Vector& residual) const {
+    double squared = 0;
+    for (double r : residual) squared += r * r;
+    Vector b(residual.size());
+    for (size_t i = 0; i < b.size(); ++i)
+      b[i] = residual[i] / std::sqrt(squared) * std::sqrt(meanDiagonal() / system.diagonal[i]);
+    return b;
+  }
+
+  /// S v.
+  [[nodiscard]] Vector coupled(const Vector& v) const {
+    Vector result(v.size(), 0.0);
+    for (size_t row = 0; row < v.size(); ++row)
+      for (uint32_t i = system.rowOffsets[row]; i < system.rowOffsets[row + 1]; ++i) {
+        const uint32_t column = system.columns[i];
+        result[row] += system.weights[i] / std::sqrt(system.diagonal[row] * system.diagonal[column]) * v[column];
+      }
+    return result;
+  }
+
+  /// The unscaled residual's squared norm for the scaled residual r.
+  [[nodiscard]] double squaredNorm(const Vector& r) const {
+    double sum = 0;
+    for (size_t i = 0; i < r.size(); ++i) sum += r[i] * r[i] * system.diagonal[i] / meanDiagonal();
+    return sum;
+  }
+};
+
+[[nodiscard]] inline double dot(const std::vector<double>& a, const std::vector<double>& b) {
+  double sum = 0;
+  for (size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
+  return sum;
+}
+
+/// Textbook conjugate gradients on (I - S) y = b.
+struct CgTwin {
+  KernelTwins twins;
+  std::vector<double> x, r, p, q;
+
+  CgTwin(const PoissonSystem& system, const std::vector<double>& b)
+      : twins{system}, x(b.size(), 0.0), r(b), p(b), q(b.size(), 0.0) {}
+
+  void iterate() {
+    const std::vector<double> coupled = twins.coupled(p);
+    for (size_t i = 0; i < q.size(); ++i) q[i] = p[i] - coupled[i];
+    const double rr = dot(r, r), alpha = rr / dot(p, q);
+    for (size_t i = 0; i < q.size(); ++i) {
+      x[i] += alpha * p[i];
+      r[i] -= alpha * q[i];
+    }
+    const double beta = dot(r, r) / rr;
+    for (size_t i = 0; i < q.size(); ++i) p[i] = r[i] + beta * p[i];
+  }
+};
+
+}  // namespace asdfvk

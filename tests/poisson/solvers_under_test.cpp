@@ -1,0 +1,14 @@
+#include "solvers_under_test.h"
+
+#include "poisson/vulkan_cg_solver.h"
+#include "poisson/vulkan_jacobi_solver.h"
+
+namespace asdfvk {
+
+SolversUnderTest::SolversUnderTest() {
+  solvers_.push_back({"eigen", makeEigenSolver(), 1e-12});
+  solvers_.push_back({"cg", makeVulkanCgSolver(*device_), 1e-10});
+  solvers_.push_back({"jacobi", makeVulkanJacobiSolver(*device_), 1e-7});
+}
+
+}  // namespace asdfvk

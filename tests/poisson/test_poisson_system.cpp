@@ -1,0 +1,101 @@
+#include <doctest/doctest.h>
+
+#include "fixtures.h"
+#include "poisson/poisson_system.h"
+
+using namespace asdfvk;
+
+namespace {
+
+PoissonSystem build(const HandGraph& hand, const std::vector<double>& values) {
+  return buildPoissonSystem(hand.graph, hand.geometry, values, {}, 0);
+}
+
+}  // namespace
+
+TEST_CASE("rows, weights and right-hand side are those of the equation, written out by hand") {
+  // 0 (known, 5) -- 1 -- 2 -- 3 (known, 2), and an arc 1 -- 3; distances 1, 2, 4 along x and 1 -- 3 is 6 apart.
+  const HandGraph hand({{0, 0, 0}, {1, 0, 0}, {3, 0, 0}, {7, 0, 0}}, {{0, 1}, {1, 2}, {2, 3}, {1, 3}});
+  const PoissonSystem system =
+      buildPoissonSystem(hand.graph, hand.geometry, std::vector<double>{5, kNoValue, kNoValue, 2},
+                         std::vector<double>{9, 0.5, -0.25, 9}, 3);
+  CHECK(system.faces == std::vector<uint32_t>{1, 2});
+  CHECK(system.rowOffsets == std::vector<uint32_t>{0, 1, 2});
+  CHECK(system.columns == std::vector<uint32_t>{1, 0});
+  CHECK(system.weights == std::vector<double>{0.5, 0.5});
+  CHECK(system.diagonal[0] == doctest::Approx(1 + 0.5 + 1.0 / 6));
+  CHECK(system.diagonal[1] == doctest::Approx(0.5 + 0.25));
+  CHECK(system.rightHandSide[0] == doctest::Approx(5.0 + 2.0 / 6 - 3 * 0.5));
+  CHECK(system.rightHandSide[1] == doctest::Approx(0.25 * 2 + 3 * 0.25));
+  CHECK(system.knownMean == doctest::Approx(3.5));
+}
+
+TEST_CASE("two arcs between the same faces are one entry of twice the weight, and an arc to itself is none") {
+  const HandGraph hand({{0, 0, 0}, {2, 0, 0}, {4, 0, 0}}, {{0, 1}, {1, 2}, {1, 2}, {2, 2}});
+  const PoissonSystem system = build(hand, {1, kNoValue, kNoValue});
+  CHECK(system.columns == std::vector<uint32_t>{1, 0});
+  CHECK(system.weights == std::vector<double>{1, 1});
+  CHECK(system.diagonal == std::vector<double>{1.5, 1});
+  CHECK(system.rightHandSide == std::vector<double>{0.5, 0});
+}
+
+TEST_CASE("faces that no path joins to a known one are left out") {
+  const HandGraph hand({{0, 0, 0}, {1, 0, 0}, {5, 0, 0}, {6, 0, 0}, {9, 0, 0}}, {{0, 1}, {2, 3}});
+  const PoissonSystem system = build(hand, {kNoValue, 4, kNoValue, kNoValue, kNoValue});
+  CHECK(system.faces == std::vector<uint32_t>{0});
+  CHECK(system.columns.empty());
+}
+
+TEST_CASE("a mesh without any known face is left out whole") {
+  const HandGraph hand({{0, 0, 0}, {1, 0, 0}}, {{0, 1}});
+  const PoissonSystem system = build(hand, {kNoValue, kNoValue});
+  CHECK(system.unknownCount() == 0);
+  CHECK(system.rowOffsets == std::vector<uint32_t>{0});
+  CHECK(system.knownMean == 0);
+  CHECK(relativeResidual(system, {}) == 0);
+}
+
+TEST_CASE("a mesh whose faces are all known has no unknown, and an empty one neither") {
+  const HandGraph hand({{0, 0, 0}, {1, 0, 0}}, {{0, 1}});
+  CHECK(build(hand, {1, 2}).unknownCount() == 0);
+  CHECK(build(HandGraph({}, {}), {}).unknownCount() == 0);
+}
+
+TEST_CASE("coincident barycentres keep the matrix finite: a billionth of the diagonal is the shortest distance") {
+  const HandGraph hand({{0, 0, 0}, {0, 0, 0}, {0, 3, 4}}, {{0, 1}, {1, 2}});
+  const PoissonSystem system = build(hand, {1, kNoValue, 3});
+  CHECK(system.diagonal[0] == doctest::Approx(1 / (1e-9 * 5) + 1.0 / 5));
+  const HandGraph point({{7, 7, 7}, {7, 7, 7}}, {{0, 1}});
+  CHECK(std::isfinite(build(point, {1, kNoValue}).diagonal[0]));
+}
+
+TEST_CASE("huge and tiny units change the weights by their factor only") {
+  const std::vector<Vec3d> unit{{0, 0, 0}, {1, 2, 0}, {3, 1, 1}};
+  const std::vector<double> values{1, kNoValue, kNoValue};
+  const PoissonSystem reference = build(HandGraph(unit, {{0, 1}, {1, 2}}), values);
+  for (double factor : {0x1p-600, 0x1p600}) {
+    std::vector<Vec3d> scaled;
+    for (const Vec3d& p : unit) scaled.push_back(p * factor);
+    const PoissonSystem system = build(HandGraph(scaled, {{0, 1}, {1, 2}}), values);
+    for (size_t i = 0; i < 2; ++i) {
+      CHECK(system.weights[i] * factor == doctest::Approx(reference.weights[i]));
+      CHECK(system.diagonal[i] * factor == doctest::Approx(reference.diagonal[i]));
+    }
+  }
+}
+
+TEST_CASE("the relative residual is the one worked out by hand") {
+  // 2 u = 6 in effect: one unknown between two known faces at distance 1.
+  const HandGraph hand({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, {{0, 1}, {1, 2}});
+  const PoissonSystem system = build(hand, {2, kNoValue, 4});
+  CHECK(relativeResidual(system, std::vector<double>{3}) == 0);
+  CHECK(relativeResidual(system, std::vector<double>{0}) == doctest::Approx(1));
+  CHECK(relativeResidual(system, std::vector<double>{1.5}) == doctest::Approx(0.5));
+}
+
+TEST_CASE("a curvature that is not a number pulls at nothing") {
+  const HandGraph hand({{0, 0, 0}, {1, 0, 0}}, {{0, 1}});
+  const PoissonSystem system = buildPoissonSystem(hand.graph, hand.geometry, std::vector<double>{2, kNoValue},
+                                                  std::vector<double>{0, kNoValue}, 1);
+  CHECK(system.rightHandSide == std::vector<double>{2});
+}

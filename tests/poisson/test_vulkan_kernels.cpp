@@ -1,0 +1,215 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <numeric>
+
+#include "core/error.h"
+#include "fixtures.h"
+#include "kernel_twins.h"
+#include "poisson/vulkan_cg.h"
+#include "poisson/vulkan_jacobi.h"
+#include "support/test_device.h"
+
+using namespace asdfvk;
+
+namespace {
+
+// Weights of very different size, rows of 0 to 9 entries and faces without an unknown neighbour, on more rows than one
+// pass of the lanes covers; the last workgroup has lanes to spare.
+PoissonSystem unevenSystem() {
+  PoissonSystem system = torusSystem(211, 101);
+  const Mesh mesh = torus(211, 101);
+  FaceGeometry geometry = computeFaceGeometry(mesh);
+  Random random(3);
+  for (Vec3d& p : geometry.barycentres) p = p + Vec3d{0.2 * random.real(), 0.2 * random.real(), 0.2 * random.real()};
+  DualGraph graph = buildDualGraph(mesh);
+  std::vector<std::pair<uint32_t, uint32_t>> edges;
+  for (uint32_t f = 0; f < graph.faceCount(); ++f)
+    for (uint32_t g : graph.neighboursOf(f))
+      if (f < g) edges.emplace_back(f, g);
+  for (uint32_t f = 0; f < 6000; ++f) edges.emplace_back(f, (f * 7u + 1000u) % graph.faceCount());
+  std::vector<double> values(graph.faceCount(), kNoValue);
+  for (double& value : values)
+    if (random.index(8) == 0) value = 1 + random.real();
+  const HandGraph hand(geometry.barycentres, edges);
+  return buildPoissonSystem(hand.graph, hand.geometry, values, {}, 0);
+}
+
+std::vector<double> randomResidual(size_t size) {
+  Random random(11);
+  std::vector<double> residual(size);
+  for (double& entry : residual) entry = 1000 * (random.real() - 0.3);
+  return residual;
+}
+
+double norm(const std::vector<double>& v) { return std::sqrt(dot(v, v)); }
+
+// Largest difference over the largest entry of the twin.
+double difference(const std::vector<float>& kernel, const std::vector<double>& twin) {
+  REQUIRE(kernel.size() == twin.size());
+  double largest = 0, worst = 0;
+  for (size_t i = 0; i < twin.size(); ++i) {
+    largest = std::max(largest, std::abs(twin[i]));
+    worst = std::max(worst, std::abs(static_cast<double>(kernel[i]) - twin[i]));
+  }
+  return worst / largest;
+}
+
+}  // namespace
+
+TEST_CASE("a residual is scaled and a correction scaled back as the definition says") {
+  const PoissonSystem system = unevenSystem();
+  const ScaledSystem scaled(system);
+  const std::vector<double> residual = randomResidual(system.unknownCount());
+  const std::vector<float> b = scaled.scaleResidual(residual, norm(residual));
+  CHECK(difference(b, KernelTwins{system}.scaled(residual)) < 1e-6);
+  double squared = 0;
+  for (size_t i = 0; i < b.size(); ++i)
+    squared += static_cast<double>(b[i]) * static_cast<double>(b[i]) * static_cast<double>(scaled.residualWeights()[i]);
+  CHECK(squared == doctest::Approx(1));
+  // Where S is nothing, y = b and the correction is the residual over the diagonal.
+  std::vector<double> correction(b.size());
+  scaled.unscaleCorrection(b, norm(residual), correction);
+  for (size_t i = 0; i < b.size(); i += 97)
+    CHECK(correction[i] == doctest::Approx(residual[i] / system.diagonal[i]).epsilon(1e-6));
+}
+
+TEST_CASE("one iteration of each conjugate-gradient kernel gives what its twin on the CPU gives") {
+  const test::ValidatedDevice device;
+  const PoissonSystem system = unevenSystem();
+  const ScaledSystem scaled(system);
+  REQUIRE(scaled.longestRow() > 4);
+  const std::vector<double> residual = randomResidual(system.unknownCount());
+  const VulkanCgKernels kernels(*device);
+  const VulkanMatrix matrix(*device, scaled);
+  REQUIRE(system.unknownCount() % (matrix.grid.laneCount * matrix.grid.workgroupCount) != 0);
+  REQUIRE(system.unknownCount() > matrix.grid.laneCount * matrix.grid.workgroupCount);
+  for (uint32_t iterationCount : {1u, 2u, 5u}) {
+    CAPTURE(iterationCount);
+    VulkanCg cg(*device, kernels, matrix, scaled.scaleResidual(residual, norm(residual)), 0);
+    CgTwin twin(system, KernelTwins{system}.scaled(residual));
+    const CgState state = cg.advance(iterationCount);
+    for (uint32_t i = 0; i < iterationCount; ++i) twin.iterate();
+    CHECK(difference(cg.product(), twin.q) < 1e-5);
+    CHECK(difference(cg.solution(), twin.x) < 1e-5);
+    CHECK(difference(cg.residual(), twin.r) < 1e-5);
+    CHECK(difference(cg.direction(), twin.p) < 1e-5);
+    CHECK(state.status == kCgRunning);
+    CHECK(state.iterationCount == iterationCount);
+    CHECK(static_cast<double>(state.residualDot) == doctest::Approx(dot(twin.r, twin.r)).epsilon(1e-5));
+    CHECK(static_cast<double>(state.residualSquared) == doctest::Approx(twin.twins.squaredNorm(twin.r)).epsilon(1e-5));
+  }
+}
+
+TEST_CASE("iterations after convergence change nothing, however they are batched") {
+  const test::ValidatedDevice device;
+  const PoissonSystem system = torusSystem(40, 20);
+  const ScaledSystem scaled(system);
+  const std::vector<double> residual = randomResidual(system.unknownCount());
+  const std::vector<float> b = scaled.scaleResidual(residual, norm(residual));
+  const VulkanCgKernels kernels(*device);
+  const VulkanMatrix matrix(*device, scaled);
+  VulkanCg atOnce(*device, kernels, matrix, b, 1e-3), stepwise(*device, kernels, matrix, b, 1e-3);
+  const CgState state = atOnce.advance(301);
+  CHECK(state.status == kCgConverged);
+  CHECK(state.iterationCount > 3);
+  CHECK(state.iterationCount < 100);
+  CHECK(state.residualSquared <= 1e-6f);
+  for (uint32_t i = 0; i < state.iterationCount; ++i) {
+    const CgState step = stepwise.advance(1);
+    CHECK(step.iterationCount == i + 1);
+    CHECK(step.status == (i + 1 < state.iterationCount ? kCgRunning : kCgConverged));
+  }
+  CHECK(atOnce.solution() == stepwise.solution());
+  CHECK(atOnce.residual() == stepwise.residual());
+  CHECK(stepwise.advance(2).iterationCount == state.iterationCount);
+}
+
+TEST_CASE("an exact solution ends the iteration without a division of 0 by 0") {
+  const test::ValidatedDevice device;
+  const PoissonSystem system = chain(3, 1, 3);
+  const ScaledSystem scaled(system);
+  const VulkanCgKernels kernels(*device);
+  const VulkanMatrix matrix(*device, scaled);
+  VulkanCg cg(*device, kernels, matrix, std::vector<float>{1}, 0);
+  const CgState state = cg.advance(10);
+  CHECK(state.status == kCgConverged);
+  CHECK(state.iterationCount == 1);
+  CHECK(cg.solution() == std::vector<float>{1});
+}
+
+TEST_CASE("a product that is no positive number stops the iteration and says so") {
+  const test::ValidatedDevice device;
+  PoissonSystem system = chain(4, 1, 3);
+  std::fill(system.weights.begin(), system.weights.end(), 10.0);  // indefinite
+  const ScaledSystem scaled(system);
+  const VulkanCgKernels kernels(*device);
+  const VulkanMatrix matrix(*device, scaled);
+  VulkanCg cg(*device, kernels, matrix, std::vector<float>{1, 1}, 1e-3);
+  const CgState state = cg.advance(10);
+  CHECK(state.status == kCgBrokenDown);
+  CHECK(state.iterationCount == 1);
+  CHECK(cg.solution() == std::vector<float>{0, 0});
+}
+
+TEST_CASE("Jacobi sweeps give what their twin on the CPU gives") {
+  const test::ValidatedDevice device;
+  const PoissonSystem system = unevenSystem();
+  const ScaledSystem scaled(system);
+  const KernelTwins twins{system};
+  const std::vector<double> residual = randomResidual(system.unknownCount());
+  const std::vector<double> b = twins.scaled(residual);
+  const VulkanJacobiKernel kernel(*device);
+  const VulkanMatrix matrix(*device, scaled);
+  for (uint32_t iterationCount : {1u, 2u, 7u}) {
+    CAPTURE(iterationCount);
+    VulkanJacobi jacobi(*device, kernel, matrix, scaled.scaleResidual(residual, norm(residual)));
+    std::vector<double> y(b.size(), 0.0), before(b.size());
+    for (uint32_t i = 0; i < iterationCount; ++i) {
+      const std::vector<double> coupled = twins.coupled(y);
+      for (size_t row = 0; row < y.size(); ++row) {
+        before[row] = b[row] + coupled[row] - y[row];
+        y[row] = b[row] + coupled[row];
+      }
+    }
+    CHECK(jacobi.advance(iterationCount) == doctest::Approx(std::sqrt(twins.squaredNorm(before))).epsilon(1e-5));
+    CHECK(difference(jacobi.solution(), y) < 1e-5);
+  }
+}
+
+TEST_CASE("a system that the device's limits refuse is refused with the solver that takes it") {
+  DeviceFacts facts;
+  facts.name = "Toy";
+  facts.kind = DeviceKind::Cpu;
+  facts.maxWorkgroupInvocations = 1024;
+  facts.maxStorageBufferRange = 128u << 20;
+  const auto refusal = [&](uint64_t unknowns, uint64_t columns, uint64_t longestRow) -> std::string {
+    try {
+      requireSystemFits(facts, unknowns, columns, longestRow);
+    } catch (const Error& error) {
+      CHECK(error.kind() == ErrorKind::Device);
+      return error.what();
+    }
+    return {};
+  };
+  CHECK(refusal(2'000'000, 6'000'000, 3).empty());
+  CHECK(refusal(11'000'000, 33'000'000, 3).empty());
+  CHECK(refusal(12'000'000, 36'000'000, 3) ==
+        "the Poisson system of 12000000 unknowns needs 138 MiB in one buffer and Toy allows 128; use --solver eigen");
+  CHECK(refusal(11'000'000, 33'000'000, 93) ==
+        "the Poisson system of 11000000 unknowns, 93 of them in one row, is too much for one kernel; "
+        "use --solver eigen");
+  CHECK(refusal(1000, 3000, 93).empty());
+}
+
+TEST_CASE("every system gets at least one workgroup and at most as many as the sums hold") {
+  DeviceFacts facts;
+  facts.kind = DeviceKind::Discrete;
+  facts.maxWorkgroupInvocations = 1000;
+  CHECK(choosePoissonGrid(facts, 1).workgroupCount == 1);
+  CHECK(choosePoissonGrid(facts, 4'000'000'000u).workgroupCount == kMaxPoissonWorkgroupCount);
+  CHECK(choosePoissonGrid(facts, 1).laneCount == 256);
+  facts.maxWorkgroupInvocations = 200;
+  CHECK(choosePoissonGrid(facts, 1).laneCount == 128);
+}
