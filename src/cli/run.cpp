@@ -17,13 +17,11 @@
 namespace asdfvk {
 namespace {
 
-void writeTo(const std::string& output, const CommandLine& line, const Mesh& mesh, const Result& result) {
-  const FaceValues values{result.sdf, result.isSeed};
-  const WriteOptions options{.ascii = line.ascii};
-  if (output == "-")
-    writeResultToStandardOutput(line.format.empty() ? "ply" : line.format, mesh, values, options);
-  else
-    writeResult(output, mesh, values, options);
+WriteOptions writeOptionsOf(const CommandLine& line, const std::string& output) {
+  WriteOptions options{.ascii = line.ascii, .format = {}};
+  if (!line.format.empty()) options.format = resultFormatNamed(line.format);
+  if (output == "-" && !options.format) options.format = ResultFormat::Ply;
+  return options;
 }
 
 Result computeMesh(Session& session, Mesh& mesh, const CommandLine& line, const std::stop_token& stop) {
@@ -55,7 +53,7 @@ Answer runMesh(Session& session, const std::string& name, const std::string& out
     result = computeMesh(session, mesh, line, stop);
     if (stop.stop_requested()) throw Error(ErrorKind::Cancelled, "cancelled");
     const Stopwatch writeWatch;
-    writeTo(output, line, mesh, result);
+    writeResult(output, mesh, {result.sdf, result.isSeed}, writeOptionsOf(line, output));
     result.report.stageSeconds.write = writeWatch.seconds();
   }
   result.report.stageSeconds.read = readSeconds;

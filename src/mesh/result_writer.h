@@ -40,8 +40,4 @@ void requireWritableExtension(const std::filesystem::path& path, const WriteOpti
 void writeResult(const std::filesystem::path& path, const Mesh& mesh, const FaceValues& face,
                  const WriteOptions& options = {});
 
-/// The same bytes on standard output; `extension` is "ply", "vtu", "npy" or "csv".
-void writeResultToStandardOutput(std::string_view extension, const Mesh& mesh, const FaceValues& face,
-                                 const WriteOptions& options = {});
-
 }  // namespace asdfvk
