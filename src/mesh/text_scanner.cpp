@@ -54,7 +54,7 @@ std::string_view TextScanner::scanWord() {
 }
 
 void TextScanner::requireWord(std::string_view what) {
-  if (atEnd()) failAtLine(line_, fmt::format("the file ends where {} should stand; it is cut short", what));
+  if (atEnd()) failAtLine(line_, fmt::format("the file ends where {} should stand; it is cut short", printable(what)));
 }
 
 std::string_view TextScanner::word(std::string_view what) {
@@ -69,10 +69,11 @@ double TextScanner::number(std::string_view what) {
   double value = 0;
   const auto [next, ec] = std::from_chars(begin, end_, value);
   if (ec == std::errc::invalid_argument || !endsWord(next))
-    failAtLine(line_, fmt::format("{} should stand here, not {}", what, quoted(scanWord())));
+    failAtLine(line_, fmt::format("{} should stand here, not {}", printable(what), quoted(scanWord())));
   if (ec == std::errc::result_out_of_range) {
     const std::string_view text(begin, static_cast<size_t>(next - begin));
-    if (!isTiny(text)) failAtLine(line_, fmt::format("{} is too large for a double: {}", what, quoted(text)));
+    if (!isTiny(text))
+      failAtLine(line_, fmt::format("{} is too large for a double: {}", printable(what), quoted(text)));
     value = *begin == '-' ? -0.0 : 0.0;
   }
   at_ = next;
@@ -86,7 +87,8 @@ int64_t TextScanner::integer(std::string_view what) {
   int64_t value = 0;
   const auto [next, ec] = std::from_chars(begin, end_, value);
   if (ec != std::errc() || !endsWord(next))
-    failAtLine(line_, fmt::format("{} should stand here as a whole number, not {}", what, quoted(scanWord())));
+    failAtLine(line_,
+               fmt::format("{} should stand here as a whole number, not {}", printable(what), quoted(scanWord())));
   at_ = next;
   return value;
 }
