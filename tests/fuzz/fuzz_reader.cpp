@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "core/error.h"
+#include "mesh/mesh_format.h"
 
 namespace asdfvk::fuzz {
 namespace {
@@ -69,7 +70,9 @@ int readOnce(Mesh (*parser)(std::span<const char>), const uint8_t* data, size_t 
   peakBytes = 0;
   isCounting = true;
   try {
-    const Mesh mesh = parser({reinterpret_cast<const char*>(data), size});
+    const std::span bytes(reinterpret_cast<const char*>(data), size);
+    static_cast<void>(detectFormat(bytes, ""));
+    const Mesh mesh = parser(bytes);
     isCounting = false;
     requireSound(mesh);
   } catch (const Error& error) {

@@ -82,7 +82,7 @@ TEST_CASE("what is wrong with an OFF file is told with its line") {
   CHECK(holds(errorOf(parseOff, "nOFF\n"), "other than three coordinates"));
   CHECK(holds(errorOf(parseOff, "OFF BINARY\n\0"), "convert the mesh to PLY"));
   CHECK(holds(errorOf(parseOff, "OFF\n4 -2 0\n"), "the face count is negative"));
-  CHECK(holds(errorOf(parseOff, "OFF\n4 2 0 9\n" + corners), "line 2: the counts is followed"));
+  CHECK(holds(errorOf(parseOff, "OFF\n4 2 0 9\n" + corners), "line 2: '9' stands behind the counts"));
   CHECK(holds(errorOf(parseOff, "OFF\n99999999999999999999 2 0\n"),
               "the vertex count should stand here as a whole number"));
   CHECK(holds(errorOf(parseOff, "OFF\n9223372036854775807 9223372036854775807 0\n"), "do not fit"));

@@ -178,6 +178,14 @@ TEST_CASE("ASCII PLY takes numbers as people and programs write them") {
   CHECK(mesh.vertices[2] == Vec3d{0, 0.5, 5});
   CHECK(holds(errorOf(parsePly, asciiPly("0 0 1e400\n")), "cut short"));
   CHECK(holds(errorOf(parsePly, asciiPly("0 0 1e400\n1 0 0\n0 1 0\n3 0 1 2\n")), "line 10: z is too large"));
+  for (const char* tiny :
+       {"1e-400", "0.00001e-9223372036854775807", "1e-9223372036854775808", "-1e-99999999999999999999"})
+    CHECK(parse(parsePly, asciiPly(std::string(tiny) + " 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")).vertices[0] == Vec3d{0, 0, 0});
+  for (const char* huge : {"1e400", "123e9223372036854775807", "1e+9223372036854775808", "-1e99999999999999999999"})
+    CHECK(holds(errorOf(parsePly, asciiPly(std::string(huge) + " 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")), "x is too large"));
+  CHECK(parse(parsePly, asciiPly("0." + std::string(400, '0') + "1 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")).vertices[0].x == 0);
+  CHECK(holds(errorOf(parsePly, asciiPly("1" + std::string(400, '0') + " 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")),
+              "x is too large"));
   CHECK(holds(errorOf(parsePly, asciiPly("0 0 0,5\n1 0 0\n0 1 0\n3 0 1 2\n")),
               "line 10: z should stand here, not '0,5'"));
 }
