@@ -18,7 +18,6 @@ namespace {
 // Weights of very different size, rows of 0 to 9 entries and faces without an unknown neighbour, on more rows than one
 // pass of the lanes covers; the last workgroup has lanes to spare.
 PoissonSystem unevenSystem() {
-  PoissonSystem system = torusSystem(211, 101);
   const Mesh mesh = torus(211, 101);
   FaceGeometry geometry = computeFaceGeometry(mesh);
   Random random(3);
