@@ -22,8 +22,8 @@ constexpr uint64_t kLoopIterationLimit = 60'000;
 uint64_t divideUp(uint64_t dividend, uint64_t divisor) { return (dividend + divisor - 1) / divisor; }
 
 template <typename T>
-Buffer uploadArray(const Device& device, std::span<const T> array) {
-  return uploadBuffer(device, std::as_bytes(array), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+Buffer uploadArray(const Device& device, const std::vector<T>& array, VkBufferUsageFlags usage) {
+  return uploadBuffer(device, std::as_bytes(std::span(array)), usage);
 }
 
 }  // namespace
@@ -39,8 +39,13 @@ PoissonGrid choosePoissonGrid(const DeviceFacts& facts, uint32_t unknownCount) {
   return {laneCount, static_cast<uint32_t>(std::clamp<uint64_t>(wanted, 1, kMaxPoissonWorkgroupCount))};
 }
 
-void requireSystemFits(const DeviceFacts& facts, uint64_t unknownCount, uint64_t columnCount, uint64_t longestRow) {
-  const uint64_t byteCount = sizeof(uint32_t) * std::max(unknownCount + 1, columnCount);
+void requireSystemFits(const DeviceFacts& facts, uint64_t unknownCount, uint64_t tailCount, uint64_t longestRow) {
+  if (unknownCount * kPoissonRowTexelCount > facts.maxTexelBufferElements)
+    throw Error(ErrorKind::Device, fmt::format("the Poisson system of {} unknowns needs {} texels in one buffer and {} "
+                                               "allows {}; use --solver eigen",
+                                               unknownCount, unknownCount * kPoissonRowTexelCount, facts.name,
+                                               facts.maxTexelBufferElements));
+  const uint64_t byteCount = sizeof(uint32_t) * std::max(unknownCount, tailCount);
   if (byteCount > facts.maxStorageBufferRange)
     throw Error(ErrorKind::Device,
                 fmt::format("the Poisson system of {} unknowns needs {} MiB in one buffer and {} allows {}; "
@@ -59,12 +64,19 @@ void requireSystemFits(const DeviceFacts& facts, uint64_t unknownCount, uint64_t
 }
 
 VulkanMatrix::VulkanMatrix(const Device& device, const ScaledSystem& system) {
-  requireSystemFits(device.facts(), system.unknownCount(), system.columns().size(), system.longestRow());
+  requireSystemFits(device.facts(), system.unknownCount(), system.tailColumns().size(), system.longestRow());
   grid = choosePoissonGrid(device.facts(), system.unknownCount());
-  rowOffsets = uploadArray(device, system.rowOffsets());
-  columns = uploadArray(device, system.columns());
-  couplings = uploadArray(device, std::span<const float>(system.couplings()));
-  residualWeights = uploadArray(device, std::span<const float>(system.residualWeights()));
+  rows = uploadArray(device, system.rows(), VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT);
+  rowTexels = TexelView(device, rows);
+  tailColumns = uploadArray(device, system.tailColumns(), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+  tailCouplings = uploadArray(device, system.tailCouplings(), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+  residualWeights = uploadArray(device, system.residualWeights(), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+}
+
+std::vector<VkDescriptorType> poissonBindings(size_t count, bool withMatrix) {
+  std::vector<VkDescriptorType> types(count, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
+  if (withMatrix) types[0] = VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER;
+  return types;
 }
 
 }  // namespace asdfvk

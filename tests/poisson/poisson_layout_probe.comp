@@ -7,6 +7,7 @@ layout(local_size_x = 8) in;
 layout(set = 0, binding = 0) readonly buffer States { CgState states[2]; };
 layout(set = 0, binding = 1) readonly buffer Sums { PoissonSums sums; };
 layout(set = 0, binding = 2) writeonly buffer Words { uint words[]; };
+layout(set = 0, binding = 3, rgba32ui) uniform readonly uimageBuffer rows;
 layout(push_constant) uniform Push { PoissonPush push; };
 
 void main() {
@@ -21,9 +22,18 @@ void main() {
   words[10] = push.unknownCount;
   words[11] = push.stateIndex;
   words[12] = sums.brokenDown;
+  const PoissonRow row = decodePoissonRow(imageLoad(rows, 0), imageLoad(rows, 1));
+  words[13] = row.column0;
+  words[14] = row.column1;
+  words[15] = row.column2;
+  words[16] = row.tailBegin;
+  words[17] = row.tailCount;
+  words[18] = floatBitsToUint(row.coupling0);
+  words[19] = floatBitsToUint(row.coupling1);
+  words[20] = floatBitsToUint(row.coupling2);
   for (uint i = 0u; i < kMaxPoissonWorkgroupCount; ++i) {
-    words[13u + i] = floatBitsToUint(sums.productDot[i]);
-    words[13u + kMaxPoissonWorkgroupCount + i] = floatBitsToUint(sums.residualDot[i]);
-    words[13u + 2u * kMaxPoissonWorkgroupCount + i] = floatBitsToUint(sums.residualSquared[i]);
+    words[21u + i] = floatBitsToUint(sums.productDot[i]);
+    words[21u + kMaxPoissonWorkgroupCount + i] = floatBitsToUint(sums.residualDot[i]);
+    words[21u + 2u * kMaxPoissonWorkgroupCount + i] = floatBitsToUint(sums.residualSquared[i]);
   }
 }
