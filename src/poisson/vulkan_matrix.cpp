@@ -11,13 +11,16 @@
 namespace asdfvk {
 namespace {
 
-// Small workgroups suit CPU devices, where each lane beyond the vector width is one more coroutine to switch to.
-constexpr uint32_t kGpuLaneCount = 256;
-constexpr uint32_t kCpuLaneCount = 64;
-// Fewer rows per lane than this are not worth a workgroup whose partial sum every other one has to read.
-constexpr uint32_t kRowsPerLane = 4;
+// Every workgroup adds all the partial sums up again, so rows per lane must pay for it. A GPU has lanes to fill and
+// adds 256 sums at a stroke; a CPU device has neither.
+constexpr uint32_t kGpuLaneCount = 256, kGpuRowsPerLane = 4;
+constexpr uint32_t kCpuLaneCount = 32, kCpuRowsPerLane = 32;
 // llvmpipe ends loops after 65,535 iterations of an invocation, all its loops together.
 constexpr uint64_t kLoopIterationLimit = 60'000;
+
+uint32_t rowsPerLaneAtLeast(const DeviceFacts& facts) {
+  return facts.kind == DeviceKind::Cpu ? kCpuRowsPerLane : kGpuRowsPerLane;
+}
 
 uint64_t divideUp(uint64_t dividend, uint64_t divisor) { return (dividend + divisor - 1) / divisor; }
 
@@ -35,7 +38,7 @@ uint32_t poissonLaneCount(const DeviceFacts& facts) {
 
 PoissonGrid choosePoissonGrid(const DeviceFacts& facts, uint32_t unknownCount) {
   const uint32_t laneCount = poissonLaneCount(facts);
-  const uint64_t wanted = divideUp(unknownCount, uint64_t{laneCount} * kRowsPerLane);
+  const uint64_t wanted = divideUp(unknownCount, uint64_t{laneCount} * rowsPerLaneAtLeast(facts));
   return {laneCount, static_cast<uint32_t>(std::clamp<uint64_t>(wanted, 1, kMaxPoissonWorkgroupCount))};
 }
 
@@ -54,7 +57,7 @@ void requireSystemFits(const DeviceFacts& facts, uint64_t unknownCount, uint64_t
   const uint64_t laneCount = poissonLaneCount(facts);
   const uint64_t rowsPerLane = divideUp(unknownCount, laneCount * kMaxPoissonWorkgroupCount);
   // The loops of a kernel: rows and their entries, partial sums, two reduction trees.
-  const uint64_t iterations = std::max<uint64_t>(rowsPerLane, kRowsPerLane) * (longestRow + 1) +
+  const uint64_t iterations = std::max<uint64_t>(rowsPerLane, rowsPerLaneAtLeast(facts)) * (longestRow + 1) +
                               divideUp(kMaxPoissonWorkgroupCount, laneCount) + 2u * std::bit_width(laneCount);
   if (iterations > kLoopIterationLimit)
     throw Error(ErrorKind::Device,
