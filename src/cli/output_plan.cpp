@@ -9,7 +9,6 @@
 #include <map>
 
 #include "core/error.h"
-#include "mesh/result_writer.h"
 
 namespace asdfvk {
 namespace {
@@ -24,13 +23,13 @@ std::string resultName(const std::string& mesh, const std::string& format) {
   return stem + ".asdf." + (format.empty() ? "ply" : format);
 }
 
-/// Lower case, without the dot.
-std::string extensionOf(const fs::path& path) {
-  std::string extension = path.extension().string();
-  if (!extension.empty()) extension.erase(0, 1);
-  for (char& c : extension)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return extension;
+/// Whether the extension of `path` speaks of another format than `format`; one that tells nothing does not.
+bool contradicts(const fs::path& path, ResultFormat format) {
+  try {
+    return resultFormatOf(path) != format;
+  } catch (const Error&) {
+    return false;
+  }
 }
 
 std::string planOutput(const std::string& mesh, const CommandLine& line) {
@@ -58,13 +57,15 @@ std::vector<std::string> planOutputs(const CommandLine& line) {
   if (line.meshes.size() > 1 && !line.output.empty() && !fs::is_directory(line.output, ignored))
     refuse(fmt::format("-o {} is not a directory, which several meshes need; make it, or name one mesh", line.output));
 
+  const WriteOptions options = writeOptionsOf(line);
   std::vector<std::string> outputs;
   std::map<std::string, std::string> meshOfOutput;
   for (const std::string& mesh : line.meshes) {
     const std::string output = planOutput(mesh, line);
+    const ResultFormat format = resultFormatOf(output, options);
+    if (line.ascii && format != ResultFormat::Ply) refuse("--ascii is for PLY only; drop it");
     if (output != "-") {
-      requireWritableExtension(output);
-      if (!line.format.empty() && extensionOf(output) != line.format)
+      if (contradicts(output, format))
         refuse(fmt::format("-o {} and --format {} contradict each other; drop one", output, line.format));
       const std::string key = fs::absolute(output, ignored).lexically_normal().string();
       const auto [other, isNew] = meshOfOutput.emplace(key, mesh);
@@ -72,9 +73,6 @@ std::vector<std::string> planOutputs(const CommandLine& line) {
         refuse(fmt::format("{} and {} would both be written to {}; run them one by one with -o", other->second, mesh,
                            output));
     }
-    const std::string format = output == "-" ? line.format : extensionOf(output);
-    if (line.ascii && !format.empty() && format != "ply")
-      refuse(fmt::format("--ascii is for PLY, not for .{}; drop it", format));
     outputs.push_back(output);
   }
   for (const std::string& output : outputs)
@@ -82,6 +80,13 @@ std::vector<std::string> planOutputs(const CommandLine& line) {
       if (output != "-" && mesh != "-" && isSameFile(output, mesh))
         refuse(fmt::format("{} is an input and would be overwritten; choose another -o", output));
   return outputs;
+}
+
+WriteOptions writeOptionsOf(const CommandLine& line) {
+  WriteOptions options{.ascii = line.ascii};
+  if (!line.format.empty()) options.format = resultFormatNamed(line.format);
+  if (line.output == "-" && line.format.empty()) options.format = ResultFormat::Ply;
+  return options;
 }
 
 void requireWritablePlace(const std::string& output) {
@@ -94,8 +99,7 @@ void requireWritablePlace(const std::string& output) {
   std::error_code error;
   if (!fs::is_directory(folder, error)) fail(fmt::format("{} is no directory; make it first", folder.string()));
   if (access(folder.c_str(), W_OK) != 0) fail(fmt::format("{}: {}", folder.string(), std::strerror(errno)));
-  if (fs::exists(path, error) && !fs::is_regular_file(path, error))
-    fail("there is something by that name that is no file; choose another -o");
+  if (fs::is_directory(path, error)) fail("it is a directory; choose another -o");
 }
 
 }  // namespace asdfvk

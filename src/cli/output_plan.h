@@ -4,12 +4,16 @@
 #include <vector>
 
 #include "cli/command_line.h"
+#include "mesh/result_writer.h"
 
 namespace asdfvk {
 
 /// Where the result of each mesh goes: one entry per mesh, "-" for standard output. Throws Error{Usage} when the names
 /// contradict each other: two results in one file, a result in place of an input, several meshes and one file.
 [[nodiscard]] std::vector<std::string> planOutputs(const CommandLine& line);
+
+/// The format is set where --format or standard output ask for one.
+[[nodiscard]] WriteOptions writeOptionsOf(const CommandLine& line);
 
 /// Throws Error{Output} when it is plain that no file can be written there, so that it is told before the work.
 void requireWritablePlace(const std::string& output);

@@ -17,13 +17,6 @@
 namespace asdfvk {
 namespace {
 
-WriteOptions writeOptionsOf(const CommandLine& line, const std::string& output) {
-  WriteOptions options{.ascii = line.ascii, .format = {}};
-  if (!line.format.empty()) options.format = resultFormatNamed(line.format);
-  if (output == "-" && !options.format) options.format = ResultFormat::Ply;
-  return options;
-}
-
 Result computeMesh(Session& session, Mesh& mesh, const CommandLine& line, const std::stop_token& stop) {
   const Stopwatch watch;
   std::optional<ProgressBar> bar;
@@ -53,7 +46,7 @@ Answer runMesh(Session& session, const std::string& name, const std::string& out
     result = computeMesh(session, mesh, line, stop);
     if (stop.stop_requested()) throw Error(ErrorKind::Cancelled, "cancelled");
     const Stopwatch writeWatch;
-    writeResult(output, mesh, {result.sdf, result.isSeed}, writeOptionsOf(line, output));
+    writeResult(output, mesh, {result.sdf, result.isSeed}, writeOptionsOf(line));
     result.report.stageSeconds.write = writeWatch.seconds();
   }
   result.report.stageSeconds.read = readSeconds;

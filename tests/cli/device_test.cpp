@@ -1,0 +1,79 @@
+#include <filesystem>
+
+#include "cli/program_under_test.h"
+#include "cli/sample_files.h"
+#include "cli/scratch_folder.h"
+
+namespace asdfvk::test {
+namespace {
+
+ChildOptions withDrivers(const std::string& file) {
+  ChildOptions options;
+  options.environment = {{"VK_DRIVER_FILES", file}, {"VK_ICD_FILENAMES", file}};
+  return options;
+}
+
+const ChildOptions kNoDriver = withDrivers("/nonexistent.json");
+const std::string kLavapipe = "/usr/share/vulkan/icd.d/lvp_icd.x86_64.json";
+
+TEST_CASE("without a Vulkan device the reference runs and one line says why") {
+  const ScratchFolder folder;
+  const std::string mesh = folder.write("cube.off", cubeOff());
+  const ChildOutcome outcome = runAsdf({mesh, "--json"}, kNoDriver);
+  INFO(outcome.error);
+  CHECK_EQ(outcome.exitCode, 0);
+  CHECK_EQ(nlohmann::json::parse(outcome.output).at("backend").get<std::string>(), "reference");
+  const std::string first = linesOf(outcome.error).at(0);
+  CHECK(first.starts_with("asdf-vk: "));
+  CHECK(first.find("reference") != std::string::npos);
+  CHECK(first.find("Vulkan") != std::string::npos);
+}
+
+TEST_CASE("who insists on Vulkan or a GPU and has none gets 3 and no result") {
+  const ScratchFolder folder;
+  const std::string mesh = folder.write("cube.off", cubeOff());
+  checkFailure(runAsdf({mesh, "--backend", "vulkan", "--quiet"}, kNoDriver), 3, "");
+  checkFailure(runAsdf({mesh, "--require-gpu", "--quiet"}, kNoDriver), 3, "");
+  const ChildOutcome json = runAsdf({mesh, "--backend", "vulkan", "--quiet", "--json"}, kNoDriver);
+  CHECK_EQ(json.exitCode, 3);
+  CHECK_FALSE(nlohmann::json::parse(json.output).at("error").get<std::string>().empty());
+  CHECK_EQ(folder.names(), std::vector<std::string>{"cube.off"});
+}
+
+TEST_CASE("the list of devices is empty with a reason where there is none") {
+  const ChildOutcome text = runAsdf({"--list-devices"}, kNoDriver);
+  CHECK_EQ(text.exitCode, 0);
+  CHECK(text.output.starts_with("no Vulkan device: "));
+  const ChildOutcome json = runAsdf({"--list-devices", "--json"}, kNoDriver);
+  CHECK(nlohmann::json::parse(json.output).at("devices").empty());
+  CHECK_FALSE(nlohmann::json::parse(json.output).at("reason").get<std::string>().empty());
+}
+
+TEST_CASE("lavapipe is listed, runs, and is no GPU") {
+  if (!std::filesystem::exists(kLavapipe)) {
+    MESSAGE("skipped: no lavapipe driver at " << kLavapipe);
+    return;
+  }
+  const ChildOptions lavapipe = withDrivers(kLavapipe);
+  const ChildOutcome list = runAsdf({"--list-devices", "--json"}, lavapipe);
+  const nlohmann::json devices = nlohmann::json::parse(list.output).at("devices");
+  REQUIRE_EQ(devices.size(), 1);
+  CHECK(devices[0].at("usable").get<bool>());
+  CHECK(devices[0].at("name").get<std::string>().find("llvmpipe") != std::string::npos);
+
+  const ScratchFolder folder;
+  const std::string mesh = folder.write("cube.off", cubeOff());
+  checkFailure(runAsdf({mesh, "--require-gpu", "--quiet"}, lavapipe), 3, "");
+  checkFailure(runAsdf({mesh, "--device", "no such device", "--quiet"}, lavapipe), 3, "no such device");
+  for (const char* device : {"0", "llvmpipe"}) {
+    const ChildOutcome outcome = runAsdf({mesh, "--backend", "vulkan", "--device", device, "--json"}, lavapipe);
+    INFO(outcome.error);
+    CHECK_EQ(outcome.exitCode, 0);
+    const nlohmann::json json = nlohmann::json::parse(outcome.output);
+    CHECK_EQ(json.at("backend").get<std::string>(), "vulkan");
+    CHECK(json.at("device").get<std::string>().find("llvmpipe") != std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace asdfvk::test

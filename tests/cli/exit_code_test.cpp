@@ -1,0 +1,44 @@
+#include "cli/exit_code.h"
+
+#include <doctest/doctest.h>
+
+#include <new>
+
+#include "core/check.h"
+
+namespace asdfvk {
+namespace {
+
+template <typename Exception>
+Failure failureOf(const Exception& exception) {
+  try {
+    throw exception;
+  } catch (...) {
+    return currentFailure();
+  }
+}
+
+TEST_CASE("each kind of error has its documented exit code") {
+  const auto codeOf = [](ErrorKind kind) { return static_cast<int>(failureOf(Error(kind, "x")).code); };
+  CHECK_EQ(codeOf(ErrorKind::Usage), 1);
+  CHECK_EQ(codeOf(ErrorKind::Input), 2);
+  CHECK_EQ(codeOf(ErrorKind::Device), 3);
+  CHECK_EQ(codeOf(ErrorKind::Output), 4);
+  CHECK_EQ(codeOf(ErrorKind::Cancelled), 130);
+}
+
+TEST_CASE("a mistake in the program is 70 and says so, too little memory is the mesh's failure") {
+  const Failure broken = failureOf(CheckFailure("a.cpp:1: x"));
+  CHECK_EQ(static_cast<int>(broken.code), 70);
+  CHECK(broken.message.find("a.cpp:1: x") != std::string::npos);
+  CHECK_EQ(static_cast<int>(failureOf(42).code), 70);
+  CHECK_EQ(static_cast<int>(failureOf(std::bad_alloc()).code), 2);
+}
+
+TEST_CASE("messages are one line whatever is in them") {
+  CHECK_EQ(failureOf(Error(ErrorKind::Input, "a\nb\tc\x1b[2J")).message, "a b c [2J");
+  CHECK_EQ(oneLine("caf\xc3\xa9"), "caf\xc3\xa9");
+}
+
+}  // namespace
+}  // namespace asdfvk

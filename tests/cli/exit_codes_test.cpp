@@ -1,0 +1,149 @@
+#include <unistd.h>
+
+#include <filesystem>
+
+#include "cli/program_under_test.h"
+#include "cli/sample_files.h"
+#include "cli/scratch_folder.h"
+
+namespace asdfvk::test {
+namespace {
+
+using Names = std::vector<std::string>;
+
+TEST_CASE("without an argument there is a short usage and exit code 1") {
+  const ChildOutcome outcome = runAsdf({});
+  CHECK_EQ(outcome.exitCode, 1);
+  CHECK(outcome.output.empty());
+  CHECK(outcome.error.starts_with("Usage: asdf-vk"));
+}
+
+TEST_CASE("help and version go to standard output with exit code 0") {
+  const ChildOutcome help = runAsdf({"--help"});
+  CHECK_EQ(help.exitCode, 0);
+  CHECK(help.error.empty());
+  for (const char* option :
+       {"--seeds",     "--rng-seed",       "--rays",        "--angle",        "--solver",  "--guidance",
+        "--tolerance", "--max-iterations", "--orient",      "--output",       "--format",  "--ascii",
+        "--backend",   "--device",         "--require-gpu", "--list-devices", "--check",   "--json",
+        "--quiet",     "--threads",        "--version",     "--help",         "Exit codes"})
+    CHECK_MESSAGE(help.output.find(option) != std::string::npos, option);
+  const ChildOutcome version = runAsdf({"--version"});
+  CHECK_EQ(version.exitCode, 0);
+  CHECK(version.output.starts_with("asdf-vk "));
+}
+
+TEST_CASE("a good mesh ends with 0 and its result lies beside it") {
+  const ScratchFolder folder;
+  const std::string mesh = folder.write("cube.off", cubeOff());
+  const ChildOutcome outcome = runAsdf({mesh, "--backend", "reference"});
+  INFO(outcome.error);
+  CHECK_EQ(outcome.exitCode, 0);
+  CHECK(outcome.output.empty());
+  CHECK(outcome.error.find("12 faces") != std::string::npos);
+  CHECK_EQ(folder.names(), Names{"cube.asdf.ply", "cube.off"});
+  CHECK_EQ(folder.read("cube.off"), cubeOff());
+}
+
+TEST_CASE("each form of --seeds is taken and wrong ones are usage errors") {
+  const ScratchFolder folder;
+  const std::string mesh = folder.write("cube.off", cubeOff());
+  for (const char* seeds : {"all", "10%", "0.5%", "100%", "1", "12", "1000000"}) {
+    const ChildOutcome outcome =
+        runAsdf({mesh, "--seeds", seeds, "--backend", "reference", "--quiet", "-o", folder / "out.csv"});
+    CHECK_MESSAGE(outcome.exitCode == 0, seeds, ": ", outcome.error);
+    CHECK_EQ(linesOf(folder.read("out.csv")).size(), 13);
+  }
+  for (const char* seeds : {"0", "0%", "101%", "-5", "ten", "10 %", ""})
+    checkFailure(runAsdf({mesh, "--seeds", seeds, "--quiet"}), 1, "--seeds");
+}
+
+TEST_CASE("usage errors end with 1 before any work") {
+  const ScratchFolder folder;
+  const std::string mesh = folder.write("cube.off", cubeOff());
+  const std::string other = folder.write("cube.obj", cubeObj());
+  checkFailure(runAsdf({"--quiet"}), 1, "no mesh");
+  checkFailure(runAsdf({mesh, "--bogus"}), 1, "--bogus");
+  checkFailure(runAsdf({mesh, "--rays", "1025"}), 1, "1024");
+  checkFailure(runAsdf({mesh, "-o", folder / "out.xyz"}), 1, "out.xyz");
+  checkFailure(runAsdf({mesh, "-o", "-", "--json"}), 1, "--json");
+  checkFailure(runAsdf({mesh, other}), 1, "cube.asdf.ply");
+  checkFailure(runAsdf({mesh, other, "-o", folder / "out.ply"}), 1, "directory");
+  checkFailure(runAsdf({"-"}), 1, "-o");
+  CHECK_EQ(folder.names(), Names{"cube.obj", "cube.off"});
+}
+
+TEST_CASE("an input is never overwritten") {
+  const ScratchFolder folder;
+  const std::string mesh = folder.write("cube.ply", cubeAsciiPly());
+  std::filesystem::create_symlink("cube.ply", folder / "link.ply");
+  checkFailure(runAsdf({mesh, "-o", mesh}), 1, "overwritten");
+  checkFailure(runAsdf({mesh, "-o", folder / "link.ply"}), 1, "overwritten");
+  CHECK_EQ(folder.read("cube.ply"), cubeAsciiPly());
+}
+
+TEST_CASE("an unreadable mesh ends with 2 and its name") {
+  const ScratchFolder folder;
+  const std::vector<std::string> options{"--quiet", "--backend", "reference"};
+  const auto run = [&](const std::string& mesh) {
+    std::vector<std::string> arguments = options;
+    arguments.push_back(mesh);
+    return runAsdf(arguments);
+  };
+  checkFailure(run(folder / "missing.ply"), 2, "missing.ply: ");
+  checkFailure(run(folder.write("empty.ply", "")), 2, "empty.ply: ");
+  checkFailure(run(folder.write("half.ply", cubeBinaryPly().substr(0, 300))), 2, "half.ply: ");
+  checkFailure(run(folder.write("two\nlines.off", "OFF\nx")), 2, "two lines.off: ");
+  checkFailure(run(folder.write("noface.off", "OFF\n3 0 0\n0 0 0\n1 0 0\n0 1 0\n")), 2, "noface.off: ");
+  checkFailure(run(folder.write("range.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n")), 2, "range.off: ");
+  std::filesystem::create_directory(folder / "folder.ply");
+  checkFailure(run(folder / "folder.ply"), 2, "folder.ply: ");
+  for (const std::string& name : folder.names()) CHECK(name.find("asdf") == std::string::npos);
+}
+
+TEST_CASE("a result that cannot be written ends with 4 and leaves nothing") {
+  const ScratchFolder folder;
+  const std::string mesh = folder.write("cube.off", cubeOff());
+  const auto run = [&](const std::string& output) {
+    return runAsdf({mesh, "--quiet", "--backend", "reference", "-o", output});
+  };
+  checkFailure(run(folder / "nowhere/out.ply"), 4, "nowhere");
+  checkFailure(run("/proc/out.ply"), 4, "/proc/out.ply");
+  std::filesystem::create_symlink("/dev/full", folder / "full.ply");
+  checkFailure(run(folder / "full.ply"), 4, "full.ply");
+  CHECK_EQ(folder.names(), Names{"cube.off", "full.ply"});
+  if (geteuid() == 0) return;  // root may write everywhere.
+  std::filesystem::create_directory(folder / "locked");
+  std::filesystem::permissions(folder / "locked", std::filesystem::perms::owner_read);
+  checkFailure(run(folder / "locked/out.ply"), 4, "locked");
+}
+
+TEST_CASE("a check that passes ends with 0, one that compared nothing with 5") {
+  const ScratchFolder folder;
+  const std::string mesh = folder.write("sphere.off", sphereOff(16));
+  for (const char* check : {"--check", "--check=50", "--check=all"}) {
+    const ChildOutcome outcome = runAsdf({check, mesh, "--seeds", "50%", "--backend", "reference"});
+    INFO(outcome.error);
+    CHECK_EQ(outcome.exitCode, 0);
+    CHECK(outcome.error.find("100 % of") != std::string::npos);
+    CHECK(outcome.error.find("average error") != std::string::npos);
+  }
+  // One seed of 960 faces, one face checked: it is not the seed, so no traced face was compared.
+  checkFailure(runAsdf({mesh, "--seeds", "1", "--check=1", "--backend", "reference", "--quiet"}), 5, "check");
+  CHECK_EQ(folder.names(), Names{"sphere.asdf.ply", "sphere.off"});
+}
+
+TEST_CASE("--quiet says nothing at all when all went well") {
+  const ScratchFolder folder;
+  // Open, and thus with a warning.
+  const std::string mesh = folder.write("open.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+  const ChildOutcome loud = runAsdf({mesh, "--backend", "reference"});
+  CHECK(loud.error.find("asdf-vk: warning: " + mesh + ": ") != std::string::npos);
+  const ChildOutcome quiet = runAsdf({mesh, "--backend", "reference", "--quiet"});
+  CHECK_EQ(quiet.exitCode, 0);
+  CHECK(quiet.output.empty());
+  CHECK(quiet.error.empty());
+}
+
+}  // namespace
+}  // namespace asdfvk::test

@@ -1,0 +1,65 @@
+#include <csignal>
+
+#include "cli/program_under_test.h"
+#include "cli/sample_files.h"
+#include "cli/scratch_folder.h"
+
+namespace asdfvk::test {
+namespace {
+
+constexpr double kPatienceSeconds = 120;
+
+/// Minutes of work on one thread.
+std::vector<std::string> longWork(const std::string& mesh) {
+  return {mesh, "--seeds", "all", "--rays", "1024", "--threads", "1", "--backend", "reference"};
+}
+
+TEST_CASE("a signal between chunks cancels with 130 and leaves no file") {
+  const ScratchFolder folder;
+  const std::string mesh = folder.write("sphere.off", sphereOff(150));
+  for (const int signal : {SIGINT, SIGTERM}) {
+    // The bar on the terminal tells that the computation is under way.
+    ChildOptions options;
+    options.errorIsTerminal = true;
+    std::vector<std::string> arguments = longWork(mesh);
+    arguments.push_back("--json");
+    ChildProcess child(ASDFVK_PROGRAM, arguments, options);
+    REQUIRE(child.waitForError(" %", kPatienceSeconds));
+    child.send(signal);
+    const ChildOutcome outcome = child.finish(kPatienceSeconds);
+    INFO(outcome.error);
+    CHECK_EQ(outcome.exitCode, 130);
+    CHECK(outcome.error.find("asdf-vk: error: " + mesh + ": cancelled") != std::string::npos);
+    CHECK(outcome.error.find("[") != std::string::npos);
+    CHECK_EQ(nlohmann::json::parse(outcome.output).at("error").get<std::string>(), "cancelled");
+    CHECK_EQ(folder.names(), std::vector<std::string>{"sphere.off"});
+  }
+}
+
+TEST_CASE("a signal while the mesh is awaited on standard input ends at once with 130") {
+  const ScratchFolder folder;
+  ChildOptions options;
+  options.keepInputOpen = true;
+  ChildProcess child(ASDFVK_PROGRAM, {"-", "-o", folder / "out.ply", "--backend", "reference"}, options);
+  REQUIRE(child.waitForError("asdf-vk: ", kPatienceSeconds));
+  child.send(SIGINT);
+  const ChildOutcome outcome = child.finish(kPatienceSeconds);
+  CHECK_EQ(outcome.exitCode, 130);
+  CHECK(outcome.error.find("asdf-vk: error: cancelled") != std::string::npos);
+  CHECK(folder.names().empty());
+}
+
+TEST_CASE("there is no progress bar in a pipe") {
+  const ScratchFolder folder;
+  const std::string mesh = folder.write("sphere.off", sphereOff(100));
+  ChildProcess child(ASDFVK_PROGRAM, longWork(mesh));
+  REQUIRE(child.waitForError("asdf-vk: ", kPatienceSeconds));
+  CHECK_FALSE(child.waitForError("#", 2));
+  child.send(SIGINT);
+  const ChildOutcome outcome = child.finish(kPatienceSeconds);
+  CHECK_EQ(outcome.exitCode, 130);
+  CHECK(outcome.error.find('\r') == std::string::npos);
+}
+
+}  // namespace
+}  // namespace asdfvk::test

@@ -1,0 +1,114 @@
+#include "cli/program_under_test.h"
+#include "cli/sample_files.h"
+#include "cli/scratch_folder.h"
+
+namespace asdfvk::test {
+namespace {
+
+using Json = nlohmann::json;
+
+Json onlyDocument(const ChildOutcome& outcome) {
+  INFO(outcome.error);
+  CHECK_EQ(outcome.exitCode, 0);
+  REQUIRE(Json::accept(outcome.output));
+  CHECK_EQ(linesOf(outcome.output).size(), 1);
+  return Json::parse(outcome.output);
+}
+
+TEST_CASE("--json is exactly one document with every promised key and its type") {
+  const ScratchFolder folder;
+  const std::string mesh = folder.write("sphere.off", sphereOff(16));
+  const Json json = onlyDocument(runAsdf({mesh, "--json", "--backend", "reference", "--rng-seed", "7", "--check=all"}));
+  CHECK_EQ(json.at("mesh").get<std::string>(), mesh);
+  CHECK_EQ(json.at("output").get<std::string>(), folder / "sphere.asdf.ply");
+  CHECK_EQ(json.at("faceCount").get<uint64_t>(), 960);
+  CHECK_EQ(json.at("triangleCount").get<uint64_t>(), 960);
+  CHECK_EQ(json.at("vertexCount").get<uint64_t>(), 482);
+  CHECK_EQ(json.at("componentCount").get<uint64_t>(), 1);
+  CHECK_EQ(json.at("seedCount").get<uint64_t>(), 96);
+  CHECK_EQ(json.at("rayCount").get<uint64_t>(), 96 * 30);
+  CHECK_EQ(json.at("noValueCount").get<uint64_t>(), 0);
+  CHECK_EQ(json.at("redoneConeCount").get<uint64_t>(), 0);
+  CHECK_EQ(json.at("randomSeed").get<uint64_t>(), 7);
+  CHECK_EQ(json.at("backend").get<std::string>(), "reference");
+  CHECK(json.at("device").is_string());
+  for (const char* stage : {"read", "geometry", "bvh", "upload", "trace", "solve", "write"}) {
+    CHECK(json.at("stageSeconds").at(stage).is_number());
+    CHECK(json.at("stageSeconds").at(stage).get<double>() >= 0);
+  }
+  CHECK(json.at("raysPerSecond").get<double>() > 0);
+  CHECK(json.at("solver").at("name").is_string());
+  CHECK(json.at("solver").at("iterations").is_number_unsigned());
+  CHECK(json.at("solver").at("relativeResidual").get<double>() < 1e-4);
+  const Json& sdf = json.at("sdf");
+  CHECK(sdf.at("min").get<double>() > 1);
+  CHECK(sdf.at("min").get<double>() <= sdf.at("median").get<double>());
+  CHECK(sdf.at("median").get<double>() <= sdf.at("max").get<double>());
+  CHECK(sdf.at("max").get<double>() < 2);
+  CHECK(json.at("warnings").is_array());
+  CHECK_EQ(json.at("defects").at("boundaryEdgeCount").get<uint64_t>(), 0);
+  CHECK(json.at("check").at("passed").get<bool>());
+  CHECK_EQ(json.at("check").at("tracedCount").get<uint64_t>(), 96);
+  CHECK_EQ(json.at("check").at("interpolatedCount").get<uint64_t>(), 960 - 96);
+  CHECK_EQ(json.at("options").at("seeds").get<std::string>(), "10%");
+}
+
+TEST_CASE("numbers that are not there are null") {
+  const ScratchFolder folder;
+  const std::string mesh = folder.write("open.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+  const Json json = onlyDocument(runAsdf({mesh, "--json", "--quiet", "--backend", "reference"}));
+  CHECK_EQ(json.at("noValueCount").get<uint64_t>(), 1);
+  CHECK(json.at("sdf").at("median").is_null());
+  CHECK(json.at("check").is_null());
+  CHECK_FALSE(json.at("warnings").empty());
+}
+
+TEST_CASE("of several meshes one bad one is reported and the others are done") {
+  const ScratchFolder folder;
+  const std::string good = folder.write("a.off", cubeOff());
+  const std::string bad = folder.write("b.ply", "ply\nnonsense\n");
+  const std::string alsoGood = folder.write("c.stl", cubeBinaryStl());
+  const ChildOutcome outcome =
+      runAsdf({good, bad, alsoGood, "--json", "--quiet", "--backend", "reference", "--format", "csv"});
+  checkFailure(outcome, 2, "b.ply: ");
+  const std::vector<std::string> lines = linesOf(outcome.output);
+  REQUIRE_EQ(lines.size(), 3);
+  const std::vector<std::string> meshes{good, bad, alsoGood};
+  for (size_t i = 0; i < 3; ++i) CHECK_EQ(Json::parse(lines[i]).at("mesh").get<std::string>(), meshes[i]);
+  CHECK_EQ(Json::parse(lines[0]).at("faceCount").get<int>(), 12);
+  CHECK_FALSE(Json::parse(lines[1]).at("error").get<std::string>().empty());
+  CHECK_EQ(Json::parse(lines[2]).at("faceCount").get<int>(), 12);
+  CHECK_EQ(folder.names(), std::vector<std::string>{"a.asdf.csv", "a.off", "b.ply", "c.asdf.csv", "c.stl"});
+}
+
+TEST_CASE("several meshes go into a directory") {
+  const ScratchFolder folder;
+  const ScratchFolder results;
+  const std::string a = folder.write("a.off", cubeOff());
+  const std::string b = folder.write("b.obj", cubeObj());
+  const ChildOutcome outcome = runAsdf({a, b, "-o", results / "", "--backend", "reference", "--quiet"});
+  CHECK_EQ(outcome.exitCode, 0);
+  CHECK_EQ(results.names(), std::vector<std::string>{"a.asdf.ply", "b.asdf.ply"});
+  CHECK_EQ(folder.names(), std::vector<std::string>{"a.off", "b.obj"});
+}
+
+TEST_CASE("a name that is not UTF-8 still gives a document") {
+  const ScratchFolder folder;
+  const std::string mesh = folder.write("caf\xe9.off", cubeOff());
+  const Json json = onlyDocument(runAsdf({mesh, "--json", "--quiet", "--backend", "reference"}));
+  CHECK(json.at("mesh").get<std::string>().find("\xef\xbf\xbd") != std::string::npos);
+}
+
+TEST_CASE("the same call gives the same bits") {
+  const ScratchFolder folder;
+  const std::string mesh = folder.write("sphere.off", sphereOff(12));
+  for (const char* name : {"one.npy", "two.npy"})
+    CHECK_EQ(runAsdf({mesh, "-o", folder / name, "--backend", "reference", "--quiet"}).exitCode, 0);
+  CHECK_EQ(folder.read("one.npy"), folder.read("two.npy"));
+  CHECK_EQ(runAsdf({mesh, "-o", folder / "three.npy", "--rng-seed", "2", "--backend", "reference", "--quiet"}).exitCode,
+           0);
+  CHECK(folder.read("one.npy") != folder.read("three.npy"));
+}
+
+}  // namespace
+}  // namespace asdfvk::test

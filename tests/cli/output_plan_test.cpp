@@ -1,0 +1,72 @@
+#include "cli/output_plan.h"
+
+#include <doctest/doctest.h>
+
+#include "cli/scratch_folder.h"
+#include "core/error.h"
+
+namespace asdfvk {
+namespace {
+
+CommandLine lineOf(std::vector<std::string> meshes, const std::string& output = "", const std::string& format = "") {
+  CommandLine line;
+  line.meshes = std::move(meshes);
+  line.output = output;
+  line.format = format;
+  return line;
+}
+
+using Names = std::vector<std::string>;
+
+TEST_CASE("a result lies beside its mesh unless told otherwise") {
+  CHECK_EQ(planOutputs(lineOf({"dir/horse.off"})), Names{"dir/horse.asdf.ply"});
+  CHECK_EQ(planOutputs(lineOf({"horse"})), Names{"horse.asdf.ply"});
+  CHECK_EQ(planOutputs(lineOf({"a.b.obj"}, "", "vtu")), Names{"a.b.asdf.vtu"});
+  CHECK_EQ(planOutputs(lineOf({"x/a.ply", "y/a.ply"})), Names{"x/a.asdf.ply", "y/a.asdf.ply"});
+  CHECK_EQ(planOutputs(lineOf({"a.ply"}, "out.CSV")), Names{"out.CSV"});
+  CHECK_EQ(planOutputs(lineOf({"-"}, "-")), Names{"-"});
+  CHECK_EQ(planOutputs(lineOf({"a.ply"}, "/dev/null", "npy")), Names{"/dev/null"});
+}
+
+TEST_CASE("a directory takes the results of all meshes") {
+  const test::ScratchFolder folder;
+  CHECK_EQ(planOutputs(lineOf({"x/a.ply", "-"}, folder / "", "npy")),
+           Names{folder / "a.asdf.npy", folder / "stdin.asdf.npy"});
+}
+
+TEST_CASE("outputs that contradict each other are usage errors") {
+  const auto isRefused = [](const CommandLine& line) {
+    try {
+      (void)planOutputs(line);
+    } catch (const Error& error) {
+      return error.kind() == ErrorKind::Usage;
+    }
+    return false;
+  };
+  CHECK(isRefused(lineOf({"-"})));
+  CHECK(isRefused(lineOf({"a.ply", "b.ply"}, "-")));
+  CHECK(isRefused(lineOf({"a.ply", "b.ply"}, "out.ply")));
+  CHECK(isRefused(lineOf({"a.ply", "a.obj"})));
+  CHECK(isRefused(lineOf({"a.ply", "./a.ply"})));
+  CHECK(isRefused(lineOf({"a.ply"}, "out.xyz")));
+  CHECK(isRefused(lineOf({"a.ply"}, "out")));
+  CHECK(isRefused(lineOf({"a.ply"}, "out.vtu", "ply")));
+  CHECK(isRefused(lineOf({"a.ply"}, "x/../a.ply")));
+  CHECK(isRefused(lineOf({"a.ply", "a.asdf.ply"})));
+  CommandLine ascii = lineOf({"a.ply"}, "out.csv");
+  ascii.ascii = true;
+  CHECK(isRefused(ascii));
+}
+
+TEST_CASE("a place where no file can be is told before the work") {
+  const test::ScratchFolder folder;
+  CHECK_NOTHROW(requireWritablePlace(folder / "new.ply"));
+  CHECK_NOTHROW(requireWritablePlace(folder.write("old.ply", "x")));
+  CHECK_NOTHROW(requireWritablePlace("-"));
+  CHECK_THROWS_AS(requireWritablePlace(folder / "missing/new.ply"), Error);
+  CHECK_THROWS_AS(requireWritablePlace(folder / "old.ply/new.ply"), Error);
+  CHECK_THROWS_AS(requireWritablePlace(folder / ""), Error);
+}
+
+}  // namespace
+}  // namespace asdfvk

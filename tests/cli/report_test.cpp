@@ -1,0 +1,114 @@
+#include <doctest/doctest.h>
+
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "cli/report_json.h"
+#include "cli/report_text.h"
+
+namespace asdfvk {
+namespace {
+
+const std::string kMesh = "horse.ply";
+const std::string kOutput = "horse.asdf.ply";
+
+Report sampleReport() {
+  Report report;
+  report.faceCount = 96966;
+  report.triangleCount = 96966;
+  report.vertexCount = 48485;
+  report.componentCount = 1;
+  report.seedCount = 9697;
+  report.rayCount = 290910;
+  report.backend = "vulkan";
+  report.device = "some device";
+  report.raysPerSecond = 1.25e6;
+  report.solver = {"cg", 73, 9e-6, true};
+  report.sdf = {0.5, 1.5, 2.5};
+  return report;
+}
+
+bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+TEST_CASE("digits are grouped by three") {
+  CHECK_EQ(groupDigits(0), "0");
+  CHECK_EQ(groupDigits(999), "999");
+  CHECK_EQ(groupDigits(1000), "1,000");
+  CHECK_EQ(groupDigits(1234567), "1,234,567");
+  CHECK_EQ(groupDigits(std::numeric_limits<uint64_t>::max()), "18,446,744,073,709,551,615");
+}
+
+TEST_CASE("the text report tells mesh, device, seeds, speed, solver and values") {
+  const CommandLine line;
+  const Report report = sampleReport();
+  const std::string text = textReport({kMesh, kOutput, line, report});
+  for (const char* part : {"horse.ply: 96,966 faces, 48,485 vertices, 1 component\n", "some device (vulkan)",
+                           "9,697 faces cast rays (10%)", "290,910 rays", "1.25 Mrays/s", "cg, 73 iterations",
+                           "min 0.5, median 1.5, max 2.5", "horse.asdf.ply"})
+    CHECK_MESSAGE(holds(text, part), text);
+  CHECK_FALSE(holds(text, "without a value"));
+  CHECK_FALSE(holds(text, "redone"));
+  CHECK_FALSE(holds(text, "check"));
+}
+
+TEST_CASE("the text report names what is out of the ordinary") {
+  const CommandLine line;
+  Report report = sampleReport();
+  report.triangleCount = 100000;
+  report.redoneConeCount = 1;
+  report.noValueCount = 2;
+  report.solver.converged = false;
+  const std::string text = textReport({kMesh, kOutput, line, report});
+  for (const char* part : {"(100,000 triangles)", "1 cone redone", "2 faces without a value", "NOT CONVERGED"})
+    CHECK_MESSAGE(holds(text, part), text);
+}
+
+TEST_CASE("a share of agreeing faces is never rounded up to all of them") {
+  const CommandLine line;
+  Report report = sampleReport();
+  report.check.emplace();
+  report.check->tracedCount = 1000000;
+  report.check->agreeingCount = 999999;
+  CHECK(holds(textReport({kMesh, kOutput, line, report}), "99.99 % of 1,000,000 traced faces"));
+  report.check->agreeingCount = 1000000;
+  CHECK(holds(textReport({kMesh, kOutput, line, report}), "100 % of"));
+}
+
+TEST_CASE("a check that compared nothing is told as such and not as passed") {
+  const CommandLine line;
+  Report report = sampleReport();
+  report.check.emplace();
+  CHECK(holds(checkFailure(*report.check), "no traced face"));
+  CHECK(holds(textReport({kMesh, kOutput, line, report}), "no traced face"));
+  const nlohmann::json json = nlohmann::json::parse(jsonReport({kMesh, kOutput, line, report}));
+  CHECK_FALSE(json.at("check").at("passed").get<bool>());
+}
+
+TEST_CASE("JSON has null for what is not finite and is one line") {
+  const CommandLine line;
+  Report report = sampleReport();
+  report.sdf = {};
+  report.check.emplace();
+  report.check->worstDifference = std::numeric_limits<double>::infinity();
+  report.warnings = {"two\nlines"};
+  const std::string text = jsonReport({kMesh, kOutput, line, report});
+  CHECK_EQ(text.find('\n'), text.size() - 1);
+  const nlohmann::json json = nlohmann::json::parse(text);
+  for (const char* key : {"min", "median", "max"}) CHECK(json.at("sdf").at(key).is_null());
+  CHECK(json.at("check").at("worstDifference").is_null());
+}
+
+TEST_CASE("devices are listed with number and reason, or the reason why there are none") {
+  const std::vector<DeviceInfo> devices{{"A", "driver a", "discrete GPU", true, "the best"},
+                                        {"B", "driver b", "CPU", false, "too old"}};
+  const std::string text = textDevices(devices, "");
+  CHECK(holds(text, "0  A (discrete GPU, driver a): the best\n"));
+  CHECK(holds(text, "1  B (CPU, driver b): not usable: too old\n"));
+  CHECK_EQ(textDevices({}, "no loader"), "no Vulkan device: no loader\n");
+  const nlohmann::json json = nlohmann::json::parse(jsonDevices(devices, ""));
+  CHECK_EQ(json.at("devices").at(1).at("name").get<std::string>(), "B");
+  CHECK_FALSE(json.at("devices").at(1).at("usable").get<bool>());
+}
+
+}  // namespace
+}  // namespace asdfvk
