@@ -16,7 +16,7 @@ void main() {
   float dot = 0.0;
   for (uint row = firstRow(); row < push.unknownCount; row += rowStride()) {
     float coupled = 0.0;
-    COUPLED_SUM(row, p, coupled)
+    ADD_COUPLED(row, p, coupled)
     const float direction = p[row];
     const float product = direction - coupled;
     q[row] = product;

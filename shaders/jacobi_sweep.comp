@@ -16,7 +16,7 @@ void main() {
   float squared = 0.0;
   for (uint row = firstRow(); row < push.unknownCount; row += rowStride()) {
     float value = b[row];
-    COUPLED_SUM(row, y, value)
+    ADD_COUPLED(row, y, value)
     next[row] = value;
     const float residual = value - y[row];
     squared += residual * residual * residualWeights[row];

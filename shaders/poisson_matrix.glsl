@@ -1,11 +1,19 @@
-// Compressed rows of S: bindings 0 to 2 of every kernel that multiplies.
-layout(set = 0, binding = 0) readonly buffer RowOffsets { uint rowOffsets[]; };
-layout(set = 0, binding = 1) readonly buffer Columns { uint columns[]; };
-layout(set = 0, binding = 2) readonly buffer Couplings { float couplings[]; };
+// The matrix S: bindings 0 to 2 of every kernel that multiplies.
+layout(set = 0, binding = 0, rgba32ui) uniform readonly uimageBuffer rows;
+layout(set = 0, binding = 1) readonly buffer TailColumns { uint tailColumns[]; };
+layout(set = 0, binding = 2) readonly buffer TailCouplings { float tailCouplings[]; };
 
-// (S v)(row) for the vector `v`, an array's name.
-#define COUPLED_SUM(row, v, sum)                                             \
-  {                                                                          \
-    const uint end = rowOffsets[(row) + 1u];                                 \
-    for (uint i = rowOffsets[row]; i < end; ++i) sum += couplings[i] * v[columns[i]]; \
+PoissonRow loadRow(uint row) {
+  const int texel = int(row * kPoissonRowTexelCount);
+  return decodePoissonRow(imageLoad(rows, texel), imageLoad(rows, texel + 1));
+}
+
+// sum += (S v)(row) for the vector `v`, an array's name.
+#define ADD_COUPLED(row, v, sum)                                                                               \
+  {                                                                                                            \
+    const PoissonRow entries = loadRow(row);                                                                   \
+    sum += entries.coupling0 * v[entries.column0] + entries.coupling1 * v[entries.column1] +                   \
+           entries.coupling2 * v[entries.column2];                                                             \
+    const uint tailEnd = entries.tailBegin + entries.tailCount;                                                \
+    for (uint i = entries.tailBegin; i < tailEnd; ++i) sum += tailCouplings[i] * v[tailColumns[i]];            \
   }

@@ -13,6 +13,16 @@ namespace asdfvk {
 using glsl::uint;
 #endif
 
+// A row of S, 32 bytes, read as two rgba32ui texels: its first three entries, which are all there are on a manifold
+// mesh, and where the rest stands. Entries that a row has not got have coupling 0 and the row's own column.
+const uint kPoissonRowTexelCount = 2u;
+struct PoissonRow {
+  uint column0, column1, column2;
+  uint tailBegin;  // Into the arrays of further columns and couplings.
+  float coupling0, coupling1, coupling2;
+  uint tailCount;
+};
+
 // Each workgroup leaves one partial sum per scalar, and each workgroup adds all of them up again.
 const uint kMaxPoissonWorkgroupCount = 256u;
 
@@ -44,6 +54,11 @@ struct PoissonPush {
 };
 
 #ifdef __cplusplus
+static_assert(sizeof(PoissonRow) == 16 * kPoissonRowTexelCount);
+static_assert(offsetof(PoissonRow, column0) == 0 && offsetof(PoissonRow, column1) == 4);
+static_assert(offsetof(PoissonRow, column2) == 8 && offsetof(PoissonRow, tailBegin) == 12);
+static_assert(offsetof(PoissonRow, coupling0) == 16 && offsetof(PoissonRow, coupling1) == 20);
+static_assert(offsetof(PoissonRow, coupling2) == 24 && offsetof(PoissonRow, tailCount) == 28);
 static_assert(sizeof(CgState) == 20);
 static_assert(offsetof(CgState, residualDot) == 0 && offsetof(CgState, residualSquared) == 4);
 static_assert(offsetof(CgState, toleranceSquared) == 8 && offsetof(CgState, iterationCount) == 12);
@@ -54,6 +69,11 @@ static_assert(offsetof(PoissonSums, residualSquared) == 2048 && offsetof(Poisson
 static_assert(sizeof(PoissonPush) == 8);
 static_assert(offsetof(PoissonPush, unknownCount) == 0 && offsetof(PoissonPush, stateIndex) == 4);
 }  // namespace asdfvk
+#else
+PoissonRow decodePoissonRow(uvec4 t0, uvec4 t1) {
+  const vec3 couplings = uintBitsToFloat(t1.xyz);
+  return PoissonRow(t0.x, t0.y, t0.z, t0.w, couplings.x, couplings.y, couplings.z, t1.w);
+}
 #endif
 
 #endif

@@ -1,8 +1,8 @@
 #include <tbb/parallel_for.h>
-#include <tbb/task_group.h>
 
 #include <cmath>
 #include <limits>
+#include <memory>
 
 #include "bvh/bvh.h"
 #include "bvh/subtree.h"
@@ -46,35 +46,41 @@ std::vector<SplitTriangle> collectTriangles(const Mesh& mesh, const FaceGeometry
   return triangles;
 }
 
-// Lays the runs of a finished subtree end to end. A node's place is given by its parent; what is below it follows from
-// `next` on: first the pair of children, then all below the left one, then all below the right one.
-class Assembler {
- public:
-  Assembler(std::vector<BvhNode>& nodes, tbb::task_group& copies) : nodes_(nodes), copies_(copies) {}
+// A finished run of nodes and where it goes: its root to `index`, the rest from `next` on.
+struct Placement {
+  const std::vector<BvhNode>& run;
+  uint32_t index = 0, next = 0;
+};
 
-  uint32_t place(const Subtree& subtree, uint32_t index, uint32_t next) {
-    if (!subtree.left) {
-      copies_.run([this, &subtree, index, next] { copyRun(subtree.nodes, index, next); });
-      return next + static_cast<uint32_t>(subtree.nodes.size()) - 1;
-    }
-    const SplitBox& box = subtree.box;
-    nodes_[index] = {{box.min(0), box.min(1), box.min(2)}, next, {box.max(0), box.max(1), box.max(2)}, 0};
-    const uint32_t afterLeft = place(*subtree.left, next, next + 2);
-    return place(*subtree.right, next + 1, afterLeft);
+// Lays the runs of a finished subtree end to end and writes the nodes above them. A node's place is given by its
+// parent; what is below it follows from `next` on: first the pair of children, then all below the left one, then all
+// below the right one. Returns where the subtree ends.
+uint32_t place(const Subtree& subtree, uint32_t index, uint32_t next, std::vector<BvhNode>& nodes,
+               std::vector<Placement>& placements) {
+  if (!subtree.left) {
+    placements.push_back({subtree.nodes, index, next});
+    return next + static_cast<uint32_t>(subtree.nodes.size()) - 1;
   }
+  const SplitBox& box = subtree.box;
+  nodes[index] = {{box.min(0), box.min(1), box.min(2)}, next, {box.max(0), box.max(1), box.max(2)}, 0};
+  const uint32_t afterLeft = place(*subtree.left, next, next + 2, nodes, placements);
+  return place(*subtree.right, next + 1, afterLeft, nodes, placements);
+}
 
- private:
-  void copyRun(const std::vector<BvhNode>& run, uint32_t index, uint32_t next) {
+std::vector<BvhNode> assemble(const Subtree& root) {
+  std::vector<BvhNode> nodes(root.nodeCount());
+  std::vector<Placement> placements;
+  place(root, 0, 1, nodes, placements);
+  tbb::parallel_for(size_t{0}, placements.size(), [&](size_t p) {
+    const auto& [run, index, next] = placements[p];
     for (size_t i = 0; i < run.size(); ++i) {
       BvhNode node = run[i];
       if (!node.isLeaf()) node.first += next - 1;
-      nodes_[i == 0 ? index : next + i - 1] = node;
+      nodes[i == 0 ? index : next + i - 1] = node;
     }
-  }
-
-  std::vector<BvhNode>& nodes_;
-  tbb::task_group& copies_;
-};
+  });
+  return nodes;
+}
 
 }  // namespace
 
@@ -89,12 +95,9 @@ Bvh buildBvh(const Mesh& mesh, const FaceGeometry& geometry, std::span<const uin
 
   const std::unique_ptr<Subtree> root = buildSubtree(triangles, 0, 0, options);
   bvh.depth = root->depth;
-  bvh.nodes.resize(root->nodeCount());
-  tbb::task_group copies;
-  Assembler(bvh.nodes, copies).place(*root, 0, 1);
+  bvh.nodes = assemble(*root);
   bvh.slotFaces.resize(triangles.size());
   for (size_t slot = 0; slot < triangles.size(); ++slot) bvh.slotFaces[slot] = triangles[slot].face;
-  copies.wait();
   return bvh;
 }
 

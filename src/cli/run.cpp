@@ -17,10 +17,6 @@
 namespace asdfvk {
 namespace {
 
-void writeTo(const std::string& output, const CommandLine& line, const Mesh& mesh, const Result& result) {
-  writeResult(output, mesh, {.values = result.sdf, .isSeed = result.isSeed}, writeOptionsOf(line));
-}
-
 Result computeMesh(Session& session, Mesh& mesh, const CommandLine& line, const std::stop_token& stop) {
   const Stopwatch watch;
   std::optional<ProgressBar> bar;
@@ -50,7 +46,7 @@ Answer runMesh(Session& session, const std::string& name, const std::string& out
     result = computeMesh(session, mesh, line, stop);
     if (stop.stop_requested()) throw Error(ErrorKind::Cancelled, "cancelled");
     const Stopwatch writeWatch;
-    writeTo(output, line, mesh, result);
+    writeResult(output, mesh, {result.sdf, result.isSeed}, writeOptionsOf(line));
     result.report.stageSeconds.write = writeWatch.seconds();
   }
   result.report.stageSeconds.read = readSeconds;

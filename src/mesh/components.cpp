@@ -59,15 +59,20 @@ Surroundings surroundingsOf(const Mesh& mesh, const DualGraph& graph, uint32_t f
   Surroundings result;
   for (size_t i = 0; i < 3; ++i) {
     uint32_t previous = f, count = 0;
+    EdgeUse lastUse = EdgeUse::None;
     for (uint32_t neighbour : graph.neighboursOf(f)) {
       if (neighbour == previous || !hasDistinctVertices(mesh.faces[neighbour])) continue;
       previous = neighbour;
       const EdgeUse use = useOfEdge(mesh.faces[neighbour], face[i], face[(i + 1) % 3]);
       if (use == EdgeUse::None) continue;
       ++count;
-      if (use == EdgeUse::From) result.areConsistent = false;
+      lastUse = use;
     }
-    if (count != 1) result.areClosed = false;
+    if (count != 1) {
+      result.areClosed = false;
+    } else if (lastUse == EdgeUse::From) {
+      result.areConsistent = false;
+    }
   }
   return result;
 }

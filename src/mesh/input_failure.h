@@ -11,7 +11,9 @@ namespace asdfvk {
 [[noreturn]] void failAtLine(uint64_t line, std::string_view reason);
 [[noreturn]] void failAtByte(uint64_t byte, std::string_view reason);
 
-/// `token` in quotes for a message: shortened, and whatever is not printable ASCII replaced by '?'.
+/// Words of the file as a message can show them: shortened, and whatever is not printable ASCII replaced by '?'.
+[[nodiscard]] std::string printable(std::string_view token);
+/// The same in quotes.
 [[nodiscard]] std::string quoted(std::string_view token);
 
 }  // namespace asdfvk

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "core/check.h"
-#include "mesh/nesting.h"
+#include "mesh/cavities.h"
 
 namespace asdfvk {
 namespace {
@@ -45,12 +45,12 @@ std::string OrientationReport::sentence(const Components& components) const {
 
 OrientationReport analyseOrientation(const Mesh& mesh, const Components& components) {
   OrientationReport report;
-  report.nestingDepths = nestingDepths(mesh, components);
+  report.isCavity = findCavities(mesh, components);
   for (uint32_t i = 0; i < components.components.size(); ++i) {
     const Component& component = components.components[i];
     if (!component.isClosed || !component.isConsistentlyWound) continue;
-    const bool isCavity = report.nestingDepths[i] % 2 == 1;
-    if (isCavity ? component.signedVolume > 0 : component.signedVolume < 0) report.invertedComponents.push_back(i);
+    if (report.isCavity[i] ? component.signedVolume > 0 : component.signedVolume < 0)
+      report.invertedComponents.push_back(i);
   }
   return report;
 }

@@ -13,7 +13,7 @@ namespace asdfvk {
 
 /// Which components look the wrong way.
 struct OrientationReport {
-  std::vector<uint32_t> nestingDepths;       ///< #components: how many closed components each lies inside of.
+  std::vector<uint8_t> isCavity;             ///< #components; see findCavities().
   std::vector<uint32_t> invertedComponents;  ///< Ascending indices.
 
   /// One sentence that names the inverted components by their lowest face; empty when there is none.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstdlib>
 #include <system_error>
 
 #include "mesh/input_failure.h"
@@ -17,23 +18,19 @@ constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
 /// is one of the two.
 bool isTiny(std::string_view number) {
   const size_t exponentAt = number.find_first_of("eE");
+  int64_t exponent = 0;
   if (exponentAt != std::string_view::npos) {
-    // The mantissa is shorter than the file, so a mantissa that outweighs such an exponent has a great many digits.
-    int64_t exponent = 0;
+    constexpr int64_t kHugeExponent = int64_t{1} << 60;
     std::string_view digits = number.substr(exponentAt + 1);
-    const bool isNegative = digits.starts_with('-');
-    if (isNegative || digits.starts_with('+')) digits.remove_prefix(1);
+    if (digits.starts_with('+')) digits.remove_prefix(1);
     const auto result = std::from_chars(digits.data(), digits.data() + digits.size(), exponent);
-    if (result.ec != std::errc()) return isNegative;
-    const std::string_view mantissa = number.substr(0, exponentAt);
-    const size_t point = std::min(mantissa.find('.'), mantissa.size());
-    const size_t first = mantissa.find_first_of("123456789");
-    if (first == std::string_view::npos) return true;
-    const int64_t magnitude = static_cast<int64_t>(point) - static_cast<int64_t>(first);
-    return magnitude + (isNegative ? -exponent : exponent) < 0;
+    if (result.ec != std::errc() || std::abs(exponent) > kHugeExponent) return digits.starts_with('-');
   }
-  const size_t point = std::min(number.find('.'), number.size());
-  return number.find_first_of("123456789") > point;
+  const std::string_view mantissa = number.substr(0, exponentAt);
+  const size_t firstDigit = mantissa.find_first_of("123456789");
+  if (firstDigit == std::string_view::npos) return true;
+  const size_t point = std::min(mantissa.find('.'), mantissa.size());
+  return static_cast<int64_t>(point) - static_cast<int64_t>(firstDigit) + exponent < 0;
 }
 
 }  // namespace
@@ -54,7 +51,7 @@ std::string_view TextScanner::scanWord() {
 }
 
 void TextScanner::requireWord(std::string_view what) {
-  if (atEnd()) failAtLine(line_, fmt::format("the file ends where {} should stand; it is cut short", what));
+  if (atEnd()) failAtLine(line_, fmt::format("the file ends where {} should stand; it is cut short", printable(what)));
 }
 
 std::string_view TextScanner::word(std::string_view what) {
@@ -69,10 +66,11 @@ double TextScanner::number(std::string_view what) {
   double value = 0;
   const auto [next, ec] = std::from_chars(begin, end_, value);
   if (ec == std::errc::invalid_argument || !endsWord(next))
-    failAtLine(line_, fmt::format("{} should stand here, not {}", what, quoted(scanWord())));
+    failAtLine(line_, fmt::format("{} should stand here, not {}", printable(what), quoted(scanWord())));
   if (ec == std::errc::result_out_of_range) {
     const std::string_view text(begin, static_cast<size_t>(next - begin));
-    if (!isTiny(text)) failAtLine(line_, fmt::format("{} is too large for a double: {}", what, quoted(text)));
+    if (!isTiny(text))
+      failAtLine(line_, fmt::format("{} is too large for a double: {}", printable(what), quoted(text)));
     value = *begin == '-' ? -0.0 : 0.0;
   }
   at_ = next;
@@ -86,13 +84,14 @@ int64_t TextScanner::integer(std::string_view what) {
   int64_t value = 0;
   const auto [next, ec] = std::from_chars(begin, end_, value);
   if (ec != std::errc() || !endsWord(next))
-    failAtLine(line_, fmt::format("{} should stand here as a whole number, not {}", what, quoted(scanWord())));
+    failAtLine(line_,
+               fmt::format("{} should stand here as a whole number, not {}", printable(what), quoted(scanWord())));
   at_ = next;
   return value;
 }
 
 void TextScanner::requireLineEnd(std::string_view afterWhat) {
-  if (!atLineEnd()) failAtLine(line_, fmt::format("{} is followed by {} on its line", afterWhat, quoted(scanWord())));
+  if (!atLineEnd()) failAtLine(line_, fmt::format("{} stands behind {}", quoted(scanWord()), afterWhat));
 }
 
 void TextScanner::skipLine() {

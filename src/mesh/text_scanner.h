@@ -13,7 +13,8 @@ struct TextSyntax {
 };
 
 /// Words and numbers of a text, with the line they stand on. Lines end with LF, CRLF or CR. Never reads beyond `bytes`,
-/// and keeps views into them. What is not there or is not a number is an Error{Input} that names the line and `what`.
+/// and keeps views into them. What is not there or is not a number is an Error{Input} that names the line and `what`,
+/// which may be words of the file.
 class TextScanner {
  public:
   /// A UTF-8 byte order mark at the beginning is passed over.

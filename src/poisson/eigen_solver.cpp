@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 #include <algorithm>
-#include <cmath>
+#include <limits>
 
 #include "core/check.h"
 #include "poisson/poisson_solver.h"

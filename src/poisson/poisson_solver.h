@@ -12,7 +12,7 @@
 namespace asdfvk {
 
 struct SolverOptions {
-  double tolerance = 1e-5;  ///< On the relative residual.
+  double tolerance = 1e-4;  ///< On the relative residual.
   uint32_t maxIterations = 20000;
 };
 

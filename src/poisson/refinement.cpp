@@ -37,6 +37,7 @@ SolverReport solveByRefinement(const std::string& name, const PoissonSystem& sys
                                   .reduction = std::max(kSafety * target / norm, strongestReduction),
                                   .maxIterations = options.maxIterations - report.iterations,
                                   .correction = correction});
+    if (!std::isfinite(orderedNorm(correction))) break;
     for (size_t i = 0; i < solution.size(); ++i) solution[i] += correction[i];
     computeResidual(system, solution, residual);
     const double newNorm = orderedNorm(residual);

@@ -4,12 +4,15 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "poisson/ordered_sum.h"
 
 namespace asdfvk {
 namespace {
+
+constexpr uint32_t kHeadLength = 3;  // Entries in a PoissonRow itself.
 
 template <typename Body>
 void forEachRow(size_t rowCount, const Body& body) {
@@ -21,16 +24,40 @@ void forEachRow(size_t rowCount, const Body& body) {
 }  // namespace
 
 ScaledSystem::ScaledSystem(const PoissonSystem& system)
-    : system_(system), couplings_(system.columns.size()), residualWeights_(system.faces.size()) {
+    : system_(system), rows_(system.faces.size()), residualWeights_(system.faces.size()) {
   const size_t rowCount = system.faces.size();
   meanDiagonal_ =
       orderedSum(rowCount, [&](size_t row) { return system.diagonal[row] / static_cast<double>(rowCount); });
-  for (size_t row = 0; row < rowCount; ++row)
-    longestRow_ = std::max(longestRow_, system.rowOffsets[row + 1] - system.rowOffsets[row]);
+  uint32_t tailSize = 0;
+  for (size_t row = 0; row < rowCount; ++row) {
+    const uint32_t length = system.rowOffsets[row + 1] - system.rowOffsets[row];
+    longestRow_ = std::max(longestRow_, length);
+    rows_[row].tailBegin = tailSize;
+    rows_[row].tailCount = length - std::min(length, kHeadLength);
+    tailSize += rows_[row].tailCount;
+  }
+  tailColumns_.resize(tailSize);
+  tailCouplings_.resize(tailSize);
   forEachRow(rowCount, [&](size_t row) {
     const double root = std::sqrt(system.diagonal[row]);
-    for (uint32_t i = system.rowOffsets[row]; i < system.rowOffsets[row + 1]; ++i)
-      couplings_[i] = static_cast<float>(system.weights[i] / root / std::sqrt(system.diagonal[system.columns[i]]));
+    const auto coupling = [&](uint32_t i) {
+      return static_cast<float>(system.weights[i] / root / std::sqrt(system.diagonal[system.columns[i]]));
+    };
+    const uint32_t begin = system.rowOffsets[row], length = system.rowOffsets[row + 1] - begin;
+    std::array<uint32_t, kHeadLength> columns;
+    std::array<float, kHeadLength> couplings{};
+    columns.fill(static_cast<uint32_t>(row));
+    for (uint32_t k = 0; k < std::min(length, kHeadLength); ++k) {
+      columns[k] = system.columns[begin + k];
+      couplings[k] = coupling(begin + k);
+    }
+    PoissonRow& entries = rows_[row];
+    entries = {columns[0],   columns[1],   columns[2],   entries.tailBegin,
+               couplings[0], couplings[1], couplings[2], entries.tailCount};
+    for (uint32_t k = 0; k < entries.tailCount; ++k) {
+      tailColumns_[entries.tailBegin + k] = system.columns[begin + kHeadLength + k];
+      tailCouplings_[entries.tailBegin + k] = coupling(begin + kHeadLength + k);
+    }
     residualWeights_[row] = static_cast<float>(system.diagonal[row] / meanDiagonal_);
   });
 }

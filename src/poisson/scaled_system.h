@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "poisson/poisson_system.h"
+#include "shared/poisson_layout.h"
 
 namespace asdfvk {
 
@@ -15,9 +16,9 @@ class ScaledSystem {
   explicit ScaledSystem(const PoissonSystem& system);
 
   [[nodiscard]] uint32_t unknownCount() const { return system_.unknownCount(); }
-  [[nodiscard]] std::span<const uint32_t> rowOffsets() const { return system_.rowOffsets; }
-  [[nodiscard]] std::span<const uint32_t> columns() const { return system_.columns; }
-  [[nodiscard]] const std::vector<float>& couplings() const { return couplings_; }  ///< Entries of S, one per column.
+  [[nodiscard]] const std::vector<PoissonRow>& rows() const { return rows_; }  ///< #U, the matrix S.
+  [[nodiscard]] const std::vector<uint32_t>& tailColumns() const { return tailColumns_; }
+  [[nodiscard]] const std::vector<float>& tailCouplings() const { return tailCouplings_; }
   /// #U: the weights with which squares of b - (I - S) y add up to the squared norm of the unscaled residual.
   [[nodiscard]] const std::vector<float>& residualWeights() const { return residualWeights_; }
   [[nodiscard]] uint32_t longestRow() const { return longestRow_; }
@@ -31,7 +32,9 @@ class ScaledSystem {
   const PoissonSystem& system_;
   double meanDiagonal_ = 0;
   uint32_t longestRow_ = 0;
-  std::vector<float> couplings_;
+  std::vector<PoissonRow> rows_;
+  std::vector<uint32_t> tailColumns_;
+  std::vector<float> tailCouplings_;
   std::vector<float> residualWeights_;
 };
 

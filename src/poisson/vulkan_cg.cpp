@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstring>
+#include <utility>
 
 #include "spirv/cg_direction.comp.h"
 #include "spirv/cg_product.comp.h"
@@ -13,12 +14,8 @@ namespace {
 constexpr VkBufferUsageFlags kVectorUsage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
 
 ComputePipelineDescription describe(const Device& device, const char* name, std::span<const uint32_t> spirv,
-                                    size_t bindingCount) {
-  return {name,
-          spirv,
-          std::vector<VkDescriptorType>(bindingCount, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER),
-          sizeof(PoissonPush),
-          {/* kLaneCount= */ poissonLaneCount(device.facts())}};
+                                    std::vector<VkDescriptorType> bindings) {
+  return {name, spirv, std::move(bindings), sizeof(PoissonPush), {/* kLaneCount= */ poissonLaneCount(device.facts())}};
 }
 
 Buffer uploadVector(const Device& device, std::span<const float> vector) {
@@ -39,9 +36,9 @@ std::array<CgState, 2> firstStates(std::span<const float> rightHandSide, double 
 }  // namespace
 
 VulkanCgKernels::VulkanCgKernels(const Device& device)
-    : product(device, describe(device, "cg_product.comp", k_cg_product_comp, 7)),
-      step(device, describe(device, "cg_step.comp", k_cg_step_comp, 7)),
-      direction(device, describe(device, "cg_direction.comp", k_cg_direction_comp, 4)) {}
+    : product(device, describe(device, "cg_product.comp", k_cg_product_comp, poissonBindings(7, true))),
+      step(device, describe(device, "cg_step.comp", k_cg_step_comp, poissonBindings(7, false))),
+      direction(device, describe(device, "cg_direction.comp", k_cg_direction_comp, poissonBindings(4, false))) {}
 
 VulkanCg::VulkanCg(const Device& device, const VulkanCgKernels& kernels, const VulkanMatrix& matrix,
                    std::span<const float> rightHandSide, double reduction)
@@ -57,8 +54,8 @@ VulkanCg::VulkanCg(const Device& device, const VulkanCgKernels& kernels, const V
       sums_(uploadBuffer(device, bytesOf(PoissonSums{}), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT)),
       stateOnHost_(device, sizeof(CgState), VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryKind::HostVisible),
       productBindings_(device, kernels.product,
-                       std::array<Binding, 7>{matrix.rowOffsets, matrix.columns, matrix.couplings, direction_, product_,
-                                              states_, sums_}),
+                       std::array<Binding, 7>{matrix.rowTexels, matrix.tailColumns, matrix.tailCouplings, direction_,
+                                              product_, states_, sums_}),
       stepBindings_(
           device, kernels.step,
           std::array<Binding, 7>{direction_, product_, matrix.residualWeights, solution_, residual_, states_, sums_}),

@@ -44,9 +44,11 @@ class VulkanCgSolver final : public PoissonSolver {
     progress.checkpoint(norm);
     CgState state{};
     uint32_t batch = kFirstBatch;
-    while (state.status == kCgRunning && state.iterationCount < request.maxIterations) {
+    for (uint32_t recorded = 0; state.status == kCgRunning && recorded < request.maxIterations;) {
       const Stopwatch stopwatch;
-      state = cg.advance(std::min(batch, request.maxIterations - state.iterationCount));
+      const uint32_t iterationCount = std::min(batch, request.maxIterations - recorded);
+      state = cg.advance(iterationCount);
+      recorded += iterationCount;
       if (2 * stopwatch.seconds() < kBatchSeconds) batch = std::min(2 * batch, kLargestBatch);
       progress.checkpoint(norm * std::sqrt(static_cast<double>(state.residualSquared)));
     }

@@ -16,7 +16,7 @@ constexpr size_t kBindingCount = 8;
 ComputePipelineDescription describe(const Device& device) {
   return {"jacobi_sweep.comp",
           k_jacobi_sweep_comp,
-          std::vector<VkDescriptorType>(kBindingCount, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER),
+          poissonBindings(kBindingCount, true),
           sizeof(PoissonPush),
           {/* kLaneCount= */ poissonLaneCount(device.facts())}};
 }
@@ -27,7 +27,14 @@ Buffer uploadZeros(const Device& device, size_t count) {
 
 std::array<Binding, kBindingCount> bind(const VulkanMatrix& matrix, const Buffer& rightHandSide, const Buffer& from,
                                         const Buffer& to, const Buffer& sums) {
-  return {matrix.rowOffsets, matrix.columns, matrix.couplings, rightHandSide, matrix.residualWeights, from, to, sums};
+  return {matrix.rowTexels,
+          matrix.tailColumns,
+          matrix.tailCouplings,
+          rightHandSide,
+          matrix.residualWeights,
+          from,
+          to,
+          sums};
 }
 
 }  // namespace

@@ -11,19 +11,22 @@
 namespace asdfvk {
 namespace {
 
-// Small workgroups suit CPU devices, where each lane beyond the vector width is one more coroutine to switch to.
-constexpr uint32_t kGpuLaneCount = 256;
-constexpr uint32_t kCpuLaneCount = 64;
-// Fewer rows per lane than this are not worth a workgroup whose partial sum every other one has to read.
-constexpr uint32_t kRowsPerLane = 4;
+// Every workgroup adds all the partial sums up again, so rows per lane must pay for it. A GPU has lanes to fill and
+// adds 256 sums at a stroke; a CPU device has neither.
+constexpr uint32_t kGpuLaneCount = 256, kGpuRowsPerLane = 4;
+constexpr uint32_t kCpuLaneCount = 32, kCpuRowsPerLane = 32;
 // llvmpipe ends loops after 65,535 iterations of an invocation, all its loops together.
 constexpr uint64_t kLoopIterationLimit = 60'000;
+
+uint32_t rowsPerLaneAtLeast(const DeviceFacts& facts) {
+  return facts.kind == DeviceKind::Cpu ? kCpuRowsPerLane : kGpuRowsPerLane;
+}
 
 uint64_t divideUp(uint64_t dividend, uint64_t divisor) { return (dividend + divisor - 1) / divisor; }
 
 template <typename T>
-Buffer uploadArray(const Device& device, std::span<const T> array) {
-  return uploadBuffer(device, std::as_bytes(array), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+Buffer uploadArray(const Device& device, const std::vector<T>& array, VkBufferUsageFlags usage) {
+  return uploadBuffer(device, std::as_bytes(std::span(array)), usage);
 }
 
 }  // namespace
@@ -35,12 +38,17 @@ uint32_t poissonLaneCount(const DeviceFacts& facts) {
 
 PoissonGrid choosePoissonGrid(const DeviceFacts& facts, uint32_t unknownCount) {
   const uint32_t laneCount = poissonLaneCount(facts);
-  const uint64_t wanted = divideUp(unknownCount, uint64_t{laneCount} * kRowsPerLane);
+  const uint64_t wanted = divideUp(unknownCount, uint64_t{laneCount} * rowsPerLaneAtLeast(facts));
   return {laneCount, static_cast<uint32_t>(std::clamp<uint64_t>(wanted, 1, kMaxPoissonWorkgroupCount))};
 }
 
-void requireSystemFits(const DeviceFacts& facts, uint64_t unknownCount, uint64_t columnCount, uint64_t longestRow) {
-  const uint64_t byteCount = sizeof(uint32_t) * std::max(unknownCount + 1, columnCount);
+void requireSystemFits(const DeviceFacts& facts, uint64_t unknownCount, uint64_t tailCount, uint64_t longestRow) {
+  if (unknownCount * kPoissonRowTexelCount > facts.maxTexelBufferElements)
+    throw Error(ErrorKind::Device, fmt::format("the Poisson system of {} unknowns needs {} texels in one buffer and {} "
+                                               "allows {}; use --solver eigen",
+                                               unknownCount, unknownCount * kPoissonRowTexelCount, facts.name,
+                                               facts.maxTexelBufferElements));
+  const uint64_t byteCount = sizeof(uint32_t) * std::max(unknownCount, tailCount);
   if (byteCount > facts.maxStorageBufferRange)
     throw Error(ErrorKind::Device,
                 fmt::format("the Poisson system of {} unknowns needs {} MiB in one buffer and {} allows {}; "
@@ -49,7 +57,7 @@ void requireSystemFits(const DeviceFacts& facts, uint64_t unknownCount, uint64_t
   const uint64_t laneCount = poissonLaneCount(facts);
   const uint64_t rowsPerLane = divideUp(unknownCount, laneCount * kMaxPoissonWorkgroupCount);
   // The loops of a kernel: rows and their entries, partial sums, two reduction trees.
-  const uint64_t iterations = std::max<uint64_t>(rowsPerLane, kRowsPerLane) * (longestRow + 1) +
+  const uint64_t iterations = std::max<uint64_t>(rowsPerLane, rowsPerLaneAtLeast(facts)) * (longestRow + 1) +
                               divideUp(kMaxPoissonWorkgroupCount, laneCount) + 2u * std::bit_width(laneCount);
   if (iterations > kLoopIterationLimit)
     throw Error(ErrorKind::Device,
@@ -59,12 +67,19 @@ void requireSystemFits(const DeviceFacts& facts, uint64_t unknownCount, uint64_t
 }
 
 VulkanMatrix::VulkanMatrix(const Device& device, const ScaledSystem& system) {
-  requireSystemFits(device.facts(), system.unknownCount(), system.columns().size(), system.longestRow());
+  requireSystemFits(device.facts(), system.unknownCount(), system.tailColumns().size(), system.longestRow());
   grid = choosePoissonGrid(device.facts(), system.unknownCount());
-  rowOffsets = uploadArray(device, system.rowOffsets());
-  columns = uploadArray(device, system.columns());
-  couplings = uploadArray(device, std::span<const float>(system.couplings()));
-  residualWeights = uploadArray(device, std::span<const float>(system.residualWeights()));
+  rows = uploadArray(device, system.rows(), VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT);
+  rowTexels = TexelView(device, rows);
+  tailColumns = uploadArray(device, system.tailColumns(), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+  tailCouplings = uploadArray(device, system.tailCouplings(), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+  residualWeights = uploadArray(device, system.residualWeights(), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+}
+
+std::vector<VkDescriptorType> poissonBindings(size_t count, bool withMatrix) {
+  std::vector<VkDescriptorType> types(count, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
+  if (withMatrix) types[0] = VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER;
+  return types;
 }
 
 }  // namespace asdfvk

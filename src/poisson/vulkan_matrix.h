@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "poisson/scaled_system.h"
 #include "vk/buffer.h"
@@ -18,9 +19,14 @@ struct PoissonGrid {
 [[nodiscard]] uint32_t poissonLaneCount(const DeviceFacts& facts);
 [[nodiscard]] PoissonGrid choosePoissonGrid(const DeviceFacts& facts, uint32_t unknownCount);
 
-/// Throws Error{Device}, naming --solver eigen as the remedy, when an array is larger than a binding may be on the
-/// device, or a lane might need more loop iterations than Mesa's CPU device executes before it ends loops silently.
-void requireSystemFits(const DeviceFacts& facts, uint64_t unknownCount, uint64_t columnCount, uint64_t longestRow);
+/// tailCount: entries beyond the third of their row. Throws Error{Device}, naming --solver eigen as the remedy, when an
+/// array is larger than a binding may be on the device, or a lane might need more loop iterations than Mesa's CPU
+/// device executes before it ends loops silently.
+void requireSystemFits(const DeviceFacts& facts, uint64_t unknownCount, uint64_t tailCount, uint64_t longestRow);
+
+/// The types of `count` bindings of a Poisson kernel, of which a kernel with a matrix has those of
+/// shaders/poisson_matrix.glsl first.
+[[nodiscard]] std::vector<VkDescriptorType> poissonBindings(size_t count, bool withMatrix);
 
 /// The matrix on the device: bindings 0 to 2 of shaders/poisson_matrix.glsl, and the weights of residuals.
 struct VulkanMatrix {
@@ -28,7 +34,9 @@ struct VulkanMatrix {
   VulkanMatrix(const Device& device, const ScaledSystem& system);
 
   PoissonGrid grid;
-  Buffer rowOffsets, columns, couplings, residualWeights;
+  Buffer rows;
+  TexelView rowTexels;
+  Buffer tailColumns, tailCouplings, residualWeights;
 };
 
 }  // namespace asdfvk

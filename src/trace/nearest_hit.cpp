@@ -80,7 +80,8 @@ class Walk {
       const uint32_t face = bvh_.slotFaces[slot];
       if (face == skippedFace_) continue;
       const double distance = rayTriangleDistance(ray_, corner(face, 0), corner(face, 1), corner(face, 2));
-      if (distance < best_.distance || (distance == best_.distance && face < best_.face)) best_ = {distance, face};
+      const bool isLowerTie = distance == best_.distance && face < best_.face && distance < kNoHit;
+      if (distance < best_.distance || isLowerTie) best_ = {distance, face};
     }
   }
   [[nodiscard]] Vec3d corner(uint32_t face, size_t k) const {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "trace/workgroup_shape.h"
+#include "trace/vulkan_workgroup_shape.h"
 #include "vk/compute_pipeline.h"
 #include "vk/device.h"
 

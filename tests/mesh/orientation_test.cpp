@@ -18,6 +18,7 @@ using shapes::together;
 namespace {
 
 using Indices = std::vector<uint32_t>;
+using Cavities = std::vector<int>;
 
 struct Analysis {
   Components components;
@@ -31,7 +32,10 @@ Analysis analyse(const Mesh& mesh) {
 }
 
 Indices invertedIn(const Mesh& mesh) { return analyse(mesh).report.invertedComponents; }
-Indices depthsIn(const Mesh& mesh) { return analyse(mesh).report.nestingDepths; }
+Cavities cavitiesIn(const Mesh& mesh) {
+  const std::vector<uint8_t> isCavity = analyse(mesh).report.isCavity;
+  return {isCavity.begin(), isCavity.end()};
+}
 
 }  // namespace
 
@@ -45,7 +49,7 @@ TEST_CASE("a lone closed shape is inverted when its volume is negative") {
 
 TEST_CASE("a cavity looks inwards") {
   const Mesh outer = sphere(3), inner = placed(sphere(2), 0.5, {0.1, 0.2, 0});
-  CHECK(depthsIn(together(outer, inner)) == Indices{0, 1});
+  CHECK(cavitiesIn(together(outer, inner)) == Cavities{0, 1});
   CHECK(invertedIn(together(outer, inverted(inner))).empty());
   CHECK(invertedIn(together(outer, inner)) == Indices{1});
   CHECK(invertedIn(together(inverted(inner), outer)).empty());
@@ -54,55 +58,55 @@ TEST_CASE("a cavity looks inwards") {
 
 TEST_CASE("spheres in each other alternate") {
   const Mesh nested = together(together(sphere(2), placed(sphere(3), 0.7)), placed(sphere(2), 0.3, {0.1, 0, 0}));
-  CHECK(depthsIn(nested) == Indices{0, 1, 2});
+  CHECK(cavitiesIn(nested) == Cavities{0, 1, 0});
   CHECK(invertedIn(nested) == Indices{1});
   CHECK(invertedIn(inverted(nested)) == Indices{0, 2});
 }
 
 TEST_CASE("a sphere in a torus's hole is in its box but not inside it") {
   const Mesh torus = shapes::torus(3, 1, 40, 20);
-  CHECK(depthsIn(together(torus, placed(sphere(3), 0.9))) == Indices{0, 0});
+  CHECK(cavitiesIn(together(torus, placed(sphere(3), 0.9))) == Cavities{0, 0});
   CHECK(invertedIn(together(torus, placed(inverted(sphere(3)), 0.9))) == Indices{1});
-  CHECK(depthsIn(together(torus, placed(sphere(3), 0.9, {3, 0, 0}))) == Indices{0, 1});
+  CHECK(cavitiesIn(together(torus, placed(sphere(3), 0.9, {3, 0, 0}))) == Cavities{0, 1});
 }
 
 TEST_CASE("a shape that sticks out of another one or equals it is not inside it") {
-  CHECK(depthsIn(together(sphere(3), placed(sphere(2), 0.5, {0.45, 0.45, 0.45}))) == Indices{0, 0});
-  CHECK(depthsIn(together(shapes::cube(), shapes::cube())) == Indices{0, 0});
-  CHECK(depthsIn(together(shapes::cube(), placed(shapes::cube(), 0.5, {0.5, 0, 0}))) == Indices{0, 0});  // Touches.
+  CHECK(cavitiesIn(together(sphere(3), placed(sphere(2), 0.5, {0.45, 0.45, 0.45}))) == Cavities{0, 0});
+  CHECK(cavitiesIn(together(shapes::cube(), shapes::cube())) == Cavities{0, 0});
+  CHECK(cavitiesIn(together(shapes::cube(), placed(shapes::cube(), 0.5, {0.5, 0, 0}))) == Cavities{0, 0});  // Touches.
 }
 
 TEST_CASE("probes straight above the corners and edges of a container are judged rightly") {
-  CHECK(depthsIn(together(shapes::cube(), placed(shapes::cube(), 0.5))) == Indices{0, 1});
-  CHECK(depthsIn(together(sphere(0), placed(sphere(0), 0.5))) == Indices{0, 1});
-  CHECK(depthsIn(together(shapes::grid(4), placed(shapes::cube(), 0.5, {2, 2, 1}))) == Indices{0, 0});
+  CHECK(cavitiesIn(together(shapes::cube(), placed(shapes::cube(), 0.5))) == Cavities{0, 1});
+  CHECK(cavitiesIn(together(sphere(0), placed(sphere(0), 0.5))) == Cavities{0, 1});
+  CHECK(cavitiesIn(together(shapes::grid(4), placed(shapes::cube(), 0.5, {2, 2, 1}))) == Cavities{0, 0});
 }
 
 TEST_CASE("open and inconsistently wound components are never inverted") {
   Mesh open = inverted(sphere(2));
   open.faces.pop_back();
   CHECK(invertedIn(open).empty());
-  CHECK(depthsIn(together(open, placed(sphere(2), 0.5))) == Indices{0, 0});
+  CHECK(cavitiesIn(together(open, placed(sphere(2), 0.5))) == Cavities{0, 0});
 
   Mesh mixed = inverted(sphere(2));
   std::swap(mixed.faces[5][1], mixed.faces[5][2]);
   CHECK(invertedIn(mixed).empty());
-  CHECK(depthsIn(together(mixed, placed(sphere(2), 0.5))) == Indices{0, 1});  // It still encloses.
+  CHECK(cavitiesIn(together(mixed, placed(sphere(2), 0.5))) == Cavities{0, 1});  // It still encloses.
 }
 
-TEST_CASE("depths hold at any scale, shift and number of threads") {
+TEST_CASE("cavities are found at any scale, shift and number of threads") {
   const Mesh nested = together(together(sphere(4), placed(sphere(4), 0.7)), placed(sphere(4), 0.3));
   for (const double scale : {1e-150, 1e-30, 1e-3, 1e3, 1e30, 1e150})
-    CHECK(depthsIn(placed(nested, scale)) == Indices{0, 1, 2});
-  CHECK(depthsIn(placed(nested, 1, {1e6, -1e6, 1e6})) == Indices{0, 1, 2});
+    CHECK(cavitiesIn(placed(nested, scale)) == Cavities{0, 1, 0});
+  CHECK(cavitiesIn(placed(nested, 1, {1e6, -1e6, 1e6})) == Cavities{0, 1, 0});
   const tbb::global_control oneThread(tbb::global_control::max_allowed_parallelism, 1);
-  CHECK(depthsIn(nested) == Indices{0, 1, 2});
+  CHECK(cavitiesIn(nested) == Cavities{0, 1, 0});
 }
 
-TEST_CASE("of thousands of components each depth is right") {
+TEST_CASE("of thousands of components each cavity is found") {
   const int n = 12;  // Shells on a grid; every third one has a core, and all are inside of one large sphere.
   Mesh mesh = placed(sphere(5), 40);
-  Indices expected{0};
+  Cavities expected{0};
   Random random(11);
   for (int i = 0; i < n * n * n; ++i) {
     const Vec3d centre{3.0 * (i % n) - 16.5, 3.0 * (i / n % n) - 16.5, 3.0 * (i / n / n) - 16.5};
@@ -110,9 +114,9 @@ TEST_CASE("of thousands of components each depth is right") {
     expected.push_back(1);
     if (i % 3 != 0) continue;
     mesh = together(std::move(mesh), placed(shapes::cube(), 0.3 + 0.1 * random.real(), centre));
-    expected.push_back(2);
+    expected.push_back(0);
   }
-  CHECK(depthsIn(mesh) == expected);
+  CHECK(cavitiesIn(mesh) == expected);
 }
 
 TEST_CASE("orienting turns the inverted components only, once, and what is derived with them") {

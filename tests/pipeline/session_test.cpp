@@ -54,7 +54,7 @@ TEST_CASE("a tenth of the faces casts rays and every face gets a value") {
   CHECK(std::count(result.isSeed.begin(), result.isSeed.end(), 1) == 200);
   CHECK(result.report.noValueCount == 0);
   CHECK(result.report.backend == "vulkan");
-  CHECK(result.report.solver.relativeResidual <= 1e-5);
+  CHECK(result.report.solver.relativeResidual <= 1e-4);
   CHECK(result.report.solver.converged);
   CHECK(result.report.componentCount == 1);
   CHECK(result.report.warnings.empty());
@@ -113,7 +113,7 @@ TEST_CASE("a component without a seed gets one") {
   const Result result = vulkanSession().compute(mesh, options);
   CHECK(result.report.componentCount == 2);
   CHECK(result.report.noValueCount == 0);
-  for (size_t f = 5000; f < mesh.faces.size(); ++f) CHECK(result.sdf[f] < 1.01);
+  for (size_t f = makeSphere(5000).mesh.faces.size(); f < mesh.faces.size(); ++f) CHECK(result.sdf[f] < 1.01);
 }
 
 TEST_CASE("a component none of whose faces has a value keeps no value and is told") {

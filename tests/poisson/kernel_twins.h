@@ -10,13 +10,12 @@ namespace asdfvk {
 /// What the kernels compute, in double, straight from the system's definition; nothing here is shared with src/poisson.
 struct KernelTwins {
   const PoissonSystem& system;
+  double meanDiagonal = 0;
 
   using Vector = std::vector<double>;
 
-  [[nodiscard]] double meanDiagonal() const {
-    double sum = 0;
-    for (double d : system.diagonal) sum += d;
-    return sum / static_cast<double>(system.diagonal.size());
+  explicit KernelTwins(const PoissonSystem& theSystem) : system(theSystem) {
+    for (double d : system.diagonal) meanDiagonal += d / static_cast<double>(system.diagonal.size());
   }
 
   /// b of (I - S) y = b for A e = residual, scaled so that the unscaled norm is 1.
@@ -25,7 +24,7 @@ struct KernelTwins {
     for (double r : residual) squared += r * r;
     Vector b(residual.size());
     for (size_t i = 0; i < b.size(); ++i)
-      b[i] = residual[i] / std::sqrt(squared) * std::sqrt(meanDiagonal() / system.diagonal[i]);
+      b[i] = residual[i] / std::sqrt(squared) * std::sqrt(meanDiagonal / system.diagonal[i]);
     return b;
   }
 
@@ -43,7 +42,7 @@ struct KernelTwins {
   /// The unscaled residual's squared norm for the scaled residual r.
   [[nodiscard]] double squaredNorm(const Vector& r) const {
     double sum = 0;
-    for (size_t i = 0; i < r.size(); ++i) sum += r[i] * r[i] * system.diagonal[i] / meanDiagonal();
+    for (size_t i = 0; i < r.size(); ++i) sum += r[i] * r[i] * system.diagonal[i] / meanDiagonal;
     return sum;
   }
 };

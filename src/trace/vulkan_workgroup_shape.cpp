@@ -1,4 +1,4 @@
-#include "trace/workgroup_shape.h"
+#include "trace/vulkan_workgroup_shape.h"
 
 #include <algorithm>
 

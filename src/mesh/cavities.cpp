@@ -1,14 +1,12 @@
-#include "mesh/nesting.h"
-
-#include <tbb/blocked_range.h>
-#include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
+#include "mesh/cavities.h"
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 
 #include "core/box3.h"
+#include "mesh/buckets.h"
 #include "mesh/normalization.h"
 #include "mesh/plane_points.h"
 
@@ -100,69 +98,50 @@ bool rayCrosses(const Face& face, const std::array<Vec3d, 3>& corners, const Vec
   return height > p.z;
 }
 
-// Crossings as (probe, crossed component), one entry each, in no order.
-std::vector<uint64_t> findCrossings(const Mesh& mesh, const Components& components, const RayFrame& frame,
-                                    const ClosedComponents& closed) {
+// For each probe 1 when its ray crosses an odd number of faces of the components whose boxes contain its own one. The
+// sum over components has the parity of the number of those that the probe is inside of.
+std::vector<uint8_t> parities(const Mesh& mesh, const Components& components, const RayFrame& frame,
+                              const ClosedComponents& closed) {
   std::vector<Point2> points;
   points.reserve(closed.probes.size());
   for (const Probe& probe : closed.probes) points.push_back({probe.point.x, probe.point.y});
   const PlanePoints tree(points);
-  tbb::enumerable_thread_specific<std::vector<uint64_t>> found;
-  tbb::parallel_for(tbb::blocked_range<uint32_t>(0, mesh.faceCount(), 1024), [&](const auto& range) {
-    std::vector<uint64_t>& crossings = found.local();
-    for (uint32_t f = range.begin(); f < range.end(); ++f) {
-      const uint32_t component = components.componentOf[f];
-      const Face& face = mesh.faces[f];
-      if (closed.boxes[component].isEmpty() || !hasDistinctVertices(face)) continue;
-      std::array<Vec3d, 3> corners;
-      std::array<Point2, 3> triangle;
-      for (size_t i = 0; i < 3; ++i) {
-        corners[i] = frame.toFrame(mesh.vertices[face[i]]);
-        triangle[i] = {corners[i].x, corners[i].y};
-      }
-      tree.forEachNear(triangle, [&](uint32_t index) {
-        const Probe& probe = closed.probes[index];
-        if (containsStrictly(closed.boxes[component], closed.boxes[probe.component]) &&
-            rayCrosses(face, corners, probe.point))
-          crossings.push_back(uint64_t{index} << 32 | component);
-      });
+  std::vector<uint8_t> result(points.size(), 0);
+  forEachInParallel(mesh.faces.size(), [&](uint32_t f) {
+    const Box3d& box = closed.boxes[components.componentOf[f]];
+    const Face& face = mesh.faces[f];
+    if (box.isEmpty() || !hasDistinctVertices(face)) return;
+    std::array<Vec3d, 3> corners;
+    std::array<Point2, 3> triangle;
+    for (size_t i = 0; i < 3; ++i) {
+      corners[i] = frame.toFrame(mesh.vertices[face[i]]);
+      triangle[i] = {corners[i].x, corners[i].y};
     }
+    tree.forEachNear(triangle, [&](uint32_t index) {
+      const Probe& probe = closed.probes[index];
+      if (containsStrictly(box, closed.boxes[probe.component]) && rayCrosses(face, corners, probe.point))
+        std::atomic_ref<uint8_t>(result[index]).fetch_xor(1, std::memory_order_relaxed);
+    });
   });
-  std::vector<uint64_t> all;
-  for (const std::vector<uint64_t>& crossings : found) all.insert(all.end(), crossings.begin(), crossings.end());
-  return all;
+  return result;
 }
 
 }  // namespace
 
-std::vector<uint32_t> nestingDepths(const Mesh& mesh, const Components& components) {
-  std::vector<uint32_t> depths(components.components.size(), 0);
+std::vector<uint8_t> findCavities(const Mesh& mesh, const Components& components) {
+  std::vector<uint8_t> isCavity(components.components.size(), 0);
   const auto isClosed = [](const Component& component) { return component.isClosed; };
-  if (std::count_if(components.components.begin(), components.components.end(), isClosed) < 2) return depths;
+  if (std::count_if(components.components.begin(), components.components.end(), isClosed) < 2) return isCavity;
   Box3d bounds;
   for (const Vec3d& vertex : mesh.vertices)
     if (isFinite(vertex)) bounds.add(vertex);
   const RayFrame frame{normalizationOf(bounds)};
   const ClosedComponents closed = gatherClosed(mesh, components, frame);
-  std::vector<uint64_t> crossings = findCrossings(mesh, components, frame, closed);
-  std::sort(crossings.begin(), crossings.end());
-
-  // One entry (component, container) for each of the component's probes that is inside the container.
-  std::vector<uint64_t> insides;
-  for (size_t begin = 0, end = 0; begin < crossings.size(); begin = end) {
-    while (end < crossings.size() && crossings[end] == crossings[begin]) ++end;
-    const uint64_t component = closed.probes[crossings[begin] >> 32].component;
-    if ((end - begin) % 2 == 1) insides.push_back(component << 32 | (crossings[begin] & UINT32_MAX));
-  }
-  std::sort(insides.begin(), insides.end());
-  std::vector<uint32_t> probeCounts(depths.size(), 0);
-  for (const Probe& probe : closed.probes) ++probeCounts[probe.component];
-  for (size_t begin = 0, end = 0; begin < insides.size(); begin = end) {
-    while (end < insides.size() && insides[end] == insides[begin]) ++end;
-    const size_t component = insides[begin] >> 32;
-    if (end - begin == probeCounts[component]) ++depths[component];
-  }
-  return depths;
+  const std::vector<uint8_t> isOdd = parities(mesh, components, frame, closed);
+  for (const Probe& probe : closed.probes) isCavity[probe.component] = 1;
+  for (size_t i = 0; i < isOdd.size(); ++i)
+    if (!isOdd[i]) isCavity[closed.probes[i].component] = 0;
+  return isCavity;
 }
 
 }  // namespace asdfvk

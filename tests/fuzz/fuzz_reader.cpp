@@ -1,0 +1,91 @@
+#include "fuzz_reader.h"
+
+#include <sanitizer/allocator_interface.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstdio>
+#include <cstdlib>
+#include <string_view>
+
+#include "core/error.h"
+#include "mesh/mesh_format.h"
+
+namespace asdfvk::fuzz {
+namespace {
+
+constexpr int64_t kMaxBytesPerInputByte = 64;
+constexpr int64_t kAllowance = int64_t{4} << 20;
+
+std::atomic<bool> isCounting = false;
+std::atomic<int64_t> liveBytes = 0;
+std::atomic<int64_t> peakBytes = 0;
+
+void onMalloc(const volatile void*, size_t size) {
+  if (!isCounting) return;
+  const int64_t live = liveBytes += static_cast<int64_t>(size);
+  if (live > peakBytes) peakBytes = live;
+}
+
+void onFree(const volatile void* pointer) {
+  if (isCounting && pointer != nullptr)
+    liveBytes -= static_cast<int64_t>(__sanitizer_get_allocated_size(const_cast<const void*>(pointer)));
+}
+
+void require(bool condition, const char* what) {
+  if (condition) return;
+  std::fprintf(stderr, "FINDING: %s\n", what);
+  std::abort();
+}
+
+void requireSound(const Mesh& mesh) {
+  require(!mesh.faces.empty(), "a mesh without faces was returned");
+  for (const Face& face : mesh.faces)
+    for (const uint32_t corner : face) require(corner < mesh.vertices.size(), "a face names no vertex");
+  const Polygons& polygons = mesh.polygons;
+  if (polygons.isEmpty()) {
+    require(polygons.corners.empty() && polygons.inputFaceOf.empty(), "polygons are half set");
+    return;
+  }
+  require(polygons.firstCorner.front() == 0, "the first polygon does not begin with the first corner");
+  require(polygons.firstCorner.back() == polygons.corners.size(), "the polygons do not end with the last corner");
+  require(polygons.inputFaceOf.size() == mesh.faces.size(), "not every triangle has its input face");
+  for (const uint32_t corner : polygons.corners) require(corner < mesh.vertices.size(), "a polygon names no vertex");
+  size_t triangle = 0;
+  for (size_t i = 0; i + 1 < polygons.firstCorner.size(); ++i) {
+    require(polygons.firstCorner[i] <= polygons.firstCorner[i + 1], "a polygon ends before it begins");
+    const size_t cornerCount = polygons.firstCorner[i + 1] - polygons.firstCorner[i];
+    for (size_t t = 2; t < cornerCount; ++t, ++triangle)
+      require(triangle < mesh.faces.size() && polygons.inputFaceOf[triangle] == i, "a polygon lost a triangle");
+  }
+  require(triangle == mesh.faces.size(), "a triangle belongs to no polygon");
+}
+
+}  // namespace
+
+int readOnce(Mesh (*parser)(std::span<const char>), const uint8_t* data, size_t size) {
+  static const int isInstalled = __sanitizer_install_malloc_and_free_hooks(onMalloc, onFree);
+  require(isInstalled != 0, "the allocation hooks could not be installed");
+  liveBytes = 0;
+  peakBytes = 0;
+  isCounting = true;
+  try {
+    const std::span bytes(reinterpret_cast<const char*>(data), size);
+    static_cast<void>(detectFormat(bytes, ""));
+    const Mesh mesh = parser(bytes);
+    isCounting = false;
+    requireSound(mesh);
+  } catch (const Error& error) {
+    isCounting = false;
+    require(error.kind() == ErrorKind::Input, "an error of another kind than Input");
+    const std::string_view message = error.what();
+    require(!message.empty(), "an error without a message");
+    require(std::all_of(message.begin(), message.end(), [](char c) { return c >= ' ' && c <= '~'; }),
+            "a message that is not one printable line");
+  }
+  require(peakBytes <= kMaxBytesPerInputByte * static_cast<int64_t>(size) + kAllowance,
+          "more memory than 64 times the input");
+  return 0;
+}
+
+}  // namespace asdfvk::fuzz

@@ -1,0 +1,72 @@
+#include <doctest/doctest.h>
+
+#include <array>
+#include <bit>
+#include <vector>
+
+#include "shared/poisson_layout.h"
+#include "spirv/poisson_layout_probe.comp.h"
+#include "support/test_device.h"
+#include "vk/command_list.h"
+#include "vk/compute_pipeline.h"
+
+using namespace asdfvk;
+
+TEST_CASE("a distinct word through each field of the Poisson structs arrives where the kernel reads it") {
+  const test::ValidatedDevice device;
+  uint32_t next = 1000;
+  std::vector<uint32_t> expected;
+  const auto word = [&] {
+    expected.push_back(++next);
+    return next;
+  };
+  const auto real = [&] { return std::bit_cast<float>(word() | 0x3f800000u); };
+  std::array<CgState, 2> states{};
+  for (CgState& state : states) {
+    state.residualDot = real();
+    state.residualSquared = real();
+    state.toleranceSquared = real();
+    state.iterationCount = word();
+    state.status = word();
+  }
+  PoissonPush push{};
+  push.unknownCount = word();
+  push.stateIndex = word();
+  PoissonSums sums{};
+  sums.brokenDown = word();
+  PoissonRow row{};
+  row.column0 = word();
+  row.column1 = word();
+  row.column2 = word();
+  row.tailBegin = word();
+  row.tailCount = word();
+  row.coupling0 = real();
+  row.coupling1 = real();
+  row.coupling2 = real();
+  for (float& sum : sums.productDot) sum = real();
+  for (float& sum : sums.residualDot) sum = real();
+  for (float& sum : sums.residualSquared) sum = real();
+
+  const Buffer stateBuffer = uploadBuffer(*device, bytesOf(states), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+  const Buffer sumBuffer = uploadBuffer(*device, bytesOf(sums), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+  const Buffer rowBuffer = uploadBuffer(*device, bytesOf(row), VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT);
+  const TexelView rowTexels(*device, rowBuffer);
+  const Buffer words(*device, expected.size() * sizeof(uint32_t), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+                     MemoryKind::HostVisible);
+  std::vector<VkDescriptorType> types(4, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
+  types[3] = VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER;
+  const ComputePipeline probe(
+      *device, {"poisson_layout_probe.comp", k_poisson_layout_probe_comp, types, sizeof(PoissonPush), {}});
+  const BindingSet bindings(*device, probe, std::array<Binding, 4>{stateBuffer, sumBuffer, words, rowTexels});
+  CommandList commands(*device);
+  commands.begin();
+  commands.dispatch(probe, bindings, bytesOf(push), 1);
+  commands.barrier();
+  commands.submitAndWait();
+  const std::span<const uint32_t> got = words.mappedAs<uint32_t>();
+  for (size_t i = 0; i < expected.size(); ++i) {
+    const bool isReal = i < 10 ? i % 5 < 3 : i > 17;
+    CAPTURE(i);
+    REQUIRE(got[i] == (isReal ? expected[i] | 0x3f800000u : expected[i]));
+  }
+}

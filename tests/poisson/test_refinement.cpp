@@ -1,0 +1,91 @@
+#include <doctest/doctest.h>
+
+#include <limits>
+
+#include "fixtures.h"
+#include "poisson/refinement.h"
+
+using namespace asdfvk;
+
+namespace {
+
+// One unknown between known values 2 and 4 at unit distance: 2 u = 6, the first guess is 3 and exact. Moved away from
+// it so that there is something to correct.
+PoissonSystem oneUnknown() {
+  PoissonSystem system = chain(3, 2, 4);
+  system.knownMean = 1;
+  return system;
+}
+
+struct Passes {
+  uint32_t count = 0;
+  std::vector<double> reductions;
+
+  /// Each pass takes 5 iterations and gives `share` of the exact correction.
+  CorrectionSolver giving(double share) {
+    return [this, share](const CorrectionRequest& request) {
+      ++count;
+      reductions.push_back(request.reduction);
+      request.correction[0] = share * request.residual[0] / 2;
+      return std::min(5u, request.maxIterations);
+    };
+  }
+};
+
+}  // namespace
+
+TEST_CASE("passes are added up until the true residual is within the tolerance") {
+  Passes passes;
+  std::vector<double> solution(1);
+  // The first relative residual is 2/3, each pass leaves a tenth: the fourth is the first at or below 1e-4.
+  const SolverReport report =
+      solveByRefinement("toy", oneUnknown(), {.tolerance = 1e-4}, 1e-3, solution, passes.giving(0.9));
+  CHECK(passes.count == 4);
+  CHECK(report.name == "toy");
+  CHECK(report.iterations == 20);
+  CHECK(report.converged);
+  CHECK(report.relativeResidual == doctest::Approx(2.0 / 3 * 1e-4).epsilon(1e-6));
+  CHECK(solution[0] == doctest::Approx(3).epsilon(1e-3));
+  // Never more than the strongest reduction, and less when less is needed.
+  CHECK(passes.reductions[0] == doctest::Approx(1e-3));
+  CHECK(passes.reductions[3] == doctest::Approx(0.9 * 1e-4 / (2.0 / 3 * 1e-3)));
+}
+
+TEST_CASE("a pass that does not help is the last") {
+  Passes passes;
+  std::vector<double> solution(1);
+  const SolverReport report = solveByRefinement("toy", oneUnknown(), {}, 1e-3, solution, passes.giving(0.1));
+  CHECK(passes.count == 1);
+  CHECK_FALSE(report.converged);
+  CHECK(report.relativeResidual == doctest::Approx(0.6));
+}
+
+TEST_CASE("a correction that is not finite is not added") {
+  for (double share : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    Passes passes;
+    std::vector<double> solution(1);
+    const SolverReport report = solveByRefinement("toy", oneUnknown(), {}, 1e-3, solution, passes.giving(share));
+    CHECK(passes.count == 1);
+    CHECK_FALSE(report.converged);
+    CHECK(solution[0] == 1);
+  }
+}
+
+TEST_CASE("the iterations of all passes together stay within the maximum") {
+  Passes passes;
+  std::vector<double> solution(1);
+  const SolverOptions options{.tolerance = 1e-12, .maxIterations = 12};
+  const SolverReport report = solveByRefinement("toy", oneUnknown(), options, 1e-3, solution, passes.giving(0.9));
+  CHECK(passes.count == 3);
+  CHECK(report.iterations == 12);
+  CHECK_FALSE(report.converged);
+}
+
+TEST_CASE("a first guess within the tolerance asks for no pass") {
+  Passes passes;
+  std::vector<double> solution(1);
+  const SolverReport report = solveByRefinement("toy", chain(3, 2, 4), {}, 1e-3, solution, passes.giving(0.9));
+  CHECK(passes.count == 0);
+  CHECK(report.converged);
+  CHECK(solution[0] == 3);
+}

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <vector>
+
+#include "cone/cone.h"
+#include "mesh/mesh.h"
+
+namespace asdfvk {
+
+/// Judges the reference tracer and shares no code with it but the cone's table and frame: all faces against each ray,
+/// in the mesh's own coordinates, intersections by signed volumes, the value by sorting.
+struct BruteForceCone {
+  std::vector<double> rayLengths;  ///< One per ray of the cone; NaN for a dropped one.
+  double value = kNoValue;
+};
+
+/// Precondition: the seed face is not degenerate.
+[[nodiscard]] BruteForceCone traceByBruteForce(const Mesh& mesh, const Cone& cone, uint32_t seedFace);
+
+/// The value of a cone from its rays' lengths, NaN for a dropped one.
+[[nodiscard]] double valueBySorting(const std::vector<double>& rayLengths, const std::vector<double>& weights);
+
+}  // namespace asdfvk
