@@ -8,6 +8,7 @@
 namespace asdfvk {
 
 // Smooth unions of capsules with the part and the local diameter of each face. Heights are about 2, z is up.
+// From about 2000 faces on they are spheres by topology; coarser lattices may let neighbouring limbs touch.
 
 struct CreatureParameters {
   double thickness = 1;  ///< Factor on all radii; limbs grow together above about 1.3.
