@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cstdlib>
 #include <system_error>
 
 #include "mesh/input_failure.h"
@@ -24,7 +23,8 @@ bool isTiny(std::string_view number) {
     std::string_view digits = number.substr(exponentAt + 1);
     if (digits.starts_with('+')) digits.remove_prefix(1);
     const auto result = std::from_chars(digits.data(), digits.data() + digits.size(), exponent);
-    if (result.ec != std::errc() || std::abs(exponent) > kHugeExponent) return digits.starts_with('-');
+    if (result.ec != std::errc() || exponent > kHugeExponent || exponent < -kHugeExponent)
+      return digits.starts_with('-');
   }
   const std::string_view mantissa = number.substr(0, exponentAt);
   const size_t firstDigit = mantissa.find_first_of("123456789");
