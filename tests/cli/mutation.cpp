@@ -37,32 +37,36 @@ void replaceRawNumber(std::string& bytes, Random& random) {
 void mutateOnce(std::string& bytes, Random& random) {
   const size_t begin = position(bytes, random);
   const size_t length = 1 + random.index(64);
-  switch (random.index(6)) {
+  // Changed values, which may well be read, are twice as frequent as changed lengths, which are mostly refused.
+  switch (random.index(9)) {
     case 0:
-      for (uint32_t i = 1 + random.index(8); i > 0 && !bytes.empty(); --i)
+    case 1:
+      for (uint32_t i = 1 + random.index(4); i > 0 && !bytes.empty(); --i)
         bytes[position(bytes, random)] ^= static_cast<char>(1u << random.index(8));
       return;
-    case 1:
-      bytes.resize(begin);
-      return;
     case 2:
-      bytes.insert(begin, bytes.substr(begin, length));
-      return;
     case 3:
-      bytes.erase(begin, length);
-      return;
-    case 4:
       replaceTextNumber(bytes, random);
       return;
-    default:
+    case 4:
+    case 5:
       replaceRawNumber(bytes, random);
+      return;
+    case 6:
+      bytes.resize(begin);
+      return;
+    case 7:
+      bytes.insert(begin, bytes.substr(begin, length));
+      return;
+    default:
+      bytes.erase(begin, length);
   }
 }
 
 }  // namespace
 
 std::string mutate(std::string bytes, Random& random) {
-  for (uint32_t faults = 1 + random.index(3); faults > 0; --faults) mutateOnce(bytes, random);
+  for (uint32_t faults = 1 + random.index(8) / 6; faults > 0; --faults) mutateOnce(bytes, random);
   return bytes;
 }
 
