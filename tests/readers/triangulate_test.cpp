@@ -1,4 +1,4 @@
-#include "mesh/triangulate.h"
+#include "mesh/readers/triangulate.h"
 
 #include <doctest/doctest.h>
 
