@@ -202,3 +202,15 @@ TEST_CASE("chunks grow and shrink towards their time, within bounds") {
   for (int i = 0; i < 20; ++i) chunk.adapt(chunk.current(), 100);
   CHECK(chunk.current() == 64);
 }
+
+TEST_CASE("a mesh beyond a device's limits is refused with a remedy") {
+  const Instance instance;
+  const VkPhysicalDevice physical = instance.physicalDevices().front();
+  DeviceFacts facts = describeDevice(physical);
+  facts.maxTexelBufferElements = 100;
+  const Device small(physical, facts);
+  const VulkanConeKernel kernel(small, 30);
+  const TracedMesh traced(generateShape("sphere", 500).mesh);
+  const Cone cone = makeCone({});
+  CHECK_THROWS_WITH_AS((void)makeVulkanTracer(kernel, traced.scene(), cone), doctest::Contains("smaller mesh"), Error);
+}
