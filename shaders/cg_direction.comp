@@ -1,6 +1,6 @@
 #version 450
-// Conjugate gradients, last third of an iteration: beta = new r.r / old r.r, p = r + beta p, and the scalars for the next
-// iteration, which does nothing once they say so.
+// Conjugate gradients, last third of an iteration: beta = new r.r / old r.r, p = r + beta p, and the scalars for the
+// next iteration, which does nothing once they say so.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/poisson_layout.h"
 

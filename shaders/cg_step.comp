@@ -1,6 +1,6 @@
 #version 450
-// Conjugate gradients, second third of an iteration: alpha = r.r / p.q, x += alpha p, r -= alpha q, and the partial sums
-// of the new residual's two norms.
+// Conjugate gradients, second third of an iteration: alpha = r.r / p.q, x += alpha p, r -= alpha q, and the partial
+// sums of the new residual's two norms.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/poisson_layout.h"
 

@@ -9,7 +9,8 @@ shared vec2 laneSums[kLaneCount];
 uint firstRow() { return gl_WorkGroupID.x * kLaneCount + gl_LocalInvocationID.x; }
 uint rowStride() { return gl_NumWorkGroups.x * kLaneCount; }
 
-// The sum over the workgroup's lanes, in all of them: a tree of fixed shape, so that a device repeats itself to the bit.
+// The sum over the workgroup's lanes, in all of them: a tree of fixed shape, so that a device repeats itself to the
+// bit.
 vec2 workgroupSum(vec2 value) {
   const uint lane = gl_LocalInvocationID.x;
   barrier();  // an earlier sum has been read by every lane

@@ -4,6 +4,7 @@
 // paper's section 6 asks for).
 #extension GL_GOOGLE_include_directive : require
 #include "shared/cone_layout.h"
+#include "shared/cone_rules.h"
 
 layout(local_size_x_id = 0, local_size_y_id = 1) in;
 layout(constant_id = 0) const uint kLanesPerCone = 32;
@@ -33,7 +34,7 @@ float validLength(Hit hit, vec3 axis) {
   if (hit.slot == kNoSlot) return kDropped;
   const DeviceTriangle triangle = loadTriangle(hit.slot);
   const vec3 normal = cross(triangle.v1 - triangle.v0, triangle.v2 - triangle.v0);
-  return dot(normal, axis) < 0.0 ? kDropped : hit.distance;
+  return -dot(normal, axis) > kFalseHitCosine * length(normal) ? kDropped : hit.distance;
 }
 
 void main() {

@@ -37,13 +37,9 @@ struct ConeFrame {
 /// axis-aligned wall has its normal. `axis` is a unit vector: minus the face normal.
 [[nodiscard]] ConeFrame coneFrame(const Vec3d& axis);
 
-/// Rays kept are those with |length - median| <= standard deviation + kOutlierSlack * median, so that ties (two rays
-/// are always a tie) do not depend on rounding.
-inline constexpr double kOutlierSlack = 1e-5;
-
 /// The shape diameter from the lengths of a cone's valid rays: the weighted mean of those within one standard deviation
-/// (population, about the mean) of the median (mean of the middle two for an even count). kNoValue for no rays.
-/// lengths and weights have one entry per valid ray, in the cone's order.
+/// (population, about the mean) of the median (mean of the middle two for an even count), with the slack kOutlierSlack
+/// of shared/cone_rules.h. kNoValue for no rays. lengths and weights have one entry per valid ray, in the cone's order.
 [[nodiscard]] double coneValue(std::span<const double> lengths, std::span<const double> weights);
 
 }  // namespace asdfvk

@@ -6,6 +6,7 @@
 #include "cone/cone.h"
 #include "core/check.h"
 #include "mesh/mesh.h"
+#include "shared/cone_rules.h"
 
 namespace asdfvk {
 namespace {

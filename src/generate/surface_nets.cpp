@@ -7,10 +7,11 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <memory>
+#include <utility>
 
 #include "core/check.h"
 #include "generate/brick_lattice.h"
+#include "generate/lattice_size.h"
 
 namespace asdfvk {
 namespace {
@@ -224,32 +225,11 @@ class SurfaceNets {
   GeneratedShape shape_;
 };
 
-/// The lattice whose spacing comes nearest to the wished number of quads: their number goes with 1 / spacing^2.
-std::unique_ptr<BrickLattice> latticeOfSize(const CapsuleUnion& field, uint64_t quadCount) {
-  const auto wished = static_cast<double>(quadCount);
-  double spacing = field.bounds().diagonal() / 20;
-  std::unique_ptr<BrickLattice> best;
-  double bestError = std::numeric_limits<double>::infinity();
-  for (int attempt = 0; attempt < 16 && bestError > 0.02; ++attempt) {
-    auto lattice = std::make_unique<BrickLattice>(field, spacing);
-    const double ratio = double(lattice->crossedEdgeCount()) / wished;
-    const double error = std::abs(std::log(ratio));
-    if (error < bestError) {
-      bestError = error;
-      best = std::move(lattice);
-    }
-    // Coarse lattices gain and lose quads in jumps: shorter steps find a way between two of them.
-    const double power = attempt < 6 ? 0.5 : 0.2;
-    spacing *= std::pow(std::clamp(ratio, 1.0 / 64, 64.0), power);
-  }
-  return best;
-}
-
 }  // namespace
 
 GeneratedShape polygonise(const CapsuleUnion& field, uint64_t faceCount) {
-  const std::unique_ptr<BrickLattice> lattice = latticeOfSize(field, faceCount / 2);
-  return SurfaceNets(field, *lattice).take();
+  const BrickLattice lattice = latticeOfSize(field, faceCount / 2);
+  return SurfaceNets(field, lattice).take();
 }
 
 }  // namespace asdfvk

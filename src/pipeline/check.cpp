@@ -68,8 +68,8 @@ CheckReport checkAgainstReference(const Mesh& mesh, const PreparedMesh& prepared
   } else {
     report.maximumError = 0;
   }
-  report.passed = report.tracedCount > 0 &&
-                  static_cast<double>(report.agreeingCount) >= kAgreementShare * static_cast<double>(report.tracedCount);
+  report.passed = report.tracedCount > 0 && static_cast<double>(report.agreeingCount) >=
+                                                kAgreementShare * static_cast<double>(report.tracedCount);
   return report;
 }
 

@@ -109,7 +109,7 @@ Result Session::compute(Mesh& mesh, const Options& options, const RunControl& co
   describeTrace(report, traced);
   std::vector<double> values = traced.values;
   report.solver = timed(seconds.solve, [&] {
-    return interpolate(mesh, prepared, options, backend, values, control.part(kTraceEnd, kSolveEnd));
+    return interpolate(mesh, prepared, options, backend, values, control.part(kTraceEnd, kSolveEnd), report.warnings);
   });
   if (options.checkCount)
     report.check = checkAgainstReference(mesh, prepared, scene, cone, traced, values, *options.checkCount,

@@ -26,7 +26,8 @@ struct TraceStatistics {
 };
 
 /// A way to trace cones. All of them share one accept rule: the nearest hit that is not on the seed face itself or a
-/// copy of it; dropped when that hit's face looks along the seed's normal (angle below 90 degrees) or nothing is hit.
+/// copy of it; dropped when that hit's face looks along the seed's normal (angle below 90 degrees, see kFalseHitCosine
+/// in shared/cone_rules.h) or nothing is hit.
 class ConeTracer {
  public:
   virtual ~ConeTracer() = default;

@@ -8,6 +8,7 @@
 
 #include "core/check.h"
 #include "core/stopwatch.h"
+#include "shared/cone_rules.h"
 #include "trace/nearest_hit.h"
 
 namespace asdfvk {
@@ -19,7 +20,7 @@ constexpr double kChunkSeconds = 0.05;
 double validDistance(const TraceScene& scene, const Vec3d& origin, const Vec3d& direction, uint32_t seedFace) {
   const RayHit hit = nearestHit(scene.bvh, scene.mesh, origin, direction, scene.representatives[seedFace]);
   if (hit.face == kNoFace) return kNoHit;
-  const bool isFalse = dot(scene.geometry.normals[seedFace], scene.geometry.normals[hit.face]) > 0;
+  const bool isFalse = dot(scene.geometry.normals[seedFace], scene.geometry.normals[hit.face]) > kFalseHitCosine;
   return isFalse ? kNoHit : hit.distance;
 }
 

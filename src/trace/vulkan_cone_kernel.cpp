@@ -8,7 +8,7 @@ namespace asdfvk {
 VulkanConeKernel::VulkanConeKernel(const Device& device, uint32_t rayCount)
     : VulkanConeKernel(device, rayCount, workgroupShapeFor(device.facts(), rayCount)) {}
 
-VulkanConeKernel::VulkanConeKernel(const Device& device, uint32_t rayCount, const WorkgroupShape& shape)
+VulkanConeKernel::VulkanConeKernel(const Device& device, uint32_t rayCount, const VulkanWorkgroupShape& shape)
     : device_(device),
       rayCount_(rayCount),
       shape_(shape),

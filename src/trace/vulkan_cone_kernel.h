@@ -11,17 +11,17 @@ class VulkanConeKernel {
  public:
   VulkanConeKernel(const Device& device, uint32_t rayCount);
   /// For tests that want another shape than the device's own.
-  VulkanConeKernel(const Device& device, uint32_t rayCount, const WorkgroupShape& shape);
+  VulkanConeKernel(const Device& device, uint32_t rayCount, const VulkanWorkgroupShape& shape);
 
   [[nodiscard]] const Device& device() const { return device_; }
   [[nodiscard]] const ComputePipeline& pipeline() const { return pipeline_; }
   [[nodiscard]] uint32_t rayCount() const { return rayCount_; }
-  [[nodiscard]] const WorkgroupShape& shape() const { return shape_; }
+  [[nodiscard]] const VulkanWorkgroupShape& shape() const { return shape_; }
 
  private:
   const Device& device_;
   uint32_t rayCount_;
-  WorkgroupShape shape_;
+  VulkanWorkgroupShape shape_;
   ComputePipeline pipeline_;
 };
 

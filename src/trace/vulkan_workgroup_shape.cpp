@@ -13,8 +13,8 @@ uint32_t roundUp(uint32_t value, uint32_t multiple) { return (value + multiple -
 
 }  // namespace
 
-WorkgroupShape workgroupShapeFor(const DeviceFacts& device, uint32_t rayCount) {
-  WorkgroupShape shape;
+VulkanWorkgroupShape workgroupShapeFor(const DeviceFacts& device, uint32_t rayCount) {
+  VulkanWorkgroupShape shape;
   const uint32_t widest = std::min(256u, device.maxWorkgroupInvocations);
   if (device.kind != DeviceKind::Cpu) {
     shape.lanesPerCone = std::min(widest, roundUp(rayCount, std::clamp(device.subgroupSize, 8u, 32u)));

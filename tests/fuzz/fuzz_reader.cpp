@@ -9,13 +9,13 @@
 #include <string_view>
 
 #include "core/error.h"
-#include "mesh/mesh_format.h"
+#include "mesh/readers/mesh_format.h"
 
 namespace asdfvk::fuzz {
 namespace {
 
 constexpr int64_t kMaxBytesPerInputByte = 64;
-constexpr int64_t kAllowance = int64_t{4} << 20;
+constexpr int64_t kAllowance = 256 << 10;
 
 std::atomic<bool> isCounting = false;
 std::atomic<int64_t> liveBytes = 0;

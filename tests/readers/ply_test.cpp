@@ -1,6 +1,6 @@
 #include <doctest/doctest.h>
 
-#include <bit>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -227,6 +227,21 @@ TEST_CASE("what is wrong with a PLY file is told with its line or byte") {
   wrong.back() = 4;
   CHECK(errorOf(parsePly, wrong) ==
         "byte " + std::to_string(wrong.size() - 1) + ": vertex index 4 in row 1 is out of range; there are 4 vertices");
+}
+
+TEST_CASE("an index out of range is found among the faces of a binary PLY of nothing but triangles") {
+  for (const int index : {3, -1, 70000}) {
+    CAPTURE(index);
+    std::string bytes =
+        "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty uchar x\nproperty uchar y\nproperty uchar z\n"
+        "element face 2\nproperty list uchar int vertex_indices\nend_header\n" +
+        std::string(9, '\0');
+    for (const auto& face : {std::array{0, 1, 2}, std::array{2, index, 0}}) {
+      bytes += '\3';
+      for (const int corner : face) bytes += packed(corner, false);
+    }
+    CHECK(holds(errorOf(parsePly, bytes), "vertex index " + std::to_string(index) + " in row 1 is out of range"));
+  }
 }
 
 TEST_CASE("a large binary PLY of triangles is read in parallel as it is row by row") {

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <thread>
 
-#include "mesh/mesh_format.h"
+#include "mesh/readers/mesh_format.h"
 #include "reading.h"
 
 using namespace asdfvk;

@@ -4,7 +4,7 @@
 #include <cstring>
 #include <limits>
 
-#include "mesh/corner_welder.h"
+#include "mesh/readers/corner_welder.h"
 #include "reading.h"
 
 using namespace asdfvk;

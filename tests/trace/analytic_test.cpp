@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -19,12 +20,6 @@ constexpr double kUnitSphereInNarrowCone = 1.781859515259041;
 constexpr ConeOptions kWideCone = {29, 120};
 constexpr double kUnitSphereInWideCone = 1.7218260786612751;  // 17 of 29 rays.
 constexpr double kUnitSlabValue = 1.2531787496312747;         // The default cone.
-
-double maxError(const Mesh& mesh, const ConeOptions& options, double expected) {
-  double worst = 0;
-  for (const double value : TracedMesh(mesh).values(options)) worst = std::max(worst, std::abs(value - expected));
-  return worst;
-}
 
 Vec3d rayOf(const Cone& cone, size_t i, const Vec3d& normal) {
   const ConeFrame frame = coneFrame(-normal);
@@ -68,7 +63,10 @@ TEST_CASE("a sphere's mean value converges to the exact one") {
 }
 
 TEST_CASE("on a sphere the rays beyond 45 degrees are dropped") {
-  CHECK(maxError(shapes::icosphere(5), kWideCone, kUnitSphereInWideCone) < 1e-3);
+  // Of the dropped rays the nearest is 0.7 degrees from that edge, about what a facet's normal is off the sphere's.
+  const std::vector<double> values = TracedMesh(shapes::icosphere(5)).values(kWideCone);
+  const auto isExact = [](double value) { return std::abs(value - kUnitSphereInWideCone) < 1e-3; };
+  CHECK(std::count_if(values.begin(), values.end(), isExact) >= 0.99 * static_cast<double>(values.size()));
 }
 
 TEST_CASE("a wide slab's value is that of thickness / cos t") {

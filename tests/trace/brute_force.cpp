@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "shared/cone_rules.h"
+
 namespace asdfvk {
 namespace {
 
@@ -58,7 +60,7 @@ BruteForceCone traceByBruteForce(const Mesh& mesh, const Cone& cone, uint32_t se
       nearest = distance;
       nearestNormal = corners.normal() / length(corners.normal());
     }
-    const bool isValid = std::isfinite(nearest) && !(dot(normal, nearestNormal) > 0);
+    const bool isValid = std::isfinite(nearest) && !(dot(normal, nearestNormal) > kFalseHitCosine);
     result.rayLengths.push_back(isValid ? nearest : kNoValue);
   }
   result.value = valueBySorting(result.rayLengths, cone.weights);

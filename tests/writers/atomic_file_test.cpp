@@ -9,7 +9,7 @@
 #include <thread>
 
 #include "core/error.h"
-#include "mesh/atomic_file.h"
+#include "mesh/writers/atomic_file.h"
 #include "written_file.h"
 
 using namespace asdfvk;

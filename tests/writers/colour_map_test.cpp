@@ -3,7 +3,7 @@
 #include <limits>
 #include <vector>
 
-#include "mesh/colour_map.h"
+#include "mesh/writers/colour_map.h"
 #include "mesh/mesh.h"
 
 using namespace asdfvk;

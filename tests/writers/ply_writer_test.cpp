@@ -5,7 +5,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "mesh/colour_map.h"
+#include "mesh/writers/colour_map.h"
 #include "written_file.h"
 
 using namespace asdfvk;

@@ -1,0 +1,74 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <set>
+
+#include "mesh/mesh_reader.h"
+#include "support/shared_session.h"
+
+using namespace asdfvk;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Every mesh of a folder below ASDF_VK_MESH_DIR, by name; none where the variable is unset.
+std::vector<fs::path> realMeshes(const char* folder) {
+  const char* root = std::getenv("ASDF_VK_MESH_DIR");
+  if (root == nullptr) {
+    MESSAGE("skipped: ASDF_VK_MESH_DIR is not set");
+    return {};
+  }
+  static const std::set<std::string> kExtensions{".ply", ".off", ".obj", ".stl"};
+  std::vector<fs::path> meshes;
+  for (const fs::directory_entry& entry : fs::directory_iterator(fs::path(root) / folder))
+    if (kExtensions.contains(entry.path().extension().string())) meshes.push_back(entry.path());
+  std::sort(meshes.begin(), meshes.end());
+  return meshes;
+}
+
+/// Every face of the mesh is traced on the device; 3000 of them are compared with the reference.
+void checkParity(const fs::path& path) {
+  CAPTURE(path.string());
+  Mesh mesh = readMesh(path);
+  const uint64_t faceCount = mesh.inputFaceCount();
+  Options options;
+  options.seeds.kind = SeedCount::Kind::All;
+  options.checkCount = 3000;
+  const Result result = test::vulkanSession().compute(mesh, options);
+  CHECK(result.sdf.size() == faceCount);
+  CHECK(result.isSeed.size() == faceCount);
+  REQUIRE(result.report.check);
+  CHECK(result.report.check->passed);
+}
+
+}  // namespace
+
+TEST_CASE("real models: Vulkan agrees with the reference") {
+  for (const fs::path& path : realMeshes("models")) checkParity(path);
+}
+
+TEST_CASE("real open meshes: Vulkan agrees with the reference") {
+  for (const fs::path& path : realMeshes("open")) checkParity(path);
+}
+
+TEST_CASE("real defective meshes: Vulkan agrees with the reference") {
+  for (const fs::path& path : realMeshes("defects")) checkParity(path);
+}
+
+TEST_CASE("every eighth mesh of the Princeton benchmark: Vulkan agrees with the reference") {
+  const std::vector<fs::path> meshes = realMeshes("psb/off");
+  for (size_t i = 0; i < meshes.size(); i += 8) checkParity(meshes[i]);
+}
+
+TEST_CASE("a tenth of horse's faces interpolates the others within the paper's error") {
+  for (const fs::path& path : realMeshes("models")) {
+    if (path.filename() != "horse.ply") continue;
+    Mesh mesh = readMesh(path);
+    Options options;
+    options.checkCount = 20'000;
+    const Result result = test::vulkanSession().compute(mesh, options);
+    CHECK(result.report.check->averageError < 0.018);  // the paper, Table 1: 0.0272
+  }
+}

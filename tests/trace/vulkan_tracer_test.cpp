@@ -1,0 +1,216 @@
+#include "trace/vulkan_tracer.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "core/error.h"
+#include "generate/shapes.h"
+#include "shapes.h"
+#include "support/test_device.h"
+#include "trace/chunk_size.h"
+#include "traced_mesh.h"
+
+using namespace asdfvk;
+
+namespace {
+
+struct Traced {
+  std::vector<double> values;
+  TraceStatistics statistics;
+};
+
+Traced traceWith(const VulkanConeKernel& kernel, const TracedMesh& traced, const ConeOptions& options = {},
+                 const RunControl& control = {}) {
+  const Cone cone = makeCone(options);
+  const std::vector<uint32_t> seeds = traced.seedFaces();
+  Traced result{std::vector<double>(seeds.size()), {}};
+  result.statistics = makeVulkanTracer(kernel, traced.scene(), cone)->trace(seeds, result.values, control);
+  return result;
+}
+
+std::vector<double> referenceValues(const TracedMesh& traced, const ConeOptions& options = {}) {
+  const Cone cone = makeCone(options);
+  const std::vector<uint32_t> seeds = traced.seedFaces();
+  std::vector<double> values(seeds.size());
+  makeReferenceTracer(traced.scene(), cone)->trace(seeds, values, {});
+  return values;
+}
+
+/// Faces that differ by more than 1e-4 of the diagonal, or that have a value on one side only.
+uint64_t differingCount(const std::vector<double>& a, const std::vector<double>& b, double diagonal) {
+  REQUIRE(a.size() == b.size());
+  uint64_t count = 0;
+  for (size_t i = 0; i < a.size(); ++i) {
+    const bool isSame = std::isnan(a[i]) || std::isnan(b[i]) ? std::isnan(a[i]) == std::isnan(b[i])
+                                                             : std::abs(a[i] - b[i]) <= 1e-4 * diagonal;
+    count += !isSame;
+  }
+  return count;
+}
+
+void checkParity(const VulkanConeKernel& kernel, const TracedMesh& traced, const ConeOptions& options = {}) {
+  const std::vector<double> reference = referenceValues(traced, options);
+  const std::vector<double> values = traceWith(kernel, traced, options).values;
+  CHECK(differingCount(values, reference, traced.geometry.bounds.diagonal()) <= reference.size() / 1000);
+}
+
+bool haveSameBits(const std::vector<double>& a, const std::vector<double>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
+}
+
+}  // namespace
+
+TEST_CASE("the kernel gives the reference's values on every generated shape") {
+  const test::ValidatedDevice device;
+  const VulkanConeKernel kernel(*device, 30);
+  for (const std::string_view name : shapeNames()) {
+    CAPTURE(name);
+    checkParity(kernel, TracedMesh(generateShape(name, 3000).mesh));
+  }
+}
+
+TEST_CASE("the kernel gives the reference's values on open, crossing, nested and non-manifold meshes") {
+  const test::ValidatedDevice device;
+  const VulkanConeKernel kernel(*device, 30);
+  checkParity(kernel, TracedMesh(shapes::openBox({1, 2, 3}, 8)));
+  checkParity(kernel, TracedMesh(shapes::soup(2000, 5)));
+  checkParity(kernel, TracedMesh(shapes::shell(2, 1)));
+  checkParity(kernel, TracedMesh(shapes::jittered(shapes::boxesWithSharedEdge(), 1e-3, 1)));
+  checkParity(kernel, TracedMesh(shapes::inverted(shapes::icosphere(3))));
+}
+
+TEST_CASE("any number of rays from 1 to 1024 gives the reference's values") {
+  const test::ValidatedDevice device;
+  const TracedMesh traced(generateShape("torus", 600).mesh);
+  for (const uint32_t rayCount : {1u, 2u, 3u, 7u, 8u, 9u, 31u, 32u, 33u, 64u, 100u, 255u, 256u, 257u, 1000u, 1024u}) {
+    CAPTURE(rayCount);
+    const VulkanConeKernel kernel(*device, rayCount);
+    checkParity(kernel, traced, {.rayCount = rayCount});
+  }
+}
+
+TEST_CASE("any workgroup shape gives the same bits") {
+  const test::ValidatedDevice device;
+  const TracedMesh traced(generateShape("animal", 1500).mesh);
+  const std::vector<double> expected = traceWith(VulkanConeKernel(*device, 30), traced).values;
+  for (const VulkanWorkgroupShape shape : {VulkanWorkgroupShape{8, 1, 8000}, VulkanWorkgroupShape{16, 3, 8000},
+                                           VulkanWorkgroupShape{32, 4, 8000}, VulkanWorkgroupShape{64, 2, 8000}}) {
+    CAPTURE(shape.lanesPerCone);
+    CHECK(haveSameBits(traceWith(VulkanConeKernel(*device, 30, shape), traced).values, expected));
+  }
+}
+
+TEST_CASE("cones beyond the iteration guard are redone by the reference and counted") {
+  const test::ValidatedDevice device;
+  const TracedMesh traced(generateShape("animal", 1500).mesh);
+  const std::vector<double> reference = referenceValues(traced);
+  const Traced all = traceWith(VulkanConeKernel(*device, 30, {32, 1, 3}), traced);
+  CHECK(all.statistics.redoneConeCount == reference.size());
+  CHECK(haveSameBits(all.values, reference));
+  const Traced some = traceWith(VulkanConeKernel(*device, 30, {32, 1, 60}), traced);
+  CHECK(some.statistics.redoneConeCount > 0);
+  CHECK(some.statistics.redoneConeCount < reference.size());
+  CHECK(differingCount(some.values, reference, traced.geometry.bounds.diagonal()) <= reference.size() / 1000);
+}
+
+TEST_CASE("the device's own iteration guard suffices for its workgroup shape") {
+  // llvmpipe would end loops without a word at 65,535 iterations: the shape must stop before.
+  DeviceFacts cpu;
+  cpu.kind = DeviceKind::Cpu;
+  cpu.subgroupSize = 8;
+  cpu.maxWorkgroupInvocations = 1024;
+  for (uint32_t rayCount = 1; rayCount <= kMaxRayCount; ++rayCount) {
+    const VulkanWorkgroupShape shape = workgroupShapeFor(cpu, rayCount);
+    const uint32_t raysPerLane = (rayCount + shape.lanesPerCone - 1) / shape.lanesPerCone;
+    const uint64_t reduction = uint64_t{rayCount} * (3 + raysPerLane) + 2 * raysPerLane;
+    REQUIRE(8ull * shape.iterationLimit + reduction <= 65'535);
+    REQUIRE(shape.iterationLimit > 5000);
+    REQUIRE(shape.lanesPerCone % 8 == 0);
+  }
+}
+
+TEST_CASE("a GPU's workgroups hold several cones") {
+  DeviceFacts gpu;
+  gpu.kind = DeviceKind::Discrete;
+  gpu.subgroupSize = 32;
+  gpu.maxWorkgroupInvocations = 1024;
+  CHECK(workgroupShapeFor(gpu, 30).lanesPerCone == 32);
+  CHECK(workgroupShapeFor(gpu, 30).conesPerWorkgroup == 4);
+  CHECK(workgroupShapeFor(gpu, 1024).lanesPerCone == 256);
+  CHECK(workgroupShapeFor(gpu, 1024).conesPerWorkgroup == 1);
+}
+
+TEST_CASE("two runs on the device give the same bits, whatever the order of the seeds") {
+  const test::ValidatedDevice device;
+  const VulkanConeKernel kernel(*device, 30);
+  const TracedMesh traced(generateShape("hand", 4000).mesh);
+  const Cone cone = makeCone({});
+  std::vector<uint32_t> seeds = traced.seedFaces();
+  std::vector<double> forward(seeds.size()), backward(seeds.size());
+  const auto tracer = makeVulkanTracer(kernel, traced.scene(), cone);
+  tracer->trace(seeds, forward, {});
+  std::reverse(seeds.begin(), seeds.end());
+  tracer->trace(seeds, backward, {});
+  std::reverse(backward.begin(), backward.end());
+  CHECK(haveSameBits(forward, backward));
+}
+
+TEST_CASE("copies of faces, and degenerate ones beside them, change no value") {
+  const test::ValidatedDevice device;
+  const VulkanConeKernel kernel(*device, 30);
+  Mesh mesh = generateShape("torus", 600).mesh;
+  const std::vector<double> expected = traceWith(kernel, TracedMesh(mesh)).values;
+  const size_t count = mesh.faces.size();
+  for (size_t f = 0; f < count; f += 7) mesh.faces.push_back(mesh.faces[f]);
+  mesh.faces.push_back({0, 0, 1});
+  const std::vector<double> values = traceWith(kernel, TracedMesh(mesh)).values;
+  for (size_t f = 0; f < count; ++f) CHECK(values[f] == doctest::Approx(expected[f]).epsilon(1e-6));
+  for (size_t i = 0; count + i < values.size(); ++i)
+    CHECK(values[count + i] == doctest::Approx(expected[7 * i]).epsilon(1e-6));
+}
+
+TEST_CASE("a trace on the device stops between chunks when it is asked to") {
+  const test::ValidatedDevice device;
+  const VulkanConeKernel kernel(*device, 30);
+  const TracedMesh traced(generateShape("torus", 40'000).mesh);
+  std::stop_source stop;
+  uint32_t checkpointCount = 0;
+  const RunControl control{stop.get_token(), [&](double fraction) {
+                             ++checkpointCount;
+                             if (fraction > 0) stop.request_stop();
+                           }};
+  try {
+    (void)traceWith(kernel, traced, {}, control);
+    FAIL("it ran to the end");
+  } catch (const Error& error) {
+    CHECK(error.kind() == ErrorKind::Cancelled);
+  }
+  CHECK(checkpointCount == 2);
+}
+
+TEST_CASE("chunks grow and shrink towards their time, within bounds") {
+  ChunkSize chunk(1000, 1'000'000);
+  chunk.adapt(1000, ChunkSize::kTargetSeconds / 1000);
+  CHECK(chunk.current() == 4000);
+  chunk.adapt(4000, ChunkSize::kTargetSeconds * 2);
+  CHECK(chunk.current() == doctest::Approx(2000).epsilon(0.01));
+  for (int i = 0; i < 20; ++i) chunk.adapt(chunk.current(), 1e-9);
+  CHECK(chunk.current() == 1'000'000);
+  for (int i = 0; i < 20; ++i) chunk.adapt(chunk.current(), 100);
+  CHECK(chunk.current() == 64);
+}
+
+TEST_CASE("a mesh beyond a device's limits is refused with a remedy") {
+  const Instance instance;
+  const VkPhysicalDevice physical = instance.physicalDevices().front();
+  DeviceFacts facts = describeDevice(physical);
+  facts.maxTexelBufferElements = 100;
+  const Device small(physical, facts);
+  const VulkanConeKernel kernel(small, 30);
+  const TracedMesh traced(generateShape("sphere", 500).mesh);
+  const Cone cone = makeCone({});
+  CHECK_THROWS_WITH_AS((void)makeVulkanTracer(kernel, traced.scene(), cone), doctest::Contains("smaller mesh"), Error);
+}
