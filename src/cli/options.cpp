@@ -67,20 +67,29 @@ CLI::Option* addValue(CLI::App& app, const std::string& name, const std::string&
       ->option_text(placeholder);
 }
 
+/// "10%", as --seeds takes it.
+std::string defaultSeeds() { return fmt::format("{}%", Options{}.seeds.share * 100); }
+
 void addComputation(CLI::App& app, Options& options) {
+  const Options defaults;
   const std::string rays = "Seeds and rays";
-  addValue(app, "--seeds", "N%|N|all", "Faces that cast rays: a share, a count or all; default 10%",
+  addValue(app, "--seeds", "N%|N|all", "Faces that cast rays: a share, a count or all; default " + defaultSeeds(),
            [&](const std::string& text) { options.seeds = parseSeedCount(text); })
       ->group(rays);
-  addValue(app, "--rng-seed", "N", "Seed of the random choice of seed faces; default 1", [&](const std::string& text) {
-    options.randomSeed = parseWholeNumber(text, 0, std::numeric_limits<uint64_t>::max());
-  })->group(rays);
-  addValue(app, "--rays", "N", fmt::format("Rays per cone, 1 to {}; default 30", kMaxRayCount),
+  addValue(app, "--rng-seed", "N",
+           fmt::format("Seed of the random choice of seed faces; default {}", defaults.randomSeed),
+           [&](const std::string& text) {
+             options.randomSeed = parseWholeNumber(text, 0, std::numeric_limits<uint64_t>::max());
+           })
+      ->group(rays);
+  addValue(app, "--rays", "N", fmt::format("Rays per cone, 1 to {}; default {}", kMaxRayCount, defaults.cone.rayCount),
            [&](const std::string& text) {
              options.cone.rayCount = static_cast<uint32_t>(parseWholeNumber(text, 1, kMaxRayCount));
            })
       ->group(rays);
-  addValue(app, "--angle", "DEGREES", "Full opening angle of the cone, above 0 and below 180; default 120",
+  addValue(app, "--angle", "DEGREES",
+           fmt::format("Full opening angle of the cone, above 0 and below 180; default {}",
+                       defaults.cone.openingAngleDegrees),
            [&](const std::string& text) {
              options.cone.openingAngleDegrees = parseNumber(text);
              if (!(options.cone.openingAngleDegrees > 0 && options.cone.openingAngleDegrees < 180))
@@ -101,19 +110,22 @@ void addComputation(CLI::App& app, Options& options) {
                            {"eigen", SolverChoice::Eigen}},
                           "Conjugate gradient or Jacobi on the device, or Eigen on the CPU; default auto")
       ->group(interpolation);
-  addValue(app, "--guidance", "K", "Factor of the curvature term; default 0 (harmonic interpolation)",
+  addValue(app, "--guidance", "K",
+           fmt::format("Factor of the curvature term; default {} (harmonic interpolation)", defaults.guidance),
            [&](const std::string& text) { options.guidance = parseNumber(text); })
       ->group(interpolation);
   addValue(app, "--tolerance", "R",
-           "Relative residual at which the solver stops, above 0 and below 1;\n"
-           "default 1e-5",
+           fmt::format("Relative residual at which the solver stops, above 0 and below 1;\n"
+                       "default {}",
+                       defaults.solverOptions.tolerance),
            [&](const std::string& text) {
              options.solverOptions.tolerance = parseNumber(text);
              if (!(options.solverOptions.tolerance > 0 && options.solverOptions.tolerance < 1))
                throw Error(ErrorKind::Usage, fmt::format("'{}' is not above 0 and below 1", text));
            })
       ->group(interpolation);
-  addValue(app, "--max-iterations", "N", "Iterations after which the solver gives up; default 20000",
+  addValue(app, "--max-iterations", "N",
+           fmt::format("Iterations after which the solver gives up; default {}", defaults.solverOptions.maxIterations),
            [&](const std::string& text) {
              options.solverOptions.maxIterations =
                  static_cast<uint32_t>(parseWholeNumber(text, 1, std::numeric_limits<uint32_t>::max()));

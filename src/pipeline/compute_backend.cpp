@@ -41,7 +41,7 @@ void ComputeBackend::openVulkan(const SessionOptions& options) {
   OpenedDevice opened = openDevice(*instance_, {.selector = options.device, .requireGpu = options.requireGpu});
   device_ = std::move(opened.device);
   name_ = "vulkan";
-  deviceName_ = fmt::format("{} ({})", device_->facts().name, device_->facts().driver);
+  deviceName_ = fmt::format("{}, driver {}", device_->facts().name, device_->facts().driver);
   deviceLine_ = opened.reason;
 }
 
