@@ -12,7 +12,7 @@
 
 /// Compute on an OpenMesh triangle mesh in memory, for example:
 ///
-///   asdfvk::computeOnOpenMesh(halfEdgeMesh, [&](const asdfvk::Mesh& m) { return session.compute(m, options).sdf; });
+///   asdfvk::computeOnOpenMesh(halfEdgeMesh, [&](asdfvk::Mesh m) { return session.compute(m, options).sdf; });
 ///   double value = OpenMesh::getProperty<OpenMesh::FaceHandle, double>(halfEdgeMesh, "sdf")[faceHandle];
 namespace asdfvk {
 
