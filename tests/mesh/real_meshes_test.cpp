@@ -1,6 +1,5 @@
 #include <doctest/doctest.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -9,6 +8,7 @@
 #include "mesh/mesh_reader.h"
 #include "mesh/orientation.h"
 #include "mesh/validation.h"
+#include "support/real_meshes.h"
 
 using namespace asdfvk;
 
@@ -49,14 +49,11 @@ const std::map<std::string, Expected> kExpected = {
 }  // namespace
 
 TEST_CASE("real meshes have the faces that their files count and the defects that they are known for") {
-  const char* folder = std::getenv("ASDF_VK_MESH_DIR");
-  if (!folder) {
-    MESSAGE("skipped: ASDF_VK_MESH_DIR is not set");
-    return;
-  }
+  const auto folder = test::realMeshFolder();
+  if (!folder) return;
   for (const auto& [name, expected] : kExpected) {
     CAPTURE(name);
-    const Mesh mesh = readMesh(std::filesystem::path(folder) / name);
+    const Mesh mesh = readMesh(*folder / name);
     CHECK(mesh.inputFaceCount() == expected.inputFaceCount);
     REQUIRE(countFacesWithIndexOutOfRange(mesh) == 0);
     const MeshDefects defects = findDefects(mesh, computeFaceGeometry(mesh), coincidentRepresentatives(mesh));

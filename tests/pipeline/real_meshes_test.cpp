@@ -1,11 +1,11 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <set>
 
 #include "mesh/mesh_reader.h"
+#include "support/real_meshes.h"
 #include "support/shared_session.h"
 
 using namespace asdfvk;
@@ -13,16 +13,13 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Every mesh of a folder below ASDF_VK_MESH_DIR, by name; none where the variable is unset.
+/// Every mesh of a folder of the real meshes, by name; none where there are no real meshes.
 std::vector<fs::path> realMeshes(const char* folder) {
-  const char* root = std::getenv("ASDF_VK_MESH_DIR");
-  if (root == nullptr) {
-    MESSAGE("skipped: ASDF_VK_MESH_DIR is not set");
-    return {};
-  }
+  const auto root = test::realMeshFolder();
+  if (!root) return {};
   static const std::set<std::string> kExtensions{".ply", ".off", ".obj", ".stl"};
   std::vector<fs::path> meshes;
-  for (const fs::directory_entry& entry : fs::directory_iterator(fs::path(root) / folder))
+  for (const fs::directory_entry& entry : fs::directory_iterator(*root / folder))
     if (kExtensions.contains(entry.path().extension().string())) meshes.push_back(entry.path());
   std::sort(meshes.begin(), meshes.end());
   return meshes;
