@@ -6,26 +6,34 @@
 
 namespace asdfvk::bench {
 
-/// The cone of the definition, ray by ray in the order of the spiral, written down here once more so that the exact
-/// values owe nothing to makeCone(). Rays whose hit looks along the seed's normal are dropped, as the definition says.
+/// A value, and how far the decisions behind it (is a ray a false intersection, is its length an outlier) are from
+/// falling otherwise: there the value jumps, and a mesh that is off by more can land on the other side.
+struct ExactValue {
+  double value = 0;
+  double cosineMargin = 0;  ///< Least |cosine| between the normals at both ends of a ray.
+  double lengthMargin = 0;  ///< Least distance of a length from the bounds of what is kept, in the shape's unit.
+};
+
+/// The cone of the definition written down once more, from the directions to the weighted mean, so that exact values
+/// owe nothing to what they judge but the frame of a face.
 class ExactCone {
  public:
   explicit ExactCone(const ConeOptions& options);
 
   /// From any point of a sphere, along its normal: chords of 2 radius cos t, up to t = 45 degrees.
-  [[nodiscard]] double onSphere(double radius) const;
+  [[nodiscard]] ExactValue onSphere(double radius) const;
   /// Between two parallel planes: thickness / cos t.
-  [[nodiscard]] double inSlab(double thickness) const;
+  [[nodiscard]] ExactValue inSlab(double thickness) const;
   /// From the point of an endless cylinder around z above or below which `barycentre` lies, in the frame of a face with
   /// that normal.
-  [[nodiscard]] double inCylinder(double radius, const Vec3d& barycentre, const Vec3d& normal) const;
+  [[nodiscard]] ExactValue inCylinder(double radius, const Vec3d& barycentre, const Vec3d& normal) const;
 
  private:
   /// hitOf: from a direction in the cone's frame.
   template <typename HitOf>
-  [[nodiscard]] double valueOf(const HitOf& hitOf) const;
+  [[nodiscard]] ExactValue valueOf(const HitOf& hitOf) const;
 
-  std::vector<Vec3d> directions_;  ///< In the cone's frame, z = the axis.
+  std::vector<Vec3d> directions_;  ///< z = the axis.
   std::vector<double> weights_;
 };
 
