@@ -2,13 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "core/stopwatch.h"
-#include "poisson/ordered_sum.h"
-#include "poisson/refinement.h"
-#include "poisson/solver_progress.h"
 #include "poisson/vulkan_cg.h"
+#include "poisson/vulkan_refinement.h"
 
 namespace asdfvk {
 namespace {
@@ -26,34 +23,24 @@ class VulkanCgSolver final : public PoissonSolver {
 
   SolverReport solve(const PoissonSystem& system, const SolverOptions& options, std::span<double> solution,
                      const RunControl& control) override {
-    SolverProgress progress(system, options, control);
-    const ScaledSystem scaled(system);
-    std::optional<VulkanMatrix> matrix;
-    return solveByRefinement("cg", system, options, kStrongestReduction, solution,
-                             [&](const CorrectionRequest& request) {
-                               if (!matrix) matrix.emplace(device_, scaled);
-                               return correct(scaled, *matrix, request, progress);
-                             });
+    return solveOnDevice("cg", device_, system, options, kStrongestReduction, solution, control,
+                         [this](const DevicePass& pass) { return iterate(pass); });
   }
 
  private:
-  uint32_t correct(const ScaledSystem& scaled, const VulkanMatrix& matrix, const CorrectionRequest& request,
-                   SolverProgress& progress) const {
-    const double norm = orderedNorm(request.residual);
-    VulkanCg cg(device_, kernels_, matrix, scaled.scaleResidual(request.residual, norm), request.reduction);
-    progress.checkpoint(norm);
+  DevicePassResult iterate(const DevicePass& pass) const {
+    VulkanCg cg(device_, kernels_, pass.matrix, pass.rightHandSide, pass.reduction);
     CgState state{};
     uint32_t batch = kFirstBatch;
-    for (uint32_t recorded = 0; state.status == kCgRunning && recorded < request.maxIterations;) {
+    for (uint32_t recorded = 0; state.status == kCgRunning && recorded < pass.maxIterations;) {
       const Stopwatch stopwatch;
-      const uint32_t iterationCount = std::min(batch, request.maxIterations - recorded);
+      const uint32_t iterationCount = std::min(batch, pass.maxIterations - recorded);
       state = cg.advance(iterationCount);
       recorded += iterationCount;
       if (2 * stopwatch.seconds() < kBatchSeconds) batch = std::min(2 * batch, kLargestBatch);
-      progress.checkpoint(norm * std::sqrt(static_cast<double>(state.residualSquared)));
+      pass.progress.checkpoint(pass.residualNorm * std::sqrt(static_cast<double>(state.residualSquared)));
     }
-    scaled.unscaleCorrection(cg.solution(), norm, request.correction);
-    return state.iterationCount;
+    return {cg.solution(), state.iterationCount};
   }
 
   const Device& device_;

@@ -1,12 +1,9 @@
 #include "poisson/vulkan_jacobi_solver.h"
 
 #include <algorithm>
-#include <optional>
 
-#include "poisson/ordered_sum.h"
-#include "poisson/refinement.h"
-#include "poisson/solver_progress.h"
 #include "poisson/vulkan_jacobi.h"
+#include "poisson/vulkan_refinement.h"
 
 namespace asdfvk {
 namespace {
@@ -22,31 +19,21 @@ class VulkanJacobiSolver final : public PoissonSolver {
 
   SolverReport solve(const PoissonSystem& system, const SolverOptions& options, std::span<double> solution,
                      const RunControl& control) override {
-    SolverProgress progress(system, options, control);
-    const ScaledSystem scaled(system);
-    std::optional<VulkanMatrix> matrix;
-    return solveByRefinement("jacobi", system, options, kStrongestReduction, solution,
-                             [&](const CorrectionRequest& request) {
-                               if (!matrix) matrix.emplace(device_, scaled);
-                               return correct(scaled, *matrix, request, progress);
-                             });
+    return solveOnDevice("jacobi", device_, system, options, kStrongestReduction, solution, control,
+                         [this](const DevicePass& pass) { return iterate(pass); });
   }
 
  private:
-  uint32_t correct(const ScaledSystem& scaled, const VulkanMatrix& matrix, const CorrectionRequest& request,
-                   SolverProgress& progress) const {
-    const double norm = orderedNorm(request.residual);
-    VulkanJacobi jacobi(device_, kernel_, matrix, scaled.scaleResidual(request.residual, norm));
-    progress.checkpoint(norm);
+  DevicePassResult iterate(const DevicePass& pass) const {
+    VulkanJacobi jacobi(device_, kernel_, pass.matrix, pass.rightHandSide);
     uint32_t iterationCount = 0;
-    for (double residual = 1; residual > request.reduction && iterationCount < request.maxIterations;) {
-      const uint32_t batch = std::min(kBatch, request.maxIterations - iterationCount);
+    for (double residual = 1; residual > pass.reduction && iterationCount < pass.maxIterations;) {
+      const uint32_t batch = std::min(kBatch, pass.maxIterations - iterationCount);
       residual = jacobi.advance(batch);
       iterationCount += batch;
-      progress.checkpoint(norm * residual);
+      pass.progress.checkpoint(pass.residualNorm * residual);
     }
-    scaled.unscaleCorrection(jacobi.solution(), norm, request.correction);
-    return iterationCount;
+    return {jacobi.solution(), iterationCount};
   }
 
   const Device& device_;
