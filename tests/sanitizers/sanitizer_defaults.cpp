@@ -8,8 +8,9 @@ int dlclose(void*) { return 0; }
 
 const char* __lsan_default_suppressions();
 const char* __lsan_default_suppressions() {
-  return "leak:libvulkan_lvp\n"  // Mesa's software device.
-         "leak:libLLVM\n";       // Its compiler.
+  return "leak:libvulkan_lvp\n"                   // Mesa's software device.
+         "leak:libLLVM\n"                         // Its compiler.
+         "leak:libVkLayer_khronos_validation\n";  // It tells of Vulkan objects that we leak by itself.
 }
 
 const char* __lsan_default_options();
