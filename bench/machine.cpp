@@ -2,12 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <thread>
-
-#include "pipeline/asdf.h"
 
 namespace asdfvk::bench {
 namespace {
@@ -34,14 +31,6 @@ Machine thisMachine() {
 
 std::string toText(const Machine& machine) {
   return fmt::format("{}, {} threads, load average {:.1f}", machine.processor, machine.threads, machine.loadAverage);
-}
-
-bool runsOnProcessor(const std::string& reportedDevice) {
-  if (reportedDevice.starts_with("CPU, ")) return true;  // The reference.
-  const std::vector<DeviceInfo> devices = listDevices(nullptr);
-  return std::any_of(devices.begin(), devices.end(), [&](const DeviceInfo& device) {
-    return device.kind == "CPU" && reportedDevice == fmt::format("{} ({})", device.name, device.driver);
-  });
 }
 
 double peakMemoryBytes() { return std::strtod(valueIn("/proc/self/status", "VmHWM").c_str(), nullptr) * 1024; }

@@ -16,9 +16,6 @@ struct Machine {
 /// One line.
 [[nodiscard]] std::string toText(const Machine& machine);
 
-/// Whether the work of a Report's device is done by the CPU's cores, so that a speed per core has a meaning.
-[[nodiscard]] bool runsOnProcessor(const std::string& reportedDevice);
-
 /// The most memory that this process has held at once, in bytes: VmHWM, shared libraries and mapped files included.
 [[nodiscard]] double peakMemoryBytes();
 

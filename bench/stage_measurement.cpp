@@ -97,7 +97,7 @@ StageMeasurement StageBench::measure(const std::string& name, const std::filesys
       if (round > 0) row.runs.push_back(std::move(run));
     }
   for (StageRow& row : measurement.rows) {
-    row.perCore = runsOnProcessor(row.runs.front().report.device);
+    row.perCore = row.runs.front().report.runsOnCpu;
     row.cold = runCold(mesh.string(), row, request_.device);
     control.checkpoint(0);
   }

@@ -92,6 +92,7 @@ struct Report {
   uint64_t randomSeed = 0;
   std::string backend;  ///< "vulkan" or "reference".
   std::string device;   ///< Device and driver that ran, or the CPU.
+  bool runsOnCpu = false;  ///< The CPU's cores do the tracing: the reference, or a CPU device.
   StageSeconds stageSeconds;
   double raysPerSecond = 0;
   SolverReport solver;  ///< name "none" when every face was a seed.

@@ -62,8 +62,7 @@ std::unique_ptr<ConeTracer> ComputeBackend::makeTracer(const TraceScene& scene, 
 PoissonSolver& ComputeBackend::solver(SolverChoice choice) {
   if (choice == SolverChoice::Auto) {
     // On a device that is the CPU itself Eigen needs less time for the same iterations; see bench/NOTES.md.
-    const bool isGpu = device_ && device_->facts().kind != DeviceKind::Cpu;
-    return solver(isGpu ? SolverChoice::Cg : SolverChoice::Eigen);
+    return solver(runsOnCpu() ? SolverChoice::Eigen : SolverChoice::Cg);
   }
   std::unique_ptr<PoissonSolver>& solver = solvers_[choice];
   if (solver) return *solver;

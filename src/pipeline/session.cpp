@@ -94,6 +94,7 @@ Result Session::compute(Mesh& mesh, const Options& options, const RunControl& co
   const Cone cone = makeCone(options.cone);
   report.backend = backend.name();
   report.device = backend.deviceName();
+  report.runsOnCpu = backend.runsOnCpu();
 
   control.checkpoint(0);
   const PreparedMesh prepared = timed(seconds.geometry, [&] { return prepareMesh(mesh, options.orientation); });
