@@ -47,8 +47,8 @@ ExactValue ExactCone::valueOf(const HitOf& hitOf) const {
   std::vector<double> lengths, weights;
   for (size_t i = 0; i < directions_.size(); ++i) {
     const ExactHit hit = hitOf(directions_[i]);
-    exact.cosineMargin = std::min(exact.cosineMargin, std::abs(hit.normalCosine - kFalseHitCosine));
-    if (hit.normalCosine > kFalseHitCosine) continue;
+    exact.cosineMargin = std::min(exact.cosineMargin, std::abs(hit.normalCosine - kFalseHitSlack));
+    if (hit.normalCosine > kFalseHitSlack) continue;
     lengths.push_back(hit.length);
     weights.push_back(weights_[i]);
   }

@@ -1,6 +1,7 @@
 // Reduces the lengths of one cone's rays to its value, all lanes of the cone together (the twin of coneValue() in
 // src/cone/cone.h). Needs the shared array `lengths` with the cone's kRayCount entries from `base` on, negative where the
-// ray is not valid; the shared array `middles`; `rays`; and the constants kRayCount and kLanesPerCone.
+// ray is not valid; the shared array `middles`; `rays`; `push`; and the
+// constants kRayCount and kLanesPerCone.
 #include "shared/cone_rules.h"
 
 float lengthAt(uint base, uint ray) { return lengths[base + ray]; }
@@ -36,7 +37,8 @@ float weightedMeanAroundMedian(uint base, uint slot, uint validCount, float mean
     const float l = lengthAt(base, ray);
     variance += l >= 0.0 ? (l - mean) * (l - mean) : 0.0;
   }
-  const float bound = sqrt(variance / float(validCount)) + kOutlierSlack * median;
+  const float deviation = sqrt(variance / float(validCount));
+  const float bound = push.outlierDeviations * deviation + kOutlierSlack * median;
   float sum = 0.0;
   float weightSum = 0.0;
   for (uint ray = 0u; ray < kRayCount; ++ray) {
@@ -45,5 +47,5 @@ float weightedMeanAroundMedian(uint base, uint slot, uint validCount, float mean
     sum += weight * l;
     weightSum += weight;
   }
-  return sum / weightSum;
+  return weightSum > 0.0 ? sum / weightSum : uintBitsToFloat(kNoValueBits);
 }

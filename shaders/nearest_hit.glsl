@@ -4,10 +4,6 @@
 #include "shared/bvh_layout.h"
 
 const uint kNoSlot = 0xffffffffu;
-const uint kStackEntryCount = 48u;
-const uint kWalkEnd = 0xffffffffu;
-const uint kCountShift = 28u;
-const uint kFirstMask = 0x0fffffffu;
 
 struct Hit {
   float distance;
@@ -27,7 +23,7 @@ DeviceTriangle loadTriangle(uint slot) {
 }
 
 // Where the ray enters the box, or kFarAway when it misses it or enters beyond `limit`. The exit is moved outwards by
-// three roundings (Ize 2013), so that no box loses a triangle that it holds.
+// three roundings (Ize 2013); what the triangle test itself is off by, the boxes have grown by (kDeviceBoxMargin).
 float enterBox(vec3 boxMin, vec3 boxMax, vec3 origin, vec3 inverseDirection, float limit) {
   const float kExitMargin = 1.0 + 6.0 * 5.9604645e-8;
   const vec3 t0 = (boxMin - origin) * inverseDirection;
@@ -47,41 +43,39 @@ vec3 invert(vec3 direction) {
 Hit findNearestHit(vec3 origin, vec3 direction, uint excludedFace, inout uint iterationCount) {
   const RayFrame frame = makeRayFrame(direction);
   const vec3 inverseDirection = invert(direction);
-  uint stack[kStackEntryCount];
+  uint stack[kMaxBvhDepth];
   uint stackSize = 0u;
   uint current = 0u;
   Hit hit = Hit(kFarAway, kNoSlot, true);
 
-  while (current != kWalkEnd) {
-    while (current <= kFirstMask) {
+  while (current != kNoReference) {
+    while (current <= kReferenceFirstMask) {
       const DeviceBvhNode node = loadNode(current);
       const float left = enterBox(node.leftMin, node.leftMax, origin, inverseDirection, hit.distance);
       const float right = enterBox(node.rightMin, node.rightMax, origin, inverseDirection, hit.distance);
-      const uint leftReference = node.leftFirst | (node.leftCount << kCountShift);
-      const uint rightReference = node.rightFirst | (node.rightCount << kCountShift);
       const bool leftIsNear = left <= right;
       const float near = min(left, right);
       const float far = max(left, right);
       if (far < kFarAway) {
-        stack[stackSize] = leftIsNear ? rightReference : leftReference;
+        stack[stackSize] = leftIsNear ? node.right : node.left;
         ++stackSize;
       }
       if (near < kFarAway) {
-        current = leftIsNear ? leftReference : rightReference;
+        current = leftIsNear ? node.left : node.right;
       } else if (stackSize > 0u) {
         --stackSize;
         current = stack[stackSize];
       } else {
-        current = kWalkEnd;
+        current = kNoReference;
       }
       if (++iterationCount > kIterationLimit) {
         hit.isComplete = false;
-        current = kWalkEnd;
+        current = kNoReference;
       }
     }
-    if (current != kWalkEnd) {
-      const uint first = current & kFirstMask;
-      const uint end = first + (current >> kCountShift);
+    if (current != kNoReference) {
+      const uint first = current & kReferenceFirstMask;
+      const uint end = first + (current >> kReferenceCountShift);
       for (uint slot = first; slot < end; ++slot) {
         const DeviceTriangle triangle = loadTriangle(slot);
         const float t = intersectTriangle(frame, triangle.v0 - origin, triangle.v1 - origin, triangle.v2 - origin);
@@ -95,7 +89,7 @@ Hit findNearestHit(vec3 origin, vec3 direction, uint excludedFace, inout uint it
         --stackSize;
         current = stack[stackSize];
       } else {
-        current = kWalkEnd;
+        current = kNoReference;
       }
     }
   }

@@ -33,8 +33,8 @@ const float kDropped = -1.0;
 float validLength(Hit hit, vec3 axis) {
   if (hit.slot == kNoSlot) return kDropped;
   const DeviceTriangle triangle = loadTriangle(hit.slot);
-  const vec3 normal = cross(triangle.v1 - triangle.v0, triangle.v2 - triangle.v0);
-  return -dot(normal, axis) > kFalseHitCosine * length(normal) ? kDropped : hit.distance;
+  const vec3 normal = decodeNormal(triangle.normalU, triangle.normalV);
+  return -dot(normal, axis) > push.falseHitCosine ? kDropped : hit.distance;
 }
 
 void main() {

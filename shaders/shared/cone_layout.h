@@ -29,6 +29,8 @@ struct ConeRay {
 
 struct ConePush {
   uint coneCount;
+  float falseHitCosine;     // See Cone in src/cone/cone.h.
+  float outlierDeviations;  // Likewise.
 };
 
 // A result is the bits of a length in normalised units, or one of these.
@@ -42,7 +44,8 @@ static_assert(offsetof(ConeOrigin, tangent) == 16 && offsetof(ConeOrigin, unused
 static_assert(offsetof(ConeOrigin, bitangent) == 32 && offsetof(ConeOrigin, unused1) == 44);
 static_assert(sizeof(ConeRay) == 16);
 static_assert(offsetof(ConeRay, direction) == 0 && offsetof(ConeRay, weight) == 12);
-static_assert(sizeof(ConePush) == 4);
+static_assert(sizeof(ConePush) == 12 && offsetof(ConePush, falseHitCosine) == 4);
+static_assert(offsetof(ConePush, outlierDeviations) == 8);
 }  // namespace asdfvk
 #endif
 

@@ -8,6 +8,7 @@
 #include "mesh/face_geometry.h"
 #include "mesh/mesh.h"
 #include "mesh/normalization.h"
+#include "shared/bvh_layout.h"
 
 namespace asdfvk {
 
@@ -33,9 +34,6 @@ struct BvhOptions {
   uint32_t maxLeafTriangleCount = 4;
   uint32_t binCount = 16;  ///< Per axis, 2 to 32; fewer where there are few triangles.
 };
-
-/// Deepest hierarchy that a traversal stack has room for; the builder splits at the median where SAH would go deeper.
-inline constexpr uint32_t kMaxBvhDepth = 48;
 
 /// Binned surface-area heuristic (Wald 2007), parallel over subtrees, with the same result for any thread count.
 /// Holds the faces that are not degenerate and that represent themselves (see coincidentRepresentatives()), but for any

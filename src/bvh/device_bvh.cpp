@@ -1,21 +1,36 @@
 #include "bvh/device_bvh.h"
 
+#include <fmt/format.h>
 #include <tbb/parallel_for.h>
+
+#include <cmath>
+
+#include "core/check.h"
+#include "core/error.h"
 
 namespace asdfvk {
 namespace {
 
+constexpr float kFarAway = 1e6f;
+
 vec3 toDevice(const Vec3f& v) { return {v.x, v.y, v.z}; }
+vec3 grownMin(const Vec3f& v) { return {v.x - kDeviceBoxMargin, v.y - kDeviceBoxMargin, v.z - kDeviceBoxMargin}; }
+vec3 grownMax(const Vec3f& v) { return {v.x + kDeviceBoxMargin, v.y + kDeviceBoxMargin, v.z + kDeviceBoxMargin}; }
+
+uint32_t leafReference(const BvhNode& leaf) {
+  ASDFVK_CHECK_OP(leaf.triangleCount, <=, kMaxLeafTriangleCount);
+  return leaf.first | leaf.triangleCount << kReferenceCountShift;
+}
 
 DeviceBvhNode encodeRootLeaf(const BvhNode& root) {
-  return {.leftMin = toDevice(root.min),
-          .leftFirst = root.first,
-          .leftMax = toDevice(root.max),
-          .leftCount = root.triangleCount,
-          .rightMin = {2, 2, 2},
-          .rightFirst = 0,
-          .rightMax = {-2, -2, -2},
-          .rightCount = 1};
+  return {.leftMin = grownMin(root.min),
+          .left = leafReference(root),
+          .leftMax = grownMax(root.max),
+          .unused0 = 0,
+          .rightMin = {kFarAway, kFarAway, kFarAway},
+          .right = leafReference(root),
+          .rightMax = {kFarAway, kFarAway, kFarAway},
+          .unused1 = 0};
 }
 
 // innerIndex: for each node the number of inner nodes before it.
@@ -26,29 +41,47 @@ std::vector<DeviceBvhNode> encodeNodes(const std::vector<BvhNode>& nodes) {
     innerIndex[i] = innerCount;
     innerCount += nodes[i].isLeaf() ? 0 : 1;
   }
-  const auto target = [&](uint32_t child) { return nodes[child].isLeaf() ? nodes[child].first : innerIndex[child]; };
+  const auto referenceTo = [&](uint32_t child) {
+    return nodes[child].isLeaf() ? leafReference(nodes[child]) : innerIndex[child];
+  };
   std::vector<DeviceBvhNode> encoded(innerCount);
   tbb::parallel_for(size_t{0}, nodes.size(), [&](size_t i) {
     if (nodes[i].isLeaf()) return;
     const uint32_t leftIndex = nodes[i].first;
     const BvhNode &left = nodes[leftIndex], &right = nodes[leftIndex + 1];
-    encoded[innerIndex[i]] = {.leftMin = toDevice(left.min),
-                              .leftFirst = target(leftIndex),
-                              .leftMax = toDevice(left.max),
-                              .leftCount = left.triangleCount,
-                              .rightMin = toDevice(right.min),
-                              .rightFirst = target(leftIndex + 1),
-                              .rightMax = toDevice(right.max),
-                              .rightCount = right.triangleCount};
+    encoded[innerIndex[i]] = {.leftMin = grownMin(left.min),
+                              .left = referenceTo(leftIndex),
+                              .leftMax = grownMax(left.max),
+                              .unused0 = 0,
+                              .rightMin = grownMin(right.min),
+                              .right = referenceTo(leftIndex + 1),
+                              .rightMax = grownMax(right.max),
+                              .unused1 = 0};
   });
   return encoded;
 }
 
+struct OctahedralNormal {
+  float u, v;
+};
+
+OctahedralNormal encodeNormal(const Vec3d& n) {
+  const double scale = 1 / (std::abs(n.x) + std::abs(n.y) + std::abs(n.z));
+  const double u = n.x * scale, v = n.y * scale;
+  if (n.z >= 0) return {static_cast<float>(u), static_cast<float>(v)};
+  return {static_cast<float>(std::copysign(1 - std::abs(v), n.x)),
+          static_cast<float>(std::copysign(1 - std::abs(u), n.y))};
+}
+
 }  // namespace
 
-DeviceBvh encodeDeviceBvh(const Bvh& bvh, const Mesh& mesh) {
+DeviceBvh encodeDeviceBvh(const Bvh& bvh, const Mesh& mesh, const FaceGeometry& geometry) {
   DeviceBvh device;
   if (bvh.nodes.empty()) return device;
+  if (bvh.slotFaces.size() > kReferenceFirstMask)
+    throw Error(ErrorKind::Device, fmt::format("the mesh has {} triangles and the device's hierarchy holds {}; use a "
+                                               "smaller mesh or --backend reference",
+                                               bvh.slotFaces.size(), kReferenceFirstMask));
   if (bvh.nodes[0].isLeaf())
     device.nodes = {encodeRootLeaf(bvh.nodes[0])};
   else
@@ -60,7 +93,8 @@ DeviceBvh encodeDeviceBvh(const Bvh& bvh, const Mesh& mesh) {
     const auto corner = [&](size_t k) {
       return toDevice(Vec3f(bvh.normalization.toNormalized(mesh.vertices[mesh.faces[face][k]])));
     };
-    device.triangles[slot] = {corner(0), face, corner(1), 0, corner(2), 0};
+    const OctahedralNormal normal = encodeNormal(geometry.normals[face]);
+    device.triangles[slot] = {corner(0), face, corner(1), normal.u, corner(2), normal.v};
   });
   return device;
 }

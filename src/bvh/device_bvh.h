@@ -3,9 +3,14 @@
 #include <vector>
 
 #include "bvh/bvh.h"
+#include "mesh/face_geometry.h"
 #include "shared/bvh_layout.h"
 
 namespace asdfvk {
+
+/// Boxes grow by this on a device, in normalised units: its triangle test in float32 is off by a few units of 2^-24 of
+/// coordinates up to 3.5, and no box may be missed whose triangle is hit.
+inline constexpr float kDeviceBoxMargin = 0x1p-20f;
 
 /// The hierarchy in the layout of shared/bvh_layout.h. Its nodes are the inner nodes of the Bvh, in the Bvh's order. A
 /// walk needs a stack of Bvh::depth entries.
@@ -14,9 +19,8 @@ struct DeviceBvh {
   std::vector<DeviceTriangle> triangles;  ///< One per slot; corners rounded to nearest.
 };
 
-/// A Bvh whose root is a leaf becomes one node with that leaf on its left. Its right child has the inverted box
-/// (min 2, max -2), which no ray hits by a test that orders the slabs by the ray's sign. Other tests may enter it: it
-/// is a leaf of slot 0, whose triangle is then met twice, which changes no nearest hit.
-[[nodiscard]] DeviceBvh encodeDeviceBvh(const Bvh& bvh, const Mesh& mesh);
+/// A Bvh whose root is a leaf becomes one node with that leaf on both sides, of which the right one has a box far away.
+/// Throws Error{Device} for more triangles than a reference can count.
+[[nodiscard]] DeviceBvh encodeDeviceBvh(const Bvh& bvh, const Mesh& mesh, const FaceGeometry& geometry);
 
 }  // namespace asdfvk

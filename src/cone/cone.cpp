@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/error.h"
+#include "shared/cone_rules.h"
 
 namespace asdfvk {
 namespace {
@@ -46,6 +47,12 @@ Cone makeCone(const ConeOptions& options) {
     throw Error(ErrorKind::Usage, fmt::format("a cone angle of {} degrees is out of range; give more than 0 and less "
                                               "than 180",
                                               options.openingAngleDegrees));
+  if (!(options.falseHitAngleDegrees >= 0 && options.falseHitAngleDegrees <= 180))
+    throw Error(ErrorKind::Usage, fmt::format("a false-hit angle of {} degrees is out of range; give 0 to 180",
+                                              options.falseHitAngleDegrees));
+  if (!(options.outlierDeviations > 0))
+    throw Error(ErrorKind::Usage,
+                fmt::format("{} standard deviations are out of range; give more than 0", options.outlierDeviations));
   // Vogel 1979. The versine 1 - cos t is kept instead of the cosine, so that narrow cones lose no digits.
   const double halfAngle = options.openingAngleDegrees * std::numbers::pi / 360;
   const double maxVersine = 2 * std::pow(std::sin(halfAngle / 2), 2);
@@ -62,6 +69,8 @@ Cone makeCone(const ConeOptions& options) {
   sortIntoCompactRuns(rays, halfAngle);
 
   Cone cone;
+  cone.falseHitCosine = std::cos(options.falseHitAngleDegrees * std::numbers::pi / 180) + kFalseHitSlack;
+  cone.outlierDeviations = options.outlierDeviations;
   for (const Ray& ray : rays) {
     cone.directions.push_back(ray.direction);
     cone.weights.push_back(ray.weight);

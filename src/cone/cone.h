@@ -12,6 +12,9 @@ namespace asdfvk {
 struct ConeOptions {
   uint32_t rayCount = 30;            ///< 1 to kMaxRayCount.
   double openingAngleDegrees = 120;  ///< Full angle, above 0 and below 180.
+  double falseHitAngleDegrees =
+      90;                        ///< A hit on a face that looks along the seed's normal within this is false; 0 to 180.
+  double outlierDeviations = 1;  ///< Lengths farther from the median than so many standard deviations are; above 0.
 };
 
 inline constexpr uint32_t kMaxRayCount = 1024;
@@ -23,6 +26,9 @@ inline constexpr uint32_t kMaxRayCount = 1024;
 struct Cone {
   std::vector<Vec3d> directions;  ///< Unit.
   std::vector<double> weights;    ///< 1 / angle to the axis, in 1 / radians.
+  double falseHitCosine = 0;     ///< A hit is false where the cosine of both normals' angle is above this: the slack of
+                                 ///< shared/cone_rules.h is in it.
+  double outlierDeviations = 1;  ///< As in the options.
 };
 
 /// A golden-angle (Vogel) spiral, uniform in solid angle. Throws Error{Usage} for options out of range.
@@ -37,9 +43,11 @@ struct ConeFrame {
 /// axis-aligned wall has its normal. `axis` is a unit vector: minus the face normal.
 [[nodiscard]] ConeFrame coneFrame(const Vec3d& axis);
 
-/// The shape diameter from the lengths of a cone's valid rays: the weighted mean of those within one standard deviation
-/// (population, about the mean) of the median (mean of the middle two for an even count), with the slack kOutlierSlack
-/// of shared/cone_rules.h. kNoValue for no rays. lengths and weights have one entry per valid ray, in the cone's order.
-[[nodiscard]] double coneValue(std::span<const double> lengths, std::span<const double> weights);
+/// The shape diameter from the lengths of a cone's valid rays: the weighted mean of those within outlierDeviations
+/// standard deviations (population, about the mean) of the median (mean of the middle two for an even count), with the
+/// slack kOutlierSlack of shared/cone_rules.h. kNoValue for no rays, and where none is so near the median, which takes
+/// fewer than 1 deviation. lengths and weights have one entry per valid ray, in the cone's order.
+[[nodiscard]] double coneValue(std::span<const double> lengths, std::span<const double> weights,
+                               double outlierDeviations = 1);
 
 }  // namespace asdfvk

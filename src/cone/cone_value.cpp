@@ -29,21 +29,21 @@ double standardDeviation(std::span<const double> lengths) {
 
 }  // namespace
 
-double coneValue(std::span<const double> lengths, std::span<const double> weights) {
+double coneValue(std::span<const double> lengths, std::span<const double> weights, double outlierDeviations) {
   ASDFVK_CHECK_OP(lengths.size(), ==, weights.size());
   ASDFVK_CHECK_OP(lengths.size(), <=, size_t{kMaxRayCount});
   if (lengths.empty()) return kNoValue;
   std::array<double, kMaxRayCount> scratch;
   std::copy(lengths.begin(), lengths.end(), scratch.begin());
   const double median = takeMedian({scratch.data(), lengths.size()});
-  const double bound = standardDeviation(lengths) + kOutlierSlack * median;
+  const double bound = outlierDeviations * standardDeviation(lengths) + kOutlierSlack * median;
   double weightedSum = 0, weightSum = 0;
   for (size_t i = 0; i < lengths.size(); ++i) {
     if (std::abs(lengths[i] - median) > bound) continue;
     weightedSum += weights[i] * lengths[i];
     weightSum += weights[i];
   }
-  return weightedSum / weightSum;
+  return weightSum > 0 ? weightedSum / weightSum : kNoValue;
 }
 
 }  // namespace asdfvk

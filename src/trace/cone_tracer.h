@@ -22,12 +22,13 @@ struct TraceScene {
 
 struct TraceStatistics {
   uint64_t rayCount = 0;
-  uint64_t redoneConeCount = 0;  ///< Cones that a device gave up on and the reference traced instead.
+  uint64_t redoneConeCount =
+      0;  ///< Cones that the reference traced instead of a device: beyond its iterations or float32.
 };
 
 /// A way to trace cones. All of them share one accept rule: the nearest hit that is not on the seed face itself or a
-/// copy of it; dropped when that hit's face looks along the seed's normal (angle below 90 degrees, see kFalseHitCosine
-/// in shared/cone_rules.h) or nothing is hit.
+/// copy of it; dropped when that hit's face looks along the seed's normal (angle below 90 degrees, see
+/// Cone::falseHitCosine) or nothing is hit.
 class ConeTracer {
  public:
   virtual ~ConeTracer() = default;

@@ -8,19 +8,18 @@
 
 #include "core/check.h"
 #include "core/stopwatch.h"
-#include "shared/cone_rules.h"
+#include "trace/chunk_size.h"
 #include "trace/nearest_hit.h"
 
 namespace asdfvk {
 namespace {
 
-constexpr double kChunkSeconds = 0.05;
-
 // In normalised units; kNoHit for a dropped ray.
-double validDistance(const TraceScene& scene, const Vec3d& origin, const Vec3d& direction, uint32_t seedFace) {
+double validDistance(const TraceScene& scene, const Cone& cone, const Vec3d& origin, const Vec3d& direction,
+                     uint32_t seedFace) {
   const RayHit hit = nearestHit(scene.bvh, scene.mesh, origin, direction, scene.representatives[seedFace]);
   if (hit.face == kNoFace) return kNoHit;
-  const bool isFalse = dot(scene.geometry.normals[seedFace], scene.geometry.normals[hit.face]) > kFalseHitCosine;
+  const bool isFalse = dot(scene.geometry.normals[seedFace], scene.geometry.normals[hit.face]) > cone.falseHitCosine;
   return isFalse ? kNoHit : hit.distance;
 }
 
@@ -32,16 +31,15 @@ class ReferenceTracer final : public ConeTracer {
                         const RunControl& control) override {
     ASDFVK_CHECK_OP(seedFaces.size(), ==, values.size());
     const auto total = static_cast<double>(seedFaces.size());
-    size_t chunk = 64;
+    ChunkSize chunk(64, seedFaces.size());
     for (size_t begin = 0; begin < seedFaces.size();) {
       control.checkpoint(static_cast<double>(begin) / total);
-      const size_t end = std::min(begin + chunk, seedFaces.size());
+      const size_t end = std::min<size_t>(begin + chunk.current(), seedFaces.size());
       const Stopwatch stopwatch;
       tbb::parallel_for(tbb::blocked_range<size_t>(begin, end, 8), [&](const tbb::blocked_range<size_t>& range) {
         for (size_t i = range.begin(); i < range.end(); ++i) values[i] = referenceCone(scene_, cone_, seedFaces[i]);
       });
-      const double growth = std::clamp(kChunkSeconds / std::max(stopwatch.seconds(), 1e-9), 0.25, 4.0);
-      chunk = std::max<size_t>(8, static_cast<size_t>(static_cast<double>(end - begin) * growth));
+      chunk.adapt(end - begin, stopwatch.seconds());
       begin = end;
     }
     control.checkpoint(1);
@@ -59,9 +57,9 @@ std::unique_ptr<ConeTracer> makeReferenceTracer(const TraceScene& scene, const C
   return std::make_unique<ReferenceTracer>(scene, cone);
 }
 
-double referenceRayLength(const TraceScene& scene, const Vec3d& direction, uint32_t seedFace) {
+double referenceRayLength(const TraceScene& scene, const Cone& cone, const Vec3d& direction, uint32_t seedFace) {
   const Vec3d origin = scene.bvh.normalization.toNormalized(scene.geometry.barycentres[seedFace]);
-  const double distance = validDistance(scene, origin, direction, seedFace);
+  const double distance = validDistance(scene, cone, origin, direction, seedFace);
   return distance < kNoHit ? scene.bvh.normalization.toMeshLength(distance) : kNoValue;
 }
 
@@ -74,13 +72,13 @@ double referenceCone(const TraceScene& scene, const Cone& cone, uint32_t seedFac
   for (size_t i = 0; i < cone.directions.size(); ++i) {
     const Vec3d& d = cone.directions[i];
     const Vec3d direction = d.x * frame.tangent + d.y * frame.bitangent + d.z * frame.axis;
-    const double distance = validDistance(scene, origin, direction, seedFace);
+    const double distance = validDistance(scene, cone, origin, direction, seedFace);
     if (!(distance < kNoHit)) continue;
     distances[validCount] = distance;
     weights[validCount] = cone.weights[i];
     ++validCount;
   }
-  const double value = coneValue({distances.data(), validCount}, {weights.data(), validCount});
+  const double value = coneValue({distances.data(), validCount}, {weights.data(), validCount}, cone.outlierDeviations);
   return scene.bvh.normalization.toMeshLength(value);
 }
 

@@ -3,7 +3,9 @@
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
 
+#include <algorithm>
 #include <bit>
+#include <cmath>
 #include <numeric>
 #include <vector>
 
@@ -20,7 +22,12 @@ namespace {
 
 // A chunk's cones need 48 bytes each; this many keep it at 6 MiB.
 constexpr uint64_t kLargestChunk = 1u << 17;
-constexpr uint64_t kFirstChunk = 1u << 11;
+constexpr uint64_t kFirstChunkRayCount = 1u << 16;
+
+// In normalised units. A face smaller than the first, or a diameter shorter than the second, is too near to what
+// float32 resolves (2^-24 at the rim of the box): its cone is the reference's.
+constexpr double kSmallestFace = 0x1p-16;
+constexpr double kShortestDiameter = 0x1p-14;
 
 glsl::vec3 toGlsl(const Vec3d& v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
@@ -72,7 +79,7 @@ class VulkanTracer final : public ConeTracer {
         scene_(scene),
         cone_(cone),
         slotOfFace_(scene.geometry.areas.size(), 0),
-        upload_(kernel, encodeDeviceBvh(scene.bvh, scene.mesh), cone),
+        upload_(kernel, encodeDeviceBvh(scene.bvh, scene.mesh, scene.geometry), cone),
         commands_(kernel.device()) {
     ASDFVK_CHECK_OP(cone.directions.size(), ==, size_t{kernel.rayCount()});
     for (uint32_t slot = 0; slot < scene.bvh.slotFaces.size(); ++slot) slotOfFace_[scene.bvh.slotFaces[slot]] = slot;
@@ -81,9 +88,31 @@ class VulkanTracer final : public ConeTracer {
   TraceStatistics trace(std::span<const uint32_t> seedFaces, std::span<double> values,
                         const RunControl& control) override {
     ASDFVK_CHECK_OP(seedFaces.size(), ==, values.size());
-    const std::vector<uint32_t> order = orderByHierarchy(seedFaces);
-    std::vector<uint32_t> redone;  // indices into seedFaces
-    ChunkSize chunk(kFirstChunk, largestChunk(kernel_));
+    const TraceStatistics statistics{seedFaces.size() * cone_.directions.size(), 0};
+    if (scene_.bvh.nodes.empty()) {
+      std::fill(values.begin(), values.end(), kNoValue);
+      return statistics;
+    }
+    std::vector<uint32_t> order = orderByHierarchy(seedFaces);
+    const auto firstSmall = std::stable_partition(order.begin(), order.end(),
+                                                  [&](uint32_t i) { return !isTooSmallForFloat(seedFaces[i]); });
+    std::vector<uint32_t> redone(firstSmall, order.end());  // indices into seedFaces
+    order.erase(firstSmall, order.end());
+    const double deviceShare =
+        static_cast<double>(order.size()) / static_cast<double>(std::max<size_t>(1, values.size()));
+    traceOnDevice(seedFaces, order, values, redone, control.part(0, deviceShare));
+    redo(seedFaces, redone, values, control.part(deviceShare, 1));
+    return {statistics.rayCount, redone.size()};
+  }
+
+ private:
+  bool isTooSmallForFloat(uint32_t face) const {
+    return std::sqrt(scene_.geometry.areas[face]) * scene_.bvh.normalization.scale < kSmallestFace;
+  }
+
+  void traceOnDevice(std::span<const uint32_t> seedFaces, const std::vector<uint32_t>& order, std::span<double> values,
+                     std::vector<uint32_t>& redone, const RunControl& control) {
+    ChunkSize chunk(std::max<uint64_t>(1, kFirstChunkRayCount / kernel_.rayCount()), largestChunk(kernel_));
     for (size_t begin = 0; begin < order.size();) {
       control.checkpoint(static_cast<double>(begin) / static_cast<double>(order.size()));
       const size_t count = std::min<size_t>(chunk.current(), order.size() - begin);
@@ -93,11 +122,8 @@ class VulkanTracer final : public ConeTracer {
       chunk.adapt(count, watch.seconds());
       begin += count;
     }
-    redo(seedFaces, redone, values, control);
-    return {seedFaces.size() * cone_.directions.size(), redone.size()};
   }
 
- private:
   /// Neighbouring cones walk the same nodes: seeds are visited in the order of their triangles in the hierarchy.
   std::vector<uint32_t> orderByHierarchy(std::span<const uint32_t> seedFaces) const {
     std::vector<uint32_t> order(seedFaces.size());
@@ -124,7 +150,8 @@ class VulkanTracer final : public ConeTracer {
                     0};
     });
     const uint32_t perGroup = kernel_.shape().conesPerWorkgroup;
-    const ConePush push{static_cast<uint32_t>(order.size())};
+    const ConePush push{static_cast<uint32_t>(order.size()), static_cast<float>(cone_.falseHitCosine),
+                        static_cast<float>(cone_.outlierDeviations)};
     commands_.begin();
     commands_.dispatch(kernel_.pipeline(), upload_.bindings, bytesOf(push), (push.coneCount + perGroup - 1) / perGroup);
     commands_.barrier();
@@ -134,8 +161,8 @@ class VulkanTracer final : public ConeTracer {
   void readChunk(std::span<const uint32_t> order, std::span<double> values, std::vector<uint32_t>& redone) const {
     const std::span<const uint32_t> results = upload_.results.mappedAs<uint32_t>();
     for (size_t i = 0; i < order.size(); ++i) {
-      if (results[i] == kIterationLimitBits) redone.push_back(order[i]);
       const double length = results[i] == kNoValueBits ? kNoValue : std::bit_cast<float>(results[i]);
+      if (results[i] == kIterationLimitBits || length < kShortestDiameter) redone.push_back(order[i]);
       values[order[i]] = scene_.bvh.normalization.toMeshLength(length);
     }
   }
@@ -146,7 +173,7 @@ class VulkanTracer final : public ConeTracer {
     std::vector<uint32_t> faces;
     for (const uint32_t i : redone) faces.push_back(seedFaces[i]);
     std::vector<double> redoneValues(faces.size());
-    makeReferenceTracer(scene_, cone_)->trace(faces, redoneValues, {.stop = control.stop, .progress = {}});
+    makeReferenceTracer(scene_, cone_)->trace(faces, redoneValues, control);
     for (size_t i = 0; i < redone.size(); ++i) values[redone[i]] = redoneValues[i];
   }
 

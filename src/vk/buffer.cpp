@@ -20,7 +20,7 @@ std::optional<uint32_t> pickMemoryType(const Device& device, uint32_t allowed, M
   using Flags = VkMemoryPropertyFlags;
   const Flags local = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, cached = VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
   const Flags preferences[2][3] = {{local | kMappable | cached, local, 0}, {kMappable | cached, kMappable, kMappable}};
-  for (const Flags wanted : preferences[kind == MemoryKind::DeviceLocal ? 0 : 1])
+  for (const Flags wanted : preferences[kind == MemoryKind::HostVisible ? 1 : 0])
     if (const auto type = device.findMemoryType(allowed, wanted)) return type;
   return {};
 }
@@ -51,7 +51,7 @@ Buffer::Buffer(const Device& device, uint64_t byteCount, VkBufferUsageFlags usag
   requireSuccess(vkAllocateMemory(guard.device_, &allocation, nullptr, &guard.memory_),
                  fmt::format("allocating {} MiB on {}", (byteCount >> 20) + 1, device.facts().name));
   requireSuccess(vkBindBufferMemory(guard.device_, guard.buffer_, guard.memory_, 0), "binding memory");
-  if ((device.memoryFlags(*type) & kMappable) == kMappable) {
+  if (kind != MemoryKind::DeviceOnly && (device.memoryFlags(*type) & kMappable) == kMappable) {
     void* pointer = nullptr;
     requireSuccess(vkMapMemory(guard.device_, guard.memory_, 0, VK_WHOLE_SIZE, 0, &pointer), "mapping memory");
     guard.mapped_ = static_cast<std::byte*>(pointer);
@@ -102,9 +102,8 @@ TexelView& TexelView::operator=(TexelView&& other) noexcept {
   return *this;
 }
 
-Buffer uploadBuffer(const Device& device, std::span<const std::byte> bytes, VkBufferUsageFlags usage) {
-  Buffer buffer(device, std::max<uint64_t>(bytes.size(), 16), usage | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                MemoryKind::DeviceLocal);
+Buffer uploadBuffer(const Device& device, std::span<const std::byte> bytes, VkBufferUsageFlags usage, MemoryKind kind) {
+  Buffer buffer(device, std::max<uint64_t>(bytes.size(), 16), usage | VK_BUFFER_USAGE_TRANSFER_DST_BIT, kind);
   if (bytes.empty()) return buffer;
   if (buffer.mapped() != nullptr) {
     std::memcpy(buffer.mapped(), bytes.data(), bytes.size());

@@ -11,6 +11,7 @@ namespace asdfvk {
 
 enum class MemoryKind {
   DeviceLocal,  ///< Where kernels are quickest; mapped too where the device shares its memory with the host.
+  DeviceOnly,   ///< The same, never mapped: what a device with memory of its own gives, on any device.
   HostVisible,  ///< Mapped and coherent, cached where there is a choice.
 };
 
@@ -59,7 +60,8 @@ class TexelView {
 
 /// A device-local buffer filled with `bytes`, through a staging buffer where the host cannot write it. At least 16
 /// bytes are allocated, so that an empty span still gives a buffer to bind.
-[[nodiscard]] Buffer uploadBuffer(const Device& device, std::span<const std::byte> bytes, VkBufferUsageFlags usage);
+[[nodiscard]] Buffer uploadBuffer(const Device& device, std::span<const std::byte> bytes, VkBufferUsageFlags usage,
+                                  MemoryKind kind = MemoryKind::DeviceLocal);
 
 /// Copies the first bytes of a buffer (made with VK_BUFFER_USAGE_TRANSFER_SRC_BIT) to the host.
 void downloadBuffer(const Device& device, const Buffer& buffer, std::span<std::byte> bytes);

@@ -72,9 +72,11 @@ Instance::Instance(const InstanceOptions& options) {
   }
   requireSuccess(vkCreateInstance(&info, nullptr, &instance_), "creating a Vulkan instance");
   volkLoadInstance(instance_);
-  if (options.validation)
-    requireSuccess(vkCreateDebugUtilsMessengerEXT(instance_, &messenger, nullptr, &messenger_),
-                   "creating the validation messenger");
+  if (!options.validation) return;
+  const VkResult result = vkCreateDebugUtilsMessengerEXT(instance_, &messenger, nullptr, &messenger_);
+  if (result == VK_SUCCESS) return;
+  vkDestroyInstance(instance_, nullptr);
+  requireSuccess(result, "creating the validation messenger");
 }
 
 Instance::~Instance() {

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <array>
+#include <cmath>
 #include <cstring>
 
 #include "bvh_invariants.h"
@@ -37,7 +38,19 @@ struct Child {
 
 Child childOf(const std::vector<Texel>& texels, uint32_t node, uint32_t side) {
   const Texel &lower = texels[4 * node + 2 * side], &upper = texels[4 * node + 2 * side + 1];
-  return {pointOf(lower), pointOf(upper), lower[3], upper[3]};
+  return {pointOf(lower), pointOf(upper), lower[3] & 0x0fffffffu, lower[3] >> 28};
+}
+
+Vec3f grown(const Vec3f& corner, float margin) { return corner + Vec3f{margin, margin, margin}; }
+
+// The octahedral map of Cigolle et al. 2014, back to a direction.
+Vec3d normalOf(float u, float v) {
+  Vec3d n{u, v, 1.0 - std::abs(u) - std::abs(v)};
+  if (n.z < 0) {
+    n.x = std::copysign(1.0 - std::abs(v), u);
+    n.y = std::copysign(1.0 - std::abs(u), v);
+  }
+  return n / length(n);
 }
 
 // Walks both trees side by side and counts the device nodes met.
@@ -48,8 +61,8 @@ size_t countEqualNodes(const Bvh& bvh, uint32_t index, const std::vector<Texel>&
     const BvhNode& expected = bvh.nodes[childIndex];
     const Child child = childOf(texels, deviceIndex, side);
     REQUIRE(child.count == expected.triangleCount);
-    REQUIRE(child.min == expected.min);
-    REQUIRE(child.max == expected.max);
+    REQUIRE(child.min == grown(expected.min, -kDeviceBoxMargin));
+    REQUIRE(child.max == grown(expected.max, kDeviceBoxMargin));
     if (expected.isLeaf())
       REQUIRE(child.first == expected.first);
     else
@@ -60,11 +73,12 @@ size_t countEqualNodes(const Bvh& bvh, uint32_t index, const std::vector<Texel>&
 
 void checkTriangles(const Bvh& bvh, const Mesh& mesh, const std::vector<Texel>& texels) {
   REQUIRE(texels.size() == 3 * bvh.slotFaces.size());
+  const FaceGeometry geometry = computeFaceGeometry(mesh);
   for (size_t slot = 0; slot < bvh.slotFaces.size(); ++slot) {
     const uint32_t face = bvh.slotFaces[slot];
     REQUIRE(texels[3 * slot][3] == face);
-    REQUIRE(texels[3 * slot + 1][3] == 0);
-    REQUIRE(texels[3 * slot + 2][3] == 0);
+    const Vec3d normal = normalOf(asFloat(texels[3 * slot + 1][3]), asFloat(texels[3 * slot + 2][3]));
+    REQUIRE(length(normal - geometry.normals[face]) < 3e-7);
     for (size_t k = 0; k < 3; ++k) {
       const Vec3d p = bvh.normalization.toNormalized(mesh.vertices[mesh.faces[face][k]]);
       REQUIRE(pointOf(texels[3 * slot + k]) == Vec3f(p));
@@ -78,7 +92,7 @@ TEST_CASE("the device's texels decode to the same tree, boxes and triangles") {
   for (const Mesh& mesh : {soup(5, 1), soup(1000, 2), sheet(90)}) {
     const Bvh bvh = buildOver(mesh);
     REQUIRE(!bvh.nodes[0].isLeaf());
-    const DeviceBvh device = encodeDeviceBvh(bvh, mesh);
+    const DeviceBvh device = encodeDeviceBvh(bvh, mesh, computeFaceGeometry(mesh));
     const size_t innerCount = (bvh.nodes.size() - 1) / 2;
     CHECK(device.nodes.size() == innerCount);
     CHECK(countEqualNodes(bvh, 0, texelsOf(device.nodes), 0) == innerCount);
@@ -86,28 +100,28 @@ TEST_CASE("the device's texels decode to the same tree, boxes and triangles") {
   }
 }
 
-TEST_CASE("a root that is a leaf becomes a node with an empty right child") {
+TEST_CASE("a root that is a leaf becomes a node with a box far away on its right") {
   for (const uint32_t count : {1u, 4u}) {
     const Mesh mesh = soup(count, 3, 100);  // Large triangles over each other: not worth a split.
     const Bvh bvh = buildOver(mesh);
     REQUIRE(bvh.nodes.size() == 1);
-    const DeviceBvh device = encodeDeviceBvh(bvh, mesh);
+    const DeviceBvh device = encodeDeviceBvh(bvh, mesh, computeFaceGeometry(mesh));
     REQUIRE(device.nodes.size() == 1);
     const std::vector<Texel> texels = texelsOf(device.nodes);
     const Child left = childOf(texels, 0, 0), right = childOf(texels, 0, 1);
-    CHECK(left.min == bvh.nodes[0].min);
-    CHECK(left.max == bvh.nodes[0].max);
+    CHECK(left.min == grown(bvh.nodes[0].min, -kDeviceBoxMargin));
+    CHECK(left.max == grown(bvh.nodes[0].max, kDeviceBoxMargin));
     CHECK(left.first == 0);
     CHECK(left.count == count);
-    for (size_t axis = 0; axis < 3; ++axis) CHECK(right.min[axis] > right.max[axis]);
-    CHECK(right.count == 1);  // A leaf all the same: whoever enters it must not take it for the root.
+    for (size_t axis = 0; axis < 3; ++axis) CHECK(right.min[axis] > 1000);
+    CHECK(right.count == count);  // A leaf all the same: whoever enters it must not take it for the root.
     CHECK(right.first == 0);
     checkTriangles(bvh, mesh, texelsOf(device.triangles));
   }
 }
 
 TEST_CASE("an empty hierarchy is encoded as nothing") {
-  const DeviceBvh device = encodeDeviceBvh(Bvh{}, Mesh{});
+  const DeviceBvh device = encodeDeviceBvh(Bvh{}, Mesh{}, FaceGeometry{});
   CHECK(device.nodes.empty());
   CHECK(device.triangles.empty());
 }

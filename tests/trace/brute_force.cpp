@@ -60,7 +60,7 @@ BruteForceCone traceByBruteForce(const Mesh& mesh, const Cone& cone, uint32_t se
       nearest = distance;
       nearestNormal = corners.normal() / length(corners.normal());
     }
-    const bool isValid = std::isfinite(nearest) && !(dot(normal, nearestNormal) > kFalseHitCosine);
+    const bool isValid = std::isfinite(nearest) && !(dot(normal, nearestNormal) > cone.falseHitCosine);
     result.rayLengths.push_back(isValid ? nearest : kNoValue);
   }
   result.value = valueBySorting(result.rayLengths, cone.weights);

@@ -34,8 +34,8 @@ Difference compareWithBruteForce(const Mesh& source, uint32_t maxFaces, const Co
     const ConeFrame frame = coneFrame(-traced.geometry.normals[face]);
     for (size_t i = 0; i < cone.directions.size(); ++i) {
       const Vec3d& d = cone.directions[i];
-      const double length =
-          referenceRayLength(traced.scene(), d.x * frame.tangent + d.y * frame.bitangent + d.z * frame.axis, face);
+      const double length = referenceRayLength(traced.scene(), cone,
+                                               d.x * frame.tangent + d.y * frame.bitangent + d.z * frame.axis, face);
       ++difference.rayCount;
       difference.validRayCount += std::isnan(length) ? 0 : 1;
       difference.differingRays += agree(length, expected.rayLengths[i], tolerance) ? 0 : 1;

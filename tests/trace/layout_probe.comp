@@ -24,13 +24,13 @@ void main() {
   const int n = int(kBvhNodeTexelCount);  // the second of two, so that the stride is proven too
   const DeviceBvhNode node = decodeBvhNode(imageLoad(nodes, n), imageLoad(nodes, n + 1), imageLoad(nodes, n + 2),
                                            imageLoad(nodes, n + 3));
-  put(node.leftMin), put(node.leftFirst), put(node.leftMax), put(node.leftCount);
-  put(node.rightMin), put(node.rightFirst), put(node.rightMax), put(node.rightCount);
+  put(node.leftMin), put(node.left), put(node.leftMax), put(node.unused0);
+  put(node.rightMin), put(node.right), put(node.rightMax), put(node.unused1);
   const int t = int(kBvhTriangleTexelCount);
   const DeviceTriangle triangle =
       decodeTriangle(imageLoad(triangles, t), imageLoad(triangles, t + 1), imageLoad(triangles, t + 2));
-  put(triangle.v0), put(triangle.faceIndex), put(triangle.v1), put(triangle.unused1);
-  put(triangle.v2), put(triangle.unused2);
+  put(triangle.v0), put(triangle.faceIndex), put(triangle.v1), put(floatBitsToUint(triangle.normalU));
+  put(triangle.v2), put(floatBitsToUint(triangle.normalV));
   put(rays[1].direction), put(floatBitsToUint(rays[1].weight));
   put(origins[1].origin), put(origins[1].excludedFace), put(origins[1].tangent), put(origins[1].unused0);
   put(origins[1].bitangent), put(origins[1].unused1);

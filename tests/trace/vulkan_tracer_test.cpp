@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "core/error.h"
+#include "core/random.h"
 #include "generate/shapes.h"
 #include "shapes.h"
 #include "support/test_device.h"
@@ -132,6 +133,74 @@ TEST_CASE("the device's own iteration guard suffices for its workgroup shape") {
   }
 }
 
+TEST_CASE("hostile cones run into the device's own guard, are redone and agree") {
+  // Long needles through one another: each ray's walk meets most of their boxes.
+  Mesh needles;
+  Random random(4);
+  const auto point = [&] { return Vec3d{random.real() * 2 - 1, random.real() * 2 - 1, random.real() * 2 - 1}; };
+  for (uint32_t i = 0; i < 20'000; ++i) {
+    const Vec3d a = point();
+    needles.vertices.insert(needles.vertices.end(), {a, -a, a + point() * 1e-3});
+    needles.faces.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+  }
+  const test::ValidatedDevice device;
+  const VulkanConeKernel kernel(*device, 30);
+  const TracedMesh traced(needles);
+  const Cone cone = makeCone({});
+  const std::vector<uint32_t> all = traced.seedFaces();
+  const std::vector<uint32_t> seeds(all.begin(), all.begin() + 40);
+  std::vector<double> values(seeds.size()), reference(seeds.size());
+  const TraceStatistics statistics = makeVulkanTracer(kernel, traced.scene(), cone)->trace(seeds, values, {});
+  makeReferenceTracer(traced.scene(), cone)->trace(seeds, reference, {});
+  if (device->facts().kind == DeviceKind::Cpu) CHECK(statistics.redoneConeCount > 0);
+  CHECK(differingCount(values, reference, traced.geometry.bounds.diagonal()) <= 1);
+}
+
+TEST_CASE("details too small for float32 are traced by the reference") {
+  const Mesh large = generateShape("sphere", 500).mesh;
+  const Mesh tiny = shapes::scaledAndShifted(large, 1e-6, {0.9, 0.9, 0.9});
+  const test::ValidatedDevice device;
+  const VulkanConeKernel kernel(*device, 30);
+  const TracedMesh traced(shapes::joined(large, tiny));
+  const std::vector<double> reference = referenceValues(traced);
+  const Traced result = traceWith(kernel, traced);
+  CHECK(result.statistics.redoneConeCount == tiny.faces.size());
+  for (size_t i = large.faces.size(); i < reference.size(); ++i) CHECK(result.values[i] == reference[i]);
+
+  const TracedMesh thin(generateShape("slab", 500).mesh);  // its faces are large, its thickness is not
+  Mesh flat = thin.mesh;
+  for (Vec3d& v : flat.vertices) v.z *= 1e-5;
+  const TracedMesh flattened(flat);
+  const std::vector<double> flatReference = referenceValues(flattened);
+  const std::vector<double> flatValues = traceWith(kernel, flattened).values;
+  for (size_t i = 0; i < flatReference.size(); ++i)
+    CHECK(flatValues[i] == doctest::Approx(flatReference[i]).epsilon(1e-3));
+}
+
+TEST_CASE("rays along the sides of boxes do not leak") {
+  // Flat, axis-aligned boxes: a cone's ray may run exactly in the plane of a hierarchy's box.
+  const test::ValidatedDevice device;
+  const VulkanConeKernel kernel(*device, 30);
+  for (const uint32_t side : {1u, 3u, 10u}) {
+    CAPTURE(side);
+    const TracedMesh traced(shapes::box({2, 3, 0.01}, side));
+    const Traced result = traceWith(kernel, traced);
+    CHECK(differingCount(result.values, referenceValues(traced), traced.geometry.bounds.diagonal()) == 0);
+  }
+}
+
+TEST_CASE("the angle of false hits and the bound on outliers are options that every backend obeys") {
+  const test::ValidatedDevice device;
+  const VulkanConeKernel kernel(*device, 30);
+  const TracedMesh traced(generateShape("animal", 1500).mesh);
+  const std::vector<double> defaults = referenceValues(traced);
+  for (const ConeOptions& options : {ConeOptions{.falseHitAngleDegrees = 20}, ConeOptions{.falseHitAngleDegrees = 150},
+                                     ConeOptions{.outlierDeviations = 3}, ConeOptions{.outlierDeviations = 0.5}}) {
+    checkParity(kernel, traced, options);
+    CHECK(differingCount(referenceValues(traced, options), defaults, traced.geometry.bounds.diagonal()) > 100);
+  }
+}
+
 TEST_CASE("a GPU's workgroups hold several cones") {
   DeviceFacts gpu;
   gpu.kind = DeviceKind::Discrete;
@@ -200,7 +269,7 @@ TEST_CASE("chunks grow and shrink towards their time, within bounds") {
   for (int i = 0; i < 20; ++i) chunk.adapt(chunk.current(), 1e-9);
   CHECK(chunk.current() == 1'000'000);
   for (int i = 0; i < 20; ++i) chunk.adapt(chunk.current(), 100);
-  CHECK(chunk.current() == 64);
+  CHECK(chunk.current() == ChunkSize::kSmallest);
 }
 
 TEST_CASE("a mesh beyond a device's limits is refused with a remedy") {
