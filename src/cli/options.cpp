@@ -96,6 +96,26 @@ void addComputation(CLI::App& app, Options& options) {
                throw Error(ErrorKind::Usage, fmt::format("'{}' is not above 0 and below 180", text));
            })
       ->group(rays);
+  addValue(app, "--false-hit-angle", "DEGREES",
+           fmt::format("A hit on a face whose normal is within this angle of the seed's is\n"
+                       "false, 0 to 180; default {}",
+                       defaults.cone.falseHitAngleDegrees),
+           [&](const std::string& text) {
+             options.cone.falseHitAngleDegrees = parseNumber(text);
+             if (!(options.cone.falseHitAngleDegrees >= 0 && options.cone.falseHitAngleDegrees <= 180))
+               throw Error(ErrorKind::Usage, fmt::format("'{}' is not from 0 to 180", text));
+           })
+      ->group(rays);
+  addValue(app, "--outlier-deviations", "S",
+           fmt::format("Lengths farther from the median than S standard deviations are left\n"
+                       "out, above 0; default {}",
+                       defaults.cone.outlierDeviations),
+           [&](const std::string& text) {
+             options.cone.outlierDeviations = parseNumber(text);
+             if (!(options.cone.outlierDeviations > 0))
+               throw Error(ErrorKind::Usage, fmt::format("'{}' is not above 0", text));
+           })
+      ->group(rays);
   addChoice<Orientation>(app, "--orient", options.orientation,
                          {{"keep", Orientation::Keep}, {"auto", Orientation::Auto}, {"flip", Orientation::Flip}},
                          "Closed components that look the wrong way: name them, turn them, or\n"

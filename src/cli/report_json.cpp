@@ -59,6 +59,8 @@ Json optionsOf(const CommandLine& line) {
   return {{"seeds", toText(options.seeds)},
           {"rays", options.cone.rayCount},
           {"angleDegrees", options.cone.openingAngleDegrees},
+          {"falseHitAngleDegrees", options.cone.falseHitAngleDegrees},
+          {"outlierDeviations", options.cone.outlierDeviations},
           {"orient", nameOf(options.orientation)},
           {"solver", nameOf(options.solver)},
           {"guidance", options.guidance},

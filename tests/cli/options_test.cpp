@@ -49,6 +49,10 @@ TEST_CASE("every option reaches its field") {
                                              "64",
                                              "--angle",
                                              "90.5",
+                                             "--false-hit-angle",
+                                             "45",
+                                             "--outlier-deviations",
+                                             "1.5",
                                              "--solver",
                                              "jacobi",
                                              "--guidance",
@@ -78,6 +82,8 @@ TEST_CASE("every option reaches its field") {
   CHECK_EQ(line.options.randomSeed, std::numeric_limits<uint64_t>::max());
   CHECK_EQ(line.options.cone.rayCount, 64);
   CHECK_EQ(line.options.cone.openingAngleDegrees, 90.5);
+  CHECK_EQ(line.options.cone.falseHitAngleDegrees, 45);
+  CHECK_EQ(line.options.cone.outlierDeviations, 1.5);
   CHECK(line.options.solver == SolverChoice::Jacobi);
   CHECK_EQ(line.options.guidance, -0.5);
   CHECK_EQ(line.options.solverOptions.tolerance, 1e-3);
@@ -113,13 +119,32 @@ TEST_CASE("the last words on meshes: many, standard input, odd names") {
 }
 
 TEST_CASE("values out of range are refused with the option's name") {
-  const std::vector<std::vector<std::string>> bad{
-      {"--rays", "0"},          {"--rays", "1025"},       {"--rays", "ten"},       {"--rays", "3.5"},
-      {"--rays", "-3"},         {"--angle", "0"},         {"--angle", "180"},      {"--angle", "nan"},
-      {"--angle", "1e999"},     {"--tolerance", "0"},     {"--tolerance", "1"},    {"--max-iterations", "0"},
-      {"--guidance", "inf"},    {"--solver", "best"},     {"--orient", "inwards"}, {"--backend", "cuda"},
-      {"--format", "stl"},      {"--threads", "0"},       {"--rng-seed", "-1"},    {"--rng-seed", "0x10"},
-      {"--max-iterations", ""}, {"--threads", "1000000"}, {"--seeds", "nan%"},     {"--seeds", "1e3"}};
+  const std::vector<std::vector<std::string>> bad{{"--rays", "0"},
+                                                  {"--rays", "1025"},
+                                                  {"--rays", "ten"},
+                                                  {"--rays", "3.5"},
+                                                  {"--rays", "-3"},
+                                                  {"--angle", "0"},
+                                                  {"--angle", "180"},
+                                                  {"--angle", "nan"},
+                                                  {"--angle", "1e999"},
+                                                  {"--false-hit-angle", "181"},
+                                                  {"--outlier-deviations", "0"},
+                                                  {"--tolerance", "0"},
+                                                  {"--tolerance", "1"},
+                                                  {"--max-iterations", "0"},
+                                                  {"--guidance", "inf"},
+                                                  {"--solver", "best"},
+                                                  {"--orient", "inwards"},
+                                                  {"--backend", "cuda"},
+                                                  {"--format", "stl"},
+                                                  {"--threads", "0"},
+                                                  {"--rng-seed", "-1"},
+                                                  {"--rng-seed", "0x10"},
+                                                  {"--max-iterations", ""},
+                                                  {"--threads", "1000000"},
+                                                  {"--seeds", "nan%"},
+                                                  {"--seeds", "1e3"}};
   for (const auto& arguments : bad) {
     const std::string message = refusal({"a.ply", arguments[0], arguments[1]});
     CHECK_MESSAGE(message.starts_with(arguments[0] + ": '" + arguments[1] + "' is not "), message);
