@@ -48,22 +48,24 @@ uint32_t conjugateGradient(const PoissonSystem& system, const CorrectionRequest&
   // Scaled to 1, so that squares neither overflow nor underflow, whatever the unit of the values.
   const double scale = r.stableNorm();
   r /= scale;
-  Vector p = r.cwiseQuotient(diagonal), product(size);
-  double rz = r.dot(p);
+  Vector z = r.cwiseQuotient(diagonal), p = z, product(size);
+  double rz = r.dot(z);
   uint32_t iteration = 0;
+  const double firstNorm = z.stableNorm();
   double norm = 1;
   while (norm > request.reduction && iteration < request.maxIterations) {
-    if (iteration % kIterationsPerCheckpoint == 0) progress.checkpoint(norm * scale);
+    if (iteration % kIterationsPerCheckpoint == 0) progress.checkpoint(norm * firstNorm * scale);
     multiply(system, weights, p, product);
     const double alpha = rz / p.dot(product);
     x += alpha * p;
     r -= alpha * product;
-    norm = r.norm();
+    z = r.cwiseQuotient(diagonal);
+    norm = z.stableNorm() / firstNorm;
     ++iteration;
     const double oldRz = rz;
-    rz = r.dot(r.cwiseQuotient(diagonal));
+    rz = r.dot(z);
     if (!(rz > 0)) break;
-    p = r.cwiseQuotient(diagonal) + (rz / oldRz) * p;
+    p = z + (rz / oldRz) * p;
   }
   x *= scale;
   return iteration;

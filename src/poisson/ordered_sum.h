@@ -30,16 +30,18 @@ template <typename Term>
   return total;
 }
 
-/// The Euclidean norm, free of overflow and underflow; NaN if an entry is.
-[[nodiscard]] inline double orderedNorm(std::span<const double> vector) {
+/// The Euclidean norm of entry(0) .. entry(count - 1), free of overflow and underflow; NaN if an entry is.
+template <typename Entry>
+[[nodiscard]] double orderedNorm(size_t count, const Entry& entry) {
   double largest = 0;
-  for (double entry : vector) {
-    if (std::isnan(entry)) return entry;
-    largest = std::max(largest, std::abs(entry));
+  for (size_t i = 0; i < count; ++i) {
+    const double magnitude = std::abs(entry(i));
+    if (std::isnan(magnitude)) return magnitude;
+    largest = std::max(largest, magnitude);
   }
   if (largest == 0 || std::isinf(largest)) return largest;
-  return largest * std::sqrt(orderedSum(vector.size(), [&](size_t i) {
-           const double scaled = vector[i] / largest;
+  return largest * std::sqrt(orderedSum(count, [&](size_t i) {
+           const double scaled = entry(i) / largest;
            return scaled * scaled;
          }));
 }

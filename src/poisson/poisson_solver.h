@@ -12,7 +12,7 @@
 namespace asdfvk {
 
 struct SolverOptions {
-  double tolerance = 1e-4;  ///< On the relative residual.
+  double tolerance = 1e-4;  ///< On the relative residual, see relativeResidual().
   uint32_t maxIterations = 20000;
 };
 

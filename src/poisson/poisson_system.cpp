@@ -144,11 +144,15 @@ void computeResidual(const PoissonSystem& system, std::span<const double> soluti
   });
 }
 
+double residualNorm(const PoissonSystem& system, std::span<const double> residual) {
+  return orderedNorm(residual.size(), [&](size_t row) { return residual[row] / system.diagonal[row]; });
+}
+
 double relativeResidual(const PoissonSystem& system, std::span<const double> solution) {
   std::vector<double> residual(solution.size());
   computeResidual(system, solution, residual);
-  const double norm = orderedNorm(residual);
-  return norm == 0 ? 0 : norm / orderedNorm(system.rightHandSide);
+  const double norm = residualNorm(system, residual);
+  return norm == 0 ? 0 : norm / residualNorm(system, system.rightHandSide);
 }
 
 }  // namespace asdfvk

@@ -40,7 +40,12 @@ struct PoissonSystem {
 /// residual = b - A x, in double. solution, residual: #U.
 void computeResidual(const PoissonSystem& system, std::span<const double> solution, std::span<double> residual);
 
-/// ||b - A x|| / ||b|| in double; 0 for an empty system and wherever the residual is 0, infinite where only b is.
+/// ||D^-1 r||, D the diagonal of A: what each face's equation is off by, in the unit of the values. Unlike ||r|| it
+/// does not let the large weights of a finely meshed patch hide what is wrong elsewhere. residual: #U.
+[[nodiscard]] double residualNorm(const PoissonSystem& system, std::span<const double> residual);
+
+/// ||D^-1 (b - A x)|| / ||D^-1 b|| in double; 0 for an empty system and wherever the residual is 0, infinite where only
+/// b is.
 [[nodiscard]] double relativeResidual(const PoissonSystem& system, std::span<const double> solution);
 
 }  // namespace asdfvk

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "core/check.h"
-#include "poisson/ordered_sum.h"
 
 namespace asdfvk {
 namespace {
@@ -23,7 +22,7 @@ SolverReport solveByRefinement(const std::string& name, const PoissonSystem& sys
   SolverReport report;
   report.name = name;
   std::fill(solution.begin(), solution.end(), system.knownMean);
-  const double rightHandNorm = orderedNorm(system.rightHandSide);
+  const double rightHandNorm = residualNorm(system, system.rightHandSide);
   if (rightHandNorm == 0) {
     std::fill(solution.begin(), solution.end(), 0.0);
     return report;
@@ -31,16 +30,16 @@ SolverReport solveByRefinement(const std::string& name, const PoissonSystem& sys
   const double target = options.tolerance * rightHandNorm;
   std::vector<double> residual(solution.size()), correction(solution.size());
   computeResidual(system, solution, residual);
-  double norm = orderedNorm(residual);
+  double norm = residualNorm(system, residual);
   while (norm > target && report.iterations < options.maxIterations) {
     report.iterations += correct({.residual = residual,
                                   .reduction = std::max(kSafety * target / norm, strongestReduction),
                                   .maxIterations = options.maxIterations - report.iterations,
                                   .correction = correction});
-    if (!std::isfinite(orderedNorm(correction))) break;
+    if (!std::all_of(correction.begin(), correction.end(), [](double e) { return std::isfinite(e); })) break;
     for (size_t i = 0; i < solution.size(); ++i) solution[i] += correction[i];
     computeResidual(system, solution, residual);
-    const double newNorm = orderedNorm(residual);
+    const double newNorm = residualNorm(system, residual);
     const bool stagnates = !(newNorm <= kStagnation * norm);
     norm = newNorm;
     if (stagnates) break;

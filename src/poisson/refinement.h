@@ -12,7 +12,7 @@ namespace asdfvk {
 /// What a solver is asked for in one pass: an approximation of the e with A e = residual.
 struct CorrectionRequest {
   std::span<const double> residual;  ///< #U
-  double reduction = 0;              ///< ||residual - A e|| at or below this share of ||residual|| is enough.
+  double reduction = 0;              ///< residualNorm() at or below this share of the residual's is enough.
   uint32_t maxIterations = 0;
   std::span<double> correction;  ///< #U, e, to be written whole.
 };

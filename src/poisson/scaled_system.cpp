@@ -58,21 +58,22 @@ ScaledSystem::ScaledSystem(const PoissonSystem& system)
       tailColumns_[entries.tailBegin + k] = system.columns[begin + kHeadLength + k];
       tailCouplings_[entries.tailBegin + k] = coupling(begin + kHeadLength + k);
     }
-    residualWeights_[row] = static_cast<float>(system.diagonal[row] / meanDiagonal_);
+    residualWeights_[row] = static_cast<float>(meanDiagonal_ / system.diagonal[row]);
   });
 }
 
 std::vector<float> ScaledSystem::scaleResidual(std::span<const double> residual, double norm) const {
   std::vector<float> scaled(residual.size());
   forEachRow(scaled.size(), [&](size_t row) {
-    scaled[row] = static_cast<float>(residual[row] / norm * std::sqrt(meanDiagonal_ / system_.diagonal[row]));
+    scaled[row] =
+        static_cast<float>(residual[row] / norm / std::sqrt(meanDiagonal_) / std::sqrt(system_.diagonal[row]));
   });
   return scaled;
 }
 
 void ScaledSystem::unscaleCorrection(std::span<const float> y, double norm, std::span<double> correction) const {
   // The roots apart from each other, so that their product neither overflows nor underflows.
-  const double scale = norm / std::sqrt(meanDiagonal_);
+  const double scale = norm * std::sqrt(meanDiagonal_);
   forEachRow(correction.size(), [&](size_t row) {
     correction[row] = static_cast<double>(y[row]) * (scale / std::sqrt(system_.diagonal[row]));
   });

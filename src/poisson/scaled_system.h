@@ -19,11 +19,11 @@ class ScaledSystem {
   [[nodiscard]] const std::vector<PoissonRow>& rows() const { return rows_; }  ///< #U, the matrix S.
   [[nodiscard]] const std::vector<uint32_t>& tailColumns() const { return tailColumns_; }
   [[nodiscard]] const std::vector<float>& tailCouplings() const { return tailCouplings_; }
-  /// #U: the weights with which squares of b - (I - S) y add up to the squared norm of the unscaled residual.
+  /// #U: the weights with which squares of b - (I - S) y add up to the squared residualNorm() of what is left.
   [[nodiscard]] const std::vector<float>& residualWeights() const { return residualWeights_; }
   [[nodiscard]] uint32_t longestRow() const { return longestRow_; }
 
-  /// The right-hand side b for A e = residual, scaled so that its weighted norm is 1.
+  /// The right-hand side b for A e = residual, of weighted norm 1; norm: residualNorm() of the residual.
   [[nodiscard]] std::vector<float> scaleResidual(std::span<const double> residual, double norm) const;
   /// e from y; norm: as given to scaleResidual().
   void unscaleCorrection(std::span<const float> y, double norm, std::span<double> correction) const;

@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "poisson/ordered_sum.h"
-
 namespace asdfvk {
 
 SolverProgress::SolverProgress(const PoissonSystem& system, const SolverOptions& options, const RunControl& control)
-    : control_(control), target_(options.tolerance * orderedNorm(system.rightHandSide)) {}
+    : control_(control), target_(options.tolerance * residualNorm(system, system.rightHandSide)) {}
 
 void SolverProgress::checkpoint(double residualNorm) {
   if (first_ == 0) first_ = residualNorm;

@@ -2,7 +2,6 @@
 
 #include <optional>
 
-#include "poisson/ordered_sum.h"
 #include "poisson/refinement.h"
 
 namespace asdfvk {
@@ -15,7 +14,7 @@ SolverReport solveOnDevice(const std::string& name, const Device& device, const 
   std::optional<VulkanMatrix> matrix;
   return solveByRefinement(name, system, options, strongestReduction, solution, [&](const CorrectionRequest& request) {
     if (!matrix) matrix.emplace(device, scaled);
-    const double norm = orderedNorm(request.residual);
+    const double norm = residualNorm(system, request.residual);
     progress.checkpoint(norm);
     const auto rightHandSide = scaled.scaleResidual(request.residual, norm);
     const DevicePassResult result =

@@ -18,13 +18,18 @@ struct KernelTwins {
     for (double d : system.diagonal) meanDiagonal += d / static_cast<double>(system.diagonal.size());
   }
 
-  /// b of (I - S) y = b for A e = residual, scaled so that the unscaled norm is 1.
-  [[nodiscard]] Vector scaled(const Vector& residual) const {
+  /// The norm of D^-1 residual.
+  [[nodiscard]] double norm(const Vector& residual) const {
     double squared = 0;
-    for (double r : residual) squared += r * r;
+    for (size_t i = 0; i < residual.size(); ++i) squared += std::pow(residual[i] / system.diagonal[i], 2);
+    return std::sqrt(squared);
+  }
+
+  /// b of (I - S) y = b for A e = residual, scaled so that the norm above of the residual becomes 1.
+  [[nodiscard]] Vector scaled(const Vector& residual) const {
+    const double whole = norm(residual);
     Vector b(residual.size());
-    for (size_t i = 0; i < b.size(); ++i)
-      b[i] = residual[i] / std::sqrt(squared) * std::sqrt(meanDiagonal / system.diagonal[i]);
+    for (size_t i = 0; i < b.size(); ++i) b[i] = residual[i] / whole / std::sqrt(meanDiagonal * system.diagonal[i]);
     return b;
   }
 
@@ -39,10 +44,10 @@ struct KernelTwins {
     return result;
   }
 
-  /// The unscaled residual's squared norm for the scaled residual r.
+  /// The squared norm above for the scaled residual r, over its first value.
   [[nodiscard]] double squaredNorm(const Vector& r) const {
     double sum = 0;
-    for (size_t i = 0; i < r.size(); ++i) sum += r[i] * r[i] * system.diagonal[i] / meanDiagonal;
+    for (size_t i = 0; i < r.size(); ++i) sum += r[i] * r[i] * meanDiagonal / system.diagonal[i];
     return sum;
   }
 };
