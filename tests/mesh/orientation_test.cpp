@@ -43,7 +43,11 @@ TEST_CASE("a lone closed shape is inverted when its volume is negative") {
   CHECK(invertedIn({}).empty());
   CHECK(invertedIn(sphere(2)).empty());
   CHECK(invertedIn(inverted(sphere(2))) == Indices{0});
-  CHECK(invertedIn(inverted(placed(sphere(2), 1e-150))) == Indices{0});
+  for (const double scale : {1e-170, 1e-150, 1e160, 1.7e308}) {
+    CAPTURE(scale);
+    CHECK(invertedIn(placed(sphere(2), scale)).empty());
+    CHECK(invertedIn(inverted(placed(sphere(2), scale))) == Indices{0});
+  }
   CHECK(invertedIn(inverted(placed(sphere(2), 1e-3, {1e5, 1e5, 1e5}))) == Indices{0});
 }
 
