@@ -106,8 +106,8 @@ std::vector<std::string> MeshDefects::sentences() const {
        "input faces have fewer than three corners: they get no value");
   tell(zeroAreaFaceCount, "face has zero area: it casts no rays and is interpolated",
        "faces have zero area: they cast no rays and are interpolated");
-  tell(duplicateFaceCount, "face repeats the vertices of an earlier one: rays pass through its own copies",
-       "faces repeat the vertices of earlier ones: rays pass through their own copies");
+  tell(duplicateFaceCount, "face lies exactly on an earlier one: rays pass through its own copies",
+       "faces lie exactly on earlier ones: rays pass through their own copies");
   tell(nonManifoldEdgeCount, "edge has more than two faces: values are interpolated across all of them",
        "edges have more than two faces: values are interpolated across all of them");
   tell(inconsistentEdgeCount, "edge has two faces of opposite winding: on one side of it rays leave outwards",

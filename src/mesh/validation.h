@@ -15,7 +15,7 @@ namespace asdfvk {
 /// three distinct vertices: any other triangle counts as missing, as it does for the rays.
 struct MeshDefects {
   uint64_t zeroAreaFaceCount = 0;   ///< With finite corners; see kDegenerateHeightRatio.
-  uint64_t duplicateFaceCount = 0;  ///< Faces beyond the first of each set with the same three vertices.
+  uint64_t duplicateFaceCount = 0;  ///< Beyond the first of each set; see coincidentRepresentatives().
   uint64_t nonFiniteVertexCount = 0;
   uint64_t nonFiniteFaceCount = 0;  ///< Faces with a non-finite corner.
   uint64_t indexOutOfRangeFaceCount = 0;

@@ -113,3 +113,13 @@ TEST_CASE("input faces with fewer than three corners are counted") {
   CHECK(mesh.inputFaceCount() == 3);
   CHECK(defectsOf(mesh).shortPolygonCount == 2);
 }
+
+TEST_CASE("a second layer with vertices of its own is a layer of duplicates") {
+  const Mesh twice = shapes::together(shapes::cube(), shapes::cube());
+  const MeshDefects defects = defectsOf(twice);
+  CHECK(defects.duplicateFaceCount == 12);
+  CHECK(defects.boundaryEdgeCount == 0);
+  CHECK(defects.nonManifoldEdgeCount == 0);  // Edges go by index.
+  CHECK(sentencesOf(twice) ==
+        std::vector<std::string>{"12 faces lie exactly on earlier ones: rays pass through their own copies"});
+}

@@ -128,6 +128,35 @@ TEST_CASE("a component none of whose faces has a value keeps no value and is tol
   CHECK(result.report.warnings.back().find("have no value") != std::string::npos);
 }
 
+TEST_CASE("a sphere twice in the file, each with vertices of its own, has the plain sphere's values") {
+  const Mesh sphere = makeSphere(500).mesh;
+  const auto count = static_cast<std::ptrdiff_t>(sphere.faces.size());
+  Mesh plain = sphere;
+  const std::vector<double> expected = referenceSession().compute(plain, allSeeds()).sdf;
+  const auto twice = [&](bool isCopyInverted) {
+    Mesh mesh = sphere;
+    mesh.vertices.insert(mesh.vertices.end(), sphere.vertices.begin(), sphere.vertices.end());
+    const auto offset = static_cast<uint32_t>(sphere.vertices.size());
+    for (auto [a, b, c] : sphere.faces) {
+      if (isCopyInverted) std::swap(b, c);
+      mesh.faces.push_back({a + offset, b + offset, c + offset});
+    }
+    return mesh;
+  };
+  for (const bool isCopyInverted : {false, true}) {
+    CAPTURE(isCopyInverted);
+    Mesh mesh = twice(isCopyInverted);
+    const Result result = referenceSession().compute(mesh, allSeeds());
+    CHECK(std::equal(expected.begin(), expected.end(), result.sdf.begin()));
+    if (isCopyInverted) {
+      CHECK(std::all_of(result.sdf.begin() + count, result.sdf.end(), [](double v) { return std::isnan(v); }));
+    } else {
+      CHECK(std::equal(expected.begin(), expected.end(), result.sdf.begin() + count));
+    }
+    CHECK(result.report.defects.duplicateFaceCount == sphere.faces.size());
+  }
+}
+
 TEST_CASE("degenerate faces are interpolated and the count of faces stays") {
   Mesh mesh = makeSphere(500).mesh;
   const Face first = mesh.faces[0];
