@@ -96,8 +96,6 @@ std::vector<std::string> MeshDefects::sentences() const {
     if (count == 1) result.push_back(fmt::format("1 {}", one));
     if (count > 1) result.push_back(fmt::format("{} {}", count, many));
   };
-  tell(indexOutOfRangeFaceCount, "face names a vertex that is not there: nothing can be computed on this mesh",
-       "faces name vertices that are not there: nothing can be computed on this mesh");
   tell(nonFiniteVertexCount, "vertex has a coordinate that is no finite number",
        "vertices have coordinates that are no finite numbers");
   tell(nonFiniteFaceCount, "face has a corner that is no finite point: it is left out and gets no value",

@@ -18,7 +18,6 @@ struct MeshDefects {
   uint64_t duplicateFaceCount = 0;  ///< Beyond the first of each set; see coincidentRepresentatives().
   uint64_t nonFiniteVertexCount = 0;
   uint64_t nonFiniteFaceCount = 0;  ///< Faces with a non-finite corner.
-  uint64_t indexOutOfRangeFaceCount = 0;
   uint64_t boundaryEdgeCount = 0;
   uint64_t nonManifoldEdgeCount = 0;     ///< Edges of more than two faces.
   uint64_t inconsistentEdgeCount = 0;    ///< Edges whose two faces run through them in the same direction.
