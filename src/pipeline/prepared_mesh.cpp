@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "core/error.h"
 #include "mesh/coincident_faces.h"
 #include "mesh/orientation.h"
@@ -20,6 +22,7 @@ void orient(Mesh& mesh, PreparedMesh& prepared, Orientation orientation) {
         fmt::format("{} inverted component{} turned over", invertedCount, invertedCount == 1 ? " was" : "s were"));
   } else {
     prepared.warnings.push_back(report.sentence(mesh, prepared.components));
+    prepared.invertedComponents = std::move(report.invertedComponents);
   }
 }
 

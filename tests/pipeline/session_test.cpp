@@ -157,6 +157,33 @@ TEST_CASE("a sphere twice in the file, each with vertices of its own, has the pl
   }
 }
 
+TEST_CASE("where faces have no value the likely cause is told: an open surface, an inverted component, or neither") {
+  const auto warningOn = [](Mesh mesh) {
+    const Result result = referenceSession().compute(mesh, allSeeds());
+    REQUIRE_FALSE(result.report.warnings.empty());
+    return result.report.warnings.back();
+  };
+  const Mesh triangle{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}, {}};
+  const std::string sentence =
+      "have no value: no ray of theirs, nor of any face that they hang together with, found the other side of the "
+      "shape";
+  CHECK(warningOn(triangle) == "1 of 1 faces " + sentence +
+                                   ", most likely because the surface is open, so that rays escape, or looks the other "
+                                   "way (--orient flip)");
+  Mesh inverted = makeSphere(20).mesh;
+  for (Face& face : inverted.faces) std::swap(face[1], face[2]);
+  CHECK(warningOn(inverted) == "20 of 20 faces " + sentence +
+                                   ", most likely because their component is inverted (--orient auto turns it over)");
+  Mesh line = triangle;
+  line.vertices[2] = {2, 0, 0};
+  CHECK(warningOn(line) == "1 of 1 faces " + sentence);
+
+  Mesh both = inverted;
+  both.vertices.insert(both.vertices.end(), {{5, 0, 0}, {6, 0, 0}, {5, 1, 0}});
+  both.faces.push_back({12, 13, 14});
+  CHECK(warningOn(both).find("inverted (--orient auto turns it over), or the surface is open") != std::string::npos);
+}
+
 TEST_CASE("degenerate faces are interpolated and the count of faces stays") {
   Mesh mesh = makeSphere(500).mesh;
   const Face first = mesh.faces[0];
