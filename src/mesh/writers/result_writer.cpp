@@ -46,10 +46,6 @@ ResultFormat resultFormatOf(const std::filesystem::path& path, const WriteOption
               fmt::format("the extension of {} tells no format; use .ply, .vtu, .npy or .csv", path.string()));
 }
 
-void requireWritableExtension(const std::filesystem::path& path, const WriteOptions& options) {
-  (void)resultFormatOf(path, options);
-}
-
 bool verticesAreFloats(const Mesh& mesh) {
   const auto isFloat = [](double c) { return !std::isfinite(c) || static_cast<double>(static_cast<float>(c)) == c; };
   return std::all_of(mesh.vertices.begin(), mesh.vertices.end(),
