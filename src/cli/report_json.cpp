@@ -76,7 +76,6 @@ Json defectsOf(const MeshDefects& defects) {
           {"duplicateFaceCount", defects.duplicateFaceCount},
           {"nonFiniteVertexCount", defects.nonFiniteVertexCount},
           {"nonFiniteFaceCount", defects.nonFiniteFaceCount},
-          {"indexOutOfRangeFaceCount", defects.indexOutOfRangeFaceCount},
           {"boundaryEdgeCount", defects.boundaryEdgeCount},
           {"nonManifoldEdgeCount", defects.nonManifoldEdgeCount},
           {"inconsistentEdgeCount", defects.inconsistentEdgeCount},

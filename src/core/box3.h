@@ -1,13 +1,15 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "core/vec3.h"
 
 namespace asdfvk {
 
-/// An axis-aligned box; empty (min > max) until something is added.
+/// An axis-aligned box; empty (min > max) until something is added. Corners anywhere in T's range are welcome: what
+/// would overflow is T's largest number instead.
 template <typename T>
 struct Box3 {
   Vec3<T> min{std::numeric_limits<T>::infinity(), std::numeric_limits<T>::infinity(),
@@ -28,13 +30,25 @@ struct Box3 {
     }
   }
   [[nodiscard]] bool isEmpty() const { return !(min.x <= max.x); }
-  [[nodiscard]] Vec3<T> size() const { return isEmpty() ? Vec3<T>{} : max - min; }
-  [[nodiscard]] Vec3<T> centre() const { return isEmpty() ? Vec3<T>{} : min + (max - min) * T(0.5); }
-  [[nodiscard]] T diagonal() const { return length(size()); }
+  [[nodiscard]] Vec3<T> size() const {
+    if (isEmpty()) return {};
+    const Vec3<T> s = max - min;
+    return {saturated(s.x), saturated(s.y), saturated(s.z)};
+  }
+  [[nodiscard]] Vec3<T> halfSize() const { return isEmpty() ? Vec3<T>{} : max * T(0.5) - min * T(0.5); }
+  [[nodiscard]] Vec3<T> centre() const { return isEmpty() ? Vec3<T>{} : min * T(0.5) + max * T(0.5); }
+  [[nodiscard]] T diagonal() const {
+    const Vec3<T> s = size();
+    return saturated(std::hypot(s.x, s.y, s.z));
+  }
+  /// Precondition: a unit in which areas neither overflow nor underflow, such as the normalised one.
   [[nodiscard]] T halfArea() const {
     const Vec3<T> s = size();
     return s.x * s.y + s.y * s.z + s.z * s.x;
   }
+
+ private:
+  [[nodiscard]] static T saturated(T length) { return std::min(length, std::numeric_limits<T>::max()); }
 };
 
 using Box3d = Box3<double>;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "mesh/buckets.h"
+#include "mesh/coincident_vertices.h"
 
 namespace asdfvk {
 namespace {
@@ -14,14 +15,23 @@ struct FaceKey {
   auto operator<=>(const FaceKey&) const = default;
 };
 
+// The face between the lowest vertices at its corners, ascending. A face that this collapses has no area and keeps its
+// own vertices: which of its copies is which matters to no ray.
+Face placeOf(const Face& face, const std::vector<uint32_t>& lowestVertices) {
+  Face place{lowestVertices[face[0]], lowestVertices[face[1]], lowestVertices[face[2]]};
+  if (!hasDistinctVertices(place)) place = face;
+  std::sort(place.begin(), place.end());
+  return place;
+}
+
 }  // namespace
 
 std::vector<uint32_t> coincidentRepresentatives(const Mesh& mesh) {
+  const std::vector<uint32_t> lowestVertices = coincidentVertices(mesh);
   const Buckets<FaceKey> byLowestVertex =
       sortIntoBuckets<FaceKey>(mesh.vertices.size(), mesh.faces.size(), [&](uint32_t f, auto&& put) {
-        Face face = mesh.faces[f];
-        std::sort(face.begin(), face.end());
-        put(face[0], FaceKey{uint64_t{face[1]} << 32 | face[2], f});
+        const auto [a, b, c] = placeOf(mesh.faces[f], lowestVertices);
+        put(a, FaceKey{uint64_t{b} << 32 | c, f});
       });
   std::vector<uint32_t> representatives(mesh.faces.size());
   forEachInParallel(byLowestVertex.bucketCount(), [&](uint32_t vertex) {

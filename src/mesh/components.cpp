@@ -108,8 +108,10 @@ void measureVolumes(const Mesh& mesh, Components& result) {
     if (!result.components[component].isClosed) continue;
     const Vec3d& origin = mesh.vertices[mesh.faces[result.components[component].firstFace][0]];
     const auto [i, j, k] = mesh.faces[f];
-    const Vec3d a = (mesh.vertices[i] - origin) * scale;
-    const Vec3d ab = (mesh.vertices[j] - mesh.vertices[i]) * scale, ac = (mesh.vertices[k] - mesh.vertices[i]) * scale;
+    // Scaled first, which rounds nothing, because differences of huge coordinates may overflow.
+    const Vec3d corner = mesh.vertices[i] * scale;
+    const Vec3d a = corner - origin * scale;
+    const Vec3d ab = mesh.vertices[j] * scale - corner, ac = mesh.vertices[k] * scale - corner;
     sum[component] += dot(a, cross(ab, ac)) / 6;
     noise[component] += kVolumeNoise * length(a) * length(ab) * length(ac);
   }

@@ -13,8 +13,8 @@ namespace asdfvk {
 inline constexpr uint32_t kMaxFacesJoinedAllToAll = 32;
 
 /// The dual graph: a node per face, an arc in both directions per shared mesh edge (two faces that share two edges have
-/// two arcs). Compressed rows: the neighbours of face f are neighbours[offsets[f]] .. neighbours[offsets[f + 1] - 1], in
-/// ascending order.
+/// two arcs). Compressed rows: the neighbours of face f are neighbours[offsets[f]] .. neighbours[offsets[f + 1] - 1],
+/// in ascending order.
 struct DualGraph {
   std::vector<uint32_t> offsets;     ///< #F+1
   std::vector<uint32_t> neighbours;  ///< Face indices.
@@ -27,7 +27,8 @@ struct DualGraph {
 
 /// Edges are matched by sorting, so that non-manifold input is welcome: an edge of k faces joins all of them (but see
 /// kMaxFacesJoinedAllToAll), a boundary edge none. An edge whose two ends are the same vertex, and a face with a
-/// non-finite corner, join nothing. Precondition: every index of a face is below the vertex count.
+/// non-finite corner, join nothing. Vertices are told by index, not by place: a mesh whose faces do not share them is
+/// open everywhere. Precondition: every index of a face is below the vertex count.
 [[nodiscard]] DualGraph buildDualGraph(const Mesh& mesh);
 
 }  // namespace asdfvk

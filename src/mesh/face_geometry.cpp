@@ -1,11 +1,10 @@
 #include "mesh/face_geometry.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "mesh/buckets.h"
 
 namespace asdfvk {
 namespace {
@@ -15,14 +14,19 @@ struct NormalAndArea {
   double area = 0;
 };
 
+// Sums of two differences of any two numbers times this do not overflow.
+constexpr double kQuarter = 0.25;
+
+Vec3d quarterOf(const Vec3d& from, const Vec3d& to) { return to * kQuarter - from * kQuarter; }
+
 // Edges are scaled by the longest one before they are multiplied, so that tiny and huge units neither underflow nor
 // overflow.
 NormalAndArea normalAndArea(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
-  const Vec3d ab = b - a, ac = c - a, bc = c - b;
+  const Vec3d ab = quarterOf(a, b), ac = quarterOf(a, c), bc = quarterOf(b, c);
   double longest = 0;
   for (const Vec3d& edge : {ab, ac, bc})
     for (size_t axis = 0; axis < 3; ++axis) longest = std::max(longest, std::abs(edge[axis]));
-  if (!(longest > 0) || !std::isfinite(longest)) return {};
+  if (!(longest > 0)) return {};
   const Vec3d scaledAb = ab / longest, scaledAc = ac / longest, scaledBc = bc / longest;
   const double longestSquared = std::max({dot(scaledAb, scaledAb), dot(scaledAc, scaledAc), dot(scaledBc, scaledBc)});
   const Vec3d scaledCross = cross(scaledAb, scaledAc);
@@ -30,7 +34,8 @@ NormalAndArea normalAndArea(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
   if (!(doubledArea > kDegenerateHeightRatio * longestSquared)) return {};
   // An area beyond a double's range must neither read as degenerate nor as infinite.
   using Limits = std::numeric_limits<double>;
-  return {scaledCross / doubledArea, std::clamp(0.5 * doubledArea * longest * longest, Limits::min(), Limits::max())};
+  const double area = 0.5 * doubledArea * (longest / kQuarter) * (longest / kQuarter);
+  return {scaledCross / doubledArea, std::clamp(area, Limits::min(), Limits::max())};
 }
 
 }  // namespace
@@ -41,16 +46,13 @@ FaceGeometry computeFaceGeometry(const Mesh& mesh) {
   geometry.barycentres.resize(faceCount);
   geometry.normals.resize(faceCount);
   geometry.areas.resize(faceCount);
-  tbb::parallel_for(tbb::blocked_range<size_t>(0, faceCount, 4096), [&](const tbb::blocked_range<size_t>& range) {
-    for (size_t f = range.begin(); f < range.end(); ++f) {
-      const auto [i, j, k] = mesh.faces[f];
-      const Vec3d &a = mesh.vertices[i], &b = mesh.vertices[j], &c = mesh.vertices[k];
-      geometry.barycentres[f] = a + ((b - a) + (c - a)) / 3.0;
-      const NormalAndArea face =
-          mesh.hasFiniteCorners(static_cast<uint32_t>(f)) ? normalAndArea(a, b, c) : NormalAndArea{};
-      geometry.normals[f] = face.normal;
-      geometry.areas[f] = face.area;
-    }
+  forEachInParallel(faceCount, [&](uint32_t f) {
+    const auto [i, j, k] = mesh.faces[f];
+    const Vec3d &a = mesh.vertices[i], &b = mesh.vertices[j], &c = mesh.vertices[k];
+    geometry.barycentres[f] = (a * kQuarter + (quarterOf(a, b) + quarterOf(a, c)) / 3.0) / kQuarter;
+    const NormalAndArea face = mesh.hasFiniteCorners(f) ? normalAndArea(a, b, c) : NormalAndArea{};
+    geometry.normals[f] = face.normal;
+    geometry.areas[f] = face.area;
   });
   for (const Face& face : mesh.faces)
     for (uint32_t vertex : face)

@@ -33,7 +33,7 @@ struct Polygons {
 
 /// A triangle mesh as plain arrays: no face is lost, doubled or reordered, whatever its topology.
 struct Mesh {
-  std::vector<Vec3d> vertices;  ///< #V, in the file's unit; may hold non-finite numbers (see validate()).
+  std::vector<Vec3d> vertices;  ///< #V, in the file's unit; may hold non-finite numbers (see findDefects()).
   std::vector<Face> faces;      ///< #F triangles.
   Polygons polygons;            ///< Set only where an input face was not a triangle.
 

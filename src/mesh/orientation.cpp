@@ -25,15 +25,34 @@ void flipPolygons(Polygons& polygons, std::span<const uint8_t> isFlipped) {
   }
 }
 
+struct InputFaces {
+  uint32_t first = 0;
+  uint64_t count = 0;
+};
+
+// A polygon whose triangles are of several components counts in each of them.
+InputFaces inputFacesOf(const Mesh& mesh, const Components& components, uint32_t index) {
+  const Component& component = components.components[index];
+  const std::vector<uint32_t>& inputFaceOf = mesh.polygons.inputFaceOf;
+  if (mesh.polygons.isEmpty()) return {component.firstFace, component.faceCount};
+  InputFaces faces{inputFaceOf[component.firstFace], 1};
+  uint32_t last = faces.first;
+  for (uint32_t f = component.firstFace; f < mesh.faceCount(); ++f) {
+    if (components.componentOf[f] != index || inputFaceOf[f] == last) continue;
+    last = inputFaceOf[f];
+    ++faces.count;
+  }
+  return faces;
+}
+
 }  // namespace
 
-std::string OrientationReport::sentence(const Components& components) const {
+std::string OrientationReport::sentence(const Mesh& mesh, const Components& components) const {
   if (invertedComponents.empty()) return {};
   std::string names;
   for (size_t i = 0; i < std::min(invertedComponents.size(), kNamedComponents); ++i) {
-    const Component& component = components.components[invertedComponents[i]];
-    names += fmt::format("{}face {} and the {} connected to it", i == 0 ? "" : ", ", component.firstFace,
-                         component.faceCount - 1);
+    const InputFaces faces = inputFacesOf(mesh, components, invertedComponents[i]);
+    names += fmt::format("{}face {} and the {} connected to it", i == 0 ? "" : ", ", faces.first, faces.count - 1);
   }
   if (invertedComponents.size() > kNamedComponents)
     names += fmt::format(", and {} more", invertedComponents.size() - kNamedComponents);

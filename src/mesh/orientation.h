@@ -16,8 +16,9 @@ struct OrientationReport {
   std::vector<uint8_t> isCavity;             ///< #components; see findCavities().
   std::vector<uint32_t> invertedComponents;  ///< Ascending indices.
 
-  /// One sentence that names the inverted components by their lowest face; empty when there is none.
-  [[nodiscard]] std::string sentence(const Components& components) const;
+  /// One sentence that names the inverted components by their lowest input face and says how many hang together with
+  /// it; empty when there is none.
+  [[nodiscard]] std::string sentence(const Mesh& mesh, const Components& components) const;
 };
 
 /// The rule of CGAL's orient_to_bound_a_volume: a closed component inside an even number of others bounds a solid and

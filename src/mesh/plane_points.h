@@ -5,16 +5,9 @@
 #include <span>
 #include <vector>
 
+#include "mesh/point2.h"
+
 namespace asdfvk {
-
-struct Point2 {
-  double x = 0, y = 0;
-};
-
-/// The side of the line from a to b that p is on: positive left, negative right; rounded.
-[[nodiscard]] inline double sideOf(const Point2& a, const Point2& b, const Point2& p) {
-  return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
-}
 
 /// Points of the plane in a k-d tree, to find those that a triangle may contain.
 class PlanePoints {

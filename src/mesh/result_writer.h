@@ -30,9 +30,6 @@ struct WriteOptions {
 /// tell, so that it can be called before the work begins.
 [[nodiscard]] ResultFormat resultFormatOf(const std::filesystem::path& path, const WriteOptions& options = {});
 
-/// The same as a check.
-void requireWritableExtension(const std::filesystem::path& path, const WriteOptions& options = {});
-
 /// Writes whole or not at all (see AtomicFile); "-" is standard output. Vertices are written as float where every
 /// coordinate is exactly a float, else as double; values as float (in .csv as double). A face without a value has NaN
 /// in .npy and .csv, in .ply and .vtu 0 (and grey). Throws Error{Output} with the reason. Precondition: #I entries in

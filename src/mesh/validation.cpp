@@ -87,6 +87,7 @@ MeshDefects findDefects(const Mesh& mesh, const FaceGeometry& geometry, std::spa
   defects.inconsistentEdgeCount = edges.inconsistent;
   defects.unreferencedVertexCount = countUnreferencedVertices(mesh);
   defects.shortPolygonCount = countShortPolygons(mesh.polygons);
+  defects.isOfPolygons = !mesh.polygons.isEmpty();
   return defects;
 }
 
@@ -96,18 +97,20 @@ std::vector<std::string> MeshDefects::sentences() const {
     if (count == 1) result.push_back(fmt::format("1 {}", one));
     if (count > 1) result.push_back(fmt::format("{} {}", count, many));
   };
-  tell(indexOutOfRangeFaceCount, "face names a vertex that is not there: nothing can be computed on this mesh",
-       "faces name vertices that are not there: nothing can be computed on this mesh");
+  const auto tellOfFaces = [&](uint64_t count, const char* one, const char* many) {
+    if (count == 1) result.push_back(fmt::format("1 {} {}", isOfPolygons ? "triangle" : "face", one));
+    if (count > 1) result.push_back(fmt::format("{} {} {}", count, isOfPolygons ? "triangles" : "faces", many));
+  };
   tell(nonFiniteVertexCount, "vertex has a coordinate that is no finite number",
        "vertices have coordinates that are no finite numbers");
-  tell(nonFiniteFaceCount, "face has a corner that is no finite point: it is left out and gets no value",
-       "faces have corners that are no finite points: they are left out and get no value");
+  tellOfFaces(nonFiniteFaceCount, "has a corner that is no finite point: it is left out and gets no value",
+              "have corners that are no finite points: they are left out and get no value");
   tell(shortPolygonCount, "input face has fewer than three corners: it gets no value",
        "input faces have fewer than three corners: they get no value");
-  tell(zeroAreaFaceCount, "face has zero area: it casts no rays and is interpolated",
-       "faces have zero area: they cast no rays and are interpolated");
-  tell(duplicateFaceCount, "face repeats the vertices of an earlier one: rays pass through its own copies",
-       "faces repeat the vertices of earlier ones: rays pass through their own copies");
+  tellOfFaces(zeroAreaFaceCount, "has zero area: it casts no rays and is interpolated",
+              "have zero area: they cast no rays and are interpolated");
+  tellOfFaces(duplicateFaceCount, "lies exactly on an earlier one: rays pass through its own copies",
+              "lie exactly on earlier ones: rays pass through their own copies");
   tell(nonManifoldEdgeCount, "edge has more than two faces: values are interpolated across all of them",
        "edges have more than two faces: values are interpolated across all of them");
   tell(inconsistentEdgeCount, "edge has two faces of opposite winding: on one side of it rays leave outwards",

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "core/error.h"
 #include "mesh/coincident_faces.h"
 #include "mesh/orientation.h"
@@ -19,7 +21,8 @@ void orient(Mesh& mesh, PreparedMesh& prepared, Orientation orientation) {
     prepared.warnings.push_back(
         fmt::format("{} inverted component{} turned over", invertedCount, invertedCount == 1 ? " was" : "s were"));
   } else {
-    prepared.warnings.push_back(report.sentence(prepared.components));
+    prepared.warnings.push_back(report.sentence(mesh, prepared.components));
+    prepared.invertedComponents = std::move(report.invertedComponents);
   }
 }
 
@@ -29,8 +32,9 @@ PreparedMesh prepareMesh(Mesh& mesh, Orientation orientation) {
   if (mesh.inputFaceCount() == 0)
     throw Error(ErrorKind::Input, "the mesh has no faces; a shape diameter needs a surface");
   if (const uint64_t count = countFacesWithIndexOutOfRange(mesh); count > 0)
-    throw Error(ErrorKind::Input,
-                fmt::format("{} faces name a vertex that does not exist (there are {})", count, mesh.vertices.size()));
+    throw Error(ErrorKind::Input, fmt::format("{} {}{} a vertex that does not exist (there are {})", count,
+                                              mesh.polygons.isEmpty() ? "face" : "triangle",
+                                              count == 1 ? " names" : "s name", mesh.vertices.size()));
   PreparedMesh prepared;
   prepared.geometry = computeFaceGeometry(mesh);
   prepared.representatives = coincidentRepresentatives(mesh);

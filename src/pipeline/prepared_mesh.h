@@ -19,6 +19,7 @@ struct PreparedMesh {
   std::vector<uint32_t> representatives;  ///< #F, see coincidentRepresentatives().
   DualGraph graph;
   Components components;
+  std::vector<uint32_t> invertedComponents;  ///< That were left so. Ascending indices.
   MeshDefects defects;
   std::vector<std::string> warnings;
   std::vector<uint32_t> castableFaces;  ///< Not degenerate: they can be seeds. Ascending.

@@ -10,6 +10,7 @@
 #include "pipeline/compute_backend.h"
 #include "pipeline/input_faces.h"
 #include "pipeline/interpolation.h"
+#include "pipeline/missing_values.h"
 #include "pipeline/prepared_mesh.h"
 #include "pipeline/seed_tracing.h"
 
@@ -58,15 +59,15 @@ void describeTrace(Report& report, const TracedSeeds& traced) {
       report.stageSeconds.trace > 0 ? static_cast<double>(report.rayCount) / report.stageSeconds.trace : 0;
 }
 
-void describeValues(Report& report, const std::vector<double>& sdf) {
+void describeValues(Report& report, const std::vector<double>& sdf, const std::string& causeOfMissing) {
   report.sdf = rangeOf(sdf);
   report.noValueCount =
       static_cast<uint64_t>(std::count_if(sdf.begin(), sdf.end(), [](double v) { return std::isnan(v); }));
   if (report.noValueCount > 0)
-    report.warnings.push_back(
-        fmt::format("{} of {} faces have no value: no ray of theirs, nor of any face that they hang "
-                    "together with, found the other side of the shape",
-                    report.noValueCount, report.faceCount));
+    report.warnings.push_back(fmt::format(
+        "{} of {} faces have no value: no ray of theirs, nor of any face that they hang "
+        "together with, found the other side of the shape{}{}",
+        report.noValueCount, report.faceCount, causeOfMissing.empty() ? "" : ", most likely because ", causeOfMissing));
   if (!report.solver.converged)
     report.warnings.push_back(
         fmt::format("the {} solver stopped after {} iterations at a relative residual of {:.1e}; "
@@ -118,7 +119,7 @@ Result Session::compute(Mesh& mesh, const Options& options, const RunControl& co
 
   result.sdf = valuesOfInputFaces(mesh, values, prepared.geometry.areas);
   result.isSeed = seedsOfInputFaces(mesh, traced.isSeed);
-  describeValues(report, result.sdf);
+  describeValues(report, result.sdf, likelyCauseOfMissingValues(mesh, prepared, values));
   backend.requireSilentValidation();
   return result;
 }

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 #include <vector>
 
@@ -47,4 +48,50 @@ TEST_CASE("representatives of random soups are what comparing all faces gives") 
     }
     REQUIRE(coincidentRepresentatives(mesh) == expected);
   }
+}
+
+TEST_CASE("a copy with vertices of its own coincides with the original, in either winding") {
+  const Mesh sphere = shapes::sphere(3);
+  const uint32_t count = sphere.faceCount();
+  for (const Mesh& copy : {sphere, shapes::inverted(sphere)}) {
+    const std::vector<uint32_t> representatives = coincidentRepresentatives(shapes::together(sphere, copy));
+    REQUIRE(representatives.size() == 2 * size_t{count});
+    for (uint32_t f = 0; f < representatives.size(); ++f) REQUIRE(representatives[f] == f % count);
+  }
+  const std::vector<uint32_t> moved =
+      coincidentRepresentatives(shapes::together(sphere, shapes::placed(sphere, 1, {1e-15, 0, 0})));
+  CHECK(moved[count + 1] == count + 1);  // Near is not the same.
+}
+
+TEST_CASE("at one point are -0 and 0, but NaN and infinity never") {
+  const auto twoFaces = [](double x, double otherX) {
+    return Mesh{
+        {{x, 0, 0}, {1, 0, 0}, {0, 1, 0}, {otherX, -0.0, 0}, {1, 0, -0.0}, {-0.0, 1, 0}}, {{0, 1, 2}, {4, 3, 5}}, {}};
+  };
+  using Representatives = std::vector<uint32_t>;
+  CHECK(coincidentRepresentatives(twoFaces(0.0, -0.0)) == Representatives{0, 0});
+  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    CHECK(coincidentRepresentatives(twoFaces(bad, bad)) == Representatives{0, 1});
+    Mesh shared = twoFaces(bad, 0);
+    shared.faces = {{0, 1, 2}, {2, 1, 0}};
+    CHECK(coincidentRepresentatives(shared) == Representatives{0, 0});  // By index it is the same face nevertheless.
+  }
+}
+
+TEST_CASE("faces that collapse into a line or a point go by their vertices") {
+  const Mesh mesh{{{0, 0, 0}, {0, 0, 0}, {1, 0, 0}, {1, 0, 0}}, {{0, 1, 2}, {0, 1, 3}, {2, 0, 1}, {0, 2, 2}}, {}};
+  CHECK(coincidentRepresentatives(mesh) == std::vector<uint32_t>{0, 1, 0, 3});
+}
+
+TEST_CASE("of a soup on few points, shared or not, copies are what comparing all positions gives") {
+  const Mesh welded = shapes::soup(6, 300, 3);
+  Mesh soup;
+  for (const Face& face : welded.faces) {
+    const auto v = static_cast<uint32_t>(soup.vertices.size());
+    for (uint32_t vertex : face) soup.vertices.push_back(welded.vertices[vertex]);
+    soup.faces.push_back({v, v + 1, v + 2});
+  }
+  const std::vector<uint32_t> expected = coincidentRepresentatives(welded), actual = coincidentRepresentatives(soup);
+  for (uint32_t f = 0; f < welded.faceCount(); ++f)
+    REQUIRE(actual[f] == (hasDistinctVertices(welded.faces[f]) ? expected[f] : f));
 }

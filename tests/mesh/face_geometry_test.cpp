@@ -106,3 +106,12 @@ TEST_CASE("the box holds only vertices that faces use") {
   mesh.vertices.push_back({100, 0, 0});
   CHECK(computeFaceGeometry(mesh).bounds.max == Vec3d{1, 1, 1});
 }
+
+TEST_CASE("coordinates at the ends of a double's range overflow nothing") {
+  const double edge = 1.7e308;
+  const FaceGeometry geometry = computeFaceGeometry(triangle({-edge, -edge, 0}, {edge, -edge, 0}, {edge, edge, 0}));
+  CHECK(geometry.normals[0] == Vec3d{0, 0, 1});
+  CHECK(geometry.areas[0] == std::numeric_limits<double>::max());
+  CHECK(geometry.barycentres[0].x == doctest::Approx(edge / 3));
+  CHECK(geometry.barycentres[0].y == doctest::Approx(-edge / 3));
+}

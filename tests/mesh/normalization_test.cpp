@@ -47,3 +47,17 @@ TEST_CASE("a point, an empty box and subnormal extents have a usable scale") {
   const double tiny = std::numeric_limits<double>::denorm_min();
   CHECK(std::isfinite(normalizationOf(box({0, 0, 0}, {tiny * 8, 0, 0})).scale));
 }
+
+TEST_CASE("a box as wide as a double's range maps into [-1, 1] and its lengths stay finite") {
+  const double edge = 1.7e308;
+  const Normalization normalization = normalizationOf(box({-edge, -edge, 0}, {edge, edge, 1}));
+  for (const double sign : {-1.0, 1.0}) {
+    const Vec3d corner = normalization.toNormalized({sign * edge, -sign * edge, 0});
+    CHECK(std::abs(corner.x) >= 0.5);
+    CHECK(std::abs(corner.x) <= 1);
+    CHECK(corner.y == -corner.x);
+  }
+  CHECK(normalization.toMeshLength(0.25) == doctest::Approx(0.25 / normalization.scale));
+  CHECK(normalization.toMeshLength(2) == std::numeric_limits<double>::max());
+  CHECK(std::isnan(normalization.toMeshLength(std::numeric_limits<double>::quiet_NaN())));
+}

@@ -43,7 +43,11 @@ TEST_CASE("a lone closed shape is inverted when its volume is negative") {
   CHECK(invertedIn({}).empty());
   CHECK(invertedIn(sphere(2)).empty());
   CHECK(invertedIn(inverted(sphere(2))) == Indices{0});
-  CHECK(invertedIn(inverted(placed(sphere(2), 1e-150))) == Indices{0});
+  for (const double scale : {1e-170, 1e-150, 1e160, 1.7e308}) {
+    CAPTURE(scale);
+    CHECK(invertedIn(placed(sphere(2), scale)).empty());
+    CHECK(invertedIn(inverted(placed(sphere(2), scale))) == Indices{0});
+  }
   CHECK(invertedIn(inverted(placed(sphere(2), 1e-3, {1e5, 1e5, 1e5}))) == Indices{0});
 }
 
@@ -126,12 +130,12 @@ TEST_CASE("orienting turns the inverted components only, once, and what is deriv
   Analysis analysis = analyse(mesh);
   CHECK(analysis.report.invertedComponents == Indices{0, 2});
   CHECK(
-      analysis.report.sentence(analysis.components) ==
+      analysis.report.sentence(mesh, analysis.components) ==
       "2 of 3 components are inverted (face 0 and the 127 connected to it, face 160 and the 11 connected to it): their "
       "rays leave the solid");
   const Mesh before = mesh;
   orientOutward(mesh, geometry, analysis.components, analysis.report);
-  CHECK(analysis.report.sentence(analysis.components).empty());
+  CHECK(analysis.report.sentence(mesh, analysis.components).empty());
   CHECK(invertedIn(mesh).empty());
   CHECK(mesh.faces[128] == before.faces[128]);
   CHECK(mesh.faces[0] == Face{before.faces[0][0], before.faces[0][2], before.faces[0][1]});
@@ -145,9 +149,26 @@ TEST_CASE("orienting turns the inverted components only, once, and what is deriv
 }
 
 TEST_CASE("one inverted component is named in the singular") {
-  const Analysis analysis = analyse(inverted(shapes::tetrahedron()));
-  CHECK(analysis.report.sentence(analysis.components) ==
+  const Mesh mesh = inverted(shapes::tetrahedron());
+  const Analysis analysis = analyse(mesh);
+  CHECK(analysis.report.sentence(mesh, analysis.components) ==
         "1 of 1 components is inverted (face 0 and the 3 connected to it): its rays leave the solid");
+}
+
+TEST_CASE("inverted components of a mesh of polygons are named by input faces") {
+  Mesh mesh = together(shapes::cube(), placed(inverted(shapes::cube()), 1, {5, 0, 0}));
+  mesh.polygons.firstCorner = {0, 2};  // A line comes before the twelve quads.
+  mesh.polygons.corners = {0, 1};
+  for (uint32_t quad = 0; quad < 12; ++quad) {
+    const Face &first = mesh.faces[2 * quad], &second = mesh.faces[2 * quad + 1];
+    const bool isTurned = quad >= 6;
+    mesh.polygons.corners.insert(mesh.polygons.corners.end(), {first[0], first[1], first[2], second[isTurned ? 1 : 2]});
+    mesh.polygons.firstCorner.push_back(mesh.polygons.corners.size());
+    mesh.polygons.inputFaceOf.insert(mesh.polygons.inputFaceOf.end(), {quad + 1, quad + 1});
+  }
+  const Analysis analysis = analyse(mesh);
+  CHECK(analysis.report.sentence(mesh, analysis.components) ==
+        "1 of 2 components is inverted (face 7 and the 5 connected to it): its rays leave the solid");
 }
 
 TEST_CASE("flipping turns an input face's corners once, however many triangles it was cut into") {

@@ -95,16 +95,12 @@ TEST_CASE("NaN and infinite coordinates are counted by vertex and face, the hole
   }
 }
 
-TEST_CASE("faces with an index out of range are counted before all else") {
+TEST_CASE("faces with an index out of range are counted") {
   Mesh mesh = shapes::cube();
   CHECK(countFacesWithIndexOutOfRange(mesh) == 0);
   mesh.faces.push_back({0, 8, 1});
   mesh.faces.push_back({std::numeric_limits<uint32_t>::max(), 0, 1});
   CHECK(countFacesWithIndexOutOfRange(mesh) == 2);
-  MeshDefects defects;
-  defects.indexOutOfRangeFaceCount = 2;
-  CHECK(defects.sentences() ==
-        std::vector<std::string>{"2 faces name vertices that are not there: nothing can be computed on this mesh"});
 }
 
 TEST_CASE("input faces with fewer than three corners are counted") {
@@ -112,4 +108,23 @@ TEST_CASE("input faces with fewer than three corners are counted") {
   mesh.polygons = {{0, 2, 6, 6}, {0, 1, 0, 1, 2, 3}, {1, 1}};  // A line, a quad, nothing.
   CHECK(mesh.inputFaceCount() == 3);
   CHECK(defectsOf(mesh).shortPolygonCount == 2);
+}
+
+TEST_CASE("a second layer with vertices of its own is a layer of duplicates") {
+  const Mesh twice = shapes::together(shapes::cube(), shapes::cube());
+  const MeshDefects defects = defectsOf(twice);
+  CHECK(defects.duplicateFaceCount == 12);
+  CHECK(defects.boundaryEdgeCount == 0);
+  CHECK(defects.nonManifoldEdgeCount == 0);  // Edges go by index.
+  CHECK(sentencesOf(twice) ==
+        std::vector<std::string>{"12 faces lie exactly on earlier ones: rays pass through their own copies"});
+}
+
+TEST_CASE("on a mesh of polygons the sentences count triangles and say so") {
+  Mesh mesh{{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}, {0, 2, 3}, {3, 2, 0}}, {}};
+  mesh.polygons = {{0, 4, 8}, {0, 1, 2, 3, 0, 2, 3, 0}, {0, 0, 1, 1}};
+  const std::vector<std::string> sentences = sentencesOf(mesh);
+  REQUIRE(sentences.size() >= 2);
+  CHECK(sentences[0] == "1 triangle has zero area: it casts no rays and is interpolated");
+  CHECK(sentences[1] == "2 triangles lie exactly on earlier ones: rays pass through their own copies");
 }

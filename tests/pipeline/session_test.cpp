@@ -128,6 +128,62 @@ TEST_CASE("a component none of whose faces has a value keeps no value and is tol
   CHECK(result.report.warnings.back().find("have no value") != std::string::npos);
 }
 
+TEST_CASE("a sphere twice in the file, each with vertices of its own, has the plain sphere's values") {
+  const Mesh sphere = makeSphere(500).mesh;
+  const auto count = static_cast<std::ptrdiff_t>(sphere.faces.size());
+  Mesh plain = sphere;
+  const std::vector<double> expected = referenceSession().compute(plain, allSeeds()).sdf;
+  const auto twice = [&](bool isCopyInverted) {
+    Mesh mesh = sphere;
+    mesh.vertices.insert(mesh.vertices.end(), sphere.vertices.begin(), sphere.vertices.end());
+    const auto offset = static_cast<uint32_t>(sphere.vertices.size());
+    for (auto [a, b, c] : sphere.faces) {
+      if (isCopyInverted) std::swap(b, c);
+      mesh.faces.push_back({a + offset, b + offset, c + offset});
+    }
+    return mesh;
+  };
+  for (const bool isCopyInverted : {false, true}) {
+    CAPTURE(isCopyInverted);
+    Mesh mesh = twice(isCopyInverted);
+    const Result result = referenceSession().compute(mesh, allSeeds());
+    CHECK(std::equal(expected.begin(), expected.end(), result.sdf.begin()));
+    if (isCopyInverted) {
+      CHECK(std::all_of(result.sdf.begin() + count, result.sdf.end(), [](double v) { return std::isnan(v); }));
+    } else {
+      CHECK(std::equal(expected.begin(), expected.end(), result.sdf.begin() + count));
+    }
+    CHECK(result.report.defects.duplicateFaceCount == sphere.faces.size());
+  }
+}
+
+TEST_CASE("where faces have no value the likely cause is told: an open surface, an inverted component, or neither") {
+  const auto warningOn = [](Mesh mesh) {
+    const Result result = referenceSession().compute(mesh, allSeeds());
+    REQUIRE_FALSE(result.report.warnings.empty());
+    return result.report.warnings.back();
+  };
+  const Mesh triangle{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}, {}};
+  const std::string sentence =
+      "have no value: no ray of theirs, nor of any face that they hang together with, found the other side of the "
+      "shape";
+  CHECK(warningOn(triangle) == "1 of 1 faces " + sentence +
+                                   ", most likely because the surface is open, so that rays escape, or looks the other "
+                                   "way (--orient flip)");
+  Mesh inverted = makeSphere(20).mesh;
+  for (Face& face : inverted.faces) std::swap(face[1], face[2]);
+  CHECK(warningOn(inverted) == "20 of 20 faces " + sentence +
+                                   ", most likely because their component is inverted (--orient auto turns it over)");
+  Mesh line = triangle;
+  line.vertices[2] = {2, 0, 0};
+  CHECK(warningOn(line) == "1 of 1 faces " + sentence);
+
+  Mesh both = inverted;
+  both.vertices.insert(both.vertices.end(), {{5, 0, 0}, {6, 0, 0}, {5, 1, 0}});
+  both.faces.push_back({12, 13, 14});
+  CHECK(warningOn(both).find("inverted (--orient auto turns it over), or the surface is open") != std::string::npos);
+}
+
 TEST_CASE("degenerate faces are interpolated and the count of faces stays") {
   Mesh mesh = makeSphere(500).mesh;
   const Face first = mesh.faces[0];
@@ -186,7 +242,8 @@ TEST_CASE("a mesh without faces, and one with an index out of range, are errors 
   CHECK_THROWS_AS(referenceSession().compute(empty, {}), Error);
   Mesh broken = makeSphere(20).mesh;
   broken.faces[3][1] = 12;
-  CHECK_THROWS_WITH_AS(referenceSession().compute(broken, {}), doctest::Contains("vertex that does not exist"), Error);
+  CHECK_THROWS_WITH_AS(referenceSession().compute(broken, {}),
+                       doctest::Contains("1 face names a vertex that does not exist"), Error);
 }
 
 TEST_CASE("a mesh that is all degenerate has no values and is no error") {

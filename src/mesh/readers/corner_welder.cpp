@@ -4,24 +4,13 @@
 #include <cmath>
 #include <limits>
 
+#include "mesh/point_hash.h"
 #include "mesh/readers/input_faces.h"
 
 namespace asdfvk {
 namespace {
 
 constexpr uint32_t kEmptySlot = std::numeric_limits<uint32_t>::max();
-
-/// The finalizer of SplitMix64 over each number in turn.
-uint64_t hash(const Vec3d& point) {
-  uint64_t h = 0;
-  for (size_t axis = 0; axis < 3; ++axis) {
-    h = (h ^ std::bit_cast<uint64_t>(point[axis])) + 0x9e3779b97f4a7c15u;
-    h = (h ^ (h >> 30)) * 0xbf58476d1ce4e5b9u;
-    h = (h ^ (h >> 27)) * 0x94d049bb133111ebu;
-    h ^= h >> 31;
-  }
-  return h;
-}
 
 }  // namespace
 
@@ -31,7 +20,7 @@ CornerWelder::CornerWelder(uint64_t expectedPointCount) {
 
 uint64_t CornerWelder::slotOf(const Vec3d& point) const {
   const uint64_t mask = table_.size() - 1;
-  uint64_t slot = hash(point) & mask;
+  uint64_t slot = hashOf(point) & mask;
   while (table_[slot] != kEmptySlot && !(points_[table_[slot]] == point)) slot = (slot + 1) & mask;
   return slot;
 }

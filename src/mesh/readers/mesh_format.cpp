@@ -1,11 +1,9 @@
 #include "mesh/readers/mesh_format.h"
 
-#include <algorithm>
-#include <array>
-#include <cctype>
 #include <cstring>
 #include <string>
 
+#include "core/text.h"
 #include "mesh/readers/obj_keywords.h"
 #include "mesh/readers/off_header.h"
 #include "mesh/readers/text_scanner.h"
@@ -17,13 +15,6 @@ namespace {
 std::string_view firstWord(std::span<const char> bytes, char comment) {
   TextScanner text(bytes, {.comment = comment});
   return text.atEnd() ? std::string_view() : text.wordOnLine();
-}
-
-std::string lowerCase(std::string_view text) {
-  std::string lower(text);
-  std::transform(lower.begin(), lower.end(), lower.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return lower;
 }
 
 std::optional<MeshFormat> formatOfExtension(std::string_view extension) {

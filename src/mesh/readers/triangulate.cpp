@@ -84,14 +84,12 @@ bool PolygonTriangulator::isEar(uint32_t corner) const {
   if (!(turn_[corner] > kStraightSine)) return false;
   const uint32_t before = previous_[corner], after = next_[corner];
   const Point2 a = points_[before], b = points_[corner], c = points_[after];
-  const auto side = [](Point2 p, Point2 q, Point2 r) { return (q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x); };
-  const auto isSame = [](Point2 p, Point2 q) { return p.x == q.x && p.y == q.y; };
   return std::none_of(reflex_.begin(), reflex_.end(), [&](uint32_t other) {
     if (isClipped_[other] || other == before || other == corner || other == after) return false;
     // A bridge to a hole runs through its ends twice; the copy of a corner is no obstacle.
     const Point2 p = points_[other];
-    if (isSame(p, a) || isSame(p, b) || isSame(p, c)) return false;
-    return side(a, b, p) >= 0 && side(b, c, p) >= 0 && side(c, a, p) >= 0;
+    if (p == a || p == b || p == c) return false;
+    return sideOf(a, b, p) >= 0 && sideOf(b, c, p) >= 0 && sideOf(c, a, p) >= 0;
   });
 }
 

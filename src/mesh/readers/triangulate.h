@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "mesh/mesh.h"
+#include "mesh/point2.h"
 
 namespace asdfvk {
 
@@ -23,10 +24,6 @@ class PolygonTriangulator {
   void triangulate(std::span<const Vec3d> vertices, std::span<const uint32_t> corners, std::span<Face> triangles);
 
  private:
-  struct Point2 {
-    double x, y;
-  };
-
   /// False where the polygon spans no plane.
   [[nodiscard]] bool project(std::span<const Vec3d> vertices, std::span<const uint32_t> corners);
   [[nodiscard]] double turnAt(uint32_t corner) const;

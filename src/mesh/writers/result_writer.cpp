@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <string>
 #include <utility>
 
 #include "core/check.h"
 #include "core/error.h"
+#include "core/text.h"
 #include "mesh/writers/atomic_file.h"
 #include "mesh/writers/result_formats.h"
 
@@ -22,9 +22,7 @@ constexpr std::array<std::pair<std::string_view, ResultFormat>, 4> kFormats{
 
 std::optional<ResultFormat> findFormat(std::string_view name) {
   if (name.starts_with('.')) name.remove_prefix(1);
-  std::string lower(name);
-  std::transform(lower.begin(), lower.end(), lower.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string lower = lowerCase(name);
   for (const auto& [known, format] : kFormats)
     if (known == lower) return format;
   return std::nullopt;
@@ -44,10 +42,6 @@ ResultFormat resultFormatOf(const std::filesystem::path& path, const WriteOption
   if (const auto format = findFormat(path.extension().string())) return *format;
   throw Error(ErrorKind::Usage,
               fmt::format("the extension of {} tells no format; use .ply, .vtu, .npy or .csv", path.string()));
-}
-
-void requireWritableExtension(const std::filesystem::path& path, const WriteOptions& options) {
-  (void)resultFormatOf(path, options);
 }
 
 bool verticesAreFloats(const Mesh& mesh) {

@@ -1,0 +1,15 @@
+#pragma once
+
+namespace asdfvk {
+
+struct Point2 {
+  double x = 0, y = 0;
+  bool operator==(const Point2&) const = default;
+};
+
+/// The side of the line from a to b that p is on: positive left, negative right; rounded.
+[[nodiscard]] inline double sideOf(const Point2& a, const Point2& b, const Point2& p) {
+  return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
+}
+
+}  // namespace asdfvk
