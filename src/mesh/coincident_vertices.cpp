@@ -22,7 +22,8 @@ struct Point {
 }  // namespace
 
 std::vector<uint32_t> coincidentVertices(const Mesh& mesh) {
-  const size_t bucketCount = std::bit_ceil(mesh.vertices.size() / 2 + 1);
+  // Few enough that their counts stay in a cache, else each vertex costs two misses.
+  const size_t bucketCount = std::bit_ceil(mesh.vertices.size() / 32 + 1);
   const Buckets<Point> buckets =
       sortIntoBuckets<Point>(bucketCount, mesh.vertices.size(), [&](uint32_t vertex, auto&& put) {
         if (!isFinite(mesh.vertices[vertex])) return;
