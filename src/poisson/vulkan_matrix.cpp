@@ -15,8 +15,8 @@ namespace {
 // adds 256 sums at a stroke; a CPU device has neither.
 constexpr uint32_t kGpuLaneCount = 256, kGpuRowsPerLane = 4;
 constexpr uint32_t kCpuLaneCount = 32, kCpuRowsPerLane = 32;
-// llvmpipe ends loops after 65,535 iterations of an invocation, all its loops together.
-constexpr uint64_t kLoopIterationLimit = 60'000;
+// With room for what the compiler makes of the loops.
+constexpr uint64_t kLoopIterationLimit = kCpuDeviceLoopIterationCount / 10 * 9;
 
 uint32_t rowsPerLaneAtLeast(const DeviceFacts& facts) {
   return facts.kind == DeviceKind::Cpu ? kCpuRowsPerLane : kGpuRowsPerLane;
@@ -33,7 +33,7 @@ Buffer uploadArray(const Device& device, const std::vector<T>& array, VkBufferUs
 
 uint32_t poissonLaneCount(const DeviceFacts& facts) {
   const uint32_t wanted = facts.kind == DeviceKind::Cpu ? kCpuLaneCount : kGpuLaneCount;
-  return std::bit_floor(std::min(wanted, facts.maxWorkgroupInvocations));
+  return std::bit_floor(std::min({wanted, facts.maxWorkgroupInvocations, facts.maxWorkgroupSize}));
 }
 
 PoissonGrid choosePoissonGrid(const DeviceFacts& facts, uint32_t unknownCount) {

@@ -7,7 +7,7 @@ namespace {
 
 // llvmpipe ends all loops of an invocation after 65,535 iterations, counted for the lanes of a subgroup together, and
 // says nothing (Mesa's lp_bld_ir_common.h, LP_MAX_TGSI_LOOP_ITERATIONS).
-constexpr uint32_t kCpuDeviceIterationCount = 65'535;
+constexpr uint32_t kCpuDeviceLoopIterationCount = 65'535;
 
 uint32_t roundUp(uint32_t value, uint32_t multiple) { return (value + multiple - 1) / multiple * multiple; }
 
@@ -15,7 +15,7 @@ uint32_t roundUp(uint32_t value, uint32_t multiple) { return (value + multiple -
 
 VulkanWorkgroupShape workgroupShapeFor(const DeviceFacts& device, uint32_t rayCount) {
   VulkanWorkgroupShape shape;
-  const uint32_t widest = std::min(256u, device.maxWorkgroupInvocations);
+  const uint32_t widest = std::min({256u, device.maxWorkgroupInvocations, device.maxWorkgroupSize});
   if (device.kind != DeviceKind::Cpu) {
     shape.lanesPerCone = std::min(widest, roundUp(rayCount, std::clamp(device.subgroupSize, 8u, 32u)));
     shape.conesPerWorkgroup = std::max(1u, std::min(128u, device.maxWorkgroupInvocations) / shape.lanesPerCone);

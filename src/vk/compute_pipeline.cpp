@@ -1,12 +1,23 @@
 #include "vk/compute_pipeline.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
 #include "core/check.h"
+#include "core/error.h"
 #include "vk/result.h"
 
 namespace asdfvk {
 
 ComputePipeline::ComputePipeline(const Device& device, const ComputePipelineDescription& description)
     : device_(device.handle()), bindings_(description.bindings) {
+  const auto storageBufferCount = std::count(bindings_.begin(), bindings_.end(), VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
+  if (storageBufferCount > device.facts().maxStorageBuffersPerStage)
+    throw Error(ErrorKind::Device,
+                fmt::format("{} needs {} storage buffers and {} has {}; use --solver eigen or --backend reference",
+                            description.name, storageBufferCount, device.facts().name,
+                            device.facts().maxStorageBuffersPerStage));
   VkShaderModule module = VK_NULL_HANDLE;
   try {
     std::vector<VkDescriptorSetLayoutBinding> layoutBindings;

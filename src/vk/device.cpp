@@ -43,6 +43,8 @@ DeviceFacts describeDevice(VkPhysicalDevice device) {
   facts.apiVersion = basic.apiVersion;
   facts.computeQueueFamily = findComputeQueueFamily(device);
   facts.maxWorkgroupInvocations = basic.limits.maxComputeWorkGroupInvocations;
+  facts.maxWorkgroupSize = basic.limits.maxComputeWorkGroupSize[0];
+  facts.maxStorageBuffersPerStage = basic.limits.maxPerStageDescriptorStorageBuffers;
   facts.maxWorkgroupCount = basic.limits.maxComputeWorkGroupCount[0];
   facts.maxStorageBufferRange = basic.limits.maxStorageBufferRange;
   facts.maxTexelBufferElements = basic.limits.maxTexelBufferElements;

@@ -20,11 +20,17 @@ struct DeviceFacts {
   std::optional<uint32_t> computeQueueFamily;
   uint32_t subgroupSize = 1;
   uint32_t maxWorkgroupInvocations = 0;
+  uint32_t maxWorkgroupSize = 0;  ///< In x.
+  uint32_t maxStorageBuffersPerStage = 0;
   uint32_t maxWorkgroupCount = 0;      ///< In x.
   uint64_t maxStorageBufferRange = 0;  ///< Bytes.
   uint64_t maxTexelBufferElements = 0;
   uint64_t maxMemoryAllocationSize = 0;  ///< Bytes.
 };
+
+/// llvmpipe ends all loops of an invocation after this many iterations, counted for the lanes of a subgroup together,
+/// and says nothing (Mesa's lp_bld_ir_common.h, LP_MAX_TGSI_LOOP_ITERATIONS). Kernels on CPU devices stay below.
+inline constexpr uint32_t kCpuDeviceLoopIterationCount = 65'535;
 
 struct DeviceRequest {
   std::string selector;     ///< A decimal index, or a part of a name without regard to case; empty: any.

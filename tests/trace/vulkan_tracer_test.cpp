@@ -123,6 +123,7 @@ TEST_CASE("the device's own iteration guard suffices for its workgroup shape") {
   cpu.kind = DeviceKind::Cpu;
   cpu.subgroupSize = 8;
   cpu.maxWorkgroupInvocations = 1024;
+  cpu.maxWorkgroupSize = 1024;
   for (uint32_t rayCount = 1; rayCount <= kMaxRayCount; ++rayCount) {
     const VulkanWorkgroupShape shape = workgroupShapeFor(cpu, rayCount);
     const uint32_t raysPerLane = (rayCount + shape.lanesPerCone - 1) / shape.lanesPerCone;
@@ -206,10 +207,13 @@ TEST_CASE("a GPU's workgroups hold several cones") {
   gpu.kind = DeviceKind::Discrete;
   gpu.subgroupSize = 32;
   gpu.maxWorkgroupInvocations = 1024;
+  gpu.maxWorkgroupSize = 1024;
   CHECK(workgroupShapeFor(gpu, 30).lanesPerCone == 32);
   CHECK(workgroupShapeFor(gpu, 30).conesPerWorkgroup == 4);
   CHECK(workgroupShapeFor(gpu, 1024).lanesPerCone == 256);
   CHECK(workgroupShapeFor(gpu, 1024).conesPerWorkgroup == 1);
+  gpu.maxWorkgroupInvocations = gpu.maxWorkgroupSize = 128;  // the least that Vulkan allows
+  CHECK(workgroupShapeFor(gpu, 1024).lanesPerCone == 128);
 }
 
 TEST_CASE("two runs on the device give the same bits, whatever the order of the seeds") {
@@ -282,4 +286,13 @@ TEST_CASE("a mesh beyond a device's limits is refused with a remedy") {
   const TracedMesh traced(generateShape("sphere", 500).mesh);
   const Cone cone = makeCone({});
   CHECK_THROWS_WITH_AS((void)makeVulkanTracer(kernel, traced.scene(), cone), doctest::Contains("smaller mesh"), Error);
+}
+
+TEST_CASE("a device with too few storage buffers for a kernel is refused before the kernel is made") {
+  const Instance instance;
+  const VkPhysicalDevice physical = instance.physicalDevices().front();
+  DeviceFacts facts = describeDevice(physical);
+  facts.maxStorageBuffersPerStage = 2;
+  const Device small(physical, facts);
+  CHECK_THROWS_WITH_AS(VulkanConeKernel(small, 30), doctest::Contains("--backend reference"), Error);
 }
