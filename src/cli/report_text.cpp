@@ -60,15 +60,26 @@ std::string valueRow(const Report& report) {
 }
 
 std::string tracedCheck(const CheckReport& check) {
-  if (check.tracedCount == 0) return "no traced face was among the faces checked; ask for more of them";
-  return fmt::format("{} of {} within {:g} of the diagonal; median difference {:.2g}, worst {:.2g} (face {})",
-                     percent(check.agreeingCount, check.tracedCount), counted(check.tracedCount, "traced face"),
-                     kAgreementTolerance, check.medianDifference, check.worstDifference, check.worstFace);
+  if (!check.isIndependent) return "traced by the reference itself: nothing to compare";
+  if (check.tracedCount == 0) return "no face could be traced, so nothing was compared";
+  const uint64_t withValue = check.tracedCount - check.noValueAgreeCount;
+  if (withValue == 0)
+    return fmt::format("{}, none with a value on either side: nothing to compare",
+                       counted(check.tracedCount, "traced face"));
+  std::string text =
+      fmt::format("{} of {} within {:g} of the diagonal; median difference {:.2g}, worst {:.2g} (face {})",
+                  percent(check.agreeingCount, withValue), counted(withValue, "traced face"), kAgreementTolerance,
+                  check.medianDifference, check.worstDifference, check.worstFace);
+  if (check.noValueAgreeCount > 0)
+    text += fmt::format("; {} more without a value on either side", groupDigits(check.noValueAgreeCount));
+  return text;
 }
 
-std::string interpolationCheck(const CheckReport& check) {
-  return fmt::format("average error {:.4f}, maximum {:.4f} of the range, {} among the faces checked",
-                     check.averageError, check.maximumError, counted(check.interpolatedCount, "interpolated face"));
+std::string errorCheck(const CheckReport& check) {
+  return fmt::format("average error {:.4f}, maximum {:.4f} of the range over {}; {:.4f} and {:.4f} over the {}",
+                     check.averageError, check.maximumError, counted(check.comparedCount, "face"),
+                     check.interpolatedAverageError, check.interpolatedMaximumError,
+                     counted(check.interpolatedCount, "interpolated face"));
 }
 
 }  // namespace
@@ -90,7 +101,7 @@ std::string textReport(const MeshOutcome& outcome) {
   text += row("diameter", valueRow(report));
   if (report.check) {
     text += row("check", tracedCheck(*report.check));
-    if (report.check->interpolatedCount > 0) text += row("", interpolationCheck(*report.check));
+    if (report.check->interpolatedCount > 0) text += row("", errorCheck(*report.check));
   }
   text += row("output", outcome.output == "-" ? "standard output" : outcome.output);
   return text;

@@ -57,10 +57,8 @@ Answer runMesh(Session& session, const std::string& name, const std::string& out
     writeStandardError(textReport(outcome));
   }
   Answer answer{ExitCode::Done, jsonReport(outcome)};
-  if (result.report.check && !result.report.check->passed) {
-    printError(name, checkFailure(*result.report.check));
-    answer.code = ExitCode::CheckFailed;
-  }
+  if (result.report.check) answer.code = exitCodeOf(*result.report.check);
+  if (answer.code != ExitCode::Done) printError(name, checkFailure(*result.report.check));
   return answer;
 }
 

@@ -22,6 +22,7 @@ class ComputeBackend {
   [[nodiscard]] const std::string& name() const { return name_; }  ///< "vulkan" or "reference"
   [[nodiscard]] const std::string& deviceName() const { return deviceName_; }
   [[nodiscard]] const std::string& deviceLine() const { return deviceLine_; }
+  [[nodiscard]] bool isReference() const { return !device_; }
   /// The reference, or a Vulkan device that is the CPU itself.
   [[nodiscard]] bool runsOnCpu() const { return !device_ || device_->facts().kind == DeviceKind::Cpu; }
 

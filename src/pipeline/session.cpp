@@ -16,8 +16,11 @@
 namespace asdfvk {
 namespace {
 
-// Shares of the progress bar.
-constexpr double kTraceEnd = 0.85, kSolveEnd = 1.0;
+/// Where the parts end on the progress bar; a check takes what is left behind the solving.
+struct ProgressParts {
+  double traceEnd, solveEnd;
+};
+constexpr ProgressParts kPartsAlone{0.85, 1}, kPartsBeforeCheck{0.5, 0.6};
 
 /// Runs `work` and adds its time to `seconds`.
 template <typename Work>
@@ -96,6 +99,7 @@ Result Session::compute(Mesh& mesh, const Options& options, const RunControl& co
   report.device = backend.deviceName();
   report.runsOnCpu = backend.runsOnCpu();
 
+  const ProgressParts parts = options.checkCount ? kPartsBeforeCheck : kPartsAlone;
   control.checkpoint(0);
   const PreparedMesh prepared = timed(seconds.geometry, [&] { return prepareMesh(mesh, options.orientation); });
   describeMesh(report, mesh, prepared, options);
@@ -106,15 +110,16 @@ Result Session::compute(Mesh& mesh, const Options& options, const RunControl& co
   const std::unique_ptr<ConeTracer> tracer = timed(seconds.upload, [&] { return backend.makeTracer(scene, cone); });
 
   TracedSeeds traced =
-      timed(seconds.trace, [&] { return traceSeeds(prepared, *tracer, options, control.part(0, kTraceEnd)); });
+      timed(seconds.trace, [&] { return traceSeeds(prepared, *tracer, options, control.part(0, parts.traceEnd)); });
   describeTrace(report, traced);
   std::vector<double> values = traced.values;
   report.solver = timed(seconds.solve, [&] {
-    return interpolate(mesh, prepared, options, backend, values, control.part(kTraceEnd, kSolveEnd), report.warnings);
+    return interpolate(mesh, prepared, options, backend, values, control.part(parts.traceEnd, parts.solveEnd),
+                       report.warnings);
   });
   if (options.checkCount)
-    report.check = checkAgainstReference(mesh, prepared, scene, cone, traced, values, *options.checkCount,
-                                         options.randomSeed, {control.stop, {}});
+    report.check = checkAgainstReference(mesh, prepared, scene, cone, {traced, values, backend.isReference()},
+                                         *options.checkCount, options.randomSeed, control.part(parts.solveEnd, 1));
 
   result.sdf = valuesOfInputFaces(mesh, values, prepared.geometry.areas);
   result.isSeed = seedsOfInputFaces(mesh, traced.isSeed);

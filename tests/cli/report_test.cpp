@@ -74,12 +74,26 @@ TEST_CASE("a share of agreeing faces is never rounded up to all of them") {
   CHECK(holds(textReport({kMesh, kOutput, line, report}), "100 % of"));
 }
 
+TEST_CASE("faces without a value on either side are told apart from those that agree") {
+  const CommandLine line;
+  Report report = sampleReport();
+  report.check.emplace();
+  report.check->tracedCount = 103;
+  report.check->agreeingCount = 99;
+  report.check->noValueAgreeCount = 3;
+  const std::string text = textReport({kMesh, kOutput, line, report});
+  CHECK(holds(text, "99 % of 100 traced faces"));
+  CHECK(holds(text, "; 3 more without a value on either side"));
+  report.check->tracedCount = report.check->noValueAgreeCount = 1;
+  CHECK(holds(textReport({kMesh, kOutput, line, report}), "1 traced face, none with a value on either side"));
+}
+
 TEST_CASE("a check that compared nothing is told as such and not as passed") {
   const CommandLine line;
   Report report = sampleReport();
   report.check.emplace();
-  CHECK(holds(checkFailure(*report.check), "no traced face"));
-  CHECK(holds(textReport({kMesh, kOutput, line, report}), "no traced face"));
+  CHECK(holds(checkFailure(*report.check), "nothing was compared"));
+  CHECK(holds(textReport({kMesh, kOutput, line, report}), "nothing was compared"));
   const nlohmann::json json = nlohmann::json::parse(jsonReport({kMesh, kOutput, line, report}));
   CHECK_FALSE(json.at("check").at("passed").get<bool>());
 }
