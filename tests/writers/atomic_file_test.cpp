@@ -134,3 +134,24 @@ TEST_CASE("a FIFO is written into, not replaced") {
   writeTo("/dev/null", "gone");
   CHECK(std::filesystem::is_character_file("/dev/null"));
 }
+
+TEST_CASE("the unfinished file can be removed by name, and only while it is unfinished") {
+  const Folder folder;
+  {
+    AtomicFile file(folder / "out.ply");
+    REQUIRE(folder.names().size() == 1);
+    removeUnfinishedFile();
+    CHECK(folder.names().empty());
+  }
+  writeTo(folder / "out.ply", "whole");
+  AtomicFile("/dev/null").write("directly");
+  removeUnfinishedFile();
+  CHECK(folder.names() == std::vector<std::string>{"out.ply"});
+  {
+    AtomicFile first(folder / "first.ply"), second(folder / "second.ply");
+    second.commit();
+    removeUnfinishedFile();
+    CHECK(folder.names().size() == 2);
+    CHECK(std::filesystem::exists(folder / "second.ply"));
+  }
+}
