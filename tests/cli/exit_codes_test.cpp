@@ -71,6 +71,8 @@ TEST_CASE("usage errors end with 1 before any work") {
   checkFailure(runAsdf({mesh, other}), 1, "cube.asdf.ply");
   checkFailure(runAsdf({mesh, other, "-o", folder / "out.ply"}), 1, "directory");
   checkFailure(runAsdf({"-"}), 1, "-o");
+  checkFailure(runAsdf({mesh, "--check", "5"}), 1, "--check=5");
+  checkFailure(runAsdf({mesh, "--backend", "reference", "--solver", "cg"}), 1, "--solver");
   CHECK_EQ(folder.names(), Names{"cube.obj", "cube.off"});
 }
 
