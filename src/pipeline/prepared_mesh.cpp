@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/counted.h"
 #include "core/error.h"
 #include "mesh/coincident_faces.h"
 #include "mesh/orientation.h"
@@ -30,7 +31,8 @@ PreparedMesh prepareMesh(Mesh& mesh, Orientation orientation) {
     throw Error(ErrorKind::Input, "the mesh has no faces; a shape diameter needs a surface");
   if (const uint64_t count = countFacesWithIndexOutOfRange(mesh); count > 0)
     throw Error(ErrorKind::Input,
-                fmt::format("{} faces name a vertex that does not exist (there are {})", count, mesh.vertices.size()));
+                fmt::format("{} with a vertex that does not exist: the mesh has {}", counted(count, "face"),
+                            counted(mesh.vertices.size(), "vertex", "vertices")));
   PreparedMesh prepared;
   prepared.geometry = computeFaceGeometry(mesh);
   prepared.representatives = coincidentRepresentatives(mesh);

@@ -125,7 +125,7 @@ TEST_CASE("a component none of whose faces has a value keeps no value and is tol
   CHECK(std::isnan(result.sdf.back()));
   CHECK(result.report.noValueCount == 1);
   REQUIRE_FALSE(result.report.warnings.empty());
-  CHECK(result.report.warnings.back().find("have no value") != std::string::npos);
+  CHECK(result.report.warnings.back().find("without a value") != std::string::npos);
 }
 
 TEST_CASE("degenerate faces are interpolated and the count of faces stays") {
