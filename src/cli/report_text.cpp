@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "cli/option_values.h"
@@ -113,9 +114,16 @@ std::string checkFailure(const CheckReport& check) {
 
 std::string textDevices(std::span<const DeviceInfo> devices, const std::string& reason) {
   if (devices.empty()) return fmt::format("no Vulkan device: {}\n", reason);
+  size_t nameWidth = 0, kindWidth = 0, driverWidth = 0;
+  for (const DeviceInfo& device : devices) {
+    nameWidth = std::max(nameWidth, device.name.size());
+    kindWidth = std::max(kindWidth, device.kind.size());
+    driverWidth = std::max(driverWidth, device.driver.size());
+  }
   std::string text;
   for (size_t i = 0; i < devices.size(); ++i)
-    text += fmt::format("{}  {} ({}, {}): {}{}\n", i, devices[i].name, devices[i].kind, devices[i].driver,
+    text += fmt::format("{}  {:<{}}   {:<{}}   driver {:<{}}   {}{}\n", i, devices[i].name, nameWidth, devices[i].kind,
+                        kindWidth, devices[i].driver, driverWidth,
                         devices[i].usable ? "" : "not usable: ", devices[i].reason);
   return text;
 }

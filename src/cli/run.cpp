@@ -94,7 +94,8 @@ ExitCode runMeshes(const CommandLine& line, const std::stop_token& stop) {
   } catch (...) {
     return failWithoutSession(line);
   }
-  if (!line.quiet) writeStandardError(oneLine("asdf-vk: " + session->deviceLine()) + "\n");
+  if (!line.quiet)
+    for (const std::string& device : session->deviceLines()) writeStandardError(oneLine("asdf-vk: " + device) + "\n");
 
   ExitCode first = ExitCode::Done;
   for (size_t i = 0; i < line.meshes.size(); ++i) {

@@ -39,7 +39,7 @@ struct SeedCount {
 
 struct SessionOptions {
   Backend backend = Backend::Auto;
-  std::string device;       ///< An index of listDevices() or a part of a name; empty: the best one.
+  std::string device;       ///< As DeviceRequest::selector: an index of listDevices() or a part of a name.
   bool requireGpu = false;  ///< Refuse CPU devices such as lavapipe, and the reference.
 };
 
@@ -126,7 +126,7 @@ struct Result {
 struct DeviceInfo {
   std::string name, driver, kind;
   bool usable = false;
-  std::string reason;  ///< Why it would be chosen or is refused: a sentence.
+  std::string reason;  ///< "chosen", as it would be without --device, or why it is passed over or refused.
 };
 /// Every Vulkan device of this machine; empty when there is no Vulkan loader, with the reason in `reason`.
 [[nodiscard]] std::vector<DeviceInfo> listDevices(std::string* reason);
@@ -140,8 +140,8 @@ class Session {
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
-  /// One line: the device that will run and why, or why the reference does.
-  [[nodiscard]] const std::string& deviceLine() const;
+  /// The device that will run, or why the reference does; then a line per further device with why it does not.
+  [[nodiscard]] const std::vector<std::string>& deviceLines() const;
 
   /// Throws Error{Input} for a mesh nothing can be computed on (no face, index out of range), Error{Usage},
   /// Error{Device}, Error{Cancelled}.

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "bvh/bvh.h"
+#include "core/counted.h"
 #include "core/stopwatch.h"
 #include "pipeline/asdf.h"
 #include "pipeline/check.h"
@@ -67,14 +68,14 @@ void describeValues(Report& report, const std::vector<double>& sdf) {
       static_cast<uint64_t>(std::count_if(sdf.begin(), sdf.end(), [](double v) { return std::isnan(v); }));
   if (report.noValueCount > 0)
     report.warnings.push_back(
-        fmt::format("{} of {} faces have no value: no ray of theirs, nor of any face that they hang "
-                    "together with, found the other side of the shape",
-                    report.noValueCount, report.faceCount));
+        fmt::format("{} of {} without a value: no ray from there, nor from any face that hangs together with it, "
+                    "found the other side of the shape",
+                    report.noValueCount, counted(report.faceCount, "face")));
   if (!report.solver.converged)
-    report.warnings.push_back(
-        fmt::format("the {} solver stopped after {} iterations at a relative residual of {:.1e}; "
-                    "raise --max-iterations or --tolerance",
-                    report.solver.name, report.solver.iterations, report.solver.relativeResidual));
+    report.warnings.push_back(fmt::format(
+        "the {} solver stopped after {} at a relative residual of {:.1e}; "
+        "raise --max-iterations or --tolerance",
+        report.solver.name, counted(report.solver.iterations, "iteration"), report.solver.relativeResidual));
 }
 
 }  // namespace
@@ -87,7 +88,7 @@ struct Session::State {
 Session::Session(const SessionOptions& options) : state_(std::make_unique<State>(options)) {}
 Session::~Session() = default;
 
-const std::string& Session::deviceLine() const { return state_->backend.deviceLine(); }
+const std::vector<std::string>& Session::deviceLines() const { return state_->backend.deviceLines(); }
 
 Result Session::compute(Mesh& mesh, const Options& options, const RunControl& control) {
   ComputeBackend& backend = state_->backend;
