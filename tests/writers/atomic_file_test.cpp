@@ -2,6 +2,7 @@
 #include <fcntl.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -135,23 +136,35 @@ TEST_CASE("a FIFO is written into, not replaced") {
   CHECK(std::filesystem::is_character_file("/dev/null"));
 }
 
-TEST_CASE("the unfinished file can be removed by name, and only while it is unfinished") {
+TEST_CASE("a process that ends at once removes its unfinished file and no other") {
   const Folder folder;
-  {
+  const auto endAtOnce = [](const std::function<void()>& work) {
+    const pid_t child = ::fork();
+    REQUIRE(child >= 0);
+    if (child == 0) {
+      work();
+      ::_exit(1);
+    }
+    int status = 0;
+    REQUIRE(::waitpid(child, &status, 0) == child);
+    CHECK(WEXITSTATUS(status) == 0);
+  };
+  endAtOnce([&] {
     AtomicFile file(folder / "out.ply");
-    REQUIRE(folder.names().size() == 1);
+    file.write(std::string(3'000'000, 'x'));
     removeUnfinishedFile();
-    CHECK(folder.names().empty());
-  }
-  writeTo(folder / "out.ply", "whole");
-  AtomicFile("/dev/null").write("directly");
-  removeUnfinishedFile();
-  CHECK(folder.names() == std::vector<std::string>{"out.ply"});
-  {
+    ::_exit(0);
+  });
+  CHECK(folder.names().empty());
+  endAtOnce([&] {
     AtomicFile first(folder / "first.ply"), second(folder / "second.ply");
     second.commit();
     removeUnfinishedFile();
-    CHECK(folder.names().size() == 2);
-    CHECK(std::filesystem::exists(folder / "second.ply"));
-  }
+    ::_exit(0);
+  });
+  CHECK(folder.names() == std::vector<std::string>{"second.ply"});
+  writeTo(folder / "second.ply", "whole");
+  AtomicFile("/dev/null").write("directly");
+  removeUnfinishedFile();
+  CHECK(contentOf(folder / "second.ply") == "whole");
 }

@@ -64,14 +64,14 @@ void AtomicFile::openTemporary() {
   do {
     temporary_ = target_;
     temporary_.replace_filename(fmt::format(".asdf-vk-{}-{}.part", ::getpid(), count++));
-    withdrawTemporary();
-    announceTemporary();
     descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   } while (descriptor_ < 0 && errno == EEXIST);
-  if (descriptor_ >= 0) return;
+  if (descriptor_ >= 0) {
+    announceTemporary();  // Not before: what was there belongs to another process.
+    return;
+  }
   const int reason = errno;
   const std::filesystem::path folder = target_.has_parent_path() ? target_.parent_path() : ".";
-  withdrawTemporary();
   temporary_.clear();
   if (reason == ENOENT) fail(reason, fmt::format("the folder {} is not there; create it first", folder.string()));
   fail(reason, fmt::format("creating a temporary file in {}", folder.string()));
