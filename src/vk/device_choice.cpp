@@ -89,8 +89,9 @@ DeviceChoice chooseDevice(std::span<const DeviceFacts> devices, const DeviceRequ
   }
   for (uint32_t i = 0; i < devices.size(); ++i) {
     if (!choice.reasons[i].empty()) continue;
-    choice.reasons[i] =
-        i == *choice.index ? "chosen" : fmt::format("usable but ranks behind {}", devices[*choice.index].name);
+    choice.reasons[i] = i == *choice.index ? "chosen"
+                                           : fmt::format("usable but ranks behind device {}, {}", *choice.index,
+                                                         devices[*choice.index].name);
   }
   return choice;
 }

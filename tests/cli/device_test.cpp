@@ -1,3 +1,5 @@
+#include <filesystem>
+
 #include "cli/lavapipe.h"
 #include "cli/program_under_test.h"
 #include "cli/sample_files.h"
@@ -62,6 +64,34 @@ TEST_CASE("lavapipe is listed, runs, and is no GPU") {
     CHECK_EQ(json.at("backend").get<std::string>(), "vulkan");
     CHECK(json.at("device").get<std::string>().find("llvmpipe") != std::string::npos);
   }
+}
+
+TEST_CASE("each device that is passed over has its line with the reason") {
+  const auto lavapipe = lavapipeOnly();
+  if (!lavapipe) return;
+  // Two manifests of one driver are two devices.
+  const ScratchFolder folder;
+  const std::string driver = lavapipe->environment.front().second;
+  std::filesystem::copy_file(driver, folder / "second.json");
+  const ChildOptions twice = withDrivers(driver + ":" + (folder / "second.json"));
+  const std::vector<std::string> list = linesOf(runAsdf({"--list-devices"}, twice).output);
+  REQUIRE_EQ(list.size(), 2);
+  CHECK(list[0].starts_with("0  llvmpipe"));
+  CHECK(list[0].ends_with("   chosen"));
+  CHECK(list[1].starts_with("1  llvmpipe"));
+  CHECK(list[1].find("   usable but ranks behind device 0, llvmpipe") != std::string::npos);
+
+  const std::string mesh = folder.write("cube.off", cubeOff());
+  const auto firstLines = [&](const std::vector<std::string>& arguments) {
+    return linesOf(runAsdf(arguments, twice).error);
+  };
+  const std::vector<std::string> best = firstLines({mesh, "--backend", "vulkan"});
+  CHECK(best.at(0).find("chosen, driver") != std::string::npos);
+  CHECK(best.at(1).find("usable but ranks behind device 0") != std::string::npos);
+  const std::vector<std::string> asked = firstLines({mesh, "--backend", "vulkan", "--device", "1"});
+  CHECK(asked.at(0).find("chosen, driver") != std::string::npos);
+  CHECK(asked.at(1).find("is not the requested device '1'") != std::string::npos);
+  CHECK(firstLines({mesh, "--backend", "vulkan", "--quiet"}).empty());
 }
 
 }  // namespace

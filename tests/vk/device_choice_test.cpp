@@ -23,7 +23,7 @@ TEST_CASE("a discrete GPU is chosen before an integrated one before a CPU device
   const DeviceChoice choice = chooseDevice(devices, {});
   REQUIRE(choice.index);
   CHECK(*choice.index == 2);
-  CHECK(choice.reasons[0] == "usable but ranks behind H200");
+  CHECK(choice.reasons[0] == "usable but ranks behind device 2, H200");
   CHECK(choice.reasons[2] == "chosen");
 }
 
