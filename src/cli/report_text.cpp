@@ -32,9 +32,9 @@ std::string meshRow(const Report& report) {
 
 std::string seedRow(const MeshOutcome& outcome) {
   const Report& report = outcome.report;
-  std::string text =
-      fmt::format("{} cast rays ({}), {} in all, random seed {}", counted(report.seedCount, "face"),
-                  toText(outcome.line.options.seeds), counted(report.rayCount, "ray"), report.randomSeed);
+  std::string text = fmt::format("{} cast{} rays ({}), {} in all, random seed {}", counted(report.seedCount, "face"),
+                                 report.seedCount == 1 ? "s" : "", toText(outcome.line.options.seeds),
+                                 counted(report.rayCount, "ray"), report.randomSeed);
   if (report.redoneConeCount > 0)
     text += fmt::format("; {} redone by the reference", counted(report.redoneConeCount, "cone"));
   return text;

@@ -51,6 +51,17 @@ TEST_CASE("the text report tells mesh, device, seeds, speed, solver and values")
   CHECK_FALSE(holds(text, "check"));
 }
 
+TEST_CASE("one of anything is told in the singular") {
+  const CommandLine line;
+  Report report = sampleReport();
+  report.faceCount = report.triangleCount = report.vertexCount = report.seedCount = report.rayCount = 1;
+  report.solver.iterations = 1;
+  const std::string text = textReport({kMesh, kOutput, line, report});
+  for (const char* part :
+       {": 1 face, 1 vertex, 1 component\n", " 1 face casts rays (", " 1 ray in all", " 1 iteration,"})
+    CHECK_MESSAGE(holds(text, part), text);
+}
+
 TEST_CASE("the text report names what is out of the ordinary") {
   const CommandLine line;
   Report report = sampleReport();
