@@ -66,7 +66,7 @@ TEST_CASE("outputs that contradict each other are usage errors") {
 TEST_CASE("thousands of meshes are planned with a few looks at each") {
   const test::ScratchFolder folder;
   Names meshes;
-  for (int i = 0; i < 5000; ++i) meshes.push_back(folder.write(fmt::format("mesh{}.off", i), ""));
+  for (int i = 0; i < 5000; ++i) meshes.push_back(folder / fmt::format("mesh{}.off", i));
   meshes.push_back(folder.write("other.off", ""));
   CHECK_EQ(planOutputs(lineOf(meshes)).size(), 5001);
   // Only a look at the files can tell that this result is an input.
