@@ -20,6 +20,10 @@ ExitCode exitCodeOf(ErrorKind kind) {
   return ExitCode::Internal;
 }
 
+ExitCode exitCodeOf(const CheckReport& check) {
+  return check.passed || !check.isIndependent ? ExitCode::Done : ExitCode::CheckFailed;
+}
+
 Failure currentFailure() {
   try {
     throw;

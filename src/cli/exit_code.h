@@ -3,6 +3,7 @@
 #include <string>
 
 #include "core/error.h"
+#include "pipeline/asdf.h"
 
 namespace asdfvk {
 
@@ -13,12 +14,15 @@ enum class ExitCode : int {
   Input = 2,        ///< A mesh is unreadable, or there is nothing to compute on it.
   Device = 3,       ///< No device, or it was lost, and no fallback is allowed.
   Output = 4,       ///< A result or report cannot be written.
-  CheckFailed = 5,  ///< --check found traced faces that disagree with the reference, or none to compare.
+  CheckFailed = 5,  ///< --check found traced faces that disagree with the reference, or no traced face at all.
   Internal = 70,    ///< A mistake in the program.
   Cancelled = 130,  ///< SIGINT, SIGTERM or SIGHUP.
 };
 
 [[nodiscard]] ExitCode exitCodeOf(ErrorKind kind);
+
+/// Done or CheckFailed. A check that is not independent has nothing to fail.
+[[nodiscard]] ExitCode exitCodeOf(const CheckReport& check);
 
 /// A failure as the user meets it: message is one line.
 struct Failure {

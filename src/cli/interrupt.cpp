@@ -12,14 +12,15 @@
 
 #include "cli/exit_code.h"
 #include "core/check.h"
+#include "mesh/writers/atomic_file.h"
 
 namespace asdfvk {
 namespace {
 
 constexpr std::array kSignals{SIGINT, SIGTERM, SIGHUP};
 
-// All that the handler touches: lock-free atomics and a pipe. A byte in the pipe is a stop request, its closing the
-// end.
+// All that the handler touches: lock-free atomics (one behind removeUnfinishedFile()) and a pipe. A byte in the pipe is
+// a stop request, its closing the end.
 std::atomic<bool> isListening{false};
 std::atomic<int> signalCount{0};
 std::atomic<int> pipeWriteEnd{-1};
@@ -31,6 +32,7 @@ std::array<struct sigaction, kSignals.size()> previousActions;
 extern "C" void onSignal(int) {
   const int savedErrno = errno;
   if (signalCount.fetch_add(1) > 0 || !isListening.load()) {
+    removeUnfinishedFile();
     constexpr std::string_view message = "asdf-vk: error: cancelled\n";
     [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, message.data(), message.size());
     _exit(static_cast<int>(ExitCode::Cancelled));

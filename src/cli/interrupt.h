@@ -7,7 +7,7 @@ namespace asdfvk {
 
 /// While it lives, SIGINT, SIGTERM and SIGHUP (those that were not ignored) are ours. A first one asks the computation
 /// to stop where there is one, and ends the program at once where there is none and thus nothing to leave half done; a
-/// second one always ends it at once, with ExitCode::Cancelled. One object at a time.
+/// second one always ends it at once, with ExitCode::Cancelled and without a half-written file. One object at a time.
 class Interrupt {
  public:
   Interrupt();

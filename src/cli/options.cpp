@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <filesystem>
 #include <limits>
 #include <utility>
 
@@ -22,11 +23,21 @@ constexpr const char* kFooter =
     "5 a requested check failed, 70 internal error, 130 cancelled. With several meshes the others are done and the\n"
     "first failure's code is returned.";
 
+bool isCheckCount(const std::string& text) {
+  return text == "all" || (!text.empty() && text.find_first_not_of("0123456789") == std::string::npos);
+}
+
 /// A flag with a value that only an equals sign can attach, so that `--check mesh.ply` does not take the mesh for it.
+/// A number behind a space would be taken for a mesh; that is told unless there is such a file.
 void spellOutBareCheck(std::vector<std::string>& arguments) {
-  for (std::string& argument : arguments) {
-    if (argument == "--") return;
-    if (argument == "--check") argument = fmt::format("--check={}", kDefaultCheckCount);
+  for (size_t i = 0; i < arguments.size() && arguments[i] != "--"; ++i) {
+    if (arguments[i] != "--check") continue;
+    std::error_code ignored;
+    if (i + 1 < arguments.size() && isCheckCount(arguments[i + 1]) &&
+        !std::filesystem::exists(arguments[i + 1], ignored))
+      throw Error(ErrorKind::Usage,
+                  fmt::format("--check takes its number with an equals sign: --check={}", arguments[i + 1]));
+    arguments[i] = fmt::format("--check={}", kDefaultCheckCount);
   }
 }
 
@@ -168,8 +179,8 @@ void addOutput(CLI::App& app, CommandLine& line) {
       ->group(output);
   app.add_flag("--ascii", line.ascii, "Write PLY as text")->group(output);
   addValue(app, "--check", "[=N|all]",
-           fmt::format("Recompute N random faces (default {}) with the reference;\n"
-                       "exit code 5 when traced faces disagree",
+           fmt::format("Recompute N random traced faces, and N among all, with the reference\n"
+                       "(default {}); exit code 5 when traced faces disagree",
                        kDefaultCheckCount),
            [&](const std::string& text) { line.options.checkCount = parseCheckCount(text); })
       ->group(output);
@@ -208,6 +219,9 @@ void requireAgreement(const CommandLine& line) {
     refuse("--require-gpu and --backend reference contradict each other; drop one");
   if (line.session.backend == Backend::Reference && !line.session.device.empty())
     refuse("--device and --backend reference contradict each other; drop one");
+  const SolverChoice solver = line.options.solver;
+  if (line.session.backend == Backend::Reference && (solver == SolverChoice::Cg || solver == SolverChoice::Jacobi))
+    refuse("--solver cg and jacobi run on a Vulkan device, which --backend reference does without; use --solver eigen");
 }
 
 }  // namespace

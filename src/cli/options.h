@@ -7,7 +7,7 @@
 
 namespace asdfvk {
 
-/// Checks when --check names no number.
+/// How many faces --check takes when it names no number.
 inline constexpr uint64_t kDefaultCheckCount = 2000;
 
 /// Reads the arguments after the program's name. Throws Error{Usage} whose line names the option.

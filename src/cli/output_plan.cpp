@@ -1,12 +1,17 @@
 #include "cli/output_plan.h"
 
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <map>
+#include <optional>
+#include <set>
+#include <unordered_map>
+#include <unordered_set>
+#include <utility>
 
 #include "core/error.h"
 
@@ -42,12 +47,35 @@ std::string planOutput(const std::string& mesh, const CommandLine& line) {
   return (fs::path(mesh).parent_path() / resultName(mesh, line.format)).string();
 }
 
-/// The same file, or names that will be the same file.
-bool isSameFile(const fs::path& a, const fs::path& b) {
-  std::error_code error;
-  if (fs::equivalent(a, b, error) && !error) return true;
-  return fs::absolute(a, error).lexically_normal() == fs::absolute(b, error).lexically_normal();
+std::string normalised(const fs::path& path) {
+  std::error_code ignored;
+  return fs::absolute(path, ignored).lexically_normal().string();
 }
+
+/// Files as the system tells them apart, links followed, and by name where they are not there yet.
+class FileSet {
+ public:
+  void insert(const std::string& path) {
+    names_.insert(normalised(path));
+    if (const auto identity = identityOf(path)) identities_.insert(*identity);
+  }
+  [[nodiscard]] bool holds(const std::string& path) const {
+    if (names_.contains(normalised(path))) return true;
+    const auto identity = identityOf(path);
+    return identity && identities_.contains(*identity);
+  }
+
+ private:
+  using Identity = std::pair<dev_t, ino_t>;
+  static std::optional<Identity> identityOf(const std::string& path) {
+    struct stat status {};
+    if (::stat(path.c_str(), &status) != 0) return std::nullopt;
+    return Identity{status.st_dev, status.st_ino};
+  }
+
+  std::unordered_set<std::string> names_;
+  std::set<Identity> identities_;
+};
 
 }  // namespace
 
@@ -59,7 +87,7 @@ std::vector<std::string> planOutputs(const CommandLine& line) {
 
   const WriteOptions options = writeOptionsOf(line);
   std::vector<std::string> outputs;
-  std::map<std::string, std::string> meshOfOutput;
+  std::unordered_map<std::string, std::string> meshOfOutput;
   for (const std::string& mesh : line.meshes) {
     const std::string output = planOutput(mesh, line);
     const ResultFormat format = resultFormatOf(output, options);
@@ -67,18 +95,19 @@ std::vector<std::string> planOutputs(const CommandLine& line) {
     if (output != "-") {
       if (contradicts(output, format))
         refuse(fmt::format("-o {} and --format {} contradict each other; drop one", output, line.format));
-      const std::string key = fs::absolute(output, ignored).lexically_normal().string();
-      const auto [other, isNew] = meshOfOutput.emplace(key, mesh);
+      const auto [other, isNew] = meshOfOutput.emplace(normalised(output), mesh);
       if (!isNew)
         refuse(fmt::format("{} and {} would both be written to {}; run them one by one with -o", other->second, mesh,
                            output));
     }
     outputs.push_back(output);
   }
+  FileSet inputs;
+  for (const std::string& mesh : line.meshes)
+    if (mesh != "-") inputs.insert(mesh);
   for (const std::string& output : outputs)
-    for (const std::string& mesh : line.meshes)
-      if (output != "-" && mesh != "-" && isSameFile(output, mesh))
-        refuse(fmt::format("{} is an input and would be overwritten; choose another -o", output));
+    if (output != "-" && inputs.holds(output))
+      refuse(fmt::format("{} is an input and would be overwritten; choose another -o", output));
   return outputs;
 }
 
@@ -97,6 +126,10 @@ void requireWritablePlace(const std::string& output) {
     throw Error(ErrorKind::Output, fmt::format("{} cannot be written: {}", output, reason));
   };
   std::error_code error;
+  // A device or a FIFO is written to directly: nothing is made in its folder.
+  if (const fs::file_status status = fs::status(path, error);
+      fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status))
+    return;
   if (!fs::is_directory(folder, error)) fail(fmt::format("{} is no directory; make it first", folder.string()));
   if (access(folder.c_str(), W_OK) != 0) fail(fmt::format("{}: {}", folder.string(), std::strerror(errno)));
   if (fs::is_directory(path, error)) fail("it is a directory; choose another -o");

@@ -85,15 +85,20 @@ Json defectsOf(const MeshDefects& defects) {
 
 Json checkOf(const std::optional<CheckReport>& check) {
   if (!check) return nullptr;
-  return {{"passed", check->passed},
+  return {{"passed", check->isIndependent ? Json(check->passed) : Json(nullptr)},
+          {"independent", check->isIndependent},
           {"tracedCount", check->tracedCount},
           {"agreeingCount", check->agreeingCount},
+          {"noValueAgreeCount", check->noValueAgreeCount},
           {"medianDifference", number(check->medianDifference)},
           {"worstDifference", number(check->worstDifference)},
           {"worstFace", check->worstFace},
-          {"interpolatedCount", check->interpolatedCount},
+          {"comparedCount", check->comparedCount},
           {"averageError", number(check->averageError)},
-          {"maximumError", number(check->maximumError)}};
+          {"maximumError", number(check->maximumError)},
+          {"interpolatedCount", check->interpolatedCount},
+          {"interpolatedAverageError", number(check->interpolatedAverageError)},
+          {"interpolatedMaximumError", number(check->interpolatedMaximumError)}};
 }
 
 }  // namespace

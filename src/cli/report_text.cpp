@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "cli/option_values.h"
@@ -31,9 +32,9 @@ std::string meshRow(const Report& report) {
 
 std::string seedRow(const MeshOutcome& outcome) {
   const Report& report = outcome.report;
-  std::string text =
-      fmt::format("{} cast rays ({}), {} in all, random seed {}", counted(report.seedCount, "face"),
-                  toText(outcome.line.options.seeds), counted(report.rayCount, "ray"), report.randomSeed);
+  std::string text = fmt::format("{} cast{} rays ({}), {} in all, random seed {}", counted(report.seedCount, "face"),
+                                 report.seedCount == 1 ? "s" : "", toText(outcome.line.options.seeds),
+                                 counted(report.rayCount, "ray"), report.randomSeed);
   if (report.redoneConeCount > 0)
     text += fmt::format("; {} redone by the reference", counted(report.redoneConeCount, "cone"));
   return text;
@@ -60,15 +61,26 @@ std::string valueRow(const Report& report) {
 }
 
 std::string tracedCheck(const CheckReport& check) {
-  if (check.tracedCount == 0) return "no traced face was among the faces checked; ask for more of them";
-  return fmt::format("{} of {} within {:g} of the diagonal; median difference {:.2g}, worst {:.2g} (face {})",
-                     percent(check.agreeingCount, check.tracedCount), counted(check.tracedCount, "traced face"),
-                     kAgreementTolerance, check.medianDifference, check.worstDifference, check.worstFace);
+  if (!check.isIndependent) return "traced by the reference itself: nothing to compare";
+  if (check.tracedCount == 0) return "no face could be traced, so nothing was compared";
+  const uint64_t withValue = check.tracedCount - check.noValueAgreeCount;
+  if (withValue == 0)
+    return fmt::format("{}, none with a value on either side: nothing to compare",
+                       counted(check.tracedCount, "traced face"));
+  std::string text =
+      fmt::format("{} of {} within {:g} of the diagonal; median difference {:.2g}, worst {:.2g} (face {})",
+                  percent(check.agreeingCount, withValue), counted(withValue, "traced face"), kAgreementTolerance,
+                  check.medianDifference, check.worstDifference, check.worstFace);
+  if (check.noValueAgreeCount > 0)
+    text += fmt::format("; {} more without a value on either side", groupDigits(check.noValueAgreeCount));
+  return text;
 }
 
-std::string interpolationCheck(const CheckReport& check) {
-  return fmt::format("average error {:.4f}, maximum {:.4f} of the range, {} among the faces checked",
-                     check.averageError, check.maximumError, counted(check.interpolatedCount, "interpolated face"));
+std::string errorCheck(const CheckReport& check) {
+  return fmt::format("average error {:.4f}, maximum {:.4f} of the range over {}; {:.4f} and {:.4f} over the {}",
+                     check.averageError, check.maximumError, counted(check.comparedCount, "face"),
+                     check.interpolatedAverageError, check.interpolatedMaximumError,
+                     counted(check.interpolatedCount, "interpolated face"));
 }
 
 }  // namespace
@@ -90,7 +102,7 @@ std::string textReport(const MeshOutcome& outcome) {
   text += row("diameter", valueRow(report));
   if (report.check) {
     text += row("check", tracedCheck(*report.check));
-    if (report.check->interpolatedCount > 0) text += row("", interpolationCheck(*report.check));
+    if (report.check->interpolatedCount > 0) text += row("", errorCheck(*report.check));
   }
   text += row("output", outcome.output == "-" ? "standard output" : outcome.output);
   return text;
@@ -102,9 +114,16 @@ std::string checkFailure(const CheckReport& check) {
 
 std::string textDevices(std::span<const DeviceInfo> devices, const std::string& reason) {
   if (devices.empty()) return fmt::format("no Vulkan device: {}\n", reason);
+  size_t nameWidth = 0, kindWidth = 0, driverWidth = 0;
+  for (const DeviceInfo& device : devices) {
+    nameWidth = std::max(nameWidth, device.name.size());
+    kindWidth = std::max(kindWidth, device.kind.size());
+    driverWidth = std::max(driverWidth, device.driver.size());
+  }
   std::string text;
   for (size_t i = 0; i < devices.size(); ++i)
-    text += fmt::format("{}  {} ({}, {}): {}{}\n", i, devices[i].name, devices[i].kind, devices[i].driver,
+    text += fmt::format("{}  {:<{}}   {:<{}}   driver {:<{}}   {}{}\n", i, devices[i].name, nameWidth, devices[i].kind,
+                        kindWidth, devices[i].driver, driverWidth,
                         devices[i].usable ? "" : "not usable: ", devices[i].reason);
   return text;
 }

@@ -11,7 +11,7 @@ namespace asdfvk {
 /// A few aligned lines. Warnings are not among them.
 [[nodiscard]] std::string textReport(const MeshOutcome& outcome);
 
-/// "check of 2,000 faces failed: ..." as one line, for a check that has not passed.
+/// "the check has not passed: ..." as one line with the reason.
 [[nodiscard]] std::string checkFailure(const CheckReport& check);
 
 /// A line per device, or the reason why there is none.

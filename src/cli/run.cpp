@@ -57,10 +57,8 @@ Answer runMesh(Session& session, const std::string& name, const std::string& out
     writeStandardError(textReport(outcome));
   }
   Answer answer{ExitCode::Done, jsonReport(outcome)};
-  if (result.report.check && !result.report.check->passed) {
-    printError(name, checkFailure(*result.report.check));
-    answer.code = ExitCode::CheckFailed;
-  }
+  if (result.report.check) answer.code = exitCodeOf(*result.report.check);
+  if (answer.code != ExitCode::Done) printError(name, checkFailure(*result.report.check));
   return answer;
 }
 
@@ -96,7 +94,8 @@ ExitCode runMeshes(const CommandLine& line, const std::stop_token& stop) {
   } catch (...) {
     return failWithoutSession(line);
   }
-  if (!line.quiet) writeStandardError(oneLine("asdf-vk: " + session->deviceLine()) + "\n");
+  if (!line.quiet)
+    for (const std::string& device : session->deviceLines()) writeStandardError(oneLine("asdf-vk: " + device) + "\n");
 
   ExitCode first = ExitCode::Done;
   for (size_t i = 0; i < line.meshes.size(); ++i) {

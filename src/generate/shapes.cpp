@@ -5,6 +5,7 @@
 
 #include <array>
 
+#include "core/counted.h"
 #include "core/error.h"
 
 namespace asdfvk {
@@ -37,8 +38,8 @@ std::vector<std::string_view> shapeNames() {
 
 GeneratedShape generateShape(std::string_view name, uint64_t faceCount) {
   if (faceCount < kMinFaceCount || faceCount > kMaxFaceCount)
-    throw Error(ErrorKind::Usage, fmt::format("{} faces are asked for; the generator makes {} to {}", faceCount,
-                                              kMinFaceCount, kMaxFaceCount));
+    throw Error(ErrorKind::Usage, fmt::format("{} will not do; the generator makes {} to {}",
+                                              counted(faceCount, "face"), kMinFaceCount, kMaxFaceCount));
   for (const NamedShape& shape : kShapes)
     if (shape.name == name) return shape.make(faceCount);
   throw Error(ErrorKind::Usage,

@@ -10,14 +10,41 @@
 namespace asdfvk {
 namespace {
 
-// Keeps the faces to check independent of the faces that were chosen as seeds with the same number.
-constexpr uint64_t kCheckStream = 0x6368'6563'6b00'0000u;
+// Keep both choices of faces independent of the faces that were chosen as seeds with the same number.
+constexpr uint64_t kTracedStream = 0x6368'6563'6b00'0000u;
+constexpr uint64_t kErrorStream = 0x6368'6563'6b00'0001u;
 
-/// Over the diagonal; 0 when neither side has a value, infinite when only one has.
-double relativeDifference(double value, double reference, double diagonal) {
-  if (std::isnan(value) || std::isnan(reference))
-    return std::isnan(value) == std::isnan(reference) ? 0 : std::numeric_limits<double>::infinity();
-  return std::abs(value - reference) / diagonal;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Reference values of some faces.
+class References {
+ public:
+  References(std::vector<uint32_t> ascendingFaces, const TraceScene& scene, const Cone& cone, const RunControl& control)
+      : faces_(std::move(ascendingFaces)), values_(faces_.size()) {
+    makeReferenceTracer(scene, cone)->trace(faces_, values_, control);
+  }
+
+  /// Precondition: the face is among them.
+  [[nodiscard]] double operator[](uint32_t face) const {
+    return values_[static_cast<size_t>(std::lower_bound(faces_.begin(), faces_.end(), face) - faces_.begin())];
+  }
+
+ private:
+  std::vector<uint32_t> faces_;
+  std::vector<double> values_;
+};
+
+std::vector<uint32_t> seedsOf(const TracedSeeds& traced, const std::vector<uint32_t>& castableFaces) {
+  std::vector<uint32_t> seeds;
+  std::copy_if(castableFaces.begin(), castableFaces.end(), std::back_inserter(seeds),
+               [&](uint32_t face) { return traced.isSeed[face] != 0; });
+  return seeds;
+}
+
+std::vector<uint32_t> unionOf(const std::vector<uint32_t>& a, const std::vector<uint32_t>& b) {
+  std::vector<uint32_t> all;
+  std::set_union(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(all));
+  return all;
 }
 
 double medianOf(std::vector<double>& numbers) {
@@ -27,49 +54,77 @@ double medianOf(std::vector<double>& numbers) {
   return *middle;
 }
 
+/// The half about the traced faces.
+void compareTraced(CheckReport& report, const std::vector<uint32_t>& faces, const TracedSeeds& traced,
+                   const References& references, double diagonal, const Mesh& mesh) {
+  std::vector<double> differences;
+  for (const uint32_t face : faces) {
+    const double value = traced.values[face], reference = references[face];
+    if (std::isnan(value) && std::isnan(reference)) {
+      ++report.noValueAgreeCount;
+      continue;
+    }
+    const bool isOneSided = std::isnan(value) || std::isnan(reference);
+    const double difference = isOneSided ? kInfinity : std::abs(value - reference) / diagonal;
+    report.agreeingCount += difference <= kAgreementTolerance;
+    if (differences.empty() || difference > report.worstDifference) {
+      report.worstDifference = difference;
+      report.worstFace = mesh.polygons.isEmpty() ? face : mesh.polygons.inputFaceOf[face];
+    }
+    differences.push_back(difference);
+  }
+  report.tracedCount = faces.size();
+  report.medianDifference = medianOf(differences);
+  const auto allowed =
+      std::max<uint64_t>(1, static_cast<uint64_t>(kAllowedMissShare * static_cast<double>(report.tracedCount)));
+  report.passed = report.missCount() < report.tracedCount && report.missCount() <= allowed;
+}
+
+/// The half about all faces.
+void measureErrors(CheckReport& report, const std::vector<uint32_t>& faces, const ComputedValues& computed,
+                   const References& references) {
+  double low = kInfinity, high = -kInfinity, sum = 0, interpolatedSum = 0;
+  for (const uint32_t face : faces) {
+    const double value = computed.values[face], reference = references[face];
+    if (std::isnan(value) || std::isnan(reference)) continue;
+    low = std::min(low, reference);
+    high = std::max(high, reference);
+    const double error = std::abs(value - reference);
+    sum += error;
+    report.maximumError = std::max(report.maximumError, error);
+    ++report.comparedCount;
+    if (computed.traced.isSeed[face]) continue;
+    interpolatedSum += error;
+    report.interpolatedMaximumError = std::max(report.interpolatedMaximumError, error);
+    ++report.interpolatedCount;
+  }
+  if (!(high > low)) {  // There is no range to measure by.
+    report.maximumError = report.interpolatedMaximumError = 0;
+    return;
+  }
+  const double range = high - low;
+  report.averageError = sum / static_cast<double>(report.comparedCount) / range;
+  report.maximumError /= range;
+  report.interpolatedMaximumError /= range;
+  if (report.interpolatedCount > 0)
+    report.interpolatedAverageError = interpolatedSum / static_cast<double>(report.interpolatedCount) / range;
+}
+
 }  // namespace
 
 CheckReport checkAgainstReference(const Mesh& mesh, const PreparedMesh& prepared, const TraceScene& scene,
-                                  const Cone& cone, const TracedSeeds& traced, std::span<const double> values,
-                                  uint64_t count, uint64_t randomSeed, const RunControl& control) {
-  const std::vector<uint32_t> faces = randomPermutationSeeds(prepared.castableFaces, count, randomSeed ^ kCheckStream);
-  std::vector<double> references(faces.size());
-  makeReferenceTracer(scene, cone)->trace(faces, references, control);
-
+                                  const Cone& cone, const ComputedValues& computed, uint64_t count, uint64_t randomSeed,
+                                  const RunControl& control) {
   CheckReport report;
-  const double diagonal = prepared.geometry.bounds.diagonal();
-  std::vector<double> tracedDifferences;
-  double low = std::numeric_limits<double>::infinity(), high = -low, errorSum = 0;
-  uint64_t comparedCount = 0;
-  for (size_t i = 0; i < faces.size(); ++i) {
-    const uint32_t face = faces[i];
-    if (traced.isSeed[face]) {
-      const double difference = relativeDifference(traced.values[face], references[i], diagonal);
-      tracedDifferences.push_back(difference);
-      report.agreeingCount += difference <= kAgreementTolerance;
-      if (report.tracedCount++ == 0 || difference > report.worstDifference) {
-        report.worstDifference = difference;
-        report.worstFace = mesh.polygons.isEmpty() ? face : mesh.polygons.inputFaceOf[face];
-      }
-    }
-    if (std::isnan(references[i]) || std::isnan(values[face])) continue;
-    low = std::min(low, references[i]);
-    high = std::max(high, references[i]);
-    const double error = std::abs(values[face] - references[i]);
-    errorSum += error;
-    report.maximumError = std::max(report.maximumError, error);
-    ++comparedCount;
-    report.interpolatedCount += !traced.isSeed[face];
-  }
-  report.medianDifference = medianOf(tracedDifferences);
-  if (high > low) {
-    report.averageError = errorSum / static_cast<double>(comparedCount) / (high - low);
-    report.maximumError /= high - low;
-  } else {
-    report.maximumError = 0;
-  }
-  report.passed = report.tracedCount > 0 && static_cast<double>(report.agreeingCount) >=
-                                                kAgreementShare * static_cast<double>(report.tracedCount);
+  report.isIndependent = !computed.tracedByReference;
+  std::vector<uint32_t> tracedFaces;
+  if (report.isIndependent)
+    tracedFaces =
+        randomPermutationSeeds(seedsOf(computed.traced, prepared.castableFaces), count, randomSeed ^ kTracedStream);
+  const std::vector<uint32_t> faces = randomPermutationSeeds(prepared.castableFaces, count, randomSeed ^ kErrorStream);
+  const References references(unionOf(tracedFaces, faces), scene, cone, control);
+  compareTraced(report, tracedFaces, computed.traced, references, prepared.geometry.bounds.diagonal(), mesh);
+  measureErrors(report, faces, computed, references);
   return report;
 }
 

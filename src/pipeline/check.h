@@ -7,11 +7,17 @@
 
 namespace asdfvk {
 
-/// Recomputes `count` random faces, or all that can cast rays, with the double-precision reference and compares.
-/// values: #F, the final ones.
+/// What was computed and has to be judged. Views only.
+struct ComputedValues {
+  const TracedSeeds& traced;
+  std::span<const double> values;  ///< #F, the final ones.
+  bool tracedByReference = false;
+};
+
+/// Recomputes up to `count` random traced faces, and up to `count` random ones of all faces that can cast rays, with
+/// the double-precision reference and compares. A face in both choices is traced once.
 [[nodiscard]] CheckReport checkAgainstReference(const Mesh& mesh, const PreparedMesh& prepared, const TraceScene& scene,
-                                                const Cone& cone, const TracedSeeds& traced,
-                                                std::span<const double> values, uint64_t count, uint64_t randomSeed,
-                                                const RunControl& control);
+                                                const Cone& cone, const ComputedValues& computed, uint64_t count,
+                                                uint64_t randomSeed, const RunControl& control);
 
 }  // namespace asdfvk

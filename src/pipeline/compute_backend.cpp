@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <thread>
+#include <utility>
 
+#include "core/counted.h"
 #include "core/error.h"
 #include "poisson/vulkan_cg_solver.h"
 #include "poisson/vulkan_jacobi_solver.h"
@@ -42,13 +44,13 @@ void ComputeBackend::openVulkan(const SessionOptions& options) {
   device_ = std::move(opened.device);
   name_ = "vulkan";
   deviceName_ = fmt::format("{}, driver {}", device_->facts().name, device_->facts().driver);
-  deviceLine_ = opened.reason;
+  deviceLines_ = std::move(opened.reasons);
 }
 
 void ComputeBackend::useReference(const std::string& reason) {
   name_ = "reference";
   deviceName_ = fmt::format("CPU, {} threads, double precision", std::max(1u, std::thread::hardware_concurrency()));
-  deviceLine_ = fmt::format("the reference runs on the CPU: {}", reason);
+  deviceLines_ = {fmt::format("the reference runs on the CPU: {}", reason)};
 }
 
 std::unique_ptr<ConeTracer> ComputeBackend::makeTracer(const TraceScene& scene, const Cone& cone) {
@@ -78,8 +80,8 @@ void ComputeBackend::requireSilentValidation() const {
   if (!instance_ || !instance_->validationLog()) return;
   const std::vector<std::string> messages = instance_->validationLog()->messages();
   if (!messages.empty())
-    throw Error(ErrorKind::Device,
-                fmt::format("the validation layers report {} problems, first: {}", messages.size(), messages.front()));
+    throw Error(ErrorKind::Device, fmt::format("the validation layers report {}, first: {}",
+                                               counted(messages.size(), "problem"), messages.front()));
 }
 
 }  // namespace asdfvk

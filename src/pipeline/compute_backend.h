@@ -3,6 +3,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "pipeline/asdf.h"
 #include "poisson/poisson_solver.h"
@@ -21,7 +22,9 @@ class ComputeBackend {
 
   [[nodiscard]] const std::string& name() const { return name_; }  ///< "vulkan" or "reference"
   [[nodiscard]] const std::string& deviceName() const { return deviceName_; }
-  [[nodiscard]] const std::string& deviceLine() const { return deviceLine_; }
+  /// See Session::deviceLines().
+  [[nodiscard]] const std::vector<std::string>& deviceLines() const { return deviceLines_; }
+  [[nodiscard]] bool isReference() const { return !device_; }
   /// The reference, or a Vulkan device that is the CPU itself.
   [[nodiscard]] bool runsOnCpu() const { return !device_ || device_->facts().kind == DeviceKind::Cpu; }
 
@@ -40,7 +43,8 @@ class ComputeBackend {
   std::unique_ptr<Device> device_;                                 ///< Null: the reference.
   std::map<uint32_t, std::unique_ptr<VulkanConeKernel>> kernels_;  ///< By ray count.
   std::map<SolverChoice, std::unique_ptr<PoissonSolver>> solvers_;
-  std::string name_, deviceName_, deviceLine_;
+  std::string name_, deviceName_;
+  std::vector<std::string> deviceLines_;
 };
 
 }  // namespace asdfvk

@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "core/counted.h"
 #include "core/error.h"
 #include "mesh/coincident_faces.h"
 #include "mesh/orientation.h"
@@ -32,9 +33,9 @@ PreparedMesh prepareMesh(Mesh& mesh, Orientation orientation) {
   if (mesh.inputFaceCount() == 0)
     throw Error(ErrorKind::Input, "the mesh has no faces; a shape diameter needs a surface");
   if (const uint64_t count = countFacesWithIndexOutOfRange(mesh); count > 0)
-    throw Error(ErrorKind::Input, fmt::format("{} {}{} a vertex that does not exist (there are {})", count,
-                                              mesh.polygons.isEmpty() ? "face" : "triangle",
-                                              count == 1 ? " names" : "s name", mesh.vertices.size()));
+    throw Error(ErrorKind::Input, fmt::format("{} with a vertex that does not exist: the mesh has {}",
+                                              counted(count, mesh.polygons.isEmpty() ? "face" : "triangle"),
+                                              counted(mesh.vertices.size(), "vertex", "vertices")));
   PreparedMesh prepared;
   prepared.geometry = computeFaceGeometry(mesh);
   prepared.representatives = coincidentRepresentatives(mesh);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "bvh/bvh.h"
+#include "core/counted.h"
 #include "core/stopwatch.h"
 #include "pipeline/asdf.h"
 #include "pipeline/check.h"
@@ -17,8 +18,11 @@
 namespace asdfvk {
 namespace {
 
-// Shares of the progress bar.
-constexpr double kTraceEnd = 0.85, kSolveEnd = 1.0;
+/// Where the parts end on the progress bar; a check takes what is left behind the solving.
+struct ProgressParts {
+  double traceEnd, solveEnd;
+};
+constexpr ProgressParts kPartsAlone{0.85, 1}, kPartsBeforeCheck{0.5, 0.6};
 
 /// Runs `work` and adds its time to `seconds`.
 template <typename Work>
@@ -64,15 +68,17 @@ void describeValues(Report& report, const std::vector<double>& sdf, const std::s
   report.noValueCount =
       static_cast<uint64_t>(std::count_if(sdf.begin(), sdf.end(), [](double v) { return std::isnan(v); }));
   if (report.noValueCount > 0)
-    report.warnings.push_back(fmt::format(
-        "{} of {} faces have no value: no ray of theirs, nor of any face that they hang "
-        "together with, found the other side of the shape{}{}",
-        report.noValueCount, report.faceCount, causeOfMissing.empty() ? "" : ", most likely because ", causeOfMissing));
-  if (!report.solver.converged)
     report.warnings.push_back(
-        fmt::format("the {} solver stopped after {} iterations at a relative residual of {:.1e}; "
-                    "raise --max-iterations or --tolerance",
-                    report.solver.name, report.solver.iterations, report.solver.relativeResidual));
+        fmt::format("{} of {} without a value: no ray from there, nor from any face that hangs together with it, found "
+                    "the other side "
+                    "of the shape{}{}",
+                    report.noValueCount, counted(report.faceCount, "face"),
+                    causeOfMissing.empty() ? "" : ", most likely because ", causeOfMissing));
+  if (!report.solver.converged)
+    report.warnings.push_back(fmt::format(
+        "the {} solver stopped after {} at a relative residual of {:.1e}; "
+        "raise --max-iterations or --tolerance",
+        report.solver.name, counted(report.solver.iterations, "iteration"), report.solver.relativeResidual));
 }
 
 }  // namespace
@@ -85,7 +91,7 @@ struct Session::State {
 Session::Session(const SessionOptions& options) : state_(std::make_unique<State>(options)) {}
 Session::~Session() = default;
 
-const std::string& Session::deviceLine() const { return state_->backend.deviceLine(); }
+const std::vector<std::string>& Session::deviceLines() const { return state_->backend.deviceLines(); }
 
 Result Session::compute(Mesh& mesh, const Options& options, const RunControl& control) {
   ComputeBackend& backend = state_->backend;
@@ -97,6 +103,7 @@ Result Session::compute(Mesh& mesh, const Options& options, const RunControl& co
   report.device = backend.deviceName();
   report.runsOnCpu = backend.runsOnCpu();
 
+  const ProgressParts parts = options.checkCount ? kPartsBeforeCheck : kPartsAlone;
   control.checkpoint(0);
   const PreparedMesh prepared = timed(seconds.geometry, [&] { return prepareMesh(mesh, options.orientation); });
   describeMesh(report, mesh, prepared, options);
@@ -107,15 +114,16 @@ Result Session::compute(Mesh& mesh, const Options& options, const RunControl& co
   const std::unique_ptr<ConeTracer> tracer = timed(seconds.upload, [&] { return backend.makeTracer(scene, cone); });
 
   TracedSeeds traced =
-      timed(seconds.trace, [&] { return traceSeeds(prepared, *tracer, options, control.part(0, kTraceEnd)); });
+      timed(seconds.trace, [&] { return traceSeeds(prepared, *tracer, options, control.part(0, parts.traceEnd)); });
   describeTrace(report, traced);
   std::vector<double> values = traced.values;
   report.solver = timed(seconds.solve, [&] {
-    return interpolate(mesh, prepared, options, backend, values, control.part(kTraceEnd, kSolveEnd), report.warnings);
+    return interpolate(mesh, prepared, options, backend, values, control.part(parts.traceEnd, parts.solveEnd),
+                       report.warnings);
   });
   if (options.checkCount)
-    report.check = checkAgainstReference(mesh, prepared, scene, cone, traced, values, *options.checkCount,
-                                         options.randomSeed, {control.stop, {}});
+    report.check = checkAgainstReference(mesh, prepared, scene, cone, {traced, values, backend.isReference()},
+                                         *options.checkCount, options.randomSeed, control.part(parts.solveEnd, 1));
 
   result.sdf = valuesOfInputFaces(mesh, values, prepared.geometry.areas);
   result.isSeed = seedsOfInputFaces(mesh, traced.isSeed);

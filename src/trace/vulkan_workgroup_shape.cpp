@@ -5,10 +5,6 @@
 namespace asdfvk {
 namespace {
 
-// llvmpipe ends all loops of an invocation after 65,535 iterations, counted for the lanes of a subgroup together, and
-// says nothing (Mesa's lp_bld_ir_common.h, LP_MAX_TGSI_LOOP_ITERATIONS).
-constexpr uint32_t kCpuDeviceLoopIterationCount = 65'535;
-
 uint32_t roundUp(uint32_t value, uint32_t multiple) { return (value + multiple - 1) / multiple * multiple; }
 
 }  // namespace
@@ -25,7 +21,7 @@ VulkanWorkgroupShape workgroupShapeFor(const DeviceFacts& device, uint32_t rayCo
   // What the reduction needs: three walks over all rays, and one over all of them for each ray of the lane.
   const uint32_t raysPerLane = (rayCount + shape.lanesPerCone - 1) / shape.lanesPerCone;
   const uint32_t reductionCount = rayCount * (3 + raysPerLane) + 2 * raysPerLane + 64;
-  shape.iterationLimit = (kCpuDeviceIterationCount - reductionCount) / std::max(1u, device.subgroupSize);
+  shape.iterationLimit = (kCpuDeviceLoopIterationCount - reductionCount) / std::max(1u, device.subgroupSize);
   return shape;
 }
 

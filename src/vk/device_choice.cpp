@@ -6,6 +6,8 @@
 #include <cctype>
 #include <charconv>
 
+#include "core/text.h"
+
 namespace asdfvk {
 namespace {
 
@@ -27,23 +29,27 @@ int rank(DeviceKind kind) {
   return 5;
 }
 
-std::string lowerCase(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-  return text;
+/// Whether `digits` stands in `text` as a whole number: 90 is not in "RTX 4090", but 4090 is.
+bool holdsNumber(const std::string& text, const std::string& digits) {
+  const auto isDigit = [&](size_t i) { return i < text.size() && std::isdigit(static_cast<unsigned char>(text[i])); };
+  for (size_t at = text.find(digits); at != std::string::npos; at = text.find(digits, at + 1))
+    if ((at == 0 || !isDigit(at - 1)) && !isDigit(at + digits.size())) return true;
+  return false;
 }
 
-bool isSelected(const DeviceFacts& device, uint32_t index, const std::string& selector) {
+bool isSelected(const DeviceFacts& device, uint32_t index, size_t deviceCount, const std::string& selector) {
   if (selector.empty()) return true;
+  if (!std::all_of(selector.begin(), selector.end(), [](unsigned char c) { return std::isdigit(c); }))
+    return lowerCase(device.name).find(lowerCase(selector)) != std::string::npos;
   uint32_t wanted = 0;
-  const char* end = selector.data() + selector.size();
-  if (const auto [rest, error] = std::from_chars(selector.data(), end, wanted); error == std::errc{} && rest == end)
-    return wanted == index;
-  return lowerCase(device.name).find(lowerCase(selector)) != std::string::npos;
+  const bool isIndex = std::from_chars(selector.data(), selector.data() + selector.size(), wanted).ec == std::errc{} &&
+                       wanted < deviceCount;
+  return isIndex ? wanted == index : holdsNumber(device.name, selector);
 }
 
 /// Empty when nothing speaks against the device.
-std::string refusal(const DeviceFacts& device, uint32_t index, const DeviceRequest& request) {
-  if (!isSelected(device, index, request.selector))
+std::string refusal(const DeviceFacts& device, uint32_t index, size_t deviceCount, const DeviceRequest& request) {
+  if (!isSelected(device, index, deviceCount, request.selector))
     return fmt::format("is not the requested device '{}'", request.selector);
   if (device.apiVersion < kRequiredApiVersion)
     return fmt::format("supports Vulkan {}.{} only, 1.2 is needed; update its driver", (device.apiVersion >> 22) & 0x7f,
@@ -74,17 +80,15 @@ std::string_view toString(DeviceKind kind) {
 DeviceChoice chooseDevice(std::span<const DeviceFacts> devices, const DeviceRequest& request) {
   DeviceChoice choice;
   for (uint32_t i = 0; i < devices.size(); ++i) {
-    const std::string reason = refusal(devices[i], i, request);
-    choice.reasons.push_back(reason.empty() ? std::string{} : fmt::format("{} {}", devices[i].name, reason));
-    if (reason.empty() && (!choice.index || rank(devices[i].kind) < rank(devices[*choice.index].kind)))
-      choice.index = i;
+    choice.reasons.push_back(refusal(devices[i], i, devices.size(), request));
+    if (!choice.reasons[i].empty()) continue;
+    if (!choice.index || rank(devices[i].kind) < rank(devices[*choice.index].kind)) choice.index = i;
   }
   for (uint32_t i = 0; i < devices.size(); ++i) {
     if (!choice.reasons[i].empty()) continue;
-    choice.reasons[i] = i == *choice.index
-                            ? fmt::format("{} ({}) is chosen", devices[i].name, toString(devices[i].kind))
-                            : fmt::format("{} ({}) is usable but ranks behind {}", devices[i].name,
-                                          toString(devices[i].kind), devices[*choice.index].name);
+    choice.reasons[i] = i == *choice.index ? "chosen"
+                                           : fmt::format("usable but ranks behind device {}, {}", *choice.index,
+                                                         devices[*choice.index].name);
   }
   return choice;
 }

@@ -33,13 +33,15 @@ struct DeviceFacts {
 inline constexpr uint32_t kCpuDeviceLoopIterationCount = 65'535;
 
 struct DeviceRequest {
-  std::string selector;     ///< A decimal index, or a part of a name without regard to case; empty: any.
+  /// An index; digits that are no index stand for a whole number in a name ("4090"), all else for a part of one without
+  /// regard to case; empty: any.
+  std::string selector;
   bool requireGpu = false;  ///< Refuse CPU devices.
 };
 
 struct DeviceChoice {
   std::optional<uint32_t> index;     ///< Into the facts; none when every device was refused.
-  std::vector<std::string> reasons;  ///< One sentence per device: why it was chosen, passed over or refused.
+  std::vector<std::string> reasons;  ///< Per device, without its name: "chosen", or why it was passed over or refused.
 };
 
 [[nodiscard]] std::string_view toString(DeviceKind kind);

@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <utility>
+
 #include "core/error.h"
 
 namespace asdfvk {
@@ -15,12 +18,16 @@ OpenedDevice openDevice(const Instance& instance, const DeviceRequest& request) 
   std::vector<DeviceFacts> facts;
   for (const VkPhysicalDevice device : physical) facts.push_back(describeDevice(device));
   const DeviceChoice choice = chooseDevice(facts, request);
+  std::vector<std::string> reasons;
+  for (size_t i = 0; i < facts.size(); ++i)
+    reasons.push_back(fmt::format("{} ({}): {}", facts[i].name, toString(facts[i].kind), choice.reasons[i]));
   if (!choice.index)
     throw Error(ErrorKind::Device,
-                fmt::format("no usable Vulkan device: {}; see --list-devices", fmt::join(choice.reasons, ", ")));
-  const DeviceFacts& chosen = facts[*choice.index];
-  return {std::make_unique<Device>(physical[*choice.index], chosen),
-          fmt::format("{}, driver {}", choice.reasons[*choice.index], chosen.driver)};
+                fmt::format("no usable Vulkan device: {}; see --list-devices", fmt::join(reasons, ", ")));
+  const auto chosen = reasons.begin() + *choice.index;
+  *chosen += fmt::format(", driver {}", facts[*choice.index].driver);
+  std::rotate(reasons.begin(), chosen, chosen + 1);
+  return {std::make_unique<Device>(physical[*choice.index], facts[*choice.index]), std::move(reasons)};
 }
 
 }  // namespace asdfvk

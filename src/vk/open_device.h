@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "vk/device.h"
 #include "vk/instance.h"
@@ -10,7 +11,8 @@ namespace asdfvk {
 
 struct OpenedDevice {
   std::unique_ptr<Device> device;
-  std::string reason;  ///< One line: the device and why it was chosen, with the driver.
+  /// One line per device with its name and what was decided on it; the opened one first, with its driver.
+  std::vector<std::string> reasons;
 };
 
 /// Opens the device that chooseDevice() picks. Throws Error{Device} with the reason of every refusal in one line.

@@ -1,5 +1,6 @@
 #include <filesystem>
 
+#include "cli/lavapipe.h"
 #include "cli/program_under_test.h"
 #include "cli/sample_files.h"
 #include "cli/scratch_folder.h"
@@ -7,14 +8,7 @@
 namespace asdfvk::test {
 namespace {
 
-ChildOptions withDrivers(const std::string& file) {
-  ChildOptions options;
-  options.environment = {{"VK_DRIVER_FILES", file}, {"VK_ICD_FILENAMES", file}};
-  return options;
-}
-
 const ChildOptions kNoDriver = withDrivers("/nonexistent.json");
-const std::string kLavapipe = "/usr/share/vulkan/icd.d/lvp_icd.x86_64.json";
 
 TEST_CASE("without a Vulkan device the reference runs and one line says why") {
   const ScratchFolder folder;
@@ -50,12 +44,9 @@ TEST_CASE("the list of devices is empty with a reason where there is none") {
 }
 
 TEST_CASE("lavapipe is listed, runs, and is no GPU") {
-  if (!std::filesystem::exists(kLavapipe)) {
-    MESSAGE("skipped: no lavapipe driver at " << kLavapipe);
-    return;
-  }
-  const ChildOptions lavapipe = withDrivers(kLavapipe);
-  const ChildOutcome list = runAsdf({"--list-devices", "--json"}, lavapipe);
+  const auto lavapipe = lavapipeOnly();
+  if (!lavapipe) return;
+  const ChildOutcome list = runAsdf({"--list-devices", "--json"}, *lavapipe);
   const nlohmann::json devices = nlohmann::json::parse(list.output).at("devices");
   REQUIRE_EQ(devices.size(), 1);
   CHECK(devices[0].at("usable").get<bool>());
@@ -63,16 +54,44 @@ TEST_CASE("lavapipe is listed, runs, and is no GPU") {
 
   const ScratchFolder folder;
   const std::string mesh = folder.write("cube.off", cubeOff());
-  checkFailure(runAsdf({mesh, "--require-gpu", "--quiet"}, lavapipe), 3, "");
-  checkFailure(runAsdf({mesh, "--device", "no such device", "--quiet"}, lavapipe), 3, "no such device");
+  checkFailure(runAsdf({mesh, "--require-gpu", "--quiet"}, *lavapipe), 3, "");
+  checkFailure(runAsdf({mesh, "--device", "no such device", "--quiet"}, *lavapipe), 3, "no such device");
   for (const char* device : {"0", "llvmpipe"}) {
-    const ChildOutcome outcome = runAsdf({mesh, "--backend", "vulkan", "--device", device, "--json"}, lavapipe);
+    const ChildOutcome outcome = runAsdf({mesh, "--backend", "vulkan", "--device", device, "--json"}, *lavapipe);
     INFO(outcome.error);
     CHECK_EQ(outcome.exitCode, 0);
     const nlohmann::json json = nlohmann::json::parse(outcome.output);
     CHECK_EQ(json.at("backend").get<std::string>(), "vulkan");
     CHECK(json.at("device").get<std::string>().find("llvmpipe") != std::string::npos);
   }
+}
+
+TEST_CASE("each device that is passed over has its line with the reason") {
+  const auto lavapipe = lavapipeOnly();
+  if (!lavapipe) return;
+  // Two manifests of one driver are two devices.
+  const ScratchFolder folder;
+  const std::string driver = lavapipe->environment.front().second;
+  std::filesystem::copy_file(driver, folder / "second.json");
+  const ChildOptions twice = withDrivers(driver + ":" + (folder / "second.json"));
+  const std::vector<std::string> list = linesOf(runAsdf({"--list-devices"}, twice).output);
+  REQUIRE_EQ(list.size(), 2);
+  CHECK(list[0].starts_with("0  llvmpipe"));
+  CHECK(list[0].ends_with("   chosen"));
+  CHECK(list[1].starts_with("1  llvmpipe"));
+  CHECK(list[1].find("   usable but ranks behind device 0, llvmpipe") != std::string::npos);
+
+  const std::string mesh = folder.write("cube.off", cubeOff());
+  const auto firstLines = [&](const std::vector<std::string>& arguments) {
+    return linesOf(runAsdf(arguments, twice).error);
+  };
+  const std::vector<std::string> best = firstLines({mesh, "--backend", "vulkan"});
+  CHECK(best.at(0).find("chosen, driver") != std::string::npos);
+  CHECK(best.at(1).find("usable but ranks behind device 0") != std::string::npos);
+  const std::vector<std::string> asked = firstLines({mesh, "--backend", "vulkan", "--device", "1"});
+  CHECK(asked.at(0).find("chosen, driver") != std::string::npos);
+  CHECK(asked.at(1).find("is not the requested device '1'") != std::string::npos);
+  CHECK(firstLines({mesh, "--backend", "vulkan", "--quiet"}).empty());
 }
 
 }  // namespace

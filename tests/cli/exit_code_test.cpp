@@ -27,6 +27,15 @@ TEST_CASE("each kind of error has its documented exit code") {
   CHECK_EQ(codeOf(ErrorKind::Cancelled), 130);
 }
 
+TEST_CASE("a check that failed is 5, one that could not fail is 0") {
+  CheckReport check;
+  check.tracedCount = 2000;
+  CHECK_EQ(static_cast<int>(exitCodeOf(check)), 5);
+  check.passed = true;
+  CHECK_EQ(static_cast<int>(exitCodeOf(check)), 0);
+  CHECK_EQ(static_cast<int>(exitCodeOf(CheckReport{.isIndependent = false})), 0);
+}
+
 TEST_CASE("a mistake in the program is 70 and says so, too little memory is the mesh's failure") {
   const Failure broken = failureOf(CheckFailure("a.cpp:1: x"));
   CHECK_EQ(static_cast<int>(broken.code), 70);

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "cli/lavapipe.h"
 #include "cli/program_under_test.h"
 #include "cli/sample_files.h"
 #include "cli/scratch_folder.h"
@@ -70,6 +71,8 @@ TEST_CASE("usage errors end with 1 before any work") {
   checkFailure(runAsdf({mesh, other}), 1, "cube.asdf.ply");
   checkFailure(runAsdf({mesh, other, "-o", folder / "out.ply"}), 1, "directory");
   checkFailure(runAsdf({"-"}), 1, "-o");
+  checkFailure(runAsdf({mesh, "--check", "5"}), 1, "--check=5");
+  checkFailure(runAsdf({mesh, "--backend", "reference", "--solver", "cg"}), 1, "--solver");
   CHECK_EQ(folder.names(), Names{"cube.obj", "cube.off"});
 }
 
@@ -118,19 +121,34 @@ TEST_CASE("a result that cannot be written ends with 4 and leaves nothing") {
   checkFailure(run(folder / "locked/out.ply"), 4, "locked");
 }
 
-TEST_CASE("a check that passes ends with 0, one that compared nothing with 5") {
+TEST_CASE("a check that passes ends with 0, one without any traced face with 5") {
+  const auto lavapipe = lavapipeOnly();
+  if (!lavapipe) return;
   const ScratchFolder folder;
   const std::string mesh = folder.write("sphere.off", sphereOff(16));
   for (const char* check : {"--check", "--check=50", "--check=all"}) {
-    const ChildOutcome outcome = runAsdf({check, mesh, "--seeds", "50%", "--backend", "reference"});
+    const ChildOutcome outcome = runAsdf({check, mesh, "--seeds", "50%", "--backend", "vulkan"}, *lavapipe);
     INFO(outcome.error);
     CHECK_EQ(outcome.exitCode, 0);
     CHECK(outcome.error.find("100 % of") != std::string::npos);
     CHECK(outcome.error.find("average error") != std::string::npos);
   }
-  // One seed of 960 faces, one face checked: it is not the seed, so no traced face was compared.
-  checkFailure(runAsdf({mesh, "--seeds", "1", "--check=1", "--backend", "reference", "--quiet"}), 5, "check");
+  CHECK_EQ(runAsdf({mesh, "--seeds", "1", "--check=5", "--backend", "vulkan"}, *lavapipe).exitCode, 0);
   CHECK_EQ(folder.names(), Names{"sphere.asdf.ply", "sphere.off"});
+
+  const std::string flat = folder.write("flat.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n2 0 0\n3 0 1 2\n");
+  checkFailure(runAsdf({flat, "--check", "--backend", "vulkan", "--quiet"}, *lavapipe), 5, "nothing was compared");
+}
+
+TEST_CASE("a check of the reference by itself says that it compares nothing and ends with 0") {
+  const ScratchFolder folder;
+  const std::string mesh = folder.write("sphere.off", sphereOff(16));
+  const ChildOutcome outcome = runAsdf({mesh, "--check", "--backend", "reference"});
+  INFO(outcome.error);
+  CHECK_EQ(outcome.exitCode, 0);
+  CHECK(outcome.error.find("traced by the reference itself: nothing to compare") != std::string::npos);
+  CHECK(outcome.error.find("average error") != std::string::npos);
+  CHECK(outcome.error.find("100 %") == std::string::npos);
 }
 
 TEST_CASE("--quiet says nothing at all when all went well") {

@@ -1,8 +1,13 @@
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <csignal>
 
+#include "cli/interrupt.h"
 #include "cli/program_under_test.h"
 #include "cli/sample_files.h"
 #include "cli/scratch_folder.h"
+#include "mesh/writers/atomic_file.h"
 
 namespace asdfvk::test {
 namespace {
@@ -46,6 +51,26 @@ TEST_CASE("a signal while the mesh is awaited on standard input ends at once wit
   const ChildOutcome outcome = child.finish(kPatienceSeconds);
   CHECK_EQ(outcome.exitCode, 130);
   CHECK(outcome.error.find("asdf-vk: error: cancelled") != std::string::npos);
+  CHECK(folder.names().empty());
+}
+
+TEST_CASE("a second signal during the writing ends at once with 130 and leaves no half-written file") {
+  const ScratchFolder folder;
+  const pid_t child = fork();
+  REQUIRE(child >= 0);
+  if (child == 0) {
+    const Interrupt interrupt;
+    const Interrupt::Listening listening;
+    AtomicFile file(folder / "out.ply");
+    file.write(std::string(5'000'000, 'x'));
+    std::raise(SIGTERM);
+    file.write("The first signal alone lets the writing go on.");
+    std::raise(SIGINT);
+    _exit(0);
+  }
+  int status = 0;
+  REQUIRE(waitpid(child, &status, 0) == child);
+  CHECK_EQ(WEXITSTATUS(status), 130);
   CHECK(folder.names().empty());
 }
 

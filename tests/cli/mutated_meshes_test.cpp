@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "cli/lavapipe.h"
 #include "cli/mutation.h"
 #include "cli/program_under_test.h"
 #include "cli/sample_files.h"
@@ -11,6 +12,7 @@ namespace asdfvk::test {
 namespace {
 
 constexpr int kMeshCount = 2000;
+constexpr int kDeviceMeshCount = 100;
 constexpr int kMeshesPerRun = 50;
 constexpr double kSecondsPerRun = 120;  // A run takes well under a second; this is for sanitizers on a busy machine.
 
@@ -19,13 +21,13 @@ struct Counts {
 };
 
 /// Runs the program on all of `meshes`: each must have its line, and its result exactly when the line tells no error.
-Counts runBatch(const std::vector<std::string>& meshes) {
+Counts runBatch(const std::vector<std::string>& meshes, const std::string& backend, const ChildOptions& options) {
   const ScratchFolder results;
   std::vector<std::string> arguments = meshes;
-  for (const char* option : {"--backend", "reference", "--rays", "8", "--json", "--quiet", "--format", "csv", "-o"})
+  for (const char* option : {"--backend", backend.c_str(), "--rays", "8", "--json", "--quiet", "--format", "csv", "-o"})
     arguments.emplace_back(option);
   arguments.push_back(results / "");
-  ChildProcess child(ASDFVK_PROGRAM, arguments);
+  ChildProcess child(ASDFVK_PROGRAM, arguments, options);
   const ChildOutcome outcome = child.finish(kSecondsPerRun);
   INFO(outcome.error);
   const std::vector<std::string> lines = linesOf(outcome.output);
@@ -37,6 +39,7 @@ Counts runBatch(const std::vector<std::string>& meshes) {
     const nlohmann::json line = nlohmann::json::parse(lines[i]);
     CHECK_EQ(line.at("mesh").get<std::string>(), meshes[i]);
     if (line.contains("error")) {
+      CHECK(line.at("error").get<std::string>().find("validation layers") == std::string::npos);
       ++counts.refused;
       continue;
     }
@@ -50,7 +53,7 @@ Counts runBatch(const std::vector<std::string>& meshes) {
   return counts;
 }
 
-TEST_CASE("2,000 mutated meshes each end in a result or in a documented exit code") {
+Counts runMutated(int meshCount, const std::string& backend, const ChildOptions& options) {
   struct Sample {
     const char* extension;
     std::string bytes;
@@ -62,20 +65,34 @@ TEST_CASE("2,000 mutated meshes each end in a result or in a documented exit cod
                                        {"stl", cubeBinaryStl()}}};
   Random random(20);
   Counts total;
-  for (int first = 0; first < kMeshCount; first += kMeshesPerRun) {
+  for (int first = 0; first < meshCount; first += kMeshesPerRun) {
     const ScratchFolder folder;
     std::vector<std::string> meshes;
     for (int i = first; i < first + kMeshesPerRun; ++i) {
       const Sample& sample = samples[static_cast<size_t>(i) % samples.size()];
       meshes.push_back(folder.write(fmt::format("mesh{:04}.{}", i, sample.extension), mutate(sample.bytes, random)));
     }
-    const Counts counts = runBatch(meshes);
+    const Counts counts = runBatch(meshes, backend, options);
     total.done += counts.done;
     total.refused += counts.refused;
   }
   MESSAGE(total.done << " meshes computed, " << total.refused << " refused");
+  return total;
+}
+
+TEST_CASE("2,000 mutated meshes each end in a result or in a documented exit code") {
+  const Counts total = runMutated(kMeshCount, "reference", {});
   CHECK(total.done > kMeshCount / 10);
   CHECK(total.refused > kMeshCount / 10);
+}
+
+TEST_CASE("100 mutated meshes do so on a Vulkan device under the validation layers, which stay silent") {
+  auto lavapipe = lavapipeOnly();
+  if (!lavapipe) return;
+  lavapipe->environment.emplace_back("ASDF_VK_VALIDATION", "1");
+  const Counts total = runMutated(kDeviceMeshCount, "vulkan", *lavapipe);
+  CHECK(total.done > kDeviceMeshCount / 10);
+  CHECK(total.refused > kDeviceMeshCount / 10);
 }
 
 }  // namespace

@@ -2,9 +2,11 @@
 
 #include <doctest/doctest.h>
 
+#include <filesystem>
 #include <limits>
 
 #include "cli/option_values.h"
+#include "cli/scratch_folder.h"
 #include "core/error.h"
 
 namespace asdfvk {
@@ -108,6 +110,19 @@ TEST_CASE("--check without a number does not take the mesh after it for one") {
   CHECK_EQ(parseCommandLine({"--", "--check"}).meshes, std::vector<std::string>{"--check"});
 }
 
+TEST_CASE("a number after --check that was meant for it is told, not taken for a mesh") {
+  CHECK_EQ(refusal({"a.ply", "--check", "5"}), "--check takes its number with an equals sign: --check=5");
+  CHECK_EQ(refusal({"--check", "all", "a.ply"}), "--check takes its number with an equals sign: --check=all");
+  CHECK_EQ(refusal({"--check", "5.ply", "7"}), "accepted");
+  const test::ScratchFolder folder;
+  const auto before = std::filesystem::current_path();
+  std::filesystem::current_path(folder / "");
+  folder.write("5", "");
+  const std::string answer = refusal({"--check", "5"});
+  std::filesystem::current_path(before);
+  CHECK_EQ(answer, "accepted");
+}
+
 TEST_CASE("the last words on meshes: many, standard input, odd names") {
   CHECK_EQ(parseCommandLine({"a.ply", "--quiet", "-", "b c.off"}).meshes,
            std::vector<std::string>{"a.ply", "-", "b c.off"});
@@ -164,6 +179,9 @@ TEST_CASE("options that contradict each other are refused") {
   CHECK(refusal({"a.ply", "-o", "-", "--json"}) != "accepted");
   CHECK(refusal({"a.ply", "--backend", "reference", "--require-gpu"}) != "accepted");
   CHECK(refusal({"a.ply", "--backend", "reference", "--device", "0"}) != "accepted");
+  for (const char* solver : {"cg", "jacobi"})
+    CHECK(refusal({"a.ply", "--backend", "reference", "--solver", solver}).find("--solver") != std::string::npos);
+  CHECK_EQ(refusal({"a.ply", "--backend", "reference", "--solver", "eigen"}), "accepted");
 }
 
 TEST_CASE("seed counts are read as they are told") {

@@ -1,6 +1,11 @@
 #include "cli/output_plan.h"
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <filesystem>
 
 #include "cli/scratch_folder.h"
 #include "core/error.h"
@@ -56,6 +61,34 @@ TEST_CASE("outputs that contradict each other are usage errors") {
   CommandLine ascii = lineOf({"a.ply"}, "out.csv");
   ascii.ascii = true;
   CHECK(isRefused(ascii));
+}
+
+TEST_CASE("thousands of meshes are planned with a few looks at each") {
+  const test::ScratchFolder folder;
+  Names meshes;
+  for (int i = 0; i < 5000; ++i) meshes.push_back(folder / fmt::format("mesh{}.off", i));
+  meshes.push_back(folder.write("other.off", ""));
+  CHECK_EQ(planOutputs(lineOf(meshes)).size(), 5001);
+  // Only a look at the files can tell that this result is an input.
+  std::filesystem::create_hard_link(folder / "other.off", folder / "mesh4999.asdf.ply");
+  CHECK_THROWS_AS((void)planOutputs(lineOf(meshes)), Error);
+}
+
+TEST_CASE("a device is a place to write to for who may make no file beside it") {
+  const pid_t child = fork();
+  REQUIRE(child >= 0);
+  if (child == 0) {
+    if (geteuid() == 0 && setuid(65534) != 0) _exit(2);
+    try {
+      requireWritablePlace("/dev/null");
+    } catch (...) {
+      _exit(1);
+    }
+    _exit(0);
+  }
+  int status = 0;
+  REQUIRE(waitpid(child, &status, 0) == child);
+  CHECK_EQ(WEXITSTATUS(status), 0);
 }
 
 TEST_CASE("a place where no file can be is told before the work") {

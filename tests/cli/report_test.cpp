@@ -51,6 +51,17 @@ TEST_CASE("the text report tells mesh, device, seeds, speed, solver and values")
   CHECK_FALSE(holds(text, "check"));
 }
 
+TEST_CASE("one of anything is told in the singular") {
+  const CommandLine line;
+  Report report = sampleReport();
+  report.faceCount = report.triangleCount = report.vertexCount = report.seedCount = report.rayCount = 1;
+  report.solver.iterations = 1;
+  const std::string text = textReport({kMesh, kOutput, line, report});
+  for (const char* part :
+       {": 1 face, 1 vertex, 1 component\n", " 1 face casts rays (", " 1 ray in all", " 1 iteration,"})
+    CHECK_MESSAGE(holds(text, part), text);
+}
+
 TEST_CASE("the text report names what is out of the ordinary") {
   const CommandLine line;
   Report report = sampleReport();
@@ -74,12 +85,26 @@ TEST_CASE("a share of agreeing faces is never rounded up to all of them") {
   CHECK(holds(textReport({kMesh, kOutput, line, report}), "100 % of"));
 }
 
+TEST_CASE("faces without a value on either side are told apart from those that agree") {
+  const CommandLine line;
+  Report report = sampleReport();
+  report.check.emplace();
+  report.check->tracedCount = 103;
+  report.check->agreeingCount = 99;
+  report.check->noValueAgreeCount = 3;
+  const std::string text = textReport({kMesh, kOutput, line, report});
+  CHECK(holds(text, "99 % of 100 traced faces"));
+  CHECK(holds(text, "; 3 more without a value on either side"));
+  report.check->tracedCount = report.check->noValueAgreeCount = 1;
+  CHECK(holds(textReport({kMesh, kOutput, line, report}), "1 traced face, none with a value on either side"));
+}
+
 TEST_CASE("a check that compared nothing is told as such and not as passed") {
   const CommandLine line;
   Report report = sampleReport();
   report.check.emplace();
-  CHECK(holds(checkFailure(*report.check), "no traced face"));
-  CHECK(holds(textReport({kMesh, kOutput, line, report}), "no traced face"));
+  CHECK(holds(checkFailure(*report.check), "nothing was compared"));
+  CHECK(holds(textReport({kMesh, kOutput, line, report}), "nothing was compared"));
   const nlohmann::json json = nlohmann::json::parse(jsonReport({kMesh, kOutput, line, report}));
   CHECK_FALSE(json.at("check").at("passed").get<bool>());
 }
@@ -99,14 +124,14 @@ TEST_CASE("JSON has null for what is not finite and is one line") {
 }
 
 TEST_CASE("devices are listed with number and reason, or the reason why there are none") {
-  const std::vector<DeviceInfo> devices{{"A", "driver a", "discrete GPU", true, "the best"},
-                                        {"B", "driver b", "CPU", false, "too old"}};
-  const std::string text = textDevices(devices, "");
-  CHECK(holds(text, "0  A (discrete GPU, driver a): the best\n"));
-  CHECK(holds(text, "1  B (CPU, driver b): not usable: too old\n"));
+  const std::vector<DeviceInfo> devices{{"A", "a 1.0", "discrete GPU", true, "chosen"},
+                                        {"Bee", "b", "CPU", false, "has no queue for compute work"}};
+  CHECK_EQ(textDevices(devices, ""),
+           "0  A     discrete GPU   driver a 1.0   chosen\n"
+           "1  Bee   CPU            driver b       not usable: has no queue for compute work\n");
   CHECK_EQ(textDevices({}, "no loader"), "no Vulkan device: no loader\n");
   const nlohmann::json json = nlohmann::json::parse(jsonDevices(devices, ""));
-  CHECK_EQ(json.at("devices").at(1).at("name").get<std::string>(), "B");
+  CHECK_EQ(json.at("devices").at(1).at("name").get<std::string>(), "Bee");
   CHECK_FALSE(json.at("devices").at(1).at("usable").get<bool>());
 }
 

@@ -2,11 +2,39 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <limits>
+
 #include "generate/shapes.h"
 #include "support/shared_session.h"
 #include "trace/reference_tracer.h"
 
 using namespace asdfvk;
+
+namespace {
+
+constexpr uint64_t kAll = std::numeric_limits<uint64_t>::max();
+
+/// A mesh of which every face was traced, so that a test can spoil values.
+struct TracedSphere {
+  Mesh mesh = makeSphere(320).mesh;
+  PreparedMesh prepared = prepareMesh(mesh, Orientation::Keep);
+  Bvh bvh = buildBvh(mesh, prepared.geometry, prepared.representatives);
+  TraceScene scene{mesh, prepared.geometry, prepared.representatives, bvh};
+  Cone cone = makeCone({});
+  TracedSeeds traced;
+
+  TracedSphere() {
+    Options options;
+    options.seeds.kind = SeedCount::Kind::All;
+    traced = traceSeeds(prepared, *makeReferenceTracer(scene, cone), options, {});
+  }
+  [[nodiscard]] CheckReport check(uint64_t count) const {
+    return checkAgainstReference(mesh, prepared, scene, cone, {traced, traced.values}, count, 1, {});
+  }
+};
+
+}  // namespace
 
 TEST_CASE("a traced result agrees with the reference and its interpolation error is small") {
   Mesh mesh = makeTorus(4000).mesh;
@@ -15,32 +43,108 @@ TEST_CASE("a traced result agrees with the reference and its interpolation error
   const Result result = test::vulkanSession().compute(mesh, options);
   REQUIRE(result.report.check);
   const CheckReport& check = *result.report.check;
+  CHECK(check.isIndependent);
   CHECK(check.passed);
-  CHECK(check.tracedCount + check.interpolatedCount == 1000);
-  CHECK(check.tracedCount > 50);
+  CHECK(check.tracedCount == result.report.seedCount);  // Fewer than 1000: all of them.
   CHECK(check.agreeingCount == check.tracedCount);
+  CHECK(check.comparedCount == 1000);
+  CHECK(check.interpolatedCount > 800);
+  CHECK(check.interpolatedCount < 1000);
   CHECK(check.averageError > 0);
-  CHECK(check.averageError < 0.1);
+  CHECK(check.averageError < 0.15);
   CHECK(check.maximumError >= check.averageError);
+  // Seeds have no error, so leaving them out raises the average.
+  CHECK(check.interpolatedAverageError > check.averageError);
+  CHECK(check.interpolatedMaximumError == check.maximumError);
 }
 
-TEST_CASE("a wrong value is found, with its face") {
-  Mesh mesh = makeSphere(320).mesh;
-  const PreparedMesh prepared = prepareMesh(mesh, Orientation::Keep);
-  const Bvh bvh = buildBvh(mesh, prepared.geometry, prepared.representatives);
-  const TraceScene scene{mesh, prepared.geometry, prepared.representatives, bvh};
-  const Cone cone = makeCone({});
+TEST_CASE("few seeds among many faces are all checked, whatever the number asked for") {
+  Mesh mesh = makeTorus(4000).mesh;
   Options options;
-  options.seeds.kind = SeedCount::Kind::All;
-  TracedSeeds traced = traceSeeds(prepared, *makeReferenceTracer(scene, cone), options, {});
-  CHECK(checkAgainstReference(mesh, prepared, scene, cone, traced, traced.values, 320, 1, {}).passed);
+  options.seeds = {.kind = SeedCount::Kind::Count, .count = 1};
+  options.checkCount = 5;
+  const CheckReport check = test::vulkanSession().compute(mesh, options).report.check.value();
+  CHECK(check.tracedCount == 1);
+  CHECK(check.comparedCount == 5);
+  CHECK(check.passed);
+}
 
-  traced.values[77] *= 1.01;
-  const CheckReport wrong = checkAgainstReference(mesh, prepared, scene, cone, traced, traced.values, 320, 1, {});
+TEST_CASE("what the reference traced is not compared with the reference") {
+  Mesh mesh = makeTorus(2000).mesh;
+  Options options;
+  options.checkCount = 500;
+  const CheckReport check = test::referenceSession().compute(mesh, options).report.check.value();
+  CHECK_FALSE(check.isIndependent);
+  CHECK_FALSE(check.passed);
+  CHECK(check.tracedCount == 0);
+  CHECK(check.comparedCount == 500);
+  CHECK(check.averageError > 0);
+}
+
+TEST_CASE("wrong values are found, with the face of the worst") {
+  TracedSphere sphere;
+  CHECK(sphere.check(kAll).passed);
+  CHECK(sphere.check(kAll).tracedCount == 320);
+
+  sphere.traced.values[77] *= 1.01;
+  sphere.traced.values[78] *= 1.001;
+  const CheckReport wrong = sphere.check(kAll);
   CHECK_FALSE(wrong.passed);
   CHECK(wrong.worstFace == 77);
-  CHECK(wrong.agreeingCount == 319);
+  CHECK(wrong.agreeingCount == 318);
+  CHECK(wrong.missCount() == 2);
 
-  traced.values[77] = kNoValue;  // one side without a value is a disagreement too
-  CHECK_FALSE(checkAgainstReference(mesh, prepared, scene, cone, traced, traced.values, 320, 1, {}).passed);
+  sphere.traced.values[78] = kNoValue;  // One side without a value is a disagreement too.
+  CHECK_FALSE(sphere.check(kAll).passed);
+  CHECK(sphere.check(kAll).worstFace == 78);
+}
+
+TEST_CASE("one miss among few faces is let pass, a miss that is all there is not") {
+  TracedSphere sphere;
+  sphere.traced.values[77] *= 1.01;
+  CHECK(sphere.check(kAll).passed);
+  CHECK(sphere.check(kAll).agreeingCount == 319);
+
+  std::fill(sphere.traced.isSeed.begin(), sphere.traced.isSeed.end(), uint8_t{0});
+  sphere.traced.isSeed[77] = 1;
+  const CheckReport alone = sphere.check(10);
+  CHECK(alone.tracedCount == 1);
+  CHECK_FALSE(alone.passed);
+}
+
+TEST_CASE("faces without a value on either side are counted apart") {
+  Mesh mesh = makeSphere(320).mesh;
+  // A second, flat part, whose rays meet nothing.
+  const auto first = static_cast<uint32_t>(mesh.vertices.size());
+  for (const Vec3d& corner : {Vec3d{50, 0, 0}, Vec3d{51, 0, 0}, Vec3d{50, 1, 0}}) mesh.vertices.push_back(corner);
+  mesh.faces.push_back({first, first + 1, first + 2});
+  Options options;
+  options.seeds.kind = SeedCount::Kind::All;
+  options.checkCount = kAll;
+  const CheckReport check = test::vulkanSession().compute(mesh, options).report.check.value();
+  CHECK(check.tracedCount == 321);
+  CHECK(check.noValueAgreeCount == 1);
+  CHECK(check.agreeingCount == 320);
+  CHECK(check.comparedCount == 320);
+  CHECK(check.passed);
+}
+
+TEST_CASE("without a traced face a check has not passed") {
+  TracedSphere sphere;
+  std::fill(sphere.traced.isSeed.begin(), sphere.traced.isSeed.end(), uint8_t{0});
+  CHECK_FALSE(sphere.check(kAll).passed);
+}
+
+TEST_CASE("a check has its own part of the progress and ends it") {
+  Mesh mesh = makeTorus(4000).mesh;
+  Options options;
+  options.seeds.kind = SeedCount::Kind::All;
+  options.checkCount = kAll;
+  std::vector<double> fractions;
+  const RunControl control{{}, [&](double fraction) { fractions.push_back(fraction); }};
+  (void)test::referenceSession().compute(mesh, options, control);
+  CHECK(std::is_sorted(fractions.begin(), fractions.end()));
+  CHECK(fractions.back() == 1);
+  CHECK(std::count(fractions.begin(), fractions.end(), 1.0) == 1);
+  CHECK(std::count_if(fractions.begin(), fractions.end(), [](double x) { return x >= 0.6 && x < 1; }) > 2);
 }

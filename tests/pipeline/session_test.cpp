@@ -126,7 +126,7 @@ TEST_CASE("a component none of whose faces has a value keeps no value and is tol
   CHECK(std::isnan(result.sdf.back()));
   CHECK(result.report.noValueCount == 1);
   REQUIRE_FALSE(result.report.warnings.empty());
-  CHECK(result.report.warnings.back().find("have no value") != std::string::npos);
+  CHECK(result.report.warnings.back().find("without a value") != std::string::npos);
 }
 
 TEST_CASE("a sphere twice in the file, each with vertices of its own, has the plain sphere's values") {
@@ -166,9 +166,9 @@ TEST_CASE("where faces have no value the likely cause is told: an open surface, 
   };
   const Mesh triangle{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}, {}};
   const std::string sentence =
-      "have no value: no ray of theirs, nor of any face that they hang together with, found the other side of the "
+      "without a value: no ray from there, nor from any face that hangs together with it, found the other side of the "
       "shape";
-  CHECK(warningOn(triangle) == "1 of 1 faces " + sentence +
+  CHECK(warningOn(triangle) == "1 of 1 face " + sentence +
                                    ", most likely because the surface is open, so that rays escape, or looks the other "
                                    "way (--orient flip)");
   Mesh inverted = makeSphere(20).mesh;
@@ -177,7 +177,7 @@ TEST_CASE("where faces have no value the likely cause is told: an open surface, 
                                    ", most likely because their component is inverted (--orient auto turns it over)");
   Mesh line = triangle;
   line.vertices[2] = {2, 0, 0};
-  CHECK(warningOn(line) == "1 of 1 faces " + sentence);
+  CHECK(warningOn(line) == "1 of 1 face " + sentence);
 
   Mesh both = inverted;
   both.vertices.insert(both.vertices.end(), {{5, 0, 0}, {6, 0, 0}, {5, 1, 0}});
@@ -244,7 +244,7 @@ TEST_CASE("a mesh without faces, and one with an index out of range, are errors 
   Mesh broken = makeSphere(20).mesh;
   broken.faces[3][1] = 12;
   CHECK_THROWS_WITH_AS(referenceSession().compute(broken, {}),
-                       doctest::Contains("1 face names a vertex that does not exist"), Error);
+                       doctest::Contains("1 face with a vertex that does not exist: the mesh has 12 vertices"), Error);
 }
 
 TEST_CASE("a mesh that is all degenerate has no values and is no error") {

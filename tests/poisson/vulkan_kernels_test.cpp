@@ -179,7 +179,7 @@ TEST_CASE("a system that the device's limits refuse is refused with the solver t
   DeviceFacts facts;
   facts.name = "Toy";
   facts.kind = DeviceKind::Cpu;
-  facts.maxWorkgroupInvocations = 1024;
+  facts.maxWorkgroupInvocations = facts.maxWorkgroupSize = 1024;
   facts.maxStorageBufferRange = 128u << 20;
   facts.maxTexelBufferElements = 1u << 27;
   const auto refusal = [&](uint64_t unknowns, uint64_t columns, uint64_t longestRow) -> std::string {
@@ -211,10 +211,10 @@ TEST_CASE("a system that the device's limits refuse is refused with the solver t
 TEST_CASE("every system gets at least one workgroup and at most as many as the sums hold") {
   DeviceFacts facts;
   facts.kind = DeviceKind::Discrete;
-  facts.maxWorkgroupInvocations = 1000;
+  facts.maxWorkgroupInvocations = facts.maxWorkgroupSize = 1000;
   CHECK(choosePoissonGrid(facts, 1).workgroupCount == 1);
   CHECK(choosePoissonGrid(facts, 4'000'000'000u).workgroupCount == kMaxPoissonWorkgroupCount);
   CHECK(choosePoissonGrid(facts, 1).laneCount == 256);
-  facts.maxWorkgroupInvocations = 200;
+  facts.maxWorkgroupInvocations = facts.maxWorkgroupSize = 200;
   CHECK(choosePoissonGrid(facts, 1).laneCount == 128);
 }

@@ -62,7 +62,7 @@ TEST_CASE("what is wrong with an OBJ file is told with its line") {
   CHECK(holds(errorOf(parseObj, kCorners + "f 1 2 3/1/1/1\n"), "'3/1/1/1' is no corner"));
   CHECK(holds(errorOf(parseObj, kCorners + "f 1 2 3.0\n"), "'3.0' is no corner"));
   CHECK(holds(errorOf(parseObj, kCorners + "f\n"), "line 5: this face has no corners"));
-  CHECK(holds(errorOf(parseObj, kCorners + "f 1 2\n"), "none of its 1 faces has three corners"));
+  CHECK(holds(errorOf(parseObj, kCorners + "f 1 2\n"), "its only face has fewer than three corners"));
   CHECK(holds(errorOf(parseObj, "v 0 0\n"), "line 1: a vertex cannot have 2 numbers"));
   CHECK(holds(errorOf(parseObj, "v 0 0 0,5\n"), "line 1: a vertex coordinate should stand here, not '0,5'"));
   CHECK(holds(errorOf(parseObj, "v 1 2 3 4 5 6 7 8\n"), "more than seven numbers"));

@@ -121,7 +121,7 @@ TEST_CASE("PLY properties, lists and elements that are no mesh are passed over i
     CHECK(mesh.vertices == vertices);
     CHECK(mesh.faces == faces);
     CHECK(errorOf(parsePly, bytes.substr(0, bytes.size() - 1)) != "no error");
-    CHECK(holds(errorOf(parsePly, bytes + "x"), "1 bytes stand behind the last row"));
+    CHECK(holds(errorOf(parsePly, bytes + "x"), "1 byte too many behind the last row"));
   }
 }
 
@@ -213,11 +213,11 @@ TEST_CASE("what is wrong with a PLY file is told with its line or byte") {
       holds(errorOf(parsePly, asciiPly(corners + "3 0 1 2 7\n")), "line 13: row 0 of element 'face' has more numbers"));
   CHECK(holds(errorOf(parsePly, asciiPly(corners + "3 0 1 2\n3 0 1 2\n")), "line 14: '3' stands behind the last row"));
   CHECK(holds(errorOf(parsePly, asciiPly(corners + "3 0 1 2.5\n")), "line 13: a vertex index should stand here"));
-  CHECK(holds(errorOf(parsePly, asciiPly(corners + "-1 0 1 2\n")), "claims -1 items"));
+  CHECK(holds(errorOf(parsePly, asciiPly(corners + "-1 0 1 2\n")), "claims a length of -1"));
   CHECK(holds(errorOf(parsePly, asciiPly(corners, "")), "a point cloud"));
   CHECK(holds(errorOf(parsePly, asciiPly(corners, "element face 0\nproperty list uchar int vertex_indices\n")),
               "3 points and no face"));
-  CHECK(holds(errorOf(parsePly, asciiPly(corners + "2 0 1\n")), "none of its 1 faces has three corners"));
+  CHECK(holds(errorOf(parsePly, asciiPly(corners + "2 0 1\n")), "its only face has fewer than three corners"));
   CHECK(holds(errorOf(parsePly, asciiPly(corners + "1\n", "element face 1\nproperty int vertex_indices\n")),
               "must be a list of integers"));
   CHECK(holds(errorOf(parsePly, asciiPly(corners + "1\n", "element face 1\nproperty int x\n")),
@@ -226,7 +226,7 @@ TEST_CASE("what is wrong with a PLY file is told with its line or byte") {
   std::string wrong = binary;
   wrong.back() = 4;
   CHECK(errorOf(parsePly, wrong) ==
-        "byte " + std::to_string(wrong.size() - 1) + ": vertex index 4 in row 1 is out of range; there are 4 vertices");
+        "byte " + std::to_string(wrong.size() - 1) + ": vertex index 4 in row 1 is out of range; the mesh has 4 vertices");
 }
 
 TEST_CASE("an index out of range is found among the faces of a binary PLY of nothing but triangles") {

@@ -16,7 +16,7 @@ class ValidatedDevice {
   ValidatedDevice()
       : instance_(std::make_unique<Instance>(InstanceOptions{.validation = true})), log_(instance_->validationLog()) {
     OpenedDevice opened = openDevice(*instance_, {});
-    MESSAGE(opened.reason);
+    MESSAGE(opened.reasons.front());
     device_ = std::move(opened.device);
   }
   ~ValidatedDevice() {

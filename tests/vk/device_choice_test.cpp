@@ -23,8 +23,8 @@ TEST_CASE("a discrete GPU is chosen before an integrated one before a CPU device
   const DeviceChoice choice = chooseDevice(devices, {});
   REQUIRE(choice.index);
   CHECK(*choice.index == 2);
-  CHECK(choice.reasons[0].find("ranks behind H200") != std::string::npos);
-  CHECK(choice.reasons[2].find("is chosen") != std::string::npos);
+  CHECK(choice.reasons[0] == "usable but ranks behind device 2, H200");
+  CHECK(choice.reasons[2] == "chosen");
 }
 
 TEST_CASE("a CPU device alone is chosen, unless a GPU is required") {
@@ -49,6 +49,25 @@ TEST_CASE("a device is selected by its index or by a part of its name in any cas
   CHECK_FALSE(none.index);
   CHECK(none.reasons[0].find("is not the requested device 'radeon'") != std::string::npos);
   CHECK_FALSE(chooseDevice(devices, {.selector = "2"}).index);
+}
+
+TEST_CASE("digits that are no index select a whole number in a name") {
+  const DeviceFacts devices[] = {device("llvmpipe 15", DeviceKind::Cpu), device("RTX 3090", DeviceKind::Discrete),
+                                 device("RTX 4090", DeviceKind::Discrete)};
+  CHECK(chooseDevice(devices, {.selector = "4090"}).index == 2);
+  CHECK(chooseDevice(devices, {.selector = "1"}).index == 1);
+  CHECK_FALSE(chooseDevice(devices, {.selector = "90"}).index);
+  CHECK_FALSE(chooseDevice(devices, {.selector = "3"}).index);
+  CHECK_FALSE(chooseDevice(devices, {.selector = "99999999999999999999"}).index);
+}
+
+TEST_CASE("no reason repeats the name of its device") {
+  const DeviceFacts devices[] = {device("left", DeviceKind::Discrete), device("right", DeviceKind::Integrated)};
+  for (const DeviceRequest& request : {DeviceRequest{}, DeviceRequest{.selector = "right"}}) {
+    const DeviceChoice choice = chooseDevice(devices, request);
+    CHECK(choice.reasons[0].find("left") == std::string::npos);
+    CHECK(choice.reasons[1].find("right") == std::string::npos);
+  }
 }
 
 TEST_CASE("an old device and one without compute are refused with the reason") {

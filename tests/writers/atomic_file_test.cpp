@@ -2,6 +2,7 @@
 #include <fcntl.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -133,4 +134,37 @@ TEST_CASE("a FIFO is written into, not replaced") {
   CHECK(std::filesystem::is_fifo(folder / "pipe"));
   writeTo("/dev/null", "gone");
   CHECK(std::filesystem::is_character_file("/dev/null"));
+}
+
+TEST_CASE("a process that ends at once removes its unfinished file and no other") {
+  const Folder folder;
+  const auto endAtOnce = [](const std::function<void()>& work) {
+    const pid_t child = ::fork();
+    REQUIRE(child >= 0);
+    if (child == 0) {
+      work();
+      ::_exit(1);
+    }
+    int status = 0;
+    REQUIRE(::waitpid(child, &status, 0) == child);
+    CHECK(WEXITSTATUS(status) == 0);
+  };
+  endAtOnce([&] {
+    AtomicFile file(folder / "out.ply");
+    file.write(std::string(3'000'000, 'x'));
+    removeUnfinishedFile();
+    ::_exit(0);
+  });
+  CHECK(folder.names().empty());
+  endAtOnce([&] {
+    AtomicFile first(folder / "first.ply"), second(folder / "second.ply");
+    second.commit();
+    removeUnfinishedFile();
+    ::_exit(0);
+  });
+  CHECK(folder.names() == std::vector<std::string>{"second.ply"});
+  writeTo(folder / "second.ply", "whole");
+  AtomicFile("/dev/null").write("directly");
+  removeUnfinishedFile();
+  CHECK(contentOf(folder / "second.ply") == "whole");
 }

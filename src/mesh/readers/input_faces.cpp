@@ -8,6 +8,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/counted.h"
 #include "mesh/readers/input_failure.h"
 #include "mesh/readers/triangulate.h"
 
@@ -27,8 +28,8 @@ void triangulateAll(std::span<const Vec3d> vertices, Polygons& polygons, std::ve
     triangleCount += std::max<uint64_t>(cornerCountOf(i), 2) - 2;
   }
   if (triangleCount > kMaxIndexCount || polygonCount > kMaxIndexCount)
-    failInput(fmt::format("its {} faces make {} triangles, which is more than {}", polygonCount, triangleCount,
-                          kMaxIndexCount));
+    failInput(fmt::format("its {} make {} triangles, which is more than {}", counted(polygonCount, "face"),
+                          triangleCount, kMaxIndexCount));
   triangles.resize(triangleCount);
   polygons.inputFaceOf.resize(triangleCount);
   const auto cutBlock = [&](uint64_t block) {
@@ -88,12 +89,13 @@ void InputFaces::beginPolygons() {
 
 void InputFaces::moveTo(Mesh& mesh) {
   if (count() == 0)
-    failInput(mesh.vertices.empty()
-                  ? "it holds neither points nor faces"
-                  : fmt::format("it holds {} points and no face; a point cloud has to be meshed first",
-                                mesh.vertices.size()));
+    failInput(mesh.vertices.empty() ? "it holds neither points nor faces"
+                                    : fmt::format("it holds {} and no face; a point cloud has to be meshed first",
+                                                  counted(mesh.vertices.size(), "point")));
   if (!polygons_.isEmpty()) triangulateAll(mesh.vertices, polygons_, triangles_);
-  if (triangles_.empty()) failInput(fmt::format("none of its {} faces has three corners", count()));
+  if (triangles_.empty())
+    failInput(count() == 1 ? "its only face has fewer than three corners"
+                           : fmt::format("none of its {} faces has three corners", count()));
   if (triangles_.size() > kMaxIndexCount)
     failInput(fmt::format("it holds {} faces, which is more than {}", triangles_.size(), kMaxIndexCount));
   mesh.faces = std::move(triangles_);

@@ -6,6 +6,7 @@
 #include <array>
 #include <charconv>
 
+#include "core/counted.h"
 #include "mesh/mesh_reader.h"
 #include "mesh/readers/input_faces.h"
 #include "mesh/readers/input_failure.h"
@@ -23,9 +24,8 @@ class ObjReader {
     while (!text_.atEnd()) readStatement();
     // A face may name vertices that stand behind it, so the end of the file is the first place to tell.
     if (highestIndex_ > mesh_.vertices.size())
-      failAtLine(highestIndexLine_,
-                 fmt::format("vertex index {} is out of range; there are {} vertices, counted from 1", highestIndex_,
-                             mesh_.vertices.size()));
+      failAtLine(highestIndexLine_, fmt::format("vertex index {} is out of range; the mesh has {}, counted from 1",
+                                                highestIndex_, counted(mesh_.vertices.size(), "vertex", "vertices")));
     faces_.moveTo(mesh_);
     return std::move(mesh_);
   }
@@ -91,8 +91,8 @@ class ObjReader {
     const auto vertexCount = static_cast<int64_t>(mesh_.vertices.size());
     if (index == 0) failAtLine(text_.line(), "vertex index 0; OBJ counts vertices from 1, or backwards from -1");
     if (index < -vertexCount || index > kMaxIndex)
-      failAtLine(text_.line(),
-                 fmt::format("vertex index {} is out of range; {} vertices stand before it", index, vertexCount));
+      failAtLine(text_.line(), fmt::format("vertex index {} is out of range; the mesh has {} before it", index,
+                                           counted(mesh_.vertices.size(), "vertex", "vertices")));
     if (index < 0) return static_cast<uint32_t>(vertexCount + index);
     if (static_cast<uint64_t>(index) > highestIndex_) {
       highestIndex_ = static_cast<uint64_t>(index);

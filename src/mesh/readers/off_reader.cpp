@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "core/counted.h"
 #include "mesh/mesh_reader.h"
 #include "mesh/readers/input_faces.h"
 #include "mesh/readers/input_failure.h"
@@ -47,15 +48,14 @@ void readFaces(TextScanner& text, uint64_t count, uint64_t vertexCount, InputFac
   for (uint64_t i = 0; i < count; ++i) {
     const uint64_t cornerCount = readCount(text, "the corner count of a face");
     if (cornerCount > text.remaining())
-      failAtLine(text.line(),
-                 fmt::format("face {} claims {} corners, but only {} bytes are left; the file is cut short", i,
-                             cornerCount, text.remaining()));
+      failAtLine(text.line(), fmt::format("face {} claims {}, but the file has only {} more; it is cut short", i,
+                                          counted(cornerCount, "corner"), counted(text.remaining(), "byte")));
     corners.clear();
     for (uint64_t c = 0; c < cornerCount; ++c) {
       const int64_t index = text.integer("a vertex index");
       if (index < 0 || static_cast<uint64_t>(index) >= vertexCount)
-        failAtLine(text.line(), fmt::format("vertex index {} of face {} is out of range; there are {} vertices", index,
-                                            i, vertexCount));
+        failAtLine(text.line(), fmt::format("vertex index {} of face {} is out of range; the mesh has {}", index, i,
+                                            counted(vertexCount, "vertex", "vertices")));
       corners.push_back(static_cast<uint32_t>(index));
     }
     if (skipNumbersOnLine(text, "a colour number") > 4)
@@ -76,9 +76,10 @@ Mesh parseOff(std::span<const char> bytes) {
   // A vertex takes at least the six bytes of "0 0 0\n", a face the two of "0\n"; the last line may lack its end.
   const uint64_t left = text.remaining() + 1;
   if (vertexCount > left / 6 || faceCount > (left - 6 * vertexCount) / 2)
-    failAtLine(text.line(), fmt::format("{} vertices and {} faces do not fit into the {} bytes that follow; "
+    failAtLine(text.line(), fmt::format("{} and {} do not fit into the {} left; "
                                         "the file is cut short or its counts are wrong",
-                                        vertexCount, faceCount, text.remaining()));
+                                        counted(vertexCount, "vertex", "vertices"), counted(faceCount, "face"),
+                                        counted(text.remaining(), "byte")));
   requireIndexableVertexCount(vertexCount);
   Mesh mesh;
   InputFaces faces;

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "core/counted.h"
 #include "mesh/readers/input_failure.h"
 #include "mesh/readers/ply_body.h"
 #include "mesh/readers/text_scanner.h"
@@ -26,9 +27,10 @@ class AsciiBody {
     const uint64_t minRowSize = element.minRowSize(PlyEncoding::Ascii);
     if (minRowSize == 0) return;
     if (element.count > (text_.remaining() + 1) / minRowSize)
-      failAtLine(text_.line(), fmt::format("{} rows of element {} do not fit into the {} bytes that are left; "
-                                           "the file is cut short or its count is wrong",
-                                           element.count, quoted(element.name), text_.remaining()));
+      failAtLine(text_.line(),
+                 fmt::format("{} of element {} cannot fit into the {} left; "
+                             "the file is cut short or its count is wrong",
+                             counted(element.count, "row"), quoted(element.name), counted(text_.remaining(), "byte")));
     if (element.role == PlyRole::Vertices) target_.vertices.reserve(element.count);
     if (element.role == PlyRole::Faces) target_.faces.reserve(element.count);
     for (uint64_t row = 0; row < element.count; ++row) {
@@ -58,9 +60,9 @@ class AsciiBody {
     const int64_t count = text_.integer("the count of a list");
     if (count < 0 || static_cast<uint64_t>(count) > text_.remaining())
       failAtLine(text_.line(),
-                 fmt::format("a list claims {} items, but only {} bytes are left; the file is cut short or "
+                 fmt::format("a list claims a length of {}, but the file has only {} more; the file is cut short or "
                              "its count is wrong",
-                             count, text_.remaining()));
+                             count, counted(text_.remaining(), "byte")));
     if (property != element.indices) {
       for (int64_t i = 0; i < count; ++i) static_cast<void>(text_.number(element.properties[property].name));
     } else if (element.role == PlyRole::Faces) {
@@ -78,8 +80,8 @@ class AsciiBody {
 
   uint32_t vertexIndex(int64_t index) {
     if (index < 0 || static_cast<uint64_t>(index) >= header_.vertexCount)
-      failAtLine(text_.line(),
-                 fmt::format("vertex index {} is out of range; there are {} vertices", index, header_.vertexCount));
+      failAtLine(text_.line(), fmt::format("vertex index {} is out of range; the mesh has {}", index,
+                                           counted(header_.vertexCount, "vertex", "vertices")));
     return static_cast<uint32_t>(index);
   }
 

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <bit>
 
+#include "core/counted.h"
 #include "mesh/readers/input_failure.h"
 #include "mesh/readers/ply_body.h"
 #include "mesh/readers/ply_scalar.h"
@@ -32,7 +33,7 @@ class BinaryBody {
 
   void read() {
     for (const PlyElement& element : header_.elements) readElement(element);
-    if (left() != 0) failAtByte(at_, fmt::format("{} bytes stand behind the last row", left()));
+    if (left() != 0) failAtByte(at_, counted(left(), "byte") + " too many behind the last row");
   }
 
  private:
@@ -45,9 +46,9 @@ class BinaryBody {
     const uint64_t minRowSize = element.minRowSize(header_.encoding);
     if (minRowSize == 0) return;
     if (element.count > left() / minRowSize)
-      failAtByte(at_, fmt::format("{} rows of element {} do not fit into the {} bytes that are left; the file is cut "
+      failAtByte(at_, fmt::format("{} of element {} cannot fit into the {} left; the file is cut "
                                   "short or its count is wrong",
-                                  element.count, quoted(element.name), left()));
+                                  counted(element.count, "row"), quoted(element.name), counted(left(), "byte")));
     if (element.role == PlyRole::Vertices) target_.vertices.resize(element.count);
     size_t listCount = 0;
     for (const PlyProperty& property : element.properties) listCount += property.list ? 1 : 0;
@@ -130,10 +131,10 @@ class BinaryBody {
     const int64_t count = integerAt(at_, *property.list);
     const uint64_t itemSize = sizeOf(property.type);
     if (count < 0 || static_cast<uint64_t>(count) > (left() - sizeOf(*property.list)) / itemSize)
-      failAtByte(at_,
-                 fmt::format("row {} of element {} claims a list of {} items, but only {} bytes are left; the file is "
-                             "cut short or its count is wrong",
-                             row, quoted(element.name), count, left() - sizeOf(*property.list)));
+      failAtByte(at_, fmt::format(
+                          "row {} of element {} claims a list of length {}, but the file has only {} more; the file is "
+                          "cut short or its count is wrong",
+                          row, quoted(element.name), count, counted(left() - sizeOf(*property.list), "byte")));
     at_ += sizeOf(*property.list);
     const uint64_t end = at_ + static_cast<uint64_t>(count) * itemSize;
     if (propertyIndex == element.indices && element.role == PlyRole::Faces) {
@@ -158,8 +159,8 @@ class BinaryBody {
 
   [[nodiscard]] uint32_t vertexIndex(int64_t index, uint64_t row) const {
     if (index < 0 || static_cast<uint64_t>(index) >= header_.vertexCount)
-      failAtByte(at_, fmt::format("vertex index {} in row {} is out of range; there are {} vertices", index, row,
-                                  header_.vertexCount));
+      failAtByte(at_, fmt::format("vertex index {} in row {} is out of range; the mesh has {}", index, row,
+                                  counted(header_.vertexCount, "vertex", "vertices")));
     return static_cast<uint32_t>(index);
   }
 

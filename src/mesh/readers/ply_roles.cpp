@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/counted.h"
 #include "mesh/readers/input_faces.h"
 #include "mesh/readers/input_failure.h"
 
@@ -60,8 +61,8 @@ uint64_t assignPlyRoles(std::span<PlyElement> elements) {
   }
   if (vertices == nullptr) failInput("it has no element 'vertex'");
   if (faces == nullptr && strips == nullptr)
-    failInput(
-        fmt::format("it holds {} points and no element 'face'; a point cloud has to be meshed first", vertices->count));
+    failInput(fmt::format("it holds {} and no element 'face'; a point cloud has to be meshed first",
+                          counted(vertices->count, "point")));
   requireIndexableVertexCount(vertices->count);
   return vertices->count;
 }

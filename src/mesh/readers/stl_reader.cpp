@@ -7,6 +7,7 @@
 #include <cctype>
 #include <cstring>
 
+#include "core/counted.h"
 #include "mesh/mesh_reader.h"
 #include "mesh/readers/corner_welder.h"
 #include "mesh/readers/input_faces.h"
@@ -37,7 +38,7 @@ Mesh parseBinary(std::span<const char> bytes) {
                       kStlHeaderSize, bytes.size()));
     const uint64_t faceCount = binaryStlFaceCount(bytes);
     failInput(fmt::format(
-        "binary STL of {} faces must have {} bytes; this has {} and is {}", faceCount,
+        "binary STL of {} must have {} bytes; this has {} and is {}", counted(faceCount, "face"),
         kStlHeaderSize + faceCount * kStlFaceSize, bytes.size(),
         kStlHeaderSize + faceCount * kStlFaceSize > bytes.size() ? "cut short" : "followed by something else"));
   }

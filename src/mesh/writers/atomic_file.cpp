@@ -17,6 +17,18 @@ namespace asdfvk {
 
 static_assert(std::endian::native == std::endian::little, "the binary formats are written as they lie in memory");
 
+namespace {
+
+// Whoever exchanges the name for null owns it, so that a signal handler never reads one that is being freed.
+std::atomic<const char*> unfinished{nullptr};
+static_assert(std::atomic<const char*>::is_always_lock_free);
+
+}  // namespace
+
+void removeUnfinishedFile() noexcept {
+  if (const char* name = unfinished.exchange(nullptr, std::memory_order_acquire)) ::unlink(name);
+}
+
 AtomicFile::AtomicFile(const std::filesystem::path& target)
     : target_(target), isStandardOutput_(target == "-"), buffer_(std::make_unique_for_overwrite<char[]>(kBufferSize)) {
   if (isStandardOutput_) {
@@ -54,12 +66,33 @@ void AtomicFile::openTemporary() {
     temporary_.replace_filename(fmt::format(".asdf-vk-{}-{}.part", ::getpid(), count++));
     descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   } while (descriptor_ < 0 && errno == EEXIST);
-  if (descriptor_ >= 0) return;
+  if (descriptor_ >= 0) {
+    announceTemporary();  // Not before: what was there belongs to another process.
+    return;
+  }
   const int reason = errno;
   const std::filesystem::path folder = target_.has_parent_path() ? target_.parent_path() : ".";
   temporary_.clear();
   if (reason == ENOENT) fail(reason, fmt::format("the folder {} is not there; create it first", folder.string()));
   fail(reason, fmt::format("creating a temporary file in {}", folder.string()));
+}
+
+void AtomicFile::announceTemporary() {
+  const std::string& name = temporary_.native();
+  announced_ = std::make_unique<char[]>(name.size() + 1);
+  std::memcpy(announced_.get(), name.c_str(), name.size() + 1);
+  const char* none = nullptr;
+  if (!unfinished.compare_exchange_strong(none, announced_.get(), std::memory_order_release)) announced_.reset();
+}
+
+void AtomicFile::withdrawTemporary() noexcept {
+  const char* mine = announced_.get();
+  if (mine == nullptr) return;
+  if (unfinished.compare_exchange_strong(mine, nullptr, std::memory_order_acquire)) {
+    announced_.reset();
+  } else {
+    (void)announced_.release();  // A signal handler reads it, and the process ends.
+  }
 }
 
 void AtomicFile::write(const void* bytes, size_t size) {
@@ -92,6 +125,7 @@ void AtomicFile::commit() {
   if (::close(descriptor) != 0 || (!temporary_.empty() && ::rename(temporary_.c_str(), target_.c_str()) != 0)) {
     failAndRemove(errno);
   }
+  withdrawTemporary();
   temporary_.clear();
 }
 
@@ -105,6 +139,7 @@ void AtomicFile::closeAndRemove() noexcept {
   if (descriptor_ >= 0 && !isStandardOutput_) ::close(descriptor_);
   descriptor_ = -1;
   if (!temporary_.empty()) ::unlink(temporary_.c_str());
+  withdrawTemporary();
   temporary_.clear();
 }
 

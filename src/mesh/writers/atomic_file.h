@@ -45,16 +45,23 @@ class AtomicFile {
   static constexpr size_t kBufferSize = size_t{1} << 20;
 
   void openTemporary();
+  void announceTemporary();
+  void withdrawTemporary() noexcept;
   void flush();
   void closeAndRemove() noexcept;
   [[noreturn]] void failAndRemove(int errorNumber);
   [[noreturn]] void fail(int errorNumber, const std::string& during) const;
 
   std::filesystem::path target_, temporary_;  ///< temporary_ is empty where the target is written to directly.
+  std::unique_ptr<char[]> announced_;         ///< The name as removeUnfinishedFile() finds it.
   bool isStandardOutput_ = false;
   int descriptor_ = -1;
   std::unique_ptr<char[]> buffer_;
   size_t used_ = 0;
 };
+
+/// Removes the temporary of the one AtomicFile that is being written, if there is one: the last act of a process that
+/// ends at once. Async-signal-safe. Of several files at the same time only the first one is known.
+void removeUnfinishedFile() noexcept;
 
 }  // namespace asdfvk

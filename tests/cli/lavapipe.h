@@ -1,0 +1,28 @@
+#pragma once
+
+#include <doctest/doctest.h>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "cli/child_process.h"
+
+namespace asdfvk::test {
+
+inline ChildOptions withDrivers(const std::string& file) {
+  ChildOptions options;
+  options.environment = {{"VK_DRIVER_FILES", file}, {"VK_ICD_FILENAMES", file}};
+  return options;
+}
+
+/// The program shall find Mesa's CPU device and no other. Where it is not installed the test that asks says so and has
+/// nothing to do.
+inline std::optional<ChildOptions> lavapipeOnly() {
+  const std::string driver = "/usr/share/vulkan/icd.d/lvp_icd.x86_64.json";
+  if (std::filesystem::exists(driver)) return withDrivers(driver);
+  MESSAGE("skipped: no lavapipe driver at " << driver);
+  return {};
+}
+
+}  // namespace asdfvk::test
