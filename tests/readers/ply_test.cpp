@@ -225,8 +225,8 @@ TEST_CASE("what is wrong with a PLY file is told with its line or byte") {
   const std::string binary = binaryPly<float, uint8_t>("float", "uchar", false);
   std::string wrong = binary;
   wrong.back() = 4;
-  CHECK(errorOf(parsePly, wrong) ==
-        "byte " + std::to_string(wrong.size() - 1) + ": vertex index 4 in row 1 is out of range; the mesh has 4 vertices");
+  CHECK(errorOf(parsePly, wrong) == "byte " + std::to_string(wrong.size() - 1) +
+                                        ": vertex index 4 in row 1 is out of range; the mesh has 4 vertices");
 }
 
 TEST_CASE("an index out of range is found among the faces of a binary PLY of nothing but triangles") {
