@@ -11,8 +11,6 @@ layout(set = 0, binding = 1) buffer Direction { float p[]; };
 layout(set = 0, binding = 2) buffer States { CgState states[2]; };
 layout(set = 0, binding = 3) readonly buffer Sums { PoissonSums sums; };
 
-const float kLargest = 3.0e38;
-
 void main() {
   CgState state = states[push.stateIndex];
   const uint lane = gl_LocalInvocationID.x;

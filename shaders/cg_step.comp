@@ -14,8 +14,6 @@ layout(set = 0, binding = 4) buffer Residual { float r[]; };
 layout(set = 0, binding = 5) readonly buffer States { CgState states[2]; };
 layout(set = 0, binding = 6) buffer Sums { PoissonSums sums; };
 
-const float kLargest = 3.0e38;
-
 void main() {
   const CgState state = states[push.stateIndex];
   if (state.status != kCgRunning) return;

@@ -4,6 +4,8 @@ layout(constant_id = 0) const uint kLaneCount = 64;  // A power of two and a mul
 
 layout(push_constant) uniform Push { PoissonPush push; };
 
+const float kLargest = 3.0e38;  // What is not below has overflowed, or is not a number.
+
 shared vec2 laneSums[kLaneCount];
 
 uint firstRow() { return gl_WorkGroupID.x * kLaneCount + gl_LocalInvocationID.x; }

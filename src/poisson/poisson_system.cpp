@@ -1,20 +1,17 @@
 #include "poisson/poisson_system.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "core/check.h"
+#include "poisson/each_row.h"
 #include "poisson/ordered_sum.h"
 
 namespace asdfvk {
 namespace {
 
 constexpr uint32_t kNotUnknown = std::numeric_limits<uint32_t>::max();
-constexpr size_t kGrain = 4096;
 constexpr double kShortestDistanceRatio = 1e-9;
 constexpr double kShortestDistance = 1e-300;  // Keeps weights finite where even the diagonal is next to nothing.
 
@@ -68,13 +65,6 @@ double meanOfKnown(std::span<const double> values) {
   // Divided before they are added, so that values near the end of the range do not overflow.
   return orderedSum(values.size(),
                     [&](size_t i) { return std::isfinite(values[i]) ? values[i] / static_cast<double>(count) : 0.0; });
-}
-
-template <typename Body>
-void forEachRow(size_t rowCount, const Body& body) {
-  tbb::parallel_for(tbb::blocked_range<size_t>(0, rowCount, kGrain), [&](const tbb::blocked_range<size_t>& range) {
-    for (size_t row = range.begin(); row < range.end(); ++row) body(row);
-  });
 }
 
 }  // namespace

@@ -1,25 +1,16 @@
 #include "poisson/scaled_system.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "poisson/each_row.h"
 #include "poisson/ordered_sum.h"
 
 namespace asdfvk {
 namespace {
 
 constexpr uint32_t kHeadLength = 3;  // Entries in a PoissonRow itself.
-
-template <typename Body>
-void forEachRow(size_t rowCount, const Body& body) {
-  tbb::parallel_for(tbb::blocked_range<size_t>(0, rowCount, 4096), [&](const tbb::blocked_range<size_t>& range) {
-    for (size_t row = range.begin(); row < range.end(); ++row) body(row);
-  });
-}
 
 }  // namespace
 

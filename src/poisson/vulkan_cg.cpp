@@ -2,8 +2,8 @@
 
 #include <array>
 #include <cstring>
-#include <utility>
 
+#include "poisson/vulkan_kernel.h"
 #include "spirv/cg_direction.comp.h"
 #include "spirv/cg_product.comp.h"
 #include "spirv/cg_step.comp.h"
@@ -11,15 +11,8 @@
 namespace asdfvk {
 namespace {
 
-constexpr VkBufferUsageFlags kVectorUsage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
-
-ComputePipelineDescription describe(const Device& device, const char* name, std::span<const uint32_t> spirv,
-                                    std::vector<VkDescriptorType> bindings) {
-  return {name, spirv, std::move(bindings), sizeof(PoissonPush), {/* kLaneCount= */ poissonLaneCount(device.facts())}};
-}
-
 Buffer uploadVector(const Device& device, std::span<const float> vector) {
-  return uploadBuffer(device, std::as_bytes(vector), kVectorUsage);
+  return uploadBuffer(device, std::as_bytes(vector), kPoissonVectorUsage);
 }
 
 std::array<CgState, 2> firstStates(std::span<const float> rightHandSide, double reduction) {
@@ -36,9 +29,9 @@ std::array<CgState, 2> firstStates(std::span<const float> rightHandSide, double 
 }  // namespace
 
 VulkanCgKernels::VulkanCgKernels(const Device& device)
-    : product(device, describe(device, "cg_product.comp", k_cg_product_comp, poissonBindings(7, true))),
-      step(device, describe(device, "cg_step.comp", k_cg_step_comp, poissonBindings(7, false))),
-      direction(device, describe(device, "cg_direction.comp", k_cg_direction_comp, poissonBindings(4, false))) {}
+    : product(device, describePoissonKernel(device.facts(), "cg_product.comp", k_cg_product_comp, 7, true)),
+      step(device, describePoissonKernel(device.facts(), "cg_step.comp", k_cg_step_comp, 7, false)),
+      direction(device, describePoissonKernel(device.facts(), "cg_direction.comp", k_cg_direction_comp, 4, false)) {}
 
 VulkanCg::VulkanCg(const Device& device, const VulkanCgKernels& kernels, const VulkanMatrix& matrix,
                    std::span<const float> rightHandSide, double reduction)
@@ -50,7 +43,7 @@ VulkanCg::VulkanCg(const Device& device, const VulkanCgKernels& kernels, const V
       residual_(uploadVector(device, rightHandSide)),
       direction_(uploadVector(device, rightHandSide)),
       product_(uploadVector(device, std::vector<float>(rightHandSide.size(), 0.0f))),
-      states_(uploadBuffer(device, bytesOf(firstStates(rightHandSide, reduction)), kVectorUsage)),
+      states_(uploadBuffer(device, bytesOf(firstStates(rightHandSide, reduction)), kPoissonVectorUsage)),
       sums_(uploadBuffer(device, bytesOf(PoissonSums{}), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT)),
       stateOnHost_(device, sizeof(CgState), VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryKind::HostVisible),
       productBindings_(device, kernels.product,

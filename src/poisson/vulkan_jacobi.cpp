@@ -4,25 +4,18 @@
 #include <cmath>
 #include <cstring>
 
+#include "poisson/vulkan_kernel.h"
 #include "shared/poisson_layout.h"
 #include "spirv/jacobi_sweep.comp.h"
 
 namespace asdfvk {
 namespace {
 
-constexpr VkBufferUsageFlags kVectorUsage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
-constexpr size_t kBindingCount = 8;
-
-ComputePipelineDescription describe(const Device& device) {
-  return {"jacobi_sweep.comp",
-          k_jacobi_sweep_comp,
-          poissonBindings(kBindingCount, true),
-          sizeof(PoissonPush),
-          {/* kLaneCount= */ poissonLaneCount(device.facts())}};
-}
+constexpr uint32_t kBindingCount = 8;
 
 Buffer uploadZeros(const Device& device, size_t count) {
-  return uploadBuffer(device, std::as_bytes(std::span<const float>(std::vector<float>(count, 0.0f))), kVectorUsage);
+  return uploadBuffer(device, std::as_bytes(std::span<const float>(std::vector<float>(count, 0.0f))),
+                      kPoissonVectorUsage);
 }
 
 std::array<Binding, kBindingCount> bind(const VulkanMatrix& matrix, const Buffer& rightHandSide, const Buffer& from,
@@ -39,7 +32,9 @@ std::array<Binding, kBindingCount> bind(const VulkanMatrix& matrix, const Buffer
 
 }  // namespace
 
-VulkanJacobiKernel::VulkanJacobiKernel(const Device& device) : sweep(device, describe(device)) {}
+VulkanJacobiKernel::VulkanJacobiKernel(const Device& device)
+    : sweep(device,
+            describePoissonKernel(device.facts(), "jacobi_sweep.comp", k_jacobi_sweep_comp, kBindingCount, true)) {}
 
 VulkanJacobi::VulkanJacobi(const Device& device, const VulkanJacobiKernel& kernel, const VulkanMatrix& matrix,
                            std::span<const float> rightHandSide)
@@ -49,7 +44,7 @@ VulkanJacobi::VulkanJacobi(const Device& device, const VulkanJacobiKernel& kerne
       workgroupCount_(matrix.grid.workgroupCount),
       rightHandSide_(uploadBuffer(device, std::as_bytes(rightHandSide), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT)),
       iterates_{uploadZeros(device, rightHandSide.size()), uploadZeros(device, rightHandSide.size())},
-      sums_(uploadBuffer(device, bytesOf(PoissonSums{}), kVectorUsage)),
+      sums_(uploadBuffer(device, bytesOf(PoissonSums{}), kPoissonVectorUsage)),
       sumsOnHost_(device, sizeof(PoissonSums), VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryKind::HostVisible),
       bindings_{{device, kernel.sweep, bind(matrix, rightHandSide_, iterates_[0], iterates_[1], sums_)},
                 {device, kernel.sweep, bind(matrix, rightHandSide_, iterates_[1], iterates_[0], sums_)}},

@@ -76,10 +76,4 @@ VulkanMatrix::VulkanMatrix(const Device& device, const ScaledSystem& system) {
   residualWeights = uploadArray(device, system.residualWeights(), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
 }
 
-std::vector<VkDescriptorType> poissonBindings(size_t count, bool withMatrix) {
-  std::vector<VkDescriptorType> types(count, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
-  if (withMatrix) types[0] = VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER;
-  return types;
-}
-
 }  // namespace asdfvk

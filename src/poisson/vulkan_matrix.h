@@ -24,10 +24,6 @@ struct PoissonGrid {
 /// device executes before it ends loops silently.
 void requireSystemFits(const DeviceFacts& facts, uint64_t unknownCount, uint64_t tailCount, uint64_t longestRow);
 
-/// The types of `count` bindings of a Poisson kernel, of which a kernel with a matrix has those of
-/// shaders/poisson_matrix.glsl first.
-[[nodiscard]] std::vector<VkDescriptorType> poissonBindings(size_t count, bool withMatrix);
-
 /// The matrix on the device: bindings 0 to 2 of shaders/poisson_matrix.glsl, and the weights of residuals.
 struct VulkanMatrix {
   /// Throws as requireSystemFits().
