@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/median.h"
 #include "seeds/random_permutation.h"
 #include "trace/reference_tracer.h"
 
@@ -47,13 +48,6 @@ std::vector<uint32_t> unionOf(const std::vector<uint32_t>& a, const std::vector<
   return all;
 }
 
-double medianOf(std::vector<double>& numbers) {
-  if (numbers.empty()) return 0;
-  const auto middle = numbers.begin() + static_cast<std::ptrdiff_t>(numbers.size() / 2);
-  std::nth_element(numbers.begin(), middle, numbers.end());
-  return *middle;
-}
-
 /// The half about the traced faces.
 void compareTraced(CheckReport& report, const std::vector<uint32_t>& faces, const TracedSeeds& traced,
                    const References& references, double diagonal, const Mesh& mesh) {
@@ -74,7 +68,7 @@ void compareTraced(CheckReport& report, const std::vector<uint32_t>& faces, cons
     differences.push_back(difference);
   }
   report.tracedCount = faces.size();
-  report.medianDifference = medianOf(differences);
+  report.medianDifference = differences.empty() ? 0 : upperMedian(differences);
   const auto allowed =
       std::max<uint64_t>(1, static_cast<uint64_t>(kAllowedMissShare * static_cast<double>(report.tracedCount)));
   report.passed = report.missCount() < report.tracedCount && report.missCount() <= allowed;

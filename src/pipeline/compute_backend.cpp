@@ -32,12 +32,6 @@ ComputeBackend::ComputeBackend(const SessionOptions& options) {
   }
 }
 
-ComputeBackend::~ComputeBackend() {
-  solvers_.clear();
-  kernels_.clear();
-  device_.reset();
-}
-
 void ComputeBackend::openVulkan(const SessionOptions& options) {
   instance_ = std::make_unique<Instance>(InstanceOptions{.validation = validationRequestedByEnvironment()});
   OpenedDevice opened = openDevice(*instance_, {.selector = options.device, .requireGpu = options.requireGpu});

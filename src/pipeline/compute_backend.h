@@ -18,7 +18,6 @@ class ComputeBackend {
  public:
   /// Throws Error{Device} when what was asked for is not there.
   explicit ComputeBackend(const SessionOptions& options);
-  ~ComputeBackend();
 
   [[nodiscard]] const std::string& name() const { return name_; }  ///< "vulkan" or "reference"
   [[nodiscard]] const std::string& deviceName() const { return deviceName_; }
@@ -39,6 +38,7 @@ class ComputeBackend {
   void openVulkan(const SessionOptions& options);
   void useReference(const std::string& reason);
 
+  // In this order: what comes later is made of what comes before and goes first.
   std::unique_ptr<Instance> instance_;
   std::unique_ptr<Device> device_;                                 ///< Null: the reference.
   std::map<uint32_t, std::unique_ptr<VulkanConeKernel>> kernels_;  ///< By ray count.

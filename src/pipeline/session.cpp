@@ -5,6 +5,7 @@
 
 #include "bvh/bvh.h"
 #include "core/counted.h"
+#include "core/median.h"
 #include "core/stopwatch.h"
 #include "pipeline/asdf.h"
 #include "pipeline/check.h"
@@ -39,9 +40,7 @@ ValueRange rangeOf(const std::vector<double>& values) {
   if (present.empty()) return {};
   const auto [low, high] = std::minmax_element(present.begin(), present.end());
   ValueRange range{*low, 0, *high};
-  const auto middle = present.begin() + static_cast<std::ptrdiff_t>(present.size() / 2);
-  std::nth_element(present.begin(), middle, present.end());
-  range.median = *middle;
+  range.median = upperMedian(present);
   return range;
 }
 

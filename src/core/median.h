@@ -1,0 +1,17 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace asdfvk {
+
+/// The upper of the two middle numbers for an even count, so that it is always one of them. Reorders the numbers.
+/// Precondition: there is one, and none is NaN.
+[[nodiscard]] inline double upperMedian(std::vector<double>& numbers) {
+  const auto middle = numbers.begin() + static_cast<std::ptrdiff_t>(numbers.size() / 2);
+  std::nth_element(numbers.begin(), middle, numbers.end());
+  return *middle;
+}
+
+}  // namespace asdfvk
