@@ -19,7 +19,7 @@ std::vector<TracedFace> traceSample(ComputeBackend& backend, Mesh& mesh, const C
   const Bvh bvh = buildBvh(mesh, prepared.geometry, prepared.representatives);
   const TraceScene scene{mesh, prepared.geometry, prepared.representatives, bvh};
   std::vector<double> values(faces.size());
-  backend.makeTracer(scene, cone)->trace(faces, values, control);
+  backend.makeTracer(scene, cone)->trace(faces, {values}, control);
 
   std::vector<TracedFace> sample;
   for (size_t i = 0; i < faces.size(); ++i)

@@ -3,6 +3,7 @@
 // cone walks the rays i, i + kLanesPerCone, ..., and the lanes reduce the lengths to one float (the packet that the ASDF
 // paper's section 6 asks for).
 #extension GL_GOOGLE_include_directive : require
+#include "shared/cone_hit.h"
 #include "shared/cone_layout.h"
 #include "shared/cone_rules.h"
 
@@ -11,12 +12,14 @@ layout(constant_id = 0) const uint kLanesPerCone = 32;
 layout(constant_id = 1) const uint kConesPerWorkgroup = 1;
 layout(constant_id = 2) const uint kRayCount = 30;
 layout(constant_id = 3) const uint kIterationLimit = 8000;  // Of one lane, all its rays together.
+layout(constant_id = 4) const bool kWritesHits = false;
 
 layout(set = 0, binding = 0, rgba32ui) uniform readonly uimageBuffer bvhNodes;
 layout(set = 0, binding = 1, rgba32ui) uniform readonly uimageBuffer bvhTriangles;
 layout(set = 0, binding = 2) readonly buffer Rays { ConeRay rays[]; };
 layout(set = 0, binding = 3) readonly buffer Origins { ConeOrigin origins[]; };
 layout(set = 0, binding = 4) writeonly buffer Results { uint results[]; };
+layout(set = 0, binding = 5) writeonly buffer Hits { uvec2 hits[]; };  // ConeHit, kRayCount per cone, if kWritesHits.
 layout(push_constant) uniform Push { ConePush push; };
 
 shared float lengths[kConesPerWorkgroup * kRayCount];
@@ -37,6 +40,11 @@ float validLength(Hit hit, vec3 axis) {
   return -dot(normal, axis) > push.falseHitCosine ? kDropped : hit.distance;
 }
 
+uvec2 encodeHit(Hit hit) {
+  if (hit.slot == kNoSlot) return uvec2(kMissDistanceBits, kNoFace);
+  return uvec2(floatBitsToUint(hit.distance), loadTriangle(hit.slot).faceIndex);
+}
+
 void main() {
   const uint lane = gl_LocalInvocationID.x;
   const uint slot = gl_LocalInvocationID.y;
@@ -55,6 +63,7 @@ void main() {
     const Hit hit = findNearestHit(start.origin, direction, start.excludedFace, iterationCount);
     if (!hit.isComplete) atomicAdd(incompleteCounts[slot], 1u);
     lengths[base + ray] = validLength(hit, axis);
+    if (kWritesHits && exists) hits[cone * kRayCount + ray] = encodeHit(hit);
   }
   barrier();
   uint validCount;

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/error.h"
+#include "core/random.h"
 #include "shared/cone_rules.h"
 
 namespace asdfvk {
@@ -71,6 +72,7 @@ Cone makeCone(const ConeOptions& options) {
   Cone cone;
   cone.falseHitCosine = std::cos(options.falseHitAngleDegrees * std::numbers::pi / 180) + kFalseHitSlack;
   cone.outlierDeviations = options.outlierDeviations;
+  cone.rotation = options.rotation;
   for (const Ray& ray : rays) {
     cone.directions.push_back(ray.direction);
     cone.weights.push_back(ray.weight);
@@ -83,6 +85,14 @@ ConeFrame coneFrame(const Vec3d& z) {
   const double a = -1 / (s + z.z);
   const double b = z.x * z.y * a;
   return {{1 + s * z.x * z.x * a, s * b, -s * z.x}, {b, s + z.y * z.y * a, -z.y}, z};
+}
+
+ConeFrame faceConeFrame(const Cone& cone, const Vec3d& normal, uint32_t face) {
+  const ConeFrame frame = coneFrame(-normal);
+  if (cone.rotation == ConeRotation::Fixed) return frame;
+  const double angle = 2 * std::numbers::pi * Random(face).real();  // The first number of a seed is a hash of it.
+  const double cosine = std::cos(angle), sine = std::sin(angle);
+  return {cosine * frame.tangent + sine * frame.bitangent, cosine * frame.bitangent - sine * frame.tangent, frame.axis};
 }
 
 }  // namespace asdfvk

@@ -8,6 +8,12 @@
 
 namespace asdfvk {
 
+/// How the rays of a face lie about its axis.
+enum class ConeRotation {
+  Fixed,   ///< By the axis alone, so that neighbouring faces cast nearly parallel rays.
+  Hashed,  ///< Turned by an angle that is a hash of the face's index: neighbours err independently.
+};
+
 /// Shapira, Shamir and Cohen-Or 2008, section 3, as quoted in the ASDF paper, section 3.
 struct ConeOptions {
   uint32_t rayCount = 30;            ///< 1 to kMaxRayCount.
@@ -15,6 +21,7 @@ struct ConeOptions {
   double falseHitAngleDegrees =
       90;                        ///< A hit on a face that looks along the seed's normal within this is false; 0 to 180.
   double outlierDeviations = 1;  ///< Lengths farther from the median than so many standard deviations are; above 0.
+  ConeRotation rotation = ConeRotation::Fixed;
 };
 
 inline constexpr uint32_t kMaxRayCount = 1024;
@@ -29,10 +36,16 @@ struct Cone {
   double falseHitCosine = 0;     ///< A hit is false where the cosine of both normals' angle is above this: the slack of
                                  ///< shared/cone_rules.h is in it.
   double outlierDeviations = 1;  ///< As in the options.
+  ConeRotation rotation = ConeRotation::Fixed;
 };
 
 /// A golden-angle (Vogel) spiral, uniform in solid angle. Throws Error{Usage} for options out of range.
 [[nodiscard]] Cone makeCone(const ConeOptions& options);
+
+/// Whether a hit on a face with the one normal is dropped by the cone of a face with the other: both look the same way.
+[[nodiscard]] inline bool isFalseHit(const Cone& cone, const Vec3d& seedNormal, const Vec3d& hitNormal) {
+  return dot(seedNormal, hitNormal) > cone.falseHitCosine;
+}
 
 /// A right-handed orthonormal frame; a ray of the cone is x * tangent + y * bitangent + z * axis.
 struct ConeFrame {
@@ -42,6 +55,10 @@ struct ConeFrame {
 /// Duff et al. 2017, "Building an Orthonormal Basis, Revisited", with the jump moved to axis.z = -0.7, where no
 /// axis-aligned wall has its normal. `axis` is a unit vector: minus the face normal.
 [[nodiscard]] ConeFrame coneFrame(const Vec3d& axis);
+
+/// The frame of the rays of a face with that unit normal: coneFrame(-normal), turned about its axis as the cone's
+/// rotation says.
+[[nodiscard]] ConeFrame faceConeFrame(const Cone& cone, const Vec3d& normal, uint32_t face);
 
 /// The shape diameter from the lengths of a cone's valid rays: the weighted mean of those within outlierDeviations
 /// standard deviations (population, about the mean) of the median (mean of the middle two for an even count), with the

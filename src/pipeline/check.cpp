@@ -22,7 +22,7 @@ class References {
  public:
   References(std::vector<uint32_t> ascendingFaces, const TraceScene& scene, const Cone& cone, const RunControl& control)
       : faces_(std::move(ascendingFaces)), values_(faces_.size()) {
-    makeReferenceTracer(scene, cone)->trace(faces_, values_, control);
+    makeReferenceTracer(scene, cone)->trace(faces_, {values_}, control);
   }
 
   /// Precondition: the face is among them.

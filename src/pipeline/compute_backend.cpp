@@ -47,11 +47,11 @@ void ComputeBackend::useReference(const std::string& reason) {
   deviceLines_ = {fmt::format("the reference runs on the CPU: {}", reason)};
 }
 
-std::unique_ptr<ConeTracer> ComputeBackend::makeTracer(const TraceScene& scene, const Cone& cone) {
+std::unique_ptr<ConeTracer> ComputeBackend::makeTracer(const TraceScene& scene, const Cone& cone, bool writesHits) {
   if (!device_) return makeReferenceTracer(scene, cone);
-  const auto rayCount = static_cast<uint32_t>(cone.directions.size());
-  std::unique_ptr<VulkanConeKernel>& kernel = kernels_[rayCount];
-  if (!kernel) kernel = std::make_unique<VulkanConeKernel>(*device_, rayCount);
+  const ConeKernelRequest request{static_cast<uint32_t>(cone.directions.size()), writesHits};
+  std::unique_ptr<VulkanConeKernel>& kernel = kernels_[request];
+  if (!kernel) kernel = std::make_unique<VulkanConeKernel>(*device_, request);
   return makeVulkanTracer(*kernel, scene, cone);
 }
 

@@ -27,8 +27,9 @@ class ComputeBackend {
   /// The reference, or a Vulkan device that is the CPU itself.
   [[nodiscard]] bool runsOnCpu() const { return !device_ || device_->facts().kind == DeviceKind::Cpu; }
 
-  /// The scene and the cone must outlive the tracer.
-  [[nodiscard]] std::unique_ptr<ConeTracer> makeTracer(const TraceScene& scene, const Cone& cone);
+  /// The scene and the cone must outlive the tracer. writesHits: whether it can be asked for hits.
+  [[nodiscard]] std::unique_ptr<ConeTracer> makeTracer(const TraceScene& scene, const Cone& cone,
+                                                       bool writesHits = false);
   /// Throws Error{Device} for a solver that needs a device when there is none.
   [[nodiscard]] PoissonSolver& solver(SolverChoice choice);
   /// Throws Error{Device} with what the validation layers said, if they are on and said something.
@@ -40,8 +41,8 @@ class ComputeBackend {
 
   // In this order: what comes later is made of what comes before and goes first.
   std::unique_ptr<Instance> instance_;
-  std::unique_ptr<Device> device_;                                 ///< Null: the reference.
-  std::map<uint32_t, std::unique_ptr<VulkanConeKernel>> kernels_;  ///< By ray count.
+  std::unique_ptr<Device> device_;  ///< Null: the reference.
+  std::map<ConeKernelRequest, std::unique_ptr<VulkanConeKernel>> kernels_;
   std::map<SolverChoice, std::unique_ptr<PoissonSolver>> solvers_;
   std::string name_, deviceName_;
   std::vector<std::string> deviceLines_;

@@ -12,7 +12,7 @@ namespace {
 
 void traceInto(TracedSeeds& traced, const std::vector<uint32_t>& faces, ConeTracer& tracer, const RunControl& control) {
   std::vector<double> values(faces.size());
-  const TraceStatistics statistics = tracer.trace(faces, values, control);
+  const TraceStatistics statistics = tracer.trace(faces, {values}, control);
   traced.statistics.rayCount += statistics.rayCount;
   traced.statistics.redoneConeCount += statistics.redoneConeCount;
   traced.seedCount += faces.size();

@@ -6,9 +6,11 @@
 
 #include "bvh/bvh.h"
 #include "cone/cone.h"
+#include "core/check.h"
 #include "core/run_control.h"
 #include "mesh/face_geometry.h"
 #include "mesh/mesh.h"
+#include "shared/cone_hit.h"
 
 namespace asdfvk {
 
@@ -26,16 +28,30 @@ struct TraceStatistics {
       0;  ///< Cones that the reference traced instead of a device: beyond its iterations or float32.
 };
 
+/// Where the results of N cones of R rays go.
+struct ConeResults {
+  std::span<double> values;  ///< N.
+  /// What each ray met, valid or not: empty when nobody asks, else N R, ray r of cone i (in the order of
+  /// Cone::directions) at i R + r. A false intersection is reported with its face; isFalseHit() tells.
+  std::span<ConeHit> hits = {};
+};
+
+/// Throws CheckFailure when the results have no room for so many cones.
+inline void checkSizes(const ConeResults& results, size_t coneCount, size_t rayCount) {
+  ASDFVK_CHECK_OP(results.values.size(), ==, coneCount);
+  if (!results.hits.empty()) ASDFVK_CHECK_OP(results.hits.size(), ==, coneCount * rayCount);
+}
+
 /// A way to trace cones. All of them share one accept rule: the nearest hit that is not on the seed face itself or a
-/// copy of it; dropped when that hit's face looks along the seed's normal (angle below 90 degrees, see
-/// Cone::falseHitCosine) or nothing is hit.
+/// copy of it; dropped when that hit is false (see isFalseHit()) or nothing is hit.
 class ConeTracer {
  public:
   virtual ~ConeTracer() = default;
 
-  /// values[i] becomes the shape diameter at seedFaces[i] in the mesh's unit, or kNoValue when no ray of its cone is
-  /// valid. Precondition: no seed face is degenerate. Throws Error{Cancelled} between chunks, Error{Device}.
-  virtual TraceStatistics trace(std::span<const uint32_t> seedFaces, std::span<double> values,
+  /// results.values[i] becomes the shape diameter at seedFaces[i] in the mesh's unit, or kNoValue when no ray of its
+  /// cone is valid; it has the same bits whether hits are asked for or not. Precondition: no seed face is degenerate.
+  /// Throws Error{Cancelled} between chunks, Error{Device}.
+  virtual TraceStatistics trace(std::span<const uint32_t> seedFaces, const ConeResults& results,
                                 const RunControl& control) = 0;
 };
 

@@ -1,14 +1,12 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 
 #include "bvh/bvh.h"
+#include "shared/cone_hit.h"
 #include "trace/ray_triangle.h"
 
 namespace asdfvk {
-
-inline constexpr uint32_t kNoFace = std::numeric_limits<uint32_t>::max();
 
 struct RayHit {
   double distance = kNoHit;  ///< In normalised units.

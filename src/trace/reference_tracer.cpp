@@ -14,22 +14,24 @@
 namespace asdfvk {
 namespace {
 
-// In normalised units; kNoHit for a dropped ray.
-double validDistance(const TraceScene& scene, const Cone& cone, const Vec3d& origin, const Vec3d& direction,
-                     uint32_t seedFace) {
-  const RayHit hit = nearestHit(scene.bvh, scene.mesh, origin, direction, scene.representatives[seedFace]);
-  if (hit.face == kNoFace) return kNoHit;
-  const bool isFalse = dot(scene.geometry.normals[seedFace], scene.geometry.normals[hit.face]) > cone.falseHitCosine;
-  return isFalse ? kNoHit : hit.distance;
+RayHit hitOf(const TraceScene& scene, const Vec3d& origin, const Vec3d& direction, uint32_t seedFace) {
+  return nearestHit(scene.bvh, scene.mesh, origin, direction, scene.representatives[seedFace]);
+}
+
+bool isValid(const TraceScene& scene, const Cone& cone, uint32_t seedFace, const RayHit& hit) {
+  const std::vector<Vec3d>& normals = scene.geometry.normals;
+  return hit.face != kNoFace && !isFalseHit(cone, normals[seedFace], normals[hit.face]);
 }
 
 class ReferenceTracer final : public ConeTracer {
  public:
   ReferenceTracer(const TraceScene& scene, const Cone& cone) : scene_(scene), cone_(cone) {}
 
-  TraceStatistics trace(std::span<const uint32_t> seedFaces, std::span<double> values,
+  TraceStatistics trace(std::span<const uint32_t> seedFaces, const ConeResults& results,
                         const RunControl& control) override {
-    ASDFVK_CHECK_OP(seedFaces.size(), ==, values.size());
+    const size_t rayCount = cone_.directions.size();
+    checkSizes(results, seedFaces.size(), rayCount);
+    const size_t hitCount = results.hits.empty() ? 0 : rayCount;  // per cone
     const auto total = static_cast<double>(seedFaces.size());
     ChunkSize chunk(64, seedFaces.size());
     for (size_t begin = 0; begin < seedFaces.size();) {
@@ -37,13 +39,14 @@ class ReferenceTracer final : public ConeTracer {
       const size_t end = std::min<size_t>(begin + chunk.current(), seedFaces.size());
       const Stopwatch stopwatch;
       tbb::parallel_for(tbb::blocked_range<size_t>(begin, end, 8), [&](const tbb::blocked_range<size_t>& range) {
-        for (size_t i = range.begin(); i < range.end(); ++i) values[i] = referenceCone(scene_, cone_, seedFaces[i]);
+        for (size_t i = range.begin(); i < range.end(); ++i)
+          results.values[i] = referenceCone(scene_, cone_, seedFaces[i], results.hits.subspan(i * hitCount, hitCount));
       });
       chunk.adapt(end - begin, stopwatch.seconds());
       begin = end;
     }
     control.checkpoint(1);
-    return {.rayCount = seedFaces.size() * cone_.directions.size(), .redoneConeCount = 0};
+    return {.rayCount = seedFaces.size() * rayCount, .redoneConeCount = 0};
   }
 
  private:
@@ -59,22 +62,23 @@ std::unique_ptr<ConeTracer> makeReferenceTracer(const TraceScene& scene, const C
 
 double referenceRayLength(const TraceScene& scene, const Cone& cone, const Vec3d& direction, uint32_t seedFace) {
   const Vec3d origin = scene.bvh.normalization.toNormalized(scene.geometry.barycentres[seedFace]);
-  const double distance = validDistance(scene, cone, origin, direction, seedFace);
-  return distance < kNoHit ? scene.bvh.normalization.toMeshLength(distance) : kNoValue;
+  const RayHit hit = hitOf(scene, origin, direction, seedFace);
+  return isValid(scene, cone, seedFace, hit) ? scene.bvh.normalization.toMeshLength(hit.distance) : kNoValue;
 }
 
-double referenceCone(const TraceScene& scene, const Cone& cone, uint32_t seedFace) {
+double referenceCone(const TraceScene& scene, const Cone& cone, uint32_t seedFace, std::span<ConeHit> hits) {
   ASDFVK_CHECK(!scene.geometry.isDegenerate(seedFace));
-  const ConeFrame frame = coneFrame(-scene.geometry.normals[seedFace]);
+  const ConeFrame frame = faceConeFrame(cone, scene.geometry.normals[seedFace], seedFace);
   const Vec3d origin = scene.bvh.normalization.toNormalized(scene.geometry.barycentres[seedFace]);
   std::array<double, kMaxRayCount> distances, weights;
   size_t validCount = 0;
   for (size_t i = 0; i < cone.directions.size(); ++i) {
     const Vec3d& d = cone.directions[i];
     const Vec3d direction = d.x * frame.tangent + d.y * frame.bitangent + d.z * frame.axis;
-    const double distance = validDistance(scene, cone, origin, direction, seedFace);
-    if (!(distance < kNoHit)) continue;
-    distances[validCount] = distance;
+    const RayHit hit = hitOf(scene, origin, direction, seedFace);
+    if (!hits.empty()) hits[i] = {static_cast<float>(hit.distance), hit.face};
+    if (!isValid(scene, cone, seedFace, hit)) continue;
+    distances[validCount] = hit.distance;
     weights[validCount] = cone.weights[i];
     ++validCount;
   }

@@ -15,7 +15,8 @@ namespace asdfvk {
 [[nodiscard]] double referenceRayLength(const TraceScene& scene, const Cone& cone, const Vec3d& direction,
                                         uint32_t seedFace);
 
-/// The value of one cone, exactly as makeReferenceTracer()'s tracer gives it; safe to call from any thread.
-[[nodiscard]] double referenceCone(const TraceScene& scene, const Cone& cone, uint32_t seedFace);
+/// The value of one cone, exactly as makeReferenceTracer()'s tracer gives it; safe to call from any thread. hits:
+/// empty, or one per ray.
+double referenceCone(const TraceScene& scene, const Cone& cone, uint32_t seedFace, std::span<ConeHit> hits = {});
 
 }  // namespace asdfvk

@@ -5,22 +5,24 @@
 
 namespace asdfvk {
 
-VulkanConeKernel::VulkanConeKernel(const Device& device, uint32_t rayCount)
-    : VulkanConeKernel(device, rayCount, workgroupShapeFor(device.facts(), rayCount)) {}
+VulkanConeKernel::VulkanConeKernel(const Device& device, const ConeKernelRequest& request)
+    : VulkanConeKernel(device, request, workgroupShapeFor(device.facts(), request.rayCount)) {}
 
-VulkanConeKernel::VulkanConeKernel(const Device& device, uint32_t rayCount, const VulkanWorkgroupShape& shape)
+VulkanConeKernel::VulkanConeKernel(const Device& device, const ConeKernelRequest& request,
+                                   const VulkanWorkgroupShape& shape)
     : device_(device),
-      rayCount_(rayCount),
+      request_(request),
       shape_(shape),
       pipeline_(device, {.name = "trace_cone.comp",
                          .spirv = k_trace_cone_comp,
                          .bindings = {VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER, VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER,
                                       VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
-                                      VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
+                                      VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
                          .pushConstantByteCount = sizeof(ConePush),
                          .specializationConstants = {/* LANES_PER_CONE= */ shape.lanesPerCone,
                                                      /* CONES_PER_WORKGROUP= */ shape.conesPerWorkgroup,
-                                                     /* RAY_COUNT= */ rayCount,
-                                                     /* ITERATION_LIMIT= */ shape.iterationLimit}}) {}
+                                                     /* RAY_COUNT= */ request.rayCount,
+                                                     /* ITERATION_LIMIT= */ shape.iterationLimit,
+                                                     /* WRITES_HITS= */ request.writesHits ? VK_TRUE : VK_FALSE}}) {}
 
 }  // namespace asdfvk

@@ -22,12 +22,15 @@ namespace {
 
 // A chunk's cones need 48 bytes each; this many keep it at 6 MiB.
 constexpr uint64_t kLargestChunk = 1u << 17;
+constexpr uint64_t kLargestHitBufferByteCount = 32u << 20;
 constexpr uint64_t kFirstChunkRayCount = 1u << 16;
 
 // In normalised units. A face smaller than the first, or a diameter shorter than the second, is too near to what
 // float32 resolves (2^-24 at the rim of the box): its cone is the reference's.
 constexpr double kSmallestFace = 0x1p-16;
 constexpr double kShortestDiameter = 0x1p-14;
+
+constexpr ConeHit kMiss{std::bit_cast<float>(kMissDistanceBits), kNoFace};
 
 glsl::vec3 toGlsl(const Vec3d& v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
@@ -45,10 +48,21 @@ Buffer upload(const Device& device, const std::vector<T>& items, VkBufferUsageFl
   return uploadBuffer(device, std::as_bytes(std::span(items)), usage);
 }
 
+/// Of one cone.
+uint64_t hitByteCount(const VulkanConeKernel& kernel) { return kernel.rayCount() * sizeof(ConeHit); }
+
 uint64_t largestChunk(const VulkanConeKernel& kernel) {
   const DeviceFacts& facts = kernel.device().facts();
-  return std::min({kLargestChunk, uint64_t{facts.maxWorkgroupCount} * kernel.shape().conesPerWorkgroup,
-                   facts.maxStorageBufferRange / sizeof(ConeOrigin)});
+  const uint64_t largest =
+      std::min({kLargestChunk, uint64_t{facts.maxWorkgroupCount} * kernel.shape().conesPerWorkgroup,
+                facts.maxStorageBufferRange / sizeof(ConeOrigin)});
+  if (!kernel.writesHits()) return largest;
+  return std::min(largest, std::min(kLargestHitBufferByteCount, facts.maxStorageBufferRange) / hitByteCount(kernel));
+}
+
+/// One cone's where there are none, as every binding needs a buffer.
+uint64_t hitBufferByteCount(const VulkanConeKernel& kernel) {
+  return (kernel.writesHits() ? largestChunk(kernel) : 1) * hitByteCount(kernel);
 }
 
 /// The scene on the device, and room for one chunk of cones.
@@ -63,12 +77,13 @@ struct Upload {
                 MemoryKind::HostVisible),
         results(kernel.device(), largestChunk(kernel) * sizeof(uint32_t), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
                 MemoryKind::HostVisible),
+        hits(kernel.device(), hitBufferByteCount(kernel), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, MemoryKind::HostVisible),
         bindings(kernel.device(), kernel.pipeline(),
-                 std::vector<Binding>{nodeTexels, triangleTexels, rays, origins, results}) {}
+                 std::vector<Binding>{nodeTexels, triangleTexels, rays, origins, results, hits}) {}
 
   Buffer nodes, triangles;
   TexelView nodeTexels, triangleTexels;
-  Buffer rays, origins, results;
+  Buffer rays, origins, results, hits;
   BindingSet bindings;
 };
 
@@ -85,12 +100,14 @@ class VulkanTracer final : public ConeTracer {
     for (uint32_t slot = 0; slot < scene.bvh.slotFaces.size(); ++slot) slotOfFace_[scene.bvh.slotFaces[slot]] = slot;
   }
 
-  TraceStatistics trace(std::span<const uint32_t> seedFaces, std::span<double> values,
+  TraceStatistics trace(std::span<const uint32_t> seedFaces, const ConeResults& results,
                         const RunControl& control) override {
-    ASDFVK_CHECK_OP(seedFaces.size(), ==, values.size());
+    checkSizes(results, seedFaces.size(), kernel_.rayCount());
+    ASDFVK_CHECK(results.hits.empty() || kernel_.writesHits());
     const TraceStatistics statistics{seedFaces.size() * cone_.directions.size(), 0};
     if (scene_.bvh.nodes.empty()) {
-      std::fill(values.begin(), values.end(), kNoValue);
+      std::fill(results.values.begin(), results.values.end(), kNoValue);
+      std::fill(results.hits.begin(), results.hits.end(), kMiss);
       return statistics;
     }
     std::vector<uint32_t> order = orderByHierarchy(seedFaces);
@@ -99,9 +116,9 @@ class VulkanTracer final : public ConeTracer {
     std::vector<uint32_t> redone(firstSmall, order.end());  // indices into seedFaces
     order.erase(firstSmall, order.end());
     const double deviceShare =
-        static_cast<double>(order.size()) / static_cast<double>(std::max<size_t>(1, values.size()));
-    traceOnDevice(seedFaces, order, values, redone, control.part(0, deviceShare));
-    redo(seedFaces, redone, values, control.part(deviceShare, 1));
+        static_cast<double>(order.size()) / static_cast<double>(std::max<size_t>(1, seedFaces.size()));
+    traceOnDevice(seedFaces, order, results, redone, control.part(0, deviceShare));
+    redo(seedFaces, redone, results, control.part(deviceShare, 1));
     return {statistics.rayCount, redone.size()};
   }
 
@@ -110,15 +127,15 @@ class VulkanTracer final : public ConeTracer {
     return std::sqrt(scene_.geometry.areas[face]) * scene_.bvh.normalization.scale < kSmallestFace;
   }
 
-  void traceOnDevice(std::span<const uint32_t> seedFaces, const std::vector<uint32_t>& order, std::span<double> values,
-                     std::vector<uint32_t>& redone, const RunControl& control) {
+  void traceOnDevice(std::span<const uint32_t> seedFaces, const std::vector<uint32_t>& order,
+                     const ConeResults& results, std::vector<uint32_t>& redone, const RunControl& control) {
     ChunkSize chunk(std::max<uint64_t>(1, kFirstChunkRayCount / kernel_.rayCount()), largestChunk(kernel_));
     for (size_t begin = 0; begin < order.size();) {
       control.checkpoint(static_cast<double>(begin) / static_cast<double>(order.size()));
       const size_t count = std::min<size_t>(chunk.current(), order.size() - begin);
       const Stopwatch watch;
       traceChunk(seedFaces, std::span(order).subspan(begin, count));
-      readChunk(std::span(order).subspan(begin, count), values, redone);
+      readChunk(std::span(order).subspan(begin, count), results, redone);
       chunk.adapt(count, watch.seconds());
       begin += count;
     }
@@ -141,7 +158,7 @@ class VulkanTracer final : public ConeTracer {
     const std::span<ConeOrigin> origins = upload_.origins.mappedAs<ConeOrigin>();
     tbb::parallel_for(size_t{0}, order.size(), [&](size_t i) {
       const uint32_t face = seedFaces[order[i]];
-      const ConeFrame frame = coneFrame(-scene_.geometry.normals[face]);
+      const ConeFrame frame = faceConeFrame(cone_, scene_.geometry.normals[face], face);
       origins[i] = {toGlsl(scene_.bvh.normalization.toNormalized(scene_.geometry.barycentres[face])),
                     scene_.representatives[face],
                     toGlsl(frame.tangent),
@@ -158,23 +175,44 @@ class VulkanTracer final : public ConeTracer {
     commands_.submitAndWait();
   }
 
-  void readChunk(std::span<const uint32_t> order, std::span<double> values, std::vector<uint32_t>& redone) const {
-    const std::span<const uint32_t> results = upload_.results.mappedAs<uint32_t>();
+  void readChunk(std::span<const uint32_t> order, const ConeResults& results, std::vector<uint32_t>& redone) const {
+    const std::span<const uint32_t> lengths = upload_.results.mappedAs<uint32_t>();
     for (size_t i = 0; i < order.size(); ++i) {
-      const double length = results[i] == kNoValueBits ? kNoValue : std::bit_cast<float>(results[i]);
-      if (results[i] == kIterationLimitBits || length < kShortestDiameter) redone.push_back(order[i]);
-      values[order[i]] = scene_.bvh.normalization.toMeshLength(length);
+      const double length = lengths[i] == kNoValueBits ? kNoValue : std::bit_cast<float>(lengths[i]);
+      if (lengths[i] == kIterationLimitBits || length < kShortestDiameter) redone.push_back(order[i]);
+      results.values[order[i]] = scene_.bvh.normalization.toMeshLength(length);
     }
+    if (!results.hits.empty()) copyHits(order, upload_.hits.mappedAs<ConeHit>(), results.hits);
   }
 
-  void redo(std::span<const uint32_t> seedFaces, const std::vector<uint32_t>& redone, std::span<double> values,
+  /// From the cones in `order` to where they belong.
+  void copyHits(std::span<const uint32_t> order, std::span<const ConeHit> from, std::span<ConeHit> to) const {
+    const size_t rayCount = kernel_.rayCount();
+    tbb::parallel_for(size_t{0}, order.size(), [&](size_t i) {
+      std::copy_n(from.begin() + static_cast<std::ptrdiff_t>(i * rayCount), rayCount,
+                  to.begin() + static_cast<std::ptrdiff_t>(order[i] * rayCount));
+    });
+  }
+
+  void redo(std::span<const uint32_t> seedFaces, const std::vector<uint32_t>& redone, const ConeResults& results,
             const RunControl& control) const {
-    if (redone.empty()) return;
-    std::vector<uint32_t> faces;
-    for (const uint32_t i : redone) faces.push_back(seedFaces[i]);
-    std::vector<double> redoneValues(faces.size());
-    makeReferenceTracer(scene_, cone_)->trace(faces, redoneValues, control);
-    for (size_t i = 0; i < redone.size(); ++i) values[redone[i]] = redoneValues[i];
+    const std::unique_ptr<ConeTracer> reference = makeReferenceTracer(scene_, cone_);
+    const size_t hitCount = results.hits.empty() ? 0 : kernel_.rayCount();  // per cone
+    const size_t blockSize = largestChunk(kernel_);                         // so that hits are not all there twice
+    const auto total = static_cast<double>(redone.size());
+    for (size_t begin = 0; begin < redone.size(); begin += blockSize) {
+      const std::span<const uint32_t> block =
+          std::span(redone).subspan(begin, std::min(blockSize, redone.size() - begin));
+      std::vector<uint32_t> faces;
+      for (const uint32_t i : block) faces.push_back(seedFaces[i]);
+      std::vector<double> values(block.size());
+      std::vector<ConeHit> hits(block.size() * hitCount);
+      reference->trace(
+          faces, {values, hits},
+          control.part(static_cast<double>(begin) / total, static_cast<double>(begin + block.size()) / total));
+      for (size_t i = 0; i < block.size(); ++i) results.values[block[i]] = values[i];
+      if (hitCount > 0) copyHits(block, hits, results.hits);
+    }
   }
 
   const VulkanConeKernel& kernel_;

@@ -47,7 +47,7 @@ BruteForceCone traceByBruteForce(const Mesh& mesh, const Cone& cone, uint32_t se
   const Corners seed = cornersOf(mesh, seedFace);
   const Vec3d origin = (seed.a + seed.b + seed.c) / 3.0;
   const Vec3d normal = seed.normal() / length(seed.normal());
-  const ConeFrame frame = coneFrame(-normal);
+  const ConeFrame frame = faceConeFrame(cone, normal, seedFace);
   const std::vector<Corners> others = facesToHit(mesh, seedFace);
   BruteForceCone result;
   for (const Vec3d& d : cone.directions) {

@@ -31,7 +31,7 @@ Difference compareWithBruteForce(const Mesh& source, uint32_t maxFaces, const Co
   const uint32_t step = std::max(1u, traced.mesh.faceCount() / maxFaces);
   for (uint32_t face = 0; face < traced.mesh.faceCount(); face += step) {
     const BruteForceCone expected = traceByBruteForce(traced.mesh, cone, face);
-    const ConeFrame frame = coneFrame(-traced.geometry.normals[face]);
+    const ConeFrame frame = faceConeFrame(cone, traced.geometry.normals[face], face);
     for (size_t i = 0; i < cone.directions.size(); ++i) {
       const Vec3d& d = cone.directions[i];
       const double length = referenceRayLength(traced.scene(), cone,

@@ -114,7 +114,7 @@ TEST_CASE("progress rises to 1 on the calling thread and rays are counted") {
     fractions.push_back(fraction);
     calledElsewhere |= std::this_thread::get_id() != caller;
   };
-  const TraceStatistics statistics = makeReferenceTracer(traced.scene(), cone)->trace(seeds, values, control);
+  const TraceStatistics statistics = makeReferenceTracer(traced.scene(), cone)->trace(seeds, {values}, control);
   CHECK(statistics.rayCount == 13 * seeds.size());
   CHECK(statistics.redoneConeCount == 0);
   CHECK(!calledElsewhere);
@@ -134,7 +134,7 @@ TEST_CASE("a stop between chunks ends the trace") {
                        if (fraction > 0) stop.request_stop();
                      }};
   try {
-    makeReferenceTracer(traced.scene(), cone)->trace(seeds, values, control);
+    makeReferenceTracer(traced.scene(), cone)->trace(seeds, {values}, control);
     FAIL("the trace was not cancelled");
   } catch (const Error& error) {
     CHECK(error.kind() == ErrorKind::Cancelled);
@@ -151,5 +151,5 @@ TEST_CASE("a degenerate seed and a short array of values are broken precondition
   CHECK_THROWS_AS((void)referenceCone(traced.scene(), cone, 20), CheckFailure);
   const std::vector<uint32_t> seeds = {0, 1};
   std::vector<double> values(1);
-  CHECK_THROWS_AS(makeReferenceTracer(traced.scene(), cone)->trace(seeds, values, {}), CheckFailure);
+  CHECK_THROWS_AS(makeReferenceTracer(traced.scene(), cone)->trace(seeds, {values}, {}), CheckFailure);
 }

@@ -36,7 +36,7 @@ struct TracedMesh {
     const std::vector<uint32_t> seeds = seedFaces();
     std::vector<double> traced(seeds.size()), all(mesh.faceCount(), kNoValue);
     const Cone cone = makeCone(options);
-    makeReferenceTracer(scene(), cone)->trace(seeds, traced, {});
+    makeReferenceTracer(scene(), cone)->trace(seeds, {traced}, {});
     for (size_t i = 0; i < seeds.size(); ++i) all[seeds[i]] = traced[i];
     return all;
   }

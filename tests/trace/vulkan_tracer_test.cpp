@@ -28,7 +28,7 @@ Traced traceWith(const VulkanConeKernel& kernel, const TracedMesh& traced, const
   const Cone cone = makeCone(options);
   const std::vector<uint32_t> seeds = traced.seedFaces();
   Traced result{std::vector<double>(seeds.size()), {}};
-  result.statistics = makeVulkanTracer(kernel, traced.scene(), cone)->trace(seeds, result.values, control);
+  result.statistics = makeVulkanTracer(kernel, traced.scene(), cone)->trace(seeds, {result.values}, control);
   return result;
 }
 
@@ -36,7 +36,7 @@ std::vector<double> referenceValues(const TracedMesh& traced, const ConeOptions&
   const Cone cone = makeCone(options);
   const std::vector<uint32_t> seeds = traced.seedFaces();
   std::vector<double> values(seeds.size());
-  makeReferenceTracer(traced.scene(), cone)->trace(seeds, values, {});
+  makeReferenceTracer(traced.scene(), cone)->trace(seeds, {values}, {});
   return values;
 }
 
@@ -66,7 +66,7 @@ bool haveSameBits(const std::vector<double>& a, const std::vector<double>& b) {
 
 TEST_CASE("the kernel gives the reference's values on every generated shape") {
   const test::ValidatedDevice device;
-  const VulkanConeKernel kernel(*device, 30);
+  const VulkanConeKernel kernel(*device, {30});
   for (const std::string_view name : shapeNames()) {
     CAPTURE(name);
     checkParity(kernel, TracedMesh(generateShape(name, 3000).mesh));
@@ -75,7 +75,7 @@ TEST_CASE("the kernel gives the reference's values on every generated shape") {
 
 TEST_CASE("the kernel gives the reference's values on open, crossing, nested and non-manifold meshes") {
   const test::ValidatedDevice device;
-  const VulkanConeKernel kernel(*device, 30);
+  const VulkanConeKernel kernel(*device, {30});
   checkParity(kernel, TracedMesh(shapes::openBox({1, 2, 3}, 8)));
   checkParity(kernel, TracedMesh(shapes::soup(2000, 5)));
   checkParity(kernel, TracedMesh(shapes::shell(2, 1)));
@@ -88,7 +88,7 @@ TEST_CASE("any number of rays from 1 to 1024 gives the reference's values") {
   const TracedMesh traced(generateShape("torus", 600).mesh);
   for (const uint32_t rayCount : {1u, 2u, 3u, 7u, 8u, 9u, 31u, 32u, 33u, 64u, 100u, 255u, 256u, 257u, 1000u, 1024u}) {
     CAPTURE(rayCount);
-    const VulkanConeKernel kernel(*device, rayCount);
+    const VulkanConeKernel kernel(*device, {rayCount});
     checkParity(kernel, traced, {.rayCount = rayCount});
   }
 }
@@ -96,11 +96,11 @@ TEST_CASE("any number of rays from 1 to 1024 gives the reference's values") {
 TEST_CASE("any workgroup shape gives the same bits") {
   const test::ValidatedDevice device;
   const TracedMesh traced(generateShape("animal", 1500).mesh);
-  const std::vector<double> expected = traceWith(VulkanConeKernel(*device, 30), traced).values;
+  const std::vector<double> expected = traceWith(VulkanConeKernel(*device, {30}), traced).values;
   for (const VulkanWorkgroupShape shape : {VulkanWorkgroupShape{8, 1, 8000}, VulkanWorkgroupShape{16, 3, 8000},
                                            VulkanWorkgroupShape{32, 4, 8000}, VulkanWorkgroupShape{64, 2, 8000}}) {
     CAPTURE(shape.lanesPerCone);
-    CHECK(haveSameBits(traceWith(VulkanConeKernel(*device, 30, shape), traced).values, expected));
+    CHECK(haveSameBits(traceWith(VulkanConeKernel(*device, {30}, shape), traced).values, expected));
   }
 }
 
@@ -108,10 +108,10 @@ TEST_CASE("cones beyond the iteration guard are redone by the reference and coun
   const test::ValidatedDevice device;
   const TracedMesh traced(generateShape("animal", 1500).mesh);
   const std::vector<double> reference = referenceValues(traced);
-  const Traced all = traceWith(VulkanConeKernel(*device, 30, {32, 1, 3}), traced);
+  const Traced all = traceWith(VulkanConeKernel(*device, {30}, {32, 1, 3}), traced);
   CHECK(all.statistics.redoneConeCount == reference.size());
   CHECK(haveSameBits(all.values, reference));
-  const Traced some = traceWith(VulkanConeKernel(*device, 30, {32, 1, 60}), traced);
+  const Traced some = traceWith(VulkanConeKernel(*device, {30}, {32, 1, 60}), traced);
   CHECK(some.statistics.redoneConeCount > 0);
   CHECK(some.statistics.redoneConeCount < reference.size());
   CHECK(differingCount(some.values, reference, traced.geometry.bounds.diagonal()) <= reference.size() / 1000);
@@ -145,14 +145,14 @@ TEST_CASE("hostile cones run into the device's own guard, are redone and agree")
     needles.faces.push_back({3 * i, 3 * i + 1, 3 * i + 2});
   }
   const test::ValidatedDevice device;
-  const VulkanConeKernel kernel(*device, 30);
+  const VulkanConeKernel kernel(*device, {30});
   const TracedMesh traced(needles);
   const Cone cone = makeCone({});
   const std::vector<uint32_t> all = traced.seedFaces();
   const std::vector<uint32_t> seeds(all.begin(), all.begin() + 40);
   std::vector<double> values(seeds.size()), reference(seeds.size());
-  const TraceStatistics statistics = makeVulkanTracer(kernel, traced.scene(), cone)->trace(seeds, values, {});
-  makeReferenceTracer(traced.scene(), cone)->trace(seeds, reference, {});
+  const TraceStatistics statistics = makeVulkanTracer(kernel, traced.scene(), cone)->trace(seeds, {values}, {});
+  makeReferenceTracer(traced.scene(), cone)->trace(seeds, {reference}, {});
   if (device->facts().kind == DeviceKind::Cpu) CHECK(statistics.redoneConeCount > 0);
   CHECK(differingCount(values, reference, traced.geometry.bounds.diagonal()) <= 1);
 }
@@ -161,7 +161,7 @@ TEST_CASE("details too small for float32 are traced by the reference") {
   const Mesh large = generateShape("sphere", 500).mesh;
   const Mesh tiny = shapes::scaledAndShifted(large, 1e-6, {0.9, 0.9, 0.9});
   const test::ValidatedDevice device;
-  const VulkanConeKernel kernel(*device, 30);
+  const VulkanConeKernel kernel(*device, {30});
   const TracedMesh traced(shapes::joined(large, tiny));
   const std::vector<double> reference = referenceValues(traced);
   const Traced result = traceWith(kernel, traced);
@@ -181,7 +181,7 @@ TEST_CASE("details too small for float32 are traced by the reference") {
 TEST_CASE("rays along the sides of boxes do not leak") {
   // Flat, axis-aligned boxes: a cone's ray may run exactly in the plane of a hierarchy's box.
   const test::ValidatedDevice device;
-  const VulkanConeKernel kernel(*device, 30);
+  const VulkanConeKernel kernel(*device, {30});
   for (const uint32_t side : {1u, 3u, 10u}) {
     CAPTURE(side);
     const TracedMesh traced(shapes::box({2, 3, 0.01}, side));
@@ -192,7 +192,7 @@ TEST_CASE("rays along the sides of boxes do not leak") {
 
 TEST_CASE("the angle of false hits and the bound on outliers are options that every backend obeys") {
   const test::ValidatedDevice device;
-  const VulkanConeKernel kernel(*device, 30);
+  const VulkanConeKernel kernel(*device, {30});
   const TracedMesh traced(generateShape("animal", 1500).mesh);
   const std::vector<double> defaults = referenceValues(traced);
   for (const ConeOptions& options : {ConeOptions{.falseHitAngleDegrees = 20}, ConeOptions{.falseHitAngleDegrees = 150},
@@ -218,22 +218,22 @@ TEST_CASE("a GPU's workgroups hold several cones") {
 
 TEST_CASE("two runs on the device give the same bits, whatever the order of the seeds") {
   const test::ValidatedDevice device;
-  const VulkanConeKernel kernel(*device, 30);
+  const VulkanConeKernel kernel(*device, {30});
   const TracedMesh traced(generateShape("hand", 4000).mesh);
   const Cone cone = makeCone({});
   std::vector<uint32_t> seeds = traced.seedFaces();
   std::vector<double> forward(seeds.size()), backward(seeds.size());
   const auto tracer = makeVulkanTracer(kernel, traced.scene(), cone);
-  tracer->trace(seeds, forward, {});
+  tracer->trace(seeds, {forward}, {});
   std::reverse(seeds.begin(), seeds.end());
-  tracer->trace(seeds, backward, {});
+  tracer->trace(seeds, {backward}, {});
   std::reverse(backward.begin(), backward.end());
   CHECK(haveSameBits(forward, backward));
 }
 
 TEST_CASE("copies of faces, and degenerate ones beside them, change no value") {
   const test::ValidatedDevice device;
-  const VulkanConeKernel kernel(*device, 30);
+  const VulkanConeKernel kernel(*device, {30});
   Mesh mesh = generateShape("torus", 600).mesh;
   const std::vector<double> expected = traceWith(kernel, TracedMesh(mesh)).values;
   const size_t count = mesh.faces.size();
@@ -247,7 +247,7 @@ TEST_CASE("copies of faces, and degenerate ones beside them, change no value") {
 
 TEST_CASE("a trace on the device stops between chunks when it is asked to") {
   const test::ValidatedDevice device;
-  const VulkanConeKernel kernel(*device, 30);
+  const VulkanConeKernel kernel(*device, {30});
   const TracedMesh traced(generateShape("torus", 40'000).mesh);
   std::stop_source stop;
   uint32_t checkpointCount = 0;
@@ -282,7 +282,7 @@ TEST_CASE("a mesh beyond a device's limits is refused with a remedy") {
   DeviceFacts facts = describeDevice(physical);
   facts.maxTexelBufferElements = 100;
   const Device small(physical, facts);
-  const VulkanConeKernel kernel(small, 30);
+  const VulkanConeKernel kernel(small, {30});
   const TracedMesh traced(generateShape("sphere", 500).mesh);
   const Cone cone = makeCone({});
   CHECK_THROWS_WITH_AS((void)makeVulkanTracer(kernel, traced.scene(), cone), doctest::Contains("smaller mesh"), Error);
@@ -294,5 +294,5 @@ TEST_CASE("a device with too few storage buffers for a kernel is refused before 
   DeviceFacts facts = describeDevice(physical);
   facts.maxStorageBuffersPerStage = 2;
   const Device small(physical, facts);
-  CHECK_THROWS_WITH_AS(VulkanConeKernel(small, 30), doctest::Contains("--backend reference"), Error);
+  CHECK_THROWS_WITH_AS(VulkanConeKernel(small, {30}), doctest::Contains("--backend reference"), Error);
 }
