@@ -72,6 +72,7 @@ Cone makeCone(const ConeOptions& options) {
   Cone cone;
   cone.falseHitCosine = std::cos(options.falseHitAngleDegrees * std::numbers::pi / 180) + kFalseHitSlack;
   cone.outlierDeviations = options.outlierDeviations;
+  cone.halfAngleRadians = options.openingAngleDegrees * std::numbers::pi / 360;
   cone.rotation = options.rotation;
   for (const Ray& ray : rays) {
     cone.directions.push_back(ray.direction);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -36,6 +37,7 @@ struct Cone {
   double falseHitCosine = 0;     ///< A hit is false where the cosine of both normals' angle is above this: the slack of
                                  ///< shared/cone_rules.h is in it.
   double outlierDeviations = 1;  ///< As in the options.
+  double halfAngleRadians = 0;   ///< Between the axis and the rim.
   ConeRotation rotation = ConeRotation::Fixed;
 };
 
@@ -60,10 +62,20 @@ struct ConeFrame {
 /// rotation says.
 [[nodiscard]] ConeFrame faceConeFrame(const Cone& cone, const Vec3d& normal, uint32_t face);
 
-/// The shape diameter from the lengths of a cone's valid rays: the weighted mean of those within outlierDeviations
-/// standard deviations (population, about the mean) of the median (mean of the middle two for an even count), with the
-/// slack kOutlierSlack of shared/cone_rules.h. kNoValue for no rays, and where none is so near the median, which takes
-/// fewer than 1 deviation. lengths and weights have one entry per valid ray, in the cone's order.
+/// Which lengths of a cone are no outliers.
+struct LengthWindow {
+  double median = 0, bound = 0;
+  [[nodiscard]] bool keeps(double length) const { return std::abs(length - median) <= bound; }
+};
+
+/// The lengths within outlierDeviations standard deviations (population, about the mean) of the median (mean of the
+/// middle two for an even count), with the slack kOutlierSlack of shared/cone_rules.h. Precondition: there is one, and
+/// no more than kMaxRayCount.
+[[nodiscard]] LengthWindow keptWindow(std::span<const double> lengths, double outlierDeviations);
+
+/// The shape diameter from the lengths of a cone's valid rays: the weighted mean of those in keptWindow(). kNoValue for
+/// no rays, and where none is so near the median, which takes fewer than 1 deviation. lengths and weights have one
+/// entry per valid ray, in the cone's order.
 [[nodiscard]] double coneValue(std::span<const double> lengths, std::span<const double> weights,
                                double outlierDeviations = 1);
 

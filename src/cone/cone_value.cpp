@@ -29,17 +29,22 @@ double standardDeviation(std::span<const double> lengths) {
 
 }  // namespace
 
-double coneValue(std::span<const double> lengths, std::span<const double> weights, double outlierDeviations) {
-  ASDFVK_CHECK_OP(lengths.size(), ==, weights.size());
+LengthWindow keptWindow(std::span<const double> lengths, double outlierDeviations) {
+  ASDFVK_CHECK_OP(lengths.size(), >, size_t{0});
   ASDFVK_CHECK_OP(lengths.size(), <=, size_t{kMaxRayCount});
-  if (lengths.empty()) return kNoValue;
   std::array<double, kMaxRayCount> scratch;
   std::copy(lengths.begin(), lengths.end(), scratch.begin());
   const double median = takeMedian({scratch.data(), lengths.size()});
-  const double bound = outlierDeviations * standardDeviation(lengths) + kOutlierSlack * median;
+  return {median, outlierDeviations * standardDeviation(lengths) + kOutlierSlack * median};
+}
+
+double coneValue(std::span<const double> lengths, std::span<const double> weights, double outlierDeviations) {
+  ASDFVK_CHECK_OP(lengths.size(), ==, weights.size());
+  if (lengths.empty()) return kNoValue;
+  const LengthWindow window = keptWindow(lengths, outlierDeviations);
   double weightedSum = 0, weightSum = 0;
   for (size_t i = 0; i < lengths.size(); ++i) {
-    if (std::abs(lengths[i] - median) > bound) continue;
+    if (!window.keeps(lengths[i])) continue;
     weightedSum += weights[i] * lengths[i];
     weightSum += weights[i];
   }

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "mesh/buckets.h"
+#include "mesh/dual_graph.h"
+#include "mesh/face_geometry.h"
+
+namespace asdfvk {
+
+inline constexpr uint32_t kNoCell = std::numeric_limits<uint32_t>::max();
+
+/// The faces that are nearest to each seed, counted in steps over the dual graph: its cell. Cells are told by their
+/// seed's index.
+struct SeedCells {
+  std::vector<uint32_t> cellOf;  ///< #F; kNoCell where no path leads from a seed.
+  Buckets<uint32_t> faces;       ///< #S: the faces of each cell, ascending, the seed among them.
+  Buckets<uint32_t> neighbours;  ///< #S: the cells that share an edge with each, ascending.
+};
+
+/// Breadth first from all seeds at once; linear. seeds: face indices, each once.
+[[nodiscard]] SeedCells buildSeedCells(const DualGraph& graph, std::span<const uint32_t> seeds);
+
+/// A cell and up to `neighbourCount` of its neighbours, those with the nearest seeds: itself first, the others by the
+/// distance of their seed's barycentre from its own.
+[[nodiscard]] std::vector<uint32_t> nearestCells(const SeedCells& cells, const FaceGeometry& geometry,
+                                                 std::span<const uint32_t> seeds, uint32_t cell, size_t neighbourCount);
+
+}  // namespace asdfvk
