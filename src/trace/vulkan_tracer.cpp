@@ -9,20 +9,16 @@
 #include <numeric>
 #include <vector>
 
-#include "bvh/device_bvh.h"
 #include "core/check.h"
 #include "core/stopwatch.h"
-#include "shared/cone_layout.h"
 #include "trace/chunk_size.h"
 #include "trace/reference_tracer.h"
+#include "trace/vulkan_cone_buffers.h"
 #include "vk/command_list.h"
 
 namespace asdfvk {
 namespace {
 
-// A chunk's cones need 48 bytes each; this many keep it at 6 MiB.
-constexpr uint64_t kLargestChunk = 1u << 17;
-constexpr uint64_t kLargestHitBufferByteCount = 32u << 20;
 constexpr uint64_t kFirstChunkRayCount = 1u << 16;
 
 // In normalised units. A face smaller than the first, or a diameter shorter than the second, is too near to what
@@ -32,61 +28,6 @@ constexpr double kShortestDiameter = 0x1p-14;
 
 constexpr ConeHit kMiss{std::bit_cast<float>(kMissDistanceBits), kNoFace};
 
-glsl::vec3 toGlsl(const Vec3d& v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
-
-std::vector<ConeRay> deviceRays(const Cone& cone) {
-  std::vector<ConeRay> rays;
-  for (size_t i = 0; i < cone.directions.size(); ++i)
-    rays.push_back({toGlsl(cone.directions[i]), static_cast<float>(cone.weights[i])});
-  return rays;
-}
-
-template <typename T>
-Buffer upload(const Device& device, const std::vector<T>& items, VkBufferUsageFlags usage) {
-  return uploadBuffer(device, std::as_bytes(std::span(items)), usage);
-}
-
-/// Of one cone.
-uint64_t hitByteCount(const VulkanConeKernel& kernel) { return kernel.rayCount() * sizeof(ConeHit); }
-
-uint64_t largestChunk(const VulkanConeKernel& kernel) {
-  const DeviceFacts& facts = kernel.device().facts();
-  const uint64_t largest =
-      std::min({kLargestChunk, uint64_t{facts.maxWorkgroupCount} * kernel.shape().conesPerWorkgroup,
-                facts.maxStorageBufferRange / sizeof(ConeOrigin)});
-  if (!kernel.writesHits()) return largest;
-  return std::min(largest, std::min(kLargestHitBufferByteCount, facts.maxStorageBufferRange) / hitByteCount(kernel));
-}
-
-/// One cone's where there are none, as every binding needs a buffer.
-uint64_t hitBufferByteCount(const VulkanConeKernel& kernel) {
-  return (kernel.writesHits() ? largestChunk(kernel) : 1) * hitByteCount(kernel);
-}
-
-/// The scene on the device, and room for one chunk of cones.
-struct Upload {
-  Upload(const VulkanConeKernel& kernel, const DeviceBvh& bvh, const Cone& cone)
-      : nodes(upload(kernel.device(), bvh.nodes, VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT)),
-        triangles(upload(kernel.device(), bvh.triangles, VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT)),
-        nodeTexels(kernel.device(), nodes),
-        triangleTexels(kernel.device(), triangles),
-        rays(upload(kernel.device(), deviceRays(cone), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT)),
-        origins(kernel.device(), largestChunk(kernel) * sizeof(ConeOrigin), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
-                MemoryKind::HostVisible),
-        results(kernel.device(), largestChunk(kernel) * sizeof(uint32_t), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
-                MemoryKind::HostVisible),
-        hits(kernel.device(), hitBufferByteCount(kernel), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, MemoryKind::HostVisible),
-        bindings(kernel.device(), kernel.pipeline(),
-                 std::vector<Binding>{nodeTexels, triangleTexels, rays, origins, results, hits}) {}
-
-  Buffer nodes, triangles;
-  TexelView nodeTexels, triangleTexels;
-  Buffer rays, origins, results, hits;
-  BindingSet bindings;
-};
-
 class VulkanTracer final : public ConeTracer {
  public:
   VulkanTracer(const VulkanConeKernel& kernel, const TraceScene& scene, const Cone& cone)
@@ -94,7 +35,7 @@ class VulkanTracer final : public ConeTracer {
         scene_(scene),
         cone_(cone),
         slotOfFace_(scene.geometry.areas.size(), 0),
-        upload_(kernel, encodeDeviceBvh(scene.bvh, scene.mesh, scene.geometry), cone),
+        buffers_(kernel, encodeDeviceBvh(scene.bvh, scene.mesh, scene.geometry), cone),
         commands_(kernel.device()) {
     ASDFVK_CHECK_OP(cone.directions.size(), ==, size_t{kernel.rayCount()});
     for (uint32_t slot = 0; slot < scene.bvh.slotFaces.size(); ++slot) slotOfFace_[scene.bvh.slotFaces[slot]] = slot;
@@ -129,7 +70,7 @@ class VulkanTracer final : public ConeTracer {
 
   void traceOnDevice(std::span<const uint32_t> seedFaces, const std::vector<uint32_t>& order,
                      const ConeResults& results, std::vector<uint32_t>& redone, const RunControl& control) {
-    ChunkSize chunk(std::max<uint64_t>(1, kFirstChunkRayCount / kernel_.rayCount()), largestChunk(kernel_));
+    ChunkSize chunk(std::max<uint64_t>(1, kFirstChunkRayCount / kernel_.rayCount()), largestConeChunk(kernel_));
     for (size_t begin = 0; begin < order.size();) {
       control.checkpoint(static_cast<double>(begin) / static_cast<double>(order.size()));
       const size_t count = std::min<size_t>(chunk.current(), order.size() - begin);
@@ -155,7 +96,7 @@ class VulkanTracer final : public ConeTracer {
   uint32_t slotOf(uint32_t face) const { return slotOfFace_[scene_.representatives[face]]; }
 
   void traceChunk(std::span<const uint32_t> seedFaces, std::span<const uint32_t> order) {
-    const std::span<ConeOrigin> origins = upload_.origins.mappedAs<ConeOrigin>();
+    const std::span<ConeOrigin> origins = buffers_.origins.mappedAs<ConeOrigin>();
     tbb::parallel_for(size_t{0}, order.size(), [&](size_t i) {
       const uint32_t face = seedFaces[order[i]];
       const ConeFrame frame = faceConeFrame(cone_, scene_.geometry.normals[face], face);
@@ -170,19 +111,20 @@ class VulkanTracer final : public ConeTracer {
     const ConePush push{static_cast<uint32_t>(order.size()), static_cast<float>(cone_.falseHitCosine),
                         static_cast<float>(cone_.outlierDeviations)};
     commands_.begin();
-    commands_.dispatch(kernel_.pipeline(), upload_.bindings, bytesOf(push), (push.coneCount + perGroup - 1) / perGroup);
+    commands_.dispatch(kernel_.pipeline(), buffers_.bindings, bytesOf(push),
+                       (push.coneCount + perGroup - 1) / perGroup);
     commands_.barrier();
     commands_.submitAndWait();
   }
 
   void readChunk(std::span<const uint32_t> order, const ConeResults& results, std::vector<uint32_t>& redone) const {
-    const std::span<const uint32_t> lengths = upload_.results.mappedAs<uint32_t>();
+    const std::span<const uint32_t> lengths = buffers_.results.mappedAs<uint32_t>();
     for (size_t i = 0; i < order.size(); ++i) {
       const double length = lengths[i] == kNoValueBits ? kNoValue : std::bit_cast<float>(lengths[i]);
       if (lengths[i] == kIterationLimitBits || length < kShortestDiameter) redone.push_back(order[i]);
       results.values[order[i]] = scene_.bvh.normalization.toMeshLength(length);
     }
-    if (!results.hits.empty()) copyHits(order, upload_.hits.mappedAs<ConeHit>(), results.hits);
+    if (!results.hits.empty()) copyHits(order, buffers_.hits.mappedAs<ConeHit>(), results.hits);
   }
 
   /// From the cones in `order` to where they belong.
@@ -198,7 +140,7 @@ class VulkanTracer final : public ConeTracer {
             const RunControl& control) const {
     const std::unique_ptr<ConeTracer> reference = makeReferenceTracer(scene_, cone_);
     const size_t hitCount = results.hits.empty() ? 0 : kernel_.rayCount();  // per cone
-    const size_t blockSize = largestChunk(kernel_);                         // so that hits are not all there twice
+    const size_t blockSize = largestConeChunk(kernel_);                     // so that hits are not all there twice
     const auto total = static_cast<double>(redone.size());
     for (size_t begin = 0; begin < redone.size(); begin += blockSize) {
       const std::span<const uint32_t> block =
@@ -219,7 +161,7 @@ class VulkanTracer final : public ConeTracer {
   TraceScene scene_;
   const Cone& cone_;
   std::vector<uint32_t> slotOfFace_;  // #F, of the faces in the hierarchy
-  Upload upload_;
+  ConeBuffers buffers_;
   CommandList commands_;
 };
 

@@ -1,6 +1,8 @@
 #include <doctest/doctest.h>
 
+#include <array>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "cone/cone.h"
@@ -17,8 +19,7 @@ Vec3d randomUnit(Random& random) {
   }
 }
 
-void checkFrame(const Vec3d& axis) {
-  const ConeFrame frame = coneFrame(axis);
+void checkFrame(const ConeFrame& frame, const Vec3d& axis) {
   CHECK(frame.axis == axis);
   CHECK(std::abs(length(frame.tangent) - 1) < 1e-14);
   CHECK(std::abs(length(frame.bitangent) - 1) < 1e-14);
@@ -39,6 +40,14 @@ Vec3d withHeight(double z, double azimuth) {
   return {r * std::cos(azimuth), r * std::sin(azimuth), z};
 }
 
+// In turns, 0 to 1.
+double turnOf(const Cone& cone, const Vec3d& normal, uint32_t face) {
+  const ConeFrame fixed = coneFrame(-normal);
+  const Vec3d tangent = faceConeFrame(cone, normal, face).tangent;
+  const double turn = std::atan2(dot(tangent, fixed.bitangent), dot(tangent, fixed.tangent)) / (2 * std::numbers::pi);
+  return turn < 0 ? turn + 1 : turn;
+}
+
 }  // namespace
 
 TEST_CASE("frames are orthonormal and right-handed for every axis") {
@@ -48,7 +57,7 @@ TEST_CASE("frames are orthonormal and right-handed for every axis") {
   for (const double z : {-0.7, std::nextafter(-0.7, -1.0), std::nextafter(-0.7, 1.0), -0.99999999, 1e-300, -1e-17})
     for (int i = 0; i < 16; ++i) axes.push_back(withHeight(z, 0.4 * i));
   for (const Vec3d& axis : axes) {
-    checkFrame(axis);
+    checkFrame(coneFrame(axis), axis);
     CHECK(std::abs(handedness(coneFrame(axis)) - 1) < 1e-14);
   }
 }
@@ -76,4 +85,47 @@ TEST_CASE("frames are continuous everywhere but at an axis height of -0.7") {
     CHECK(largestTurn(axis, moved / length(moved)) < 1.2e-5);
   }
   CHECK(largestTurn(withHeight(-0.7 - 1e-9, 0.3), withHeight(-0.7 + 1e-9, 0.3)) > 0.1);
+}
+
+TEST_CASE("a fixed cone's frame is the one of its axis, whatever the face") {
+  const Cone cone = makeCone({});
+  Random random(3);
+  for (uint32_t face = 0; face < 100; ++face) {
+    const Vec3d normal = randomUnit(random);
+    const ConeFrame frame = faceConeFrame(cone, normal, face), expected = coneFrame(-normal);
+    CHECK(frame.tangent == expected.tangent);
+    CHECK(frame.bitangent == expected.bitangent);
+    CHECK(frame.axis == -normal);
+  }
+}
+
+TEST_CASE("hashed frames are orthonormal and right-handed") {
+  const Cone cone = makeCone({.rotation = ConeRotation::Hashed});
+  Random random(4);
+  for (uint32_t face = 0; face < 2000; ++face) {
+    const Vec3d normal = randomUnit(random);
+    const ConeFrame frame = faceConeFrame(cone, normal, face);
+    checkFrame(frame, -normal);
+    CHECK(std::abs(handedness(frame) - 1) < 1e-14);
+  }
+}
+
+TEST_CASE("hashed frames are turned by SplitMix64 of the face, evenly and independently of the face before") {
+  const Cone cone = makeCone({.rotation = ConeRotation::Hashed});
+  const Vec3d normal{0.48, -0.6, 0.64};
+  // The published first output of SplitMix64 for a seed of 0.
+  CHECK(turnOf(cone, normal, 0) == doctest::Approx(double(0xe220a8397b1dcdafu) * 0x1p-64).epsilon(1e-12));
+  constexpr uint32_t kFaceCount = 16'000;
+  std::array<uint32_t, 16> turnCounts{}, changeCounts{};
+  double before = turnOf(cone, normal, kFaceCount);
+  for (uint32_t face = 0; face < kFaceCount; ++face) {
+    const double turn = turnOf(cone, normal, face);
+    ++turnCounts[static_cast<size_t>(turn * 16) % 16];
+    ++changeCounts[static_cast<size_t>((turn - before + 1) * 16) % 16];
+    before = turn;
+  }
+  for (size_t i = 0; i < 16; ++i) {  // 1000 expected, with a standard deviation of 31
+    CHECK(std::abs(int(turnCounts[i]) - 1000) < 130);
+    CHECK(std::abs(int(changeCounts[i]) - 1000) < 130);
+  }
 }

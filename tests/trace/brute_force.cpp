@@ -10,13 +10,14 @@ namespace asdfvk {
 namespace {
 
 struct Corners {
+  uint32_t face;
   Vec3d a, b, c;
   [[nodiscard]] Vec3d normal() const { return cross(b - a, c - a); }
 };
 
 Corners cornersOf(const Mesh& mesh, uint32_t face) {
   const Face& f = mesh.faces[face];
-  return {mesh.vertices[f[0]], mesh.vertices[f[1]], mesh.vertices[f[2]]};
+  return {face, mesh.vertices[f[0]], mesh.vertices[f[1]], mesh.vertices[f[2]]};
 }
 
 // The faces that a cone of `seedFace` can hit: all but those with the very same vertices.
@@ -54,14 +55,18 @@ BruteForceCone traceByBruteForce(const Mesh& mesh, const Cone& cone, uint32_t se
     const Vec3d direction = d.x * frame.tangent + d.y * frame.bitangent + d.z * frame.axis;
     double nearest = std::numeric_limits<double>::infinity();
     Vec3d nearestNormal;
+    uint32_t nearestFace = kNoFace;
     for (const Corners& corners : others) {
       const double distance = hitDistance(corners, origin, direction);
       if (!(distance < nearest)) continue;
       nearest = distance;
+      nearestFace = corners.face;
       nearestNormal = corners.normal() / length(corners.normal());
     }
     const bool isValid = std::isfinite(nearest) && !(dot(normal, nearestNormal) > cone.falseHitCosine);
     result.rayLengths.push_back(isValid ? nearest : kNoValue);
+    result.hitDistances.push_back(nearest);
+    result.hitFaces.push_back(nearestFace);
   }
   result.value = valueBySorting(result.rayLengths, cone.weights);
   return result;

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "cone/cone.h"
 #include "mesh/mesh.h"
+#include "shared/cone_hit.h"
 
 namespace asdfvk {
 
@@ -11,6 +13,9 @@ namespace asdfvk {
 /// in the mesh's own coordinates, intersections by signed volumes, the value by sorting.
 struct BruteForceCone {
   std::vector<double> rayLengths;  ///< One per ray of the cone; NaN for a dropped one.
+  /// What each ray met, dropped or not, in the mesh's unit; infinity and kNoFace for a miss.
+  std::vector<double> hitDistances;
+  std::vector<uint32_t> hitFaces;
   double value = kNoValue;
 };
 

@@ -86,6 +86,7 @@ TEST_CASE("few rays, many rays, narrow and wide cones are as brute force has the
        {ConeOptions{1, 120}, ConeOptions{2, 60}, ConeOptions{7, 10}, ConeOptions{300, 175}})
     checkAgainstBruteForce("sphere", mesh, 100, options);
   checkAgainstBruteForce("most rays", mesh, 4, {kMaxRayCount, 120});
+  checkAgainstBruteForce("turned cones", mesh, 100, {.rotation = ConeRotation::Hashed});
 }
 
 TEST_CASE("coordinates far from 1 and from the origin are as brute force has them") {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include "core/error.h"
 #include "core/random.h"
@@ -12,54 +11,25 @@
 #include "shapes.h"
 #include "support/test_device.h"
 #include "trace/chunk_size.h"
-#include "traced_mesh.h"
+#include "trace_results.h"
 
 using namespace asdfvk;
 
 namespace {
 
-struct Traced {
-  std::vector<double> values;
-  TraceStatistics statistics;
-};
-
-Traced traceWith(const VulkanConeKernel& kernel, const TracedMesh& traced, const ConeOptions& options = {},
-                 const RunControl& control = {}) {
-  const Cone cone = makeCone(options);
-  const std::vector<uint32_t> seeds = traced.seedFaces();
-  Traced result{std::vector<double>(seeds.size()), {}};
-  result.statistics = makeVulkanTracer(kernel, traced.scene(), cone)->trace(seeds, {result.values}, control);
-  return result;
+TraceResults traceWith(const VulkanConeKernel& kernel, const TracedMesh& traced, const ConeOptions& options = {},
+                       const RunControl& control = {}) {
+  return traceByKernel(kernel, traced, options, Wanted::Values, control);
 }
 
 std::vector<double> referenceValues(const TracedMesh& traced, const ConeOptions& options = {}) {
-  const Cone cone = makeCone(options);
-  const std::vector<uint32_t> seeds = traced.seedFaces();
-  std::vector<double> values(seeds.size());
-  makeReferenceTracer(traced.scene(), cone)->trace(seeds, {values}, {});
-  return values;
-}
-
-/// Faces that differ by more than 1e-4 of the diagonal, or that have a value on one side only.
-uint64_t differingCount(const std::vector<double>& a, const std::vector<double>& b, double diagonal) {
-  REQUIRE(a.size() == b.size());
-  uint64_t count = 0;
-  for (size_t i = 0; i < a.size(); ++i) {
-    const bool isSame = std::isnan(a[i]) || std::isnan(b[i]) ? std::isnan(a[i]) == std::isnan(b[i])
-                                                             : std::abs(a[i] - b[i]) <= 1e-4 * diagonal;
-    count += !isSame;
-  }
-  return count;
+  return traceByReference(traced, options, Wanted::Values).values;
 }
 
 void checkParity(const VulkanConeKernel& kernel, const TracedMesh& traced, const ConeOptions& options = {}) {
   const std::vector<double> reference = referenceValues(traced, options);
   const std::vector<double> values = traceWith(kernel, traced, options).values;
   CHECK(differingCount(values, reference, traced.geometry.bounds.diagonal()) <= reference.size() / 1000);
-}
-
-bool haveSameBits(const std::vector<double>& a, const std::vector<double>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
 }
 
 }  // namespace
@@ -108,10 +78,10 @@ TEST_CASE("cones beyond the iteration guard are redone by the reference and coun
   const test::ValidatedDevice device;
   const TracedMesh traced(generateShape("animal", 1500).mesh);
   const std::vector<double> reference = referenceValues(traced);
-  const Traced all = traceWith(VulkanConeKernel(*device, {30}, {32, 1, 3}), traced);
+  const TraceResults all = traceWith(VulkanConeKernel(*device, {30}, {32, 1, 3}), traced);
   CHECK(all.statistics.redoneConeCount == reference.size());
   CHECK(haveSameBits(all.values, reference));
-  const Traced some = traceWith(VulkanConeKernel(*device, {30}, {32, 1, 60}), traced);
+  const TraceResults some = traceWith(VulkanConeKernel(*device, {30}, {32, 1, 60}), traced);
   CHECK(some.statistics.redoneConeCount > 0);
   CHECK(some.statistics.redoneConeCount < reference.size());
   CHECK(differingCount(some.values, reference, traced.geometry.bounds.diagonal()) <= reference.size() / 1000);
@@ -164,7 +134,7 @@ TEST_CASE("details too small for float32 are traced by the reference") {
   const VulkanConeKernel kernel(*device, {30});
   const TracedMesh traced(shapes::joined(large, tiny));
   const std::vector<double> reference = referenceValues(traced);
-  const Traced result = traceWith(kernel, traced);
+  const TraceResults result = traceWith(kernel, traced);
   CHECK(result.statistics.redoneConeCount == tiny.faces.size());
   for (size_t i = large.faces.size(); i < reference.size(); ++i) CHECK(result.values[i] == reference[i]);
 
@@ -185,7 +155,7 @@ TEST_CASE("rays along the sides of boxes do not leak") {
   for (const uint32_t side : {1u, 3u, 10u}) {
     CAPTURE(side);
     const TracedMesh traced(shapes::box({2, 3, 0.01}, side));
-    const Traced result = traceWith(kernel, traced);
+    const TraceResults result = traceWith(kernel, traced);
     CHECK(differingCount(result.values, referenceValues(traced), traced.geometry.bounds.diagonal()) == 0);
   }
 }
