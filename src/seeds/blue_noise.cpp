@@ -1,5 +1,7 @@
 #include "seeds/blue_noise.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -12,6 +14,11 @@
 namespace asdfvk {
 namespace {
 
+// The start radius is raised where the estimate was too small, so many times by so much and then to infinity, where it
+// can no longer be at fault: then there are fewer seeds than components.
+constexpr int kMaxRaiseCount = 4;
+constexpr float kRaise = 1.5f;
+
 std::vector<uint32_t> blueNoise(const SeedDomain& domain, std::span<const float> lengths, uint64_t count,
                                 std::span<const uint32_t> existing, uint64_t randomSeed) {
   std::vector<uint32_t> waiting = unchosenCandidates(domain, existing);
@@ -19,34 +26,45 @@ std::vector<uint32_t> blueNoise(const SeedDomain& domain, std::span<const float>
   if (count == 0) return {};
   Random random(randomSeed);
   random.shuffle(std::span<uint32_t>(waiting));
-  DartRadii radii;
-  radii.start = 1.25f * estimateDiskRadius(domain.graph, lengths, waiting, count, random.next());
+  // The estimate is somewhat off either way. Too large a radius costs time only, too small a one the evenness.
+  float startRadius = 1.25f * estimateDiskRadius(domain.graph, lengths, waiting, count, random.next());
   SurfaceDistances distances(domain.graph, lengths);
-  for (int attempt = 0;; ++attempt) {
-    distances.add(existing, radii.start);
-    ThrownDarts darts = throwDarts(waiting, count, radii, distances);
-    if (!darts.endedAtStart || attempt == 8) {
+  for (int raiseCount = 0;; ++raiseCount) {
+    distances.add(existing, startRadius);
+    ThrownDarts darts = throwDarts(waiting, count, startRadius, distances);
+    if (!darts.leaveGaps || startRadius == SurfaceDistances::kUnreached) {
       std::sort(darts.faces.begin(), darts.faces.end());
       return std::move(darts.faces);
     }
-    radii.start *= 1.5f;
+    startRadius = raiseCount < kMaxRaiseCount ? kRaise * startRadius : SurfaceDistances::kUnreached;
     distances.clear();
   }
 }
 
-// At the mean of the densities of its faces an arc keeps its length.
+// Seeds near each other are whole hops apart on a smooth mesh, so that some densities would come out as the same
+// distance and others as more than theirs. A random stretch of each arc by up to this share evens that out.
+constexpr double kJitter = 0.25;
+
+double jitterOf(uint32_t face, uint32_t neighbour) {
+  const auto [low, high] = std::minmax(face, neighbour);
+  return 1 + kJitter * (2 * Random(uint64_t{low} << 32 | high).real() - 1);
+}
+
+// Where the density is the mean of all, an arc keeps its length but for the jitter.
 void stretch(std::vector<float>& lengths, const DualGraph& graph, std::span<const double> density) {
-  double sum = 0;
+  double mean = 0;
   for (double d : density) {
     ASDFVK_CHECK(d > 0 && std::isfinite(d));
-    sum += d / static_cast<double>(density.size());
+    mean += d / static_cast<double>(density.size());
   }
-  for (uint32_t face = 0; face < graph.faceCount(); ++face) {
+  tbb::parallel_for(uint32_t{0}, graph.faceCount(), [&](uint32_t face) {
     for (uint32_t arc = graph.offsets[face]; arc < graph.offsets[face + 1]; ++arc) {
-      const double mean = 0.5 * (density[face] / sum + density[graph.neighbours[arc]] / sum);
-      lengths[arc] = std::clamp(lengths[arc] * static_cast<float>(std::sqrt(mean)), kShortestArc, kLongestArc);
+      const uint32_t neighbour = graph.neighbours[arc];
+      const double relative = 0.5 * (density[face] / mean + density[neighbour] / mean);
+      const double length = lengths[arc] * std::sqrt(relative) * jitterOf(face, neighbour);
+      lengths[arc] = static_cast<float>(std::clamp<double>(length, kShortestArc, kLongestArc));
     }
-  }
+  });
 }
 
 }  // namespace

@@ -17,8 +17,7 @@ std::vector<uint32_t> farthestPointSeeds(const SeedDomain& domain, SurfaceMetric
   const std::vector<float> lengths = arcLengths(domain.graph, domain.geometry, metric);
   SurfaceDistances distances(domain.graph, lengths);
   distances.add(existing, SurfaceDistances::kUnreached);
-  std::vector<uint32_t> seeds =
-      throwDarts(std::move(waiting), count, {SurfaceDistances::kUnreached, /* stepBits= */ 6}, distances).faces;
+  std::vector<uint32_t> seeds = throwDarts(std::move(waiting), count, SurfaceDistances::kUnreached, distances).faces;
   std::sort(seeds.begin(), seeds.end());
   return seeds;
 }

@@ -1,14 +1,20 @@
 #include "seeds/normal_space.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
+#include "core/check.h"
 #include "core/random.h"
 
 namespace asdfvk {
 namespace {
+
+constexpr uint16_t kNoBin = std::numeric_limits<uint16_t>::max();
 
 using BinCounts = std::array<uint64_t, kNormalBinCount>;
 
@@ -50,14 +56,21 @@ std::vector<uint32_t> normalSpaceSeeds(const SeedDomain& domain, uint64_t count,
                                        uint64_t randomSeed) {
   std::vector<uint32_t> waiting = unchosenCandidates(domain, existing);
   if (count >= waiting.size()) return waiting;
-  const auto binOf = [&](uint32_t face) { return normalBinOf(domain.geometry.normals[face]); };
+  std::vector<uint16_t> binOf(domain.graph.faceCount(), kNoBin);
+  tbb::parallel_for(uint32_t{0}, domain.graph.faceCount(), [&](uint32_t face) {
+    if (!domain.geometry.isDegenerate(face))
+      binOf[face] = static_cast<uint16_t>(normalBinOf(domain.geometry.normals[face]));
+  });
   BinCounts chosen{}, available{};
   for (uint32_t face : existing)
-    if (!domain.geometry.isDegenerate(face)) ++chosen[binOf(face)];
-  for (uint32_t face : waiting) ++available[binOf(face)];
+    if (binOf[face] != kNoBin) ++chosen[binOf[face]];
+  for (uint32_t face : waiting) {
+    ASDFVK_CHECK_OP(binOf[face], !=, kNoBin);
+    ++available[binOf[face]];
+  }
 
   const uint64_t level = levelOf(chosen, available, count);
-  std::array<uint64_t, kNormalBinCount> toTake{};
+  BinCounts toTake{};
   std::vector<uint32_t> unfilledBins;
   uint64_t taken = 0;
   for (uint32_t bin = 0; bin < kNormalBinCount; ++bin) {
@@ -73,7 +86,7 @@ std::vector<uint32_t> normalSpaceSeeds(const SeedDomain& domain, uint64_t count,
   std::vector<uint32_t> seeds;
   seeds.reserve(static_cast<size_t>(count));
   for (uint32_t face : waiting)
-    if (uint64_t& left = toTake[binOf(face)]; left > 0) {
+    if (uint64_t& left = toTake[binOf[face]]; left > 0) {
       --left;
       seeds.push_back(face);
     }
