@@ -15,14 +15,14 @@ float estimateDiskRadius(const DualGraph& graph, std::span<const float> arcLengt
   ASDFVK_CHECK(!candidates.empty());
   ASDFVK_CHECK_OP(count, >, 0u);
   constexpr double kFacesInDiskPerFacePerCentre = 2.2;
-  constexpr double kSampleCountAtMost = 256;
+  constexpr double kMaxSampleCount = 256;
   const double candidateCount = static_cast<double>(candidates.size());
   const double wantedFaceCount = 1 + kFacesInDiskPerFacePerCentre * candidateCount / static_cast<double>(count);
-  const double sampleCount = std::clamp(candidateCount / wantedFaceCount, 4.0, kSampleCountAtMost);
+  const double sampleCount = std::floor(std::clamp(candidateCount / wantedFaceCount, 1.0, kMaxSampleCount));
   Random random(randomSeed);
   SurfaceBall ball(graph, arcLengths);
   double squaredRadii = 0;
-  for (int sample = 0; sample < static_cast<int>(sampleCount); ++sample) {
+  for (int sample = 0; sample < sampleCount; ++sample) {
     ball.startAt(candidates[random.index(static_cast<uint32_t>(candidates.size()))]);
     SurfaceBall::Member member;
     double faceCount = 0;
@@ -30,7 +30,7 @@ float estimateDiskRadius(const DualGraph& graph, std::span<const float> arcLengt
     // A component smaller than the disk counts as if the surface went on.
     squaredRadii += double{member.distance} * double{member.distance} * wantedFaceCount / faceCount;
   }
-  return std::max(kShortestArc, static_cast<float>(std::sqrt(squaredRadii / std::floor(sampleCount))));
+  return std::max(kShortestArc, static_cast<float>(std::sqrt(squaredRadii / sampleCount)));
 }
 
 }  // namespace asdfvk
