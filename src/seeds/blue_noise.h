@@ -23,9 +23,10 @@ namespace asdfvk {
 
 /// The same with more seeds where the density is higher: in the metric of hops about density(f) per face, in another
 /// one on top of what the metric makes of the face. On smooth meshes it comes out within a tenth or two up to a tenth
-/// of all faces; above that, less than asked for, as the dense parts fill up. density: #F, positive and finite, in any
-/// unit. Distances at a face are stretched by the root of its density, so that seeds there are in proportion to
-/// density(f)^-1/2 apart.
+/// of all faces; above that, less than asked for, as the dense parts fill up. Distances at a face are
+/// stretched by the root of its density, so that seeds there are in proportion to density(f)^-1/2 apart.
+///
+/// density: #F, positive and finite, in any unit.
 [[nodiscard]] std::vector<uint32_t> weightedBlueNoiseSeeds(const SeedDomain& domain, SurfaceMetric metric,
                                                            std::span<const double> density, uint64_t count,
                                                            std::span<const uint32_t> existing, uint64_t randomSeed);

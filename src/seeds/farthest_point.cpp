@@ -1,6 +1,7 @@
 #include "seeds/farthest_point.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/random.h"
 #include "seeds/dart_throwing.h"
