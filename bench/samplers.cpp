@@ -1,0 +1,140 @@
+// What choosing seeds costs and how even they lie: each sampler's time beside the random permutation's, the distance of
+// each seed to the nearest other, and of each face to its nearest seed.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include "bench_program.h"
+#include "cli/report_text.h"
+#include "cli/terminal.h"
+#include "core/stopwatch.h"
+#include "generate/shapes.h"
+#include "mesh/mesh_reader.h"
+#include "seeds/sampler.h"
+#include "seeds/surface_ball.h"
+#include "seeds/surface_distances.h"
+#include "spread.h"
+
+namespace {
+
+using namespace asdfvk;
+
+struct Row {
+  const char* name;
+  SamplerKind kind;
+  SurfaceMetric metric;
+};
+constexpr std::array<Row, 9> kRows{{
+    {"random permutation", SamplerKind::Random, SurfaceMetric::Hops},
+    {"depth-first stride", SamplerKind::DepthFirst, SurfaceMetric::Hops},
+    {"normal space", SamplerKind::NormalSpace, SurfaceMetric::Hops},
+    {"blue noise, hops", SamplerKind::BlueNoise, SurfaceMetric::Hops},
+    {"blue noise, length", SamplerKind::BlueNoise, SurfaceMetric::Length},
+    {"blue noise, angle", SamplerKind::BlueNoise, SurfaceMetric::Angle},
+    {"farthest point, hops", SamplerKind::FarthestPoint, SurfaceMetric::Hops},
+    {"farthest point, length", SamplerKind::FarthestPoint, SurfaceMetric::Length},
+    {"farthest point, angle", SamplerKind::FarthestPoint, SurfaceMetric::Angle},
+}};
+
+/// In one metric; seeds of components with one seed only have no nearest other and are left out.
+struct Evenness {
+  double nearestMin = 0, nearestMean = 0, nearestDeviation = 0;  ///< From a seed to the nearest other.
+  double coverRms = 0, coverMax = 0;                             ///< From a face to the nearest seed.
+};
+
+Evenness evennessOf(const DualGraph& graph, std::span<const float> lengths, const std::vector<uint32_t>& seeds) {
+  std::vector<uint8_t> isSeed(graph.faceCount(), 0);
+  for (uint32_t face : seeds) isSeed[face] = 1;
+  constexpr size_t kSampleCount = 20'000;
+  std::vector<double> nearest;
+  SurfaceBall ball(graph, lengths);
+  for (size_t i = 0; i < std::min(kSampleCount, seeds.size()); ++i) {
+    ball.startAt(seeds[i * seeds.size() / std::min(kSampleCount, seeds.size())]);
+    SurfaceBall::Member member;
+    bool isFirst = true;
+    while (ball.next(member) && (isFirst || !isSeed[member.face])) isFirst = false;
+    if (isSeed[member.face] && member.distance > 0) nearest.push_back(member.distance);
+  }
+  Evenness evenness;
+  if (!nearest.empty()) {
+    const double count = static_cast<double>(nearest.size());
+    evenness.nearestMin = *std::min_element(nearest.begin(), nearest.end());
+    evenness.nearestMean = std::accumulate(nearest.begin(), nearest.end(), 0.0) / count;
+    double squares = 0;
+    for (double distance : nearest) squares += std::pow(distance - evenness.nearestMean, 2);
+    evenness.nearestDeviation = std::sqrt(squares / count);
+  }
+  SurfaceDistances distances(graph, lengths);
+  distances.add(seeds, SurfaceDistances::kUnreached);
+  double squares = 0, reached = 0;
+  for (uint32_t face = 0; face < graph.faceCount(); ++face) {
+    if (distances.at(face) == SurfaceDistances::kUnreached) continue;
+    squares += std::pow(double{distances.at(face)}, 2);
+    evenness.coverMax = std::max(evenness.coverMax, double{distances.at(face)});
+    ++reached;
+  }
+  evenness.coverRms = reached > 0 ? std::sqrt(squares / reached) : 0;
+  return evenness;
+}
+
+void compare(const std::string& name, const Mesh& mesh, double percent, uint32_t roundCount) {
+  const DualGraph graph = buildDualGraph(mesh);
+  const FaceGeometry geometry = computeFaceGeometry(mesh);
+  std::vector<uint32_t> candidates;
+  for (uint32_t face = 0; face < mesh.faceCount(); ++face)
+    if (!geometry.isDegenerate(face)) candidates.push_back(face);
+  const SeedDomain domain{graph, geometry, candidates};
+  const auto count = static_cast<uint64_t>(percent / 100 * static_cast<double>(candidates.size()));
+  std::string text = fmt::format(
+      "{}: {} faces, {} seeds; distances in the angle metric and, for the nearest seed, in hops\n\n"
+      "| sampler | ms | of random | nearest other seed: least | mean | deviation | in hops: least | mean "
+      "| face to its seed: rms | max |\n"
+      "|---------|---:|----------:|--------------------------:|-----:|----------:|---------------:|-----:"
+      "|----------------------:|----:|\n",
+      name, groupDigits(mesh.faceCount()), groupDigits(count));
+  const std::vector<float> angles = arcLengths(graph, geometry, SurfaceMetric::Angle);
+  const std::vector<float> hops = arcLengths(graph, geometry, SurfaceMetric::Hops);
+  double randomMedian = 0;
+  for (const Row& row : kRows) {
+    std::vector<double> milliseconds;
+    std::vector<uint32_t> seeds;
+    for (uint32_t round = 0; round < roundCount; ++round) {
+      const Stopwatch watch;
+      seeds = sampleSeeds(row.kind, row.metric, domain, count, {}, round + 1);
+      milliseconds.push_back(1e3 * watch.seconds());
+    }
+    const bench::Spread time = bench::spreadOf(milliseconds);
+    if (row.kind == SamplerKind::Random) randomMedian = time.median;
+    const Evenness inAngles = evennessOf(graph, angles, seeds), inHops = evennessOf(graph, hops, seeds);
+    text += fmt::format("| {} | {} | {:.1f} | {:.2f} | {:.2f} | {:.2f} | {:.0f} | {:.2f} | {:.2f} | {:.1f} |\n",
+                        row.name, toText(time, 1), time.median / randomMedian, inAngles.nearestMin,
+                        inAngles.nearestMean, inAngles.nearestDeviation, inHops.nearestMin, inHops.nearestMean,
+                        inAngles.coverRms, inAngles.coverMax);
+  }
+  writeStandardOutput(text + "\n");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Time and evenness of the seed samplers.", "asdfvk-bench-samplers");
+  std::vector<std::string> meshes;
+  uint64_t faceCount = 200'000;
+  double percent = 10;
+  uint32_t roundCount = 3;
+  app.add_option("meshes", meshes, "Meshes; a generated animal without any")->option_text("MESH...");
+  app.add_option("--faces", faceCount, "Of the generated animal")->capture_default_str();
+  app.add_option("--seeds", percent, "Share of the faces that become seeds, in percent")
+      ->check(CLI::Range(0.0, 100.0))
+      ->capture_default_str();
+  app.add_option("--runs", roundCount, "Random seeds; the time is their median")
+      ->check(CLI::Range(1u, 1000u))
+      ->capture_default_str();
+  return bench::runBenchProgram(app, argc, argv, [&](const RunControl&) {
+    if (meshes.empty()) compare("generated animal", generateShape("animal", faceCount).mesh, percent, roundCount);
+    for (const std::string& mesh : meshes) compare(mesh, readMesh(mesh), percent, roundCount);
+  });
+}

@@ -1,0 +1,216 @@
+// How evenly blue noise and farthest points lie.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "core/check.h"
+#include "seeds/blue_noise.h"
+#include "seeds/farthest_point.h"
+#include "seeds/random_permutation.h"
+#include "seeds/surface.h"
+
+using namespace asdfvk;
+
+namespace {
+
+constexpr std::array<SurfaceMetric, 3> kMetrics{SurfaceMetric::Hops, SurfaceMetric::Length, SurfaceMetric::Angle};
+
+using Sampler = std::vector<uint32_t> (*)(const SeedDomain&, SurfaceMetric, uint64_t, std::span<const uint32_t>,
+                                          uint64_t);
+constexpr std::array<Sampler, 2> kSamplers{blueNoiseSeeds, farthestPointSeeds};
+
+struct Spacing {
+  float least = 0;  ///< From a seed to the nearest other.
+  float cover = 0;  ///< From a face to the nearest seed, at most.
+};
+
+Spacing spacingOf(const Surface& surface, std::span<const float> lengths, std::span<const uint32_t> seeds) {
+  const std::vector<float> nearest = distancesToNearestOther(surface.graph, lengths, seeds);
+  const std::vector<float> distances = distancesToNearest(surface.graph, lengths, seeds);
+  float cover = 0;
+  for (uint32_t face : surface.candidates) cover = std::max(cover, distances[face]);
+  return {*std::min_element(nearest.begin(), nearest.end()), cover};
+}
+
+// A float's rounding over the arcs of a path, and the step of the radius.
+constexpr float kStepAndRounding = (1 + 1.0f / 64) * 1.0001f;
+
+std::vector<uint32_t> facesWith(const Surface& surface, auto&& predicate) {
+  std::vector<uint32_t> faces;
+  for (uint32_t face : surface.candidates)
+    if (predicate(surface.geometry.barycentres[face])) faces.push_back(face);
+  return faces;
+}
+
+}  // namespace
+
+TEST_CASE("seeds cover the surface within the distance that they keep from each other") {
+  for (const char* shape : {"torus", "sphere", "cube", "hand"}) {
+    CAPTURE(shape);
+    const Surface& surface = generatedSurface(shape, 4000);
+    for (SurfaceMetric metric : kMetrics) {
+      CAPTURE(static_cast<int>(metric));
+      const std::vector<float> lengths = arcLengths(surface.graph, surface.geometry, metric);
+      for (double share : {0.002, 0.02, 0.1, 0.3}) {
+        CAPTURE(share);
+        const auto count = static_cast<uint64_t>(share * static_cast<double>(surface.candidates.size()));
+        for (Sampler sampler : kSamplers) {
+          const Spacing spacing = spacingOf(surface, lengths, sampler(surface.domain(), metric, count, {}, 3));
+          CHECK(spacing.cover <= spacing.least * kStepAndRounding);
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("at a tenth of the faces blue-noise seeds are 3 hops apart, random ones often neighbours") {
+  for (const char* shape : {"torus", "sphere"}) {
+    CAPTURE(shape);
+    const Surface& surface = generatedSurface(shape, 4000);
+    const auto lengths = arcLengths(surface.graph, surface.geometry, SurfaceMetric::Hops);
+    const uint64_t count = surface.candidates.size() / 10;
+    const auto blue = blueNoiseSeeds(surface.domain(), SurfaceMetric::Hops, count, {}, 1);
+    const auto random = randomPermutationSeeds(surface.candidates, count, 1);
+    const auto blueNearest = distancesToNearestOther(surface.graph, lengths, blue);
+    const auto randomNearest = distancesToNearestOther(surface.graph, lengths, random);
+    CHECK(*std::min_element(blueNearest.begin(), blueNearest.end()) >= 3);
+    CHECK(*std::min_element(randomNearest.begin(), randomNearest.end()) == 1);
+    CHECK(meanOf(blueNearest) > 1.5 * meanOf(randomNearest));
+    CHECK(meanOf(distancesToNearest(surface.graph, lengths, blue)) <
+          0.85 * meanOf(distancesToNearest(surface.graph, lengths, random)));
+  }
+}
+
+TEST_CASE("seeds fill the gaps between existing ones") {
+  const Surface& sphere = generatedSurface("sphere", 4000);
+  const std::vector<float> lengths = arcLengths(sphere.graph, sphere.geometry, SurfaceMetric::Hops);
+  // All of the northern half is taken, so the southern gets all new seeds, its border excepted.
+  const auto north = facesWith(sphere, [](const Vec3d& at) { return at.z > 0; });
+  for (Sampler sampler : kSamplers) {
+    const auto seeds = sampler(sphere.domain(), SurfaceMetric::Hops, 60, north, 1);
+    REQUIRE(seeds.size() == 60);
+    std::vector<uint32_t> all = north;
+    all.insert(all.end(), seeds.begin(), seeds.end());
+    const std::vector<float> fromNorth = distancesToNearest(sphere.graph, lengths, north);
+    float least = std::numeric_limits<float>::infinity();
+    for (uint32_t seed : seeds) least = std::min(least, fromNorth[seed]);
+    const auto nearest = distancesToNearestOther(sphere.graph, lengths, seeds);
+    least = std::min(least, *std::min_element(nearest.begin(), nearest.end()));
+    const std::vector<float> cover = distancesToNearest(sphere.graph, lengths, all);
+    CHECK(least >= 5);
+    CHECK(*std::max_element(cover.begin(), cover.end()) <= least * kStepAndRounding);
+  }
+}
+
+TEST_CASE("seeds added in rounds keep apart as those chosen at once do") {
+  const Surface& torus = generatedSurface("torus", 4000);
+  const std::vector<float> lengths = arcLengths(torus.graph, torus.geometry, SurfaceMetric::Angle);
+  for (Sampler sampler : kSamplers) {
+    std::vector<uint32_t> all;
+    for (uint64_t round = 0; round < 4; ++round) {
+      const auto seeds = sampler(torus.domain(), SurfaceMetric::Angle, 100, all, round);
+      all.insert(all.end(), seeds.begin(), seeds.end());
+      const Spacing spacing = spacingOf(torus, lengths, all);
+      CHECK(spacing.cover <= spacing.least * kStepAndRounding);
+    }
+    CHECK(all.size() == 400);
+  }
+}
+
+TEST_CASE("each component that there are seeds for gets its first before any gets its second") {
+  Mesh mesh;
+  for (uint32_t i = 0; i < 50; ++i) mesh = together(std::move(mesh), strip(3 + i));
+  const Surface surface(mesh);
+  const auto componentsAmong = [&](const std::vector<uint32_t>& seeds) {
+    size_t count = 0, end = 0;
+    for (uint32_t i = 0, begin = 0; i < 50; ++i, begin = static_cast<uint32_t>(end)) {
+      end = begin + 3 + i;
+      count += std::any_of(seeds.begin(), seeds.end(), [&](uint32_t face) { return face >= begin && face < end; });
+    }
+    return count;
+  };
+  CHECK(componentsAmong(farthestPointSeeds(surface.domain(), SurfaceMetric::Hops, 20, {}, 1)) == 20);
+  CHECK(componentsAmong(farthestPointSeeds(surface.domain(), SurfaceMetric::Hops, 50, {}, 1)) == 50);
+  CHECK(componentsAmong(blueNoiseSeeds(surface.domain(), SurfaceMetric::Hops, 20, {}, 1)) == 20);
+  CHECK(componentsAmong(blueNoiseSeeds(surface.domain(), SurfaceMetric::Hops, 50, {}, 1)) == 50);
+}
+
+TEST_CASE("farthest points of a strip are the ends and then the middle, whatever comes first") {
+  const Surface surface(strip(129));
+  for (uint64_t randomSeed = 1; randomSeed < 6; ++randomSeed) {
+    const std::vector<uint32_t> middle{64};
+    CHECK(farthestPointSeeds(surface.domain(), SurfaceMetric::Hops, 2, middle, randomSeed) ==
+          std::vector<uint32_t>{0, 128});
+    const std::vector<uint32_t> ends{128, 0};
+    CHECK(farthestPointSeeds(surface.domain(), SurfaceMetric::Hops, 1, ends, randomSeed) == middle);
+  }
+}
+
+TEST_CASE("the angle metric puts more seeds where the surface bends") {
+  const Surface& cube = generatedSurface("cube", 4000);
+  const std::vector<float> angles = arcLengths(cube.graph, cube.geometry, SurfaceMetric::Angle);
+  std::vector<uint8_t> isAtEdge(cube.graph.faceCount(), 0);
+  for (uint32_t face = 0; face < cube.graph.faceCount(); ++face)
+    for (uint32_t arc = cube.graph.offsets[face]; arc < cube.graph.offsets[face + 1]; ++arc)
+      if (angles[arc] > 2) isAtEdge[face] = 1;
+  const auto atEdge = [&](SurfaceMetric metric) {
+    const auto seeds = blueNoiseSeeds(cube.domain(), metric, 200, {}, 2);
+    return std::count_if(seeds.begin(), seeds.end(), [&](uint32_t face) { return isAtEdge[face] != 0; });
+  };
+  CHECK(atEdge(SurfaceMetric::Angle) > atEdge(SurfaceMetric::Hops));
+}
+
+TEST_CASE("where the density is k times as high there are k times as many seeds") {
+  const Surface& torus = generatedSurface("torus", 40'000);
+  const auto dense = facesWith(torus, [](const Vec3d& at) { return at.x > 0; });
+  const double facesInDense = static_cast<double>(dense.size());
+  const double facesElsewhere = static_cast<double>(torus.graph.faceCount()) - facesInDense;
+  for (SurfaceMetric metric : kMetrics) {
+    CAPTURE(static_cast<int>(metric));
+    for (double factor : {1.0, 1.5, 2.0, 3.0, 4.0, 9.0}) {
+      CAPTURE(factor);
+      std::vector<double> density(torus.graph.faceCount(), 1e-3);
+      for (uint32_t face : dense) density[face] *= factor;
+      for (uint64_t count : {800u, 2000u, 4000u}) {
+        CAPTURE(count);
+        const auto seeds = weightedBlueNoiseSeeds(torus.domain(), metric, density, count, {}, 1);
+        double inDense = 0;
+        for (uint32_t face : seeds) inDense += torus.geometry.barycentres[face].x > 0;
+        const double elsewhere = static_cast<double>(seeds.size()) - inDense;
+        const double ratio = (inDense / facesInDense) / (elsewhere / facesElsewhere);
+        CHECK(ratio > 0.85 * factor);
+        CHECK(ratio < 1.15 * factor);
+      }
+    }
+  }
+}
+
+TEST_CASE("the unit of the density does not matter, and an even one leaves blue noise") {
+  const Surface& torus = generatedSurface("torus", 4000);
+  const auto weighted = [&](double even) {
+    return weightedBlueNoiseSeeds(torus.domain(), SurfaceMetric::Hops,
+                                  std::vector<double>(torus.graph.faceCount(), even), 300, {}, 8);
+  };
+  const auto seeds = weighted(1);
+  CHECK(weighted(0x1p-100) == seeds);
+  CHECK(weighted(0x1p+1000) == seeds);
+  const auto hops = arcLengths(torus.graph, torus.geometry, SurfaceMetric::Hops);
+  const auto nearest = distancesToNearestOther(torus.graph, hops, seeds);
+  CHECK(*std::min_element(nearest.begin(), nearest.end()) >= 3);
+}
+
+TEST_CASE("a density that is not positive and finite is a mistake") {
+  const Surface surface(strip(3));
+  for (double wrong : {0.0, -1.0, std::numeric_limits<double>::infinity(), std::nan("")}) {
+    CAPTURE(wrong);
+    const std::vector<double> density{1, wrong, 1};
+    CHECK_THROWS_AS(static_cast<void>(weightedBlueNoiseSeeds(surface.domain(), SurfaceMetric::Hops, density, 1, {}, 1)),
+                    CheckFailure);
+  }
+  CHECK_THROWS_AS(static_cast<void>(weightedBlueNoiseSeeds(surface.domain(), SurfaceMetric::Hops,
+                                                           std::vector<double>{1, 1}, 1, {}, 1)),
+                  CheckFailure);
+}

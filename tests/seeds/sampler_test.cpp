@@ -1,0 +1,177 @@
+// What holds for every sampler and metric.
+#include <doctest/doctest.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <set>
+
+#include "core/check.h"
+#include "seeds/blue_noise.h"
+#include "seeds/sampler.h"
+#include "seeds/surface.h"
+
+using namespace asdfvk;
+
+namespace {
+
+using Seeds = std::vector<uint32_t>;
+using Existing = std::span<const uint32_t>;
+
+struct NamedSampler {
+  const char* name;
+  Seeds (*sample)(const SeedDomain& domain, uint64_t count, Existing existing, uint64_t randomSeed);
+};
+
+template <SamplerKind kind, SurfaceMetric metric>
+Seeds sample(const SeedDomain& domain, uint64_t count, Existing existing, uint64_t randomSeed) {
+  return sampleSeeds(kind, metric, domain, count, existing, randomSeed);
+}
+
+Seeds sampleWeighted(const SeedDomain& domain, uint64_t count, Existing existing, uint64_t randomSeed) {
+  std::vector<double> density(domain.graph.faceCount());
+  for (size_t face = 0; face < density.size(); ++face) density[face] = 1 + static_cast<double>(face % 1000);
+  return weightedBlueNoiseSeeds(domain, SurfaceMetric::Hops, density, count, existing, randomSeed);
+}
+
+constexpr std::array<NamedSampler, 10> kSamplers{{
+    {"random", sample<SamplerKind::Random, SurfaceMetric::Hops>},
+    {"depth first", sample<SamplerKind::DepthFirst, SurfaceMetric::Hops>},
+    {"blue noise, hops", sample<SamplerKind::BlueNoise, SurfaceMetric::Hops>},
+    {"blue noise, length", sample<SamplerKind::BlueNoise, SurfaceMetric::Length>},
+    {"blue noise, angle", sample<SamplerKind::BlueNoise, SurfaceMetric::Angle>},
+    {"farthest point, hops", sample<SamplerKind::FarthestPoint, SurfaceMetric::Hops>},
+    {"farthest point, length", sample<SamplerKind::FarthestPoint, SurfaceMetric::Length>},
+    {"farthest point, angle", sample<SamplerKind::FarthestPoint, SurfaceMetric::Angle>},
+    {"normal space", sample<SamplerKind::NormalSpace, SurfaceMetric::Hops>},
+    {"weighted blue noise", sampleWeighted},
+}};
+
+template <typename Body>
+void forEachSampler(const Body& body) {
+  for (const NamedSampler& sampler : kSamplers) {
+    CAPTURE(sampler.name);
+    body(sampler.sample);
+  }
+}
+
+bool ascendWithoutRepeats(const Seeds& seeds) {
+  return std::adjacent_find(seeds.begin(), seeds.end(), std::greater_equal<>()) == seeds.end();
+}
+
+bool areAllIn(const Seeds& seeds, std::span<const uint32_t> allowed) {
+  return std::includes(allowed.begin(), allowed.end(), seeds.begin(), seeds.end());
+}
+
+/// Flat islands of 1 to 7 faces.
+Mesh islands(uint32_t count) {
+  Mesh mesh;
+  for (uint32_t i = 0; i < count; ++i) mesh = together(std::move(mesh), strip(1 + i % 7));
+  return mesh;
+}
+
+/// Every seventh face squeezed to an edge, by its neighbour's corner, and one face with a corner at infinity.
+Mesh withDegenerateFaces(Mesh mesh) {
+  for (size_t face = 0; face < mesh.faces.size(); face += 7)
+    mesh.vertices[mesh.faces[face][0]] = mesh.vertices[mesh.faces[face][1]];
+  mesh.vertices[mesh.faces[3][0]].x = std::numeric_limits<double>::infinity();
+  return mesh;
+}
+
+}  // namespace
+
+TEST_CASE("any count of seeds comes out exactly, candidates only, each once, ascending") {
+  const Surface& torus = generatedSurface("torus", 2000);
+  const auto size = static_cast<uint64_t>(torus.candidates.size());
+  forEachSampler([&](auto sample) {
+    for (uint64_t count : {uint64_t{1}, uint64_t{2}, uint64_t{3}, size / 100, size / 10, size / 2, size - 1, size}) {
+      CAPTURE(count);
+      const Seeds seeds = sample(torus.domain(), count, {}, 5);
+      CHECK(seeds.size() == count);
+      CHECK(ascendWithoutRepeats(seeds));
+      CHECK(areAllIn(seeds, torus.candidates));
+    }
+    CHECK(sample(torus.domain(), 0, {}, 5).empty());
+    CHECK(sample(torus.domain(), size + 1, {}, 5) == torus.candidates);
+    CHECK(sample(torus.domain(), uint64_t{1} << 60, {}, 5) == torus.candidates);
+  });
+}
+
+TEST_CASE("an empty mesh, one face, and no candidate") {
+  const Surface none{Mesh{}}, one(strip(1));
+  const SeedDomain noCandidate{one.graph, one.geometry, {}};
+  forEachSampler([&](auto sample) {
+    CHECK(sample(none.domain(), 3, {}, 1).empty());
+    CHECK(sample(one.domain(), 1, {}, 1) == Seeds{0});
+    CHECK(sample(one.domain(), 1, Seeds{0}, 1).empty());
+    CHECK(sample(noCandidate, 1, {}, 1).empty());
+  });
+}
+
+TEST_CASE("existing seeds are not chosen again, and what is left is chosen to the last face") {
+  const Surface& sphere = generatedSurface("sphere", 1000);
+  const auto size = static_cast<uint64_t>(sphere.candidates.size());
+  forEachSampler([&](auto sample) {
+    Seeds chosen = sample(sphere.domain(), 100, {}, 1);
+    for (uint64_t count : {uint64_t{1}, uint64_t{57}, uint64_t{500}, size}) {
+      CAPTURE(count);
+      Seeds existing = chosen;
+      std::reverse(existing.begin(), existing.end());
+      const Seeds seeds = sample(sphere.domain(), count, existing, 2);
+      CHECK(seeds.size() == std::min(count, size - chosen.size()));
+      CHECK(ascendWithoutRepeats(seeds));
+      Seeds both;
+      std::set_union(chosen.begin(), chosen.end(), seeds.begin(), seeds.end(), std::back_inserter(both));
+      CHECK(both.size() == chosen.size() + seeds.size());
+      chosen = both;
+    }
+    CHECK(chosen == sphere.candidates);
+  });
+}
+
+TEST_CASE("faces that are no candidates are never seeds, and degenerate faces do no harm") {
+  const Surface dented(withDegenerateFaces(generatedSurface("torus", 2000).mesh));
+  REQUIRE(dented.candidates.size() < dented.graph.faceCount());
+  REQUIRE(dented.candidates.size() > 300);
+  forEachSampler([&](auto sample) {
+    for (uint64_t count : {uint64_t{1}, uint64_t{200}, static_cast<uint64_t>(dented.candidates.size()) - 1}) {
+      CAPTURE(count);
+      const Seeds seeds = sample(dented.domain(), count, Seeds{0}, 3);
+      CHECK(seeds.size() == count);
+      CHECK(areAllIn(seeds, dented.candidates));
+    }
+  });
+}
+
+TEST_CASE("components smaller than the space between seeds, fewer and more seeds than components") {
+  const Surface scattered(islands(300));
+  forEachSampler([&](auto sample) {
+    for (uint64_t count : {1u, 10u, 300u, 600u, 1000u}) {
+      CAPTURE(count);
+      const Seeds seeds = sample(scattered.domain(), count, {}, 4);
+      CHECK(seeds.size() == count);
+      CHECK(ascendWithoutRepeats(seeds));
+      CHECK(areAllIn(seeds, scattered.candidates));
+    }
+  });
+}
+
+TEST_CASE("the same seeds each time and on any number of threads, others with another random seed") {
+  const Surface& torus = generatedSurface("torus", 20'000);
+  forEachSampler([&](auto sample) {
+    const Seeds seeds = sample(torus.domain(), 1500, {}, 11);
+    CHECK(seeds == sample(torus.domain(), 1500, {}, 11));
+    CHECK(seeds != sample(torus.domain(), 1500, {}, 12));
+    const tbb::global_control oneThread(tbb::global_control::max_allowed_parallelism, 1);
+    CHECK(seeds == sample(torus.domain(), 1500, {}, 11));
+  });
+}
+
+TEST_CASE("an existing face that the mesh has not is a mistake") {
+  const Surface one(strip(2));
+  forEachSampler(
+      [&](auto sample) { CHECK_THROWS_AS(static_cast<void>(sample(one.domain(), 1, Seeds{2}, 1)), CheckFailure); });
+}

@@ -1,0 +1,68 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+#include "core/random.h"
+#include "seeds/surface.h"
+#include "seeds/surface_ball.h"
+#include "seeds/surface_distances.h"
+#include "seeds/surface_metric.h"
+
+using namespace asdfvk;
+
+TEST_CASE("distances to a growing set of seeds are those by definition, up to the limit") {
+  const Surface& hand = generatedSurface("hand", 3000);
+  for (SurfaceMetric metric : {SurfaceMetric::Hops, SurfaceMetric::Length, SurfaceMetric::Angle}) {
+    CAPTURE(static_cast<int>(metric));
+    const std::vector<float> lengths = arcLengths(hand.graph, hand.geometry, metric);
+    SurfaceDistances distances(hand.graph, lengths);
+    Random random(6);
+    std::vector<uint32_t> seeds;
+    for (float limit : {SurfaceDistances::kUnreached, 20.0f, 8.0f, 8.0f, 3.0f}) {
+      CAPTURE(limit);
+      std::vector<uint32_t> further;
+      for (int i = 0; i < 10; ++i) further.push_back(random.index(hand.graph.faceCount()));
+      seeds.insert(seeds.end(), further.begin(), further.end());
+      distances.add(further, limit);
+      const std::vector<float> expected = distancesToNearest(hand.graph, lengths, seeds);
+      size_t belowLimitCount = 0;
+      for (uint32_t face = 0; face < hand.graph.faceCount(); ++face) {
+        if (expected[face] >= limit) {
+          CHECK(distances.at(face) >= expected[face]);
+          continue;
+        }
+        ++belowLimitCount;
+        CHECK(distances.at(face) == doctest::Approx(expected[face]));
+      }
+      CHECK(belowLimitCount > seeds.size());
+    }
+    distances.clear();
+    CHECK(distances.at(seeds[0]) == SurfaceDistances::kUnreached);
+  }
+}
+
+TEST_CASE("a ball holds the faces of the component, nearest first, each once, ball after ball") {
+  const Surface surface(together(generatedSurface("torus", 500).mesh, strip(5)));
+  const std::vector<float> lengths = arcLengths(surface.graph, surface.geometry, SurfaceMetric::Angle);
+  SurfaceBall ball(surface.graph, lengths);
+  const uint32_t islandBegin = surface.graph.faceCount() - 5;
+  for (uint32_t centre : {0u, 77u, islandBegin + 2, 78u}) {
+    CAPTURE(centre);
+    const std::vector<uint32_t> seed{centre};
+    const std::vector<float> expected = distancesToNearest(surface.graph, lengths, seed);
+    ball.startAt(centre);
+    SurfaceBall::Member member;
+    std::vector<uint32_t> faces;
+    float last = 0;
+    while (ball.next(member)) {
+      CHECK(member.distance >= last);
+      CHECK(member.distance == doctest::Approx(expected[member.face]));
+      last = member.distance;
+      faces.push_back(member.face);
+    }
+    CHECK(faces.front() == centre);
+    std::sort(faces.begin(), faces.end());
+    CHECK(std::adjacent_find(faces.begin(), faces.end()) == faces.end());
+    CHECK(faces.size() == (centre < islandBegin ? islandBegin : 5));
+  }
+}
