@@ -21,7 +21,10 @@ SolverReport solveByRefinement(const std::string& name, const PoissonSystem& sys
   ASDFVK_CHECK_OP(solution.size(), ==, system.faces.size());
   SolverReport report;
   report.name = name;
-  std::fill(solution.begin(), solution.end(), system.knownMean);
+  if (system.firstGuess.empty())
+    std::fill(solution.begin(), solution.end(), system.knownMean);
+  else
+    std::copy(system.firstGuess.begin(), system.firstGuess.end(), solution.begin());
   const double rightHandNorm = residualNorm(system, system.rightHandSide);
   if (rightHandNorm == 0) {
     std::fill(solution.begin(), solution.end(), 0.0);

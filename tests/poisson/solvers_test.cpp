@@ -40,7 +40,7 @@ std::vector<double> directSolution(const PoissonSystem& system) {
   for (uint32_t row = 0; row < system.unknownCount(); ++row) {
     entries.emplace_back(row, row, system.diagonal[row]);
     for (uint32_t i = system.rowOffsets[row]; i < system.rowOffsets[row + 1]; ++i)
-      entries.emplace_back(row, system.columns[i], -system.weights[i]);
+      entries.emplace_back(row, system.columns[i], system.entries[i]);
   }
   Eigen::SparseMatrix<double> matrix(size, size);
   matrix.setFromTriplets(entries.begin(), entries.end());
@@ -71,8 +71,7 @@ TEST_CASE("a chain between two known ends is a straight line") {
 TEST_CASE("a single unknown is the weighted mean of its neighbours") {
   SolversUnderTest solvers;
   const HandGraph hand({{0, 0, 0}, {1, 0, 0}, {3, 0, 0}}, {{0, 1}, {1, 2}});
-  const PoissonSystem system =
-      buildPoissonSystem(hand.graph, hand.geometry, std::vector<double>{5, kNoValue, 8}, {}, 0);
+  const PoissonSystem system = distanceSystem(hand.graph, hand.geometry, std::vector<double>{5, kNoValue, 8});
   for (SolverUnderTest& under : solvers) {
     CAPTURE(under.name);
     CHECK(solveTightly(under, system).solution[0] == doctest::Approx(6));
@@ -104,8 +103,7 @@ TEST_CASE("a right-hand side of 0 beside other known values gives 0, not their m
   SolversUnderTest solvers;
   // Face 2 is known, but joined to no unknown.
   const HandGraph hand({{0, 0, 0}, {1, 0, 0}, {9, 0, 0}}, {{0, 1}});
-  const PoissonSystem system =
-      buildPoissonSystem(hand.graph, hand.geometry, std::vector<double>{0, kNoValue, 8}, {}, 0);
+  const PoissonSystem system = distanceSystem(hand.graph, hand.geometry, std::vector<double>{0, kNoValue, 8});
   for (SolverUnderTest& under : solvers) {
     CAPTURE(under.name);
     CHECK(solve(under, system, {}).solution == std::vector<double>{0});
@@ -114,10 +112,10 @@ TEST_CASE("a right-hand side of 0 beside other known values gives 0, not their m
 
 TEST_CASE("the guidance term bends a chain by what is worked out by hand") {
   SolversUnderTest solvers;
-  // Two unknowns between 0 and 0, unit distances, k curv = 1 on the first: 2a - b = -1, 2b - a = 0.
+  // Two unknowns between 0 and 0, unit distances, divergence -1 on the first: 2a - b = -1, 2b - a = 0.
   const HandGraph hand({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}}, {{0, 1}, {1, 2}, {2, 3}});
-  const PoissonSystem system = buildPoissonSystem(
-      hand.graph, hand.geometry, std::vector<double>{0, kNoValue, kNoValue, 0}, std::vector<double>{0, 0.5, 0, 0}, 2);
+  const PoissonSystem system = distanceSystem(hand.graph, hand.geometry, std::vector<double>{0, kNoValue, kNoValue, 0},
+                                              std::vector<double>{0, -1, 0, 0});
   for (SolverUnderTest& under : solvers) {
     CAPTURE(under.name);
     const auto [report, solution] = solveTightly(under, system);
@@ -129,8 +127,8 @@ TEST_CASE("the guidance term bends a chain by what is worked out by hand") {
 TEST_CASE("components with a known face each are solved on their own") {
   SolversUnderTest solvers;
   const HandGraph hand({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {9, 0, 0}, {10, 0, 0}, {20, 0, 0}}, {{0, 1}, {1, 2}, {3, 4}});
-  const PoissonSystem system = buildPoissonSystem(
-      hand.graph, hand.geometry, std::vector<double>{1, kNoValue, kNoValue, kNoValue, 700, kNoValue}, {}, 0);
+  const PoissonSystem system =
+      distanceSystem(hand.graph, hand.geometry, std::vector<double>{1, kNoValue, kNoValue, kNoValue, 700, kNoValue});
   CHECK(system.faces == std::vector<uint32_t>{1, 2, 3});
   for (SolverUnderTest& under : solvers) {
     CAPTURE(under.name);
@@ -182,8 +180,7 @@ TEST_CASE("the unit of the values does not matter") {
 TEST_CASE("coincident barycentres beside ordinary ones do not keep a solver from its tolerance") {
   SolversUnderTest solvers;
   const HandGraph hand({{0, 0, 0}, {1, 0, 0}, {1, 0, 0}, {2, 0, 0}}, {{0, 1}, {1, 2}, {2, 3}});
-  const PoissonSystem system =
-      buildPoissonSystem(hand.graph, hand.geometry, std::vector<double>{1, kNoValue, kNoValue, 3}, {}, 0);
+  const PoissonSystem system = distanceSystem(hand.graph, hand.geometry, std::vector<double>{1, kNoValue, kNoValue, 3});
   for (SolverUnderTest& under : solvers) {
     // A plain Jacobi iteration wins a billionth a step on such a pair.
     if (under.name == "jacobi") continue;
@@ -274,7 +271,7 @@ TEST_CASE("a finely meshed patch does not hide what is unsolved elsewhere") {
     const uint32_t face = random.index(mesh.faceCount());
     values[face] = 1 + geometry.barycentres[face].x;
   }
-  const PoissonSystem system = buildPoissonSystem(buildDualGraph(mesh), geometry, values, {}, 0);
+  const PoissonSystem system = distanceSystem(buildDualGraph(mesh), geometry, values);
   const std::vector<double> direct = directSolution(system);
   SolversUnderTest solvers;
   for (SolverUnderTest& under : solvers) {

@@ -32,7 +32,7 @@ PoissonSystem unevenSystem() {
   for (double& value : values)
     if (random.index(8) == 0) value = 1 + random.real();
   const HandGraph hand(geometry.barycentres, edges);
-  return buildPoissonSystem(hand.graph, hand.geometry, values, {}, 0);
+  return distanceSystem(hand.graph, hand.geometry, values);
 }
 
 std::vector<double> randomResidual(size_t size) {
@@ -139,7 +139,7 @@ TEST_CASE("an exact solution ends the iteration without a division of 0 by 0") {
 TEST_CASE("a product that is no positive number stops the iteration and says so") {
   const test::ValidatedDevice device;
   PoissonSystem system = chain(4, 1, 3);
-  std::fill(system.weights.begin(), system.weights.end(), 10.0);  // indefinite
+  std::fill(system.entries.begin(), system.entries.end(), -10.0);  // indefinite
   const ScaledSystem scaled(system);
   const VulkanCgKernels kernels(*device);
   const VulkanMatrix matrix(*device, scaled);
