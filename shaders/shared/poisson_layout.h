@@ -51,6 +51,7 @@ struct PoissonSums {
 struct PoissonPush {
   uint unknownCount;
   uint stateIndex;  // The CgState that this iteration reads; it writes the other one.
+  float heldBack;   // The share of its step that a Jacobi iteration holds back; 0 is the plain one.
 };
 
 #ifdef __cplusplus
@@ -66,8 +67,9 @@ static_assert(offsetof(CgState, status) == 16);
 static_assert(sizeof(PoissonSums) == 3076);
 static_assert(offsetof(PoissonSums, productDot) == 0 && offsetof(PoissonSums, residualDot) == 1024);
 static_assert(offsetof(PoissonSums, residualSquared) == 2048 && offsetof(PoissonSums, brokenDown) == 3072);
-static_assert(sizeof(PoissonPush) == 8);
+static_assert(sizeof(PoissonPush) == 12);
 static_assert(offsetof(PoissonPush, unknownCount) == 0 && offsetof(PoissonPush, stateIndex) == 4);
+static_assert(offsetof(PoissonPush, heldBack) == 8);
 }  // namespace asdfvk
 #else
 PoissonRow decodePoissonRow(uvec4 t0, uvec4 t1) {
