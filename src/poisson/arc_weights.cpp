@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kShortestDistanceRatio = 1e-9;
 constexpr double kShortestDistance = 1e-300;  // Keeps weights finite where even the diagonal is next to nothing.
-constexpr double kLeastWeight = std::numeric_limits<double>::min();  // Of faces a whole number range apart.
+constexpr double kLeastWeight = std::numeric_limits<double>::min();  // Where the distance is beyond all numbers.
 
 // std::hypot neither overflows nor underflows, whatever the mesh's unit.
 double extent(const Vec3d& v) { return std::hypot(v.x, v.y, v.z); }
@@ -25,8 +25,9 @@ std::vector<double> distanceWeights(const DualGraph& graph, const FaceGeometry& 
   std::vector<double> weights(graph.neighbours.size());
   forEachRow(graph.faceCount(), [&](size_t face) {
     for (uint32_t arc = graph.offsets[face]; arc < graph.offsets[face + 1]; ++arc) {
-      const Vec3d between = geometry.barycentres[graph.neighbours[arc]] - geometry.barycentres[face];
-      weights[arc] = std::max(1 / std::max(extent(between), shortest), kLeastWeight);
+      // Halves, so that their difference does not overflow.
+      const Vec3d half = geometry.barycentres[graph.neighbours[arc]] * 0.5 - geometry.barycentres[face] * 0.5;
+      weights[arc] = std::max(1 / std::max(2 * extent(half), shortest), kLeastWeight);
     }
   });
   return weights;

@@ -5,8 +5,10 @@
 #include <cstring>
 
 #include "core/random.h"
+#include "dense_twin.h"
 #include "fixtures.h"
 #include "generate/shapes.h"
+#include "sample_problems.h"
 #include "solvers_under_test.h"
 
 using namespace asdfvk;
@@ -281,5 +283,77 @@ TEST_CASE("a finely meshed patch does not hide what is unsolved elsewhere") {
     double sum = 0;
     for (size_t i = 0; i < direct.size(); ++i) sum += std::abs(solved.solution[i] - direct[i]);
     CHECK(sum / static_cast<double>(direct.size()) < 0.01);  // of a range of 2.6
+  }
+}
+
+TEST_CASE("any weights and order come out as dense algebra solves them") {
+  SolversUnderTest solvers;
+  for (const SampleProblem& problem : sampleProblems())
+    for (ArcWeightKind kind : kArcWeightKinds)
+      for (double beta : kSecondOrders) {
+        CAPTURE(problem.name);
+        CAPTURE(static_cast<int>(kind));
+        CAPTURE(beta);
+        // Its coincident faces tie each other a billion times stronger than others; see the test after this.
+        if (kind == ArcWeightKind::Distance && problem.name == "dense random faces") continue;
+        const std::vector<double> weights = arcWeights(kind, problem.graph, problem.geometry);
+        const PoissonSystem system =
+            buildPoissonSystem(problem.graph, weights, problem.values, {}, {.secondOrder = beta});
+        const DenseTwin twin(problem.graph, weights, problem.values, {}, beta);
+        for (SolverUnderTest& under : solvers) {
+          // Thousands of iterations where edges have many faces.
+          if (under.name == "jacobi" && !problem.isManifold) continue;
+          CAPTURE(under.name);
+          const auto [report, solution] = solveTightly(under, system);
+          const double bound = 1e-10 + under.tightestTolerance * twin.largestErrorOverResidual();
+          CHECK(largestDifference(solution, {twin.solution.data(), solution.size()}) < bound);
+          if (beta > 0) continue;
+          CHECK(*std::min_element(solution.begin(), solution.end()) >= 1 - bound);
+          CHECK(*std::max_element(solution.begin(), solution.end()) <= 2 + bound);
+        }
+      }
+}
+
+TEST_CASE("coincident faces may keep float32 from converging, but nothing is made worse by trying") {
+  SolversUnderTest solvers;
+  for (uint64_t seed : {2, 3, 4}) {
+    const SampleProblem problem("coincident faces", randomFaces(25, 300, seed));
+    const PoissonSystem system =
+        buildPoissonSystem(problem.graph, arcWeights(ArcWeightKind::Distance, problem.graph, problem.geometry),
+                           problem.values, {}, {.secondOrder = 3});
+    for (SolverUnderTest& under : solvers) {
+      CAPTURE(under.name);
+      const Solved solved = solve(under, system, {.tolerance = 1e-6});
+      CHECK(solved.report.relativeResidual <=
+            relativeResidual(system, std::vector<double>(system.unknownCount(), system.knownMean)));
+      CHECK(*std::min_element(solved.solution.begin(), solved.solution.end()) > 0);
+      CHECK(*std::max_element(solved.solution.begin(), solved.solution.end()) < 3);
+    }
+  }
+}
+
+TEST_CASE("a solver starts at the first guess") {
+  SolversUnderTest solvers;
+  for (double beta : kSecondOrders) {
+    const SampleProblem problem("torus", torus(14, 10));
+    const std::vector<double> weights = arcWeights(ArcWeightKind::Feature, problem.graph, problem.geometry);
+    const DenseTwin twin(problem.graph, weights, problem.values, {}, beta);
+    std::vector<double> guess(problem.values.size(), 1.25);
+    const auto build = [&] {
+      return buildPoissonSystem(problem.graph, weights, problem.values, {}, {.secondOrder = beta, .firstGuess = guess});
+    };
+    const PoissonSystem away = build();
+    for (size_t i = 0; i < twin.faces.size(); ++i)
+      guess[static_cast<size_t>(twin.faces[i])] = twin.solution[static_cast<Eigen::Index>(i)];
+    const PoissonSystem there = build();
+    for (SolverUnderTest& under : solvers) {
+      CAPTURE(under.name);
+      CHECK(solve(under, away, {.tolerance = 1e-6, .maxIterations = 0}).solution ==
+            std::vector<double>(away.unknownCount(), 1.25));
+      const Solved solved = solve(under, there, {.tolerance = 1e-10});
+      CHECK(solved.report.converged);
+      CHECK(solved.report.iterations == 0);
+      CHECK(solved.solution == there.firstGuess);
+    }
   }
 }
