@@ -1,5 +1,6 @@
 #version 450
-// One Jacobi iteration, y' = b + S y, and the partial sums of the squared residual of y, which is y' - y.
+// One Jacobi iteration, y' = y + (1 - held back) r with the residual r = b + S y - y of y, and the partial sums of its
+// squares.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/poisson_layout.h"
 
@@ -17,8 +18,8 @@ void main() {
   for (uint row = firstRow(); row < push.unknownCount; row += rowStride()) {
     float value = b[row];
     ADD_COUPLED(row, y, value)
-    next[row] = value;
     const float residual = value - y[row];
+    next[row] = value - push.heldBack * residual;
     squared += residual * residual * residualWeights[row];
   }
   const float total = workgroupSum(vec2(squared, 0.0)).x;

@@ -1,7 +1,7 @@
 // What the kernels of the Poisson solvers share with the host; included by C++ and by GLSL.
 //
-// The system is solved in the scaled form (I - S) y = b with S = D^-1/2 W D^-1/2 for the weights W and the diagonal D:
-// conjugate gradients on it are Jacobi-preconditioned conjugate gradients on D - W, without a vector to divide by.
+// The system A is solved in the scaled form (I - S) y = b with S = I - D^-1/2 A D^-1/2, D the diagonal of A, so that S
+// has none: conjugate gradients on it are Jacobi-preconditioned conjugate gradients on A, without a vector to divide by.
 #ifndef ASDFVK_POISSON_LAYOUT_H
 #define ASDFVK_POISSON_LAYOUT_H
 
@@ -13,8 +13,8 @@ namespace asdfvk {
 using glsl::uint;
 #endif
 
-// A row of S, 32 bytes, read as two rgba32ui texels: its first three entries, which are all there are on a manifold
-// mesh, and where the rest stands. Entries that a row has not got have coupling 0 and the row's own column.
+// A row of S, 32 bytes, read as two rgba32ui texels: its first three entries, which are all there are of the first
+// order on a manifold mesh, and where the rest stands, up to six of the second order. Entries that a row has not got have coupling 0 and the row's own column.
 const uint kPoissonRowTexelCount = 2u;
 struct PoissonRow {
   uint column0, column1, column2;
@@ -51,6 +51,7 @@ struct PoissonSums {
 struct PoissonPush {
   uint unknownCount;
   uint stateIndex;  // The CgState that this iteration reads; it writes the other one.
+  float heldBack;   // The share of its step that a Jacobi iteration holds back; 0 is the plain one.
 };
 
 #ifdef __cplusplus
@@ -66,8 +67,9 @@ static_assert(offsetof(CgState, status) == 16);
 static_assert(sizeof(PoissonSums) == 3076);
 static_assert(offsetof(PoissonSums, productDot) == 0 && offsetof(PoissonSums, residualDot) == 1024);
 static_assert(offsetof(PoissonSums, residualSquared) == 2048 && offsetof(PoissonSums, brokenDown) == 3072);
-static_assert(sizeof(PoissonPush) == 8);
+static_assert(sizeof(PoissonPush) == 12);
 static_assert(offsetof(PoissonPush, unknownCount) == 0 && offsetof(PoissonPush, stateIndex) == 4);
+static_assert(offsetof(PoissonPush, heldBack) == 8);
 }  // namespace asdfvk
 #else
 PoissonRow decodePoissonRow(uvec4 t0, uvec4 t1) {

@@ -4,16 +4,28 @@
 
 #include "core/error.h"
 #include "mesh/curvature.h"
+#include "poisson/arc_weights.h"
 #include "poisson/poisson_system.h"
 
 namespace asdfvk {
+namespace {
+
+// The term -k curv of the ASDF paper, section 4.1; empty where k is 0.
+std::vector<double> guidanceByCurvature(const Mesh& mesh, double guidance) {
+  if (guidance == 0) return {};
+  std::vector<double> divergence = faceCurvature(mesh);
+  for (double& entry : divergence) entry *= -guidance;
+  return divergence;
+}
+
+}  // namespace
 
 SolverReport interpolate(const Mesh& mesh, const PreparedMesh& prepared, const Options& options,
                          ComputeBackend& backend, std::span<double> values, const RunControl& control,
                          std::vector<std::string>& warnings) {
-  const std::vector<double> curvature = options.guidance != 0 ? faceCurvature(mesh) : std::vector<double>{};
   const PoissonSystem system =
-      buildPoissonSystem(prepared.graph, prepared.geometry, values, curvature, options.guidance);
+      buildPoissonSystem(prepared.graph, arcWeights(ArcWeightKind::Distance, prepared.graph, prepared.geometry), values,
+                         guidanceByCurvature(mesh, options.guidance));
   if (system.unknownCount() == 0) return {.name = "none"};
   std::vector<double> solution(system.unknownCount());
   const auto solveWith = [&](SolverChoice choice) {

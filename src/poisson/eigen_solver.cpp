@@ -21,13 +21,13 @@ constexpr double kStrongestReduction = 1e-13;
 constexpr uint32_t kIterationsPerCheckpoint = 8;
 
 // Rows are shared out among the threads, each summed by one: the same bits whatever their number.
-void multiply(const PoissonSystem& system, const OffDiagonals& weights, const Vector& p, Vector& product) {
+void multiply(const PoissonSystem& system, const OffDiagonals& entries, const Vector& p, Vector& product) {
   tbb::parallel_for(tbb::blocked_range<Eigen::Index>(0, p.size(), 16384),
                     [&](const tbb::blocked_range<Eigen::Index>& range) {
                       for (Eigen::Index row = range.begin(); row < range.end(); ++row) {
                         double sum = system.diagonal[static_cast<size_t>(row)] * p[row];
-                        for (OffDiagonals::InnerIterator entry(weights, row); entry; ++entry)
-                          sum -= entry.value() * p[entry.col()];
+                        for (OffDiagonals::InnerIterator entry(entries, row); entry; ++entry)
+                          sum += entry.value() * p[entry.col()];
                         product[row] = sum;
                       }
                     });
@@ -38,9 +38,9 @@ void multiply(const PoissonSystem& system, const OffDiagonals& weights, const Ve
 uint32_t conjugateGradient(const PoissonSystem& system, const CorrectionRequest& request, SolverProgress& progress) {
   const Eigen::Index size = static_cast<Eigen::Index>(system.faces.size());
   // Eigen's maps count in int.
-  const OffDiagonals weights(size, size, static_cast<Eigen::Index>(system.columns.size()),
+  const OffDiagonals entries(size, size, static_cast<Eigen::Index>(system.columns.size()),
                              reinterpret_cast<const int*>(system.rowOffsets.data()),
-                             reinterpret_cast<const int*>(system.columns.data()), system.weights.data());
+                             reinterpret_cast<const int*>(system.columns.data()), system.entries.data());
   const Eigen::Map<const Vector> diagonal(system.diagonal.data(), size);
   Eigen::Map<Vector> x(request.correction.data(), size);
   x.setZero();
@@ -55,7 +55,7 @@ uint32_t conjugateGradient(const PoissonSystem& system, const CorrectionRequest&
   double norm = 1;
   while (norm > request.reduction && iteration < request.maxIterations) {
     if (iteration % kIterationsPerCheckpoint == 0) progress.checkpoint(norm * firstNorm * scale);
-    multiply(system, weights, p, product);
+    multiply(system, entries, p, product);
     const double alpha = rz / p.dot(product);
     x += alpha * p;
     r -= alpha * product;

@@ -5,37 +5,50 @@
 #include <vector>
 
 #include "mesh/dual_graph.h"
-#include "mesh/face_geometry.h"
 #include "mesh/mesh.h"
 
 namespace asdfvk {
 
-/// The interpolation of the ASDF paper, section 4.1, over the dual graph with weights 1 / distance of barycentres:
-///
-///     sum_{g in N(f)} w_fg u(f) - sum_{g in N(f), g unknown} w_fg u(g) = sum_{g in N(f), g known} w_fg value(g) - k
-///     curv(f)
-///
-/// Symmetric and positive definite: faces that no path of arcs joins to a known face are left out. Rows are compressed,
-/// columns strictly ascending (two arcs to the same face are one entry with the sum of their weights); the matrix entry
-/// of an off-diagonal arc is minus its weight.
+/// A u = b for the unknown faces of an interpolation: symmetric, positive definite. Rows are compressed, columns
+/// strictly ascending. Of the first order A is an M-matrix, its off-diagonal entries are minus the weights; of the
+/// second order they have either sign.
 struct PoissonSystem {
   std::vector<uint32_t> faces;        ///< #U: the face of each unknown, ascending.
   std::vector<uint32_t> rowOffsets;   ///< #U+1
-  std::vector<uint32_t> columns;      ///< Unknown indices.
-  std::vector<double> weights;        ///< w_fg > 0, one per column.
-  std::vector<double> diagonal;       ///< #U, the sum of w_fg over all of N(f).
+  std::vector<uint32_t> columns;      ///< Unknown indices, without the row's own.
+  std::vector<double> entries;        ///< Off-diagonal ones of A, one per column.
+  std::vector<double> diagonal;       ///< #U, > 0. Also what the known neighbours take part in.
   std::vector<double> rightHandSide;  ///< #U
-  double knownMean = 0;               ///< Mean of the known values: the solvers' first guess.
+  std::vector<double> firstGuess;     ///< #U, or empty: knownMean everywhere. Where the solvers start.
+  double knownMean = 0;               ///< Mean of the known values.
 
   [[nodiscard]] uint32_t unknownCount() const { return static_cast<uint32_t>(faces.size()); }
 };
 
-/// values: #F, finite where the face is known (a Dirichlet constraint), NaN where it is not. curvature: #F, non-finite
-/// entries count as 0; or empty when guidance is 0. Distances below 1e-9 of the box's diagonal count as that, so that
-/// coincident barycentres keep the matrix finite.
-[[nodiscard]] PoissonSystem buildPoissonSystem(const DualGraph& graph, const FaceGeometry& geometry,
-                                               std::span<const double> values, std::span<const double> curvature,
-                                               double guidance);
+struct PoissonOptions {
+  /// beta >= 0. 0: values without a divergence stay within the range of the known ones. Above, they bend less and
+  /// carry on their slopes, also beyond that range.
+  double secondOrder = 0;
+  /// #F, or empty. Where it is not finite the mean of the known values stands in.
+  std::span<const double> firstGuess;
+};
+
+/// The interpolation of the ASDF paper, section 4.1, over the dual graph:
+///
+///     sum_{g in N(f)} w_fg u(f) - sum_{g in N(f), g unknown} w_fg u(g)
+///         = sum_{g in N(f), g known} w_fg value(g) + divergence(f)
+///
+/// which is the minimum of sum w_fg (u_f - u_g)^2 if there is no divergence; beta adds beta sum_f (L u)_f^2 / D_f to
+/// that, see SecondOrderRows. Faces that no path of arcs joins to a known one are left out.
+///
+/// weights: one per arc, see arcWeights(); > 0, finite, the same both ways (two arcs to the same face count as one with
+/// the sum of their weights). values: #F, finite where the face is known (a Dirichlet constraint), NaN where it is not.
+/// divergence: #F, or empty for none; non-finite entries count as 0. It is -k curv for the paper's guidance by
+/// curvature, and divergenceOf(field) for guidance by any field: if the known values are the field's, it is the
+/// solution, with any beta.
+[[nodiscard]] PoissonSystem buildPoissonSystem(const DualGraph& graph, std::span<const double> weights,
+                                               std::span<const double> values, std::span<const double> divergence,
+                                               const PoissonOptions& options = {});
 
 /// residual = b - A x, in double. solution, residual: #U.
 void computeResidual(const PoissonSystem& system, std::span<const double> solution, std::span<double> residual);

@@ -21,7 +21,10 @@ SolverReport solveByRefinement(const std::string& name, const PoissonSystem& sys
   ASDFVK_CHECK_OP(solution.size(), ==, system.faces.size());
   SolverReport report;
   report.name = name;
-  std::fill(solution.begin(), solution.end(), system.knownMean);
+  if (system.firstGuess.empty())
+    std::fill(solution.begin(), solution.end(), system.knownMean);
+  else
+    std::copy(system.firstGuess.begin(), system.firstGuess.end(), solution.begin());
   const double rightHandNorm = residualNorm(system, system.rightHandSide);
   if (rightHandNorm == 0) {
     std::fill(solution.begin(), solution.end(), 0.0);
@@ -37,10 +40,12 @@ SolverReport solveByRefinement(const std::string& name, const PoissonSystem& sys
                                   .maxIterations = options.maxIterations - report.iterations,
                                   .correction = correction});
     if (!std::all_of(correction.begin(), correction.end(), [](double e) { return std::isfinite(e); })) break;
-    for (size_t i = 0; i < solution.size(); ++i) solution[i] += correction[i];
-    computeResidual(system, solution, residual);
+    for (size_t i = 0; i < solution.size(); ++i) correction[i] += solution[i];
+    computeResidual(system, correction, residual);
     const double newNorm = residualNorm(system, residual);
-    const bool stagnates = !(newNorm <= kStagnation * norm);
+    if (!(newNorm <= norm)) break;
+    std::copy(correction.begin(), correction.end(), solution.begin());
+    const bool stagnates = newNorm > kStagnation * norm;
     norm = newNorm;
     if (stagnates) break;
   }

@@ -32,7 +32,7 @@ ScaledSystem::ScaledSystem(const PoissonSystem& system)
   forEachRow(rowCount, [&](size_t row) {
     const double root = std::sqrt(system.diagonal[row]);
     const auto coupling = [&](uint32_t i) {
-      return static_cast<float>(system.weights[i] / root / std::sqrt(system.diagonal[system.columns[i]]));
+      return static_cast<float>(-system.entries[i] / root / std::sqrt(system.diagonal[system.columns[i]]));
     };
     const uint32_t begin = system.rowOffsets[row], length = system.rowOffsets[row + 1] - begin;
     std::array<uint32_t, kHeadLength> columns;

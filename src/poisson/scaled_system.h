@@ -9,7 +9,7 @@
 
 namespace asdfvk {
 
-/// A Poisson system as devices solve it, in float32: (I - S) y = b with S = D^-1/2 W D^-1/2, see
+/// A Poisson system as devices solve it, in float32: (I - S) y = b with S = I - D^-1/2 A D^-1/2, see
 /// shaders/shared/poisson_layout.h. Rows are those of the system, which must outlive this.
 class ScaledSystem {
  public:

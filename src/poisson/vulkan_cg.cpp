@@ -58,7 +58,7 @@ VulkanCg::VulkanCg(const Device& device, const VulkanCgKernels& kernels, const V
 CgState VulkanCg::advance(uint32_t iterationCount) {
   commands_.begin();
   for (uint32_t i = 0; i < iterationCount; ++i) {
-    const PoissonPush push{unknownCount_, stateIndex_};
+    const PoissonPush push{unknownCount_, stateIndex_, 0};
     commands_.dispatch(kernels_.product, productBindings_, bytesOf(push), workgroupCount_);
     commands_.barrier();
     commands_.dispatch(kernels_.step, stepBindings_, bytesOf(push), workgroupCount_);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "poisson/jacobi_damping.h"
 #include "poisson/vulkan_jacobi.h"
 #include "poisson/vulkan_refinement.h"
 
@@ -19,13 +20,14 @@ class VulkanJacobiSolver final : public PoissonSolver {
 
   SolverReport solve(const PoissonSystem& system, const SolverOptions& options, std::span<double> solution,
                      const RunControl& control) override {
+    const double heldBack = heldBackByJacobi(system);
     return solveOnDevice("jacobi", device_, system, options, kStrongestReduction, solution, control,
-                         [this](const DevicePass& pass) { return iterate(pass); });
+                         [&](const DevicePass& pass) { return iterate(pass, heldBack); });
   }
 
  private:
-  DevicePassResult iterate(const DevicePass& pass) const {
-    VulkanJacobi jacobi(device_, kernel_, pass.matrix, pass.rightHandSide);
+  DevicePassResult iterate(const DevicePass& pass, double heldBack) const {
+    VulkanJacobi jacobi(device_, kernel_, pass.matrix, pass.rightHandSide, heldBack);
     uint32_t iterationCount = 0;
     for (double residual = 1; residual > pass.reduction && iterationCount < pass.maxIterations;) {
       const uint32_t batch = std::min(kBatch, pass.maxIterations - iterationCount);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "mesh/dual_graph.h"
 #include "mesh/face_geometry.h"
 #include "mesh/mesh.h"
+#include "poisson/arc_weights.h"
 #include "poisson/poisson_system.h"
 
 namespace asdfvk {
@@ -58,6 +60,12 @@ struct HandGraph {
   }
 };
 
+/// The paper's system: weights 1 / distance, first order.
+inline PoissonSystem distanceSystem(const DualGraph& graph, const FaceGeometry& geometry,
+                                    std::span<const double> values, std::span<const double> divergence = {}) {
+  return buildPoissonSystem(graph, arcWeights(ArcWeightKind::Distance, graph, geometry), values, divergence);
+}
+
 /// Unit distances between the faces; the first and the last are known.
 inline PoissonSystem chain(size_t faceCount, double first, double last) {
   std::vector<Vec3d> barycentres;
@@ -70,7 +78,7 @@ inline PoissonSystem chain(size_t faceCount, double first, double last) {
   values.front() = first;
   values.back() = last;
   const HandGraph hand(barycentres, edges);
-  return buildPoissonSystem(hand.graph, hand.geometry, values, {}, 0);
+  return distanceSystem(hand.graph, hand.geometry, values);
 }
 
 /// A torus with a known value, uniform in [1, 2), on about one face in ten.
@@ -80,7 +88,7 @@ inline PoissonSystem torusSystem(uint32_t rings, uint32_t sides, double unit = 1
   std::vector<double> values(mesh.faces.size(), kNoValue);
   for (double& value : values)
     if (random.index(10) == 0) value = unit * (1 + random.real());
-  return buildPoissonSystem(buildDualGraph(mesh), computeFaceGeometry(mesh), values, {}, 0);
+  return distanceSystem(buildDualGraph(mesh), computeFaceGeometry(mesh), values);
 }
 
 }  // namespace asdfvk

@@ -39,7 +39,7 @@ struct KernelTwins {
     for (size_t row = 0; row < v.size(); ++row)
       for (uint32_t i = system.rowOffsets[row]; i < system.rowOffsets[row + 1]; ++i) {
         const uint32_t column = system.columns[i];
-        result[row] += system.weights[i] / std::sqrt(system.diagonal[row] * system.diagonal[column]) * v[column];
+        result[row] -= system.entries[i] / std::sqrt(system.diagonal[row] * system.diagonal[column]) * v[column];
       }
     return result;
   }

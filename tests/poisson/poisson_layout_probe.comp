@@ -22,6 +22,7 @@ void main() {
   words[10] = push.unknownCount;
   words[11] = push.stateIndex;
   words[12] = sums.brokenDown;
+  words[21u + 3u * kMaxPoissonWorkgroupCount] = floatBitsToUint(push.heldBack);
   const PoissonRow row = decodePoissonRow(imageLoad(rows, 0), imageLoad(rows, 1));
   words[13] = row.column0;
   words[14] = row.column1;

@@ -8,21 +8,20 @@ using namespace asdfvk;
 namespace {
 
 PoissonSystem build(const HandGraph& hand, const std::vector<double>& values) {
-  return buildPoissonSystem(hand.graph, hand.geometry, values, {}, 0);
+  return distanceSystem(hand.graph, hand.geometry, values);
 }
 
 }  // namespace
 
-TEST_CASE("rows, weights and right-hand side are those of the equation, written out by hand") {
+TEST_CASE("rows, entries and right-hand side are those of the equation, written out by hand") {
   // 0 (known, 5) -- 1 -- 2 -- 3 (known, 2), and an arc 1 -- 3; distances 1, 2, 4 along x and 1 -- 3 is 6 apart.
   const HandGraph hand({{0, 0, 0}, {1, 0, 0}, {3, 0, 0}, {7, 0, 0}}, {{0, 1}, {1, 2}, {2, 3}, {1, 3}});
-  const PoissonSystem system =
-      buildPoissonSystem(hand.graph, hand.geometry, std::vector<double>{5, kNoValue, kNoValue, 2},
-                         std::vector<double>{9, 0.5, -0.25, 9}, 3);
+  const PoissonSystem system = distanceSystem(hand.graph, hand.geometry, std::vector<double>{5, kNoValue, kNoValue, 2},
+                                              std::vector<double>{-27, -1.5, 0.75, -27});
   CHECK(system.faces == std::vector<uint32_t>{1, 2});
   CHECK(system.rowOffsets == std::vector<uint32_t>{0, 1, 2});
   CHECK(system.columns == std::vector<uint32_t>{1, 0});
-  CHECK(system.weights == std::vector<double>{0.5, 0.5});
+  CHECK(system.entries == std::vector<double>{-0.5, -0.5});
   CHECK(system.diagonal[0] == doctest::Approx(1 + 0.5 + 1.0 / 6));
   CHECK(system.diagonal[1] == doctest::Approx(0.5 + 0.25));
   CHECK(system.rightHandSide[0] == doctest::Approx(5.0 + 2.0 / 6 - 3 * 0.5));
@@ -34,7 +33,7 @@ TEST_CASE("two arcs between the same faces are one entry of twice the weight, an
   const HandGraph hand({{0, 0, 0}, {2, 0, 0}, {4, 0, 0}}, {{0, 1}, {1, 2}, {1, 2}, {2, 2}});
   const PoissonSystem system = build(hand, {1, kNoValue, kNoValue});
   CHECK(system.columns == std::vector<uint32_t>{1, 0});
-  CHECK(system.weights == std::vector<double>{1, 1});
+  CHECK(system.entries == std::vector<double>{-1, -1});
   CHECK(system.diagonal == std::vector<double>{1.5, 1});
   CHECK(system.rightHandSide == std::vector<double>{0.5, 0});
 }
@@ -69,7 +68,7 @@ TEST_CASE("coincident barycentres keep the matrix finite: a billionth of the dia
   CHECK(std::isfinite(build(point, {1, kNoValue}).diagonal[0]));
 }
 
-TEST_CASE("huge and tiny units change the weights by their factor only") {
+TEST_CASE("huge and tiny units change the entries by their factor only") {
   const std::vector<Vec3d> unit{{0, 0, 0}, {1, 2, 0}, {3, 1, 1}};
   const std::vector<double> values{1, kNoValue, kNoValue};
   const PoissonSystem reference = build(HandGraph(unit, {{0, 1}, {1, 2}}), values);
@@ -78,7 +77,7 @@ TEST_CASE("huge and tiny units change the weights by their factor only") {
     for (const Vec3d& p : unit) scaled.push_back(p * factor);
     const PoissonSystem system = build(HandGraph(scaled, {{0, 1}, {1, 2}}), values);
     for (size_t i = 0; i < 2; ++i) {
-      CHECK(system.weights[i] * factor == doctest::Approx(reference.weights[i]));
+      CHECK(system.entries[i] * factor == doctest::Approx(reference.entries[i]));
       CHECK(system.diagonal[i] * factor == doctest::Approx(reference.diagonal[i]));
     }
   }
@@ -93,9 +92,9 @@ TEST_CASE("the relative residual is the one worked out by hand") {
   CHECK(relativeResidual(system, std::vector<double>{1.5}) == doctest::Approx(0.5));
 }
 
-TEST_CASE("a curvature that is not a number pulls at nothing") {
+TEST_CASE("a divergence that is not a number pulls at nothing") {
   const HandGraph hand({{0, 0, 0}, {1, 0, 0}}, {{0, 1}});
-  const PoissonSystem system = buildPoissonSystem(hand.graph, hand.geometry, std::vector<double>{2, kNoValue},
-                                                  std::vector<double>{0, kNoValue}, 1);
+  const PoissonSystem system =
+      distanceSystem(hand.graph, hand.geometry, std::vector<double>{2, kNoValue}, std::vector<double>{0, kNoValue});
   CHECK(system.rightHandSide == std::vector<double>{2});
 }

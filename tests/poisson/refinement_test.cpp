@@ -71,6 +71,16 @@ TEST_CASE("a correction that is not finite is not added") {
   }
 }
 
+TEST_CASE("a correction that makes it worse is not added") {
+  Passes passes;
+  std::vector<double> solution(1);
+  const SolverReport report = solveByRefinement("toy", oneUnknown(), {}, 1e-3, solution, passes.giving(2.5));
+  CHECK(passes.count == 1);
+  CHECK_FALSE(report.converged);
+  CHECK(solution[0] == 1);
+  CHECK(report.relativeResidual == doctest::Approx(2.0 / 3));
+}
+
 TEST_CASE("the iterations of all passes together stay within the maximum") {
   Passes passes;
   std::vector<double> solution(1);

@@ -5,8 +5,10 @@
 #include <cstring>
 
 #include "core/random.h"
+#include "dense_twin.h"
 #include "fixtures.h"
 #include "generate/shapes.h"
+#include "sample_problems.h"
 #include "solvers_under_test.h"
 
 using namespace asdfvk;
@@ -40,7 +42,7 @@ std::vector<double> directSolution(const PoissonSystem& system) {
   for (uint32_t row = 0; row < system.unknownCount(); ++row) {
     entries.emplace_back(row, row, system.diagonal[row]);
     for (uint32_t i = system.rowOffsets[row]; i < system.rowOffsets[row + 1]; ++i)
-      entries.emplace_back(row, system.columns[i], -system.weights[i]);
+      entries.emplace_back(row, system.columns[i], system.entries[i]);
   }
   Eigen::SparseMatrix<double> matrix(size, size);
   matrix.setFromTriplets(entries.begin(), entries.end());
@@ -71,8 +73,7 @@ TEST_CASE("a chain between two known ends is a straight line") {
 TEST_CASE("a single unknown is the weighted mean of its neighbours") {
   SolversUnderTest solvers;
   const HandGraph hand({{0, 0, 0}, {1, 0, 0}, {3, 0, 0}}, {{0, 1}, {1, 2}});
-  const PoissonSystem system =
-      buildPoissonSystem(hand.graph, hand.geometry, std::vector<double>{5, kNoValue, 8}, {}, 0);
+  const PoissonSystem system = distanceSystem(hand.graph, hand.geometry, std::vector<double>{5, kNoValue, 8});
   for (SolverUnderTest& under : solvers) {
     CAPTURE(under.name);
     CHECK(solveTightly(under, system).solution[0] == doctest::Approx(6));
@@ -104,8 +105,7 @@ TEST_CASE("a right-hand side of 0 beside other known values gives 0, not their m
   SolversUnderTest solvers;
   // Face 2 is known, but joined to no unknown.
   const HandGraph hand({{0, 0, 0}, {1, 0, 0}, {9, 0, 0}}, {{0, 1}});
-  const PoissonSystem system =
-      buildPoissonSystem(hand.graph, hand.geometry, std::vector<double>{0, kNoValue, 8}, {}, 0);
+  const PoissonSystem system = distanceSystem(hand.graph, hand.geometry, std::vector<double>{0, kNoValue, 8});
   for (SolverUnderTest& under : solvers) {
     CAPTURE(under.name);
     CHECK(solve(under, system, {}).solution == std::vector<double>{0});
@@ -114,10 +114,10 @@ TEST_CASE("a right-hand side of 0 beside other known values gives 0, not their m
 
 TEST_CASE("the guidance term bends a chain by what is worked out by hand") {
   SolversUnderTest solvers;
-  // Two unknowns between 0 and 0, unit distances, k curv = 1 on the first: 2a - b = -1, 2b - a = 0.
+  // Two unknowns between 0 and 0, unit distances, divergence -1 on the first: 2a - b = -1, 2b - a = 0.
   const HandGraph hand({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}}, {{0, 1}, {1, 2}, {2, 3}});
-  const PoissonSystem system = buildPoissonSystem(
-      hand.graph, hand.geometry, std::vector<double>{0, kNoValue, kNoValue, 0}, std::vector<double>{0, 0.5, 0, 0}, 2);
+  const PoissonSystem system = distanceSystem(hand.graph, hand.geometry, std::vector<double>{0, kNoValue, kNoValue, 0},
+                                              std::vector<double>{0, -1, 0, 0});
   for (SolverUnderTest& under : solvers) {
     CAPTURE(under.name);
     const auto [report, solution] = solveTightly(under, system);
@@ -129,8 +129,8 @@ TEST_CASE("the guidance term bends a chain by what is worked out by hand") {
 TEST_CASE("components with a known face each are solved on their own") {
   SolversUnderTest solvers;
   const HandGraph hand({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {9, 0, 0}, {10, 0, 0}, {20, 0, 0}}, {{0, 1}, {1, 2}, {3, 4}});
-  const PoissonSystem system = buildPoissonSystem(
-      hand.graph, hand.geometry, std::vector<double>{1, kNoValue, kNoValue, kNoValue, 700, kNoValue}, {}, 0);
+  const PoissonSystem system =
+      distanceSystem(hand.graph, hand.geometry, std::vector<double>{1, kNoValue, kNoValue, kNoValue, 700, kNoValue});
   CHECK(system.faces == std::vector<uint32_t>{1, 2, 3});
   for (SolverUnderTest& under : solvers) {
     CAPTURE(under.name);
@@ -182,8 +182,7 @@ TEST_CASE("the unit of the values does not matter") {
 TEST_CASE("coincident barycentres beside ordinary ones do not keep a solver from its tolerance") {
   SolversUnderTest solvers;
   const HandGraph hand({{0, 0, 0}, {1, 0, 0}, {1, 0, 0}, {2, 0, 0}}, {{0, 1}, {1, 2}, {2, 3}});
-  const PoissonSystem system =
-      buildPoissonSystem(hand.graph, hand.geometry, std::vector<double>{1, kNoValue, kNoValue, 3}, {}, 0);
+  const PoissonSystem system = distanceSystem(hand.graph, hand.geometry, std::vector<double>{1, kNoValue, kNoValue, 3});
   for (SolverUnderTest& under : solvers) {
     // A plain Jacobi iteration wins a billionth a step on such a pair.
     if (under.name == "jacobi") continue;
@@ -274,7 +273,7 @@ TEST_CASE("a finely meshed patch does not hide what is unsolved elsewhere") {
     const uint32_t face = random.index(mesh.faceCount());
     values[face] = 1 + geometry.barycentres[face].x;
   }
-  const PoissonSystem system = buildPoissonSystem(buildDualGraph(mesh), geometry, values, {}, 0);
+  const PoissonSystem system = distanceSystem(buildDualGraph(mesh), geometry, values);
   const std::vector<double> direct = directSolution(system);
   SolversUnderTest solvers;
   for (SolverUnderTest& under : solvers) {
@@ -284,5 +283,77 @@ TEST_CASE("a finely meshed patch does not hide what is unsolved elsewhere") {
     double sum = 0;
     for (size_t i = 0; i < direct.size(); ++i) sum += std::abs(solved.solution[i] - direct[i]);
     CHECK(sum / static_cast<double>(direct.size()) < 0.01);  // of a range of 2.6
+  }
+}
+
+TEST_CASE("any weights and order come out as dense algebra solves them") {
+  SolversUnderTest solvers;
+  for (const SampleProblem& problem : sampleProblems())
+    for (ArcWeightKind kind : kArcWeightKinds)
+      for (double beta : kSecondOrders) {
+        CAPTURE(problem.name);
+        CAPTURE(static_cast<int>(kind));
+        CAPTURE(beta);
+        // Its coincident faces tie each other a billion times stronger than others; see the test after this.
+        if (kind == ArcWeightKind::Distance && problem.name == "dense random faces") continue;
+        const std::vector<double> weights = arcWeights(kind, problem.graph, problem.geometry);
+        const PoissonSystem system =
+            buildPoissonSystem(problem.graph, weights, problem.values, {}, {.secondOrder = beta});
+        const DenseTwin twin(problem.graph, weights, problem.values, {}, beta);
+        for (SolverUnderTest& under : solvers) {
+          // Thousands of iterations where edges have many faces.
+          if (under.name == "jacobi" && !problem.isManifold) continue;
+          CAPTURE(under.name);
+          const auto [report, solution] = solveTightly(under, system);
+          const double bound = 1e-10 + under.tightestTolerance * twin.largestErrorOverResidual();
+          CHECK(largestDifference(solution, {twin.solution.data(), solution.size()}) < bound);
+          if (beta > 0) continue;
+          CHECK(*std::min_element(solution.begin(), solution.end()) >= 1 - bound);
+          CHECK(*std::max_element(solution.begin(), solution.end()) <= 2 + bound);
+        }
+      }
+}
+
+TEST_CASE("coincident faces may keep float32 from converging, but nothing is made worse by trying") {
+  SolversUnderTest solvers;
+  for (uint64_t seed : {2, 3, 4}) {
+    const SampleProblem problem("coincident faces", randomFaces(25, 300, seed));
+    const PoissonSystem system =
+        buildPoissonSystem(problem.graph, arcWeights(ArcWeightKind::Distance, problem.graph, problem.geometry),
+                           problem.values, {}, {.secondOrder = 3});
+    for (SolverUnderTest& under : solvers) {
+      CAPTURE(under.name);
+      const Solved solved = solve(under, system, {.tolerance = 1e-6});
+      CHECK(solved.report.relativeResidual <=
+            relativeResidual(system, std::vector<double>(system.unknownCount(), system.knownMean)));
+      CHECK(*std::min_element(solved.solution.begin(), solved.solution.end()) > 0);
+      CHECK(*std::max_element(solved.solution.begin(), solved.solution.end()) < 3);
+    }
+  }
+}
+
+TEST_CASE("a solver starts at the first guess") {
+  SolversUnderTest solvers;
+  for (double beta : kSecondOrders) {
+    const SampleProblem problem("torus", torus(14, 10));
+    const std::vector<double> weights = arcWeights(ArcWeightKind::Feature, problem.graph, problem.geometry);
+    const DenseTwin twin(problem.graph, weights, problem.values, {}, beta);
+    std::vector<double> guess(problem.values.size(), 1.25);
+    const auto build = [&] {
+      return buildPoissonSystem(problem.graph, weights, problem.values, {}, {.secondOrder = beta, .firstGuess = guess});
+    };
+    const PoissonSystem away = build();
+    for (size_t i = 0; i < twin.faces.size(); ++i)
+      guess[static_cast<size_t>(twin.faces[i])] = twin.solution[static_cast<Eigen::Index>(i)];
+    const PoissonSystem there = build();
+    for (SolverUnderTest& under : solvers) {
+      CAPTURE(under.name);
+      CHECK(solve(under, away, {.tolerance = 1e-6, .maxIterations = 0}).solution ==
+            std::vector<double>(away.unknownCount(), 1.25));
+      const Solved solved = solve(under, there, {.tolerance = 1e-10});
+      CHECK(solved.report.converged);
+      CHECK(solved.report.iterations == 0);
+      CHECK(solved.solution == there.firstGuess);
+    }
   }
 }

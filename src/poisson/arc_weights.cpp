@@ -1,0 +1,58 @@
+#include "poisson/arc_weights.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "core/check.h"
+#include "mesh/dihedral.h"
+#include "poisson/each_row.h"
+
+namespace asdfvk {
+namespace {
+
+constexpr double kShortestDistanceRatio = 1e-9;
+constexpr double kShortestDistance = 1e-300;  // Keeps weights finite where even the diagonal is next to nothing.
+constexpr double kLeastWeight = std::numeric_limits<double>::min();  // Where the distance is beyond all numbers.
+
+// std::hypot neither overflows nor underflows, whatever the mesh's unit.
+double extent(const Vec3d& v) { return std::hypot(v.x, v.y, v.z); }
+
+std::vector<double> distanceWeights(const DualGraph& graph, const FaceGeometry& geometry) {
+  ASDFVK_CHECK_OP(geometry.barycentres.size(), ==, size_t{graph.faceCount()});
+  const double shortest = std::max(kShortestDistanceRatio * extent(geometry.bounds.size()), kShortestDistance);
+  std::vector<double> weights(graph.neighbours.size());
+  forEachRow(graph.faceCount(), [&](size_t face) {
+    for (uint32_t arc = graph.offsets[face]; arc < graph.offsets[face + 1]; ++arc) {
+      // Halves, so that their difference does not overflow.
+      const Vec3d half = geometry.barycentres[graph.neighbours[arc]] * 0.5 - geometry.barycentres[face] * 0.5;
+      weights[arc] = std::max(1 / std::max(2 * extent(half), shortest), kLeastWeight);
+    }
+  });
+  return weights;
+}
+
+double featureWeight(double dihedralAngle) {
+  const double degrees = dihedralAngle * (180 / std::numbers::pi);
+  const double ratio = degrees / (degrees > 0 ? kConcaveScaleDegrees : kConvexScaleDegrees);
+  return 1 / (1 + ratio * ratio);
+}
+
+}  // namespace
+
+std::vector<double> arcWeights(ArcWeightKind kind, const DualGraph& graph, const FaceGeometry& geometry) {
+  switch (kind) {
+    case ArcWeightKind::Distance:
+      return distanceWeights(graph, geometry);
+    case ArcWeightKind::Uniform:
+      return std::vector<double>(graph.neighbours.size(), 1.0);
+    case ArcWeightKind::Feature:
+      break;
+  }
+  std::vector<double> weights = signedDihedralAngles(graph, geometry);
+  forEachRow(weights.size(), [&](size_t arc) { weights[arc] = featureWeight(weights[arc]); });
+  return weights;
+}
+
+}  // namespace asdfvk
