@@ -11,7 +11,7 @@
 namespace asdfvk {
 namespace {
 
-constexpr double kStrokeShare = 0.115;  ///< Of the capitals' height.
+constexpr double kStrokeShare = 0.13;  ///< Of the capitals' height.
 
 double squared(double x) { return x * x; }
 

@@ -13,7 +13,7 @@ namespace {
 constexpr uint32_t kAmbientRayCount = 4, kKeyRayCount = 2;  ///< Per pixel.
 constexpr double kKeyRadius = 0.22;                         ///< Of the lamp's disk, at distance 1.
 constexpr double kAmbientReach = 0.9;                       ///< What is farther off darkens nothing; normalised unit.
-constexpr double kAmbient = 0.50, kKey = 0.62, kFill = 0.10, kGroundShare = 0.62;
+constexpr double kAmbient = 0.55, kKey = 0.52, kFill = 0.08, kGroundShare = 0.66;
 
 const double kGoldenAngle = std::numbers::pi * (3 - std::sqrt(5.0));
 
