@@ -224,8 +224,16 @@ void addPicture(CLI::App& app, CommandLine& line) {
            [&](const std::string& text) { readViewAngles(text, line.pictureView); })
       ->group(picture)
       ->needs(needsPicture);
-  addChoice<UpAxis>(app, "--picture-up", line.pictureView.up, {{"x", UpAxis::X}, {"y", UpAxis::Y}, {"z", UpAxis::Z}},
-                    "The axis that points up in the picture; default y")
+  addChoice<std::optional<Up>>(
+      app, "--picture-up", line.pictureView.up,
+      {{"auto", std::nullopt},
+       {"x", Up::X},
+       {"y", Up::Y},
+       {"z", Up::Z},
+       {"-x", Up::MinusX},
+       {"-y", Up::MinusY},
+       {"-z", Up::MinusZ}},
+      "What points up in the picture; auto is y unless the mesh would fall over;\ndefault auto")
       ->group(picture)
       ->needs(needsPicture);
 }

@@ -5,28 +5,22 @@
 #include <numbers>
 
 #include "core/box3.h"
+#include "picture/up_guess.h"
 
 namespace asdfvk {
 namespace {
 
 constexpr double kRadiansPerDegree = std::numbers::pi / 180;
 
-Vec3d axisVector(size_t axis) {
-  Vec3d v;
-  v[axis] = 1;
-  return v;
-}
-
 /// Sets the three directions.
-Camera orient(const Vec3d& boxSize, const View& view) {
-  const auto upAxis = static_cast<size_t>(view.up);
-  // Of the cyclic order x, y, z: with y up the front is z, with z up it is -y, as modelling programs have it.
-  const size_t next = (upAxis + 1) % 3, previous = (upAxis + 2) % 3;
-  const size_t firstChoice = upAxis == 2 ? previous : next, secondChoice = upAxis == 2 ? next : previous;
-  const bool isTurned = boxSize[firstChoice] > boxSize[secondChoice] * 1.0001;
-  const Vec3d up = axisVector(upAxis);
-  Vec3d front = axisVector(isTurned ? secondChoice : firstChoice);
-  if (upAxis == 2 && !isTurned) front = -front;
+Camera orient(const Vec3d& boxSize, Up upwards, const View& view) {
+  const Vec3d up = directionOf(upwards);
+  const size_t axis = static_cast<size_t>(upwards) % 3;
+  // With y up the usual front is z, with z up it is -y, as modelling programs have it.
+  const size_t usualFront = axis == 2 ? 1 : 2, otherFront = axis == 0 ? 1 : 0;
+  const bool isBroadside = boxSize[otherFront] >= boxSize[usualFront];
+  Vec3d front;
+  front[isBroadside ? usualFront : otherFront] = isBroadside && axis == 2 ? -1 : 1;
   const Vec3d side = cross(up, front);
 
   const double azimuth = view.azimuthDegrees * kRadiansPerDegree;
@@ -44,7 +38,7 @@ Camera orient(const Vec3d& boxSize, const View& view) {
 Camera frameCamera(std::span<const Vec3d> points, const View& view, const PixelArea& area) {
   Box3d box, seen;
   for (const Vec3d& point : points) box.add(point);
-  Camera camera = orient(box.size(), view);
+  Camera camera = orient(box.size(), view.up ? *view.up : guessUp(points), view);
   for (const Vec3d& point : points)
     seen.add(Vec3d{dot(point, camera.right), dot(point, camera.up), dot(point, camera.toViewer)});
   const Vec3d middle = seen.centre(), size = seen.size();
