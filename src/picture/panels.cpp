@@ -8,7 +8,7 @@
 namespace asdfvk {
 namespace {
 
-constexpr double kCapHeightShare = 0.03;  ///< Of the captions, over the highest panel.
+constexpr double kCapHeightShare = 0.036;  ///< Of the captions, over the highest panel.
 
 void paste(Image& target, const Image& source, int left, int top) {
   for (int y = 0; y < source.height(); ++y)

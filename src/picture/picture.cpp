@@ -13,7 +13,7 @@
 namespace asdfvk {
 namespace {
 
-constexpr Rgb kNeutral{222, 221, 216}, kHighlight{206, 38, 30};
+constexpr Rgb kNeutral{210, 209, 204}, kHighlight{206, 38, 30};
 // Over the picture's height.
 constexpr double kCapHeightShare = 0.026, kMarginShare = 0.04;
 
@@ -48,7 +48,7 @@ Image render(const Picture& picture, const RunControl& control) {
 
   Image image(picture.width, picture.height);
   const double unit = std::min<double>(picture.height, picture.width * 0.75);
-  const double margin = unit * kMarginShare, capHeight = unit * kCapHeightShare;
+  const double margin = unit * kMarginShare, capHeight = unit * kCapHeightShare * picture.textScale;
   const PixelArea inner{margin, margin, picture.width - 2 * margin, picture.height - 2 * margin};
   PixelArea area = inner;
   const ColourRange range = picture.range ? *picture.range : percentileRange(picture.values);

@@ -26,6 +26,7 @@ struct Picture {
   std::optional<ColourRange> range;      ///< Of the bar; unset: percentileRange() of the values.
   int width = 1200, height = 900;        ///< In pixels, kMinPictureSide to kMaxPictureSide.
   View view;
+  double textScale = 1;  ///< Of title and labels; above 1 where a picture is to be printed small.
 };
 
 /// Renders with rays on the CPU: parallel projection, white background, soft light. The same bits for any number of

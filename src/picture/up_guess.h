@@ -15,8 +15,8 @@ namespace asdfvk {
 /// lowest has no area.
 [[nodiscard]] double standingShare(std::span<const Vec3d> points, Up up);
 
-/// Y, unless the points stand badly that way and well in another one, z before the rest: static stability, the simplest sign of
-/// uprightness in Fu, Cohen-Or, Dror and Sheffer 2008 (Upright Orientation of Man-Made Objects).
+/// Y, unless the points stand badly that way and well in another one, z before the rest: static stability, the simplest
+/// sign of uprightness in Fu, Cohen-Or, Dror and Sheffer 2008 (Upright Orientation of Man-Made Objects).
 [[nodiscard]] Up guessUp(std::span<const Vec3d> points);
 
 }  // namespace asdfvk

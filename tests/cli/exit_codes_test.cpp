@@ -67,6 +67,12 @@ TEST_CASE("a picture is one more output, and a failed one ends with 4") {
   CHECK_NE(folder.read("sdf.png"), folder.read("turned.png"));
   CHECK_EQ(run({"--quiet", "--picture", "-"}).output, folder.read("sdf.png"));
   checkFailure(run({"--quiet", "--picture", folder / "no/such/folder.png"}), 4, "folder.png");
+  // Values of polygons go to all of their triangles.
+  const std::string quads = folder.write("quads.off", "OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n");
+  const ChildOutcome ofQuads = runAsdf({quads, "--backend", "reference", "--quiet", "-o", folder / "out.csv",
+                                        "--picture-of", "seeds", "--picture", folder / "quads.png"});
+  CHECK_EQ(ofQuads.exitCode, 0);
+  CHECK_GT(folder.read("quads.png").size(), 1000);
   checkFailure(run({"--quiet", "--json", "--picture", "-"}), 1, "--picture");
 }
 

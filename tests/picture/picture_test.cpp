@@ -55,6 +55,26 @@ TEST_CASE("a sphere's silhouette is the disk that fills the height, and lies in 
   CHECK_EQ(sumY / count, doctest::Approx(kHeight / 2.0).epsilon(0.002));
 }
 
+TEST_CASE("edges are antialiased, against the background and between colours") {
+  // A square seen from above, whose diagonal parts highlighted from plain.
+  Mesh mesh;
+  mesh.vertices = {{-1, 0, 1}, {1, 0, 1}, {0.9, 0, -1}, {-0.9, 0, -1}};
+  mesh.faces = {{0, 1, 2}, {0, 2, 3}};
+  const std::vector<uint8_t> highlighted{1, 0};
+  const Image image = renderSmall(mesh, {}, highlighted, "", {Up::Y, 0, 90});
+  const int y = kHeight / 3;
+  std::set<Rgb> colours;
+  for (int row = y; row < y + 20; ++row)
+    for (int x = 0; x < kWidth; ++x) colours.insert(image.at(x, row));
+  int betweenPlainAndWhite = 0, betweenRedAndPlain = 0;
+  for (const Rgb& colour : colours) {
+    betweenPlainAndWhite += colour[1] > 225 && colour != kWhite;
+    betweenRedAndPlain += colour[0] > colour[1] + 30 && colour[1] > 70 && colour[1] < 180;
+  }
+  CHECK_GE(betweenPlainAndWhite, 4);
+  CHECK_GE(betweenRedAndPlain, 4);
+}
+
 TEST_CASE("light comes from the upper left") {
   const Mesh mesh = generateShape("sphere", 20000).mesh;
   const Image image = renderSmall(mesh);
@@ -193,6 +213,21 @@ TEST_CASE("highlighted faces stand out of a light body, and their legend above i
   CHECK_EQ(redPixels(renderSmall(mesh, {}, {}, "seeds")), 0);
   for (size_t face = 0; face < highlighted.size(); face += 4) highlighted[face] = 1;
   CHECK_GT(redPixels(renderSmall(mesh, {}, highlighted, "seeds")), ofLegend + 2000);
+}
+
+TEST_CASE("text grows with its scale, and the mesh makes room") {
+  const Mesh mesh;
+  Picture picture{.mesh = mesh,
+                  .values = {},
+                  .highlighted = {},
+                  .title = "seeds",
+                  .range = {},
+                  .width = kWidth,
+                  .height = kHeight,
+                  .view = {}};
+  const int usual = countInk(render(picture));
+  picture.textScale = 2;
+  CHECK_GT(countInk(render(picture)), 2 * usual);
 }
 
 TEST_CASE("degenerate meshes by name") {
