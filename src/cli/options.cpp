@@ -4,12 +4,14 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <limits>
 #include <utility>
 
 #include "cli/option_values.h"
 #include "core/error.h"
+#include "core/text.h"
 
 namespace asdfvk {
 namespace {
@@ -188,6 +190,54 @@ void addOutput(CLI::App& app, CommandLine& line) {
   app.add_flag("--quiet", line.quiet, "Say nothing but errors on standard error")->group(output);
 }
 
+/// "30,18"
+void readViewAngles(const std::string& text, View& view) {
+  const size_t comma = text.find(',');
+  if (comma == std::string::npos)
+    throw Error(ErrorKind::Usage, fmt::format("'{}' is not two numbers with a comma between them", text));
+  view.azimuthDegrees = parseNumber(text.substr(0, comma));
+  view.elevationDegrees = parseNumber(text.substr(comma + 1));
+  if (std::abs(view.azimuthDegrees) > 360)
+    throw Error(ErrorKind::Usage, fmt::format("the azimuth in '{}' is not from -360 to 360", text));
+  if (std::abs(view.elevationDegrees) > 90)
+    throw Error(ErrorKind::Usage, fmt::format("the elevation in '{}' is not from -90 to 90", text));
+}
+
+void addPicture(CLI::App& app, CommandLine& line) {
+  const std::string picture = "Picture";
+  addValue(app, "--picture", "FILE.png", "Also render the coloured mesh, for one mesh; - is standard output",
+           [&](const std::string& text) {
+             if (text != "-" && lowerCase(std::filesystem::path(text).extension().string()) != ".png")
+               throw Error(ErrorKind::Usage, fmt::format("'{}' does not end in .png", text));
+             line.picture = text;
+           })
+      ->group(picture);
+  CLI::Option* needsPicture = app.get_option("--picture");
+  addChoice<PictureOf>(app, "--picture-of", line.pictureOf, {{"sdf", PictureOf::Sdf}, {"seeds", PictureOf::Seeds}},
+                       "The diameter in colours, or the faces that cast rays; default sdf")
+      ->group(picture)
+      ->needs(needsPicture);
+  const View view;
+  addValue(app, "--picture-view", "AZIMUTH,ELEVATION",
+           fmt::format("Degrees from the mesh's broad side to the right and up;\ndefault {},{}", view.azimuthDegrees,
+                       view.elevationDegrees),
+           [&](const std::string& text) { readViewAngles(text, line.pictureView); })
+      ->group(picture)
+      ->needs(needsPicture);
+  addChoice<std::optional<Up>>(
+      app, "--picture-up", line.pictureView.up,
+      {{"auto", std::nullopt},
+       {"x", Up::X},
+       {"y", Up::Y},
+       {"z", Up::Z},
+       {"-x", Up::MinusX},
+       {"-y", Up::MinusY},
+       {"-z", Up::MinusZ}},
+      "What points up in the picture; auto is y unless the mesh would fall over;\ndefault auto")
+      ->group(picture)
+      ->needs(needsPicture);
+}
+
 void addDevice(CLI::App& app, CommandLine& line) {
   const std::string device = "Device";
   addChoice<Backend>(app, "--backend", line.session.backend,
@@ -215,6 +265,10 @@ void requireAgreement(const CommandLine& line) {
   if (std::count(line.meshes.begin(), line.meshes.end(), "") > 0) refuse("the name of a mesh is empty");
   if (line.output == "-" && line.json)
     refuse("-o - and --json both want standard output; give -o a file or drop --json");
+  if (!line.picture.empty() && line.meshes.size() > 1)
+    refuse("--picture takes one mesh; name one mesh, or run them one by one");
+  if (line.picture == "-" && (line.output == "-" || line.json))
+    refuse("--picture - wants standard output for itself; give it a file, or drop --json and -o -");
   if (line.session.backend == Backend::Reference && line.session.requireGpu)
     refuse("--require-gpu and --backend reference contradict each other; drop one");
   if (line.session.backend == Backend::Reference && !line.session.device.empty())
@@ -235,6 +289,7 @@ CommandLine parseCommandLine(std::vector<std::string> arguments) {
   app.add_option("meshes", line.meshes, "Meshes: PLY, OFF, OBJ or STL; '-' is standard input")->option_text("MESH...");
   addComputation(app, line.options);
   addOutput(app, line);
+  addPicture(app, line);
   addDevice(app, line);
 
   spellOutBareCheck(arguments);

@@ -109,6 +109,7 @@ std::string jsonReport(const MeshOutcome& outcome) {
   Json json;
   json["mesh"] = outcome.mesh;
   json["output"] = outcome.output;
+  json["picture"] = outcome.line.picture.empty() ? Json(nullptr) : Json(outcome.line.picture);
   json["faceCount"] = report.faceCount;
   json["triangleCount"] = report.triangleCount;
   json["vertexCount"] = report.vertexCount;

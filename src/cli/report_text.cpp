@@ -104,7 +104,9 @@ std::string textReport(const MeshOutcome& outcome) {
     text += row("check", tracedCheck(*report.check));
     if (report.check->interpolatedCount > 0) text += row("", errorCheck(*report.check));
   }
-  text += row("output", outcome.output == "-" ? "standard output" : outcome.output);
+  const auto placeText = [](const std::string& place) { return place == "-" ? "standard output" : place; };
+  text += row("output", placeText(outcome.output));
+  if (!outcome.line.picture.empty()) text += row("picture", placeText(outcome.line.picture));
   return text;
 }
 
