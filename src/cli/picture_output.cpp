@@ -21,21 +21,26 @@ std::vector<T> onTriangles(const Mesh& mesh, const std::vector<T>& ofInputFaces)
 }  // namespace
 
 void writePicture(const CommandLine& line, const Mesh& mesh, const Result& result, const RunControl& control) {
-  const bool isOfSeeds = line.pictureOf == PictureOf::Seeds;
+  Picture picture{.mesh = mesh, .values = {}, .highlighted = {}, .title = {}, .range = {}, .view = line.pictureView};
   std::vector<double> values;
   std::vector<uint8_t> seeds;
-  if (isOfSeeds) {
-    seeds = onTriangles(mesh, result.isSeed);
-  } else {
-    values = onTriangles(mesh, result.sdf);
+  switch (line.pictureOf) {
+    case PictureOf::Sdf:
+      values = onTriangles(mesh, result.sdf);
+      picture.title = "shape diameter";
+      break;
+    case PictureOf::Seeds:
+      seeds = onTriangles(mesh, result.isSeed);
+      picture.title = "seeds";
+      break;
+    case PictureOf::Error:
+      values = onTriangles(mesh, result.expectedError);
+      picture.title = "expected error";
+      break;
   }
-  writePng(line.picture, render({.mesh = mesh,
-                                 .values = values,
-                                 .highlighted = seeds,
-                                 .title = isOfSeeds ? "seeds" : "shape diameter",
-                                 .range = {},
-                                 .view = line.pictureView},
-                                control));
+  picture.values = values;
+  picture.highlighted = seeds;
+  writePng(line.picture, render(picture, control));
 }
 
 }  // namespace asdfvk

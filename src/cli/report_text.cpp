@@ -32,11 +32,10 @@ std::string meshRow(const Report& report) {
 
 std::string seedRow(const MeshOutcome& outcome) {
   const Report& report = outcome.report;
-  std::string text = fmt::format("{} cast{} rays ({}), {} in all, recipe {}, random seed {}", counted(report.seedCount, "face"),
-                                 report.seedCount == 1 ? "s" : "",
-                                 percent(report.seedCount, std::max<uint64_t>(1, report.triangleCount)),
-                                 counted(report.rayCount, "ray"), nameOf(kRecipes, outcome.line.recipe),
-                                 report.randomSeed);
+  std::string text = fmt::format(
+      "{} cast{} rays ({}), {} in all, recipe {}, random seed {}", counted(report.seedCount, "face"),
+      report.seedCount == 1 ? "s" : "", percent(report.seedCount, std::max<uint64_t>(1, report.triangleCount)),
+      counted(report.rayCount, "ray"), nameOf(kRecipes, outcome.line.recipe), report.randomSeed);
   if (report.redoneConeCount > 0)
     text += fmt::format("; {} redone by the reference", counted(report.redoneConeCount, "cone"));
   return text;
@@ -68,9 +67,9 @@ std::string valueRow(const Report& report) {
 
 std::string estimateRow(const Report& report) {
   const ErrorEstimate& estimate = *report.estimatedError;
-  std::string text = fmt::format("{:.2f} % +- {:.2f} of the range on average, from {} held-out faces",
-                                 100 * estimate.average, 100 * estimate.standardError,
-                                 groupDigits(estimate.heldOutCount));
+  std::string text =
+      fmt::format("{:.2f} % +- {:.2f} of the range on average, from {} held-out faces", 100 * estimate.average,
+                  100 * estimate.standardError, groupDigits(estimate.heldOutCount));
   if (!estimate.worstFaces.empty())
     text += fmt::format("; {:.0f} % at face {}", 100 * estimate.worstFaces[0].error, estimate.worstFaces[0].face);
   return text + (report.roundCount > 1 ? fmt::format("; {} rounds", report.roundCount) : "");
