@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/check.h"
 #include "core/lanes.h"
 #include "mesh/mesh.h"
 #include "shared/cone_rules.h"
@@ -28,8 +29,9 @@ constexpr float kLargest = std::numeric_limits<float>::max();
 
 }  // namespace
 
-ReprojectedCone::ReprojectedCone(const Cone& cone)
-    : leastCosine_(static_cast<float>(std::cos(cone.halfAngleRadians))),
+ReprojectedCone::ReprojectedCone(const Cone& cone, InstructionSet instructionSet)
+    : instructionSet_(instructionSet),
+      leastCosine_(static_cast<float>(std::cos(cone.halfAngleRadians))),
       greatestFacing_(static_cast<float>(cone.falseHitCosine)),
       leastAngle_(static_cast<float>(1 / *std::max_element(cone.weights.begin(), cone.weights.end()))),
       outlierDeviations_(static_cast<float>(cone.outlierDeviations)) {}
@@ -146,29 +148,29 @@ ReprojectedCone::ReprojectedCone(const Cone& cone)
   return wholeWeight > 0 ? static_cast<double>(sumOverLanes(weighted) / wholeWeight) : kNoValue;
 }
 
-double ReprojectedCone::valueAnywhere(ReprojectedCone& cone, const GatheredHits& hits, const VirtualCone& at,
-                                      std::span<const float> coneWeights) {
-  return cone.valueInLanes(hits, at, coneWeights);
-}
-
 #ifdef __x86_64__
 // The same operations, hence the same bits, in fewer instructions.
-[[gnu::target("avx2")]] double ReprojectedCone::valueWithAvx2(ReprojectedCone& cone, const GatheredHits& hits,
-                                                              const VirtualCone& at,
+[[gnu::target("avx2")]] double ReprojectedCone::valueWithAvx2(const GatheredHits& hits, const VirtualCone& at,
                                                               std::span<const float> coneWeights) {
-  return cone.valueInLanes(hits, at, coneWeights);
+  return valueInLanes(hits, at, coneWeights);
 }
 
-ReprojectedCone::Compute ReprojectedCone::chooseCompute() {
-  return __builtin_cpu_supports("avx2") ? valueWithAvx2 : valueAnywhere;
+InstructionSet widestInstructionSet() {
+  static const bool hasAvx2 = __builtin_cpu_supports("avx2");
+  return hasAvx2 ? InstructionSet::Avx2 : InstructionSet::Baseline;
 }
 #else
-ReprojectedCone::Compute ReprojectedCone::chooseCompute() { return valueAnywhere; }
+double ReprojectedCone::valueWithAvx2(const GatheredHits&, const VirtualCone&, std::span<const float>) {
+  ASDFVK_CHECK(false);
+  return kNoValue;
+}
+
+InstructionSet widestInstructionSet() { return InstructionSet::Baseline; }
 #endif
 
 double ReprojectedCone::value(const GatheredHits& hits, const VirtualCone& at, std::span<const float> coneWeights) {
-  static const Compute compute = chooseCompute();
-  return compute(*this, hits, at, coneWeights);
+  return instructionSet_ == InstructionSet::Avx2 ? valueWithAvx2(hits, at, coneWeights)
+                                                 : valueInLanes(hits, at, coneWeights);
 }
 
 }  // namespace asdfvk

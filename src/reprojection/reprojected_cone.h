@@ -17,28 +17,33 @@ struct VirtualCone {
   uint32_t face = 0;  ///< Or the one that stands for its copies: points on it do not count.
 };
 
+/// What the lanes are computed with; the bits are the same.
+enum class InstructionSet {
+  Baseline,  ///< What the program was compiled for.
+  Avx2,
+};
+
+/// The widest that this machine has.
+[[nodiscard]] InstructionSet widestInstructionSet();
+
 /// Computes the values of virtual cones from gathered hits; holds the room that it needs.
 class ReprojectedCone {
  public:
-  explicit ReprojectedCone(const Cone& cone);
+  /// Precondition: this machine has the instruction set.
+  explicit ReprojectedCone(const Cone& cone, InstructionSet instructionSet = widestInstructionSet());
 
   /// The shape diameter in normalised units, kNoValue when no point lies in the cone.
   /// coneWeights: per gathered cone, how much its rays count, above 0.
   [[nodiscard]] double value(const GatheredHits& hits, const VirtualCone& at, std::span<const float> coneWeights);
 
  private:
-  using Compute = double (*)(ReprojectedCone&, const GatheredHits&, const VirtualCone&, std::span<const float>);
-  static Compute chooseCompute();
-  static double valueAnywhere(ReprojectedCone& cone, const GatheredHits& hits, const VirtualCone& at,
-                              std::span<const float> coneWeights);
-  static double valueWithAvx2(ReprojectedCone& cone, const GatheredHits& hits, const VirtualCone& at,
-                              std::span<const float> coneWeights);
-
+  double valueWithAvx2(const GatheredHits& hits, const VirtualCone& at, std::span<const float> coneWeights);
   double valueInLanes(const GatheredHits& hits, const VirtualCone& at, std::span<const float> coneWeights);
   void project(const GatheredHits& hits, const VirtualCone& at, std::span<const float> coneWeights);
   /// lows, highs: the least and the greatest length; half: of the whole mass.
   [[nodiscard]] float weightedMedian(const Lanes& lows, const Lanes& highs, float half) const;
 
+  InstructionSet instructionSet_;
   float leastCosine_, greatestFacing_, leastAngle_, outlierDeviations_;
   // Per hit, as the virtual cone sees it; 0 where the hit is not in the cone.
   std::vector<float> lengths_;  ///< From the cone's origin.
