@@ -24,10 +24,11 @@ const std::map<std::string, Names> kMayInclude = {
     {"cone", {"mesh", "core", "shared"}},
     {"seeds", {"mesh", "core"}},
     {"trace", {"bvh", "cone", "mesh", "core", "shared"}},
+    {"reprojection", {"trace", "cone", "bvh", "mesh", "core", "shared"}},
     {"poisson", {"mesh", "core", "shared"}},
     {"post", {"mesh", "core"}},
     {"picture", {"trace", "bvh", "mesh", "core"}},
-    {"pipeline", {"post", "poisson", "trace", "seeds", "cone", "bvh", "mesh", "vk", "core", "shared"}},
+    {"pipeline", {"post", "poisson", "reprojection", "trace", "seeds", "cone", "bvh", "mesh", "vk", "core", "shared"}},
     {"cli", {"pipeline", "picture", "mesh", "core"}},
 };
 

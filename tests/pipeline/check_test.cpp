@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <memory>
 
 #include "generate/shapes.h"
 #include "support/shared_session.h"
@@ -22,12 +23,11 @@ struct TracedSphere {
   Bvh bvh = buildBvh(mesh, prepared.geometry, prepared.representatives);
   TraceScene scene{mesh, prepared.geometry, prepared.representatives, bvh};
   Cone cone = makeCone({});
-  TracedSeeds traced;
+  TracedSeeds traced{prepared.geometry.areas.size()};
 
   TracedSphere() {
-    Options options;
-    options.seeds.kind = SeedCount::Kind::All;
-    traced = traceSeeds(prepared, *makeReferenceTracer(scene, cone), options, {});
+    const std::unique_ptr<ConeTracer> tracer = makeReferenceTracer(scene, cone);
+    SeedTracing(prepared, *tracer, cone.directions.size(), false).trace(prepared.castableFaces, traced, {});
   }
   [[nodiscard]] CheckReport check(uint64_t count) const {
     return checkAgainstReference(mesh, prepared, scene, cone, {traced, traced.values}, count, 1, {});

@@ -1,0 +1,213 @@
+#include "pipeline/error_estimate.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "generate/shapes.h"
+#include "pipeline/average_error.h"
+
+using namespace asdfvk;
+using test::averageError;
+using test::referenceSession;
+
+namespace {
+
+void addSeed(TracedSeeds& seeds, uint32_t face, double value) {
+  seeds.faces.push_back(face);
+  seeds.values[face] = value;
+  seeds.isSeed[face] = 1;
+}
+
+/// Six faces: 0 and 1 are placed seeds, 2 and 3 probes that the interpolation misses by 1 and by 2.
+struct SixFaces {
+  Mesh mesh;
+  TracedSeeds placed{6}, probes{6};
+  std::vector<double> values{0, 10, 5, 8, 5, 5}, other, result{0, 10, 4, 6, 5, 5};
+
+  SixFaces() {
+    mesh.faces.resize(6);
+    addSeed(placed, 0, 0);
+    addSeed(placed, 1, 10);
+    addSeed(probes, 2, 4);
+    addSeed(probes, 3, 6);
+  }
+  [[nodiscard]] EstimatedErrors estimate() const {
+    return estimateErrors(mesh, {placed, probes, values, other, result});
+  }
+};
+
+double meanOf(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+}  // namespace
+
+TEST_CASE("without another method every face that casts no rays is expected to err as the probes do") {
+  const SixFaces six;
+  const EstimatedErrors errors = six.estimate();
+  const std::vector<double> expected{0, 0, 0, 0, 1.5, 1.5};
+  REQUIRE(errors.expected.size() == 6);
+  for (size_t face = 0; face < 6; ++face) CHECK(errors.expected[face] == doctest::Approx(expected[face]));
+  CHECK(errors.estimate.average == doctest::Approx(3.0 / 6 / 10));
+  // The standard error of the mean of 1 and 2 is 0.5; it stands for two faces of six, over the range 10.
+  CHECK(errors.estimate.standardError == doctest::Approx(0.5 * 2 / 6 / 10));
+  CHECK(errors.estimate.heldOutCount == 2);
+  REQUIRE(errors.estimate.worstFaces.size() == 2);
+  CHECK(errors.estimate.worstFaces[0].face == 3);
+  CHECK(errors.estimate.worstFaces[0].error == doctest::Approx(0.2));
+  CHECK(errors.estimate.worstFaces[1].face == 2);
+  CHECK(errors.estimate.worstFaces[1].error == doctest::Approx(0.1));
+}
+
+TEST_CASE("where two methods are far apart errors are expected to be great") {
+  SixFaces six;
+  six.other = {0, 10, 6, 5, 7, 5};  // They differ by 0 0 1 3 2 0, 1 on average; half of that is always expected.
+  const EstimatedErrors errors = six.estimate();
+  CHECK(errors.expected[4] == doctest::Approx(3.0 / (1.5 + 3.5) * 2.5));
+  CHECK(errors.expected[5] == doctest::Approx(3.0 / (1.5 + 3.5) * 0.5));
+  CHECK(errors.expected[3] == 0);
+  CHECK(errors.estimate.average == doctest::Approx(1.8 / 6 / 10));
+  // The probes are 0.1 beside the ratio, each on its side; the two faces have 3 of the pattern, a probe 2.5.
+  CHECK(errors.estimate.standardError == doctest::Approx(0.1 * 3 / 2.5 / 6 / 10));
+}
+
+TEST_CASE("seeds whose values were moved err by as much") {
+  SixFaces six;
+  six.result[0] = 1;
+  six.result[3] = 5;
+  const EstimatedErrors errors = six.estimate();
+  CHECK(errors.expected[0] == 1);
+  CHECK(errors.expected[3] == 1);
+  CHECK(errors.estimate.average == doctest::Approx((1 + 1 + 1.5 + 1.5) / 6 / 9));
+}
+
+TEST_CASE("faces without a value have no error, and probes without one tell nothing") {
+  SixFaces six;
+  six.values[5] = six.result[5] = kNoValue;
+  const EstimatedErrors errors = six.estimate();
+  CHECK(errors.expected[5] == 0);
+  CHECK(errors.estimate.average == doctest::Approx(1.5 / 5 / 10));
+
+  six.probes.values[2] = kNoValue;
+  CHECK(six.estimate().estimate.heldOutCount == 0);
+}
+
+TEST_CASE("an estimate takes two probes and a range") {
+  SixFaces one;
+  one.probes = TracedSeeds(6);
+  addSeed(one.probes, 2, 4);
+  CHECK(one.estimate().estimate.heldOutCount == 0);
+  for (const double entry : one.estimate().expected) CHECK(entry == 0);
+  SixFaces flat;
+  flat.result.assign(6, 3.0);
+  CHECK(flat.estimate().estimate.heldOutCount == 0);
+}
+
+TEST_CASE("no more than five worst faces, by their number in the file") {
+  Mesh mesh;
+  mesh.faces.resize(20);
+  mesh.polygons.firstCorner.resize(11);
+  for (uint32_t face = 0; face < 20; ++face) mesh.polygons.inputFaceOf.push_back(face / 2);
+  TracedSeeds placed(20), probes(20);
+  addSeed(placed, 0, 0);
+  for (uint32_t face = 6; face < 20; ++face) addSeed(probes, face, face);
+  std::vector<double> values(20, 6.0), result(20, 0.0);
+  std::iota(result.begin(), result.end(), 0.0);
+  const EstimatedErrors errors = estimateErrors(mesh, {placed, probes, values, {}, result});
+  REQUIRE(errors.estimate.worstFaces.size() == 5);
+  CHECK(errors.estimate.worstFaces[0].face == 9);  // Triangle 19.
+  CHECK(errors.estimate.worstFaces[1].face == 9);
+  CHECK(errors.estimate.worstFaces[2].face == 8);
+  for (size_t i = 1; i < 5; ++i) CHECK(errors.estimate.worstFaces[i].error < errors.estimate.worstFaces[i - 1].error);
+}
+
+TEST_CASE("the estimate is right on average, and as far off as it says") {
+  for (const Recipe recipe : {Recipe::Balanced, Recipe::Paper, Recipe::Quality}) {
+    for (const char* name : {"animal", "hand"}) {
+      CAPTURE(name);
+      const Mesh mesh = generateShape(name, 3000).mesh;
+      Options options;
+      applyRecipe(recipe, options);
+      const std::vector<double> truth = test::tracedEverywhere(mesh, options.cone);
+      constexpr int kRunCount = 8;
+      double ratios = 0, squares = 0;
+      for (int run = 1; run <= kRunCount; ++run) {
+        Mesh input = mesh;
+        options.randomSeed = static_cast<uint64_t>(run);
+        const Result result = referenceSession().compute(input, options);
+        REQUIRE(result.report.estimatedError);
+        const ErrorEstimate& estimate = *result.report.estimatedError;
+        const double real = averageError(result.sdf, truth);
+        ratios += estimate.average / real;
+        squares += std::pow((estimate.average - real) / estimate.standardError, 2);
+        CHECK(estimate.heldOutCount == result.report.seedCount / 4);
+      }
+      MESSAGE(name, " by recipe ", static_cast<int>(recipe), ": estimate over real error ", ratios / kRunCount,
+              ", off by ", std::sqrt(squares / kRunCount), " standard errors");
+      CHECK(ratios / kRunCount > 0.8);
+      CHECK(ratios / kRunCount < 1.25);
+      CHECK(std::sqrt(squares / kRunCount) > 0.2);
+      CHECK(std::sqrt(squares / kRunCount) < 2.5);
+    }
+  }
+}
+
+TEST_CASE("seeds are expected to be right, and the mean of what is expected is the estimate") {
+  Mesh mesh = makeAnimal(3000).mesh;
+  const Result result = referenceSession().compute(mesh, {});
+  REQUIRE(result.report.estimatedError);
+  REQUIRE(result.expectedError.size() == result.sdf.size());
+  for (size_t face = 0; face < result.sdf.size(); ++face)
+    CHECK((result.expectedError[face] == 0) == (result.isSeed[face] == 1));
+  CHECK(meanOf(result.expectedError) / (result.report.sdf.max - result.report.sdf.min) ==
+        doctest::Approx(result.report.estimatedError->average).epsilon(1e-9));
+
+  Options pooled;
+  applyRecipe(Recipe::Quality, pooled);
+  const Result moved = referenceSession().compute(mesh, pooled);
+  size_t movedSeedCount = 0;
+  for (size_t face = 0; face < moved.sdf.size(); ++face)
+    movedSeedCount += moved.isSeed[face] == 1 && moved.expectedError[face] > 0;
+  CHECK(movedSeedCount > moved.report.seedCount * 9 / 10);
+}
+
+TEST_CASE("faces are expected to err where they do") {
+  const Mesh mesh = makeAnimal(3000).mesh;
+  const std::vector<double> truth = test::tracedEverywhere(mesh);
+  Mesh input = mesh;
+  const Result result = referenceSession().compute(input, {});
+  std::vector<size_t> faces;
+  for (size_t face = 0; face < truth.size(); ++face)
+    if (!result.isSeed[face]) faces.push_back(face);
+  std::sort(faces.begin(), faces.end(),
+            [&](size_t a, size_t b) { return result.expectedError[a] < result.expectedError[b]; });
+  double low = 0, high = 0;
+  const size_t half = faces.size() / 2;
+  for (size_t i = 0; i < 2 * half; ++i) (i < half ? low : high) += std::abs(result.sdf[faces[i]] - truth[faces[i]]);
+  CHECK(high > 1.3 * low);
+}
+
+TEST_CASE("there is no estimate where nobody asks, where every face is a seed and where there is one seed") {
+  Mesh mesh = makeTorus(1000).mesh;
+  Options unasked, all, one;
+  unasked.estimatesError = false;
+  all.seeds.kind = SeedCount::Kind::All;
+  one.seeds = {.kind = SeedCount::Kind::Count, .count = 1};
+  for (const Options& options : {unasked, all, one}) {
+    const Result result = referenceSession().compute(mesh, options);
+    CHECK_FALSE(result.report.estimatedError.has_value());
+    CHECK(result.expectedError.empty());
+    CHECK(result.report.noValueCount == 0);
+  }
+}
+
+TEST_CASE("asking for rounds until an error is asking for the estimate") {
+  Mesh mesh = makeTorus(1000).mesh;
+  Options options;
+  options.estimatesError = false;
+  options.rounds.maxError = 0.5;
+  CHECK(referenceSession().compute(mesh, options).report.estimatedError.has_value());
+}

@@ -1,0 +1,175 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "generate/shapes.h"
+#include "pipeline/average_error.h"
+
+using namespace asdfvk;
+using test::averageError;
+using test::referenceSession;
+
+namespace {
+
+Result compute(Mesh mesh, const Options& options) { return referenceSession().compute(mesh, options); }
+
+Options with(Guidance guidance) {
+  Options options;
+  options.interpolation.guidance = guidance;
+  return options;
+}
+
+}  // namespace
+
+TEST_CASE("each sampler with each guidance gives every face of a closed mesh a value") {
+  const Mesh mesh = makeHand(1200).mesh;
+  for (const Guidance guidance : {Guidance::None, Guidance::Curvature, Guidance::Hits})
+    for (const SamplerKind sampler : {SamplerKind::Random, SamplerKind::DepthFirst, SamplerKind::BlueNoise,
+                                      SamplerKind::FarthestPoint, SamplerKind::NormalSpace})
+      for (const bool isAdaptive : {false, true}) {
+        CAPTURE(static_cast<int>(guidance));
+        CAPTURE(static_cast<int>(sampler));
+        Options options = with(guidance);
+        options.sampler = sampler;
+        options.isAdaptive = isAdaptive;
+        const Result result = compute(mesh, options);
+        CHECK(result.report.noValueCount == 0);
+        CHECK(result.report.solver.converged);
+        CHECK(result.report.seedCount == std::lround(0.1 * static_cast<double>(mesh.faces.size())));
+        CHECK(result.report.estimatedError.has_value());
+        CHECK(std::all_of(result.expectedError.begin(), result.expectedError.end(),
+                          [](double e) { return e >= 0 && std::isfinite(e); }));
+      }
+}
+
+TEST_CASE("seeds keep what their rays say, bit for bit, unless values are pooled") {
+  const Mesh mesh = makeAnimal(2000).mesh;
+  const std::vector<double> traced = test::tracedEverywhere(mesh);
+  for (const Guidance guidance : {Guidance::None, Guidance::Curvature, Guidance::Hits}) {
+    const Result result = compute(mesh, with(guidance));
+    for (size_t face = 0; face < traced.size(); ++face)
+      if (result.isSeed[face]) CHECK(result.sdf[face] == traced[face]);
+  }
+  Options pooled;
+  pooled.interpolation.pooling = 0.5;
+  const Result result = compute(mesh, pooled);
+  size_t movedCount = 0;
+  for (size_t face = 0; face < traced.size(); ++face)
+    movedCount += result.isSeed[face] && result.sdf[face] != traced[face];
+  CHECK(movedCount > result.report.seedCount / 2);
+}
+
+TEST_CASE("pooling moves values in proportion") {
+  const Mesh mesh = makeTorus(1000).mesh;
+  std::vector<double> at[3];
+  for (int i = 0; i < 3; ++i) {
+    Options options;
+    options.interpolation.pooling = 0.5 * i;
+    at[i] = compute(mesh, options).sdf;
+  }
+  for (size_t face = 0; face < mesh.faces.size(); ++face)
+    CHECK(at[1][face] == doctest::Approx(0.5 * (at[0][face] + at[2][face])).epsilon(1e-9));
+}
+
+TEST_CASE("guidance by hits errs less than none") {
+  for (const char* name : {"animal", "hand", "torus"}) {
+    const Mesh mesh = generateShape(name, 4000).mesh;
+    const std::vector<double> truth = test::tracedEverywhere(mesh);
+    const double hits = averageError(compute(mesh, with(Guidance::Hits)).sdf, truth);
+    const double none = averageError(compute(mesh, with(Guidance::None)).sdf, truth);
+    MESSAGE(name, ": by hits ", hits, ", without ", none);
+    CHECK(hits < 0.9 * none);
+  }
+}
+
+TEST_CASE("the curvature's factor matters, and 0 means no guidance") {
+  const Mesh mesh = makeTorus(1000).mesh;
+  Options zero = with(Guidance::Curvature);
+  zero.interpolation.curvatureFactor = 0;
+  CHECK(compute(mesh, zero).sdf == compute(mesh, with(Guidance::None)).sdf);
+  CHECK(compute(mesh, with(Guidance::Curvature)).sdf != compute(mesh, with(Guidance::None)).sdf);
+}
+
+TEST_CASE("components without a seed of their own get one, whatever the guidance") {
+  const Mesh mesh =
+      test::joined(test::joined(makeTorus(2000).mesh, makeSphere(20).mesh, {5, 0, 0}), makeSphere(80).mesh, {0, 5, 0});
+  for (const Guidance guidance : {Guidance::None, Guidance::Curvature, Guidance::Hits}) {
+    CAPTURE(static_cast<int>(guidance));
+    Options options = with(guidance);
+    options.seeds = {.kind = SeedCount::Kind::Count, .share = 0, .count = 1};
+    const Result result = compute(mesh, options);
+    CHECK(result.report.componentCount == 3);
+    CHECK(result.report.noValueCount == 0);
+    CHECK(result.report.seedCount == 3);
+    CHECK(std::count(result.isSeed.begin(), result.isSeed.end(), 1) == 3);
+  }
+}
+
+TEST_CASE("an open mesh and one with defects give values or none, never a wrong kind of number") {
+  Mesh open = makeAnimal(2500).mesh;
+  std::erase_if(open.faces, [&](const Face& face) { return open.vertices[face[0]].x > 0.3; });
+  Mesh broken = makeAnimal(2500).mesh;
+  const Face first = broken.faces[0];
+  broken.faces.push_back({first[0], first[0], first[1]});                                   // degenerate
+  broken.faces.push_back(broken.faces[10]);                                                 // twice
+  broken.faces.push_back({broken.faces[20][1], broken.faces[20][0], broken.faces[20][2]});  // the other way round
+  broken.vertices.push_back({std::nan(""), 0, 0});
+  broken.faces.push_back({first[0], first[1], static_cast<uint32_t>(broken.vertices.size() - 1)});
+  for (const Mesh& mesh : {open, broken})
+    for (const Recipe recipe : {Recipe::Paper, Recipe::Balanced, Recipe::Quality}) {
+      CAPTURE(static_cast<int>(recipe));
+      Options options;
+      applyRecipe(recipe, options);
+      const Result result = compute(mesh, options);
+      CHECK(result.sdf.size() == mesh.faces.size());
+      CHECK(result.report.noValueCount < 10);
+      CHECK(std::none_of(result.sdf.begin(), result.sdf.end(), [](double v) { return std::isinf(v); }));
+      CHECK(std::all_of(result.expectedError.begin(), result.expectedError.end(),
+                        [](double e) { return e >= 0 && std::isfinite(e); }));
+      CHECK(result.report.solver.converged);
+    }
+}
+
+TEST_CASE("options of the interpolation and of rounds out of range are errors of usage") {
+  const auto refusal = [](const auto& change) -> std::string {
+    Options options;
+    change(options);
+    try {
+      (void)compute(makeSphere(80).mesh, options);
+    } catch (const Error& error) {
+      CHECK(error.kind() == ErrorKind::Usage);
+      return error.what();
+    }
+    return "accepted";
+  };
+  for (const double bad : {-0.1, 1.1, std::nan("")})
+    CHECK(refusal([&](Options& o) { o.interpolation.pooling = bad; }).find("pooling") != std::string::npos);
+  CHECK(refusal([](Options& o) {
+          o.interpolation.pooling = 0.5;
+          o.interpolation.guidance = Guidance::None;
+        }).find("guidance by hits") != std::string::npos);
+  for (const double bad : {-1.0, std::nan("")})
+    CHECK(refusal([&](Options& o) { o.interpolation.secondOrder = bad; }).find("second-order") != std::string::npos);
+  for (const double bad : {-1.0, 0.0, std::nan("")}) {
+    CHECK(refusal([&](Options& o) { o.rounds.maxError = bad; }).find("error") != std::string::npos);
+    CHECK(refusal([&](Options& o) { o.rounds.timeBudgetSeconds = bad; }).find("time budget") != std::string::npos);
+  }
+}
+
+TEST_CASE("the device and the reference agree under every recipe") {
+  for (const Recipe recipe : {Recipe::Paper, Recipe::Balanced, Recipe::Quality}) {
+    CAPTURE(static_cast<int>(recipe));
+    Mesh mesh = makeTorus(1500).mesh;
+    Options options;
+    applyRecipe(recipe, options);
+    options.solverOptions.tolerance = 1e-6;
+    const Result device = test::vulkanSession().compute(mesh, options), reference = compute(mesh, options);
+    CHECK(device.isSeed == reference.isSeed);
+    size_t differing = 0;
+    for (size_t face = 0; face < mesh.faces.size(); ++face)
+      differing += std::abs(device.sdf[face] - reference.sdf[face]) > 2e-3 * reference.sdf[face];
+    CHECK(differing <= mesh.faces.size() / 100);
+  }
+}

@@ -1,0 +1,112 @@
+#include <doctest/doctest.h>
+
+#include "generate/shapes.h"
+#include "pipeline/average_error.h"
+
+using namespace asdfvk;
+using test::averageError;
+using test::referenceSession;
+
+namespace {
+
+Options optionsOf(Recipe recipe) {
+  Options options;
+  applyRecipe(recipe, options);
+  return options;
+}
+
+std::vector<double> valuesBy(Recipe recipe, Mesh mesh) {
+  return referenceSession().compute(mesh, optionsOf(recipe)).sdf;
+}
+
+}  // namespace
+
+TEST_CASE("paper is what the paper does") {
+  const Options options = optionsOf(Recipe::Paper);
+  CHECK(options.sampler == SamplerKind::Random);
+  CHECK_FALSE(options.isAdaptive);
+  CHECK(options.interpolation.weights == ArcWeightKind::Distance);
+  CHECK(options.interpolation.guidance == Guidance::None);
+  CHECK(options.interpolation.secondOrder == 0);
+  CHECK(options.interpolation.pooling == 0);
+  CHECK(options.cone.rotation == ConeRotation::Fixed);
+}
+
+TEST_CASE("balanced is the default") {
+  const Options options = optionsOf(Recipe::Balanced), defaults;
+  CHECK(options.sampler == SamplerKind::BlueNoise);
+  CHECK(options.metric == SurfaceMetric::Angle);
+  CHECK(options.interpolation.weights == ArcWeightKind::Feature);
+  CHECK(options.interpolation.guidance == Guidance::Hits);
+  CHECK(options.interpolation.pooling == 0);
+  CHECK(options.cone.rotation == ConeRotation::Fixed);
+  CHECK(options.sampler == defaults.sampler);
+  CHECK(options.metric == defaults.metric);
+  CHECK(options.interpolation.weights == defaults.interpolation.weights);
+  CHECK(options.interpolation.guidance == defaults.interpolation.guidance);
+}
+
+TEST_CASE("quality is balanced with turned cones whose values are pooled") {
+  const Options options = optionsOf(Recipe::Quality);
+  CHECK(options.sampler == SamplerKind::BlueNoise);
+  CHECK(options.interpolation.weights == ArcWeightKind::Feature);
+  CHECK(options.interpolation.guidance == Guidance::Hits);
+  CHECK(options.interpolation.pooling > 0);
+  CHECK(options.cone.rotation == ConeRotation::Hashed);
+}
+
+TEST_CASE("a recipe undoes another one and leaves everything else alone") {
+  for (const Recipe recipe : {Recipe::Paper, Recipe::Balanced, Recipe::Quality}) {
+    Options options;
+    options.seeds.share = 0.3;
+    options.randomSeed = 77;
+    options.cone.rayCount = 12;
+    options.cone.openingAngleDegrees = 100;
+    options.solver = SolverChoice::Eigen;
+    options.solverOptions.tolerance = 1e-7;
+    options.estimatesError = false;
+    options.rounds.maxError = 0.5;
+    options.orientation = Orientation::Flip;
+    options.checkCount = 5;
+    for (const Recipe earlier : {Recipe::Quality, Recipe::Paper}) applyRecipe(earlier, options);
+    applyRecipe(recipe, options);
+    const Options expected = optionsOf(recipe);
+    CHECK(options.sampler == expected.sampler);
+    CHECK(options.cone.rotation == expected.cone.rotation);
+    CHECK(options.interpolation.weights == expected.interpolation.weights);
+    CHECK(options.interpolation.guidance == expected.interpolation.guidance);
+    CHECK(options.interpolation.pooling == expected.interpolation.pooling);
+    CHECK(options.seeds.share == 0.3);
+    CHECK(options.randomSeed == 77);
+    CHECK(options.cone.rayCount == 12);
+    CHECK(options.cone.openingAngleDegrees == 100);
+    CHECK(options.solver == SolverChoice::Eigen);
+    CHECK(options.solverOptions.tolerance == 1e-7);
+    CHECK_FALSE(options.estimatesError);
+    CHECK(options.rounds.maxError == 0.5);
+    CHECK(options.orientation == Orientation::Flip);
+    CHECK(options.checkCount == 5);
+  }
+}
+
+TEST_CASE("balanced errs less than paper") {
+  for (const char* name : {"animal", "hand", "figure"}) {
+    const Mesh mesh = generateShape(name, 10'000).mesh;
+    const std::vector<double> truth = test::tracedEverywhere(mesh);
+    const double balanced = averageError(valuesBy(Recipe::Balanced, mesh), truth);
+    const double paper = averageError(valuesBy(Recipe::Paper, mesh), truth);
+    MESSAGE(name, ": balanced ", balanced, ", paper ", paper);
+    CHECK(balanced < 0.8 * paper);
+  }
+}
+
+TEST_CASE("quality is nearer to the function of many rays than balanced") {
+  for (const char* name : {"animal", "hand"}) {
+    const Mesh mesh = generateShape(name, 4000).mesh;
+    const std::vector<double> truth = test::tracedEverywhere(mesh, {.rayCount = 300, .rotation = ConeRotation::Hashed});
+    const double quality = averageError(valuesBy(Recipe::Quality, mesh), truth);
+    const double balanced = averageError(valuesBy(Recipe::Balanced, mesh), truth);
+    MESSAGE(name, ": quality ", quality, ", balanced ", balanced);
+    CHECK(quality < 0.95 * balanced);
+  }
+}

@@ -1,0 +1,189 @@
+#include "pipeline/seed_rounds.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "generate/shapes.h"
+#include "pipeline/average_error.h"
+
+using namespace asdfvk;
+using test::averageError;
+using test::referenceSession;
+
+namespace {
+
+Result compute(Mesh mesh, const Options& options) { return referenceSession().compute(mesh, options); }
+
+/// Begins with two percent, as the command line does.
+Options roundsUntil(double maxError) {
+  Options options;
+  options.seeds.share = 0.02;
+  options.rounds.maxError = maxError;
+  return options;
+}
+
+Options roundsFor(double seconds) {
+  Options options;
+  options.seeds.share = 0.02;
+  options.rounds.timeBudgetSeconds = seconds;
+  return options;
+}
+
+uint64_t markedCount(const Result& result) {
+  return static_cast<uint64_t>(std::count(result.isSeed.begin(), result.isSeed.end(), 1));
+}
+
+bool isWithin(const std::vector<uint8_t>& few, const std::vector<uint8_t>& many) {
+  for (size_t face = 0; face < few.size(); ++face)
+    if (few[face] && !many[face]) return false;
+  return true;
+}
+
+/// Spheres in a row, more than there are seeds in the first round.
+Mesh manySpheres() {
+  Mesh mesh = makeAnimal(1500).mesh;
+  for (int i = 0; i < 30; ++i)
+    mesh = test::joined(mesh, makeSphere(80, {.radius = 0.1 + 0.01 * i}).mesh, {3.0 + i, 0, 0});
+  return mesh;
+}
+
+}  // namespace
+
+TEST_CASE("rounds go on until the error is as small as asked for, and it is") {
+  for (const char* name : {"animal", "hand"}) {
+    CAPTURE(name);
+    const Mesh mesh = generateShape(name, 4000).mesh;
+    const std::vector<double> truth = test::tracedEverywhere(mesh);
+    for (const double maxError : {0.04, 0.02}) {
+      const Result result = compute(mesh, roundsUntil(maxError));
+      REQUIRE(result.report.estimatedError);
+      const ErrorEstimate& estimate = *result.report.estimatedError;
+      const double real = averageError(result.sdf, truth);
+      MESSAGE(name, ": asked for ", maxError, ", really ", real, " with ", result.report.seedCount, " seeds in ",
+              result.report.roundCount, " rounds");
+      CHECK(estimate.average + estimate.standardError <= maxError);
+      CHECK(real <= 1.2 * maxError);
+      CHECK(result.report.roundCount > 1);
+      CHECK(result.report.roundCount < 10);
+      CHECK(result.report.seedCount < mesh.faces.size());
+      CHECK(markedCount(result) == result.report.seedCount);
+      CHECK(result.report.rayCount == 30 * result.report.seedCount);
+    }
+  }
+}
+
+TEST_CASE("a first round that is good enough is the only one") {
+  const Mesh mesh = makeAnimal(2500).mesh;
+  const Result result = compute(mesh, roundsUntil(0.5));
+  CHECK(result.report.roundCount == 1);
+  CHECK(result.report.seedCount == 50);
+  Options plain = roundsUntil(0.5);
+  plain.rounds = {};
+  CHECK(compute(mesh, plain).sdf == result.sdf);
+}
+
+TEST_CASE("a further round keeps all seeds of the rounds before, whatever the sampler") {
+  const Mesh mesh = makeAnimal(2500).mesh;
+  for (const SamplerKind sampler : {SamplerKind::Random, SamplerKind::DepthFirst, SamplerKind::BlueNoise,
+                                    SamplerKind::FarthestPoint, SamplerKind::NormalSpace}) {
+    CAPTURE(static_cast<int>(sampler));
+    std::vector<uint8_t> earlier(mesh.faces.size(), 0);
+    uint64_t seedCount = 0;
+    for (const double maxError : {0.5, 0.05, 0.02}) {
+      Options options = roundsUntil(maxError);
+      options.sampler = sampler;
+      const Result result = compute(mesh, options);
+      CHECK(isWithin(earlier, result.isSeed));
+      CHECK(result.report.seedCount > seedCount);
+      earlier = result.isSeed;
+      seedCount = result.report.seedCount;
+    }
+  }
+}
+
+TEST_CASE("too much asked for ends with every face a seed, without an error left to estimate") {
+  const Mesh mesh = makeTorus(1000).mesh;
+  const Result result = compute(mesh, roundsUntil(1e-9));
+  CHECK(result.report.seedCount == mesh.faces.size());
+  CHECK(markedCount(result) == mesh.faces.size());
+  CHECK_FALSE(result.report.estimatedError.has_value());
+  CHECK(result.sdf == test::tracedEverywhere(mesh));
+}
+
+TEST_CASE("seeds that a round gave to components without one are not chosen again") {
+  const Mesh mesh = manySpheres();
+  for (const SamplerKind sampler : {SamplerKind::Random, SamplerKind::BlueNoise}) {
+    CAPTURE(static_cast<int>(sampler));
+    for (const double maxError : {0.03, 1e-9}) {
+      Options options = roundsUntil(maxError);
+      options.seeds.share = 0.005;
+      options.sampler = sampler;
+      const Result result = compute(mesh, options);
+      CHECK(result.report.roundCount > 1);
+      CHECK(result.report.seedCount == markedCount(result));
+      CHECK(result.report.noValueCount == 0);
+    }
+    Options adaptive;
+    adaptive.seeds.share = 0.02;
+    adaptive.isAdaptive = true;
+    adaptive.sampler = sampler;
+    const Result result = compute(mesh, adaptive);
+    CHECK(result.report.seedCount == markedCount(result));
+  }
+}
+
+TEST_CASE("a budget that is spent at once makes one round, a large one takes every face") {
+  const Mesh mesh = makeAnimal(2500).mesh;
+  const Result spent = compute(mesh, roundsFor(1e-9));
+  CHECK(spent.report.roundCount == 1);
+  CHECK(spent.report.seedCount == 50);
+  CHECK(spent.report.noValueCount == 0);
+  const Result rich = compute(mesh, roundsFor(1000));
+  CHECK(rich.report.roundCount == 2);
+  CHECK(rich.report.seedCount == mesh.faces.size());
+  CHECK(compute(mesh, roundsFor(1e300)).report.seedCount == mesh.faces.size());
+}
+
+TEST_CASE("of a budget and an error, what is reached first ends the rounds") {
+  const Mesh mesh = makeAnimal(2500).mesh;
+  Options options = roundsUntil(1e-9);
+  options.rounds.timeBudgetSeconds = 1e-9;
+  CHECK(compute(mesh, options).report.roundCount == 1);
+  options.rounds.timeBudgetSeconds = 1000;
+  options.rounds.maxError = 0.5;
+  CHECK(compute(mesh, options).report.roundCount == 1);
+}
+
+TEST_CASE("the adaptive sampler casts as many rays in two rounds, and errs no more") {
+  const Mesh mesh = makeHand(4000).mesh;
+  const std::vector<double> truth = test::tracedEverywhere(mesh);
+  Options adaptive;
+  adaptive.isAdaptive = true;
+  const Result blueNoise = compute(mesh, {}), twoPasses = compute(mesh, adaptive);
+  CHECK(twoPasses.report.roundCount == 2);
+  CHECK(twoPasses.report.seedCount == blueNoise.report.seedCount);
+  CHECK(twoPasses.isSeed != blueNoise.isSeed);
+  CHECK(averageError(twoPasses.sdf, truth) < 1.1 * averageError(blueNoise.sdf, truth));
+  Options all = adaptive;
+  all.seeds.kind = SeedCount::Kind::All;
+  CHECK(compute(mesh, all).report.roundCount == 1);
+}
+
+TEST_CASE("rounds give the same bits each time") {
+  const Mesh mesh = makeAnimal(2500).mesh;
+  const Result one = compute(mesh, roundsUntil(0.03)), two = compute(mesh, roundsUntil(0.03));
+  CHECK(one.sdf == two.sdf);
+  CHECK(one.isSeed == two.isSeed);
+  CHECK(one.expectedError == two.expectedError);
+}
+
+TEST_CASE("rounds can be stopped between one and the next, and their progress ends at 1") {
+  Mesh mesh = makeAnimal(2500).mesh;
+  std::vector<double> fractions;
+  const RunControl watched{{}, [&](double fraction) { fractions.push_back(fraction); }};
+  (void)referenceSession().compute(mesh, roundsUntil(0.03), watched);
+  CHECK(std::is_sorted(fractions.begin(), fractions.end()));
+  CHECK(fractions.back() == 1);
+}
