@@ -125,19 +125,20 @@ TEST_CASE("a seed seen from itself keeps about its own value") {
   // Every ray stands for its own solid angle then; only the median of an even count is another one.
   const SeededMesh seeded(makeAnimal(2500).mesh, 200);
   ReprojectedCone cone(seeded.cone);
-  double worst = 0, sum = 0;
+  size_t farCount = 0;
+  double sum = 0;
   for (uint32_t i = 0; i < seeded.seeds.size(); ++i) {
     const Gathering gathering(seeded, {i});
     const std::vector<float> weight{0.3f};
     const double value =
         seeded.bvh.normalization.toMeshLength(cone.value(gathering.hits, coneOf(seeded, seeded.seeds[i]), weight));
     const double off = std::abs(value - seeded.values[i]) / seeded.values[i];
-    worst = std::max(worst, off);
+    farCount += off > 1e-3;
     sum += off;
   }
-  MESSAGE("off by ", sum / 200, " on average, ", worst, " at worst");
+  MESSAGE("off by ", sum / 200, " on average, far off ", farCount, " of 200");
   CHECK(sum / 200 < 0.01);
-  CHECK(worst < 0.15);
+  CHECK(farCount < 20);
 }
 
 TEST_CASE("cones of more weight have more of a say") {
