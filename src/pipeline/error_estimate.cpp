@@ -12,13 +12,15 @@ constexpr size_t kWorstFaceCount = 5;
 // Of the mean disagreement of both methods: what is expected of a face where they agree.
 constexpr double kLeastExpectation = 0.5;
 
-double rangeOf(std::span<const double> values) {
+/// Of the values traced. The function's own range is wider where its extremes were not traced.
+double tracedRange(const HeldOutErrors& errors) {
   double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
-  for (const double value : values)
-    if (!std::isnan(value)) {
-      low = std::min(low, value);
-      high = std::max(high, value);
-    }
+  for (const TracedSeeds* traced : {&errors.placed, &errors.probes})
+    for (const uint32_t face : traced->faces)
+      if (const double value = traced->values[face]; !std::isnan(value)) {
+        low = std::min(low, value);
+        high = std::max(high, value);
+      }
   return high > low ? high - low : 0;
 }
 
@@ -75,7 +77,7 @@ std::vector<ErrorEstimate::WorstFace> worstOf(const Mesh& mesh, std::vector<Prob
 EstimatedErrors estimateErrors(const Mesh& mesh, const HeldOutErrors& errors) {
   EstimatedErrors result;
   result.expected.assign(errors.result.size(), 0);
-  const double range = rangeOf(errors.result);
+  const double range = tracedRange(errors);
   const std::vector<double> pattern = patternOf(errors);
   const std::vector<Probe> probes = readProbes(errors, pattern);
   if (probes.size() < 2 || !(range > 0)) return result;

@@ -14,8 +14,11 @@ namespace {
 // Keeps the probes independent of the placed seeds of the same number.
 constexpr uint64_t kProbeStream = 0x7072'6f62'6500'0000u;
 
-constexpr uint64_t kPlacedPerProbe = 3;
-constexpr uint64_t kMostProbes = 400;
+// Probes are placed worse than placed seeds and told apart from them by nothing else, so they are as few as make the
+// estimate good to about 10 %.
+constexpr uint64_t kSeedsPerProbe = 4, kEnoughProbes = 200, kSeedsPerFurtherProbe = 10, kMostProbes = 2000;
+
+constexpr uint64_t kSeedsPerScout = 50, kLeastScouts = 8, kMostScouts = 400;
 
 std::vector<uint32_t> without(std::span<const uint32_t> faces, std::span<const uint32_t> removed) {
   std::vector<uint32_t> rest;
@@ -37,11 +40,16 @@ uint64_t resolveSeedCount(const SeedCount& request, uint64_t castableFaceCount) 
   return std::clamp<uint64_t>(static_cast<uint64_t>(count), 1, castableFaceCount);
 }
 
-uint64_t probeCountFor(uint64_t count, uint64_t earlierProbeCount) {
-  return std::min(count / (kPlacedPerProbe + 1), kMostProbes - std::min(kMostProbes, earlierProbeCount));
+SeedShares shareOut(uint64_t count, uint64_t earlierProbeCount, bool predicts) {
+  SeedShares shares;
+  const uint64_t enough = std::min(kEnoughProbes + count / kSeedsPerFurtherProbe, kMostProbes);
+  shares.probes = std::min(count / kSeedsPerProbe, enough - std::min(enough, earlierProbeCount));
+  if (predicts) shares.scouts = std::min(std::clamp(count / kSeedsPerScout, kLeastScouts, kMostScouts), count / 10);
+  shares.placed = count - shares.probes - shares.scouts;
+  return shares;
 }
 
-SeedChoice chooseSeeds(const PreparedMesh& prepared, const Options& options, uint64_t count, uint64_t probeCount,
+SeedChoice chooseSeeds(const PreparedMesh& prepared, const Options& options, const SeedShares& shares,
                        const SeedChoice& earlier, std::span<const double> weight) {
   // Placed seeds keep away from each other and not from probes, which must be like any other face to them.
   const std::vector<uint32_t> candidates = without(prepared.castableFaces, earlier.probes);
@@ -49,19 +57,34 @@ SeedChoice chooseSeeds(const PreparedMesh& prepared, const Options& options, uin
   SeedChoice choice;
   if (options.sampler == SamplerKind::Random) {
     // All are placed at random: any of them can be probes, and which seeds there are does not depend on an estimate.
-    const std::vector<uint32_t> all =
-        sampleSeeds(options.sampler, options.metric, domain, count, earlier.placed, options.randomSeed);
-    choice.probes = randomPermutationSeeds(all, probeCount, options.randomSeed ^ kProbeStream);
+    const std::vector<uint32_t> all = sampleSeeds(options.sampler, options.metric, domain,
+                                                  shares.placed + shares.probes, earlier.placed, options.randomSeed);
+    choice.probes = randomPermutationSeeds(all, shares.probes, options.randomSeed ^ kProbeStream);
     choice.placed = without(all, choice.probes);
     return choice;
   }
-  choice.placed = weight.empty() ? sampleSeeds(options.sampler, options.metric, domain, count - probeCount,
-                                               earlier.placed, options.randomSeed)
-                                 : weightedBlueNoiseSeeds(domain, options.metric, weight, count - probeCount,
-                                                          earlier.placed, options.randomSeed);
+  choice.placed =
+      weight.empty()
+          ? sampleSeeds(options.sampler, options.metric, domain, shares.placed, earlier.placed, options.randomSeed)
+          : weightedBlueNoiseSeeds(domain, options.metric, weight, shares.placed, earlier.placed, options.randomSeed);
   const std::vector<uint32_t> rest = without(unchosenCandidates(domain, earlier.placed), choice.placed);
-  choice.probes = randomPermutationSeeds(rest, probeCount, (options.randomSeed ^ kProbeStream) + earlier.probes.size());
+  choice.probes =
+      randomPermutationSeeds(rest, shares.probes, (options.randomSeed ^ kProbeStream) + earlier.probes.size());
   return choice;
+}
+
+std::vector<uint32_t> chooseScouts(const PreparedMesh& prepared, std::span<const double> prediction,
+                                   std::span<const uint8_t> isSeed, uint64_t count) {
+  std::vector<uint32_t> scouts;
+  for (const uint32_t face : prepared.castableFaces)
+    if (!isSeed[face] && std::isfinite(prediction[face])) scouts.push_back(face);
+  const auto end = scouts.begin() + static_cast<std::ptrdiff_t>(std::min<uint64_t>(count, scouts.size()));
+  std::nth_element(scouts.begin(), end, scouts.end(), [&](uint32_t a, uint32_t b) {
+    return prediction[a] != prediction[b] ? prediction[a] > prediction[b] : a < b;
+  });
+  scouts.erase(end, scouts.end());
+  std::sort(scouts.begin(), scouts.end());
+  return scouts;
 }
 
 }  // namespace asdfvk

@@ -18,13 +18,24 @@ struct SeedChoice {
   std::vector<uint32_t> placed, probes;  ///< Ascending; none is in both.
 };
 
-/// Of `count` further seeds, how many are probes when the error is to be estimated: a quarter, and in all not more than
-/// are good for an estimate to about 10 %.
-[[nodiscard]] uint64_t probeCountFor(uint64_t count, uint64_t earlierProbeCount);
+/// How `count` further seeds are shared out when the error is to be estimated.
+struct SeedShares {
+  uint64_t placed = 0, probes = 0;
+  uint64_t scouts = 0;  ///< For faces whose predicted values are the greatest, see chooseScouts().
+};
 
-/// Chooses `count` further seeds, probeCount of them probes. earlier: what was chosen before. weight: #F, how densely
+/// earlierProbeCount: of the rounds before. predicts: scouts can be chosen.
+[[nodiscard]] SeedShares shareOut(uint64_t count, uint64_t earlierProbeCount, bool predicts);
+
+/// Chooses further placed seeds and probes. earlier: what was chosen before. weight: #F, how densely
 /// the faces deserve seeds, for a sampler that adapts; or empty.
-[[nodiscard]] SeedChoice chooseSeeds(const PreparedMesh& prepared, const Options& options, uint64_t count,
-                                     uint64_t probeCount, const SeedChoice& earlier, std::span<const double> weight);
+[[nodiscard]] SeedChoice chooseSeeds(const PreparedMesh& prepared, const Options& options, const SeedShares& shares,
+                                     const SeedChoice& earlier, std::span<const double> weight);
+
+/// The candidates with the greatest predictions that are no seeds yet, ascending. The range of the function, over which
+/// errors are told, ends at a few faces that a sample of seeds misses; tracing these finds nearly all of it.
+/// prediction, isSeed: #F.
+[[nodiscard]] std::vector<uint32_t> chooseScouts(const PreparedMesh& prepared, std::span<const double> prediction,
+                                                 std::span<const uint8_t> isSeed, uint64_t count);
 
 }  // namespace asdfvk

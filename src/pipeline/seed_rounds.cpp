@@ -8,9 +8,11 @@
 namespace asdfvk {
 namespace {
 
-// The error falls about with the square root of the number of seeds; a round that aims a little beyond saves the next.
-constexpr double kAim = 1.15;
-constexpr double kLeastGrowth = 1.25, kGreatestGrowth = 4;
+// The error of a face falls with about this power of the number of seeds (bench/NOTES.md).
+constexpr double kConvergence = 0.4;
+constexpr double kLeastGrowth = 1.25, kGreatestGrowth = 4, kStep = 1.05;
+// So many standard errors above the estimate the error is taken to be.
+constexpr double kCaution = 1.5;
 // A round that adds less than this share of the seeds is not worth its interpolation.
 constexpr double kWorthwhile = 0.05;
 // Of the time that is left: what a round may plan to use.
@@ -39,66 +41,76 @@ SeedRounds::SeedRounds(const Mesh& mesh, const PreparedMesh& prepared, const Opt
       traced_(placed_) {}
 
 void SeedRounds::run(const RunControl& control) {
-  uint64_t count = resolveSeedCount(options_.seeds, prepared_.castableFaces.size());
-  const bool startsWithHalf = options_.isAdaptive && count < prepared_.castableFaces.size();
-  if (startsWithHalf) {
-    addSeeds(count - count / 2, {}, control.part(0, 0.4));
-    interpolate(control.part(0.4, 0.45));
-    estimate(control.part(0.45, 0.5));
-    count /= 2;
+  const uint64_t count = resolveSeedCount(options_.seeds, prepared_.castableFaces.size());
+  if (options_.isAdaptive && count < prepared_.castableFaces.size()) {
+    runRound(count - count / 2, {}, control.part(0, 0.5));
+    const std::vector<double> weight = errors_ ? errors_->expected : std::vector<double>{};
+    runRound(count / 2, weight, control.part(0.5, 1));
+  } else {
+    runRound(count, {}, control);
   }
-  const std::vector<double> weight = startsWithHalf && errors_ ? errors_->expected : std::vector<double>{};
-  addSeeds(count, weight, control.part(startsWithHalf ? 0.5 : 0.0, 0.8));
-  interpolate(control.part(0.8, 0.9));
-  estimate(control.part(0.9, 1));
-  while (const uint64_t further = furtherCount()) {
-    const RunControl quiet{control.stop, {}};
-    addSeeds(further, {}, quiet);
-    interpolate(quiet);
-    estimate(quiet);
-  }
+  while (const uint64_t further = furtherCount()) runRound(further, {}, {control.stop, {}});
   control.checkpoint(1);
 }
 
-void SeedRounds::addSeeds(uint64_t count, std::span<const double> weight, const RunControl& control) {
+void SeedRounds::runRound(uint64_t count, std::span<const double> weight, const RunControl& control) {
   ++roundCount_;
-  const Stopwatch sampleWatch;
+  const Stopwatch watch;
+  const double earlierRays = seconds_.trace + seconds_.sample;
+  errors_.reset();
   count = std::min(count, leftCount());
-  const bool leavesSome = count < leftCount();
-  const uint64_t probeCount = estimates_ && leavesSome ? probeCountFor(count, chosen_.probes.size()) : 0;
-  const SeedChoice choice = chooseSeeds(prepared_, options_, count, probeCount, chosen_, weight);
-  seconds_.sample += sampleWatch.seconds();
+  const bool predicts = options_.interpolation.guidance == Guidance::Hits;
+  const bool judges = estimates_ && count < leftCount();
+  const SeedShares shares = judges ? shareOut(count, probes_.faces.size(), predicts) : SeedShares{.placed = count};
+  traceChosen(shares, weight, control.part(0, 0.8));
+  Interpolated heldOut;
+  const bool hasProbes = !probes_.faces.empty();
+  if (hasProbes) heldOut = holdOut(shares, control.part(0.8, 0.87));
+  traced_ = placed_;
+  traced_.append(probes_);
+  result_ = interpolation_.run(traced_, seconds_, control.part(0.87, 0.94));
+  if (hasProbes) estimate(heldOut, control.part(0.94, 1));
+  interpolationSeconds_ = watch.seconds() - (seconds_.trace + seconds_.sample - earlierRays);
+}
 
+void SeedRounds::traceChosen(const SeedShares& shares, std::span<const double> weight, const RunControl& control) {
+  const Stopwatch sampleWatch;
+  const SeedChoice choice = chooseSeeds(prepared_, options_, shares, chosen_, weight);
+  seconds_.sample += sampleWatch.seconds();
   const Stopwatch traceWatch;
-  const double placedShare =
-      static_cast<double>(choice.placed.size()) / static_cast<double>(std::max<uint64_t>(1, count));
+  const auto placedCount = static_cast<double>(choice.placed.size()),
+             probeCount = static_cast<double>(choice.probes.size());
+  const double placedShare = placedCount / std::max(1.0, placedCount + probeCount);
   tracing_.trace(choice.placed, placed_, control.part(0, placedShare));
   tracing_.trace(choice.probes, probes_, control.part(placedShare, 1));
   tracing_.traceComponentsWithoutValue(placed_, probes_.isSeed, options_.randomSeed, control);
   chosen_ = {merged(chosen_.placed, choice.placed), merged(chosen_.probes, choice.probes)};
-  traced_ = placed_;
-  traced_.append(probes_);
   seconds_.trace += traceWatch.seconds();
 }
 
-void SeedRounds::interpolate(const RunControl& control) {
-  const Stopwatch watch;
-  result_ = interpolation_.run(traced_, seconds_, control);
-  roundSeconds_ = watch.seconds();
-}
-
-void SeedRounds::estimate(const RunControl& control) {
-  errors_.reset();
-  if (probes_.faces.empty()) return;
+Interpolated SeedRounds::holdOut(const SeedShares& shares, const RunControl& control) {
   const Stopwatch watch;
   StageSeconds ignored;
-  const Interpolated heldOut = interpolation_.run(placed_, ignored, control.part(0, 0.7));
+  Interpolated heldOut = interpolation_.run(placed_, ignored, control);
+  seconds_.estimate += watch.seconds();
+  if (shares.scouts == 0) return heldOut;
+  const Stopwatch traceWatch;
+  std::vector<uint8_t> isSeed = placed_.isSeed;
+  for (const uint32_t face : probes_.faces) isSeed[face] = 1;
+  const std::vector<uint32_t> scouts = chooseScouts(prepared_, heldOut.prediction, isSeed, shares.scouts);
+  tracing_.trace(scouts, placed_, {control.stop, {}});
+  chosen_.placed = merged(chosen_.placed, scouts);
+  seconds_.trace += traceWatch.seconds();
+  return heldOut;
+}
+
+void SeedRounds::estimate(const Interpolated& heldOut, const RunControl& control) {
+  const Stopwatch watch;
   std::vector<double> other;
-  if (!heldOut.prediction.empty()) other = interpolation_.runHarmonic(placed_, heldOut.values, control.part(0.7, 1));
+  if (!heldOut.prediction.empty()) other = interpolation_.runHarmonic(placed_, heldOut.values, control);
   EstimatedErrors errors = estimateErrors(mesh_, {placed_, probes_, heldOut.values, other, result_.values});
   if (errors.estimate.heldOutCount > 0) errors_ = std::move(errors);
   seconds_.estimate += watch.seconds();
-  roundSeconds_ += watch.seconds();
 }
 
 uint64_t SeedRounds::leftCount() const {
@@ -114,16 +126,23 @@ uint64_t SeedRounds::countForError() const {
   if (!options_.rounds.maxError) return leftCount();
   const auto seedCount = static_cast<double>(traced_.faces.size());
   if (!errors_) return static_cast<uint64_t>(std::ceil((kGreatestGrowth - 1) * seedCount));
-  const double bound = errors_->estimate.average + errors_->estimate.standardError;
-  if (bound <= *options_.rounds.maxError) return 0;
-  const double growth = kAim * std::pow(bound / *options_.rounds.maxError, 2);
-  return static_cast<uint64_t>(std::ceil((std::clamp(growth, kLeastGrowth, kGreatestGrowth) - 1) * seedCount));
+  const double target = *options_.rounds.maxError;
+  const double bound = errors_->estimate.average + kCaution * errors_->estimate.standardError;
+  if (bound <= target) return 0;
+  // The faces left fall with the seeds, and the error of each of them with a power of their number.
+  const auto candidateCount = static_cast<double>(prepared_.castableFaces.size());
+  const double perFace = bound / (1 - seedCount / candidateCount);
+  double growth = kLeastGrowth;
+  while (growth < kGreatestGrowth && growth * seedCount < candidateCount &&
+         (1 - growth * seedCount / candidateCount) * perFace * std::pow(growth, -kConvergence) > target)
+    growth *= kStep;
+  return static_cast<uint64_t>(std::ceil((growth - 1) * seedCount));
 }
 
 uint64_t SeedRounds::countForTime() const {
   if (!options_.rounds.timeBudgetSeconds) return std::numeric_limits<uint64_t>::max();
   const auto seedCount = static_cast<double>(traced_.faces.size());
-  const double left = *options_.rounds.timeBudgetSeconds - clock_.seconds() - roundSeconds_;
+  const double left = *options_.rounds.timeBudgetSeconds - clock_.seconds() - interpolationSeconds_;
   const double perSeed = (seconds_.trace + seconds_.sample) / std::max(1.0, seedCount);
   const double count = kPlannedShare * left / std::max(perSeed, 1e-12);
   return count < kWorthwhile * seedCount ? 0 : static_cast<uint64_t>(count);

@@ -25,9 +25,11 @@ class SeedRounds {
   [[nodiscard]] uint32_t roundCount() const { return roundCount_; }
 
  private:
-  void addSeeds(uint64_t count, std::span<const double> weight, const RunControl& control);
-  void interpolate(const RunControl& control);
-  void estimate(const RunControl& control);
+  void runRound(uint64_t count, std::span<const double> weight, const RunControl& control);
+  void traceChosen(const SeedShares& shares, std::span<const double> weight, const RunControl& control);
+  /// Interpolates without the probes, and traces the scouts that this suggests.
+  [[nodiscard]] Interpolated holdOut(const SeedShares& shares, const RunControl& control);
+  void estimate(const Interpolated& heldOut, const RunControl& control);
   /// 0: it is enough.
   [[nodiscard]] uint64_t furtherCount() const;
   [[nodiscard]] uint64_t countForError() const;
@@ -44,11 +46,12 @@ class SeedRounds {
   bool estimates_;
 
   SeedChoice chosen_;
-  TracedSeeds placed_, probes_;
+  TracedSeeds placed_;  ///< Scouts among them once they are traced.
+  TracedSeeds probes_;
   TracedSeeds traced_;  ///< Both.
   Interpolated result_;
   std::optional<EstimatedErrors> errors_;
-  double roundSeconds_ = 0;  ///< What the last round spent on other things than rays.
+  double interpolationSeconds_ = 0;  ///< What the last round spent on other things than rays.
   uint32_t roundCount_ = 0;
 };
 
