@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <limits>
 
 namespace asdfvk {
@@ -17,11 +16,28 @@ constexpr double kCaution = 1.5;
 constexpr double kWorthwhile = 0.05;
 // Of the time that is left: what a round may plan to use.
 constexpr double kPlannedShare = 0.8;
+// More than any mesh has faces.
+constexpr double kMostSeeds = 1e18;
 
-std::vector<uint32_t> merged(const std::vector<uint32_t>& a, const std::vector<uint32_t>& b) {
-  std::vector<uint32_t> all;
-  std::merge(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(all));
-  return all;
+std::vector<uint32_t> sorted(std::vector<uint32_t> faces) {
+  std::sort(faces.begin(), faces.end());
+  return faces;
+}
+
+/// How densely the faces deserve seeds. At the seeds themselves, which err by nothing, as on average; empty where no
+/// error is expected anywhere.
+std::vector<double> densityFor(std::vector<double> expectedErrors) {
+  double sum = 0;
+  size_t count = 0;
+  for (const double error : expectedErrors)
+    if (error > 0) {
+      sum += error;
+      ++count;
+    }
+  if (count == 0) return {};
+  for (double& error : expectedErrors)
+    if (!(error > 0)) error = sum / static_cast<double>(count);
+  return expectedErrors;
 }
 
 }  // namespace
@@ -44,7 +60,7 @@ void SeedRounds::run(const RunControl& control) {
   const uint64_t count = resolveSeedCount(options_.seeds, prepared_.castableFaces.size());
   if (options_.isAdaptive && count < prepared_.castableFaces.size()) {
     runRound(count - count / 2, {}, control.part(0, 0.5));
-    const std::vector<double> weight = errors_ ? errors_->expected : std::vector<double>{};
+    const std::vector<double> weight = errors_ ? densityFor(errors_->expected) : std::vector<double>{};
     runRound(count / 2, weight, control.part(0.5, 1));
   } else {
     runRound(count, {}, control);
@@ -64,12 +80,12 @@ void SeedRounds::runRound(uint64_t count, std::span<const double> weight, const 
   const SeedShares shares = judges ? shareOut(count, probes_.faces.size(), predicts) : SeedShares{.placed = count};
   traceChosen(shares, weight, control.part(0, 0.8));
   Interpolated heldOut;
-  const bool hasProbes = !probes_.faces.empty();
-  if (hasProbes) heldOut = holdOut(shares, control.part(0.8, 0.87));
+  const bool isToJudge = !probes_.faces.empty() && leftCount() > 0;
+  if (isToJudge) heldOut = holdOut(shares, control.part(0.8, 0.87));
   traced_ = placed_;
   traced_.append(probes_);
   result_ = interpolation_.run(traced_, seconds_, control.part(0.87, 0.94));
-  if (hasProbes) estimate(heldOut, control.part(0.94, 1));
+  if (isToJudge) estimate(heldOut, control.part(0.94, 1));
   interpolationSeconds_ = watch.seconds() - (seconds_.trace + seconds_.sample - earlierRays);
 }
 
@@ -84,7 +100,7 @@ void SeedRounds::traceChosen(const SeedShares& shares, std::span<const double> w
   tracing_.trace(choice.placed, placed_, control.part(0, placedShare));
   tracing_.trace(choice.probes, probes_, control.part(placedShare, 1));
   tracing_.traceComponentsWithoutValue(placed_, probes_.isSeed, options_.randomSeed, control);
-  chosen_ = {merged(chosen_.placed, choice.placed), merged(chosen_.probes, choice.probes)};
+  chosen_ = {sorted(placed_.faces), sorted(probes_.faces)};  // With those that components without a value were given.
   seconds_.trace += traceWatch.seconds();
 }
 
@@ -99,7 +115,7 @@ Interpolated SeedRounds::holdOut(const SeedShares& shares, const RunControl& con
   for (const uint32_t face : probes_.faces) isSeed[face] = 1;
   const std::vector<uint32_t> scouts = chooseScouts(prepared_, heldOut.prediction, isSeed, shares.scouts);
   tracing_.trace(scouts, placed_, {control.stop, {}});
-  chosen_.placed = merged(chosen_.placed, scouts);
+  chosen_.placed = sorted(placed_.faces);
   seconds_.trace += traceWatch.seconds();
   return heldOut;
 }
@@ -145,7 +161,8 @@ uint64_t SeedRounds::countForTime() const {
   const double left = *options_.rounds.timeBudgetSeconds - clock_.seconds() - interpolationSeconds_;
   const double perSeed = (seconds_.trace + seconds_.sample) / std::max(1.0, seedCount);
   const double count = kPlannedShare * left / std::max(perSeed, 1e-12);
-  return count < kWorthwhile * seedCount ? 0 : static_cast<uint64_t>(count);
+  if (count < kWorthwhile * seedCount) return 0;
+  return static_cast<uint64_t>(std::min(count, kMostSeeds));
 }
 
 }  // namespace asdfvk
