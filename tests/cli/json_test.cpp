@@ -32,7 +32,8 @@ TEST_CASE("--json is exactly one document with every promised key and its type")
   CHECK_EQ(json.at("randomSeed").get<uint64_t>(), 7);
   CHECK_EQ(json.at("backend").get<std::string>(), "reference");
   CHECK(json.at("device").is_string());
-  for (const char* stage : {"read", "geometry", "bvh", "upload", "trace", "solve", "write"}) {
+  for (const char* stage :
+       {"read", "geometry", "bvh", "upload", "sample", "trace", "predict", "solve", "estimate", "smooth", "write"}) {
     CHECK(json.at("stageSeconds").at(stage).is_number());
     CHECK(json.at("stageSeconds").at(stage).get<double>() >= 0);
   }
@@ -57,7 +58,77 @@ TEST_CASE("--json is exactly one document with every promised key and its type")
   CHECK_EQ(check.at("interpolatedCount").get<uint64_t>(), 960 - 96);
   for (const char* key : {"averageError", "maximumError", "interpolatedAverageError", "interpolatedMaximumError"})
     CHECK(check.at(key).get<double>() > 0);
-  CHECK_EQ(json.at("options").at("seeds").get<std::string>(), "10%");
+  const Json& estimate = json.at("estimatedError");
+  CHECK(estimate.at("average").get<double>() > 0);
+  CHECK(estimate.at("average").get<double>() < 1);
+  CHECK(estimate.at("standardError").get<double>() > 0);
+  CHECK_EQ(estimate.at("heldOutCount").get<uint64_t>(), 96 / 4);
+  REQUIRE_EQ(estimate.at("worstFaces").size(), 5);
+  for (const Json& worst : estimate.at("worstFaces")) {
+    CHECK(worst.at("face").get<uint64_t>() < 960);
+    CHECK(worst.at("error").get<double>() > 0);
+  }
+  CHECK_EQ(json.at("roundCount").get<uint64_t>(), 1);
+  const Json& options = json.at("options");
+  CHECK_EQ(options.at("seeds").get<std::string>(), "10%");
+  const std::vector<std::pair<const char*, const char*>> names{
+      {"recipe", "balanced"}, {"sampler", "blue-noise"}, {"metric", "angle"}, {"coneRotation", "fixed"},
+      {"weights", "feature"}, {"guidance", "hits"},      {"orient", "keep"},  {"solver", "auto"}};
+  for (const auto& [key, name] : names) CHECK_EQ(options.at(key).get<std::string>(), name);
+  for (const char* key : {"maxError", "timeBudgetSeconds"}) CHECK(options.at(key).is_null());
+  CHECK_EQ(options.at("curvatureFactor").get<double>(), 1);
+  for (const char* key : {"secondOrder", "pooling"}) CHECK_EQ(options.at(key).get<double>(), 0);
+}
+
+TEST_CASE("what was asked for is in the options of the document") {
+  const ScratchFolder folder;
+  const std::string mesh = folder.write("sphere.off", sphereOff(12));
+  const Json json = onlyDocument(runAsdf({mesh,        "--json",         "--quiet", "--backend",
+                                          "reference", "--recipe",       "quality", "--sampler",
+                                          "adaptive",  "--metric",       "hops",    "--max-error",
+                                          "50%",       "--time-budget",  "100s",    "--pooling",
+                                          "0.5",       "--second-order", "0.1",     "--curvature-factor",
+                                          "3"}));
+  const Json& options = json.at("options");
+  CHECK_EQ(options.at("recipe").get<std::string>(), "quality");
+  CHECK_EQ(options.at("seeds").get<std::string>(), "2%");
+  CHECK_EQ(options.at("sampler").get<std::string>(), "adaptive");
+  CHECK_EQ(options.at("metric").get<std::string>(), "hops");
+  CHECK_EQ(options.at("coneRotation").get<std::string>(), "hashed");
+  CHECK_EQ(options.at("maxError").get<double>(), 0.5);
+  CHECK_EQ(options.at("timeBudgetSeconds").get<double>(), 100);
+  CHECK_EQ(options.at("pooling").get<double>(), 0.5);
+  CHECK_EQ(options.at("secondOrder").get<double>(), 0.1);
+  CHECK_EQ(options.at("curvatureFactor").get<double>(), 3);
+  CHECK(json.at("roundCount").get<uint64_t>() >= 2);  // The adaptive sampler's.
+}
+
+TEST_CASE("without an estimate it is null") {
+  const ScratchFolder folder;
+  const std::string mesh = folder.write("sphere.off", sphereOff(12));
+  for (const auto& further : {std::vector<std::string>{"--no-estimate"}, {"--seeds", "all"}, {"--seeds", "1"}}) {
+    std::vector<std::string> arguments{mesh, "--json", "--quiet", "--backend", "reference"};
+    arguments.insert(arguments.end(), further.begin(), further.end());
+    CHECK(onlyDocument(runAsdf(arguments)).at("estimatedError").is_null());
+  }
+}
+
+TEST_CASE("--max-error adds seeds until the estimate is below it") {
+  const ScratchFolder folder;
+  const std::string mesh = folder.write("sphere.off", sphereOff(16));
+  const Json few = onlyDocument(runAsdf({mesh, "--json", "--quiet", "--backend", "reference", "--max-error", "90%"}));
+  CHECK_EQ(few.at("seedCount").get<uint64_t>(), 19);
+  CHECK_EQ(few.at("roundCount").get<uint64_t>(), 1);
+  const Json all = onlyDocument(runAsdf({mesh, "--json", "--quiet", "--backend", "reference", "--max-error", "1e-9"}));
+  CHECK_EQ(all.at("seedCount").get<uint64_t>(), 960);
+  CHECK(all.at("roundCount").get<uint64_t>() > 1);
+}
+
+TEST_CASE("options that contradict each other only together with a recipe end with 1") {
+  const ScratchFolder folder;
+  const std::string mesh = folder.write("cube.off", cubeOff());
+  checkFailure(runAsdf({mesh, "--quiet", "--backend", "reference", "--recipe", "paper", "--pooling", "0.5"}), 1,
+               "use guidance by hits");
 }
 
 TEST_CASE("numbers that are not there are null") {

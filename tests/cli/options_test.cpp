@@ -31,7 +31,17 @@ TEST_CASE("a mesh alone means the defaults") {
   CHECK_EQ(line.options.seeds.share, 0.1);
   CHECK_EQ(line.options.cone.rayCount, 30);
   CHECK_EQ(line.options.cone.openingAngleDegrees, 120);
-  CHECK_EQ(line.options.guidance, 0);
+  CHECK(line.recipe == Recipe::Balanced);
+  CHECK(line.options.sampler == SamplerKind::BlueNoise);
+  CHECK(line.options.metric == SurfaceMetric::Angle);
+  CHECK(line.options.interpolation.weights == ArcWeightKind::Feature);
+  CHECK(line.options.interpolation.guidance == Guidance::Hits);
+  CHECK_EQ(line.options.interpolation.curvatureFactor, 1);
+  CHECK_EQ(line.options.interpolation.secondOrder, 0);
+  CHECK_EQ(line.options.interpolation.pooling, 0);
+  CHECK(line.options.cone.rotation == ConeRotation::Fixed);
+  CHECK(line.options.estimatesError);
+  CHECK_FALSE((line.options.isAdaptive || line.options.rounds.areAsked()));
   CHECK(line.options.orientation == Orientation::Keep);
   CHECK(line.options.solver == SolverChoice::Auto);
   CHECK(line.session.backend == Backend::Auto);
@@ -75,8 +85,29 @@ TEST_CASE("every option reaches its field") {
                                              "1.5",
                                              "--solver",
                                              "jacobi",
+                                             "--recipe",
+                                             "quality",
+                                             "--sampler",
+                                             "farthest-point",
+                                             "--metric",
+                                             "length",
+                                             "--max-error",
+                                             "1.5%",
+                                             "--time-budget",
+                                             "2.5s",
+                                             "--no-estimate",
+                                             "--cone-rotation",
+                                             "fixed",
+                                             "--weights",
+                                             "uniform",
                                              "--guidance",
+                                             "hits",
+                                             "--curvature-factor",
                                              "-0.5",
+                                             "--second-order",
+                                             "0.25",
+                                             "--pooling",
+                                             "0.3",
                                              "--tolerance",
                                              "1e-3",
                                              "--orient",
@@ -105,7 +136,19 @@ TEST_CASE("every option reaches its field") {
   CHECK_EQ(line.options.cone.falseHitAngleDegrees, 45);
   CHECK_EQ(line.options.cone.outlierDeviations, 1.5);
   CHECK(line.options.solver == SolverChoice::Jacobi);
-  CHECK_EQ(line.options.guidance, -0.5);
+  CHECK(line.recipe == Recipe::Quality);
+  CHECK(line.options.sampler == SamplerKind::FarthestPoint);
+  CHECK_FALSE(line.options.isAdaptive);
+  CHECK(line.options.metric == SurfaceMetric::Length);
+  CHECK_EQ(line.options.rounds.maxError.value(), 0.015);
+  CHECK_EQ(line.options.rounds.timeBudgetSeconds.value(), 2.5);
+  CHECK_FALSE(line.options.estimatesError);
+  CHECK(line.options.cone.rotation == ConeRotation::Fixed);
+  CHECK(line.options.interpolation.weights == ArcWeightKind::Uniform);
+  CHECK(line.options.interpolation.guidance == Guidance::Hits);
+  CHECK_EQ(line.options.interpolation.curvatureFactor, -0.5);
+  CHECK_EQ(line.options.interpolation.secondOrder, 0.25);
+  CHECK_EQ(line.options.interpolation.pooling, 0.3);
   CHECK_EQ(line.options.solverOptions.tolerance, 1e-3);
   CHECK_EQ(line.options.solverOptions.maxIterations, 77);
   CHECK(line.options.orientation == Orientation::Flip);
@@ -166,7 +209,24 @@ TEST_CASE("values out of range are refused with the option's name") {
                                                   {"--tolerance", "0"},
                                                   {"--tolerance", "1"},
                                                   {"--max-iterations", "0"},
-                                                  {"--guidance", "inf"},
+                                                  {"--recipe", "best"},
+                                                  {"--recipe", "Paper"},
+                                                  {"--sampler", "blue"},
+                                                  {"--metric", "metres"},
+                                                  {"--max-error", "0%"},
+                                                  {"--max-error", "-1%"},
+                                                  {"--max-error", "100%"},
+                                                  {"--max-error", "1"},
+                                                  {"--time-budget", "0"},
+                                                  {"--time-budget", "-2s"},
+                                                  {"--cone-rotation", "random"},
+                                                  {"--weights", "1"},
+                                                  {"--guidance", "0.5"},
+                                                  {"--guidance", "gauss"},
+                                                  {"--curvature-factor", "inf"},
+                                                  {"--pooling", "-0.1"},
+                                                  {"--pooling", "1.1"},
+                                                  {"--pooling", "half"},
                                                   {"--solver", "best"},
                                                   {"--orient", "inwards"},
                                                   {"--backend", "cuda"},
@@ -182,6 +242,16 @@ TEST_CASE("values out of range are refused with the option's name") {
     const std::string message = refusal({"a.ply", arguments[0], arguments[1]});
     CHECK_MESSAGE(message.starts_with(arguments[0] + ": '" + arguments[1] + "' is not "), message);
   }
+  CHECK_EQ(refusal({"a.ply", "--second-order", "-1"}), "--second-order: '-1' is below 0");
+  CHECK_EQ(refusal({"a.ply", "--max-error", "soon"}), "--max-error: 'soon' is not a number");
+  CHECK_EQ(refusal({"a.ply", "--max-error", "150%"}), "--max-error: '150%' is not above 0% and below 100%");
+  CHECK_EQ(refusal({"a.ply", "--time-budget", "0s"}), "--time-budget: '0s' is not a time above 0 s");
+  CHECK_EQ(refusal({"a.ply", "--recipe", "best"}), "--recipe: 'best' is not one of paper|balanced|quality");
+  CHECK_EQ(refusal({"a.ply", "--guidance", "2"}), "--guidance: '2' is not one of none|curvature|hits");
+  for (const char* text : {"", "%", "1%%", "nan%", "1 %", "inf"})
+    CHECK_MESSAGE(refusal({"a.ply", "--max-error", text}).starts_with("--max-error: "), text);
+  for (const char* text : {"", "s", "2 s", "2ms", "inf", "nans", "2ss"})
+    CHECK_MESSAGE(refusal({"a.ply", "--time-budget", text}).starts_with("--time-budget: "), text);
   CHECK(refusal({"a.ply", "--check=0"}).starts_with("--check: '0'"));
   CHECK(refusal({"a.ply", "--check=-1"}).starts_with("--check: "));
   CHECK(refusal({"a.ply", "-o", ""}).starts_with("--output: "));
@@ -200,6 +270,78 @@ TEST_CASE("options that contradict each other are refused") {
   for (const char* solver : {"cg", "jacobi"})
     CHECK(refusal({"a.ply", "--backend", "reference", "--solver", solver}).find("--solver") != std::string::npos);
   CHECK_EQ(refusal({"a.ply", "--backend", "reference", "--solver", "eigen"}), "accepted");
+  const std::vector<std::string> errorPicture{"a.ply", "--picture", "b.png", "--picture-of", "error"};
+  const auto with = [&](const std::vector<std::string>& further) {
+    std::vector<std::string> arguments = errorPicture;
+    arguments.insert(arguments.end(), further.begin(), further.end());
+    return refusal(arguments);
+  };
+  CHECK_EQ(with({}), "accepted");
+  CHECK(with({"--no-estimate"}).find("--no-estimate") != std::string::npos);
+  CHECK(with({"--seeds", "all"}).find("--seeds all") != std::string::npos);
+  CHECK_EQ(with({"--no-estimate", "--max-error", "1%"}), "accepted");
+}
+
+TEST_CASE("each sampler, metric, weight and guidance has its name") {
+  const auto optionsWith = [](const char* option, const char* name) {
+    return parseCommandLine({"a.ply", option, name}).options;
+  };
+  CHECK(optionsWith("--sampler", "random").sampler == SamplerKind::Random);
+  CHECK(optionsWith("--sampler", "depth-first").sampler == SamplerKind::DepthFirst);
+  CHECK(optionsWith("--sampler", "normal-space").sampler == SamplerKind::NormalSpace);
+  CHECK(optionsWith("--sampler", "adaptive").sampler == SamplerKind::BlueNoise);
+  CHECK(optionsWith("--sampler", "adaptive").isAdaptive);
+  CHECK(optionsWith("--metric", "hops").metric == SurfaceMetric::Hops);
+  CHECK(optionsWith("--weights", "distance").interpolation.weights == ArcWeightKind::Distance);
+  CHECK(optionsWith("--guidance", "none").interpolation.guidance == Guidance::None);
+  CHECK(optionsWith("--guidance", "curvature").interpolation.guidance == Guidance::Curvature);
+  CHECK(optionsWith("--cone-rotation", "hashed").cone.rotation == ConeRotation::Hashed);
+}
+
+TEST_CASE("the options of their own overrule the recipe, wherever it stands") {
+  for (const auto& arguments : {std::vector<std::string>{"a.ply", "--recipe", "paper", "--weights", "uniform"},
+                                {"a.ply", "--weights", "uniform", "--recipe", "paper"}}) {
+    const CommandLine line = parseCommandLine(arguments);
+    CHECK(line.recipe == Recipe::Paper);
+    CHECK(line.options.interpolation.weights == ArcWeightKind::Uniform);
+    CHECK(line.options.interpolation.guidance == Guidance::None);
+    CHECK(line.options.sampler == SamplerKind::Random);
+  }
+  const CommandLine line = parseCommandLine({"a.ply", "--sampler", "adaptive", "--pooling", "0", "--cone-rotation",
+                                             "fixed", "--guidance", "none", "--metric", "hops", "--recipe", "quality"});
+  CHECK(line.options.isAdaptive);
+  CHECK(line.options.metric == SurfaceMetric::Hops);
+  CHECK(line.options.cone.rotation == ConeRotation::Fixed);
+  CHECK(line.options.interpolation.guidance == Guidance::None);
+  CHECK_EQ(line.options.interpolation.pooling, 0);
+  CHECK(line.options.interpolation.weights == ArcWeightKind::Feature);
+  CHECK_EQ(parseCommandLine({"a.ply", "--seeds", "3", "--recipe", "paper"}).options.seeds.count, 3);
+}
+
+TEST_CASE("errors and times are told with their sign or without") {
+  for (const char* text : {"1%", "0.01", "1.0%", "1e-2"})
+    CHECK_EQ(parseCommandLine({"a.ply", "--max-error", text}).options.rounds.maxError.value(), doctest::Approx(0.01));
+  for (const char* text : {"2s", "2", "2.0s", "2e0"})
+    CHECK_EQ(parseCommandLine({"a.ply", "--time-budget", text}).options.rounds.timeBudgetSeconds.value(), 2);
+}
+
+TEST_CASE("rounds begin with few seeds unless a number is told") {
+  CHECK_EQ(parseCommandLine({"a.ply", "--max-error", "1%"}).options.seeds.share, 0.02);
+  CHECK_EQ(parseCommandLine({"a.ply", "--time-budget", "1s"}).options.seeds.share, 0.02);
+  CHECK_EQ(parseCommandLine({"a.ply", "--seeds", "5%", "--max-error", "1%"}).options.seeds.share, 0.05);
+  CHECK_EQ(parseCommandLine({"a.ply", "--max-error", "1%", "--seeds", "10%"}).options.seeds.share, 0.1);
+  CHECK_EQ(parseCommandLine({"a.ply", "--recipe", "paper"}).options.seeds.share, 0.1);
+}
+
+TEST_CASE("the help names every option of the computation") {
+  const std::string help = parseCommandLine({"--help"}).answer.value();
+  for (const char* part :
+       {"--recipe paper|balanced|quality",
+        "--sampler random|depth-first|blue-noise|farthest-point|normal-space|adaptive", "--metric hops|length|angle",
+        "--max-error E%", "--time-budget SECONDS", "--no-estimate", "--cone-rotation fixed|hashed",
+        "--weights distance|uniform|feature", "--guidance none|curvature|hits", "--curvature-factor K",
+        "--second-order BETA", "--pooling P", "--picture-of sdf|seeds|error", "balanced (default)"})
+    CHECK_MESSAGE(help.find(part) != std::string::npos, part);
 }
 
 TEST_CASE("seed counts are read as they are told") {

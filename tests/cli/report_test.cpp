@@ -74,6 +74,47 @@ TEST_CASE("the text report names what is out of the ordinary") {
     CHECK_MESSAGE(holds(text, part), text);
 }
 
+TEST_CASE("the text report tells the recipe, and the estimated error where there is one") {
+  CommandLine line;
+  Report report = sampleReport();
+  CHECK(holds(textReport({kMesh, kOutput, line, report}), "recipe balanced"));
+  CHECK_FALSE(holds(textReport({kMesh, kOutput, line, report}), "  error "));
+  line.recipe = Recipe::Paper;
+  report.estimatedError = ErrorEstimate{0.01234, 0.00056, 1234, {{77, 0.456}, {3, 0.4}}};
+  const std::string text = textReport({kMesh, kOutput, line, report});
+  CHECK(holds(text, "recipe paper"));
+  CHECK_MESSAGE(
+      holds(text, "\n  error     1.23 % +- 0.06 of the range on average, from 1,234 held-out faces; 46 % at face 77\n"),
+      text);
+  report.roundCount = 3;
+  CHECK(holds(textReport({kMesh, kOutput, line, report}), "; 46 % at face 77; 3 rounds\n"));
+}
+
+TEST_CASE("stages that took time are named in their order, the others are not") {
+  const CommandLine line;
+  Report report = sampleReport();
+  report.stageSeconds.sample = 0.25;
+  report.stageSeconds.predict = 0.5;
+  report.stageSeconds.estimate = 0.125;
+  CHECK(holds(textReport({kMesh, kOutput, line, report}), "sample 0.250 s, predict 0.500, estimate 0.125\n"));
+}
+
+TEST_CASE("JSON has the estimate, or null") {
+  const CommandLine line;
+  Report report = sampleReport();
+  CHECK(nlohmann::json::parse(jsonReport({kMesh, kOutput, line, report})).at("estimatedError").is_null());
+  report.estimatedError = ErrorEstimate{0.01, 0.002, 400, {{77, 0.5}, {3, 0.25}}};
+  report.roundCount = 4;
+  const nlohmann::json json = nlohmann::json::parse(jsonReport({kMesh, kOutput, line, report}));
+  const nlohmann::json& estimate = json.at("estimatedError");
+  CHECK_EQ(estimate.at("average").get<double>(), 0.01);
+  CHECK_EQ(estimate.at("standardError").get<double>(), 0.002);
+  CHECK_EQ(estimate.at("heldOutCount").get<int>(), 400);
+  CHECK_EQ(estimate.at("worstFaces").at(1).at("face").get<int>(), 3);
+  CHECK_EQ(estimate.at("worstFaces").at(1).at("error").get<double>(), 0.25);
+  CHECK_EQ(json.at("roundCount").get<int>(), 4);
+}
+
 TEST_CASE("a share of agreeing faces is never rounded up to all of them") {
   const CommandLine line;
   Report report = sampleReport();

@@ -81,7 +81,7 @@ TEST_CASE("seeds whose values were moved err by as much") {
   const EstimatedErrors errors = six.estimate();
   CHECK(errors.expected[0] == 1);
   CHECK(errors.expected[3] == 1);
-  CHECK(errors.estimate.average == doctest::Approx((1 + 1 + 1.5 + 1.5) / 6 / 9));
+  CHECK(errors.estimate.average == doctest::Approx((1 + 1 + 1.5 + 1.5) / 6 / 10));
 }
 
 TEST_CASE("faces without a value have no error, and probes without one tell nothing") {
@@ -102,7 +102,8 @@ TEST_CASE("an estimate takes two probes and a range") {
   CHECK(one.estimate().estimate.heldOutCount == 0);
   for (const double entry : one.estimate().expected) CHECK(entry == 0);
   SixFaces flat;
-  flat.result.assign(6, 3.0);
+  for (const uint32_t face : {0u, 1u}) flat.placed.values[face] = 3;
+  for (const uint32_t face : {2u, 3u}) flat.probes.values[face] = 3;
   CHECK(flat.estimate().estimate.heldOutCount == 0);
 }
 
@@ -162,7 +163,10 @@ TEST_CASE("seeds are expected to be right, and the mean of what is expected is t
   REQUIRE(result.expectedError.size() == result.sdf.size());
   for (size_t face = 0; face < result.sdf.size(); ++face)
     CHECK((result.expectedError[face] == 0) == (result.isSeed[face] == 1));
-  CHECK(meanOf(result.expectedError) / (result.report.sdf.max - result.report.sdf.min) ==
+  double low = 1e30, high = -1e30;
+  for (size_t face = 0; face < result.sdf.size(); ++face)
+    if (result.isSeed[face]) low = std::min(low, result.sdf[face]), high = std::max(high, result.sdf[face]);
+  CHECK(meanOf(result.expectedError) / (high - low) ==
         doctest::Approx(result.report.estimatedError->average).epsilon(1e-9));
 
   Options pooled;

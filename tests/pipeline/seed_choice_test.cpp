@@ -31,6 +31,8 @@ SeedChoice joined(const SeedChoice& a, const SeedChoice& b) {
   return {joined(a.placed, b.placed), joined(a.probes, b.probes)};
 }
 
+SeedShares shares(uint64_t count, uint64_t probeCount) { return {.placed = count - probeCount, .probes = probeCount}; }
+
 std::vector<uint32_t> allOf(const SeedChoice& choice) { return joined(choice.placed, choice.probes); }
 
 }  // namespace
@@ -52,13 +54,35 @@ TEST_CASE("a share is of the faces that can cast rays, one at least; a count is 
   CHECK(resolveSeedCount({.kind = SeedCount::Kind::All}, 1000) == 1000);
 }
 
-TEST_CASE("a quarter of the seeds are probes, 400 at most in all rounds together") {
-  CHECK(probeCountFor(100, 0) == 25);
-  CHECK(probeCountFor(3, 0) == 0);
-  CHECK(probeCountFor(100'000, 0) == 400);
-  CHECK(probeCountFor(100'000, 390) == 10);
-  CHECK(probeCountFor(100'000, 400) == 0);
-  CHECK(probeCountFor(100'000, 500) == 0);
+TEST_CASE("seeds are shared out without a rest: at most a quarter for probes, a tenth for scouts") {
+  for (const uint64_t count : {0u, 1u, 3u, 9u, 10u, 100u, 1000u, 30'000u, 1'000'000u})
+    for (const uint64_t earlier : {0u, 50u, 100'000u})
+      for (const bool predicts : {false, true}) {
+        const SeedShares shares = shareOut(count, earlier, predicts);
+        CHECK(shares.placed + shares.probes + shares.scouts == count);
+        CHECK(shares.probes <= count / 4);
+        CHECK(shares.scouts <= count / 10);
+        if (!predicts) CHECK(shares.scouts == 0);
+        if (earlier == 100'000u) CHECK(shares.probes == 0);
+      }
+  CHECK(shareOut(100, 0, true).probes == 25);
+  CHECK(shareOut(100, 0, true).scouts == 8);
+  CHECK(shareOut(1'000'000, 0, true).probes <= 2000);
+  CHECK(shareOut(1'000'000, 0, true).scouts <= 400);
+  CHECK(shareOut(2000, 150, true).probes + 150 == shareOut(2000, 0, true).probes);
+}
+
+TEST_CASE("scouts are the faces with the greatest predictions that are no seeds yet") {
+  const PreparedMesh mesh = prepared(makeSphere(80).mesh);
+  std::vector<double> prediction(80);
+  for (size_t face = 0; face < 80; ++face) prediction[face] = static_cast<double>(face % 40);
+  std::vector<uint8_t> isSeed(80, 0);
+  isSeed[39] = isSeed[78] = 1;
+  prediction[77] = kNoValue;
+  CHECK(chooseScouts(mesh, prediction, isSeed, 5) == std::vector<uint32_t>{36, 37, 38, 76, 79});
+  CHECK(chooseScouts(mesh, prediction, isSeed, 1) == std::vector<uint32_t>{79});
+  CHECK(chooseScouts(mesh, prediction, isSeed, 0).empty());
+  CHECK(chooseScouts(mesh, prediction, isSeed, 1000).size() == 77);
 }
 
 TEST_CASE("each sampler gives as many placed seeds and probes as were asked for, all different, round by round") {
@@ -69,7 +93,7 @@ TEST_CASE("each sampler gives as many placed seeds and probes as were asked for,
     options.sampler = sampler;
     SeedChoice chosen;
     for (const uint64_t count : {100u, 40u, 300u}) {
-      const SeedChoice choice = chooseSeeds(mesh, options, count, count / 4, chosen, {});
+      const SeedChoice choice = chooseSeeds(mesh, options, shares(count, count / 4), chosen, {});
       CHECK(choice.probes.size() == count / 4);
       CHECK(choice.placed.size() == count - count / 4);
       CHECK(isAscendingWithoutRepeats(choice.placed));
@@ -87,9 +111,9 @@ TEST_CASE("the faces that are left are all chosen in the end") {
     CAPTURE(static_cast<int>(sampler));
     Options options;
     options.sampler = sampler;
-    const SeedChoice first = chooseSeeds(mesh, options, 100, 25, {}, {});
+    const SeedChoice first = chooseSeeds(mesh, options, shares(100, 25), {}, {});
     const uint64_t left = mesh.castableFaces.size() - 100;
-    const SeedChoice rest = chooseSeeds(mesh, options, left, 0, first, {});
+    const SeedChoice rest = chooseSeeds(mesh, options, shares(left, 0), first, {});
     CHECK(allOf(joined(first, rest)) == mesh.castableFaces);
   }
 }
@@ -98,19 +122,20 @@ TEST_CASE("which seeds are placed at random does not depend on how many of them 
   const PreparedMesh mesh = prepared(makeTorus(1000).mesh);
   Options options;
   options.sampler = SamplerKind::Random;
-  const SeedChoice without = chooseSeeds(mesh, options, 120, 0, {}, {});
-  const SeedChoice with = chooseSeeds(mesh, options, 120, 30, {}, {});
+  const SeedChoice without = chooseSeeds(mesh, options, shares(120, 0), {}, {});
+  const SeedChoice with = chooseSeeds(mesh, options, shares(120, 30), {}, {});
   CHECK(without.probes.empty());
   CHECK(with.probes.size() == 30);
   CHECK(allOf(with) == without.placed);
-  CHECK(allOf(chooseSeeds(mesh, options, 80, 20, with, {})) == chooseSeeds(mesh, options, 80, 0, without, {}).placed);
+  CHECK(allOf(chooseSeeds(mesh, options, shares(80, 20), with, {})) ==
+        chooseSeeds(mesh, options, shares(80, 0), without, {}).placed);
 }
 
 TEST_CASE("probes are anywhere, also next to placed seeds") {
   // Blue noise keeps its distance; a probe that did too would lie where errors are greatest.
   const PreparedMesh mesh = prepared(makeSphere(2000).mesh);
   size_t touchingCount = 0;
-  const SeedChoice choice = chooseSeeds(mesh, {}, 400, 100, {}, {});
+  const SeedChoice choice = chooseSeeds(mesh, {}, shares(400, 100), {}, {});
   std::vector<uint8_t> isPlaced(2000, 0);
   for (const uint32_t face : choice.placed) isPlaced[face] = 1;
   const auto touches = [&](uint32_t face) {
@@ -134,8 +159,8 @@ TEST_CASE("an adaptive choice is denser where the weight is great") {
   const auto isUp = [&](uint32_t face) { return mesh.geometry.barycentres[face].z > 0; };
   for (uint32_t face = 0; face < 2000; ++face)
     if (isUp(face)) weight[face] = 1;
-  const SeedChoice first = chooseSeeds(mesh, {}, 50, 12, {}, {});
-  const SeedChoice second = chooseSeeds(mesh, {}, 100, 0, first, weight);
+  const SeedChoice first = chooseSeeds(mesh, {}, shares(50, 12), {}, {});
+  const SeedChoice second = chooseSeeds(mesh, {}, shares(100, 0), first, weight);
   CHECK(isAscendingWithoutRepeats(allOf(joined(first, second))));
   CHECK(std::count_if(second.placed.begin(), second.placed.end(), isUp) > 70);
 }
