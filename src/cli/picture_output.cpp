@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "core/error.h"
 #include "picture/picture.h"
 #include "picture/png.h"
 
@@ -34,6 +35,8 @@ void writePicture(const CommandLine& line, const Mesh& mesh, const Result& resul
       picture.title = "seeds";
       break;
     case PictureOf::Error:
+      if (result.expectedError.empty())
+        throw Error(ErrorKind::Usage, "--picture-of error: so few seeds allow no estimate; give more --seeds");
       values = onTriangles(mesh, result.expectedError);
       picture.title = "expected error";
       break;
