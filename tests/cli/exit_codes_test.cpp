@@ -23,11 +23,44 @@ TEST_CASE("help and version go to standard output with exit code 0") {
   const ChildOutcome help = runAsdf({"--help"});
   CHECK_EQ(help.exitCode, 0);
   CHECK(help.error.empty());
-  for (const char* option :
-       {"--seeds",          "--rng-seed",     "--rays",    "--angle",   "--solver",  "--guidance",   "--tolerance",
-        "--max-iterations", "--orient",       "--output",  "--format",  "--ascii",   "--backend",    "--device",
-        "--require-gpu",    "--list-devices", "--check",   "--json",    "--picture", "--picture-of", "--picture-view",
-        "--picture-up",     "--quiet",        "--threads", "--version", "--help",    "Exit codes"})
+  for (const char* option : {"--seeds",
+                             "--rng-seed",
+                             "--rays",
+                             "--angle",
+                             "--solver",
+                             "--guidance",
+                             "--tolerance",
+                             "--max-iterations",
+                             "--orient",
+                             "--output",
+                             "--format",
+                             "--ascii",
+                             "--backend",
+                             "--device",
+                             "--require-gpu",
+                             "--list-devices",
+                             "--check",
+                             "--json",
+                             "--picture",
+                             "--picture-of",
+                             "--picture-view",
+                             "--picture-up",
+                             "--recipe",
+                             "--sampler",
+                             "--metric",
+                             "--max-error",
+                             "--time-budget",
+                             "--no-estimate",
+                             "--cone-rotation",
+                             "--weights",
+                             "--curvature-factor",
+                             "--second-order",
+                             "--pooling",
+                             "--quiet",
+                             "--threads",
+                             "--version",
+                             "--help",
+                             "Exit codes"})
     CHECK_MESSAGE(help.output.find(option) != std::string::npos, option);
   const ChildOutcome version = runAsdf({"--version"});
   CHECK_EQ(version.exitCode, 0);
@@ -74,6 +107,26 @@ TEST_CASE("a picture is one more output, and a failed one ends with 4") {
   CHECK_EQ(ofQuads.exitCode, 0);
   CHECK_GT(folder.read("quads.png").size(), 1000);
   checkFailure(run({"--quiet", "--json", "--picture", "-"}), 1, "--picture");
+}
+
+TEST_CASE("a picture of the expected error takes an estimate") {
+  const ScratchFolder folder;
+  const std::string mesh = folder.write("sphere.off", sphereOff(12));
+  const auto run = [&](const std::string& input, const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{input,       "--backend",         "reference",    "--quiet",
+                                       "-o",        folder / "out.csv",  "--picture-of", "error",
+                                       "--picture", folder / "error.png"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return runAsdf(arguments);
+  };
+  CHECK_EQ(run(mesh, {}).exitCode, 0);
+  const std::string picture = folder.read("error.png");
+  CHECK(picture.starts_with("\x89PNG"));
+  checkFailure(run(mesh, {"--no-estimate"}), 1, "--no-estimate");
+  checkFailure(run(mesh, {"--seeds", "1"}), 1, "give more --seeds");
+  // Also where the faces are no triangles.
+  const std::string quads = folder.write("quads.off", "OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n");
+  checkFailure(run(quads, {}), 1, "give more --seeds");
 }
 
 TEST_CASE("each form of --seeds is taken and wrong ones are usage errors") {

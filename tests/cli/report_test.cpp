@@ -43,7 +43,7 @@ TEST_CASE("the text report tells mesh, device, seeds, speed, solver and values")
   const Report report = sampleReport();
   const std::string text = textReport({kMesh, kOutput, line, report});
   for (const char* part : {"horse.ply: 96,966 faces, 48,485 vertices, 1 component\n", "vulkan on some device",
-                           "9,697 faces cast rays (10%)", "290,910 rays", "1.25 Mrays/s", "cg, 73 iterations",
+                           "9,697 faces cast rays (10 %)", "290,910 rays", "1.25 Mrays/s", "cg, 73 iterations",
                            "min 0.5, median 1.5, max 2.5", "horse.asdf.ply"})
     CHECK_MESSAGE(holds(text, part), text);
   CHECK_FALSE(holds(text, "without a value"));

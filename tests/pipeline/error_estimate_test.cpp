@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <string>
 
 #include "generate/shapes.h"
 #include "pipeline/average_error.h"
@@ -127,7 +128,7 @@ TEST_CASE("no more than five worst faces, by their number in the file") {
 
 TEST_CASE("the estimate is right on average, and as far off as it says") {
   for (const Recipe recipe : {Recipe::Balanced, Recipe::Paper, Recipe::Quality}) {
-    for (const char* name : {"animal", "hand"}) {
+    for (const std::string name : {"animal", "hand"}) {
       CAPTURE(name);
       const Mesh mesh = generateShape(name, 3000).mesh;
       Options options;

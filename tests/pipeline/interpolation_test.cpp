@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "core/error.h"
 #include "generate/shapes.h"
@@ -74,7 +75,7 @@ TEST_CASE("pooling moves values in proportion") {
 }
 
 TEST_CASE("guidance by hits errs less than none") {
-  for (const char* name : {"animal", "hand", "figure"}) {
+  for (const std::string name : {"animal", "hand", "figure"}) {
     const Mesh mesh = generateShape(name, 4000).mesh;
     const std::vector<double> truth = test::tracedEverywhere(mesh);
     const double hits = averageError(compute(mesh, with(Guidance::Hits)).sdf, truth);

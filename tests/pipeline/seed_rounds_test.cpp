@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "generate/shapes.h"
 #include "pipeline/average_error.h"
@@ -52,7 +53,7 @@ Mesh manySpheres() {
 }  // namespace
 
 TEST_CASE("rounds go on until the error is as small as asked for, and it is") {
-  for (const char* name : {"animal", "hand"}) {
+  for (const std::string name : {"animal", "hand"}) {
     CAPTURE(name);
     const Mesh mesh = generateShape(name, 4000).mesh;
     const std::vector<double> truth = test::tracedEverywhere(mesh);

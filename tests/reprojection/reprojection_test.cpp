@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "generate/shapes.h"
 #include "reprojection/seeded_mesh.h"
@@ -115,7 +116,7 @@ TEST_CASE("on a long cylinder, away from the caps, the faces without rays are pr
 }
 
 TEST_CASE("a prediction is nearer to what a face's own rays would say than its seed's value is") {
-  for (const char* name : {"animal", "hand"}) {
+  for (const std::string name : {"animal", "hand"}) {
     CAPTURE(name);
     const SeededMesh seeded(generateShape(name, 4000).mesh, 400);
     const SeedCells cells = seeded.cells();
