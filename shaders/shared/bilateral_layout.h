@@ -12,10 +12,10 @@ using glsl::uint;
 
 const uint kMaxBilateralWindow = 4u;
 // The four rings of a face whose edges join two faces each have at most 1 + 3 + 6 + 12 + 24 = 46 faces, found along 66
-// arcs. Where more faces meet at an edge, a window ends here. The two also bound the iterations of a kernel: 128 * 64
-// is an eighth of what Mesa's CPU device executes before it ends loops silently.
+// arcs. Where more faces meet at an edge, a window ends here. The two also bound the iterations of the kernel: 96 * 64
+// times the 8 lanes that it counts together are below the 65,535 after which Mesa's CPU device ends loops silently.
 const uint kMaxWindowFaceCount = 64u;
-const uint kMaxWindowArcCount = 128u;
+const uint kMaxWindowArcCount = 96u;
 
 // Values reach the kernel scaled into -1..1.
 const float kNoScaledValue = 4.0;

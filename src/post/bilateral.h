@@ -12,9 +12,9 @@
 /// `window` rings of the dual graph, of weight
 ///   exp(-ring(g)^2 / (2 (window / 2)^2)) exp(-(v_g - v_f)^2 / (2 sigma_f^2)),
 /// sigma_f being the root mean square of the differences v_g - v_f in the window, itself included.
-/// Where it differs from CGAL 5.5 (Surface_mesh_segmentation/internal/Filters.h), which computes much the same: CGAL's
-/// range Gaussian is 1.5 sigma_f wide and its ring Gaussian half the window rounded down; its window grows with the
-/// square root of the face count without an end, to 7 rings at 100,000 faces.
+/// CGAL's sdf_values() does the same by default (Bilateral_filtering in Surface_mesh_segmentation/internal/Filters.h)
+/// but for three things: its range Gaussian is 1.5 sigma_f wide; its window is 1 + floor(sqrt(faceCount / 2000)) rings
+/// without an end, 3 for 10,000 faces and 8 for 100,000; and a face without a value is given one first.
 namespace asdfvk {
 
 struct BilateralOptions {
