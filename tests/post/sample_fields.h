@@ -36,14 +36,17 @@ inline DualGraph stripGraph(uint32_t faceCount) {
   return graph;
 }
 
-/// Faces that all have all three edges in common: each is joined to each three times.
-inline DualGraph coincidentGraph(uint32_t faceCount) {
+/// Each face joined to each other one by so many arcs.
+inline DualGraph completeGraph(uint32_t faceCount, uint32_t arcCount = 1) {
   std::vector<std::vector<uint32_t>> rows(faceCount);
   for (uint32_t face = 0; face < faceCount; ++face)
     for (uint32_t other = 0; other < faceCount; ++other)
-      if (other != face) rows[face].insert(rows[face].end(), 3, other);
+      if (other != face) rows[face].insert(rows[face].end(), arcCount, other);
   return graphOf(rows);
 }
+
+/// Faces that all have all three edges in common.
+inline DualGraph coincidentGraph(uint32_t faceCount) { return completeGraph(faceCount, 3); }
 
 inline DualGraph torusGraph(uint64_t faceCount) { return buildDualGraph(generateShape("torus", faceCount).mesh); }
 
