@@ -6,10 +6,10 @@
 
 #include "mesh/dual_graph.h"
 
-/// Bilateral smoothing of a field on faces: the last step of the shape diameter function as Shapira, Shamir and
-/// Cohen-Or 2008 define it (section 3; the filter is Tomasi and Manduchi 1998), which evens out what few rays per face
-/// leave to chance and keeps the steps between parts. Every face becomes the weighted mean of the faces g within
-/// `window` rings of the dual graph, of weight
+/// Bilateral smoothing (Tomasi and Manduchi 1998) of a field on faces: the last step of the shape diameter function of
+/// Shapira, Shamir and Cohen-Or 2008, as the ASDF paper has it (section 3), against what varies with the pose; here for
+/// what few rays per face leave to chance, while steps between parts are kept. A face becomes the mean of the faces g
+/// within `window` rings of the dual graph, of weight
 ///   exp(-ring(g)^2 / (2 (window / 2)^2)) exp(-(v_g - v_f)^2 / (2 sigma_f^2)),
 /// sigma_f being the root mean square of the differences v_g - v_f in the window, itself included.
 /// CGAL's sdf_values() does the same by default (Bilateral_filtering in Surface_mesh_segmentation/internal/Filters.h)
@@ -24,8 +24,8 @@ struct BilateralOptions {
 };
 
 /// What lowers the error of the 30-ray function on a mesh of so many faces: the finer the mesh, the less the true
-/// values differ within a window. Only for functions traced with ConeRotation::Hashed at every face: with fixed cones
-/// neighbours err alike, and interpolated values are smooth already.
+/// values differ within a window. Meant for values traced at every face with ConeRotation::Hashed: with fixed cones
+/// neighbours err alike, which smoothing cannot undo, and interpolated values are smooth already.
 [[nodiscard]] BilateralOptions bilateralOptionsFor(uint64_t faceCount);
 
 /// values: #F, finite, or NaN for no value. A face without a value neither gives nor gets one. The same bits on any
