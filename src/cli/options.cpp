@@ -4,12 +4,17 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <limits>
 #include <utility>
 
+#include "cli/choice_names.h"
+#include "cli/computation_options.h"
+#include "cli/option_adding.h"
 #include "cli/option_values.h"
 #include "core/error.h"
+#include "core/text.h"
 
 namespace asdfvk {
 namespace {
@@ -41,129 +46,6 @@ void spellOutBareCheck(std::vector<std::string>& arguments) {
   }
 }
 
-template <typename T>
-CLI::Option* addChoice(CLI::App& app, const std::string& name, T& target,
-                       const std::vector<std::pair<std::string, T>>& choices, const std::string& text) {
-  std::string names;
-  for (const auto& [choice, value] : choices) names += (names.empty() ? "" : "|") + choice;
-  return app
-      .add_option_function<std::string>(
-          name,
-          [name, names, &target, choices](const std::string& choice) {
-            const auto found = std::find_if(choices.begin(), choices.end(),
-                                            [&](const auto& candidate) { return candidate.first == choice; });
-            if (found == choices.end())
-              throw Error(ErrorKind::Usage, fmt::format("{}: '{}' is not one of {}", name, choice, names));
-            target = found->second;
-          },
-          text)
-      ->option_text(names);
-}
-
-/// `read` turns the text into a value and throws Error{Usage}; the option's name is put before its message.
-template <typename Read>
-CLI::Option* addValue(CLI::App& app, const std::string& name, const std::string& placeholder, const std::string& text,
-                      Read read) {
-  return app
-      .add_option_function<std::string>(
-          name,
-          [name, read](const std::string& value) {
-            try {
-              read(value);
-            } catch (const Error& error) {
-              throw Error(error.kind(), name.substr(name.find("--")) + ": " + error.what());
-            }
-          },
-          text)
-      ->option_text(placeholder);
-}
-
-/// "10%", as --seeds takes it.
-std::string defaultSeeds() { return fmt::format("{}%", Options{}.seeds.share * 100); }
-
-void addComputation(CLI::App& app, Options& options) {
-  const Options defaults;
-  const std::string rays = "Seeds and rays";
-  addValue(app, "--seeds", "N%|N|all", "Faces that cast rays: a share, a count or all; default " + defaultSeeds(),
-           [&](const std::string& text) { options.seeds = parseSeedCount(text); })
-      ->group(rays);
-  addValue(app, "--rng-seed", "N",
-           fmt::format("Seed of the random choice of seed faces; default {}", defaults.randomSeed),
-           [&](const std::string& text) {
-             options.randomSeed = parseWholeNumber(text, 0, std::numeric_limits<uint64_t>::max());
-           })
-      ->group(rays);
-  addValue(app, "--rays", "N", fmt::format("Rays per cone, 1 to {}; default {}", kMaxRayCount, defaults.cone.rayCount),
-           [&](const std::string& text) {
-             options.cone.rayCount = static_cast<uint32_t>(parseWholeNumber(text, 1, kMaxRayCount));
-           })
-      ->group(rays);
-  addValue(app, "--angle", "DEGREES",
-           fmt::format("Full opening angle of the cone, above 0 and below 180; default {}",
-                       defaults.cone.openingAngleDegrees),
-           [&](const std::string& text) {
-             options.cone.openingAngleDegrees = parseNumber(text);
-             if (!(options.cone.openingAngleDegrees > 0 && options.cone.openingAngleDegrees < 180))
-               throw Error(ErrorKind::Usage, fmt::format("'{}' is not above 0 and below 180", text));
-           })
-      ->group(rays);
-  addValue(app, "--false-hit-angle", "DEGREES",
-           fmt::format("A hit on a face whose normal is within this angle of the seed's is\n"
-                       "false, 0 to 180; default {}",
-                       defaults.cone.falseHitAngleDegrees),
-           [&](const std::string& text) {
-             options.cone.falseHitAngleDegrees = parseNumber(text);
-             if (!(options.cone.falseHitAngleDegrees >= 0 && options.cone.falseHitAngleDegrees <= 180))
-               throw Error(ErrorKind::Usage, fmt::format("'{}' is not from 0 to 180", text));
-           })
-      ->group(rays);
-  addValue(app, "--outlier-deviations", "S",
-           fmt::format("Lengths farther from the median than S standard deviations are left\n"
-                       "out, above 0; default {}",
-                       defaults.cone.outlierDeviations),
-           [&](const std::string& text) {
-             options.cone.outlierDeviations = parseNumber(text);
-             if (!(options.cone.outlierDeviations > 0))
-               throw Error(ErrorKind::Usage, fmt::format("'{}' is not above 0", text));
-           })
-      ->group(rays);
-  addChoice<Orientation>(app, "--orient", options.orientation,
-                         {{"keep", Orientation::Keep}, {"auto", Orientation::Auto}, {"flip", Orientation::Flip}},
-                         "Closed components that look the wrong way: name them, turn them, or\n"
-                         "turn every face; default keep")
-      ->group(rays);
-
-  const std::string interpolation = "Interpolation";
-  addChoice<SolverChoice>(app, "--solver", options.solver,
-                          {{"auto", SolverChoice::Auto},
-                           {"cg", SolverChoice::Cg},
-                           {"jacobi", SolverChoice::Jacobi},
-                           {"eigen", SolverChoice::Eigen}},
-                          "Conjugate gradient or Jacobi on the device, or Eigen on the CPU; default auto")
-      ->group(interpolation);
-  addValue(app, "--guidance", "K",
-           fmt::format("Factor of the curvature term; default {} (harmonic interpolation)", defaults.guidance),
-           [&](const std::string& text) { options.guidance = parseNumber(text); })
-      ->group(interpolation);
-  addValue(app, "--tolerance", "R",
-           fmt::format("Relative residual at which the solver stops, above 0 and below 1;\n"
-                       "default {}",
-                       defaults.solverOptions.tolerance),
-           [&](const std::string& text) {
-             options.solverOptions.tolerance = parseNumber(text);
-             if (!(options.solverOptions.tolerance > 0 && options.solverOptions.tolerance < 1))
-               throw Error(ErrorKind::Usage, fmt::format("'{}' is not above 0 and below 1", text));
-           })
-      ->group(interpolation);
-  addValue(app, "--max-iterations", "N",
-           fmt::format("Iterations after which the solver gives up; default {}", defaults.solverOptions.maxIterations),
-           [&](const std::string& text) {
-             options.solverOptions.maxIterations =
-                 static_cast<uint32_t>(parseWholeNumber(text, 1, std::numeric_limits<uint32_t>::max()));
-           })
-      ->group(interpolation);
-}
-
 void addOutput(CLI::App& app, CommandLine& line) {
   const std::string output = "Output";
   addValue(app, "-o,--output", "FILE|DIR|-",
@@ -174,8 +56,9 @@ void addOutput(CLI::App& app, CommandLine& line) {
              line.output = text;
            })
       ->group(output);
-  addChoice<std::string>(app, "--format", line.format, {{"ply", "ply"}, {"vtu", "vtu"}, {"npy", "npy"}, {"csv", "csv"}},
-                         "Format where -o does not tell it; default ply")
+  addChoice(app, "--format", line.format,
+            ChoiceNames<const char*, 4>{{{"ply", "ply"}, {"vtu", "vtu"}, {"npy", "npy"}, {"csv", "csv"}}},
+            "Format where -o does not tell it; default ply")
       ->group(output);
   app.add_flag("--ascii", line.ascii, "Write PLY as text")->group(output);
   addValue(app, "--check", "[=N|all]",
@@ -188,12 +71,58 @@ void addOutput(CLI::App& app, CommandLine& line) {
   app.add_flag("--quiet", line.quiet, "Say nothing but errors on standard error")->group(output);
 }
 
+/// "30,18"
+void readViewAngles(const std::string& text, View& view) {
+  const size_t comma = text.find(',');
+  if (comma == std::string::npos)
+    throw Error(ErrorKind::Usage, fmt::format("'{}' is not two numbers with a comma between them", text));
+  view.azimuthDegrees = parseNumber(text.substr(0, comma));
+  view.elevationDegrees = parseNumber(text.substr(comma + 1));
+  if (std::abs(view.azimuthDegrees) > 360)
+    throw Error(ErrorKind::Usage, fmt::format("the azimuth in '{}' is not from -360 to 360", text));
+  if (std::abs(view.elevationDegrees) > 90)
+    throw Error(ErrorKind::Usage, fmt::format("the elevation in '{}' is not from -90 to 90", text));
+}
+
+void addPicture(CLI::App& app, CommandLine& line) {
+  const std::string picture = "Picture";
+  addValue(app, "--picture", "FILE.png", "Also render the coloured mesh, for one mesh; - is standard output",
+           [&](const std::string& text) {
+             if (text != "-" && lowerCase(std::filesystem::path(text).extension().string()) != ".png")
+               throw Error(ErrorKind::Usage, fmt::format("'{}' does not end in .png", text));
+             line.picture = text;
+           })
+      ->group(picture);
+  CLI::Option* needsPicture = app.get_option("--picture");
+  addChoice(app, "--picture-of", line.pictureOf, kPictures,
+            "The diameter in colours, the faces that cast rays, or the errors expected\nby the estimate; default sdf")
+      ->group(picture)
+      ->needs(needsPicture);
+  const View view;
+  addValue(app, "--picture-view", "AZIMUTH,ELEVATION",
+           fmt::format("Degrees from the mesh's broad side to the right and up;\ndefault {},{}", view.azimuthDegrees,
+                       view.elevationDegrees),
+           [&](const std::string& text) { readViewAngles(text, line.pictureView); })
+      ->group(picture)
+      ->needs(needsPicture);
+  addChoice(app, "--picture-up", line.pictureView.up,
+            ChoiceNames<std::optional<Up>, 7>{{{"auto", std::nullopt},
+                                               {"x", Up::X},
+                                               {"y", Up::Y},
+                                               {"z", Up::Z},
+                                               {"-x", Up::MinusX},
+                                               {"-y", Up::MinusY},
+                                               {"-z", Up::MinusZ}}},
+            "What points up in the picture; auto is y unless the mesh would fall over;\ndefault auto")
+      ->group(picture)
+      ->needs(needsPicture);
+}
+
 void addDevice(CLI::App& app, CommandLine& line) {
   const std::string device = "Device";
-  addChoice<Backend>(app, "--backend", line.session.backend,
-                     {{"auto", Backend::Auto}, {"vulkan", Backend::Vulkan}, {"reference", Backend::Reference}},
-                     "Vulkan, the double-precision reference on the CPU, or Vulkan where\n"
-                     "there is a device; default auto")
+  addChoice(app, "--backend", line.session.backend, kBackends,
+            "Vulkan, the double-precision reference on the CPU, or Vulkan where\n"
+            "there is a device; default auto")
       ->group(device);
   addValue(app, "--device", "N|NAME", "Device by its number in --list-devices or by a part of its name",
            [&](const std::string& text) { line.session.device = text; })
@@ -215,10 +144,18 @@ void requireAgreement(const CommandLine& line) {
   if (std::count(line.meshes.begin(), line.meshes.end(), "") > 0) refuse("the name of a mesh is empty");
   if (line.output == "-" && line.json)
     refuse("-o - and --json both want standard output; give -o a file or drop --json");
+  if (!line.picture.empty() && line.meshes.size() > 1)
+    refuse("--picture takes one mesh; name one mesh, or run them one by one");
+  if (line.picture == "-" && (line.output == "-" || line.json))
+    refuse("--picture - wants standard output for itself; give it a file, or drop --json and -o -");
   if (line.session.backend == Backend::Reference && line.session.requireGpu)
     refuse("--require-gpu and --backend reference contradict each other; drop one");
   if (line.session.backend == Backend::Reference && !line.session.device.empty())
     refuse("--device and --backend reference contradict each other; drop one");
+  const bool estimates = line.options.estimatesError || line.options.rounds.maxError;
+  if (line.pictureOf == PictureOf::Error && (!estimates || line.options.seeds.kind == SeedCount::Kind::All))
+    refuse(
+        "--picture-of error shows what the estimate expects; drop --no-estimate, and --seeds all, which has no error");
   const SolverChoice solver = line.options.solver;
   if (line.session.backend == Backend::Reference && (solver == SolverChoice::Cg || solver == SolverChoice::Jacobi))
     refuse("--solver cg and jacobi run on a Vulkan device, which --backend reference does without; use --solver eigen");
@@ -233,8 +170,9 @@ CommandLine parseCommandLine(std::vector<std::string> arguments) {
   app.set_help_flag("-h,--help", "Print this help");
   app.set_version_flag("--version", std::string("asdf-vk ") + ASDFVK_VERSION, "Print the version");
   app.add_option("meshes", line.meshes, "Meshes: PLY, OFF, OBJ or STL; '-' is standard input")->option_text("MESH...");
-  addComputation(app, line.options);
+  addComputation(app, line);
   addOutput(app, line);
+  addPicture(app, line);
   addDevice(app, line);
 
   spellOutBareCheck(arguments);
@@ -253,6 +191,7 @@ CommandLine parseCommandLine(std::vector<std::string> arguments) {
   } catch (const CLI::ParseError& error) {
     throw Error(ErrorKind::Usage, std::string(error.what()) + "; asdf-vk --help lists the options");
   }
+  if (line.options.rounds.areAsked() && app.count("--seeds") == 0) line.options.seeds.share = kFirstRoundShare;
   requireAgreement(line);
   return line;
 }

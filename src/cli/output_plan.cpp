@@ -108,6 +108,15 @@ std::vector<std::string> planOutputs(const CommandLine& line) {
   for (const std::string& output : outputs)
     if (output != "-" && inputs.holds(output))
       refuse(fmt::format("{} is an input and would be overwritten; choose another -o", output));
+  if (!line.picture.empty() && line.picture != "-") {
+    if (inputs.holds(line.picture))
+      refuse(fmt::format("{} is an input and would be overwritten; choose another --picture", line.picture));
+    FileSet results;
+    for (const std::string& output : outputs)
+      if (output != "-") results.insert(output);
+    if (results.holds(line.picture))
+      refuse(fmt::format("{} would take both the result and the picture; choose another --picture", line.picture));
+  }
   return outputs;
 }
 
@@ -132,7 +141,7 @@ void requireWritablePlace(const std::string& output) {
     return;
   if (!fs::is_directory(folder, error)) fail(fmt::format("{} is no directory; make it first", folder.string()));
   if (access(folder.c_str(), W_OK) != 0) fail(fmt::format("{}: {}", folder.string(), std::strerror(errno)));
-  if (fs::is_directory(path, error)) fail("it is a directory; choose another -o");
+  if (fs::is_directory(path, error)) fail("it is a directory; choose another name");
 }
 
 }  // namespace asdfvk

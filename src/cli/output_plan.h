@@ -9,7 +9,8 @@
 namespace asdfvk {
 
 /// Where the result of each mesh goes: one entry per mesh, "-" for standard output. Throws Error{Usage} when the names
-/// contradict each other: two results in one file, a result in place of an input, several meshes and one file.
+/// contradict each other: two results or a result and the picture in one file, one of
+/// them in place of an input, several meshes and one file.
 [[nodiscard]] std::vector<std::string> planOutputs(const CommandLine& line);
 
 /// The format is set where --format or standard output ask for one.

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "cli/choice_names.h"
 #include "cli/option_values.h"
 
 namespace asdfvk {
@@ -16,59 +17,54 @@ std::string oneLineOf(const Json& json) {
   return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
-const char* nameOf(SolverChoice solver) {
-  switch (solver) {
-    case SolverChoice::Cg:
-      return "cg";
-    case SolverChoice::Jacobi:
-      return "jacobi";
-    case SolverChoice::Eigen:
-      return "eigen";
-    case SolverChoice::Auto:
-      break;
-  }
-  return "auto";
-}
-
-const char* nameOf(Orientation orientation) {
-  switch (orientation) {
-    case Orientation::Auto:
-      return "auto";
-    case Orientation::Flip:
-      return "flip";
-    case Orientation::Keep:
-      break;
-  }
-  return "keep";
-}
-
-const char* nameOf(Backend backend) {
-  switch (backend) {
-    case Backend::Vulkan:
-      return "vulkan";
-    case Backend::Reference:
-      return "reference";
-    case Backend::Auto:
-      break;
-  }
-  return "auto";
+template <typename T>
+Json optional(const std::optional<T>& value) {
+  return value ? Json(*value) : Json(nullptr);
 }
 
 Json optionsOf(const CommandLine& line) {
   const Options& options = line.options;
-  return {{"seeds", toText(options.seeds)},
+  const InterpolationOptions& interpolation = options.interpolation;
+  return {{"recipe", nameOf(kRecipes, line.recipe)},
+          {"seeds", toText(options.seeds)},
+          {"sampler", nameOf(kSamplers, SamplerChoice{options.sampler, options.isAdaptive})},
+          {"metric", nameOf(kMetrics, options.metric)},
+          {"maxError", optional(options.rounds.maxError)},
+          {"timeBudgetSeconds", optional(options.rounds.timeBudgetSeconds)},
           {"rays", options.cone.rayCount},
           {"angleDegrees", options.cone.openingAngleDegrees},
           {"falseHitAngleDegrees", options.cone.falseHitAngleDegrees},
           {"outlierDeviations", options.cone.outlierDeviations},
-          {"orient", nameOf(options.orientation)},
-          {"solver", nameOf(options.solver)},
-          {"guidance", options.guidance},
+          {"coneRotation", nameOf(kConeRotations, options.cone.rotation)},
+          {"orient", nameOf(kOrientations, options.orientation)},
+          {"weights", nameOf(kWeights, interpolation.weights)},
+          {"guidance", nameOf(kGuidances, interpolation.guidance)},
+          {"curvatureFactor", interpolation.curvatureFactor},
+          {"secondOrder", interpolation.secondOrder},
+          {"pooling", interpolation.pooling},
+          {"solver", nameOf(kSolvers, options.solver)},
           {"tolerance", options.solverOptions.tolerance},
           {"maxIterations", options.solverOptions.maxIterations},
-          {"backend", nameOf(line.session.backend)},
+          {"backend", nameOf(kBackends, line.session.backend)},
           {"device", line.session.device},
           {"requireGpu", line.session.requireGpu}};
+}
+
+Json estimateOf(const std::optional<ErrorEstimate>& estimate) {
+  if (!estimate) return nullptr;
+  Json worst = Json::array();
+  for (const ErrorEstimate::WorstFace& face : estimate->worstFaces)
+    worst.push_back({{"face", face.face}, {"error", number(face.error)}});
+  return {{"average", number(estimate->average)},
+          {"standardError", number(estimate->standardError)},
+          {"heldOutCount", estimate->heldOutCount},
+          {"worstFaces", std::move(worst)}};
+}
+
+Json stagesOf(const StageSeconds& seconds) {
+  Json json;
+  for (const auto& [name, member] : kStages) json[name] = number(seconds.*member);
+  return json;
 }
 
 Json defectsOf(const MeshDefects& defects) {
@@ -105,10 +101,10 @@ Json checkOf(const std::optional<CheckReport>& check) {
 
 std::string jsonReport(const MeshOutcome& outcome) {
   const Report& report = outcome.report;
-  const StageSeconds& seconds = report.stageSeconds;
   Json json;
   json["mesh"] = outcome.mesh;
   json["output"] = outcome.output;
+  json["picture"] = outcome.line.picture.empty() ? Json(nullptr) : Json(outcome.line.picture);
   json["faceCount"] = report.faceCount;
   json["triangleCount"] = report.triangleCount;
   json["vertexCount"] = report.vertexCount;
@@ -120,10 +116,7 @@ std::string jsonReport(const MeshOutcome& outcome) {
   json["randomSeed"] = report.randomSeed;
   json["backend"] = report.backend;
   json["device"] = report.device;
-  json["stageSeconds"] = {{"read", number(seconds.read)},   {"geometry", number(seconds.geometry)},
-                          {"bvh", number(seconds.bvh)},     {"upload", number(seconds.upload)},
-                          {"trace", number(seconds.trace)}, {"solve", number(seconds.solve)},
-                          {"write", number(seconds.write)}};
+  json["stageSeconds"] = stagesOf(report.stageSeconds);
   json["raysPerSecond"] = number(report.raysPerSecond);
   json["solver"] = {{"name", report.solver.name},
                     {"iterations", report.solver.iterations},
@@ -131,6 +124,8 @@ std::string jsonReport(const MeshOutcome& outcome) {
                     {"converged", report.solver.converged}};
   json["sdf"] = {
       {"min", number(report.sdf.min)}, {"median", number(report.sdf.median)}, {"max", number(report.sdf.max)}};
+  json["estimatedError"] = estimateOf(report.estimatedError);
+  json["roundCount"] = report.roundCount;
   json["check"] = checkOf(report.check);
   json["defects"] = defectsOf(report.defects);
   json["warnings"] = report.warnings;

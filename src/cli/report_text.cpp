@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cli/option_values.h"
+#include "cli/choice_names.h"
 
 namespace asdfvk {
 namespace {
@@ -32,18 +32,23 @@ std::string meshRow(const Report& report) {
 
 std::string seedRow(const MeshOutcome& outcome) {
   const Report& report = outcome.report;
-  std::string text = fmt::format("{} cast{} rays ({}), {} in all, random seed {}", counted(report.seedCount, "face"),
-                                 report.seedCount == 1 ? "s" : "", toText(outcome.line.options.seeds),
-                                 counted(report.rayCount, "ray"), report.randomSeed);
+  std::string text = fmt::format(
+      "{} cast{} rays ({}), {} in all, recipe {}, random seed {}", counted(report.seedCount, "face"),
+      report.seedCount == 1 ? "s" : "", percent(report.seedCount, std::max<uint64_t>(1, report.triangleCount)),
+      counted(report.rayCount, "ray"), nameOf(kRecipes, outcome.line.recipe), report.randomSeed);
   if (report.redoneConeCount > 0)
     text += fmt::format("; {} redone by the reference", counted(report.redoneConeCount, "cone"));
   return text;
 }
 
+/// Stages that took no time did not run.
 std::string timeRow(const StageSeconds& seconds) {
-  return fmt::format(
-      "read {:.3f} s, geometry {:.3f}, bvh {:.3f}, upload {:.3f}, trace {:.3f}, solve {:.3f}, write {:.3f}",
-      seconds.read, seconds.geometry, seconds.bvh, seconds.upload, seconds.trace, seconds.solve, seconds.write);
+  std::string text;
+  for (const auto& [name, member] : kStages)
+    if (seconds.*member > 0)
+      text += text.empty() ? fmt::format("{} {:.3f} s", name, seconds.*member)
+                           : fmt::format(", {} {:.3f}", name, seconds.*member);
+  return text;
 }
 
 std::string solverRow(const SolverReport& solver) {
@@ -58,6 +63,16 @@ std::string valueRow(const Report& report) {
                                                       : std::string("none");
   if (report.noValueCount > 0) text += fmt::format("; {} without a value", counted(report.noValueCount, "face"));
   return text;
+}
+
+std::string estimateRow(const Report& report) {
+  const ErrorEstimate& estimate = *report.estimatedError;
+  std::string text =
+      fmt::format("{:.2f} % +- {:.2f} of the range on average, from {} held-out faces", 100 * estimate.average,
+                  100 * estimate.standardError, groupDigits(estimate.heldOutCount));
+  if (!estimate.worstFaces.empty())
+    text += fmt::format("; {:.0f} % at face {}", 100 * estimate.worstFaces[0].error, estimate.worstFaces[0].face);
+  return text + (report.roundCount > 1 ? fmt::format("; {} rounds", report.roundCount) : "");
 }
 
 std::string tracedCheck(const CheckReport& check) {
@@ -100,11 +115,14 @@ std::string textReport(const MeshOutcome& outcome) {
   text += row("speed", fmt::format("{:.3g} Mrays/s", report.raysPerSecond / 1e6));
   text += row("solver", solverRow(report.solver));
   text += row("diameter", valueRow(report));
+  if (report.estimatedError) text += row("error", estimateRow(report));
   if (report.check) {
     text += row("check", tracedCheck(*report.check));
     if (report.check->interpolatedCount > 0) text += row("", errorCheck(*report.check));
   }
-  text += row("output", outcome.output == "-" ? "standard output" : outcome.output);
+  const auto placeText = [](const std::string& place) { return place == "-" ? "standard output" : place; };
+  text += row("output", placeText(outcome.output));
+  if (!outcome.line.picture.empty()) text += row("picture", placeText(outcome.line.picture));
   return text;
 }
 

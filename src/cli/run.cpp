@@ -5,6 +5,7 @@
 
 #include "cli/interrupt.h"
 #include "cli/output_plan.h"
+#include "cli/picture_output.h"
 #include "cli/progress.h"
 #include "cli/report_json.h"
 #include "cli/report_text.h"
@@ -17,14 +18,16 @@
 namespace asdfvk {
 namespace {
 
-Result computeMesh(Session& session, Mesh& mesh, const CommandLine& line, const std::stop_token& stop) {
+/// Runs `work`, which takes a RunControl, with a bar on a terminal.
+template <typename Work>
+auto runWithProgress(const CommandLine& line, const std::stop_token& stop, const Work& work) {
   const Stopwatch watch;
   std::optional<ProgressBar> bar;
   if (!line.quiet && isStandardErrorTerminal()) bar.emplace(writeStandardError, [&watch] { return watch.seconds(); });
   RunControl control;
   control.stop = stop;
   if (bar) control.progress = [&bar](double fraction) { bar->update(fraction); };
-  return session.compute(mesh, line.options, control);
+  return work(control);
 }
 
 /// What a mesh leaves behind: its exit code and its line for --json.
@@ -36,6 +39,7 @@ struct Answer {
 Answer runMesh(Session& session, const std::string& name, const std::string& output, const CommandLine& line,
                const std::stop_token& stop) {
   requireWritablePlace(output);
+  if (!line.picture.empty()) requireWritablePlace(line.picture);
   const Stopwatch readWatch;
   Mesh mesh = readMesh(name);
   const double readSeconds = readWatch.seconds();
@@ -43,11 +47,14 @@ Answer runMesh(Session& session, const std::string& name, const std::string& out
   Result result;
   {
     const Interrupt::Listening listening;
-    result = computeMesh(session, mesh, line, stop);
+    result = runWithProgress(line, stop,
+                             [&](const RunControl& control) { return session.compute(mesh, line.options, control); });
     if (stop.stop_requested()) throw Error(ErrorKind::Cancelled, "cancelled");
     const Stopwatch writeWatch;
     writeResult(output, mesh, {result.sdf, result.isSeed}, writeOptionsOf(line));
     result.report.stageSeconds.write = writeWatch.seconds();
+    if (!line.picture.empty())
+      runWithProgress(line, stop, [&](const RunControl& control) { writePicture(line, mesh, result, control); });
   }
   result.report.stageSeconds.read = readSeconds;
 

@@ -2,41 +2,98 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "core/error.h"
+#include "core/stopwatch.h"
 #include "mesh/curvature.h"
-#include "poisson/arc_weights.h"
+#include "poisson/divergence.h"
 #include "poisson/poisson_system.h"
+#include "reprojection/seed_cells.h"
 
 namespace asdfvk {
 namespace {
 
-// The term -k curv of the ASDF paper, section 4.1; empty where k is 0.
-std::vector<double> guidanceByCurvature(const Mesh& mesh, double guidance) {
-  if (guidance == 0) return {};
-  std::vector<double> divergence = faceCurvature(mesh);
-  for (double& entry : divergence) entry *= -guidance;
-  return divergence;
-}
+constexpr double kComparisonTolerance = 1e-2;
 
 }  // namespace
 
-SolverReport interpolate(const Mesh& mesh, const PreparedMesh& prepared, const Options& options,
-                         ComputeBackend& backend, std::span<double> values, const RunControl& control,
-                         std::vector<std::string>& warnings) {
+Interpolation::Interpolation(const PreparedMesh& prepared, const TraceScene& scene, const Cone& cone,
+                             const Options& options, ComputeBackend& backend, std::vector<std::string>& warnings)
+    : prepared_(prepared),
+      scene_(scene),
+      cone_(cone),
+      options_(options),
+      backend_(backend),
+      warnings_(warnings),
+      weights_(arcWeights(options.interpolation.weights, prepared.graph, prepared.geometry)) {}
+
+Interpolated Interpolation::run(const TracedSeeds& traced, StageSeconds& seconds, const RunControl& control) {
+  Interpolated result;
+  const Stopwatch predictWatch;
+  if (!traced.hits.empty()) result.prediction = predict(traced);
+  seconds.predict += predictWatch.seconds();
+  control.checkpoint(0.5);
+
+  const Stopwatch solveWatch;
+  result.values = traced.values;
   const PoissonSystem system =
-      buildPoissonSystem(prepared.graph, arcWeights(ArcWeightKind::Distance, prepared.graph, prepared.geometry), values,
-                         guidanceByCurvature(mesh, options.guidance));
+      buildPoissonSystem(prepared_.graph, weights_, traced.values, divergence(result.prediction),
+                         {.secondOrder = options_.interpolation.secondOrder, .firstGuess = result.prediction});
+  result.solver = solve(system, result.values, options_.solverOptions, control.part(0.5, 1));
+  if (const double pooling = options_.interpolation.pooling; pooling > 0)
+    for (size_t face = 0; face < result.prediction.size(); ++face)
+      if (std::isfinite(result.prediction[face]) && std::isfinite(result.values[face]))
+        result.values[face] += pooling * (result.prediction[face] - result.values[face]);
+  seconds.solve += solveWatch.seconds();
+  return result;
+}
+
+std::vector<double> Interpolation::runHarmonic(const TracedSeeds& traced, std::span<const double> firstGuess,
+                                               const RunControl& control) {
+  std::vector<double> values = traced.values;
+  const PoissonSystem system =
+      buildPoissonSystem(prepared_.graph, weights_, traced.values, {}, {.secondOrder = 0, .firstGuess = firstGuess});
+  SolverOptions solverOptions = options_.solverOptions;
+  solverOptions.tolerance = std::max(solverOptions.tolerance, kComparisonTolerance);
+  solve(system, values, solverOptions, control);
+  return values;
+}
+
+std::vector<double> Interpolation::predict(const TracedSeeds& traced) const {
+  const SeedCells cells = buildSeedCells(prepared_.graph, traced.faces);
+  return reprojectHits(scene_, cone_, {traced.faces, traced.hits}, cells, options_.interpolation.reprojection);
+}
+
+std::vector<double> Interpolation::divergence(std::span<const double> prediction) const {
+  switch (options_.interpolation.guidance) {
+    case Guidance::Hits:
+      if (prediction.empty()) return {};
+      return divergenceOf(prepared_.graph, weights_, prediction);
+    case Guidance::Curvature: {
+      std::vector<double> divergence = faceCurvature(scene_.mesh);
+      for (double& entry : divergence) entry *= -options_.interpolation.curvatureFactor;
+      return divergence;
+    }
+    case Guidance::None:
+      break;
+  }
+  return {};
+}
+
+SolverReport Interpolation::solve(const PoissonSystem& system, std::vector<double>& values,
+                                  const SolverOptions& solverOptions, const RunControl& control) {
   if (system.unknownCount() == 0) return {.name = "none"};
   std::vector<double> solution(system.unknownCount());
   const auto solveWith = [&](SolverChoice choice) {
-    return backend.solver(choice).solve(system, options.solverOptions, solution, control);
+    return backend_.solver(choice).solve(system, solverOptions, solution, control);
   };
   SolverReport report;
   try {
-    report = solveWith(options.solver);
+    report = solveWith(options_.solver);
   } catch (const Error& error) {
-    if (options.solver != SolverChoice::Auto || error.kind() != ErrorKind::Device) throw;
-    warnings.push_back(fmt::format("the CPU solved the equation, because on the device: {}", error.what()));
+    if (options_.solver != SolverChoice::Auto || error.kind() != ErrorKind::Device) throw;
+    warnings_.push_back(fmt::format("the CPU solved the equation, because on the device: {}", error.what()));
     report = solveWith(SolverChoice::Eigen);
   }
   for (size_t i = 0; i < solution.size(); ++i) values[system.faces[i]] = solution[i];

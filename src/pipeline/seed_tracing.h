@@ -1,27 +1,48 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
-#include "pipeline/asdf.h"
 #include "pipeline/prepared_mesh.h"
 #include "trace/cone_tracer.h"
 
 namespace asdfvk {
 
+/// Faces that cast rays, and what came of it. Sets of them can be joined.
 struct TracedSeeds {
+  explicit TracedSeeds(size_t faceCount) : values(faceCount, kNoValue), isSeed(faceCount, 0) {}
+
   std::vector<double> values;   ///< #F, NaN where no ray was cast or none was valid.
   std::vector<uint8_t> isSeed;  ///< #F, 1 where rays were cast.
-  uint64_t seedCount = 0;
+  std::vector<uint32_t> faces;  ///< #S, in the order in which they were traced.
+  std::vector<ConeHit> hits;    ///< #S x rays, see ConeResults::hits; empty if nobody wants them.
   TraceStatistics statistics;
+
+  /// Adds the seeds of another set that has none of this one's.
+  void append(const TracedSeeds& other);
 };
 
-/// How many of the faces that can cast rays are asked for; at least one where there is any.
-[[nodiscard]] uint64_t resolveSeedCount(const SeedCount& request, uint64_t castableFaceCount);
+/// Casts the rays of seeds of one mesh.
+class SeedTracing {
+ public:
+  /// What it refers to must outlive it. rayCount: per cone. keepsHits: `tracer` must write them.
+  SeedTracing(const PreparedMesh& prepared, ConeTracer& tracer, size_t rayCount, bool keepsHits)
+      : prepared_(prepared), tracer_(tracer), rayCount_(rayCount), keepsHits_(keepsHits) {}
 
-/// Traces the cones of the chosen seeds, and then of further ones in each component that has no value yet, until it has
-/// one or no face is left to try.
-[[nodiscard]] TracedSeeds traceSeeds(const PreparedMesh& prepared, ConeTracer& tracer, const Options& options,
-                                     const RunControl& control);
+  /// Adds `faces`, none of which may be in `traced`.
+  void trace(std::span<const uint32_t> faces, TracedSeeds& traced, const RunControl& control);
+
+  /// Adds seeds to each component that has no value yet until it has one, or no face left to try; faces of `taken`
+  /// are left out.
+  void traceComponentsWithoutValue(TracedSeeds& traced, std::span<const uint8_t> taken, uint64_t randomSeed,
+                                   const RunControl& control);
+
+ private:
+  const PreparedMesh& prepared_;
+  ConeTracer& tracer_;
+  size_t rayCount_;
+  bool keepsHits_;
+};
 
 }  // namespace asdfvk

@@ -5,6 +5,7 @@
 
 #include "bvh/bvh.h"
 #include "core/counted.h"
+#include "core/error.h"
 #include "core/median.h"
 #include "core/stopwatch.h"
 #include "pipeline/asdf.h"
@@ -14,16 +15,14 @@
 #include "pipeline/interpolation.h"
 #include "pipeline/missing_values.h"
 #include "pipeline/prepared_mesh.h"
+#include "pipeline/seed_rounds.h"
 #include "pipeline/seed_tracing.h"
 
 namespace asdfvk {
 namespace {
 
-/// Where the parts end on the progress bar; a check takes what is left behind the solving.
-struct ProgressParts {
-  double traceEnd, solveEnd;
-};
-constexpr ProgressParts kPartsAlone{0.85, 1}, kPartsBeforeCheck{0.5, 0.6};
+/// Where a check begins on the progress bar.
+constexpr double kRoundsEndBeforeCheck = 0.6;
 
 /// Runs `work` and adds its time to `seconds`.
 template <typename Work>
@@ -54,12 +53,15 @@ void describeMesh(Report& report, const Mesh& mesh, const PreparedMesh& prepared
   report.randomSeed = options.randomSeed;
 }
 
-void describeTrace(Report& report, const TracedSeeds& traced) {
-  report.seedCount = traced.seedCount;
-  report.rayCount = traced.statistics.rayCount;
-  report.redoneConeCount = traced.statistics.redoneConeCount;
+void describeRounds(Report& report, const SeedRounds& rounds) {
+  report.seedCount = rounds.traced().faces.size();
+  report.rayCount = rounds.traced().statistics.rayCount;
+  report.redoneConeCount = rounds.traced().statistics.redoneConeCount;
   report.raysPerSecond =
       report.stageSeconds.trace > 0 ? static_cast<double>(report.rayCount) / report.stageSeconds.trace : 0;
+  report.solver = rounds.result().solver;
+  report.roundCount = rounds.roundCount();
+  if (rounds.errors()) report.estimatedError = rounds.errors()->estimate;
 }
 
 void describeValues(Report& report, const std::vector<double>& sdf, const std::string& causeOfMissing) {
@@ -80,6 +82,18 @@ void describeValues(Report& report, const std::vector<double>& sdf, const std::s
         report.solver.name, counted(report.solver.iterations, "iteration"), report.solver.relativeResidual));
 }
 
+void requireAgreement(const Options& options) {
+  const auto refuse = [](const char* message) { throw Error(ErrorKind::Usage, message); };
+  const InterpolationOptions& interpolation = options.interpolation;
+  if (!(interpolation.pooling >= 0 && interpolation.pooling <= 1)) refuse("the pooling is out of range; give 0 to 1");
+  if (interpolation.pooling > 0 && interpolation.guidance != Guidance::Hits)
+    refuse("pooling takes predictions from hits; use guidance by hits with it");
+  if (!(interpolation.secondOrder >= 0)) refuse("the second-order term is negative; give 0 or more");
+  if (options.rounds.maxError && !(*options.rounds.maxError > 0)) refuse("the greatest error is not above 0");
+  if (options.rounds.timeBudgetSeconds && !(*options.rounds.timeBudgetSeconds > 0))
+    refuse("the time budget is not above 0");
+}
+
 }  // namespace
 
 struct Session::State {
@@ -93,6 +107,8 @@ Session::~Session() = default;
 const std::vector<std::string>& Session::deviceLines() const { return state_->backend.deviceLines(); }
 
 Result Session::compute(Mesh& mesh, const Options& options, const RunControl& control) {
+  const Stopwatch clock;
+  requireAgreement(options);
   ComputeBackend& backend = state_->backend;
   Result result;
   Report& report = result.report;
@@ -102,7 +118,7 @@ Result Session::compute(Mesh& mesh, const Options& options, const RunControl& co
   report.device = backend.deviceName();
   report.runsOnCpu = backend.runsOnCpu();
 
-  const ProgressParts parts = options.checkCount ? kPartsBeforeCheck : kPartsAlone;
+  const double roundsEnd = options.checkCount ? kRoundsEndBeforeCheck : 1;
   control.checkpoint(0);
   const PreparedMesh prepared = timed(seconds.geometry, [&] { return prepareMesh(mesh, options.orientation); });
   describeMesh(report, mesh, prepared, options);
@@ -110,22 +126,25 @@ Result Session::compute(Mesh& mesh, const Options& options, const RunControl& co
   const Bvh bvh = timed(seconds.bvh, [&] { return buildBvh(mesh, prepared.geometry, prepared.representatives); });
   const TraceScene scene{mesh, prepared.geometry, prepared.representatives, bvh};
   control.checkpoint(0);
-  const std::unique_ptr<ConeTracer> tracer = timed(seconds.upload, [&] { return backend.makeTracer(scene, cone); });
+  const bool interpolates = options.seeds.kind != SeedCount::Kind::All || options.interpolation.pooling > 0;
+  const bool wantsHits = interpolates && options.interpolation.guidance == Guidance::Hits;
+  const std::unique_ptr<ConeTracer> tracer =
+      timed(seconds.upload, [&] { return backend.makeTracer(scene, cone, wantsHits); });
 
-  TracedSeeds traced =
-      timed(seconds.trace, [&] { return traceSeeds(prepared, *tracer, options, control.part(0, parts.traceEnd)); });
-  describeTrace(report, traced);
-  std::vector<double> values = traced.values;
-  report.solver = timed(seconds.solve, [&] {
-    return interpolate(mesh, prepared, options, backend, values, control.part(parts.traceEnd, parts.solveEnd),
-                       report.warnings);
-  });
+  SeedTracing tracing(prepared, *tracer, cone.directions.size(), wantsHits);
+  Interpolation interpolation(prepared, scene, cone, options, backend, report.warnings);
+  SeedRounds rounds(mesh, prepared, options, tracing, interpolation, clock, seconds);
+  rounds.run(control.part(0, roundsEnd));
+  describeRounds(report, rounds);
+  const std::vector<double>& values = rounds.result().values;
   if (options.checkCount)
-    report.check = checkAgainstReference(mesh, prepared, scene, cone, {traced, values, backend.isReference()},
-                                         *options.checkCount, options.randomSeed, control.part(parts.solveEnd, 1));
+    report.check = checkAgainstReference(mesh, prepared, scene, cone, {rounds.traced(), values, backend.isReference()},
+                                         *options.checkCount, options.randomSeed, control.part(roundsEnd, 1));
 
-  result.sdf = valuesOfInputFaces(mesh, values, prepared.geometry.areas);
-  result.isSeed = seedsOfInputFaces(mesh, traced.isSeed);
+  const std::vector<double>& areas = prepared.geometry.areas;
+  result.sdf = valuesOfInputFaces(mesh, values, areas);
+  result.isSeed = seedsOfInputFaces(mesh, rounds.traced().isSeed);
+  if (rounds.errors()) result.expectedError = valuesOfInputFaces(mesh, rounds.errors()->expected, areas);
   describeValues(report, result.sdf, likelyCauseOfMissingValues(mesh, prepared, values));
   backend.requireSilentValidation();
   return result;

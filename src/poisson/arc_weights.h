@@ -14,8 +14,8 @@ enum class ArcWeightKind {
   Feature,   ///< 1 / (1 + (a / s)^2), a the dihedral angle, s kConcaveScaleDegrees or kConvexScaleDegrees.
 };
 
-/// Where the weight of a Feature arc has fallen to a half. The shape diameter changes across an edge the more the
-/// sharper it is, and about five times more across a concave one.
+/// Where the weight of a Feature arc has fallen to a half. Across a sharper edge the shape diameter changes
+/// more, and on organic shapes some five times more where it is concave.
 inline constexpr double kConcaveScaleDegrees = 3;
 inline constexpr double kConvexScaleDegrees = 8;
 

@@ -22,8 +22,9 @@ using CorrectionSolver = std::function<uint32_t(const CorrectionRequest& request
 
 /// Iterative refinement (Wilkinson 1963): from the first guess on, residuals in double, corrections by `correct` in
 /// whatever precision it has, until the true relative residual is within the tolerance, the iterations are spent, or a
-/// pass no longer helps. A correction that is not finite or makes it worse is not added. strongestReduction: the most that one pass of
-/// `correct` can be asked for in its precision. name: for the report. solution: #U, written whole.
+/// pass no longer helps. A correction that is not finite or makes it worse is not added.
+/// strongestReduction: the most that one pass of `correct` can be asked for in its precision.
+/// name: for the report. solution: #U, written whole.
 [[nodiscard]] SolverReport solveByRefinement(const std::string& name, const PoissonSystem& system,
                                              const SolverOptions& options, double strongestReduction,
                                              std::span<double> solution, const CorrectionSolver& correct);

@@ -24,10 +24,10 @@ TEST_CASE("help and version go to standard output with exit code 0") {
   CHECK_EQ(help.exitCode, 0);
   CHECK(help.error.empty());
   for (const char* option :
-       {"--seeds",     "--rng-seed",       "--rays",        "--angle",        "--solver",  "--guidance",
-        "--tolerance", "--max-iterations", "--orient",      "--output",       "--format",  "--ascii",
-        "--backend",   "--device",         "--require-gpu", "--list-devices", "--check",   "--json",
-        "--quiet",     "--threads",        "--version",     "--help",         "Exit codes"})
+       {"--seeds",          "--rng-seed",     "--rays",    "--angle",   "--solver",  "--guidance",   "--tolerance",
+        "--max-iterations", "--orient",       "--output",  "--format",  "--ascii",   "--backend",    "--device",
+        "--require-gpu",    "--list-devices", "--check",   "--json",    "--picture", "--picture-of", "--picture-view",
+        "--picture-up",     "--quiet",        "--threads", "--version", "--help",    "Exit codes"})
     CHECK_MESSAGE(help.output.find(option) != std::string::npos, option);
   const ChildOutcome version = runAsdf({"--version"});
   CHECK_EQ(version.exitCode, 0);
@@ -44,6 +44,36 @@ TEST_CASE("a good mesh ends with 0 and its result lies beside it") {
   CHECK(outcome.error.find("12 faces") != std::string::npos);
   CHECK_EQ(folder.names(), Names{"cube.asdf.ply", "cube.off"});
   CHECK_EQ(folder.read("cube.off"), cubeOff());
+}
+
+TEST_CASE("a picture is one more output, and a failed one ends with 4") {
+  const ScratchFolder folder;
+  const std::string mesh = folder.write("cube.off", cubeOff());
+  const std::vector<std::string> common{mesh, "--backend", "reference", "-o", folder / "out.csv"};
+  const auto run = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = common;
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return runAsdf(arguments);
+  };
+  const ChildOutcome sdf = run({"--picture", folder / "sdf.png"});
+  CHECK_EQ(sdf.exitCode, 0);
+  CHECK(sdf.error.find("sdf.png") != std::string::npos);
+  CHECK_EQ(run({"--quiet", "--picture", folder / "seeds.png", "--picture-of", "seeds", "--picture-up", "-z"}).exitCode,
+           0);
+  CHECK_EQ(run({"--quiet", "--picture", folder / "turned.png", "--picture-view", "-45,90"}).exitCode, 0);
+  CHECK_EQ(folder.names(), Names{"cube.off", "out.csv", "sdf.png", "seeds.png", "turned.png"});
+  CHECK(folder.read("sdf.png").starts_with("\x89PNG"));
+  CHECK_NE(folder.read("sdf.png"), folder.read("seeds.png"));
+  CHECK_NE(folder.read("sdf.png"), folder.read("turned.png"));
+  CHECK_EQ(run({"--quiet", "--picture", "-"}).output, folder.read("sdf.png"));
+  checkFailure(run({"--quiet", "--picture", folder / "no/such/folder.png"}), 4, "folder.png");
+  // Values of polygons go to all of their triangles.
+  const std::string quads = folder.write("quads.off", "OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n");
+  const ChildOutcome ofQuads = runAsdf({quads, "--backend", "reference", "--quiet", "-o", folder / "out.csv",
+                                        "--picture-of", "seeds", "--picture", folder / "quads.png"});
+  CHECK_EQ(ofQuads.exitCode, 0);
+  CHECK_GT(folder.read("quads.png").size(), 1000);
+  checkFailure(run({"--quiet", "--json", "--picture", "-"}), 1, "--picture");
 }
 
 TEST_CASE("each form of --seeds is taken and wrong ones are usage errors") {

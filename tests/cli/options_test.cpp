@@ -41,6 +41,24 @@ TEST_CASE("a mesh alone means the defaults") {
   CHECK_FALSE((line.json || line.quiet || line.ascii || line.listDevices || line.session.requireGpu));
 }
 
+TEST_CASE("the options of a picture") {
+  CHECK(parseCommandLine({"a.ply"}).picture.empty());
+  const CommandLine line = parseCommandLine(
+      {"a.ply", "--picture", "b.PNG", "--picture-of", "seeds", "--picture-view", "-20,7.5", "--picture-up", "-x"});
+  CHECK_EQ(line.picture, "b.PNG");
+  CHECK(line.pictureOf == PictureOf::Seeds);
+  CHECK_EQ(line.pictureView.azimuthDegrees, -20);
+  CHECK_EQ(line.pictureView.elevationDegrees, 7.5);
+  CHECK(line.pictureView.up == Up::MinusX);
+  CHECK_FALSE(parseCommandLine({"a.ply", "--picture", "b.png", "--picture-up", "auto"}).pictureView.up.has_value());
+  for (const char* view : {"30", "30,91", "30,-91", "361,0", "a,b", "1,2,3", ","})
+    CHECK_MESSAGE(refusal({"a.ply", "--picture", "b.png", "--picture-view", view}) != "accepted", view);
+  CHECK(refusal({"a.ply", "--picture", "b.jpg"}).find(".png") != std::string::npos);
+  CHECK(refusal({"a.ply", "--picture-of", "seeds"}).find("--picture") != std::string::npos);
+  CHECK(refusal({"a.ply", "b.ply", "--picture", "c.png"}).find("one mesh") != std::string::npos);
+  CHECK(refusal({"a.ply", "-o", "-", "--picture", "-"}).find("standard output") != std::string::npos);
+}
+
 TEST_CASE("every option reaches its field") {
   const CommandLine line = parseCommandLine({"a.ply",
                                              "--seeds",

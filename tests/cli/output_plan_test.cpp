@@ -58,6 +58,14 @@ TEST_CASE("outputs that contradict each other are usage errors") {
   CHECK(isRefused(lineOf({"a.ply"}, "out.vtu", "ply")));
   CHECK(isRefused(lineOf({"a.ply"}, "x/../a.ply")));
   CHECK(isRefused(lineOf({"a.ply", "a.asdf.ply"})));
+  const auto withPicture = [](CommandLine line, const std::string& picture) {
+    line.picture = picture;
+    return line;
+  };
+  CHECK(isRefused(withPicture(lineOf({"a.png"}, "out.ply"), "x/../a.png")));
+  CHECK(isRefused(withPicture(lineOf({"a.ply"}, "out.png", "ply"), "out.png")));
+  CHECK_FALSE(isRefused(withPicture(lineOf({"a.ply"}, "out.ply"), "out.png")));
+  CHECK_FALSE(isRefused(withPicture(lineOf({"a.ply"}, "out.ply"), "-")));
   CommandLine ascii = lineOf({"a.ply"}, "out.csv");
   ascii.ascii = true;
   CHECK(isRefused(ascii));

@@ -26,8 +26,9 @@ const std::map<std::string, Names> kMayInclude = {
     {"trace", {"bvh", "cone", "mesh", "core", "shared"}},
     {"poisson", {"mesh", "core", "shared"}},
     {"post", {"mesh", "core", "shared"}},
+    {"picture", {"trace", "bvh", "mesh", "core"}},
     {"pipeline", {"post", "poisson", "trace", "seeds", "cone", "bvh", "mesh", "vk", "core", "shared"}},
-    {"cli", {"pipeline", "mesh", "core"}},
+    {"cli", {"pipeline", "picture", "mesh", "core"}},
 };
 
 struct Include {

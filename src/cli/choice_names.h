@@ -1,0 +1,68 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <utility>
+
+#include "cli/command_line.h"
+
+/// The names of what options choose between: as they are read, and as they are reported.
+namespace asdfvk {
+
+template <typename T, size_t N>
+using ChoiceNames = std::array<std::pair<const char*, T>, N>;
+
+inline constexpr ChoiceNames<Recipe, 3> kRecipes{
+    {{"paper", Recipe::Paper}, {"balanced", Recipe::Balanced}, {"quality", Recipe::Quality}}};
+
+/// A sampler, and whether it works in two passes.
+using SamplerChoice = std::pair<SamplerKind, bool>;
+inline constexpr ChoiceNames<SamplerChoice, 6> kSamplers{{{"random", {SamplerKind::Random, false}},
+                                                          {"depth-first", {SamplerKind::DepthFirst, false}},
+                                                          {"blue-noise", {SamplerKind::BlueNoise, false}},
+                                                          {"farthest-point", {SamplerKind::FarthestPoint, false}},
+                                                          {"normal-space", {SamplerKind::NormalSpace, false}},
+                                                          {"adaptive", {SamplerKind::BlueNoise, true}}}};
+
+inline constexpr ChoiceNames<SurfaceMetric, 3> kMetrics{
+    {{"hops", SurfaceMetric::Hops}, {"length", SurfaceMetric::Length}, {"angle", SurfaceMetric::Angle}}};
+
+inline constexpr ChoiceNames<ConeRotation, 2> kConeRotations{
+    {{"fixed", ConeRotation::Fixed}, {"hashed", ConeRotation::Hashed}}};
+
+inline constexpr ChoiceNames<ArcWeightKind, 3> kWeights{
+    {{"distance", ArcWeightKind::Distance}, {"uniform", ArcWeightKind::Uniform}, {"feature", ArcWeightKind::Feature}}};
+
+inline constexpr ChoiceNames<Guidance, 3> kGuidances{
+    {{"none", Guidance::None}, {"curvature", Guidance::Curvature}, {"hits", Guidance::Hits}}};
+
+inline constexpr ChoiceNames<SolverChoice, 4> kSolvers{{{"auto", SolverChoice::Auto},
+                                                        {"cg", SolverChoice::Cg},
+                                                        {"jacobi", SolverChoice::Jacobi},
+                                                        {"eigen", SolverChoice::Eigen}}};
+
+inline constexpr ChoiceNames<Orientation, 3> kOrientations{
+    {{"keep", Orientation::Keep}, {"auto", Orientation::Auto}, {"flip", Orientation::Flip}}};
+
+inline constexpr ChoiceNames<Backend, 3> kBackends{
+    {{"auto", Backend::Auto}, {"vulkan", Backend::Vulkan}, {"reference", Backend::Reference}}};
+
+inline constexpr ChoiceNames<PictureOf, 3> kPictures{
+    {{"sdf", PictureOf::Sdf}, {"seeds", PictureOf::Seeds}, {"error", PictureOf::Error}}};
+
+/// "paper|balanced|quality"
+template <typename T, size_t N>
+[[nodiscard]] std::string joined(const ChoiceNames<T, N>& names) {
+  std::string text;
+  for (const auto& [name, value] : names) text += (text.empty() ? "" : "|") + std::string(name);
+  return text;
+}
+
+template <typename T, size_t N>
+[[nodiscard]] const char* nameOf(const ChoiceNames<T, N>& names, const T& value) {
+  for (const auto& [name, candidate] : names)
+    if (candidate == value) return name;
+  return "";
+}
+
+}  // namespace asdfvk

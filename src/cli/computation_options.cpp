@@ -1,0 +1,205 @@
+#include "cli/computation_options.h"
+
+#include <fmt/format.h>
+
+#include <limits>
+
+#include "cli/choice_names.h"
+#include "cli/option_adding.h"
+#include "cli/option_values.h"
+#include "core/error.h"
+
+namespace asdfvk {
+namespace {
+
+/// "10%", as --seeds takes it.
+std::string defaultSeeds() { return fmt::format("{}%", Options{}.seeds.share * 100); }
+
+/// "1%" or "0.01".
+double parseShare(const std::string& text) {
+  const bool isPercent = text.ends_with('%');
+  const double number = parseNumber(isPercent ? text.substr(0, text.size() - 1) : text);
+  return isPercent ? number / 100 : number;
+}
+
+/// "2s" or "2".
+double parseSeconds(const std::string& text) {
+  return parseNumber(text.ends_with('s') ? text.substr(0, text.size() - 1) : text);
+}
+
+void addRecipe(CLI::App& app, CommandLine& line) {
+  const auto apply = [&line](const std::string& name) {
+    for (const auto& [candidate, recipe] : kRecipes)
+      if (candidate == name) line.recipe = recipe;
+    if (nameOf(kRecipes, line.recipe) != name)
+      throw Error(ErrorKind::Usage, fmt::format("'{}' is not one of {}", name, joined(kRecipes)));
+    applyRecipe(line.recipe, line.options);
+  };
+  addValue(app, "--recipe", joined(kRecipes),
+           "Sets of the options below, which overrule it. paper: random seeds,\n"
+           "weights 1/distance, as the ASDF paper has it. balanced (default): seeds as\n"
+           "blue noise, weights by dihedral angle, guided by what the seeds' rays hit;\n"
+           "less error than paper on every mesh tried. quality: rays pooled over\n"
+           "neighbouring seeds; nearest to a function of endlessly many rays",
+           apply)
+      ->group("Seeds and rays");
+}
+
+void addSeeds(CLI::App& app, Options& options) {
+  const Options defaults;
+  const std::string rays = "Seeds and rays";
+  addValue(app, "--seeds", "N%|N|all", "Faces that cast rays: a share, a count or all; default " + defaultSeeds(),
+           [&](const std::string& text) { options.seeds = parseSeedCount(text); })
+      ->group(rays);
+  addValue(app, "--rng-seed", "N",
+           fmt::format("Seed of the random choice of seed faces; default {}", defaults.randomSeed),
+           [&](const std::string& text) {
+             options.randomSeed = parseWholeNumber(text, 0, std::numeric_limits<uint64_t>::max());
+           })
+      ->group(rays);
+  addChoice(
+      app, "--sampler",
+      [&options](const SamplerChoice& choice) { std::tie(options.sampler, options.isAdaptive) = choice; }, kSamplers,
+      "How seed faces are chosen; adaptive is blue noise in two passes, the second\n"
+      "denser where the first found values uncertain; default blue-noise")
+      ->group(rays);
+  addChoice(app, "--metric", options.metric, kMetrics,
+            "What blue-noise and farthest-point keep seeds apart in: steps from face to\n"
+            "face, lengths, or steps stretched by the dihedral angle; default angle")
+      ->group(rays);
+  addValue(app, "--max-error", "E%",
+           fmt::format("Add seeds in rounds until the estimated average error is below this share\n"
+                       "of the range; begins with {}% or --seeds",
+                       kFirstRoundShare * 100),
+           [&](const std::string& text) {
+             options.rounds.maxError = parseShare(text);
+             if (!(*options.rounds.maxError > 0 && *options.rounds.maxError < 1))
+               throw Error(ErrorKind::Usage, fmt::format("'{}' is not above 0% and below 100%", text));
+           })
+      ->group(rays);
+  addValue(app, "--time-budget", "SECONDS", "Add seeds as long as there is time, reading and writing not counted",
+           [&](const std::string& text) {
+             options.rounds.timeBudgetSeconds = parseSeconds(text);
+             if (!(*options.rounds.timeBudgetSeconds > 0))
+               throw Error(ErrorKind::Usage, fmt::format("'{}' is not a time above 0 s", text));
+           })
+      ->group(rays);
+  app.add_flag_callback(
+         "--no-estimate", [&options] { options.estimatesError = false; },
+         "Do not estimate the error, which takes about as long as interpolating")
+      ->group(rays);
+}
+
+void addRays(CLI::App& app, Options& options) {
+  const Options defaults;
+  const std::string rays = "Seeds and rays";
+  addValue(app, "--rays", "N", fmt::format("Rays per cone, 1 to {}; default {}", kMaxRayCount, defaults.cone.rayCount),
+           [&](const std::string& text) {
+             options.cone.rayCount = static_cast<uint32_t>(parseWholeNumber(text, 1, kMaxRayCount));
+           })
+      ->group(rays);
+  addValue(app, "--angle", "DEGREES",
+           fmt::format("Full opening angle of the cone, above 0 and below 180; default {}",
+                       defaults.cone.openingAngleDegrees),
+           [&](const std::string& text) {
+             options.cone.openingAngleDegrees = parseNumber(text);
+             if (!(options.cone.openingAngleDegrees > 0 && options.cone.openingAngleDegrees < 180))
+               throw Error(ErrorKind::Usage, fmt::format("'{}' is not above 0 and below 180", text));
+           })
+      ->group(rays);
+  addValue(app, "--false-hit-angle", "DEGREES",
+           fmt::format("A hit on a face whose normal is within this angle of the seed's is\n"
+                       "false, 0 to 180; default {}",
+                       defaults.cone.falseHitAngleDegrees),
+           [&](const std::string& text) {
+             options.cone.falseHitAngleDegrees = parseNumber(text);
+             if (!(options.cone.falseHitAngleDegrees >= 0 && options.cone.falseHitAngleDegrees <= 180))
+               throw Error(ErrorKind::Usage, fmt::format("'{}' is not from 0 to 180", text));
+           })
+      ->group(rays);
+  addValue(app, "--outlier-deviations", "S",
+           fmt::format("Lengths farther from the median than S standard deviations are left\n"
+                       "out, above 0; default {}",
+                       defaults.cone.outlierDeviations),
+           [&](const std::string& text) {
+             options.cone.outlierDeviations = parseNumber(text);
+             if (!(options.cone.outlierDeviations > 0))
+               throw Error(ErrorKind::Usage, fmt::format("'{}' is not above 0", text));
+           })
+      ->group(rays);
+  addChoice(app, "--orient", options.orientation, kOrientations,
+            "Closed components that look the wrong way: name them, turn them, or\n"
+            "turn every face; default keep")
+      ->group(rays);
+  addChoice(app, "--cone-rotation", options.cone.rotation, kConeRotations,
+            "Rays lie alike in the cones of neighbouring faces, or turned by a hash of the\n"
+            "face, so that neighbours err independently; default fixed")
+      ->group(rays);
+}
+
+void addInterpolation(CLI::App& app, Options& options) {
+  const Options defaults;
+  const std::string interpolation = "Interpolation";
+  addChoice(app, "--weights", options.interpolation.weights, kWeights,
+            "How neighbouring faces are tied: 1/distance, alike, or less the sharper the\n"
+            "edge between them, concave ones sooner; default feature")
+      ->group(interpolation);
+  addChoice(app, "--guidance", options.interpolation.guidance, kGuidances,
+            "Where the guidance field comes from: none (harmonic), minus the curvature,\n"
+            "or what the hits of the seeds' rays predict for the others; default hits")
+      ->group(interpolation);
+  addValue(app, "--curvature-factor", "K",
+           fmt::format("Factor of the curvature in its guidance; default {}", defaults.interpolation.curvatureFactor),
+           [&](const std::string& text) { options.interpolation.curvatureFactor = parseNumber(text); })
+      ->group(interpolation);
+  addValue(app, "--second-order", "BETA",
+           fmt::format("Weight of the second-order term, from 0, which also keeps slopes; default {}",
+                       defaults.interpolation.secondOrder),
+           [&](const std::string& text) {
+             options.interpolation.secondOrder = parseNumber(text);
+             if (!(options.interpolation.secondOrder >= 0))
+               throw Error(ErrorKind::Usage, fmt::format("'{}' is below 0", text));
+           })
+      ->group(interpolation);
+  addValue(app, "--pooling", "P",
+           fmt::format("How far values are moved to what the hits of several seeds predict, 0\n"
+                       "(traced values are kept) to 1; default {}",
+                       defaults.interpolation.pooling),
+           [&](const std::string& text) {
+             options.interpolation.pooling = parseNumber(text);
+             if (!(options.interpolation.pooling >= 0 && options.interpolation.pooling <= 1))
+               throw Error(ErrorKind::Usage, fmt::format("'{}' is not from 0 to 1", text));
+           })
+      ->group(interpolation);
+  addChoice(app, "--solver", options.solver, kSolvers,
+            "Conjugate gradient or Jacobi on the device, or Eigen on the CPU; default auto")
+      ->group(interpolation);
+  addValue(app, "--tolerance", "R",
+           fmt::format("Relative residual at which the solver stops, above 0 and below 1;\n"
+                       "default {}",
+                       defaults.solverOptions.tolerance),
+           [&](const std::string& text) {
+             options.solverOptions.tolerance = parseNumber(text);
+             if (!(options.solverOptions.tolerance > 0 && options.solverOptions.tolerance < 1))
+               throw Error(ErrorKind::Usage, fmt::format("'{}' is not above 0 and below 1", text));
+           })
+      ->group(interpolation);
+  addValue(app, "--max-iterations", "N",
+           fmt::format("Iterations after which the solver gives up; default {}", defaults.solverOptions.maxIterations),
+           [&](const std::string& text) {
+             options.solverOptions.maxIterations =
+                 static_cast<uint32_t>(parseWholeNumber(text, 1, std::numeric_limits<uint32_t>::max()));
+           })
+      ->group(interpolation);
+}
+
+}  // namespace
+
+void addComputation(CLI::App& app, CommandLine& line) {
+  addRecipe(app, line);  // First: its callback comes before the others'.
+  addSeeds(app, line.options);
+  addRays(app, line.options);
+  addInterpolation(app, line.options);
+}
+
+}  // namespace asdfvk

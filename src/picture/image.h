@@ -1,0 +1,43 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/check.h"
+
+namespace asdfvk {
+
+/// Red, green and blue in sRGB.
+using Rgb = std::array<uint8_t, 3>;
+inline constexpr Rgb kWhite{255, 255, 255}, kInk{34, 34, 34};
+
+/// Rows from the top, each from the left.
+class Image {
+ public:
+  /// All white. Sizes are at least 1.
+  Image(int width, int height) : width_(width), height_(height) {
+    ASDFVK_CHECK(width > 0 && height > 0);
+    pixels_.assign(static_cast<size_t>(width) * static_cast<size_t>(height), kWhite);
+  }
+
+  [[nodiscard]] int width() const { return width_; }
+  [[nodiscard]] int height() const { return height_; }
+  [[nodiscard]] bool holds(int x, int y) const { return 0 <= x && x < width_ && 0 <= y && y < height_; }
+  /// Precondition: holds(x, y).
+  [[nodiscard]] const Rgb& at(int x, int y) const { return pixels_[indexOf(x, y)]; }
+  [[nodiscard]] Rgb& at(int x, int y) { return pixels_[indexOf(x, y)]; }
+  [[nodiscard]] const std::vector<Rgb>& pixels() const { return pixels_; }
+  bool operator==(const Image&) const = default;
+
+ private:
+  [[nodiscard]] size_t indexOf(int x, int y) const {
+    return static_cast<size_t>(y) * static_cast<size_t>(width_) + static_cast<size_t>(x);
+  }
+
+  int width_, height_;
+  std::vector<Rgb> pixels_;
+};
+
+}  // namespace asdfvk

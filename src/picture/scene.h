@@ -1,0 +1,47 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "bvh/bvh.h"
+#include "mesh/face_geometry.h"
+#include "mesh/mesh.h"
+
+namespace asdfvk {
+
+/// Where a ray of the picture met the mesh. Normals are unit and look towards where the ray came from.
+struct SurfacePoint {
+  uint32_t face = 0;
+  Vec3d position;
+  Vec3d lifted;      ///< `position` on the smooth surface that `normal` tells of; where further rays start.
+  Vec3d faceNormal;  ///< Of the flat face.
+  Vec3d normal;      ///< Interpolated between the corners, see cornerNormals().
+};
+
+/// A mesh made ready for the picture's rays. Coordinates are normalised ones (see Normalization).
+class Scene {
+ public:
+  /// Precondition: every index of a face is below the vertex count. The mesh must outlive this.
+  explicit Scene(const Mesh& mesh);
+
+  /// The finite vertices of the faces that rays can meet, some of them more than once.
+  [[nodiscard]] std::vector<Vec3d> points() const;
+
+  /// The first point of the mesh on the whole line through `point` along the unit `direction`.
+  [[nodiscard]] std::optional<SurfacePoint> firstOnLine(const Vec3d& point, const Vec3d& direction) const;
+
+  /// Distance from origin, which lies in the mesh's box or near it, to the nearest face other than `skippedFace`;
+  /// infinite where the way is free.
+  [[nodiscard]] double freeDistance(const Vec3d& origin, const Vec3d& direction, uint32_t skippedFace) const;
+
+ private:
+  [[nodiscard]] SurfacePoint describe(uint32_t face, const Vec3d& position, const Vec3d& direction) const;
+
+  const Mesh& mesh_;
+  FaceGeometry geometry_;
+  Bvh bvh_;
+  std::vector<std::array<Vec3d, 3>> cornerNormals_;
+};
+
+}  // namespace asdfvk

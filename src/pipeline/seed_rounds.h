@@ -1,0 +1,55 @@
+#pragma once
+
+#include <optional>
+
+#include "core/stopwatch.h"
+#include "pipeline/error_estimate.h"
+#include "pipeline/interpolation.h"
+#include "pipeline/seed_choice.h"
+
+namespace asdfvk {
+
+/// Chooses seeds, casts their rays, interpolates and estimates the error, once or in rounds that keep what the rounds
+/// before have traced.
+class SeedRounds {
+ public:
+  /// What it refers to must outlive it. clock: runs since the beginning of the computation, for a time budget.
+  SeedRounds(const Mesh& mesh, const PreparedMesh& prepared, const Options& options, SeedTracing& tracing,
+             Interpolation& interpolation, const Stopwatch& clock, StageSeconds& seconds);
+
+  void run(const RunControl& control);
+
+  [[nodiscard]] const TracedSeeds& traced() const { return traced_; }  ///< All of them.
+  [[nodiscard]] const Interpolated& result() const { return result_; }
+  [[nodiscard]] const std::optional<EstimatedErrors>& errors() const { return errors_; }
+  [[nodiscard]] uint32_t roundCount() const { return roundCount_; }
+
+ private:
+  void addSeeds(uint64_t count, std::span<const double> weight, const RunControl& control);
+  void interpolate(const RunControl& control);
+  void estimate(const RunControl& control);
+  /// 0: it is enough.
+  [[nodiscard]] uint64_t furtherCount() const;
+  [[nodiscard]] uint64_t countForError() const;
+  [[nodiscard]] uint64_t countForTime() const;
+  [[nodiscard]] uint64_t leftCount() const;
+
+  const Mesh& mesh_;
+  const PreparedMesh& prepared_;
+  const Options& options_;
+  SeedTracing& tracing_;
+  Interpolation& interpolation_;
+  const Stopwatch& clock_;
+  StageSeconds& seconds_;
+  bool estimates_;
+
+  SeedChoice chosen_;
+  TracedSeeds placed_, probes_;
+  TracedSeeds traced_;  ///< Both.
+  Interpolated result_;
+  std::optional<EstimatedErrors> errors_;
+  double roundSeconds_ = 0;  ///< What the last round spent on other things than rays.
+  uint32_t roundCount_ = 0;
+};
+
+}  // namespace asdfvk
