@@ -20,7 +20,7 @@ struct Rule {
   BilateralOptions options;
 };
 // Finest first; bench/NOTES.md has the errors behind it.
-constexpr std::array<Rule, 3> kRules{{{60'000, {2, 2}}, {10'000, {2, 1}}, {0, {1, 1}}}};
+constexpr std::array<Rule, 3> kRules{{{90'000, {2, 2}}, {10'000, {2, 1}}, {0, {1, 1}}}};
 
 /// exp(-ring^2 / (2 (window / 2)^2))
 double ringWeight(uint32_t ring, uint32_t window) {

@@ -155,6 +155,15 @@ TEST_CASE("any number of threads gives the same bits") {
   for (size_t count : {2u, 4u}) CHECK(haveSameBits(onThreads(count), alone));
 }
 
+TEST_CASE("the finer the mesh, the more is smoothed, and a fine one most") {
+  CHECK(bilateralOptionsFor(0) == BilateralOptions{1, 1});
+  CHECK(bilateralOptionsFor(9'999) == BilateralOptions{1, 1});
+  CHECK(bilateralOptionsFor(10'000) == BilateralOptions{2, 1});
+  CHECK(bilateralOptionsFor(89'999) == BilateralOptions{2, 1});
+  CHECK(bilateralOptionsFor(90'000) == BilateralOptions{2, 2});
+  CHECK(bilateralOptionsFor(~uint64_t{0}) == BilateralOptions{2, 2});
+}
+
 TEST_CASE("a window out of range is refused with the range") {
   for (uint32_t window : {0u, 5u, ~0u}) {
     try {
