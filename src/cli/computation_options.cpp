@@ -27,6 +27,18 @@ double parseSeconds(const std::string& text) {
   return parseNumber(text.ends_with('s') ? text.substr(0, text.size() - 1) : text);
 }
 
+/// "off", "auto" or "2x1": rings x passes.
+SmoothingOptions parseSmoothing(const std::string& text) {
+  if (text == "off") return {};
+  if (text == "auto") return {.isOn = true, .window = {}};
+  const size_t cross = text.find('x');
+  if (cross == std::string::npos)
+    throw Error(ErrorKind::Usage, fmt::format("'{}' is not off, auto or RINGSxPASSES such as 2x1", text));
+  const BilateralOptions window{static_cast<uint32_t>(parseWholeNumber(text.substr(0, cross), 1, 4)),
+                                static_cast<uint32_t>(parseWholeNumber(text.substr(cross + 1), 1, 100))};
+  return {.isOn = true, .window = window};
+}
+
 void addRecipe(CLI::App& app, CommandLine& line) {
   const auto apply = [&line](const std::string& name) {
     for (const auto& [candidate, recipe] : kRecipes)
@@ -131,6 +143,11 @@ void addRays(CLI::App& app, Options& options) {
             "Closed components that look the wrong way: name them, turn them, or\n"
             "turn every face; default keep")
       ->group(rays);
+  addValue(app, "--smooth", "off|auto|RxP",
+           "Smooth the values bilaterally over R rings of faces, P times; auto: by the\n"
+           "number of faces. For --seeds all with --cone-rotation hashed; default off",
+           [&](const std::string& text) { options.smoothing = parseSmoothing(text); })
+      ->group(rays);
   addChoice(app, "--cone-rotation", options.cone.rotation, kConeRotations,
             "Rays lie alike in the cones of neighbouring faces, or turned by a hash of the\n"
             "face, so that neighbours err independently; default fixed")
@@ -158,6 +175,16 @@ void addInterpolation(CLI::App& app, Options& options) {
            [&](const std::string& text) {
              options.interpolation.secondOrder = parseNumber(text);
              if (!(options.interpolation.secondOrder >= 0))
+               throw Error(ErrorKind::Usage, fmt::format("'{}' is below 0", text));
+           })
+      ->group(interpolation);
+  addValue(app, "--antipodal", "W",
+           fmt::format("With guidance by hits: weight, from 0, of the seeds whose rays ended near a\n"
+                       "face; default {}",
+                       defaults.interpolation.reprojection.antipodal),
+           [&](const std::string& text) {
+             options.interpolation.reprojection.antipodal = parseNumber(text);
+             if (!(options.interpolation.reprojection.antipodal >= 0))
                throw Error(ErrorKind::Usage, fmt::format("'{}' is below 0", text));
            })
       ->group(interpolation);

@@ -1,5 +1,7 @@
 #include "cli/report_json.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -15,6 +17,12 @@ Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nul
 
 std::string oneLineOf(const Json& json) {
   return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+std::string toText(const SmoothingOptions& smoothing) {
+  if (!smoothing.isOn) return "off";
+  if (!smoothing.window) return "auto";
+  return fmt::format("{}x{}", smoothing.window->window, smoothing.window->passes);
 }
 
 template <typename T>
@@ -36,11 +44,13 @@ Json optionsOf(const CommandLine& line) {
           {"falseHitAngleDegrees", options.cone.falseHitAngleDegrees},
           {"outlierDeviations", options.cone.outlierDeviations},
           {"coneRotation", nameOf(kConeRotations, options.cone.rotation)},
+          {"smooth", toText(options.smoothing)},
           {"orient", nameOf(kOrientations, options.orientation)},
           {"weights", nameOf(kWeights, interpolation.weights)},
           {"guidance", nameOf(kGuidances, interpolation.guidance)},
           {"curvatureFactor", interpolation.curvatureFactor},
           {"secondOrder", interpolation.secondOrder},
+          {"antipodal", interpolation.reprojection.antipodal},
           {"pooling", interpolation.pooling},
           {"solver", nameOf(kSolvers, options.solver)},
           {"tolerance", options.solverOptions.tolerance},

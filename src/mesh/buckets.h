@@ -8,6 +8,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <span>
 #include <vector>
 
@@ -70,6 +71,19 @@ template <typename Entry, typename Emit>
     }
   });
   return buckets;
+}
+
+/// What stands in a bucket more than once is left once. Precondition: buckets are ascending.
+template <typename Entry>
+[[nodiscard]] Buckets<Entry> withoutRepeats(const Buckets<Entry>& buckets) {
+  Buckets<Entry> result;
+  result.offsets.push_back(0);
+  for (uint32_t bucket = 0; bucket < buckets.bucketCount(); ++bucket) {
+    const std::span<const Entry> entries = buckets[bucket];
+    std::unique_copy(entries.begin(), entries.end(), std::back_inserter(result.entries));
+    result.offsets.push_back(static_cast<uint32_t>(result.entries.size()));
+  }
+  return result;
 }
 
 }  // namespace asdfvk

@@ -7,6 +7,7 @@
 
 #include "pipeline/asdf.h"
 #include "poisson/poisson_solver.h"
+#include "post/vulkan_bilateral.h"
 #include "trace/cone_tracer.h"
 #include "trace/vulkan_cone_kernel.h"
 #include "vk/open_device.h"
@@ -32,6 +33,9 @@ class ComputeBackend {
                                                        bool writesHits = false);
   /// Throws Error{Device} for a solver that needs a device when there is none.
   [[nodiscard]] PoissonSolver& solver(SolverChoice choice);
+  /// smoothBilaterally(), on the device where there is one with memory of its own.
+  [[nodiscard]] std::vector<double> smooth(const DualGraph& graph, std::span<const double> values,
+                                           const BilateralOptions& options);
   /// Throws Error{Device} with what the validation layers said, if they are on and said something.
   void requireSilentValidation() const;
 
@@ -44,6 +48,7 @@ class ComputeBackend {
   std::unique_ptr<Device> device_;  ///< Null: the reference.
   std::map<ConeKernelRequest, std::unique_ptr<VulkanConeKernel>> kernels_;
   std::map<SolverChoice, std::unique_ptr<PoissonSolver>> solvers_;
+  std::unique_ptr<VulkanBilateralKernel> bilateralKernel_;
   std::string name_, deviceName_;
   std::vector<std::string> deviceLines_;
 };

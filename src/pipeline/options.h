@@ -6,6 +6,7 @@
 #include "cone/cone.h"
 #include "poisson/arc_weights.h"
 #include "poisson/poisson_solver.h"
+#include "post/bilateral.h"
 #include "reprojection/reprojection.h"
 #include "seeds/sampler.h"
 
@@ -46,6 +47,12 @@ struct InterpolationOptions {
   ReprojectionOptions reprojection;
 };
 
+/// Bilateral smoothing of the result, see post/bilateral.h. Meant for values traced at all faces.
+struct SmoothingOptions {
+  bool isOn = false;
+  std::optional<BilateralOptions> window;  ///< None: bilateralOptionsFor() the mesh.
+};
+
 /// When to stop adding seeds. Each round keeps all that was traced before.
 struct RoundOptions {
   std::optional<double> maxError;           ///< Until the estimate is at most this share of the range.
@@ -63,6 +70,7 @@ struct Options {
   bool isAdaptive = false;
   uint64_t randomSeed = 1;
   InterpolationOptions interpolation;
+  SmoothingOptions smoothing;
   bool estimatesError = true;
   RoundOptions rounds;
   SolverChoice solver = SolverChoice::Auto;

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "mesh/buckets.h"
 
@@ -11,11 +12,11 @@ namespace {
 
 constexpr float kNowhere = std::numeric_limits<float>::quiet_NaN();
 
+}  // namespace
+
 bool isValidHit(const TraceScene& scene, const Cone& cone, uint32_t seedFace, const ConeHit& hit) {
   return hit.face != kNoFace && !isFalseHit(cone, scene.geometry.normals[seedFace], scene.geometry.normals[hit.face]);
 }
-
-}  // namespace
 
 std::vector<LengthWindow> keptLengths(const TraceScene& scene, const Cone& cone, const TracedCones& traced) {
   const size_t rayCount = cone.directions.size();
@@ -36,13 +37,37 @@ GatheredHits::GatheredHits(const TraceScene& scene, const Cone& cone, const Trac
       cone_(cone),
       traced_(traced),
       windows_(windows),
-      raysPerCone_((cone.directions.size() + kHitRun - 1) / kHitRun * kHitRun) {}
+      raysPerCone_((cone.directions.size() + kHitRun - 1) / kHitRun * kHitRun),
+      raySolidAngle_(2 * std::numbers::pi * (1 - std::cos(cone.halfAngleRadians)) /
+                     static_cast<double>(cone.directions.size())) {}
+
+void GatheredHits::resize(size_t size) {
+  for (std::vector<float>* coordinate : {&x, &y, &z}) coordinate->resize(size, kNowhere);
+  for (std::vector<float>* number : {&nx, &ny, &nz, &spread, &kept}) number->resize(size, 0.0f);
+  face.resize(size, kNoFace);
+}
+
+size_t GatheredHits::append(std::span<const Point> points) {
+  const size_t coneCount = (points.size() + raysPerCone_ - 1) / raysPerCone_;
+  size_t at = size();
+  resize(at + coneCount * raysPerCone_);
+  for (const Point& point : points) {
+    x[at] = static_cast<float>(point.position.x);
+    y[at] = static_cast<float>(point.position.y);
+    z[at] = static_cast<float>(point.position.z);
+    nx[at] = static_cast<float>(point.normal.x);
+    ny[at] = static_cast<float>(point.normal.y);
+    nz[at] = static_cast<float>(point.normal.z);
+    spread[at] = static_cast<float>(point.area / raySolidAngle_);
+    kept[at] = 1;
+    face[at++] = point.face;
+  }
+  return coneCount;
+}
 
 void GatheredHits::gather(std::span<const uint32_t> cones) {
-  const size_t size = cones.size() * raysPerCone_;
-  for (std::vector<float>* coordinate : {&x, &y, &z}) coordinate->assign(size, kNowhere);
-  for (std::vector<float>* number : {&nx, &ny, &nz, &spread, &kept}) number->assign(size, 0.0f);
-  face.assign(size, kNoFace);
+  resize(0);
+  resize(cones.size() * raysPerCone_);
   const size_t rayCount = cone_.directions.size();
   for (size_t i = 0; i < cones.size(); ++i) {
     const uint32_t seedFace = traced_.seeds[cones[i]];

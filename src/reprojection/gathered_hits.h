@@ -16,6 +16,9 @@ struct TracedCones {
   std::span<const ConeHit> hits;    ///< #S x rays, as ConeResults::hits.
 };
 
+/// Neither a miss nor a false intersection.
+[[nodiscard]] bool isValidHit(const TraceScene& scene, const Cone& cone, uint32_t seedFace, const ConeHit& hit);
+
 /// Per cone: which lengths its outlier rule keeps, in normalised units. #S.
 [[nodiscard]] std::vector<LengthWindow> keptLengths(const TraceScene& scene, const Cone& cone,
                                                     const TracedCones& traced);
@@ -33,6 +36,16 @@ class GatheredHits {
   /// Replaces what was gathered by the hits of these cones, indices into the seeds.
   void gather(std::span<const uint32_t> cones);
 
+  /// A point of the surface as a hit that no outlier rule leaves out. Unit normal; area: of the surface that the point
+  /// stands for. In normalised units.
+  struct Point {
+    Vec3d position, normal;
+    double area = 0;
+    uint32_t face = 0;
+  };
+  /// Adds points as further cones, as many as they fill. Returns how many that are.
+  size_t append(std::span<const Point> points);
+
   [[nodiscard]] size_t raysPerCone() const { return raysPerCone_; }  ///< A multiple of kHitRun.
   [[nodiscard]] size_t size() const { return x.size(); }
 
@@ -43,6 +56,7 @@ class GatheredHits {
   std::vector<uint32_t> face;     ///< The face hit.
 
  private:
+  void resize(size_t size);
   void put(size_t at, const ConeHit& hit, uint32_t seedFace, const ConeFrame& frame, const Vec3d& local,
            const LengthWindow& window);
 
@@ -51,6 +65,7 @@ class GatheredHits {
   TracedCones traced_;
   std::span<const LengthWindow> windows_;
   size_t raysPerCone_;
+  double raySolidAngle_;  ///< What each ray of a cone stands for.
 };
 
 /// Keeps the area of a ray that grazes a face finite.

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/check.h"
+#include "reprojection/landed_seeds.h"
 #include "reprojection/reprojected_cone.h"
 
 namespace asdfvk {
@@ -21,10 +22,12 @@ constexpr double kLeastConeWeight = 1e-6;
 class CellReprojection {
  public:
   CellReprojection(const TraceScene& scene, const Cone& cone, const TracedCones& traced,
-                   std::span<const LengthWindow> windows, const SeedCells& cells, const ReprojectionOptions& options)
+                   std::span<const LengthWindow> windows, const SeedCells& cells, const Buckets<uint32_t>& landed,
+                   const ReprojectionOptions& options)
       : scene_(scene),
         traced_(traced),
         cells_(cells),
+        landed_(landed),
         options_(options),
         hits_(scene, cone, traced, windows),
         cone_(cone) {}
@@ -34,7 +37,8 @@ class CellReprojection {
         nearestCells(cells_, scene_.geometry, traced_.seeds, cell, options_.neighbourCount);
     hits_.gather(cones);
     const double reach = options_.reach * halfMeanDistance(cones);
-    coneWeights_.resize(cones.size());
+    const size_t antipodalCount = options_.antipodal > 0 ? hits_.append(antipodalPoints(cell)) : 0;
+    coneWeights_.assign(cones.size() + antipodalCount, static_cast<float>(options_.antipodal));
     for (const uint32_t face : cells_.faces[cell]) {
       if (scene_.geometry.isDegenerate(face)) continue;
       for (size_t i = 0; i < cones.size(); ++i) coneWeights_[i] = coneWeight(face, traced_.seeds[cones[i]], reach);
@@ -45,6 +49,19 @@ class CellReprojection {
   }
 
  private:
+  [[nodiscard]] std::vector<GatheredHits::Point> antipodalPoints(uint32_t cell) const {
+    const Normalization& normalization = scene_.bvh.normalization;
+    std::vector<GatheredHits::Point> points;
+    for (const uint32_t seed : landed_[cell]) {
+      const uint32_t face = traced_.seeds[seed];
+      double area = 0;
+      for (const uint32_t other : cells_.faces[seed]) area += scene_.geometry.areas[other];
+      points.push_back({normalization.toNormalized(scene_.geometry.barycentres[face]), scene_.geometry.normals[face],
+                        area * normalization.scale * normalization.scale, scene_.representatives[face]});
+    }
+    return points;
+  }
+
   /// Of the first cone's seed to the others', in the mesh's unit.
   [[nodiscard]] double halfMeanDistance(const std::vector<uint32_t>& cones) const {
     const Vec3d& centre = scene_.geometry.barycentres[traced_.seeds[cones[0]]];
@@ -64,6 +81,7 @@ class CellReprojection {
   const TraceScene& scene_;
   const TracedCones& traced_;
   const SeedCells& cells_;
+  const Buckets<uint32_t>& landed_;
   const ReprojectionOptions& options_;
   GatheredHits hits_;
   ReprojectedCone cone_;
@@ -77,9 +95,11 @@ std::vector<double> reprojectHits(const TraceScene& scene, const Cone& cone, con
   ASDFVK_CHECK_OP(traced.hits.size(), ==, traced.seeds.size() * cone.directions.size());
   std::vector<double> values(scene.geometry.areas.size(), kNoValue);
   const std::vector<LengthWindow> windows = keptLengths(scene, cone, traced);
+  const Buckets<uint32_t> landed =
+      options.antipodal > 0 ? landedSeeds(cone, scene, traced, windows, cells) : Buckets<uint32_t>{};
   tbb::parallel_for(tbb::blocked_range<uint32_t>(0, static_cast<uint32_t>(traced.seeds.size()), 64),
                     [&](const tbb::blocked_range<uint32_t>& range) {
-                      CellReprojection reprojection(scene, cone, traced, windows, cells, options);
+                      CellReprojection reprojection(scene, cone, traced, windows, cells, landed, options);
                       for (uint32_t cell = range.begin(); cell < range.end(); ++cell) reprojection.run(cell, values);
                     });
   return values;

@@ -22,6 +22,9 @@ struct ReprojectionOptions {
   /// How far a seed's word carries: at this many times half the mean distance to the neighbouring seeds it weighs
   /// exp(-1/2).
   double reach = 1.5;
+  /// Antipodal samples: how much the seeds count whose rays ended in a face's cell, since the face sees them along the
+  /// same rays, against a seed next to it. 0: not at all; little is gained by them (bench/NOTES.md).
+  double antipodal = 0;
 };
 
 /// The predicted shape diameter of each face, seeds included, in the mesh's unit: #F; kNoValue where a face is

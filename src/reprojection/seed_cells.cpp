@@ -23,18 +23,6 @@ std::vector<uint32_t> floodFromSeeds(const DualGraph& graph, std::span<const uin
   return cellOf;
 }
 
-/// Each bucket is ascending; what stands in it more than once is left once.
-Buckets<uint32_t> withoutRepeats(const Buckets<uint32_t>& buckets) {
-  Buckets<uint32_t> result;
-  result.offsets.push_back(0);
-  for (uint32_t bucket = 0; bucket < buckets.bucketCount(); ++bucket) {
-    const std::span<const uint32_t> entries = buckets[bucket];
-    std::unique_copy(entries.begin(), entries.end(), std::back_inserter(result.entries));
-    result.offsets.push_back(static_cast<uint32_t>(result.entries.size()));
-  }
-  return result;
-}
-
 }  // namespace
 
 SeedCells buildSeedCells(const DualGraph& graph, std::span<const uint32_t> seeds) {
