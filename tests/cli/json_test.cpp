@@ -72,12 +72,13 @@ TEST_CASE("--json is exactly one document with every promised key and its type")
   const Json& options = json.at("options");
   CHECK_EQ(options.at("seeds").get<std::string>(), "10%");
   const std::vector<std::pair<const char*, const char*>> names{
-      {"recipe", "balanced"}, {"sampler", "blue-noise"}, {"metric", "angle"}, {"coneRotation", "fixed"},
-      {"weights", "feature"}, {"guidance", "hits"},      {"orient", "keep"},  {"solver", "auto"}};
+      {"recipe", "balanced"},    {"sampler", "blue-noise"}, {"metric", "angle"},
+      {"coneRotation", "fixed"}, {"weights", "feature"},    {"guidance", "hits"},
+      {"orient", "keep"},        {"smooth", "off"},         {"solver", "auto"}};
   for (const auto& [key, name] : names) CHECK_EQ(options.at(key).get<std::string>(), name);
   for (const char* key : {"maxError", "timeBudgetSeconds"}) CHECK(options.at(key).is_null());
   CHECK_EQ(options.at("curvatureFactor").get<double>(), 1);
-  for (const char* key : {"secondOrder", "pooling"}) CHECK_EQ(options.at(key).get<double>(), 0);
+  for (const char* key : {"secondOrder", "pooling", "antipodal"}) CHECK_EQ(options.at(key).get<double>(), 0);
 }
 
 TEST_CASE("what was asked for is in the options of the document") {
@@ -100,6 +101,8 @@ TEST_CASE("what was asked for is in the options of the document") {
   CHECK_EQ(options.at("pooling").get<double>(), 0.5);
   CHECK_EQ(options.at("secondOrder").get<double>(), 0.1);
   CHECK_EQ(options.at("curvatureFactor").get<double>(), 3);
+  CHECK_EQ(options.at("antipodal").get<double>(), 0.5);
+  CHECK_EQ(options.at("smooth").get<std::string>(), "2x1");
   CHECK(json.at("roundCount").get<uint64_t>() >= 2);  // The adaptive sampler's.
 }
 

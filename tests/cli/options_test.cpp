@@ -106,6 +106,10 @@ TEST_CASE("every option reaches its field") {
                                              "-0.5",
                                              "--second-order",
                                              "0.25",
+                                             "--antipodal",
+                                             "0.125",
+                                             "--smooth",
+                                             "3x2",
                                              "--pooling",
                                              "0.3",
                                              "--tolerance",
@@ -148,6 +152,10 @@ TEST_CASE("every option reaches its field") {
   CHECK(line.options.interpolation.guidance == Guidance::Hits);
   CHECK_EQ(line.options.interpolation.curvatureFactor, -0.5);
   CHECK_EQ(line.options.interpolation.secondOrder, 0.25);
+  CHECK_EQ(line.options.interpolation.reprojection.antipodal, 0.125);
+  CHECK(line.options.smoothing.isOn);
+  CHECK_EQ(line.options.smoothing.window.value().window, 3);
+  CHECK_EQ(line.options.smoothing.window.value().passes, 2);
   CHECK_EQ(line.options.interpolation.pooling, 0.3);
   CHECK_EQ(line.options.solverOptions.tolerance, 1e-3);
   CHECK_EQ(line.options.solverOptions.maxIterations, 77);
@@ -243,6 +251,7 @@ TEST_CASE("values out of range are refused with the option's name") {
     CHECK_MESSAGE(message.starts_with(arguments[0] + ": '" + arguments[1] + "' is not "), message);
   }
   CHECK_EQ(refusal({"a.ply", "--second-order", "-1"}), "--second-order: '-1' is below 0");
+  CHECK_EQ(refusal({"a.ply", "--antipodal", "-1"}), "--antipodal: '-1' is below 0");
   CHECK_EQ(refusal({"a.ply", "--max-error", "soon"}), "--max-error: 'soon' is not a number");
   CHECK_EQ(refusal({"a.ply", "--max-error", "150%"}), "--max-error: '150%' is not above 0% and below 100%");
   CHECK_EQ(refusal({"a.ply", "--time-budget", "0s"}), "--time-budget: '0s' is not a time above 0 s");
@@ -323,6 +332,19 @@ TEST_CASE("errors and times are told with their sign or without") {
     CHECK_EQ(parseCommandLine({"a.ply", "--max-error", text}).options.rounds.maxError.value(), doctest::Approx(0.01));
   for (const char* text : {"2s", "2", "2.0s", "2e0"})
     CHECK_EQ(parseCommandLine({"a.ply", "--time-budget", text}).options.rounds.timeBudgetSeconds.value(), 2);
+}
+
+TEST_CASE("smoothing is off, by the number of faces, or as told") {
+  const auto smoothing = [](const char* text) {
+    return parseCommandLine({"a.ply", "--smooth", text}).options.smoothing;
+  };
+  CHECK_FALSE(parseCommandLine({"a.ply"}).options.smoothing.isOn);
+  CHECK_FALSE(smoothing("off").isOn);
+  CHECK(smoothing("auto").isOn);
+  CHECK_FALSE(smoothing("auto").window.has_value());
+  CHECK_EQ(smoothing("4x100").window.value().passes, 100);
+  for (const char* text : {"on", "2", "0x1", "5x1", "1x0", "1x101", "x", "2x", "1x1x1", "-1x1", ""})
+    CHECK_MESSAGE(refusal({"a.ply", "--smooth", text}).starts_with("--smooth: '"), text);
 }
 
 TEST_CASE("rounds begin with few seeds unless a number is told") {

@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "generate/shapes.h"
+#include "mesh/dual_graph.h"
 #include "pipeline/average_error.h"
 
 using namespace asdfvk;
@@ -72,6 +73,21 @@ TEST_CASE("pooling moves values in proportion") {
   }
   for (size_t face = 0; face < mesh.faces.size(); ++face)
     CHECK(at[1][face] == doctest::Approx(0.5 * (at[0][face] + at[2][face])).epsilon(1e-9));
+}
+
+TEST_CASE("smoothing comes last, and is that of the finished values") {
+  Mesh mesh = makeAnimal(2000).mesh;
+  const DualGraph graph = buildDualGraph(mesh);
+  const std::vector<double> rough = compute(mesh, {}).sdf;
+  Options options;
+  options.smoothing = {.isOn = true, .window = BilateralOptions{.window = 2, .passes = 1}};
+  const Result smooth = compute(mesh, options);
+  CHECK(smooth.sdf == smoothBilaterally(graph, rough, *options.smoothing.window));
+  CHECK(smooth.sdf != rough);
+  options.smoothing.window.reset();
+  CHECK(compute(mesh, options).sdf == smoothBilaterally(graph, rough, bilateralOptionsFor(mesh.faceCount())));
+  options.smoothing.isOn = false;
+  CHECK(compute(mesh, options).sdf == rough);
 }
 
 TEST_CASE("guidance by hits errs less than none") {
@@ -153,6 +169,9 @@ TEST_CASE("options of the interpolation and of rounds out of range are errors of
         }).find("guidance by hits") != std::string::npos);
   for (const double bad : {-1.0, std::nan("")})
     CHECK(refusal([&](Options& o) { o.interpolation.secondOrder = bad; }).find("second-order") != std::string::npos);
+  for (const double bad : {-1.0, std::nan("")})
+    CHECK(refusal([&](Options& o) { o.interpolation.reprojection.antipodal = bad; }).find("antipodal") !=
+          std::string::npos);
   for (const double bad : {-1.0, 0.0, std::nan("")}) {
     CHECK(refusal([&](Options& o) { o.rounds.maxError = bad; }).find("error") != std::string::npos);
     CHECK(refusal([&](Options& o) { o.rounds.timeBudgetSeconds = bad; }).find("time budget") != std::string::npos);

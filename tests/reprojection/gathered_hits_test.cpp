@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "generate/shapes.h"
@@ -136,4 +137,43 @@ TEST_CASE("a cone none of whose rays is valid keeps nothing") {
   const std::vector<LengthWindow> windows = keptLengths(seeded.scene(), seeded.cone, seeded.traced());
   REQUIRE(windows.size() == 1);
   CHECK_FALSE(windows[0].keeps(0.5));
+}
+
+TEST_CASE("appended points fill whole cones, count as kept, and stand for their area") {
+  const SeededMesh seeded(makeTorus(800).mesh, 3);
+  const TraceScene scene = seeded.scene();
+  const TracedCones traced = seeded.traced();
+  const std::vector<LengthWindow> windows = keptLengths(scene, seeded.cone, traced);
+  GatheredHits hits(scene, seeded.cone, traced, windows), before(scene, seeded.cone, traced, windows);
+  hits.gather(allCones(seeded));
+  before.gather(allCones(seeded));
+  const size_t stride = hits.raysPerCone();
+  std::vector<GatheredHits::Point> points;
+  for (size_t i = 0; i < stride + 1; ++i)
+    points.push_back({{0.1 * static_cast<double>(i), 0.5, -0.5}, {0, 0, 1}, 0.25, static_cast<uint32_t>(i)});
+  CHECK(hits.append({}) == 0);
+  CHECK(hits.size() == before.size());
+  REQUIRE(hits.append(points) == 2);
+  REQUIRE(hits.size() == before.size() + 2 * stride);
+  CHECK(std::equal(before.face.begin(), before.face.end(), hits.face.begin()));
+  // 30 rays share a cone of half a half-space: pi steradians.
+  const double raySolidAngle = std::numbers::pi / 30;
+  for (size_t i = 0; i < 2 * stride; ++i) {
+    const size_t at = before.size() + i;
+    if (i >= points.size()) {
+      CHECK(std::isnan(hits.x[at]));
+      CHECK(hits.kept[at] == 0);
+      CHECK(hits.face[at] == kNoFace);
+      continue;
+    }
+    CHECK(hits.x[at] == static_cast<float>(points[i].position.x));
+    CHECK(hits.y[at] == 0.5f);
+    CHECK(hits.z[at] == -0.5f);
+    CHECK(hits.nz[at] == 1);
+    CHECK(hits.kept[at] == 1);
+    CHECK(hits.face[at] == i);
+    CHECK(hits.spread[at] == doctest::Approx(0.25 / raySolidAngle));
+  }
+  hits.gather(allCones(seeded));
+  CHECK(hits.size() == before.size());
 }

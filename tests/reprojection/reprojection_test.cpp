@@ -136,11 +136,27 @@ TEST_CASE("a prediction is nearer to what a face's own rays would say than its s
 
 TEST_CASE("one thread and several give the same bits") {
   const SeededMesh seeded(makeAnimal(3000).mesh, 300);
-  const std::vector<double> many = predict(seeded);
-  for (const size_t threadCount : {size_t{1}, size_t{2}}) {
-    const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threadCount);
-    CHECK(sameBits(predict(seeded), many));
+  for (const ReprojectionOptions& options : {ReprojectionOptions{}, ReprojectionOptions{.antipodal = 0.5}}) {
+    const std::vector<double> many = predict(seeded, options);
+    for (const size_t threadCount : {size_t{1}, size_t{2}}) {
+      const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threadCount);
+      CHECK(sameBits(predict(seeded, options), many));
+    }
   }
+}
+
+TEST_CASE("the seeds whose rays ended near a face have a say if they are asked, a right one") {
+  const SeededMesh seeded(makeSphere(2000).mesh, 100);
+  const std::vector<double> without = predict(seeded), with = predict(seeded, {.antipodal = 1});
+  CHECK_FALSE(sameBits(with, without));
+  const double exact = coneValueOf(seeded.cone, chordOfUnitSphere);
+  CHECK(differenceTo(
+            seeded, with, [&](uint32_t) { return exact; }, kAnyFace)
+            .mean < 0.03);
+  // Little of it moves little.
+  const std::vector<double> hardly = predict(seeded, {.antipodal = 1e-6});
+  for (size_t face = 0; face < hardly.size(); ++face)
+    CHECK(hardly[face] == doctest::Approx(without[face]).epsilon(0.01));
 }
 
 TEST_CASE("scaling and shifting a mesh scales its predictions and nothing else") {
