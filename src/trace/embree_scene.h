@@ -16,11 +16,12 @@ struct EmbreeRelease {
 using EmbreeDevice = std::unique_ptr<std::remove_pointer_t<RTCDevice>, EmbreeRelease>;
 
 /// Embree's own hierarchy over the triangle slots of a scene's: primitive i is the triangle of slot i, in normalised
-/// coordinates and float32. Built on all threads, in robust mode, so that no ray falls between two triangles.
+/// coordinates and float32. Built on all threads, to the same bits on any number of them, in robust mode, so that no
+/// ray falls between two triangles.
 class EmbreeScene {
  public:
-  /// filter: called on each triangle that a ray meets, see RTCFilterFunctionN; null: all count. Throws Error{Device}.
-  explicit EmbreeScene(const TraceScene& scene, RTCFilterFunctionN filter = nullptr);
+  /// Throws Error{Device}.
+  explicit EmbreeScene(const TraceScene& scene);
 
   [[nodiscard]] RTCScene get() const { return scene_.get(); }
 
