@@ -190,10 +190,11 @@ void addOutput(CLI::App& app, CommandLine& line) {
 
 void addDevice(CLI::App& app, CommandLine& line) {
   const std::string device = "Device";
-  addChoice<Backend>(app, "--backend", line.session.backend,
-                     {{"auto", Backend::Auto}, {"vulkan", Backend::Vulkan}, {"reference", Backend::Reference}},
-                     "Vulkan, the double-precision reference on the CPU, or Vulkan where\n"
-                     "there is a device; default auto")
+  addChoice<Backend>(
+      app, "--backend", line.session.backend,
+      {{"auto", Backend::Auto}, {"vulkan", Backend::Vulkan}, {"cpu", Backend::Cpu}, {"reference", Backend::Reference}},
+      "Vulkan, Embree on the CPU, the double-precision reference on the CPU,\n"
+      "or the fastest of them here; default auto")
       ->group(device);
   addValue(app, "--device", "N|NAME", "Device by its number in --list-devices or by a part of its name",
            [&](const std::string& text) { line.session.device = text; })
@@ -215,13 +216,16 @@ void requireAgreement(const CommandLine& line) {
   if (std::count(line.meshes.begin(), line.meshes.end(), "") > 0) refuse("the name of a mesh is empty");
   if (line.output == "-" && line.json)
     refuse("-o - and --json both want standard output; give -o a file or drop --json");
-  if (line.session.backend == Backend::Reference && line.session.requireGpu)
-    refuse("--require-gpu and --backend reference contradict each other; drop one");
-  if (line.session.backend == Backend::Reference && !line.session.device.empty())
-    refuse("--device and --backend reference contradict each other; drop one");
+  const bool isCpu = line.session.backend == Backend::Cpu || line.session.backend == Backend::Reference;
+  if (isCpu && line.session.requireGpu)
+    refuse("--require-gpu contradicts --backend cpu and reference, which run on the CPU; drop one");
+  if (isCpu && !line.session.device.empty())
+    refuse("--device chooses a Vulkan device, which --backend cpu and reference do without; drop one");
   const SolverChoice solver = line.options.solver;
-  if (line.session.backend == Backend::Reference && (solver == SolverChoice::Cg || solver == SolverChoice::Jacobi))
-    refuse("--solver cg and jacobi run on a Vulkan device, which --backend reference does without; use --solver eigen");
+  if (isCpu && (solver == SolverChoice::Cg || solver == SolverChoice::Jacobi))
+    refuse(
+        "--solver cg and jacobi run on a Vulkan device, which --backend cpu and reference do without; use --solver "
+        "eigen");
 }
 
 }  // namespace

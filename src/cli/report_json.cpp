@@ -46,6 +46,8 @@ const char* nameOf(Backend backend) {
   switch (backend) {
     case Backend::Vulkan:
       return "vulkan";
+    case Backend::Cpu:
+      return "cpu";
     case Backend::Reference:
       return "reference";
     case Backend::Auto:

@@ -16,8 +16,9 @@
 namespace asdfvk {
 
 enum class Backend {
-  Auto,       ///< Vulkan where a device is usable, else the reference, with the reason in the report.
+  Auto,       ///< The fastest there is: a GPU, else Embree, else a CPU device of Vulkan, else the reference.
   Vulkan,     ///< Vulkan or Error{Device}.
+  Cpu,        ///< Embree on the CPU's cores, or Error{Device} where it was not built in.
   Reference,  ///< Double precision on the CPU.
 };
 
@@ -40,7 +41,7 @@ struct SeedCount {
 struct SessionOptions {
   Backend backend = Backend::Auto;
   std::string device;       ///< As DeviceRequest::selector: an index of listDevices() or a part of a name.
-  bool requireGpu = false;  ///< Refuse CPU devices such as lavapipe, and the reference.
+  bool requireGpu = false;  ///< Refuse CPU devices such as lavapipe, Embree and the reference.
 };
 
 struct Options {
@@ -105,9 +106,9 @@ struct Report {
   uint64_t redoneConeCount = 0;
   uint64_t noValueCount = 0;  ///< Input faces.
   uint64_t randomSeed = 0;
-  std::string backend;     ///< "vulkan" or "reference".
+  std::string backend;     ///< "vulkan", "cpu" or "reference".
   std::string device;      ///< Device and driver that ran, or the CPU.
-  bool runsOnCpu = false;  ///< The CPU's cores do the tracing: the reference, or a CPU device.
+  bool runsOnCpu = false;  ///< The CPU's cores do the tracing: the reference, Embree, or a CPU device.
   StageSeconds stageSeconds;
   double raysPerSecond = 0;
   SolverReport solver;  ///< name "none" when every face was a seed.
@@ -140,7 +141,8 @@ class Session {
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
-  /// The device that will run, or why the reference does; then a line per further device with why it does not.
+  /// The device that will run, or why Embree or the reference does; then a line per further device with why it does
+  /// not.
   [[nodiscard]] const std::vector<std::string>& deviceLines() const;
 
   /// Throws Error{Input} for a mesh nothing can be computed on (no face, index out of range), Error{Usage},

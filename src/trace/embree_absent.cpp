@@ -1,4 +1,4 @@
-// Built in place of the embree_* files where there is no Embree.
+// Built in place of the other embree_* files where there is no Embree.
 #include "core/error.h"
 #include "trace/embree_tracer.h"
 
@@ -6,11 +6,17 @@ namespace asdfvk {
 
 bool hasEmbree() { return false; }
 
+void requireEmbree() {
+  throw Error(ErrorKind::Device,
+              "this program was built without Embree; install libembree-dev and build it again, or use another "
+              "--backend");
+}
+
 std::string embreeName() { return {}; }
 
 std::unique_ptr<ConeTracer> makeEmbreeTracer(const TraceScene&, const Cone&) {
-  throw Error(ErrorKind::Device,
-              "this build has no Embree; install libembree-dev and build again, or use --backend vulkan or reference");
+  requireEmbree();
+  return {};
 }
 
 }  // namespace asdfvk

@@ -127,6 +127,8 @@ class EmbreeTracer final : public ConeTracer {
 
 bool hasEmbree() { return true; }
 
+void requireEmbree() {}
+
 std::string embreeName() {
   const EmbreeDevice device(rtcNewDevice(nullptr));
   const auto part = [&](RTCDeviceProperty property) { return rtcGetDeviceProperty(device.get(), property); };

@@ -10,6 +10,9 @@ namespace asdfvk {
 /// Whether this build has Embree, which is optional.
 [[nodiscard]] bool hasEmbree();
 
+/// Throws Error{Device} with the remedy where there is none.
+void requireEmbree();
+
 /// "Embree 3.13.5", the library that is loaded; empty without Embree.
 [[nodiscard]] std::string embreeName();
 
