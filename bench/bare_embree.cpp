@@ -13,8 +13,9 @@ namespace {
 
 class BareEmbreeScene final : public BareEmbree {
  public:
-  BareEmbreeScene(const TraceScene& scene, const Cone& cone)
+  BareEmbreeScene(const TraceScene& scene, const Cone& cone, BareMode mode)
       : scene_(scene), cone_(cone), device_(rtcNewDevice(nullptr)), embree_(rtcNewScene(device_)) {
+    if (mode == BareMode::Robust) rtcSetSceneFlags(embree_, RTC_SCENE_FLAG_ROBUST);
     RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
     auto* points = static_cast<Vec3f*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                                                sizeof(Vec3f), scene.mesh.vertices.size()));
@@ -75,8 +76,8 @@ class BareEmbreeScene final : public BareEmbree {
 
 }  // namespace
 
-std::unique_ptr<BareEmbree> makeBareEmbree(const TraceScene& scene, const Cone& cone) {
-  return std::make_unique<BareEmbreeScene>(scene, cone);
+std::unique_ptr<BareEmbree> makeBareEmbree(const TraceScene& scene, const Cone& cone, BareMode mode) {
+  return std::make_unique<BareEmbreeScene>(scene, cone, mode);
 }
 
 }  // namespace asdfvk::bench

@@ -17,8 +17,12 @@ class BareEmbree {
   [[nodiscard]] virtual double trace(std::span<const uint32_t> seedFaces) const = 0;
 };
 
-/// Builds Embree's scene: medium quality, not in robust mode, which is the fastest. Null where this build has no
-/// Embree.
-[[nodiscard]] std::unique_ptr<BareEmbree> makeBareEmbree(const TraceScene& scene, const Cone& cone);
+enum class BareMode {
+  Fastest,  ///< A ray may fall between two triangles.
+  Robust,   ///< As our own tracer needs it.
+};
+
+/// Builds Embree's scene, at medium quality. Null where this build has no Embree.
+[[nodiscard]] std::unique_ptr<BareEmbree> makeBareEmbree(const TraceScene& scene, const Cone& cone, BareMode mode);
 
 }  // namespace asdfvk::bench

@@ -3,6 +3,6 @@
 
 namespace asdfvk::bench {
 
-std::unique_ptr<BareEmbree> makeBareEmbree(const TraceScene&, const Cone&) { return {}; }
+std::unique_ptr<BareEmbree> makeBareEmbree(const TraceScene&, const Cone&, BareMode) { return {}; }
 
 }  // namespace asdfvk::bench

@@ -31,7 +31,8 @@ class Contest {
         prepared_(prepareMesh(mesh, Orientation::Keep)),
         cone_(makeCone({})),
         bvh_(buildBvh(mesh, prepared_.geometry, prepared_.representatives)),
-        bareEmbree_(makeBareEmbree(scene(), cone_)) {
+        bareEmbree_(makeBareEmbree(scene(), cone_, BareMode::Fastest)),
+        robustEmbree_(makeBareEmbree(scene(), cone_, BareMode::Robust)) {
     for (const std::string& name : backendNames()) {
       const SessionOptions options = sessionOptionsOf(name, request.device);
       backends_[name] = std::make_unique<ComputeBackend>(options);
@@ -49,7 +50,7 @@ class Contest {
     comparison.build.push_back(ours.seconds());
     if (!bareEmbree_) return;
     const Stopwatch embrees;
-    static_cast<void>(makeBareEmbree(scene(), cone_));
+    static_cast<void>(makeBareEmbree(scene(), cone_, BareMode::Fastest));
     comparison.embreeBuild.push_back(embrees.seconds());
   }
 
@@ -71,6 +72,9 @@ class Contest {
     const Stopwatch bare;
     static_cast<void>(bareEmbree_->trace(seeds));
     comparison.trace[kBareEmbree].push_back(bare.seconds());
+    const Stopwatch robust;
+    static_cast<void>(robustEmbree_->trace(seeds));
+    comparison.trace[kRobustEmbree].push_back(robust.seconds());
   }
 
  private:
@@ -89,7 +93,7 @@ class Contest {
   PreparedMesh prepared_;
   Cone cone_;
   Bvh bvh_;
-  std::unique_ptr<BareEmbree> bareEmbree_;
+  std::unique_ptr<BareEmbree> bareEmbree_, robustEmbree_;
   std::map<std::string, std::unique_ptr<ComputeBackend>> backends_;
   std::map<std::string, std::unique_ptr<ConeTracer>> tracers_;
   std::map<std::string, std::unique_ptr<Session>> sessions_;

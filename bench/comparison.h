@@ -25,13 +25,13 @@ using Seconds = std::vector<double>;
 /// b over a, round by round.
 [[nodiscard]] Spread ratioOf(const Seconds& b, const Seconds& a);
 
-inline const std::string kBareEmbree = "bare Embree";
+inline const std::string kBareEmbree = "bare Embree", kRobustEmbree = "bare, robust";
 
 /// Of one choice of seeds.
 struct SeedComparison {
   std::string seeds;
   uint64_t rayCount = 0;
-  std::map<std::string, Seconds> trace;    ///< By backend, and kBareEmbree; the same rays.
+  std::map<std::string, Seconds> trace;    ///< By backend, and of Embree alone; the same rays.
   std::map<std::string, Seconds> compute;  ///< By backend: geometry, hierarchy, trace and solve.
 };
 

@@ -37,7 +37,7 @@ std::string cell(const std::optional<Spread>& spread, int decimals) {
 
 std::string row(const std::string& seeds, const std::string& name, const std::string& rate, const std::string& overBare,
                 const std::string& compute, const std::string& overCgal) {
-  return fmt::format("| {:<5} | {:<11} | {:>12} | {:>13} | {:>13} | {:>14} |\n", seeds, name, rate, overBare, compute,
+  return fmt::format("| {:<5} | {:<12} | {:>12} | {:>13} | {:>13} | {:>14} |\n", seeds, name, rate, overBare, compute,
                      overCgal);
 }
 
@@ -85,7 +85,7 @@ std::string comparisonTable(const Comparison& comparison, const Machine& machine
   for (const auto& [name, device] : comparison.devices) text += fmt::format("{}: {}\n", name, device);
   text += "median ± median absolute deviation; 'compute' is geometry, hierarchy, trace and solve\n\n";
   text += row("seeds", "tracer", "Mrays/s", "/ bare Embree", "compute, s", "CGAL / compute");
-  text += "|-------|-------------|-------------:|--------------:|--------------:|---------------:|\n";
+  text += "|-------|--------------|-------------:|--------------:|--------------:|---------------:|\n";
   for (const SeedComparison& seeds : comparison.seeds)
     for (const auto& [name, times] : seeds.trace) {
       const auto compute = seeds.compute.find(name);
