@@ -89,7 +89,7 @@ TEST_CASE("Embree obeys every option of the cone") {
 
 TEST_CASE("cones of nearly 180 degrees do not end at their own face") {
   if (!isEmbreeThere()) return;
-  const ConeOptions wide{.openingAngleDegrees = 179.9999};
+  const ConeOptions wide{.rayCount = 1024, .openingAngleDegrees = 179.9999};
   const TracedMesh traced(shapes::icosphere(3));
   const TraceResults results = traceByEmbree(traced, wide, Wanted::ValuesAndHits);
   for (size_t i = 0; i < results.hits.size(); ++i) REQUIRE(results.hits[i].face != i / wide.rayCount);
@@ -120,8 +120,9 @@ TEST_CASE("details too small for float32 are the reference's to the bit, and cou
   Mesh flat = generateShape("slab", 500).mesh;  // its faces are large, its thickness is not
   for (Vec3d& v : flat.vertices) v.z *= 1e-5;
   const TracedMesh flattened(flat);
-  CHECK(differingCount(traceByEmbree(flattened).values, traceByReference(flattened, {}, Wanted::Values).values, 1e-9) ==
-        0);
+  const TraceResults thin = traceByEmbree(flattened);
+  CHECK(thin.statistics.redoneConeCount > thin.values.size() / 2);
+  CHECK(differingCount(thin.values, traceByReference(flattened, {}, Wanted::Values).values, 1e-9) == 0);
 }
 
 TEST_CASE("a wall nearer than rays begin is not passed through: the reference traces those cones") {
