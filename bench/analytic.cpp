@@ -114,7 +114,7 @@ int main(int argc, char** argv) {
   CLI::App app("Relative errors against exact values on spheres, slabs and cylinders of growing resolution.",
                "asdfvk-bench-analytic");
   Arguments arguments;
-  app.add_option("--backend", arguments.backend, "vulkan or reference")->capture_default_str();
+  app.add_option("--backend", arguments.backend, "vulkan, cpu or reference")->capture_default_str();
   app.add_option("--device", arguments.device, "As asdf-vk takes it");
   app.add_option("--faces", arguments.faceCounts, "Resolutions, rising")->delimiter(',')->capture_default_str();
   app.add_option("--seeds", arguments.seedCount, "Faces to trace of each mesh")->capture_default_str();

@@ -24,7 +24,8 @@ FileRun runFile(Session& session, const std::filesystem::path& path, const Optio
 SessionOptions sessionOptionsOf(const std::string& backend, const std::string& device) {
   if (backend == "reference") return {.backend = Backend::Reference, .device = {}, .requireGpu = false};
   if (backend == "vulkan") return {.backend = Backend::Vulkan, .device = device, .requireGpu = false};
-  throw Error(ErrorKind::Usage, fmt::format("'{}' is not a backend; give reference or vulkan", backend));
+  if (backend == "cpu") return {.backend = Backend::Cpu, .device = {}, .requireGpu = false};
+  throw Error(ErrorKind::Usage, fmt::format("'{}' is not a backend; give vulkan, cpu or reference", backend));
 }
 
 }  // namespace asdfvk::bench

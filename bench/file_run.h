@@ -15,7 +15,7 @@ struct FileRun {
 [[nodiscard]] FileRun runFile(Session& session, const std::filesystem::path& mesh, const Options& options,
                               const std::filesystem::path& output, const RunControl& control);
 
-/// Throws Error{Usage} for a name other than "vulkan" and "reference". `device` is for Vulkan.
+/// Throws Error{Usage} for a name other than "vulkan", "cpu" and "reference". `device` is for Vulkan.
 [[nodiscard]] SessionOptions sessionOptionsOf(const std::string& backend, const std::string& device);
 
 }  // namespace asdfvk::bench

@@ -85,7 +85,7 @@ int main(int argc, char** argv) {
   std::string backend = "vulkan", device;
   uint32_t roundCount = 3;
   app.add_option("meshes", meshes, "Meshes")->option_text("MESH...")->required();
-  app.add_option("--backend", backend, "vulkan or reference")->capture_default_str();
+  app.add_option("--backend", backend, "vulkan, cpu or reference")->capture_default_str();
   app.add_option("--device", device, "As asdf-vk takes it");
   app.add_option("--runs", roundCount, "Random seeds; the full trace is repeated with each")
       ->check(CLI::Range(1u, 1000u))

@@ -31,7 +31,7 @@ void bind(CLI::App& app, Arguments& arguments) {
       ->check(CLI::Range(1u, 1000u))
       ->capture_default_str();
   app.add_option("--seeds", arguments.request.seeds, "Shares, counts or all")->delimiter(',')->capture_default_str();
-  app.add_option("--backends", arguments.request.backends, "reference, vulkan or both")
+  app.add_option("--backends", arguments.request.backends, "Some of reference, vulkan and cpu")
       ->delimiter(',')
       ->capture_default_str();
   app.add_option("--device", arguments.request.device, "As asdf-vk takes it");

@@ -44,8 +44,8 @@ inline constexpr ChoiceNames<SolverChoice, 4> kSolvers{{{"auto", SolverChoice::A
 inline constexpr ChoiceNames<Orientation, 3> kOrientations{
     {{"keep", Orientation::Keep}, {"auto", Orientation::Auto}, {"flip", Orientation::Flip}}};
 
-inline constexpr ChoiceNames<Backend, 3> kBackends{
-    {{"auto", Backend::Auto}, {"vulkan", Backend::Vulkan}, {"reference", Backend::Reference}}};
+inline constexpr ChoiceNames<Backend, 4> kBackends{
+    {{"auto", Backend::Auto}, {"vulkan", Backend::Vulkan}, {"cpu", Backend::Cpu}, {"reference", Backend::Reference}}};
 
 inline constexpr ChoiceNames<PictureOf, 3> kPictures{
     {{"sdf", PictureOf::Sdf}, {"seeds", PictureOf::Seeds}, {"error", PictureOf::Error}}};

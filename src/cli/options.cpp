@@ -121,8 +121,8 @@ void addPicture(CLI::App& app, CommandLine& line) {
 void addDevice(CLI::App& app, CommandLine& line) {
   const std::string device = "Device";
   addChoice(app, "--backend", line.session.backend, kBackends,
-            "Vulkan, the double-precision reference on the CPU, or Vulkan where\n"
-            "there is a device; default auto")
+            "Vulkan, Embree on the CPU, the double-precision reference on the CPU,\n"
+            "or the fastest of them here; default auto")
       ->group(device);
   addValue(app, "--device", "N|NAME", "Device by its number in --list-devices or by a part of its name",
            [&](const std::string& text) { line.session.device = text; })
@@ -148,17 +148,20 @@ void requireAgreement(const CommandLine& line) {
     refuse("--picture takes one mesh; name one mesh, or run them one by one");
   if (line.picture == "-" && (line.output == "-" || line.json))
     refuse("--picture - wants standard output for itself; give it a file, or drop --json and -o -");
-  if (line.session.backend == Backend::Reference && line.session.requireGpu)
-    refuse("--require-gpu and --backend reference contradict each other; drop one");
-  if (line.session.backend == Backend::Reference && !line.session.device.empty())
-    refuse("--device and --backend reference contradict each other; drop one");
+  const bool isCpu = line.session.backend == Backend::Cpu || line.session.backend == Backend::Reference;
+  if (isCpu && line.session.requireGpu)
+    refuse("--require-gpu contradicts --backend cpu and reference, which run on the CPU; drop one");
+  if (isCpu && !line.session.device.empty())
+    refuse("--device chooses a Vulkan device, which --backend cpu and reference do without; drop one");
   const bool estimates = line.options.estimatesError || line.options.rounds.maxError;
   if (line.pictureOf == PictureOf::Error && (!estimates || line.options.seeds.kind == SeedCount::Kind::All))
     refuse(
         "--picture-of error shows what the estimate expects; drop --no-estimate, and --seeds all, which has no error");
   const SolverChoice solver = line.options.solver;
-  if (line.session.backend == Backend::Reference && (solver == SolverChoice::Cg || solver == SolverChoice::Jacobi))
-    refuse("--solver cg and jacobi run on a Vulkan device, which --backend reference does without; use --solver eigen");
+  if (isCpu && (solver == SolverChoice::Cg || solver == SolverChoice::Jacobi))
+    refuse(
+        "--solver cg and jacobi run on a Vulkan device, which --backend cpu and reference do without; use --solver "
+        "eigen");
 }
 
 }  // namespace

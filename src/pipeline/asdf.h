@@ -14,15 +14,16 @@
 namespace asdfvk {
 
 enum class Backend {
-  Auto,       ///< Vulkan where a device is usable, else the reference, with the reason in the report.
+  Auto,       ///< The fastest there is: a GPU, else Embree, else a CPU device of Vulkan, else the reference.
   Vulkan,     ///< Vulkan or Error{Device}.
+  Cpu,        ///< Embree on the CPU's cores, or Error{Device} where it was not built in.
   Reference,  ///< Double precision on the CPU.
 };
 
 struct SessionOptions {
   Backend backend = Backend::Auto;
   std::string device;       ///< As DeviceRequest::selector: an index of listDevices() or a part of a name.
-  bool requireGpu = false;  ///< Refuse CPU devices such as lavapipe, and the reference.
+  bool requireGpu = false;  ///< Refuse CPU devices such as lavapipe, Embree and the reference.
 };
 
 struct Result {
@@ -52,7 +53,8 @@ class Session {
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
-  /// The device that will run, or why the reference does; then a line per further device with why it does not.
+  /// The device that will run, or why Embree or the reference does; then a line per further device with why it does
+  /// not.
   [[nodiscard]] const std::vector<std::string>& deviceLines() const;
 
   /// Throws Error{Input} for a mesh nothing can be computed on (no face, index out of range), Error{Usage},

@@ -1,34 +1,59 @@
 #include "pipeline/compute_backend.h"
 
 #include <fmt/format.h>
+#include <tbb/global_control.h>
 
-#include <thread>
 #include <utility>
 
 #include "core/counted.h"
 #include "core/error.h"
 #include "poisson/vulkan_cg_solver.h"
 #include "poisson/vulkan_jacobi_solver.h"
+#include "trace/embree_tracer.h"
 #include "trace/reference_tracer.h"
 #include "trace/vulkan_tracer.h"
 
 namespace asdfvk {
+namespace {
+
+/// As many as this process uses at once.
+size_t cpuThreadCount() { return tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism); }
+
+}  // namespace
 
 ComputeBackend::ComputeBackend(const SessionOptions& options) {
+  const bool isCpu = options.backend == Backend::Cpu || options.backend == Backend::Reference;
+  if (isCpu && options.requireGpu)
+    throw Error(ErrorKind::Device, "a GPU was required and this backend runs on the CPU; drop one of the two");
   if (options.backend == Backend::Reference) {
-    if (options.requireGpu)
-      throw Error(ErrorKind::Device, "a GPU was required and the reference runs on the CPU; drop one of the two");
     useReference("as asked for");
-    return;
+  } else if (options.backend == Backend::Cpu) {
+    requireEmbree();
+    useEmbree("as asked for");
+  } else if (options.backend == Backend::Vulkan || options.requireGpu || !options.device.empty()) {
+    openVulkan(options);
+  } else {
+    openFastest(options);
   }
-  const bool mayFallBack = options.backend == Backend::Auto && !options.requireGpu && options.device.empty();
+}
+
+// A GPU is faster than the CPU, and Embree on the CPU's cores than the shaders on them; see bench/NOTES.md.
+void ComputeBackend::openFastest(const SessionOptions& options) {
+  std::string reason;
   try {
     openVulkan(options);
+    if (!runsOnCpu() || !hasEmbree()) return;
+    reason = fmt::format("there is no GPU, and on the CPU it is faster than {}", device_->facts().name);
   } catch (const Error& error) {
-    if (!mayFallBack || error.kind() != ErrorKind::Device) throw;
-    device_.reset();
-    instance_.reset();
-    useReference(error.what());
+    if (error.kind() != ErrorKind::Device) throw;
+    reason = error.what();
+  }
+  device_.reset();
+  instance_.reset();
+  if (hasEmbree()) {
+    useEmbree(reason);
+  } else {
+    useReference(reason);
   }
 }
 
@@ -41,13 +66,21 @@ void ComputeBackend::openVulkan(const SessionOptions& options) {
   deviceLines_ = std::move(opened.reasons);
 }
 
+void ComputeBackend::useEmbree(const std::string& reason) {
+  usesEmbree_ = true;
+  name_ = "cpu";
+  deviceName_ = fmt::format("{} on {}", embreeName(), counted(cpuThreadCount(), "thread"));
+  deviceLines_ = {fmt::format("{}: {}", deviceName_, reason)};
+}
+
 void ComputeBackend::useReference(const std::string& reason) {
   name_ = "reference";
-  deviceName_ = fmt::format("CPU, {} threads, double precision", std::max(1u, std::thread::hardware_concurrency()));
+  deviceName_ = fmt::format("CPU, {}, double precision", counted(cpuThreadCount(), "thread"));
   deviceLines_ = {fmt::format("the reference runs on the CPU: {}", reason)};
 }
 
 std::unique_ptr<ConeTracer> ComputeBackend::makeTracer(const TraceScene& scene, const Cone& cone, bool writesHits) {
+  if (usesEmbree_) return makeEmbreeTracer(scene, cone);
   if (!device_) return makeReferenceTracer(scene, cone);
   const ConeKernelRequest request{static_cast<uint32_t>(cone.directions.size()), writesHits};
   std::unique_ptr<VulkanConeKernel>& kernel = kernels_[request];
@@ -64,8 +97,9 @@ PoissonSolver& ComputeBackend::solver(SolverChoice choice) {
   if (solver) return *solver;
   if (choice == SolverChoice::Eigen) return *(solver = makeEigenSolver());
   if (!device_)
-    throw Error(ErrorKind::Device,
-                "this solver runs on a Vulkan device and the backend is the reference; use --solver eigen");
+    throw Error(
+        ErrorKind::Device,
+        "this solver runs on a Vulkan device and the backend on the CPU; use --backend vulkan or --solver eigen");
   solver = choice == SolverChoice::Cg ? makeVulkanCgSolver(*device_) : makeVulkanJacobiSolver(*device_);
   return *solver;
 }

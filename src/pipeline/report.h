@@ -99,9 +99,9 @@ struct Report {
   uint64_t redoneConeCount = 0;
   uint64_t noValueCount = 0;  ///< Input faces.
   uint64_t randomSeed = 0;
-  std::string backend;     ///< "vulkan" or "reference".
+  std::string backend;     ///< "vulkan", "cpu" or "reference".
   std::string device;      ///< Device and driver that ran, or the CPU.
-  bool runsOnCpu = false;  ///< The CPU's cores do the tracing: the reference, or a CPU device.
+  bool runsOnCpu = false;  ///< The CPU's cores do the tracing: the reference, Embree, or a CPU device.
   StageSeconds stageSeconds;
   double raysPerSecond = 0;
   SolverReport solver;  ///< name "none" when every face was a seed.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bit>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -35,6 +36,8 @@ struct ConeResults {
   /// Cone::directions) at i R + r. A false intersection is reported with its face; isFalseHit() tells.
   std::span<ConeHit> hits = {};
 };
+
+inline constexpr ConeHit kMiss{std::bit_cast<float>(kMissDistanceBits), kNoFace};
 
 /// Throws CheckFailure when the results have no room for so many cones.
 inline void checkSizes(const ConeResults& results, size_t coneCount, size_t rayCount) {

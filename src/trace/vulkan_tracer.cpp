@@ -1,18 +1,17 @@
 #include "trace/vulkan_tracer.h"
 
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
-#include <numeric>
 #include <vector>
 
 #include "core/check.h"
 #include "core/stopwatch.h"
 #include "trace/chunk_size.h"
+#include "trace/float_limits.h"
 #include "trace/reference_tracer.h"
+#include "trace/seed_order.h"
 #include "trace/vulkan_cone_buffers.h"
 #include "vk/command_list.h"
 
@@ -21,24 +20,16 @@ namespace {
 
 constexpr uint64_t kFirstChunkRayCount = 1u << 16;
 
-// In normalised units. A face smaller than the first, or a diameter shorter than the second, is too near to what
-// float32 resolves (2^-24 at the rim of the box): its cone is the reference's.
-constexpr double kSmallestFace = 0x1p-16;
-constexpr double kShortestDiameter = 0x1p-14;
-
-constexpr ConeHit kMiss{std::bit_cast<float>(kMissDistanceBits), kNoFace};
-
 class VulkanTracer final : public ConeTracer {
  public:
   VulkanTracer(const VulkanConeKernel& kernel, const TraceScene& scene, const Cone& cone)
       : kernel_(kernel),
         scene_(scene),
         cone_(cone),
-        slotOfFace_(scene.geometry.areas.size(), 0),
+        seedOrder_(scene),
         buffers_(kernel, encodeDeviceBvh(scene.bvh, scene.mesh, scene.geometry), cone),
         commands_(kernel.device()) {
     ASDFVK_CHECK_OP(cone.directions.size(), ==, size_t{kernel.rayCount()});
-    for (uint32_t slot = 0; slot < scene.bvh.slotFaces.size(); ++slot) slotOfFace_[scene.bvh.slotFaces[slot]] = slot;
   }
 
   TraceStatistics trace(std::span<const uint32_t> seedFaces, const ConeResults& results,
@@ -51,9 +42,9 @@ class VulkanTracer final : public ConeTracer {
       std::fill(results.hits.begin(), results.hits.end(), kMiss);
       return statistics;
     }
-    std::vector<uint32_t> order = orderByHierarchy(seedFaces);
-    const auto firstSmall = std::stable_partition(order.begin(), order.end(),
-                                                  [&](uint32_t i) { return !isTooSmallForFloat(seedFaces[i]); });
+    std::vector<uint32_t> order = seedOrder_.of(seedFaces);
+    const auto firstSmall = std::stable_partition(
+        order.begin(), order.end(), [&](uint32_t i) { return !isTooSmallForFloat(scene_, seedFaces[i]); });
     std::vector<uint32_t> redone(firstSmall, order.end());  // indices into seedFaces
     order.erase(firstSmall, order.end());
     const double deviceShare =
@@ -64,10 +55,6 @@ class VulkanTracer final : public ConeTracer {
   }
 
  private:
-  bool isTooSmallForFloat(uint32_t face) const {
-    return std::sqrt(scene_.geometry.areas[face]) * scene_.bvh.normalization.scale < kSmallestFace;
-  }
-
   void traceOnDevice(std::span<const uint32_t> seedFaces, const std::vector<uint32_t>& order,
                      const ConeResults& results, std::vector<uint32_t>& redone, const RunControl& control) {
     ChunkSize chunk(std::max<uint64_t>(1, kFirstChunkRayCount / kernel_.rayCount()), largestConeChunk(kernel_));
@@ -81,19 +68,6 @@ class VulkanTracer final : public ConeTracer {
       begin += count;
     }
   }
-
-  /// Neighbouring cones walk the same nodes: seeds are visited in the order of their triangles in the hierarchy.
-  std::vector<uint32_t> orderByHierarchy(std::span<const uint32_t> seedFaces) const {
-    std::vector<uint32_t> order(seedFaces.size());
-    std::iota(order.begin(), order.end(), 0u);
-    tbb::parallel_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
-      const uint32_t slotA = slotOf(seedFaces[a]), slotB = slotOf(seedFaces[b]);
-      return slotA != slotB ? slotA < slotB : a < b;
-    });
-    return order;
-  }
-
-  uint32_t slotOf(uint32_t face) const { return slotOfFace_[scene_.representatives[face]]; }
 
   void traceChunk(std::span<const uint32_t> seedFaces, std::span<const uint32_t> order) {
     const std::span<ConeOrigin> origins = buffers_.origins.mappedAs<ConeOrigin>();
@@ -121,7 +95,7 @@ class VulkanTracer final : public ConeTracer {
     const std::span<const uint32_t> lengths = buffers_.results.mappedAs<uint32_t>();
     for (size_t i = 0; i < order.size(); ++i) {
       const double length = lengths[i] == kNoValueBits ? kNoValue : std::bit_cast<float>(lengths[i]);
-      if (lengths[i] == kIterationLimitBits || length < kShortestDiameter) redone.push_back(order[i]);
+      if (lengths[i] == kIterationLimitBits || length < kShortestFloatDiameter) redone.push_back(order[i]);
       results.values[order[i]] = scene_.bvh.normalization.toMeshLength(length);
     }
     if (!results.hits.empty()) copyHits(order, buffers_.hits.mappedAs<ConeHit>(), results.hits);
@@ -160,7 +134,7 @@ class VulkanTracer final : public ConeTracer {
   const VulkanConeKernel& kernel_;
   TraceScene scene_;
   const Cone& cone_;
-  std::vector<uint32_t> slotOfFace_;  // #F, of the faces in the hierarchy
+  SeedOrder seedOrder_;
   ConeBuffers buffers_;
   CommandList commands_;
 };

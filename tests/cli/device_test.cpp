@@ -4,22 +4,23 @@
 #include "cli/program_under_test.h"
 #include "cli/sample_files.h"
 #include "cli/scratch_folder.h"
+#include "trace/embree_tracer.h"
 
 namespace asdfvk::test {
 namespace {
 
 const ChildOptions kNoDriver = withDrivers("/nonexistent.json");
 
-TEST_CASE("without a Vulkan device the reference runs and one line says why") {
+TEST_CASE("without a Vulkan device Embree runs, or where there is none the reference, and one line says why") {
   const ScratchFolder folder;
   const std::string mesh = folder.write("cube.off", cubeOff());
   const ChildOutcome outcome = runAsdf({mesh, "--json"}, kNoDriver);
   INFO(outcome.error);
   CHECK_EQ(outcome.exitCode, 0);
-  CHECK_EQ(nlohmann::json::parse(outcome.output).at("backend").get<std::string>(), "reference");
+  CHECK_EQ(nlohmann::json::parse(outcome.output).at("backend").get<std::string>(), hasEmbree() ? "cpu" : "reference");
   const std::string first = linesOf(outcome.error).at(0);
   CHECK(first.starts_with("asdf-vk: "));
-  CHECK(first.find("reference") != std::string::npos);
+  CHECK(first.find(hasEmbree() ? "Embree" : "reference") != std::string::npos);
   CHECK(first.find("Vulkan") != std::string::npos);
 }
 
@@ -64,6 +65,36 @@ TEST_CASE("lavapipe is listed, runs, and is no GPU") {
     CHECK_EQ(json.at("backend").get<std::string>(), "vulkan");
     CHECK(json.at("device").get<std::string>().find("llvmpipe") != std::string::npos);
   }
+}
+
+TEST_CASE("where the only Vulkan device is the CPU, Embree runs instead and one line says why") {
+  const auto lavapipe = lavapipeOnly();
+  if (!lavapipe) return;
+  const ScratchFolder folder;
+  const std::string mesh = folder.write("cube.off", cubeOff());
+  const ChildOutcome outcome = runAsdf({mesh, "--json"}, *lavapipe);
+  CHECK_EQ(outcome.exitCode, 0);
+  CHECK_EQ(nlohmann::json::parse(outcome.output).at("backend").get<std::string>(), hasEmbree() ? "cpu" : "vulkan");
+  const std::string first = linesOf(outcome.error).at(0);
+  CHECK(first.find("llvmpipe") != std::string::npos);
+  CHECK((first.find("faster than") != std::string::npos) == hasEmbree());
+}
+
+TEST_CASE("Embree runs where it is asked for and was built in, else there is a remedy") {
+  const ScratchFolder folder;
+  const std::string mesh = folder.write("cube.off", cubeOff());
+  if (!hasEmbree()) {
+    checkFailure(runAsdf({mesh, "--backend", "cpu", "--quiet"}), 3, "libembree-dev");
+    return;
+  }
+  const ChildOutcome outcome = runAsdf({mesh, "--backend", "cpu", "--threads", "1", "--check", "--json"});
+  INFO(outcome.error);
+  CHECK_EQ(outcome.exitCode, 0);
+  const nlohmann::json json = nlohmann::json::parse(outcome.output);
+  CHECK_EQ(json.at("backend").get<std::string>(), "cpu");
+  CHECK(json.at("device").get<std::string>().starts_with("Embree 3."));
+  CHECK(json.at("device").get<std::string>().ends_with(" on 1 thread"));
+  CHECK(json.at("check").at("independent").get<bool>());
 }
 
 TEST_CASE("each device that is passed over has its line with the reason") {

@@ -7,6 +7,7 @@
 #include "cli/program_under_test.h"
 #include "cli/sample_files.h"
 #include "cli/scratch_folder.h"
+#include "trace/embree_tracer.h"
 
 namespace asdfvk::test {
 namespace {
@@ -84,6 +85,13 @@ TEST_CASE("2,000 mutated meshes each end in a result or in a documented exit cod
   const Counts total = runMutated(kMeshCount, "reference", {});
   CHECK(total.done > kMeshCount / 10);
   CHECK(total.refused > kMeshCount / 10);
+}
+
+TEST_CASE("100 mutated meshes do so with Embree") {
+  if (!hasEmbree()) return;
+  const Counts total = runMutated(kDeviceMeshCount, "cpu", {});
+  CHECK(total.done > kDeviceMeshCount / 10);
+  CHECK(total.refused > kDeviceMeshCount / 10);
 }
 
 TEST_CASE("100 mutated meshes do so on a Vulkan device under the validation layers, which stay silent") {

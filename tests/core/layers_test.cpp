@@ -62,6 +62,8 @@ std::vector<Include> includesOf(const fs::path& file) {
 
 bool isVulkanFile(const fs::path& file) { return file.filename().string().rfind("vulkan_", 0) == 0; }
 
+bool isEmbreeFile(const fs::path& file) { return file.filename().string().rfind("embree_", 0) == 0; }
+
 // The reason why `file` of src/`layer` may not include `target`; empty where it may.
 std::string objection(const std::string& layer, const fs::path& file, const std::string& target) {
   const std::string top = target.substr(0, target.find('/'));
@@ -71,6 +73,7 @@ std::string objection(const std::string& layer, const fs::path& file, const std:
   if ((top == "Eigen" || top == "unsupported") && layer != "poisson") return "Eigen belongs in poisson";
   if ((target == "volk.h" || top == "vulkan" || top == "volk") && !isVulkan)
     return "Vulkan belongs in vk and the vulkan_* files";
+  if (top == "embree3" && !isEmbreeFile(file)) return "Embree belongs in the embree_* files of trace";
   const bool isOurs = kMayInclude.count(top) || top == "shared";
   if (!isOurs || top == layer) return {};
   if (top == "vk" && isVulkanFile(file) && (layer == "trace" || layer == "poisson" || layer == "post")) return {};
@@ -139,6 +142,8 @@ TEST_CASE("the table objects to includes against it") {
 
   CHECK(objection("trace", "src/trace/vulkan_tracer.cpp", "vk/buffer.h").empty());
   CHECK(objection("trace", "src/trace/vulkan_tracer.cpp", "volk.h").empty());
+  CHECK_FALSE(objection("trace", "src/trace/seed_order.h", "embree3/rtcore.h").empty());
+  CHECK(objection("trace", "src/trace/embree_scene.h", "embree3/rtcore.h").empty());
   CHECK(objection("mesh", "src/mesh/openmesh_adapter.h", "OpenMesh/Core/Mesh/Handles.hh").empty());
   CHECK(objection("poisson", "src/poisson/eigen.cpp", "Eigen/Sparse").empty());
   CHECK(objection("mesh", "src/mesh/a.cpp", "vector").empty());

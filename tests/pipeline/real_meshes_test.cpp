@@ -7,6 +7,7 @@
 #include "mesh/mesh_reader.h"
 #include "support/real_meshes.h"
 #include "support/shared_session.h"
+#include "trace/embree_tracer.h"
 
 using namespace asdfvk;
 namespace fs = std::filesystem;
@@ -26,15 +27,15 @@ std::vector<fs::path> realMeshes(const char* folder) {
   return meshes;
 }
 
-/// Every face of the mesh is traced on the device; 3000 of them are compared with the reference.
-void checkParity(const fs::path& path) {
+/// Every face of the mesh is traced by the session; 3000 of them are compared with the reference.
+void checkParity(const fs::path& path, Session& session) {
   CAPTURE(path.string());
   Mesh mesh = readMesh(path);
   const uint64_t faceCount = mesh.inputFaceCount();
   Options options;
   options.seeds.kind = SeedCount::Kind::All;
   options.checkCount = 3000;
-  const Result result = test::vulkanSession().compute(mesh, options);
+  const Result result = session.compute(mesh, options);
   CHECK(result.sdf.size() == faceCount);
   CHECK(result.isSeed.size() == faceCount);
   REQUIRE(result.report.check);
@@ -47,20 +48,27 @@ void checkParity(const fs::path& path) {
 }  // namespace
 
 TEST_CASE("real models: Vulkan agrees with the reference") {
-  for (const fs::path& path : realMeshes("models")) checkParity(path);
+  for (const fs::path& path : realMeshes("models")) checkParity(path, test::vulkanSession());
 }
 
 TEST_CASE("real open meshes: Vulkan agrees with the reference") {
-  for (const fs::path& path : realMeshes("open")) checkParity(path);
+  for (const fs::path& path : realMeshes("open")) checkParity(path, test::vulkanSession());
 }
 
 TEST_CASE("real defective meshes: Vulkan agrees with the reference") {
-  for (const fs::path& path : realMeshes("defects")) checkParity(path);
+  for (const fs::path& path : realMeshes("defects")) checkParity(path, test::vulkanSession());
 }
 
 TEST_CASE("every eighth mesh of the Princeton benchmark: Vulkan agrees with the reference") {
   const std::vector<fs::path> meshes = realMeshes("psb/off");
-  for (size_t i = 0; i < meshes.size(); i += 8) checkParity(meshes[i]);
+  for (size_t i = 0; i < meshes.size(); i += 8) checkParity(meshes[i], test::vulkanSession());
+}
+
+TEST_CASE("real meshes: Embree agrees with the reference") {
+  if (!hasEmbree()) return;
+  Session session({.backend = Backend::Cpu});
+  for (const char* folder : {"models", "open", "defects"})
+    for (const fs::path& path : realMeshes(folder)) checkParity(path, session);
 }
 
 TEST_CASE("a tenth of horse's faces interpolates the others within the paper's error") {

@@ -8,6 +8,7 @@
 #include "mesh/face_geometry.h"
 #include "pipeline/asdf.h"
 #include "support/shared_session.h"
+#include "trace/embree_tracer.h"
 
 using namespace asdfvk;
 using test::referenceSession;
@@ -314,6 +315,33 @@ TEST_CASE("progress goes from 0 to 1 and never back") {
   (void)vulkanSession().compute(mesh, {}, control);
   CHECK(monotonic);
   CHECK(last > 0.5);
+}
+
+TEST_CASE("a backend of the CPU contradicts a required GPU") {
+  for (const Backend backend : {Backend::Cpu, Backend::Reference})
+    CHECK_THROWS_WITH_AS(Session({.backend = backend, .requireGpu = true}), doctest::Contains("a GPU was required"),
+                         Error);
+}
+
+TEST_CASE("Embree gives the reference's values and the check treats it as independent") {
+  if (!hasEmbree()) {
+    CHECK_THROWS_WITH_AS(Session({.backend = Backend::Cpu}), doctest::Contains("libembree-dev"), Error);
+    return;
+  }
+  Session session({.backend = Backend::Cpu});
+  Mesh mesh = makeTorus(4000).mesh;
+  Options options = allSeeds();
+  options.checkCount = 4000;
+  const Report report = session.compute(mesh, options).report;
+  CHECK(report.backend == "cpu");
+  CHECK(report.runsOnCpu);
+  REQUIRE(report.check);
+  CHECK(report.check->isIndependent);
+  CHECK(report.check->tracedCount > 3000);
+  CHECK(report.check->passed);
+  options.solver = SolverChoice::Cg;
+  options.seeds = {};
+  CHECK_THROWS_WITH_AS((void)session.compute(mesh, options), doctest::Contains("--backend vulkan"), Error);
 }
 
 TEST_CASE("a CPU device is refused where a GPU is required") {

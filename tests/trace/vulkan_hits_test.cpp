@@ -5,6 +5,7 @@
 #include "core/check.h"
 #include "generate/shapes.h"
 #include "hit_checks.h"
+#include "hit_comparison.h"
 #include "shapes.h"
 #include "support/test_device.h"
 
@@ -21,31 +22,6 @@ TraceResults hitsByKernel(const VulkanConeKernel& kernel, const TracedMesh& trac
 
 TraceResults hitsByReference(const TracedMesh& traced, const ConeOptions& options = {}) {
   return traceByReference(traced, options, Wanted::ValuesAndHits);
-}
-
-// What float32 makes of coordinates near 1 when the ray is grazing: distances shorter than 1e-2 are off by it.
-constexpr float kResolution = 0x1p-20f;
-
-/// Rays that met another face, or the same at a distance that is not the same to 1e-4 of it or kResolution.
-size_t differingRays(const std::vector<ConeHit>& a, const std::vector<ConeHit>& b) {
-  REQUIRE(a.size() == b.size());
-  size_t count = 0;
-  for (size_t i = 0; i < a.size(); ++i) {
-    const bool isMiss = a[i].face == kNoFace;
-    const bool isSameDistance = isMiss ? a[i].distance == b[i].distance
-                                       : std::abs(a[i].distance - b[i].distance) <= 1e-4f * b[i].distance + kResolution;
-    count += a[i].face != b[i].face || !isSameDistance;
-  }
-  return count;
-}
-
-size_t missCount(const std::vector<ConeHit>& hits) {
-  size_t count = 0;
-  for (const ConeHit& hit : hits) {
-    count += hit.face == kNoFace;
-    CHECK((hit.face == kNoFace) == std::isinf(hit.distance));
-  }
-  return count;
 }
 
 void checkHits(const VulkanConeKernel& kernel, const TracedMesh& traced, const ConeOptions& options = {}) {

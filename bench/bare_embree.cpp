@@ -1,0 +1,83 @@
+#include "bare_embree.h"
+
+#include <embree3/rtcore.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <limits>
+#include <numeric>
+#include <vector>
+
+namespace asdfvk::bench {
+namespace {
+
+class BareEmbreeScene final : public BareEmbree {
+ public:
+  BareEmbreeScene(const TraceScene& scene, const Cone& cone, BareMode mode)
+      : scene_(scene), cone_(cone), device_(rtcNewDevice(nullptr)), embree_(rtcNewScene(device_)) {
+    if (mode == BareMode::Robust) rtcSetSceneFlags(embree_, RTC_SCENE_FLAG_ROBUST);
+    RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
+    auto* points = static_cast<Vec3f*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                                               sizeof(Vec3f), scene.mesh.vertices.size()));
+    auto* faces = static_cast<Face*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                                             sizeof(Face), scene.bvh.slotFaces.size()));
+    tbb::parallel_for(size_t{0}, scene.mesh.vertices.size(), [&](size_t i) {
+      points[i] = Vec3f(scene.bvh.normalization.toNormalized(scene.mesh.vertices[i]));
+    });
+    tbb::parallel_for(size_t{0}, scene.bvh.slotFaces.size(),
+                      [&](size_t i) { faces[i] = scene.mesh.faces[scene.bvh.slotFaces[i]]; });
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometryByID(embree_, geometry, 0);
+    rtcReleaseGeometry(geometry);
+    rtcCommitScene(embree_);
+  }
+  ~BareEmbreeScene() override {
+    rtcReleaseScene(embree_);
+    rtcReleaseDevice(device_);
+  }
+  BareEmbreeScene(const BareEmbreeScene&) = delete;
+  BareEmbreeScene& operator=(const BareEmbreeScene&) = delete;
+
+  double trace(std::span<const uint32_t> seedFaces) const override {
+    std::vector<double> sums(seedFaces.size());
+    tbb::parallel_for(tbb::blocked_range<size_t>(0, seedFaces.size(), 8), [&](const tbb::blocked_range<size_t>& range) {
+      for (size_t i = range.begin(); i < range.end(); ++i) sums[i] = sumOfLengths(seedFaces[i]);
+    });
+    return std::accumulate(sums.begin(), sums.end(), 0.0);
+  }
+
+ private:
+  double sumOfLengths(uint32_t face) const {
+    const ConeFrame frame = faceConeFrame(cone_, scene_.geometry.normals[face], face);
+    const Vec3f origin(scene_.bvh.normalization.toNormalized(scene_.geometry.barycentres[face]));
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+    double sum = 0;
+    for (const Vec3d& d : cone_.directions) {
+      const Vec3f direction(d.x * frame.tangent + d.y * frame.bitangent + d.z * frame.axis);
+      RTCRayHit query;
+      query.ray = {origin.x,    origin.y,    origin.z,
+                   1e-6f,       direction.x, direction.y,
+                   direction.z, 0,           std::numeric_limits<float>::infinity(),
+                   ~0u,         0,           0};
+      query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+      rtcIntersect1(embree_, &context, &query);
+      if (query.hit.geomID != RTC_INVALID_GEOMETRY_ID) sum += query.ray.tfar;
+    }
+    return sum;
+  }
+
+  TraceScene scene_;
+  const Cone& cone_;
+  RTCDevice device_;
+  RTCScene embree_;
+};
+
+}  // namespace
+
+std::unique_ptr<BareEmbree> makeBareEmbree(const TraceScene& scene, const Cone& cone, BareMode mode) {
+  return std::make_unique<BareEmbreeScene>(scene, cone, mode);
+}
+
+}  // namespace asdfvk::bench

@@ -1,0 +1,138 @@
+#include "comparison.h"
+
+#include "bare_embree.h"
+#include "bvh/device_bvh.h"
+#include "cgal_sdf.h"
+#include "cli/option_values.h"
+#include "core/stopwatch.h"
+#include "file_run.h"
+#include "mesh/mesh_reader.h"
+#include "pipeline/compute_backend.h"
+#include "pipeline/prepared_mesh.h"
+#include "pipeline/seed_tracing.h"
+#include "seeds/random_permutation.h"
+#include "trace/embree_tracer.h"
+#include "trace/seed_order.h"
+
+namespace asdfvk::bench {
+namespace {
+
+std::vector<std::string> backendNames() {
+  std::vector<std::string> names{"vulkan", "reference"};
+  if (hasEmbree()) names.emplace_back("cpu");
+  return names;
+}
+
+/// A mesh, what is traced in it, and all that trace it.
+class Contest {
+ public:
+  Contest(Mesh& mesh, const ComparisonRequest& request)
+      : mesh_(mesh),
+        prepared_(prepareMesh(mesh, Orientation::Keep)),
+        cone_(makeCone({})),
+        bvh_(buildBvh(mesh, prepared_.geometry, prepared_.representatives)),
+        bareEmbree_(makeBareEmbree(scene(), cone_, BareMode::Fastest)),
+        robustEmbree_(makeBareEmbree(scene(), cone_, BareMode::Robust)) {
+    for (const std::string& name : backendNames()) {
+      const SessionOptions options = sessionOptionsOf(name, request.device);
+      backends_[name] = std::make_unique<ComputeBackend>(options);
+      tracers_[name] = backends_[name]->makeTracer(scene(), cone_);
+      sessions_[name] = std::make_unique<Session>(options);
+    }
+  }
+
+  std::string deviceOf(const std::string& backend) const { return backends_.at(backend)->deviceName(); }
+
+  void measureBuild(Comparison& comparison) const {
+    const Stopwatch ours;
+    const Bvh bvh = buildBvh(mesh_, prepared_.geometry, prepared_.representatives);
+    static_cast<void>(encodeDeviceBvh(bvh, mesh_, prepared_.geometry));
+    comparison.build.push_back(ours.seconds());
+    if (!bareEmbree_) return;
+    const Stopwatch embrees;
+    static_cast<void>(makeBareEmbree(scene(), cone_, BareMode::Fastest));
+    comparison.embreeBuild.push_back(embrees.seconds());
+  }
+
+  void measure(SeedComparison& comparison, const RunControl& control) {
+    Options options;
+    options.seeds = parseSeedCount(comparison.seeds);
+    const std::vector<uint32_t> seeds = chooseSeeds(options);
+    comparison.rayCount = seeds.size() * cone_.directions.size();
+    for (const auto& [name, tracer] : tracers_) {
+      std::vector<double> values(seeds.size());
+      const Stopwatch trace;
+      static_cast<void>(tracer->trace(seeds, {values}, control));
+      comparison.trace[name].push_back(trace.seconds());
+      const Stopwatch compute;
+      static_cast<void>(sessions_.at(name)->compute(mesh_, options, control));
+      comparison.compute[name].push_back(compute.seconds());
+    }
+    if (!bareEmbree_) return;
+    const Stopwatch bare;
+    static_cast<void>(bareEmbree_->trace(seeds));
+    comparison.trace[kBareEmbree].push_back(bare.seconds());
+    const Stopwatch robust;
+    static_cast<void>(robustEmbree_->trace(seeds));
+    comparison.trace[kRobustEmbree].push_back(robust.seconds());
+  }
+
+ private:
+  TraceScene scene() const { return {mesh_, prepared_.geometry, prepared_.representatives, bvh_}; }
+
+  /// In the hierarchy's order, which suits every tracer best; ours would bring them into it.
+  std::vector<uint32_t> chooseSeeds(const Options& options) const {
+    const std::vector<uint32_t> chosen = randomPermutationSeeds(
+        prepared_.castableFaces, resolveSeedCount(options.seeds, prepared_.castableFaces.size()), options.randomSeed);
+    std::vector<uint32_t> seeds;
+    for (const uint32_t i : SeedOrder(scene()).of(chosen)) seeds.push_back(chosen[i]);
+    return seeds;
+  }
+
+  Mesh& mesh_;
+  PreparedMesh prepared_;
+  Cone cone_;
+  Bvh bvh_;
+  std::unique_ptr<BareEmbree> bareEmbree_, robustEmbree_;
+  std::map<std::string, std::unique_ptr<ComputeBackend>> backends_;
+  std::map<std::string, std::unique_ptr<ConeTracer>> tracers_;
+  std::map<std::string, std::unique_ptr<Session>> sessions_;
+};
+
+/// What a round that is not counted leaves.
+void forgetTimes(Comparison& comparison) {
+  comparison.build.clear();
+  comparison.embreeBuild.clear();
+  for (SeedComparison& seeds : comparison.seeds) {
+    seeds.trace.clear();
+    seeds.compute.clear();
+  }
+}
+
+}  // namespace
+
+Spread ratioOf(const Seconds& b, const Seconds& a) {
+  std::vector<double> ratios;
+  for (size_t i = 0; i < std::min(a.size(), b.size()); ++i) ratios.push_back(b[i] / a[i]);
+  return spreadOf(std::move(ratios));
+}
+
+Comparison compare(const std::string& path, const ComparisonRequest& request, const RunControl& control) {
+  Mesh mesh = readMesh(path);
+  Contest contest(mesh, request);
+  Comparison comparison{path, mesh.inputFaceCount(), {}, {}, {}, {}, {}};
+  for (const std::string& name : backendNames()) comparison.devices[name] = contest.deviceOf(name);
+  for (const std::string& seeds : request.seeds) comparison.seeds.push_back({seeds, 0, {}, {}});
+  for (uint32_t round = 0; round <= request.roundCount; ++round) {
+    contest.measureBuild(comparison);
+    for (SeedComparison& seeds : comparison.seeds) contest.measure(seeds, control);
+    if (round == 0) forgetTimes(comparison);
+  }
+  for (uint32_t run = 0; run < request.cgalRunCount; ++run) {
+    control.checkpoint(0);
+    if (const std::optional<double> seconds = cgalSeconds(mesh)) comparison.cgal.push_back(*seconds);
+  }
+  return comparison;
+}
+
+}  // namespace asdfvk::bench

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/run_control.h"
+#include "mesh/mesh.h"
+#include "pipeline/asdf.h"
+#include "spread.h"
+
+namespace asdfvk::bench {
+
+struct ComparisonRequest {
+  std::vector<std::string> seeds{"all", "10%"};  ///< As parseSeedCount() reads them.
+  std::string device;
+  uint32_t roundCount = 5;
+  uint32_t cgalRunCount = 1;  ///< It takes a thousand times as long.
+};
+
+/// Seconds, one entry per round; entry i of everything was measured in the same round.
+using Seconds = std::vector<double>;
+
+/// b over a, round by round.
+[[nodiscard]] Spread ratioOf(const Seconds& b, const Seconds& a);
+
+inline const std::string kBareEmbree = "bare Embree", kRobustEmbree = "bare, robust";
+
+/// Of one choice of seeds.
+struct SeedComparison {
+  std::string seeds;
+  uint64_t rayCount = 0;
+  std::map<std::string, Seconds> trace;    ///< By backend, and of Embree alone; the same rays.
+  std::map<std::string, Seconds> compute;  ///< By backend: geometry, hierarchy, trace and solve.
+};
+
+struct Comparison {
+  std::string mesh;
+  uint64_t faceCount = 0;
+  std::map<std::string, std::string> devices;  ///< By backend.
+  std::vector<SeedComparison> seeds;
+  Seconds build,
+      embreeBuild;  ///< Ours with its layout for devices; Embree's scene. The latter is empty without Embree.
+  Seconds cgal;     ///< Empty without CGAL, and for a mesh that it refuses.
+};
+
+/// Everything turn by turn, after a round that is not counted; CGAL once at the end.
+[[nodiscard]] Comparison compare(const std::string& path, const ComparisonRequest& request, const RunControl& control);
+
+}  // namespace asdfvk::bench

@@ -1,0 +1,112 @@
+#include "comparison_report.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "cgal_sdf.h"
+#include "cli/report_text.h"
+
+namespace asdfvk::bench {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Spread megaRaysPerSecond(uint64_t rayCount, const Seconds& seconds) {
+  std::vector<double> rates;
+  for (const double s : seconds) rates.push_back(static_cast<double>(rayCount) / s / 1e6);
+  return spreadOf(std::move(rates));
+}
+
+/// How much faster than bare Embree at the same rays: its time over that of `name`. None without Embree.
+std::optional<Spread> rateOverBareEmbree(const SeedComparison& seeds, const std::string& name) {
+  const auto bare = seeds.trace.find(kBareEmbree);
+  if (bare == seeds.trace.end()) return {};
+  return ratioOf(bare->second, seeds.trace.at(name));
+}
+
+/// CGAL's median time over that of all of ours. None without CGAL.
+std::optional<Spread> cgalOver(const Comparison& comparison, const Seconds& ours) {
+  if (comparison.cgal.empty()) return {};
+  return ratioOf(Seconds(ours.size(), spreadOf(comparison.cgal).median), ours);
+}
+
+std::string cell(const std::optional<Spread>& spread, int decimals) {
+  return spread ? toText(*spread, decimals) : std::string("-");
+}
+
+std::string row(const std::string& seeds, const std::string& name, const std::string& rate, const std::string& overBare,
+                const std::string& compute, const std::string& overCgal) {
+  return fmt::format("| {:<5} | {:<12} | {:>12} | {:>13} | {:>13} | {:>14} |\n", seeds, name, rate, overBare, compute,
+                     overCgal);
+}
+
+std::string buildLine(const Comparison& comparison) {
+  std::string text = fmt::format("\nhierarchy and its layout for devices: {} s", toText(spreadOf(comparison.build), 4));
+  if (!comparison.embreeBuild.empty())
+    text += fmt::format("; Embree's scene {} s; ours / Embree's {}", toText(spreadOf(comparison.embreeBuild), 4),
+                        toText(ratioOf(comparison.build, comparison.embreeBuild), 2));
+  return text + "\n";
+}
+
+std::string cgalLine(const Comparison& comparison) {
+  if (!comparison.cgal.empty())
+    return fmt::format("CGAL sdf_values, every face, one thread as it is: {} s\n",
+                       toText(spreadOf(comparison.cgal), 2));
+  return hasCgal() ? "CGAL: not asked, or the mesh is none that it takes\n"
+                   : "CGAL: not built in; scripts/install-packages bench installs it\n";
+}
+
+Json jsonOf(const Spread& spread) {
+  return {{"median", spread.median}, {"deviation", spread.deviation}, {"min", spread.min}, {"max", spread.max}};
+}
+
+Json jsonOf(const std::optional<Spread>& spread) { return spread ? jsonOf(*spread) : Json(nullptr); }
+
+Json jsonOf(const Comparison& comparison, const SeedComparison& seeds) {
+  Json json{{"seeds", seeds.seeds}, {"rayCount", seeds.rayCount}};
+  for (const auto& [name, times] : seeds.trace) {
+    Json& entry = json["tracers"][name];
+    entry["traceSeconds"] = jsonOf(spreadOf(times));
+    entry["raysOverBareEmbree"] = jsonOf(rateOverBareEmbree(seeds, name));
+    const auto compute = seeds.compute.find(name);
+    if (compute == seeds.compute.end()) continue;
+    entry["computeSeconds"] = jsonOf(spreadOf(compute->second));
+    entry["cgalOverCompute"] = jsonOf(cgalOver(comparison, compute->second));
+  }
+  return json;
+}
+
+}  // namespace
+
+std::string comparisonTable(const Comparison& comparison, const Machine& machine) {
+  std::string text = fmt::format("{}: {} faces, {} rounds on {}\n", comparison.mesh, groupDigits(comparison.faceCount),
+                                 comparison.build.size(), toText(machine));
+  for (const auto& [name, device] : comparison.devices) text += fmt::format("{}: {}\n", name, device);
+  text += "median ± median absolute deviation; 'compute' is geometry, hierarchy, trace and solve\n\n";
+  text += row("seeds", "tracer", "Mrays/s", "/ bare Embree", "compute, s", "CGAL / compute");
+  text += "|-------|--------------|-------------:|--------------:|--------------:|---------------:|\n";
+  for (const SeedComparison& seeds : comparison.seeds)
+    for (const auto& [name, times] : seeds.trace) {
+      const auto compute = seeds.compute.find(name);
+      const bool isOurs = compute != seeds.compute.end();
+      text += row(seeds.seeds, name, toText(megaRaysPerSecond(seeds.rayCount, times), 3),
+                  cell(rateOverBareEmbree(seeds, name), 3), isOurs ? toText(spreadOf(compute->second), 3) : "-",
+                  isOurs ? cell(cgalOver(comparison, compute->second), 1) : "-");
+    }
+  return text + buildLine(comparison) + cgalLine(comparison) + "\n";
+}
+
+std::string comparisonJson(const Comparison& comparison, const Machine& machine) {
+  Json json{{"mesh", comparison.mesh},      {"faceCount", comparison.faceCount},  {"processor", machine.processor},
+            {"threads", machine.threads},   {"loadAverage", machine.loadAverage}, {"rounds", comparison.build.size()},
+            {"devices", comparison.devices}};
+  for (const SeedComparison& seeds : comparison.seeds) json["seeds"].push_back(jsonOf(comparison, seeds));
+  json["buildSeconds"] = jsonOf(spreadOf(comparison.build));
+  const bool hasEmbreeBuild = !comparison.embreeBuild.empty();
+  json["buildOverEmbree"] = hasEmbreeBuild ? jsonOf(ratioOf(comparison.build, comparison.embreeBuild)) : Json(nullptr);
+  json["cgalSeconds"] = comparison.cgal.empty() ? Json(nullptr) : jsonOf(spreadOf(comparison.cgal));
+  return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace asdfvk::bench

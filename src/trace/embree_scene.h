@@ -1,0 +1,34 @@
+#pragma once
+
+#include <embree3/rtcore.h>
+
+#include <memory>
+#include <type_traits>
+
+#include "trace/cone_tracer.h"
+
+namespace asdfvk {
+
+struct EmbreeRelease {
+  void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+  void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+};
+using EmbreeDevice = std::unique_ptr<std::remove_pointer_t<RTCDevice>, EmbreeRelease>;
+
+/// Embree's own hierarchy over the triangle slots of a scene's: primitive i is the triangle of slot i, in normalised
+/// coordinates and float32. Built on all threads, to the same bits on any number of them, in robust mode, so that no
+/// ray falls between two triangles.
+class EmbreeScene {
+ public:
+  /// Throws Error{Device}.
+  explicit EmbreeScene(const TraceScene& scene);
+
+  [[nodiscard]] RTCScene get() const { return scene_.get(); }
+
+ private:
+  // In this order: the scene goes first.
+  EmbreeDevice device_;
+  std::unique_ptr<std::remove_pointer_t<RTCScene>, EmbreeRelease> scene_;
+};
+
+}  // namespace asdfvk
