@@ -89,7 +89,8 @@ TEST_CASE("what was asked for is in the options of the document") {
                                           "adaptive",  "--metric",       "hops",    "--max-error",
                                           "50%",       "--time-budget",  "100s",    "--pooling",
                                           "0.5",       "--second-order", "0.1",     "--curvature-factor",
-                                          "3"}));
+                                          "3",         "--antipodal",    "0.5",     "--smooth",
+                                          "2x1"}));
   const Json& options = json.at("options");
   CHECK_EQ(options.at("recipe").get<std::string>(), "quality");
   CHECK_EQ(options.at("seeds").get<std::string>(), "2%");
