@@ -41,7 +41,7 @@ Table errorTable(const Evaluation& evaluation, bool withPrinted) {
   for (size_t i = 0; i < kPercents.size(); ++i) {
     const PrintedErrors* printed = printedAt(kPercents[i]);
     std::vector<Cell> row{percentCell(kPercents[i])};
-    const auto addRecipes = [&](double ShareResult::* field) {
+    const auto addRecipes = [&](double ShareResult::*field) {
       for (const auto& recipe : evaluation.recipes) row.push_back(errorCell(recipe[i].*field));
     };
     if (withPrinted) row.push_back(errorCell(printed ? printed->average : kNoValue));
@@ -90,10 +90,10 @@ Table summaryTable(const std::vector<Evaluation>& evaluations) {
 
 Table measurementTable(const std::vector<Evaluation>& evaluations) {
   Table table;
-  for (const char* name : {"mesh", "faces", "recipe", "percent", "seeds", "average error", "maximum error",
-                           "average error against the truth", "maximum error against the truth", "estimated error",
-                           "sample seconds", "trace seconds", "predict seconds", "solve seconds",
-                           "seconds over those of the full trace"})
+  for (const char* name :
+       {"mesh", "faces", "recipe", "percent", "seeds", "average error", "maximum error",
+        "average error against the truth", "maximum error against the truth", "estimated error", "sample seconds",
+        "trace seconds", "predict seconds", "solve seconds", "seconds over those of the full trace"})
     table.columns.push_back({"", name});
   for (const Evaluation& evaluation : evaluations)
     for (size_t recipe = 0; recipe < kRecipeCount; ++recipe)

@@ -15,7 +15,7 @@ namespace {
 /// What one run gives, kept until all rounds are done.
 using Samples = std::vector<ShareResult>;
 
-double medianOf(const Samples& samples, double ShareResult::* field) {
+double medianOf(const Samples& samples, double ShareResult::*field) {
   std::vector<double> values;
   for (const ShareResult& sample : samples)
     if (!std::isnan(sample.*field)) values.push_back(sample.*field);
@@ -24,7 +24,7 @@ double medianOf(const Samples& samples, double ShareResult::* field) {
 
 ShareResult medians(const Samples& samples) {
   ShareResult result = samples.front();
-  for (double ShareResult::* field :
+  for (double ShareResult::*field :
        {&ShareResult::average, &ShareResult::maximum, &ShareResult::truthAverage, &ShareResult::truthMaximum,
         &ShareResult::estimated, &ShareResult::sampleSeconds, &ShareResult::traceSeconds, &ShareResult::predictSeconds,
         &ShareResult::solveSeconds, &ShareResult::timeRatio})
@@ -95,7 +95,8 @@ Evaluation evaluate(Session& session, const std::string& name, Mesh& mesh, const
     static_cast<void>(session.compute(mesh, recipeOptions(recipe, 1, 1), control));
   evaluation.full = session.compute(mesh, recipeOptions(Recipe::Paper, 100, 1), control);
   if (!(evaluation.range() > 0))
-    throw Error(ErrorKind::Input, name + ": no two of its values differ, so that errors have no range to be divided by");
+    throw Error(ErrorKind::Input,
+                name + ": no two of its values differ, so that errors have no range to be divided by");
   tell(name, fmt::format("{} rays at each of {} faces", options.truthRayCount, evaluation.full.report.faceCount));
   const Result truth = computeTruth(session, mesh, options.truthRayCount, control);
 

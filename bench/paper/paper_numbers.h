@@ -21,8 +21,8 @@ inline constexpr std::array<PrintedErrors, 6> kPrintedErrors{{{50, .4022, .0099}
 inline constexpr double kPrintedFullSeconds = 60, kPrintedTenthSeconds = 6;
 
 // The shares of its pictures, in percent.
-inline constexpr double kTeaserPercent = 10;   ///< Figures 1, 4 and 8; the paper tells it of Figure 4.
-inline constexpr double kSparsePercent = 5;    ///< Figure 3.
-inline constexpr double kSamplerPercent = 7;   ///< Figure 7.
+inline constexpr double kTeaserPercent = 10;  ///< Figures 1, 4 and 8; the paper tells it of Figure 4.
+inline constexpr double kSparsePercent = 5;   ///< Figure 3.
+inline constexpr double kSamplerPercent = 7;  ///< Figure 7.
 
 }  // namespace asdfvk::bench

@@ -15,7 +15,7 @@ constexpr const char* kErrorLabel = "average error / range";
 
 Axis shareAxis(double high) { return {kShareLabel, 1, high, true, {}}; }
 
-Series recipeSeries(const Evaluation& evaluation, size_t recipe, double ShareResult::* field) {
+Series recipeSeries(const Evaluation& evaluation, size_t recipe, double ShareResult::*field) {
   Series series{kRecipes[recipe].first, {}, kRecipeColours[recipe], recipe};
   for (auto share = evaluation.recipes[recipe].rbegin(); share != evaluation.recipes[recipe].rend(); ++share)
     series.points.push_back({share->percent, (*share).*field});
@@ -77,8 +77,7 @@ LinePlot truthPlot(const Evaluation& evaluation, uint32_t truthRayCount) {
 LinePlot errorPlot(const std::vector<Evaluation>& evaluations, Recipe recipe) {
   LinePlot plot{.title = nameOf(kRecipes, recipe), .x = shareAxis(50), .y = commonErrorAxis(evaluations), .series = {}};
   for (size_t i = 0; i < evaluations.size(); ++i) {
-    Series series =
-        withoutAll(recipeSeries(evaluations[i], static_cast<size_t>(recipe), &ShareResult::average));
+    Series series = withoutAll(recipeSeries(evaluations[i], static_cast<size_t>(recipe), &ShareResult::average));
     series.name = evaluations[i].name;
     series.colour = seriesColour(i);
     series.marker = i;
@@ -93,8 +92,8 @@ LinePlot meshPlot(const std::vector<Evaluation>& evaluations, Recipe recipe) {
     const char* colour;
   };
   const double last = static_cast<double>(evaluations.size()) - 1;
-  LinePlot plot{.title = nameOf(kRecipes, recipe), .x = {"", -0.3, last + 0.3}, .y = commonErrorAxis(evaluations),
-                .series = {}};
+  LinePlot plot{
+      .title = nameOf(kRecipes, recipe), .x = {"", -0.3, last + 0.3}, .y = commonErrorAxis(evaluations), .series = {}};
   for (size_t i = 0; i < evaluations.size(); ++i) plot.x.ticks.push_back({static_cast<double>(i), evaluations[i].name});
   size_t marker = 0;
   for (const Line& line : {Line{10, kGreen}, Line{20, kVermilion}, Line{50, kBlue}}) {
@@ -107,8 +106,8 @@ LinePlot meshPlot(const std::vector<Evaluation>& evaluations, Recipe recipe) {
 }
 
 LinePlot timePlot(const Evaluation& evaluation) {
-  LinePlot plot{.title = evaluation.name + ", time over that of the full trace", .x = shareAxis(100), .y = {},
-                .series = {}};
+  LinePlot plot{
+      .title = evaluation.name + ", time over that of the full trace", .x = shareAxis(100), .y = {}, .series = {}};
   for (size_t recipe = 0; recipe < kRecipeCount; ++recipe)
     plot.series.push_back(recipeSeries(evaluation, recipe, &ShareResult::timeRatio));
   plot.series.push_back({"in proportion", {{1, 0.01}, {100, 1}}, kBlack, 0, true, false});

@@ -16,7 +16,8 @@ std::string attributesOf(const Stroke& stroke) {
 
 std::string pointsText(std::span<const SvgPoint> points) {
   std::string text;
-  for (const SvgPoint& point : points) text += fmt::format("{}{:.2f},{:.2f}", text.empty() ? "" : " ", point.x, point.y);
+  for (const SvgPoint& point : points)
+    text += fmt::format("{}{:.2f},{:.2f}", text.empty() ? "" : " ", point.x, point.y);
   return text;
 }
 
@@ -51,7 +52,8 @@ void SvgCanvas::marker(const SvgPoint& centre, size_t shape, std::string_view co
       body_ += fmt::format("<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"4\" {}/>\n", x, y, fill);
       break;
     case 1:
-      polygon(std::array<SvgPoint, 4>{{{x - 3.6, y - 3.6}, {x + 3.6, y - 3.6}, {x + 3.6, y + 3.6}, {x - 3.6, y + 3.6}}});
+      polygon(
+          std::array<SvgPoint, 4>{{{x - 3.6, y - 3.6}, {x + 3.6, y - 3.6}, {x + 3.6, y + 3.6}, {x - 3.6, y + 3.6}}});
       break;
     case 2:
       polygon(std::array<SvgPoint, 4>{{{x, y - 5}, {x + 5, y}, {x, y + 5}, {x - 5, y}}});
@@ -69,8 +71,9 @@ void SvgCanvas::text(const SvgPoint& place, std::string_view text, Anchor anchor
   constexpr std::array<const char*, 3> kAnchors{"start", "middle", "end"};
   const std::string turn =
       turnDegrees == 0 ? "" : fmt::format(" transform=\"rotate({:g} {:.2f} {:.2f})\"", turnDegrees, place.x, place.y);
-  body_ += fmt::format("<text x=\"{:.2f}\" y=\"{:.2f}\" text-anchor=\"{}\" font-size=\"{:g}\" fill=\"{}\"{}>{}</text>\n",
-                       place.x, place.y, kAnchors[static_cast<size_t>(anchor)], size, colour, turn, escapeMarkup(text));
+  body_ +=
+      fmt::format("<text x=\"{:.2f}\" y=\"{:.2f}\" text-anchor=\"{}\" font-size=\"{:g}\" fill=\"{}\"{}>{}</text>\n",
+                  place.x, place.y, kAnchors[static_cast<size_t>(anchor)], size, colour, turn, escapeMarkup(text));
 }
 
 std::string SvgCanvas::finished() const { return body_ + "</svg>\n"; }

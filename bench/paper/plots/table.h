@@ -7,8 +7,8 @@ namespace asdfvk::bench {
 
 /// A word, or a number with the digits that a reader wants.
 struct Cell {
-  std::string text;     ///< As it is shown; empty for nothing.
-  std::string exact;    ///< As a program reads it.
+  std::string text;   ///< As it is shown; empty for nothing.
+  std::string exact;  ///< As a program reads it.
   bool isNumber = false;
 
   static Cell word(std::string text) { return {text, text, false}; }

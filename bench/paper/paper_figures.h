@@ -1,0 +1,18 @@
+#pragma once
+
+#include "paper/evaluation.h"
+#include "paper/page.h"
+#include "paper/studio.h"
+#include "paper/subject.h"
+
+namespace asdfvk::bench {
+
+/// The pictures of one mesh: Figures 1 (seeds and result), 2 (Laplacian), 3 (few and all faces) and 4 (error map).
+void addPaperFigures(Page& page, const Studio& studio, Session& session, Subject& subject, const Evaluation& evaluation,
+                     const RunControl& control);
+
+/// Figure 8: the balanced result at 10 % of the faces of every mesh.
+void addGallery(Page& page, const Studio& studio, Session& session, std::vector<Subject>& subjects,
+                const RunControl& control);
+
+}  // namespace asdfvk::bench
