@@ -34,7 +34,7 @@ Table errorTable(const Evaluation& evaluation, bool withPrinted) {
   table.columns.push_back({"", "faces"});
   if (withPrinted) table.columns.push_back({average, "printed", true});
   addRecipeColumns(table, average);
-  table.columns.push_back({average, "balanced\u2019s estimate"});
+  table.columns.push_back({average, "estimated"});
   if (withPrinted) table.columns.push_back({maximum, "printed", true});
   addRecipeColumns(table, maximum);
   addRecipeColumns(table, truth);

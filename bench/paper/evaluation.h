@@ -28,7 +28,9 @@ struct ShareResult {
   double truthAverage = 0, truthMaximum = 0;  ///< Against the truth.
   double estimated = kNoValue;                ///< What the result itself tells of `average`; NaN where it does not.
   double sampleSeconds = 0, traceSeconds = 0, predictSeconds = 0, solveSeconds = 0;
-  double timeRatio = 0;  ///< The four together over the trace of the full function in the same round.
+  double timeRatio = 0;  ///< seconds() over the trace of the full function in the same round.
+
+  [[nodiscard]] double seconds() const { return sampleSeconds + traceSeconds + predictSeconds + solveSeconds; }
 };
 
 struct Evaluation {

@@ -24,10 +24,11 @@ th, td { padding: .22rem .6rem; text-align: left; white-space: nowrap; }
 th { font-weight: 600; vertical-align: bottom; }
 th.group { text-align: center; border-bottom: 1px solid #888; }
 thead tr:last-child th { border-bottom: 1px solid #222; }
+th.first, td.first { padding-left: 1.9rem; }
 th.number, td.number { text-align: right; }
 .quoted { color: #8a4b00; background: #fdf6ec; }
 figure { margin: 1.6rem 0; }
-.images { display: grid; gap: 1.1rem 1.4rem; align-items: end; }
+.images { display: grid; gap: 1.1rem 1.4rem; }
 .images.columns6 { grid-template-columns: repeat(6, 1fr); width: min(96vw, 110rem); margin-left: 50%;
   transform: translateX(-50%); gap: .8rem; }
 .images.columns3 { grid-template-columns: repeat(3, 1fr); }

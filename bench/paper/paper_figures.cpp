@@ -14,7 +14,7 @@
 namespace asdfvk::bench {
 namespace {
 
-constexpr const char* kSdfTitle = "shape diameter";
+constexpr const char* kSdfTitle = "SDF";
 constexpr double kLaplacianPercentile = 0.99, kErrorPercentile = 0.98;
 
 /// What the figures of one mesh have in common.
@@ -48,9 +48,9 @@ void addTeaser(Page& page, const Scene& scene) {
   };
   page.figure(
       {scene.studio.seeds("figure1-seeds-paper", scene.mesh, scene.paperTenth.isSeed,
-                          seedsCaption("paper", scene.paperTenth)),
+                          seedsCaption("paper", scene.paperTenth), kWithBar),
        scene.studio.seeds("figure1-seeds-balanced", scene.mesh, scene.balancedTenth.isSeed,
-                          seedsCaption("balanced", scene.balancedTenth)),
+                          seedsCaption("balanced", scene.balancedTenth), kWithBar),
        scene.sdf("figure1-sdf-paper", scene.paperTenth.sdf, "paper: " + scene.errorsOf(scene.paperTenth)),
        scene.sdf("figure1-sdf-balanced", scene.balancedTenth.sdf, "balanced: " + scene.errorsOf(scene.balancedTenth))},
       2, "Figure 1",
@@ -69,11 +69,12 @@ void addLaplacian(Page& page, const Scene& scene) {
   Mesh triangles{scene.mesh.vertices, scene.mesh.faces, {}};
   page.figure(
       {scene.studio.field("figure2-laplacian", triangles, shown, {"|Laplacian|", {0, 1}}, "")}, 1, "Figure 2",
-      fmt::format("The absolute difference between each face's value and its neighbourhood's, |\u03a3 w SDF(p) "
-                  "\u2212 \u03a3 w SDF(v)| with w = 1 / distance of the barycentres, of the full function, over "
-                  "its 99th percentile. It is below a tenth of that on {:.0f} % of the faces: the function "
-                  "varies little on most of the surface, and most where the shape changes sharply.",
-                  100.0 * static_cast<double>(low) / static_cast<double>(std::max<std::ptrdiff_t>(1, present))));
+      fmt::format(
+          "The absolute difference between each face\u2019s value and its neighbourhood\u2019s, |\u03a3 w SDF(p) "
+          "\u2212 \u03a3 w SDF(v)| with w = 1 / distance of the barycentres, of the full function, over "
+          "its 99th percentile. It is below a tenth of that on {:.0f} % of the faces: the function "
+          "varies little on most of the surface, and most where the shape changes sharply.",
+          100.0 * static_cast<double>(low) / static_cast<double>(std::max<std::ptrdiff_t>(1, present))));
 }
 
 void addSparse(Page& page, const Scene& scene) {
@@ -112,13 +113,14 @@ void addErrorMaps(Page& page, const Scene& scene) {
                                      scene.balancedTenth.report.estimatedError->average)));
   images.push_back(map("figure4-error-paper", paper, "paper: " + scene.errorsOf(scene.paperTenth)));
   images.push_back(map("figure4-error-balanced", balanced, "balanced: " + scene.errorsOf(scene.balancedTenth)));
-  page.figure(images, 3, "Figure 4",
-              fmt::format("Top: the function computed on all the faces, and from 10 % of them. Below: the differences "
-                          "to the function on all the faces over its range, and what the balanced recipe expects of "
-                          "them without having computed it. The colours end at the 98th percentile of the paper "
-                          "recipe's differences; the largest lie along the boundaries of the parts. The paper prints "
-                          "an average error of {:.4f} and a maximum of {:.4f} for its horse.",
-                          kPrintedErrors[2].average, kPrintedErrors[2].maximum));
+  page.figure(
+      images, 3, "Figure 4",
+      fmt::format("Top: the function computed on all the faces, and from 10 % of them. Below: the differences "
+                  "to the function on all the faces over its range, and what the balanced recipe expects of "
+                  "them without having computed it. The colours end at the 98th percentile of the paper "
+                  "recipe\u2019s differences; the largest lie along the boundaries of the parts. The paper prints "
+                  "an average error of {:.4f} and a maximum of {:.4f} for its horse.",
+                  kPrintedErrors[2].average, kPrintedErrors[2].maximum));
 }
 
 }  // namespace

@@ -34,8 +34,15 @@ void addTables(Page& page, const OutputFolder& folder, const std::vector<Evaluat
   page.paragraph(fmt::format(
       "The full function casts 30 rays at every face, all cones turned alike: the paper\u2019s reference. The truth "
       "casts {} rays at every face, each cone turned by a hash. The row at 100 % against the truth is the noise floor: "
-      "what the full function itself is off by. Every number is the median over {} random seed set{}.",
+      "what the full function itself is off by. Every number is the median over {} random seed set{}. "
+      "\u201cEstimated\u201d is what a result of "
+      "the balanced recipe tells of its own average error, from some faces held out and without the full function.",
       options.truthRayCount, options.seedSetCount, options.seedSetCount == 1 ? "" : "s"));
+  page.paragraph(
+      "Recipe paper: random seeds, weights 1 / distance. Balanced: seeds as blue noise, weights by dihedral angle, "
+      "guided by what the rays of neighbouring seeds hit. Quality: the same with cones turned by a hash and values "
+      "pooled over neighbouring cones, traced ones too; it aims at the truth and so differs from the full function "
+      "even where all faces are traced.");
   bool isFirst = true;
   for (const Evaluation& evaluation : evaluations) {
     const std::string csv = "table1-" + evaluation.name + ".csv";
@@ -79,7 +86,7 @@ void addPlots(Page& page, const OutputFolder& folder, const std::vector<Evaluati
   const ShareResult &paper = first.at(Recipe::Paper, 10), &balanced = first.at(Recipe::Balanced, 10);
   page.figure(
       {plotImage(folder, "figure6-" + first.name, timePlot(first))}, 1, "Figure 6",
-      fmt::format("Time in function of the number of selected faces, {} ({} faces at 10 %): choosing the "
+      fmt::format("Left, time in function of the number of selected faces, {} ({} faces at 10 %): choosing the "
                   "seeds, tracing them, predicting from their hits and solving, over the trace of all faces in "
                   "the same round ({:.3g} s). At 10 % it is {:.3f} of that with recipe paper and {:.3f} with "
                   "balanced; the paper tells of {:g} s that become slightly more than {:g}, a ratio of {:.2g}.",

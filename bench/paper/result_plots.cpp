@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 
 #include "paper/paper_numbers.h"
@@ -102,6 +103,22 @@ LinePlot meshPlot(const std::vector<Evaluation>& evaluations, Recipe recipe) {
       series.points.push_back({static_cast<double>(i), evaluations[i].at(recipe, line.percent).average});
     plot.series.push_back(std::move(series));
   }
+  return plot;
+}
+
+LinePlot secondsPlot(const Evaluation& evaluation) {
+  LinePlot plot{.title = evaluation.name + ", seconds", .x = {"faces that cast rays"}, .y = {"seconds"}, .series = {}};
+  double most = 0;
+  for (size_t recipe = 0; recipe < kRecipeCount; ++recipe) {
+    Series series{kRecipes[recipe].first, {}, kRecipeColours[recipe], recipe};
+    for (const ShareResult& share : evaluation.recipes[recipe]) {
+      series.points.insert(series.points.begin(), {static_cast<double>(share.seedCount), share.seconds()});
+      most = std::max(most, share.seconds());
+      plot.x.high = std::max(plot.x.high, static_cast<double>(share.seedCount));
+    }
+    plot.series.push_back(std::move(series));
+  }
+  plot.y.high = most * 1.05;
   return plot;
 }
 

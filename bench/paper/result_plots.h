@@ -17,6 +17,8 @@ namespace asdfvk::bench {
 /// Figure 5 as the paper colours it: meshes side by side, green 10 %, red 20 %, blue 50 % of the faces.
 [[nodiscard]] LinePlot meshPlot(const std::vector<Evaluation>& evaluations, Recipe recipe);
 
+/// Figure 6: seconds over the number of selected faces, the recipes of one mesh.
+[[nodiscard]] LinePlot secondsPlot(const Evaluation& evaluation);
 /// Figure 6: time over the percentage as a share of the full trace's, the recipes of one mesh.
 [[nodiscard]] LinePlot timePlot(const Evaluation& evaluation);
 

@@ -60,15 +60,14 @@ void addSamplerFigure(Page& page, const Studio& studio, const OutputFolder& fold
     const SamplerErrors errors = measure(session, subject.mesh, sampler, evaluation, seedSetCount, control);
     table.rows.push_back({Cell::word(name), Cell::count(errors.seedCount), Cell::number(errors.paper, 4),
                           Cell::number(errors.balanced, 4)});
-    images.push_back(
-        studio.seeds(fmt::format("figure7-{}", name), subject.mesh, errors.isSeed,
-                     fmt::format("{}: {:.4f} with the paper\u2019s interpolation, {:.4f} with balanced\u2019s", name,
-                                 errors.paper, errors.balanced)));
+    images.push_back(studio.seeds(fmt::format("figure7-{}", name), subject.mesh, errors.isSeed,
+                                  fmt::format("{}: {:.4f} | {:.4f}", name, errors.paper, errors.balanced), kPlain));
   }
   folder.write(kCsv, toCsv(table));
   page.figure(images, 6, "Figure 7",
               fmt::format("Faces selected by every sampler, {:g} % of all ({} seeds), and the average error that comes "
-                          "of them. Random selection, the paper\u2019s, gives no weight to the features of the mesh; "
+                          "of them, with the interpolation of recipe paper | of balanced. Random selection, the "
+                          "paper\u2019s, gives no weight to the features of the mesh; "
                           "normal-space is the Gaussian sphere that it names as future work.",
                           kSamplerPercent, table.rows.front()[1].text),
               kCsv);

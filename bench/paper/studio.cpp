@@ -7,7 +7,6 @@
 namespace asdfvk::bench {
 namespace {
 
-constexpr int kWidth = 800, kHeight = 600;
 constexpr double kTextScale = 1.4;  // Pictures stand three in a row.
 
 }  // namespace
@@ -22,8 +21,8 @@ PageImage Studio::field(const std::string& file, const Mesh& mesh, const std::ve
                               .highlighted = {},
                               .title = style.title,
                               .range = style.range,
-                              .width = kWidth,
-                              .height = kHeight,
+                              .width = kWithBar.width,
+                              .height = kWithBar.height,
                               .view = {},
                               .textScale = kTextScale},
                              control_));
@@ -31,7 +30,7 @@ PageImage Studio::field(const std::string& file, const Mesh& mesh, const std::ve
 }
 
 PageImage Studio::seeds(const std::string& file, const Mesh& mesh, const std::vector<uint8_t>& isSeed,
-                        const std::string& caption) const {
+                        const std::string& caption, const PictureSize& size) const {
   const std::string name = file + ".png";
   writeStandardError("drawing " + name + "\n");
   const std::vector<uint8_t> ofTriangles = onTriangles(mesh, isSeed);
@@ -40,8 +39,8 @@ PageImage Studio::seeds(const std::string& file, const Mesh& mesh, const std::ve
                               .highlighted = ofTriangles,
                               .title = {},
                               .range = {},
-                              .width = kWidth,
-                              .height = kHeight,
+                              .width = size.width,
+                              .height = size.height,
                               .view = {},
                               .textScale = kTextScale},
                              control_));

@@ -11,6 +11,12 @@
 
 namespace asdfvk::bench {
 
+/// In pixels. Plain pictures have no colour bar; in the other size they show the mesh as large as pictures with one.
+struct PictureSize {
+  int width = 0, height = 0;
+};
+inline constexpr PictureSize kWithBar{1080, 600}, kPlain{810, 600};
+
 /// How a field is drawn.
 struct FieldStyle {
   std::string title;  ///< Above the colour bar.
@@ -27,7 +33,7 @@ class Studio {
                                 const FieldStyle& style, const std::string& caption) const;
   /// isSeed: #I; seeds are red, all else is light.
   [[nodiscard]] PageImage seeds(const std::string& file, const Mesh& mesh, const std::vector<uint8_t>& isSeed,
-                                const std::string& caption) const;
+                                const std::string& caption, const PictureSize& size) const;
 
  private:
   const OutputFolder& folder_;

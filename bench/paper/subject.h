@@ -19,7 +19,4 @@ struct Subject {
 /// The generator's creatures with about that many faces each.
 [[nodiscard]] std::vector<Subject> generateSubjects(uint64_t faceCount);
 
-/// Names for files of these paths: stems, with -2, -3 and so on from the second of a name on.
-[[nodiscard]] std::vector<std::string> uniqueStems(const std::vector<std::string>& paths);
-
 }  // namespace asdfvk::bench

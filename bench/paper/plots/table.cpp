@@ -33,10 +33,13 @@ std::string groupRow(const std::vector<Column>& columns) {
   return hasGroup ? "<tr>" + row + "</tr>\n" : "";
 }
 
-std::string classOf(const Column& column, bool isNumber) {
-  std::string names = isNumber ? "number" : "";
-  if (column.isQuoted) names += names.empty() ? "quoted" : " quoted";
-  return names.empty() ? "" : " class=\"" + names + '"';
+/// Of the cells of a column, for the page's style.
+std::string classOf(const std::vector<Column>& columns, size_t index, bool isNumber) {
+  std::string names;
+  if (isNumber) names += " number";
+  if (columns[index].isQuoted) names += " quoted";
+  if (index > 0 && columns[index].group != columns[index - 1].group) names += " first";
+  return names.empty() ? "" : fmt::format(" class=\"{}\"", names.substr(1));
 }
 
 }  // namespace
@@ -66,13 +69,13 @@ std::string toHtml(const Table& table) {
   std::string text = "<table>\n<thead>\n" + groupRow(table.columns) + "<tr>";
   for (size_t i = 0; i < table.columns.size(); ++i) {
     const bool isNumber = !table.rows.empty() && table.rows.front()[i].isNumber;
-    text += fmt::format("<th{}>{}</th>", classOf(table.columns[i], isNumber), escapeMarkup(table.columns[i].name));
+    text += fmt::format("<th{}>{}</th>", classOf(table.columns, i, isNumber), escapeMarkup(table.columns[i].name));
   }
   text += "</tr>\n</thead>\n<tbody>\n";
   for (const std::vector<Cell>& row : table.rows) {
     text += "<tr>";
     for (size_t i = 0; i < row.size(); ++i)
-      text += fmt::format("<td{}>{}</td>", classOf(table.columns[i], row[i].isNumber), escapeMarkup(row[i].text));
+      text += fmt::format("<td{}>{}</td>", classOf(table.columns, i, row[i].isNumber), escapeMarkup(row[i].text));
     text += "</tr>\n";
   }
   return text + "</tbody>\n</table>\n";
