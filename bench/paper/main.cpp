@@ -8,6 +8,8 @@
 #include "cli/choice_names.h"
 #include "cli/report_text.h"
 #include "generate/generated_shape.h"
+#include "machine.h"
+#include "paper/gallery.h"
 #include "paper/paper_figures.h"
 #include "paper/report.h"
 #include "paper/sampler_figure.h"
@@ -37,6 +39,7 @@ std::string quotedForShell(const std::string& argument) {
 
 void addFacts(Page& page, const Arguments& arguments, const std::vector<Evaluation>& evaluations) {
   const Report& report = evaluations.front().full.report;
+  const Machine machine = thisMachine();
   std::string meshes;
   for (const Evaluation& evaluation : evaluations)
     meshes += fmt::format("{}{} ({} faces)", meshes.empty() ? "" : ", ", evaluation.name,

@@ -11,8 +11,4 @@ namespace asdfvk::bench {
 void addPaperFigures(Page& page, const Studio& studio, Session& session, Subject& subject, const Evaluation& evaluation,
                      const RunControl& control);
 
-/// Figure 8: the balanced result at 10 % of the faces of every mesh.
-void addGallery(Page& page, const Studio& studio, Session& session, std::vector<Subject>& subjects,
-                const RunControl& control);
-
 }  // namespace asdfvk::bench

@@ -7,7 +7,7 @@
 namespace asdfvk::bench {
 namespace {
 
-constexpr double kTextScale = 1.4;  // Pictures stand three in a row.
+constexpr double kTextScale = 1.6;  // Pictures stand three in a row.
 
 }  // namespace
 

@@ -15,7 +15,7 @@ namespace asdfvk::bench {
 struct PictureSize {
   int width = 0, height = 0;
 };
-inline constexpr PictureSize kWithBar{1080, 600}, kPlain{810, 600};
+inline constexpr PictureSize kWithBar{960, 600}, kPlain{780, 600};
 
 /// How a field is drawn.
 struct FieldStyle {
