@@ -57,8 +57,10 @@ Axis logarithmicAxis(std::string label, const std::vector<double>& values) {
   if (drawn.empty()) return axis;
   const auto [least, greatest] = std::minmax_element(drawn.begin(), drawn.end());
   const std::vector<double> numbers = roundNumbers(*least, *greatest);
-  axis.low = *std::prev(std::upper_bound(numbers.begin(), numbers.end(), *least));
-  axis.high = *std::upper_bound(numbers.begin(), numbers.end(), *greatest * (1 - kSlack));
+  const auto above = std::upper_bound(numbers.begin(), numbers.end(), *greatest * (1 - kSlack));
+  const auto below = std::prev(std::upper_bound(numbers.begin(), numbers.end(), *least));
+  axis.low = below < above ? *below : *std::prev(above);
+  axis.high = *above;
   return axis;
 }
 
