@@ -2,7 +2,7 @@
 // beside the paper's where there is one, and beside what a function of many rays says.
 #include <fmt/format.h>
 
-#include <map>
+#include <vector>
 
 #include "bench_program.h"
 #include "cli/choice_names.h"
@@ -57,8 +57,8 @@ void addFacts(Page& page, const Arguments& arguments, const std::vector<Evaluati
 void run(const Arguments& arguments, const RunControl& control) {
   std::vector<Subject> subjects =
       arguments.meshes.empty() ? generateSubjects(arguments.generatedFaceCount) : readSubjects(arguments.meshes);
-  const OutputFolder folder(arguments.output);
   Session session(arguments.session);
+  const OutputFolder folder(arguments.output);
   std::vector<Evaluation> evaluations;
   for (Subject& subject : subjects)
     evaluations.push_back(evaluate(session, subject.name, subject.mesh, arguments.evaluation, control));
@@ -98,13 +98,19 @@ int main(int argc, char** argv) {
   app.add_option("--faces", arguments.generatedFaceCount, "Of each generated shape")
       ->check(CLI::Range(kMinFaceCount, kMaxFaceCount))
       ->capture_default_str();
-  const std::map<std::string, Backend> backends(kBackends.begin(), kBackends.end());
-  app.add_option("--backend", arguments.session.backend, "Where to compute; default auto")
-      ->transform(CLI::CheckedTransformer(backends).description(""))
+  std::vector<std::string> backendNames;
+  for (const auto& [name, backend] : kBackends) backendNames.emplace_back(name);
+  std::string backend = "auto";
+  app.add_option("--backend", backend, "Where to compute; default auto")
+      ->check(CLI::IsMember(backendNames))
       ->option_text(joined(kBackends));
   app.add_option("--device", arguments.session.device, "As asdf-vk takes it");
   for (int i = 0; i < argc; ++i)
     arguments.commandLine +=
         (i == 0 ? "" : " ") + (i == 0 ? std::string("asdfvk-bench-paper") : quotedForShell(argv[i]));
-  return runBenchProgram(app, argc, argv, [&](const RunControl& control) { run(arguments, control); });
+  return runBenchProgram(app, argc, argv, [&](const RunControl& control) {
+    for (const auto& [name, choice] : kBackends)
+      if (name == backend) arguments.session.backend = choice;
+    run(arguments, control);
+  });
 }
