@@ -31,7 +31,7 @@ struct Scene {
   }
   [[nodiscard]] std::string errorsOf(const Result& result) const {
     const ShareErrors errors = errorsOverRange(evaluation.full.sdf, result.sdf);
-    return fmt::format("average error {:.4f}, maximum {:.3f}", errors.average, errors.maximum);
+    return fmt::format("average error {:.4f}, max {:.3f}", errors.average, errors.maximum);
   }
 };
 

@@ -36,7 +36,9 @@ void addTables(Page& page, const OutputFolder& folder, const std::vector<Evaluat
       "casts {} rays at every face, each cone turned by a hash. The row at 100 % against the truth is the noise floor: "
       "what the full function itself is off by. Every number is the median over {} random seed set{}. "
       "\u201cEstimated\u201d is what a result of "
-      "the balanced recipe tells of its own average error, from some faces held out and without the full function.",
+      "the balanced recipe tells of its own average error, from some faces held out and without the full function. A "
+      "maximum above 1 is a "
+      "value outside of the full function\u2019s range.",
       options.truthRayCount, options.seedSetCount, options.seedSetCount == 1 ? "" : "s"));
   page.paragraph(
       "Recipe paper: random seeds, weights 1 / distance. Balanced: seeds as blue noise, weights by dihedral angle, "
