@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/error.h"
 #include "core/stopwatch.h"
@@ -15,6 +17,22 @@ namespace asdfvk {
 namespace {
 
 constexpr double kComparisonTolerance = 1e-2;
+
+/// Guidance carries values beyond those of the seeds: downwards as far as the prediction, which is a mean of lengths,
+/// goes itself; upwards not at all, since the faces with the greatest predictions are seeds (see chooseScouts()).
+void keepWithinTraced(const TracedSeeds& traced, Interpolated& result) {
+  double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
+  for (const uint32_t face : traced.faces)
+    if (const double value = traced.values[face]; std::isfinite(value)) {
+      low = std::min(low, value);
+      high = std::max(high, value);
+    }
+  for (size_t face = 0; face < result.values.size(); ++face) {
+    const double prediction = result.prediction[face];
+    const double least = std::isfinite(prediction) ? std::min(low, prediction) : low;
+    if (std::isfinite(result.values[face])) result.values[face] = std::clamp(result.values[face], least, high);
+  }
+}
 
 }  // namespace
 
@@ -41,6 +59,7 @@ Interpolated Interpolation::run(const TracedSeeds& traced, StageSeconds& seconds
       buildPoissonSystem(prepared_.graph, weights_, traced.values, divergence(result.prediction),
                          {.secondOrder = options_.interpolation.secondOrder, .firstGuess = result.prediction});
   result.solver = solve(system, result.values, options_.solverOptions, control.part(0.5, 1));
+  if (!result.prediction.empty()) keepWithinTraced(traced, result);
   if (const double pooling = options_.interpolation.pooling; pooling > 0)
     for (size_t face = 0; face < result.prediction.size(); ++face)
       if (std::isfinite(result.prediction[face]) && std::isfinite(result.values[face]))
