@@ -23,7 +23,10 @@ void bind(CLI::App& app, Arguments& arguments) {
       ->capture_default_str();
   app.add_option("--cgal-runs", arguments.request.cgalRunCount, "Runs of CGAL, which takes long; 0: none")
       ->capture_default_str();
-  app.add_option("--seeds", arguments.request.seeds, "Shares, counts or all")->delimiter(',')->capture_default_str();
+  app.add_option("--seeds", arguments.request.seeds, "Shares, counts or all")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->capture_default_str();
   app.add_option("--device", arguments.request.device, "Vulkan device, as asdf-vk takes it");
   app.add_flag("--json", arguments.json, "One JSON line per mesh instead of a table");
 }
