@@ -14,7 +14,8 @@
 
 namespace asdfvk {
 
-/// What traces and what solves: a Vulkan device with its pipelines, or the CPU with Embree or with the reference. Kernels are compiled once and kept.
+/// What traces and what solves: a Vulkan device with its pipelines, or the CPU with Embree or with the reference.
+/// Kernels are compiled once and kept.
 class ComputeBackend {
  public:
   /// Throws Error{Device} when what was asked for is not there.
