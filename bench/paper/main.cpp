@@ -47,6 +47,8 @@ void addFacts(Page& page, const Arguments& arguments, const std::vector<Evaluati
   page.facts(
       {{"version", std::string("asdf-vk ") + ASDFVK_VERSION},
        {"device", fmt::format("{} ({})", report.device, report.backend)},
+       {"processor",
+        fmt::format("{}, {} thread{}", machine.processor, machine.threads, machine.threads == 1 ? "" : "s")},
        {"meshes", meshes},
        {"options", fmt::format("{} seed set{}, 30 rays in a cone of 120 degrees, truth of {} rays",
                                arguments.evaluation.seedSetCount, arguments.evaluation.seedSetCount == 1 ? "" : "s",

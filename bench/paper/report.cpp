@@ -37,8 +37,7 @@ void addTables(Page& page, const OutputFolder& folder, const std::vector<Evaluat
       "what the full function itself is off by. Every number is the median over {} random seed set{}. "
       "\u201cEstimated\u201d is what a result of "
       "the balanced recipe tells of its own average error, from some faces held out and without the full function. A "
-      "maximum above 1 is a "
-      "value outside of the full function\u2019s range.",
+      "maximum above 1 is a value outside of the full function\u2019s range.",
       options.truthRayCount, options.seedSetCount, options.seedSetCount == 1 ? "" : "s"));
   page.paragraph(
       "Recipe paper: random seeds, weights 1 / distance. Balanced: seeds as blue noise, weights by dihedral angle, "
