@@ -9,7 +9,7 @@
 #include "mesh/mesh_reader.h"
 #include "pipeline/compute_backend.h"
 #include "pipeline/prepared_mesh.h"
-#include "pipeline/seed_tracing.h"
+#include "pipeline/seed_choice.h"
 #include "seeds/random_permutation.h"
 #include "trace/embree_tracer.h"
 #include "trace/seed_order.h"
