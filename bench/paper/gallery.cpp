@@ -14,7 +14,7 @@ void addGallery(Page& page, const Studio& studio, Session& session, std::vector<
   for (Subject& subject : subjects) {
     const Result result = session.compute(subject.mesh, recipeOptions(Recipe::Balanced, kTeaserPercent, 1), control);
     images.push_back(
-        studio.field("figure8-" + subject.name, subject.mesh, result.sdf, {"SDF", percentileRange(result.sdf)},
+        studio.field("figure8-" + subject.name, subject, result.sdf, {"SDF", percentileRange(result.sdf)},
                      fmt::format("{}, {} faces, {} seeds", subject.name, groupDigits(result.report.faceCount),
                                  groupDigits(result.report.seedCount))));
   }

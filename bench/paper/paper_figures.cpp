@@ -20,14 +20,14 @@ constexpr double kLaplacianPercentile = 0.99, kErrorPercentile = 0.98;
 /// What the figures of one mesh have in common.
 struct Scene {
   const Studio& studio;
-  Mesh& mesh;
+  const Subject& subject;
   const Evaluation& evaluation;
   Result paperTenth, balancedTenth, paperSparse, balancedSparse;
   FieldStyle sdfStyle;
 
   [[nodiscard]] PageImage sdf(const std::string& file, const std::vector<double>& values,
                               const std::string& caption) const {
-    return studio.field(file, mesh, values, sdfStyle, caption);
+    return studio.field(file, subject, values, sdfStyle, caption);
   }
   [[nodiscard]] std::string errorsOf(const Result& result) const {
     const ShareErrors errors = errorsOverRange(evaluation.full.sdf, result.sdf);
@@ -47,9 +47,9 @@ void addTeaser(Page& page, const Scene& scene) {
     return fmt::format("{}: {} seeds", recipe, groupDigits(result.report.seedCount));
   };
   page.figure(
-      {scene.studio.seeds("figure1-seeds-paper", scene.mesh, scene.paperTenth.isSeed,
+      {scene.studio.seeds("figure1-seeds-paper", scene.subject, scene.paperTenth.isSeed,
                           seedsCaption("paper", scene.paperTenth), kWithBar),
-       scene.studio.seeds("figure1-seeds-balanced", scene.mesh, scene.balancedTenth.isSeed,
+       scene.studio.seeds("figure1-seeds-balanced", scene.subject, scene.balancedTenth.isSeed,
                           seedsCaption("balanced", scene.balancedTenth), kWithBar),
        scene.sdf("figure1-sdf-paper", scene.paperTenth.sdf, "paper: " + scene.errorsOf(scene.paperTenth)),
        scene.sdf("figure1-sdf-balanced", scene.balancedTenth.sdf, "balanced: " + scene.errorsOf(scene.balancedTenth))},
@@ -62,11 +62,12 @@ void addTeaser(Page& page, const Scene& scene) {
 
 void addLaplacian(Page& page, const Scene& scene) {
   const std::vector<double> ofTriangles =
-      absoluteLaplacian(scene.mesh, onTriangles(scene.mesh, scene.evaluation.full.sdf));
+      absoluteLaplacian(scene.subject.mesh, onTriangles(scene.subject.mesh, scene.evaluation.full.sdf));
   const std::vector<double> shown = overPercentile(ofTriangles, kLaplacianPercentile);
   const auto low = std::count_if(shown.begin(), shown.end(), [](double v) { return v < 0.1; });
   const auto present = std::count_if(shown.begin(), shown.end(), [](double v) { return !std::isnan(v); });
-  Mesh triangles{scene.mesh.vertices, scene.mesh.faces, {}};
+  const Mesh& mesh = scene.subject.mesh;
+  const Subject triangles{scene.subject.name, {mesh.vertices, mesh.faces, {}}, scene.subject.view};
   page.figure(
       {scene.studio.field("figure2-laplacian", triangles, shown, {"|Laplacian|", {0, 1}}, "")}, 1, "Figure 2",
       fmt::format(
@@ -102,7 +103,7 @@ void addErrorMaps(Page& page, const Scene& scene) {
   const double top = sorted[static_cast<size_t>(kErrorPercentile * static_cast<double>(sorted.size() - 1))];
   const FieldStyle errorStyle{"|error| / range", {0, top}};
   const auto map = [&](const char* file, const std::vector<double>& values, const std::string& caption) {
-    return scene.studio.field(file, scene.mesh, values, errorStyle, caption);
+    return scene.studio.field(file, scene.subject, values, errorStyle, caption);
   };
   std::vector<PageImage> images{scene.sdf("figure4-full", evaluation.full.sdf, "all faces"),
                                 scene.sdf("figure4-paper", scene.paperTenth.sdf, "paper, 10 % of the faces"),
@@ -131,7 +132,7 @@ void addPaperFigures(Page& page, const Studio& studio, Session& session, Subject
     return session.compute(subject.mesh, recipeOptions(recipe, percent, 1), control);
   };
   const Scene scene{.studio = studio,
-                    .mesh = subject.mesh,
+                    .subject = subject,
                     .evaluation = evaluation,
                     .paperTenth = compute(Recipe::Paper, kTeaserPercent),
                     .balancedTenth = compute(Recipe::Balanced, kTeaserPercent),

@@ -60,7 +60,7 @@ void addSamplerFigure(Page& page, const Studio& studio, const OutputFolder& fold
     const SamplerErrors errors = measure(session, subject.mesh, sampler, evaluation, seedSetCount, control);
     table.rows.push_back({Cell::word(name), Cell::count(errors.seedCount), Cell::number(errors.paper, 4),
                           Cell::number(errors.balanced, 4)});
-    images.push_back(studio.seeds(fmt::format("figure7-{}", name), subject.mesh, errors.isSeed,
+    images.push_back(studio.seeds(fmt::format("figure7-{}", name), subject, errors.isSeed,
                                   fmt::format("{}: {:.4f} | {:.4f}", name, errors.paper, errors.balanced), kPlain));
   }
   folder.write(kCsv, toCsv(table));

@@ -4,10 +4,10 @@
 #include <vector>
 
 #include "core/run_control.h"
-#include "mesh/mesh.h"
 #include "mesh/writers/colour_map.h"
 #include "paper/output_folder.h"
 #include "paper/page.h"
+#include "paper/subject.h"
 
 namespace asdfvk::bench {
 
@@ -29,10 +29,10 @@ class Studio {
   Studio(const OutputFolder& folder, const RunControl& control) : folder_(folder), control_(control) {}
 
   /// values: #I, NaN is grey. `file` is without its ending.
-  [[nodiscard]] PageImage field(const std::string& file, const Mesh& mesh, const std::vector<double>& values,
+  [[nodiscard]] PageImage field(const std::string& file, const Subject& subject, const std::vector<double>& values,
                                 const FieldStyle& style, const std::string& caption) const;
   /// isSeed: #I; seeds are red, all else is light.
-  [[nodiscard]] PageImage seeds(const std::string& file, const Mesh& mesh, const std::vector<uint8_t>& isSeed,
+  [[nodiscard]] PageImage seeds(const std::string& file, const Subject& subject, const std::vector<uint8_t>& isSeed,
                                 const std::string& caption, const PictureSize& size) const;
 
  private:

@@ -16,7 +16,7 @@ std::vector<Subject> readSubjects(const std::vector<std::string>& paths) {
 std::vector<Subject> generateSubjects(uint64_t faceCount) {
   std::vector<Subject> subjects;
   for (const char* shape : {"animal", "hand", "figure"})
-    subjects.push_back({shape, generateShape(shape, faceCount).mesh});
+    subjects.push_back({shape, generateShape(shape, faceCount).mesh, {.up = Up::Z}});
   return subjects;
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "mesh/mesh.h"
+#include "picture/view.h"
 
 namespace asdfvk::bench {
 
@@ -11,6 +12,7 @@ namespace asdfvk::bench {
 struct Subject {
   std::string name;  ///< Letters, digits, "-", "_" and "." only, one of its kind: part of file names.
   Mesh mesh;
+  View view = {};  ///< To draw it from.
 };
 
 /// Reads all of them, so that an unreadable one is told before anything is computed. Throws Error{Input}.
