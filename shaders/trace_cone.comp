@@ -3,9 +3,7 @@
 // cone walks the rays i, i + kLanesPerCone, ..., and the lanes reduce the lengths to one float (the packet that the ASDF
 // paper's section 6 asks for).
 #extension GL_GOOGLE_include_directive : require
-#include "shared/cone_hit.h"
 #include "shared/cone_layout.h"
-#include "shared/cone_rules.h"
 
 layout(local_size_x_id = 0, local_size_y_id = 1) in;
 layout(constant_id = 0) const uint kLanesPerCone = 32;
@@ -14,43 +12,23 @@ layout(constant_id = 2) const uint kRayCount = 30;
 layout(constant_id = 3) const uint kIterationLimit = 8000;  // Of one lane, all its rays together.
 layout(constant_id = 4) const bool kWritesHits = false;
 
-layout(set = 0, binding = 0, rgba32ui) uniform readonly uimageBuffer bvhNodes;
-layout(set = 0, binding = 1, rgba32ui) uniform readonly uimageBuffer bvhTriangles;
-layout(set = 0, binding = 2) readonly buffer Rays { ConeRay rays[]; };
-layout(set = 0, binding = 3) readonly buffer Origins { ConeOrigin origins[]; };
-layout(set = 0, binding = 4) writeonly buffer Results { uint results[]; };
-layout(set = 0, binding = 5) writeonly buffer Hits { uvec2 hits[]; };  // ConeHit, kRayCount per cone, if kWritesHits.
+layout(set = 0, binding = 6) writeonly buffer Results { uint results[]; };
+layout(set = 0, binding = 7) writeonly buffer Hits { uvec2 hits[]; };  // ConeHit, kRayCount per cone, if kWritesHits.
 layout(push_constant) uniform Push { ConePush push; };
 
 shared float lengths[kConesPerWorkgroup * kRayCount];
 shared float middles[2 * kConesPerWorkgroup];
 shared uint incompleteCounts[kConesPerWorkgroup];
 
-const float kFarAway = 1e30;  // Beyond anything in normalised coordinates.
-const float kDropped = -1.0;
-
+#include "cone_rays.glsl"
 #include "cone_value.glsl"
-#include "nearest_hit.glsl"
-
-// The length of a ray, kDropped when it hits nothing or a face that looks along the seed's normal (minus the axis).
-float validLength(Hit hit, vec3 axis) {
-  if (hit.slot == kNoSlot) return kDropped;
-  const DeviceTriangle triangle = loadTriangle(hit.slot);
-  const vec3 normal = decodeNormal(triangle.normalU, triangle.normalV);
-  return -dot(normal, axis) > push.falseHitCosine ? kDropped : hit.distance;
-}
-
-uvec2 encodeHit(Hit hit) {
-  if (hit.slot == kNoSlot) return uvec2(kMissDistanceBits, kNoFace);
-  return uvec2(floatBitsToUint(hit.distance), loadTriangle(hit.slot).faceIndex);
-}
 
 void main() {
   const uint lane = gl_LocalInvocationID.x;
   const uint slot = gl_LocalInvocationID.y;
   const uint cone = gl_WorkGroupID.x * kConesPerWorkgroup + slot;
   const bool exists = cone < push.coneCount;
-  const ConeOrigin start = origins[min(cone, push.coneCount - 1u)];
+  const ConeOrigin start = loadOrigin(min(cone, push.coneCount - 1u));
   const vec3 axis = cross(start.tangent, start.bitangent);
   const uint base = slot * kRayCount;
 
@@ -58,7 +36,7 @@ void main() {
   barrier();
   uint iterationCount = 0u;
   for (uint ray = lane; ray < kRayCount; ray += kLanesPerCone) {
-    const vec3 local = rays[ray].direction;
+    const vec3 local = loadRay(ray).direction;
     const vec3 direction = local.x * start.tangent + local.y * start.bitangent + local.z * axis;
     const Hit hit = findNearestHit(start.origin, direction, start.excludedFace, iterationCount);
     if (!hit.isComplete) atomicAdd(incompleteCounts[slot], 1u);

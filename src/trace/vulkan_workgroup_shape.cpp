@@ -5,11 +5,20 @@
 namespace asdfvk {
 namespace {
 
+// One ray per lane.
+VulkanWorkgroupShape seedShape(const DeviceFacts& device) {
+  VulkanWorkgroupShape shape{1, std::min({64u, device.maxWorkgroupInvocations, device.maxWorkgroupSize})};
+  if (device.kind == DeviceKind::Cpu)
+    shape.iterationLimit = kCpuDeviceLoopIterationCount / std::max(1u, device.subgroupSize);
+  return shape;
+}
+
 uint32_t roundUp(uint32_t value, uint32_t multiple) { return (value + multiple - 1) / multiple * multiple; }
 
 }  // namespace
 
-VulkanWorkgroupShape workgroupShapeFor(const DeviceFacts& device, uint32_t rayCount) {
+VulkanWorkgroupShape workgroupShapeFor(const DeviceFacts& device, uint32_t rayCount, TraceKernel kernel) {
+  if (kernel == TraceKernel::Seed) return seedShape(device);
   VulkanWorkgroupShape shape;
   const uint32_t widest = std::min({256u, device.maxWorkgroupInvocations, device.maxWorkgroupSize});
   if (device.kind != DeviceKind::Cpu) {
