@@ -8,9 +8,6 @@
 namespace asdfvk {
 namespace {
 
-// What a wide node costs, in triangle tests.
-constexpr float kWideNodeCost = 2.0f;
-
 // Levels whose subtrees are tasks of their own.
 constexpr uint32_t kParallelLevelCount = 10;
 constexpr uint32_t kParallelWideLevelCount = 4;

@@ -9,6 +9,9 @@
 
 namespace asdfvk {
 
+/// What a wide node costs in the surface-area heuristic, in triangle tests.
+inline constexpr float kWideNodeCost = 2.0f;
+
 /// A child of a wide node: a node of the binary hierarchy, either to become a wide node itself or, with all that is
 /// below it, a leaf.
 struct WideChild {

@@ -78,20 +78,4 @@ DeviceWideNode quantizeBoxes(std::span<const Box3f> children, const std::array<u
   return node;
 }
 
-Box3d decodeBox(const DeviceWideNode& node, uint32_t slot) {
-  Box3d box;
-  const double origin[3] = {node.origin.x, node.origin.y, node.origin.z};
-  const uint32_t* const axes[3] = {node.x.words, node.y.words, node.z.words};
-  for (size_t axis = 0; axis < 3; ++axis) {
-    const auto at = [&](uint32_t index) {
-      const uint32_t byte = axes[axis][index / 4] >> 8 * (index % 4) & 0xff;
-      const int e = static_cast<int>(node.exponents >> 8 * axis & 0xff) - kExponentBias;
-      return origin[axis] + std::ldexp(static_cast<double>(byte), e);
-    };
-    box.min[axis] = at(slot);
-    box.max[axis] = at(kWideChildCount + slot);
-  }
-  return box;
-}
-
 }  // namespace asdfvk

@@ -22,7 +22,4 @@ inline constexpr float kWideBoxMargin = 0x1p-19f;
 [[nodiscard]] DeviceWideNode quantizeBoxes(std::span<const Box3f> children,
                                            const std::array<uint32_t, kWideChildCount>& slots);
 
-/// The box of a slot as a device decodes it, exactly.
-[[nodiscard]] Box3d decodeBox(const DeviceWideNode& node, uint32_t slot);
-
 }  // namespace asdfvk
