@@ -52,14 +52,7 @@ Hit walkBinary(vec3 origin, vec3 direction, uint excludedFace, inout uint iterat
     if (current != kNoReference) {
       const uint first = current & kReferenceFirstMask;
       const uint end = first + (current >> kReferenceCountShift);
-      for (uint slot = first; slot < end; ++slot) {
-        const DeviceTriangle triangle = loadTriangle(slot);
-        const float t = intersectTriangle(frame, triangle.v0 - origin, triangle.v1 - origin, triangle.v2 - origin);
-        if (t >= 0.0 && t < hit.distance && triangle.faceIndex != excludedFace) {
-          hit.distance = t;
-          hit.slot = slot;
-        }
-      }
+      for (uint slot = first; slot < end; ++slot) testTriangle(frame, origin, slot, excludedFace, hit);
       iterationCount += end - first + 1u;
       if (stackSize > 0u) {
         --stackSize;

@@ -9,3 +9,12 @@ Hit findNearestHit(vec3 origin, vec3 direction, uint excludedFace, inout uint it
   if (kIsWide) return walkWide(origin, direction, excludedFace, iterationCount);
   return walkBinary(origin, direction, excludedFace, iterationCount);
 }
+
+#ifdef WALKS_TOGETHER
+#include "packet_walk.glsl"
+
+Hit findNearestHitTogether(vec3 origin, vec3 direction, uint excludedFace, inout uint iterationCount) {
+  if (kIsWide) return walkWideTogether(origin, direction, excludedFace, iterationCount);
+  return walkBinaryTogether(origin, direction, excludedFace, iterationCount);
+}
+#endif

@@ -1,8 +1,5 @@
-// Walks the wide hierarchy of shared/bvh_layout.h for the nearest hit of one ray (Ylitie, Karras and Laine 2017). A group
-// is the children of one node that the ray has still to enter: `base` is the node's childBase; `bits` has bit 4 p + 3
-// for each of them, p = its slot ^ the ray's octant, so that the lowest comes first, and bit 4 s + 2 for each slot s of
-// the node with an inner child.
-const uint kGroupRest = 0x88888888u;
+// Walks the wide hierarchy of shared/bvh_layout.h for the nearest hit of one ray (Ylitie, Karras and Laine 2017).
+#extension GL_KHR_shader_subgroup_vote : require
 
 DeviceWideNode loadWideNode(uint index) {
   const uint t = index * kWideNodeTexelCount;
@@ -16,88 +13,131 @@ vec4 distancesTo(uint bytes, float perByte, float start) {
   return planes * (perByte * vec4(1.0, 1.0 / 256.0, 1.0 / 65536.0, 1.0)) + start;
 }
 
-// A nibble of ones for each of the four boxes that the ray enters before `limit`.
+// A nibble of ones for each of the four boxes that the ray enters before `limit`. Distances are compared by their bits,
+// which order them where they matter: whatever is negative is before the ray's origin. (Of floats llvmpipe takes three
+// instructions for each minimum, on behalf of NaNs that do not come here.)
 uint enterBoxes(uvec3 near, uvec3 far, vec3 perByte, vec3 start, float limit) {
   const vec4 nearX = distancesTo(near.x, perByte.x, start.x), farX = distancesTo(far.x, perByte.x, start.x);
   const vec4 nearY = distancesTo(near.y, perByte.y, start.y), farY = distancesTo(far.y, perByte.y, start.y);
   const vec4 nearZ = distancesTo(near.z, perByte.z, start.z), farZ = distancesTo(far.z, perByte.z, start.z);
-  const vec4 enter = max(max(nearX, nearY), max(nearZ, vec4(0.0)));
-  const vec4 leave = min(min(min(farX, farY), farZ) * kExitMargin, vec4(limit));
+  const ivec4 enter = max(max(floatBitsToInt(nearX), floatBitsToInt(nearY)), max(floatBitsToInt(nearZ), ivec4(0)));
+  const ivec4 nearest = min(min(floatBitsToInt(farX), floatBitsToInt(farY)), floatBitsToInt(farZ));
+  const ivec4 leave = min(floatBitsToInt(intBitsToFloat(nearest) * kExitMargin), ivec4(floatBitsToInt(limit)));
   return (enter.x <= leave.x ? 0xfu : 0u) | (enter.y <= leave.y ? 0xf0u : 0u) | (enter.z <= leave.z ? 0xf00u : 0u) |
          (enter.w <= leave.w ? 0xf000u : 0u);
 }
 
-// Moves nibble s to s ^ octant.
-uint permuteNibbles(uint bits, uvec3 isNegative) {
-  if (isNegative.x != 0u) bits = (bits & 0x0f0f0f0fu) << 4 | (bits >> 4 & 0x0f0f0f0fu);
-  if (isNegative.y != 0u) bits = (bits & 0x00ff00ffu) << 8 | (bits >> 8 & 0x00ff00ffu);
-  if (isNegative.z != 0u) bits = bits << 16 | bits >> 16;
+// Moves nibble s to s ^ the octant of the signs.
+uint permuteNibbles(uint bits, bvec3 isNegative) {
+  if (isNegative.x) bits = (bits & 0x0f0f0f0fu) << 4 | (bits >> 4 & 0x0f0f0f0fu);
+  if (isNegative.y) bits = (bits & 0x00ff00ffu) << 8 | (bits >> 8 & 0x00ff00ffu);
+  if (isNegative.z) bits = bits << 16 | bits >> 16;
   return bits;
 }
 
 // The exponent of a power of two below 2^31.
 uint exponentOf(uint power) { return (floatBitsToUint(float(int(power))) >> 23) - 127u; }
 
-Hit walkWide(vec3 origin, vec3 direction, uint excludedFace, inout uint iterationCount) {
-  const RayFrame frame = makeRayFrame(direction);
-  const vec3 inverseDirection = invert(direction);
-  const bvec3 isNegative = lessThan(direction, vec3(0.0));
+// What the walk needs of a ray.
+struct WideRay {
+  vec3 origin, inverseDirection;
+  bvec3 isNegative;  // Of the direction.
+};
+
+WideRay makeWideRay(vec3 origin, vec3 direction) {
+  return WideRay(origin, invert(direction), lessThan(direction, vec3(0.0)));
+}
+
+// A nibble for each child that the ray enters before `limit`: the child's nibble of childBits.
+uint enterChildren(DeviceWideNode node, WideRay ray, float limit) {
+  const uvec3 exponents = uvec3(node.exponents << 23, node.exponents << 15, node.exponents << 7) & 0x7f800000u;
+  const vec3 perByte = uintBitsToFloat(exponents) * ray.inverseDirection;
+  const vec3 start = (node.origin - ray.origin) * ray.inverseDirection;
+  const uvec4 x = ray.isNegative.x ? node.x.zwxy : node.x;
+  const uvec4 y = ray.isNegative.y ? node.y.zwxy : node.y;
+  const uvec4 z = ray.isNegative.z ? node.z.zwxy : node.z;
+  return (enterBoxes(uvec3(x.x, y.x, z.x), uvec3(x.z, y.z, z.z), perByte, start, limit) |
+          enterBoxes(uvec3(x.y, y.y, z.y), uvec3(x.w, y.w, z.w), perByte, start, limit) << 16) &
+         node.childBits;
+}
+
+// The children of one node that the ray has still to enter: `base` is the node's childBase; `bits` has bit 4 p + 3 for
+// each of them, p = its slot ^ the ray's octant, so that the lowest comes first, and bit 4 s + 2 for each slot s of the
+// node with an inner child. bits is 0 when there are none.
+struct Group {
+  uint base, bits;
+};
+
+Group groupOf(DeviceWideNode node, uint children, bvec3 isNegative) {
+  const uint rest = permuteNibbles(children & kWideInnerBits, isNegative);
+  return Group(node.childBase, rest == 0u ? 0u : rest | (node.childBits & kWideInnerBits) >> 1);
+}
+
+bool hasMore(Group group) { return (group.bits & kWideInnerBits) != 0u; }
+
+// Takes the nearest out of a group that has one and returns its node.
+uint takeNearest(inout Group group, bvec3 isNegative) {
+  const uint rest = (group.bits & kWideInnerBits) >> 3;
+  const uint nearest = rest & (~rest + 1u);
   const uvec3 signBits = uvec3(isNegative);
   const uint octantShift = signBits.x << 2 | signBits.y << 3 | signBits.z << 4;
+  const uint below = (1u << (exponentOf(nearest) ^ octantShift)) - 1u;
+  const uint rank = ((group.bits >> 2 & 0x11111111u & below) * 0x11111111u) >> 28;
+  group.bits ^= nearest << 3;
+  return group.base + rank;
+}
+
+// The triangles of one node that the ray has still to be tested with: `bits` of `all` those that there are, in the
+// nibbles of DeviceWideNode::childBits.
+struct Leaves {
+  uint base, bits, all;
+};
+
+// Triangles wait until some lane has those of two nodes to test: otherwise most lanes would wait for the few that have
+// one after nearly every node.
+Hit walkWide(vec3 origin, vec3 direction, uint excludedFace, inout uint iterationCount) {
+  const RayFrame frame = makeRayFrame(direction);
+  const WideRay ray = makeWideRay(origin, direction);
   uint stackBases[kMaxWideBvhDepth];
   uint stackBits[kMaxWideBvhDepth];
   uint stackSize = 0u;
-  uint groupBase = 0u;
-  uint groupBits = 8u;  // The root.
-  uint triangleBase = 0u, triangleBits = 0u, leafBits = 0u;
+  Group group = Group(0u, 8u);  // The root.
+  Leaves leaves = Leaves(0u, 0u, 0u), more = Leaves(0u, 0u, 0u);
   Hit hit = Hit(kFarAway, kNoSlot, true);
 
-  while (groupBits != 0u) {
-    while (groupBits != 0u && triangleBits == 0u) {
-      const uint rest = (groupBits & kGroupRest) >> 3;
-      const uint nearest = rest & (~rest + 1u);
-      const uint below = (1u << (exponentOf(nearest) ^ octantShift)) - 1u;
-      const uint rank = ((groupBits >> 2 & 0x11111111u & below) * 0x11111111u) >> 28;
-      const uint index = groupBase + rank;
-      groupBits ^= nearest << 3;
-      if ((groupBits & kGroupRest) != 0u) {
-        stackBases[stackSize] = groupBase;
-        stackBits[stackSize] = groupBits;
+  while (group.bits != 0u) {
+    while (group.bits != 0u) {
+      const uint index = takeNearest(group, ray.isNegative);
+      if (hasMore(group)) {
+        stackBases[stackSize] = group.base;
+        stackBits[stackSize] = group.bits;
         ++stackSize;
       }
       const DeviceWideNode node = loadWideNode(index);
-      const uvec3 exponents = uvec3(node.exponents << 23, node.exponents << 15, node.exponents << 7) & 0x7f800000u;
-      const vec3 perByte = uintBitsToFloat(exponents) * inverseDirection;
-      const vec3 start = (node.origin - origin) * inverseDirection;
-      const uvec4 x = isNegative.x ? node.x.zwxy : node.x;
-      const uvec4 y = isNegative.y ? node.y.zwxy : node.y;
-      const uvec4 z = isNegative.z ? node.z.zwxy : node.z;
-      const uint entered =
-          (enterBoxes(uvec3(x.x, y.x, z.x), uvec3(x.z, y.z, z.z), perByte, start, hit.distance) |
-           enterBoxes(uvec3(x.y, y.y, z.y), uvec3(x.w, y.w, z.w), perByte, start, hit.distance) << 16) & node.childBits;
-      triangleBits = entered & ~kWideInnerBits;
-      triangleBase = node.triangleBase;
-      leafBits = node.childBits & ~kWideInnerBits;
-      groupBits = permuteNibbles(entered & kWideInnerBits, signBits);
-      if (groupBits != 0u) {
-        groupBits |= (node.childBits & kWideInnerBits) >> 1;
-        groupBase = node.childBase;
-      } else if (stackSize > 0u) {
+      const uint children = enterChildren(node, ray, hit.distance);
+      const Leaves entered = Leaves(node.triangleBase, children & ~kWideInnerBits, node.childBits & ~kWideInnerBits);
+      group = groupOf(node, children, ray.isNegative);
+      if (group.bits == 0u && stackSize > 0u) {
         --stackSize;
-        groupBase = stackBases[stackSize];
-        groupBits = stackBits[stackSize];
+        group = Group(stackBases[stackSize], stackBits[stackSize]);
       }
-      if (++iterationCount > kIterationLimit) groupBits = 0u;
+      if (entered.bits != 0u) {
+        if (leaves.bits == 0u) {
+          leaves = entered;
+        } else {
+          more = entered;
+        }
+      }
+      if (++iterationCount > kIterationLimit) group.bits = 0u;
+      if (subgroupAny(more.bits != 0u)) break;
     }
-    while (triangleBits != 0u) {
-      const uint lowest = triangleBits & (~triangleBits + 1u);
-      triangleBits ^= lowest;
-      const uint slot = triangleBase + bitCount(leafBits & (lowest - 1u));
-      const DeviceTriangle triangle = loadTriangle(slot);
-      const float t = intersectTriangle(frame, triangle.v0 - origin, triangle.v1 - origin, triangle.v2 - origin);
-      if (t >= 0.0 && t < hit.distance && triangle.faceIndex != excludedFace) {
-        hit.distance = t;
-        hit.slot = slot;
+    while (leaves.bits != 0u) {
+      const uint lowest = leaves.bits & (~leaves.bits + 1u);
+      leaves.bits ^= lowest;
+      testTriangle(frame, origin, leaves.base + bitCount(leaves.all & (lowest - 1u)), excludedFace, hit);
+      if (leaves.bits == 0u) {
+        leaves = more;
+        more.bits = 0u;
       }
       ++iterationCount;
     }

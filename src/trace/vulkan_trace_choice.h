@@ -10,8 +10,9 @@ namespace asdfvk {
 
 /// How the rays of the cones share the lanes of a device out.
 enum class TraceKernel {
-  Ray,   ///< shaders/trace_cone.comp: a workgroup per cone or few, each lane walks its own ray.
-  Seed,  ///< shaders/trace_seed.comp: neighbouring lanes walk one ray of neighbouring seeds.
+  Packet,  ///< shaders/trace_packet.comp: as Ray, but the lanes of a subgroup share a stack and a node.
+  Ray,     ///< shaders/trace_cone.comp: a workgroup per cone or few, each lane walks its own ray.
+  Seed,    ///< shaders/trace_seed.comp: neighbouring lanes walk one ray of neighbouring seeds.
 };
 
 /// How kernels read the hierarchy.
@@ -28,7 +29,7 @@ struct VulkanTraceChoice {
   auto operator<=>(const VulkanTraceChoice&) const = default;
 };
 
-/// The quickest for a device, by the measurements in bench/NOTES.md.
-[[nodiscard]] VulkanTraceChoice defaultTraceChoice(const DeviceFacts& device, uint32_t rayCount);
+/// The quickest for the class of the device, by the measurements in bench/NOTES.md.
+[[nodiscard]] VulkanTraceChoice defaultTraceChoice(const DeviceFacts& device);
 
 }  // namespace asdfvk

@@ -30,7 +30,9 @@ VulkanWorkgroupShape workgroupShapeFor(const DeviceFacts& device, uint32_t rayCo
   // What the reduction needs: three walks over all rays, and one over all of them for each ray of the lane.
   const uint32_t raysPerLane = (rayCount + shape.lanesPerCone - 1) / shape.lanesPerCone;
   const uint32_t reductionCount = rayCount * (3 + raysPerLane) + 2 * raysPerLane + 64;
-  shape.iterationLimit = (kCpuDeviceLoopIterationCount - reductionCount) / std::max(1u, device.subgroupSize);
+  // The lanes of a packet run every loop together; of other kernels each may run its own.
+  const uint32_t sharingCount = kernel == TraceKernel::Packet ? 1 : std::max(1u, device.subgroupSize);
+  shape.iterationLimit = (kCpuDeviceLoopIterationCount - reductionCount) / sharingCount;
   return shape;
 }
 

@@ -42,7 +42,7 @@ void checkParity(const VulkanConeKernel& kernel, const TracedMesh& traced, const
 TEST_CASE("the kernel gives the reference's values on every generated shape") {
   const test::ValidatedDevice device;
   std::vector<TracedMesh> meshes;
-  for (const std::string_view name : shapeNames()) meshes.emplace_back(generateShape(name, 3000).mesh);
+  for (const std::string_view name : shapeNames()) meshes.emplace_back(generateShape(name, 2000).mesh);
   std::vector<std::vector<double>> references;
   for (const TracedMesh& traced : meshes) references.push_back(referenceValues(traced));
   forEveryVariant(Fetches::All, [&](const VulkanTraceChoice& choice) {
@@ -72,7 +72,7 @@ TEST_CASE("any number of rays from 1 to 1024 gives the reference's values") {
   for (const uint32_t rayCount : {1u, 2u, 3u, 7u, 8u, 9u, 31u, 32u, 33u, 64u, 100u, 255u, 256u, 257u, 1000u, 1024u}) {
     CAPTURE(rayCount);
     const std::vector<double> reference = referenceValues(traced, {.rayCount = rayCount});
-    for (const TraceKernel kernel : {TraceKernel::Ray, TraceKernel::Seed})
+    for (const TraceKernel kernel : {TraceKernel::Packet, TraceKernel::Ray, TraceKernel::Seed})
       checkParity(VulkanConeKernel(*device, {rayCount, false, VulkanTraceChoice{kernel, BvhLayout::Wide}}), traced,
                   {.rayCount = rayCount}, reference);
   }
@@ -135,7 +135,7 @@ TEST_CASE("hostile cones run into the device's own guard, are redone and agree")
   Mesh needles;
   Random random(4);
   const auto point = [&] { return Vec3d{random.real() * 2 - 1, random.real() * 2 - 1, random.real() * 2 - 1}; };
-  for (uint32_t i = 0; i < 20'000; ++i) {
+  for (uint32_t i = 0; i < 60'000; ++i) {
     const Vec3d a = point();
     needles.vertices.insert(needles.vertices.end(), {a, -a, a + point() * 1e-3});
     needles.faces.push_back({3 * i, 3 * i + 1, 3 * i + 2});
@@ -144,7 +144,7 @@ TEST_CASE("hostile cones run into the device's own guard, are redone and agree")
   const TracedMesh traced(needles);
   const Cone cone = makeCone({});
   const std::vector<uint32_t> all = traced.seedFaces();
-  const std::vector<uint32_t> seeds(all.begin(), all.begin() + 40);
+  const std::vector<uint32_t> seeds(all.begin(), all.begin() + 6);
   std::vector<double> values(seeds.size()), reference(seeds.size());
   makeReferenceTracer(traced.scene(), cone)->trace(seeds, {reference}, {});
   forEveryVariant(Fetches::TexelOnly, [&](const VulkanTraceChoice& choice) {
@@ -216,6 +216,37 @@ TEST_CASE("a GPU's workgroups hold several cones") {
   CHECK(workgroupShapeFor(gpu, 1024).conesPerWorkgroup == 1);
   gpu.maxWorkgroupInvocations = gpu.maxWorkgroupSize = 128;  // the least that Vulkan allows
   CHECK(workgroupShapeFor(gpu, 1024).lanesPerCone == 128);
+}
+
+TEST_CASE("the kernel is chosen by the class of the device, and as asked for") {
+  DeviceFacts facts;
+  facts.subgroupSize = 8;
+  facts.kind = DeviceKind::Cpu;
+  CHECK(defaultTraceChoice(facts).kernel == TraceKernel::Seed);
+  CHECK(defaultTraceChoice(facts).bvh == BvhLayout::Wide);
+  facts.kind = DeviceKind::Discrete;
+  for (const uint32_t size : {8u, 32u, 64u}) {
+    facts.subgroupSize = size;
+    CHECK(defaultTraceChoice(facts).fetch == BvhFetch::Texel);
+  }
+  const test::ValidatedDevice device;
+  CHECK(VulkanConeKernel(*device, {30}).choice() == defaultTraceChoice(device->facts()));
+  const VulkanTraceChoice packet{TraceKernel::Packet, BvhLayout::Wide, BvhFetch::Storage};
+  CHECK(VulkanConeKernel(*device, {30, false, packet}).choice() == packet);
+}
+
+TEST_CASE("a device without the subgroup operations of a kernel is refused with a remedy") {
+  const Instance instance;
+  const VkPhysicalDevice physical = instance.physicalDevices().front();
+  DeviceFacts facts = describeDevice(physical);
+  facts.hasSubgroupArithmetic = false;
+  const Device noArithmetic(physical, facts);
+  const VulkanTraceChoice packet{TraceKernel::Packet, BvhLayout::Binary, BvhFetch::Texel};
+  CHECK_THROWS_WITH_AS(VulkanConeKernel(noArithmetic, {30, false, packet}), doctest::Contains("packet"), Error);
+  CHECK_NOTHROW(VulkanConeKernel(noArithmetic, {30}));
+  facts.hasSubgroupVote = false;
+  const Device noVote(physical, facts);
+  CHECK_THROWS_WITH_AS(VulkanConeKernel(noVote, {30}), doctest::Contains("--backend reference"), Error);
 }
 
 TEST_CASE("two runs on the device give the same bits, whatever the order of the seeds") {
