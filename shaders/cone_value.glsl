@@ -1,6 +1,6 @@
 // Reduces the lengths of one cone's rays to its value, all lanes of the cone together (the twin of coneValue() in
 // src/cone/cone.h). Needs the shared array `lengths` with the cone's kRayCount entries from `base` on, negative where the
-// ray is not valid; the shared array `middles`; `rays`; `push`; and the
+// ray is not valid; the shared array `middles`; loadRay(); `push`; and the
 // constants kRayCount and kLanesPerCone.
 #include "shared/cone_rules.h"
 
@@ -43,7 +43,7 @@ float weightedMeanAroundMedian(uint base, uint slot, uint validCount, float mean
   float weightSum = 0.0;
   for (uint ray = 0u; ray < kRayCount; ++ray) {
     const float l = lengthAt(base, ray);
-    const float weight = l >= 0.0 && abs(l - median) <= bound ? rays[ray].weight : 0.0;
+    const float weight = l >= 0.0 && abs(l - median) <= bound ? loadRay(ray).weight : 0.0;
     sum += weight * l;
     weightSum += weight;
   }

@@ -1,97 +1,20 @@
-// Walks the hierarchy of shared/bvh_layout.h for the nearest hit of one ray. Needs `bvhNodes` and `bvhTriangles`, images of
-// rgba32ui texels, and the constants kFarAway and kIterationLimit.
-#include "ray_frame.glsl"
-#include "shared/bvh_layout.h"
+// The nearest hit of one ray, by the hierarchy that the kernel is compiled for.
+#include "walk_parts.glsl"
+#include "binary_walk.glsl"
+#include "wide_walk.glsl"
 
-const uint kNoSlot = 0xffffffffu;
-
-struct Hit {
-  float distance;
-  uint slot;        // kNoSlot: nothing was hit.
-  bool isComplete;  // False: the iteration guard ended the walk.
-};
-
-DeviceBvhNode loadNode(uint index) {
-  const int t = int(index * kBvhNodeTexelCount);
-  return decodeBvhNode(imageLoad(bvhNodes, t), imageLoad(bvhNodes, t + 1), imageLoad(bvhNodes, t + 2),
-                       imageLoad(bvhNodes, t + 3));
-}
-
-DeviceTriangle loadTriangle(uint slot) {
-  const int t = int(slot * kBvhTriangleTexelCount);
-  return decodeTriangle(imageLoad(bvhTriangles, t), imageLoad(bvhTriangles, t + 1), imageLoad(bvhTriangles, t + 2));
-}
-
-// Where the ray enters the box, or kFarAway when it misses it or enters beyond `limit`. The exit is moved outwards by
-// three roundings (Ize 2013); what the triangle test itself is off by, the boxes have grown by (kDeviceBoxMargin).
-float enterBox(vec3 boxMin, vec3 boxMax, vec3 origin, vec3 inverseDirection, float limit) {
-  const float kExitMargin = 1.0 + 6.0 * 5.9604645e-8;
-  const vec3 t0 = (boxMin - origin) * inverseDirection;
-  const vec3 t1 = (boxMax - origin) * inverseDirection;
-  const vec3 tNear = min(t0, t1);
-  const vec3 tFar = max(t0, t1);
-  const float enter = max(max(tNear.x, tNear.y), max(tNear.z, 0.0));
-  const float leave = min(min(tFar.x, tFar.y), tFar.z) * kExitMargin;
-  return enter <= min(leave, limit) ? enter : kFarAway;
-}
-
-vec3 invert(vec3 direction) {
-  const vec3 tiny = vec3(1e-20);
-  return 1.0 / mix(direction, mix(tiny, -tiny, lessThan(direction, vec3(0.0))), lessThan(abs(direction), tiny));
-}
+layout(constant_id = 6) const bool kIsWide = false;
 
 Hit findNearestHit(vec3 origin, vec3 direction, uint excludedFace, inout uint iterationCount) {
-  const RayFrame frame = makeRayFrame(direction);
-  const vec3 inverseDirection = invert(direction);
-  uint stack[kMaxBvhDepth];
-  uint stackSize = 0u;
-  uint current = 0u;
-  Hit hit = Hit(kFarAway, kNoSlot, true);
-
-  while (current != kNoReference) {
-    while (current <= kReferenceFirstMask) {
-      const DeviceBvhNode node = loadNode(current);
-      const float left = enterBox(node.leftMin, node.leftMax, origin, inverseDirection, hit.distance);
-      const float right = enterBox(node.rightMin, node.rightMax, origin, inverseDirection, hit.distance);
-      const bool leftIsNear = left <= right;
-      const float near = min(left, right);
-      const float far = max(left, right);
-      if (far < kFarAway) {
-        stack[stackSize] = leftIsNear ? node.right : node.left;
-        ++stackSize;
-      }
-      if (near < kFarAway) {
-        current = leftIsNear ? node.left : node.right;
-      } else if (stackSize > 0u) {
-        --stackSize;
-        current = stack[stackSize];
-      } else {
-        current = kNoReference;
-      }
-      if (++iterationCount > kIterationLimit) {
-        hit.isComplete = false;
-        current = kNoReference;
-      }
-    }
-    if (current != kNoReference) {
-      const uint first = current & kReferenceFirstMask;
-      const uint end = first + (current >> kReferenceCountShift);
-      for (uint slot = first; slot < end; ++slot) {
-        const DeviceTriangle triangle = loadTriangle(slot);
-        const float t = intersectTriangle(frame, triangle.v0 - origin, triangle.v1 - origin, triangle.v2 - origin);
-        if (t >= 0.0 && t < hit.distance && triangle.faceIndex != excludedFace) {
-          hit.distance = t;
-          hit.slot = slot;
-        }
-      }
-      iterationCount += end - first + 1u;
-      if (stackSize > 0u) {
-        --stackSize;
-        current = stack[stackSize];
-      } else {
-        current = kNoReference;
-      }
-    }
-  }
-  return hit;
+  if (kIsWide) return walkWide(origin, direction, excludedFace, iterationCount);
+  return walkBinary(origin, direction, excludedFace, iterationCount);
 }
+
+#ifdef WALKS_TOGETHER
+#include "packet_walk.glsl"
+
+Hit findNearestHitTogether(vec3 origin, vec3 direction, uint excludedFace, inout uint iterationCount) {
+  if (kIsWide) return walkWideTogether(origin, direction, excludedFace, iterationCount);
+  return walkBinaryTogether(origin, direction, excludedFace, iterationCount);
+}
+#endif

@@ -7,10 +7,22 @@
 //   byte 32  rightMin.xyz  right        texel 2          byte 32  v2.xyz  normalV
 //   byte 48  rightMax.xyz  unused       texel 3
 //
-// A node holds its two children's boxes and a reference to each: an inner child is its node's index, a leaf is its first
-// triangle slot with the count of its triangles (1 to kMaxLeafTriangleCount) above kReferenceCountShift. Node 0 is the
-// root. The normal is the one of the double-precision mesh, octahedrally encoded (Cigolle et al. 2014): that of the
-// rounded corners would be noise on small faces.
+// A node holds its two children's boxes and a reference to each: an inner child is its node's index, a leaf is its
+// first triangle slot with the count of its triangles (1 to kMaxLeafTriangleCount) above kReferenceCountShift. Node 0
+// is the root. The normal is the one of the double-precision mesh, octahedrally encoded (Cigolle et al. 2014): that of
+// the rounded corners would be noise on small faces.
+//
+//   wide node, 80 bytes, of up to eight children (after Ylitie, Karras and Laine 2017)
+//   byte  0  origin.xyz  exponents                       texel 0
+//   byte 16  childBase  triangleBase  childBits  unused  texel 1
+//   byte 32  x: lower of slots 0-3, 4-7, upper likewise  texel 2, texels 3 and 4 for y and z
+//
+// The box of the child in slot s spans origin + lower[s] * scale to origin + upper[s] * scale on each axis, with the
+// bytes lower[s] and upper[s] and the power of two `scale` whose biased exponent is byte 0, 1 or 2 of `exponents`.
+// Nibble s of childBits tells what the child is: 8 an inner one, 1, 3 or 7 a leaf of as many triangles as it has bits,
+// 0 nothing. The inner children's nodes follow each other from childBase on, the leaves' triangles from triangleBase
+// on, both in the order of the slots. Which child takes which slot is chosen so that a ray whose direction has the sign
+// bits q (x in bit 0) meets the children about in the order of slot ^ q.
 #ifndef ASDFVK_BVH_LAYOUT_H
 #define ASDFVK_BVH_LAYOUT_H
 
@@ -20,10 +32,12 @@
 #include "shared/glsl_types.h"
 namespace asdfvk {
 using glsl::uint;
+using glsl::uvec4;
 using glsl::vec3;
 #endif
 
 const uint kBvhNodeTexelCount = 4u;
+const uint kWideNodeTexelCount = 5u;
 const uint kBvhTriangleTexelCount = 3u;
 
 // Deepest hierarchy that a traversal stack has room for; the builder splits at the median where SAH would go deeper.
@@ -34,6 +48,11 @@ const uint kReferenceFirstMask = 0x0fffffffu;
 const uint kMaxLeafTriangleCount = 14u;  // So that no reference looks like kNoReference.
 const uint kNoReference = 0xffffffffu;
 
+const uint kWideChildCount = 8u;
+const uint kMaxWideLeafTriangleCount = 3u;
+const uint kMaxWideBvhDepth = kMaxBvhDepth + 3u;  // A leaf of 14 triangles is split three times.
+const uint kWideInnerBits = 0x88888888u;
+
 struct DeviceBvhNode {
   vec3 leftMin;
   uint left;
@@ -43,6 +62,18 @@ struct DeviceBvhNode {
   uint right;
   vec3 rightMax;
   uint unused1;
+};
+
+struct DeviceWideNode {
+  vec3 origin;
+  uint exponents;
+  uint childBase;
+  uint triangleBase;
+  uint childBits;
+  uint unused;
+  uvec4 x;
+  uvec4 y;
+  uvec4 z;
 };
 
 struct DeviceTriangle {
@@ -60,6 +91,12 @@ static_assert(offsetof(DeviceBvhNode, leftMin) == 0 && offsetof(DeviceBvhNode, l
 static_assert(offsetof(DeviceBvhNode, leftMax) == 16 && offsetof(DeviceBvhNode, unused0) == 28);
 static_assert(offsetof(DeviceBvhNode, rightMin) == 32 && offsetof(DeviceBvhNode, right) == 44);
 static_assert(offsetof(DeviceBvhNode, rightMax) == 48 && offsetof(DeviceBvhNode, unused1) == 60);
+static_assert(sizeof(DeviceWideNode) == 16 * kWideNodeTexelCount);
+static_assert(offsetof(DeviceWideNode, origin) == 0 && offsetof(DeviceWideNode, exponents) == 12);
+static_assert(offsetof(DeviceWideNode, childBase) == 16 && offsetof(DeviceWideNode, triangleBase) == 20);
+static_assert(offsetof(DeviceWideNode, childBits) == 24 && offsetof(DeviceWideNode, unused) == 28);
+static_assert(offsetof(DeviceWideNode, x) == 32 && offsetof(DeviceWideNode, y) == 48);
+static_assert(offsetof(DeviceWideNode, z) == 64);
 static_assert(sizeof(DeviceTriangle) == 16 * kBvhTriangleTexelCount);
 static_assert(offsetof(DeviceTriangle, v0) == 0 && offsetof(DeviceTriangle, faceIndex) == 12);
 static_assert(offsetof(DeviceTriangle, v1) == 16 && offsetof(DeviceTriangle, normalU) == 28);
@@ -69,6 +106,10 @@ static_assert(offsetof(DeviceTriangle, v2) == 32 && offsetof(DeviceTriangle, nor
 DeviceBvhNode decodeBvhNode(uvec4 t0, uvec4 t1, uvec4 t2, uvec4 t3) {
   return DeviceBvhNode(uintBitsToFloat(t0.xyz), t0.w, uintBitsToFloat(t1.xyz), t1.w, uintBitsToFloat(t2.xyz), t2.w,
                        uintBitsToFloat(t3.xyz), t3.w);
+}
+
+DeviceWideNode decodeWideNode(uvec4 t0, uvec4 t1, uvec4 t2, uvec4 t3, uvec4 t4) {
+  return DeviceWideNode(uintBitsToFloat(t0.xyz), t0.w, t1.x, t1.y, t1.z, t1.w, t2, t3, t4);
 }
 
 DeviceTriangle decodeTriangle(uvec4 t0, uvec4 t1, uvec4 t2) {

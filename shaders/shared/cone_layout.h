@@ -11,7 +11,10 @@ using glsl::uint;
 using glsl::vec3;
 #endif
 
-// Where a cone starts, 48 bytes. Normalised coordinates. The frame's axis is cross(tangent, bitangent).
+const uint kConeOriginTexelCount = 3u;
+
+// Where a cone starts, 48 bytes; kernels read it as texels of 16 (format rgba32ui). Normalised coordinates. The frame's
+// axis is cross(tangent, bitangent).
 struct ConeOrigin {
   vec3 origin;
   uint excludedFace;  // Hits on this face are passed through: the seed face or the one that stands for its copies.
@@ -21,7 +24,7 @@ struct ConeOrigin {
   uint unused1;
 };
 
-// One ray of every cone, 16 bytes, in the cone's frame.
+// One ray of every cone, 16 bytes and one texel, in the cone's frame.
 struct ConeRay {
   vec3 direction;
   float weight;
@@ -34,8 +37,8 @@ struct ConePush {
 };
 
 // A result is the bits of a length in normalised units, or one of these.
-const uint kNoValueBits = 0x7fc00000u;          // No valid ray: a quiet NaN.
-const uint kIterationLimitBits = 0x7fc00001u;   // The iteration guard stopped the cone: trace it elsewhere.
+const uint kNoValueBits = 0x7fc00000u;         // No valid ray: a quiet NaN.
+const uint kIterationLimitBits = 0x7fc00001u;  // The iteration guard stopped the cone: trace it elsewhere.
 
 #ifdef __cplusplus
 static_assert(sizeof(ConeOrigin) == 48);
@@ -47,6 +50,12 @@ static_assert(offsetof(ConeRay, direction) == 0 && offsetof(ConeRay, weight) == 
 static_assert(sizeof(ConePush) == 12 && offsetof(ConePush, falseHitCosine) == 4);
 static_assert(offsetof(ConePush, outlierDeviations) == 8);
 }  // namespace asdfvk
+#else
+ConeOrigin decodeConeOrigin(uvec4 t0, uvec4 t1, uvec4 t2) {
+  return ConeOrigin(uintBitsToFloat(t0.xyz), t0.w, uintBitsToFloat(t1.xyz), t1.w, uintBitsToFloat(t2.xyz), t2.w);
+}
+
+ConeRay decodeConeRay(uvec4 t0) { return ConeRay(uintBitsToFloat(t0.xyz), uintBitsToFloat(t0.w)); }
 #endif
 
 #endif

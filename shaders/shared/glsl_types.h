@@ -13,4 +13,10 @@ struct vec3 {
   constexpr bool operator==(const vec3&) const = default;
 };
 
+/// 16 bytes, at offsets that are multiples of 16.
+struct uvec4 {
+  uint words[4];
+  constexpr bool operator==(const uvec4&) const = default;
+};
+
 }  // namespace asdfvk::glsl

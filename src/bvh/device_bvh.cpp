@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "bvh/wide_bvh.h"
 #include "core/check.h"
 #include "core/error.h"
 
@@ -75,18 +76,13 @@ OctahedralNormal encodeNormal(const Vec3d& n) {
 
 }  // namespace
 
-DeviceBvh encodeDeviceBvh(const Bvh& bvh, const Mesh& mesh, const FaceGeometry& geometry) {
+DeviceBvh encodeDeviceBvh(const Bvh& bvh, const Mesh& mesh, const FaceGeometry& geometry, BvhLayout layout) {
   DeviceBvh device;
   if (bvh.nodes.empty()) return device;
   if (bvh.slotFaces.size() > kReferenceFirstMask)
     throw Error(ErrorKind::Device, fmt::format("the mesh has {} triangles and the device's hierarchy holds {}; use a "
                                                "smaller mesh or --backend reference",
                                                bvh.slotFaces.size(), kReferenceFirstMask));
-  if (bvh.nodes[0].isLeaf())
-    device.nodes = {encodeRootLeaf(bvh.nodes[0])};
-  else
-    device.nodes = encodeNodes(bvh.nodes);
-
   device.triangles.resize(bvh.slotFaces.size());
   tbb::parallel_for(size_t{0}, bvh.slotFaces.size(), [&](size_t slot) {
     const uint32_t face = bvh.slotFaces[slot];
@@ -96,6 +92,12 @@ DeviceBvh encodeDeviceBvh(const Bvh& bvh, const Mesh& mesh, const FaceGeometry& 
     const OctahedralNormal normal = encodeNormal(geometry.normals[face]);
     device.triangles[slot] = {corner(0), face, corner(1), normal.u, corner(2), normal.v};
   });
+  if (layout == BvhLayout::Wide) {
+    WideBvh wide = encodeWideBvh(bvh, device.triangles);
+    return {{}, std::move(wide.nodes), std::move(wide.triangles), wide.depth};
+  }
+  device.nodes = bvh.nodes[0].isLeaf() ? std::vector{encodeRootLeaf(bvh.nodes[0])} : encodeNodes(bvh.nodes);
+  device.depth = bvh.depth;
   return device;
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <span>
 #include <vector>
 
 #include "bvh/bvh.h"
@@ -12,15 +14,28 @@ namespace asdfvk {
 /// coordinates up to 3.5, and no box may be missed whose triangle is hit.
 inline constexpr float kDeviceBoxMargin = 0x1p-20f;
 
-/// The hierarchy in the layout of shared/bvh_layout.h. Its nodes are the inner nodes of the Bvh, in the Bvh's order. A
-/// walk needs a stack of Bvh::depth entries.
-struct DeviceBvh {
-  std::vector<DeviceBvhNode> nodes;       ///< Empty for an empty Bvh: then there is nothing to trace against.
-  std::vector<DeviceTriangle> triangles;  ///< One per slot; corners rounded to nearest.
+enum class BvhLayout {
+  Binary,  ///< DeviceBvhNode: two children, boxes in float32.
+  Wide,    ///< DeviceWideNode: eight children, boxes in bytes.
 };
 
-/// A Bvh whose root is a leaf becomes one node with that leaf on both sides, of which the right one has a box far away.
-/// Throws Error{Device} for more triangles than a reference can count.
-[[nodiscard]] DeviceBvh encodeDeviceBvh(const Bvh& bvh, const Mesh& mesh, const FaceGeometry& geometry);
+/// The hierarchy in the layout of shared/bvh_layout.h. A walk needs a stack of `depth` entries.
+struct DeviceBvh {
+  /// One of them is empty, both for an empty Bvh: then there is nothing to trace against. Binary nodes are the inner
+  /// nodes of the Bvh, in the Bvh's order.
+  std::vector<DeviceBvhNode> nodes;
+  std::vector<DeviceWideNode> wideNodes;
+  std::vector<DeviceTriangle> triangles;  ///< One per slot; corners rounded to nearest.
+  uint32_t depth = 0;
+
+  [[nodiscard]] std::span<const std::byte> nodeBytes() const {
+    return nodes.empty() ? std::as_bytes(std::span(wideNodes)) : std::as_bytes(std::span(nodes));
+  }
+};
+
+/// Binary: a Bvh whose root is a leaf becomes one node with that leaf on both sides, of which the right one has a box
+/// far away. Throws Error{Device} for more triangles than a reference can count.
+[[nodiscard]] DeviceBvh encodeDeviceBvh(const Bvh& bvh, const Mesh& mesh, const FaceGeometry& geometry,
+                                        BvhLayout layout = BvhLayout::Binary);
 
 }  // namespace asdfvk

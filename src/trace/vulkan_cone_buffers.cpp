@@ -12,17 +12,22 @@ namespace {
 constexpr uint64_t kLargestChunk = 1u << 17;
 // What hits of a chunk may need: at 30 rays as many cones.
 constexpr uint64_t kLargestHitBufferByteCount = 32u << 20;
+constexpr uint64_t kLargestLengthBufferByteCount = 16u << 20;
 
-std::vector<ConeRay> deviceRays(const Cone& cone) {
+constexpr VkBufferUsageFlags kTexels = VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT;
+constexpr VkBufferUsageFlags kStorage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
+
+Buffer uploadRays(const Device& device, const Cone& cone) {
   std::vector<ConeRay> rays;
   for (size_t i = 0; i < cone.directions.size(); ++i)
     rays.push_back({toGlsl(cone.directions[i]), static_cast<float>(cone.weights[i])});
-  return rays;
+  return uploadBuffer(device, std::as_bytes(std::span(rays)), kTexels);
 }
 
-template <typename T>
-Buffer upload(const Device& device, const std::vector<T>& items, VkBufferUsageFlags usage) {
-  return uploadBuffer(device, std::as_bytes(std::span(items)), usage);
+bool fetchesTexels(const VulkanConeKernel& kernel) { return kernel.choice().fetch == BvhFetch::Texel; }
+
+Buffer uploadHierarchy(const VulkanConeKernel& kernel, std::span<const std::byte> bytes) {
+  return uploadBuffer(kernel.device(), bytes, fetchesTexels(kernel) ? kTexels : kStorage);
 }
 
 /// Of one cone.
@@ -37,25 +42,38 @@ uint64_t hitBufferByteCount(const VulkanConeKernel& kernel) {
 
 uint64_t largestConeChunk(const VulkanConeKernel& kernel) {
   const DeviceFacts& facts = kernel.device().facts();
-  const uint64_t largest =
+  uint64_t largest =
       std::min({kLargestChunk, uint64_t{facts.maxWorkgroupCount} * kernel.shape().conesPerWorkgroup,
-                facts.maxStorageBufferRange / sizeof(ConeOrigin)});
-  if (!kernel.writesHits()) return largest;
-  return std::min(largest, std::min(kLargestHitBufferByteCount, facts.maxStorageBufferRange) / hitByteCount(kernel));
+                facts.maxStorageBufferRange / sizeof(uint32_t), facts.maxTexelBufferElements / kConeOriginTexelCount});
+  const auto boundBy = [&](uint64_t byteCount, uint64_t byteCountPerCone) {
+    largest = std::min(largest, std::min(byteCount, facts.maxStorageBufferRange) / byteCountPerCone);
+  };
+  if (kernel.reduction()) boundBy(kLargestLengthBufferByteCount, kernel.rayCount() * sizeof(uint32_t));
+  if (kernel.writesHits()) boundBy(kLargestHitBufferByteCount, hitByteCount(kernel));
+  return largest;
 }
 
 ConeBuffers::ConeBuffers(const VulkanConeKernel& kernel, const DeviceBvh& bvh, const Cone& cone)
-    : nodes(upload(kernel.device(), bvh.nodes, VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT)),
-      triangles(upload(kernel.device(), bvh.triangles, VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT)),
-      nodeTexels(kernel.device(), nodes),
-      triangleTexels(kernel.device(), triangles),
-      rays(upload(kernel.device(), deviceRays(cone), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT)),
-      origins(kernel.device(), largestConeChunk(kernel) * sizeof(ConeOrigin), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
-              MemoryKind::HostVisible),
-      results(kernel.device(), largestConeChunk(kernel) * sizeof(uint32_t), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
-              MemoryKind::HostVisible),
-      hits(kernel.device(), hitBufferByteCount(kernel), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, MemoryKind::HostVisible),
+    : nodes(uploadHierarchy(kernel, bvh.nodeBytes())),
+      triangles(uploadHierarchy(kernel, std::as_bytes(std::span(bvh.triangles)))),
+      rays(uploadRays(kernel.device(), cone)),
+      origins(kernel.device(), largestConeChunk(kernel) * sizeof(ConeOrigin), kTexels, MemoryKind::HostVisible),
+      lengths(kernel.device(),
+              kernel.reduction() ? largestConeChunk(kernel) * kernel.rayCount() * sizeof(uint32_t) : 16, kStorage,
+              MemoryKind::DeviceOnly),
+      results(kernel.device(), largestConeChunk(kernel) * sizeof(uint32_t), kStorage, MemoryKind::HostVisible),
+      hits(kernel.device(), hitBufferByteCount(kernel), kStorage, MemoryKind::HostVisible),
+      nothing_(kernel.device(), 16, kTexels | kStorage, MemoryKind::DeviceLocal),
+      nodeTexels_(kernel.device(), fetchesTexels(kernel) ? nodes : nothing_),
+      triangleTexels_(kernel.device(), fetchesTexels(kernel) ? triangles : nothing_),
+      rayTexels_(kernel.device(), rays),
+      originTexels_(kernel.device(), origins),
       bindings(kernel.device(), kernel.pipeline(),
-               std::vector<Binding>{nodeTexels, triangleTexels, rays, origins, results, hits}) {}
+               std::vector<Binding>{nodeTexels_, triangleTexels_, fetchesTexels(kernel) ? nothing_ : nodes,
+                                    fetchesTexels(kernel) ? nothing_ : triangles, rayTexels_, originTexels_,
+                                    kernel.reduction() ? lengths : results, hits}) {
+  if (kernel.reduction())
+    reductionBindings.emplace(kernel.device(), *kernel.reduction(), std::vector<Binding>{rayTexels_, lengths, results});
+}
 
 }  // namespace asdfvk

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "bvh/device_bvh.h"
 #include "cone/cone.h"
@@ -17,13 +18,19 @@ struct ConeBuffers {
   /// Throws Error{Device} when the scene exceeds the device's limits.
   ConeBuffers(const VulkanConeKernel& kernel, const DeviceBvh& bvh, const Cone& cone);
 
-  Buffer nodes, triangles;
-  TexelView nodeTexels, triangleTexels;
-  Buffer rays;
+  Buffer nodes, triangles, rays;
   Buffer origins;  ///< Mapped: a ConeOrigin per cone.
+  Buffer lengths;  ///< Bits of a float per ray and cone, if the kernel leaves them.
   Buffer results;  ///< Mapped: a uint32_t per cone, see shared/cone_layout.h.
   Buffer hits;     ///< Mapped: a ConeHit per cone and ray, if the kernel writes them.
+
+ private:
+  Buffer nothing_;  // What the way of fetching that is not chosen binds.
+  TexelView nodeTexels_, triangleTexels_, rayTexels_, originTexels_;
+
+ public:
   BindingSet bindings;
+  std::optional<BindingSet> reductionBindings;
 };
 
 [[nodiscard]] inline glsl::vec3 toGlsl(const Vec3d& v) {

@@ -27,7 +27,7 @@ class VulkanTracer final : public ConeTracer {
         scene_(scene),
         cone_(cone),
         seedOrder_(scene),
-        buffers_(kernel, encodeDeviceBvh(scene.bvh, scene.mesh, scene.geometry), cone),
+        buffers_(kernel, encodeDeviceBvh(scene.bvh, scene.mesh, scene.geometry, kernel.choice().bvh), cone),
         commands_(kernel.device()) {
     ASDFVK_CHECK_OP(cone.directions.size(), ==, size_t{kernel.rayCount()});
   }
@@ -81,13 +81,20 @@ class VulkanTracer final : public ConeTracer {
                     toGlsl(frame.bitangent),
                     0};
     });
-    const uint32_t perGroup = kernel_.shape().conesPerWorkgroup;
     const ConePush push{static_cast<uint32_t>(order.size()), static_cast<float>(cone_.falseHitCosine),
                         static_cast<float>(cone_.outlierDeviations)};
+    const auto groupCount = [](uint32_t count, uint32_t perGroup) { return (count + perGroup - 1) / perGroup; };
+    const VulkanWorkgroupShape& shape = kernel_.shape();
     commands_.begin();
     commands_.dispatch(kernel_.pipeline(), buffers_.bindings, bytesOf(push),
-                       (push.coneCount + perGroup - 1) / perGroup);
+                       groupCount(push.coneCount, shape.conesPerWorkgroup),
+                       kernel_.reduction() ? groupCount(kernel_.rayCount(), shape.lanesPerCone) : 1);
     commands_.barrier();
+    if (kernel_.reduction()) {
+      commands_.dispatch(*kernel_.reduction(), *buffers_.reductionBindings, bytesOf(push),
+                         groupCount(push.coneCount, VulkanConeKernel::kReductionLaneCount));
+      commands_.barrier();
+    }
     commands_.submitAndWait();
   }
 

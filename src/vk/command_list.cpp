@@ -29,14 +29,15 @@ void CommandList::begin() {
 }
 
 void CommandList::dispatch(const ComputePipeline& pipeline, const BindingSet& bindings,
-                           std::span<const std::byte> pushConstants, uint32_t workgroupCount) {
+                           std::span<const std::byte> pushConstants, uint32_t workgroupCount,
+                           uint32_t workgroupCountY) {
   const VkDescriptorSet set = bindings.handle();
   vkCmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.handle());
   vkCmdBindDescriptorSets(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout(), 0, 1, &set, 0, nullptr);
   if (!pushConstants.empty())
     vkCmdPushConstants(commands_, pipeline.layout(), VK_SHADER_STAGE_COMPUTE_BIT, 0,
                        static_cast<uint32_t>(pushConstants.size()), pushConstants.data());
-  vkCmdDispatch(commands_, workgroupCount, 1, 1);
+  vkCmdDispatch(commands_, workgroupCount, workgroupCountY, 1);
 }
 
 void CommandList::copy(const Buffer& from, uint64_t fromOffset, const Buffer& to, uint64_t toOffset,

@@ -21,7 +21,7 @@ class CommandList {
   void begin();
   /// `pushConstants` has the byte count that the pipeline was made with.
   void dispatch(const ComputePipeline& pipeline, const BindingSet& bindings, std::span<const std::byte> pushConstants,
-                uint32_t workgroupCount);
+                uint32_t workgroupCount, uint32_t workgroupCountY = 1);
   void copy(const Buffer& from, uint64_t fromOffset, const Buffer& to, uint64_t toOffset, uint64_t byteCount);
   /// What was recorded before has finished, and its writes are seen by the kernels, copies and host reads after it.
   void barrier();

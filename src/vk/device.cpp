@@ -57,6 +57,12 @@ DeviceFacts describeDevice(VkPhysicalDevice device) {
   vkGetPhysicalDeviceProperties2(device, &properties);
   facts.driver = fmt::format("{} {}", driver.driverName, driver.driverInfo);
   facts.subgroupSize = subgroup.subgroupSize;
+  const auto offers = [&](VkSubgroupFeatureFlagBits operations) {
+    return (subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0 &&
+           (subgroup.supportedOperations & operations) != 0;
+  };
+  facts.hasSubgroupVote = offers(VK_SUBGROUP_FEATURE_VOTE_BIT);
+  facts.hasSubgroupArithmetic = offers(VK_SUBGROUP_FEATURE_ARITHMETIC_BIT) && offers(VK_SUBGROUP_FEATURE_BALLOT_BIT);
   facts.maxMemoryAllocationSize = maintenance.maxMemoryAllocationSize;
   return facts;
 }

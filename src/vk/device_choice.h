@@ -19,6 +19,8 @@ struct DeviceFacts {
   uint32_t apiVersion = 0;  ///< As VK_MAKE_API_VERSION packs it.
   std::optional<uint32_t> computeQueueFamily;
   uint32_t subgroupSize = 1;
+  bool hasSubgroupVote = true;  ///< In compute shaders, as all known devices of this age have.
+  bool hasSubgroupArithmetic = true;
   uint32_t maxWorkgroupInvocations = 0;
   uint32_t maxWorkgroupSize = 0;  ///< In x.
   uint32_t maxStorageBuffersPerStage = 0;

@@ -7,12 +7,19 @@
 layout(local_size_x = 8) in;
 layout(set = 0, binding = 0, rgba32ui) uniform readonly uimageBuffer nodes;
 layout(set = 0, binding = 1, rgba32ui) uniform readonly uimageBuffer triangles;
-layout(set = 0, binding = 2) readonly buffer Rays { ConeRay rays[]; };
-layout(set = 0, binding = 3) readonly buffer Origins { ConeOrigin origins[]; };
+layout(set = 0, binding = 5, rgba32ui) uniform readonly uimageBuffer wideNodes;
+layout(set = 0, binding = 2, rgba32ui) uniform readonly uimageBuffer rays;
+layout(set = 0, binding = 3, rgba32ui) uniform readonly uimageBuffer origins;
 layout(set = 0, binding = 4) writeonly buffer Words { uint words[]; };
 
 uint next = 0u;
 void put(uint word) { words[next++] = word; }
+void put(uvec4 v) {
+  put(v.x);
+  put(v.y);
+  put(v.z);
+  put(v.w);
+}
 void put(vec3 v) {
   put(floatBitsToUint(v.x));
   put(floatBitsToUint(v.y));
@@ -31,7 +38,17 @@ void main() {
       decodeTriangle(imageLoad(triangles, t), imageLoad(triangles, t + 1), imageLoad(triangles, t + 2));
   put(triangle.v0), put(triangle.faceIndex), put(triangle.v1), put(floatBitsToUint(triangle.normalU));
   put(triangle.v2), put(floatBitsToUint(triangle.normalV));
-  put(rays[1].direction), put(floatBitsToUint(rays[1].weight));
-  put(origins[1].origin), put(origins[1].excludedFace), put(origins[1].tangent), put(origins[1].unused0);
-  put(origins[1].bitangent), put(origins[1].unused1);
+  const ConeRay ray = decodeConeRay(imageLoad(rays, 1));
+  put(ray.direction), put(floatBitsToUint(ray.weight));
+  const int o = int(kConeOriginTexelCount);
+  const ConeOrigin origin =
+      decodeConeOrigin(imageLoad(origins, o), imageLoad(origins, o + 1), imageLoad(origins, o + 2));
+  put(origin.origin), put(origin.excludedFace), put(origin.tangent), put(origin.unused0);
+  put(origin.bitangent), put(origin.unused1);
+  const int w = int(kWideNodeTexelCount);
+  const DeviceWideNode wide =
+      decodeWideNode(imageLoad(wideNodes, w), imageLoad(wideNodes, w + 1), imageLoad(wideNodes, w + 2),
+                     imageLoad(wideNodes, w + 3), imageLoad(wideNodes, w + 4));
+  put(wide.origin), put(wide.exponents), put(wide.childBase), put(wide.triangleBase);
+  put(wide.childBits), put(wide.unused), put(wide.x), put(wide.y), put(wide.z);
 }

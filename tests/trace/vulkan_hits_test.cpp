@@ -8,6 +8,7 @@
 #include "hit_comparison.h"
 #include "shapes.h"
 #include "support/test_device.h"
+#include "vulkan_variants.h"
 
 using namespace asdfvk;
 
@@ -36,25 +37,29 @@ void checkHits(const VulkanConeKernel& kernel, const TracedMesh& traced, const C
 
 TEST_CASE("the kernel's hits are the reference's, and give its values") {
   const test::ValidatedDevice device;
-  const VulkanConeKernel kernel(*device, {kRayCount, true});
-  checkHits(kernel, TracedMesh(generateShape("animal", 3000).mesh));
-  checkHits(kernel, TracedMesh(generateShape("hand", 3000).mesh), {.rotation = ConeRotation::Hashed});
-  checkHits(kernel, TracedMesh(shapes::jittered(shapes::icosphere(3), 0.02, 1)), {.falseHitAngleDegrees = 30});
-  checkHits(kernel, TracedMesh(shapes::soup(2000, 5)));
-  checkHits(kernel, TracedMesh(shapes::jittered(shapes::openBox({1, 2, 3}, 8), 0.01, 2)));
+  forEveryVariant(Fetches::All, [&](const VulkanTraceChoice& choice) {
+    const VulkanConeKernel kernel(*device, {kRayCount, true, choice});
+    checkHits(kernel, TracedMesh(generateShape("animal", 2000).mesh));
+    checkHits(kernel, TracedMesh(generateShape("hand", 2000).mesh), {.rotation = ConeRotation::Hashed});
+    checkHits(kernel, TracedMesh(shapes::jittered(shapes::icosphere(3), 0.02, 1)), {.falseHitAngleDegrees = 30});
+    checkHits(kernel, TracedMesh(shapes::soup(2000, 5)));
+    checkHits(kernel, TracedMesh(shapes::jittered(shapes::openBox({1, 2, 3}, 8), 0.01, 2)));
+  });
 }
 
 TEST_CASE("rays that meet nothing say so on both backends") {
   const test::ValidatedDevice device;
-  const VulkanConeKernel kernel(*device, {kRayCount, true});
   const TracedMesh open(shapes::jittered(shapes::openBox({1, 1, 1}, 6), 0.02, 2));
   const size_t expected = missCount(hitsByReference(open).hits);
   CHECK(expected > 100);
-  CHECK(missCount(hitsByKernel(kernel, open).hits) == expected);
   const TracedMesh alone(Mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}, {}});
-  const TraceResults none = hitsByKernel(kernel, alone);
-  CHECK(missCount(none.hits) == kRayCount);
-  CHECK(std::isnan(none.values.front()));
+  forEveryVariant(Fetches::TexelOnly, [&](const VulkanTraceChoice& choice) {
+    const VulkanConeKernel kernel(*device, {kRayCount, true, choice});
+    CHECK(missCount(hitsByKernel(kernel, open).hits) == expected);
+    const TraceResults none = hitsByKernel(kernel, alone);
+    CHECK(missCount(none.hits) == kRayCount);
+    CHECK(std::isnan(none.values.front()));
+  });
 }
 
 TEST_CASE("any number of rays gives the reference's hits") {
@@ -62,38 +67,45 @@ TEST_CASE("any number of rays gives the reference's hits") {
   const TracedMesh traced(shapes::jittered(shapes::icosphere(2), 0.02, 3));
   for (const uint32_t rayCount : {1u, 7u, 33u, 257u, 1024u}) {
     CAPTURE(rayCount);
-    checkHits(VulkanConeKernel(*device, {rayCount, true}), traced, {.rayCount = rayCount});
+    for (const TraceKernel kernel : {TraceKernel::Packet, TraceKernel::Ray, TraceKernel::Seed})
+      checkHits(VulkanConeKernel(*device, {rayCount, true, VulkanTraceChoice{kernel, BvhLayout::Wide}}), traced,
+                {.rayCount = rayCount});
   }
 }
 
 TEST_CASE("writing hits changes no bit of the values") {
   const test::ValidatedDevice device;
-  const VulkanConeKernel writing(*device, {kRayCount, true}), plain(*device, {kRayCount});
-  for (const std::string_view name : {"animal", "hand", "torus"}) {
-    const TracedMesh traced(generateShape(name, 2000).mesh);
-    const std::vector<double> expected = traceByKernel(plain, traced, {}, Wanted::Values).values;
-    CHECK(haveSameBits(hitsByKernel(writing, traced).values, expected));
-    CHECK(haveSameBits(traceByKernel(writing, traced, {}, Wanted::Values).values, expected));
-  }
+  forEveryVariant(Fetches::TexelOnly, [&](const VulkanTraceChoice& choice) {
+    const VulkanConeKernel writing(*device, {kRayCount, true, choice}), plain(*device, {kRayCount, false, choice});
+    for (const std::string_view name : {"animal", "hand", "torus"}) {
+      const TracedMesh traced(generateShape(name, 2000).mesh);
+      const std::vector<double> expected = traceByKernel(plain, traced, {}, Wanted::Values).values;
+      CHECK(haveSameBits(hitsByKernel(writing, traced).values, expected));
+      CHECK(haveSameBits(traceByKernel(writing, traced, {}, Wanted::Values).values, expected));
+    }
+  });
 }
 
 TEST_CASE("any workgroup shape gives the same hits") {
   const test::ValidatedDevice device;
   const TracedMesh traced(generateShape("animal", 1500).mesh);
-  const std::vector<ConeHit> expected = hitsByKernel(VulkanConeKernel(*device, {kRayCount, true}), traced).hits;
-  for (const VulkanWorkgroupShape shape :
-       {VulkanWorkgroupShape{8, 1, 8000}, VulkanWorkgroupShape{16, 3, 8000}, VulkanWorkgroupShape{64, 2, 8000}})
-    CHECK(haveSameBits(hitsByKernel(VulkanConeKernel(*device, {kRayCount, true}, shape), traced).hits, expected));
+  forEveryVariant(Fetches::TexelOnly, [&](const VulkanTraceChoice& choice) {
+    const ConeKernelRequest request{kRayCount, true, choice};
+    const std::vector<ConeHit> expected = hitsByKernel(VulkanConeKernel(*device, request), traced).hits;
+    for (const VulkanWorkgroupShape shape :
+         {VulkanWorkgroupShape{8, 1, 8000}, VulkanWorkgroupShape{16, 3, 8000}, VulkanWorkgroupShape{64, 2, 8000}})
+      CHECK(haveSameBits(hitsByKernel(VulkanConeKernel(*device, request, shape), traced).hits, expected));
+  });
 }
 
 TEST_CASE("hits of cones that the reference redoes are the reference's") {
   const test::ValidatedDevice device;
   const TracedMesh traced(generateShape("animal", 1500).mesh);
   const TraceResults reference = hitsByReference(traced);
-  const TraceResults all = hitsByKernel(VulkanConeKernel(*device, {kRayCount, true}, {32, 1, 3}), traced);
+  const TraceResults all = hitsByKernel(VulkanConeKernel(*device, {kRayCount, true}, {32, 1, 1}), traced);
   CHECK(all.statistics.redoneConeCount == reference.values.size());
   CHECK(haveSameBits(all.hits, reference.hits));
-  const TraceResults some = hitsByKernel(VulkanConeKernel(*device, {kRayCount, true}, {32, 1, 60}), traced);
+  const TraceResults some = hitsByKernel(VulkanConeKernel(*device, {kRayCount, true}, {32, 1, 45}), traced);
   CHECK(some.statistics.redoneConeCount > 0);
   CHECK(some.statistics.redoneConeCount < reference.values.size());
   CHECK(differingRays(some.hits, reference.hits) <= reference.hits.size() / 1000);
@@ -117,7 +129,7 @@ TEST_CASE("hits do not depend on where a chunk ends") {
   CHECK(haveSameBits(results.hits, expected.hits));
   CHECK(haveSameBits(results.values, expected.values));
 
-  const TraceResults redone = hitsByKernel(VulkanConeKernel(small, {kRayCount, true}, {32, 1, 3}), traced);
+  const TraceResults redone = hitsByKernel(VulkanConeKernel(small, {kRayCount, true}, {32, 1, 1}), traced);
   CHECK(haveSameBits(redone.hits, hitsByReference(traced).hits));
   CHECK(instance.validationLog()->messages().empty());
 }

@@ -12,6 +12,7 @@
 #include "support/test_device.h"
 #include "trace/chunk_size.h"
 #include "trace_results.h"
+#include "vulkan_variants.h"
 
 using namespace asdfvk;
 
@@ -26,31 +27,43 @@ std::vector<double> referenceValues(const TracedMesh& traced, const ConeOptions&
   return traceByReference(traced, options, Wanted::Values).values;
 }
 
-void checkParity(const VulkanConeKernel& kernel, const TracedMesh& traced, const ConeOptions& options = {}) {
-  const std::vector<double> reference = referenceValues(traced, options);
+void checkParity(const VulkanConeKernel& kernel, const TracedMesh& traced, const ConeOptions& options,
+                 const std::vector<double>& reference) {
   const std::vector<double> values = traceWith(kernel, traced, options).values;
   CHECK(differingCount(values, reference, traced.geometry.bounds.diagonal()) <= reference.size() / 1000);
+}
+
+void checkParity(const VulkanConeKernel& kernel, const TracedMesh& traced, const ConeOptions& options = {}) {
+  checkParity(kernel, traced, options, referenceValues(traced, options));
 }
 
 }  // namespace
 
 TEST_CASE("the kernel gives the reference's values on every generated shape") {
   const test::ValidatedDevice device;
-  const VulkanConeKernel kernel(*device, {30});
-  for (const std::string_view name : shapeNames()) {
-    CAPTURE(name);
-    checkParity(kernel, TracedMesh(generateShape(name, 3000).mesh));
-  }
+  std::vector<TracedMesh> meshes;
+  for (const std::string_view name : shapeNames()) meshes.emplace_back(generateShape(name, 2000).mesh);
+  std::vector<std::vector<double>> references;
+  for (const TracedMesh& traced : meshes) references.push_back(referenceValues(traced));
+  forEveryVariant(Fetches::All, [&](const VulkanTraceChoice& choice) {
+    const VulkanConeKernel kernel(*device, {30, false, choice});
+    for (size_t i = 0; i < meshes.size(); ++i) {
+      CAPTURE(shapeNames()[i]);
+      checkParity(kernel, meshes[i], {}, references[i]);
+    }
+  });
 }
 
 TEST_CASE("the kernel gives the reference's values on open, crossing, nested and non-manifold meshes") {
   const test::ValidatedDevice device;
-  const VulkanConeKernel kernel(*device, {30});
-  checkParity(kernel, TracedMesh(shapes::openBox({1, 2, 3}, 8)));
-  checkParity(kernel, TracedMesh(shapes::soup(2000, 5)));
-  checkParity(kernel, TracedMesh(shapes::shell(2, 1)));
-  checkParity(kernel, TracedMesh(shapes::jittered(shapes::boxesWithSharedEdge(), 1e-3, 1)));
-  checkParity(kernel, TracedMesh(shapes::inverted(shapes::icosphere(3))));
+  forEveryVariant(Fetches::TexelOnly, [&](const VulkanTraceChoice& choice) {
+    const VulkanConeKernel kernel(*device, {30, false, choice});
+    checkParity(kernel, TracedMesh(shapes::openBox({1, 2, 3}, 8)));
+    checkParity(kernel, TracedMesh(shapes::soup(2000, 5)));
+    checkParity(kernel, TracedMesh(shapes::shell(2, 1)));
+    checkParity(kernel, TracedMesh(shapes::jittered(shapes::boxesWithSharedEdge(), 1e-3, 1)));
+    checkParity(kernel, TracedMesh(shapes::inverted(shapes::icosphere(3))));
+  });
 }
 
 TEST_CASE("any number of rays from 1 to 1024 gives the reference's values") {
@@ -58,33 +71,42 @@ TEST_CASE("any number of rays from 1 to 1024 gives the reference's values") {
   const TracedMesh traced(generateShape("torus", 600).mesh);
   for (const uint32_t rayCount : {1u, 2u, 3u, 7u, 8u, 9u, 31u, 32u, 33u, 64u, 100u, 255u, 256u, 257u, 1000u, 1024u}) {
     CAPTURE(rayCount);
-    const VulkanConeKernel kernel(*device, {rayCount});
-    checkParity(kernel, traced, {.rayCount = rayCount});
+    const std::vector<double> reference = referenceValues(traced, {.rayCount = rayCount});
+    for (const TraceKernel kernel : {TraceKernel::Packet, TraceKernel::Ray, TraceKernel::Seed})
+      checkParity(VulkanConeKernel(*device, {rayCount, false, VulkanTraceChoice{kernel, BvhLayout::Wide}}), traced,
+                  {.rayCount = rayCount}, reference);
   }
 }
 
 TEST_CASE("any workgroup shape gives the same bits") {
   const test::ValidatedDevice device;
   const TracedMesh traced(generateShape("animal", 1500).mesh);
-  const std::vector<double> expected = traceWith(VulkanConeKernel(*device, {30}), traced).values;
-  for (const VulkanWorkgroupShape shape : {VulkanWorkgroupShape{8, 1, 8000}, VulkanWorkgroupShape{16, 3, 8000},
-                                           VulkanWorkgroupShape{32, 4, 8000}, VulkanWorkgroupShape{64, 2, 8000}}) {
-    CAPTURE(shape.lanesPerCone);
-    CHECK(haveSameBits(traceWith(VulkanConeKernel(*device, {30}, shape), traced).values, expected));
-  }
+  forEveryVariant(Fetches::TexelOnly, [&](const VulkanTraceChoice& choice) {
+    const ConeKernelRequest request{30, false, choice};
+    const std::vector<double> expected = traceWith(VulkanConeKernel(*device, request), traced).values;
+    for (const VulkanWorkgroupShape shape : {VulkanWorkgroupShape{8, 1, 8000}, VulkanWorkgroupShape{16, 3, 8000},
+                                             VulkanWorkgroupShape{32, 4, 8000}, VulkanWorkgroupShape{64, 2, 8000}}) {
+      CAPTURE(shape.lanesPerCone);
+      CHECK(haveSameBits(traceWith(VulkanConeKernel(*device, request, shape), traced).values, expected));
+    }
+  });
 }
 
 TEST_CASE("cones beyond the iteration guard are redone by the reference and counted") {
   const test::ValidatedDevice device;
   const TracedMesh traced(generateShape("animal", 1500).mesh);
   const std::vector<double> reference = referenceValues(traced);
-  const TraceResults all = traceWith(VulkanConeKernel(*device, {30}, {32, 1, 3}), traced);
-  CHECK(all.statistics.redoneConeCount == reference.size());
-  CHECK(haveSameBits(all.values, reference));
-  const TraceResults some = traceWith(VulkanConeKernel(*device, {30}, {32, 1, 60}), traced);
-  CHECK(some.statistics.redoneConeCount > 0);
-  CHECK(some.statistics.redoneConeCount < reference.size());
-  CHECK(differingCount(some.values, reference, traced.geometry.bounds.diagonal()) <= reference.size() / 1000);
+  forEveryVariant(Fetches::TexelOnly, [&](const VulkanTraceChoice& choice) {
+    const ConeKernelRequest request{30, false, choice};
+    const TraceResults all = traceWith(VulkanConeKernel(*device, request, {32, 1, 1}), traced);
+    CHECK(all.statistics.redoneConeCount == reference.size());
+    CHECK(haveSameBits(all.values, reference));
+    const TraceResults some =
+        traceWith(VulkanConeKernel(*device, request, {32, 1, choice.bvh == BvhLayout::Wide ? 45u : 60u}), traced);
+    CHECK(some.statistics.redoneConeCount > 0);
+    CHECK(some.statistics.redoneConeCount < reference.size());
+    CHECK(differingCount(some.values, reference, traced.geometry.bounds.diagonal()) <= reference.size() / 1000);
+  });
 }
 
 TEST_CASE("the device's own iteration guard suffices for its workgroup shape") {
@@ -101,6 +123,10 @@ TEST_CASE("the device's own iteration guard suffices for its workgroup shape") {
     REQUIRE(8ull * shape.iterationLimit + reduction <= 65'535);
     REQUIRE(shape.iterationLimit > 5000);
     REQUIRE(shape.lanesPerCone % 8 == 0);
+    const VulkanWorkgroupShape seeds = workgroupShapeFor(cpu, rayCount, TraceKernel::Seed);
+    REQUIRE(8ull * seeds.iterationLimit <= 65'535);
+    REQUIRE(seeds.lanesPerCone * seeds.conesPerWorkgroup % 8 == 0);
+    REQUIRE(31ull * rayCount + 5 * rayCount + 31 <= 65'535);  // what trace_reduce.comp's loops need
   }
 }
 
@@ -109,22 +135,24 @@ TEST_CASE("hostile cones run into the device's own guard, are redone and agree")
   Mesh needles;
   Random random(4);
   const auto point = [&] { return Vec3d{random.real() * 2 - 1, random.real() * 2 - 1, random.real() * 2 - 1}; };
-  for (uint32_t i = 0; i < 20'000; ++i) {
+  for (uint32_t i = 0; i < 80'000; ++i) {
     const Vec3d a = point();
     needles.vertices.insert(needles.vertices.end(), {a, -a, a + point() * 1e-3});
     needles.faces.push_back({3 * i, 3 * i + 1, 3 * i + 2});
   }
   const test::ValidatedDevice device;
-  const VulkanConeKernel kernel(*device, {30});
   const TracedMesh traced(needles);
   const Cone cone = makeCone({});
   const std::vector<uint32_t> all = traced.seedFaces();
-  const std::vector<uint32_t> seeds(all.begin(), all.begin() + 40);
+  const std::vector<uint32_t> seeds(all.begin(), all.begin() + 8);
   std::vector<double> values(seeds.size()), reference(seeds.size());
-  const TraceStatistics statistics = makeVulkanTracer(kernel, traced.scene(), cone)->trace(seeds, {values}, {});
   makeReferenceTracer(traced.scene(), cone)->trace(seeds, {reference}, {});
-  if (device->facts().kind == DeviceKind::Cpu) CHECK(statistics.redoneConeCount > 0);
-  CHECK(differingCount(values, reference, traced.geometry.bounds.diagonal()) <= 1);
+  forEveryVariant(Fetches::TexelOnly, [&](const VulkanTraceChoice& choice) {
+    const VulkanConeKernel kernel(*device, {30, false, choice});
+    const TraceStatistics statistics = makeVulkanTracer(kernel, traced.scene(), cone)->trace(seeds, {values}, {});
+    if (device->facts().kind == DeviceKind::Cpu) CHECK(statistics.redoneConeCount > 0);
+    CHECK(differingCount(values, reference, traced.geometry.bounds.diagonal()) <= 1);
+  });
 }
 
 TEST_CASE("details too small for float32 are traced by the reference") {
@@ -151,24 +179,28 @@ TEST_CASE("details too small for float32 are traced by the reference") {
 TEST_CASE("rays along the sides of boxes do not leak") {
   // Flat, axis-aligned boxes: a cone's ray may run exactly in the plane of a hierarchy's box.
   const test::ValidatedDevice device;
-  const VulkanConeKernel kernel(*device, {30});
   for (const uint32_t side : {1u, 3u, 10u}) {
     CAPTURE(side);
     const TracedMesh traced(shapes::box({2, 3, 0.01}, side));
-    const TraceResults result = traceWith(kernel, traced);
-    CHECK(differingCount(result.values, referenceValues(traced), traced.geometry.bounds.diagonal()) == 0);
+    const std::vector<double> reference = referenceValues(traced);
+    forEveryVariant(Fetches::TexelOnly, [&](const VulkanTraceChoice& choice) {
+      const TraceResults result = traceWith(VulkanConeKernel(*device, {30, false, choice}), traced);
+      CHECK(differingCount(result.values, reference, traced.geometry.bounds.diagonal()) == 0);
+    });
   }
 }
 
 TEST_CASE("the angle of false hits and the bound on outliers are options that every backend obeys") {
   const test::ValidatedDevice device;
-  const VulkanConeKernel kernel(*device, {30});
   const TracedMesh traced(generateShape("animal", 1500).mesh);
   const std::vector<double> defaults = referenceValues(traced);
   for (const ConeOptions& options : {ConeOptions{.falseHitAngleDegrees = 20}, ConeOptions{.falseHitAngleDegrees = 150},
                                      ConeOptions{.outlierDeviations = 3}, ConeOptions{.outlierDeviations = 0.5}}) {
-    checkParity(kernel, traced, options);
-    CHECK(differingCount(referenceValues(traced, options), defaults, traced.geometry.bounds.diagonal()) > 100);
+    const std::vector<double> reference = referenceValues(traced, options);
+    forEveryVariant(Fetches::TexelOnly, [&](const VulkanTraceChoice& choice) {
+      checkParity(VulkanConeKernel(*device, {30, false, choice}), traced, options, reference);
+    });
+    CHECK(differingCount(reference, defaults, traced.geometry.bounds.diagonal()) > 100);
   }
 }
 
@@ -184,6 +216,37 @@ TEST_CASE("a GPU's workgroups hold several cones") {
   CHECK(workgroupShapeFor(gpu, 1024).conesPerWorkgroup == 1);
   gpu.maxWorkgroupInvocations = gpu.maxWorkgroupSize = 128;  // the least that Vulkan allows
   CHECK(workgroupShapeFor(gpu, 1024).lanesPerCone == 128);
+}
+
+TEST_CASE("the kernel is chosen by the class of the device, and as asked for") {
+  DeviceFacts facts;
+  facts.subgroupSize = 8;
+  facts.kind = DeviceKind::Cpu;
+  CHECK(defaultTraceChoice(facts).kernel == TraceKernel::Seed);
+  CHECK(defaultTraceChoice(facts).bvh == BvhLayout::Wide);
+  facts.kind = DeviceKind::Discrete;
+  for (const uint32_t size : {8u, 32u, 64u}) {
+    facts.subgroupSize = size;
+    CHECK(defaultTraceChoice(facts).fetch == BvhFetch::Texel);
+  }
+  const test::ValidatedDevice device;
+  CHECK(VulkanConeKernel(*device, {30}).choice() == defaultTraceChoice(device->facts()));
+  const VulkanTraceChoice packet{TraceKernel::Packet, BvhLayout::Wide, BvhFetch::Storage};
+  CHECK(VulkanConeKernel(*device, {30, false, packet}).choice() == packet);
+}
+
+TEST_CASE("a device without the subgroup operations of a kernel is refused with a remedy") {
+  const Instance instance;
+  const VkPhysicalDevice physical = instance.physicalDevices().front();
+  DeviceFacts facts = describeDevice(physical);
+  facts.hasSubgroupArithmetic = false;
+  const Device noArithmetic(physical, facts);
+  const VulkanTraceChoice packet{TraceKernel::Packet, BvhLayout::Binary, BvhFetch::Texel};
+  CHECK_THROWS_WITH_AS(VulkanConeKernel(noArithmetic, {30, false, packet}), doctest::Contains("packet"), Error);
+  CHECK_NOTHROW(VulkanConeKernel(noArithmetic, {30}));
+  facts.hasSubgroupVote = false;
+  const Device noVote(physical, facts);
+  CHECK_THROWS_WITH_AS(VulkanConeKernel(noVote, {30}), doctest::Contains("--backend reference"), Error);
 }
 
 TEST_CASE("two runs on the device give the same bits, whatever the order of the seeds") {

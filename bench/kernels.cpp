@@ -1,0 +1,186 @@
+// How fast the variants of the cone kernels are on a device, turn by turn in one run, and how many nodes and triangles
+// their rays meet.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <ctime>
+#include <memory>
+
+#include "bench_program.h"
+#include "bvh/bvh_statistics.h"
+#include "cli/terminal.h"
+#include "core/stopwatch.h"
+#include "machine.h"
+#include "mesh/mesh_reader.h"
+#include "pipeline/prepared_mesh.h"
+#include "seeds/random_permutation.h"
+#include "spread.h"
+#include "trace/vulkan_tracer.h"
+#include "vk/open_device.h"
+#include "walk_counts.h"
+
+namespace {
+
+using namespace asdfvk;
+
+struct Arguments {
+  std::vector<std::string> meshes;
+  std::string device;
+  std::vector<uint32_t> percents = {100, 10};
+  std::vector<std::string> only;
+  uint32_t roundCount = 5;
+  uint32_t rayCount = 30;
+};
+
+// What kernels were compared with from the start.
+constexpr VulkanTraceChoice kBaseline{TraceKernel::Ray, BvhLayout::Binary, BvhFetch::Texel};
+
+struct Row {
+  std::string name;
+  std::unique_ptr<VulkanConeKernel> kernel;
+  std::unique_ptr<ConeTracer> tracer;
+  std::vector<double> rates, ratios;
+  TraceStatistics statistics;
+};
+
+std::string nameOf(const VulkanTraceChoice& choice) {
+  const char* const kernels[] = {"packet", "ray", "seed"};
+  return fmt::format("{} {} {}", kernels[static_cast<size_t>(choice.kernel)],
+                     choice.bvh == BvhLayout::Binary ? "binary" : "wide",
+                     choice.fetch == BvhFetch::Texel ? "texel" : "storage");
+}
+
+std::vector<VulkanTraceChoice> choices() {
+  std::vector<VulkanTraceChoice> all = {kBaseline};
+  for (const TraceKernel kernel : {TraceKernel::Packet, TraceKernel::Ray, TraceKernel::Seed})
+    for (const BvhLayout bvh : {BvhLayout::Binary, BvhLayout::Wide})
+      for (const BvhFetch fetch : {BvhFetch::Texel, BvhFetch::Storage})
+        if (const VulkanTraceChoice choice{kernel, bvh, fetch}; choice != kBaseline) all.push_back(choice);
+  return all;
+}
+
+std::vector<Row> makeRows(const Arguments& arguments, const Device& device, const TraceScene& scene, const Cone& cone) {
+  std::vector<Row> rows;
+  const auto add = [&](const std::string& name, const VulkanTraceChoice& choice,
+                       const std::optional<VulkanWorkgroupShape>& shape) {
+    const bool isWanted = arguments.only.empty() || rows.empty() ||
+                          std::find(arguments.only.begin(), arguments.only.end(), name) != arguments.only.end();
+    if (!isWanted) return;
+    const ConeKernelRequest request{arguments.rayCount, false, choice};
+    auto kernel = shape ? std::make_unique<VulkanConeKernel>(device, request, *shape)
+                        : std::make_unique<VulkanConeKernel>(device, request);
+    auto tracer = makeVulkanTracer(*kernel, scene, cone);
+    rows.push_back({name, std::move(kernel), std::move(tracer), {}, {}, {}});
+  };
+  for (const VulkanTraceChoice& choice : choices()) add(nameOf(choice), choice, {});
+  const VulkanTraceChoice seed{TraceKernel::Seed, BvhLayout::Wide, BvhFetch::Texel};
+  const VulkanWorkgroupShape shape = workgroupShapeFor(device.facts(), arguments.rayCount, TraceKernel::Seed);
+  const uint32_t laneCount = shape.lanesPerCone * shape.conesPerWorkgroup;
+  for (const uint32_t rays : {2u, 4u, 8u})
+    add(fmt::format("seed wide texel, {} rays", rays), seed, {{rays, laneCount / rays, shape.iterationLimit}});
+  for (const uint32_t lanes : {8u, 32u, 256u})
+    add(fmt::format("seed wide texel, {} lanes", lanes), seed, {{1, lanes, shape.iterationLimit}});
+  return rows;
+}
+
+// Seconds of all threads of this process, which a busy machine disturbs less than those of a clock. Of a GPU the clock.
+class Timer {
+ public:
+  explicit Timer(bool countsThreads) : countsThreads_(countsThreads) {}
+  [[nodiscard]] double seconds() const {
+    return countsThreads_ ? static_cast<double>(std::clock() - begin_) / CLOCKS_PER_SEC : watch_.seconds();
+  }
+
+ private:
+  bool countsThreads_;
+  std::clock_t begin_ = std::clock();
+  Stopwatch watch_;
+};
+
+void timeRows(std::vector<Row>& rows, const std::vector<uint32_t>& seeds, uint32_t roundCount, bool countsThreads,
+              const RunControl& control) {
+  std::vector<double> values(seeds.size());
+  for (Row& row : rows) row.rates.clear(), row.ratios.clear();
+  for (uint32_t round = 0; round <= roundCount; ++round) {
+    double baseline = 0;
+    for (Row& row : rows) {
+      const Timer timer(countsThreads);
+      row.statistics = row.tracer->trace(seeds, {values}, control);
+      const double rate = static_cast<double>(row.statistics.rayCount) / timer.seconds() * 1e-6;
+      if (&row == &rows.front()) baseline = rate;
+      if (round == 0) continue;  // warms up
+      row.rates.push_back(rate);
+      row.ratios.push_back(rate / baseline);
+    }
+  }
+}
+
+// Of the middle of the seeds in the hierarchy's order.
+std::string walksText(const TraceScene& scene, const Cone& cone, std::vector<uint32_t> seeds) {
+  std::vector<uint32_t> slotOfFace(scene.mesh.faces.size());
+  for (uint32_t slot = 0; slot < scene.bvh.slotFaces.size(); ++slot) slotOfFace[scene.bvh.slotFaces[slot]] = slot;
+  const auto slotOf = [&](uint32_t face) { return slotOfFace[scene.representatives[face]]; };
+  std::sort(seeds.begin(), seeds.end(), [&](uint32_t a, uint32_t b) { return slotOf(a) < slotOf(b); });
+  const std::span<const uint32_t> some =
+      std::span(seeds).subspan(seeds.size() / 3, std::min<size_t>(1000, seeds.size() / 3));
+  std::string text;
+  for (const BvhLayout layout : {BvhLayout::Binary, BvhLayout::Wide}) {
+    const DeviceBvh bvh = encodeDeviceBvh(scene.bvh, scene.mesh, scene.geometry, layout);
+    const bench::WalkCounts counts = bench::countWalks(bvh, scene, cone, some);
+    text += fmt::format(
+        "{}: {} nodes; a ray meets {:.1f} nodes and {:.1f} triangles, eight neighbours in step {:.1f} and {:.1f}\n",
+        layout == BvhLayout::Binary ? "binary" : "wide", bvh.nodes.size() + bvh.wideNodes.size(), counts.nodes,
+        counts.triangles, counts.sharedNodes, counts.sharedTriangles);
+  }
+  return text;
+}
+
+void measure(const std::string& path, const Arguments& arguments, const Device& device, const RunControl& control) {
+  Mesh mesh = readMesh(path);
+  const PreparedMesh prepared = prepareMesh(mesh, Orientation::Keep);
+  const Bvh bvh = buildBvh(mesh, prepared.geometry, prepared.representatives);
+  const TraceScene scene{mesh, prepared.geometry, prepared.representatives, bvh};
+  const Cone cone = makeCone({.rayCount = arguments.rayCount});
+  const bool countsThreads = device.facts().kind == DeviceKind::Cpu;
+  std::vector<Row> rows = makeRows(arguments, device, scene, cone);
+  for (const uint32_t percent : arguments.percents) {
+    const std::vector<uint32_t> seeds =
+        randomPermutationSeeds(prepared.castableFaces, prepared.castableFaces.size() * percent / 100, 1);
+    timeRows(rows, seeds, arguments.roundCount, countsThreads, control);
+    writeStandardOutput(fmt::format("\n{}, {} % of the faces: {} cones of {} rays, SAH cost {:.1f}\n{}", path, percent,
+                                    seeds.size(), arguments.rayCount, computeBvhStatistics(bvh).sahCost,
+                                    walksText(scene, cone, seeds)));
+    writeStandardOutput(fmt::format("\n| {:24} | {:>14} | {:>10} | redone |\n|:---|---:|---:|---:|\n", "kernel",
+                                    countsThreads ? "Mrays/s a core" : "Mrays/s", "ratio"));
+    for (const Row& row : rows)
+      writeStandardOutput(fmt::format("| {:24} | {:>14} | {:>10} | {:>6} |\n", row.name,
+                                      bench::toText(bench::spreadOf(row.rates), 2),
+                                      bench::toText(bench::spreadOf(row.ratios), 2), row.statistics.redoneConeCount));
+  }
+}
+
+void run(const Arguments& arguments, const RunControl& control) {
+  const Instance instance;
+  const OpenedDevice opened = openDevice(instance, {.selector = arguments.device});
+  writeStandardOutput(fmt::format("{}, {}\n", opened.device->facts().name, bench::toText(bench::thisMachine())));
+  for (const std::string& mesh : arguments.meshes) measure(mesh, arguments, *opened.device, control);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Times the variants of the cone kernels, turn by turn in one run.", "asdfvk-bench-kernels");
+  Arguments arguments;
+  app.add_option("meshes", arguments.meshes, "Meshes")->option_text("MESH...")->required();
+  app.add_option("--rounds", arguments.roundCount, "Counted rounds, after one that warms up")
+      ->check(CLI::Range(1u, 1000u))
+      ->capture_default_str();
+  app.add_option("--seeds", arguments.percents, "Shares of the faces in percent")
+      ->check(CLI::Range(1u, 100u))
+      ->delimiter(',')
+      ->capture_default_str();
+  app.add_option("--only", arguments.only, "Rows by name, besides the first one")->delimiter('/');
+  app.add_option("--rays", arguments.rayCount, "Rays per cone")->check(CLI::Range(1u, 1024u))->capture_default_str();
+  app.add_option("--device", arguments.device, "As asdf-vk takes it");
+  return bench::runBenchProgram(app, argc, argv, [&](const RunControl& control) { run(arguments, control); });
+}

@@ -1,0 +1,25 @@
+// How the hierarchy's texels are fetched: bindings 0 to 3 of every kernel that walks it. Only the images or only the
+// buffers hold it; texels are far quicker on llvmpipe.
+#include "shared/bvh_layout.h"
+
+layout(constant_id = 5) const bool kFetchesTexels = true;
+
+layout(set = 0, binding = 0, rgba32ui) uniform readonly uimageBuffer nodeTexels;
+layout(set = 0, binding = 1, rgba32ui) uniform readonly uimageBuffer triangleTexels;
+layout(set = 0, binding = 2) readonly buffer Nodes { uvec4 nodeBlocks[]; };
+layout(set = 0, binding = 3) readonly buffer Triangles { uvec4 triangleBlocks[]; };
+
+uvec4 fetchNode(uint index) {
+  if (kFetchesTexels) return imageLoad(nodeTexels, int(index));
+  return nodeBlocks[index];
+}
+
+uvec4 fetchTriangle(uint index) {
+  if (kFetchesTexels) return imageLoad(triangleTexels, int(index));
+  return triangleBlocks[index];
+}
+
+DeviceTriangle loadTriangle(uint slot) {
+  const uint t = slot * kBvhTriangleTexelCount;
+  return decodeTriangle(fetchTriangle(t), fetchTriangle(t + 1u), fetchTriangle(t + 2u));
+}

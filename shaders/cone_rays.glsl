@@ -1,0 +1,32 @@
+// Where the rays of the cones start and how they end, for every kernel that traces them. Needs `push`.
+#include "shared/cone_hit.h"
+#include "shared/cone_layout.h"
+#include "shared/cone_rules.h"
+
+layout(set = 0, binding = 4, rgba32ui) uniform readonly uimageBuffer rayTexels;
+layout(set = 0, binding = 5, rgba32ui) uniform readonly uimageBuffer originTexels;
+
+const float kFarAway = 1e30;  // Beyond anything in normalised coordinates.
+const float kDropped = -1.0;  // The length of a ray that is not valid.
+
+ConeRay loadRay(uint ray) { return decodeConeRay(imageLoad(rayTexels, int(ray))); }
+
+ConeOrigin loadOrigin(uint cone) {
+  const int t = int(cone * kConeOriginTexelCount);
+  return decodeConeOrigin(imageLoad(originTexels, t), imageLoad(originTexels, t + 1), imageLoad(originTexels, t + 2));
+}
+
+#include "nearest_hit.glsl"
+
+// The length of a ray, kDropped when it hits nothing or a face that looks along the seed's normal (minus the axis).
+float validLength(Hit hit, vec3 axis) {
+  if (hit.slot == kNoSlot) return kDropped;
+  const DeviceTriangle triangle = loadTriangle(hit.slot);
+  const vec3 normal = decodeNormal(triangle.normalU, triangle.normalV);
+  return -dot(normal, axis) > push.falseHitCosine ? kDropped : hit.distance;
+}
+
+uvec2 encodeHit(Hit hit) {
+  if (hit.slot == kNoSlot) return uvec2(kMissDistanceBits, kNoFace);
+  return uvec2(floatBitsToUint(hit.distance), loadTriangle(hit.slot).faceIndex);
+}

@@ -1,0 +1,73 @@
+// Walks either hierarchy for the nearest hits of all rays of a subgroup together: they share the stack and the node, which
+// is entered when one of them enters it, nearest first for the first of them. Every loop runs alike in all lanes.
+#extension GL_KHR_shader_subgroup_arithmetic : require
+#extension GL_KHR_shader_subgroup_ballot : require
+
+Hit walkBinaryTogether(vec3 origin, vec3 direction, uint excludedFace, inout uint iterationCount) {
+  const RayFrame frame = makeRayFrame(direction);
+  const vec3 inverseDirection = invert(direction);
+  uint stack[kMaxBvhDepth + 1u];
+  uint stackSize = 1u;
+  stack[0] = 0u;
+  Hit hit = Hit(kFarAway, kNoSlot, true);
+  while (stackSize > 0u && iterationCount <= kIterationLimit) {
+    --stackSize;
+    const uint current = stack[stackSize];
+    uint slot = current & kReferenceFirstMask;
+    const uint end = slot + (current >> kReferenceCountShift);
+    iterationCount += 2u + end - slot;
+    if (slot == end) {
+      const DeviceBvhNode node = loadNode(current);
+      const float left = enterBox(node.leftMin, node.leftMax, origin, inverseDirection, hit.distance);
+      const float right = enterBox(node.rightMin, node.rightMax, origin, inverseDirection, hit.distance);
+      const uint entered = subgroupOr((left < kFarAway ? 1u : 0u) | (right < kFarAway ? 2u : 0u));
+      const bool leftIsNear = subgroupBroadcastFirst(left <= right ? 1u : 0u) != 0u;
+      if ((entered & (leftIsNear ? 2u : 1u)) != 0u) {
+        stack[stackSize] = leftIsNear ? node.right : node.left;
+        ++stackSize;
+      }
+      if ((entered & (leftIsNear ? 1u : 2u)) != 0u) {
+        stack[stackSize] = leftIsNear ? node.left : node.right;
+        ++stackSize;
+      }
+    }
+    for (; slot < end; ++slot) testTriangle(frame, origin, slot, excludedFace, hit);
+  }
+  hit.isComplete = iterationCount <= kIterationLimit;
+  return hit;
+}
+
+Hit walkWideTogether(vec3 origin, vec3 direction, uint excludedFace, inout uint iterationCount) {
+  const RayFrame frame = makeRayFrame(direction);
+  const WideRay ray = makeWideRay(origin, direction);
+  const bvec3 isNegative = bvec3(subgroupBroadcastFirst(uvec3(ray.isNegative)));
+  uint stackBases[kMaxWideBvhDepth];
+  uint stackBits[kMaxWideBvhDepth];
+  uint stackSize = 0u;
+  Group group = Group(0u, 8u);
+  Hit hit = Hit(kFarAway, kNoSlot, true);
+  while (group.bits != 0u && iterationCount <= kIterationLimit) {
+    const uint index = takeNearest(group, isNegative);
+    if (hasMore(group)) {
+      stackBases[stackSize] = group.base;
+      stackBits[stackSize] = group.bits;
+      ++stackSize;
+    }
+    const DeviceWideNode node = loadWideNode(index);
+    const uint children = subgroupOr(enterChildren(node, ray, hit.distance));
+    const uint leaves = node.childBits & ~kWideInnerBits;
+    uint triangles = children & leaves;
+    group = groupOf(node, children, isNegative);
+    if (group.bits == 0u && stackSize > 0u) {
+      --stackSize;
+      group = Group(stackBases[stackSize], stackBits[stackSize]);
+    }
+    iterationCount += 2u + bitCount(triangles);
+    for (; triangles != 0u; triangles &= triangles - 1u) {
+      const uint below = (triangles & (~triangles + 1u)) - 1u;
+      testTriangle(frame, origin, node.triangleBase + bitCount(leaves & below), excludedFace, hit);
+    }
+  }
+  hit.isComplete = iterationCount <= kIterationLimit;
+  return hit;
+}

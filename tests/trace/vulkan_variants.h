@@ -1,0 +1,27 @@
+#pragma once
+
+#include <doctest/doctest.h>
+
+#include "trace/vulkan_trace_choice.h"
+
+namespace asdfvk {
+
+enum class Fetches { All, TexelOnly };
+
+/// Calls body(choice) for every variant of the kernels; a check that fails says which it was.
+template <typename Body>
+void forEveryVariant(Fetches fetches, const Body& body) {
+  for (const TraceKernel kernel : {TraceKernel::Packet, TraceKernel::Ray, TraceKernel::Seed}) {
+    for (const BvhLayout bvh : {BvhLayout::Binary, BvhLayout::Wide}) {
+      for (const BvhFetch fetch : {BvhFetch::Storage, BvhFetch::Texel}) {
+        if (fetches == Fetches::TexelOnly && fetch != BvhFetch::Texel) continue;
+        CAPTURE(static_cast<int>(kernel));
+        CAPTURE(static_cast<int>(bvh));
+        CAPTURE(static_cast<int>(fetch));
+        body(VulkanTraceChoice{kernel, bvh, fetch});
+      }
+    }
+  }
+}
+
+}  // namespace asdfvk
