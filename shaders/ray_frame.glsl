@@ -30,9 +30,9 @@ float intersectTriangle(RayFrame frame, vec3 v0, vec3 v1, vec3 v2) {
   precise const float edgeA = c.x * b.y - c.y * b.x;
   precise const float edgeB = a.x * c.y - a.y * c.x;
   precise const float edgeC = b.x * a.y - b.y * a.x;
-  const float smallest = min(edgeA, min(edgeB, edgeC));
-  const float largest = max(edgeA, max(edgeB, edgeC));
   const float det = edgeA + edgeB + edgeC;
-  const bool inside = (smallest >= 0.0 || largest <= 0.0) && det != 0.0;
+  // Inside where all three have the sign of their sum, or are 0.
+  const uvec3 turned = floatBitsToUint(vec3(edgeA, edgeB, edgeC)) ^ (floatBitsToUint(det) & 0x80000000u);
+  const bool inside = all(greaterThanEqual(uintBitsToFloat(turned), vec3(0.0))) && det != 0.0;
   return inside ? (edgeA * a.z + edgeB * b.z + edgeC * c.z) / det : -1.0;
 }
