@@ -57,6 +57,7 @@ class Contest {
   void measure(SeedComparison& comparison, const RunControl& control) {
     Options options;
     options.seeds = parseSeedCount(comparison.seeds);
+    options.estimatesError = false;  // Nobody else has one.
     const std::vector<uint32_t> seeds = chooseSeeds(options);
     comparison.rayCount = seeds.size() * cone_.directions.size();
     for (const auto& [name, tracer] : tracers_) {

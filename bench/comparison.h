@@ -32,7 +32,7 @@ struct SeedComparison {
   std::string seeds;
   uint64_t rayCount = 0;
   std::map<std::string, Seconds> trace;    ///< By backend, and of Embree alone; the same rays.
-  std::map<std::string, Seconds> compute;  ///< By backend: geometry, hierarchy, trace and solve.
+  std::map<std::string, Seconds> compute;  ///< By backend: all but the estimate of the error.
 };
 
 struct Comparison {

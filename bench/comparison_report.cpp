@@ -83,7 +83,7 @@ std::string comparisonTable(const Comparison& comparison, const Machine& machine
   std::string text = fmt::format("{}: {} faces, {} rounds on {}\n", comparison.mesh, groupDigits(comparison.faceCount),
                                  comparison.build.size(), toText(machine));
   for (const auto& [name, device] : comparison.devices) text += fmt::format("{}: {}\n", name, device);
-  text += "median ± median absolute deviation; 'compute' is geometry, hierarchy, trace and solve\n\n";
+  text += "median ± median absolute deviation; 'compute' is all of ours but the estimate of the error\n\n";
   text += row("seeds", "tracer", "Mrays/s", "/ bare Embree", "compute, s", "CGAL / compute");
   text += "|-------|--------------|-------------:|--------------:|--------------:|---------------:|\n";
   for (const SeedComparison& seeds : comparison.seeds)

@@ -14,10 +14,9 @@ Json jsonOf(const Spread& spread) {
 Json jsonOf(const std::optional<Spread>& spread) { return spread ? jsonOf(*spread) : Json(nullptr); }
 
 Json stagesOf(const StageRow& row) {
-  return {{"read", jsonOf(row.stage(&StageSeconds::read))},   {"geometry", jsonOf(row.stage(&StageSeconds::geometry))},
-          {"bvh", jsonOf(row.stage(&StageSeconds::bvh))},     {"upload", jsonOf(row.stage(&StageSeconds::upload))},
-          {"trace", jsonOf(row.stage(&StageSeconds::trace))}, {"solve", jsonOf(row.stage(&StageSeconds::solve))},
-          {"write", jsonOf(row.stage(&StageSeconds::write))}};
+  Json json;
+  for (const auto& [name, member] : kStages) json[name] = jsonOf(row.stage(member));
+  return json;
 }
 
 Json jsonOf(const StageMeasurement& measurement, const StageRow& row, const Machine& machine) {
@@ -43,9 +42,10 @@ Json jsonOf(const StageMeasurement& measurement, const StageRow& row, const Mach
   json["coldSeconds"] = row.cold.seconds;
   json["peakBytes"] = row.cold.peakBytes;
   json["solver"] = {{"name", report.solver.name}, {"iterations", report.solver.iterations}};
-  json["referenceOverVulkan"] = {{"traceAndSolve", jsonOf(referenceOverVulkan(measurement, row, Share::TraceAndSolve))},
-                                 {"total", jsonOf(referenceOverVulkan(measurement, row, Share::Total))}};
-  json["traceAndSolveOverFullTrace"] = jsonOf(overFullTrace(measurement, row));
+  json["referenceOverVulkan"] = {
+      {"traceAndInterpolation", jsonOf(referenceOverVulkan(measurement, row, Share::TraceAndInterpolation))},
+      {"total", jsonOf(referenceOverVulkan(measurement, row, Share::Total))}};
+  json["traceAndInterpolationOverFullTrace"] = jsonOf(overFullTrace(measurement, row));
   return json;
 }
 

@@ -13,7 +13,10 @@
 namespace asdfvk::bench {
 namespace {
 
-double traceAndSolve(const FileRun& run) { return run.report.stageSeconds.trace + run.report.stageSeconds.solve; }
+double traceAndInterpolation(const FileRun& run) {
+  const StageSeconds& seconds = run.report.stageSeconds;
+  return seconds.sample + seconds.trace + seconds.predict + seconds.solve;
+}
 
 template <typename Quantity>
 Spread spreadOfRuns(const StageRow& row, const Quantity& quantity) {
@@ -67,7 +70,7 @@ std::optional<Spread> referenceOverVulkan(const StageMeasurement& measurement, c
   const StageRow* reference = measurement.find(row.seeds, "reference");
   if (row.backend != "vulkan" || reference == nullptr) return std::nullopt;
   const auto seconds = [&](const FileRun& run) {
-    return share == Share::Total ? run.totalSeconds : traceAndSolve(run);
+    return share == Share::Total ? run.totalSeconds : traceAndInterpolation(run);
   };
   return ratioByRound(*reference, seconds, row, seconds);
 }
@@ -75,7 +78,8 @@ std::optional<Spread> referenceOverVulkan(const StageMeasurement& measurement, c
 std::optional<Spread> overFullTrace(const StageMeasurement& measurement, const StageRow& row) {
   const StageRow* full = measurement.find("all", row.backend);
   if (full == nullptr || full == &row) return std::nullopt;
-  return ratioByRound(row, traceAndSolve, *full, [](const FileRun& run) { return run.report.stageSeconds.trace; });
+  return ratioByRound(row, traceAndInterpolation, *full,
+                      [](const FileRun& run) { return run.report.stageSeconds.trace; });
 }
 
 StageBench::StageBench(StageRequest request) : request_(std::move(request)) {

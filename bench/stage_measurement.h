@@ -45,13 +45,14 @@ struct StageMeasurement {
   [[nodiscard]] const StageRow* find(const std::string& seeds, const std::string& backend) const;
 };
 
-enum class Share { TraceAndSolve, Total };
+enum class Share { TraceAndInterpolation, Total };
 
 /// The reference's time over Vulkan's at the same seeds, round by round; none unless `row` is Vulkan's.
 [[nodiscard]] std::optional<Spread> referenceOverVulkan(const StageMeasurement& measurement, const StageRow& row,
                                                         Share share);
 
-/// Trace and solve over the trace of all faces by the same backend, round by round; none without such a row.
+/// Choice of seeds, trace and interpolation over the trace of all faces by the same backend, round by round; none
+/// without such a row.
 [[nodiscard]] std::optional<Spread> overFullTrace(const StageMeasurement& measurement, const StageRow& row);
 
 /// Keeps the devices open from mesh to mesh.

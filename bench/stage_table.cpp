@@ -20,9 +20,7 @@ std::string megaRays(const Spread& rays, double divisor) {
 
 std::string rowText(const StageRow& row, unsigned threads) {
   std::vector<std::string> cells{row.seeds, row.backend};
-  for (const auto member : {&StageSeconds::read, &StageSeconds::geometry, &StageSeconds::bvh, &StageSeconds::upload,
-                            &StageSeconds::trace, &StageSeconds::solve, &StageSeconds::write})
-    cells.push_back(toText(row.stage(member), 3));
+  for (const auto& [name, member] : kStages) cells.push_back(toText(row.stage(member), 3));
   cells.push_back(toText(row.total(), 3));
   cells.push_back(megaRays(row.raysPerSecond(), 1));
   cells.push_back(row.perCore ? megaRays(row.raysPerSecond(), threads) : "-");
@@ -48,24 +46,25 @@ std::string heading(const StageMeasurement& measurement, const Machine& machine)
 std::string ratios(const StageMeasurement& measurement) {
   std::string text;
   for (const StageRow& row : measurement.rows) {
-    const auto compute = referenceOverVulkan(measurement, row, Share::TraceAndSolve);
+    const auto compute = referenceOverVulkan(measurement, row, Share::TraceAndInterpolation);
     const auto total = referenceOverVulkan(measurement, row, Share::Total);
     if (compute && total)
-      text += fmt::format("seeds {}: reference / vulkan: trace and solve {}, total {}\n", row.seeds,
+      text += fmt::format("seeds {}: reference / vulkan: trace and interpolation {}, total {}\n", row.seeds,
                           toText(*compute, 2), toText(*total, 2));
   }
   for (const StageRow& row : measurement.rows)
     if (const auto share = overFullTrace(measurement, row))
-      text +=
-          fmt::format("seeds {}, {}: trace and solve / trace of all {}\n", row.seeds, row.backend, toText(*share, 3));
+      text += fmt::format("seeds {}, {}: trace and interpolation / trace of all {}\n", row.seeds, row.backend,
+                          toText(*share, 3));
   return text.empty() ? text : "\n" + text;
 }
 
 }  // namespace
 
 std::string stageTable(const StageMeasurement& measurement, const Machine& machine) {
-  const std::vector<std::string> titles{"seeds", "backend", "read",  "geometry", "bvh",      "upload", "trace",
-                                        "solve", "write",   "total", "Mrays/s",  "per core", "cold",   "peak MiB"};
+  std::vector<std::string> titles{"seeds", "backend"};
+  for (const auto& [name, member] : kStages) titles.emplace_back(name);
+  titles.insert(titles.end(), {"total", "Mrays/s", "per core", "cold", "peak MiB"});
   std::string text = heading(measurement, machine) + line(titles) + "|-------|-----------|";
   for (size_t i = 2; i < titles.size(); ++i) text += "-------------:|";
   text += "\n";
