@@ -18,19 +18,48 @@ namespace {
 
 constexpr double kComparisonTolerance = 1e-2;
 
+/// The values traced in one component. Each has its own, since parts of one mesh may differ in size by any factor.
+struct ComponentValues {
+  double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
+  double mean = 0;
+  uint64_t count = 0;
+};
+
+std::vector<ComponentValues> componentValues(const Components& components, const TracedSeeds& traced) {
+  std::vector<ComponentValues> values(components.components.size());
+  for (size_t face = 0; face < traced.values.size(); ++face) {  // Not by seed: the order would reach the last bit.
+    const double value = traced.values[face];
+    if (!std::isfinite(value)) continue;
+    ComponentValues& component = values[components.componentOf[face]];
+    component.low = std::min(component.low, value);
+    component.high = std::max(component.high, value);
+    ++component.count;
+    component.mean += (value - component.mean) / static_cast<double>(component.count);
+  }
+  return values;
+}
+
+/// Where the solvers start: the prediction, or the mean of the component's seeds where there is none.
+std::vector<double> firstGuess(const Components& components, const std::vector<ComponentValues>& traced,
+                               std::span<const double> prediction) {
+  std::vector<double> guess(components.componentOf.size(), kNoValue);
+  for (size_t face = 0; face < guess.size(); ++face) {
+    const ComponentValues& component = traced[components.componentOf[face]];
+    if (component.count > 0) guess[face] = component.mean;
+    if (!prediction.empty() && std::isfinite(prediction[face])) guess[face] = prediction[face];
+  }
+  return guess;
+}
+
 /// Guidance carries values beyond those of the seeds: downwards as far as the prediction, which is a mean of lengths,
 /// goes itself; upwards not at all, since the faces with the greatest predictions are seeds (see chooseScouts()).
-void keepWithinTraced(const TracedSeeds& traced, Interpolated& result) {
-  double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
-  for (const uint32_t face : traced.faces)
-    if (const double value = traced.values[face]; std::isfinite(value)) {
-      low = std::min(low, value);
-      high = std::max(high, value);
-    }
+void keepWithinTraced(const Components& components, const std::vector<ComponentValues>& traced, Interpolated& result) {
   for (size_t face = 0; face < result.values.size(); ++face) {
+    const ComponentValues& component = traced[components.componentOf[face]];
+    if (component.count == 0 || !std::isfinite(result.values[face])) continue;
     const double prediction = result.prediction[face];
-    const double least = std::isfinite(prediction) ? std::min(low, prediction) : low;
-    if (std::isfinite(result.values[face])) result.values[face] = std::clamp(result.values[face], least, high);
+    const double least = std::isfinite(prediction) ? std::min(component.low, prediction) : component.low;
+    result.values[face] = std::clamp(result.values[face], least, std::max(least, component.high));
   }
 }
 
@@ -55,11 +84,13 @@ Interpolated Interpolation::run(const TracedSeeds& traced, StageSeconds& seconds
 
   const Stopwatch solveWatch;
   result.values = traced.values;
+  const std::vector<ComponentValues> known = componentValues(prepared_.components, traced);
+  const std::vector<double> guess = firstGuess(prepared_.components, known, result.prediction);
   const PoissonSystem system =
       buildPoissonSystem(prepared_.graph, weights_, traced.values, divergence(result.prediction),
-                         {.secondOrder = options_.interpolation.secondOrder, .firstGuess = result.prediction});
+                         {.secondOrder = options_.interpolation.secondOrder, .firstGuess = guess});
   result.solver = solve(system, result.values, options_.solverOptions, control.part(0.5, 1));
-  if (!result.prediction.empty()) keepWithinTraced(traced, result);
+  if (!result.prediction.empty()) keepWithinTraced(prepared_.components, known, result);
   if (const double pooling = options_.interpolation.pooling; pooling > 0)
     for (size_t face = 0; face < result.prediction.size(); ++face)
       if (std::isfinite(result.prediction[face]) && std::isfinite(result.values[face]))

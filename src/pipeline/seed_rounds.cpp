@@ -51,7 +51,7 @@ SeedRounds::SeedRounds(const Mesh& mesh, const PreparedMesh& prepared, const Opt
       interpolation_(interpolation),
       clock_(clock),
       seconds_(seconds),
-      estimates_(options.estimatesError || options.rounds.maxError.has_value()),
+      estimates_(options.estimatesError || options.rounds.maxError.has_value() || options.isAdaptive),
       placed_(prepared.geometry.areas.size()),
       probes_(placed_),
       traced_(placed_) {}
@@ -79,13 +79,13 @@ void SeedRounds::runRound(uint64_t count, std::span<const double> weight, const 
   const bool judges = estimates_ && count < leftCount();
   const SeedShares shares = judges ? shareOut(count, probes_.faces.size(), predicts) : SeedShares{.placed = count};
   traceChosen(shares, weight, control.part(0, 0.8));
-  Interpolated heldOut;
+  HeldOut heldOut;
   const bool isToJudge = !probes_.faces.empty() && leftCount() > 0;
   if (isToJudge) heldOut = holdOut(shares, control.part(0.8, 0.87));
   traced_ = placed_;
   traced_.append(probes_);
-  result_ = interpolation_.run(traced_, seconds_, control.part(0.87, 0.94));
-  if (isToJudge) estimate(heldOut, control.part(0.94, 1));
+  result_ = interpolation_.run(traced_, seconds_, control.part(0.87, 1));
+  if (isToJudge) estimate(heldOut);
   interpolationSeconds_ = watch.seconds() - (seconds_.trace + seconds_.sample - earlierRays);
 }
 
@@ -104,27 +104,29 @@ void SeedRounds::traceChosen(const SeedShares& shares, std::span<const double> w
   seconds_.trace += traceWatch.seconds();
 }
 
-Interpolated SeedRounds::holdOut(const SeedShares& shares, const RunControl& control) {
+SeedRounds::HeldOut SeedRounds::holdOut(const SeedShares& shares, const RunControl& control) {
   const Stopwatch watch;
   StageSeconds ignored;
-  Interpolated heldOut = interpolation_.run(placed_, ignored, control);
+  HeldOut heldOut{interpolation_.run(placed_, ignored, control.part(0, 0.7)), {}};
+  const std::vector<double>& prediction = heldOut.guided.prediction;
+  if (!prediction.empty())
+    heldOut.harmonic = interpolation_.runHarmonic(placed_, heldOut.guided.values, control.part(0.7, 1));
   seconds_.estimate += watch.seconds();
   if (shares.scouts == 0) return heldOut;
   const Stopwatch traceWatch;
   std::vector<uint8_t> isSeed = placed_.isSeed;
   for (const uint32_t face : probes_.faces) isSeed[face] = 1;
-  const std::vector<uint32_t> scouts = chooseScouts(prepared_, heldOut.prediction, isSeed, shares.scouts);
+  const std::vector<uint32_t> scouts = chooseScouts(prepared_, prediction, isSeed, shares.scouts);
   tracing_.trace(scouts, placed_, {control.stop, {}});
   chosen_.placed = sorted(placed_.faces);
   seconds_.trace += traceWatch.seconds();
   return heldOut;
 }
 
-void SeedRounds::estimate(const Interpolated& heldOut, const RunControl& control) {
+void SeedRounds::estimate(const HeldOut& heldOut) {
   const Stopwatch watch;
-  std::vector<double> other;
-  if (!heldOut.prediction.empty()) other = interpolation_.runHarmonic(placed_, heldOut.values, control);
-  EstimatedErrors errors = estimateErrors(mesh_, {placed_, probes_, heldOut.values, other, result_.values});
+  EstimatedErrors errors =
+      estimateErrors(mesh_, {placed_, probes_, heldOut.guided.values, heldOut.harmonic, result_.values});
   if (errors.estimate.heldOutCount > 0) errors_ = std::move(errors);
   seconds_.estimate += watch.seconds();
 }

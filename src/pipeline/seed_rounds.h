@@ -27,9 +27,14 @@ class SeedRounds {
  private:
   void runRound(uint64_t count, std::span<const double> weight, const RunControl& control);
   void traceChosen(const SeedShares& shares, std::span<const double> weight, const RunControl& control);
+  /// What is interpolated without the probes, in two ways.
+  struct HeldOut {
+    Interpolated guided;
+    std::vector<double> harmonic;  ///< #F, or empty where `guided` is harmonic itself.
+  };
   /// Interpolates without the probes, and traces the scouts that this suggests.
-  [[nodiscard]] Interpolated holdOut(const SeedShares& shares, const RunControl& control);
-  void estimate(const Interpolated& heldOut, const RunControl& control);
+  [[nodiscard]] HeldOut holdOut(const SeedShares& shares, const RunControl& control);
+  void estimate(const HeldOut& heldOut);
   /// 0: it is enough.
   [[nodiscard]] uint64_t furtherCount() const;
   [[nodiscard]] uint64_t countForError() const;

@@ -53,7 +53,7 @@ void describeMesh(Report& report, const Mesh& mesh, const PreparedMesh& prepared
   report.randomSeed = options.randomSeed;
 }
 
-void describeRounds(Report& report, const SeedRounds& rounds) {
+void describeRounds(Report& report, const SeedRounds& rounds, bool asksForEstimate) {
   report.seedCount = rounds.traced().faces.size();
   report.rayCount = rounds.traced().statistics.rayCount;
   report.redoneConeCount = rounds.traced().statistics.redoneConeCount;
@@ -61,7 +61,7 @@ void describeRounds(Report& report, const SeedRounds& rounds) {
       report.stageSeconds.trace > 0 ? static_cast<double>(report.rayCount) / report.stageSeconds.trace : 0;
   report.solver = rounds.result().solver;
   report.roundCount = rounds.roundCount();
-  if (rounds.errors()) report.estimatedError = rounds.errors()->estimate;
+  if (asksForEstimate && rounds.errors()) report.estimatedError = rounds.errors()->estimate;
 }
 
 void describeValues(Report& report, const std::vector<double>& sdf, const std::string& causeOfMissing) {
@@ -89,7 +89,8 @@ void requireAgreement(const Options& options) {
   if (interpolation.pooling > 0 && interpolation.guidance != Guidance::Hits)
     refuse("pooling takes predictions from hits; use guidance by hits with it");
   if (!(interpolation.secondOrder >= 0)) refuse("the second-order term is negative; give 0 or more");
-  if (!(interpolation.reprojection.antipodal >= 0)) refuse("the weight of antipodal seeds is negative; give 0 or more");
+  if (!(interpolation.reprojection.antipodal >= 0 && interpolation.reprojection.antipodal <= kGreatestAntipodalWeight))
+    refuse("the weight of antipodal seeds is out of range; give 0 to 1000");
   if (options.smoothing.window) requireValid(*options.smoothing.window);
   if (options.rounds.maxError && !(*options.rounds.maxError > 0)) refuse("the greatest error is not above 0");
   if (options.rounds.timeBudgetSeconds && !(*options.rounds.timeBudgetSeconds > 0))
@@ -137,7 +138,7 @@ Result Session::compute(Mesh& mesh, const Options& options, const RunControl& co
   Interpolation interpolation(prepared, scene, cone, options, backend, report.warnings);
   SeedRounds rounds(mesh, prepared, options, tracing, interpolation, clock, seconds);
   rounds.run(control.part(0, roundsEnd));
-  describeRounds(report, rounds);
+  describeRounds(report, rounds, options.estimatesError || options.rounds.maxError);
   std::vector<double> values = rounds.result().values;
   if (const SmoothingOptions& smoothing = options.smoothing; smoothing.isOn)
     values = timed(seconds.smooth, [&] {
@@ -151,7 +152,7 @@ Result Session::compute(Mesh& mesh, const Options& options, const RunControl& co
   const std::vector<double>& areas = prepared.geometry.areas;
   result.sdf = valuesOfInputFaces(mesh, values, areas);
   result.isSeed = seedsOfInputFaces(mesh, rounds.traced().isSeed);
-  if (rounds.errors()) result.expectedError = valuesOfInputFaces(mesh, rounds.errors()->expected, areas);
+  if (report.estimatedError) result.expectedError = valuesOfInputFaces(mesh, rounds.errors()->expected, areas);
   describeValues(report, result.sdf, likelyCauseOfMissingValues(mesh, prepared, values));
   backend.requireSilentValidation();
   return result;

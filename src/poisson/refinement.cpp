@@ -50,7 +50,7 @@ SolverReport solveByRefinement(const std::string& name, const PoissonSystem& sys
     if (stagnates) break;
   }
   report.relativeResidual = relativeResidual(system, solution);
-  report.converged = norm <= target;
+  report.converged = std::isfinite(target) && norm <= target;
   return report;
 }
 
