@@ -193,3 +193,30 @@ TEST_CASE("the device and the reference agree under every recipe") {
     CHECK(differing <= mesh.faces.size() / 100);
   }
 }
+
+TEST_CASE("a part a hundred thousand times smaller than the other is interpolated as well") {
+  constexpr double kSmaller = 1e-5;
+  const Mesh animal = makeAnimal(2000).mesh;
+  const size_t faceCount = animal.faces.size();
+  Mesh smaller = animal;
+  for (Vec3d& vertex : smaller.vertices) vertex = kSmaller * vertex;
+  const Mesh mesh = test::joined(animal, smaller, {3, 0, 0});
+  const std::vector<double> traced = test::tracedEverywhere(mesh);
+  const auto small = [&](const std::vector<double>& values) {
+    return std::vector<double>(values.begin() + static_cast<std::ptrdiff_t>(faceCount), values.end());
+  };
+  const double greatest = *std::max_element(traced.begin() + static_cast<std::ptrdiff_t>(faceCount), traced.end());
+  for (const Recipe recipe : {Recipe::Paper, Recipe::Balanced}) {
+    Options options;
+    applyRecipe(recipe, options);
+    const std::vector<double> values = small(compute(mesh, options).sdf);
+    CHECK(averageError(values, small(traced)) < 0.1);
+    CHECK(*std::max_element(values.begin(), values.end()) < 1.5 * greatest);
+  }
+}
+
+TEST_CASE("an equation beyond what numbers hold is told as not converged") {
+  Options options = with(Guidance::Curvature);
+  options.interpolation.curvatureFactor = 1e308;
+  CHECK_FALSE(compute(makeAnimal(2000).mesh, options).report.solver.converged);
+}
