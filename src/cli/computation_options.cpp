@@ -40,20 +40,16 @@ SmoothingOptions parseSmoothing(const std::string& text) {
 }
 
 void addRecipe(CLI::App& app, CommandLine& line) {
-  const auto apply = [&line](const std::string& name) {
-    for (const auto& [candidate, recipe] : kRecipes)
-      if (candidate == name) line.recipe = recipe;
-    if (nameOf(kRecipes, line.recipe) != name)
-      throw Error(ErrorKind::Usage, fmt::format("'{}' is not one of {}", name, joined(kRecipes)));
-    applyRecipe(line.recipe, line.options);
+  const auto apply = [&line](const Recipe& recipe) {
+    line.recipe = recipe;
+    applyRecipe(recipe, line.options);
   };
-  addValue(app, "--recipe", joined(kRecipes),
-           "Sets of the options below, which overrule it. paper: random seeds,\n"
-           "weights 1/distance, as the ASDF paper has it. balanced (default): seeds as\n"
-           "blue noise, weights by dihedral angle, guided by what the seeds' rays hit;\n"
-           "less error than paper on every mesh tried. quality: rays pooled over\n"
-           "neighbouring seeds; nearest to a function of endlessly many rays",
-           apply)
+  addChoice(app, "--recipe", apply, kRecipes,
+            "Sets of the options below, which overrule it. paper: random seeds,\n"
+            "weights 1/distance, as the ASDF paper has it. balanced (default): seeds as\n"
+            "blue noise, weights by dihedral angle, guided by what the seeds' rays hit;\n"
+            "less error than paper on every mesh tried. quality: rays pooled over\n"
+            "neighbouring seeds; nearest to a function of endlessly many rays")
       ->group("Seeds and rays");
 }
 
@@ -114,9 +110,8 @@ void addRays(CLI::App& app, Options& options) {
            fmt::format("Full opening angle of the cone, above 0 and below 180; default {}",
                        defaults.cone.openingAngleDegrees),
            [&](const std::string& text) {
-             options.cone.openingAngleDegrees = parseNumber(text);
-             if (!(options.cone.openingAngleDegrees > 0 && options.cone.openingAngleDegrees < 180))
-               throw Error(ErrorKind::Usage, fmt::format("'{}' is not above 0 and below 180", text));
+             options.cone.openingAngleDegrees = parseNumber(
+                 text, [](double x) { return x > 0 && x < 180; }, "is not above 0 and below 180");
            })
       ->group(rays);
   addValue(app, "--false-hit-angle", "DEGREES",
@@ -124,9 +119,8 @@ void addRays(CLI::App& app, Options& options) {
                        "false, 0 to 180; default {}",
                        defaults.cone.falseHitAngleDegrees),
            [&](const std::string& text) {
-             options.cone.falseHitAngleDegrees = parseNumber(text);
-             if (!(options.cone.falseHitAngleDegrees >= 0 && options.cone.falseHitAngleDegrees <= 180))
-               throw Error(ErrorKind::Usage, fmt::format("'{}' is not from 0 to 180", text));
+             options.cone.falseHitAngleDegrees = parseNumber(
+                 text, [](double x) { return x >= 0 && x <= 180; }, "is not from 0 to 180");
            })
       ->group(rays);
   addValue(app, "--outlier-deviations", "S",
@@ -134,9 +128,8 @@ void addRays(CLI::App& app, Options& options) {
                        "out, above 0; default {}",
                        defaults.cone.outlierDeviations),
            [&](const std::string& text) {
-             options.cone.outlierDeviations = parseNumber(text);
-             if (!(options.cone.outlierDeviations > 0))
-               throw Error(ErrorKind::Usage, fmt::format("'{}' is not above 0", text));
+             options.cone.outlierDeviations = parseNumber(
+                 text, [](double x) { return x > 0; }, "is not above 0");
            })
       ->group(rays);
   addChoice(app, "--orient", options.orientation, kOrientations,
@@ -173,9 +166,8 @@ void addInterpolation(CLI::App& app, Options& options) {
            fmt::format("Weight of the second-order term, from 0, which also keeps slopes; default {}",
                        defaults.interpolation.secondOrder),
            [&](const std::string& text) {
-             options.interpolation.secondOrder = parseNumber(text);
-             if (!(options.interpolation.secondOrder >= 0))
-               throw Error(ErrorKind::Usage, fmt::format("'{}' is below 0", text));
+             options.interpolation.secondOrder = parseNumber(
+                 text, [](double x) { return x >= 0; }, "is below 0");
            })
       ->group(interpolation);
   addValue(app, "--antipodal", "W",
@@ -183,9 +175,8 @@ void addInterpolation(CLI::App& app, Options& options) {
                        "face; default {}",
                        defaults.interpolation.reprojection.antipodal),
            [&](const std::string& text) {
-             options.interpolation.reprojection.antipodal = parseNumber(text);
-             if (!(options.interpolation.reprojection.antipodal >= 0))
-               throw Error(ErrorKind::Usage, fmt::format("'{}' is below 0", text));
+             options.interpolation.reprojection.antipodal = parseNumber(
+                 text, [](double x) { return x >= 0; }, "is below 0");
            })
       ->group(interpolation);
   addValue(app, "--pooling", "P",
@@ -193,9 +184,8 @@ void addInterpolation(CLI::App& app, Options& options) {
                        "(traced values are kept) to 1; default {}",
                        defaults.interpolation.pooling),
            [&](const std::string& text) {
-             options.interpolation.pooling = parseNumber(text);
-             if (!(options.interpolation.pooling >= 0 && options.interpolation.pooling <= 1))
-               throw Error(ErrorKind::Usage, fmt::format("'{}' is not from 0 to 1", text));
+             options.interpolation.pooling = parseNumber(
+                 text, [](double x) { return x >= 0 && x <= 1; }, "is not from 0 to 1");
            })
       ->group(interpolation);
   addChoice(app, "--solver", options.solver, kSolvers,
@@ -206,9 +196,8 @@ void addInterpolation(CLI::App& app, Options& options) {
                        "default {}",
                        defaults.solverOptions.tolerance),
            [&](const std::string& text) {
-             options.solverOptions.tolerance = parseNumber(text);
-             if (!(options.solverOptions.tolerance > 0 && options.solverOptions.tolerance < 1))
-               throw Error(ErrorKind::Usage, fmt::format("'{}' is not above 0 and below 1", text));
+             options.solverOptions.tolerance = parseNumber(
+                 text, [](double x) { return x > 0 && x < 1; }, "is not above 0 and below 1");
            })
       ->group(interpolation);
   addValue(app, "--max-iterations", "N",

@@ -41,6 +41,12 @@ double parseNumber(const std::string& text) {
   return *value;
 }
 
+double parseNumber(const std::string& text, const std::function<bool(double)>& accepts, const char* complaint) {
+  const double value = parseNumber(text);
+  if (!accepts(value)) throw Error(ErrorKind::Usage, fmt::format("'{}' {}", text, complaint));
+  return value;
+}
+
 SeedCount parseSeedCount(const std::string& text) {
   const std::string wanted = "a share such as 10% (above 0%, at most 100%), a count of at least 1, or all";
   SeedCount seeds;

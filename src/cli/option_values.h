@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 
 #include "pipeline/asdf.h"
@@ -14,6 +15,10 @@ namespace asdfvk {
 
 /// A finite number.
 [[nodiscard]] double parseNumber(const std::string& text);
+
+/// A finite number that `accepts` takes; `complaint` ends the line otherwise, as in "'7' is not from 0 to 1".
+[[nodiscard]] double parseNumber(const std::string& text, const std::function<bool(double)>& accepts,
+                                 const char* complaint);
 
 /// "10%" (above 0, at most 100), "2000" (at least 1) or "all".
 [[nodiscard]] SeedCount parseSeedCount(const std::string& text);

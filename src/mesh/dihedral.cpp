@@ -6,7 +6,6 @@
 #include "mesh/buckets.h"
 
 namespace asdfvk {
-namespace {
 
 double signedDihedralAngle(const FaceGeometry& geometry, uint32_t f, uint32_t g) {
   if (geometry.isDegenerate(f) || geometry.isDegenerate(g)) return 0;
@@ -18,8 +17,6 @@ double signedDihedralAngle(const FaceGeometry& geometry, uint32_t f, uint32_t g)
   const bool isConcave = dot(ofF, between) > 0 && dot(ofG, between) < 0;
   return isConcave ? angle : -angle;
 }
-
-}  // namespace
 
 std::vector<double> signedDihedralAngles(const DualGraph& graph, const FaceGeometry& geometry) {
   ASDFVK_CHECK_OP(geometry.normals.size(), ==, size_t{graph.faceCount()});

@@ -43,6 +43,10 @@ struct Mesh {
     const auto [a, b, c] = faces[face];
     return isFinite(vertices[a]) && isFinite(vertices[b]) && isFinite(vertices[c]);
   }
+  /// Which of the file's faces a triangle was cut from.
+  [[nodiscard]] uint32_t inputFaceOf(uint32_t face) const {
+    return polygons.isEmpty() ? face : polygons.inputFaceOf[face];
+  }
   /// #I, what the file calls faces.
   [[nodiscard]] uint64_t inputFaceCount() const {
     return polygons.isEmpty() ? faces.size() : polygons.firstCorner.size() - 1;

@@ -63,7 +63,7 @@ void compareTraced(CheckReport& report, const std::vector<uint32_t>& faces, cons
     report.agreeingCount += difference <= kAgreementTolerance;
     if (differences.empty() || difference > report.worstDifference) {
       report.worstDifference = difference;
-      report.worstFace = mesh.polygons.isEmpty() ? face : mesh.polygons.inputFaceOf[face];
+      report.worstFace = mesh.inputFaceOf(face);
     }
     differences.push_back(difference);
   }

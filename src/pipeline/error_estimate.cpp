@@ -58,17 +58,13 @@ std::vector<Probe> readProbes(const HeldOutErrors& errors, const std::vector<dou
   return probes;
 }
 
-uint64_t inputFaceOf(const Mesh& mesh, uint32_t face) {
-  return mesh.polygons.isEmpty() ? face : mesh.polygons.inputFaceOf[face];
-}
-
 std::vector<ErrorEstimate::WorstFace> worstOf(const Mesh& mesh, std::vector<Probe> probes, double range) {
   const size_t count = std::min(kWorstFaceCount, probes.size());
   std::partial_sort(
       probes.begin(), probes.begin() + static_cast<std::ptrdiff_t>(count), probes.end(),
       [](const Probe& a, const Probe& b) { return a.error != b.error ? a.error > b.error : a.face < b.face; });
   std::vector<ErrorEstimate::WorstFace> worst;
-  for (size_t i = 0; i < count; ++i) worst.push_back({inputFaceOf(mesh, probes[i].face), probes[i].error / range});
+  for (size_t i = 0; i < count; ++i) worst.push_back({mesh.inputFaceOf(probes[i].face), probes[i].error / range});
   return worst;
 }
 

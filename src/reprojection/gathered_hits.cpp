@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "core/lanes.h"
 #include "mesh/buckets.h"
 
 namespace asdfvk {
@@ -37,7 +38,7 @@ GatheredHits::GatheredHits(const TraceScene& scene, const Cone& cone, const Trac
       cone_(cone),
       traced_(traced),
       windows_(windows),
-      raysPerCone_((cone.directions.size() + kHitRun - 1) / kHitRun * kHitRun),
+      raysPerCone_((cone.directions.size() + kLaneCount - 1) / kLaneCount * kLaneCount),
       raySolidAngle_(2 * std::numbers::pi * (1 - std::cos(cone.halfAngleRadians)) /
                      static_cast<double>(cone.directions.size())) {}
 

@@ -23,11 +23,8 @@ struct TracedCones {
 [[nodiscard]] std::vector<LengthWindow> keptLengths(const TraceScene& scene, const Cone& cone,
                                                     const TracedCones& traced);
 
-/// Runs of as many numbers are computed side by side; a cone's rays are padded to whole runs.
-inline constexpr size_t kHitRun = 8;
-
-/// The points that the rays of a few seeds met, as arrays, so that compilers compute them eight at a time. All arrays
-/// have cones x raysPerCone() entries. In normalised units.
+/// The points that the rays of a few seeds met, as arrays, so that compilers compute them kLaneCount at a time: a
+/// cone's rays are padded to whole runs of that. All arrays have cones x raysPerCone() entries. In normalised units.
 class GatheredHits {
  public:
   GatheredHits(const TraceScene& scene, const Cone& cone, const TracedCones& traced,
@@ -46,7 +43,7 @@ class GatheredHits {
   /// Adds points as further cones, as many as they fill. Returns how many that are.
   size_t append(std::span<const Point> points);
 
-  [[nodiscard]] size_t raysPerCone() const { return raysPerCone_; }  ///< A multiple of kHitRun.
+  [[nodiscard]] size_t raysPerCone() const { return raysPerCone_; }  ///< A multiple of kLaneCount.
   [[nodiscard]] size_t size() const { return x.size(); }
 
   std::vector<float> x, y, z;     ///< Where; NaN for a ray that met nothing, and for padding.

@@ -12,8 +12,6 @@
 namespace asdfvk {
 namespace {
 
-static_assert(kHitRun == kLaneCount);
-
 // A ray stands for the area around its hit; seen from elsewhere that area fills another solid angle. Where the two
 // differ by more than this factor the point is near one of them and far from the other, and the area no disc any more.
 constexpr float kLargestSpreadChange = 4;

@@ -9,6 +9,7 @@
 
 #include "core/check.h"
 #include "core/median.h"
+#include "mesh/dihedral.h"
 
 namespace asdfvk {
 namespace {
@@ -49,14 +50,6 @@ double angleStep(double signedAngleRadians) {
 
 }  // namespace
 
-double dihedralAngleRadians(const FaceGeometry& geometry, uint32_t face, uint32_t neighbour) {
-  if (geometry.isDegenerate(face) || geometry.isDegenerate(neighbour)) return 0;
-  const Vec3d turn = geometry.normals[neighbour] - geometry.normals[face];
-  const double angle = 2 * std::asin(std::min(1.0, 0.5 * length(turn)));  // Exact for small angles, as acos is not.
-  const Vec3d step = geometry.barycentres[neighbour] - geometry.barycentres[face];
-  return dot(turn, step) < 0 ? angle : -angle;
-}
-
 std::vector<float> arcLengths(const DualGraph& graph, const FaceGeometry& geometry, SurfaceMetric metric) {
   ASDFVK_CHECK_OP(geometry.areas.size(), ==, graph.faceCount());
   switch (metric) {
@@ -70,7 +63,7 @@ std::vector<float> arcLengths(const DualGraph& graph, const FaceGeometry& geomet
     }
     case SurfaceMetric::Angle:
       return forEachArc(graph, [&](uint32_t face, uint32_t neighbour) {
-        return angleStep(dihedralAngleRadians(geometry, face, neighbour));
+        return angleStep(signedDihedralAngle(geometry, face, neighbour));
       });
   }
   ASDFVK_CHECK(!"a metric that exists");

@@ -25,12 +25,8 @@ inline constexpr float kShortestArc = 0x1p-20f;
 inline constexpr float kLongestArc = 0x1p+20f;
 
 /// The length of each arc of the graph, aligned with graph.neighbours; the same in both directions.
-/// An edge is concave where the barycentres of its faces lie in front of each other's planes. A degenerate face counts
-/// as lying in the plane of its neighbour. Faces wound against each other are as far apart as their normals say.
+/// Angles are those of signedDihedralAngle(): a degenerate face counts as lying in the plane of its neighbour, and
+/// faces wound against each other are as far apart as their normals say.
 [[nodiscard]] std::vector<float> arcLengths(const DualGraph& graph, const FaceGeometry& geometry, SurfaceMetric metric);
-
-/// The angle between the outward sides of two faces: 0 for a flat edge, positive for a concave one (such as the inside
-/// of a room's corner), negative for a convex one, -pi to pi; 0 where a face is degenerate.
-[[nodiscard]] double dihedralAngleRadians(const FaceGeometry& geometry, uint32_t face, uint32_t neighbour);
 
 }  // namespace asdfvk

@@ -1,4 +1,5 @@
 #include "reprojection/gathered_hits.h"
+#include "core/lanes.h"
 
 #include <doctest/doctest.h>
 
@@ -52,9 +53,9 @@ void checkGathered(const SeededMesh& seeded) {
   GatheredHits gathered(scene, seeded.cone, seeded.traced(), windows);
   gathered.gather(allCones(seeded));
   const size_t rayCount = seeded.cone.directions.size(), stride = gathered.raysPerCone();
-  CHECK(stride % kHitRun == 0);
+  CHECK(stride % kLaneCount == 0);
   CHECK(stride >= rayCount);
-  CHECK(stride < rayCount + kHitRun);
+  CHECK(stride < rayCount + kLaneCount);
   REQUIRE(gathered.size() == stride * seeded.seeds.size());
 
   for (size_t cone = 0; cone < seeded.seeds.size(); ++cone) {

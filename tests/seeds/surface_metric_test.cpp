@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "mesh/dihedral.h"
 #include "seeds/surface.h"
 #include "seeds/surface_metric.h"
 
@@ -37,8 +38,8 @@ TEST_CASE("the dihedral angle is 0 when flat, positive when concave, negative wh
       CAPTURE(sign * degrees);
       const Surface surface(book(sign * degrees));
       REQUIRE(surface.geometry.normals[0].z == doctest::Approx(1));
-      CHECK(dihedralAngleRadians(surface.geometry, 0, 1) / kDegree == doctest::Approx(sign * degrees).epsilon(1e-9));
-      CHECK(dihedralAngleRadians(surface.geometry, 1, 0) / kDegree == doctest::Approx(sign * degrees).epsilon(1e-9));
+      CHECK(signedDihedralAngle(surface.geometry, 0, 1) / kDegree == doctest::Approx(sign * degrees).epsilon(1e-9));
+      CHECK(signedDihedralAngle(surface.geometry, 1, 0) / kDegree == doctest::Approx(sign * degrees).epsilon(1e-9));
     }
   }
 }
