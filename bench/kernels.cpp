@@ -8,6 +8,7 @@
 
 #include "bench_program.h"
 #include "bvh/bvh_statistics.h"
+#include "cli/choice_names.h"
 #include "cli/terminal.h"
 #include "core/stopwatch.h"
 #include "machine.h"
@@ -42,13 +43,6 @@ struct Row {
   std::vector<double> rates, ratios;
   TraceStatistics statistics;
 };
-
-std::string nameOf(const VulkanTraceChoice& choice) {
-  const char* const kernels[] = {"packet", "ray", "seed"};
-  return fmt::format("{} {} {}", kernels[static_cast<size_t>(choice.kernel)],
-                     choice.bvh == BvhLayout::Binary ? "binary" : "wide",
-                     choice.fetch == BvhFetch::Texel ? "texel" : "storage");
-}
 
 std::vector<VulkanTraceChoice> choices() {
   std::vector<VulkanTraceChoice> all = {kBaseline};

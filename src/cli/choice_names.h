@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -47,6 +48,16 @@ inline constexpr ChoiceNames<Orientation, 3> kOrientations{
 inline constexpr ChoiceNames<Backend, 4> kBackends{
     {{"auto", Backend::Auto}, {"vulkan", Backend::Vulkan}, {"cpu", Backend::Cpu}, {"reference", Backend::Reference}}};
 
+/// auto: as it is best on the device.
+inline constexpr ChoiceNames<std::optional<TraceKernel>, 4> kTraceKernels{
+    {{"auto", std::nullopt}, {"seed", TraceKernel::Seed}, {"ray", TraceKernel::Ray}, {"packet", TraceKernel::Packet}}};
+
+inline constexpr ChoiceNames<std::optional<BvhLayout>, 3> kBvhLayouts{
+    {{"auto", std::nullopt}, {"wide", BvhLayout::Wide}, {"binary", BvhLayout::Binary}}};
+
+inline constexpr ChoiceNames<std::optional<BvhFetch>, 3> kBvhFetches{
+    {{"auto", std::nullopt}, {"texel", BvhFetch::Texel}, {"storage", BvhFetch::Storage}}};
+
 inline constexpr ChoiceNames<PictureOf, 3> kPictures{
     {{"sdf", PictureOf::Sdf}, {"seeds", PictureOf::Seeds}, {"error", PictureOf::Error}}};
 
@@ -63,6 +74,12 @@ template <typename T, size_t N>
   for (const auto& [name, candidate] : names)
     if (candidate == value) return name;
   return "";
+}
+
+/// "seed wide texel"
+[[nodiscard]] inline std::string nameOf(const VulkanTraceChoice& choice) {
+  return std::string(nameOf(kTraceKernels, {choice.kernel})) + " " + nameOf(kBvhLayouts, {choice.bvh}) + " " +
+         nameOf(kBvhFetches, {choice.fetch});
 }
 
 }  // namespace asdfvk

@@ -131,6 +131,17 @@ void addDevice(CLI::App& app, CommandLine& line) {
       ->group(device);
   app.add_flag("--list-devices", line.listDevices, "List the Vulkan devices and what speaks for or against each")
       ->group(device);
+  VulkanTraceRequest& trace = line.session.trace;
+  addChoice(app, "--kernel", trace.kernel, kTraceKernels,
+            "Vulkan: lanes side by side walk one ray of neighbouring seeds, the rays of\n"
+            "one seed, or these together as a packet; default auto, by the device")
+      ->group(device);
+  addChoice(app, "--bvh", trace.bvh, kBvhLayouts,
+            "Vulkan: nodes of eight children with boxes in bytes, or of two in float32;\ndefault auto")
+      ->group(device);
+  addChoice(app, "--fetch", trace.fetch, kBvhFetches,
+            "Vulkan: what the hierarchy is read from, texel or storage buffers; default auto")
+      ->group(device);
   addValue(app, "--threads", "N", "CPU threads, 1 to 1024; default as many as there are cores",
            [&](const std::string& text) { line.threadCount = static_cast<uint32_t>(parseWholeNumber(text, 1, 1024)); })
       ->group(device);
@@ -153,6 +164,9 @@ void requireAgreement(const CommandLine& line) {
     refuse("--require-gpu contradicts --backend cpu and reference, which run on the CPU; drop one");
   if (isCpu && !line.session.device.empty())
     refuse("--device chooses a Vulkan device, which --backend cpu and reference do without; drop one");
+  if (isCpu && !line.session.trace.isEmpty())
+    refuse(
+        "--kernel, --bvh and --fetch choose between shaders, which --backend cpu and reference do without; drop one");
   const bool estimates = line.options.estimatesError || line.options.rounds.maxError;
   if (line.pictureOf == PictureOf::Error && (!estimates || line.options.seeds.kind == SeedCount::Kind::All))
     refuse(

@@ -57,7 +57,17 @@ Json optionsOf(const CommandLine& line) {
           {"maxIterations", options.solverOptions.maxIterations},
           {"backend", nameOf(kBackends, line.session.backend)},
           {"device", line.session.device},
-          {"requireGpu", line.session.requireGpu}};
+          {"requireGpu", line.session.requireGpu},
+          {"kernel", nameOf(kTraceKernels, line.session.trace.kernel)},
+          {"bvh", nameOf(kBvhLayouts, line.session.trace.bvh)},
+          {"fetch", nameOf(kBvhFetches, line.session.trace.fetch)}};
+}
+
+Json traceChoiceOf(const std::optional<VulkanTraceChoice>& choice) {
+  if (!choice) return nullptr;
+  return {{"kernel", nameOf(kTraceKernels, {choice->kernel})},
+          {"bvh", nameOf(kBvhLayouts, {choice->bvh})},
+          {"fetch", nameOf(kBvhFetches, {choice->fetch})}};
 }
 
 Json estimateOf(const std::optional<ErrorEstimate>& estimate) {
@@ -126,6 +136,7 @@ std::string jsonReport(const MeshOutcome& outcome) {
   json["randomSeed"] = report.randomSeed;
   json["backend"] = report.backend;
   json["device"] = report.device;
+  json["traceChoice"] = traceChoiceOf(report.traceChoice);
   json["stageSeconds"] = stagesOf(report.stageSeconds);
   json["raysPerSecond"] = number(report.raysPerSecond);
   json["solver"] = {{"name", report.solver.name},

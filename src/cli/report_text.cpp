@@ -109,7 +109,8 @@ std::string groupDigits(uint64_t number) {
 std::string textReport(const MeshOutcome& outcome) {
   const Report& report = outcome.report;
   std::string text = fmt::format("{}: {}\n", outcome.mesh, meshRow(report));
-  text += row("device", fmt::format("{} on {}", report.backend, report.device));
+  text += row("device", fmt::format("{} on {}{}", report.backend, report.device,
+                                    report.traceChoice ? ", kernel " + nameOf(*report.traceChoice) : ""));
   text += row("seeds", seedRow(outcome));
   text += row("time", timeRow(report.stageSeconds));
   text += row("speed", fmt::format("{:.3g} Mrays/s", report.raysPerSecond / 1e6));

@@ -9,6 +9,7 @@
 #include "mesh/mesh.h"
 #include "pipeline/options.h"
 #include "pipeline/report.h"
+#include "trace/vulkan_trace_choice.h"
 
 /// The public API: options in, result out.
 namespace asdfvk {
@@ -24,6 +25,7 @@ struct SessionOptions {
   Backend backend = Backend::Auto;
   std::string device;       ///< As DeviceRequest::selector: an index of listDevices() or a part of a name.
   bool requireGpu = false;  ///< Refuse CPU devices such as lavapipe, Embree and the reference.
+  VulkanTraceRequest trace;  ///< Which of the shaders' variants traces; whatever is asked for asks for Vulkan too.
 };
 
 struct Result {

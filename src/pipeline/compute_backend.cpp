@@ -25,12 +25,16 @@ ComputeBackend::ComputeBackend(const SessionOptions& options) {
   const bool isCpu = options.backend == Backend::Cpu || options.backend == Backend::Reference;
   if (isCpu && options.requireGpu)
     throw Error(ErrorKind::Device, "a GPU was required and this backend runs on the CPU; drop one of the two");
+  if (isCpu && !options.trace.isEmpty())
+    throw Error(ErrorKind::Device,
+                "a variant of the shaders was asked for and this backend has none; drop one of the two");
   if (options.backend == Backend::Reference) {
     useReference("as asked for");
   } else if (options.backend == Backend::Cpu) {
     requireEmbree();
     useEmbree("as asked for");
-  } else if (options.backend == Backend::Vulkan || options.requireGpu || !options.device.empty()) {
+  } else if (options.backend == Backend::Vulkan || options.requireGpu || !options.device.empty() ||
+             !options.trace.isEmpty()) {
     openVulkan(options);
   } else {
     openFastest(options);
@@ -48,6 +52,7 @@ void ComputeBackend::openFastest(const SessionOptions& options) {
     if (error.kind() != ErrorKind::Device) throw;
     reason = error.what();
   }
+  traceChoice_.reset();
   device_.reset();
   instance_.reset();
   if (hasEmbree()) {
@@ -63,6 +68,7 @@ void ComputeBackend::openVulkan(const SessionOptions& options) {
   device_ = std::move(opened.device);
   name_ = "vulkan";
   deviceName_ = fmt::format("{}, driver {}", device_->facts().name, device_->facts().driver);
+  traceChoice_ = traceChoiceFor(device_->facts(), options.trace);
   deviceLines_ = std::move(opened.reasons);
 }
 
@@ -82,7 +88,7 @@ void ComputeBackend::useReference(const std::string& reason) {
 std::unique_ptr<ConeTracer> ComputeBackend::makeTracer(const TraceScene& scene, const Cone& cone, bool writesHits) {
   if (usesEmbree_) return makeEmbreeTracer(scene, cone);
   if (!device_) return makeReferenceTracer(scene, cone);
-  const ConeKernelRequest request{static_cast<uint32_t>(cone.directions.size()), writesHits};
+  const ConeKernelRequest request{static_cast<uint32_t>(cone.directions.size()), writesHits, traceChoice_};
   std::unique_ptr<VulkanConeKernel>& kernel = kernels_[request];
   if (!kernel) kernel = std::make_unique<VulkanConeKernel>(*device_, request);
   return makeVulkanTracer(*kernel, scene, cone);

@@ -2,6 +2,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,7 @@ class ComputeBackend {
   [[nodiscard]] const std::string& deviceName() const { return deviceName_; }
   /// See Session::deviceLines().
   [[nodiscard]] const std::vector<std::string>& deviceLines() const { return deviceLines_; }
+  [[nodiscard]] const std::optional<VulkanTraceChoice>& traceChoice() const { return traceChoice_; }  ///< Of Vulkan.
   [[nodiscard]] bool isReference() const { return !device_ && !usesEmbree_; }
   /// Embree, the reference, or a Vulkan device that is the CPU itself.
   [[nodiscard]] bool runsOnCpu() const { return !device_ || device_->facts().kind == DeviceKind::Cpu; }
@@ -54,6 +56,7 @@ class ComputeBackend {
   std::map<SolverChoice, std::unique_ptr<PoissonSolver>> solvers_;
   std::unique_ptr<VulkanBilateralKernel> bilateralKernel_;
   std::string name_, deviceName_;
+  std::optional<VulkanTraceChoice> traceChoice_;
   std::vector<std::string> deviceLines_;
 };
 

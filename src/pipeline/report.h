@@ -10,6 +10,7 @@
 #include "mesh/mesh.h"
 #include "mesh/validation.h"
 #include "poisson/poisson_solver.h"
+#include "trace/vulkan_trace_choice.h"
 
 /// What a computation tells about itself beside its values.
 namespace asdfvk {
@@ -101,6 +102,7 @@ struct Report {
   uint64_t randomSeed = 0;
   std::string backend;     ///< "vulkan", "cpu" or "reference".
   std::string device;      ///< Device and driver that ran, or the CPU.
+  std::optional<VulkanTraceChoice> traceChoice;  ///< Which variant of the shaders traced; none without Vulkan.
   bool runsOnCpu = false;  ///< The CPU's cores do the tracing: the reference, Embree, or a CPU device.
   StageSeconds stageSeconds;
   double raysPerSecond = 0;

@@ -119,6 +119,7 @@ Result Session::compute(Mesh& mesh, const Options& options, const RunControl& co
   const Cone cone = makeCone(options.cone);
   report.backend = backend.name();
   report.device = backend.deviceName();
+  report.traceChoice = backend.traceChoice();
   report.runsOnCpu = backend.runsOnCpu();
 
   const double roundsEnd = options.checkCount ? kRoundsEndBeforeCheck : 1;

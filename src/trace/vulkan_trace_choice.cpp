@@ -20,4 +20,9 @@ VulkanTraceChoice defaultTraceChoice(const DeviceFacts& device) {
   return device.subgroupSize <= 32 ? kSubgroupOf32 : kSubgroupOf64;
 }
 
+VulkanTraceChoice traceChoiceFor(const DeviceFacts& device, const VulkanTraceRequest& request) {
+  const VulkanTraceChoice best = defaultTraceChoice(device);
+  return {request.kernel.value_or(best.kernel), request.bvh.value_or(best.bvh), request.fetch.value_or(best.fetch)};
+}
+
 }  // namespace asdfvk

@@ -2,6 +2,7 @@
 
 #include <compare>
 #include <cstdint>
+#include <optional>
 
 #include "bvh/device_bvh.h"
 #include "vk/device_choice.h"
@@ -29,7 +30,18 @@ struct VulkanTraceChoice {
   auto operator<=>(const VulkanTraceChoice&) const = default;
 };
 
+/// What somebody asks for; the rest is as it is best.
+struct VulkanTraceRequest {
+  std::optional<TraceKernel> kernel;
+  std::optional<BvhLayout> bvh;
+  std::optional<BvhFetch> fetch;
+
+  [[nodiscard]] bool isEmpty() const { return !kernel && !bvh && !fetch; }
+};
+
 /// The quickest for the class of the device, by the measurements in bench/NOTES.md.
 [[nodiscard]] VulkanTraceChoice defaultTraceChoice(const DeviceFacts& device);
+/// The same but for what is asked for.
+[[nodiscard]] VulkanTraceChoice traceChoiceFor(const DeviceFacts& device, const VulkanTraceRequest& request);
 
 }  // namespace asdfvk

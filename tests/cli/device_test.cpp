@@ -67,6 +67,27 @@ TEST_CASE("lavapipe is listed, runs, and is no GPU") {
   }
 }
 
+TEST_CASE("a variant of the shaders that is asked for runs, on Vulkan, and is told") {
+  const auto lavapipe = lavapipeOnly();
+  if (!lavapipe) return;
+  const ScratchFolder folder;
+  const std::string mesh = folder.write("sphere.off", sphereOff(16));
+  const auto choiceWith = [&](const std::vector<std::string>& options) {
+    std::vector<std::string> arguments{mesh, "--json", "--check=all"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const ChildOutcome outcome = runAsdf(arguments, *lavapipe);
+    INFO(outcome.error);
+    CHECK_EQ(outcome.exitCode, 0);
+    const nlohmann::json choice = nlohmann::json::parse(outcome.output).at("traceChoice");
+    return choice.at("kernel").get<std::string>() + " " + choice.at("bvh").get<std::string>() + " " +
+           choice.at("fetch").get<std::string>();
+  };
+  CHECK_EQ(choiceWith({"--kernel", "packet"}), "packet wide texel");
+  CHECK_EQ(choiceWith({"--bvh", "binary"}), "seed binary texel");
+  CHECK_EQ(choiceWith({"--kernel", "ray", "--fetch", "storage"}), "ray wide storage");
+  CHECK_EQ(choiceWith({"--backend", "vulkan"}), "seed wide texel");
+}
+
 TEST_CASE("where the only Vulkan device is the CPU, Embree runs instead and one line says why") {
   const auto lavapipe = lavapipeOnly();
   if (!lavapipe) return;

@@ -32,6 +32,7 @@ TEST_CASE("--json is exactly one document with every promised key and its type")
   CHECK_EQ(json.at("randomSeed").get<uint64_t>(), 7);
   CHECK_EQ(json.at("backend").get<std::string>(), "reference");
   CHECK(json.at("device").is_string());
+  CHECK(json.at("traceChoice").is_null());
   for (const char* stage :
        {"read", "geometry", "bvh", "upload", "sample", "trace", "predict", "solve", "estimate", "smooth", "write"}) {
     CHECK(json.at("stageSeconds").at(stage).is_number());

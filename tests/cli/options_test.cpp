@@ -45,6 +45,7 @@ TEST_CASE("a mesh alone means the defaults") {
   CHECK(line.options.orientation == Orientation::Keep);
   CHECK(line.options.solver == SolverChoice::Auto);
   CHECK(line.session.backend == Backend::Auto);
+  CHECK(line.session.trace.isEmpty());
   CHECK_FALSE(line.options.checkCount.has_value());
   CHECK_FALSE(line.answer.has_value());
   CHECK(line.output.empty());
@@ -128,6 +129,12 @@ TEST_CASE("every option reaches its field") {
                                              "--device",
                                              "llvmpipe",
                                              "--require-gpu",
+                                             "--kernel",
+                                             "packet",
+                                             "--bvh",
+                                             "binary",
+                                             "--fetch",
+                                             "storage",
                                              "--check=all",
                                              "--json",
                                              "--quiet",
@@ -164,6 +171,9 @@ TEST_CASE("every option reaches its field") {
   CHECK_EQ(line.format, "ply");
   CHECK(line.session.backend == Backend::Vulkan);
   CHECK_EQ(line.session.device, "llvmpipe");
+  CHECK(line.session.trace.kernel == TraceKernel::Packet);
+  CHECK(line.session.trace.bvh == BvhLayout::Binary);
+  CHECK(line.session.trace.fetch == BvhFetch::Storage);
   CHECK_EQ(line.options.checkCount.value(), std::numeric_limits<uint64_t>::max());
   CHECK_EQ(line.threadCount, 3);
   CHECK((line.ascii && line.json && line.quiet && line.session.requireGpu));
@@ -277,6 +287,10 @@ TEST_CASE("options that contradict each other are refused") {
   for (const char* backend : {"cpu", "reference"}) {
     CHECK(refusal({"a.ply", "--backend", backend, "--require-gpu"}).find("--require-gpu") != std::string::npos);
     CHECK(refusal({"a.ply", "--backend", backend, "--device", "0"}).find("--device") != std::string::npos);
+    for (const auto& [option, value] : {std::pair{"--kernel", "seed"}, {"--bvh", "wide"}, {"--fetch", "texel"}}) {
+      CHECK(refusal({"a.ply", "--backend", backend, option, value}).find(option) != std::string::npos);
+      CHECK_EQ(refusal({"a.ply", "--backend", backend, option, "auto"}), "accepted");
+    }
     for (const char* solver : {"cg", "jacobi"})
       CHECK(refusal({"a.ply", "--backend", backend, "--solver", solver}).find("--solver") != std::string::npos);
     CHECK_EQ(refusal({"a.ply", "--backend", backend, "--solver", "eigen"}), "accepted");

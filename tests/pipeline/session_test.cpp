@@ -321,6 +321,8 @@ TEST_CASE("a backend of the CPU contradicts a required GPU") {
   for (const Backend backend : {Backend::Cpu, Backend::Reference})
     CHECK_THROWS_WITH_AS(Session({.backend = backend, .requireGpu = true}), doctest::Contains("a GPU was required"),
                          Error);
+  CHECK_THROWS_WITH_AS(Session({.backend = Backend::Cpu, .trace = {.kernel = TraceKernel::Ray}}),
+                       doctest::Contains("a variant of the shaders was asked for"), Error);
 }
 
 TEST_CASE("Embree gives the reference's values and the check treats it as independent") {

@@ -228,6 +228,10 @@ TEST_CASE("the kernel is chosen by the class of the device, and as asked for") {
   for (const uint32_t size : {8u, 32u, 64u}) {
     facts.subgroupSize = size;
     CHECK(defaultTraceChoice(facts).fetch == BvhFetch::Texel);
+    const VulkanTraceChoice best = defaultTraceChoice(facts);
+    CHECK(traceChoiceFor(facts, {}) == best);
+    CHECK(traceChoiceFor(facts, {.fetch = BvhFetch::Storage}) ==
+          VulkanTraceChoice{best.kernel, best.bvh, BvhFetch::Storage});
   }
   const test::ValidatedDevice device;
   CHECK(VulkanConeKernel(*device, {30}).choice() == defaultTraceChoice(device->facts()));
