@@ -3,6 +3,7 @@
 #include "bare_embree.h"
 #include "bvh/device_bvh.h"
 #include "cgal_sdf.h"
+#include "cli/choice_names.h"
 #include "cli/option_values.h"
 #include "core/stopwatch.h"
 #include "file_run.h"
@@ -10,44 +11,62 @@
 #include "pipeline/compute_backend.h"
 #include "pipeline/prepared_mesh.h"
 #include "pipeline/seed_choice.h"
+#include "run_process.h"
 #include "seeds/random_permutation.h"
+#include "temporary_folder.h"
 #include "trace/embree_tracer.h"
 #include "trace/seed_order.h"
 
 namespace asdfvk::bench {
 namespace {
 
-std::vector<std::string> backendNames() {
-  std::vector<std::string> names{"vulkan", "reference"};
-  if (hasEmbree()) names.emplace_back("cpu");
-  return names;
+/// What is fast enough for whole computations.
+std::vector<std::string> fastBackends() {
+  return hasEmbree() ? std::vector<std::string>{"vulkan", "cpu"} : std::vector<std::string>{"vulkan"};
+}
+
+/// The backends by their names, and the shaders in each kernel.
+std::map<std::string, SessionOptions> contestants(const std::string& device) {
+  std::map<std::string, SessionOptions> all{{"reference", sessionOptionsOf("reference", device)}};
+  for (const std::string& name : fastBackends()) all[name] = sessionOptionsOf(name, device);
+  for (const auto& [name, kernel] : kTraceKernels) {
+    if (!kernel) continue;
+    SessionOptions& options = all[std::string("vulkan ") + name] = sessionOptionsOf("vulkan", device);
+    options.trace.kernel = kernel;
+  }
+  return all;
 }
 
 /// A mesh, what is traced in it, and all that trace it.
 class Contest {
  public:
-  Contest(Mesh& mesh, const ComparisonRequest& request)
-      : mesh_(mesh),
+  Contest(std::string path, Mesh& mesh, const ComparisonRequest& request)
+      : path_(std::move(path)),
+        device_(request.device),
+        mesh_(mesh),
         prepared_(prepareMesh(mesh, Orientation::Keep)),
         cone_(makeCone({})),
         bvh_(buildBvh(mesh, prepared_.geometry, prepared_.representatives)),
         bareEmbree_(makeBareEmbree(scene(), cone_, BareMode::Fastest)),
         robustEmbree_(makeBareEmbree(scene(), cone_, BareMode::Robust)) {
-    for (const std::string& name : backendNames()) {
-      const SessionOptions options = sessionOptionsOf(name, request.device);
+    for (const auto& [name, options] : contestants(request.device)) {
       backends_[name] = std::make_unique<ComputeBackend>(options);
       tracers_[name] = backends_[name]->makeTracer(scene(), cone_);
-      sessions_[name] = std::make_unique<Session>(options);
     }
+    for (const std::string& name : fastBackends())
+      sessions_[name] = std::make_unique<Session>(sessionOptionsOf(name, request.device));
   }
 
   std::string deviceOf(const std::string& backend) const { return backends_.at(backend)->deviceName(); }
 
   void measureBuild(Comparison& comparison) const {
-    const Stopwatch ours;
-    const Bvh bvh = buildBvh(mesh_, prepared_.geometry, prepared_.representatives);
-    static_cast<void>(encodeDeviceBvh(bvh, mesh_, prepared_.geometry));
-    comparison.build.push_back(ours.seconds());
+    for (const auto& [name, layout] : kBvhLayouts) {
+      if (!layout) continue;
+      const Stopwatch ours;
+      const Bvh bvh = buildBvh(mesh_, prepared_.geometry, prepared_.representatives);
+      static_cast<void>(encodeDeviceBvh(bvh, mesh_, prepared_.geometry, *layout));
+      comparison.build[name].push_back(ours.seconds());
+    }
     if (!bareEmbree_) return;
     const Stopwatch embrees;
     static_cast<void>(makeBareEmbree(scene(), cone_, BareMode::Fastest));
@@ -55,19 +74,19 @@ class Contest {
   }
 
   void measure(SeedComparison& comparison, const RunControl& control) {
-    Options options;
-    options.seeds = parseSeedCount(comparison.seeds);
-    options.estimatesError = false;  // Nobody else has one.
-    const std::vector<uint32_t> seeds = chooseSeeds(options);
+    const std::vector<uint32_t> seeds = chooseSeeds(comparison.seeds);
     comparison.rayCount = seeds.size() * cone_.directions.size();
     for (const auto& [name, tracer] : tracers_) {
       std::vector<double> values(seeds.size());
       const Stopwatch trace;
       static_cast<void>(tracer->trace(seeds, {values}, control));
       comparison.trace[name].push_back(trace.seconds());
-      const Stopwatch compute;
-      static_cast<void>(sessions_.at(name)->compute(mesh_, options, control));
-      comparison.compute[name].push_back(compute.seconds());
+    }
+    for (const auto& [name, session] : sessions_) {
+      for (const Recipe recipe : {Recipe::Paper, Recipe::Balanced})
+        comparison.whole[{name, std::string("compute, recipe ") + nameOf(kRecipes, recipe)}].push_back(
+            computeSeconds(*session, comparison.seeds, recipe, control));
+      comparison.whole[{name, "process, file to file"}].push_back(processSeconds(name, comparison.seeds));
     }
     if (!bareEmbree_) return;
     const Stopwatch bare;
@@ -81,15 +100,38 @@ class Contest {
  private:
   TraceScene scene() const { return {mesh_, prepared_.geometry, prepared_.representatives, bvh_}; }
 
+  double computeSeconds(Session& session, const std::string& seeds, Recipe recipe, const RunControl& control) const {
+    Options options;
+    applyRecipe(recipe, options);
+    options.seeds = parseSeedCount(seeds);
+    options.estimatesError = false;  // Nobody else has one.
+    const Stopwatch watch;
+    static_cast<void>(session.compute(mesh_, options, control));
+    return watch.seconds();
+  }
+
+  /// With the defaults, the estimate of the error included.
+  double processSeconds(const std::string& backend, const std::string& seeds) const {
+    const TemporaryFolder folder;
+    std::vector<std::string> arguments{
+        path_, "--seeds", seeds, "--backend", backend, "-o", folder.path() / "result.ply", "--quiet"};
+    if (backend == "vulkan" && !device_.empty()) arguments.insert(arguments.end(), {"--device", device_});
+    const Stopwatch watch;
+    static_cast<void>(outputOf(ASDFVK_PROGRAM, arguments));
+    return watch.seconds();
+  }
+
   /// In the hierarchy's order, which suits every tracer best; ours would bring them into it.
-  std::vector<uint32_t> chooseSeeds(const Options& options) const {
+  std::vector<uint32_t> chooseSeeds(const std::string& count) const {
+    const size_t candidateCount = prepared_.castableFaces.size();
     const std::vector<uint32_t> chosen = randomPermutationSeeds(
-        prepared_.castableFaces, resolveSeedCount(options.seeds, prepared_.castableFaces.size()), options.randomSeed);
+        prepared_.castableFaces, resolveSeedCount(parseSeedCount(count), candidateCount), Options{}.randomSeed);
     std::vector<uint32_t> seeds;
     for (const uint32_t i : SeedOrder(scene()).of(chosen)) seeds.push_back(chosen[i]);
     return seeds;
   }
 
+  std::string path_, device_;
   Mesh& mesh_;
   PreparedMesh prepared_;
   Cone cone_;
@@ -106,7 +148,7 @@ void forgetTimes(Comparison& comparison) {
   comparison.embreeBuild.clear();
   for (SeedComparison& seeds : comparison.seeds) {
     seeds.trace.clear();
-    seeds.compute.clear();
+    seeds.whole.clear();
   }
 }
 
@@ -120,9 +162,9 @@ Spread ratioOf(const Seconds& b, const Seconds& a) {
 
 Comparison compare(const std::string& path, const ComparisonRequest& request, const RunControl& control) {
   Mesh mesh = readMesh(path);
-  Contest contest(mesh, request);
+  Contest contest(path, mesh, request);
   Comparison comparison{path, mesh.inputFaceCount(), {}, {}, {}, {}, {}};
-  for (const std::string& name : backendNames()) comparison.devices[name] = contest.deviceOf(name);
+  for (const std::string& name : fastBackends()) comparison.devices[name] = contest.deviceOf(name);
   for (const std::string& seeds : request.seeds) comparison.seeds.push_back({seeds, 0, {}, {}});
   for (uint32_t round = 0; round <= request.roundCount; ++round) {
     contest.measureBuild(comparison);

@@ -31,8 +31,10 @@ inline const std::string kBareEmbree = "bare Embree", kRobustEmbree = "bare, rob
 struct SeedComparison {
   std::string seeds;
   uint64_t rayCount = 0;
-  std::map<std::string, Seconds> trace;    ///< By backend, and of Embree alone; the same rays.
-  std::map<std::string, Seconds> compute;  ///< By backend: all but the estimate of the error.
+  std::map<std::string, Seconds> trace;  ///< By backend and kernel, and of Embree alone; the same rays.
+  /// By backend and what of it: a computation by a recipe in memory, without the estimate of the error, or a process
+  /// as people start it, from file to file.
+  std::map<std::pair<std::string, std::string>, Seconds> whole;
 };
 
 struct Comparison {
@@ -40,9 +42,9 @@ struct Comparison {
   uint64_t faceCount = 0;
   std::map<std::string, std::string> devices;  ///< By backend.
   std::vector<SeedComparison> seeds;
-  Seconds build,
-      embreeBuild;  ///< Ours with its layout for devices; Embree's scene. The latter is empty without Embree.
-  Seconds cgal;     ///< Empty without CGAL, and for a mesh that it refuses.
+  std::map<std::string, Seconds> build;  ///< Our hierarchy with a layout for devices, by layout.
+  Seconds embreeBuild;                   ///< Embree's scene; empty without Embree.
+  Seconds cgal;                          ///< Empty without CGAL, and for a mesh that it refuses.
 };
 
 /// Everything turn by turn, after a round that is not counted; CGAL once at the end.

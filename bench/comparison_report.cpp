@@ -31,22 +31,33 @@ std::optional<Spread> cgalOver(const Comparison& comparison, const Seconds& ours
   return ratioOf(Seconds(ours.size(), spreadOf(comparison.cgal).median), ours);
 }
 
+size_t roundCount(const Comparison& comparison) { return comparison.build.begin()->second.size(); }
+
 std::string cell(const std::optional<Spread>& spread, int decimals) {
   return spread ? toText(*spread, decimals) : std::string("-");
 }
 
-std::string row(const std::string& seeds, const std::string& name, const std::string& rate, const std::string& overBare,
-                const std::string& compute, const std::string& overCgal) {
-  return fmt::format("| {:<5} | {:<12} | {:>12} | {:>13} | {:>13} | {:>14} |\n", seeds, name, rate, overBare, compute,
-                     overCgal);
+std::string traceRow(const std::string& seeds, const std::string& tracer, const std::string& rate,
+                     const std::string& overBare) {
+  return fmt::format("| {:<5} | {:<13} | {:>12} | {:>13} |\n", seeds, tracer, rate, overBare);
 }
 
-std::string buildLine(const Comparison& comparison) {
-  std::string text = fmt::format("\nhierarchy and its layout for devices: {} s", toText(spreadOf(comparison.build), 4));
+std::string wholeRow(const std::string& seeds, const std::string& backend, const std::string& what,
+                     const std::string& seconds, const std::string& overCgal) {
+  return fmt::format("| {:<5} | {:<7} | {:<24} | {:>13} | {:>12} |\n", seeds, backend, what, seconds, overCgal);
+}
+
+std::string buildLines(const Comparison& comparison) {
+  std::string text = "\n";
+  for (const auto& [layout, seconds] : comparison.build) {
+    text += fmt::format("hierarchy, built and encoded as {}: {} s", layout, toText(spreadOf(seconds), 4));
+    if (!comparison.embreeBuild.empty())
+      text += fmt::format(", {} of Embree's scene", toText(ratioOf(seconds, comparison.embreeBuild), 2));
+    text += "\n";
+  }
   if (!comparison.embreeBuild.empty())
-    text += fmt::format("; Embree's scene {} s; ours / Embree's {}", toText(spreadOf(comparison.embreeBuild), 4),
-                        toText(ratioOf(comparison.build, comparison.embreeBuild), 2));
-  return text + "\n";
+    text += fmt::format("Embree's scene: {} s\n", toText(spreadOf(comparison.embreeBuild), 4));
+  return text;
 }
 
 std::string cgalLine(const Comparison& comparison) {
@@ -69,10 +80,13 @@ Json jsonOf(const Comparison& comparison, const SeedComparison& seeds) {
     Json& entry = json["tracers"][name];
     entry["traceSeconds"] = jsonOf(spreadOf(times));
     entry["raysOverBareEmbree"] = jsonOf(rateOverBareEmbree(seeds, name));
-    const auto compute = seeds.compute.find(name);
-    if (compute == seeds.compute.end()) continue;
-    entry["computeSeconds"] = jsonOf(spreadOf(compute->second));
-    entry["cgalOverCompute"] = jsonOf(cgalOver(comparison, compute->second));
+  }
+  for (const auto& [key, times] : seeds.whole) {
+    const auto& [backend, what] = key;
+    json["whole"].push_back({{"backend", backend},
+                             {"what", what},
+                             {"seconds", jsonOf(spreadOf(times))},
+                             {"cgalOver", jsonOf(cgalOver(comparison, times))}});
   }
   return json;
 }
@@ -81,30 +95,35 @@ Json jsonOf(const Comparison& comparison, const SeedComparison& seeds) {
 
 std::string comparisonTable(const Comparison& comparison, const Machine& machine) {
   std::string text = fmt::format("{}: {} faces, {} rounds on {}\n", comparison.mesh, groupDigits(comparison.faceCount),
-                                 comparison.build.size(), toText(machine));
+                                 roundCount(comparison), toText(machine));
   for (const auto& [name, device] : comparison.devices) text += fmt::format("{}: {}\n", name, device);
-  text += "median ± median absolute deviation; 'compute' is all of ours but the estimate of the error\n\n";
-  text += row("seeds", "tracer", "Mrays/s", "/ bare Embree", "compute, s", "CGAL / compute");
-  text += "|-------|--------------|-------------:|--------------:|--------------:|---------------:|\n";
+  text += "median ± median absolute deviation\n\n";
+  text += traceRow("seeds", "tracer", "Mrays/s", "/ bare Embree");
+  text += "|-------|---------------|-------------:|--------------:|\n";
   for (const SeedComparison& seeds : comparison.seeds)
-    for (const auto& [name, times] : seeds.trace) {
-      const auto compute = seeds.compute.find(name);
-      const bool isOurs = compute != seeds.compute.end();
-      text += row(seeds.seeds, name, toText(megaRaysPerSecond(seeds.rayCount, times), 3),
-                  cell(rateOverBareEmbree(seeds, name), 3), isOurs ? toText(spreadOf(compute->second), 3) : "-",
-                  isOurs ? cell(cgalOver(comparison, compute->second), 1) : "-");
-    }
-  return text + buildLine(comparison) + cgalLine(comparison) + "\n";
+    for (const auto& [name, times] : seeds.trace)
+      text += traceRow(seeds.seeds, name, toText(megaRaysPerSecond(seeds.rayCount, times), 3),
+                       cell(rateOverBareEmbree(seeds, name), 3));
+  text += "\n";
+  text += wholeRow("seeds", "backend", "what", "s", "CGAL / it");
+  text += "|-------|---------|--------------------------|--------------:|-------------:|\n";
+  for (const SeedComparison& seeds : comparison.seeds)
+    for (const auto& [key, times] : seeds.whole)
+      text += wholeRow(seeds.seeds, key.first, key.second, toText(spreadOf(times), 3),
+                       cell(cgalOver(comparison, times), 1));
+  return text + buildLines(comparison) + cgalLine(comparison) + "\n";
 }
 
 std::string comparisonJson(const Comparison& comparison, const Machine& machine) {
   Json json{{"mesh", comparison.mesh},      {"faceCount", comparison.faceCount},  {"processor", machine.processor},
-            {"threads", machine.threads},   {"loadAverage", machine.loadAverage}, {"rounds", comparison.build.size()},
+            {"threads", machine.threads},   {"loadAverage", machine.loadAverage}, {"rounds", roundCount(comparison)},
             {"devices", comparison.devices}};
   for (const SeedComparison& seeds : comparison.seeds) json["seeds"].push_back(jsonOf(comparison, seeds));
-  json["buildSeconds"] = jsonOf(spreadOf(comparison.build));
   const bool hasEmbreeBuild = !comparison.embreeBuild.empty();
-  json["buildOverEmbree"] = hasEmbreeBuild ? jsonOf(ratioOf(comparison.build, comparison.embreeBuild)) : Json(nullptr);
+  for (const auto& [layout, seconds] : comparison.build)
+    json["build"][layout] = {
+        {"seconds", jsonOf(spreadOf(seconds))},
+        {"overEmbree", hasEmbreeBuild ? jsonOf(ratioOf(seconds, comparison.embreeBuild)) : Json(nullptr)}};
   json["cgalSeconds"] = comparison.cgal.empty() ? Json(nullptr) : jsonOf(spreadOf(comparison.cgal));
   return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }

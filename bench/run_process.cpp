@@ -20,8 +20,7 @@ namespace {
   throw Error(ErrorKind::Input, fmt::format("no further process can be started: {}", std::strerror(errorNumber)));
 }
 
-pid_t spawn(const std::vector<std::string>& arguments, int standardOutput) {
-  std::string name = "/proc/self/exe";
+pid_t spawn(std::string name, const std::vector<std::string>& arguments, int standardOutput) {
   std::vector<std::string> owned = arguments;
   std::vector<char*> pointers{name.data()};
   for (std::string& argument : owned) pointers.push_back(argument.data());
@@ -49,12 +48,12 @@ std::string readAll(int descriptor) {
 
 }  // namespace
 
-std::string outputOfThisProgram(const std::vector<std::string>& arguments) {
+std::string outputOf(const std::string& program, const std::vector<std::string>& arguments) {
   std::array<int, 2> ends{};
   if (pipe2(ends.data(), O_CLOEXEC) != 0) fail(errno);
   pid_t process = 0;
   try {
-    process = spawn(arguments, ends[1]);
+    process = spawn(program, arguments, ends[1]);
   } catch (...) {
     close(ends[0]);
     close(ends[1]);

@@ -5,8 +5,11 @@
 
 namespace asdfvk::bench {
 
-/// Runs this very program again with other arguments and returns what it wrote to standard output. Throws
-/// Error{Cancelled} when it was interrupted, Error{Input} when it ended with another exit code than 0.
-[[nodiscard]] std::string outputOfThisProgram(const std::vector<std::string>& arguments);
+/// Where this very program is.
+inline const std::string kThisProgram = "/proc/self/exe";
+
+/// Runs a program and returns what it wrote to standard output. Throws Error{Cancelled} when it was interrupted,
+/// Error{Input} when it ended with another exit code than 0.
+[[nodiscard]] std::string outputOf(const std::string& program, const std::vector<std::string>& arguments);
 
 }  // namespace asdfvk::bench

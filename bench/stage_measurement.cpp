@@ -42,7 +42,7 @@ ColdRun runCold(const std::string& mesh, const StageRow& row, const std::string&
   std::vector<std::string> arguments{"--cold", "--seeds", row.seeds, "--backends", row.backend};
   if (!device.empty()) arguments.insert(arguments.end(), {"--device", device});
   arguments.insert(arguments.end(), {"--", mesh});
-  std::istringstream text(outputOfThisProgram(arguments));
+  std::istringstream text(outputOf(kThisProgram, arguments));
   ColdRun run;
   text >> run.seconds >> run.peakBytes;
   return run;
