@@ -7,26 +7,35 @@
 
 namespace asdfvk {
 
-/// Costs of the surface-area heuristic, relative to each other: entering a node (two box tests) and one triangle test.
-inline constexpr float kNodeCost = 1.0f;
-inline constexpr float kTriangleCost = 1.0f;
-
 /// The box of some triangles and the box of their boxes' doubled centres.
 struct SplitBounds {
   SplitBox box = SplitBox::empty();
   SplitBox centres = SplitBox::empty();
+
+  void grow(const SplitBox& triangle) {
+    const Quad centre = triangle.doubledCentre();
+    box.grow(triangle);
+    centres.grow({centre, -centre});
+  }
+  void grow(const SplitBounds& other) {
+    box.grow(other.box);
+    centres.grow(other.centres);
+  }
 };
 
-[[nodiscard]] SplitBounds boundsOf(std::span<const SplitTriangle> triangles);
+/// Triangles in two parts: the first `leftCount` and the others.
+struct Split {
+  size_t leftCount = 0;
+  SplitBounds left, right;
+};
 
-/// Splits by the binned surface-area heuristic: reorders `triangles` and returns how many went left, always at least
-/// one and less than all. 0 without reordering where a leaf is allowed and cheaper, or where all centres coincide and
-/// there is nothing to choose (told apart by the caller: a leaf needs `leafAllowed`).
-[[nodiscard]] size_t splitBySah(std::span<SplitTriangle> triangles, const SplitBounds& bounds, uint32_t binCount,
-                                bool leafAllowed);
+/// Splits by the binned surface-area heuristic (Wald 2007), over a sample of the triangles where they are many:
+/// reorders `triangles`. Nothing goes left, and nothing is reordered, where all centres coincide; else neither part is
+/// empty. binCount: per axis, 2 to 32.
+[[nodiscard]] Split splitBySah(std::span<SplitTriangle> triangles, const SplitBounds& bounds, uint32_t binCount);
 
 /// Splits at the median of the centres on their widest axis; in the middle of the order where all of them coincide.
 /// Precondition: at least two triangles.
-[[nodiscard]] size_t splitAtMedian(std::span<SplitTriangle> triangles, const SplitBounds& bounds);
+[[nodiscard]] Split splitAtMedian(std::span<SplitTriangle> triangles, const SplitBounds& bounds);
 
 }  // namespace asdfvk

@@ -21,15 +21,16 @@ SplitBox outerBox(const Mesh& mesh, const Face& face, const Normalization& norma
   SplitBox box = SplitBox::empty();
   for (const uint32_t vertex : face) {
     const Vec3d p = normalization.toNormalized(mesh.vertices[vertex]);
-    box.grow({{roundedDown(p.x), roundedDown(p.y), roundedDown(p.z), 0, roundedDown(-p.x), roundedDown(-p.y),
-               roundedDown(-p.z), 0}});
+    const Quad lower = {roundedDown(p.x), roundedDown(p.y), roundedDown(p.z), 0};
+    const Quad negatedUpper = {roundedDown(-p.x), roundedDown(-p.y), roundedDown(-p.z), 0};
+    box.grow({lower, negatedUpper});
   }
   return box;
 }
 
 std::vector<SplitTriangle> collectTriangles(const Mesh& mesh, const FaceGeometry& geometry,
                                             std::span<const uint32_t> representatives,
-                                            const Normalization& normalization) {
+                                            const Normalization& normalization, SplitBounds& bounds) {
   const auto isFiniteFace = [&](uint32_t f) {
     for (const uint32_t vertex : mesh.faces[f])
       if (!isFinite(normalization.toNormalized(mesh.vertices[vertex]))) return false;
@@ -43,6 +44,7 @@ std::vector<SplitTriangle> collectTriangles(const Mesh& mesh, const FaceGeometry
   tbb::parallel_for(size_t{0}, faces.size(), [&](size_t i) {
     triangles[i] = {outerBox(mesh, mesh.faces[faces[i]], normalization), faces[i]};
   });
+  for (const SplitTriangle& t : triangles) bounds.grow(t.box);
   return triangles;
 }
 
@@ -61,14 +63,13 @@ uint32_t place(const Subtree& subtree, uint32_t index, uint32_t next, std::vecto
     placements.push_back({subtree.nodes, index, next});
     return next + static_cast<uint32_t>(subtree.nodes.size()) - 1;
   }
-  const SplitBox& box = subtree.box;
-  nodes[index] = {{box.min(0), box.min(1), box.min(2)}, next, {box.max(0), box.max(1), box.max(2)}, 0};
+  nodes[index] = subtree.box.toNode(next, 0);
   const uint32_t afterLeft = place(*subtree.left, next, next + 2, nodes, placements);
   return place(*subtree.right, next + 1, afterLeft, nodes, placements);
 }
 
 std::vector<BvhNode> assemble(const Subtree& root) {
-  std::vector<BvhNode> nodes(root.nodeCount());
+  std::vector<BvhNode> nodes(root.nodeCount);
   std::vector<Placement> placements;
   place(root, 0, 1, nodes, placements);
   tbb::parallel_for(size_t{0}, placements.size(), [&](size_t p) {
@@ -90,14 +91,13 @@ Bvh buildBvh(const Mesh& mesh, const FaceGeometry& geometry, std::span<const uin
   ASDFVK_CHECK_OP(options.maxLeafTriangleCount, >, 0u);
   Bvh bvh;
   bvh.normalization = normalizationOf(geometry.bounds);
-  std::vector<SplitTriangle> triangles = collectTriangles(mesh, geometry, representatives, bvh.normalization);
+  SplitBounds bounds;
+  std::vector<SplitTriangle> triangles = collectTriangles(mesh, geometry, representatives, bvh.normalization, bounds);
   if (triangles.empty()) return bvh;
-
-  const std::unique_ptr<Subtree> root = buildSubtree(triangles, 0, 0, options);
+  bvh.slotFaces.resize(triangles.size());
+  const std::unique_ptr<Subtree> root = buildSubtree(triangles, bounds, bvh.slotFaces, 0, 0, options);
   bvh.depth = root->depth;
   bvh.nodes = assemble(*root);
-  bvh.slotFaces.resize(triangles.size());
-  for (size_t slot = 0; slot < triangles.size(); ++slot) bvh.slotFaces[slot] = triangles[slot].face;
   return bvh;
 }
 

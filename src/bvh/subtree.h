@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
+#include "bvh/binned_sah.h"
 #include "bvh/bvh.h"
-#include "bvh/split_box.h"
 
 namespace asdfvk {
 
@@ -15,14 +15,14 @@ struct Subtree {
   SplitBox box;                          ///< With children only.
   std::vector<BvhNode> nodes;            ///< Without children: root first; inner nodes count from this run's start.
   uint32_t depth = 0;                    ///< Levels below its root.
-
-  /// All nodes of the subtree, root included.
-  [[nodiscard]] size_t nodeCount() const { return left ? 1 + left->nodeCount() + right->nodeCount() : nodes.size(); }
+  size_t nodeCount = 0;                  ///< All nodes of the subtree, root included.
 };
 
-/// Builds over `triangles`, which it reorders into slot order; `firstSlot` is the slot of the first of them and `level`
-/// the number of levels above. Large parts run as tasks of their own; what comes out does not depend on that.
-[[nodiscard]] std::unique_ptr<Subtree> buildSubtree(std::span<SplitTriangle> triangles, uint32_t firstSlot,
-                                                    uint32_t level, const BvhOptions& options);
+/// Builds over `triangles`, whose bounds are given and which it reorders. slotFaces: of all slots; those from
+/// `firstSlot` on are written, one per triangle. level: the number of levels above. Large parts run as tasks of their
+/// own; what comes out does not depend on that.
+[[nodiscard]] std::unique_ptr<Subtree> buildSubtree(std::span<SplitTriangle> triangles, const SplitBounds& bounds,
+                                                    std::span<uint32_t> slotFaces, uint32_t firstSlot, uint32_t level,
+                                                    const BvhOptions& options);
 
 }  // namespace asdfvk
