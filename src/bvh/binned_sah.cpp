@@ -13,8 +13,6 @@ constexpr uint32_t kMaxBinCount = 32;
 // Of so many triangles, evenly taken, bins tell nearly as well where to split as of all of them.
 constexpr size_t kSampleCount = 1024;
 
-using QuadIntegers = int32_t __attribute__((vector_size(16)));
-
 struct Bin {
   SplitBox box;
   uint32_t count;

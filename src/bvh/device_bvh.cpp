@@ -35,7 +35,7 @@ DeviceBvhNode encodeRootLeaf(const BvhNode& root) {
 }
 
 // innerIndex: for each node the number of inner nodes before it.
-std::vector<DeviceBvhNode> encodeNodes(const std::vector<BvhNode>& nodes) {
+UnsetVector<DeviceBvhNode> encodeNodes(const std::vector<BvhNode>& nodes) {
   std::vector<uint32_t> innerIndex(nodes.size());
   uint32_t innerCount = 0;
   for (size_t i = 0; i < nodes.size(); ++i) {
@@ -45,7 +45,7 @@ std::vector<DeviceBvhNode> encodeNodes(const std::vector<BvhNode>& nodes) {
   const auto referenceTo = [&](uint32_t child) {
     return nodes[child].isLeaf() ? leafReference(nodes[child]) : innerIndex[child];
   };
-  std::vector<DeviceBvhNode> encoded(innerCount);
+  UnsetVector<DeviceBvhNode> encoded(innerCount);
   tbb::parallel_for(size_t{0}, nodes.size(), [&](size_t i) {
     if (nodes[i].isLeaf()) return;
     const uint32_t leftIndex = nodes[i].first;
@@ -74,6 +74,20 @@ OctahedralNormal encodeNormal(const Vec3d& n) {
           static_cast<float>(std::copysign(1 - std::abs(u), n.y))};
 }
 
+UnsetVector<DeviceTriangle> encodeTriangles(std::span<const uint32_t> slotFaces, const Bvh& bvh, const Mesh& mesh,
+                                            const FaceGeometry& geometry) {
+  UnsetVector<DeviceTriangle> triangles(slotFaces.size());
+  tbb::parallel_for(size_t{0}, slotFaces.size(), [&](size_t slot) {
+    const uint32_t face = slotFaces[slot];
+    const auto corner = [&](size_t k) {
+      return toDevice(Vec3f(bvh.normalization.toNormalized(mesh.vertices[mesh.faces[face][k]])));
+    };
+    const OctahedralNormal normal = encodeNormal(geometry.normals[face]);
+    triangles[slot] = {corner(0), face, corner(1), normal.u, corner(2), normal.v};
+  });
+  return triangles;
+}
+
 }  // namespace
 
 DeviceBvh encodeDeviceBvh(const Bvh& bvh, const Mesh& mesh, const FaceGeometry& geometry, BvhLayout layout) {
@@ -83,20 +97,13 @@ DeviceBvh encodeDeviceBvh(const Bvh& bvh, const Mesh& mesh, const FaceGeometry& 
     throw Error(ErrorKind::Device, fmt::format("the mesh has {} triangles and the device's hierarchy holds {}; use a "
                                                "smaller mesh or --backend reference",
                                                bvh.slotFaces.size(), kReferenceFirstMask));
-  device.triangles.resize(bvh.slotFaces.size());
-  tbb::parallel_for(size_t{0}, bvh.slotFaces.size(), [&](size_t slot) {
-    const uint32_t face = bvh.slotFaces[slot];
-    const auto corner = [&](size_t k) {
-      return toDevice(Vec3f(bvh.normalization.toNormalized(mesh.vertices[mesh.faces[face][k]])));
-    };
-    const OctahedralNormal normal = encodeNormal(geometry.normals[face]);
-    device.triangles[slot] = {corner(0), face, corner(1), normal.u, corner(2), normal.v};
-  });
   if (layout == BvhLayout::Wide) {
-    WideBvh wide = encodeWideBvh(bvh, device.triangles);
-    return {{}, std::move(wide.nodes), std::move(wide.triangles), wide.depth};
+    WideBvh wide = encodeWideBvh(bvh);
+    return {{}, std::move(wide.nodes), encodeTriangles(wide.slotFaces, bvh, mesh, geometry), wide.depth};
   }
-  device.nodes = bvh.nodes[0].isLeaf() ? std::vector{encodeRootLeaf(bvh.nodes[0])} : encodeNodes(bvh.nodes);
+  device.nodes =
+      bvh.nodes[0].isLeaf() ? UnsetVector<DeviceBvhNode>{encodeRootLeaf(bvh.nodes[0])} : encodeNodes(bvh.nodes);
+  device.triangles = encodeTriangles(bvh.slotFaces, bvh, mesh, geometry);
   device.depth = bvh.depth;
   return device;
 }

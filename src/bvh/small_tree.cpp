@@ -9,11 +9,6 @@
 #include "core/lanes.h"
 
 namespace asdfvk {
-namespace {
-
-using QuadIntegers = int32_t __attribute__((vector_size(16)));
-
-}  // namespace
 
 SmallTree::SmallTree(std::span<const SplitTriangle> triangles, uint32_t maxLeafTriangleCount)
     : maxLeafTriangleCount_(maxLeafTriangleCount), nodeEnd_(static_cast<uint32_t>(triangles.size())) {

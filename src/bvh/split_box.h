@@ -6,13 +6,9 @@
 #include <limits>
 
 #include "bvh/bvh.h"
+#include "bvh/quad.h"
 
 namespace asdfvk {
-
-/// Four floats side by side: x, y, z and one of no axis.
-using Quad = float __attribute__((vector_size(16)));
-
-[[nodiscard]] inline Quad leastOf(const Quad& a, const Quad& b) { return a < b ? a : b; }
 
 /// A box while the hierarchy is built: the upper bounds are held negated, so that growing it is two minimums.
 struct SplitBox {
