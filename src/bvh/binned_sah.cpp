@@ -82,8 +82,8 @@ Split partitionTriangles(std::span<SplitTriangle> triangles, const IsLeft& isLef
   MaskedBounds left, right;
   size_t leftCount = 0;
   for (SplitTriangle& next : triangles) {
+    const int32_t goesLeft = isLeft(next.box);
     const SplitTriangle triangle = next;
-    const int32_t goesLeft = isLeft(triangle.box);
     next = triangles[leftCount];
     triangles[leftCount] = triangle;
     leftCount += static_cast<size_t>(goesLeft);
@@ -95,7 +95,10 @@ Split partitionTriangles(std::span<SplitTriangle> triangles, const IsLeft& isLef
 
 }  // namespace
 
-Split splitBySah(std::span<SplitTriangle> triangles, const SplitBounds& bounds, uint32_t binCount) {
+namespace {
+
+[[gnu::always_inline]] inline Split splitByBins(std::span<SplitTriangle> triangles, const SplitBounds& bounds,
+                                                uint32_t binCount) {
   // Few triangles do not pay for many bins (Wald 2007 and Embree do likewise).
   const auto adaptedCount = static_cast<uint32_t>(std::min<size_t>(binCount, 4 + triangles.size() / 4));
   const Binning binning(bounds.centres, std::clamp(adaptedCount, 2u, kMaxBinCount));
@@ -117,6 +120,24 @@ Split splitBySah(std::span<SplitTriangle> triangles, const SplitBounds& bounds, 
   if (best.firstRightBin == 0) return {};
   return partitionTriangles(
       triangles, [&](const SplitBox& box) { return binning.binOf(box, best.axis) < best.firstRightBin ? 1 : 0; });
+}
+
+#ifdef __x86_64__
+// The same operations, hence the same bits, in fewer instructions.
+[[gnu::target("avx2"), gnu::flatten]] Split splitByBinsWithAvx2(std::span<SplitTriangle> triangles,
+                                                                const SplitBounds& bounds, uint32_t binCount) {
+  return splitByBins(triangles, bounds, binCount);
+}
+#endif
+
+}  // namespace
+
+Split splitBySah(std::span<SplitTriangle> triangles, const SplitBounds& bounds, uint32_t binCount) {
+#ifdef __x86_64__
+  static const bool hasAvx2 = __builtin_cpu_supports("avx2");
+  if (hasAvx2) return splitByBinsWithAvx2(triangles, bounds, binCount);
+#endif
+  return splitByBins(triangles, bounds, binCount);
 }
 
 Split splitAtMedian(std::span<SplitTriangle> triangles, const SplitBounds& bounds) {

@@ -1,51 +1,80 @@
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 
 #include "bvh/bvh.h"
 #include "bvh/subtree.h"
+#include "bvh/unset_vector.h"
 #include "core/check.h"
 
 namespace asdfvk {
 namespace {
 
-float roundedDown(double d) {
-  const auto f = static_cast<float>(d);
-  return static_cast<double>(f) > d ? std::nextafter(f, -std::numeric_limits<float>::infinity()) : f;
-}
+// Faces that are looked at by one task.
+constexpr size_t kBlockFaceCount = 4096;
 
-// Rounding down is at or below rounding to nearest, so the box holds the corners as doubles and as floats.
+// At or below the number itself, and at or below it rounded to nearest: lowered by at least the error of rounding,
+// without a branch on what that is.
+float roundedDown(double d) { return static_cast<float>(d - std::abs(d) * 0x1p-23 - 0x1p-149); }
+
+// Holds the corners as doubles and as floats.
 SplitBox outerBox(const Mesh& mesh, const Face& face, const Normalization& normalization) {
-  SplitBox box = SplitBox::empty();
-  for (const uint32_t vertex : face) {
-    const Vec3d p = normalization.toNormalized(mesh.vertices[vertex]);
-    const Quad lower = {roundedDown(p.x), roundedDown(p.y), roundedDown(p.z), 0};
-    const Quad negatedUpper = {roundedDown(-p.x), roundedDown(-p.y), roundedDown(-p.z), 0};
-    box.grow({lower, negatedUpper});
-  }
-  return box;
+  const Vec3d &a = mesh.vertices[face[0]], &b = mesh.vertices[face[1]], &c = mesh.vertices[face[2]];
+  const auto least = [](double x, double y, double z) { return std::min(std::min(x, y), z); };
+  const auto greatest = [](double x, double y, double z) { return std::max(std::max(x, y), z); };
+  const Vec3d min = normalization.toNormalized({least(a.x, b.x, c.x), least(a.y, b.y, c.y), least(a.z, b.z, c.z)});
+  const Vec3d max =
+      normalization.toNormalized({greatest(a.x, b.x, c.x), greatest(a.y, b.y, c.y), greatest(a.z, b.z, c.z)});
+  const Quad lower = {roundedDown(min.x), roundedDown(min.y), roundedDown(min.z), 0};
+  const Quad negatedUpper = {roundedDown(-max.x), roundedDown(-max.y), roundedDown(-max.z), 0};
+  return {lower, negatedUpper};
 }
 
-std::vector<SplitTriangle> collectTriangles(const Mesh& mesh, const FaceGeometry& geometry,
-                                            std::span<const uint32_t> representatives,
-                                            const Normalization& normalization, SplitBounds& bounds) {
-  const auto isFiniteFace = [&](uint32_t f) {
-    for (const uint32_t vertex : mesh.faces[f])
-      if (!isFinite(normalization.toNormalized(mesh.vertices[vertex]))) return false;
-    return true;
+bool isFinite(const SplitBox& box) {
+  bool finite = true;
+  for (size_t axis = 0; axis < 3; ++axis)
+    finite = finite && std::isfinite(box.lower[axis]) && std::isfinite(box.negatedUpper[axis]);
+  return finite;
+}
+
+struct Collected {
+  UnsetVector<SplitTriangle> triangles;
+  SplitBounds bounds;
+};
+
+// In the order of the faces.
+Collected collectTriangles(const Mesh& mesh, const FaceGeometry& geometry, std::span<const uint32_t> representatives,
+                           const Normalization& normalization) {
+  Collected collected{UnsetVector<SplitTriangle>(mesh.faces.size()), {}};
+  struct Block {
+    size_t count = 0;
+    SplitBounds bounds;
   };
-  std::vector<uint32_t> faces;
-  faces.reserve(mesh.faces.size());
-  for (uint32_t f = 0; f < mesh.faceCount(); ++f)
-    if (representatives[f] == f && !geometry.isDegenerate(f) && isFiniteFace(f)) faces.push_back(f);
-  std::vector<SplitTriangle> triangles(faces.size());
-  tbb::parallel_for(size_t{0}, faces.size(), [&](size_t i) {
-    triangles[i] = {outerBox(mesh, mesh.faces[faces[i]], normalization), faces[i]};
+  std::vector<Block> blocks((mesh.faces.size() + kBlockFaceCount - 1) / kBlockFaceCount);
+  tbb::parallel_for(size_t{0}, blocks.size(), [&](size_t i) {
+    Block block;
+    SplitTriangle* const begin = collected.triangles.data() + i * kBlockFaceCount;
+    const auto end = static_cast<uint32_t>(std::min((i + 1) * kBlockFaceCount, mesh.faces.size()));
+    for (auto f = static_cast<uint32_t>(i * kBlockFaceCount); f < end; ++f) {
+      if (representatives[f] != f || geometry.isDegenerate(f)) continue;
+      const SplitBox box = outerBox(mesh, mesh.faces[f], normalization);
+      if (!isFinite(box)) continue;
+      begin[block.count++] = {box, f};
+      block.bounds.grow(box);
+    }
+    blocks[i] = block;
   });
-  for (const SplitTriangle& t : triangles) bounds.grow(t.box);
-  return triangles;
+  size_t count = 0;
+  for (size_t i = 0; i < blocks.size(); ++i) {
+    SplitTriangle* const begin = collected.triangles.data() + i * kBlockFaceCount;
+    if (count < i * kBlockFaceCount) std::copy_n(begin, blocks[i].count, collected.triangles.data() + count);
+    count += blocks[i].count;
+    collected.bounds.grow(blocks[i].bounds);
+  }
+  collected.triangles.resize(count);
+  return collected;
 }
 
 // A finished run of nodes and where it goes: its root to `index`, the rest from `next` on.
@@ -91,11 +120,11 @@ Bvh buildBvh(const Mesh& mesh, const FaceGeometry& geometry, std::span<const uin
   ASDFVK_CHECK_OP(options.maxLeafTriangleCount, >, 0u);
   Bvh bvh;
   bvh.normalization = normalizationOf(geometry.bounds);
-  SplitBounds bounds;
-  std::vector<SplitTriangle> triangles = collectTriangles(mesh, geometry, representatives, bvh.normalization, bounds);
+  auto [triangles, bounds] = collectTriangles(mesh, geometry, representatives, bvh.normalization);
   if (triangles.empty()) return bvh;
   bvh.slotFaces.resize(triangles.size());
   const std::unique_ptr<Subtree> root = buildSubtree(triangles, bounds, bvh.slotFaces, 0, 0, options);
+  triangles = {};
   bvh.depth = root->depth;
   bvh.nodes = assemble(*root);
   return bvh;

@@ -66,12 +66,13 @@ struct OctahedralNormal {
   float u, v;
 };
 
+// Without a branch on the side of the sphere, which is hard to foresee.
 OctahedralNormal encodeNormal(const Vec3d& n) {
   const double scale = 1 / (std::abs(n.x) + std::abs(n.y) + std::abs(n.z));
   const double u = n.x * scale, v = n.y * scale;
-  if (n.z >= 0) return {static_cast<float>(u), static_cast<float>(v)};
-  return {static_cast<float>(std::copysign(1 - std::abs(v), n.x)),
-          static_cast<float>(std::copysign(1 - std::abs(u), n.y))};
+  const double foldedU = std::copysign(1 - std::abs(v), n.x), foldedV = std::copysign(1 - std::abs(u), n.y);
+  const bool isUp = n.z >= 0;
+  return {static_cast<float>(isUp ? u : foldedU), static_cast<float>(isUp ? v : foldedV)};
 }
 
 UnsetVector<DeviceTriangle> encodeTriangles(std::span<const uint32_t> slotFaces, const Bvh& bvh, const Mesh& mesh,

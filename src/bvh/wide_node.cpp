@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
+#include "bvh/quad.h"
 #include "core/check.h"
 
 namespace asdfvk {
@@ -37,28 +39,37 @@ std::array<uint32_t, kWideChildCount> chooseSlots(std::span<const Box3f> childre
   for (const Box3f& child : children) all.add(child);
   const Vec3f centre = all.centre();
   std::array<Vec3f, kWideChildCount> offsets;
-  std::array<float, kWideChildCount> distances;
-  for (size_t child = 0; child < children.size(); ++child) {
+  // Keys that no two have: the distance as an integer, its last bits the child.
+  std::array<uint32_t, kWideChildCount> keys{};
+  for (uint32_t child = 0; child < children.size(); ++child) {
     const Vec3f& offset = offsets[child] = children[child].centre() - centre;
-    distances[child] = std::abs(offset.x) + std::abs(offset.y) + std::abs(offset.z);
+    const float distance = std::abs(offset.x) + std::abs(offset.y) + std::abs(offset.z);
+    keys[child] = (std::bit_cast<uint32_t>(distance) & ~7u) | child;
   }
-  constexpr float kNone = -std::numeric_limits<float>::infinity();
+  constexpr float kTaken = -std::numeric_limits<float>::infinity();
+  const Quad xSigns = {-1, 1, -1, 1}, ySigns = {-1, -1, 1, 1};
   std::array<uint32_t, kWideChildCount> slots{};
-  std::array<float, kWideChildCount> penalties{};  // Of slots that are taken.
-  for (size_t round = 0; round < children.size(); ++round) {
-    const auto farthest =
-        std::max_element(distances.begin(), distances.begin() + static_cast<std::ptrdiff_t>(children.size()));
-    const auto child = static_cast<size_t>(farthest - distances.begin());
-    *farthest = kNone;
+  std::array<float, kWideChildCount> penalties{};
+  for (size_t i = 0; i < children.size(); ++i) {
+    uint32_t farthest = 0;
+    for (const uint32_t key : keys) farthest = std::max(farthest, key);
+    const uint32_t child = farthest & 7;
+    keys[child] = 0;
     const auto [x, y, z] = offsets[child];
-    float best = kNone;
-    for (uint32_t slot = 0; slot < kWideChildCount; ++slot) {
-      const float along = (slot & 1 ? x : -x) + (slot & 2 ? y : -y) + (slot & 4 ? z : -z) + penalties[slot];
-      if (along <= best) continue;
-      best = along;
-      slots[child] = slot;
+    Quad low, high;
+    std::memcpy(&low, penalties.data(), sizeof low);
+    std::memcpy(&high, penalties.data() + 4, sizeof high);
+    low += x * xSigns + y * ySigns - z;
+    high += x * xSigns + y * ySigns + z;
+    uint32_t best = 0;
+    float bestAlong = low[0];
+    for (uint32_t slot = 1; slot < kWideChildCount; ++slot) {
+      const float along = slot < 4 ? low[slot] : high[slot - 4];
+      best = along > bestAlong ? slot : best;
+      bestAlong = along > bestAlong ? along : bestAlong;
     }
-    penalties[slots[child]] = kNone;
+    slots[child] = best;
+    penalties[best] = kTaken;
   }
   return slots;
 }
