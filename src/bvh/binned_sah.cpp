@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 namespace asdfvk {
 namespace {
@@ -34,8 +33,9 @@ struct Binning {
   [[nodiscard]] QuadIntegers binsOf(const SplitBox& box) const {
     return __builtin_convertvector((box.doubledCentre() - origin) * factor, QuadIntegers);
   }
-  [[nodiscard]] uint32_t binOf(const SplitBox& box, size_t axis) const {
-    return static_cast<uint32_t>((box.doubledCentre(axis) - origin[axis]) * factor[axis]);
+  // Between the number of its bin and the next one; outside of all bins for what was not among the centres.
+  [[nodiscard]] float place(const SplitBox& box, size_t axis) const {
+    return (box.doubledCentre(axis) - origin[axis]) * factor[axis];
   }
 };
 
@@ -65,46 +65,39 @@ void takeBest(std::span<const Bin> bins, size_t axis, Candidate& best) {
   }
 }
 
-// The bounds of one part, grown without a branch: what does not belong becomes NaN, which no minimum takes.
-struct MaskedBounds {
-  SplitBounds bounds;
-  void grow(const SplitBox& box, const QuadIntegers& excluded) {
-    const auto masked = [&](const Quad& quad) { return (Quad)((QuadIntegers)quad | excluded); };
-    const Quad centre = box.doubledCentre();
-    bounds.box.grow({masked(box.lower), masked(box.negatedUpper)});
-    bounds.centres.grow({masked(centre), masked(-centre)});
+// The box of the doubled centres of every stride-th triangle.
+SplitBox boundCentres(std::span<const SplitTriangle> triangles, size_t stride) {
+  SplitBox centres = SplitBox::empty();
+  for (size_t i = 0; i < triangles.size(); i += stride) {
+    const Quad centre = triangles[i].box.doubledCentre();
+    centres.grow({centre, -centre});
   }
-};
+  return centres;
+}
 
 // Whether a triangle goes left is hard to foresee, so nothing branches on it.
 template <typename IsLeft>
-Split partitionTriangles(std::span<SplitTriangle> triangles, const IsLeft& isLeft) {
-  MaskedBounds left, right;
+size_t partitionTriangles(std::span<SplitTriangle> triangles, const IsLeft& isLeft) {
   size_t leftCount = 0;
   for (SplitTriangle& next : triangles) {
-    const int32_t goesLeft = isLeft(next.box);
+    const bool goesLeft = isLeft(next.box);
     const SplitTriangle triangle = next;
     next = triangles[leftCount];
     triangles[leftCount] = triangle;
-    leftCount += static_cast<size_t>(goesLeft);
-    left.grow(triangle.box, QuadIntegers{} + (goesLeft - 1));
-    right.grow(triangle.box, QuadIntegers{} - goesLeft);
+    leftCount += goesLeft ? 1 : 0;
   }
-  return {leftCount, left.bounds, right.bounds};
+  return leftCount;
 }
 
 }  // namespace
 
-namespace {
-
-[[gnu::always_inline]] inline Split splitByBins(std::span<SplitTriangle> triangles, const SplitBounds& bounds,
-                                                uint32_t binCount) {
+size_t splitBySah(std::span<SplitTriangle> triangles, uint32_t binCount) {
+  const size_t stride = std::max<size_t>(1, triangles.size() / kSampleCount);
   // Few triangles do not pay for many bins (Wald 2007 and Embree do likewise).
   const auto adaptedCount = static_cast<uint32_t>(std::min<size_t>(binCount, 4 + triangles.size() / 4));
-  const Binning binning(bounds.centres, std::clamp(adaptedCount, 2u, kMaxBinCount));
+  const Binning binning(boundCentres(triangles, stride), std::clamp(adaptedCount, 2u, kMaxBinCount));
   std::array<std::array<Bin, kMaxBinCount>, 3> bins;
   for (auto& axisBins : bins) std::fill_n(axisBins.begin(), binning.binCount, Bin{SplitBox::empty(), 0});
-  const size_t stride = std::max<size_t>(1, triangles.size() / kSampleCount);
   for (size_t i = 0; i < triangles.size(); i += stride) {
     const SplitBox& box = triangles[i].box;
     const QuadIntegers binIndices = binning.binsOf(box);
@@ -117,46 +110,25 @@ namespace {
   Candidate best;
   for (size_t axis = 0; axis < 3; ++axis)
     if (binning.factor[axis] > 0) takeBest({bins[axis].data(), binning.binCount}, axis, best);
-  if (best.firstRightBin == 0) return {};
-  return partitionTriangles(
-      triangles, [&](const SplitBox& box) { return binning.binOf(box, best.axis) < best.firstRightBin ? 1 : 0; });
+  if (best.firstRightBin == 0) return 0;
+  const auto bound = static_cast<float>(best.firstRightBin);
+  return partitionTriangles(triangles, [&](const SplitBox& box) { return binning.place(box, best.axis) < bound; });
 }
 
-#ifdef __x86_64__
-// The same operations, hence the same bits, in fewer instructions.
-[[gnu::target("avx2"), gnu::flatten]] Split splitByBinsWithAvx2(std::span<SplitTriangle> triangles,
-                                                                const SplitBounds& bounds, uint32_t binCount) {
-  return splitByBins(triangles, bounds, binCount);
-}
-#endif
-
-}  // namespace
-
-Split splitBySah(std::span<SplitTriangle> triangles, const SplitBounds& bounds, uint32_t binCount) {
-#ifdef __x86_64__
-  static const bool hasAvx2 = __builtin_cpu_supports("avx2");
-  if (hasAvx2) return splitByBinsWithAvx2(triangles, bounds, binCount);
-#endif
-  return splitByBins(triangles, bounds, binCount);
-}
-
-Split splitAtMedian(std::span<SplitTriangle> triangles, const SplitBounds& bounds) {
-  const Quad extents = bounds.centres.extents();
+size_t splitAtMedian(std::span<SplitTriangle> triangles) {
+  const Quad extents = boundCentres(triangles, 1).extents();
   size_t axis = 0;
   for (size_t other = 1; other < 3; ++other)
     if (extents[other] > extents[axis]) axis = other;
-  Split split;
-  split.leftCount = triangles.size() / 2;
+  const size_t half = triangles.size() / 2;
   if (extents[axis] > 0) {
-    std::nth_element(triangles.begin(), triangles.begin() + static_cast<std::ptrdiff_t>(split.leftCount),
-                     triangles.end(), [axis](const SplitTriangle& a, const SplitTriangle& b) {
+    std::nth_element(triangles.begin(), triangles.begin() + static_cast<std::ptrdiff_t>(half), triangles.end(),
+                     [axis](const SplitTriangle& a, const SplitTriangle& b) {
                        const float ca = a.box.doubledCentre(axis), cb = b.box.doubledCentre(axis);
                        return ca != cb ? ca < cb : a.face() < b.face();
                      });
   }
-  for (const SplitTriangle& triangle : triangles.first(split.leftCount)) split.left.grow(triangle.box);
-  for (const SplitTriangle& triangle : triangles.subspan(split.leftCount)) split.right.grow(triangle.box);
-  return split;
+  return half;
 }
 
 }  // namespace asdfvk

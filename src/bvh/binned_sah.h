@@ -7,35 +7,13 @@
 
 namespace asdfvk {
 
-/// The box of some triangles and the box of their boxes' doubled centres.
-struct SplitBounds {
-  SplitBox box = SplitBox::empty();
-  SplitBox centres = SplitBox::empty();
-
-  void grow(const SplitBox& triangle) {
-    const Quad centre = triangle.doubledCentre();
-    box.grow(triangle);
-    centres.grow({centre, -centre});
-  }
-  void grow(const SplitBounds& other) {
-    box.grow(other.box);
-    centres.grow(other.centres);
-  }
-};
-
-/// Triangles in two parts: the first `leftCount` and the others.
-struct Split {
-  size_t leftCount = 0;
-  SplitBounds left, right;
-};
-
 /// Splits by the binned surface-area heuristic (Wald 2007), over a sample of the triangles where they are many:
-/// reorders `triangles`. Nothing goes left, and nothing is reordered, where all centres coincide; else neither part is
-/// empty. binCount: per axis, 2 to 32.
-[[nodiscard]] Split splitBySah(std::span<SplitTriangle> triangles, const SplitBounds& bounds, uint32_t binCount);
+/// reorders `triangles` and returns how many went left, at least one and less than all. 0 without reordering where all
+/// centres coincide, at least those of the sample. binCount: per axis, 2 to 32.
+[[nodiscard]] size_t splitBySah(std::span<SplitTriangle> triangles, uint32_t binCount);
 
 /// Splits at the median of the centres on their widest axis; in the middle of the order where all of them coincide.
 /// Precondition: at least two triangles.
-[[nodiscard]] Split splitAtMedian(std::span<SplitTriangle> triangles, const SplitBounds& bounds);
+[[nodiscard]] size_t splitAtMedian(std::span<SplitTriangle> triangles);
 
 }  // namespace asdfvk

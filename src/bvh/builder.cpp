@@ -39,42 +39,30 @@ bool isFinite(const SplitBox& box) {
   return finite;
 }
 
-struct Collected {
-  UnsetVector<SplitTriangle> triangles;
-  SplitBounds bounds;
-};
-
 // In the order of the faces.
-Collected collectTriangles(const Mesh& mesh, const FaceGeometry& geometry, std::span<const uint32_t> representatives,
-                           const Normalization& normalization) {
-  Collected collected{UnsetVector<SplitTriangle>(mesh.faces.size()), {}};
-  struct Block {
-    size_t count = 0;
-    SplitBounds bounds;
-  };
-  std::vector<Block> blocks((mesh.faces.size() + kBlockFaceCount - 1) / kBlockFaceCount);
-  tbb::parallel_for(size_t{0}, blocks.size(), [&](size_t i) {
-    Block block;
-    SplitTriangle* const begin = collected.triangles.data() + i * kBlockFaceCount;
-    const auto end = static_cast<uint32_t>(std::min((i + 1) * kBlockFaceCount, mesh.faces.size()));
-    for (auto f = static_cast<uint32_t>(i * kBlockFaceCount); f < end; ++f) {
+UnsetVector<SplitTriangle> collectTriangles(const Mesh& mesh, const FaceGeometry& geometry,
+                                            std::span<const uint32_t> representatives,
+                                            const Normalization& normalization) {
+  UnsetVector<SplitTriangle> triangles(mesh.faces.size());
+  std::vector<size_t> counts((mesh.faces.size() + kBlockFaceCount - 1) / kBlockFaceCount);
+  tbb::parallel_for(size_t{0}, counts.size(), [&](size_t block) {
+    const size_t begin = block * kBlockFaceCount, end = std::min(begin + kBlockFaceCount, mesh.faces.size());
+    SplitTriangle* next = &triangles[begin];
+    for (auto f = static_cast<uint32_t>(begin); f < end; ++f) {
       if (representatives[f] != f || geometry.isDegenerate(f)) continue;
       const SplitBox box = outerBox(mesh, mesh.faces[f], normalization);
-      if (!isFinite(box)) continue;
-      begin[block.count++] = {box, f};
-      block.bounds.grow(box);
+      if (isFinite(box)) *next++ = {box, f};
     }
-    blocks[i] = block;
+    counts[block] = static_cast<size_t>(next - &triangles[begin]);
   });
   size_t count = 0;
-  for (size_t i = 0; i < blocks.size(); ++i) {
-    SplitTriangle* const begin = collected.triangles.data() + i * kBlockFaceCount;
-    if (count < i * kBlockFaceCount) std::copy_n(begin, blocks[i].count, collected.triangles.data() + count);
-    count += blocks[i].count;
-    collected.bounds.grow(blocks[i].bounds);
+  for (size_t block = 0; block < counts.size(); ++block) {
+    const size_t begin = block * kBlockFaceCount;
+    if (count < begin) std::copy_n(&triangles[begin], counts[block], &triangles[count]);
+    count += counts[block];
   }
-  collected.triangles.resize(count);
-  return collected;
+  triangles.resize(count);
+  return triangles;
 }
 
 // A finished run of nodes and where it goes: its root to `index`, the rest from `next` on.
@@ -120,10 +108,10 @@ Bvh buildBvh(const Mesh& mesh, const FaceGeometry& geometry, std::span<const uin
   ASDFVK_CHECK_OP(options.maxLeafTriangleCount, >, 0u);
   Bvh bvh;
   bvh.normalization = normalizationOf(geometry.bounds);
-  auto [triangles, bounds] = collectTriangles(mesh, geometry, representatives, bvh.normalization);
+  UnsetVector<SplitTriangle> triangles = collectTriangles(mesh, geometry, representatives, bvh.normalization);
   if (triangles.empty()) return bvh;
   bvh.slotFaces.resize(triangles.size());
-  const std::unique_ptr<Subtree> root = buildSubtree(triangles, bounds, bvh.slotFaces, 0, 0, options);
+  const std::unique_ptr<Subtree> root = buildSubtree(triangles, bvh.slotFaces, 0, 0, options);
   triangles = {};
   bvh.depth = root->depth;
   bvh.nodes = assemble(*root);

@@ -13,6 +13,8 @@ namespace asdfvk {
 namespace {
 
 constexpr float kFarAway = 1e6f;
+// Slots whose faces are fetched ahead of their use: they lie anywhere in a mesh whose order is not the hierarchy's.
+constexpr size_t kPrefetchDistance = 16;
 
 vec3 toDevice(const Vec3f& v) { return {v.x, v.y, v.z}; }
 vec3 grownMin(const Vec3f& v) { return {v.x - kDeviceBoxMargin, v.y - kDeviceBoxMargin, v.z - kDeviceBoxMargin}; }
@@ -80,6 +82,11 @@ UnsetVector<DeviceTriangle> encodeTriangles(std::span<const uint32_t> slotFaces,
   UnsetVector<DeviceTriangle> triangles(slotFaces.size());
   tbb::parallel_for(size_t{0}, slotFaces.size(), [&](size_t slot) {
     const uint32_t face = slotFaces[slot];
+    if (slot + kPrefetchDistance < slotFaces.size()) {
+      const uint32_t later = slotFaces[slot + kPrefetchDistance];
+      __builtin_prefetch(&mesh.faces[later]);
+      __builtin_prefetch(&geometry.normals[later]);
+    }
     const auto corner = [&](size_t k) {
       return toDevice(Vec3f(bvh.normalization.toNormalized(mesh.vertices[mesh.faces[face][k]])));
     };
