@@ -10,5 +10,6 @@ using Quad = float __attribute__((vector_size(16)));
 using QuadIntegers = int32_t __attribute__((vector_size(16)));
 
 [[nodiscard]] inline Quad leastOf(const Quad& a, const Quad& b) { return a < b ? a : b; }
+[[nodiscard]] inline Quad greatestOf(const Quad& a, const Quad& b) { return a > b ? a : b; }
 
 }  // namespace asdfvk

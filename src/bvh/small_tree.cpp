@@ -20,7 +20,7 @@ SmallTree::SmallTree(std::span<const SplitTriangle> triangles, uint32_t maxLeafT
     nodes_[i].cost = box.halfArea() * kTriangleCost;
     clusters.add(i, box);
   }
-  while (clusters.count > 1) {
+  while (clusters.count > 2) {
     Nearest nearest;
 #ifdef __x86_64__
     static const bool hasAvx2 = __builtin_cpu_supports("avx2");
@@ -38,7 +38,7 @@ SmallTree::SmallTree(std::span<const SplitTriangle> triangles, uint32_t maxLeafT
       clusters.add(node, nodes_[node].box);
     }
   }
-  root_ = clusters.nodes[0];
+  root_ = clusters.count == 1 ? clusters.nodes[0] : merge(clusters.nodes[0], clusters.nodes[1]);
 }
 
 void SmallTree::Clusters::add(uint32_t node, const SplitBox& box) {

@@ -26,8 +26,9 @@ struct Sharing {
   std::array<int32_t, kWideChildCount> leftCounts;
 };
 
-// All i at a time, k from the left one by one. Ties go to the least k.
-Sharing shareChildren(const std::array<float, kWideChildCount>& left, const std::array<float, kWideChildCount>& right) {
+// All i at a time, k from the left one by one; ties go to the least k. More than maxLeftCount are never cheaper.
+Sharing shareChildren(const std::array<float, kWideChildCount>& left, uint32_t maxLeftCount,
+                      const std::array<float, kWideChildCount>& right) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   std::array<float, 2 * kWideChildCount> padded;  // No child from the right is no choice.
   std::fill_n(padded.begin(), kWideChildCount, kInfinity);
@@ -36,7 +37,7 @@ Sharing shareChildren(const std::array<float, kWideChildCount>& left, const std:
   for (size_t half = 0; half < kWideChildCount; half += 4) {
     Quad least = Quad{} + kInfinity;
     QuadIntegers leftCount{};
-    for (uint32_t k = 1; k < kWideChildCount; ++k) {
+    for (uint32_t k = 1; k <= maxLeftCount; ++k) {
       Quad cost;
       std::memcpy(&cost, &padded[kWideChildCount + half - k], sizeof cost);
       cost += left[k - 1];
@@ -80,7 +81,9 @@ void WideCollapse::choose(uint32_t node, const Forests& left, const Forests& rig
   Choice& choice = choices_[node];
   const SlotRange leftSlots = slotsOf(nodes_[node].first), rightSlots = slotsOf(nodes_[node].first + 1);
   choice.slots = {leftSlots.first, leftSlots.count + rightSlots.count};
-  const Sharing sharing = shareChildren(left.costs, right.costs);
+  const uint32_t maxLeftCount =
+      nodes_[nodes_[node].first].isLeaf() ? 1 : std::min(leftSlots.count, kWideChildCount - 1);
+  const Sharing sharing = shareChildren(left.costs, maxLeftCount, right.costs);
   const auto nodeCount = [&](uint32_t childCount) {
     const auto k = static_cast<uint32_t>(sharing.leftCounts[childCount - 1]);
     return left.nodeCounts[k - 1] + right.nodeCounts[childCount - k - 1];

@@ -4,7 +4,6 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
-#include <limits>
 
 #include "bvh/quad.h"
 #include "core/check.h"
@@ -26,6 +25,26 @@ int exponentFor(double extent) {
   return std::max(e, 1 - kExponentBias);
 }
 
+constexpr float kNone = -1e30f;
+
+Quad quadOf(const float* numbers) {
+  Quad quad;
+  std::memcpy(&quad, numbers, sizeof quad);
+  return quad;
+}
+
+// Of eight, where the last three bits of a number do not matter: the index travels in them.
+uint32_t indexOfGreatest(const Quad& low, const Quad& high) {
+  const QuadIntegers indices = {0, 1, 2, 3};
+  const auto tagged = [](const Quad& numbers, const QuadIntegers& tags) {
+    return std::bit_cast<Quad>((std::bit_cast<QuadIntegers>(numbers) & ~7) | tags);
+  };
+  const Quad greatest = greatestOf(tagged(low, indices), tagged(high, indices + 4));
+  return std::bit_cast<uint32_t>(std::max(std::max(float{greatest[0]}, float{greatest[1]}),
+                                          std::max(float{greatest[2]}, float{greatest[3]}))) &
+         7;
+}
+
 uint32_t floorOf(double notNegative) { return static_cast<uint32_t>(notNegative); }
 uint32_t ceilOf(double notNegative) {
   const uint32_t below = floorOf(notNegative);
@@ -39,37 +58,22 @@ std::array<uint32_t, kWideChildCount> chooseSlots(std::span<const Box3f> childre
   for (const Box3f& child : children) all.add(child);
   const Vec3f centre = all.centre();
   std::array<Vec3f, kWideChildCount> offsets;
-  // Keys that no two have: the distance as an integer, its last bits the child.
-  std::array<uint32_t, kWideChildCount> keys{};
-  for (uint32_t child = 0; child < children.size(); ++child) {
+  std::array<float, kWideChildCount> distances;
+  distances.fill(kNone);
+  for (size_t child = 0; child < children.size(); ++child) {
     const Vec3f& offset = offsets[child] = children[child].centre() - centre;
-    const float distance = std::abs(offset.x) + std::abs(offset.y) + std::abs(offset.z);
-    keys[child] = (std::bit_cast<uint32_t>(distance) & ~7u) | child;
+    distances[child] = std::abs(offset.x) + std::abs(offset.y) + std::abs(offset.z);
   }
-  constexpr float kTaken = -std::numeric_limits<float>::infinity();
   const Quad xSigns = {-1, 1, -1, 1}, ySigns = {-1, -1, 1, 1};
   std::array<uint32_t, kWideChildCount> slots{};
-  std::array<float, kWideChildCount> penalties{};
+  std::array<float, kWideChildCount> penalties{};  // Of slots that are taken.
   for (size_t i = 0; i < children.size(); ++i) {
-    uint32_t farthest = 0;
-    for (const uint32_t key : keys) farthest = std::max(farthest, key);
-    const uint32_t child = farthest & 7;
-    keys[child] = 0;
+    const uint32_t child = indexOfGreatest(quadOf(&distances[0]), quadOf(&distances[4]));
+    distances[child] = kNone;
     const auto [x, y, z] = offsets[child];
-    Quad low, high;
-    std::memcpy(&low, penalties.data(), sizeof low);
-    std::memcpy(&high, penalties.data() + 4, sizeof high);
-    low += x * xSigns + y * ySigns - z;
-    high += x * xSigns + y * ySigns + z;
-    uint32_t best = 0;
-    float bestAlong = low[0];
-    for (uint32_t slot = 1; slot < kWideChildCount; ++slot) {
-      const float along = slot < 4 ? low[slot] : high[slot - 4];
-      best = along > bestAlong ? slot : best;
-      bestAlong = along > bestAlong ? along : bestAlong;
-    }
-    slots[child] = best;
-    penalties[best] = kTaken;
+    const Quad along = x * xSigns + y * ySigns;
+    slots[child] = indexOfGreatest(along - z + quadOf(&penalties[0]), along + z + quadOf(&penalties[4]));
+    penalties[slots[child]] = kNone;
   }
   return slots;
 }
