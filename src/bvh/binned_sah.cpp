@@ -9,28 +9,33 @@ namespace asdfvk {
 namespace {
 
 constexpr uint32_t kMaxBinCount = 32;
+// Of so many triangles, evenly taken, bins tell nearly as well where to split as of all of them.
+constexpr size_t kSampleCount = 1024;
 
 struct Bin {
-  SplitBox box = SplitBox::empty();
-  uint32_t count = 0;
+  SplitBox box;
+  uint32_t count;
 };
 
 // Maps doubled centres to bins, per axis; an axis on which the centres coincide (or nearly, so that a float's range
 // does not hold the factor) has factor 0 and cannot be split.
 struct Binning {
-  std::array<float, 3> origin{}, factor{};
+  Quad origin, factor{};
   uint32_t binCount = 0;
 
-  Binning(const SplitBox& centres, uint32_t count) : binCount(count) {
-    for (size_t axis = 0; axis < 3; ++axis) {
-      origin[axis] = centres.min(axis);
-      const float f = static_cast<float>(count) / centres.extent(axis);
-      factor[axis] = std::isfinite(f) ? f : 0;
-    }
+  Binning(const SplitBox& centres, uint32_t count) : origin(centres.lower), binCount(count) {
+    // A little less than the bins, so that rounding takes no centre beyond the last of them.
+    const float width = static_cast<float>(count) * (1 - 0x1p-20f);
+    const Quad extents = centres.extents();
+    for (size_t axis = 0; axis < 3; ++axis)
+      if (const float f = width / extents[axis]; std::isfinite(f)) factor[axis] = f;
   }
-  [[nodiscard]] uint32_t binOf(const SplitBox& box, size_t axis) const {
-    const auto bin = static_cast<int32_t>((box.doubledCentre(axis) - origin[axis]) * factor[axis]);
-    return std::min(static_cast<uint32_t>(bin), binCount - 1);
+  [[nodiscard]] QuadIntegers binsOf(const SplitBox& box) const {
+    return __builtin_convertvector((box.doubledCentre() - origin) * factor, QuadIntegers);
+  }
+  // Between the number of its bin and the next one; outside of all bins for what was not among the centres.
+  [[nodiscard]] float place(const SplitBox& box, size_t axis) const {
+    return (box.doubledCentre(axis) - origin[axis]) * factor[axis];
   }
 };
 
@@ -60,32 +65,45 @@ void takeBest(std::span<const Bin> bins, size_t axis, Candidate& best) {
   }
 }
 
-}  // namespace
-
-SplitBounds boundsOf(std::span<const SplitTriangle> triangles) {
-  SplitBounds bounds;
-  for (const SplitTriangle& triangle : triangles) {
-    SplitBox centre;
-    for (size_t i = 0; i < 4; ++i) {
-      const float c = triangle.box.lanes[i] - triangle.box.lanes[i + 4];
-      centre.lanes[i] = c;
-      centre.lanes[i + 4] = -c;
-    }
-    bounds.box.grow(triangle.box);
-    bounds.centres.grow(centre);
+// The box of the doubled centres of every stride-th triangle.
+SplitBox boundCentres(std::span<const SplitTriangle> triangles, size_t stride) {
+  SplitBox centres = SplitBox::empty();
+  for (size_t i = 0; i < triangles.size(); i += stride) {
+    const Quad centre = triangles[i].box.doubledCentre();
+    centres.grow({centre, -centre});
   }
-  return bounds;
+  return centres;
 }
 
-size_t splitBySah(std::span<SplitTriangle> triangles, const SplitBounds& bounds, uint32_t binCount, bool leafAllowed) {
+// Whether a triangle goes left is hard to foresee, so nothing branches on it.
+template <typename IsLeft>
+size_t partitionTriangles(std::span<SplitTriangle> triangles, const IsLeft& isLeft) {
+  size_t leftCount = 0;
+  for (SplitTriangle& next : triangles) {
+    const bool goesLeft = isLeft(next.box);
+    const SplitTriangle triangle = next;
+    next = triangles[leftCount];
+    triangles[leftCount] = triangle;
+    leftCount += goesLeft ? 1 : 0;
+  }
+  return leftCount;
+}
+
+}  // namespace
+
+size_t splitBySah(std::span<SplitTriangle> triangles, uint32_t binCount) {
+  const size_t stride = std::max<size_t>(1, triangles.size() / kSampleCount);
   // Few triangles do not pay for many bins (Wald 2007 and Embree do likewise).
   const auto adaptedCount = static_cast<uint32_t>(std::min<size_t>(binCount, 4 + triangles.size() / 4));
-  const Binning binning(bounds.centres, std::clamp(adaptedCount, 2u, kMaxBinCount));
+  const Binning binning(boundCentres(triangles, stride), std::clamp(adaptedCount, 2u, kMaxBinCount));
   std::array<std::array<Bin, kMaxBinCount>, 3> bins;
-  for (const SplitTriangle& triangle : triangles) {
+  for (auto& axisBins : bins) std::fill_n(axisBins.begin(), binning.binCount, Bin{SplitBox::empty(), 0});
+  for (size_t i = 0; i < triangles.size(); i += stride) {
+    const SplitBox& box = triangles[i].box;
+    const QuadIntegers binIndices = binning.binsOf(box);
     for (size_t axis = 0; axis < 3; ++axis) {
-      Bin& bin = bins[axis][binning.binOf(triangle.box, axis)];
-      bin.box.grow(triangle.box);
+      Bin& bin = bins[axis][static_cast<uint32_t>(binIndices[axis])];
+      bin.box.grow(box);
       ++bin.count;
     }
   }
@@ -93,27 +111,21 @@ size_t splitBySah(std::span<SplitTriangle> triangles, const SplitBounds& bounds,
   for (size_t axis = 0; axis < 3; ++axis)
     if (binning.factor[axis] > 0) takeBest({bins[axis].data(), binning.binCount}, axis, best);
   if (best.firstRightBin == 0) return 0;
-
-  const float area = bounds.box.halfArea();
-  if (leafAllowed &&
-      kTriangleCost * static_cast<float>(triangles.size()) * area <= kNodeCost * area + kTriangleCost * best.cost)
-    return 0;
-  const auto middle = std::partition(triangles.begin(), triangles.end(), [&](const SplitTriangle& triangle) {
-    return binning.binOf(triangle.box, best.axis) < best.firstRightBin;
-  });
-  return static_cast<size_t>(middle - triangles.begin());
+  const auto bound = static_cast<float>(best.firstRightBin);
+  return partitionTriangles(triangles, [&](const SplitBox& box) { return binning.place(box, best.axis) < bound; });
 }
 
-size_t splitAtMedian(std::span<SplitTriangle> triangles, const SplitBounds& bounds) {
+size_t splitAtMedian(std::span<SplitTriangle> triangles) {
+  const Quad extents = boundCentres(triangles, 1).extents();
   size_t axis = 0;
   for (size_t other = 1; other < 3; ++other)
-    if (bounds.centres.extent(other) > bounds.centres.extent(axis)) axis = other;
+    if (extents[other] > extents[axis]) axis = other;
   const size_t half = triangles.size() / 2;
-  if (bounds.centres.extent(axis) > 0) {
+  if (extents[axis] > 0) {
     std::nth_element(triangles.begin(), triangles.begin() + static_cast<std::ptrdiff_t>(half), triangles.end(),
                      [axis](const SplitTriangle& a, const SplitTriangle& b) {
                        const float ca = a.box.doubledCentre(axis), cb = b.box.doubledCentre(axis);
-                       return ca != cb ? ca < cb : a.face < b.face;
+                       return ca != cb ? ca < cb : a.face() < b.face();
                      });
   }
   return half;

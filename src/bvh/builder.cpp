@@ -1,48 +1,67 @@
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 
 #include "bvh/bvh.h"
 #include "bvh/subtree.h"
+#include "bvh/unset_vector.h"
 #include "core/check.h"
 
 namespace asdfvk {
 namespace {
 
-float roundedDown(double d) {
-  const auto f = static_cast<float>(d);
-  return static_cast<double>(f) > d ? std::nextafter(f, -std::numeric_limits<float>::infinity()) : f;
-}
+// Faces that are looked at by one task.
+constexpr size_t kBlockFaceCount = 4096;
 
-// Rounding down is at or below rounding to nearest, so the box holds the corners as doubles and as floats.
+// At or below the number itself, and at or below it rounded to nearest: lowered by at least the error of rounding,
+// without a branch on what that is.
+float roundedDown(double d) { return static_cast<float>(d - std::abs(d) * 0x1p-23 - 0x1p-149); }
+
+// Holds the corners as doubles and as floats.
 SplitBox outerBox(const Mesh& mesh, const Face& face, const Normalization& normalization) {
-  SplitBox box = SplitBox::empty();
-  for (const uint32_t vertex : face) {
-    const Vec3d p = normalization.toNormalized(mesh.vertices[vertex]);
-    box.grow({{roundedDown(p.x), roundedDown(p.y), roundedDown(p.z), 0, roundedDown(-p.x), roundedDown(-p.y),
-               roundedDown(-p.z), 0}});
-  }
-  return box;
+  const Vec3d &a = mesh.vertices[face[0]], &b = mesh.vertices[face[1]], &c = mesh.vertices[face[2]];
+  const auto least = [](double x, double y, double z) { return std::min(std::min(x, y), z); };
+  const auto greatest = [](double x, double y, double z) { return std::max(std::max(x, y), z); };
+  const Vec3d min = normalization.toNormalized({least(a.x, b.x, c.x), least(a.y, b.y, c.y), least(a.z, b.z, c.z)});
+  const Vec3d max =
+      normalization.toNormalized({greatest(a.x, b.x, c.x), greatest(a.y, b.y, c.y), greatest(a.z, b.z, c.z)});
+  const Quad lower = {roundedDown(min.x), roundedDown(min.y), roundedDown(min.z), 0};
+  const Quad negatedUpper = {roundedDown(-max.x), roundedDown(-max.y), roundedDown(-max.z), 0};
+  return {lower, negatedUpper};
 }
 
-std::vector<SplitTriangle> collectTriangles(const Mesh& mesh, const FaceGeometry& geometry,
+bool isFinite(const SplitBox& box) {
+  bool finite = true;
+  for (size_t axis = 0; axis < 3; ++axis)
+    finite = finite && std::isfinite(box.lower[axis]) && std::isfinite(box.negatedUpper[axis]);
+  return finite;
+}
+
+// In the order of the faces.
+UnsetVector<SplitTriangle> collectTriangles(const Mesh& mesh, const FaceGeometry& geometry,
                                             std::span<const uint32_t> representatives,
                                             const Normalization& normalization) {
-  const auto isFiniteFace = [&](uint32_t f) {
-    for (const uint32_t vertex : mesh.faces[f])
-      if (!isFinite(normalization.toNormalized(mesh.vertices[vertex]))) return false;
-    return true;
-  };
-  std::vector<uint32_t> faces;
-  faces.reserve(mesh.faces.size());
-  for (uint32_t f = 0; f < mesh.faceCount(); ++f)
-    if (representatives[f] == f && !geometry.isDegenerate(f) && isFiniteFace(f)) faces.push_back(f);
-  std::vector<SplitTriangle> triangles(faces.size());
-  tbb::parallel_for(size_t{0}, faces.size(), [&](size_t i) {
-    triangles[i] = {outerBox(mesh, mesh.faces[faces[i]], normalization), faces[i]};
+  UnsetVector<SplitTriangle> triangles(mesh.faces.size());
+  std::vector<size_t> counts((mesh.faces.size() + kBlockFaceCount - 1) / kBlockFaceCount);
+  tbb::parallel_for(size_t{0}, counts.size(), [&](size_t block) {
+    const size_t begin = block * kBlockFaceCount, end = std::min(begin + kBlockFaceCount, mesh.faces.size());
+    SplitTriangle* next = &triangles[begin];
+    for (auto f = static_cast<uint32_t>(begin); f < end; ++f) {
+      if (representatives[f] != f || geometry.isDegenerate(f)) continue;
+      const SplitBox box = outerBox(mesh, mesh.faces[f], normalization);
+      if (isFinite(box)) *next++ = {box, f};
+    }
+    counts[block] = static_cast<size_t>(next - &triangles[begin]);
   });
+  size_t count = 0;
+  for (size_t block = 0; block < counts.size(); ++block) {
+    const size_t begin = block * kBlockFaceCount;
+    if (count < begin) std::copy_n(&triangles[begin], counts[block], &triangles[count]);
+    count += counts[block];
+  }
+  triangles.resize(count);
   return triangles;
 }
 
@@ -61,14 +80,13 @@ uint32_t place(const Subtree& subtree, uint32_t index, uint32_t next, std::vecto
     placements.push_back({subtree.nodes, index, next});
     return next + static_cast<uint32_t>(subtree.nodes.size()) - 1;
   }
-  const SplitBox& box = subtree.box;
-  nodes[index] = {{box.min(0), box.min(1), box.min(2)}, next, {box.max(0), box.max(1), box.max(2)}, 0};
+  nodes[index] = subtree.box.toNode(next, 0);
   const uint32_t afterLeft = place(*subtree.left, next, next + 2, nodes, placements);
   return place(*subtree.right, next + 1, afterLeft, nodes, placements);
 }
 
 std::vector<BvhNode> assemble(const Subtree& root) {
-  std::vector<BvhNode> nodes(root.nodeCount());
+  std::vector<BvhNode> nodes(root.nodeCount);
   std::vector<Placement> placements;
   place(root, 0, 1, nodes, placements);
   tbb::parallel_for(size_t{0}, placements.size(), [&](size_t p) {
@@ -90,14 +108,13 @@ Bvh buildBvh(const Mesh& mesh, const FaceGeometry& geometry, std::span<const uin
   ASDFVK_CHECK_OP(options.maxLeafTriangleCount, >, 0u);
   Bvh bvh;
   bvh.normalization = normalizationOf(geometry.bounds);
-  std::vector<SplitTriangle> triangles = collectTriangles(mesh, geometry, representatives, bvh.normalization);
+  UnsetVector<SplitTriangle> triangles = collectTriangles(mesh, geometry, representatives, bvh.normalization);
   if (triangles.empty()) return bvh;
-
-  const std::unique_ptr<Subtree> root = buildSubtree(triangles, 0, 0, options);
+  bvh.slotFaces.resize(triangles.size());
+  const std::unique_ptr<Subtree> root = buildSubtree(triangles, bvh.slotFaces, 0, 0, options);
+  triangles = {};
   bvh.depth = root->depth;
   bvh.nodes = assemble(*root);
-  bvh.slotFaces.resize(triangles.size());
-  for (size_t slot = 0; slot < triangles.size(); ++slot) bvh.slotFaces[slot] = triangles[slot].face;
   return bvh;
 }
 

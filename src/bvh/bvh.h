@@ -30,8 +30,13 @@ struct Bvh {
   Normalization normalization;
 };
 
+/// Costs of the surface-area heuristic, relative to each other: entering a node (two box tests) and one triangle test.
+inline constexpr float kNodeCost = 1.0f;
+inline constexpr float kTriangleCost = 1.0f;
+
 struct BvhOptions {
-  uint32_t maxLeafTriangleCount = 4;
+  /// More than eight is as good as eight. What a wide node's leaf holds, as others are halved without care.
+  uint32_t maxLeafTriangleCount = kMaxWideLeafTriangleCount;
   uint32_t binCount = 16;  ///< Per axis, 2 to 32; fewer where there are few triangles.
 };
 

@@ -4,8 +4,6 @@
 #include <utility>
 #include <vector>
 
-#include "bvh/binned_sah.h"
-
 namespace asdfvk {
 namespace {
 

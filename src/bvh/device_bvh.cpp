@@ -13,6 +13,8 @@ namespace asdfvk {
 namespace {
 
 constexpr float kFarAway = 1e6f;
+// Slots whose faces are fetched ahead of their use: they lie anywhere in a mesh whose order is not the hierarchy's.
+constexpr size_t kPrefetchDistance = 16;
 
 vec3 toDevice(const Vec3f& v) { return {v.x, v.y, v.z}; }
 vec3 grownMin(const Vec3f& v) { return {v.x - kDeviceBoxMargin, v.y - kDeviceBoxMargin, v.z - kDeviceBoxMargin}; }
@@ -35,7 +37,7 @@ DeviceBvhNode encodeRootLeaf(const BvhNode& root) {
 }
 
 // innerIndex: for each node the number of inner nodes before it.
-std::vector<DeviceBvhNode> encodeNodes(const std::vector<BvhNode>& nodes) {
+UnsetVector<DeviceBvhNode> encodeNodes(const std::vector<BvhNode>& nodes) {
   std::vector<uint32_t> innerIndex(nodes.size());
   uint32_t innerCount = 0;
   for (size_t i = 0; i < nodes.size(); ++i) {
@@ -45,7 +47,7 @@ std::vector<DeviceBvhNode> encodeNodes(const std::vector<BvhNode>& nodes) {
   const auto referenceTo = [&](uint32_t child) {
     return nodes[child].isLeaf() ? leafReference(nodes[child]) : innerIndex[child];
   };
-  std::vector<DeviceBvhNode> encoded(innerCount);
+  UnsetVector<DeviceBvhNode> encoded(innerCount);
   tbb::parallel_for(size_t{0}, nodes.size(), [&](size_t i) {
     if (nodes[i].isLeaf()) return;
     const uint32_t leftIndex = nodes[i].first;
@@ -66,12 +68,32 @@ struct OctahedralNormal {
   float u, v;
 };
 
+// Without a branch on the side of the sphere, which is hard to foresee.
 OctahedralNormal encodeNormal(const Vec3d& n) {
   const double scale = 1 / (std::abs(n.x) + std::abs(n.y) + std::abs(n.z));
   const double u = n.x * scale, v = n.y * scale;
-  if (n.z >= 0) return {static_cast<float>(u), static_cast<float>(v)};
-  return {static_cast<float>(std::copysign(1 - std::abs(v), n.x)),
-          static_cast<float>(std::copysign(1 - std::abs(u), n.y))};
+  const double foldedU = std::copysign(1 - std::abs(v), n.x), foldedV = std::copysign(1 - std::abs(u), n.y);
+  const bool isUp = n.z >= 0;
+  return {static_cast<float>(isUp ? u : foldedU), static_cast<float>(isUp ? v : foldedV)};
+}
+
+UnsetVector<DeviceTriangle> encodeTriangles(std::span<const uint32_t> slotFaces, const Bvh& bvh, const Mesh& mesh,
+                                            const FaceGeometry& geometry) {
+  UnsetVector<DeviceTriangle> triangles(slotFaces.size());
+  tbb::parallel_for(size_t{0}, slotFaces.size(), [&](size_t slot) {
+    const uint32_t face = slotFaces[slot];
+    if (slot + kPrefetchDistance < slotFaces.size()) {
+      const uint32_t later = slotFaces[slot + kPrefetchDistance];
+      __builtin_prefetch(&mesh.faces[later]);
+      __builtin_prefetch(&geometry.normals[later]);
+    }
+    const auto corner = [&](size_t k) {
+      return toDevice(Vec3f(bvh.normalization.toNormalized(mesh.vertices[mesh.faces[face][k]])));
+    };
+    const OctahedralNormal normal = encodeNormal(geometry.normals[face]);
+    triangles[slot] = {corner(0), face, corner(1), normal.u, corner(2), normal.v};
+  });
+  return triangles;
 }
 
 }  // namespace
@@ -83,20 +105,13 @@ DeviceBvh encodeDeviceBvh(const Bvh& bvh, const Mesh& mesh, const FaceGeometry& 
     throw Error(ErrorKind::Device, fmt::format("the mesh has {} triangles and the device's hierarchy holds {}; use a "
                                                "smaller mesh or --backend reference",
                                                bvh.slotFaces.size(), kReferenceFirstMask));
-  device.triangles.resize(bvh.slotFaces.size());
-  tbb::parallel_for(size_t{0}, bvh.slotFaces.size(), [&](size_t slot) {
-    const uint32_t face = bvh.slotFaces[slot];
-    const auto corner = [&](size_t k) {
-      return toDevice(Vec3f(bvh.normalization.toNormalized(mesh.vertices[mesh.faces[face][k]])));
-    };
-    const OctahedralNormal normal = encodeNormal(geometry.normals[face]);
-    device.triangles[slot] = {corner(0), face, corner(1), normal.u, corner(2), normal.v};
-  });
   if (layout == BvhLayout::Wide) {
-    WideBvh wide = encodeWideBvh(bvh, device.triangles);
-    return {{}, std::move(wide.nodes), std::move(wide.triangles), wide.depth};
+    WideBvh wide = encodeWideBvh(bvh);
+    return {{}, std::move(wide.nodes), encodeTriangles(wide.slotFaces, bvh, mesh, geometry), wide.depth};
   }
-  device.nodes = bvh.nodes[0].isLeaf() ? std::vector{encodeRootLeaf(bvh.nodes[0])} : encodeNodes(bvh.nodes);
+  device.nodes =
+      bvh.nodes[0].isLeaf() ? UnsetVector<DeviceBvhNode>{encodeRootLeaf(bvh.nodes[0])} : encodeNodes(bvh.nodes);
+  device.triangles = encodeTriangles(bvh.slotFaces, bvh, mesh, geometry);
   device.depth = bvh.depth;
   return device;
 }

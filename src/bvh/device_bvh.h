@@ -2,9 +2,9 @@
 
 #include <cstddef>
 #include <span>
-#include <vector>
 
 #include "bvh/bvh.h"
+#include "bvh/unset_vector.h"
 #include "mesh/face_geometry.h"
 #include "shared/bvh_layout.h"
 
@@ -23,9 +23,9 @@ enum class BvhLayout {
 struct DeviceBvh {
   /// One of them is empty, both for an empty Bvh: then there is nothing to trace against. Binary nodes are the inner
   /// nodes of the Bvh, in the Bvh's order.
-  std::vector<DeviceBvhNode> nodes;
-  std::vector<DeviceWideNode> wideNodes;
-  std::vector<DeviceTriangle> triangles;  ///< One per slot; corners rounded to nearest.
+  UnsetVector<DeviceBvhNode> nodes;
+  UnsetVector<DeviceWideNode> wideNodes;
+  UnsetVector<DeviceTriangle> triangles;  ///< One per slot; corners rounded to nearest.
   uint32_t depth = 0;
 
   [[nodiscard]] std::span<const std::byte> nodeBytes() const {

@@ -1,39 +1,49 @@
 #pragma once
 
-#include <array>
+#include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 
-#include "core/box3.h"
+#include "bvh/bvh.h"
+#include "bvh/quad.h"
 
 namespace asdfvk {
 
-/// A box while the hierarchy is built: the upper bounds are held negated, so that growing it is eight minimums, which
-/// compilers turn into two vector instructions. Lanes 3 and 7 belong to no axis.
-struct alignas(16) SplitBox {
-  std::array<float, 8> lanes;  ///< min.x min.y min.z - , -max.x -max.y -max.z -
+/// A box while the hierarchy is built: the upper bounds are held negated, so that growing it is two minimums.
+struct SplitBox {
+  Quad lower, negatedUpper;
 
   [[nodiscard]] static SplitBox empty() {
-    SplitBox box;
-    box.lanes.fill(std::numeric_limits<float>::infinity());
-    return box;
+    const Quad nothing = Quad{} + std::numeric_limits<float>::infinity();
+    return {nothing, nothing};
   }
   void grow(const SplitBox& other) {
-    for (size_t i = 0; i < 8; ++i) lanes[i] = other.lanes[i] < lanes[i] ? other.lanes[i] : lanes[i];
+    lower = leastOf(other.lower, lower);
+    negatedUpper = leastOf(other.negatedUpper, negatedUpper);
   }
-  [[nodiscard]] float min(size_t axis) const { return lanes[axis]; }
-  [[nodiscard]] float max(size_t axis) const { return -lanes[axis + 4]; }
-  [[nodiscard]] float extent(size_t axis) const { return -lanes[axis + 4] - lanes[axis]; }
+  [[nodiscard]] Quad extents() const { return -(negatedUpper + lower); }
   /// Twice the centre, so that nothing is rounded more than once.
-  [[nodiscard]] float doubledCentre(size_t axis) const { return lanes[axis] - lanes[axis + 4]; }
-  [[nodiscard]] float halfArea() const { return extent(0) * extent(1) + extent(1) * extent(2) + extent(2) * extent(0); }
-  [[nodiscard]] bool isEmpty() const { return !(min(0) <= max(0)); }
+  [[nodiscard]] Quad doubledCentre() const { return lower - negatedUpper; }
+  [[nodiscard]] float doubledCentre(size_t axis) const { return lower[axis] - negatedUpper[axis]; }
+  [[nodiscard]] float halfArea() const {
+    const Quad e = extents();
+    return e[0] * e[1] + e[1] * e[2] + e[2] * e[0];
+  }
+  [[nodiscard]] BvhNode toNode(uint32_t first, uint32_t triangleCount) const {
+    return {
+        {lower[0], lower[1], lower[2]}, first, {-negatedUpper[0], -negatedUpper[1], -negatedUpper[2]}, triangleCount};
+  }
 };
 
-/// A triangle while the hierarchy is built; 48 bytes.
+/// A triangle while the hierarchy is built: its box, and in the lower corner's spare lane its face. 32 bytes.
 struct SplitTriangle {
   SplitBox box;
-  uint32_t face = 0;
+
+  SplitTriangle() = default;
+  SplitTriangle(const SplitBox& b, uint32_t face) : box(b) { box.lower[3] = std::bit_cast<float>(face); }
+  [[nodiscard]] uint32_t face() const { return std::bit_cast<uint32_t>(float{box.lower[3]}); }
 };
+static_assert(sizeof(SplitTriangle) == 32);
 
 }  // namespace asdfvk

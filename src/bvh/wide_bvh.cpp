@@ -16,35 +16,26 @@ constexpr uint32_t kParallelLevelCount = 4;
 
 Box3f boxOf(const BvhNode& node) { return {node.min, node.max}; }
 
-BvhNode leafOver(const std::vector<DeviceTriangle>& triangles, uint32_t first, uint32_t count) {
-  Box3f box;
-  for (uint32_t slot = first; slot < first + count; ++slot)
-    for (const vec3& v : {triangles[slot].v0, triangles[slot].v1, triangles[slot].v2}) box.add(Vec3f{v.x, v.y, v.z});
-  return {box.min, first, box.max, count};
-}
-
 // Halves leaves until none is too large; the halves come behind all nodes.
-std::vector<BvhNode> withSmallLeaves(const std::vector<BvhNode>& nodes, const std::vector<DeviceTriangle>& triangles) {
-  std::vector<BvhNode> split = nodes;
-  for (size_t i = 0; i < split.size(); ++i) {
-    const BvhNode leaf = split[i];
+std::vector<BvhNode> withSmallLeaves(std::vector<BvhNode> nodes) {
+  for (size_t i = 0; i < nodes.size(); ++i) {
+    const BvhNode leaf = nodes[i];
     if (leaf.triangleCount <= kMaxWideLeafTriangleCount) continue;
     const uint32_t half = leaf.triangleCount / 2;
-    split[i].first = static_cast<uint32_t>(split.size());
-    split[i].triangleCount = 0;
-    split.push_back(leafOver(triangles, leaf.first, half));
-    split.push_back(leafOver(triangles, leaf.first + half, leaf.triangleCount - half));
+    nodes[i] = {leaf.min, static_cast<uint32_t>(nodes.size()), leaf.max, 0};
+    nodes.push_back({leaf.min, leaf.first, leaf.max, half});
+    nodes.push_back({leaf.min, leaf.first + half, leaf.max, leaf.triangleCount - half});
   }
-  return split;
+  return nodes;
 }
 
 // Writes the wide nodes, each to where its parent says.
 class WideEncoder {
  public:
-  WideEncoder(const std::vector<BvhNode>& nodes, const std::vector<DeviceTriangle>& triangles)
-      : nodes_(nodes), source_(triangles), collapse_(nodes) {
+  WideEncoder(std::span<const BvhNode> nodes, std::span<const uint32_t> slotFaces)
+      : nodes_(nodes), slotFaces_(slotFaces), collapse_(nodes) {
     bvh_.nodes.resize(1 + collapse_.nodeCountBelow(0));
-    bvh_.triangles.resize(triangles.size());
+    bvh_.slotFaces.resize(slotFaces.size());
     bvh_.depth = encode(0, 0, 1, 0, 0);
   }
   WideBvh take() { return std::move(bvh_); }
@@ -77,7 +68,7 @@ class WideEncoder {
       const WideCollapse::SlotRange range = collapse_.slotsOf(inSlot[s].node);
       if (inSlot[s].isLeaf) {
         node.childBits |= ((1u << range.count) - 1) << 4 * s;
-        std::copy_n(source_.begin() + range.first, range.count, bvh_.triangles.begin() + slot);
+        std::copy_n(slotFaces_.begin() + range.first, range.count, bvh_.slotFaces.begin() + slot);
         slot += range.count;
       } else {
         node.childBits |= kWideInnerBits & 0xfu << 4 * s;
@@ -104,20 +95,20 @@ class WideEncoder {
     return *std::max_element(depths.begin(), depths.end());
   }
 
-  const std::vector<BvhNode>& nodes_;
-  const std::vector<DeviceTriangle>& source_;
+  std::span<const BvhNode> nodes_;
+  std::span<const uint32_t> slotFaces_;
   WideCollapse collapse_;
   WideBvh bvh_;
 };
 
 }  // namespace
 
-WideBvh encodeWideBvh(const Bvh& bvh, const std::vector<DeviceTriangle>& triangles) {
+WideBvh encodeWideBvh(const Bvh& bvh) {
   const bool hasLargeLeaves = std::any_of(bvh.nodes.begin(), bvh.nodes.end(), [](const BvhNode& node) {
     return node.triangleCount > kMaxWideLeafTriangleCount;
   });
-  WideBvh wide = hasLargeLeaves ? WideEncoder(withSmallLeaves(bvh.nodes, triangles), triangles).take()
-                                : WideEncoder(bvh.nodes, triangles).take();
+  WideBvh wide = hasLargeLeaves ? WideEncoder(withSmallLeaves(bvh.nodes), bvh.slotFaces).take()
+                                : WideEncoder(bvh.nodes, bvh.slotFaces).take();
   ASDFVK_CHECK_OP(wide.depth, <=, kMaxWideBvhDepth);
   return wide;
 }

@@ -1,8 +1,12 @@
 #include "bvh/wide_collapse.h"
 
-#include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
 
+#include <algorithm>
+#include <cstring>
+#include <limits>
+
+#include "bvh/quad.h"
 #include "core/check.h"
 
 namespace asdfvk {
@@ -10,77 +14,105 @@ namespace {
 
 // Levels whose subtrees are tasks of their own.
 constexpr uint32_t kParallelLevelCount = 10;
-constexpr uint32_t kParallelWideLevelCount = 4;
 
 float halfArea(const BvhNode& node) {
   const Vec3f size = node.max - node.min;
   return size.x * size.y + size.y * size.z + size.z * size.x;
 }
 
+// [i - 1]: the least cost of i children from both sides, and how many of them come from the left one.
+struct Sharing {
+  std::array<float, kWideChildCount> costs;
+  std::array<int32_t, kWideChildCount> leftCounts;
+};
+
+// All i at a time, k from the left one by one; ties go to the least k. More than maxLeftCount are never cheaper.
+Sharing shareChildren(const std::array<float, kWideChildCount>& left, uint32_t maxLeftCount,
+                      const std::array<float, kWideChildCount>& right) {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  std::array<float, 2 * kWideChildCount> padded;  // No child from the right is no choice.
+  std::fill_n(padded.begin(), kWideChildCount, kInfinity);
+  std::copy(right.begin(), right.end(), padded.begin() + kWideChildCount);
+  Sharing sharing;
+  for (size_t half = 0; half < kWideChildCount; half += 4) {
+    Quad least = Quad{} + kInfinity;
+    QuadIntegers leftCount{};
+    for (uint32_t k = 1; k <= maxLeftCount; ++k) {
+      Quad cost;
+      std::memcpy(&cost, &padded[kWideChildCount + half - k], sizeof cost);
+      cost += left[k - 1];
+      const QuadIntegers isLess = cost < least;
+      least = isLess ? cost : least;
+      leftCount = isLess ? QuadIntegers{} + static_cast<int32_t>(k) : leftCount;
+    }
+    std::memcpy(&sharing.costs[half], &least, sizeof least);
+    std::memcpy(&sharing.leftCounts[half], &leftCount, sizeof leftCount);
+  }
+  return sharing;
+}
+
 }  // namespace
 
-WideCollapse::WideCollapse(std::span<const BvhNode> nodes)
-    : nodes_(nodes), choices_(nodes.size()), nodeCountsBelow_(nodes.size(), 0) {
+WideCollapse::WideCollapse(std::span<const BvhNode> nodes) : nodes_(nodes), choices_(nodes.size()) {
   ASDFVK_CHECK(!nodes.empty());
-  chooseFrom(0, 0);
-  countFrom(0, 0);
+  Forests forests;
+  chooseFrom(0, 0, forests);
 }
 
-void WideCollapse::chooseFrom(uint32_t node, uint32_t level) {
-  if (!nodes_[node].isLeaf()) {
-    const uint32_t left = nodes_[node].first;
-    if (level < kParallelLevelCount) {
-      tbb::parallel_invoke([&] { chooseFrom(left, level + 1); }, [&] { chooseFrom(left + 1, level + 1); });
-    } else {
-      chooseFrom(left, level + 1);
-      chooseFrom(left + 1, level + 1);
-    }
-  }
-  choices_[node] = choose(node);
-}
-
-WideCollapse::Choice WideCollapse::choose(uint32_t node) const {
-  Choice choice;
-  const float area = halfArea(nodes_[node]);
+void WideCollapse::chooseFrom(uint32_t node, uint32_t level, Forests& forests) {
   if (nodes_[node].isLeaf()) {
     ASDFVK_CHECK_OP(nodes_[node].triangleCount, <=, kMaxWideLeafTriangleCount);
-    choice.slots = {nodes_[node].first, nodes_[node].triangleCount};
-    choice.isLeaf = true;
-    choice.costs.fill(area * static_cast<float>(choice.slots.count));
-    return choice;
+    forests.costs.fill(halfArea(nodes_[node]) * static_cast<float>(nodes_[node].triangleCount));
+    forests.nodeCounts.fill(0);
+    return;
   }
-  const Choice &left = choices_[nodes_[node].first], &right = choices_[nodes_[node].first + 1];
-  choice.slots = {left.slots.first, left.slots.count + right.slots.count};
-  std::array<float, kWideChildCount + 1> shared{};  // [i]: i children from both sides
-  for (uint32_t i = 2; i <= kWideChildCount; ++i) {
-    for (uint32_t k = 1; k < i; ++k) {
-      const float cost = left.costs[k] + right.costs[i - k];
-      if (k > 1 && cost >= shared[i]) continue;
-      shared[i] = cost;
-      choice.leftCounts[i] = static_cast<uint8_t>(k);
-    }
+  const uint32_t child = nodes_[node].first;
+  Forests left, right;
+  if (level < kParallelLevelCount) {
+    tbb::parallel_invoke([&] { chooseFrom(child, level + 1, left); }, [&] { chooseFrom(child + 1, level + 1, right); });
+  } else {
+    chooseFrom(child, level + 1, left);
+    chooseFrom(child + 1, level + 1, right);
   }
-  choice.costs[1] = shared[kWideChildCount] + area * kWideNodeCost;
-  if (choice.slots.count <= kMaxWideLeafTriangleCount) {
-    const float leafCost = area * static_cast<float>(choice.slots.count);
-    choice.isLeaf = leafCost <= choice.costs[1];
-    if (choice.isLeaf) choice.costs[1] = leafCost;
+  choose(node, left, right, forests);
+}
+
+void WideCollapse::choose(uint32_t node, const Forests& left, const Forests& right, Forests& forests) {
+  Choice& choice = choices_[node];
+  const SlotRange leftSlots = slotsOf(nodes_[node].first), rightSlots = slotsOf(nodes_[node].first + 1);
+  choice.slots = {leftSlots.first, leftSlots.count + rightSlots.count};
+  const uint32_t maxLeftCount =
+      nodes_[nodes_[node].first].isLeaf() ? 1 : std::min(leftSlots.count, kWideChildCount - 1);
+  const Sharing sharing = shareChildren(left.costs, maxLeftCount, right.costs);
+  const auto nodeCount = [&](uint32_t childCount) {
+    const auto k = static_cast<uint32_t>(sharing.leftCounts[childCount - 1]);
+    return left.nodeCounts[k - 1] + right.nodeCounts[childCount - k - 1];
+  };
+  const float area = halfArea(nodes_[node]), leafCost = area * static_cast<float>(choice.slots.count);
+  choice.nodeCountBelow = nodeCount(kWideChildCount);
+  choice.leftCounts = static_cast<uint32_t>(sharing.leftCounts.back()) << 4 * (kWideChildCount - 1);
+  forests.costs[0] = sharing.costs.back() + area * kWideNodeCost;
+  forests.nodeCounts[0] = 1 + choice.nodeCountBelow;
+  if (choice.slots.count <= kMaxWideLeafTriangleCount && leafCost <= forests.costs[0]) {
+    choice.leftCounts |= 1;
+    forests.costs[0] = leafCost;
+    forests.nodeCounts[0] = 0;
   }
   for (uint32_t i = 2; i < kWideChildCount; ++i) {
-    choice.costs[i] = shared[i];
-    if (choice.costs[i - 1] > shared[i]) continue;
-    choice.costs[i] = choice.costs[i - 1];
-    choice.leftCounts[i] = 0;
+    const bool isCheaper = sharing.costs[i - 1] < forests.costs[i - 2];
+    forests.costs[i - 1] = isCheaper ? sharing.costs[i - 1] : forests.costs[i - 2];
+    forests.nodeCounts[i - 1] = isCheaper ? nodeCount(i) : forests.nodeCounts[i - 2];
+    if (isCheaper) choice.leftCounts |= static_cast<uint32_t>(sharing.leftCounts[i - 1]) << 4 * (i - 1);
   }
-  return choice;
 }
 
 void WideCollapse::addRoots(uint32_t node, uint32_t rootCount, WideChildren& children) const {
+  if (nodes_[node].isLeaf()) return children.add({node, true});
   const Choice& choice = choices_[node];
-  while (rootCount > 1 && choice.leftCounts[rootCount] == 0) --rootCount;
-  if (rootCount == 1) return children.add({node, choice.isLeaf});
-  addRoots(nodes_[node].first, choice.leftCounts[rootCount], children);
-  addRoots(nodes_[node].first + 1, rootCount - choice.leftCounts[rootCount], children);
+  while (rootCount > 1 && choice.leftCount(rootCount) == 0) --rootCount;
+  if (rootCount == 1) return children.add({node, (choice.leftCounts & 1) != 0});
+  addRoots(nodes_[node].first, choice.leftCount(rootCount), children);
+  addRoots(nodes_[node].first + 1, rootCount - choice.leftCount(rootCount), children);
 }
 
 WideChildren WideCollapse::childrenOf(uint32_t node) const {
@@ -89,25 +121,10 @@ WideChildren WideCollapse::childrenOf(uint32_t node) const {
     children.add({node, true});
     return children;
   }
-  const uint32_t leftCount = choices_[node].leftCounts[kWideChildCount];
+  const uint32_t leftCount = choices_[node].leftCount(kWideChildCount);
   addRoots(nodes_[node].first, leftCount, children);
   addRoots(nodes_[node].first + 1, kWideChildCount - leftCount, children);
   return children;
-}
-
-uint32_t WideCollapse::countFrom(uint32_t node, uint32_t level) {
-  const WideChildren children = childrenOf(node);
-  std::array<uint32_t, kWideChildCount> counts{};
-  const auto count = [&](uint32_t i) {
-    if (!children.items[i].isLeaf) counts[i] = 1 + countFrom(children.items[i].node, level + 1);
-  };
-  if (level < kParallelWideLevelCount)
-    tbb::parallel_for(0u, children.count, count);
-  else
-    for (uint32_t i = 0; i < children.count; ++i) count(i);
-  uint32_t sum = 0;
-  for (const uint32_t c : counts) sum += c;
-  return nodeCountsBelow_[node] = sum;
 }
 
 }  // namespace asdfvk

@@ -3,9 +3,9 @@
 #include <array>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "bvh/bvh.h"
+#include "bvh/unset_vector.h"
 
 namespace asdfvk {
 
@@ -21,7 +21,7 @@ struct WideChild {
 
 /// The children of one wide node, from left to right in the binary hierarchy.
 struct WideChildren {
-  std::array<WideChild, kWideChildCount> items{};
+  std::array<WideChild, kWideChildCount> items;
   uint32_t count = 0;
   void add(const WideChild& child) { items[count++] = child; }
   [[nodiscard]] std::span<const WideChild> all() const { return std::span(items).first(count); }
@@ -41,28 +41,37 @@ class WideCollapse {
   struct SlotRange {
     uint32_t first = 0, count = 0;
   };
-  [[nodiscard]] SlotRange slotsOf(uint32_t node) const { return choices_[node].slots; }
+  [[nodiscard]] SlotRange slotsOf(uint32_t node) const {
+    return nodes_[node].isLeaf() ? SlotRange{nodes_[node].first, nodes_[node].triangleCount} : choices_[node].slots;
+  }
   /// The wide nodes below the wide node that the binary one becomes, itself not counted.
-  [[nodiscard]] uint32_t nodeCountBelow(uint32_t node) const { return nodeCountsBelow_[node]; }
+  [[nodiscard]] uint32_t nodeCountBelow(uint32_t node) const {
+    return nodes_[node].isLeaf() ? 0 : choices_[node].nodeCountBelow;
+  }
 
  private:
-  // What is cheapest for a subtree of the binary hierarchy that becomes at most i children of a wide node above it.
+  // Of a subtree of the binary hierarchy: [i - 1] as at most i children of a wide node above it, i = 1 to 7, what is
+  // cheapest costs so much and has so many wide nodes.
+  struct Forests {
+    std::array<float, kWideChildCount> costs;
+    std::array<uint32_t, kWideChildCount> nodeCounts;
+  };
+  // Of an inner node of the binary hierarchy.
   struct Choice {
-    std::array<float, kWideChildCount> costs{};  // [i] for i = 1 to 7.
-    // [i]: of i children so many come from the left child; 0: it is as cheap with i - 1. For i = 8 of its own children.
-    std::array<uint8_t, kWideChildCount + 1> leftCounts{};
-    bool isLeaf = false;  // As a single child.
+    // Nibble i - 1: of i children so many come from the left child, i = 2 to 8; 0: it is as cheap with i - 1. The
+    // lowest nibble: 1 where it is a leaf as a single child.
+    uint32_t leftCounts;
+    uint32_t nodeCountBelow;
     SlotRange slots;
+    [[nodiscard]] uint32_t leftCount(uint32_t childCount) const { return leftCounts >> 4 * (childCount - 1) & 15; }
   };
 
-  void chooseFrom(uint32_t node, uint32_t level);
-  [[nodiscard]] Choice choose(uint32_t node) const;
+  void chooseFrom(uint32_t node, uint32_t level, Forests& forests);
+  void choose(uint32_t node, const Forests& left, const Forests& right, Forests& forests);
   void addRoots(uint32_t node, uint32_t rootCount, WideChildren& children) const;
-  uint32_t countFrom(uint32_t node, uint32_t level);
 
   std::span<const BvhNode> nodes_;
-  std::vector<Choice> choices_;            // Per binary node.
-  std::vector<uint32_t> nodeCountsBelow_;  // Per binary node; of those that become wide ones.
+  UnsetVector<Choice> choices_;  // Per binary node; unset for leaves.
 };
 
 }  // namespace asdfvk

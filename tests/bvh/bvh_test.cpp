@@ -90,7 +90,7 @@ TEST_CASE("identicalCentroids are split by index") {
   }
   const Bvh bvh = buildOver(mesh);
   checkInvariants(bvh, mesh, everyFaceRepresentsItself(mesh));
-  CHECK(bvh.depth <= 13);
+  CHECK(bvh.depth <= 18);  // 11 halvings down to eight triangles, and at most seven levels over those.
 }
 
 TEST_CASE("oneTriangleManyTimes is split by index") {
@@ -110,7 +110,7 @@ TEST_CASE("geometricSeries, where SAH takes off one triangle after another, stay
   const BvhOptions options{1, 2};
   const Bvh bvh = buildOver(mesh, options);
   checkInvariants(bvh, mesh, everyFaceRepresentsItself(mesh), options);
-  CHECK(bvh.depth == kMaxBvhDepth);
+  CHECK(bvh.depth > kMaxBvhDepth - 8);
 }
 
 TEST_CASE("slivers keep the invariants") {

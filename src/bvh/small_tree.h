@@ -1,0 +1,52 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "bvh/bvh.h"
+#include "bvh/split_box.h"
+
+namespace asdfvk {
+
+/// As many triangles as a SmallTree holds.
+inline constexpr size_t kMaxSmallTreeCount = 8;
+
+/// A hierarchy over very few triangles, made from below: again and again, clusters that are each other's nearest become
+/// one, where near means a small common box (as in Meister and Bittner 2018, among all instead of among neighbours).
+/// That is faster there than splitting from above, and no worse.
+class SmallTree {
+ public:
+  /// triangles: 1 to kMaxSmallTreeCount. A cluster of up to maxLeafTriangleCount is a leaf where that is no dearer.
+  SmallTree(std::span<const SplitTriangle> triangles, uint32_t maxLeafTriangleCount);
+
+  struct Node {
+    SplitBox box;
+    float cost = 0;  ///< Expected, by the surface-area heuristic, times its area.
+    uint8_t left = 0, right = 0;
+    uint8_t triangleCount = 1, depth = 0;
+    bool isLeaf = true;
+  };
+  [[nodiscard]] uint32_t root() const { return root_; }
+  /// Nodes below triangles.size() are a triangle each, the others have two children.
+  [[nodiscard]] const Node& operator[](uint32_t node) const { return nodes_[node]; }
+
+ private:
+  using Nearest = std::array<int32_t, kMaxSmallTreeCount>;
+  // Clusters that are not part of another one.
+  struct Clusters {
+    uint32_t count = 0;
+    std::array<uint8_t, kMaxSmallTreeCount> nodes;
+    std::array<std::array<float, kMaxSmallTreeCount>, 6> bounds;  // As in SplitBox.
+    void add(uint32_t node, const SplitBox& box);
+  };
+  template <typename Floats, typename Integers>
+  static void findNearest(const Clusters& clusters, Nearest& nearest);
+  static void findNearestWithAvx2(const Clusters& clusters, Nearest& nearest);
+  [[nodiscard]] uint32_t merge(uint32_t left, uint32_t right);
+
+  uint32_t maxLeafTriangleCount_, root_ = 0, nodeEnd_;
+  std::array<Node, 2 * kMaxSmallTreeCount> nodes_;
+};
+
+}  // namespace asdfvk
