@@ -1,31 +1,40 @@
 #pragma once
 
-#include <vector>
+#include <array>
 
 #include "trace/embree_scene.h"
 
 namespace asdfvk {
 
-/// The rays of one cone and what each of them met, eight to a packet: Embree walks them one by one all the same
-/// (RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT), but is called less often. Lengths are in normalised units.
+/// The same ray of up to eight cones, side by side: where the cones are neighbours such rays walk the same nodes one
+/// after the other, though Embree walks each by itself (RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT), so that what a ray
+/// meets does not depend on the others. Lengths are in normalised units.
 class EmbreeRays {
  public:
-  explicit EmbreeRays(size_t rayCount);
-
-  /// Every ray ends at the nearest triangle that is not nearer than `start`.
-  void cast(const EmbreeScene& embree, const Cone& cone, const ConeFrame& frame, const Vec3d& origin, double start);
-
-  [[nodiscard]] const Vec3d& direction(size_t ray) const { return directions_[ray]; }
-  [[nodiscard]] float distance(size_t ray) const { return packets_[ray / kWidth].ray.tfar[ray % kWidth]; }
-  /// kNoFace for a miss.
-  [[nodiscard]] uint32_t slot(size_t ray) const { return packets_[ray / kWidth].hit.primID[ray % kWidth]; }
-  [[nodiscard]] bool hasMet(uint32_t slot) const;
-
- private:
   static constexpr size_t kWidth = 8;
 
-  std::vector<Vec3d> directions_;
-  std::vector<RTCRayHit8> packets_;
+  /// Every ray ends at the nearest triangle that is not nearer than `start`. No lane has a cone yet.
+  explicit EmbreeRays(double start);
+
+  void setCone(size_t lane, const ConeFrame& frame, const Vec3d& origin);
+  void removeCone(size_t lane) { isActive_[lane] = 0; }
+
+  /// coneDirection: one of Cone::directions. Lanes without a cone keep what they had.
+  void cast(const EmbreeScene& embree, const Vec3d& coneDirection);
+
+  [[nodiscard]] Vec3d direction(size_t lane) const {
+    return {directions_[0][lane], directions_[1][lane], directions_[2][lane]};
+  }
+  [[nodiscard]] float distance(size_t lane) const { return packet_.ray.tfar[lane]; }
+  /// kNoFace for a miss.
+  [[nodiscard]] uint32_t slot(size_t lane) const { return packet_.hit.primID[lane]; }
+
+ private:
+  using Row = std::array<double, kWidth>;
+
+  alignas(32) std::array<int, kWidth> isActive_{};  // -1 or 0, as Embree takes it.
+  std::array<Row, 3> tangents_{}, bitangents_{}, axes_{}, directions_{};
+  RTCRayHit8 packet_;
 };
 
 }  // namespace asdfvk

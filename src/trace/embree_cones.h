@@ -1,0 +1,64 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "trace/embree_rays.h"
+#include "trace/slot_planes.h"
+
+namespace asdfvk {
+
+/// What does not change from cone to cone. Views only.
+struct EmbreeCones {
+  const TraceScene& scene;
+  const Cone& cone;
+  std::span<const SlotPlane> planes;
+  const EmbreeScene& embree;
+  double rayStart = 0;  ///< In normalised units.
+};
+
+/// A cone to trace and where its hits go.
+struct EmbreeSeed {
+  uint32_t face = 0, slot = 0;
+  std::span<ConeHit> hits;  ///< A ray's each, or none.
+};
+
+/// Traces up to eight cones side by side, the same ray of each at once, with room that is kept from call to call.
+class EmbreeConeGroup {
+ public:
+  static constexpr size_t kWidth = EmbreeRays::kWidth;
+
+  explicit EmbreeConeGroup(const EmbreeCones& cones);
+
+  /// Adds a cone to those that trace() will trace. Precondition: there are fewer than kWidth.
+  void add(const EmbreeSeed& seed);
+  [[nodiscard]] size_t size() const { return size_; }
+  [[nodiscard]] const EmbreeSeed& seed(size_t lane) const { return seeds_[lane]; }
+
+  /// Computes the values of all cones that were added.
+  void trace();
+  void clear();
+
+  /// In normalised units, or kNoValue. Meaningless when isDoubtful().
+  [[nodiscard]] double value(size_t lane) const;
+  /// Whether float32 may have got the cone wrong: the reference is to trace it. A ray came back to its own face, or
+  /// (not in robust mode) met none or the outer side of one, as rays do that fell between two triangles of a closed
+  /// surface.
+  [[nodiscard]] bool isDoubtful(size_t lane) const { return isDoubtful_[lane]; }
+
+ private:
+  void take(size_t ray, size_t lane);
+
+  EmbreeCones cones_;
+  size_t rayCount_;
+  EmbreeRays rays_;
+  size_t size_ = 0;
+  std::array<EmbreeSeed, kWidth> seeds_;
+  std::array<Vec3d, kWidth> origins_, normals_;
+  std::array<bool, kWidth> isDoubtful_{};
+  std::array<size_t, kWidth> validCounts_{};
+  std::vector<double> lengths_, weights_;  // kWidth x rays.
+};
+
+}  // namespace asdfvk
