@@ -18,17 +18,17 @@ EmbreeConeGroup::EmbreeConeGroup(const EmbreeCones& cones)
     : cones_(cones),
       rayCount_(cones.cone.directions.size()),
       rays_(cones.rayStart),
-      lengths_(kWidth * rayCount_),
-      weights_(kWidth * rayCount_) {}
+      met_(rayCount_),
+      lengths_(rayCount_),
+      weights_(rayCount_) {}
 
 void EmbreeConeGroup::add(const EmbreeSeed& seed) {
-  const size_t lane = size_++;
-  seeds_[lane] = seed;
-  normals_[lane] = cones_.scene.geometry.normals[seed.face];
-  origins_[lane] = cones_.scene.bvh.normalization.toNormalized(cones_.scene.geometry.barycentres[seed.face]);
-  isDoubtful_[lane] = false;
-  validCounts_[lane] = 0;
-  rays_.setCone(lane, faceConeFrame(cones_.cone, normals_[lane], seed.face), origins_[lane]);
+  Lane& lane = lanes_[size_];
+  lane.seed = seed;
+  lane.normal = cones_.scene.geometry.normals[seed.face];
+  lane.origin = cones_.scene.bvh.normalization.toNormalized(cones_.scene.geometry.barycentres[seed.face]);
+  lane.frame = faceConeFrame(cones_.cone, lane.normal, seed.face);
+  rays_.setCone(size_++, lane.frame, lane.origin);
 }
 
 void EmbreeConeGroup::clear() {
@@ -39,34 +39,39 @@ void EmbreeConeGroup::clear() {
 void EmbreeConeGroup::trace() {
   for (size_t ray = 0; ray < rayCount_; ++ray) {
     rays_.cast(cones_.embree, cones_.cone.directions[ray]);
-    for (size_t lane = 0; lane < size_; ++lane) take(ray, lane);
+    for (size_t lane = 0; lane < size_; ++lane) {
+      met_[ray][lane] = {rays_.slot(lane), rays_.distance(lane)};
+      if (rays_.slot(lane) != kNoFace) __builtin_prefetch(&cones_.planes[rays_.slot(lane)]);
+    }
   }
+  for (size_t lane = 0; lane < size_; ++lane) evaluate(lanes_[lane], lane);
 }
 
-void EmbreeConeGroup::take(size_t ray, size_t lane) {
-  const uint32_t slot = rays_.slot(lane);
-  const float distance = rays_.distance(lane);
-  const EmbreeSeed& seed = seeds_[lane];
+void EmbreeConeGroup::evaluate(Lane& lane, size_t laneIndex) {
   const bool isRobust = cones_.embree.mode() == EmbreeMode::Robust;
-  if (slot == kNoFace) {
-    if (!seed.hits.empty()) seed.hits[ray] = kMiss;
-    isDoubtful_[lane] |= !isRobust;
-    return;
+  const std::span<ConeHit> hits = lane.seed.hits;
+  bool isDoubtful = false;
+  size_t validCount = 0;
+  for (size_t ray = 0; ray < rayCount_; ++ray) {
+    const auto [slot, distance] = met_[ray][laneIndex];
+    if (slot == kNoFace) {
+      if (!hits.empty()) hits[ray] = kMiss;
+      isDoubtful |= !isRobust;
+      continue;
+    }
+    const SlotPlane& plane = cones_.planes[slot];
+    const Vec3d& d = cones_.cone.directions[ray];
+    const double cosine =
+        dot(plane.normal, d.x * lane.frame.tangent + d.y * lane.frame.bitangent + d.z * lane.frame.axis);
+    isDoubtful |= slot == lane.seed.slot || (!isRobust && !(cosine > 0));
+    if (!hits.empty()) hits[ray] = {distance, cones_.scene.bvh.slotFaces[slot]};
+    if (isFalseHit(cones_.cone, lane.normal, plane.normal)) continue;
+    lengths_[validCount] = lengthInDouble(lane.origin, cosine, plane, distance);
+    weights_[validCount] = cones_.cone.weights[ray];
+    ++validCount;
   }
-  const SlotPlane& plane = cones_.planes[slot];
-  const double cosine = dot(plane.normal, rays_.direction(lane));
-  isDoubtful_[lane] |= slot == seed.slot || (!isRobust && !(cosine > 0));
-  if (!seed.hits.empty()) seed.hits[ray] = {distance, cones_.scene.bvh.slotFaces[slot]};
-  if (isFalseHit(cones_.cone, normals_[lane], plane.normal)) return;
-  const size_t i = lane * rayCount_ + validCounts_[lane]++;
-  lengths_[i] = lengthInDouble(origins_[lane], cosine, plane, distance);
-  weights_[i] = cones_.cone.weights[ray];
-}
-
-double EmbreeConeGroup::value(size_t lane) const {
-  const size_t first = lane * rayCount_, count = validCounts_[lane];
-  return coneValue(std::span(lengths_).subspan(first, count), std::span(weights_).subspan(first, count),
-                   cones_.cone.outlierDeviations);
+  lane.isDoubtful = isDoubtful;
+  lane.value = coneValue({lengths_.data(), validCount}, {weights_.data(), validCount}, cones_.cone.outlierDeviations);
 }
 
 }  // namespace asdfvk

@@ -34,31 +34,42 @@ class EmbreeConeGroup {
   /// Adds a cone to those that trace() will trace. Precondition: there are fewer than kWidth.
   void add(const EmbreeSeed& seed);
   [[nodiscard]] size_t size() const { return size_; }
-  [[nodiscard]] const EmbreeSeed& seed(size_t lane) const { return seeds_[lane]; }
+  [[nodiscard]] const EmbreeSeed& seed(size_t lane) const { return lanes_[lane].seed; }
 
   /// Computes the values of all cones that were added.
   void trace();
   void clear();
 
   /// In normalised units, or kNoValue. Meaningless when isDoubtful().
-  [[nodiscard]] double value(size_t lane) const;
+  [[nodiscard]] double value(size_t lane) const { return lanes_[lane].value; }
   /// Whether float32 may have got the cone wrong: the reference is to trace it. A ray came back to its own face, or
   /// (not in robust mode) met none or the outer side of one, as rays do that fell between two triangles of a closed
   /// surface.
-  [[nodiscard]] bool isDoubtful(size_t lane) const { return isDoubtful_[lane]; }
+  [[nodiscard]] bool isDoubtful(size_t lane) const { return lanes_[lane].isDoubtful; }
 
  private:
-  void take(size_t ray, size_t lane);
+  struct Lane {
+    EmbreeSeed seed;
+    Vec3d origin, normal;
+    ConeFrame frame;
+    double value = 0;
+    bool isDoubtful = false;
+  };
+  /// What a ray met.
+  struct Met {
+    uint32_t slot = 0;
+    float distance = 0;
+  };
+
+  void evaluate(Lane& lane, size_t laneIndex);
 
   EmbreeCones cones_;
   size_t rayCount_;
   EmbreeRays rays_;
   size_t size_ = 0;
-  std::array<EmbreeSeed, kWidth> seeds_;
-  std::array<Vec3d, kWidth> origins_, normals_;
-  std::array<bool, kWidth> isDoubtful_{};
-  std::array<size_t, kWidth> validCounts_{};
-  std::vector<double> lengths_, weights_;  // kWidth x rays.
+  std::array<Lane, kWidth> lanes_;
+  std::vector<std::array<Met, kWidth>> met_;  // Per ray.
+  std::vector<double> lengths_, weights_;     // Of the valid rays of one cone.
 };
 
 }  // namespace asdfvk

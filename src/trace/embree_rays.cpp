@@ -32,7 +32,6 @@ void EmbreeRays::cast(const EmbreeScene& embree, const Vec3d& coneDirection) {
     for (size_t lane = 0; lane < kWidth; ++lane) {
       const double d = coneDirection.x * tangents_[axis][lane] + coneDirection.y * bitangents_[axis][lane] +
                        coneDirection.z * axes_[axis][lane];
-      directions_[axis][lane] = d;
       rows[axis][lane] = static_cast<float>(d);
     }
   for (size_t lane = 0; lane < kWidth; ++lane) {

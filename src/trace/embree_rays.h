@@ -22,18 +22,14 @@ class EmbreeRays {
   /// coneDirection: one of Cone::directions. Lanes without a cone keep what they had.
   void cast(const EmbreeScene& embree, const Vec3d& coneDirection);
 
-  [[nodiscard]] Vec3d direction(size_t lane) const {
-    return {directions_[0][lane], directions_[1][lane], directions_[2][lane]};
-  }
   [[nodiscard]] float distance(size_t lane) const { return packet_.ray.tfar[lane]; }
   /// kNoFace for a miss.
   [[nodiscard]] uint32_t slot(size_t lane) const { return packet_.hit.primID[lane]; }
 
  private:
-  using Row = std::array<double, kWidth>;
-
   alignas(32) std::array<int, kWidth> isActive_{};  // -1 or 0, as Embree takes it.
-  std::array<Row, 3> tangents_{}, bitangents_{}, axes_{}, directions_{};
+  // The frames of the cones: the x of all lanes, then the y, then the z.
+  std::array<std::array<double, kWidth>, 3> tangents_{}, bitangents_{}, axes_{};
   RTCRayHit8 packet_;
 };
 
