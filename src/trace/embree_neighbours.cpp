@@ -1,5 +1,6 @@
 #include "trace/embree_neighbours.h"
 
+#include <array>
 #include <cmath>
 
 namespace asdfvk {
@@ -11,7 +12,6 @@ struct Query {
   Vec3d point;
   uint32_t slot;
   double radius;
-  bool isFound = false;
 
   /// By the plane and the three lines of the edges, each moved outwards by the radius: beyond an acute corner this
   /// reaches farther.
@@ -28,27 +28,40 @@ struct Query {
   }
 };
 
-bool visit(RTCPointQueryFunctionArguments* arguments) {
-  auto& query = *static_cast<Query*>(arguments->userPtr);
-  if (arguments->primID == query.slot || query.isFound || !query.isNear(arguments->primID)) return false;
-  query.isFound = true;
-  arguments->query->radius = 0;
-  return true;
+/// Of the node's box and the ball's.
+bool overlap(const BvhNode& node, const Vec3f& low, const Vec3f& high) {
+  return (node.min.x <= high.x) & (node.min.y <= high.y) & (node.min.z <= high.z) & (node.max.x >= low.x) &
+         (node.max.y >= low.y) & (node.max.z >= low.z);
 }
 
 }  // namespace
 
-bool hasNeighbourWithin(const EmbreeScene& embree, const TraceScene& scene, std::span<const SlotPlane> planes,
-                        const Vec3d& point, uint32_t slot, double radius) {
-  Query query{scene, planes, point, slot, radius};
-  // float32 moves the point, and the boxes that hold the triangles.
-  constexpr float kRounding = 0x1p-23f;
-  RTCPointQuery sphere{static_cast<float>(point.x), static_cast<float>(point.y), static_cast<float>(point.z), 0,
-                       static_cast<float>(radius) + kRounding};
-  RTCPointQueryContext context;
-  rtcInitPointQueryContext(&context);
-  rtcPointQuery(embree.get(), &sphere, &context, visit, &query);
-  return query.isFound;
+bool hasNeighbourWithin(const TraceScene& scene, std::span<const SlotPlane> planes, const Vec3d& point, uint32_t slot,
+                        double radius) {
+  const Query query{scene, planes, point, slot, radius};
+  // The boxes hold the triangles as doubles too.
+  constexpr double kRounding = 0x1p-23;
+  const double reach = radius + kRounding;
+  const Vec3f low(point - Vec3d{reach, reach, reach}), high(point + Vec3d{reach, reach, reach});
+  const std::vector<BvhNode>& nodes = scene.bvh.nodes;
+  std::array<uint32_t, kMaxBvhDepth + 1> stack;
+  size_t stackSize = 0;
+  for (uint32_t index = 0;;) {
+    const BvhNode& node = nodes[index];
+    if (node.isLeaf()) {
+      for (uint32_t other = node.first; other < node.first + node.triangleCount; ++other)
+        if (other != slot && query.isNear(other)) return true;
+    } else {
+      const bool left = overlap(nodes[node.first], low, high), right = overlap(nodes[node.first + 1], low, high);
+      if (left & right) stack[stackSize++] = node.first + 1;
+      if (left | right) {
+        index = node.first + (left ? 0 : 1);
+        continue;
+      }
+    }
+    if (stackSize == 0) return false;
+    index = stack[--stackSize];
+  }
 }
 
 }  // namespace asdfvk

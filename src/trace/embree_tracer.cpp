@@ -118,7 +118,7 @@ class EmbreeTracer final : public ConeTracer {
     ASDFVK_CHECK(!scene_.geometry.isDegenerate(face));
     const Vec3d origin = scene_.bvh.normalization.toNormalized(scene_.geometry.barycentres[face]);
     return !isTooSmallForFloat(scene_, face) &&
-           !hasNeighbourWithin(*embree_, scene_, planes_, origin, seedOrder_.slotOf(face), rayStart_);
+           !hasNeighbourWithin(scene_, planes_, origin, seedOrder_.slotOf(face), rayStart_);
   }
 
   /// Whether so many cones of a sample are doubtful outside of robust mode, as those of an open or crossing surface
