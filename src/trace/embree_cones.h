@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "trace/embree_rays.h"
-#include "trace/slot_planes.h"
+#include "trace/lane_cones.h"
 
 namespace asdfvk {
 
@@ -34,42 +34,32 @@ class EmbreeConeGroup {
   /// Adds a cone to those that trace() will trace. Precondition: there are fewer than kWidth.
   void add(const EmbreeSeed& seed);
   [[nodiscard]] size_t size() const { return size_; }
-  [[nodiscard]] const EmbreeSeed& seed(size_t lane) const { return lanes_[lane].seed; }
+  [[nodiscard]] const EmbreeSeed& seed(size_t lane) const { return seeds_[lane]; }
 
   /// Computes the values of all cones that were added.
   void trace();
   void clear();
 
   /// In normalised units, or kNoValue. Meaningless when isDoubtful().
-  [[nodiscard]] double value(size_t lane) const { return lanes_[lane].value; }
+  [[nodiscard]] double value(size_t lane) const { return values_[lane]; }
   /// Whether float32 may have got the cone wrong: the reference is to trace it. A ray came back to its own face, or
   /// (not in robust mode) met none or the outer side of one, as rays do that fell between two triangles of a closed
   /// surface.
-  [[nodiscard]] bool isDoubtful(size_t lane) const { return lanes_[lane].isDoubtful; }
+  [[nodiscard]] bool isDoubtful(size_t lane) const { return isDoubtful_[lane]; }
 
  private:
-  struct Lane {
-    EmbreeSeed seed;
-    Vec3d origin, normal;
-    ConeFrame frame;
-    double value = 0;
-    bool isDoubtful = false;
-  };
-  /// What a ray met.
-  struct Met {
-    uint32_t slot = 0;
-    float distance = 0;
-  };
-
-  void evaluate(Lane& lane, size_t laneIndex);
-
   EmbreeCones cones_;
-  size_t rayCount_;
   EmbreeRays rays_;
+  LaneFrames frames_;
+  LaneCones lanes_;
   size_t size_ = 0;
-  std::array<Lane, kWidth> lanes_;
-  std::vector<std::array<Met, kWidth>> met_;  // Per ray.
-  std::vector<double> lengths_, weights_;     // Of the valid rays of one cone.
+  std::array<EmbreeSeed, kWidth> seeds_;
+  std::array<double, kWidth> values_{};
+  std::array<bool, kWidth> isDoubtful_{};
+  std::vector<LaneHits> met_;  // Per ray.
+
+  [[nodiscard]] bool metItself(size_t lane) const;
+  void writeHits(size_t lane) const;
 };
 
 }  // namespace asdfvk
