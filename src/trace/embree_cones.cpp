@@ -1,5 +1,7 @@
 #include "trace/embree_cones.h"
 
+#include "trace/float_limits.h"
+
 namespace asdfvk {
 
 EmbreeConeGroup::EmbreeConeGroup(const EmbreeCones& cones)
@@ -10,6 +12,7 @@ void EmbreeConeGroup::add(const EmbreeSeed& seed) {
   const Vec3d& normal = cones_.scene.geometry.normals[seed.face];
   const Vec3d origin = cones_.scene.bvh.normalization.toNormalized(cones_.scene.geometry.barycentres[seed.face]);
   seeds_[lane] = seed;
+  points_[lane] = {origin, seed.slot};
   frames_.set(lane, faceConeFrame(cones_.cone, normal, seed.face), origin, normal);
   rays_.setOrigin(lane, origin);
 }
@@ -20,6 +23,7 @@ void EmbreeConeGroup::clear() {
 }
 
 void EmbreeConeGroup::trace() {
+  findUnfit();
   for (size_t ray = 0; ray < met_.size(); ++ray) {
     met_[ray] = rays_.cast(cones_.embree, frames_, cones_.cone.directions[ray]);
     for (const uint32_t slot : met_[ray].slots)
@@ -27,11 +31,25 @@ void EmbreeConeGroup::trace() {
   }
   lanes_.measure(frames_, met_);
   values_ = lanes_.values();
-  const bool mayLeak = cones_.embree.mode() != EmbreeMode::Robust;
   for (size_t lane = 0; lane < size_; ++lane) {
-    isDoubtful_[lane] = (mayLeak && lanes_.leavesSurface(lane)) || metItself(lane);
+    isDoubtful_[lane] =
+        isDoubtful_[lane] || leavesSurface(lane) || values_[lane] < kShortestFloatDiameter || metItself(lane);
     if (!seeds_[lane].hits.empty()) writeHits(lane);
   }
+}
+
+/// Takes cones out that are too small for float32, or that have another face as near as rays begin.
+void EmbreeConeGroup::findUnfit() {
+  const std::array<bool, kWidth> hasNeighbour =
+      haveNeighboursWithin(cones_.scene, cones_.planes, {points_.data(), size_}, cones_.rayStart);
+  for (size_t lane = 0; lane < size_; ++lane) {
+    isDoubtful_[lane] = hasNeighbour[lane] || isTooSmallForFloat(cones_.scene, seeds_[lane].face);
+    if (isDoubtful_[lane]) rays_.remove(lane);
+  }
+}
+
+bool EmbreeConeGroup::leavesSurface(size_t lane) const {
+  return cones_.embree.mode() != EmbreeMode::Robust && lanes_.leavesSurface(lane);
 }
 
 bool EmbreeConeGroup::metItself(size_t lane) const {

@@ -6,6 +6,7 @@
 
 #include "trace/embree_rays.h"
 #include "trace/lane_cones.h"
+#include "trace/near_faces.h"
 
 namespace asdfvk {
 
@@ -31,7 +32,8 @@ class EmbreeConeGroup {
 
   explicit EmbreeConeGroup(const EmbreeCones& cones);
 
-  /// Adds a cone to those that trace() will trace. Precondition: there are fewer than kWidth.
+  /// Adds a cone to those that trace() will trace. Precondition: there are fewer than kWidth, and the face is not
+  /// degenerate.
   void add(const EmbreeSeed& seed);
   [[nodiscard]] size_t size() const { return size_; }
   [[nodiscard]] const EmbreeSeed& seed(size_t lane) const { return seeds_[lane]; }
@@ -42,10 +44,12 @@ class EmbreeConeGroup {
 
   /// In normalised units, or kNoValue. Meaningless when isDoubtful().
   [[nodiscard]] double value(size_t lane) const { return values_[lane]; }
-  /// Whether float32 may have got the cone wrong: the reference is to trace it. A ray came back to its own face, or
-  /// (not in robust mode) met none or the outer side of one, as rays do that fell between two triangles of a closed
-  /// surface.
+  /// Whether float32 may have got the cone wrong, so that the reference is to trace it: the face or the value is too
+  /// small, another face is as near as rays begin, a ray came back to the face, or leavesSurface().
   [[nodiscard]] bool isDoubtful(size_t lane) const { return isDoubtful_[lane]; }
+  /// Whether a ray met nothing or the outer side of a face, as it does where it fell between two triangles of a closed
+  /// surface; never in robust mode.
+  [[nodiscard]] bool leavesSurface(size_t lane) const;
 
  private:
   EmbreeCones cones_;
@@ -54,10 +58,12 @@ class EmbreeConeGroup {
   LaneCones lanes_;
   size_t size_ = 0;
   std::array<EmbreeSeed, kWidth> seeds_;
+  std::array<SlotPoint, kWidth> points_;
   std::array<double, kWidth> values_{};
   std::array<bool, kWidth> isDoubtful_{};
   std::vector<LaneHits> met_;  // Per ray.
 
+  void findUnfit();
   [[nodiscard]] bool metItself(size_t lane) const;
   void writeHits(size_t lane) const;
 };

@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 #include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cmath>
 
@@ -13,7 +13,6 @@
 #include "core/stopwatch.h"
 #include "trace/chunk_size.h"
 #include "trace/embree_cones.h"
-#include "trace/embree_neighbours.h"
 #include "trace/embree_scene.h"
 #include "trace/float_limits.h"
 #include "trace/reference_tracer.h"
@@ -49,18 +48,20 @@ class EmbreeTracer final : public ConeTracer {
     const size_t rayCount = cone_.directions.size();
     checkSizes(results, seedFaces.size(), rayCount);
     const std::vector<uint32_t> order = seedOrder_.of(seedFaces);
-    const Task task{order, seedFaces, results};
-    const auto total = static_cast<double>(order.size());
+    const Task task{order, seedFaces, results, results.hits.empty() ? 0 : rayCount};
     std::atomic<uint64_t> redoneConeCount = 0;
-    ChunkSize chunk(std::max<size_t>(kGroupSize, kFirstChunkRayCount / rayCount), order.size());
-    for (size_t begin = 0; begin < order.size();) {
-      control.checkpoint(static_cast<double>(begin) / total);
-      const size_t end = std::min<size_t>(begin + chunk.current(), order.size());
+    const EmbreeCones cones{scene_, cone_, planes_, *embree_, rayStart_};
+    tbb::enumerable_thread_specific<EmbreeConeGroup> groups([&] { return EmbreeConeGroup(cones); });
+    const size_t groupCount = (order.size() + kGroupSize - 1) / kGroupSize;
+    ChunkSize chunk(std::max<size_t>(1, kFirstChunkRayCount / (kGroupSize * rayCount)), groupCount);
+    for (size_t begin = 0; begin < groupCount;) {
+      control.checkpoint(static_cast<double>(begin) / static_cast<double>(groupCount));
+      const size_t end = std::min<size_t>(begin + chunk.current(), groupCount);
       const Stopwatch stopwatch;
-      tbb::parallel_for(tbb::blocked_range<size_t>(begin, end, 4 * kGroupSize),
-                        [&](const tbb::blocked_range<size_t>& range) {
-                          redoneConeCount += traceCones(task, range.begin(), range.end());
-                        });
+      tbb::parallel_for(tbb::blocked_range<size_t>(begin, end), [&](const tbb::blocked_range<size_t>& range) {
+        EmbreeConeGroup& group = groups.local();
+        for (size_t i = range.begin(); i < range.end(); ++i) redoneConeCount += traceGroup(task, i, group);
+      });
       chunk.adapt(end - begin, stopwatch.seconds());
       begin = end;
     }
@@ -74,61 +75,55 @@ class EmbreeTracer final : public ConeTracer {
   struct Task {
     std::span<const uint32_t> order, seedFaces;
     const ConeResults& results;
-    [[nodiscard]] std::span<ConeHit> hitsOf(size_t seed, size_t rayCount) const {
-      return results.hits.empty() ? results.hits : results.hits.subspan(seed * rayCount, rayCount);
-    }
+    size_t hitCount;  // Per cone; 0 when nobody asks.
   };
 
-  /// The cones at [begin, end) of the task's order. Returns how many of them the reference traced.
-  uint64_t traceCones(const Task& task, size_t begin, size_t end) const {
-    const EmbreeCones cones{scene_, cone_, planes_, *embree_, rayStart_};
-    EmbreeConeGroup group(cones);
-    std::array<uint32_t, kGroupSize> seeds;  // Of the lanes of the group.
+  /// Traces the cones of a group of the task's order. Returns how many of them the reference traced.
+  uint64_t traceGroup(const Task& task, size_t index, EmbreeConeGroup& group) const {
+    const auto [order, seedFaces, results, hitCount] = task;
+    const auto hitsOf = [&](uint32_t seed) { return results.hits.subspan(seed * hitCount, hitCount); };
+    const size_t begin = index * kGroupSize, end = std::min(begin + kGroupSize, order.size());
+    prefetch(task, end);
+    group.clear();
+    for (size_t i = begin; i < end; ++i) {
+      const uint32_t face = seedFaces[order[i]];
+      ASDFVK_CHECK(!scene_.geometry.isDegenerate(face));
+      group.add({face, seedOrder_.slotOf(face), hitsOf(order[i])});
+    }
+    group.trace();
     uint64_t redoneConeCount = 0;
-    const auto redo = [&](uint32_t seed) {
-      task.results.values[seed] =
-          referenceCone(scene_, cone_, task.seedFaces[seed], task.hitsOf(seed, cone_.directions.size()));
-      ++redoneConeCount;
-    };
-    for (size_t i = begin; i < end;) {
-      group.clear();
-      for (; i < end && group.size() < kGroupSize; ++i) {
-        const uint32_t seed = task.order[i], face = task.seedFaces[seed];
-        if (!isFit(face)) {
-          redo(seed);
-          continue;
-        }
-        seeds[group.size()] = seed;
-        group.add({face, seedOrder_.slotOf(face), task.hitsOf(seed, cone_.directions.size())});
-      }
-      group.trace();
-      for (size_t lane = 0; lane < group.size(); ++lane) {
-        const double value = group.value(lane);
-        if (group.isDoubtful(lane) || value < kShortestFloatDiameter)
-          redo(seeds[lane]);
-        else
-          task.results.values[seeds[lane]] = scene_.bvh.normalization.toMeshLength(value);
+    for (size_t lane = 0; lane < group.size(); ++lane) {
+      const uint32_t seed = order[begin + lane];
+      double& value = results.values[seed];
+      if (group.isDoubtful(lane)) {
+        value = referenceCone(scene_, cone_, seedFaces[seed], hitsOf(seed));
+        ++redoneConeCount;
+      } else {
+        value = scene_.bvh.normalization.toMeshLength(group.value(lane));
       }
     }
     return redoneConeCount;
   }
 
-  /// Whether float32 will do for the cone: no when its face is too small, or another is as near as rays begin.
-  [[nodiscard]] bool isFit(uint32_t face) const {
-    ASDFVK_CHECK(!scene_.geometry.isDegenerate(face));
-    const Vec3d origin = scene_.bvh.normalization.toNormalized(scene_.geometry.barycentres[face]);
-    return !isTooSmallForFloat(scene_, face) &&
-           !hasNeighbourWithin(scene_, planes_, origin, seedOrder_.slotOf(face), rayStart_);
+  /// What is known of seeds lies scattered: it comes while the group before is traced.
+  void prefetch(const Task& task, size_t begin) const {
+    for (size_t i = begin; i < std::min(begin + kGroupSize, task.order.size()); ++i) {
+      const uint32_t face = task.seedFaces[task.order[i]];
+      __builtin_prefetch(&scene_.geometry.barycentres[face]);
+      __builtin_prefetch(&scene_.geometry.normals[face]);
+      __builtin_prefetch(&scene_.geometry.areas[face]);
+      seedOrder_.prefetch(face);
+    }
   }
 
-  /// Whether so many cones of a sample are doubtful outside of robust mode, as those of an open or crossing surface
-  /// are, that tracing them again would take longer than robust mode does.
+  /// Whether so many cones of a sample seem to leave the surface outside of robust mode, as those of an open or
+  /// crossing one do, that tracing them again would take longer than robust mode does.
   [[nodiscard]] bool seemsToNeedRobustMode() const {
     constexpr size_t kSampleSize = 64, kBearableCount = 1;
     EmbreeConeGroup group({scene_, cone_, planes_, *embree_, rayStart_});
     const std::vector<uint32_t>& faces = scene_.bvh.slotFaces;
     const size_t count = std::min(kSampleSize, faces.size());
-    size_t doubtfulCount = 0;
+    size_t leavingCount = 0;
     for (size_t i = 0; i < count;) {
       group.clear();
       for (; i < count && group.size() < kGroupSize; ++i) {
@@ -136,9 +131,9 @@ class EmbreeTracer final : public ConeTracer {
         group.add({faces[slot], static_cast<uint32_t>(slot), {}});
       }
       group.trace();
-      for (size_t lane = 0; lane < group.size(); ++lane) doubtfulCount += group.isDoubtful(lane);
+      for (size_t lane = 0; lane < group.size(); ++lane) leavingCount += group.leavesSurface(lane);
     }
-    return doubtfulCount > kBearableCount;
+    return leavingCount > kBearableCount;
   }
 
   TraceScene scene_;
