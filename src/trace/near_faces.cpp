@@ -14,8 +14,8 @@ static_assert(kLaneCount == 8);
 /// One walk of the hierarchy for all points: neighbours meet mostly the same nodes.
 class NeighbourWalk {
  public:
-  NeighbourWalk(const TraceScene& scene, std::span<const SlotPlane> planes, std::span<const SlotPoint> points,
-                double radius)
+  [[gnu::always_inline]] NeighbourWalk(const TraceScene& scene, std::span<const SlotPlane> planes,
+                                       std::span<const SlotPoint> points, double radius)
       : scene_(scene), planes_(planes), points_(points), radius_(radius) {
     ASDFVK_CHECK_OP(points.size(), <=, kLaneCount);
     // float32 moves the points; the boxes hold the triangles as doubles too.
@@ -28,7 +28,7 @@ class NeighbourWalk {
       }
   }
 
-  std::array<bool, kLaneCount> run() {
+  [[gnu::always_inline]] std::array<bool, kLaneCount> run() {
     const std::vector<BvhNode>& nodes = scene_.bvh.nodes;
     std::array<uint32_t, kMaxBvhDepth + 1> stack;
     size_t stackSize = 0;
@@ -46,12 +46,12 @@ class NeighbourWalk {
   }
 
  private:
-  void overlap(LaneMask& isIn, const BvhNode& node) const {
+  [[gnu::always_inline]] void overlap(LaneMask& isIn, const BvhNode& node) const {
     isIn = (low_[0] <= node.max.x) & (low_[1] <= node.max.y) & (low_[2] <= node.max.z) & (high_[0] >= node.min.x) &
            (high_[1] >= node.min.y) & (high_[2] >= node.min.z);
   }
 
-  [[nodiscard]] bool isAnyIn(const BvhNode& node) const {
+  [[nodiscard, gnu::always_inline]] bool isAnyIn(const BvhNode& node) const {
     LaneMask mask;
     overlap(mask, node);
     uint64_t words[kLaneCount / 2];
@@ -59,7 +59,7 @@ class NeighbourWalk {
     return (words[0] | words[1] | words[2] | words[3]) != 0;
   }
 
-  void testLeaf(const BvhNode& leaf) {
+  [[gnu::always_inline]] void testLeaf(const BvhNode& leaf) {
     LaneMask isIn;
     overlap(isIn, leaf);
     for (size_t lane = 0; lane < points_.size(); ++lane) {
@@ -91,10 +91,23 @@ class NeighbourWalk {
   std::array<bool, kLaneCount> isFound_{};
 };
 
+#if defined(__x86_64__)
+// The same operations in fewer instructions.
+[[gnu::target("avx2")]] std::array<bool, kLaneCount> walkWithAvx2(const TraceScene& scene,
+                                                                  std::span<const SlotPlane> planes,
+                                                                  std::span<const SlotPoint> points, double radius) {
+  return NeighbourWalk(scene, planes, points, radius).run();
+}
+#endif
+
 }  // namespace
 
 std::array<bool, 8> haveNeighboursWithin(const TraceScene& scene, std::span<const SlotPlane> planes,
                                          std::span<const SlotPoint> points, double radius) {
+#if defined(__x86_64__)
+  static const bool hasAvx2 = __builtin_cpu_supports("avx2");
+  if (hasAvx2) return walkWithAvx2(scene, planes, points, radius);
+#endif
   return NeighbourWalk(scene, planes, points, radius).run();
 }
 
