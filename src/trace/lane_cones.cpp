@@ -45,15 +45,6 @@ struct Quad3 {
   load(quads.z, &rows[2][first]);
 }
 
-bool hasAvx2() {
-#if defined(__x86_64__)
-  static const bool answer = __builtin_cpu_supports("avx2");
-  return answer;
-#else
-  return false;
-#endif
-}
-
 /// Batcher's odd-even merge sort (1968) of so many numbers: exchanges with numbers beyond the last are left out, as if
 /// those were infinite.
 std::vector<std::pair<uint16_t, uint16_t>> sortingNetwork(size_t count) {
@@ -79,14 +70,15 @@ void LaneFrames::set(size_t lane, const ConeFrame& frame, const Vec3d& origin, c
   }
 }
 
-LaneCones::LaneCones(const Cone& cone, std::span<const SlotPlane> planes)
+LaneCones::LaneCones(const Cone& cone, std::span<const SlotPlane> planes, InstructionSet instructionSet)
     : cone_(cone),
       planes_(planes),
+      instructionSet_(instructionSet),
       lengths_(cone.directions.size()),
       sorted_(cone.directions.size()),
       exchanges_(sortingNetwork(cone.directions.size())) {}
 
-[[gnu::always_inline]] inline void LaneCones::measureBy(const LaneFrames& frames, std::span<const LaneHits> hits) {
+[[gnu::always_inline]] inline void LaneCones::measureInLanes(const LaneFrames& frames, std::span<const LaneHits> hits) {
   constexpr double kPlaneTolerance = 0x1p-14;
   for (size_t first = 0; first < kWidth; first += kQuad) {
     Quad3 tangent, bitangent, axis, origin, seedNormal;
@@ -138,7 +130,7 @@ LaneCones::LaneCones(const Cone& cone, std::span<const SlotPlane> planes)
     }
 }
 
-[[gnu::always_inline]] inline void LaneCones::evaluate(std::array<double, kWidth>& values) {
+[[gnu::always_inline]] inline void LaneCones::evaluateInLanes(std::array<double, kWidth>& values) {
   sort();
   for (size_t first = 0; first < kWidth; first += kQuad) {
     // Sums run over the rays in order, and adding a zero changes no bit.
@@ -173,30 +165,32 @@ LaneCones::LaneCones(const Cone& cone, std::span<const SlotPlane> planes)
   }
 }
 
-#if defined(__x86_64__)
+#ifdef __x86_64__
 [[gnu::target("avx2")]] void LaneCones::measureWithAvx2(const LaneFrames& frames, std::span<const LaneHits> hits) {
-  measureBy(frames, hits);
+  measureInLanes(frames, hits);
 }
-[[gnu::target("avx2")]] void LaneCones::evaluateWithAvx2(std::array<double, kWidth>& values) { evaluate(values); }
+[[gnu::target("avx2")]] void LaneCones::evaluateWithAvx2(std::array<double, kWidth>& values) {
+  evaluateInLanes(values);
+}
 #else
-void LaneCones::measureWithAvx2(const LaneFrames& frames, std::span<const LaneHits> hits) { measureBy(frames, hits); }
-void LaneCones::evaluateWithAvx2(std::array<double, kWidth>& values) { evaluate(values); }
+void LaneCones::measureWithAvx2(const LaneFrames&, std::span<const LaneHits>) { ASDFVK_CHECK(false); }
+void LaneCones::evaluateWithAvx2(std::array<double, kWidth>&) { ASDFVK_CHECK(false); }
 #endif
 
 void LaneCones::measure(const LaneFrames& frames, std::span<const LaneHits> hits) {
   ASDFVK_CHECK_OP(hits.size(), ==, lengths_.size());
-  if (hasAvx2())
+  if (instructionSet_ == InstructionSet::Avx2)
     measureWithAvx2(frames, hits);
   else
-    measureBy(frames, hits);
+    measureInLanes(frames, hits);
 }
 
 std::array<double, LaneCones::kWidth> LaneCones::values() {
   std::array<double, kWidth> values;
-  if (hasAvx2())
+  if (instructionSet_ == InstructionSet::Avx2)
     evaluateWithAvx2(values);
   else
-    evaluate(values);
+    evaluateInLanes(values);
   return values;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cone/cone.h"
+#include "core/instruction_set.h"
 #include "trace/slot_planes.h"
 
 namespace asdfvk {
@@ -35,8 +36,9 @@ class LaneCones {
  public:
   static constexpr size_t kWidth = LaneHits::kWidth;
 
-  /// The cone and the planes must outlive it.
-  LaneCones(const Cone& cone, std::span<const SlotPlane> planes);
+  /// The cone and the planes must outlive it. Precondition: this machine has the instruction set.
+  LaneCones(const Cone& cone, std::span<const SlotPlane> planes,
+            InstructionSet instructionSet = widestInstructionSet());
 
   /// Computes the lengths of all rays from hits, one entry per ray of the cone. A hit whose triangle's plane is not
   /// near the distance is on a sliver, whose normal tells little: it keeps the distance.
@@ -51,14 +53,15 @@ class LaneCones {
   [[nodiscard]] std::array<double, kWidth> values();
 
  private:
-  void measureBy(const LaneFrames& frames, std::span<const LaneHits> hits);
+  void measureInLanes(const LaneFrames& frames, std::span<const LaneHits> hits);
   void measureWithAvx2(const LaneFrames& frames, std::span<const LaneHits> hits);
-  void evaluate(std::array<double, kWidth>& values);
+  void evaluateInLanes(std::array<double, kWidth>& values);
   void evaluateWithAvx2(std::array<double, kWidth>& values);
   void sort();
 
   const Cone& cone_;
   std::span<const SlotPlane> planes_;
+  InstructionSet instructionSet_;
   std::vector<std::array<double, kWidth>> lengths_, sorted_;  // Per ray.
   std::vector<std::pair<uint16_t, uint16_t>> exchanges_;      // Of the sorting network.
   std::array<int64_t, kWidth> leavesSurface_{};

@@ -91,24 +91,27 @@ class NeighbourWalk {
   std::array<bool, kLaneCount> isFound_{};
 };
 
-#if defined(__x86_64__)
-// The same operations in fewer instructions.
+#ifdef __x86_64__
 [[gnu::target("avx2")]] std::array<bool, kLaneCount> walkWithAvx2(const TraceScene& scene,
                                                                   std::span<const SlotPlane> planes,
                                                                   std::span<const SlotPoint> points, double radius) {
   return NeighbourWalk(scene, planes, points, radius).run();
+}
+#else
+std::array<bool, kLaneCount> walkWithAvx2(const TraceScene&, std::span<const SlotPlane>, std::span<const SlotPoint>,
+                                          double) {
+  ASDFVK_CHECK(false);
+  return {};
 }
 #endif
 
 }  // namespace
 
 std::array<bool, 8> haveNeighboursWithin(const TraceScene& scene, std::span<const SlotPlane> planes,
-                                         std::span<const SlotPoint> points, double radius) {
-#if defined(__x86_64__)
-  static const bool hasAvx2 = __builtin_cpu_supports("avx2");
-  if (hasAvx2) return walkWithAvx2(scene, planes, points, radius);
-#endif
-  return NeighbourWalk(scene, planes, points, radius).run();
+                                         std::span<const SlotPoint> points, double radius,
+                                         InstructionSet instructionSet) {
+  return instructionSet == InstructionSet::Avx2 ? walkWithAvx2(scene, planes, points, radius)
+                                                : NeighbourWalk(scene, planes, points, radius).run();
 }
 
 }  // namespace asdfvk

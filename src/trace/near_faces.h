@@ -3,6 +3,7 @@
 #include <array>
 #include <span>
 
+#include "core/instruction_set.h"
 #include "trace/cone_tracer.h"
 #include "trace/slot_planes.h"
 
@@ -17,6 +18,7 @@ struct SlotPoint {
 /// For each of up to eight points, best neighbours, whether a triangle other than that of its slot comes as near to it
 /// as `radius`; true also for some that only nearly do. All in normalised units.
 [[nodiscard]] std::array<bool, 8> haveNeighboursWithin(const TraceScene& scene, std::span<const SlotPlane> planes,
-                                                       std::span<const SlotPoint> points, double radius);
+                                                       std::span<const SlotPoint> points, double radius,
+                                                       InstructionSet instructionSet = widestInstructionSet());
 
 }  // namespace asdfvk
