@@ -40,7 +40,15 @@ class NeighbourWalk {
         continue;
       }
       for (const uint32_t child : {node.first, node.first + 1})
-        if (isAnyIn(nodes[child])) stack[stackSize++] = child;
+        if (isAnyIn(nodes[child])) {
+          stack[stackSize++] = child;
+          if (!nodes[child].isLeaf()) {
+            __builtin_prefetch(&nodes[nodes[child].first]);
+            __builtin_prefetch(&nodes[nodes[child].first + 1]);
+          } else {
+            __builtin_prefetch(&planes_[nodes[child].first]);
+          }
+        }
     }
     return isFound_;
   }
