@@ -80,6 +80,11 @@ LaneCones::LaneCones(const Cone& cone, std::span<const SlotPlane> planes, Instru
 
 [[gnu::always_inline]] inline void LaneCones::measureInLanes(const LaneFrames& frames, std::span<const LaneHits> hits) {
   constexpr double kPlaneTolerance = 0x1p-14;
+  // Not through this: the compiler would read them anew after every length that is stored.
+  const Vec3d* const directions = cone_.directions.data();
+  const SlotPlane* const slotPlanes = planes_.data();
+  std::array<double, kWidth>* const lengths = lengths_.data();
+  const double falseHitCosine = cone_.falseHitCosine;
   for (size_t first = 0; first < kWidth; first += kQuad) {
     Quad3 tangent, bitangent, axis, origin, seedNormal;
     load(tangent, frames.tangents, first);
@@ -96,12 +101,12 @@ LaneCones::LaneCones(const Cone& cone, std::span<const SlotPlane> planes, Instru
         const uint32_t slot = hit.slots[first + k];
         isHit[k] = slot == kNoFace ? 0 : -1;
         distance[k] = hit.distances[first + k];
-        load(planes[k], &planes_[slot == kNoFace ? 0 : slot].normal.x);
+        load(planes[k], &slotPlanes[slot == kNoFace ? 0 : slot].normal.x);
       }
       transpose(planes);
       const Quad3 normal{planes[0], planes[1], planes[2]};
       const Quad offset = planes[3];
-      const Vec3d& d = cone_.directions[ray];
+      const Vec3d& d = directions[ray];
       const Quad3 direction{d.x * tangent.x + d.y * bitangent.x + d.z * axis.x,
                             d.x * tangent.y + d.y * bitangent.y + d.z * axis.y,
                             d.x * tangent.z + d.y * bitangent.z + d.z * axis.z};
@@ -111,7 +116,7 @@ LaneCones::LaneCones(const Cone& cone, std::span<const SlotPlane> planes, Instru
       const Quad difference = onPlane - distance;
       const QuadMask isNear = (difference <= kPlaneTolerance) & (difference >= -kPlaneTolerance);
       const Quad length = isNear ? onPlane : distance;
-      store(&lengths_[ray][first], isHit & (facing <= cone_.falseHitCosine) ? length : Quad{} + kInfinity);
+      store(&lengths[ray][first], isHit & (facing <= falseHitCosine) ? length : Quad{} + kInfinity);
       leaves |= ~(isHit & (cosine > 0));
     }
     std::memcpy(&leavesSurface_[first], &leaves, sizeof leaves);
