@@ -80,8 +80,8 @@ class EmbreeTracer final : public ConeTracer {
 
   /// Traces the cones of a group of the task's order. Returns how many of them the reference traced.
   uint64_t traceGroup(const Task& task, size_t index, EmbreeConeGroup& group) const {
-    const auto [order, seedFaces, results, hitCount] = task;
-    const auto hitsOf = [&](uint32_t seed) { return results.hits.subspan(seed * hitCount, hitCount); };
+    const std::span<const uint32_t> order = task.order, seedFaces = task.seedFaces;
+    const auto hitsOf = [&](uint32_t seed) { return task.results.hits.subspan(seed * task.hitCount, task.hitCount); };
     const size_t begin = index * kGroupSize, end = std::min(begin + kGroupSize, order.size());
     prefetch(task, end);
     group.clear();
@@ -94,7 +94,7 @@ class EmbreeTracer final : public ConeTracer {
     uint64_t redoneConeCount = 0;
     for (size_t lane = 0; lane < group.size(); ++lane) {
       const uint32_t seed = order[begin + lane];
-      double& value = results.values[seed];
+      double& value = task.results.values[seed];
       if (group.isDoubtful(lane)) {
         value = referenceCone(scene_, cone_, seedFaces[seed], hitsOf(seed));
         ++redoneConeCount;

@@ -116,7 +116,8 @@ LaneCones::LaneCones(const Cone& cone, std::span<const SlotPlane> planes, Instru
       const Quad difference = onPlane - distance;
       const QuadMask isNear = (difference <= kPlaneTolerance) & (difference >= -kPlaneTolerance);
       const Quad length = isNear ? onPlane : distance;
-      store(&lengths[ray][first], isHit & (facing <= falseHitCosine) ? length : Quad{} + kInfinity);
+      const QuadMask counts = isHit & (facing <= falseHitCosine);
+      store(&lengths[ray][first], counts ? length : Quad{} + kInfinity);
       leaves |= ~(isHit & (cosine > 0));
     }
     std::memcpy(&leavesSurface_[first], &leaves, sizeof leaves);
