@@ -19,7 +19,7 @@ class BareEmbree {
 
 enum class BareMode {
   Fastest,  ///< A ray may fall between two triangles.
-  Robust,   ///< As our own tracer needs it.
+  Robust,   ///< None does; our own tracer takes it for surfaces that rays leave often.
 };
 
 /// Builds Embree's scene, at medium quality. Null where this build has no Embree.

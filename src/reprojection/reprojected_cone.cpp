@@ -152,18 +152,11 @@ ReprojectedCone::ReprojectedCone(const Cone& cone, InstructionSet instructionSet
                                                               std::span<const float> coneWeights) {
   return valueInLanes(hits, at, coneWeights);
 }
-
-InstructionSet widestInstructionSet() {
-  static const bool hasAvx2 = __builtin_cpu_supports("avx2");
-  return hasAvx2 ? InstructionSet::Avx2 : InstructionSet::Baseline;
-}
 #else
 double ReprojectedCone::valueWithAvx2(const GatheredHits&, const VirtualCone&, std::span<const float>) {
   ASDFVK_CHECK(false);
   return kNoValue;
 }
-
-InstructionSet widestInstructionSet() { return InstructionSet::Baseline; }
 #endif
 
 double ReprojectedCone::value(const GatheredHits& hits, const VirtualCone& at, std::span<const float> coneWeights) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cone/cone.h"
+#include "core/instruction_set.h"
 #include "core/lanes.h"
 #include "core/vec3.h"
 #include "reprojection/gathered_hits.h"
@@ -16,15 +17,6 @@ struct VirtualCone {
   Vec3d origin, normal;
   uint32_t face = 0;  ///< Or the one that stands for its copies: points on it do not count.
 };
-
-/// What the lanes are computed with; the bits are the same.
-enum class InstructionSet {
-  Baseline,  ///< What the program was compiled for.
-  Avx2,
-};
-
-/// The widest that this machine has.
-[[nodiscard]] InstructionSet widestInstructionSet();
 
 /// Computes the values of virtual cones from gathered hits; holds the room that it needs.
 class ReprojectedCone {

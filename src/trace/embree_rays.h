@@ -1,31 +1,31 @@
 #pragma once
 
-#include <vector>
+#include <array>
 
 #include "trace/embree_scene.h"
+#include "trace/lane_cones.h"
 
 namespace asdfvk {
 
-/// The rays of one cone and what each of them met, eight to a packet: Embree walks them one by one all the same
-/// (RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT), but is called less often. Lengths are in normalised units.
+/// The same ray of up to eight cones, side by side: where the cones are neighbours such rays walk the same nodes one
+/// after the other, though Embree walks each by itself (RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT), so that what a ray
+/// meets does not depend on the others. Lengths are in normalised units.
 class EmbreeRays {
  public:
-  explicit EmbreeRays(size_t rayCount);
+  static constexpr size_t kWidth = LaneHits::kWidth;
 
-  /// Every ray ends at the nearest triangle that is not nearer than `start`.
-  void cast(const EmbreeScene& embree, const Cone& cone, const ConeFrame& frame, const Vec3d& origin, double start);
+  /// Every ray ends at the nearest triangle that is not nearer than `start`. No lane has an origin yet.
+  explicit EmbreeRays(double start);
 
-  [[nodiscard]] const Vec3d& direction(size_t ray) const { return directions_[ray]; }
-  [[nodiscard]] float distance(size_t ray) const { return packets_[ray / kWidth].ray.tfar[ray % kWidth]; }
-  /// kNoFace for a miss.
-  [[nodiscard]] uint32_t slot(size_t ray) const { return packets_[ray / kWidth].hit.primID[ray % kWidth]; }
-  [[nodiscard]] bool hasMet(uint32_t slot) const;
+  void setOrigin(size_t lane, const Vec3d& origin);
+  void remove(size_t lane) { isActive_[lane] = 0; }
+
+  /// coneDirection: one of Cone::directions. Lanes without an origin meet nothing.
+  [[nodiscard]] LaneHits cast(const EmbreeScene& embree, const LaneFrames& frames, const Vec3d& coneDirection);
 
  private:
-  static constexpr size_t kWidth = 8;
-
-  std::vector<Vec3d> directions_;
-  std::vector<RTCRayHit8> packets_;
+  alignas(32) std::array<int, kWidth> isActive_{};  // -1 or 0, as Embree takes it.
+  RTCRayHit8 packet_;
 };
 
 }  // namespace asdfvk

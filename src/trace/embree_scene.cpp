@@ -44,10 +44,10 @@ void copyTriangles(const TraceScene& scene, RTCGeometry geometry) {
 
 }  // namespace
 
-EmbreeScene::EmbreeScene(const TraceScene& scene) : device_(rtcNewDevice(nullptr)) {
+EmbreeScene::EmbreeScene(const TraceScene& scene, EmbreeMode mode) : mode_(mode), device_(rtcNewDevice(nullptr)) {
   if (!device_) throwEmbreeError(nullptr);
   scene_.reset(rtcNewScene(device_.get()));
-  rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
+  if (mode == EmbreeMode::Robust) rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
   rtcSetSceneBuildQuality(scene_.get(), RTC_BUILD_QUALITY_MEDIUM);
   RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
   copyTriangles(scene, geometry);

@@ -15,17 +15,23 @@ struct EmbreeRelease {
 };
 using EmbreeDevice = std::unique_ptr<std::remove_pointer_t<RTCDevice>, EmbreeRelease>;
 
+enum class EmbreeMode {
+  Fastest,  ///< A ray may fall between two triangles: about one in a million does.
+  Robust,   ///< None does; a fifth slower.
+};
+
 /// Embree's own hierarchy over the triangle slots of a scene's: primitive i is the triangle of slot i, in normalised
-/// coordinates and float32. Built on all threads, to the same bits on any number of them, in robust mode, so that no
-/// ray falls between two triangles.
+/// coordinates and float32. Built on all threads, to the same bits on any number of them.
 class EmbreeScene {
  public:
   /// Throws Error{Device}.
-  explicit EmbreeScene(const TraceScene& scene);
+  EmbreeScene(const TraceScene& scene, EmbreeMode mode);
 
   [[nodiscard]] RTCScene get() const { return scene_.get(); }
+  [[nodiscard]] EmbreeMode mode() const { return mode_; }
 
  private:
+  EmbreeMode mode_;
   // In this order: the scene goes first.
   EmbreeDevice device_;
   std::unique_ptr<std::remove_pointer_t<RTCScene>, EmbreeRelease> scene_;

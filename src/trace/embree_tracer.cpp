@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -11,8 +12,7 @@
 #include "core/check.h"
 #include "core/stopwatch.h"
 #include "trace/chunk_size.h"
-#include "trace/embree_neighbours.h"
-#include "trace/embree_rays.h"
+#include "trace/embree_cones.h"
 #include "trace/embree_scene.h"
 #include "trace/float_limits.h"
 #include "trace/reference_tracer.h"
@@ -31,13 +31,6 @@ double rayStart(const Cone& cone) {
   return std::min(0x1p-22 / std::max(std::cos(cone.halfAngleRadians), 1e-9), kSmallestFloatFace);
 }
 
-/// Room for one cone; kept from cone to cone.
-struct ConeScratch {
-  explicit ConeScratch(size_t rayCount) : rays(rayCount), lengths(rayCount), weights(rayCount) {}
-  EmbreeRays rays;
-  std::vector<double> lengths, weights;
-};
-
 class EmbreeTracer final : public ConeTracer {
  public:
   EmbreeTracer(const TraceScene& scene, const Cone& cone)
@@ -46,30 +39,28 @@ class EmbreeTracer final : public ConeTracer {
         rayStart_(rayStart(cone)),
         seedOrder_(scene),
         planes_(slotPlanes(scene)),
-        embree_(scene) {}
+        embree_(std::make_unique<EmbreeScene>(scene, EmbreeMode::Fastest)) {
+    if (seemsToNeedRobustMode()) embree_ = std::make_unique<EmbreeScene>(scene, EmbreeMode::Robust);
+  }
 
   TraceStatistics trace(std::span<const uint32_t> seedFaces, const ConeResults& results,
                         const RunControl& control) override {
     const size_t rayCount = cone_.directions.size();
     checkSizes(results, seedFaces.size(), rayCount);
-    const size_t hitCount = results.hits.empty() ? 0 : rayCount;  // per cone
     const std::vector<uint32_t> order = seedOrder_.of(seedFaces);
-    const auto total = static_cast<double>(order.size());
+    const Task task{order, seedFaces, results, results.hits.empty() ? 0 : rayCount};
     std::atomic<uint64_t> redoneConeCount = 0;
-    ChunkSize chunk(std::max<size_t>(8, kFirstChunkRayCount / rayCount), order.size());
-    for (size_t begin = 0; begin < order.size();) {
-      control.checkpoint(static_cast<double>(begin) / total);
-      const size_t end = std::min<size_t>(begin + chunk.current(), order.size());
+    const EmbreeCones cones{scene_, cone_, planes_, *embree_, rayStart_};
+    tbb::enumerable_thread_specific<EmbreeConeGroup> groups([&] { return EmbreeConeGroup(cones); });
+    const size_t groupCount = (order.size() + kGroupSize - 1) / kGroupSize;
+    ChunkSize chunk(std::max<size_t>(1, kFirstChunkRayCount / (kGroupSize * rayCount)), groupCount);
+    for (size_t begin = 0; begin < groupCount;) {
+      control.checkpoint(static_cast<double>(begin) / static_cast<double>(groupCount));
+      const size_t end = std::min<size_t>(begin + chunk.current(), groupCount);
       const Stopwatch stopwatch;
-      tbb::parallel_for(tbb::blocked_range<size_t>(begin, end, 8), [&](const tbb::blocked_range<size_t>& range) {
-        ConeScratch scratch(rayCount);
-        for (size_t i = range.begin(); i < range.end(); ++i) {
-          const uint32_t seed = order[i];
-          const std::span<ConeHit> hits = results.hits.subspan(seed * hitCount, hitCount);
-          if (traceCone(seedFaces[seed], results.values[seed], hits, scratch)) continue;
-          results.values[seed] = referenceCone(scene_, cone_, seedFaces[seed], hits);
-          ++redoneConeCount;
-        }
+      tbb::parallel_for(tbb::blocked_range<size_t>(begin, end), [&](const tbb::blocked_range<size_t>& range) {
+        EmbreeConeGroup& group = groups.local();
+        for (size_t i = range.begin(); i < range.end(); ++i) redoneConeCount += traceGroup(task, i, group);
       });
       chunk.adapt(end - begin, stopwatch.seconds());
       begin = end;
@@ -79,42 +70,70 @@ class EmbreeTracer final : public ConeTracer {
   }
 
  private:
-  /// False when the cone is the reference's: too small for float32, or another face is as near as rays begin.
-  bool traceCone(uint32_t face, double& value, std::span<ConeHit> hits, ConeScratch& scratch) const {
-    ASDFVK_CHECK(!scene_.geometry.isDegenerate(face));
-    const uint32_t slot = seedOrder_.slotOf(face);
-    const Vec3d origin = scene_.bvh.normalization.toNormalized(scene_.geometry.barycentres[face]);
-    if (isTooSmallForFloat(scene_, face) || hasNeighbourWithin(embree_, scene_, planes_, origin, slot, rayStart_))
-      return false;
-    const ConeFrame frame = faceConeFrame(cone_, scene_.geometry.normals[face], face);
-    scratch.rays.cast(embree_, cone_, frame, origin, rayStart_);
-    const double normalizedValue = valueOf(face, origin, hits, scratch);
-    value = scene_.bvh.normalization.toMeshLength(normalizedValue);
-    return !(normalizedValue < kShortestFloatDiameter) && !scratch.rays.hasMet(slot);
-  }
+  static constexpr size_t kGroupSize = EmbreeConeGroup::kWidth;
 
-  /// In normalised units.
-  double valueOf(uint32_t face, const Vec3d& origin, std::span<ConeHit> hits, ConeScratch& scratch) const {
-    auto& [rays, lengths, weights] = scratch;
-    const Vec3d& seedNormal = scene_.geometry.normals[face];
-    size_t validCount = 0;
-    for (size_t i = 0; i < cone_.directions.size(); ++i) {
-      const uint32_t slot = rays.slot(i);
-      const bool isMiss = slot == kNoFace;
-      if (!hits.empty()) hits[i] = isMiss ? kMiss : ConeHit{rays.distance(i), scene_.bvh.slotFaces[slot]};
-      if (isMiss || isFalseHit(cone_, seedNormal, planes_[slot].normal)) continue;
-      lengths[validCount] = lengthInDouble(origin, rays.direction(i), planes_[slot], rays.distance(i));
-      weights[validCount] = cone_.weights[i];
-      ++validCount;
+  struct Task {
+    std::span<const uint32_t> order, seedFaces;
+    const ConeResults& results;
+    size_t hitCount;  // Per cone; 0 when nobody asks.
+  };
+
+  /// Traces the cones of a group of the task's order. Returns how many of them the reference traced.
+  uint64_t traceGroup(const Task& task, size_t index, EmbreeConeGroup& group) const {
+    const std::span<const uint32_t> order = task.order, seedFaces = task.seedFaces;
+    const auto hitsOf = [&](uint32_t seed) { return task.results.hits.subspan(seed * task.hitCount, task.hitCount); };
+    const size_t begin = index * kGroupSize, end = std::min(begin + kGroupSize, order.size());
+    prefetch(task, end);
+    group.clear();
+    for (size_t i = begin; i < end; ++i) {
+      const uint32_t face = seedFaces[order[i]];
+      ASDFVK_CHECK(!scene_.geometry.isDegenerate(face));
+      group.add({face, seedOrder_.slotOf(face), hitsOf(order[i])});
     }
-    return coneValue({lengths.data(), validCount}, {weights.data(), validCount}, cone_.outlierDeviations);
+    group.trace();
+    uint64_t redoneConeCount = 0;
+    for (size_t lane = 0; lane < group.size(); ++lane) {
+      const uint32_t seed = order[begin + lane];
+      double& value = task.results.values[seed];
+      if (group.isDoubtful(lane)) {
+        value = referenceCone(scene_, cone_, seedFaces[seed], hitsOf(seed));
+        ++redoneConeCount;
+      } else {
+        value = scene_.bvh.normalization.toMeshLength(group.value(lane));
+      }
+    }
+    return redoneConeCount;
   }
 
-  /// Where the plane is not near what Embree says, its triangle is a sliver whose normal tells little.
-  static double lengthInDouble(const Vec3d& origin, const Vec3d& direction, const SlotPlane& plane, double distance) {
-    constexpr double kPlaneTolerance = 0x1p-14;
-    const double length = (plane.offset - dot(plane.normal, origin)) / dot(plane.normal, direction);
-    return std::abs(length - distance) <= kPlaneTolerance ? length : distance;
+  /// What is known of seeds lies scattered: it comes while the group before is traced.
+  void prefetch(const Task& task, size_t begin) const {
+    for (size_t i = begin; i < std::min(begin + kGroupSize, task.order.size()); ++i) {
+      const uint32_t face = task.seedFaces[task.order[i]];
+      __builtin_prefetch(&scene_.geometry.barycentres[face]);
+      __builtin_prefetch(&scene_.geometry.normals[face]);
+      __builtin_prefetch(&scene_.geometry.areas[face]);
+      seedOrder_.prefetch(face);
+    }
+  }
+
+  /// Whether so many cones of a sample seem to leave the surface outside of robust mode, as those of an open or
+  /// crossing one do, that tracing them again would take longer than robust mode does.
+  [[nodiscard]] bool seemsToNeedRobustMode() const {
+    constexpr size_t kSampleSize = 64, kBearableCount = 1;
+    EmbreeConeGroup group({scene_, cone_, planes_, *embree_, rayStart_});
+    const std::vector<uint32_t>& faces = scene_.bvh.slotFaces;
+    const size_t count = std::min(kSampleSize, faces.size());
+    size_t leavingCount = 0;
+    for (size_t i = 0; i < count;) {
+      group.clear();
+      for (; i < count && group.size() < kGroupSize; ++i) {
+        const size_t slot = i * faces.size() / count;
+        group.add({faces[slot], static_cast<uint32_t>(slot), {}});
+      }
+      group.trace();
+      for (size_t lane = 0; lane < group.size(); ++lane) leavingCount += group.leavesSurface(lane);
+    }
+    return leavingCount > kBearableCount;
   }
 
   TraceScene scene_;
@@ -122,7 +141,7 @@ class EmbreeTracer final : public ConeTracer {
   double rayStart_;  // In normalised units, as all lengths here.
   SeedOrder seedOrder_;
   std::vector<SlotPlane> planes_;
-  EmbreeScene embree_;
+  std::unique_ptr<EmbreeScene> embree_;
 };
 
 }  // namespace

@@ -1,0 +1,159 @@
+#include "trace/lane_cones.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "core/random.h"
+#include "shapes.h"
+#include "trace_results.h"
+
+using namespace asdfvk;
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+std::vector<InstructionSet> instructionSets() {
+  if (widestInstructionSet() == InstructionSet::Baseline) return {InstructionSet::Baseline};
+  return {InstructionSet::Baseline, widestInstructionSet()};
+}
+
+/// What coneValue() says of one lane.
+double valueOfLane(const Cone& cone, std::span<const std::array<double, LaneCones::kWidth>> lengths, size_t lane) {
+  std::vector<double> valid, weights;
+  for (size_t ray = 0; ray < lengths.size(); ++ray) {
+    if (lengths[ray][lane] == kInfinity) continue;
+    valid.push_back(lengths[ray][lane]);
+    weights.push_back(cone.weights[ray]);
+  }
+  return coneValue(valid, weights, cone.outlierDeviations);
+}
+
+struct Eight {
+  LaneFrames frames;
+  std::vector<std::array<Vec3d, LaneCones::kWidth>> directions;  // Per ray.
+  std::array<Vec3d, LaneCones::kWidth> origins, normals;
+};
+
+/// The cones of eight faces of a mesh, of which the rays meet random faces.
+Eight eightCones(const TracedMesh& traced, const Cone& cone, Random& random) {
+  Eight eight;
+  eight.directions.resize(cone.directions.size());
+  for (size_t lane = 0; lane < LaneCones::kWidth; ++lane) {
+    const auto face = static_cast<uint32_t>(random.real() * static_cast<double>(traced.mesh.faceCount()));
+    eight.normals[lane] = traced.geometry.normals[face];
+    eight.origins[lane] = traced.bvh.normalization.toNormalized(traced.geometry.barycentres[face]);
+    const ConeFrame frame = faceConeFrame(cone, eight.normals[lane], face);
+    eight.frames.set(lane, frame, eight.origins[lane], eight.normals[lane]);
+    for (size_t ray = 0; ray < cone.directions.size(); ++ray) {
+      const Vec3d& d = cone.directions[ray];
+      eight.directions[ray][lane] = d.x * frame.tangent + d.y * frame.bitangent + d.z * frame.axis;
+    }
+  }
+  return eight;
+}
+
+}  // namespace
+
+TEST_CASE("eight cones side by side have the bits of coneValue, for any number of rays") {
+  Random random(3);
+  for (const uint32_t rayCount : {1u, 2u, 3u, 4u, 5u, 7u, 8u, 9u, 16u, 30u, 31u, 33u, 100u, 1024u})
+    for (const double deviations : {1.0, 0.3, 2.5}) {
+      const Cone cone = makeCone({.rayCount = rayCount, .outlierDeviations = deviations});
+      for (const InstructionSet instructionSet : instructionSets()) {
+        LaneCones lanes(cone, {}, instructionSet);
+        for (int turn = 0; turn < 20; ++turn) {
+          for (auto& row : lanes.lengths())
+            for (size_t lane = 0; lane < LaneCones::kWidth; ++lane) {
+              // Lane 0 has no valid ray, lane 1 has every one, lane 2 many ties.
+              const bool isValid = lane > 0 && (lane == 1 || random.real() < 0.7);
+              const double length = lane == 2 ? std::floor(4 * random.real()) : random.real() * random.real();
+              row[lane] = isValid ? length : kInfinity;
+            }
+          const auto values = lanes.values();
+          CHECK(std::isnan(values[0]));
+          for (size_t lane = 1; lane < LaneCones::kWidth; ++lane) {
+            const double expected = valueOfLane(cone, lanes.lengths(), lane);
+            CHECK((values[lane] == expected || (std::isnan(values[lane]) && std::isnan(expected))));
+          }
+        }
+      }
+    }
+}
+
+TEST_CASE("lengths are those to the planes of hits in double, but for slivers, misses and false hits") {
+  Random random(8);
+  const TracedMesh traced(shapes::jittered(shapes::icosphere(2), 0.1, 4));
+  const std::vector<SlotPlane> planes = slotPlanes(traced.scene());
+  const Cone cone = makeCone({});
+  const Eight eight = eightCones(traced, cone, random);
+  std::vector<LaneHits> hits(cone.directions.size());
+  for (size_t ray = 0; ray < hits.size(); ++ray)
+    for (size_t lane = 0; lane < LaneCones::kWidth; ++lane) {
+      const auto slot = static_cast<uint32_t>(random.real() * static_cast<double>(planes.size()));
+      const SlotPlane& plane = planes[slot];
+      const double length =
+          (plane.offset - dot(plane.normal, eight.origins[lane])) / dot(plane.normal, eight.directions[ray][lane]);
+      const double off = std::array{0.0, 5e-5, -5e-5, 8e-5, -8e-5}[(ray + lane) % 5];  // 2^-14 is 6.1e-5.
+      hits[ray].slots[lane] = (ray + lane) % 7 == 0 ? kNoFace : slot;
+      hits[ray].distances[lane] = static_cast<float>(length + off);
+    }
+  for (const InstructionSet instructionSet : instructionSets()) {
+    LaneCones lanes(cone, planes, instructionSet);
+    lanes.measure(eight.frames, hits);
+    size_t validCount = 0, keptDistanceCount = 0;
+    for (size_t lane = 0; lane < LaneCones::kWidth; ++lane) {
+      bool leaves = false;
+      for (size_t ray = 0; ray < hits.size(); ++ray) {
+        const double length = lanes.lengths()[ray][lane];
+        const uint32_t slot = hits[ray].slots[lane];
+        if (slot == kNoFace) {
+          CHECK(length == kInfinity);
+          leaves = true;
+          continue;
+        }
+        const SlotPlane& plane = planes[slot];
+        const double cosine = dot(plane.normal, eight.directions[ray][lane]);
+        const double onPlane = (plane.offset - dot(plane.normal, eight.origins[lane])) / cosine;
+        const double distance = hits[ray].distances[lane];
+        leaves |= cosine <= 0;
+        if (isFalseHit(cone, eight.normals[lane], plane.normal)) {
+          CHECK(length == kInfinity);
+          continue;
+        }
+        const bool isNear = std::abs(onPlane - distance) <= 0x1p-14;
+        CHECK(length == (isNear ? onPlane : distance));
+        ++validCount;
+        keptDistanceCount += !isNear;
+      }
+      CHECK(lanes.leavesSurface(lane) == leaves);
+    }
+    CHECK(validCount > 50);
+    CHECK(keptDistanceCount > 10);
+  }
+}
+
+TEST_CASE("one ray that meets nothing, or an outer side, leaves the surface; none else does") {
+  const TracedMesh traced(shapes::icosphere(2));
+  const std::vector<SlotPlane> planes = slotPlanes(traced.scene());
+  const Cone cone = makeCone({});
+  Random random(5);
+  const Eight eight = eightCones(traced, cone, random);
+  std::vector<LaneHits> hits(cone.directions.size());
+  for (size_t ray = 0; ray < hits.size(); ++ray)
+    for (size_t lane = 0; lane < LaneCones::kWidth; ++lane)
+      for (uint32_t slot = 0; slot < planes.size(); ++slot)  // Any from within.
+        if (dot(planes[slot].normal, eight.directions[ray][lane]) > 0.5) hits[ray].slots[lane] = slot;
+  for (const InstructionSet instructionSet : instructionSets()) {
+    LaneCones lanes(cone, planes, instructionSet);
+    std::vector<LaneHits> changed = hits;
+    changed[17].slots[3] = kNoFace;
+    for (uint32_t slot = 0; slot < planes.size(); ++slot)
+      if (dot(planes[slot].normal, eight.directions[29][6]) < -0.5) changed[29].slots[6] = slot;
+    lanes.measure(eight.frames, changed);
+    for (size_t lane = 0; lane < LaneCones::kWidth; ++lane)
+      CHECK(lanes.leavesSurface(lane) == (lane == 3 || lane == 6));
+  }
+}

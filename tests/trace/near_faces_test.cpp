@@ -1,0 +1,103 @@
+#include "trace/near_faces.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/random.h"
+#include "shapes.h"
+#include "traced_mesh.h"
+
+using namespace asdfvk;
+
+namespace {
+
+double distanceToSegment(const Vec3d& p, const Vec3d& a, const Vec3d& b) {
+  const Vec3d edge = b - a;
+  const double t = std::clamp(dot(p - a, edge) / dot(edge, edge), 0.0, 1.0);
+  return length(p - a - t * edge);
+}
+
+double distanceToTriangle(const Vec3d& p, const std::array<Vec3d, 3>& corners) {
+  double nearest = std::numeric_limits<double>::infinity();
+  const Vec3d normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
+  bool isAbove = true;
+  for (size_t k = 0; k < 3; ++k) {
+    const Vec3d &a = corners[k], &b = corners[(k + 1) % 3];
+    nearest = std::min(nearest, distanceToSegment(p, a, b));
+    isAbove = isAbove && dot(cross(normal, b - a), p - a) >= 0;
+  }
+  return isAbove ? std::abs(dot(p - corners[0], normal)) / length(normal) : nearest;
+}
+
+/// The distance from the point to the nearest triangle but that of its slot, in normalised units.
+double nearestOther(const TracedMesh& traced, const SlotPoint& point) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (uint32_t slot = 0; slot < traced.bvh.slotFaces.size(); ++slot) {
+    if (slot == point.slot) continue;
+    std::array<Vec3d, 3> corners;
+    for (size_t k = 0; k < 3; ++k)
+      corners[k] =
+          traced.bvh.normalization.toNormalized(traced.mesh.vertices[traced.mesh.faces[traced.bvh.slotFaces[slot]][k]]);
+    nearest = std::min(nearest, distanceToTriangle(point.point, corners));
+  }
+  return nearest;
+}
+
+/// Barycentres in the order of slots; returns how many had a neighbour.
+size_t checkAll(const TracedMesh& traced, double radius, size_t groupSize, InstructionSet instructionSet) {
+  const std::vector<SlotPlane> planes = slotPlanes(traced.scene());
+  std::vector<SlotPoint> points;
+  for (uint32_t slot = 0; slot < planes.size(); ++slot)
+    points.push_back(
+        {traced.bvh.normalization.toNormalized(traced.geometry.barycentres[traced.bvh.slotFaces[slot]]), slot});
+  size_t foundCount = 0;
+  for (size_t first = 0; first < points.size(); first += groupSize) {
+    const auto some = std::span(points).subspan(first, std::min(groupSize, points.size() - first));
+    const std::array<bool, 8> found = haveNeighboursWithin(traced.scene(), planes, some, radius, instructionSet);
+    for (size_t lane = 0; lane < some.size(); ++lane) {
+      const double nearest = nearestOther(traced, some[lane]);
+      if (nearest <= radius) CHECK(found[lane]);
+      if (nearest > 20 * radius) CHECK(!found[lane]);  // At an acute corner the moved lines meet far out.
+      foundCount += found[lane];
+    }
+    for (size_t lane = some.size(); lane < found.size(); ++lane) CHECK(!found[lane]);
+  }
+  return foundCount;
+}
+
+}  // namespace
+
+TEST_CASE("a face nearer than the radius is found, and none that is far, as brute force says") {
+  for (const InstructionSet instructionSet : {InstructionSet::Baseline, widestInstructionSet()}) {
+    const TracedMesh soup(shapes::soup(300, 7));
+    const size_t few = checkAll(soup, 0.005, 8, instructionSet), more = checkAll(soup, 0.02, 5, instructionSet);
+    CHECK(few > 0);
+    CHECK(few < more);
+    CHECK(more < 300);
+    const TracedMesh box(shapes::box({2, 2, 2}, 6));
+    CHECK(checkAll(box, 0.01, 8, instructionSet) == 0);
+    CHECK(checkAll(box, 0.2, 1, instructionSet) == box.mesh.faceCount());
+  }
+}
+
+TEST_CASE("walls that touch are found on both sides, whatever their cuts") {
+  const Mesh box = shapes::box({2, 2, 2}, 3);
+  const TracedMesh traced(shapes::joined(box, shapes::scaledAndShifted(shapes::box({2, 2, 2}, 4), 1, {2, 0, 0})));
+  const std::vector<SlotPlane> planes = slotPlanes(traced.scene());
+  for (uint32_t slot = 0; slot < planes.size(); ++slot) {
+    const uint32_t face = traced.bvh.slotFaces[slot];
+    const Vec3d barycentre = traced.geometry.barycentres[face];
+    const SlotPoint point{traced.bvh.normalization.toNormalized(barycentre), slot};
+    CHECK(haveNeighboursWithin(traced.scene(), planes, {&point, 1}, 0x1p-21)[0] == (std::abs(barycentre.x - 1) < 1e-9));
+  }
+}
+
+TEST_CASE("nothing is near where there is no other face") {
+  const TracedMesh none(Mesh{});
+  const SlotPoint point{{0, 0, 0}, 0};
+  CHECK(!haveNeighboursWithin(none.scene(), {}, {&point, 1}, 1)[0]);
+  const TracedMesh alone(Mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}, {}});
+  CHECK(!haveNeighboursWithin(alone.scene(), slotPlanes(alone.scene()), {&point, 1}, 1)[0]);
+}
