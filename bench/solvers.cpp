@@ -33,8 +33,10 @@ struct Arguments {
 
 void compare(Session& session, const std::string& name, Mesh& mesh, const std::string& seeds,
              const Arguments& arguments, const RunControl& control) {
-  std::array<Contender, 3> contenders{
-      {{SolverChoice::Eigen, {}, {}, {}}, {SolverChoice::Cg, {}, {}, {}}, {SolverChoice::Jacobi, {}, {}, {}}}};
+  std::array<Contender, 4> contenders{{{SolverChoice::Eigen, {}, {}, {}},
+                                       {SolverChoice::Cpu, {}, {}, {}},
+                                       {SolverChoice::Cg, {}, {}, {}},
+                                       {SolverChoice::Jacobi, {}, {}, {}}}};
   Options options;
   options.seeds = parseSeedCount(seeds);
   options.solverOptions.tolerance = arguments.tolerance;

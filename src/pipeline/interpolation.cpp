@@ -144,7 +144,7 @@ SolverReport Interpolation::solve(const PoissonSystem& system, std::vector<doubl
   } catch (const Error& error) {
     if (options_.solver != SolverChoice::Auto || error.kind() != ErrorKind::Device) throw;
     warnings_.push_back(fmt::format("the CPU solved the equation, because on the device: {}", error.what()));
-    report = solveWith(SolverChoice::Eigen);
+    report = solveWith(SolverChoice::Cpu);
   }
   for (size_t i = 0; i < solution.size(); ++i) values[system.faces[i]] = solution[i];
   return report;

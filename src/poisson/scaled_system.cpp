@@ -29,10 +29,14 @@ ScaledSystem::ScaledSystem(const PoissonSystem& system)
   }
   tailColumns_.resize(tailSize);
   tailCouplings_.resize(tailSize);
+  std::vector<double> inverseRoots(rowCount);
   forEachRow(rowCount, [&](size_t row) {
-    const double root = std::sqrt(system.diagonal[row]);
+    inverseRoots[row] = 1 / std::sqrt(system.diagonal[row]);
+    residualWeights_[row] = static_cast<float>(meanDiagonal_ / system.diagonal[row]);
+  });
+  forEachRow(rowCount, [&](size_t row) {
     const auto coupling = [&](uint32_t i) {
-      return static_cast<float>(-system.entries[i] / root / std::sqrt(system.diagonal[system.columns[i]]));
+      return static_cast<float>(-system.entries[i] * inverseRoots[row] * inverseRoots[system.columns[i]]);
     };
     const uint32_t begin = system.rowOffsets[row], length = system.rowOffsets[row + 1] - begin;
     std::array<uint32_t, kHeadLength> columns;
@@ -49,7 +53,6 @@ ScaledSystem::ScaledSystem(const PoissonSystem& system)
       tailColumns_[entries.tailBegin + k] = system.columns[begin + kHeadLength + k];
       tailCouplings_[entries.tailBegin + k] = coupling(begin + kHeadLength + k);
     }
-    residualWeights_[row] = static_cast<float>(meanDiagonal_ / system.diagonal[row]);
   });
 }
 

@@ -1,0 +1,131 @@
+#include "poisson/cpu_cg.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+
+namespace asdfvk {
+namespace {
+
+constexpr size_t kBlock = 4096;  // Rows; small enough for every core of a big machine to get some of a small mesh.
+constexpr size_t kChunk = 256;   // Rows that are multiplied and then summed while the first cache has them.
+constexpr size_t kLaneCount = 8;
+
+// What compilers turn into vector instructions without leave to reorder sums.
+struct Lanes {
+  std::array<float, kLaneCount> sums{};
+  [[nodiscard]] double total() const {
+    double sum = 0;
+    for (float lane : sums) sum += static_cast<double>(lane);
+    return sum;
+  }
+};
+
+}  // namespace
+
+CpuCg::CpuCg(const ScaledSystem& system, std::vector<float> rightHandSide, double reduction)
+    : system_(system),
+      solution_(rightHandSide.size(), 0.0f),
+      residual_(rightHandSide),
+      direction_(std::move(rightHandSide)),
+      product_(direction_.size()),
+      sums_((direction_.size() + kBlock - 1) / kBlock) {
+  state_.residualSquared = 1;
+  state_.toleranceSquared = static_cast<float>(reduction * reduction);
+}
+
+template <typename Body>
+void CpuCg::forEachBlock(const Body& body) {
+  tbb::parallel_for(
+      tbb::blocked_range<size_t>(0, sums_.size()),
+      [&](const tbb::blocked_range<size_t>& range) {
+        for (size_t block = range.begin(); block < range.end(); ++block)
+          body(block, block * kBlock, std::min((block + 1) * kBlock, direction_.size()));
+      },
+      partitioner_);
+}
+
+void CpuCg::multiplyRows(size_t begin, size_t end) {
+  const PoissonRow* rows = system_.rows().data();
+  const uint32_t* tailColumns = system_.tailColumns().data();
+  const float* tailCouplings = system_.tailCouplings().data();
+  const float* p = direction_.data();
+  float* product = product_.data();
+  for (size_t i = begin; i < end; ++i) {
+    const PoissonRow& row = rows[i];
+    float coupled = row.coupling0 * p[row.column0] + row.coupling1 * p[row.column1] + row.coupling2 * p[row.column2];
+    for (uint32_t k = row.tailBegin; k < row.tailBegin + row.tailCount; ++k)
+      coupled += tailCouplings[k] * p[tailColumns[k]];
+    product[i] = p[i] - coupled;
+  }
+}
+
+CpuCg::BlockSums CpuCg::sumRows(size_t begin, size_t end) const {
+  const float* weights = system_.residualWeights().data();
+  Lanes productDot, productSquared, residualDot, residualSquared;
+  const auto add = [&](size_t i, size_t lane) {
+    const float p = direction_[i], product = product_[i], r = residual_[i];
+    productDot.sums[lane] += p * product;
+    productSquared.sums[lane] += product * product;
+    residualDot.sums[lane] += r * r;
+    residualSquared.sums[lane] += r * r * weights[i];
+  };
+  size_t i = begin;
+  for (; i + kLaneCount <= end; i += kLaneCount)
+    for (size_t lane = 0; lane < kLaneCount; ++lane) add(i + lane, lane);
+  for (; i < end; ++i) add(i, 0);
+  return {productDot.total(), productSquared.total(), residualDot.total(), residualSquared.total()};
+}
+
+CgSums CpuCg::multiply() {
+  const auto addTo = [](BlockSums& sums, const BlockSums& more) {
+    sums.productDot += more.productDot;
+    sums.productSquared += more.productSquared;
+    sums.residualDot += more.residualDot;
+    sums.residualSquared += more.residualSquared;
+  };
+  forEachBlock([&](size_t block, size_t begin, size_t end) {
+    BlockSums sums;
+    for (size_t chunk = begin; chunk < end; chunk += kChunk) {
+      const size_t chunkEnd = std::min(chunk + kChunk, end);
+      multiplyRows(chunk, chunkEnd);
+      addTo(sums, sumRows(chunk, chunkEnd));
+    }
+    sums_[block] = sums;
+  });
+  BlockSums total;
+  for (const BlockSums& sums : sums_) addTo(total, sums);
+  return {static_cast<float>(total.productDot), static_cast<float>(total.productSquared),
+          static_cast<float>(total.residualDot), static_cast<float>(total.residualSquared)};
+}
+
+void CpuCg::step(float alpha, float beta) {
+  forEachBlock([&](size_t, size_t begin, size_t end) {
+    float* __restrict x = solution_.data();
+    float* __restrict r = residual_.data();
+    float* __restrict p = direction_.data();
+    const float* __restrict product = product_.data();
+    for (size_t i = begin; i < end; ++i) {
+      x[i] += alpha * p[i];
+      r[i] -= alpha * product[i];
+      p[i] = r[i] + beta * p[i];
+    }
+  });
+}
+
+CgState CpuCg::advance(uint32_t iterationCount) {
+  for (uint32_t i = 0; i < iterationCount && state_.status == kCgRunning; ++i) {
+    const CgSums sums = multiply();
+    const CgStep next = nextCgStep(sums, state_.toleranceSquared);
+    state_.residualSquared = sums.residualSquared;
+    state_.status = next.status;
+    if (next.status != kCgRunning) break;
+    step(next.alpha, next.beta);
+    ++state_.iterationCount;
+  }
+  return state_;
+}
+
+}  // namespace asdfvk
