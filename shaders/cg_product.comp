@@ -14,7 +14,7 @@ layout(set = 0, binding = 6) writeonly buffer Product { float q[]; };
 layout(set = 0, binding = 7) buffer Sums { PoissonSums sums; };
 
 void main() {
-  vec4 partial = vec4(0.0);
+  mat2x3 partial = mat2x3(0.0);
   for (uint row = firstRow(); row < push.unknownCount; row += rowStride()) {
     float coupled = 0.0;
     ADD_COUPLED(row, p, coupled)
@@ -22,13 +22,15 @@ void main() {
     const float product = direction - coupled;
     const float residual = r[row];
     q[row] = product;
-    partial += vec4(product, product, residual, residual) *
-               vec4(direction, product, residual, residual * residualWeights[row]);
+    partial += mat2x3(vec3(direction, product, product) * vec3(direction, direction, product),
+                      residual * vec3(product, residual, residual * residualWeights[row]));
   }
-  const vec4 total = workgroupSum(partial);
+  const mat2x3 total = workgroupSum(partial);
   if (gl_LocalInvocationID.x != 0u) return;
-  sums.productDot[gl_WorkGroupID.x] = total.x;
-  sums.productSquared[gl_WorkGroupID.x] = total.y;
-  sums.residualDot[gl_WorkGroupID.x] = total.z;
-  sums.residualSquared[gl_WorkGroupID.x] = total.w;
+  sums.directionSquared[gl_WorkGroupID.x] = total[0].x;
+  sums.productDot[gl_WorkGroupID.x] = total[0].y;
+  sums.productSquared[gl_WorkGroupID.x] = total[0].z;
+  sums.residualProduct[gl_WorkGroupID.x] = total[1].x;
+  sums.residualDot[gl_WorkGroupID.x] = total[1].y;
+  sums.residualSquared[gl_WorkGroupID.x] = total[1].z;
 }

@@ -17,11 +17,13 @@ layout(set = 0, binding = 6) writeonly buffer Size { DispatchSize dispatchSize; 
 void main() {
   CgState state = states[push.stateIndex];
   const uint lane = gl_LocalInvocationID.x;
-  vec4 partial = vec4(0.0);
+  mat2x3 partial = mat2x3(0.0);
   for (uint i = lane; i < gl_NumWorkGroups.x; i += kLaneCount)
-    partial += vec4(sums.productDot[i], sums.productSquared[i], sums.residualDot[i], sums.residualSquared[i]);
-  const vec4 total = workgroupSum(partial);
-  const CgStep next = nextCgStep(CgSums(total.x, total.y, total.z, total.w), state.toleranceSquared);
+    partial += mat2x3(sums.directionSquared[i], sums.productDot[i], sums.productSquared[i], sums.residualProduct[i],
+                      sums.residualDot[i], sums.residualSquared[i]);
+  const mat2x3 total = workgroupSum(partial);
+  const CgSums all = CgSums(total[0].x, total[0].y, total[0].z, total[1].x, total[1].y, total[1].z);
+  const CgStep next = nextCgStep(all, state.toleranceSquared);
   if (next.status == kCgRunning)
     for (uint row = firstRow(); row < push.unknownCount; row += rowStride()) {
       const float direction = p[row];
@@ -31,7 +33,7 @@ void main() {
       p[row] = residual + next.beta * direction;
     }
   if (lane != 0u || gl_WorkGroupID.x != 0u) return;
-  state.residualSquared = total.w;
+  state.residualSquared = all.residualSquared;
   state.status = next.status;
   if (next.status == kCgRunning)
     state.iterationCount += 1u;

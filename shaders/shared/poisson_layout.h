@@ -43,10 +43,12 @@ struct DispatchSize {
   uint x, y, z;
 };
 
-// One partial sum per workgroup, 4096 bytes.
+// One partial sum per workgroup, all as in CgSums, 6144 bytes.
 struct PoissonSums {
-  float productDot[kMaxPoissonWorkgroupCount];  // All as in CgSums.
+  float directionSquared[kMaxPoissonWorkgroupCount];
+  float productDot[kMaxPoissonWorkgroupCount];
   float productSquared[kMaxPoissonWorkgroupCount];
+  float residualProduct[kMaxPoissonWorkgroupCount];
   float residualDot[kMaxPoissonWorkgroupCount];
   float residualSquared[kMaxPoissonWorkgroupCount];
 };
@@ -68,9 +70,10 @@ static_assert(offsetof(CgState, residualSquared) == 0 && offsetof(CgState, toler
 static_assert(offsetof(CgState, iterationCount) == 8 && offsetof(CgState, status) == 12);
 static_assert(sizeof(DispatchSize) == 12);
 static_assert(offsetof(DispatchSize, x) == 0 && offsetof(DispatchSize, y) == 4 && offsetof(DispatchSize, z) == 8);
-static_assert(sizeof(PoissonSums) == 4096);
-static_assert(offsetof(PoissonSums, productDot) == 0 && offsetof(PoissonSums, productSquared) == 1024);
-static_assert(offsetof(PoissonSums, residualDot) == 2048 && offsetof(PoissonSums, residualSquared) == 3072);
+static_assert(sizeof(PoissonSums) == 6144);
+static_assert(offsetof(PoissonSums, directionSquared) == 0 && offsetof(PoissonSums, productDot) == 1024);
+static_assert(offsetof(PoissonSums, productSquared) == 2048 && offsetof(PoissonSums, residualProduct) == 3072);
+static_assert(offsetof(PoissonSums, residualDot) == 4096 && offsetof(PoissonSums, residualSquared) == 5120);
 static_assert(sizeof(PoissonPush) == 12);
 static_assert(offsetof(PoissonPush, unknownCount) == 0 && offsetof(PoissonPush, stateIndex) == 4);
 static_assert(offsetof(PoissonPush, heldBack) == 8);

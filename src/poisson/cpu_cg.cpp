@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <array>
+#include <tuple>
+#include <utility>
 
 namespace asdfvk {
 namespace {
@@ -12,16 +14,6 @@ namespace {
 constexpr size_t kBlock = 4096;  // Rows; small enough for every core of a big machine to get some of a small mesh.
 constexpr size_t kChunk = 256;   // Rows that are multiplied and then summed while the first cache has them.
 constexpr size_t kLaneCount = 8;
-
-// What compilers turn into vector instructions without leave to reorder sums.
-struct Lanes {
-  std::array<float, kLaneCount> sums{};
-  [[nodiscard]] double total() const {
-    double sum = 0;
-    for (float lane : sums) sum += static_cast<double>(lane);
-    return sum;
-  }
-};
 
 }  // namespace
 
@@ -64,30 +56,33 @@ void CpuCg::multiplyRows(size_t begin, size_t end) {
 
 CpuCg::BlockSums CpuCg::sumRows(size_t begin, size_t end) const {
   const float* weights = system_.residualWeights().data();
-  Lanes productDot, productSquared, residualDot, residualSquared;
+  // What compilers turn into vector instructions without leave to reorder sums.
+  std::array<std::array<float, kLaneCount>, std::tuple_size_v<BlockSums>> lanes{};
   const auto add = [&](size_t i, size_t lane) {
     const float p = direction_[i], product = product_[i], r = residual_[i];
-    productDot.sums[lane] += p * product;
-    productSquared.sums[lane] += product * product;
-    residualDot.sums[lane] += r * r;
-    residualSquared.sums[lane] += r * r * weights[i];
+    lanes[0][lane] += p * p;
+    lanes[1][lane] += p * product;
+    lanes[2][lane] += product * product;
+    lanes[3][lane] += r * product;
+    lanes[4][lane] += r * r;
+    lanes[5][lane] += r * r * weights[i];
   };
   size_t i = begin;
   for (; i + kLaneCount <= end; i += kLaneCount)
     for (size_t lane = 0; lane < kLaneCount; ++lane) add(i + lane, lane);
   for (; i < end; ++i) add(i, 0);
-  return {productDot.total(), productSquared.total(), residualDot.total(), residualSquared.total()};
+  BlockSums sums{};
+  for (size_t k = 0; k < sums.size(); ++k)
+    for (float lane : lanes[k]) sums[k] += static_cast<double>(lane);
+  return sums;
 }
 
 CgSums CpuCg::multiply() {
   const auto addTo = [](BlockSums& sums, const BlockSums& more) {
-    sums.productDot += more.productDot;
-    sums.productSquared += more.productSquared;
-    sums.residualDot += more.residualDot;
-    sums.residualSquared += more.residualSquared;
+    for (size_t k = 0; k < sums.size(); ++k) sums[k] += more[k];
   };
   forEachBlock([&](size_t block, size_t begin, size_t end) {
-    BlockSums sums;
+    BlockSums sums{};
     for (size_t chunk = begin; chunk < end; chunk += kChunk) {
       const size_t chunkEnd = std::min(chunk + kChunk, end);
       multiplyRows(chunk, chunkEnd);
@@ -95,10 +90,9 @@ CgSums CpuCg::multiply() {
     }
     sums_[block] = sums;
   });
-  BlockSums total;
+  BlockSums total{};
   for (const BlockSums& sums : sums_) addTo(total, sums);
-  return {static_cast<float>(total.productDot), static_cast<float>(total.productSquared),
-          static_cast<float>(total.residualDot), static_cast<float>(total.residualSquared)};
+  return std::apply([](auto... sum) { return CgSums{static_cast<float>(sum)...}; }, total);
 }
 
 void CpuCg::step(float alpha, float beta) {

@@ -2,7 +2,8 @@
 
 #include <tbb/partitioner.h>
 
-#include <span>
+#include <array>
+#include <cstddef>
 #include <vector>
 
 #include "poisson/scaled_system.h"
@@ -10,8 +11,8 @@
 
 namespace asdfvk {
 
-/// What VulkanCg does, on all cores of the CPU: float32 vectors, two passes over them per iteration, sums over blocks of
-/// fixed size and then over the blocks in order, so that the bits do not depend on the number of threads.
+/// What VulkanCg does, on all cores of the CPU: float32 vectors, two passes over them per iteration, sums over blocks
+/// of fixed size and then over the blocks in order, so that the bits do not depend on the number of threads.
 class CpuCg {
  public:
   /// rightHandSide: #U, of weighted norm 1. It has converged when the residual's is at or below `reduction`. The system
@@ -27,9 +28,7 @@ class CpuCg {
   [[nodiscard]] const std::vector<float>& product() const { return product_; }
 
  private:
-  struct BlockSums {
-    double productDot = 0, productSquared = 0, residualDot = 0, residualSquared = 0;
-  };
+  using BlockSums = std::array<double, 6>;  ///< In the order of CgSums.
 
   CgSums multiply();
   void step(float alpha, float beta);

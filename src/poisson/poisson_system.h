@@ -31,6 +31,8 @@ struct PoissonOptions {
   double secondOrder = 0;
   /// #F, or empty. Where it is not finite the mean of the known values stands in.
   std::span<const double> firstGuess;
+  /// #F, Components::componentOf, or empty: then it is found out which faces hang together.
+  std::span<const uint32_t> componentOf;
 };
 
 /// The interpolation of the ASDF paper, section 4.1, over the dual graph:

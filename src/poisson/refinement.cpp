@@ -37,11 +37,12 @@ SolverReport solveByRefinement(const std::string& name, const PoissonSystem& sys
   double norm = residualNorm(system, residual);
   for (auto corrector = correctors.begin(); corrector != correctors.end();) {
     if (!(norm > target) || report.iterations >= options.maxIterations) break;
-    report.iterations += corrector->correct({.residual = residual,
-                                             .norm = norm,
-                                             .reduction = std::max(kSafety * target / norm, corrector->strongestReduction),
-                                             .maxIterations = options.maxIterations - report.iterations,
-                                             .correction = correction});
+    report.iterations +=
+        corrector->correct({.residual = residual,
+                            .norm = norm,
+                            .reduction = std::max(kSafety * target / norm, corrector->strongestReduction),
+                            .maxIterations = options.maxIterations - report.iterations,
+                            .correction = correction});
     forEachRow(solution.size(), [&](size_t row) { correction[row] += solution[row]; });
     computeResidual(system, correction, residual);
     const double newNorm = residualNorm(system, residual);  // Not finite if the correction is not.

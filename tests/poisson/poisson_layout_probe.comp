@@ -24,7 +24,7 @@ void main() {
   words[10] = dispatchSize.x;
   words[11] = dispatchSize.y;
   words[12] = dispatchSize.z;
-  words[21u + 4u * kMaxPoissonWorkgroupCount] = floatBitsToUint(push.heldBack);
+  words[21u + 6u * kMaxPoissonWorkgroupCount] = floatBitsToUint(push.heldBack);
   const PoissonRow row = decodePoissonRow(imageLoad(rows, 0), imageLoad(rows, 1));
   words[13] = row.column0;
   words[14] = row.column1;
@@ -35,9 +35,11 @@ void main() {
   words[19] = floatBitsToUint(row.coupling1);
   words[20] = floatBitsToUint(row.coupling2);
   for (uint i = 0u; i < kMaxPoissonWorkgroupCount; ++i) {
-    words[21u + i] = floatBitsToUint(sums.productDot[i]);
-    words[21u + kMaxPoissonWorkgroupCount + i] = floatBitsToUint(sums.productSquared[i]);
-    words[21u + 2u * kMaxPoissonWorkgroupCount + i] = floatBitsToUint(sums.residualDot[i]);
-    words[21u + 3u * kMaxPoissonWorkgroupCount + i] = floatBitsToUint(sums.residualSquared[i]);
+    words[21u + i] = floatBitsToUint(sums.directionSquared[i]);
+    words[21u + kMaxPoissonWorkgroupCount + i] = floatBitsToUint(sums.productDot[i]);
+    words[21u + 2u * kMaxPoissonWorkgroupCount + i] = floatBitsToUint(sums.productSquared[i]);
+    words[21u + 3u * kMaxPoissonWorkgroupCount + i] = floatBitsToUint(sums.residualProduct[i]);
+    words[21u + 4u * kMaxPoissonWorkgroupCount + i] = floatBitsToUint(sums.residualDot[i]);
+    words[21u + 5u * kMaxPoissonWorkgroupCount + i] = floatBitsToUint(sums.residualSquared[i]);
   }
 }

@@ -45,8 +45,10 @@ TEST_CASE("a distinct word through each field of the Poisson structs arrives whe
   row.coupling0 = real();
   row.coupling1 = real();
   row.coupling2 = real();
+  for (float& sum : sums.directionSquared) sum = real();
   for (float& sum : sums.productDot) sum = real();
   for (float& sum : sums.productSquared) sum = real();
+  for (float& sum : sums.residualProduct) sum = real();
   for (float& sum : sums.residualDot) sum = real();
   for (float& sum : sums.residualSquared) sum = real();
   push.heldBack = real();
@@ -62,7 +64,8 @@ TEST_CASE("a distinct word through each field of the Poisson structs arrives whe
   types[3] = VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER;
   const ComputePipeline probe(
       *device, {"poisson_layout_probe.comp", k_poisson_layout_probe_comp, types, sizeof(PoissonPush), {}});
-  const BindingSet bindings(*device, probe, std::array<Binding, 5>{stateBuffer, sumBuffer, words, rowTexels, sizeBuffer});
+  const BindingSet bindings(*device, probe,
+                            std::array<Binding, 5>{stateBuffer, sumBuffer, words, rowTexels, sizeBuffer});
   CommandList commands(*device);
   commands.begin();
   commands.dispatch(probe, bindings, bytesOf(push), 1);

@@ -65,8 +65,8 @@ TEST_CASE("where a pass does not help or makes it worse the next corrector takes
     CAPTURE(share);
     Passes poor, good;
     std::vector<double> solution(1);
-    const SolverReport report = solveByRefinement("toy", oneUnknown(), {}, solution,
-                                                  {{1e-3, poor.giving(share)}, {1e-5, good.giving(0.9)}});
+    const SolverReport report =
+        solveByRefinement("toy", oneUnknown(), {}, solution, {{1e-3, poor.giving(share)}, {1e-5, good.giving(0.9)}});
     CHECK(poor.count == 1);
     CHECK(good.count == 4);
     CHECK(good.reductions[0] < 1e-3);
