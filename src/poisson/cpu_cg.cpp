@@ -17,13 +17,19 @@ constexpr size_t kLaneCount = 8;
 
 }  // namespace
 
-CpuCg::CpuCg(const ScaledSystem& system, std::vector<float> rightHandSide, double reduction)
+CpuCg::CpuCg(const ScaledSystem& system, UnsetVector<float> rightHandSide, double reduction)
     : system_(system),
-      solution_(rightHandSide.size(), 0.0f),
-      residual_(rightHandSide),
-      direction_(std::move(rightHandSide)),
-      product_(direction_.size()),
-      sums_((direction_.size() + kBlock - 1) / kBlock) {
+      solution_(rightHandSide.size()),
+      residual_(std::move(rightHandSide)),
+      direction_(residual_.size()),
+      product_(residual_.size()),
+      sums_((residual_.size() + kBlock - 1) / kBlock) {
+  forEachBlock([&](size_t, size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) {
+      solution_[i] = 0;
+      direction_[i] = residual_[i];
+    }
+  });
   state_.residualSquared = 1;
   state_.toleranceSquared = static_cast<float>(reduction * reduction);
 }

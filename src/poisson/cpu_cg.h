@@ -17,15 +17,15 @@ class CpuCg {
  public:
   /// rightHandSide: #U, of weighted norm 1. It has converged when the residual's is at or below `reduction`. The system
   /// must outlive this.
-  CpuCg(const ScaledSystem& system, std::vector<float> rightHandSide, double reduction);
+  CpuCg(const ScaledSystem& system, UnsetVector<float> rightHandSide, double reduction);
 
   /// Up to `iterationCount` iterations, fewer when it converges or breaks down before one.
   CgState advance(uint32_t iterationCount);
 
-  [[nodiscard]] const std::vector<float>& solution() const { return solution_; }
-  [[nodiscard]] const std::vector<float>& residual() const { return residual_; }
-  [[nodiscard]] const std::vector<float>& direction() const { return direction_; }
-  [[nodiscard]] const std::vector<float>& product() const { return product_; }
+  [[nodiscard]] std::span<const float> solution() const { return solution_; }
+  [[nodiscard]] std::span<const float> residual() const { return residual_; }
+  [[nodiscard]] std::span<const float> direction() const { return direction_; }
+  [[nodiscard]] std::span<const float> product() const { return product_; }
 
  private:
   using BlockSums = std::array<double, 6>;  ///< In the order of CgSums.
@@ -39,7 +39,7 @@ class CpuCg {
 
   const ScaledSystem& system_;
   CgState state_{};
-  std::vector<float> solution_, residual_, direction_, product_;
+  UnsetVector<float> solution_, residual_, direction_, product_;
   std::vector<BlockSums> sums_;
   tbb::affinity_partitioner partitioner_;  ///< Each core keeps the blocks that its caches hold.
 };

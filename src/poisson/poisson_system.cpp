@@ -108,8 +108,8 @@ PoissonSystem buildPoissonSystem(const DualGraph& graph, std::span<const double>
 
   PoissonSystem system;
   system.knownMean = meanOfKnown(values);
-  const std::vector<uint8_t> reached = options.componentOf.empty() ? reachedFromKnown(graph, values)
-                                                                   : reachedInComponents(options.componentOf, values);
+  const std::vector<uint8_t> reached =
+      options.componentOf.empty() ? reachedFromKnown(graph, values) : reachedInComponents(options.componentOf, values);
   std::vector<uint32_t> unknownOf(faceCount, kNotUnknown);
   for (uint32_t face = 0; face < faceCount; ++face)
     if (reached[face] && !std::isfinite(values[face])) {

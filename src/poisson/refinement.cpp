@@ -32,7 +32,7 @@ SolverReport solveByRefinement(const std::string& name, const PoissonSystem& sys
     return report;
   }
   const double target = options.tolerance * rightHandNorm;
-  std::vector<double> residual(solution.size()), correction(solution.size());
+  UnsetVector<double> residual(solution.size()), correction(solution.size());
   computeResidual(system, solution, residual);
   double norm = residualNorm(system, residual);
   for (auto corrector = correctors.begin(); corrector != correctors.end();) {

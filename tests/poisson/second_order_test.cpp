@@ -44,9 +44,9 @@ PoissonSystem rowOfFaces(const std::vector<double>& values, const std::vector<do
                             divergence, {.secondOrder = beta});
 }
 
-template <typename T>
-bool sameBits(const std::vector<T>& a, const std::vector<T>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
+template <typename Vector>
+bool sameBits(const Vector& a, const Vector& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(a[0])) == 0;
 }
 
 }  // namespace
@@ -169,7 +169,9 @@ TEST_CASE("weights, divergence and system have the same bits on any number of th
       const std::vector<double> weights = arcWeights(kind, problem.graph, problem.geometry);
       const std::vector<double> divergence = divergenceOf(problem.graph, weights, field);
       PoissonSystem system = buildPoissonSystem(problem.graph, weights, problem.values, divergence, {.secondOrder = 3});
-      numbers[threadCount - 1] = {weights, divergence, system.entries, system.diagonal, system.rightHandSide};
+      numbers[threadCount - 1] = {weights, divergence};
+      for (const auto& ofSystem : {system.entries, system.diagonal, system.rightHandSide})
+        numbers[threadCount - 1].emplace_back(ofSystem.begin(), ofSystem.end());
     }
     for (size_t i = 0; i < numbers[0].size(); ++i) {
       CHECK(sameBits(numbers[0][i], numbers[1][i]));
