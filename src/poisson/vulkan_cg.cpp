@@ -10,7 +10,8 @@
 namespace asdfvk {
 namespace {
 
-constexpr VkBufferUsageFlags kSizeUsage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT;
+constexpr VkBufferUsageFlags kSizeUsage =
+    VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
 
 std::array<CgState, 2> firstStates(double reduction) {
   const CgState state{.residualSquared = 1,
@@ -73,6 +74,12 @@ CgState VulkanCg::advance(uint32_t iterationCount) {
   std::memcpy(&states, statesOnHost_.mapped(), sizeof states);
   // The iteration that ended it was the last to write, whichever that was.
   return states[1 - stateIndex_].status != kCgRunning ? states[1 - stateIndex_] : states[stateIndex_];
+}
+
+uint32_t VulkanCg::workgroupCount() const {
+  DispatchSize size;
+  downloadBuffer(device_, size_, std::as_writable_bytes(std::span<DispatchSize, 1>(&size, 1)));
+  return size.x;
 }
 
 std::vector<float> VulkanCg::download(const Buffer& vector) const {

@@ -29,6 +29,8 @@ class VulkanCg {
   /// them; those that are left then cost next to nothing.
   CgState advance(uint32_t iterationCount);
 
+  /// Workgroups of the next dispatch: 0 once it has converged or broken down.
+  [[nodiscard]] uint32_t workgroupCount() const;
   [[nodiscard]] std::vector<float> solution() const { return download(solution_); }
   [[nodiscard]] std::vector<float> residual() const { return download(residual_); }
   [[nodiscard]] std::vector<float> direction() const { return download(direction_); }

@@ -138,7 +138,10 @@ TEST_CASE("iterations after convergence change nothing, however they are batched
     CHECK(copyOf(atOnce.direction()) == copyOf(stepwise.direction()));
   };
   VulkanCg atOnce(*device, kernels, matrix, b, 1e-3), stepwise(*device, kernels, matrix, b, 1e-3);
+  CHECK(atOnce.workgroupCount() == matrix.grid.workgroupCount);
   compare(atOnce, stepwise);
+  CHECK(atOnce.workgroupCount() == 0);
+  CHECK(stepwise.workgroupCount() == 0);
   CpuCg atOnceOnCpu(scaled, b, 1e-3), stepwiseOnCpu(scaled, b, 1e-3);
   compare(atOnceOnCpu, stepwiseOnCpu);
 }
@@ -178,6 +181,7 @@ TEST_CASE("a product that is no positive number stops the iteration and says so"
   };
   VulkanCg onDevice(*device, kernels, matrix, std::vector<float>{1, 1}, 1e-3);
   check(onDevice);
+  CHECK(onDevice.workgroupCount() == 0);
   CpuCg onCpu(scaled, {1, 1}, 1e-3);
   check(onCpu);
 }
