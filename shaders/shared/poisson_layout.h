@@ -16,7 +16,8 @@ namespace asdfvk {
 #endif
 
 // A row of S, 32 bytes, read as two rgba32ui texels: its first three entries, which are all there are of the first
-// order on a manifold mesh, and where the rest stands, up to six of the second order. Entries that a row has not got have coupling 0 and the row's own column.
+// order on a manifold mesh, and where the rest stands, up to six of the second order. Entries that a row has not got
+// have coupling 0 and the row's own column.
 const uint kPoissonRowTexelCount = 2u;
 struct PoissonRow {
   uint column0, column1, column2;
