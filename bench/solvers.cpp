@@ -2,15 +2,23 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <ctime>
+#include <functional>
 
 #include "bench_program.h"
 #include "cli/option_values.h"
 #include "cli/report_text.h"
 #include "cli/terminal.h"
+#include "core/stopwatch.h"
+#include "eigen_rivals.h"
 #include "file_run.h"
 #include "generate/creatures.h"
 #include "machine.h"
+#include "mesh/dual_graph.h"
+#include "mesh/face_geometry.h"
 #include "mesh/mesh_reader.h"
+#include "poisson/arc_weights.h"
+#include "poisson/poisson_system.h"
 #include "spread.h"
 
 namespace {
@@ -29,12 +37,15 @@ struct Arguments {
   uint64_t generatedFaceCount = 100'000;
   uint32_t runCount = 5;
   double tolerance = SolverOptions{}.tolerance;
+  bool comparesBare = false;
 };
 
 void compare(Session& session, const std::string& name, Mesh& mesh, const std::string& seeds,
              const Arguments& arguments, const RunControl& control) {
-  std::array<Contender, 3> contenders{
-      {{SolverChoice::Eigen, {}, {}, {}}, {SolverChoice::Cg, {}, {}, {}}, {SolverChoice::Jacobi, {}, {}, {}}}};
+  std::array<Contender, 4> contenders{{{SolverChoice::Eigen, {}, {}, {}},
+                                       {SolverChoice::Cpu, {}, {}, {}},
+                                       {SolverChoice::Cg, {}, {}, {}},
+                                       {SolverChoice::Jacobi, {}, {}, {}}}};
   Options options;
   options.seeds = parseSeedCount(seeds);
   options.solverOptions.tolerance = arguments.tolerance;
@@ -65,10 +76,78 @@ void compare(Session& session, const std::string& name, Mesh& mesh, const std::s
   writeStandardOutput(text + "\n");
 }
 
+/// A solver on the bare system, whose set-up, factors included, is timed with it.
+struct BareContender {
+  std::string name;
+  std::function<uint32_t(std::span<double> solution)> solve;
+  uint32_t iterationCount = 0;
+  double relativeResidual = 0;
+  std::vector<double> seconds, threadSeconds, ratios;  ///< Ratios to the thread seconds of the first in the same round.
+};
+
+/// Without guidance and prediction, so from the mean of the seeds' values on.
+void compareBare(Session& session, const Mesh& mesh, const std::string& seeds, const Arguments& arguments,
+                 const RunControl& control) {
+  Options options;
+  options.seeds = parseSeedCount(seeds);
+  options.estimatesError = false;
+  Mesh copy = mesh;
+  const Result result = session.compute(copy, options, control);
+  if (result.sdf.size() != mesh.faces.size()) return;  // Polygons: the values are not those of the triangles.
+  std::vector<double> values(result.sdf.size(), kNoValue);
+  for (size_t face = 0; face < values.size(); ++face)
+    if (result.isSeed[face]) values[face] = result.sdf[face];
+  const DualGraph graph = buildDualGraph(mesh);
+  const PoissonSystem system =
+      buildPoissonSystem(graph, arcWeights(ArcWeightKind::Feature, graph, computeFaceGeometry(mesh)), values, {});
+  const bench::EigenMatrix matrix = bench::eigenMatrix(system);
+  std::vector<BareContender> contenders;
+  const auto addOurs = [&](const std::string& name, std::unique_ptr<PoissonSolver> (*make)()) {
+    contenders.push_back({name, [&, make](std::span<double> solution) {
+                            const SolverOptions solverOptions{.tolerance = arguments.tolerance};
+                            return make()->solve(system, solverOptions, solution, control).iterations;
+                          }});
+  };
+  addOurs("eigen", makeEigenSolver);
+  addOurs("cpu", makeCpuCgSolver);
+  for (const bench::EigenRival& rival : bench::eigenRivals())
+    contenders.push_back({rival.name, [&, rival](std::span<double> solution) {
+                            return rival.solve(matrix, system, arguments.tolerance, solution);
+                          }});
+  std::vector<double> solution(system.unknownCount());
+  for (uint32_t round = 0; round <= arguments.runCount; ++round)
+    for (BareContender& contender : contenders) {
+      control.checkpoint(0);
+      const Stopwatch watch;
+      const std::clock_t begin = std::clock();
+      contender.iterationCount = contender.solve(solution);
+      const double threadSeconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+      contender.relativeResidual = relativeResidual(system, solution);
+      if (round == 0) continue;
+      contender.seconds.push_back(watch.seconds());
+      contender.threadSeconds.push_back(threadSeconds);
+      contender.ratios.push_back(threadSeconds / contenders[0].threadSeconds.back());
+    }
+  std::string text = fmt::format(
+      "the equation alone, harmonic, {} unknowns, built and solved; a matrix for Eigen is there before\n\n"
+      "| solver | iterations | residual | seconds | seconds of all threads | over eigen |\n"
+      "|--------|-----------:|---------:|--------:|-----------------------:|-----------:|\n",
+      groupDigits(system.unknownCount()));
+  for (const BareContender& contender : contenders)
+    text +=
+        fmt::format("| {} | {} | {:.2e} | {} | {} | {} |\n", contender.name, contender.iterationCount,
+                    contender.relativeResidual, toText(bench::spreadOf(contender.seconds), 4),
+                    toText(bench::spreadOf(contender.threadSeconds), 4), toText(bench::spreadOf(contender.ratios), 2));
+  writeStandardOutput(text + "\n");
+}
+
 void run(const Arguments& arguments, const RunControl& control) {
   Session session(bench::sessionOptionsOf("vulkan", arguments.device));
   const auto compareAll = [&](const std::string& name, Mesh mesh) {
-    for (const std::string& seeds : arguments.seeds) compare(session, name, mesh, seeds, arguments, control);
+    for (const std::string& seeds : arguments.seeds) {
+      compare(session, name, mesh, seeds, arguments, control);
+      if (arguments.comparesBare) compareBare(session, mesh, seeds, arguments, control);
+    }
   };
   for (const std::string& mesh : arguments.meshes) compareAll(mesh, readMesh(mesh));
   if (arguments.meshes.empty()) compareAll("generated animal", makeAnimal(arguments.generatedFaceCount).mesh);
@@ -88,6 +167,7 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--seeds", arguments.seeds, "Shares or counts")->delimiter(',')->capture_default_str();
   app.add_option("--tolerance", arguments.tolerance, "Relative residual")->capture_default_str();
+  app.add_flag("--bare", arguments.comparesBare, "Also on the equation alone, beside Eigen's own solvers");
   app.add_option("--device", arguments.device, "As asdf-vk takes it");
   return bench::runBenchProgram(app, argc, argv, [&](const RunControl& control) { run(arguments, control); });
 }

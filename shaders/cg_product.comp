@@ -1,27 +1,36 @@
 #version 450
-// Conjugate gradients, first third of an iteration: q = (I - S) p and the partial sums of p.q.
+// Conjugate gradients, first half of an iteration: the product (I - S) p and the partial sums of all that the second
+// half wants to know.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/poisson_layout.h"
 
 #include "poisson_lanes.glsl"
 #include "poisson_matrix.glsl"
 
-layout(set = 0, binding = 3) readonly buffer Direction { float p[]; };
-layout(set = 0, binding = 4) writeonly buffer Product { float q[]; };
-layout(set = 0, binding = 5) readonly buffer States { CgState states[2]; };
-layout(set = 0, binding = 6) buffer Sums { PoissonSums sums; };
+layout(set = 0, binding = 3) readonly buffer ResidualWeights { float residualWeights[]; };
+layout(set = 0, binding = 4) readonly buffer Residual { float r[]; };
+layout(set = 0, binding = 5) readonly buffer Direction { float p[]; };
+layout(set = 0, binding = 6) writeonly buffer Product { float q[]; };
+layout(set = 0, binding = 7) buffer Sums { PoissonSums sums; };
 
 void main() {
-  if (states[push.stateIndex].status != kCgRunning) return;
-  float dot = 0.0;
+  mat2x3 partial = mat2x3(0.0);
   for (uint row = firstRow(); row < push.unknownCount; row += rowStride()) {
     float coupled = 0.0;
     ADD_COUPLED(row, p, coupled)
     const float direction = p[row];
     const float product = direction - coupled;
+    const float residual = r[row];
     q[row] = product;
-    dot += direction * product;
+    partial += mat2x3(vec3(direction, product, product) * vec3(direction, direction, product),
+                      residual * vec3(product, residual, residual * residualWeights[row]));
   }
-  const float total = workgroupSum(vec2(dot, 0.0)).x;
-  if (gl_LocalInvocationID.x == 0u) sums.productDot[gl_WorkGroupID.x] = total;
+  const mat2x3 total = workgroupSum(partial);
+  if (gl_LocalInvocationID.x != 0u) return;
+  sums.directionSquared[gl_WorkGroupID.x] = total[0].x;
+  sums.productDot[gl_WorkGroupID.x] = total[0].y;
+  sums.productSquared[gl_WorkGroupID.x] = total[0].z;
+  sums.residualProduct[gl_WorkGroupID.x] = total[1].x;
+  sums.residualDot[gl_WorkGroupID.x] = total[1].y;
+  sums.residualSquared[gl_WorkGroupID.x] = total[1].z;
 }

@@ -22,6 +22,6 @@ void main() {
     next[row] = value - push.heldBack * residual;
     squared += residual * residual * residualWeights[row];
   }
-  const float total = workgroupSum(vec2(squared, 0.0)).x;
+  const float total = workgroupSum(mat2x3(squared, 0.0, 0.0, 0.0, 0.0, 0.0))[0].x;
   if (gl_LocalInvocationID.x == 0u) sums.residualSquared[gl_WorkGroupID.x] = total;
 }

@@ -4,16 +4,14 @@ layout(constant_id = 0) const uint kLaneCount = 64;  // A power of two and a mul
 
 layout(push_constant) uniform Push { PoissonPush push; };
 
-const float kLargest = 3.0e38;  // What is not below has overflowed, or is not a number.
-
-shared vec2 laneSums[kLaneCount];
+shared mat2x3 laneSums[kLaneCount];
 
 uint firstRow() { return gl_WorkGroupID.x * kLaneCount + gl_LocalInvocationID.x; }
 uint rowStride() { return gl_NumWorkGroups.x * kLaneCount; }
 
 // The sum over the workgroup's lanes, in all of them: a tree of fixed shape, so that a device repeats itself to the
 // bit.
-vec2 workgroupSum(vec2 value) {
+mat2x3 workgroupSum(mat2x3 value) {
   const uint lane = gl_LocalInvocationID.x;
   barrier();  // an earlier sum has been read by every lane
   laneSums[lane] = value;

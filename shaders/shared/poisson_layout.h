@@ -7,14 +7,17 @@
 
 #ifdef __cplusplus
 #include <cstddef>
+#endif
 
-#include "shared/glsl_types.h"
+#include "shared/cg_rules.h"
+
+#ifdef __cplusplus
 namespace asdfvk {
-using glsl::uint;
 #endif
 
 // A row of S, 32 bytes, read as two rgba32ui texels: its first three entries, which are all there are of the first
-// order on a manifold mesh, and where the rest stands, up to six of the second order. Entries that a row has not got have coupling 0 and the row's own column.
+// order on a manifold mesh, and where the rest stands, up to six of the second order. Entries that a row has not got
+// have coupling 0 and the row's own column.
 const uint kPoissonRowTexelCount = 2u;
 struct PoissonRow {
   uint column0, column1, column2;
@@ -26,26 +29,29 @@ struct PoissonRow {
 // Each workgroup leaves one partial sum per scalar, and each workgroup adds all of them up again.
 const uint kMaxPoissonWorkgroupCount = 256u;
 
-const uint kCgRunning = 0u;
-const uint kCgConverged = 1u;
-const uint kCgBrokenDown = 2u;  // p.Ap or the residual is no positive number any more: float32 has no more to give.
-
-// The scalars of the iteration, 20 bytes. There are two: an iteration reads one and writes the other, so that no
+// The scalars of the iteration, 16 bytes. There are two: an iteration reads one and writes the other, so that no
 // workgroup sees a word that another one is writing.
 struct CgState {
-  float residualDot;       // r.r of the scaled system, which is r.z of the preconditioned one.
-  float residualSquared;   // The squared norm of the unscaled residual, 1 at the start.
+  float residualSquared;   // The squared norm of the unscaled residual before the last iteration; 1 at the start.
   float toleranceSquared;  // At or below this residualSquared it has converged.
   uint iterationCount;
-  uint status;             // kCgRunning, kCgConverged or kCgBrokenDown; unless running, iterations do nothing.
+  uint status;             // See cg_rules.h; unless kCgRunning, there are no more iterations.
 };
 
-// One partial sum per workgroup, 3076 bytes.
+// What vkCmdDispatchIndirect reads, 12 bytes. The iteration that finds that there is no more to do sets x to 0, so that
+// those recorded after it cost next to nothing.
+struct DispatchSize {
+  uint x, y, z;
+};
+
+// One partial sum per workgroup, all as in CgSums, 6144 bytes.
 struct PoissonSums {
-  float productDot[kMaxPoissonWorkgroupCount];       // p.Ap
-  float residualDot[kMaxPoissonWorkgroupCount];      // As in CgState.
-  float residualSquared[kMaxPoissonWorkgroupCount];  // As in CgState.
-  uint brokenDown;                                   // 1 when the step saw a p.Ap that is no positive number.
+  float directionSquared[kMaxPoissonWorkgroupCount];
+  float productDot[kMaxPoissonWorkgroupCount];
+  float productSquared[kMaxPoissonWorkgroupCount];
+  float residualProduct[kMaxPoissonWorkgroupCount];
+  float residualDot[kMaxPoissonWorkgroupCount];
+  float residualSquared[kMaxPoissonWorkgroupCount];
 };
 
 struct PoissonPush {
@@ -60,13 +66,15 @@ static_assert(offsetof(PoissonRow, column0) == 0 && offsetof(PoissonRow, column1
 static_assert(offsetof(PoissonRow, column2) == 8 && offsetof(PoissonRow, tailBegin) == 12);
 static_assert(offsetof(PoissonRow, coupling0) == 16 && offsetof(PoissonRow, coupling1) == 20);
 static_assert(offsetof(PoissonRow, coupling2) == 24 && offsetof(PoissonRow, tailCount) == 28);
-static_assert(sizeof(CgState) == 20);
-static_assert(offsetof(CgState, residualDot) == 0 && offsetof(CgState, residualSquared) == 4);
-static_assert(offsetof(CgState, toleranceSquared) == 8 && offsetof(CgState, iterationCount) == 12);
-static_assert(offsetof(CgState, status) == 16);
-static_assert(sizeof(PoissonSums) == 3076);
-static_assert(offsetof(PoissonSums, productDot) == 0 && offsetof(PoissonSums, residualDot) == 1024);
-static_assert(offsetof(PoissonSums, residualSquared) == 2048 && offsetof(PoissonSums, brokenDown) == 3072);
+static_assert(sizeof(CgState) == 16);
+static_assert(offsetof(CgState, residualSquared) == 0 && offsetof(CgState, toleranceSquared) == 4);
+static_assert(offsetof(CgState, iterationCount) == 8 && offsetof(CgState, status) == 12);
+static_assert(sizeof(DispatchSize) == 12);
+static_assert(offsetof(DispatchSize, x) == 0 && offsetof(DispatchSize, y) == 4 && offsetof(DispatchSize, z) == 8);
+static_assert(sizeof(PoissonSums) == 6144);
+static_assert(offsetof(PoissonSums, directionSquared) == 0 && offsetof(PoissonSums, productDot) == 1024);
+static_assert(offsetof(PoissonSums, productSquared) == 2048 && offsetof(PoissonSums, residualProduct) == 3072);
+static_assert(offsetof(PoissonSums, residualDot) == 4096 && offsetof(PoissonSums, residualSquared) == 5120);
 static_assert(sizeof(PoissonPush) == 12);
 static_assert(offsetof(PoissonPush, unknownCount) == 0 && offsetof(PoissonPush, stateIndex) == 4);
 static_assert(offsetof(PoissonPush, heldBack) == 8);

@@ -37,9 +37,10 @@ inline constexpr ChoiceNames<ArcWeightKind, 3> kWeights{
 inline constexpr ChoiceNames<Guidance, 3> kGuidances{
     {{"none", Guidance::None}, {"curvature", Guidance::Curvature}, {"hits", Guidance::Hits}}};
 
-inline constexpr ChoiceNames<SolverChoice, 4> kSolvers{{{"auto", SolverChoice::Auto},
+inline constexpr ChoiceNames<SolverChoice, 5> kSolvers{{{"auto", SolverChoice::Auto},
                                                         {"cg", SolverChoice::Cg},
                                                         {"jacobi", SolverChoice::Jacobi},
+                                                        {"cpu", SolverChoice::Cpu},
                                                         {"eigen", SolverChoice::Eigen}}};
 
 inline constexpr ChoiceNames<Orientation, 3> kOrientations{

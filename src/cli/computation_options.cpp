@@ -189,7 +189,7 @@ void addInterpolation(CLI::App& app, Options& options) {
            })
       ->group(interpolation);
   addChoice(app, "--solver", options.solver, kSolvers,
-            "Conjugate gradient or Jacobi on the device, or Eigen on the CPU; default auto")
+            "Conjugate gradient or Jacobi on the device, or on the CPU in float32 or with Eigen; default auto")
       ->group(interpolation);
   addValue(app, "--tolerance", "R",
            fmt::format("Relative residual at which the solver stops, above 0 and below 1;\n"

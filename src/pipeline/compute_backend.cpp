@@ -96,11 +96,12 @@ std::unique_ptr<ConeTracer> ComputeBackend::makeTracer(const TraceScene& scene, 
 
 PoissonSolver& ComputeBackend::solver(SolverChoice choice) {
   if (choice == SolverChoice::Auto) {
-    // On a device that is the CPU itself Eigen needs less time for the same iterations; see bench/NOTES.md.
-    return solver(runsOnCpu() ? SolverChoice::Eigen : SolverChoice::Cg);
+    // On a device that is the CPU itself its own loops need less time for the same iterations; see bench/NOTES.md.
+    return solver(runsOnCpu() ? SolverChoice::Cpu : SolverChoice::Cg);
   }
   std::unique_ptr<PoissonSolver>& solver = solvers_[choice];
   if (solver) return *solver;
+  if (choice == SolverChoice::Cpu) return *(solver = makeCpuCgSolver());
   if (choice == SolverChoice::Eigen) return *(solver = makeEigenSolver());
   if (!device_)
     throw Error(

@@ -10,6 +10,7 @@
 #include "core/stopwatch.h"
 #include "mesh/curvature.h"
 #include "poisson/divergence.h"
+#include "poisson/each_row.h"
 #include "poisson/poisson_system.h"
 #include "reprojection/seed_cells.h"
 
@@ -43,24 +44,24 @@ std::vector<ComponentValues> componentValues(const Components& components, const
 std::vector<double> firstGuess(const Components& components, const std::vector<ComponentValues>& traced,
                                std::span<const double> prediction) {
   std::vector<double> guess(components.componentOf.size(), kNoValue);
-  for (size_t face = 0; face < guess.size(); ++face) {
+  forEachRow(guess.size(), [&](size_t face) {
     const ComponentValues& component = traced[components.componentOf[face]];
     if (component.count > 0) guess[face] = component.mean;
     if (!prediction.empty() && std::isfinite(prediction[face])) guess[face] = prediction[face];
-  }
+  });
   return guess;
 }
 
 /// Guidance carries values beyond those of the seeds: downwards as far as the prediction, which is a mean of lengths,
 /// goes itself; upwards not at all, since the faces with the greatest predictions are seeds (see chooseScouts()).
 void keepWithinTraced(const Components& components, const std::vector<ComponentValues>& traced, Interpolated& result) {
-  for (size_t face = 0; face < result.values.size(); ++face) {
+  forEachRow(result.values.size(), [&](size_t face) {
     const ComponentValues& component = traced[components.componentOf[face]];
-    if (component.count == 0 || !std::isfinite(result.values[face])) continue;
+    if (component.count == 0 || !std::isfinite(result.values[face])) return;
     const double prediction = result.prediction[face];
     const double least = std::isfinite(prediction) ? std::min(component.low, prediction) : component.low;
     result.values[face] = std::clamp(result.values[face], least, std::max(least, component.high));
-  }
+  });
 }
 
 }  // namespace
@@ -88,7 +89,9 @@ Interpolated Interpolation::run(const TracedSeeds& traced, StageSeconds& seconds
   const std::vector<double> guess = firstGuess(prepared_.components, known, result.prediction);
   const PoissonSystem system =
       buildPoissonSystem(prepared_.graph, weights_, traced.values, divergence(result.prediction),
-                         {.secondOrder = options_.interpolation.secondOrder, .firstGuess = guess});
+                         {.secondOrder = options_.interpolation.secondOrder,
+                          .firstGuess = guess,
+                          .componentOf = prepared_.components.componentOf});
   result.solver = solve(system, result.values, options_.solverOptions, control.part(0.5, 1));
   if (!result.prediction.empty()) keepWithinTraced(prepared_.components, known, result);
   if (const double pooling = options_.interpolation.pooling; pooling > 0)
@@ -103,7 +106,8 @@ std::vector<double> Interpolation::runHarmonic(const TracedSeeds& traced, std::s
                                                const RunControl& control) {
   std::vector<double> values = traced.values;
   const PoissonSystem system =
-      buildPoissonSystem(prepared_.graph, weights_, traced.values, {}, {.secondOrder = 0, .firstGuess = firstGuess});
+      buildPoissonSystem(prepared_.graph, weights_, traced.values, {},
+                         {.firstGuess = firstGuess, .componentOf = prepared_.components.componentOf});
   SolverOptions solverOptions = options_.solverOptions;
   solverOptions.tolerance = std::max(solverOptions.tolerance, kComparisonTolerance);
   solve(system, values, solverOptions, control);
@@ -144,7 +148,7 @@ SolverReport Interpolation::solve(const PoissonSystem& system, std::vector<doubl
   } catch (const Error& error) {
     if (options_.solver != SolverChoice::Auto || error.kind() != ErrorKind::Device) throw;
     warnings_.push_back(fmt::format("the CPU solved the equation, because on the device: {}", error.what()));
-    report = solveWith(SolverChoice::Eigen);
+    report = solveWith(SolverChoice::Cpu);
   }
   for (size_t i = 0; i < solution.size(); ++i) values[system.faces[i]] = solution[i];
   return report;

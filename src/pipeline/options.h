@@ -13,7 +13,7 @@
 /// What can be asked of a computation.
 namespace asdfvk {
 
-enum class SolverChoice { Auto, Cg, Jacobi, Eigen };
+enum class SolverChoice { Auto, Cg, Jacobi, Cpu, Eigen };
 
 /// What is done about closed components whose faces look the wrong way.
 enum class Orientation {

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/check.h"
+#include "poisson/eigen_corrector.h"
 #include "poisson/poisson_solver.h"
 #include "poisson/refinement.h"
 #include "poisson/solver_progress.h"
@@ -75,15 +76,19 @@ class EigenSolver final : public PoissonSolver {
  public:
   SolverReport solve(const PoissonSystem& system, const SolverOptions& options, std::span<double> solution,
                      const RunControl& control) override {
-    ASDFVK_CHECK_OP(system.columns.size(), <=, static_cast<size_t>(std::numeric_limits<int>::max()));
     SolverProgress progress(system, options, control);
-    return solveByRefinement(
-        "eigen", system, options, kStrongestReduction, solution,
-        [&](const CorrectionRequest& request) { return conjugateGradient(system, request, progress); });
+    return solveByRefinement("eigen", system, options, solution, {makeEigenCorrector(system, progress)});
   }
 };
 
 }  // namespace
+
+Corrector makeEigenCorrector(const PoissonSystem& system, SolverProgress& progress) {
+  ASDFVK_CHECK_OP(system.columns.size(), <=, static_cast<size_t>(std::numeric_limits<int>::max()));
+  return {kStrongestReduction, [&system, &progress](const CorrectionRequest& request) {
+            return conjugateGradient(system, request, progress);
+          }};
+}
 
 std::unique_ptr<PoissonSolver> makeEigenSolver() { return std::make_unique<EigenSolver>(); }
 

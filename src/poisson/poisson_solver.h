@@ -17,7 +17,7 @@ struct SolverOptions {
 };
 
 struct SolverReport {
-  std::string name;  ///< "eigen", "cg" or "jacobi".
+  std::string name;  ///< "eigen", "cpu", "cg" or "jacobi".
   uint32_t iterations = 0;
   double relativeResidual = 0;  ///< The true one, recomputed in double from the solution.
   bool converged = true;        ///< Not converging is data, not an error.
@@ -31,6 +31,10 @@ class PoissonSolver {
   virtual SolverReport solve(const PoissonSystem& system, const SolverOptions& options, std::span<double> solution,
                              const RunControl& control) = 0;
 };
+
+/// Jacobi-preconditioned conjugate gradients in float32 on all cores of the CPU, under iterative refinement; where
+/// float32 does not get there, Eigen's in double carry on.
+[[nodiscard]] std::unique_ptr<PoissonSolver> makeCpuCgSolver();
 
 /// Jacobi-preconditioned conjugate gradients with Eigen, in double on the CPU, products on all cores.
 [[nodiscard]] std::unique_ptr<PoissonSolver> makeEigenSolver();

@@ -33,9 +33,21 @@ std::vector<uint8_t> reachedFromKnown(const DualGraph& graph, std::span<const do
   return reached;
 }
 
+// The same where it is known which faces hang together.
+std::vector<uint8_t> reachedInComponents(std::span<const uint32_t> componentOf, std::span<const double> values) {
+  std::vector<uint8_t> isKnown;
+  for (size_t face = 0; face < values.size(); ++face) {
+    if (componentOf[face] >= isKnown.size()) isKnown.resize(componentOf[face] + size_t{1}, 0);
+    if (std::isfinite(values[face])) isKnown[componentOf[face]] = 1;
+  }
+  std::vector<uint8_t> reached(values.size());
+  forEachRow(values.size(), [&](size_t face) { reached[face] = isKnown[componentOf[face]]; });
+  return reached;
+}
+
 double meanOfKnown(std::span<const double> values) {
-  size_t count = 0;
-  for (double value : values) count += std::isfinite(value) ? 1 : 0;
+  const auto count =
+      static_cast<size_t>(orderedSum(values.size(), [&](size_t i) { return std::isfinite(values[i]) ? 1.0 : 0.0; }));
   if (count == 0) return 0;
   // Divided before they are added, so that values near the end of the range do not overflow.
   return orderedSum(values.size(),
@@ -91,21 +103,26 @@ PoissonSystem buildPoissonSystem(const DualGraph& graph, std::span<const double>
   ASDFVK_CHECK_OP(values.size(), ==, faceCount);
   if (!divergence.empty()) ASDFVK_CHECK_OP(divergence.size(), ==, faceCount);
   if (!options.firstGuess.empty()) ASDFVK_CHECK_OP(options.firstGuess.size(), ==, faceCount);
+  if (!options.componentOf.empty()) ASDFVK_CHECK_OP(options.componentOf.size(), ==, faceCount);
   ASDFVK_CHECK_OP(options.secondOrder, >=, 0);
 
   PoissonSystem system;
   system.knownMean = meanOfKnown(values);
-  const std::vector<uint8_t> reached = reachedFromKnown(graph, values);
+  const std::vector<uint8_t> reached =
+      options.componentOf.empty() ? reachedFromKnown(graph, values) : reachedInComponents(options.componentOf, values);
   std::vector<uint32_t> unknownOf(faceCount, kNotUnknown);
   for (uint32_t face = 0; face < faceCount; ++face)
     if (reached[face] && !std::isfinite(values[face])) {
       unknownOf[face] = system.unknownCount();
       system.faces.push_back(face);
     }
-  if (!options.firstGuess.empty())
-    for (uint32_t face : system.faces)
-      system.firstGuess.push_back(std::isfinite(options.firstGuess[face]) ? options.firstGuess[face]
-                                                                          : system.knownMean);
+  if (!options.firstGuess.empty()) {
+    system.firstGuess.resize(system.faces.size());
+    forEachRow(system.faces.size(), [&](size_t row) {
+      const double guess = options.firstGuess[system.faces[row]];
+      system.firstGuess[row] = std::isfinite(guess) ? guess : system.knownMean;
+    });
+  }
   const WeightedGraph weighted{graph, weights};
   if (options.secondOrder == 0)
     assemble(FirstOrderRows{weighted}, unknownOf, values, divergence, system);

@@ -6,6 +6,7 @@
 
 #include "mesh/dual_graph.h"
 #include "mesh/mesh.h"
+#include "poisson/unset_vector.h"
 
 namespace asdfvk {
 
@@ -15,10 +16,10 @@ namespace asdfvk {
 struct PoissonSystem {
   std::vector<uint32_t> faces;        ///< #U: the face of each unknown, ascending.
   std::vector<uint32_t> rowOffsets;   ///< #U+1
-  std::vector<uint32_t> columns;      ///< Unknown indices, without the row's own.
-  std::vector<double> entries;        ///< Off-diagonal ones of A, one per column.
-  std::vector<double> diagonal;       ///< #U, > 0. Also what the known neighbours take part in.
-  std::vector<double> rightHandSide;  ///< #U
+  UnsetVector<uint32_t> columns;      ///< Unknown indices, without the row's own.
+  UnsetVector<double> entries;        ///< Off-diagonal ones of A, one per column.
+  UnsetVector<double> diagonal;       ///< #U, > 0. Also what the known neighbours take part in.
+  UnsetVector<double> rightHandSide;  ///< #U
   std::vector<double> firstGuess;     ///< #U, or empty: knownMean everywhere. Where the solvers start.
   double knownMean = 0;               ///< Mean of the known values.
 
@@ -31,6 +32,8 @@ struct PoissonOptions {
   double secondOrder = 0;
   /// #F, or empty. Where it is not finite the mean of the known values stands in.
   std::span<const double> firstGuess;
+  /// #F, Components::componentOf, or empty: then it is found out which faces hang together.
+  std::span<const uint32_t> componentOf;
 };
 
 /// The interpolation of the ASDF paper, section 4.1, over the dual graph:

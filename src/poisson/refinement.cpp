@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/check.h"
+#include "poisson/each_row.h"
 
 namespace asdfvk {
 namespace {
@@ -17,7 +18,7 @@ constexpr double kStagnation = 0.5;
 }  // namespace
 
 SolverReport solveByRefinement(const std::string& name, const PoissonSystem& system, const SolverOptions& options,
-                               double strongestReduction, std::span<double> solution, const CorrectionSolver& correct) {
+                               std::span<double> solution, const std::vector<Corrector>& correctors) {
   ASDFVK_CHECK_OP(solution.size(), ==, system.faces.size());
   SolverReport report;
   report.name = name;
@@ -31,25 +32,30 @@ SolverReport solveByRefinement(const std::string& name, const PoissonSystem& sys
     return report;
   }
   const double target = options.tolerance * rightHandNorm;
-  std::vector<double> residual(solution.size()), correction(solution.size());
+  UnsetVector<double> residual(solution.size()), correction(solution.size());
   computeResidual(system, solution, residual);
   double norm = residualNorm(system, residual);
-  while (norm > target && report.iterations < options.maxIterations) {
-    report.iterations += correct({.residual = residual,
-                                  .reduction = std::max(kSafety * target / norm, strongestReduction),
-                                  .maxIterations = options.maxIterations - report.iterations,
-                                  .correction = correction});
-    if (!std::all_of(correction.begin(), correction.end(), [](double e) { return std::isfinite(e); })) break;
-    for (size_t i = 0; i < solution.size(); ++i) correction[i] += solution[i];
+  for (auto corrector = correctors.begin(); corrector != correctors.end();) {
+    if (!(norm > target) || report.iterations >= options.maxIterations) break;
+    report.iterations +=
+        corrector->correct({.residual = residual,
+                            .norm = norm,
+                            .reduction = std::max(kSafety * target / norm, corrector->strongestReduction),
+                            .maxIterations = options.maxIterations - report.iterations,
+                            .correction = correction});
+    forEachRow(solution.size(), [&](size_t row) { correction[row] += solution[row]; });
     computeResidual(system, correction, residual);
-    const double newNorm = residualNorm(system, residual);
-    if (!(newNorm <= norm)) break;
-    std::copy(correction.begin(), correction.end(), solution.begin());
-    const bool stagnates = newNorm > kStagnation * norm;
-    norm = newNorm;
-    if (stagnates) break;
+    const double newNorm = residualNorm(system, residual);  // Not finite if the correction is not.
+    const bool helps = newNorm <= norm, stagnates = !(newNorm <= kStagnation * norm);
+    if (helps) {
+      std::copy(correction.begin(), correction.end(), solution.begin());
+      norm = newNorm;
+    } else {
+      computeResidual(system, solution, residual);
+    }
+    if (stagnates) ++corrector;
   }
-  report.relativeResidual = relativeResidual(system, solution);
+  report.relativeResidual = norm == 0 ? 0 : norm / rightHandNorm;
   report.converged = std::isfinite(target) && norm <= target;
   return report;
 }

@@ -4,6 +4,7 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "poisson/poisson_solver.h"
 
@@ -12,6 +13,7 @@ namespace asdfvk {
 /// What a solver is asked for in one pass: an approximation of the e with A e = residual.
 struct CorrectionRequest {
   std::span<const double> residual;  ///< #U
+  double norm = 0;                   ///< Its residualNorm(), > 0.
   double reduction = 0;              ///< residualNorm() at or below this share of the residual's is enough.
   uint32_t maxIterations = 0;
   std::span<double> correction;  ///< #U, e, to be written whole.
@@ -20,13 +22,18 @@ struct CorrectionRequest {
 /// Returns the iterations spent.
 using CorrectionSolver = std::function<uint32_t(const CorrectionRequest& request)>;
 
-/// Iterative refinement (Wilkinson 1963): from the first guess on, residuals in double, corrections by `correct` in
-/// whatever precision it has, until the true relative residual is within the tolerance, the iterations are spent, or a
-/// pass no longer helps. A correction that is not finite or makes it worse is not added.
-/// strongestReduction: the most that one pass of `correct` can be asked for in its precision.
-/// name: for the report. solution: #U, written whole.
+/// A solver in whatever precision it has.
+struct Corrector {
+  double strongestReduction = 0;  ///< The most that one pass of it can be asked for in its precision.
+  CorrectionSolver correct;
+};
+
+/// Iterative refinement (Wilkinson 1963): from the first guess on, residuals in double, corrections by the first of the
+/// `correctors`, until the true relative residual is within the tolerance or the iterations are spent. Where a pass no
+/// longer helps the next corrector takes over, and after the last one it ends. A correction that is not finite or makes
+/// it worse is not added. name: for the report. solution: #U, written whole.
 [[nodiscard]] SolverReport solveByRefinement(const std::string& name, const PoissonSystem& system,
-                                             const SolverOptions& options, double strongestReduction,
-                                             std::span<double> solution, const CorrectionSolver& correct);
+                                             const SolverOptions& options, std::span<double> solution,
+                                             const std::vector<Corrector>& correctors);
 
 }  // namespace asdfvk

@@ -1,5 +1,8 @@
 #include "poisson/scaled_system.h"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -20,19 +23,33 @@ ScaledSystem::ScaledSystem(const PoissonSystem& system)
   meanDiagonal_ =
       orderedSum(rowCount, [&](size_t row) { return system.diagonal[row] / static_cast<double>(rowCount); });
   uint32_t tailSize = 0;
-  for (size_t row = 0; row < rowCount; ++row) {
+  const auto tailOf = [&](size_t row) {
     const uint32_t length = system.rowOffsets[row + 1] - system.rowOffsets[row];
-    longestRow_ = std::max(longestRow_, length);
+    return length - std::min(length, kHeadLength);
+  };
+  longestRow_ = tbb::parallel_reduce(
+      tbb::blocked_range<size_t>(0, rowCount), 0u,
+      [&](const tbb::blocked_range<size_t>& range, uint32_t longest) {
+        for (size_t row = range.begin(); row < range.end(); ++row)
+          longest = std::max(longest, system.rowOffsets[row + 1] - system.rowOffsets[row]);
+        return longest;
+      },
+      [](uint32_t a, uint32_t b) { return std::max(a, b); });
+  const bool hasTails = longestRow_ > kHeadLength;
+  for (size_t row = 0; hasTails && row < rowCount; ++row) {
     rows_[row].tailBegin = tailSize;
-    rows_[row].tailCount = length - std::min(length, kHeadLength);
-    tailSize += rows_[row].tailCount;
+    tailSize += tailOf(row);
   }
   tailColumns_.resize(tailSize);
   tailCouplings_.resize(tailSize);
+  UnsetVector<double> inverseRoots(rowCount);
   forEachRow(rowCount, [&](size_t row) {
-    const double root = std::sqrt(system.diagonal[row]);
+    inverseRoots[row] = 1 / std::sqrt(system.diagonal[row]);
+    residualWeights_[row] = static_cast<float>(meanDiagonal_ / system.diagonal[row]);
+  });
+  forEachRow(rowCount, [&](size_t row) {
     const auto coupling = [&](uint32_t i) {
-      return static_cast<float>(-system.entries[i] / root / std::sqrt(system.diagonal[system.columns[i]]));
+      return static_cast<float>(-system.entries[i] * inverseRoots[row] * inverseRoots[system.columns[i]]);
     };
     const uint32_t begin = system.rowOffsets[row], length = system.rowOffsets[row + 1] - begin;
     std::array<uint32_t, kHeadLength> columns;
@@ -43,18 +60,17 @@ ScaledSystem::ScaledSystem(const PoissonSystem& system)
       couplings[k] = coupling(begin + k);
     }
     PoissonRow& entries = rows_[row];
-    entries = {columns[0],   columns[1],   columns[2],   entries.tailBegin,
-               couplings[0], couplings[1], couplings[2], entries.tailCount};
+    entries = {columns[0],   columns[1],   columns[2],   hasTails ? entries.tailBegin : 0,
+               couplings[0], couplings[1], couplings[2], tailOf(row)};
     for (uint32_t k = 0; k < entries.tailCount; ++k) {
       tailColumns_[entries.tailBegin + k] = system.columns[begin + kHeadLength + k];
       tailCouplings_[entries.tailBegin + k] = coupling(begin + kHeadLength + k);
     }
-    residualWeights_[row] = static_cast<float>(meanDiagonal_ / system.diagonal[row]);
   });
 }
 
-std::vector<float> ScaledSystem::scaleResidual(std::span<const double> residual, double norm) const {
-  std::vector<float> scaled(residual.size());
+UnsetVector<float> ScaledSystem::scaleResidual(std::span<const double> residual, double norm) const {
+  UnsetVector<float> scaled(residual.size());
   forEachRow(scaled.size(), [&](size_t row) {
     scaled[row] =
         static_cast<float>(residual[row] / norm / std::sqrt(meanDiagonal_) / std::sqrt(system_.diagonal[row]));

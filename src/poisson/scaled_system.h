@@ -16,15 +16,15 @@ class ScaledSystem {
   explicit ScaledSystem(const PoissonSystem& system);
 
   [[nodiscard]] uint32_t unknownCount() const { return system_.unknownCount(); }
-  [[nodiscard]] const std::vector<PoissonRow>& rows() const { return rows_; }  ///< #U, the matrix S.
-  [[nodiscard]] const std::vector<uint32_t>& tailColumns() const { return tailColumns_; }
-  [[nodiscard]] const std::vector<float>& tailCouplings() const { return tailCouplings_; }
+  [[nodiscard]] const UnsetVector<PoissonRow>& rows() const { return rows_; }  ///< #U, the matrix S.
+  [[nodiscard]] const UnsetVector<uint32_t>& tailColumns() const { return tailColumns_; }
+  [[nodiscard]] const UnsetVector<float>& tailCouplings() const { return tailCouplings_; }
   /// #U: the weights with which squares of b - (I - S) y add up to the squared residualNorm() of what is left.
-  [[nodiscard]] const std::vector<float>& residualWeights() const { return residualWeights_; }
+  [[nodiscard]] const UnsetVector<float>& residualWeights() const { return residualWeights_; }
   [[nodiscard]] uint32_t longestRow() const { return longestRow_; }
 
   /// The right-hand side b for A e = residual, of weighted norm 1; norm: residualNorm() of the residual.
-  [[nodiscard]] std::vector<float> scaleResidual(std::span<const double> residual, double norm) const;
+  [[nodiscard]] UnsetVector<float> scaleResidual(std::span<const double> residual, double norm) const;
   /// e from y; norm: as given to scaleResidual().
   void unscaleCorrection(std::span<const float> y, double norm, std::span<double> correction) const;
 
@@ -32,10 +32,10 @@ class ScaledSystem {
   const PoissonSystem& system_;
   double meanDiagonal_ = 0;
   uint32_t longestRow_ = 0;
-  std::vector<PoissonRow> rows_;
-  std::vector<uint32_t> tailColumns_;
-  std::vector<float> tailCouplings_;
-  std::vector<float> residualWeights_;
+  UnsetVector<PoissonRow> rows_;
+  UnsetVector<uint32_t> tailColumns_;
+  UnsetVector<float> tailCouplings_;
+  UnsetVector<float> residualWeights_;
 };
 
 }  // namespace asdfvk

@@ -10,11 +10,11 @@
 
 namespace asdfvk {
 
-/// The three kernels of one iteration, made once per device: shaders/cg_*.comp.
+/// The two kernels of one iteration, made once per device: shaders/cg_*.comp.
 struct VulkanCgKernels {
   explicit VulkanCgKernels(const Device& device);
 
-  ComputePipeline product, step, direction;
+  ComputePipeline product, step;
 };
 
 /// Conjugate gradients on (I - S) y = b from y = 0 on, all vectors and scalars on the device. Everything given must
@@ -25,9 +25,12 @@ class VulkanCg {
   VulkanCg(const Device& device, const VulkanCgKernels& kernels, const VulkanMatrix& matrix,
            std::span<const float> rightHandSide, double reduction);
 
-  /// Runs up to `iterationCount` iterations in one submission, fewer when it converges or breaks down on the way.
+  /// Runs up to `iterationCount` iterations in one submission, fewer when it converges or breaks down before one of
+  /// them; those that are left then cost next to nothing.
   CgState advance(uint32_t iterationCount);
 
+  /// Workgroups of the next dispatch: 0 once it has converged or broken down.
+  [[nodiscard]] uint32_t workgroupCount() const;
   [[nodiscard]] std::vector<float> solution() const { return download(solution_); }
   [[nodiscard]] std::vector<float> residual() const { return download(residual_); }
   [[nodiscard]] std::vector<float> direction() const { return download(direction_); }
@@ -39,10 +42,11 @@ class VulkanCg {
   const Device& device_;
   const VulkanCgKernels& kernels_;
   uint32_t unknownCount_;
-  uint32_t workgroupCount_;
   uint32_t stateIndex_ = 0;
-  Buffer solution_, residual_, direction_, product_, states_, sums_, stateOnHost_;
-  BindingSet productBindings_, stepBindings_, directionBindings_;
+  Buffer solution_, residual_, direction_, product_, states_, sums_;
+  Buffer size_;  ///< Of all dispatches to come, set to 0 by the device when there is no more to do.
+  Buffer statesOnHost_;
+  BindingSet productBindings_, stepBindings_;
   CommandList commands_;
 };
 

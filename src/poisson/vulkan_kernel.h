@@ -8,9 +8,9 @@
 
 namespace asdfvk {
 
-/// Of vectors that kernels work on and the host reads back.
+/// Of vectors that kernels work on, that are set on the device and that the host reads back.
 inline constexpr VkBufferUsageFlags kPoissonVectorUsage =
-    VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
+    VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
 
 /// What the pipeline of a Poisson kernel with `bindingCount` bindings is made of; one with a matrix has those of
 /// shaders/poisson_matrix.glsl first.

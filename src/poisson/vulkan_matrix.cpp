@@ -25,7 +25,7 @@ uint32_t rowsPerLaneAtLeast(const DeviceFacts& facts) {
 uint64_t divideUp(uint64_t dividend, uint64_t divisor) { return (dividend + divisor - 1) / divisor; }
 
 template <typename T>
-Buffer uploadArray(const Device& device, const std::vector<T>& array, VkBufferUsageFlags usage) {
+Buffer uploadArray(const Device& device, const UnsetVector<T>& array, VkBufferUsageFlags usage) {
   return uploadBuffer(device, std::as_bytes(std::span(array)), usage);
 }
 

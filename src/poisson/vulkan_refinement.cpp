@@ -12,16 +12,16 @@ SolverReport solveOnDevice(const std::string& name, const Device& device, const 
   SolverProgress progress(system, options, control);
   const ScaledSystem scaled(system);
   std::optional<VulkanMatrix> matrix;
-  return solveByRefinement(name, system, options, strongestReduction, solution, [&](const CorrectionRequest& request) {
+  const auto correct = [&](const CorrectionRequest& request) {
     if (!matrix) matrix.emplace(device, scaled);
-    const double norm = residualNorm(system, request.residual);
-    progress.checkpoint(norm);
-    const auto rightHandSide = scaled.scaleResidual(request.residual, norm);
+    progress.checkpoint(request.norm);
+    const auto rightHandSide = scaled.scaleResidual(request.residual, request.norm);
     const DevicePassResult result =
-        solver({*matrix, rightHandSide, norm, request.reduction, request.maxIterations, progress});
-    scaled.unscaleCorrection(result.solution, norm, request.correction);
+        solver({*matrix, rightHandSide, request.norm, request.reduction, request.maxIterations, progress});
+    scaled.unscaleCorrection(result.solution, request.norm, request.correction);
     return result.iterationCount;
-  });
+  };
+  return solveByRefinement(name, system, options, solution, {{strongestReduction, correct}});
 }
 
 }  // namespace asdfvk

@@ -28,16 +28,31 @@ void CommandList::begin() {
   requireSuccess(vkBeginCommandBuffer(commands_, &info), "beginning a command buffer");
 }
 
-void CommandList::dispatch(const ComputePipeline& pipeline, const BindingSet& bindings,
-                           std::span<const std::byte> pushConstants, uint32_t workgroupCount,
-                           uint32_t workgroupCountY) {
+void CommandList::bind(const ComputePipeline& pipeline, const BindingSet& bindings,
+                       std::span<const std::byte> pushConstants) {
   const VkDescriptorSet set = bindings.handle();
   vkCmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.handle());
   vkCmdBindDescriptorSets(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout(), 0, 1, &set, 0, nullptr);
   if (!pushConstants.empty())
     vkCmdPushConstants(commands_, pipeline.layout(), VK_SHADER_STAGE_COMPUTE_BIT, 0,
                        static_cast<uint32_t>(pushConstants.size()), pushConstants.data());
+}
+
+void CommandList::dispatch(const ComputePipeline& pipeline, const BindingSet& bindings,
+                           std::span<const std::byte> pushConstants, uint32_t workgroupCount,
+                           uint32_t workgroupCountY) {
+  bind(pipeline, bindings, pushConstants);
   vkCmdDispatch(commands_, workgroupCount, workgroupCountY, 1);
+}
+
+void CommandList::dispatchIndirect(const ComputePipeline& pipeline, const BindingSet& bindings,
+                                   std::span<const std::byte> pushConstants, const Buffer& size) {
+  bind(pipeline, bindings, pushConstants);
+  vkCmdDispatchIndirect(commands_, size.handle(), 0);
+}
+
+void CommandList::fillWithZeros(const Buffer& buffer) {
+  vkCmdFillBuffer(commands_, buffer.handle(), 0, VK_WHOLE_SIZE, 0);
 }
 
 void CommandList::copy(const Buffer& from, uint64_t fromOffset, const Buffer& to, uint64_t toOffset,
@@ -50,9 +65,10 @@ void CommandList::barrier() {
   VkMemoryBarrier memory{VK_STRUCTURE_TYPE_MEMORY_BARRIER};
   memory.srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT;
   memory.dstAccessMask = VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_READ_BIT |
-                         VK_ACCESS_TRANSFER_WRITE_BIT | VK_ACCESS_HOST_READ_BIT;
+                         VK_ACCESS_TRANSFER_WRITE_BIT | VK_ACCESS_INDIRECT_COMMAND_READ_BIT | VK_ACCESS_HOST_READ_BIT;
   const VkPipelineStageFlags work = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT;
-  vkCmdPipelineBarrier(commands_, work, work | VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &memory, 0, nullptr, 0, nullptr);
+  const VkPipelineStageFlags readers = work | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_HOST_BIT;
+  vkCmdPipelineBarrier(commands_, work, readers, 0, 1, &memory, 0, nullptr, 0, nullptr);
 }
 
 void CommandList::submitAndWait() {

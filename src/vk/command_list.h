@@ -22,14 +22,23 @@ class CommandList {
   /// `pushConstants` has the byte count that the pipeline was made with.
   void dispatch(const ComputePipeline& pipeline, const BindingSet& bindings, std::span<const std::byte> pushConstants,
                 uint32_t workgroupCount, uint32_t workgroupCountY = 1);
+  /// The same over as many workgroups as the VkDispatchIndirectCommand in `size` says when it is the dispatch's turn.
+  /// size: made with VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT.
+  void dispatchIndirect(const ComputePipeline& pipeline, const BindingSet& bindings,
+                        std::span<const std::byte> pushConstants, const Buffer& size);
+  /// The whole of a buffer made with VK_BUFFER_USAGE_TRANSFER_DST_BIT.
+  void fillWithZeros(const Buffer& buffer);
   void copy(const Buffer& from, uint64_t fromOffset, const Buffer& to, uint64_t toOffset, uint64_t byteCount);
-  /// What was recorded before has finished, and its writes are seen by the kernels, copies and host reads after it.
+  /// What was recorded before has finished, and its writes are seen by the kernels, copies, indirect dispatches and
+  /// host reads after it.
   void barrier();
   /// Throws Error{Device} when the device is lost. There is no time limit: drivers turn a GPU that hangs into a lost
   /// one, and work that is still running could not be freed.
   void submitAndWait();
 
  private:
+  void bind(const ComputePipeline& pipeline, const BindingSet& bindings, std::span<const std::byte> pushConstants);
+
   const Device& device_;
   VkCommandBuffer commands_ = VK_NULL_HANDLE;
   VkFence fence_ = VK_NULL_HANDLE;

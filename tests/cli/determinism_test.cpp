@@ -19,7 +19,7 @@ TEST_CASE("processes on the Vulkan device give the same bytes, whatever their nu
     REQUIRE_EQ(outcome.exitCode, 0);
     return folder.read("result.npy");
   };
-  for (const std::string solver : {"cg", "jacobi", "eigen"}) {
+  for (const std::string solver : {"cg", "jacobi", "cpu", "eigen"}) {
     INFO(solver);
     const std::string first = resultOf({"--solver", solver});
     CHECK(resultOf({"--solver", solver}) == first);

@@ -20,8 +20,8 @@ TEST_CASE("rows, entries and right-hand side are those of the equation, written 
                                               std::vector<double>{-27, -1.5, 0.75, -27});
   CHECK(system.faces == std::vector<uint32_t>{1, 2});
   CHECK(system.rowOffsets == std::vector<uint32_t>{0, 1, 2});
-  CHECK(system.columns == std::vector<uint32_t>{1, 0});
-  CHECK(system.entries == std::vector<double>{-0.5, -0.5});
+  CHECK(system.columns == UnsetVector<uint32_t>{1, 0});
+  CHECK(system.entries == UnsetVector<double>{-0.5, -0.5});
   CHECK(system.diagonal[0] == doctest::Approx(1 + 0.5 + 1.0 / 6));
   CHECK(system.diagonal[1] == doctest::Approx(0.5 + 0.25));
   CHECK(system.rightHandSide[0] == doctest::Approx(5.0 + 2.0 / 6 - 3 * 0.5));
@@ -32,10 +32,10 @@ TEST_CASE("rows, entries and right-hand side are those of the equation, written 
 TEST_CASE("two arcs between the same faces are one entry of twice the weight, and an arc to itself is none") {
   const HandGraph hand({{0, 0, 0}, {2, 0, 0}, {4, 0, 0}}, {{0, 1}, {1, 2}, {1, 2}, {2, 2}});
   const PoissonSystem system = build(hand, {1, kNoValue, kNoValue});
-  CHECK(system.columns == std::vector<uint32_t>{1, 0});
-  CHECK(system.entries == std::vector<double>{-1, -1});
-  CHECK(system.diagonal == std::vector<double>{1.5, 1});
-  CHECK(system.rightHandSide == std::vector<double>{0.5, 0});
+  CHECK(system.columns == UnsetVector<uint32_t>{1, 0});
+  CHECK(system.entries == UnsetVector<double>{-1, -1});
+  CHECK(system.diagonal == UnsetVector<double>{1.5, 1});
+  CHECK(system.rightHandSide == UnsetVector<double>{0.5, 0});
 }
 
 TEST_CASE("faces that no path joins to a known one are left out") {
@@ -96,5 +96,5 @@ TEST_CASE("a divergence that is not a number pulls at nothing") {
   const HandGraph hand({{0, 0, 0}, {1, 0, 0}}, {{0, 1}});
   const PoissonSystem system =
       distanceSystem(hand.graph, hand.geometry, std::vector<double>{2, kNoValue}, std::vector<double>{0, kNoValue});
-  CHECK(system.rightHandSide == std::vector<double>{2});
+  CHECK(system.rightHandSide == UnsetVector<double>{2});
 }

@@ -39,7 +39,7 @@ TEST_CASE("passes are added up until the true residual is within the tolerance")
   std::vector<double> solution(1);
   // The first relative residual is 2/3, each pass leaves a tenth: the fourth is the first at or below 1e-4.
   const SolverReport report =
-      solveByRefinement("toy", oneUnknown(), {.tolerance = 1e-4}, 1e-3, solution, passes.giving(0.9));
+      solveByRefinement("toy", oneUnknown(), {.tolerance = 1e-4}, solution, {{1e-3, passes.giving(0.9)}});
   CHECK(passes.count == 4);
   CHECK(report.name == "toy");
   CHECK(report.iterations == 20);
@@ -54,17 +54,32 @@ TEST_CASE("passes are added up until the true residual is within the tolerance")
 TEST_CASE("a pass that does not help is the last") {
   Passes passes;
   std::vector<double> solution(1);
-  const SolverReport report = solveByRefinement("toy", oneUnknown(), {}, 1e-3, solution, passes.giving(0.1));
+  const SolverReport report = solveByRefinement("toy", oneUnknown(), {}, solution, {{1e-3, passes.giving(0.1)}});
   CHECK(passes.count == 1);
   CHECK_FALSE(report.converged);
   CHECK(report.relativeResidual == doctest::Approx(0.6));
+}
+
+TEST_CASE("where a pass does not help or makes it worse the next corrector takes over") {
+  for (double share : {0.1, 2.5, std::numeric_limits<double>::quiet_NaN()}) {
+    CAPTURE(share);
+    Passes poor, good;
+    std::vector<double> solution(1);
+    const SolverReport report =
+        solveByRefinement("toy", oneUnknown(), {}, solution, {{1e-3, poor.giving(share)}, {1e-5, good.giving(0.9)}});
+    CHECK(poor.count == 1);
+    CHECK(good.count == 4);
+    CHECK(good.reductions[0] < 1e-3);
+    CHECK(report.converged);
+    CHECK(solution[0] == doctest::Approx(3).epsilon(1e-3));
+  }
 }
 
 TEST_CASE("a correction that is not finite is not added") {
   for (double share : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     Passes passes;
     std::vector<double> solution(1);
-    const SolverReport report = solveByRefinement("toy", oneUnknown(), {}, 1e-3, solution, passes.giving(share));
+    const SolverReport report = solveByRefinement("toy", oneUnknown(), {}, solution, {{1e-3, passes.giving(share)}});
     CHECK(passes.count == 1);
     CHECK_FALSE(report.converged);
     CHECK(solution[0] == 1);
@@ -74,7 +89,7 @@ TEST_CASE("a correction that is not finite is not added") {
 TEST_CASE("a correction that makes it worse is not added") {
   Passes passes;
   std::vector<double> solution(1);
-  const SolverReport report = solveByRefinement("toy", oneUnknown(), {}, 1e-3, solution, passes.giving(2.5));
+  const SolverReport report = solveByRefinement("toy", oneUnknown(), {}, solution, {{1e-3, passes.giving(2.5)}});
   CHECK(passes.count == 1);
   CHECK_FALSE(report.converged);
   CHECK(solution[0] == 1);
@@ -85,7 +100,7 @@ TEST_CASE("the iterations of all passes together stay within the maximum") {
   Passes passes;
   std::vector<double> solution(1);
   const SolverOptions options{.tolerance = 1e-12, .maxIterations = 12};
-  const SolverReport report = solveByRefinement("toy", oneUnknown(), options, 1e-3, solution, passes.giving(0.9));
+  const SolverReport report = solveByRefinement("toy", oneUnknown(), options, solution, {{1e-3, passes.giving(0.9)}});
   CHECK(passes.count == 3);
   CHECK(report.iterations == 12);
   CHECK_FALSE(report.converged);
@@ -94,7 +109,7 @@ TEST_CASE("the iterations of all passes together stay within the maximum") {
 TEST_CASE("a first guess within the tolerance asks for no pass") {
   Passes passes;
   std::vector<double> solution(1);
-  const SolverReport report = solveByRefinement("toy", chain(3, 2, 4), {}, 1e-3, solution, passes.giving(0.9));
+  const SolverReport report = solveByRefinement("toy", chain(3, 2, 4), {}, solution, {{1e-3, passes.giving(0.9)}});
   CHECK(passes.count == 0);
   CHECK(report.converged);
   CHECK(solution[0] == 3);

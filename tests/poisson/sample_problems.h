@@ -1,5 +1,7 @@
 #pragma once
 
+#include <doctest/doctest.h>
+
 #include <array>
 #include <cmath>
 #include <string>
@@ -78,6 +80,26 @@ inline std::vector<SampleProblem> sampleProblems() {
   problems.emplace_back("book of 40 pages", openBook(40));
   for (size_t i = 3; i < problems.size(); ++i) problems[i].isManifold = false;
   return problems;
+}
+
+struct Setting {
+  const SampleProblem& problem;
+  ArcWeightKind kind;
+  double beta;
+  std::vector<double> weights;  ///< One per arc.
+};
+
+/// Calls test(setting) for each problem with any weights and order; a check that fails tells which it was.
+template <typename Test>
+void forEachSetting(const Test& test) {
+  for (const SampleProblem& problem : sampleProblems())
+    for (ArcWeightKind kind : kArcWeightKinds)
+      for (double beta : kSecondOrders) {
+        CAPTURE(problem.name);
+        CAPTURE(static_cast<int>(kind));
+        CAPTURE(beta);
+        test(Setting{problem, kind, beta, arcWeights(kind, problem.graph, problem.geometry)});
+      }
 }
 
 }  // namespace asdfvk

@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "dense_twin.h"
+#include "mesh/components.h"
 #include "poisson/divergence.h"
 #include "poisson/jacobi_damping.h"
 #include "poisson/scaled_system.h"
@@ -43,9 +44,9 @@ PoissonSystem rowOfFaces(const std::vector<double>& values, const std::vector<do
                             divergence, {.secondOrder = beta});
 }
 
-template <typename T>
-bool sameBits(const std::vector<T>& a, const std::vector<T>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
+template <typename Vector>
+bool sameBits(const Vector& a, const Vector& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(a[0])) == 0;
 }
 
 }  // namespace
@@ -67,58 +68,48 @@ TEST_CASE("the second order carries a slope on beyond the range of the known val
 }
 
 TEST_CASE("matrix and right-hand side are those of dense algebra, with any weights and order") {
-  for (const SampleProblem& problem : sampleProblems())
-    for (ArcWeightKind kind : kArcWeightKinds)
-      for (double beta : kSecondOrders) {
-        CAPTURE(problem.name);
-        CAPTURE(static_cast<int>(kind));
-        CAPTURE(beta);
-        const std::vector<double> weights = arcWeights(kind, problem.graph, problem.geometry);
-        std::vector<double> divergence = randomField(problem.values.size());
-        divergence[3] = kNoValue;
-        const PoissonSystem system =
-            buildPoissonSystem(problem.graph, weights, problem.values, divergence, {.secondOrder = beta});
-        const DenseTwin twin(problem.graph, weights, problem.values, divergence, beta);
-        REQUIRE(std::equal(system.faces.begin(), system.faces.end(), twin.faces.begin(), twin.faces.end()));
-        REQUIRE(system.unknownCount() > 40);
-        REQUIRE(system.unknownCount() < problem.values.size());
-        const Eigen::MatrixXd matrix = denseMatrix(system);
-        const auto scale = twin.matrix.diagonal().array();
-        CHECK(((matrix - twin.matrix).array().colwise() / scale).abs().maxCoeff() < 1e-14);
-        const Eigen::Map<const Eigen::VectorXd> b(system.rightHandSide.data(), matrix.rows());
-        CHECK(((b - twin.rightHandSide).array() / scale).abs().maxCoeff() <
-              1e-14 * (1 + (twin.rightHandSide.array() / scale).abs().maxCoeff()));
-        // Conjugate gradients want this to the bit.
-        CHECK(matrix == matrix.transpose());
-        for (uint32_t row = 0; row < system.unknownCount(); ++row)
-          CHECK(std::adjacent_find(system.columns.begin() + system.rowOffsets[row],
-                                   system.columns.begin() + system.rowOffsets[row + 1],
-                                   std::greater_equal<>()) == system.columns.begin() + system.rowOffsets[row + 1]);
-        if (beta == 0) CHECK(std::all_of(system.entries.begin(), system.entries.end(), [](double e) { return e < 0; }));
-      }
+  forEachSetting([&](const Setting& setting) {
+    const auto& [problem, kind, beta, weights] = setting;
+    std::vector<double> divergence = randomField(problem.values.size());
+    divergence[3] = kNoValue;
+    const PoissonSystem system =
+        buildPoissonSystem(problem.graph, weights, problem.values, divergence, {.secondOrder = beta});
+    const DenseTwin twin(problem.graph, weights, problem.values, divergence, beta);
+    REQUIRE(std::equal(system.faces.begin(), system.faces.end(), twin.faces.begin(), twin.faces.end()));
+    REQUIRE(system.unknownCount() > 40);
+    REQUIRE(system.unknownCount() < problem.values.size());
+    const Eigen::MatrixXd matrix = denseMatrix(system);
+    const auto scale = twin.matrix.diagonal().array();
+    CHECK(((matrix - twin.matrix).array().colwise() / scale).abs().maxCoeff() < 1e-14);
+    const Eigen::Map<const Eigen::VectorXd> b(system.rightHandSide.data(), matrix.rows());
+    CHECK(((b - twin.rightHandSide).array() / scale).abs().maxCoeff() <
+          1e-14 * (1 + (twin.rightHandSide.array() / scale).abs().maxCoeff()));
+    // Conjugate gradients want this to the bit.
+    CHECK(matrix == matrix.transpose());
+    for (uint32_t row = 0; row < system.unknownCount(); ++row)
+      CHECK(std::adjacent_find(system.columns.begin() + system.rowOffsets[row],
+                               system.columns.begin() + system.rowOffsets[row + 1],
+                               std::greater_equal<>()) == system.columns.begin() + system.rowOffsets[row + 1]);
+    if (beta == 0) CHECK(std::all_of(system.entries.begin(), system.entries.end(), [](double e) { return e < 0; }));
+  });
 }
 
 TEST_CASE("guided by a field that the known values agree with, the field is the solution") {
-  for (const SampleProblem& problem : sampleProblems())
-    for (ArcWeightKind kind : kArcWeightKinds)
-      for (double beta : kSecondOrders) {
-        CAPTURE(problem.name);
-        CAPTURE(static_cast<int>(kind));
-        CAPTURE(beta);
-        const std::vector<double> weights = arcWeights(kind, problem.graph, problem.geometry);
-        const std::vector<double> field = randomField(problem.values.size());
-        std::vector<double> values = problem.values;
-        for (size_t f = 0; f < values.size(); ++f)
-          if (std::isfinite(values[f])) values[f] = field[f];
-        const PoissonSystem system =
-            buildPoissonSystem(problem.graph, weights, values, divergenceOf(problem.graph, weights, field),
-                               {.secondOrder = beta, .firstGuess = field});
-        CHECK(relativeResidual(system, system.firstGuess) < 1e-13);
-        const Eigen::VectorXd solution = denseMatrix(system).ldlt().solve(
-            Eigen::Map<const Eigen::VectorXd>(system.rightHandSide.data(), system.unknownCount()));
-        for (uint32_t i = 0; i < system.unknownCount(); ++i)
-          CHECK(solution[i] == doctest::Approx(field[system.faces[i]]).epsilon(1e-6).scale(1));
-      }
+  forEachSetting([&](const Setting& setting) {
+    const auto& [problem, kind, beta, weights] = setting;
+    const std::vector<double> field = randomField(problem.values.size());
+    std::vector<double> values = problem.values;
+    for (size_t f = 0; f < values.size(); ++f)
+      if (std::isfinite(values[f])) values[f] = field[f];
+    const PoissonSystem system =
+        buildPoissonSystem(problem.graph, weights, values, divergenceOf(problem.graph, weights, field),
+                           {.secondOrder = beta, .firstGuess = field});
+    CHECK(relativeResidual(system, system.firstGuess) < 1e-13);
+    const Eigen::VectorXd solution = denseMatrix(system).ldlt().solve(
+        Eigen::Map<const Eigen::VectorXd>(system.rightHandSide.data(), system.unknownCount()));
+    for (uint32_t i = 0; i < system.unknownCount(); ++i)
+      CHECK(solution[i] == doctest::Approx(field[system.faces[i]]).epsilon(1e-6).scale(1));
+  });
 }
 
 TEST_CASE("on a manifold mesh a row has at most nine entries beside its diagonal") {
@@ -178,7 +169,9 @@ TEST_CASE("weights, divergence and system have the same bits on any number of th
       const std::vector<double> weights = arcWeights(kind, problem.graph, problem.geometry);
       const std::vector<double> divergence = divergenceOf(problem.graph, weights, field);
       PoissonSystem system = buildPoissonSystem(problem.graph, weights, problem.values, divergence, {.secondOrder = 3});
-      numbers[threadCount - 1] = {weights, divergence, system.entries, system.diagonal, system.rightHandSide};
+      numbers[threadCount - 1] = {weights, divergence};
+      for (const auto& ofSystem : {system.entries, system.diagonal, system.rightHandSide})
+        numbers[threadCount - 1].emplace_back(ofSystem.begin(), ofSystem.end());
     }
     for (size_t i = 0; i < numbers[0].size(); ++i) {
       CHECK(sameBits(numbers[0][i], numbers[1][i]));
@@ -197,24 +190,37 @@ TEST_CASE("a first guess is taken where it is finite, else the mean of the known
   CHECK(system.firstGuess == std::vector<double>{3, 7});
 }
 
+TEST_CASE("with components given the system is the same as without") {
+  const Mesh mesh = randomFaces(60, 300, 1);
+  SampleProblem problem("random faces", mesh);
+  const std::vector<double> weights = arcWeights(ArcWeightKind::Uniform, problem.graph, problem.geometry);
+  const Components components = findComponents(mesh, problem.graph);
+  REQUIRE(components.components.size() > 3);
+  const PoissonSystem searched = buildPoissonSystem(problem.graph, weights, problem.values, {});
+  const PoissonSystem told =
+      buildPoissonSystem(problem.graph, weights, problem.values, {}, {.componentOf = components.componentOf});
+  const auto unknownCount =
+      std::count_if(problem.values.begin(), problem.values.end(), [](double value) { return !std::isfinite(value); });
+  REQUIRE(searched.unknownCount() < unknownCount);  // Some component has no known face.
+  CHECK(told.faces == searched.faces);
+  CHECK(told.columns == searched.columns);
+  CHECK(sameBits(told.entries, searched.entries));
+  CHECK(sameBits(told.rightHandSide, searched.rightHandSide));
+}
+
 TEST_CASE("Jacobi is plain for the first order, and damped below 2 over the largest eigenvalue for the second") {
-  for (const SampleProblem& problem : sampleProblems())
-    for (ArcWeightKind kind : kArcWeightKinds)
-      for (double beta : kSecondOrders) {
-        CAPTURE(problem.name);
-        CAPTURE(static_cast<int>(kind));
-        const std::vector<double> weights = arcWeights(kind, problem.graph, problem.geometry);
-        const PoissonSystem system =
-            buildPoissonSystem(problem.graph, weights, problem.values, {}, {.secondOrder = beta});
-        const Eigen::Map<const Eigen::VectorXd> diagonal(system.diagonal.data(), system.unknownCount());
-        const Eigen::VectorXd roots = diagonal.cwiseSqrt().cwiseInverse();
-        const Eigen::VectorXd eigenvalues = (roots.asDiagonal() * denseMatrix(system) * roots.asDiagonal())
-                                                .eval()
-                                                .selfadjointView<Eigen::Lower>()
-                                                .eigenvalues();
-        const double heldBack = heldBackByJacobi(system);
-        if (beta == 0) CHECK(heldBack == 0);
-        CHECK((1 - heldBack) * eigenvalues.maxCoeff() < 2);
-        CHECK(heldBack < 0.7);
-      }
+  forEachSetting([&](const Setting& setting) {
+    const auto& [problem, kind, beta, weights] = setting;
+    const PoissonSystem system = buildPoissonSystem(problem.graph, weights, problem.values, {}, {.secondOrder = beta});
+    const Eigen::Map<const Eigen::VectorXd> diagonal(system.diagonal.data(), system.unknownCount());
+    const Eigen::VectorXd roots = diagonal.cwiseSqrt().cwiseInverse();
+    const Eigen::VectorXd eigenvalues = (roots.asDiagonal() * denseMatrix(system) * roots.asDiagonal())
+                                            .eval()
+                                            .selfadjointView<Eigen::Lower>()
+                                            .eigenvalues();
+    const double heldBack = heldBackByJacobi(system);
+    if (beta == 0) CHECK(heldBack == 0);
+    CHECK((1 - heldBack) * eigenvalues.maxCoeff() < 2);
+    CHECK(heldBack < 0.7);
+  });
 }

@@ -1,4 +1,5 @@
 #include <doctest/doctest.h>
+#include <tbb/global_control.h>
 
 #include <Eigen/SparseCholesky>
 #include <algorithm>
@@ -8,6 +9,7 @@
 #include "dense_twin.h"
 #include "fixtures.h"
 #include "generate/shapes.h"
+#include "poisson/cpu_cg.h"
 #include "sample_problems.h"
 #include "solvers_under_test.h"
 
@@ -258,6 +260,36 @@ TEST_CASE("two runs give the same bits") {
   }
 }
 
+TEST_CASE("solvers on the CPU give the same bits on any number of threads") {
+  const PoissonSystem system = torusSystem(160, 80);
+  for (const auto& make : {makeCpuCgSolver, makeEigenSolver}) {
+    std::vector<double> solutions[3];
+    for (const size_t threadCount : {1, 2, 3}) {
+      const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threadCount);
+      std::vector<double>& solution = solutions[threadCount - 1];
+      solution.resize(system.unknownCount());
+      CHECK(make()->solve(system, {}, solution, {}).converged);
+    }
+    for (size_t i : {1, 2})
+      CHECK(std::memcmp(solutions[0].data(), solutions[i].data(), solutions[0].size() * sizeof(double)) == 0);
+  }
+}
+
+TEST_CASE("where float32 gives up on the CPU, double carries on") {
+  const SampleProblem problem("coincident faces", randomFaces(25, 300, 6));
+  const PoissonSystem system =
+      buildPoissonSystem(problem.graph, arcWeights(ArcWeightKind::Distance, problem.graph, problem.geometry),
+                         problem.values, {}, {.secondOrder = 3});
+  const ScaledSystem scaled(system);
+  std::vector<double> solution(system.unknownCount(), system.knownMean), residual(solution.size());
+  computeResidual(system, solution, residual);
+  CpuCg cg(scaled, scaled.scaleResidual(residual, residualNorm(system, residual)), 1e-6);
+  REQUIRE(cg.advance(20'000).status == kCgBrokenDown);
+  const SolverReport report = makeCpuCgSolver()->solve(system, {.tolerance = 1e-6}, solution, {});
+  CHECK(report.converged);
+  CHECK(relativeResidual(system, solution) <= 1e-6);
+}
+
 TEST_CASE("a finely meshed patch does not hide what is unsolved elsewhere") {
   // Patches of vertices are drawn together to a millionth, so that weights 1 / distance span six orders of magnitude.
   Mesh mesh = generateShape("torus", 6000).mesh;
@@ -288,30 +320,24 @@ TEST_CASE("a finely meshed patch does not hide what is unsolved elsewhere") {
 
 TEST_CASE("any weights and order come out as dense algebra solves them") {
   SolversUnderTest solvers;
-  for (const SampleProblem& problem : sampleProblems())
-    for (ArcWeightKind kind : kArcWeightKinds)
-      for (double beta : kSecondOrders) {
-        CAPTURE(problem.name);
-        CAPTURE(static_cast<int>(kind));
-        CAPTURE(beta);
-        // Its coincident faces tie each other a billion times stronger than others; see the test after this.
-        if (kind == ArcWeightKind::Distance && problem.name == "dense random faces") continue;
-        const std::vector<double> weights = arcWeights(kind, problem.graph, problem.geometry);
-        const PoissonSystem system =
-            buildPoissonSystem(problem.graph, weights, problem.values, {}, {.secondOrder = beta});
-        const DenseTwin twin(problem.graph, weights, problem.values, {}, beta);
-        for (SolverUnderTest& under : solvers) {
-          // Thousands of iterations where edges have many faces.
-          if (under.name == "jacobi" && !problem.isManifold) continue;
-          CAPTURE(under.name);
-          const auto [report, solution] = solveTightly(under, system);
-          const double bound = 1e-10 + under.tightestTolerance * twin.largestErrorOverResidual();
-          CHECK(largestDifference(solution, {twin.solution.data(), solution.size()}) < bound);
-          if (beta > 0) continue;
-          CHECK(*std::min_element(solution.begin(), solution.end()) >= 1 - bound);
-          CHECK(*std::max_element(solution.begin(), solution.end()) <= 2 + bound);
-        }
-      }
+  forEachSetting([&](const Setting& setting) {
+    const auto& [problem, kind, beta, weights] = setting;
+    // Its coincident faces tie each other a billion times stronger than others; see the test after this.
+    if (kind == ArcWeightKind::Distance && problem.name == "dense random faces") return;
+    const PoissonSystem system = buildPoissonSystem(problem.graph, weights, problem.values, {}, {.secondOrder = beta});
+    const DenseTwin twin(problem.graph, weights, problem.values, {}, beta);
+    for (SolverUnderTest& under : solvers) {
+      // Thousands of iterations where edges have many faces.
+      if (under.name == "jacobi" && !problem.isManifold) continue;
+      CAPTURE(under.name);
+      const auto [report, solution] = solveTightly(under, system);
+      const double bound = 1e-10 + under.tightestTolerance * twin.largestErrorOverResidual();
+      CHECK(largestDifference(solution, {twin.solution.data(), solution.size()}) < bound);
+      if (beta > 0) continue;
+      CHECK(*std::min_element(solution.begin(), solution.end()) >= 1 - bound);
+      CHECK(*std::max_element(solution.begin(), solution.end()) <= 2 + bound);
+    }
+  });
 }
 
 TEST_CASE("coincident faces may keep float32 from converging, but nothing is made worse by trying") {

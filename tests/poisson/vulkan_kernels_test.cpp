@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "fixtures.h"
 #include "kernel_twins.h"
+#include "poisson/cpu_cg.h"
 #include "poisson/vulkan_cg.h"
 #include "poisson/vulkan_jacobi.h"
 #include "support/test_device.h"
@@ -42,8 +43,10 @@ std::vector<double> randomResidual(size_t size) {
   return residual;
 }
 
+std::vector<float> copyOf(std::span<const float> vector) { return {vector.begin(), vector.end()}; }
+
 // Largest difference over the largest entry of the twin.
-double difference(const std::vector<float>& kernel, const std::vector<double>& twin) {
+double difference(std::span<const float> kernel, const std::vector<double>& twin) {
   REQUIRE(kernel.size() == twin.size());
   double largest = 0, worst = 0;
   for (size_t i = 0; i < twin.size(); ++i) {
@@ -59,7 +62,7 @@ TEST_CASE("a residual is scaled and a correction scaled back as the definition s
   const PoissonSystem system = unevenSystem();
   const ScaledSystem scaled(system);
   const std::vector<double> residual = randomResidual(system.unknownCount());
-  const std::vector<float> b = scaled.scaleResidual(residual, KernelTwins{system}.norm(residual));
+  const UnsetVector<float> b = scaled.scaleResidual(residual, KernelTwins{system}.norm(residual));
   CHECK(difference(b, KernelTwins{system}.scaled(residual)) < 1e-6);
   double squared = 0;
   for (size_t i = 0; i < b.size(); ++i)
@@ -72,30 +75,36 @@ TEST_CASE("a residual is scaled and a correction scaled back as the definition s
     CHECK(correction[i] == doctest::Approx(residual[i] / system.diagonal[i]).epsilon(1e-6));
 }
 
-TEST_CASE("one iteration of each conjugate-gradient kernel gives what its twin on the CPU gives") {
+TEST_CASE("iterations with one reduction give what the textbook's give, on the device and on the CPU") {
   const test::ValidatedDevice device;
   const PoissonSystem system = unevenSystem();
   const ScaledSystem scaled(system);
   REQUIRE(scaled.longestRow() > 4);
   const std::vector<double> residual = randomResidual(system.unknownCount());
+  const UnsetVector<float> b = scaled.scaleResidual(residual, KernelTwins{system}.norm(residual));
   const VulkanCgKernels kernels(*device);
   const VulkanMatrix matrix(*device, scaled);
   REQUIRE(system.unknownCount() % (matrix.grid.laneCount * matrix.grid.workgroupCount) != 0);
   REQUIRE(system.unknownCount() > matrix.grid.laneCount * matrix.grid.workgroupCount);
-  for (uint32_t iterationCount : {1u, 2u, 5u}) {
-    CAPTURE(iterationCount);
-    VulkanCg cg(*device, kernels, matrix, scaled.scaleResidual(residual, KernelTwins{system}.norm(residual)), 0);
+  const auto compare = [&](auto& cg, uint32_t iterationCount) {
     CgTwin twin(system, KernelTwins{system}.scaled(residual));
     const CgState state = cg.advance(iterationCount);
-    for (uint32_t i = 0; i < iterationCount; ++i) twin.iterate();
+    for (uint32_t i = 0; i + 1 < iterationCount; ++i) twin.iterate();
+    CHECK(static_cast<double>(state.residualSquared) == doctest::Approx(twin.twins.squaredNorm(twin.r)).epsilon(1e-5));
+    twin.iterate();
     CHECK(difference(cg.product(), twin.q) < 1e-5);
     CHECK(difference(cg.solution(), twin.x) < 1e-5);
     CHECK(difference(cg.residual(), twin.r) < 1e-5);
     CHECK(difference(cg.direction(), twin.p) < 1e-5);
     CHECK(state.status == kCgRunning);
     CHECK(state.iterationCount == iterationCount);
-    CHECK(static_cast<double>(state.residualDot) == doctest::Approx(dot(twin.r, twin.r)).epsilon(1e-5));
-    CHECK(static_cast<double>(state.residualSquared) == doctest::Approx(twin.twins.squaredNorm(twin.r)).epsilon(1e-5));
+  };
+  for (uint32_t iterationCount : {1u, 2u, 5u}) {
+    CAPTURE(iterationCount);
+    VulkanCg onDevice(*device, kernels, matrix, b, 0);
+    compare(onDevice, iterationCount);
+    CpuCg onCpu(scaled, b, 0);
+    compare(onCpu, iterationCount);
   }
 }
 
@@ -104,23 +113,37 @@ TEST_CASE("iterations after convergence change nothing, however they are batched
   const PoissonSystem system = torusSystem(40, 20);
   const ScaledSystem scaled(system);
   const std::vector<double> residual = randomResidual(system.unknownCount());
-  const std::vector<float> b = scaled.scaleResidual(residual, KernelTwins{system}.norm(residual));
+  const UnsetVector<float> b = scaled.scaleResidual(residual, KernelTwins{system}.norm(residual));
   const VulkanCgKernels kernels(*device);
   const VulkanMatrix matrix(*device, scaled);
+  const auto compare = [](auto& atOnce, auto& stepwise) {
+    const CgState state = atOnce.advance(301);
+    CHECK(state.status == kCgConverged);
+    CHECK(state.iterationCount > 3);
+    CHECK(state.iterationCount < 100);
+    CHECK(state.residualSquared <= 1e-6f);
+    for (uint32_t i = 0; i <= state.iterationCount; ++i) {
+      const CgState step = stepwise.advance(1);
+      CHECK(step.iterationCount == std::min(i + 1, state.iterationCount));
+      CHECK(step.status == (i < state.iterationCount ? kCgRunning : kCgConverged));
+    }
+    CHECK(copyOf(atOnce.solution()) == copyOf(stepwise.solution()));
+    CHECK(copyOf(atOnce.residual()) == copyOf(stepwise.residual()));
+    for (uint32_t more : {1u, 2u}) {
+      const CgState after = stepwise.advance(more);
+      CHECK(after.iterationCount == state.iterationCount);
+      CHECK(after.status == kCgConverged);
+      CHECK(after.residualSquared == state.residualSquared);
+    }
+    CHECK(copyOf(atOnce.direction()) == copyOf(stepwise.direction()));
+  };
   VulkanCg atOnce(*device, kernels, matrix, b, 1e-3), stepwise(*device, kernels, matrix, b, 1e-3);
-  const CgState state = atOnce.advance(301);
-  CHECK(state.status == kCgConverged);
-  CHECK(state.iterationCount > 3);
-  CHECK(state.iterationCount < 100);
-  CHECK(state.residualSquared <= 1e-6f);
-  for (uint32_t i = 0; i < state.iterationCount; ++i) {
-    const CgState step = stepwise.advance(1);
-    CHECK(step.iterationCount == i + 1);
-    CHECK(step.status == (i + 1 < state.iterationCount ? kCgRunning : kCgConverged));
-  }
-  CHECK(atOnce.solution() == stepwise.solution());
-  CHECK(atOnce.residual() == stepwise.residual());
-  CHECK(stepwise.advance(2).iterationCount == state.iterationCount);
+  CHECK(atOnce.workgroupCount() == matrix.grid.workgroupCount);
+  compare(atOnce, stepwise);
+  CHECK(atOnce.workgroupCount() == 0);
+  CHECK(stepwise.workgroupCount() == 0);
+  CpuCg atOnceOnCpu(scaled, b, 1e-3), stepwiseOnCpu(scaled, b, 1e-3);
+  compare(atOnceOnCpu, stepwiseOnCpu);
 }
 
 TEST_CASE("an exact solution ends the iteration without a division of 0 by 0") {
@@ -129,11 +152,16 @@ TEST_CASE("an exact solution ends the iteration without a division of 0 by 0") {
   const ScaledSystem scaled(system);
   const VulkanCgKernels kernels(*device);
   const VulkanMatrix matrix(*device, scaled);
-  VulkanCg cg(*device, kernels, matrix, std::vector<float>{1}, 0);
-  const CgState state = cg.advance(10);
-  CHECK(state.status == kCgConverged);
-  CHECK(state.iterationCount == 1);
-  CHECK(cg.solution() == std::vector<float>{1});
+  const auto check = [](auto& cg) {
+    const CgState state = cg.advance(10);
+    CHECK(state.status == kCgConverged);
+    CHECK(state.iterationCount == 1);
+    CHECK(copyOf(cg.solution()) == std::vector<float>{1});
+  };
+  VulkanCg onDevice(*device, kernels, matrix, std::vector<float>{1}, 0);
+  check(onDevice);
+  CpuCg onCpu(scaled, {1}, 0);
+  check(onCpu);
 }
 
 TEST_CASE("a product that is no positive number stops the iteration and says so") {
@@ -143,11 +171,19 @@ TEST_CASE("a product that is no positive number stops the iteration and says so"
   const ScaledSystem scaled(system);
   const VulkanCgKernels kernels(*device);
   const VulkanMatrix matrix(*device, scaled);
-  VulkanCg cg(*device, kernels, matrix, std::vector<float>{1, 1}, 1e-3);
-  const CgState state = cg.advance(10);
-  CHECK(state.status == kCgBrokenDown);
-  CHECK(state.iterationCount == 1);
-  CHECK(cg.solution() == std::vector<float>{0, 0});
+  const auto check = [](auto& cg) {
+    for (uint32_t iterationCount : {10u, 1u, 2u}) {
+      const CgState state = cg.advance(iterationCount);
+      CHECK(state.status == kCgBrokenDown);
+      CHECK(state.iterationCount == 0);
+    }
+    CHECK(copyOf(cg.solution()) == std::vector<float>{0, 0});
+  };
+  VulkanCg onDevice(*device, kernels, matrix, std::vector<float>{1, 1}, 1e-3);
+  check(onDevice);
+  CHECK(onDevice.workgroupCount() == 0);
+  CpuCg onCpu(scaled, {1, 1}, 1e-3);
+  check(onCpu);
 }
 
 TEST_CASE("Jacobi sweeps give what their twin on the CPU gives") {
