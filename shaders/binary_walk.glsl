@@ -4,6 +4,9 @@ DeviceBvhNode loadNode(uint index) {
   return decodeBvhNode(fetchNode(t), fetchNode(t + 1u), fetchNode(t + 2u), fetchNode(t + 3u));
 }
 
+// Boxes are left three roundings later than computed (Ize 2013).
+const float kExitMargin = 1.0 + 6.0 * 5.9604645e-8;
+
 // Where the ray enters the box, or kFarAway when it misses it or enters beyond `limit`. The exit is moved outwards by
 // three roundings (Ize 2013); what the triangle test itself is off by, the boxes have grown by (kDeviceBoxMargin).
 float enterBox(vec3 boxMin, vec3 boxMax, vec3 origin, vec3 inverseDirection, float limit) {

@@ -10,9 +10,6 @@ struct Hit {
   bool isComplete;  // False: the iteration guard ended the walk.
 };
 
-// Boxes are left three roundings later than computed (Ize 2013).
-const float kExitMargin = 1.0 + 6.0 * 5.9604645e-8;
-
 vec3 invert(vec3 direction) {
   const vec3 tiny = vec3(1e-20);
   return 1.0 / mix(direction, mix(tiny, -tiny, lessThan(direction, vec3(0.0))), lessThan(abs(direction), tiny));

@@ -14,15 +14,17 @@ vec4 distancesTo(uint bytes, float perByte, float start) {
 }
 
 // A nibble of ones for each of the four boxes that the ray enters before `limit`. Distances are compared by their bits,
-// which order them where they matter: whatever is negative is before the ray's origin. (Of floats llvmpipe takes three
-// instructions for each minimum, on behalf of NaNs that do not come here.)
+// which order those that are not negative. Of a box altogether before the ray's origin, where it would be left is one of
+// the nearest planes by bits and where it would be entered one of the farthest, so it is not entered. (Of floats llvmpipe
+// takes three instructions for each minimum, on behalf of NaNs that do not come here.) Needs no margin for rounding:
+// kWideBoxMargin has it.
 uint enterBoxes(uvec3 near, uvec3 far, vec3 perByte, vec3 start, float limit) {
   const vec4 nearX = distancesTo(near.x, perByte.x, start.x), farX = distancesTo(far.x, perByte.x, start.x);
   const vec4 nearY = distancesTo(near.y, perByte.y, start.y), farY = distancesTo(far.y, perByte.y, start.y);
   const vec4 nearZ = distancesTo(near.z, perByte.z, start.z), farZ = distancesTo(far.z, perByte.z, start.z);
-  const ivec4 enter = max(max(floatBitsToInt(nearX), floatBitsToInt(nearY)), max(floatBitsToInt(nearZ), ivec4(0)));
-  const ivec4 nearest = min(min(floatBitsToInt(farX), floatBitsToInt(farY)), floatBitsToInt(farZ));
-  const ivec4 leave = min(floatBitsToInt(intBitsToFloat(nearest) * kExitMargin), ivec4(floatBitsToInt(limit)));
+  const ivec4 enter = max(max(floatBitsToInt(nearX), floatBitsToInt(nearY)), floatBitsToInt(nearZ));
+  const ivec4 inside = min(min(floatBitsToInt(farX), floatBitsToInt(farY)), floatBitsToInt(farZ));
+  const ivec4 leave = min(inside, ivec4(floatBitsToInt(limit)));
   return (enter.x <= leave.x ? 0xfu : 0u) | (enter.y <= leave.y ? 0xf0u : 0u) | (enter.z <= leave.z ? 0xf00u : 0u) |
          (enter.w <= leave.w ? 0xf000u : 0u);
 }
@@ -93,7 +95,7 @@ struct Leaves {
   uint base, bits, all;
 };
 
-// Triangles wait until some lane has those of two nodes to test: otherwise most lanes would wait for the few that have
+// Triangles wait until some lane has those of three nodes to test: otherwise most lanes would wait for the few that have
 // one after nearly every node.
 Hit walkWide(vec3 origin, vec3 direction, uint excludedFace, inout uint iterationCount) {
   const RayFrame frame = makeRayFrame(direction);
@@ -102,7 +104,7 @@ Hit walkWide(vec3 origin, vec3 direction, uint excludedFace, inout uint iteratio
   uint stackBits[kMaxWideBvhDepth];
   uint stackSize = 0u;
   Group group = Group(0u, 8u);  // The root.
-  Leaves leaves = Leaves(0u, 0u, 0u), more = Leaves(0u, 0u, 0u);
+  Leaves first = Leaves(0u, 0u, 0u), second = first, third = first;
   Hit hit = Hit(kFarAway, kNoSlot, true);
 
   while (group.bits != 0u) {
@@ -122,22 +124,25 @@ Hit walkWide(vec3 origin, vec3 direction, uint excludedFace, inout uint iteratio
         group = Group(stackBases[stackSize], stackBits[stackSize]);
       }
       if (entered.bits != 0u) {
-        if (leaves.bits == 0u) {
-          leaves = entered;
+        if (first.bits == 0u) {
+          first = entered;
+        } else if (second.bits == 0u) {
+          second = entered;
         } else {
-          more = entered;
+          third = entered;
         }
       }
       if (++iterationCount > kIterationLimit) group.bits = 0u;
-      if (subgroupAny(more.bits != 0u)) break;
+      if (subgroupAny(third.bits != 0u)) break;
     }
-    while (leaves.bits != 0u) {
-      const uint lowest = leaves.bits & (~leaves.bits + 1u);
-      leaves.bits ^= lowest;
-      testTriangle(frame, origin, leaves.base + bitCount(leaves.all & (lowest - 1u)), excludedFace, hit);
-      if (leaves.bits == 0u) {
-        leaves = more;
-        more.bits = 0u;
+    while (first.bits != 0u) {
+      const uint lowest = first.bits & (~first.bits + 1u);
+      first.bits ^= lowest;
+      testTriangle(frame, origin, first.base + bitCount(first.all & (lowest - 1u)), excludedFace, hit);
+      if (first.bits == 0u) {
+        first = second;
+        second = third;
+        third.bits = 0u;
       }
       ++iterationCount;
     }
