@@ -6,8 +6,8 @@
 
 #include "bvh/bvh.h"
 #include "bvh/subtree.h"
-#include "bvh/unset_vector.h"
 #include "core/check.h"
+#include "core/unset_vector.h"
 
 namespace asdfvk {
 namespace {

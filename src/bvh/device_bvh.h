@@ -4,7 +4,7 @@
 #include <span>
 
 #include "bvh/bvh.h"
-#include "bvh/unset_vector.h"
+#include "core/unset_vector.h"
 #include "mesh/face_geometry.h"
 #include "shared/bvh_layout.h"
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "bvh/bvh.h"
-#include "bvh/unset_vector.h"
+#include "core/unset_vector.h"
 #include "shared/bvh_layout.h"
 
 namespace asdfvk {

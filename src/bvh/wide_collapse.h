@@ -5,7 +5,7 @@
 #include <span>
 
 #include "bvh/bvh.h"
-#include "bvh/unset_vector.h"
+#include "core/unset_vector.h"
 
 namespace asdfvk {
 

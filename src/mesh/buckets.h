@@ -1,18 +1,19 @@
 #pragma once
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_sort.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "core/error.h"
+#include "mesh/parallel_loop.h"
 
 namespace asdfvk {
 
@@ -28,49 +29,133 @@ struct Buckets {
   }
 };
 
-/// Calls body(i) for every i in [0, count), in parallel.
-template <typename Body>
-void forEachInParallel(size_t count, const Body& body) {
-  tbb::parallel_for(tbb::blocked_range<size_t>(0, count, 1024), [&](const tbb::blocked_range<size_t>& range) {
-    for (size_t i = range.begin(); i < range.end(); ++i) body(static_cast<uint32_t>(i));
-  });
-}
+/// Entries on their way into numbered buckets, for those who need to see each bucket once and not to keep them: a
+/// radix sort in two steps, of which the second works on runs of buckets that fit into a cache. Without atomic
+/// operations, each of which would wait for memory by itself. Linear as long as buckets are small, n log n at worst;
+/// the same for any number of threads. Entry: ordered; left uninitialised by its default constructor, best of all.
+template <typename Entry>
+class StagedEntries {
+ public:
+  /// emit(item, put) is called twice for every item in [0, itemCount) and calls put(bucket, entry) for each of its
+  /// entries. Throws Error{Input} beyond 2^32 - 1 entries.
+  template <typename Emit>
+  StagedEntries(size_t bucketCount, size_t itemCount, const Emit& emit) : bucketCount_(bucketCount) {
+    const size_t wantedRunCount = std::clamp<size_t>(itemCount / kItemsPerRun, 1, kMaxRunCount);
+    while ((bucketCount >> shift_) >= wantedRunCount && bucketCount >> shift_ > 0) ++shift_;
+    const size_t runCount = (bucketCount >> shift_) + 1;
+    const size_t blockSize = std::max(kItemsPerRun, itemCount / kMaxBlockCount + 1);
+    const size_t blockCount = (itemCount + blockSize - 1) / blockSize;
+    std::vector<std::vector<uint32_t>> cursors(blockCount);
+    const auto forEachBlock = [&](const auto& body) {
+      tbb::parallel_for(size_t{0}, blockCount, [&](size_t block) {
+        const size_t end = std::min(itemCount, (block + 1) * blockSize);
+        for (size_t item = block * blockSize; item < end; ++item) body(cursors[block], static_cast<uint32_t>(item));
+      });
+    };
+    for (std::vector<uint32_t>& cursor : cursors) cursor.assign(runCount, 0);
+    forEachBlock([&](std::vector<uint32_t>& counts, uint32_t item) {
+      emit(item, [&](uint32_t bucket, const Entry&) { ++counts[bucket >> shift_]; });
+    });
+    turnIntoCursors(cursors, runCount);
+    staged_ = std::make_unique_for_overwrite<Staged[]>(count());
+    forEachBlock([&](std::vector<uint32_t>& cursor, uint32_t item) {
+      emit(item, [&](uint32_t bucket, const Entry& entry) { staged_[cursor[bucket >> shift_]++] = {bucket, entry}; });
+    });
+  }
 
-/// A parallel counting sort by bucket, then a sort within each bucket: linear as long as buckets are small, n log n at
-/// worst, the same for any number of threads. emit(item, put) is called twice for every item in [0, itemCount) and
-/// calls put(bucket, entry) for each of its entries. Throws Error{Input} beyond 2^32 - 1 entries.
+  [[nodiscard]] uint32_t count() const { return runBegins_.back(); }
+
+  /// Calls visit(bucket, entries) once for each bucket with an entry, entries ascending, in parallel.
+  template <typename Visit>
+  void forEachBucket(const Visit& visit) const {
+    tbb::enumerable_thread_specific<std::vector<Entry>> scratches;
+    forEachRun(
+        [&](uint32_t, uint32_t size) {
+          std::vector<Entry>& scratch = scratches.local();
+          if (scratch.size() < size) scratch.resize(size);
+          return scratch.data();
+        },
+        [&](uint32_t bucket, uint32_t, std::span<const Entry> entries) {
+          if (!entries.empty()) visit(bucket, entries);
+        });
+  }
+
+  [[nodiscard]] Buckets<Entry> toBuckets() const {
+    Buckets<Entry> buckets;
+    buckets.offsets.resize(bucketCount_ + 1);
+    buckets.entries.resize(count());
+    forEachRun([&](uint32_t begin, uint32_t) { return buckets.entries.data() + begin; },
+               [&](uint32_t bucket, uint32_t begin, std::span<const Entry>) { buckets.offsets[bucket] = begin; });
+    buckets.offsets.back() = count();
+    return buckets;
+  }
+
+ private:
+  static constexpr size_t kItemsPerRun = size_t{1} << 13, kMaxRunCount = 512, kMaxBlockCount = 256;
+
+  struct Staged {
+    uint32_t bucket;
+    Entry entry;
+  };
+
+  /// counts: of each block of items and run, which become where the block's entries of that run begin.
+  void turnIntoCursors(std::vector<std::vector<uint32_t>>& counts, size_t runCount) {
+    uint64_t total = 0;
+    for (size_t run = 0; run < runCount; ++run) {
+      runBegins_.push_back(static_cast<uint32_t>(total));
+      for (std::vector<uint32_t>& count : counts) {
+        total += std::exchange(count[run], static_cast<uint32_t>(total));
+        if (total > UINT32_MAX) throw Error(ErrorKind::Input, "the mesh has too many connections; split it");
+      }
+    }
+    runBegins_.push_back(static_cast<uint32_t>(total));
+  }
+
+  static void sort(std::span<Entry> entries) {
+    constexpr size_t kWorthParallelSort = size_t{1} << 16;
+    if (entries.size() >= kWorthParallelSort) {
+      // Isolated: another run begun by this thread meanwhile would overwrite this one's scratch.
+      tbb::this_task_arena::isolate([&] { tbb::parallel_sort(entries.begin(), entries.end()); });
+    } else if (entries.size() > 1) {
+      std::sort(entries.begin(), entries.end());
+    }
+  }
+
+  /// room(begin, size) tells where the run's entries go, visit(bucket, begin, entries) takes each bucket; begin: of all
+  /// entries in the order of buckets.
+  template <typename Room, typename Visit>
+  void forEachRun(const Room& room, const Visit& visit) const {
+    tbb::enumerable_thread_specific<std::vector<uint32_t>> ends;
+    tbb::parallel_for(size_t{0}, runBegins_.size() - 1, [&](size_t run) {
+      const uint32_t begin = runBegins_[run], size = runBegins_[run + 1] - begin;
+      const size_t firstBucket = run << shift_;
+      const size_t runBucketCount = std::min(bucketCount_, (run + 1) << shift_) - firstBucket;
+      const std::span<const Staged> staged(staged_.get() + begin, size);
+      std::vector<uint32_t>& end = ends.local();
+      end.assign(runBucketCount + 1, 0);
+      for (const Staged& s : staged) ++end[s.bucket - firstBucket + 1];
+      for (size_t i = 1; i <= runBucketCount; ++i) end[i] += end[i - 1];
+      Entry* entries = room(begin, size);
+      for (const Staged& s : staged) entries[end[s.bucket - firstBucket]++] = s.entry;
+      for (size_t i = 0; i < runBucketCount; ++i) {
+        const uint32_t from = i == 0 ? 0 : end[i - 1];
+        const std::span<Entry> bucket(entries + from, entries + end[i]);
+        sort(bucket);
+        visit(static_cast<uint32_t>(firstBucket + i), begin + from, bucket);
+      }
+    });
+  }
+
+  size_t bucketCount_ = 0;
+  uint32_t shift_ = 0;                ///< A run is the buckets whose numbers agree but for so many low bits.
+  std::vector<uint32_t> runBegins_;   ///< #runs+1
+  std::unique_ptr<Staged[]> staged_;  ///< By run.
+};
+
+/// All of it kept. See StagedEntries.
 template <typename Entry, typename Emit>
 [[nodiscard]] Buckets<Entry> sortIntoBuckets(size_t bucketCount, size_t itemCount, const Emit& emit) {
-  constexpr size_t kWorthParallelSort = size_t{1} << 16;
-  Buckets<Entry> buckets;
-  std::vector<uint32_t>& offsets = buckets.offsets;
-  offsets.assign(bucketCount + 1, 0);
-  const auto slot = [&](uint32_t bucket) { return std::atomic_ref<uint32_t>(offsets[bucket]); };
-  forEachInParallel(itemCount, [&](uint32_t item) {
-    emit(item, [&](uint32_t bucket, const Entry&) { slot(bucket).fetch_add(1, std::memory_order_relaxed); });
-  });
-  uint64_t total = 0;
-  for (uint32_t& offset : offsets) {
-    total += offset;
-    if (total > UINT32_MAX) throw Error(ErrorKind::Input, "the mesh has too many connections; split it");
-    offset = static_cast<uint32_t>(total);
-  }
-  // Each offset is now its bucket's end; filling backwards leaves the bucket's begin.
-  buckets.entries.resize(total);
-  forEachInParallel(itemCount, [&](uint32_t item) {
-    emit(item, [&](uint32_t bucket, const Entry& entry) {
-      buckets.entries[slot(bucket).fetch_sub(1, std::memory_order_relaxed) - 1] = entry;
-    });
-  });
-  forEachInParallel(bucketCount, [&](uint32_t bucket) {
-    const auto begin = buckets.entries.begin() + offsets[bucket], end = buckets.entries.begin() + offsets[bucket + 1];
-    if (static_cast<size_t>(end - begin) < kWorthParallelSort) {
-      std::sort(begin, end);
-    } else {
-      tbb::parallel_sort(begin, end);
-    }
-  });
-  return buckets;
+  return StagedEntries<Entry>(bucketCount, itemCount, emit).toBuckets();
 }
 
 /// What stands in a bucket more than once is left once. Precondition: buckets are ascending.

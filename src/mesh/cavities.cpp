@@ -6,9 +6,10 @@
 #include <cmath>
 
 #include "core/box3.h"
-#include "mesh/buckets.h"
 #include "mesh/normalization.h"
+#include "mesh/parallel_loop.h"
 #include "mesh/plane_points.h"
+#include "mesh/vertex_bounds.h"
 
 namespace asdfvk {
 namespace {
@@ -132,10 +133,7 @@ std::vector<uint8_t> findCavities(const Mesh& mesh, const Components& components
   std::vector<uint8_t> isCavity(components.components.size(), 0);
   const auto isClosed = [](const Component& component) { return component.isClosed; };
   if (std::count_if(components.components.begin(), components.components.end(), isClosed) < 2) return isCavity;
-  Box3d bounds;
-  for (const Vec3d& vertex : mesh.vertices)
-    if (isFinite(vertex)) bounds.add(vertex);
-  const RayFrame frame{normalizationOf(bounds)};
+  const RayFrame frame{normalizationOf(boundsOfFiniteVertices(mesh))};
   const ClosedComponents closed = gatherClosed(mesh, components, frame);
   const std::vector<uint8_t> isOdd = parities(mesh, components, frame, closed);
   for (const Probe& probe : closed.probes) isCavity[probe.component] = 1;

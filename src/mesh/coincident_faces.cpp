@@ -24,10 +24,7 @@ Face placeOf(const Face& face, const std::vector<uint32_t>& lowestVertices) {
   return place;
 }
 
-}  // namespace
-
-std::vector<uint32_t> coincidentRepresentatives(const Mesh& mesh) {
-  const std::vector<uint32_t> lowestVertices = coincidentVertices(mesh);
+std::vector<uint32_t> lowestAmong(const Mesh& mesh, const std::vector<uint32_t>& lowestVertices) {
   const Buckets<FaceKey> byLowestVertex =
       sortIntoBuckets<FaceKey>(mesh.vertices.size(), mesh.faces.size(), [&](uint32_t f, auto&& put) {
         const auto [a, b, c] = placeOf(mesh.faces[f], lowestVertices);
@@ -41,6 +38,30 @@ std::vector<uint32_t> coincidentRepresentatives(const Mesh& mesh) {
       representatives[key.face] = first->face;
     }
   });
+  return representatives;
+}
+
+// In a closed mesh a face and its copy are alone at each of their three edges.
+bool hasCopyByVertices(const DualGraph& closedGraph) {
+  return countInParallel(closedGraph.faceCount(), [&](uint32_t f) {
+           const std::span<const uint32_t> around = closedGraph.neighboursOf(f);
+           return around.front() == around.back();
+         }) > 0;
+}
+
+}  // namespace
+
+std::vector<uint32_t> coincidentRepresentatives(const Mesh& mesh) {
+  return lowestAmong(mesh, coincidentVertices(mesh));
+}
+
+std::vector<uint32_t> coincidentRepresentatives(const Mesh& mesh, const EdgeSurvey& edges) {
+  const std::vector<uint32_t> lowestVertices = coincidentVertices(mesh);
+  const auto isCopy = [&](uint32_t vertex) { return lowestVertices[vertex] != vertex; };
+  if (!edges.isClosed || hasCopyByVertices(edges.graph) || countInParallel(lowestVertices.size(), isCopy) > 0)
+    return lowestAmong(mesh, lowestVertices);
+  std::vector<uint32_t> representatives(mesh.faces.size());
+  forEachInParallel(representatives.size(), [&](uint32_t f) { representatives[f] = f; });
   return representatives;
 }
 

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "mesh/edge_survey.h"
 #include "mesh/mesh.h"
 
 namespace asdfvk {
@@ -13,5 +14,8 @@ namespace asdfvk {
 /// noise: they share one identity, so that a cone passes through its own face's copies and every backend sees the same
 /// one of them.
 [[nodiscard]] std::vector<uint32_t> coincidentRepresentatives(const Mesh& mesh);
+
+/// The same, faster where the edges rule copies out.
+[[nodiscard]] std::vector<uint32_t> coincidentRepresentatives(const Mesh& mesh, const EdgeSurvey& edges);
 
 }  // namespace asdfvk

@@ -8,35 +8,32 @@
 namespace asdfvk {
 namespace {
 
-struct Point {
-  Vec3d position;
-  uint32_t vertex = 0;
-
-  bool operator<(const Point& other) const {
-    for (size_t axis = 0; axis < 3; ++axis)
-      if (position[axis] != other.position[axis]) return position[axis] < other.position[axis];
-    return vertex < other.vertex;
-  }
+/// A vertex and what tells nearly all points of a bucket apart.
+struct Fingerprint {
+  uint32_t hash;
+  uint32_t vertex;
+  auto operator<=>(const Fingerprint&) const = default;
 };
 
 }  // namespace
 
 std::vector<uint32_t> coincidentVertices(const Mesh& mesh) {
-  // Few enough that their counts stay in a cache, else each vertex costs two misses.
-  const size_t bucketCount = std::bit_ceil(mesh.vertices.size() / 32 + 1);
-  const Buckets<Point> buckets =
-      sortIntoBuckets<Point>(bucketCount, mesh.vertices.size(), [&](uint32_t vertex, auto&& put) {
-        if (!isFinite(mesh.vertices[vertex])) return;
-        const Vec3d position = mesh.vertices[vertex] + Vec3d{};  // -0 becomes 0.
-        put(static_cast<uint32_t>(hashOf(position) & (bucketCount - 1)), Point{position, vertex});
-      });
   std::vector<uint32_t> lowest(mesh.vertices.size());
   forEachInParallel(lowest.size(), [&](uint32_t vertex) { lowest[vertex] = vertex; });
-  forEachInParallel(buckets.bucketCount(), [&](uint32_t bucket) {
-    const Point* first = nullptr;
-    for (const Point& point : buckets[bucket]) {
-      if (!first || !(first->position == point.position)) first = &point;
-      lowest[point.vertex] = first->vertex;
+  const size_t bucketCount = std::bit_ceil(mesh.vertices.size() / 8 + 1);
+  const StagedEntries<Fingerprint> points(bucketCount, mesh.vertices.size(), [&](uint32_t vertex, auto&& put) {
+    if (!isFinite(mesh.vertices[vertex])) return;
+    const uint64_t hash = hashOf(mesh.vertices[vertex] + Vec3d{});  // -0 becomes 0.
+    put(static_cast<uint32_t>(hash & (bucketCount - 1)), Fingerprint{static_cast<uint32_t>(hash >> 32), vertex});
+  });
+  points.forEachBucket([&](uint32_t, std::span<const Fingerprint> bucket) {
+    size_t first = 0;  // Of those with the same hash.
+    for (size_t i = 1; i < bucket.size(); ++i) {
+      if (bucket[i].hash != bucket[first].hash) first = i;
+      // The first of them, but for points that differ and hash alike all the same.
+      size_t same = first;
+      while (!(mesh.vertices[bucket[same].vertex] == mesh.vertices[bucket[i].vertex])) ++same;
+      lowest[bucket[i].vertex] = bucket[same].vertex;
     }
   });
   return lowest;

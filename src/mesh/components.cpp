@@ -4,37 +4,76 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <utility>
 
-#include "mesh/buckets.h"
 #include "mesh/normalization.h"
+#include "mesh/parallel_loop.h"
+#include "mesh/vertex_bounds.h"
 
 namespace asdfvk {
 namespace {
 
-constexpr uint32_t kUnvisited = UINT32_MAX;
-
 // A volume below this share of the sum of its terms' factors is rounding noise: a few units in the last place.
 constexpr double kVolumeNoise = 1e-15;
 
-void label(const DualGraph& graph, Components& result) {
-  result.componentOf.assign(graph.faceCount(), kUnvisited);
-  std::vector<uint32_t> queue;
-  for (uint32_t first = 0; first < graph.faceCount(); ++first) {
-    if (result.componentOf[first] != kUnvisited) continue;
-    const uint32_t index = static_cast<uint32_t>(result.components.size());
-    queue.assign(1, first);
-    result.componentOf[first] = index;
-    for (size_t head = 0; head < queue.size(); ++head) {
-      for (uint32_t neighbour : graph.neighboursOf(queue[head])) {
-        if (result.componentOf[neighbour] != kUnvisited) continue;
-        result.componentOf[neighbour] = index;
-        queue.push_back(neighbour);
-      }
+/// Sets of faces that grow together, each known by its lowest face; by any number of threads at once (Anderson and Woll
+/// 1991, "Wait-free parallel algorithms for the union-find problem", with links to the lower index).
+class FaceSets {
+ public:
+  explicit FaceSets(uint32_t faceCount) : parents_(faceCount) {
+    forEachInParallel(faceCount, [&](uint32_t face) { parents_[face] = face; });
+  }
+
+  [[nodiscard]] uint32_t lowestOf(uint32_t face) {
+    for (;;) {
+      const uint32_t parent = load(face);
+      if (parent == face) return face;
+      const uint32_t grandparent = load(parent);
+      if (parent == grandparent) return parent;
+      slot(face).store(grandparent, std::memory_order_relaxed);  // Halves the way; any ancestor will do.
+      face = grandparent;
     }
-    Component component;
-    component.firstFace = first;
-    component.faceCount = static_cast<uint32_t>(queue.size());
-    result.components.push_back(component);
+  }
+
+  void join(uint32_t a, uint32_t b) {
+    for (;;) {
+      a = lowestOf(a);
+      b = lowestOf(b);
+      if (a == b) return;
+      if (a < b) std::swap(a, b);
+      uint32_t expected = a;
+      if (slot(a).compare_exchange_strong(expected, b, std::memory_order_relaxed)) return;
+    }
+  }
+
+ private:
+  [[nodiscard]] std::atomic_ref<uint32_t> slot(uint32_t face) { return std::atomic_ref<uint32_t>(parents_[face]); }
+  [[nodiscard]] uint32_t load(uint32_t face) { return slot(face).load(std::memory_order_relaxed); }
+
+  std::vector<uint32_t> parents_;  ///< #F, never above the face itself.
+};
+
+void label(const DualGraph& graph, Components& result) {
+  const uint32_t faceCount = graph.faceCount();
+  FaceSets sets(faceCount);
+  forEachInParallel(faceCount, [&](uint32_t face) {
+    for (const uint32_t neighbour : graph.neighboursOf(face))
+      if (neighbour < face) sets.join(face, neighbour);
+  });
+  std::vector<uint32_t>& componentOf = result.componentOf;
+  componentOf.resize(faceCount);
+  forEachInParallel(faceCount, [&](uint32_t face) { componentOf[face] = sets.lowestOf(face); });
+  for (uint32_t face = 0; face < faceCount; ++face) {
+    const uint32_t lowest = componentOf[face];
+    if (lowest == face) {
+      Component component;
+      component.firstFace = face;
+      componentOf[face] = static_cast<uint32_t>(result.components.size());
+      result.components.push_back(component);
+    } else {
+      componentOf[face] = componentOf[lowest];  // Which is lower and has its index already.
+    }
+    ++result.components[componentOf[face]].faceCount;
   }
 }
 
@@ -95,26 +134,48 @@ void judgeClosedness(const Mesh& mesh, const DualGraph& graph, Components& resul
   }
 }
 
-// Volumes are summed in normalised units around a corner of the component, so that neither the unit nor a shift of the
-// mesh costs digits.
-void measureVolumes(const Mesh& mesh, Components& result) {
-  Box3d bounds;
-  for (const Vec3d& vertex : mesh.vertices)
-    if (isFinite(vertex)) bounds.add(vertex);
-  const double scale = normalizationOf(bounds).scale;
-  std::vector<double> sum(result.components.size(), 0), noise(result.components.size(), 0);
-  for (uint32_t f = 0; f < mesh.faceCount(); ++f) {
-    const uint32_t component = result.componentOf[f];
-    if (!result.components[component].isClosed) continue;
-    const Vec3d& origin = mesh.vertices[mesh.faces[result.components[component].firstFace][0]];
+// The volume of some faces of one component, and what rounding may make of it.
+struct VolumeSum {
+  uint32_t component = 0;
+  double sum = 0, noise = 0;
+};
+
+// Of a fixed range of faces, so that the sums do not depend on the number of threads.
+std::vector<VolumeSum> sumVolumes(const Mesh& mesh, const Components& components, double scale, uint32_t begin,
+                                  uint32_t end) {
+  std::vector<VolumeSum> sums;
+  for (uint32_t f = begin; f < end; ++f) {
+    const uint32_t component = components.componentOf[f];
+    if (!components.components[component].isClosed) continue;
+    if (sums.empty() || sums.back().component != component) sums.push_back({component});
+    const Vec3d& origin = mesh.vertices[mesh.faces[components.components[component].firstFace][0]];
     const auto [i, j, k] = mesh.faces[f];
     // Scaled first, which rounds nothing, because differences of huge coordinates may overflow.
     const Vec3d corner = mesh.vertices[i] * scale;
     const Vec3d a = corner - origin * scale;
     const Vec3d ab = mesh.vertices[j] * scale - corner, ac = mesh.vertices[k] * scale - corner;
-    sum[component] += dot(a, cross(ab, ac)) / 6;
-    noise[component] += kVolumeNoise * length(a) * length(ab) * length(ac);
+    sums.back().sum += dot(a, cross(ab, ac)) / 6;
+    sums.back().noise += kVolumeNoise * length(a) * length(ab) * length(ac);
   }
+  return sums;
+}
+
+// Volumes are summed in normalised units around a corner of the component, so that neither the unit nor a shift of the
+// mesh costs digits.
+void measureVolumes(const Mesh& mesh, Components& result) {
+  const double scale = normalizationOf(boundsOfFiniteVertices(mesh)).scale;
+  const size_t blockCount = (mesh.faces.size() + kItemsPerTask - 1) / kItemsPerTask;
+  std::vector<std::vector<VolumeSum>> blocks(blockCount);
+  tbb::parallel_for(size_t{0}, blockCount, [&](size_t block) {
+    const size_t begin = block * kItemsPerTask, end = std::min(begin + kItemsPerTask, mesh.faces.size());
+    blocks[block] = sumVolumes(mesh, result, scale, static_cast<uint32_t>(begin), static_cast<uint32_t>(end));
+  });
+  std::vector<double> sum(result.components.size(), 0), noise(result.components.size(), 0);
+  for (const std::vector<VolumeSum>& block : blocks)
+    for (const VolumeSum& part : block) {
+      sum[part.component] += part.sum;
+      noise[part.component] += part.noise;
+    }
   using Limits = std::numeric_limits<double>;
   for (size_t i = 0; i < sum.size(); ++i) {
     if (std::abs(sum[i]) <= noise[i]) continue;
@@ -129,6 +190,15 @@ Components findComponents(const Mesh& mesh, const DualGraph& graph) {
   Components result;
   label(graph, result);
   judgeClosedness(mesh, graph, result);
+  measureVolumes(mesh, result);
+  return result;
+}
+
+Components findComponents(const Mesh& mesh, const EdgeSurvey& edges) {
+  if (!edges.isClosed || edges.inconsistentEdgeCount > 0) return findComponents(mesh, edges.graph);
+  Components result;
+  label(edges.graph, result);
+  for (Component& component : result.components) component.isClosed = component.isConsistentlyWound = true;
   measureVolumes(mesh, result);
   return result;
 }

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "mesh/dual_graph.h"
+#include "mesh/edge_survey.h"
 #include "mesh/mesh.h"
 
 namespace asdfvk {
@@ -26,5 +26,8 @@ struct Components {
 /// Precondition: no index is out of range, and `graph` is the mesh's. A face with a non-finite corner is a component of
 /// its own, and the hole that it leaves makes the others open.
 [[nodiscard]] Components findComponents(const Mesh& mesh, const DualGraph& graph);
+
+/// The same, faster where the mesh has no open edge.
+[[nodiscard]] Components findComponents(const Mesh& mesh, const EdgeSurvey& edges);
 
 }  // namespace asdfvk

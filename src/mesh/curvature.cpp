@@ -1,6 +1,7 @@
 #include "mesh/curvature.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <numbers>
 
@@ -30,12 +31,14 @@ double angleAt(const Vec3d& apex, const Vec3d& b, const Vec3d& c) {
 std::vector<double> vertexAngleDefects(const Mesh& mesh) {
   const auto takesPart = [&](uint32_t f) { return hasDistinctVertices(mesh.faces[f]) && mesh.hasFiniteCorners(f); };
   std::vector<uint8_t> isOnBoundary(mesh.vertices.size(), 0);
-  const EdgeTable edges = EdgeTable::build(mesh, takesPart);
-  for (uint32_t lower = 0; lower < edges.vertexCount(); ++lower) {
-    edges.forEachEdgeFrom(lower, [&](uint32_t upper, std::span<const EdgeEntry> around) {
-      if (around.size() == 1) isOnBoundary[lower] = isOnBoundary[upper] = 1;
-    });
-  }
+  const auto mark = [&](uint32_t vertex) {
+    std::atomic_ref<uint8_t>(isOnBoundary[vertex]).store(1, std::memory_order_relaxed);
+  };
+  EdgeTable(mesh, takesPart).forEachEdge([&](uint32_t lower, std::span<const EdgeEntry> around) {
+    if (around.size() != 1) return;
+    mark(lower);
+    mark(around.front().upperVertex);
+  });
   const Buckets<uint32_t> facesOf =
       sortIntoBuckets<uint32_t>(mesh.vertices.size(), mesh.faces.size(), [&](uint32_t f, auto&& put) {
         if (!takesPart(f)) return;

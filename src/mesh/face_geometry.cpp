@@ -4,7 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "mesh/buckets.h"
+#include "mesh/parallel_loop.h"
+#include "mesh/vertex_bounds.h"
 
 namespace asdfvk {
 namespace {
@@ -46,17 +47,27 @@ FaceGeometry computeFaceGeometry(const Mesh& mesh) {
   geometry.barycentres.resize(faceCount);
   geometry.normals.resize(faceCount);
   geometry.areas.resize(faceCount);
-  forEachInParallel(faceCount, [&](uint32_t f) {
-    const auto [i, j, k] = mesh.faces[f];
-    const Vec3d &a = mesh.vertices[i], &b = mesh.vertices[j], &c = mesh.vertices[k];
-    geometry.barycentres[f] = (a * kQuarter + (quarterOf(a, b) + quarterOf(a, c)) / 3.0) / kQuarter;
-    const NormalAndArea face = mesh.hasFiniteCorners(f) ? normalAndArea(a, b, c) : NormalAndArea{};
-    geometry.normals[f] = face.normal;
-    geometry.areas[f] = face.area;
-  });
-  for (const Face& face : mesh.faces)
-    for (uint32_t vertex : face)
-      if (isFinite(mesh.vertices[vertex])) geometry.bounds.add(mesh.vertices[vertex]);
+  const auto computeRange = [&](const tbb::blocked_range<size_t>& range, Box3d bounds) {
+    for (size_t f = range.begin(); f < range.end(); ++f) {
+      const auto [i, j, k] = mesh.faces[f];
+      const Vec3d &a = mesh.vertices[i], &b = mesh.vertices[j], &c = mesh.vertices[k];
+      geometry.barycentres[f] = (a * kQuarter + (quarterOf(a, b) + quarterOf(a, c)) / 3.0) / kQuarter;
+      bool isFiniteFace = true;
+      for (const Vec3d* corner : {&a, &b, &c}) {
+        if (isFinite(*corner)) {
+          bounds.add(*corner);
+        } else {
+          isFiniteFace = false;
+        }
+      }
+      const NormalAndArea face = isFiniteFace ? normalAndArea(a, b, c) : NormalAndArea{};
+      geometry.normals[f] = face.normal;
+      geometry.areas[f] = face.area;
+    }
+    return bounds;
+  };
+  geometry.bounds =
+      tbb::parallel_reduce(tbb::blocked_range<size_t>(0, faceCount, kItemsPerTask), Box3d{}, computeRange, joined);
   return geometry;
 }
 

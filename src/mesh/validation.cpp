@@ -1,56 +1,24 @@
 #include "mesh/validation.h"
 
 #include <fmt/format.h>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_reduce.h>
 
 #include <algorithm>
 #include <atomic>
 
-#include "mesh/edges.h"
+#include "mesh/parallel_loop.h"
 
 namespace asdfvk {
 namespace {
 
-struct EdgeCounts {
-  uint64_t boundary = 0, nonManifold = 0, inconsistent = 0;
-
-  EdgeCounts& operator+=(const EdgeCounts& other) {
-    boundary += other.boundary;
-    nonManifold += other.nonManifold;
-    inconsistent += other.inconsistent;
-    return *this;
-  }
-};
-
-bool runsFromTo(const Face& face, uint32_t from, uint32_t to) {
-  return (face[0] == from && face[1] == to) || (face[1] == from && face[2] == to) || (face[2] == from && face[0] == to);
-}
-
-EdgeCounts countEdges(const Mesh& mesh) {
-  const EdgeTable edges = EdgeTable::build(
-      mesh, [&](uint32_t f) { return hasDistinctVertices(mesh.faces[f]) && mesh.hasFiniteCorners(f); });
-  const auto countRange = [&](const tbb::blocked_range<uint32_t>& range, EdgeCounts counts) {
-    for (uint32_t lower = range.begin(); lower < range.end(); ++lower) {
-      edges.forEachEdgeFrom(lower, [&](uint32_t upper, std::span<const EdgeEntry> around) {
-        if (around.size() == 1) ++counts.boundary;
-        if (around.size() > 2) ++counts.nonManifold;
-        if (around.size() == 2 && runsFromTo(mesh.faces[around[0].face()], lower, upper) ==
-                                      runsFromTo(mesh.faces[around[1].face()], lower, upper))
-          ++counts.inconsistent;
-      });
-    }
-    return counts;
-  };
-  return tbb::parallel_reduce(tbb::blocked_range<uint32_t>(0, edges.vertexCount(), 4096), EdgeCounts{}, countRange,
-                              [](EdgeCounts a, const EdgeCounts& b) { return a += b; });
-}
-
 uint64_t countUnreferencedVertices(const Mesh& mesh) {
   std::vector<uint8_t> isUsed(mesh.vertices.size(), 0);
-  for (const Face& face : mesh.faces)
-    for (uint32_t vertex : face) isUsed[vertex] = 1;
-  return static_cast<uint64_t>(std::count(isUsed.begin(), isUsed.end(), uint8_t{0}));
+  forEachInParallel(mesh.faces.size(), [&](uint32_t f) {
+    for (const uint32_t vertex : mesh.faces[f]) {
+      const std::atomic_ref<uint8_t> used(isUsed[vertex]);
+      if (!used.load(std::memory_order_relaxed)) used.store(1, std::memory_order_relaxed);
+    }
+  });
+  return countInParallel(isUsed.size(), [&](uint32_t vertex) { return !isUsed[vertex]; });
 }
 
 uint64_t countShortPolygons(const Polygons& polygons) {
@@ -63,28 +31,26 @@ uint64_t countShortPolygons(const Polygons& polygons) {
 }  // namespace
 
 uint64_t countFacesWithIndexOutOfRange(const Mesh& mesh) {
-  return static_cast<uint64_t>(std::count_if(mesh.faces.begin(), mesh.faces.end(), [&](const Face& face) {
-    return *std::max_element(face.begin(), face.end()) >= mesh.vertices.size();
-  }));
+  return countInParallel(mesh.faces.size(), [&](uint32_t f) {
+    const auto [a, b, c] = mesh.faces[f];
+    return std::max({a, b, c}) >= mesh.vertices.size();
+  });
 }
 
-MeshDefects findDefects(const Mesh& mesh, const FaceGeometry& geometry, std::span<const uint32_t> representatives) {
+MeshDefects findDefects(const Mesh& mesh, const FaceGeometry& geometry, std::span<const uint32_t> representatives,
+                        const EdgeSurvey& edges) {
+  const uint32_t faceCount = mesh.faceCount();
   MeshDefects defects;
-  for (uint32_t f = 0; f < mesh.faceCount(); ++f) {
-    if (representatives[f] != f) ++defects.duplicateFaceCount;
-    if (!geometry.isDegenerate(f)) continue;
-    if (mesh.hasFiniteCorners(f)) {
-      ++defects.zeroAreaFaceCount;
-    } else {
-      ++defects.nonFiniteFaceCount;
-    }
-  }
-  for (const Vec3d& vertex : mesh.vertices)
-    if (!isFinite(vertex)) ++defects.nonFiniteVertexCount;
-  const EdgeCounts edges = countEdges(mesh);
-  defects.boundaryEdgeCount = edges.boundary;
-  defects.nonManifoldEdgeCount = edges.nonManifold;
-  defects.inconsistentEdgeCount = edges.inconsistent;
+  defects.duplicateFaceCount = countInParallel(faceCount, [&](uint32_t f) { return representatives[f] != f; });
+  const uint64_t degenerateCount = countInParallel(faceCount, [&](uint32_t f) { return geometry.isDegenerate(f); });
+  if (degenerateCount > 0)
+    defects.nonFiniteFaceCount = countInParallel(faceCount, [&](uint32_t f) { return !mesh.hasFiniteCorners(f); });
+  defects.zeroAreaFaceCount = degenerateCount - defects.nonFiniteFaceCount;
+  defects.nonFiniteVertexCount =
+      countInParallel(mesh.vertices.size(), [&](uint32_t vertex) { return !isFinite(mesh.vertices[vertex]); });
+  defects.boundaryEdgeCount = edges.boundaryEdgeCount;
+  defects.nonManifoldEdgeCount = edges.nonManifoldEdgeCount;
+  defects.inconsistentEdgeCount = edges.inconsistentEdgeCount;
   defects.unreferencedVertexCount = countUnreferencedVertices(mesh);
   defects.shortPolygonCount = countShortPolygons(mesh.polygons);
   defects.isOfPolygons = !mesh.polygons.isEmpty();

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "mesh/components.h"
+#include "mesh/edge_survey.h"
 #include "mesh/face_geometry.h"
 #include "mesh/mesh.h"
 
@@ -33,8 +33,8 @@ struct MeshDefects {
 /// Faces with an index at or above the vertex count. When there is any, nothing else can be computed on the mesh.
 [[nodiscard]] uint64_t countFacesWithIndexOutOfRange(const Mesh& mesh);
 
-/// Precondition: no index is out of range.
+/// All are of the same mesh.
 [[nodiscard]] MeshDefects findDefects(const Mesh& mesh, const FaceGeometry& geometry,
-                                      std::span<const uint32_t> representatives);
+                                      std::span<const uint32_t> representatives, const EdgeSurvey& edges);
 
 }  // namespace asdfvk

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/error.h"
 #include "core/stopwatch.h"
@@ -68,37 +69,44 @@ void keepWithinTraced(const Components& components, const std::vector<ComponentV
 
 Interpolation::Interpolation(const PreparedMesh& prepared, const TraceScene& scene, const Cone& cone,
                              const Options& options, ComputeBackend& backend, std::vector<std::string>& warnings)
-    : prepared_(prepared),
-      scene_(scene),
-      cone_(cone),
-      options_(options),
-      backend_(backend),
-      warnings_(warnings),
-      weights_(arcWeights(options.interpolation.weights, prepared.graph, prepared.geometry)) {}
+    : prepared_(prepared), scene_(scene), cone_(cone), options_(options), backend_(backend), warnings_(warnings) {}
 
-Interpolated Interpolation::run(const TracedSeeds& traced, StageSeconds& seconds, const RunControl& control) {
+// Not before they are needed, when the largest things of tracing may be gone.
+const std::vector<double>& Interpolation::arcWeightsOnce() {
+  if (weights_.empty()) weights_ = arcWeights(options_.interpolation.weights, prepared_.graph, prepared_.geometry);
+  return weights_;
+}
+
+std::vector<double> Interpolation::predict(const TracedSeeds& traced, StageSeconds& seconds) const {
+  if (traced.hits.empty()) return {};
+  const Stopwatch watch;
+  const SeedCells cells = buildSeedCells(prepared_.graph, traced.faces);
+  std::vector<double> prediction =
+      reprojectHits(scene_, cone_, {traced.faces, traced.hits}, cells, options_.interpolation.reprojection);
+  seconds.predict += watch.seconds();
+  return prediction;
+}
+
+Interpolated Interpolation::run(const TracedSeeds& traced, std::vector<double> prediction, StageSeconds& seconds,
+                                const RunControl& control) {
+  const Stopwatch watch;
   Interpolated result;
-  const Stopwatch predictWatch;
-  if (!traced.hits.empty()) result.prediction = predict(traced);
-  seconds.predict += predictWatch.seconds();
-  control.checkpoint(0.5);
-
-  const Stopwatch solveWatch;
+  result.prediction = std::move(prediction);
   result.values = traced.values;
   const std::vector<ComponentValues> known = componentValues(prepared_.components, traced);
   const std::vector<double> guess = firstGuess(prepared_.components, known, result.prediction);
   const PoissonSystem system =
-      buildPoissonSystem(prepared_.graph, weights_, traced.values, divergence(result.prediction),
+      buildPoissonSystem(prepared_.graph, arcWeightsOnce(), traced.values, divergence(result.prediction),
                          {.secondOrder = options_.interpolation.secondOrder,
                           .firstGuess = guess,
                           .componentOf = prepared_.components.componentOf});
-  result.solver = solve(system, result.values, options_.solverOptions, control.part(0.5, 1));
+  result.solver = solve(system, result.values, options_.solverOptions, control);
   if (!result.prediction.empty()) keepWithinTraced(prepared_.components, known, result);
   if (const double pooling = options_.interpolation.pooling; pooling > 0)
     for (size_t face = 0; face < result.prediction.size(); ++face)
       if (std::isfinite(result.prediction[face]) && std::isfinite(result.values[face]))
         result.values[face] += pooling * (result.prediction[face] - result.values[face]);
-  seconds.solve += solveWatch.seconds();
+  seconds.solve += watch.seconds();
   return result;
 }
 
@@ -106,7 +114,7 @@ std::vector<double> Interpolation::runHarmonic(const TracedSeeds& traced, std::s
                                                const RunControl& control) {
   std::vector<double> values = traced.values;
   const PoissonSystem system =
-      buildPoissonSystem(prepared_.graph, weights_, traced.values, {},
+      buildPoissonSystem(prepared_.graph, arcWeightsOnce(), traced.values, {},
                          {.firstGuess = firstGuess, .componentOf = prepared_.components.componentOf});
   SolverOptions solverOptions = options_.solverOptions;
   solverOptions.tolerance = std::max(solverOptions.tolerance, kComparisonTolerance);
@@ -114,16 +122,11 @@ std::vector<double> Interpolation::runHarmonic(const TracedSeeds& traced, std::s
   return values;
 }
 
-std::vector<double> Interpolation::predict(const TracedSeeds& traced) const {
-  const SeedCells cells = buildSeedCells(prepared_.graph, traced.faces);
-  return reprojectHits(scene_, cone_, {traced.faces, traced.hits}, cells, options_.interpolation.reprojection);
-}
-
-std::vector<double> Interpolation::divergence(std::span<const double> prediction) const {
+std::vector<double> Interpolation::divergence(std::span<const double> prediction) {
   switch (options_.interpolation.guidance) {
     case Guidance::Hits:
       if (prediction.empty()) return {};
-      return divergenceOf(prepared_.graph, weights_, prediction);
+      return divergenceOf(prepared_.graph, arcWeightsOnce(), prediction);
     case Guidance::Curvature: {
       std::vector<double> divergence = faceCurvature(scene_.mesh);
       for (double& entry : divergence) entry *= -options_.interpolation.curvatureFactor;

@@ -27,16 +27,21 @@ class Interpolation {
   Interpolation(const PreparedMesh& prepared, const TraceScene& scene, const Cone& cone, const Options& options,
                 ComputeBackend& backend, std::vector<std::string>& warnings);
 
-  /// seconds: what predicting and solving took is added to them.
-  [[nodiscard]] Interpolated run(const TracedSeeds& traced, StageSeconds& seconds, const RunControl& control);
+  /// What the rays of the seeds let expect of all faces, see reprojectHits(): #F, empty without Guidance::Hits.
+  /// seconds: what it took is added to them.
+  [[nodiscard]] std::vector<double> predict(const TracedSeeds& traced, StageSeconds& seconds) const;
+
+  /// prediction: of the same seeds. seconds: what it took is added to them.
+  [[nodiscard]] Interpolated run(const TracedSeeds& traced, std::vector<double> prediction, StageSeconds& seconds,
+                                 const RunControl& control);
 
   /// The same without any guidance, to a tolerance that is enough for comparing. firstGuess: #F.
   [[nodiscard]] std::vector<double> runHarmonic(const TracedSeeds& traced, std::span<const double> firstGuess,
                                                 const RunControl& control);
 
  private:
-  [[nodiscard]] std::vector<double> predict(const TracedSeeds& traced) const;
-  [[nodiscard]] std::vector<double> divergence(std::span<const double> prediction) const;
+  const std::vector<double>& arcWeightsOnce();
+  [[nodiscard]] std::vector<double> divergence(std::span<const double> prediction);
   SolverReport solve(const PoissonSystem& system, std::vector<double>& values, const SolverOptions& solverOptions,
                      const RunControl& control);
 
@@ -46,7 +51,7 @@ class Interpolation {
   const Options& options_;
   ComputeBackend& backend_;
   std::vector<std::string>& warnings_;
-  std::vector<double> weights_;  ///< One per arc of the dual graph.
+  std::vector<double> weights_;  ///< One per arc of the dual graph; see arcWeightsOnce().
 };
 
 }  // namespace asdfvk

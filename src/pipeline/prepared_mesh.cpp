@@ -38,12 +38,14 @@ PreparedMesh prepareMesh(Mesh& mesh, Orientation orientation) {
                                               counted(mesh.vertices.size(), "vertex", "vertices")));
   PreparedMesh prepared;
   prepared.geometry = computeFaceGeometry(mesh);
-  prepared.representatives = coincidentRepresentatives(mesh);
-  prepared.graph = buildDualGraph(mesh);
-  prepared.components = findComponents(mesh, prepared.graph);
-  prepared.defects = findDefects(mesh, prepared.geometry, prepared.representatives);
+  EdgeSurvey edges = surveyEdges(mesh);
+  prepared.representatives = coincidentRepresentatives(mesh, edges);
+  prepared.components = findComponents(mesh, edges);
+  prepared.defects = findDefects(mesh, prepared.geometry, prepared.representatives, edges);
+  prepared.graph = std::move(edges.graph);
   prepared.warnings = prepared.defects.sentences();
   orient(mesh, prepared, orientation);
+  prepared.castableFaces.reserve(mesh.faces.size());
   for (uint32_t face = 0; face < mesh.faceCount(); ++face)
     if (!prepared.geometry.isDegenerate(face)) prepared.castableFaces.push_back(face);
   return prepared;

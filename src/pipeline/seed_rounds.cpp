@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace asdfvk {
 namespace {
@@ -43,7 +44,8 @@ std::vector<double> densityFor(std::vector<double> expectedErrors) {
 }  // namespace
 
 SeedRounds::SeedRounds(const Mesh& mesh, const PreparedMesh& prepared, const Options& options, SeedTracing& tracing,
-                       Interpolation& interpolation, const Stopwatch& clock, StageSeconds& seconds)
+                       Interpolation& interpolation, const Stopwatch& clock, StageSeconds& seconds,
+                       std::function<void()> afterLastRay)
     : mesh_(mesh),
       prepared_(prepared),
       options_(options),
@@ -51,6 +53,7 @@ SeedRounds::SeedRounds(const Mesh& mesh, const PreparedMesh& prepared, const Opt
       interpolation_(interpolation),
       clock_(clock),
       seconds_(seconds),
+      afterLastRay_(std::move(afterLastRay)),
       estimates_(options.estimatesError || options.rounds.maxError.has_value() || options.isAdaptive),
       placed_(prepared.geometry.areas.size()),
       probes_(placed_),
@@ -58,18 +61,19 @@ SeedRounds::SeedRounds(const Mesh& mesh, const PreparedMesh& prepared, const Opt
 
 void SeedRounds::run(const RunControl& control) {
   const uint64_t count = resolveSeedCount(options_.seeds, prepared_.castableFaces.size());
+  const bool isOneRun = !options_.rounds.areAsked();
   if (options_.isAdaptive && count < prepared_.castableFaces.size()) {
-    runRound(count - count / 2, {}, control.part(0, 0.5));
+    runRound(count - count / 2, {}, false, control.part(0, 0.5));
     const std::vector<double> weight = errors_ ? densityFor(errors_->expected) : std::vector<double>{};
-    runRound(count / 2, weight, control.part(0.5, 1));
+    runRound(count / 2, weight, isOneRun, control.part(0.5, 1));
   } else {
-    runRound(count, {}, control);
+    runRound(count, {}, isOneRun, control);
   }
-  while (const uint64_t further = furtherCount()) runRound(further, {}, {control.stop, {}});
+  while (const uint64_t further = furtherCount()) runRound(further, {}, false, {control.stop, {}});
   control.checkpoint(1);
 }
 
-void SeedRounds::runRound(uint64_t count, std::span<const double> weight, const RunControl& control) {
+void SeedRounds::runRound(uint64_t count, std::span<const double> weight, bool isLast, const RunControl& control) {
   ++roundCount_;
   const Stopwatch watch;
   const double earlierRays = seconds_.trace + seconds_.sample;
@@ -79,12 +83,25 @@ void SeedRounds::runRound(uint64_t count, std::span<const double> weight, const 
   const bool judges = estimates_ && count < leftCount();
   const SeedShares shares = judges ? shareOut(count, probes_.faces.size(), predicts) : SeedShares{.placed = count};
   traceChosen(shares, weight, control.part(0, 0.8));
-  HeldOut heldOut;
   const bool isToJudge = !probes_.faces.empty() && leftCount() > 0;
-  if (isToJudge) heldOut = holdOut(shares, control.part(0.8, 0.87));
-  traced_ = placed_;
-  traced_.append(probes_);
-  result_ = interpolation_.run(traced_, seconds_, control.part(0.87, 1));
+  std::vector<double> heldOutPrediction;
+  std::optional<TracedSeeds> scouts;
+  if (isToJudge) {
+    const Stopwatch estimateWatch;
+    StageSeconds ignored;
+    heldOutPrediction = interpolation_.predict(placed_, ignored);
+    seconds_.estimate += estimateWatch.seconds();
+    control.checkpoint(0.83);
+    if (shares.scouts > 0) scouts = traceScouts(heldOutPrediction, shares.scouts, control);
+  }
+  if (isLast) afterLastRay_();
+  HeldOut heldOut;
+  if (isToJudge) heldOut = holdOut(std::move(heldOutPrediction), control.part(0.83, 0.87));
+  if (scouts) placed_.append(*std::exchange(scouts, std::nullopt));
+  joinPlacedAndProbes(isLast);
+  std::vector<double> prediction = interpolation_.predict(traced_, seconds_);
+  control.checkpoint(0.93);
+  result_ = interpolation_.run(traced_, std::move(prediction), seconds_, control.part(0.93, 1));
   if (isToJudge) estimate(heldOut);
   interpolationSeconds_ = watch.seconds() - (seconds_.trace + seconds_.sample - earlierRays);
 }
@@ -104,29 +121,42 @@ void SeedRounds::traceChosen(const SeedShares& shares, std::span<const double> w
   seconds_.trace += traceWatch.seconds();
 }
 
-SeedRounds::HeldOut SeedRounds::holdOut(const SeedShares& shares, const RunControl& control) {
+TracedSeeds SeedRounds::traceScouts(std::span<const double> prediction, uint64_t count, const RunControl& control) {
   const Stopwatch watch;
-  StageSeconds ignored;
-  HeldOut heldOut{interpolation_.run(placed_, ignored, control.part(0, 0.7)), {}};
-  const std::vector<double>& prediction = heldOut.guided.prediction;
-  if (!prediction.empty())
-    heldOut.harmonic = interpolation_.runHarmonic(placed_, heldOut.guided.values, control.part(0.7, 1));
-  seconds_.estimate += watch.seconds();
-  if (shares.scouts == 0) return heldOut;
-  const Stopwatch traceWatch;
   std::vector<uint8_t> isSeed = placed_.isSeed;
   for (const uint32_t face : probes_.faces) isSeed[face] = 1;
-  const std::vector<uint32_t> scouts = chooseScouts(prepared_, prediction, isSeed, shares.scouts);
-  tracing_.trace(scouts, placed_, {control.stop, {}});
-  chosen_.placed = sorted(placed_.faces);
-  seconds_.trace += traceWatch.seconds();
+  TracedSeeds scouts(isSeed.size());
+  tracing_.trace(chooseScouts(prepared_, prediction, isSeed, count), scouts, {control.stop, {}});
+  chosen_.placed.insert(chosen_.placed.end(), scouts.faces.begin(), scouts.faces.end());
+  chosen_.placed = sorted(std::move(chosen_.placed));
+  seconds_.trace += watch.seconds();
+  return scouts;
+}
+
+SeedRounds::HeldOut SeedRounds::holdOut(std::vector<double> prediction, const RunControl& control) {
+  const Stopwatch watch;
+  StageSeconds ignored;
+  const bool isGuided = !prediction.empty();
+  HeldOut heldOut{interpolation_.run(placed_, std::move(prediction), ignored, control.part(0, 0.7)).values, {}};
+  if (isGuided) heldOut.harmonic = interpolation_.runHarmonic(placed_, heldOut.guided, control.part(0.7, 1));
+  seconds_.estimate += watch.seconds();
   return heldOut;
+}
+
+void SeedRounds::joinPlacedAndProbes(bool isLast) {
+  std::vector<ConeHit> hits = isLast ? std::exchange(placed_.hits, {}) : placed_.hits;
+  traced_.hits = {};  // Before it is copied into: there may be many.
+  traced_.values = placed_.values;
+  traced_.isSeed = placed_.isSeed;
+  traced_.faces = placed_.faces;
+  traced_.statistics = placed_.statistics;
+  traced_.hits = std::move(hits);
+  traced_.append(probes_);
 }
 
 void SeedRounds::estimate(const HeldOut& heldOut) {
   const Stopwatch watch;
-  EstimatedErrors errors =
-      estimateErrors(mesh_, {placed_, probes_, heldOut.guided.values, heldOut.harmonic, result_.values});
+  EstimatedErrors errors = estimateErrors(mesh_, {placed_, probes_, heldOut.guided, heldOut.harmonic, result_.values});
   if (errors.estimate.heldOutCount > 0) errors_ = std::move(errors);
   seconds_.estimate += watch.seconds();
 }

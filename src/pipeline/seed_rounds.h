@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 
 #include "core/stopwatch.h"
@@ -14,8 +15,11 @@ namespace asdfvk {
 class SeedRounds {
  public:
   /// What it refers to must outlive it. clock: runs since the beginning of the computation, for a time budget.
+  /// afterLastRay: called as soon as it is certain that no more rays will be cast, if that is before the end, so that
+  /// what casts them need not stand beside what interpolates.
   SeedRounds(const Mesh& mesh, const PreparedMesh& prepared, const Options& options, SeedTracing& tracing,
-             Interpolation& interpolation, const Stopwatch& clock, StageSeconds& seconds);
+             Interpolation& interpolation, const Stopwatch& clock, StageSeconds& seconds,
+             std::function<void()> afterLastRay);
 
   void run(const RunControl& control);
 
@@ -25,15 +29,21 @@ class SeedRounds {
   [[nodiscard]] uint32_t roundCount() const { return roundCount_; }
 
  private:
-  void runRound(uint64_t count, std::span<const double> weight, const RunControl& control);
+  /// isLast: no other round will follow.
+  void runRound(uint64_t count, std::span<const double> weight, bool isLast, const RunControl& control);
   void traceChosen(const SeedShares& shares, std::span<const double> weight, const RunControl& control);
   /// What is interpolated without the probes, in two ways.
   struct HeldOut {
-    Interpolated guided;
+    std::vector<double> guided;    ///< #F
     std::vector<double> harmonic;  ///< #F, or empty where `guided` is harmonic itself.
   };
-  /// Interpolates without the probes, and traces the scouts that this suggests.
-  [[nodiscard]] HeldOut holdOut(const SeedShares& shares, const RunControl& control);
+  /// Traces the faces with the greatest of these predictions, which go among the placed seeds once those have been
+  /// interpolated without them.
+  [[nodiscard]] TracedSeeds traceScouts(std::span<const double> prediction, uint64_t count, const RunControl& control);
+  /// Interpolates without the probes and scouts.
+  [[nodiscard]] HeldOut holdOut(std::vector<double> prediction, const RunControl& control);
+  /// isLast: the placed seeds' hits are not needed any more.
+  void joinPlacedAndProbes(bool isLast);
   void estimate(const HeldOut& heldOut);
   /// 0: it is enough.
   [[nodiscard]] uint64_t furtherCount() const;
@@ -48,6 +58,7 @@ class SeedRounds {
   Interpolation& interpolation_;
   const Stopwatch& clock_;
   StageSeconds& seconds_;
+  std::function<void()> afterLastRay_;
   bool estimates_;
 
   SeedChoice chosen_;

@@ -10,6 +10,7 @@ void TracedSeeds::append(const TracedSeeds& other) {
     isSeed[face] = 1;
   }
   faces.insert(faces.end(), other.faces.begin(), other.faces.end());
+  hits.reserve(hits.size() + other.hits.size());  // No more, as it would be by itself: there may be many.
   hits.insert(hits.end(), other.hits.begin(), other.hits.end());
   statistics.rayCount += other.statistics.rayCount;
   statistics.redoneConeCount += other.statistics.redoneConeCount;

@@ -127,17 +127,23 @@ Result Session::compute(Mesh& mesh, const Options& options, const RunControl& co
   const PreparedMesh prepared = timed(seconds.geometry, [&] { return prepareMesh(mesh, options.orientation); });
   describeMesh(report, mesh, prepared, options);
   control.checkpoint(0);
-  const Bvh bvh = timed(seconds.bvh, [&] { return buildBvh(mesh, prepared.geometry, prepared.representatives); });
+  Bvh bvh = timed(seconds.bvh, [&] { return buildBvh(mesh, prepared.geometry, prepared.representatives); });
   const TraceScene scene{mesh, prepared.geometry, prepared.representatives, bvh};
   control.checkpoint(0);
   const bool interpolates = options.seeds.kind != SeedCount::Kind::All || options.interpolation.pooling > 0;
   const bool wantsHits = interpolates && options.interpolation.guidance == Guidance::Hits;
-  const std::unique_ptr<ConeTracer> tracer =
+  std::unique_ptr<ConeTracer> tracer =
       timed(seconds.upload, [&] { return backend.makeTracer(scene, cone, wantsHits); });
 
   SeedTracing tracing(prepared, *tracer, cone.directions.size(), wantsHits);
   Interpolation interpolation(prepared, scene, cone, options, backend, report.warnings);
-  SeedRounds rounds(mesh, prepared, options, tracing, interpolation, clock, seconds);
+  const auto afterLastRay = [&] {
+    tracer.reset();
+    if (options.checkCount) return;  // Which casts rays of its own.
+    bvh.nodes = {};
+    bvh.slotFaces = {};
+  };
+  SeedRounds rounds(mesh, prepared, options, tracing, interpolation, clock, seconds, afterLastRay);
   rounds.run(control.part(0, roundsEnd));
   describeRounds(report, rounds, options.estimatesError || options.rounds.maxError);
   std::vector<double> values = rounds.result().values;

@@ -4,9 +4,9 @@
 #include <span>
 #include <vector>
 
+#include "core/unset_vector.h"
 #include "mesh/dual_graph.h"
 #include "mesh/mesh.h"
-#include "poisson/unset_vector.h"
 
 namespace asdfvk {
 

@@ -17,6 +17,9 @@ constexpr uint32_t rungOf(float distance) { return std::bit_cast<uint32_t>(dista
 constexpr float lowestOf(uint32_t rung) { return std::bit_cast<float>(rung << kRungShift); }
 static_assert(std::has_single_bit(kRadiiPerOctave) && std::numeric_limits<float>::is_iec559);
 
+// Faces wait in random order; so many of them are under way from memory at once.
+constexpr size_t kFetchedAhead = 16;
+
 constexpr uint32_t kBottom = rungOf(kShortestArc);
 
 }  // namespace
@@ -31,7 +34,10 @@ ThrownDarts throwDarts(std::vector<uint32_t> waiting, uint64_t count, float star
   darts.faces.reserve(static_cast<size_t>(count));
   for (uint32_t rung = top; darts.faces.size() < count; --rung) {
     const float radius = lowestOf(rung);
-    for (uint32_t face : std::exchange(waitingAt[rung - kBottom], {})) {
+    const std::vector<uint32_t> tried = std::exchange(waitingAt[rung - kBottom], {});
+    for (size_t i = 0; i < tried.size(); ++i) {
+      if (i + kFetchedAhead < tried.size()) distances.fetch(tried[i + kFetchedAhead]);
+      const uint32_t face = tried[i];
       const uint32_t reached = rungOf(distances.at(face));
       if (reached < rung) {
         waitingAt[reached - kBottom].push_back(face);

@@ -11,6 +11,14 @@ SurfaceDistances::SurfaceDistances(const DualGraph& graph, std::span<const float
   ASDFVK_CHECK_OP(arcLengths.size(), ==, graph.neighbours.size());
 }
 
+// A face that is pushed is soon popped, and its neighbours stand anywhere in memory.
+void SurfaceDistances::fetchArcs(uint32_t face) const {
+  const uint32_t arc = graph_.offsets[face];
+  if (arc == graph_.neighbours.size()) return;
+  __builtin_prefetch(&graph_.neighbours[arc]);
+  __builtin_prefetch(&arcLengths_[arc]);
+}
+
 void SurfaceDistances::push(Entry entry) {
   heap_.push_back(entry);
   std::push_heap(heap_.begin(), heap_.end(), [](const Entry& a, const Entry& b) { return a.distance > b.distance; });
@@ -26,6 +34,7 @@ SurfaceDistances::Entry SurfaceDistances::pop() {
 void SurfaceDistances::add(std::span<const uint32_t> seeds, float limit) {
   for (uint32_t seed : seeds) {
     distances_[seed] = 0;
+    fetchArcs(seed);
     push({0, seed});
   }
   while (!heap_.empty()) {
@@ -36,6 +45,7 @@ void SurfaceDistances::add(std::span<const uint32_t> seeds, float limit) {
       float& known = distances_[graph_.neighbours[arc]];
       if (distance >= known || distance >= limit) continue;
       known = distance;
+      fetchArcs(graph_.neighbours[arc]);
       push({distance, graph_.neighbours[arc]});
     }
   }

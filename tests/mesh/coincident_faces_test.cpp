@@ -11,26 +11,56 @@
 
 using namespace asdfvk;
 
+namespace {
+
+// Both ways of finding them, which agree.
+std::vector<uint32_t> representativesOf(const Mesh& mesh) {
+  std::vector<uint32_t> representatives = coincidentRepresentatives(mesh);
+  CHECK(coincidentRepresentatives(mesh, surveyEdges(mesh)) == representatives);
+  return representatives;
+}
+
+}  // namespace
+
+TEST_CASE("the two sides of a pillow are copies, though each edge has two faces") {
+  Mesh mesh = shapes::placed(shapes::cube(), 1, {5, 0, 0});
+  const auto v = static_cast<uint32_t>(mesh.vertices.size());
+  mesh.vertices.insert(mesh.vertices.end(), {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+  mesh.faces.insert(mesh.faces.begin(), {v, v + 1, v + 2});
+  mesh.faces.push_back({v, v + 2, v + 1});
+  CHECK(surveyEdges(mesh).isClosed);
+  const std::vector<uint32_t> representatives = representativesOf(mesh);
+  CHECK(representatives.back() == 0);
+  CHECK(representatives[1] == 1);
+}
+
+TEST_CASE("of two closed shells with vertices of their own at the same places one is the other's copy") {
+  const Mesh mesh = shapes::together(shapes::cube(), shapes::cube());
+  CHECK(surveyEdges(mesh).isClosed);
+  const std::vector<uint32_t> representatives = representativesOf(mesh);
+  for (uint32_t f = 0; f < mesh.faceCount(); ++f) CHECK(representatives[f] == f % 12);
+}
+
 TEST_CASE("faces of a clean mesh represent themselves") {
   const Mesh mesh = shapes::cube();
   std::vector<uint32_t> itself(mesh.faces.size());
   std::iota(itself.begin(), itself.end(), 0u);
-  CHECK(coincidentRepresentatives(mesh) == itself);
-  CHECK(coincidentRepresentatives({}).empty());
+  CHECK(representativesOf(mesh) == itself);
+  CHECK(representativesOf({}).empty());
 }
 
 TEST_CASE("faces with the same vertices in any order and winding share the lowest face") {
   Mesh mesh;
   mesh.vertices.resize(5);
   mesh.faces = {{4, 3, 2}, {0, 1, 2}, {1, 2, 0}, {2, 1, 0}, {0, 1, 3}, {0, 2, 1}, {2, 4, 3}};
-  CHECK(coincidentRepresentatives(mesh) == std::vector<uint32_t>{0, 1, 1, 1, 4, 1, 0});
+  CHECK(representativesOf(mesh) == std::vector<uint32_t>{0, 1, 1, 1, 4, 1, 0});
 }
 
 TEST_CASE("faces that share an edge or a repeated vertex do not coincide") {
   Mesh mesh;
   mesh.vertices.resize(4);
   mesh.faces = {{0, 1, 2}, {0, 1, 3}, {0, 0, 1}, {0, 1, 1}, {1, 0, 0}};
-  CHECK(coincidentRepresentatives(mesh) == std::vector<uint32_t>{0, 1, 2, 3, 2});
+  CHECK(representativesOf(mesh) == std::vector<uint32_t>{0, 1, 2, 3, 2});
 }
 
 TEST_CASE("representatives of random soups are what comparing all faces gives") {
@@ -46,7 +76,7 @@ TEST_CASE("representatives of random soups are what comparing all faces gives") 
       while (sorted(mesh.faces[lowest]) != sorted(face)) ++lowest;
       expected.push_back(lowest);
     }
-    REQUIRE(coincidentRepresentatives(mesh) == expected);
+    REQUIRE(representativesOf(mesh) == expected);
   }
 }
 
@@ -54,12 +84,12 @@ TEST_CASE("a copy with vertices of its own coincides with the original, in eithe
   const Mesh sphere = shapes::sphere(3);
   const uint32_t count = sphere.faceCount();
   for (const Mesh& copy : {sphere, shapes::inverted(sphere)}) {
-    const std::vector<uint32_t> representatives = coincidentRepresentatives(shapes::together(sphere, copy));
+    const std::vector<uint32_t> representatives = representativesOf(shapes::together(sphere, copy));
     REQUIRE(representatives.size() == 2 * size_t{count});
     for (uint32_t f = 0; f < representatives.size(); ++f) REQUIRE(representatives[f] == f % count);
   }
   const std::vector<uint32_t> moved =
-      coincidentRepresentatives(shapes::together(sphere, shapes::placed(sphere, 1, {1e-15, 0, 0})));
+      representativesOf(shapes::together(sphere, shapes::placed(sphere, 1, {1e-15, 0, 0})));
   CHECK(moved[count + 1] == count + 1);  // Near is not the same.
 }
 
@@ -69,18 +99,18 @@ TEST_CASE("at one point are -0 and 0, but NaN and infinity never") {
         {{x, 0, 0}, {1, 0, 0}, {0, 1, 0}, {otherX, -0.0, 0}, {1, 0, -0.0}, {-0.0, 1, 0}}, {{0, 1, 2}, {4, 3, 5}}, {}};
   };
   using Representatives = std::vector<uint32_t>;
-  CHECK(coincidentRepresentatives(twoFaces(0.0, -0.0)) == Representatives{0, 0});
+  CHECK(representativesOf(twoFaces(0.0, -0.0)) == Representatives{0, 0});
   for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
-    CHECK(coincidentRepresentatives(twoFaces(bad, bad)) == Representatives{0, 1});
+    CHECK(representativesOf(twoFaces(bad, bad)) == Representatives{0, 1});
     Mesh shared = twoFaces(bad, 0);
     shared.faces = {{0, 1, 2}, {2, 1, 0}};
-    CHECK(coincidentRepresentatives(shared) == Representatives{0, 0});  // By index it is the same face nevertheless.
+    CHECK(representativesOf(shared) == Representatives{0, 0});  // By index it is the same face nevertheless.
   }
 }
 
 TEST_CASE("faces that collapse into a line or a point go by their vertices") {
   const Mesh mesh{{{0, 0, 0}, {0, 0, 0}, {1, 0, 0}, {1, 0, 0}}, {{0, 1, 2}, {0, 1, 3}, {2, 0, 1}, {0, 2, 2}}, {}};
-  CHECK(coincidentRepresentatives(mesh) == std::vector<uint32_t>{0, 1, 0, 3});
+  CHECK(representativesOf(mesh) == std::vector<uint32_t>{0, 1, 0, 3});
 }
 
 TEST_CASE("of a soup on few points, shared or not, copies are what comparing all positions gives") {
@@ -91,7 +121,7 @@ TEST_CASE("of a soup on few points, shared or not, copies are what comparing all
     for (uint32_t vertex : face) soup.vertices.push_back(welded.vertices[vertex]);
     soup.faces.push_back({v, v + 1, v + 2});
   }
-  const std::vector<uint32_t> expected = coincidentRepresentatives(welded), actual = coincidentRepresentatives(soup);
+  const std::vector<uint32_t> expected = representativesOf(welded), actual = representativesOf(soup);
   for (uint32_t f = 0; f < welded.faceCount(); ++f)
     REQUIRE(actual[f] == (hasDistinctVertices(welded.faces[f]) ? expected[f] : f));
 }

@@ -1,11 +1,15 @@
 #include "mesh/components.h"
 
 #include <doctest/doctest.h>
+#include <tbb/global_control.h>
 
+#include <algorithm>
 #include <cmath>
 #include <initializer_list>
 #include <limits>
 #include <numbers>
+#include <span>
+#include <vector>
 
 #include "core/random.h"
 #include "shapes.h"
@@ -14,7 +18,43 @@ using namespace asdfvk;
 
 namespace {
 
-Components componentsOf(const Mesh& mesh) { return findComponents(mesh, buildDualGraph(mesh)); }
+// Both ways of finding them, which agree.
+Components componentsOf(const Mesh& mesh) {
+  const EdgeSurvey edges = surveyEdges(mesh);
+  Components components = findComponents(mesh, edges);
+  const Components judgedByFace = findComponents(mesh, edges.graph);
+  CHECK(judgedByFace.componentOf == components.componentOf);
+  REQUIRE(judgedByFace.components.size() == components.components.size());
+  for (size_t i = 0; i < components.components.size(); ++i) {
+    const Component &one = components.components[i], &other = judgedByFace.components[i];
+    CHECK(one.faceCount == other.faceCount);
+    CHECK(one.isClosed == other.isClosed);
+    CHECK(one.isConsistentlyWound == other.isConsistentlyWound);
+  }
+  return components;
+}
+
+// By walking from face to face.
+std::vector<uint32_t> componentsByWalking(const DualGraph& graph) {
+  std::vector<uint32_t> componentOf(graph.faceCount(), UINT32_MAX);
+  uint32_t count = 0;
+  for (uint32_t first = 0; first < graph.faceCount(); ++first) {
+    if (componentOf[first] != UINT32_MAX) continue;
+    std::vector<uint32_t> open{first};
+    componentOf[first] = count;
+    while (!open.empty()) {
+      const uint32_t face = open.back();
+      open.pop_back();
+      for (const uint32_t neighbour : graph.neighboursOf(face))
+        if (componentOf[neighbour] == UINT32_MAX) {
+          componentOf[neighbour] = count;
+          open.push_back(neighbour);
+        }
+    }
+    ++count;
+  }
+  return componentOf;
+}
 
 }  // namespace
 
@@ -140,4 +180,23 @@ TEST_CASE("the components of a shuffled mesh of many are all found") {
     CHECK(result.components[i].signedVolume > 0);
     if (i > 0) CHECK(result.components[i - 1].firstFace < result.components[i].firstFace);
   }
+}
+
+TEST_CASE("components of many faces in any order are what walking from face to face gives, on any number of threads") {
+  // Sheets of a few hundred faces with holes, so that many components and long ways between their faces come about.
+  Mesh mesh = shapes::grid(200);
+  Random random(3);
+  std::erase_if(mesh.faces, [&](const Face&) { return random.index(100) < 45; });
+  const auto check = [&] {
+    const std::vector<uint32_t> expected = componentsByWalking(buildDualGraph(mesh));
+    for (const size_t threadCount : {1, 4}) {
+      const tbb::global_control threads(tbb::global_control::max_allowed_parallelism, threadCount);
+      CHECK(componentsOf(mesh).componentOf == expected);
+    }
+  };
+  check();
+  std::reverse(mesh.faces.begin(), mesh.faces.end());
+  check();
+  random.shuffle(std::span<Face>(mesh.faces));
+  check();
 }

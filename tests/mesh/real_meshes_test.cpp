@@ -56,7 +56,8 @@ TEST_CASE("real meshes have the faces that their files count and the defects tha
     const Mesh mesh = readMesh(*folder / name);
     CHECK(mesh.inputFaceCount() == expected.inputFaceCount);
     REQUIRE(countFacesWithIndexOutOfRange(mesh) == 0);
-    const MeshDefects defects = findDefects(mesh, computeFaceGeometry(mesh), coincidentRepresentatives(mesh));
+    const MeshDefects defects =
+        findDefects(mesh, computeFaceGeometry(mesh), coincidentRepresentatives(mesh), surveyEdges(mesh));
     CHECK(defects.boundaryEdgeCount == expected.boundaryEdgeCount);
     CHECK(defects.nonManifoldEdgeCount == expected.nonManifoldEdgeCount);
     CHECK(defects.zeroAreaFaceCount == expected.zeroAreaFaceCount);

@@ -14,7 +14,7 @@ using namespace asdfvk;
 namespace {
 
 MeshDefects defectsOf(const Mesh& mesh) {
-  return findDefects(mesh, computeFaceGeometry(mesh), coincidentRepresentatives(mesh));
+  return findDefects(mesh, computeFaceGeometry(mesh), coincidentRepresentatives(mesh), surveyEdges(mesh));
 }
 
 std::vector<std::string> sentencesOf(const Mesh& mesh) { return defectsOf(mesh).sentences(); }

@@ -1,0 +1,156 @@
+#include "mesh/edge_survey.h"
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_sort.h>
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "mesh/edges.h"
+
+namespace asdfvk {
+namespace {
+
+constexpr uint32_t kNoNeighbour = UINT32_MAX;
+constexpr uint32_t kMany = UINT32_MAX - 1;  ///< The edge's arcs are among the further ones.
+
+struct EdgeCounts {
+  uint64_t boundary = 0, nonManifold = 0, inconsistent = 0;
+};
+
+/// From a face to a neighbour.
+using Arc = std::pair<uint32_t, uint32_t>;
+
+/// What a thread has found.
+struct Findings {
+  EdgeCounts counts;
+  std::vector<Arc> furtherArcs;
+};
+
+class Survey {
+ public:
+  explicit Survey(const Mesh& mesh)
+      : mesh_(mesh),
+        hasFiniteVertices_(
+            countInParallel(mesh.vertices.size(), [&](uint32_t v) { return !isFinite(mesh.vertices[v]); }) == 0),
+        hasDistinctVertices_(
+            countInParallel(mesh.faces.size(), [&](uint32_t f) { return !hasDistinctVertices(mesh.faces[f]); }) == 0),
+        across_(3 * mesh.faces.size(), kNoNeighbour) {}
+
+  EdgeSurvey run() {
+    {
+      const EdgeTable edges(mesh_, [&](uint32_t f) { return hasFiniteVertices_ || mesh_.hasFiniteCorners(f); });
+      edges.forEachEdge([&](uint32_t lower, std::span<const EdgeEntry> around) {
+        join(around);
+        count(lower, around);
+      });
+    }
+    EdgeSurvey survey;
+    std::vector<Arc> furtherArcs;
+    for (const Findings& findings : findings_) {
+      survey.boundaryEdgeCount += findings.counts.boundary;
+      survey.nonManifoldEdgeCount += findings.counts.nonManifold;
+      survey.inconsistentEdgeCount += findings.counts.inconsistent;
+      furtherArcs.insert(furtherArcs.end(), findings.furtherArcs.begin(), findings.furtherArcs.end());
+    }
+    survey.isClosed =
+        hasFiniteVertices_ && hasDistinctVertices_ && survey.boundaryEdgeCount == 0 && survey.nonManifoldEdgeCount == 0;
+    survey.graph = survey.isClosed ? closedGraph() : anyGraph(std::move(furtherArcs));
+    return survey;
+  }
+
+ private:
+  [[nodiscard]] bool isProper(uint32_t face) const {
+    return hasDistinctVertices_ || hasDistinctVertices(mesh_.faces[face]);
+  }
+  [[nodiscard]] bool runsFrom(uint32_t vertex, const EdgeEntry& entry) const {
+    return mesh_.faces[entry.face()][entry.corner % 3] == vertex;
+  }
+
+  void count(uint32_t lower, std::span<const EdgeEntry> around) {
+    size_t properCount = 0, runningUpCount = 0;
+    for (const EdgeEntry& entry : around) {
+      if (!isProper(entry.face())) continue;
+      ++properCount;
+      runningUpCount += runsFrom(lower, entry) ? 1 : 0;
+    }
+    if (properCount == 0 || (properCount == 2 && runningUpCount == 1)) return;
+    EdgeCounts& counts = findings_.local().counts;
+    ++(properCount == 1 ? counts.boundary : properCount == 2 ? counts.inconsistent : counts.nonManifold);
+  }
+
+  void join(std::span<const EdgeEntry> around) {
+    if (around.size() == 2) {
+      across_[around[0].corner] = around[1].face();
+      across_[around[1].corner] = around[0].face();
+    }
+    if (around.size() <= 2) return;
+    std::vector<Arc>& furtherArcs = findings_.local().furtherArcs;
+    const size_t reach = around.size() <= kMaxFacesJoinedAllToAll ? around.size() : 1;
+    for (size_t i = 0; i < around.size(); ++i) {
+      across_[around[i].corner] = kMany;
+      for (size_t j = i + 1; j < around.size() && j <= i + reach; ++j) {
+        furtherArcs.emplace_back(around[i].face(), around[j].face());
+        furtherArcs.emplace_back(around[j].face(), around[i].face());
+      }
+    }
+  }
+
+  /// Where each face has three arcs, `across_` holds the rows as they are.
+  DualGraph closedGraph() {
+    DualGraph graph;
+    graph.offsets.resize(mesh_.faces.size() + 1);
+    forEachInParallel(mesh_.faces.size(), [&](uint32_t f) {
+      graph.offsets[f + 1] = 3 * (f + 1);
+      std::sort(&across_[size_t{3} * f], &across_[size_t{3} * f] + 3);
+    });
+    graph.neighbours = std::move(across_);
+    return graph;
+  }
+
+  DualGraph anyGraph(std::vector<Arc> furtherArcs) {
+    tbb::parallel_sort(furtherArcs.begin(), furtherArcs.end());
+    DualGraph graph;
+    std::vector<uint32_t>& offsets = graph.offsets;
+    offsets.assign(mesh_.faces.size() + 1, 0);
+    forEachInParallel(mesh_.faces.size(), [&](uint32_t f) {
+      for (size_t i = 0; i < 3; ++i) offsets[f + 1] += across_[size_t{3} * f + i] < kMany ? 1 : 0;
+    });
+    for (const auto& [face, neighbour] : furtherArcs) ++offsets[face + 1];
+    uint64_t total = 0;
+    for (uint32_t& offset : offsets) {
+      total += offset;
+      if (total > UINT32_MAX) throw Error(ErrorKind::Input, "the mesh has too many connections; split it");
+      offset = static_cast<uint32_t>(total);
+    }
+    graph.neighbours.resize(total);
+    forEachInParallel(mesh_.faces.size(), [&](uint32_t f) {
+      const auto begin = graph.neighbours.begin() + offsets[f];
+      auto end = begin;
+      bool hasFurther = false;
+      for (size_t i = 0; i < 3; ++i) {
+        const uint32_t neighbour = across_[size_t{3} * f + i];
+        hasFurther = hasFurther || neighbour == kMany;
+        if (neighbour < kMany) *end++ = neighbour;
+      }
+      if (hasFurther)
+        for (auto arc = std::lower_bound(furtherArcs.begin(), furtherArcs.end(), Arc(f, 0));
+             arc != furtherArcs.end() && arc->first == f; ++arc)
+          *end++ = arc->second;
+      std::sort(begin, end);
+    });
+    return graph;
+  }
+
+  const Mesh& mesh_;
+  bool hasFiniteVertices_, hasDistinctVertices_;
+  std::vector<uint32_t> across_;  ///< #F x 3: the face on the other side of each edge.
+  tbb::enumerable_thread_specific<Findings> findings_;
+};
+
+}  // namespace
+
+EdgeSurvey surveyEdges(const Mesh& mesh) { return Survey(mesh).run(); }
+
+}  // namespace asdfvk

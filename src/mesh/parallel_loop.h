@@ -1,0 +1,36 @@
+#pragma once
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_reduce.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+
+namespace asdfvk {
+
+inline constexpr size_t kItemsPerTask = 4096;
+
+/// Calls body(i) for every i in [0, count), in parallel.
+template <typename Body>
+void forEachInParallel(size_t count, const Body& body) {
+  tbb::parallel_for(tbb::blocked_range<size_t>(0, count, kItemsPerTask / 4),
+                    [&](const tbb::blocked_range<size_t>& range) {
+                      for (size_t i = range.begin(); i < range.end(); ++i) body(static_cast<uint32_t>(i));
+                    });
+}
+
+/// How many i in [0, count) hold(i) is true of, in parallel.
+template <typename Holds>
+[[nodiscard]] uint64_t countInParallel(size_t count, const Holds& holds) {
+  return tbb::parallel_reduce(
+      tbb::blocked_range<size_t>(0, count, kItemsPerTask), uint64_t{0},
+      [&](const tbb::blocked_range<size_t>& range, uint64_t found) {
+        for (size_t i = range.begin(); i < range.end(); ++i) found += holds(static_cast<uint32_t>(i)) ? 1 : 0;
+        return found;
+      },
+      [](uint64_t a, uint64_t b) { return a + b; });
+}
+
+}  // namespace asdfvk

@@ -1,0 +1,17 @@
+#include "mesh/vertex_bounds.h"
+
+#include "mesh/parallel_loop.h"
+
+namespace asdfvk {
+
+Box3d boundsOfFiniteVertices(const Mesh& mesh) {
+  const auto boundRange = [&](const tbb::blocked_range<size_t>& range, Box3d bounds) {
+    for (size_t i = range.begin(); i < range.end(); ++i)
+      if (isFinite(mesh.vertices[i])) bounds.add(mesh.vertices[i]);
+    return bounds;
+  };
+  return tbb::parallel_reduce(tbb::blocked_range<size_t>(0, mesh.vertices.size(), kItemsPerTask), Box3d{}, boundRange,
+                              joined);
+}
+
+}  // namespace asdfvk
