@@ -1,27 +1,26 @@
 #pragma once
 
 #include <memory>
-#include <new>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 namespace asdfvk {
 
-/// Leaves what a vector is made or grown with unset where its type allows, so that those who write the elements, in
-/// parallel, are the first to touch their memory.
+/// Leaves the elements that a vector is made or grown with unset, so that those who write them, in parallel, are the
+/// first to touch their memory.
 template <typename T>
 struct UnsetAllocator : std::allocator<T> {
+  static_assert(std::is_trivially_copyable_v<T>);  // Such objects begin to live with their memory.
   template <typename U>
   struct rebind {
     using other = UnsetAllocator<U>;
   };
   template <typename U>
-  void construct(U* place) {
-    ::new (static_cast<void*>(place)) U;
-  }
+  void construct(U*) {}
   template <typename U, typename... Arguments>
   void construct(U* place, Arguments&&... arguments) {
-    ::new (static_cast<void*>(place)) U(std::forward<Arguments>(arguments)...);
+    std::construct_at(place, std::forward<Arguments>(arguments)...);
   }
 };
 
