@@ -74,7 +74,7 @@ struct Placement {
 // Lays the runs of a finished subtree end to end and writes the nodes above them. A node's place is given by its
 // parent; what is below it follows from `next` on: first the pair of children, then all below the left one, then all
 // below the right one. Returns where the subtree ends.
-uint32_t place(const Subtree& subtree, uint32_t index, uint32_t next, std::vector<BvhNode>& nodes,
+uint32_t place(const Subtree& subtree, uint32_t index, uint32_t next, std::span<BvhNode> nodes,
                std::vector<Placement>& placements) {
   if (!subtree.left) {
     placements.push_back({subtree.nodes, index, next});
@@ -85,8 +85,8 @@ uint32_t place(const Subtree& subtree, uint32_t index, uint32_t next, std::vecto
   return place(*subtree.right, next + 1, afterLeft, nodes, placements);
 }
 
-std::vector<BvhNode> assemble(const Subtree& root) {
-  std::vector<BvhNode> nodes(root.nodeCount);
+UnsetVector<BvhNode> assemble(const Subtree& root) {
+  UnsetVector<BvhNode> nodes(root.nodeCount);
   std::vector<Placement> placements;
   place(root, 0, 1, nodes, placements);
   tbb::parallel_for(size_t{0}, placements.size(), [&](size_t p) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/box3.h"
+#include "core/unset_vector.h"
 #include "mesh/face_geometry.h"
 #include "mesh/mesh.h"
 #include "mesh/normalization.h"
@@ -24,7 +25,7 @@ struct BvhNode {
 
 /// A binary bounding volume hierarchy. nodes[0] is the root; without any triangle there are no nodes.
 struct Bvh {
-  std::vector<BvhNode> nodes;
+  UnsetVector<BvhNode> nodes;
   std::vector<uint32_t> slotFaces;  ///< Face index of each triangle slot; each traceable face once.
   uint32_t depth = 0;               ///< Levels below the root: a stack of `depth` entries is enough to walk it.
   Normalization normalization;

@@ -37,7 +37,7 @@ DeviceBvhNode encodeRootLeaf(const BvhNode& root) {
 }
 
 // innerIndex: for each node the number of inner nodes before it.
-UnsetVector<DeviceBvhNode> encodeNodes(const std::vector<BvhNode>& nodes) {
+UnsetVector<DeviceBvhNode> encodeNodes(std::span<const BvhNode> nodes) {
   std::vector<uint32_t> innerIndex(nodes.size());
   uint32_t innerCount = 0;
   for (size_t i = 0; i < nodes.size(); ++i) {

@@ -17,7 +17,7 @@ constexpr uint32_t kParallelLevelCount = 4;
 Box3f boxOf(const BvhNode& node) { return {node.min, node.max}; }
 
 // Halves leaves until none is too large; the halves come behind all nodes.
-std::vector<BvhNode> withSmallLeaves(std::vector<BvhNode> nodes) {
+UnsetVector<BvhNode> withSmallLeaves(UnsetVector<BvhNode> nodes) {
   for (size_t i = 0; i < nodes.size(); ++i) {
     const BvhNode leaf = nodes[i];
     if (leaf.triangleCount <= kMaxWideLeafTriangleCount) continue;

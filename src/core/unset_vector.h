@@ -1,30 +1,29 @@
 #pragma once
 
 #include <memory>
-#include <new>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 namespace asdfvk {
 
-/// Leaves new entries unset: the threads that write them touch their pages first, instead of one that writes zeros.
+/// Leaves the elements that a vector is made or grown with unset, so that those who write them, in parallel, are the
+/// first to touch their memory.
 template <typename T>
 struct UnsetAllocator : std::allocator<T> {
+  static_assert(std::is_trivially_copyable_v<T>);  // Such objects begin to live with their memory.
   template <typename U>
   struct rebind {
     using other = UnsetAllocator<U>;
   };
   template <typename U>
-  void construct(U* entry) {
-    ::new (static_cast<void*>(entry)) U;
-  }
+  void construct(U*) {}
   template <typename U, typename... Arguments>
-  void construct(U* entry, Arguments&&... arguments) {
-    ::new (static_cast<void*>(entry)) U(std::forward<Arguments>(arguments)...);
+  void construct(U* place, Arguments&&... arguments) {
+    std::construct_at(place, std::forward<Arguments>(arguments)...);
   }
 };
 
-/// A vector whose resize(count) and constructor from a count leave the entries unset.
 template <typename T>
 using UnsetVector = std::vector<T, UnsetAllocator<T>>;
 

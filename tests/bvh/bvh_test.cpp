@@ -165,6 +165,18 @@ TEST_CASE("only the representative of coincident faces is held") {
   checkInvariants(buildBvh(mesh, computeFaceGeometry(mesh), representatives), mesh, {0, 1, 2, 3, 4, 5, 6, 8, 9});
 }
 
+TEST_CASE("faces left out of a large mesh leave no gap") {
+  const Mesh mesh = soup(20000, 17);
+  std::vector<uint32_t> representatives = everyFaceRepresentsItself(mesh), expected;
+  for (uint32_t f = 0; f < mesh.faceCount(); ++f) {
+    if (f % 7 == 3 || f / 5000 == 2)
+      representatives[f] = 0;
+    else
+      expected.push_back(f);
+  }
+  checkInvariants(buildBvh(mesh, computeFaceGeometry(mesh), representatives), mesh, expected);
+}
+
 TEST_CASE("representatives for another mesh are a broken precondition") {
   const Mesh mesh = soup(10, 13);
   CHECK_THROWS_AS((void)buildBvh(mesh, computeFaceGeometry(mesh), std::vector<uint32_t>(9)), CheckFailure);

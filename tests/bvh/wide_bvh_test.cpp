@@ -98,7 +98,7 @@ void checkWide(const Mesh& mesh, const BvhOptions& options = {}) {
 float halfArea(const BvhNode& node) { return Box3f{node.min, node.max}.halfArea(); }
 
 // The least cost of a subtree as at most `rootCount` children, by trying everything. Costs as in wide_collapse.cpp.
-double leastCost(const std::vector<BvhNode>& nodes, uint32_t node, uint32_t rootCount) {
+double leastCost(std::span<const BvhNode> nodes, uint32_t node, uint32_t rootCount) {
   const auto slotCount = [&](auto&& self, uint32_t n) -> uint32_t {
     return nodes[n].isLeaf() ? nodes[n].triangleCount : self(self, nodes[n].first) + self(self, nodes[n].first + 1);
   };
@@ -118,7 +118,7 @@ double leastCost(const std::vector<BvhNode>& nodes, uint32_t node, uint32_t root
   return least;
 }
 
-double costOf(const std::vector<BvhNode>& nodes, const WideCollapse& collapse, uint32_t node) {
+double costOf(std::span<const BvhNode> nodes, const WideCollapse& collapse, uint32_t node) {
   double cost = halfArea(nodes[node]) * kWideNodeCost;
   const WideChildren children = collapse.childrenOf(node);
   for (const WideChild& child : children.all())
