@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "reprojection/gathered_hits.h"
 #include "reprojection/seed_cells.h"
+#include "reprojection/traced_cones.h"
 
 /// What the traced rays of the seeds around a face tell about the face itself, which cast none. The points that they
 /// met lie on the other side of the shape, and most of them can be seen from the face too: seen from there, each gives

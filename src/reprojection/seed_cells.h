@@ -21,12 +21,21 @@ struct SeedCells {
   Buckets<uint32_t> neighbours;  ///< #S: the cells that share an edge with each, ascending.
 };
 
-/// Breadth first from all seeds at once; linear. seeds: face indices, each once.
+/// Breadth first from all seeds at once; linear. seeds: face indices, each once; kNoFace leaves a cell empty.
 [[nodiscard]] SeedCells buildSeedCells(const DualGraph& graph, std::span<const uint32_t> seeds);
 
-/// A cell and up to `neighbourCount` of its neighbours, those with the nearest seeds: itself first, the others by the
-/// distance of their seed's barycentre from its own.
-[[nodiscard]] std::vector<uint32_t> nearestCells(const SeedCells& cells, const FaceGeometry& geometry,
-                                                 std::span<const uint32_t> seeds, uint32_t cell, size_t neighbourCount);
+/// Per cell: itself and up to `neighbourCount` of its neighbours, those with the nearest seeds: itself first, the
+/// others by the distance of their seed's barycentre from its own.
+class NearestCells {
+ public:
+  NearestCells(const SeedCells& cells, const FaceGeometry& geometry, std::span<const uint32_t> seeds,
+               size_t neighbourCount);
+
+  [[nodiscard]] std::span<const uint32_t> of(uint32_t cell) const;
+
+ private:
+  size_t stride_;
+  std::vector<uint32_t> nearest_;  // #S x stride, kNoCell where there are no more.
+};
 
 }  // namespace asdfvk

@@ -124,6 +124,27 @@ TEST_CASE("without seeds there are no cells") {
   CHECK(cells.faces.bucketCount() == 0);
 }
 
+TEST_CASE("a seed that is left out has an empty cell, and the others theirs as if it were not there") {
+  const DualGraph graph = buildDualGraph(makeTorus(900).mesh);
+  const FaceGeometry geometry = computeFaceGeometry(makeTorus(900).mesh);
+  std::vector<uint32_t> seeds = randomSeeds(graph.faceCount(), 60, 4), used;
+  for (size_t i = 0; i < seeds.size(); ++i) {
+    if (i % 7 == 3)
+      seeds[i] = kNoFace;
+    else
+      used.push_back(seeds[i]);
+  }
+  const SeedCells all = buildSeedCells(graph, seeds), without = buildSeedCells(graph, used);
+  const NearestCells nearest(all, geometry, seeds, 6);
+  for (uint32_t face = 0; face < graph.faceCount(); ++face)
+    CHECK(seeds[all.cellOf[face]] == used[without.cellOf[face]]);
+  for (uint32_t cell = 0; cell < seeds.size(); ++cell) {
+    CHECK(all.faces[cell].empty() == (seeds[cell] == kNoFace));
+    CHECK(nearest.of(cell).empty() == (seeds[cell] == kNoFace));
+    for (const uint32_t other : nearest.of(cell)) CHECK(seeds[other] != kNoFace);
+  }
+}
+
 TEST_CASE("the nearest cells are the own one, then the neighbours by the distance of their seeds") {
   const Mesh mesh = makeTorus(900).mesh;
   const DualGraph graph = buildDualGraph(mesh);
@@ -131,8 +152,9 @@ TEST_CASE("the nearest cells are the own one, then the neighbours by the distanc
   const std::vector<uint32_t> seeds = randomSeeds(mesh.faceCount(), 60, 5);
   const SeedCells cells = buildSeedCells(graph, seeds);
   for (const size_t neighbourCount : {size_t{0}, size_t{1}, size_t{6}, size_t{1000}}) {
+    const NearestCells nearestCells(cells, geometry, seeds, neighbourCount);
     for (uint32_t cell = 0; cell < seeds.size(); ++cell) {
-      const std::vector<uint32_t> nearest = nearestCells(cells, geometry, seeds, cell, neighbourCount);
+      const std::span<const uint32_t> nearest = nearestCells.of(cell);
       const std::span<const uint32_t> all = cells.neighbours[cell];
       REQUIRE(nearest.size() == 1 + std::min(neighbourCount, all.size()));
       CHECK(nearest[0] == cell);
