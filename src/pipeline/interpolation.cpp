@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/error.h"
 #include "core/stopwatch.h"
@@ -25,10 +26,10 @@ struct ComponentValues {
   uint64_t count = 0;
 };
 
-std::vector<ComponentValues> componentValues(const Components& components, const TracedSeeds& traced) {
+std::vector<ComponentValues> componentValues(const Components& components, std::span<const double> known) {
   std::vector<ComponentValues> values(components.components.size());
-  for (size_t face = 0; face < traced.values.size(); ++face) {  // Not by seed: the order would reach the last bit.
-    const double value = traced.values[face];
+  for (size_t face = 0; face < known.size(); ++face) {  // Not by seed: the order would reach the last bit.
+    const double value = known[face];
     if (!std::isfinite(value)) continue;
     ComponentValues& component = values[components.componentOf[face]];
     component.low = std::min(component.low, value);
@@ -39,27 +40,28 @@ std::vector<ComponentValues> componentValues(const Components& components, const
   return values;
 }
 
-/// Where the solvers start: the prediction, or the mean of the component's seeds where there is none.
-std::vector<double> firstGuess(const Components& components, const std::vector<ComponentValues>& traced,
-                               std::span<const double> prediction) {
+/// Where the solvers start: `nearest`, or the mean of the component's seeds where that has no value.
+std::vector<double> firstGuessFrom(std::span<const double> nearest, const Components& components,
+                                   const std::vector<ComponentValues>& traced) {
   std::vector<double> guess(components.componentOf.size(), kNoValue);
   for (size_t face = 0; face < guess.size(); ++face) {
     const ComponentValues& component = traced[components.componentOf[face]];
     if (component.count > 0) guess[face] = component.mean;
-    if (!prediction.empty() && std::isfinite(prediction[face])) guess[face] = prediction[face];
+    if (!nearest.empty() && std::isfinite(nearest[face])) guess[face] = nearest[face];
   }
   return guess;
 }
 
 /// Guidance carries values beyond those of the seeds: downwards as far as the prediction, which is a mean of lengths,
 /// goes itself; upwards not at all, since the faces with the greatest predictions are seeds (see chooseScouts()).
-void keepWithinTraced(const Components& components, const std::vector<ComponentValues>& traced, Interpolated& result) {
-  for (size_t face = 0; face < result.values.size(); ++face) {
+void keepWithinTraced(const Components& components, const std::vector<ComponentValues>& traced,
+                      std::span<const double> predicted, std::vector<double>& values) {
+  for (size_t face = 0; face < values.size(); ++face) {
     const ComponentValues& component = traced[components.componentOf[face]];
-    if (component.count == 0 || !std::isfinite(result.values[face])) continue;
-    const double prediction = result.prediction[face];
+    if (component.count == 0 || !std::isfinite(values[face])) continue;
+    const double prediction = predicted[face];
     const double least = std::isfinite(prediction) ? std::min(component.low, prediction) : component.low;
-    result.values[face] = std::clamp(result.values[face], least, std::max(least, component.high));
+    values[face] = std::clamp(values[face], least, std::max(least, component.high));
   }
 }
 
@@ -67,59 +69,70 @@ void keepWithinTraced(const Components& components, const std::vector<ComponentV
 
 Interpolation::Interpolation(const PreparedMesh& prepared, const TraceScene& scene, const Cone& cone,
                              const Options& options, ComputeBackend& backend, std::vector<std::string>& warnings)
-    : prepared_(prepared),
-      scene_(scene),
-      cone_(cone),
-      options_(options),
-      backend_(backend),
-      warnings_(warnings),
-      weights_(arcWeights(options.interpolation.weights, prepared.graph, prepared.geometry)) {}
+    : prepared_(prepared), scene_(scene), cone_(cone), options_(options), backend_(backend), warnings_(warnings) {}
 
-Interpolated Interpolation::run(const TracedSeeds& traced, StageSeconds& seconds, const RunControl& control) {
-  Interpolated result;
+Interpolated Interpolation::run(const KnownSeeds& known, std::span<const double> firstGuess, StageSeconds& seconds,
+                                const RunControl& control) {
   const Stopwatch predictWatch;
-  if (!traced.hits.empty()) result.prediction = predict(traced);
+  if (!known.hits.empty()) predict(known);
   seconds.predict += predictWatch.seconds();
   control.checkpoint(0.5);
-
   const Stopwatch solveWatch;
-  result.values = traced.values;
-  const std::vector<ComponentValues> known = componentValues(prepared_.components, traced);
-  const std::vector<double> guess = firstGuess(prepared_.components, known, result.prediction);
-  const PoissonSystem system =
-      buildPoissonSystem(prepared_.graph, weights_, traced.values, divergence(result.prediction),
-                         {.secondOrder = options_.interpolation.secondOrder, .firstGuess = guess});
-  result.solver = solve(system, result.values, options_.solverOptions, control.part(0.5, 1));
-  if (!result.prediction.empty()) keepWithinTraced(prepared_.components, known, result);
-  if (const double pooling = options_.interpolation.pooling; pooling > 0)
-    for (size_t face = 0; face < result.prediction.size(); ++face)
-      if (std::isfinite(result.prediction[face]) && std::isfinite(result.values[face]))
-        result.values[face] += pooling * (result.prediction[face] - result.values[face]);
+  Interpolated result = solveFor(known, firstGuess, control.part(0.5, 1));
   seconds.solve += solveWatch.seconds();
   return result;
 }
 
-std::vector<double> Interpolation::runHarmonic(const TracedSeeds& traced, std::span<const double> firstGuess,
+Interpolated Interpolation::solveFor(const KnownSeeds& known, std::span<const double> firstGuess,
+                                     const RunControl& control) {
+  Interpolated result;
+  result.values.assign(known.values.begin(), known.values.end());
+  result.solver.name = "none";
+  const std::span<const double> predicted = prediction();
+  const bool hasAll = std::all_of(known.values.begin(), known.values.end(), [](double v) { return std::isfinite(v); });
+  if (!hasAll) {
+    const std::vector<ComponentValues> traced = componentValues(prepared_.components, known.values);
+    const std::vector<double> guess =
+        firstGuessFrom(firstGuess.empty() ? predicted : firstGuess, prepared_.components, traced);
+    const PoissonSystem system =
+        buildPoissonSystem(prepared_.graph, weights(), known.values, divergence(),
+                           {.secondOrder = options_.interpolation.secondOrder, .firstGuess = guess});
+    result.solver = solve(system, result.values, options_.solverOptions, control);
+    if (!predicted.empty()) keepWithinTraced(prepared_.components, traced, predicted, result.values);
+  }
+  if (const double pooling = options_.interpolation.pooling; pooling > 0)
+    for (size_t face = 0; face < predicted.size(); ++face)
+      if (std::isfinite(predicted[face]) && std::isfinite(result.values[face]))
+        result.values[face] += pooling * (predicted[face] - result.values[face]);
+  return result;
+}
+
+std::vector<double> Interpolation::runHarmonic(std::span<const double> known, std::span<const double> firstGuess,
                                                const RunControl& control) {
-  std::vector<double> values = traced.values;
+  std::vector<double> values(known.begin(), known.end());
   const PoissonSystem system =
-      buildPoissonSystem(prepared_.graph, weights_, traced.values, {}, {.secondOrder = 0, .firstGuess = firstGuess});
+      buildPoissonSystem(prepared_.graph, weights(), known, {}, {.secondOrder = 0, .firstGuess = firstGuess});
   SolverOptions solverOptions = options_.solverOptions;
   solverOptions.tolerance = std::max(solverOptions.tolerance, kComparisonTolerance);
   solve(system, values, solverOptions, control);
   return values;
 }
 
-std::vector<double> Interpolation::predict(const TracedSeeds& traced) const {
-  const SeedCells cells = buildSeedCells(prepared_.graph, traced.faces);
-  return reprojectHits(scene_, cone_, {traced.faces, traced.hits}, cells, options_.interpolation.reprojection);
+void Interpolation::predict(const KnownSeeds& known) {
+  prediction_ = reprojectHits(scene_, cone_, {known.faces, known.hits}, buildSeedCells(prepared_.graph, known.faces),
+                              options_.interpolation.reprojection, std::move(prediction_));
 }
 
-std::vector<double> Interpolation::divergence(std::span<const double> prediction) const {
+const std::vector<double>& Interpolation::weights() {
+  if (weights_.empty()) weights_ = arcWeights(options_.interpolation.weights, prepared_.graph, prepared_.geometry);
+  return weights_;
+}
+
+std::vector<double> Interpolation::divergence() {
   switch (options_.interpolation.guidance) {
     case Guidance::Hits:
-      if (prediction.empty()) return {};
-      return divergenceOf(prepared_.graph, weights_, prediction);
+      if (prediction().empty()) return {};
+      return divergenceOf(prepared_.graph, weights(), prediction());
     case Guidance::Curvature: {
       std::vector<double> divergence = faceCurvature(scene_.mesh);
       for (double& entry : divergence) entry *= -options_.interpolation.curvatureFactor;

@@ -9,14 +9,21 @@
 #include "pipeline/prepared_mesh.h"
 #include "pipeline/report.h"
 #include "pipeline/seed_tracing.h"
+#include "reprojection/reprojection.h"
 
 namespace asdfvk {
 
+/// What an interpolation starts from: all traced seeds, or some of them.
+struct KnownSeeds {
+  std::span<const double> values;   ///< #F, NaN where none is known.
+  std::span<const uint32_t> faces;  ///< #S, as TracedSeeds::faces, but kNoFace for a seed that is left out.
+  std::span<const ConeHit> hits;    ///< #S x rays, those of seeds left out among them; empty if nobody wants them.
+};
+
 /// Values for all faces from those of the seeds.
 struct Interpolated {
-  std::vector<double> values;      ///< #F; faces of components without any value keep none.
-  std::vector<double> prediction;  ///< #F, see reprojectHits(); empty without Guidance::Hits.
-  SolverReport solver;             ///< Its name is "none" when there was nothing to solve.
+  std::vector<double> values;  ///< #F; faces of components without any value keep none.
+  SolverReport solver;         ///< Its name is "none" when there was nothing to solve.
 };
 
 /// The interpolation of one mesh, for any sets of seeds.
@@ -27,16 +34,26 @@ class Interpolation {
   Interpolation(const PreparedMesh& prepared, const TraceScene& scene, const Cone& cone, const Options& options,
                 ComputeBackend& backend, std::vector<std::string>& warnings);
 
-  /// seconds: what predicting and solving took is added to them.
-  [[nodiscard]] Interpolated run(const TracedSeeds& traced, StageSeconds& seconds, const RunControl& control);
+  /// seconds: what predicting and solving took is added to them. firstGuess: #F, near to what will come out, or empty.
+  /// Seeds that an earlier run was given must be at the same places of known.faces.
+  [[nodiscard]] Interpolated run(const KnownSeeds& known, std::span<const double> firstGuess, StageSeconds& seconds,
+                                 const RunControl& control);
 
-  /// The same without any guidance, to a tolerance that is enough for comparing. firstGuess: #F.
-  [[nodiscard]] std::vector<double> runHarmonic(const TracedSeeds& traced, std::span<const double> firstGuess,
+  /// Of the last run: #F, see reprojectHits(); empty without Guidance::Hits.
+  [[nodiscard]] std::span<const double> prediction() const { return prediction_.values; }
+
+  /// The same without any guidance, to a tolerance that is enough for comparing. known: as KnownSeeds::values.
+  /// firstGuess: #F.
+  [[nodiscard]] std::vector<double> runHarmonic(std::span<const double> known, std::span<const double> firstGuess,
                                                 const RunControl& control);
 
  private:
-  [[nodiscard]] std::vector<double> predict(const TracedSeeds& traced) const;
-  [[nodiscard]] std::vector<double> divergence(std::span<const double> prediction) const;
+  void predict(const KnownSeeds& known);
+  /// What run() does once there is a prediction.
+  [[nodiscard]] Interpolated solveFor(const KnownSeeds& known, std::span<const double> firstGuess,
+                                      const RunControl& control);
+  [[nodiscard]] const std::vector<double>& weights();
+  [[nodiscard]] std::vector<double> divergence();
   SolverReport solve(const PoissonSystem& system, std::vector<double>& values, const SolverOptions& solverOptions,
                      const RunControl& control);
 
@@ -46,7 +63,8 @@ class Interpolation {
   const Options& options_;
   ComputeBackend& backend_;
   std::vector<std::string>& warnings_;
-  std::vector<double> weights_;  ///< One per arc of the dual graph.
+  std::vector<double> weights_;  ///< One per arc of the dual graph, once something is to be solved.
+  Prediction prediction_;        ///< Of the last run.
 };
 
 }  // namespace asdfvk

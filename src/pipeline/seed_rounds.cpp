@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 namespace asdfvk {
@@ -52,9 +53,7 @@ SeedRounds::SeedRounds(const Mesh& mesh, const PreparedMesh& prepared, const Opt
       clock_(clock),
       seconds_(seconds),
       estimates_(options.estimatesError || options.rounds.maxError.has_value() || options.isAdaptive),
-      placed_(prepared.geometry.areas.size()),
-      probes_(placed_),
-      traced_(placed_) {}
+      traced_(prepared.geometry.areas.size()) {}
 
 void SeedRounds::run(const RunControl& control) {
   const uint64_t count = resolveSeedCount(options_.seeds, prepared_.castableFaces.size());
@@ -77,14 +76,12 @@ void SeedRounds::runRound(uint64_t count, std::span<const double> weight, const 
   count = std::min(count, leftCount());
   const bool predicts = options_.interpolation.guidance == Guidance::Hits;
   const bool judges = estimates_ && count < leftCount();
-  const SeedShares shares = judges ? shareOut(count, probes_.faces.size(), predicts) : SeedShares{.placed = count};
+  const SeedShares shares = judges ? shareOut(count, probes_.size(), predicts) : SeedShares{.placed = count};
   traceChosen(shares, weight, control.part(0, 0.8));
   HeldOut heldOut;
-  const bool isToJudge = !probes_.faces.empty() && leftCount() > 0;
+  const bool isToJudge = !probes_.empty() && leftCount() > 0;
   if (isToJudge) heldOut = holdOut(shares, control.part(0.8, 0.87));
-  traced_ = placed_;
-  traced_.append(probes_);
-  result_ = interpolation_.run(traced_, seconds_, control.part(0.87, 1));
+  result_ = interpolation_.run(known(traced_.faces), heldOut.guided, seconds_, control.part(0.87, 1));
   if (isToJudge) estimate(heldOut);
   interpolationSeconds_ = watch.seconds() - (seconds_.trace + seconds_.sample - earlierRays);
 }
@@ -97,36 +94,58 @@ void SeedRounds::traceChosen(const SeedShares& shares, std::span<const double> w
   const auto placedCount = static_cast<double>(choice.placed.size()),
              probeCount = static_cast<double>(choice.probes.size());
   const double placedShare = placedCount / std::max(1.0, placedCount + probeCount);
-  tracing_.trace(choice.placed, placed_, control.part(0, placedShare));
-  tracing_.trace(choice.probes, probes_, control.part(placedShare, 1));
-  tracing_.traceComponentsWithoutValue(placed_, probes_.isSeed, options_.randomSeed, control);
-  chosen_ = {sorted(placed_.faces), sorted(probes_.faces)};  // With those that components without a value were given.
+  tracing_.reserve(traced_, choice.placed.size() + choice.probes.size() + shares.scouts);
+  tracing_.trace(choice.placed, traced_, control.part(0, placedShare));
+  tracing_.trace(choice.probes, traced_, control.part(placedShare, 1));
+  for (const uint32_t face : choice.probes) {
+    probes_.push_back(face);
+    probeValues_.push_back(traced_.values[face]);
+  }
+  showProbes(false);  // What is interpolated without them must have a value in each component, too.
+  tracing_.traceComponentsWithoutValue(traced_, options_.randomSeed, control);
+  showProbes(true);
+  sortChosen();
   seconds_.trace += traceWatch.seconds();
+}
+
+void SeedRounds::showProbes(bool areShown) {
+  for (size_t i = 0; i < probes_.size(); ++i) traced_.values[probes_[i]] = areShown ? probeValues_[i] : kNoValue;
+}
+
+void SeedRounds::sortChosen() {
+  chosen_.probes = sorted(probes_);
+  const std::vector<uint32_t> all = sorted(traced_.faces);
+  chosen_.placed.clear();
+  std::set_difference(all.begin(), all.end(), chosen_.probes.begin(), chosen_.probes.end(),
+                      std::back_inserter(chosen_.placed));
 }
 
 SeedRounds::HeldOut SeedRounds::holdOut(const SeedShares& shares, const RunControl& control) {
   const Stopwatch watch;
   StageSeconds ignored;
-  HeldOut heldOut{interpolation_.run(placed_, ignored, control.part(0, 0.7)), {}};
-  const std::vector<double>& prediction = heldOut.guided.prediction;
+  std::vector<uint32_t> faces = traced_.faces;
+  for (uint32_t& face : faces)
+    if (std::binary_search(chosen_.probes.begin(), chosen_.probes.end(), face)) face = kNoFace;
+  HeldOut heldOut;
+  showProbes(false);
+  heldOut.guided = interpolation_.run(known(faces), {}, ignored, control.part(0, 0.7)).values;
+  const std::span<const double> prediction = interpolation_.prediction();
   if (!prediction.empty())
-    heldOut.harmonic = interpolation_.runHarmonic(placed_, heldOut.guided.values, control.part(0.7, 1));
+    heldOut.harmonic = interpolation_.runHarmonic(traced_.values, heldOut.guided, control.part(0.7, 1));
+  showProbes(true);
   seconds_.estimate += watch.seconds();
   if (shares.scouts == 0) return heldOut;
   const Stopwatch traceWatch;
-  std::vector<uint8_t> isSeed = placed_.isSeed;
-  for (const uint32_t face : probes_.faces) isSeed[face] = 1;
-  const std::vector<uint32_t> scouts = chooseScouts(prepared_, prediction, isSeed, shares.scouts);
-  tracing_.trace(scouts, placed_, {control.stop, {}});
-  chosen_.placed = sorted(placed_.faces);
+  const std::vector<uint32_t> scouts = chooseScouts(prepared_, prediction, traced_.isSeed, shares.scouts);
+  tracing_.trace(scouts, traced_, {control.stop, {}});
+  sortChosen();
   seconds_.trace += traceWatch.seconds();
   return heldOut;
 }
 
 void SeedRounds::estimate(const HeldOut& heldOut) {
   const Stopwatch watch;
-  EstimatedErrors errors =
-      estimateErrors(mesh_, {placed_, probes_, heldOut.guided.values, heldOut.harmonic, result_.values});
+  EstimatedErrors errors = estimateErrors(mesh_, {traced_, probes_, heldOut.guided, heldOut.harmonic, result_.values});
   if (errors.estimate.heldOutCount > 0) errors_ = std::move(errors);
   seconds_.estimate += watch.seconds();
 }

@@ -27,9 +27,15 @@ class SeedRounds {
  private:
   void runRound(uint64_t count, std::span<const double> weight, const RunControl& control);
   void traceChosen(const SeedShares& shares, std::span<const double> weight, const RunControl& control);
+  /// Hides the values of the probes, or shows them again.
+  void showProbes(bool areShown);
+  void sortChosen();
+  [[nodiscard]] KnownSeeds known(std::span<const uint32_t> faces) const {
+    return {traced_.values, faces, traced_.hits};
+  }
   /// What is interpolated without the probes, in two ways.
   struct HeldOut {
-    Interpolated guided;
+    std::vector<double> guided;
     std::vector<double> harmonic;  ///< #F, or empty where `guided` is harmonic itself.
   };
   /// Interpolates without the probes, and traces the scouts that this suggests.
@@ -51,9 +57,9 @@ class SeedRounds {
   bool estimates_;
 
   SeedChoice chosen_;
-  TracedSeeds placed_;  ///< Scouts among them once they are traced.
-  TracedSeeds probes_;
-  TracedSeeds traced_;  ///< Both.
+  TracedSeeds traced_;
+  std::vector<uint32_t> probes_;     ///< Of the seeds traced: those that were chosen at random to judge by.
+  std::vector<double> probeValues_;  ///< One each.
   Interpolated result_;
   std::optional<EstimatedErrors> errors_;
   double interpolationSeconds_ = 0;  ///< What the last round spent on other things than rays.

@@ -54,9 +54,10 @@ void CellReprojection::fetchFaces(uint32_t cell) const {
 
 void CellReprojection::runCell(uint32_t cell, std::vector<double>& values) {
   const TraceScene& scene = task_.scene;
+  if (takesEarlier(cell, values)) return;
   lookAround(task_.nearest.of(cell));
   const PointCone antipodal = task_.options.antipodal > 0 ? points_.append(antipodalPoints(cell)) : PointCone{};
-  for (const uint32_t face : task_.cells.faces[cell]) {
+  for (const uint32_t face : facesLeft_) {
     const Vec3d& normal = scene.geometry.normals[face];
     if (normal.x == 0 && normal.y == 0 && normal.z == 0) continue;  // Degenerate.
     const VirtualCone at{scene.bvh.normalization.toNormalized(scene.geometry.barycentres[face]), normal,
@@ -66,6 +67,21 @@ void CellReprojection::runCell(uint32_t cell, std::vector<double>& values) {
     if (std::isnan(value)) value = valueAt(at, 0, antipodal);
     values[face] = scene.bvh.normalization.toMeshLength(value);
   }
+}
+
+/// Fills the faces left to predict: not those whose cell still asks the same seeds. True where there are none.
+bool CellReprojection::takesEarlier(uint32_t cell, std::vector<double>& values) {
+  const Prediction& earlier = task_.earlier;
+  const std::span<const uint32_t> faces = task_.cells.faces[cell];
+  facesLeft_.assign(faces.begin(), faces.end());
+  if (cell >= earlier.nearest.cellCount() || !std::ranges::equal(earlier.nearest.of(cell), task_.nearest.of(cell)))
+    return false;
+  std::erase_if(facesLeft_, [&](uint32_t face) {
+    const bool isSame = earlier.cellOf[face] == cell;
+    if (isSame) values[face] = earlier.values[face];
+    return isSame;
+  });
+  return facesLeft_.empty();
 }
 
 /// Fills what describes the seeds that a cell asks.

@@ -18,6 +18,7 @@ struct ReprojectionTask {
   const NearestCells& nearest;
   const Buckets<uint32_t>& landed;  ///< See landedSeeds(); only with an antipodal weight.
   const ReprojectionOptions& options;
+  const Prediction& earlier;
 };
 
 /// Predicts the faces of a few cells that lie together, so that each of them finds the points of the seeds around
@@ -34,6 +35,7 @@ class CellReprojection {
   [[nodiscard]] PointCone coneOf(uint32_t seed);
   void fetchFaces(uint32_t cell) const;
   void runCell(uint32_t cell, std::vector<double>& values);
+  [[nodiscard]] bool takesEarlier(uint32_t cell, std::vector<double>& values);
   void lookAround(std::span<const uint32_t> asked);
   void weigh(const VirtualCone& at);
   [[nodiscard]] double valueAt(const VirtualCone& at, float leastShare, const PointCone& antipodal);
@@ -49,6 +51,7 @@ class CellReprojection {
   };
   std::vector<Gathered> gathered_;     // By seed: open addressing, a power of two of places.
   std::vector<PointCone> askedCones_;  // Of the cell at hand.
+  std::vector<uint32_t> facesLeft_;    // Of the cell at hand.
   std::vector<SeedGroup> seedGroups_;  // Their seeds.
   SeedReach reach_;
   std::vector<float> weights_;

@@ -4,6 +4,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "core/check.h"
 #include "reprojection/cell_reprojection.h"
@@ -34,24 +35,28 @@ std::vector<uint32_t> cellsInOrder(const TraceScene& scene, std::span<const uint
 
 }  // namespace
 
-std::vector<double> reprojectHits(const TraceScene& scene, const Cone& cone, const TracedCones& traced,
-                                  const SeedCells& cells, const ReprojectionOptions& options) {
+Prediction reprojectHits(const TraceScene& scene, const Cone& cone, const TracedCones& traced, SeedCells cells,
+                         const ReprojectionOptions& options, Prediction earlier) {
   ASDFVK_CHECK_OP(traced.hits.size(), ==, traced.seeds.size() * cone.directions.size());
-  std::vector<double> values(scene.geometry.areas.size(), kNoValue);
-  const NearestCells nearest(cells, scene.geometry, traced.seeds, options.neighbourCount);
+  Prediction prediction{std::vector<double>(scene.geometry.areas.size(), kNoValue),
+                        {},
+                        NearestCells(cells, scene.geometry, traced.seeds, options.neighbourCount)};
+  // What a cell is told by antipodal seeds may change with any seed.
+  if (options.antipodal > 0) earlier = {};
   const Buckets<uint32_t> landed =
       options.antipodal > 0 ? landedSeeds(cone, scene, traced, cells) : Buckets<uint32_t>{};
-  const ReprojectionTask task{scene, cone, traced, cells, nearest, landed, options};
+  const ReprojectionTask task{scene, cone, traced, cells, prediction.nearest, landed, options, earlier};
   const std::vector<uint32_t> order = cellsInOrder(scene, traced.seeds, cells);
   const size_t blockCount = (order.size() + kBlockSize - 1) / kBlockSize;
   tbb::parallel_for(tbb::blocked_range<size_t>(0, blockCount), [&](const tbb::blocked_range<size_t>& range) {
     CellReprojection reprojection(task);
     for (size_t block = range.begin(); block < range.end(); ++block) {
       const size_t first = block * kBlockSize;
-      reprojection.run(std::span(order).subspan(first, std::min(kBlockSize, order.size() - first)), values);
+      reprojection.run(std::span(order).subspan(first, std::min(kBlockSize, order.size() - first)), prediction.values);
     }
   });
-  return values;
+  prediction.cellOf = std::move(cells.cellOf);
+  return prediction;
 }
 
 }  // namespace asdfvk

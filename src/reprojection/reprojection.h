@@ -30,9 +30,18 @@ struct ReprojectionOptions {
   double antipodal = 0;
 };
 
-/// The predicted shape diameter of each face, seeds included, in the mesh's unit: #F; kNoValue where a face is
-/// degenerate, no seed is near, or no point lies in its cone. The same for any number of threads.
-[[nodiscard]] std::vector<double> reprojectHits(const TraceScene& scene, const Cone& cone, const TracedCones& traced,
-                                                const SeedCells& cells, const ReprojectionOptions& options);
+/// The predicted shape diameter of each face, and what it was made of.
+struct Prediction {
+  /// #F, seeds included, in the mesh's unit; kNoValue where a face is degenerate, no seed is near, or no point lies in
+  /// its cone.
+  std::vector<double> values;
+  std::vector<uint32_t> cellOf;  ///< #F, as SeedCells::cellOf.
+  NearestCells nearest;          ///< Whom each cell asked.
+};
+
+/// The same for any number of threads. earlier: of the same scene, cone and options, from seeds that have kept their
+/// places in `traced` if they are still there, or empty; what has not changed is taken from it.
+[[nodiscard]] Prediction reprojectHits(const TraceScene& scene, const Cone& cone, const TracedCones& traced,
+                                       SeedCells cells, const ReprojectionOptions& options, Prediction earlier = {});
 
 }  // namespace asdfvk

@@ -28,13 +28,15 @@ struct SeedCells {
 /// others by the distance of their seed's barycentre from its own.
 class NearestCells {
  public:
+  NearestCells() = default;
   NearestCells(const SeedCells& cells, const FaceGeometry& geometry, std::span<const uint32_t> seeds,
                size_t neighbourCount);
 
   [[nodiscard]] std::span<const uint32_t> of(uint32_t cell) const;
+  [[nodiscard]] size_t cellCount() const { return nearest_.size() / stride_; }
 
  private:
-  size_t stride_;
+  size_t stride_ = 1;
   std::vector<uint32_t> nearest_;  // #S x stride, kNoCell where there are no more.
 };
 
