@@ -40,14 +40,14 @@ std::vector<ComponentValues> componentValues(const Components& components, std::
   return values;
 }
 
-/// Where the solvers start: `nearest`, or the mean of the component's seeds where that has no value.
-std::vector<double> firstGuessFrom(std::span<const double> nearest, const Components& components,
-                                   const std::vector<ComponentValues>& traced) {
+/// Where the solvers start: the prediction, or the mean of the component's seeds where there is none.
+std::vector<double> firstGuess(const Components& components, const std::vector<ComponentValues>& traced,
+                               std::span<const double> prediction) {
   std::vector<double> guess(components.componentOf.size(), kNoValue);
   for (size_t face = 0; face < guess.size(); ++face) {
     const ComponentValues& component = traced[components.componentOf[face]];
     if (component.count > 0) guess[face] = component.mean;
-    if (!nearest.empty() && std::isfinite(nearest[face])) guess[face] = nearest[face];
+    if (!prediction.empty() && std::isfinite(prediction[face])) guess[face] = prediction[face];
   }
   return guess;
 }
@@ -71,31 +71,28 @@ Interpolation::Interpolation(const PreparedMesh& prepared, const TraceScene& sce
                              const Options& options, ComputeBackend& backend, std::vector<std::string>& warnings)
     : prepared_(prepared), scene_(scene), cone_(cone), options_(options), backend_(backend), warnings_(warnings) {}
 
-Interpolated Interpolation::run(const KnownSeeds& known, std::span<const double> firstGuess, StageSeconds& seconds,
-                                const RunControl& control) {
+Interpolated Interpolation::run(const KnownSeeds& known, StageSeconds& seconds, const RunControl& control) {
   const Stopwatch predictWatch;
   if (!known.hits.empty()) predict(known);
   seconds.predict += predictWatch.seconds();
   control.checkpoint(0.5);
   const Stopwatch solveWatch;
-  Interpolated result = solveFor(known, firstGuess, control.part(0.5, 1));
+  Interpolated result = solveFor(known.values, control.part(0.5, 1));
   seconds.solve += solveWatch.seconds();
   return result;
 }
 
-Interpolated Interpolation::solveFor(const KnownSeeds& known, std::span<const double> firstGuess,
-                                     const RunControl& control) {
+Interpolated Interpolation::solveFor(std::span<const double> known, const RunControl& control) {
   Interpolated result;
-  result.values.assign(known.values.begin(), known.values.end());
+  result.values.assign(known.begin(), known.end());
   result.solver.name = "none";
   const std::span<const double> predicted = prediction();
-  const bool hasAll = std::all_of(known.values.begin(), known.values.end(), [](double v) { return std::isfinite(v); });
+  const bool hasAll = std::all_of(known.begin(), known.end(), [](double v) { return std::isfinite(v); });
   if (!hasAll) {
-    const std::vector<ComponentValues> traced = componentValues(prepared_.components, known.values);
-    const std::vector<double> guess =
-        firstGuessFrom(firstGuess.empty() ? predicted : firstGuess, prepared_.components, traced);
+    const std::vector<ComponentValues> traced = componentValues(prepared_.components, known);
+    const std::vector<double> guess = firstGuess(prepared_.components, traced, predicted);
     const PoissonSystem system =
-        buildPoissonSystem(prepared_.graph, weights(), known.values, divergence(),
+        buildPoissonSystem(prepared_.graph, weights(), known, divergence(),
                            {.secondOrder = options_.interpolation.secondOrder, .firstGuess = guess});
     result.solver = solve(system, result.values, options_.solverOptions, control);
     if (!predicted.empty()) keepWithinTraced(prepared_.components, traced, predicted, result.values);

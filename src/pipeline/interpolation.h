@@ -34,10 +34,9 @@ class Interpolation {
   Interpolation(const PreparedMesh& prepared, const TraceScene& scene, const Cone& cone, const Options& options,
                 ComputeBackend& backend, std::vector<std::string>& warnings);
 
-  /// seconds: what predicting and solving took is added to them. firstGuess: #F, near to what will come out, or empty.
+  /// seconds: what predicting and solving took is added to them.
   /// Seeds that an earlier run was given must be at the same places of known.faces.
-  [[nodiscard]] Interpolated run(const KnownSeeds& known, std::span<const double> firstGuess, StageSeconds& seconds,
-                                 const RunControl& control);
+  [[nodiscard]] Interpolated run(const KnownSeeds& known, StageSeconds& seconds, const RunControl& control);
 
   /// Of the last run: #F, see reprojectHits(); empty without Guidance::Hits.
   [[nodiscard]] std::span<const double> prediction() const { return prediction_.values; }
@@ -50,8 +49,7 @@ class Interpolation {
  private:
   void predict(const KnownSeeds& known);
   /// What run() does once there is a prediction.
-  [[nodiscard]] Interpolated solveFor(const KnownSeeds& known, std::span<const double> firstGuess,
-                                      const RunControl& control);
+  [[nodiscard]] Interpolated solveFor(std::span<const double> known, const RunControl& control);
   [[nodiscard]] const std::vector<double>& weights();
   [[nodiscard]] std::vector<double> divergence();
   SolverReport solve(const PoissonSystem& system, std::vector<double>& values, const SolverOptions& solverOptions,

@@ -81,7 +81,7 @@ void SeedRounds::runRound(uint64_t count, std::span<const double> weight, const 
   HeldOut heldOut;
   const bool isToJudge = !probes_.empty() && leftCount() > 0;
   if (isToJudge) heldOut = holdOut(shares, control.part(0.8, 0.87));
-  result_ = interpolation_.run(known(traced_.faces), heldOut.guided, seconds_, control.part(0.87, 1));
+  result_ = interpolation_.run(known(traced_.faces), seconds_, control.part(0.87, 1));
   if (isToJudge) estimate(heldOut);
   interpolationSeconds_ = watch.seconds() - (seconds_.trace + seconds_.sample - earlierRays);
 }
@@ -128,7 +128,7 @@ SeedRounds::HeldOut SeedRounds::holdOut(const SeedShares& shares, const RunContr
     if (std::binary_search(chosen_.probes.begin(), chosen_.probes.end(), face)) face = kNoFace;
   HeldOut heldOut;
   showProbes(false);
-  heldOut.guided = interpolation_.run(known(faces), {}, ignored, control.part(0, 0.7)).values;
+  heldOut.guided = interpolation_.run(known(faces), ignored, control.part(0, 0.7)).values;
   const std::span<const double> prediction = interpolation_.prediction();
   if (!prediction.empty())
     heldOut.harmonic = interpolation_.runHarmonic(traced_.values, heldOut.guided, control.part(0.7, 1));
