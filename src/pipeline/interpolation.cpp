@@ -12,7 +12,6 @@
 #include "mesh/curvature.h"
 #include "poisson/divergence.h"
 #include "poisson/poisson_system.h"
-#include "reprojection/seed_cells.h"
 
 namespace asdfvk {
 namespace {
@@ -116,7 +115,7 @@ std::vector<double> Interpolation::runHarmonic(std::span<const double> known, st
 }
 
 void Interpolation::predict(const KnownSeeds& known) {
-  prediction_ = reprojectHits(scene_, cone_, {known.faces, known.hits}, buildSeedCells(prepared_.graph, known.faces),
+  prediction_ = reprojectHits(scene_, prepared_.graph, cone_, {known.faces, known.hits},
                               options_.interpolation.reprojection, std::move(prediction_));
 }
 

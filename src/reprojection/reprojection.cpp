@@ -35,12 +35,13 @@ std::vector<uint32_t> cellsInOrder(const TraceScene& scene, std::span<const uint
 
 }  // namespace
 
-Prediction reprojectHits(const TraceScene& scene, const Cone& cone, const TracedCones& traced, SeedCells cells,
+Prediction reprojectHits(const TraceScene& scene, const DualGraph& graph, const Cone& cone, const TracedCones& traced,
                          const ReprojectionOptions& options, Prediction earlier) {
   ASDFVK_CHECK_OP(traced.hits.size(), ==, traced.seeds.size() * cone.directions.size());
+  SeedCells cells = buildSeedCells(graph, traced.seeds);
   Prediction prediction{std::vector<double>(scene.geometry.areas.size(), kNoValue),
                         {},
-                        NearestCells(cells, scene.geometry, traced.seeds, options.neighbourCount)};
+                        NearestCells(cells, graph, scene.geometry, traced.seeds, options.neighbourCount)};
   // What a cell is told by antipodal seeds may change with any seed.
   if (options.antipodal > 0) earlier = {};
   const Buckets<uint32_t> landed =

@@ -41,7 +41,8 @@ struct Prediction {
 
 /// The same for any number of threads. earlier: of the same scene, cone and options, from seeds that have kept their
 /// places in `traced` if they are still there, or empty; what has not changed is taken from it.
-[[nodiscard]] Prediction reprojectHits(const TraceScene& scene, const Cone& cone, const TracedCones& traced,
-                                       SeedCells cells, const ReprojectionOptions& options, Prediction earlier = {});
+[[nodiscard]] Prediction reprojectHits(const TraceScene& scene, const DualGraph& graph, const Cone& cone,
+                                       const TracedCones& traced, const ReprojectionOptions& options,
+                                       Prediction earlier = {});
 
 }  // namespace asdfvk

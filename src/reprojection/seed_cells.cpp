@@ -38,24 +38,26 @@ SeedCells buildSeedCells(const DualGraph& graph, std::span<const uint32_t> seeds
   cells.faces = sortIntoBuckets<uint32_t>(seeds.size(), graph.faceCount(), [&](uint32_t face, const auto& put) {
     if (cellOf[face] != kNoCell) put(cellOf[face], face);
   });
-  cells.neighbours =
-      withoutRepeats(sortIntoBuckets<uint32_t>(seeds.size(), graph.faceCount(), [&](uint32_t face, const auto& put) {
-        for (const uint32_t neighbour : graph.neighboursOf(face))
-          if (cellOf[neighbour] != cellOf[face]) put(cellOf[face], cellOf[neighbour]);
-      }));
   return cells;
 }
 
-NearestCells::NearestCells(const SeedCells& cells, const FaceGeometry& geometry, std::span<const uint32_t> seeds,
-                           size_t neighbourCount)
+NearestCells::NearestCells(const SeedCells& cells, const DualGraph& graph, const FaceGeometry& geometry,
+                           std::span<const uint32_t> seeds, size_t neighbourCount)
     : stride_(1 + neighbourCount), nearest_(seeds.size() * stride_, kNoCell) {
   tbb::parallel_for(tbb::blocked_range<uint32_t>(0, static_cast<uint32_t>(seeds.size()), 256), [&](const auto& range) {
+    std::vector<uint32_t> touching;
     std::vector<std::pair<double, uint32_t>> byDistance;
     for (uint32_t cell = range.begin(); cell < range.end(); ++cell) {
       if (seeds[cell] == kNoFace) continue;
+      touching.clear();
+      for (const uint32_t face : cells.faces[cell])
+        for (const uint32_t neighbour : graph.neighboursOf(face))
+          if (cells.cellOf[neighbour] != cell) touching.push_back(cells.cellOf[neighbour]);
+      std::sort(touching.begin(), touching.end());
+      touching.erase(std::unique(touching.begin(), touching.end()), touching.end());
       byDistance.clear();
       const Vec3d& centre = geometry.barycentres[seeds[cell]];
-      for (const uint32_t other : cells.neighbours[cell]) {
+      for (const uint32_t other : touching) {
         const Vec3d between = geometry.barycentres[seeds[other]] - centre;
         byDistance.emplace_back(dot(between, between), other);
       }

@@ -132,7 +132,7 @@ TEST_CASE("real hits give what a plain double-precision twin gives") {
   const SeededMesh seeded(makeHand(3000).mesh, 60);
   const SeedCells cells = seeded.cells();
   ReprojectedCone cone(seeded.cone);
-  const NearestCells nearest(cells, seeded.geometry, seeded.seeds, 6);
+  const NearestCells nearest(cells, seeded.graph, seeded.geometry, seeded.seeds, 6);
   for (uint32_t cell = 0; cell < 60; ++cell) {
     Gathering gathering(seeded, {nearest.of(cell).begin(), nearest.of(cell).end()});
     gathering.weigh(random, 0.01);

@@ -17,7 +17,7 @@ using test::SeededMesh;
 namespace {
 
 std::vector<double> predict(const SeededMesh& seeded, const ReprojectionOptions& options = {}) {
-  return reprojectHits(seeded.scene(), seeded.cone, seeded.traced(), seeded.cells(), options).values;
+  return reprojectHits(seeded.scene(), seeded.graph, seeded.cone, seeded.traced(), options).values;
 }
 
 bool sameBits(const std::vector<double>& a, const std::vector<double>& b) {
@@ -245,8 +245,7 @@ TEST_CASE("what an earlier prediction has of the same seeds is taken from it, an
   std::vector<uint32_t> fewer = seeded.seeds;
   for (size_t i = 0; i < fewer.size(); i += 40) fewer[i] = kNoFace;
   const auto predictFrom = [&](const std::vector<uint32_t>& seeds, Prediction earlier) {
-    return reprojectHits(seeded.scene(), seeded.cone, {seeds, seeded.hits}, buildSeedCells(seeded.graph, seeds),
-                         options, std::move(earlier));
+    return reprojectHits(seeded.scene(), seeded.graph, seeded.cone, {seeds, seeded.hits}, options, std::move(earlier));
   };
   const Prediction few = predictFrom(fewer, {}), all = predictFrom(seeded.seeds, {});
   CHECK_FALSE(sameBits(few.values, all.values));
@@ -266,7 +265,7 @@ TEST_CASE("what an earlier prediction has of the same seeds is taken from it, an
   const std::vector<double> antipodal = predict(seeded, {.antipodal = 1});
   marked = few;
   CHECK(sameBits(
-      reprojectHits(seeded.scene(), seeded.cone, seeded.traced(), seeded.cells(), {.antipodal = 1}, marked).values,
+      reprojectHits(seeded.scene(), seeded.graph, seeded.cone, seeded.traced(), {.antipodal = 1}, marked).values,
       antipodal));
 }
 
@@ -286,9 +285,7 @@ TEST_CASE("seeds that are left out change nothing, though their hits are there")
   }
   for (const double antipodal : {0.0, 0.5}) {
     const auto predictFrom = [&](const std::vector<uint32_t>& seeds, const std::vector<ConeHit>& hits) {
-      return reprojectHits(seeded.scene(), seeded.cone, {seeds, hits}, buildSeedCells(seeded.graph, seeds),
-                           {.antipodal = antipodal})
-          .values;
+      return reprojectHits(seeded.scene(), seeded.graph, seeded.cone, {seeds, hits}, {.antipodal = antipodal}).values;
     };
     CHECK(sameBits(predictFrom(leftOut, seeded.hits), predictFrom(used, usedHits)));
   }
