@@ -23,8 +23,8 @@ enum class Backend {
 
 struct SessionOptions {
   Backend backend = Backend::Auto;
-  std::string device;       ///< As DeviceRequest::selector: an index of listDevices() or a part of a name.
-  bool requireGpu = false;  ///< Refuse CPU devices such as lavapipe, Embree and the reference.
+  std::string device;        ///< As DeviceRequest::selector: an index of listDevices() or a part of a name.
+  bool requireGpu = false;   ///< Refuse CPU devices such as lavapipe, Embree and the reference.
   VulkanTraceRequest trace;  ///< Which of the shaders' variants traces; whatever is asked for asks for Vulkan too.
 };
 

@@ -15,12 +15,11 @@ constexpr double kLeastExpectation = 0.5;
 /// Of the values traced. The function's own range is wider where its extremes were not traced.
 double tracedRange(const HeldOutErrors& errors) {
   double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
-  for (const TracedSeeds* traced : {&errors.placed, &errors.probes})
-    for (const uint32_t face : traced->faces)
-      if (const double value = traced->values[face]; !std::isnan(value)) {
-        low = std::min(low, value);
-        high = std::max(high, value);
-      }
+  for (const uint32_t face : errors.traced.faces)
+    if (const double value = errors.traced.values[face]; !std::isnan(value)) {
+      low = std::min(low, value);
+      high = std::max(high, value);
+    }
   return high > low ? high - low : 0;
 }
 
@@ -51,8 +50,8 @@ struct Probe {
 
 std::vector<Probe> readProbes(const HeldOutErrors& errors, const std::vector<double>& pattern) {
   std::vector<Probe> probes;
-  for (const uint32_t face : errors.probes.faces) {
-    const Probe probe{face, std::abs(errors.values[face] - errors.probes.values[face]), pattern[face]};
+  for (const uint32_t face : errors.probes) {
+    const Probe probe{face, std::abs(errors.values[face] - errors.traced.values[face]), pattern[face]};
     if (!std::isnan(probe.error) && !std::isnan(probe.pattern)) probes.push_back(probe);
   }
   return probes;
@@ -92,8 +91,7 @@ EstimatedErrors estimateErrors(const Mesh& mesh, const HeldOutErrors& errors) {
   size_t count = 0;
   for (size_t face = 0; face < pattern.size(); ++face) {
     if (std::isnan(pattern[face])) continue;
-    const bool isProbe = errors.probes.isSeed[face] != 0;
-    const double traced = isProbe ? errors.probes.values[face] : errors.placed.values[face];
+    const double traced = errors.traced.values[face];
     const bool isInterpolated = std::isnan(traced);
     result.expected[face] = isInterpolated ? ratio * pattern[face] : std::abs(errors.result[face] - traced);
     if (isInterpolated) interpolatedPattern += pattern[face];

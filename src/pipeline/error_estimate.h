@@ -11,14 +11,14 @@ namespace asdfvk {
 
 /// What the errors are estimated from. All values are #F.
 struct HeldOutErrors {
-  const TracedSeeds& placed;       ///< The seeds that the sampler placed.
-  const TracedSeeds& probes;       ///< Faces chosen at random among the others.
-  std::span<const double> values;  ///< Interpolated from the placed seeds only.
+  const TracedSeeds& traced;         ///< All seeds.
+  std::span<const uint32_t> probes;  ///< Those of them that were chosen at random among the faces that are no others.
+  std::span<const double> values;    ///< Interpolated without the probes.
   /// Another method's values from the same seeds, or empty: where the two are far apart errors are expected to be
   /// great. It spreads the errors seen at the probes over the faces (a ratio estimate, Cochran 1977, chapter 6), which
   /// takes a quarter off its standard error.
   std::span<const double> otherValues;
-  std::span<const double> result;  ///< Interpolated from placed seeds and probes.
+  std::span<const double> result;  ///< Interpolated from all seeds.
 };
 
 struct EstimatedErrors {

@@ -13,7 +13,6 @@
 #include "poisson/divergence.h"
 #include "poisson/each_row.h"
 #include "poisson/poisson_system.h"
-#include "reprojection/seed_cells.h"
 
 namespace asdfvk {
 namespace {
@@ -27,10 +26,10 @@ struct ComponentValues {
   uint64_t count = 0;
 };
 
-std::vector<ComponentValues> componentValues(const Components& components, const TracedSeeds& traced) {
+std::vector<ComponentValues> componentValues(const Components& components, std::span<const double> known) {
   std::vector<ComponentValues> values(components.components.size());
-  for (size_t face = 0; face < traced.values.size(); ++face) {  // Not by seed: the order would reach the last bit.
-    const double value = traced.values[face];
+  for (size_t face = 0; face < known.size(); ++face) {  // Not by seed: the order would reach the last bit.
+    const double value = known[face];
     if (!std::isfinite(value)) continue;
     ComponentValues& component = values[components.componentOf[face]];
     component.low = std::min(component.low, value);
@@ -55,13 +54,14 @@ std::vector<double> firstGuess(const Components& components, const std::vector<C
 
 /// Guidance carries values beyond those of the seeds: downwards as far as the prediction, which is a mean of lengths,
 /// goes itself; upwards not at all, since the faces with the greatest predictions are seeds (see chooseScouts()).
-void keepWithinTraced(const Components& components, const std::vector<ComponentValues>& traced, Interpolated& result) {
-  forEachRow(result.values.size(), [&](size_t face) {
+void keepWithinTraced(const Components& components, const std::vector<ComponentValues>& traced,
+                      std::span<const double> predicted, std::vector<double>& values) {
+  forEachRow(values.size(), [&](size_t face) {
     const ComponentValues& component = traced[components.componentOf[face]];
-    if (component.count == 0 || !std::isfinite(result.values[face])) return;
-    const double prediction = result.prediction[face];
+    if (component.count == 0 || !std::isfinite(values[face])) return;
+    const double prediction = predicted[face];
     const double least = std::isfinite(prediction) ? std::min(component.low, prediction) : component.low;
-    result.values[face] = std::clamp(result.values[face], least, std::max(least, component.high));
+    values[face] = std::clamp(values[face], least, std::max(least, component.high));
   });
 }
 
@@ -71,50 +71,44 @@ Interpolation::Interpolation(const PreparedMesh& prepared, const TraceScene& sce
                              const Options& options, ComputeBackend& backend, std::vector<std::string>& warnings)
     : prepared_(prepared), scene_(scene), cone_(cone), options_(options), backend_(backend), warnings_(warnings) {}
 
-// Not before they are needed, when the largest things of tracing may be gone.
-const std::vector<double>& Interpolation::arcWeightsOnce() {
-  if (weights_.empty()) weights_ = arcWeights(options_.interpolation.weights, prepared_.graph, prepared_.geometry);
-  return weights_;
-}
-
-std::vector<double> Interpolation::predict(const TracedSeeds& traced, StageSeconds& seconds) const {
-  if (traced.hits.empty()) return {};
+void Interpolation::predict(const TracedCones& traced, StageSeconds& seconds) {
+  if (traced.hits.empty()) return;
   const Stopwatch watch;
-  const SeedCells cells = buildSeedCells(prepared_.graph, traced.faces);
-  std::vector<double> prediction =
-      reprojectHits(scene_, cone_, {traced.faces, traced.hits}, cells, options_.interpolation.reprojection);
+  prediction_ = reprojectHits(scene_, prepared_.graph, cone_, traced, options_.interpolation.reprojection,
+                              std::move(prediction_));
   seconds.predict += watch.seconds();
-  return prediction;
 }
 
-Interpolated Interpolation::run(const TracedSeeds& traced, std::vector<double> prediction, StageSeconds& seconds,
-                                const RunControl& control) {
+Interpolated Interpolation::run(std::span<const double> known, StageSeconds& seconds, const RunControl& control) {
   const Stopwatch watch;
   Interpolated result;
-  result.prediction = std::move(prediction);
-  result.values = traced.values;
-  const std::vector<ComponentValues> known = componentValues(prepared_.components, traced);
-  const std::vector<double> guess = firstGuess(prepared_.components, known, result.prediction);
-  const PoissonSystem system =
-      buildPoissonSystem(prepared_.graph, arcWeightsOnce(), traced.values, divergence(result.prediction),
-                         {.secondOrder = options_.interpolation.secondOrder,
-                          .firstGuess = guess,
-                          .componentOf = prepared_.components.componentOf});
-  result.solver = solve(system, result.values, options_.solverOptions, control);
-  if (!result.prediction.empty()) keepWithinTraced(prepared_.components, known, result);
+  result.values.assign(known.begin(), known.end());
+  result.solver.name = "none";
+  const std::span<const double> predicted = prediction();
+  const bool hasAll = std::all_of(known.begin(), known.end(), [](double v) { return std::isfinite(v); });
+  if (!hasAll) {
+    const std::vector<ComponentValues> traced = componentValues(prepared_.components, known);
+    const std::vector<double> guess = firstGuess(prepared_.components, traced, predicted);
+    const PoissonSystem system = buildPoissonSystem(prepared_.graph, weights(), known, divergence(),
+                                                    {.secondOrder = options_.interpolation.secondOrder,
+                                                     .firstGuess = guess,
+                                                     .componentOf = prepared_.components.componentOf});
+    result.solver = solve(system, result.values, options_.solverOptions, control);
+    if (!predicted.empty()) keepWithinTraced(prepared_.components, traced, predicted, result.values);
+  }
   if (const double pooling = options_.interpolation.pooling; pooling > 0)
-    for (size_t face = 0; face < result.prediction.size(); ++face)
-      if (std::isfinite(result.prediction[face]) && std::isfinite(result.values[face]))
-        result.values[face] += pooling * (result.prediction[face] - result.values[face]);
+    for (size_t face = 0; face < predicted.size(); ++face)
+      if (std::isfinite(predicted[face]) && std::isfinite(result.values[face]))
+        result.values[face] += pooling * (predicted[face] - result.values[face]);
   seconds.solve += watch.seconds();
   return result;
 }
 
-std::vector<double> Interpolation::runHarmonic(const TracedSeeds& traced, std::span<const double> firstGuess,
+std::vector<double> Interpolation::runHarmonic(std::span<const double> known, std::span<const double> firstGuess,
                                                const RunControl& control) {
-  std::vector<double> values = traced.values;
+  std::vector<double> values(known.begin(), known.end());
   const PoissonSystem system =
-      buildPoissonSystem(prepared_.graph, arcWeightsOnce(), traced.values, {},
+      buildPoissonSystem(prepared_.graph, weights(), known, {},
                          {.firstGuess = firstGuess, .componentOf = prepared_.components.componentOf});
   SolverOptions solverOptions = options_.solverOptions;
   solverOptions.tolerance = std::max(solverOptions.tolerance, kComparisonTolerance);
@@ -122,11 +116,16 @@ std::vector<double> Interpolation::runHarmonic(const TracedSeeds& traced, std::s
   return values;
 }
 
-std::vector<double> Interpolation::divergence(std::span<const double> prediction) {
+const std::vector<double>& Interpolation::weights() {
+  if (weights_.empty()) weights_ = arcWeights(options_.interpolation.weights, prepared_.graph, prepared_.geometry);
+  return weights_;
+}
+
+std::vector<double> Interpolation::divergence() {
   switch (options_.interpolation.guidance) {
     case Guidance::Hits:
-      if (prediction.empty()) return {};
-      return divergenceOf(prepared_.graph, arcWeightsOnce(), prediction);
+      if (prediction().empty()) return {};
+      return divergenceOf(prepared_.graph, weights(), prediction());
     case Guidance::Curvature: {
       std::vector<double> divergence = faceCurvature(scene_.mesh);
       for (double& entry : divergence) entry *= -options_.interpolation.curvatureFactor;

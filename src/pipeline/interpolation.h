@@ -9,14 +9,14 @@
 #include "pipeline/prepared_mesh.h"
 #include "pipeline/report.h"
 #include "pipeline/seed_tracing.h"
+#include "reprojection/reprojection.h"
 
 namespace asdfvk {
 
 /// Values for all faces from those of the seeds.
 struct Interpolated {
-  std::vector<double> values;      ///< #F; faces of components without any value keep none.
-  std::vector<double> prediction;  ///< #F, see reprojectHits(); empty without Guidance::Hits.
-  SolverReport solver;             ///< Its name is "none" when there was nothing to solve.
+  std::vector<double> values;  ///< #F; faces of components without any value keep none.
+  SolverReport solver;         ///< Its name is "none" when there was nothing to solve.
 };
 
 /// The interpolation of one mesh, for any sets of seeds.
@@ -27,21 +27,22 @@ class Interpolation {
   Interpolation(const PreparedMesh& prepared, const TraceScene& scene, const Cone& cone, const Options& options,
                 ComputeBackend& backend, std::vector<std::string>& warnings);
 
-  /// What the rays of the seeds let expect of all faces, see reprojectHits(): #F, empty without Guidance::Hits.
-  /// seconds: what it took is added to them.
-  [[nodiscard]] std::vector<double> predict(const TracedSeeds& traced, StageSeconds& seconds) const;
+  /// Predicts all faces from what the rays of these seeds met, if anybody kept that. Seeds that an earlier call was
+  /// given must be at the same places of traced.seeds. seconds: what it took is added to them.
+  void predict(const TracedCones& traced, StageSeconds& seconds);
+  /// The last one: #F, see reprojectHits(); empty without Guidance::Hits.
+  [[nodiscard]] std::span<const double> prediction() const { return prediction_.values; }
 
-  /// prediction: of the same seeds. seconds: what it took is added to them.
-  [[nodiscard]] Interpolated run(const TracedSeeds& traced, std::vector<double> prediction, StageSeconds& seconds,
-                                 const RunControl& control);
+  /// Guided by the last prediction. known: #F, NaN where no value is. seconds: what it took is added to them.
+  [[nodiscard]] Interpolated run(std::span<const double> known, StageSeconds& seconds, const RunControl& control);
 
   /// The same without any guidance, to a tolerance that is enough for comparing. firstGuess: #F.
-  [[nodiscard]] std::vector<double> runHarmonic(const TracedSeeds& traced, std::span<const double> firstGuess,
+  [[nodiscard]] std::vector<double> runHarmonic(std::span<const double> known, std::span<const double> firstGuess,
                                                 const RunControl& control);
 
  private:
-  const std::vector<double>& arcWeightsOnce();
-  [[nodiscard]] std::vector<double> divergence(std::span<const double> prediction);
+  [[nodiscard]] const std::vector<double>& weights();
+  [[nodiscard]] std::vector<double> divergence();
   SolverReport solve(const PoissonSystem& system, std::vector<double>& values, const SolverOptions& solverOptions,
                      const RunControl& control);
 
@@ -51,7 +52,9 @@ class Interpolation {
   const Options& options_;
   ComputeBackend& backend_;
   std::vector<std::string>& warnings_;
-  std::vector<double> weights_;  ///< One per arc of the dual graph; see arcWeightsOnce().
+  std::vector<double>
+      weights_;  ///< One per arc of the dual graph, once something is to be solved: tracing holds more than enough.
+  Prediction prediction_;
 };
 
 }  // namespace asdfvk

@@ -100,8 +100,8 @@ struct Report {
   uint64_t redoneConeCount = 0;
   uint64_t noValueCount = 0;  ///< Input faces.
   uint64_t randomSeed = 0;
-  std::string backend;     ///< "vulkan", "cpu" or "reference".
-  std::string device;      ///< Device and driver that ran, or the CPU.
+  std::string backend;                           ///< "vulkan", "cpu" or "reference".
+  std::string device;                            ///< Device and driver that ran, or the CPU.
   std::optional<VulkanTraceChoice> traceChoice;  ///< Which variant of the shaders traced; none without Vulkan.
   bool runsOnCpu = false;  ///< The CPU's cores do the tracing: the reference, Embree, or a CPU device.
   StageSeconds stageSeconds;

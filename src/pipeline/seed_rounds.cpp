@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -41,6 +42,24 @@ std::vector<double> densityFor(std::vector<double> expectedErrors) {
   return expectedErrors;
 }
 
+/// Hides the values of some faces as long as it lives.
+class HiddenValues {
+ public:
+  HiddenValues(std::vector<double>& values, std::vector<uint32_t> faces) : values_(values), faces_(std::move(faces)) {
+    for (const uint32_t face : faces_) hidden_.push_back(std::exchange(values_[face], kNoValue));
+  }
+  ~HiddenValues() {
+    for (size_t i = 0; i < faces_.size(); ++i) values_[faces_[i]] = hidden_[i];
+  }
+  HiddenValues(const HiddenValues&) = delete;
+  HiddenValues& operator=(const HiddenValues&) = delete;
+
+ private:
+  std::vector<double>& values_;
+  std::vector<uint32_t> faces_;
+  std::vector<double> hidden_;
+};
+
 }  // namespace
 
 SeedRounds::SeedRounds(const Mesh& mesh, const PreparedMesh& prepared, const Options& options, SeedTracing& tracing,
@@ -55,9 +74,7 @@ SeedRounds::SeedRounds(const Mesh& mesh, const PreparedMesh& prepared, const Opt
       seconds_(seconds),
       afterLastRay_(std::move(afterLastRay)),
       estimates_(options.estimatesError || options.rounds.maxError.has_value() || options.isAdaptive),
-      placed_(prepared.geometry.areas.size()),
-      probes_(placed_),
-      traced_(placed_) {}
+      traced_(prepared.geometry.areas.size()) {}
 
 void SeedRounds::run(const RunControl& control) {
   const uint64_t count = resolveSeedCount(options_.seeds, prepared_.castableFaces.size());
@@ -81,27 +98,20 @@ void SeedRounds::runRound(uint64_t count, std::span<const double> weight, bool i
   count = std::min(count, leftCount());
   const bool predicts = options_.interpolation.guidance == Guidance::Hits;
   const bool judges = estimates_ && count < leftCount();
-  const SeedShares shares = judges ? shareOut(count, probes_.faces.size(), predicts) : SeedShares{.placed = count};
+  const SeedShares shares = judges ? shareOut(count, probes_.size(), predicts) : SeedShares{.placed = count};
   traceChosen(shares, weight, control.part(0, 0.8));
-  const bool isToJudge = !probes_.faces.empty() && leftCount() > 0;
-  std::vector<double> heldOutPrediction;
-  std::optional<TracedSeeds> scouts;
+  const bool isToJudge = !probes_.empty() && leftCount() > 0;
+  std::vector<uint32_t> scouts;
   if (isToJudge) {
-    const Stopwatch estimateWatch;
-    StageSeconds ignored;
-    heldOutPrediction = interpolation_.predict(placed_, ignored);
-    seconds_.estimate += estimateWatch.seconds();
-    control.checkpoint(0.83);
-    if (shares.scouts > 0) scouts = traceScouts(heldOutPrediction, shares.scouts, control);
+    predictWithoutProbes(control);
+    if (shares.scouts > 0) scouts = traceScouts(shares.scouts, control);
   }
   if (isLast) afterLastRay_();
   HeldOut heldOut;
-  if (isToJudge) heldOut = holdOut(std::move(heldOutPrediction), control.part(0.83, 0.87));
-  if (scouts) placed_.append(*std::exchange(scouts, std::nullopt));
-  joinPlacedAndProbes(isLast);
-  std::vector<double> prediction = interpolation_.predict(traced_, seconds_);
+  if (isToJudge) heldOut = holdOut(scouts, control.part(0.83, 0.87));
+  interpolation_.predict({traced_.faces, traced_.hits}, seconds_);
   control.checkpoint(0.93);
-  result_ = interpolation_.run(traced_, std::move(prediction), seconds_, control.part(0.93, 1));
+  result_ = interpolation_.run(traced_.values, seconds_, control.part(0.93, 1));
   if (isToJudge) estimate(heldOut);
   interpolationSeconds_ = watch.seconds() - (seconds_.trace + seconds_.sample - earlierRays);
 }
@@ -114,49 +124,63 @@ void SeedRounds::traceChosen(const SeedShares& shares, std::span<const double> w
   const auto placedCount = static_cast<double>(choice.placed.size()),
              probeCount = static_cast<double>(choice.probes.size());
   const double placedShare = placedCount / std::max(1.0, placedCount + probeCount);
-  tracing_.trace(choice.placed, placed_, control.part(0, placedShare));
-  tracing_.trace(choice.probes, probes_, control.part(placedShare, 1));
-  tracing_.traceComponentsWithoutValue(placed_, probes_.isSeed, options_.randomSeed, control);
-  chosen_ = {sorted(placed_.faces), sorted(probes_.faces)};  // With those that components without a value were given.
+  tracing_.reserve(traced_, choice.placed.size() + choice.probes.size() + shares.scouts);
+  tracing_.trace(choice.placed, traced_, control.part(0, placedShare));
+  tracing_.trace(choice.probes, traced_, control.part(placedShare, 1));
+  probes_.insert(probes_.end(), choice.probes.begin(), choice.probes.end());
+  {  // What is interpolated without the probes must have a value in each component, too.
+    const HiddenValues hidden(traced_.values, probes_);
+    tracing_.traceComponentsWithoutValue(traced_, options_.randomSeed, control);
+  }
+  sortChosen();
   seconds_.trace += traceWatch.seconds();
 }
 
-TracedSeeds SeedRounds::traceScouts(std::span<const double> prediction, uint64_t count, const RunControl& control) {
+void SeedRounds::sortChosen() {
+  chosen_.probes = sorted(probes_);
+  const std::vector<uint32_t> all = sorted(traced_.faces);
+  chosen_.placed.clear();
+  std::set_difference(all.begin(), all.end(), chosen_.probes.begin(), chosen_.probes.end(),
+                      std::back_inserter(chosen_.placed));
+}
+
+void SeedRounds::predictWithoutProbes(const RunControl& control) {
   const Stopwatch watch;
-  std::vector<uint8_t> isSeed = placed_.isSeed;
-  for (const uint32_t face : probes_.faces) isSeed[face] = 1;
-  TracedSeeds scouts(isSeed.size());
-  tracing_.trace(chooseScouts(prepared_, prediction, isSeed, count), scouts, {control.stop, {}});
-  chosen_.placed.insert(chosen_.placed.end(), scouts.faces.begin(), scouts.faces.end());
-  chosen_.placed = sorted(std::move(chosen_.placed));
+  StageSeconds ignored;
+  std::vector<uint32_t> faces = traced_.faces;
+  for (uint32_t& face : faces)
+    if (std::binary_search(chosen_.probes.begin(), chosen_.probes.end(), face)) face = kNoFace;
+  interpolation_.predict({faces, traced_.hits}, ignored);
+  seconds_.estimate += watch.seconds();
+  control.checkpoint(0.83);
+}
+
+std::vector<uint32_t> SeedRounds::traceScouts(uint64_t count, const RunControl& control) {
+  const Stopwatch watch;
+  std::vector<uint32_t> scouts = chooseScouts(prepared_, interpolation_.prediction(), traced_.isSeed, count);
+  tracing_.trace(scouts, traced_, {control.stop, {}});
+  sortChosen();
   seconds_.trace += watch.seconds();
   return scouts;
 }
 
-SeedRounds::HeldOut SeedRounds::holdOut(std::vector<double> prediction, const RunControl& control) {
+SeedRounds::HeldOut SeedRounds::holdOut(std::span<const uint32_t> scouts, const RunControl& control) {
   const Stopwatch watch;
   StageSeconds ignored;
-  const bool isGuided = !prediction.empty();
-  HeldOut heldOut{interpolation_.run(placed_, std::move(prediction), ignored, control.part(0, 0.7)).values, {}};
-  if (isGuided) heldOut.harmonic = interpolation_.runHarmonic(placed_, heldOut.guided, control.part(0.7, 1));
+  std::vector<uint32_t> unknown = probes_;
+  unknown.insert(unknown.end(), scouts.begin(), scouts.end());
+  const HiddenValues hidden(traced_.values, std::move(unknown));
+  HeldOut heldOut;
+  heldOut.guided = interpolation_.run(traced_.values, ignored, control.part(0, 0.7)).values;
+  if (!interpolation_.prediction().empty())
+    heldOut.harmonic = interpolation_.runHarmonic(traced_.values, heldOut.guided, control.part(0.7, 1));
   seconds_.estimate += watch.seconds();
   return heldOut;
 }
 
-void SeedRounds::joinPlacedAndProbes(bool isLast) {
-  std::vector<ConeHit> hits = isLast ? std::exchange(placed_.hits, {}) : placed_.hits;
-  traced_.hits = {};  // Before it is copied into: there may be many.
-  traced_.values = placed_.values;
-  traced_.isSeed = placed_.isSeed;
-  traced_.faces = placed_.faces;
-  traced_.statistics = placed_.statistics;
-  traced_.hits = std::move(hits);
-  traced_.append(probes_);
-}
-
 void SeedRounds::estimate(const HeldOut& heldOut) {
   const Stopwatch watch;
-  EstimatedErrors errors = estimateErrors(mesh_, {placed_, probes_, heldOut.guided, heldOut.harmonic, result_.values});
+  EstimatedErrors errors = estimateErrors(mesh_, {traced_, probes_, heldOut.guided, heldOut.harmonic, result_.values});
   if (errors.estimate.heldOutCount > 0) errors_ = std::move(errors);
   seconds_.estimate += watch.seconds();
 }

@@ -32,18 +32,17 @@ class SeedRounds {
   /// isLast: no other round will follow.
   void runRound(uint64_t count, std::span<const double> weight, bool isLast, const RunControl& control);
   void traceChosen(const SeedShares& shares, std::span<const double> weight, const RunControl& control);
-  /// What is interpolated without the probes, in two ways.
+  void sortChosen();
+  /// What is interpolated without the probes and scouts, in two ways.
   struct HeldOut {
     std::vector<double> guided;    ///< #F
     std::vector<double> harmonic;  ///< #F, or empty where `guided` is harmonic itself.
   };
-  /// Traces the faces with the greatest of these predictions, which go among the placed seeds once those have been
-  /// interpolated without them.
-  [[nodiscard]] TracedSeeds traceScouts(std::span<const double> prediction, uint64_t count, const RunControl& control);
-  /// Interpolates without the probes and scouts.
-  [[nodiscard]] HeldOut holdOut(std::vector<double> prediction, const RunControl& control);
-  /// isLast: the placed seeds' hits are not needed any more.
-  void joinPlacedAndProbes(bool isLast);
+  void predictWithoutProbes(const RunControl& control);
+  /// Traces and returns the faces with the greatest predictions.
+  std::vector<uint32_t> traceScouts(uint64_t count, const RunControl& control);
+  /// Interpolates without the probes and without these scouts.
+  [[nodiscard]] HeldOut holdOut(std::span<const uint32_t> scouts, const RunControl& control);
   void estimate(const HeldOut& heldOut);
   /// 0: it is enough.
   [[nodiscard]] uint64_t furtherCount() const;
@@ -62,9 +61,8 @@ class SeedRounds {
   bool estimates_;
 
   SeedChoice chosen_;
-  TracedSeeds placed_;  ///< Scouts among them once they are traced.
-  TracedSeeds probes_;
-  TracedSeeds traced_;  ///< Both.
+  TracedSeeds traced_;
+  std::vector<uint32_t> probes_;  ///< Of the seeds traced: those that were chosen at random to judge by.
   Interpolated result_;
   std::optional<EstimatedErrors> errors_;
   double interpolationSeconds_ = 0;  ///< What the last round spent on other things than rays.

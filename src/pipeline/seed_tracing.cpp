@@ -4,18 +4,6 @@
 
 namespace asdfvk {
 
-void TracedSeeds::append(const TracedSeeds& other) {
-  for (const uint32_t face : other.faces) {
-    values[face] = other.values[face];
-    isSeed[face] = 1;
-  }
-  faces.insert(faces.end(), other.faces.begin(), other.faces.end());
-  hits.reserve(hits.size() + other.hits.size());  // No more, as it would be by itself: there may be many.
-  hits.insert(hits.end(), other.hits.begin(), other.hits.end());
-  statistics.rayCount += other.statistics.rayCount;
-  statistics.redoneConeCount += other.statistics.redoneConeCount;
-}
-
 void SeedTracing::trace(std::span<const uint32_t> faces, TracedSeeds& traced, const RunControl& control) {
   std::vector<double> values(faces.size());
   const size_t hitCount = traced.hits.size();
@@ -30,11 +18,15 @@ void SeedTracing::trace(std::span<const uint32_t> faces, TracedSeeds& traced, co
   }
 }
 
-void SeedTracing::traceComponentsWithoutValue(TracedSeeds& traced, std::span<const uint8_t> taken, uint64_t randomSeed,
-                                              const RunControl& control) {
+void SeedTracing::reserve(TracedSeeds& traced, size_t furtherCount) const {
+  traced.faces.reserve(traced.faces.size() + furtherCount);
+  if (keepsHits_) traced.hits.reserve(traced.hits.size() + furtherCount * rayCount_);
+}
+
+void SeedTracing::traceComponentsWithoutValue(TracedSeeds& traced, uint64_t randomSeed, const RunControl& control) {
   std::vector<uint32_t> untried;
   for (const uint32_t face : prepared_.castableFaces)
-    if (!traced.isSeed[face] && !taken[face]) untried.push_back(face);
+    if (!traced.isSeed[face]) untried.push_back(face);
   if (untried.empty()) return;
   ComponentSeeds further(prepared_.components.componentOf, traced.values, untried, randomSeed);
   const RunControl quiet{control.stop, {}};

@@ -9,7 +9,7 @@
 
 namespace asdfvk {
 
-/// Faces that cast rays, and what came of it. Sets of them can be joined.
+/// Faces that cast rays, and what came of it.
 struct TracedSeeds {
   explicit TracedSeeds(size_t faceCount) : values(faceCount, kNoValue), isSeed(faceCount, 0) {}
 
@@ -18,9 +18,6 @@ struct TracedSeeds {
   std::vector<uint32_t> faces;  ///< #S, in the order in which they were traced.
   std::vector<ConeHit> hits;    ///< #S x rays, see ConeResults::hits; empty if nobody wants them.
   TraceStatistics statistics;
-
-  /// Adds the seeds of another set that has none of this one's.
-  void append(const TracedSeeds& other);
 };
 
 /// Casts the rays of seeds of one mesh.
@@ -33,10 +30,11 @@ class SeedTracing {
   /// Adds `faces`, none of which may be in `traced`.
   void trace(std::span<const uint32_t> faces, TracedSeeds& traced, const RunControl& control);
 
-  /// Adds seeds to each component that has no value yet until it has one, or no face left to try; faces of `taken`
-  /// are left out.
-  void traceComponentsWithoutValue(TracedSeeds& traced, std::span<const uint8_t> taken, uint64_t randomSeed,
-                                   const RunControl& control);
+  /// Makes room for so many further seeds, so that hits, most of the memory, need not be copied to grow.
+  void reserve(TracedSeeds& traced, size_t furtherCount) const;
+
+  /// Adds seeds to each component that has no value yet until it has one, or no face left to try.
+  void traceComponentsWithoutValue(TracedSeeds& traced, uint64_t randomSeed, const RunControl& control);
 
  private:
   const PreparedMesh& prepared_;

@@ -140,8 +140,7 @@ Result Session::compute(Mesh& mesh, const Options& options, const RunControl& co
   const auto afterLastRay = [&] {
     tracer.reset();
     if (options.checkCount) return;  // Which casts rays of its own.
-    bvh.nodes = {};
-    bvh.slotFaces = {};
+    bvh.nodes = {};  // Not the order of its faces, by which neighbours are predicted together.
   };
   SeedRounds rounds(mesh, prepared, options, tracing, interpolation, clock, seconds, afterLastRay);
   rounds.run(control.part(0, roundsEnd));

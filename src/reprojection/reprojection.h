@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "reprojection/gathered_hits.h"
 #include "reprojection/seed_cells.h"
+#include "reprojection/traced_cones.h"
 
 /// What the traced rays of the seeds around a face tell about the face itself, which cast none. The points that they
 /// met lie on the other side of the shape, and most of them can be seen from the face too: seen from there, each gives
@@ -30,9 +30,19 @@ struct ReprojectionOptions {
   double antipodal = 0;
 };
 
-/// The predicted shape diameter of each face, seeds included, in the mesh's unit: #F; kNoValue where a face is
-/// degenerate, no seed is near, or no point lies in its cone. The same for any number of threads.
-[[nodiscard]] std::vector<double> reprojectHits(const TraceScene& scene, const Cone& cone, const TracedCones& traced,
-                                                const SeedCells& cells, const ReprojectionOptions& options);
+/// The predicted shape diameter of each face, and what it was made of.
+struct Prediction {
+  /// #F, seeds included, in the mesh's unit; kNoValue where a face is degenerate, no seed is near, or no point lies in
+  /// its cone.
+  std::vector<double> values;
+  std::vector<uint32_t> cellOf;  ///< #F, as SeedCells::cellOf.
+  NearestCells nearest;          ///< Whom each cell asked.
+};
+
+/// The same for any number of threads. earlier: of the same scene, cone and options, from seeds that have kept their
+/// places in `traced` if they are still there, or empty; what has not changed is taken from it.
+[[nodiscard]] Prediction reprojectHits(const TraceScene& scene, const DualGraph& graph, const Cone& cone,
+                                       const TracedCones& traced, const ReprojectionOptions& options,
+                                       Prediction earlier = {});
 
 }  // namespace asdfvk

@@ -185,7 +185,7 @@ void LaneCones::evaluateWithAvx2(std::array<double, kWidth>&) { ASDFVK_CHECK(fal
 
 void LaneCones::measure(const LaneFrames& frames, std::span<const LaneHits> hits) {
   ASDFVK_CHECK_OP(hits.size(), ==, lengths_.size());
-  if (instructionSet_ == InstructionSet::Avx2)
+  if (instructionSet_ >= InstructionSet::Avx2)
     measureWithAvx2(frames, hits);
   else
     measureInLanes(frames, hits);
@@ -193,7 +193,7 @@ void LaneCones::measure(const LaneFrames& frames, std::span<const LaneHits> hits
 
 std::array<double, LaneCones::kWidth> LaneCones::values() {
   std::array<double, kWidth> values;
-  if (instructionSet_ == InstructionSet::Avx2)
+  if (instructionSet_ >= InstructionSet::Avx2)
     evaluateWithAvx2(values);
   else
     evaluateInLanes(values);

@@ -118,7 +118,7 @@ std::array<bool, kLaneCount> walkWithAvx2(const TraceScene&, std::span<const Slo
 std::array<bool, 8> haveNeighboursWithin(const TraceScene& scene, std::span<const SlotPlane> planes,
                                          std::span<const SlotPoint> points, double radius,
                                          InstructionSet instructionSet) {
-  return instructionSet == InstructionSet::Avx2 ? walkWithAvx2(scene, planes, points, radius)
+  return instructionSet >= InstructionSet::Avx2 ? walkWithAvx2(scene, planes, points, radius)
                                                 : NeighbourWalk(scene, planes, points, radius).run();
 }
 

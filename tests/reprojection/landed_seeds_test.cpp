@@ -17,19 +17,20 @@ TEST_CASE("a seed has landed in the cells of the faces that its kept rays hit, b
        {makeAnimal(2000).mesh, test::joined(makeTorus(900).mesh, makeSphere(80).mesh, {0.2, 0, 0})}) {
     const SeededMesh seeded(mesh, 40);
     const SeedCells cells = seeded.cells();
-    const std::vector<LengthWindow> windows = keptLengths(seeded.scene(), seeded.cone, seeded.traced());
-    const Buckets<uint32_t> landed = landedSeeds(seeded.cone, seeded.scene(), seeded.traced(), windows, cells);
+    const Buckets<uint32_t> landed = landedSeeds(seeded.cone, seeded.scene(), seeded.traced(), cells);
     REQUIRE(landed.bucketCount() == 40);
     const size_t rayCount = seeded.cone.directions.size();
     std::vector<std::set<uint32_t>> expected(40);
-    for (uint32_t seed = 0; seed < 40; ++seed)
+    for (uint32_t seed = 0; seed < 40; ++seed) {
+      const LengthWindow window = keptLengths(seeded.scene(), seeded.cone, seeded.traced(), seed);
       for (size_t ray = 0; ray < rayCount; ++ray) {
         const ConeHit& hit = seeded.hits[seed * rayCount + ray];
         if (hit.face == kNoFace || cells.cellOf[hit.face] == kNoCell || cells.cellOf[hit.face] == seed) continue;
         const double facing = dot(seeded.geometry.normals[seeded.seeds[seed]], seeded.geometry.normals[hit.face]);
         if (facing > seeded.cone.falseHitCosine) continue;
-        if (windows[seed].keeps(static_cast<double>(hit.distance))) expected[cells.cellOf[hit.face]].insert(seed);
+        if (window.keeps(static_cast<double>(hit.distance))) expected[cells.cellOf[hit.face]].insert(seed);
       }
+    }
     size_t count = 0;
     for (uint32_t cell = 0; cell < 40; ++cell) {
       CHECK(std::equal(landed[cell].begin(), landed[cell].end(), expected[cell].begin(), expected[cell].end()));

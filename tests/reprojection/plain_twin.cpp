@@ -11,35 +11,37 @@ namespace asdfvk::test {
 namespace {
 
 constexpr double kLargestChange = 4;
-constexpr double kShareOfPool = 0.5;
-// Half of the last of 7 halvings, and a little for rounding.
-constexpr double kMedianSlack = 1.01 / 256;
+constexpr double kShareOfPool = 0.75;
+// Of the deviation: two deviations halved four times, and a little for rounding.
+constexpr double kMedianSlack = 1.01 / 8;
 
 struct SeenHit {
   double length = 0, mass = 0, angle = 0;
   bool isKeptBySeed = false;
 };
 
-std::vector<SeenHit> seenFrom(const Cone& cone, const GatheredHits& hits, const VirtualCone& at,
-                              std::span<const float> coneWeights) {
+std::vector<SeenHit> seenFrom(const Cone& cone, const std::vector<PointGroup>& groups,
+                              std::span<const WeighedCone> cones, const VirtualCone& at) {
   double leastAngle = std::numeric_limits<double>::max();
   for (const double weight : cone.weights) leastAngle = std::min(leastAngle, 1 / weight);
   std::vector<SeenHit> seen;
-  for (size_t i = 0; i < hits.size(); ++i) {
-    const Vec3d way = Vec3d{hits.x[i], hits.y[i], hits.z[i]} - at.origin;
-    const Vec3d normal{hits.nx[i], hits.ny[i], hits.nz[i]};
-    if (std::isnan(way.x) || hits.face[i] == at.face || dot(at.normal, normal) > cone.falseHitCosine) continue;
+  const auto look = [&](const PointGroup& group, size_t lane, float weight) {
+    const Vec3d way = Vec3d{group.x[lane], group.y[lane], group.z[lane]} - at.origin;
+    const Vec3d normal{group.nx[lane], group.ny[lane], group.nz[lane]};
+    if (std::isnan(way.x) || group.face[lane] == at.face || dot(at.normal, normal) > cone.falseHitCosine) return;
     const double distance = length(way);
     const double cosine = -dot(way, at.normal) / distance;
-    if (cosine < std::cos(cone.halfAngleRadians)) continue;
-    const double grazing = std::abs(dot(way, normal)) / distance + static_cast<double>(kGrazingSlack);
-    const double change = std::clamp(static_cast<double>(hits.spread[i]) * grazing / (distance * distance),
-                                     1 / kLargestChange, kLargestChange);
+    if (cosine < std::cos(cone.halfAngleRadians)) return;
+    const double change =
+        std::clamp(static_cast<double>(group.spread[lane]) / (distance * distance), 1 / kLargestChange, kLargestChange);
     seen.push_back({.length = distance,
-                    .mass = static_cast<double>(coneWeights[i / hits.raysPerCone()]) * change,
+                    .mass = static_cast<double>(weight) * change,
                     .angle = std::max(leastAngle, std::acos(std::min(1.0, cosine))),
-                    .isKeptBySeed = hits.kept[i] == 1});
-  }
+                    .isKeptBySeed = group.kept[lane] == 1});
+  };
+  for (const WeighedCone& weighed : cones)
+    for (uint32_t i = 0; i < weighed.groupCount; ++i)
+      for (size_t lane = 0; lane < kLaneCount; ++lane) look(groups[weighed.firstGroup + i], lane, weighed.weight);
   std::sort(seen.begin(), seen.end(), [](const SeenHit& a, const SeenHit& b) { return a.length < b.length; });
   return seen;
 }
@@ -67,9 +69,9 @@ double meanAround(const std::vector<SeenHit>& seen, double median, double bound)
 
 }  // namespace
 
-TwinValue plainTwin(const Cone& cone, const GatheredHits& hits, const VirtualCone& at,
-                    std::span<const float> coneWeights) {
-  const std::vector<SeenHit> seen = seenFrom(cone, hits, at, coneWeights);
+TwinValue plainTwin(const Cone& cone, const std::vector<PointGroup>& groups, std::span<const WeighedCone> cones,
+                    const VirtualCone& at) {
+  const std::vector<SeenHit> seen = seenFrom(cone, groups, cones, at);
   if (seen.empty()) return {kNoValue, {}};
   double mass = 0, mean = 0, squares = 0;
   for (const SeenHit& hit : seen) {
@@ -83,7 +85,7 @@ TwinValue plainTwin(const Cone& cone, const GatheredHits& hits, const VirtualCon
 
   TwinValue value{meanAround(seen, median, bound), {}};
   // The mean changes only where a length enters or leaves the window: one median from each stretch between is enough.
-  const double slack = kMedianSlack * (seen.back().length - seen.front().length);
+  const double slack = kMedianSlack * std::sqrt(squares / mass);
   std::vector<double> changes{median - slack, median + slack};
   for (const SeenHit& hit : seen)
     for (const double change : {hit.length - bound, hit.length + bound})

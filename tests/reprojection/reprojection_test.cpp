@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "generate/shapes.h"
 #include "reprojection/seeded_mesh.h"
@@ -16,7 +17,7 @@ using test::SeededMesh;
 namespace {
 
 std::vector<double> predict(const SeededMesh& seeded, const ReprojectionOptions& options = {}) {
-  return reprojectHits(seeded.scene(), seeded.cone, seeded.traced(), seeded.cells(), options);
+  return reprojectHits(seeded.scene(), seeded.graph, seeded.cone, seeded.traced(), options).values;
 }
 
 bool sameBits(const std::vector<double>& a, const std::vector<double>& b) {
@@ -236,6 +237,58 @@ TEST_CASE("a lone seed predicts all that it is linked with") {
   const std::vector<double> values = predict(seeded);
   CHECK(std::count_if(values.begin(), values.end(), [](double v) { return std::isfinite(v); }) > 100);
   CHECK(values[seeded.seeds[0]] == doctest::Approx(seeded.values[0]).epsilon(0.03));
+}
+
+TEST_CASE("what an earlier prediction has of the same seeds is taken from it, and nothing else") {
+  const SeededMesh seeded(makeAnimal(3000).mesh, 300);
+  const ReprojectionOptions options;
+  std::vector<uint32_t> fewer = seeded.seeds;
+  for (size_t i = 0; i < fewer.size(); i += 40) fewer[i] = kNoFace;
+  const auto predictFrom = [&](const std::vector<uint32_t>& seeds, Prediction earlier) {
+    return reprojectHits(seeded.scene(), seeded.graph, seeded.cone, {seeds, seeded.hits}, options, std::move(earlier));
+  };
+  const Prediction few = predictFrom(fewer, {}), all = predictFrom(seeded.seeds, {});
+  CHECK_FALSE(sameBits(few.values, all.values));
+  CHECK(sameBits(predictFrom(seeded.seeds, few).values, all.values));
+  CHECK(sameBits(predictFrom(fewer, all).values, few.values));
+  // Marked, so that it can be told where values come from.
+  Prediction marked = few;
+  for (double& value : marked.values) value = -1;
+  const std::vector<double> values = predictFrom(seeded.seeds, marked).values;
+  size_t takenCount = 0;
+  for (size_t face = 0; face < values.size(); ++face) {
+    takenCount += values[face] == -1;
+    if (values[face] == -1) CHECK((few.values[face] == all.values[face] || std::isnan(all.values[face])));
+  }
+  CHECK(takenCount > values.size() / 4);
+  CHECK(takenCount < values.size());
+  const std::vector<double> antipodal = predict(seeded, {.antipodal = 1});
+  marked = few;
+  CHECK(sameBits(
+      reprojectHits(seeded.scene(), seeded.graph, seeded.cone, seeded.traced(), {.antipodal = 1}, marked).values,
+      antipodal));
+}
+
+TEST_CASE("seeds that are left out change nothing, though their hits are there") {
+  const SeededMesh seeded(makeAnimal(3000).mesh, 200);
+  std::vector<uint32_t> leftOut = seeded.seeds, used;
+  std::vector<ConeHit> usedHits;
+  const size_t rayCount = seeded.cone.directions.size();
+  for (size_t i = 0; i < leftOut.size(); ++i) {
+    if (i % 5 == 2) {
+      leftOut[i] = kNoFace;
+      continue;
+    }
+    used.push_back(leftOut[i]);
+    const auto first = seeded.hits.begin() + static_cast<std::ptrdiff_t>(i * rayCount);
+    usedHits.insert(usedHits.end(), first, first + static_cast<std::ptrdiff_t>(rayCount));
+  }
+  for (const double antipodal : {0.0, 0.5}) {
+    const auto predictFrom = [&](const std::vector<uint32_t>& seeds, const std::vector<ConeHit>& hits) {
+      return reprojectHits(seeded.scene(), seeded.graph, seeded.cone, {seeds, hits}, {.antipodal = antipodal}).values;
+    };
+    CHECK(sameBits(predictFrom(leftOut, seeded.hits), predictFrom(used, usedHits)));
+  }
 }
 
 TEST_CASE("without seeds, and with every face a seed, there is one prediction per face all the same") {

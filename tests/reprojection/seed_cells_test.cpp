@@ -44,7 +44,6 @@ void checkCells(const DualGraph& graph, const std::vector<uint32_t>& seeds) {
   const SeedCells cells = buildSeedCells(graph, seeds);
   REQUIRE(cells.cellOf.size() == graph.faceCount());
   REQUIRE(cells.faces.bucketCount() == seeds.size());
-  REQUIRE(cells.neighbours.bucketCount() == seeds.size());
 
   std::vector<uint32_t> nearest(graph.faceCount(), kFar), toOwnSeed(graph.faceCount(), kFar);
   for (uint32_t cell = 0; cell < seeds.size(); ++cell) {
@@ -74,10 +73,11 @@ void checkCells(const DualGraph& graph, const std::vector<uint32_t>& seeds) {
   for (uint32_t face = 0; face < timesListed.size(); ++face)
     CHECK(timesListed[face] == (cells.cellOf[face] == kNoCell ? 0 : 1));
 
+  const NearestCells touched(cells, graph, {.barycentres = std::vector<Vec3d>(graph.faceCount())}, seeds, 200);
   std::set<std::pair<uint32_t, uint32_t>> listed;
   size_t listedCount = 0;
   for (uint32_t cell = 0; cell < seeds.size(); ++cell)
-    for (const uint32_t other : cells.neighbours[cell]) {
+    for (const uint32_t other : touched.of(cell).subspan(1)) {
       listed.emplace(cell, other);
       ++listedCount;
     }
@@ -114,7 +114,6 @@ TEST_CASE("components without a seed, and faces that nothing is next to, have no
   const std::vector<uint32_t> alone{mesh.faceCount() - 1};
   checkCells(graph, alone);
   CHECK(buildSeedCells(graph, alone).faces[0].size() == 1);
-  CHECK(buildSeedCells(graph, alone).neighbours[0].empty());
 }
 
 TEST_CASE("without seeds there are no cells") {
@@ -124,16 +123,39 @@ TEST_CASE("without seeds there are no cells") {
   CHECK(cells.faces.bucketCount() == 0);
 }
 
+TEST_CASE("a seed that is left out has an empty cell, and the others theirs as if it were not there") {
+  const DualGraph graph = buildDualGraph(makeTorus(900).mesh);
+  const FaceGeometry geometry = computeFaceGeometry(makeTorus(900).mesh);
+  std::vector<uint32_t> seeds = randomSeeds(graph.faceCount(), 60, 4), used;
+  for (size_t i = 0; i < seeds.size(); ++i) {
+    if (i % 7 == 3)
+      seeds[i] = kNoFace;
+    else
+      used.push_back(seeds[i]);
+  }
+  const SeedCells all = buildSeedCells(graph, seeds), without = buildSeedCells(graph, used);
+  const NearestCells nearest(all, graph, geometry, seeds, 6);
+  for (uint32_t face = 0; face < graph.faceCount(); ++face)
+    CHECK(seeds[all.cellOf[face]] == used[without.cellOf[face]]);
+  for (uint32_t cell = 0; cell < seeds.size(); ++cell) {
+    CHECK(all.faces[cell].empty() == (seeds[cell] == kNoFace));
+    CHECK(nearest.of(cell).empty() == (seeds[cell] == kNoFace));
+    for (const uint32_t other : nearest.of(cell)) CHECK(seeds[other] != kNoFace);
+  }
+}
+
 TEST_CASE("the nearest cells are the own one, then the neighbours by the distance of their seeds") {
   const Mesh mesh = makeTorus(900).mesh;
   const DualGraph graph = buildDualGraph(mesh);
   const FaceGeometry geometry = computeFaceGeometry(mesh);
   const std::vector<uint32_t> seeds = randomSeeds(mesh.faceCount(), 60, 5);
   const SeedCells cells = buildSeedCells(graph, seeds);
+  const NearestCells allCells(cells, graph, geometry, seeds, 100);
   for (const size_t neighbourCount : {size_t{0}, size_t{1}, size_t{6}, size_t{1000}}) {
+    const NearestCells nearestCells(cells, graph, geometry, seeds, neighbourCount);
     for (uint32_t cell = 0; cell < seeds.size(); ++cell) {
-      const std::vector<uint32_t> nearest = nearestCells(cells, geometry, seeds, cell, neighbourCount);
-      const std::span<const uint32_t> all = cells.neighbours[cell];
+      const std::span<const uint32_t> nearest = nearestCells.of(cell);
+      const std::span<const uint32_t> all = allCells.of(cell).subspan(1);
       REQUIRE(nearest.size() == 1 + std::min(neighbourCount, all.size()));
       CHECK(nearest[0] == cell);
       const auto distance = [&](uint32_t other) {
@@ -157,6 +179,4 @@ TEST_CASE("cells do not depend on the number of threads") {
   const SeedCells one = buildSeedCells(graph, seeds);
   CHECK(many.cellOf == one.cellOf);
   CHECK(many.faces.entries == one.faces.entries);
-  CHECK(many.neighbours.entries == one.neighbours.entries);
-  CHECK(many.neighbours.offsets == one.neighbours.offsets);
 }

@@ -6,8 +6,8 @@
 #include "core/random.h"
 #include "mesh/coincident_faces.h"
 #include "mesh/dual_graph.h"
-#include "reprojection/gathered_hits.h"
 #include "reprojection/seed_cells.h"
+#include "reprojection/traced_cones.h"
 #include "trace/reference_tracer.h"
 
 namespace asdfvk::test {
