@@ -93,10 +93,12 @@ Interpolated Interpolation::run(const TracedSeeds& traced, std::vector<double> p
   result.prediction = std::move(prediction);
   result.values = traced.values;
   const std::vector<ComponentValues> known = componentValues(prepared_.components, traced);
-  const std::vector<double> guess = firstGuess(prepared_.components, known, result.prediction);
-  const PoissonSystem system =
-      buildPoissonSystem(prepared_.graph, arcWeightsOnce(), traced.values, divergence(result.prediction),
-                         {.secondOrder = options_.interpolation.secondOrder, .firstGuess = guess});
+  const auto buildSystem = [&] {
+    const std::vector<double> guess = firstGuess(prepared_.components, known, result.prediction);
+    return buildPoissonSystem(prepared_.graph, arcWeightsOnce(), traced.values, divergence(result.prediction),
+                              {.secondOrder = options_.interpolation.secondOrder, .firstGuess = guess});
+  };
+  const PoissonSystem system = buildSystem();
   result.solver = solve(system, result.values, options_.solverOptions, control);
   if (!result.prediction.empty()) keepWithinTraced(prepared_.components, known, result);
   if (const double pooling = options_.interpolation.pooling; pooling > 0)

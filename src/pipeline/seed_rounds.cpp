@@ -57,7 +57,7 @@ SeedRounds::SeedRounds(const Mesh& mesh, const PreparedMesh& prepared, const Opt
       estimates_(options.estimatesError || options.rounds.maxError.has_value() || options.isAdaptive),
       placed_(prepared.geometry.areas.size()),
       probes_(placed_),
-      traced_(placed_) {}
+      traced_(0) {}
 
 void SeedRounds::run(const RunControl& control) {
   const uint64_t count = resolveSeedCount(options_.seeds, prepared_.castableFaces.size());

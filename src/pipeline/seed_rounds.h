@@ -64,7 +64,7 @@ class SeedRounds {
   SeedChoice chosen_;
   TracedSeeds placed_;  ///< Scouts among them once they are traced.
   TracedSeeds probes_;
-  TracedSeeds traced_;  ///< Both.
+  TracedSeeds traced_;  ///< Both; without a face before the first round is over.
   Interpolated result_;
   std::optional<EstimatedErrors> errors_;
   double interpolationSeconds_ = 0;  ///< What the last round spent on other things than rays.
