@@ -2,203 +2,87 @@
 
 #include <doctest/doctest.h>
 
-#include <algorithm>
-#include <cmath>
-#include <string>
+#include <memory>
+#include <vector>
 
 #include "generate/shapes.h"
-#include "pipeline/average_error.h"
+#include "trace/reference_tracer.h"
 
 using namespace asdfvk;
-using test::averageError;
-using test::referenceSession;
 
 namespace {
 
-Result compute(Mesh mesh, const Options& options) { return referenceSession().compute(mesh, options); }
+/// Counts calls and passes them on, until it is let go of.
+class CountingTracer final : public ConeTracer {
+ public:
+  CountingTracer(const TraceScene& scene, const Cone& cone, uint32_t& callCount)
+      : tracer_(makeReferenceTracer(scene, cone)), callCount_(callCount) {}
 
-/// Begins with two percent, as the command line does.
-Options roundsUntil(double maxError) {
-  Options options;
-  options.seeds.share = 0.02;
-  options.rounds.maxError = maxError;
-  return options;
-}
+  TraceStatistics trace(std::span<const uint32_t> seedFaces, const ConeResults& results,
+                        const RunControl& control) override {
+    ++callCount_;
+    return tracer_->trace(seedFaces, results, control);
+  }
 
-Options roundsFor(double seconds) {
-  Options options;
-  options.seeds.share = 0.02;
-  options.rounds.timeBudgetSeconds = seconds;
-  return options;
-}
+ private:
+  std::unique_ptr<ConeTracer> tracer_;
+  uint32_t& callCount_;
+};
 
-uint64_t markedCount(const Result& result) {
-  return static_cast<uint64_t>(std::count(result.isSeed.begin(), result.isSeed.end(), 1));
-}
+struct Outcome {
+  uint32_t lastRayCount = 0;  ///< Calls of afterLastRay.
+  uint32_t callCount = 0;     ///< Of the tracer.
+  uint32_t callCountAtLastRay = 0;
+  uint32_t roundCount = 0;
+  uint64_t seedCount = 0, faceCount = 0;
+};
 
-bool isWithin(const std::vector<uint8_t>& few, const std::vector<uint8_t>& many) {
-  for (size_t face = 0; face < few.size(); ++face)
-    if (few[face] && !many[face]) return false;
-  return true;
-}
-
-/// Spheres in a row, more than there are seeds in the first round.
-Mesh manySpheres() {
-  Mesh mesh = makeAnimal(1500).mesh;
-  for (int i = 0; i < 30; ++i)
-    mesh = test::joined(mesh, makeSphere(80, {.radius = 0.1 + 0.01 * i}).mesh, {3.0 + i, 0, 0});
-  return mesh;
+Outcome run(const Options& options) {
+  Mesh mesh = makeTorus(4000).mesh;
+  const PreparedMesh prepared = prepareMesh(mesh, Orientation::Keep);
+  const Bvh bvh = buildBvh(mesh, prepared.geometry, prepared.representatives);
+  const TraceScene scene{mesh, prepared.geometry, prepared.representatives, bvh};
+  const Cone cone = makeCone(options.cone);
+  ComputeBackend backend({.backend = Backend::Reference});
+  std::vector<std::string> warnings;
+  Outcome outcome;
+  CountingTracer tracer(scene, cone, outcome.callCount);
+  SeedTracing tracing(prepared, tracer, cone.directions.size(), true);
+  Interpolation interpolation(prepared, scene, cone, options, backend, warnings);
+  const Stopwatch clock;
+  StageSeconds seconds;
+  SeedRounds rounds(mesh, prepared, options, tracing, interpolation, clock, seconds, [&] {
+    ++outcome.lastRayCount;
+    outcome.callCountAtLastRay = outcome.callCount;
+  });
+  rounds.run({});
+  outcome.faceCount = mesh.faces.size();
+  outcome.roundCount = rounds.roundCount();
+  outcome.seedCount = rounds.traced().faces.size();
+  return outcome;
 }
 
 }  // namespace
 
-TEST_CASE("rounds go on until the error is as small as asked for, and it is") {
-  for (const std::string name : {"animal", "hand"}) {
-    CAPTURE(name);
-    const Mesh mesh = generateShape(name, 4000).mesh;
-    const std::vector<double> truth = test::tracedEverywhere(mesh);
-    for (const double maxError : {0.015, 0.01}) {
-      const Result result = compute(mesh, roundsUntil(maxError));
-      REQUIRE(result.report.estimatedError);
-      const ErrorEstimate& estimate = *result.report.estimatedError;
-      const double real = averageError(result.sdf, truth);
-      MESSAGE(name, ": asked for ", maxError, ", really ", real, " with ", result.report.seedCount, " seeds in ",
-              result.report.roundCount, " rounds");
-      CHECK(estimate.average <= maxError);
-      CHECK(estimate.standardError > 0);
-      CHECK(real <= 1.2 * maxError);
-      CHECK(result.report.roundCount > 1);
-      CHECK(result.report.roundCount < 10);
-      CHECK(result.report.seedCount < mesh.faces.size());
-      CHECK(markedCount(result) == result.report.seedCount);
-      CHECK(result.report.rayCount == 30 * result.report.seedCount);
-    }
+TEST_CASE("the last ray is told of once, and none is cast after it, in one round and in two") {
+  for (const bool isAdaptive : {false, true}) {
+    CAPTURE(isAdaptive);
+    Options options;
+    options.isAdaptive = isAdaptive;
+    const Outcome outcome = run(options);
+    CHECK(outcome.roundCount == (isAdaptive ? 2u : 1u));
+    CHECK(outcome.lastRayCount == 1);
+    CHECK(outcome.callCountAtLastRay == outcome.callCount);
+    CHECK(outcome.callCount >= 3);  // Placed seeds, probes and scouts.
+    CHECK(outcome.seedCount == (outcome.faceCount + 5) / 10);
   }
 }
 
-TEST_CASE("a first round that is good enough is the only one") {
-  const Mesh mesh = makeAnimal(2500).mesh;
-  const Result result = compute(mesh, roundsUntil(0.5));
-  CHECK(result.report.roundCount == 1);
-  CHECK(result.report.seedCount == 51);
-  Options plain = roundsUntil(0.5);
-  plain.rounds = {};
-  CHECK(compute(mesh, plain).sdf == result.sdf);
-}
-
-TEST_CASE("a further round keeps all seeds of the rounds before, whatever the sampler") {
-  const Mesh mesh = makeAnimal(2500).mesh;
-  for (const SamplerKind sampler : {SamplerKind::Random, SamplerKind::DepthFirst, SamplerKind::BlueNoise,
-                                    SamplerKind::FarthestPoint, SamplerKind::NormalSpace}) {
-    CAPTURE(static_cast<int>(sampler));
-    Options options = roundsUntil(0.9);
-    options.sampler = sampler;
-    const Result first = compute(mesh, options);
-    CHECK(first.report.roundCount == 1);
-    for (const double maxError : {0.02, 0.012}) {
-      options.rounds.maxError = maxError;
-      const Result further = compute(mesh, options);
-      CHECK(further.report.roundCount > 1);
-      CHECK(further.report.seedCount > first.report.seedCount);
-      CHECK(isWithin(first.isSeed, further.isSeed));
-      for (size_t face = 0; face < mesh.faces.size(); ++face)
-        if (first.isSeed[face]) CHECK(further.sdf[face] == first.sdf[face]);
-    }
-  }
-}
-
-TEST_CASE("too much asked for ends with every face a seed, without an error left to estimate") {
-  const Mesh mesh = makeTorus(1000).mesh;
-  const Result result = compute(mesh, roundsUntil(1e-9));
-  CHECK(result.report.seedCount == mesh.faces.size());
-  CHECK(markedCount(result) == mesh.faces.size());
-  CHECK_FALSE(result.report.estimatedError.has_value());
-  CHECK(result.sdf == test::tracedEverywhere(mesh));
-}
-
-TEST_CASE("seeds that a round gave to components without one are not chosen again") {
-  const Mesh mesh = manySpheres();
-  for (const SamplerKind sampler : {SamplerKind::Random, SamplerKind::BlueNoise}) {
-    CAPTURE(static_cast<int>(sampler));
-    for (const double maxError : {0.005, 1e-9}) {
-      Options options = roundsUntil(maxError);
-      options.seeds.share = 0.005;
-      options.sampler = sampler;
-      const Result result = compute(mesh, options);
-      CHECK(result.report.roundCount > 1);
-      CHECK(result.report.seedCount == markedCount(result));
-      CHECK(result.report.noValueCount == 0);
-    }
-    Options adaptive;
-    adaptive.seeds.share = 0.02;
-    adaptive.isAdaptive = true;
-    adaptive.sampler = sampler;
-    const Result result = compute(mesh, adaptive);
-    CHECK(result.report.seedCount == markedCount(result));
-  }
-}
-
-TEST_CASE("a budget that is spent at once makes one round, a large one takes every face") {
-  const Mesh mesh = makeAnimal(2500).mesh;
-  const Result spent = compute(mesh, roundsFor(1e-9));
-  CHECK(spent.report.roundCount == 1);
-  CHECK(spent.report.seedCount == 51);
-  CHECK(spent.report.noValueCount == 0);
-  const Result rich = compute(mesh, roundsFor(1000));
-  CHECK(rich.report.roundCount == 2);
-  CHECK(rich.report.seedCount == mesh.faces.size());
-  CHECK(compute(mesh, roundsFor(1e300)).report.seedCount == mesh.faces.size());
-}
-
-TEST_CASE("of a budget and an error, what is reached first ends the rounds") {
-  const Mesh mesh = makeAnimal(2500).mesh;
-  Options options = roundsUntil(1e-9);
-  options.rounds.timeBudgetSeconds = 1e-9;
-  CHECK(compute(mesh, options).report.roundCount == 1);
-  options.rounds.timeBudgetSeconds = 1000;
-  options.rounds.maxError = 0.5;
-  CHECK(compute(mesh, options).report.roundCount == 1);
-}
-
-TEST_CASE("the adaptive sampler casts as many rays in two rounds, and errs no more") {
-  const Mesh mesh = makeHand(4000).mesh;
-  const std::vector<double> truth = test::tracedEverywhere(mesh);
-  Options adaptive;
-  adaptive.isAdaptive = true;
-  const Result blueNoise = compute(mesh, {}), twoPasses = compute(mesh, adaptive);
-  CHECK(twoPasses.report.roundCount == 2);
-  CHECK(twoPasses.report.seedCount == blueNoise.report.seedCount);
-  CHECK(twoPasses.isSeed != blueNoise.isSeed);
-  CHECK(averageError(twoPasses.sdf, truth) < 1.1 * averageError(blueNoise.sdf, truth));
-  Options all = adaptive;
-  all.seeds.kind = SeedCount::Kind::All;
-  CHECK(compute(mesh, all).report.roundCount == 1);
-}
-
-TEST_CASE("which faces are seeds at random does not depend on the estimate") {
-  const Mesh mesh = makeAnimal(2500).mesh;
+TEST_CASE("while further rounds may follow no ray is the last one") {
   Options options;
-  applyRecipe(Recipe::Paper, options);
-  const Result with = compute(mesh, options);
-  options.estimatesError = false;
-  const Result without = compute(mesh, options);
-  CHECK(with.isSeed == without.isSeed);
-  CHECK(with.sdf == without.sdf);
-}
-
-TEST_CASE("rounds give the same bits each time") {
-  const Mesh mesh = makeAnimal(2500).mesh;
-  const Result one = compute(mesh, roundsUntil(0.015)), two = compute(mesh, roundsUntil(0.015));
-  CHECK(one.sdf == two.sdf);
-  CHECK(one.isSeed == two.isSeed);
-  CHECK(one.expectedError == two.expectedError);
-}
-
-TEST_CASE("rounds can be stopped between one and the next, and their progress ends at 1") {
-  Mesh mesh = makeAnimal(2500).mesh;
-  std::vector<double> fractions;
-  const RunControl watched{{}, [&](double fraction) { fractions.push_back(fraction); }};
-  (void)referenceSession().compute(mesh, roundsUntil(0.015), watched);
-  CHECK(std::is_sorted(fractions.begin(), fractions.end()));
-  CHECK(fractions.back() == 1);
+  options.rounds.maxError = 0.004;
+  options.seeds.share = 0.02;
+  const Outcome outcome = run(options);
+  CHECK(outcome.roundCount > 1);
+  CHECK(outcome.lastRayCount == 0);
 }
