@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <utility>
 
 #include "core/error.h"
 #include "seeds/blue_noise.h"
@@ -52,8 +53,11 @@ SeedShares shareOut(uint64_t count, uint64_t earlierProbeCount, bool predicts) {
 SeedChoice chooseSeeds(const PreparedMesh& prepared, const Options& options, const SeedShares& shares,
                        const SeedChoice& earlier, std::span<const double> weight) {
   // Placed seeds keep away from each other and not from probes, which must be like any other face to them.
-  const std::vector<uint32_t> candidates = without(prepared.castableFaces, earlier.probes);
-  const SeedDomain domain{prepared.graph, prepared.geometry, candidates};
+  std::vector<uint32_t> notProbes;
+  if (!earlier.probes.empty()) notProbes = without(prepared.castableFaces, earlier.probes);
+  const SeedDomain domain{
+      prepared.graph, prepared.geometry,
+      earlier.probes.empty() ? std::span(prepared.castableFaces) : std::span(std::as_const(notProbes))};
   SeedChoice choice;
   if (options.sampler == SamplerKind::Random) {
     // All are placed at random: any of them can be probes, and which seeds there are does not depend on an estimate.

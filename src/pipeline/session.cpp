@@ -6,6 +6,7 @@
 #include "bvh/bvh.h"
 #include "core/counted.h"
 #include "core/error.h"
+#include "core/freed_memory.h"
 #include "core/median.h"
 #include "core/stopwatch.h"
 #include "pipeline/asdf.h"
@@ -139,8 +140,16 @@ Result Session::compute(Mesh& mesh, const Options& options, const RunControl& co
   Interpolation interpolation(prepared, scene, cone, options, backend, report.warnings);
   const auto afterLastRay = [&] {
     tracer.reset();
+<<<<<<< HEAD
     if (options.checkCount) return;  // Which casts rays of its own.
     bvh.nodes = {};  // Not the order of its faces, by which neighbours are predicted together.
+=======
+    if (!options.checkCount) {  // Which casts rays of its own.
+      bvh.nodes = {};
+      bvh.slotFaces = {};
+    }
+    returnFreedMemory();
+>>>>>>> wip-big
   };
   SeedRounds rounds(mesh, prepared, options, tracing, interpolation, clock, seconds, afterLastRay);
   rounds.run(control.part(0, roundsEnd));
