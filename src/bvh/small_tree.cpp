@@ -6,7 +6,8 @@
 #include <utility>
 
 #include "core/check.h"
-#include "core/lanes.h"
+#include "core/instruction_set.h"
+#include "core/octet.h"
 
 namespace asdfvk {
 
@@ -22,13 +23,11 @@ SmallTree::SmallTree(std::span<const SplitTriangle> triangles, uint32_t maxLeafT
   }
   while (clusters.count > 2) {
     Nearest nearest;
-#ifdef __x86_64__
-    static const bool hasAvx2 = __builtin_cpu_supports("avx2");
-    if (hasAvx2)
+    if (hasInstructionSet(InstructionSet::Avx2)) {
       findNearestWithAvx2(clusters, nearest);
-    else
-#endif
+    } else {
       findNearest<Quad, QuadIntegers>(clusters, nearest);
+    }
     const uint32_t count = std::exchange(clusters.count, 0);
     for (uint32_t i = 0; i < count; ++i) {
       const auto other = static_cast<uint32_t>(nearest[i]);
@@ -81,8 +80,10 @@ template <typename Floats, typename Integers>
 #ifdef __x86_64__
 // The same operations, hence the same bits, in fewer instructions.
 [[gnu::target("avx2")]] void SmallTree::findNearestWithAvx2(const Clusters& clusters, Nearest& nearest) {
-  findNearest<Lanes, LaneMask>(clusters, nearest);
+  findNearest<Octet, OctetIntegers>(clusters, nearest);
 }
+#else
+void SmallTree::findNearestWithAvx2(const Clusters&, Nearest&) { ASDFVK_CHECK(false); }
 #endif
 
 uint32_t SmallTree::merge(uint32_t left, uint32_t right) {

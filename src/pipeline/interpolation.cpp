@@ -82,34 +82,23 @@ void Interpolation::predict(const TracedCones& traced, StageSeconds& seconds) {
 Interpolated Interpolation::run(std::span<const double> known, StageSeconds& seconds, const RunControl& control) {
   const Stopwatch watch;
   Interpolated result;
-<<<<<<< HEAD
   result.values.assign(known.begin(), known.end());
   result.solver.name = "none";
   const std::span<const double> predicted = prediction();
   const bool hasAll = std::all_of(known.begin(), known.end(), [](double v) { return std::isfinite(v); });
   if (!hasAll) {
     const std::vector<ComponentValues> traced = componentValues(prepared_.components, known);
-    const std::vector<double> guess = firstGuess(prepared_.components, traced, predicted);
-    const PoissonSystem system = buildPoissonSystem(prepared_.graph, weights(), known, divergence(),
-                                                    {.secondOrder = options_.interpolation.secondOrder,
-                                                     .firstGuess = guess,
-                                                     .componentOf = prepared_.components.componentOf});
+    const auto buildSystem = [&] {  // The first guess goes with it.
+      const std::vector<double> guess = firstGuess(prepared_.components, traced, predicted);
+      return buildPoissonSystem(prepared_.graph, weights(), known, divergence(),
+                                {.secondOrder = options_.interpolation.secondOrder,
+                                 .firstGuess = guess,
+                                 .componentOf = prepared_.components.componentOf});
+    };
+    const PoissonSystem system = buildSystem();
     result.solver = solve(system, result.values, options_.solverOptions, control);
     if (!predicted.empty()) keepWithinTraced(prepared_.components, traced, predicted, result.values);
   }
-=======
-  result.prediction = std::move(prediction);
-  result.values = traced.values;
-  const std::vector<ComponentValues> known = componentValues(prepared_.components, traced);
-  const auto buildSystem = [&] {
-    const std::vector<double> guess = firstGuess(prepared_.components, known, result.prediction);
-    return buildPoissonSystem(prepared_.graph, arcWeightsOnce(), traced.values, divergence(result.prediction),
-                              {.secondOrder = options_.interpolation.secondOrder, .firstGuess = guess});
-  };
-  const PoissonSystem system = buildSystem();
-  result.solver = solve(system, result.values, options_.solverOptions, control);
-  if (!result.prediction.empty()) keepWithinTraced(prepared_.components, known, result);
->>>>>>> wip-big
   if (const double pooling = options_.interpolation.pooling; pooling > 0)
     for (size_t face = 0; face < predicted.size(); ++face)
       if (std::isfinite(predicted[face]) && std::isfinite(result.values[face]))

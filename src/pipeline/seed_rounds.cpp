@@ -74,13 +74,7 @@ SeedRounds::SeedRounds(const Mesh& mesh, const PreparedMesh& prepared, const Opt
       seconds_(seconds),
       afterLastRay_(std::move(afterLastRay)),
       estimates_(options.estimatesError || options.rounds.maxError.has_value() || options.isAdaptive),
-<<<<<<< HEAD
       traced_(prepared.geometry.areas.size()) {}
-=======
-      placed_(prepared.geometry.areas.size()),
-      probes_(placed_),
-      traced_(0) {}
->>>>>>> wip-big
 
 void SeedRounds::run(const RunControl& control) {
   const uint64_t count = resolveSeedCount(options_.seeds, prepared_.castableFaces.size());

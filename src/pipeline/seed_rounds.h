@@ -61,14 +61,8 @@ class SeedRounds {
   bool estimates_;
 
   SeedChoice chosen_;
-<<<<<<< HEAD
   TracedSeeds traced_;
   std::vector<uint32_t> probes_;  ///< Of the seeds traced: those that were chosen at random to judge by.
-=======
-  TracedSeeds placed_;  ///< Scouts among them once they are traced.
-  TracedSeeds probes_;
-  TracedSeeds traced_;  ///< Both; without a face before the first round is over.
->>>>>>> wip-big
   Interpolated result_;
   std::optional<EstimatedErrors> errors_;
   double interpolationSeconds_ = 0;  ///< What the last round spent on other things than rays.

@@ -140,16 +140,8 @@ Result Session::compute(Mesh& mesh, const Options& options, const RunControl& co
   Interpolation interpolation(prepared, scene, cone, options, backend, report.warnings);
   const auto afterLastRay = [&] {
     tracer.reset();
-<<<<<<< HEAD
-    if (options.checkCount) return;  // Which casts rays of its own.
-    bvh.nodes = {};  // Not the order of its faces, by which neighbours are predicted together.
-=======
-    if (!options.checkCount) {  // Which casts rays of its own.
-      bvh.nodes = {};
-      bvh.slotFaces = {};
-    }
+    if (!options.checkCount) bvh.nodes = {};  // A check casts rays of its own, and their order is asked for later.
     returnFreedMemory();
->>>>>>> wip-big
   };
   SeedRounds rounds(mesh, prepared, options, tracing, interpolation, clock, seconds, afterLastRay);
   rounds.run(control.part(0, roundsEnd));

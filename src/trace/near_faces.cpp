@@ -4,12 +4,10 @@
 #include <cstring>
 
 #include "core/check.h"
-#include "core/lanes.h"
+#include "core/octet.h"
 
 namespace asdfvk {
 namespace {
-
-static_assert(kLaneCount == 8);
 
 /// One walk of the hierarchy for all points: neighbours meet mostly the same nodes.
 class NeighbourWalk {
@@ -17,19 +15,19 @@ class NeighbourWalk {
   [[gnu::always_inline]] NeighbourWalk(const TraceScene& scene, std::span<const SlotPlane> planes,
                                        std::span<const SlotPoint> points, double radius)
       : scene_(scene), planes_(planes), points_(points), radius_(radius) {
-    ASDFVK_CHECK_OP(points.size(), <=, kLaneCount);
+    ASDFVK_CHECK_OP(points.size(), <=, kOctetSize);
     // float32 moves the points; the boxes hold the triangles as doubles too.
     const double reach = radius + 0x1p-23;
     for (size_t axis = 0; axis < 3; ++axis)
-      for (size_t lane = 0; lane < kLaneCount; ++lane) {
+      for (size_t lane = 0; lane < kOctetSize; ++lane) {
         const double centre = lane < points.size() ? points[lane].point[axis] : 4;  // Outside of every box.
         low_[axis][lane] = static_cast<float>(centre - reach);
         high_[axis][lane] = static_cast<float>(centre + reach);
       }
   }
 
-  [[gnu::always_inline]] std::array<bool, kLaneCount> run() {
-    const std::vector<BvhNode>& nodes = scene_.bvh.nodes;
+  [[gnu::always_inline]] std::array<bool, kOctetSize> run() {
+    const std::span<const BvhNode> nodes = scene_.bvh.nodes;
     std::array<uint32_t, kMaxBvhDepth + 1> stack;
     size_t stackSize = 0;
     if (!nodes.empty()) stack[stackSize++] = 0;
@@ -54,21 +52,21 @@ class NeighbourWalk {
   }
 
  private:
-  [[gnu::always_inline]] void overlap(LaneMask& isIn, const BvhNode& node) const {
+  [[gnu::always_inline]] void overlap(OctetIntegers& isIn, const BvhNode& node) const {
     isIn = (low_[0] <= node.max.x) & (low_[1] <= node.max.y) & (low_[2] <= node.max.z) & (high_[0] >= node.min.x) &
            (high_[1] >= node.min.y) & (high_[2] >= node.min.z);
   }
 
   [[nodiscard, gnu::always_inline]] bool isAnyIn(const BvhNode& node) const {
-    LaneMask mask;
+    OctetIntegers mask;
     overlap(mask, node);
-    uint64_t words[kLaneCount / 2];
+    uint64_t words[kOctetSize / 2];
     std::memcpy(words, &mask, sizeof mask);
     return (words[0] | words[1] | words[2] | words[3]) != 0;
   }
 
   [[gnu::always_inline]] void testLeaf(const BvhNode& leaf) {
-    LaneMask isIn;
+    OctetIntegers isIn;
     overlap(isIn, leaf);
     for (size_t lane = 0; lane < points_.size(); ++lane) {
       if (isIn[lane] == 0 || isFound_[lane]) continue;
@@ -95,18 +93,18 @@ class NeighbourWalk {
   std::span<const SlotPlane> planes_;
   std::span<const SlotPoint> points_;
   double radius_;
-  std::array<Lanes, 3> low_{}, high_{};  // The boxes around the points.
-  std::array<bool, kLaneCount> isFound_{};
+  std::array<Octet, 3> low_{}, high_{};  // The boxes around the points.
+  std::array<bool, kOctetSize> isFound_{};
 };
 
 #ifdef __x86_64__
-[[gnu::target("avx2")]] std::array<bool, kLaneCount> walkWithAvx2(const TraceScene& scene,
+[[gnu::target("avx2")]] std::array<bool, kOctetSize> walkWithAvx2(const TraceScene& scene,
                                                                   std::span<const SlotPlane> planes,
                                                                   std::span<const SlotPoint> points, double radius) {
   return NeighbourWalk(scene, planes, points, radius).run();
 }
 #else
-std::array<bool, kLaneCount> walkWithAvx2(const TraceScene&, std::span<const SlotPlane>, std::span<const SlotPoint>,
+std::array<bool, kOctetSize> walkWithAvx2(const TraceScene&, std::span<const SlotPlane>, std::span<const SlotPoint>,
                                           double) {
   ASDFVK_CHECK(false);
   return {};
