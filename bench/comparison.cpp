@@ -1,9 +1,9 @@
 #include "comparison.h"
 
 #include <algorithm>
+#include <functional>
 
 #include "bare_embree.h"
-#include "bvh/device_bvh.h"
 #include "cgal_sdf.h"
 #include "cli/choice_names.h"
 #include "cli/option_values.h"
@@ -61,33 +61,25 @@ class Contest {
 
   std::string deviceOf(const std::string& backend) const { return backends_.at(backend)->deviceName(); }
 
-  void measureBuild(Comparison& comparison) const {
-    for (const auto& [name, layout] : kBvhLayouts) {
-      if (!layout) continue;
-      const Stopwatch ours;
-      const Bvh bvh = buildBvh(mesh_, prepared_.geometry, prepared_.representatives);
-      static_cast<void>(encodeDeviceBvh(bvh, mesh_, prepared_.geometry, *layout));
-      comparison.build[name].push_back(ours.seconds());
-    }
-    if (!bareEmbree_) return;
-    Bvh unordered;  // Embree, too, gets the mesh as it is.
-    unordered.normalization = bvh_.normalization;
-    unordered.slotFaces = bvh_.slotFaces;
-    std::sort(unordered.slotFaces.begin(), unordered.slotFaces.end());
-    const TraceScene unorderedScene{mesh_, prepared_.geometry, prepared_.representatives, unordered};
-    const Stopwatch embrees;
-    static_cast<void>(makeBareEmbree(unorderedScene, cone_, BareMode::Fastest));
-    comparison.embreeBuild.push_back(embrees.seconds());
-  }
-
-  void measure(SeedComparison& comparison, const RunControl& control) {
+  void measure(SeedComparison& comparison, uint32_t round, const RunControl& control) {
     const std::vector<uint32_t> seeds = chooseSeeds(comparison.seeds);
     comparison.rayCount = seeds.size() * cone_.directions.size();
-    for (const auto& [name, tracer] : tracers_) {
-      std::vector<double> values(seeds.size());
-      const Stopwatch trace;
-      static_cast<void>(tracer->trace(seeds, {values}, control));
-      comparison.trace[name].push_back(trace.seconds());
+    std::vector<std::pair<std::string, std::function<void()>>> traces;
+    for (const auto& [name, tracer] : tracers_)
+      traces.emplace_back(name, [&, &traceOne = *tracer] {
+        std::vector<double> values(seeds.size());
+        static_cast<void>(traceOne.trace(seeds, {values}, control));
+      });
+    if (bareEmbree_) {
+      traces.emplace_back(kBareEmbree, [&] { static_cast<void>(bareEmbree_->trace(seeds)); });
+      traces.emplace_back(kRobustEmbree, [&] { static_cast<void>(robustEmbree_->trace(seeds)); });
+    }
+    // Another one begins in each round: the first finds the caches full of other things.
+    std::rotate(traces.begin(), traces.begin() + round % static_cast<uint32_t>(traces.size()), traces.end());
+    for (const auto& [name, trace] : traces) {
+      const Stopwatch watch;
+      trace();
+      comparison.trace[name].push_back(watch.seconds());
     }
     for (const auto& [name, session] : sessions_) {
       for (const Recipe recipe : {Recipe::Paper, Recipe::Balanced})
@@ -95,13 +87,6 @@ class Contest {
             computeSeconds(*session, comparison.seeds, recipe, control));
       comparison.whole[{name, "process, file to file"}].push_back(processSeconds(name, comparison.seeds));
     }
-    if (!bareEmbree_) return;
-    const Stopwatch bare;
-    static_cast<void>(bareEmbree_->trace(seeds));
-    comparison.trace[kBareEmbree].push_back(bare.seconds());
-    const Stopwatch robust;
-    static_cast<void>(robustEmbree_->trace(seeds));
-    comparison.trace[kRobustEmbree].push_back(robust.seconds());
   }
 
  private:
@@ -151,8 +136,6 @@ class Contest {
 
 /// What a round that is not counted leaves.
 void forgetTimes(Comparison& comparison) {
-  comparison.build.clear();
-  comparison.embreeBuild.clear();
   for (SeedComparison& seeds : comparison.seeds) {
     seeds.trace.clear();
     seeds.whole.clear();
@@ -170,12 +153,11 @@ Spread ratioOf(const Seconds& b, const Seconds& a) {
 Comparison compare(const std::string& path, const ComparisonRequest& request, const RunControl& control) {
   Mesh mesh = readMesh(path);
   Contest contest(path, mesh, request);
-  Comparison comparison{path, mesh.inputFaceCount(), {}, {}, {}, {}, {}};
+  Comparison comparison{path, mesh.inputFaceCount(), request.roundCount, {}, {}, {}};
   for (const std::string& name : fastBackends()) comparison.devices[name] = contest.deviceOf(name);
   for (const std::string& seeds : request.seeds) comparison.seeds.push_back({seeds, 0, {}, {}});
   for (uint32_t round = 0; round <= request.roundCount; ++round) {
-    contest.measureBuild(comparison);
-    for (SeedComparison& seeds : comparison.seeds) contest.measure(seeds, control);
+    for (SeedComparison& seeds : comparison.seeds) contest.measure(seeds, round, control);
     if (round == 0) forgetTimes(comparison);
   }
   for (uint32_t run = 0; run < request.cgalRunCount; ++run) {

@@ -40,11 +40,10 @@ struct SeedComparison {
 struct Comparison {
   std::string mesh;
   uint64_t faceCount = 0;
+  uint32_t roundCount = 0;
   std::map<std::string, std::string> devices;  ///< By backend.
   std::vector<SeedComparison> seeds;
-  std::map<std::string, Seconds> build;  ///< Our hierarchy with a layout for devices, by layout.
-  Seconds embreeBuild;                   ///< Embree's scene; empty without Embree.
-  Seconds cgal;                          ///< Empty without CGAL, and for a mesh that it refuses.
+  Seconds cgal;  ///< Empty without CGAL, and for a mesh that it refuses.
 };
 
 /// Everything turn by turn, after a round that is not counted; CGAL once at the end.

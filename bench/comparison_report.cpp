@@ -31,8 +31,6 @@ std::optional<Spread> cgalOver(const Comparison& comparison, const Seconds& ours
   return ratioOf(Seconds(ours.size(), spreadOf(comparison.cgal).median), ours);
 }
 
-size_t roundCount(const Comparison& comparison) { return comparison.build.begin()->second.size(); }
-
 std::string cell(const std::optional<Spread>& spread, int decimals) {
   return spread ? toText(*spread, decimals) : std::string("-");
 }
@@ -45,19 +43,6 @@ std::string traceRow(const std::string& seeds, const std::string& tracer, const 
 std::string wholeRow(const std::string& seeds, const std::string& backend, const std::string& what,
                      const std::string& seconds, const std::string& overCgal) {
   return fmt::format("| {:<5} | {:<7} | {:<24} | {:>13} | {:>12} |\n", seeds, backend, what, seconds, overCgal);
-}
-
-std::string buildLines(const Comparison& comparison) {
-  std::string text = "\n";
-  for (const auto& [layout, seconds] : comparison.build) {
-    text += fmt::format("hierarchy, built and encoded as {}: {} s", layout, toText(spreadOf(seconds), 4));
-    if (!comparison.embreeBuild.empty())
-      text += fmt::format(", {} of Embree's scene", toText(ratioOf(seconds, comparison.embreeBuild), 2));
-    text += "\n";
-  }
-  if (!comparison.embreeBuild.empty())
-    text += fmt::format("Embree's scene: {} s\n", toText(spreadOf(comparison.embreeBuild), 4));
-  return text;
 }
 
 std::string cgalLine(const Comparison& comparison) {
@@ -95,7 +80,7 @@ Json jsonOf(const Comparison& comparison, const SeedComparison& seeds) {
 
 std::string comparisonTable(const Comparison& comparison, const Machine& machine) {
   std::string text = fmt::format("{}: {} faces, {} rounds on {}\n", comparison.mesh, groupDigits(comparison.faceCount),
-                                 roundCount(comparison), toText(machine));
+                                 comparison.roundCount, toText(machine));
   for (const auto& [name, device] : comparison.devices) text += fmt::format("{}: {}\n", name, device);
   text += "median ± median absolute deviation\n\n";
   text += traceRow("seeds", "tracer", "Mrays/s", "/ bare Embree");
@@ -111,19 +96,14 @@ std::string comparisonTable(const Comparison& comparison, const Machine& machine
     for (const auto& [key, times] : seeds.whole)
       text += wholeRow(seeds.seeds, key.first, key.second, toText(spreadOf(times), 3),
                        cell(cgalOver(comparison, times), 1));
-  return text + buildLines(comparison) + cgalLine(comparison) + "\n";
+  return text + "\n" + cgalLine(comparison) + "\n";
 }
 
 std::string comparisonJson(const Comparison& comparison, const Machine& machine) {
   Json json{{"mesh", comparison.mesh},      {"faceCount", comparison.faceCount},  {"processor", machine.processor},
-            {"threads", machine.threads},   {"loadAverage", machine.loadAverage}, {"rounds", roundCount(comparison)},
+            {"threads", machine.threads},   {"loadAverage", machine.loadAverage}, {"rounds", comparison.roundCount},
             {"devices", comparison.devices}};
   for (const SeedComparison& seeds : comparison.seeds) json["seeds"].push_back(jsonOf(comparison, seeds));
-  const bool hasEmbreeBuild = !comparison.embreeBuild.empty();
-  for (const auto& [layout, seconds] : comparison.build)
-    json["build"][layout] = {
-        {"seconds", jsonOf(spreadOf(seconds))},
-        {"overEmbree", hasEmbreeBuild ? jsonOf(ratioOf(seconds, comparison.embreeBuild)) : Json(nullptr)}};
   json["cgalSeconds"] = comparison.cgal.empty() ? Json(nullptr) : jsonOf(spreadOf(comparison.cgal));
   return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <ctime>
 #include <functional>
+#include <thread>
 
 #include "bare_embree.h"
 #include "bench_program.h"
@@ -28,7 +29,7 @@ using namespace asdfvk;
 struct Arguments {
   std::vector<std::string> meshes;
   uint32_t roundCount = 9;
-  uint32_t threadCount = 1;
+  uint32_t threadCount = std::max(1u, std::thread::hardware_concurrency());
   size_t walkedSeedCount = 4000;
 };
 
