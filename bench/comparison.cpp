@@ -27,14 +27,18 @@ std::vector<std::string> fastBackends() {
   return hasEmbree() ? std::vector<std::string>{"vulkan", "cpu"} : std::vector<std::string>{"vulkan"};
 }
 
-/// The backends by their names, and the shaders in each kernel.
-std::map<std::string, SessionOptions> contestants(const std::string& device) {
-  std::map<std::string, SessionOptions> all{{"reference", sessionOptionsOf("reference", device)}};
-  for (const std::string& name : fastBackends()) all[name] = sessionOptionsOf(name, device);
+/// The backends by their names, and the kernels that are not the device's own choice.
+std::map<std::string, std::unique_ptr<ComputeBackend>> contestants(const std::string& device) {
+  std::map<std::string, std::unique_ptr<ComputeBackend>> all;
+  all["reference"] = std::make_unique<ComputeBackend>(sessionOptionsOf("reference", device));
+  for (const std::string& name : fastBackends())
+    all[name] = std::make_unique<ComputeBackend>(sessionOptionsOf(name, device));
+  const TraceKernel own = all["vulkan"]->traceChoice()->kernel;
   for (const auto& [name, kernel] : kTraceKernels) {
-    if (!kernel) continue;
-    SessionOptions& options = all[std::string("vulkan ") + name] = sessionOptionsOf("vulkan", device);
+    if (!kernel || kernel == own) continue;
+    SessionOptions options = sessionOptionsOf("vulkan", device);
     options.trace.kernel = kernel;
+    all[std::string("vulkan ") + name] = std::make_unique<ComputeBackend>(options);
   }
   return all;
 }
@@ -50,11 +54,9 @@ class Contest {
         cone_(makeCone({})),
         bvh_(buildBvh(mesh, prepared_.geometry, prepared_.representatives)),
         bareEmbree_(makeBareEmbree(scene(), cone_, BareMode::Fastest)),
-        robustEmbree_(makeBareEmbree(scene(), cone_, BareMode::Robust)) {
-    for (const auto& [name, options] : contestants(request.device)) {
-      backends_[name] = std::make_unique<ComputeBackend>(options);
-      tracers_[name] = backends_[name]->makeTracer(scene(), cone_);
-    }
+        robustEmbree_(makeBareEmbree(scene(), cone_, BareMode::Robust)),
+        backends_(contestants(request.device)) {
+    for (const auto& [name, backend] : backends_) tracers_[name] = backend->makeTracer(scene(), cone_);
     for (const std::string& name : fastBackends())
       sessions_[name] = std::make_unique<Session>(sessionOptionsOf(name, request.device));
   }

@@ -6,12 +6,12 @@
 #include <utility>
 
 #include "core/check.h"
-#include "core/instruction_set.h"
 #include "core/octet.h"
 
 namespace asdfvk {
 
-SmallTree::SmallTree(std::span<const SplitTriangle> triangles, uint32_t maxLeafTriangleCount)
+SmallTree::SmallTree(std::span<const SplitTriangle> triangles, uint32_t maxLeafTriangleCount,
+                     InstructionSet instructionSet)
     : maxLeafTriangleCount_(maxLeafTriangleCount), nodeEnd_(static_cast<uint32_t>(triangles.size())) {
   ASDFVK_CHECK(!triangles.empty() && triangles.size() <= kMaxSmallTreeCount);
   Clusters clusters;
@@ -23,7 +23,7 @@ SmallTree::SmallTree(std::span<const SplitTriangle> triangles, uint32_t maxLeafT
   }
   while (clusters.count > 2) {
     Nearest nearest;
-    if (hasInstructionSet(InstructionSet::Avx2)) {
+    if (instructionSet >= InstructionSet::Avx2) {
       findNearestWithAvx2(clusters, nearest);
     } else {
       findNearest<Quad, QuadIntegers>(clusters, nearest);

@@ -6,6 +6,7 @@
 
 #include "bvh/bvh.h"
 #include "bvh/split_box.h"
+#include "core/instruction_set.h"
 
 namespace asdfvk {
 
@@ -18,7 +19,9 @@ inline constexpr size_t kMaxSmallTreeCount = 8;
 class SmallTree {
  public:
   /// triangles: 1 to kMaxSmallTreeCount. A cluster of up to maxLeafTriangleCount is a leaf where that is no dearer.
-  SmallTree(std::span<const SplitTriangle> triangles, uint32_t maxLeafTriangleCount);
+  /// The same on each instruction set. Precondition: this machine has it.
+  SmallTree(std::span<const SplitTriangle> triangles, uint32_t maxLeafTriangleCount,
+            InstructionSet instructionSet = widestInstructionSet());
 
   struct Node {
     SplitBox box;
@@ -37,7 +40,7 @@ class SmallTree {
   struct Clusters {
     uint32_t count = 0;
     std::array<uint8_t, kMaxSmallTreeCount> nodes;
-    std::array<std::array<float, kMaxSmallTreeCount>, 6> bounds;  // As in SplitBox.
+    std::array<std::array<float, kMaxSmallTreeCount>, 6> bounds{};  // As in SplitBox.
     void add(uint32_t node, const SplitBox& box);
   };
   template <typename Floats, typename Integers>

@@ -175,7 +175,7 @@ void requireAgreement(const CommandLine& line) {
   if (isCpu && (solver == SolverChoice::Cg || solver == SolverChoice::Jacobi))
     refuse(
         "--solver cg and jacobi run on a Vulkan device, which --backend cpu and reference do without; use --solver "
-        "eigen");
+        "cpu");
 }
 
 }  // namespace

@@ -9,7 +9,7 @@ enum class InstructionSet {
   Avx512,
 };
 
-/// Whether this machine has it, and so do the machines that the program was compiled for.
+/// Whether this machine has it; always true of Baseline.
 [[nodiscard]] inline bool hasInstructionSet(InstructionSet instructionSet) {
   if (instructionSet == InstructionSet::Baseline) return true;
 #ifdef __x86_64__

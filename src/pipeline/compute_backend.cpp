@@ -106,7 +106,7 @@ PoissonSolver& ComputeBackend::solver(SolverChoice choice) {
   if (!device_)
     throw Error(
         ErrorKind::Device,
-        "this solver runs on a Vulkan device and the backend on the CPU; use --backend vulkan or --solver eigen");
+        "this solver runs on a Vulkan device and the backend on the CPU; use --backend vulkan or --solver cpu");
   solver = choice == SolverChoice::Cg ? makeVulkanCgSolver(*device_) : makeVulkanJacobiSolver(*device_);
   return *solver;
 }

@@ -22,8 +22,8 @@ struct Interpolated {
 /// The interpolation of one mesh, for any sets of seeds.
 class Interpolation {
  public:
-  /// What it refers to must outlive it. Where the choice of solver is open and the device fails or is too small, Eigen
-  /// solves instead and `warnings` says why.
+  /// What it refers to must outlive it. Where the choice of solver is open and the device fails or is too small, the
+  /// CPU solves instead and `warnings` says why.
   Interpolation(const PreparedMesh& prepared, const TraceScene& scene, const Cone& cone, const Options& options,
                 ComputeBackend& backend, std::vector<std::string>& warnings);
 

@@ -139,9 +139,11 @@ Result Session::compute(Mesh& mesh, const Options& options, const RunControl& co
   SeedTracing tracing(prepared, *tracer, cone.directions.size(), wantsHits);
   Interpolation interpolation(prepared, scene, cone, options, backend, report.warnings);
   const auto afterLastRay = [&] {
+    const Stopwatch watch;
     tracer.reset();
     if (!options.checkCount) bvh.nodes = {};  // A check casts rays of its own, and their order is asked for later.
     returnFreedMemory();
+    seconds.upload += watch.seconds();
   };
   SeedRounds rounds(mesh, prepared, options, tracing, interpolation, clock, seconds, afterLastRay);
   rounds.run(control.part(0, roundsEnd));

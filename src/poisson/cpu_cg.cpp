@@ -13,7 +13,7 @@ namespace {
 
 constexpr size_t kBlock = 4096;  // Rows; small enough for every core of a big machine to get some of a small mesh.
 constexpr size_t kChunk = 256;   // Rows that are multiplied and then summed while the first cache has them.
-constexpr size_t kLaneCount = 8;
+constexpr size_t kSumCount = 8;
 
 }  // namespace
 
@@ -63,7 +63,7 @@ void CpuCg::multiplyRows(size_t begin, size_t end) {
 CpuCg::BlockSums CpuCg::sumRows(size_t begin, size_t end) const {
   const float* weights = system_.residualWeights().data();
   // What compilers turn into vector instructions without leave to reorder sums.
-  std::array<std::array<float, kLaneCount>, std::tuple_size_v<BlockSums>> lanes{};
+  std::array<std::array<float, kSumCount>, std::tuple_size_v<BlockSums>> lanes{};
   const auto add = [&](size_t i, size_t lane) {
     const float p = direction_[i], product = product_[i], r = residual_[i];
     lanes[0][lane] += p * p;
@@ -74,8 +74,8 @@ CpuCg::BlockSums CpuCg::sumRows(size_t begin, size_t end) const {
     lanes[5][lane] += r * r * weights[i];
   };
   size_t i = begin;
-  for (; i + kLaneCount <= end; i += kLaneCount)
-    for (size_t lane = 0; lane < kLaneCount; ++lane) add(i + lane, lane);
+  for (; i + kSumCount <= end; i += kSumCount)
+    for (size_t lane = 0; lane < kSumCount; ++lane) add(i + lane, lane);
   for (; i < end; ++i) add(i, 0);
   BlockSums sums{};
   for (size_t k = 0; k < sums.size(); ++k)

@@ -84,8 +84,8 @@ class EigenSolver final : public PoissonSolver {
 }  // namespace
 
 Corrector makeEigenCorrector(const PoissonSystem& system, SolverProgress& progress) {
-  ASDFVK_CHECK_OP(system.columns.size(), <=, static_cast<size_t>(std::numeric_limits<int>::max()));
   return {kStrongestReduction, [&system, &progress](const CorrectionRequest& request) {
+            ASDFVK_CHECK_OP(system.columns.size(), <=, static_cast<size_t>(std::numeric_limits<int>::max()));
             return conjugateGradient(system, request, progress);
           }};
 }

@@ -45,14 +45,14 @@ PoissonGrid choosePoissonGrid(const DeviceFacts& facts, uint32_t unknownCount) {
 void requireSystemFits(const DeviceFacts& facts, uint64_t unknownCount, uint64_t tailCount, uint64_t longestRow) {
   if (unknownCount * kPoissonRowTexelCount > facts.maxTexelBufferElements)
     throw Error(ErrorKind::Device, fmt::format("the Poisson system of {} unknowns needs {} texels in one buffer and {} "
-                                               "allows {}; use --solver eigen",
+                                               "allows {}; use --solver cpu",
                                                unknownCount, unknownCount * kPoissonRowTexelCount, facts.name,
                                                facts.maxTexelBufferElements));
   const uint64_t byteCount = sizeof(uint32_t) * std::max(unknownCount, tailCount);
   if (byteCount > facts.maxStorageBufferRange)
     throw Error(ErrorKind::Device,
                 fmt::format("the Poisson system of {} unknowns needs {} MiB in one buffer and {} allows {}; "
-                            "use --solver eigen",
+                            "use --solver cpu",
                             unknownCount, (byteCount >> 20) + 1, facts.name, facts.maxStorageBufferRange >> 20));
   const uint64_t laneCount = poissonLaneCount(facts);
   const uint64_t rowsPerLane = divideUp(unknownCount, laneCount * kMaxPoissonWorkgroupCount);
@@ -62,7 +62,7 @@ void requireSystemFits(const DeviceFacts& facts, uint64_t unknownCount, uint64_t
   if (iterations > kLoopIterationLimit)
     throw Error(ErrorKind::Device,
                 fmt::format("the Poisson system of {} unknowns, {} of them in one row, is too much for one kernel; "
-                            "use --solver eigen",
+                            "use --solver cpu",
                             unknownCount, longestRow));
 }
 

@@ -19,7 +19,7 @@ struct PoissonGrid {
 [[nodiscard]] uint32_t poissonLaneCount(const DeviceFacts& facts);
 [[nodiscard]] PoissonGrid choosePoissonGrid(const DeviceFacts& facts, uint32_t unknownCount);
 
-/// tailCount: entries beyond the third of their row. Throws Error{Device}, naming --solver eigen as the remedy, when an
+/// tailCount: entries beyond the third of their row. Throws Error{Device}, naming --solver cpu as the remedy, when an
 /// array is larger than a binding may be on the device, or a lane might need more loop iterations than Mesa's CPU
 /// device executes before it ends loops silently.
 void requireSystemFits(const DeviceFacts& facts, uint64_t unknownCount, uint64_t tailCount, uint64_t longestRow);

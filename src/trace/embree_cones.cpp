@@ -33,7 +33,7 @@ void EmbreeConeGroup::trace() {
   values_ = lanes_.values();
   for (size_t lane = 0; lane < size_; ++lane) {
     isDoubtful_[lane] =
-        isDoubtful_[lane] || leavesSurface(lane) || values_[lane] < kShortestFloatDiameter || metItself(lane);
+        isUnfit_[lane] || leavesSurface(lane) || values_[lane] < kShortestFloatDiameter || metItself(lane);
     if (!seeds_[lane].hits.empty()) writeHits(lane);
   }
 }
@@ -43,13 +43,13 @@ void EmbreeConeGroup::findUnfit() {
   const std::array<bool, kWidth> hasNeighbour =
       haveNeighboursWithin(cones_.scene, cones_.planes, {points_.data(), size_}, cones_.rayStart);
   for (size_t lane = 0; lane < size_; ++lane) {
-    isDoubtful_[lane] = hasNeighbour[lane] || isTooSmallForFloat(cones_.scene, seeds_[lane].face);
-    if (isDoubtful_[lane]) rays_.remove(lane);
+    isUnfit_[lane] = hasNeighbour[lane] || isTooSmallForFloat(cones_.scene, seeds_[lane].face);
+    if (isUnfit_[lane]) rays_.remove(lane);
   }
 }
 
 bool EmbreeConeGroup::leavesSurface(size_t lane) const {
-  return cones_.embree.mode() != EmbreeMode::Robust && lanes_.leavesSurface(lane);
+  return !isUnfit_[lane] && cones_.embree.mode() != EmbreeMode::Robust && lanes_.leavesSurface(lane);
 }
 
 bool EmbreeConeGroup::metItself(size_t lane) const {

@@ -48,7 +48,8 @@ class EmbreeConeGroup {
   /// small, another face is as near as rays begin, a ray came back to the face, or leavesSurface().
   [[nodiscard]] bool isDoubtful(size_t lane) const { return isDoubtful_[lane]; }
   /// Whether a ray met nothing or the outer side of a face, as it does where it fell between two triangles of a closed
-  /// surface; never in robust mode.
+  /// surface; never in robust mode, nor of a cone that was doubtful before its rays. Unseen stays a ray that is inside
+  /// a second shell as well, or that fell between two triangles twice.
   [[nodiscard]] bool leavesSurface(size_t lane) const;
 
  private:
@@ -60,6 +61,7 @@ class EmbreeConeGroup {
   std::array<EmbreeSeed, kWidth> seeds_;
   std::array<SlotPoint, kWidth> points_;
   std::array<double, kWidth> values_{};
+  std::array<bool, kWidth> isUnfit_{};  // Casts no rays.
   std::array<bool, kWidth> isDoubtful_{};
   std::vector<LaneHits> met_;  // Per ray.
 

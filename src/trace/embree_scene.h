@@ -16,7 +16,7 @@ struct EmbreeRelease {
 using EmbreeDevice = std::unique_ptr<std::remove_pointer_t<RTCDevice>, EmbreeRelease>;
 
 enum class EmbreeMode {
-  Fastest,  ///< A ray may fall between two triangles: about one in a million does.
+  Fastest,  ///< A ray may fall between two triangles: one in 600,000 on a scanned model, 26 on a cylinder.
   Robust,   ///< None does; a fifth slower.
 };
 

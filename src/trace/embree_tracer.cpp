@@ -40,7 +40,9 @@ class EmbreeTracer final : public ConeTracer {
         seedOrder_(scene),
         planes_(slotPlanes(scene)),
         embree_(std::make_unique<EmbreeScene>(scene, EmbreeMode::Fastest)) {
-    if (seemsToNeedRobustMode()) embree_ = std::make_unique<EmbreeScene>(scene, EmbreeMode::Robust);
+    if (!seemsToNeedRobustMode()) return;
+    embree_.reset();  // Not two of them at once.
+    embree_ = std::make_unique<EmbreeScene>(scene, EmbreeMode::Robust);
   }
 
   TraceStatistics trace(std::span<const uint32_t> seedFaces, const ConeResults& results,

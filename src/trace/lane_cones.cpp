@@ -12,23 +12,25 @@ namespace asdfvk {
 namespace {
 
 // Four doubles side by side, rounded as doubles are, whatever the machine's width; two of these are the eight lanes.
-using Quad = double __attribute__((vector_size(32)));
-using QuadMask = int64_t __attribute__((vector_size(32)));
-constexpr size_t kQuad = 4;
+using Doubles = double __attribute__((vector_size(32)));
+using DoublesMask = int64_t __attribute__((vector_size(32)));
+constexpr size_t kDoubleCount = 4;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-[[gnu::always_inline]] inline void load(Quad& quad, const double* numbers) { std::memcpy(&quad, numbers, sizeof quad); }
+[[gnu::always_inline]] inline void load(Doubles& doubles, const double* numbers) {
+  std::memcpy(&doubles, numbers, sizeof doubles);
+}
 
-[[gnu::always_inline]] inline void store(double* numbers, const Quad& quad) {
-  std::memcpy(numbers, &quad, sizeof quad);
+[[gnu::always_inline]] inline void store(double* numbers, const Doubles& doubles) {
+  std::memcpy(numbers, &doubles, sizeof doubles);
 }
 
 /// Of rows into columns.
-[[gnu::always_inline]] inline void transpose(Quad (&rows)[kQuad]) {
-  const Quad even01 = __builtin_shufflevector(rows[0], rows[1], 0, 4, 2, 6);
-  const Quad odd01 = __builtin_shufflevector(rows[0], rows[1], 1, 5, 3, 7);
-  const Quad even23 = __builtin_shufflevector(rows[2], rows[3], 0, 4, 2, 6);
-  const Quad odd23 = __builtin_shufflevector(rows[2], rows[3], 1, 5, 3, 7);
+[[gnu::always_inline]] inline void transpose(Doubles (&rows)[kDoubleCount]) {
+  const Doubles even01 = __builtin_shufflevector(rows[0], rows[1], 0, 4, 2, 6);
+  const Doubles odd01 = __builtin_shufflevector(rows[0], rows[1], 1, 5, 3, 7);
+  const Doubles even23 = __builtin_shufflevector(rows[2], rows[3], 0, 4, 2, 6);
+  const Doubles odd23 = __builtin_shufflevector(rows[2], rows[3], 1, 5, 3, 7);
   rows[0] = __builtin_shufflevector(even01, even23, 0, 1, 4, 5);
   rows[1] = __builtin_shufflevector(odd01, odd23, 0, 1, 4, 5);
   rows[2] = __builtin_shufflevector(even01, even23, 2, 3, 6, 7);
@@ -36,7 +38,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 }
 
 struct Quad3 {
-  Quad x, y, z;
+  Doubles x, y, z;
 };
 
 [[gnu::always_inline]] inline void load(Quad3& quads, const LaneFrames::Rows& rows, size_t first) {
@@ -85,19 +87,19 @@ LaneCones::LaneCones(const Cone& cone, std::span<const SlotPlane> planes, Instru
   const SlotPlane* const slotPlanes = planes_.data();
   std::array<double, kWidth>* const lengths = lengths_.data();
   const double falseHitCosine = cone_.falseHitCosine;
-  for (size_t first = 0; first < kWidth; first += kQuad) {
+  for (size_t first = 0; first < kWidth; first += kDoubleCount) {
     Quad3 tangent, bitangent, axis, origin, seedNormal;
     load(tangent, frames.tangents, first);
     load(bitangent, frames.bitangents, first);
     load(axis, frames.axes, first);
     load(origin, frames.origins, first);
     load(seedNormal, frames.normals, first);
-    QuadMask leaves{};
+    DoublesMask leaves{};
     for (size_t ray = 0; ray < hits.size(); ++ray) {
       const LaneHits& hit = hits[ray];
-      Quad planes[kQuad], distance{};
-      QuadMask isHit{};
-      for (size_t k = 0; k < kQuad; ++k) {
+      Doubles planes[kDoubleCount], distance{};
+      DoublesMask isHit{};
+      for (size_t k = 0; k < kDoubleCount; ++k) {
         const uint32_t slot = hit.slots[first + k];
         isHit[k] = slot == kNoFace ? 0 : -1;
         distance[k] = hit.distances[first + k];
@@ -105,19 +107,19 @@ LaneCones::LaneCones(const Cone& cone, std::span<const SlotPlane> planes, Instru
       }
       transpose(planes);
       const Quad3 normal{planes[0], planes[1], planes[2]};
-      const Quad offset = planes[3];
+      const Doubles offset = planes[3];
       const Vec3d& d = directions[ray];
       const Quad3 direction{d.x * tangent.x + d.y * bitangent.x + d.z * axis.x,
                             d.x * tangent.y + d.y * bitangent.y + d.z * axis.y,
                             d.x * tangent.z + d.y * bitangent.z + d.z * axis.z};
-      const Quad cosine = normal.x * direction.x + normal.y * direction.y + normal.z * direction.z;
-      const Quad facing = seedNormal.x * normal.x + seedNormal.y * normal.y + seedNormal.z * normal.z;
-      const Quad onPlane = (offset - (normal.x * origin.x + normal.y * origin.y + normal.z * origin.z)) / cosine;
-      const Quad difference = onPlane - distance;
-      const QuadMask isNear = (difference <= kPlaneTolerance) & (difference >= -kPlaneTolerance);
-      const Quad length = isNear ? onPlane : distance;
-      const QuadMask counts = isHit & (facing <= falseHitCosine);
-      store(&lengths[ray][first], counts ? length : Quad{} + kInfinity);
+      const Doubles cosine = normal.x * direction.x + normal.y * direction.y + normal.z * direction.z;
+      const Doubles facing = seedNormal.x * normal.x + seedNormal.y * normal.y + seedNormal.z * normal.z;
+      const Doubles onPlane = (offset - (normal.x * origin.x + normal.y * origin.y + normal.z * origin.z)) / cosine;
+      const Doubles difference = onPlane - distance;
+      const DoublesMask isNear = (difference <= kPlaneTolerance) & (difference >= -kPlaneTolerance);
+      const Doubles length = isNear ? onPlane : distance;
+      const DoublesMask counts = isHit & (facing <= falseHitCosine);
+      store(&lengths[ray][first], counts ? length : Doubles{} + kInfinity);
       leaves |= ~(isHit & (cosine > 0));
     }
     std::memcpy(&leavesSurface_[first], &leaves, sizeof leaves);
@@ -127,8 +129,8 @@ LaneCones::LaneCones(const Cone& cone, std::span<const SlotPlane> planes, Instru
 [[gnu::always_inline]] inline void LaneCones::sort() {
   sorted_ = lengths_;
   for (const auto& [low, high] : exchanges_)
-    for (size_t first = 0; first < kWidth; first += kQuad) {
-      Quad a, b;
+    for (size_t first = 0; first < kWidth; first += kDoubleCount) {
+      Doubles a, b;
       load(a, &sorted_[low][first]);
       load(b, &sorted_[high][first]);
       store(&sorted_[low][first], b < a ? b : a);
@@ -138,36 +140,36 @@ LaneCones::LaneCones(const Cone& cone, std::span<const SlotPlane> planes, Instru
 
 [[gnu::always_inline]] inline void LaneCones::evaluateInLanes(std::array<double, kWidth>& values) {
   sort();
-  for (size_t first = 0; first < kWidth; first += kQuad) {
+  for (size_t first = 0; first < kWidth; first += kDoubleCount) {
     // Sums run over the rays in order, and adding a zero changes no bit.
-    Quad count{}, sum{}, squares{}, median, deviation, weightedSum{}, weightSum{}, length;
+    Doubles count{}, sum{}, squares{}, median, deviation, weightedSum{}, weightSum{}, length;
     for (const auto& lengths : lengths_) {
       load(length, &lengths[first]);
-      count += length < kInfinity ? Quad{} + 1 : Quad{};
-      sum += length < kInfinity ? length : Quad{};
+      count += length < kInfinity ? Doubles{} + 1 : Doubles{};
+      sum += length < kInfinity ? length : Doubles{};
     }
-    const Quad mean = sum / count;
+    const Doubles mean = sum / count;
     for (const auto& lengths : lengths_) {
       load(length, &lengths[first]);
-      const Quad difference = length - mean;
-      squares += length < kInfinity ? difference * difference : Quad{};
+      const Doubles difference = length - mean;
+      squares += length < kInfinity ? difference * difference : Doubles{};
     }
-    const Quad variance = squares / count;
-    for (size_t k = 0; k < kQuad; ++k) {
+    const Doubles variance = squares / count;
+    for (size_t k = 0; k < kDoubleCount; ++k) {
       const auto rays = static_cast<size_t>(count[k]);
       const double upper = rays == 0 ? 0 : sorted_[rays / 2][first + k];
       median[k] = rays == 0 || rays % 2 == 1 ? upper : 0.5 * (upper + sorted_[rays / 2 - 1][first + k]);
       deviation[k] = std::sqrt(variance[k]);
     }
-    const Quad bound = cone_.outlierDeviations * deviation + static_cast<double>(kOutlierSlack) * median;
+    const Doubles bound = cone_.outlierDeviations * deviation + static_cast<double>(kOutlierSlack) * median;
     for (size_t ray = 0; ray < lengths_.size(); ++ray) {
       load(length, &lengths_[ray][first]);
-      const Quad difference = length - median;
-      const QuadMask isKept = (difference <= bound) & (difference >= -bound) & (length < kInfinity);
-      weightedSum += isKept ? cone_.weights[ray] * length : Quad{};
-      weightSum += isKept ? Quad{} + cone_.weights[ray] : Quad{};
+      const Doubles difference = length - median;
+      const DoublesMask isKept = (difference <= bound) & (difference >= -bound) & (length < kInfinity);
+      weightedSum += isKept ? cone_.weights[ray] * length : Doubles{};
+      weightSum += isKept ? Doubles{} + cone_.weights[ray] : Doubles{};
     }
-    store(&values[first], weightSum > 0 ? weightedSum / weightSum : Quad{} + kNoValue);
+    store(&values[first], weightSum > 0 ? weightedSum / weightSum : Doubles{} + kNoValue);
   }
 }
 

@@ -15,7 +15,7 @@ ComputePipeline::ComputePipeline(const Device& device, const ComputePipelineDesc
   const auto storageBufferCount = std::count(bindings_.begin(), bindings_.end(), VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
   if (storageBufferCount > device.facts().maxStorageBuffersPerStage)
     throw Error(ErrorKind::Device,
-                fmt::format("{} needs {} storage buffers and {} has {}; use --solver eigen or --backend reference",
+                fmt::format("{} needs {} storage buffers and {} has {}; use --solver cpu or --backend reference",
                             description.name, storageBufferCount, device.facts().name,
                             device.facts().maxStorageBuffersPerStage));
   VkShaderModule module = VK_NULL_HANDLE;

@@ -293,7 +293,8 @@ TEST_CASE("options that contradict each other are refused") {
     }
     for (const char* solver : {"cg", "jacobi"})
       CHECK(refusal({"a.ply", "--backend", backend, "--solver", solver}).find("--solver") != std::string::npos);
-    CHECK_EQ(refusal({"a.ply", "--backend", backend, "--solver", "eigen"}), "accepted");
+    for (const char* solver : {"auto", "cpu", "eigen"})
+      CHECK_EQ(refusal({"a.ply", "--backend", backend, "--solver", solver}), "accepted");
   }
   const std::vector<std::string> errorPicture{"a.ply", "--picture", "b.png", "--picture-of", "error"};
   const auto with = [&](const std::vector<std::string>& further) {

@@ -232,18 +232,18 @@ TEST_CASE("a system that the device's limits refuse is refused with the solver t
   CHECK(refusal(2'000'000, 0, 3).empty());
   CHECK(refusal(33'000'000, 0, 3).empty());
   CHECK(refusal(36'000'000, 0, 3) ==
-        "the Poisson system of 36000000 unknowns needs 138 MiB in one buffer and Toy allows 128; use --solver eigen");
+        "the Poisson system of 36000000 unknowns needs 138 MiB in one buffer and Toy allows 128; use --solver cpu");
   CHECK(refusal(1'000'000, 36'000'000, 90) ==
-        "the Poisson system of 1000000 unknowns needs 138 MiB in one buffer and Toy allows 128; use --solver eigen");
+        "the Poisson system of 1000000 unknowns needs 138 MiB in one buffer and Toy allows 128; use --solver cpu");
   CHECK(refusal(11'000'000, 100, 93) ==
         "the Poisson system of 11000000 unknowns, 93 of them in one row, is too much for one kernel; "
-        "use --solver eigen");
+        "use --solver cpu");
   CHECK(refusal(1000, 3000, 93).empty());
   facts.maxTexelBufferElements = 65'536;
   CHECK(refusal(32'768, 0, 3).empty());
   CHECK(refusal(32'769, 0, 3) ==
         "the Poisson system of 32769 unknowns needs 65538 texels in one buffer and Toy allows 65536; "
-        "use --solver eigen");
+        "use --solver cpu");
 }
 
 TEST_CASE("every system gets at least one workgroup and at most as many as the sums hold") {

@@ -307,3 +307,26 @@ TEST_CASE("more neighbours make the predictions less noisy") {
   };
   CHECK(off(6).mean < off(0).mean);
 }
+
+TEST_CASE("a face that comes to another cell is predicted anew, though that cell asks whom it asked before") {
+  const SeededMesh seeded(makeAnimal(3000).mesh, 300);
+  std::vector<uint32_t> fewer = seeded.seeds;
+  for (size_t i = 0; i < fewer.size(); i += 10) fewer[i] = kNoFace;
+  for (const uint32_t neighbourCount : {0u, 1u}) {
+    CAPTURE(neighbourCount);
+    const auto predictFrom = [&](const std::vector<uint32_t>& seeds, Prediction earlier) {
+      return reprojectHits(seeded.scene(), seeded.graph, seeded.cone, {seeds, seeded.hits},
+                           {.neighbourCount = neighbourCount}, std::move(earlier));
+    };
+    const Prediction all = predictFrom(seeded.seeds, {}), few = predictFrom(fewer, {});
+    size_t movedCount = 0;  // To a cell that asks the same seeds, and with another value.
+    for (uint32_t face = 0; face < few.values.size(); ++face) {
+      const uint32_t cell = few.cellOf[face];
+      movedCount += cell != kNoCell && cell != all.cellOf[face] && few.values[face] != all.values[face] &&
+                    std::ranges::equal(few.nearest.of(cell), all.nearest.of(cell));
+    }
+    CHECK(movedCount > 10);
+    CHECK(sameBits(predictFrom(fewer, all).values, few.values));
+    CHECK(sameBits(predictFrom(seeded.seeds, few).values, all.values));
+  }
+}
