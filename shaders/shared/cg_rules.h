@@ -1,9 +1,9 @@
 // The scalars of a conjugate-gradient iteration, the same on every backend; included by C++ and by GLSL.
 //
 // One reduction per iteration (after Meurant 1987, "Multitasking the conjugate gradient method on the CRAY X-MP/48"):
-// beside p.Mp and r.r also r.Mp and |Mp|^2 are summed, which tell r.r after the step before the step is taken. Unlike in
-// the recurrence of Chronopoulos and Gear (1989) the product is that of the direction itself and r.r is summed anew each
-// time, so that in float32 nothing drifts that does not in the textbook's iteration, and there is one vector less.
+// beside p.Mp and r.r also r.Mp and |Mp|^2 are summed, which tell r.r after the step before the step is taken. Unlike
+// in the recurrence of Chronopoulos and Gear (1989) the product is that of the direction itself and r.r is summed anew
+// each time, so that in float32 nothing drifts that does not in the textbook's iteration, and there is one vector less.
 #ifndef ASDFVK_CG_RULES_H
 #define ASDFVK_CG_RULES_H
 
@@ -40,7 +40,8 @@ struct CgStep {
 #ifdef __cplusplus
 [[nodiscard]] inline
 #endif
-CgStep nextCgStep(CgSums sums, float toleranceSquared) {
+    CgStep
+    nextCgStep(CgSums sums, float toleranceSquared) {
   CgStep next;
   next.alpha = 0.0f;
   next.beta = 0.0f;
