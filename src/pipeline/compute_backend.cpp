@@ -104,9 +104,8 @@ PoissonSolver& ComputeBackend::solver(SolverChoice choice) {
   if (choice == SolverChoice::Cpu) return *(solver = makeCpuCgSolver());
   if (choice == SolverChoice::Eigen) return *(solver = makeEigenSolver());
   if (!device_)
-    throw Error(
-        ErrorKind::Device,
-        "this solver runs on a Vulkan device and the backend on the CPU; use --backend vulkan or --solver cpu");
+    throw Error(ErrorKind::Device,
+                "this solver runs on a Vulkan device and the backend on the CPU; use --backend vulkan or --solver cpu");
   solver = choice == SolverChoice::Cg ? makeVulkanCgSolver(*device_) : makeVulkanJacobiSolver(*device_);
   return *solver;
 }
