@@ -189,7 +189,8 @@ void addInterpolation(CLI::App& app, Options& options) {
            })
       ->group(interpolation);
   addChoice(app, "--solver", options.solver, kSolvers,
-            "Conjugate gradient or Jacobi on the device, or on the CPU in float32 or with Eigen; default auto")
+            "Conjugate gradient or Jacobi on the device, or conjugate gradient on the CPU, in\n"
+            "float32 (cpu) or with Eigen; default auto")
       ->group(interpolation);
   addValue(app, "--tolerance", "R",
            fmt::format("Relative residual at which the solver stops, above 0 and below 1;\n"

@@ -12,7 +12,8 @@ namespace asdfvk {
 
 inline constexpr size_t kItemsPerTask = 4096;
 
-/// Calls body(i) for every i in [0, count), in parallel.
+/// Calls body(i) for every i in [0, count), in parallel; a body that writes only what belongs to i gives the same bits
+/// on any number of threads.
 template <typename Body>
 void forEachInParallel(size_t count, const Body& body) {
   tbb::parallel_for(tbb::blocked_range<size_t>(0, count, kItemsPerTask / 4),

@@ -10,8 +10,8 @@
 #include "core/error.h"
 #include "core/stopwatch.h"
 #include "mesh/curvature.h"
+#include "mesh/parallel_loop.h"
 #include "poisson/divergence.h"
-#include "poisson/each_row.h"
 #include "poisson/poisson_system.h"
 
 namespace asdfvk {
@@ -44,7 +44,7 @@ std::vector<ComponentValues> componentValues(const Components& components, std::
 std::vector<double> firstGuess(const Components& components, const std::vector<ComponentValues>& traced,
                                std::span<const double> prediction) {
   std::vector<double> guess(components.componentOf.size(), kNoValue);
-  forEachRow(guess.size(), [&](size_t face) {
+  forEachInParallel(guess.size(), [&](size_t face) {
     const ComponentValues& component = traced[components.componentOf[face]];
     if (component.count > 0) guess[face] = component.mean;
     if (!prediction.empty() && std::isfinite(prediction[face])) guess[face] = prediction[face];
@@ -56,7 +56,7 @@ std::vector<double> firstGuess(const Components& components, const std::vector<C
 /// goes itself; upwards not at all, since the faces with the greatest predictions are seeds (see chooseScouts()).
 void keepWithinTraced(const Components& components, const std::vector<ComponentValues>& traced,
                       std::span<const double> predicted, std::vector<double>& values) {
-  forEachRow(values.size(), [&](size_t face) {
+  forEachInParallel(values.size(), [&](size_t face) {
     const ComponentValues& component = traced[components.componentOf[face]];
     if (component.count == 0 || !std::isfinite(values[face])) return;
     const double prediction = predicted[face];

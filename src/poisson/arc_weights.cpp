@@ -7,7 +7,7 @@
 
 #include "core/check.h"
 #include "mesh/dihedral.h"
-#include "poisson/each_row.h"
+#include "mesh/parallel_loop.h"
 
 namespace asdfvk {
 namespace {
@@ -23,7 +23,7 @@ std::vector<double> distanceWeights(const DualGraph& graph, const FaceGeometry& 
   ASDFVK_CHECK_OP(geometry.barycentres.size(), ==, size_t{graph.faceCount()});
   const double shortest = std::max(kShortestDistanceRatio * extent(geometry.bounds.size()), kShortestDistance);
   std::vector<double> weights(graph.neighbours.size());
-  forEachRow(graph.faceCount(), [&](size_t face) {
+  forEachInParallel(graph.faceCount(), [&](size_t face) {
     for (uint32_t arc = graph.offsets[face]; arc < graph.offsets[face + 1]; ++arc) {
       // Halves, so that their difference does not overflow.
       const Vec3d half = geometry.barycentres[graph.neighbours[arc]] * 0.5 - geometry.barycentres[face] * 0.5;
@@ -51,7 +51,7 @@ std::vector<double> arcWeights(ArcWeightKind kind, const DualGraph& graph, const
       break;
   }
   std::vector<double> weights = signedDihedralAngles(graph, geometry);
-  forEachRow(weights.size(), [&](size_t arc) { weights[arc] = featureWeight(weights[arc]); });
+  forEachInParallel(weights.size(), [&](size_t arc) { weights[arc] = featureWeight(weights[arc]); });
   return weights;
 }
 

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "core/check.h"
-#include "poisson/each_row.h"
+#include "mesh/parallel_loop.h"
 #include "poisson/weighted_graph.h"
 
 namespace asdfvk {
@@ -14,7 +14,7 @@ std::vector<double> divergenceOf(const DualGraph& graph, std::span<const double>
   ASDFVK_CHECK_OP(field.size(), ==, size_t{graph.faceCount()});
   const WeightedGraph weighted{graph, weights};
   std::vector<double> divergence(field.size(), 0.0);
-  forEachRow(field.size(), [&](size_t face) {
+  forEachInParallel(field.size(), [&](size_t face) {
     if (!std::isfinite(field[face])) return;
     weighted.visitNeighbours(static_cast<uint32_t>(face), [&](uint32_t neighbour, double weight) {
       if (std::isfinite(field[neighbour])) divergence[face] += weight * (field[face] - field[neighbour]);

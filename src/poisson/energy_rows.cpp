@@ -4,7 +4,7 @@ namespace asdfvk {
 
 SecondOrderRows::SecondOrderRows(const WeightedGraph& graph, double beta)
     : graph_(graph), diagonal_(graph.graph.faceCount(), 0.0), root_(graph.graph.faceCount(), 0.0) {
-  forEachRow(diagonal_.size(), [&](size_t face) {
+  forEachInParallel(diagonal_.size(), [&](size_t face) {
     uint32_t neighbourCount = 0;
     graph.visitNeighbours(static_cast<uint32_t>(face), [&](uint32_t, double weight) {
       diagonal_[face] += weight;

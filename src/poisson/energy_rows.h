@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "poisson/each_row.h"
+#include "mesh/parallel_loop.h"
 #include "poisson/weighted_graph.h"
 
 namespace asdfvk {

@@ -1,5 +1,5 @@
 #include "core/check.h"
-#include "poisson/each_row.h"
+#include "mesh/parallel_loop.h"
 #include "poisson/ordered_sum.h"
 #include "poisson/poisson_system.h"
 
@@ -8,7 +8,7 @@ namespace asdfvk {
 void computeResidual(const PoissonSystem& system, std::span<const double> solution, std::span<double> residual) {
   ASDFVK_CHECK_OP(solution.size(), ==, system.faces.size());
   ASDFVK_CHECK_OP(residual.size(), ==, system.faces.size());
-  forEachRow(system.faces.size(), [&](size_t row) {
+  forEachInParallel(system.faces.size(), [&](size_t row) {
     double sum = system.rightHandSide[row] - system.diagonal[row] * solution[row];
     for (uint32_t i = system.rowOffsets[row]; i < system.rowOffsets[row + 1]; ++i)
       sum -= system.entries[i] * solution[system.columns[i]];

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "core/check.h"
-#include "poisson/each_row.h"
+#include "mesh/parallel_loop.h"
 #include "poisson/energy_rows.h"
 #include "poisson/ordered_sum.h"
 #include "poisson/weighted_graph.h"
@@ -41,7 +41,7 @@ std::vector<uint8_t> reachedInComponents(std::span<const uint32_t> componentOf, 
     if (std::isfinite(values[face])) isKnown[componentOf[face]] = 1;
   }
   std::vector<uint8_t> reached(values.size());
-  forEachRow(values.size(), [&](size_t face) { reached[face] = isKnown[componentOf[face]]; });
+  forEachInParallel(values.size(), [&](size_t face) { reached[face] = isKnown[componentOf[face]]; });
   return reached;
 }
 
@@ -61,7 +61,7 @@ void assemble(const EnergyRows& rows, std::span<const uint32_t> unknownOf, std::
               std::span<const double> divergence, PoissonSystem& system) {
   const size_t unknownCount = system.faces.size();
   system.rowOffsets.assign(unknownCount + 1, 0);
-  forEachRow(unknownCount, [&](size_t row) {
+  forEachInParallel(unknownCount, [&](size_t row) {
     uint32_t count = 0;
     rows.visitRow(system.faces[row], [&](uint32_t face, double) {
       count += face != system.faces[row] && unknownOf[face] != kNotUnknown ? 1 : 0;
@@ -76,7 +76,7 @@ void assemble(const EnergyRows& rows, std::span<const uint32_t> unknownOf, std::
   system.entries.resize(system.rowOffsets.back());
   system.diagonal.resize(unknownCount);
   system.rightHandSide.resize(unknownCount);
-  forEachRow(unknownCount, [&](size_t row) {
+  forEachInParallel(unknownCount, [&](size_t row) {
     uint32_t next = system.rowOffsets[row];
     double rightHandSide = rows.guidance(system.faces[row], divergence);
     rows.visitRow(system.faces[row], [&](uint32_t face, double entry) {
@@ -118,7 +118,7 @@ PoissonSystem buildPoissonSystem(const DualGraph& graph, std::span<const double>
     }
   if (!options.firstGuess.empty()) {
     system.firstGuess.resize(system.faces.size());
-    forEachRow(system.faces.size(), [&](size_t row) {
+    forEachInParallel(system.faces.size(), [&](size_t row) {
       const double guess = options.firstGuess[system.faces[row]];
       system.firstGuess[row] = std::isfinite(guess) ? guess : system.knownMean;
     });

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/check.h"
-#include "poisson/each_row.h"
+#include "mesh/parallel_loop.h"
 
 namespace asdfvk {
 namespace {
@@ -43,7 +43,7 @@ SolverReport solveByRefinement(const std::string& name, const PoissonSystem& sys
                             .reduction = std::max(kSafety * target / norm, corrector->strongestReduction),
                             .maxIterations = options.maxIterations - report.iterations,
                             .correction = correction});
-    forEachRow(solution.size(), [&](size_t row) { correction[row] += solution[row]; });
+    forEachInParallel(solution.size(), [&](size_t row) { correction[row] += solution[row]; });
     computeResidual(system, correction, residual);
     const double newNorm = residualNorm(system, residual);  // Not finite if the correction is not.
     const bool helps = newNorm <= norm, stagnates = !(newNorm <= kStagnation * norm);

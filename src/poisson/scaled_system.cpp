@@ -7,7 +7,7 @@
 #include <array>
 #include <cmath>
 
-#include "poisson/each_row.h"
+#include "mesh/parallel_loop.h"
 #include "poisson/ordered_sum.h"
 
 namespace asdfvk {
@@ -43,11 +43,11 @@ ScaledSystem::ScaledSystem(const PoissonSystem& system)
   tailColumns_.resize(tailSize);
   tailCouplings_.resize(tailSize);
   UnsetVector<double> inverseRoots(rowCount);
-  forEachRow(rowCount, [&](size_t row) {
+  forEachInParallel(rowCount, [&](size_t row) {
     inverseRoots[row] = 1 / std::sqrt(system.diagonal[row]);
     residualWeights_[row] = static_cast<float>(meanDiagonal_ / system.diagonal[row]);
   });
-  forEachRow(rowCount, [&](size_t row) {
+  forEachInParallel(rowCount, [&](size_t row) {
     const auto coupling = [&](uint32_t i) {
       return static_cast<float>(-system.entries[i] * inverseRoots[row] * inverseRoots[system.columns[i]]);
     };
@@ -71,7 +71,7 @@ ScaledSystem::ScaledSystem(const PoissonSystem& system)
 
 UnsetVector<float> ScaledSystem::scaleResidual(std::span<const double> residual, double norm) const {
   UnsetVector<float> scaled(residual.size());
-  forEachRow(scaled.size(), [&](size_t row) {
+  forEachInParallel(scaled.size(), [&](size_t row) {
     scaled[row] =
         static_cast<float>(residual[row] / norm / std::sqrt(meanDiagonal_) / std::sqrt(system_.diagonal[row]));
   });
@@ -81,7 +81,7 @@ UnsetVector<float> ScaledSystem::scaleResidual(std::span<const double> residual,
 void ScaledSystem::unscaleCorrection(std::span<const float> y, double norm, std::span<double> correction) const {
   // The roots apart from each other, so that their product neither overflows nor underflows.
   const double scale = norm * std::sqrt(meanDiagonal_);
-  forEachRow(correction.size(), [&](size_t row) {
+  forEachInParallel(correction.size(), [&](size_t row) {
     correction[row] = static_cast<double>(y[row]) * (scale / std::sqrt(system_.diagonal[row]));
   });
 }

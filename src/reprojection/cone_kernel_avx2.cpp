@@ -3,14 +3,7 @@
 namespace asdfvk {
 
 #ifdef __AVX2__
-const ConeKernel& avx2ConeKernel() {
-  static constexpr ConeKernel kKernel{[](const ConeRules& rules, const ConeKernel::Seen& seen, const VirtualCone& at) {
-                                        return coneValueInLanes(rules, seen, at);
-                                      },
-                                      [](const SeedGroup& seeds, const SeedReach& reach, const VirtualCone& at,
-                                         float* weights) { weighInLanes(seeds, reach, at, weights); }};
-  return kKernel;
-}
+const ConeKernel& avx2ConeKernel() { return kKernelInLanes; }
 #else
 const ConeKernel& avx2ConeKernel() { return baselineConeKernel(); }
 #endif

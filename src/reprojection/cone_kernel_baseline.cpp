@@ -2,13 +2,6 @@
 
 namespace asdfvk {
 
-const ConeKernel& baselineConeKernel() {
-  static constexpr ConeKernel kKernel{[](const ConeRules& rules, const ConeKernel::Seen& seen, const VirtualCone& at) {
-                                        return coneValueInLanes(rules, seen, at);
-                                      },
-                                      [](const SeedGroup& seeds, const SeedReach& reach, const VirtualCone& at,
-                                         float* weights) { weighInLanes(seeds, reach, at, weights); }};
-  return kKernel;
-}
+const ConeKernel& baselineConeKernel() { return kKernelInLanes; }
 
 }  // namespace asdfvk

@@ -169,5 +169,11 @@ ASDFVK_LANES void weighInLanes(const SeedGroup& seeds, const SeedReach& reach, c
   }
 }
 
+/// The kernel of the instructions that this file is included for; each file that includes it has its own.
+static constexpr ConeKernel kKernelInLanes{[](const ConeRules& rules, const ConeKernel::Seen& seen,
+                                              const VirtualCone& at) { return coneValueInLanes(rules, seen, at); },
+                                           [](const SeedGroup& seeds, const SeedReach& reach, const VirtualCone& at,
+                                              float* weights) { weighInLanes(seeds, reach, at, weights); }};
+
 }  // namespace ASDFVK_LANE_NAMESPACE
 }  // namespace asdfvk
