@@ -125,7 +125,7 @@ Result Session::compute(Mesh& mesh, const Options& options, const RunControl& co
 
   const double roundsEnd = options.checkCount ? kRoundsEndBeforeCheck : 1;
   control.checkpoint(0);
-  const PreparedMesh prepared = timed(seconds.geometry, [&] { return prepareMesh(mesh, options.orientation); });
+  const PreparedMesh prepared = prepareMesh(mesh, options.orientation, seconds);
   describeMesh(report, mesh, prepared, options);
   control.checkpoint(0);
   Bvh bvh = timed(seconds.bvh, [&] { return buildBvh(mesh, prepared.geometry, prepared.representatives); });
@@ -133,8 +133,11 @@ Result Session::compute(Mesh& mesh, const Options& options, const RunControl& co
   control.checkpoint(0);
   const bool interpolates = options.seeds.kind != SeedCount::Kind::All || options.interpolation.pooling > 0;
   const bool wantsHits = interpolates && options.interpolation.guidance == Guidance::Hits;
-  std::unique_ptr<ConeTracer> tracer =
-      timed(seconds.upload, [&] { return backend.makeTracer(scene, cone, wantsHits); });
+  const Stopwatch setUpWatch;
+  std::unique_ptr<ConeTracer> tracer = backend.makeTracer(scene, cone, wantsHits);
+  seconds.encode += tracer->encodeSeconds();
+  double& deviceSeconds = report.traceChoice ? seconds.upload : seconds.encode;
+  deviceSeconds += setUpWatch.seconds() - tracer->encodeSeconds();
 
   SeedTracing tracing(prepared, *tracer, cone.directions.size(), wantsHits);
   Interpolation interpolation(prepared, scene, cone, options, backend, report.warnings);
@@ -143,7 +146,7 @@ Result Session::compute(Mesh& mesh, const Options& options, const RunControl& co
     tracer.reset();
     if (!options.checkCount) bvh.nodes = {};  // A check casts rays of its own, and their order is asked for later.
     returnFreedMemory();
-    seconds.upload += watch.seconds();
+    deviceSeconds += watch.seconds();
   };
   SeedRounds rounds(mesh, prepared, options, tracing, interpolation, clock, seconds, afterLastRay);
   rounds.run(control.part(0, roundsEnd));
