@@ -53,8 +53,8 @@ class Contest {
         prepared_(prepareMesh(mesh, Orientation::Keep)),
         cone_(makeCone({})),
         bvh_(buildBvh(mesh, prepared_.geometry, prepared_.representatives)),
-        bareEmbree_(makeBareEmbree(scene(), cone_, BareMode::Fastest)),
-        robustEmbree_(makeBareEmbree(scene(), cone_, BareMode::Robust)),
+        bareEmbree_(makeBareEmbree(scene(), bvh_.slotFaces, cone_, BareMode::Fastest)),
+        robustEmbree_(makeBareEmbree(scene(), bvh_.slotFaces, cone_, BareMode::Robust)),
         backends_(contestants(request.device)) {
     for (const auto& [name, backend] : backends_) tracers_[name] = backend->makeTracer(scene(), cone_);
     for (const std::string& name : fastBackends())
