@@ -76,6 +76,11 @@ void describeValues(Report& report, const std::vector<double>& sdf, const std::s
                     "of the shape{}{}",
                     report.noValueCount, counted(report.faceCount, "face"),
                     causeOfMissing.empty() ? "" : ", most likely because ", causeOfMissing));
+  if (report.solver.finishedOnCpu)
+    report.warnings.push_back(
+        fmt::format("the {} solver met the limit of float32 on the device, and the CPU carried on in double precision; "
+                    "--solver cpu may be faster here",
+                    report.solver.name));
   if (!report.solver.converged)
     report.warnings.push_back(fmt::format(
         "the {} solver stopped after {} at a relative residual of {:.1e}; "

@@ -290,6 +290,21 @@ TEST_CASE("all solvers give the same values") {
   }
 }
 
+TEST_CASE("where a device's float32 does not get to the tolerance, the warnings tell that the CPU went on") {
+  Mesh mesh = makeTorus(1000).mesh;
+  Options options;
+  options.solver = SolverChoice::Cg;
+  const auto tellsOfCpu = [&] {
+    const std::vector<std::string> warnings = vulkanSession().compute(mesh, options).report.warnings;
+    return std::any_of(warnings.begin(), warnings.end(), [](const std::string& warning) {
+      return warning.find("the CPU carried on in double precision") != std::string::npos;
+    });
+  };
+  CHECK_FALSE(tellsOfCpu());
+  options.solverOptions.tolerance = 1e-30;
+  CHECK(tellsOfCpu());
+}
+
 TEST_CASE("a computation stops when it is asked to") {
   Mesh mesh = makeSphere(50'000).mesh;
   std::stop_source stop;
