@@ -21,12 +21,12 @@ struct StageSeconds {
   double geometry = 0;  ///< Normals, areas, components, defects and orientation.
   double graph = 0;     ///< The dual graph, and what its edges tell about the mesh.
   double bvh = 0;       ///< The hierarchy.
-  double encode = 0;   ///< The hierarchy in the layout that is traced; with Embree its scene, two where robust mode is.
-  double upload = 0;   ///< Kernels, and buffers onto the device and off it again; 0 where there is no device.
-  double sample = 0;   ///< Choosing the seeds.
-  double trace = 0;    ///< Casting their rays.
-  double predict = 0;  ///< Reprojecting their hits.
-  double solve = 0;    ///< The Poisson equation.
+  double encode = 0;    ///< The layout that is traced, or Embree's scene, a second one where the first will not do.
+  double upload = 0;    ///< To the device: kernels and buffers, and their release; 0 without Vulkan.
+  double sample = 0;    ///< Choosing the seeds.
+  double trace = 0;     ///< Casting their rays.
+  double predict = 0;   ///< Reprojecting their hits.
+  double solve = 0;     ///< The Poisson equation.
   double estimate = 0, smooth = 0, write = 0;
 };
 

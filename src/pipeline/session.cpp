@@ -141,8 +141,8 @@ Result Session::compute(Mesh& mesh, const Options& options, const RunControl& co
   const Stopwatch setUpWatch;
   std::unique_ptr<ConeTracer> tracer = backend.makeTracer(scene, cone, wantsHits);
   seconds.encode += tracer->encodeSeconds();
-  double& deviceSeconds = report.traceChoice ? seconds.upload : seconds.encode;
-  deviceSeconds += setUpWatch.seconds() - tracer->encodeSeconds();
+  double& otherSeconds = report.traceChoice ? seconds.upload : seconds.encode;  // Without Vulkan nothing is uploaded.
+  otherSeconds += setUpWatch.seconds() - tracer->encodeSeconds();
 
   SeedTracing tracing(prepared, *tracer, cone.directions.size(), wantsHits);
   Interpolation interpolation(prepared, scene, cone, options, backend, report.warnings);
@@ -151,7 +151,7 @@ Result Session::compute(Mesh& mesh, const Options& options, const RunControl& co
     tracer.reset();
     if (!options.checkCount) bvh.nodes = {};  // A check casts rays of its own, and their order is asked for later.
     returnFreedMemory();
-    deviceSeconds += watch.seconds();
+    otherSeconds += watch.seconds();
   };
   SeedRounds rounds(mesh, prepared, options, tracing, interpolation, clock, seconds, afterLastRay);
   rounds.run(control.part(0, roundsEnd));
