@@ -13,19 +13,18 @@ namespace {
 
 class BareEmbreeScene final : public BareEmbree {
  public:
-  BareEmbreeScene(const TraceScene& scene, const Cone& cone, BareMode mode)
+  BareEmbreeScene(const TraceScene& scene, std::span<const uint32_t> faces, const Cone& cone, BareMode mode)
       : scene_(scene), cone_(cone), device_(rtcNewDevice(nullptr)), embree_(rtcNewScene(device_)) {
     if (mode == BareMode::Robust) rtcSetSceneFlags(embree_, RTC_SCENE_FLAG_ROBUST);
     RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
     auto* points = static_cast<Vec3f*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                                                sizeof(Vec3f), scene.mesh.vertices.size()));
-    auto* faces = static_cast<Face*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                                             sizeof(Face), scene.bvh.slotFaces.size()));
+    auto* triangles = static_cast<Face*>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(Face), faces.size()));
     tbb::parallel_for(size_t{0}, scene.mesh.vertices.size(), [&](size_t i) {
       points[i] = Vec3f(scene.bvh.normalization.toNormalized(scene.mesh.vertices[i]));
     });
-    tbb::parallel_for(size_t{0}, scene.bvh.slotFaces.size(),
-                      [&](size_t i) { faces[i] = scene.mesh.faces[scene.bvh.slotFaces[i]]; });
+    tbb::parallel_for(size_t{0}, faces.size(), [&](size_t i) { triangles[i] = scene.mesh.faces[faces[i]]; });
     rtcCommitGeometry(geometry);
     rtcAttachGeometryByID(embree_, geometry, 0);
     rtcReleaseGeometry(geometry);
@@ -76,8 +75,9 @@ class BareEmbreeScene final : public BareEmbree {
 
 }  // namespace
 
-std::unique_ptr<BareEmbree> makeBareEmbree(const TraceScene& scene, const Cone& cone, BareMode mode) {
-  return std::make_unique<BareEmbreeScene>(scene, cone, mode);
+std::unique_ptr<BareEmbree> makeBareEmbree(const TraceScene& scene, std::span<const uint32_t> faces, const Cone& cone,
+                                           BareMode mode) {
+  return std::make_unique<BareEmbreeScene>(scene, faces, cone, mode);
 }
 
 }  // namespace asdfvk::bench

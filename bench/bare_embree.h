@@ -22,7 +22,9 @@ enum class BareMode {
   Robust,   ///< None does; our own tracer takes it for surfaces that rays leave often.
 };
 
-/// Builds Embree's scene, at medium quality. Null where this build has no Embree.
-[[nodiscard]] std::unique_ptr<BareEmbree> makeBareEmbree(const TraceScene& scene, const Cone& cone, BareMode mode);
+/// Builds Embree's scene, at medium quality. faces: those that can be hit, once each, in the order in which Embree is
+/// given them, which its time depends on a little. Null where this build has no Embree.
+[[nodiscard]] std::unique_ptr<BareEmbree> makeBareEmbree(const TraceScene& scene, std::span<const uint32_t> faces,
+                                                         const Cone& cone, BareMode mode);
 
 }  // namespace asdfvk::bench

@@ -3,6 +3,8 @@
 
 namespace asdfvk::bench {
 
-std::unique_ptr<BareEmbree> makeBareEmbree(const TraceScene&, const Cone&, BareMode) { return {}; }
+std::unique_ptr<BareEmbree> makeBareEmbree(const TraceScene&, std::span<const uint32_t>, const Cone&, BareMode) {
+  return {};
+}
 
 }  // namespace asdfvk::bench

@@ -21,7 +21,8 @@ void bind(CLI::App& app, Arguments& arguments) {
   app.add_option("--runs", arguments.request.roundCount, "Counted rounds, after one that warms up")
       ->check(CLI::Range(1u, 1000u))
       ->capture_default_str();
-  app.add_option("--cgal-runs", arguments.request.cgalRunCount, "Runs of CGAL, which takes long; 0: none")
+  app.add_option("--cgal-runs", arguments.request.cgalRunCount,
+                 "Runs of CGAL, which takes long, spread among the rounds: one in a round at most, 0 for none")
       ->capture_default_str();
   app.add_option("--seeds", arguments.request.seeds, "Shares, counts or all")
       ->delimiter(',')

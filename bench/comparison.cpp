@@ -53,8 +53,8 @@ class Contest {
         prepared_(prepareMesh(mesh, Orientation::Keep)),
         cone_(makeCone({})),
         bvh_(buildBvh(mesh, prepared_.geometry, prepared_.representatives)),
-        bareEmbree_(makeBareEmbree(scene(), cone_, BareMode::Fastest)),
-        robustEmbree_(makeBareEmbree(scene(), cone_, BareMode::Robust)),
+        bareEmbree_(makeBareEmbree(scene(), bvh_.slotFaces, cone_, BareMode::Fastest)),
+        robustEmbree_(makeBareEmbree(scene(), bvh_.slotFaces, cone_, BareMode::Robust)),
         backends_(contestants(request.device)) {
     for (const auto& [name, backend] : backends_) tracers_[name] = backend->makeTracer(scene(), cone_);
     for (const std::string& name : fastBackends())
@@ -136,6 +136,14 @@ class Contest {
   std::map<std::string, std::unique_ptr<Session>> sessions_;
 };
 
+/// Which of the equal parts of all rounds a round is in.
+size_t partOf(size_t round, size_t roundCount, size_t partCount) { return round * partCount / roundCount; }
+
+bool isFirstOfPart(size_t round, size_t roundCount, size_t partCount) {
+  const auto part = [&](size_t of) { return partOf(of, roundCount, partCount); };
+  return partCount > 0 && (round == 0 || part(round) != part(round - 1));
+}
+
 /// What a round that is not counted leaves.
 void forgetTimes(Comparison& comparison) {
   for (SeedComparison& seeds : comparison.seeds) {
@@ -152,6 +160,14 @@ Spread ratioOf(const Seconds& b, const Seconds& a) {
   return spreadOf(std::move(ratios));
 }
 
+std::optional<Spread> cgalOver(const Comparison& comparison, const Seconds& ours) {
+  if (comparison.cgal.empty()) return {};
+  Seconds theirs;
+  for (size_t round = 0; round < ours.size(); ++round)
+    theirs.push_back(comparison.cgal[partOf(round, ours.size(), comparison.cgal.size())]);
+  return ratioOf(theirs, ours);
+}
+
 Comparison compare(const std::string& path, const ComparisonRequest& request, const RunControl& control) {
   Mesh mesh = readMesh(path);
   Contest contest(path, mesh, request);
@@ -160,11 +176,11 @@ Comparison compare(const std::string& path, const ComparisonRequest& request, co
   for (const std::string& seeds : request.seeds) comparison.seeds.push_back({seeds, 0, {}, {}});
   for (uint32_t round = 0; round <= request.roundCount; ++round) {
     for (SeedComparison& seeds : comparison.seeds) contest.measure(seeds, round, control);
-    if (round == 0) forgetTimes(comparison);
-  }
-  for (uint32_t run = 0; run < request.cgalRunCount; ++run) {
+    if (round == 0)
+      forgetTimes(comparison);
+    else if (isFirstOfPart(round - 1, request.roundCount, std::min(request.cgalRunCount, request.roundCount)))
+      if (const std::optional<double> seconds = cgalSeconds(mesh)) comparison.cgal.push_back(*seconds);
     control.checkpoint(0);
-    if (const std::optional<double> seconds = cgalSeconds(mesh)) comparison.cgal.push_back(*seconds);
   }
   return comparison;
 }

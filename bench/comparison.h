@@ -16,7 +16,7 @@ struct ComparisonRequest {
   std::vector<std::string> seeds{"all", "10%"};  ///< As parseSeedCount() reads them.
   std::string device;
   uint32_t roundCount = 5;
-  uint32_t cgalRunCount = 1;  ///< It takes a thousand times as long.
+  uint32_t cgalRunCount = 3;  ///< It takes a hundred times as long. At most one in each round.
 };
 
 /// Seconds, one entry per round; entry i of everything was measured in the same round.
@@ -43,10 +43,15 @@ struct Comparison {
   uint32_t roundCount = 0;
   std::map<std::string, std::string> devices;  ///< By backend.
   std::vector<SeedComparison> seeds;
-  Seconds cgal;  ///< Empty without CGAL, and for a mesh that it refuses.
+  /// The rounds fall into as many parts as CGAL has runs, and it runs in the first of each. Empty without CGAL, and for
+  /// a mesh that it refuses.
+  Seconds cgal;
 };
 
-/// Everything turn by turn, after a round that is not counted; CGAL once at the end.
+/// CGAL's time over ours in the same part of the rounds, round by round; ours: one entry per round. None without CGAL.
+[[nodiscard]] std::optional<Spread> cgalOver(const Comparison& comparison, const Seconds& ours);
+
+/// Everything turn by turn, after a round that is not counted.
 [[nodiscard]] Comparison compare(const std::string& path, const ComparisonRequest& request, const RunControl& control);
 
 }  // namespace asdfvk::bench

@@ -25,12 +25,6 @@ std::optional<Spread> rateOverBareEmbree(const SeedComparison& seeds, const std:
   return ratioOf(bare->second, seeds.trace.at(name));
 }
 
-/// CGAL's median time over that of all of ours. None without CGAL.
-std::optional<Spread> cgalOver(const Comparison& comparison, const Seconds& ours) {
-  if (comparison.cgal.empty()) return {};
-  return ratioOf(Seconds(ours.size(), spreadOf(comparison.cgal).median), ours);
-}
-
 std::string cell(const std::optional<Spread>& spread, int decimals) {
   return spread ? toText(*spread, decimals) : std::string("-");
 }
@@ -47,7 +41,8 @@ std::string wholeRow(const std::string& seeds, const std::string& backend, const
 
 std::string cgalLine(const Comparison& comparison) {
   if (!comparison.cgal.empty())
-    return fmt::format("CGAL sdf_values, every face, one thread as it is: {} s\n",
+    return fmt::format("CGAL sdf_values, every face, one thread as it is, {} among the rounds: {} s\n",
+                       comparison.cgal.size() == 1 ? "once" : fmt::format("{} times", comparison.cgal.size()),
                        toText(spreadOf(comparison.cgal), 2));
   return hasCgal() ? "CGAL: not asked, or the mesh is none that it takes\n"
                    : "CGAL: not built in; scripts/install-packages bench installs it\n";

@@ -4,7 +4,6 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
-#include <ctime>
 #include <functional>
 #include <thread>
 
@@ -13,7 +12,6 @@
 #include "bvh/bvh_statistics.h"
 #include "bvh/device_bvh.h"
 #include "cli/terminal.h"
-#include "core/stopwatch.h"
 #include "machine.h"
 #include "mesh/mesh_reader.h"
 #include "pipeline/prepared_mesh.h"
@@ -21,6 +19,7 @@
 #include "spread.h"
 #include "trace/seed_order.h"
 #include "walk_counts.h"
+#include "work_watch.h"
 
 namespace {
 
@@ -32,8 +31,6 @@ struct Arguments {
   uint32_t threadCount = std::max(1u, std::thread::hardware_concurrency());
   size_t walkedSeedCount = 4000;
 };
-
-constexpr size_t kNeighbourCount = 8;
 
 struct Timed {
   std::string name;
@@ -53,27 +50,23 @@ std::string timesText(const TraceScene& scene, const Cone& cone, const Arguments
   rows.push_back({"wide layout", [&] { encode(scene.bvh, BvhLayout::Wide); }, {}, {}});
   rows.push_back({"build and wide layout", [&] { encode(build(), BvhLayout::Wide); }, {}, {}});
   // Embree, too, is given the mesh as it is, and for comparison in the order that our hierarchy has brought it into.
-  Bvh unordered;
-  unordered.normalization = scene.bvh.normalization;
-  unordered.slotFaces = scene.bvh.slotFaces;
-  std::sort(unordered.slotFaces.begin(), unordered.slotFaces.end());
-  const TraceScene unorderedScene{scene.mesh, scene.geometry, scene.representatives, unordered};
-  const auto commit = [&](const TraceScene& of) {
-    return bench::makeBareEmbree(of, cone, bench::BareMode::Fastest) != nullptr;
+  const std::vector<uint32_t>& inOrder = scene.bvh.slotFaces;
+  std::vector<uint32_t> inFileOrder = inOrder;
+  std::sort(inFileOrder.begin(), inFileOrder.end());
+  const auto commit = [&](const std::vector<uint32_t>& faces) {
+    return bench::makeBareEmbree(scene, faces, cone, bench::BareMode::Fastest) != nullptr;
   };
-  const bool hasEmbree = commit(scene);
+  const bool hasEmbree = commit(inOrder);
   if (hasEmbree) {
-    rows.push_back({"Embree's scene, in order", [&] { static_cast<void>(commit(scene)); }, {}, {}});
-    rows.push_back({"Embree's scene", [&] { static_cast<void>(commit(unorderedScene)); }, {}, {}});
+    rows.push_back({"Embree's scene, in order", [&] { static_cast<void>(commit(inOrder)); }, {}, {}});
+    rows.push_back({"Embree's scene", [&] { static_cast<void>(commit(inFileOrder)); }, {}, {}});
   }
+  const bench::Workers workers = arguments.threadCount == 1 ? bench::Workers::Processors : bench::Workers::Others;
   for (uint32_t round = 0; round <= arguments.roundCount; ++round) {
     for (Timed& row : rows) {
-      const Stopwatch watch;
-      const std::clock_t begin = std::clock();
+      const bench::WorkWatch watch(workers);
       row.run();
-      // A busy machine disturbs the time that a lone thread has run far less than that of a clock.
-      const double seconds =
-          arguments.threadCount == 1 ? static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC : watch.seconds();
+      const double seconds = watch.seconds();
       if (round > 0) row.seconds.push_back(seconds);
     }
     if (round == 0 || !hasEmbree) continue;
@@ -89,7 +82,18 @@ std::string timesText(const TraceScene& scene, const Cone& cone, const Arguments
   return text;
 }
 
-// Of groups of neighbours in the hierarchy's order, evenly taken.
+// Groups of neighbours, evenly taken.
+std::vector<uint32_t> someGroups(const std::vector<uint32_t>& seeds, size_t seedCount) {
+  const size_t groupCount = std::min(seedCount, seeds.size()) / bench::kNeighbourCount;
+  std::vector<uint32_t> some;
+  for (size_t group = 0; group < groupCount; ++group) {
+    const auto begin =
+        seeds.begin() + static_cast<std::ptrdiff_t>((seeds.size() - bench::kNeighbourCount) * group / groupCount);
+    some.insert(some.end(), begin, begin + bench::kNeighbourCount);
+  }
+  return some;
+}
+
 std::string walksText(const TraceScene& scene, const Cone& cone, const std::vector<uint32_t>& castable,
                       const Arguments& arguments) {
   std::string text = fmt::format(
@@ -101,22 +105,12 @@ std::string walksText(const TraceScene& scene, const Cone& cone, const std::vect
       const std::vector<uint32_t> chosen = randomPermutationSeeds(castable, castable.size() * percent / 100, 1);
       std::vector<uint32_t> seeds;
       for (const uint32_t i : SeedOrder(scene).of(chosen)) seeds.push_back(chosen[i]);
-      bench::WalkCounts sum;
-      const size_t groupCount = std::min(arguments.walkedSeedCount, seeds.size()) / kNeighbourCount;
-      for (size_t group = 0; group < groupCount; ++group) {
-        const size_t begin = (seeds.size() - kNeighbourCount) * group / groupCount;
-        const bench::WalkCounts counts =
-            bench::countWalks(bvh, scene, cone, std::span(seeds).subspan(begin, kNeighbourCount));
-        const auto share = static_cast<double>(groupCount);
-        sum.nodes += counts.nodes / share;
-        sum.triangles += counts.triangles / share;
-        sum.sharedNodes += counts.sharedNodes / share;
-        sum.sharedTriangles += counts.sharedTriangles / share;
-      }
-      text +=
-          fmt::format("| {:6} | {:>3} % | {:>7} | {:>9.2f} | {:>7.2f} | {:>9.2f} | {:>7.2f} | {:>9.2f} |\n",
-                      layout == BvhLayout::Binary ? "binary" : "wide", percent, bvh.nodes.size() + bvh.wideNodes.size(),
-                      bvh.nodeBytes().size() * 1e-6, sum.nodes, sum.triangles, sum.sharedNodes, sum.sharedTriangles);
+      const bench::WalkCounts counts =
+          bench::countWalks(bvh, scene, cone, someGroups(seeds, arguments.walkedSeedCount));
+      text += fmt::format("| {:6} | {:>3} % | {:>7} | {:>9.2f} | {:>7.2f} | {:>9.2f} | {:>7.2f} | {:>9.2f} |\n",
+                          layout == BvhLayout::Binary ? "binary" : "wide", percent,
+                          bvh.nodes.size() + bvh.wideNodes.size(), bvh.nodeBytes().size() * 1e-6, counts.nodes,
+                          counts.triangles, counts.sharedNodes, counts.sharedTriangles);
     }
   }
   return text;

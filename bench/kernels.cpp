@@ -1,16 +1,13 @@
-// How fast the variants of the cone kernels are on a device, turn by turn in one run, and how many nodes and triangles
-// their rays meet.
+// How fast the variants of the cone kernels are on a device, turn by turn in one run. What their rays meet in the
+// hierarchy is counted by hierarchies.cpp.
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <ctime>
 #include <memory>
 
 #include "bench_program.h"
-#include "bvh/bvh_statistics.h"
 #include "cli/choice_names.h"
 #include "cli/terminal.h"
-#include "core/stopwatch.h"
 #include "machine.h"
 #include "mesh/mesh_reader.h"
 #include "pipeline/prepared_mesh.h"
@@ -18,7 +15,7 @@
 #include "spread.h"
 #include "trace/vulkan_tracer.h"
 #include "vk/open_device.h"
-#include "walk_counts.h"
+#include "work_watch.h"
 
 namespace {
 
@@ -77,30 +74,16 @@ std::vector<Row> makeRows(const Arguments& arguments, const Device& device, cons
   return rows;
 }
 
-// Seconds of all threads of this process, which a busy machine disturbs less than those of a clock. Of a GPU the clock.
-class Timer {
- public:
-  explicit Timer(bool countsThreads) : countsThreads_(countsThreads) {}
-  [[nodiscard]] double seconds() const {
-    return countsThreads_ ? static_cast<double>(std::clock() - begin_) / CLOCKS_PER_SEC : watch_.seconds();
-  }
-
- private:
-  bool countsThreads_;
-  std::clock_t begin_ = std::clock();
-  Stopwatch watch_;
-};
-
-void timeRows(std::vector<Row>& rows, const std::vector<uint32_t>& seeds, uint32_t roundCount, bool countsThreads,
+void timeRows(std::vector<Row>& rows, const std::vector<uint32_t>& seeds, uint32_t roundCount, bench::Workers workers,
               const RunControl& control) {
   std::vector<double> values(seeds.size());
   for (Row& row : rows) row.rates.clear(), row.ratios.clear();
   for (uint32_t round = 0; round <= roundCount; ++round) {
     double baseline = 0;
     for (Row& row : rows) {
-      const Timer timer(countsThreads);
+      const bench::WorkWatch watch(workers);
       row.statistics = row.tracer->trace(seeds, {values}, control);
-      const double rate = static_cast<double>(row.statistics.rayCount) / timer.seconds() * 1e-6;
+      const double rate = static_cast<double>(row.statistics.rayCount) / watch.seconds() * 1e-6;
       if (&row == &rows.front()) baseline = rate;
       if (round == 0) continue;  // warms up
       row.rates.push_back(rate);
@@ -109,43 +92,23 @@ void timeRows(std::vector<Row>& rows, const std::vector<uint32_t>& seeds, uint32
   }
 }
 
-// Of the middle of the seeds in the hierarchy's order.
-std::string walksText(const TraceScene& scene, const Cone& cone, std::vector<uint32_t> seeds) {
-  std::vector<uint32_t> slotOfFace(scene.mesh.faces.size());
-  for (uint32_t slot = 0; slot < scene.bvh.slotFaces.size(); ++slot) slotOfFace[scene.bvh.slotFaces[slot]] = slot;
-  const auto slotOf = [&](uint32_t face) { return slotOfFace[scene.representatives[face]]; };
-  std::sort(seeds.begin(), seeds.end(), [&](uint32_t a, uint32_t b) { return slotOf(a) < slotOf(b); });
-  const std::span<const uint32_t> some =
-      std::span(seeds).subspan(seeds.size() / 3, std::min<size_t>(1000, seeds.size() / 3));
-  std::string text;
-  for (const BvhLayout layout : {BvhLayout::Binary, BvhLayout::Wide}) {
-    const DeviceBvh bvh = encodeDeviceBvh(scene.bvh, scene.mesh, scene.geometry, layout);
-    const bench::WalkCounts counts = bench::countWalks(bvh, scene, cone, some);
-    text += fmt::format(
-        "{}: {} nodes; a ray meets {:.1f} nodes and {:.1f} triangles, eight neighbours in step {:.1f} and {:.1f}\n",
-        layout == BvhLayout::Binary ? "binary" : "wide", bvh.nodes.size() + bvh.wideNodes.size(), counts.nodes,
-        counts.triangles, counts.sharedNodes, counts.sharedTriangles);
-  }
-  return text;
-}
-
 void measure(const std::string& path, const Arguments& arguments, const Device& device, const RunControl& control) {
   Mesh mesh = readMesh(path);
   const PreparedMesh prepared = prepareMesh(mesh, Orientation::Keep);
   const Bvh bvh = buildBvh(mesh, prepared.geometry, prepared.representatives);
   const TraceScene scene{mesh, prepared.geometry, prepared.representatives, bvh};
   const Cone cone = makeCone({.rayCount = arguments.rayCount});
-  const bool countsThreads = device.facts().kind == DeviceKind::Cpu;
+  const bench::Workers workers =
+      device.facts().kind == DeviceKind::Cpu ? bench::Workers::Processors : bench::Workers::Others;
   std::vector<Row> rows = makeRows(arguments, device, scene, cone);
   for (const uint32_t percent : arguments.percents) {
     const std::vector<uint32_t> seeds =
         randomPermutationSeeds(prepared.castableFaces, prepared.castableFaces.size() * percent / 100, 1);
-    timeRows(rows, seeds, arguments.roundCount, countsThreads, control);
-    writeStandardOutput(fmt::format("\n{}, {} % of the faces: {} cones of {} rays, SAH cost {:.1f}\n{}", path, percent,
-                                    seeds.size(), arguments.rayCount, computeBvhStatistics(bvh).sahCost,
-                                    walksText(scene, cone, seeds)));
+    timeRows(rows, seeds, arguments.roundCount, workers, control);
+    writeStandardOutput(
+        fmt::format("\n{}, {} % of the faces: {} cones of {} rays\n", path, percent, seeds.size(), arguments.rayCount));
     writeStandardOutput(fmt::format("\n| {:24} | {:>14} | {:>10} | redone |\n|:---|---:|---:|---:|\n", "kernel",
-                                    countsThreads ? "Mrays/s a core" : "Mrays/s", "ratio"));
+                                    workers == bench::Workers::Processors ? "Mrays/s a core" : "Mrays/s", "ratio"));
     for (const Row& row : rows)
       writeStandardOutput(fmt::format("| {:24} | {:>14} | {:>10} | {:>6} |\n", row.name,
                                       bench::toText(bench::spreadOf(row.rates), 2),

@@ -11,8 +11,6 @@
 namespace asdfvk::bench {
 namespace {
 
-constexpr size_t kLaneCount = 8;
-
 // The triangles tested after each node.
 using Steps = std::vector<uint32_t>;
 
@@ -110,10 +108,10 @@ class Walk {
 WalkCounts countWalks(const DeviceBvh& bvh, const TraceScene& scene, const Cone& cone,
                       std::span<const uint32_t> seeds) {
   WalkCounts counts;
-  for (size_t begin = 0; begin + kLaneCount <= seeds.size(); begin += kLaneCount) {
+  for (size_t begin = 0; begin + kNeighbourCount <= seeds.size(); begin += kNeighbourCount) {
     for (const Vec3d& local : cone.directions) {
       Steps together;
-      for (const uint32_t face : seeds.subspan(begin, kLaneCount)) {
+      for (const uint32_t face : seeds.subspan(begin, kNeighbourCount)) {
         const ConeFrame frame = faceConeFrame(cone, scene.geometry.normals[face], face);
         const Vec3d direction = frame.tangent * local.x + frame.bitangent * local.y + frame.axis * local.z;
         const Vec3d origin = scene.bvh.normalization.toNormalized(scene.geometry.barycentres[face]);
@@ -129,9 +127,9 @@ WalkCounts countWalks(const DeviceBvh& bvh, const TraceScene& scene, const Cone&
       for (const uint32_t count : together) counts.sharedTriangles += count;
     }
   }
-  const double groupCount = static_cast<double>(seeds.size() / kLaneCount * cone.directions.size());
+  const double groupCount = static_cast<double>(seeds.size() / kNeighbourCount * cone.directions.size());
   if (groupCount == 0) return counts;
-  return {counts.nodes / (groupCount * kLaneCount), counts.triangles / (groupCount * kLaneCount),
+  return {counts.nodes / (groupCount * kNeighbourCount), counts.triangles / (groupCount * kNeighbourCount),
           counts.sharedNodes / groupCount, counts.sharedTriangles / groupCount};
 }
 

@@ -6,6 +6,7 @@
 
 #include "core/counted.h"
 #include "core/error.h"
+#include "core/stopwatch.h"
 #include "mesh/coincident_faces.h"
 #include "mesh/orientation.h"
 
@@ -29,7 +30,8 @@ void orient(Mesh& mesh, PreparedMesh& prepared, Orientation orientation) {
 
 }  // namespace
 
-PreparedMesh prepareMesh(Mesh& mesh, Orientation orientation) {
+PreparedMesh prepareMesh(Mesh& mesh, Orientation orientation, StageSeconds& seconds) {
+  const Stopwatch watch;
   if (mesh.inputFaceCount() == 0)
     throw Error(ErrorKind::Input, "the mesh has no faces; a shape diameter needs a surface");
   if (const uint64_t count = countFacesWithIndexOutOfRange(mesh); count > 0)
@@ -38,7 +40,9 @@ PreparedMesh prepareMesh(Mesh& mesh, Orientation orientation) {
                                               counted(mesh.vertices.size(), "vertex", "vertices")));
   PreparedMesh prepared;
   prepared.geometry = computeFaceGeometry(mesh);
+  const Stopwatch graphWatch;
   EdgeSurvey edges = surveyEdges(mesh);
+  const double graphSeconds = graphWatch.seconds();
   prepared.representatives = coincidentRepresentatives(mesh, edges);
   prepared.components = findComponents(mesh, edges);
   prepared.defects = findDefects(mesh, prepared.geometry, prepared.representatives, edges);
@@ -48,6 +52,8 @@ PreparedMesh prepareMesh(Mesh& mesh, Orientation orientation) {
   prepared.castableFaces.reserve(mesh.faces.size());
   for (uint32_t face = 0; face < mesh.faceCount(); ++face)
     if (!prepared.geometry.isDegenerate(face)) prepared.castableFaces.push_back(face);
+  seconds.graph += graphSeconds;
+  seconds.geometry += watch.seconds() - graphSeconds;
   return prepared;
 }
 

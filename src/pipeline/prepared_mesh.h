@@ -26,6 +26,12 @@ struct PreparedMesh {
 };
 
 /// Throws Error{Input} for a mesh without faces or with an index out of range. Turns faces over as `orientation` says.
-[[nodiscard]] PreparedMesh prepareMesh(Mesh& mesh, Orientation orientation);
+/// seconds: what it took is added to those of geometry and graph.
+[[nodiscard]] PreparedMesh prepareMesh(Mesh& mesh, Orientation orientation, StageSeconds& seconds);
+
+[[nodiscard]] inline PreparedMesh prepareMesh(Mesh& mesh, Orientation orientation) {
+  StageSeconds ignored;
+  return prepareMesh(mesh, orientation, ignored);
+}
 
 }  // namespace asdfvk

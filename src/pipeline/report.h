@@ -15,21 +15,28 @@
 /// What a computation tells about itself beside its values.
 namespace asdfvk {
 
-/// Seconds of wall clock. A stage that did not run is 0.
+/// Seconds of wall clock, none of them counted twice. A stage that did not run is 0.
 struct StageSeconds {
-  double read = 0, geometry = 0, bvh = 0, upload = 0;
-  double sample = 0;   ///< Choosing the seeds.
-  double trace = 0;    ///< Casting their rays.
-  double predict = 0;  ///< Reprojecting their hits.
-  double solve = 0;    ///< The Poisson equation.
+  double read = 0;
+  double geometry = 0;  ///< Normals, areas, components, defects and orientation.
+  double graph = 0;     ///< The dual graph, and what its edges tell about the mesh.
+  double bvh = 0;       ///< The hierarchy.
+  double encode = 0;    ///< The layout that is traced, or Embree's scene, a second one where the first will not do.
+  double upload = 0;    ///< To the device: kernels and buffers, and their release; 0 without Vulkan.
+  double sample = 0;    ///< Choosing the seeds.
+  double trace = 0;     ///< Casting their rays.
+  double predict = 0;   ///< Reprojecting their hits.
+  double solve = 0;     ///< The Poisson equation.
   double estimate = 0, smooth = 0, write = 0;
 };
 
 /// The stages in the order in which they run, by the names under which they are reported.
-inline constexpr std::array<std::pair<const char*, double StageSeconds::*>, 11> kStages{{
+inline constexpr std::array<std::pair<const char*, double StageSeconds::*>, 13> kStages{{
     {"read", &StageSeconds::read},
     {"geometry", &StageSeconds::geometry},
+    {"graph", &StageSeconds::graph},
     {"bvh", &StageSeconds::bvh},
+    {"encode", &StageSeconds::encode},
     {"upload", &StageSeconds::upload},
     {"sample", &StageSeconds::sample},
     {"trace", &StageSeconds::trace},

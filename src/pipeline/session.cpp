@@ -76,6 +76,11 @@ void describeValues(Report& report, const std::vector<double>& sdf, const std::s
                     "of the shape{}{}",
                     report.noValueCount, counted(report.faceCount, "face"),
                     causeOfMissing.empty() ? "" : ", most likely because ", causeOfMissing));
+  if (report.solver.finishedOnCpu)
+    report.warnings.push_back(
+        fmt::format("the {} solver met the limit of float32 on the device, and the CPU carried on in double precision; "
+                    "--solver cpu may be faster here",
+                    report.solver.name));
   if (!report.solver.converged)
     report.warnings.push_back(fmt::format(
         "the {} solver stopped after {} at a relative residual of {:.1e}; "
@@ -125,7 +130,7 @@ Result Session::compute(Mesh& mesh, const Options& options, const RunControl& co
 
   const double roundsEnd = options.checkCount ? kRoundsEndBeforeCheck : 1;
   control.checkpoint(0);
-  const PreparedMesh prepared = timed(seconds.geometry, [&] { return prepareMesh(mesh, options.orientation); });
+  const PreparedMesh prepared = prepareMesh(mesh, options.orientation, seconds);
   describeMesh(report, mesh, prepared, options);
   control.checkpoint(0);
   Bvh bvh = timed(seconds.bvh, [&] { return buildBvh(mesh, prepared.geometry, prepared.representatives); });
@@ -133,8 +138,11 @@ Result Session::compute(Mesh& mesh, const Options& options, const RunControl& co
   control.checkpoint(0);
   const bool interpolates = options.seeds.kind != SeedCount::Kind::All || options.interpolation.pooling > 0;
   const bool wantsHits = interpolates && options.interpolation.guidance == Guidance::Hits;
-  std::unique_ptr<ConeTracer> tracer =
-      timed(seconds.upload, [&] { return backend.makeTracer(scene, cone, wantsHits); });
+  const Stopwatch setUpWatch;
+  std::unique_ptr<ConeTracer> tracer = backend.makeTracer(scene, cone, wantsHits);
+  seconds.encode += tracer->encodeSeconds();
+  double& otherSeconds = report.traceChoice ? seconds.upload : seconds.encode;  // Without Vulkan nothing is uploaded.
+  otherSeconds += setUpWatch.seconds() - tracer->encodeSeconds();
 
   SeedTracing tracing(prepared, *tracer, cone.directions.size(), wantsHits);
   Interpolation interpolation(prepared, scene, cone, options, backend, report.warnings);
@@ -143,7 +151,7 @@ Result Session::compute(Mesh& mesh, const Options& options, const RunControl& co
     tracer.reset();
     if (!options.checkCount) bvh.nodes = {};  // A check casts rays of its own, and their order is asked for later.
     returnFreedMemory();
-    seconds.upload += watch.seconds();
+    otherSeconds += watch.seconds();
   };
   SeedRounds rounds(mesh, prepared, options, tracing, interpolation, clock, seconds, afterLastRay);
   rounds.run(control.part(0, roundsEnd));

@@ -21,6 +21,7 @@ struct SolverReport {
   uint32_t iterations = 0;
   double relativeResidual = 0;  ///< The true one, recomputed in double from the solution.
   bool converged = true;        ///< Not converging is data, not an error.
+  bool finishedOnCpu = false;   ///< Begun on a device in float32, which did not get there.
 };
 
 class PoissonSolver {

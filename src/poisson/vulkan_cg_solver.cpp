@@ -23,8 +23,10 @@ class VulkanCgSolver final : public PoissonSolver {
 
   SolverReport solve(const PoissonSystem& system, const SolverOptions& options, std::span<double> solution,
                      const RunControl& control) override {
-    return solveOnDevice("cg", device_, system, options, kStrongestReduction, solution, control,
-                         [this](const DevicePass& pass) { return iterate(pass); });
+    const auto solver = [this](const DevicePass& pass) { return iterate(pass); };
+    return solveOnDevice(
+        {.name = "cg", .strongestReduction = kStrongestReduction, .cpuFinishes = true, .solver = solver}, device_,
+        system, options, solution, control);
   }
 
  private:

@@ -21,8 +21,10 @@ class VulkanJacobiSolver final : public PoissonSolver {
   SolverReport solve(const PoissonSystem& system, const SolverOptions& options, std::span<double> solution,
                      const RunControl& control) override {
     const double heldBack = heldBackByJacobi(system);
-    return solveOnDevice("jacobi", device_, system, options, kStrongestReduction, solution, control,
-                         [&](const DevicePass& pass) { return iterate(pass, heldBack); });
+    const auto solver = [&](const DevicePass& pass) { return iterate(pass, heldBack); };
+    return solveOnDevice(
+        {.name = "jacobi", .strongestReduction = kStrongestReduction, .cpuFinishes = false, .solver = solver}, device_,
+        system, options, solution, control);
   }
 
  private:

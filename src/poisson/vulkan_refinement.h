@@ -30,10 +30,16 @@ struct DevicePassResult {
 
 using DeviceSolver = std::function<DevicePassResult(const DevicePass& pass)>;
 
+struct DeviceMethod {
+  std::string name;           ///< For the report.
+  double strongestReduction;  ///< See Corrector.
+  bool cpuFinishes;           ///< Where its float32 no longer helps, makeEigenCorrector() carries on.
+  DeviceSolver solver;
+};
+
 /// solveByRefinement() whose passes run in float32 on the device; the matrix is uploaded when the first one needs it.
-[[nodiscard]] SolverReport solveOnDevice(const std::string& name, const Device& device, const PoissonSystem& system,
-                                         const SolverOptions& options, double strongestReduction,
-                                         std::span<double> solution, const RunControl& control,
-                                         const DeviceSolver& solver);
+[[nodiscard]] SolverReport solveOnDevice(const DeviceMethod& method, const Device& device, const PoissonSystem& system,
+                                         const SolverOptions& options, std::span<double> solution,
+                                         const RunControl& control);
 
 }  // namespace asdfvk

@@ -56,6 +56,9 @@ class ConeTracer {
   /// Throws Error{Cancelled} between chunks, Error{Device}.
   virtual TraceStatistics trace(std::span<const uint32_t> seedFaces, const ConeResults& results,
                                 const RunControl& control) = 0;
+
+  /// Of what making it took, the seconds that went by before anything was brought to a device; 0 without one.
+  [[nodiscard]] virtual double encodeSeconds() const { return 0; }
 };
 
 }  // namespace asdfvk

@@ -27,7 +27,7 @@ class VulkanTracer final : public ConeTracer {
         scene_(scene),
         cone_(cone),
         seedOrder_(scene),
-        buffers_(kernel, encodeDeviceBvh(scene.bvh, scene.mesh, scene.geometry, kernel.choice().bvh), cone),
+        buffers_(kernel, encode(), cone),
         commands_(kernel.device()) {
     ASDFVK_CHECK_OP(cone.directions.size(), ==, size_t{kernel.rayCount()});
   }
@@ -54,7 +54,15 @@ class VulkanTracer final : public ConeTracer {
     return {statistics.rayCount, redone.size()};
   }
 
+  double encodeSeconds() const override { return encodeSeconds_; }
+
  private:
+  DeviceBvh encode() {
+    DeviceBvh bvh = encodeDeviceBvh(scene_.bvh, scene_.mesh, scene_.geometry, kernel_.choice().bvh);
+    encodeSeconds_ = watch_.seconds();
+    return bvh;
+  }
+
   void traceOnDevice(std::span<const uint32_t> seedFaces, const std::vector<uint32_t>& order,
                      const ConeResults& results, std::vector<uint32_t>& redone, const RunControl& control) {
     ChunkSize chunk(std::max<uint64_t>(1, kFirstChunkRayCount / kernel_.rayCount()), largestConeChunk(kernel_));
@@ -141,6 +149,8 @@ class VulkanTracer final : public ConeTracer {
   const VulkanConeKernel& kernel_;
   TraceScene scene_;
   const Cone& cone_;
+  Stopwatch watch_;
+  double encodeSeconds_ = 0;
   SeedOrder seedOrder_;
   ConeBuffers buffers_;
   CommandList commands_;

@@ -33,8 +33,8 @@ TEST_CASE("--json is exactly one document with every promised key and its type")
   CHECK_EQ(json.at("backend").get<std::string>(), "reference");
   CHECK(json.at("device").is_string());
   CHECK(json.at("traceChoice").is_null());
-  for (const char* stage :
-       {"read", "geometry", "bvh", "upload", "sample", "trace", "predict", "solve", "estimate", "smooth", "write"}) {
+  for (const char* stage : {"read", "geometry", "graph", "bvh", "encode", "upload", "sample", "trace", "predict",
+                            "solve", "estimate", "smooth", "write"}) {
     CHECK(json.at("stageSeconds").at(stage).is_number());
     CHECK(json.at("stageSeconds").at(stage).get<double>() >= 0);
   }

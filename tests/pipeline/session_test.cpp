@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/error.h"
+#include "core/stopwatch.h"
 #include "generate/shapes.h"
 #include "mesh/face_geometry.h"
 #include "pipeline/asdf.h"
@@ -288,6 +290,21 @@ TEST_CASE("all solvers give the same values") {
   }
 }
 
+TEST_CASE("where a device's float32 does not get to the tolerance, the warnings tell that the CPU went on") {
+  Mesh mesh = makeTorus(1000).mesh;
+  Options options;
+  options.solver = SolverChoice::Cg;
+  const auto tellsOfCpu = [&] {
+    const std::vector<std::string> warnings = vulkanSession().compute(mesh, options).report.warnings;
+    return std::any_of(warnings.begin(), warnings.end(), [](const std::string& warning) {
+      return warning.find("the CPU carried on in double precision") != std::string::npos;
+    });
+  };
+  CHECK_FALSE(tellsOfCpu());
+  options.solverOptions.tolerance = 1e-30;
+  CHECK(tellsOfCpu());
+}
+
 TEST_CASE("a computation stops when it is asked to") {
   Mesh mesh = makeSphere(50'000).mesh;
   std::stop_source stop;
@@ -315,6 +332,30 @@ TEST_CASE("progress goes from 0 to 1 and never back") {
   (void)vulkanSession().compute(mesh, {}, control);
   CHECK(monotonic);
   CHECK(last > 0.5);
+}
+
+TEST_CASE("stages that ran took time, those that did not took none, and no moment counts twice") {
+  std::vector<Session*> sessions{&referenceSession(), &vulkanSession()};
+  std::optional<Session> embree;
+  if (hasEmbree()) sessions.push_back(&embree.emplace(SessionOptions{.backend = Backend::Cpu}));
+  Mesh mesh = makeTorus(3000).mesh;
+  for (Session* session : sessions) {
+    const Stopwatch watch;
+    const Report report = session->compute(mesh, {}).report;
+    const double total = watch.seconds();
+    CAPTURE(report.backend);
+    const StageSeconds& seconds = report.stageSeconds;
+    double sum = 0;
+    for (const auto& [name, member] : kStages) {
+      CAPTURE(name);
+      const std::string stage = name;
+      const bool isOfDevice = stage == "upload", isOfProgram = stage == "read" || stage == "write";
+      const bool runs = isOfDevice ? report.backend == "vulkan" : !isOfProgram && stage != "smooth";
+      CHECK((seconds.*member > 0) == runs);
+      sum += seconds.*member;
+    }
+    CHECK(sum <= total);
+  }
 }
 
 TEST_CASE("a backend of the CPU contradicts a required GPU") {

@@ -275,19 +275,42 @@ TEST_CASE("solvers on the CPU give the same bits on any number of threads") {
   }
 }
 
-TEST_CASE("where float32 gives up on the CPU, double carries on") {
+TEST_CASE("where float32 gives up, on the CPU or a device, double carries on") {
   const SampleProblem problem("coincident faces", randomFaces(25, 300, 6));
   const PoissonSystem system =
       buildPoissonSystem(problem.graph, arcWeights(ArcWeightKind::Distance, problem.graph, problem.geometry),
                          problem.values, {}, {.secondOrder = 3});
   const ScaledSystem scaled(system);
-  std::vector<double> solution(system.unknownCount(), system.knownMean), residual(solution.size());
-  computeResidual(system, solution, residual);
+  std::vector<double> start(system.unknownCount(), system.knownMean), residual(start.size());
+  computeResidual(system, start, residual);
   CpuCg cg(scaled, scaled.scaleResidual(residual, residualNorm(system, residual)), 1e-6);
   REQUIRE(cg.advance(20'000).status == kCgBrokenDown);
-  const SolverReport report = makeCpuCgSolver()->solve(system, {.tolerance = 1e-6}, solution, {});
-  CHECK(report.converged);
-  CHECK(relativeResidual(system, solution) <= 1e-6);
+  SolversUnderTest solvers;
+  for (SolverUnderTest& under : solvers) {
+    if (under.name == "jacobi") continue;  // Nobody finishes what is there to be compared with.
+    CAPTURE(under.name);
+    const SolverReport report = solve(under, system, {.tolerance = 1e-6}).report;
+    CHECK(report.converged);
+    CHECK(report.relativeResidual <= 1e-6);
+    CHECK(report.finishedOnCpu == (under.name == "cg"));
+    CHECK_FALSE(solve(under, torusSystem(20, 10), {.tolerance = 1e-6}).report.finishedOnCpu);
+  }
+}
+
+TEST_CASE("what the CPU finishes is within the iterations that were granted") {
+  const SampleProblem problem("coincident faces", randomFaces(25, 300, 6));
+  const PoissonSystem system =
+      buildPoissonSystem(problem.graph, arcWeights(ArcWeightKind::Distance, problem.graph, problem.geometry),
+                         problem.values, {}, {.secondOrder = 3});
+  SolversUnderTest solvers;
+  for (SolverUnderTest& under : solvers)
+    if (under.name == "cg") {
+      const uint32_t whole = solve(under, system, {.tolerance = 1e-6}).report.iterations;
+      const SolverReport report = solve(under, system, {.tolerance = 1e-6, .maxIterations = whole - 1}).report;
+      CHECK_FALSE(report.converged);
+      CHECK(report.iterations == whole - 1);
+      CHECK(report.finishedOnCpu);
+    }
 }
 
 TEST_CASE("a finely meshed patch does not hide what is unsolved elsewhere") {
