@@ -15,11 +15,27 @@ vec3 invert(vec3 direction) {
   return 1.0 / mix(direction, mix(tiny, -tiny, lessThan(direction, vec3(0.0))), lessThan(abs(direction), tiny));
 }
 
-void testTriangle(RayFrame frame, vec3 origin, uint slot, uint excludedFace, inout Hit hit) {
-  const DeviceTriangle triangle = loadTriangle(slot);
-  const float t = intersectTriangle(frame, triangle.v0 - origin, triangle.v1 - origin, triangle.v2 - origin);
-  if (t >= 0.0 && t < hit.distance && triangle.faceIndex != excludedFace) {
-    hit.distance = t;
+float distanceTo(DeviceTriangle triangle, RayFrame frame, vec3 origin) {
+  return intersectTriangle(frame, triangle.v0 - origin, triangle.v1 - origin, triangle.v2 - origin);
+}
+
+// Keeps `hit` or the triangle in `slot`, at `distance`, negative where there is none.
+void keepNearest(float distance, uint slot, uint faceIndex, uint excludedFace, inout Hit hit) {
+  if (distance >= 0.0 && distance < hit.distance && faceIndex != excludedFace) {
+    hit.distance = distance;
     hit.slot = slot;
   }
+}
+
+void testTriangle(RayFrame frame, vec3 origin, uint slot, uint excludedFace, inout Hit hit) {
+  const DeviceTriangle triangle = loadTriangle(slot);
+  keepNearest(distanceTo(triangle, frame, origin), slot, triangle.faceIndex, excludedFace, hit);
+}
+
+// Two, or twice the same.
+void testTriangles(RayFrame frame, vec3 origin, uint slot0, uint slot1, uint excludedFace, inout Hit hit) {
+  const DeviceTriangle triangle0 = loadTriangle(slot0), triangle1 = loadTriangle(slot1);
+  const float distance0 = distanceTo(triangle0, frame, origin), distance1 = distanceTo(triangle1, frame, origin);
+  keepNearest(distance0, slot0, triangle0.faceIndex, excludedFace, hit);
+  keepNearest(distance1, slot1, triangle1.faceIndex, excludedFace, hit);
 }

@@ -95,8 +95,39 @@ struct Leaves {
   uint base, bits, all;
 };
 
+const Leaves kNoLeaves = Leaves(0u, 0u, 0u);
+
+// Those that wait, none behind one that is empty.
+struct LeafQueue {
+  Leaves first, second, third;
+};
+
+void add(inout LeafQueue queue, Leaves leaves) {
+  if (leaves.bits == 0u) return;
+  if (queue.first.bits == 0u) {
+    queue.first = leaves;
+  } else if (queue.second.bits == 0u) {
+    queue.second = leaves;
+  } else {
+    queue.third = leaves;
+  }
+}
+
+// Takes a triangle out and returns its slot, or `otherwise` where none waits.
+uint takeSlot(inout LeafQueue queue, uint otherwise) {
+  const uint lowest = queue.first.bits & (~queue.first.bits + 1u);
+  const uint slot = queue.first.base + bitCount(queue.first.all & (lowest - 1u));
+  queue.first.bits ^= lowest;
+  if (queue.first.bits == 0u) {
+    queue.first = queue.second;
+    queue.second = queue.third;
+    queue.third.bits = 0u;
+  }
+  return lowest == 0u ? otherwise : slot;
+}
+
 // Triangles wait until some lane has those of three nodes to test: otherwise most lanes would wait for the few that have
-// one after nearly every node.
+// one after nearly every node. Then two are tested at a time, which fills the waiting for either's texels.
 Hit walkWide(vec3 origin, vec3 direction, uint excludedFace, inout uint iterationCount) {
   const RayFrame frame = makeRayFrame(direction);
   const WideRay ray = makeWideRay(origin, direction);
@@ -104,7 +135,7 @@ Hit walkWide(vec3 origin, vec3 direction, uint excludedFace, inout uint iteratio
   uint stackBits[kMaxWideBvhDepth];
   uint stackSize = 0u;
   Group group = Group(0u, 8u);  // The root.
-  Leaves first = Leaves(0u, 0u, 0u), second = first, third = first;
+  LeafQueue queue = LeafQueue(kNoLeaves, kNoLeaves, kNoLeaves);
   Hit hit = Hit(kFarAway, kNoSlot, true);
 
   while (group.bits != 0u) {
@@ -117,33 +148,18 @@ Hit walkWide(vec3 origin, vec3 direction, uint excludedFace, inout uint iteratio
       }
       const DeviceWideNode node = loadWideNode(index);
       const uint children = enterChildren(node, ray, hit.distance);
-      const Leaves entered = Leaves(node.triangleBase, children & ~kWideInnerBits, node.childBits & ~kWideInnerBits);
       group = groupOf(node, children, ray.isNegative);
       if (group.bits == 0u && stackSize > 0u) {
         --stackSize;
         group = Group(stackBases[stackSize], stackBits[stackSize]);
       }
-      if (entered.bits != 0u) {
-        if (first.bits == 0u) {
-          first = entered;
-        } else if (second.bits == 0u) {
-          second = entered;
-        } else {
-          third = entered;
-        }
-      }
+      add(queue, Leaves(node.triangleBase, children & ~kWideInnerBits, node.childBits & ~kWideInnerBits));
       if (++iterationCount > kIterationLimit) group.bits = 0u;
-      if (subgroupAny(third.bits != 0u)) break;
+      if (subgroupAny(queue.third.bits != 0u)) break;
     }
-    while (first.bits != 0u) {
-      const uint lowest = first.bits & (~first.bits + 1u);
-      first.bits ^= lowest;
-      testTriangle(frame, origin, first.base + bitCount(first.all & (lowest - 1u)), excludedFace, hit);
-      if (first.bits == 0u) {
-        first = second;
-        second = third;
-        third.bits = 0u;
-      }
+    while (queue.first.bits != 0u) {
+      const uint slot = takeSlot(queue, kNoSlot);
+      testTriangles(frame, origin, slot, takeSlot(queue, slot), excludedFace, hit);
       ++iterationCount;
     }
     iterationCount += 3u;  // This loop's own, and what entering the two inner ones costs.
