@@ -58,8 +58,10 @@ TEST_CASE(
   REQUIRE(errors.expected.size() == 6);
   for (size_t face = 0; face < 6; ++face) CHECK(errors.expected[face] == doctest::Approx(expected[face]));
   CHECK(errors.estimate.average == doctest::Approx(kHalfGain * 3.0 / 6 / 10));
-  // The standard error of the mean of 1 and 2 is 0.5; it stands for two faces of six, over the range 10.
-  CHECK(errors.estimate.standardError == doctest::Approx(kHalfGain * 0.5 * 2 / 6 / 10));
+  // The standard error of the mean of 1 and 2 is 0.5; it stands for two faces of six, over the range 10. What the
+  // probes add is as uncertain as it is great.
+  CHECK(errors.estimate.standardError ==
+        doctest::Approx(kHalfGain * std::hypot(0.5, 1.5 * (1 - kHalfGain)) * 2 / 6 / 10));
   CHECK(errors.estimate.heldOutCount == 2);
   REQUIRE(errors.estimate.worstFaces.size() == 2);
   CHECK(errors.estimate.worstFaces[0].face == 3);
@@ -77,7 +79,8 @@ TEST_CASE("errors are spread by the pattern, and a probe counts by its weight") 
   CHECK(errors.expected[3] == 0);
   CHECK(errors.estimate.average == doctest::Approx(kHalfGain * 1.8 / 6 / 10));
   // The probes are 0.1 beside the ratio, each on its side; the two faces have 3 of the pattern, a probe 2.5.
-  CHECK(errors.estimate.standardError == doctest::Approx(kHalfGain * 0.1 * 3 / 2.5 / 6 / 10));
+  CHECK(errors.estimate.standardError ==
+        doctest::Approx(kHalfGain * std::hypot(0.1 / 2.5, 0.6 * (1 - kHalfGain)) * 3 / 6 / 10));
 
   six.probes.weights = {3, 1};
   const EstimatedErrors weighted = six.estimate();
@@ -85,7 +88,9 @@ TEST_CASE("errors are spread by the pattern, and a probe counts by its weight") 
   CHECK(weighted.expected[4] == doctest::Approx(kHalfGain * ratio * 2.5));
   const double first = 3 * (1 - ratio * 1.5), second = 2 - ratio * 3.5;
   CHECK(weighted.estimate.standardError ==
-        doctest::Approx(kHalfGain * std::sqrt(2 * (first * first + second * second)) / 8 * 3 / 6 / 10));
+        doctest::Approx(kHalfGain *
+                        std::hypot(std::sqrt(2.0) * std::hypot(first, second) / 8, ratio * (1 - kHalfGain)) * 3 / 6 /
+                        10));
 
   six.probes.weights = {1, 0};  // It was chosen for certain, and speaks for no other.
   CHECK(six.estimate().estimate.heldOutCount == 0);
