@@ -165,9 +165,10 @@ std::vector<uint32_t> SeedRounds::traceByPrediction(const SeedShares& shares, st
   const Stopwatch sampleWatch;
   std::vector<uint32_t> scouts =
       chooseScouts(prepared_, interpolation_.prediction().values, traced_.isSeed, shares.scouts);
-  std::vector<uint32_t> candidates;
+  std::vector<uint32_t> unseeded, candidates;
   for (const uint32_t face : prepared_.castableFaces)
-    if (!traced_.isSeed[face] && !std::binary_search(scouts.begin(), scouts.end(), face)) candidates.push_back(face);
+    if (!traced_.isSeed[face]) unseeded.push_back(face);
+  std::set_difference(unseeded.begin(), unseeded.end(), scouts.begin(), scouts.end(), std::back_inserter(candidates));
   const Probes probes =
       chooseProbes(candidates, pattern, shares.probes, probeSeed(options_.randomSeed, probes_.faces.size()));
   seconds_.sample += sampleWatch.seconds();
