@@ -32,8 +32,8 @@ struct Result {
   std::vector<double> sdf;      ///< #I, per input face in file order, in the mesh's unit; NaN = no value.
   std::vector<uint8_t> isSeed;  ///< #I
   /// #I, what the error estimate expects of each face, in the mesh's unit: 0 at seeds that keep their value; empty
-  /// without an estimate. Its scale is cross-validated, its pattern a guess: how far the predictions of two methods are
-  /// apart.
+  /// without an estimate. Its scale is cross-validated, its pattern a guess: how far a face's prediction and the seeds
+  /// around it are apart.
   std::vector<double> expectedError;
   Report report;
 };

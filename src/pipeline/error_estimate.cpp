@@ -9,8 +9,9 @@ namespace {
 
 constexpr size_t kWorstFaceCount = 5;
 
-// Of the mean disagreement of both methods: what is expected of a face where they agree.
-constexpr double kLeastExpectation = 0.5;
+// With the probes among the seeds, the other faces err less than without: by about this power of the number of seeds,
+// which differs from mesh to mesh by as much again (bench/NOTES.md).
+constexpr double kProbesWorth = 0.12;
 
 /// Of the values traced. The function's own range is wider where its extremes were not traced.
 double tracedRange(const HeldOutErrors& errors) {
@@ -23,36 +24,30 @@ double tracedRange(const HeldOutErrors& errors) {
   return high > low ? high - low : 0;
 }
 
-/// How great the errors are expected to be, up to a factor; NaN where there is no value.
-std::vector<double> patternOf(const HeldOutErrors& errors) {
-  std::vector<double> pattern(errors.values.size(), 1.0);
-  if (!errors.otherValues.empty()) {
-    double sum = 0;
-    size_t count = 0;
-    for (size_t face = 0; face < pattern.size(); ++face) {
-      pattern[face] = std::abs(errors.values[face] - errors.otherValues[face]);
-      if (std::isnan(pattern[face])) continue;
-      sum += pattern[face];
-      ++count;
-    }
-    const double least = count > 0 ? kLeastExpectation * sum / static_cast<double>(count) : 0;
-    for (double& entry : pattern) entry += least > 0 ? least : 1;
-  }
-  for (size_t face = 0; face < pattern.size(); ++face)
-    if (std::isnan(errors.result[face])) pattern[face] = kNoValue;
-  return pattern;
+/// How great the error of a face is expected to be, up to a factor.
+double expectationOf(const HeldOutErrors& errors, size_t face) {
+  return errors.pattern.empty() ? 1 : errors.pattern[face];
+}
+
+/// What the error of a face falls to once the probes are seeds.
+double gainByProbes(const HeldOutErrors& errors) {
+  const auto probeCount = static_cast<double>(errors.probes.faces.size()),
+             seedCount = static_cast<double>(errors.traced.faces.size());
+  return std::pow(1 - probeCount / seedCount, kProbesWorth);
 }
 
 struct Probe {
   uint32_t face = 0;
-  double error = 0, pattern = 0;
+  double error = 0, expectation = 0, weight = 0;
 };
 
-std::vector<Probe> readProbes(const HeldOutErrors& errors, const std::vector<double>& pattern) {
+std::vector<Probe> readProbes(const HeldOutErrors& errors) {
   std::vector<Probe> probes;
-  for (const uint32_t face : errors.probes) {
-    const Probe probe{face, std::abs(errors.values[face] - errors.traced.values[face]), pattern[face]};
-    if (!std::isnan(probe.error) && !std::isnan(probe.pattern)) probes.push_back(probe);
+  for (size_t i = 0; i < errors.probes.faces.size(); ++i) {
+    const uint32_t face = errors.probes.faces[i];
+    const Probe probe{face, std::abs(errors.values[face] - errors.traced.values[face]), expectationOf(errors, face),
+                      errors.probes.weights[i]};
+    if (!std::isnan(probe.error) && !std::isnan(errors.result[face]) && probe.weight > 0) probes.push_back(probe);
   }
   return probes;
 }
@@ -73,35 +68,36 @@ EstimatedErrors estimateErrors(const Mesh& mesh, const HeldOutErrors& errors) {
   EstimatedErrors result;
   result.expected.assign(errors.result.size(), 0);
   const double range = tracedRange(errors);
-  const std::vector<double> pattern = patternOf(errors);
-  const std::vector<Probe> probes = readProbes(errors, pattern);
+  const std::vector<Probe> probes = readProbes(errors);
   if (probes.size() < 2 || !(range > 0)) return result;
 
-  double errorSum = 0, patternSum = 0;
+  double errorSum = 0, expectationSum = 0;
   for (const Probe& probe : probes) {
-    errorSum += probe.error;
-    patternSum += probe.pattern;
+    errorSum += probe.weight * probe.error;
+    expectationSum += probe.weight * probe.expectation;
   }
-  const double ratio = errorSum / patternSum;
+  const double ratio = errorSum / expectationSum;
   double squareSum = 0;
-  for (const Probe& probe : probes) squareSum += std::pow(probe.error - ratio * probe.pattern, 2);
+  for (const Probe& probe : probes) squareSum += std::pow(probe.weight * (probe.error - ratio * probe.expectation), 2);
   const auto probeCount = static_cast<double>(probes.size());
+  const double ratioDeviation = std::sqrt(squareSum * probeCount / (probeCount - 1)) / expectationSum;
+  const double gain = gainByProbes(errors), gainDeviation = 1 - gain;
 
-  double sum = 0, interpolatedPattern = 0;
+  double sum = 0, interpolatedExpectation = 0;
   size_t count = 0;
-  for (size_t face = 0; face < pattern.size(); ++face) {
-    if (std::isnan(pattern[face])) continue;
-    const double traced = errors.traced.values[face];
+  for (size_t face = 0; face < errors.result.size(); ++face) {
+    if (std::isnan(errors.result[face])) continue;
+    const double traced = errors.traced.values[face], expectation = expectationOf(errors, face);
     const bool isInterpolated = std::isnan(traced);
-    result.expected[face] = isInterpolated ? ratio * pattern[face] : std::abs(errors.result[face] - traced);
-    if (isInterpolated) interpolatedPattern += pattern[face];
+    result.expected[face] = isInterpolated ? gain * ratio * expectation : std::abs(errors.result[face] - traced);
+    if (isInterpolated) interpolatedExpectation += expectation;
     sum += result.expected[face];
     ++count;
   }
   const double scale = 1 / (static_cast<double>(count) * range);
   result.estimate.average = sum * scale;
-  result.estimate.standardError = std::sqrt(squareSum / (probeCount * (probeCount - 1))) *
-                                  (interpolatedPattern / (patternSum / probeCount)) * scale;
+  result.estimate.standardError =
+      gain * std::hypot(ratioDeviation, gainDeviation * ratio) * interpolatedExpectation * scale;
   result.estimate.heldOutCount = probes.size();
   result.estimate.worstFaces = worstOf(mesh, probes, range);
   return result;

@@ -17,8 +17,6 @@
 namespace asdfvk {
 namespace {
 
-constexpr double kComparisonTolerance = 1e-2;
-
 /// The values traced in one component. Each has its own, since parts of one mesh may differ in size by any factor.
 struct ComponentValues {
   double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
@@ -84,7 +82,7 @@ Interpolated Interpolation::run(std::span<const double> known, StageSeconds& sec
   Interpolated result;
   result.values.assign(known.begin(), known.end());
   result.solver.name = "none";
-  const std::span<const double> predicted = prediction();
+  const std::span<const double> predicted = prediction_.values;
   const bool hasAll = std::all_of(known.begin(), known.end(), [](double v) { return std::isfinite(v); });
   if (!hasAll) {
     const std::vector<ComponentValues> traced = componentValues(prepared_.components, known);
@@ -96,7 +94,7 @@ Interpolated Interpolation::run(std::span<const double> known, StageSeconds& sec
                                  .componentOf = prepared_.components.componentOf});
     };
     const PoissonSystem system = buildSystem();
-    result.solver = solve(system, result.values, options_.solverOptions, control);
+    result.solver = solve(system, result.values, control);
     if (!predicted.empty()) keepWithinTraced(prepared_.components, traced, predicted, result.values);
   }
   if (const double pooling = options_.interpolation.pooling; pooling > 0)
@@ -107,18 +105,6 @@ Interpolated Interpolation::run(std::span<const double> known, StageSeconds& sec
   return result;
 }
 
-std::vector<double> Interpolation::runHarmonic(std::span<const double> known, std::span<const double> firstGuess,
-                                               const RunControl& control) {
-  std::vector<double> values(known.begin(), known.end());
-  const PoissonSystem system =
-      buildPoissonSystem(prepared_.graph, weights(), known, {},
-                         {.firstGuess = firstGuess, .componentOf = prepared_.components.componentOf});
-  SolverOptions solverOptions = options_.solverOptions;
-  solverOptions.tolerance = std::max(solverOptions.tolerance, kComparisonTolerance);
-  solve(system, values, solverOptions, control);
-  return values;
-}
-
 const std::vector<double>& Interpolation::weights() {
   if (weights_.empty()) weights_ = arcWeights(options_.interpolation.weights, prepared_.graph, prepared_.geometry);
   return weights_;
@@ -127,8 +113,8 @@ const std::vector<double>& Interpolation::weights() {
 std::vector<double> Interpolation::divergence() {
   switch (options_.interpolation.guidance) {
     case Guidance::Hits:
-      if (prediction().empty()) return {};
-      return divergenceOf(prepared_.graph, weights(), prediction());
+      if (prediction_.values.empty()) return {};
+      return divergenceOf(prepared_.graph, weights(), prediction_.values);
     case Guidance::Curvature: {
       std::vector<double> divergence = faceCurvature(scene_.mesh);
       for (double& entry : divergence) entry *= -options_.interpolation.curvatureFactor;
@@ -140,12 +126,11 @@ std::vector<double> Interpolation::divergence() {
   return {};
 }
 
-SolverReport Interpolation::solve(const PoissonSystem& system, std::vector<double>& values,
-                                  const SolverOptions& solverOptions, const RunControl& control) {
+SolverReport Interpolation::solve(const PoissonSystem& system, std::vector<double>& values, const RunControl& control) {
   if (system.unknownCount() == 0) return {.name = "none"};
   std::vector<double> solution(system.unknownCount());
   const auto solveWith = [&](SolverChoice choice) {
-    return backend_.solver(choice).solve(system, solverOptions, solution, control);
+    return backend_.solver(choice).solve(system, options_.solverOptions, solution, control);
   };
   SolverReport report;
   try {

@@ -30,21 +30,16 @@ class Interpolation {
   /// Predicts all faces from what the rays of these seeds met, if anybody kept that. Seeds that an earlier call was
   /// given must be at the same places of traced.seeds. seconds: what it took is added to them.
   void predict(const TracedCones& traced, StageSeconds& seconds);
-  /// The last one: #F, see reprojectHits(); empty without Guidance::Hits.
-  [[nodiscard]] std::span<const double> prediction() const { return prediction_.values; }
+  /// The last one, see reprojectHits(); empty without Guidance::Hits.
+  [[nodiscard]] const Prediction& prediction() const { return prediction_; }
 
   /// Guided by the last prediction. known: #F, NaN where no value is. seconds: what it took is added to them.
   [[nodiscard]] Interpolated run(std::span<const double> known, StageSeconds& seconds, const RunControl& control);
 
-  /// The same without any guidance, to a tolerance that is enough for comparing. firstGuess: #F.
-  [[nodiscard]] std::vector<double> runHarmonic(std::span<const double> known, std::span<const double> firstGuess,
-                                                const RunControl& control);
-
  private:
   [[nodiscard]] const std::vector<double>& weights();
   [[nodiscard]] std::vector<double> divergence();
-  SolverReport solve(const PoissonSystem& system, std::vector<double>& values, const SolverOptions& solverOptions,
-                     const RunControl& control);
+  SolverReport solve(const PoissonSystem& system, std::vector<double>& values, const RunControl& control);
 
   const PreparedMesh& prepared_;
   const TraceScene& scene_;

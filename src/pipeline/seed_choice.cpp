@@ -6,20 +6,17 @@
 #include <utility>
 
 #include "core/error.h"
+#include "pipeline/probe_choice.h"
 #include "seeds/blue_noise.h"
 #include "seeds/random_permutation.h"
 
 namespace asdfvk {
 namespace {
 
-// Keeps the probes independent of the placed seeds of the same number.
-constexpr uint64_t kProbeStream = 0x7072'6f62'6500'0000u;
-
-// Probes are placed worse than placed seeds and told apart from them by nothing else, so they are as few as make the
-// estimate good to about 10 %.
+// More probes than these leave so few seeds to predict from that the estimate is worse for it (bench/NOTES.md).
 constexpr uint64_t kSeedsPerProbe = 4, kEnoughProbes = 200, kSeedsPerFurtherProbe = 10, kMostProbes = 2000;
 
-constexpr uint64_t kSeedsPerScout = 50, kLeastScouts = 8, kMostScouts = 400;
+constexpr uint64_t kSeedsPerScout = 25, kLeastScouts = 16, kMostScouts = 400;
 
 std::vector<uint32_t> without(std::span<const uint32_t> faces, std::span<const uint32_t> removed) {
   std::vector<uint32_t> rest;
@@ -63,7 +60,7 @@ SeedChoice chooseSeeds(const PreparedMesh& prepared, const Options& options, con
     // All are placed at random: any of them can be probes, and which seeds there are does not depend on an estimate.
     const std::vector<uint32_t> all = sampleSeeds(options.sampler, options.metric, domain,
                                                   shares.placed + shares.probes, earlier.placed, options.randomSeed);
-    choice.probes = randomPermutationSeeds(all, shares.probes, options.randomSeed ^ kProbeStream);
+    choice.probes = randomPermutationSeeds(all, shares.probes, probeSeed(options.randomSeed, 0));
     choice.placed = without(all, choice.probes);
     return choice;
   }
@@ -72,8 +69,7 @@ SeedChoice chooseSeeds(const PreparedMesh& prepared, const Options& options, con
           ? sampleSeeds(options.sampler, options.metric, domain, shares.placed, earlier.placed, options.randomSeed)
           : weightedBlueNoiseSeeds(domain, options.metric, weight, shares.placed, earlier.placed, options.randomSeed);
   const std::vector<uint32_t> rest = without(unchosenCandidates(domain, earlier.placed), choice.placed);
-  choice.probes =
-      randomPermutationSeeds(rest, shares.probes, (options.randomSeed ^ kProbeStream) + earlier.probes.size());
+  choice.probes = randomPermutationSeeds(rest, shares.probes, probeSeed(options.randomSeed, earlier.probes.size()));
   return choice;
 }
 

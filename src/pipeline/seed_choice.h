@@ -12,7 +12,7 @@ namespace asdfvk {
 /// How many of the faces that can cast rays are asked for; at least one where there is any.
 [[nodiscard]] uint64_t resolveSeedCount(const SeedCount& request, uint64_t castableFaceCount);
 
-/// Seeds of two kinds: those that the sampler places, and probes, which are placed at random among the other faces, so
+/// Seeds of two kinds: those that the sampler places, and probes, which are chosen at random among the other faces, so
 /// that what is interpolated from the first can be judged at the second without bias.
 struct SeedChoice {
   std::vector<uint32_t> placed, probes;  ///< Ascending; none is in both.
@@ -27,8 +27,9 @@ struct SeedShares {
 /// earlierProbeCount: of the rounds before. predicts: scouts can be chosen.
 [[nodiscard]] SeedShares shareOut(uint64_t count, uint64_t earlierProbeCount, bool predicts);
 
-/// Chooses further placed seeds and probes. earlier: what was chosen before. weight: #F, how densely
-/// the faces deserve seeds, for a sampler that adapts; or empty.
+/// Chooses further placed seeds, and probes that any of the other faces is as likely to be. Where a prediction tells
+/// more of these, no probes are asked for here: see chooseProbes(). earlier: what was chosen before. weight: #F, how
+/// densely the faces deserve seeds, for a sampler that adapts; or empty.
 [[nodiscard]] SeedChoice chooseSeeds(const PreparedMesh& prepared, const Options& options, const SeedShares& shares,
                                      const SeedChoice& earlier, std::span<const double> weight);
 

@@ -6,6 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include "pipeline/error_pattern.h"
+
 namespace asdfvk {
 namespace {
 
@@ -98,17 +100,18 @@ void SeedRounds::runRound(uint64_t count, std::span<const double> weight, bool i
   count = std::min(count, leftCount());
   const bool predicts = options_.interpolation.guidance == Guidance::Hits;
   const bool judges = estimates_ && count < leftCount();
-  const SeedShares shares = judges ? shareOut(count, probes_.size(), predicts) : SeedShares{.placed = count};
-  traceChosen(shares, weight, control.part(0, 0.8));
-  const bool isToJudge = !probes_.empty() && leftCount() > 0;
+  const SeedShares shares = judges ? shareOut(count, probes_.faces.size(), predicts) : SeedShares{.placed = count};
+  tracing_.reserve(traced_, count);
+  traceChosen({.placed = shares.placed, .probes = predicts ? 0 : shares.probes}, weight, control.part(0, 0.7));
+  const bool isToJudge = (judges || !probes_.faces.empty()) && leftCount() > 0;
+  HeldOut heldOut;
   std::vector<uint32_t> scouts;
-  if (isToJudge) {
-    predictWithoutProbes(control);
-    if (shares.scouts > 0) scouts = traceScouts(shares.scouts, control);
+  if (isToJudge && predicts) {
+    heldOut.pattern = predictWithoutProbes(control);
+    scouts = traceByPrediction(shares, heldOut.pattern, control.part(0.73, 0.83));
   }
   if (isLast) afterLastRay_();
-  HeldOut heldOut;
-  if (isToJudge) heldOut = holdOut(scouts, control.part(0.83, 0.87));
+  if (isToJudge) heldOut.values = holdOut(scouts, control.part(0.83, 0.87));
   interpolation_.predict({traced_.faces, traced_.hits}, seconds_);
   control.checkpoint(0.93);
   result_ = interpolation_.run(traced_.values, seconds_, control.part(0.93, 1));
@@ -118,18 +121,18 @@ void SeedRounds::runRound(uint64_t count, std::span<const double> weight, bool i
 
 void SeedRounds::traceChosen(const SeedShares& shares, std::span<const double> weight, const RunControl& control) {
   const Stopwatch sampleWatch;
-  const SeedChoice choice = chooseSeeds(prepared_, options_, shares, chosen_, weight);
+  SeedChoice choice = chooseSeeds(prepared_, options_, shares, chosen_, weight);
   seconds_.sample += sampleWatch.seconds();
   const Stopwatch traceWatch;
   const auto placedCount = static_cast<double>(choice.placed.size()),
              probeCount = static_cast<double>(choice.probes.size());
   const double placedShare = placedCount / std::max(1.0, placedCount + probeCount);
-  tracing_.reserve(traced_, choice.placed.size() + choice.probes.size() + shares.scouts);
   tracing_.trace(choice.placed, traced_, control.part(0, placedShare));
   tracing_.trace(choice.probes, traced_, control.part(placedShare, 1));
-  probes_.insert(probes_.end(), choice.probes.begin(), choice.probes.end());
+  std::vector<double> alike(choice.probes.size(), 1.0);
+  probes_.append({std::move(choice.probes), std::move(alike)});
   {  // What is interpolated without the probes must have a value in each component, too.
-    const HiddenValues hidden(traced_.values, probes_);
+    const HiddenValues hidden(traced_.values, probes_.faces);
     tracing_.traceComponentsWithoutValue(traced_, options_.randomSeed, control);
   }
   sortChosen();
@@ -137,50 +140,62 @@ void SeedRounds::traceChosen(const SeedShares& shares, std::span<const double> w
 }
 
 void SeedRounds::sortChosen() {
-  chosen_.probes = sorted(probes_);
+  chosen_.probes = sorted(probes_.faces);
   const std::vector<uint32_t> all = sorted(traced_.faces);
   chosen_.placed.clear();
   std::set_difference(all.begin(), all.end(), chosen_.probes.begin(), chosen_.probes.end(),
                       std::back_inserter(chosen_.placed));
 }
 
-void SeedRounds::predictWithoutProbes(const RunControl& control) {
+std::vector<double> SeedRounds::predictWithoutProbes(const RunControl& control) {
   const Stopwatch watch;
   StageSeconds ignored;
   std::vector<uint32_t> faces = traced_.faces;
   for (uint32_t& face : faces)
     if (std::binary_search(chosen_.probes.begin(), chosen_.probes.end(), face)) face = kNoFace;
   interpolation_.predict({faces, traced_.hits}, ignored);
+  std::vector<double> pattern = errorPattern(interpolation_.prediction(), faces, traced_.values);
   seconds_.estimate += watch.seconds();
-  control.checkpoint(0.83);
+  control.checkpoint(0.73);
+  return pattern;
 }
 
-std::vector<uint32_t> SeedRounds::traceScouts(uint64_t count, const RunControl& control) {
-  const Stopwatch watch;
-  std::vector<uint32_t> scouts = chooseScouts(prepared_, interpolation_.prediction(), traced_.isSeed, count);
-  tracing_.trace(scouts, traced_, {control.stop, {}});
+std::vector<uint32_t> SeedRounds::traceByPrediction(const SeedShares& shares, std::span<const double> pattern,
+                                                    const RunControl& control) {
+  const Stopwatch sampleWatch;
+  std::vector<uint32_t> scouts =
+      chooseScouts(prepared_, interpolation_.prediction().values, traced_.isSeed, shares.scouts);
+  std::vector<uint32_t> unseeded, candidates;
+  for (const uint32_t face : prepared_.castableFaces)
+    if (!traced_.isSeed[face]) unseeded.push_back(face);
+  std::set_difference(unseeded.begin(), unseeded.end(), scouts.begin(), scouts.end(), std::back_inserter(candidates));
+  const Probes probes =
+      chooseProbes(candidates, pattern, shares.probes, probeSeed(options_.randomSeed, probes_.faces.size()));
+  seconds_.sample += sampleWatch.seconds();
+  const Stopwatch traceWatch;
+  std::vector<uint32_t> faces = scouts;
+  faces.insert(faces.end(), probes.faces.begin(), probes.faces.end());
+  tracing_.trace(sorted(std::move(faces)), traced_, control);
+  probes_.append(probes);
   sortChosen();
-  seconds_.trace += watch.seconds();
+  seconds_.trace += traceWatch.seconds();
   return scouts;
 }
 
-SeedRounds::HeldOut SeedRounds::holdOut(std::span<const uint32_t> scouts, const RunControl& control) {
+std::vector<double> SeedRounds::holdOut(std::span<const uint32_t> scouts, const RunControl& control) {
   const Stopwatch watch;
   StageSeconds ignored;
-  std::vector<uint32_t> unknown = probes_;
+  std::vector<uint32_t> unknown = probes_.faces;
   unknown.insert(unknown.end(), scouts.begin(), scouts.end());
   const HiddenValues hidden(traced_.values, std::move(unknown));
-  HeldOut heldOut;
-  heldOut.guided = interpolation_.run(traced_.values, ignored, control.part(0, 0.7)).values;
-  if (!interpolation_.prediction().empty())
-    heldOut.harmonic = interpolation_.runHarmonic(traced_.values, heldOut.guided, control.part(0.7, 1));
+  std::vector<double> values = interpolation_.run(traced_.values, ignored, control).values;
   seconds_.estimate += watch.seconds();
-  return heldOut;
+  return values;
 }
 
 void SeedRounds::estimate(const HeldOut& heldOut) {
   const Stopwatch watch;
-  EstimatedErrors errors = estimateErrors(mesh_, {traced_, probes_, heldOut.guided, heldOut.harmonic, result_.values});
+  EstimatedErrors errors = estimateErrors(mesh_, {traced_, probes_, heldOut.values, heldOut.pattern, result_.values});
   if (errors.estimate.heldOutCount > 0) errors_ = std::move(errors);
   seconds_.estimate += watch.seconds();
 }

@@ -33,16 +33,18 @@ class SeedRounds {
   void runRound(uint64_t count, std::span<const double> weight, bool isLast, const RunControl& control);
   void traceChosen(const SeedShares& shares, std::span<const double> weight, const RunControl& control);
   void sortChosen();
-  /// What is interpolated without the probes and scouts, in two ways.
+  /// What the probes are judged by, #F each.
   struct HeldOut {
-    std::vector<double> guided;    ///< #F
-    std::vector<double> harmonic;  ///< #F, or empty where `guided` is harmonic itself.
+    std::vector<double> pattern;  ///< See errorPattern(); empty without a prediction.
+    std::vector<double> values;   ///< Interpolated without probes and scouts.
   };
-  void predictWithoutProbes(const RunControl& control);
-  /// Traces and returns the faces with the greatest predictions.
-  std::vector<uint32_t> traceScouts(uint64_t count, const RunControl& control);
+  /// Returns the pattern of errors.
+  [[nodiscard]] std::vector<double> predictWithoutProbes(const RunControl& control);
+  /// Traces the faces with the greatest predictions, which are returned, and probes by the pattern.
+  std::vector<uint32_t> traceByPrediction(const SeedShares& shares, std::span<const double> pattern,
+                                          const RunControl& control);
   /// Interpolates without the probes and without these scouts.
-  [[nodiscard]] HeldOut holdOut(std::span<const uint32_t> scouts, const RunControl& control);
+  [[nodiscard]] std::vector<double> holdOut(std::span<const uint32_t> scouts, const RunControl& control);
   void estimate(const HeldOut& heldOut);
   /// 0: it is enough.
   [[nodiscard]] uint64_t furtherCount() const;
@@ -62,7 +64,7 @@ class SeedRounds {
 
   SeedChoice chosen_;
   TracedSeeds traced_;
-  std::vector<uint32_t> probes_;  ///< Of the seeds traced: those that were chosen at random to judge by.
+  Probes probes_;  ///< Of the seeds traced: those that were chosen at random to judge by.
   Interpolated result_;
   std::optional<EstimatedErrors> errors_;
   double interpolationSeconds_ = 0;  ///< What the last round spent on other things than rays.

@@ -26,8 +26,8 @@ void addSeed(TracedSeeds& seeds, uint32_t face, double value) {
 struct SixFaces {
   Mesh mesh;
   TracedSeeds traced{6};
-  std::vector<uint32_t> probes{2, 3};
-  std::vector<double> values{0, 10, 5, 8, 5, 5}, other, result{0, 10, 4, 6, 5, 5};
+  Probes probes{{2, 3}, {1, 1}};
+  std::vector<double> values{0, 10, 5, 8, 5, 5}, pattern, result{0, 10, 4, 6, 5, 5};
 
   SixFaces() {
     mesh.faces.resize(6);
@@ -37,9 +37,12 @@ struct SixFaces {
     addSeed(traced, 3, 6);
   }
   [[nodiscard]] EstimatedErrors estimate() const {
-    return estimateErrors(mesh, {traced, probes, values, other, result});
+    return estimateErrors(mesh, {traced, probes, values, pattern, result});
   }
 };
+
+/// What the probes, half of the seeds, are worth to the other faces once they are seeds.
+const double kHalfGain = std::pow(0.5, 0.12);
 
 double meanOf(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
@@ -47,15 +50,18 @@ double meanOf(const std::vector<double>& values) {
 
 }  // namespace
 
-TEST_CASE("without another method every face that casts no rays is expected to err as the probes do") {
+TEST_CASE(
+    "without a pattern every face that casts no rays is expected to err as the probes do, but for what they add") {
   const SixFaces six;
   const EstimatedErrors errors = six.estimate();
-  const std::vector<double> expected{0, 0, 0, 0, 1.5, 1.5};
+  const std::vector<double> expected{0, 0, 0, 0, 1.5 * kHalfGain, 1.5 * kHalfGain};
   REQUIRE(errors.expected.size() == 6);
   for (size_t face = 0; face < 6; ++face) CHECK(errors.expected[face] == doctest::Approx(expected[face]));
-  CHECK(errors.estimate.average == doctest::Approx(3.0 / 6 / 10));
-  // The standard error of the mean of 1 and 2 is 0.5; it stands for two faces of six, over the range 10.
-  CHECK(errors.estimate.standardError == doctest::Approx(0.5 * 2 / 6 / 10));
+  CHECK(errors.estimate.average == doctest::Approx(kHalfGain * 3.0 / 6 / 10));
+  // The standard error of the mean of 1 and 2 is 0.5; it stands for two faces of six, over the range 10. What the
+  // probes add is as uncertain as it is great.
+  CHECK(errors.estimate.standardError ==
+        doctest::Approx(kHalfGain * std::hypot(0.5, 1.5 * (1 - kHalfGain)) * 2 / 6 / 10));
   CHECK(errors.estimate.heldOutCount == 2);
   REQUIRE(errors.estimate.worstFaces.size() == 2);
   CHECK(errors.estimate.worstFaces[0].face == 3);
@@ -64,16 +70,30 @@ TEST_CASE("without another method every face that casts no rays is expected to e
   CHECK(errors.estimate.worstFaces[1].error == doctest::Approx(0.1));
 }
 
-TEST_CASE("where two methods are far apart errors are expected to be great") {
+TEST_CASE("errors are spread by the pattern, and a probe counts by its weight") {
   SixFaces six;
-  six.other = {0, 10, 6, 5, 7, 5};  // They differ by 0 0 1 3 2 0, 1 on average; half of that is always expected.
+  six.pattern = {9, 9, 1.5, 3.5, 2.5, 0.5};
   const EstimatedErrors errors = six.estimate();
-  CHECK(errors.expected[4] == doctest::Approx(3.0 / (1.5 + 3.5) * 2.5));
-  CHECK(errors.expected[5] == doctest::Approx(3.0 / (1.5 + 3.5) * 0.5));
+  CHECK(errors.expected[4] == doctest::Approx(kHalfGain * 3.0 / (1.5 + 3.5) * 2.5));
+  CHECK(errors.expected[5] == doctest::Approx(kHalfGain * 3.0 / (1.5 + 3.5) * 0.5));
   CHECK(errors.expected[3] == 0);
-  CHECK(errors.estimate.average == doctest::Approx(1.8 / 6 / 10));
+  CHECK(errors.estimate.average == doctest::Approx(kHalfGain * 1.8 / 6 / 10));
   // The probes are 0.1 beside the ratio, each on its side; the two faces have 3 of the pattern, a probe 2.5.
-  CHECK(errors.estimate.standardError == doctest::Approx(0.1 * 3 / 2.5 / 6 / 10));
+  CHECK(errors.estimate.standardError ==
+        doctest::Approx(kHalfGain * std::hypot(0.1 / 2.5, 0.6 * (1 - kHalfGain)) * 3 / 6 / 10));
+
+  six.probes.weights = {3, 1};
+  const EstimatedErrors weighted = six.estimate();
+  const double ratio = (3 * 1.0 + 2.0) / (3 * 1.5 + 3.5);
+  CHECK(weighted.expected[4] == doctest::Approx(kHalfGain * ratio * 2.5));
+  const double first = 3 * (1 - ratio * 1.5), second = 2 - ratio * 3.5;
+  CHECK(weighted.estimate.standardError ==
+        doctest::Approx(kHalfGain *
+                        std::hypot(std::sqrt(2.0) * std::hypot(first, second) / 8, ratio * (1 - kHalfGain)) * 3 / 6 /
+                        10));
+
+  six.probes.weights = {1, 0};  // It was chosen for certain, and speaks for no other.
+  CHECK(six.estimate().estimate.heldOutCount == 0);
 }
 
 TEST_CASE("seeds whose values were moved err by as much") {
@@ -83,7 +103,7 @@ TEST_CASE("seeds whose values were moved err by as much") {
   const EstimatedErrors errors = six.estimate();
   CHECK(errors.expected[0] == 1);
   CHECK(errors.expected[3] == 1);
-  CHECK(errors.estimate.average == doctest::Approx((1 + 1 + 1.5 + 1.5) / 6 / 10));
+  CHECK(errors.estimate.average == doctest::Approx((1 + 1 + kHalfGain * (1.5 + 1.5)) / 6 / 10));
 }
 
 TEST_CASE("faces without a value have no error, and probes without one tell nothing") {
@@ -91,7 +111,7 @@ TEST_CASE("faces without a value have no error, and probes without one tell noth
   six.values[5] = six.result[5] = kNoValue;
   const EstimatedErrors errors = six.estimate();
   CHECK(errors.expected[5] == 0);
-  CHECK(errors.estimate.average == doctest::Approx(1.5 / 5 / 10));
+  CHECK(errors.estimate.average == doctest::Approx(kHalfGain * 1.5 / 5 / 10));
 
   six.traced.values[2] = kNoValue;
   CHECK(six.estimate().estimate.heldOutCount == 0);
@@ -99,7 +119,7 @@ TEST_CASE("faces without a value have no error, and probes without one tell noth
 
 TEST_CASE("an estimate takes two probes and a range") {
   SixFaces one;
-  one.probes = {2};
+  one.probes = {{2}, {1}};
   CHECK(one.estimate().estimate.heldOutCount == 0);
   for (const double entry : one.estimate().expected) CHECK(entry == 0);
   SixFaces flat;
@@ -114,11 +134,11 @@ TEST_CASE("no more than five worst faces, by their number in the file") {
   mesh.polygons.firstCorner.resize(11);
   for (uint32_t face = 0; face < 20; ++face) mesh.polygons.inputFaceOf.push_back(face / 2);
   TracedSeeds traced(20);
-  std::vector<uint32_t> probes;
+  Probes probes;
   addSeed(traced, 0, 0);
   for (uint32_t face = 6; face < 20; ++face) {
     addSeed(traced, face, face);
-    probes.push_back(face);
+    probes.append({{face}, {1}});
   }
   std::vector<double> values(20, 6.0), result(20, 0.0);
   std::iota(result.begin(), result.end(), 0.0);

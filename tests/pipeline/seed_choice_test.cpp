@@ -66,7 +66,9 @@ TEST_CASE("seeds are shared out without a rest: at most a quarter for probes, a 
         if (earlier == 100'000u) CHECK(shares.probes == 0);
       }
   CHECK(shareOut(100, 0, true).probes == 25);
-  CHECK(shareOut(100, 0, true).scouts == 8);
+  CHECK(shareOut(100, 0, true).scouts == 10);
+  CHECK(shareOut(200, 0, true).scouts == 16);
+  CHECK(shareOut(1000, 0, true).scouts == 40);
   CHECK(shareOut(1'000'000, 0, true).probes <= 2000);
   CHECK(shareOut(1'000'000, 0, true).scouts <= 400);
   CHECK(shareOut(2000, 150, true).probes + 150 == shareOut(2000, 0, true).probes);
