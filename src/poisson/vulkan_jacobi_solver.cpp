@@ -10,7 +10,7 @@ namespace asdfvk {
 namespace {
 
 // A stationary iteration loses nothing when it is restarted, and float32 cannot stall it over so short a way.
-constexpr double kStrongestReduction = 1e-2;
+constexpr double kStrongestJacobiReduction = 1e-2;
 // Fixed, because where it stops depends on it, and the same input must give the same bits.
 constexpr uint32_t kBatch = 32;
 
@@ -21,7 +21,7 @@ class VulkanJacobiSolver final : public PoissonSolver {
   SolverReport solve(const PoissonSystem& system, const SolverOptions& options, std::span<double> solution,
                      const RunControl& control) override {
     const double heldBack = heldBackByJacobi(system);
-    return solveOnDevice("jacobi", device_, system, options, kStrongestReduction, solution, control,
+    return solveOnDevice("jacobi", device_, system, options, kStrongestJacobiReduction, solution, control,
                          [&](const DevicePass& pass) { return iterate(pass, heldBack); });
   }
 
