@@ -91,9 +91,11 @@ TEST_CASE("Embree obeys every option of the cone") {
 TEST_CASE("cones of nearly 180 degrees do not end at their own face") {
   if (!isEmbreeThere()) return;
   const ConeOptions wide{.rayCount = 1024, .openingAngleDegrees = 179.9999};
-  const TracedMesh traced(shapes::icosphere(2));
+  const TracedMesh traced(shapes::icosphere(3));
   const TraceResults results = traceByEmbree(traced, wide, Wanted::ValuesAndHits);
-  for (size_t i = 0; i < results.hits.size(); ++i) REQUIRE(results.hits[i].face != i / wide.rayCount);
+  size_t ownFaceCount = 0;
+  for (size_t i = 0; i < results.hits.size(); ++i) ownFaceCount += results.hits[i].face == i / wide.rayCount;
+  CHECK(ownFaceCount == 0);
   CHECK(differingCount(results.values, traceByReference(traced, wide, Wanted::Values).values, 2) == 0);
 }
 
