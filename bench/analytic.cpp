@@ -111,15 +111,16 @@ void run(const Arguments& arguments, const RunControl& control) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Relative errors against exact values on spheres, slabs and cylinders of growing resolution.",
-               "asdfvk-bench-analytic");
+  bench::BenchProgram program("asdfvk-bench-analytic",
+                              "Relative errors against exact values on spheres, slabs and cylinders of growing "
+                              "resolution.");
   Arguments arguments;
-  app.add_option("--backend", arguments.backend, "vulkan, cpu or reference")->capture_default_str();
-  app.add_option("--device", arguments.device, "As asdf-vk takes it");
-  app.add_option("--faces", arguments.faceCounts, "Resolutions, rising")->delimiter(',')->capture_default_str();
-  app.add_option("--seeds", arguments.seedCount, "Faces to trace of each mesh")->capture_default_str();
-  app.add_option("--rng-seed", arguments.randomSeed, "Of their random choice")->capture_default_str();
-  app.add_option("--rays", arguments.rayCount, "Per cone")->capture_default_str();
-  app.add_option("--angles", arguments.angles, "Cones, in degrees")->delimiter(',')->capture_default_str();
-  return bench::runBenchProgram(app, argc, argv, [&](const RunControl& control) { run(arguments, control); });
+  program.add("--backend", arguments.backend, "vulkan, cpu or reference");
+  program.add("--device", arguments.device, "As asdf-vk takes it");
+  program.add("--faces", arguments.faceCounts, "Resolutions, rising");
+  program.add("--seeds", arguments.seedCount, "Faces to trace of each mesh");
+  program.add("--rng-seed", arguments.randomSeed, "Of their random choice");
+  program.add("--rays", arguments.rayCount, "Per cone");
+  program.add("--angles", arguments.angles, "Cones, in degrees");
+  return program.run(argc, argv, [&](const RunControl& control) { run(arguments, control); });
 }

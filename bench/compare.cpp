@@ -16,20 +16,14 @@ struct Arguments {
   bool json = false;
 };
 
-void bind(CLI::App& app, Arguments& arguments) {
-  app.add_option("meshes", arguments.meshes, "Meshes")->option_text("MESH...")->required();
-  app.add_option("--runs", arguments.request.roundCount, "Counted rounds, after one that warms up")
-      ->check(CLI::Range(1u, 1000u))
-      ->capture_default_str();
-  app.add_option("--cgal-runs", arguments.request.cgalRunCount,
-                 "Runs of CGAL, which takes long, spread among the rounds: one in a round at most, 0 for none")
-      ->capture_default_str();
-  app.add_option("--seeds", arguments.request.seeds, "Shares, counts or all")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->capture_default_str();
-  app.add_option("--device", arguments.request.device, "Vulkan device, as asdf-vk takes it");
-  app.add_flag("--json", arguments.json, "One JSON line per mesh instead of a table");
+void bind(bench::BenchProgram& program, Arguments& arguments) {
+  program.addMeshes(arguments.meshes);
+  program.add("--runs", arguments.request.roundCount, "Counted rounds, after one that warms up", {1, 1000});
+  program.add("--cgal-runs", arguments.request.cgalRunCount,
+              "Runs of CGAL, which takes long, spread among the rounds: one in a round at most, 0 for none");
+  program.add("--seeds", arguments.request.seeds, "Shares, counts or all");
+  program.add("--device", arguments.request.device, "Vulkan device, as asdf-vk takes it");
+  program.add("--json", arguments.json, "One JSON line per mesh instead of a table");
 }
 
 void run(const Arguments& arguments, const RunControl& control) {
@@ -43,9 +37,9 @@ void run(const Arguments& arguments, const RunControl& control) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Compares asdf-vk's backends with bare Embree and with CGAL, turn by turn in one run.",
-               "asdfvk-bench-compare");
+  bench::BenchProgram program("asdfvk-bench-compare",
+                              "Compares asdf-vk's backends with bare Embree and with CGAL, turn by turn in one run.");
   Arguments arguments;
-  bind(app, arguments);
-  return bench::runBenchProgram(app, argc, argv, [&](const RunControl& control) { run(arguments, control); });
+  bind(program, arguments);
+  return program.run(argc, argv, [&](const RunControl& control) { run(arguments, control); });
 }

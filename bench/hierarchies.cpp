@@ -133,14 +133,14 @@ void measure(const std::string& path, const Arguments& arguments) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Times the hierarchy beside Embree's, and counts what rays meet in it.", "asdfvk-bench-hierarchies");
+  bench::BenchProgram program("asdfvk-bench-hierarchies",
+                              "Times the hierarchy beside Embree's, and counts what rays meet in it.");
   Arguments arguments;
-  app.add_option("meshes", arguments.meshes, "Meshes")->option_text("MESH...")->required();
-  app.add_option("--rounds", arguments.roundCount, "Counted rounds, after one that warms up; 0: none")
-      ->capture_default_str();
-  app.add_option("--threads", arguments.threadCount, "Threads")->check(CLI::Range(1u, 1000u))->capture_default_str();
-  app.add_option("--walks", arguments.walkedSeedCount, "Seeds whose rays are counted; 0: none")->capture_default_str();
-  return bench::runBenchProgram(app, argc, argv, [&](const RunControl&) {
+  program.addMeshes(arguments.meshes);
+  program.add("--rounds", arguments.roundCount, "Counted rounds, after one that warms up; 0: none");
+  program.add("--threads", arguments.threadCount, "Threads", {1, 1000});
+  program.add("--walks", arguments.walkedSeedCount, "Seeds whose rays are counted; 0: none");
+  return program.run(argc, argv, [&](const RunControl&) {
     for (const std::string& mesh : arguments.meshes) measure(mesh, arguments);
   });
 }

@@ -126,18 +126,14 @@ void run(const Arguments& arguments, const RunControl& control) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Times the variants of the cone kernels, turn by turn in one run.", "asdfvk-bench-kernels");
+  bench::BenchProgram program("asdfvk-bench-kernels",
+                              "Times the variants of the cone kernels, turn by turn in one run.");
   Arguments arguments;
-  app.add_option("meshes", arguments.meshes, "Meshes")->option_text("MESH...")->required();
-  app.add_option("--rounds", arguments.roundCount, "Counted rounds, after one that warms up")
-      ->check(CLI::Range(1u, 1000u))
-      ->capture_default_str();
-  app.add_option("--seeds", arguments.percents, "Shares of the faces in percent")
-      ->check(CLI::Range(1u, 100u))
-      ->delimiter(',')
-      ->capture_default_str();
-  app.add_option("--only", arguments.only, "Rows by name, besides the first one")->delimiter('/');
-  app.add_option("--rays", arguments.rayCount, "Rays per cone")->check(CLI::Range(1u, 1024u))->capture_default_str();
-  app.add_option("--device", arguments.device, "As asdf-vk takes it");
-  return bench::runBenchProgram(app, argc, argv, [&](const RunControl& control) { run(arguments, control); });
+  program.addMeshes(arguments.meshes);
+  program.add("--rounds", arguments.roundCount, "Counted rounds, after one that warms up", {1, 1000});
+  program.add("--seeds", arguments.percents, "Shares of the faces in percent", {1, 100});
+  program.add("--only", arguments.only, "Rows by name, besides the first one", '/');
+  program.add("--rays", arguments.rayCount, "Rays per cone", {1, 1024});
+  program.add("--device", arguments.device, "As asdf-vk takes it");
+  return program.run(argc, argv, [&](const RunControl& control) { run(arguments, control); });
 }

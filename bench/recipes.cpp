@@ -151,18 +151,16 @@ std::string rowText(const MeshRow& row) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("What the recipes are worth over many meshes: errors, their estimates and costs.",
-               "asdfvk-bench-recipes");
+  bench::BenchProgram program("asdfvk-bench-recipes",
+                              "What the recipes are worth over many meshes: errors, their estimates and costs.");
   std::vector<std::string> meshes;
   std::string backend = "vulkan", device;
   uint32_t truthRayCount = 600;
-  app.add_option("meshes", meshes, "Meshes")->option_text("MESH...")->required();
-  app.add_option("--backend", backend, "vulkan or reference")->capture_default_str();
-  app.add_option("--device", device, "As asdf-vk takes it");
-  app.add_option("--truth-rays", truthRayCount, "Rays per cone of the function of many rays")
-      ->check(CLI::Range(31u, kMaxRayCount))
-      ->capture_default_str();
-  return bench::runBenchProgram(app, argc, argv, [&](const RunControl& control) {
+  program.addMeshes(meshes);
+  program.add("--backend", backend, "vulkan or reference");
+  program.add("--device", device, "As asdf-vk takes it");
+  program.add("--truth-rays", truthRayCount, "Rays per cone of the function of many rays", {31, kMaxRayCount});
+  return program.run(argc, argv, [&](const RunControl& control) {
     Session session(bench::sessionOptionsOf(backend, device));
     std::vector<MeshRow> rows, odd, even;
     writeStandardOutput(

@@ -120,20 +120,16 @@ void compare(const std::string& name, const Mesh& mesh, double percent, uint32_t
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Time and evenness of the seed samplers.", "asdfvk-bench-samplers");
+  bench::BenchProgram program("asdfvk-bench-samplers", "Time and evenness of the seed samplers.");
   std::vector<std::string> meshes;
   uint64_t faceCount = 200'000;
   double percent = 10;
   uint32_t roundCount = 3;
-  app.add_option("meshes", meshes, "Meshes; a generated animal without any")->option_text("MESH...");
-  app.add_option("--faces", faceCount, "Of the generated animal")->capture_default_str();
-  app.add_option("--seeds", percent, "Share of the faces that become seeds, in percent")
-      ->check(CLI::Range(0.0, 100.0))
-      ->capture_default_str();
-  app.add_option("--runs", roundCount, "Random seeds; the time is their median")
-      ->check(CLI::Range(1u, 1000u))
-      ->capture_default_str();
-  return bench::runBenchProgram(app, argc, argv, [&](const RunControl&) {
+  program.addMeshesOr(meshes, "an animal is generated");
+  program.add("--faces", faceCount, "Faces of the generated animal");
+  program.add("--seeds", percent, "Share of the faces that become seeds, in percent", {0, 100});
+  program.add("--runs", roundCount, "Random seeds; the time is their median", {1, 1000});
+  return program.run(argc, argv, [&](const RunControl&) {
     if (meshes.empty()) compare("generated animal", generateShape("animal", faceCount).mesh, percent, roundCount);
     for (const std::string& mesh : meshes) compare(mesh, readMesh(mesh), percent, roundCount);
   });

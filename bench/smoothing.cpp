@@ -105,18 +105,15 @@ void compare(ComputeBackend& backend, const SmoothingDevice& device, const std::
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Error of the full function before and after bilateral smoothing, and its time.",
-               "asdfvk-bench-smoothing");
+  bench::BenchProgram program("asdfvk-bench-smoothing",
+                              "Error of the full function before and after bilateral smoothing, and its time.");
   Arguments arguments;
-  app.add_option("meshes", arguments.meshes, "Meshes")->option_text("MESH...")->required();
-  app.add_option("--rays", arguments.rayCount, "Rays per face")->capture_default_str();
-  app.add_option("--truth-rays", arguments.truthRayCount, "Rays per face of what errors are against")
-      ->capture_default_str();
-  app.add_option("--runs", arguments.runCount, "Timed runs, after one that warms up")
-      ->check(CLI::Range(1u, 1000u))
-      ->capture_default_str();
-  app.add_option("--device", arguments.device, "As asdf-vk takes it");
-  return bench::runBenchProgram(app, argc, argv, [&](const RunControl& control) {
+  program.addMeshes(arguments.meshes);
+  program.add("--rays", arguments.rayCount, "Rays per face");
+  program.add("--truth-rays", arguments.truthRayCount, "Rays per face of what errors are against");
+  program.add("--runs", arguments.runCount, "Timed runs, after one that warms up", {1, 1000});
+  program.add("--device", arguments.device, "As asdf-vk takes it");
+  return program.run(argc, argv, [&](const RunControl& control) {
     ComputeBackend backend(bench::sessionOptionsOf("vulkan", arguments.device));
     const SmoothingDevice device(arguments.device);
     for (const std::string& mesh : arguments.meshes) compare(backend, device, mesh, arguments, control);

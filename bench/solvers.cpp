@@ -156,18 +156,14 @@ void run(const Arguments& arguments, const RunControl& control) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Times the Poisson solvers turn by turn on the same seeds.", "asdfvk-bench-solvers");
+  bench::BenchProgram program("asdfvk-bench-solvers", "Times the Poisson solvers turn by turn on the same seeds.");
   Arguments arguments;
-  app.add_option("meshes", arguments.meshes, "Meshes; without one an animal is generated")->option_text("MESH...");
-  app.add_option("--faces", arguments.generatedFaceCount, "Faces of the generated animal")
-      ->check(CLI::Range(kMinFaceCount, kMaxFaceCount))
-      ->capture_default_str();
-  app.add_option("--runs", arguments.runCount, "Counted rounds, after one that warms up")
-      ->check(CLI::Range(1u, 1000u))
-      ->capture_default_str();
-  app.add_option("--seeds", arguments.seeds, "Shares or counts")->delimiter(',')->capture_default_str();
-  app.add_option("--tolerance", arguments.tolerance, "Relative residual")->capture_default_str();
-  app.add_flag("--bare", arguments.comparesBare, "Also on the equation alone, beside Eigen's own solvers");
-  app.add_option("--device", arguments.device, "As asdf-vk takes it");
-  return bench::runBenchProgram(app, argc, argv, [&](const RunControl& control) { run(arguments, control); });
+  program.addMeshesOr(arguments.meshes, "an animal is generated");
+  program.add("--faces", arguments.generatedFaceCount, "Faces of the generated animal", {kMinFaceCount, kMaxFaceCount});
+  program.add("--runs", arguments.runCount, "Counted rounds, after one that warms up", {1, 1000});
+  program.add("--seeds", arguments.seeds, "Shares or counts");
+  program.add("--tolerance", arguments.tolerance, "Relative residual");
+  program.add("--bare", arguments.comparesBare, "Also on the equation alone, beside Eigen's own solvers");
+  program.add("--device", arguments.device, "As asdf-vk takes it");
+  return program.run(argc, argv, [&](const RunControl& control) { run(arguments, control); });
 }

@@ -22,23 +22,6 @@ struct Arguments {
   bool cold = false;
 };
 
-void bind(CLI::App& app, Arguments& arguments) {
-  app.add_option("meshes", arguments.meshes, "Meshes; without one an animal is generated")->option_text("MESH...");
-  app.add_option("--faces", arguments.generatedFaceCount, "Faces of the generated animal")
-      ->check(CLI::Range(kMinFaceCount, kMaxFaceCount))
-      ->capture_default_str();
-  app.add_option("--runs", arguments.request.runCount, "Counted rounds, after one that warms up")
-      ->check(CLI::Range(1u, 1000u))
-      ->capture_default_str();
-  app.add_option("--seeds", arguments.request.seeds, "Shares, counts or all")->delimiter(',')->capture_default_str();
-  app.add_option("--backends", arguments.request.backends, "Some of reference, vulkan and cpu")
-      ->delimiter(',')
-      ->capture_default_str();
-  app.add_option("--device", arguments.request.device, "As asdf-vk takes it");
-  app.add_flag("--json", arguments.json, "One JSON line per row instead of a table");
-  app.add_flag("--cold", arguments.cold)->group("");  // What StageBench starts further processes with.
-}
-
 void run(const Arguments& arguments, const RunControl& control) {
   const bench::StageRequest& request = arguments.request;
   if (arguments.cold) {
@@ -63,9 +46,16 @@ void run(const Arguments& arguments, const RunControl& control) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Times each stage of asdf-vk, reference against Vulkan, turn by turn in one run.",
-               "asdfvk-bench-stages");
+  bench::BenchProgram program("asdfvk-bench-stages",
+                              "Times each stage of asdf-vk, reference against Vulkan, turn by turn in one run.");
   Arguments arguments;
-  bind(app, arguments);
-  return bench::runBenchProgram(app, argc, argv, [&](const RunControl& control) { run(arguments, control); });
+  program.addMeshesOr(arguments.meshes, "an animal is generated");
+  program.add("--faces", arguments.generatedFaceCount, "Faces of the generated animal", {kMinFaceCount, kMaxFaceCount});
+  program.add("--runs", arguments.request.runCount, "Counted rounds, after one that warms up", {1, 1000});
+  program.add("--seeds", arguments.request.seeds, "Shares, counts or all");
+  program.add("--backends", arguments.request.backends, "Some of reference, vulkan and cpu");
+  program.add("--device", arguments.request.device, "As asdf-vk takes it");
+  program.add("--json", arguments.json, "One JSON line per row instead of a table");
+  program.addHidden("--cold", arguments.cold);  // What StageBench starts further processes with.
+  return program.run(argc, argv, [&](const RunControl& control) { run(arguments, control); });
 }

@@ -82,35 +82,24 @@ void run(const Arguments& arguments, const RunControl& control) {
 
 int main(int argc, char** argv) {
   Arguments arguments;
-  CLI::App app(
+  BenchProgram program(
+      "asdfvk-bench-paper",
       "Tables, plots and pictures of the ASDF paper as a page (DIR/index.html) with CSV, SVG and PNG files.\n"
-      "The first mesh takes the place of the paper's horse.",
-      "asdfvk-bench-paper");
-  app.add_option("meshes", arguments.meshes, "Meshes; a generated animal, hand and figure without any")
-      ->option_text("MESH...");
-  app.add_option("-o,--output", arguments.output, "The folder to write to; made where there is none")
-      ->option_text("DIR")
-      ->required();
-  app.add_option("--seed-sets", arguments.evaluation.seedSetCount, "Random seeds over which medians are taken")
-      ->check(CLI::Range(1u, 1000u))
-      ->capture_default_str();
-  app.add_option("--truth-rays", arguments.evaluation.truthRayCount, "Rays per face of what is called the truth")
-      ->check(CLI::Range(1u, kMaxRayCount))
-      ->capture_default_str();
-  app.add_option("--faces", arguments.generatedFaceCount, "Of each generated shape")
-      ->check(CLI::Range(kMinFaceCount, kMaxFaceCount))
-      ->capture_default_str();
+      "The first mesh takes the place of the paper's horse.");
+  program.addMeshesOr(arguments.meshes, "an animal, a hand and a figure are generated");
+  program.addRequired("-o,--output", arguments.output, "DIR", "The folder to write to; made where there is none");
+  program.add("--seed-sets", arguments.evaluation.seedSetCount, "Random seeds over which medians are taken", {1, 1000});
+  program.add("--truth-rays", arguments.evaluation.truthRayCount, "Rays per face of what is called the truth",
+              {1, kMaxRayCount});
+  program.add("--faces", arguments.generatedFaceCount, "Of each generated shape", {kMinFaceCount, kMaxFaceCount});
   std::vector<std::string> backendNames;
   for (const auto& [name, backend] : kBackends) backendNames.emplace_back(name);
   std::string backend = "auto";
-  app.add_option("--backend", backend, "Where to compute; default auto")
-      ->check(CLI::IsMember(backendNames))
-      ->option_text(joined(kBackends));
-  app.add_option("--device", arguments.session.device, "As asdf-vk takes it");
-  for (int i = 0; i < argc; ++i)
-    arguments.commandLine +=
-        (i == 0 ? "" : " ") + (i == 0 ? std::string("asdfvk-bench-paper") : quotedForShell(argv[i]));
-  return runBenchProgram(app, argc, argv, [&](const RunControl& control) {
+  program.addChoice("--backend", backend, backendNames, "Where to compute; default auto");
+  program.add("--device", arguments.session.device, "As asdf-vk takes it");
+  arguments.commandLine = "asdfvk-bench-paper";
+  for (int i = 1; i < argc; ++i) arguments.commandLine.append(" ").append(quotedForShell(argv[i]));
+  return program.run(argc, argv, [&](const RunControl& control) {
     for (const auto& [name, choice] : kBackends)
       if (name == backend) arguments.session.backend = choice;
     run(arguments, control);

@@ -13,9 +13,9 @@ namespace asdfvk {
 namespace {
 
 // Levels whose subtrees are tasks of their own.
-constexpr uint32_t kParallelLevelCount = 10;
+constexpr uint32_t kParallelSearchLevelCount = 10;
 
-float halfArea(const BvhNode& node) {
+float halfAreaOf(const BvhNode& node) {
   const Vec3f size = node.max - node.min;
   return size.x * size.y + size.y * size.z + size.z * size.x;
 }
@@ -62,13 +62,13 @@ WideCollapse::WideCollapse(std::span<const BvhNode> nodes) : nodes_(nodes), choi
 void WideCollapse::chooseFrom(uint32_t node, uint32_t level, Forests& forests) {
   if (nodes_[node].isLeaf()) {
     ASDFVK_CHECK_OP(nodes_[node].triangleCount, <=, kMaxWideLeafTriangleCount);
-    forests.costs.fill(halfArea(nodes_[node]) * static_cast<float>(nodes_[node].triangleCount));
+    forests.costs.fill(halfAreaOf(nodes_[node]) * static_cast<float>(nodes_[node].triangleCount));
     forests.nodeCounts.fill(0);
     return;
   }
   const uint32_t child = nodes_[node].first;
   Forests left, right;
-  if (level < kParallelLevelCount) {
+  if (level < kParallelSearchLevelCount) {
     tbb::parallel_invoke([&] { chooseFrom(child, level + 1, left); }, [&] { chooseFrom(child + 1, level + 1, right); });
   } else {
     chooseFrom(child, level + 1, left);
@@ -88,7 +88,7 @@ void WideCollapse::choose(uint32_t node, const Forests& left, const Forests& rig
     const auto k = static_cast<uint32_t>(sharing.leftCounts[childCount - 1]);
     return left.nodeCounts[k - 1] + right.nodeCounts[childCount - k - 1];
   };
-  const float area = halfArea(nodes_[node]), leafCost = area * static_cast<float>(choice.slots.count);
+  const float area = halfAreaOf(nodes_[node]), leafCost = area * static_cast<float>(choice.slots.count);
   choice.nodeCountBelow = nodeCount(kWideChildCount);
   choice.leftCounts = static_cast<uint32_t>(sharing.leftCounts.back()) << 4 * (kWideChildCount - 1);
   forests.costs[0] = sharing.costs.back() + area * kWideNodeCost;

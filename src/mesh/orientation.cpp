@@ -25,17 +25,17 @@ void flipPolygons(Polygons& polygons, std::span<const uint8_t> isFlipped) {
   }
 }
 
-struct InputFaces {
+struct ComponentFaces {
   uint32_t first = 0;
   uint64_t count = 0;
 };
 
 // A polygon whose triangles are of several components counts in each of them.
-InputFaces inputFacesOf(const Mesh& mesh, const Components& components, uint32_t index) {
+ComponentFaces componentFacesOf(const Mesh& mesh, const Components& components, uint32_t index) {
   const Component& component = components.components[index];
   const std::vector<uint32_t>& inputFaceOf = mesh.polygons.inputFaceOf;
   if (mesh.polygons.isEmpty()) return {component.firstFace, component.faceCount};
-  InputFaces faces{inputFaceOf[component.firstFace], 1};
+  ComponentFaces faces{inputFaceOf[component.firstFace], 1};
   uint32_t last = faces.first;
   for (uint32_t f = component.firstFace; f < mesh.faceCount(); ++f) {
     if (components.componentOf[f] != index || inputFaceOf[f] == last) continue;
@@ -51,7 +51,7 @@ std::string OrientationReport::sentence(const Mesh& mesh, const Components& comp
   if (invertedComponents.empty()) return {};
   std::string names;
   for (size_t i = 0; i < std::min(invertedComponents.size(), kNamedComponents); ++i) {
-    const InputFaces faces = inputFacesOf(mesh, components, invertedComponents[i]);
+    const ComponentFaces faces = componentFacesOf(mesh, components, invertedComponents[i]);
     names += fmt::format("{}face {} and the {} connected to it", i == 0 ? "" : ", ", faces.first, faces.count - 1);
   }
   if (invertedComponents.size() > kNamedComponents)

@@ -8,7 +8,7 @@
 namespace asdfvk {
 namespace {
 
-constexpr double kCapHeightShare = 0.036;  ///< Of the captions, over the highest panel.
+constexpr double kCaptionHeightShare = 0.036;  ///< Of the captions, over the highest panel.
 
 void paste(Image& target, const Image& source, int left, int top) {
   for (int y = 0; y < source.height(); ++y)
@@ -26,7 +26,7 @@ Image composeRow(std::span<const Panel> panels) {
     height = std::max(height, panel.image.height());
     hasCaption |= !panel.caption.empty();
   }
-  const double capHeight = height * kCapHeightShare;
+  const double capHeight = height * kCaptionHeightShare;
   const int captionHeight = hasCaption ? static_cast<int>(std::ceil(capHeight * 2.5)) : 0;
   Image row(width, height + captionHeight);
   int left = 0;

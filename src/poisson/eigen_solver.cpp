@@ -18,8 +18,8 @@ namespace {
 using Vector = Eigen::VectorXd;
 using OffDiagonals = Eigen::Map<const Eigen::SparseMatrix<double, Eigen::RowMajor, int>>;
 
-constexpr double kStrongestReduction = 1e-13;
-constexpr uint32_t kIterationsPerCheckpoint = 8;
+constexpr double kStrongestEigenReduction = 1e-13;
+constexpr uint32_t kEigenIterationsPerCheckpoint = 8;
 
 // Rows are shared out among the threads, each summed by one: the same bits whatever their number.
 void multiply(const PoissonSystem& system, const OffDiagonals& entries, const Vector& p, Vector& product) {
@@ -55,7 +55,7 @@ uint32_t conjugateGradient(const PoissonSystem& system, const CorrectionRequest&
   const double firstNorm = z.stableNorm();
   double norm = 1;
   while (norm > request.reduction && iteration < request.maxIterations) {
-    if (iteration % kIterationsPerCheckpoint == 0) progress.checkpoint(norm * firstNorm * scale);
+    if (iteration % kEigenIterationsPerCheckpoint == 0) progress.checkpoint(norm * firstNorm * scale);
     multiply(system, entries, p, product);
     const double alpha = rz / p.dot(product);
     x += alpha * p;
@@ -84,7 +84,7 @@ class EigenSolver final : public PoissonSolver {
 }  // namespace
 
 Corrector makeEigenCorrector(const PoissonSystem& system, SolverProgress& progress) {
-  return {kStrongestReduction, [&system, &progress](const CorrectionRequest& request) {
+  return {kStrongestEigenReduction, [&system, &progress](const CorrectionRequest& request) {
             ASDFVK_CHECK_OP(system.columns.size(), <=, static_cast<size_t>(std::numeric_limits<int>::max()));
             return conjugateGradient(system, request, progress);
           }};

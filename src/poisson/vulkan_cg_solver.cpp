@@ -11,7 +11,7 @@ namespace asdfvk {
 namespace {
 
 // The residual that float32 recurs on leaves the true one at about 1e-7 of the first.
-constexpr double kStrongestReduction = 1e-6;
+constexpr double kStrongestDeviceReduction = 1e-6;
 // Iterations beyond convergence do nothing, so batches may grow freely; they are kept to what a user waits for.
 constexpr uint32_t kFirstBatch = 8;
 constexpr uint32_t kLargestBatch = 64;
@@ -25,7 +25,7 @@ class VulkanCgSolver final : public PoissonSolver {
                      const RunControl& control) override {
     const auto solver = [this](const DevicePass& pass) { return iterate(pass); };
     return solveOnDevice(
-        {.name = "cg", .strongestReduction = kStrongestReduction, .cpuFinishes = true, .solver = solver}, device_,
+        {.name = "cg", .strongestReduction = kStrongestDeviceReduction, .cpuFinishes = true, .solver = solver}, device_,
         system, options, solution, control);
   }
 

@@ -10,7 +10,7 @@ namespace asdfvk {
 namespace {
 
 // A stationary iteration loses nothing when it is restarted, and float32 cannot stall it over so short a way.
-constexpr double kStrongestReduction = 1e-2;
+constexpr double kStrongestJacobiReduction = 1e-2;
 // Fixed, because where it stops depends on it, and the same input must give the same bits.
 constexpr uint32_t kBatch = 32;
 
@@ -23,8 +23,8 @@ class VulkanJacobiSolver final : public PoissonSolver {
     const double heldBack = heldBackByJacobi(system);
     const auto solver = [&](const DevicePass& pass) { return iterate(pass, heldBack); };
     return solveOnDevice(
-        {.name = "jacobi", .strongestReduction = kStrongestReduction, .cpuFinishes = false, .solver = solver}, device_,
-        system, options, solution, control);
+        {.name = "jacobi", .strongestReduction = kStrongestJacobiReduction, .cpuFinishes = false, .solver = solver},
+        device_, system, options, solution, control);
   }
 
  private:

@@ -22,7 +22,7 @@
 namespace asdfvk {
 namespace {
 
-constexpr size_t kFirstChunkRayCount = 1u << 16;  // 0.01 to 0.03 s on two cores.
+constexpr size_t kFirstEmbreeChunkRayCount = 1u << 16;  // 0.01 to 0.03 s on two cores.
 
 /// Rays begin so far from the seed that float32 cannot take them back to the seed's own face: its plane is off by no
 /// more than 2^-22, and rays at the rim meet it latest. (A filter function that passes through the face costs 6 % of
@@ -55,7 +55,7 @@ class EmbreeTracer final : public ConeTracer {
     const EmbreeCones cones{scene_, cone_, planes_, *embree_, rayStart_};
     tbb::enumerable_thread_specific<EmbreeConeGroup> groups([&] { return EmbreeConeGroup(cones); });
     const size_t groupCount = (order.size() + kGroupSize - 1) / kGroupSize;
-    ChunkSize chunk(std::max<size_t>(1, kFirstChunkRayCount / (kGroupSize * rayCount)), groupCount);
+    ChunkSize chunk(std::max<size_t>(1, kFirstEmbreeChunkRayCount / (kGroupSize * rayCount)), groupCount);
     for (size_t begin = 0; begin < groupCount;) {
       control.checkpoint(static_cast<double>(begin) / static_cast<double>(groupCount));
       const size_t end = std::min<size_t>(begin + chunk.current(), groupCount);

@@ -14,20 +14,20 @@ constexpr uint64_t kLargestChunk = 1u << 17;
 constexpr uint64_t kLargestHitBufferByteCount = 32u << 20;
 constexpr uint64_t kLargestLengthBufferByteCount = 16u << 20;
 
-constexpr VkBufferUsageFlags kTexels = VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT;
-constexpr VkBufferUsageFlags kStorage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
+constexpr VkBufferUsageFlags kTexelUsage = VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT;
+constexpr VkBufferUsageFlags kStorageUsage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
 
 Buffer uploadRays(const Device& device, const Cone& cone) {
   std::vector<ConeRay> rays;
   for (size_t i = 0; i < cone.directions.size(); ++i)
     rays.push_back({toGlsl(cone.directions[i]), static_cast<float>(cone.weights[i])});
-  return uploadBuffer(device, std::as_bytes(std::span(rays)), kTexels);
+  return uploadBuffer(device, std::as_bytes(std::span(rays)), kTexelUsage);
 }
 
 bool fetchesTexels(const VulkanConeKernel& kernel) { return kernel.choice().fetch == BvhFetch::Texel; }
 
 Buffer uploadHierarchy(const VulkanConeKernel& kernel, std::span<const std::byte> bytes) {
-  return uploadBuffer(kernel.device(), bytes, fetchesTexels(kernel) ? kTexels : kStorage);
+  return uploadBuffer(kernel.device(), bytes, fetchesTexels(kernel) ? kTexelUsage : kStorageUsage);
 }
 
 /// Of one cone.
@@ -57,13 +57,13 @@ ConeBuffers::ConeBuffers(const VulkanConeKernel& kernel, const DeviceBvh& bvh, c
     : nodes(uploadHierarchy(kernel, bvh.nodeBytes())),
       triangles(uploadHierarchy(kernel, std::as_bytes(std::span(bvh.triangles)))),
       rays(uploadRays(kernel.device(), cone)),
-      origins(kernel.device(), largestConeChunk(kernel) * sizeof(ConeOrigin), kTexels, MemoryKind::HostVisible),
+      origins(kernel.device(), largestConeChunk(kernel) * sizeof(ConeOrigin), kTexelUsage, MemoryKind::HostVisible),
       lengths(kernel.device(),
-              kernel.reduction() ? largestConeChunk(kernel) * kernel.rayCount() * sizeof(uint32_t) : 16, kStorage,
+              kernel.reduction() ? largestConeChunk(kernel) * kernel.rayCount() * sizeof(uint32_t) : 16, kStorageUsage,
               MemoryKind::DeviceOnly),
-      results(kernel.device(), largestConeChunk(kernel) * sizeof(uint32_t), kStorage, MemoryKind::HostVisible),
-      hits(kernel.device(), hitBufferByteCount(kernel), kStorage, MemoryKind::HostVisible),
-      nothing_(kernel.device(), 16, kTexels | kStorage, MemoryKind::DeviceLocal),
+      results(kernel.device(), largestConeChunk(kernel) * sizeof(uint32_t), kStorageUsage, MemoryKind::HostVisible),
+      hits(kernel.device(), hitBufferByteCount(kernel), kStorageUsage, MemoryKind::HostVisible),
+      nothing_(kernel.device(), 16, kTexelUsage | kStorageUsage, MemoryKind::DeviceLocal),
       nodeTexels_(kernel.device(), fetchesTexels(kernel) ? nodes : nothing_),
       triangleTexels_(kernel.device(), fetchesTexels(kernel) ? triangles : nothing_),
       rayTexels_(kernel.device(), rays),

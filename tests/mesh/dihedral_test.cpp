@@ -13,8 +13,6 @@ using namespace asdfvk;
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 std::vector<double> anglesOf(const Mesh& mesh) {
   return signedDihedralAngles(buildDualGraph(mesh), computeFaceGeometry(mesh));
 }
@@ -47,7 +45,7 @@ TEST_CASE("a cube is convex at its edges, flat at its diagonals, and concave fro
     REQUIRE(angles.size() == 36);
     size_t foldedCount = 0, flatCount = 0;
     for (double angle : angles) {
-      foldedCount += std::abs(angle - sign * kPi / 2) < 1e-12 ? 1 : 0;
+      foldedCount += std::abs(angle - sign * std::numbers::pi / 2) < 1e-12 ? 1 : 0;
       flatCount += std::abs(angle) < 1e-12 ? 1 : 0;
     }
     CHECK(foldedCount == 24);
@@ -74,7 +72,7 @@ TEST_CASE("a ring is concave on its inner side only") {
 TEST_CASE("faces oriented against each other are not concave") {
   Mesh mesh = folded(0.2);
   std::swap(mesh.faces[1][0], mesh.faces[1][1]);
-  for (double angle : anglesOf(mesh)) CHECK(angle == doctest::Approx(-(kPi - 0.2)));
+  for (double angle : anglesOf(mesh)) CHECK(angle == doctest::Approx(-(std::numbers::pi - 0.2)));
 }
 
 TEST_CASE("an edge at a degenerate face has no angle") {
@@ -105,7 +103,7 @@ TEST_CASE("both directions of an arc have the same bits, whatever the input") {
                                            graph.neighbours.begin() + graph.offsets[g + 1], f);
         REQUIRE(*back == f);
         REQUIRE(angles[arc] == angles[static_cast<size_t>(back - graph.neighbours.begin())]);
-        REQUIRE(std::abs(angles[arc]) <= kPi);
+        REQUIRE(std::abs(angles[arc]) <= std::numbers::pi);
       }
   }
 }

@@ -15,7 +15,7 @@ using test::referenceSession;
 
 namespace {
 
-Result compute(Mesh mesh, const Options& options) { return referenceSession().compute(mesh, options); }
+Result computeRounds(Mesh mesh, const Options& options) { return referenceSession().compute(mesh, options); }
 
 /// Begins with two percent, as the command line does.
 Options roundsUntil(double maxError) {
@@ -58,7 +58,7 @@ TEST_CASE("rounds go on until the error is as small as asked for, and it is") {
     const Mesh mesh = generateShape(name, 4000).mesh;
     const std::vector<double> truth = test::tracedEverywhere(mesh);
     for (const double maxError : {0.015, 0.01}) {
-      const Result result = compute(mesh, roundsUntil(maxError));
+      const Result result = computeRounds(mesh, roundsUntil(maxError));
       REQUIRE(result.report.estimatedError);
       const ErrorEstimate& estimate = *result.report.estimatedError;
       const double real = averageError(result.sdf, truth);
@@ -78,12 +78,12 @@ TEST_CASE("rounds go on until the error is as small as asked for, and it is") {
 
 TEST_CASE("a first round that is good enough is the only one") {
   const Mesh mesh = makeAnimal(2500).mesh;
-  const Result result = compute(mesh, roundsUntil(0.5));
+  const Result result = computeRounds(mesh, roundsUntil(0.5));
   CHECK(result.report.roundCount == 1);
   CHECK(result.report.seedCount == 51);
   Options plain = roundsUntil(0.5);
   plain.rounds = {};
-  CHECK(compute(mesh, plain).sdf == result.sdf);
+  CHECK(computeRounds(mesh, plain).sdf == result.sdf);
 }
 
 TEST_CASE("a further round keeps all seeds of the rounds before, whatever the sampler") {
@@ -93,11 +93,11 @@ TEST_CASE("a further round keeps all seeds of the rounds before, whatever the sa
     CAPTURE(static_cast<int>(sampler));
     Options options = roundsUntil(0.9);
     options.sampler = sampler;
-    const Result first = compute(mesh, options);
+    const Result first = computeRounds(mesh, options);
     CHECK(first.report.roundCount == 1);
     for (const double maxError : {0.02, 0.012}) {
       options.rounds.maxError = maxError;
-      const Result further = compute(mesh, options);
+      const Result further = computeRounds(mesh, options);
       CHECK(further.report.roundCount > 1);
       CHECK(further.report.seedCount > first.report.seedCount);
       CHECK(isWithin(first.isSeed, further.isSeed));
@@ -109,7 +109,7 @@ TEST_CASE("a further round keeps all seeds of the rounds before, whatever the sa
 
 TEST_CASE("too much asked for ends with every face a seed, without an error left to estimate") {
   const Mesh mesh = makeTorus(1000).mesh;
-  const Result result = compute(mesh, roundsUntil(1e-9));
+  const Result result = computeRounds(mesh, roundsUntil(1e-9));
   CHECK(result.report.seedCount == mesh.faces.size());
   CHECK(markedCount(result) == mesh.faces.size());
   CHECK_FALSE(result.report.estimatedError.has_value());
@@ -124,7 +124,7 @@ TEST_CASE("seeds that a round gave to components without one are not chosen agai
       Options options = roundsUntil(maxError);
       options.seeds.share = 0.005;
       options.sampler = sampler;
-      const Result result = compute(mesh, options);
+      const Result result = computeRounds(mesh, options);
       CHECK(result.report.roundCount > 1);
       CHECK(result.report.seedCount == markedCount(result));
       CHECK(result.report.noValueCount == 0);
@@ -133,31 +133,31 @@ TEST_CASE("seeds that a round gave to components without one are not chosen agai
     adaptive.seeds.share = 0.02;
     adaptive.isAdaptive = true;
     adaptive.sampler = sampler;
-    const Result result = compute(mesh, adaptive);
+    const Result result = computeRounds(mesh, adaptive);
     CHECK(result.report.seedCount == markedCount(result));
   }
 }
 
 TEST_CASE("a budget that is spent at once makes one round, a large one takes every face") {
   const Mesh mesh = makeAnimal(2500).mesh;
-  const Result spent = compute(mesh, roundsFor(1e-9));
+  const Result spent = computeRounds(mesh, roundsFor(1e-9));
   CHECK(spent.report.roundCount == 1);
   CHECK(spent.report.seedCount == 51);
   CHECK(spent.report.noValueCount == 0);
-  const Result rich = compute(mesh, roundsFor(1000));
+  const Result rich = computeRounds(mesh, roundsFor(1000));
   CHECK(rich.report.roundCount == 2);
   CHECK(rich.report.seedCount == mesh.faces.size());
-  CHECK(compute(mesh, roundsFor(1e300)).report.seedCount == mesh.faces.size());
+  CHECK(computeRounds(mesh, roundsFor(1e300)).report.seedCount == mesh.faces.size());
 }
 
 TEST_CASE("of a budget and an error, what is reached first ends the rounds") {
   const Mesh mesh = makeAnimal(2500).mesh;
   Options options = roundsUntil(1e-9);
   options.rounds.timeBudgetSeconds = 1e-9;
-  CHECK(compute(mesh, options).report.roundCount == 1);
+  CHECK(computeRounds(mesh, options).report.roundCount == 1);
   options.rounds.timeBudgetSeconds = 1000;
   options.rounds.maxError = 0.5;
-  CHECK(compute(mesh, options).report.roundCount == 1);
+  CHECK(computeRounds(mesh, options).report.roundCount == 1);
 }
 
 TEST_CASE("the adaptive sampler casts as many rays in two rounds, and errs no more") {
@@ -165,23 +165,23 @@ TEST_CASE("the adaptive sampler casts as many rays in two rounds, and errs no mo
   const std::vector<double> truth = test::tracedEverywhere(mesh);
   Options adaptive;
   adaptive.isAdaptive = true;
-  const Result blueNoise = compute(mesh, {}), twoPasses = compute(mesh, adaptive);
+  const Result blueNoise = computeRounds(mesh, {}), twoPasses = computeRounds(mesh, adaptive);
   CHECK(twoPasses.report.roundCount == 2);
   CHECK(twoPasses.report.seedCount == blueNoise.report.seedCount);
   CHECK(twoPasses.isSeed != blueNoise.isSeed);
   CHECK(averageError(twoPasses.sdf, truth) < 1.1 * averageError(blueNoise.sdf, truth));
   Options all = adaptive;
   all.seeds.kind = SeedCount::Kind::All;
-  CHECK(compute(mesh, all).report.roundCount == 1);
+  CHECK(computeRounds(mesh, all).report.roundCount == 1);
 }
 
 TEST_CASE("which faces are seeds at random does not depend on the estimate") {
   const Mesh mesh = makeAnimal(2500).mesh;
   Options options;
   applyRecipe(Recipe::Paper, options);
-  const Result with = compute(mesh, options);
+  const Result with = computeRounds(mesh, options);
   options.estimatesError = false;
-  const Result without = compute(mesh, options);
+  const Result without = computeRounds(mesh, options);
   CHECK(with.isSeed == without.isSeed);
   CHECK(with.sdf == without.sdf);
 }
@@ -195,9 +195,9 @@ TEST_CASE("faces that judge lie where they help, too: an estimate costs no accur
     for (const uint64_t randomSeed : {1u, 2u, 3u, 4u}) {
       Options options;
       options.randomSeed = randomSeed;
-      const double with = averageError(compute(mesh, options).sdf, truth);
+      const double with = averageError(computeRounds(mesh, options).sdf, truth);
       options.estimatesError = false;
-      logarithms += std::log(with / averageError(compute(mesh, options).sdf, truth));
+      logarithms += std::log(with / averageError(computeRounds(mesh, options).sdf, truth));
       ++runCount;
     }
   }
@@ -207,7 +207,7 @@ TEST_CASE("faces that judge lie where they help, too: an estimate costs no accur
 
 TEST_CASE("rounds give the same bits each time") {
   const Mesh mesh = makeAnimal(2500).mesh;
-  const Result one = compute(mesh, roundsUntil(0.015)), two = compute(mesh, roundsUntil(0.015));
+  const Result one = computeRounds(mesh, roundsUntil(0.015)), two = computeRounds(mesh, roundsUntil(0.015));
   CHECK(one.sdf == two.sdf);
   CHECK(one.isSeed == two.isSeed);
   CHECK(one.expectedError == two.expectedError);

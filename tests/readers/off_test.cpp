@@ -9,8 +9,8 @@ using asdfvk::test::parse;
 
 namespace {
 
-constexpr std::string_view kCorners = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
-const std::vector<Vec3d> kSquare = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+constexpr std::string_view kOffCorners = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
+const std::vector<Vec3d> kOffSquare = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
 
 std::string withEach(std::string_view lines, std::string_view suffix) {
   std::string text;
@@ -24,7 +24,7 @@ std::string withEach(std::string_view lines, std::string_view suffix) {
 void requireSquare(std::string_view text) {
   CAPTURE(text);
   const Mesh mesh = parse(parseOff, text);
-  CHECK(mesh.vertices == kSquare);
+  CHECK(mesh.vertices == kOffSquare);
   CHECK(mesh.faces == std::vector<Face>{{0, 1, 2}, {0, 2, 3}});
   CHECK(mesh.polygons.isEmpty());
 }
@@ -32,21 +32,21 @@ void requireSquare(std::string_view text) {
 }  // namespace
 
 TEST_CASE("OFF headers in all their forms are read") {
-  const std::string corners(kCorners), faces = "3 0 1 2\n3 0 2 3\n";
+  const std::string corners(kOffCorners), faces = "3 0 1 2\n3 0 2 3\n";
   requireSquare("OFF\n4 2 0\n" + corners + faces);
   requireSquare("OFF 4 2 0\n" + corners + faces);
   requireSquare("OFF4 2 0\n" + corners + faces);
   requireSquare("OFF\n4 2\n" + corners + faces);
   requireSquare("4 2 5\n" + corners + faces);
-  requireSquare("\n# made by hand\nOFF # header\n\n# counts\n4 2 0 # counts\n" + withEach(kCorners, " # corner") +
+  requireSquare("\n# made by hand\nOFF # header\n\n# counts\n4 2 0 # counts\n" + withEach(kOffCorners, " # corner") +
                 "#\n" + faces + "# end");
-  requireSquare("COFF\n4 2 0\n" + withEach(kCorners, " 255 0 0 255") + faces);
-  requireSquare("COFF\n4 2 0\n" + withEach(kCorners, " 0.5 0 0.25") + faces);
-  requireSquare("NOFF\n4 2 0\n" + withEach(kCorners, " 0 0 1") + faces);
-  requireSquare("STOFF\n4 2 0\n" + withEach(kCorners, " 0.5 0.5") + faces);
-  requireSquare("CNOFF\n4 2 0\n" + withEach(kCorners, " 0 0 1 1 1 1 1") + faces);
-  requireSquare("STCNOFF\n4 2 0\n" + withEach(kCorners, " 0 0 1 1 1 1 1 0 0") + faces);
-  requireSquare("STNCOFF\n4 2 0\n" + withEach(kCorners, " 0 0 1 1 1 1 0 0") + faces);
+  requireSquare("COFF\n4 2 0\n" + withEach(kOffCorners, " 255 0 0 255") + faces);
+  requireSquare("COFF\n4 2 0\n" + withEach(kOffCorners, " 0.5 0 0.25") + faces);
+  requireSquare("NOFF\n4 2 0\n" + withEach(kOffCorners, " 0 0 1") + faces);
+  requireSquare("STOFF\n4 2 0\n" + withEach(kOffCorners, " 0.5 0.5") + faces);
+  requireSquare("CNOFF\n4 2 0\n" + withEach(kOffCorners, " 0 0 1 1 1 1 1") + faces);
+  requireSquare("STCNOFF\n4 2 0\n" + withEach(kOffCorners, " 0 0 1 1 1 1 1 0 0") + faces);
+  requireSquare("STNCOFF\n4 2 0\n" + withEach(kOffCorners, " 0 0 1 1 1 1 0 0") + faces);
   requireSquare(withEach("OFF\n4 2 0\n" + corners + faces, "\r"));
   std::string cr = "\xef\xbb\xbfOFF\n4 2 0\n" + corners + faces;
   for (char& c : cr) c = c == '\n' ? '\r' : c;
@@ -54,7 +54,7 @@ TEST_CASE("OFF headers in all their forms are read") {
 }
 
 TEST_CASE("OFF face colours are passed over whatever the header says") {
-  const std::string head = "OFF\n4 2 0\n" + std::string(kCorners);
+  const std::string head = "OFF\n4 2 0\n" + std::string(kOffCorners);
   for (const char* colour : {"", " 7", " 255 0 0", " 0.5 0.25 1", " 255 0 0 128", " 0.1 0.2 0.3 0.4"}) {
     requireSquare(head + "3 0 1 2" + colour + "\n3 0 2 3\n");
     requireSquare(head + "3 0 1 2\n3 0 2 3" + colour);
@@ -65,7 +65,7 @@ TEST_CASE("OFF face colours are passed over whatever the header says") {
 }
 
 TEST_CASE("OFF polygons keep the map back to the faces of the file") {
-  const Mesh mesh = parse(parseOff, "OFF\n4 4 0\n" + std::string(kCorners) + "3 0 1 2\n4 0 1 2 3\n2 0 1\n0\n");
+  const Mesh mesh = parse(parseOff, "OFF\n4 4 0\n" + std::string(kOffCorners) + "3 0 1 2\n4 0 1 2 3\n2 0 1\n0\n");
   CHECK(mesh.inputFaceCount() == 4);
   CHECK(mesh.faces == std::vector<Face>{{0, 1, 2}, {0, 1, 2}, {0, 2, 3}});
   CHECK(mesh.polygons.firstCorner == std::vector<uint64_t>{0, 3, 7, 9, 9});
@@ -73,7 +73,7 @@ TEST_CASE("OFF polygons keep the map back to the faces of the file") {
 }
 
 TEST_CASE("what is wrong with an OFF file is told with its line") {
-  const std::string corners(kCorners);
+  const std::string corners(kOffCorners);
   CHECK(holds(errorOf(parseOff, ""), "line 1"));
   CHECK(holds(errorOf(parseOff, "# nothing\n"), "line 2"));
   CHECK(holds(errorOf(parseOff, "hello\n"), "OFF or the vertex count should stand here, not 'hello'"));
@@ -92,7 +92,7 @@ TEST_CASE("what is wrong with an OFF file is told with its line") {
               "line 7: vertex index 4 of face 0 is out of range"));
   CHECK(holds(errorOf(parseOff, "OFF\n4 1 0\n" + corners + "3 0 1 2\n3 0 2 3\n"),
               "line 8: '3' stands behind the last face"));
-  CHECK(holds(errorOf(parseOff, "OFF\n4 1 0\n" + withEach(kCorners, " 255 0 0") + "3 0 1 2\n"),
+  CHECK(holds(errorOf(parseOff, "OFF\n4 1 0\n" + withEach(kOffCorners, " 255 0 0") + "3 0 1 2\n"),
               "COFF announces colours"));
   CHECK(holds(errorOf(parseOff, "COFF\n4 1 0\n" + corners + "3 0 1 2\n"), "line 3: vertex 0 has 0 numbers behind"));
   CHECK(holds(errorOf(parseOff, "OFF\n4 1 0\n0 0 x\n" + corners),

@@ -21,7 +21,7 @@ std::string asciiPly(std::string_view rows, std::string_view faceHeader =
          std::string(faceHeader) + "end_header\n" + std::string(rows);
 }
 
-constexpr std::string_view kCorners = "0 0 0\n1 0 0\n0 1 0\n";
+constexpr std::string_view kPlyCorners = "0 0 0\n1 0 0\n0 1 0\n";
 
 /// The bytes of a number in the given byte order.
 template <typename T>
@@ -197,7 +197,7 @@ TEST_CASE("ASCII PLY of CRLF lines, with blank lines and a byte order mark, is r
 }
 
 TEST_CASE("what is wrong with a PLY file is told with its line or byte") {
-  const std::string corners(kCorners);
+  const std::string corners(kPlyCorners);
   CHECK(holds(errorOf(parsePly, ""), "line 1"));
   CHECK(holds(errorOf(parsePly, "plx\n"), "begins with 'ply'"));
   CHECK(holds(errorOf(parsePly, "ply\nformat ascii 2.0\n"), "line 2: PLY version '2.0' is unknown"));

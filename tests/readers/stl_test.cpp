@@ -29,7 +29,7 @@ std::string binaryStl(std::string_view header, const std::vector<Triangle>& tria
   return bytes;
 }
 
-const std::vector<Triangle> kSquare = {{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}}, {{{0, -0.0f, 0}, {1, 1, 0}, {0, 1, 0}}}};
+const std::vector<Triangle> kStlSquare = {{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}}, {{{0, -0.0f, 0}, {1, 1, 0}, {0, 1, 0}}}};
 const std::vector<Vec3d> kSquareVertices = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
 const std::vector<Face> kSquareFaces = {{0, 1, 2}, {0, 2, 3}};
 
@@ -49,7 +49,7 @@ void requireSquare(const Mesh& mesh) {
 
 TEST_CASE("binary STL is welded, also where its header begins with solid") {
   for (const char* header : {"", "binary", "solid outer shell", "solid\nfacet normal 0 0 1\nouter loop"})
-    requireSquare(parse(parseStl, binaryStl(header, kSquare)));
+    requireSquare(parse(parseStl, binaryStl(header, kStlSquare)));
 }
 
 TEST_CASE("ASCII STL is welded, with any name, blank lines, several solids and in capitals") {
@@ -86,9 +86,9 @@ TEST_CASE("what is wrong with an STL file is told with its line or its size") {
   CHECK(holds(errorOf(parseStl, ""), "neither ASCII STL"));
   CHECK(holds(errorOf(parseStl, "solid\nendsolid\n"), "neither points nor faces"));
   CHECK(holds(errorOf(parseStl, binaryStl("", {})), "neither points nor faces"));
-  const std::string binary = binaryStl("", kSquare);
+  const std::string binary = binaryStl("", kStlSquare);
   CHECK(holds(errorOf(parseStl, binary + "x"), "must have 184 bytes; this has 185 and is followed by something else"));
-  CHECK(holds(errorOf(parseStl, binaryStl("solid", kSquare) + "x"), "followed by something else"));
+  CHECK(holds(errorOf(parseStl, binaryStl("solid", kStlSquare) + "x"), "followed by something else"));
   for (size_t size = 0; size < binary.size(); ++size) CHECK(errorOf(parseStl, binary.substr(0, size)) != "no error");
   const std::string ascii = "solid\n" + kFacets + "endsolid";
   for (size_t size = 0; size < ascii.size(); ++size) CHECK(errorOf(parseStl, ascii.substr(0, size)) != "no error");

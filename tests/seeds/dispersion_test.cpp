@@ -20,7 +20,7 @@ constexpr std::array<SurfaceMetric, 3> kMetrics{SurfaceMetric::Hops, SurfaceMetr
 
 using Sampler = std::vector<uint32_t> (*)(const SeedDomain&, SurfaceMetric, uint64_t, std::span<const uint32_t>,
                                           uint64_t);
-constexpr std::array<Sampler, 2> kSamplers{blueNoiseSeeds, farthestPointSeeds};
+constexpr std::array<Sampler, 2> kSpreadingSamplers{blueNoiseSeeds, farthestPointSeeds};
 
 struct Spacing {
   float least = 0;  ///< From a seed to the nearest other.
@@ -57,7 +57,7 @@ TEST_CASE("seeds cover the surface within the distance that they keep from each 
       for (double share : {0.002, 0.02, 0.1, 0.3}) {
         CAPTURE(share);
         const auto count = static_cast<uint64_t>(share * static_cast<double>(surface.candidates.size()));
-        for (Sampler sampler : kSamplers) {
+        for (Sampler sampler : kSpreadingSamplers) {
           const Spacing spacing = spacingOf(surface, lengths, sampler(surface.domain(), metric, count, {}, 3));
           CHECK(spacing.cover <= spacing.least * kStepAndRounding);
         }
@@ -89,7 +89,7 @@ TEST_CASE("seeds fill the gaps between existing ones") {
   const std::vector<float> lengths = arcLengths(sphere.graph, sphere.geometry, SurfaceMetric::Hops);
   // All of the northern half is taken, so the southern gets all new seeds, its border excepted.
   const auto north = facesWith(sphere, [](const Vec3d& at) { return at.z > 0; });
-  for (Sampler sampler : kSamplers) {
+  for (Sampler sampler : kSpreadingSamplers) {
     const auto seeds = sampler(sphere.domain(), SurfaceMetric::Hops, 60, north, 1);
     REQUIRE(seeds.size() == 60);
     std::vector<uint32_t> all = north;
@@ -108,7 +108,7 @@ TEST_CASE("seeds fill the gaps between existing ones") {
 TEST_CASE("seeds added in rounds keep apart as those chosen at once do") {
   const Surface& torus = generatedSurface("torus", 4000);
   const std::vector<float> lengths = arcLengths(torus.graph, torus.geometry, SurfaceMetric::Angle);
-  for (Sampler sampler : kSamplers) {
+  for (Sampler sampler : kSpreadingSamplers) {
     std::vector<uint32_t> all;
     for (uint64_t round = 0; round < 4; ++round) {
       const auto seeds = sampler(torus.domain(), SurfaceMetric::Angle, 100, all, round);

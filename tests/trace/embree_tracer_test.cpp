@@ -79,8 +79,9 @@ TEST_CASE("Embree gives the reference's values and hits on open, crossing, neste
 
 TEST_CASE("Embree obeys every option of the cone") {
   if (!isEmbreeThere()) return;
-  const TracedMesh traced(generateShape("animal", 1500).mesh);
-  for (const uint32_t rayCount : {1u, 2u, 7u, 8u, 9u, 33u, 257u, 1024u}) checkParity(traced, {.rayCount = rayCount});
+  const TracedMesh traced(generateShape("animal", 1500).mesh), small(generateShape("animal", 300).mesh);
+  for (const uint32_t rayCount : {1u, 2u, 7u, 8u, 9u, 33u}) checkParity(traced, {.rayCount = rayCount});
+  for (const uint32_t rayCount : {257u, 1024u}) checkParity(small, {.rayCount = rayCount});
   checkParity(traced, {.falseHitAngleDegrees = 20});
   checkParity(traced, {.openingAngleDegrees = 60, .falseHitAngleDegrees = 150});
   checkParity(traced, {.outlierDeviations = 0.5});
@@ -92,7 +93,9 @@ TEST_CASE("cones of nearly 180 degrees do not end at their own face") {
   const ConeOptions wide{.rayCount = 1024, .openingAngleDegrees = 179.9999};
   const TracedMesh traced(shapes::icosphere(3));
   const TraceResults results = traceByEmbree(traced, wide, Wanted::ValuesAndHits);
-  for (size_t i = 0; i < results.hits.size(); ++i) REQUIRE(results.hits[i].face != i / wide.rayCount);
+  size_t ownFaceCount = 0;
+  for (size_t i = 0; i < results.hits.size(); ++i) ownFaceCount += results.hits[i].face == i / wide.rayCount;
+  CHECK(ownFaceCount == 0);
   CHECK(differingCount(results.values, traceByReference(traced, wide, Wanted::Values).values, 2) == 0);
 }
 

@@ -25,9 +25,20 @@ TraceResults hitsByReference(const TracedMesh& traced, const ConeOptions& option
   return traceByReference(traced, options, Wanted::ValuesAndHits);
 }
 
-void checkHits(const VulkanConeKernel& kernel, const TracedMesh& traced, const ConeOptions& options = {}) {
+/// What kernels are compared with; traced once for all of them.
+struct ReferenceHits {
+  TracedMesh traced;
+  ConeOptions options;
+  std::vector<ConeHit> hits;
+
+  explicit ReferenceHits(const Mesh& mesh, const ConeOptions& coneOptions = {})
+      : traced(mesh), options(coneOptions), hits(hitsByReference(traced, options).hits) {}
+};
+
+void checkHits(const VulkanConeKernel& kernel, const ReferenceHits& reference) {
+  const auto& [traced, options, hits] = reference;
   const TraceResults results = hitsByKernel(kernel, traced, options);
-  CHECK(differingRays(results.hits, hitsByReference(traced, options).hits) <= results.hits.size() / 1000);
+  CHECK(differingRays(results.hits, hits) <= results.hits.size() / 1000);
   const double diagonal = traced.geometry.bounds.diagonal();
   CHECK(differingCount(valuesOfHits(traced, options, results.hits), results.values, diagonal) <=
         results.values.size() / 1000);
@@ -37,13 +48,15 @@ void checkHits(const VulkanConeKernel& kernel, const TracedMesh& traced, const C
 
 TEST_CASE("the kernel's hits are the reference's, and give its values") {
   const test::ValidatedDevice device;
+  std::vector<ReferenceHits> references;
+  references.emplace_back(generateShape("animal", 2000).mesh);
+  references.emplace_back(generateShape("hand", 2000).mesh, ConeOptions{.rotation = ConeRotation::Hashed});
+  references.emplace_back(shapes::jittered(shapes::icosphere(3), 0.02, 1), ConeOptions{.falseHitAngleDegrees = 30});
+  references.emplace_back(shapes::soup(2000, 5));
+  references.emplace_back(shapes::jittered(shapes::openBox({1, 2, 3}, 8), 0.01, 2));
   forEveryVariant(Fetches::All, [&](const VulkanTraceChoice& choice) {
     const VulkanConeKernel kernel(*device, {kRayCount, true, choice});
-    checkHits(kernel, TracedMesh(generateShape("animal", 2000).mesh));
-    checkHits(kernel, TracedMesh(generateShape("hand", 2000).mesh), {.rotation = ConeRotation::Hashed});
-    checkHits(kernel, TracedMesh(shapes::jittered(shapes::icosphere(3), 0.02, 1)), {.falseHitAngleDegrees = 30});
-    checkHits(kernel, TracedMesh(shapes::soup(2000, 5)));
-    checkHits(kernel, TracedMesh(shapes::jittered(shapes::openBox({1, 2, 3}, 8), 0.01, 2)));
+    for (const ReferenceHits& reference : references) checkHits(kernel, reference);
   });
 }
 
@@ -64,21 +77,22 @@ TEST_CASE("rays that meet nothing say so on both backends") {
 
 TEST_CASE("any number of rays gives the reference's hits") {
   const test::ValidatedDevice device;
-  const TracedMesh traced(shapes::jittered(shapes::icosphere(2), 0.02, 3));
+  const Mesh mesh = shapes::jittered(shapes::icosphere(2), 0.02, 3);
   for (const uint32_t rayCount : {1u, 7u, 33u, 257u, 1024u}) {
     CAPTURE(rayCount);
+    const ReferenceHits reference(mesh, {.rayCount = rayCount});
     for (const TraceKernel kernel : {TraceKernel::Packet, TraceKernel::Ray, TraceKernel::Seed})
-      checkHits(VulkanConeKernel(*device, {rayCount, true, VulkanTraceChoice{kernel, BvhLayout::Wide}}), traced,
-                {.rayCount = rayCount});
+      checkHits(VulkanConeKernel(*device, {rayCount, true, VulkanTraceChoice{kernel, BvhLayout::Wide}}), reference);
   }
 }
 
 TEST_CASE("writing hits changes no bit of the values") {
   const test::ValidatedDevice device;
+  std::vector<TracedMesh> meshes;
+  for (const std::string_view name : {"animal", "hand", "torus"}) meshes.emplace_back(generateShape(name, 2000).mesh);
   forEveryVariant(Fetches::TexelOnly, [&](const VulkanTraceChoice& choice) {
     const VulkanConeKernel writing(*device, {kRayCount, true, choice}), plain(*device, {kRayCount, false, choice});
-    for (const std::string_view name : {"animal", "hand", "torus"}) {
-      const TracedMesh traced(generateShape(name, 2000).mesh);
+    for (const TracedMesh& traced : meshes) {
       const std::vector<double> expected = traceByKernel(plain, traced, {}, Wanted::Values).values;
       CHECK(haveSameBits(hitsByKernel(writing, traced).values, expected));
       CHECK(haveSameBits(traceByKernel(writing, traced, {}, Wanted::Values).values, expected));

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/error.h"
@@ -33,8 +34,10 @@ void checkParity(const VulkanConeKernel& kernel, const TracedMesh& traced, const
   CHECK(differingCount(values, reference, traced.geometry.bounds.diagonal()) <= reference.size() / 1000);
 }
 
-void checkParity(const VulkanConeKernel& kernel, const TracedMesh& traced, const ConeOptions& options = {}) {
-  checkParity(kernel, traced, options, referenceValues(traced, options));
+std::vector<std::vector<double>> referencesOf(const std::vector<TracedMesh>& meshes) {
+  std::vector<std::vector<double>> references;
+  for (const TracedMesh& traced : meshes) references.push_back(referenceValues(traced));
+  return references;
 }
 
 }  // namespace
@@ -43,8 +46,7 @@ TEST_CASE("the kernel gives the reference's values on every generated shape") {
   const test::ValidatedDevice device;
   std::vector<TracedMesh> meshes;
   for (const std::string_view name : shapeNames()) meshes.emplace_back(generateShape(name, 2000).mesh);
-  std::vector<std::vector<double>> references;
-  for (const TracedMesh& traced : meshes) references.push_back(referenceValues(traced));
+  const std::vector<std::vector<double>> references = referencesOf(meshes);
   forEveryVariant(Fetches::All, [&](const VulkanTraceChoice& choice) {
     const VulkanConeKernel kernel(*device, {30, false, choice});
     for (size_t i = 0; i < meshes.size(); ++i) {
@@ -56,13 +58,18 @@ TEST_CASE("the kernel gives the reference's values on every generated shape") {
 
 TEST_CASE("the kernel gives the reference's values on open, crossing, nested and non-manifold meshes") {
   const test::ValidatedDevice device;
+  std::vector<TracedMesh> meshes;
+  for (const Mesh& mesh :
+       {shapes::openBox({1, 2, 3}, 8), shapes::soup(2000, 5), shapes::shell(2, 1),
+        shapes::jittered(shapes::boxesWithSharedEdge(), 1e-3, 1), shapes::inverted(shapes::icosphere(3))})
+    meshes.emplace_back(mesh);
+  const std::vector<std::vector<double>> references = referencesOf(meshes);
   forEveryVariant(Fetches::TexelOnly, [&](const VulkanTraceChoice& choice) {
     const VulkanConeKernel kernel(*device, {30, false, choice});
-    checkParity(kernel, TracedMesh(shapes::openBox({1, 2, 3}, 8)));
-    checkParity(kernel, TracedMesh(shapes::soup(2000, 5)));
-    checkParity(kernel, TracedMesh(shapes::shell(2, 1)));
-    checkParity(kernel, TracedMesh(shapes::jittered(shapes::boxesWithSharedEdge(), 1e-3, 1)));
-    checkParity(kernel, TracedMesh(shapes::inverted(shapes::icosphere(3))));
+    for (size_t i = 0; i < meshes.size(); ++i) {
+      CAPTURE(i);
+      checkParity(kernel, meshes[i], {}, references[i]);
+    }
   });
 }
 
@@ -179,29 +186,39 @@ TEST_CASE("details too small for float32 are traced by the reference") {
 TEST_CASE("rays along the sides of boxes do not leak") {
   // Flat, axis-aligned boxes: a cone's ray may run exactly in the plane of a hierarchy's box.
   const test::ValidatedDevice device;
-  for (const uint32_t side : {1u, 3u, 10u}) {
-    CAPTURE(side);
-    const TracedMesh traced(shapes::box({2, 3, 0.01}, side));
-    const std::vector<double> reference = referenceValues(traced);
-    forEveryVariant(Fetches::TexelOnly, [&](const VulkanTraceChoice& choice) {
-      const TraceResults result = traceWith(VulkanConeKernel(*device, {30, false, choice}), traced);
-      CHECK(differingCount(result.values, reference, traced.geometry.bounds.diagonal()) == 0);
-    });
-  }
+  std::vector<TracedMesh> boxes;
+  for (const uint32_t side : {1u, 3u, 10u}) boxes.emplace_back(shapes::box({2, 3, 0.01}, side));
+  const std::vector<std::vector<double>> references = referencesOf(boxes);
+  forEveryVariant(Fetches::TexelOnly, [&](const VulkanTraceChoice& choice) {
+    const VulkanConeKernel kernel(*device, {30, false, choice});
+    for (size_t i = 0; i < boxes.size(); ++i) {
+      CAPTURE(i);
+      const TraceResults result = traceWith(kernel, boxes[i]);
+      CHECK(differingCount(result.values, references[i], boxes[i].geometry.bounds.diagonal()) == 0);
+    }
+  });
 }
 
 TEST_CASE("the angle of false hits and the bound on outliers are options that every backend obeys") {
   const test::ValidatedDevice device;
   const TracedMesh traced(generateShape("animal", 1500).mesh);
   const std::vector<double> defaults = referenceValues(traced);
-  for (const ConeOptions& options : {ConeOptions{.falseHitAngleDegrees = 20}, ConeOptions{.falseHitAngleDegrees = 150},
-                                     ConeOptions{.outlierDeviations = 3}, ConeOptions{.outlierDeviations = 0.5}}) {
-    const std::vector<double> reference = referenceValues(traced, options);
-    forEveryVariant(Fetches::TexelOnly, [&](const VulkanTraceChoice& choice) {
-      checkParity(VulkanConeKernel(*device, {30, false, choice}), traced, options, reference);
-    });
-    CHECK(differingCount(reference, defaults, traced.geometry.bounds.diagonal()) > 100);
+  const std::array<ConeOptions, 4> variants{{{.falseHitAngleDegrees = 20},
+                                             {.falseHitAngleDegrees = 150},
+                                             {.outlierDeviations = 3},
+                                             {.outlierDeviations = 0.5}}};
+  std::vector<std::vector<double>> references;
+  for (const ConeOptions& options : variants) {
+    references.push_back(referenceValues(traced, options));
+    CHECK(differingCount(references.back(), defaults, traced.geometry.bounds.diagonal()) > 100);
   }
+  forEveryVariant(Fetches::TexelOnly, [&](const VulkanTraceChoice& choice) {
+    const VulkanConeKernel kernel(*device, {30, false, choice});
+    for (size_t i = 0; i < variants.size(); ++i) {
+      CAPTURE(i);
+      checkParity(kernel, traced, variants[i], references[i]);
+    }
+  });
 }
 
 TEST_CASE("a GPU's workgroups hold several cones") {

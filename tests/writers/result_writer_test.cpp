@@ -10,8 +10,8 @@ using namespace asdfvk;
 
 namespace {
 
-const std::vector<double> kValues{1, 2, 3, 4};
-const std::vector<uint8_t> kSeeds{1, 0, 0, 1};
+const std::vector<double> kFaceValues{1, 2, 3, 4};
+const std::vector<uint8_t> kFaceSeeds{1, 0, 0, 1};
 
 }  // namespace
 
@@ -43,7 +43,7 @@ TEST_CASE("a minus sign writes the named format to standard output") {
   const int saved = ::dup(STDOUT_FILENO);
   const int file = ::open((folder / "stdout").c_str(), O_WRONLY | O_CREAT, 0600);
   ::dup2(file, STDOUT_FILENO);
-  writeResult("-", tetrahedron(), {kValues, kSeeds}, {.ascii = false, .format = ResultFormat::Csv});
+  writeResult("-", tetrahedron(), {kFaceValues, kFaceSeeds}, {.ascii = false, .format = ResultFormat::Csv});
   ::dup2(saved, STDOUT_FILENO);
   ::close(file);
   ::close(saved);
@@ -54,7 +54,7 @@ TEST_CASE("a minus sign writes the named format to standard output") {
 TEST_CASE("values that do not match the faces are a programmer's mistake, found before anything is written") {
   const Folder folder;
   const std::vector<double> few{1, 2, 3};
-  CHECK_THROWS_AS(writeResult(folder / "a.ply", tetrahedron(), {few, kSeeds}), CheckFailure);
+  CHECK_THROWS_AS(writeResult(folder / "a.ply", tetrahedron(), {few, kFaceSeeds}), CheckFailure);
   CHECK(folder.names().empty());
 }
 
