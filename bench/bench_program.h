@@ -23,9 +23,9 @@ struct Allowed {
   friend bool operator==(const Allowed&, const Allowed&) = default;
 };
 
-/// The command line of a benchmark, and what each does alike around its work. The only place that includes CLI11, which
-/// takes long to compile. An option writes to its `value`, which must outlive this and whose first content is its
-/// default; a list is written with commas, "1,2". Names are as CLI11 takes them: "--runs", "-o,--output".
+/// The command line of a benchmark, and what each does alike around its work. Hides CLI11, which takes long to compile.
+/// An option writes to its `value`, which must outlive this and whose first content is its default; a list is written
+/// with commas, "1,2". Names are as CLI11 takes them: "--runs", "-o,--output".
 class BenchProgram {
  public:
   /// `name` as people start it, `summary` what it does, for --help.

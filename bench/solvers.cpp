@@ -2,14 +2,12 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <ctime>
 #include <functional>
 
 #include "bench_program.h"
 #include "cli/option_values.h"
 #include "cli/report_text.h"
 #include "cli/terminal.h"
-#include "core/stopwatch.h"
 #include "eigen_rivals.h"
 #include "file_run.h"
 #include "generate/creatures.h"
@@ -20,6 +18,7 @@
 #include "poisson/arc_weights.h"
 #include "poisson/poisson_system.h"
 #include "spread.h"
+#include "work_watch.h"
 
 namespace {
 
@@ -118,13 +117,12 @@ void compareBare(Session& session, const Mesh& mesh, const std::string& seeds, c
   for (uint32_t round = 0; round <= arguments.runCount; ++round)
     for (BareContender& contender : contenders) {
       control.checkpoint(0);
-      const Stopwatch watch;
-      const std::clock_t begin = std::clock();
+      const bench::WorkWatch clock(bench::Workers::Others), threads(bench::Workers::Processors);
       contender.iterationCount = contender.solve(solution);
-      const double threadSeconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+      const double seconds = clock.seconds(), threadSeconds = threads.seconds();
       contender.relativeResidual = relativeResidual(system, solution);
       if (round == 0) continue;
-      contender.seconds.push_back(watch.seconds());
+      contender.seconds.push_back(seconds);
       contender.threadSeconds.push_back(threadSeconds);
       contender.ratios.push_back(threadSeconds / contenders[0].threadSeconds.back());
     }

@@ -11,7 +11,8 @@ namespace asdfvk::bench {
 /// As many rays take every step together where a subgroup walks.
 inline constexpr size_t kNeighbourCount = 8;
 
-/// What the walks of shaders/binary_walk.glsl and wide_walk.glsl meet, per ray.
+/// What the walks of shaders/binary_walk.glsl and wide_walk.glsl meet, per ray; the second tests two triangles at a
+/// time.
 struct WalkCounts {
   double nodes = 0, triangles = 0;
   /// For the wide one: the same per ray where kNeighbourCount rays with the same place in the cones of seeds that are

@@ -69,7 +69,8 @@ void addSeeds(CLI::App& app, Options& options) {
       app, "--sampler",
       [&options](const SamplerChoice& choice) { std::tie(options.sampler, options.isAdaptive) = choice; }, kSamplers,
       "How seed faces are chosen; adaptive is blue noise in two passes, the second\n"
-      "denser where the first found values uncertain; default blue-noise")
+      "denser where the first found values uncertain, if hits guide; default\n"
+      "blue-noise")
       ->group(rays);
   addChoice(app, "--metric", options.metric, kMetrics,
             "What blue-noise and farthest-point keep seeds apart in: steps from face to\n"

@@ -142,7 +142,8 @@ std::string jsonReport(const MeshOutcome& outcome) {
   json["solver"] = {{"name", report.solver.name},
                     {"iterations", report.solver.iterations},
                     {"relativeResidual", number(report.solver.relativeResidual)},
-                    {"converged", report.solver.converged}};
+                    {"converged", report.solver.converged},
+                    {"finishedOnCpu", report.solver.finishedOnCpu}};
   json["sdf"] = {
       {"min", number(report.sdf.min)}, {"median", number(report.sdf.median)}, {"max", number(report.sdf.max)}};
   json["estimatedError"] = estimateOf(report.estimatedError);

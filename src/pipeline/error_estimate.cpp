@@ -41,13 +41,14 @@ struct Probe {
   double error = 0, expectation = 0, weight = 0;
 };
 
+/// Those with a value.
 std::vector<Probe> readProbes(const HeldOutErrors& errors) {
   std::vector<Probe> probes;
   for (size_t i = 0; i < errors.probes.faces.size(); ++i) {
     const uint32_t face = errors.probes.faces[i];
     const Probe probe{face, std::abs(errors.values[face] - errors.traced.values[face]), expectationOf(errors, face),
                       errors.probes.weights[i]};
-    if (!std::isnan(probe.error) && !std::isnan(errors.result[face]) && probe.weight > 0) probes.push_back(probe);
+    if (!std::isnan(probe.error) && !std::isnan(errors.result[face])) probes.push_back(probe);
   }
   return probes;
 }
@@ -69,7 +70,9 @@ EstimatedErrors estimateErrors(const Mesh& mesh, const HeldOutErrors& errors) {
   result.expected.assign(errors.result.size(), 0);
   const double range = tracedRange(errors);
   const std::vector<Probe> probes = readProbes(errors);
-  if (probes.size() < 2 || !(range > 0)) return result;
+  // Those that were chosen for certain speak for no other face.
+  const auto spokesmanCount = std::count_if(probes.begin(), probes.end(), [](const Probe& p) { return p.weight > 0; });
+  if (spokesmanCount < 2 || !(range > 0)) return result;
 
   double errorSum = 0, expectationSum = 0;
   for (const Probe& probe : probes) {
@@ -79,8 +82,8 @@ EstimatedErrors estimateErrors(const Mesh& mesh, const HeldOutErrors& errors) {
   const double ratio = errorSum / expectationSum;
   double squareSum = 0;
   for (const Probe& probe : probes) squareSum += std::pow(probe.weight * (probe.error - ratio * probe.expectation), 2);
-  const auto probeCount = static_cast<double>(probes.size());
-  const double ratioDeviation = std::sqrt(squareSum * probeCount / (probeCount - 1)) / expectationSum;
+  const auto sampleSize = static_cast<double>(spokesmanCount);
+  const double ratioDeviation = std::sqrt(squareSum * sampleSize / (sampleSize - 1)) / expectationSum;
   const double gain = gainByProbes(errors), gainDeviation = 1 - gain;
 
   double sum = 0, interpolatedExpectation = 0;

@@ -27,8 +27,9 @@ struct EstimatedErrors {
   std::vector<double> expected;  ///< #F, in the mesh's unit; 0 where a face has no value.
 };
 
-/// Needs two probes with a value and a weight, and a positive range of values at least, else the estimate's
-/// heldOutCount is 0.
+/// What the probes are off by, scaled up to all faces and down by what they add once they are seeds themselves. Needs
+/// two probes with a value and a weight, and a positive range of values at least, else the estimate's heldOutCount is
+/// 0.
 [[nodiscard]] EstimatedErrors estimateErrors(const Mesh& mesh, const HeldOutErrors& errors);
 
 }  // namespace asdfvk

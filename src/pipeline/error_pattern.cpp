@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/check.h"
 #include "mesh/mesh.h"
 #include "mesh/parallel_loop.h"
 
@@ -39,14 +40,15 @@ void raise(std::vector<double>& pattern) {
       sum += entry;
       ++count;
     }
-  const double mean = sum > 0 ? sum / static_cast<double>(count) : 1;
-  for (double& entry : pattern) entry = (std::isnan(entry) ? mean : entry) + kLeastExpectation * mean;
+  const double mean = count > 0 ? sum / static_cast<double>(count) : 0, least = mean > 0 ? kLeastExpectation * mean : 1;
+  for (double& entry : pattern) entry = (std::isnan(entry) ? mean : entry) + least;
 }
 
 }  // namespace
 
 std::vector<double> errorPattern(const Prediction& prediction, std::span<const uint32_t> seeds,
                                  std::span<const double> values) {
+  ASDFVK_CHECK_OP(prediction.nearest.cellCount(), ==, seeds.size());
   const std::vector<double> spread = spreadAround(prediction.nearest, seeds, values);
   std::vector<double> pattern(prediction.values.size(), kNoValue);
   forEachInParallel(pattern.size(), [&](uint32_t face) {

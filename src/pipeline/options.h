@@ -66,7 +66,8 @@ struct Options {
   SeedCount seeds;
   SamplerKind sampler = SamplerKind::BlueNoise;
   SurfaceMetric metric = SurfaceMetric::Angle;  ///< Of the samplers that have one.
-  /// Half of the seeds are chosen by blue noise where the values of the other half are found to be uncertain.
+  /// Half of the seeds are chosen by blue noise where what the other half predict is found to be uncertain; without
+  /// Guidance::Hits nothing is.
   bool isAdaptive = false;
   uint64_t randomSeed = 1;
   InterpolationOptions interpolation;

@@ -48,11 +48,13 @@ inline constexpr std::array<std::pair<const char*, double StageSeconds::*>, 13> 
 }};
 
 /// The error of the result against the function traced at all faces, cross-validated: some faces, chosen at random
-/// among those that are no seeds, cast rays too and are held out of an interpolation of their own; what it is off by
-/// there is scaled up to all faces. Their rays are not lost: in the result they are seeds like the others.
+/// among those that are no seeds, more of them where errors are expected, cast rays too and are held out of an
+/// interpolation of their own; what it is off by there is scaled up to all faces. Their rays are not lost: in the
+/// result they are seeds like the others, which makes it a little better than what was judged; the estimate allows for
+/// that.
 struct ErrorEstimate {
   double average = 0;  ///< Over all faces, seeds included, over the range of the values: as in the paper's Table 1.
-  double standardError = 0;  ///< Of `average`, from the spread among the held-out faces.
+  double standardError = 0;  ///< Of `average`: the spread among the held-out faces, and what they add as seeds.
   uint64_t heldOutCount = 0;
   /// The held-out faces with the greatest errors, greatest first.
   struct WorstFace {
@@ -118,7 +120,7 @@ struct Report {
   MeshDefects defects;
   std::vector<std::string> warnings;            ///< One sentence each, defects included.
   std::optional<ErrorEstimate> estimatedError;  ///< None where every face is a seed, and where nobody asked.
-  uint32_t roundCount = 1;                      ///< How often seeds were added.
+  uint32_t roundCount = 1;                      ///< How often seeds were placed.
   std::optional<CheckReport> check;
 };
 

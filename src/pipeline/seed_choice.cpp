@@ -57,7 +57,7 @@ SeedChoice chooseSeeds(const PreparedMesh& prepared, const Options& options, con
       earlier.probes.empty() ? std::span(prepared.castableFaces) : std::span(std::as_const(notProbes))};
   SeedChoice choice;
   if (options.sampler == SamplerKind::Random) {
-    // All are placed at random: any of them can be probes, and which seeds there are does not depend on an estimate.
+    // All are placed at random: any of them can be probes, and the same faces are seeds without an estimate.
     const std::vector<uint32_t> all = sampleSeeds(options.sampler, options.metric, domain,
                                                   shares.placed + shares.probes, earlier.placed, options.randomSeed);
     choice.probes = randomPermutationSeeds(all, shares.probes, probeSeed(options.randomSeed, 0));

@@ -28,22 +28,6 @@ std::vector<uint32_t> sorted(std::vector<uint32_t> faces) {
   return faces;
 }
 
-/// How densely the faces deserve seeds. At the seeds themselves, which err by nothing, as on average; empty where no
-/// error is expected anywhere.
-std::vector<double> densityFor(std::vector<double> expectedErrors) {
-  double sum = 0;
-  size_t count = 0;
-  for (const double error : expectedErrors)
-    if (error > 0) {
-      sum += error;
-      ++count;
-    }
-  if (count == 0) return {};
-  for (double& error : expectedErrors)
-    if (!(error > 0)) error = sum / static_cast<double>(count);
-  return expectedErrors;
-}
-
 /// Hides the values of some faces as long as it lives.
 class HiddenValues {
  public:
@@ -75,39 +59,37 @@ SeedRounds::SeedRounds(const Mesh& mesh, const PreparedMesh& prepared, const Opt
       clock_(clock),
       seconds_(seconds),
       afterLastRay_(std::move(afterLastRay)),
-      estimates_(options.estimatesError || options.rounds.maxError.has_value() || options.isAdaptive),
+      estimates_(options.estimatesError || options.rounds.maxError.has_value()),
       traced_(prepared.geometry.areas.size()) {}
 
 void SeedRounds::run(const RunControl& control) {
-  const uint64_t count = resolveSeedCount(options_.seeds, prepared_.castableFaces.size());
-  const bool isOneRun = !options_.rounds.areAsked();
-  if (options_.isAdaptive && count < prepared_.castableFaces.size()) {
-    runRound(count - count / 2, {}, false, control.part(0, 0.5));
-    const std::vector<double> weight = errors_ ? densityFor(errors_->expected) : std::vector<double>{};
-    runRound(count / 2, weight, isOneRun, control.part(0.5, 1));
-  } else {
-    runRound(count, {}, isOneRun, control);
-  }
-  while (const uint64_t further = furtherCount()) runRound(further, {}, false, {control.stop, {}});
+  runRound(resolveSeedCount(options_.seeds, prepared_.castableFaces.size()), !options_.rounds.areAsked(), control);
+  while (const uint64_t further = furtherCount()) runRound(further, false, {control.stop, {}});
   control.checkpoint(1);
 }
 
-void SeedRounds::runRound(uint64_t count, std::span<const double> weight, bool isLast, const RunControl& control) {
-  ++roundCount_;
+void SeedRounds::runRound(uint64_t count, bool isLast, const RunControl& control) {
   const Stopwatch watch;
   const double earlierRays = seconds_.trace + seconds_.sample;
   errors_.reset();
   count = std::min(count, leftCount());
   const bool predicts = options_.interpolation.guidance == Guidance::Hits;
-  const bool judges = estimates_ && count < leftCount();
-  const SeedShares shares = judges ? shareOut(count, probes_.faces.size(), predicts) : SeedShares{.placed = count};
+  const SeedShares shares =
+      estimates_ && count < leftCount() ? shareOut(count, probes_.faces.size(), predicts) : SeedShares{.placed = count};
   tracing_.reserve(traced_, count);
-  traceChosen({.placed = shares.placed, .probes = predicts ? 0 : shares.probes}, weight, control.part(0, 0.7));
-  const bool isToJudge = (judges || !probes_.faces.empty()) && leftCount() > 0;
+  if (options_.isAdaptive && predicts && roundCount_ == 0 && count < leftCount()) {
+    traceChosen({.placed = shares.placed - shares.placed / 2}, {}, control.part(0, 0.35));
+    const std::vector<double> pattern = predictWithoutProbes(seconds_.sample);
+    traceChosen({.placed = shares.placed / 2}, pattern, control.part(0.35, 0.7));
+  } else {
+    traceChosen({.placed = shares.placed, .probes = predicts ? 0 : shares.probes}, {}, control.part(0, 0.7));
+  }
+  const bool isToJudge = leftCount() > 0 && shares.probes + probes_.faces.size() > 0;
   HeldOut heldOut;
   std::vector<uint32_t> scouts;
   if (isToJudge && predicts) {
-    heldOut.pattern = predictWithoutProbes(control);
+    heldOut.pattern = predictWithoutProbes(seconds_.estimate);
+    control.checkpoint(0.73);
     scouts = traceByPrediction(shares, heldOut.pattern, control.part(0.73, 0.83));
   }
   if (isLast) afterLastRay_();
@@ -120,6 +102,7 @@ void SeedRounds::runRound(uint64_t count, std::span<const double> weight, bool i
 }
 
 void SeedRounds::traceChosen(const SeedShares& shares, std::span<const double> weight, const RunControl& control) {
+  ++roundCount_;
   const Stopwatch sampleWatch;
   SeedChoice choice = chooseSeeds(prepared_, options_, shares, chosen_, weight);
   seconds_.sample += sampleWatch.seconds();
@@ -147,7 +130,7 @@ void SeedRounds::sortChosen() {
                       std::back_inserter(chosen_.placed));
 }
 
-std::vector<double> SeedRounds::predictWithoutProbes(const RunControl& control) {
+std::vector<double> SeedRounds::predictWithoutProbes(double& seconds) {
   const Stopwatch watch;
   StageSeconds ignored;
   std::vector<uint32_t> faces = traced_.faces;
@@ -155,8 +138,7 @@ std::vector<double> SeedRounds::predictWithoutProbes(const RunControl& control) 
     if (std::binary_search(chosen_.probes.begin(), chosen_.probes.end(), face)) face = kNoFace;
   interpolation_.predict({faces, traced_.hits}, ignored);
   std::vector<double> pattern = errorPattern(interpolation_.prediction(), faces, traced_.values);
-  seconds_.estimate += watch.seconds();
-  control.checkpoint(0.73);
+  seconds += watch.seconds();
   return pattern;
 }
 
@@ -165,10 +147,13 @@ std::vector<uint32_t> SeedRounds::traceByPrediction(const SeedShares& shares, st
   const Stopwatch sampleWatch;
   std::vector<uint32_t> scouts =
       chooseScouts(prepared_, interpolation_.prediction().values, traced_.isSeed, shares.scouts);
-  std::vector<uint32_t> unseeded, candidates;
+  std::vector<uint32_t> candidates;
+  auto scout = scouts.begin();
   for (const uint32_t face : prepared_.castableFaces)
-    if (!traced_.isSeed[face]) unseeded.push_back(face);
-  std::set_difference(unseeded.begin(), unseeded.end(), scouts.begin(), scouts.end(), std::back_inserter(candidates));
+    if (scout != scouts.end() && face == *scout)
+      ++scout;
+    else if (!traced_.isSeed[face])
+      candidates.push_back(face);
   const Probes probes =
       chooseProbes(candidates, pattern, shares.probes, probeSeed(options_.randomSeed, probes_.faces.size()));
   seconds_.sample += sampleWatch.seconds();

@@ -30,7 +30,7 @@ class SeedRounds {
 
  private:
   /// isLast: no other round will follow.
-  void runRound(uint64_t count, std::span<const double> weight, bool isLast, const RunControl& control);
+  void runRound(uint64_t count, bool isLast, const RunControl& control);
   void traceChosen(const SeedShares& shares, std::span<const double> weight, const RunControl& control);
   void sortChosen();
   /// What the probes are judged by, #F each.
@@ -38,8 +38,8 @@ class SeedRounds {
     std::vector<double> pattern;  ///< See errorPattern(); empty without a prediction.
     std::vector<double> values;   ///< Interpolated without probes and scouts.
   };
-  /// Returns the pattern of errors.
-  [[nodiscard]] std::vector<double> predictWithoutProbes(const RunControl& control);
+  /// Returns the pattern of errors. seconds: what it took is added.
+  [[nodiscard]] std::vector<double> predictWithoutProbes(double& seconds);
   /// Traces the faces with the greatest predictions, which are returned, and probes by the pattern.
   std::vector<uint32_t> traceByPrediction(const SeedShares& shares, std::span<const double> pattern,
                                           const RunControl& control);

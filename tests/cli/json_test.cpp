@@ -42,6 +42,7 @@ TEST_CASE("--json is exactly one document with every promised key and its type")
   CHECK(json.at("solver").at("name").is_string());
   CHECK(json.at("solver").at("iterations").is_number_unsigned());
   CHECK(json.at("solver").at("relativeResidual").get<double>() < 1e-4);
+  CHECK_FALSE(json.at("solver").at("finishedOnCpu").get<bool>());
   const Json& sdf = json.at("sdf");
   CHECK(sdf.at("min").get<double>() > 1);
   CHECK(sdf.at("min").get<double>() <= sdf.at("median").get<double>());

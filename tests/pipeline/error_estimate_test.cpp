@@ -96,6 +96,18 @@ TEST_CASE("errors are spread by the pattern, and a probe counts by its weight") 
   CHECK(six.estimate().estimate.heldOutCount == 0);
 }
 
+TEST_CASE("a probe that was chosen for certain is among the worst faces and speaks for no other") {
+  SixFaces six;
+  six.probes = {{2, 3, 1}, {1, 1, 0}};
+  six.values[1] = 4;
+  const EstimatedErrors errors = six.estimate();
+  CHECK(errors.expected[4] == doctest::Approx(std::pow(0.25, 0.12) * 1.5));
+  CHECK(errors.estimate.heldOutCount == 3);
+  REQUIRE(errors.estimate.worstFaces.size() == 3);
+  CHECK(errors.estimate.worstFaces[0].face == 1);
+  CHECK(errors.estimate.worstFaces[0].error == doctest::Approx(0.6));
+}
+
 TEST_CASE("seeds whose values were moved err by as much") {
   SixFaces six;
   six.result[0] = 1;

@@ -175,7 +175,37 @@ TEST_CASE("the adaptive sampler casts as many rays in two rounds, and errs no mo
   CHECK(computeRounds(mesh, all).report.roundCount == 1);
 }
 
-TEST_CASE("which faces are seeds at random does not depend on the estimate") {
+TEST_CASE("adaptive seeds are all placed where nobody asks for an estimate, and cast what was asked for") {
+  const Mesh mesh = makeAnimal(2500).mesh;
+  Options options;
+  options.estimatesError = false;
+  const uint64_t asked = computeRounds(mesh, options).report.seedCount;
+  options.isAdaptive = true;
+  const Result result = computeRounds(mesh, options);
+  CHECK_FALSE(result.report.estimatedError.has_value());
+  CHECK(result.report.roundCount == 2);
+  CHECK(result.report.seedCount == asked);
+  CHECK(result.report.stageSeconds.estimate == 0);
+}
+
+TEST_CASE("seeds too few to hold any out give no estimate, and those that are enough do") {
+  const Mesh mesh = makeAnimal(2500).mesh;
+  Options options;
+  for (const bool isAdaptive : {false, true})
+    for (const uint64_t count : {1, 2, 3, 9, 40}) {
+      CAPTURE(isAdaptive);
+      CAPTURE(count);
+      options.isAdaptive = isAdaptive;
+      options.seeds = {.kind = SeedCount::Kind::Count, .count = count};
+      const Result result = computeRounds(mesh, options);
+      CHECK(result.report.seedCount == count);
+      CHECK(result.report.noValueCount == 0);
+      CHECK((result.report.stageSeconds.estimate > 0) == (count >= 4));
+      CHECK(result.report.estimatedError.has_value() == (count >= 9));
+    }
+}
+
+TEST_CASE("without a prediction, which faces are seeds at random does not depend on the estimate") {
   const Mesh mesh = makeAnimal(2500).mesh;
   Options options;
   applyRecipe(Recipe::Paper, options);
