@@ -157,7 +157,7 @@ int main(int argc, char** argv) {
   std::string backend = "vulkan", device;
   uint32_t truthRayCount = 600;
   program.addMeshes(meshes);
-  program.add("--backend", backend, "vulkan or reference");
+  program.add("--backend", backend, "vulkan, cpu or reference");
   program.add("--device", device, "As asdf-vk takes it");
   program.add("--truth-rays", truthRayCount, "Rays per cone of the function of many rays", {31, kMaxRayCount});
   return program.run(argc, argv, [&](const RunControl& control) {
