@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "bvh/quad.h"
+#include "core/box3.h"
 #include "core/check.h"
 
 namespace asdfvk {
@@ -15,10 +16,7 @@ namespace {
 // Levels whose subtrees are tasks of their own.
 constexpr uint32_t kParallelSearchLevelCount = 10;
 
-float halfAreaOf(const BvhNode& node) {
-  const Vec3f size = node.max - node.min;
-  return size.x * size.y + size.y * size.z + size.z * size.x;
-}
+float halfAreaOf(const BvhNode& node) { return Box3f{node.min, node.max}.halfArea(); }
 
 // [i - 1]: the least cost of i children from both sides, and how many of them come from the left one.
 struct Sharing {
