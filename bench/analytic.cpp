@@ -10,6 +10,7 @@
 #include "bench_program.h"
 #include "cli/report_text.h"
 #include "cli/terminal.h"
+#include "core/text.h"
 #include "file_run.h"
 #include "spread.h"
 

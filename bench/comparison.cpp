@@ -9,14 +9,14 @@
 #include "cli/option_values.h"
 #include "core/stopwatch.h"
 #include "file_run.h"
-#include "mesh/mesh_reader.h"
+#include "io/mesh_reader.h"
 #include "pipeline/compute_backend.h"
 #include "pipeline/prepared_mesh.h"
 #include "pipeline/seed_choice.h"
 #include "run_process.h"
 #include "seeds/random_permutation.h"
 #include "temporary_folder.h"
-#include "trace/embree_tracer.h"
+#include "trace/embree/embree_tracer.h"
 #include "trace/seed_order.h"
 
 namespace asdfvk::bench {

@@ -1,4 +1,5 @@
 #include "comparison_report.h"
+#include "core/text.h"
 
 #include <fmt/format.h>
 

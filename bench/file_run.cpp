@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "core/stopwatch.h"
-#include "mesh/mesh_reader.h"
-#include "mesh/result_writer.h"
+#include "io/mesh_reader.h"
+#include "io/result_writer.h"
 
 namespace asdfvk::bench {
 

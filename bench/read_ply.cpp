@@ -15,7 +15,7 @@
 
 #include "array_importer.h"
 #include "core/stopwatch.h"
-#include "mesh/mesh_reader.h"
+#include "io/mesh_reader.h"
 
 namespace {
 

@@ -9,7 +9,7 @@
 #include "bench_program.h"
 #include "cli/terminal.h"
 #include "file_run.h"
-#include "mesh/mesh_reader.h"
+#include "io/mesh_reader.h"
 #include "share_errors.h"
 
 namespace {

@@ -1,4 +1,5 @@
 #include "stage_table.h"
+#include "core/text.h"
 
 #include <fmt/format.h>
 

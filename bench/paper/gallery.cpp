@@ -1,4 +1,5 @@
 #include "paper/gallery.h"
+#include "core/text.h"
 
 #include <fmt/format.h>
 

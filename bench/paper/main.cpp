@@ -7,6 +7,7 @@
 #include "bench_program.h"
 #include "cli/choice_names.h"
 #include "cli/report_text.h"
+#include "core/text.h"
 #include "generate/generated_shape.h"
 #include "machine.h"
 #include "paper/gallery.h"

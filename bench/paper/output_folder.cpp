@@ -1,8 +1,8 @@
 #include "paper/output_folder.h"
 
+#include "core/atomic_file.h"
 #include "core/error.h"
-#include "mesh/writers/atomic_file.h"
-#include "picture/png.h"
+#include "render/png.h"
 
 namespace asdfvk::bench {
 

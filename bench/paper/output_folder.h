@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "picture/image.h"
+#include "render/image.h"
 
 namespace asdfvk::bench {
 

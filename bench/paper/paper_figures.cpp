@@ -1,4 +1,5 @@
 #include "paper/paper_figures.h"
+#include "core/text.h"
 
 #include <fmt/format.h>
 

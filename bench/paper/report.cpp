@@ -1,4 +1,5 @@
 #include "paper/report.h"
+#include "core/text.h"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 
 #include "cli/terminal.h"
 #include "paper/triangle_values.h"
-#include "picture/picture.h"
+#include "render/picture.h"
 
 namespace asdfvk::bench {
 namespace {

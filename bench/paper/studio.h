@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/run_control.h"
-#include "mesh/writers/colour_map.h"
+#include "io/colour_map.h"
 #include "paper/output_folder.h"
 #include "paper/page.h"
 #include "paper/subject.h"

@@ -1,7 +1,7 @@
 #include "paper/subject.h"
 
 #include "generate/shapes.h"
-#include "mesh/mesh_reader.h"
+#include "io/mesh_reader.h"
 #include "paper/plots/file_stems.h"
 
 namespace asdfvk::bench {

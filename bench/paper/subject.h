@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "mesh/mesh.h"
-#include "picture/view.h"
+#include "render/view.h"
 
 namespace asdfvk::bench {
 

@@ -1,7 +1,8 @@
 // What the kernels of the Poisson solvers share with the host; included by C++ and by GLSL.
 //
 // The system A is solved in the scaled form (I - S) y = b with S = I - D^-1/2 A D^-1/2, D the diagonal of A, so that S
-// has none: conjugate gradients on it are Jacobi-preconditioned conjugate gradients on A, without a vector to divide by.
+// has none: conjugate gradients on it are Jacobi-preconditioned conjugate gradients on A, without a vector to divide
+// by.
 #ifndef ASDFVK_POISSON_LAYOUT_H
 #define ASDFVK_POISSON_LAYOUT_H
 
@@ -35,7 +36,7 @@ struct CgState {
   float residualSquared;   // The squared norm of the unscaled residual before the last iteration; 1 at the start.
   float toleranceSquared;  // At or below this residualSquared it has converged.
   uint iterationCount;
-  uint status;             // See cg_rules.h; unless kCgRunning, there are no more iterations.
+  uint status;  // See cg_rules.h; unless kCgRunning, there are no more iterations.
 };
 
 // What vkCmdDispatchIndirect reads, 12 bytes. The iteration that finds that there is no more to do sets x to 0, so that

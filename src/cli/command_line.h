@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "picture/view.h"
 #include "pipeline/asdf.h"
+#include "render/view.h"
 
 namespace asdfvk {
 

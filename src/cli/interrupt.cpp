@@ -11,8 +11,8 @@
 #include <system_error>
 
 #include "cli/exit_code.h"
+#include "core/atomic_file.h"
 #include "core/check.h"
-#include "mesh/writers/atomic_file.h"
 
 namespace asdfvk {
 namespace {

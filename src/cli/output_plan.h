@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "cli/command_line.h"
-#include "mesh/result_writer.h"
+#include "io/result_writer.h"
 
 namespace asdfvk {
 

@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "core/error.h"
-#include "picture/picture.h"
-#include "picture/png.h"
+#include "render/picture.h"
+#include "render/png.h"
 
 namespace asdfvk {
 namespace {

@@ -1,4 +1,5 @@
 #include "cli/report_text.h"
+#include "core/text.h"
 
 #include <fmt/format.h>
 
@@ -99,12 +100,6 @@ std::string errorCheck(const CheckReport& check) {
 }
 
 }  // namespace
-
-std::string groupDigits(uint64_t number) {
-  std::string text = fmt::format("{}", number);
-  for (size_t i = text.size(); i > 3; i -= 3) text.insert(i - 3, 1, ',');
-  return text;
-}
 
 std::string textReport(const MeshOutcome& outcome) {
   const Report& report = outcome.report;

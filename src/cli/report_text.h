@@ -17,7 +17,4 @@ namespace asdfvk {
 /// A line per device, or the reason why there is none.
 [[nodiscard]] std::string textDevices(std::span<const DeviceInfo> devices, const std::string& reason);
 
-/// 96966 as "96,966".
-[[nodiscard]] std::string groupDigits(uint64_t number);
-
 }  // namespace asdfvk

@@ -11,8 +11,8 @@
 #include "cli/report_text.h"
 #include "cli/terminal.h"
 #include "core/stopwatch.h"
-#include "mesh/mesh_reader.h"
-#include "mesh/result_writer.h"
+#include "io/mesh_reader.h"
+#include "io/result_writer.h"
 #include "pipeline/asdf.h"
 
 namespace asdfvk {

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "mesh/writers/atomic_file.h"
+#include "core/atomic_file.h"
 
 namespace asdfvk {
 namespace {

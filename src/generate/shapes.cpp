@@ -5,8 +5,8 @@
 
 #include <array>
 
-#include "core/counted.h"
 #include "core/error.h"
+#include "core/text.h"
 
 namespace asdfvk {
 namespace {

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "core/box3.h"
+#include "core/parallel.h"
 #include "mesh/normalization.h"
-#include "mesh/parallel_loop.h"
 #include "mesh/plane_points.h"
 #include "mesh/vertex_bounds.h"
 

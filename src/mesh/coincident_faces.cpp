@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "mesh/buckets.h"
+#include "core/buckets.h"
 #include "mesh/coincident_vertices.h"
 
 namespace asdfvk {

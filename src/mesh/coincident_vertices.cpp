@@ -2,7 +2,7 @@
 
 #include <bit>
 
-#include "mesh/buckets.h"
+#include "core/buckets.h"
 #include "mesh/point_hash.h"
 
 namespace asdfvk {

@@ -6,8 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include "core/parallel.h"
 #include "mesh/normalization.h"
-#include "mesh/parallel_loop.h"
 #include "mesh/vertex_bounds.h"
 
 namespace asdfvk {

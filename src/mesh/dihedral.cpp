@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "core/check.h"
-#include "mesh/parallel_loop.h"
+#include "core/parallel.h"
 
 namespace asdfvk {
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <span>
 
-#include "mesh/buckets.h"
+#include "core/buckets.h"
 #include "mesh/mesh.h"
 
 namespace asdfvk {

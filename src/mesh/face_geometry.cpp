@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "mesh/parallel_loop.h"
+#include "core/parallel.h"
 #include "mesh/vertex_bounds.h"
 
 namespace asdfvk {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <atomic>
 
-#include "mesh/parallel_loop.h"
+#include "core/parallel.h"
 
 namespace asdfvk {
 namespace {

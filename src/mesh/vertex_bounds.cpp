@@ -1,6 +1,6 @@
 #include "mesh/vertex_bounds.h"
 
-#include "mesh/parallel_loop.h"
+#include "core/parallel.h"
 
 namespace asdfvk {
 

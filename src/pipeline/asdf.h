@@ -9,7 +9,7 @@
 #include "mesh/mesh.h"
 #include "pipeline/options.h"
 #include "pipeline/report.h"
-#include "trace/vulkan_trace_choice.h"
+#include "trace/vulkan/vulkan_trace_choice.h"
 
 /// The public API: options in, result out.
 namespace asdfvk {

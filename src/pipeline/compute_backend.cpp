@@ -5,13 +5,13 @@
 
 #include <utility>
 
-#include "core/counted.h"
 #include "core/error.h"
-#include "poisson/vulkan_cg_solver.h"
-#include "poisson/vulkan_jacobi_solver.h"
-#include "trace/embree_tracer.h"
+#include "core/text.h"
+#include "poisson/vulkan/vulkan_cg_solver.h"
+#include "poisson/vulkan/vulkan_jacobi_solver.h"
+#include "trace/embree/embree_tracer.h"
 #include "trace/reference_tracer.h"
-#include "trace/vulkan_tracer.h"
+#include "trace/vulkan/vulkan_tracer.h"
 
 namespace asdfvk {
 namespace {

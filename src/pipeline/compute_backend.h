@@ -8,9 +8,9 @@
 
 #include "pipeline/asdf.h"
 #include "poisson/poisson_solver.h"
-#include "post/vulkan_bilateral.h"
+#include "smooth/vulkan/vulkan_bilateral.h"
 #include "trace/cone_tracer.h"
-#include "trace/vulkan_cone_kernel.h"
+#include "trace/vulkan/vulkan_cone_kernel.h"
 #include "vk/open_device.h"
 
 namespace asdfvk {

@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/parallel.h"
 #include "core/stopwatch.h"
 #include "mesh/curvature.h"
-#include "mesh/parallel_loop.h"
 #include "poisson/divergence.h"
 #include "poisson/poisson_system.h"
 

@@ -9,7 +9,7 @@
 #include "pipeline/prepared_mesh.h"
 #include "pipeline/report.h"
 #include "pipeline/seed_tracing.h"
-#include "reprojection/reprojection.h"
+#include "predict/reprojection.h"
 
 namespace asdfvk {
 

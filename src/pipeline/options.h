@@ -6,9 +6,9 @@
 #include "cone/cone.h"
 #include "poisson/arc_weights.h"
 #include "poisson/poisson_solver.h"
-#include "post/bilateral.h"
-#include "reprojection/reprojection.h"
+#include "predict/reprojection.h"
 #include "seeds/sampler.h"
+#include "smooth/bilateral.h"
 
 /// What can be asked of a computation.
 namespace asdfvk {

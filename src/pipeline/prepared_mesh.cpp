@@ -4,9 +4,9 @@
 
 #include <utility>
 
-#include "core/counted.h"
 #include "core/error.h"
 #include "core/stopwatch.h"
+#include "core/text.h"
 #include "mesh/coincident_faces.h"
 #include "mesh/orientation.h"
 

@@ -7,10 +7,11 @@
 #include <utility>
 #include <vector>
 
+#include "estimate/error_estimate.h"
 #include "mesh/mesh.h"
 #include "mesh/validation.h"
 #include "poisson/poisson_solver.h"
-#include "trace/vulkan_trace_choice.h"
+#include "trace/vulkan/vulkan_trace_choice.h"
 
 /// What a computation tells about itself beside its values.
 namespace asdfvk {
@@ -46,23 +47,6 @@ inline constexpr std::array<std::pair<const char*, double StageSeconds::*>, 13> 
     {"smooth", &StageSeconds::smooth},
     {"write", &StageSeconds::write},
 }};
-
-/// The error of the result against the function traced at all faces, cross-validated: some faces, chosen at random
-/// among those that are no seeds, more of them where errors are expected, cast rays too and are held out of an
-/// interpolation of their own; what it is off by there is scaled up to all faces. Their rays are not lost: in the
-/// result they are seeds like the others, which makes it a little better than what was judged; the estimate allows for
-/// that.
-struct ErrorEstimate {
-  double average = 0;  ///< Over all faces, seeds included, over the range of the values: as in the paper's Table 1.
-  double standardError = 0;  ///< Of `average`: the spread among the held-out faces, and what they add as seeds.
-  uint64_t heldOutCount = 0;
-  /// The held-out faces with the greatest errors, greatest first.
-  struct WorstFace {
-    uint64_t face = 0;  ///< Input face.
-    double error = 0;   ///< Over the range.
-  };
-  std::vector<WorstFace> worstFaces;
-};
 
 /// What the double-precision reference says about the result. Two random choices of faces are recomputed: traced ones,
 /// to see whether the device computes what it should, and ones among all that can cast rays, to see how far off the

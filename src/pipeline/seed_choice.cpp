@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "core/error.h"
-#include "pipeline/probe_choice.h"
+#include "estimate/held_out.h"
 #include "seeds/blue_noise.h"
 #include "seeds/random_permutation.h"
 

@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "pipeline/error_pattern.h"
+#include "estimate/error_indicator.h"
 
 namespace asdfvk {
 namespace {

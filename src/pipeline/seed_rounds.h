@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "core/stopwatch.h"
-#include "pipeline/error_estimate.h"
+#include "estimate/error_estimate.h"
 #include "pipeline/interpolation.h"
 #include "pipeline/seed_choice.h"
 

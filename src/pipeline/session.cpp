@@ -4,11 +4,11 @@
 #include <fmt/format.h>
 
 #include "bvh/bvh.h"
-#include "core/counted.h"
 #include "core/error.h"
 #include "core/freed_memory.h"
 #include "core/median.h"
 #include "core/stopwatch.h"
+#include "core/text.h"
 #include "pipeline/asdf.h"
 #include "pipeline/check.h"
 #include "pipeline/compute_backend.h"

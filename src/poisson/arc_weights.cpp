@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "core/check.h"
+#include "core/parallel.h"
 #include "mesh/dihedral.h"
-#include "mesh/parallel_loop.h"
 
 namespace asdfvk {
 namespace {

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "mesh/parallel_loop.h"
+#include "core/parallel.h"
 #include "poisson/weighted_graph.h"
 
 namespace asdfvk {

@@ -1,6 +1,6 @@
 #include "core/check.h"
-#include "mesh/parallel_loop.h"
-#include "poisson/ordered_sum.h"
+#include "core/ordered_sum.h"
+#include "core/parallel.h"
 #include "poisson/poisson_system.h"
 
 namespace asdfvk {

@@ -4,9 +4,9 @@
 #include <limits>
 
 #include "core/check.h"
-#include "mesh/parallel_loop.h"
+#include "core/ordered_sum.h"
+#include "core/parallel.h"
 #include "poisson/energy_rows.h"
-#include "poisson/ordered_sum.h"
 #include "poisson/weighted_graph.h"
 
 namespace asdfvk {

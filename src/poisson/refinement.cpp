@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/check.h"
-#include "mesh/parallel_loop.h"
+#include "core/parallel.h"
 
 namespace asdfvk {
 namespace {

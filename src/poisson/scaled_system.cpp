@@ -7,8 +7,8 @@
 #include <array>
 #include <cmath>
 
-#include "mesh/parallel_loop.h"
-#include "poisson/ordered_sum.h"
+#include "core/ordered_sum.h"
+#include "core/parallel.h"
 
 namespace asdfvk {
 namespace {

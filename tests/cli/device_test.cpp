@@ -4,7 +4,7 @@
 #include "cli/program_under_test.h"
 #include "cli/sample_files.h"
 #include "cli/scratch_folder.h"
-#include "trace/embree_tracer.h"
+#include "trace/embree/embree_tracer.h"
 
 namespace asdfvk::test {
 namespace {

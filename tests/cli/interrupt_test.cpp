@@ -7,7 +7,7 @@
 #include "cli/program_under_test.h"
 #include "cli/sample_files.h"
 #include "cli/scratch_folder.h"
-#include "mesh/writers/atomic_file.h"
+#include "core/atomic_file.h"
 
 namespace asdfvk::test {
 namespace {

@@ -3,6 +3,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "core/text.h"
 #include "cli/report_json.h"
 #include "cli/report_text.h"
 
@@ -29,14 +30,6 @@ Report sampleReport() {
 }
 
 bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-
-TEST_CASE("digits are grouped by three") {
-  CHECK_EQ(groupDigits(0), "0");
-  CHECK_EQ(groupDigits(999), "999");
-  CHECK_EQ(groupDigits(1000), "1,000");
-  CHECK_EQ(groupDigits(1234567), "1,234,567");
-  CHECK_EQ(groupDigits(std::numeric_limits<uint64_t>::max()), "18,446,744,073,709,551,615");
-}
 
 TEST_CASE("the text report tells mesh, device, seeds, speed, solver and values") {
   const CommandLine line;

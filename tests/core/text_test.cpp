@@ -2,10 +2,28 @@
 
 #include <doctest/doctest.h>
 
+#include <limits>
+
 using namespace asdfvk;
 
 TEST_CASE("the letters A to Z become lower case and nothing else changes") {
   CHECK(lowerCase("").empty());
   CHECK(lowerCase("AZ az @[ 09 .PlY") == "az az @[ 09 .ply");
   CHECK(lowerCase("\xC3\x84\xFF") == "\xC3\x84\xFF");
+}
+
+TEST_CASE("a count of one takes the singular, all other counts the plural") {
+  CHECK(counted(0, "face") == "0 faces");
+  CHECK(counted(1, "face") == "1 face");
+  CHECK(counted(2, "face") == "2 faces");
+  CHECK(counted(1, "vertex", "vertices") == "1 vertex");
+  CHECK(counted(21, "vertex", "vertices") == "21 vertices");
+}
+
+TEST_CASE("groupDigits puts a comma before every third digit from the end") {
+  CHECK(groupDigits(0) == "0");
+  CHECK(groupDigits(999) == "999");
+  CHECK(groupDigits(1000) == "1,000");
+  CHECK(groupDigits(1234567) == "1,234,567");
+  CHECK(groupDigits(std::numeric_limits<uint64_t>::max()) == "18,446,744,073,709,551,615");
 }

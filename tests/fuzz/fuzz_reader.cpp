@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "core/error.h"
-#include "mesh/readers/mesh_format.h"
+#include "io/mesh_format.h"
 
 namespace asdfvk::fuzz {
 namespace {

@@ -1,4 +1,4 @@
-#include "mesh/openmesh_adapter.h"
+#include "asdf_vk/openmesh.h"
 
 #include <doctest/doctest.h>
 

@@ -4,8 +4,8 @@
 #include <map>
 #include <string>
 
+#include "io/mesh_reader.h"
 #include "mesh/coincident_faces.h"
-#include "mesh/mesh_reader.h"
 #include "mesh/orientation.h"
 #include "mesh/validation.h"
 #include "support/real_meshes.h"

@@ -2,8 +2,8 @@
 
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 
+#include "asdf_vk/openmesh.h"
 #include "generate/shapes.h"
-#include "mesh/openmesh_adapter.h"
 #include "support/shared_session.h"
 
 using namespace asdfvk;

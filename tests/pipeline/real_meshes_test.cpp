@@ -4,10 +4,10 @@
 #include <filesystem>
 #include <set>
 
-#include "mesh/mesh_reader.h"
+#include "io/mesh_reader.h"
 #include "support/real_meshes.h"
 #include "support/shared_session.h"
-#include "trace/embree_tracer.h"
+#include "trace/embree/embree_tracer.h"
 
 using namespace asdfvk;
 namespace fs = std::filesystem;

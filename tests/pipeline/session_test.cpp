@@ -10,7 +10,7 @@
 #include "mesh/face_geometry.h"
 #include "pipeline/asdf.h"
 #include "support/shared_session.h"
-#include "trace/embree_tracer.h"
+#include "trace/embree/embree_tracer.h"
 
 using namespace asdfvk;
 using test::referenceSession;

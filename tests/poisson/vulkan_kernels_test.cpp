@@ -8,8 +8,8 @@
 #include "fixtures.h"
 #include "kernel_twins.h"
 #include "poisson/cpu_cg.h"
-#include "poisson/vulkan_cg.h"
-#include "poisson/vulkan_jacobi.h"
+#include "poisson/vulkan/vulkan_cg.h"
+#include "poisson/vulkan/vulkan_jacobi.h"
 #include "support/test_device.h"
 
 using namespace asdfvk;

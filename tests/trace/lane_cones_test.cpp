@@ -1,4 +1,4 @@
-#include "trace/lane_cones.h"
+#include "trace/embree/lane_cones.h"
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,4 @@
-#include "trace/near_faces.h"
+#include "trace/embree/near_faces.h"
 
 #include <doctest/doctest.h>
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "trace/reference_tracer.h"
-#include "trace/vulkan_tracer.h"
+#include "trace/vulkan/vulkan_tracer.h"
 #include "traced_mesh.h"
 
 namespace asdfvk {

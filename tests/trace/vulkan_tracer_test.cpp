@@ -1,4 +1,4 @@
-#include "trace/vulkan_tracer.h"
+#include "trace/vulkan/vulkan_tracer.h"
 
 #include <doctest/doctest.h>
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "picture/ticks.h"
+#include "render/ticks.h"
 
 namespace asdfvk::bench {
 

@@ -1,4 +1,5 @@
 #include "paper/plots/table.h"
+#include "core/text.h"
 
 #include <fmt/format.h>
 

@@ -1,0 +1,153 @@
+#include "core/atomic_file.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <bit>
+#include <cerrno>
+#include <system_error>
+#include <utility>
+
+#include "core/error.h"
+
+namespace asdfvk {
+
+static_assert(std::endian::native == std::endian::little, "the binary formats are written as they lie in memory");
+
+namespace {
+
+// Whoever exchanges the name for null owns it, so that a signal handler never reads one that is being freed.
+std::atomic<const char*> unfinished{nullptr};
+static_assert(std::atomic<const char*>::is_always_lock_free);
+
+}  // namespace
+
+void removeUnfinishedFile() noexcept {
+  if (const char* name = unfinished.exchange(nullptr, std::memory_order_acquire)) ::unlink(name);
+}
+
+AtomicFile::AtomicFile(const std::filesystem::path& target)
+    : target_(target), isStandardOutput_(target == "-"), buffer_(std::make_unique_for_overwrite<char[]>(kBufferSize)) {
+  if (isStandardOutput_) {
+    descriptor_ = STDOUT_FILENO;
+    return;
+  }
+  if (target_.empty()) throw Error(ErrorKind::Output, "the result has no file to go to: its name is empty");
+  struct stat status {};
+  if (::stat(target_.c_str(), &status) != 0) {
+    if (errno != ENOENT) fail(errno, "");
+    if (target_.filename().empty()) fail(EISDIR, "");
+    openTemporary();
+    return;
+  }
+  if (S_ISDIR(status.st_mode)) fail(EISDIR, "");
+  if (!S_ISREG(status.st_mode)) {
+    descriptor_ = ::open(target_.c_str(), O_WRONLY | O_CLOEXEC);
+    if (descriptor_ < 0) fail(errno, "");
+    return;
+  }
+  if (::access(target_.c_str(), W_OK) != 0) fail(errno, "");
+  std::error_code ignored;
+  const std::filesystem::path followed = std::filesystem::canonical(target_, ignored);
+  if (!followed.empty()) target_ = followed;
+  openTemporary();
+  if (::fchmod(descriptor_, status.st_mode & 07777) != 0) failAndRemove(errno);
+}
+
+AtomicFile::~AtomicFile() { closeAndRemove(); }
+
+void AtomicFile::openTemporary() {
+  static std::atomic<unsigned> count = 0;
+  do {
+    temporary_ = target_;
+    temporary_.replace_filename(fmt::format(".asdf-vk-{}-{}.part", ::getpid(), count++));
+    descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  } while (descriptor_ < 0 && errno == EEXIST);
+  if (descriptor_ >= 0) {
+    announceTemporary();  // Not before: what was there belongs to another process.
+    return;
+  }
+  const int reason = errno;
+  const std::filesystem::path folder = target_.has_parent_path() ? target_.parent_path() : ".";
+  temporary_.clear();
+  if (reason == ENOENT) fail(reason, fmt::format("the folder {} is not there; create it first", folder.string()));
+  fail(reason, fmt::format("creating a temporary file in {}", folder.string()));
+}
+
+void AtomicFile::announceTemporary() {
+  const std::string& name = temporary_.native();
+  announced_ = std::make_unique<char[]>(name.size() + 1);
+  std::memcpy(announced_.get(), name.c_str(), name.size() + 1);
+  const char* none = nullptr;
+  if (!unfinished.compare_exchange_strong(none, announced_.get(), std::memory_order_release)) announced_.reset();
+}
+
+void AtomicFile::withdrawTemporary() noexcept {
+  const char* mine = announced_.get();
+  if (mine == nullptr) return;
+  if (unfinished.compare_exchange_strong(mine, nullptr, std::memory_order_acquire)) {
+    announced_.reset();
+  } else {
+    (void)announced_.release();  // A signal handler reads it, and the process ends.
+  }
+}
+
+void AtomicFile::write(const void* bytes, size_t size) {
+  const char* next = static_cast<const char*>(bytes);
+  while (size > 0) {
+    const size_t step = size < kMaxReserve ? size : kMaxReserve;
+    std::memcpy(reserve(step), next, step);
+    advance(step);
+    next += step;
+    size -= step;
+  }
+}
+
+void AtomicFile::flush() {
+  size_t written = 0;
+  while (written < used_) {
+    const ssize_t count = ::write(descriptor_, buffer_.get() + written, used_ - written);
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) failAndRemove(errno);
+    written += static_cast<size_t>(count);
+  }
+  used_ = 0;
+}
+
+void AtomicFile::commit() {
+  flush();
+  const int descriptor = std::exchange(descriptor_, -1);
+  if (isStandardOutput_) return;
+  // A full network disk may only tell at the close.
+  if (::close(descriptor) != 0 || (!temporary_.empty() && ::rename(temporary_.c_str(), target_.c_str()) != 0)) {
+    failAndRemove(errno);
+  }
+  withdrawTemporary();
+  temporary_.clear();
+}
+
+void AtomicFile::failAndRemove(int errorNumber) {
+  const bool isAtomic = !temporary_.empty();
+  closeAndRemove();
+  fail(errorNumber, isAtomic ? "nothing was left behind" : "");
+}
+
+void AtomicFile::closeAndRemove() noexcept {
+  if (descriptor_ >= 0 && !isStandardOutput_) ::close(descriptor_);
+  descriptor_ = -1;
+  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+  withdrawTemporary();
+  temporary_.clear();
+}
+
+void AtomicFile::fail(int errorNumber, const std::string& during) const {
+  const std::string name = isStandardOutput_ ? "standard output" : target_.string();
+  throw Error(ErrorKind::Output,
+              fmt::format("{} cannot be written: {}{}{}", name, std::generic_category().message(errorNumber),
+                          during.empty() ? "" : "; ", during));
+}
+
+}  // namespace asdfvk

@@ -1,0 +1,174 @@
+#pragma once
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_sort.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/error.h"
+#include "core/parallel.h"
+
+namespace asdfvk {
+
+/// Entries sorted into numbered buckets, one after another: compressed rows.
+template <typename Entry>
+struct Buckets {
+  std::vector<uint32_t> offsets;  ///< #buckets+1
+  std::vector<Entry> entries;     ///< Ascending within each bucket.
+
+  [[nodiscard]] uint32_t bucketCount() const { return static_cast<uint32_t>(offsets.size() - 1); }
+  [[nodiscard]] std::span<const Entry> operator[](uint32_t bucket) const {
+    return {entries.data() + offsets[bucket], entries.data() + offsets[bucket + 1]};
+  }
+};
+
+/// Entries on their way into numbered buckets, for those who need to see each bucket once and not to keep them: a
+/// radix sort in two steps, of which the second works on runs of buckets that fit into a cache. Without atomic
+/// operations, each of which would wait for memory by itself. Linear as long as buckets are small, n log n at worst;
+/// the same for any number of threads. Entry: ordered; left uninitialised by its default constructor, best of all.
+template <typename Entry>
+class StagedEntries {
+ public:
+  /// emit(item, put) is called twice for every item in [0, itemCount) and calls put(bucket, entry) for each of its
+  /// entries. Throws Error{Input} beyond 2^32 - 1 entries.
+  template <typename Emit>
+  StagedEntries(size_t bucketCount, size_t itemCount, const Emit& emit) : bucketCount_(bucketCount) {
+    const size_t wantedRunCount = std::clamp<size_t>(itemCount / kItemsPerRun, 1, kMaxRunCount);
+    while ((bucketCount >> shift_) >= wantedRunCount && bucketCount >> shift_ > 0) ++shift_;
+    const size_t runCount = (bucketCount >> shift_) + 1;
+    const size_t blockSize = std::max(kItemsPerRun, itemCount / kMaxBlockCount + 1);
+    const size_t blockCount = (itemCount + blockSize - 1) / blockSize;
+    std::vector<std::vector<uint32_t>> cursors(blockCount);
+    const auto forEachBlock = [&](const auto& body) {
+      tbb::parallel_for(size_t{0}, blockCount, [&](size_t block) {
+        const size_t end = std::min(itemCount, (block + 1) * blockSize);
+        for (size_t item = block * blockSize; item < end; ++item) body(cursors[block], static_cast<uint32_t>(item));
+      });
+    };
+    for (std::vector<uint32_t>& cursor : cursors) cursor.assign(runCount, 0);
+    forEachBlock([&](std::vector<uint32_t>& counts, uint32_t item) {
+      emit(item, [&](uint32_t bucket, const Entry&) { ++counts[bucket >> shift_]; });
+    });
+    turnIntoCursors(cursors, runCount);
+    staged_ = std::make_unique_for_overwrite<Staged[]>(count());
+    forEachBlock([&](std::vector<uint32_t>& cursor, uint32_t item) {
+      emit(item, [&](uint32_t bucket, const Entry& entry) { staged_[cursor[bucket >> shift_]++] = {bucket, entry}; });
+    });
+  }
+
+  [[nodiscard]] uint32_t count() const { return runBegins_.back(); }
+
+  /// Calls visit(bucket, entries) once for each bucket with an entry, entries ascending, in parallel.
+  template <typename Visit>
+  void forEachBucket(const Visit& visit) const {
+    tbb::enumerable_thread_specific<std::vector<Entry>> scratches;
+    forEachRun(
+        [&](uint32_t, uint32_t size) {
+          std::vector<Entry>& scratch = scratches.local();
+          if (scratch.size() < size) scratch.resize(size);
+          return scratch.data();
+        },
+        [&](uint32_t bucket, uint32_t, std::span<const Entry> entries) {
+          if (!entries.empty()) visit(bucket, entries);
+        });
+  }
+
+  [[nodiscard]] Buckets<Entry> toBuckets() const {
+    Buckets<Entry> buckets;
+    buckets.offsets.resize(bucketCount_ + 1);
+    buckets.entries.resize(count());
+    forEachRun([&](uint32_t begin, uint32_t) { return buckets.entries.data() + begin; },
+               [&](uint32_t bucket, uint32_t begin, std::span<const Entry>) { buckets.offsets[bucket] = begin; });
+    buckets.offsets.back() = count();
+    return buckets;
+  }
+
+ private:
+  static constexpr size_t kItemsPerRun = size_t{1} << 13, kMaxRunCount = 512, kMaxBlockCount = 256;
+
+  struct Staged {
+    uint32_t bucket;
+    Entry entry;
+  };
+
+  /// counts: of each block of items and run, which become where the block's entries of that run begin.
+  void turnIntoCursors(std::vector<std::vector<uint32_t>>& counts, size_t runCount) {
+    uint64_t total = 0;
+    for (size_t run = 0; run < runCount; ++run) {
+      runBegins_.push_back(static_cast<uint32_t>(total));
+      for (std::vector<uint32_t>& count : counts) {
+        total += std::exchange(count[run], static_cast<uint32_t>(total));
+        if (total > UINT32_MAX) throw Error(ErrorKind::Input, "the mesh has too many connections; split it");
+      }
+    }
+    runBegins_.push_back(static_cast<uint32_t>(total));
+  }
+
+  static void sort(std::span<Entry> entries) {
+    constexpr size_t kWorthParallelSort = size_t{1} << 16;
+    if (entries.size() >= kWorthParallelSort) {
+      // Isolated: another run begun by this thread meanwhile would overwrite this one's scratch.
+      tbb::this_task_arena::isolate([&] { tbb::parallel_sort(entries.begin(), entries.end()); });
+    } else if (entries.size() > 1) {
+      std::sort(entries.begin(), entries.end());
+    }
+  }
+
+  /// room(begin, size) tells where the run's entries go, visit(bucket, begin, entries) takes each bucket; begin: of all
+  /// entries in the order of buckets.
+  template <typename Room, typename Visit>
+  void forEachRun(const Room& room, const Visit& visit) const {
+    tbb::enumerable_thread_specific<std::vector<uint32_t>> ends;
+    tbb::parallel_for(size_t{0}, runBegins_.size() - 1, [&](size_t run) {
+      const uint32_t begin = runBegins_[run], size = runBegins_[run + 1] - begin;
+      const size_t firstBucket = run << shift_;
+      const size_t runBucketCount = std::min(bucketCount_, (run + 1) << shift_) - firstBucket;
+      const std::span<const Staged> staged(staged_.get() + begin, size);
+      std::vector<uint32_t>& end = ends.local();
+      end.assign(runBucketCount + 1, 0);
+      for (const Staged& s : staged) ++end[s.bucket - firstBucket + 1];
+      for (size_t i = 1; i <= runBucketCount; ++i) end[i] += end[i - 1];
+      Entry* entries = room(begin, size);
+      for (const Staged& s : staged) entries[end[s.bucket - firstBucket]++] = s.entry;
+      for (size_t i = 0; i < runBucketCount; ++i) {
+        const uint32_t from = i == 0 ? 0 : end[i - 1];
+        const std::span<Entry> bucket(entries + from, entries + end[i]);
+        sort(bucket);
+        visit(static_cast<uint32_t>(firstBucket + i), begin + from, bucket);
+      }
+    });
+  }
+
+  size_t bucketCount_ = 0;
+  uint32_t shift_ = 0;                ///< A run is the buckets whose numbers agree but for so many low bits.
+  std::vector<uint32_t> runBegins_;   ///< #runs+1
+  std::unique_ptr<Staged[]> staged_;  ///< By run.
+};
+
+/// All of it kept. See StagedEntries.
+template <typename Entry, typename Emit>
+[[nodiscard]] Buckets<Entry> sortIntoBuckets(size_t bucketCount, size_t itemCount, const Emit& emit) {
+  return StagedEntries<Entry>(bucketCount, itemCount, emit).toBuckets();
+}
+
+/// What stands in a bucket more than once is left once. Precondition: buckets are ascending.
+template <typename Entry>
+[[nodiscard]] Buckets<Entry> withoutRepeats(const Buckets<Entry>& buckets) {
+  Buckets<Entry> result;
+  result.offsets.push_back(0);
+  for (uint32_t bucket = 0; bucket < buckets.bucketCount(); ++bucket) {
+    const std::span<const Entry> entries = buckets[bucket];
+    std::unique_copy(entries.begin(), entries.end(), std::back_inserter(result.entries));
+    result.offsets.push_back(static_cast<uint32_t>(result.entries.size()));
+  }
+  return result;
+}
+
+}  // namespace asdfvk

@@ -1,0 +1,44 @@
+#include "io/mesh_reader.h"
+
+#include <fmt/format.h>
+
+#include <new>
+#include <string>
+
+#include "core/error.h"
+#include "io/file_bytes.h"
+#include "io/input_failure.h"
+#include "io/mesh_format.h"
+
+namespace asdfvk {
+
+Mesh parseMesh(std::span<const char> bytes, std::string_view extension) {
+  if (bytes.empty()) failInput("is empty");
+  const auto format = detectFormat(bytes, extension);
+  if (!format) failInput("is in no format that can be read here: PLY, OFF, OBJ or STL");
+  switch (*format) {
+    case MeshFormat::Ply:
+      return parsePly(bytes);
+    case MeshFormat::Off:
+      return parseOff(bytes);
+    case MeshFormat::Obj:
+      return parseObj(bytes);
+    case MeshFormat::Stl:
+      return parseStl(bytes);
+  }
+  failInput("has an unknown format");
+}
+
+Mesh readMesh(const std::filesystem::path& path) {
+  const std::string name = path == "-" ? "standard input" : path.string();
+  try {
+    const FileBytes file = FileBytes::read(path);
+    return parseMesh(file.bytes(), path.extension().string());
+  } catch (const Error& error) {
+    throw Error(error.kind(), fmt::format("{}: {}", name, error.what()));
+  } catch (const std::bad_alloc&) {
+    throw Error(ErrorKind::Input, fmt::format("{}: does not fit into memory", name));
+  }
+}
+
+}  // namespace asdfvk

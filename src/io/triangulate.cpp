@@ -1,0 +1,128 @@
+#include "io/triangulate.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/check.h"
+
+namespace asdfvk {
+namespace {
+
+/// The sine of a turn below which a corner counts as straight.
+constexpr double kStraightSine = 1e-10;
+
+void cutFan(std::span<const uint32_t> corners, std::span<Face> triangles) {
+  for (size_t i = 0; i < triangles.size(); ++i) triangles[i] = {corners[0], corners[i + 1], corners[i + 2]};
+}
+
+}  // namespace
+
+void PolygonTriangulator::triangulate(std::span<const Vec3d> vertices, std::span<const uint32_t> corners,
+                                      std::span<Face> triangles) {
+  ASDFVK_CHECK_OP(corners.size(), ==, triangles.size() + 2);
+  const size_t count = corners.size();
+  if (count == 3 || count > kMaxEarClippedCorners || !project(vertices, corners)) return cutFan(corners, triangles);
+  previous_.resize(count);
+  next_.resize(count);
+  for (size_t i = 0; i < count; ++i) {
+    previous_[i] = static_cast<uint32_t>((i + count - 1) % count);
+    next_[i] = static_cast<uint32_t>((i + 1) % count);
+  }
+  turn_.resize(count);
+  reflex_.clear();
+  for (uint32_t i = 0; i < count; ++i) {
+    turn_[i] = turnAt(i);
+    if (!(turn_[i] > kStraightSine)) reflex_.push_back(i);
+  }
+  if (reflex_.empty()) return cutFan(corners, triangles);
+  clipEars(corners, triangles);
+}
+
+bool PolygonTriangulator::project(std::span<const Vec3d> vertices, std::span<const uint32_t> corners) {
+  // Relative to a corner and to the polygon's size, so that neither distance from the origin nor unit matters.
+  const Vec3d origin = vertices[corners[0]];
+  double size = 0;
+  for (const uint32_t corner : corners) {
+    const Vec3d p = vertices[corner] - origin;
+    for (size_t axis = 0; axis < 3; ++axis) {
+      if (!std::isfinite(p[axis])) return false;
+      size = std::max(size, std::abs(p[axis]));
+    }
+  }
+  if (!(size > 0)) return false;
+  const auto local = [&](size_t i) {
+    const Vec3d p = vertices[corners[i]] - origin;
+    return Vec3d{p.x / size, p.y / size, p.z / size};
+  };
+  Vec3d normal;
+  for (size_t i = 0; i < corners.size(); ++i) {
+    const Vec3d a = local(i), b = local(i + 1 == corners.size() ? 0 : i + 1);
+    normal = normal + Vec3d{(a.y - b.y) * (a.z + b.z), (a.z - b.z) * (a.x + b.x), (a.x - b.x) * (a.y + b.y)};
+  }
+  size_t axis = 0;
+  for (size_t other = 1; other < 3; ++other)
+    if (std::abs(normal[other]) > std::abs(normal[axis])) axis = other;
+  if (!(std::abs(normal[axis]) > 0)) return false;
+  const size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
+  points_.resize(corners.size());
+  for (size_t i = 0; i < corners.size(); ++i) {
+    const Vec3d p = local(i);
+    points_[i] = normal[axis] > 0 ? Point2{p[u], p[v]} : Point2{p[v], p[u]};
+  }
+  return true;
+}
+
+/// The sine of the turn from the edge before `corner` to the one after: positive to the left, 0 where an edge is empty.
+double PolygonTriangulator::turnAt(uint32_t corner) const {
+  const Point2 a = points_[previous_[corner]], b = points_[corner], c = points_[next_[corner]];
+  const double cross = (b.x - a.x) * (c.y - b.y) - (b.y - a.y) * (c.x - b.x);
+  const double lengths = std::hypot(b.x - a.x, b.y - a.y) * std::hypot(c.x - b.x, c.y - b.y);
+  return lengths > 0 ? cross / lengths : 0;
+}
+
+bool PolygonTriangulator::isEar(uint32_t corner) const {
+  if (!(turn_[corner] > kStraightSine)) return false;
+  const uint32_t before = previous_[corner], after = next_[corner];
+  const Point2 a = points_[before], b = points_[corner], c = points_[after];
+  return std::none_of(reflex_.begin(), reflex_.end(), [&](uint32_t other) {
+    if (isClipped_[other] || other == before || other == corner || other == after) return false;
+    // A bridge to a hole runs through its ends twice; the copy of a corner is no obstacle.
+    const Point2 p = points_[other];
+    if (p == a || p == b || p == c) return false;
+    return sideOf(a, b, p) >= 0 && sideOf(b, c, p) >= 0 && sideOf(c, a, p) >= 0;
+  });
+}
+
+/// The first ear from `start` on; where the polygon has none because it crosses itself or is flat, the sharpest left
+/// turn.
+uint32_t PolygonTriangulator::findEar(uint32_t start, size_t leftCount) const {
+  uint32_t corner = start, sharpest = start;
+  for (size_t i = 0; i < leftCount; ++i, corner = next_[corner]) {
+    if (isEar_[corner]) return corner;
+    if (turn_[corner] > turn_[sharpest]) sharpest = corner;
+  }
+  return sharpest;
+}
+
+void PolygonTriangulator::clipEars(std::span<const uint32_t> corners, std::span<Face> triangles) {
+  isClipped_.assign(corners.size(), 0);
+  isEar_.resize(corners.size());
+  for (uint32_t i = 0; i < corners.size(); ++i) isEar_[i] = isEar(i);
+  uint32_t start = 0;
+  size_t leftCount = corners.size();
+  for (Face& triangle : triangles) {
+    const uint32_t ear = findEar(start, leftCount--);
+    const uint32_t before = previous_[ear], after = next_[ear];
+    triangle = {corners[before], corners[ear], corners[after]};
+    next_[before] = after;
+    previous_[after] = before;
+    isClipped_[ear] = 1;
+    for (const uint32_t neighbour : {before, after}) {
+      turn_[neighbour] = turnAt(neighbour);
+      isEar_[neighbour] = isEar(neighbour);
+    }
+    start = after;  // Going on behind the ear spreads the cuts instead of fanning all of them out of one corner.
+  }
+}
+
+}  // namespace asdfvk

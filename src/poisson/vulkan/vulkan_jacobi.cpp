@@ -1,0 +1,78 @@
+#include "poisson/vulkan/vulkan_jacobi.h"
+
+#include <array>
+#include <cmath>
+#include <cstring>
+
+#include "poisson/vulkan/vulkan_kernel.h"
+#include "shared/poisson_layout.h"
+#include "spirv/jacobi_sweep.comp.h"
+
+namespace asdfvk {
+namespace {
+
+constexpr uint32_t kBindingCount = 8;
+
+Buffer uploadZeros(const Device& device, size_t count) {
+  return uploadBuffer(device, std::as_bytes(std::span<const float>(std::vector<float>(count, 0.0f))),
+                      kPoissonVectorUsage);
+}
+
+std::array<Binding, kBindingCount> bind(const VulkanMatrix& matrix, const Buffer& rightHandSide, const Buffer& from,
+                                        const Buffer& to, const Buffer& sums) {
+  return {matrix.rowTexels,
+          matrix.tailColumns,
+          matrix.tailCouplings,
+          rightHandSide,
+          matrix.residualWeights,
+          from,
+          to,
+          sums};
+}
+
+}  // namespace
+
+VulkanJacobiKernel::VulkanJacobiKernel(const Device& device)
+    : sweep(device,
+            describePoissonKernel(device.facts(), "jacobi_sweep.comp", k_jacobi_sweep_comp, kBindingCount, true)) {}
+
+VulkanJacobi::VulkanJacobi(const Device& device, const VulkanJacobiKernel& kernel, const VulkanMatrix& matrix,
+                           std::span<const float> rightHandSide, double heldBack)
+    : device_(device),
+      kernel_(kernel),
+      unknownCount_(static_cast<uint32_t>(rightHandSide.size())),
+      workgroupCount_(matrix.grid.workgroupCount),
+      heldBack_(static_cast<float>(heldBack)),
+      rightHandSide_(uploadBuffer(device, std::as_bytes(rightHandSide), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT)),
+      iterates_{uploadZeros(device, rightHandSide.size()), uploadZeros(device, rightHandSide.size())},
+      sums_(uploadBuffer(device, bytesOf(PoissonSums{}), kPoissonVectorUsage)),
+      sumsOnHost_(device, sizeof(PoissonSums), VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryKind::HostVisible),
+      bindings_{{device, kernel.sweep, bind(matrix, rightHandSide_, iterates_[0], iterates_[1], sums_)},
+                {device, kernel.sweep, bind(matrix, rightHandSide_, iterates_[1], iterates_[0], sums_)}},
+      commands_(device) {}
+
+double VulkanJacobi::advance(uint32_t iterationCount) {
+  commands_.begin();
+  for (uint32_t i = 0; i < iterationCount; ++i) {
+    commands_.dispatch(kernel_.sweep, bindings_[current_], bytesOf(PoissonPush{unknownCount_, 0, heldBack_}),
+                       workgroupCount_);
+    commands_.barrier();
+    current_ = 1 - current_;
+  }
+  commands_.copy(sums_, 0, sumsOnHost_, 0, sizeof(PoissonSums));
+  commands_.barrier();
+  commands_.submitAndWait();
+  PoissonSums sums;
+  std::memcpy(&sums, sumsOnHost_.mapped(), sizeof sums);
+  double squared = 0;
+  for (uint32_t i = 0; i < workgroupCount_; ++i) squared += static_cast<double>(sums.residualSquared[i]);
+  return std::sqrt(squared);
+}
+
+std::vector<float> VulkanJacobi::solution() const {
+  std::vector<float> values(unknownCount_);
+  downloadBuffer(device_, iterates_[current_], std::as_writable_bytes(std::span(values)));
+  return values;
+}
+
+}  // namespace asdfvk

@@ -1,0 +1,7 @@
+#include "predict/cone_kernel_lanes.h"
+
+namespace asdfvk {
+
+const ConeKernel& baselineConeKernel() { return kKernelInLanes; }
+
+}  // namespace asdfvk

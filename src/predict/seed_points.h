@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/vec3.h"
+#include "predict/point_group.h"
+#include "predict/traced_cones.h"
+
+namespace asdfvk {
+
+/// The points that the rays of some seeds met, in normalised units: what faces that cast no rays look at.
+class SeedPoints {
+ public:
+  /// What it refers to must outlive it.
+  SeedPoints(const TraceScene& scene, const Cone& cone, const TracedCones& traced);
+
+  void clear();
+
+  /// Adds the points of a seed's rays as one cone and returns where that is.
+  PointCone gather(uint32_t seed);
+
+  /// A point of the surface as a hit that no outlier rule leaves out. Unit normal; area: of the surface that the point
+  /// stands for. In normalised units.
+  struct Point {
+    Vec3d position, normal;
+    double area = 0;
+    uint32_t face = 0;
+  };
+  /// Adds points as a further cone. None where there are none.
+  PointCone append(std::span<const Point> points);
+
+  [[nodiscard]] const std::vector<PointGroup>& groups() const { return groups_; }
+
+ private:
+  [[nodiscard]] PointCone appendCone(size_t pointCount);
+
+  const TraceScene& scene_;
+  const Cone& cone_;
+  TracedCones traced_;
+  double raySolidAngle_;  ///< What each ray of a cone stands for.
+  std::vector<PointGroup> groups_;
+};
+
+}  // namespace asdfvk

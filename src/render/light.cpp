@@ -1,0 +1,87 @@
+#include "render/light.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "render/unit_vector.h"
+#include "trace/ray_triangle.h"
+
+namespace asdfvk {
+namespace {
+
+constexpr uint32_t kAmbientRayCount = 4, kKeyRayCount = 2;  ///< Per pixel.
+constexpr double kKeyRadius = 0.22;                         ///< Of the lamp's disk, at distance 1.
+constexpr double kAmbientReach = 0.9;                       ///< What is farther off darkens nothing; normalised unit.
+constexpr double kAmbient = 0.55, kKey = 0.52, kFill = 0.08, kGroundShare = 0.66;
+
+const double kGoldenAngle = std::numbers::pi * (3 - std::sqrt(5.0));
+
+/// Point i of `count` evenly spread ones in the unit disk (Vogel's spiral).
+struct DiskPoint {
+  double x, y;
+};
+DiskPoint diskPoint(uint32_t i, uint32_t count) {
+  const double radius = std::sqrt((i + 0.5) / count), angle = i * kGoldenAngle;
+  return {radius * std::cos(angle), radius * std::sin(angle)};
+}
+
+/// A direction into the surface is turned out of it again.
+Vec3d outOf(const Vec3d& faceNormal, const Vec3d& direction) {
+  const double height = dot(faceNormal, direction);
+  return height < 0 ? direction - faceNormal * (2 * height) : direction;
+}
+
+/// Where ray `ray` of `rayCount` of a pattern lies among those of all patterns.
+uint32_t placeOf(uint32_t pattern, uint32_t ray) { return pattern + LightRig::kPatternCount * ray; }
+
+}  // namespace
+
+LightRig::LightRig(const Camera& camera)
+    : keyDirection_(unitVector(camera.toViewer * 0.75 + camera.up * 0.75 - camera.right * 0.55, camera.toViewer)),
+      up_(camera.up),
+      toViewer_(camera.toViewer) {}
+
+Light LightRig::sample(const Scene& scene, const SurfacePoint& point, uint32_t pattern) const {
+  const ConeFrame sky = RayFrame(point.lifted, point.normal).frame;
+  double open = 0;
+  for (uint32_t ray = 0; ray < kAmbientRayCount; ++ray) {
+    // Cosine-weighted: the disk lifted onto the hemisphere.
+    const DiskPoint d = diskPoint(placeOf(pattern, ray), kAmbientRayCount * kPatternCount);
+    const double height = std::sqrt(std::max(0.0, 1 - d.x * d.x - d.y * d.y));
+    const Vec3d direction = outOf(point.faceNormal, sky.tangent * d.x + sky.bitangent * d.y + sky.axis * height);
+    open += std::min(1.0, scene.freeDistance(point.lifted, direction, point.face) / kAmbientReach);
+  }
+  const ConeFrame lamp = RayFrame(point.lifted, keyDirection_).frame;
+  double lit = 0;
+  // A surface that looks away gets no key light anyway.
+  if (dot(point.normal, keyDirection_) > 0) {
+    for (uint32_t ray = 0; ray < kKeyRayCount; ++ray) {
+      const DiskPoint d = diskPoint(placeOf(pattern, ray), kKeyRayCount * kPatternCount);
+      const Vec3d direction =
+          unitVector(lamp.axis + (lamp.tangent * d.x + lamp.bitangent * d.y) * kKeyRadius, lamp.axis);
+      lit += scene.freeDistance(point.lifted, outOf(point.faceNormal, direction), point.face) < kNoHit ? 0 : 1;
+    }
+  }
+  return {static_cast<float>(open / kAmbientRayCount), static_cast<float>(lit / kKeyRayCount)};
+}
+
+Light LightRig::gather(const Scene& scene, const SurfacePoint& point) const {
+  Light sum{0, 0};
+  for (uint32_t pattern = 0; pattern < kPatternCount; ++pattern) {
+    const Light light = sample(scene, point, pattern);
+    sum.ambient += light.ambient / kPatternCount;
+    sum.key += light.key / kPatternCount;
+  }
+  return sum;
+}
+
+Vec3d LightRig::shade(const Vec3d& colour, const Vec3d& normal, const Light& light) const {
+  const double hemisphere = kGroundShare + (1 - kGroundShare) * (0.5 + 0.5 * dot(normal, up_));
+  const double ambient = kAmbient * hemisphere * double(light.ambient);
+  const double key = kKey * std::max(0.0, dot(normal, keyDirection_)) * double(light.key);
+  const double fill = kFill * std::max(0.0, dot(normal, toViewer_));
+  return colour * (ambient + key + fill);
+}
+
+}  // namespace asdfvk

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/run_control.h"
+#include "render/light.h"
+#include "trace/nearest_hit.h"
+
+namespace asdfvk {
+
+/// What is seen in the middle of one pixel.
+struct SeenPoint {
+  uint32_t face = kNoFace;  ///< kNoFace: the background.
+  Vec3f position, normal;
+  Light light;
+};
+
+/// Of the whole picture, rows from the top.
+struct SeenPoints {
+  int width = 0, height = 0;
+  double pixelSize = 0;  ///< Length that one pixel spans, in the unit of the positions.
+  std::vector<SeenPoint> points;
+
+  [[nodiscard]] const SeenPoint& at(int x, int y) const { return points[static_cast<size_t>(y * int64_t{width} + x)]; }
+  [[nodiscard]] SeenPoint& at(int x, int y) { return points[static_cast<size_t>(y * int64_t{width} + x)]; }
+};
+
+/// Mean light of the points up to `radius` pixels around (x, y), each by how likely it lies on the same piece of
+/// surface as `like`. `weight` tells how many did.
+struct NearbyLight {
+  Light light;
+  double weight = 0;
+};
+[[nodiscard]] NearbyLight lightNearby(const SeenPoints& seen, int x, int y, int radius, const SeenPoint& like);
+
+/// Replaces each point's light by that of the square of patterns around it (see LightRig), then smooths it once more.
+void filterLight(SeenPoints& seen, const RunControl& control);
+
+}  // namespace asdfvk

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <span>
+
+#include "core/run_control.h"
+#include "render/camera.h"
+#include "render/image.h"
+#include "render/scene.h"
+
+namespace asdfvk {
+
+/// Draws the mesh over what the image holds, shaded and antialiased: pixels that differ from a neighbour are looked at
+/// closer. faceColours: #F. The same bits for any number of threads.
+void renderMesh(Image& image, const Scene& scene, const Camera& camera, std::span<const Rgb> faceColours,
+                const RunControl& control);
+
+}  // namespace asdfvk

@@ -1,0 +1,42 @@
+#include "render/png.h"
+
+#include <fmt/format.h>
+#include <png.h>
+
+#include <utility>
+
+#include "core/atomic_file.h"
+#include "core/error.h"
+
+namespace asdfvk {
+
+std::vector<char> encodePng(const Image& image) {
+  static_assert(sizeof(Rgb) == 3, "rows are handed over as they lie in memory");
+  png_image description{};
+  description.version = PNG_IMAGE_VERSION;
+  description.width = static_cast<png_uint_32>(image.width());
+  description.height = static_cast<png_uint_32>(image.height());
+  description.format = PNG_FORMAT_RGB;
+  const void* pixels = image.pixels().data();
+  png_alloc_size_t size = 0;
+  std::vector<char> bytes;
+  const auto encode = [&](void* memory) {
+    if (png_image_write_to_memory(&description, memory, &size, 0, pixels, 0, nullptr) == 0)
+      throw Error(ErrorKind::Output,
+                  fmt::format("the picture cannot be encoded: {}", std::as_const(description.message)));
+  };
+  encode(nullptr);
+  bytes.resize(size);
+  encode(bytes.data());
+  bytes.resize(size);
+  return bytes;
+}
+
+void writePng(const std::filesystem::path& path, const Image& image) {
+  const std::vector<char> bytes = encodePng(image);
+  AtomicFile file(path);
+  file.write(bytes.data(), bytes.size());
+  file.commit();
+}
+
+}  // namespace asdfvk

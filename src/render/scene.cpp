@@ -1,0 +1,95 @@
+#include "render/scene.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mesh/coincident_faces.h"
+#include "render/corner_normals.h"
+#include "render/unit_vector.h"
+#include "trace/nearest_hit.h"
+
+namespace asdfvk {
+namespace {
+
+/// How far outside of the box a ray begins, so that rounding does not put it behind a face in the box's side.
+constexpr double kClearance = 1e-3;
+
+/// Share of each corner in the triangle's point that is nearest to p or near it: never negative, adding up to 1.
+std::array<double, 3> barycentrics(const std::array<Vec3d, 3>& corners, const Vec3d& normal, const Vec3d& p) {
+  std::array<double, 3> shares{};
+  double total = 0;
+  for (size_t k = 0; k < 3; ++k) {
+    const Vec3d a = corners[(k + 1) % 3] - p, b = corners[(k + 2) % 3] - p;
+    shares[k] = std::max(0.0, dot(cross(a, b), normal));
+    total += shares[k];
+  }
+  if (!(total > 0)) return {1, 0, 0};
+  for (double& share : shares) share /= total;
+  return shares;
+}
+
+}  // namespace
+
+Scene::Scene(const Mesh& mesh) : mesh_(mesh), geometry_(computeFaceGeometry(mesh)) {
+  bvh_ = buildBvh(mesh, geometry_, coincidentRepresentatives(mesh));
+  cornerNormals_ = cornerNormals(mesh, geometry_);
+}
+
+std::vector<Vec3d> Scene::points() const {
+  std::vector<Vec3d> points;
+  points.reserve(bvh_.slotFaces.size() * 3);
+  for (const uint32_t face : bvh_.slotFaces)
+    for (const uint32_t vertex : mesh_.faces[face])
+      points.push_back(bvh_.normalization.toNormalized(mesh_.vertices[vertex]));
+  return points;
+}
+
+std::optional<SurfacePoint> Scene::firstOnLine(const Vec3d& point, const Vec3d& direction) const {
+  if (bvh_.nodes.empty()) return std::nullopt;
+  // nearestHit() wants an origin near the box, whose rounding it knows; and most of a picture misses the box.
+  const BvhNode& root = bvh_.nodes[0];
+  double enter = -kNoHit, leave = kNoHit;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    const double d = direction[axis];
+    const double low = double(root.min[axis]) - kClearance - point[axis];
+    const double high = double(root.max[axis]) + kClearance - point[axis];
+    if (std::abs(d) < 1e-12) {
+      if (low > 0 || high < 0) return std::nullopt;
+      continue;
+    }
+    enter = std::max(enter, std::min(low / d, high / d));
+    leave = std::min(leave, std::max(low / d, high / d));
+  }
+  if (!(enter <= leave)) return std::nullopt;
+  const Vec3d origin = point + direction * enter;
+  const RayHit hit = nearestHit(bvh_, mesh_, origin, direction, kNoFace);
+  if (hit.face == kNoFace) return std::nullopt;
+  return describe(hit.face, origin + direction * hit.distance, direction);
+}
+
+double Scene::freeDistance(const Vec3d& origin, const Vec3d& direction, uint32_t skippedFace) const {
+  return nearestHit(bvh_, mesh_, origin, direction, skippedFace).distance;
+}
+
+SurfacePoint Scene::describe(uint32_t face, const Vec3d& position, const Vec3d& direction) const {
+  const Vec3d& outward = geometry_.normals[face];
+  std::array<Vec3d, 3> corners;
+  for (size_t k = 0; k < 3; ++k) corners[k] = bvh_.normalization.toNormalized(mesh_.vertices[mesh_.faces[face][k]]);
+  const std::array<double, 3> shares = barycentrics(corners, outward, position);
+  const double side = dot(outward, direction) > 0 ? -1 : 1;
+
+  SurfacePoint result{face, position, {}, outward * side, {}};
+  Vec3d normal, lift;
+  for (size_t k = 0; k < 3; ++k) {
+    const Vec3d cornerNormal = cornerNormals_[face][k] * side;
+    normal += cornerNormal * shares[k];
+    // Onto the corners' tangent planes, else flat faces cast shadows on a round body (Hanika 2021, Hacking the Shadow
+    // Terminator).
+    lift += cornerNormal * (shares[k] * std::max(0.0, dot(corners[k] - position, cornerNormal)));
+  }
+  result.normal = unitVector(normal, result.faceNormal);
+  result.lifted = position + lift + result.faceNormal * 1e-7;
+  return result;
+}
+
+}  // namespace asdfvk

@@ -1,7 +1,0 @@
-#include "reprojection/cone_kernel_lanes.h"
-
-namespace asdfvk {
-
-const ConeKernel& baselineConeKernel() { return kKernelInLanes; }
-
-}  // namespace asdfvk

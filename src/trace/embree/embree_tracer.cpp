@@ -1,0 +1,166 @@
+#include "trace/embree/embree_tracer.h"
+
+#include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+#include "core/check.h"
+#include "core/stopwatch.h"
+#include "trace/chunk_size.h"
+#include "trace/embree/embree_cones.h"
+#include "trace/embree/embree_scene.h"
+#include "trace/embree/slot_planes.h"
+#include "trace/float_limits.h"
+#include "trace/reference_tracer.h"
+#include "trace/seed_order.h"
+
+namespace asdfvk {
+namespace {
+
+constexpr size_t kFirstEmbreeChunkRayCount = 1u << 16;  // 0.01 to 0.03 s on two cores.
+
+/// Rays begin so far from the seed that float32 cannot take them back to the seed's own face: its plane is off by no
+/// more than 2^-22, and rays at the rim meet it latest. (A filter function that passes through the face costs 6 % of
+/// all time.) At most as far as the smallest face that is traced in float32 is wide.
+double rayStart(const Cone& cone) {
+  return std::min(0x1p-22 / std::max(std::cos(cone.halfAngleRadians), 1e-9), kSmallestFloatFace);
+}
+
+class EmbreeTracer final : public ConeTracer {
+ public:
+  EmbreeTracer(const TraceScene& scene, const Cone& cone)
+      : scene_(scene),
+        cone_(cone),
+        rayStart_(rayStart(cone)),
+        seedOrder_(scene),
+        planes_(slotPlanes(scene)),
+        embree_(std::make_unique<EmbreeScene>(scene, EmbreeMode::Fastest)) {
+    if (!seemsToNeedRobustMode()) return;
+    embree_.reset();  // Not two of them at once.
+    embree_ = std::make_unique<EmbreeScene>(scene, EmbreeMode::Robust);
+  }
+
+  TraceStatistics trace(std::span<const uint32_t> seedFaces, const ConeResults& results,
+                        const RunControl& control) override {
+    const size_t rayCount = cone_.directions.size();
+    checkSizes(results, seedFaces.size(), rayCount);
+    const std::vector<uint32_t> order = seedOrder_.of(seedFaces);
+    const Task task{order, seedFaces, results, results.hits.empty() ? 0 : rayCount};
+    std::atomic<uint64_t> redoneConeCount = 0;
+    const EmbreeCones cones{scene_, cone_, planes_, *embree_, rayStart_};
+    tbb::enumerable_thread_specific<EmbreeConeGroup> groups([&] { return EmbreeConeGroup(cones); });
+    const size_t groupCount = (order.size() + kGroupSize - 1) / kGroupSize;
+    ChunkSize chunk(std::max<size_t>(1, kFirstEmbreeChunkRayCount / (kGroupSize * rayCount)), groupCount);
+    for (size_t begin = 0; begin < groupCount;) {
+      control.checkpoint(static_cast<double>(begin) / static_cast<double>(groupCount));
+      const size_t end = std::min<size_t>(begin + chunk.current(), groupCount);
+      const Stopwatch stopwatch;
+      tbb::parallel_for(tbb::blocked_range<size_t>(begin, end), [&](const tbb::blocked_range<size_t>& range) {
+        EmbreeConeGroup& group = groups.local();
+        for (size_t i = range.begin(); i < range.end(); ++i) redoneConeCount += traceGroup(task, i, group);
+      });
+      chunk.adapt(end - begin, stopwatch.seconds());
+      begin = end;
+    }
+    control.checkpoint(1);
+    return {seedFaces.size() * rayCount, redoneConeCount};
+  }
+
+ private:
+  static constexpr size_t kGroupSize = EmbreeConeGroup::kWidth;
+
+  struct Task {
+    std::span<const uint32_t> order, seedFaces;
+    const ConeResults& results;
+    size_t hitCount;  // Per cone; 0 when nobody asks.
+  };
+
+  /// Traces the cones of a group of the task's order. Returns how many of them the reference traced.
+  uint64_t traceGroup(const Task& task, size_t index, EmbreeConeGroup& group) const {
+    const std::span<const uint32_t> order = task.order, seedFaces = task.seedFaces;
+    const auto hitsOf = [&](uint32_t seed) { return task.results.hits.subspan(seed * task.hitCount, task.hitCount); };
+    const size_t begin = index * kGroupSize, end = std::min(begin + kGroupSize, order.size());
+    prefetch(task, end);
+    group.clear();
+    for (size_t i = begin; i < end; ++i) {
+      const uint32_t face = seedFaces[order[i]];
+      ASDFVK_CHECK(!scene_.geometry.isDegenerate(face));
+      group.add({face, seedOrder_.slotOf(face), hitsOf(order[i])});
+    }
+    group.trace();
+    uint64_t redoneConeCount = 0;
+    for (size_t lane = 0; lane < group.size(); ++lane) {
+      const uint32_t seed = order[begin + lane];
+      double& value = task.results.values[seed];
+      if (group.isDoubtful(lane)) {
+        value = referenceCone(scene_, cone_, seedFaces[seed], hitsOf(seed));
+        ++redoneConeCount;
+      } else {
+        value = scene_.bvh.normalization.toMeshLength(group.value(lane));
+      }
+    }
+    return redoneConeCount;
+  }
+
+  /// What is known of seeds lies scattered: it comes while the group before is traced.
+  void prefetch(const Task& task, size_t begin) const {
+    for (size_t i = begin; i < std::min(begin + kGroupSize, task.order.size()); ++i) {
+      const uint32_t face = task.seedFaces[task.order[i]];
+      __builtin_prefetch(&scene_.geometry.barycentres[face]);
+      __builtin_prefetch(&scene_.geometry.normals[face]);
+      __builtin_prefetch(&scene_.geometry.areas[face]);
+      seedOrder_.prefetch(face);
+    }
+  }
+
+  /// Whether so many cones of a sample seem to leave the surface outside of robust mode, as those of an open or
+  /// crossing one do, that tracing them again would take longer than robust mode does.
+  [[nodiscard]] bool seemsToNeedRobustMode() const {
+    constexpr size_t kSampleSize = 64, kBearableCount = 1;
+    EmbreeConeGroup group({scene_, cone_, planes_, *embree_, rayStart_});
+    const std::vector<uint32_t>& faces = scene_.bvh.slotFaces;
+    const size_t count = std::min(kSampleSize, faces.size());
+    size_t leavingCount = 0;
+    for (size_t i = 0; i < count;) {
+      group.clear();
+      for (; i < count && group.size() < kGroupSize; ++i) {
+        const size_t slot = i * faces.size() / count;
+        group.add({faces[slot], static_cast<uint32_t>(slot), {}});
+      }
+      group.trace();
+      for (size_t lane = 0; lane < group.size(); ++lane) leavingCount += group.leavesSurface(lane);
+    }
+    return leavingCount > kBearableCount;
+  }
+
+  TraceScene scene_;
+  const Cone& cone_;
+  double rayStart_;  // In normalised units, as all lengths here.
+  SeedOrder seedOrder_;
+  std::vector<SlotPlane> planes_;
+  std::unique_ptr<EmbreeScene> embree_;
+};
+
+}  // namespace
+
+bool hasEmbree() { return true; }
+
+void requireEmbree() {}
+
+std::string embreeName() {
+  const EmbreeDevice device(rtcNewDevice(nullptr));
+  const auto part = [&](RTCDeviceProperty property) { return rtcGetDeviceProperty(device.get(), property); };
+  return fmt::format("Embree {}.{}.{}", part(RTC_DEVICE_PROPERTY_VERSION_MAJOR),
+                     part(RTC_DEVICE_PROPERTY_VERSION_MINOR), part(RTC_DEVICE_PROPERTY_VERSION_PATCH));
+}
+
+std::unique_ptr<ConeTracer> makeEmbreeTracer(const TraceScene& scene, const Cone& cone) {
+  return std::make_unique<EmbreeTracer>(scene, cone);
+}
+
+}  // namespace asdfvk

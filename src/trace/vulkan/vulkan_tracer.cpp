@@ -1,0 +1,166 @@
+#include "trace/vulkan/vulkan_tracer.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <bit>
+#include <vector>
+
+#include "core/check.h"
+#include "core/stopwatch.h"
+#include "trace/chunk_size.h"
+#include "trace/float_limits.h"
+#include "trace/reference_tracer.h"
+#include "trace/seed_order.h"
+#include "trace/vulkan/vulkan_cone_buffers.h"
+#include "vk/command_list.h"
+
+namespace asdfvk {
+namespace {
+
+constexpr uint64_t kFirstChunkRayCount = 1u << 16;
+
+class VulkanTracer final : public ConeTracer {
+ public:
+  VulkanTracer(const VulkanConeKernel& kernel, const TraceScene& scene, const Cone& cone)
+      : kernel_(kernel),
+        scene_(scene),
+        cone_(cone),
+        seedOrder_(scene),
+        buffers_(kernel, encode(), cone),
+        commands_(kernel.device()) {
+    ASDFVK_CHECK_OP(cone.directions.size(), ==, size_t{kernel.rayCount()});
+  }
+
+  TraceStatistics trace(std::span<const uint32_t> seedFaces, const ConeResults& results,
+                        const RunControl& control) override {
+    checkSizes(results, seedFaces.size(), kernel_.rayCount());
+    ASDFVK_CHECK(results.hits.empty() || kernel_.writesHits());
+    const TraceStatistics statistics{seedFaces.size() * cone_.directions.size(), 0};
+    if (scene_.bvh.nodes.empty()) {
+      std::fill(results.values.begin(), results.values.end(), kNoValue);
+      std::fill(results.hits.begin(), results.hits.end(), kMiss);
+      return statistics;
+    }
+    std::vector<uint32_t> order = seedOrder_.of(seedFaces);
+    const auto firstSmall = std::stable_partition(
+        order.begin(), order.end(), [&](uint32_t i) { return !isTooSmallForFloat(scene_, seedFaces[i]); });
+    std::vector<uint32_t> redone(firstSmall, order.end());  // indices into seedFaces
+    order.erase(firstSmall, order.end());
+    const double deviceShare =
+        static_cast<double>(order.size()) / static_cast<double>(std::max<size_t>(1, seedFaces.size()));
+    traceOnDevice(seedFaces, order, results, redone, control.part(0, deviceShare));
+    redo(seedFaces, redone, results, control.part(deviceShare, 1));
+    return {statistics.rayCount, redone.size()};
+  }
+
+  double encodeSeconds() const override { return encodeSeconds_; }
+
+ private:
+  DeviceBvh encode() {
+    DeviceBvh bvh = encodeDeviceBvh(scene_.bvh, scene_.mesh, scene_.geometry, kernel_.choice().bvh);
+    encodeSeconds_ = watch_.seconds();
+    return bvh;
+  }
+
+  void traceOnDevice(std::span<const uint32_t> seedFaces, const std::vector<uint32_t>& order,
+                     const ConeResults& results, std::vector<uint32_t>& redone, const RunControl& control) {
+    ChunkSize chunk(std::max<uint64_t>(1, kFirstChunkRayCount / kernel_.rayCount()), largestConeChunk(kernel_));
+    for (size_t begin = 0; begin < order.size();) {
+      control.checkpoint(static_cast<double>(begin) / static_cast<double>(order.size()));
+      const size_t count = std::min<size_t>(chunk.current(), order.size() - begin);
+      const Stopwatch watch;
+      traceChunk(seedFaces, std::span(order).subspan(begin, count));
+      readChunk(std::span(order).subspan(begin, count), results, redone);
+      chunk.adapt(count, watch.seconds());
+      begin += count;
+    }
+  }
+
+  void traceChunk(std::span<const uint32_t> seedFaces, std::span<const uint32_t> order) {
+    const std::span<ConeOrigin> origins = buffers_.origins.mappedAs<ConeOrigin>();
+    tbb::parallel_for(size_t{0}, order.size(), [&](size_t i) {
+      const uint32_t face = seedFaces[order[i]];
+      const ConeFrame frame = faceConeFrame(cone_, scene_.geometry.normals[face], face);
+      origins[i] = {toGlsl(scene_.bvh.normalization.toNormalized(scene_.geometry.barycentres[face])),
+                    scene_.representatives[face],
+                    toGlsl(frame.tangent),
+                    0,
+                    toGlsl(frame.bitangent),
+                    0};
+    });
+    const ConePush push{static_cast<uint32_t>(order.size()), static_cast<float>(cone_.falseHitCosine),
+                        static_cast<float>(cone_.outlierDeviations)};
+    const auto groupCount = [](uint32_t count, uint32_t perGroup) { return (count + perGroup - 1) / perGroup; };
+    const VulkanWorkgroupShape& shape = kernel_.shape();
+    commands_.begin();
+    commands_.dispatch(kernel_.pipeline(), buffers_.bindings, bytesOf(push),
+                       groupCount(push.coneCount, shape.conesPerWorkgroup),
+                       kernel_.reduction() ? groupCount(kernel_.rayCount(), shape.lanesPerCone) : 1);
+    commands_.barrier();
+    if (kernel_.reduction()) {
+      commands_.dispatch(*kernel_.reduction(), *buffers_.reductionBindings, bytesOf(push),
+                         groupCount(push.coneCount, VulkanConeKernel::kReductionLaneCount));
+      commands_.barrier();
+    }
+    commands_.submitAndWait();
+  }
+
+  void readChunk(std::span<const uint32_t> order, const ConeResults& results, std::vector<uint32_t>& redone) const {
+    const std::span<const uint32_t> lengths = buffers_.results.mappedAs<uint32_t>();
+    for (size_t i = 0; i < order.size(); ++i) {
+      const double length = lengths[i] == kNoValueBits ? kNoValue : std::bit_cast<float>(lengths[i]);
+      if (lengths[i] == kIterationLimitBits || length < kShortestFloatDiameter) redone.push_back(order[i]);
+      results.values[order[i]] = scene_.bvh.normalization.toMeshLength(length);
+    }
+    if (!results.hits.empty()) copyHits(order, buffers_.hits.mappedAs<ConeHit>(), results.hits);
+  }
+
+  /// From the cones in `order` to where they belong.
+  void copyHits(std::span<const uint32_t> order, std::span<const ConeHit> from, std::span<ConeHit> to) const {
+    const size_t rayCount = kernel_.rayCount();
+    tbb::parallel_for(size_t{0}, order.size(), [&](size_t i) {
+      std::copy_n(from.begin() + static_cast<std::ptrdiff_t>(i * rayCount), rayCount,
+                  to.begin() + static_cast<std::ptrdiff_t>(order[i] * rayCount));
+    });
+  }
+
+  void redo(std::span<const uint32_t> seedFaces, const std::vector<uint32_t>& redone, const ConeResults& results,
+            const RunControl& control) const {
+    const std::unique_ptr<ConeTracer> reference = makeReferenceTracer(scene_, cone_);
+    const size_t hitCount = results.hits.empty() ? 0 : kernel_.rayCount();  // per cone
+    const size_t blockSize = largestConeChunk(kernel_);                     // so that hits are not all there twice
+    const auto total = static_cast<double>(redone.size());
+    for (size_t begin = 0; begin < redone.size(); begin += blockSize) {
+      const std::span<const uint32_t> block =
+          std::span(redone).subspan(begin, std::min(blockSize, redone.size() - begin));
+      std::vector<uint32_t> faces;
+      for (const uint32_t i : block) faces.push_back(seedFaces[i]);
+      std::vector<double> values(block.size());
+      std::vector<ConeHit> hits(block.size() * hitCount);
+      reference->trace(
+          faces, {values, hits},
+          control.part(static_cast<double>(begin) / total, static_cast<double>(begin + block.size()) / total));
+      for (size_t i = 0; i < block.size(); ++i) results.values[block[i]] = values[i];
+      if (hitCount > 0) copyHits(block, hits, results.hits);
+    }
+  }
+
+  const VulkanConeKernel& kernel_;
+  TraceScene scene_;
+  const Cone& cone_;
+  Stopwatch watch_;
+  double encodeSeconds_ = 0;
+  SeedOrder seedOrder_;
+  ConeBuffers buffers_;
+  CommandList commands_;
+};
+
+}  // namespace
+
+std::unique_ptr<ConeTracer> makeVulkanTracer(const VulkanConeKernel& kernel, const TraceScene& scene,
+                                             const Cone& cone) {
+  return std::make_unique<VulkanTracer>(kernel, scene, cone);
+}
+
+}  // namespace asdfvk

@@ -1,0 +1,87 @@
+#include "estimate/error_indicator.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "generate/shapes.h"
+#include "mesh/face_geometry.h"
+#include "predict/seed_cells.h"
+
+using namespace asdfvk;
+
+namespace {
+
+/// A sphere with some seeds, of which the prediction is what the test says.
+struct SeededSphere {
+  Mesh mesh = makeSphere(320).mesh;
+  FaceGeometry geometry = computeFaceGeometry(mesh);
+  DualGraph graph = buildDualGraph(mesh);
+  std::vector<uint32_t> seeds{3, 60, 120, 150};
+  std::vector<double> values;
+  Prediction prediction;
+
+  SeededSphere() : values(mesh.faces.size(), kNoValue) {
+    for (const uint32_t seed : seeds) values[seed] = 2;
+    const SeedCells cells = buildSeedCells(graph, seeds);
+    prediction.cellOf = cells.cellOf;
+    prediction.nearest = NearestCells(cells, graph, geometry, seeds, 6);
+    prediction.values.assign(mesh.faces.size(), 2.0);
+  }
+  [[nodiscard]] std::vector<double> pattern() const { return errorPattern(prediction, seeds, values); }
+  [[nodiscard]] uint32_t faceOfCell(uint32_t cell) const {
+    for (uint32_t face = 0; face < mesh.faces.size(); ++face)
+      if (prediction.cellOf[face] == cell && face != seeds[cell]) return face;
+    return kNoFace;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("where all agree errors are expected alike everywhere, where nothing is known too") {
+  SeededSphere sphere;
+  sphere.prediction.values[sphere.faceOfCell(1)] = kNoValue;
+  const std::vector<double> pattern = sphere.pattern();
+  CHECK(pattern[0] > 0);
+  CHECK(std::all_of(pattern.begin(), pattern.end(), [&](double entry) { return entry == pattern[0]; }));
+}
+
+TEST_CASE("a face is expected to err as its prediction is off its seed, beside half of the mean") {
+  SeededSphere sphere;
+  const uint32_t face = sphere.faceOfCell(2);
+  sphere.prediction.values[face] = 5;
+  const std::vector<double> pattern = sphere.pattern();
+  const double mean = 3.0 / static_cast<double>(pattern.size());
+  CHECK(pattern[face] == doctest::Approx(3 + 0.5 * mean));
+  CHECK(pattern[sphere.seeds[2]] == doctest::Approx(0.5 * mean));
+}
+
+TEST_CASE("a cell is expected to err as its seed is off the seeds around") {
+  SeededSphere sphere;
+  sphere.values[120] = 8;
+  const std::vector<double> pattern = sphere.pattern();
+  const auto of = [&](uint32_t cell) { return pattern[sphere.seeds[cell]]; };
+  REQUIRE(sphere.prediction.nearest.of(2).size() > 1);
+  // Its own prediction is off by 6 besides; of the neighbours of each other cell one may be off by 6.
+  CHECK(of(2) > of(0));
+  for (const uint32_t cell : {0u, 1u, 3u}) {
+    const auto around = sphere.prediction.nearest.of(cell);
+    const bool isNext = std::count(around.begin(), around.end(), 2u) > 0;
+    const double spread = isNext ? 6.0 / static_cast<double>(around.size() - 1) : 0;
+    CHECK(of(2) - of(cell) == doctest::Approx(12 - spread));
+  }
+}
+
+TEST_CASE("a face about which nothing is known is expected to err as the mean") {
+  SeededSphere sphere;
+  sphere.prediction.values[sphere.faceOfCell(1)] = 5;
+  const uint32_t unpredicted = sphere.faceOfCell(0);
+  sphere.prediction.values[unpredicted] = kNoValue;
+  sphere.values[120] = kNoValue;  // A seed of which no ray met anything.
+  const uint32_t ofNoValue = sphere.faceOfCell(2);
+  const std::vector<double> pattern = sphere.pattern();
+  CHECK(pattern[unpredicted] == doctest::Approx(3 * pattern[sphere.seeds[0]]));
+  CHECK(pattern[ofNoValue] == pattern[unpredicted]);
+  CHECK(std::all_of(pattern.begin(), pattern.end(), [](double entry) { return entry > 0 && std::isfinite(entry); }));
+}

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "core/error.h"
+#include "io/mesh_reader.h"
+
+namespace asdfvk::test {
+
+using Parser = Mesh (*)(std::span<const char>);
+
+inline Mesh parse(Parser parser, std::string_view text) { return parser(std::span(text.data(), text.size())); }
+
+/// The message of the Error{Input} that parsing throws; "no error" if it throws none.
+inline std::string errorOf(Parser parser, std::string_view text) {
+  try {
+    static_cast<void>(parse(parser, text));
+  } catch (const Error& error) {
+    return error.kind() == ErrorKind::Input ? error.what() : "an error of another kind";
+  }
+  return "no error";
+}
+
+inline bool holds(std::string_view text, std::string_view part) { return text.find(part) != std::string_view::npos; }
+
+}  // namespace asdfvk::test

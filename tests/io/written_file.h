@@ -1,0 +1,93 @@
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "io/result_writer.h"
+#include "mesh/mesh.h"
+
+namespace asdfvk {
+
+/// A folder of its own, gone with the object.
+class Folder {
+ public:
+  Folder() {
+    std::string pattern = (std::filesystem::temp_directory_path() / "asdfvk-writers-XXXXXX").string();
+    path_ = ::mkdtemp(pattern.data());
+  }
+  ~Folder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+
+  [[nodiscard]] std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  [[nodiscard]] std::vector<std::string> names() const {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(path_)) names.push_back(entry.path().filename());
+    return names;
+  }
+
+ private:
+  std::filesystem::path path_;
+};
+
+inline std::string contentOf(const std::filesystem::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+inline void putContent(const std::filesystem::path& path, const std::string& content) {
+  std::ofstream(path, std::ios::binary) << content;
+}
+
+/// What writeResult() leaves in a file of that extension.
+inline std::string written(const std::string& extension, const Mesh& mesh, const std::vector<double>& values,
+                           const std::vector<uint8_t>& isSeed, const WriteOptions& options = {}) {
+  const Folder folder;
+  writeResult(folder / ("out" + extension), mesh, {values, isSeed}, options);
+  return contentOf(folder / ("out" + extension));
+}
+
+/// Takes numbers from the front of a text of bytes.
+class Bytes {
+ public:
+  explicit Bytes(std::string_view bytes) : bytes_(bytes) {}
+  template <typename T>
+  T take() {
+    T value{};
+    if (bytes_.size() < sizeof(T)) throw std::out_of_range("the file ends too early");
+    std::memcpy(&value, bytes_.data(), sizeof(T));
+    bytes_.remove_prefix(sizeof(T));
+    return value;
+  }
+  [[nodiscard]] bool isAtEnd() const { return bytes_.empty(); }
+
+ private:
+  std::string_view bytes_;
+};
+
+/// A tetrahedron with float coordinates and one face without a value.
+inline Mesh tetrahedron() {
+  return {{{0, 0, 0}, {1, 0, 0}, {0, 1.5, 0}, {0, 0, -2}}, {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}}, {}};
+}
+
+/// A quad, a triangle, a pentagon and a two-cornered face, with the triangles that they were cut into.
+inline Mesh polygonMesh() {
+  Mesh mesh;
+  mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {2, 0.5, 0}, {0.5, 2, 0}};
+  mesh.faces = {{0, 1, 2}, {0, 2, 3}, {1, 4, 2}, {0, 1, 4}, {0, 4, 2}, {0, 2, 5}};
+  mesh.polygons.firstCorner = {0, 4, 7, 12, 14};
+  mesh.polygons.corners = {0, 1, 2, 3, 1, 4, 2, 0, 1, 4, 2, 5, 3, 5};
+  mesh.polygons.inputFaceOf = {0, 0, 1, 2, 2, 2};
+  return mesh;
+}
+
+}  // namespace asdfvk

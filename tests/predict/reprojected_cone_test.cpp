@@ -1,0 +1,315 @@
+#include "predict/reprojected_cone.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <numbers>
+#include <numeric>
+
+#include "generate/shapes.h"
+#include "predict/plain_twin.h"
+#include "predict/seed_points.h"
+#include "predict/seeded_mesh.h"
+
+using namespace asdfvk;
+using test::SeededMesh;
+
+namespace {
+
+/// The points of some cones of a mesh, each of weight 1.
+struct Gathering {
+  std::vector<PointGroup> groups;
+  std::vector<WeighedCone> cones;
+  float typicalLength = 0;  ///< Of the first cone.
+
+  Gathering(const SeededMesh& seeded, const std::vector<uint32_t>& seeds) {
+    const TraceScene scene = seeded.scene();
+    SeedPoints points(scene, seeded.cone, seeded.traced());
+    for (const uint32_t seed : seeds) {
+      const PointCone cone = points.gather(seed);
+      if (cones.empty()) typicalLength = cone.typicalLength;
+      cones.push_back({cone.firstGroup, cone.groupCount, 1});
+    }
+    groups = points.groups();
+  }
+
+  void weigh(Random& random, double least) {
+    for (WeighedCone& cone : cones) cone.weight = static_cast<float>(least + random.real());
+  }
+
+  /// change(group, lane, cone) for each place of each cone.
+  template <typename Change>
+  void change(const Change& change) {
+    for (size_t cone = 0; cone < cones.size(); ++cone)
+      for (uint32_t i = 0; i < cones[cone].groupCount; ++i)
+        for (size_t lane = 0; lane < kLaneCount; ++lane) change(groups[cones[cone].firstGroup + i], lane, cone);
+  }
+
+  [[nodiscard]] double value(ReprojectedCone& cone, const VirtualCone& at) const {
+    return cone.value(groups, cones, at, typicalLength);
+  }
+};
+
+VirtualCone coneOf(const SeededMesh& seeded, uint32_t face) {
+  return {seeded.bvh.normalization.toNormalized(seeded.geometry.barycentres[face]), seeded.geometry.normals[face],
+          seeded.representatives[face]};
+}
+
+Vec3d randomUnit(Random& random) {
+  for (;;) {
+    const Vec3d v{2 * random.real() - 1, 2 * random.real() - 1, 2 * random.real() - 1};
+    if (const double size = length(v); size > 0.1 && size < 1) return v * (1 / size);
+  }
+}
+
+/// Points all over the box, of which some are misses.
+void scramble(Gathering& gathering, Random& random) {
+  gathering.change([&](PointGroup& group, size_t lane, size_t) {
+    const Vec3d normal = randomUnit(random);
+    const bool isMiss = random.index(6) == 0;
+    for (float* coordinate : {group.x, group.y, group.z})
+      coordinate[lane] = isMiss ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(2 * random.real() - 1);
+    group.nx[lane] = static_cast<float>(normal.x);
+    group.ny[lane] = static_cast<float>(normal.y);
+    group.nz[lane] = static_cast<float>(normal.z);
+    group.spread[lane] = static_cast<float>(0.05 + 4 * random.real());
+    group.kept[lane] = random.index(3) == 0 ? 0.0f : 1.0f;
+    group.face[lane] = random.index(50);
+  });
+}
+
+struct Agreement {
+  size_t count = 0, exactCount = 0;
+
+  void compare(double value, const test::TwinValue& twin) {
+    if (std::isnan(twin.exact)) {
+      CHECK(std::isnan(value));
+      return;
+    }
+    double least = std::numeric_limits<double>::max();
+    for (const double candidate : twin.admissible) least = std::min(least, std::abs(value - candidate) / candidate);
+    CHECK_MESSAGE(least < 1e-3, value, " against ", twin.exact);
+    ++count;
+    exactCount += std::abs(value - twin.exact) < 1e-3 * twin.exact;
+  }
+};
+
+std::vector<uint32_t> firstCones(uint32_t count) {
+  std::vector<uint32_t> cones(count);
+  std::iota(cones.begin(), cones.end(), 0u);
+  return cones;
+}
+
+}  // namespace
+
+TEST_CASE("random hits give what a plain double-precision twin gives") {
+  Random random(11);
+  Agreement agreement;
+  for (const ConeOptions& options :
+       {ConeOptions{}, ConeOptions{.rayCount = 5, .openingAngleDegrees = 150, .outlierDeviations = 0.7},
+        ConeOptions{.rayCount = 64, .openingAngleDegrees = 60, .falseHitAngleDegrees = 30}}) {
+    const SeededMesh seeded(makeSphere(180).mesh, 7, options);
+    Gathering gathering(seeded, firstCones(7));
+    ReprojectedCone cone(seeded.cone);
+    for (int round = 0; round < 200; ++round) {
+      scramble(gathering, random);
+      gathering.weigh(random, 1e-6);
+      const VirtualCone at{0.5 * randomUnit(random), randomUnit(random), random.index(50)};
+      agreement.compare(gathering.value(cone, at), test::plainTwin(seeded.cone, gathering.groups, gathering.cones, at));
+    }
+  }
+  CHECK(agreement.count > 550);
+  CHECK(agreement.exactCount > agreement.count * 7 / 10);
+}
+
+TEST_CASE("real hits give what a plain double-precision twin gives") {
+  Random random(12);
+  Agreement agreement;
+  const SeededMesh seeded(makeHand(3000).mesh, 60);
+  const SeedCells cells = seeded.cells();
+  ReprojectedCone cone(seeded.cone);
+  const NearestCells nearest(cells, seeded.graph, seeded.geometry, seeded.seeds, 6);
+  for (uint32_t cell = 0; cell < 60; ++cell) {
+    Gathering gathering(seeded, {nearest.of(cell).begin(), nearest.of(cell).end()});
+    gathering.weigh(random, 0.01);
+    for (const uint32_t face : cells.faces[cell].first(std::min<size_t>(10, cells.faces[cell].size())))
+      agreement.compare(gathering.value(cone, coneOf(seeded, face)),
+                        test::plainTwin(seeded.cone, gathering.groups, gathering.cones, coneOf(seeded, face)));
+  }
+  CHECK(agreement.count > 400);
+  CHECK(agreement.exactCount > agreement.count * 7 / 10);
+}
+
+TEST_CASE("a seed seen from itself keeps about its own value") {
+  // Every ray stands for its own solid angle then; only the median of an even count is another one.
+  const SeededMesh seeded(makeAnimal(2500).mesh, 200);
+  ReprojectedCone cone(seeded.cone);
+  size_t farCount = 0;
+  double sum = 0;
+  for (uint32_t i = 0; i < seeded.seeds.size(); ++i) {
+    Gathering gathering(seeded, {i});
+    gathering.cones[0].weight = 0.3f;
+    const double value = seeded.bvh.normalization.toMeshLength(gathering.value(cone, coneOf(seeded, seeded.seeds[i])));
+    const double off = std::abs(value - seeded.values[i]) / seeded.values[i];
+    farCount += off > 1e-3;
+    sum += off;
+  }
+  MESSAGE("off by ", sum / 200, " on average, far off ", farCount, " of 200");
+  CHECK(sum / 200 < 0.01);
+  CHECK(farCount < 30);
+}
+
+TEST_CASE("cones of more weight have more of a say") {
+  const SeededMesh seeded(makeAnimal(2500).mesh, 2);
+  Gathering gathering(seeded, {0, 1});
+  // Both cones see a wall across, one at 0.5 and one at 0.7.
+  gathering.change([&](PointGroup& group, size_t lane, size_t cone) {
+    group.x[lane] = 0.001f * static_cast<float>(lane);
+    group.y[lane] = 0;
+    group.z[lane] = cone == 0 ? -0.5f : -0.7f;
+    group.nx[lane] = group.ny[lane] = 0;
+    group.nz[lane] = -1;
+    group.spread[lane] = 0.3f;
+    group.kept[lane] = 1;
+    group.face[lane] = 1;
+  });
+  ReprojectedCone cone(seeded.cone);
+  const VirtualCone at{{0, 0, 0}, {0, 0, 1}, 0};
+  double last = 1;
+  for (const float weight : {0.1f, 0.5f, 1.0f, 2.0f, 10.0f}) {
+    gathering.cones[0].weight = weight;
+    const double value = gathering.value(cone, at);
+    CHECK(value < last);
+    CHECK(value > 0.5);
+    last = value;
+  }
+}
+
+TEST_CASE("points on the face itself, points behind it and points that look its way do not count") {
+  const SeededMesh seeded(makeSphere(180).mesh, 1);
+  Gathering gathering(seeded, {0});
+  ReprojectedCone cone(seeded.cone);
+  const VirtualCone at{{0, 0, 0}, {0, 0, 1}, 5};
+  const auto valueWith = [&](float z, float nz, uint32_t face) {
+    gathering.change([&](PointGroup& group, size_t lane, size_t) {
+      group.x[lane] = group.y[lane] = group.nx[lane] = group.ny[lane] = 0;
+      group.z[lane] = z;
+      group.nz[lane] = nz;
+      group.spread[lane] = group.kept[lane] = 1;
+      group.face[lane] = face;
+    });
+    return gathering.value(cone, at);
+  };
+  CHECK(valueWith(-0.5f, -1, 6) == doctest::Approx(0.5));
+  CHECK(std::isnan(valueWith(-0.5f, -1, 5)));
+  CHECK(std::isnan(valueWith(0.5f, -1, 6)));
+  CHECK(std::isnan(valueWith(-0.5f, 1, 6)));
+  CHECK(std::isnan(valueWith(0, -1, 6)));  // At the face's own centre.
+}
+
+TEST_CASE("rays that met nothing change nothing") {
+  const SeededMesh seeded(makeTorus(900).mesh, 2);
+  Gathering both(seeded, {0, 1}), first(seeded, {0});
+  both.change([&](PointGroup& group, size_t lane, size_t cone) {
+    if (cone == 1) group.x[lane] = group.y[lane] = group.z[lane] = std::numeric_limits<float>::quiet_NaN();
+  });
+  ReprojectedCone cone(seeded.cone);
+  for (Gathering* gathering : {&both, &first}) gathering->cones[0].weight = 0.5f;
+  const VirtualCone at = coneOf(seeded, seeded.seeds[0]);
+  const double value = both.value(cone, at);
+  CHECK(std::isfinite(value));
+  CHECK(value == first.value(cone, at));
+}
+
+TEST_CASE("what an expected length is taken from does not matter") {
+  const SeededMesh seeded(makeAnimal(2500).mesh, 40);
+  ReprojectedCone cone(seeded.cone);
+  for (uint32_t i = 0; i + 2 < 40; ++i) {
+    Gathering gathering(seeded, {i, i + 1, i + 2});
+    const VirtualCone at = coneOf(seeded, seeded.seeds[i]);
+    const double expected = gathering.value(cone, at);
+    gathering.typicalLength *= 0.5f;
+    const double value = gathering.value(cone, at);
+    CHECK(std::isnan(value) == std::isnan(expected));
+    if (!std::isnan(value)) CHECK(value == doctest::Approx(expected).epsilon(0.02));
+  }
+}
+
+TEST_CASE("a narrow cone, all of whose lengths are about the same, has their value") {
+  const SeededMesh seeded(makeSphere(2000).mesh, 20, {.openingAngleDegrees = 0.1});
+  ReprojectedCone cone(seeded.cone);
+  for (uint32_t i = 0; i < 20; ++i) {
+    const Gathering gathering(seeded, {i});
+    CHECK(seeded.bvh.normalization.toMeshLength(gathering.value(cone, coneOf(seeded, seeded.seeds[i]))) ==
+          doctest::Approx(seeded.values[i]).epsilon(1e-3));
+  }
+}
+
+TEST_CASE("seeds weigh as their distance and the turn of their normal say") {
+  Random random(14);
+  SeedGroup seeds;
+  std::vector<Vec3d> positions, normals;
+  for (size_t lane = 0; lane < kLaneCount; ++lane) {
+    positions.push_back(0.3 * randomUnit(random));
+    normals.push_back(lane == 0 ? Vec3d{0, 0, 1} : randomUnit(random));
+    seeds.x[lane] = static_cast<float>(positions[lane].x);
+    seeds.y[lane] = static_cast<float>(positions[lane].y);
+    seeds.z[lane] = static_cast<float>(positions[lane].z);
+    seeds.nx[lane] = static_cast<float>(normals[lane].x);
+    seeds.ny[lane] = static_cast<float>(normals[lane].y);
+    seeds.nz[lane] = static_cast<float>(normals[lane].z);
+  }
+  const VirtualCone at{{0.1, 0, 0}, {0, 0, 1}, 0};
+  for (const double reach : {0.05, 0.2, 10.0})
+    for (const InstructionSet instructionSet :
+         {InstructionSet::Baseline, InstructionSet::Avx2, InstructionSet::Avx512}) {
+      if (!hasInstructionSet(instructionSet)) continue;
+      float weights[kLaneCount];
+      coneKernel(instructionSet).weigh(seeds, {static_cast<float>(1 / (reach * reach)), 4}, at, weights);
+      for (size_t lane = 0; lane < kLaneCount; ++lane) {
+        const double distance = length(positions[lane] - at.origin) / reach;
+        const double turn = 2 * std::acos(std::clamp(dot(normals[lane], at.normal), -1.0, 1.0));
+        const double exact = std::exp(-0.5 * (distance * distance + turn * turn));
+        CHECK(static_cast<double>(weights[lane]) ==
+              doctest::Approx(std::max(exact, 1e-6)).epsilon(turn < std::numbers::pi ? 0.03 : 100));
+      }
+    }
+}
+
+TEST_CASE("wide instructions and the baseline give the same bits") {
+  Random random(13);
+  const SeededMesh seeded(makeSphere(180).mesh, 5, {.rayCount = 30, .openingAngleDegrees = 140});
+  Gathering gathering(seeded, firstCones(5));
+  for (const InstructionSet instructionSet : {InstructionSet::Avx2, InstructionSet::Avx512}) {
+    if (!hasInstructionSet(instructionSet)) {
+      MESSAGE("skipped: this machine lacks wide instructions");
+      continue;
+    }
+    ReprojectedCone wide(seeded.cone, coneKernel(instructionSet)),
+        baseline(seeded.cone, coneKernel(InstructionSet::Baseline));
+    size_t valueCount = 0;
+    for (int round = 0; round < 500; ++round) {
+      scramble(gathering, random);
+      gathering.weigh(random, 1e-6);
+      const VirtualCone at{0.5 * randomUnit(random), randomUnit(random), random.index(50)};
+      const double a = gathering.value(wide, at), b = gathering.value(baseline, at);
+      valueCount += std::isfinite(a);
+      CHECK(std::bit_cast<uint64_t>(a) == std::bit_cast<uint64_t>(b));
+    }
+    CHECK(valueCount > 450);
+    for (int round = 0; round < 500; ++round) {
+      SeedGroup seeds;
+      for (float* numbers : {seeds.x, seeds.y, seeds.z, seeds.nx, seeds.ny, seeds.nz})
+        for (size_t lane = 0; lane < kLaneCount; ++lane) numbers[lane] = static_cast<float>(2 * random.real() - 1);
+      const VirtualCone at{0.5 * randomUnit(random), randomUnit(random), 0};
+      float a[kLaneCount], b[kLaneCount];
+      coneKernel(instructionSet).weigh(seeds, {9, 4}, at, a);
+      coneKernel(InstructionSet::Baseline).weigh(seeds, {9, 4}, at, b);
+      CHECK(std::memcmp(a, b, sizeof a) == 0);
+    }
+  }
+}

@@ -1,0 +1,147 @@
+#include "predict/seed_points.h"
+#include "core/lanes.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "generate/shapes.h"
+#include "predict/seeded_mesh.h"
+#include "shared/cone_rules.h"
+
+using namespace asdfvk;
+using test::SeededMesh;
+
+namespace {
+
+/// Without its upper half, so that rays escape.
+Mesh openTorus() {
+  Mesh mesh = makeTorus(1200).mesh;
+  std::erase_if(mesh.faces, [&](const Face& face) { return mesh.vertices[face[0]].z > 0.1; });
+  return mesh;
+}
+
+/// The outlier rule, written again from the definition in cone.h: which of the valid lengths count.
+std::vector<bool> keptByTheRule(const std::vector<double>& lengths, double deviations) {
+  std::vector<double> sorted = lengths;
+  std::sort(sorted.begin(), sorted.end());
+  const size_t count = sorted.size();
+  if (count == 0) return {};
+  const double median = count % 2 == 1 ? sorted[count / 2] : 0.5 * (sorted[count / 2 - 1] + sorted[count / 2]);
+  const double mean = std::accumulate(sorted.begin(), sorted.end(), 0.0) / static_cast<double>(count);
+  double squares = 0;
+  for (const double length : sorted) squares += (length - mean) * (length - mean);
+  const double bound =
+      deviations * std::sqrt(squares / static_cast<double>(count)) + static_cast<double>(kOutlierSlack) * median;
+  std::vector<bool> kept;
+  for (const double length : lengths) kept.push_back(std::abs(length - median) <= bound);
+  return kept;
+}
+
+void checkGathered(const SeededMesh& seeded) {
+  const TraceScene scene = seeded.scene();
+  SeedPoints points(scene, seeded.cone, seeded.traced());
+  const size_t rayCount = seeded.cone.directions.size();
+  for (uint32_t seed = 0; seed < seeded.seeds.size(); ++seed) {
+    const PointCone cone = points.gather(seed);
+    CHECK(cone.groupCount == (rayCount + kLaneCount - 1) / kLaneCount);
+    REQUIRE(points.groups().size() == cone.firstGroup + cone.groupCount);
+    const Vec3d& seedNormal = seeded.geometry.normals[seeded.seeds[seed]];
+    std::vector<double> lengths;
+    std::vector<float> keptAt;
+    for (size_t ray = 0; ray < cone.groupCount * kLaneCount; ++ray) {
+      const PointGroup& group = points.groups()[cone.firstGroup + ray / kLaneCount];
+      const size_t at = ray % kLaneCount;
+      if (ray >= rayCount || seeded.hits[seed * rayCount + ray].face == kNoFace) {
+        CHECK(std::isnan(group.x[at]));
+        CHECK(std::isnan(group.y[at]));
+        CHECK(std::isnan(group.z[at]));
+        CHECK(group.kept[at] == 0);
+        CHECK(group.spread[at] == 0);
+        CHECK(group.face[at] == kNoFace);
+        continue;
+      }
+      const ConeHit& hit = seeded.hits[seed * rayCount + ray];
+      REQUIRE(group.face[at] == hit.face);
+      const Vec3d point{group.x[at], group.y[at], group.z[at]};
+      const Vec3d normal{group.nx[at], group.ny[at], group.nz[at]};
+      const Vec3d corner = seeded.bvh.normalization.toNormalized(seeded.mesh.vertices[seeded.mesh.faces[hit.face][0]]);
+      CHECK(length(normal - seeded.geometry.normals[hit.face]) < 1e-6);
+      CHECK(std::abs(dot(point - corner, seeded.geometry.normals[hit.face])) < 2e-6);
+      const Vec3d way = point - seeded.bvh.normalization.toNormalized(seeded.geometry.barycentres[seeded.seeds[seed]]);
+      CHECK(length(way) == doctest::Approx(hit.distance).epsilon(1e-5));
+      CHECK(group.spread[at] == doctest::Approx(dot(way, way)).epsilon(1e-4));
+      if (isFalseHit(seeded.cone, seedNormal, seeded.geometry.normals[hit.face])) {
+        CHECK(group.kept[at] == 0);
+      } else {
+        keptAt.push_back(group.kept[at]);
+        lengths.push_back(static_cast<double>(hit.distance));
+      }
+    }
+    const std::vector<bool> kept = keptByTheRule(lengths, seeded.cone.outlierDeviations);
+    for (size_t i = 0; i < kept.size(); ++i) CHECK(keptAt[i] == (kept[i] ? 1.0f : 0.0f));
+    if (lengths.empty()) CHECK(cone.typicalLength == 0);
+    std::sort(lengths.begin(), lengths.end());
+    if (lengths.size() % 2 == 1) CHECK(cone.typicalLength == static_cast<float>(lengths[lengths.size() / 2]));
+  }
+}
+
+}  // namespace
+
+TEST_CASE("points lie on the faces hit, at the length of their ray; misses and padding are nowhere") {
+  checkGathered(SeededMesh(makeAnimal(2000).mesh, 60));
+  checkGathered(SeededMesh(openTorus(), 60));
+}
+
+TEST_CASE("the number of rays, their rotation and the outlier rule are followed") {
+  checkGathered(SeededMesh(makeTorus(800).mesh, 20, {.rayCount = 1}));
+  checkGathered(SeededMesh(makeTorus(800).mesh, 20, {.rayCount = 8}));
+  checkGathered(SeededMesh(makeTorus(800).mesh, 20, {.rayCount = 33, .rotation = ConeRotation::Hashed}));
+  checkGathered(SeededMesh(makeAnimal(2000).mesh, 20, {.falseHitAngleDegrees = 40, .outlierDeviations = 0.5}));
+}
+
+TEST_CASE("a cone none of whose rays is valid keeps nothing") {
+  Mesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}, {}};
+  const SeededMesh seeded(mesh, 1);
+  CHECK_FALSE(keptLengths(seeded.scene(), seeded.cone, seeded.traced(), 0).keeps(0.5));
+}
+
+TEST_CASE("appended points are a cone of their own, count as kept, and stand for their area") {
+  const SeededMesh seeded(makeTorus(800).mesh, 3);
+  const TraceScene scene = seeded.scene();
+  SeedPoints seedPoints(scene, seeded.cone, seeded.traced());
+  (void)seedPoints.gather(1);
+  const size_t before = seedPoints.groups().size();
+  std::vector<SeedPoints::Point> points;
+  for (size_t i = 0; i < kLaneCount + 1; ++i)
+    points.push_back({{0.1 * static_cast<double>(i), 0.5, -0.5}, {0, 0, 1}, 0.25, static_cast<uint32_t>(i)});
+  CHECK(seedPoints.append({}).groupCount == 0);
+  const PointCone cone = seedPoints.append(points);
+  CHECK(cone.firstGroup == before);
+  CHECK(cone.groupCount == 2);
+  REQUIRE(seedPoints.groups().size() == before + 2);
+  // 30 rays share a cone of half a half-space: pi steradians.
+  const double raySolidAngle = std::numbers::pi / 30;
+  for (size_t i = 0; i < 2 * kLaneCount; ++i) {
+    const PointGroup& group = seedPoints.groups()[before + i / kLaneCount];
+    const size_t at = i % kLaneCount;
+    if (i >= points.size()) {
+      CHECK(std::isnan(group.x[at]));
+      CHECK(group.kept[at] == 0);
+      CHECK(group.face[at] == kNoFace);
+      continue;
+    }
+    CHECK(group.x[at] == static_cast<float>(points[i].position.x));
+    CHECK(group.y[at] == 0.5f);
+    CHECK(group.z[at] == -0.5f);
+    CHECK(group.nz[at] == 1);
+    CHECK(group.kept[at] == 1);
+    CHECK(group.face[at] == i);
+    CHECK(group.spread[at] == doctest::Approx(0.25 / raySolidAngle));
+  }
+  seedPoints.clear();
+  CHECK(seedPoints.groups().empty());
+}

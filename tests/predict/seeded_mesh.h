@@ -1,0 +1,65 @@
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "core/random.h"
+#include "mesh/coincident_faces.h"
+#include "mesh/dual_graph.h"
+#include "predict/seed_cells.h"
+#include "predict/traced_cones.h"
+#include "trace/reference_tracer.h"
+
+namespace asdfvk::test {
+
+/// A mesh of which some faces, chosen at random, have cast their rays.
+struct SeededMesh {
+  Mesh mesh;
+  FaceGeometry geometry;
+  std::vector<uint32_t> representatives;
+  Bvh bvh;
+  DualGraph graph;
+  Cone cone;
+  std::vector<uint32_t> seeds;
+  std::vector<double> values;  ///< #S, of the seeds, in the mesh's unit.
+  std::vector<ConeHit> hits;   ///< #S x rays
+
+  SeededMesh(Mesh source, size_t seedCount, const ConeOptions& options = {}, uint64_t randomSeed = 1)
+      : mesh(std::move(source)),
+        geometry(computeFaceGeometry(mesh)),
+        representatives(coincidentRepresentatives(mesh)),
+        bvh(buildBvh(mesh, geometry, representatives)),
+        graph(buildDualGraph(mesh)),
+        cone(makeCone(options)) {
+    for (uint32_t face = 0; face < mesh.faceCount(); ++face)
+      if (!geometry.isDegenerate(face)) seeds.push_back(face);
+    Random(randomSeed).shuffle(std::span(seeds));
+    if (seeds.size() > seedCount) seeds.resize(seedCount);
+    values.resize(seeds.size());
+    hits.resize(seeds.size() * cone.directions.size());
+    makeReferenceTracer(scene(), cone)->trace(seeds, {values, hits}, {});
+  }
+  SeededMesh(const SeededMesh&) = delete;
+  SeededMesh& operator=(const SeededMesh&) = delete;
+
+  [[nodiscard]] TraceScene scene() const { return {mesh, geometry, representatives, bvh}; }
+  [[nodiscard]] TracedCones traced() const { return {seeds, hits}; }
+  [[nodiscard]] SeedCells cells() const { return buildSeedCells(graph, seeds); }
+  /// What the face's own rays would say, in the mesh's unit.
+  [[nodiscard]] double tracedValue(uint32_t face) const { return referenceCone(scene(), cone, face); }
+};
+
+/// Both, one after the other in the file.
+inline Mesh joined(Mesh mesh, const Mesh& other, const Vec3d& shift) {
+  const auto offset = static_cast<uint32_t>(mesh.vertices.size());
+  for (const Vec3d& vertex : other.vertices) mesh.vertices.push_back(vertex + shift);
+  for (const auto& [a, b, c] : other.faces) mesh.faces.push_back({a + offset, b + offset, c + offset});
+  return mesh;
+}
+
+inline Mesh scaledAndShifted(Mesh mesh, double scale, const Vec3d& shift) {
+  for (Vec3d& vertex : mesh.vertices) vertex = vertex * scale + shift;
+  return mesh;
+}
+
+}  // namespace asdfvk::test

@@ -1,0 +1,177 @@
+#include "smooth/bilateral.h"
+
+#include <doctest/doctest.h>
+#include <tbb/global_control.h>
+
+#include <cmath>
+#include <cstring>
+
+#include "core/error.h"
+#include "sample_fields.h"
+
+using namespace asdfvk;
+using test::kNaN;
+
+namespace {
+
+// The definition in bilateral.h, word for word.
+double definedValue(const DualGraph& graph, const std::vector<double>& values, uint32_t face, uint32_t window) {
+  const std::vector<uint32_t> ring = test::hopsFrom(graph, face, window);
+  double squares = 0, count = 0;
+  for (uint32_t g = 0; g < graph.faceCount(); ++g)
+    if (ring[g] <= window && !std::isnan(values[g])) {
+      squares += std::pow(values[g] - values[face], 2);
+      ++count;
+    }
+  const double sigma = std::sqrt(squares / count), ringSigma = window / 2.0;
+  double weights = 0, sum = 0;
+  for (uint32_t g = 0; g < graph.faceCount(); ++g)
+    if (ring[g] <= window && !std::isnan(values[g])) {
+      const double weight = std::exp(-std::pow(ring[g], 2) / (2 * std::pow(ringSigma, 2))) *
+                            std::exp(-std::pow(values[g] - values[face], 2) / (2 * std::pow(sigma, 2)));
+      weights += weight;
+      sum += weight * values[g];
+    }
+  return sum / weights;
+}
+
+double variance(const std::vector<double>& values) {
+  double sum = 0, squares = 0;
+  for (double value : values) sum += value;
+  const double count = static_cast<double>(values.size());
+  for (double value : values) squares += std::pow(value - sum / count, 2);
+  return squares / count;
+}
+
+bool haveSameBits(const std::vector<double>& a, const std::vector<double>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
+}
+
+}  // namespace
+
+TEST_CASE("three faces in a row come out as computed by hand") {
+  const std::vector<double> smoothed = smoothBilaterally(test::stripGraph(3), std::vector<double>{0, 1, 3}, {1, 1});
+  // Differences -1, 0, 2, so sigma^2 = 5/3; ring 1 has exp(-1 / (2 * 0.25)).
+  const double left = std::exp(-2.0) * std::exp(-0.3), right = std::exp(-2.0) * std::exp(-1.2);
+  CHECK(smoothed[1] == doctest::Approx(1 + (-left + 2 * right) / (1 + left + right)).epsilon(1e-14));
+  // One neighbour at distance d: sigma^2 = d^2 / 2.
+  const double weight = std::exp(-2.0) * std::exp(-1.0);
+  CHECK(smoothed[0] == doctest::Approx(weight / (1 + weight)).epsilon(1e-14));
+}
+
+TEST_CASE("every face becomes what the definition says, around faces without a value too") {
+  const DualGraph graph = test::torusGraph(600);
+  std::vector<double> values = test::noisyField(graph.faceCount(), 3, 1);
+  for (uint32_t face = 0; face < graph.faceCount(); face += 11) values[face] = kNaN;
+  for (uint32_t window : {1u, 2u, 3u, 4u}) {
+    const std::vector<double> smoothed = smoothBilaterally(graph, values, {window, 1});
+    REQUIRE(smoothed.size() == values.size());
+    for (uint32_t face = 0; face < graph.faceCount(); ++face) {
+      CAPTURE(face);
+      if (face % 11 == 0)
+        REQUIRE(std::isnan(smoothed[face]));
+      else
+        REQUIRE(smoothed[face] == doctest::Approx(definedValue(graph, values, face, window)).epsilon(1e-12));
+    }
+  }
+}
+
+TEST_CASE("a constant field, a lone face and a face among none with a value stay as they are") {
+  const DualGraph graph = test::torusGraph(600);
+  const std::vector<double> constant(graph.faceCount(), 0.1);
+  CHECK(smoothBilaterally(graph, constant, {2, 3}) == constant);
+  CHECK(smoothBilaterally(test::graphOf({{}, {2}, {1}}), std::vector<double>{7.3, 1, 1}, {4, 2}) ==
+        std::vector<double>{7.3, 1, 1});
+  const std::vector<double> amongNone =
+      smoothBilaterally(test::stripGraph(3), std::vector<double>{kNaN, 7.3, kNaN}, {2, 2});
+  CHECK(amongNone[1] == 7.3);
+  CHECK(std::isnan(amongNone[0]));
+  CHECK(std::isnan(amongNone[2]));
+  CHECK(smoothBilaterally(test::graphOf({}), std::vector<double>{}, {2, 1}).empty());
+}
+
+TEST_CASE("noise becomes less, and less still with a wider window and another pass") {
+  const DualGraph graph = test::torusGraph(5000);
+  const std::vector<double> values = test::noisyField(graph.faceCount(), 3, 0.1);
+  const auto left = [&](const BilateralOptions& options) {
+    return variance(smoothBilaterally(graph, values, options)) / variance(values);
+  };
+  const double narrow = left({1, 1}), wide = left({2, 1}), twice = left({2, 2});
+  CHECK(narrow < 0.8);
+  CHECK(wide < 0.45);
+  CHECK(wide < narrow);
+  CHECK(twice < 0.7 * wide);
+  CHECK(left({2, 0}) == 1);
+}
+
+TEST_CASE("a step much larger than the noise is kept while the noise beside it is not") {
+  const uint32_t faceCount = 2000;
+  const DualGraph graph = test::stripGraph(faceCount);
+  std::vector<double> values = test::noisyField(faceCount, 1, 0.02);
+  for (uint32_t face = faceCount / 2; face < faceCount; ++face) values[face] += 10;
+  const std::vector<double> smoothed = smoothBilaterally(graph, values, {2, 1});
+  for (uint32_t face = 0; face < faceCount; ++face) {
+    const double level = face < faceCount / 2 ? 1 : 11;
+    const bool isBesideStep = face + 2 >= faceCount / 2 && face < faceCount / 2 + 2;
+    // Of a plain mean with the weights of the rings it would be 0.33.
+    REQUIRE(std::abs(smoothed[face] - level) < (isBesideStep ? 0.15 * 10 : 0.02));
+  }
+  const auto far = [&](const std::vector<double>& field) {
+    return variance({field.begin(), field.begin() + faceCount / 2 - 10});
+  };
+  CHECK(far(smoothed) < 0.6 * far(values));
+}
+
+TEST_CASE("the unit of the values does not matter, to the last bit for powers of two") {
+  const DualGraph graph = test::torusGraph(600);
+  const std::vector<double> values = test::noisyField(graph.faceCount(), 3, 1);
+  const std::vector<double> expected = smoothBilaterally(graph, values, {2, 2});
+  for (double unit : {0x1p-900, 0x1p-10, 0x1p900}) {
+    std::vector<double> scaled = values;
+    for (double& value : scaled) value *= unit;
+    scaled = smoothBilaterally(graph, scaled, {2, 2});
+    for (double& value : scaled) value /= unit;
+    CHECK(haveSameBits(scaled, expected));
+  }
+}
+
+TEST_CASE("passes smooth what the one before gave, and none changes nothing") {
+  const DualGraph graph = test::torusGraph(600);
+  const std::vector<double> values = test::noisyField(graph.faceCount(), 3, 1);
+  const std::vector<double> once = smoothBilaterally(graph, values, {2, 1});
+  CHECK(once != values);
+  CHECK(smoothBilaterally(graph, values, {2, 2}) == smoothBilaterally(graph, once, {2, 1}));
+  CHECK(smoothBilaterally(graph, values, {2, 0}) == values);
+}
+
+TEST_CASE("any number of threads gives the same bits") {
+  const DualGraph graph = test::torusGraph(20000);
+  const std::vector<double> values = test::noisyField(graph.faceCount(), 3, 1);
+  const auto onThreads = [&](size_t count) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, count);
+    return smoothBilaterally(graph, values, {2, 2});
+  };
+  const std::vector<double> alone = onThreads(1);
+  for (size_t count : {2u, 4u}) CHECK(haveSameBits(onThreads(count), alone));
+}
+
+TEST_CASE("the finer the mesh, the more is smoothed, and a fine one most") {
+  CHECK(bilateralOptionsFor(0) == BilateralOptions{1, 1});
+  CHECK(bilateralOptionsFor(9'999) == BilateralOptions{1, 1});
+  CHECK(bilateralOptionsFor(10'000) == BilateralOptions{2, 1});
+  CHECK(bilateralOptionsFor(89'999) == BilateralOptions{2, 1});
+  CHECK(bilateralOptionsFor(90'000) == BilateralOptions{2, 2});
+  CHECK(bilateralOptionsFor(~uint64_t{0}) == BilateralOptions{2, 2});
+}
+
+TEST_CASE("a window out of range is refused with the range") {
+  for (uint32_t window : {0u, 5u, ~0u}) {
+    try {
+      static_cast<void>(smoothBilaterally(test::stripGraph(3), std::vector<double>{1, 2, 3}, {window, 1}));
+      FAIL_CHECK("accepted");
+    } catch (const Error& error) {
+      CHECK(error.kind() == ErrorKind::Usage);
+      CHECK(std::string(error.what()).find("use 1 to 4") != std::string::npos);
+    }
+  }
+}
