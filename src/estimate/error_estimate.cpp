@@ -10,7 +10,7 @@ namespace {
 constexpr size_t kWorstFaceCount = 5;
 
 // With the probes among the seeds, the other faces err less than without: by about this power of the number of seeds,
-// which differs from mesh to mesh by as much again (bench/NOTES.md).
+// which differs from mesh to mesh by as much again (docs/experiments.md).
 constexpr double kProbesWorth = 0.12;
 
 /// Of the values traced. The function's own range is wider where its extremes were not traced.

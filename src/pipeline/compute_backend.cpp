@@ -41,7 +41,7 @@ ComputeBackend::ComputeBackend(const SessionOptions& options) {
   }
 }
 
-// A GPU is faster than the CPU, and Embree on the CPU's cores than the shaders on them; see bench/NOTES.md.
+// A GPU is faster than the CPU, and Embree on the CPU's cores than the shaders on them; see docs/speed.md.
 void ComputeBackend::openFastest(const SessionOptions& options) {
   std::string reason;
   try {
@@ -96,7 +96,7 @@ std::unique_ptr<ConeTracer> ComputeBackend::makeTracer(const TraceScene& scene, 
 
 PoissonSolver& ComputeBackend::solver(SolverChoice choice) {
   if (choice == SolverChoice::Auto) {
-    // On a device that is the CPU itself its own loops need less time for the same iterations; see bench/NOTES.md.
+    // On a device that is the CPU itself its own loops need less time for the same iterations; see docs/speed.md.
     return solver(runsOnCpu() ? SolverChoice::Cpu : SolverChoice::Cg);
   }
   std::unique_ptr<PoissonSolver>& solver = solvers_[choice];

@@ -13,7 +13,7 @@
 namespace asdfvk {
 namespace {
 
-// More probes than these leave so few seeds to predict from that the estimate is worse for it (bench/NOTES.md).
+// More probes than these leave so few seeds to predict from that the estimate is worse for it (docs/experiments.md).
 constexpr uint64_t kSeedsPerProbe = 4, kEnoughProbes = 200, kSeedsPerFurtherProbe = 10, kMostProbes = 2000;
 
 constexpr uint64_t kSeedsPerScout = 25, kLeastScouts = 16, kMostScouts = 400;

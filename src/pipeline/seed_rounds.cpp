@@ -11,7 +11,7 @@
 namespace asdfvk {
 namespace {
 
-// The error of a face falls with about this power of the number of seeds (bench/NOTES.md).
+// The error of a face falls with about this power of the number of seeds (docs/experiments.md).
 constexpr double kConvergence = 0.4;
 constexpr double kLeastGrowth = 1.25, kGreatestGrowth = 4, kStep = 1.05;
 // So many standard errors above the estimate the error is taken to be.

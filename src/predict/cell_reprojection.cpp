@@ -11,7 +11,7 @@ namespace {
 constexpr float kNormalReachRadians = 0.5f;
 
 // A seed with less than this share of the weight of all is not asked: it would add 1 % to the error and save a third of
-// the time (bench/NOTES.md).
+// the time (docs/experiments.md).
 constexpr float kLeastShare = 0.08f;
 
 }  // namespace

@@ -26,7 +26,7 @@ struct ReprojectionOptions {
   double reach = 1.5;
   /// Antipodal samples: how much the seeds count whose rays ended in a face's cell, since the face sees them along the
   /// same rays, against a seed next to it, up to kGreatestAntipodalWeight. 0: not at all; little is gained by them
-  /// (bench/NOTES.md).
+  /// (docs/experiments.md).
   double antipodal = 0;
 };
 

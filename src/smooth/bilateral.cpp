@@ -19,7 +19,7 @@ struct Rule {
   uint64_t minFaceCount;
   BilateralOptions options;
 };
-// Finest first; bench/NOTES.md has the errors behind it.
+// Finest first; docs/accuracy.md has the errors behind it.
 constexpr std::array<Rule, 3> kRules{{{90'000, {2, 2}}, {10'000, {2, 1}}, {0, {1, 1}}}};
 
 /// exp(-ring^2 / (2 (window / 2)^2))

@@ -39,7 +39,7 @@ struct VulkanTraceRequest {
   [[nodiscard]] bool isEmpty() const { return !kernel && !bvh && !fetch; }
 };
 
-/// The quickest for the class of the device, by the measurements in bench/NOTES.md.
+/// The quickest for the class of the device, by the measurements in docs/speed.md.
 [[nodiscard]] VulkanTraceChoice defaultTraceChoice(const DeviceFacts& device);
 /// The same but for what is asked for.
 [[nodiscard]] VulkanTraceChoice traceChoiceFor(const DeviceFacts& device, const VulkanTraceRequest& request);
