@@ -20,7 +20,7 @@ constexpr size_t kBlockFaceCount = 4096;
 float roundedDown(double d) { return static_cast<float>(d - std::abs(d) * 0x1p-23 - 0x1p-149); }
 
 // Holds the corners as doubles and as floats.
-SplitBox outerBox(const Mesh& mesh, const Face& face, const Normalization& normalization) {
+SplitBox outerBox(const TriangleMesh& mesh, const Face& face, const Normalization& normalization) {
   const Vec3d &a = mesh.vertices[face[0]], &b = mesh.vertices[face[1]], &c = mesh.vertices[face[2]];
   const auto least = [](double x, double y, double z) { return std::min(std::min(x, y), z); };
   const auto greatest = [](double x, double y, double z) { return std::max(std::max(x, y), z); };
@@ -40,7 +40,7 @@ bool isFinite(const SplitBox& box) {
 }
 
 // In the order of the faces.
-UnsetVector<SplitTriangle> collectTriangles(const Mesh& mesh, const FaceGeometry& geometry,
+UnsetVector<SplitTriangle> collectTriangles(const TriangleMesh& mesh, const FaceGeometry& geometry,
                                             std::span<const uint32_t> representatives,
                                             const Normalization& normalization) {
   UnsetVector<SplitTriangle> triangles(mesh.faces.size());
@@ -102,7 +102,7 @@ UnsetVector<BvhNode> assemble(const Subtree& root) {
 
 }  // namespace
 
-Bvh buildBvh(const Mesh& mesh, const FaceGeometry& geometry, std::span<const uint32_t> representatives,
+Bvh buildBvh(const TriangleMesh& mesh, const FaceGeometry& geometry, std::span<const uint32_t> representatives,
              const BvhOptions& options) {
   ASDFVK_CHECK_OP(representatives.size(), ==, mesh.faces.size());
   ASDFVK_CHECK_OP(options.maxLeafTriangleCount, >, 0u);

@@ -44,7 +44,7 @@ struct BvhOptions {
 /// Binned surface-area heuristic (Wald 2007), parallel over subtrees, with the same result for any thread count.
 /// Holds the faces that are not degenerate and that represent themselves (see coincidentRepresentatives()), but for any
 /// whose normalised corners are not finite, as they are in a mesh as wide as the range of double.
-[[nodiscard]] Bvh buildBvh(const Mesh& mesh, const FaceGeometry& geometry, std::span<const uint32_t> representatives,
-                           const BvhOptions& options = {});
+[[nodiscard]] Bvh buildBvh(const TriangleMesh& mesh, const FaceGeometry& geometry,
+                           std::span<const uint32_t> representatives, const BvhOptions& options = {});
 
 }  // namespace asdfvk

@@ -77,8 +77,8 @@ OctahedralNormal encodeNormal(const Vec3d& n) {
   return {static_cast<float>(isUp ? u : foldedU), static_cast<float>(isUp ? v : foldedV)};
 }
 
-UnsetVector<DeviceTriangle> encodeTriangles(std::span<const uint32_t> slotFaces, const Bvh& bvh, const Mesh& mesh,
-                                            const FaceGeometry& geometry) {
+UnsetVector<DeviceTriangle> encodeTriangles(std::span<const uint32_t> slotFaces, const Bvh& bvh,
+                                            const TriangleMesh& mesh, const FaceGeometry& geometry) {
   UnsetVector<DeviceTriangle> triangles(slotFaces.size());
   tbb::parallel_for(size_t{0}, slotFaces.size(), [&](size_t slot) {
     const uint32_t face = slotFaces[slot];
@@ -98,7 +98,7 @@ UnsetVector<DeviceTriangle> encodeTriangles(std::span<const uint32_t> slotFaces,
 
 }  // namespace
 
-DeviceBvh encodeDeviceBvh(const Bvh& bvh, const Mesh& mesh, const FaceGeometry& geometry, BvhLayout layout) {
+DeviceBvh encodeDeviceBvh(const Bvh& bvh, const TriangleMesh& mesh, const FaceGeometry& geometry, BvhLayout layout) {
   DeviceBvh device;
   if (bvh.nodes.empty()) return device;
   if (bvh.slotFaces.size() > kReferenceFirstMask)

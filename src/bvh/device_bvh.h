@@ -35,7 +35,7 @@ struct DeviceBvh {
 
 /// Binary: a Bvh whose root is a leaf becomes one node with that leaf on both sides, of which the right one has a box
 /// far away. Throws Error{Device} for more triangles than a reference can count.
-[[nodiscard]] DeviceBvh encodeDeviceBvh(const Bvh& bvh, const Mesh& mesh, const FaceGeometry& geometry,
+[[nodiscard]] DeviceBvh encodeDeviceBvh(const Bvh& bvh, const TriangleMesh& mesh, const FaceGeometry& geometry,
                                         BvhLayout layout = BvhLayout::Binary);
 
 }  // namespace asdfvk

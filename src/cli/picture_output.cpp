@@ -11,7 +11,7 @@ namespace {
 
 /// From entries per input face to entries per triangle.
 template <typename T>
-std::vector<T> onTriangles(const Mesh& mesh, const std::vector<T>& ofInputFaces) {
+std::vector<T> onTriangles(const TriangleMesh& mesh, const std::vector<T>& ofInputFaces) {
   if (mesh.polygons.isEmpty()) return ofInputFaces;
   std::vector<T> result;
   result.reserve(mesh.faces.size());
@@ -21,7 +21,7 @@ std::vector<T> onTriangles(const Mesh& mesh, const std::vector<T>& ofInputFaces)
 
 }  // namespace
 
-void writePicture(const CommandLine& line, const Mesh& mesh, const Result& result, const RunControl& control) {
+void writePicture(const CommandLine& line, const TriangleMesh& mesh, const Result& result, const RunControl& control) {
   Picture picture{.mesh = mesh, .values = {}, .highlighted = {}, .title = {}, .range = {}, .view = line.pictureView};
   std::vector<double> values;
   std::vector<uint8_t> seeds;

@@ -9,6 +9,6 @@ namespace asdfvk {
 
 /// Renders what --picture asks for and writes it, whole or not at all. Throws Error{Output} with the reason and
 /// Error{Cancelled}.
-void writePicture(const CommandLine& line, const Mesh& mesh, const Result& result, const RunControl& control);
+void writePicture(const CommandLine& line, const TriangleMesh& mesh, const Result& result, const RunControl& control);
 
 }  // namespace asdfvk

@@ -1,27 +1,10 @@
 #pragma once
 
 #include <cmath>
-#include <cstddef>
+
+#include "asdf_vk/mesh.h"
 
 namespace asdfvk {
-
-/// Three numbers: a point, a direction or a size.
-template <typename T>
-struct Vec3 {
-  T x{}, y{}, z{};
-
-  constexpr T operator[](size_t axis) const { return axis == 0 ? x : axis == 1 ? y : z; }
-  constexpr T& operator[](size_t axis) { return axis == 0 ? x : axis == 1 ? y : z; }
-  constexpr bool operator==(const Vec3&) const = default;
-
-  template <typename U>
-  constexpr explicit operator Vec3<U>() const {
-    return {static_cast<U>(x), static_cast<U>(y), static_cast<U>(z)};
-  }
-};
-
-using Vec3d = Vec3<double>;
-using Vec3f = Vec3<float>;
 
 template <typename T>
 constexpr Vec3<T> operator+(const Vec3<T>& a, const Vec3<T>& b) {

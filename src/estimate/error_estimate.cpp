@@ -53,7 +53,7 @@ std::vector<Probe> readProbes(const HeldOutErrors& errors) {
   return probes;
 }
 
-std::vector<ErrorEstimate::WorstFace> worstOf(const Mesh& mesh, std::vector<Probe> probes, double range) {
+std::vector<ErrorEstimate::WorstFace> worstOf(const TriangleMesh& mesh, std::vector<Probe> probes, double range) {
   const size_t count = std::min(kWorstFaceCount, probes.size());
   std::partial_sort(
       probes.begin(), probes.begin() + static_cast<std::ptrdiff_t>(count), probes.end(),
@@ -65,7 +65,7 @@ std::vector<ErrorEstimate::WorstFace> worstOf(const Mesh& mesh, std::vector<Prob
 
 }  // namespace
 
-EstimatedErrors estimateErrors(const Mesh& mesh, const HeldOutErrors& errors) {
+EstimatedErrors estimateErrors(const TriangleMesh& mesh, const HeldOutErrors& errors) {
   EstimatedErrors result;
   result.expected.assign(errors.result.size(), 0);
   const double range = tracedRange(errors);

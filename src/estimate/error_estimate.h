@@ -47,6 +47,6 @@ struct EstimatedErrors {
 /// What the probes are off by, scaled up to all faces and down by what they add once they are seeds themselves. Needs
 /// two probes with a value and a weight, and a positive range of values at least, else the estimate's heldOutCount is
 /// 0.
-[[nodiscard]] EstimatedErrors estimateErrors(const Mesh& mesh, const HeldOutErrors& errors);
+[[nodiscard]] EstimatedErrors estimateErrors(const TriangleMesh& mesh, const HeldOutErrors& errors);
 
 }  // namespace asdfvk

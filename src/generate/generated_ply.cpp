@@ -8,7 +8,7 @@ namespace asdfvk {
 namespace {
 
 template <typename T>
-void putVertices(AtomicFile& file, const Mesh& mesh) {
+void putVertices(AtomicFile& file, const TriangleMesh& mesh) {
   for (const Vec3d& p : mesh.vertices)
     for (size_t axis = 0; axis < 3; ++axis) file.put(static_cast<T>(p[axis]));
 }

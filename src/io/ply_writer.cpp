@@ -44,7 +44,7 @@ class RowWriter {
 };
 
 template <typename T>
-void writeVertices(RowWriter& row, const Mesh& mesh) {
+void writeVertices(RowWriter& row, const TriangleMesh& mesh) {
   for (const Vec3d& p : mesh.vertices) {
     row.put(static_cast<T>(p.x));
     row.put(static_cast<T>(p.y));
@@ -54,7 +54,7 @@ void writeVertices(RowWriter& row, const Mesh& mesh) {
 }
 
 template <typename Count>
-void writeFaces(RowWriter& row, const Mesh& mesh, const FaceValues& face) {
+void writeFaces(RowWriter& row, const TriangleMesh& mesh, const FaceValues& face) {
   const ColourRange range = percentileRange(face.values);
   for (uint64_t i = 0; i < mesh.inputFaceCount(); ++i) {
     const auto corners = inputFaceCorners(mesh, i);
@@ -69,7 +69,7 @@ void writeFaces(RowWriter& row, const Mesh& mesh, const FaceValues& face) {
 
 }  // namespace
 
-void writePly(AtomicFile& file, const Mesh& mesh, const FaceValues& face, bool ascii) {
+void writePly(AtomicFile& file, const TriangleMesh& mesh, const FaceValues& face, bool ascii) {
   if (mesh.vertices.size() > size_t{std::numeric_limits<int32_t>::max()})
     throw Error(ErrorKind::Output, "the mesh has more vertices than PLY's int can index; write .npy or .csv");
   size_t mostCorners = 3;

@@ -44,13 +44,13 @@ ResultFormat resultFormatOf(const std::filesystem::path& path, const WriteOption
               fmt::format("the extension of {} tells no format; use .ply, .vtu, .npy or .csv", path.string()));
 }
 
-bool verticesAreFloats(const Mesh& mesh) {
+bool verticesAreFloats(const TriangleMesh& mesh) {
   const auto isFloat = [](double c) { return !std::isfinite(c) || static_cast<double>(static_cast<float>(c)) == c; };
   return std::all_of(mesh.vertices.begin(), mesh.vertices.end(),
                      [&](const Vec3d& p) { return isFloat(p.x) && isFloat(p.y) && isFloat(p.z); });
 }
 
-void writeResult(const std::filesystem::path& path, const Mesh& mesh, const FaceValues& face,
+void writeResult(const std::filesystem::path& path, const TriangleMesh& mesh, const FaceValues& face,
                  const WriteOptions& options) {
   const ResultFormat format = resultFormatOf(path, options);
   ASDFVK_CHECK_OP(face.values.size(), ==, mesh.inputFaceCount());

@@ -34,7 +34,7 @@ struct WriteOptions {
 /// coordinate is exactly a float, else as double; values as float (in .csv as double). A face without a value has NaN
 /// in .npy and .csv, in .ply and .vtu 0 (and grey). Throws Error{Output} with the reason. Precondition: #I entries in
 /// `face`, and every index below the vertex count.
-void writeResult(const std::filesystem::path& path, const Mesh& mesh, const FaceValues& face,
+void writeResult(const std::filesystem::path& path, const TriangleMesh& mesh, const FaceValues& face,
                  const WriteOptions& options = {});
 
 }  // namespace asdfvk

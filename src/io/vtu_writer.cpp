@@ -49,7 +49,7 @@ class VtuFile {
 };
 
 template <typename T>
-void writePoints(VtuFile& vtu, const Mesh& mesh) {
+void writePoints(VtuFile& vtu, const TriangleMesh& mesh) {
   vtu.writeArray<T>("Name=\"Points\" NumberOfComponents=\"3\"", 3 * uint64_t{mesh.vertices.size()}, [&](auto put) {
     for (const Vec3d& p : mesh.vertices)
       for (size_t axis = 0; axis < 3; ++axis) put(static_cast<T>(p[axis]));
@@ -57,7 +57,7 @@ void writePoints(VtuFile& vtu, const Mesh& mesh) {
 }
 
 template <typename T>
-void writeCells(VtuFile& vtu, const Mesh& mesh) {
+void writeCells(VtuFile& vtu, const TriangleMesh& mesh) {
   const uint64_t cellCount = mesh.inputFaceCount();
   vtu.writeArray<T>("Name=\"connectivity\"", inputCornerCount(mesh), [&](auto put) {
     for (uint64_t i = 0; i < cellCount; ++i)
@@ -74,7 +74,7 @@ void writeCells(VtuFile& vtu, const Mesh& mesh) {
 
 }  // namespace
 
-void writeVtu(AtomicFile& file, const Mesh& mesh, const FaceValues& face) {
+void writeVtu(AtomicFile& file, const TriangleMesh& mesh, const FaceValues& face) {
   const bool isFloat = verticesAreFloats(mesh);
   const uint64_t cellCount = mesh.inputFaceCount(), cornerCount = inputCornerCount(mesh);
   const uint64_t largest = std::max(cornerCount, mesh.vertices.size());

@@ -37,7 +37,7 @@ struct ClosedComponents {
   std::vector<Probe> probes;  // Grouped by component, ascending.
 };
 
-ClosedComponents gatherClosed(const Mesh& mesh, const Components& components, const RayFrame& frame) {
+ClosedComponents gatherClosed(const TriangleMesh& mesh, const Components& components, const RayFrame& frame) {
   const size_t count = components.components.size();
   ClosedComponents closed{std::vector<Box3d>(count), {}};
   std::vector<std::array<uint32_t, 6>> extremes(count);  // Vertices: lowest, highest along x, y, z.
@@ -101,7 +101,7 @@ bool rayCrosses(const Face& face, const std::array<Vec3d, 3>& corners, const Vec
 
 // For each probe 1 when its ray crosses an odd number of faces of the components whose boxes contain its own one. The
 // sum over components has the parity of the number of those that the probe is inside of.
-std::vector<uint8_t> parities(const Mesh& mesh, const Components& components, const RayFrame& frame,
+std::vector<uint8_t> parities(const TriangleMesh& mesh, const Components& components, const RayFrame& frame,
                               const ClosedComponents& closed) {
   std::vector<Point2> points;
   points.reserve(closed.probes.size());
@@ -129,7 +129,7 @@ std::vector<uint8_t> parities(const Mesh& mesh, const Components& components, co
 
 }  // namespace
 
-std::vector<uint8_t> findCavities(const Mesh& mesh, const Components& components) {
+std::vector<uint8_t> findCavities(const TriangleMesh& mesh, const Components& components) {
   std::vector<uint8_t> isCavity(components.components.size(), 0);
   const auto isClosed = [](const Component& component) { return component.isClosed; };
   if (std::count_if(components.components.begin(), components.components.end(), isClosed) < 2) return isCavity;

@@ -12,6 +12,6 @@ namespace asdfvk {
 /// #components. Told by the parity of the faces that rays from its outermost vertices along each axis cross: one that
 /// sticks out of another is not inside it. For n faces and c components about n log c; more only where many components
 /// lie in each other, or many long faces cross many components.
-[[nodiscard]] std::vector<uint8_t> findCavities(const Mesh& mesh, const Components& components);
+[[nodiscard]] std::vector<uint8_t> findCavities(const TriangleMesh& mesh, const Components& components);
 
 }  // namespace asdfvk

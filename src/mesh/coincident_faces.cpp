@@ -24,7 +24,7 @@ Face placeOf(const Face& face, const std::vector<uint32_t>& lowestVertices) {
   return place;
 }
 
-std::vector<uint32_t> lowestAmong(const Mesh& mesh, const std::vector<uint32_t>& lowestVertices) {
+std::vector<uint32_t> lowestAmong(const TriangleMesh& mesh, const std::vector<uint32_t>& lowestVertices) {
   const Buckets<FaceKey> byLowestVertex =
       sortIntoBuckets<FaceKey>(mesh.vertices.size(), mesh.faces.size(), [&](uint32_t f, auto&& put) {
         const auto [a, b, c] = placeOf(mesh.faces[f], lowestVertices);
@@ -51,11 +51,11 @@ bool hasCopyByVertices(const DualGraph& closedGraph) {
 
 }  // namespace
 
-std::vector<uint32_t> coincidentRepresentatives(const Mesh& mesh) {
+std::vector<uint32_t> coincidentRepresentatives(const TriangleMesh& mesh) {
   return lowestAmong(mesh, coincidentVertices(mesh));
 }
 
-std::vector<uint32_t> coincidentRepresentatives(const Mesh& mesh, const EdgeSurvey& edges) {
+std::vector<uint32_t> coincidentRepresentatives(const TriangleMesh& mesh, const EdgeSurvey& edges) {
   const std::vector<uint32_t> lowestVertices = coincidentVertices(mesh);
   const auto isCopy = [&](uint32_t vertex) { return lowestVertices[vertex] != vertex; };
   if (!edges.isClosed || hasCopyByVertices(edges.graph) || countInParallel(lowestVertices.size(), isCopy) > 0)

@@ -13,9 +13,9 @@ namespace asdfvk {
 /// one point go by their vertices alone. Coincident faces lie at distance 0 of each other, where a hit is rounding
 /// noise: they share one identity, so that a cone passes through its own face's copies and every backend sees the same
 /// one of them.
-[[nodiscard]] std::vector<uint32_t> coincidentRepresentatives(const Mesh& mesh);
+[[nodiscard]] std::vector<uint32_t> coincidentRepresentatives(const TriangleMesh& mesh);
 
 /// The same, faster where the edges rule copies out.
-[[nodiscard]] std::vector<uint32_t> coincidentRepresentatives(const Mesh& mesh, const EdgeSurvey& edges);
+[[nodiscard]] std::vector<uint32_t> coincidentRepresentatives(const TriangleMesh& mesh, const EdgeSurvey& edges);
 
 }  // namespace asdfvk

@@ -17,7 +17,7 @@ struct Fingerprint {
 
 }  // namespace
 
-std::vector<uint32_t> coincidentVertices(const Mesh& mesh) {
+std::vector<uint32_t> coincidentVertices(const TriangleMesh& mesh) {
   std::vector<uint32_t> lowest(mesh.vertices.size());
   forEachInParallel(lowest.size(), [&](uint32_t vertex) { lowest[vertex] = vertex; });
   const size_t bucketCount = std::bit_ceil(mesh.vertices.size() / 8 + 1);

@@ -93,7 +93,7 @@ struct Surroundings {
   bool areConsistent = true;
 };
 
-Surroundings surroundingsOf(const Mesh& mesh, const DualGraph& graph, uint32_t f) {
+Surroundings surroundingsOf(const TriangleMesh& mesh, const DualGraph& graph, uint32_t f) {
   const Face& face = mesh.faces[f];
   Surroundings result;
   for (size_t i = 0; i < 3; ++i) {
@@ -116,7 +116,7 @@ Surroundings surroundingsOf(const Mesh& mesh, const DualGraph& graph, uint32_t f
   return result;
 }
 
-void judgeClosedness(const Mesh& mesh, const DualGraph& graph, Components& result) {
+void judgeClosedness(const TriangleMesh& mesh, const DualGraph& graph, Components& result) {
   const size_t count = result.components.size();
   std::vector<uint8_t> hasProperFace(count, 0), isOpen(count, 0), isInconsistent(count, 0);
   const auto raise = [](uint8_t& flag) { std::atomic_ref<uint8_t>(flag).store(1, std::memory_order_relaxed); };
@@ -141,7 +141,7 @@ struct VolumeSum {
 };
 
 // Of a fixed range of faces, so that the sums do not depend on the number of threads.
-std::vector<VolumeSum> sumVolumes(const Mesh& mesh, const Components& components, double scale, uint32_t begin,
+std::vector<VolumeSum> sumVolumes(const TriangleMesh& mesh, const Components& components, double scale, uint32_t begin,
                                   uint32_t end) {
   std::vector<VolumeSum> sums;
   for (uint32_t f = begin; f < end; ++f) {
@@ -162,7 +162,7 @@ std::vector<VolumeSum> sumVolumes(const Mesh& mesh, const Components& components
 
 // Volumes are summed in normalised units around a corner of the component, so that neither the unit nor a shift of the
 // mesh costs digits.
-void measureVolumes(const Mesh& mesh, Components& result) {
+void measureVolumes(const TriangleMesh& mesh, Components& result) {
   const double scale = normalizationOf(boundsOfFiniteVertices(mesh)).scale;
   const size_t blockCount = (mesh.faces.size() + kItemsPerTask - 1) / kItemsPerTask;
   std::vector<std::vector<VolumeSum>> blocks(blockCount);
@@ -186,7 +186,7 @@ void measureVolumes(const Mesh& mesh, Components& result) {
 
 }  // namespace
 
-Components findComponents(const Mesh& mesh, const DualGraph& graph) {
+Components findComponents(const TriangleMesh& mesh, const DualGraph& graph) {
   Components result;
   label(graph, result);
   judgeClosedness(mesh, graph, result);
@@ -194,7 +194,7 @@ Components findComponents(const Mesh& mesh, const DualGraph& graph) {
   return result;
 }
 
-Components findComponents(const Mesh& mesh, const EdgeSurvey& edges) {
+Components findComponents(const TriangleMesh& mesh, const EdgeSurvey& edges) {
   if (!edges.isClosed || edges.inconsistentEdgeCount > 0) return findComponents(mesh, edges.graph);
   Components result;
   label(edges.graph, result);

@@ -25,9 +25,9 @@ struct Components {
 
 /// Precondition: no index is out of range, and `graph` is the mesh's. A face with a non-finite corner is a component of
 /// its own, and the hole that it leaves makes the others open.
-[[nodiscard]] Components findComponents(const Mesh& mesh, const DualGraph& graph);
+[[nodiscard]] Components findComponents(const TriangleMesh& mesh, const DualGraph& graph);
 
 /// The same, faster where the mesh has no open edge.
-[[nodiscard]] Components findComponents(const Mesh& mesh, const EdgeSurvey& edges);
+[[nodiscard]] Components findComponents(const TriangleMesh& mesh, const EdgeSurvey& edges);
 
 }  // namespace asdfvk

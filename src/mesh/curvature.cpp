@@ -28,7 +28,7 @@ double angleAt(const Vec3d& apex, const Vec3d& b, const Vec3d& c) {
 
 }  // namespace
 
-std::vector<double> vertexAngleDefects(const Mesh& mesh) {
+std::vector<double> vertexAngleDefects(const TriangleMesh& mesh) {
   const auto takesPart = [&](uint32_t f) { return hasDistinctVertices(mesh.faces[f]) && mesh.hasFiniteCorners(f); };
   std::vector<uint8_t> isOnBoundary(mesh.vertices.size(), 0);
   const auto mark = [&](uint32_t vertex) {
@@ -59,7 +59,7 @@ std::vector<double> vertexAngleDefects(const Mesh& mesh) {
   return defects;
 }
 
-std::vector<double> faceCurvature(const Mesh& mesh) {
+std::vector<double> faceCurvature(const TriangleMesh& mesh) {
   const std::vector<double> defects = vertexAngleDefects(mesh);
   std::vector<double> curvature(mesh.faces.size());
   forEachInParallel(mesh.faces.size(), [&](uint32_t f) {

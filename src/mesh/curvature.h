@@ -14,9 +14,9 @@ namespace asdfvk {
 /// A face of zero area contributes the angles of the limit that it is, which sum to pi: 0, 0 and pi where its corners
 /// are in line, 0, pi/2 and pi/2 where two of them are at one place, pi/3 each where all are. A face with a repeated
 /// vertex or a non-finite corner contributes none. Precondition: no index is out of range.
-[[nodiscard]] std::vector<double> vertexAngleDefects(const Mesh& mesh);
+[[nodiscard]] std::vector<double> vertexAngleDefects(const TriangleMesh& mesh);
 
 /// Per face the mean of its three vertices' angle defects. #F
-[[nodiscard]] std::vector<double> faceCurvature(const Mesh& mesh);
+[[nodiscard]] std::vector<double> faceCurvature(const TriangleMesh& mesh);
 
 }  // namespace asdfvk

@@ -4,6 +4,6 @@
 
 namespace asdfvk {
 
-DualGraph buildDualGraph(const Mesh& mesh) { return surveyEdges(mesh).graph; }
+DualGraph buildDualGraph(const TriangleMesh& mesh) { return surveyEdges(mesh).graph; }
 
 }  // namespace asdfvk

@@ -29,6 +29,6 @@ struct DualGraph {
 /// kMaxFacesJoinedAllToAll), a boundary edge none. An edge whose two ends are the same vertex, and a face with a
 /// non-finite corner, join nothing. Vertices are told by index, not by place: a mesh whose faces do not share them is
 /// open everywhere. Precondition: every index of a face is below the vertex count.
-[[nodiscard]] DualGraph buildDualGraph(const Mesh& mesh);
+[[nodiscard]] DualGraph buildDualGraph(const TriangleMesh& mesh);
 
 }  // namespace asdfvk

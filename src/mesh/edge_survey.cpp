@@ -30,7 +30,7 @@ struct Findings {
 
 class Survey {
  public:
-  explicit Survey(const Mesh& mesh)
+  explicit Survey(const TriangleMesh& mesh)
       : mesh_(mesh),
         hasFiniteVertices_(
             countInParallel(mesh.vertices.size(), [&](uint32_t v) { return !isFinite(mesh.vertices[v]); }) == 0),
@@ -143,7 +143,7 @@ class Survey {
     return graph;
   }
 
-  const Mesh& mesh_;
+  const TriangleMesh& mesh_;
   bool hasFiniteVertices_, hasDistinctVertices_;
   std::vector<uint32_t> across_;  ///< #F x 3: the face on the other side of each edge.
   tbb::enumerable_thread_specific<Findings> findings_;
@@ -151,6 +151,6 @@ class Survey {
 
 }  // namespace
 
-EdgeSurvey surveyEdges(const Mesh& mesh) { return Survey(mesh).run(); }
+EdgeSurvey surveyEdges(const TriangleMesh& mesh) { return Survey(mesh).run(); }
 
 }  // namespace asdfvk

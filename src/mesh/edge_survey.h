@@ -20,6 +20,6 @@ struct EdgeSurvey {
 
 /// Precondition: every index of a face is below the vertex count. Throws Error{Input} where there are more than
 /// 2^32 - 1 edges or arcs.
-[[nodiscard]] EdgeSurvey surveyEdges(const Mesh& mesh);
+[[nodiscard]] EdgeSurvey surveyEdges(const TriangleMesh& mesh);
 
 }  // namespace asdfvk

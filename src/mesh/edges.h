@@ -25,7 +25,7 @@ class EdgeTable {
   /// Faces for which takesPart(face) is false have no edge; an edge between a vertex and itself is none. A face that
   /// runs along an edge twice, a-b-a, is there once. Precondition: every index of a face is below the vertex count.
   template <typename TakesPart>
-  EdgeTable(const Mesh& mesh, const TakesPart& takesPart)
+  EdgeTable(const TriangleMesh& mesh, const TakesPart& takesPart)
       : entries_(mesh.vertices.size(), mesh.faces.size(), [&](uint32_t f, auto&& put) {
           if (!takesPart(f)) return;
           const auto [a, b, c] = mesh.faces[f];

@@ -41,7 +41,7 @@ NormalAndArea normalAndArea(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
 
 }  // namespace
 
-FaceGeometry computeFaceGeometry(const Mesh& mesh) {
+FaceGeometry computeFaceGeometry(const TriangleMesh& mesh) {
   FaceGeometry geometry;
   const size_t faceCount = mesh.faces.size();
   geometry.barycentres.resize(faceCount);

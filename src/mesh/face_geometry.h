@@ -23,6 +23,6 @@ struct FaceGeometry {
 };
 
 /// Precondition: every index of a face is below the vertex count.
-[[nodiscard]] FaceGeometry computeFaceGeometry(const Mesh& mesh);
+[[nodiscard]] FaceGeometry computeFaceGeometry(const TriangleMesh& mesh);
 
 }  // namespace asdfvk

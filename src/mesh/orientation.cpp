@@ -31,9 +31,9 @@ struct ComponentFaces {
 };
 
 // A polygon whose triangles are of several components counts in each of them.
-ComponentFaces componentFacesOf(const Mesh& mesh, const Components& components, uint32_t index) {
+ComponentFaces componentFacesOf(const TriangleMesh& mesh, const Components& components, uint32_t index) {
   const Component& component = components.components[index];
-  const std::vector<uint32_t>& inputFaceOf = mesh.polygons.inputFaceOf;
+  const std::span<const uint32_t> inputFaceOf = mesh.polygons.inputFaceOf;
   if (mesh.polygons.isEmpty()) return {component.firstFace, component.faceCount};
   ComponentFaces faces{inputFaceOf[component.firstFace], 1};
   uint32_t last = faces.first;
@@ -47,7 +47,7 @@ ComponentFaces componentFacesOf(const Mesh& mesh, const Components& components, 
 
 }  // namespace
 
-std::string OrientationReport::sentence(const Mesh& mesh, const Components& components) const {
+std::string OrientationReport::sentence(const TriangleMesh& mesh, const Components& components) const {
   if (invertedComponents.empty()) return {};
   std::string names;
   for (size_t i = 0; i < std::min(invertedComponents.size(), kNamedComponents); ++i) {
@@ -62,7 +62,7 @@ std::string OrientationReport::sentence(const Mesh& mesh, const Components& comp
   return fmt::format(fmt::runtime(form), invertedComponents.size(), components.components.size(), names);
 }
 
-OrientationReport analyseOrientation(const Mesh& mesh, const Components& components) {
+OrientationReport analyseOrientation(const TriangleMesh& mesh, const Components& components) {
   OrientationReport report;
   report.isCavity = findCavities(mesh, components);
   for (uint32_t i = 0; i < components.components.size(); ++i) {

@@ -18,15 +18,15 @@ struct OrientationReport {
 
   /// One sentence that names the inverted components by their lowest input face and says how many hang together with
   /// it; empty when there is none.
-  [[nodiscard]] std::string sentence(const Mesh& mesh, const Components& components) const;
+  [[nodiscard]] std::string sentence(const TriangleMesh& mesh, const Components& components) const;
 };
 
 /// The rule of CGAL's orient_to_bound_a_volume: a closed component inside an even number of others bounds a solid and
 /// looks outwards (positive volume), one inside an odd number is a cavity and looks inwards. Components that are open,
 /// wound inconsistently or without volume are never inverted.
-[[nodiscard]] OrientationReport analyseOrientation(const Mesh& mesh, const Components& components);
+[[nodiscard]] OrientationReport analyseOrientation(const TriangleMesh& mesh, const Components& components);
 
-/// Turns over the faces f with isFlipped[f] != 0 (#F): their winding, their normal, and the corners of their input
+/// Reverses the faces f with isFlipped[f] != 0 (#F): their winding, their normal, and the corners of their input
 /// face, once for each input face, by the first of its triangles.
 void flipFaces(Mesh& mesh, FaceGeometry& geometry, std::span<const uint8_t> isFlipped);
 

@@ -10,7 +10,7 @@
 namespace asdfvk {
 namespace {
 
-uint64_t countUnreferencedVertices(const Mesh& mesh) {
+uint64_t countUnreferencedVertices(const TriangleMesh& mesh) {
   std::vector<uint8_t> isUsed(mesh.vertices.size(), 0);
   forEachInParallel(mesh.faces.size(), [&](uint32_t f) {
     for (const uint32_t vertex : mesh.faces[f]) {
@@ -21,7 +21,7 @@ uint64_t countUnreferencedVertices(const Mesh& mesh) {
   return countInParallel(isUsed.size(), [&](uint32_t vertex) { return !isUsed[vertex]; });
 }
 
-uint64_t countShortPolygons(const Polygons& polygons) {
+uint64_t countShortPolygons(const PolygonsView& polygons) {
   uint64_t count = 0;
   for (size_t i = 0; i + 1 < polygons.firstCorner.size(); ++i)
     if (polygons.firstCorner[i + 1] - polygons.firstCorner[i] < 3) ++count;
@@ -30,15 +30,15 @@ uint64_t countShortPolygons(const Polygons& polygons) {
 
 }  // namespace
 
-uint64_t countFacesWithIndexOutOfRange(const Mesh& mesh) {
+uint64_t countFacesWithIndexOutOfRange(const TriangleMesh& mesh) {
   return countInParallel(mesh.faces.size(), [&](uint32_t f) {
     const auto [a, b, c] = mesh.faces[f];
     return std::max({a, b, c}) >= mesh.vertices.size();
   });
 }
 
-MeshDefects findDefects(const Mesh& mesh, const FaceGeometry& geometry, std::span<const uint32_t> representatives,
-                        const EdgeSurvey& edges) {
+MeshDefects findDefects(const TriangleMesh& mesh, const FaceGeometry& geometry,
+                        std::span<const uint32_t> representatives, const EdgeSurvey& edges) {
   const uint32_t faceCount = mesh.faceCount();
   MeshDefects defects;
   defects.duplicateFaceCount = countInParallel(faceCount, [&](uint32_t f) { return representatives[f] != f; });

@@ -31,10 +31,10 @@ struct MeshDefects {
 };
 
 /// Faces with an index at or above the vertex count. When there is any, nothing else can be computed on the mesh.
-[[nodiscard]] uint64_t countFacesWithIndexOutOfRange(const Mesh& mesh);
+[[nodiscard]] uint64_t countFacesWithIndexOutOfRange(const TriangleMesh& mesh);
 
 /// All are of the same mesh.
-[[nodiscard]] MeshDefects findDefects(const Mesh& mesh, const FaceGeometry& geometry,
+[[nodiscard]] MeshDefects findDefects(const TriangleMesh& mesh, const FaceGeometry& geometry,
                                       std::span<const uint32_t> representatives, const EdgeSurvey& edges);
 
 }  // namespace asdfvk

@@ -4,7 +4,7 @@
 
 namespace asdfvk {
 
-Box3d boundsOfFiniteVertices(const Mesh& mesh) {
+Box3d boundsOfFiniteVertices(const TriangleMesh& mesh) {
   const auto boundRange = [&](const tbb::blocked_range<size_t>& range, Box3d bounds) {
     for (size_t i = range.begin(); i < range.end(); ++i)
       if (isFinite(mesh.vertices[i])) bounds.add(mesh.vertices[i]);

@@ -6,7 +6,7 @@
 namespace asdfvk {
 
 /// The box of the vertices with finite coordinates, whether faces use them or not.
-[[nodiscard]] Box3d boundsOfFiniteVertices(const Mesh& mesh);
+[[nodiscard]] Box3d boundsOfFiniteVertices(const TriangleMesh& mesh);
 
 /// The box of both.
 [[nodiscard]] inline Box3d joined(Box3d a, const Box3d& b) {

@@ -50,7 +50,7 @@ std::vector<uint32_t> unionOf(const std::vector<uint32_t>& a, const std::vector<
 
 /// The half about the traced faces.
 void compareTraced(CheckReport& report, const std::vector<uint32_t>& faces, const TracedSeeds& traced,
-                   const References& references, double diagonal, const Mesh& mesh) {
+                   const References& references, double diagonal, const TriangleMesh& mesh) {
   std::vector<double> differences;
   for (const uint32_t face : faces) {
     const double value = traced.values[face], reference = references[face];
@@ -106,7 +106,7 @@ void measureErrors(CheckReport& report, const std::vector<uint32_t>& faces, cons
 
 }  // namespace
 
-CheckReport checkAgainstReference(const Mesh& mesh, const PreparedMesh& prepared, const TraceScene& scene,
+CheckReport checkAgainstReference(const TriangleMesh& mesh, const PreparedMesh& prepared, const TraceScene& scene,
                                   const Cone& cone, const ComputedValues& computed, uint64_t count, uint64_t randomSeed,
                                   const RunControl& control) {
   CheckReport report;

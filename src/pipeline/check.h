@@ -16,8 +16,9 @@ struct ComputedValues {
 
 /// Recomputes up to `count` random traced faces, and up to `count` random ones of all faces that can cast rays, with
 /// the double-precision reference and compares. A face in both choices is traced once.
-[[nodiscard]] CheckReport checkAgainstReference(const Mesh& mesh, const PreparedMesh& prepared, const TraceScene& scene,
-                                                const Cone& cone, const ComputedValues& computed, uint64_t count,
-                                                uint64_t randomSeed, const RunControl& control);
+[[nodiscard]] CheckReport checkAgainstReference(const TriangleMesh& mesh, const PreparedMesh& prepared,
+                                                const TraceScene& scene, const Cone& cone,
+                                                const ComputedValues& computed, uint64_t count, uint64_t randomSeed,
+                                                const RunControl& control);
 
 }  // namespace asdfvk

@@ -5,7 +5,7 @@
 
 namespace asdfvk {
 
-std::vector<double> valuesOfInputFaces(const Mesh& mesh, std::span<const double> values,
+std::vector<double> valuesOfInputFaces(const TriangleMesh& mesh, std::span<const double> values,
                                        std::span<const double> areas) {
   if (mesh.polygons.isEmpty()) return {values.begin(), values.end()};
   std::vector<double> sums(mesh.inputFaceCount(), 0), weights(mesh.inputFaceCount(), 0);
@@ -23,7 +23,7 @@ std::vector<double> valuesOfInputFaces(const Mesh& mesh, std::span<const double>
   return last;
 }
 
-std::vector<uint8_t> seedsOfInputFaces(const Mesh& mesh, std::span<const uint8_t> isSeed) {
+std::vector<uint8_t> seedsOfInputFaces(const TriangleMesh& mesh, std::span<const uint8_t> isSeed) {
   if (mesh.polygons.isEmpty()) return {isSeed.begin(), isSeed.end()};
   std::vector<uint8_t> seeds(mesh.inputFaceCount(), 0);
   for (uint32_t face = 0; face < mesh.faceCount(); ++face) seeds[mesh.polygons.inputFaceOf[face]] |= isSeed[face];

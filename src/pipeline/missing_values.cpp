@@ -5,7 +5,8 @@
 
 namespace asdfvk {
 
-std::string likelyCauseOfMissingValues(const Mesh& mesh, const PreparedMesh& prepared, std::span<const double> values) {
+std::string likelyCauseOfMissingValues(const TriangleMesh& mesh, const PreparedMesh& prepared,
+                                       std::span<const double> values) {
   std::vector<uint8_t> isInverted(prepared.components.components.size(), 0);
   for (const uint32_t index : prepared.invertedComponents) isInverted[index] = 1;
   bool isAnyInverted = false, isAnyOpen = false;

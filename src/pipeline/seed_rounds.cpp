@@ -48,9 +48,9 @@ class HiddenValues {
 
 }  // namespace
 
-SeedRounds::SeedRounds(const Mesh& mesh, const PreparedMesh& prepared, const Options& options, SeedTracing& tracing,
-                       Interpolation& interpolation, const Stopwatch& clock, StageSeconds& seconds,
-                       std::function<void()> afterLastRay)
+SeedRounds::SeedRounds(const TriangleMesh& mesh, const PreparedMesh& prepared, const Options& options,
+                       SeedTracing& tracing, Interpolation& interpolation, const Stopwatch& clock,
+                       StageSeconds& seconds, std::function<void()> afterLastRay)
     : mesh_(mesh),
       prepared_(prepared),
       options_(options),

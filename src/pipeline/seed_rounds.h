@@ -17,7 +17,7 @@ class SeedRounds {
   /// What it refers to must outlive it. clock: runs since the beginning of the computation, for a time budget.
   /// afterLastRay: called as soon as it is certain that no more rays will be cast, if that is before the end, so that
   /// what casts them need not stand beside what interpolates.
-  SeedRounds(const Mesh& mesh, const PreparedMesh& prepared, const Options& options, SeedTracing& tracing,
+  SeedRounds(const TriangleMesh& mesh, const PreparedMesh& prepared, const Options& options, SeedTracing& tracing,
              Interpolation& interpolation, const Stopwatch& clock, StageSeconds& seconds,
              std::function<void()> afterLastRay);
 
@@ -52,7 +52,7 @@ class SeedRounds {
   [[nodiscard]] uint64_t countForTime() const;
   [[nodiscard]] uint64_t leftCount() const;
 
-  const Mesh& mesh_;
+  TriangleMesh mesh_;
   const PreparedMesh& prepared_;
   const Options& options_;
   SeedTracing& tracing_;

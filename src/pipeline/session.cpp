@@ -44,7 +44,7 @@ ValueRange rangeOf(const std::vector<double>& values) {
   return range;
 }
 
-void describeMesh(Report& report, const Mesh& mesh, const PreparedMesh& prepared, const Options& options) {
+void describeMesh(Report& report, const TriangleMesh& mesh, const PreparedMesh& prepared, const Options& options) {
   report.faceCount = mesh.inputFaceCount();
   report.triangleCount = mesh.faceCount();
   report.vertexCount = mesh.vertices.size();

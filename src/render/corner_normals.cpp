@@ -13,7 +13,7 @@ namespace {
 constexpr size_t kMaxSmoothedValence = 64;
 
 /// Of a face at its corner k, in radians.
-double angleAt(const Mesh& mesh, uint32_t face, size_t k) {
+double angleAt(const TriangleMesh& mesh, uint32_t face, size_t k) {
   const Face& corners = mesh.faces[face];
   const Vec3d& apex = mesh.vertices[corners[k]];
   const Vec3d a = unitVector(mesh.vertices[corners[(k + 1) % 3]] - apex, {});
@@ -23,7 +23,7 @@ double angleAt(const Mesh& mesh, uint32_t face, size_t k) {
 
 }  // namespace
 
-std::vector<std::array<Vec3d, 3>> cornerNormals(const Mesh& mesh, const FaceGeometry& geometry) {
+std::vector<std::array<Vec3d, 3>> cornerNormals(const TriangleMesh& mesh, const FaceGeometry& geometry) {
   // Entries are 3 * face + corner, which fits: a mesh has at most 2^32 / 3 faces' worth of connections.
   const auto corners = sortIntoBuckets<uint32_t>(mesh.vertices.size(), mesh.faceCount(), [&](uint32_t face, auto put) {
     if (geometry.isDegenerate(face)) return;

@@ -15,6 +15,6 @@ inline constexpr double kCreaseAngleDegrees = 40;
 /// #F unit normals at each face's three corners: those of the vertex's faces that lie within kCreaseAngleDegrees of the
 /// face, added up by their angles at the vertex. A face whose winding contradicts is turned over for it. A vertex of
 /// very many faces, the hub of a fan, smooths nothing. Those of a degenerate face are zero.
-[[nodiscard]] std::vector<std::array<Vec3d, 3>> cornerNormals(const Mesh& mesh, const FaceGeometry& geometry);
+[[nodiscard]] std::vector<std::array<Vec3d, 3>> cornerNormals(const TriangleMesh& mesh, const FaceGeometry& geometry);
 
 }  // namespace asdfvk

@@ -17,7 +17,7 @@ inline constexpr int kMinPictureSide = 64, kMaxPictureSide = 8192;
 
 /// What to draw of a mesh. Views only.
 struct Picture {
-  const Mesh& mesh;
+  TriangleMesh mesh;
   /// #F, in the colours of colourOf() with a colour bar beside them; grey where it is NaN. Empty: the mesh is light and
   /// has no bar.
   std::span<const double> values;

@@ -30,7 +30,7 @@ std::array<double, 3> barycentrics(const std::array<Vec3d, 3>& corners, const Ve
 
 }  // namespace
 
-Scene::Scene(const Mesh& mesh) : mesh_(mesh), geometry_(computeFaceGeometry(mesh)) {
+Scene::Scene(const TriangleMesh& mesh) : mesh_(mesh), geometry_(computeFaceGeometry(mesh)) {
   bvh_ = buildBvh(mesh, geometry_, coincidentRepresentatives(mesh));
   cornerNormals_ = cornerNormals(mesh, geometry_);
 }

@@ -23,7 +23,7 @@ struct SurfacePoint {
 class Scene {
  public:
   /// Precondition: every index of a face is below the vertex count. The mesh must outlive this.
-  explicit Scene(const Mesh& mesh);
+  explicit Scene(const TriangleMesh& mesh);
 
   /// The finite vertices of the faces that rays can meet, some of them more than once.
   [[nodiscard]] std::vector<Vec3d> points() const;
@@ -38,7 +38,7 @@ class Scene {
  private:
   [[nodiscard]] SurfacePoint describe(uint32_t face, const Vec3d& position, const Vec3d& direction) const;
 
-  const Mesh& mesh_;
+  TriangleMesh mesh_;
   FaceGeometry geometry_;
   Bvh bvh_;
   std::vector<std::array<Vec3d, 3>> cornerNormals_;

@@ -17,7 +17,7 @@ namespace asdfvk {
 
 /// What cones are traced against. Views only: everything must outlive the tracer.
 struct TraceScene {
-  const Mesh& mesh;
+  TriangleMesh mesh;
   const FaceGeometry& geometry;
   std::span<const uint32_t> representatives;  ///< #F, see coincidentRepresentatives().
   const Bvh& bvh;

@@ -49,7 +49,7 @@ struct StackEntry {
 
 class Walk {
  public:
-  Walk(const Bvh& bvh, const Mesh& mesh, const Vec3d& origin, const Vec3d& direction, uint32_t skippedFace)
+  Walk(const Bvh& bvh, const TriangleMesh& mesh, const Vec3d& origin, const Vec3d& direction, uint32_t skippedFace)
       : bvh_(bvh), mesh_(mesh), ray_(origin, direction), slabs_(origin, direction), skippedFace_(skippedFace) {}
 
   RayHit run() {
@@ -89,7 +89,7 @@ class Walk {
   }
 
   const Bvh& bvh_;
-  const Mesh& mesh_;
+  const TriangleMesh& mesh_;
   RayFrame ray_;
   SlabTest slabs_;
   uint32_t skippedFace_;
@@ -98,7 +98,8 @@ class Walk {
 
 }  // namespace
 
-RayHit nearestHit(const Bvh& bvh, const Mesh& mesh, const Vec3d& origin, const Vec3d& direction, uint32_t skippedFace) {
+RayHit nearestHit(const Bvh& bvh, const TriangleMesh& mesh, const Vec3d& origin, const Vec3d& direction,
+                  uint32_t skippedFace) {
   return Walk(bvh, mesh, origin, direction, skippedFace).run();
 }
 

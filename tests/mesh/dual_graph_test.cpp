@@ -46,7 +46,7 @@ TEST_CASE("the dual of an empty mesh has no node") {
 }
 
 TEST_CASE("a single face has no neighbour") {
-  const DualGraph graph = buildDualGraph({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}, {}});
+  const DualGraph graph = buildDualGraph(Mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}, {}});
   CHECK(graph.faceCount() == 1);
   CHECK(graph.neighbours.empty());
 }
@@ -99,7 +99,7 @@ TEST_CASE("the pages of a book of a hundred are a chain") {
 }
 
 TEST_CASE("duplicate faces share three edges and have three arcs") {
-  const DualGraph graph = buildDualGraph({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 1}}, {}});
+  const DualGraph graph = buildDualGraph(Mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 1}}, {}});
   CHECK(row(graph, 0) == std::vector<uint32_t>{1, 1, 1});
   CHECK(row(graph, 1) == std::vector<uint32_t>{0, 0, 0});
 }
@@ -107,7 +107,8 @@ TEST_CASE("duplicate faces share three edges and have three arcs") {
 TEST_CASE("a face with a repeated vertex joins over its one edge and never itself") {
   for (const Face& collapsed : {Face{0, 0, 1}, Face{0, 1, 0}, Face{1, 0, 0}, Face{1, 1, 0}}) {
     CAPTURE(collapsed[0]);
-    const DualGraph graph = buildDualGraph({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, collapsed, {2, 2, 2}}, {}});
+    const DualGraph graph =
+        buildDualGraph(Mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, collapsed, {2, 2, 2}}, {}});
     CHECK(row(graph, 0) == std::vector<uint32_t>{1});
     CHECK(row(graph, 1) == std::vector<uint32_t>{0});
     CHECK(row(graph, 2).empty());

@@ -85,7 +85,7 @@ TEST_CASE("faces without area are degenerate") {
   CHECK(computeFaceGeometry(triangle({1, 2, 3}, {1, 2, 3}, {1, 2, 3})).isDegenerate(0));
   CHECK(computeFaceGeometry(triangle({0, 0, 0}, {1, 1, 1}, {3, 3, 3})).isDegenerate(0));
   CHECK(computeFaceGeometry(triangle({0, 0, 0}, {0, 0, 0}, {3, 3, 3})).isDegenerate(0));
-  const FaceGeometry repeated = computeFaceGeometry({{{0, 0, 0}, {1, 0, 0}}, {{0, 1, 1}}, {}});
+  const FaceGeometry repeated = computeFaceGeometry(Mesh{{{0, 0, 0}, {1, 0, 0}}, {{0, 1, 1}}, {}});
   CHECK(repeated.isDegenerate(0));
   CHECK(distance(repeated.barycentres[0], {2.0 / 3, 0, 0}) < 1e-15);
 }

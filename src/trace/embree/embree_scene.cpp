@@ -28,7 +28,7 @@ struct FloatPoint {
 };
 
 void copyTriangles(const TraceScene& scene, RTCGeometry geometry) {
-  const std::vector<Vec3d>& vertices = scene.mesh.vertices;
+  const std::span<const Vec3d> vertices = scene.mesh.vertices;
   const std::vector<uint32_t>& slotFaces = scene.bvh.slotFaces;
   auto* points = static_cast<FloatPoint*>(rtcSetNewGeometryBuffer(
       geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(FloatPoint), vertices.size()));

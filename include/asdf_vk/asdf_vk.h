@@ -1,0 +1,18 @@
+#pragma once
+
+/// Shape diameter function of triangle meshes on Vulkan: everything that a user of the library includes.
+///
+///   asdfvk::Session session;                              // opens the device once
+///   asdfvk::Mesh mesh = asdfvk::readMesh("horse.ply");    // or a MeshView of your own arrays
+///   asdfvk::Result result = session.compute(mesh);        // result.sdf()[face], in the unit of the mesh
+///   asdfvk::writeResult("horse.vtu", mesh, result.fields);
+///
+/// These headers need the standard library only. openmesh.h, for meshes of OpenMesh, is separate.
+#include "asdf_vk/error.h"    // IWYU pragma: export
+#include "asdf_vk/field.h"    // IWYU pragma: export
+#include "asdf_vk/files.h"    // IWYU pragma: export
+#include "asdf_vk/mesh.h"     // IWYU pragma: export
+#include "asdf_vk/options.h"  // IWYU pragma: export
+#include "asdf_vk/report.h"   // IWYU pragma: export
+#include "asdf_vk/session.h"  // IWYU pragma: export
+#include "asdf_vk/version.h"  // IWYU pragma: export

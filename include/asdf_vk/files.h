@@ -1,0 +1,48 @@
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "asdf_vk/api.h"
+#include "asdf_vk/field.h"
+#include "asdf_vk/mesh.h"
+
+namespace asdfvk {
+
+/// Reads a mesh of PLY, OFF, OBJ or STL, "-" from standard input. The content decides the format, then the extension
+/// (OBJ and binary STL have no magic number). Opens no other file. Throws Error{UnreadableInput} whose one line has the
+/// file, the line or byte, and the reason.
+[[nodiscard]] ASDFVK_API Mesh readMesh(const std::filesystem::path& path);
+
+/// The same from memory. extension: "ply", ".OBJ", or empty; used where the content does not decide.
+[[nodiscard]] ASDFVK_API Mesh parseMesh(std::span<const char> bytes, std::string_view extension = {});
+
+struct WriteOptions {
+  std::string format;  ///< "ply", "vtu", "npy", "npz" or "csv"; empty: the extension of the path. "-" needs it.
+  bool ascii = false;  ///< PLY only; other formats ignore it.
+};
+
+/// Names of the formats that writeResult() writes.
+[[nodiscard]] ASDFVK_API std::vector<std::string> resultFormats();
+
+/// The format that writeResult() would choose. Throws Error{UnknownFormat} where neither the options nor the extension
+/// of the path name one.
+[[nodiscard]] ASDFVK_API std::string resultFormatOf(const std::filesystem::path& path,
+                                                    const WriteOptions& options = {});
+
+/// Writes the mesh with these fields, whole or not at all; "-" is standard output. Vertices are float where every
+/// coordinate is exactly a float, else double. PLY: the first real face field is `quality`, which also gives the
+/// colour; the others follow by name. VTU: all fields. NPY: the first field. NPZ: all fields. CSV: the face fields, one
+/// row per face, the first column `face`. A missing value is NaN in .npy, .npz and .csv, 0 in .ply and .vtu. Throws
+/// Error{OutputNotWritable}, Error{UnknownFormat}, Error{OptionConflict} for a field whose size does not fit the mesh.
+ASDFVK_API void writeResult(const std::filesystem::path& path, const MeshView& mesh, std::span<const Field> fields,
+                            const WriteOptions& options = {});
+
+/// Reads the fields of a file that writeResult() wrote, of any of its formats. float32 values come back as double.
+/// Units are not stored. Throws Error{UnreadableInput}.
+[[nodiscard]] ASDFVK_API std::vector<Field> readFields(const std::filesystem::path& path);
+
+}  // namespace asdfvk

@@ -1,0 +1,104 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+namespace asdfvk {
+
+/// Three numbers: a point, a direction or a size.
+template <typename T>
+struct Vec3 {
+  T x{}, y{}, z{};
+
+  constexpr T operator[](size_t axis) const { return axis == 0 ? x : axis == 1 ? y : z; }
+  constexpr T& operator[](size_t axis) { return axis == 0 ? x : axis == 1 ? y : z; }
+  constexpr bool operator==(const Vec3&) const = default;
+
+  template <typename U>
+  constexpr explicit operator Vec3<U>() const {
+    return {static_cast<U>(x), static_cast<U>(y), static_cast<U>(z)};
+  }
+};
+using Vec3d = Vec3<double>;
+using Vec3f = Vec3<float>;
+
+/// Three vertex indices, counter-clockwise seen from outside.
+using Face = std::array<uint32_t, 3>;
+
+/// "No value" of a face: a quiet NaN.
+inline constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
+
+/// The faces of the input where not all of them are triangles. Input face i has the corners
+/// corners[firstCorner[i]] .. corners[firstCorner[i + 1] - 1], in file order; it may have fewer than three.
+struct Polygons {
+  std::vector<uint64_t> firstCorner;  ///< #I+1, or empty: every input face is one triangle.
+  std::vector<uint32_t> corners;      ///< Vertex indices.
+  std::vector<uint32_t> inputFaceOf;  ///< #F: the input face of each triangle; non-decreasing.
+
+  [[nodiscard]] bool isEmpty() const { return firstCorner.empty(); }
+};
+
+/// A triangle mesh as plain arrays, as readMesh() returns it: faces in file order, none lost, doubled or reordered.
+struct Mesh {
+  std::vector<Vec3d> vertices;  ///< #V, in the unit of the file; may hold non-finite numbers (Report::defects).
+  std::vector<Face> faces;      ///< #F triangles.
+  Polygons polygons;            ///< Empty unless an input face was not a triangle.
+
+  [[nodiscard]] uint32_t faceCount() const { return static_cast<uint32_t>(faces.size()); }
+  /// #I, the number of faces of the file.
+  [[nodiscard]] uint64_t inputFaceCount() const {
+    return polygons.isEmpty() ? faces.size() : polygons.firstCorner.size() - 1;
+  }
+};
+
+/// The arrays of a caller, which must outlive the view. Positions in double and triangles are used in place; float
+/// positions (24 bytes per vertex) and polygons (triangulated, about 16 bytes per corner) are converted inside of the
+/// library. A face is called input face here: fields have one value per input face, in this order.
+class MeshView {
+ public:
+  MeshView(const Mesh& mesh);  // NOLINT: implicit by design
+  /// positions: 3 #V numbers, x y z per vertex. triangles: 3 #F vertex indices.
+  MeshView(std::span<const double> positions, std::span<const uint32_t> triangles)
+      : doubles_(positions), corners_(triangles) {}
+  MeshView(std::span<const float> positions, std::span<const uint32_t> triangles)
+      : floats_(positions), corners_(triangles) {}
+  /// Input face i has the corners corners[firstCorner[i]] .. corners[firstCorner[i + 1] - 1]. firstCorner: #I+1,
+  /// ascending from 0 to corners.size().
+  MeshView(std::span<const double> positions, std::span<const uint32_t> corners, std::span<const uint64_t> firstCorner)
+      : doubles_(positions), corners_(corners), firstCorner_(firstCorner) {}
+  MeshView(std::span<const float> positions, std::span<const uint32_t> corners, std::span<const uint64_t> firstCorner)
+      : floats_(positions), corners_(corners), firstCorner_(firstCorner) {}
+
+  [[nodiscard]] size_t vertexCount() const { return (doubles_.size() + floats_.size()) / 3; }
+  [[nodiscard]] uint64_t inputFaceCount() const {
+    return firstCorner_.empty() ? corners_.size() / 3 : firstCorner_.size() - 1;
+  }
+  [[nodiscard]] std::span<const double> doubles() const { return doubles_; }  ///< Empty for float positions.
+  [[nodiscard]] std::span<const float> floats() const { return floats_; }     ///< Empty for double positions.
+  [[nodiscard]] std::span<const uint32_t> corners() const { return corners_; }
+  [[nodiscard]] std::span<const uint64_t> firstCorner() const { return firstCorner_; }  ///< Empty for triangles.
+  /// The mesh that this is a view of, whose triangulation is reused; null for arrays.
+  [[nodiscard]] const Mesh* mesh() const { return mesh_; }
+
+ private:
+  std::span<const double> doubles_;
+  std::span<const float> floats_;
+  std::span<const uint32_t> corners_;
+  std::span<const uint64_t> firstCorner_;
+  const Mesh* mesh_ = nullptr;
+};
+
+inline MeshView::MeshView(const Mesh& mesh)
+    : doubles_(mesh.vertices.empty() ? nullptr : &mesh.vertices.front().x, 3 * mesh.vertices.size()),
+      corners_(mesh.polygons.isEmpty()
+                   ? std::span<const uint32_t>(mesh.faces.empty() ? nullptr : mesh.faces.front().data(),
+                                               3 * mesh.faces.size())
+                   : std::span<const uint32_t>(mesh.polygons.corners)),
+      firstCorner_(mesh.polygons.firstCorner),
+      mesh_(&mesh) {}
+
+}  // namespace asdfvk

@@ -1,0 +1,163 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "asdf_vk/api.h"
+#include "asdf_vk/mesh.h"
+
+namespace asdfvk {
+
+/// The stages of a computation, in the order in which they run.
+enum class Stage {
+  Read,
+  Geometry,  ///< Normals, areas, components, defects, orientation.
+  Graph,     ///< Dual graph and edge defects.
+  Bvh,       ///< Hierarchy.
+  Encode,    ///< Hierarchy in the layout that is traced, or the scenes of Embree.
+  Upload,    ///< Creation and release of kernels and buffers of the device; 0 without Vulkan.
+  Sample,    ///< Selection of the seeds.
+  Trace,     ///< Rays.
+  Predict,   ///< Prediction from hits.
+  Solve,     ///< Poisson equation.
+  Estimate,  ///< Error estimate, with the predictions and solutions it needs.
+  Smooth,
+  Write,
+};
+inline constexpr size_t kStageCount = 13;
+/// "read", "geometry", ...
+[[nodiscard]] ASDFVK_API const char* nameOf(Stage stage);
+
+/// Wall-clock seconds of each stage. No time is counted twice; a stage that did not run has 0.
+struct StageSeconds {
+  std::array<double, kStageCount> seconds{};
+
+  [[nodiscard]] double operator[](Stage stage) const { return seconds[static_cast<size_t>(stage)]; }
+  [[nodiscard]] double& operator[](Stage stage) { return seconds[static_cast<size_t>(stage)]; }
+};
+
+/// Defects of a mesh. Faces are triangles, also of a mesh of polygons. Edges are those of triangles with finite corners
+/// and three distinct vertices; rays ignore all other triangles.
+struct MeshDefects {
+  uint64_t zeroAreaFaceCount = 0;
+  uint64_t duplicateFaceCount = 0;  ///< Beyond the first of each set of faces with the same three positions.
+  uint64_t nonFiniteVertexCount = 0;
+  uint64_t nonFiniteFaceCount = 0;  ///< Faces with a non-finite corner.
+  uint64_t boundaryEdgeCount = 0;
+  uint64_t nonManifoldEdgeCount = 0;     ///< Edges of more than two faces.
+  uint64_t inconsistentEdgeCount = 0;    ///< Edges whose two faces traverse them in the same direction.
+  uint64_t unreferencedVertexCount = 0;  ///< Vertices of no triangle.
+  uint64_t shortPolygonCount = 0;        ///< Input faces with fewer than three corners: no triangle, no value.
+};
+
+enum class WarningCode {
+  MeshDefect,          ///< One of MeshDefects.
+  InvertedComponents,  ///< Components look inwards and were left so.
+  ComponentsReversed,  ///< Components looked inwards and were reversed (Orientation::Auto).
+  MissingValues,       ///< Faces without a value.
+  FinishedOnCpu,       ///< The solver of the device reached the limit of float32; the CPU continued in double.
+  SolvedOnCpu,         ///< The device failed to solve the equation; the CPU solved it.
+  NotConverged,        ///< The solver stopped at its iteration limit.
+};
+/// "missingValues"
+[[nodiscard]] ASDFVK_API const char* nameOf(WarningCode code);
+
+struct Warning {
+  WarningCode code;
+  std::string message;  ///< One sentence.
+};
+
+struct SolverReport {
+  std::string name;  ///< Of solverNames(), or "none" where every face is a seed.
+  uint32_t iterations = 0;
+  double relativeResidual = 0;  ///< Recomputed in double from the solution.
+  bool converged = true;
+  bool finishedOnCpu = false;  ///< Started on a device in float32 and finished in double.
+};
+
+/// Estimate of the error of the result against the function traced at all faces. Held-out faces, sampled at random with
+/// a probability that grows with the error indicator, cast rays but are left out of an interpolation of their own; its
+/// errors there are scaled to all faces. In the result the held-out faces are seeds like the others, which lowers its
+/// error; the estimate corrects for that.
+struct ErrorEstimate {
+  double average = 0;        ///< Over all faces, seeds included, divided by the range of the values (paper, Table 1).
+  double standardError = 0;  ///< Of `average`.
+  uint64_t heldOutCount = 0;
+  struct WorstFace {
+    uint64_t face = 0;  ///< Input face.
+    double error = 0;   ///< Divided by the range.
+  };
+  std::vector<WorstFace> worstFaces;  ///< Held-out faces with the largest errors, in descending order.
+};
+
+/// Comparison with the double-precision reference on two random samples of faces: traced faces, to verify the device,
+/// and faces of all that can cast rays, to measure the interpolation error.
+struct CheckReport {
+  /// False when the reference itself traced. No traced face is compared then; only the errors below are meaningful.
+  bool isIndependent = true;
+  uint64_t tracedCount = 0;        ///< Traced faces that were recomputed.
+  uint64_t agreeingCount = 0;      ///< Of those, within kAgreementTolerance of the diagonal of the bounding box.
+  uint64_t noValueAgreeCount = 0;  ///< Of those, without a value on both sides.
+  double medianDifference = 0;     ///< Divided by the diagonal, over traced faces with a value on some side.
+  double worstDifference = 0;      ///< Likewise; infinite if only one side has a value.
+  uint64_t worstFace = 0;          ///< Input face of worstDifference.
+
+  uint64_t comparedCount = 0;           ///< Faces of the sample of all, seeds included, with a value on both sides.
+  double averageError = 0;              ///< Over them, divided by the range of their reference values.
+  double maximumError = 0;              ///< Likewise.
+  uint64_t interpolatedCount = 0;       ///< Compared faces that were interpolated.
+  double interpolatedAverageError = 0;  ///< Over them, divided by the same range.
+  double interpolatedMaximumError = 0;  ///< Likewise.
+
+  /// At least one traced face agrees, and at most max(1, kAllowedMissShare tracedCount) disagree: a ray that grazes an
+  /// edge may end on either side.
+  bool passed = false;
+
+  [[nodiscard]] uint64_t missCount() const { return tracedCount - agreeingCount - noValueAgreeCount; }
+};
+inline constexpr double kAgreementTolerance = 1e-4;
+inline constexpr double kAllowedMissShare = 0.001;
+
+/// Over the faces with a value; NaN when there is none.
+struct ValueRange {
+  double min = kNoValue, median = kNoValue, max = kNoValue;
+};
+
+/// The variant of the Vulkan kernels, by names.
+struct TraceVariant {
+  std::string kernel;  ///< "seed", "ray" or "packet"
+  std::string bvh;     ///< "wide" or "binary"
+  std::string fetch;   ///< "texel" or "storage"
+};
+
+struct Report {
+  uint64_t faceCount = 0;  ///< Input faces.
+  uint64_t triangleCount = 0;
+  uint64_t vertexCount = 0;
+  uint64_t componentCount = 0;
+  uint64_t seedCount = 0;  ///< Triangles that cast rays.
+  uint64_t rayCount = 0;
+  uint64_t redoneConeCount = 0;  ///< Cones traced by the reference, beyond the limits of the device or of float32.
+  uint64_t noValueCount = 0;     ///< Input faces.
+  uint64_t randomSeed = 0;
+  uint32_t roundCount = 1;                   ///< Rounds of seeds.
+  std::string backend;                       ///< "vulkan", "cpu" or "reference".
+  std::string device;                        ///< Device and driver, or the CPU.
+  bool runsOnCpu = false;                    ///< The CPU traces: reference, Embree, or a CPU device of Vulkan.
+  std::optional<TraceVariant> traceVariant;  ///< Unset without Vulkan.
+  StageSeconds stageSeconds;
+  double raysPerSecond = 0;
+  SolverReport solver;
+  ValueRange sdf;
+  MeshDefects defects;
+  std::vector<uint64_t> reversedFaces;  ///< Input faces that Options::orientation reversed, ascending.
+  std::vector<Warning> warnings;
+  std::optional<ErrorEstimate> estimatedError;  ///< Unset where every face is a seed, and where it was not requested.
+  std::optional<CheckReport> check;
+};
+
+}  // namespace asdfvk

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <functional>
+#include <stop_token>
+
+#include "asdf_vk/api.h"
+
+namespace asdfvk {
+
+/// Cancellation and progress of a computation, polled between chunks of about 50 to 100 ms.
+struct RunControl {
+  std::stop_token stop;                           ///< A requested stop ends the computation with Error{Cancelled}.
+  std::function<void(double fraction)> progress;  ///< Called from the calling thread with 0 to 1; may be empty.
+
+  /// Reports progress. Throws Error{Cancelled} when a stop was requested.
+  ASDFVK_API void checkpoint(double fraction) const;
+  /// For a part of the work: its 0..1 is from..to of the whole. The part must not outlive this.
+  [[nodiscard]] ASDFVK_API RunControl part(double from, double to) const;
+};
+
+}  // namespace asdfvk

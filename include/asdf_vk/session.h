@@ -1,0 +1,74 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "asdf_vk/api.h"
+#include "asdf_vk/field.h"
+#include "asdf_vk/mesh.h"
+#include "asdf_vk/options.h"
+#include "asdf_vk/report.h"
+#include "asdf_vk/run_control.h"
+
+namespace asdfvk {
+
+/// The backend that traces the rays. Backends and kernel variants are names, listed by backendNames().
+struct SessionOptions {
+  /// "auto": a Vulkan device (GPUs first, CPU devices such as lavapipe included), else Embree, else the reference.
+  /// "vulkan", "cpu" (Embree) and "reference" (double precision) fail with Error{Device} where they are not available.
+  std::string backend = "auto";
+  std::string device;       ///< Of Vulkan: an index of listDevices(), or a part of a name; empty: the first by rank.
+  bool requireGpu = false;  ///< Reject CPU devices, Embree and the reference.
+  TraceVariant variant;     ///< Empty members take the default of the device; any other requires Vulkan.
+};
+
+/// Result of a computation. Fields: "sdf" (the shape diameter in the unit of the mesh), "seed" (1 where rays were cast)
+/// and, with an estimate, "error" (expected error in the unit of the mesh; 0 at seeds that keep their value).
+struct Result {
+  std::vector<Field> fields;
+  Report report;
+  /// Geometry and hierarchy of the mesh, opaque; set with Options::keepsScene.
+  std::shared_ptr<const struct SceneData> scene;
+
+  /// #I, NaN = no value.
+  [[nodiscard]] const std::vector<double>& sdf() const { return std::get<std::vector<double>>(fields.at(0).values); }
+  /// #I, 1 where rays were cast.
+  [[nodiscard]] const std::vector<uint8_t>& seed() const { return std::get<std::vector<uint8_t>>(fields.at(1).values); }
+  /// Null where the result has no such field.
+  [[nodiscard]] const Field* field(std::string_view name) const { return findField(fields, name); }
+};
+
+struct DeviceInfo {
+  std::string name, driver, kind;
+  bool usable = false;
+  std::string reason;  ///< "chosen" by default, or the reason why it is ranked lower or rejected.
+};
+/// Every Vulkan device of this machine. Empty without a Vulkan loader; `reason` then has the reason.
+[[nodiscard]] ASDFVK_API std::vector<DeviceInfo> listDevices(std::string* reason = nullptr);
+
+[[nodiscard]] ASDFVK_API std::vector<std::string> backendNames();
+
+/// A device with its pipelines, for any number of meshes one after another. Not thread-safe.
+class ASDFVK_API Session {
+ public:
+  /// Throws Error{Device} with a reason where the requested backend or device is not available.
+  explicit Session(const SessionOptions& options = {});
+  ~Session();
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
+  /// First line: the chosen device and the reason. Then one line per device that was not chosen.
+  [[nodiscard]] const std::vector<std::string>& deviceLines() const;
+
+  /// Does not change the mesh. Throws Error of kind Input (no face, index out of range), Usage, Device or Cancelled.
+  [[nodiscard]] Result compute(const MeshView& mesh, const Options& options = {}, const RunControl& control = {});
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace asdfvk
