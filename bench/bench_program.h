@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/run_control.h"
+#include "asdf_vk/run_control.h"
 
 namespace CLI {
 class App;

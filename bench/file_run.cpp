@@ -25,7 +25,7 @@ SessionOptions sessionOptionsOf(const std::string& backend, const std::string& d
   if (backend == "reference") return {.backend = Backend::Reference, .device = {}, .requireGpu = false};
   if (backend == "vulkan") return {.backend = Backend::Vulkan, .device = device, .requireGpu = false};
   if (backend == "cpu") return {.backend = Backend::Cpu, .device = {}, .requireGpu = false};
-  throw Error(ErrorKind::Usage, fmt::format("'{}' is not a backend; give vulkan, cpu or reference", backend));
+  throw Error(ErrorCode::UnknownName, fmt::format("'{}' is not a backend; give vulkan, cpu or reference", backend));
 }
 
 }  // namespace asdfvk::bench

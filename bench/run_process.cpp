@@ -10,14 +10,14 @@
 #include <cerrno>
 #include <cstring>
 
+#include "asdf_vk/error.h"
 #include "cli/exit_code.h"
-#include "core/error.h"
 
 namespace asdfvk::bench {
 namespace {
 
 [[noreturn]] void fail(int errorNumber) {
-  throw Error(ErrorKind::Input, fmt::format("no further process can be started: {}", std::strerror(errorNumber)));
+  throw Error(ErrorCode::UnreadableInput, fmt::format("no further process can be started: {}", std::strerror(errorNumber)));
 }
 
 pid_t spawn(std::string name, const std::vector<std::string>& arguments, int standardOutput) {
@@ -66,10 +66,10 @@ std::string outputOf(const std::string& program, const std::vector<std::string>&
   while (waitpid(process, &status, 0) < 0 && errno == EINTR) {
   }
   if (WIFSIGNALED(status))
-    throw Error(ErrorKind::Input, fmt::format("a run in a process of its own ended by signal {}", WTERMSIG(status)));
-  if (WEXITSTATUS(status) == static_cast<int>(ExitCode::Cancelled)) throw Error(ErrorKind::Cancelled, "cancelled");
+    throw Error(ErrorCode::UnreadableInput, fmt::format("a run in a process of its own ended by signal {}", WTERMSIG(status)));
+  if (WEXITSTATUS(status) == static_cast<int>(ExitCode::Cancelled)) throw Error(ErrorCode::Cancelled, "cancelled");
   if (WEXITSTATUS(status) != 0)
-    throw Error(ErrorKind::Input,
+    throw Error(ErrorCode::UnreadableInput,
                 fmt::format("a run in a process of its own failed with exit code {}; its reason is above",
                             WEXITSTATUS(status)));
   return text;

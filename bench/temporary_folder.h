@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <system_error>
 
-#include "core/error.h"
+#include "asdf_vk/error.h"
 
 namespace asdfvk::bench {
 
@@ -17,7 +17,7 @@ class TemporaryFolder {
   TemporaryFolder() {
     std::string name = (std::filesystem::temp_directory_path() / "asdfvk-bench-XXXXXX").string();
     if (mkdtemp(name.data()) == nullptr)
-      throw Error(ErrorKind::Output, "no temporary folder " + name + " can be made: " + std::strerror(errno));
+      throw Error(ErrorCode::OutputNotWritable, "no temporary folder " + name + " can be made: " + std::strerror(errno));
     path_ = name;
   }
   ~TemporaryFolder() {

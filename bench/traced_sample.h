@@ -3,8 +3,8 @@
 #include <functional>
 #include <vector>
 
+#include "asdf_vk/run_control.h"
 #include "cone/cone.h"
-#include "core/run_control.h"
 #include "mesh/mesh.h"
 #include "pipeline/compute_backend.h"
 

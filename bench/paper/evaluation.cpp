@@ -95,7 +95,7 @@ Evaluation evaluate(Session& session, const std::string& name, Mesh& mesh, const
     static_cast<void>(session.compute(mesh, recipeOptions(recipe, 1, 1), control));
   evaluation.full = session.compute(mesh, recipeOptions(Recipe::Paper, 100, 1), control);
   if (!(evaluation.range() > 0))
-    throw Error(ErrorKind::Input,
+    throw Error(ErrorCode::UnreadableInput,
                 name + ": no two of its values differ, so that errors have no range to be divided by");
   tell(name, fmt::format("{} rays at each of {} faces", options.truthRayCount, evaluation.full.report.faceCount));
   const Result truth = computeTruth(session, mesh, options.truthRayCount, control);

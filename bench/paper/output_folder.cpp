@@ -1,7 +1,7 @@
 #include "paper/output_folder.h"
 
+#include "asdf_vk/error.h"
 #include "core/atomic_file.h"
-#include "core/error.h"
 #include "render/png.h"
 
 namespace asdfvk::bench {
@@ -10,7 +10,7 @@ OutputFolder::OutputFolder(std::filesystem::path path) : path_(std::move(path)) 
   std::error_code error;
   std::filesystem::create_directories(path_, error);
   if (!std::filesystem::is_directory(path_))
-    throw Error(ErrorKind::Output, path_.string() + ": " + (error ? error.message() : "not a folder"));
+    throw Error(ErrorCode::OutputNotWritable, path_.string() + ": " + (error ? error.message() : "not a folder"));
 }
 
 void OutputFolder::write(const std::string& name, std::string_view text) const {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "core/run_control.h"
+#include "asdf_vk/run_control.h"
 #include "io/colour_map.h"
 #include "paper/output_folder.h"
 #include "paper/page.h"

@@ -5,9 +5,9 @@
 
 #include <cmath>
 
+#include "asdf_vk/error.h"
 #include "bvh/wide_bvh.h"
 #include "core/check.h"
-#include "core/error.h"
 
 namespace asdfvk {
 namespace {
@@ -102,9 +102,8 @@ DeviceBvh encodeDeviceBvh(const Bvh& bvh, const TriangleMesh& mesh, const FaceGe
   DeviceBvh device;
   if (bvh.nodes.empty()) return device;
   if (bvh.slotFaces.size() > kReferenceFirstMask)
-    throw Error(ErrorKind::Device, fmt::format("the mesh has {} triangles and the device's hierarchy holds {}; use a "
-                                               "smaller mesh or --backend reference",
-                                               bvh.slotFaces.size(), kReferenceFirstMask));
+    throw Error(ErrorCode::DeviceLimit, fmt::format("the mesh has {} triangles and the device's hierarchy holds {}",
+                                                    bvh.slotFaces.size(), kReferenceFirstMask));
   if (layout == BvhLayout::Wide) {
     WideBvh wide = encodeWideBvh(bvh);
     return {{}, std::move(wide.nodes), encodeTriangles(wide.slotFaces, bvh, mesh, geometry), wide.depth};

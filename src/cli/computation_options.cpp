@@ -4,10 +4,10 @@
 
 #include <limits>
 
+#include "asdf_vk/error.h"
 #include "cli/choice_names.h"
 #include "cli/option_adding.h"
 #include "cli/option_values.h"
-#include "core/error.h"
 
 namespace asdfvk {
 namespace {
@@ -33,7 +33,7 @@ SmoothingOptions parseSmoothing(const std::string& text) {
   if (text == "auto") return {.isOn = true, .window = {}};
   const size_t cross = text.find('x');
   if (cross == std::string::npos)
-    throw Error(ErrorKind::Usage, fmt::format("'{}' is not off, auto or RINGSxPASSES such as 2x1", text));
+    throw Error(ErrorCode::OptionOutOfRange, fmt::format("'{}' is not off, auto or RINGSxPASSES such as 2x1", text));
   const BilateralOptions window{static_cast<uint32_t>(parseWholeNumber(text.substr(0, cross), 1, 4)),
                                 static_cast<uint32_t>(parseWholeNumber(text.substr(cross + 1), 1, 100))};
   return {.isOn = true, .window = window};
@@ -83,14 +83,14 @@ void addSeeds(CLI::App& app, Options& options) {
            [&](const std::string& text) {
              options.rounds.maxError = parseShare(text);
              if (!(*options.rounds.maxError > 0 && *options.rounds.maxError < 1))
-               throw Error(ErrorKind::Usage, fmt::format("'{}' is not above 0% and below 100%", text));
+               throw Error(ErrorCode::OptionOutOfRange, fmt::format("'{}' is not above 0% and below 100%", text));
            })
       ->group(rays);
   addValue(app, "--time-budget", "SECONDS", "Add seeds as long as there is time, reading and writing not counted",
            [&](const std::string& text) {
              options.rounds.timeBudgetSeconds = parseSeconds(text);
              if (!(*options.rounds.timeBudgetSeconds > 0))
-               throw Error(ErrorKind::Usage, fmt::format("'{}' is not a time above 0 s", text));
+               throw Error(ErrorCode::OptionOutOfRange, fmt::format("'{}' is not a time above 0 s", text));
            })
       ->group(rays);
   app.add_flag_callback(

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "core/error.h"
+#include "asdf_vk/error.h"
 #include "pipeline/asdf.h"
 
 namespace asdfvk {

@@ -7,8 +7,8 @@
 #include <string>
 #include <type_traits>
 
+#include "asdf_vk/error.h"
 #include "cli/choice_names.h"
-#include "core/error.h"
 
 /// The two kinds of options that take a value; what is wrong with one becomes Error{Usage}.
 namespace asdfvk {
@@ -32,7 +32,7 @@ CLI::Option* addChoice(CLI::App& app, const std::string& name, Target&& target, 
             const auto found = std::find_if(choices.begin(), choices.end(),
                                             [&](const auto& candidate) { return candidate.first == choice; });
             if (found == choices.end())
-              throw Error(ErrorKind::Usage, fmt::format("{}: '{}' is not one of {}", name, choice, names));
+              throw Error(ErrorCode::OptionOutOfRange, fmt::format("{}: '{}' is not one of {}", name, choice, names));
             if constexpr (std::is_invocable_v<Target, const T&>) {
               set(found->second);
             } else {
@@ -54,7 +54,7 @@ CLI::Option* addValue(CLI::App& app, const std::string& name, const std::string&
             try {
               read(value);
             } catch (const Error& error) {
-              throw Error(error.kind(), name.substr(name.find("--")) + ": " + error.what());
+              throw Error(error.code(), name.substr(name.find("--")) + ": " + error.what());
             }
           },
           text)

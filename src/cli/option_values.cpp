@@ -7,7 +7,7 @@
 #include <limits>
 #include <optional>
 
-#include "core/error.h"
+#include "asdf_vk/error.h"
 
 namespace asdfvk {
 namespace {
@@ -21,7 +21,7 @@ std::optional<T> parseWhole(std::string_view text) {
 }
 
 [[noreturn]] void reject(const std::string& text, const std::string& wanted) {
-  throw Error(ErrorKind::Usage, fmt::format("'{}' is not {}", text, wanted));
+  throw Error(ErrorCode::OptionOutOfRange, fmt::format("'{}' is not {}", text, wanted));
 }
 
 }  // namespace
@@ -43,7 +43,7 @@ double parseNumber(const std::string& text) {
 
 double parseNumber(const std::string& text, const std::function<bool(double)>& accepts, const char* complaint) {
   const double value = parseNumber(text);
-  if (!accepts(value)) throw Error(ErrorKind::Usage, fmt::format("'{}' {}", text, complaint));
+  if (!accepts(value)) throw Error(ErrorCode::OptionOutOfRange, fmt::format("'{}' {}", text, complaint));
   return value;
 }
 

@@ -9,11 +9,11 @@
 #include <limits>
 #include <utility>
 
+#include "asdf_vk/error.h"
 #include "cli/choice_names.h"
 #include "cli/computation_options.h"
 #include "cli/option_adding.h"
 #include "cli/option_values.h"
-#include "core/error.h"
 #include "core/text.h"
 
 namespace asdfvk {
@@ -40,7 +40,7 @@ void spellOutBareCheck(std::vector<std::string>& arguments) {
     std::error_code ignored;
     if (i + 1 < arguments.size() && isCheckCount(arguments[i + 1]) &&
         !std::filesystem::exists(arguments[i + 1], ignored))
-      throw Error(ErrorKind::Usage,
+      throw Error(ErrorCode::OptionOutOfRange,
                   fmt::format("--check takes its number with an equals sign: --check={}", arguments[i + 1]));
     arguments[i] = fmt::format("--check={}", kDefaultCheckCount);
   }
@@ -52,7 +52,7 @@ void addOutput(CLI::App& app, CommandLine& line) {
            "Result: a file (.ply .vtu .npy .csv), a directory, or - for standard\n"
            "output; default NAME.asdf.ply beside the input",
            [&](const std::string& text) {
-             if (text.empty()) throw Error(ErrorKind::Usage, "the name is empty");
+             if (text.empty()) throw Error(ErrorCode::OptionOutOfRange, "the name is empty");
              line.output = text;
            })
       ->group(output);
@@ -75,13 +75,13 @@ void addOutput(CLI::App& app, CommandLine& line) {
 void readViewAngles(const std::string& text, View& view) {
   const size_t comma = text.find(',');
   if (comma == std::string::npos)
-    throw Error(ErrorKind::Usage, fmt::format("'{}' is not two numbers with a comma between them", text));
+    throw Error(ErrorCode::OptionOutOfRange, fmt::format("'{}' is not two numbers with a comma between them", text));
   view.azimuthDegrees = parseNumber(text.substr(0, comma));
   view.elevationDegrees = parseNumber(text.substr(comma + 1));
   if (std::abs(view.azimuthDegrees) > 360)
-    throw Error(ErrorKind::Usage, fmt::format("the azimuth in '{}' is not from -360 to 360", text));
+    throw Error(ErrorCode::OptionOutOfRange, fmt::format("the azimuth in '{}' is not from -360 to 360", text));
   if (std::abs(view.elevationDegrees) > 90)
-    throw Error(ErrorKind::Usage, fmt::format("the elevation in '{}' is not from -90 to 90", text));
+    throw Error(ErrorCode::OptionOutOfRange, fmt::format("the elevation in '{}' is not from -90 to 90", text));
 }
 
 void addPicture(CLI::App& app, CommandLine& line) {
@@ -89,7 +89,7 @@ void addPicture(CLI::App& app, CommandLine& line) {
   addValue(app, "--picture", "FILE.png", "Also render the coloured mesh, for one mesh; - is standard output",
            [&](const std::string& text) {
              if (text != "-" && lowerCase(std::filesystem::path(text).extension().string()) != ".png")
-               throw Error(ErrorKind::Usage, fmt::format("'{}' does not end in .png", text));
+               throw Error(ErrorCode::OptionOutOfRange, fmt::format("'{}' does not end in .png", text));
              line.picture = text;
            })
       ->group(picture);
@@ -148,7 +148,7 @@ void addDevice(CLI::App& app, CommandLine& line) {
 }
 
 void requireAgreement(const CommandLine& line) {
-  const auto refuse = [](const char* message) { throw Error(ErrorKind::Usage, message); };
+  const auto refuse = [](const char* message) { throw Error(ErrorCode::OptionOutOfRange, message); };
   if (line.meshes.empty() && !line.listDevices) refuse("no mesh was given; asdf-vk --help lists the options");
   if (std::count(line.meshes.begin(), line.meshes.end(), "-") > 1)
     refuse("standard input ('-') can be read only once; name it once");
@@ -204,9 +204,9 @@ CommandLine parseCommandLine(std::vector<std::string> arguments) {
     return line;
   } catch (const CLI::ArgumentMismatch& error) {
     const std::string message = error.what();
-    throw Error(ErrorKind::Usage, message.substr(0, message.find(':')) + " takes exactly one value, once");
+    throw Error(ErrorCode::OptionOutOfRange, message.substr(0, message.find(':')) + " takes exactly one value, once");
   } catch (const CLI::ParseError& error) {
-    throw Error(ErrorKind::Usage, std::string(error.what()) + "; asdf-vk --help lists the options");
+    throw Error(ErrorCode::OptionOutOfRange, std::string(error.what()) + "; asdf-vk --help lists the options");
   }
   if (line.options.rounds.areAsked() && app.count("--seeds") == 0) line.options.seeds.share = kFirstRoundShare;
   requireAgreement(line);

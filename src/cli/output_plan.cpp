@@ -13,14 +13,14 @@
 #include <unordered_set>
 #include <utility>
 
-#include "core/error.h"
+#include "asdf_vk/error.h"
 
 namespace asdfvk {
 namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void refuse(const std::string& message) { throw Error(ErrorKind::Usage, message); }
+[[noreturn]] void refuse(const std::string& message) { throw Error(ErrorCode::OptionConflict, message); }
 
 /// "dir/horse.ply" to "horse.asdf.vtu".
 std::string resultName(const std::string& mesh, const std::string& format) {
@@ -132,7 +132,7 @@ void requireWritablePlace(const std::string& output) {
   const fs::path path(output);
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
   const auto fail = [&](const std::string& reason) {
-    throw Error(ErrorKind::Output, fmt::format("{} cannot be written: {}", output, reason));
+    throw Error(ErrorCode::OutputNotWritable, fmt::format("{} cannot be written: {}", output, reason));
   };
   std::error_code error;
   // A device or a FIFO is written to directly: nothing is made in its folder.

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "core/error.h"
+#include "asdf_vk/error.h"
 #include "render/picture.h"
 #include "render/png.h"
 
@@ -36,7 +36,7 @@ void writePicture(const CommandLine& line, const TriangleMesh& mesh, const Resul
       break;
     case PictureOf::Error:
       if (result.expectedError.empty())
-        throw Error(ErrorKind::Usage, "--picture-of error: so few seeds allow no estimate; give more --seeds");
+        throw Error(ErrorCode::OptionConflict, "--picture-of error: so few seeds allow no estimate; give more --seeds");
       values = onTriangles(mesh, result.expectedError);
       picture.title = "expected error";
       break;

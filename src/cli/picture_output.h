@@ -1,7 +1,7 @@
 #pragma once
 
+#include "asdf_vk/run_control.h"
 #include "cli/command_line.h"
-#include "core/run_control.h"
 #include "mesh/mesh.h"
 #include "pipeline/asdf.h"
 

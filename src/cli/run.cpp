@@ -49,7 +49,7 @@ Answer runMesh(Session& session, const std::string& name, const std::string& out
     const Interrupt::Listening listening;
     result = runWithProgress(line, stop,
                              [&](const RunControl& control) { return session.compute(mesh, line.options, control); });
-    if (stop.stop_requested()) throw Error(ErrorKind::Cancelled, "cancelled");
+    if (stop.stop_requested()) throw Error(ErrorCode::Cancelled, "cancelled");
     const Stopwatch writeWatch;
     writeResult(output, mesh, {result.sdf, result.isSeed}, writeOptionsOf(line));
     result.report.stageSeconds.write = writeWatch.seconds();

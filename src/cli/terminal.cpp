@@ -9,8 +9,8 @@
 #include <cstring>
 #include <string>
 
+#include "asdf_vk/error.h"
 #include "cli/exit_code.h"
-#include "core/error.h"
 
 namespace asdfvk {
 namespace {
@@ -36,7 +36,8 @@ void printLine(std::string_view kind, std::string_view subject, std::string_view
 
 void writeStandardOutput(std::string_view text) {
   if (const int error = writeAll(STDOUT_FILENO, text); error != 0)
-    throw Error(ErrorKind::Output, fmt::format("standard output cannot be written: {}", std::strerror(error)));
+    throw Error(ErrorCode::OutputNotWritable,
+                fmt::format("standard output cannot be written: {}", std::strerror(error)));
 }
 
 void writeStandardError(std::string_view text) { writeAll(STDERR_FILENO, text); }

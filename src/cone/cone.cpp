@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/error.h"
+#include "asdf_vk/error.h"
 #include "core/random.h"
 #include "shared/cone_rules.h"
 
@@ -42,17 +42,19 @@ void sortIntoCompactRuns(std::vector<Ray>& rays, double halfAngle) {
 
 Cone makeCone(const ConeOptions& options) {
   if (options.rayCount < 1 || options.rayCount > kMaxRayCount)
-    throw Error(ErrorKind::Usage,
+    throw Error(ErrorCode::OptionOutOfRange,
                 fmt::format("a cone of {} rays is out of range; give 1 to {}", options.rayCount, kMaxRayCount));
   if (!(options.openingAngleDegrees > 0 && options.openingAngleDegrees < 180))
-    throw Error(ErrorKind::Usage, fmt::format("a cone angle of {} degrees is out of range; give more than 0 and less "
-                                              "than 180",
-                                              options.openingAngleDegrees));
+    throw Error(ErrorCode::OptionOutOfRange,
+                fmt::format("a cone angle of {} degrees is out of range; give more than 0 and less "
+                            "than 180",
+                            options.openingAngleDegrees));
   if (!(options.falseHitAngleDegrees >= 0 && options.falseHitAngleDegrees <= 180))
-    throw Error(ErrorKind::Usage, fmt::format("a false-hit angle of {} degrees is out of range; give 0 to 180",
-                                              options.falseHitAngleDegrees));
+    throw Error(
+        ErrorCode::OptionOutOfRange,
+        fmt::format("a false-hit angle of {} degrees is out of range; give 0 to 180", options.falseHitAngleDegrees));
   if (!(options.outlierDeviations > 0))
-    throw Error(ErrorKind::Usage,
+    throw Error(ErrorCode::OptionOutOfRange,
                 fmt::format("{} standard deviations are out of range; give more than 0", options.outlierDeviations));
   // Vogel 1979. The versine 1 - cos t is kept instead of the cosine, so that narrow cones lose no digits.
   const double halfAngle = options.openingAngleDegrees * std::numbers::pi / 360;

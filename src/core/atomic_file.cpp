@@ -11,7 +11,7 @@
 #include <system_error>
 #include <utility>
 
-#include "core/error.h"
+#include "asdf_vk/error.h"
 
 namespace asdfvk {
 
@@ -35,7 +35,7 @@ AtomicFile::AtomicFile(const std::filesystem::path& target)
     descriptor_ = STDOUT_FILENO;
     return;
   }
-  if (target_.empty()) throw Error(ErrorKind::Output, "the result has no file to go to: its name is empty");
+  if (target_.empty()) throw Error(ErrorCode::OutputNotWritable, "the result has no file to go to: its name is empty");
   struct stat status {};
   if (::stat(target_.c_str(), &status) != 0) {
     if (errno != ENOENT) fail(errno, "");
@@ -145,7 +145,7 @@ void AtomicFile::closeAndRemove() noexcept {
 
 void AtomicFile::fail(int errorNumber, const std::string& during) const {
   const std::string name = isStandardOutput_ ? "standard output" : target_.string();
-  throw Error(ErrorKind::Output,
+  throw Error(ErrorCode::OutputNotWritable,
               fmt::format("{} cannot be written: {}{}{}", name, std::generic_category().message(errorNumber),
                           during.empty() ? "" : "; ", during));
 }

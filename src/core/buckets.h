@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-#include "core/error.h"
+#include "asdf_vk/error.h"
 #include "core/parallel.h"
 
 namespace asdfvk {
@@ -105,7 +105,8 @@ class StagedEntries {
       runBegins_.push_back(static_cast<uint32_t>(total));
       for (std::vector<uint32_t>& count : counts) {
         total += std::exchange(count[run], static_cast<uint32_t>(total));
-        if (total > UINT32_MAX) throw Error(ErrorKind::Input, "the mesh has too many connections; split it");
+        if (total > UINT32_MAX)
+          throw Error(ErrorCode::MeshTooLarge, "the mesh has more connections than 32 bits can index");
       }
     }
     runBegins_.push_back(static_cast<uint32_t>(total));

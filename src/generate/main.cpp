@@ -8,7 +8,7 @@
 #include <exception>
 #include <string>
 
-#include "core/error.h"
+#include "asdf_vk/error.h"
 #include "generate/generated_ply.h"
 #include "generate/shapes.h"
 
@@ -35,7 +35,7 @@ void place(GeneratedShape& shape, const Options& options) {
 
 void run(const Options& options) {
   if (!(options.scale > 0) || !std::isfinite(options.scale))
-    throw Error(ErrorKind::Usage, "--scale must be a positive number");
+    throw Error(ErrorCode::OptionOutOfRange, "--scale must be a positive number");
   GeneratedShape shape = generateShape(options.shape, options.faceCount);
   place(shape, options);
   writeGeneratedPly(options.output, shape, options.doubleVertices);

@@ -5,7 +5,7 @@
 
 #include <array>
 
-#include "core/error.h"
+#include "asdf_vk/error.h"
 #include "core/text.h"
 
 namespace asdfvk {
@@ -38,11 +38,11 @@ std::vector<std::string_view> shapeNames() {
 
 GeneratedShape generateShape(std::string_view name, uint64_t faceCount) {
   if (faceCount < kMinFaceCount || faceCount > kMaxFaceCount)
-    throw Error(ErrorKind::Usage, fmt::format("{} will not do; the generator makes {} to {}",
-                                              counted(faceCount, "face"), kMinFaceCount, kMaxFaceCount));
+    throw Error(ErrorCode::OptionOutOfRange, fmt::format("{} will not do; the generator makes {} to {}",
+                                                         counted(faceCount, "face"), kMinFaceCount, kMaxFaceCount));
   for (const NamedShape& shape : kShapes)
     if (shape.name == name) return shape.make(faceCount);
-  throw Error(ErrorKind::Usage,
+  throw Error(ErrorCode::OptionOutOfRange,
               fmt::format("no shape is called {}; there are {}", name, fmt::join(shapeNames(), ", ")));
 }
 

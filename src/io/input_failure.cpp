@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
+#include "asdf_vk/error.h"
 
 namespace asdfvk {
 
-void failInput(std::string_view reason) { throw Error(ErrorKind::Input, std::string(reason)); }
+void failInput(std::string_view reason) { throw Error(ErrorCode::UnreadableInput, std::string(reason)); }
 
 void failAtLine(uint64_t line, std::string_view reason) { failInput(fmt::format("line {}: {}", line, reason)); }
 

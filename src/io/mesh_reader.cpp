@@ -5,7 +5,7 @@
 #include <new>
 #include <string>
 
-#include "core/error.h"
+#include "asdf_vk/error.h"
 #include "io/file_bytes.h"
 #include "io/input_failure.h"
 #include "io/mesh_format.h"
@@ -35,9 +35,9 @@ Mesh readMesh(const std::filesystem::path& path) {
     const FileBytes file = FileBytes::read(path);
     return parseMesh(file.bytes(), path.extension().string());
   } catch (const Error& error) {
-    throw Error(error.kind(), fmt::format("{}: {}", name, error.what()));
+    throw Error(error.code(), fmt::format("{}: {}", name, error.what()));
   } catch (const std::bad_alloc&) {
-    throw Error(ErrorKind::Input, fmt::format("{}: does not fit into memory", name));
+    throw Error(ErrorCode::InputTooLarge, fmt::format("{}: does not fit into memory", name));
   }
 }
 

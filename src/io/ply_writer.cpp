@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/error.h"
+#include "asdf_vk/error.h"
 #include "io/colour_map.h"
 #include "io/input_corners.h"
 #include "io/number_text.h"
@@ -71,7 +71,8 @@ void writeFaces(RowWriter& row, const TriangleMesh& mesh, const FaceValues& face
 
 void writePly(AtomicFile& file, const TriangleMesh& mesh, const FaceValues& face, bool ascii) {
   if (mesh.vertices.size() > size_t{std::numeric_limits<int32_t>::max()})
-    throw Error(ErrorKind::Output, "the mesh has more vertices than PLY's int can index; write .npy or .csv");
+    throw Error(ErrorCode::OutputNotWritable,
+                "the mesh has more vertices than PLY's int can index; write .npy or .csv");
   size_t mostCorners = 3;
   for (uint64_t i = 0; i < mesh.inputFaceCount() && !mesh.polygons.isEmpty(); ++i)
     mostCorners = std::max(mostCorners, inputFaceCorners(mesh, i).size());

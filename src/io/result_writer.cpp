@@ -8,9 +8,9 @@
 #include <string>
 #include <utility>
 
+#include "asdf_vk/error.h"
 #include "core/atomic_file.h"
 #include "core/check.h"
-#include "core/error.h"
 #include "core/text.h"
 #include "io/result_formats.h"
 
@@ -32,15 +32,16 @@ std::optional<ResultFormat> findFormat(std::string_view name) {
 
 ResultFormat resultFormatNamed(std::string_view name) {
   if (const auto format = findFormat(name)) return *format;
-  throw Error(ErrorKind::Usage, fmt::format("no result format is called '{}'; there are ply, vtu, npy and csv", name));
+  throw Error(ErrorCode::UnknownFormat,
+              fmt::format("no result format is called '{}'; there are ply, vtu, npy and csv", name));
 }
 
 ResultFormat resultFormatOf(const std::filesystem::path& path, const WriteOptions& options) {
   if (options.format) return *options.format;
   if (path == "-")
-    throw Error(ErrorKind::Usage, "standard output has no extension; give the format: ply, vtu, npy or csv");
+    throw Error(ErrorCode::UnknownFormat, "standard output has no extension; give the format: ply, vtu, npy or csv");
   if (const auto format = findFormat(path.extension().string())) return *format;
-  throw Error(ErrorKind::Usage,
+  throw Error(ErrorCode::UnknownFormat,
               fmt::format("the extension of {} tells no format; use .ply, .vtu, .npy or .csv", path.string()));
 }
 

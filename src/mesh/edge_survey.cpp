@@ -121,7 +121,8 @@ class Survey {
     uint64_t total = 0;
     for (uint32_t& offset : offsets) {
       total += offset;
-      if (total > UINT32_MAX) throw Error(ErrorKind::Input, "the mesh has too many connections; split it");
+      if (total > UINT32_MAX)
+        throw Error(ErrorCode::MeshTooLarge, "the mesh has more connections between faces than 32 bits can index");
       offset = static_cast<uint32_t>(total);
     }
     graph.neighbours.resize(total);

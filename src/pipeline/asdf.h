@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/run_control.h"
+#include "asdf_vk/run_control.h"
 #include "mesh/mesh.h"
 #include "pipeline/options.h"
 #include "pipeline/report.h"

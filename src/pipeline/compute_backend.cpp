@@ -5,7 +5,7 @@
 
 #include <utility>
 
-#include "core/error.h"
+#include "asdf_vk/error.h"
 #include "core/text.h"
 #include "poisson/vulkan/vulkan_cg_solver.h"
 #include "poisson/vulkan/vulkan_jacobi_solver.h"
@@ -24,9 +24,9 @@ size_t cpuThreadCount() { return tbb::global_control::active_value(tbb::global_c
 ComputeBackend::ComputeBackend(const SessionOptions& options) {
   const bool isCpu = options.backend == Backend::Cpu || options.backend == Backend::Reference;
   if (isCpu && options.requireGpu)
-    throw Error(ErrorKind::Device, "a GPU was required and this backend runs on the CPU; drop one of the two");
+    throw Error(ErrorCode::GpuRequired, "a GPU was required and this backend runs on the CPU; drop one of the two");
   if (isCpu && !options.trace.isEmpty())
-    throw Error(ErrorKind::Device,
+    throw Error(ErrorCode::NoDeviceForKernel,
                 "a variant of the shaders was asked for and this backend has none; drop one of the two");
   if (options.backend == Backend::Reference) {
     useReference("as asked for");
@@ -104,7 +104,7 @@ PoissonSolver& ComputeBackend::solver(SolverChoice choice) {
   if (choice == SolverChoice::Cpu) return *(solver = makeCpuCgSolver());
   if (choice == SolverChoice::Eigen) return *(solver = makeEigenSolver());
   if (!device_)
-    throw Error(ErrorKind::Device,
+    throw Error(ErrorCode::NoDeviceForKernel,
                 "this solver runs on a Vulkan device and the backend on the CPU; use --backend vulkan or --solver cpu");
   solver = choice == SolverChoice::Cg ? makeVulkanCgSolver(*device_) : makeVulkanJacobiSolver(*device_);
   return *solver;
@@ -121,8 +121,8 @@ void ComputeBackend::requireSilentValidation() const {
   if (!instance_ || !instance_->validationLog()) return;
   const std::vector<std::string> messages = instance_->validationLog()->messages();
   if (!messages.empty())
-    throw Error(ErrorKind::Device, fmt::format("the validation layers report {}, first: {}",
-                                               counted(messages.size(), "problem"), messages.front()));
+    throw Error(ErrorCode::ValidationFailed, fmt::format("the validation layers report {}, first: {}",
+                                                         counted(messages.size(), "problem"), messages.front()));
 }
 
 }  // namespace asdfvk

@@ -7,7 +7,7 @@
 #include <limits>
 #include <utility>
 
-#include "core/error.h"
+#include "asdf_vk/error.h"
 #include "core/parallel.h"
 #include "core/stopwatch.h"
 #include "mesh/curvature.h"

@@ -1,4 +1,4 @@
-#include "core/error.h"
+#include "asdf_vk/error.h"
 #include "pipeline/asdf.h"
 #include "vk/device.h"
 

@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "core/error.h"
+#include "asdf_vk/error.h"
 #include "core/stopwatch.h"
 #include "core/text.h"
 #include "mesh/coincident_faces.h"
@@ -33,11 +33,11 @@ void orient(Mesh& mesh, PreparedMesh& prepared, Orientation orientation) {
 PreparedMesh prepareMesh(Mesh& mesh, Orientation orientation, StageSeconds& seconds) {
   const Stopwatch watch;
   if (mesh.inputFaceCount() == 0)
-    throw Error(ErrorKind::Input, "the mesh has no faces; a shape diameter needs a surface");
+    throw Error(ErrorCode::EmptyMesh, "the mesh has no faces; a shape diameter needs a surface");
   if (const uint64_t count = countFacesWithIndexOutOfRange(mesh); count > 0)
-    throw Error(ErrorKind::Input, fmt::format("{} with a vertex that does not exist: the mesh has {}",
-                                              counted(count, mesh.polygons.isEmpty() ? "face" : "triangle"),
-                                              counted(mesh.vertices.size(), "vertex", "vertices")));
+    throw Error(ErrorCode::IndexOutOfRange, fmt::format("{} with a vertex that does not exist: the mesh has {}",
+                                                        counted(count, mesh.polygons.isEmpty() ? "face" : "triangle"),
+                                                        counted(mesh.vertices.size(), "vertex", "vertices")));
   PreparedMesh prepared;
   prepared.geometry = computeFaceGeometry(mesh);
   const Stopwatch graphWatch;

@@ -5,7 +5,7 @@
 #include <iterator>
 #include <utility>
 
-#include "core/error.h"
+#include "asdf_vk/error.h"
 #include "estimate/held_out.h"
 #include "seeds/blue_noise.h"
 #include "seeds/random_permutation.h"
@@ -29,11 +29,13 @@ std::vector<uint32_t> without(std::span<const uint32_t> faces, std::span<const u
 uint64_t resolveSeedCount(const SeedCount& request, uint64_t castableFaceCount) {
   if (castableFaceCount == 0 || request.kind == SeedCount::Kind::All) return castableFaceCount;
   if (request.kind == SeedCount::Kind::Count) {
-    if (request.count == 0) throw Error(ErrorKind::Usage, "no seeds were asked for; give a count, a percentage or all");
+    if (request.count == 0)
+      throw Error(ErrorCode::OptionOutOfRange, "no seeds were asked for; give a count, a percentage or all");
     return std::min(request.count, castableFaceCount);
   }
   if (!(request.share > 0 && request.share <= 1))
-    throw Error(ErrorKind::Usage, "the share of seeds is out of range; give more than 0 % and at most 100 %");
+    throw Error(ErrorCode::OptionOutOfRange,
+                "the share of seeds is out of range; give more than 0 % and at most 100 %");
   const double count = std::round(request.share * static_cast<double>(castableFaceCount));
   return std::clamp<uint64_t>(static_cast<uint64_t>(count), 1, castableFaceCount);
 }

@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "asdf_vk/error.h"
 #include "bvh/bvh.h"
-#include "core/error.h"
 #include "core/freed_memory.h"
 #include "core/median.h"
 #include "core/stopwatch.h"
@@ -89,7 +89,7 @@ void describeValues(Report& report, const std::vector<double>& sdf, const std::s
 }
 
 void requireAgreement(const Options& options) {
-  const auto refuse = [](const char* message) { throw Error(ErrorKind::Usage, message); };
+  const auto refuse = [](const char* message) { throw Error(ErrorCode::OptionOutOfRange, message); };
   const InterpolationOptions& interpolation = options.interpolation;
   if (!(interpolation.pooling >= 0 && interpolation.pooling <= 1)) refuse("the pooling is out of range; give 0 to 1");
   if (interpolation.pooling > 0 && interpolation.guidance != Guidance::Hits)

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/run_control.h"
+#include "asdf_vk/run_control.h"
 #include "poisson/poisson_system.h"
 
 namespace asdfvk {

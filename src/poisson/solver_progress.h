@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/run_control.h"
+#include "asdf_vk/run_control.h"
 #include "poisson/poisson_solver.h"
 
 namespace asdfvk {

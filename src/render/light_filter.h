@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/run_control.h"
+#include "asdf_vk/run_control.h"
 #include "render/light.h"
 #include "trace/nearest_hit.h"
 

@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "core/run_control.h"
+#include "asdf_vk/run_control.h"
 #include "render/camera.h"
 #include "render/image.h"
 #include "render/scene.h"

@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "core/run_control.h"
+#include "asdf_vk/run_control.h"
 #include "io/colour_map.h"
 #include "mesh/mesh.h"
 #include "render/image.h"

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "core/run_control.h"
+#include "asdf_vk/run_control.h"
 
 namespace asdfvk {
 

@@ -5,8 +5,8 @@
 
 #include <utility>
 
+#include "asdf_vk/error.h"
 #include "core/atomic_file.h"
-#include "core/error.h"
 
 namespace asdfvk {
 
@@ -22,7 +22,7 @@ std::vector<char> encodePng(const Image& image) {
   std::vector<char> bytes;
   const auto encode = [&](void* memory) {
     if (png_image_write_to_memory(&description, memory, &size, 0, pixels, 0, nullptr) == 0)
-      throw Error(ErrorKind::Output,
+      throw Error(ErrorCode::OutputNotWritable,
                   fmt::format("the picture cannot be encoded: {}", std::as_const(description.message)));
   };
   encode(nullptr);

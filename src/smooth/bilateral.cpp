@@ -8,8 +8,8 @@
 #include <array>
 #include <cmath>
 
+#include "asdf_vk/error.h"
 #include "core/check.h"
-#include "core/error.h"
 #include "smooth/ring_window.h"
 
 namespace asdfvk {
@@ -65,8 +65,8 @@ BilateralOptions bilateralOptionsFor(uint64_t faceCount) {
 
 void requireValid(const BilateralOptions& options) {
   if (options.window < 1 || options.window > kMaxBilateralWindow)
-    throw Error(ErrorKind::Usage, fmt::format("a smoothing window of {} rings is out of range; use 1 to {}",
-                                              options.window, kMaxBilateralWindow));
+    throw Error(ErrorCode::OptionOutOfRange, fmt::format("a smoothing window of {} rings is out of range; use 1 to {}",
+                                                         options.window, kMaxBilateralWindow));
 }
 
 std::vector<double> smoothBilaterally(const DualGraph& graph, std::span<const double> values,

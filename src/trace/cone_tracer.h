@@ -5,10 +5,10 @@
 #include <span>
 #include <string>
 
+#include "asdf_vk/run_control.h"
 #include "bvh/bvh.h"
 #include "cone/cone.h"
 #include "core/check.h"
-#include "core/run_control.h"
 #include "mesh/face_geometry.h"
 #include "mesh/mesh.h"
 #include "shared/cone_hit.h"

@@ -1,16 +1,12 @@
 // Built in place of the other embree_* files where there is no Embree.
-#include "core/error.h"
+#include "asdf_vk/error.h"
 #include "trace/embree/embree_tracer.h"
 
 namespace asdfvk {
 
 bool hasEmbree() { return false; }
 
-void requireEmbree() {
-  throw Error(ErrorKind::Device,
-              "this program was built without Embree; install libembree-dev and build it again, or use another "
-              "--backend");
-}
+void requireEmbree() { throw Error(ErrorCode::NoEmbree, "the library was built without Embree"); }
 
 std::string embreeName() { return {}; }
 

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <utility>
 
-#include "core/error.h"
+#include "asdf_vk/error.h"
 #include "vk/command_list.h"
 #include "vk/result.h"
 
@@ -31,10 +31,8 @@ Buffer::Buffer(const Device& device, uint64_t byteCount, VkBufferUsageFlags usag
     : device_(device.handle()), byteCount_(byteCount) {
   const uint64_t limit = device.facts().maxMemoryAllocationSize;
   if (limit > 0 && byteCount > limit)
-    throw Error(ErrorKind::Device,
-                fmt::format("{} allows {} MiB in one buffer and the mesh needs {}; use a smaller mesh "
-                            "or --backend reference",
-                            device.facts().name, limit >> 20, (byteCount >> 20) + 1));
+    throw Error(ErrorCode::DeviceLimit, fmt::format("{} allows {} MiB in one buffer and the mesh needs {}",
+                                                    device.facts().name, limit >> 20, (byteCount >> 20) + 1));
   VkBufferCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
   info.size = byteCount;
   info.usage = usage;
@@ -44,7 +42,7 @@ Buffer::Buffer(const Device& device, uint64_t byteCount, VkBufferUsageFlags usag
   VkMemoryRequirements requirements{};
   vkGetBufferMemoryRequirements(guard.device_, guard.buffer_, &requirements);
   const auto type = pickMemoryType(device, requirements.memoryTypeBits, kind);
-  if (!type) throw Error(ErrorKind::Device, fmt::format("{} has no memory fit for a buffer", device.facts().name));
+  if (!type) throw Error(ErrorCode::DeviceLimit, fmt::format("{} has no memory fit for a buffer", device.facts().name));
   VkMemoryAllocateInfo allocation{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
   allocation.allocationSize = requirements.size;
   allocation.memoryTypeIndex = *type;
@@ -79,10 +77,9 @@ Buffer& Buffer::operator=(Buffer&& other) noexcept {
 TexelView::TexelView(const Device& device, const Buffer& buffer) : device_(device.handle()) {
   const uint64_t texelCount = buffer.byteCount() / 16;
   if (texelCount > device.facts().maxTexelBufferElements)
-    throw Error(ErrorKind::Device,
-                fmt::format("the mesh needs {} texels in one buffer and {} allows {}; use a smaller mesh "
-                            "or --backend reference",
-                            texelCount, device.facts().name, device.facts().maxTexelBufferElements));
+    throw Error(ErrorCode::DeviceLimit,
+                fmt::format("the mesh needs {} texels in one buffer and {} allows {}", texelCount, device.facts().name,
+                            device.facts().maxTexelBufferElements));
   VkBufferViewCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO};
   info.buffer = buffer.handle();
   info.format = VK_FORMAT_R32G32B32A32_UINT;

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "asdf_vk/error.h"
 #include "core/check.h"
-#include "core/error.h"
 #include "vk/result.h"
 
 namespace asdfvk {
@@ -14,10 +14,9 @@ ComputePipeline::ComputePipeline(const Device& device, const ComputePipelineDesc
     : device_(device.handle()), bindings_(description.bindings) {
   const auto storageBufferCount = std::count(bindings_.begin(), bindings_.end(), VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
   if (storageBufferCount > device.facts().maxStorageBuffersPerStage)
-    throw Error(ErrorKind::Device,
-                fmt::format("{} needs {} storage buffers and {} has {}; use --solver cpu or --backend reference",
-                            description.name, storageBufferCount, device.facts().name,
-                            device.facts().maxStorageBuffersPerStage));
+    throw Error(ErrorCode::DeviceLimit,
+                fmt::format("{} needs {} storage buffers and {} has {}", description.name, storageBufferCount,
+                            device.facts().name, device.facts().maxStorageBuffersPerStage));
   VkShaderModule module = VK_NULL_HANDLE;
   try {
     std::vector<VkDescriptorSetLayoutBinding> layoutBindings;

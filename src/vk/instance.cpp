@@ -3,7 +3,7 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "core/error.h"
+#include "asdf_vk/error.h"
 #include "vk/result.h"
 
 namespace asdfvk {
@@ -30,8 +30,7 @@ VkDebugUtilsMessengerCreateInfoEXT messengerInfo(ValidationLog* log) {
 
 void loadVulkan() {
   static const VkResult result = volkInitialize();
-  if (result != VK_SUCCESS)
-    throw Error(ErrorKind::Device, "no Vulkan loader (libvulkan.so.1) was found; install libvulkan1");
+  if (result != VK_SUCCESS) throw Error(ErrorCode::NoVulkanLoader, "no Vulkan loader (libvulkan.so.1) was found");
 }
 
 }  // namespace

@@ -6,15 +6,13 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/error.h"
+#include "asdf_vk/error.h"
 
 namespace asdfvk {
 
 OpenedDevice openDevice(const Instance& instance, const DeviceRequest& request) {
   const std::vector<VkPhysicalDevice> physical = instance.physicalDevices();
-  if (physical.empty())
-    throw Error(ErrorKind::Device,
-                "no Vulkan device was found; install a driver (mesa-vulkan-drivers has one for any CPU)");
+  if (physical.empty()) throw Error(ErrorCode::NoVulkanDriver, "no Vulkan device was found");
   std::vector<DeviceFacts> facts;
   for (const VkPhysicalDevice device : physical) facts.push_back(describeDevice(device));
   const DeviceChoice choice = chooseDevice(facts, request);
@@ -22,8 +20,8 @@ OpenedDevice openDevice(const Instance& instance, const DeviceRequest& request) 
   for (size_t i = 0; i < facts.size(); ++i)
     reasons.push_back(fmt::format("{} ({}): {}", facts[i].name, toString(facts[i].kind), choice.reasons[i]));
   if (!choice.index)
-    throw Error(ErrorKind::Device,
-                fmt::format("no usable Vulkan device: {}; see --list-devices", fmt::join(reasons, ", ")));
+    throw Error(request.requireGpu ? ErrorCode::GpuRequired : ErrorCode::NoUsableDevice,
+                fmt::format("no usable Vulkan device: {}", fmt::join(reasons, ", ")));
   const auto chosen = reasons.begin() + *choice.index;
   *chosen += fmt::format(", driver {}", facts[*choice.index].driver);
   std::rotate(reasons.begin(), chosen, chosen + 1);

@@ -2,42 +2,49 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
+#include "asdf_vk/error.h"
 
 namespace asdfvk {
 namespace {
 
-std::string describe(VkResult result) {
+struct Failure {
+  ErrorCode code;
+  std::string reason;
+};
+
+Failure describe(VkResult result) {
   switch (result) {
     case VK_ERROR_OUT_OF_HOST_MEMORY:
-      return "out of host memory";
+      return {ErrorCode::OutOfDeviceMemory, "out of host memory"};
     case VK_ERROR_OUT_OF_DEVICE_MEMORY:
-      return "out of device memory; use a smaller mesh or --backend reference";
+      return {ErrorCode::OutOfDeviceMemory, "out of device memory"};
     case VK_ERROR_DEVICE_LOST:
-      return "the device was lost; try again or use --backend reference";
-    case VK_ERROR_INITIALIZATION_FAILED:
-      return "initialisation failed; is a Vulkan driver installed?";
-    case VK_ERROR_INCOMPATIBLE_DRIVER:
-      return "no Vulkan driver was found; install one (mesa-vulkan-drivers)";
-    case VK_ERROR_LAYER_NOT_PRESENT:
-      return "a layer is missing; install vulkan-validationlayers";
-    case VK_ERROR_EXTENSION_NOT_PRESENT:
-      return "an extension is missing";
-    case VK_ERROR_FEATURE_NOT_PRESENT:
-      return "a feature is missing";
-    case VK_ERROR_TOO_MANY_OBJECTS:
-      return "too many objects";
+      return {ErrorCode::DeviceLost, "the device was lost"};
     case VK_TIMEOUT:
-      return "the device did not answer in time; try again or use --backend reference";
+      return {ErrorCode::DeviceTimeout, "the device did not finish in time"};
+    case VK_ERROR_INITIALIZATION_FAILED:
+      return {ErrorCode::NoVulkanDriver, "initialisation failed"};
+    case VK_ERROR_INCOMPATIBLE_DRIVER:
+      return {ErrorCode::NoVulkanDriver, "no Vulkan driver was found"};
+    case VK_ERROR_LAYER_NOT_PRESENT:
+      return {ErrorCode::ValidationFailed, "the validation layers are not installed (vulkan-validationlayers)"};
+    case VK_ERROR_EXTENSION_NOT_PRESENT:
+      return {ErrorCode::VulkanFailed, "an extension is missing"};
+    case VK_ERROR_FEATURE_NOT_PRESENT:
+      return {ErrorCode::VulkanFailed, "a feature is missing"};
+    case VK_ERROR_TOO_MANY_OBJECTS:
+      return {ErrorCode::VulkanFailed, "too many objects"};
     default:
-      return fmt::format("VkResult {}", static_cast<int>(result));
+      return {ErrorCode::VulkanFailed, fmt::format("VkResult {}", static_cast<int>(result))};
   }
 }
 
 }  // namespace
 
-void requireSuccess(VkResult result, std::string_view what) {
-  if (result != VK_SUCCESS) throw Error(ErrorKind::Device, fmt::format("{}: {}", what, describe(result)));
+void requireSuccess(VkResult result, std::string_view call) {
+  if (result == VK_SUCCESS) return;
+  const Failure failure = describe(result);
+  throw Error(failure.code, fmt::format("{}: {}", call, failure.reason));
 }
 
 }  // namespace asdfvk

@@ -6,7 +6,8 @@
 
 namespace asdfvk {
 
-/// Throws Error{Device} naming `what` and the result, with a remedy where there is one, unless result is VK_SUCCESS.
-void requireSuccess(VkResult result, std::string_view what);
+/// Throws Error of kind Device with the failed call and the reason unless the result is VK_SUCCESS.
+/// call: "creating a buffer".
+void requireSuccess(VkResult result, std::string_view call);
 
 }  // namespace asdfvk

@@ -45,7 +45,7 @@ TEST_CASE("a mistake in the program is 70 and says so, too little memory is the 
 }
 
 TEST_CASE("messages are one line whatever is in them") {
-  CHECK_EQ(failureOf(Error(ErrorKind::Input, "a\nb\tc\x1b[2J")).message, "a b c [2J");
+  CHECK_EQ(failureOf(Error(ErrorCode::UnreadableInput, "a\nb\tc\x1b[2J")).message, "a b c [2J");
   CHECK_EQ(oneLine("caf\xc3\xa9"), "caf\xc3\xa9");
 }
 

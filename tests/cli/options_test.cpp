@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <limits>
 
+#include "asdf_vk/error.h"
 #include "cli/option_values.h"
 #include "cli/scratch_folder.h"
-#include "core/error.h"
 
 namespace asdfvk {
 namespace {

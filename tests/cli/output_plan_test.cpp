@@ -7,8 +7,8 @@
 
 #include <filesystem>
 
+#include "asdf_vk/error.h"
 #include "cli/scratch_folder.h"
-#include "core/error.h"
 
 namespace asdfvk {
 namespace {

@@ -7,7 +7,7 @@
 #include <limits>
 #include <numbers>
 
-#include "core/error.h"
+#include "asdf_vk/error.h"
 
 using namespace asdfvk;
 

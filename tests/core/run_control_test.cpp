@@ -1,4 +1,4 @@
-#include "core/run_control.h"
+#include "asdf_vk/run_control.h"
 
 #include <doctest/doctest.h>
 

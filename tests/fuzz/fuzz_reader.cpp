@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "core/error.h"
+#include "asdf_vk/error.h"
 #include "io/mesh_format.h"
 
 namespace asdfvk::fuzz {

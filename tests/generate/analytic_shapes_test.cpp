@@ -2,7 +2,7 @@
 
 #include <numbers>
 
-#include "core/error.h"
+#include "asdf_vk/error.h"
 #include "generate/shapes.h"
 #include "topology.h"
 

@@ -9,8 +9,8 @@
 #include <functional>
 #include <thread>
 
+#include "asdf_vk/error.h"
 #include "core/atomic_file.h"
-#include "core/error.h"
 #include "written_file.h"
 
 using namespace asdfvk;

@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/error.h"
+#include "asdf_vk/error.h"
 #include "io/mesh_reader.h"
 
 namespace asdfvk::test {

@@ -2,8 +2,8 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include "asdf_vk/error.h"
 #include "core/check.h"
-#include "core/error.h"
 #include "written_file.h"
 
 using namespace asdfvk;

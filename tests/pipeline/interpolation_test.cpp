@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string>
 
-#include "core/error.h"
+#include "asdf_vk/error.h"
 #include "generate/shapes.h"
 #include "mesh/dual_graph.h"
 #include "pipeline/average_error.h"

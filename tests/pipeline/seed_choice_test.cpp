@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "core/error.h"
+#include "asdf_vk/error.h"
 #include "generate/shapes.h"
 
 using namespace asdfvk;

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "core/error.h"
+#include "asdf_vk/error.h"
 #include "core/stopwatch.h"
 #include "generate/shapes.h"
 #include "mesh/face_geometry.h"

@@ -4,7 +4,7 @@
 #include <cstring>
 #include <numeric>
 
-#include "core/error.h"
+#include "asdf_vk/error.h"
 #include "fixtures.h"
 #include "kernel_twins.h"
 #include "poisson/cpu_cg.h"

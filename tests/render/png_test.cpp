@@ -8,7 +8,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "core/error.h"
+#include "asdf_vk/error.h"
 
 namespace asdfvk {
 namespace {

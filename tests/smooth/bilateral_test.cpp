@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "core/error.h"
+#include "asdf_vk/error.h"
 #include "sample_fields.h"
 
 using namespace asdfvk;

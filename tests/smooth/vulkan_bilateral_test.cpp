@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "core/error.h"
+#include "asdf_vk/error.h"
 #include "sample_fields.h"
 #include "shared/bilateral_layout.h"
 #include "spirv/bilateral_layout_probe.comp.h"

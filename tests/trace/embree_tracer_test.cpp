@@ -7,8 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "asdf_vk/error.h"
 #include "core/check.h"
-#include "core/error.h"
 #include "generate/shapes.h"
 #include "hit_checks.h"
 #include "hit_comparison.h"

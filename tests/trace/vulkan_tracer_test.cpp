@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "core/error.h"
+#include "asdf_vk/error.h"
 #include "core/random.h"
 #include "generate/shapes.h"
 #include "shapes.h"

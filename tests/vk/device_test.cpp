@@ -4,7 +4,7 @@
 #include <numeric>
 #include <vector>
 
-#include "core/error.h"
+#include "asdf_vk/error.h"
 #include "spirv/fill.comp.h"
 #include "support/test_device.h"
 #include "vk/buffer.h"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "core/error.h"
+#include "asdf_vk/error.h"
 #include "shared/poisson_layout.h"
 
 namespace asdfvk {
@@ -44,13 +44,14 @@ PoissonGrid choosePoissonGrid(const DeviceFacts& facts, uint32_t unknownCount) {
 
 void requireSystemFits(const DeviceFacts& facts, uint64_t unknownCount, uint64_t tailCount, uint64_t longestRow) {
   if (unknownCount * kPoissonRowTexelCount > facts.maxTexelBufferElements)
-    throw Error(ErrorKind::Device, fmt::format("the Poisson system of {} unknowns needs {} texels in one buffer and {} "
-                                               "allows {}; use --solver cpu",
-                                               unknownCount, unknownCount * kPoissonRowTexelCount, facts.name,
-                                               facts.maxTexelBufferElements));
+    throw Error(
+        ErrorCode::EquationLimit,
+        fmt::format("the Poisson system of {} unknowns needs {} texels in one buffer and {} "
+                    "allows {}; use --solver cpu",
+                    unknownCount, unknownCount * kPoissonRowTexelCount, facts.name, facts.maxTexelBufferElements));
   const uint64_t byteCount = sizeof(uint32_t) * std::max(unknownCount, tailCount);
   if (byteCount > facts.maxStorageBufferRange)
-    throw Error(ErrorKind::Device,
+    throw Error(ErrorCode::EquationLimit,
                 fmt::format("the Poisson system of {} unknowns needs {} MiB in one buffer and {} allows {}; "
                             "use --solver cpu",
                             unknownCount, (byteCount >> 20) + 1, facts.name, facts.maxStorageBufferRange >> 20));
@@ -60,7 +61,7 @@ void requireSystemFits(const DeviceFacts& facts, uint64_t unknownCount, uint64_t
   const uint64_t iterations = std::max<uint64_t>(rowsPerLane, rowsPerLaneAtLeast(facts)) * (longestRow + 1) +
                               divideUp(kMaxPoissonWorkgroupCount, laneCount) + 2u * std::bit_width(laneCount);
   if (iterations > kLoopIterationLimit)
-    throw Error(ErrorKind::Device,
+    throw Error(ErrorCode::EquationLimit,
                 fmt::format("the Poisson system of {} unknowns, {} of them in one row, is too much for one kernel; "
                             "use --solver cpu",
                             unknownCount, longestRow));

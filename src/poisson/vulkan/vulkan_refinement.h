@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/run_control.h"
+#include "asdf_vk/run_control.h"
 #include "poisson/poisson_solver.h"
 #include "poisson/poisson_system.h"
 #include "poisson/solver_progress.h"

@@ -8,8 +8,8 @@
 #include <cmath>
 #include <limits>
 
+#include "asdf_vk/error.h"
 #include "core/check.h"
-#include "core/error.h"
 #include "shared/bilateral_layout.h"
 #include "spirv/bilateral.comp.h"
 #include "vk/command_list.h"
@@ -35,7 +35,7 @@ ComputePipelineDescription describePass(const DeviceFacts& facts) {
 void requireFits(const DeviceFacts& facts, const DualGraph& graph) {
   const uint64_t byteCount = sizeof(uint32_t) * std::max(graph.offsets.size(), graph.neighbours.size());
   if (byteCount > facts.maxStorageBufferRange)
-    throw Error(ErrorKind::Device,
+    throw Error(ErrorCode::DeviceLimit,
                 fmt::format("smoothing {} faces needs {} MiB in one buffer and {} allows {}; smooth on the CPU",
                             graph.faceCount(), (byteCount >> 20) + 1, facts.name, facts.maxStorageBufferRange >> 20));
 }

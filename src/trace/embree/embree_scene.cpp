@@ -5,7 +5,7 @@
 
 #include <new>
 
-#include "core/error.h"
+#include "asdf_vk/error.h"
 
 namespace asdfvk {
 namespace {
@@ -18,8 +18,7 @@ void throwEmbreeError(RTCDevice device) {
     case RTC_ERROR_OUT_OF_MEMORY:
       throw std::bad_alloc();
     default:
-      throw Error(ErrorKind::Device,
-                  fmt::format("Embree failed with error {}; use --backend reference", static_cast<int>(error)));
+      throw Error(ErrorCode::EmbreeFailed, fmt::format("Embree failed with error {}", static_cast<int>(error)));
   }
 }
 

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
+#include "asdf_vk/error.h"
 #include "shared/cone_layout.h"
 #include "spirv/trace_cone.comp.h"
 #include "spirv/trace_packet.comp.h"
@@ -51,7 +51,7 @@ ComputePipelineDescription describe(const ConeKernelRequest& request, const Vulk
 const Device& requireSubgroups(const Device& device, TraceKernel kernel) {
   const DeviceFacts& facts = device.facts();
   if (facts.hasSubgroupVote && (facts.hasSubgroupArithmetic || kernel != TraceKernel::Packet)) return device;
-  throw Error(ErrorKind::Device,
+  throw Error(ErrorCode::KernelUnsupported,
               fmt::format("{} does not let the lanes of a subgroup {}; use {}", facts.name,
                           facts.hasSubgroupVote ? "add up" : "vote",
                           facts.hasSubgroupVote ? "another kernel than packet" : "--backend reference"));
