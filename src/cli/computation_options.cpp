@@ -171,15 +171,6 @@ void addInterpolation(CLI::App& app, Options& options) {
                  text, [](double x) { return x >= 0; }, "is below 0");
            })
       ->group(interpolation);
-  addValue(app, "--antipodal", "W",
-           fmt::format("With guidance by hits: weight, from 0, of the seeds whose rays ended near a\n"
-                       "face; default {}",
-                       defaults.interpolation.reprojection.antipodal),
-           [&](const std::string& text) {
-             options.interpolation.reprojection.antipodal = parseNumber(
-                 text, [](double x) { return x >= 0; }, "is below 0");
-           })
-      ->group(interpolation);
   addValue(app, "--pooling", "P",
            fmt::format("How far values are moved to what the hits of several seeds predict, 0\n"
                        "(traced values are kept) to 1; default {}",

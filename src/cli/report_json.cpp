@@ -50,7 +50,6 @@ Json optionsOf(const CommandLine& line) {
           {"guidance", nameOf(kGuidances, interpolation.guidance)},
           {"curvatureFactor", interpolation.curvatureFactor},
           {"secondOrder", interpolation.secondOrder},
-          {"antipodal", interpolation.reprojection.antipodal},
           {"pooling", interpolation.pooling},
           {"solver", nameOf(kSolvers, options.solver)},
           {"tolerance", options.solverOptions.tolerance},

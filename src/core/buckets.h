@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <iterator>
 #include <memory>
 #include <span>
 #include <vector>
@@ -157,19 +156,6 @@ class StagedEntries {
 template <typename Entry, typename Emit>
 [[nodiscard]] Buckets<Entry> sortIntoBuckets(size_t bucketCount, size_t itemCount, const Emit& emit) {
   return StagedEntries<Entry>(bucketCount, itemCount, emit).toBuckets();
-}
-
-/// What stands in a bucket more than once is left once. Precondition: buckets are ascending.
-template <typename Entry>
-[[nodiscard]] Buckets<Entry> withoutRepeats(const Buckets<Entry>& buckets) {
-  Buckets<Entry> result;
-  result.offsets.push_back(0);
-  for (uint32_t bucket = 0; bucket < buckets.bucketCount(); ++bucket) {
-    const std::span<const Entry> entries = buckets[bucket];
-    std::unique_copy(entries.begin(), entries.end(), std::back_inserter(result.entries));
-    result.offsets.push_back(static_cast<uint32_t>(result.entries.size()));
-  }
-  return result;
 }
 
 }  // namespace asdfvk

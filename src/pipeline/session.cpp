@@ -95,8 +95,6 @@ void requireAgreement(const Options& options) {
   if (interpolation.pooling > 0 && interpolation.guidance != Guidance::Hits)
     refuse("pooling takes predictions from hits; use guidance by hits with it");
   if (!(interpolation.secondOrder >= 0)) refuse("the second-order term is negative; give 0 or more");
-  if (!(interpolation.reprojection.antipodal >= 0 && interpolation.reprojection.antipodal <= kGreatestAntipodalWeight))
-    refuse("the weight of antipodal seeds is out of range; give 0 to 1000");
   if (options.smoothing.window) requireValid(*options.smoothing.window);
   if (options.rounds.maxError && !(*options.rounds.maxError > 0)) refuse("the greatest error is not above 0");
   if (options.rounds.timeBudgetSeconds && !(*options.rounds.timeBudgetSeconds > 0))

@@ -56,15 +56,14 @@ void CellReprojection::runCell(uint32_t cell, std::vector<double>& values) {
   const TraceScene& scene = task_.scene;
   if (takesEarlier(cell, values)) return;
   lookAround(task_.nearest.of(cell));
-  const PointCone antipodal = task_.options.antipodal > 0 ? points_.append(antipodalPoints(cell)) : PointCone{};
   for (const uint32_t face : facesLeft_) {
     const Vec3d& normal = scene.geometry.normals[face];
     if (normal.x == 0 && normal.y == 0 && normal.z == 0) continue;  // Degenerate.
     const VirtualCone at{scene.bvh.normalization.toNormalized(scene.geometry.barycentres[face]), normal,
                          scene.representatives[face]};
     weigh(at);
-    double value = valueAt(at, kLeastShare, antipodal);
-    if (std::isnan(value)) value = valueAt(at, 0, antipodal);
+    double value = valueAt(at, kLeastShare);
+    if (std::isnan(value)) value = valueAt(at, 0);
     values[face] = scene.bvh.normalization.toMeshLength(value);
   }
 }
@@ -119,7 +118,7 @@ void CellReprojection::weigh(const VirtualCone& at) {
 }
 
 /// leastShare: of all weights, that a seed needs to be asked.
-double CellReprojection::valueAt(const VirtualCone& at, float leastShare, const PointCone& antipodal) {
+double CellReprojection::valueAt(const VirtualCone& at, float leastShare) {
   float sum = 0;
   for (size_t i = 0; i < askedCones_.size(); ++i) sum += weights_[i];
   weighed_.resize(askedCones_.size());
@@ -129,23 +128,7 @@ double CellReprojection::valueAt(const VirtualCone& at, float leastShare, const 
     count += weights_[i] >= leastShare * sum ? 1 : 0;
   }
   weighed_.resize(count);
-  if (antipodal.groupCount > 0)
-    weighed_.push_back({antipodal.firstGroup, antipodal.groupCount, static_cast<float>(task_.options.antipodal)});
   return cone_.value(points_.groups(), weighed_, at, askedCones_[0].typicalLength);
-}
-
-std::vector<SeedPoints::Point> CellReprojection::antipodalPoints(uint32_t cell) const {
-  const TraceScene& scene = task_.scene;
-  const Normalization& normalization = scene.bvh.normalization;
-  std::vector<SeedPoints::Point> points;
-  for (const uint32_t seed : task_.landed[cell]) {
-    const uint32_t face = task_.traced.seeds[seed];
-    double area = 0;
-    for (const uint32_t other : task_.cells.faces[seed]) area += scene.geometry.areas[other];
-    points.push_back({normalization.toNormalized(scene.geometry.barycentres[face]), scene.geometry.normals[face],
-                      area * normalization.scale * normalization.scale, scene.representatives[face]});
-  }
-  return points;
 }
 
 }  // namespace asdfvk

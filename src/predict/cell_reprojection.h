@@ -2,7 +2,6 @@
 
 #include <vector>
 
-#include "core/buckets.h"
 #include "predict/reprojected_cone.h"
 #include "predict/reprojection.h"
 #include "predict/seed_points.h"
@@ -16,7 +15,6 @@ struct ReprojectionTask {
   TracedCones traced;
   const SeedCells& cells;
   const NearestCells& nearest;
-  const Buckets<uint32_t>& landed;  ///< See landedSeeds(); only with an antipodal weight.
   const ReprojectionOptions& options;
   const Prediction& earlier;
 };
@@ -38,8 +36,7 @@ class CellReprojection {
   [[nodiscard]] bool takesEarlier(uint32_t cell, std::vector<double>& values);
   void lookAround(std::span<const uint32_t> asked);
   void weigh(const VirtualCone& at);
-  [[nodiscard]] double valueAt(const VirtualCone& at, float leastShare, const PointCone& antipodal);
-  [[nodiscard]] std::vector<SeedPoints::Point> antipodalPoints(uint32_t cell) const;
+  [[nodiscard]] double valueAt(const VirtualCone& at, float leastShare);
 
   const ReprojectionTask& task_;
   const ConeKernel& kernel_;

@@ -8,7 +8,6 @@
 
 #include "core/check.h"
 #include "predict/cell_reprojection.h"
-#include "predict/landed_seeds.h"
 
 namespace asdfvk {
 namespace {
@@ -42,11 +41,7 @@ Prediction reprojectHits(const TraceScene& scene, const DualGraph& graph, const 
   Prediction prediction{std::vector<double>(scene.geometry.areas.size(), kNoValue),
                         {},
                         NearestCells(cells, graph, scene.geometry, traced.seeds, options.neighbourCount)};
-  // What a cell is told by antipodal seeds may change with any seed.
-  if (options.antipodal > 0) earlier = {};
-  const Buckets<uint32_t> landed =
-      options.antipodal > 0 ? landedSeeds(cone, scene, traced, cells) : Buckets<uint32_t>{};
-  const ReprojectionTask task{scene, cone, traced, cells, prediction.nearest, landed, options, earlier};
+  const ReprojectionTask task{scene, cone, traced, cells, prediction.nearest, options, earlier};
   const std::vector<uint32_t> order = cellsInOrder(scene, traced.seeds, cells);
   const size_t blockCount = (order.size() + kBlockSize - 1) / kBlockSize;
   tbb::parallel_for(tbb::blocked_range<size_t>(0, blockCount), [&](const tbb::blocked_range<size_t>& range) {

@@ -17,17 +17,11 @@
 /// curvature.
 namespace asdfvk {
 
-inline constexpr double kGreatestAntipodalWeight = 1000;
-
 struct ReprojectionOptions {
   uint32_t neighbourCount = 6;  ///< Cells around a face's own whose seeds are asked.
   /// How far a seed's word carries: at this many times half the mean distance to the neighbouring seeds it weighs
   /// exp(-1/2).
   double reach = 1.5;
-  /// Antipodal samples: how much the seeds count whose rays ended in a face's cell, since the face sees them along the
-  /// same rays, against a seed next to it, up to kGreatestAntipodalWeight. 0: not at all; little is gained by them
-  /// (docs/experiments.md).
-  double antipodal = 0;
 };
 
 /// The predicted shape diameter of each face, and what it was made of.

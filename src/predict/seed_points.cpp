@@ -1,9 +1,7 @@
 #include "predict/seed_points.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
-#include <numbers>
 
 namespace asdfvk {
 namespace {
@@ -40,11 +38,7 @@ void put(PointGroup& group, size_t lane, const GroupPoint& point) {
 }  // namespace
 
 SeedPoints::SeedPoints(const TraceScene& scene, const Cone& cone, const TracedCones& traced)
-    : scene_(scene),
-      cone_(cone),
-      traced_(traced),
-      raySolidAngle_(2 * std::numbers::pi * (1 - std::cos(cone.halfAngleRadians)) /
-                     static_cast<double>(cone.directions.size())) {}
+    : scene_(scene), cone_(cone), traced_(traced) {}
 
 void SeedPoints::clear() { groups_.clear(); }
 
@@ -53,15 +47,6 @@ PointCone SeedPoints::appendCone(size_t pointCount) {
   const PointCone cone{static_cast<uint32_t>(groups_.size()),
                        static_cast<uint32_t>((pointCount + kLaneCount - 1) / kLaneCount)};
   groups_.resize(groups_.size() + cone.groupCount, empty);
-  return cone;
-}
-
-PointCone SeedPoints::append(std::span<const Point> points) {
-  const PointCone cone = appendCone(points.size());
-  for (size_t i = 0; i < points.size(); ++i)
-    put(groups_[cone.firstGroup + i / kLaneCount], i % kLaneCount,
-        {points[i].position, points[i].normal, static_cast<float>(points[i].area / raySolidAngle_), true,
-         points[i].face});
   return cone;
 }
 

@@ -22,16 +22,6 @@ class SeedPoints {
   /// Adds the points of a seed's rays as one cone and returns where that is.
   PointCone gather(uint32_t seed);
 
-  /// A point of the surface as a hit that no outlier rule leaves out. Unit normal; area: of the surface that the point
-  /// stands for. In normalised units.
-  struct Point {
-    Vec3d position, normal;
-    double area = 0;
-    uint32_t face = 0;
-  };
-  /// Adds points as a further cone. None where there are none.
-  PointCone append(std::span<const Point> points);
-
   [[nodiscard]] const std::vector<PointGroup>& groups() const { return groups_; }
 
  private:
@@ -40,7 +30,6 @@ class SeedPoints {
   const TraceScene& scene_;
   const Cone& cone_;
   TracedCones traced_;
-  double raySolidAngle_;  ///< What each ray of a cone stands for.
   std::vector<PointGroup> groups_;
 };
 

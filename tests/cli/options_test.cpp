@@ -107,8 +107,6 @@ TEST_CASE("every option reaches its field") {
                                              "-0.5",
                                              "--second-order",
                                              "0.25",
-                                             "--antipodal",
-                                             "0.125",
                                              "--smooth",
                                              "3x2",
                                              "--pooling",
@@ -159,7 +157,6 @@ TEST_CASE("every option reaches its field") {
   CHECK(line.options.interpolation.guidance == Guidance::Hits);
   CHECK_EQ(line.options.interpolation.curvatureFactor, -0.5);
   CHECK_EQ(line.options.interpolation.secondOrder, 0.25);
-  CHECK_EQ(line.options.interpolation.reprojection.antipodal, 0.125);
   CHECK(line.options.smoothing.isOn);
   CHECK_EQ(line.options.smoothing.window.value().window, 3);
   CHECK_EQ(line.options.smoothing.window.value().passes, 2);
@@ -261,7 +258,6 @@ TEST_CASE("values out of range are refused with the option's name") {
     CHECK_MESSAGE(message.starts_with(arguments[0] + ": '" + arguments[1] + "' is not "), message);
   }
   CHECK_EQ(refusal({"a.ply", "--second-order", "-1"}), "--second-order: '-1' is below 0");
-  CHECK_EQ(refusal({"a.ply", "--antipodal", "-1"}), "--antipodal: '-1' is below 0");
   CHECK_EQ(refusal({"a.ply", "--max-error", "soon"}), "--max-error: 'soon' is not a number");
   CHECK_EQ(refusal({"a.ply", "--max-error", "150%"}), "--max-error: '150%' is not above 0% and below 100%");
   CHECK_EQ(refusal({"a.ply", "--time-budget", "0s"}), "--time-budget: '0s' is not a time above 0 s");

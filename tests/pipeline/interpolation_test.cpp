@@ -169,9 +169,6 @@ TEST_CASE("options of the interpolation and of rounds out of range are errors of
         }).find("guidance by hits") != std::string::npos);
   for (const double bad : {-1.0, std::nan("")})
     CHECK(refusal([&](Options& o) { o.interpolation.secondOrder = bad; }).find("second-order") != std::string::npos);
-  for (const double bad : {-1.0, std::nan("")})
-    CHECK(refusal([&](Options& o) { o.interpolation.reprojection.antipodal = bad; }).find("antipodal") !=
-          std::string::npos);
   for (const double bad : {-1.0, 0.0, std::nan("")}) {
     CHECK(refusal([&](Options& o) { o.rounds.maxError = bad; }).find("error") != std::string::npos);
     CHECK(refusal([&](Options& o) { o.rounds.timeBudgetSeconds = bad; }).find("time budget") != std::string::npos);

@@ -137,27 +137,11 @@ TEST_CASE("a prediction is nearer to what a face's own rays would say than its s
 
 TEST_CASE("one thread and several give the same bits") {
   const SeededMesh seeded(makeAnimal(3000).mesh, 300);
-  for (const ReprojectionOptions& options : {ReprojectionOptions{}, ReprojectionOptions{.antipodal = 0.5}}) {
-    const std::vector<double> many = predict(seeded, options);
-    for (const size_t threadCount : {size_t{1}, size_t{2}}) {
-      const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threadCount);
-      CHECK(sameBits(predict(seeded, options), many));
-    }
+  const std::vector<double> many = predict(seeded);
+  for (const size_t threadCount : {size_t{1}, size_t{2}}) {
+    const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threadCount);
+    CHECK(sameBits(predict(seeded), many));
   }
-}
-
-TEST_CASE("the seeds whose rays ended near a face have a say if they are asked, a right one") {
-  const SeededMesh seeded(makeSphere(2000).mesh, 100);
-  const std::vector<double> without = predict(seeded), with = predict(seeded, {.antipodal = 1});
-  CHECK_FALSE(sameBits(with, without));
-  const double exact = coneValueOf(seeded.cone, chordOfUnitSphere);
-  CHECK(differenceTo(
-            seeded, with, [&](uint32_t) { return exact; }, kAnyFace)
-            .mean < 0.03);
-  // Little of it moves little.
-  const std::vector<double> hardly = predict(seeded, {.antipodal = 1e-6});
-  for (size_t face = 0; face < hardly.size(); ++face)
-    CHECK(hardly[face] == doctest::Approx(without[face]).epsilon(0.01));
 }
 
 TEST_CASE("scaling and shifting a mesh scales its predictions and nothing else") {
@@ -262,11 +246,6 @@ TEST_CASE("what an earlier prediction has of the same seeds is taken from it, an
   }
   CHECK(takenCount > values.size() / 4);
   CHECK(takenCount < values.size());
-  const std::vector<double> antipodal = predict(seeded, {.antipodal = 1});
-  marked = few;
-  CHECK(sameBits(
-      reprojectHits(seeded.scene(), seeded.graph, seeded.cone, seeded.traced(), {.antipodal = 1}, marked).values,
-      antipodal));
 }
 
 TEST_CASE("seeds that are left out change nothing, though their hits are there") {
@@ -283,12 +262,10 @@ TEST_CASE("seeds that are left out change nothing, though their hits are there")
     const auto first = seeded.hits.begin() + static_cast<std::ptrdiff_t>(i * rayCount);
     usedHits.insert(usedHits.end(), first, first + static_cast<std::ptrdiff_t>(rayCount));
   }
-  for (const double antipodal : {0.0, 0.5}) {
-    const auto predictFrom = [&](const std::vector<uint32_t>& seeds, const std::vector<ConeHit>& hits) {
-      return reprojectHits(seeded.scene(), seeded.graph, seeded.cone, {seeds, hits}, {.antipodal = antipodal}).values;
-    };
-    CHECK(sameBits(predictFrom(leftOut, seeded.hits), predictFrom(used, usedHits)));
-  }
+  const auto predictFrom = [&](const std::vector<uint32_t>& seeds, const std::vector<ConeHit>& hits) {
+    return reprojectHits(seeded.scene(), seeded.graph, seeded.cone, {seeds, hits}, {}).values;
+  };
+  CHECK(sameBits(predictFrom(leftOut, seeded.hits), predictFrom(used, usedHits)));
 }
 
 TEST_CASE("without seeds, and with every face a seed, there is one prediction per face all the same") {

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
 #include "generate/shapes.h"
@@ -107,41 +106,4 @@ TEST_CASE("a cone none of whose rays is valid keeps nothing") {
   Mesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}, {}};
   const SeededMesh seeded(mesh, 1);
   CHECK_FALSE(keptLengths(seeded.scene(), seeded.cone, seeded.traced(), 0).keeps(0.5));
-}
-
-TEST_CASE("appended points are a cone of their own, count as kept, and stand for their area") {
-  const SeededMesh seeded(makeTorus(800).mesh, 3);
-  const TraceScene scene = seeded.scene();
-  SeedPoints seedPoints(scene, seeded.cone, seeded.traced());
-  (void)seedPoints.gather(1);
-  const size_t before = seedPoints.groups().size();
-  std::vector<SeedPoints::Point> points;
-  for (size_t i = 0; i < kLaneCount + 1; ++i)
-    points.push_back({{0.1 * static_cast<double>(i), 0.5, -0.5}, {0, 0, 1}, 0.25, static_cast<uint32_t>(i)});
-  CHECK(seedPoints.append({}).groupCount == 0);
-  const PointCone cone = seedPoints.append(points);
-  CHECK(cone.firstGroup == before);
-  CHECK(cone.groupCount == 2);
-  REQUIRE(seedPoints.groups().size() == before + 2);
-  // 30 rays share a cone of half a half-space: pi steradians.
-  const double raySolidAngle = std::numbers::pi / 30;
-  for (size_t i = 0; i < 2 * kLaneCount; ++i) {
-    const PointGroup& group = seedPoints.groups()[before + i / kLaneCount];
-    const size_t at = i % kLaneCount;
-    if (i >= points.size()) {
-      CHECK(std::isnan(group.x[at]));
-      CHECK(group.kept[at] == 0);
-      CHECK(group.face[at] == kNoFace);
-      continue;
-    }
-    CHECK(group.x[at] == static_cast<float>(points[i].position.x));
-    CHECK(group.y[at] == 0.5f);
-    CHECK(group.z[at] == -0.5f);
-    CHECK(group.nz[at] == 1);
-    CHECK(group.kept[at] == 1);
-    CHECK(group.face[at] == i);
-    CHECK(group.spread[at] == doctest::Approx(0.25 / raySolidAngle));
-  }
-  seedPoints.clear();
-  CHECK(seedPoints.groups().empty());
 }
