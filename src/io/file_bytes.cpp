@@ -57,12 +57,12 @@ FileBytes FileBytes::read(const std::filesystem::path& path) {
   const Descriptor descriptor(path);
   struct stat status {};
   if (::fstat(descriptor.value(), &status) != 0) failInput(fmt::format("cannot be read: {}", std::strerror(errno)));
-  if (S_ISDIR(status.st_mode)) failInput("is a directory; name a mesh file");
-  // A device such as /dev/zero never ends.
+  if (S_ISDIR(status.st_mode)) failInput("is a directory, not a file");
+  // A device such as /dev/zero has no end.
   if (S_ISBLK(status.st_mode) || (S_ISCHR(status.st_mode) && ::isatty(descriptor.value()) == 0))
-    failInput("is a device; name a mesh file");
+    failInput("is a device, not a file");
   FileBytes file;
-  // One byte more than the file has, so that its end is seen without growing.
+  // One byte more than the size of the file: the read that finds its end needs no larger buffer.
   file.grow(S_ISREG(status.st_mode) ? static_cast<size_t>(status.st_size) + 1 : size_t{1} << 16);
   file.readAll(descriptor.value());
   return file;

@@ -28,7 +28,7 @@ void triangulateAll(std::span<const Vec3d> vertices, Polygons& polygons, std::ve
     triangleCount += std::max<uint64_t>(cornerCountOf(i), 2) - 2;
   }
   if (triangleCount > kMaxIndexCount || polygonCount > kMaxIndexCount)
-    failInput(fmt::format("its {} make {} triangles, which is more than {}", counted(polygonCount, "face"),
+    failInput(fmt::format("has {} and {} triangles; at most {} of each are supported", counted(polygonCount, "face"),
                           triangleCount, kMaxIndexCount));
   triangles.resize(triangleCount);
   polygons.inputFaceOf.resize(triangleCount);
@@ -89,22 +89,22 @@ void InputFaces::beginPolygons() {
 
 void InputFaces::moveTo(Mesh& mesh) {
   if (count() == 0)
-    failInput(mesh.vertices.empty() ? "it holds neither points nor faces"
-                                    : fmt::format("it holds {} and no face; a point cloud has to be meshed first",
+    failInput(mesh.vertices.empty() ? "has neither points nor faces"
+                                    : fmt::format("has {} and no face: a point cloud, not a mesh",
                                                   counted(mesh.vertices.size(), "point")));
   if (!polygons_.isEmpty()) triangulateAll(mesh.vertices, polygons_, triangles_);
   if (triangles_.empty())
-    failInput(count() == 1 ? "its only face has fewer than three corners"
-                           : fmt::format("none of its {} faces has three corners", count()));
+    failInput(count() == 1 ? "the only face has fewer than three corners"
+                           : fmt::format("none of the {} faces has three corners", count()));
   if (triangles_.size() > kMaxIndexCount)
-    failInput(fmt::format("it holds {} faces, which is more than {}", triangles_.size(), kMaxIndexCount));
+    failInput(fmt::format("has {} faces; at most {} are supported", triangles_.size(), kMaxIndexCount));
   mesh.faces = std::move(triangles_);
   mesh.polygons = std::move(polygons_);
 }
 
 void requireIndexableVertexCount(uint64_t count) {
   if (count > kMaxIndexCount)
-    failInput(fmt::format("it holds {} vertices, which is more than {}", count, kMaxIndexCount));
+    failInput(fmt::format("has {} vertices; at most {} are supported", count, kMaxIndexCount));
 }
 
 }  // namespace asdfvk

@@ -8,22 +8,21 @@
 
 namespace asdfvk {
 
-/// Takes the faces of a file in its order, whatever their corner counts, and makes triangles of them at the end, when
-/// all vertices are known. While every face is a triangle only Mesh::faces is filled.
+/// Collects the faces of a file in file order, with any corner counts, and triangulates them when all vertices are
+/// read. Stores plain triangles until the first face that is not a triangle.
 class InputFaces {
  public:
-  /// Room for that many faces. The caller has held the count against the size of the file.
+  /// Precondition: the caller has checked the count against the size of the file.
   void reserve(uint64_t faceCount);
   void add(std::span<const uint32_t> corners);
-  /// Takes all of `triangles`.
   void addTriangles(std::vector<Face>&& triangles);
   [[nodiscard]] uint64_t count() const {
     return polygons_.isEmpty() ? triangles_.size() : polygons_.firstCorner.size() - 1;
   }
 
   /// Sets mesh.faces and mesh.polygons. Preconditions: mesh.vertices is complete and every corner is below its size.
-  /// Throws Error{Input} where there are no faces, none has three corners, or they make more triangles than 32-bit
-  /// indices can count.
+  /// Throws Error{UnreadableInput} where there are no faces, none has three corners, or there are more than 2^32 - 1
+  /// faces or triangles.
   void moveTo(Mesh& mesh);
 
  private:
@@ -33,7 +32,7 @@ class InputFaces {
   Polygons polygons_;            ///< From then on.
 };
 
-/// Throws Error{Input} unless `count` vertices can have 32-bit indices.
+/// Throws Error{UnreadableInput} for more than 2^32 - 1 vertices.
 void requireIndexableVertexCount(uint64_t count);
 
 }  // namespace asdfvk

@@ -1,5 +1,5 @@
-// Wavefront OBJ: vertices and polygons. Normals, texture coordinates, groups, materials, lines and free-form surfaces
-// are passed over; what names another file (mtllib and the like) never has it opened.
+// Wavefront OBJ: vertices and polygons. The reader ignores normals, texture coordinates, groups, materials, lines and
+// free-form surfaces, and opens no file that a statement (mtllib, ...) names.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,14 +7,25 @@
 #include <charconv>
 
 #include "core/text.h"
+#include "io/formats.h"
 #include "io/input_faces.h"
 #include "io/input_failure.h"
-#include "io/mesh_reader.h"
-#include "io/obj_keywords.h"
 #include "io/text_scanner.h"
 
 namespace asdfvk {
 namespace {
+
+// Version 3.0, and 2.11. In ASCII order for the binary search.
+constexpr std::array kKeywords = std::to_array<std::string_view>({
+    "bevel",  "bmat",   "bsp",   "bzp",        "c_interp", "call",     "cdc",    "cdp",  "con",       "csh",
+    "cstech", "cstype", "ctech", "curv",       "curv2",    "d_interp", "deg",    "end",  "f",         "fo",
+    "g",      "hole",   "l",     "lod",        "maplib",   "mg",       "mtllib", "o",    "p",         "parm",
+    "res",    "s",      "scrv",  "shadow_obj", "sp",       "stech",    "step",   "surf", "trace_obj", "trim",
+    "usemap", "usemtl", "v",     "vn",         "vp",       "vt",
+});
+static_assert(std::is_sorted(kKeywords.begin(), kKeywords.end()));
+
+bool isKeyword(std::string_view word) { return std::binary_search(kKeywords.begin(), kKeywords.end(), word); }
 
 class ObjReader {
  public:
@@ -22,9 +33,9 @@ class ObjReader {
 
   Mesh read() {
     while (!text_.atEnd()) readStatement();
-    // A face may name vertices that stand behind it, so the end of the file is the first place to tell.
+    // A face may refer to later vertices, so positive indices are checked at the end of the file.
     if (highestIndex_ > mesh_.vertices.size())
-      failAtLine(highestIndexLine_, fmt::format("vertex index {} is out of range; the mesh has {}, counted from 1",
+      failAtLine(highestIndexLine_, fmt::format("vertex index {} is out of range; the mesh has {}, numbered from 1",
                                                 highestIndex_, counted(mesh_.vertices.size(), "vertex", "vertices")));
     faces_.moveTo(mesh_);
     return std::move(mesh_);
@@ -35,14 +46,14 @@ class ObjReader {
     const std::string_view keyword = text_.wordOnLine();
     if (keyword == "v") {
       readVertex();
-    } else if (keyword == "f" || keyword == "fo") {  // fo is what old files say for f.
+    } else if (keyword == "f" || keyword == "fo") {  // fo: obsolete name of f.
       readFace();
     } else if (keyword == "call") {
-      failAtLine(text_.line(), "this file calls another one, which is never opened; put them into one");
-    } else if (isObjKeyword(keyword)) {
+      failAtLine(text_.line(), "call refers to another file; other files are never opened");
+    } else if (isKeyword(keyword)) {
       text_.skipLine();
     } else {
-      failAtLine(text_.line(), fmt::format("{} is no OBJ keyword", quoted(keyword)));
+      failAtLine(text_.line(), fmt::format("{} is not an OBJ keyword", quoted(keyword)));
     }
   }
 
@@ -50,11 +61,12 @@ class ObjReader {
     std::array<double, 7> numbers{};
     size_t count = 0;
     for (; !text_.atLineEnd(); ++count) {
-      if (count == numbers.size()) failAtLine(text_.line(), "this vertex has more than seven numbers");
+      if (count == numbers.size()) failAtLine(text_.line(), "a vertex has more than seven numbers");
       numbers[count] = text_.number("a vertex coordinate");
     }
-    // x y z, then a weight, or a colour of three, or both.
-    if (count < 3 || count == 5) failAtLine(text_.line(), fmt::format("a vertex cannot have {} numbers", count));
+    // x y z, then optionally a weight, then optionally three colour components.
+    if (count < 3 || count == 5)
+      failAtLine(text_.line(), fmt::format("a vertex has {} numbers; 3, 4, 6 or 7 are allowed", count));
     mesh_.vertices.push_back({numbers[0], numbers[1], numbers[2]});
     requireIndexableVertexCount(mesh_.vertices.size());
   }
@@ -62,11 +74,11 @@ class ObjReader {
   void readFace() {
     corners_.clear();
     while (!text_.atLineEnd()) corners_.push_back(readCorner(text_.wordOnLine()));
-    if (corners_.empty()) failAtLine(text_.line(), "this face has no corners");
+    if (corners_.empty()) failAtLine(text_.line(), "a face has no corners");
     faces_.add(corners_);
   }
 
-  /// v, v/vt, v//vn or v/vt/vn; the latter two are checked for being numbers only.
+  /// v, v/vt, v//vn or v/vt/vn; vt and vn must be integers, of any value.
   uint32_t readCorner(std::string_view word) {
     const char* at = word.data();
     const char* end = at + word.size();
@@ -83,13 +95,13 @@ class ObjReader {
         at = partResult.ptr;
       }
     }
-    if (!isGood) failAtLine(text_.line(), fmt::format("{} is no corner of a face", quoted(word)));
+    if (!isGood) failAtLine(text_.line(), fmt::format("{} is not a corner of a face", quoted(word)));
     return vertexOf(index);
   }
 
   uint32_t vertexOf(int64_t index) {
     const auto vertexCount = static_cast<int64_t>(mesh_.vertices.size());
-    if (index == 0) failAtLine(text_.line(), "vertex index 0; OBJ counts vertices from 1, or backwards from -1");
+    if (index == 0) failAtLine(text_.line(), "vertex index 0; OBJ numbers vertices from 1, or backwards from -1");
     if (index < -vertexCount || index > kMaxIndex)
       failAtLine(text_.line(), fmt::format("vertex index {} is out of range; the mesh has {} before it", index,
                                            counted(mesh_.vertices.size(), "vertex", "vertices")));
@@ -112,6 +124,10 @@ class ObjReader {
 };
 
 }  // namespace
+
+Match detectObj(std::span<const char> bytes) {
+  return isKeyword(firstWord(bytes, '#')) ? Match::Possible : Match::None;
+}
 
 Mesh parseObj(std::span<const char> bytes) { return ObjReader(bytes).read(); }
 

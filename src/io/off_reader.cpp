@@ -1,29 +1,90 @@
-// The Object File Format of Geomview: [ST][C][N]OFF, counts, a vertex per line, faces. What the prefixes add to a
-// vertex (texture coordinates, a colour, a normal) and the colour behind a face are passed over.
+// The Object File Format of Geomview: [ST][C][N]OFF, counts, one vertex per line, faces. The reader ignores the numbers
+// that the prefixes add to a vertex (texture coordinates, a colour, a normal) and the colour of a face.
 #include <fmt/format.h>
 
 #include <optional>
 
 #include "core/text.h"
+#include "io/formats.h"
 #include "io/input_faces.h"
 #include "io/input_failure.h"
-#include "io/mesh_reader.h"
-#include "io/off_header.h"
 #include "io/text_scanner.h"
 
 namespace asdfvk {
 namespace {
 
-uint64_t readCount(TextScanner& text, std::string_view what) {
-  const int64_t count = text.integer(what);
-  if (count < 0) failAtLine(text.line(), fmt::format("{} is negative: {}", what, count));
+/// The keyword of an OFF file: it lists the numbers after the coordinates of each vertex.
+struct OffHeader {
+  std::string_view keyword = "OFF";
+  bool hasColours = false;          ///< 3 or 4 numbers.
+  bool hasNormals = false;          ///< 3 numbers.
+  bool hasTexture = false;          ///< 2 numbers.
+  bool hasFourCoordinates = false;  ///< 4OFF, nOFF, 4nOFF.
+
+  [[nodiscard]] bool allowsExtraCount(uint64_t count) const {
+    const uint64_t fixed = (hasNormals ? 3u : 0u) + (hasTexture ? 2u : 0u);
+    return hasColours ? count == fixed + 3 || count == fixed + 4 : count == fixed;
+  }
+};
+
+/// Accepts a digit directly after the keyword ("OFF3 1 0" occurs in files), and the prefixes in any order, because
+/// programs differ in it and it has no effect here.
+std::optional<OffHeader> parseKeyword(std::string_view word) {
+  const size_t at = word.find("OFF");
+  if (at == std::string_view::npos) return std::nullopt;
+  const std::string_view rest = word.substr(at + 3);
+  if (!rest.empty() && !(rest[0] >= '0' && rest[0] <= '9')) return std::nullopt;
+  OffHeader header;
+  header.keyword = word.substr(0, at + 3);
+  for (std::string_view prefixes = word.substr(0, at); !prefixes.empty();) {
+    bool* flag = nullptr;
+    size_t length = 1;
+    if (prefixes.starts_with("ST")) {
+      flag = &header.hasTexture;
+      length = 2;
+    } else if (prefixes[0] == 'C') {
+      flag = &header.hasColours;
+    } else if (prefixes[0] == 'N') {
+      flag = &header.hasNormals;
+    } else if (prefixes[0] == '4' || prefixes[0] == 'n') {
+      flag = &header.hasFourCoordinates;
+    }
+    if (flag == nullptr || (*flag && flag != &header.hasFourCoordinates)) return std::nullopt;
+    *flag = true;
+    prefixes.remove_prefix(length);
+  }
+  return header;
+}
+
+/// Reads up to the counts. A file without the keyword begins with its counts.
+OffHeader readHeader(TextScanner& text) {
+  TextScanner ahead = text;
+  const std::string_view word = ahead.word("OFF");
+  const std::optional<OffHeader> header = parseKeyword(word);
+  if (!header) {
+    if (word[0] >= '0' && word[0] <= '9') return {};
+    failAtLine(ahead.line(), fmt::format("expected OFF or the vertex count, found {}", quoted(word)));
+  }
+  if (header->hasFourCoordinates)
+    failAtLine(ahead.line(), fmt::format("{} does not have three coordinates per vertex", quoted(word)));
+  static_cast<void>(text.atEnd());
+  text.skipBytes(header->keyword.size());
+  TextScanner next = text;
+  if (!next.atLineEnd() && next.wordOnLine() == "BINARY")
+    failAtLine(next.line(), "binary OFF is not supported; convert the mesh to PLY");
+  return *header;
+}
+
+uint64_t readCount(TextScanner& text, std::string_view name) {
+  const int64_t count = text.integer(name);
+  if (count < 0) failAtLine(text.line(), fmt::format("{} is negative: {}", name, count));
   return static_cast<uint64_t>(count);
 }
 
-/// Passes over the numbers that are left on the line and returns how many there were.
-uint64_t skipNumbersOnLine(TextScanner& text, std::string_view what) {
+/// Skips the remaining numbers of the line and returns their count.
+uint64_t skipNumbersOnLine(TextScanner& text, std::string_view expected) {
   uint64_t count = 0;
-  for (; !text.atLineEnd(); ++count) static_cast<void>(text.number(what));
+  for (; !text.atLineEnd(); ++count) static_cast<void>(text.number(expected));
   return count;
 }
 
@@ -36,8 +97,8 @@ void readVertices(TextScanner& text, const OffHeader& header, uint64_t count, st
     p.z = text.number("a vertex coordinate");
     const uint64_t extraCount = skipNumbersOnLine(text, "a number of a vertex");
     if (!header.allowsExtraCount(extraCount))
-      failAtLine(text.line(), fmt::format("vertex {} has {} numbers behind its coordinates, which does not fit the "
-                                          "header {}; COFF announces colours, NOFF normals, STOFF texture coordinates",
+      failAtLine(text.line(), fmt::format("vertex {} has {} numbers after its coordinates, which contradicts the "
+                                          "keyword {}; COFF has colours, NOFF normals, STOFF texture coordinates",
                                           i, extraCount, header.keyword));
   }
 }
@@ -48,8 +109,9 @@ void readFaces(TextScanner& text, uint64_t count, uint64_t vertexCount, InputFac
   for (uint64_t i = 0; i < count; ++i) {
     const uint64_t cornerCount = readCount(text, "the corner count of a face");
     if (cornerCount > text.remaining())
-      failAtLine(text.line(), fmt::format("face {} claims {}, but the file has only {} more; it is cut short", i,
-                                          counted(cornerCount, "corner"), counted(text.remaining(), "byte")));
+      failAtLine(text.line(), fmt::format("face {} with {} does not fit into the remaining {}; the file is truncated "
+                                          "or the corner count is wrong",
+                                          i, counted(cornerCount, "corner"), counted(text.remaining(), "byte")));
     corners.clear();
     for (uint64_t c = 0; c < cornerCount; ++c) {
       const int64_t index = text.integer("a vertex index");
@@ -59,25 +121,29 @@ void readFaces(TextScanner& text, uint64_t count, uint64_t vertexCount, InputFac
       corners.push_back(static_cast<uint32_t>(index));
     }
     if (skipNumbersOnLine(text, "a colour number") > 4)
-      failAtLine(text.line(), fmt::format("more than a colour stands behind face {}", i));
+      failAtLine(text.line(), fmt::format("more than four numbers after the corners of face {}", i));
     faces.add(corners);
   }
 }
 
 }  // namespace
 
+Match detectOff(std::span<const char> bytes) {
+  return parseKeyword(firstWord(bytes, '#')) ? Match::Certain : Match::None;
+}
+
 Mesh parseOff(std::span<const char> bytes) {
   TextScanner text(bytes, {.comment = '#'});
-  const OffHeader header = readOffHeader(text);
+  const OffHeader header = readHeader(text);
   const uint64_t vertexCount = readCount(text, "the vertex count");
   const uint64_t faceCount = readCount(text, "the face count");
   if (!text.atLineEnd()) static_cast<void>(readCount(text, "the edge count"));
   text.requireLineEnd("the counts");
-  // A vertex takes at least the six bytes of "0 0 0\n", a face the two of "0\n"; the last line may lack its end.
-  const uint64_t left = text.remaining() + 1;
-  if (vertexCount > left / 6 || faceCount > (left - 6 * vertexCount) / 2)
-    failAtLine(text.line(), fmt::format("{} and {} do not fit into the {} left; "
-                                        "the file is cut short or its counts are wrong",
+  // Shortest vertex: the six bytes of "0 0 0\n"; shortest face: the two of "0\n". The last line may lack its end.
+  const uint64_t remaining = text.remaining() + 1;
+  if (vertexCount > remaining / 6 || faceCount > (remaining - 6 * vertexCount) / 2)
+    failAtLine(text.line(), fmt::format("{} and {} do not fit into the remaining {}; "
+                                        "the file is truncated or the counts are wrong",
                                         counted(vertexCount, "vertex", "vertices"), counted(faceCount, "face"),
                                         counted(text.remaining(), "byte")));
   requireIndexableVertexCount(vertexCount);
@@ -85,8 +151,7 @@ Mesh parseOff(std::span<const char> bytes) {
   InputFaces faces;
   readVertices(text, header, vertexCount, mesh.vertices);
   readFaces(text, faceCount, vertexCount, faces);
-  if (!text.atEnd())
-    failAtLine(text.line(), fmt::format("{} stands behind the last face", quoted(text.word("the end"))));
+  text.requireEnd("the last face");
   faces.moveTo(mesh);
   return mesh;
 }

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
+#include "core/text.h"
 #include "io/input_faces.h"
 #include "io/input_failure.h"
-#include "io/ply_roles.h"
 #include "io/text_scanner.h"
 
 namespace asdfvk {
@@ -36,8 +36,65 @@ PlyType typeOf(std::string_view word, uint64_t line) {
       {"float64", PlyType::Float64},
   });
   const auto found = std::find_if(kNames.begin(), kNames.end(), [&](const Name& name) { return name.word == word; });
-  if (found == kNames.end()) failAtLine(line, fmt::format("{} is no PLY type", quoted(word)));
+  if (found == kNames.end()) failAtLine(line, fmt::format("{} is not a PLY type", quoted(word)));
   return found->type;
+}
+
+void setOnce(size_t& property, size_t value, const PlyElement& element) {
+  if (property != kNoProperty)
+    failInput(fmt::format("element {} has two properties for {}", quoted(element.name),
+                          quoted(element.properties[value].name)));
+  property = value;
+}
+
+void findCoordinates(PlyElement& element) {
+  constexpr std::array<std::string_view, 3> kNames = {"x", "y", "z"};
+  for (size_t i = 0; i < element.properties.size(); ++i)
+    for (size_t axis = 0; axis < 3; ++axis)
+      if (element.properties[i].name == kNames[axis]) setOnce(element.coordinates[axis], i, element);
+  for (size_t axis = 0; axis < 3; ++axis) {
+    if (element.coordinates[axis] == kNoProperty)
+      failInput(fmt::format("element 'vertex' has no property {}", kNames[axis]));
+    if (element.properties[element.coordinates[axis]].list)
+      failInput(fmt::format("property {} of element 'vertex' is a list; it must be a number", kNames[axis]));
+  }
+}
+
+void findIndices(PlyElement& element) {
+  for (size_t i = 0; i < element.properties.size(); ++i) {
+    const std::string_view name = element.properties[i].name;
+    if (name == "vertex_indices" || name == "vertex_index") setOnce(element.indices, i, element);
+  }
+  if (element.indices == kNoProperty)
+    failInput(fmt::format("element {} has no list vertex_indices", quoted(element.name)));
+  const PlyProperty& property = element.properties[element.indices];
+  if (!property.list || !isInteger(property.type))
+    failInput(fmt::format("property {} of element {} must be a list of integers", quoted(property.name),
+                          quoted(element.name)));
+}
+
+/// Sets the roles of the elements that form the mesh; returns the vertex count.
+uint64_t assignRoles(std::span<PlyElement> elements) {
+  const PlyElement* vertices = nullptr;
+  const PlyElement* faces = nullptr;
+  const PlyElement* strips = nullptr;
+  const auto assign = [](const PlyElement*& slot, PlyElement& element, PlyRole role) {
+    if (slot != nullptr) failInput(fmt::format("the header has two elements {}", quoted(element.name)));
+    slot = &element;
+    element.role = role;
+    role == PlyRole::Vertices ? findCoordinates(element) : findIndices(element);
+  };
+  for (PlyElement& element : elements) {
+    if (element.name == "vertex") assign(vertices, element, PlyRole::Vertices);
+    if (element.name == "face") assign(faces, element, PlyRole::Faces);
+    if (element.name == "tristrips") assign(strips, element, PlyRole::Strips);
+  }
+  if (vertices == nullptr) failInput("has no element 'vertex'");
+  if (faces == nullptr && strips == nullptr)
+    failInput(
+        fmt::format("has {} and no element 'face': a point cloud, not a mesh", counted(vertices->count, "point")));
+  requireIndexableVertexCount(vertices->count);
+  return vertices->count;
 }
 
 class HeaderParser {
@@ -66,16 +123,16 @@ class HeaderParser {
     } else if (keyword == "property") {
       parseProperty();
     } else if (keyword == "comment" || keyword == "obj_info") {
-      while (!text_.wordOnLine().empty()) continue;
+      parseComment();
     } else {
-      failAtLine(text_.line(), fmt::format("{} is no PLY header keyword", quoted(keyword)));
+      failAtLine(text_.line(), fmt::format("{} is not a PLY header keyword", quoted(keyword)));
     }
     return true;
   }
 
-  std::string_view wordOnLine(std::string_view what) {
+  std::string_view wordOnLine(std::string_view expected) {
     const std::string_view word = text_.wordOnLine();
-    if (word.empty()) failAtLine(text_.line(), fmt::format("{} is missing", what));
+    if (word.empty()) failAtLine(text_.line(), fmt::format("{} is missing", expected));
     return word;
   }
 
@@ -90,32 +147,41 @@ class HeaderParser {
     } else if (encoding == "binary_big_endian") {
       header_.encoding = PlyEncoding::BinaryBigEndian;
     } else {
-      failAtLine(text_.line(), fmt::format("{} is no PLY encoding", quoted(encoding)));
+      failAtLine(text_.line(), fmt::format("{} is not a PLY encoding", quoted(encoding)));
     }
     const std::string_view version = wordOnLine("the version");
-    if (version != "1.0") failAtLine(text_.line(), fmt::format("PLY version {} is unknown", quoted(version)));
+    if (version != "1.0") failAtLine(text_.line(), fmt::format("PLY version {} is not supported", quoted(version)));
   }
 
   void parseElement() {
     PlyElement& element = header_.elements.emplace_back();
-    element.name = wordOnLine("the element's name");
-    if (text_.atLineEnd()) failAtLine(text_.line(), "the element's count is missing");
-    const int64_t count = text_.integer("the element's count");
-    if (count < 0) failAtLine(text_.line(), fmt::format("the element's count is negative: {}", count));
+    element.name = wordOnLine("the name of the element");
+    if (text_.atLineEnd()) failAtLine(text_.line(), "the count of the element is missing");
+    const int64_t count = text_.integer("the count of the element");
+    if (count < 0) failAtLine(text_.line(), fmt::format("the count of the element is negative: {}", count));
     element.count = static_cast<uint64_t>(count);
   }
 
   void parseProperty() {
-    if (header_.elements.empty()) failAtLine(text_.line(), "a property stands before any element");
+    if (header_.elements.empty()) failAtLine(text_.line(), "a property before the first element");
     PlyProperty& property = header_.elements.back().properties.emplace_back();
-    std::string_view type = wordOnLine("the property's type");
+    std::string_view type = wordOnLine("the type of the property");
     if (type == "list") {
-      property.list = typeOf(wordOnLine("the type of the list's count"), text_.line());
-      if (!isInteger(*property.list)) failAtLine(text_.line(), "a list's count must have an integer type");
-      type = wordOnLine("the type of the list's items");
+      property.list = typeOf(wordOnLine("the type of the list length"), text_.line());
+      if (!isInteger(*property.list)) failAtLine(text_.line(), "the length of a list must have an integer type");
+      type = wordOnLine("the type of the list items");
     }
     property.type = typeOf(type, text_.line());
-    property.name = wordOnLine("the property's name");
+    property.name = wordOnLine("the name of the property");
+  }
+
+  void parseComment() {
+    if (text_.atLineEnd()) return;
+    const char* const begin = text_.position();
+    const char* end = begin;
+    for (std::string_view word = text_.wordOnLine(); !word.empty(); word = text_.wordOnLine())
+      end = word.data() + word.size();
+    header_.comments.emplace_back(begin, static_cast<size_t>(end - begin));
   }
 
   void finish() {
@@ -123,11 +189,10 @@ class HeaderParser {
     const uint64_t length = breakLength();
     header_.bodyOffset = static_cast<uint64_t>(text_.position() - bytes_.data()) + length;
     header_.bodyLine = text_.line() + (length > 0 ? 1 : 0);
-    header_.vertexCount = assignPlyRoles(header_.elements);
+    header_.vertexCount = assignRoles(header_.elements);
   }
 
-  /// Bytes of the line break ahead. Where lines end with CR alone, an LF behind end_header is the first byte of the
-  /// body.
+  /// Bytes of the next line break. Where lines end with CR alone, an LF after end_header is the first byte of the body.
   [[nodiscard]] uint64_t breakLength() const {
     if (text_.remaining() == 0) return 0;
     const char* at = text_.position();
@@ -144,7 +209,7 @@ class HeaderParser {
 }  // namespace
 
 uint64_t PlyElement::minRowSize(PlyEncoding encoding) const {
-  if (encoding == PlyEncoding::Ascii) return 2 * properties.size();  // A digit and a blank for a number or a count.
+  if (encoding == PlyEncoding::Ascii) return 2 * properties.size();  // A digit and a blank per number or list length.
   uint64_t size = 0;
   for (const PlyProperty& property : properties) size += sizeOf(property.list.value_or(property.type));
   return size;

@@ -12,7 +12,7 @@ namespace asdfvk {
 enum class PlyEncoding { Ascii, BinaryLittleEndian, BinaryBigEndian };
 enum class PlyType : uint8_t { Int8, UInt8, Int16, UInt16, Int32, UInt32, Float32, Float64 };
 
-/// Bytes that a number of the type takes in a binary file.
+/// Bytes of a number of the type in a binary file.
 [[nodiscard]] constexpr uint64_t sizeOf(PlyType type) {
   constexpr std::array<uint8_t, 8> kSizes = {1, 1, 2, 2, 4, 4, 4, 8};
   return kSizes[static_cast<size_t>(type)];
@@ -21,11 +21,10 @@ enum class PlyType : uint8_t { Int8, UInt8, Int16, UInt16, Int32, UInt32, Float3
 
 struct PlyProperty {
   std::string_view name;
-  PlyType type{};               ///< Of the number, or of the list's items.
-  std::optional<PlyType> list;  ///< The type of the count, where the property is a list.
+  PlyType type{};               ///< Of the number, or of the items of the list.
+  std::optional<PlyType> list;  ///< Of the length of the list; unset for a number.
 };
 
-/// What an element means to a mesh.
 enum class PlyRole { Other, Vertices, Faces, Strips };
 
 inline constexpr size_t kNoProperty = static_cast<size_t>(-1);
@@ -38,20 +37,20 @@ struct PlyElement {
   std::array<size_t, 3> coordinates{kNoProperty, kNoProperty, kNoProperty};  ///< x, y, z; of Vertices.
   size_t indices = kNoProperty;  ///< vertex_indices or vertex_index; of Faces and Strips.
 
-  /// The fewest bytes that a row can take in the given encoding.
+  /// Lower bound of the bytes of a row.
   [[nodiscard]] uint64_t minRowSize(PlyEncoding encoding) const;
 };
 
 struct PlyHeader {
   PlyEncoding encoding = PlyEncoding::Ascii;
-  std::vector<PlyElement>
-      elements;              ///< In file order. Exactly one has the role Vertices, one or more are Faces or Strips.
-  uint64_t bodyOffset = 0;   ///< Bytes before the first row.
-  uint64_t bodyLine = 1;     ///< The line that it stands on, in an ASCII file.
+  std::vector<PlyElement> elements;  ///< In file order: one with the role Vertices, at least one of Faces or Strips.
+  std::vector<std::string_view> comments;
+  uint64_t bodyOffset = 0;   ///< Byte of the first row.
+  uint64_t bodyLine = 1;     ///< Line of the first row, in an ASCII file.
   uint64_t vertexCount = 0;  ///< Fits 32-bit indices.
 };
 
-/// Reads and checks the header; throws Error{Input} naming the line. Names are views into `bytes`.
+/// Reads and checks the header. Throws Error{UnreadableInput} with the line. Names are views into `bytes`.
 [[nodiscard]] PlyHeader parsePlyHeader(std::span<const char> bytes);
 
 }  // namespace asdfvk

@@ -1,20 +1,228 @@
-// PLY (Turk 1994): header, then rows of the elements in the order of the header.
-#include "io/mesh_reader.h"
-#include "io/ply_body.h"
+// PLY (Turk 1994): a header (ply_header.h), then the rows of its elements, as text or binary (ply_source.h).
+#include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <atomic>
+#include <bit>
+
+#include "core/text.h"
+#include "io/formats.h"
+#include "io/input_faces.h"
+#include "io/input_failure.h"
+#include "io/ply_header.h"
+#include "io/ply_source.h"
 
 namespace asdfvk {
+namespace {
+
+/// Converts vertex indices of a strip to triangles: each index after the second forms one with its two predecessors,
+/// every other one reversed, so that all have the winding of the first. Triangles with a repeated vertex only connect
+/// strips and are no faces.
+class TriangleStrip {
+ public:
+  explicit TriangleStrip(InputFaces& faces) : faces_(faces) {}
+
+  /// The next index begins a new strip.
+  void restart() { length_ = 0; }
+
+  void add(uint32_t vertex) {
+    if (length_ >= 2 && first_ != second_ && second_ != vertex && vertex != first_) {
+      const bool isReversed = length_ % 2 == 1;
+      const std::array<uint32_t, 3> corners = {isReversed ? second_ : first_, isReversed ? first_ : second_, vertex};
+      faces_.add(corners);
+    }
+    first_ = second_;
+    second_ = vertex;
+    ++length_;
+  }
+
+ private:
+  InputFaces& faces_;
+  uint64_t length_ = 0;
+  uint32_t first_ = 0, second_ = 0;  ///< The last two indices.
+};
+
+/// The rows of a file.
+struct PlyContents {
+  std::vector<Vec3d> vertices;
+  InputFaces faces;
+};
+
+/// Calls decode(first, end) for parts of [0, count), in parallel where there are several.
+template <typename Decode>
+void forRows(uint64_t count, const Decode& decode) {
+  constexpr uint64_t kRowsPerTask = 1 << 15;
+  if (count <= kRowsPerTask) return decode(uint64_t{0}, count);
+  tbb::parallel_for(tbb::blocked_range<uint64_t>(0, count, kRowsPerTask),
+                    [&](const auto& range) { decode(range.begin(), range.end()); });
+}
+
+/// Reads the rows of all elements. Allocates memory for an element only after a check of its count against the rest of
+/// the file.
+template <typename Source>
+class PlyBody {
+ public:
+  PlyBody(std::span<const char> bytes, const PlyHeader& header, PlyContents& contents)
+      : header_(header), source_(bytes, header), contents_(contents) {}
+
+  void read() {
+    for (const PlyElement& element : header_.elements) readElement(element);
+    source_.requireEnd();
+  }
+
+ private:
+  void readElement(const PlyElement& element) {
+    const uint64_t minRowSize = element.minRowSize(header_.encoding);
+    if (minRowSize == 0) return;
+    if (!source_.canHoldRows(element.count, minRowSize))
+      source_.fail(
+          fmt::format("{} of element {} do not fit into the remaining {}; the file is truncated or the count "
+                      "is wrong",
+                      counted(element.count, "row"), quoted(element.name), counted(source_.remaining(), "byte")));
+    if (element.role == PlyRole::Vertices) contents_.vertices.resize(element.count);
+    if constexpr (Source::kIsBinary)
+      if (readUniformRows(element, minRowSize)) return;
+    if (element.role == PlyRole::Faces) contents_.faces.reserve(element.count);
+    for (uint64_t row = 0; row < element.count; ++row) readRow(element, row);
+  }
+
+  /// Reads the rows of a binary element in parallel where all have one size: without lists, or faces that are all
+  /// triangles and have no other list. Otherwise reads nothing and returns false.
+  bool readUniformRows(const PlyElement& element, uint64_t minRowSize) {
+    size_t listCount = 0;
+    for (const PlyProperty& property : element.properties) listCount += property.list ? 1 : 0;
+    if (element.role == PlyRole::Faces && listCount == 1) return readTriangles(element, minRowSize);
+    if (listCount > 0) return false;
+    if (element.role == PlyRole::Vertices) readUniformVertices(element, minRowSize);
+    source_.skipBytes(element.count * minRowSize);
+    return true;
+  }
+
+  void readUniformVertices(const PlyElement& element, uint64_t rowSize) {
+    std::array<uint64_t, 3> offsets{};
+    std::array<PlyType, 3> types{};
+    for (size_t axis = 0; axis < 3; ++axis) {
+      offsets[axis] = offsetOf(element, element.coordinates[axis]);
+      types[axis] = element.properties[element.coordinates[axis]].type;
+    }
+    forRows(element.count, [&](uint64_t first, uint64_t end) {
+      for (uint64_t row = first; row < end; ++row)
+        for (size_t axis = 0; axis < 3; ++axis)
+          contents_.vertices[row][axis] = source_.template load<double>(row * rowSize + offsets[axis], types[axis]);
+    });
+  }
+
+  /// False where a face is not a triangle or has an index out of range; the rows are then read one by one, which finds
+  /// the place of an error.
+  bool readTriangles(const PlyElement& element, uint64_t minRowSize) {
+    const PlyProperty& indices = element.properties[element.indices];
+    const uint64_t indexSize = sizeOf(indices.type), lengthSize = sizeOf(*indices.list);
+    const uint64_t rowSize = minRowSize + 3 * indexSize;
+    if (!source_.canHoldRows(element.count, rowSize)) return false;
+    const uint64_t offset = offsetOf(element, element.indices);
+    std::vector<Face> faces(element.count);
+    std::atomic<bool> isValid = true;
+    forRows(element.count, [&](uint64_t first, uint64_t end) {
+      for (uint64_t row = first; row < end && isValid.load(std::memory_order_relaxed); ++row) {
+        const uint64_t list = row * rowSize + offset;
+        bool isRowValid = source_.template load<int64_t>(list, *indices.list) == 3;
+        for (size_t c = 0; c < 3; ++c) {
+          const auto index = source_.template load<int64_t>(list + lengthSize + c * indexSize, indices.type);
+          isRowValid = isRowValid && static_cast<uint64_t>(index) < header_.vertexCount;
+          faces[row][c] = static_cast<uint32_t>(index);
+        }
+        if (!isRowValid) isValid = false;
+      }
+    });
+    if (!isValid) return false;
+    contents_.faces.addTriangles(std::move(faces));
+    source_.skipBytes(element.count * rowSize);
+    return true;
+  }
+
+  /// Of a property in its row. Precondition: no list precedes it.
+  [[nodiscard]] static uint64_t offsetOf(const PlyElement& element, size_t property) {
+    uint64_t offset = 0;
+    for (size_t i = 0; i < property; ++i) offset += sizeOf(element.properties[i].type);
+    return offset;
+  }
+
+  void readRow(const PlyElement& element, uint64_t row) {
+    for (size_t i = 0; i < element.properties.size(); ++i) {
+      const PlyProperty& property = element.properties[i];
+      if (property.list) {
+        readList(element, i);
+        continue;
+      }
+      const double value = source_.number(property.type, property.name);
+      for (size_t axis = 0; axis < 3; ++axis)
+        if (i == element.coordinates[axis]) contents_.vertices[row][axis] = value;
+    }
+    source_.endRow(element, row);
+  }
+
+  void readList(const PlyElement& element, size_t propertyIndex) {
+    const PlyProperty& property = element.properties[propertyIndex];
+    const int64_t signedLength = source_.integer(*property.list, "the length of a list");
+    const auto length = static_cast<uint64_t>(signedLength);
+    if (signedLength < 0 || !source_.canHoldItems(length, property.type))
+      source_.fail(
+          fmt::format("a list of length {} does not fit into the remaining {}; the file is truncated or the "
+                      "length is wrong",
+                      signedLength, counted(source_.remaining(), "byte")));
+    if (propertyIndex != element.indices) {
+      source_.skip(length, property.type, property.name);
+    } else if (element.role == PlyRole::Faces) {
+      corners_.clear();
+      for (uint64_t i = 0; i < length; ++i) corners_.push_back(readIndex(property.type, false));
+      contents_.faces.add(corners_);
+    } else {
+      TriangleStrip strip(contents_.faces);
+      for (uint64_t i = 0; i < length; ++i) {
+        const uint32_t index = readIndex(property.type, true);
+        index == kRestart ? strip.restart() : strip.add(index);
+      }
+    }
+  }
+
+  /// A vertex index, or -1 as kRestart where that is allowed.
+  uint32_t readIndex(PlyType type, bool allowsRestart) {
+    const int64_t index = source_.integer(type, "a vertex index");
+    if (allowsRestart && index == -1) return kRestart;
+    if (index < 0 || static_cast<uint64_t>(index) >= header_.vertexCount)
+      source_.fail(fmt::format("vertex index {} is out of range; the mesh has {}", index,
+                               counted(header_.vertexCount, "vertex", "vertices")));
+    return static_cast<uint32_t>(index);
+  }
+
+  static constexpr uint32_t kRestart = 0xffffffff;  ///< Above every index: a mesh has fewer vertices.
+
+  const PlyHeader& header_;
+  Source source_;
+  PlyContents& contents_;
+  std::vector<uint32_t> corners_;
+};
+
+void readBody(std::span<const char> bytes, const PlyHeader& header, PlyContents& contents) {
+  constexpr bool kIsHostLittle = std::endian::native == std::endian::little;
+  if (header.encoding == PlyEncoding::Ascii) return PlyBody<PlyAsciiSource>(bytes, header, contents).read();
+  if ((header.encoding == PlyEncoding::BinaryLittleEndian) == kIsHostLittle)
+    return PlyBody<PlyBinarySource<false>>(bytes, header, contents).read();
+  PlyBody<PlyBinarySource<true>>(bytes, header, contents).read();
+}
+
+}  // namespace
+
+Match detectPly(std::span<const char> bytes) { return firstWord(bytes) == "ply" ? Match::Certain : Match::None; }
 
 Mesh parsePly(std::span<const char> bytes) {
   const PlyHeader header = parsePlyHeader(bytes);
-  PlyTarget target;
-  if (header.encoding == PlyEncoding::Ascii) {
-    readPlyAscii(bytes, header, target);
-  } else {
-    readPlyBinary(bytes, header, target);
-  }
+  PlyContents contents;
+  readBody(bytes, header, contents);
   Mesh mesh;
-  mesh.vertices = std::move(target.vertices);
-  target.faces.moveTo(mesh);
+  mesh.vertices = std::move(contents.vertices);
+  contents.faces.moveTo(mesh);
   return mesh;
 }
 

@@ -1,24 +1,96 @@
-// STL, binary and ASCII. It has no indices: corners at the same point become one vertex, or no face would have a
-// neighbour. Normals and attribute bytes are passed over; the winding says what is outside.
+// STL, binary and ASCII. It has no indices, so corners at the same point become one vertex; otherwise no face would
+// have a neighbour. The reader ignores normals and attribute bytes; the vertex order decides which side is outside.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <bit>
 #include <cctype>
+#include <cmath>
 #include <cstring>
+#include <limits>
 
 #include "core/text.h"
-#include "io/corner_welder.h"
+#include "io/formats.h"
 #include "io/input_faces.h"
 #include "io/input_failure.h"
-#include "io/mesh_format.h"
-#include "io/mesh_reader.h"
 #include "io/text_scanner.h"
+#include "mesh/point_hash.h"
 
 namespace asdfvk {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "binary STL is read by copying its bytes");
+
+constexpr uint64_t kHeaderSize = 84;  // 80 arbitrary bytes, then the face count.
+constexpr uint64_t kFaceSize = 50;    // Normal and corners in float32, then two attribute bytes.
+
+/// Assigns one index to equal points, in order of first appearance. Equal points have the same three numbers, -0 being
+/// 0; a point with a NaN equals no point.
+class CornerWelder {
+ public:
+  /// expectedPointCount, of distinct points: the initial capacity.
+  explicit CornerWelder(uint64_t expectedPointCount);
+
+  [[nodiscard]] uint32_t indexOf(Vec3d point);
+  [[nodiscard]] std::vector<Vec3d>& points() { return points_; }
+
+ private:
+  static constexpr uint32_t kEmptySlot = std::numeric_limits<uint32_t>::max();
+
+  void resizeTable(uint64_t slotCount);
+  [[nodiscard]] uint64_t slotOf(const Vec3d& point) const;
+
+  std::vector<Vec3d> points_;
+  std::vector<uint32_t> table_;  ///< Open addressing with linear probing; at most two thirds full.
+};
+
+CornerWelder::CornerWelder(uint64_t expectedPointCount) {
+  resizeTable(std::bit_ceil(expectedPointCount + expectedPointCount / 2 + 16));
+}
+
+uint64_t CornerWelder::slotOf(const Vec3d& point) const {
+  const uint64_t mask = table_.size() - 1;
+  uint64_t slot = hashOf(point) & mask;
+  while (table_[slot] != kEmptySlot && !(points_[table_[slot]] == point)) slot = (slot + 1) & mask;
+  return slot;
+}
+
+uint32_t CornerWelder::indexOf(Vec3d point) {
+  point = point + Vec3d{};  // -0 becomes 0.
+  const bool isNan = std::isnan(point.x) || std::isnan(point.y) || std::isnan(point.z);
+  const uint64_t slot = isNan ? 0 : slotOf(point);
+  if (!isNan && table_[slot] != kEmptySlot) return table_[slot];
+  const auto index = static_cast<uint32_t>(points_.size());
+  points_.push_back(point);
+  requireIndexableVertexCount(points_.size());
+  if (!isNan) {
+    table_[slot] = index;
+    if (points_.size() * 3 > table_.size() * 2) resizeTable(table_.size() * 2);
+  }
+  return index;
+}
+
+void CornerWelder::resizeTable(uint64_t slotCount) {
+  table_.assign(slotCount, kEmptySlot);
+  for (uint32_t i = 0; i < points_.size(); ++i) {
+    const Vec3d& p = points_[i];
+    if (!std::isnan(p.x) && !std::isnan(p.y) && !std::isnan(p.z)) table_[slotOf(p)] = i;
+  }
+}
+
+/// Precondition: at least kHeaderSize bytes.
+uint64_t binaryFaceCount(std::span<const char> bytes) {
+  uint32_t count = 0;
+  std::memcpy(&count, bytes.data() + kHeaderSize - sizeof count, sizeof count);
+  return count;
+}
+
+/// Whether the size is exactly that of a binary STL. No text has it: four printable bytes are a huge face count.
+bool hasBinarySize(std::span<const char> bytes) {
+  return bytes.size() >= kHeaderSize && bytes.size() == kHeaderSize + binaryFaceCount(bytes) * kFaceSize;
+}
+
+bool beginsWithSolid(std::span<const char> bytes) { return lowerCase(firstWord(bytes).substr(0, 6)) == "solid"; }
 
 Mesh weldedMesh(CornerWelder& welder, std::vector<Face>&& triangles) {
   Mesh mesh;
@@ -30,25 +102,24 @@ Mesh weldedMesh(CornerWelder& welder, std::vector<Face>&& triangles) {
 }
 
 Mesh parseBinary(std::span<const char> bytes) {
-  if (!isBinaryStlSize(bytes)) {
-    if (bytes.size() < kStlHeaderSize)
+  if (!hasBinarySize(bytes)) {
+    if (bytes.size() < kHeaderSize)
       failInput(
-          fmt::format("neither ASCII STL, as it does not begin with 'solid', nor binary STL, which has at least {} "
-                      "bytes; this has {}",
-                      kStlHeaderSize, bytes.size()));
-    const uint64_t faceCount = binaryStlFaceCount(bytes);
-    failInput(fmt::format(
-        "binary STL of {} must have {} bytes; this has {} and is {}", counted(faceCount, "face"),
-        kStlHeaderSize + faceCount * kStlFaceSize, bytes.size(),
-        kStlHeaderSize + faceCount * kStlFaceSize > bytes.size() ? "cut short" : "followed by something else"));
+          fmt::format("neither ASCII STL, which begins with 'solid', nor binary STL, which has at least {} bytes; this "
+                      "file has {}",
+                      kHeaderSize, bytes.size()));
+    const uint64_t faceCount = binaryFaceCount(bytes), expectedSize = kHeaderSize + faceCount * kFaceSize;
+    failInput(fmt::format("binary STL with {} must have {} bytes; this file has {} and {}", counted(faceCount, "face"),
+                          expectedSize, bytes.size(),
+                          expectedSize > bytes.size() ? "is truncated" : "continues after the last face"));
   }
-  const uint64_t faceCount = binaryStlFaceCount(bytes);
+  const uint64_t faceCount = binaryFaceCount(bytes);
   CornerWelder welder(faceCount / 2);
   std::vector<Face> triangles(faceCount);
   for (uint64_t i = 0; i < faceCount; ++i) {
     constexpr size_t kNormalSize = 3 * sizeof(float);
     std::array<Vec3f, 3> corners;
-    std::memcpy(corners.data(), bytes.data() + kStlHeaderSize + i * kStlFaceSize + kNormalSize, sizeof corners);
+    std::memcpy(corners.data(), bytes.data() + kHeaderSize + i * kFaceSize + kNormalSize, sizeof corners);
     for (size_t c = 0; c < 3; ++c) triangles[i][c] = welder.indexOf(static_cast<Vec3d>(corners[c]));
   }
   return weldedMesh(welder, std::move(triangles));
@@ -61,13 +132,12 @@ bool isKeyword(std::string_view word, std::string_view keyword) {
 
 void requireKeyword(TextScanner& text, std::string_view keyword) {
   const std::string_view word = text.word(keyword);
-  if (!isKeyword(word, keyword))
-    failAtLine(text.line(), fmt::format("'{}' should stand here, not {}", keyword, quoted(word)));
+  if (!isKeyword(word, keyword)) failAtLine(text.line(), fmt::format("expected '{}', found {}", keyword, quoted(word)));
 }
 
 Face readFacet(TextScanner& text, CornerWelder& welder) {
   requireKeyword(text, "normal");
-  // Some programs write words such as 1.#IND for the normal of a face without area.
+  // Not numbers: some programs write words such as 1.#IND for the normal of a face without area.
   for (int i = 0; i < 3; ++i) static_cast<void>(text.word("a number of the normal"));
   requireKeyword(text, "outer");
   requireKeyword(text, "loop");
@@ -83,7 +153,7 @@ Face readFacet(TextScanner& text, CornerWelder& welder) {
   return face;
 }
 
-/// One or more of: solid NAME, facets, endsolid NAME. The names may hold any words.
+/// One or more of: solid NAME, facets, endsolid NAME. A name is any text up to the end of the line.
 Mesh parseAscii(std::span<const char> bytes) {
   TextScanner text(bytes);
   CornerWelder welder(0);
@@ -95,7 +165,7 @@ Mesh parseAscii(std::span<const char> bytes) {
       const std::string_view word = text.word("'facet' or 'endsolid'");
       if (isKeyword(word, "endsolid")) break;
       if (!isKeyword(word, "facet"))
-        failAtLine(text.line(), fmt::format("'facet' or 'endsolid' should stand here, not {}", quoted(word)));
+        failAtLine(text.line(), fmt::format("expected 'facet' or 'endsolid', found {}", quoted(word)));
       triangles.push_back(readFacet(text, welder));
     }
     text.skipLine();
@@ -105,11 +175,15 @@ Mesh parseAscii(std::span<const char> bytes) {
 
 }  // namespace
 
+Match detectStl(std::span<const char> bytes) {
+  return hasBinarySize(bytes) || beginsWithSolid(bytes) ? Match::Certain : Match::None;
+}
+
 Mesh parseStl(std::span<const char> bytes) {
-  // "solid" alone proves nothing, as binary files may begin with it too; a text holds no zero byte.
+  // Binary files may begin with "solid" too; a text has no zero byte.
   const std::string_view beginning(bytes.data(), std::min<size_t>(bytes.size(), 1024));
   const bool hasZeroByte = beginning.find('\0') != std::string_view::npos;
-  if (isBinaryStlSize(bytes) || hasZeroByte || !beginsWithSolid(bytes)) return parseBinary(bytes);
+  if (hasBinarySize(bytes) || hasZeroByte || !beginsWithSolid(bytes)) return parseBinary(bytes);
   return parseAscii(bytes);
 }
 

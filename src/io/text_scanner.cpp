@@ -13,8 +13,8 @@ namespace {
 
 constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
 
-/// Whether a decimal number that no double can hold is too small rather than too large: from_chars tells only that it
-/// is one of the two.
+/// Whether a decimal number outside of the range of double is too small rather than too large; from_chars reports both
+/// as out of range.
 bool isTiny(std::string_view number) {
   const size_t exponentAt = number.find_first_of("eE");
   int64_t exponent = 0;
@@ -50,53 +50,62 @@ std::string_view TextScanner::scanWord() {
   return {begin, static_cast<size_t>(at_ - begin)};
 }
 
-void TextScanner::requireWord(std::string_view what) {
-  if (atEnd()) failAtLine(line_, fmt::format("the file ends where {} should stand; it is cut short", printable(what)));
+void TextScanner::requireWord(std::string_view expected) {
+  if (atEnd())
+    failAtLine(line_, fmt::format("the file ends where {} is expected; it is truncated", printable(expected)));
 }
 
-std::string_view TextScanner::word(std::string_view what) {
-  requireWord(what);
+std::string_view TextScanner::word(std::string_view expected) {
+  requireWord(expected);
   return scanWord();
 }
 
-double TextScanner::number(std::string_view what) {
-  requireWord(what);
+double TextScanner::number(std::string_view expected) {
+  requireWord(expected);
   const char* begin = at_;
   if (*begin == '+' && begin + 1 != end_ && begin[1] != '-') ++begin;
   double value = 0;
   const auto [next, ec] = std::from_chars(begin, end_, value);
   if (ec == std::errc::invalid_argument || !endsWord(next))
-    failAtLine(line_, fmt::format("{} should stand here, not {}", printable(what), quoted(scanWord())));
+    failAtLine(line_, fmt::format("expected {}, found {}", printable(expected), quoted(scanWord())));
   if (ec == std::errc::result_out_of_range) {
     const std::string_view text(begin, static_cast<size_t>(next - begin));
     if (!isTiny(text))
-      failAtLine(line_, fmt::format("{} is too large for a double: {}", printable(what), quoted(text)));
+      failAtLine(line_, fmt::format("{} is too large for a double: {}", printable(expected), quoted(text)));
     value = *begin == '-' ? -0.0 : 0.0;
   }
   at_ = next;
   return value;
 }
 
-int64_t TextScanner::integer(std::string_view what) {
-  requireWord(what);
+int64_t TextScanner::integer(std::string_view expected) {
+  requireWord(expected);
   const char* begin = at_;
   if (*begin == '+' && begin + 1 != end_ && begin[1] != '-') ++begin;
   int64_t value = 0;
   const auto [next, ec] = std::from_chars(begin, end_, value);
   if (ec != std::errc() || !endsWord(next))
-    failAtLine(line_,
-               fmt::format("{} should stand here as a whole number, not {}", printable(what), quoted(scanWord())));
+    failAtLine(line_, fmt::format("expected {}, an integer, found {}", printable(expected), quoted(scanWord())));
   at_ = next;
   return value;
 }
 
-void TextScanner::requireLineEnd(std::string_view afterWhat) {
-  if (!atLineEnd()) failAtLine(line_, fmt::format("{} stands behind {}", quoted(scanWord()), afterWhat));
+void TextScanner::requireLineEnd(std::string_view after) {
+  if (!atLineEnd()) failAtLine(line_, fmt::format("unexpected {} after {}", quoted(scanWord()), after));
+}
+
+void TextScanner::requireEnd(std::string_view after) {
+  if (!atEnd()) failAtLine(line_, fmt::format("unexpected {} after {}", quoted(scanWord()), after));
 }
 
 void TextScanner::skipLine() {
   while (!atLineEnd()) static_cast<void>(scanWord());
   if (at_ != end_) skipLineBreak();
+}
+
+std::string_view firstWord(std::span<const char> bytes, char comment) {
+  TextScanner text(bytes, {.comment = comment});
+  return text.atEnd() ? std::string_view() : text.wordOnLine();
 }
 
 }  // namespace asdfvk

@@ -8,29 +8,29 @@
 namespace asdfvk {
 
 struct TextSyntax {
-  char comment = '\0';              ///< From here to the end of the line nothing counts; '\0': there are no comments.
-  bool backslashContinues = false;  ///< A backslash right before a line break joins the two lines.
+  char comment = '\0';              ///< Starts a comment that ends with the line; '\0': no comments.
+  bool backslashContinues = false;  ///< A backslash directly before a line break joins the two lines.
 };
 
-/// Words and numbers of a text, with the line they stand on. Lines end with LF, CRLF or CR. Never reads beyond `bytes`,
-/// and keeps views into them. What is not there or is not a number is an Error{Input} that names the line and `what`,
-/// which may be words of the file.
+/// Words and numbers of a text, with their line numbers. Lines end with LF, CRLF or CR. Reads within `bytes` only, and
+/// returns views into them. A missing word or a word that is no number throws Error{UnreadableInput} with the line and
+/// the name of the expected item, which may contain words of the file.
 class TextScanner {
  public:
-  /// A UTF-8 byte order mark at the beginning is passed over.
+  /// Skips a UTF-8 byte order mark at the beginning.
   explicit TextScanner(std::span<const char> bytes, TextSyntax syntax = {}, uint64_t firstLine = 1);
 
-  /// The line of the word read last, or of the one that a look ahead found.
+  /// The line of the last word, or of the position that a look-ahead reached.
   [[nodiscard]] uint64_t line() const { return line_; }
   [[nodiscard]] const char* position() const { return at_; }
   [[nodiscard]] uint64_t remaining() const { return static_cast<uint64_t>(end_ - at_); }
 
-  /// Passes over blanks and comments; true where the line (not counting continued ones) has no more words.
+  /// Skips blanks and comments; true where the line, continuation lines included, has no more words.
   [[nodiscard]] bool atLineEnd() {
     skipBlanks();
     return at_ == end_ || classOf(*at_) == kLineBreak;
   }
-  /// Passes over blanks, comments and line breaks; true at the end of the text.
+  /// Skips blanks, comments and line breaks; true at the end of the text.
   [[nodiscard]] bool atEnd() {
     while (atLineEnd()) {
       if (at_ == end_) return true;
@@ -42,17 +42,20 @@ class TextScanner {
   /// The next word of this line; empty where there is none.
   [[nodiscard]] std::string_view wordOnLine() { return atLineEnd() ? std::string_view() : scanWord(); }
   /// The next word, on this line or a later one.
-  [[nodiscard]] std::string_view word(std::string_view what);
-  /// The next word as a number: decimal, with or without exponent, or inf or nan. Too small becomes 0, too large fails.
-  [[nodiscard]] double number(std::string_view what);
-  /// The next word as a whole number.
-  [[nodiscard]] int64_t integer(std::string_view what);
+  [[nodiscard]] std::string_view word(std::string_view expected);
+  /// The next word as a number: decimal, with or without exponent, or inf or nan. Rounds a number below the range of
+  /// double to 0 and rejects one above it.
+  [[nodiscard]] double number(std::string_view expected);
+  /// The next word as an integer of 64 bits.
+  [[nodiscard]] int64_t integer(std::string_view expected);
 
-  /// Fails if a word is left on this line.
-  void requireLineEnd(std::string_view afterWhat);
+  /// Throws if the line has another word.
+  void requireLineEnd(std::string_view after);
+  /// Throws if the text has another word.
+  void requireEnd(std::string_view after);
   void skipLine();
-  /// Precondition: that many bytes of a word lie ahead.
-  void passOver(size_t byteCount) { at_ += byteCount; }
+  /// Precondition: the next byteCount bytes belong to one word.
+  void skipBytes(size_t byteCount) { at_ += byteCount; }
 
  private:
   enum CharClass : uint8_t { kWord, kBlank, kLineBreak, kComment, kBackslash };
@@ -86,12 +89,15 @@ class TextScanner {
     ++line_;
   }
   [[nodiscard]] std::string_view scanWord();
-  void requireWord(std::string_view what);
+  void requireWord(std::string_view expected);
 
   std::array<CharClass, 256> classes_{};
   const char* at_;
   const char* end_;
   uint64_t line_;
 };
+
+/// The first word of a text; empty where there is none.
+[[nodiscard]] std::string_view firstWord(std::span<const char> bytes, char comment = '\0');
 
 }  // namespace asdfvk

@@ -8,7 +8,7 @@
 namespace asdfvk {
 namespace {
 
-/// The sine of a turn below which a corner counts as straight.
+/// A corner whose turn has a smaller sine is straight.
 constexpr double kStraightSine = 1e-10;
 
 void cutFan(std::span<const uint32_t> corners, std::span<Face> triangles) {
@@ -39,7 +39,7 @@ void PolygonTriangulator::triangulate(std::span<const Vec3d> vertices, std::span
 }
 
 bool PolygonTriangulator::project(std::span<const Vec3d> vertices, std::span<const uint32_t> corners) {
-  // Relative to a corner and to the polygon's size, so that neither distance from the origin nor unit matters.
+  // Relative to a corner and to the size of the polygon: independent of the unit and of the distance to the origin.
   const Vec3d origin = vertices[corners[0]];
   double size = 0;
   for (const uint32_t corner : corners) {
@@ -72,7 +72,7 @@ bool PolygonTriangulator::project(std::span<const Vec3d> vertices, std::span<con
   return true;
 }
 
-/// The sine of the turn from the edge before `corner` to the one after: positive to the left, 0 where an edge is empty.
+/// Sine of the turn from the edge before `corner` to the edge after it: positive to the left, 0 for an empty edge.
 double PolygonTriangulator::turnAt(uint32_t corner) const {
   const Point2 a = points_[previous_[corner]], b = points_[corner], c = points_[next_[corner]];
   const double cross = (b.x - a.x) * (c.y - b.y) - (b.y - a.y) * (c.x - b.x);
@@ -86,15 +86,14 @@ bool PolygonTriangulator::isEar(uint32_t corner) const {
   const Point2 a = points_[before], b = points_[corner], c = points_[after];
   return std::none_of(reflex_.begin(), reflex_.end(), [&](uint32_t other) {
     if (isClipped_[other] || other == before || other == corner || other == after) return false;
-    // A bridge to a hole runs through its ends twice; the copy of a corner is no obstacle.
+    // The ends of a bridge to a hole occur twice; the copy of a corner is no obstacle.
     const Point2 p = points_[other];
     if (p == a || p == b || p == c) return false;
     return sideOf(a, b, p) >= 0 && sideOf(b, c, p) >= 0 && sideOf(c, a, p) >= 0;
   });
 }
 
-/// The first ear from `start` on; where the polygon has none because it crosses itself or is flat, the sharpest left
-/// turn.
+/// The first ear from `start` on. A polygon without ears crosses itself or is flat: then the sharpest left turn.
 uint32_t PolygonTriangulator::findEar(uint32_t start, size_t leftCount) const {
   uint32_t corner = start, sharpest = start;
   for (size_t i = 0; i < leftCount; ++i, corner = next_[corner]) {
@@ -121,7 +120,7 @@ void PolygonTriangulator::clipEars(std::span<const uint32_t> corners, std::span<
       turn_[neighbour] = turnAt(neighbour);
       isEar_[neighbour] = isEar(neighbour);
     }
-    start = after;  // Going on behind the ear spreads the cuts instead of fanning all of them out of one corner.
+    start = after;  // Continuing after the ear spreads the cuts; otherwise all would share one corner.
   }
 }
 

@@ -9,18 +9,18 @@
 
 namespace asdfvk {
 
-/// Concave polygons with more corners than this are cut into a fan, which may overlap itself: ear clipping takes time
-/// by the square of the corner count.
+/// Concave polygons with more corners are cut into a fan, which may overlap itself: the time of ear clipping is
+/// quadratic in the corner count.
 inline constexpr size_t kMaxEarClippedCorners = 1000;
 
-/// Cuts polygons into triangles of the same winding; keeps its working memory from one polygon to the next.
+/// Cuts polygons into triangles of the same winding. Reuses its working memory.
 class PolygonTriangulator {
  public:
-  /// Fills all n - 2 `triangles` of a polygon with n >= 3 corners, none dropped where some are degenerate. A polygon
-  /// with a left turn at every corner gives the fan of its first corner. Any other is cut by ear clipping (Meisters
-  /// 1975) in the coordinate plane that its Newell normal is closest to, straight corners last, so that they make no
-  /// empty triangles where that can be avoided. Corners that are not finite, or that span no area, give the fan.
-  /// Precondition: every corner is below the vertex count.
+  /// Fills all n - 2 `triangles` of a polygon with n >= 3 corners, degenerate ones included. A polygon with a left turn
+  /// at every corner becomes the fan of its first corner. Any other polygon is cut by ear clipping (Meisters 1975), in
+  /// the coordinate plane closest to its Newell normal. Straight corners are clipped last, which avoids empty triangles
+  /// where possible. A polygon with non-finite corners or without area becomes the fan. Precondition: every corner is
+  /// below the vertex count.
   void triangulate(std::span<const Vec3d> vertices, std::span<const uint32_t> corners, std::span<Face> triangles);
 
  private:
@@ -31,12 +31,12 @@ class PolygonTriangulator {
   [[nodiscard]] uint32_t findEar(uint32_t start, size_t leftCount) const;
   void clipEars(std::span<const uint32_t> corners, std::span<Face> triangles);
 
-  // Per corner of the polygon at hand; the ring of corners not yet clipped is previous_ and next_.
+  // Per corner of the current polygon; previous_ and next_ link the corners that are not yet clipped to a ring.
   std::vector<Point2> points_;
   std::vector<uint32_t> previous_, next_;
   std::vector<double> turn_;
   std::vector<uint8_t> isEar_, isClipped_;
-  std::vector<uint32_t> reflex_;  ///< Corners that had no left turn at the beginning; only these can lie in an ear.
+  std::vector<uint32_t> reflex_;  ///< Corners without a left turn in the whole polygon; only these can lie in an ear.
 };
 
 }  // namespace asdfvk

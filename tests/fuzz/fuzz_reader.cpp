@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "asdf_vk/error.h"
-#include "io/mesh_format.h"
+#include "io/formats.h"
 
 namespace asdfvk::fuzz {
 namespace {

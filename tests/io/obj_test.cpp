@@ -26,13 +26,13 @@ TEST_CASE("OBJ corners are read in all their forms") {
   }
 }
 
-TEST_CASE("negative OBJ indices count from the vertices read so far, positive ones may point ahead") {
+TEST_CASE("negative OBJ indices count back from the last vertex, positive ones may refer to later vertices") {
   const Mesh mesh = parse(parseObj, "f 2 3 4\nv 0 0 0\nv 1 0 0\nv 1 1 0\nf -3 -2 -1\nv 0 1 0\nf -3 -2 -1\n");
   CHECK(mesh.vertices == kSquare);
   CHECK(mesh.faces == std::vector<Face>{{1, 2, 3}, {0, 1, 2}, {1, 2, 3}});
 }
 
-TEST_CASE("OBJ statements that are no mesh are passed over and no other file is opened") {
+TEST_CASE("other OBJ statements are ignored, and no other file is opened") {
   const Mesh mesh =
       parse(parseObj,
             "# comment \\\nmtllib /dev/zero no such file.mtl\no a name\n\ng group one\ns off\nusemtl red\n"
@@ -49,24 +49,24 @@ TEST_CASE("OBJ lines may end with CR alone and begin with a byte order mark") {
   CHECK(parse(parseObj, text).vertices == kSquare);
 }
 
-TEST_CASE("what is wrong with an OBJ file is told with its line") {
+TEST_CASE("errors of an OBJ file name the line and the reason") {
   CHECK(holds(errorOf(parseObj, ""), "neither points nor faces"));
   CHECK(holds(errorOf(parseObj, kCorners), "4 points and no face"));
-  CHECK(holds(errorOf(parseObj, "Dear reader,\nthis is a letter.\n"), "line 1: 'Dear' is no OBJ keyword"));
+  CHECK(holds(errorOf(parseObj, "Dear reader,\nthis is a letter.\n"), "line 1: 'Dear' is not an OBJ keyword"));
   CHECK(holds(errorOf(parseObj, kCorners + "f 1 2 5\nf 1 2 3\n"), "line 5: vertex index 5 is out of range"));
   CHECK(holds(errorOf(parseObj, kCorners + "f 1 2 -5\n"), "line 5: vertex index -5 is out of range"));
   CHECK(holds(errorOf(parseObj, kCorners + "f 1 2 0\n"), "line 5: vertex index 0"));
   CHECK(holds(errorOf(parseObj, kCorners + "f 1 2 4294967297\n"), "line 5: vertex index 4294967297"));
-  CHECK(holds(errorOf(parseObj, kCorners + "f 1 2 99999999999999999999\n"), "'99999999999999999999' is no corner"));
-  CHECK(holds(errorOf(parseObj, kCorners + "f 1 2 3/x\n"), "line 5: '3/x' is no corner"));
-  CHECK(holds(errorOf(parseObj, kCorners + "f 1 2 3/1/1/1\n"), "'3/1/1/1' is no corner"));
-  CHECK(holds(errorOf(parseObj, kCorners + "f 1 2 3.0\n"), "'3.0' is no corner"));
-  CHECK(holds(errorOf(parseObj, kCorners + "f\n"), "line 5: this face has no corners"));
-  CHECK(holds(errorOf(parseObj, kCorners + "f 1 2\n"), "its only face has fewer than three corners"));
-  CHECK(holds(errorOf(parseObj, "v 0 0\n"), "line 1: a vertex cannot have 2 numbers"));
-  CHECK(holds(errorOf(parseObj, "v 0 0 0,5\n"), "line 1: a vertex coordinate should stand here, not '0,5'"));
+  CHECK(holds(errorOf(parseObj, kCorners + "f 1 2 99999999999999999999\n"), "'99999999999999999999' is not a corner"));
+  CHECK(holds(errorOf(parseObj, kCorners + "f 1 2 3/x\n"), "line 5: '3/x' is not a corner"));
+  CHECK(holds(errorOf(parseObj, kCorners + "f 1 2 3/1/1/1\n"), "'3/1/1/1' is not a corner"));
+  CHECK(holds(errorOf(parseObj, kCorners + "f 1 2 3.0\n"), "'3.0' is not a corner"));
+  CHECK(holds(errorOf(parseObj, kCorners + "f\n"), "line 5: a face has no corners"));
+  CHECK(holds(errorOf(parseObj, kCorners + "f 1 2\n"), "the only face has fewer than three corners"));
+  CHECK(holds(errorOf(parseObj, "v 0 0\n"), "line 1: a vertex has 2 numbers"));
+  CHECK(holds(errorOf(parseObj, "v 0 0 0,5\n"), "line 1: expected a vertex coordinate, found '0,5'"));
   CHECK(holds(errorOf(parseObj, "v 1 2 3 4 5 6 7 8\n"), "more than seven numbers"));
   CHECK(holds(errorOf(parseObj, "v 1e400 0 0\n"), "too large"));
   CHECK(holds(errorOf(parseObj, kCorners + "call other.obj\n"), "never opened"));
-  CHECK(holds(errorOf(parseObj, kCorners + "f 1 \\\n 2 \\\n x\n"), "line 7: 'x' is no corner"));
+  CHECK(holds(errorOf(parseObj, kCorners + "f 1 \\\n 2 \\\n x\n"), "line 7: 'x' is not a corner"));
 }

@@ -10,7 +10,7 @@
 
 #include "reading.h"
 
-// Our readers beside OpenMesh's, on files that both read.
+// Comparison of the readers with those of OpenMesh, on files that both read.
 namespace asdfvk::test {
 
 struct Traits : OpenMesh::DefaultTraits {
@@ -18,7 +18,7 @@ struct Traits : OpenMesh::DefaultTraits {
 };
 using PolyMesh = OpenMesh::PolyMesh_ArrayKernelT<Traits>;
 
-/// The faces of the file, whether or not they are triangles.
+/// The faces of the file, polygons included.
 inline std::vector<std::vector<uint32_t>> inputFaces(const Mesh& mesh) {
   std::vector<std::vector<uint32_t>> faces;
   if (mesh.polygons.isEmpty()) {
@@ -32,7 +32,7 @@ inline std::vector<std::vector<uint32_t>> inputFaces(const Mesh& mesh) {
   return faces;
 }
 
-/// A face's corners from its lowest vertex on: a half-edge mesh may begin anywhere.
+/// The corners of a face, starting at its lowest vertex: a half-edge mesh may start at any corner.
 inline std::vector<uint32_t> fromLowest(std::vector<uint32_t> corners) {
   std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
   return corners;
@@ -48,7 +48,7 @@ inline void requireSameAsOpenMesh(const std::string& path) {
   REQUIRE(faces.size() == theirs.n_faces());
   size_t differentCount = 0;
   for (const auto vertex : theirs.vertices()) {
-    // OpenMesh's readers keep float32 of what the file says.
+    // OpenMesh rounds coordinates to float32.
     const Vec3d& p = ours.vertices[static_cast<size_t>(vertex.idx())];
     const PolyMesh::Point q = theirs.point(vertex);
     for (size_t axis = 0; axis < 3; ++axis)

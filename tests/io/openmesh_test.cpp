@@ -9,7 +9,7 @@ using namespace asdfvk;
 using test::PolyMesh;
 using test::requireSameAsOpenMesh;
 
-TEST_CASE("small meshes are read as OpenMesh reads them") {
+TEST_CASE("small meshes agree with OpenMesh") {
   PolyMesh mesh;
   std::vector<PolyMesh::VertexHandle> v;
   for (int i = 0; i < 8; ++i) v.push_back(mesh.add_vertex({i & 1, (i >> 1) & 1, 0.125 * (i >> 2)}));

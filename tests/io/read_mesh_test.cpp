@@ -6,7 +6,6 @@
 #include <fstream>
 #include <thread>
 
-#include "io/mesh_format.h"
 #include "reading.h"
 
 using namespace asdfvk;
@@ -14,7 +13,7 @@ using asdfvk::test::holds;
 
 namespace {
 
-/// A new folder that goes with everything in it.
+/// A new folder, removed with its content.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
@@ -40,8 +39,10 @@ std::string errorOfReading(const std::filesystem::path& path) {
   return "no error";
 }
 
-std::optional<MeshFormat> detected(std::string_view text, std::string_view extension) {
-  return detectFormat(std::span(text.data(), text.size()), extension);
+/// The name of the detected format; empty for none.
+std::string_view detected(std::string_view text, std::string_view extension) {
+  const FileFormat* const format = detectFormat(std::span(text.data(), text.size()), extension);
+  return format == nullptr ? "" : format->name;
 }
 
 constexpr std::string_view kObj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
@@ -49,23 +50,23 @@ constexpr std::string_view kOff = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
 
 }  // namespace
 
-TEST_CASE("the content tells the format before the extension does") {
-  CHECK(detected("ply\n", "obj") == MeshFormat::Ply);
-  CHECK(detected("# c\nSTCNOFF\n", ".stl") == MeshFormat::Off);
-  CHECK(detected("solid x\n", "off") == MeshFormat::Stl);
-  CHECK(detected(std::string(84, '\0'), "ply") == MeshFormat::Stl);
-  CHECK(detected("\xef\xbb\xbfOFF\n", "") == MeshFormat::Off);
-  CHECK(detected(kObj, "") == MeshFormat::Obj);
-  CHECK(detected("# c\nmtllib a\n", "txt") == MeshFormat::Obj);
-  CHECK(detected("3 1 0\n", ".OFF") == MeshFormat::Off);
-  CHECK(detected("rubbish", ".Obj") == MeshFormat::Obj);
-  CHECK(detected("rubbish", "stl") == MeshFormat::Stl);
-  CHECK(!detected("rubbish", "txt"));
-  CHECK(!detected("3 1 0\n", ""));
-  CHECK(!detected("", ""));
+TEST_CASE("the content decides the format, then the extension, then a possible keyword") {
+  CHECK(detected("ply\n", "obj") == "ply");
+  CHECK(detected("# c\nSTCNOFF\n", ".stl") == "off");
+  CHECK(detected("solid x\n", "off") == "stl");
+  CHECK(detected(std::string(84, '\0'), "ply") == "stl");
+  CHECK(detected("\xef\xbb\xbfOFF\n", "") == "off");
+  CHECK(detected(kObj, "") == "obj");
+  CHECK(detected("# c\nmtllib a\n", "txt") == "obj");
+  CHECK(detected("3 1 0\n", ".OFF") == "off");
+  CHECK(detected("rubbish", ".Obj") == "obj");
+  CHECK(detected("rubbish", "stl") == "stl");
+  CHECK(detected("rubbish", "txt").empty());
+  CHECK(detected("3 1 0\n", "").empty());
+  CHECK(detected("", "").empty());
 }
 
-TEST_CASE("a mesh is read from a file, whatever its name") {
+TEST_CASE("a file with the extension of another format is read by its content") {
   const TemporaryFolder folder;
   std::ofstream(folder / "mesh.stl") << kOff;
   CHECK(readMesh(folder / "mesh.stl").faces == std::vector<Face>{{0, 1, 2}});
@@ -74,7 +75,7 @@ TEST_CASE("a mesh is read from a file, whatever its name") {
 TEST_CASE("a mesh is read from a pipe") {
   const TemporaryFolder folder;
   REQUIRE(::mkfifo((folder / "pipe").c_str(), 0600) == 0);
-  // Longer than a pipe holds, so that it comes in pieces.
+  // Longer than the buffer of a pipe: several reads.
   std::string text(kObj);
   for (int i = 0; i < 20000; ++i) text += "f 1 2 3\n";
   std::thread writer([&] { std::ofstream(folder / "pipe") << text; });
@@ -96,7 +97,7 @@ TEST_CASE("'-' and /dev/stdin are standard input") {
   }
 }
 
-TEST_CASE("what cannot be read is named with the reason") {
+TEST_CASE("errors name the file and the reason") {
   const TemporaryFolder folder;
   CHECK(holds(errorOfReading(folder / "missing.ply"), "missing.ply: cannot be opened: No such file"));
   CHECK(holds(errorOfReading(folder / ""), "is a directory"));
@@ -104,7 +105,8 @@ TEST_CASE("what cannot be read is named with the reason") {
   std::ofstream(folder / "empty.off").flush();
   CHECK(holds(errorOfReading(folder / "empty.off"), "empty.off: is empty"));
   std::ofstream(folder / "letter.txt") << "Dear reader,\n";
-  CHECK(holds(errorOfReading(folder / "letter.txt"), "in no format that can be read here"));
+  CHECK(
+      holds(errorOfReading(folder / "letter.txt"), "has an unknown format; meshes are read from stl, ply, off or obj"));
   std::ofstream(folder / "bad.obj") << "v 0 0 0\nf 1 2 3\n";
   CHECK(holds(errorOfReading(folder / "bad.obj"), "bad.obj: line 2: vertex index 3"));
 }

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "asdf_vk/error.h"
+#include "io/formats.h"
 #include "io/mesh_reader.h"
 
 namespace asdfvk::test {
@@ -12,7 +13,7 @@ using Parser = Mesh (*)(std::span<const char>);
 
 inline Mesh parse(Parser parser, std::string_view text) { return parser(std::span(text.data(), text.size())); }
 
-/// The message of the Error{Input} that parsing throws; "no error" if it throws none.
+/// The message of the Error{UnreadableInput} that parsing throws; "no error" without one.
 inline std::string errorOf(Parser parser, std::string_view text) {
   try {
     static_cast<void>(parse(parser, text));

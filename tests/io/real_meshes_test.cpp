@@ -10,17 +10,17 @@
 using namespace asdfvk;
 using test::requireSameAsOpenMesh;
 
-TEST_CASE("the real meshes are read as OpenMesh reads them") {
+TEST_CASE("the real meshes agree with OpenMesh") {
   const auto folder = test::realMeshFolder();
   if (!folder) return;
-  // A half-edge mesh refuses the faces of other meshes there, which are non-manifold.
+  // The other meshes have non-manifold faces, which a half-edge mesh rejects.
   for (const char* name :
        {"models/horse.ply", "models/armadillo.ply", "models/elephant.obj", "models/cow.off", "models/fertility.off",
         "models/3holes.off", "open/suzanne.obj", "open/teapot.obj", "open/camelhead.off", "defects/blobby_3cc.off"})
     requireSameAsOpenMesh((*folder / name).string());
 }
 
-TEST_CASE("every real mesh is read with the face count that its header says") {
+TEST_CASE("every real mesh has the face count of its header") {
   const auto folder = test::realMeshFolder();
   if (!folder) return;
   size_t fileCount = 0;

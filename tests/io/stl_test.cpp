@@ -4,7 +4,6 @@
 #include <cstring>
 #include <limits>
 
-#include "io/corner_welder.h"
 #include "reading.h"
 
 using namespace asdfvk;
@@ -52,7 +51,7 @@ TEST_CASE("binary STL is welded, also where its header begins with solid") {
     requireSquare(parse(parseStl, binaryStl(header, kStlSquare)));
 }
 
-TEST_CASE("ASCII STL is welded, with any name, blank lines, several solids and in capitals") {
+TEST_CASE("ASCII STL is welded: any name, blank lines, several solids, capitals") {
   for (const char* name : {"", " outer shell", " facet endsolid solid"}) {
     CAPTURE(name);
     requireSquare(parse(parseStl, "solid" + std::string(name) + "\n" + kFacets + "endsolid" + name + "\n"));
@@ -72,31 +71,37 @@ TEST_CASE("corners with a NaN are never welded, infinite ones are") {
   CHECK(mesh.faces == std::vector<Face>{{0, 1, 2}, {3, 1, 4}});
 }
 
-TEST_CASE("the welder keeps the order of first appearance while its table grows") {
-  CornerWelder welder(0);
+TEST_CASE("vertices keep the order of first appearance in an STL of 50,000 points") {
+  constexpr uint32_t kPointCount = 50000;
+  const auto point = [](uint32_t i) { return Vec3f{1e-3f * i, -1.0f * (i % 7), 1e20f * i}; };
+  std::vector<Triangle> triangles;
+  for (uint32_t i = 0; i < kPointCount; ++i)
+    triangles.push_back({point(i), point((i + 1) % kPointCount), point(i / 2)});
+  const Mesh mesh = parse(parseStl, binaryStl("", triangles));
+  REQUIRE(mesh.vertices.size() == kPointCount);
   size_t wrongCount = 0;
-  for (int pass = 0; pass < 2; ++pass)
-    for (uint32_t i = 0; i < 50000; ++i)
-      wrongCount += welder.indexOf({1e-3 * i, -1.0 * (i % 7), 1e20 * i}) == i ? 0 : 1;
+  for (uint32_t i = 0; i < kPointCount; ++i) {
+    wrongCount += mesh.vertices[i] == static_cast<Vec3d>(point(i)) ? 0 : 1;
+    wrongCount += mesh.faces[i] == Face{i, (i + 1) % kPointCount, i / 2} ? 0 : 1;
+  }
   CHECK(wrongCount == 0);
-  CHECK(welder.points().size() == 50000);
 }
 
-TEST_CASE("what is wrong with an STL file is told with its line or its size") {
+TEST_CASE("errors of an STL file name the line or the size and the reason") {
   CHECK(holds(errorOf(parseStl, ""), "neither ASCII STL"));
   CHECK(holds(errorOf(parseStl, "solid\nendsolid\n"), "neither points nor faces"));
   CHECK(holds(errorOf(parseStl, binaryStl("", {})), "neither points nor faces"));
   const std::string binary = binaryStl("", kStlSquare);
-  CHECK(holds(errorOf(parseStl, binary + "x"), "must have 184 bytes; this has 185 and is followed by something else"));
-  CHECK(holds(errorOf(parseStl, binaryStl("solid", kStlSquare) + "x"), "followed by something else"));
+  CHECK(holds(errorOf(parseStl, binary + "x"),
+              "must have 184 bytes; this file has 185 and continues after the last face"));
+  CHECK(holds(errorOf(parseStl, binaryStl("solid", kStlSquare) + "x"), "continues after the last face"));
   for (size_t size = 0; size < binary.size(); ++size) CHECK(errorOf(parseStl, binary.substr(0, size)) != "no error");
   const std::string ascii = "solid\n" + kFacets + "endsolid";
   for (size_t size = 0; size < ascii.size(); ++size) CHECK(errorOf(parseStl, ascii.substr(0, size)) != "no error");
-  CHECK(holds(errorOf(parseStl, "solid\nvertex 0 0 0\n"),
-              "line 2: 'facet' or 'endsolid' should stand here, not 'vertex'"));
-  CHECK(holds(errorOf(parseStl, ascii + "\nrubbish\n"), "line 19: 'solid' should stand here, not 'rubbish'"));
+  CHECK(holds(errorOf(parseStl, "solid\nvertex 0 0 0\n"), "line 2: expected 'facet' or 'endsolid', found 'vertex'"));
+  CHECK(holds(errorOf(parseStl, ascii + "\nrubbish\n"), "line 19: expected 'solid', found 'rubbish'"));
   CHECK(holds(errorOf(parseStl, "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0,5\n"),
-              "line 4: a vertex coordinate should stand here, not '0,5'"));
+              "line 4: expected a vertex coordinate, found '0,5'"));
   CHECK(holds(errorOf(parseStl, "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nendloop\n"),
-              "line 6: 'vertex' should stand here, not 'endloop'"));
+              "line 6: expected 'vertex', found 'endloop'"));
 }

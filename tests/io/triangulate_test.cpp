@@ -23,7 +23,7 @@ std::vector<Face> triangulated(const std::vector<Vec3d>& vertices) {
 
 Vec3d areaVector(const Vec3d& a, const Vec3d& b, const Vec3d& c) { return cross(b - a, c - a) * 0.5; }
 
-/// A cut without overlap: every triangle winds as the polygon does, so that their areas add up to the polygon's.
+/// A cut without overlap: all triangles have the winding of the polygon, and their areas add up to its area.
 void requireExactCover(const std::vector<Vec3d>& vertices) {
   Vec3d polygonArea;
   for (size_t i = 1; i + 1 < vertices.size(); ++i)
@@ -61,7 +61,7 @@ TEST_CASE("a convex polygon becomes the fan of its first corner") {
   CHECK(triangulated({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}) == std::vector<Face>{{0, 1, 2}, {0, 2, 3}});
 }
 
-TEST_CASE("concave polygons are cut without overlap, whatever their plane, winding, size and first corner") {
+TEST_CASE("concave polygons are cut without overlap in any plane, winding, size and from any first corner") {
   requireExactCoverEverywhere({{0, 0, 0}, {2, 0, 0}, {0.5, 0.5, 0}, {0, 2, 0}});
   requireExactCoverEverywhere({{0, 0, 0}, {3, 0, 0}, {3, 3, 0}, {2, 3, 0}, {2, 1, 0}, {1, 1, 0}, {1, 3, 0}, {0, 3, 0}});
   std::vector<Vec3d> star;
@@ -75,7 +75,7 @@ TEST_CASE("concave polygons are cut without overlap, whatever their plane, windi
   requireExactCoverEverywhere(comb);
 }
 
-TEST_CASE("polygons with a hole, bridged by an edge that they run through twice, are cut without overlap") {
+TEST_CASE("polygons with a hole, joined by an edge that occurs twice, are cut without overlap") {
   Random random(7);
   for (int round = 0; round < 300; ++round) {
     CAPTURE(round);
@@ -97,13 +97,13 @@ TEST_CASE("polygons with a hole, bridged by an edge that they run through twice,
   }
 }
 
-TEST_CASE("a straight corner makes no triangle without area") {
+TEST_CASE("a straight corner gives no triangle without area") {
   const std::vector<Vec3d> vertices = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 2, 0}, {1, 2, 0}, {0, 2, 0}};
   for (const Face& face : triangulated(vertices))
     CHECK(length(areaVector(vertices[face[0]], vertices[face[1]], vertices[face[2]])) > 0.1);
 }
 
-TEST_CASE("polygons that no plane fits still give all their triangles") {
+TEST_CASE("degenerate polygons still give all their triangles") {
   const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
   const std::vector<Face> fan = {{0, 1, 2}, {0, 2, 3}};
   CHECK(triangulated({{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}}) == fan);
@@ -118,7 +118,7 @@ TEST_CASE("polygons that no plane fits still give all their triangles") {
   CHECK(triangulated(pentagram).size() == 3);
 }
 
-TEST_CASE("a polygon beyond the ear clipping bound becomes a fan") {
+TEST_CASE("a polygon with more than kMaxEarClippedCorners becomes a fan") {
   std::vector<Vec3d> zigzag;
   for (size_t i = 0; i < 1000000; ++i) zigzag.push_back({static_cast<double>(i), i % 2 == 0 ? 0.0 : 1.0, 0});
   const std::vector<Face> triangles = triangulated(zigzag);

@@ -1,5 +1,3 @@
-#include "io/mesh_reader.h"
-
 #include <fmt/format.h>
 
 #include <new>
@@ -7,26 +5,17 @@
 
 #include "asdf_vk/error.h"
 #include "io/file_bytes.h"
+#include "io/formats.h"
 #include "io/input_failure.h"
-#include "io/mesh_format.h"
+#include "io/mesh_reader.h"
 
 namespace asdfvk {
 
 Mesh parseMesh(std::span<const char> bytes, std::string_view extension) {
   if (bytes.empty()) failInput("is empty");
-  const auto format = detectFormat(bytes, extension);
-  if (!format) failInput("is in no format that can be read here: PLY, OFF, OBJ or STL");
-  switch (*format) {
-    case MeshFormat::Ply:
-      return parsePly(bytes);
-    case MeshFormat::Off:
-      return parseOff(bytes);
-    case MeshFormat::Obj:
-      return parseObj(bytes);
-    case MeshFormat::Stl:
-      return parseStl(bytes);
-  }
-  failInput("has an unknown format");
+  const FileFormat* const format = detectFormat(bytes, extension);
+  if (format == nullptr) failInput(fmt::format("has an unknown format; meshes are read from {}", meshFormatNames()));
+  return format->parseMesh(bytes);
 }
 
 Mesh readMesh(const std::filesystem::path& path) {

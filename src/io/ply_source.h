@@ -1,0 +1,136 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <array>
+#include <bit>
+#include <cstring>
+#include <utility>
+
+#include "core/text.h"
+#include "io/input_failure.h"
+#include "io/ply_header.h"
+#include "io/text_scanner.h"
+
+namespace asdfvk {
+
+/// The number of type T at `at`, unaligned, in the byte order of the file.
+template <typename T, bool isSwapped>
+[[nodiscard]] T loadScalar(const char* at) {
+  std::array<char, sizeof(T)> bytes;
+  std::memcpy(bytes.data(), at, sizeof(T));
+  if constexpr (isSwapped)
+    for (size_t i = 0; i < sizeof(T) / 2; ++i) std::swap(bytes[i], bytes[sizeof(T) - 1 - i]);
+  return std::bit_cast<T>(bytes);
+}
+
+/// The number of the given type as double or int64_t; either holds every integer type.
+template <typename Out, bool isSwapped>
+[[nodiscard]] Out loadPly(const char* at, PlyType type) {
+  switch (type) {
+    case PlyType::Int8:
+      return static_cast<Out>(loadScalar<int8_t, isSwapped>(at));
+    case PlyType::UInt8:
+      return static_cast<Out>(loadScalar<uint8_t, isSwapped>(at));
+    case PlyType::Int16:
+      return static_cast<Out>(loadScalar<int16_t, isSwapped>(at));
+    case PlyType::UInt16:
+      return static_cast<Out>(loadScalar<uint16_t, isSwapped>(at));
+    case PlyType::Int32:
+      return static_cast<Out>(loadScalar<int32_t, isSwapped>(at));
+    case PlyType::UInt32:
+      return static_cast<Out>(loadScalar<uint32_t, isSwapped>(at));
+    case PlyType::Float32:
+      return static_cast<Out>(loadScalar<float, isSwapped>(at));
+    case PlyType::Float64:
+      return static_cast<Out>(loadScalar<double, isSwapped>(at));
+  }
+  return Out{};
+}
+
+// Two sources of the numbers after a PLY header, with the same members. The parameter `expected` names the number in
+// the error of a file that ends there. fail() reports the place of the last number.
+
+/// Rows of text. A row may continue on further lines, but the next row begins on a new line, so that a row with a wrong
+/// number of values is found where it occurs.
+class PlyAsciiSource {
+ public:
+  static constexpr bool kIsBinary = false;
+
+  PlyAsciiSource(std::span<const char> bytes, const PlyHeader& header)
+      : text_(bytes.subspan(header.bodyOffset), {}, header.bodyLine) {}
+
+  [[nodiscard]] uint64_t remaining() const { return text_.remaining(); }
+  /// Whether the rest of the file can hold so many rows of at least minRowSize bytes; the last one may lack its end.
+  [[nodiscard]] bool canHoldRows(uint64_t count, uint64_t minRowSize) const {
+    return count <= (text_.remaining() + 1) / minRowSize;
+  }
+  [[nodiscard]] bool canHoldItems(uint64_t count, PlyType) const { return count <= text_.remaining(); }
+
+  double number(PlyType, std::string_view expected) { return text_.number(expected); }
+  int64_t integer(PlyType, std::string_view expected) { return text_.integer(expected); }
+  void skip(uint64_t count, PlyType, std::string_view expected) {
+    for (uint64_t i = 0; i < count; ++i) static_cast<void>(text_.number(expected));
+  }
+  void endRow(const PlyElement& element, uint64_t row) {
+    if (!text_.atLineEnd())
+      fail(fmt::format("row {} of element {} has more numbers than the header lists", row, quoted(element.name)));
+  }
+  void requireEnd() { text_.requireEnd("the last row"); }
+
+  [[noreturn]] void fail(std::string_view reason) const { failAtLine(text_.line(), reason); }
+
+ private:
+  TextScanner text_;
+};
+
+/// Rows of bytes; isSwapped: in the other byte order than the host.
+template <bool isSwapped>
+class PlyBinarySource {
+ public:
+  static constexpr bool kIsBinary = true;
+
+  PlyBinarySource(std::span<const char> bytes, const PlyHeader& header)
+      : bytes_(bytes), at_(header.bodyOffset), last_(at_) {}
+
+  [[nodiscard]] uint64_t remaining() const { return bytes_.size() - at_; }
+  [[nodiscard]] bool canHoldRows(uint64_t count, uint64_t minRowSize) const {
+    return count <= remaining() / minRowSize;
+  }
+  [[nodiscard]] bool canHoldItems(uint64_t count, PlyType type) const { return count <= remaining() / sizeOf(type); }
+
+  double number(PlyType type, std::string_view expected) { return take<double>(type, expected); }
+  int64_t integer(PlyType type, std::string_view expected) { return take<int64_t>(type, expected); }
+  /// Precondition: canHoldItems(count, type).
+  void skip(uint64_t count, PlyType type, std::string_view) { at_ += count * sizeOf(type); }
+  void endRow(const PlyElement&, uint64_t) {}
+  void requireEnd() const {
+    if (remaining() != 0) failAtByte(at_, "unexpected " + counted(remaining(), "byte") + " after the last row");
+  }
+
+  [[noreturn]] void fail(std::string_view reason) const { failAtByte(last_, reason); }
+
+  // Random access, for rows of one size: `offset` counts from the next number. Precondition: within remaining().
+  template <typename Out>
+  [[nodiscard]] Out load(uint64_t offset, PlyType type) const {
+    return loadPly<Out, isSwapped>(bytes_.data() + at_ + offset, type);
+  }
+  void skipBytes(uint64_t count) { last_ = at_ += count; }
+
+ private:
+  template <typename Out>
+  Out take(PlyType type, std::string_view expected) {
+    last_ = at_;
+    if (remaining() < sizeOf(type))
+      fail(fmt::format("the file ends where {} is expected; it is truncated", printable(expected)));
+    const Out value = load<Out>(0, type);
+    at_ += sizeOf(type);
+    return value;
+  }
+
+  std::span<const char> bytes_;
+  uint64_t at_;    ///< The next byte.
+  uint64_t last_;  ///< First byte of the last number, or the byte after skipBytes().
+};
+
+}  // namespace asdfvk
