@@ -1,5 +1,5 @@
 // What bilateral smoothing gives: the average error of the function traced at every face with few rays, against one
-// with many, before and after; and its time on the CPU and on the device.
+// with many, before and after; and its time.
 #include <fmt/format.h>
 
 #include <array>
@@ -15,10 +15,7 @@
 #include "pipeline/prepared_mesh.h"
 #include "share_errors.h"
 #include "smooth/bilateral.h"
-#include "smooth/vulkan/vulkan_bilateral.h"
 #include "spread.h"
-#include "vk/instance.h"
-#include "vk/open_device.h"
 
 namespace {
 
@@ -30,15 +27,6 @@ struct Arguments {
   std::vector<std::string> meshes;
   std::string device;
   uint32_t rayCount = 30, truthRayCount = 1000, runCount = 5;
-};
-
-/// Where smoothing is timed; a device of its own, beside the tracer's.
-struct SmoothingDevice {
-  explicit SmoothingDevice(const std::string& selector) : opened(openDevice(instance, {.selector = selector})) {}
-
-  Instance instance;
-  OpenedDevice opened;
-  VulkanBilateralKernel kernel{*opened.device};
 };
 
 std::vector<double> traceAllFaces(ComputeBackend& backend, const TraceScene& scene, const ConeOptions& options,
@@ -61,8 +49,7 @@ bench::Spread milliseconds(uint32_t runCount, const Smooth& smooth) {
   return bench::spreadOf(samples);
 }
 
-void compare(ComputeBackend& backend, const SmoothingDevice& device, const std::string& path,
-             const Arguments& arguments, const RunControl& control) {
+void compare(ComputeBackend& backend, const std::string& path, const Arguments& arguments, const RunControl& control) {
   Mesh mesh = readMesh(path);
   const PreparedMesh prepared = prepareMesh(mesh, Orientation::Keep);
   const Bvh bvh = buildBvh(mesh, prepared.geometry, prepared.representatives);
@@ -81,24 +68,20 @@ void compare(ComputeBackend& backend, const SmoothingDevice& device, const std::
   std::string text = fmt::format(
       "{}: {} faces, {} rays against {}, average error over the range of the latter; {}\n"
       "chosen for so many faces: window {}, passes {}\n\n"
-      "| window | passes | hashed cones | fixed cones | device, hashed | CPU, ms | device, ms |\n"
-      "|-------:|-------:|-------------:|------------:|---------------:|--------:|-----------:|\n"
-      "|      - |      0 | {:.4f} | {:.4f} | | | |\n",
+      "| window | passes | hashed cones | fixed cones | ms |\n"
+      "|-------:|-------:|-------------:|------------:|---:|\n"
+      "|      - |      0 | {:.4f} | {:.4f} | |\n",
       path, groupDigits(mesh.faceCount()), arguments.rayCount, arguments.truthRayCount, backend.deviceName(),
       chosen.window, chosen.passes, bench::errorsOverRange(truth, hashed).average,
       bench::errorsOverRange(truth, fixed).average);
   for (const BilateralOptions& options : kVariants) {
-    const auto onCpu = [&](const std::vector<double>& values) {
+    const auto smooth = [&](const std::vector<double>& values) {
       return smoothBilaterally(prepared.graph, values, options);
     };
-    const auto onDevice = [&] {
-      return smoothBilaterallyOnDevice(*device.opened.device, device.kernel, prepared.graph, hashed, options);
-    };
     const auto error = [&](const std::vector<double>& values) { return bench::errorsOverRange(truth, values).average; };
-    text += fmt::format("| {:>6} | {:>6} | {:.4f} | {:.4f} | {:.4f} | {} | {} |\n", options.window, options.passes,
-                        error(onCpu(hashed)), error(onCpu(fixed)), error(onDevice()),
-                        toText(milliseconds(arguments.runCount, [&] { return onCpu(hashed); }), 1),
-                        toText(milliseconds(arguments.runCount, onDevice), 1));
+    text +=
+        fmt::format("| {:>6} | {:>6} | {:.4f} | {:.4f} | {} |\n", options.window, options.passes, error(smooth(hashed)),
+                    error(smooth(fixed)), toText(milliseconds(arguments.runCount, [&] { return smooth(hashed); }), 1));
   }
   writeStandardOutput(text + "\n");
 }
@@ -116,7 +99,6 @@ int main(int argc, char** argv) {
   program.add("--device", arguments.device, "As asdf-vk takes it");
   return program.run(argc, argv, [&](const RunControl& control) {
     ComputeBackend backend(bench::sessionOptionsOf("vulkan", arguments.device));
-    const SmoothingDevice device(arguments.device);
-    for (const std::string& mesh : arguments.meshes) compare(backend, device, mesh, arguments, control);
+    for (const std::string& mesh : arguments.meshes) compare(backend, mesh, arguments, control);
   });
 }

@@ -1,6 +1,5 @@
 #version 450
-// One Jacobi iteration, y' = y + (1 - held back) r with the residual r = b + S y - y of y, and the partial sums of its
-// squares.
+// One Jacobi iteration, y' = b + S y, and the partial sums of the squares of the residual r = b + S y - y of y.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/poisson_layout.h"
 
@@ -19,7 +18,7 @@ void main() {
     float value = b[row];
     ADD_COUPLED(row, y, value)
     const float residual = value - y[row];
-    next[row] = value - push.heldBack * residual;
+    next[row] = value;
     squared += residual * residual * residualWeights[row];
   }
   const float total = workgroupSum(mat2x3(squared, 0.0, 0.0, 0.0, 0.0, 0.0))[0].x;

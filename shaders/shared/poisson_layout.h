@@ -16,9 +16,8 @@
 namespace asdfvk {
 #endif
 
-// A row of S, 32 bytes, read as two rgba32ui texels: its first three entries, which are all there are of the first
-// order on a manifold mesh, and where the rest stands, up to six of the second order. Entries that a row has not got
-// have coupling 0 and the row's own column.
+// A row of S, 32 bytes, read as two rgba32ui texels: its first three entries, which are all of them on a manifold mesh,
+// and where the rest stands. Absent entries have coupling 0 and the row's own column.
 const uint kPoissonRowTexelCount = 2u;
 struct PoissonRow {
   uint column0, column1, column2;
@@ -58,7 +57,6 @@ struct PoissonSums {
 struct PoissonPush {
   uint unknownCount;
   uint stateIndex;  // The CgState that this iteration reads; it writes the other one.
-  float heldBack;   // The share of its step that a Jacobi iteration holds back; 0 is the plain one.
 };
 
 #ifdef __cplusplus
@@ -76,9 +74,8 @@ static_assert(sizeof(PoissonSums) == 6144);
 static_assert(offsetof(PoissonSums, directionSquared) == 0 && offsetof(PoissonSums, productDot) == 1024);
 static_assert(offsetof(PoissonSums, productSquared) == 2048 && offsetof(PoissonSums, residualProduct) == 3072);
 static_assert(offsetof(PoissonSums, residualDot) == 4096 && offsetof(PoissonSums, residualSquared) == 5120);
-static_assert(sizeof(PoissonPush) == 12);
+static_assert(sizeof(PoissonPush) == 8);
 static_assert(offsetof(PoissonPush, unknownCount) == 0 && offsetof(PoissonPush, stateIndex) == 4);
-static_assert(offsetof(PoissonPush, heldBack) == 8);
 }  // namespace asdfvk
 #else
 PoissonRow decodePoissonRow(uvec4 t0, uvec4 t1) {

@@ -31,8 +31,8 @@ inline constexpr ChoiceNames<SurfaceMetric, 3> kMetrics{
 inline constexpr ChoiceNames<ConeRotation, 2> kConeRotations{
     {{"fixed", ConeRotation::Fixed}, {"hashed", ConeRotation::Hashed}}};
 
-inline constexpr ChoiceNames<ArcWeightKind, 3> kWeights{
-    {{"distance", ArcWeightKind::Distance}, {"uniform", ArcWeightKind::Uniform}, {"feature", ArcWeightKind::Feature}}};
+inline constexpr ChoiceNames<ArcWeightKind, 2> kWeights{
+    {{"distance", ArcWeightKind::Distance}, {"feature", ArcWeightKind::Feature}}};
 
 inline constexpr ChoiceNames<Guidance, 3> kGuidances{
     {{"none", Guidance::None}, {"curvature", Guidance::Curvature}, {"hits", Guidance::Hits}}};

@@ -152,24 +152,12 @@ void addInterpolation(CLI::App& app, Options& options) {
   const Options defaults;
   const std::string interpolation = "Interpolation";
   addChoice(app, "--weights", options.interpolation.weights, kWeights,
-            "How neighbouring faces are tied: 1/distance, alike, or less the sharper the\n"
-            "edge between them, concave ones sooner; default feature")
+            "Weight of two neighbouring faces: 1/distance, or lower the sharper the edge\n"
+            "between them, more so on concave edges; default feature")
       ->group(interpolation);
   addChoice(app, "--guidance", options.interpolation.guidance, kGuidances,
             "Where the guidance field comes from: none (harmonic), minus the curvature,\n"
             "or what the hits of the seeds' rays predict for the others; default hits")
-      ->group(interpolation);
-  addValue(app, "--curvature-factor", "K",
-           fmt::format("Factor of the curvature in its guidance; default {}", defaults.interpolation.curvatureFactor),
-           [&](const std::string& text) { options.interpolation.curvatureFactor = parseNumber(text); })
-      ->group(interpolation);
-  addValue(app, "--second-order", "BETA",
-           fmt::format("Weight of the second-order term, from 0, which also keeps slopes; default {}",
-                       defaults.interpolation.secondOrder),
-           [&](const std::string& text) {
-             options.interpolation.secondOrder = parseNumber(
-                 text, [](double x) { return x >= 0; }, "is below 0");
-           })
       ->group(interpolation);
   addValue(app, "--pooling", "P",
            fmt::format("How far values are moved to what the hits of several seeds predict, 0\n"

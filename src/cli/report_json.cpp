@@ -48,8 +48,6 @@ Json optionsOf(const CommandLine& line) {
           {"orient", nameOf(kOrientations, options.orientation)},
           {"weights", nameOf(kWeights, interpolation.weights)},
           {"guidance", nameOf(kGuidances, interpolation.guidance)},
-          {"curvatureFactor", interpolation.curvatureFactor},
-          {"secondOrder", interpolation.secondOrder},
           {"pooling", interpolation.pooling},
           {"solver", nameOf(kSolvers, options.solver)},
           {"tolerance", options.solverOptions.tolerance},

@@ -110,13 +110,6 @@ PoissonSolver& ComputeBackend::solver(SolverChoice choice) {
   return *solver;
 }
 
-std::vector<double> ComputeBackend::smooth(const DualGraph& graph, std::span<const double> values,
-                                           const BilateralOptions& options) {
-  if (runsOnCpu()) return smoothBilaterally(graph, values, options);
-  if (!bilateralKernel_) bilateralKernel_ = std::make_unique<VulkanBilateralKernel>(*device_);
-  return smoothBilaterallyOnDevice(*device_, *bilateralKernel_, graph, values, options);
-}
-
 void ComputeBackend::requireSilentValidation() const {
   if (!instance_ || !instance_->validationLog()) return;
   const std::vector<std::string> messages = instance_->validationLog()->messages();

@@ -8,7 +8,6 @@
 
 #include "pipeline/asdf.h"
 #include "poisson/poisson_solver.h"
-#include "smooth/vulkan/vulkan_bilateral.h"
 #include "trace/cone_tracer.h"
 #include "trace/vulkan/vulkan_cone_kernel.h"
 #include "vk/open_device.h"
@@ -36,9 +35,6 @@ class ComputeBackend {
                                                        bool writesHits = false);
   /// Throws Error{Device} for a solver that needs a device when there is none.
   [[nodiscard]] PoissonSolver& solver(SolverChoice choice);
-  /// smoothBilaterally(), on the device where there is one with memory of its own.
-  [[nodiscard]] std::vector<double> smooth(const DualGraph& graph, std::span<const double> values,
-                                           const BilateralOptions& options);
   /// Throws Error{Device} with what the validation layers said, if they are on and said something.
   void requireSilentValidation() const;
 
@@ -54,7 +50,6 @@ class ComputeBackend {
   bool usesEmbree_ = false;
   std::map<ConeKernelRequest, std::unique_ptr<VulkanConeKernel>> kernels_;
   std::map<SolverChoice, std::unique_ptr<PoissonSolver>> solvers_;
-  std::unique_ptr<VulkanBilateralKernel> bilateralKernel_;
   std::string name_, deviceName_;
   std::optional<VulkanTraceChoice> traceChoice_;
   std::vector<std::string> deviceLines_;

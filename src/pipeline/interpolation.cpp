@@ -89,9 +89,7 @@ Interpolated Interpolation::run(std::span<const double> known, StageSeconds& sec
     const auto buildSystem = [&] {  // The first guess goes with it.
       const std::vector<double> guess = firstGuess(prepared_.components, traced, predicted);
       return buildPoissonSystem(prepared_.graph, weights(), known, divergence(),
-                                {.secondOrder = options_.interpolation.secondOrder,
-                                 .firstGuess = guess,
-                                 .componentOf = prepared_.components.componentOf});
+                                {.firstGuess = guess, .componentOf = prepared_.components.componentOf});
     };
     const PoissonSystem system = buildSystem();
     result.solver = solve(system, result.values, control);
@@ -117,7 +115,7 @@ std::vector<double> Interpolation::divergence() {
       return divergenceOf(prepared_.graph, weights(), prediction_.values);
     case Guidance::Curvature: {
       std::vector<double> divergence = faceCurvature(scene_.mesh);
-      for (double& entry : divergence) entry *= -options_.interpolation.curvatureFactor;
+      for (double& entry : divergence) entry = -entry;
       return divergence;
     }
     case Guidance::None:

@@ -39,15 +39,13 @@ enum class Guidance {
 struct InterpolationOptions {
   ArcWeightKind weights = ArcWeightKind::Feature;
   Guidance guidance = Guidance::Hits;
-  double curvatureFactor = 1;  ///< Multiplies the curvature of Guidance::Curvature.
-  double secondOrder = 0;      ///< PoissonOptions::secondOrder.
   /// 0 to 1, with Guidance::Hits: how far each value, the traced ones too, is moved from the interpolation towards the
   /// prediction, which pools the rays of several seeds and so has less noise than one cone. 0: traced values are kept.
   double pooling = 0;
   ReprojectionOptions reprojection;
 };
 
-/// Bilateral smoothing of the result, see post/bilateral.h. Meant for values traced at all faces.
+/// Bilateral smoothing of the result, see smooth/bilateral.h. Meant for values traced at all faces.
 struct SmoothingOptions {
   bool isOn = false;
   std::optional<BilateralOptions> window;  ///< None: bilateralOptionsFor() the mesh.

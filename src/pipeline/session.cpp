@@ -94,7 +94,6 @@ void requireAgreement(const Options& options) {
   if (!(interpolation.pooling >= 0 && interpolation.pooling <= 1)) refuse("the pooling is out of range; give 0 to 1");
   if (interpolation.pooling > 0 && interpolation.guidance != Guidance::Hits)
     refuse("pooling takes predictions from hits; use guidance by hits with it");
-  if (!(interpolation.secondOrder >= 0)) refuse("the second-order term is negative; give 0 or more");
   if (options.smoothing.window) requireValid(*options.smoothing.window);
   if (options.rounds.maxError && !(*options.rounds.maxError > 0)) refuse("the greatest error is not above 0");
   if (options.rounds.timeBudgetSeconds && !(*options.rounds.timeBudgetSeconds > 0))
@@ -157,8 +156,8 @@ Result Session::compute(Mesh& mesh, const Options& options, const RunControl& co
   std::vector<double> values = rounds.result().values;
   if (const SmoothingOptions& smoothing = options.smoothing; smoothing.isOn)
     values = timed(seconds.smooth, [&] {
-      return backend.smooth(prepared.graph, values,
-                            smoothing.window.value_or(bilateralOptionsFor(prepared.graph.faceCount())));
+      return smoothBilaterally(prepared.graph, values,
+                               smoothing.window.value_or(bilateralOptionsFor(prepared.graph.faceCount())));
     });
   if (options.checkCount)
     report.check = checkAgainstReference(mesh, prepared, scene, cone, {rounds.traced(), values, backend.isReference()},

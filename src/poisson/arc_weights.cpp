@@ -45,8 +45,6 @@ std::vector<double> arcWeights(ArcWeightKind kind, const DualGraph& graph, const
   switch (kind) {
     case ArcWeightKind::Distance:
       return distanceWeights(graph, geometry);
-    case ArcWeightKind::Uniform:
-      return std::vector<double>(graph.neighbours.size(), 1.0);
     case ArcWeightKind::Feature:
       break;
   }

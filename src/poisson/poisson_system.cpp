@@ -6,7 +6,6 @@
 #include "core/check.h"
 #include "core/ordered_sum.h"
 #include "core/parallel.h"
-#include "poisson/energy_rows.h"
 #include "poisson/weighted_graph.h"
 
 namespace asdfvk {
@@ -54,18 +53,15 @@ double meanOfKnown(std::span<const double> values) {
                     [&](size_t i) { return std::isfinite(values[i]) ? values[i] / static_cast<double>(count) : 0.0; });
 }
 
-// Fills everything but the unknown faces and the first guess. `rows` are over all faces: the known ones' values move
-// to the right-hand side, however many arcs away they are.
-template <typename EnergyRows>
-void assemble(const EnergyRows& rows, std::span<const uint32_t> unknownOf, std::span<const double> values,
+// Fills everything but the unknown faces and the first guess.
+void assemble(const WeightedGraph& graph, std::span<const uint32_t> unknownOf, std::span<const double> values,
               std::span<const double> divergence, PoissonSystem& system) {
   const size_t unknownCount = system.faces.size();
   system.rowOffsets.assign(unknownCount + 1, 0);
   forEachInParallel(unknownCount, [&](size_t row) {
     uint32_t count = 0;
-    rows.visitRow(system.faces[row], [&](uint32_t face, double) {
-      count += face != system.faces[row] && unknownOf[face] != kNotUnknown ? 1 : 0;
-    });
+    graph.visitNeighbours(system.faces[row],
+                          [&](uint32_t neighbour, double) { count += unknownOf[neighbour] != kNotUnknown ? 1 : 0; });
     system.rowOffsets[row + 1] = count;
   });
   for (size_t row = 0; row < unknownCount; ++row) {
@@ -78,17 +74,17 @@ void assemble(const EnergyRows& rows, std::span<const uint32_t> unknownOf, std::
   system.rightHandSide.resize(unknownCount);
   forEachInParallel(unknownCount, [&](size_t row) {
     uint32_t next = system.rowOffsets[row];
-    double rightHandSide = rows.guidance(system.faces[row], divergence);
-    rows.visitRow(system.faces[row], [&](uint32_t face, double entry) {
-      if (face == system.faces[row]) {
-        system.diagonal[row] = entry;
-      } else if (unknownOf[face] == kNotUnknown) {
-        rightHandSide -= entry * values[face];
+    double diagonal = 0, rightHandSide = finiteOrZero(divergence, system.faces[row]);
+    graph.visitNeighbours(system.faces[row], [&](uint32_t neighbour, double weight) {
+      diagonal += weight;
+      if (unknownOf[neighbour] == kNotUnknown) {
+        rightHandSide += weight * values[neighbour];
       } else {
-        system.columns[next] = unknownOf[face];
-        system.entries[next++] = entry;
+        system.columns[next] = unknownOf[neighbour];
+        system.entries[next++] = -weight;
       }
     });
+    system.diagonal[row] = diagonal;
     system.rightHandSide[row] = rightHandSide;
   });
 }
@@ -104,7 +100,6 @@ PoissonSystem buildPoissonSystem(const DualGraph& graph, std::span<const double>
   if (!divergence.empty()) ASDFVK_CHECK_OP(divergence.size(), ==, faceCount);
   if (!options.firstGuess.empty()) ASDFVK_CHECK_OP(options.firstGuess.size(), ==, faceCount);
   if (!options.componentOf.empty()) ASDFVK_CHECK_OP(options.componentOf.size(), ==, faceCount);
-  ASDFVK_CHECK_OP(options.secondOrder, >=, 0);
 
   PoissonSystem system;
   system.knownMean = meanOfKnown(values);
@@ -123,11 +118,7 @@ PoissonSystem buildPoissonSystem(const DualGraph& graph, std::span<const double>
       system.firstGuess[row] = std::isfinite(guess) ? guess : system.knownMean;
     });
   }
-  const WeightedGraph weighted{graph, weights};
-  if (options.secondOrder == 0)
-    assemble(FirstOrderRows{weighted}, unknownOf, values, divergence, system);
-  else
-    assemble(SecondOrderRows(weighted, options.secondOrder), unknownOf, values, divergence, system);
+  assemble({graph, weights}, unknownOf, values, divergence, system);
   return system;
 }
 

@@ -10,9 +10,8 @@
 
 namespace asdfvk {
 
-/// A u = b for the unknown faces of an interpolation: symmetric, positive definite. Rows are compressed, columns
-/// strictly ascending. Of the first order A is an M-matrix, its off-diagonal entries are minus the weights; of the
-/// second order they have either sign.
+/// A u = b for the unknown faces of an interpolation. A is symmetric, positive definite and an M-matrix: its
+/// off-diagonal entries are minus the weights. Rows are compressed, columns strictly ascending.
 struct PoissonSystem {
   std::vector<uint32_t> faces;        ///< #U: the face of each unknown, ascending.
   std::vector<uint32_t> rowOffsets;   ///< #U+1
@@ -27,9 +26,6 @@ struct PoissonSystem {
 };
 
 struct PoissonOptions {
-  /// beta >= 0. 0: values without a divergence stay within the range of the known ones. Above, they bend less and
-  /// carry on their slopes, also beyond that range.
-  double secondOrder = 0;
   /// #F, or empty. Where it is not finite the mean of the known values stands in.
   std::span<const double> firstGuess;
   /// #F, Components::componentOf, or empty: then it is found out which faces hang together.
@@ -41,14 +37,14 @@ struct PoissonOptions {
 ///     sum_{g in N(f)} w_fg u(f) - sum_{g in N(f), g unknown} w_fg u(g)
 ///         = sum_{g in N(f), g known} w_fg value(g) + divergence(f)
 ///
-/// which is the minimum of sum w_fg (u_f - u_g)^2 if there is no divergence; beta adds beta sum_f (L u)_f^2 / D_f to
-/// that, see SecondOrderRows. Faces that no path of arcs joins to a known one are left out.
+/// which minimises sum w_fg (u_f - u_g)^2 if there is no divergence; then u stays within the range of the known values.
+/// Faces that no path of arcs joins to a known one are left out.
 ///
 /// weights: one per arc, see arcWeights(); > 0, finite, the same both ways (two arcs to the same face count as one with
 /// the sum of their weights). values: #F, finite where the face is known (a Dirichlet constraint), NaN where it is not.
-/// divergence: #F, or empty for none; non-finite entries count as 0. It is -k curv for the paper's guidance by
+/// divergence: #F, or empty for none; non-finite entries count as 0. It is -curv for the paper's guidance by
 /// curvature, and divergenceOf(field) for guidance by any field: if the known values are the field's, it is the
-/// solution, with any beta.
+/// solution.
 [[nodiscard]] PoissonSystem buildPoissonSystem(const DualGraph& graph, std::span<const double> weights,
                                                std::span<const double> values, std::span<const double> divergence,
                                                const PoissonOptions& options = {});

@@ -6,7 +6,6 @@
 
 namespace asdfvk {
 
-// Twin of gatherWindow() in shaders/bilateral.comp; both look at the same arcs in the same order.
 void RingWindow::gather(const DualGraph& graph, uint32_t face, uint32_t ringCount) {
   ASDFVK_CHECK_OP(ringCount, >=, 1u);
   ASDFVK_CHECK_OP(ringCount, <=, kMaxBilateralWindow);

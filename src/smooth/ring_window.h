@@ -5,9 +5,14 @@
 #include <span>
 
 #include "mesh/dual_graph.h"
-#include "shared/bilateral_layout.h"
 
 namespace asdfvk {
+
+inline constexpr uint32_t kMaxBilateralWindow = 4;
+/// Four rings around a face have at most 1 + 3 + 6 + 12 + 24 = 46 faces, found along 66 arcs, if every edge joins two
+/// faces. Windows are cut off at these limits, so that their cost is bounded where more faces meet at an edge.
+inline constexpr uint32_t kMaxWindowFaceCount = 64;
+inline constexpr uint32_t kMaxWindowArcCount = 96;
 
 /// The faces within so many rings of the dual graph around a face, each once: the face itself (ring 0), then ring by
 /// ring.

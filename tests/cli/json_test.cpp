@@ -79,19 +79,15 @@ TEST_CASE("--json is exactly one document with every promised key and its type")
       {"orient", "keep"},        {"smooth", "off"},         {"solver", "auto"}};
   for (const auto& [key, name] : names) CHECK_EQ(options.at(key).get<std::string>(), name);
   for (const char* key : {"maxError", "timeBudgetSeconds"}) CHECK(options.at(key).is_null());
-  CHECK_EQ(options.at("curvatureFactor").get<double>(), 1);
-  for (const char* key : {"secondOrder", "pooling"}) CHECK_EQ(options.at(key).get<double>(), 0);
+  CHECK_EQ(options.at("pooling").get<double>(), 0);
 }
 
 TEST_CASE("what was asked for is in the options of the document") {
   const ScratchFolder folder;
   const std::string mesh = folder.write("sphere.off", sphereOff(12));
-  const Json json = onlyDocument(runAsdf({mesh,        "--json",         "--quiet", "--backend",
-                                          "reference", "--recipe",       "quality", "--sampler",
-                                          "adaptive",  "--metric",       "hops",    "--max-error",
-                                          "50%",       "--time-budget",  "100s",    "--pooling",
-                                          "0.5",       "--second-order", "0.1",     "--curvature-factor",
-                                          "3",         "--smooth",       "2x1"}));
+  const Json json = onlyDocument(runAsdf({mesh, "--json", "--quiet", "--backend", "reference", "--recipe", "quality",
+                                          "--sampler", "adaptive", "--metric", "hops", "--max-error", "50%",
+                                          "--time-budget", "100s", "--pooling", "0.5", "--smooth", "2x1"}));
   const Json& options = json.at("options");
   CHECK_EQ(options.at("recipe").get<std::string>(), "quality");
   CHECK_EQ(options.at("seeds").get<std::string>(), "2%");
@@ -101,8 +97,6 @@ TEST_CASE("what was asked for is in the options of the document") {
   CHECK_EQ(options.at("maxError").get<double>(), 0.5);
   CHECK_EQ(options.at("timeBudgetSeconds").get<double>(), 100);
   CHECK_EQ(options.at("pooling").get<double>(), 0.5);
-  CHECK_EQ(options.at("secondOrder").get<double>(), 0.1);
-  CHECK_EQ(options.at("curvatureFactor").get<double>(), 3);
   CHECK_EQ(options.at("smooth").get<std::string>(), "2x1");
   CHECK(json.at("roundCount").get<uint64_t>() >= 2);  // The adaptive sampler's.
 }

@@ -36,8 +36,6 @@ TEST_CASE("a mesh alone means the defaults") {
   CHECK(line.options.metric == SurfaceMetric::Angle);
   CHECK(line.options.interpolation.weights == ArcWeightKind::Feature);
   CHECK(line.options.interpolation.guidance == Guidance::Hits);
-  CHECK_EQ(line.options.interpolation.curvatureFactor, 1);
-  CHECK_EQ(line.options.interpolation.secondOrder, 0);
   CHECK_EQ(line.options.interpolation.pooling, 0);
   CHECK(line.options.cone.rotation == ConeRotation::Fixed);
   CHECK(line.options.estimatesError);
@@ -100,13 +98,9 @@ TEST_CASE("every option reaches its field") {
                                              "--cone-rotation",
                                              "fixed",
                                              "--weights",
-                                             "uniform",
+                                             "distance",
                                              "--guidance",
                                              "hits",
-                                             "--curvature-factor",
-                                             "-0.5",
-                                             "--second-order",
-                                             "0.25",
                                              "--smooth",
                                              "3x2",
                                              "--pooling",
@@ -153,10 +147,8 @@ TEST_CASE("every option reaches its field") {
   CHECK_EQ(line.options.rounds.timeBudgetSeconds.value(), 2.5);
   CHECK_FALSE(line.options.estimatesError);
   CHECK(line.options.cone.rotation == ConeRotation::Fixed);
-  CHECK(line.options.interpolation.weights == ArcWeightKind::Uniform);
+  CHECK(line.options.interpolation.weights == ArcWeightKind::Distance);
   CHECK(line.options.interpolation.guidance == Guidance::Hits);
-  CHECK_EQ(line.options.interpolation.curvatureFactor, -0.5);
-  CHECK_EQ(line.options.interpolation.secondOrder, 0.25);
   CHECK(line.options.smoothing.isOn);
   CHECK_EQ(line.options.smoothing.window.value().window, 3);
   CHECK_EQ(line.options.smoothing.window.value().passes, 2);
@@ -238,7 +230,6 @@ TEST_CASE("values out of range are refused with the option's name") {
                                                   {"--weights", "1"},
                                                   {"--guidance", "0.5"},
                                                   {"--guidance", "gauss"},
-                                                  {"--curvature-factor", "inf"},
                                                   {"--pooling", "-0.1"},
                                                   {"--pooling", "1.1"},
                                                   {"--pooling", "half"},
@@ -257,7 +248,6 @@ TEST_CASE("values out of range are refused with the option's name") {
     const std::string message = refusal({"a.ply", arguments[0], arguments[1]});
     CHECK_MESSAGE(message.starts_with(arguments[0] + ": '" + arguments[1] + "' is not "), message);
   }
-  CHECK_EQ(refusal({"a.ply", "--second-order", "-1"}), "--second-order: '-1' is below 0");
   CHECK_EQ(refusal({"a.ply", "--max-error", "soon"}), "--max-error: 'soon' is not a number");
   CHECK_EQ(refusal({"a.ply", "--max-error", "150%"}), "--max-error: '150%' is not above 0% and below 100%");
   CHECK_EQ(refusal({"a.ply", "--time-budget", "0s"}), "--time-budget: '0s' is not a time above 0 s");
@@ -321,11 +311,11 @@ TEST_CASE("each sampler, metric, weight and guidance has its name") {
 }
 
 TEST_CASE("the options of their own overrule the recipe, wherever it stands") {
-  for (const auto& arguments : {std::vector<std::string>{"a.ply", "--recipe", "paper", "--weights", "uniform"},
-                                {"a.ply", "--weights", "uniform", "--recipe", "paper"}}) {
+  for (const auto& arguments : {std::vector<std::string>{"a.ply", "--recipe", "paper", "--weights", "feature"},
+                                {"a.ply", "--weights", "feature", "--recipe", "paper"}}) {
     const CommandLine line = parseCommandLine(arguments);
     CHECK(line.recipe == Recipe::Paper);
-    CHECK(line.options.interpolation.weights == ArcWeightKind::Uniform);
+    CHECK(line.options.interpolation.weights == ArcWeightKind::Feature);
     CHECK(line.options.interpolation.guidance == Guidance::None);
     CHECK(line.options.sampler == SamplerKind::Random);
   }
@@ -374,8 +364,8 @@ TEST_CASE("the help names every option of the computation") {
        {"--recipe paper|balanced|quality",
         "--sampler random|depth-first|blue-noise|farthest-point|normal-space|adaptive", "--metric hops|length|angle",
         "--max-error E%", "--time-budget SECONDS", "--no-estimate", "--cone-rotation fixed|hashed",
-        "--weights distance|uniform|feature", "--guidance none|curvature|hits", "--curvature-factor K",
-        "--second-order BETA", "--pooling P", "--picture-of sdf|seeds|error", "balanced (default)"})
+        "--weights distance|feature", "--guidance none|curvature|hits", "--pooling P", "--picture-of sdf|seeds|error",
+        "balanced (default)"})
     CHECK_MESSAGE(help.find(part) != std::string::npos, part);
 }
 

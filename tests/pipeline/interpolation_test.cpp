@@ -101,11 +101,8 @@ TEST_CASE("guidance by hits errs less than none") {
   }
 }
 
-TEST_CASE("the curvature's factor matters, and 0 means no guidance") {
+TEST_CASE("guidance by curvature changes the values") {
   const Mesh mesh = makeTorus(1000).mesh;
-  Options zero = with(Guidance::Curvature);
-  zero.interpolation.curvatureFactor = 0;
-  CHECK(compute(mesh, zero).sdf == compute(mesh, with(Guidance::None)).sdf);
   CHECK(compute(mesh, with(Guidance::Curvature)).sdf != compute(mesh, with(Guidance::None)).sdf);
 }
 
@@ -167,8 +164,6 @@ TEST_CASE("options of the interpolation and of rounds out of range are errors of
           o.interpolation.pooling = 0.5;
           o.interpolation.guidance = Guidance::None;
         }).find("guidance by hits") != std::string::npos);
-  for (const double bad : {-1.0, std::nan("")})
-    CHECK(refusal([&](Options& o) { o.interpolation.secondOrder = bad; }).find("second-order") != std::string::npos);
   for (const double bad : {-1.0, 0.0, std::nan("")}) {
     CHECK(refusal([&](Options& o) { o.rounds.maxError = bad; }).find("error") != std::string::npos);
     CHECK(refusal([&](Options& o) { o.rounds.timeBudgetSeconds = bad; }).find("time budget") != std::string::npos);
@@ -210,10 +205,4 @@ TEST_CASE("a part a hundred thousand times smaller than the other is interpolate
     CHECK(averageError(values, small(traced)) < 0.1);
     CHECK(*std::max_element(values.begin(), values.end()) < 1.5 * greatest);
   }
-}
-
-TEST_CASE("an equation beyond what numbers hold is told as not converged") {
-  Options options = with(Guidance::Curvature);
-  options.interpolation.curvatureFactor = 1e308;
-  CHECK_FALSE(compute(makeAnimal(2000).mesh, options).report.solver.converged);
 }

@@ -37,7 +37,6 @@ TEST_CASE("paper is what the paper does") {
   CHECK_FALSE(options.isAdaptive);
   CHECK(options.interpolation.weights == ArcWeightKind::Distance);
   CHECK(options.interpolation.guidance == Guidance::None);
-  CHECK(options.interpolation.secondOrder == 0);
   CHECK(options.interpolation.pooling == 0);
   CHECK(options.cone.rotation == ConeRotation::Fixed);
 }

@@ -21,10 +21,9 @@ HandGraph roof(double degrees, double rise) {
 
 }  // namespace
 
-TEST_CASE("weights by distance are those of the paper and uniform ones are 1") {
+TEST_CASE("weights by distance are those of the paper") {
   const HandGraph hand = roof(30, 0);
   CHECK(arcWeights(ArcWeightKind::Distance, hand.graph, hand.geometry) == std::vector<double>{0.5, 0.5, 0.2, 0.2});
-  CHECK(arcWeights(ArcWeightKind::Uniform, hand.graph, hand.geometry) == std::vector<double>{1, 1, 1, 1});
 }
 
 TEST_CASE("weights by feature halve at 3 degrees on a concave and at 8 on a convex edge, and are 1 on a flat one") {

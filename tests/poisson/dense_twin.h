@@ -18,7 +18,7 @@ struct DenseTwin {
   Eigen::MatrixXd laplacian;  ///< Over all faces.
 
   DenseTwin(const DualGraph& graph, std::span<const double> weights, std::span<const double> values,
-            std::span<const double> divergence, double beta) {
+            std::span<const double> divergence) {
     const Eigen::Index faceCount = graph.faceCount();
     laplacian = Eigen::MatrixXd::Zero(faceCount, faceCount);
     for (uint32_t f = 0; f < graph.faceCount(); ++f)
@@ -27,21 +27,15 @@ struct DenseTwin {
         laplacian(f, f) += weights[arc];
         laplacian(f, graph.neighbours[arc]) -= weights[arc];
       }
-    Eigen::VectorXd bending = Eigen::VectorXd::Zero(faceCount);
-    for (Eigen::Index f = 0; f < faceCount; ++f) {
-      const Eigen::Index entryCount = (laplacian.row(f).array() != 0).count();
-      if (entryCount > 1 && entryCount <= 9) bending[f] = beta / laplacian(f, f);
-    }
-    const Eigen::MatrixXd energy = laplacian + laplacian * bending.asDiagonal() * laplacian;
     Eigen::VectorXd guidance = Eigen::VectorXd::Zero(faceCount), known = guidance;
     for (Eigen::Index f = 0; f < faceCount; ++f) {
       const size_t face = static_cast<size_t>(f);
       if (!divergence.empty() && std::isfinite(divergence[face])) guidance[f] = divergence[face];
       if (std::isfinite(values[face])) known[f] = values[face];
     }
-    const Eigen::VectorXd whole = guidance + laplacian * bending.cwiseProduct(guidance) - energy * known;
+    const Eigen::VectorXd whole = guidance - laplacian * known;
     for (Eigen::Index f : reachedUnknowns(values)) faces.push_back(f);
-    matrix = energy(faces, faces);
+    matrix = laplacian(faces, faces);
     rightHandSide = whole(faces);
     solution = matrix.ldlt().solve(rightHandSide);
   }

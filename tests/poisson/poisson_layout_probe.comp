@@ -24,7 +24,6 @@ void main() {
   words[10] = dispatchSize.x;
   words[11] = dispatchSize.y;
   words[12] = dispatchSize.z;
-  words[21u + 6u * kMaxPoissonWorkgroupCount] = floatBitsToUint(push.heldBack);
   const PoissonRow row = decodePoissonRow(imageLoad(rows, 0), imageLoad(rows, 1));
   words[13] = row.column0;
   words[14] = row.column1;

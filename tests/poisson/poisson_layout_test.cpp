@@ -51,7 +51,6 @@ TEST_CASE("a distinct word through each field of the Poisson structs arrives whe
   for (float& sum : sums.residualProduct) sum = real();
   for (float& sum : sums.residualDot) sum = real();
   for (float& sum : sums.residualSquared) sum = real();
-  push.heldBack = real();
 
   const Buffer stateBuffer = uploadBuffer(*device, bytesOf(states), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
   const Buffer sumBuffer = uploadBuffer(*device, bytesOf(sums), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);

@@ -195,17 +195,15 @@ TEST_CASE("Jacobi sweeps give what their twin on the CPU gives") {
   const std::vector<double> b = twins.scaled(residual);
   const VulkanJacobiKernel kernel(*device);
   const VulkanMatrix matrix(*device, scaled);
-  for (const auto& [iterationCount, heldBack] : {std::pair{1u, 0.0}, {2u, 0.0}, {7u, 0.0}, {1u, 0.25}, {7u, 0.25}}) {
+  for (uint32_t iterationCount : {1u, 2u, 7u}) {
     CAPTURE(iterationCount);
-    CAPTURE(heldBack);
-    VulkanJacobi jacobi(*device, kernel, matrix, scaled.scaleResidual(residual, KernelTwins{system}.norm(residual)),
-                        heldBack);
+    VulkanJacobi jacobi(*device, kernel, matrix, scaled.scaleResidual(residual, KernelTwins{system}.norm(residual)));
     std::vector<double> y(b.size(), 0.0), before(b.size());
     for (uint32_t i = 0; i < iterationCount; ++i) {
       const std::vector<double> coupled = twins.coupled(y);
       for (size_t row = 0; row < y.size(); ++row) {
         before[row] = b[row] + coupled[row] - y[row];
-        y[row] += (1 - heldBack) * before[row];
+        y[row] += before[row];
       }
     }
     CHECK(jacobi.advance(iterationCount) == doctest::Approx(std::sqrt(twins.squaredNorm(before))).epsilon(1e-5));

@@ -60,7 +60,7 @@ VulkanCg::VulkanCg(const Device& device, const VulkanCgKernels& kernels, const V
 CgState VulkanCg::advance(uint32_t iterationCount) {
   commands_.begin();
   for (uint32_t i = 0; i < iterationCount; ++i) {
-    const PoissonPush push{unknownCount_, stateIndex_, 0};
+    const PoissonPush push{unknownCount_, stateIndex_};
     commands_.dispatchIndirect(kernels_.product, productBindings_, bytesOf(push), size_);
     commands_.barrier();
     commands_.dispatchIndirect(kernels_.step, stepBindings_, bytesOf(push), size_);

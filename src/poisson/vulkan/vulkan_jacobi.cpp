@@ -37,12 +37,11 @@ VulkanJacobiKernel::VulkanJacobiKernel(const Device& device)
             describePoissonKernel(device.facts(), "jacobi_sweep.comp", k_jacobi_sweep_comp, kBindingCount, true)) {}
 
 VulkanJacobi::VulkanJacobi(const Device& device, const VulkanJacobiKernel& kernel, const VulkanMatrix& matrix,
-                           std::span<const float> rightHandSide, double heldBack)
+                           std::span<const float> rightHandSide)
     : device_(device),
       kernel_(kernel),
       unknownCount_(static_cast<uint32_t>(rightHandSide.size())),
       workgroupCount_(matrix.grid.workgroupCount),
-      heldBack_(static_cast<float>(heldBack)),
       rightHandSide_(uploadBuffer(device, std::as_bytes(rightHandSide), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT)),
       iterates_{uploadZeros(device, rightHandSide.size()), uploadZeros(device, rightHandSide.size())},
       sums_(uploadBuffer(device, bytesOf(PoissonSums{}), kPoissonVectorUsage)),
@@ -54,8 +53,7 @@ VulkanJacobi::VulkanJacobi(const Device& device, const VulkanJacobiKernel& kerne
 double VulkanJacobi::advance(uint32_t iterationCount) {
   commands_.begin();
   for (uint32_t i = 0; i < iterationCount; ++i) {
-    commands_.dispatch(kernel_.sweep, bindings_[current_], bytesOf(PoissonPush{unknownCount_, 0, heldBack_}),
-                       workgroupCount_);
+    commands_.dispatch(kernel_.sweep, bindings_[current_], bytesOf(PoissonPush{unknownCount_, 0}), workgroupCount_);
     commands_.barrier();
     current_ = 1 - current_;
   }

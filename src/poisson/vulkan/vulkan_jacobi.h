@@ -19,9 +19,9 @@ struct VulkanJacobiKernel {
 /// Jacobi iterations on (I - S) y = b from y = 0 on. Everything given must outlive it.
 class VulkanJacobi {
  public:
-  /// rightHandSide: #U, of weighted norm 1. heldBack: see heldBackByJacobi().
+  /// rightHandSide: #U, of weighted norm 1.
   VulkanJacobi(const Device& device, const VulkanJacobiKernel& kernel, const VulkanMatrix& matrix,
-               std::span<const float> rightHandSide, double heldBack);
+               std::span<const float> rightHandSide);
 
   /// Runs `iterationCount` > 0 iterations in one submission. Returns the weighted norm of the residual before the last.
   double advance(uint32_t iterationCount);
@@ -33,7 +33,6 @@ class VulkanJacobi {
   const VulkanJacobiKernel& kernel_;
   uint32_t unknownCount_;
   uint32_t workgroupCount_;
-  float heldBack_;
   uint32_t current_ = 0;  ///< The iterate that is newest.
   Buffer rightHandSide_, iterates_[2], sums_, sumsOnHost_;
   BindingSet bindings_[2];  ///< [i] reads iterates_[i] and writes the other one.

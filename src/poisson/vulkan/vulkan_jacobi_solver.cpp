@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "poisson/jacobi_damping.h"
 #include "poisson/vulkan/vulkan_jacobi.h"
 #include "poisson/vulkan/vulkan_refinement.h"
 
@@ -20,16 +19,15 @@ class VulkanJacobiSolver final : public PoissonSolver {
 
   SolverReport solve(const PoissonSystem& system, const SolverOptions& options, std::span<double> solution,
                      const RunControl& control) override {
-    const double heldBack = heldBackByJacobi(system);
-    const auto solver = [&](const DevicePass& pass) { return iterate(pass, heldBack); };
+    const auto solver = [this](const DevicePass& pass) { return iterate(pass); };
     return solveOnDevice(
         {.name = "jacobi", .strongestReduction = kStrongestJacobiReduction, .cpuFinishes = false, .solver = solver},
         device_, system, options, solution, control);
   }
 
  private:
-  DevicePassResult iterate(const DevicePass& pass, double heldBack) const {
-    VulkanJacobi jacobi(device_, kernel_, pass.matrix, pass.rightHandSide, heldBack);
+  DevicePassResult iterate(const DevicePass& pass) const {
+    VulkanJacobi jacobi(device_, kernel_, pass.matrix, pass.rightHandSide);
     uint32_t iterationCount = 0;
     for (double residual = 1; residual > pass.reduction && iterationCount < pass.maxIterations;) {
       const uint32_t batch = std::min(kBatch, pass.maxIterations - iterationCount);

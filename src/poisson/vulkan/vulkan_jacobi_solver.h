@@ -7,8 +7,7 @@
 
 namespace asdfvk {
 
-/// The Jacobi iteration on the device, for comparison: slow by design. Damped where the plain one might not converge,
-/// see heldBackByJacobi(). Otherwise as makeVulkanCgSolver().
+/// The Jacobi iteration on the device, for comparison: slow by design. Otherwise as makeVulkanCgSolver().
 [[nodiscard]] std::unique_ptr<PoissonSolver> makeVulkanJacobiSolver(const Device& device);
 
 }  // namespace asdfvk

@@ -1,0 +1,132 @@
+#include <doctest/doctest.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "dense_twin.h"
+#include "mesh/components.h"
+#include "poisson/divergence.h"
+#include "sample_problems.h"
+
+using namespace asdfvk;
+
+namespace {
+
+/// The system as a dense matrix.
+Eigen::MatrixXd denseMatrix(const PoissonSystem& system) {
+  const Eigen::Index size = system.unknownCount();
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(size, size);
+  for (uint32_t row = 0; row < system.unknownCount(); ++row) {
+    matrix(row, row) = system.diagonal[row];
+    for (uint32_t i = system.rowOffsets[row]; i < system.rowOffsets[row + 1]; ++i)
+      matrix(row, system.columns[i]) += system.entries[i];
+  }
+  return matrix;
+}
+
+std::vector<double> randomField(size_t size) {
+  Random random(9);
+  std::vector<double> field(size);
+  for (double& entry : field) entry = 10 * (random.real() - 0.5);
+  return field;
+}
+
+template <typename Vector>
+bool sameBits(const Vector& a, const Vector& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(a[0])) == 0;
+}
+
+}  // namespace
+
+TEST_CASE("matrix and right-hand side are those of dense algebra, with any weights") {
+  forEachSetting([&](const Setting& setting) {
+    const auto& [problem, kind, weights] = setting;
+    std::vector<double> divergence = randomField(problem.values.size());
+    divergence[3] = kNoValue;
+    const PoissonSystem system = buildPoissonSystem(problem.graph, weights, problem.values, divergence);
+    const DenseTwin twin(problem.graph, weights, problem.values, divergence);
+    REQUIRE(std::equal(system.faces.begin(), system.faces.end(), twin.faces.begin(), twin.faces.end()));
+    REQUIRE(system.unknownCount() > 40);
+    REQUIRE(system.unknownCount() < problem.values.size());
+    const Eigen::MatrixXd matrix = denseMatrix(system);
+    const auto scale = twin.matrix.diagonal().array();
+    CHECK(((matrix - twin.matrix).array().colwise() / scale).abs().maxCoeff() < 1e-14);
+    const Eigen::Map<const Eigen::VectorXd> b(system.rightHandSide.data(), matrix.rows());
+    CHECK(((b - twin.rightHandSide).array() / scale).abs().maxCoeff() <
+          1e-14 * (1 + (twin.rightHandSide.array() / scale).abs().maxCoeff()));
+    // Conjugate gradients want this to the bit.
+    CHECK(matrix == matrix.transpose());
+    for (uint32_t row = 0; row < system.unknownCount(); ++row)
+      CHECK(std::adjacent_find(system.columns.begin() + system.rowOffsets[row],
+                               system.columns.begin() + system.rowOffsets[row + 1],
+                               std::greater_equal<>()) == system.columns.begin() + system.rowOffsets[row + 1]);
+    CHECK(std::all_of(system.entries.begin(), system.entries.end(), [](double e) { return e < 0; }));
+  });
+}
+
+TEST_CASE("guided by a field that the known values agree with, the field is the solution") {
+  forEachSetting([&](const Setting& setting) {
+    const auto& [problem, kind, weights] = setting;
+    const std::vector<double> field = randomField(problem.values.size());
+    std::vector<double> values = problem.values;
+    for (size_t f = 0; f < values.size(); ++f)
+      if (std::isfinite(values[f])) values[f] = field[f];
+    const PoissonSystem system = buildPoissonSystem(problem.graph, weights, values,
+                                                    divergenceOf(problem.graph, weights, field), {.firstGuess = field});
+    CHECK(relativeResidual(system, system.firstGuess) < 1e-13);
+    const Eigen::VectorXd solution = denseMatrix(system).ldlt().solve(
+        Eigen::Map<const Eigen::VectorXd>(system.rightHandSide.data(), system.unknownCount()));
+    for (uint32_t i = 0; i < system.unknownCount(); ++i)
+      CHECK(solution[i] == doctest::Approx(field[system.faces[i]]).epsilon(1e-6).scale(1));
+  });
+}
+
+TEST_CASE("weights, divergence and system have the same bits on any number of threads") {
+  const SampleProblem problem("torus", torus(160, 80));
+  const std::vector<double> field = randomField(problem.values.size());
+  for (ArcWeightKind kind : kArcWeightKinds) {
+    std::vector<std::vector<double>> numbers[3];
+    for (const size_t threadCount : {1, 2, 3}) {
+      const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threadCount);
+      const std::vector<double> weights = arcWeights(kind, problem.graph, problem.geometry);
+      const std::vector<double> divergence = divergenceOf(problem.graph, weights, field);
+      PoissonSystem system = buildPoissonSystem(problem.graph, weights, problem.values, divergence);
+      numbers[threadCount - 1] = {weights, divergence};
+      for (const auto& ofSystem : {system.entries, system.diagonal, system.rightHandSide})
+        numbers[threadCount - 1].emplace_back(ofSystem.begin(), ofSystem.end());
+    }
+    for (size_t i = 0; i < numbers[0].size(); ++i) {
+      CHECK(sameBits(numbers[0][i], numbers[1][i]));
+      CHECK(sameBits(numbers[0][i], numbers[2][i]));
+    }
+  }
+}
+
+TEST_CASE("a first guess is taken where it is finite, else the mean of the known values stands in") {
+  const HandGraph hand(std::vector<Vec3d>(4), {{0, 1}, {1, 2}, {2, 3}});
+  const std::vector<double> weights(6, 1.0), values{2, kNoValue, kNoValue, 4};
+  CHECK(buildPoissonSystem(hand.graph, weights, values, {}).firstGuess.empty());
+  const PoissonSystem system =
+      buildPoissonSystem(hand.graph, weights, values, {}, {.firstGuess = std::vector<double>{9, kNoValue, 7, 9}});
+  CHECK(system.firstGuess == std::vector<double>{3, 7});
+}
+
+TEST_CASE("with components given the system is the same as without") {
+  const Mesh mesh = randomFaces(60, 300, 1);
+  SampleProblem problem("random faces", mesh);
+  const std::vector<double> weights(problem.graph.neighbours.size(), 1.0);
+  const Components components = findComponents(mesh, problem.graph);
+  REQUIRE(components.components.size() > 3);
+  const PoissonSystem searched = buildPoissonSystem(problem.graph, weights, problem.values, {});
+  const PoissonSystem told =
+      buildPoissonSystem(problem.graph, weights, problem.values, {}, {.componentOf = components.componentOf});
+  const auto unknownCount =
+      std::count_if(problem.values.begin(), problem.values.end(), [](double value) { return !std::isfinite(value); });
+  REQUIRE(searched.unknownCount() < unknownCount);  // Some component has no known face.
+  CHECK(told.faces == searched.faces);
+  CHECK(told.columns == searched.columns);
+  CHECK(sameBits(told.entries, searched.entries));
+  CHECK(sameBits(told.rightHandSide, searched.rightHandSide));
+}
