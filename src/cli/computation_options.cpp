@@ -46,10 +46,11 @@ void addRecipe(CLI::App& app, CommandLine& line) {
   };
   addChoice(app, "--recipe", apply, kRecipes,
             "Sets of the options below, which overrule it. paper: random seeds,\n"
-            "weights 1/distance, as the ASDF paper has it. balanced (default): seeds as\n"
-            "blue noise, weights by dihedral angle, guided by what the seeds' rays hit;\n"
-            "less error than paper on every mesh tried. quality: rays pooled over\n"
-            "neighbouring seeds; nearest to a function of endlessly many rays")
+            "weights 1/distance, guided by the curvature, as in the ASDF paper.\n"
+            "balanced (default): seeds as blue noise, weights by dihedral angle, guided by\n"
+            "what the seeds' rays hit; less error than paper on every mesh tried.\n"
+            "quality: rays pooled over neighbouring seeds; nearest to a function of\n"
+            "endlessly many rays")
       ->group("Seeds and rays");
 }
 

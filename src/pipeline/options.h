@@ -81,7 +81,7 @@ struct Options {
 
 /// Sets of options that go together; the defaults of Options are the balanced one.
 enum class Recipe {
-  Paper,     ///< As the ASDF paper has it: random permutation, weights 1 / distance, no guidance, cones all alike.
+  Paper,     ///< The ASDF paper's: random permutation, weights 1 / distance, guidance by curvature, equal cones.
   Balanced,  ///< Blue noise, weights by dihedral angle, guidance by the seeds' hits; traced values are kept.
   Quality,   ///< The same with cones turned by a hash, and values pooled over neighbouring cones: nearest to the truth.
 };

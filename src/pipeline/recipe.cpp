@@ -13,7 +13,7 @@ void applyRecipe(Recipe recipe, Options& options) {
     case Recipe::Paper:
       options.sampler = SamplerKind::Random;
       options.interpolation.weights = ArcWeightKind::Distance;
-      options.interpolation.guidance = Guidance::None;
+      options.interpolation.guidance = Guidance::Curvature;
       break;
     case Recipe::Balanced:
       break;

@@ -316,7 +316,7 @@ TEST_CASE("the options of their own overrule the recipe, wherever it stands") {
     const CommandLine line = parseCommandLine(arguments);
     CHECK(line.recipe == Recipe::Paper);
     CHECK(line.options.interpolation.weights == ArcWeightKind::Feature);
-    CHECK(line.options.interpolation.guidance == Guidance::None);
+    CHECK(line.options.interpolation.guidance == Guidance::Curvature);
     CHECK(line.options.sampler == SamplerKind::Random);
   }
   const CommandLine line = parseCommandLine({"a.ply", "--sampler", "adaptive", "--pooling", "0", "--cone-rotation",

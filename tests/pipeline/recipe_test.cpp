@@ -36,7 +36,7 @@ TEST_CASE("paper is what the paper does") {
   CHECK(options.sampler == SamplerKind::Random);
   CHECK_FALSE(options.isAdaptive);
   CHECK(options.interpolation.weights == ArcWeightKind::Distance);
-  CHECK(options.interpolation.guidance == Guidance::None);
+  CHECK(options.interpolation.guidance == Guidance::Curvature);
   CHECK(options.interpolation.pooling == 0);
   CHECK(options.cone.rotation == ConeRotation::Fixed);
 }
