@@ -23,7 +23,7 @@ void main() {
                       sums.residualDot[i], sums.residualSquared[i]);
   const mat2x3 total = workgroupSum(partial);
   const CgSums all = CgSums(total[0].x, total[0].y, total[0].z, total[1].x, total[1].y, total[1].z);
-  const CgStep next = nextCgStep(all, state.toleranceSquared);
+  const CgStep next = nextCgStep(all, state.toleranceSquared, kCgFloatRounding);
   if (next.status == kCgRunning)
     for (uint row = firstRow(); row < push.unknownCount; row += rowStride()) {
       const float direction = p[row];

@@ -1,9 +1,10 @@
-// The scalars of a conjugate-gradient iteration, the same on every backend; included by C++ and by GLSL.
+// The scalars of a conjugate-gradient iteration, one description for every backend: in C++ a template over float and
+// double, in GLSL float.
 //
-// One reduction per iteration (after Meurant 1987, "Multitasking the conjugate gradient method on the CRAY X-MP/48"):
-// beside p.Mp and r.r also r.Mp and |Mp|^2 are summed, which tell r.r after the step before the step is taken. Unlike
-// in the recurrence of Chronopoulos and Gear (1989) the product is that of the direction itself and r.r is summed anew
-// each time, so that in float32 nothing drifts that does not in the textbook's iteration, and there is one vector less.
+// One reduction per iteration (Meurant 1987, "Multitasking the conjugate gradient method on the CRAY X-MP/48"): besides
+// p.Mp and r.r, the sums r.Mp and Mp.Mp give the next r.r before the step is made. Unlike the recurrence of
+// Chronopoulos and Gear (1989), this one multiplies the direction itself and sums r.r in every iteration: in float32 it
+// drifts no more than the textbook iteration, and it needs one vector less.
 #ifndef ASDFVK_CG_RULES_H
 #define ASDFVK_CG_RULES_H
 
@@ -15,54 +16,64 @@ using glsl::uint;
 
 const uint kCgRunning = 0u;
 const uint kCgConverged = 1u;
-const uint kCgBrokenDown = 2u;  // p.Mp or r.r is no positive number that counts: float32 has no more to give.
+const uint kCgBrokenDown = 2u;  // p.Mp or r.r is not positive, is only rounding, or has overflowed.
 
-const float kLargestCgSum = 3.0e38f;  // What is not below has overflowed, or is not a number.
-// p.Mp at or below this share of p.p is rounding, and a step by it would carry x off without the residual showing it.
-const float kCgRounding = 1.0e-7f;
-
-// Over all rows, for the residual r, the direction p and its product Mp.
-struct CgSums {
-  float directionSquared;  // p.p
-  float productDot;        // p.Mp
-  float productSquared;    // Mp.Mp
-  float residualProduct;   // r.Mp
-  float residualDot;       // r.r
-  float residualSquared;   // r.r, each square times the row's residual weight.
-};
-
-// x += alpha p, r -= alpha Mp, p = r + beta p; nothing at all unless `status` is kCgRunning.
-struct CgStep {
-  float alpha, beta;
-  uint status;
-};
+const float kMaxCgSum = 3.0e38f;  // Larger sums have overflowed or are NaN.
+const float kCgFloatRounding = 1.0e-7f;
 
 #ifdef __cplusplus
-[[nodiscard]] inline
+#define ASDFVK_CG_FUNCTION [[nodiscard]] static
+template <typename Real>
+struct CgRules {
+#else
+#define ASDFVK_CG_FUNCTION
+#define Real float
 #endif
-    CgStep
-    nextCgStep(CgSums sums, float toleranceSquared) {
-  CgStep next;
-  next.alpha = 0.0f;
-  next.beta = 0.0f;
-  next.status = kCgConverged;
-  if (sums.residualSquared <= toleranceSquared) return next;
-  next.status = kCgBrokenDown;
-  if (!(sums.residualSquared < kLargestCgSum && sums.residualDot > 0.0f && sums.residualDot < kLargestCgSum &&
-        sums.productDot > kCgRounding * sums.directionSquared && sums.productDot < kLargestCgSum))
+
+  // Sums over all rows, for the residual r, the direction p and its product Mp.
+  struct CgSums {
+    Real directionSquared;  // p.p
+    Real productDot;        // p.Mp
+    Real productSquared;    // Mp.Mp
+    Real residualProduct;   // r.Mp
+    Real residualDot;       // r.r
+    Real residualSquared;   // r.r, each square times the residual weight of its row
+  };
+
+  // x += alpha p, r -= alpha Mp, p = r + beta p; no step unless `status` is kCgRunning.
+  struct CgStep {
+    Real alpha, beta;
+    uint status;
+  };
+
+  // rounding: share of p.p at or below which p.Mp is only rounding; a step by it would move x but not the residual.
+  ASDFVK_CG_FUNCTION CgStep nextCgStep(CgSums sums, Real toleranceSquared, Real rounding) {
+    CgStep next;
+    next.alpha = Real(0);
+    next.beta = Real(0);
+    next.status = kCgConverged;
+    if (sums.residualSquared <= toleranceSquared) return next;
+    next.status = kCgBrokenDown;
+    if (!(sums.residualSquared < kMaxCgSum && sums.residualDot > Real(0) && sums.residualDot < kMaxCgSum &&
+          sums.productDot > rounding * sums.directionSquared && sums.productDot < kMaxCgSum))
+      return next;
+    const Real alpha = sums.residualDot / sums.productDot;
+    // The next r.r over this one. Rounding can make it negative where almost nothing is left.
+    const Real beta =
+        Real(1) - alpha * ((Real(2) * sums.residualProduct - alpha * sums.productSquared) / sums.residualDot);
+    if (!(alpha < kMaxCgSum && beta < kMaxCgSum)) return next;
+    next.alpha = alpha;
+    next.beta = beta > Real(0) ? beta : Real(0);
+    next.status = kCgRunning;
     return next;
-  const float alpha = sums.residualDot / sums.productDot;
-  // r.r to come over the present one. Where rounding makes it negative hardly anything is left.
-  const float beta = 1.0f - alpha * ((2.0f * sums.residualProduct - alpha * sums.productSquared) / sums.residualDot);
-  if (!(alpha < kLargestCgSum && beta < kLargestCgSum)) return next;
-  next.alpha = alpha;
-  next.beta = beta > 0.0f ? beta : 0.0f;
-  next.status = kCgRunning;
-  return next;
-}
+  }
 
 #ifdef __cplusplus
+};
 }  // namespace asdfvk
+#else
+#undef Real
 #endif
+#undef ASDFVK_CG_FUNCTION
 
 #endif

@@ -3,69 +3,142 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
 #include <algorithm>
-#include <array>
+#include <cmath>
+#include <limits>
+#include <memory>
 #include <tuple>
 #include <utility>
+
+#include "core/check.h"
+#include "core/parallel.h"
+#include "poisson/poisson_solver.h"
 
 namespace asdfvk {
 namespace {
 
-constexpr size_t kBlock = 4096;  // Rows; small enough for every core of a big machine to get some of a small mesh.
-constexpr size_t kChunk = 256;   // Rows that are multiplied and then summed while the first cache has them.
-constexpr size_t kSumCount = 8;
+constexpr size_t kBlockRowCount = 4096;  // Small enough to give every core of a big machine part of a small mesh.
+constexpr size_t kChunkRowCount = 256;   // Multiplied and then summed while the first-level cache holds them.
+constexpr size_t kLaneCount = 8;
+constexpr uint32_t kIterationsPerCheckpoint = 8;
+
+// The recurred residual departs from the true one at about 1e-7 (float32) of the first one.
+constexpr double kMinFloatReduction = 1e-6, kMinDoubleReduction = 1e-13;
+
+/// The matrix S in double, as Eigen's sparse matrix on the columns of the system.
+class EigenSystem : public DiagonalScaling<double> {
+ public:
+  using Real = double;
+  static double rounding() { return 2e-16; }
+
+  explicit EigenSystem(const PoissonSystem& system)
+      : DiagonalScaling(system),
+        size_(static_cast<Eigen::Index>(system.unknownCount())),
+        couplings_(system.entries.size()),
+        matrix_(size_, size_, static_cast<Eigen::Index>(system.columns.size()),
+                reinterpret_cast<const int*>(system.rowOffsets.data()),
+                reinterpret_cast<const int*>(system.columns.data()), couplings_.data()) {
+    // Eigen's map counts in int.
+    ASDFVK_CHECK_OP(system.columns.size(), <=, static_cast<size_t>(std::numeric_limits<int>::max()));
+    const UnsetVector<double> roots = inverseRoots(system);
+    forEachInParallel(roots.size(), [&](size_t row) {
+      for (uint32_t i = system.rowOffsets[row]; i < system.rowOffsets[row + 1]; ++i)
+        couplings_[i] = -system.entries[i] * roots[row] * roots[system.columns[i]];
+    });
+  }
+
+  void multiplyRows(const double* p, double* product, size_t begin, size_t end) const {
+    const auto first = static_cast<Eigen::Index>(begin), count = static_cast<Eigen::Index>(end - begin);
+    Eigen::Map<Vector> rows(product + begin, count);
+    rows = Eigen::Map<const Vector>(p + begin, count);
+    rows.noalias() -= matrix_.middleRows(first, count) * Eigen::Map<const Vector>(p, size_);
+  }
+
+ private:
+  using Vector = Eigen::VectorXd;
+
+  Eigen::Index size_;
+  UnsetVector<double> couplings_;
+  Eigen::Map<const Eigen::SparseMatrix<double, Eigen::RowMajor, int>> matrix_;
+};
+
+template <typename System>
+Corrector makeCorrector(const PoissonSystem& system, SolverProgress& progress, double minReduction) {
+  return {minReduction,
+          [&system, &progress, scaled = std::shared_ptr<System>()](const CorrectionRequest& request) mutable {
+            progress.checkpoint(request.norm);
+            if (!scaled) scaled = std::make_shared<System>(system);
+            CpuCg<System> cg(*scaled, scaled->scaleResidual(request.residual, request.norm), request.reduction);
+            typename CpuCg<System>::State state;
+            while (state.status == kCgRunning && state.iterationCount < request.maxIterations) {
+              state = cg.advance(std::min(kIterationsPerCheckpoint, request.maxIterations - state.iterationCount));
+              progress.checkpoint(request.norm * std::sqrt(static_cast<double>(state.residualSquared)));
+            }
+            scaled->unscaleCorrection(cg.solution(), request.norm, request.correction);
+            return state.iterationCount;
+          }};
+}
+
+class CpuCgSolver final : public PoissonSolver {
+ public:
+  SolverReport solve(const PoissonSystem& system, const SolverOptions& options, std::span<double> solution,
+                     const RunControl& control) override {
+    SolverProgress progress(system, options, control);
+    return solveByRefinement(
+        "cpu", system, options, solution,
+        {makeCorrector<ScaledSystem>(system, progress, kMinFloatReduction), makeDoubleCorrector(system, progress)});
+  }
+};
+
+class EigenSolver final : public PoissonSolver {
+ public:
+  SolverReport solve(const PoissonSystem& system, const SolverOptions& options, std::span<double> solution,
+                     const RunControl& control) override {
+    SolverProgress progress(system, options, control);
+    return solveByRefinement("eigen", system, options, solution, {makeDoubleCorrector(system, progress)});
+  }
+};
 
 }  // namespace
 
-CpuCg::CpuCg(const ScaledSystem& system, UnsetVector<float> rightHandSide, double reduction)
+template <typename System>
+CpuCg<System>::CpuCg(const System& system, UnsetVector<Real> rightHandSide, double reduction)
     : system_(system),
+      toleranceSquared_(static_cast<Real>(reduction * reduction)),
       solution_(rightHandSide.size()),
       residual_(std::move(rightHandSide)),
       direction_(residual_.size()),
       product_(residual_.size()),
-      sums_((residual_.size() + kBlock - 1) / kBlock) {
+      sums_((residual_.size() + kBlockRowCount - 1) / kBlockRowCount) {
   forEachBlock([&](size_t, size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {
       solution_[i] = 0;
       direction_[i] = residual_[i];
     }
   });
-  state_.residualSquared = 1;
-  state_.toleranceSquared = static_cast<float>(reduction * reduction);
 }
 
+template <typename System>
 template <typename Body>
-void CpuCg::forEachBlock(const Body& body) {
+void CpuCg<System>::forEachBlock(const Body& body) {
   tbb::parallel_for(
       tbb::blocked_range<size_t>(0, sums_.size()),
       [&](const tbb::blocked_range<size_t>& range) {
         for (size_t block = range.begin(); block < range.end(); ++block)
-          body(block, block * kBlock, std::min((block + 1) * kBlock, direction_.size()));
+          body(block, block * kBlockRowCount, std::min((block + 1) * kBlockRowCount, direction_.size()));
       },
       partitioner_);
 }
 
-void CpuCg::multiplyRows(size_t begin, size_t end) {
-  const PoissonRow* rows = system_.rows().data();
-  const uint32_t* tailColumns = system_.tailColumns().data();
-  const float* tailCouplings = system_.tailCouplings().data();
-  const float* p = direction_.data();
-  float* product = product_.data();
-  for (size_t i = begin; i < end; ++i) {
-    const PoissonRow& row = rows[i];
-    float coupled = row.coupling0 * p[row.column0] + row.coupling1 * p[row.column1] + row.coupling2 * p[row.column2];
-    for (uint32_t k = row.tailBegin; k < row.tailBegin + row.tailCount; ++k)
-      coupled += tailCouplings[k] * p[tailColumns[k]];
-    product[i] = p[i] - coupled;
-  }
-}
-
-CpuCg::BlockSums CpuCg::sumRows(size_t begin, size_t end) const {
-  const float* weights = system_.residualWeights().data();
-  // What compilers turn into vector instructions without leave to reorder sums.
-  std::array<std::array<float, kSumCount>, std::tuple_size_v<BlockSums>> lanes{};
+template <typename System>
+typename CpuCg<System>::BlockSums CpuCg<System>::sumRows(size_t begin, size_t end) const {
+  const Real* weights = system_.residualWeights().data();
+  // Compilers vectorise these lanes without permission to reorder sums.
+  std::array<std::array<Real, kLaneCount>, std::tuple_size_v<BlockSums>> lanes{};
   const auto add = [&](size_t i, size_t lane) {
-    const float p = direction_[i], product = product_[i], r = residual_[i];
+    const Real p = direction_[i], product = product_[i], r = residual_[i];
     lanes[0][lane] += p * p;
     lanes[1][lane] += p * product;
     lanes[2][lane] += product * product;
@@ -74,39 +147,41 @@ CpuCg::BlockSums CpuCg::sumRows(size_t begin, size_t end) const {
     lanes[5][lane] += r * r * weights[i];
   };
   size_t i = begin;
-  for (; i + kSumCount <= end; i += kSumCount)
-    for (size_t lane = 0; lane < kSumCount; ++lane) add(i + lane, lane);
+  for (; i + kLaneCount <= end; i += kLaneCount)
+    for (size_t lane = 0; lane < kLaneCount; ++lane) add(i + lane, lane);
   for (; i < end; ++i) add(i, 0);
   BlockSums sums{};
   for (size_t k = 0; k < sums.size(); ++k)
-    for (float lane : lanes[k]) sums[k] += static_cast<double>(lane);
+    for (Real lane : lanes[k]) sums[k] += static_cast<double>(lane);
   return sums;
 }
 
-CgSums CpuCg::multiply() {
+template <typename System>
+typename CpuCg<System>::Rules::CgSums CpuCg<System>::multiply() {
   const auto addTo = [](BlockSums& sums, const BlockSums& more) {
     for (size_t k = 0; k < sums.size(); ++k) sums[k] += more[k];
   };
   forEachBlock([&](size_t block, size_t begin, size_t end) {
     BlockSums sums{};
-    for (size_t chunk = begin; chunk < end; chunk += kChunk) {
-      const size_t chunkEnd = std::min(chunk + kChunk, end);
-      multiplyRows(chunk, chunkEnd);
+    for (size_t chunk = begin; chunk < end; chunk += kChunkRowCount) {
+      const size_t chunkEnd = std::min(chunk + kChunkRowCount, end);
+      system_.multiplyRows(direction_.data(), product_.data(), chunk, chunkEnd);
       addTo(sums, sumRows(chunk, chunkEnd));
     }
     sums_[block] = sums;
   });
   BlockSums total{};
   for (const BlockSums& sums : sums_) addTo(total, sums);
-  return std::apply([](auto... sum) { return CgSums{static_cast<float>(sum)...}; }, total);
+  return std::apply([](auto... sum) { return typename Rules::CgSums{static_cast<Real>(sum)...}; }, total);
 }
 
-void CpuCg::step(float alpha, float beta) {
+template <typename System>
+void CpuCg<System>::step(Real alpha, Real beta) {
   forEachBlock([&](size_t, size_t begin, size_t end) {
-    float* __restrict x = solution_.data();
-    float* __restrict r = residual_.data();
-    float* __restrict p = direction_.data();
-    const float* __restrict product = product_.data();
+    Real* __restrict x = solution_.data();
+    Real* __restrict r = residual_.data();
+    Real* __restrict p = direction_.data();
+    const Real* __restrict product = product_.data();
     for (size_t i = begin; i < end; ++i) {
       x[i] += alpha * p[i];
       r[i] -= alpha * product[i];
@@ -115,10 +190,11 @@ void CpuCg::step(float alpha, float beta) {
   });
 }
 
-CgState CpuCg::advance(uint32_t iterationCount) {
+template <typename System>
+typename CpuCg<System>::State CpuCg<System>::advance(uint32_t iterationCount) {
   for (uint32_t i = 0; i < iterationCount && state_.status == kCgRunning; ++i) {
-    const CgSums sums = multiply();
-    const CgStep next = nextCgStep(sums, state_.toleranceSquared);
+    const auto sums = multiply();
+    const auto next = Rules::nextCgStep(sums, toleranceSquared_, System::rounding());
     state_.residualSquared = sums.residualSquared;
     state_.status = next.status;
     if (next.status != kCgRunning) break;
@@ -127,5 +203,15 @@ CgState CpuCg::advance(uint32_t iterationCount) {
   }
   return state_;
 }
+
+template class CpuCg<ScaledSystem>;
+
+Corrector makeDoubleCorrector(const PoissonSystem& system, SolverProgress& progress) {
+  return makeCorrector<EigenSystem>(system, progress, kMinDoubleReduction);
+}
+
+std::unique_ptr<PoissonSolver> makeCpuCgSolver() { return std::make_unique<CpuCgSolver>(); }
+
+std::unique_ptr<PoissonSolver> makeEigenSolver() { return std::make_unique<EigenSolver>(); }
 
 }  // namespace asdfvk

@@ -4,44 +4,63 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <span>
 #include <vector>
 
+#include "core/unset_vector.h"
+#include "poisson/refinement.h"
 #include "poisson/scaled_system.h"
-#include "shared/poisson_layout.h"
+#include "poisson/solver_progress.h"
+#include "shared/cg_rules.h"
 
 namespace asdfvk {
 
-/// What VulkanCg does, on all cores of the CPU: float32 vectors, two passes over them per iteration, sums over blocks
-/// of fixed size and then over the blocks in order, so that the bits do not depend on the number of threads.
+/// Conjugate gradients on (I - S) y = b from y = 0 on all cores of the CPU: the iteration of VulkanCg. Two passes over
+/// the vectors per iteration; sums over blocks of fixed size and then over the blocks in order, so that the bits do not
+/// depend on the number of threads. System: ScaledSystem (float32) or an Eigen matrix (double).
+template <typename System>
 class CpuCg {
  public:
-  /// rightHandSide: #U, of weighted norm 1. It has converged when the residual's is at or below `reduction`. The system
-  /// must outlive this.
-  CpuCg(const ScaledSystem& system, UnsetVector<float> rightHandSide, double reduction);
+  using Real = typename System::Real;
 
-  /// Up to `iterationCount` iterations, fewer when it converges or breaks down before one.
-  CgState advance(uint32_t iterationCount);
+  struct State {
+    Real residualSquared = 1;  ///< Squared weighted norm of the residual before the last iteration.
+    uint32_t iterationCount = 0;
+    uint32_t status = kCgRunning;  ///< See cg_rules.h; no iterations follow unless it is kCgRunning.
+  };
 
-  [[nodiscard]] std::span<const float> solution() const { return solution_; }
-  [[nodiscard]] std::span<const float> residual() const { return residual_; }
-  [[nodiscard]] std::span<const float> direction() const { return direction_; }
-  [[nodiscard]] std::span<const float> product() const { return product_; }
+  /// rightHandSide: #U, of weighted norm 1. Converged when the norm of the residual is at or below `reduction`. The
+  /// system must outlive this.
+  CpuCg(const System& system, UnsetVector<Real> rightHandSide, double reduction);
+
+  /// Up to `iterationCount` iterations, fewer when it converges or breaks down before one of them.
+  State advance(uint32_t iterationCount);
+
+  [[nodiscard]] std::span<const Real> solution() const { return solution_; }
+  [[nodiscard]] std::span<const Real> residual() const { return residual_; }
+  [[nodiscard]] std::span<const Real> direction() const { return direction_; }
+  [[nodiscard]] std::span<const Real> product() const { return product_; }
 
  private:
+  using Rules = CgRules<Real>;
   using BlockSums = std::array<double, 6>;  ///< In the order of CgSums.
 
-  CgSums multiply();
-  void step(float alpha, float beta);
-  void multiplyRows(size_t begin, size_t end);
+  typename Rules::CgSums multiply();
+  void step(Real alpha, Real beta);
   [[nodiscard]] BlockSums sumRows(size_t begin, size_t end) const;
   template <typename Body>
   void forEachBlock(const Body& body);
 
-  const ScaledSystem& system_;
-  CgState state_{};
-  UnsetVector<float> solution_, residual_, direction_, product_;
+  const System& system_;
+  Real toleranceSquared_;
+  State state_;
+  UnsetVector<Real> solution_, residual_, direction_, product_;
   std::vector<BlockSums> sums_;
   tbb::affinity_partitioner partitioner_;  ///< Each core keeps the blocks that its caches hold.
 };
+
+/// CpuCg in double with an Eigen matrix. The arguments must outlive the corrector.
+[[nodiscard]] Corrector makeDoubleCorrector(const PoissonSystem& system, SolverProgress& progress);
 
 }  // namespace asdfvk

@@ -17,51 +17,80 @@ constexpr uint32_t kHeadLength = 3;  // Entries in a PoissonRow itself.
 
 }  // namespace
 
-ScaledSystem::ScaledSystem(const PoissonSystem& system)
-    : system_(system), rows_(system.faces.size()), residualWeights_(system.faces.size()) {
+template <typename Real>
+DiagonalScaling<Real>::DiagonalScaling(const PoissonSystem& system)
+    : system_(system), residualWeights_(system.faces.size()) {
+  const auto rowCount = static_cast<double>(system.faces.size());
+  meanDiagonal_ = orderedSum(system.faces.size(), [&](size_t row) { return system.diagonal[row] / rowCount; });
+  forEachInParallel(system.faces.size(), [&](size_t row) {
+    residualWeights_[row] = static_cast<Real>(meanDiagonal_ / system.diagonal[row]);
+  });
+}
+
+template <typename Real>
+UnsetVector<double> DiagonalScaling<Real>::inverseRoots(const PoissonSystem& system) {
+  UnsetVector<double> roots(system.faces.size());
+  forEachInParallel(roots.size(), [&](size_t row) { roots[row] = 1 / std::sqrt(system.diagonal[row]); });
+  return roots;
+}
+
+template <typename Real>
+UnsetVector<Real> DiagonalScaling<Real>::scaleResidual(std::span<const double> residual, double norm) const {
+  UnsetVector<Real> scaled(residual.size());
+  forEachInParallel(scaled.size(), [&](size_t row) {
+    scaled[row] = static_cast<Real>(residual[row] / norm / std::sqrt(meanDiagonal_) / std::sqrt(system_.diagonal[row]));
+  });
+  return scaled;
+}
+
+template <typename Real>
+void DiagonalScaling<Real>::unscaleCorrection(std::span<const Real> y, double norm,
+                                              std::span<double> correction) const {
+  // Two roots instead of the root of the product, which could overflow or underflow.
+  const double scale = norm * std::sqrt(meanDiagonal_);
+  forEachInParallel(correction.size(), [&](size_t row) {
+    correction[row] = static_cast<double>(y[row]) * (scale / std::sqrt(system_.diagonal[row]));
+  });
+}
+
+template class DiagonalScaling<float>;
+template class DiagonalScaling<double>;
+
+ScaledSystem::ScaledSystem(const PoissonSystem& system) : DiagonalScaling(system), rows_(system.faces.size()) {
   const size_t rowCount = system.faces.size();
-  meanDiagonal_ =
-      orderedSum(rowCount, [&](size_t row) { return system.diagonal[row] / static_cast<double>(rowCount); });
-  uint32_t tailSize = 0;
-  const auto tailOf = [&](size_t row) {
-    const uint32_t length = system.rowOffsets[row + 1] - system.rowOffsets[row];
-    return length - std::min(length, kHeadLength);
-  };
+  const auto lengthOf = [&](size_t row) { return system.rowOffsets[row + 1] - system.rowOffsets[row]; };
+  const auto tailLengthOf = [&](size_t row) { return lengthOf(row) - std::min(lengthOf(row), kHeadLength); };
   longestRow_ = tbb::parallel_reduce(
       tbb::blocked_range<size_t>(0, rowCount), 0u,
       [&](const tbb::blocked_range<size_t>& range, uint32_t longest) {
-        for (size_t row = range.begin(); row < range.end(); ++row)
-          longest = std::max(longest, system.rowOffsets[row + 1] - system.rowOffsets[row]);
+        for (size_t row = range.begin(); row < range.end(); ++row) longest = std::max(longest, lengthOf(row));
         return longest;
       },
       [](uint32_t a, uint32_t b) { return std::max(a, b); });
   const bool hasTails = longestRow_ > kHeadLength;
+  uint32_t tailSize = 0;
   for (size_t row = 0; hasTails && row < rowCount; ++row) {
     rows_[row].tailBegin = tailSize;
-    tailSize += tailOf(row);
+    tailSize += tailLengthOf(row);
   }
   tailColumns_.resize(tailSize);
   tailCouplings_.resize(tailSize);
-  UnsetVector<double> inverseRoots(rowCount);
-  forEachInParallel(rowCount, [&](size_t row) {
-    inverseRoots[row] = 1 / std::sqrt(system.diagonal[row]);
-    residualWeights_[row] = static_cast<float>(meanDiagonal_ / system.diagonal[row]);
-  });
+  const UnsetVector<double> roots = inverseRoots(system);
   forEachInParallel(rowCount, [&](size_t row) {
     const auto coupling = [&](uint32_t i) {
-      return static_cast<float>(-system.entries[i] * inverseRoots[row] * inverseRoots[system.columns[i]]);
+      return static_cast<float>(-system.entries[i] * roots[row] * roots[system.columns[i]]);
     };
-    const uint32_t begin = system.rowOffsets[row], length = system.rowOffsets[row + 1] - begin;
+    const uint32_t begin = system.rowOffsets[row];
     std::array<uint32_t, kHeadLength> columns;
     std::array<float, kHeadLength> couplings{};
     columns.fill(static_cast<uint32_t>(row));
-    for (uint32_t k = 0; k < std::min(length, kHeadLength); ++k) {
+    for (uint32_t k = 0; k < std::min(lengthOf(row), kHeadLength); ++k) {
       columns[k] = system.columns[begin + k];
       couplings[k] = coupling(begin + k);
     }
     PoissonRow& entries = rows_[row];
     entries = {columns[0],   columns[1],   columns[2],   hasTails ? entries.tailBegin : 0,
-               couplings[0], couplings[1], couplings[2], tailOf(row)};
+               couplings[0], couplings[1], couplings[2], tailLengthOf(row)};
     for (uint32_t k = 0; k < entries.tailCount; ++k) {
       tailColumns_[entries.tailBegin + k] = system.columns[begin + kHeadLength + k];
       tailCouplings_[entries.tailBegin + k] = coupling(begin + kHeadLength + k);
@@ -69,21 +98,17 @@ ScaledSystem::ScaledSystem(const PoissonSystem& system)
   });
 }
 
-UnsetVector<float> ScaledSystem::scaleResidual(std::span<const double> residual, double norm) const {
-  UnsetVector<float> scaled(residual.size());
-  forEachInParallel(scaled.size(), [&](size_t row) {
-    scaled[row] =
-        static_cast<float>(residual[row] / norm / std::sqrt(meanDiagonal_) / std::sqrt(system_.diagonal[row]));
-  });
-  return scaled;
-}
-
-void ScaledSystem::unscaleCorrection(std::span<const float> y, double norm, std::span<double> correction) const {
-  // The roots apart from each other, so that their product neither overflows nor underflows.
-  const double scale = norm * std::sqrt(meanDiagonal_);
-  forEachInParallel(correction.size(), [&](size_t row) {
-    correction[row] = static_cast<double>(y[row]) * (scale / std::sqrt(system_.diagonal[row]));
-  });
+void ScaledSystem::multiplyRows(const float* p, float* product, size_t begin, size_t end) const {
+  const PoissonRow* rows = rows_.data();
+  const uint32_t* tailColumns = tailColumns_.data();
+  const float* tailCouplings = tailCouplings_.data();
+  for (size_t i = begin; i < end; ++i) {
+    const PoissonRow& row = rows[i];
+    float coupled = row.coupling0 * p[row.column0] + row.coupling1 * p[row.column1] + row.coupling2 * p[row.column2];
+    for (uint32_t k = row.tailBegin; k < row.tailBegin + row.tailCount; ++k)
+      coupled += tailCouplings[k] * p[tailColumns[k]];
+    product[i] = p[i] - coupled;
+  }
 }
 
 }  // namespace asdfvk

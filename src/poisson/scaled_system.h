@@ -1,41 +1,62 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
-#include <vector>
 
+#include "core/unset_vector.h"
 #include "poisson/poisson_system.h"
 #include "shared/poisson_layout.h"
 
 namespace asdfvk {
 
-/// A Poisson system as devices solve it, in float32: (I - S) y = b with S = I - D^-1/2 A D^-1/2, see
-/// shaders/shared/poisson_layout.h. Rows are those of the system, which must outlive this.
-class ScaledSystem {
+/// Scaling of a Poisson system by its diagonal D: A e = residual becomes (I - S) y = b with S = I - D^-1/2 A D^-1/2,
+/// see shaders/shared/poisson_layout.h. The system must outlive it.
+template <typename Real>
+class DiagonalScaling {
  public:
-  explicit ScaledSystem(const PoissonSystem& system);
+  explicit DiagonalScaling(const PoissonSystem& system);
 
-  [[nodiscard]] uint32_t unknownCount() const { return system_.unknownCount(); }
-  [[nodiscard]] const UnsetVector<PoissonRow>& rows() const { return rows_; }  ///< #U, the matrix S.
-  [[nodiscard]] const UnsetVector<uint32_t>& tailColumns() const { return tailColumns_; }
-  [[nodiscard]] const UnsetVector<float>& tailCouplings() const { return tailCouplings_; }
-  /// #U: the weights with which squares of b - (I - S) y add up to the squared residualNorm() of what is left.
-  [[nodiscard]] const UnsetVector<float>& residualWeights() const { return residualWeights_; }
-  [[nodiscard]] uint32_t longestRow() const { return longestRow_; }
+  /// #U: the sum of the squares of b - (I - S) y, each times its weight, is the squared residualNorm() of the residual.
+  [[nodiscard]] const UnsetVector<Real>& residualWeights() const { return residualWeights_; }
 
-  /// The right-hand side b for A e = residual, of weighted norm 1; norm: residualNorm() of the residual.
-  [[nodiscard]] UnsetVector<float> scaleResidual(std::span<const double> residual, double norm) const;
-  /// e from y; norm: as given to scaleResidual().
-  void unscaleCorrection(std::span<const float> y, double norm, std::span<double> correction) const;
+  /// b for A e = residual, of weighted norm 1. norm: residualNorm() of the residual.
+  [[nodiscard]] UnsetVector<Real> scaleResidual(std::span<const double> residual, double norm) const;
+  /// e from y. norm: that of scaleResidual().
+  void unscaleCorrection(std::span<const Real> y, double norm, std::span<double> correction) const;
+
+ protected:
+  /// #U: D^-1/2.
+  [[nodiscard]] static UnsetVector<double> inverseRoots(const PoissonSystem& system);
 
  private:
   const PoissonSystem& system_;
   double meanDiagonal_ = 0;
+  UnsetVector<Real> residualWeights_;
+};
+
+/// A Poisson system as devices and CpuCg solve it in float32. Rows are those of the system, which must outlive it.
+class ScaledSystem : public DiagonalScaling<float> {
+ public:
+  using Real = float;
+  static float rounding() { return kCgFloatRounding; }  ///< See CgRules::nextCgStep().
+
+  explicit ScaledSystem(const PoissonSystem& system);
+
+  [[nodiscard]] uint32_t unknownCount() const { return static_cast<uint32_t>(rows_.size()); }
+  [[nodiscard]] const UnsetVector<PoissonRow>& rows() const { return rows_; }  ///< #U, the matrix S.
+  [[nodiscard]] const UnsetVector<uint32_t>& tailColumns() const { return tailColumns_; }
+  [[nodiscard]] const UnsetVector<float>& tailCouplings() const { return tailCouplings_; }
+  [[nodiscard]] uint32_t longestRow() const { return longestRow_; }
+
+  /// product = (I - S) p for the rows [begin, end). p: #U.
+  void multiplyRows(const float* p, float* product, size_t begin, size_t end) const;
+
+ private:
   uint32_t longestRow_ = 0;
   UnsetVector<PoissonRow> rows_;
   UnsetVector<uint32_t> tailColumns_;
   UnsetVector<float> tailCouplings_;
-  UnsetVector<float> residualWeights_;
 };
 
 }  // namespace asdfvk

@@ -9,6 +9,13 @@ using namespace asdfvk;
 
 namespace {
 
+using CgSums = CgRules<float>::CgSums;
+using CgStep = CgRules<float>::CgStep;
+
+CgStep nextCgStep(const CgSums& sums, float toleranceSquared) {
+  return CgRules<float>::nextCgStep(sums, toleranceSquared, kCgFloatRounding);
+}
+
 constexpr CgSums kSound{.directionSquared = 9,
                         .productDot = 4,
                         .productSquared = 3,

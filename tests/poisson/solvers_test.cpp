@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "asdf_vk/error.h"
 #include "core/random.h"
 #include "dense_twin.h"
 #include "fixtures.h"

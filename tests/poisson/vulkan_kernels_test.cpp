@@ -88,7 +88,7 @@ TEST_CASE("iterations with one reduction give what the textbook's give, on the d
   REQUIRE(system.unknownCount() > matrix.grid.laneCount * matrix.grid.workgroupCount);
   const auto compare = [&](auto& cg, uint32_t iterationCount) {
     CgTwin twin(system, KernelTwins{system}.scaled(residual));
-    const CgState state = cg.advance(iterationCount);
+    const auto state = cg.advance(iterationCount);
     for (uint32_t i = 0; i + 1 < iterationCount; ++i) twin.iterate();
     CHECK(static_cast<double>(state.residualSquared) == doctest::Approx(twin.twins.squaredNorm(twin.r)).epsilon(1e-5));
     twin.iterate();
@@ -117,20 +117,20 @@ TEST_CASE("iterations after convergence change nothing, however they are batched
   const VulkanCgKernels kernels(*device);
   const VulkanMatrix matrix(*device, scaled);
   const auto compare = [](auto& atOnce, auto& stepwise) {
-    const CgState state = atOnce.advance(301);
+    const auto state = atOnce.advance(301);
     CHECK(state.status == kCgConverged);
     CHECK(state.iterationCount > 3);
     CHECK(state.iterationCount < 100);
     CHECK(state.residualSquared <= 1e-6f);
     for (uint32_t i = 0; i <= state.iterationCount; ++i) {
-      const CgState step = stepwise.advance(1);
+      const auto step = stepwise.advance(1);
       CHECK(step.iterationCount == std::min(i + 1, state.iterationCount));
       CHECK(step.status == (i < state.iterationCount ? kCgRunning : kCgConverged));
     }
     CHECK(copyOf(atOnce.solution()) == copyOf(stepwise.solution()));
     CHECK(copyOf(atOnce.residual()) == copyOf(stepwise.residual()));
     for (uint32_t more : {1u, 2u}) {
-      const CgState after = stepwise.advance(more);
+      const auto after = stepwise.advance(more);
       CHECK(after.iterationCount == state.iterationCount);
       CHECK(after.status == kCgConverged);
       CHECK(after.residualSquared == state.residualSquared);
@@ -153,7 +153,7 @@ TEST_CASE("an exact solution ends the iteration without a division of 0 by 0") {
   const VulkanCgKernels kernels(*device);
   const VulkanMatrix matrix(*device, scaled);
   const auto check = [](auto& cg) {
-    const CgState state = cg.advance(10);
+    const auto state = cg.advance(10);
     CHECK(state.status == kCgConverged);
     CHECK(state.iterationCount == 1);
     CHECK(copyOf(cg.solution()) == std::vector<float>{1});
@@ -173,7 +173,7 @@ TEST_CASE("a product that is no positive number stops the iteration and says so"
   const VulkanMatrix matrix(*device, scaled);
   const auto check = [](auto& cg) {
     for (uint32_t iterationCount : {10u, 1u, 2u}) {
-      const CgState state = cg.advance(iterationCount);
+      const auto state = cg.advance(iterationCount);
       CHECK(state.status == kCgBrokenDown);
       CHECK(state.iterationCount == 0);
     }

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "poisson/eigen_corrector.h"
+#include "poisson/cpu_cg.h"
 #include "poisson/refinement.h"
 
 namespace asdfvk {
@@ -24,7 +24,7 @@ SolverReport solveOnDevice(const DeviceMethod& method, const Device& device, con
   std::vector<Corrector> correctors{{method.strongestReduction, correct}};
   bool finishesOnCpu = false;
   if (method.cpuFinishes) {
-    const Corrector onCpu = makeEigenCorrector(system, progress);
+    const Corrector onCpu = makeDoubleCorrector(system, progress);
     correctors.push_back({onCpu.strongestReduction, [&finishesOnCpu, onCpu](const CorrectionRequest& request) {
                             finishesOnCpu = true;
                             return onCpu.correct(request);

@@ -33,7 +33,7 @@ using DeviceSolver = std::function<DevicePassResult(const DevicePass& pass)>;
 struct DeviceMethod {
   std::string name;           ///< For the report.
   double strongestReduction;  ///< See Corrector.
-  bool cpuFinishes;           ///< Where its float32 no longer helps, makeEigenCorrector() carries on.
+  bool cpuFinishes;           ///< Where its float32 no longer helps, makeDoubleCorrector() continues.
   DeviceSolver solver;
 };
 
