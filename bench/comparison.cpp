@@ -14,7 +14,7 @@
 #include "pipeline/prepared_mesh.h"
 #include "pipeline/seed_choice.h"
 #include "run_process.h"
-#include "seeds/random_permutation.h"
+#include "seeds/samplers.h"
 #include "temporary_folder.h"
 #include "trace/embree/embree_tracer.h"
 #include "trace/seed_order.h"

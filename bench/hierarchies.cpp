@@ -15,7 +15,7 @@
 #include "io/mesh_reader.h"
 #include "machine.h"
 #include "pipeline/prepared_mesh.h"
-#include "seeds/random_permutation.h"
+#include "seeds/samplers.h"
 #include "spread.h"
 #include "trace/seed_order.h"
 #include "walk_counts.h"

@@ -11,7 +11,7 @@
 #include "io/mesh_reader.h"
 #include "machine.h"
 #include "pipeline/prepared_mesh.h"
-#include "seeds/random_permutation.h"
+#include "seeds/samplers.h"
 #include "spread.h"
 #include "trace/vulkan/vulkan_tracer.h"
 #include "vk/open_device.h"

@@ -1,9 +1,8 @@
-// What choosing seeds costs and how even they lie: each sampler's time beside the random permutation's, the distance of
-// each seed to the nearest other, and of each face to its nearest seed.
+// Time and evenness of the samplers: the time over that of the random sampler, the distance of each seed to the nearest
+// other seed, and of each face to the nearest seed.
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -14,8 +13,7 @@
 #include "core/text.h"
 #include "generate/shapes.h"
 #include "io/mesh_reader.h"
-#include "seeds/sampler.h"
-#include "seeds/surface_ball.h"
+#include "seeds/samplers.h"
 #include "seeds/surface_distances.h"
 #include "spread.h"
 
@@ -23,24 +21,7 @@ namespace {
 
 using namespace asdfvk;
 
-struct Row {
-  const char* name;
-  SamplerKind kind;
-  SurfaceMetric metric;
-};
-constexpr std::array<Row, 9> kRows{{
-    {"random permutation", SamplerKind::Random, SurfaceMetric::Hops},
-    {"depth-first stride", SamplerKind::DepthFirst, SurfaceMetric::Hops},
-    {"normal space", SamplerKind::NormalSpace, SurfaceMetric::Hops},
-    {"blue noise, hops", SamplerKind::BlueNoise, SurfaceMetric::Hops},
-    {"blue noise, length", SamplerKind::BlueNoise, SurfaceMetric::Length},
-    {"blue noise, angle", SamplerKind::BlueNoise, SurfaceMetric::Angle},
-    {"farthest point, hops", SamplerKind::FarthestPoint, SurfaceMetric::Hops},
-    {"farthest point, length", SamplerKind::FarthestPoint, SurfaceMetric::Length},
-    {"farthest point, angle", SamplerKind::FarthestPoint, SurfaceMetric::Angle},
-}};
-
-/// In one metric; seeds of components with one seed only have no nearest other and are left out.
+/// For one set of arc lengths. Excludes seeds that are the only one of their component.
 struct Evenness {
   double nearestMin = 0, nearestMean = 0, nearestDeviation = 0;  ///< From a seed to the nearest other.
   double coverRms = 0, coverMax = 0;                             ///< From a face to the nearest seed.
@@ -90,30 +71,31 @@ void compare(const std::string& name, const Mesh& mesh, double percent, uint32_t
   const SeedDomain domain{graph, geometry, candidates};
   const auto count = static_cast<uint64_t>(percent / 100 * static_cast<double>(candidates.size()));
   std::string text = fmt::format(
-      "{}: {} faces, {} seeds; distances in the angle metric and, for the nearest seed, in hops\n\n"
+      "{}: {} faces, {} seeds; distances along arcs and, for the nearest seed, in hops\n\n"
       "| sampler | ms | of random | nearest other seed: least | mean | deviation | in hops: least | mean "
       "| face to its seed: rms | max |\n"
       "|---------|---:|----------:|--------------------------:|-----:|----------:|---------------:|-----:"
       "|----------------------:|----:|\n",
       name, groupDigits(mesh.faceCount()), groupDigits(count));
-  const std::vector<float> angles = arcLengths(graph, geometry, SurfaceMetric::Angle);
-  const std::vector<float> hops = arcLengths(graph, geometry, SurfaceMetric::Hops);
-  double randomMedian = 0;
-  for (const Row& row : kRows) {
+  const std::vector<float> lengths = arcLengths(graph, geometry);
+  const std::vector<float> hops(lengths.size(), 1.0f);
+  double randomMedian = 0;  // Of the first sampler.
+  for (const Sampler& sampler : kSamplers) {
+    if (sampler.refine) continue;  // Its first pass is another sampler.
     std::vector<double> milliseconds;
     std::vector<uint32_t> seeds;
     for (uint32_t round = 0; round < roundCount; ++round) {
       const Stopwatch watch;
-      seeds = sampleSeeds(row.kind, row.metric, domain, count, {}, round + 1);
+      seeds = sampler.sample(domain, count, {}, round + 1);
       milliseconds.push_back(1e3 * watch.seconds());
     }
     const bench::Spread time = bench::spreadOf(milliseconds);
-    if (row.kind == SamplerKind::Random) randomMedian = time.median;
-    const Evenness inAngles = evennessOf(graph, angles, seeds), inHops = evennessOf(graph, hops, seeds);
+    if (randomMedian == 0) randomMedian = time.median;
+    const Evenness inLengths = evennessOf(graph, lengths, seeds), inHops = evennessOf(graph, hops, seeds);
     text += fmt::format("| {} | {} | {:.1f} | {:.2f} | {:.2f} | {:.2f} | {:.0f} | {:.2f} | {:.2f} | {:.1f} |\n",
-                        row.name, toText(time, 1), time.median / randomMedian, inAngles.nearestMin,
-                        inAngles.nearestMean, inAngles.nearestDeviation, inHops.nearestMin, inHops.nearestMean,
-                        inAngles.coverRms, inAngles.coverMax);
+                        sampler.name, toText(time, 1), time.median / randomMedian, inLengths.nearestMin,
+                        inLengths.nearestMean, inLengths.nearestDeviation, inHops.nearestMin, inHops.nearestMean,
+                        inLengths.coverRms, inLengths.coverMax);
   }
   writeStandardOutput(text + "\n");
 }

@@ -2,7 +2,7 @@
 
 #include "bvh/bvh.h"
 #include "pipeline/prepared_mesh.h"
-#include "seeds/random_permutation.h"
+#include "seeds/samplers.h"
 
 namespace asdfvk::bench {
 

@@ -16,18 +16,6 @@ using ChoiceNames = std::array<std::pair<const char*, T>, N>;
 inline constexpr ChoiceNames<Recipe, 3> kRecipes{
     {{"paper", Recipe::Paper}, {"balanced", Recipe::Balanced}, {"quality", Recipe::Quality}}};
 
-/// A sampler, and whether it works in two passes.
-using SamplerChoice = std::pair<SamplerKind, bool>;
-inline constexpr ChoiceNames<SamplerChoice, 6> kSamplers{{{"random", {SamplerKind::Random, false}},
-                                                          {"depth-first", {SamplerKind::DepthFirst, false}},
-                                                          {"blue-noise", {SamplerKind::BlueNoise, false}},
-                                                          {"farthest-point", {SamplerKind::FarthestPoint, false}},
-                                                          {"normal-space", {SamplerKind::NormalSpace, false}},
-                                                          {"adaptive", {SamplerKind::BlueNoise, true}}}};
-
-inline constexpr ChoiceNames<SurfaceMetric, 3> kMetrics{
-    {{"hops", SurfaceMetric::Hops}, {"length", SurfaceMetric::Length}, {"angle", SurfaceMetric::Angle}}};
-
 inline constexpr ChoiceNames<ConeRotation, 2> kConeRotations{
     {{"fixed", ConeRotation::Fixed}, {"hashed", ConeRotation::Hashed}}};
 

@@ -1,7 +1,9 @@
 #include "cli/computation_options.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "asdf_vk/error.h"
@@ -66,16 +68,17 @@ void addSeeds(CLI::App& app, Options& options) {
              options.randomSeed = parseWholeNumber(text, 0, std::numeric_limits<uint64_t>::max());
            })
       ->group(rays);
-  addChoice(
-      app, "--sampler",
-      [&options](const SamplerChoice& choice) { std::tie(options.sampler, options.isAdaptive) = choice; }, kSamplers,
-      "How seed faces are chosen; adaptive is blue noise in two passes, the second\n"
-      "denser where the first found values uncertain, if hits guide; default\n"
-      "blue-noise")
-      ->group(rays);
-  addChoice(app, "--metric", options.metric, kMetrics,
-            "What blue-noise and farthest-point keep seeds apart in: steps from face to\n"
-            "face, lengths, or steps stretched by the dihedral angle; default angle")
+  const std::vector<std::string> samplers = samplerNames();
+  addValue(app, "--sampler", fmt::format("{}", fmt::join(samplers, "|")),
+           fmt::format("Selection of the seed faces. adaptive: blue noise in two passes, the second\n"
+                       "denser where the predictions of the first are uncertain; default {}",
+                       defaults.sampler),
+           [&options, samplers](const std::string& text) {
+             if (std::find(samplers.begin(), samplers.end(), text) == samplers.end())
+               throw Error(ErrorCode::UnknownName,
+                           fmt::format("'{}' is not one of {}", text, fmt::join(samplers, "|")));
+             options.sampler = text;
+           })
       ->group(rays);
   addValue(app, "--max-error", "E%",
            fmt::format("Add seeds in rounds until the estimated average error is below this share\n"

@@ -35,8 +35,7 @@ Json optionsOf(const CommandLine& line) {
   const InterpolationOptions& interpolation = options.interpolation;
   return {{"recipe", nameOf(kRecipes, line.recipe)},
           {"seeds", toText(options.seeds)},
-          {"sampler", nameOf(kSamplers, SamplerChoice{options.sampler, options.isAdaptive})},
-          {"metric", nameOf(kMetrics, options.metric)},
+          {"sampler", options.sampler},
           {"maxError", optional(options.rounds.maxError)},
           {"timeBudgetSeconds", optional(options.rounds.timeBudgetSeconds)},
           {"rays", options.cone.rayCount},

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "core/median.h"
-#include "seeds/random_permutation.h"
+#include "seeds/samplers.h"
 #include "trace/reference_tracer.h"
 
 namespace asdfvk {

@@ -2,12 +2,13 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "cone/cone.h"
 #include "poisson/arc_weights.h"
 #include "poisson/poisson_solver.h"
 #include "predict/reprojection.h"
-#include "seeds/sampler.h"
 #include "smooth/bilateral.h"
 
 /// What can be asked of a computation.
@@ -62,11 +63,8 @@ struct RoundOptions {
 struct Options {
   ConeOptions cone;
   SeedCount seeds;
-  SamplerKind sampler = SamplerKind::BlueNoise;
-  SurfaceMetric metric = SurfaceMetric::Angle;  ///< Of the samplers that have one.
-  /// Half of the seeds are chosen by blue noise where what the other half predict is found to be uncertain; without
-  /// Guidance::Hits nothing is.
-  bool isAdaptive = false;
+  std::string sampler =
+      "blue-noise";  ///< One of samplerNames(). "adaptive" needs Guidance::Hits, else is "blue-noise".
   uint64_t randomSeed = 1;
   InterpolationOptions interpolation;
   SmoothingOptions smoothing;
@@ -88,5 +86,7 @@ enum class Recipe {
 
 /// Sets what the recipe decides, and nothing else: number of seeds, rays, solver and so on stay as they are.
 void applyRecipe(Recipe recipe, Options& options);
+
+[[nodiscard]] std::vector<std::string> samplerNames();
 
 }  // namespace asdfvk

@@ -6,12 +6,10 @@ void applyRecipe(Recipe recipe, Options& options) {
   const Options balanced;
   options.cone.rotation = balanced.cone.rotation;
   options.sampler = balanced.sampler;
-  options.metric = balanced.metric;
-  options.isAdaptive = balanced.isAdaptive;
   options.interpolation = balanced.interpolation;
   switch (recipe) {
     case Recipe::Paper:
-      options.sampler = SamplerKind::Random;
+      options.sampler = "random";
       options.interpolation.weights = ArcWeightKind::Distance;
       options.interpolation.guidance = Guidance::Curvature;
       break;

@@ -1,14 +1,16 @@
 #include "pipeline/seed_choice.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <utility>
 
 #include "asdf_vk/error.h"
+#include "core/check.h"
 #include "estimate/held_out.h"
-#include "seeds/blue_noise.h"
-#include "seeds/random_permutation.h"
 
 namespace asdfvk {
 namespace {
@@ -25,6 +27,19 @@ std::vector<uint32_t> without(std::span<const uint32_t> faces, std::span<const u
 }
 
 }  // namespace
+
+std::vector<std::string> samplerNames() {
+  std::vector<std::string> names;
+  for (const Sampler& sampler : kSamplers) names.emplace_back(sampler.name);
+  return names;
+}
+
+const Sampler& requireSampler(const std::string& name) {
+  if (const Sampler* sampler = findSampler(name)) return *sampler;
+  throw Error(ErrorCode::UnknownName,
+              fmt::format("'{}' is not a sampler; the samplers are {}", name, fmt::join(samplerNames(), ", ")),
+              {{"name", name}});
+}
 
 uint64_t resolveSeedCount(const SeedCount& request, uint64_t castableFaceCount) {
   if (castableFaceCount == 0 || request.kind == SeedCount::Kind::All) return castableFaceCount;
@@ -57,20 +72,20 @@ SeedChoice chooseSeeds(const PreparedMesh& prepared, const Options& options, con
   const SeedDomain domain{
       prepared.graph, prepared.geometry,
       earlier.probes.empty() ? std::span(prepared.castableFaces) : std::span(std::as_const(notProbes))};
+  const Sampler& sampler = requireSampler(options.sampler);
   SeedChoice choice;
-  if (options.sampler == SamplerKind::Random) {
+  if (sampler.isUniform) {
     // All are placed at random: any of them can be probes, and the same faces are seeds without an estimate.
-    const std::vector<uint32_t> all = sampleSeeds(options.sampler, options.metric, domain,
-                                                  shares.placed + shares.probes, earlier.placed, options.randomSeed);
+    const std::vector<uint32_t> all =
+        sampler.sample(domain, shares.placed + shares.probes, earlier.placed, options.randomSeed);
     choice.probes = randomPermutationSeeds(all, shares.probes, probeSeed(options.randomSeed, 0));
     choice.placed = without(all, choice.probes);
     return choice;
   }
-  choice.placed =
-      weight.empty()
-          ? sampleSeeds(options.sampler, options.metric, domain, shares.placed, earlier.placed, options.randomSeed)
-          : weightedBlueNoiseSeeds(domain, options.metric, weight, shares.placed, earlier.placed, options.randomSeed);
-  const std::vector<uint32_t> rest = without(unchosenCandidates(domain, earlier.placed), choice.placed);
+  ASDFVK_CHECK(weight.empty() || sampler.refine);
+  choice.placed = weight.empty() ? sampler.sample(domain, shares.placed, earlier.placed, options.randomSeed)
+                                 : sampler.refine(domain, weight, shares.placed, earlier.placed, options.randomSeed);
+  const std::vector<uint32_t> rest = without(remainingCandidates(domain, earlier.placed), choice.placed);
   choice.probes = randomPermutationSeeds(rest, shares.probes, probeSeed(options.randomSeed, earlier.probes.size()));
   return choice;
 }

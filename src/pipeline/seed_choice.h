@@ -6,6 +6,7 @@
 
 #include "pipeline/options.h"
 #include "pipeline/prepared_mesh.h"
+#include "seeds/samplers.h"
 
 namespace asdfvk {
 
@@ -18,6 +19,9 @@ struct SeedChoice {
   std::vector<uint32_t> placed, probes;  ///< Ascending; none is in both.
 };
 
+/// The sampler of the options. Throws Error{UnknownName}.
+[[nodiscard]] const Sampler& requireSampler(const std::string& name);
+
 /// How `count` further seeds are shared out when the error is to be estimated.
 struct SeedShares {
   uint64_t placed = 0, probes = 0;
@@ -29,7 +33,7 @@ struct SeedShares {
 
 /// Chooses further placed seeds, and probes that any of the other faces is as likely to be. Where a prediction tells
 /// more of these, no probes are asked for here: see chooseProbes(). earlier: what was chosen before. weight: #F, how
-/// densely the faces deserve seeds, for a sampler that adapts; or empty.
+/// densely the faces deserve seeds, for the second half of an adaptive sampler's; or empty.
 [[nodiscard]] SeedChoice chooseSeeds(const PreparedMesh& prepared, const Options& options, const SeedShares& shares,
                                      const SeedChoice& earlier, std::span<const double> weight);
 

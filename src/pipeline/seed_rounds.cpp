@@ -77,7 +77,7 @@ void SeedRounds::runRound(uint64_t count, bool isLast, const RunControl& control
   const SeedShares shares =
       estimates_ && count < leftCount() ? shareOut(count, probes_.faces.size(), predicts) : SeedShares{.placed = count};
   tracing_.reserve(traced_, count);
-  if (options_.isAdaptive && predicts && roundCount_ == 0 && count < leftCount()) {
+  if (requireSampler(options_.sampler).refine && predicts && roundCount_ == 0 && count < leftCount()) {
     traceChosen({.placed = shares.placed - shares.placed / 2}, {}, control.part(0, 0.35));
     const std::vector<double> pattern = predictWithoutProbes(seconds_.sample);
     traceChosen({.placed = shares.placed / 2}, pattern, control.part(0.35, 0.7));

@@ -94,6 +94,7 @@ void requireAgreement(const Options& options) {
   if (!(interpolation.pooling >= 0 && interpolation.pooling <= 1)) refuse("the pooling is out of range; give 0 to 1");
   if (interpolation.pooling > 0 && interpolation.guidance != Guidance::Hits)
     refuse("pooling takes predictions from hits; use guidance by hits with it");
+  (void)requireSampler(options.sampler);
   if (options.smoothing.window) requireValid(*options.smoothing.window);
   if (options.rounds.maxError && !(*options.rounds.maxError > 0)) refuse("the greatest error is not above 0");
   if (options.rounds.timeBudgetSeconds && !(*options.rounds.timeBudgetSeconds > 0))

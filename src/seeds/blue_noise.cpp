@@ -1,5 +1,3 @@
-#include "seeds/blue_noise.h"
-
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -9,41 +7,68 @@
 #include "core/check.h"
 #include "core/random.h"
 #include "seeds/dart_throwing.h"
-#include "seeds/disk_radius.h"
+#include "seeds/samplers.h"
 #include "seeds/surface_distances.h"
 
 namespace asdfvk {
 namespace {
 
-// The start radius is raised where the estimate was too small, so many times by so much and then to infinity, where it
-// can no longer be at fault: then there are fewer seeds than components.
-constexpr int kMaxRaiseCount = 4;
-constexpr float kRaise = 1.5f;
+/// Estimates the radius at which Poisson disks fill the candidates with about `count` centres, none of them in the disk
+/// of another: the root mean square, over random candidates, of the radius that contains as many faces as a disk then
+/// does. For disks in the plane this is 2.2 times the faces per centre: maximal random packings of disks of half the
+/// radius cover 0.55 of it. At least one candidate, count at least 1. Takes about one pass over the graph.
+float estimateDiskRadius(const DualGraph& graph, std::span<const float> arcLengths,
+                         std::span<const uint32_t> candidates, uint64_t count, uint64_t randomSeed) {
+  ASDFVK_CHECK(!candidates.empty());
+  ASDFVK_CHECK_OP(count, >, 0u);
+  constexpr double kFacesInDiskPerFacePerCentre = 2.2;
+  constexpr double kMaxSampleCount = 256;
+  const double candidateCount = static_cast<double>(candidates.size());
+  const double wantedFaceCount = 1 + kFacesInDiskPerFacePerCentre * candidateCount / static_cast<double>(count);
+  const double sampleCount = std::floor(std::clamp(candidateCount / wantedFaceCount, 1.0, kMaxSampleCount));
+  Random random(randomSeed);
+  SurfaceBall ball(graph, arcLengths);
+  double squaredRadii = 0;
+  for (int sample = 0; sample < sampleCount; ++sample) {
+    ball.startAt(candidates[random.index(static_cast<uint32_t>(candidates.size()))]);
+    SurfaceBall::Member member;
+    double faceCount = 0;
+    while (faceCount < wantedFaceCount && ball.next(member)) ++faceCount;
+    // Extrapolates for a component that is smaller than the disk.
+    squaredRadii += double{member.distance} * double{member.distance} * wantedFaceCount / faceCount;
+  }
+  return std::max(kMinArcLength, static_cast<float>(std::sqrt(squaredRadii / sampleCount)));
+}
+
+// If the start radius was too small it is multiplied by kRadiusGrowth, at most kMaxGrowthCount times, and then set to
+// infinity: there are fewer seeds than components, and no finite radius is large enough.
+constexpr int kMaxGrowthCount = 4;
+constexpr float kRadiusGrowth = 1.5f;
 
 std::vector<uint32_t> blueNoise(const SeedDomain& domain, std::span<const float> lengths, uint64_t count,
                                 std::span<const uint32_t> existing, uint64_t randomSeed) {
-  std::vector<uint32_t> waiting = unchosenCandidates(domain, existing);
+  std::vector<uint32_t> waiting = remainingCandidates(domain, existing);
   if (count >= waiting.size()) return waiting;
   if (count == 0) return {};
   Random random(randomSeed);
   random.shuffle(std::span<uint32_t>(waiting));
-  // The estimate is somewhat off either way. Too large a radius costs time only, too small a one the evenness.
+  // A start radius that is too large costs only time; one that is too small leaves gaps.
   float startRadius = 1.25f * estimateDiskRadius(domain.graph, lengths, waiting, count, random.next());
   SurfaceDistances distances(domain.graph, lengths);
-  for (int raiseCount = 0;; ++raiseCount) {
+  for (int growthCount = 0;; ++growthCount) {
     distances.add(existing, startRadius);
     ThrownDarts darts = throwDarts(waiting, count, startRadius, distances);
     if (!darts.leaveGaps || startRadius == SurfaceDistances::kUnreached) {
       std::sort(darts.faces.begin(), darts.faces.end());
       return std::move(darts.faces);
     }
-    startRadius = raiseCount < kMaxRaiseCount ? kRaise * startRadius : SurfaceDistances::kUnreached;
+    startRadius = growthCount < kMaxGrowthCount ? kRadiusGrowth * startRadius : SurfaceDistances::kUnreached;
     distances.clear();
   }
 }
 
-// Seeds near each other are whole hops apart on a smooth mesh, so that some densities would come out as the same
-// distance and others as more than theirs. A random stretch of each arc by up to this share evens that out.
+// On a smooth mesh the distances between close seeds are nearly integers, so that different densities would round to
+// the same spacing. Each arc is therefore stretched at random by up to this share.
 constexpr double kJitter = 0.25;
 
 double jitterOf(uint32_t face, uint32_t neighbour) {
@@ -51,7 +76,7 @@ double jitterOf(uint32_t face, uint32_t neighbour) {
   return 1 + kJitter * (2 * Random(uint64_t{low} << 32 | high).real() - 1);
 }
 
-// Where the density is the mean of all, an arc keeps its length but for the jitter.
+// Arcs at faces of average density keep their length, except for the jitter.
 void stretch(std::vector<float>& lengths, const DualGraph& graph, std::span<const double> density) {
   double mean = 0;
   for (double d : density) {
@@ -63,23 +88,22 @@ void stretch(std::vector<float>& lengths, const DualGraph& graph, std::span<cons
       const uint32_t neighbour = graph.neighbours[arc];
       const double relative = 0.5 * (density[face] / mean + density[neighbour] / mean);
       const double length = lengths[arc] * std::sqrt(relative) * jitterOf(face, neighbour);
-      lengths[arc] = static_cast<float>(std::clamp<double>(length, kShortestArc, kLongestArc));
+      lengths[arc] = static_cast<float>(std::clamp<double>(length, kMinArcLength, kMaxArcLength));
     }
   });
 }
 
 }  // namespace
 
-std::vector<uint32_t> blueNoiseSeeds(const SeedDomain& domain, SurfaceMetric metric, uint64_t count,
-                                     std::span<const uint32_t> existing, uint64_t randomSeed) {
-  return blueNoise(domain, arcLengths(domain.graph, domain.geometry, metric), count, existing, randomSeed);
+std::vector<uint32_t> blueNoiseSeeds(const SeedDomain& domain, uint64_t count, std::span<const uint32_t> existing,
+                                     uint64_t randomSeed) {
+  return blueNoise(domain, arcLengths(domain.graph, domain.geometry), count, existing, randomSeed);
 }
 
-std::vector<uint32_t> weightedBlueNoiseSeeds(const SeedDomain& domain, SurfaceMetric metric,
-                                             std::span<const double> density, uint64_t count,
+std::vector<uint32_t> weightedBlueNoiseSeeds(const SeedDomain& domain, std::span<const double> density, uint64_t count,
                                              std::span<const uint32_t> existing, uint64_t randomSeed) {
   ASDFVK_CHECK_OP(density.size(), ==, domain.graph.faceCount());
-  std::vector<float> lengths = arcLengths(domain.graph, domain.geometry, metric);
+  std::vector<float> lengths = arcLengths(domain.graph, domain.geometry);
   stretch(lengths, domain.graph, density);
   return blueNoise(domain, lengths, count, existing, randomSeed);
 }

@@ -1,5 +1,3 @@
-#include "seeds/normal_space.h"
-
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -10,6 +8,7 @@
 
 #include "core/check.h"
 #include "core/random.h"
+#include "seeds/samplers.h"
 
 namespace asdfvk {
 namespace {
@@ -18,13 +17,13 @@ constexpr uint16_t kNoBin = std::numeric_limits<uint16_t>::max();
 
 using BinCounts = std::array<uint64_t, kNormalBinCount>;
 
-// Equal steps of the angle are more even on the sphere than equal steps on the cube.
+// Equal steps of the angle divide the sphere more evenly than equal steps on the cube.
 uint32_t stepOf(double tangent) {
   const double share = 0.5 + std::atan(tangent) * (2 / std::numbers::pi);
   return std::min(kBinsPerSide - 1, static_cast<uint32_t>(std::max(0.0, share * kBinsPerSide)));
 }
 
-// The largest level to which all bins that can be are filled with at most `count` new faces.
+// The largest level such that at most `count` new faces fill every bin up to it, or up to its last candidate.
 uint64_t levelOf(const BinCounts& chosen, const BinCounts& available, uint64_t count) {
   const auto neededFor = [&](uint64_t level) {
     uint64_t needed = 0;
@@ -32,7 +31,7 @@ uint64_t levelOf(const BinCounts& chosen, const BinCounts& available, uint64_t c
       needed += std::min(available[bin], level - std::min(level, chosen[bin]));
     return needed;
   };
-  uint64_t low = 0, high = uint64_t{1} << 33;  // Above any count of faces: low suffices, high does not.
+  uint64_t low = 0, high = uint64_t{1} << 33;  // Bisection; high exceeds any number of faces.
   while (high - low > 1) {
     const uint64_t middle = low + (high - low) / 2;
     (neededFor(middle) <= count ? low : high) = middle;
@@ -54,7 +53,7 @@ uint32_t normalBinOf(const Vec3d& normal) {
 
 std::vector<uint32_t> normalSpaceSeeds(const SeedDomain& domain, uint64_t count, std::span<const uint32_t> existing,
                                        uint64_t randomSeed) {
-  std::vector<uint32_t> waiting = unchosenCandidates(domain, existing);
+  std::vector<uint32_t> waiting = remainingCandidates(domain, existing);
   if (count >= waiting.size()) return waiting;
   std::vector<uint16_t> binOf(domain.graph.faceCount(), kNoBin);
   tbb::parallel_for(uint32_t{0}, domain.graph.faceCount(), [&](uint32_t face) {

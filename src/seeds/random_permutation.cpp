@@ -1,10 +1,14 @@
-#include "seeds/random_permutation.h"
-
 #include <algorithm>
 
 #include "core/random.h"
+#include "seeds/samplers.h"
 
 namespace asdfvk {
+
+std::vector<uint32_t> randomSeeds(const SeedDomain& domain, uint64_t count, std::span<const uint32_t> existing,
+                                  uint64_t randomSeed) {
+  return randomPermutationSeeds(remainingCandidates(domain, existing), count, randomSeed);
+}
 
 std::vector<uint32_t> randomPermutationSeeds(std::span<const uint32_t> candidates, uint64_t count,
                                              uint64_t randomSeed) {

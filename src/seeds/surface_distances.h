@@ -7,33 +7,50 @@
 #include <vector>
 
 #include "mesh/dual_graph.h"
+#include "mesh/face_geometry.h"
 
+/// Distances between faces along the arcs of the dual graph.
 namespace asdfvk {
 
-/// The distance of each face to the nearest of a growing set of seeds along the arcs of the dual graph, by Dijkstra's
-/// algorithm from each new seed, stopped where an older seed is as near: a new seed costs what it takes from the
-/// others, not the whole graph. The graph and the lengths must outlive it.
+/// Dihedral angle at which an arc is sqrt(2) long. Concave edges separate the parts of a shape, and the shape diameter
+/// function changes more across them than across convex edges.
+inline constexpr double kConcaveAngleDegrees = 10;
+inline constexpr double kConvexAngleDegrees = 20;
+
+/// Limits of an arc length on any mesh; distances are float.
+inline constexpr float kMinArcLength = 0x1p-20f;
+inline constexpr float kMaxArcLength = 0x1p+20f;
+
+/// The length of each arc, aligned with graph.neighbours, the same in both directions: sqrt(1 + (a / s)^2) for the
+/// dihedral angle a of the edge, with s from above. No unit; 1 between coplanar faces. The angles are those of
+/// signedDihedralAngle(): a degenerate face counts as coplanar with its neighbour, and the angle between faces of
+/// opposite winding is that of their normals.
+[[nodiscard]] std::vector<float> arcLengths(const DualGraph& graph, const FaceGeometry& geometry);
+
+/// The distance of each face to the nearest of a growing set of seeds: Dijkstra's algorithm from each new seed, pruned
+/// where an older seed is as near, so that a new seed costs time in proportion to the faces that it is nearest to. The
+/// graph and the lengths must outlive it.
 class SurfaceDistances {
  public:
   static constexpr float kUnreached = std::numeric_limits<float>::infinity();
 
-  /// arcLengths: aligned with graph.neighbours, positive, the same in both directions. No seed yet.
+  /// arcLengths: aligned with graph.neighbours, positive, the same in both directions. Starts without seeds.
   SurfaceDistances(const DualGraph& graph, std::span<const float> arcLengths);
 
-  /// Adds seeds. Afterwards each distance below `limit` is known; a larger one may read as larger than it is.
+  /// Adds seeds. Afterwards each distance below `limit` is exact; larger ones may be overestimated.
   /// Precondition: limits do not grow from call to call until clear().
   void add(std::span<const uint32_t> seeds, float limit);
 
   /// 0 for a seed.
   [[nodiscard]] float at(uint32_t face) const { return distances_[face]; }
 
-  /// Has at(face), and what adding the face will need first, on its way from memory when it is asked for.
-  void fetch(uint32_t face) const {
+  /// Prefetches what at(face) and adding the face access first.
+  void prefetch(uint32_t face) const {
     __builtin_prefetch(&distances_[face]);
     __builtin_prefetch(&graph_.offsets[face]);
   }
 
-  /// Forgets all seeds.
+  /// Removes all seeds.
   void clear();
 
  private:
@@ -41,14 +58,40 @@ class SurfaceDistances {
     float distance;
     uint32_t face;
   };
-  void fetchArcs(uint32_t face) const;
+  void prefetchArcs(uint32_t face) const;
   void push(Entry entry);
   [[nodiscard]] Entry pop();
 
   const DualGraph& graph_;
   std::span<const float> arcLengths_;
   std::vector<float> distances_;  ///< #F
-  std::vector<Entry> heap_;       ///< Empty between calls; kept for its memory.
+  std::vector<Entry> heap_;       ///< Empty between calls; a member to reuse its memory.
+};
+
+/// The faces around a face by ascending distance (Dijkstra's algorithm), for one centre after another; the memory is
+/// reused. The graph and the lengths must outlive it.
+class SurfaceBall {
+ public:
+  /// arcLengths: aligned with graph.neighbours, positive.
+  SurfaceBall(const DualGraph& graph, std::span<const float> arcLengths);
+
+  struct Member {
+    float distance = 0;  ///< From the centre.
+    uint32_t face = 0;
+  };
+
+  /// Starts again around `centre`, which is the first member.
+  void startAt(uint32_t centre);
+  /// The next nearest face; false after the last one of the centre's component. The order of equal distances is
+  /// unspecified but deterministic.
+  [[nodiscard]] bool next(Member& member);
+
+ private:
+  const DualGraph& graph_;
+  std::span<const float> arcLengths_;
+  std::vector<float> distances_;   ///< #F; infinite except for the touched faces.
+  std::vector<uint32_t> touched_;  ///< Since startAt().
+  std::vector<Member> heap_;
 };
 
 }  // namespace asdfvk

@@ -19,12 +19,12 @@ Failure failureOf(const Exception& exception) {
 }
 
 TEST_CASE("each kind of error has its documented exit code") {
-  const auto codeOf = [](ErrorKind kind) { return static_cast<int>(failureOf(Error(kind, "x")).code); };
-  CHECK_EQ(codeOf(ErrorKind::Usage), 1);
-  CHECK_EQ(codeOf(ErrorKind::Input), 2);
-  CHECK_EQ(codeOf(ErrorKind::Device), 3);
-  CHECK_EQ(codeOf(ErrorKind::Output), 4);
-  CHECK_EQ(codeOf(ErrorKind::Cancelled), 130);
+  const auto codeOf = [](ErrorCode code) { return static_cast<int>(failureOf(Error(code, "x")).code); };
+  CHECK_EQ(codeOf(ErrorCode::OptionOutOfRange), 1);
+  CHECK_EQ(codeOf(ErrorCode::UnreadableInput), 2);
+  CHECK_EQ(codeOf(ErrorCode::DeviceLost), 3);
+  CHECK_EQ(codeOf(ErrorCode::OutputNotWritable), 4);
+  CHECK_EQ(codeOf(ErrorCode::Cancelled), 130);
 }
 
 TEST_CASE("a check that failed is 5, one that could not fail is 0") {

@@ -28,7 +28,7 @@ TEST_CASE("help and version go to standard output with exit code 0") {
         "--tolerance", "--max-iterations", "--orient",       "--output",       "--format",        "--ascii",
         "--backend",   "--device",         "--require-gpu",  "--list-devices", "--check",         "--json",
         "--picture",   "--picture-of",     "--picture-view", "--picture-up",   "--recipe",        "--sampler",
-        "--metric",    "--max-error",      "--time-budget",  "--no-estimate",  "--cone-rotation", "--weights",
+        "--max-error",      "--time-budget",  "--no-estimate",  "--cone-rotation", "--weights",
         "--pooling",   "--quiet",          "--threads",      "--version",      "--help",          "Exit codes"})
     CHECK_MESSAGE(help.output.find(option) != std::string::npos, option);
   const ChildOutcome version = runAsdf({"--version"});

@@ -74,9 +74,8 @@ TEST_CASE("--json is exactly one document with every promised key and its type")
   const Json& options = json.at("options");
   CHECK_EQ(options.at("seeds").get<std::string>(), "10%");
   const std::vector<std::pair<const char*, const char*>> names{
-      {"recipe", "balanced"},    {"sampler", "blue-noise"}, {"metric", "angle"},
-      {"coneRotation", "fixed"}, {"weights", "feature"},    {"guidance", "hits"},
-      {"orient", "keep"},        {"smooth", "off"},         {"solver", "auto"}};
+      {"recipe", "balanced"}, {"sampler", "blue-noise"}, {"coneRotation", "fixed"}, {"weights", "feature"},
+      {"guidance", "hits"},   {"orient", "keep"},        {"smooth", "off"},         {"solver", "auto"}};
   for (const auto& [key, name] : names) CHECK_EQ(options.at(key).get<std::string>(), name);
   for (const char* key : {"maxError", "timeBudgetSeconds"}) CHECK(options.at(key).is_null());
   CHECK_EQ(options.at("pooling").get<double>(), 0);
@@ -86,13 +85,12 @@ TEST_CASE("what was asked for is in the options of the document") {
   const ScratchFolder folder;
   const std::string mesh = folder.write("sphere.off", sphereOff(12));
   const Json json = onlyDocument(runAsdf({mesh, "--json", "--quiet", "--backend", "reference", "--recipe", "quality",
-                                          "--sampler", "adaptive", "--metric", "hops", "--max-error", "50%",
+                                          "--sampler", "adaptive", "--max-error", "50%",
                                           "--time-budget", "100s", "--pooling", "0.5", "--smooth", "2x1"}));
   const Json& options = json.at("options");
   CHECK_EQ(options.at("recipe").get<std::string>(), "quality");
   CHECK_EQ(options.at("seeds").get<std::string>(), "2%");
   CHECK_EQ(options.at("sampler").get<std::string>(), "adaptive");
-  CHECK_EQ(options.at("metric").get<std::string>(), "hops");
   CHECK_EQ(options.at("coneRotation").get<std::string>(), "hashed");
   CHECK_EQ(options.at("maxError").get<double>(), 0.5);
   CHECK_EQ(options.at("timeBudgetSeconds").get<double>(), 100);

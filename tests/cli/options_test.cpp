@@ -32,14 +32,13 @@ TEST_CASE("a mesh alone means the defaults") {
   CHECK_EQ(line.options.cone.rayCount, 30);
   CHECK_EQ(line.options.cone.openingAngleDegrees, 120);
   CHECK(line.recipe == Recipe::Balanced);
-  CHECK(line.options.sampler == SamplerKind::BlueNoise);
-  CHECK(line.options.metric == SurfaceMetric::Angle);
+  CHECK_EQ(line.options.sampler, "blue-noise");
   CHECK(line.options.interpolation.weights == ArcWeightKind::Feature);
   CHECK(line.options.interpolation.guidance == Guidance::Hits);
   CHECK_EQ(line.options.interpolation.pooling, 0);
   CHECK(line.options.cone.rotation == ConeRotation::Fixed);
   CHECK(line.options.estimatesError);
-  CHECK_FALSE((line.options.isAdaptive || line.options.rounds.areAsked()));
+  CHECK_FALSE(line.options.rounds.areAsked());
   CHECK(line.options.orientation == Orientation::Keep);
   CHECK(line.options.solver == SolverChoice::Auto);
   CHECK(line.session.backend == Backend::Auto);
@@ -88,8 +87,6 @@ TEST_CASE("every option reaches its field") {
                                              "quality",
                                              "--sampler",
                                              "farthest-point",
-                                             "--metric",
-                                             "length",
                                              "--max-error",
                                              "1.5%",
                                              "--time-budget",
@@ -140,9 +137,7 @@ TEST_CASE("every option reaches its field") {
   CHECK_EQ(line.options.cone.outlierDeviations, 1.5);
   CHECK(line.options.solver == SolverChoice::Jacobi);
   CHECK(line.recipe == Recipe::Quality);
-  CHECK(line.options.sampler == SamplerKind::FarthestPoint);
-  CHECK_FALSE(line.options.isAdaptive);
-  CHECK(line.options.metric == SurfaceMetric::Length);
+  CHECK_EQ(line.options.sampler, "farthest-point");
   CHECK_EQ(line.options.rounds.maxError.value(), 0.015);
   CHECK_EQ(line.options.rounds.timeBudgetSeconds.value(), 2.5);
   CHECK_FALSE(line.options.estimatesError);
@@ -219,7 +214,6 @@ TEST_CASE("values out of range are refused with the option's name") {
                                                   {"--recipe", "best"},
                                                   {"--recipe", "Paper"},
                                                   {"--sampler", "blue"},
-                                                  {"--metric", "metres"},
                                                   {"--max-error", "0%"},
                                                   {"--max-error", "-1%"},
                                                   {"--max-error", "100%"},
@@ -252,6 +246,8 @@ TEST_CASE("values out of range are refused with the option's name") {
   CHECK_EQ(refusal({"a.ply", "--max-error", "150%"}), "--max-error: '150%' is not above 0% and below 100%");
   CHECK_EQ(refusal({"a.ply", "--time-budget", "0s"}), "--time-budget: '0s' is not a time above 0 s");
   CHECK_EQ(refusal({"a.ply", "--recipe", "best"}), "--recipe: 'best' is not one of paper|balanced|quality");
+  CHECK_EQ(refusal({"a.ply", "--sampler", "spiral"}),
+           "--sampler: 'spiral' is not one of random|blue-noise|farthest-point|normal-space|adaptive");
   CHECK_EQ(refusal({"a.ply", "--guidance", "2"}), "--guidance: '2' is not one of none|curvature|hits");
   for (const char* text : {"", "%", "1%%", "nan%", "1 %", "inf"})
     CHECK_MESSAGE(refusal({"a.ply", "--max-error", text}).starts_with("--max-error: "), text);
@@ -294,16 +290,11 @@ TEST_CASE("options that contradict each other are refused") {
   CHECK_EQ(with({"--no-estimate", "--max-error", "1%"}), "accepted");
 }
 
-TEST_CASE("each sampler, metric, weight and guidance has its name") {
+TEST_CASE("each sampler, weight and guidance has its name") {
   const auto optionsWith = [](const char* option, const char* name) {
     return parseCommandLine({"a.ply", option, name}).options;
   };
-  CHECK(optionsWith("--sampler", "random").sampler == SamplerKind::Random);
-  CHECK(optionsWith("--sampler", "depth-first").sampler == SamplerKind::DepthFirst);
-  CHECK(optionsWith("--sampler", "normal-space").sampler == SamplerKind::NormalSpace);
-  CHECK(optionsWith("--sampler", "adaptive").sampler == SamplerKind::BlueNoise);
-  CHECK(optionsWith("--sampler", "adaptive").isAdaptive);
-  CHECK(optionsWith("--metric", "hops").metric == SurfaceMetric::Hops);
+  for (const std::string& name : samplerNames()) CHECK_EQ(optionsWith("--sampler", name.c_str()).sampler, name);
   CHECK(optionsWith("--weights", "distance").interpolation.weights == ArcWeightKind::Distance);
   CHECK(optionsWith("--guidance", "none").interpolation.guidance == Guidance::None);
   CHECK(optionsWith("--guidance", "curvature").interpolation.guidance == Guidance::Curvature);
@@ -317,12 +308,11 @@ TEST_CASE("the options of their own overrule the recipe, wherever it stands") {
     CHECK(line.recipe == Recipe::Paper);
     CHECK(line.options.interpolation.weights == ArcWeightKind::Feature);
     CHECK(line.options.interpolation.guidance == Guidance::Curvature);
-    CHECK(line.options.sampler == SamplerKind::Random);
+    CHECK_EQ(line.options.sampler, "random");
   }
   const CommandLine line = parseCommandLine({"a.ply", "--sampler", "adaptive", "--pooling", "0", "--cone-rotation",
-                                             "fixed", "--guidance", "none", "--metric", "hops", "--recipe", "quality"});
-  CHECK(line.options.isAdaptive);
-  CHECK(line.options.metric == SurfaceMetric::Hops);
+                                             "fixed", "--guidance", "none", "--recipe", "quality"});
+  CHECK_EQ(line.options.sampler, "adaptive");
   CHECK(line.options.cone.rotation == ConeRotation::Fixed);
   CHECK(line.options.interpolation.guidance == Guidance::None);
   CHECK_EQ(line.options.interpolation.pooling, 0);
@@ -361,8 +351,7 @@ TEST_CASE("rounds begin with few seeds unless a number is told") {
 TEST_CASE("the help names every option of the computation") {
   const std::string help = parseCommandLine({"--help"}).answer.value();
   for (const char* part :
-       {"--recipe paper|balanced|quality",
-        "--sampler random|depth-first|blue-noise|farthest-point|normal-space|adaptive", "--metric hops|length|angle",
+       {"--recipe paper|balanced|quality", "--sampler random|blue-noise|farthest-point|normal-space|adaptive",
         "--max-error E%", "--time-budget SECONDS", "--no-estimate", "--cone-rotation fixed|hashed",
         "--weights distance|feature", "--guidance none|curvature|hits", "--pooling P", "--picture-of sdf|seeds|error",
         "balanced (default)"})

@@ -68,7 +68,7 @@ TEST_CASE("the last ray is told of once, and none is cast after it, in one round
   for (const bool isAdaptive : {false, true}) {
     CAPTURE(isAdaptive);
     Options options;
-    options.isAdaptive = isAdaptive;
+    if (isAdaptive) options.sampler = "adaptive";
     const Outcome outcome = run(options);
     CHECK(outcome.roundCount == (isAdaptive ? 2u : 1u));
     CHECK(outcome.lastRayCount == 1);

@@ -12,9 +12,6 @@ using namespace asdfvk;
 
 namespace {
 
-constexpr SamplerKind kAllSamplers[] = {SamplerKind::Random, SamplerKind::DepthFirst, SamplerKind::BlueNoise,
-                                        SamplerKind::FarthestPoint, SamplerKind::NormalSpace};
-
 PreparedMesh prepared(Mesh mesh) { return prepareMesh(mesh, Orientation::Keep); }
 
 std::vector<uint32_t> joined(const std::vector<uint32_t>& a, const std::vector<uint32_t>& b) {
@@ -89,8 +86,8 @@ TEST_CASE("scouts are the faces with the greatest predictions that are no seeds 
 
 TEST_CASE("each sampler gives as many placed seeds and probes as were asked for, all different, round by round") {
   const PreparedMesh mesh = prepared(makeAnimal(2500).mesh);
-  for (const SamplerKind sampler : kAllSamplers) {
-    CAPTURE(static_cast<int>(sampler));
+  for (const std::string& sampler : samplerNames()) {
+    CAPTURE(sampler);
     Options options;
     options.sampler = sampler;
     SeedChoice chosen;
@@ -109,8 +106,8 @@ TEST_CASE("each sampler gives as many placed seeds and probes as were asked for,
 
 TEST_CASE("the faces that are left are all chosen in the end") {
   const PreparedMesh mesh = prepared(makeTorus(400).mesh);
-  for (const SamplerKind sampler : kAllSamplers) {
-    CAPTURE(static_cast<int>(sampler));
+  for (const std::string& sampler : samplerNames()) {
+    CAPTURE(sampler);
     Options options;
     options.sampler = sampler;
     const SeedChoice first = chooseSeeds(mesh, options, shares(100, 25), {}, {});
@@ -123,7 +120,7 @@ TEST_CASE("the faces that are left are all chosen in the end") {
 TEST_CASE("which seeds are placed at random does not depend on how many of them are probes") {
   const PreparedMesh mesh = prepared(makeTorus(1000).mesh);
   Options options;
-  options.sampler = SamplerKind::Random;
+  options.sampler = "random";
   const SeedChoice without = chooseSeeds(mesh, options, shares(120, 0), {}, {});
   const SeedChoice with = chooseSeeds(mesh, options, shares(120, 30), {}, {});
   CHECK(without.probes.empty());
@@ -161,8 +158,10 @@ TEST_CASE("an adaptive choice is denser where the weight is great") {
   const auto isUp = [&](uint32_t face) { return mesh.geometry.barycentres[face].z > 0; };
   for (uint32_t face = 0; face < 2000; ++face)
     if (isUp(face)) weight[face] = 1;
-  const SeedChoice first = chooseSeeds(mesh, {}, shares(50, 12), {}, {});
-  const SeedChoice second = chooseSeeds(mesh, {}, shares(100, 0), first, weight);
+  Options options;
+  options.sampler = "adaptive";
+  const SeedChoice first = chooseSeeds(mesh, options, shares(50, 12), {}, {});
+  const SeedChoice second = chooseSeeds(mesh, options, shares(100, 0), first, weight);
   CHECK(isAscendingWithoutRepeats(allOf(joined(first, second))));
   CHECK(std::count_if(second.placed.begin(), second.placed.end(), isUp) > 70);
 }

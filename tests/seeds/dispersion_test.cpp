@@ -1,4 +1,4 @@
-// How evenly blue noise and farthest points lie.
+// Evenness of blue noise and farthest-point sampling.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -7,20 +7,15 @@
 #include <limits>
 
 #include "core/check.h"
-#include "seeds/blue_noise.h"
-#include "seeds/farthest_point.h"
-#include "seeds/random_permutation.h"
+#include "seeds/samplers.h"
 #include "seeds/surface.h"
+#include "seeds/surface_distances.h"
 
 using namespace asdfvk;
 
 namespace {
 
-constexpr std::array<SurfaceMetric, 3> kMetrics{SurfaceMetric::Hops, SurfaceMetric::Length, SurfaceMetric::Angle};
-
-using Sampler = std::vector<uint32_t> (*)(const SeedDomain&, SurfaceMetric, uint64_t, std::span<const uint32_t>,
-                                          uint64_t);
-constexpr std::array<Sampler, 2> kSpreadingSamplers{blueNoiseSeeds, farthestPointSeeds};
+constexpr std::array<SampleSeeds*, 2> kSpacingSamplers{blueNoiseSeeds, farthestPointSeeds};
 
 struct Spacing {
   float least = 0;  ///< From a seed to the nearest other.
@@ -35,7 +30,7 @@ Spacing spacingOf(const Surface& surface, std::span<const float> lengths, std::s
   return {*std::min_element(nearest.begin(), nearest.end()), cover};
 }
 
-// A float's rounding over the arcs of a path, and the step of the radius.
+// The step of the radius, and the rounding of float over the arcs of a path.
 constexpr float kStepAndRounding = (1 + 1.0f / 64) * 1.0001f;
 
 std::vector<uint32_t> facesWith(const Surface& surface, auto&& predicate) {
@@ -51,16 +46,13 @@ TEST_CASE("seeds cover the surface within the distance that they keep from each 
   for (const char* shape : {"torus", "sphere", "cube", "hand"}) {
     CAPTURE(shape);
     const Surface& surface = generatedSurface(shape, 4000);
-    for (SurfaceMetric metric : kMetrics) {
-      CAPTURE(static_cast<int>(metric));
-      const std::vector<float> lengths = arcLengths(surface.graph, surface.geometry, metric);
-      for (double share : {0.002, 0.02, 0.1, 0.3}) {
-        CAPTURE(share);
-        const auto count = static_cast<uint64_t>(share * static_cast<double>(surface.candidates.size()));
-        for (Sampler sampler : kSpreadingSamplers) {
-          const Spacing spacing = spacingOf(surface, lengths, sampler(surface.domain(), metric, count, {}, 3));
-          CHECK(spacing.cover <= spacing.least * kStepAndRounding);
-        }
+    const std::vector<float> lengths = arcLengths(surface.graph, surface.geometry);
+    for (double share : {0.002, 0.02, 0.1, 0.3}) {
+      CAPTURE(share);
+      const auto count = static_cast<uint64_t>(share * static_cast<double>(surface.candidates.size()));
+      for (SampleSeeds* sampler : kSpacingSamplers) {
+        const Spacing spacing = spacingOf(surface, lengths, sampler(surface.domain(), count, {}, 3));
+        CHECK(spacing.cover <= spacing.least * kStepAndRounding);
       }
     }
   }
@@ -70,9 +62,9 @@ TEST_CASE("at a tenth of the faces blue-noise seeds are 3 hops apart, random one
   for (const char* shape : {"torus", "sphere"}) {
     CAPTURE(shape);
     const Surface& surface = generatedSurface(shape, 4000);
-    const auto lengths = arcLengths(surface.graph, surface.geometry, SurfaceMetric::Hops);
+    const auto lengths = hops(surface.graph);
     const uint64_t count = surface.candidates.size() / 10;
-    const auto blue = blueNoiseSeeds(surface.domain(), SurfaceMetric::Hops, count, {}, 1);
+    const auto blue = blueNoiseSeeds(surface.domain(), count, {}, 1);
     const auto random = randomPermutationSeeds(surface.candidates, count, 1);
     const auto blueNearest = distancesToNearestOther(surface.graph, lengths, blue);
     const auto randomNearest = distancesToNearestOther(surface.graph, lengths, random);
@@ -86,11 +78,11 @@ TEST_CASE("at a tenth of the faces blue-noise seeds are 3 hops apart, random one
 
 TEST_CASE("seeds fill the gaps between existing ones") {
   const Surface& sphere = generatedSurface("sphere", 4000);
-  const std::vector<float> lengths = arcLengths(sphere.graph, sphere.geometry, SurfaceMetric::Hops);
+  const std::vector<float> lengths = arcLengths(sphere.graph, sphere.geometry);
   // All of the northern half is taken, so the southern gets all new seeds, its border excepted.
   const auto north = facesWith(sphere, [](const Vec3d& at) { return at.z > 0; });
-  for (Sampler sampler : kSpreadingSamplers) {
-    const auto seeds = sampler(sphere.domain(), SurfaceMetric::Hops, 60, north, 1);
+  for (SampleSeeds* sampler : kSpacingSamplers) {
+    const auto seeds = sampler(sphere.domain(), 60, north, 1);
     REQUIRE(seeds.size() == 60);
     std::vector<uint32_t> all = north;
     all.insert(all.end(), seeds.begin(), seeds.end());
@@ -107,11 +99,11 @@ TEST_CASE("seeds fill the gaps between existing ones") {
 
 TEST_CASE("seeds added in rounds keep apart as those chosen at once do") {
   const Surface& torus = generatedSurface("torus", 4000);
-  const std::vector<float> lengths = arcLengths(torus.graph, torus.geometry, SurfaceMetric::Angle);
-  for (Sampler sampler : kSpreadingSamplers) {
+  const std::vector<float> lengths = arcLengths(torus.graph, torus.geometry);
+  for (SampleSeeds* sampler : kSpacingSamplers) {
     std::vector<uint32_t> all;
     for (uint64_t round = 0; round < 4; ++round) {
-      const auto seeds = sampler(torus.domain(), SurfaceMetric::Angle, 100, all, round);
+      const auto seeds = sampler(torus.domain(), 100, all, round);
       all.insert(all.end(), seeds.begin(), seeds.end());
       const Spacing spacing = spacingOf(torus, lengths, all);
       CHECK(spacing.cover <= spacing.least * kStepAndRounding);
@@ -132,35 +124,35 @@ TEST_CASE("each component that there are seeds for gets its first before any get
     }
     return count;
   };
-  CHECK(componentsAmong(farthestPointSeeds(surface.domain(), SurfaceMetric::Hops, 20, {}, 1)) == 20);
-  CHECK(componentsAmong(farthestPointSeeds(surface.domain(), SurfaceMetric::Hops, 50, {}, 1)) == 50);
-  CHECK(componentsAmong(blueNoiseSeeds(surface.domain(), SurfaceMetric::Hops, 20, {}, 1)) == 20);
-  CHECK(componentsAmong(blueNoiseSeeds(surface.domain(), SurfaceMetric::Hops, 50, {}, 1)) == 50);
+  CHECK(componentsAmong(farthestPointSeeds(surface.domain(), 20, {}, 1)) == 20);
+  CHECK(componentsAmong(farthestPointSeeds(surface.domain(), 50, {}, 1)) == 50);
+  CHECK(componentsAmong(blueNoiseSeeds(surface.domain(), 20, {}, 1)) == 20);
+  CHECK(componentsAmong(blueNoiseSeeds(surface.domain(), 50, {}, 1)) == 50);
 }
 
 TEST_CASE("farthest points of a strip are the ends and then the middle, whatever comes first") {
   const Surface surface(strip(129));
   for (uint64_t randomSeed = 1; randomSeed < 6; ++randomSeed) {
     const std::vector<uint32_t> middle{64};
-    CHECK(farthestPointSeeds(surface.domain(), SurfaceMetric::Hops, 2, middle, randomSeed) ==
-          std::vector<uint32_t>{0, 128});
+    CHECK(farthestPointSeeds(surface.domain(), 2, middle, randomSeed) == std::vector<uint32_t>{0, 128});
     const std::vector<uint32_t> ends{128, 0};
-    CHECK(farthestPointSeeds(surface.domain(), SurfaceMetric::Hops, 1, ends, randomSeed) == middle);
+    CHECK(farthestPointSeeds(surface.domain(), 1, ends, randomSeed) == middle);
   }
 }
 
-TEST_CASE("the angle metric puts more seeds where the surface bends") {
+TEST_CASE("there are more seeds where the surface bends") {
   const Surface& cube = generatedSurface("cube", 4000);
-  const std::vector<float> angles = arcLengths(cube.graph, cube.geometry, SurfaceMetric::Angle);
+  const std::vector<float> lengths = arcLengths(cube.graph, cube.geometry);
   std::vector<uint8_t> isAtEdge(cube.graph.faceCount(), 0);
   for (uint32_t face = 0; face < cube.graph.faceCount(); ++face)
     for (uint32_t arc = cube.graph.offsets[face]; arc < cube.graph.offsets[face + 1]; ++arc)
-      if (angles[arc] > 2) isAtEdge[face] = 1;
-  const auto atEdge = [&](SurfaceMetric metric) {
-    const auto seeds = blueNoiseSeeds(cube.domain(), metric, 200, {}, 2);
-    return std::count_if(seeds.begin(), seeds.end(), [&](uint32_t face) { return isAtEdge[face] != 0; });
+      if (lengths[arc] > 2) isAtEdge[face] = 1;
+  const auto shareAtEdge = [&](const std::vector<uint32_t>& faces) {
+    const auto count = std::count_if(faces.begin(), faces.end(), [&](uint32_t face) { return isAtEdge[face] != 0; });
+    return static_cast<double>(count) / static_cast<double>(faces.size());
   };
-  CHECK(atEdge(SurfaceMetric::Angle) > atEdge(SurfaceMetric::Hops));
+  for (SampleSeeds* sampler : kSpacingSamplers)
+    CHECK(shareAtEdge(sampler(cube.domain(), 200, {}, 2)) > 1.2 * shareAtEdge(cube.candidates));
 }
 
 TEST_CASE("where the density is k times as high there are k times as many seeds") {
@@ -168,22 +160,19 @@ TEST_CASE("where the density is k times as high there are k times as many seeds"
   const auto dense = facesWith(torus, [](const Vec3d& at) { return at.x > 0; });
   const double facesInDense = static_cast<double>(dense.size());
   const double facesElsewhere = static_cast<double>(torus.graph.faceCount()) - facesInDense;
-  for (SurfaceMetric metric : kMetrics) {
-    CAPTURE(static_cast<int>(metric));
-    for (double factor : {1.0, 1.5, 2.0, 3.0, 4.0, 9.0}) {
-      CAPTURE(factor);
-      std::vector<double> density(torus.graph.faceCount(), 1e-3);
-      for (uint32_t face : dense) density[face] *= factor;
-      for (uint64_t count : {800u, 2000u, 4000u}) {
-        CAPTURE(count);
-        const auto seeds = weightedBlueNoiseSeeds(torus.domain(), metric, density, count, {}, 1);
-        double inDense = 0;
-        for (uint32_t face : seeds) inDense += torus.geometry.barycentres[face].x > 0;
-        const double elsewhere = static_cast<double>(seeds.size()) - inDense;
-        const double ratio = (inDense / facesInDense) / (elsewhere / facesElsewhere);
-        CHECK(ratio > 0.85 * factor);
-        CHECK(ratio < 1.15 * factor);
-      }
+  for (double factor : {1.0, 1.5, 2.0, 3.0, 4.0, 9.0}) {
+    CAPTURE(factor);
+    std::vector<double> density(torus.graph.faceCount(), 1e-3);
+    for (uint32_t face : dense) density[face] *= factor;
+    for (uint64_t count : {800u, 2000u, 4000u}) {
+      CAPTURE(count);
+      const auto seeds = weightedBlueNoiseSeeds(torus.domain(), density, count, {}, 1);
+      double inDense = 0;
+      for (uint32_t face : seeds) inDense += torus.geometry.barycentres[face].x > 0;
+      const double elsewhere = static_cast<double>(seeds.size()) - inDense;
+      const double ratio = (inDense / facesInDense) / (elsewhere / facesElsewhere);
+      CHECK(ratio > 0.85 * factor);
+      CHECK(ratio < 1.15 * factor);
     }
   }
 }
@@ -191,14 +180,12 @@ TEST_CASE("where the density is k times as high there are k times as many seeds"
 TEST_CASE("the unit of the density does not matter, and an even one leaves blue noise") {
   const Surface& torus = generatedSurface("torus", 4000);
   const auto weighted = [&](double even) {
-    return weightedBlueNoiseSeeds(torus.domain(), SurfaceMetric::Hops,
-                                  std::vector<double>(torus.graph.faceCount(), even), 300, {}, 8);
+    return weightedBlueNoiseSeeds(torus.domain(), std::vector<double>(torus.graph.faceCount(), even), 300, {}, 8);
   };
   const auto seeds = weighted(1);
   CHECK(weighted(0x1p-100) == seeds);
   CHECK(weighted(0x1p+1000) == seeds);
-  const auto hops = arcLengths(torus.graph, torus.geometry, SurfaceMetric::Hops);
-  const auto nearest = distancesToNearestOther(torus.graph, hops, seeds);
+  const auto nearest = distancesToNearestOther(torus.graph, hops(torus.graph), seeds);
   CHECK(*std::min_element(nearest.begin(), nearest.end()) >= 3);
 }
 
@@ -207,10 +194,8 @@ TEST_CASE("a density that is not positive and finite is a mistake") {
   for (double wrong : {0.0, -1.0, std::numeric_limits<double>::infinity(), std::nan("")}) {
     CAPTURE(wrong);
     const std::vector<double> density{1, wrong, 1};
-    CHECK_THROWS_AS(static_cast<void>(weightedBlueNoiseSeeds(surface.domain(), SurfaceMetric::Hops, density, 1, {}, 1)),
-                    CheckFailure);
+    CHECK_THROWS_AS(static_cast<void>(weightedBlueNoiseSeeds(surface.domain(), density, 1, {}, 1)), CheckFailure);
   }
-  CHECK_THROWS_AS(static_cast<void>(weightedBlueNoiseSeeds(surface.domain(), SurfaceMetric::Hops,
-                                                           std::vector<double>{1, 1}, 1, {}, 1)),
+  CHECK_THROWS_AS(static_cast<void>(weightedBlueNoiseSeeds(surface.domain(), std::vector<double>{1, 1}, 1, {}, 1)),
                   CheckFailure);
 }

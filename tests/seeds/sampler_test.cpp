@@ -1,17 +1,15 @@
-// What holds for every sampler and metric.
+// Properties of every sampler.
 #include <doctest/doctest.h>
 #include <tbb/global_control.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <iterator>
 #include <limits>
 #include <set>
+#include <string>
 
 #include "core/check.h"
-#include "seeds/blue_noise.h"
-#include "seeds/sampler.h"
+#include "seeds/samplers.h"
 #include "seeds/surface.h"
 
 using namespace asdfvk;
@@ -21,41 +19,20 @@ namespace {
 using Seeds = std::vector<uint32_t>;
 using Existing = std::span<const uint32_t>;
 
-struct NamedSampler {
-  const char* name;
-  Seeds (*sample)(const SeedDomain& domain, uint64_t count, Existing existing, uint64_t randomSeed);
-};
-
-template <SamplerKind kind, SurfaceMetric metric>
-Seeds sample(const SeedDomain& domain, uint64_t count, Existing existing, uint64_t randomSeed) {
-  return sampleSeeds(kind, metric, domain, count, existing, randomSeed);
-}
-
-Seeds sampleWeighted(const SeedDomain& domain, uint64_t count, Existing existing, uint64_t randomSeed) {
+std::vector<uint32_t> sampleByDensity(const SeedDomain& domain, uint64_t count, Existing existing,
+                                      uint64_t randomSeed) {
   std::vector<double> density(domain.graph.faceCount());
   for (size_t face = 0; face < density.size(); ++face) density[face] = 1 + static_cast<double>(face % 1000);
-  return weightedBlueNoiseSeeds(domain, SurfaceMetric::Hops, density, count, existing, randomSeed);
+  return weightedBlueNoiseSeeds(domain, density, count, existing, randomSeed);
 }
-
-constexpr std::array<NamedSampler, 10> kSamplers{{
-    {"random", sample<SamplerKind::Random, SurfaceMetric::Hops>},
-    {"depth first", sample<SamplerKind::DepthFirst, SurfaceMetric::Hops>},
-    {"blue noise, hops", sample<SamplerKind::BlueNoise, SurfaceMetric::Hops>},
-    {"blue noise, length", sample<SamplerKind::BlueNoise, SurfaceMetric::Length>},
-    {"blue noise, angle", sample<SamplerKind::BlueNoise, SurfaceMetric::Angle>},
-    {"farthest point, hops", sample<SamplerKind::FarthestPoint, SurfaceMetric::Hops>},
-    {"farthest point, length", sample<SamplerKind::FarthestPoint, SurfaceMetric::Length>},
-    {"farthest point, angle", sample<SamplerKind::FarthestPoint, SurfaceMetric::Angle>},
-    {"normal space", sample<SamplerKind::NormalSpace, SurfaceMetric::Hops>},
-    {"weighted blue noise", sampleWeighted},
-}};
 
 template <typename Body>
 void forEachSampler(const Body& body) {
-  for (const NamedSampler& sampler : kSamplers) {
+  for (const Sampler& sampler : kSamplers) {
     CAPTURE(sampler.name);
     body(sampler.sample);
   }
+  body(sampleByDensity);
 }
 
 bool ascendWithoutRepeats(const Seeds& seeds) {
@@ -174,4 +151,15 @@ TEST_CASE("an existing face that the mesh has not is a mistake") {
   const Surface one(strip(2));
   forEachSampler(
       [&](auto sample) { CHECK_THROWS_AS(static_cast<void>(sample(one.domain(), 1, Seeds{2}, 1)), CheckFailure); });
+}
+
+TEST_CASE("a sampler is found by its name, and no two have the same") {
+  std::set<std::string> names;
+  for (const Sampler& sampler : kSamplers) {
+    CHECK(findSampler(sampler.name) == &sampler);
+    names.insert(sampler.name);
+  }
+  CHECK(names.size() == kSamplers.size());
+  CHECK(findSampler("") == nullptr);
+  CHECK(findSampler("random ") == nullptr);
 }

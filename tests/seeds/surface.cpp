@@ -46,6 +46,8 @@ Mesh together(Mesh mesh, const Mesh& other) {
   return mesh;
 }
 
+std::vector<float> hops(const DualGraph& graph) { return std::vector<float>(graph.neighbours.size(), 1.0f); }
+
 std::vector<float> distancesToNearest(const DualGraph& graph, std::span<const float> arcLengths,
                                       std::span<const uint32_t> seeds) {
   std::vector<float> distances(graph.faceCount(), kInfinite);

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "mesh/mesh.h"
-#include "seeds/seed_domain.h"
+#include "seeds/samplers.h"
 
-/// A mesh and what samplers want to know of it.
+/// A mesh and the input of samplers.
 struct Surface {
   explicit Surface(asdfvk::Mesh triangles);
   [[nodiscard]] asdfvk::SeedDomain domain() const { return {graph, geometry, candidates}; }
@@ -26,8 +26,10 @@ asdfvk::Mesh strip(uint32_t faceCount);
 /// All faces of both; no vertex in common.
 asdfvk::Mesh together(asdfvk::Mesh mesh, const asdfvk::Mesh& other);
 
-/// Hops or arc lengths from each face to the nearest of the seeds, infinite where there is none, by relaxing all arcs
-/// until nothing changes: slow, and nothing else than the definition.
+/// 1 per arc: distances count mesh edges.
+std::vector<float> hops(const asdfvk::DualGraph& graph);
+/// Distance along the arcs from each face to the nearest of the seeds, infinite where there is none, by relaxing all
+/// arcs until nothing changes: slow, and nothing else than the definition.
 std::vector<float> distancesToNearest(const asdfvk::DualGraph& graph, std::span<const float> arcLengths,
                                       std::span<const uint32_t> seeds);
 /// For each seed the distance to the nearest other one, infinite where it has none in its component.

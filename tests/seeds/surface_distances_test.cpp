@@ -4,17 +4,13 @@
 
 #include "core/random.h"
 #include "seeds/surface.h"
-#include "seeds/surface_ball.h"
 #include "seeds/surface_distances.h"
-#include "seeds/surface_metric.h"
 
 using namespace asdfvk;
 
 TEST_CASE("distances to a growing set of seeds are those by definition, up to the limit") {
   const Surface& hand = generatedSurface("hand", 3000);
-  for (SurfaceMetric metric : {SurfaceMetric::Hops, SurfaceMetric::Length, SurfaceMetric::Angle}) {
-    CAPTURE(static_cast<int>(metric));
-    const std::vector<float> lengths = arcLengths(hand.graph, hand.geometry, metric);
+  for (const std::vector<float>& lengths : {hops(hand.graph), arcLengths(hand.graph, hand.geometry)}) {
     SurfaceDistances distances(hand.graph, lengths);
     Random random(6);
     std::vector<uint32_t> seeds;
@@ -43,7 +39,7 @@ TEST_CASE("distances to a growing set of seeds are those by definition, up to th
 
 TEST_CASE("a ball holds the faces of the component, nearest first, each once, ball after ball") {
   const Surface surface(together(generatedSurface("torus", 500).mesh, strip(5)));
-  const std::vector<float> lengths = arcLengths(surface.graph, surface.geometry, SurfaceMetric::Angle);
+  const std::vector<float> lengths = arcLengths(surface.graph, surface.geometry);
   SurfaceBall ball(surface.graph, lengths);
   const uint32_t islandBegin = surface.graph.faceCount() - 5;
   for (uint32_t centre : {0u, 77u, islandBegin + 2, 78u}) {

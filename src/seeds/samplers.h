@@ -1,0 +1,99 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "core/vec3.h"
+#include "mesh/dual_graph.h"
+#include "mesh/face_geometry.h"
+
+/// Samplers: selection of seeds, the faces that cast rays. A new sampler is a file with its function, and here the
+/// declaration of that function and a row of kSamplers.
+namespace asdfvk {
+
+/// The faces to select from. What it refers to must outlive it.
+struct SeedDomain {
+  const DualGraph& graph;
+  const FaceGeometry& geometry;
+  std::span<const uint32_t> candidates;  ///< Faces that can cast rays, ascending, each once.
+};
+
+/// The candidates that are not in `existing` (any order), ascending. Throws CheckFailure for an existing face that is
+/// not in the graph.
+[[nodiscard]] std::vector<uint32_t> remainingCandidates(const SeedDomain& domain, std::span<const uint32_t> existing);
+
+/// Selects exactly `count` of the candidates that are not in `existing`, or all of them. existing: faces selected
+/// before, in any order. Returns the new seeds, ascending: the same for the same input and randomSeed on any number of
+/// threads. A connected component may get no seed; some get none if there are fewer seeds than components.
+using SampleSeeds = std::vector<uint32_t>(const SeedDomain& domain, uint64_t count, std::span<const uint32_t> existing,
+                                          uint64_t randomSeed);
+
+/// The same with more seeds where the density is higher. density: #F, positive and finite, in any unit.
+using SampleSeedsByDensity = std::vector<uint32_t>(const SeedDomain& domain, std::span<const double> density,
+                                                   uint64_t count, std::span<const uint32_t> existing,
+                                                   uint64_t randomSeed);
+
+/// ASDF paper, section 4.2: every n-th face of a random permutation of the candidates. In the paper n is an integer;
+/// here seed i is entry floor(i * size / count) of the permutation, so that every count is possible.
+[[nodiscard]] SampleSeeds randomSeeds;
+/// The same for any set of faces, each listed once.
+[[nodiscard]] std::vector<uint32_t> randomPermutationSeeds(std::span<const uint32_t> candidates, uint64_t count,
+                                                           uint64_t randomSeed);
+
+/// Poisson-disk sampling of the dual graph in the distances of arcLengths(), see throwDarts(). The start radius is
+/// slightly larger than the estimated disk radius.
+///
+/// For some radius r no new seed is nearer than r to another seed, and no candidate of a component that has a seed is
+/// farther than (1 + 1/64) r from all seeds. The covering radius is therefore at most 2 (1 + 1/64) times the smallest
+/// that is possible with this number of seeds (Gonzalez, see farthestPointSeeds()).
+[[nodiscard]] SampleSeeds blueNoiseSeeds;
+
+/// Blue noise with arcs stretched by the square root of the density, so that the spacing is proportional to
+/// density^-1/2. On smooth meshes the number of seeds per face is proportional to the density within 10 to 20 % while
+/// at most a tenth of the faces are seeds; with more seeds the dense parts fill up.
+[[nodiscard]] SampleSeedsByDensity weightedBlueNoiseSeeds;
+
+/// Farthest-point sampling (Gonzalez, "Clustering to minimize the maximum intercluster distance", 1985) in the
+/// distances of arcLengths(). Each seed is, within a tolerance of 1/64, the candidate that is farthest from all seeds
+/// before it; the tolerance makes its search constant time (see throwDarts()). The covering radius is at most
+/// 2 (1 + 1/64) times the smallest. A component without a seed is infinitely far away. The first face and the choice
+/// between equal distances are random. Takes about log(count) times as long as blue noise.
+[[nodiscard]] SampleSeeds farthestPointSeeds;
+
+/// Normal-space sampling (Rusinkiewicz and Levoy, "Efficient variants of the ICP algorithm", 2001; future work of the
+/// ASDF paper): the same number of seeds from each bin of normals, existing ones counted, while the bin has candidates;
+/// random within a bin. Interpolates worse than a random selection.
+[[nodiscard]] SampleSeeds normalSpaceSeeds;
+
+/// Bins of directions: a grid of kBinsPerSide^2 on each side of a cube. Along the middle lines of a side a bin is 10
+/// degrees wide. Each axis is in the middle of a bin, so that rounding does not scatter an axis-aligned wall.
+inline constexpr uint32_t kBinsPerSide = 9;
+inline constexpr uint32_t kNormalBinCount = 6 * kBinsPerSide * kBinsPerSide;
+/// normal: unit. Returns less than kNormalBinCount.
+[[nodiscard]] uint32_t normalBinOf(const Vec3d& normal);
+
+struct Sampler {
+  const char* name;
+  SampleSeeds* sample;
+  /// Adaptive samplers only, else null: `sample` selects half of the seeds, and this the other half, denser where the
+  /// prediction from the first half has a large error indicator.
+  SampleSeedsByDensity* refine = nullptr;
+  /// All sets of candidates are equally likely, so that any of the seeds can be held out without bias.
+  bool isUniform = false;
+};
+
+inline constexpr auto kSamplers = std::to_array<Sampler>({
+    {.name = "random", .sample = randomSeeds, .isUniform = true},
+    {.name = "blue-noise", .sample = blueNoiseSeeds},
+    {.name = "farthest-point", .sample = farthestPointSeeds},
+    {.name = "normal-space", .sample = normalSpaceSeeds},
+    {.name = "adaptive", .sample = blueNoiseSeeds, .refine = weightedBlueNoiseSeeds},
+});
+
+/// Null for an unknown name.
+[[nodiscard]] const Sampler* findSampler(std::string_view name);
+
+}  // namespace asdfvk

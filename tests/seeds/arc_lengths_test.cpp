@@ -1,0 +1,102 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "mesh/dihedral.h"
+#include "seeds/surface.h"
+#include "seeds/surface_distances.h"
+
+using namespace asdfvk;
+
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+/// Two faces on the edge from (0, 0, 0) to (0, 1, 0), with upward normals when flat; the second is turned up by the
+/// angle, which makes the edge concave.
+Mesh book(double angleDegrees) {
+  const double angle = angleDegrees * kDegree;
+  Mesh mesh;
+  mesh.vertices = {{0, 0, 0}, {0, 1, 0}, {-1, 0.5, 0}, {std::cos(angle), 0.5, std::sin(angle)}};
+  mesh.faces = {{0, 1, 2}, {0, 3, 1}};
+  return mesh;
+}
+
+Mesh scaled(Mesh mesh, double scale) {
+  for (Vec3d& vertex : mesh.vertices) vertex = vertex * scale;
+  return mesh;
+}
+
+}  // namespace
+
+TEST_CASE("the dihedral angle is 0 when flat, positive when concave, negative when convex, from both sides") {
+  for (double degrees : {0.0, 0.001, 5.0, 10.0, 45.0, 90.0, 135.0, 179.0}) {
+    for (double sign : {1.0, -1.0}) {
+      CAPTURE(sign * degrees);
+      const Surface surface(book(sign * degrees));
+      REQUIRE(surface.geometry.normals[0].z == doctest::Approx(1));
+      CHECK(signedDihedralAngle(surface.geometry, 0, 1) / kDegree == doctest::Approx(sign * degrees).epsilon(1e-9));
+      CHECK(signedDihedralAngle(surface.geometry, 1, 0) / kDegree == doctest::Approx(sign * degrees).epsilon(1e-9));
+    }
+  }
+}
+
+TEST_CASE("an arc is 1 when flat, and sqrt 2 at 10 degrees concave and 20 convex, at any scale") {
+  const auto lengthAt = [](double degrees) {
+    const Surface surface(book(degrees));
+    const std::vector<float> lengths = arcLengths(surface.graph, surface.geometry);
+    REQUIRE(lengths.size() == 2);
+    CHECK(lengths[0] == lengths[1]);
+    for (double scale : {1e-12, 1e12}) {
+      const Surface other(scaled(book(degrees), scale));
+      for (float length : arcLengths(other.graph, other.geometry)) CHECK(length == doctest::Approx(lengths[0]));
+    }
+    return static_cast<double>(lengths[0]);
+  };
+  CHECK(lengthAt(0) == 1);
+  CHECK(lengthAt(10) == doctest::Approx(std::sqrt(2)));
+  CHECK(lengthAt(-20) == doctest::Approx(std::sqrt(2)));
+  CHECK(lengthAt(90) == doctest::Approx(std::sqrt(82)));
+  CHECK(lengthAt(-90) == doctest::Approx(std::sqrt(1 + 4.5 * 4.5)));
+}
+
+TEST_CASE("an arc to a degenerate face is 1, and every arc is within the limits") {
+  Mesh mesh = book(60);
+  mesh.vertices[3] = {0, 0.5, 0};
+  const Surface squeezed(mesh);
+  REQUIRE(squeezed.geometry.isDegenerate(1));
+  CHECK(arcLengths(squeezed.graph, squeezed.geometry) == std::vector<float>{1, 1});
+
+  const Surface folded(book(180));
+  const Surface point([] {
+    Mesh all = strip(4);
+    for (Vec3d& vertex : all.vertices) vertex = {1, 1, 1};
+    return all;
+  }());
+  for (const Surface* surface : {&folded, &point}) {
+    for (float arc : arcLengths(surface->graph, surface->geometry)) {
+      CHECK(arc >= kMinArcLength);
+      CHECK(arc <= kMaxArcLength);
+    }
+  }
+}
+
+TEST_CASE("coordinates whose squares overflow or underflow leave every arc finite and positive") {
+  for (double scale : {1e-300, 1e300}) {
+    const Surface surface(scaled(strip(5), scale));
+    for (float arc : arcLengths(surface.graph, surface.geometry)) CHECK((arc > 0 && arc <= kMaxArcLength));
+  }
+}
+
+TEST_CASE("on a cube the arcs across its edges are long and the others are 1") {
+  const Surface& cube = generatedSurface("cube", 1200);
+  const std::vector<float> lengths = arcLengths(cube.graph, cube.geometry);
+  const auto flat = std::count_if(lengths.begin(), lengths.end(), [](float arc) { return arc < 1.0001f; });
+  const auto edge = std::count_if(lengths.begin(), lengths.end(),
+                                  [](float arc) { return std::abs(arc - std::sqrt(1 + 4.5 * 4.5)) < 1e-4; });
+  CHECK(edge > 100);
+  CHECK(flat + edge == static_cast<std::ptrdiff_t>(lengths.size()));
+}
