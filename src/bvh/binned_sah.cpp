@@ -20,18 +20,18 @@ struct Bin {
 // Maps doubled centres to bins, per axis; an axis on which the centres coincide (or nearly, so that a float's range
 // does not hold the factor) has factor 0 and cannot be split.
 struct Binning {
-  Quad origin, factor{};
+  Float4 origin, factor{};
   uint32_t binCount = 0;
 
   Binning(const SplitBox& centres, uint32_t count) : origin(centres.lower), binCount(count) {
     // A little less than the bins, so that rounding takes no centre beyond the last of them.
     const float width = static_cast<float>(count) * (1 - 0x1p-20f);
-    const Quad extents = centres.extents();
+    const Float4 extents = centres.extents();
     for (size_t axis = 0; axis < 3; ++axis)
       if (const float f = width / extents[axis]; std::isfinite(f)) factor[axis] = f;
   }
-  [[nodiscard]] QuadIntegers binsOf(const SplitBox& box) const {
-    return __builtin_convertvector((box.doubledCentre() - origin) * factor, QuadIntegers);
+  [[nodiscard]] IntsOf<Float4> binsOf(const SplitBox& box) const {
+    return __builtin_convertvector((box.doubledCentre() - origin) * factor, IntsOf<Float4>);
   }
   // Between the number of its bin and the next one; outside of all bins for what was not among the centres.
   [[nodiscard]] float place(const SplitBox& box, size_t axis) const {
@@ -69,7 +69,7 @@ void takeBest(std::span<const Bin> bins, size_t axis, Candidate& best) {
 SplitBox boundCentres(std::span<const SplitTriangle> triangles, size_t stride) {
   SplitBox centres = SplitBox::empty();
   for (size_t i = 0; i < triangles.size(); i += stride) {
-    const Quad centre = triangles[i].box.doubledCentre();
+    const Float4 centre = triangles[i].box.doubledCentre();
     centres.grow({centre, -centre});
   }
   return centres;
@@ -100,7 +100,7 @@ size_t splitBySah(std::span<SplitTriangle> triangles, uint32_t binCount) {
   for (auto& axisBins : bins) std::fill_n(axisBins.begin(), binning.binCount, Bin{SplitBox::empty(), 0});
   for (size_t i = 0; i < triangles.size(); i += stride) {
     const SplitBox& box = triangles[i].box;
-    const QuadIntegers binIndices = binning.binsOf(box);
+    const IntsOf<Float4> binIndices = binning.binsOf(box);
     for (size_t axis = 0; axis < 3; ++axis) {
       Bin& bin = bins[axis][static_cast<uint32_t>(binIndices[axis])];
       bin.box.grow(box);
@@ -116,7 +116,7 @@ size_t splitBySah(std::span<SplitTriangle> triangles, uint32_t binCount) {
 }
 
 size_t splitAtMedian(std::span<SplitTriangle> triangles) {
-  const Quad extents = boundCentres(triangles, 1).extents();
+  const Float4 extents = boundCentres(triangles, 1).extents();
   size_t axis = 0;
   for (size_t other = 1; other < 3; ++other)
     if (extents[other] > extents[axis]) axis = other;

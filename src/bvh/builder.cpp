@@ -27,8 +27,8 @@ SplitBox outerBox(const TriangleMesh& mesh, const Face& face, const Normalizatio
   const Vec3d min = normalization.toNormalized({least(a.x, b.x, c.x), least(a.y, b.y, c.y), least(a.z, b.z, c.z)});
   const Vec3d max =
       normalization.toNormalized({greatest(a.x, b.x, c.x), greatest(a.y, b.y, c.y), greatest(a.z, b.z, c.z)});
-  const Quad lower = {roundedDown(min.x), roundedDown(min.y), roundedDown(min.z), 0};
-  const Quad negatedUpper = {roundedDown(-max.x), roundedDown(-max.y), roundedDown(-max.z), 0};
+  const Float4 lower = {roundedDown(min.x), roundedDown(min.y), roundedDown(min.z), 0};
+  const Float4 negatedUpper = {roundedDown(-max.x), roundedDown(-max.y), roundedDown(-max.z), 0};
   return {lower, negatedUpper};
 }
 

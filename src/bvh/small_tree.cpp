@@ -1,14 +1,59 @@
 #include "bvh/small_tree.h"
 
 #include <algorithm>
-#include <cstring>
 #include <limits>
 #include <utility>
 
 #include "core/check.h"
-#include "core/octet.h"
 
 namespace asdfvk {
+namespace {
+
+using Nearest = std::array<int32_t, kMaxSmallTreeCount>;
+
+// Clusters that are not part of another one.
+struct Clusters {
+  uint32_t count = 0;
+  std::array<uint8_t, kMaxSmallTreeCount> nodes;
+  std::array<std::array<float, kMaxSmallTreeCount>, 6> bounds{};  // As in SplitBox.
+
+  void add(uint32_t node, const SplitBox& box) {
+    nodes[count] = static_cast<uint8_t>(node);
+    for (size_t axis = 0; axis < 3; ++axis) {
+      bounds[axis][count] = box.lower[axis];
+      bounds[axis + 3][count] = box.negatedUpper[axis];
+    }
+    ++count;
+  }
+};
+
+// Of several that are as near, each takes the first pair of them in the order of (smaller index, greater index): so the
+// first of the nearest pairs is mutual.
+template <typename Floats>
+ASDFVK_ALWAYS_INLINE inline void findNearest(const Clusters& clusters, Nearest& nearest) {
+  using Ints = IntsOf<Floats>;
+  Ints lane;
+  for (size_t l = 0; l < kLaneCount<Floats>; ++l) lane[l] = static_cast<int32_t>(l);
+  for (size_t begin = 0; begin < clusters.count; begin += kLaneCount<Floats>) {
+    Floats own[6];
+    for (size_t k = 0; k < 6; ++k) own[k] = load<Floats>(&clusters.bounds[k][begin]);
+    Floats least = broadcast<Floats>(std::numeric_limits<float>::max());
+    Ints choice{};
+    for (size_t other = 0; other < clusters.count; ++other) {
+      Floats extents[3];
+      for (size_t axis = 0; axis < 3; ++axis)
+        extents[axis] = min(own[axis], broadcast<Floats>(clusters.bounds[axis][other])) +
+                        min(own[axis + 3], broadcast<Floats>(clusters.bounds[axis + 3][other]));
+      const Floats area = extents[0] * extents[1] + extents[1] * extents[2] + extents[2] * extents[0];
+      const Ints isNearer = (area < least) & (lane != static_cast<int32_t>(other - begin));
+      least = isNearer ? area : least;
+      choice = isNearer ? broadcast<Ints>(static_cast<int32_t>(other)) : choice;
+    }
+    store(&nearest[begin], choice);
+  }
+}
+
+}  // namespace
 
 SmallTree::SmallTree(std::span<const SplitTriangle> triangles, uint32_t maxLeafTriangleCount,
                      InstructionSet instructionSet)
@@ -23,11 +68,8 @@ SmallTree::SmallTree(std::span<const SplitTriangle> triangles, uint32_t maxLeafT
   }
   while (clusters.count > 2) {
     Nearest nearest;
-    if (instructionSet >= InstructionSet::Avx2) {
-      findNearestWithAvx2(clusters, nearest);
-    } else {
-      findNearest<Quad, QuadIntegers>(clusters, nearest);
-    }
+    dispatch<Float8>(instructionSet,
+                     [&]<typename Floats>() ASDFVK_ALWAYS_INLINE { findNearest<Floats>(clusters, nearest); });
     const uint32_t count = std::exchange(clusters.count, 0);
     for (uint32_t i = 0; i < count; ++i) {
       const auto other = static_cast<uint32_t>(nearest[i]);
@@ -39,52 +81,6 @@ SmallTree::SmallTree(std::span<const SplitTriangle> triangles, uint32_t maxLeafT
   }
   root_ = clusters.count == 1 ? clusters.nodes[0] : merge(clusters.nodes[0], clusters.nodes[1]);
 }
-
-void SmallTree::Clusters::add(uint32_t node, const SplitBox& box) {
-  nodes[count] = static_cast<uint8_t>(node);
-  for (size_t axis = 0; axis < 3; ++axis) {
-    bounds[axis][count] = box.lower[axis];
-    bounds[axis + 3][count] = box.negatedUpper[axis];
-  }
-  ++count;
-}
-
-// Of several that are as near, each takes the first pair of them in the order of (smaller index, greater index): so the
-// first of the nearest pairs is mutual.
-template <typename Floats, typename Integers>
-[[gnu::always_inline]] inline void SmallTree::findNearest(const Clusters& clusters, Nearest& nearest) {
-  constexpr size_t kWidth = sizeof(Floats) / sizeof(float);
-  Integers lane;
-  for (size_t l = 0; l < kWidth; ++l) lane[l] = static_cast<int32_t>(l);
-  for (size_t begin = 0; begin < clusters.count; begin += kWidth) {
-    Floats own[6];
-    for (size_t k = 0; k < 6; ++k) std::memcpy(&own[k], &clusters.bounds[k][begin], sizeof own[k]);
-    Floats least = Floats{} + std::numeric_limits<float>::max();
-    Integers choice{};
-    for (size_t other = 0; other < clusters.count; ++other) {
-      Floats extents[3];
-      for (size_t axis = 0; axis < 3; ++axis) {
-        const float lower = clusters.bounds[axis][other], negatedUpper = clusters.bounds[axis + 3][other];
-        extents[axis] = (own[axis] < lower ? own[axis] : Floats{} + lower) +
-                        (own[axis + 3] < negatedUpper ? own[axis + 3] : Floats{} + negatedUpper);
-      }
-      const Floats area = extents[0] * extents[1] + extents[1] * extents[2] + extents[2] * extents[0];
-      const Integers isNearer = (area < least) & (lane != static_cast<int32_t>(other - begin));
-      least = isNearer ? area : least;
-      choice = isNearer ? Integers{} + static_cast<int32_t>(other) : choice;
-    }
-    std::memcpy(&nearest[begin], &choice, sizeof choice);
-  }
-}
-
-#ifdef __x86_64__
-// The same operations, hence the same bits, in fewer instructions.
-[[gnu::target("avx2")]] void SmallTree::findNearestWithAvx2(const Clusters& clusters, Nearest& nearest) {
-  findNearest<Octet, OctetIntegers>(clusters, nearest);
-}
-#else
-void SmallTree::findNearestWithAvx2(const Clusters&, Nearest&) { ASDFVK_CHECK(false); }
-#endif
 
 uint32_t SmallTree::merge(uint32_t left, uint32_t right) {
   const Node &l = nodes_[left], &r = nodes_[right];

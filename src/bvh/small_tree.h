@@ -6,7 +6,7 @@
 
 #include "bvh/bvh.h"
 #include "bvh/split_box.h"
-#include "core/instruction_set.h"
+#include "core/simd.h"
 
 namespace asdfvk {
 
@@ -35,17 +35,6 @@ class SmallTree {
   [[nodiscard]] const Node& operator[](uint32_t node) const { return nodes_[node]; }
 
  private:
-  using Nearest = std::array<int32_t, kMaxSmallTreeCount>;
-  // Clusters that are not part of another one.
-  struct Clusters {
-    uint32_t count = 0;
-    std::array<uint8_t, kMaxSmallTreeCount> nodes;
-    std::array<std::array<float, kMaxSmallTreeCount>, 6> bounds{};  // As in SplitBox.
-    void add(uint32_t node, const SplitBox& box);
-  };
-  template <typename Floats, typename Integers>
-  static void findNearest(const Clusters& clusters, Nearest& nearest);
-  static void findNearestWithAvx2(const Clusters& clusters, Nearest& nearest);
   [[nodiscard]] uint32_t merge(uint32_t left, uint32_t right);
 
   uint32_t maxLeafTriangleCount_, root_ = 0, nodeEnd_;

@@ -6,28 +6,28 @@
 #include <limits>
 
 #include "bvh/bvh.h"
-#include "bvh/quad.h"
+#include "core/simd.h"
 
 namespace asdfvk {
 
 /// A box while the hierarchy is built: the upper bounds are held negated, so that growing it is two minimums.
 struct SplitBox {
-  Quad lower, negatedUpper;
+  Float4 lower, negatedUpper;
 
   [[nodiscard]] static SplitBox empty() {
-    const Quad nothing = Quad{} + std::numeric_limits<float>::infinity();
+    const Float4 nothing = broadcast<Float4>(std::numeric_limits<float>::infinity());
     return {nothing, nothing};
   }
   void grow(const SplitBox& other) {
-    lower = leastOf(other.lower, lower);
-    negatedUpper = leastOf(other.negatedUpper, negatedUpper);
+    lower = min(other.lower, lower);
+    negatedUpper = min(other.negatedUpper, negatedUpper);
   }
-  [[nodiscard]] Quad extents() const { return -(negatedUpper + lower); }
+  [[nodiscard]] Float4 extents() const { return -(negatedUpper + lower); }
   /// Twice the centre, so that nothing is rounded more than once.
-  [[nodiscard]] Quad doubledCentre() const { return lower - negatedUpper; }
+  [[nodiscard]] Float4 doubledCentre() const { return lower - negatedUpper; }
   [[nodiscard]] float doubledCentre(size_t axis) const { return lower[axis] - negatedUpper[axis]; }
   [[nodiscard]] float halfArea() const {
-    const Quad e = extents();
+    const Float4 e = extents();
     return e[0] * e[1] + e[1] * e[2] + e[2] * e[0];
   }
   [[nodiscard]] BvhNode toNode(uint32_t first, uint32_t triangleCount) const {

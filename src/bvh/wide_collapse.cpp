@@ -3,12 +3,11 @@
 #include <tbb/parallel_invoke.h>
 
 #include <algorithm>
-#include <cstring>
 #include <limits>
 
-#include "bvh/quad.h"
 #include "core/box3.h"
 #include "core/check.h"
+#include "core/simd.h"
 
 namespace asdfvk {
 namespace {
@@ -33,18 +32,16 @@ Sharing shareChildren(const std::array<float, kWideChildCount>& left, uint32_t m
   std::copy(right.begin(), right.end(), padded.begin() + kWideChildCount);
   Sharing sharing;
   for (size_t half = 0; half < kWideChildCount; half += 4) {
-    Quad least = Quad{} + kInfinity;
-    QuadIntegers leftCount{};
+    Float4 least = broadcast<Float4>(kInfinity);
+    IntsOf<Float4> leftCount{};
     for (uint32_t k = 1; k <= maxLeftCount; ++k) {
-      Quad cost;
-      std::memcpy(&cost, &padded[kWideChildCount + half - k], sizeof cost);
-      cost += left[k - 1];
-      const QuadIntegers isLess = cost < least;
+      const Float4 cost = load<Float4>(&padded[kWideChildCount + half - k]) + left[k - 1];
+      const IntsOf<Float4> isLess = cost < least;
       least = isLess ? cost : least;
-      leftCount = isLess ? QuadIntegers{} + static_cast<int32_t>(k) : leftCount;
+      leftCount = isLess ? broadcast<IntsOf<Float4>>(static_cast<int32_t>(k)) : leftCount;
     }
-    std::memcpy(&sharing.costs[half], &least, sizeof least);
-    std::memcpy(&sharing.leftCounts[half], &leftCount, sizeof leftCount);
+    store(&sharing.costs[half], least);
+    store(&sharing.leftCounts[half], leftCount);
   }
   return sharing;
 }

@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstring>
 
-#include "bvh/quad.h"
 #include "core/check.h"
+#include "core/simd.h"
 
 namespace asdfvk {
 namespace {
@@ -27,19 +26,14 @@ int exponentFor(double extent) {
 
 constexpr float kNone = -1e30f;
 
-Quad quadOf(const float* numbers) {
-  Quad quad;
-  std::memcpy(&quad, numbers, sizeof quad);
-  return quad;
-}
-
 // Of eight, where the last three bits of a number do not matter: the index travels in them.
-uint32_t indexOfGreatest(const Quad& low, const Quad& high) {
-  const QuadIntegers indices = {0, 1, 2, 3};
-  const auto tagged = [](const Quad& numbers, const QuadIntegers& tags) {
-    return std::bit_cast<Quad>((std::bit_cast<QuadIntegers>(numbers) & ~7) | tags);
+uint32_t indexOfMax(const Float4& low, const Float4& high) {
+  using Ints = IntsOf<Float4>;
+  const Ints indices = {0, 1, 2, 3};
+  const auto tagged = [](const Float4& numbers, const Ints& tags) {
+    return std::bit_cast<Float4>((std::bit_cast<Ints>(numbers) & ~7) | tags);
   };
-  const Quad greatest = greatestOf(tagged(low, indices), tagged(high, indices + 4));
+  const Float4 greatest = max(tagged(low, indices), tagged(high, indices + 4));
   return std::bit_cast<uint32_t>(std::max(std::max(float{greatest[0]}, float{greatest[1]}),
                                           std::max(float{greatest[2]}, float{greatest[3]}))) &
          7;
@@ -64,15 +58,15 @@ std::array<uint32_t, kWideChildCount> chooseSlots(std::span<const Box3f> childre
     const Vec3f& offset = offsets[child] = children[child].centre() - centre;
     distances[child] = std::abs(offset.x) + std::abs(offset.y) + std::abs(offset.z);
   }
-  const Quad xSigns = {-1, 1, -1, 1}, ySigns = {-1, -1, 1, 1};
+  const Float4 xSigns = {-1, 1, -1, 1}, ySigns = {-1, -1, 1, 1};
   std::array<uint32_t, kWideChildCount> slots{};
   std::array<float, kWideChildCount> penalties{};  // Of slots that are taken.
   for (size_t i = 0; i < children.size(); ++i) {
-    const uint32_t child = indexOfGreatest(quadOf(&distances[0]), quadOf(&distances[4]));
+    const uint32_t child = indexOfMax(load<Float4>(&distances[0]), load<Float4>(&distances[4]));
     distances[child] = kNone;
     const auto [x, y, z] = offsets[child];
-    const Quad along = x * xSigns + y * ySigns;
-    slots[child] = indexOfGreatest(along - z + quadOf(&penalties[0]), along + z + quadOf(&penalties[4]));
+    const Float4 along = x * xSigns + y * ySigns;
+    slots[child] = indexOfMax(along - z + load<Float4>(&penalties[0]), along + z + load<Float4>(&penalties[4]));
     penalties[slots[child]] = kNone;
   }
   return slots;

@@ -17,8 +17,8 @@ constexpr float kLeastShare = 0.08f;
 }  // namespace
 
 CellReprojection::CellReprojection(const ReprojectionTask& task)
-    : task_(task), kernel_(coneKernel()), points_(task.scene, task.cone, task.traced), cone_(task.cone, kernel_) {
-  reach_.turnFactor = 1 / (kNormalReachRadians * kNormalReachRadians);
+    : task_(task), points_(task.scene, task.cone, task.traced), kernel_(task.cone) {
+  weighting_.inverseAngleVariance = 1 / (kNormalReachRadians * kNormalReachRadians);
 }
 
 void CellReprojection::run(std::span<const uint32_t> cells, std::vector<double>& values) {
@@ -87,7 +87,7 @@ bool CellReprojection::takesEarlier(uint32_t cell, std::vector<double>& values) 
 void CellReprojection::lookAround(std::span<const uint32_t> asked) {
   const TraceScene& scene = task_.scene;
   askedCones_.clear();
-  seedGroups_.assign((asked.size() + kLaneCount - 1) / kLaneCount, {});
+  seedGroups_.assign((asked.size() + kPointGroupSize - 1) / kPointGroupSize, {});
   Vec3d centre;
   double sum = 0;
   for (size_t i = 0; i < asked.size(); ++i) {
@@ -95,8 +95,8 @@ void CellReprojection::lookAround(std::span<const uint32_t> asked) {
     const uint32_t face = task_.traced.seeds[asked[i]];
     const Vec3d origin = scene.bvh.normalization.toNormalized(scene.geometry.barycentres[face]);
     const Vec3d& normal = scene.geometry.normals[face];
-    SeedGroup& group = seedGroups_[i / kLaneCount];
-    const size_t lane = i % kLaneCount;
+    SeedGroup& group = seedGroups_[i / kPointGroupSize];
+    const size_t lane = i % kPointGroupSize;
     group.x[lane] = static_cast<float>(origin.x);
     group.y[lane] = static_cast<float>(origin.y);
     group.z[lane] = static_cast<float>(origin.z);
@@ -108,13 +108,14 @@ void CellReprojection::lookAround(std::span<const uint32_t> asked) {
   }
   const double halfMeanDistance = sum / static_cast<double>(2 * std::max<size_t>(1, asked.size() - 1));
   const double reach = task_.options.reach * halfMeanDistance;
-  reach_.inverseSquare = reach > 0 ? static_cast<float>(1 / (reach * reach)) : 0.0f;
+  weighting_.inverseVariance = reach > 0 ? static_cast<float>(1 / (reach * reach)) : 0.0f;
 }
 
 /// How much each seed asked counts.
 void CellReprojection::weigh(const VirtualCone& at) {
-  weights_.resize(seedGroups_.size() * kLaneCount);
-  for (size_t i = 0; i < seedGroups_.size(); ++i) kernel_.weigh(seedGroups_[i], reach_, at, &weights_[i * kLaneCount]);
+  weights_.resize(seedGroups_.size() * kPointGroupSize);
+  for (size_t i = 0; i < seedGroups_.size(); ++i)
+    kernel_.weigh(seedGroups_[i], weighting_, at, &weights_[i * kPointGroupSize]);
 }
 
 /// leastShare: of all weights, that a seed needs to be asked.
@@ -128,7 +129,7 @@ double CellReprojection::valueAt(const VirtualCone& at, float leastShare) {
     count += weights_[i] >= leastShare * sum ? 1 : 0;
   }
   weighed_.resize(count);
-  return cone_.value(points_.groups(), weighed_, at, askedCones_[0].typicalLength);
+  return kernel_.value(points_.groups(), weighed_, at, askedCones_[0].medianLength);
 }
 
 }  // namespace asdfvk

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "predict/reprojected_cone.h"
+#include "predict/prediction_kernel.h"
 #include "predict/reprojection.h"
 #include "predict/seed_points.h"
 
@@ -39,9 +39,8 @@ class CellReprojection {
   [[nodiscard]] double valueAt(const VirtualCone& at, float leastShare);
 
   const ReprojectionTask& task_;
-  const ConeKernel& kernel_;
   SeedPoints points_;
-  ReprojectedCone cone_;
+  PredictionKernel kernel_;
   struct Gathered {
     uint32_t seed = kNoCell;
     PointCone cone;
@@ -50,7 +49,7 @@ class CellReprojection {
   std::vector<PointCone> askedCones_;  // Of the cell at hand.
   std::vector<uint32_t> facesLeft_;    // Of the cell at hand.
   std::vector<SeedGroup> seedGroups_;  // Their seeds.
-  SeedReach reach_;
+  SeedWeighting weighting_;
   std::vector<float> weights_;
   std::vector<WeighedCone> weighed_;
 };

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/vec3.h"
-#include "predict/point_group.h"
+#include "predict/prediction_kernel.h"
 #include "predict/traced_cones.h"
 
 namespace asdfvk {

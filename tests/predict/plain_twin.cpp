@@ -32,16 +32,16 @@ std::vector<SeenHit> seenFrom(const Cone& cone, const std::vector<PointGroup>& g
     const double distance = length(way);
     const double cosine = -dot(way, at.normal) / distance;
     if (cosine < std::cos(cone.halfAngleRadians)) return;
-    const double change =
-        std::clamp(static_cast<double>(group.spread[lane]) / (distance * distance), 1 / kLargestChange, kLargestChange);
+    const double change = std::clamp(static_cast<double>(group.solidAngleRatio[lane]) / (distance * distance),
+                                     1 / kLargestChange, kLargestChange);
     seen.push_back({.length = distance,
                     .mass = static_cast<double>(weight) * change,
                     .angle = std::max(leastAngle, std::acos(std::min(1.0, cosine))),
-                    .isKeptBySeed = group.kept[lane] == 1});
+                    .isKeptBySeed = group.isInlier[lane] == 1});
   };
   for (const WeighedCone& weighed : cones)
     for (uint32_t i = 0; i < weighed.groupCount; ++i)
-      for (size_t lane = 0; lane < kLaneCount; ++lane) look(groups[weighed.firstGroup + i], lane, weighed.weight);
+      for (size_t lane = 0; lane < kPointGroupSize; ++lane) look(groups[weighed.firstGroup + i], lane, weighed.weight);
   std::sort(seen.begin(), seen.end(), [](const SeenHit& a, const SeenHit& b) { return a.length < b.length; });
   return seen;
 }

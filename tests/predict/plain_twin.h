@@ -3,18 +3,18 @@
 #include <span>
 #include <vector>
 
-#include "predict/reprojected_cone.h"
+#include "predict/prediction_kernel.h"
 
 namespace asdfvk::test {
 
 /// What a virtual cone's value may be: with the exact weighted median, and with any that is as near to it as
-/// ReprojectedCone comes.
+/// PredictionKernel comes.
 struct TwinValue {
   double exact = 0;
   std::vector<double> admissible;  ///< `exact` among them.
 };
 
-/// ReprojectedCone::value() in double precision, ray by ray, with the exact arc cosine and a sorted median. Empty
+/// PredictionKernel::value() in double precision, ray by ray, with the exact arc cosine and a sorted median. Empty
 /// `admissible` and NaN where no point lies in the cone.
 [[nodiscard]] TwinValue plainTwin(const Cone& cone, const std::vector<PointGroup>& groups,
                                   std::span<const WeighedCone> cones, const VirtualCone& at);

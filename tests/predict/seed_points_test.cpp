@@ -1,5 +1,4 @@
 #include "predict/seed_points.h"
-#include "core/lanes.h"
 
 #include <doctest/doctest.h>
 
@@ -46,20 +45,20 @@ void checkGathered(const SeededMesh& seeded) {
   const size_t rayCount = seeded.cone.directions.size();
   for (uint32_t seed = 0; seed < seeded.seeds.size(); ++seed) {
     const PointCone cone = points.gather(seed);
-    CHECK(cone.groupCount == (rayCount + kLaneCount - 1) / kLaneCount);
+    CHECK(cone.groupCount == (rayCount + kPointGroupSize - 1) / kPointGroupSize);
     REQUIRE(points.groups().size() == cone.firstGroup + cone.groupCount);
     const Vec3d& seedNormal = seeded.geometry.normals[seeded.seeds[seed]];
     std::vector<double> lengths;
     std::vector<float> keptAt;
-    for (size_t ray = 0; ray < cone.groupCount * kLaneCount; ++ray) {
-      const PointGroup& group = points.groups()[cone.firstGroup + ray / kLaneCount];
-      const size_t at = ray % kLaneCount;
+    for (size_t ray = 0; ray < cone.groupCount * kPointGroupSize; ++ray) {
+      const PointGroup& group = points.groups()[cone.firstGroup + ray / kPointGroupSize];
+      const size_t at = ray % kPointGroupSize;
       if (ray >= rayCount || seeded.hits[seed * rayCount + ray].face == kNoFace) {
         CHECK(std::isnan(group.x[at]));
         CHECK(std::isnan(group.y[at]));
         CHECK(std::isnan(group.z[at]));
-        CHECK(group.kept[at] == 0);
-        CHECK(group.spread[at] == 0);
+        CHECK(group.isInlier[at] == 0);
+        CHECK(group.solidAngleRatio[at] == 0);
         CHECK(group.face[at] == kNoFace);
         continue;
       }
@@ -72,19 +71,19 @@ void checkGathered(const SeededMesh& seeded) {
       CHECK(std::abs(dot(point - corner, seeded.geometry.normals[hit.face])) < 2e-6);
       const Vec3d way = point - seeded.bvh.normalization.toNormalized(seeded.geometry.barycentres[seeded.seeds[seed]]);
       CHECK(length(way) == doctest::Approx(hit.distance).epsilon(1e-5));
-      CHECK(group.spread[at] == doctest::Approx(dot(way, way)).epsilon(1e-4));
+      CHECK(group.solidAngleRatio[at] == doctest::Approx(dot(way, way)).epsilon(1e-4));
       if (isFalseHit(seeded.cone, seedNormal, seeded.geometry.normals[hit.face])) {
-        CHECK(group.kept[at] == 0);
+        CHECK(group.isInlier[at] == 0);
       } else {
-        keptAt.push_back(group.kept[at]);
+        keptAt.push_back(group.isInlier[at]);
         lengths.push_back(static_cast<double>(hit.distance));
       }
     }
     const std::vector<bool> kept = keptByTheRule(lengths, seeded.cone.outlierDeviations);
     for (size_t i = 0; i < kept.size(); ++i) CHECK(keptAt[i] == (kept[i] ? 1.0f : 0.0f));
-    if (lengths.empty()) CHECK(cone.typicalLength == 0);
+    if (lengths.empty()) CHECK(cone.medianLength == 0);
     std::sort(lengths.begin(), lengths.end());
-    if (lengths.size() % 2 == 1) CHECK(cone.typicalLength == static_cast<float>(lengths[lengths.size() / 2]));
+    if (lengths.size() % 2 == 1) CHECK(cone.medianLength == static_cast<float>(lengths[lengths.size() / 2]));
   }
 }
 

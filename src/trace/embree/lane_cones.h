@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "cone/cone.h"
-#include "core/instruction_set.h"
+#include "core/simd.h"
 #include "trace/embree/slot_planes.h"
 
 namespace asdfvk {
@@ -53,10 +53,8 @@ class LaneCones {
   [[nodiscard]] std::array<double, kWidth> values();
 
  private:
-  void measureInLanes(const LaneFrames& frames, std::span<const LaneHits> hits);
-  void measureWithAvx2(const LaneFrames& frames, std::span<const LaneHits> hits);
-  void evaluateInLanes(std::array<double, kWidth>& values);
-  void evaluateWithAvx2(std::array<double, kWidth>& values);
+  void computeLengths(const LaneFrames& frames, std::span<const LaneHits> hits);
+  void computeValues(std::array<double, kWidth>& values);
   void sort();
 
   const Cone& cone_;

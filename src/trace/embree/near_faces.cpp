@@ -1,32 +1,33 @@
 #include "trace/embree/near_faces.h"
 
+#include <bit>
 #include <cmath>
-#include <cstring>
 
 #include "core/check.h"
-#include "core/octet.h"
 
 namespace asdfvk {
 namespace {
 
+constexpr size_t kPointCount = kLaneCount<Float8>;
+
 /// One walk of the hierarchy for all points: neighbours meet mostly the same nodes.
 class NeighbourWalk {
  public:
-  [[gnu::always_inline]] NeighbourWalk(const TraceScene& scene, std::span<const SlotPlane> planes,
-                                       std::span<const SlotPoint> points, double radius)
+  ASDFVK_ALWAYS_INLINE NeighbourWalk(const TraceScene& scene, std::span<const SlotPlane> planes,
+                                     std::span<const SlotPoint> points, double radius)
       : scene_(scene), planes_(planes), points_(points), radius_(radius) {
-    ASDFVK_CHECK_OP(points.size(), <=, kOctetSize);
+    ASDFVK_CHECK_OP(points.size(), <=, kPointCount);
     // float32 moves the points; the boxes hold the triangles as doubles too.
     const double reach = radius + 0x1p-23;
     for (size_t axis = 0; axis < 3; ++axis)
-      for (size_t lane = 0; lane < kOctetSize; ++lane) {
+      for (size_t lane = 0; lane < kPointCount; ++lane) {
         const double centre = lane < points.size() ? points[lane].point[axis] : 4;  // Outside of every box.
         low_[axis][lane] = static_cast<float>(centre - reach);
         high_[axis][lane] = static_cast<float>(centre + reach);
       }
   }
 
-  [[gnu::always_inline]] std::array<bool, kOctetSize> run() {
+  ASDFVK_ALWAYS_INLINE std::array<bool, kPointCount> run() {
     const std::span<const BvhNode> nodes = scene_.bvh.nodes;
     std::array<uint32_t, kMaxBvhDepth + 1> stack;
     size_t stackSize = 0;
@@ -38,7 +39,7 @@ class NeighbourWalk {
         continue;
       }
       for (const uint32_t child : {node.first, node.first + 1})
-        if (isAnyIn(nodes[child])) {
+        if (overlapsAny(nodes[child])) {
           stack[stackSize++] = child;
           if (!nodes[child].isLeaf()) {
             __builtin_prefetch(&nodes[nodes[child].first]);
@@ -52,22 +53,19 @@ class NeighbourWalk {
   }
 
  private:
-  [[gnu::always_inline]] void overlap(OctetIntegers& isIn, const BvhNode& node) const {
-    isIn = (low_[0] <= node.max.x) & (low_[1] <= node.max.y) & (low_[2] <= node.max.z) & (high_[0] >= node.min.x) &
+  /// The mask of the points whose boxes overlap that of the node.
+  [[nodiscard]] ASDFVK_ALWAYS_INLINE IntsOf<Float8> overlaps(const BvhNode& node) const {
+    return (low_[0] <= node.max.x) & (low_[1] <= node.max.y) & (low_[2] <= node.max.z) & (high_[0] >= node.min.x) &
            (high_[1] >= node.min.y) & (high_[2] >= node.min.z);
   }
 
-  [[nodiscard, gnu::always_inline]] bool isAnyIn(const BvhNode& node) const {
-    OctetIntegers mask;
-    overlap(mask, node);
-    uint64_t words[kOctetSize / 2];
-    std::memcpy(words, &mask, sizeof mask);
+  [[nodiscard]] ASDFVK_ALWAYS_INLINE bool overlapsAny(const BvhNode& node) const {
+    const auto words = std::bit_cast<std::array<uint64_t, 4>>(overlaps(node));
     return (words[0] | words[1] | words[2] | words[3]) != 0;
   }
 
-  [[gnu::always_inline]] void testLeaf(const BvhNode& leaf) {
-    OctetIntegers isIn;
-    overlap(isIn, leaf);
+  ASDFVK_ALWAYS_INLINE void testLeaf(const BvhNode& leaf) {
+    const IntsOf<Float8> isIn = overlaps(leaf);
     for (size_t lane = 0; lane < points_.size(); ++lane) {
       if (isIn[lane] == 0 || isFound_[lane]) continue;
       for (uint32_t slot = leaf.first; slot < leaf.first + leaf.triangleCount; ++slot)
@@ -93,31 +91,18 @@ class NeighbourWalk {
   std::span<const SlotPlane> planes_;
   std::span<const SlotPoint> points_;
   double radius_;
-  std::array<Octet, 3> low_{}, high_{};  // The boxes around the points.
-  std::array<bool, kOctetSize> isFound_{};
+  std::array<Float8, 3> low_{}, high_{};  // The boxes around the points.
+  std::array<bool, kPointCount> isFound_{};
 };
-
-#ifdef __x86_64__
-[[gnu::target("avx2")]] std::array<bool, kOctetSize> walkWithAvx2(const TraceScene& scene,
-                                                                  std::span<const SlotPlane> planes,
-                                                                  std::span<const SlotPoint> points, double radius) {
-  return NeighbourWalk(scene, planes, points, radius).run();
-}
-#else
-std::array<bool, kOctetSize> walkWithAvx2(const TraceScene&, std::span<const SlotPlane>, std::span<const SlotPoint>,
-                                          double) {
-  ASDFVK_CHECK(false);
-  return {};
-}
-#endif
 
 }  // namespace
 
 std::array<bool, 8> haveNeighboursWithin(const TraceScene& scene, std::span<const SlotPlane> planes,
                                          std::span<const SlotPoint> points, double radius,
                                          InstructionSet instructionSet) {
-  return instructionSet >= InstructionSet::Avx2 ? walkWithAvx2(scene, planes, points, radius)
-                                                : NeighbourWalk(scene, planes, points, radius).run();
+  return dispatch<Float8>(instructionSet, [&]<typename>() ASDFVK_ALWAYS_INLINE {
+    return NeighbourWalk(scene, planes, points, radius).run();
+  });
 }
 
 }  // namespace asdfvk

@@ -3,7 +3,7 @@
 #include <array>
 #include <span>
 
-#include "core/instruction_set.h"
+#include "core/simd.h"
 #include "trace/cone_tracer.h"
 #include "trace/embree/slot_planes.h"
 

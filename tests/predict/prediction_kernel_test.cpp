@@ -1,4 +1,4 @@
-#include "predict/reprojected_cone.h"
+#include "predict/prediction_kernel.h"
 
 #include <doctest/doctest.h>
 
@@ -24,14 +24,14 @@ namespace {
 struct Gathering {
   std::vector<PointGroup> groups;
   std::vector<WeighedCone> cones;
-  float typicalLength = 0;  ///< Of the first cone.
+  float medianLength = 0;  ///< Of the first cone.
 
   Gathering(const SeededMesh& seeded, const std::vector<uint32_t>& seeds) {
     const TraceScene scene = seeded.scene();
     SeedPoints points(scene, seeded.cone, seeded.traced());
     for (const uint32_t seed : seeds) {
       const PointCone cone = points.gather(seed);
-      if (cones.empty()) typicalLength = cone.typicalLength;
+      if (cones.empty()) medianLength = cone.medianLength;
       cones.push_back({cone.firstGroup, cone.groupCount, 1});
     }
     groups = points.groups();
@@ -46,11 +46,11 @@ struct Gathering {
   void change(const Change& change) {
     for (size_t cone = 0; cone < cones.size(); ++cone)
       for (uint32_t i = 0; i < cones[cone].groupCount; ++i)
-        for (size_t lane = 0; lane < kLaneCount; ++lane) change(groups[cones[cone].firstGroup + i], lane, cone);
+        for (size_t lane = 0; lane < kPointGroupSize; ++lane) change(groups[cones[cone].firstGroup + i], lane, cone);
   }
 
-  [[nodiscard]] double value(ReprojectedCone& cone, const VirtualCone& at) const {
-    return cone.value(groups, cones, at, typicalLength);
+  [[nodiscard]] double value(PredictionKernel& kernel, const VirtualCone& at) const {
+    return kernel.value(groups, cones, at, medianLength);
   }
 };
 
@@ -76,8 +76,8 @@ void scramble(Gathering& gathering, Random& random) {
     group.nx[lane] = static_cast<float>(normal.x);
     group.ny[lane] = static_cast<float>(normal.y);
     group.nz[lane] = static_cast<float>(normal.z);
-    group.spread[lane] = static_cast<float>(0.05 + 4 * random.real());
-    group.kept[lane] = random.index(3) == 0 ? 0.0f : 1.0f;
+    group.solidAngleRatio[lane] = static_cast<float>(0.05 + 4 * random.real());
+    group.isInlier[lane] = random.index(3) == 0 ? 0.0f : 1.0f;
     group.face[lane] = random.index(50);
   });
 }
@@ -114,12 +114,13 @@ TEST_CASE("random hits give what a plain double-precision twin gives") {
         ConeOptions{.rayCount = 64, .openingAngleDegrees = 60, .falseHitAngleDegrees = 30}}) {
     const SeededMesh seeded(makeSphere(180).mesh, 7, options);
     Gathering gathering(seeded, firstCones(7));
-    ReprojectedCone cone(seeded.cone);
+    PredictionKernel kernel(seeded.cone);
     for (int round = 0; round < 200; ++round) {
       scramble(gathering, random);
       gathering.weigh(random, 1e-6);
       const VirtualCone at{0.5 * randomUnit(random), randomUnit(random), random.index(50)};
-      agreement.compare(gathering.value(cone, at), test::plainTwin(seeded.cone, gathering.groups, gathering.cones, at));
+      agreement.compare(gathering.value(kernel, at),
+                        test::plainTwin(seeded.cone, gathering.groups, gathering.cones, at));
     }
   }
   CHECK(agreement.count > 550);
@@ -131,13 +132,13 @@ TEST_CASE("real hits give what a plain double-precision twin gives") {
   Agreement agreement;
   const SeededMesh seeded(makeHand(3000).mesh, 60);
   const SeedCells cells = seeded.cells();
-  ReprojectedCone cone(seeded.cone);
+  PredictionKernel kernel(seeded.cone);
   const NearestCells nearest(cells, seeded.graph, seeded.geometry, seeded.seeds, 6);
   for (uint32_t cell = 0; cell < 60; ++cell) {
     Gathering gathering(seeded, {nearest.of(cell).begin(), nearest.of(cell).end()});
     gathering.weigh(random, 0.01);
     for (const uint32_t face : cells.faces[cell].first(std::min<size_t>(10, cells.faces[cell].size())))
-      agreement.compare(gathering.value(cone, coneOf(seeded, face)),
+      agreement.compare(gathering.value(kernel, coneOf(seeded, face)),
                         test::plainTwin(seeded.cone, gathering.groups, gathering.cones, coneOf(seeded, face)));
   }
   CHECK(agreement.count > 400);
@@ -147,13 +148,14 @@ TEST_CASE("real hits give what a plain double-precision twin gives") {
 TEST_CASE("a seed seen from itself keeps about its own value") {
   // Every ray stands for its own solid angle then; only the median of an even count is another one.
   const SeededMesh seeded(makeAnimal(2500).mesh, 200);
-  ReprojectedCone cone(seeded.cone);
+  PredictionKernel kernel(seeded.cone);
   size_t farCount = 0;
   double sum = 0;
   for (uint32_t i = 0; i < seeded.seeds.size(); ++i) {
     Gathering gathering(seeded, {i});
     gathering.cones[0].weight = 0.3f;
-    const double value = seeded.bvh.normalization.toMeshLength(gathering.value(cone, coneOf(seeded, seeded.seeds[i])));
+    const double value =
+        seeded.bvh.normalization.toMeshLength(gathering.value(kernel, coneOf(seeded, seeded.seeds[i])));
     const double off = std::abs(value - seeded.values[i]) / seeded.values[i];
     farCount += off > 1e-3;
     sum += off;
@@ -173,16 +175,16 @@ TEST_CASE("cones of more weight have more of a say") {
     group.z[lane] = cone == 0 ? -0.5f : -0.7f;
     group.nx[lane] = group.ny[lane] = 0;
     group.nz[lane] = -1;
-    group.spread[lane] = 0.3f;
-    group.kept[lane] = 1;
+    group.solidAngleRatio[lane] = 0.3f;
+    group.isInlier[lane] = 1;
     group.face[lane] = 1;
   });
-  ReprojectedCone cone(seeded.cone);
+  PredictionKernel kernel(seeded.cone);
   const VirtualCone at{{0, 0, 0}, {0, 0, 1}, 0};
   double last = 1;
   for (const float weight : {0.1f, 0.5f, 1.0f, 2.0f, 10.0f}) {
     gathering.cones[0].weight = weight;
-    const double value = gathering.value(cone, at);
+    const double value = gathering.value(kernel, at);
     CHECK(value < last);
     CHECK(value > 0.5);
     last = value;
@@ -192,17 +194,17 @@ TEST_CASE("cones of more weight have more of a say") {
 TEST_CASE("points on the face itself, points behind it and points that look its way do not count") {
   const SeededMesh seeded(makeSphere(180).mesh, 1);
   Gathering gathering(seeded, {0});
-  ReprojectedCone cone(seeded.cone);
+  PredictionKernel kernel(seeded.cone);
   const VirtualCone at{{0, 0, 0}, {0, 0, 1}, 5};
   const auto valueWith = [&](float z, float nz, uint32_t face) {
     gathering.change([&](PointGroup& group, size_t lane, size_t) {
       group.x[lane] = group.y[lane] = group.nx[lane] = group.ny[lane] = 0;
       group.z[lane] = z;
       group.nz[lane] = nz;
-      group.spread[lane] = group.kept[lane] = 1;
+      group.solidAngleRatio[lane] = group.isInlier[lane] = 1;
       group.face[lane] = face;
     });
-    return gathering.value(cone, at);
+    return gathering.value(kernel, at);
   };
   CHECK(valueWith(-0.5f, -1, 6) == doctest::Approx(0.5));
   CHECK(std::isnan(valueWith(-0.5f, -1, 5)));
@@ -217,23 +219,23 @@ TEST_CASE("rays that met nothing change nothing") {
   both.change([&](PointGroup& group, size_t lane, size_t cone) {
     if (cone == 1) group.x[lane] = group.y[lane] = group.z[lane] = std::numeric_limits<float>::quiet_NaN();
   });
-  ReprojectedCone cone(seeded.cone);
+  PredictionKernel kernel(seeded.cone);
   for (Gathering* gathering : {&both, &first}) gathering->cones[0].weight = 0.5f;
   const VirtualCone at = coneOf(seeded, seeded.seeds[0]);
-  const double value = both.value(cone, at);
+  const double value = both.value(kernel, at);
   CHECK(std::isfinite(value));
-  CHECK(value == first.value(cone, at));
+  CHECK(value == first.value(kernel, at));
 }
 
 TEST_CASE("what an expected length is taken from does not matter") {
   const SeededMesh seeded(makeAnimal(2500).mesh, 40);
-  ReprojectedCone cone(seeded.cone);
+  PredictionKernel kernel(seeded.cone);
   for (uint32_t i = 0; i + 2 < 40; ++i) {
     Gathering gathering(seeded, {i, i + 1, i + 2});
     const VirtualCone at = coneOf(seeded, seeded.seeds[i]);
-    const double expected = gathering.value(cone, at);
-    gathering.typicalLength *= 0.5f;
-    const double value = gathering.value(cone, at);
+    const double expected = gathering.value(kernel, at);
+    gathering.medianLength *= 0.5f;
+    const double value = gathering.value(kernel, at);
     CHECK(std::isnan(value) == std::isnan(expected));
     if (!std::isnan(value)) CHECK(value == doctest::Approx(expected).epsilon(0.02));
   }
@@ -241,10 +243,10 @@ TEST_CASE("what an expected length is taken from does not matter") {
 
 TEST_CASE("a narrow cone, all of whose lengths are about the same, has their value") {
   const SeededMesh seeded(makeSphere(2000).mesh, 20, {.openingAngleDegrees = 0.1});
-  ReprojectedCone cone(seeded.cone);
+  PredictionKernel kernel(seeded.cone);
   for (uint32_t i = 0; i < 20; ++i) {
     const Gathering gathering(seeded, {i});
-    CHECK(seeded.bvh.normalization.toMeshLength(gathering.value(cone, coneOf(seeded, seeded.seeds[i]))) ==
+    CHECK(seeded.bvh.normalization.toMeshLength(gathering.value(kernel, coneOf(seeded, seeded.seeds[i]))) ==
           doctest::Approx(seeded.values[i]).epsilon(1e-3));
   }
 }
@@ -253,7 +255,7 @@ TEST_CASE("seeds weigh as their distance and the turn of their normal say") {
   Random random(14);
   SeedGroup seeds;
   std::vector<Vec3d> positions, normals;
-  for (size_t lane = 0; lane < kLaneCount; ++lane) {
+  for (size_t lane = 0; lane < kPointGroupSize; ++lane) {
     positions.push_back(0.3 * randomUnit(random));
     normals.push_back(lane == 0 ? Vec3d{0, 0, 1} : randomUnit(random));
     seeds.x[lane] = static_cast<float>(positions[lane].x);
@@ -268,9 +270,10 @@ TEST_CASE("seeds weigh as their distance and the turn of their normal say") {
     for (const InstructionSet instructionSet :
          {InstructionSet::Baseline, InstructionSet::Avx2, InstructionSet::Avx512}) {
       if (!hasInstructionSet(instructionSet)) continue;
-      float weights[kLaneCount];
-      coneKernel(instructionSet).weigh(seeds, {static_cast<float>(1 / (reach * reach)), 4}, at, weights);
-      for (size_t lane = 0; lane < kLaneCount; ++lane) {
+      float weights[kPointGroupSize];
+      PredictionKernel(makeCone({}), instructionSet)
+          .weigh(seeds, {static_cast<float>(1 / (reach * reach)), 4}, at, weights);
+      for (size_t lane = 0; lane < kPointGroupSize; ++lane) {
         const double distance = length(positions[lane] - at.origin) / reach;
         const double turn = 2 * std::acos(std::clamp(dot(normals[lane], at.normal), -1.0, 1.0));
         const double exact = std::exp(-0.5 * (distance * distance + turn * turn));
@@ -289,8 +292,7 @@ TEST_CASE("wide instructions and the baseline give the same bits") {
       MESSAGE("skipped: this machine lacks wide instructions");
       continue;
     }
-    ReprojectedCone wide(seeded.cone, coneKernel(instructionSet)),
-        baseline(seeded.cone, coneKernel(InstructionSet::Baseline));
+    PredictionKernel wide(seeded.cone, instructionSet), baseline(seeded.cone, InstructionSet::Baseline);
     size_t valueCount = 0;
     for (int round = 0; round < 500; ++round) {
       scramble(gathering, random);
@@ -304,11 +306,11 @@ TEST_CASE("wide instructions and the baseline give the same bits") {
     for (int round = 0; round < 500; ++round) {
       SeedGroup seeds;
       for (float* numbers : {seeds.x, seeds.y, seeds.z, seeds.nx, seeds.ny, seeds.nz})
-        for (size_t lane = 0; lane < kLaneCount; ++lane) numbers[lane] = static_cast<float>(2 * random.real() - 1);
+        for (size_t lane = 0; lane < kPointGroupSize; ++lane) numbers[lane] = static_cast<float>(2 * random.real() - 1);
       const VirtualCone at{0.5 * randomUnit(random), randomUnit(random), 0};
-      float a[kLaneCount], b[kLaneCount];
-      coneKernel(instructionSet).weigh(seeds, {9, 4}, at, a);
-      coneKernel(InstructionSet::Baseline).weigh(seeds, {9, 4}, at, b);
+      float a[kPointGroupSize], b[kPointGroupSize];
+      wide.weigh(seeds, {9, 4}, at, a);
+      baseline.weigh(seeds, {9, 4}, at, b);
       CHECK(std::memcmp(a, b, sizeof a) == 0);
     }
   }

@@ -1,0 +1,167 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <type_traits>
+
+/// Vectors of numbers, by the vector extensions of GCC and Clang, and code compiled for several instruction sets.
+///
+/// Operators work on each number of a vector and round as the scalar operators do: results have the same bits on every
+/// instruction set. Compilers split a vector that is wider than the registers.
+///
+/// Code for several instruction sets is called through dispatch(). All its functions that take or return vectors are
+/// always inlined, so that they are compiled for the instruction set of their caller and need no calling convention.
+/// They are defined above their callers: GCC ignores the attribute of a definition below.
+#define ASDFVK_ALWAYS_INLINE __attribute__((always_inline))
+
+namespace asdfvk {
+
+using Float4 = float __attribute__((vector_size(16)));
+using Float8 = float __attribute__((vector_size(32)));
+using Float16 = float __attribute__((vector_size(64)));
+using Double4 = double __attribute__((vector_size(32)));
+
+/// The vector of as many signed integers of the same size. As a mask: -1 for true, 0 for false.
+template <typename V>
+using IntsOf = decltype(V{} == V{});
+
+template <typename V>
+using NumberOf = std::remove_cvref_t<decltype(V{}[0])>;
+
+/// How many numbers a vector holds.
+template <typename V>
+inline constexpr size_t kLaneCount = sizeof(V) / sizeof(NumberOf<V>);
+
+/// Reads kLaneCount<V> numbers, at any alignment.
+template <typename V, typename Number>
+[[nodiscard]] ASDFVK_ALWAYS_INLINE inline V load(const Number* numbers) {
+  static_assert(sizeof(Number) == sizeof(NumberOf<V>));
+  V vector;
+  std::memcpy(&vector, numbers, sizeof vector);
+  return vector;
+}
+
+template <typename V>
+ASDFVK_ALWAYS_INLINE inline void store(NumberOf<V>* numbers, const V& vector) {
+  std::memcpy(numbers, &vector, sizeof vector);
+}
+
+/// The same number in every lane.
+template <typename V>
+[[nodiscard]] ASDFVK_ALWAYS_INLINE inline V broadcast(NumberOf<V> number) {
+  return number - V{};
+}
+
+/// The smaller numbers; those of b where the two are equal or one of them is NaN.
+template <typename V>
+[[nodiscard]] ASDFVK_ALWAYS_INLINE inline V min(const V& a, const V& b) {
+  return a < b ? a : b;
+}
+
+/// The greater numbers; those of b where the two are equal or one of them is NaN.
+template <typename V>
+[[nodiscard]] ASDFVK_ALWAYS_INLINE inline V max(const V& a, const V& b) {
+  return a > b ? a : b;
+}
+
+/// The mask where a <= b. For vectors of any size, as are notEqual() and select(): GCC 12 compiles the operators for
+/// masks of 64 bytes number by number.
+template <typename V>
+[[nodiscard]] ASDFVK_ALWAYS_INLINE inline IntsOf<V> lessEqual(const V& a, const V& b) {
+  if constexpr (sizeof(V) < 64)
+    return a <= b;
+  else
+    return reinterpret_cast<IntsOf<V>>(a <= b ? reinterpret_cast<V>(IntsOf<V>{} - 1) : V{});
+}
+
+template <typename V>
+[[nodiscard]] ASDFVK_ALWAYS_INLINE inline IntsOf<V> notEqual(const V& a, const V& b) {
+  if constexpr (sizeof(V) < 64)
+    return a != b;
+  else
+    return reinterpret_cast<IntsOf<V>>(a != b ? reinterpret_cast<V>(IntsOf<V>{} - 1) : V{});
+}
+
+/// The numbers of a where the mask is true, 0 elsewhere.
+template <typename V>
+[[nodiscard]] ASDFVK_ALWAYS_INLINE inline V select(const IntsOf<V>& mask, const V& a) {
+  return reinterpret_cast<V>(mask & reinterpret_cast<IntsOf<V>>(a));
+}
+
+/// 1 / sqrt(x) to a relative error of 1e-3 for positive x: half the exponent by integer arithmetic, then one Newton
+/// step with constants that balance its error. A large number for 0.
+template <typename Floats>
+[[nodiscard]] ASDFVK_ALWAYS_INLINE inline Floats approximateRsqrt(const Floats& x) {
+  const auto bits = 0x5f376a40 - (reinterpret_cast<IntsOf<Floats>>(x) >> 1);
+  const Floats y = reinterpret_cast<Floats>(bits);
+  return y * (1.500881f - 0.5f * x * y * y);
+}
+
+/// approximateRsqrt() to a relative error of 1e-6, by a second Newton step.
+template <typename Floats>
+[[nodiscard]] ASDFVK_ALWAYS_INLINE inline Floats rsqrt(const Floats& x) {
+  const Floats y = approximateRsqrt(x);
+  return y * (1.5000006f - 0.5f * x * y * y);
+}
+
+/// exp(-x) to a relative error of 1e-4, for x from 0 to 80.
+template <typename Floats>
+[[nodiscard]] ASDFVK_ALWAYS_INLINE inline Floats expNegative(const Floats& x) {
+  const Floats exponent = 127.0f - x * 1.44269504f;  // Biased, so positive: truncation rounds down.
+  const auto whole = __builtin_convertvector(exponent, IntsOf<Floats>);
+  const Floats rest = exponent - __builtin_convertvector(whole, Floats);
+  const Floats powerOfRest = 0.99992522f + rest * (0.695833507f + rest * (0.226067254f + rest * 0.0780244537f));
+  return powerOfRest * reinterpret_cast<Floats>(whole << 23);
+}
+
+/// The instruction sets that dispatch() chooses from. A machine that has one has those before it.
+enum class InstructionSet {
+  Baseline,  ///< The one that the program is compiled for.
+  Avx2,
+  Avx512,
+};
+
+/// Whether this machine has the instruction set.
+[[nodiscard]] inline bool hasInstructionSet(InstructionSet instructionSet) {
+  if (instructionSet == InstructionSet::Baseline) return true;
+#ifdef __x86_64__
+  static const bool hasAvx2 = __builtin_cpu_supports("avx2"), hasAvx512 = __builtin_cpu_supports("avx512f");
+  return hasAvx2 && (instructionSet == InstructionSet::Avx2 || hasAvx512);
+#else
+  return false;
+#endif
+}
+
+/// The widest instruction set of this machine.
+[[nodiscard]] inline InstructionSet widestInstructionSet() {
+  for (const InstructionSet wide : {InstructionSet::Avx512, InstructionSet::Avx2})
+    if (hasInstructionSet(wide)) return wide;
+  return InstructionSet::Baseline;
+}
+
+#ifdef __x86_64__
+template <typename Code>
+[[gnu::target("avx2")]] auto runWithAvx2(const Code& code) {
+  return code.template operator()<Float8>();
+}
+template <typename Code>
+[[gnu::target("avx512f")]] auto runWithAvx512(const Code& code) {
+  return code.template operator()<Float16>();
+}
+#endif
+
+/// Runs `code`, compiled for the instruction set, and returns what it returns: a lambda
+/// `[&]<typename Floats>() ASDFVK_ALWAYS_INLINE { ... }`, where Floats is the vector of floats that fills a register,
+/// at most Widest (Float8 or Float16). Precondition: this machine has the instruction set.
+template <typename Widest, typename Code>
+auto dispatch(InstructionSet instructionSet, const Code& code) {
+#ifdef __x86_64__
+  if constexpr (sizeof(Widest) == sizeof(Float16))
+    if (instructionSet == InstructionSet::Avx512) return runWithAvx512(code);
+  if (instructionSet >= InstructionSet::Avx2) return runWithAvx2(code);
+#endif
+  return code.template operator()<Float4>();
+}
+
+}  // namespace asdfvk

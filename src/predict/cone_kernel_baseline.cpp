@@ -1,7 +1,0 @@
-#include "predict/cone_kernel_lanes.h"
-
-namespace asdfvk {
-
-const ConeKernel& baselineConeKernel() { return kKernelInLanes; }
-
-}  // namespace asdfvk

@@ -1,0 +1,267 @@
+#include "predict/prediction_kernel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "shared/cone_rules.h"
+
+namespace asdfvk {
+namespace {
+
+// The rounding error of a cosine in float32: a cone narrower than this contains its own rays.
+constexpr double kCosineSlack = 2e-6;
+
+// A ray represents the surface around its hit, which fills another solid angle when seen from the virtual cone. Where
+// the two solid angles differ by more than this factor, the point is close to one of the origins and far from the
+// other, and the surface around it is not a disc.
+constexpr float kMaxSolidAngleChange = 4;
+
+// The share of a length's weight that depends on the outlier rule for all lengths pooled; the rest depends on the rule
+// for the seed's own cone. The pooled rule is less noisy; the other has the noise of a traced cone.
+constexpr float kPooledShare = 0.75f;
+
+// The median is bisected twice between mean - deviation and mean + deviation, which contain it, to a quarter of the
+// interval each time. Within the last interval lengths are taken as evenly distributed.
+constexpr int kMedianPassCount = 2;
+
+struct FloatVec3 {
+  float x, y, z;
+};
+ASDFVK_ALWAYS_INLINE inline FloatVec3 toFloat(const Vec3d& v) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+}
+
+/// Sums of kPointGroupSize numbers side by side. The total has the same bits for any vector width: numbers eight places
+/// apart are added first, then four, two and one.
+template <typename Floats>
+class GroupSum {
+ public:
+  /// place: of the first of `numbers` within its group.
+  ASDFVK_ALWAYS_INLINE void add(size_t place, const Floats& numbers) { parts_[place / kLaneCount<Floats>] += numbers; }
+
+  [[nodiscard]] ASDFVK_ALWAYS_INLINE float total() const {
+    const Float4 four = sumOfFours();
+    const Float4 two = four + __builtin_shufflevector(four, four, 2, 3, 2, 3);
+    return two[0] + two[1];
+  }
+
+ private:
+  [[nodiscard]] ASDFVK_ALWAYS_INLINE Float4 sumOfFours() const {
+    if constexpr (sizeof(Floats) == sizeof(Float16))
+      return sumOfHalves(__builtin_shufflevector(parts_[0], parts_[0], 0, 1, 2, 3, 4, 5, 6, 7) +
+                         __builtin_shufflevector(parts_[0], parts_[0], 8, 9, 10, 11, 12, 13, 14, 15));
+    else if constexpr (sizeof(Floats) == sizeof(Float8))
+      return sumOfHalves(parts_[0] + parts_[1]);
+    else
+      return (parts_[0] + parts_[2]) + (parts_[1] + parts_[3]);
+  }
+  [[nodiscard]] ASDFVK_ALWAYS_INLINE static Float4 sumOfHalves(const Float8& eight) {
+    return __builtin_shufflevector(eight, eight, 0, 1, 2, 3) + __builtin_shufflevector(eight, eight, 4, 5, 6, 7);
+  }
+
+  Floats parts_[kPointGroupSize / kLaneCount<Floats>] = {};
+};
+
+/// The traced cones of a prediction. buffer: 3 kPointGroupSize floats for each of their groups.
+struct KernelInput {
+  const PointGroup* groups;
+  std::span<const WeighedCone> cones;
+  float medianLength;
+  float* buffer;
+};
+
+/// Sums over the points in a virtual cone.
+template <typename Floats>
+struct ConeSums {
+  GroupSum<Floats> mass, difference, square;  ///< difference: mass times (length - median length); square: of that.
+  GroupSum<Floats> weight, weightedLength;    ///< Of the inliers.
+};
+
+/// The points of the traced cones, `count` entries in each array; 0 where a point is not in the virtual cone.
+struct ConePoints {
+  float* lengths;  ///< From the virtual cone's origin.
+  float* masses;   ///< The solid angle that the point represents there, times the weight of its traced cone.
+  float* weights;  ///< Mass divided by the angle to the axis.
+  size_t count;
+};
+
+/// sqrt(x) / arccos(1 - x) for 0 <= x <= 1, to a relative error of 3e-4.
+template <typename Floats>
+ASDFVK_ALWAYS_INLINE inline Floats sqrtOverAngle(const Floats& x) {
+  return 0.706948624f - x * (0.0564995318f + x * 0.0136869098f);
+}
+
+template <typename Floats>
+ASDFVK_ALWAYS_INLINE inline void project(const PredictionKernel::Rules& rules, const KernelInput& input,
+                                         const VirtualCone& at, ConePoints& points, ConeSums<Floats>& sums) {
+  using Ints = IntsOf<Floats>;
+  const FloatVec3 origin = toFloat(at.origin), normal = toFloat(at.normal);
+  const Ints ownFace = broadcast<Ints>(static_cast<int32_t>(at.face));
+  const Floats minChange = broadcast<Floats>(1 / kMaxSolidAngleChange),
+               maxChange = broadcast<Floats>(kMaxSolidAngleChange);
+  const Floats minVersine = broadcast<Floats>(rules.minVersine), minCosine = broadcast<Floats>(rules.minCosine),
+               maxNormalCosine = broadcast<Floats>(rules.maxNormalCosine);
+  for (const WeighedCone& cone : input.cones) {
+    const PointGroup* const begin = input.groups + cone.firstGroup;
+    const float coneWeight = cone.weight;
+    for (const PointGroup* group = begin; group < begin + cone.groupCount; ++group) {
+#pragma GCC unroll 4
+      for (size_t i = 0; i < kPointGroupSize; i += kLaneCount<Floats>) {
+        const Floats x = load<Floats>(group->x + i) - origin.x, y = load<Floats>(group->y + i) - origin.y,
+                     z = load<Floats>(group->z + i) - origin.z;
+        const Floats inverse = rsqrt(x * x + y * y + z * z);
+        const Floats length = (x * x + y * y + z * z) * inverse;
+        const Floats cosine = (x * -normal.x + y * -normal.y + z * -normal.z) * inverse;
+        const Floats normalCosine = load<Floats>(group->nx + i) * normal.x + load<Floats>(group->ny + i) * normal.y +
+                                    load<Floats>(group->nz + i) * normal.z;
+        const Floats change =
+            min(max(load<Floats>(group->solidAngleRatio + i) * (inverse * inverse), minChange), maxChange);
+        const Floats versine = max(1 - cosine, minVersine);
+        // False for a miss, whose numbers are NaN.
+        const Ints isInCone = lessEqual(minCosine, cosine) & lessEqual(normalCosine, maxNormalCosine) &
+                              notEqual(load<Ints>(group->face + i), ownFace);
+        const Floats mass = select(isInCone, coneWeight * change), lengthInCone = select(isInCone, length);
+        const Floats weight = mass * (approximateRsqrt(versine) * sqrtOverAngle(versine));
+        store(points.lengths + points.count + i, lengthInCone);
+        store(points.masses + points.count + i, mass);
+        store(points.weights + points.count + i, weight);
+        const Floats difference = lengthInCone - input.medianLength, massDifference = mass * difference;
+        sums.mass.add(i, mass);
+        sums.difference.add(i, massDifference);
+        sums.square.add(i, massDifference * difference);
+        const Floats inlierWeight = weight * load<Floats>(group->isInlier + i);
+        sums.weight.add(i, inlierWeight);
+        sums.weightedLength.add(i, inlierWeight * lengthInCone);
+      }
+      points.count += kPointGroupSize;
+    }
+  }
+}
+
+/// The median is between two lengths; massToLow and massToHigh: the mass of the points up to each of them.
+struct MedianBounds {
+  float low, high, massToLow, massToHigh;
+};
+
+/// The quarter of the interval where the mass reaches `halfMass`.
+template <typename Floats>
+ASDFVK_ALWAYS_INLINE inline MedianBounds quarterOf(const ConePoints& points, const MedianBounds& bounds,
+                                                   float halfMass) {
+  const float quarter = 0.25f * (bounds.high - bounds.low);
+  const Floats first = broadcast<Floats>(bounds.low + quarter), second = broadcast<Floats>(bounds.low + 2 * quarter),
+               third = broadcast<Floats>(bounds.low + 3 * quarter);
+  GroupSum<Floats> toFirst, toSecond, toThird;
+  for (size_t group = 0; group < points.count; group += kPointGroupSize) {
+#pragma GCC unroll 4
+    for (size_t i = 0; i < kPointGroupSize; i += kLaneCount<Floats>) {
+      const Floats length = load<Floats>(points.lengths + group + i), mass = load<Floats>(points.masses + group + i);
+      toFirst.add(i, select(lessEqual(length, first), mass));
+      toSecond.add(i, select(lessEqual(length, second), mass));
+      toThird.add(i, select(lessEqual(length, third), mass));
+    }
+  }
+  const float masses[3] = {toFirst.total(), toSecond.total(), toThird.total()};
+  MedianBounds result = bounds;
+  for (int i = 0; i < 3; ++i) {
+    const float length = bounds.low + static_cast<float>(i + 1) * quarter;
+    if (masses[i] >= halfMass) {
+      result.high = length;
+      result.massToHigh = masses[i];
+      break;
+    }
+    result.low = length;
+    result.massToLow = masses[i];
+  }
+  return result;
+}
+
+template <typename Floats>
+ASDFVK_ALWAYS_INLINE inline float medianBetween(const ConePoints& points, MedianBounds bounds) {
+  const float halfMass = 0.5f * bounds.massToHigh;
+  for (int pass = 0; pass < kMedianPassCount; ++pass) bounds = quarterOf<Floats>(points, bounds, halfMass);
+  const float between = bounds.massToHigh - bounds.massToLow;
+  const float share = between > 0 ? (halfMass - bounds.massToLow) / between : 0.5f;
+  return bounds.low + share * (bounds.high - bounds.low);
+}
+
+template <typename Floats>
+ASDFVK_ALWAYS_INLINE inline float predictedValue(const PredictionKernel::Rules& rules, const KernelInput& input,
+                                                 const VirtualCone& at) {
+  size_t capacity = 0;
+  for (const WeighedCone& cone : input.cones) capacity += cone.groupCount * kPointGroupSize;
+  ConePoints points{input.buffer, input.buffer + capacity, input.buffer + 2 * capacity, 0};
+  ConeSums<Floats> sums;
+  project(rules, input, at, points, sums);
+  const float mass = sums.mass.total();
+  if (!(mass > 0)) return std::numeric_limits<float>::quiet_NaN();
+  const float meanDifference = sums.difference.total() / mass,
+              variance = sums.square.total() / mass - meanDifference * meanDifference;
+  const float mean = input.medianLength + meanDifference, deviation = variance > 0 ? std::sqrt(variance) : 0.0f;
+  const float median = medianBetween<Floats>(points, {mean - deviation, mean + deviation, 0, mass});
+  const float bound = rules.outlierDeviations * deviation + kOutlierSlack * median;
+  const Floats low = broadcast<Floats>(median - bound), high = broadcast<Floats>(median + bound);
+  GroupSum<Floats> pooledWeight, pooledLength;
+  for (size_t group = 0; group < points.count; group += kPointGroupSize) {
+#pragma GCC unroll 4
+    for (size_t i = 0; i < kPointGroupSize; i += kLaneCount<Floats>) {
+      const Floats length = load<Floats>(points.lengths + group + i);
+      const Floats weight =
+          select(lessEqual(low, length) & lessEqual(length, high), load<Floats>(points.weights + group + i));
+      pooledWeight.add(i, weight);
+      pooledLength.add(i, weight * length);
+    }
+  }
+  const float weight = kPooledShare * pooledWeight.total() + (1 - kPooledShare) * sums.weight.total();
+  const float sum = kPooledShare * pooledLength.total() + (1 - kPooledShare) * sums.weightedLength.total();
+  // No length is kept where rounding left a deviation of almost 0; then all lengths are almost equal.
+  return weight > 0 ? sum / weight : mean;
+}
+
+template <typename Floats>
+ASDFVK_ALWAYS_INLINE inline void weighSeeds(const SeedGroup& seeds, const SeedWeighting& weighting,
+                                            const VirtualCone& at, float* weights) {
+  const FloatVec3 origin = toFloat(at.origin), normal = toFloat(at.normal);
+#pragma GCC unroll 4
+  for (size_t i = 0; i < kPointGroupSize; i += kLaneCount<Floats>) {
+    const Floats x = load<Floats>(seeds.x + i) - origin.x, y = load<Floats>(seeds.y + i) - origin.y,
+                 z = load<Floats>(seeds.z + i) - origin.z;
+    const Floats cosine = load<Floats>(seeds.nx + i) * normal.x + load<Floats>(seeds.ny + i) * normal.y +
+                          load<Floats>(seeds.nz + i) * normal.z;
+    const Floats u = max(1 - cosine, Floats{});
+    // Series of the square of arccos(1 - u), 0.3 % off at 90 degrees; beyond, weights are almost 0.
+    const Floats angleSquare = u * (2 + u * (1.0f / 3 + u * (4.0f / 45 + u * (1.0f / 35 + u * (16.0f / 1575)))));
+    const Floats exponent =
+        0.5f * ((x * x + y * y + z * z) * weighting.inverseVariance + angleSquare * weighting.inverseAngleVariance);
+    store(weights + i, max(expNegative(min(exponent, broadcast<Floats>(80.0f))), broadcast<Floats>(kMinSeedWeight)));
+  }
+}
+
+}  // namespace
+
+PredictionKernel::PredictionKernel(const Cone& cone, InstructionSet instructionSet) : instructionSet_(instructionSet) {
+  const double minAngle = 1 / *std::max_element(cone.weights.begin(), cone.weights.end());
+  rules_.minCosine = static_cast<float>(std::cos(cone.halfAngleRadians) - kCosineSlack);
+  rules_.maxNormalCosine = static_cast<float>(cone.falseHitCosine);
+  rules_.minVersine = static_cast<float>(2 * std::pow(std::sin(minAngle / 2), 2));
+  rules_.outlierDeviations = static_cast<float>(cone.outlierDeviations);
+}
+
+double PredictionKernel::value(const std::vector<PointGroup>& groups, std::span<const WeighedCone> cones,
+                               const VirtualCone& at, float medianLength) {
+  size_t groupCount = 0;
+  for (const WeighedCone& cone : cones) groupCount += cone.groupCount;
+  buffer_.resize(std::max(buffer_.size(), 3 * kPointGroupSize * groupCount));
+  const KernelInput input{groups.data(), cones, medianLength, buffer_.data()};
+  return static_cast<double>(dispatch<Float16>(instructionSet_, [&]<typename Floats>() ASDFVK_ALWAYS_INLINE {
+    return predictedValue<Floats>(rules_, input, at);
+  }));
+}
+
+void PredictionKernel::weigh(const SeedGroup& seeds, const SeedWeighting& weighting, const VirtualCone& at,
+                             float* weights) const {
+  dispatch<Float16>(instructionSet_,
+                    [&]<typename Floats>() ASDFVK_ALWAYS_INLINE { weighSeeds<Floats>(seeds, weighting, at, weights); });
+}
+
+}  // namespace asdfvk

@@ -1,0 +1,89 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "cone/cone.h"
+#include "core/simd.h"
+#include "core/vec3.h"
+
+namespace asdfvk {
+
+/// Points and seeds are processed in groups of this size, which is that of the widest vector.
+inline constexpr size_t kPointGroupSize = kLaneCount<Float16>;
+
+/// Hit points of rays, in normalised units. All arrays have one entry per point.
+struct alignas(64) PointGroup {
+  float x[kPointGroupSize], y[kPointGroupSize], z[kPointGroupSize];     ///< NaN for a miss and for padding.
+  float nx[kPointGroupSize], ny[kPointGroupSize], nz[kPointGroupSize];  ///< The unit normal of the face hit.
+  /// The area that the ray represents at the point, divided by the solid angle of a ray.
+  float solidAngleRatio[kPointGroupSize];
+  float isInlier[kPointGroupSize];  ///< 1 where the outlier rule of the seed's own cone keeps the ray, else 0.
+  uint32_t face[kPointGroupSize];   ///< The face hit.
+};
+
+/// The points of one traced cone: a range of groups.
+struct PointCone {
+  uint32_t firstGroup = 0, groupCount = 0;
+  float medianLength = 0;  ///< Of its valid rays; 0 without any.
+};
+
+/// A traced cone that contributes to a prediction.
+struct WeighedCone {
+  uint32_t firstGroup = 0, groupCount = 0;
+  float weight = 0;  ///< Factor of its points' weights, above 0.
+};
+
+/// The cone of a face that casts no rays, in normalised units.
+struct VirtualCone {
+  Vec3d origin, normal;
+  uint32_t face = 0;  ///< The face or the representative of its copies; points on it are ignored.
+};
+
+/// Seeds around a face, in normalised units. All arrays have one entry per seed.
+struct SeedGroup {
+  float x[kPointGroupSize] = {}, y[kPointGroupSize] = {}, z[kPointGroupSize] = {};     ///< Barycentres.
+  float nx[kPointGroupSize] = {}, ny[kPointGroupSize] = {}, nz[kPointGroupSize] = {};  ///< Unit normals.
+};
+
+/// The weight of a seed is a Gaussian of its distance and of the angle between its normal and the face's.
+struct SeedWeighting {
+  float inverseVariance = 0;       ///< 1 / square of the standard deviation of the distance.
+  float inverseAngleVariance = 0;  ///< 1 / square of the standard deviation of the angle in radians.
+};
+
+/// The lower bound of a seed's weight: a single seed, however far, is better than none.
+inline constexpr float kMinSeedWeight = 1e-6f;
+
+/// Predicts the values of virtual cones from the points of traced cones. Results have the same bits on every
+/// instruction set. Keeps its buffers from call to call.
+class PredictionKernel {
+ public:
+  /// Precondition: this machine has the instruction set.
+  explicit PredictionKernel(const Cone& cone, InstructionSet instructionSet = widestInstructionSet());
+
+  /// The shape diameter in normalised units, kNoValue where no point lies in the virtual cone. cones: ranges of
+  /// `groups`. medianLength: of the points, to a factor of a few; lengths are summed as differences from it.
+  [[nodiscard]] double value(const std::vector<PointGroup>& groups, std::span<const WeighedCone> cones,
+                             const VirtualCone& at, float medianLength);
+
+  /// weights: kPointGroupSize, each at least kMinSeedWeight.
+  void weigh(const SeedGroup& seeds, const SeedWeighting& weighting, const VirtualCone& at, float* weights) const;
+
+  /// The rules of the cone, in float32.
+  struct Rules {
+    float minCosine = 0;        ///< Between the axis and the direction to a point in the cone.
+    float maxNormalCosine = 0;  ///< Between the normals of the face and of the face hit.
+    float minVersine = 0;       ///< 1 - cosine; points nearer to the axis have the weight of points there.
+    float outlierDeviations = 0;
+  };
+
+ private:
+  InstructionSet instructionSet_;
+  Rules rules_;
+  std::vector<float> buffer_;
+};
+
+}  // namespace asdfvk
