@@ -1,64 +1,54 @@
-// What the recipes are worth over many meshes: errors against the full function and against one of many rays, the
-// estimate of the error against the error, and what it costs. Constants were tuned on meshes at odd places of the list
-// (sorted by name, models/ before psb/off); the summary therefore tells both halves apart.
+// How accurate are the recipes over many meshes? Errors against the full function and against one of many rays, the
+// estimated error over the actual one, and the cost. The constants of the recipes were tuned on the meshes at odd
+// places of the list (sorted by name, models/ before psb/off); therefore the summary separates odd and even places.
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
-#include "bench_program.h"
-#include "cli/terminal.h"
-#include "file_run.h"
 #include "io/mesh_reader.h"
-#include "share_errors.h"
+#include "support/computation.h"
+#include "support/program.h"
 
 namespace {
 
 using namespace asdfvk;
+using namespace asdfvk::bench;
 
 constexpr std::array<double, 3> kEstimatedPercents{5, 10, 20};
 
-/// All errors over the range.
+/// Average errors over the range of the reference. Full: the function of 30 rays at every face, fixed cones. Truth:
+/// many rays at every face, hashed cones. Floor: the error of the full function against the truth.
 struct MeshRow {
   std::string name;
   uint64_t faceCount = 0;
-  double paper = 0, balanced = 0, quality = 0;  ///< At 10 %, against the full function of fixed cones.
-  double balancedTruth = 0, qualityTruth = 0;   ///< At 10 %, against many rays, over the full function's own.
-  double qualityTruthAt40 = 0;                  ///< At 40 %, likewise.
-  std::array<double, kEstimatedPercents.size()> estimate{};  ///< Balanced, over the real error.
-  double boundedError = 0;                                   ///< Balanced, --max-error 1%.
-  double boundedShare = 0;                                   ///< Of the faces, that took.
-  double iterations = 0;                                     ///< Of balanced over paper's, at 10 %.
-  double overTrace = 0;  ///< Sample, predict and solve over trace, balanced at 10 %.
+  double paper = 0, balanced = 0, quality = 0;               ///< At 10 %, against the full function.
+  double balancedTruth = 0, qualityTruth = 0;                ///< At 10 %, against the truth, over the floor.
+  double qualityTruthAt40 = 0;                               ///< At 40 %, likewise.
+  std::array<double, kEstimatedPercents.size()> estimate{};  ///< Balanced: estimated over actual error.
+  double boundedError = 0;                                   ///< Balanced, --max-error 1%: actual error.
+  double boundedShare = 0;                                   ///< Likewise: share of the faces that are seeds.
+  double iterations = 0;                                     ///< Solver iterations, balanced over paper, at 10 %.
+  double overTrace = 0;  ///< Time of sample, predict and solve over that of trace, balanced at 10 %.
 };
-
-Options optionsOf(Recipe recipe, double percent) {
-  Options options;
-  applyRecipe(recipe, options);
-  options.seeds = {SeedCount::Kind::Share, percent / 100, 0};
-  if (percent == 100) options.seeds.kind = SeedCount::Kind::All;
-  return options;
-}
 
 MeshRow measure(Session& session, const std::string& path, uint32_t truthRayCount, const RunControl& control) {
   MeshRow row;
   row.name = path.substr(path.rfind('/') + 1);
   Mesh mesh = readMesh(path);
   const auto compute = [&](const Options& options) { return session.compute(mesh, options, control); };
-  const Result full = compute(optionsOf(Recipe::Paper, 100));
-  Options many = optionsOf(Recipe::Paper, 100);
-  many.cone.rayCount = truthRayCount;
-  many.cone.rotation = ConeRotation::Hashed;
-  const Result truth = compute(many);
-  const auto error = [&](const Result& result) { return bench::errorsOverRange(full.sdf, result.sdf).average; };
-  const auto truthError = [&](const Result& result) { return bench::errorsOverRange(truth.sdf, result.sdf).average; };
+  const Result full = compute(recipeOptions(Recipe::Paper, 100));
+  const Result truth = compute(truthOptions(truthRayCount));
+  const auto error = [&](const Result& result) { return errorsOverRange(full.sdf, result.sdf).average; };
+  const auto truthError = [&](const Result& result) { return errorsOverRange(truth.sdf, result.sdf).average; };
   const double floor = truthError(full);
 
   row.faceCount = full.report.faceCount;
-  const Result paper = compute(optionsOf(Recipe::Paper, 10));
+  const Result paper = compute(recipeOptions(Recipe::Paper, 10));
   row.paper = error(paper);
   for (size_t i = 0; i < kEstimatedPercents.size(); ++i) {
-    const Result balanced = compute(optionsOf(Recipe::Balanced, kEstimatedPercents[i]));
+    const Result balanced = compute(recipeOptions(Recipe::Balanced, kEstimatedPercents[i]));
     if (balanced.report.estimatedError) row.estimate[i] = balanced.report.estimatedError->average / error(balanced);
     if (kEstimatedPercents[i] != 10) continue;
     row.balanced = error(balanced);
@@ -68,11 +58,11 @@ MeshRow measure(Session& session, const std::string& path, uint32_t truthRayCoun
     const StageSeconds& seconds = balanced.report.stageSeconds;
     row.overTrace = (seconds.sample + seconds.predict + seconds.solve) / seconds.trace;
   }
-  const Result quality = compute(optionsOf(Recipe::Quality, 10));
+  const Result quality = compute(recipeOptions(Recipe::Quality, 10));
   row.quality = error(quality);
   row.qualityTruth = truthError(quality) / floor;
-  row.qualityTruthAt40 = truthError(compute(optionsOf(Recipe::Quality, 40))) / floor;
-  Options bounded = optionsOf(Recipe::Balanced, 2);
+  row.qualityTruthAt40 = truthError(compute(recipeOptions(Recipe::Quality, 40))) / floor;
+  Options bounded = recipeOptions(Recipe::Balanced, 2);
   bounded.rounds.maxError = 0.01;
   const Result boundedResult = compute(bounded);
   row.boundedError = error(boundedResult);
@@ -87,60 +77,65 @@ std::vector<double> valuesOf(const std::vector<MeshRow>& rows, const Value& valu
   return values;
 }
 
-double mean(const std::vector<double>& values) {
+std::vector<double> valuesOf(const std::vector<MeshRow>& rows, double MeshRow::*member) {
+  return valuesOf(rows, [member](const MeshRow& row) { return row.*member; });
+}
+
+double meanOf(const std::vector<double>& values) {
   double sum = 0;
   for (const double value : values) sum += value;
   return sum / static_cast<double>(values.size());
 }
 
-double geometricMean(std::vector<double> values) {
+double geometricMeanOf(std::vector<double> values) {
   for (double& value : values) value = std::log(value);
-  return std::exp(mean(values));
+  return std::exp(meanOf(values));
 }
 
-double greatest(const std::vector<double>& values) { return *std::max_element(values.begin(), values.end()); }
+double maximumOf(const std::vector<double>& values) { return *std::max_element(values.begin(), values.end()); }
 
-double shareWithin(const std::vector<double>& values, double low, double high) {
-  return static_cast<double>(
-             std::count_if(values.begin(), values.end(), [&](double v) { return v >= low && v <= high; })) /
-         static_cast<double>(values.size());
+/// "mean 0.912, maximum 1.034"
+std::string meanAndMaximum(const std::vector<double>& values, int decimals) {
+  return fmt::format("mean {:.{}f}, maximum {:.{}f}", meanOf(values), decimals, maximumOf(values), decimals);
+}
+
+double percentWithin(const std::vector<double>& values, double low, double high) {
+  const auto count = std::count_if(values.begin(), values.end(), [&](double v) { return v >= low && v <= high; });
+  return 100 * static_cast<double>(count) / static_cast<double>(values.size());
 }
 
 std::string summaryOf(const char* title, const std::vector<MeshRow>& rows) {
   if (rows.empty()) return {};
   const auto ratios = valuesOf(rows, [](const MeshRow& row) { return row.balanced / row.paper; });
-  const auto truth = valuesOf(rows, [](const MeshRow& row) { return row.qualityTruth; });
-  const auto truthAt40 = valuesOf(rows, [](const MeshRow& row) { return row.qualityTruthAt40; });
-  const auto bounded = valuesOf(rows, [](const MeshRow& row) { return row.boundedError; });
-  const auto iterations = valuesOf(rows, [](const MeshRow& row) { return row.iterations; });
-  const auto overTrace = valuesOf(rows, [](const MeshRow& row) { return row.overTrace; });
+  const std::vector<double> bounded = valuesOf(rows, &MeshRow::boundedError);
   std::string text = fmt::format("\n{} ({} meshes)\n", title, rows.size());
-  text += fmt::format("  balanced / paper, error at 10 %: geometric mean {:.3f}, greatest {:.3f}\n",
-                      geometricMean(ratios), greatest(ratios));
-  text += fmt::format(
-      "  quality, error against many rays / the full function's own: mean {:.3f} at 10 % (greatest {:.3f}), "
-      "{:.3f} at 40 % (greatest {:.3f}); balanced at 10 %: mean {:.3f}\n",
-      mean(truth), greatest(truth), mean(truthAt40), greatest(truthAt40),
-      mean(valuesOf(rows, [](const MeshRow& row) { return row.balancedTruth; })));
+  text += fmt::format("  error at 10 %, balanced / paper: geometric mean {:.3f}, maximum {:.3f}\n",
+                      geometricMeanOf(ratios), maximumOf(ratios));
+  text +=
+      fmt::format("  error against the truth / floor: quality at 10 % {}; quality at 40 % {}; balanced at 10 % {}\n",
+                  meanAndMaximum(valuesOf(rows, &MeshRow::qualityTruth), 3),
+                  meanAndMaximum(valuesOf(rows, &MeshRow::qualityTruthAt40), 3),
+                  meanAndMaximum(valuesOf(rows, &MeshRow::balancedTruth), 3));
   std::vector<double> all;
   for (size_t i = 0; i < kEstimatedPercents.size(); ++i) {
     const auto estimates = valuesOf(rows, [&](const MeshRow& row) { return row.estimate[i]; });
     all.insert(all.end(), estimates.begin(), estimates.end());
-    text += fmt::format("  estimated / real error at {:g} %: geometric mean {:.3f}, within .75 to 1.33: {:.1f} %\n",
-                        kEstimatedPercents[i], geometricMean(estimates), 100 * shareWithin(estimates, .75, 1.33));
+    text += fmt::format("  estimated / actual error at {:g} %: geometric mean {:.3f}, within .75 to 1.33: {:.1f} %\n",
+                        kEstimatedPercents[i], geometricMeanOf(estimates), percentWithin(estimates, .75, 1.33));
   }
-  text += fmt::format("  of all those: {:.1f} %\n", 100 * shareWithin(all, .75, 1.33));
+  text += fmt::format("  estimated / actual error, all shares: within .75 to 1.33: {:.1f} %\n",
+                      percentWithin(all, .75, 1.33));
   text += fmt::format(
-      "  --max-error 1%: real error at most 1.2 % on {:.1f} %, greatest {:.2f} %; mean share of seeds {:.1f} %\n",
-      100 * shareWithin(bounded, 0, .012), 100 * greatest(bounded),
-      100 * mean(valuesOf(rows, [](const MeshRow& row) { return row.boundedShare; })));
-  text += fmt::format("  iterations, balanced / paper: mean {:.2f}, greatest {:.2f}\n", mean(iterations),
-                      greatest(iterations));
-  return text + fmt::format("  (sample + predict + solve) / trace at 10 %: mean {:.2f}, greatest {:.2f}\n",
-                            mean(overTrace), greatest(overTrace));
+      "  --max-error 1%: actual error at most 1.2 % on {:.1f} % of the meshes, maximum {:.2f} %; mean share of seeds "
+      "{:.1f} %\n",
+      percentWithin(bounded, 0, .012), 100 * maximumOf(bounded), 100 * meanOf(valuesOf(rows, &MeshRow::boundedShare)));
+  text += fmt::format("  solver iterations, balanced / paper: {}\n",
+                      meanAndMaximum(valuesOf(rows, &MeshRow::iterations), 2));
+  return text + fmt::format("  (sample + predict + solve) / trace at 10 %: {}\n",
+                            meanAndMaximum(valuesOf(rows, &MeshRow::overTrace), 2));
 }
 
-std::string rowText(const MeshRow& row) {
+std::string toText(const MeshRow& row) {
   return fmt::format(
       "| {} | {} | {:.4f} | {:.4f} | {:.3f} | {:.3f} | {:.3f} | {:.3f} | {:.2f} {:.2f} {:.2f} | {:.4f} ({:.1f} %) |\n",
       row.name, row.faceCount, row.paper, row.balanced, row.balanced / row.paper, row.balancedTruth, row.qualityTruth,
@@ -151,26 +146,26 @@ std::string rowText(const MeshRow& row) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  bench::BenchProgram program("asdfvk-bench-recipes",
-                              "What the recipes are worth over many meshes: errors, their estimates and costs.");
+  Program program("asdfvk-bench-recipes", "Errors, error estimates and cost of the recipes over many meshes.");
   std::vector<std::string> meshes;
   std::string backend = "vulkan", device;
   uint32_t truthRayCount = 600;
   program.addMeshes(meshes);
   program.add("--backend", backend, "vulkan, cpu or reference");
-  program.add("--device", device, "As asdf-vk takes it");
-  program.add("--truth-rays", truthRayCount, "Rays per cone of the function of many rays", {31, kMaxRayCount});
+  program.add("--device", device, "Vulkan device: index or part of its name");
+  program.add("--truth-rays", truthRayCount, "Rays per face of the truth", {31, kMaxRayCount});
   return program.run(argc, argv, [&](const RunControl& control) {
-    Session session(bench::sessionOptionsOf(backend, device));
+    Session session(sessionOptionsOf(backend, device));
     std::vector<MeshRow> rows, odd, even;
-    writeStandardOutput(
+    writeOutput(
         "| mesh | faces | paper, 10 % | balanced | ratio | balanced / floor | quality / floor | quality 40 % / floor | "
-        "estimate / error at 5, 10, 20 % | --max-error 1% |\n|---|---|---|---|---|---|---|---|---|---|\n");
+        "estimated / actual error at 5, 10, 20 % | --max-error 1% (seeds) "
+        "|\n|---|---|---|---|---|---|---|---|---|---|\n");
     for (const std::string& mesh : meshes) {
       rows.push_back(measure(session, mesh, truthRayCount, control));
       (rows.size() % 2 == 1 ? odd : even).push_back(rows.back());
-      writeStandardOutput(rowText(rows.back()));
+      writeOutput(toText(rows.back()));
     }
-    writeStandardOutput(summaryOf("odd places", odd) + summaryOf("even places", even) + summaryOf("all", rows));
+    writeOutput(summaryOf("odd places", odd) + summaryOf("even places", even) + summaryOf("all", rows));
   });
 }

@@ -1,29 +1,47 @@
-// Time and evenness of the samplers: the time over that of the random sampler, the distance of each seed to the nearest
-// other seed, and of each face to the nearest seed.
+// How long do the samplers take, and how evenly are their seeds distributed? The time of each sampler over that of the
+// random permutation, the distance of each seed to the nearest other seed, and of each face to the nearest seed.
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
-#include "bench_program.h"
-#include "cli/report_text.h"
-#include "cli/terminal.h"
 #include "core/stopwatch.h"
 #include "core/text.h"
 #include "generate/shapes.h"
 #include "io/mesh_reader.h"
-#include "seeds/samplers.h"
+#include "seeds/sampler.h"
+#include "seeds/surface_ball.h"
 #include "seeds/surface_distances.h"
-#include "spread.h"
+#include "support/measurement.h"
+#include "support/program.h"
 
 namespace {
 
 using namespace asdfvk;
+using namespace asdfvk::bench;
 
-/// For one set of arc lengths. Excludes seeds that are the only one of their component.
+struct Row {
+  const char* name;
+  SamplerKind kind;
+  SurfaceMetric metric;
+};
+constexpr std::array<Row, 9> kRows{{
+    {"random permutation", SamplerKind::Random, SurfaceMetric::Hops},
+    {"depth-first stride", SamplerKind::DepthFirst, SurfaceMetric::Hops},
+    {"normal space", SamplerKind::NormalSpace, SurfaceMetric::Hops},
+    {"blue noise, hops", SamplerKind::BlueNoise, SurfaceMetric::Hops},
+    {"blue noise, length", SamplerKind::BlueNoise, SurfaceMetric::Length},
+    {"blue noise, angle", SamplerKind::BlueNoise, SurfaceMetric::Angle},
+    {"farthest point, hops", SamplerKind::FarthestPoint, SurfaceMetric::Hops},
+    {"farthest point, length", SamplerKind::FarthestPoint, SurfaceMetric::Length},
+    {"farthest point, angle", SamplerKind::FarthestPoint, SurfaceMetric::Angle},
+}};
+
+/// Distances in one metric. The only seed of a component has no nearest other seed and is skipped.
 struct Evenness {
-  double nearestMin = 0, nearestMean = 0, nearestDeviation = 0;  ///< From a seed to the nearest other.
+  double nearestMin = 0, nearestMean = 0, nearestDeviation = 0;  ///< From a seed to the nearest other seed.
   double coverRms = 0, coverMax = 0;                             ///< From a face to the nearest seed.
 };
 
@@ -62,7 +80,7 @@ Evenness evennessOf(const DualGraph& graph, std::span<const float> lengths, cons
   return evenness;
 }
 
-void compare(const std::string& name, const Mesh& mesh, double percent, uint32_t roundCount) {
+void measure(const std::string& name, const Mesh& mesh, double percent, uint32_t roundCount) {
   const DualGraph graph = buildDualGraph(mesh);
   const FaceGeometry geometry = computeFaceGeometry(mesh);
   std::vector<uint32_t> candidates;
@@ -71,49 +89,48 @@ void compare(const std::string& name, const Mesh& mesh, double percent, uint32_t
   const SeedDomain domain{graph, geometry, candidates};
   const auto count = static_cast<uint64_t>(percent / 100 * static_cast<double>(candidates.size()));
   std::string text = fmt::format(
-      "{}: {} faces, {} seeds; distances along arcs and, for the nearest seed, in hops\n\n"
-      "| sampler | ms | of random | nearest other seed: least | mean | deviation | in hops: least | mean "
-      "| face to its seed: rms | max |\n"
-      "|---------|---:|----------:|--------------------------:|-----:|----------:|---------------:|-----:"
-      "|----------------------:|----:|\n",
+      "{}: {} faces, {} seeds; distances in the angle metric, and in hops where stated\n\n"
+      "| sampler | ms | / random | to nearest other seed: min | mean | deviation | in hops: min | mean "
+      "| face to nearest seed: rms | max |\n"
+      "|---------|---:|---------:|---------------------------:|-----:|----------:|-------------:|-----:"
+      "|--------------------------:|----:|\n",
       name, groupDigits(mesh.faceCount()), groupDigits(count));
-  const std::vector<float> lengths = arcLengths(graph, geometry);
-  const std::vector<float> hops(lengths.size(), 1.0f);
-  double randomMedian = 0;  // Of the first sampler.
-  for (const Sampler& sampler : kSamplers) {
-    if (sampler.refine) continue;  // Its first pass is another sampler.
+  const std::vector<float> angles = arcLengths(graph, geometry, SurfaceMetric::Angle);
+  const std::vector<float> hops = arcLengths(graph, geometry, SurfaceMetric::Hops);
+  double randomMedian = 0;
+  for (const Row& row : kRows) {
     std::vector<double> milliseconds;
     std::vector<uint32_t> seeds;
     for (uint32_t round = 0; round < roundCount; ++round) {
       const Stopwatch watch;
-      seeds = sampler.sample(domain, count, {}, round + 1);
+      seeds = sampleSeeds(row.kind, row.metric, domain, count, {}, round + 1);
       milliseconds.push_back(1e3 * watch.seconds());
     }
-    const bench::Spread time = bench::spreadOf(milliseconds);
-    if (randomMedian == 0) randomMedian = time.median;
-    const Evenness inLengths = evennessOf(graph, lengths, seeds), inHops = evennessOf(graph, hops, seeds);
+    const Dispersion time = dispersionOf(milliseconds);
+    if (row.kind == SamplerKind::Random) randomMedian = time.median;
+    const Evenness inAngles = evennessOf(graph, angles, seeds), inHops = evennessOf(graph, hops, seeds);
     text += fmt::format("| {} | {} | {:.1f} | {:.2f} | {:.2f} | {:.2f} | {:.0f} | {:.2f} | {:.2f} | {:.1f} |\n",
-                        sampler.name, toText(time, 1), time.median / randomMedian, inLengths.nearestMin,
-                        inLengths.nearestMean, inLengths.nearestDeviation, inHops.nearestMin, inHops.nearestMean,
-                        inLengths.coverRms, inLengths.coverMax);
+                        row.name, toText(time, 1), time.median / randomMedian, inAngles.nearestMin,
+                        inAngles.nearestMean, inAngles.nearestDeviation, inHops.nearestMin, inHops.nearestMean,
+                        inAngles.coverRms, inAngles.coverMax);
   }
-  writeStandardOutput(text + "\n");
+  writeOutput(text + "\n");
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  bench::BenchProgram program("asdfvk-bench-samplers", "Time and evenness of the seed samplers.");
+  Program program("asdfvk-bench-samplers", "Time and evenness of the seed samplers.");
   std::vector<std::string> meshes;
   uint64_t faceCount = 200'000;
   double percent = 10;
   uint32_t roundCount = 3;
-  program.addMeshesOr(meshes, "an animal is generated");
+  program.addOptionalMeshes(meshes, "a generated animal");
   program.add("--faces", faceCount, "Faces of the generated animal");
   program.add("--seeds", percent, "Share of the faces that become seeds, in percent", {0, 100});
-  program.add("--runs", roundCount, "Random seeds; the time is their median", {1, 1000});
+  program.add("--runs", roundCount, "Random seeds; the time is the median over them", {1, 1000});
   return program.run(argc, argv, [&](const RunControl&) {
-    if (meshes.empty()) compare("generated animal", generateShape("animal", faceCount).mesh, percent, roundCount);
-    for (const std::string& mesh : meshes) compare(mesh, readMesh(mesh), percent, roundCount);
+    if (meshes.empty()) measure("generated animal", generateShape("animal", faceCount).mesh, percent, roundCount);
+    for (const std::string& mesh : meshes) measure(mesh, readMesh(mesh), percent, roundCount);
   });
 }

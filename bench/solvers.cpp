@@ -1,35 +1,27 @@
-// The Poisson solvers side by side on the same seeds: iterations, residual, time.
+// How many iterations and seconds do the Poisson solvers need on the same seeds, and which residual do they reach?
 #include <fmt/format.h>
 
+#include <Eigen/IterativeLinearSolvers>
+#include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
 #include <array>
 #include <functional>
 
-#include "bench_program.h"
-#include "cli/option_values.h"
-#include "cli/report_text.h"
-#include "cli/terminal.h"
 #include "core/text.h"
-#include "eigen_rivals.h"
-#include "file_run.h"
 #include "generate/creatures.h"
 #include "io/mesh_reader.h"
-#include "machine.h"
 #include "mesh/dual_graph.h"
 #include "mesh/face_geometry.h"
 #include "poisson/arc_weights.h"
 #include "poisson/poisson_system.h"
-#include "spread.h"
-#include "work_watch.h"
+#include "support/computation.h"
+#include "support/measurement.h"
+#include "support/program.h"
 
 namespace {
 
 using namespace asdfvk;
-
-struct Contender {
-  SolverChoice choice;
-  SolverReport report;
-  std::vector<double> seconds, ratios;  ///< Ratios to Eigen's time of the same round.
-};
+using namespace asdfvk::bench;
 
 struct Arguments {
   std::vector<std::string> meshes, seeds{"10%"};
@@ -37,132 +29,177 @@ struct Arguments {
   uint64_t generatedFaceCount = 100'000;
   uint32_t runCount = 5;
   double tolerance = SolverOptions{}.tolerance;
-  bool comparesBare = false;
+  bool solvesSystem = false;
 };
 
-void compare(Session& session, const std::string& name, Mesh& mesh, const std::string& seeds,
-             const Arguments& arguments, const RunControl& control) {
-  std::array<Contender, 4> contenders{{{SolverChoice::Eigen, {}, {}, {}},
-                                       {SolverChoice::Cpu, {}, {}, {}},
-                                       {SolverChoice::Cg, {}, {}, {}},
-                                       {SolverChoice::Jacobi, {}, {}, {}}}};
+struct SolverRow {
+  SolverChoice choice;
+  SolverReport report = {};
+  std::vector<double> seconds = {};
+};
+
+/// Times the solve stage of whole computations.
+void compareSolvers(Session& session, const std::string& name, Mesh& mesh, const std::string& seeds,
+                    const Arguments& arguments, const RunControl& control) {
+  std::array<SolverRow, 4> rows{
+      {{SolverChoice::Eigen}, {SolverChoice::Cpu}, {SolverChoice::Cg}, {SolverChoice::Jacobi}}};
   Options options;
   options.seeds = parseSeedCount(seeds);
   options.solverOptions.tolerance = arguments.tolerance;
   std::string device;
-  for (uint32_t round = 0; round <= arguments.runCount; ++round) {
-    for (Contender& contender : contenders) {
-      options.solver = contender.choice;
+  for (uint32_t round = 0; round <= arguments.runCount; ++round)
+    for (SolverRow& row : rows) {
+      options.solver = row.choice;
       const Report report = session.compute(mesh, options, control).report;
       device = report.device;
-      contender.report = report.solver;
-      if (round == 0) continue;
-      contender.seconds.push_back(report.stageSeconds.solve);
-      contender.ratios.push_back(report.stageSeconds.solve / contenders[0].seconds.back());
+      row.report = report.solver;
+      if (round > 0) row.seconds.push_back(report.stageSeconds.solve);  // Round 0 is the warm-up.
     }
-  }
   std::string text = fmt::format(
       "{}: {} faces, seeds {}, tolerance {:g}, {} rounds on {}; {}\n"
-      "the whole solve stage, system and transfers included; median ± median absolute deviation\n\n"
-      "| solver | iterations | residual | converged | seconds | over eigen |\n"
-      "|--------|-----------:|---------:|-----------|--------:|-----------:|\n",
-      name, groupDigits(mesh.inputFaceCount()), seeds, arguments.tolerance, arguments.runCount,
-      toText(bench::thisMachine()), device);
-  for (const Contender& contender : contenders)
-    text += fmt::format("| {:<6} | {:>10} | {:.2e} | {:<9} | {} | {} |\n", contender.report.name,
-                        contender.report.iterations, contender.report.relativeResidual,
-                        contender.report.converged ? "yes" : "no", toText(bench::spreadOf(contender.seconds), 3),
-                        toText(bench::spreadOf(contender.ratios), 2));
-  writeStandardOutput(text + "\n");
+      "solve stage with system and transfers; seconds: median ± median absolute deviation\n\n"
+      "| solver | iterations | residual | converged | seconds | / eigen |\n"
+      "|--------|-----------:|---------:|-----------|--------:|--------:|\n",
+      name, groupDigits(mesh.inputFaceCount()), seeds, arguments.tolerance, arguments.runCount, toText(thisMachine()),
+      device);
+  for (const SolverRow& row : rows)
+    text += fmt::format("| {:<6} | {:>10} | {:.2e} | {:<9} | {} | {} |\n", row.report.name, row.report.iterations,
+                        row.report.relativeResidual, row.report.converged ? "yes" : "no",
+                        toText(dispersionOf(row.seconds), 3), toText(ratioOf(row.seconds, rows[0].seconds), 2));
+  writeOutput(text + "\n");
 }
 
-/// A solver on the bare system, whose set-up, factors included, is timed with it.
-struct BareContender {
+using EigenMatrix = Eigen::SparseMatrix<double>;
+using EigenVector = Eigen::VectorXd;
+
+EigenMatrix toEigen(const PoissonSystem& system) {
+  const auto size = static_cast<Eigen::Index>(system.unknownCount());
+  std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(system.columns.size() + system.faces.size());
+  for (uint32_t row = 0; row < system.unknownCount(); ++row) {
+    entries.emplace_back(row, row, system.diagonal[row]);
+    for (uint32_t i = system.rowOffsets[row]; i < system.rowOffsets[row + 1]; ++i)
+      entries.emplace_back(row, system.columns[i], system.entries[i]);
+  }
+  EigenMatrix matrix(size, size);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
+}
+
+/// Starts at the mean of the known values and stops at ||r|| <= tolerance ||b||, which is close to relativeResidual()
+/// where weights are alike. Returns the iterations.
+template <typename Preconditioner>
+uint32_t solveWithEigenCg(const EigenMatrix& matrix, const PoissonSystem& system, double tolerance,
+                          std::span<double> solution) {
+  Eigen::ConjugateGradient<EigenMatrix, Eigen::Lower | Eigen::Upper, Preconditioner> solver;
+  solver.setTolerance(tolerance);
+  solver.compute(matrix);
+  const Eigen::Map<const EigenVector> b(system.rightHandSide.data(), matrix.rows());
+  Eigen::Map<EigenVector>(solution.data(), matrix.rows()) =
+      solver.solveWithGuess(b, EigenVector::Constant(matrix.rows(), system.knownMean));
+  return static_cast<uint32_t>(solver.iterations());
+}
+
+uint32_t solveWithEigenFactors(const EigenMatrix& matrix, const PoissonSystem& system, std::span<double> solution) {
+  const Eigen::SimplicialLDLT<EigenMatrix> factors(matrix);
+  const Eigen::Map<const EigenVector> b(system.rightHandSide.data(), matrix.rows());
+  Eigen::Map<EigenVector>(solution.data(), matrix.rows()) = factors.solve(b);
+  return 0;
+}
+
+/// A solver of a given system. Its preparation, such as factors, is timed with it.
+struct SystemRow {
   std::string name;
-  std::function<uint32_t(std::span<double> solution)> solve;
+  std::function<uint32_t(std::span<double> solution)> solve;  ///< Returns the iterations.
   uint32_t iterationCount = 0;
   double relativeResidual = 0;
-  std::vector<double> seconds, threadSeconds, ratios;  ///< Ratios to the thread seconds of the first in the same round.
+  std::vector<double> seconds = {}, cpuSeconds = {};
 };
 
-/// Without guidance and prediction, so from the mean of the seeds' values on.
-void compareBare(Session& session, const Mesh& mesh, const std::string& seeds, const Arguments& arguments,
-                 const RunControl& control) {
+/// The harmonic system (no guidance, no prediction) of the seeds of a computation.
+std::optional<PoissonSystem> harmonicSystem(Session& session, Mesh& mesh, const std::string& seeds,
+                                            const RunControl& control) {
   Options options;
   options.seeds = parseSeedCount(seeds);
   options.estimatesError = false;
-  Mesh copy = mesh;
-  const Result result = session.compute(copy, options, control);
-  if (result.sdf.size() != mesh.faces.size()) return;  // Polygons: the values are not those of the triangles.
+  const Result result = session.compute(mesh, options, control);
+  if (result.sdf.size() != mesh.faces.size()) return {};  // Polygons: the values are not those of the triangles.
   std::vector<double> values(result.sdf.size(), kNoValue);
   for (size_t face = 0; face < values.size(); ++face)
     if (result.isSeed[face]) values[face] = result.sdf[face];
   const DualGraph graph = buildDualGraph(mesh);
-  const PoissonSystem system =
-      buildPoissonSystem(graph, arcWeights(ArcWeightKind::Feature, graph, computeFaceGeometry(mesh)), values, {});
-  const bench::EigenMatrix matrix = bench::eigenMatrix(system);
-  std::vector<BareContender> contenders;
-  const auto addOurs = [&](const std::string& name, std::unique_ptr<PoissonSolver> (*make)()) {
-    contenders.push_back({name, [&, make](std::span<double> solution) {
-                            const SolverOptions solverOptions{.tolerance = arguments.tolerance};
-                            return make()->solve(system, solverOptions, solution, control).iterations;
-                          }});
+  return buildPoissonSystem(graph, arcWeights(ArcWeightKind::Feature, graph, computeFaceGeometry(mesh)), values, {});
+}
+
+/// Times our solvers and Eigen's on the system alone.
+void compareOnSystem(const PoissonSystem& system, const Arguments& arguments, const RunControl& control) {
+  using IncompleteCholesky = Eigen::IncompleteCholesky<double, Eigen::Lower, Eigen::NaturalOrdering<int>>;
+  const EigenMatrix matrix = toEigen(system);
+  const double tolerance = arguments.tolerance;
+  const auto ours = [&](std::unique_ptr<PoissonSolver> (*make)()) {
+    return [&, make](std::span<double> solution) {
+      return make()->solve(system, {.tolerance = tolerance}, solution, control).iterations;
+    };
   };
-  addOurs("eigen", makeEigenSolver);
-  addOurs("cpu", makeCpuCgSolver);
-  for (const bench::EigenRival& rival : bench::eigenRivals())
-    contenders.push_back({rival.name, [&, rival](std::span<double> solution) {
-                            return rival.solve(matrix, system, arguments.tolerance, solution);
-                          }});
+  std::vector<SystemRow> rows{
+      {"eigen", ours(makeEigenSolver)},
+      {"cpu", ours(makeCpuCgSolver)},
+      {"Eigen CG, Jacobi",
+       [&](auto solution) {
+         return solveWithEigenCg<Eigen::DiagonalPreconditioner<double>>(matrix, system, tolerance, solution);
+       }},
+      {"Eigen CG, incomplete Cholesky",
+       [&](auto solution) { return solveWithEigenCg<IncompleteCholesky>(matrix, system, tolerance, solution); }},
+      {"Eigen SimplicialLDLT", [&](auto solution) { return solveWithEigenFactors(matrix, system, solution); }}};
   std::vector<double> solution(system.unknownCount());
   for (uint32_t round = 0; round <= arguments.runCount; ++round)
-    for (BareContender& contender : contenders) {
+    for (SystemRow& row : rows) {
       control.checkpoint(0);
-      const bench::WorkWatch clock(bench::Workers::Others), threads(bench::Workers::Processors);
-      contender.iterationCount = contender.solve(solution);
-      const double seconds = clock.seconds(), threadSeconds = threads.seconds();
-      contender.relativeResidual = relativeResidual(system, solution);
-      if (round == 0) continue;
-      contender.seconds.push_back(seconds);
-      contender.threadSeconds.push_back(threadSeconds);
-      contender.ratios.push_back(threadSeconds / contenders[0].threadSeconds.back());
+      const Timer wall(Clock::Wall), cpu(Clock::ProcessCpu);
+      row.iterationCount = row.solve(solution);
+      const double seconds = wall.seconds(), cpuSeconds = cpu.seconds();
+      row.relativeResidual = relativeResidual(system, solution);
+      if (round == 0) continue;  // Warm-up.
+      row.seconds.push_back(seconds);
+      row.cpuSeconds.push_back(cpuSeconds);
     }
   std::string text = fmt::format(
-      "the equation alone, harmonic, {} unknowns, built and solved; a matrix for Eigen is there before\n\n"
-      "| solver | iterations | residual | seconds | seconds of all threads | over eigen |\n"
-      "|--------|-----------:|---------:|--------:|-----------------------:|-----------:|\n",
+      "harmonic system of {} unknowns; the conversion to Eigen's matrix is not timed\n\n"
+      "| solver | iterations | residual | seconds | CPU seconds of all threads | / eigen |\n"
+      "|--------|-----------:|---------:|--------:|---------------------------:|--------:|\n",
       groupDigits(system.unknownCount()));
-  for (const BareContender& contender : contenders)
-    text +=
-        fmt::format("| {} | {} | {:.2e} | {} | {} | {} |\n", contender.name, contender.iterationCount,
-                    contender.relativeResidual, toText(bench::spreadOf(contender.seconds), 4),
-                    toText(bench::spreadOf(contender.threadSeconds), 4), toText(bench::spreadOf(contender.ratios), 2));
-  writeStandardOutput(text + "\n");
+  for (const SystemRow& row : rows)
+    text += fmt::format("| {} | {} | {:.2e} | {} | {} | {} |\n", row.name, row.iterationCount, row.relativeResidual,
+                        toText(dispersionOf(row.seconds), 4), toText(dispersionOf(row.cpuSeconds), 4),
+                        toText(ratioOf(row.cpuSeconds, rows[0].cpuSeconds), 2));
+  writeOutput(text + "\n");
 }
 
 void run(const Arguments& arguments, const RunControl& control) {
-  Session session(bench::sessionOptionsOf("vulkan", arguments.device));
-  const auto compareAll = [&](const std::string& name, Mesh mesh) {
+  Session session(sessionOptionsOf("vulkan", arguments.device));
+  const auto measure = [&](const std::string& name, Mesh mesh) {
     for (const std::string& seeds : arguments.seeds) {
-      compare(session, name, mesh, seeds, arguments, control);
-      if (arguments.comparesBare) compareBare(session, mesh, seeds, arguments, control);
+      compareSolvers(session, name, mesh, seeds, arguments, control);
+      if (!arguments.solvesSystem) continue;
+      if (const auto system = harmonicSystem(session, mesh, seeds, control))
+        compareOnSystem(*system, arguments, control);
     }
   };
-  for (const std::string& mesh : arguments.meshes) compareAll(mesh, readMesh(mesh));
-  if (arguments.meshes.empty()) compareAll("generated animal", makeAnimal(arguments.generatedFaceCount).mesh);
+  for (const std::string& mesh : arguments.meshes) measure(mesh, readMesh(mesh));
+  if (arguments.meshes.empty()) measure("generated animal", makeAnimal(arguments.generatedFaceCount).mesh);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  bench::BenchProgram program("asdfvk-bench-solvers", "Times the Poisson solvers turn by turn on the same seeds.");
+  Program program("asdfvk-bench-solvers", "Times the Poisson solvers on the same seeds, in turns.");
   Arguments arguments;
-  program.addMeshesOr(arguments.meshes, "an animal is generated");
+  program.addOptionalMeshes(arguments.meshes, "a generated animal");
   program.add("--faces", arguments.generatedFaceCount, "Faces of the generated animal", {kMinFaceCount, kMaxFaceCount});
-  program.add("--runs", arguments.runCount, "Counted rounds, after one that warms up", {1, 1000});
+  program.add("--runs", arguments.runCount, "Rounds, after one for warm-up", {1, 1000});
   program.add("--seeds", arguments.seeds, "Shares or counts");
   program.add("--tolerance", arguments.tolerance, "Relative residual");
-  program.add("--bare", arguments.comparesBare, "Also on the equation alone, beside Eigen's own solvers");
-  program.add("--device", arguments.device, "As asdf-vk takes it");
+  program.add("--bare", arguments.solvesSystem, "Also compare with Eigen's solvers on the system alone");
+  program.add("--device", arguments.device, "Vulkan device: index or part of its name");
   return program.run(argc, argv, [&](const RunControl& control) { run(arguments, control); });
 }

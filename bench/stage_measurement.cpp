@@ -4,32 +4,23 @@
 
 #include <sstream>
 
-#include "cli/option_values.h"
 #include "core/stopwatch.h"
-#include "machine.h"
-#include "run_process.h"
-#include "temporary_folder.h"
+#include "support/process.h"
 
 namespace asdfvk::bench {
 namespace {
 
-double traceAndInterpolation(const FileRun& run) {
+double secondsOf(const FileRun& run, TimeSpan span) {
   const StageSeconds& seconds = run.report.stageSeconds;
-  return seconds.sample + seconds.trace + seconds.predict + seconds.solve;
+  return span == TimeSpan::Total ? run.totalSeconds : seconds.sample + seconds.trace + seconds.predict + seconds.solve;
 }
 
+/// The quantity of every run.
 template <typename Quantity>
-Spread spreadOfRuns(const StageRow& row, const Quantity& quantity) {
+std::vector<double> samplesOf(const StageRow& row, const Quantity& quantity) {
   std::vector<double> samples;
   for (const FileRun& run : row.runs) samples.push_back(quantity(run));
-  return spreadOf(std::move(samples));
-}
-
-template <typename Upper, typename Lower>
-Spread ratioByRound(const StageRow& above, const Upper& upper, const StageRow& below, const Lower& lower) {
-  std::vector<double> ratios;
-  for (size_t i = 0; i < above.runs.size(); ++i) ratios.push_back(upper(above.runs[i]) / lower(below.runs[i]));
-  return spreadOf(std::move(ratios));
+  return samples;
 }
 
 Options optionsFor(const std::string& seeds) {
@@ -50,14 +41,16 @@ ColdRun runCold(const std::string& mesh, const StageRow& row, const std::string&
 
 }  // namespace
 
-Spread StageRow::stage(double StageSeconds::*member) const {
-  return spreadOfRuns(*this, [&](const FileRun& run) { return run.report.stageSeconds.*member; });
+Dispersion StageRow::stage(double StageSeconds::*member) const {
+  return dispersionOf(samplesOf(*this, [&](const FileRun& run) { return run.report.stageSeconds.*member; }));
 }
-Spread StageRow::total() const {
-  return spreadOfRuns(*this, [](const FileRun& run) { return run.totalSeconds; });
+
+Dispersion StageRow::total() const {
+  return dispersionOf(samplesOf(*this, [](const FileRun& run) { return run.totalSeconds; }));
 }
-Spread StageRow::raysPerSecond() const {
-  return spreadOfRuns(*this, [](const FileRun& run) { return run.report.raysPerSecond; });
+
+Dispersion StageRow::raysPerSecond() const {
+  return dispersionOf(samplesOf(*this, [](const FileRun& run) { return run.report.raysPerSecond; }));
 }
 
 const StageRow* StageMeasurement::find(const std::string& seeds, const std::string& backend) const {
@@ -66,24 +59,22 @@ const StageRow* StageMeasurement::find(const std::string& seeds, const std::stri
   return nullptr;
 }
 
-std::optional<Spread> referenceOverVulkan(const StageMeasurement& measurement, const StageRow& row, Share share) {
-  const StageRow* reference = measurement.find(row.seeds, "reference");
-  if (row.backend != "vulkan" || reference == nullptr) return std::nullopt;
-  const auto seconds = [&](const FileRun& run) {
-    return share == Share::Total ? run.totalSeconds : traceAndInterpolation(run);
-  };
-  return ratioByRound(*reference, seconds, row, seconds);
+std::optional<Dispersion> StageMeasurement::referenceOverVulkan(const StageRow& row, TimeSpan span) const {
+  const StageRow* reference = find(row.seeds, "reference");
+  if (row.backend != "vulkan" || reference == nullptr) return {};
+  const auto seconds = [&](const FileRun& run) { return secondsOf(run, span); };
+  return ratioOf(samplesOf(*reference, seconds), samplesOf(row, seconds));
 }
 
-std::optional<Spread> overFullTrace(const StageMeasurement& measurement, const StageRow& row) {
-  const StageRow* full = measurement.find("all", row.backend);
-  if (full == nullptr || full == &row) return std::nullopt;
-  return ratioByRound(row, traceAndInterpolation, *full,
-                      [](const FileRun& run) { return run.report.stageSeconds.trace; });
+std::optional<Dispersion> StageMeasurement::overFullTrace(const StageRow& row) const {
+  const StageRow* full = find("all", row.backend);
+  if (full == nullptr || full == &row) return {};
+  return ratioOf(samplesOf(row, [](const FileRun& run) { return secondsOf(run, TimeSpan::Interpolation); }),
+                 samplesOf(*full, [](const FileRun& run) { return run.report.stageSeconds.trace; }));
 }
 
 StageBench::StageBench(StageRequest request) : request_(std::move(request)) {
-  for (const std::string& seeds : request_.seeds) static_cast<void>(parseSeedCount(seeds));  // Refused before any work.
+  for (const std::string& seeds : request_.seeds) static_cast<void>(parseSeedCount(seeds));  // Fails early.
   for (const std::string& backend : request_.backends)
     sessions_.emplace(backend, std::make_unique<Session>(sessionOptionsOf(backend, request_.device)));
 }
@@ -92,16 +83,16 @@ StageMeasurement StageBench::measure(const std::string& name, const std::filesys
                                      const RunControl& control) {
   const TemporaryFolder folder;
   const std::filesystem::path output = folder.path() / "result.ply";
-  StageMeasurement measurement{name, {}};
+  StageMeasurement measurement{name};
   for (const std::string& seeds : request_.seeds)
-    for (const std::string& backend : request_.backends) measurement.rows.push_back({seeds, backend, false, {}, {}});
+    for (const std::string& backend : request_.backends) measurement.rows.push_back({seeds, backend});
   for (uint32_t round = 0; round <= request_.runCount; ++round)
     for (StageRow& row : measurement.rows) {
       FileRun run = runFile(*sessions_.at(row.backend), mesh, optionsFor(row.seeds), output, control);
       if (round > 0) row.runs.push_back(std::move(run));
     }
   for (StageRow& row : measurement.rows) {
-    row.perCore = row.runs.front().report.runsOnCpu;
+    row.runsOnCpu = row.runs.front().report.runsOnCpu;
     row.cold = runCold(mesh.string(), row, request_.device);
     control.checkpoint(0);
   }

@@ -1,14 +1,15 @@
 #pragma once
 
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "file_run.h"
 #include "pipeline/asdf.h"
-#include "spread.h"
+#include "support/computation.h"
+#include "support/measurement.h"
 
 namespace asdfvk::bench {
 
@@ -19,58 +20,61 @@ struct StageRequest {
   uint32_t runCount = 5;
 };
 
-/// One run in a process of its own, so that its memory is nobody else's and nothing is compiled yet.
+/// One run in a process of its own, so that its peak memory is that of one backend and no kernel is compiled before.
 struct ColdRun {
-  double seconds = 0;  ///< Opening the device included, loading the program not.
+  double seconds = 0;  ///< With opening the device, without loading the program.
   double peakBytes = 0;
 };
 
-/// Seeds and backend, and their runs in order of time: run i of every row was made in the same round.
+/// The runs of one backend with one choice of seeds. The runs i of all rows were made in the same round.
 struct StageRow {
   std::string seeds, backend;
-  bool perCore = false;  ///< The CPU's cores do the work.
-  std::vector<FileRun> runs;
-  ColdRun cold;
+  bool runsOnCpu = false;
+  std::vector<FileRun> runs = {};
+  ColdRun cold = {};
 
-  [[nodiscard]] Spread stage(double StageSeconds::*member) const;
-  [[nodiscard]] Spread total() const;
-  [[nodiscard]] Spread raysPerSecond() const;
+  [[nodiscard]] Dispersion stage(double StageSeconds::*member) const;
+  [[nodiscard]] Dispersion total() const;
+  [[nodiscard]] Dispersion raysPerSecond() const;
+};
+
+enum class TimeSpan {
+  Interpolation,  ///< The stages sample, trace, predict and solve.
+  Total,          ///< From file to file.
 };
 
 struct StageMeasurement {
   std::string mesh;
-  std::vector<StageRow> rows;
+  std::vector<StageRow> rows = {};
 
-  /// Null when that row was not asked for.
+  /// Time of the reference over the time of `row`, by round. None unless `row` is a row of Vulkan, and without a row of
+  /// the reference with the same seeds.
+  [[nodiscard]] std::optional<Dispersion> referenceOverVulkan(const StageRow& row, TimeSpan span) const;
+
+  /// TimeSpan::Interpolation over the time of the trace of all faces by the same backend, by round. None without a row
+  /// of all faces.
+  [[nodiscard]] std::optional<Dispersion> overFullTrace(const StageRow& row) const;
+
+ private:
   [[nodiscard]] const StageRow* find(const std::string& seeds, const std::string& backend) const;
 };
-
-enum class Share { TraceAndInterpolation, Total };
-
-/// The reference's time over Vulkan's at the same seeds, round by round; none unless `row` is Vulkan's.
-[[nodiscard]] std::optional<Spread> referenceOverVulkan(const StageMeasurement& measurement, const StageRow& row,
-                                                        Share share);
-
-/// Choice of seeds, trace and interpolation over the trace of all faces by the same backend, round by round; none
-/// without such a row.
-[[nodiscard]] std::optional<Spread> overFullTrace(const StageMeasurement& measurement, const StageRow& row);
 
 /// Keeps the devices open from mesh to mesh.
 class StageBench {
  public:
+  /// Throws Error{Usage} for a malformed request.
   explicit StageBench(StageRequest request);
 
-  /// Each round runs every row once, backends turn by turn; a first round that warms up is not counted.
+  /// Each round runs every row once; a first round for warm-up is not counted.
   [[nodiscard]] StageMeasurement measure(const std::string& name, const std::filesystem::path& mesh,
                                          const RunControl& control);
-  [[nodiscard]] const std::map<std::string, std::unique_ptr<Session>>& sessions() const { return sessions_; }
 
  private:
   StageRequest request_;
   std::map<std::string, std::unique_ptr<Session>> sessions_;  ///< By backend.
 };
 
-/// What the process of a ColdRun prints; `seeds` and `backend` as in a StageRow.
+/// Runs in this process and returns the numbers of a ColdRun as text, which the parent process reads.
 [[nodiscard]] std::string coldRunText(const std::string& mesh, const std::string& seeds, const std::string& backend,
                                       const std::string& device, const RunControl& control);
 

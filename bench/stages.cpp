@@ -1,43 +1,133 @@
-// Where the time of a whole run goes, file to file: stage by stage, reference against Vulkan, at several shares of
-// seeds.
-#include "bench_program.h"
-#include "cli/terminal.h"
+// How is the time of a computation from file to file distributed over its stages? Each backend at several shares of
+// seeds, in turns.
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "core/text.h"
 #include "generate/creatures.h"
 #include "generate/generated_ply.h"
-#include "machine.h"
-#include "stage_json.h"
 #include "stage_measurement.h"
-#include "stage_table.h"
-#include "temporary_folder.h"
+#include "support/process.h"
+#include "support/program.h"
 
 namespace {
 
 using namespace asdfvk;
+using namespace asdfvk::bench;
 
 struct Arguments {
   std::vector<std::string> meshes;
-  bench::StageRequest request{{"all", "10%", "1%"}, {"reference", "vulkan"}, {}, 5};
+  StageRequest request{{"all", "10%", "1%"}, {"reference", "vulkan"}, {}, 5};
   uint64_t generatedFaceCount = 100'000;
-  bool json = false;
-  bool cold = false;
+  bool isJson = false;
+  bool isCold = false;
 };
 
+std::string line(const std::vector<std::string>& cells) {
+  std::string text = fmt::format("| {:<5} | {:<9} |", cells[0], cells[1]);
+  for (size_t i = 2; i < cells.size(); ++i) text += fmt::format(" {:>12} |", cells[i]);
+  return text + "\n";
+}
+
+std::string megaRays(const Dispersion& rays, double divisor) {
+  return toText({rays.median / (1e6 * divisor), rays.deviation / (1e6 * divisor), 0, 0}, 2);
+}
+
+std::string heading(const StageMeasurement& measurement, const Machine& machine) {
+  const StageRow& first = measurement.rows.front();
+  const Report& report = first.runs.front().report;
+  std::string text = fmt::format("{}: {} faces ({} triangles, {} vertices), {} rounds on {}\n", measurement.mesh,
+                                 groupDigits(report.faceCount), groupDigits(report.triangleCount),
+                                 groupDigits(report.vertexCount), first.runs.size(), toText(machine));
+  for (const StageRow& row : measurement.rows)
+    if (row.seeds == first.seeds) text += fmt::format("{}: {}\n", row.backend, row.runs.front().report.device);
+  return text +
+         "seconds: median ± median absolute deviation; cold: one run in a new process, with opening the device and\n"
+         "compiling kernels; peak MiB: peak resident memory of that process\n\n";
+}
+
+std::string ratiosText(const StageMeasurement& measurement) {
+  std::string text;
+  for (const StageRow& row : measurement.rows)
+    if (const auto total = measurement.referenceOverVulkan(row, TimeSpan::Total))
+      text += fmt::format("seeds {}: reference / vulkan: trace and interpolation {}, total {}\n", row.seeds,
+                          toText(measurement.referenceOverVulkan(row, TimeSpan::Interpolation), 2), toText(*total, 2));
+  for (const StageRow& row : measurement.rows)
+    if (const auto ratio = measurement.overFullTrace(row))
+      text += fmt::format("seeds {}, {}: trace and interpolation / trace of all faces {}\n", row.seeds, row.backend,
+                          toText(*ratio, 3));
+  return text.empty() ? text : "\n" + text;
+}
+
+/// A heading, a Markdown table with one line per row, and ratios.
+std::string toTable(const StageMeasurement& measurement, const Machine& machine) {
+  std::vector<std::string> titles{"seeds", "backend"};
+  for (const auto& [name, member] : kStages) titles.emplace_back(name);
+  titles.insert(titles.end(), {"total", "Mrays/s", "per core", "cold", "peak MiB"});
+  std::string text = heading(measurement, machine) + line(titles) + "|-------|-----------|";
+  for (size_t i = 2; i < titles.size(); ++i) text += "-------------:|";
+  text += "\n";
+  for (const StageRow& row : measurement.rows) {
+    std::vector<std::string> cells{row.seeds, row.backend};
+    for (const auto& [name, member] : kStages) cells.push_back(toText(row.stage(member), 3));
+    cells.push_back(toText(row.total(), 3));
+    cells.push_back(megaRays(row.raysPerSecond(), 1));
+    cells.push_back(row.runsOnCpu ? megaRays(row.raysPerSecond(), machine.threads) : "-");
+    cells.push_back(fmt::format("{:.3f}", row.cold.seconds));
+    cells.push_back(fmt::format("{:.0f}", row.cold.peakBytes / (1 << 20)));
+    text += line(cells);
+  }
+  return text + ratiosText(measurement) + "\n";
+}
+
+Json toJson(const StageMeasurement& measurement, const StageRow& row, const Machine& machine) {
+  const Report& report = row.runs.front().report;
+  Json stages;
+  for (const auto& [name, member] : kStages) stages[name] = bench::toJson(row.stage(member));
+  return {{"mesh", measurement.mesh},
+          {"faceCount", report.faceCount},
+          {"triangleCount", report.triangleCount},
+          {"vertexCount", report.vertexCount},
+          {"seeds", row.seeds},
+          {"seedCount", report.seedCount},
+          {"rayCount", report.rayCount},
+          {"backend", row.backend},
+          {"device", report.device},
+          {"processor", machine.processor},
+          {"threads", machine.threads},
+          {"loadAverage", machine.loadAverage},
+          {"runs", row.runs.size()},
+          {"stageSeconds", stages},
+          {"totalSeconds", bench::toJson(row.total())},
+          {"raysPerSecond", bench::toJson(row.raysPerSecond())},
+          {"raysPerSecondAndCore", row.runsOnCpu ? Json(row.raysPerSecond().median / machine.threads) : Json(nullptr)},
+          {"coldSeconds", row.cold.seconds},
+          {"peakBytes", row.cold.peakBytes},
+          {"solver", {{"name", report.solver.name}, {"iterations", report.solver.iterations}}},
+          {"referenceOverVulkan",
+           {{"traceAndInterpolation", bench::toJson(measurement.referenceOverVulkan(row, TimeSpan::Interpolation))},
+            {"total", bench::toJson(measurement.referenceOverVulkan(row, TimeSpan::Total))}}},
+          {"traceAndInterpolationOverFullTrace", bench::toJson(measurement.overFullTrace(row))}};
+}
+
 void run(const Arguments& arguments, const RunControl& control) {
-  const bench::StageRequest& request = arguments.request;
-  if (arguments.cold) {
-    writeStandardOutput(bench::coldRunText(arguments.meshes.at(0), request.seeds.at(0), request.backends.at(0),
-                                           request.device, control));
+  const StageRequest& request = arguments.request;
+  if (arguments.isCold) {
+    writeOutput(
+        coldRunText(arguments.meshes.at(0), request.seeds.at(0), request.backends.at(0), request.device, control));
     return;
   }
-  bench::StageBench stages(request);
+  StageBench stages(request);
   const auto measure = [&](const std::string& name, const std::filesystem::path& path) {
-    const bench::StageMeasurement measurement = stages.measure(name, path, control);
-    const bench::Machine machine = bench::thisMachine();
-    writeStandardOutput(arguments.json ? stageJson(measurement, machine) : stageTable(measurement, machine));
+    const StageMeasurement measurement = stages.measure(name, path, control);
+    const Machine machine = thisMachine();
+    if (!arguments.isJson) return writeOutput(toTable(measurement, machine));
+    for (const StageRow& row : measurement.rows) writeOutput(oneLine(toJson(measurement, row, machine)));
   };
   for (const std::string& mesh : arguments.meshes) measure(mesh, mesh);
   if (!arguments.meshes.empty()) return;
-  const bench::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const std::filesystem::path animal = folder.path() / "animal.ply";
   writeGeneratedPly(animal, makeAnimal(arguments.generatedFaceCount), false);
   measure("generated animal", animal);
@@ -46,16 +136,15 @@ void run(const Arguments& arguments, const RunControl& control) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  bench::BenchProgram program("asdfvk-bench-stages",
-                              "Times each stage of asdf-vk, reference against Vulkan, turn by turn in one run.");
+  Program program("asdfvk-bench-stages", "Times the stages of a computation for several backends, in turns.");
   Arguments arguments;
-  program.addMeshesOr(arguments.meshes, "an animal is generated");
+  program.addOptionalMeshes(arguments.meshes, "a generated animal");
   program.add("--faces", arguments.generatedFaceCount, "Faces of the generated animal", {kMinFaceCount, kMaxFaceCount});
-  program.add("--runs", arguments.request.runCount, "Counted rounds, after one that warms up", {1, 1000});
+  program.add("--runs", arguments.request.runCount, "Rounds, after one for warm-up", {1, 1000});
   program.add("--seeds", arguments.request.seeds, "Shares, counts or all");
   program.add("--backends", arguments.request.backends, "Some of reference, vulkan and cpu");
-  program.add("--device", arguments.request.device, "As asdf-vk takes it");
-  program.add("--json", arguments.json, "One JSON line per row instead of a table");
-  program.addHidden("--cold", arguments.cold);  // What StageBench starts further processes with.
+  program.add("--device", arguments.request.device, "Vulkan device: index or part of its name");
+  program.add("--json", arguments.isJson, "One JSON line per row instead of a table");
+  program.addHidden("--cold", arguments.isCold);  // Option of the processes that StageBench starts.
   return program.run(argc, argv, [&](const RunControl& control) { run(arguments, control); });
 }

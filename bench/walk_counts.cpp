@@ -11,9 +11,10 @@
 namespace asdfvk::bench {
 namespace {
 
-// The triangles tested after each node.
+// For each visited node, the number of triangles tested after it.
 using Steps = std::vector<uint32_t>;
 
+/// The walk of one ray.
 class Walk {
  public:
   Walk(const DeviceBvh& bvh, const Vec3d& origin, const Vec3d& direction, uint32_t excludedFace)
@@ -28,7 +29,7 @@ class Walk {
   }
 
  private:
-  // The distance to the box, or infinity.
+  // Distance to the box; infinity for a miss.
   [[nodiscard]] double enter(const double (&min)[3], const double (&max)[3]) const {
     double near = 0, far = distance_;
     for (size_t axis = 0; axis < 3; ++axis) {

@@ -8,20 +8,19 @@
 
 namespace asdfvk::bench {
 
-/// As many rays take every step together where a subgroup walks.
+/// Number of seeds whose rays share every step: the lanes of a subgroup.
 inline constexpr size_t kNeighbourCount = 8;
 
-/// What the walks of shaders/binary_walk.glsl and wide_walk.glsl meet, per ray; the second tests two triangles at a
-/// time.
+/// Nodes and triangles that the walks of shaders/binary_walk.glsl and wide_walk.glsl visit, on average.
 struct WalkCounts {
-  double nodes = 0, triangles = 0;
-  /// For the wide one: the same per ray where kNeighbourCount rays with the same place in the cones of seeds that are
-  /// neighbours in `seeds` take every step together, as the lanes of a subgroup do.
+  double nodes = 0, triangles = 0;  ///< Per ray.
+  /// Per group of kNeighbourCount rays that share every step: the rays at the same place in the cones of consecutive
+  /// seeds. Each step costs as much as the ray that needs most.
   double sharedNodes = 0, sharedTriangles = 0;
 };
 
-/// Of the cones of the seed faces, the first kNeighbourCount of them together, then the next, the rest left out;
-/// counted on the CPU in double precision.
+/// Counts on the CPU in double precision. The seeds form groups of kNeighbourCount consecutive ones; a remainder is
+/// skipped.
 [[nodiscard]] WalkCounts countWalks(const DeviceBvh& bvh, const TraceScene& scene, const Cone& cone,
                                     std::span<const uint32_t> seeds);
 

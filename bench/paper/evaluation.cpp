@@ -3,55 +3,64 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <set>
+#include <stdexcept>
 
-#include "cli/terminal.h"
 #include "core/check.h"
-#include "share_errors.h"
-#include "spread.h"
+#include "generate/shapes.h"
+#include "io/mesh_reader.h"
+#include "support/computation.h"
+#include "support/measurement.h"
+#include "support/program.h"
 
 namespace asdfvk::bench {
 namespace {
 
-/// What one run gives, kept until all rounds are done.
-using Samples = std::vector<ShareResult>;
-
-double medianOf(const Samples& samples, double ShareResult::*field) {
-  std::vector<double> values;
-  for (const ShareResult& sample : samples)
-    if (!std::isnan(sample.*field)) values.push_back(sample.*field);
-  return values.empty() ? kNoValue : spreadOf(values).median;
+/// The stem of the path, with "_" for each character that is not allowed in NamedMesh::name.
+std::string plainStem(const std::string& path) {
+  std::string stem = std::filesystem::path(path).stem().string();
+  std::replace_if(
+      stem.begin(), stem.end(),
+      [](char c) {
+        const bool isLetterOrDigit = ('a' <= c && c <= 'z') || ('A' <= c && c <= 'Z') || ('0' <= c && c <= '9');
+        return !isLetterOrDigit && c != '-' && c != '_' && c != '.';
+      },
+      '_');
+  return stem;
 }
 
-ShareResult medians(const Samples& samples) {
+ShareResult mediansOf(const std::vector<ShareResult>& samples) {
   ShareResult result = samples.front();
   for (double ShareResult::*field :
-       {&ShareResult::average, &ShareResult::maximum, &ShareResult::truthAverage, &ShareResult::truthMaximum,
-        &ShareResult::estimated, &ShareResult::sampleSeconds, &ShareResult::traceSeconds, &ShareResult::predictSeconds,
-        &ShareResult::solveSeconds, &ShareResult::timeRatio})
-    result.*field = medianOf(samples, field);
+       {&ShareResult::averageError, &ShareResult::maximumError, &ShareResult::truthAverageError,
+        &ShareResult::truthMaximumError, &ShareResult::estimatedError, &ShareResult::sampleSeconds,
+        &ShareResult::traceSeconds, &ShareResult::predictSeconds, &ShareResult::solveSeconds,
+        &ShareResult::timeRatio}) {
+    std::vector<double> values;
+    for (const ShareResult& sample : samples)
+      if (!std::isnan(sample.*field)) values.push_back(sample.*field);
+    result.*field = values.empty() ? kNoValue : dispersionOf(values).median;
+  }
   return result;
 }
 
-/// What results are compared with.
-struct Standards {
-  const Result& full;
-  const Result& truth;
-};
-
 double rangeOf(const Result& result) { return result.report.sdf.max - result.report.sdf.min; }
 
-ShareResult judge(const Result& result, const Standards& standards, double percent, double fullTraceSeconds) {
-  const ShareErrors errors = errorsOverRange(standards.full.sdf, result.sdf);
-  const ShareErrors truthErrors = errorsOverRange(standards.truth.sdf, result.sdf);
-  const double scale = rangeOf(standards.truth) / rangeOf(standards.full);
+ShareResult compare(const Result& result, const Result& full, const Result& truth, double percent,
+                    double fullTraceSeconds) {
+  const FieldErrors errors = errorsOverRange(full.sdf, result.sdf);
+  const FieldErrors truthErrors = errorsOverRange(truth.sdf, result.sdf);
+  const double scale = rangeOf(truth) / rangeOf(full);
   const StageSeconds& seconds = result.report.stageSeconds;
   return {.percent = percent,
           .seedCount = result.report.seedCount,
-          .average = errors.average,
-          .maximum = errors.maximum,
-          .truthAverage = truthErrors.average * scale,
-          .truthMaximum = truthErrors.maximum * scale,
-          .estimated = result.report.estimatedError ? result.report.estimatedError->average : kNoValue,
+          .averageError = errors.average,
+          .maximumError = errors.maximum,
+          .truthAverageError = truthErrors.average * scale,
+          .truthMaximumError = truthErrors.maximum * scale,
+          .estimatedError = result.report.estimatedError ? result.report.estimatedError->average : kNoValue,
           .sampleSeconds = seconds.sample,
           .traceSeconds = seconds.trace,
           .predictSeconds = seconds.predict,
@@ -59,62 +68,53 @@ ShareResult judge(const Result& result, const Standards& standards, double perce
           .timeRatio = (seconds.sample + seconds.trace + seconds.predict + seconds.solve) / fullTraceSeconds};
 }
 
-Result computeTruth(Session& session, Mesh& mesh, uint32_t rayCount, const RunControl& control) {
-  Options options = recipeOptions(Recipe::Paper, 100, 1);
-  options.cone.rayCount = rayCount;
-  options.cone.rotation = ConeRotation::Hashed;
-  return session.compute(mesh, options, control);
-}
-
-void tell(const std::string& name, const std::string& what) { writeStandardError(fmt::format("{}: {}\n", name, what)); }
-
 }  // namespace
 
-const ShareResult& Evaluation::at(Recipe recipe, double percent) const {
-  const auto found = std::find(kPercents.begin(), kPercents.end(), percent);
-  ASDFVK_CHECK(found != kPercents.end());
-  return recipes[static_cast<size_t>(recipe)][static_cast<size_t>(found - kPercents.begin())];
+std::vector<NamedMesh> readMeshes(const std::vector<std::string>& paths) {
+  std::vector<NamedMesh> meshes;
+  std::set<std::string> names;
+  for (const std::string& path : paths) {
+    const std::string stem = plainStem(path);
+    std::string name = stem;
+    for (int number = 2; !names.insert(name).second; ++number) name = fmt::format("{}-{}", stem, number);
+    meshes.push_back({name, readMesh(path)});
+  }
+  return meshes;
 }
 
-Options recipeOptions(Recipe recipe, double percent, uint64_t randomSeed) {
-  Options options;
-  applyRecipe(recipe, options);
-  options.seeds = {SeedCount::Kind::Share, percent / 100, 0};
-  if (percent == 100) options.seeds.kind = SeedCount::Kind::All;
-  options.randomSeed = randomSeed;
-  return options;
+std::vector<NamedMesh> generateMeshes(uint64_t faceCount) {
+  std::vector<NamedMesh> meshes;
+  for (const char* shape : {"animal", "hand", "figure"})
+    meshes.push_back({shape, generateShape(shape, faceCount).mesh, {.up = Up::Z}});
+  return meshes;
 }
 
-Evaluation evaluate(Session& session, const std::string& name, Mesh& mesh, const EvaluationOptions& options,
-                    const RunControl& control) {
-  for (size_t i = 0; i < kRecipeCount; ++i) ASDFVK_CHECK_OP(static_cast<size_t>(kRecipes[i].second), ==, i);
-  tell(name, "warming up");
-  Evaluation evaluation;
-  evaluation.name = name;
-  for (const auto& [recipeName, recipe] : kRecipes)  // Compiles the kernels.
-    static_cast<void>(session.compute(mesh, recipeOptions(recipe, 1, 1), control));
-  evaluation.full = session.compute(mesh, recipeOptions(Recipe::Paper, 100, 1), control);
+Evaluation evaluate(Session& session, NamedMesh& mesh, const EvaluationOptions& options, const RunControl& control) {
+  const auto compute = [&](const Options& computation) { return session.compute(mesh.mesh, computation, control); };
+  writeProgress(mesh.name + ": warm-up");
+  for (const auto& [recipeName, recipe] : kRecipes) static_cast<void>(compute(recipeOptions(recipe, 1)));
+  Evaluation evaluation{.name = mesh.name, .full = compute(recipeOptions(Recipe::Paper, 100)), .recipes = {}};
   if (!(evaluation.range() > 0))
-    throw Error(ErrorCode::UnreadableInput,
-                name + ": no two of its values differ, so that errors have no range to be divided by");
-  tell(name, fmt::format("{} rays at each of {} faces", options.truthRayCount, evaluation.full.report.faceCount));
-  const Result truth = computeTruth(session, mesh, options.truthRayCount, control);
+    throw std::runtime_error(mesh.name + ": all values are equal; errors over their range are undefined");
+  writeProgress(fmt::format("{}: {} rays at each of {} faces", mesh.name, options.truthRayCount,
+                            evaluation.full.report.faceCount));
+  const Result truth = compute(truthOptions(options.truthRayCount));
 
-  std::array<std::array<Samples, kPercents.size()>, kRecipeCount> samples;
+  std::array<std::array<std::vector<ShareResult>, kPercents.size()>, kRecipes.size()> samples;
   std::vector<double> fullTraceSeconds;
   for (uint32_t round = 1; round <= options.seedSetCount; ++round) {
-    tell(name, fmt::format("seed set {} of {}", round, options.seedSetCount));
-    static_assert(kPercents.front() == 100);
+    writeProgress(fmt::format("{}: seed set {} of {}", mesh.name, round, options.seedSetCount));
+    static_assert(kPercents[0] == 100 && kRecipes[0].second == Recipe::Paper);  // The full trace comes first.
     for (size_t i = 0; i < kPercents.size(); ++i)
-      for (size_t j = 0; j < kRecipeCount; ++j) {
-        const Result part = session.compute(mesh, recipeOptions(kRecipes[j].second, kPercents[i], round), control);
-        if (i == 0 && j == 0) fullTraceSeconds.push_back(part.report.stageSeconds.trace);
-        samples[j][i].push_back(judge(part, {evaluation.full, truth}, kPercents[i], fullTraceSeconds.back()));
+      for (size_t j = 0; j < kRecipes.size(); ++j) {
+        const Result result = compute(recipeOptions(kRecipes[j].second, kPercents[i], round));
+        if (i == 0 && j == 0) fullTraceSeconds.push_back(result.report.stageSeconds.trace);
+        samples[j][i].push_back(compare(result, evaluation.full, truth, kPercents[i], fullTraceSeconds.back()));
       }
   }
-  evaluation.fullTraceSeconds = spreadOf(fullTraceSeconds).median;
-  for (size_t j = 0; j < kRecipeCount; ++j)
-    for (size_t i = 0; i < kPercents.size(); ++i) evaluation.recipes[j][i] = medians(samples[j][i]);
+  evaluation.fullTraceSeconds = dispersionOf(fullTraceSeconds).median;
+  for (size_t j = 0; j < kRecipes.size(); ++j)
+    for (size_t i = 0; i < kPercents.size(); ++i) evaluation.recipes[j][i] = mediansOf(samples[j][i]);
   return evaluation;
 }
 

@@ -5,52 +5,56 @@
 #include <string>
 #include <vector>
 
-#include "cli/choice_names.h"
 #include "pipeline/asdf.h"
+#include "cli/choice_names.h"
+#include "render/view.h"
 
 namespace asdfvk::bench {
 
-/// The shares of Table 1 and all faces, in percent.
+/// The shares of Table 1 of the ASDF paper, and all faces, in percent.
 inline constexpr std::array<double, 7> kPercents{100, 50, 20, 10, 5, 2, 1};
-inline constexpr size_t kRecipeCount = kRecipes.size();
 
-struct EvaluationOptions {
-  uint32_t seedSetCount = 3;     ///< Every figure is the median over so many random seeds.
-  uint32_t truthRayCount = 600;  ///< Of the function that is called the truth, its cones turned by a hash.
+struct NamedMesh {
+  std::string name;  ///< Unique; letters, digits, "-", "_" and "." only, because file names contain it.
+  Mesh mesh;
+  View view = {};  ///< Of its pictures.
 };
 
-/// A recipe at one share. Errors are over the range of the full function, which is the one of 30 rays at every face
-/// with cones all alike; all faces are counted, as in the paper's Table 1.
+/// Reads the meshes and names them by their files. Throws Error{Input}.
+[[nodiscard]] std::vector<NamedMesh> readMeshes(const std::vector<std::string>& paths);
+
+/// An animal, a hand and a figure with about `faceCount` faces each.
+[[nodiscard]] std::vector<NamedMesh> generateMeshes(uint64_t faceCount);
+
+struct EvaluationOptions {
+  uint32_t seedSetCount = 3;     ///< Random seed sets; every number is the median over them.
+  uint32_t truthRayCount = 600;  ///< Rays per face of the truth.
+};
+
+/// A recipe at one share of the faces. Errors are over all faces and over the range of the full function.
 struct ShareResult {
   double percent = 0;
   uint64_t seedCount = 0;
-  double average = 0, maximum = 0;            ///< Against the full function.
-  double truthAverage = 0, truthMaximum = 0;  ///< Against the truth.
-  double estimated = kNoValue;                ///< What the result itself tells of `average`; NaN where it does not.
+  double averageError = 0, maximumError = 0;            ///< Against the full function.
+  double truthAverageError = 0, truthMaximumError = 0;  ///< Against the truth.
+  double estimatedError = kNoValue;                     ///< The result's own estimate of averageError; NaN for none.
   double sampleSeconds = 0, traceSeconds = 0, predictSeconds = 0, solveSeconds = 0;
-  double timeRatio = 0;  ///< seconds() over the trace of the full function in the same round.
-
-  [[nodiscard]] double seconds() const { return sampleSeconds + traceSeconds + predictSeconds + solveSeconds; }
+  double timeRatio = 0;  ///< Sum of these seconds over the time of the full trace in the same round.
 };
 
 struct Evaluation {
   std::string name;
-  Result full;  ///< Of 30 rays at every face, the paper's reference.
+  Result full;  ///< The full function: 30 rays at every face with fixed cones, the reference of the paper.
   double fullTraceSeconds = 0;
-  std::array<std::array<ShareResult, kPercents.size()>, kRecipeCount> recipes;  ///< In the order of kRecipes.
+  std::array<std::array<ShareResult, kPercents.size()>, kRecipes.size()> recipes;  ///< In the order of kRecipes.
 
   [[nodiscard]] double range() const { return full.report.sdf.max - full.report.sdf.min; }
-  [[nodiscard]] const ShareResult& at(Recipe recipe, double percent) const;
-  /// The full function against the truth: the noise floor.
-  [[nodiscard]] const ShareResult& floor() const { return at(Recipe::Paper, 100); }
 };
 
-/// Options of a recipe at a share of the faces.
-[[nodiscard]] Options recipeOptions(Recipe recipe, double percent, uint64_t randomSeed);
-
-/// Throws Error{Input} for a mesh whose values do not differ: there is no range to divide by. What is being done goes
-/// to standard error, a line at a time.
-[[nodiscard]] Evaluation evaluate(Session& session, const std::string& name, Mesh& mesh,
-                                  const EvaluationOptions& options, const RunControl& control);
+/// Compares all recipes at all shares with the full function and with the truth: the function of truthRayCount rays at
+/// every face, with hashed cones. Throws for a mesh whose values are all equal. Reports progress on
+/// standard error.
+[[nodiscard]] Evaluation evaluate(Session& session, NamedMesh& mesh, const EvaluationOptions& options,
+                                  const RunControl& control);
 
 }  // namespace asdfvk::bench

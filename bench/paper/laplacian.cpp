@@ -26,16 +26,12 @@ std::vector<double> absoluteLaplacian(const Mesh& mesh, std::span<const double> 
   return laplacian;
 }
 
-std::vector<double> overPercentile(std::vector<double> values, double share) {
-  std::vector<double> present;
-  std::copy_if(values.begin(), values.end(), std::back_inserter(present), [](double v) { return !std::isnan(v); });
-  if (present.empty()) return values;
-  const auto rank = std::lround(share * static_cast<double>(present.size() - 1));
-  std::nth_element(present.begin(), present.begin() + rank, present.end());
-  const double whole = present[static_cast<size_t>(rank)];
-  for (double& value : values)
-    if (!std::isnan(value)) value = whole > 0 ? std::min(value / whole, 1.0) : 0;
-  return values;
+double percentileOf(std::vector<double> values, double share) {
+  std::erase_if(values, [](double value) { return std::isnan(value); });
+  if (values.empty()) return kNoValue;
+  const auto rank = std::lround(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), values.begin() + rank, values.end());
+  return values[static_cast<size_t>(rank)];
 }
 
 }  // namespace asdfvk::bench

@@ -8,12 +8,11 @@
 namespace asdfvk::bench {
 
 /// The ASDF paper, section 4, Figure 2: F(p) = | sum w_v SDF(p) - sum w_v SDF(v) | over the faces v that share an edge
-/// with p, w_v = 1 / distance of the barycentres. values: #F, NaN for none; the result is NaN there and leaves
-/// neighbours without a value out. Barycentres in the same place have no weight and are left out too.
+/// with p; w_v = 1 / distance of the barycentres. values: #F, NaN for no value; the result is NaN for these faces, and
+/// their neighbours skip them. Neighbours with the same barycentre are skipped too: their weight is undefined.
 [[nodiscard]] std::vector<double> absoluteLaplacian(const Mesh& mesh, std::span<const double> values);
 
-/// Over its own percentile (nearest rank, share in 0..1), and at most 1: a single face would darken all others if it
-/// were over the maximum. NaN stays.
-[[nodiscard]] std::vector<double> overPercentile(std::vector<double> values, double share);
+/// The percentile of the values that are not NaN, by the nearest rank; NaN without any. share: 0 to 1.
+[[nodiscard]] double percentileOf(std::vector<double> values, double share);
 
 }  // namespace asdfvk::bench

@@ -1,19 +1,13 @@
-// The evaluation of the ASDF paper as one command: its tables, plots and pictures as a page in a folder, each number
-// beside the paper's where there is one, and beside what a function of many rays says.
+// Repeats the evaluation of the ASDF paper: writes the numbers of its tables and plots as CSV files and its pictures as
+// PNG files. bench/plot_paper.py makes the plots and a page from them.
 #include <fmt/format.h>
 
-#include <vector>
-
-#include "bench_program.h"
-#include "cli/choice_names.h"
-#include "cli/report_text.h"
-#include "core/text.h"
 #include "generate/generated_shape.h"
-#include "machine.h"
-#include "paper/gallery.h"
-#include "paper/paper_figures.h"
-#include "paper/report.h"
-#include "paper/sampler_figure.h"
+#include "paper/figures.h"
+#include "paper/tables.h"
+#include "support/computation.h"
+#include "support/measurement.h"
+#include "support/program.h"
 
 namespace {
 
@@ -22,87 +16,59 @@ using namespace asdfvk::bench;
 
 struct Arguments {
   std::vector<std::string> meshes;
-  std::string output;
+  std::string output, backend = "auto", device;
   EvaluationOptions evaluation;
   uint64_t generatedFaceCount = 10'000;
-  SessionOptions session;
   std::string commandLine;
 };
 
-/// As a shell reads it.
-std::string quotedForShell(const std::string& argument) {
-  constexpr const char* kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_./=:,%+@";
-  if (!argument.empty() && argument.find_first_not_of(kPlain) == std::string::npos) return argument;
-  std::string quoted = "'";
-  for (const char c : argument) quoted += c == '\'' ? "'\\''" : std::string(1, c);
-  return quoted + "'";
-}
-
-void addFacts(Page& page, const Arguments& arguments, const std::vector<Evaluation>& evaluations) {
-  const Report& report = evaluations.front().full.report;
+CsvTable runTable(const Arguments& arguments, const Report& report) {
   const Machine machine = thisMachine();
-  std::string meshes;
-  for (const Evaluation& evaluation : evaluations)
-    meshes += fmt::format("{}{} ({} faces)", meshes.empty() ? "" : ", ", evaluation.name,
-                          groupDigits(evaluation.full.report.faceCount));
-  page.facts(
-      {{"version", std::string("asdf-vk ") + ASDFVK_VERSION},
-       {"device", fmt::format("{} ({})", report.device, report.backend)},
-       {"processor",
-        fmt::format("{}, {} thread{}", machine.processor, machine.threads, machine.threads == 1 ? "" : "s")},
-       {"meshes", meshes},
-       {"options", fmt::format("{} seed set{}, 30 rays in a cone of 120 degrees, truth of {} rays",
-                               arguments.evaluation.seedSetCount, arguments.evaluation.seedSetCount == 1 ? "" : "s",
-                               arguments.evaluation.truthRayCount)},
-       {"command", arguments.commandLine}});
+  return {{"name", "value"},
+          {{"version", std::string("asdf-vk ") + ASDFVK_VERSION},
+           {"device", fmt::format("{} ({})", report.device, report.backend)},
+           {"processor", fmt::format("{}, threads: {}", machine.processor, machine.threads)},
+           {"random seed sets", std::to_string(arguments.evaluation.seedSetCount)},
+           {"rays per face of the truth", std::to_string(arguments.evaluation.truthRayCount)},
+           {"command", arguments.commandLine}}};
 }
 
 void run(const Arguments& arguments, const RunControl& control) {
-  std::vector<Subject> subjects =
-      arguments.meshes.empty() ? generateSubjects(arguments.generatedFaceCount) : readSubjects(arguments.meshes);
-  Session session(arguments.session);
+  std::vector<NamedMesh> meshes =
+      arguments.meshes.empty() ? generateMeshes(arguments.generatedFaceCount) : readMeshes(arguments.meshes);
+  Session session(sessionOptionsOf(arguments.backend, arguments.device));
   const OutputFolder folder(arguments.output);
   std::vector<Evaluation> evaluations;
-  for (Subject& subject : subjects)
-    evaluations.push_back(evaluate(session, subject.name, subject.mesh, arguments.evaluation, control));
+  for (NamedMesh& mesh : meshes) evaluations.push_back(evaluate(session, mesh, arguments.evaluation, control));
+  folder.write("run.csv", runTable(arguments, evaluations.front().full.report));
+  folder.write("meshes.csv", meshTable(evaluations));
+  folder.write("table1.csv", errorTable(evaluations));
+  folder.write("figure6.csv", timeTable(evaluations));
 
-  Page page("The ASDF paper\u2019s evaluation, repeated");
-  addFacts(page, arguments, evaluations);
-  addTables(page, folder, evaluations, arguments.evaluation);
-  addPlots(page, folder, evaluations);
-  page.heading("Figures 1 to 4, 7 and 8: pictures");
-  const Studio studio(folder, control);
-  addPaperFigures(page, studio, session, subjects.front(), evaluations.front(), control);
-  addSamplerFigure(page, studio, folder, session, subjects.front(), evaluations.front(),
-                   arguments.evaluation.seedSetCount, control);
-  addGallery(page, studio, session, subjects, control);
-  folder.write("index.html", page.html());
+  PictureWriter pictures(folder, control);
+  drawMeshFigures(pictures, session, meshes.front(), evaluations.front(), control);
+  folder.write("figure7.csv", drawSamplers(pictures, session, meshes.front(), evaluations.front(),
+                                           arguments.evaluation.seedSetCount, control));
+  drawAllMeshes(pictures, session, meshes, control);
+  folder.write("pictures.csv", pictures.list());
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   Arguments arguments;
-  BenchProgram program(
-      "asdfvk-bench-paper",
-      "Tables, plots and pictures of the ASDF paper as a page (DIR/index.html) with CSV, SVG and PNG files.\n"
-      "The first mesh takes the place of the paper's horse.");
-  program.addMeshesOr(arguments.meshes, "an animal, a hand and a figure are generated");
-  program.addRequired("-o,--output", arguments.output, "DIR", "The folder to write to; made where there is none");
-  program.add("--seed-sets", arguments.evaluation.seedSetCount, "Random seeds over which medians are taken", {1, 1000});
-  program.add("--truth-rays", arguments.evaluation.truthRayCount, "Rays per face of what is called the truth",
-              {1, kMaxRayCount});
-  program.add("--faces", arguments.generatedFaceCount, "Of each generated shape", {kMinFaceCount, kMaxFaceCount});
-  std::vector<std::string> backendNames;
-  for (const auto& [name, backend] : kBackends) backendNames.emplace_back(name);
-  std::string backend = "auto";
-  program.addChoice("--backend", backend, backendNames, "Where to compute; default auto");
-  program.add("--device", arguments.session.device, "As asdf-vk takes it");
+  Program program("asdfvk-bench-paper",
+                  "Repeats the evaluation of the ASDF paper: CSV files and pictures, from which bench/plot_paper.py\n"
+                  "makes plots and a page. The first mesh takes the place of the paper's horse.");
+  program.addOptionalMeshes(arguments.meshes, "a generated animal, hand and figure");
+  program.addRequired("-o,--output", arguments.output, "DIR", "Output folder; made if it does not exist");
+  program.add("--seed-sets", arguments.evaluation.seedSetCount, "Random seed sets; numbers are medians over them",
+              {1, 1000});
+  program.add("--truth-rays", arguments.evaluation.truthRayCount, "Rays per face of the truth", {1, kMaxRayCount});
+  program.add("--faces", arguments.generatedFaceCount, "Faces of each generated mesh", {kMinFaceCount, kMaxFaceCount});
+  program.add("--backend", arguments.backend, "auto, vulkan, cpu or reference");
+  program.add("--device", arguments.device, "Vulkan device: index or part of its name");
   arguments.commandLine = "asdfvk-bench-paper";
-  for (int i = 1; i < argc; ++i) arguments.commandLine.append(" ").append(quotedForShell(argv[i]));
-  return program.run(argc, argv, [&](const RunControl& control) {
-    for (const auto& [name, choice] : kBackends)
-      if (name == backend) arguments.session.backend = choice;
-    run(arguments, control);
-  });
+  for (int i = 1; i < argc; ++i) arguments.commandLine.append(" ").append(argv[i]);
+  return program.run(argc, argv, [&](const RunControl& control) { run(arguments, control); });
 }

@@ -7,10 +7,10 @@
 #include <limits>
 #include <numeric>
 
-#include "bvh/bvh_statistics.h"
 #include "bvh_invariants.h"
 #include "bvh_meshes.h"
 #include "core/check.h"
+#include "support/bvh_statistics.h"
 
 using namespace asdfvk;
 

@@ -4,8 +4,6 @@
 
 #include <algorithm>
 
-#include "render/panels.h"
-
 namespace asdfvk {
 namespace {
 
@@ -68,33 +66,6 @@ TEST_CASE("a rectangle covers its edge pixels by their share") {
   CHECK(image.at(1, 0) == Rgb{0, 0, 0});
   CHECK(image.at(2, 0) == Rgb{188, 188, 188});
   CHECK(image.at(3, 0) == kWhite);
-}
-
-TEST_CASE("panels stand side by side with their captions below") {
-  Image red(80, 100), blue(120, 60);
-  fillRectangle(red, 0, 0, 80, 100, {255, 0, 0});
-  fillRectangle(blue, 0, 0, 120, 60, {0, 0, 255});
-  const std::vector<Panel> panels{{red, "left"}, {blue, ""}};
-  const Image row = composeRow(panels);
-  CHECK_EQ(row.width(), 200);
-  CHECK_GT(row.height(), 100);
-  CHECK(row.at(0, 0) == Rgb{255, 0, 0});
-  CHECK(row.at(79, 99) == Rgb{255, 0, 0});
-  CHECK(row.at(80, 19) == kWhite);
-  CHECK(row.at(80, 20) == Rgb{0, 0, 255});
-  CHECK(row.at(199, 79) == Rgb{0, 0, 255});
-  CHECK(row.at(199, 80) == kWhite);
-  bool hasCaption = false;
-  for (int y = 100; y < row.height(); ++y)
-    for (int x = 0; x < 200; ++x) {
-      if (row.at(x, y) == kWhite) continue;
-      hasCaption = true;
-      CHECK_LT(x, 80);
-    }
-  CHECK(hasCaption);
-  const std::vector<Panel> bare{{red, ""}};
-  CHECK(composeRow(bare) == red);
-  CHECK_THROWS_AS((void)composeRow({}), CheckFailure);
 }
 
 }  // namespace

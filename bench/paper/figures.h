@@ -1,0 +1,26 @@
+#pragma once
+
+#include "paper/evaluation.h"
+#include "paper/pictures.h"
+
+namespace asdfvk::bench {
+
+// Shares of the faces in the figures of the ASDF paper, in percent.
+inline constexpr double kFigurePercent = 10;  ///< Figures 1, 4 and 8; the paper states it for Figure 4.
+inline constexpr double kSparsePercent = 5;   ///< Figure 3.
+inline constexpr double kSamplerPercent = 7;  ///< Figure 7.
+
+/// Figures 1 (seeds and result), 2 (Laplacian), 3 (5 % and all faces) and 4 (errors).
+void drawMeshFigures(PictureWriter& pictures, Session& session, NamedMesh& mesh, const Evaluation& evaluation,
+                     const RunControl& control);
+
+/// Figure 7: the seeds of every sampler. Returns the columns sampler, seeds, paper_average_error and
+/// balanced_average_error: the average error with the interpolation of each recipe, as the median over the seed sets.
+[[nodiscard]] CsvTable drawSamplers(PictureWriter& pictures, Session& session, NamedMesh& mesh,
+                                    const Evaluation& evaluation, uint32_t seedSetCount, const RunControl& control);
+
+/// Figure 8: the balanced result of every mesh.
+void drawAllMeshes(PictureWriter& pictures, Session& session, std::vector<NamedMesh>& meshes,
+                   const RunControl& control);
+
+}  // namespace asdfvk::bench

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "render/image.h"
+
+namespace asdfvk::bench {
+
+/// A table with named columns.
+struct CsvTable {
+  std::vector<std::string> columns;
+  std::vector<std::vector<std::string>> rows;  ///< One cell per column.
+};
+
+/// The shortest decimal number that reads back as `value`; empty for NaN.
+[[nodiscard]] std::string csvNumber(double value);
+
+/// The folder of the results. Each file is written completely or not at all; failures throw Error{Output}.
+class OutputFolder {
+ public:
+  /// Makes the folder if it does not exist.
+  explicit OutputFolder(std::filesystem::path path);
+
+  /// RFC 4180 with line feeds; the first line holds the names of the columns.
+  void write(const std::string& name, const CsvTable& table) const;
+  void write(const std::string& name, const Image& image) const;
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace asdfvk::bench

@@ -1,0 +1,92 @@
+#include "support/computation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+#include "core/check.h"
+#include "core/stopwatch.h"
+#include "io/mesh_reader.h"
+#include "io/result_writer.h"
+
+namespace asdfvk::bench {
+
+SessionOptions sessionOptionsOf(const std::string& backend, const std::string& device) {
+  if (backend == "auto") return {.backend = Backend::Auto, .device = device};
+  if (backend == "vulkan") return {.backend = Backend::Vulkan, .device = device};
+  if (backend == "cpu") return {.backend = Backend::Cpu, .device = {}};
+  if (backend == "reference") return {.backend = Backend::Reference, .device = {}};
+  throw Error(ErrorCode::UnknownName,
+              fmt::format("'{}' is not a backend; allowed: auto, vulkan, cpu and reference", backend));
+}
+
+SeedCount parseSeedCount(const std::string& text) {
+  const auto parse = [&text](std::string_view digits, auto max) {
+    decltype(max) number{};
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
+    if (error != std::errc() || end != digits.data() + digits.size() || !(number > 0 && number <= max))
+      throw Error(ErrorCode::OptionOutOfRange,
+                  fmt::format("'{}' is not a number of seeds; allowed: a share such as 10% (above 0, "
+                              "at most 100), a count of at least 1, or all",
+                              text));
+    return number;
+  };
+  if (text == "all") return {SeedCount::Kind::All, 1, 0};
+  if (!text.ends_with('%')) return {SeedCount::Kind::Count, 0, parse(text, std::numeric_limits<uint64_t>::max())};
+  return {SeedCount::Kind::Share, parse(std::string_view(text).substr(0, text.size() - 1), 100.0) / 100, 0};
+}
+
+Options recipeOptions(Recipe recipe, double percent, uint64_t randomSeed) {
+  Options options;
+  applyRecipe(recipe, options);
+  options.seeds = {percent == 100 ? SeedCount::Kind::All : SeedCount::Kind::Share, percent / 100, 0};
+  options.randomSeed = randomSeed;
+  return options;
+}
+
+Options truthOptions(uint32_t rayCount) {
+  Options options = recipeOptions(Recipe::Paper, 100);
+  options.cone.rayCount = rayCount;
+  options.cone.rotation = ConeRotation::Hashed;
+  return options;
+}
+
+FileRun runFile(Session& session, const std::filesystem::path& path, const Options& options,
+                const std::filesystem::path& output, const RunControl& control) {
+  const Stopwatch total;
+  Mesh mesh = readMesh(path);
+  const double readSeconds = total.seconds();
+  Result result = session.compute(mesh, options, control);
+  const Stopwatch writing;
+  writeResult(output, mesh, {result.sdf, result.isSeed});
+  result.report.stageSeconds.write = writing.seconds();
+  result.report.stageSeconds.read = readSeconds;
+  return {std::move(result.report), total.seconds()};
+}
+
+FieldErrors errorsOverRange(std::span<const double> full, std::span<const double> approximate) {
+  ASDFVK_CHECK_OP(full.size(), ==, approximate.size());
+  double low = std::numeric_limits<double>::infinity(), high = -low, sum = 0;
+  size_t count = 0;
+  FieldErrors errors;
+  for (size_t i = 0; i < full.size(); ++i) {
+    if (std::isnan(full[i])) continue;
+    low = std::min(low, full[i]);
+    high = std::max(high, full[i]);
+    if (std::isnan(approximate[i])) continue;
+    const double error = std::abs(approximate[i] - full[i]);
+    sum += error;
+    errors.maximum = std::max(errors.maximum, error);
+    ++count;
+  }
+  if (!(high > low)) return {};
+  errors.average = sum / static_cast<double>(count) / (high - low);
+  errors.maximum /= high - low;
+  return errors;
+}
+
+}  // namespace asdfvk::bench

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+
+#include "bvh/bvh.h"
+#include "pipeline/asdf.h"
+#include "pipeline/prepared_mesh.h"
+#include "trace/cone_tracer.h"
+
+/// Computations that several benchmarks share, and their errors.
+namespace asdfvk::bench {
+
+/// backend: "auto", "vulkan", "cpu" or "reference"; other names throw Error{Usage}. device: of Vulkan.
+[[nodiscard]] SessionOptions sessionOptionsOf(const std::string& backend, const std::string& device);
+
+/// "10%" (above 0, at most 100), "2000" (at least 1) or "all". Throws Error{Usage}.
+[[nodiscard]] SeedCount parseSeedCount(const std::string& text);
+
+/// Options of a recipe with seeds at `percent` of the faces; 100: at all faces.
+[[nodiscard]] Options recipeOptions(Recipe recipe, double percent, uint64_t randomSeed = 1);
+
+/// Options of the truth: many rays at every face, with hashed cones.
+[[nodiscard]] Options truthOptions(uint32_t rayCount);
+
+struct FileRun {
+  Report report;            ///< With the times of reading and writing.
+  double totalSeconds = 0;  ///< Reading, computation and writing.
+};
+
+/// Reads the mesh, computes and writes `output`, as the command line does.
+[[nodiscard]] FileRun runFile(Session& session, const std::filesystem::path& mesh, const Options& options,
+                              const std::filesystem::path& output, const RunControl& control);
+
+/// Absolute differences of two fields over the range (max - min) of the first one, as in Table 1 of the ASDF paper:
+/// over all faces with a value in both. Seeds count too; their error is usually 0.
+struct FieldErrors {
+  double average = 0, maximum = 0;
+};
+
+/// full, approximate: #I, NaN for no value. All 0 when the range is empty.
+[[nodiscard]] FieldErrors errorsOverRange(std::span<const double> full, std::span<const double> approximate);
+
+/// A mesh with its hierarchy: the input of a tracer.
+struct TraceableMesh {
+  Mesh mesh;
+  PreparedMesh prepared = prepareMesh(mesh, Orientation::Keep);
+  Bvh bvh = buildBvh(mesh, prepared.geometry, prepared.representatives);
+
+  explicit TraceableMesh(Mesh source) : mesh(std::move(source)) {}
+  TraceableMesh(const TraceableMesh&) = delete;
+  TraceableMesh& operator=(const TraceableMesh&) = delete;
+
+  /// Views of this object.
+  [[nodiscard]] TraceScene scene() const { return {mesh, prepared.geometry, prepared.representatives, bvh}; }
+};
+
+}  // namespace asdfvk::bench

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <ctime>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/stopwatch.h"
+
+/// Timers, statistics of repeated measurements, and the machine that they depend on.
+namespace asdfvk::bench {
+
+/// Median (mean of the two middle samples for an even count), median absolute deviation from it, minimum and maximum.
+/// All 0 without samples.
+struct Dispersion {
+  double median = 0, deviation = 0, min = 0, max = 0;
+};
+
+[[nodiscard]] Dispersion dispersionOf(std::vector<double> samples);
+
+/// a[i] / b[i], up to the end of the shorter one.
+[[nodiscard]] Dispersion ratioOf(const std::vector<double>& a, const std::vector<double>& b);
+
+/// "0.123 ±0.004": median and median absolute deviation.
+[[nodiscard]] std::string toText(const Dispersion& dispersion, int decimals);
+/// "-" without a value.
+[[nodiscard]] std::string toText(const std::optional<Dispersion>& dispersion, int decimals);
+
+using Json = nlohmann::ordered_json;
+[[nodiscard]] Json toJson(const Dispersion& dispersion);
+/// null without a value.
+[[nodiscard]] Json toJson(const std::optional<Dispersion>& dispersion);
+/// The document and a line feed. Invalid UTF-8 is replaced.
+[[nodiscard]] std::string oneLine(const Json& json);
+
+enum class Clock {
+  ProcessCpu,  ///< CPU seconds of all threads of this process: other load disturbs it less.
+  Wall,        ///< Elapsed seconds: for a GPU, and for threads that wait for each other.
+};
+
+/// Starts at construction.
+class Timer {
+ public:
+  explicit Timer(Clock clock) : clock_(clock) {}
+
+  [[nodiscard]] double seconds() const {
+    if (clock_ == Clock::Wall) return wall_.seconds();
+    return static_cast<double>(std::clock() - cpuStart_) / CLOCKS_PER_SEC;
+  }
+
+ private:
+  Clock clock_;
+  std::clock_t cpuStart_ = std::clock();
+  Stopwatch wall_;
+};
+
+struct Machine {
+  std::string processor;
+  unsigned threads = 1;    ///< Hardware threads.
+  double loadAverage = 0;  ///< Of the last minute, the benchmark itself included.
+};
+
+[[nodiscard]] Machine thisMachine();
+/// One line.
+[[nodiscard]] std::string toText(const Machine& machine);
+
+/// Peak resident memory of this process in bytes (VmHWM): shared libraries and mapped files included.
+[[nodiscard]] double peakMemoryBytes();
+
+}  // namespace asdfvk::bench

@@ -1,0 +1,101 @@
+#include "support/process.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <spawn.h>
+#include <stdlib.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <stdexcept>
+#include <system_error>
+
+#include "asdf_vk/error.h"
+#include "support/program.h"
+
+namespace asdfvk::bench {
+namespace {
+
+[[noreturn]] void failToStart(int errorNumber) {
+  throw std::runtime_error(fmt::format("cannot start a process: {}", std::strerror(errorNumber)));
+}
+
+pid_t spawn(std::string program, std::vector<std::string> arguments, int standardOutput) {
+  std::vector<char*> pointers{program.data()};
+  for (std::string& argument : arguments) pointers.push_back(argument.data());
+  pointers.push_back(nullptr);
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_adddup2(&actions, standardOutput, STDOUT_FILENO);
+  // This process blocks the signals that Program::run() waits for.
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  sigset_t none;
+  sigemptyset(&none);
+  posix_spawnattr_setsigmask(&attributes, &none);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK);
+  pid_t process = 0;
+  const int error = posix_spawn(&process, program.c_str(), &actions, &attributes, pointers.data(), environ);
+  posix_spawnattr_destroy(&attributes);
+  posix_spawn_file_actions_destroy(&actions);
+  if (error != 0) failToStart(error);
+  return process;
+}
+
+std::string readAll(int descriptor) {
+  std::string text;
+  std::array<char, 4096> buffer;
+  for (;;) {
+    const ssize_t count = read(descriptor, buffer.data(), buffer.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) return text;
+    text.append(buffer.data(), static_cast<size_t>(count));
+  }
+}
+
+}  // namespace
+
+std::string outputOf(const std::string& program, const std::vector<std::string>& arguments) {
+  std::array<int, 2> ends{};
+  if (pipe2(ends.data(), O_CLOEXEC) != 0) failToStart(errno);
+  pid_t process = 0;
+  try {
+    process = spawn(program, arguments, ends[1]);
+  } catch (...) {
+    close(ends[0]);
+    close(ends[1]);
+    throw;
+  }
+  close(ends[1]);
+  std::string text = readAll(ends[0]);
+  close(ends[0]);
+  int status = 0;
+  while (waitpid(process, &status, 0) < 0 && errno == EINTR) {
+  }
+  if (WIFSIGNALED(status))
+    throw std::runtime_error(fmt::format("{} was ended by signal {}", program, WTERMSIG(status)));
+  if (WEXITSTATUS(status) == kCancelledExitCode) throw Error(ErrorCode::Cancelled, "cancelled");
+  if (WEXITSTATUS(status) != 0)
+    throw std::runtime_error(
+        fmt::format("{} failed with exit code {}; its message is above", program, WEXITSTATUS(status)));
+  return text;
+}
+
+TemporaryFolder::TemporaryFolder() {
+  std::string name = (std::filesystem::temp_directory_path() / "asdfvk-bench-XXXXXX").string();
+  if (mkdtemp(name.data()) == nullptr)
+    throw Error(ErrorCode::OutputNotWritable,
+                fmt::format("cannot make the temporary folder {}: {}", name, std::strerror(errno)));
+  path_ = name;
+}
+
+TemporaryFolder::~TemporaryFolder() {
+  std::error_code ignored;
+  std::filesystem::remove_all(path_, ignored);
+}
+
+}  // namespace asdfvk::bench
