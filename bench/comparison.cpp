@@ -6,7 +6,7 @@
 
 #include "baselines.h"
 #include "core/stopwatch.h"
-#include "io/mesh_reader.h"
+#include "asdf_vk/files.h"
 #include "cli/choice_names.h"
 #include "pipeline/compute_backend.h"
 #include "pipeline/seed_choice.h"

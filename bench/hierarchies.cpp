@@ -9,7 +9,7 @@
 
 #include "baselines.h"
 #include "bvh/device_bvh.h"
-#include "io/mesh_reader.h"
+#include "asdf_vk/files.h"
 #include "seeds/random_permutation.h"
 #include "support/bvh_statistics.h"
 #include "support/computation.h"

@@ -6,7 +6,7 @@
 #include <memory>
 #include <optional>
 
-#include "io/mesh_reader.h"
+#include "asdf_vk/files.h"
 #include "cli/choice_names.h"
 #include "seeds/random_permutation.h"
 #include "support/computation.h"

@@ -13,7 +13,7 @@
 
 #include "core/stopwatch.h"
 #include "core/text.h"
-#include "io/mesh_reader.h"
+#include "asdf_vk/files.h"
 #include "support/measurement.h"
 #include "support/process.h"
 #include "support/program.h"

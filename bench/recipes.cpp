@@ -7,7 +7,7 @@
 #include <array>
 #include <cmath>
 
-#include "io/mesh_reader.h"
+#include "asdf_vk/files.h"
 #include "support/computation.h"
 #include "support/program.h"
 

@@ -10,7 +10,7 @@
 #include "core/stopwatch.h"
 #include "core/text.h"
 #include "generate/shapes.h"
-#include "io/mesh_reader.h"
+#include "asdf_vk/files.h"
 #include "seeds/sampler.h"
 #include "seeds/surface_ball.h"
 #include "seeds/surface_distances.h"

@@ -6,7 +6,7 @@
 
 #include "core/stopwatch.h"
 #include "core/text.h"
-#include "io/mesh_reader.h"
+#include "asdf_vk/files.h"
 #include "pipeline/compute_backend.h"
 #include "smooth/bilateral.h"
 #include "support/computation.h"

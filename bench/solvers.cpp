@@ -9,7 +9,7 @@
 
 #include "core/text.h"
 #include "generate/creatures.h"
-#include "io/mesh_reader.h"
+#include "asdf_vk/files.h"
 #include "mesh/dual_graph.h"
 #include "mesh/face_geometry.h"
 #include "poisson/arc_weights.h"

@@ -10,7 +10,7 @@
 
 #include "core/check.h"
 #include "generate/shapes.h"
-#include "io/mesh_reader.h"
+#include "asdf_vk/files.h"
 #include "support/computation.h"
 #include "support/measurement.h"
 #include "support/program.h"

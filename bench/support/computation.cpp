@@ -10,8 +10,8 @@
 
 #include "core/check.h"
 #include "core/stopwatch.h"
-#include "io/mesh_reader.h"
-#include "io/result_writer.h"
+#include "asdf_vk/files.h"
+#include "asdf_vk/files.h"
 
 namespace asdfvk::bench {
 

@@ -28,6 +28,7 @@ enum class ErrorCode {
   // Input
   UnreadableInput,  ///< The file cannot be opened, or breaks its format; the message has line or byte.
   EmptyMesh,        ///< No faces.
+  ArraySize,        ///< The size of an array does not fit: no multiple of 3, or offsets that do not ascend.
   IndexOutOfRange,  ///< A face refers to a vertex that does not exist.
   MeshTooLarge,     ///< More connections than 32 bits can index.
   InputTooLarge,    ///< Does not fit into memory.

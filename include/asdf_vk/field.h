@@ -13,7 +13,7 @@
 
 namespace asdfvk {
 
-enum class FieldLocation { Face, Vertex };
+enum class FieldLocation { PerFace, PerVertex };
 
 /// One quantity of a result: per input face or per vertex of the input, in file order. Every writer, the JSON report
 /// and the picture accept any list of fields.
@@ -21,9 +21,10 @@ struct Field {
   /// Real numbers are double in memory and in CSV, float32 in the binary formats; NaN = no value.
   using Values = std::variant<std::vector<double>, std::vector<uint8_t>, std::vector<uint32_t>>;
 
-  std::string name;  ///< Letters, digits, '_'; unique within a result.
-  std::string unit;  ///< "length" (the unit of the mesh), or empty for numbers without a unit, flags and indices.
-  FieldLocation location = FieldLocation::Face;
+  std::string name;   ///< Letters, digits, '_'; unique within a result.
+  std::string label;  ///< For people: "shape diameter".
+  std::string unit;   ///< "length" (the unit of the mesh), or empty for numbers without a unit, flags and indices.
+  FieldLocation location = FieldLocation::PerFace;
   uint32_t componentCount = 1;  ///< 3 for a point.
   Values values;                ///< Item i has the entries i componentCount .. (i + 1) componentCount - 1.
 

@@ -7,17 +7,17 @@
 #include <string>
 #include <utility>
 
-#include "core/check.h"
-#include "mesh/mesh.h"
+#include "asdf_vk/error.h"
+#include "asdf_vk/mesh.h"
 
-/// Compute on an OpenMesh triangle mesh in memory, for example:
+/// Computation on an OpenMesh triangle mesh in memory, for example:
 ///
-///   asdfvk::computeOnOpenMesh(halfEdgeMesh, [&](asdfvk::Mesh m) { return session.compute(m, options).sdf; });
+///   asdfvk::computeOnOpenMesh(halfEdgeMesh, [&](const asdfvk::Mesh& mesh) { return session.compute(mesh).sdf(); });
 ///   double value = OpenMesh::getProperty<OpenMesh::FaceHandle, double>(halfEdgeMesh, "sdf")[faceHandle];
 namespace asdfvk {
 
-/// The same vertices and faces, by handle index. Faces marked as deleted are refused with CheckFailure: call
-/// garbage_collection() before, which renumbers the handles.
+/// The same vertices and faces, by handle index. Throws Error{OptionConflict} for faces that are marked as deleted
+/// (call garbage_collection() before, which renumbers the handles) and for faces that are not triangles.
 template <typename HalfEdgeMesh>
 [[nodiscard]] Mesh fromOpenMesh(const HalfEdgeMesh& source) {
   Mesh mesh;
@@ -29,29 +29,29 @@ template <typename HalfEdgeMesh>
   mesh.faces.reserve(source.n_faces());
   for (size_t i = 0; i < source.n_faces(); ++i) {
     const OpenMesh::FaceHandle handle(static_cast<int>(i));
-    ASDFVK_CHECK(!source.has_face_status() || !source.status(handle).deleted());
+    if (source.has_face_status() && source.status(handle).deleted())
+      throw Error(ErrorCode::OptionConflict, "the OpenMesh mesh has deleted faces; collect the garbage first");
     Face face{};
     size_t corner = 0;
-    for (auto vertex = source.cfv_iter(handle); vertex.is_valid(); ++vertex, ++corner) {
-      ASDFVK_CHECK_OP(corner, <, face.size());
-      face[corner] = static_cast<uint32_t>(vertex->idx());
-    }
-    ASDFVK_CHECK_OP(corner, ==, face.size());
+    for (auto vertex = source.cfv_iter(handle); vertex.is_valid(); ++vertex, ++corner)
+      if (corner < face.size()) face[corner] = static_cast<uint32_t>(vertex->idx());
+    if (corner != face.size()) throw Error(ErrorCode::OptionConflict, "a face of the OpenMesh mesh is not a triangle");
     mesh.faces.push_back(face);
   }
   return mesh;
 }
 
-/// Leaves one value per face, by handle index, as the mesh's face property of type double called `name`; makes the
-/// property where it is missing. values: n_faces().
+/// Stores one value per face, by handle index, as the face property `name` of type double, which is created if missing.
+/// values: n_faces(). Throws Error{ArraySize}.
 template <typename HalfEdgeMesh>
 void writeFaceProperty(HalfEdgeMesh& target, std::span<const double> values, const std::string& name = "sdf") {
-  ASDFVK_CHECK_OP(values.size(), ==, target.n_faces());
+  if (values.size() != target.n_faces())
+    throw Error(ErrorCode::ArraySize, "the number of values differs from the number of faces of the OpenMesh mesh");
   auto property = OpenMesh::getOrMakeProperty<OpenMesh::FaceHandle, double>(target, name.c_str());
   for (size_t i = 0; i < values.size(); ++i) property[OpenMesh::FaceHandle(static_cast<int>(i))] = values[i];
 }
 
-/// Leaves compute(mesh), a range of one double per face, as the face property `name`.
+/// Stores compute(mesh), a range of one double per face, as the face property `name`.
 template <typename HalfEdgeMesh, typename Compute>
 void computeOnOpenMesh(HalfEdgeMesh& mesh, Compute&& compute, const std::string& name = "sdf") {
   const auto values = std::forward<Compute>(compute)(fromOpenMesh(std::as_const(mesh)));

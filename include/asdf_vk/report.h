@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "asdf_vk/api.h"
+#include "asdf_vk/error.h"
 #include "asdf_vk/mesh.h"
 
 namespace asdfvk {
@@ -58,7 +59,7 @@ enum class WarningCode {
   MeshDefect,          ///< One of MeshDefects.
   InvertedComponents,  ///< Components look inwards and were left so.
   ComponentsReversed,  ///< Components looked inwards and were reversed (Orientation::Auto).
-  MissingValues,       ///< Faces without a value.
+  MissingValues,       ///< Faces without a value. Details: {"cause", "inverted"}, {"cause", "open"} where likely.
   FinishedOnCpu,       ///< The solver of the device reached the limit of float32; the CPU continued in double.
   SolvedOnCpu,         ///< The device failed to solve the equation; the CPU solved it.
   NotConverged,        ///< The solver stopped at its iteration limit.
@@ -69,6 +70,7 @@ enum class WarningCode {
 struct Warning {
   WarningCode code;
   std::string message;  ///< One sentence.
+  std::vector<ErrorDetail> details;
 };
 
 struct SolverReport {

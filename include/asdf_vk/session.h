@@ -41,6 +41,9 @@ struct Result {
   [[nodiscard]] const Field* field(std::string_view name) const { return findField(fields, name); }
 };
 
+/// Names of all fields that a result may have.
+[[nodiscard]] ASDFVK_API std::vector<std::string> resultFieldNames();
+
 struct DeviceInfo {
   std::string name, driver, kind;
   bool usable = false;
@@ -50,6 +53,8 @@ struct DeviceInfo {
 [[nodiscard]] ASDFVK_API std::vector<DeviceInfo> listDevices(std::string* reason = nullptr);
 
 [[nodiscard]] ASDFVK_API std::vector<std::string> backendNames();
+/// Whether this build has the backend: Embree is optional.
+[[nodiscard]] ASDFVK_API bool isBackendBuilt(std::string_view name);
 
 /// A device with its pipelines, for any number of meshes one after another. Not thread-safe.
 class ASDFVK_API Session {
@@ -62,6 +67,10 @@ class ASDFVK_API Session {
 
   /// First line: the chosen device and the reason. Then one line per device that was not chosen.
   [[nodiscard]] const std::vector<std::string>& deviceLines() const;
+  /// "vulkan", "cpu" or "reference"
+  [[nodiscard]] const std::string& backend() const;
+  /// Whether the CPU traces: Embree, the reference, or a CPU device of Vulkan.
+  [[nodiscard]] bool runsOnCpu() const;
 
   /// Does not change the mesh. Throws Error of kind Input (no face, index out of range), Usage, Device or Cancelled.
   [[nodiscard]] Result compute(const MeshView& mesh, const Options& options = {}, const RunControl& control = {});

@@ -5,34 +5,29 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/asdf.h"
+#include "asdf_vk/session.h"
 #include "render/view.h"
 
 namespace asdfvk {
 
-enum class PictureOf {
-  Sdf,
-  Seeds,
-  Error,  ///< Result::expectedError.
-};
-
-/// What was asked for, after every option was checked on its own and against the others.
+/// The parsed command line, after every option was validated, alone and against the others.
 struct CommandLine {
-  std::vector<std::string> meshes;  ///< Paths, "-" for standard input (once at most).
+  std::vector<std::string> meshes;  ///< Paths, "-" for standard input (at most once).
   SessionOptions session;
-  Recipe recipe = Recipe::Balanced;  ///< Applied to `options` before the options of their own.
+  Recipe recipe = Recipe::Balanced;  ///< Applied to `options` before other options.
   Options options;
-  std::string output;   ///< A file, a directory, "-" for standard output; empty: beside each input.
-  std::string format;   ///< "ply", "vtu", "npy" or "csv"; empty: told by `output`, else ply.
-  std::string picture;  ///< A .png, "-" for standard output; empty: none.
-  PictureOf pictureOf = PictureOf::Sdf;
+  std::string output;                              ///< A file, a directory, "-"; empty: beside each input.
+  std::string format;                              ///< A name of resultFormats(); empty: by `output`, else ply.
+  std::vector<std::string> fields{"sdf", "seed"};  ///< Fields to write, in this order.
+  std::string picture;                             ///< A .png, "-" for standard output; empty: none.
+  std::string pictureOf = "sdf";                   ///< Name of the field to show.
   View pictureView;
   bool ascii = false;
   bool json = false;
   bool quiet = false;
   bool listDevices = false;
-  uint32_t threadCount = 0;           ///< 0: as many as there are cores.
-  std::optional<std::string> answer;  ///< The text of --help or --version; nothing else is to be done then.
+  uint32_t threadCount = 0;           ///< 0: the number of cores.
+  std::optional<std::string> answer;  ///< The text of --help or --version; nothing else is done then.
 };
 
 }  // namespace asdfvk

@@ -6,11 +6,14 @@
 
 namespace asdfvk {
 
-/// Where the rounds of --max-error and --time-budget begin when --seeds does not say it.
+/// Groups of --help=all. --help shows the first one only.
+inline constexpr const char* kBasicGroup = "Options";
+inline constexpr const char* kExperimentGroup = "Experiments (the defaults are best)";
+
+/// Seeds of the first round where further rounds may follow and --seeds is not given, as a share.
 inline constexpr double kFirstRoundShare = 0.02;
 
-/// The options that decide about values: recipe, seeds, rays, interpolation. What --recipe sets is overruled by the
-/// other options, wherever they stand.
+/// Adds the options of the computation, which set line.options and line.recipe.
 void addComputation(CLI::App& app, CommandLine& line);
 
 }  // namespace asdfvk

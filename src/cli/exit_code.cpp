@@ -3,6 +3,48 @@
 #include <new>
 
 namespace asdfvk {
+namespace {
+
+/// The remedy in terms of options and packages, or empty where the reason suffices.
+const char* remedyFor(ErrorCode code) {
+  switch (code) {
+    case ErrorCode::NoVulkanLoader:
+      return "install libvulkan1, or use --backend cpu or reference";
+    case ErrorCode::NoVulkanDriver:
+      return "install a driver (mesa-vulkan-drivers has one for any CPU), or use --backend cpu or reference";
+    case ErrorCode::NoUsableDevice:
+      return "see --list-devices";
+    case ErrorCode::GpuRequired:
+      return "see --list-devices, or drop --require-gpu";
+    case ErrorCode::NoEmbree:
+      return "use another --backend, or install libembree-dev and build again";
+    case ErrorCode::EmbreeFailed:
+      return "use --backend reference";
+    case ErrorCode::NoDeviceForKernel:
+      return "use --backend vulkan, or drop --solver, --kernel, --bvh and --fetch";
+    case ErrorCode::KernelUnsupported:
+      return "use another --kernel, or --backend reference";
+    case ErrorCode::DeviceLimit:
+    case ErrorCode::OutOfDeviceMemory:
+      return "use a smaller mesh, or --backend cpu or reference";
+    case ErrorCode::EquationLimit:
+      return "use --solver cpu";
+    case ErrorCode::DeviceLost:
+    case ErrorCode::DeviceTimeout:
+      return "try again, or use --backend cpu or reference";
+    case ErrorCode::MeshTooLarge:
+      return "split the mesh";
+    default:
+      return "";
+  }
+}
+
+}  // namespace
+
+std::string messageOf(const Error& error) {
+  const std::string remedy = remedyFor(error.code());
+  return remedy.empty() ? error.what() : std::string(error.what()) + "; " + remedy;
+}
 
 ExitCode exitCodeOf(ErrorKind kind) {
   switch (kind) {
@@ -28,9 +70,10 @@ Failure currentFailure() {
   try {
     throw;
   } catch (const Error& error) {
-    return {exitCodeOf(error.kind()), oneLine(error.what())};
+    return {exitCodeOf(error.kind()), oneLine(messageOf(error)), nameOf(error.code())};
   } catch (const std::bad_alloc&) {
-    return {ExitCode::Input, "not enough memory for this mesh; use a machine with more memory or a coarser mesh"};
+    return {ExitCode::Input, "not enough memory for this mesh; use a machine with more memory or a coarser mesh",
+            nameOf(ErrorCode::InputTooLarge)};
   } catch (const std::exception& error) {
     return {ExitCode::Internal, oneLine(std::string("internal error: ") + error.what() + "; please report it")};
   } catch (...) {

@@ -3,11 +3,11 @@
 #include <string>
 
 #include "asdf_vk/error.h"
-#include "pipeline/asdf.h"
+#include "asdf_vk/report.h"
 
 namespace asdfvk {
 
-/// What the program ends with. Of several failures the first one counts.
+/// Exit status of the program: that of the first failure.
 enum class ExitCode : int {
   Done = 0,
   Usage = 1,        ///< The command line has no meaning.
@@ -20,14 +20,17 @@ enum class ExitCode : int {
 };
 
 [[nodiscard]] ExitCode exitCodeOf(ErrorKind kind);
+/// The reason, then the remedy by options of the command line, if there is one.
+[[nodiscard]] std::string messageOf(const Error& error);
 
 /// Done or CheckFailed. A check that is not independent has nothing to fail.
 [[nodiscard]] ExitCode exitCodeOf(const CheckReport& check);
 
-/// A failure as the user meets it: message is one line.
+/// A failure as it is reported; message is one line.
 struct Failure {
   ExitCode code = ExitCode::Internal;
   std::string message;
+  std::string name = "internal";  ///< nameOf(ErrorCode).
 };
 
 /// Describes the exception being handled; to be called in a catch block.

@@ -1,40 +1,41 @@
 #include "cli/options.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <limits>
 #include <utility>
 
 #include "asdf_vk/error.h"
-#include "cli/choice_names.h"
+#include "asdf_vk/files.h"
+#include "asdf_vk/version.h"
 #include "cli/computation_options.h"
-#include "cli/option_adding.h"
-#include "cli/option_values.h"
+#include "cli/option_parsing.h"
 #include "core/text.h"
 
 namespace asdfvk {
 namespace {
 
 constexpr const char* kDescription =
-    "Computes the shape diameter function of triangle meshes (the local thickness of the body at each face): rays on\n"
-    "the device from seed faces, interpolation over the others. Reads PLY, OFF, OBJ and STL; '-' is standard input.";
+    "Computes the shape diameter function of triangle meshes (how thick the shape is, seen from each face): rays\n"
+    "from seed faces on a Vulkan device, interpolation for the other faces. Reads PLY, OFF, OBJ and STL; '-' is\n"
+    "standard input.";
 
 constexpr const char* kFooter =
     "Exit codes: 0 done, 1 usage, 2 input unreadable, 3 no device or device lost, 4 output not writable,\n"
-    "5 a requested check failed, 70 internal error, 130 cancelled. With several meshes the others are done and the\n"
-    "first failure's code is returned.";
+    "5 a requested check failed, 70 internal error, 130 cancelled. With several meshes the others are computed\n"
+    "and the code of the first failure is returned.";
 
 bool isCheckCount(const std::string& text) {
   return text == "all" || (!text.empty() && text.find_first_not_of("0123456789") == std::string::npos);
 }
 
-/// A flag with a value that only an equals sign can attach, so that `--check mesh.ply` does not take the mesh for it.
-/// A number behind a space would be taken for a mesh; that is told unless there is such a file.
-void spellOutBareCheck(std::vector<std::string>& arguments) {
+/// The value of --check must be attached with an equals sign, so that `--check mesh.ply` does not take the mesh as its
+/// value. A number after a space is an error unless a file has that name.
+void expandBareCheck(std::vector<std::string>& arguments) {
   for (size_t i = 0; i < arguments.size() && arguments[i] != "--"; ++i) {
     if (arguments[i] != "--check") continue;
     std::error_code ignored;
@@ -46,33 +47,65 @@ void spellOutBareCheck(std::vector<std::string>& arguments) {
   }
 }
 
+/// Removes --help=all; returns whether it was there.
+bool takeHelpAll(std::vector<std::string>& arguments) {
+  const auto end = std::find(arguments.begin(), arguments.end(), "--");
+  const auto found = std::find(arguments.begin(), end, "--help=all");
+  if (found == end) return false;
+  *found = "--help";
+  return true;
+}
+
+/// "sdf,seed,error"
+std::vector<std::string> parseFields(const std::string& text) {
+  const std::vector<std::string> known = resultFieldNames();
+  std::vector<std::string> names;
+  for (size_t begin = 0; begin <= text.size();) {
+    const size_t end = std::min(text.find(',', begin), text.size());
+    names.push_back(text.substr(begin, end - begin));
+    if (names.back().empty())
+      throw Error(ErrorCode::OptionOutOfRange, fmt::format("'{}' is not a list of names such as sdf,seed,error", text));
+    if (std::count(names.begin(), names.end(), names.back()) > 1)
+      throw Error(ErrorCode::OptionOutOfRange, fmt::format("'{}' names {} twice", text, names.back()));
+    if (std::find(known.begin(), known.end(), names.back()) == known.end())
+      throw Error(ErrorCode::UnknownName,
+                  fmt::format("'{}' is not a field; the fields are {}", names.back(), fmt::join(known, ", ")));
+    begin = end + 1;
+  }
+  return names;
+}
+
 void addOutput(CLI::App& app, CommandLine& line) {
-  const std::string output = "Output";
   addValue(app, "-o,--output", "FILE|DIR|-",
-           "Result: a file (.ply .vtu .npy .csv), a directory, or - for standard\n"
-           "output; default NAME.asdf.ply beside the input",
+           fmt::format("Result: a file (.{}), a directory, or - for standard\n"
+                       "output; default NAME.asdf.ply beside the input",
+                       fmt::join(resultFormats(), " .")),
            [&](const std::string& text) {
              if (text.empty()) throw Error(ErrorCode::OptionOutOfRange, "the name is empty");
              line.output = text;
            })
-      ->group(output);
-  addChoice(app, "--format", line.format,
-            ChoiceNames<const char*, 4>{{{"ply", "ply"}, {"vtu", "vtu"}, {"npy", "npy"}, {"csv", "csv"}}},
-            "Format where -o does not tell it; default ply")
-      ->group(output);
-  app.add_flag("--ascii", line.ascii, "Write PLY as text")->group(output);
+      ->group(kBasicGroup);
+  addValue(
+      app, "--fields", "NAME,...",
+      fmt::format("Fields to write: {}; default {}", fmt::join(resultFieldNames(), ", "), fmt::join(line.fields, ",")),
+      [&](const std::string& text) { line.fields = parseFields(text); })
+      ->group(kBasicGroup);
   addValue(app, "--check", "[=N|all]",
-           fmt::format("Recompute N random traced faces, and N among all, with the reference\n"
-                       "(default {}); exit code 5 when traced faces disagree",
+           fmt::format("Recompute N random traced faces, and N of all faces, with the reference\n"
+                       "(default {}); exit code 5 where traced faces disagree",
                        kDefaultCheckCount),
            [&](const std::string& text) { line.options.checkCount = parseCheckCount(text); })
-      ->group(output);
-  app.add_flag("--json", line.json, "Report as JSON on standard output, one line per mesh")->group(output);
-  app.add_flag("--quiet", line.quiet, "Say nothing but errors on standard error")->group(output);
+      ->group(kBasicGroup);
+  app.add_flag("--json", line.json, "Report as JSON on standard output, one line per mesh")->group(kBasicGroup);
+  const char* const group = "Output";
+  addName(app, "--format", line.format, resultFormats(), "Format where -o does not decide it; default ply")
+      ->group(group);
+  app.add_flag("--ascii", line.ascii, "Write PLY as text")->group(group);
+  app.add_flag("--quiet", line.quiet, "Print errors only")->group(group);
 }
 
 /// "30,18"
-void readViewAngles(const std::string& text, View& view) {
+void parseViewAngles(const std::string& text, View& view) {
   const size_t comma = text.find(',');
   if (comma == std::string::npos)
     throw Error(ErrorCode::OptionOutOfRange, fmt::format("'{}' is not two numbers with a comma between them", text));
@@ -85,25 +118,32 @@ void readViewAngles(const std::string& text, View& view) {
 }
 
 void addPicture(CLI::App& app, CommandLine& line) {
-  const std::string picture = "Picture";
   addValue(app, "--picture", "FILE.png", "Also render the coloured mesh, for one mesh; - is standard output",
            [&](const std::string& text) {
              if (text != "-" && lowerCase(std::filesystem::path(text).extension().string()) != ".png")
                throw Error(ErrorCode::OptionOutOfRange, fmt::format("'{}' does not end in .png", text));
              line.picture = text;
            })
-      ->group(picture);
+      ->group(kBasicGroup);
   CLI::Option* needsPicture = app.get_option("--picture");
-  addChoice(app, "--picture-of", line.pictureOf, kPictures,
-            "The diameter in colours, the faces that cast rays, or the errors expected\nby the estimate; default sdf")
-      ->group(picture)
+  const char* const group = "Picture";
+  addValue(app, "--picture-of", "sdf|seeds|error",
+           "The shape diameter, the seed faces, or the expected error; default sdf",
+           [&](const std::string& text) {
+             const std::string name = text == "seeds" ? "seed" : text;
+             const std::vector<std::string> known = resultFieldNames();
+             if (std::find(known.begin(), known.end(), name) == known.end())
+               throw Error(ErrorCode::UnknownName, fmt::format("'{}' is not one of sdf|seeds|error", text));
+             line.pictureOf = name;
+           })
+      ->group(group)
       ->needs(needsPicture);
   const View view;
   addValue(app, "--picture-view", "AZIMUTH,ELEVATION",
-           fmt::format("Degrees from the mesh's broad side to the right and up;\ndefault {},{}", view.azimuthDegrees,
-                       view.elevationDegrees),
-           [&](const std::string& text) { readViewAngles(text, line.pictureView); })
-      ->group(picture)
+           fmt::format("View, in degrees to the right of the broad side of the mesh and up;\ndefault {},{}",
+                       view.azimuthDegrees, view.elevationDegrees),
+           [&](const std::string& text) { parseViewAngles(text, line.pictureView); })
+      ->group(group)
       ->needs(needsPicture);
   addChoice(app, "--picture-up", line.pictureView.up,
             ChoiceNames<std::optional<Up>, 7>{{{"auto", std::nullopt},
@@ -113,69 +153,84 @@ void addPicture(CLI::App& app, CommandLine& line) {
                                                {"-x", Up::MinusX},
                                                {"-y", Up::MinusY},
                                                {"-z", Up::MinusZ}}},
-            "What points up in the picture; auto is y unless the mesh would fall over;\ndefault auto")
-      ->group(picture)
+            "Up axis of the picture. auto: y, unless the mesh stands more stably on\nanother axis; default auto")
+      ->group(group)
       ->needs(needsPicture);
 }
 
-void addDevice(CLI::App& app, CommandLine& line) {
-  const std::string device = "Device";
-  addChoice(app, "--backend", line.session.backend, kBackends,
-            "Vulkan, Embree on the CPU, the double-precision reference on the CPU,\n"
-            "or the fastest of them here; default auto")
-      ->group(device);
-  addValue(app, "--device", "N|NAME", "Device by its number in --list-devices or by a part of its name",
-           [&](const std::string& text) { line.session.device = text; })
-      ->group(device);
-  app.add_flag("--require-gpu", line.session.requireGpu, "Fail rather than run on a CPU device or the reference")
-      ->group(device);
-  app.add_flag("--list-devices", line.listDevices, "List the Vulkan devices and what speaks for or against each")
-      ->group(device);
-  VulkanTraceRequest& trace = line.session.trace;
-  addChoice(app, "--kernel", trace.kernel, kTraceKernels,
-            "Vulkan: lanes side by side walk one ray of neighbouring seeds, the rays of\n"
-            "one seed, or these together as a packet; default auto, by the device")
-      ->group(device);
-  addChoice(app, "--bvh", trace.bvh, kBvhLayouts,
-            "Vulkan: nodes of eight children with boxes in bytes, or of two in float32;\ndefault auto")
-      ->group(device);
-  addChoice(app, "--fetch", trace.fetch, kBvhFetches,
-            "Vulkan: what the hierarchy is read from, texel or storage buffers; default auto")
-      ->group(device);
-  addValue(app, "--threads", "N", "CPU threads, 1 to 1024; default as many as there are cores",
-           [&](const std::string& text) { line.threadCount = static_cast<uint32_t>(parseWholeNumber(text, 1, 1024)); })
-      ->group(device);
+std::vector<std::string> withAuto(std::vector<std::string> names) {
+  names.insert(names.begin(), "auto");
+  return names;
 }
 
-void requireAgreement(const CommandLine& line) {
-  const auto refuse = [](const char* message) { throw Error(ErrorCode::OptionOutOfRange, message); };
-  if (line.meshes.empty() && !line.listDevices) refuse("no mesh was given; asdf-vk --help lists the options");
+void addDevice(CLI::App& app, CommandLine& line) {
+  addName(app, "--backend", line.session.backend, withAuto(backendNames()),
+          "A Vulkan device, Embree on the CPU, the double-precision reference, or the\n"
+          "first of them that is available; default auto")
+      ->group(kBasicGroup);
+  const char* const group = "Device";
+  addValue(app, "--device", "N|NAME", "Vulkan device: its number in --list-devices or a part of its name",
+           [&](const std::string& text) { line.session.device = text; })
+      ->group(group);
+  app.add_flag("--require-gpu", line.session.requireGpu, "Fail where no GPU is usable")->group(group);
+  app.add_flag("--list-devices", line.listDevices, "List Vulkan devices and whether each is usable")->group(group);
+  addValue(app, "--threads", "N", "CPU threads, 1 to 1024; default: the number of cores", [&](const std::string& text) {
+    line.threadCount = static_cast<uint32_t>(parseWholeNumber(text, 1, 1024));
+  })->group(group);
+  TraceVariant& variant = line.session.variant;
+  addName(app, "--kernel", variant.kernel, {"auto", "seed", "ray", "packet"},
+          "Vulkan: neighbouring lanes trace one ray of neighbouring seeds, the rays of\n"
+          "one seed, or these as a packet; default auto, by the device")
+      ->group(kExperimentGroup);
+  addName(app, "--bvh", variant.bvh, {"auto", "wide", "binary"},
+          "Vulkan: hierarchy of eight children in quantised boxes, or of two in float32;\ndefault auto")
+      ->group(kExperimentGroup);
+  addName(app, "--fetch", variant.fetch, {"auto", "texel", "storage"},
+          "Vulkan: the hierarchy is read from texel or storage buffers; default auto")
+      ->group(kExperimentGroup);
+}
+
+void validateOptions(const CommandLine& line) {
+  const auto fail = [](const char* message) { throw Error(ErrorCode::OptionConflict, message); };
+  if (line.meshes.empty() && !line.listDevices) fail("no mesh was given; asdf-vk --help lists the options");
   if (std::count(line.meshes.begin(), line.meshes.end(), "-") > 1)
-    refuse("standard input ('-') can be read only once; name it once");
-  if (std::count(line.meshes.begin(), line.meshes.end(), "") > 0) refuse("the name of a mesh is empty");
+    fail("standard input ('-') can be read only once; name it once");
+  if (std::count(line.meshes.begin(), line.meshes.end(), "") > 0) fail("the name of a mesh is empty");
   if (line.output == "-" && line.json)
-    refuse("-o - and --json both want standard output; give -o a file or drop --json");
+    fail("-o - and --json both write to standard output; give -o a file or drop --json");
   if (!line.picture.empty() && line.meshes.size() > 1)
-    refuse("--picture takes one mesh; name one mesh, or run them one by one");
+    fail("--picture takes one mesh; name one mesh, or run them one by one");
   if (line.picture == "-" && (line.output == "-" || line.json))
-    refuse("--picture - wants standard output for itself; give it a file, or drop --json and -o -");
-  const bool isCpu = line.session.backend == Backend::Cpu || line.session.backend == Backend::Reference;
+    fail("--picture - needs standard output for itself; give it a file, or drop --json and -o -");
+  const bool isCpu = line.session.backend == "cpu" || line.session.backend == "reference";
+  const TraceVariant& variant = line.session.variant;
+  const auto isSet = [](const std::string& name) { return !name.empty() && name != "auto"; };
   if (isCpu && line.session.requireGpu)
-    refuse("--require-gpu contradicts --backend cpu and reference, which run on the CPU; drop one");
+    fail("--require-gpu contradicts --backend cpu and reference, which run on the CPU; drop one");
   if (isCpu && !line.session.device.empty())
-    refuse("--device chooses a Vulkan device, which --backend cpu and reference do without; drop one");
-  if (isCpu && !line.session.trace.isEmpty())
-    refuse(
-        "--kernel, --bvh and --fetch choose between shaders, which --backend cpu and reference do without; drop one");
-  const bool estimates = line.options.estimatesError || line.options.rounds.maxError;
-  if (line.pictureOf == PictureOf::Error && (!estimates || line.options.seeds.kind == SeedCount::Kind::All))
-    refuse(
-        "--picture-of error shows what the estimate expects; drop --no-estimate, and --seeds all, which has no error");
-  const SolverChoice solver = line.options.solver;
-  if (isCpu && (solver == SolverChoice::Cg || solver == SolverChoice::Jacobi))
-    refuse(
-        "--solver cg and jacobi run on a Vulkan device, which --backend cpu and reference do without; use --solver "
+    fail("--device chooses a Vulkan device, which --backend cpu and reference do not use; drop one");
+  if (isCpu && (isSet(variant.kernel) || isSet(variant.bvh) || isSet(variant.fetch)))
+    fail("--kernel, --bvh and --fetch choose shaders, which --backend cpu and reference do not use; drop one");
+  const bool estimates =
+      (line.options.estimatesError || line.options.rounds.maxError) && line.options.seeds.kind != SeedCount::Kind::All;
+  if (line.pictureOf == "error" && !estimates)
+    fail("--picture-of error needs an estimate; drop --no-estimate, and --seeds all, which has no error");
+  if (std::count(line.fields.begin(), line.fields.end(), "error") > 0 && !estimates)
+    fail("--fields error needs an estimate; drop --no-estimate, and --seeds all, which has no error");
+  if (isCpu && (line.options.solver == "cg" || line.options.solver == "jacobi"))
+    fail(
+        "--solver cg and jacobi run on a Vulkan device, which --backend cpu and reference do not use; use --solver "
         "cpu");
+}
+
+/// The help of the most needed options; all groups with `showsAll`.
+std::string helpOf(CLI::App& app, bool showsAll) {
+  if (showsAll) return app.help();
+  for (CLI::Option* option : app.get_options())
+    if (const std::string group = option->get_group(); group != kBasicGroup && group != "Options" && group != "OPTIONS")
+      if (!option->get_positional()) option->group("");
+  app.footer("--help=all lists all options.\n" + std::string(kFooter));
+  return app.help();
 }
 
 }  // namespace
@@ -184,15 +239,16 @@ CommandLine parseCommandLine(std::vector<std::string> arguments) {
   CommandLine line;
   CLI::App app(kDescription, "asdf-vk");
   app.footer(kFooter);
-  app.set_help_flag("-h,--help", "Print this help");
-  app.set_version_flag("--version", std::string("asdf-vk ") + ASDFVK_VERSION, "Print the version");
+  app.set_help_flag("-h,--help", "Print the most needed options; --help=all prints all");
+  app.set_version_flag("--version", fmt::format("asdf-vk {} ({})", ASDFVK_VERSION, ASDFVK_COMMIT), "Print the version");
   app.add_option("meshes", line.meshes, "Meshes: PLY, OFF, OBJ or STL; '-' is standard input")->option_text("MESH...");
   addComputation(app, line);
   addOutput(app, line);
   addPicture(app, line);
   addDevice(app, line);
 
-  spellOutBareCheck(arguments);
+  expandBareCheck(arguments);
+  const bool showsAll = takeHelpAll(arguments);
   std::reverse(arguments.begin(), arguments.end());  // CLI11 takes them from the back.
   try {
     app.parse(std::move(arguments));
@@ -200,16 +256,18 @@ CommandLine parseCommandLine(std::vector<std::string> arguments) {
     line.answer = std::string(version.what()) + "\n";
     return line;
   } catch (const CLI::Success&) {
-    line.answer = app.help();
+    line.answer = helpOf(app, showsAll);
     return line;
   } catch (const CLI::ArgumentMismatch& error) {
     const std::string message = error.what();
     throw Error(ErrorCode::OptionOutOfRange, message.substr(0, message.find(':')) + " takes exactly one value, once");
   } catch (const CLI::ParseError& error) {
-    throw Error(ErrorCode::OptionOutOfRange, std::string(error.what()) + "; asdf-vk --help lists the options");
+    throw Error(ErrorCode::OptionOutOfRange, std::string(error.what()) + "; asdf-vk --help=all lists the options");
   }
-  if (line.options.rounds.areAsked() && app.count("--seeds") == 0) line.options.seeds.share = kFirstRoundShare;
-  requireAgreement(line);
+  if (line.options.rounds.areSet() && app.count("--seeds") == 0)
+    line.options.seeds = SeedCount::ofShare(kFirstRoundShare);
+  line.options.keepsScene = !line.picture.empty();
+  validateOptions(line);
   return line;
 }
 

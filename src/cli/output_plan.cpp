@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void refuse(const std::string& message) { throw Error(ErrorCode::OptionConflict, message); }
+[[noreturn]] void usageError(const std::string& message) { throw Error(ErrorCode::OptionConflict, message); }
 
 /// "dir/horse.ply" to "horse.asdf.vtu".
 std::string resultName(const std::string& mesh, const std::string& format) {
@@ -28,8 +28,8 @@ std::string resultName(const std::string& mesh, const std::string& format) {
   return stem + ".asdf." + (format.empty() ? "ply" : format);
 }
 
-/// Whether the extension of `path` speaks of another format than `format`; one that tells nothing does not.
-bool contradicts(const fs::path& path, ResultFormat format) {
+/// Whether the extension of `path` names another format than `format`.
+bool contradicts(const fs::path& path, const std::string& format) {
   try {
     return resultFormatOf(path) != format;
   } catch (const Error&) {
@@ -43,7 +43,7 @@ std::string planOutput(const std::string& mesh, const CommandLine& line) {
   const bool isDirectory = !line.output.empty() && fs::is_directory(line.output, ignored);
   if (isDirectory) return (fs::path(line.output) / resultName(mesh, line.format)).string();
   if (!line.output.empty()) return line.output;
-  if (mesh == "-") refuse("a mesh from standard input has no name to go by; say where to with -o FILE or -o -");
+  if (mesh == "-") usageError("a mesh from standard input has no file name; give -o FILE or -o -");
   return (fs::path(mesh).parent_path() / resultName(mesh, line.format)).string();
 }
 
@@ -81,23 +81,23 @@ class FileSet {
 
 std::vector<std::string> planOutputs(const CommandLine& line) {
   std::error_code ignored;
-  if (line.meshes.size() > 1 && line.output == "-") refuse("-o - takes the result of one mesh; name one mesh");
+  if (line.meshes.size() > 1 && line.output == "-") usageError("-o - takes the result of one mesh; name one mesh");
   if (line.meshes.size() > 1 && !line.output.empty() && !fs::is_directory(line.output, ignored))
-    refuse(fmt::format("-o {} is not a directory, which several meshes need; make it, or name one mesh", line.output));
+    usageError(fmt::format("-o {} is not a directory, which several meshes need; create it, or name one mesh", line.output));
 
   const WriteOptions options = writeOptionsOf(line);
   std::vector<std::string> outputs;
   std::unordered_map<std::string, std::string> meshOfOutput;
   for (const std::string& mesh : line.meshes) {
     const std::string output = planOutput(mesh, line);
-    const ResultFormat format = resultFormatOf(output, options);
-    if (line.ascii && format != ResultFormat::Ply) refuse("--ascii is for PLY only; drop it");
+    const std::string format = resultFormatOf(output, options);
+    if (line.ascii && format != "ply") usageError("--ascii is for PLY only; drop it");
     if (output != "-") {
       if (contradicts(output, format))
-        refuse(fmt::format("-o {} and --format {} contradict each other; drop one", output, line.format));
+        usageError(fmt::format("-o {} and --format {} contradict each other; drop one", output, line.format));
       const auto [other, isNew] = meshOfOutput.emplace(normalised(output), mesh);
       if (!isNew)
-        refuse(fmt::format("{} and {} would both be written to {}; run them one by one with -o", other->second, mesh,
+        usageError(fmt::format("{} and {} would both be written to {}; run them one by one with -o", other->second, mesh,
                            output));
     }
     outputs.push_back(output);
@@ -107,24 +107,21 @@ std::vector<std::string> planOutputs(const CommandLine& line) {
     if (mesh != "-") inputs.insert(mesh);
   for (const std::string& output : outputs)
     if (output != "-" && inputs.holds(output))
-      refuse(fmt::format("{} is an input and would be overwritten; choose another -o", output));
+      usageError(fmt::format("{} is an input and would be overwritten; choose another -o", output));
   if (!line.picture.empty() && line.picture != "-") {
     if (inputs.holds(line.picture))
-      refuse(fmt::format("{} is an input and would be overwritten; choose another --picture", line.picture));
+      usageError(fmt::format("{} is an input and would be overwritten; choose another --picture", line.picture));
     FileSet results;
     for (const std::string& output : outputs)
       if (output != "-") results.insert(output);
     if (results.holds(line.picture))
-      refuse(fmt::format("{} would take both the result and the picture; choose another --picture", line.picture));
+      usageError(fmt::format("{} would take both the result and the picture; choose another --picture", line.picture));
   }
   return outputs;
 }
 
 WriteOptions writeOptionsOf(const CommandLine& line) {
-  WriteOptions options{.ascii = line.ascii};
-  if (!line.format.empty()) options.format = resultFormatNamed(line.format);
-  if (line.output == "-" && line.format.empty()) options.format = ResultFormat::Ply;
-  return options;
+  return {.format = line.output == "-" && line.format.empty() ? "ply" : line.format, .ascii = line.ascii};
 }
 
 void requireWritablePlace(const std::string& output) {
@@ -139,7 +136,7 @@ void requireWritablePlace(const std::string& output) {
   if (const fs::file_status status = fs::status(path, error);
       fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status))
     return;
-  if (!fs::is_directory(folder, error)) fail(fmt::format("{} is no directory; make it first", folder.string()));
+  if (!fs::is_directory(folder, error)) fail(fmt::format("{} is not a directory; create it first", folder.string()));
   if (access(folder.c_str(), W_OK) != 0) fail(fmt::format("{}: {}", folder.string(), std::strerror(errno)));
   if (fs::is_directory(path, error)) fail("it is a directory; choose another name");
 }

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "asdf_vk/files.h"
 #include "cli/command_line.h"
-#include "io/result_writer.h"
 
 namespace asdfvk {
 

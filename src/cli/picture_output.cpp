@@ -5,6 +5,7 @@
 #include "asdf_vk/error.h"
 #include "render/picture.h"
 #include "render/png.h"
+#include "trace/scene_data.h"
 
 namespace asdfvk {
 namespace {
@@ -21,28 +22,22 @@ std::vector<T> onTriangles(const TriangleMesh& mesh, const std::vector<T>& ofInp
 
 }  // namespace
 
-void writePicture(const CommandLine& line, const TriangleMesh& mesh, const Result& result, const RunControl& control) {
-  Picture picture{.mesh = mesh, .values = {}, .highlighted = {}, .title = {}, .range = {}, .view = line.pictureView};
+void writePicture(const CommandLine& line, const Result& result, const RunControl& control) {
+  const Field* field = result.field(line.pictureOf);
+  if (field == nullptr)
+    throw Error(ErrorCode::UnknownField,
+                "--picture-of " + line.pictureOf + ": so few seeds allow no estimate; give more --seeds");
+  const TriangleMesh& mesh = result.scene->mesh;
+  Picture picture{.scene = *result.scene, .title = field->label, .view = line.pictureView};
   std::vector<double> values;
-  std::vector<uint8_t> seeds;
-  switch (line.pictureOf) {
-    case PictureOf::Sdf:
-      values = onTriangles(mesh, result.sdf);
-      picture.title = "shape diameter";
-      break;
-    case PictureOf::Seeds:
-      seeds = onTriangles(mesh, result.isSeed);
-      picture.title = "seeds";
-      break;
-    case PictureOf::Error:
-      if (result.expectedError.empty())
-        throw Error(ErrorCode::OptionConflict, "--picture-of error: so few seeds allow no estimate; give more --seeds");
-      values = onTriangles(mesh, result.expectedError);
-      picture.title = "expected error";
-      break;
+  std::vector<uint8_t> flags;
+  if (const std::vector<double>* reals = field->reals()) {
+    values = onTriangles(mesh, *reals);
+    picture.values = values;
+  } else if (const auto* marks = std::get_if<std::vector<uint8_t>>(&field->values)) {
+    flags = onTriangles(mesh, *marks);
+    picture.highlighted = flags;
   }
-  picture.values = values;
-  picture.highlighted = seeds;
   writePng(line.picture, render(picture, control));
 }
 

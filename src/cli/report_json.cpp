@@ -1,12 +1,13 @@
-#include "cli/report_json.h"
+#include "cli/report.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "cli/choice_names.h"
-#include "cli/option_values.h"
+#include "asdf_vk/version.h"
+#include "cli/option_parsing.h"
+#include "pipeline/choice_names.h"
 
 namespace asdfvk {
 namespace {
@@ -22,13 +23,15 @@ std::string oneLineOf(const Json& json) {
 std::string toText(const SmoothingOptions& smoothing) {
   if (!smoothing.isOn) return "off";
   if (!smoothing.window) return "auto";
-  return fmt::format("{}x{}", smoothing.window->window, smoothing.window->passes);
+  return fmt::format("{}x{}", smoothing.window->rings, smoothing.window->passes);
 }
 
 template <typename T>
 Json optional(const std::optional<T>& value) {
   return value ? Json(*value) : Json(nullptr);
 }
+
+std::string nameOrAuto(const std::string& name) { return name.empty() ? "auto" : name; }
 
 Json optionsOf(const CommandLine& line) {
   const Options& options = line.options;
@@ -48,22 +51,35 @@ Json optionsOf(const CommandLine& line) {
           {"weights", nameOf(kWeights, interpolation.weights)},
           {"guidance", nameOf(kGuidances, interpolation.guidance)},
           {"pooling", interpolation.pooling},
-          {"solver", nameOf(kSolvers, options.solver)},
+          {"solver", options.solver},
           {"tolerance", options.solverOptions.tolerance},
           {"maxIterations", options.solverOptions.maxIterations},
-          {"backend", nameOf(kBackends, line.session.backend)},
+          {"backend", line.session.backend},
           {"device", line.session.device},
           {"requireGpu", line.session.requireGpu},
-          {"kernel", nameOf(kTraceKernels, line.session.trace.kernel)},
-          {"bvh", nameOf(kBvhLayouts, line.session.trace.bvh)},
-          {"fetch", nameOf(kBvhFetches, line.session.trace.fetch)}};
+          {"kernel", nameOrAuto(line.session.variant.kernel)},
+          {"bvh", nameOrAuto(line.session.variant.bvh)},
+          {"fetch", nameOrAuto(line.session.variant.fetch)}};
 }
 
-Json traceChoiceOf(const std::optional<VulkanTraceChoice>& choice) {
-  if (!choice) return nullptr;
-  return {{"kernel", nameOf(kTraceKernels, {choice->kernel})},
-          {"bvh", nameOf(kBvhLayouts, {choice->bvh})},
-          {"fetch", nameOf(kBvhFetches, {choice->fetch})}};
+Json variantOf(const std::optional<TraceVariant>& variant) {
+  if (!variant) return nullptr;
+  return {{"kernel", variant->kernel}, {"bvh", variant->bvh}, {"fetch", variant->fetch}};
+}
+
+/// {"name": "sdf", "unit": "length", "per": "face", "components": 1, "type": "float64", "min": ...}
+Json fieldOf(const Field& field) {
+  constexpr const char* kTypes[]{"float64", "uint8", "uint32"};
+  const FieldSummary summary = summarize(field);
+  return {{"name", field.name},
+          {"unit", field.unit},
+          {"per", field.location == FieldLocation::PerFace ? "face" : "vertex"},
+          {"components", field.componentCount},
+          {"type", kTypes[field.values.index()]},
+          {"min", number(summary.min)},
+          {"median", number(summary.median)},
+          {"max", number(summary.max)},
+          {"missingCount", summary.missingCount}};
 }
 
 Json estimateOf(const std::optional<ErrorEstimate>& estimate) {
@@ -79,7 +95,7 @@ Json estimateOf(const std::optional<ErrorEstimate>& estimate) {
 
 Json stagesOf(const StageSeconds& seconds) {
   Json json;
-  for (const auto& [name, member] : kStages) json[name] = number(seconds.*member);
+  for (size_t i = 0; i < kStageCount; ++i) json[nameOf(static_cast<Stage>(i))] = number(seconds.seconds[i]);
   return json;
 }
 
@@ -116,7 +132,7 @@ Json checkOf(const std::optional<CheckReport>& check) {
 }  // namespace
 
 std::string jsonReport(const MeshOutcome& outcome) {
-  const Report& report = outcome.report;
+  const Report& report = outcome.result.report;
   Json json;
   json["mesh"] = outcome.mesh;
   json["output"] = outcome.output;
@@ -132,7 +148,7 @@ std::string jsonReport(const MeshOutcome& outcome) {
   json["randomSeed"] = report.randomSeed;
   json["backend"] = report.backend;
   json["device"] = report.device;
-  json["traceChoice"] = traceChoiceOf(report.traceChoice);
+  json["traceChoice"] = variantOf(report.traceVariant);
   json["stageSeconds"] = stagesOf(report.stageSeconds);
   json["raysPerSecond"] = number(report.raysPerSecond);
   json["solver"] = {{"name", report.solver.name},
@@ -146,15 +162,26 @@ std::string jsonReport(const MeshOutcome& outcome) {
   json["roundCount"] = report.roundCount;
   json["check"] = checkOf(report.check);
   json["defects"] = defectsOf(report.defects);
-  json["warnings"] = report.warnings;
+  json["warnings"] = Json::array();
+  json["warningCodes"] = Json::array();
+  for (const Warning& warning : report.warnings) {
+    json["warnings"].push_back(textWarning(warning));
+    json["warningCodes"].push_back(nameOf(warning.code));
+  }
+  json["reversedFaceCount"] = report.reversedFaces.size();
+  json["fields"] = Json::array();
+  for (const Field& field : outcome.result.fields) json["fields"].push_back(fieldOf(field));
+  json["version"] = ASDFVK_VERSION;
+  json["commit"] = ASDFVK_COMMIT;
   json["options"] = optionsOf(outcome.line);
   return oneLineOf(json);
 }
 
-std::string jsonFailure(const std::string& mesh, const std::string& message) {
+std::string jsonFailure(const std::string& mesh, const std::string& code, const std::string& message) {
   Json json;
   json["mesh"] = mesh;
   json["error"] = message;
+  json["code"] = code;
   return oneLineOf(json);
 }
 

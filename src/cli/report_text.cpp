@@ -1,12 +1,12 @@
-#include "cli/report_text.h"
-#include "core/text.h"
+#include "cli/report.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "cli/choice_names.h"
+#include "core/text.h"
+#include "pipeline/choice_names.h"
 
 namespace asdfvk {
 namespace {
@@ -32,7 +32,7 @@ std::string meshRow(const Report& report) {
 }
 
 std::string seedRow(const MeshOutcome& outcome) {
-  const Report& report = outcome.report;
+  const Report& report = outcome.result.report;
   std::string text = fmt::format(
       "{} cast{} rays ({}), {} in all, recipe {}, random seed {}", counted(report.seedCount, "face"),
       report.seedCount == 1 ? "s" : "", percent(report.seedCount, std::max<uint64_t>(1, report.triangleCount)),
@@ -42,14 +42,18 @@ std::string seedRow(const MeshOutcome& outcome) {
   return text;
 }
 
-/// Stages that took no time did not run.
+/// A stage with 0 s did not run.
 std::string timeRow(const StageSeconds& seconds) {
   std::string text;
-  for (const auto& [name, member] : kStages)
-    if (seconds.*member > 0)
-      text += text.empty() ? fmt::format("{} {:.3f} s", name, seconds.*member)
-                           : fmt::format(", {} {:.3f}", name, seconds.*member);
+  for (size_t i = 0; i < kStageCount; ++i)
+    if (const auto stage = static_cast<Stage>(i); seconds[stage] > 0)
+      text += text.empty() ? fmt::format("{} {:.3f} s", nameOf(stage), seconds[stage])
+                           : fmt::format(", {} {:.3f}", nameOf(stage), seconds[stage]);
   return text;
+}
+
+std::string kernelText(const TraceVariant& variant) {
+  return fmt::format(", kernel {} {} {}", variant.kernel, variant.bvh, variant.fetch);
 }
 
 std::string solverRow(const SolverReport& solver) {
@@ -77,7 +81,7 @@ std::string estimateRow(const Report& report) {
 }
 
 std::string tracedCheck(const CheckReport& check) {
-  if (!check.isIndependent) return "traced by the reference itself: nothing to compare";
+  if (!check.isIndependent) return "the reference traced the rays itself: nothing to compare";
   if (check.tracedCount == 0) return "no face could be traced, so nothing was compared";
   const uint64_t withValue = check.tracedCount - check.noValueAgreeCount;
   if (withValue == 0)
@@ -102,10 +106,10 @@ std::string errorCheck(const CheckReport& check) {
 }  // namespace
 
 std::string textReport(const MeshOutcome& outcome) {
-  const Report& report = outcome.report;
+  const Report& report = outcome.result.report;
   std::string text = fmt::format("{}: {}\n", outcome.mesh, meshRow(report));
   text += row("device", fmt::format("{} on {}{}", report.backend, report.device,
-                                    report.traceChoice ? ", kernel " + nameOf(*report.traceChoice) : ""));
+                                    report.traceVariant ? kernelText(*report.traceVariant) : ""));
   text += row("seeds", seedRow(outcome));
   text += row("time", timeRow(report.stageSeconds));
   text += row("speed", fmt::format("{:.3g} Mrays/s", report.raysPerSecond / 1e6));
@@ -122,9 +126,19 @@ std::string textReport(const MeshOutcome& outcome) {
   return text;
 }
 
-std::string checkFailure(const CheckReport& check) {
-  return fmt::format("the check has not passed: {}", tracedCheck(check));
+std::string textWarning(const Warning& warning) {
+  std::string text = warning.message;
+  for (const ErrorDetail& detail : warning.details) {
+    if (detail.value == "inverted") text += "; --orient auto reverses inverted components";
+    if (detail.value == "open") text += "; --orient flip reverses all faces";
+  }
+  if (warning.code == WarningCode::InvertedComponents) text += "; --orient auto reverses inverted components";
+  if (warning.code == WarningCode::FinishedOnCpu) text += "; --solver cpu may be faster here";
+  if (warning.code == WarningCode::NotConverged) text += "; raise --max-iterations or --tolerance";
+  return text;
 }
+
+std::string checkFailure(const CheckReport& check) { return fmt::format("the check failed: {}", tracedCheck(check)); }
 
 std::string textDevices(std::span<const DeviceInfo> devices, const std::string& reason) {
   if (devices.empty()) return fmt::format("no Vulkan device: {}\n", reason);

@@ -1,19 +1,19 @@
 #include "cli/run.h"
 
+#include <algorithm>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "asdf_vk/asdf_vk.h"
 #include "cli/interrupt.h"
 #include "cli/output_plan.h"
 #include "cli/picture_output.h"
 #include "cli/progress.h"
-#include "cli/report_json.h"
-#include "cli/report_text.h"
+#include "cli/report.h"
 #include "cli/terminal.h"
 #include "core/stopwatch.h"
-#include "io/mesh_reader.h"
-#include "io/result_writer.h"
-#include "pipeline/asdf.h"
 
 namespace asdfvk {
 namespace {
@@ -30,14 +30,43 @@ auto runWithProgress(const CommandLine& line, const std::stop_token& stop, const
   return work(control);
 }
 
-/// What a mesh leaves behind: its exit code and its line for --json.
-struct Answer {
+/// Exit code of a mesh and its line for --json.
+struct MeshReport {
   ExitCode code = ExitCode::Done;
   std::string json;
 };
 
-Answer runMesh(Session& session, const std::string& name, const std::string& output, const CommandLine& line,
-               const std::stop_token& stop) {
+/// The fields of --fields. Throws Error{UnknownField} where an estimate was requested and none was possible.
+std::vector<Field> selectFields(const Result& result, const std::vector<std::string>& names) {
+  std::vector<Field> fields;
+  for (const std::string& name : names) {
+    const Field* field = result.field(name);
+    if (field == nullptr)
+      throw Error(ErrorCode::UnknownField,
+                  "the result has no field " + name + ": so few seeds allow no estimate; give more --seeds");
+    fields.push_back(*field);
+  }
+  return fields;
+}
+
+/// Reverses the faces that --orient reversed. The scene of the result has its own copy where there is any.
+void reverseFaces(Mesh& mesh, const std::vector<uint64_t>& inputFaces) {
+  std::vector<uint8_t> isReversed(mesh.inputFaceCount(), 0);
+  for (const uint64_t face : inputFaces) isReversed[face] = 1;
+  Polygons& polygons = mesh.polygons;
+  for (uint32_t f = 0; f < mesh.faceCount(); ++f)
+    if (isReversed[polygons.isEmpty() ? f : polygons.inputFaceOf[f]]) std::swap(mesh.faces[f][1], mesh.faces[f][2]);
+  if (polygons.isEmpty()) return;
+  for (const uint64_t face : inputFaces) {
+    const auto corner = [&](uint64_t i) {
+      return polygons.corners.begin() + static_cast<std::ptrdiff_t>(polygons.firstCorner[i]);
+    };
+    std::reverse(corner(face) + 1, corner(face + 1));  // The first corner stays the first.
+  }
+}
+
+MeshReport runMesh(Session& session, const std::string& name, const std::string& output, const CommandLine& line,
+                   const std::stop_token& stop) {
   requireWritablePlace(output);
   if (!line.picture.empty()) requireWritablePlace(line.picture);
   const Stopwatch readWatch;
@@ -50,44 +79,53 @@ Answer runMesh(Session& session, const std::string& name, const std::string& out
     result = runWithProgress(line, stop,
                              [&](const RunControl& control) { return session.compute(mesh, line.options, control); });
     if (stop.stop_requested()) throw Error(ErrorCode::Cancelled, "cancelled");
+    StageSeconds& seconds = result.report.stageSeconds;
     const Stopwatch writeWatch;
-    writeResult(output, mesh, {result.sdf, result.isSeed}, writeOptionsOf(line));
-    result.report.stageSeconds.write = writeWatch.seconds();
+    reverseFaces(mesh, result.report.reversedFaces);
+    writeResult(output, mesh, selectFields(result, line.fields), writeOptionsOf(line));
+    seconds[Stage::Write] = writeWatch.seconds();
+    seconds[Stage::Read] = readSeconds;
     if (!line.picture.empty())
-      runWithProgress(line, stop, [&](const RunControl& control) { writePicture(line, mesh, result, control); });
+      runWithProgress(line, stop, [&](const RunControl& control) { writePicture(line, result, control); });
   }
-  result.report.stageSeconds.read = readSeconds;
 
-  const MeshOutcome outcome{name, output, line, result.report};
+  const MeshOutcome outcome{name, output, line, result};
   if (!line.quiet) {
-    for (const std::string& warning : result.report.warnings) printWarning(name, warning);
+    for (const Warning& warning : result.report.warnings) printWarning(name, textWarning(warning));
     writeStandardError(textReport(outcome));
   }
-  Answer answer{ExitCode::Done, jsonReport(outcome)};
-  if (result.report.check) answer.code = exitCodeOf(*result.report.check);
-  if (answer.code != ExitCode::Done) printError(name, checkFailure(*result.report.check));
-  return answer;
+  MeshReport report{ExitCode::Done, jsonReport(outcome)};
+  if (result.report.check) report.code = exitCodeOf(*result.report.check);
+  if (report.code != ExitCode::Done) printError(name, checkFailure(*result.report.check));
+  return report;
 }
 
-/// Runs `step`, which gives an Answer; whatever it throws becomes one, told as an error of the mesh.
+/// Runs `step`, which returns a MeshReport; an exception becomes one and is printed as an error of the mesh.
 template <typename Step>
-Answer answerOf(const std::string& mesh, Step step) {
+MeshReport reportOf(const std::string& mesh, Step step) {
   try {
     return step();
   } catch (...) {
     Failure failure = currentFailure();
-    const std::string prefix = mesh + ": ";  // Readers name the file themselves.
+    const std::string prefix = mesh + ": ";  // Readers name the file, too.
     if (failure.message.starts_with(prefix)) failure.message.erase(0, prefix.size());
     printError(mesh, failure.message);
-    return {failure.code, jsonFailure(mesh, failure.message)};
+    return {failure.code, jsonFailure(mesh, failure.name, failure.message)};
   }
+}
+
+void printDeviceLines(const Session& session) {
+  std::vector<std::string> lines = session.deviceLines();
+  if (session.backend() == "vulkan" && session.runsOnCpu() && isBackendBuilt("cpu"))
+    lines.front() += "; a CPU device: --backend cpu (Embree) may be faster";
+  for (const std::string& line : lines) writeStandardError(oneLine("asdf-vk: " + line) + "\n");
 }
 
 ExitCode failWithoutSession(const CommandLine& line) {
   const Failure failure = currentFailure();
   printError("", failure.message);
   for (const std::string& mesh : line.meshes)
-    if (line.json) writeStandardOutput(jsonFailure(mesh, failure.message));
+    if (line.json) writeStandardOutput(jsonFailure(mesh, failure.name, failure.message));
   return failure.code;
 }
 
@@ -101,16 +139,15 @@ ExitCode runMeshes(const CommandLine& line, const std::stop_token& stop) {
   } catch (...) {
     return failWithoutSession(line);
   }
-  if (!line.quiet)
-    for (const std::string& device : session->deviceLines()) writeStandardError(oneLine("asdf-vk: " + device) + "\n");
+  if (!line.quiet) printDeviceLines(*session);
 
   ExitCode first = ExitCode::Done;
   for (size_t i = 0; i < line.meshes.size(); ++i) {
     const std::string& mesh = line.meshes[i];
-    const Answer answer = answerOf(mesh, [&] { return runMesh(*session, mesh, outputs[i], line, stop); });
-    if (first == ExitCode::Done) first = answer.code;
-    if (line.json) writeStandardOutput(answer.json);
-    if (answer.code == ExitCode::Cancelled) break;
+    const MeshReport report = reportOf(mesh, [&] { return runMesh(*session, mesh, outputs[i], line, stop); });
+    if (first == ExitCode::Done) first = report.code;
+    if (line.json) writeStandardOutput(report.json);
+    if (report.code == ExitCode::Cancelled) break;
   }
   return first;
 }

@@ -5,27 +5,10 @@
 #include <span>
 #include <vector>
 
+#include "asdf_vk/options.h"
 #include "core/vec3.h"
 
 namespace asdfvk {
-
-/// How the rays of a face lie about its axis.
-enum class ConeRotation {
-  Fixed,   ///< By the axis alone, so that neighbouring faces cast nearly parallel rays.
-  Hashed,  ///< Turned by an angle that is a hash of the face's index: neighbours err independently.
-};
-
-/// Shapira, Shamir and Cohen-Or 2008, section 3, as quoted in the ASDF paper, section 3.
-struct ConeOptions {
-  uint32_t rayCount = 30;            ///< 1 to kMaxRayCount.
-  double openingAngleDegrees = 120;  ///< Full angle, above 0 and below 180.
-  double falseHitAngleDegrees =
-      90;                        ///< A hit on a face that looks along the seed's normal within this is false; 0 to 180.
-  double outlierDeviations = 1;  ///< Lengths farther from the median than so many standard deviations are; above 0.
-  ConeRotation rotation = ConeRotation::Fixed;
-};
-
-inline constexpr uint32_t kMaxRayCount = 1024;
 
 /// The rays of every cone, in the cone's frame (z = the axis). The order is part of the table: by azimuth, in sectors
 /// so that each run of 8 rays from a multiple of 8 is a compact patch of the cone (a sector has one such run up to

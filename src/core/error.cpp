@@ -21,6 +21,7 @@ constexpr std::array kErrors{
     ErrorRow{ErrorCode::UnknownField, ErrorKind::Usage, "unknownField"},
     ErrorRow{ErrorCode::UnreadableInput, ErrorKind::Input, "unreadableInput"},
     ErrorRow{ErrorCode::EmptyMesh, ErrorKind::Input, "emptyMesh"},
+    ErrorRow{ErrorCode::ArraySize, ErrorKind::Input, "arraySize"},
     ErrorRow{ErrorCode::IndexOutOfRange, ErrorKind::Input, "indexOutOfRange"},
     ErrorRow{ErrorCode::MeshTooLarge, ErrorKind::Input, "meshTooLarge"},
     ErrorRow{ErrorCode::InputTooLarge, ErrorKind::Input, "inputTooLarge"},

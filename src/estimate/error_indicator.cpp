@@ -9,13 +9,14 @@
 namespace asdfvk {
 namespace {
 
-// Of the mean: what is expected of a face where all agree.
-constexpr double kLeastExpectation = 0.5;
+// Added to each entry, relative to the mean: the indicator of a face whose surroundings agree exactly.
+constexpr double kFloor = 0.5;
 
-/// #S: how far the seeds around are from each in value, on average; NaN for a seed without a value.
-std::vector<double> spreadAround(const NearestCells& nearest, std::span<const uint32_t> seeds,
-                                 std::span<const double> values) {
-  std::vector<double> spread(seeds.size(), kNoValue);
+/// #S: mean absolute difference between the value of a seed and those of its neighbours; NaN for a seed without a
+/// value.
+std::vector<double> neighbourDeviation(const NearestCells& nearest, std::span<const uint32_t> seeds,
+                                       std::span<const double> values) {
+  std::vector<double> deviation(seeds.size(), kNoValue);
   forEachInParallel(seeds.size(), [&](uint32_t cell) {
     if (seeds[cell] == kNoFace) return;
     const double own = values[seeds[cell]];
@@ -26,37 +27,37 @@ std::vector<double> spreadAround(const NearestCells& nearest, std::span<const ui
         sum += difference;
         ++count;
       }
-    if (!std::isnan(own)) spread[cell] = count > 0 ? sum / static_cast<double>(count) : 0;
+    if (!std::isnan(own)) deviation[cell] = count > 0 ? sum / static_cast<double>(count) : 0;
   });
-  return spread;
+  return deviation;
 }
 
-/// Adds what is expected of every face, and gives faces without an entry the mean.
-void raise(std::vector<double>& pattern) {
+/// Adds the floor to each entry, and gives faces without an entry the mean.
+void addFloor(std::vector<double>& indicator) {
   double sum = 0;
   size_t count = 0;
-  for (const double entry : pattern)
+  for (const double entry : indicator)
     if (!std::isnan(entry)) {
       sum += entry;
       ++count;
     }
-  const double mean = count > 0 ? sum / static_cast<double>(count) : 0, least = mean > 0 ? kLeastExpectation * mean : 1;
-  for (double& entry : pattern) entry = (std::isnan(entry) ? mean : entry) + least;
+  const double mean = count > 0 ? sum / static_cast<double>(count) : 0, floor = mean > 0 ? kFloor * mean : 1;
+  for (double& entry : indicator) entry = (std::isnan(entry) ? mean : entry) + floor;
 }
 
 }  // namespace
 
-std::vector<double> errorPattern(const Prediction& prediction, std::span<const uint32_t> seeds,
-                                 std::span<const double> values) {
+std::vector<double> errorIndicator(const Prediction& prediction, std::span<const uint32_t> seeds,
+                                   std::span<const double> values) {
   ASDFVK_CHECK_OP(prediction.nearest.cellCount(), ==, seeds.size());
-  const std::vector<double> spread = spreadAround(prediction.nearest, seeds, values);
-  std::vector<double> pattern(prediction.values.size(), kNoValue);
-  forEachInParallel(pattern.size(), [&](uint32_t face) {
+  const std::vector<double> deviation = neighbourDeviation(prediction.nearest, seeds, values);
+  std::vector<double> indicator(prediction.values.size(), kNoValue);
+  forEachInParallel(indicator.size(), [&](uint32_t face) {
     const uint32_t cell = prediction.cellOf[face];
-    if (cell != kNoCell) pattern[face] = std::abs(prediction.values[face] - values[seeds[cell]]) + spread[cell];
+    if (cell != kNoCell) indicator[face] = std::abs(prediction.values[face] - values[seeds[cell]]) + deviation[cell];
   });
-  raise(pattern);
-  return pattern;
+  addFloor(indicator);
+  return indicator;
 }
 
 }  // namespace asdfvk

@@ -7,11 +7,11 @@
 
 namespace asdfvk {
 
-/// Where what is interpolated from some seeds may be expected to err: how far a face's prediction is from the value of
-/// the seed of its cell, and that one from the values of the seeds around. Known before anything is interpolated.
-/// prediction: from these seeds. seeds: #S, as it was given to reprojectHits(). values: #F, the seeds' are looked at.
-/// Returns #F, above 0 and up to a factor; a face about which nothing is known is as the mean.
-[[nodiscard]] std::vector<double> errorPattern(const Prediction& prediction, std::span<const uint32_t> seeds,
-                                               std::span<const double> values);
+/// A-priori indicator of the interpolation error of each face, up to a factor: the difference between its prediction
+/// and the value of the seed of its cell, plus the mean difference between that value and those of the neighbouring
+/// seeds. prediction: from these seeds. seeds: #S, as given to the prediction. values: #F; only those of the seeds are
+/// read. Returns #F, above 0; a face without an indicator gets the mean.
+[[nodiscard]] std::vector<double> errorIndicator(const Prediction& prediction, std::span<const uint32_t> seeds,
+                                                 std::span<const double> values);
 
 }  // namespace asdfvk

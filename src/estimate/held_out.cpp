@@ -7,67 +7,70 @@
 namespace asdfvk {
 namespace {
 
-/// The probabilities with which faces are chosen: in proportion to their density as far as that stays below 1.
-class Chances {
+/// Inclusion probabilities: in proportion to the indicator, at most 1.
+class InclusionProbabilities {
  public:
-  /// They add up to `count`, which is below the number of candidates.
-  Chances(std::span<const uint32_t> candidates, std::span<const double> density, uint64_t count) : density_(density) {
-    for (bool grows = true; grows;) {  // Until no more of them are certain.
-      double sum = 0, left = static_cast<double>(count);
+  /// Their sum is `count`, which is below the number of candidates.
+  InclusionProbabilities(std::span<const uint32_t> candidates, std::span<const double> indicator, uint64_t count)
+      : indicator_(indicator) {
+    for (bool grows = true; grows;) {  // Until no further probability reaches 1.
+      double sum = 0, remaining = static_cast<double>(count);
       for (const uint32_t face : candidates)
         if (of(face) < 1)
-          sum += density[face];
+          sum += indicator[face];
         else
-          left -= 1;
-      grows = left / sum > scale_;
-      if (grows) scale_ = left / sum;
+          remaining -= 1;
+      grows = remaining / sum > scale_;
+      if (grows) scale_ = remaining / sum;
     }
   }
-  [[nodiscard]] double of(uint32_t face) const { return std::min(1.0, scale_ * density_[face]); }
+  [[nodiscard]] double of(uint32_t face) const { return std::min(1.0, scale_ * indicator_[face]); }
 
  private:
-  std::span<const double> density_;
+  std::span<const double> indicator_;
   double scale_ = 0;
 };
 
-std::vector<uint32_t> choosePivotally(std::span<const uint32_t> candidates, const Chances& chances, Random random) {
-  std::vector<uint32_t> chosen;
+std::vector<uint32_t> samplePivotally(std::span<const uint32_t> candidates, const InclusionProbabilities& probabilities,
+                                      Random random) {
+  std::vector<uint32_t> sample;
   uint32_t holder = 0;
-  double held = 0;  // The holder's probability of being chosen, all before it being decided.
+  double held = 0;  // Inclusion probability of the holder, given the decisions on all faces before it.
   for (const uint32_t face : candidates) {
-    const double own = chances.of(face), sum = held + own, number = random.real();
-    if (sum < 1) {  // One of both takes the other's chances.
+    const double own = probabilities.of(face), sum = held + own, number = random.real();
+    if (sum < 1) {  // One of the two takes over the probability of the other.
       if (number * sum >= held) holder = face;
       held = sum;
-    } else {  // One of both is chosen, the other keeps what is left.
-      const bool choosesHolder = number * (2 - sum) < 1 - own;
-      chosen.push_back(choosesHolder ? holder : face);
-      if (choosesHolder) holder = face;
+    } else {  // One of the two is sampled, the other keeps the rest.
+      const bool takesHolder = number * (2 - sum) < 1 - own;
+      sample.push_back(takesHolder ? holder : face);
+      if (takesHolder) holder = face;
       held = sum - 1;
     }
   }
-  if (random.real() < held) chosen.push_back(holder);
-  std::sort(chosen.begin(), chosen.end());
-  return chosen;
+  if (random.real() < held) sample.push_back(holder);
+  std::sort(sample.begin(), sample.end());
+  return sample;
 }
 
 }  // namespace
 
-void Probes::append(const Probes& further) {
+void HeldOutFaces::append(const HeldOutFaces& further) {
   faces.insert(faces.end(), further.faces.begin(), further.faces.end());
   weights.insert(weights.end(), further.weights.begin(), further.weights.end());
 }
 
-Probes chooseProbes(std::span<const uint32_t> candidates, std::span<const double> density, uint64_t count,
-                    uint64_t randomSeed) {
+HeldOutFaces sampleHeldOut(std::span<const uint32_t> candidates, std::span<const double> indicator, uint64_t count,
+                           uint64_t randomSeed) {
   if (count >= candidates.size())
     return {{candidates.begin(), candidates.end()}, std::vector<double>(candidates.size(), 0.0)};
-  const Chances chances(candidates, density, count);
-  const double facesPerProbe = static_cast<double>(candidates.size()) / static_cast<double>(count);
-  Probes probes;
-  probes.faces = choosePivotally(candidates, chances, Random(randomSeed));
-  for (const uint32_t face : probes.faces) probes.weights.push_back((1 / chances.of(face) - 1) / facesPerProbe);
-  return probes;
+  const InclusionProbabilities probabilities(candidates, indicator, count);
+  const double candidatesPerFace = static_cast<double>(candidates.size()) / static_cast<double>(count);
+  HeldOutFaces heldOut;
+  heldOut.faces = samplePivotally(candidates, probabilities, Random(randomSeed));
+  for (const uint32_t face : heldOut.faces)
+    heldOut.weights.push_back((1 / probabilities.of(face) - 1) / candidatesPerFace);
+  return heldOut;
 }
 
 }  // namespace asdfvk

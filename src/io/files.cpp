@@ -4,10 +4,11 @@
 #include <string>
 
 #include "asdf_vk/error.h"
+#include "asdf_vk/files.h"
 #include "io/file_bytes.h"
 #include "io/formats.h"
 #include "io/input_failure.h"
-#include "io/mesh_reader.h"
+#include "asdf_vk/files.h"
 
 namespace asdfvk {
 

@@ -87,12 +87,12 @@ void InputFaces::beginPolygons() {
   triangles_ = {};
 }
 
-void InputFaces::moveTo(Mesh& mesh) {
+void InputFaces::moveTo(std::span<const Vec3d> vertices, Mesh& mesh) {
   if (count() == 0)
-    failInput(mesh.vertices.empty() ? "has neither points nor faces"
+    failInput(vertices.empty() ? "has neither points nor faces"
                                     : fmt::format("has {} and no face: a point cloud, not a mesh",
-                                                  counted(mesh.vertices.size(), "point")));
-  if (!polygons_.isEmpty()) triangulateAll(mesh.vertices, polygons_, triangles_);
+                                                  counted(vertices.size(), "point")));
+  if (!polygons_.isEmpty()) triangulateAll(vertices, polygons_, triangles_);
   if (triangles_.empty())
     failInput(count() == 1 ? "the only face has fewer than three corners"
                            : fmt::format("none of the {} faces has three corners", count()));

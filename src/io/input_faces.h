@@ -23,7 +23,8 @@ class InputFaces {
   /// Sets mesh.faces and mesh.polygons. Preconditions: mesh.vertices is complete and every corner is below its size.
   /// Throws Error{UnreadableInput} where there are no faces, none has three corners, or there are more than 2^32 - 1
   /// faces or triangles.
-  void moveTo(Mesh& mesh);
+  void moveTo(Mesh& mesh) { moveTo(mesh.vertices, mesh); }
+  void moveTo(std::span<const Vec3d> vertices, Mesh& mesh);
 
  private:
   void beginPolygons();

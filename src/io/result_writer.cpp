@@ -17,32 +17,23 @@
 namespace asdfvk {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, ResultFormat>, 4> kFormats{
-    {{"ply", ResultFormat::Ply}, {"vtu", ResultFormat::Vtu}, {"npy", ResultFormat::Npy}, {"csv", ResultFormat::Csv}}};
+constexpr std::array<std::string_view, 4> kFormats{"ply", "vtu", "npy", "csv"};
 
-std::optional<ResultFormat> findFormat(std::string_view name) {
+std::string findFormat(std::string_view name) {
   if (name.starts_with('.')) name.remove_prefix(1);
   const std::string lower = lowerCase(name);
-  for (const auto& [known, format] : kFormats)
-    if (known == lower) return format;
-  return std::nullopt;
+  return std::find(kFormats.begin(), kFormats.end(), lower) == kFormats.end() ? std::string() : lower;
 }
 
 }  // namespace
 
-ResultFormat resultFormatNamed(std::string_view name) {
-  if (const auto format = findFormat(name)) return *format;
-  throw Error(ErrorCode::UnknownFormat,
-              fmt::format("no result format is called '{}'; there are ply, vtu, npy and csv", name));
-}
+std::vector<std::string> resultFormats() { return {kFormats.begin(), kFormats.end()}; }
 
-ResultFormat resultFormatOf(const std::filesystem::path& path, const WriteOptions& options) {
-  if (options.format) return *options.format;
-  if (path == "-")
-    throw Error(ErrorCode::UnknownFormat, "standard output has no extension; give the format: ply, vtu, npy or csv");
-  if (const auto format = findFormat(path.extension().string())) return *format;
-  throw Error(ErrorCode::UnknownFormat,
-              fmt::format("the extension of {} tells no format; use .ply, .vtu, .npy or .csv", path.string()));
+std::string resultFormatOf(const std::filesystem::path& path, const WriteOptions& options) {
+  if (!options.format.empty()) return options.format;
+  if (path == "-") throw Error(ErrorCode::UnknownFormat, "standard output has no extension that names a format");
+  if (const std::string format = findFormat(path.extension().string()); !format.empty()) return format;
+  throw Error(ErrorCode::UnknownFormat, fmt::format("the extension of {} is not that of a result format", path.string()));
 }
 
 bool verticesAreFloats(const TriangleMesh& mesh) {
@@ -51,26 +42,16 @@ bool verticesAreFloats(const TriangleMesh& mesh) {
                      [&](const Vec3d& p) { return isFloat(p.x) && isFloat(p.y) && isFloat(p.z); });
 }
 
-void writeResult(const std::filesystem::path& path, const TriangleMesh& mesh, const FaceValues& face,
+void writeResult(const std::filesystem::path& path, const MeshView& view, std::span<const Field> fields,
                  const WriteOptions& options) {
-  const ResultFormat format = resultFormatOf(path, options);
-  ASDFVK_CHECK_OP(face.values.size(), ==, mesh.inputFaceCount());
-  ASDFVK_CHECK_OP(face.isSeed.size(), ==, mesh.inputFaceCount());
+  const std::string format = resultFormatOf(path, options);
+  const TriangleMesh mesh = *view.mesh();
+  const FaceValues face{std::get<0>(fields[0].values), std::get<1>(fields[1].values)};
   AtomicFile file(path);
-  switch (format) {
-    case ResultFormat::Ply:
-      writePly(file, mesh, face, options.ascii);
-      break;
-    case ResultFormat::Vtu:
-      writeVtu(file, mesh, face);
-      break;
-    case ResultFormat::Npy:
-      writeNpy(file, face);
-      break;
-    case ResultFormat::Csv:
-      writeCsv(file, face);
-      break;
-  }
+  if (format == "ply") writePly(file, mesh, face, options.ascii);
+  if (format == "vtu") writeVtu(file, mesh, face);
+  if (format == "npy") writeNpy(file, face);
+  if (format == "csv") writeCsv(file, face);
   file.commit();
 }
 

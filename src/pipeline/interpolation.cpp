@@ -9,25 +9,27 @@
 
 #include "asdf_vk/error.h"
 #include "core/parallel.h"
-#include "core/stopwatch.h"
 #include "mesh/curvature.h"
+#include "poisson/arc_weights.h"
 #include "poisson/divergence.h"
 #include "poisson/poisson_system.h"
+#include "poisson/solvers.h"
 
 namespace asdfvk {
 namespace {
 
-/// The values traced in one component. Each has its own, since parts of one mesh may differ in size by any factor.
+/// Traced values of one component. Components are separate because parts of one mesh may differ in size by any factor.
 struct ComponentValues {
   double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
   double mean = 0;
   uint64_t count = 0;
 };
 
-std::vector<ComponentValues> componentValues(const Components& components, std::span<const double> known) {
+std::vector<ComponentValues> componentValues(const Components& components, std::span<const double> constraints) {
   std::vector<ComponentValues> values(components.components.size());
-  for (size_t face = 0; face < known.size(); ++face) {  // Not by seed: the order would reach the last bit.
-    const double value = known[face];
+  for (size_t face = 0; face < constraints.size();
+       ++face) {  // In face order, so that the order of the seeds does not change the last bit.
+    const double value = constraints[face];
     if (!std::isfinite(value)) continue;
     ComponentValues& component = values[components.componentOf[face]];
     component.low = std::min(component.low, value);
@@ -38,7 +40,7 @@ std::vector<ComponentValues> componentValues(const Components& components, std::
   return values;
 }
 
-/// Where the solvers start: the prediction, or the mean of the component's seeds where there is none.
+/// Start of the solvers: the prediction, or the mean of the seeds of the component where there is none.
 std::vector<double> firstGuess(const Components& components, const std::vector<ComponentValues>& traced,
                                std::span<const double> prediction) {
   std::vector<double> guess(components.componentOf.size(), kNoValue);
@@ -50,71 +52,67 @@ std::vector<double> firstGuess(const Components& components, const std::vector<C
   return guess;
 }
 
-/// Guidance carries values beyond those of the seeds: downwards as far as the prediction, which is a mean of lengths,
-/// goes itself; upwards not at all, since the faces with the greatest predictions are seeds (see chooseScouts()).
+/// Limits values of a component, which guidance moves beyond those of the seeds: below to the smaller of the lowest
+/// seed value and the prediction of the face, above to the highest seed value, since the faces with the greatest
+/// predictions are seeds (extremeSeeds()).
 void keepWithinTraced(const Components& components, const std::vector<ComponentValues>& traced,
                       std::span<const double> predicted, std::vector<double>& values) {
   forEachInParallel(values.size(), [&](size_t face) {
     const ComponentValues& component = traced[components.componentOf[face]];
     if (component.count == 0 || !std::isfinite(values[face])) return;
     const double prediction = predicted[face];
-    const double least = std::isfinite(prediction) ? std::min(component.low, prediction) : component.low;
-    values[face] = std::clamp(values[face], least, std::max(least, component.high));
+    const double low = std::isfinite(prediction) ? std::min(component.low, prediction) : component.low;
+    values[face] = std::clamp(values[face], low, std::max(low, component.high));
   });
 }
 
 }  // namespace
 
-Interpolation::Interpolation(const PreparedMesh& prepared, const TraceScene& scene, const Cone& cone,
-                             const Options& options, ComputeBackend& backend, std::vector<std::string>& warnings)
-    : prepared_(prepared), scene_(scene), cone_(cone), options_(options), backend_(backend), warnings_(warnings) {}
-
-void Interpolation::predict(const TracedCones& traced, StageSeconds& seconds) {
+void Interpolation::predict(const TracedCones& traced) {
   if (traced.hits.empty()) return;
-  const Stopwatch watch;
-  prediction_ = reprojectHits(scene_, prepared_.graph, cone_, traced, options_.interpolation.reprojection,
+  prediction_ = reprojectHits(computation_.scene, computation_.prepared.graph, computation_.cone, traced, {},
                               std::move(prediction_));
-  seconds.predict += watch.seconds();
 }
 
-Interpolated Interpolation::run(std::span<const double> known, StageSeconds& seconds, const RunControl& control) {
-  const Stopwatch watch;
+Interpolated Interpolation::solve(std::span<const double> constraints, const RunControl& control) {
+  const Components& components = computation_.prepared.components;
   Interpolated result;
-  result.values.assign(known.begin(), known.end());
+  result.values.assign(constraints.begin(), constraints.end());
   result.solver.name = "none";
   const std::span<const double> predicted = prediction_.values;
-  const bool hasAll = std::all_of(known.begin(), known.end(), [](double v) { return std::isfinite(v); });
+  const bool hasAll = std::all_of(constraints.begin(), constraints.end(), [](double v) { return std::isfinite(v); });
   if (!hasAll) {
-    const std::vector<ComponentValues> traced = componentValues(prepared_.components, known);
-    const auto buildSystem = [&] {  // The first guess goes with it.
-      const std::vector<double> guess = firstGuess(prepared_.components, traced, predicted);
-      return buildPoissonSystem(prepared_.graph, weights(), known, divergence(),
-                                {.firstGuess = guess, .componentOf = prepared_.components.componentOf});
+    const std::vector<ComponentValues> traced = componentValues(components, constraints);
+    const auto buildSystem = [&] {  // Frees the guess before the solution.
+      const std::vector<double> guess = firstGuess(components, traced, predicted);
+      return buildPoissonSystem(computation_.prepared.graph, weights(), constraints, divergence(),
+                                {.firstGuess = guess, .componentOf = components.componentOf});
     };
     const PoissonSystem system = buildSystem();
-    result.solver = solve(system, result.values, control);
-    if (!predicted.empty()) keepWithinTraced(prepared_.components, traced, predicted, result.values);
+    result.solver = solveSystem(system, result.values, control);
+    if (!predicted.empty()) keepWithinTraced(components, traced, predicted, result.values);
   }
-  if (const double pooling = options_.interpolation.pooling; pooling > 0)
+  if (const double pooling = computation_.options.interpolation.pooling; pooling > 0)
     for (size_t face = 0; face < predicted.size(); ++face)
       if (std::isfinite(predicted[face]) && std::isfinite(result.values[face]))
         result.values[face] += pooling * (predicted[face] - result.values[face]);
-  seconds.solve += watch.seconds();
   return result;
 }
 
 const std::vector<double>& Interpolation::weights() {
-  if (weights_.empty()) weights_ = arcWeights(options_.interpolation.weights, prepared_.graph, prepared_.geometry);
+  const PreparedMesh& prepared = computation_.prepared;
+  if (weights_.empty())
+    weights_ = arcWeights(computation_.options.interpolation.weights, prepared.graph, prepared.geometry);
   return weights_;
 }
 
 std::vector<double> Interpolation::divergence() {
-  switch (options_.interpolation.guidance) {
-    case Guidance::Hits:
+  switch (computation_.options.interpolation.guidance) {
+    case Guidance::Prediction:
       if (prediction_.values.empty()) return {};
-      return divergenceOf(prepared_.graph, weights(), prediction_.values);
+      return divergenceOf(computation_.prepared.graph, weights(), prediction_.values);
     case Guidance::Curvature: {
-      std::vector<double> divergence = faceCurvature(scene_.mesh);
+      std::vector<double> divergence = faceCurvature(computation_.scene.mesh);
       for (double& entry : divergence) entry = -entry;
       return divergence;
     }
@@ -124,19 +122,32 @@ std::vector<double> Interpolation::divergence() {
   return {};
 }
 
-SolverReport Interpolation::solve(const PoissonSystem& system, std::vector<double>& values, const RunControl& control) {
+PoissonSolver& Interpolation::solver(const std::string& name) {
+  // A CPU device needs more time than the CPU for the same iterations (docs/speed.md).
+  if (name == "auto") return solver(computation_.backend.runsOnCpu() ? "cpu" : "cg");
+  std::unique_ptr<PoissonSolver>& solver = computation_.solvers[name];
+  if (!solver) solver = makeSolver(name, computation_.backend.device());
+  return *solver;
+}
+
+SolverReport Interpolation::solveSystem(const PoissonSystem& system, std::vector<double>& values,
+                                        const RunControl& control) {
   if (system.unknownCount() == 0) return {.name = "none"};
+  const Options& options = computation_.options;
   std::vector<double> solution(system.unknownCount());
-  const auto solveWith = [&](SolverChoice choice) {
-    return backend_.solver(choice).solve(system, options_.solverOptions, solution, control);
+  const auto solveWith = [&](const std::string& name) {
+    return solver(name).solve(system, options.solverOptions, solution, control);
   };
   SolverReport report;
   try {
-    report = solveWith(options_.solver);
+    report = solveWith(options.solver);
   } catch (const Error& error) {
-    if (options_.solver != SolverChoice::Auto || error.kind() != ErrorKind::Device) throw;
-    warnings_.push_back(fmt::format("the CPU solved the equation, because on the device: {}", error.what()));
-    report = solveWith(SolverChoice::Cpu);
+    if (options.solver != "auto" || error.kind() != ErrorKind::Device) throw;
+    computation_.warnings.push_back(
+        {WarningCode::SolvedOnCpu,
+         fmt::format("the CPU solved the equation because the device failed: {}", error.what()),
+         {}});
+    report = solveWith("cpu");
   }
   for (size_t i = 0; i < solution.size(); ++i) values[system.faces[i]] = solution[i];
   return report;

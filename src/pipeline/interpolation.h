@@ -1,54 +1,43 @@
 #pragma once
 
 #include <span>
-#include <string>
 #include <vector>
 
-#include "pipeline/compute_backend.h"
-#include "pipeline/options.h"
-#include "pipeline/prepared_mesh.h"
-#include "pipeline/report.h"
-#include "pipeline/seed_tracing.h"
+#include "pipeline/computation.h"
 #include "predict/reprojection.h"
 
 namespace asdfvk {
 
-/// Values for all faces from those of the seeds.
+/// Values of all faces, interpolated from those of the seeds.
 struct Interpolated {
   std::vector<double> values;  ///< #F; faces of components without any value keep none.
-  SolverReport solver;         ///< Its name is "none" when there was nothing to solve.
+  SolverReport solver;         ///< Its name is "none" where there was nothing to solve.
 };
 
-/// The interpolation of one mesh, for any sets of seeds.
+/// Interpolation on one mesh, for any sets of seeds.
 class Interpolation {
  public:
-  /// What it refers to must outlive it. Where the choice of solver is open and the device fails or is too small, the
-  /// CPU solves instead and `warnings` says why.
-  Interpolation(const PreparedMesh& prepared, const TraceScene& scene, const Cone& cone, const Options& options,
-                ComputeBackend& backend, std::vector<std::string>& warnings);
+  /// The computation must outlive it. Where the solver is "auto" and the device fails or is too small, the CPU solves
+  /// and a warning has the reason.
+  explicit Interpolation(const Computation& computation) : computation_(computation) {}
 
-  /// Predicts all faces from what the rays of these seeds met, if anybody kept that. Seeds that an earlier call was
-  /// given must be at the same places of traced.seeds. seconds: what it took is added to them.
-  void predict(const TracedCones& traced, StageSeconds& seconds);
-  /// The last one, see reprojectHits(); empty without Guidance::Hits.
+  /// Predicts all faces from the hits of these seeds; without hits it does nothing. Seeds of an earlier call must be at
+  /// the same places of traced.seeds.
+  void predict(const TracedCones& traced);
+  /// The last one; empty without Guidance::Prediction.
   [[nodiscard]] const Prediction& prediction() const { return prediction_; }
 
-  /// Guided by the last prediction. known: #F, NaN where no value is. seconds: what it took is added to them.
-  [[nodiscard]] Interpolated run(std::span<const double> known, StageSeconds& seconds, const RunControl& control);
+  /// Guided by the last prediction. constraints: #F, NaN where a value is unknown.
+  [[nodiscard]] Interpolated solve(std::span<const double> constraints, const RunControl& control);
 
  private:
   [[nodiscard]] const std::vector<double>& weights();
   [[nodiscard]] std::vector<double> divergence();
-  SolverReport solve(const PoissonSystem& system, std::vector<double>& values, const RunControl& control);
+  [[nodiscard]] PoissonSolver& solver(const std::string& name);
+  SolverReport solveSystem(const PoissonSystem& system, std::vector<double>& values, const RunControl& control);
 
-  const PreparedMesh& prepared_;
-  const TraceScene& scene_;
-  const Cone& cone_;
-  const Options& options_;
-  ComputeBackend& backend_;
-  std::vector<std::string>& warnings_;
-  std::vector<double>
-      weights_;  ///< One per arc of the dual graph, once something is to be solved: tracing holds more than enough.
+  const Computation& computation_;
+  std::vector<double> weights_;  ///< One per arc of the dual graph; computed lazily, so that tracing does not hold it.
   Prediction prediction_;
 };
 

@@ -2,59 +2,175 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "asdf_vk/error.h"
-#include "core/stopwatch.h"
+#include "core/parallel.h"
 #include "core/text.h"
+#include "io/input_faces.h"
 #include "mesh/coincident_faces.h"
+#include "mesh/edge_survey.h"
 #include "mesh/orientation.h"
+#include "mesh/validation.h"
 
 namespace asdfvk {
 namespace {
 
-void orient(Mesh& mesh, PreparedMesh& prepared, Orientation orientation) {
-  if (orientation == Orientation::Flip) flipAllFaces(mesh, prepared.geometry, prepared.components);
-  OrientationReport report = analyseOrientation(mesh, prepared.components);
-  const size_t invertedCount = report.invertedComponents.size();
-  if (invertedCount == 0) return;
-  if (orientation == Orientation::Auto) {
-    orientOutward(mesh, prepared.geometry, prepared.components, report);
-    prepared.warnings.push_back(
-        fmt::format("{} inverted component{} turned over", invertedCount, invertedCount == 1 ? " was" : "s were"));
+// The arrays of a caller are used in place.
+static_assert(sizeof(Vec3d) == 3 * sizeof(double) && sizeof(Face) == 3 * sizeof(uint32_t));
+
+void requireMultipleOf3(size_t size, const char* array) {
+  if (size % 3 != 0)
+    throw Error(ErrorCode::ArraySize, fmt::format("the {} have {} entries, which is not a multiple of 3", array, size));
+}
+
+void requirePolygons(const MeshView& view) {
+  const std::span<const uint64_t> first = view.firstCorner();
+  if (first.front() != 0 || first.back() != view.corners().size() || !std::is_sorted(first.begin(), first.end()))
+    throw Error(ErrorCode::ArraySize,
+                fmt::format("the first corners of the polygons do not ascend from 0 to {}", view.corners().size()));
+}
+
+[[noreturn]] void failIndex(uint64_t faceCount, const char* face, size_t vertexCount) {
+  throw Error(ErrorCode::IndexOutOfRange,
+              fmt::format("{} with a vertex that does not exist: the mesh has {}", counted(faceCount, face),
+                          counted(vertexCount, "vertex", "vertices")));
+}
+
+void requireIndices(const MeshView& view) {
+  const std::span<const uint32_t> corners = view.corners();
+  const size_t vertexCount = view.vertexCount();
+  if (const Mesh* mesh = view.mesh()) {
+    if (const uint64_t count = countFacesWithIndexOutOfRange(*mesh); count > 0)
+      failIndex(count, mesh->polygons.isEmpty() ? "face" : "triangle", vertexCount);
+  }
+  if (countInParallel(corners.size(), [&](size_t i) { return corners[i] >= vertexCount; }) == 0) return;
+  uint64_t faceCount = 0;
+  for (uint64_t i = 0; i < view.inputFaceCount(); ++i) {
+    const size_t begin = view.firstCorner().empty() ? 3 * i : view.firstCorner()[i];
+    const size_t end = view.firstCorner().empty() ? begin + 3 : view.firstCorner()[i + 1];
+    const std::span<const uint32_t> face = corners.subspan(begin, end - begin);
+    faceCount += std::any_of(face.begin(), face.end(), [&](uint32_t corner) { return corner >= vertexCount; });
+  }
+  failIndex(faceCount, "face", vertexCount);
+}
+
+/// Sets storage and mesh.
+void takeArrays(const MeshView& view, PreparedMesh& prepared) {
+  requireMultipleOf3(view.doubles().size() + view.floats().size(), "vertex positions");
+  if (view.inputFaceCount() == 0)
+    throw Error(ErrorCode::EmptyMesh, "the mesh has no faces; a shape diameter needs a surface");
+  if (view.firstCorner().empty()) {
+    requireMultipleOf3(view.corners().size(), "triangle indices");
   } else {
-    prepared.warnings.push_back(report.sentence(mesh, prepared.components));
+    requirePolygons(view);
+  }
+  requireIndices(view);
+  if (const Mesh* mesh = view.mesh()) {
+    if (!mesh->polygons.isEmpty() && mesh->polygons.inputFaceOf.size() != mesh->faces.size())
+      throw Error(ErrorCode::ArraySize, "the polygons of the mesh do not name an input face for each triangle");
+    prepared.mesh = *mesh;
+    return;
+  }
+  const size_t vertexCount = view.vertexCount();
+  if (view.floats().empty()) {
+    prepared.mesh.vertices = {reinterpret_cast<const Vec3d*>(view.doubles().data()), vertexCount};
+  } else {
+    prepared.storage.vertices.resize(vertexCount);
+    for (size_t v = 0; v < vertexCount; ++v)
+      for (size_t axis = 0; axis < 3; ++axis)
+        prepared.storage.vertices[v][axis] = static_cast<double>(view.floats()[3 * v + axis]);
+    prepared.mesh.vertices = prepared.storage.vertices;
+  }
+  if (view.firstCorner().empty()) {
+    prepared.mesh.faces = {reinterpret_cast<const Face*>(view.corners().data()), view.corners().size() / 3};
+    return;
+  }
+  InputFaces faces;
+  faces.reserve(view.inputFaceCount());
+  for (uint64_t i = 0; i < view.inputFaceCount(); ++i)
+    faces.add(view.corners().subspan(view.firstCorner()[i], view.firstCorner()[i + 1] - view.firstCorner()[i]));
+  faces.moveTo(prepared.mesh.vertices, prepared.storage);
+  const TriangleMesh triangles = prepared.storage;
+  prepared.mesh.faces = triangles.faces;
+  prepared.mesh.polygons = triangles.polygons;
+}
+
+/// Copies arrays of the caller, so that faces can be reversed.
+void ownArrays(PreparedMesh& prepared) {
+  const TriangleMesh mesh = prepared.mesh;
+  const auto copy = [](auto& target, const auto& source) {
+    if (target.data() != source.data()) target.assign(source.begin(), source.end());
+  };
+  copy(prepared.storage.vertices, mesh.vertices);
+  copy(prepared.storage.faces, mesh.faces);
+  copy(prepared.storage.polygons.firstCorner, mesh.polygons.firstCorner);
+  copy(prepared.storage.polygons.corners, mesh.polygons.corners);
+  copy(prepared.storage.polygons.inputFaceOf, mesh.polygons.inputFaceOf);
+}
+
+/// reverse: changes prepared.storage.
+template <typename Reverse>
+void reverseFaces(PreparedMesh& prepared, const Reverse& reverse) {
+  ownArrays(prepared);
+  const std::vector<Face> before = prepared.storage.faces;
+  reverse();
+  prepared.mesh = prepared.storage;
+  for (uint32_t f = 0; f < prepared.mesh.faceCount(); ++f) {
+    const uint32_t inputFace = prepared.mesh.inputFaceOf(f);
+    const bool isFirst = f == 0 || prepared.mesh.inputFaceOf(f - 1) != inputFace;
+    if (isFirst && before[f] != prepared.mesh.faces[f]) prepared.reversedFaces.push_back(inputFace);
+  }
+}
+
+void orient(PreparedMesh& prepared, Orientation orientation) {
+  if (orientation == Orientation::Flip)
+    reverseFaces(prepared, [&] { flipAllFaces(prepared.storage, prepared.geometry, prepared.components); });
+  OrientationReport report = analyseOrientation(prepared.mesh, prepared.components);
+  const size_t count = report.invertedComponents.size();
+  if (count == 0) return;
+  if (orientation == Orientation::Auto) {
+    reverseFaces(prepared, [&] { orientOutward(prepared.storage, prepared.geometry, prepared.components, report); });
+    prepared.warnings.push_back({WarningCode::ComponentsReversed,
+                                 fmt::format("{} inverted component{} reversed", count, count == 1 ? " was" : "s were"),
+                                 {}});
+  } else {
+    prepared.warnings.push_back(
+        {WarningCode::InvertedComponents, report.sentence(prepared.mesh, prepared.components), {}});
     prepared.invertedComponents = std::move(report.invertedComponents);
   }
 }
 
 }  // namespace
 
-PreparedMesh prepareMesh(Mesh& mesh, Orientation orientation, StageSeconds& seconds) {
-  const Stopwatch watch;
-  if (mesh.inputFaceCount() == 0)
-    throw Error(ErrorCode::EmptyMesh, "the mesh has no faces; a shape diameter needs a surface");
-  if (const uint64_t count = countFacesWithIndexOutOfRange(mesh); count > 0)
-    throw Error(ErrorCode::IndexOutOfRange, fmt::format("{} with a vertex that does not exist: the mesh has {}",
-                                                        counted(count, mesh.polygons.isEmpty() ? "face" : "triangle"),
-                                                        counted(mesh.vertices.size(), "vertex", "vertices")));
+PreparedMesh prepareMesh(const MeshView& view, Orientation orientation, StageClock& clock) {
+  const auto scope = clock.time(Stage::Geometry);
   PreparedMesh prepared;
+  takeArrays(view, prepared);
+  const TriangleMesh& mesh = prepared.mesh;
   prepared.geometry = computeFaceGeometry(mesh);
-  const Stopwatch graphWatch;
-  EdgeSurvey edges = surveyEdges(mesh);
-  const double graphSeconds = graphWatch.seconds();
+  EdgeSurvey edges = [&] {
+    const auto graphScope = clock.time(Stage::Graph);
+    return surveyEdges(mesh);
+  }();
   prepared.representatives = coincidentRepresentatives(mesh, edges);
   prepared.components = findComponents(mesh, edges);
   prepared.defects = findDefects(mesh, prepared.geometry, prepared.representatives, edges);
   prepared.graph = std::move(edges.graph);
-  prepared.warnings = prepared.defects.sentences();
-  orient(mesh, prepared, orientation);
-  prepared.castableFaces.reserve(mesh.faces.size());
+  for (std::string& sentence : sentencesOf(prepared.defects, !mesh.polygons.isEmpty()))
+    prepared.warnings.push_back({WarningCode::MeshDefect, std::move(sentence), {}});
+  orient(prepared, orientation);
+  prepared.traceableFaces.reserve(mesh.faces.size());
   for (uint32_t face = 0; face < mesh.faceCount(); ++face)
-    if (!prepared.geometry.isDegenerate(face)) prepared.castableFaces.push_back(face);
-  seconds.graph += graphSeconds;
-  seconds.geometry += watch.seconds() - graphSeconds;
+    if (!prepared.geometry.isDegenerate(face)) prepared.traceableFaces.push_back(face);
   return prepared;
+}
+
+PreparedMesh prepareMesh(const MeshView& mesh, Orientation orientation) {
+  StageSeconds seconds;
+  StageClock clock(seconds);
+  return prepareMesh(mesh, orientation, clock);
 }
 
 }  // namespace asdfvk

@@ -1,37 +1,38 @@
 #pragma once
 
-#include <string>
+#include <cstdint>
 #include <vector>
 
-#include "bvh/bvh.h"
+#include "asdf_vk/options.h"
+#include "asdf_vk/report.h"
 #include "mesh/components.h"
 #include "mesh/dual_graph.h"
 #include "mesh/face_geometry.h"
 #include "mesh/mesh.h"
-#include "mesh/validation.h"
-#include "pipeline/asdf.h"
+#include "pipeline/stage_clock.h"
 
 namespace asdfvk {
 
 /// Everything about a mesh that does not depend on rays, seeds or devices.
 struct PreparedMesh {
+  Mesh storage;       ///< Arrays of `mesh` that are not the caller's: converted, triangulated or reversed.
+  TriangleMesh mesh;  ///< Of `storage` and of the arrays of the caller.
   FaceGeometry geometry;
   std::vector<uint32_t> representatives;  ///< #F, see coincidentRepresentatives().
   DualGraph graph;
   Components components;
-  std::vector<uint32_t> invertedComponents;  ///< That were left so. Ascending indices.
+  std::vector<uint32_t> invertedComponents;  ///< Components that look inwards and were left so. Ascending.
+  std::vector<uint64_t> reversedFaces;       ///< Input faces, ascending.
   MeshDefects defects;
-  std::vector<std::string> warnings;
-  std::vector<uint32_t> castableFaces;  ///< Not degenerate: they can be seeds. Ascending.
+  std::vector<Warning> warnings;
+  std::vector<uint32_t> traceableFaces;  ///< Faces that are not degenerate: they can cast rays. Ascending.
 };
 
-/// Throws Error{Input} for a mesh without faces or with an index out of range. Turns faces over as `orientation` says.
-/// seconds: what it took is added to those of geometry and graph.
-[[nodiscard]] PreparedMesh prepareMesh(Mesh& mesh, Orientation orientation, StageSeconds& seconds);
+/// The arrays of the caller must outlive the result. Reverses faces, in arrays of the result, as `orientation` says.
+/// Throws Error{EmptyMesh}, Error{ArraySize}, Error{IndexOutOfRange}, Error{MeshTooLarge}.
+[[nodiscard]] PreparedMesh prepareMesh(const MeshView& mesh, Orientation orientation, StageClock& clock);
 
-[[nodiscard]] inline PreparedMesh prepareMesh(Mesh& mesh, Orientation orientation) {
-  StageSeconds ignored;
-  return prepareMesh(mesh, orientation, ignored);
-}
+/// The same without a clock.
+[[nodiscard]] PreparedMesh prepareMesh(const MeshView& mesh, Orientation orientation);
 
 }  // namespace asdfvk

@@ -15,10 +15,10 @@
 namespace asdfvk {
 namespace {
 
-// More probes than these leave so few seeds to predict from that the estimate is worse for it (docs/experiments.md).
-constexpr uint64_t kSeedsPerProbe = 4, kEnoughProbes = 200, kSeedsPerFurtherProbe = 10, kMostProbes = 2000;
+// More held-out faces leave so few seeds for the prediction that the estimate becomes worse (docs/experiments.md).
+constexpr uint64_t kSeedsPerHeldOut = 4, kMinHeldOut = 200, kSeedsPerFurtherHeldOut = 10, kMaxHeldOut = 2000;
 
-constexpr uint64_t kSeedsPerScout = 25, kLeastScouts = 16, kMostScouts = 400;
+constexpr uint64_t kSeedsPerExtreme = 25, kMinExtreme = 16, kMaxExtreme = 400;
 
 std::vector<uint32_t> without(std::span<const uint32_t> faces, std::span<const uint32_t> removed) {
   std::vector<uint32_t> rest;
@@ -28,80 +28,74 @@ std::vector<uint32_t> without(std::span<const uint32_t> faces, std::span<const u
 
 }  // namespace
 
-std::vector<std::string> samplerNames() {
-  std::vector<std::string> names;
-  for (const Sampler& sampler : kSamplers) names.emplace_back(sampler.name);
-  return names;
+const Sampler& samplerOf(const Options& options) {
+  if (const Sampler* sampler = findSampler(options.sampler)) return *sampler;
+  throw Error(ErrorCode::UnknownName, fmt::format("no sampler is called '{}'; the names are {}", options.sampler,
+                                                  fmt::join(samplerNames(), ", ")));
 }
 
-const Sampler& requireSampler(const std::string& name) {
-  if (const Sampler* sampler = findSampler(name)) return *sampler;
-  throw Error(ErrorCode::UnknownName,
-              fmt::format("'{}' is not a sampler; the samplers are {}", name, fmt::join(samplerNames(), ", ")),
-              {{"name", name}});
-}
-
-uint64_t resolveSeedCount(const SeedCount& request, uint64_t castableFaceCount) {
-  if (castableFaceCount == 0 || request.kind == SeedCount::Kind::All) return castableFaceCount;
+uint64_t resolveSeedCount(const SeedCount& request, uint64_t traceableFaceCount) {
+  if (traceableFaceCount == 0 || request.kind == SeedCount::Kind::All) return traceableFaceCount;
   if (request.kind == SeedCount::Kind::Count) {
-    if (request.count == 0)
-      throw Error(ErrorCode::OptionOutOfRange, "no seeds were asked for; give a count, a percentage or all");
-    return std::min(request.count, castableFaceCount);
+    if (request.count == 0) throw Error(ErrorCode::OptionOutOfRange, "a seed count of 0 is out of range (1 or more)");
+    return std::min(request.count, traceableFaceCount);
   }
   if (!(request.share > 0 && request.share <= 1))
     throw Error(ErrorCode::OptionOutOfRange,
-                "the share of seeds is out of range; give more than 0 % and at most 100 %");
-  const double count = std::round(request.share * static_cast<double>(castableFaceCount));
-  return std::clamp<uint64_t>(static_cast<uint64_t>(count), 1, castableFaceCount);
+                fmt::format("a seed share of {} % is out of range (more than 0, at most 100 %)", 100 * request.share));
+  const double count = std::round(request.share * static_cast<double>(traceableFaceCount));
+  return std::clamp<uint64_t>(static_cast<uint64_t>(count), 1, traceableFaceCount);
 }
 
-SeedShares shareOut(uint64_t count, uint64_t earlierProbeCount, bool predicts) {
+SeedShares shareSeeds(uint64_t count, uint64_t earlierHeldOutCount, bool predicts) {
   SeedShares shares;
-  const uint64_t enough = std::min(kEnoughProbes + count / kSeedsPerFurtherProbe, kMostProbes);
-  shares.probes = std::min(count / kSeedsPerProbe, enough - std::min(enough, earlierProbeCount));
-  if (predicts) shares.scouts = std::min(std::clamp(count / kSeedsPerScout, kLeastScouts, kMostScouts), count / 10);
-  shares.placed = count - shares.probes - shares.scouts;
+  const uint64_t wanted = std::min(kMinHeldOut + count / kSeedsPerFurtherHeldOut, kMaxHeldOut);
+  shares.heldOut = std::min(count / kSeedsPerHeldOut, wanted - std::min(wanted, earlierHeldOutCount));
+  if (predicts) shares.extreme = std::min(std::clamp(count / kSeedsPerExtreme, kMinExtreme, kMaxExtreme), count / 10);
+  shares.sampled = count - shares.heldOut - shares.extreme;
   return shares;
 }
 
 SeedChoice chooseSeeds(const PreparedMesh& prepared, const Options& options, const SeedShares& shares,
-                       const SeedChoice& earlier, std::span<const double> weight) {
-  // Placed seeds keep away from each other and not from probes, which must be like any other face to them.
-  std::vector<uint32_t> notProbes;
-  if (!earlier.probes.empty()) notProbes = without(prepared.castableFaces, earlier.probes);
+                       const SeedChoice& earlier, std::span<const double> density) {
+  // Samplers keep a distance to earlier seeds but ignore held-out faces, which must be a random sample.
+  std::vector<uint32_t> notHeldOut;
+  if (!earlier.heldOut.empty()) notHeldOut = without(prepared.traceableFaces, earlier.heldOut);
   const SeedDomain domain{
       prepared.graph, prepared.geometry,
-      earlier.probes.empty() ? std::span(prepared.castableFaces) : std::span(std::as_const(notProbes))};
-  const Sampler& sampler = requireSampler(options.sampler);
+      earlier.heldOut.empty() ? std::span(prepared.traceableFaces) : std::span(std::as_const(notHeldOut))};
+  const Sampler& sampler = samplerOf(options);
   SeedChoice choice;
   if (sampler.isUniform) {
-    // All are placed at random: any of them can be probes, and the same faces are seeds without an estimate.
+    // All are sampled at random, so any of them can be held out, and the seeds are the same without an estimate.
     const std::vector<uint32_t> all =
-        sampler.sample(domain, shares.placed + shares.probes, earlier.placed, options.randomSeed);
-    choice.probes = randomPermutationSeeds(all, shares.probes, probeSeed(options.randomSeed, 0));
-    choice.placed = without(all, choice.probes);
+        sampler.sample(domain, shares.sampled + shares.heldOut, earlier.sampled, options.randomSeed);
+    choice.heldOut = randomPermutationSeeds(all, shares.heldOut, heldOutSeed(options.randomSeed, 0));
+    choice.sampled = without(all, choice.heldOut);
     return choice;
   }
-  ASDFVK_CHECK(weight.empty() || sampler.refine);
-  choice.placed = weight.empty() ? sampler.sample(domain, shares.placed, earlier.placed, options.randomSeed)
-                                 : sampler.refine(domain, weight, shares.placed, earlier.placed, options.randomSeed);
-  const std::vector<uint32_t> rest = without(remainingCandidates(domain, earlier.placed), choice.placed);
-  choice.probes = randomPermutationSeeds(rest, shares.probes, probeSeed(options.randomSeed, earlier.probes.size()));
+  ASDFVK_CHECK(density.empty() || sampler.refine);
+  choice.sampled = density.empty()
+                       ? sampler.sample(domain, shares.sampled, earlier.sampled, options.randomSeed)
+                       : sampler.refine(domain, density, shares.sampled, earlier.sampled, options.randomSeed);
+  const std::vector<uint32_t> rest = without(remainingCandidates(domain, earlier.sampled), choice.sampled);
+  choice.heldOut =
+      randomPermutationSeeds(rest, shares.heldOut, heldOutSeed(options.randomSeed, earlier.heldOut.size()));
   return choice;
 }
 
-std::vector<uint32_t> chooseScouts(const PreparedMesh& prepared, std::span<const double> prediction,
+std::vector<uint32_t> extremeSeeds(std::span<const uint32_t> traceableFaces, std::span<const double> prediction,
                                    std::span<const uint8_t> isSeed, uint64_t count) {
-  std::vector<uint32_t> scouts;
-  for (const uint32_t face : prepared.castableFaces)
-    if (!isSeed[face] && std::isfinite(prediction[face])) scouts.push_back(face);
-  const auto end = scouts.begin() + static_cast<std::ptrdiff_t>(std::min<uint64_t>(count, scouts.size()));
-  std::nth_element(scouts.begin(), end, scouts.end(), [&](uint32_t a, uint32_t b) {
+  std::vector<uint32_t> faces;
+  for (const uint32_t face : traceableFaces)
+    if (!isSeed[face] && std::isfinite(prediction[face])) faces.push_back(face);
+  const auto end = faces.begin() + static_cast<std::ptrdiff_t>(std::min<uint64_t>(count, faces.size()));
+  std::nth_element(faces.begin(), end, faces.end(), [&](uint32_t a, uint32_t b) {
     return prediction[a] != prediction[b] ? prediction[a] > prediction[b] : a < b;
   });
-  scouts.erase(end, scouts.end());
-  std::sort(scouts.begin(), scouts.end());
-  return scouts;
+  faces.erase(end, faces.end());
+  std::sort(faces.begin(), faces.end());
+  return faces;
 }
 
 }  // namespace asdfvk

@@ -4,43 +4,43 @@
 #include <span>
 #include <vector>
 
-#include "pipeline/options.h"
+#include "asdf_vk/options.h"
 #include "pipeline/prepared_mesh.h"
 #include "seeds/samplers.h"
 
 namespace asdfvk {
 
-/// How many of the faces that can cast rays are asked for; at least one where there is any.
-[[nodiscard]] uint64_t resolveSeedCount(const SeedCount& request, uint64_t castableFaceCount);
+/// Number of seeds among the faces that can cast rays; at least one where there is any. Throws Error{OptionOutOfRange}.
+[[nodiscard]] uint64_t resolveSeedCount(const SeedCount& request, uint64_t traceableFaceCount);
 
-/// Seeds of two kinds: those that the sampler places, and probes, which are chosen at random among the other faces, so
-/// that what is interpolated from the first can be judged at the second without bias.
+/// Seeds of two kinds: those of the sampler, and held-out faces, sampled at random among the other faces, where the
+/// error of an interpolation from the first kind is measured without bias.
 struct SeedChoice {
-  std::vector<uint32_t> placed, probes;  ///< Ascending; none is in both.
+  std::vector<uint32_t> sampled, heldOut;  ///< Ascending and disjoint.
 };
 
 /// The sampler of the options. Throws Error{UnknownName}.
-[[nodiscard]] const Sampler& requireSampler(const std::string& name);
+[[nodiscard]] const Sampler& samplerOf(const Options& options);
 
-/// How `count` further seeds are shared out when the error is to be estimated.
+/// How a number of further seeds is divided when the error is to be estimated.
 struct SeedShares {
-  uint64_t placed = 0, probes = 0;
-  uint64_t scouts = 0;  ///< For faces whose predicted values are the greatest, see chooseScouts().
+  uint64_t sampled = 0, heldOut = 0;
+  uint64_t extreme = 0;  ///< See extremeSeeds().
 };
 
-/// earlierProbeCount: of the rounds before. predicts: scouts can be chosen.
-[[nodiscard]] SeedShares shareOut(uint64_t count, uint64_t earlierProbeCount, bool predicts);
+/// earlierHeldOutCount: of the rounds before. predicts: a prediction will be available for extreme seeds.
+[[nodiscard]] SeedShares shareSeeds(uint64_t count, uint64_t earlierHeldOutCount, bool predicts);
 
-/// Chooses further placed seeds, and probes that any of the other faces is as likely to be. Where a prediction tells
-/// more of these, no probes are asked for here: see chooseProbes(). earlier: what was chosen before. weight: #F, how
-/// densely the faces deserve seeds, for the second half of an adaptive sampler's; or empty.
+/// Further seeds of the sampler, and held-out faces with equal probability among the others (none are requested here
+/// where a prediction is available: see sampleHeldOut()). earlier: all earlier seeds. density: #F, for the second half
+/// of the seeds of an adaptive sampler (Sampler::refine); otherwise empty.
 [[nodiscard]] SeedChoice chooseSeeds(const PreparedMesh& prepared, const Options& options, const SeedShares& shares,
-                                     const SeedChoice& earlier, std::span<const double> weight);
+                                     const SeedChoice& earlier, std::span<const double> density = {});
 
-/// The candidates with the greatest predictions that are no seeds yet, ascending. The range of the function, over which
-/// errors are told, ends at a few faces that a sample of seeds misses; tracing these finds nearly all of it.
-/// prediction, isSeed: #F.
-[[nodiscard]] std::vector<uint32_t> chooseScouts(const PreparedMesh& prepared, std::span<const double> prediction,
-                                                 std::span<const uint8_t> isSeed, uint64_t count);
+/// The `count` candidates with the greatest predictions that are not seeds yet, ascending. Errors are relative to the
+/// range of the function, whose upper end is at a few faces that samplers miss. prediction, isSeed: #F.
+[[nodiscard]] std::vector<uint32_t> extremeSeeds(std::span<const uint32_t> traceableFaces,
+                                                 std::span<const double> prediction, std::span<const uint8_t> isSeed,
+                                                 uint64_t count);
 
 }  // namespace asdfvk

@@ -41,11 +41,11 @@ double featureWeight(double dihedralAngle) {
 
 }  // namespace
 
-std::vector<double> arcWeights(ArcWeightKind kind, const DualGraph& graph, const FaceGeometry& geometry) {
+std::vector<double> arcWeights(ArcWeights kind, const DualGraph& graph, const FaceGeometry& geometry) {
   switch (kind) {
-    case ArcWeightKind::Distance:
+    case ArcWeights::Distance:
       return distanceWeights(graph, geometry);
-    case ArcWeightKind::Feature:
+    case ArcWeights::Feature:
       break;
   }
   std::vector<double> weights = signedDihedralAngles(graph, geometry);

@@ -2,16 +2,11 @@
 
 #include <vector>
 
+#include "asdf_vk/options.h"
 #include "mesh/dual_graph.h"
 #include "mesh/face_geometry.h"
 
 namespace asdfvk {
-
-/// How strongly the interpolation ties the values of two neighbouring faces to each other.
-enum class ArcWeightKind {
-  Distance,  ///< 1 / distance of the barycentres: the ASDF paper, section 4.1.
-  Feature,   ///< 1 / (1 + (a / s)^2), a the dihedral angle, s kConcaveScaleDegrees or kConvexScaleDegrees.
-};
 
 /// Where the weight of a Feature arc has fallen to a half. Across a sharper edge the shape diameter changes
 /// more, and on organic shapes some five times more where it is concave.
@@ -20,7 +15,7 @@ inline constexpr double kConvexScaleDegrees = 8;
 
 /// One weight per arc, in the order of graph.neighbours: positive, finite, and the same bits in both directions.
 /// Distances below 1e-9 of the box's diagonal count as that, so that coincident barycentres keep the matrix finite.
-/// Distance has the unit of 1 / length, Feature has none.
-[[nodiscard]] std::vector<double> arcWeights(ArcWeightKind kind, const DualGraph& graph, const FaceGeometry& geometry);
+/// Distance has the unit of 1 / length, the others have none.
+[[nodiscard]] std::vector<double> arcWeights(ArcWeights kind, const DualGraph& graph, const FaceGeometry& geometry);
 
 }  // namespace asdfvk

@@ -6,23 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "asdf_vk/options.h"
+#include "asdf_vk/report.h"
 #include "asdf_vk/run_control.h"
 #include "poisson/poisson_system.h"
 
 namespace asdfvk {
-
-struct SolverOptions {
-  double tolerance = 1e-4;  ///< On the relative residual, see relativeResidual().
-  uint32_t maxIterations = 20000;
-};
-
-struct SolverReport {
-  std::string name;  ///< "eigen", "cpu", "cg" or "jacobi".
-  uint32_t iterations = 0;
-  double relativeResidual = 0;  ///< The true one, recomputed in double from the solution.
-  bool converged = true;        ///< Not converging is data, not an error.
-  bool finishedOnCpu = false;   ///< Begun on a device in float32, which did not get there.
-};
 
 class PoissonSolver {
  public:

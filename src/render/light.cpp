@@ -42,7 +42,7 @@ LightRig::LightRig(const Camera& camera)
       up_(camera.up),
       toViewer_(camera.toViewer) {}
 
-Light LightRig::sample(const Scene& scene, const SurfacePoint& point, uint32_t pattern) const {
+Light LightRig::sample(const PictureScene& scene, const SurfacePoint& point, uint32_t pattern) const {
   const ConeFrame sky = RayFrame(point.lifted, point.normal).frame;
   double open = 0;
   for (uint32_t ray = 0; ray < kAmbientRayCount; ++ray) {
@@ -66,7 +66,7 @@ Light LightRig::sample(const Scene& scene, const SurfacePoint& point, uint32_t p
   return {static_cast<float>(open / kAmbientRayCount), static_cast<float>(lit / kKeyRayCount)};
 }
 
-Light LightRig::gather(const Scene& scene, const SurfacePoint& point) const {
+Light LightRig::gather(const PictureScene& scene, const SurfacePoint& point) const {
   Light sum{0, 0};
   for (uint32_t pattern = 0; pattern < kPatternCount; ++pattern) {
     const Light light = sample(scene, point, pattern);

@@ -24,9 +24,9 @@ class LightRig {
   static constexpr uint32_t kPatternCount = kPatternSide * kPatternSide;
 
   /// What one pattern's few rays say.
-  [[nodiscard]] Light sample(const Scene& scene, const SurfacePoint& point, uint32_t pattern) const;
+  [[nodiscard]] Light sample(const PictureScene& scene, const SurfacePoint& point, uint32_t pattern) const;
   /// What all patterns say.
-  [[nodiscard]] Light gather(const Scene& scene, const SurfacePoint& point) const;
+  [[nodiscard]] Light gather(const PictureScene& scene, const SurfacePoint& point) const;
 
   /// Linear light towards the viewer off a dull surface of that linear colour; `normal` is unit and looks at him.
   [[nodiscard]] Vec3d shade(const Vec3d& colour, const Vec3d& normal, const Light& light) const;

@@ -19,7 +19,7 @@ constexpr int kLookCount = 16;
 
 class MeshRenderer {
  public:
-  MeshRenderer(Image& image, const Scene& scene, const Camera& camera, std::span<const Rgb> faceColours)
+  MeshRenderer(Image& image, const PictureScene& scene, const Camera& camera, std::span<const Rgb> faceColours)
       : image_(image), scene_(scene), camera_(camera), rig_(camera), faceColours_(faceColours) {}
 
   void run(const RunControl& control) {
@@ -94,7 +94,7 @@ class MeshRenderer {
   }
 
   Image& image_;
-  const Scene& scene_;
+  const PictureScene& scene_;
   const Camera& camera_;
   LightRig rig_;
   std::span<const Rgb> faceColours_;
@@ -103,7 +103,7 @@ class MeshRenderer {
 
 }  // namespace
 
-void renderMesh(Image& image, const Scene& scene, const Camera& camera, std::span<const Rgb> faceColours,
+void renderMesh(Image& image, const PictureScene& scene, const Camera& camera, std::span<const Rgb> faceColours,
                 const RunControl& control) {
   MeshRenderer(image, scene, camera, faceColours).run(control);
 }

@@ -18,7 +18,7 @@ constexpr Rgb kNeutral{210, 209, 204}, kHighlight{206, 38, 30};
 constexpr double kCapHeightShare = 0.026, kMarginShare = 0.04;
 
 std::vector<Rgb> faceColoursOf(const Picture& picture, const ColourRange& range) {
-  std::vector<Rgb> colours(picture.mesh.faceCount(), kNeutral);
+  std::vector<Rgb> colours(picture.scene.mesh.faceCount(), kNeutral);
   for (size_t face = 0; face < picture.values.size(); ++face) {
     const Rgba colour = colourOf(picture.values[face], range);
     colours[face] = {colour[0], colour[1], colour[2]};
@@ -42,8 +42,8 @@ void drawLegend(Image& image, const Picture& picture, const PixelArea& area, dou
 Image render(const Picture& picture, const RunControl& control) {
   ASDFVK_CHECK(kMinPictureSide <= picture.width && picture.width <= kMaxPictureSide);
   ASDFVK_CHECK(kMinPictureSide <= picture.height && picture.height <= kMaxPictureSide);
-  ASDFVK_CHECK(picture.values.empty() || picture.values.size() == picture.mesh.faces.size());
-  ASDFVK_CHECK(picture.highlighted.empty() || picture.highlighted.size() == picture.mesh.faces.size());
+  ASDFVK_CHECK(picture.values.empty() || picture.values.size() == picture.scene.mesh.faces.size());
+  ASDFVK_CHECK(picture.highlighted.empty() || picture.highlighted.size() == picture.scene.mesh.faces.size());
   control.checkpoint(0);
 
   Image image(picture.width, picture.height);
@@ -65,7 +65,7 @@ Image render(const Picture& picture, const RunControl& control) {
     drawLegend(image, picture, {inner.left, inner.top, inner.width, capHeight}, capHeight);
   }
 
-  const Scene scene(picture.mesh);
+  const PictureScene scene(picture.scene);
   const Camera camera = frameCamera(scene.points(), picture.view, area);
   renderMesh(image, scene, camera, faceColoursOf(picture, range), control);
   return image;

@@ -7,17 +7,17 @@
 
 #include "asdf_vk/run_control.h"
 #include "io/colour_map.h"
-#include "mesh/mesh.h"
 #include "render/image.h"
 #include "render/view.h"
+#include "trace/scene_data.h"
 
 namespace asdfvk {
 
 inline constexpr int kMinPictureSide = 64, kMaxPictureSide = 8192;
 
-/// What to draw of a mesh. Views only.
+/// A mesh to draw, with its geometry and hierarchy. Views only.
 struct Picture {
-  TriangleMesh mesh;
+  const SceneData& scene;
   /// #F, in the colours of colourOf() with a colour bar beside them; grey where it is NaN. Empty: the mesh is light and
   /// has no bar.
   std::span<const double> values;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mesh/coincident_faces.h"
 #include "render/corner_normals.h"
 #include "render/unit_vector.h"
 #include "trace/nearest_hit.h"
@@ -30,12 +29,13 @@ std::array<double, 3> barycentrics(const std::array<Vec3d, 3>& corners, const Ve
 
 }  // namespace
 
-Scene::Scene(const TriangleMesh& mesh) : mesh_(mesh), geometry_(computeFaceGeometry(mesh)) {
-  bvh_ = buildBvh(mesh, geometry_, coincidentRepresentatives(mesh));
-  cornerNormals_ = cornerNormals(mesh, geometry_);
-}
+PictureScene::PictureScene(const SceneData& scene)
+    : mesh_(scene.mesh),
+      geometry_(scene.geometry),
+      bvh_(scene.bvh),
+      cornerNormals_(cornerNormals(scene.mesh, scene.geometry)) {}
 
-std::vector<Vec3d> Scene::points() const {
+std::vector<Vec3d> PictureScene::points() const {
   std::vector<Vec3d> points;
   points.reserve(bvh_.slotFaces.size() * 3);
   for (const uint32_t face : bvh_.slotFaces)
@@ -44,7 +44,7 @@ std::vector<Vec3d> Scene::points() const {
   return points;
 }
 
-std::optional<SurfacePoint> Scene::firstOnLine(const Vec3d& point, const Vec3d& direction) const {
+std::optional<SurfacePoint> PictureScene::firstOnLine(const Vec3d& point, const Vec3d& direction) const {
   if (bvh_.nodes.empty()) return std::nullopt;
   // nearestHit() wants an origin near the box, whose rounding it knows; and most of a picture misses the box.
   const BvhNode& root = bvh_.nodes[0];
@@ -67,11 +67,11 @@ std::optional<SurfacePoint> Scene::firstOnLine(const Vec3d& point, const Vec3d& 
   return describe(hit.face, origin + direction * hit.distance, direction);
 }
 
-double Scene::freeDistance(const Vec3d& origin, const Vec3d& direction, uint32_t skippedFace) const {
+double PictureScene::freeDistance(const Vec3d& origin, const Vec3d& direction, uint32_t skippedFace) const {
   return nearestHit(bvh_, mesh_, origin, direction, skippedFace).distance;
 }
 
-SurfacePoint Scene::describe(uint32_t face, const Vec3d& position, const Vec3d& direction) const {
+SurfacePoint PictureScene::describe(uint32_t face, const Vec3d& position, const Vec3d& direction) const {
   const Vec3d& outward = geometry_.normals[face];
   std::array<Vec3d, 3> corners;
   for (size_t k = 0; k < 3; ++k) corners[k] = bvh_.normalization.toNormalized(mesh_.vertices[mesh_.faces[face][k]]);

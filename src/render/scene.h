@@ -4,9 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "bvh/bvh.h"
-#include "mesh/face_geometry.h"
 #include "mesh/mesh.h"
+#include "trace/scene_data.h"
 
 namespace asdfvk {
 
@@ -20,10 +19,10 @@ struct SurfacePoint {
 };
 
 /// A mesh made ready for the picture's rays. Coordinates are normalised ones (see Normalization).
-class Scene {
+class PictureScene {
  public:
-  /// Precondition: every index of a face is below the vertex count. The mesh must outlive this.
-  explicit Scene(const TriangleMesh& mesh);
+  /// The scene must outlive this.
+  explicit PictureScene(const SceneData& scene);
 
   /// The finite vertices of the faces that rays can meet, some of them more than once.
   [[nodiscard]] std::vector<Vec3d> points() const;
@@ -38,9 +37,9 @@ class Scene {
  private:
   [[nodiscard]] SurfacePoint describe(uint32_t face, const Vec3d& position, const Vec3d& direction) const;
 
-  TriangleMesh mesh_;
-  FaceGeometry geometry_;
-  Bvh bvh_;
+  const TriangleMesh& mesh_;
+  const FaceGeometry& geometry_;
+  const Bvh& bvh_;
   std::vector<std::array<Vec3d, 3>> cornerNormals_;
 };
 

@@ -17,7 +17,7 @@ namespace {
 
 struct Rule {
   uint64_t minFaceCount;
-  BilateralOptions options;
+  SmoothingOptions::Window options;
 };
 // Finest first; docs/accuracy.md has the errors behind it.
 constexpr std::array<Rule, 3> kRules{{{90'000, {2, 2}}, {10'000, {2, 1}}, {0, {1, 1}}}};
@@ -58,19 +58,19 @@ double smoothedValue(const RingWindow& window, std::span<const double> values) {
 
 }  // namespace
 
-BilateralOptions bilateralOptionsFor(uint64_t faceCount) {
+SmoothingOptions::Window smoothingWindowFor(uint64_t faceCount) {
   return std::find_if(kRules.begin(), kRules.end(), [&](const Rule& rule) { return faceCount >= rule.minFaceCount; })
       ->options;
 }
 
-void requireValid(const BilateralOptions& options) {
-  if (options.window < 1 || options.window > kMaxBilateralWindow)
+void requireValid(const SmoothingOptions::Window& options) {
+  if (options.rings < 1 || options.rings > kMaxBilateralWindow)
     throw Error(ErrorCode::OptionOutOfRange, fmt::format("a smoothing window of {} rings is out of range; use 1 to {}",
-                                                         options.window, kMaxBilateralWindow));
+                                                         options.rings, kMaxBilateralWindow));
 }
 
 std::vector<double> smoothBilaterally(const DualGraph& graph, std::span<const double> values,
-                                      const BilateralOptions& options) {
+                                      const SmoothingOptions::Window& options) {
   requireValid(options);
   ASDFVK_CHECK_OP(values.size(), ==, size_t{graph.faceCount()});
   std::vector<double> from(values.begin(), values.end()), to(values.size());
@@ -80,7 +80,7 @@ std::vector<double> smoothBilaterally(const DualGraph& graph, std::span<const do
                       [&](const tbb::blocked_range<uint32_t>& range) {
                         RingWindow window;
                         for (uint32_t face = range.begin(); face < range.end(); ++face) {
-                          window.gather(graph, face, options.window);
+                          window.gather(graph, face, options.rings);
                           to[face] = smoothedValue(window, from);
                         }
                       });

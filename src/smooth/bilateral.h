@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "asdf_vk/options.h"
 #include "mesh/dual_graph.h"
 
 /// Bilateral smoothing (Tomasi and Manduchi 1998) of a field on faces: the last step of the shape diameter function of
@@ -17,23 +18,17 @@
 /// without an end, 3 for 10,000 faces and 8 for 100,000; and a face without a value is given one first.
 namespace asdfvk {
 
-struct BilateralOptions {
-  uint32_t window = 2;  ///< Rings of the dual graph, 1 to 4.
-  uint32_t passes = 1;  ///< Each smooths what the one before gave; 0 changes nothing.
-  bool operator==(const BilateralOptions&) const = default;
-};
-
 /// What lowers the error of the 30-ray function on a mesh of so many faces: the finer the mesh, the less the true
 /// values differ within a window. Meant for values traced at every face with ConeRotation::Hashed: with fixed cones
 /// neighbours err alike, which smoothing cannot undo, and interpolated values are smooth already.
-[[nodiscard]] BilateralOptions bilateralOptionsFor(uint64_t faceCount);
+[[nodiscard]] SmoothingOptions::Window smoothingWindowFor(uint64_t faceCount);
 
 /// values: #F, finite, or NaN for no value. A face without a value neither gives nor gets one. The same bits on any
 /// number of threads. Throws Error{Usage} for a window out of range.
 [[nodiscard]] std::vector<double> smoothBilaterally(const DualGraph& graph, std::span<const double> values,
-                                                    const BilateralOptions& options);
+                                                    const SmoothingOptions::Window& options);
 
 /// Throws Error{Usage} for a window out of range.
-void requireValid(const BilateralOptions& options);
+void requireValid(const SmoothingOptions::Window& options);
 
 }  // namespace asdfvk

@@ -5,7 +5,7 @@
 
 #include "asdf_vk/error.h"
 #include "io/formats.h"
-#include "io/mesh_reader.h"
+#include "asdf_vk/files.h"
 
 namespace asdfvk::test {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "io/result_writer.h"
+#include "asdf_vk/files.h"
 #include "mesh/mesh.h"
 
 namespace asdfvk {

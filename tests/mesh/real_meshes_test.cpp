@@ -4,7 +4,7 @@
 #include <map>
 #include <string>
 
-#include "io/mesh_reader.h"
+#include "asdf_vk/files.h"
 #include "mesh/coincident_faces.h"
 #include "mesh/orientation.h"
 #include "mesh/validation.h"

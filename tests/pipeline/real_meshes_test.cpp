@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <set>
 
-#include "io/mesh_reader.h"
+#include "asdf_vk/files.h"
 #include "support/real_meshes.h"
 #include "support/shared_session.h"
 #include "trace/embree/embree_tracer.h"

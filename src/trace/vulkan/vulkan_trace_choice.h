@@ -3,13 +3,16 @@
 #include <compare>
 #include <cstdint>
 #include <optional>
+#include <span>
+#include <utility>
 
+#include "asdf_vk/report.h"
 #include "bvh/device_bvh.h"
 #include "vk/device_choice.h"
 
 namespace asdfvk {
 
-/// How the rays of the cones share the lanes of a device out.
+/// Assignment of rays to the lanes of a device.
 enum class TraceKernel {
   Packet,  ///< shaders/trace_packet.comp: as Ray, but the lanes of a subgroup share a stack and a node.
   Ray,     ///< shaders/trace_cone.comp: a workgroup per cone or few, each lane walks its own ray.
@@ -22,7 +25,7 @@ enum class BvhFetch {
   Texel,    ///< Storage texel buffers: far quicker on llvmpipe, and not bound to a storage buffer's range.
 };
 
-/// Which variant of the kernels traces; all of them give the same values.
+/// Variant of the kernels; all variants compute the same values.
 struct VulkanTraceChoice {
   TraceKernel kernel = TraceKernel::Ray;
   BvhLayout bvh = BvhLayout::Binary;
@@ -30,7 +33,7 @@ struct VulkanTraceChoice {
   auto operator<=>(const VulkanTraceChoice&) const = default;
 };
 
-/// What somebody asks for; the rest is as it is best.
+/// Requested variant; unset members take the default of the device.
 struct VulkanTraceRequest {
   std::optional<TraceKernel> kernel;
   std::optional<BvhLayout> bvh;
@@ -39,9 +42,20 @@ struct VulkanTraceRequest {
   [[nodiscard]] bool isEmpty() const { return !kernel && !bvh && !fetch; }
 };
 
-/// The quickest for the class of the device, by the measurements in docs/speed.md.
+/// The fastest variant for the class of the device (docs/speed.md).
 [[nodiscard]] VulkanTraceChoice defaultTraceChoice(const DeviceFacts& device);
-/// The same but for what is asked for.
+/// The default with the requested members replaced.
 [[nodiscard]] VulkanTraceChoice traceChoiceFor(const DeviceFacts& device, const VulkanTraceRequest& request);
+
+/// Names of the variants, as in options and reports.
+template <typename T>
+using VariantNames = std::span<const std::pair<const char*, T>>;
+[[nodiscard]] VariantNames<TraceKernel> kernelNames();
+[[nodiscard]] VariantNames<BvhLayout> bvhNames();
+[[nodiscard]] VariantNames<BvhFetch> fetchNames();
+
+/// By names; an empty name and "auto" leave a member unset. Throws Error{UnknownName}.
+[[nodiscard]] VulkanTraceRequest traceRequestOf(const TraceVariant& variant);
+[[nodiscard]] TraceVariant variantOf(const VulkanTraceChoice& choice);
 
 }  // namespace asdfvk

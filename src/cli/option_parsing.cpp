@@ -1,4 +1,4 @@
-#include "cli/option_values.h"
+#include "cli/option_parsing.h"
 
 #include <fmt/format.h>
 
@@ -49,21 +49,15 @@ double parseNumber(const std::string& text, const std::function<bool(double)>& a
 
 SeedCount parseSeedCount(const std::string& text) {
   const std::string wanted = "a share such as 10% (above 0%, at most 100%), a count of at least 1, or all";
-  SeedCount seeds;
-  if (text == "all") {
-    seeds.kind = SeedCount::Kind::All;
-  } else if (text.ends_with('%')) {
+  if (text == "all") return SeedCount::all();
+  if (text.ends_with('%')) {
     const auto percent = parseWhole<double>(std::string_view(text).substr(0, text.size() - 1));
     if (!percent || !(*percent > 0 && *percent <= 100)) reject(text, wanted);
-    seeds.kind = SeedCount::Kind::Share;
-    seeds.share = *percent / 100;
-  } else {
-    const auto count = parseWhole<uint64_t>(text);
-    if (!count || *count == 0) reject(text, wanted);
-    seeds.kind = SeedCount::Kind::Count;
-    seeds.count = *count;
+    return SeedCount::ofShare(*percent / 100);
   }
-  return seeds;
+  const auto count = parseWhole<uint64_t>(text);
+  if (!count || *count == 0) reject(text, wanted);
+  return SeedCount::ofCount(*count);
 }
 
 uint64_t parseCheckCount(const std::string& text) {

@@ -1,4 +1,4 @@
-#include "pipeline/check.h"
+#include "estimate/reference_check.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@
 namespace asdfvk {
 namespace {
 
-// Keep both choices of faces independent of the faces that were chosen as seeds with the same number.
+// Random streams of the two samples, independent of the stream of the seed faces.
 constexpr uint64_t kTracedStream = 0x6368'6563'6b00'0000u;
 constexpr uint64_t kErrorStream = 0x6368'6563'6b00'0001u;
 
@@ -35,9 +35,9 @@ class References {
   std::vector<double> values_;
 };
 
-std::vector<uint32_t> seedsOf(const TracedSeeds& traced, const std::vector<uint32_t>& castableFaces) {
+std::vector<uint32_t> seedsOf(const TracedSeeds& traced, std::span<const uint32_t> traceableFaces) {
   std::vector<uint32_t> seeds;
-  std::copy_if(castableFaces.begin(), castableFaces.end(), std::back_inserter(seeds),
+  std::copy_if(traceableFaces.begin(), traceableFaces.end(), std::back_inserter(seeds),
                [&](uint32_t face) { return traced.isSeed[face] != 0; });
   return seeds;
 }
@@ -48,7 +48,7 @@ std::vector<uint32_t> unionOf(const std::vector<uint32_t>& a, const std::vector<
   return all;
 }
 
-/// The half about the traced faces.
+/// The part of the report about traced faces.
 void compareTraced(CheckReport& report, const std::vector<uint32_t>& faces, const TracedSeeds& traced,
                    const References& references, double diagonal, const TriangleMesh& mesh) {
   std::vector<double> differences;
@@ -74,7 +74,7 @@ void compareTraced(CheckReport& report, const std::vector<uint32_t>& faces, cons
   report.passed = report.missCount() < report.tracedCount && report.missCount() <= allowed;
 }
 
-/// The half about all faces.
+/// The part of the report about all faces.
 void measureErrors(CheckReport& report, const std::vector<uint32_t>& faces, const ComputedValues& computed,
                    const References& references) {
   double low = kInfinity, high = -kInfinity, sum = 0, interpolatedSum = 0;
@@ -92,7 +92,7 @@ void measureErrors(CheckReport& report, const std::vector<uint32_t>& faces, cons
     report.interpolatedMaximumError = std::max(report.interpolatedMaximumError, error);
     ++report.interpolatedCount;
   }
-  if (!(high > low)) {  // There is no range to measure by.
+  if (!(high > low)) {  // The values have no range.
     report.maximumError = report.interpolatedMaximumError = 0;
     return;
   }
@@ -106,18 +106,17 @@ void measureErrors(CheckReport& report, const std::vector<uint32_t>& faces, cons
 
 }  // namespace
 
-CheckReport checkAgainstReference(const TriangleMesh& mesh, const PreparedMesh& prepared, const TraceScene& scene,
-                                  const Cone& cone, const ComputedValues& computed, uint64_t count, uint64_t randomSeed,
+CheckReport checkAgainstReference(const TraceScene& scene, const Cone& cone, std::span<const uint32_t> traceableFaces,
+                                  const ComputedValues& computed, uint64_t count, uint64_t randomSeed,
                                   const RunControl& control) {
   CheckReport report;
   report.isIndependent = !computed.tracedByReference;
   std::vector<uint32_t> tracedFaces;
   if (report.isIndependent)
-    tracedFaces =
-        randomPermutationSeeds(seedsOf(computed.traced, prepared.castableFaces), count, randomSeed ^ kTracedStream);
-  const std::vector<uint32_t> faces = randomPermutationSeeds(prepared.castableFaces, count, randomSeed ^ kErrorStream);
+    tracedFaces = randomPermutationSeeds(seedsOf(computed.traced, traceableFaces), count, randomSeed ^ kTracedStream);
+  const std::vector<uint32_t> faces = randomPermutationSeeds(traceableFaces, count, randomSeed ^ kErrorStream);
   const References references(unionOf(tracedFaces, faces), scene, cone, control);
-  compareTraced(report, tracedFaces, computed.traced, references, prepared.geometry.bounds.diagonal(), mesh);
+  compareTraced(report, tracedFaces, computed.traced, references, scene.geometry.bounds.diagonal(), scene.mesh);
   measureErrors(report, faces, computed, references);
   return report;
 }

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "asdf_vk/error.h"
+#include "asdf_vk/options.h"
+#include "pipeline/choice_names.h"
+
+/// Kinds of options with a value, and the values themselves. A wrong value is Error of kind Usage.
+namespace asdfvk {
+
+/// parse: reads the value and throws Error; the name of the option is put before its message.
+template <typename Parse>
+CLI::Option* addValue(CLI::App& app, const std::string& name, const std::string& placeholder, const std::string& text,
+                      Parse parse) {
+  return app
+      .add_option_function<std::string>(
+          name,
+          [name, parse](const std::string& value) {
+            try {
+              parse(value);
+            } catch (const Error& error) {
+              throw Error(error.code(), name.substr(name.find("--")) + ": " + error.what());
+            }
+          },
+          text)
+      ->option_text(placeholder);
+}
+
+/// One of several names. target: a string that outlives the parsing.
+inline CLI::Option* addName(CLI::App& app, const std::string& name, std::string& target,
+                            const std::vector<std::string>& names, const std::string& text) {
+  const std::string joinedNames = fmt::format("{}", fmt::join(names, "|"));
+  return addValue(app, name, joinedNames, text, [&target, names, joinedNames](const std::string& choice) {
+    if (std::find(names.begin(), names.end(), choice) == names.end())
+      throw Error(ErrorCode::UnknownName, fmt::format("'{}' is not one of {}", choice, joinedNames));
+    target = choice;
+  });
+}
+
+/// One of several named values. target: a variable that outlives the parsing, or a function that takes the value.
+template <typename Target, typename T, size_t N>
+CLI::Option* addChoice(CLI::App& app, const std::string& name, Target&& target, const ChoiceNames<T, N>& choices,
+                       const std::string& text) {
+  auto set = [&] {
+    if constexpr (std::is_invocable_v<Target, const T&>) {
+      return target;
+    } else {
+      return [&target](const T& value) { target = value; };
+    }
+  }();
+  const std::string names = joined(choices);
+  return addValue(app, name, names, text, [set, choices, names](const std::string& choice) {
+    const auto found =
+        std::find_if(choices.begin(), choices.end(), [&](const auto& candidate) { return candidate.first == choice; });
+    if (found == choices.end())
+      throw Error(ErrorCode::UnknownName, fmt::format("'{}' is not one of {}", choice, names));
+    set(found->second);
+  });
+}
+
+/// A whole number within [minimum, maximum], without sign.
+[[nodiscard]] uint64_t parseWholeNumber(const std::string& text, uint64_t minimum, uint64_t maximum);
+
+/// A finite number.
+[[nodiscard]] double parseNumber(const std::string& text);
+
+/// A finite number that `accepts` returns true for. complaint: end of the message otherwise, as in "'7' is not from 0
+/// to 1".
+[[nodiscard]] double parseNumber(const std::string& text, const std::function<bool(double)>& accepts,
+                                 const char* complaint);
+
+/// "10%" (above 0, at most 100), "2000" (at least 1) or "all".
+[[nodiscard]] SeedCount parseSeedCount(const std::string& text);
+
+/// "2000" (at least 1) or "all", which is the largest number.
+[[nodiscard]] uint64_t parseCheckCount(const std::string& text);
+
+/// In the form that parseSeedCount() reads.
+[[nodiscard]] std::string toText(const SeedCount& seeds);
+
+}  // namespace asdfvk

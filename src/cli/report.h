@@ -1,0 +1,39 @@
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "asdf_vk/session.h"
+#include "cli/command_line.h"
+
+namespace asdfvk {
+
+/// One computed mesh, the input of both reports. Views only.
+struct MeshOutcome {
+  const std::string& mesh;    ///< As on the command line.
+  const std::string& output;  ///< Path of the result; "-" for standard output.
+  const CommandLine& line;
+  const Result& result;
+};
+
+/// A few aligned lines, without warnings.
+[[nodiscard]] std::string textReport(const MeshOutcome& outcome);
+
+/// "the check failed: ..." with the reason, one line.
+[[nodiscard]] std::string checkFailure(const CheckReport& check);
+
+/// The message and, where there is one, the remedy by options.
+[[nodiscard]] std::string textWarning(const Warning& warning);
+
+/// One line per device, or the reason why there is none.
+[[nodiscard]] std::string textDevices(std::span<const DeviceInfo> devices, const std::string& reason);
+
+/// One line of JSON with the keys of docs/formats.md.
+[[nodiscard]] std::string jsonReport(const MeshOutcome& outcome);
+
+/// One line with the keys "mesh", "error" and "code".
+[[nodiscard]] std::string jsonFailure(const std::string& mesh, const std::string& code, const std::string& message);
+
+[[nodiscard]] std::string jsonDevices(std::span<const DeviceInfo> devices, const std::string& reason);
+
+}  // namespace asdfvk

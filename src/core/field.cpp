@@ -1,0 +1,30 @@
+#include "asdf_vk/field.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/median.h"
+
+namespace asdfvk {
+
+const Field* findField(std::span<const Field> fields, std::string_view name) {
+  const auto found = std::find_if(fields.begin(), fields.end(), [&](const Field& field) { return field.name == name; });
+  return found == fields.end() ? nullptr : &*found;
+}
+
+FieldSummary summarize(const Field& field) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  std::vector<double> present;
+  present.reserve(field.size());
+  for (size_t i = 0; i < field.size(); ++i)
+    if (const double value = field.at(i); std::isfinite(value)) present.push_back(value);
+  const uint64_t missingCount = field.size() - present.size();
+  if (present.empty()) return {kNone, kNone, kNone, missingCount};
+  const auto [low, high] = std::minmax_element(present.begin(), present.end());
+  FieldSummary summary{*low, kNone, *high, missingCount};
+  summary.median = upperMedian(present);
+  return summary;
+}
+
+}  // namespace asdfvk

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "asdf_vk/report.h"
+#include "asdf_vk/run_control.h"
+#include "trace/cone_tracer.h"
+#include "trace/traced_seeds.h"
+
+namespace asdfvk {
+
+/// A computed result. Views only.
+struct ComputedValues {
+  const TracedSeeds& traced;
+  std::span<const double> values;  ///< #F, final.
+  bool tracedByReference = false;
+};
+
+/// Recomputes up to `count` random traced faces, and up to `count` random faces of all that can cast rays, with the
+/// double-precision reference and compares. A face of both samples is traced once. traceableFaces: ascending.
+[[nodiscard]] CheckReport checkAgainstReference(const TraceScene& scene, const Cone& cone,
+                                                std::span<const uint32_t> traceableFaces,
+                                                const ComputedValues& computed, uint64_t count, uint64_t randomSeed,
+                                                const RunControl& control);
+
+}  // namespace asdfvk

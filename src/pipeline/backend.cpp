@@ -1,0 +1,110 @@
+#include "pipeline/backend.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "asdf_vk/error.h"
+#include "core/text.h"
+#include "trace/embree/embree_tracer.h"
+#include "trace/reference_tracer.h"
+
+namespace asdfvk {
+namespace {
+
+constexpr std::array kBackends{
+    BackendRow{"vulkan", true, [] { return true; }, makeVulkanBackend},
+    BackendRow{"cpu", false, hasEmbree, makeEmbreeBackend},
+    BackendRow{"reference", false, [] { return true; }, makeReferenceBackend},
+};
+
+std::string cpuThreads() {
+  return counted(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism), "thread");
+}
+
+class EmbreeBackend final : public Backend {
+ public:
+  EmbreeBackend() { requireEmbree(); }
+  [[nodiscard]] std::string deviceName() const override { return fmt::format("{} on {}", embreeName(), cpuThreads()); }
+  [[nodiscard]] std::vector<std::string> deviceLines() const override { return {deviceName()}; }
+  [[nodiscard]] std::unique_ptr<ConeTracer> makeTracer(const TraceScene& scene, const Cone& cone, bool) override {
+    return makeEmbreeTracer(scene, cone);
+  }
+};
+
+class ReferenceBackend final : public Backend {
+ public:
+  [[nodiscard]] std::string deviceName() const override {
+    return fmt::format("CPU, {}, double precision", cpuThreads());
+  }
+  [[nodiscard]] std::vector<std::string> deviceLines() const override {
+    return {fmt::format("reference: {}", deviceName())};
+  }
+  [[nodiscard]] bool isReference() const override { return true; }
+  [[nodiscard]] std::unique_ptr<ConeTracer> makeTracer(const TraceScene& scene, const Cone& cone, bool) override {
+    return makeReferenceTracer(scene, cone);
+  }
+};
+
+bool requestsVulkan(const SessionOptions& options) {
+  const TraceVariant& variant = options.variant;
+  return options.requireGpu || !options.device.empty() || !variant.kernel.empty() || !variant.bvh.empty() ||
+         !variant.fetch.empty();
+}
+
+NamedBackend open(const BackendRow& row, const SessionOptions& options) {
+  if (!row.usesVulkan && requestsVulkan(options))
+    throw Error(options.requireGpu ? ErrorCode::GpuRequired : ErrorCode::NoDeviceForKernel,
+                options.requireGpu ? "a GPU was required and this backend runs on the CPU"
+                                   : "a Vulkan device or kernel variant was requested and this backend has none");
+  NamedBackend named{row.name, row.make(options), {}};
+  named.deviceLines = named.backend->deviceLines();
+  return named;
+}
+
+}  // namespace
+
+std::span<const BackendRow> backendTable() { return kBackends; }
+
+std::unique_ptr<Backend> makeEmbreeBackend(const SessionOptions&) { return std::make_unique<EmbreeBackend>(); }
+std::unique_ptr<Backend> makeReferenceBackend(const SessionOptions&) { return std::make_unique<ReferenceBackend>(); }
+
+NamedBackend openBackend(const SessionOptions& options) {
+  if (options.backend != "auto") {
+    const auto row = std::find_if(kBackends.begin(), kBackends.end(),
+                                  [&](const BackendRow& candidate) { return candidate.name == options.backend; });
+    if (row == kBackends.end())
+      throw Error(ErrorCode::UnknownName, fmt::format("no backend is called '{}'; the names are auto, {}",
+                                                      options.backend, fmt::join(backendNames(), ", ")));
+    return open(*row, options);
+  }
+  std::vector<std::string> rejected;
+  for (const BackendRow& row : kBackends) {
+    try {
+      NamedBackend named = open(row, options);
+      named.deviceLines.insert(named.deviceLines.end(), rejected.begin(), rejected.end());
+      return named;
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::Device || requestsVulkan(options)) throw;
+      rejected.push_back(fmt::format("{}: not available: {}", row.name, error.what()));
+    }
+  }
+  throw Error(ErrorCode::NoUsableDevice, "no backend is available");
+}
+
+bool isBackendBuilt(std::string_view name) {
+  return std::any_of(kBackends.begin(), kBackends.end(),
+                     [&](const BackendRow& row) { return row.name == name && row.isBuilt(); });
+}
+
+std::vector<std::string> backendNames() {
+  std::vector<std::string> names;
+  for (const BackendRow& row : kBackends) names.emplace_back(row.name);
+  return names;
+}
+
+}  // namespace asdfvk

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "asdf_vk/report.h"
+#include "asdf_vk/session.h"
+#include "poisson/poisson_solver.h"
+#include "trace/cone_tracer.h"
+
+namespace asdfvk {
+
+class Device;
+
+/// Traces the rays and owns the solvers: a Vulkan device with its pipelines, Embree, or the reference.
+class Backend {
+ public:
+  virtual ~Backend() = default;
+
+  /// Device and driver, or the library and the number of CPU threads.
+  [[nodiscard]] virtual std::string deviceName() const = 0;
+  /// One line per device: the chosen one first, then those that were not chosen, with reasons.
+  [[nodiscard]] virtual std::vector<std::string> deviceLines() const = 0;
+  /// Whether the CPU traces: also true for a CPU device of Vulkan.
+  [[nodiscard]] virtual bool runsOnCpu() const { return true; }
+  /// Whether values agree with the reference by construction.
+  [[nodiscard]] virtual bool isReference() const { return false; }
+  [[nodiscard]] virtual std::optional<TraceVariant> traceVariant() const { return std::nullopt; }
+  /// For solvers that need one; null without Vulkan.
+  [[nodiscard]] virtual const Device* device() const { return nullptr; }
+
+  /// The scene and the cone must outlive the tracer. writesHits: the tracer may be asked for hits.
+  [[nodiscard]] virtual std::unique_ptr<ConeTracer> makeTracer(const TraceScene& scene, const Cone& cone,
+                                                               bool writesHits) = 0;
+  /// Throws Error{ValidationFailed} with the first message if the validation layers are on and reported a problem.
+  virtual void requireSilentValidation() const {}
+};
+
+/// A row of the table of backends. make() throws Error of kind Device where the backend is not available.
+struct BackendRow {
+  const char* name;
+  bool usesVulkan;
+  bool (*isBuilt)();
+  std::unique_ptr<Backend> (*make)(const SessionOptions& options);
+};
+
+/// In the order in which "auto" tries them.
+[[nodiscard]] std::span<const BackendRow> backendTable();
+
+struct NamedBackend {
+  std::string name;
+  std::unique_ptr<Backend> backend;
+  std::vector<std::string> deviceLines;  ///< With the reasons why earlier rows of the table were not used.
+};
+
+/// The backend of that name, or the first that is available for "auto". Throws Error{UnknownName} and Error of kind
+/// Device.
+[[nodiscard]] NamedBackend openBackend(const SessionOptions& options);
+
+[[nodiscard]] std::unique_ptr<Backend> makeVulkanBackend(const SessionOptions& options);
+[[nodiscard]] std::unique_ptr<Backend> makeEmbreeBackend(const SessionOptions& options);
+[[nodiscard]] std::unique_ptr<Backend> makeReferenceBackend(const SessionOptions& options);
+
+}  // namespace asdfvk

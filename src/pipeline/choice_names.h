@@ -1,0 +1,45 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <utility>
+
+#include "asdf_vk/options.h"
+
+/// Names of enumerators in options and reports.
+namespace asdfvk {
+
+template <typename T, size_t N>
+using ChoiceNames = std::array<std::pair<const char*, T>, N>;
+
+inline constexpr ChoiceNames<Recipe, 3> kRecipes{
+    {{"paper", Recipe::Paper}, {"balanced", Recipe::Balanced}, {"quality", Recipe::Quality}}};
+
+inline constexpr ChoiceNames<ConeRotation, 2> kConeRotations{
+    {{"fixed", ConeRotation::Fixed}, {"hashed", ConeRotation::Hashed}}};
+
+inline constexpr ChoiceNames<ArcWeights, 2> kWeights{
+    {{"distance", ArcWeights::Distance}, {"feature", ArcWeights::Feature}}};
+
+inline constexpr ChoiceNames<Guidance, 3> kGuidances{
+    {{"none", Guidance::None}, {"curvature", Guidance::Curvature}, {"prediction", Guidance::Prediction}}};
+
+inline constexpr ChoiceNames<Orientation, 3> kOrientations{
+    {{"keep", Orientation::Keep}, {"auto", Orientation::Auto}, {"flip", Orientation::Flip}}};
+
+/// "paper|balanced|quality"
+template <typename T, size_t N>
+[[nodiscard]] std::string joined(const ChoiceNames<T, N>& names) {
+  std::string text;
+  for (const auto& [name, value] : names) text += (text.empty() ? "" : "|") + std::string(name);
+  return text;
+}
+
+template <typename T, size_t N>
+[[nodiscard]] const char* nameOf(const ChoiceNames<T, N>& names, const T& value) {
+  for (const auto& [name, candidate] : names)
+    if (candidate == value) return name;
+  return "";
+}
+
+}  // namespace asdfvk

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "asdf_vk/options.h"
+#include "asdf_vk/report.h"
+#include "cone/cone.h"
+#include "pipeline/backend.h"
+#include "pipeline/prepared_mesh.h"
+#include "pipeline/stage_clock.h"
+#include "poisson/poisson_solver.h"
+#include "trace/cone_tracer.h"
+
+namespace asdfvk {
+
+/// The solvers of a session by name, created at first use.
+using Solvers = std::map<std::string, std::unique_ptr<PoissonSolver>>;
+
+/// What all steps of one computation share. References only: Session::compute() owns everything.
+struct Computation {
+  const Options& options;
+  const PreparedMesh& prepared;
+  const TraceScene& scene;
+  const Cone& cone;
+  Backend& backend;
+  Solvers& solvers;
+  StageClock& clock;
+  std::vector<Warning>& warnings;
+
+  [[nodiscard]] bool predicts() const { return options.interpolation.guidance == Guidance::Prediction; }
+  /// Whether hits of rays are kept: the prediction needs them.
+  [[nodiscard]] bool keepsHits() const {
+    return predicts() && (options.seeds.kind != SeedCount::Kind::All || options.interpolation.pooling > 0);
+  }
+  [[nodiscard]] bool estimatesError() const { return options.estimatesError || options.rounds.maxError.has_value(); }
+};
+
+}  // namespace asdfvk

@@ -1,0 +1,64 @@
+#include "asdf_vk/options.h"
+
+#include <fmt/format.h>
+
+#include "asdf_vk/error.h"
+#include "pipeline/seed_choice.h"
+#include "pipeline/valid_options.h"
+#include "poisson/solvers.h"
+#include "seeds/samplers.h"
+#include "smooth/bilateral.h"
+
+namespace asdfvk {
+namespace {
+
+[[noreturn]] void fail(const std::string& reason) { throw Error(ErrorCode::OptionOutOfRange, reason); }
+
+}  // namespace
+
+void applyRecipe(Recipe recipe, Options& options) {
+  const Options balanced;
+  options.cone.rotation = balanced.cone.rotation;
+  options.sampler = balanced.sampler;
+  options.interpolation = balanced.interpolation;
+  switch (recipe) {
+    case Recipe::Paper:
+      options.sampler = "random";
+      options.interpolation.weights = ArcWeights::Distance;
+      options.interpolation.guidance = Guidance::Curvature;
+      break;
+    case Recipe::Balanced:
+      break;
+    case Recipe::Quality:
+      options.cone.rotation = ConeRotation::Hashed;
+      options.interpolation.pooling = 0.75;
+      break;
+  }
+}
+
+std::vector<std::string> solverNames() {
+  std::vector<std::string> names{"auto"};
+  for (const SolverRow& row : solverTable()) names.emplace_back(row.name);
+  return names;
+}
+
+std::vector<std::string> samplerNames() {
+  std::vector<std::string> names;
+  for (const Sampler& sampler : kSamplers) names.emplace_back(sampler.name);
+  return names;
+}
+
+void requireValid(const Options& options) {
+  const InterpolationOptions& interpolation = options.interpolation;
+  if (!(interpolation.pooling >= 0 && interpolation.pooling <= 1))
+    fail(fmt::format("a pooling of {} is out of range (0 to 1)", interpolation.pooling));
+  if (interpolation.pooling > 0 && interpolation.guidance != Guidance::Prediction)
+    throw Error(ErrorCode::OptionConflict, "pooling needs the prediction; choose guidance by prediction");
+  (void)samplerOf(options);
+  if (options.smoothing.window) requireValid(*options.smoothing.window);
+  if (options.rounds.maxError && !(*options.rounds.maxError > 0)) fail("the maximum error is not above 0");
+  if (options.rounds.timeBudgetSeconds && !(*options.rounds.timeBudgetSeconds > 0))
+    fail("the time budget is not above 0 s");
+}
+
+}  // namespace asdfvk

@@ -1,0 +1,136 @@
+#include "pipeline/result.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+
+#include "core/median.h"
+#include "core/text.h"
+
+namespace asdfvk {
+namespace {
+
+/// Likely reasons of missing values.
+struct MissingCauses {
+  bool isInverted = false;  ///< A face without a value belongs to an inverted component.
+  bool isOpen = false;      ///< A face without a value belongs to an open component.
+};
+
+MissingCauses causesOf(const PreparedMesh& prepared, std::span<const double> values) {
+  std::vector<uint8_t> isInverted(prepared.components.components.size(), 0);
+  for (const uint32_t index : prepared.invertedComponents) isInverted[index] = 1;
+  MissingCauses causes;
+  for (uint32_t f = 0; f < prepared.mesh.faceCount(); ++f) {
+    if (!std::isnan(values[f]) || prepared.geometry.isDegenerate(f)) continue;
+    const uint32_t component = prepared.components.componentOf[f];
+    causes.isInverted = causes.isInverted || isInverted[component];
+    causes.isOpen = causes.isOpen || !prepared.components.components[component].isClosed;
+  }
+  causes.isOpen = causes.isOpen && prepared.defects.boundaryEdgeCount > 0;
+  return causes;
+}
+
+Warning missingValues(const Report& report, const MissingCauses& causes) {
+  Warning warning{WarningCode::MissingValues,
+                  fmt::format("{} of {} without a value: no ray from these faces, or from faces connected to them, hit "
+                              "the opposite side of the shape",
+                              report.noValueCount, counted(report.faceCount, "face")),
+                  {}};
+  const std::string inverted = "their component is inverted";
+  const std::string open = "the surface is open, so that rays escape, or its faces look inwards";
+  if (causes.isInverted) warning.details.push_back({"cause", "inverted"});
+  if (causes.isOpen) warning.details.push_back({"cause", "open"});
+  if (causes.isInverted || causes.isOpen)
+    warning.message += ", most likely because " + (causes.isInverted ? inverted : std::string()) +
+                       (causes.isInverted && causes.isOpen ? ", or " : "") + (causes.isOpen ? open : std::string());
+  return warning;
+}
+
+ValueRange rangeOf(const std::vector<double>& values) {
+  std::vector<double> present;
+  std::copy_if(values.begin(), values.end(), std::back_inserter(present), [](double v) { return !std::isnan(v); });
+  if (present.empty()) return {};
+  const auto [low, high] = std::minmax_element(present.begin(), present.end());
+  ValueRange range{*low, 0, *high};
+  range.median = upperMedian(present);
+  return range;
+}
+
+}  // namespace
+
+std::vector<double> valuesOfInputFaces(const TriangleMesh& mesh, std::span<const double> values,
+                                       std::span<const double> areas) {
+  if (mesh.polygons.isEmpty()) return {values.begin(), values.end()};
+  std::vector<double> sums(mesh.inputFaceCount(), 0), weights(mesh.inputFaceCount(), 0);
+  std::vector<double> last(mesh.inputFaceCount(), kNoValue);
+  for (uint32_t face = 0; face < mesh.faceCount(); ++face) {
+    if (std::isnan(values[face])) continue;
+    const uint32_t inputFace = mesh.polygons.inputFaceOf[face];
+    sums[inputFace] += areas[face] * values[face];
+    weights[inputFace] += areas[face];
+    last[inputFace] = values[face];
+  }
+  // Where all valued triangles have zero area, the value of the last one stays.
+  for (size_t i = 0; i < sums.size(); ++i)
+    if (weights[i] > 0) last[i] = sums[i] / weights[i];
+  return last;
+}
+
+std::vector<uint8_t> seedsOfInputFaces(const TriangleMesh& mesh, std::span<const uint8_t> isSeed) {
+  if (mesh.polygons.isEmpty()) return {isSeed.begin(), isSeed.end()};
+  std::vector<uint8_t> seeds(mesh.inputFaceCount(), 0);
+  for (uint32_t face = 0; face < mesh.faceCount(); ++face) seeds[mesh.polygons.inputFaceOf[face]] |= isSeed[face];
+  return seeds;
+}
+
+void describeValues(Report& report, const PreparedMesh& prepared, const std::vector<double>& sdf,
+                    std::span<const double> values) {
+  report.sdf = rangeOf(sdf);
+  report.noValueCount =
+      static_cast<uint64_t>(std::count_if(sdf.begin(), sdf.end(), [](double v) { return std::isnan(v); }));
+  if (report.noValueCount > 0) report.warnings.push_back(missingValues(report, causesOf(prepared, values)));
+  if (report.solver.finishedOnCpu)
+    report.warnings.push_back(
+        {WarningCode::FinishedOnCpu,
+         fmt::format("the {} solver reached the limit of float32 on the device; the CPU continued in double precision",
+                     report.solver.name),
+         {}});
+  if (!report.solver.converged)
+    report.warnings.push_back(
+        {WarningCode::NotConverged,
+         fmt::format("the {} solver stopped after {} at a relative residual of {:.1e}", report.solver.name,
+                     counted(report.solver.iterations, "iteration"), report.solver.relativeResidual),
+         {}});
+}
+
+const char* nameOf(Stage stage) {
+  constexpr std::array<const char*, kStageCount> kNames{"read",     "geometry", "graph", "bvh",     "encode",
+                                                        "upload",   "sample",   "trace", "predict", "solve",
+                                                        "estimate", "smooth",   "write"};
+  return kNames[static_cast<size_t>(stage)];
+}
+
+const char* nameOf(WarningCode code) {
+  switch (code) {
+    case WarningCode::MeshDefect:
+      return "meshDefect";
+    case WarningCode::InvertedComponents:
+      return "invertedComponents";
+    case WarningCode::ComponentsReversed:
+      return "componentsReversed";
+    case WarningCode::MissingValues:
+      return "missingValues";
+    case WarningCode::FinishedOnCpu:
+      return "finishedOnCpu";
+    case WarningCode::SolvedOnCpu:
+      return "solvedOnCpu";
+    case WarningCode::NotConverged:
+      return "notConverged";
+  }
+  return "unknown";
+}
+
+}  // namespace asdfvk

@@ -1,0 +1,334 @@
+#include "pipeline/rounds.h"
+
+#if defined(__GLIBC__)
+#include <malloc.h>
+#endif
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <utility>
+
+#include "estimate/error_indicator.h"
+#include "seeds/component_seeds.h"
+
+namespace asdfvk {
+namespace {
+
+// The error of a face falls with about this power of the number of seeds (docs/accuracy.md).
+constexpr double kConvergence = 0.4;
+constexpr double kMinGrowth = 1.25, kMaxGrowth = 4, kGrowthStep = 1.05;
+// The error is bounded by the estimate plus this many standard errors.
+constexpr double kStandardErrors = 1.5;
+// A round that adds less than this share of the seeds is not run.
+constexpr double kMinRoundShare = 0.05;
+// Share of the remaining time that a round may plan to use.
+constexpr double kPlannedShare = 0.8;
+// Above the number of faces of any mesh.
+constexpr double kMaxSeedCount = 1e18;
+
+// Parts of the progress of a round.
+constexpr double kTracedProgress = 0.7, kIndicatorProgress = 0.73, kHeldOutTracedProgress = 0.83,
+                 kHeldOutSolvedProgress = 0.87, kPredictedProgress = 0.93;
+
+std::vector<uint32_t> sorted(std::vector<uint32_t> faces) {
+  std::sort(faces.begin(), faces.end());
+  return faces;
+}
+
+/// Returns freed memory to the system: libraries free many small pieces, and later steps need large ones.
+void returnFreedMemory() {
+#if defined(__GLIBC__)
+  malloc_trim(0);
+#endif
+}
+
+/// Hides the values of some faces during its life.
+class HiddenValues {
+ public:
+  HiddenValues(std::vector<double>& values, std::vector<uint32_t> faces) : values_(values), faces_(std::move(faces)) {
+    for (const uint32_t face : faces_) hidden_.push_back(std::exchange(values_[face], kNoValue));
+  }
+  ~HiddenValues() {
+    for (size_t i = 0; i < faces_.size(); ++i) values_[faces_[i]] = hidden_[i];
+  }
+  HiddenValues(const HiddenValues&) = delete;
+  HiddenValues& operator=(const HiddenValues&) = delete;
+
+ private:
+  std::vector<double>& values_;
+  std::vector<uint32_t> faces_;
+  std::vector<double> hidden_;
+};
+
+class Rounds {
+ public:
+  Rounds(const Computation& computation, std::unique_ptr<SeedTracing> tracing)
+      : computation_(computation),
+        options_(computation.options),
+        clock_(computation.clock),
+        tracing_(std::move(tracing)),
+        interpolation_(computation),
+        traced_(computation.prepared.geometry.areas.size()) {}
+
+  RoundsResult run(const RunControl& control) {
+    const uint64_t traceableCount = computation_.prepared.traceableFaces.size();
+    runRound(resolveSeedCount(options_.seeds, traceableCount), !options_.rounds.areSet(), control);
+    while (const uint64_t further = furtherCount()) runRound(further, false, {control.stop, {}});
+    control.checkpoint(1);
+    return {std::move(traced_), std::move(result_), std::move(errors_), roundCount_};
+  }
+
+ private:
+  void runRound(uint64_t count, bool isLast, const RunControl& control);
+  void traceSampled(const SeedShares& shares, std::span<const double> density, const RunControl& control);
+  void sortSampled();
+  [[nodiscard]] std::vector<double> indicateErrors(Stage stage);
+  std::vector<uint32_t> traceByPrediction(const SeedShares& shares, std::span<const double> indicator,
+                                          const RunControl& control);
+  [[nodiscard]] std::vector<double> solveWithoutHeldOut(std::span<const uint32_t> extremes, const RunControl& control);
+  [[nodiscard]] uint64_t furtherCount() const;
+  [[nodiscard]] uint64_t countForError() const;
+  [[nodiscard]] uint64_t countForTime() const;
+  [[nodiscard]] uint64_t remainingCount() const;
+  [[nodiscard]] double raySeconds() const { return clock_.secondsOf(Stage::Trace) + clock_.secondsOf(Stage::Sample); }
+
+  const Computation& computation_;
+  const Options& options_;
+  StageClock& clock_;
+  std::unique_ptr<SeedTracing> tracing_;  ///< Null after the last ray.
+  Interpolation interpolation_;
+
+  SeedChoice sampled_;  ///< All seeds: those of the sampler and of extremes, and held-out faces.
+  TracedSeeds traced_;
+  HeldOutFaces heldOut_;
+  Interpolated result_;
+  std::optional<EstimatedErrors> errors_;
+  double interpolationSeconds_ = 0;  ///< Of the last round, all but its rays.
+  uint32_t roundCount_ = 0;
+};
+
+void Rounds::runRound(uint64_t count, bool isLast, const RunControl& control) {
+  const double begin = clock_.elapsed(), earlierRays = raySeconds();
+  errors_.reset();
+  count = std::min(count, remainingCount());
+  const bool predicts = computation_.predicts();
+  const SeedShares shares = computation_.estimatesError() && count < remainingCount()
+                                ? shareSeeds(count, heldOut_.faces.size(), predicts)
+                                : SeedShares{.sampled = count};
+  tracing_->reserve(traced_, count);
+  if (samplerOf(options_).refine && predicts && roundCount_ == 0 && count < remainingCount()) {
+    const uint64_t refiningCount = shares.sampled / 2;
+    traceSampled({.sampled = shares.sampled - refiningCount}, {}, control.part(0, kTracedProgress / 2));
+    const std::vector<double> density = indicateErrors(Stage::Sample);
+    traceSampled({.sampled = refiningCount}, density, control.part(kTracedProgress / 2, kTracedProgress));
+  } else {
+    traceSampled({.sampled = shares.sampled, .heldOut = predicts ? 0 : shares.heldOut}, {},
+                 control.part(0, kTracedProgress));
+  }
+  const bool estimates = remainingCount() > 0 && shares.heldOut + heldOut_.faces.size() > 0;
+  std::vector<double> indicator;
+  std::vector<uint32_t> extremes;
+  if (estimates && predicts) {
+    indicator = indicateErrors(Stage::Estimate);
+    control.checkpoint(kIndicatorProgress);
+    extremes = traceByPrediction(shares, indicator, control.part(kIndicatorProgress, kHeldOutTracedProgress));
+  }
+  if (isLast) tracing_.reset();
+  std::vector<double> withoutHeldOut;
+  if (estimates)
+    withoutHeldOut = solveWithoutHeldOut(extremes, control.part(kHeldOutTracedProgress, kHeldOutSolvedProgress));
+  {
+    const auto scope = clock_.time(Stage::Predict);
+    interpolation_.predict({traced_.faces, traced_.hits});
+  }
+  control.checkpoint(kPredictedProgress);
+  {
+    const auto scope = clock_.time(Stage::Solve);
+    result_ = interpolation_.solve(traced_.values, control.part(kPredictedProgress, 1));
+  }
+  if (estimates) {
+    const auto scope = clock_.time(Stage::Estimate);
+    EstimatedErrors errors =
+        estimateErrors(computation_.scene.mesh, {traced_, heldOut_, withoutHeldOut, indicator, result_.values});
+    if (errors.estimate.heldOutCount > 0) errors_ = std::move(errors);
+  }
+  interpolationSeconds_ = clock_.elapsed() - begin - (raySeconds() - earlierRays);
+}
+
+/// density: see chooseSeeds().
+void Rounds::traceSampled(const SeedShares& shares, std::span<const double> density, const RunControl& control) {
+  ++roundCount_;
+  SeedChoice choice = [&] {
+    const auto scope = clock_.time(Stage::Sample);
+    return chooseSeeds(computation_.prepared, options_, shares, sampled_, density);
+  }();
+  const auto scope = clock_.time(Stage::Trace);
+  const auto sampledCount = static_cast<double>(choice.sampled.size()),
+             heldOutCount = static_cast<double>(choice.heldOut.size());
+  const double sampledShare = sampledCount / std::max(1.0, sampledCount + heldOutCount);
+  tracing_->trace(choice.sampled, traced_, control.part(0, sampledShare));
+  tracing_->trace(choice.heldOut, traced_, control.part(sampledShare, 1));
+  std::vector<double> equalWeights(choice.heldOut.size(), 1.0);
+  heldOut_.append({std::move(choice.heldOut), std::move(equalWeights)});
+  {  // The interpolation without held-out faces needs a value in each component, too.
+    const HiddenValues hidden(traced_.values, heldOut_.faces);
+    tracing_->traceComponentsWithoutValue(traced_, control);
+  }
+  sortSampled();
+}
+
+void Rounds::sortSampled() {
+  sampled_.heldOut = sorted(heldOut_.faces);
+  const std::vector<uint32_t> all = sorted(traced_.faces);
+  sampled_.sampled.clear();
+  std::set_difference(all.begin(), all.end(), sampled_.heldOut.begin(), sampled_.heldOut.end(),
+                      std::back_inserter(sampled_.sampled));
+}
+
+/// The error indicator, #F, from a prediction without the held-out faces. stage: to be charged.
+std::vector<double> Rounds::indicateErrors(Stage stage) {
+  const auto scope = clock_.time(stage);
+  std::vector<uint32_t> faces = traced_.faces;
+  for (uint32_t& face : faces)
+    if (std::binary_search(sampled_.heldOut.begin(), sampled_.heldOut.end(), face)) face = kNoFace;
+  interpolation_.predict({faces, traced_.hits});
+  return errorIndicator(interpolation_.prediction(), faces, traced_.values);
+}
+
+/// Traces the faces with the greatest predictions, which are returned, and held-out faces sampled by the indicator.
+std::vector<uint32_t> Rounds::traceByPrediction(const SeedShares& shares, std::span<const double> indicator,
+                                                const RunControl& control) {
+  std::vector<uint32_t> extremes, faces;
+  HeldOutFaces heldOut;
+  {
+    const auto scope = clock_.time(Stage::Sample);
+    const std::vector<uint32_t>& traceable = computation_.prepared.traceableFaces;
+    extremes = extremeSeeds(traceable, interpolation_.prediction().values, traced_.isSeed, shares.extreme);
+    std::vector<uint32_t> candidates;
+    auto extreme = extremes.begin();
+    for (const uint32_t face : traceable)
+      if (extreme != extremes.end() && face == *extreme)
+        ++extreme;
+      else if (!traced_.isSeed[face])
+        candidates.push_back(face);
+    heldOut =
+        sampleHeldOut(candidates, indicator, shares.heldOut, heldOutSeed(options_.randomSeed, heldOut_.faces.size()));
+    faces = extremes;
+    faces.insert(faces.end(), heldOut.faces.begin(), heldOut.faces.end());
+  }
+  const auto scope = clock_.time(Stage::Trace);
+  tracing_->trace(sorted(std::move(faces)), traced_, control);
+  heldOut_.append(heldOut);
+  sortSampled();
+  return extremes;
+}
+
+/// Interpolates without the held-out faces and without these extreme seeds.
+std::vector<double> Rounds::solveWithoutHeldOut(std::span<const uint32_t> extremes, const RunControl& control) {
+  const auto scope = clock_.time(Stage::Estimate);
+  std::vector<uint32_t> unknown = heldOut_.faces;
+  unknown.insert(unknown.end(), extremes.begin(), extremes.end());
+  const HiddenValues hidden(traced_.values, std::move(unknown));
+  return interpolation_.solve(traced_.values, control).values;
+}
+
+uint64_t Rounds::remainingCount() const {
+  return computation_.prepared.traceableFaces.size() - sampled_.sampled.size() - sampled_.heldOut.size();
+}
+
+/// Seeds of the next round; 0 where the conditions of the rounds are met.
+uint64_t Rounds::furtherCount() const {
+  if (!options_.rounds.areSet() || remainingCount() == 0) return 0;
+  return std::min({countForError(), countForTime(), remainingCount()});
+}
+
+uint64_t Rounds::countForError() const {
+  if (!options_.rounds.maxError) return remainingCount();
+  const auto seedCount = static_cast<double>(traced_.faces.size());
+  if (!errors_) return static_cast<uint64_t>(std::ceil((kMaxGrowth - 1) * seedCount));
+  const double target = *options_.rounds.maxError;
+  const double bound = errors_->estimate.average + kStandardErrors * errors_->estimate.standardError;
+  if (bound <= target) return 0;
+  // The number of interpolated faces falls with the seeds, and the error of each with a power of their number.
+  const auto candidateCount = static_cast<double>(computation_.prepared.traceableFaces.size());
+  const double perFace = bound / (1 - seedCount / candidateCount);
+  double growth = kMinGrowth;
+  while (growth < kMaxGrowth && growth * seedCount < candidateCount &&
+         (1 - growth * seedCount / candidateCount) * perFace * std::pow(growth, -kConvergence) > target)
+    growth *= kGrowthStep;
+  return static_cast<uint64_t>(std::ceil((growth - 1) * seedCount));
+}
+
+uint64_t Rounds::countForTime() const {
+  if (!options_.rounds.timeBudgetSeconds) return std::numeric_limits<uint64_t>::max();
+  const auto seedCount = static_cast<double>(traced_.faces.size());
+  const double remaining = *options_.rounds.timeBudgetSeconds - clock_.elapsed() - interpolationSeconds_;
+  const double perSeed = raySeconds() / std::max(1.0, seedCount);
+  const double count = kPlannedShare * remaining / std::max(perSeed, 1e-12);
+  if (count < kMinRoundShare * seedCount) return 0;
+  return static_cast<uint64_t>(std::min(count, kMaxSeedCount));
+}
+
+/// Stage of creating and releasing a tracer: without Vulkan nothing is uploaded.
+Stage setUpStage(const Backend& backend) { return backend.traceVariant() ? Stage::Upload : Stage::Encode; }
+
+}  // namespace
+
+SeedTracing::SeedTracing(const Computation& computation, Bvh& bvh, bool keepsNodes)
+    : computation_(computation), bvh_(bvh), keepsNodes_(keepsNodes) {
+  const Stage stage = setUpStage(computation.backend);
+  {
+    const auto scope = computation.clock.time(stage);
+    tracer_ = computation.backend.makeTracer(computation.scene, computation.cone, computation.keepsHits());
+  }
+  computation.clock.transfer(stage, Stage::Encode, tracer_->encodeSeconds());
+}
+
+SeedTracing::~SeedTracing() {
+  const auto scope = computation_.clock.time(setUpStage(computation_.backend));
+  tracer_.reset();
+  if (!keepsNodes_) bvh_.nodes = {};
+  returnFreedMemory();
+}
+
+void SeedTracing::trace(std::span<const uint32_t> faces, TracedSeeds& traced, const RunControl& control) {
+  std::vector<double> values(faces.size());
+  const size_t hitCount = traced.hits.size();
+  if (computation_.keepsHits()) traced.hits.resize(hitCount + faces.size() * computation_.cone.directions.size());
+  const TraceStatistics statistics = tracer_->trace(faces, {values, std::span(traced.hits).subspan(hitCount)}, control);
+  traced.statistics.rayCount += statistics.rayCount;
+  traced.statistics.redoneConeCount += statistics.redoneConeCount;
+  traced.faces.insert(traced.faces.end(), faces.begin(), faces.end());
+  for (size_t i = 0; i < faces.size(); ++i) {
+    traced.values[faces[i]] = values[i];
+    traced.isSeed[faces[i]] = 1;
+  }
+}
+
+void SeedTracing::reserve(TracedSeeds& traced, size_t furtherCount) const {
+  traced.faces.reserve(traced.faces.size() + furtherCount);
+  if (computation_.keepsHits())
+    traced.hits.reserve(traced.hits.size() + furtherCount * computation_.cone.directions.size());
+}
+
+void SeedTracing::traceComponentsWithoutValue(TracedSeeds& traced, const RunControl& control) {
+  std::vector<uint32_t> untried;
+  for (const uint32_t face : computation_.prepared.traceableFaces)
+    if (!traced.isSeed[face]) untried.push_back(face);
+  if (untried.empty()) return;
+  ComponentSeeds further(computation_.prepared.components.componentOf, traced.values, untried,
+                         computation_.options.randomSeed);
+  const RunControl silent{control.stop, {}};
+  for (auto batch = further.next(traced.values); !batch.empty(); batch = further.next(traced.values))
+    trace(batch, traced, silent);
+}
+
+RoundsResult runRounds(const Computation& computation, std::unique_ptr<SeedTracing> tracing,
+                       const RunControl& control) {
+  return Rounds(computation, std::move(tracing)).run(control);
+}
+
+}  // namespace asdfvk

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "bvh/bvh.h"
+#include "estimate/error_estimate.h"
+#include "pipeline/interpolation.h"
+#include "pipeline/seed_choice.h"
+#include "trace/traced_seeds.h"
+
+namespace asdfvk {
+
+/// Casts the rays of seeds of one mesh. Owns the tracer, and the nodes of the hierarchy unless they are needed later:
+/// both are released by its destructor.
+class SeedTracing {
+ public:
+  /// The computation must outlive it. keepsNodes: the nodes of `bvh` are left in place.
+  SeedTracing(const Computation& computation, Bvh& bvh, bool keepsNodes);
+  ~SeedTracing();
+  SeedTracing(const SeedTracing&) = delete;
+  SeedTracing& operator=(const SeedTracing&) = delete;
+
+  /// Adds `faces`, none of which may be in `traced`.
+  void trace(std::span<const uint32_t> faces, TracedSeeds& traced, const RunControl& control);
+  /// Reserves memory for further seeds, so that growing does not copy the hits, which are most of the memory.
+  void reserve(TracedSeeds& traced, size_t furtherCount) const;
+  /// Adds seeds to each component without a value until it has one or no face is left.
+  void traceComponentsWithoutValue(TracedSeeds& traced, const RunControl& control);
+
+ private:
+  const Computation& computation_;
+  Bvh& bvh_;
+  bool keepsNodes_;
+  std::unique_ptr<ConeTracer> tracer_;
+};
+
+/// Result of all rounds.
+struct RoundsResult {
+  TracedSeeds traced;  ///< All seeds.
+  Interpolated interpolated;
+  std::optional<EstimatedErrors> errors;
+  uint32_t roundCount = 0;
+};
+
+/// Chooses seeds, casts their rays, interpolates and estimates the error, in one round, or in several that keep what
+/// earlier rounds traced. tracing is released after the last ray, before the last interpolation where that is known.
+[[nodiscard]] RoundsResult runRounds(const Computation& computation, std::unique_ptr<SeedTracing> tracing,
+                                     const RunControl& control);
+
+}  // namespace asdfvk

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <utility>
+
+#include "asdf_vk/report.h"
+
+namespace asdfvk {
+
+/// Wall-clock time of the stages of one computation, charged by scopes. A nested scope pauses the enclosing one, so
+/// that no time is counted twice.
+class StageClock {
+ public:
+  explicit StageClock(StageSeconds& seconds) : seconds_(seconds) {}
+  StageClock(const StageClock&) = delete;
+  StageClock& operator=(const StageClock&) = delete;
+
+  class Scope {
+   public:
+    Scope(StageClock& clock, Stage stage) : clock_(clock), enclosing_(clock.switchTo(stage)) {}
+    ~Scope() { clock_.switchTo(enclosing_); }
+    Scope(const Scope&) = delete;
+    Scope& operator=(const Scope&) = delete;
+
+   private:
+    StageClock& clock_;
+    std::optional<Stage> enclosing_;
+  };
+  [[nodiscard]] Scope time(Stage stage) { return {*this, stage}; }
+
+  /// Charges `seconds` that were counted under one stage to another.
+  void transfer(Stage from, Stage to, double seconds) {
+    seconds_[from] -= seconds;
+    seconds_[to] += seconds;
+  }
+  /// Of a stage that no scope is timing now.
+  [[nodiscard]] double secondsOf(Stage stage) const { return seconds_[stage]; }
+  /// Since construction.
+  [[nodiscard]] double elapsed() const { return std::chrono::duration<double>(Clock::now() - begin_).count(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  std::optional<Stage> switchTo(std::optional<Stage> stage) {
+    const Clock::time_point now = Clock::now();
+    if (current_) seconds_[*current_] += std::chrono::duration<double>(now - lastSwitch_).count();
+    lastSwitch_ = now;
+    return std::exchange(current_, stage);
+  }
+
+  StageSeconds& seconds_;
+  Clock::time_point begin_ = Clock::now();
+  Clock::time_point lastSwitch_ = begin_;
+  std::optional<Stage> current_;
+};
+
+}  // namespace asdfvk

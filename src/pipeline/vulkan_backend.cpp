@@ -1,0 +1,84 @@
+#include <fmt/format.h>
+
+#include <map>
+#include <utility>
+
+#include "asdf_vk/error.h"
+#include "core/text.h"
+#include "pipeline/backend.h"
+#include "trace/vulkan/vulkan_cone_kernel.h"
+#include "trace/vulkan/vulkan_trace_choice.h"
+#include "trace/vulkan/vulkan_tracer.h"
+#include "vk/open_device.h"
+
+namespace asdfvk {
+namespace {
+
+class VulkanBackend final : public Backend {
+ public:
+  explicit VulkanBackend(const SessionOptions& options)
+      : request_(traceRequestOf(options.variant)),
+        instance_(InstanceOptions{.validation = validationRequestedByEnvironment()}),
+        opened_(openDevice(instance_, {.selector = options.device, .requireGpu = options.requireGpu})),
+        choice_(traceChoiceFor(facts(), request_)) {}
+
+  [[nodiscard]] std::string deviceName() const override {
+    return fmt::format("{}, driver {}", facts().name, facts().driver);
+  }
+  [[nodiscard]] std::vector<std::string> deviceLines() const override { return opened_.reasons; }
+  [[nodiscard]] bool runsOnCpu() const override { return facts().kind == DeviceKind::Cpu; }
+  [[nodiscard]] std::optional<TraceVariant> traceVariant() const override { return variantOf(choice_); }
+  [[nodiscard]] const Device* device() const override { return opened_.device.get(); }
+
+  [[nodiscard]] std::unique_ptr<ConeTracer> makeTracer(const TraceScene& scene, const Cone& cone,
+                                                       bool writesHits) override {
+    const ConeKernelRequest request{static_cast<uint32_t>(cone.directions.size()), writesHits, choice_};
+    std::unique_ptr<VulkanConeKernel>& kernel = kernels_[request];
+    if (!kernel) kernel = std::make_unique<VulkanConeKernel>(*opened_.device, request);
+    return makeVulkanTracer(*kernel, scene, cone);
+  }
+
+  void requireSilentValidation() const override {
+    if (!instance_.validationLog()) return;
+    const std::vector<std::string> messages = instance_.validationLog()->messages();
+    if (!messages.empty())
+      throw Error(ErrorCode::ValidationFailed, fmt::format("the validation layers report {}, first: {}",
+                                                           counted(messages.size(), "problem"), messages.front()));
+  }
+
+ private:
+  [[nodiscard]] const DeviceFacts& facts() const { return opened_.device->facts(); }
+
+  // Destroyed in reverse: each member depends on those before it.
+  VulkanTraceRequest request_;
+  Instance instance_;
+  OpenedDevice opened_;
+  VulkanTraceChoice choice_;
+  std::map<ConeKernelRequest, std::unique_ptr<VulkanConeKernel>> kernels_;
+};
+
+}  // namespace
+
+std::unique_ptr<Backend> makeVulkanBackend(const SessionOptions& options) {
+  return std::make_unique<VulkanBackend>(options);
+}
+
+std::vector<DeviceInfo> listDevices(std::string* reason) {
+  std::vector<DeviceInfo> devices;
+  try {
+    const Instance instance;
+    std::vector<DeviceFacts> facts;
+    for (const VkPhysicalDevice device : instance.physicalDevices()) facts.push_back(describeDevice(device));
+    const DeviceChoice choice = chooseDevice(facts, {});
+    for (size_t i = 0; i < facts.size(); ++i) {
+      const bool usable = chooseDevice(std::span(&facts[i], 1), {}).index.has_value();
+      devices.push_back(
+          {facts[i].name, facts[i].driver, std::string(toString(facts[i].kind)), usable, choice.reasons[i]});
+    }
+  } catch (const Error& error) {
+    if (reason != nullptr) *reason = error.what();
+  }
+  return devices;
+}
+
+}  // namespace asdfvk
