@@ -3,9 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <string>
 #include <string_view>
+#include <type_traits>
 
 namespace asdfvk {
 
@@ -28,6 +32,21 @@ namespace asdfvk {
   std::string text = std::to_string(number);
   for (size_t end = text.size(); end > 3; end -= 3) text.insert(end - 3, ",");
   return text;
+}
+
+/// Capacity for any text of appendNumber().
+inline constexpr size_t kNumberTextSize = 32;
+
+/// Writes the shortest text that reads back as the same number, "nan" for NaN of either sign; returns its end.
+template <typename T>
+[[nodiscard]] char* appendNumber(char* to, T value) {
+  if constexpr (std::is_floating_point_v<T>) {
+    if (std::isnan(value)) {
+      std::memcpy(to, "nan", 3);
+      return to + 3;
+    }
+  }
+  return std::to_chars(to, to + kNumberTextSize, value).ptr;
 }
 
 }  // namespace asdfvk

@@ -1,6 +1,7 @@
 #include "io/formats.h"
 
 #include <algorithm>
+#include <vector>
 
 #include "core/text.h"
 
@@ -9,10 +10,15 @@ namespace {
 
 // STL first: the exact size of a binary STL is stronger evidence than the first word of the other formats.
 constexpr auto kFormats = std::to_array<FileFormat>({
-    {"stl", {"stl", "stla", "stlb"}, detectStl, parseStl},
-    {"ply", {"ply"}, detectPly, parsePly},
-    {"off", {"off", "coff", "noff"}, detectOff, parseOff},
-    {"obj", {"obj"}, detectObj, parseObj},
+    // name, extensions, detect, parseMesh, parseFields, write
+    {"stl", {"stl", "stla", "stlb"}, detectStl, parseStl, nullptr, nullptr},
+    {"ply", {"ply"}, detectPly, parsePly, parsePlyFields, writePly},
+    {"off", {"off", "coff", "noff"}, detectOff, parseOff, nullptr, nullptr},
+    {"obj", {"obj"}, detectObj, parseObj, nullptr, nullptr},
+    {"vtu", {"vtu"}, detectVtu, nullptr, parseVtuFields, writeVtu},
+    {"npy", {"npy"}, detectNpy, nullptr, parseNpyFields, writeNpy},
+    {"npz", {"npz"}, detectNpz, nullptr, parseNpzFields, writeNpz},
+    {"csv", {"csv"}, detectCsv, nullptr, parseCsvFields, writeCsv},
 });
 
 }  // namespace
@@ -39,17 +45,16 @@ const FileFormat* detectFormat(std::span<const char> bytes, std::string_view ext
   return named != nullptr ? named : possible;
 }
 
-std::string meshFormatNames() {
-  std::string names;
-  const FileFormat* last = nullptr;
+std::string namesOfFormatsWith(bool (*hasOperation)(const FileFormat& format)) {
+  std::vector<std::string_view> names;
   for (const FileFormat& format : kFormats)
-    if (format.parseMesh != nullptr) last = &format;
-  for (const FileFormat& format : kFormats) {
-    if (format.parseMesh == nullptr) continue;
-    if (!names.empty()) names += &format == last ? " or " : ", ";
-    names += format.name;
+    if (hasOperation(format)) names.push_back(format.name);
+  std::string text;
+  for (size_t i = 0; i < names.size(); ++i) {
+    if (i > 0) text += i + 1 == names.size() ? " or " : ", ";
+    text += names[i];
   }
-  return names;
+  return text;
 }
 
 }  // namespace asdfvk

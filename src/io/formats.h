@@ -4,10 +4,15 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "asdf_vk/field.h"
 #include "asdf_vk/mesh.h"
 
 namespace asdfvk {
+
+class AtomicFile;
+class ResultView;
 
 /// Whether the content of a file is of a format. Possible is weaker than the extension of the file, Certain is
 /// stronger.
@@ -19,6 +24,8 @@ struct FileFormat {
   std::array<std::string_view, 4> extensions;  ///< Lower case, without the dot; unused entries are empty.
   Match (*detect)(std::span<const char> bytes);
   Mesh (*parseMesh)(std::span<const char> bytes);
+  std::vector<Field> (*parseFields)(std::span<const char> bytes);
+  void (*write)(AtomicFile& file, const ResultView& result);  ///< The caller commits the file.
 };
 
 [[nodiscard]] std::span<const FileFormat> fileFormats();
@@ -30,8 +37,8 @@ struct FileFormat {
 /// null.
 [[nodiscard]] const FileFormat* detectFormat(std::span<const char> bytes, std::string_view extension);
 
-/// "STL, PLY or OFF": the formats in which meshes are read, for messages.
-[[nodiscard]] std::string meshFormatNames();
+/// "stl, ply or off", for messages: the formats that have the operation.
+[[nodiscard]] std::string namesOfFormatsWith(bool (*hasOperation)(const FileFormat& format));
 
 // Readers of meshes. Text may have LF, CRLF or CR line ends and a UTF-8 byte order mark. Each throws
 // Error{UnreadableInput} for a file that is truncated, continues after its end, has an index out of range, or has no
@@ -57,5 +64,38 @@ struct FileFormat {
 /// OBJ: `v` and `f`. Ignores all other statements of the format except `call`, which is an error, as is an unknown one.
 [[nodiscard]] Match detectObj(std::span<const char> bytes);
 [[nodiscard]] Mesh parseObj(std::span<const char> bytes);
+
+// Writers of results. See writeResult() of asdf_vk/files.h for the common rules.
+
+/// Vertices with their fields, then faces: the list `uchar int vertex_indices` (`int int` above 255 corners), `float
+/// quality` and its colour `uchar red green blue alpha`, then the other face fields: float, uchar or uint.
+void writePly(AtomicFile& file, const ResultView& result);
+/// Unstructured grid of VTK with inline base64: PointData and CellData of Float32, UInt8 and UInt32.
+void writeVtu(AtomicFile& file, const ResultView& result);
+/// The first field: version 1.0, shape (n,) or (n, 3), '<f4', '|u1' or '<u4'.
+void writeNpy(AtomicFile& file, const ResultView& result);
+/// A zip archive, not compressed: a member FIELD.npy per field, with "face" or "vertex" as its comment.
+void writeNpz(AtomicFile& file, const ResultView& result);
+/// Columns `face` and the face fields, or `vertex` and the vertex fields, with the shortest numbers that read back the
+/// same. Fields of both kinds are an Error{OptionConflict}.
+void writeCsv(AtomicFile& file, const ResultView& result);
+
+// Readers of the fields of results. Each throws Error{UnreadableInput} for a file that is truncated or contradicts
+// itself, and for fields with invalid or equal names.
+
+/// The numbers of vertices and faces in files of any program: uchar as uint8, ushort and uint as uint32, others as
+/// real.
+[[nodiscard]] std::vector<Field> parsePlyFields(std::span<const char> bytes);
+[[nodiscard]] Match detectVtu(std::span<const char> bytes);
+[[nodiscard]] std::vector<Field> parseVtuFields(std::span<const char> bytes);
+/// One face field named `values`: the format has neither names nor locations. Also reads '<f8'.
+[[nodiscard]] Match detectNpy(std::span<const char> bytes);
+[[nodiscard]] std::vector<Field> parseNpyFields(std::span<const char> bytes);
+/// Members without a comment, as NumPy writes them, are face fields.
+[[nodiscard]] Match detectNpz(std::span<const char> bytes);
+[[nodiscard]] std::vector<Field> parseNpzFields(std::span<const char> bytes);
+/// All fields are real.
+[[nodiscard]] Match detectCsv(std::span<const char> bytes);
+[[nodiscard]] std::vector<Field> parseCsvFields(std::span<const char> bytes);
 
 }  // namespace asdfvk

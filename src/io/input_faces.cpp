@@ -89,9 +89,9 @@ void InputFaces::beginPolygons() {
 
 void InputFaces::moveTo(std::span<const Vec3d> vertices, Mesh& mesh) {
   if (count() == 0)
-    failInput(vertices.empty() ? "has neither points nor faces"
-                                    : fmt::format("has {} and no face: a point cloud, not a mesh",
-                                                  counted(vertices.size(), "point")));
+    failInput(vertices.empty()
+                  ? "has neither points nor faces"
+                  : fmt::format("has {} and no face: a point cloud, not a mesh", counted(vertices.size(), "point")));
   if (!polygons_.isEmpty()) triangulateAll(vertices, polygons_, triangles_);
   if (triangles_.empty())
     failInput(count() == 1 ? "the only face has fewer than three corners"

@@ -3,8 +3,13 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <atomic>
 #include <bit>
+#include <cmath>
+#include <limits>
+#include <type_traits>
+#include <utility>
 
 #include "core/text.h"
 #include "io/formats.h"
@@ -12,6 +17,7 @@
 #include "io/input_failure.h"
 #include "io/ply_header.h"
 #include "io/ply_source.h"
+#include "io/stored_fields.h"
 
 namespace asdfvk {
 namespace {
@@ -43,10 +49,18 @@ class TriangleStrip {
   uint32_t first_ = 0, second_ = 0;  ///< The last two indices.
 };
 
-/// The rows of a file.
+/// A property that is read into a field.
+struct PlyColumn {
+  const PlyElement* element = nullptr;
+  size_t property = 0;
+  Field field;
+};
+
+/// The rows of a file. A caller that needs fields sets their columns, without values.
 struct PlyContents {
   std::vector<Vec3d> vertices;
   InputFaces faces;
+  std::vector<PlyColumn> columns;
 };
 
 /// Calls decode(first, end) for parts of [0, count), in parallel where there are several.
@@ -81,10 +95,24 @@ class PlyBody {
                       "is wrong",
                       counted(element.count, "row"), quoted(element.name), counted(source_.remaining(), "byte")));
     if (element.role == PlyRole::Vertices) contents_.vertices.resize(element.count);
+    const bool hasColumns = findColumns(element);
     if constexpr (Source::kIsBinary)
-      if (readUniformRows(element, minRowSize)) return;
+      if (!hasColumns && readUniformRows(element, minRowSize)) return;
     if (element.role == PlyRole::Faces) contents_.faces.reserve(element.count);
     for (uint64_t row = 0; row < element.count; ++row) readRow(element, row);
+  }
+
+  /// Sets columnOf_; returns whether the element has columns.
+  bool findColumns(const PlyElement& element) {
+    columnOf_.assign(element.properties.size(), nullptr);
+    bool hasColumns = false;
+    for (PlyColumn& column : contents_.columns) {
+      if (column.element != &element) continue;
+      columnOf_[column.property] = &column.field;
+      hasColumns = true;
+      std::visit([&](auto& entries) { entries.reserve(element.count); }, column.field.values);
+    }
+    return hasColumns;
   }
 
   /// Reads the rows of a binary element in parallel where all have one size: without lists, or faces that are all
@@ -158,8 +186,21 @@ class PlyBody {
       const double value = source_.number(property.type, property.name);
       for (size_t axis = 0; axis < 3; ++axis)
         if (i == element.coordinates[axis]) contents_.vertices[row][axis] = value;
+      if (columnOf_[i] != nullptr)  // Text has the shortest decimal number that rounds to the float.
+        append(*columnOf_[i], property.type == PlyType::Float32 ? static_cast<float>(value) : value);
     }
     source_.endRow(element, row);
+  }
+
+  void append(Field& column, double value) {
+    std::visit(
+        [&]<typename T>(std::vector<T>& entries) {
+          if constexpr (std::is_integral_v<T>)
+            if (!(value >= 0 && value <= std::numeric_limits<T>::max() && value == std::floor(value)))
+              source_.fail(fmt::format("{} is not an integer from 0 to {}", value, std::numeric_limits<T>::max()));
+          entries.push_back(static_cast<T>(value));
+        },
+        column.values);
   }
 
   void readList(const PlyElement& element, size_t propertyIndex) {
@@ -201,6 +242,7 @@ class PlyBody {
   const PlyHeader& header_;
   Source source_;
   PlyContents& contents_;
+  std::vector<Field*> columnOf_;  ///< Per property of the current element; null for none.
   std::vector<uint32_t> corners_;
 };
 
@@ -210,6 +252,48 @@ void readBody(std::span<const char> bytes, const PlyHeader& header, PlyContents&
   if ((header.encoding == PlyEncoding::BinaryLittleEndian) == kIsHostLittle)
     return PlyBody<PlyBinarySource<false>>(bytes, header, contents).read();
   PlyBody<PlyBinarySource<true>>(bytes, header, contents).read();
+}
+
+/// The name of the field that writePly() stored as `quality`; empty where the file is from another program.
+std::string_view mainFieldOf(const PlyHeader& header) {
+  for (const std::string_view comment : header.comments)
+    if (comment.starts_with(kPlyQualityComment)) {
+      const std::string_view rest = comment.substr(kPlyQualityComment.size());
+      return rest.substr(0, rest.find_first_of(", "));
+    }
+  return {};
+}
+
+/// The alternative for the property: integers that uint8_t or uint32_t hold keep their type.
+Field::Values emptyValuesOf(PlyType type) {
+  if (type == PlyType::UInt8) return std::vector<uint8_t>();
+  if (type == PlyType::UInt16 || type == PlyType::UInt32) return std::vector<uint32_t>();
+  return std::vector<double>();
+}
+
+/// The numbers of vertices and faces, without coordinates and without the colour of the main field.
+std::vector<PlyColumn> columnsOfHeader(const PlyHeader& header) {
+  constexpr std::array<std::string_view, 4> kColours{"red", "green", "blue", "alpha"};
+  const std::string_view mainField = mainFieldOf(header);
+  std::vector<PlyColumn> columns;
+  for (const PlyElement& element : header.elements) {
+    if (element.role != PlyRole::Vertices && element.role != PlyRole::Faces) continue;
+    const bool hasMainField = element.role == PlyRole::Faces && !mainField.empty();
+    for (size_t i = 0; i < element.properties.size(); ++i) {
+      const PlyProperty& property = element.properties[i];
+      const bool isColour = std::find(kColours.begin(), kColours.end(), property.name) != kColours.end();
+      const bool isCoordinate =
+          std::find(element.coordinates.begin(), element.coordinates.end(), i) != element.coordinates.end();
+      if (property.list || isCoordinate || (hasMainField && isColour)) continue;
+      PlyColumn& column = columns.emplace_back();
+      column.element = &element;
+      column.property = i;
+      column.field.name = hasMainField && property.name == "quality" ? mainField : property.name;
+      column.field.location = element.role == PlyRole::Faces ? FieldLocation::PerFace : FieldLocation::PerVertex;
+      column.field.values = emptyValuesOf(property.type);
+    }
+  }
+  return columns;
 }
 
 }  // namespace
@@ -224,6 +308,19 @@ Mesh parsePly(std::span<const char> bytes) {
   mesh.vertices = std::move(contents.vertices);
   contents.faces.moveTo(mesh);
   return mesh;
+}
+
+std::vector<Field> parsePlyFields(std::span<const char> bytes) {
+  const PlyHeader header = parsePlyHeader(bytes);
+  if (header.encoding == PlyEncoding::Ascii && bytes.back() != '\n' && bytes.back() != '\r')
+    failInput("the last line has no line break; the file is truncated");  // Maybe within a number.
+  PlyContents contents;
+  contents.columns = columnsOfHeader(header);
+  readBody(bytes, header, contents);
+  std::vector<Field> fields;
+  for (PlyColumn& column : contents.columns) fields.push_back(std::move(column.field));
+  requireReadableNames(fields);
+  return joinColumns(std::move(fields));
 }
 
 }  // namespace asdfvk

@@ -1,26 +1,31 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
+#include <string>
+#include <type_traits>
 
 #include "asdf_vk/error.h"
+#include "core/atomic_file.h"
+#include "core/text.h"
 #include "io/colour_map.h"
-#include "io/input_corners.h"
-#include "io/number_text.h"
-#include "io/result_formats.h"
+#include "io/formats.h"
+#include "io/input_failure.h"
+#include "io/ply_header.h"
+#include "io/result_view.h"
+#include "io/stored_fields.h"
 
 namespace asdfvk {
 namespace {
 
-/// Puts numbers one after another as bytes, or as words with a blank between them.
+/// Numbers as bytes, or as words separated by blanks.
 class RowWriter {
  public:
-  RowWriter(AtomicFile& file, bool ascii) : file_(file), ascii_(ascii) {}
+  RowWriter(AtomicFile& file, bool isAscii) : file_(file), isAscii_(isAscii) {}
 
   template <typename T>
   void put(T value) {
-    if (!ascii_) return file_.put(value);
+    if (!isAscii_) return file_.put(value);
     char* const word = file_.reserve(kNumberTextSize + 1);
     char* to = word;
     if (!isFirst_) *to++ = ' ';
@@ -32,63 +37,112 @@ class RowWriter {
     file_.advance(static_cast<size_t>(to - word));
     isFirst_ = false;
   }
+  void put(const FieldColumn& column, uint64_t item) {
+    column.putEntry(item, [&](auto entry) { put(withoutNan(entry)); });
+  }
   void endRow() {
-    if (ascii_) file_.put('\n');
+    if (isAscii_) file_.put('\n');
     isFirst_ = true;
   }
 
  private:
   AtomicFile& file_;
-  bool ascii_;
+  bool isAscii_;
   bool isFirst_ = true;
 };
 
-template <typename T>
-void writeVertices(RowWriter& row, const TriangleMesh& mesh) {
-  for (const Vec3d& p : mesh.vertices) {
-    row.put(static_cast<T>(p.x));
-    row.put(static_cast<T>(p.y));
-    row.put(static_cast<T>(p.z));
-    row.endRow();
+class PlyWriter {
+ public:
+  PlyWriter(AtomicFile& file, const ResultView& result)
+      : file_(file),
+        row_(file, result.isAscii()),
+        result_(result),
+        main_(result.mainField(FieldLocation::PerFace)),
+        vertexColumns_(columnsOf(result.fields(), FieldLocation::PerVertex, nullptr, {"x", "y", "z"})),
+        faceColumns_(columnsOf(result.fields(), FieldLocation::PerFace, main_,
+                               {"vertex_indices", "vertex_index", "quality", "red", "green", "blue", "alpha"})) {
+    size_t maxCornerCount = 0;
+    for (uint64_t face = 0; face < result.faceCount(); ++face)
+      maxCornerCount = std::max(maxCornerCount, result.cornersOf(face).size());
+    hasByteLengths_ = maxCornerCount <= std::numeric_limits<uint8_t>::max();
   }
-}
 
-template <typename Count>
-void writeFaces(RowWriter& row, const TriangleMesh& mesh, const FaceValues& face) {
-  const ColourRange range = percentileRange(face.values);
-  for (uint64_t i = 0; i < mesh.inputFaceCount(); ++i) {
-    const auto corners = inputFaceCorners(mesh, i);
-    row.put(static_cast<Count>(corners.size()));
-    for (const uint32_t corner : corners) row.put(static_cast<int32_t>(corner));
-    const double value = face.values[i];
-    row.put(std::isnan(value) ? 0.0f : static_cast<float>(value));
-    for (const uint8_t channel : colourOf(value, range)) row.put(channel);
-    row.endRow();
+  void write() {
+    const bool isFloat = result_.hasFloatVertices();
+    writeHeader(isFloat ? "float" : "double");
+    isFloat ? writeVertices<float>() : writeVertices<double>();
+    hasByteLengths_ ? writeFaces<uint8_t>() : writeFaces<int32_t>();
   }
-}
+
+ private:
+  void writeHeader(std::string_view scalar) {
+    file_.write(fmt::format("ply\nformat {} 1.0\n", result_.isAscii() ? "ascii" : "binary_little_endian"));
+    if (main_ != nullptr)
+      file_.write(fmt::format("comment {}{}{}, 0 (and grey) where there is no value\n", kPlyQualityComment, main_->name,
+                              main_->label.empty() ? "" : fmt::format(" ({})", printable(main_->label))));
+    file_.write(fmt::format("element vertex {}\n", result_.vertexCount()));
+    for (const char axis : {'x', 'y', 'z'}) file_.write(fmt::format("property {} {}\n", scalar, axis));
+    writeProperties(vertexColumns_);
+    file_.write(fmt::format("element face {}\nproperty list {} int vertex_indices\n", result_.faceCount(),
+                            hasByteLengths_ ? "uchar" : "int"));
+    if (main_ != nullptr)
+      file_.write(
+          "property float quality\n"
+          "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty uchar alpha\n");
+    writeProperties(faceColumns_);
+    file_.write("end_header\n");
+  }
+
+  void writeProperties(std::span<const FieldColumn> columns) {
+    constexpr std::array<std::string_view, 3> kTypes{"float", "uchar", "uint"};  // Of the alternatives of Values.
+    for (const FieldColumn& column : columns)
+      file_.write(fmt::format("property {} {}\n", kTypes[column.field->values.index()], column.name));
+  }
+
+  template <typename T>
+  void writeVertices() {
+    uint64_t numberCount = 0;
+    result_.putCoordinates<T>([&](T coordinate) {
+      row_.put(coordinate);
+      if (++numberCount % 3 != 0) return;
+      for (const FieldColumn& column : vertexColumns_) row_.put(column, numberCount / 3 - 1);
+      row_.endRow();
+    });
+  }
+
+  template <typename Length>
+  void writeFaces() {
+    const ColourRange range = main_ == nullptr ? ColourRange{} : percentileRange(*main_->reals());
+    for (uint64_t face = 0; face < result_.faceCount(); ++face) {
+      const std::span<const uint32_t> corners = result_.cornersOf(face);
+      row_.put(static_cast<Length>(corners.size()));
+      for (const uint32_t corner : corners) row_.put(static_cast<int32_t>(corner));
+      if (main_ != nullptr) {
+        const double value = (*main_->reals())[face];
+        row_.put(withoutNan(value));
+        for (const uint8_t channel : colourOf(value, range)) row_.put(channel);
+      }
+      for (const FieldColumn& column : faceColumns_) row_.put(column, face);
+      row_.endRow();
+    }
+  }
+
+  AtomicFile& file_;
+  RowWriter row_;
+  const ResultView& result_;
+  const Field* main_;  ///< Written as quality and colour; may be null.
+  std::vector<FieldColumn> vertexColumns_, faceColumns_;
+  bool hasByteLengths_ = true;
+};
 
 }  // namespace
 
-void writePly(AtomicFile& file, const TriangleMesh& mesh, const FaceValues& face, bool ascii) {
-  if (mesh.vertices.size() > size_t{std::numeric_limits<int32_t>::max()})
+void writePly(AtomicFile& file, const ResultView& result) {
+  if (result.vertexCount() > uint64_t{std::numeric_limits<int32_t>::max()})
     throw Error(ErrorCode::OutputNotWritable,
-                "the mesh has more vertices than PLY's int can index; write .npy or .csv");
-  size_t mostCorners = 3;
-  for (uint64_t i = 0; i < mesh.inputFaceCount() && !mesh.polygons.isEmpty(); ++i)
-    mostCorners = std::max(mostCorners, inputFaceCorners(mesh, i).size());
-  const bool isByteCount = mostCorners <= std::numeric_limits<uint8_t>::max();
-  const bool isFloat = verticesAreFloats(mesh);
-  file.write(
-      fmt::format("ply\nformat {} 1.0\n"
-                  "comment asdf-vk: quality is the shape diameter function, 0 (and grey) where there is no value\n"
-                  "element vertex {}\nproperty {scalar} x\nproperty {scalar} y\nproperty {scalar} z\n"
-                  "element face {}\nproperty list {} int vertex_indices\nproperty float quality\n"
-                  "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty uchar alpha\nend_header\n",
-                  ascii ? "ascii" : "binary_little_endian", mesh.vertices.size(), mesh.inputFaceCount(),
-                  isByteCount ? "uchar" : "int", fmt::arg("scalar", isFloat ? "float" : "double")));
-  RowWriter row(file, ascii);
-  isFloat ? writeVertices<float>(row, mesh) : writeVertices<double>(row, mesh);
-  isByteCount ? writeFaces<uint8_t>(row, mesh, face) : writeFaces<int32_t>(row, mesh, face);
+                fmt::format("the mesh has {}; a PLY index of type int allows {}",
+                            counted(result.vertexCount(), "vertex", "vertices"), std::numeric_limits<int32_t>::max()));
+  PlyWriter(file, result).write();
 }
 
 }  // namespace asdfvk

@@ -1,16 +1,69 @@
+// XML unstructured grid of VTK, with arrays as inline base64.
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
+#include <array>
+#include <cstring>
 #include <limits>
+#include <string>
 #include <string_view>
+#include <type_traits>
 
-#include "io/base64_stream.h"
-#include "io/input_corners.h"
-#include "io/result_formats.h"
+#include "core/atomic_file.h"
+#include "io/formats.h"
+#include "io/result_view.h"
+#include "io/stored_fields.h"
 
 namespace asdfvk {
 namespace {
+
+/// Encodes bytes as one run of base64 (RFC 4648); finish() pads it.
+class Base64Stream {
+ public:
+  explicit Base64Stream(AtomicFile& file) : file_(file) {}
+
+  template <typename T>
+  void put(const T& value) {
+    if (pending_.size() - used_ < sizeof(T)) encodeWholeGroups();
+    std::memcpy(pending_.data() + used_, &value, sizeof(T));
+    used_ += sizeof(T);
+  }
+
+  void finish() {
+    encodeWholeGroups();
+    if (used_ == 0) return;
+    std::array<uint8_t, 3> last{};
+    std::memcpy(last.data(), pending_.data(), used_);
+    char* const to = file_.reserve(4);
+    encodeGroup(to, last.data());
+    for (size_t i = used_ + 1; i < 4; ++i) to[i] = '=';
+    file_.advance(4);
+    used_ = 0;
+  }
+
+ private:
+  static void encodeGroup(char* to, const uint8_t* from) {
+    constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    to[0] = kDigits[from[0] >> 2];
+    to[1] = kDigits[(from[0] & 3u) << 4 | from[1] >> 4];
+    to[2] = kDigits[(from[1] & 15u) << 2 | from[2] >> 6];
+    to[3] = kDigits[from[2] & 63u];
+  }
+
+  void encodeWholeGroups() {
+    static_assert(sizeof(pending_) / 3 * 4 <= AtomicFile::kMaxReserve);
+    const size_t groups = used_ / 3;
+    char* const to = file_.reserve(4 * groups);
+    for (size_t g = 0; g < groups; ++g) encodeGroup(to + 4 * g, pending_.data() + 3 * g);
+    file_.advance(4 * groups);
+    std::memmove(pending_.data(), pending_.data() + 3 * groups, used_ - 3 * groups);
+    used_ -= 3 * groups;
+  }
+
+  AtomicFile& file_;
+  std::array<uint8_t, 3 * 4096> pending_;
+  size_t used_ = 0;
+};
 
 template <typename T>
 constexpr std::string_view vtkTypeName() {
@@ -19,86 +72,111 @@ constexpr std::string_view vtkTypeName() {
   if constexpr (std::is_same_v<T, int32_t>) return "Int32";
   if constexpr (std::is_same_v<T, int64_t>) return "Int64";
   if constexpr (std::is_same_v<T, uint8_t>) return "UInt8";
+  if constexpr (std::is_same_v<T, uint32_t>) return "UInt32";
 }
 
-// What VTK calls a cell of so many corners: empty cell, vertex, line, triangle, polygon.
+/// The VTK cell type of a face: empty cell, vertex, line, triangle, polygon.
 uint8_t cellTypeOf(size_t cornerCount) {
   constexpr std::array<uint8_t, 4> kTypes{0, 1, 3, 5};
   return cornerCount < kTypes.size() ? kTypes[cornerCount] : uint8_t{7};
 }
 
-class VtuFile {
+class VtuWriter {
  public:
-  VtuFile(AtomicFile& file, bool wideHeader) : file_(file), wideHeader_(wideHeader) {}
+  VtuWriter(AtomicFile& file, const ResultView& result) : file_(file), result_(result) {
+    const uint64_t cornerCount = result.cornerCount(), vertexCount = result.vertexCount();
+    hasWideIndices_ = std::max(cornerCount, vertexCount) > uint64_t{std::numeric_limits<int32_t>::max()};
+    hasFloatVertices_ = result.hasFloatVertices();
+    uint64_t maxByteCount =
+        std::max({cornerCount * (hasWideIndices_ ? 8 : 4), result.faceCount() * (hasWideIndices_ ? 8 : 4),
+                  3 * vertexCount * (hasFloatVertices_ ? 4 : 8)});
+    for (const Field& field : result.fields()) maxByteCount = std::max(maxByteCount, uint64_t{4} * field.size());
+    hasWideSizes_ = maxByteCount > std::numeric_limits<uint32_t>::max();
+  }
 
-  /// `emit` is called with a function that takes the values of the array, `count` of them, one after another.
+  void write() {
+    file_.write(fmt::format(
+        "<?xml version=\"1.0\"?>\n"
+        "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"{}\">\n"
+        "<UnstructuredGrid>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n<Points>\n",
+        hasWideSizes_ ? "UInt64" : "UInt32", result_.vertexCount(), result_.faceCount()));
+    hasFloatVertices_ ? writePoints<float>() : writePoints<double>();
+    file_.write("</Points>\n<Cells>\n");
+    hasWideIndices_ ? writeCells<int64_t>() : writeCells<int32_t>();
+    file_.write("</Cells>\n");
+    writeFields("PointData", FieldLocation::PerVertex);
+    writeFields("CellData", FieldLocation::PerFace);
+    file_.write("</Piece>\n</UnstructuredGrid>\n</VTKFile>\n");
+  }
+
+ private:
+  /// `emit` is called with a function that takes the `count` entries of the array, one after another.
   template <typename T, typename Emit>
-  void writeArray(std::string_view attributes, uint64_t count, Emit emit) {
+  void writeArray(const std::string& attributes, uint64_t count, Emit emit) {
     file_.write(fmt::format("<DataArray type=\"{}\" {} format=\"binary\">", vtkTypeName<T>(), attributes));
     Base64Stream stream(file_);
     const uint64_t byteCount = count * sizeof(T);
-    wideHeader_ ? stream.put(byteCount) : stream.put(static_cast<uint32_t>(byteCount));
+    hasWideSizes_ ? stream.put(byteCount) : stream.put(static_cast<uint32_t>(byteCount));
     emit([&](T value) { stream.put(value); });
     stream.finish();
     file_.write("</DataArray>\n");
   }
 
- private:
+  template <typename T>
+  void writePoints() {
+    writeArray<T>("Name=\"Points\" NumberOfComponents=\"3\"", 3 * result_.vertexCount(),
+                  [&](auto put) { result_.putCoordinates<T>(put); });
+  }
+
+  template <typename T>
+  void writeCells() {
+    const uint64_t cellCount = result_.faceCount();
+    writeArray<T>("Name=\"connectivity\"", result_.cornerCount(), [&](auto put) {
+      for (uint64_t i = 0; i < cellCount; ++i)
+        for (const uint32_t corner : result_.cornersOf(i)) put(static_cast<T>(corner));
+    });
+    writeArray<T>("Name=\"offsets\"", cellCount, [&](auto put) {
+      uint64_t end = 0;
+      for (uint64_t i = 0; i < cellCount; ++i) put(static_cast<T>(end += result_.cornersOf(i).size()));
+    });
+    writeArray<uint8_t>("Name=\"types\"", cellCount, [&](auto put) {
+      for (uint64_t i = 0; i < cellCount; ++i) put(cellTypeOf(result_.cornersOf(i).size()));
+    });
+  }
+
+  /// No element where there is no field of that location.
+  void writeFields(std::string_view element, FieldLocation location) {
+    const auto isHere = [&](const Field& field) { return field.location == location; };
+    if (std::none_of(result_.fields().begin(), result_.fields().end(), isHere)) return;
+    const Field* const main = result_.mainField(location);
+    file_.write(main == nullptr ? fmt::format("<{}>\n", element)
+                                : fmt::format("<{} Scalars=\"{}\">\n", element, main->name));
+    for (const Field& field : result_.fields())
+      if (isHere(field)) writeField(field);
+    file_.write(fmt::format("</{}>\n", element));
+  }
+
+  void writeField(const Field& field) {
+    std::string attributes = fmt::format("Name=\"{}\"", field.name);
+    if (field.componentCount != 1) attributes += fmt::format(" NumberOfComponents=\"{}\"", field.componentCount);
+    std::visit(
+        [&](const auto& entries) {
+          writeArray<decltype(withoutNan(entries[0]))>(attributes, entries.size(), [&](auto put) {
+            for (const auto entry : entries) put(withoutNan(entry));
+          });
+        },
+        field.values);
+  }
+
   AtomicFile& file_;
-  bool wideHeader_;  ///< UInt64 sizes.
+  const ResultView& result_;
+  bool hasWideIndices_ = false;  ///< Int64.
+  bool hasWideSizes_ = false;    ///< UInt64, for the byte counts of arrays.
+  bool hasFloatVertices_ = false;
 };
-
-template <typename T>
-void writePoints(VtuFile& vtu, const TriangleMesh& mesh) {
-  vtu.writeArray<T>("Name=\"Points\" NumberOfComponents=\"3\"", 3 * uint64_t{mesh.vertices.size()}, [&](auto put) {
-    for (const Vec3d& p : mesh.vertices)
-      for (size_t axis = 0; axis < 3; ++axis) put(static_cast<T>(p[axis]));
-  });
-}
-
-template <typename T>
-void writeCells(VtuFile& vtu, const TriangleMesh& mesh) {
-  const uint64_t cellCount = mesh.inputFaceCount();
-  vtu.writeArray<T>("Name=\"connectivity\"", inputCornerCount(mesh), [&](auto put) {
-    for (uint64_t i = 0; i < cellCount; ++i)
-      for (const uint32_t corner : inputFaceCorners(mesh, i)) put(static_cast<T>(corner));
-  });
-  vtu.writeArray<T>("Name=\"offsets\"", cellCount, [&](auto put) {
-    uint64_t end = 0;
-    for (uint64_t i = 0; i < cellCount; ++i) put(static_cast<T>(end += inputFaceCorners(mesh, i).size()));
-  });
-  vtu.writeArray<uint8_t>("Name=\"types\"", cellCount, [&](auto put) {
-    for (uint64_t i = 0; i < cellCount; ++i) put(cellTypeOf(inputFaceCorners(mesh, i).size()));
-  });
-}
 
 }  // namespace
 
-void writeVtu(AtomicFile& file, const TriangleMesh& mesh, const FaceValues& face) {
-  const bool isFloat = verticesAreFloats(mesh);
-  const uint64_t cellCount = mesh.inputFaceCount(), cornerCount = inputCornerCount(mesh);
-  const uint64_t largest = std::max(cornerCount, mesh.vertices.size());
-  const bool wideIndices = largest > uint64_t{std::numeric_limits<int32_t>::max()};
-  const uint64_t mostBytes = std::max(std::max(cornerCount, cellCount) * (wideIndices ? 8 : 4),
-                                      3 * uint64_t{mesh.vertices.size()} * (isFloat ? 4 : 8));
-  const bool wideHeader = mostBytes > std::numeric_limits<uint32_t>::max();
-  file.write(
-      fmt::format("<?xml version=\"1.0\"?>\n"
-                  "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"{}\">\n"
-                  "<UnstructuredGrid>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n<Points>\n",
-                  wideHeader ? "UInt64" : "UInt32", mesh.vertices.size(), cellCount));
-  VtuFile vtu(file, wideHeader);
-  isFloat ? writePoints<float>(vtu, mesh) : writePoints<double>(vtu, mesh);
-  file.write("</Points>\n<Cells>\n");
-  wideIndices ? writeCells<int64_t>(vtu, mesh) : writeCells<int32_t>(vtu, mesh);
-  file.write("</Cells>\n<CellData Scalars=\"sdf\">\n");
-  vtu.writeArray<float>("Name=\"sdf\"", cellCount, [&](auto put) {
-    for (const double value : face.values) put(std::isnan(value) ? 0.0f : static_cast<float>(value));
-  });
-  vtu.writeArray<uint8_t>("Name=\"seed\"", cellCount, [&](auto put) {
-    for (const uint8_t isSeed : face.isSeed) put(static_cast<uint8_t>(isSeed != 0));
-  });
-  file.write("</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n");
-}
+void writeVtu(AtomicFile& file, const ResultView& result) { VtuWriter(file, result).write(); }
 
 }  // namespace asdfvk

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <atomic>
 
+#include "asdf_vk/error.h"
 #include "core/parallel.h"
+#include "core/text.h"
 
 namespace asdfvk {
 namespace {
@@ -28,7 +30,61 @@ uint64_t countShortPolygons(const PolygonsView& polygons) {
   return count;
 }
 
+void requireMultipleOf3(size_t size, const char* array) {
+  if (size % 3 != 0)
+    throw Error(ErrorCode::ArraySize, fmt::format("the {} have {} entries, which is not a multiple of 3", array, size));
+}
+
+void requirePolygons(const MeshView& view) {
+  const std::span<const uint64_t> first = view.firstCorner();
+  if (first.front() != 0 || first.back() != view.corners().size() || !std::is_sorted(first.begin(), first.end()))
+    throw Error(ErrorCode::ArraySize,
+                fmt::format("the first corners of the polygons do not ascend from 0 to {}", view.corners().size()));
+}
+
+[[noreturn]] void failIndex(uint64_t faceCount, const char* face, size_t vertexCount) {
+  throw Error(ErrorCode::IndexOutOfRange,
+              fmt::format("{} with a vertex that does not exist: the mesh has {}", counted(faceCount, face),
+                          counted(vertexCount, "vertex", "vertices")));
+}
+
+void requireIndices(const MeshView& view) {
+  const std::span<const uint32_t> corners = view.corners();
+  const size_t vertexCount = view.vertexCount();
+  if (const Mesh* mesh = view.mesh()) {
+    if (const uint64_t count = countFacesWithIndexOutOfRange(*mesh); count > 0)
+      failIndex(count, mesh->polygons.isEmpty() ? "face" : "triangle", vertexCount);
+  }
+  constexpr size_t kBlockSize = 1 << 16;
+  const size_t blockCount = (corners.size() + kBlockSize - 1) / kBlockSize;  // Fits 32 bits; the corners may not.
+  const auto isBad = [&](uint32_t corner) { return corner >= vertexCount; };
+  if (countInParallel(blockCount, [&](size_t block) {
+        const auto part =
+            corners.subspan(block * kBlockSize, std::min(kBlockSize, corners.size() - block * kBlockSize));
+        return std::any_of(part.begin(), part.end(), isBad);
+      }) == 0)
+    return;
+  uint64_t faceCount = 0;
+  for (uint64_t i = 0; i < view.inputFaceCount(); ++i) {
+    const size_t begin = view.firstCorner().empty() ? 3 * i : view.firstCorner()[i];
+    const size_t end = view.firstCorner().empty() ? begin + 3 : view.firstCorner()[i + 1];
+    const std::span<const uint32_t> face = corners.subspan(begin, end - begin);
+    faceCount += std::any_of(face.begin(), face.end(), isBad) ? 1 : 0;
+  }
+  failIndex(faceCount, "face", vertexCount);
+}
+
 }  // namespace
+
+void requireValidArrays(const MeshView& view) {
+  requireMultipleOf3(view.doubles().size() + view.floats().size(), "vertex positions");
+  if (view.firstCorner().empty()) {
+    requireMultipleOf3(view.corners().size(), "triangle indices");
+  } else {
+    requirePolygons(view);
+  }
+  requireIndices(view);
+}
 
 uint64_t countFacesWithIndexOutOfRange(const TriangleMesh& mesh) {
   return countInParallel(mesh.faces.size(), [&](uint32_t f) {

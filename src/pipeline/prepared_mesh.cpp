@@ -6,8 +6,6 @@
 #include <utility>
 
 #include "asdf_vk/error.h"
-#include "core/parallel.h"
-#include "core/text.h"
 #include "io/input_faces.h"
 #include "mesh/coincident_faces.h"
 #include "mesh/edge_survey.h"
@@ -20,53 +18,11 @@ namespace {
 // The arrays of a caller are used in place.
 static_assert(sizeof(Vec3d) == 3 * sizeof(double) && sizeof(Face) == 3 * sizeof(uint32_t));
 
-void requireMultipleOf3(size_t size, const char* array) {
-  if (size % 3 != 0)
-    throw Error(ErrorCode::ArraySize, fmt::format("the {} have {} entries, which is not a multiple of 3", array, size));
-}
-
-void requirePolygons(const MeshView& view) {
-  const std::span<const uint64_t> first = view.firstCorner();
-  if (first.front() != 0 || first.back() != view.corners().size() || !std::is_sorted(first.begin(), first.end()))
-    throw Error(ErrorCode::ArraySize,
-                fmt::format("the first corners of the polygons do not ascend from 0 to {}", view.corners().size()));
-}
-
-[[noreturn]] void failIndex(uint64_t faceCount, const char* face, size_t vertexCount) {
-  throw Error(ErrorCode::IndexOutOfRange,
-              fmt::format("{} with a vertex that does not exist: the mesh has {}", counted(faceCount, face),
-                          counted(vertexCount, "vertex", "vertices")));
-}
-
-void requireIndices(const MeshView& view) {
-  const std::span<const uint32_t> corners = view.corners();
-  const size_t vertexCount = view.vertexCount();
-  if (const Mesh* mesh = view.mesh()) {
-    if (const uint64_t count = countFacesWithIndexOutOfRange(*mesh); count > 0)
-      failIndex(count, mesh->polygons.isEmpty() ? "face" : "triangle", vertexCount);
-  }
-  if (countInParallel(corners.size(), [&](size_t i) { return corners[i] >= vertexCount; }) == 0) return;
-  uint64_t faceCount = 0;
-  for (uint64_t i = 0; i < view.inputFaceCount(); ++i) {
-    const size_t begin = view.firstCorner().empty() ? 3 * i : view.firstCorner()[i];
-    const size_t end = view.firstCorner().empty() ? begin + 3 : view.firstCorner()[i + 1];
-    const std::span<const uint32_t> face = corners.subspan(begin, end - begin);
-    faceCount += std::any_of(face.begin(), face.end(), [&](uint32_t corner) { return corner >= vertexCount; });
-  }
-  failIndex(faceCount, "face", vertexCount);
-}
-
 /// Sets storage and mesh.
 void takeArrays(const MeshView& view, PreparedMesh& prepared) {
-  requireMultipleOf3(view.doubles().size() + view.floats().size(), "vertex positions");
+  requireValidArrays(view);
   if (view.inputFaceCount() == 0)
     throw Error(ErrorCode::EmptyMesh, "the mesh has no faces; a shape diameter needs a surface");
-  if (view.firstCorner().empty()) {
-    requireMultipleOf3(view.corners().size(), "triangle indices");
-  } else {
-    requirePolygons(view);
-  }
-  requireIndices(view);
   if (const Mesh* mesh = view.mesh()) {
     if (!mesh->polygons.isEmpty() && mesh->polygons.inputFaceOf.size() != mesh->faces.size())
       throw Error(ErrorCode::ArraySize, "the polygons of the mesh do not name an input face for each triangle");

@@ -4,8 +4,8 @@
 #include <string_view>
 
 #include "asdf_vk/error.h"
-#include "io/formats.h"
 #include "asdf_vk/files.h"
+#include "io/formats.h"
 
 namespace asdfvk::test {
 

@@ -2,40 +2,60 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <functional>
+#include <optional>
+
 #include "asdf_vk/error.h"
-#include "core/check.h"
 #include "written_file.h"
 
 using namespace asdfvk;
 
 namespace {
 
-const std::vector<double> kFaceValues{1, 2, 3, 4};
-const std::vector<uint8_t> kFaceSeeds{1, 0, 0, 1};
+const std::vector<Field> kFaceFields = sdfAndSeed({1, 2, 3, 4}, {1, 0, 0, 1});
+
+std::optional<ErrorCode> codeOf(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const Error& error) {
+    return error.code();
+  }
+  return std::nullopt;
+}
+
+/// Requires that no format is written with these fields, and that no file is left.
+void requireRejected(const std::vector<Field>& fields) {
+  for (const std::string& format : resultFormats()) {
+    CAPTURE(format);
+    const Folder folder;
+    CHECK(codeOf([&] { writeResult(folder / ("out." + format), tetrahedron(), fields); }) == ErrorCode::OptionConflict);
+    CHECK(folder.names().empty());
+  }
+}
 
 }  // namespace
 
-TEST_CASE("the format is told by the extension in any case, or by the options before it") {
-  CHECK(resultFormatOf("a.ply") == ResultFormat::Ply);
-  CHECK(resultFormatOf("a.b.VTU") == ResultFormat::Vtu);
-  CHECK(resultFormatOf("dir.csv/a.NpY") == ResultFormat::Npy);
-  CHECK(resultFormatOf("a.ply", {.ascii = false, .format = ResultFormat::Csv}) == ResultFormat::Csv);
-  CHECK(resultFormatNamed("csv") == ResultFormat::Csv);
-  CHECK(resultFormatNamed(".PLY") == ResultFormat::Ply);
+TEST_CASE("the options decide the format, then the extension in any case") {
+  CHECK(resultFormats() == std::vector<std::string>{"ply", "vtu", "npy", "npz", "csv"});
+  CHECK(resultFormatOf("a.ply") == "ply");
+  CHECK(resultFormatOf("a.b.VTU") == "vtu");
+  CHECK(resultFormatOf("dir.csv/a.NpY") == "npy");
+  CHECK(resultFormatOf("a.ply", {.format = "csv"}) == "csv");
+  CHECK(resultFormatOf("-", {.format = "npz"}) == "npz");
 }
 
-TEST_CASE("a format that nothing tells is a usage error") {
+TEST_CASE("an unknown format is an error that lists the formats") {
   for (const char* path : {"a.obj", "a", "ply", ".ply", "", "-", "a.ply.gz"}) {
     CAPTURE(path);
-    try {
-      (void)resultFormatOf(path);
-      FAIL("no error");
-    } catch (const Error& error) {
-      CHECK(error.kind() == ErrorKind::Usage);
-      CHECK(std::string(error.what()).find("npy") != std::string::npos);
-    }
+    CHECK(codeOf([&] { (void)resultFormatOf(path); }) == ErrorCode::UnknownFormat);
   }
-  CHECK_THROWS_AS((void)resultFormatNamed("obj"), Error);
+  for (const char* name : {"obj", "PNG", "?"})
+    CHECK(codeOf([&] { (void)resultFormatOf("a.ply", {.format = name}); }) == ErrorCode::UnknownFormat);
+  try {
+    (void)resultFormatOf("-");
+  } catch (const Error& error) {
+    CHECK(std::string(error.what()).find("ply, vtu, npy, npz or csv") != std::string::npos);
+  }
 }
 
 TEST_CASE("a minus sign writes the named format to standard output") {
@@ -43,7 +63,7 @@ TEST_CASE("a minus sign writes the named format to standard output") {
   const int saved = ::dup(STDOUT_FILENO);
   const int file = ::open((folder / "stdout").c_str(), O_WRONLY | O_CREAT, 0600);
   ::dup2(file, STDOUT_FILENO);
-  writeResult("-", tetrahedron(), {kFaceValues, kFaceSeeds}, {.ascii = false, .format = ResultFormat::Csv});
+  writeResult("-", tetrahedron(), kFaceFields, {.format = "csv"});
   ::dup2(saved, STDOUT_FILENO);
   ::close(file);
   ::close(saved);
@@ -51,14 +71,76 @@ TEST_CASE("a minus sign writes the named format to standard output") {
   CHECK(!std::filesystem::exists("-"));
 }
 
-TEST_CASE("values that do not match the faces are a programmer's mistake, found before anything is written") {
-  const Folder folder;
-  const std::vector<double> few{1, 2, 3};
-  CHECK_THROWS_AS(writeResult(folder / "a.ply", tetrahedron(), {few, kFaceSeeds}), CheckFailure);
-  CHECK(folder.names().empty());
+TEST_CASE("fields that do not fit the mesh are rejected by every format before a file exists") {
+  requireRejected({makeField("sdf", std::vector<double>{1, 2, 3})});
+  requireRejected({makeField("sdf", std::vector<double>{1, 2, 3, 4, 5})});
+  requireRejected({makeField("p", std::vector<double>(4), FieldLocation::PerFace, 3)});
+  requireRejected({makeField("p", std::vector<double>(12), FieldLocation::PerVertex, 1)});
+  requireRejected({makeField("p", std::vector<double>(8), FieldLocation::PerFace, 2)});
+  requireRejected({makeField("p", std::vector<double>(), FieldLocation::PerFace, 0)});
+}
+
+TEST_CASE("invalid and repeated names of fields are rejected by every format") {
+  const std::vector<double> values(4);
+  for (const char* name : {"", "a b", "a,b", "a.b", "\"", "<", "\xc3\xa4", "a\n"}) {
+    CAPTURE(name);
+    requireRejected({makeField(name, values)});
+  }
+  requireRejected({makeField("a", values), makeField("b", values), makeField("a", values)});
+  requireRejected({makeField("a", values), makeField("a", values, FieldLocation::PerVertex)});
+}
+
+TEST_CASE("names that a format uses itself, or two columns of one name, are rejected by this format only") {
+  const auto write = [](const std::string& extension, const std::vector<Field>& fields) {
+    return codeOf([&] { (void)written(extension, tetrahedron(), fields); });
+  };
+  const Field sdf = makeField("sdf", std::vector<double>(4));
+  for (const char* name : {"quality", "red", "alpha", "vertex_indices"}) {
+    const Field reserved = makeField(name, std::vector<uint8_t>(4));
+    CHECK(write(".ply", {sdf, reserved}) == ErrorCode::OptionConflict);
+    CHECK(!write(".csv", {sdf, reserved}));
+  }
+  CHECK(!write(".ply", {makeField("quality", std::vector<double>(4))}));
+  CHECK(write(".ply", {sdf, makeField("x", std::vector<double>(4), FieldLocation::PerVertex)}) ==
+        ErrorCode::OptionConflict);
+  CHECK(write(".csv", {makeField("face", std::vector<double>(4))}) == ErrorCode::OptionConflict);
+  const std::vector<Field> columns{makeField("p", std::vector<double>(12), FieldLocation::PerFace, 3),
+                                   makeField("p_y", std::vector<uint8_t>(4))};
+  CHECK(write(".ply", columns) == ErrorCode::OptionConflict);
+  CHECK(write(".csv", columns) == ErrorCode::OptionConflict);
+  CHECK(!write(".vtu", columns));
+  CHECK(!write(".npz", columns));
+}
+
+TEST_CASE("arrays of a caller give the same files as the mesh") {
+  const Mesh mesh = tetrahedron(), polygons = polygonMesh();
+  std::vector<float> positions;
+  for (const Vec3d& p : mesh.vertices)
+    for (size_t axis = 0; axis < 3; ++axis) positions.push_back(static_cast<float>(p[axis]));
+  std::vector<uint32_t> corners;
+  for (const Face& face : mesh.faces) corners.insert(corners.end(), face.begin(), face.end());
+  const MeshView view{std::span<const float>(positions), corners};
+  const MeshView polygonView{std::span<const double>(&polygons.vertices[0].x, 3 * polygons.vertices.size()),
+                             polygons.polygons.corners, polygons.polygons.firstCorner};
+  for (const std::string& format : resultFormats()) {
+    CHECK(written("." + format, view, kFaceFields) == written("." + format, mesh, kFaceFields));
+    CHECK(written("." + format, polygonView, kFaceFields) == written("." + format, polygons, kFaceFields));
+  }
+}
+
+TEST_CASE("a face with an index out of range, and offsets that do not ascend, are errors") {
+  Mesh mesh = tetrahedron();
+  mesh.faces[2][1] = 4;
+  CHECK(codeOf([&] { (void)written(".ply", mesh, kFaceFields); }) == ErrorCode::IndexOutOfRange);
+  Mesh polygons = polygonMesh();
+  for (const std::vector<uint64_t>& first :
+       {std::vector<uint64_t>{0, 4, 3, 12, 14}, {1, 4, 7, 12, 14}, {0, 4, 7, 12, 15}}) {
+    polygons.polygons.firstCorner = first;
+    CHECK(codeOf([&] { (void)written(".vtu", polygons, kFaceFields); }) == ErrorCode::ArraySize);
+  }
 }
 
 TEST_CASE("an empty mesh is written in every format") {
-  for (const char* extension : {".ply", ".vtu", ".npy", ".csv"}) CHECK(!written(extension, Mesh{}, {}, {}).empty());
-  CHECK(written(".csv", Mesh{}, {}, {}) == "face,sdf,seed\n");
+  for (const std::string& format : resultFormats()) CHECK(!written("." + format, Mesh{}, sdfAndSeed({}, {})).empty());
+  CHECK(written(".csv", Mesh{}, sdfAndSeed({}, {})) == "face,sdf,seed\n");
 }

@@ -26,7 +26,7 @@ std::string decodeBase64(const std::string& text) {
   return bytes;
 }
 
-/// The decoded values of the array of that name and type, whose size header must tell their bytes.
+/// The decoded values of the array of that name and type, whose byte count must be right.
 template <typename T>
 std::vector<T> arrayOf(const std::string& vtu, const std::string& type, const std::string& name) {
   const size_t tag = vtu.find("<DataArray type=\"" + type + "\" Name=\"" + name + "\"");
@@ -42,11 +42,12 @@ std::vector<T> arrayOf(const std::string& vtu, const std::string& type, const st
 
 }  // namespace
 
-TEST_CASE("VTU holds points, cells, values and seeds as inline base64") {
-  const std::string vtu = written(".vtu", tetrahedron(), {0.5, kNoValue, 2.25, 1}, {1, 0, 1, 0});
+TEST_CASE("VTU holds points, cells and fields as inline base64") {
+  const std::string vtu = written(".vtu", tetrahedron(), sdfAndSeed({0.5, kNoValue, 2.25, 1}, {1, 0, 1, 0}));
   CHECK(vtu.find("header_type=\"UInt32\"") != std::string::npos);
   CHECK(vtu.find("<Piece NumberOfPoints=\"4\" NumberOfCells=\"4\">") != std::string::npos);
   CHECK(vtu.find("<CellData Scalars=\"sdf\">") != std::string::npos);
+  CHECK(vtu.find("PointData") == std::string::npos);
   CHECK(vtu.ends_with("</VTKFile>\n"));
   CHECK(arrayOf<float>(vtu, "Float32", "Points") == std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1.5, 0, 0, 0, -2});
   CHECK(arrayOf<int32_t>(vtu, "Int32", "connectivity") == std::vector<int32_t>{0, 1, 2, 0, 3, 1, 0, 2, 3, 1, 3, 2});
@@ -56,21 +57,21 @@ TEST_CASE("VTU holds points, cells, values and seeds as inline base64") {
   CHECK(arrayOf<uint8_t>(vtu, "UInt8", "seed") == std::vector<uint8_t>{1, 0, 1, 0});
 }
 
-TEST_CASE("VTU keeps polygons, also those of too few corners") {
-  const std::string vtu = written(".vtu", polygonMesh(), {1, 2, 3, kNoValue}, {1, 1, 1, 0});
+TEST_CASE("VTU keeps polygons, also those with fewer than three corners") {
+  const std::string vtu = written(".vtu", polygonMesh(), sdfAndSeed({1, 2, 3, kNoValue}, {1, 1, 1, 0}));
   CHECK(arrayOf<int32_t>(vtu, "Int32", "connectivity") ==
         std::vector<int32_t>{0, 1, 2, 3, 1, 4, 2, 0, 1, 4, 2, 5, 3, 5});
   CHECK(arrayOf<int32_t>(vtu, "Int32", "offsets") == std::vector<int32_t>{4, 7, 12, 14});
   CHECK(arrayOf<uint8_t>(vtu, "UInt8", "types") == std::vector<uint8_t>{7, 5, 7, 3});
 }
 
-TEST_CASE("VTU arrays longer than the encoder's buffer come back whole, at each remainder by three") {
+TEST_CASE("VTU arrays longer than the buffer of the encoder are complete, at each remainder modulo 3") {
   for (const uint32_t count : {5000u, 5001u, 5002u}) {
     Mesh mesh = tetrahedron();
     mesh.faces.assign(count, {0, 1, 2});
     std::vector<double> values(count);
     for (uint32_t i = 0; i < count; ++i) values[i] = i * 0.5;
-    const std::string vtu = written(".vtu", mesh, values, std::vector<uint8_t>(count, 1));
+    const std::string vtu = written(".vtu", mesh, sdfAndSeed(values, std::vector<uint8_t>(count, 1)));
     const std::vector<float> read = arrayOf<float>(vtu, "Float32", "sdf");
     REQUIRE(read.size() == count);
     for (uint32_t i = 0; i < count; ++i) REQUIRE(read[i] == static_cast<float>(values[i]));
@@ -78,9 +79,24 @@ TEST_CASE("VTU arrays longer than the encoder's buffer come back whole, at each 
   }
 }
 
-TEST_CASE("VTU points that float cannot hold are doubles") {
+TEST_CASE("VTU points beyond the precision of float are doubles") {
   Mesh mesh = tetrahedron();
   mesh.vertices[0].x = 1e7 + 0.1;
-  const std::string vtu = written(".vtu", mesh, {1, 1, 1, 1}, {1, 1, 1, 1});
+  const std::string vtu = written(".vtu", mesh, sdfAndSeed({1, 1, 1, 1}, {1, 1, 1, 1}));
   CHECK(arrayOf<double>(vtu, "Float64", "Points")[0] == 1e7 + 0.1);
+}
+
+TEST_CASE("VTU holds vertex fields, vectors and integers") {
+  const std::string vtu =
+      written(".vtu", tetrahedron(),
+              {makeField("part", std::vector<uint32_t>{7, 0, 4000000000, 1}),
+               makeField("axis", std::vector<double>{1, 2, 3, kNoValue, 5, 6, 7, 8, 9, 10, 11, 12},
+                         FieldLocation::PerVertex, 3),
+               makeField("angle", std::vector<double>{0.5, 1.5, 2.5, 3.5}, FieldLocation::PerVertex)});
+  CHECK(vtu.find("<PointData Scalars=\"angle\">\n<DataArray type=\"Float32\" Name=\"axis\" "
+                 "NumberOfComponents=\"3\" format=\"binary\">") != std::string::npos);
+  CHECK(vtu.find("<CellData>\n<DataArray type=\"UInt32\" Name=\"part\" format=\"binary\">") != std::string::npos);
+  CHECK(arrayOf<uint32_t>(vtu, "UInt32", "part") == std::vector<uint32_t>{7, 0, 4000000000, 1});
+  CHECK(arrayOf<float>(vtu, "Float32", "axis") == std::vector<float>{1, 2, 3, 0, 5, 6, 7, 8, 9, 10, 11, 12});
+  CHECK(arrayOf<float>(vtu, "Float32", "angle") == std::vector<float>{0.5, 1.5, 2.5, 3.5});
 }

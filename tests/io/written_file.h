@@ -5,15 +5,16 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "asdf_vk/files.h"
-#include "mesh/mesh.h"
 
 namespace asdfvk {
 
-/// A folder of its own, gone with the object.
+/// A new folder, removed with the object.
 class Folder {
  public:
   Folder() {
@@ -48,15 +49,30 @@ inline void putContent(const std::filesystem::path& path, const std::string& con
   std::ofstream(path, std::ios::binary) << content;
 }
 
-/// What writeResult() leaves in a file of that extension.
-inline std::string written(const std::string& extension, const Mesh& mesh, const std::vector<double>& values,
-                           const std::vector<uint8_t>& isSeed, const WriteOptions& options = {}) {
+inline Field makeField(const std::string& name, Field::Values values, FieldLocation location = FieldLocation::PerFace,
+                       uint32_t componentCount = 1) {
+  Field field;
+  field.name = name;
+  field.location = location;
+  field.componentCount = componentCount;
+  field.values = std::move(values);
+  return field;
+}
+
+/// The fields of a computation by default.
+inline std::vector<Field> sdfAndSeed(const std::vector<double>& sdf, const std::vector<uint8_t>& seed) {
+  return {makeField("sdf", sdf), makeField("seed", seed)};
+}
+
+/// The content of a file of that extension that writeResult() wrote.
+inline std::string written(const std::string& extension, const MeshView& mesh, const std::vector<Field>& fields,
+                           const WriteOptions& options = {}) {
   const Folder folder;
-  writeResult(folder / ("out" + extension), mesh, {values, isSeed}, options);
+  writeResult(folder / ("out" + extension), mesh, fields, options);
   return contentOf(folder / ("out" + extension));
 }
 
-/// Takes numbers from the front of a text of bytes.
+/// Reads successive numbers.
 class Bytes {
  public:
   explicit Bytes(std::string_view bytes) : bytes_(bytes) {}
@@ -74,12 +90,12 @@ class Bytes {
   std::string_view bytes_;
 };
 
-/// A tetrahedron with float coordinates and one face without a value.
+/// A tetrahedron with coordinates that float holds exactly.
 inline Mesh tetrahedron() {
   return {{{0, 0, 0}, {1, 0, 0}, {0, 1.5, 0}, {0, 0, -2}}, {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}}, {}};
 }
 
-/// A quad, a triangle, a pentagon and a two-cornered face, with the triangles that they were cut into.
+/// A quad, a triangle, a pentagon and a face of two corners, with their triangles.
 inline Mesh polygonMesh() {
   Mesh mesh;
   mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {2, 0.5, 0}, {0.5, 2, 0}};

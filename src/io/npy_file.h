@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+
+#include "asdf_vk/field.h"
+
+namespace asdfvk {
+
+// .npy, version 1.0, of NumPy: a header, then the entries of one field, little-endian; real numbers as float32.
+
+/// Ends at a multiple of 64 bytes.
+[[nodiscard]] std::string npyHeader(const Field& field);
+[[nodiscard]] uint64_t npyEntriesSize(const Field& field);
+/// Calls put with successive parts of the entries.
+void putNpyEntries(const Field& field, const std::function<void(std::span<const char>)>& put);
+
+/// The field of a whole .npy, without a name. byte: the position of the .npy in its file. Throws
+/// Error{UnreadableInput}.
+[[nodiscard]] Field parseNpy(std::span<const char> bytes, uint64_t byte = 0);
+
+}  // namespace asdfvk
