@@ -204,12 +204,11 @@ void validateOptions(const CommandLine& line) {
     fail("--picture - needs standard output for itself; give it a file, or drop --json and -o -");
   const bool isCpu = line.session.backend == "cpu" || line.session.backend == "reference";
   const TraceVariant& variant = line.session.variant;
-  const auto isSet = [](const std::string& name) { return !name.empty() && name != "auto"; };
   if (isCpu && line.session.requireGpu)
     fail("--require-gpu contradicts --backend cpu and reference, which run on the CPU; drop one");
   if (isCpu && !line.session.device.empty())
     fail("--device chooses a Vulkan device, which --backend cpu and reference do not use; drop one");
-  if (isCpu && (isSet(variant.kernel) || isSet(variant.bvh) || isSet(variant.fetch)))
+  if (isCpu && !(variant.kernel.empty() && variant.bvh.empty() && variant.fetch.empty()))
     fail("--kernel, --bvh and --fetch choose shaders, which --backend cpu and reference do not use; drop one");
   const bool estimates =
       (line.options.estimatesError || line.options.rounds.maxError) && line.options.seeds.kind != SeedCount::Kind::All;
@@ -266,6 +265,9 @@ CommandLine parseCommandLine(std::vector<std::string> arguments) {
   }
   if (line.options.rounds.areSet() && app.count("--seeds") == 0)
     line.options.seeds = SeedCount::ofShare(kFirstRoundShare);
+  TraceVariant& variant = line.session.variant;
+  for (std::string* name : {&variant.kernel, &variant.bvh, &variant.fetch})
+    if (*name == "auto") name->clear();
   line.options.keepsScene = !line.picture.empty();
   validateOptions(line);
   return line;
