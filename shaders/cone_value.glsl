@@ -1,7 +1,6 @@
 // Reduces the lengths of one cone's rays to its value, all lanes of the cone together (the twin of coneValue() in
-// src/cone/cone.h). Needs the shared array `lengths` with the cone's kRayCount entries from `base` on, negative where the
-// ray is not valid; the shared array `middles`; loadRay(); `push`; and the
-// constants kRayCount and kLanesPerCone.
+// src/cone/cone.h). Needs the shared array `lengths` with the cone's kRayCount entries from `base` on, negative where
+// the ray is not valid; the shared array `middles`; loadRay(); `push`; and the constants kRayCount and kLanesPerCone.
 #include "shared/cone_rules.h"
 
 float lengthAt(uint base, uint ray) { return lengths[base + ray]; }

@@ -1,5 +1,6 @@
 // The nearest hit of one ray, by the hierarchy that the kernel is compiled for.
 #include "walk_parts.glsl"
+
 #include "binary_walk.glsl"
 #include "wide_walk.glsl"
 

@@ -9,11 +9,11 @@ PoissonRow loadRow(uint row) {
 }
 
 // sum += (S v)(row) for the vector `v`, an array's name.
-#define ADD_COUPLED(row, v, sum)                                                                               \
-  {                                                                                                            \
-    const PoissonRow entries = loadRow(row);                                                                   \
-    sum += entries.coupling0 * v[entries.column0] + entries.coupling1 * v[entries.column1] +                   \
-           entries.coupling2 * v[entries.column2];                                                             \
-    const uint tailEnd = entries.tailBegin + entries.tailCount;                                                \
-    for (uint i = entries.tailBegin; i < tailEnd; ++i) sum += tailCouplings[i] * v[tailColumns[i]];            \
+#define ADD_COUPLED(row, v, sum)                                                                    \
+  {                                                                                                 \
+    const PoissonRow entries = loadRow(row);                                                        \
+    sum += entries.coupling0 * v[entries.column0] + entries.coupling1 * v[entries.column1] +        \
+           entries.coupling2 * v[entries.column2];                                                  \
+    const uint tailEnd = entries.tailBegin + entries.tailCount;                                     \
+    for (uint i = entries.tailBegin; i < tailEnd; ++i) sum += tailCouplings[i] * v[tailColumns[i]]; \
   }

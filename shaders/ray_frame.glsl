@@ -12,12 +12,12 @@ RayFrame makeRayFrame(vec3 direction) {
                   vec3(b, s + direction.y * direction.y * a, -direction.y), direction);
 }
 
-// A vertex in the ray's frame depends on the vertex and the ray only: `precise` keeps it, and the edge functions made of
-// it, the same in both triangles of an edge, so that no ray slips between them.
+// A vertex in the ray's frame depends on the vertex and the ray only: `precise` keeps it, and the edge functions made
+// of it, the same in both triangles of an edge, so that no ray slips between them.
 vec3 toRayFrame(RayFrame frame, vec3 v) {
-  precise vec3 p = vec3(frame.u.x * v.x + frame.u.y * v.y + frame.u.z * v.z,
-                        frame.w.x * v.x + frame.w.y * v.y + frame.w.z * v.z,
-                        frame.direction.x * v.x + frame.direction.y * v.y + frame.direction.z * v.z);
+  precise vec3 p =
+      vec3(frame.u.x * v.x + frame.u.y * v.y + frame.u.z * v.z, frame.w.x * v.x + frame.w.y * v.y + frame.w.z * v.z,
+           frame.direction.x * v.x + frame.direction.y * v.y + frame.direction.z * v.z);
   return p;
 }
 

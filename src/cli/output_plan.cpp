@@ -83,7 +83,8 @@ std::vector<std::string> planOutputs(const CommandLine& line) {
   std::error_code ignored;
   if (line.meshes.size() > 1 && line.output == "-") usageError("-o - takes the result of one mesh; name one mesh");
   if (line.meshes.size() > 1 && !line.output.empty() && !fs::is_directory(line.output, ignored))
-    usageError(fmt::format("-o {} is not a directory, which several meshes need; create it, or name one mesh", line.output));
+    usageError(
+        fmt::format("-o {} is not a directory, which several meshes need; create it, or name one mesh", line.output));
 
   const WriteOptions options = writeOptionsOf(line);
   std::vector<std::string> outputs;
@@ -97,8 +98,8 @@ std::vector<std::string> planOutputs(const CommandLine& line) {
         usageError(fmt::format("-o {} and --format {} contradict each other; drop one", output, line.format));
       const auto [other, isNew] = meshOfOutput.emplace(normalised(output), mesh);
       if (!isNew)
-        usageError(fmt::format("{} and {} would both be written to {}; run them one by one with -o", other->second, mesh,
-                           output));
+        usageError(fmt::format("{} and {} would both be written to {}; run them one by one with -o", other->second,
+                               mesh, output));
     }
     outputs.push_back(output);
   }

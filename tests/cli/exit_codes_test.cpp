@@ -24,12 +24,12 @@ TEST_CASE("help and version go to standard output with exit code 0") {
   CHECK_EQ(help.exitCode, 0);
   CHECK(help.error.empty());
   for (const char* option :
-       {"--seeds",     "--rng-seed",       "--rays",         "--angle",        "--solver",        "--guidance",
-        "--tolerance", "--max-iterations", "--orient",       "--output",       "--format",        "--ascii",
-        "--backend",   "--device",         "--require-gpu",  "--list-devices", "--check",         "--json",
-        "--picture",   "--picture-of",     "--picture-view", "--picture-up",   "--recipe",        "--sampler",
-        "--max-error",      "--time-budget",  "--no-estimate",  "--cone-rotation", "--weights",
-        "--pooling",   "--quiet",          "--threads",      "--version",      "--help",          "Exit codes"})
+       {"--seeds",     "--rng-seed",       "--rays",         "--angle",         "--solver",  "--guidance",
+        "--tolerance", "--max-iterations", "--orient",       "--output",        "--format",  "--ascii",
+        "--backend",   "--device",         "--require-gpu",  "--list-devices",  "--check",   "--json",
+        "--picture",   "--picture-of",     "--picture-view", "--picture-up",    "--recipe",  "--sampler",
+        "--max-error", "--time-budget",    "--no-estimate",  "--cone-rotation", "--weights", "--pooling",
+        "--quiet",     "--threads",        "--version",      "--help",          "Exit codes"})
     CHECK_MESSAGE(help.output.find(option) != std::string::npos, option);
   const ChildOutcome version = runAsdf({"--version"});
   CHECK_EQ(version.exitCode, 0);

@@ -84,9 +84,9 @@ TEST_CASE("--json is exactly one document with every promised key and its type")
 TEST_CASE("what was asked for is in the options of the document") {
   const ScratchFolder folder;
   const std::string mesh = folder.write("sphere.off", sphereOff(12));
-  const Json json = onlyDocument(runAsdf({mesh, "--json", "--quiet", "--backend", "reference", "--recipe", "quality",
-                                          "--sampler", "adaptive", "--max-error", "50%",
-                                          "--time-budget", "100s", "--pooling", "0.5", "--smooth", "2x1"}));
+  const Json json = onlyDocument(
+      runAsdf({mesh, "--json", "--quiet", "--backend", "reference", "--recipe", "quality", "--sampler", "adaptive",
+               "--max-error", "50%", "--time-budget", "100s", "--pooling", "0.5", "--smooth", "2x1"}));
   const Json& options = json.at("options");
   CHECK_EQ(options.at("recipe").get<std::string>(), "quality");
   CHECK_EQ(options.at("seeds").get<std::string>(), "2%");

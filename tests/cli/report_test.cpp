@@ -3,9 +3,9 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "core/text.h"
 #include "cli/report_json.h"
 #include "cli/report_text.h"
+#include "core/text.h"
 
 namespace asdfvk {
 namespace {

@@ -29,8 +29,8 @@ void put(vec3 v) {
 void main() {
   if (gl_GlobalInvocationID.x != 0u) return;
   const int n = int(kBvhNodeTexelCount);  // the second of two, so that the stride is proven too
-  const DeviceBvhNode node = decodeBvhNode(imageLoad(nodes, n), imageLoad(nodes, n + 1), imageLoad(nodes, n + 2),
-                                           imageLoad(nodes, n + 3));
+  const DeviceBvhNode node =
+      decodeBvhNode(imageLoad(nodes, n), imageLoad(nodes, n + 1), imageLoad(nodes, n + 2), imageLoad(nodes, n + 3));
   put(node.leftMin), put(node.left), put(node.leftMax), put(node.unused0);
   put(node.rightMin), put(node.right), put(node.rightMax), put(node.unused1);
   const int t = int(kBvhTriangleTexelCount);

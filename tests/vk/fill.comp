@@ -2,7 +2,11 @@
 // Writes value + index into every word of a buffer.
 layout(local_size_x_id = 0) in;
 layout(set = 0, binding = 0) writeonly buffer Words { uint words[]; };
-layout(push_constant) uniform Push { uint value; uint wordCount; } push;
+layout(push_constant) uniform Push {
+  uint value;
+  uint wordCount;
+}
+push;
 void main() {
   const uint i = gl_GlobalInvocationID.x;
   if (i < push.wordCount) words[i] = push.value + i;
