@@ -33,16 +33,21 @@ struct WriteOptions {
 [[nodiscard]] ASDFVK_API std::string resultFormatOf(const std::filesystem::path& path,
                                                     const WriteOptions& options = {});
 
-/// Writes the mesh with these fields, whole or not at all; "-" is standard output. Vertices are float where every
-/// coordinate is exactly a float, else double. PLY: the first real face field is `quality`, which also gives the
-/// colour; the others follow by name. VTU: all fields. NPY: the first field. NPZ: all fields. CSV: the face fields, one
-/// row per face, the first column `face`. A missing value is NaN in .npy, .npz and .csv, 0 in .ply and .vtu. Throws
-/// Error{OutputNotWritable}, Error{UnknownFormat}, Error{OptionConflict} for a field whose size does not fit the mesh.
+/// Writes the fields, and in .ply and .vtu the mesh, whole or not at all; "-" is standard output. Vertices are float
+/// where every coordinate is exactly a float, else double.
+/// PLY: the first real face field with one component is `quality` and gives the colour; the others follow by name.
+/// VTU: all fields. NPY: the first field. NPZ: all fields. CSV: a row per face, the first column `face`; or a row per
+/// vertex, the first column `vertex`, where no field is per face. PLY and CSV split three components into NAME_x,
+/// NAME_y and NAME_z. No value is NaN in .npy, .npz and .csv, 0 in .ply and .vtu.
+/// Throws Error{OutputNotWritable}; Error{UnknownFormat}; Error{OptionConflict} for a field whose size does not fit the
+/// mesh, an invalid or repeated name, and fields that the format cannot hold; Error{ArraySize}, Error{IndexOutOfRange}
+/// for an invalid mesh.
 ASDFVK_API void writeResult(const std::filesystem::path& path, const MeshView& mesh, std::span<const Field> fields,
                             const WriteOptions& options = {});
 
-/// Reads the fields of a file that writeResult() wrote, of any of its formats. float32 values come back as double.
-/// Units are not stored. Throws Error{UnreadableInput}.
+/// Reads the fields of a file that writeResult() wrote, of any of its formats, in the order of the file. Real values
+/// are double, in CSV all values. No format stores units and labels; NPY has one field, named `values`. A PLY of
+/// another program gives its numbers per vertex and per face. Throws Error{UnreadableInput}.
 [[nodiscard]] ASDFVK_API std::vector<Field> readFields(const std::filesystem::path& path);
 
 }  // namespace asdfvk
