@@ -1,6 +1,6 @@
 #version 450
-// Conjugate gradients, first half of an iteration: the product (I - S) p and the partial sums of all that the second
-// half wants to know.
+// Conjugate gradients, first half of an iteration: the product (I - S) p and the partial sums that the second half
+// needs.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/poisson_layout.h"
 

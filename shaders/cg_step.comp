@@ -1,6 +1,6 @@
 #version 450
-// Conjugate gradients, second half of an iteration: the scalars, x += alpha p, r -= alpha (I - S) p and p = r + beta p;
-// or, where there is no more to do, the end of all iterations that have been recorded.
+// Conjugate gradients, second half of an iteration: the scalars, x += alpha p, r -= alpha (I - S) p and p = r + beta p.
+// Where the iteration has ended, it disables all iterations that were recorded after it.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/poisson_layout.h"
 

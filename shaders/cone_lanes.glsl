@@ -1,12 +1,12 @@
-// The shape diameter of one seed face per cone: a workgroup holds the rays of one or more cones, lane i of a cone walks
-// the rays i, i + kLanesPerCone, ..., and the lanes reduce the lengths to one float. Needs FIND_NEAREST_HIT.
+// The shape diameter of one seed face per cone: a workgroup holds the rays of one or more cones. Lane i of a cone
+// traces the rays i, i + kLanesPerCone, ..., and the lanes reduce the lengths to one float. Needs FIND_NEAREST_HIT.
 #include "shared/cone_layout.h"
 
 layout(local_size_x_id = 0, local_size_y_id = 1) in;
 layout(constant_id = 0) const uint kLanesPerCone = 32;
 layout(constant_id = 1) const uint kConesPerWorkgroup = 1;
 layout(constant_id = 2) const uint kRayCount = 30;
-layout(constant_id = 3) const uint kIterationLimit = 8000;  // Of one lane, all its rays together.
+layout(constant_id = 3) const uint kIterationLimit = 8000;  // Of one lane, over all its rays.
 layout(constant_id = 4) const bool kWritesHits = false;
 
 layout(set = 0, binding = 6) writeonly buffer Results { uint results[]; };

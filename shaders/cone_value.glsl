@@ -1,11 +1,11 @@
-// Reduces the lengths of one cone's rays to its value, all lanes of the cone together (the twin of coneValue() in
-// src/cone/cone.h). Needs the shared array `lengths` with the cone's kRayCount entries from `base` on, negative where
-// the ray is not valid; the shared array `middles`; loadRay(); `push`; and the constants kRayCount and kLanesPerCone.
+// Reduces the lengths of the rays of one cone to its value, with all lanes of the cone (the twin of coneValue() in
+// src/cone/cone.h). Needs the shared array `lengths` with the kRayCount entries of the cone from `base` on, negative
+// for invalid rays; the shared array `middles`; loadRay(); `push`; and the constants kRayCount and kLanesPerCone.
 #include "shared/cone_rules.h"
 
 float lengthAt(uint base, uint ray) { return lengths[base + ray]; }
 
-// Every lane ranks its own rays among all; those of the two middle ranks give the median (twice the same for an odd
+// Each lane ranks its own rays among all; those of the two middle ranks give the median (the same ray twice for an odd
 // count). Returns the number of valid rays and their mean.
 void findMiddles(uint base, uint slot, uint lane, out uint validCount, out float mean) {
   validCount = 0u;
@@ -28,7 +28,7 @@ void findMiddles(uint base, uint slot, uint lane, out uint validCount, out float
   }
 }
 
-// To be called by one lane, after a barrier.
+// Called by one lane, after a barrier.
 float weightedMeanAroundMedian(uint base, uint slot, uint validCount, float mean) {
   const float median = 0.5 * (middles[2u * slot] + middles[2u * slot + 1u]);
   float variance = 0.0;

@@ -1,5 +1,5 @@
 #version 450
-// One Jacobi iteration, y' = b + S y, and the partial sums of the squares of the residual r = b + S y - y of y.
+// One Jacobi iteration, y' = b + S y, and the partial sums of the squares of the residual r = b + S y - y.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/poisson_layout.h"
 

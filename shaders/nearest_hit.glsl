@@ -1,4 +1,4 @@
-// The nearest hit of one ray, by the hierarchy that the kernel is compiled for.
+// The nearest hit of one ray, in the hierarchy for which the kernel is compiled.
 #include "walk_parts.glsl"
 
 #include "binary_walk.glsl"

@@ -1,4 +1,4 @@
-// How the Poisson kernels share the rows out and add numbers up. Include first.
+// Distribution of rows over lanes, and sums over lanes, for the Poisson kernels. Include first.
 layout(local_size_x_id = 0) in;
 layout(constant_id = 0) const uint kLaneCount = 64;  // A power of two and a multiple of 8.
 
@@ -9,11 +9,11 @@ shared mat2x3 laneSums[kLaneCount];
 uint firstRow() { return gl_WorkGroupID.x * kLaneCount + gl_LocalInvocationID.x; }
 uint rowStride() { return gl_NumWorkGroups.x * kLaneCount; }
 
-// The sum over the workgroup's lanes, in all of them: a tree of fixed shape, so that a device repeats itself to the
-// bit.
+// The sum over the lanes of the workgroup, returned in all of them. A tree of fixed shape, so that repeated runs on a
+// device give the same bits.
 mat2x3 workgroupSum(mat2x3 value) {
   const uint lane = gl_LocalInvocationID.x;
-  barrier();  // an earlier sum has been read by every lane
+  barrier();  // Every lane has read the previous sum.
   laneSums[lane] = value;
   barrier();
   for (uint count = kLaneCount / 2u; count > 0u; count /= 2u) {

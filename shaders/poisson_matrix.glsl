@@ -8,7 +8,7 @@ PoissonRow loadRow(uint row) {
   return decodePoissonRow(imageLoad(rows, texel), imageLoad(rows, texel + 1));
 }
 
-// sum += (S v)(row) for the vector `v`, an array's name.
+// sum += (S v)(row). v: the name of an array.
 #define ADD_COUPLED(row, v, sum)                                                                    \
   {                                                                                                 \
     const PoissonRow entries = loadRow(row);                                                        \

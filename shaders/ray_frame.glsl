@@ -1,4 +1,4 @@
-// An orthonormal frame around a ray, in which its hits are found (the twin of src/trace/ray_triangle.h).
+// An orthonormal frame around a ray, in which its hits are computed (the twin of src/trace/ray_triangle.h).
 struct RayFrame {
   vec3 u, w, direction;
 };
@@ -12,8 +12,8 @@ RayFrame makeRayFrame(vec3 direction) {
                   vec3(b, s + direction.y * direction.y * a, -direction.y), direction);
 }
 
-// A vertex in the ray's frame depends on the vertex and the ray only: `precise` keeps it, and the edge functions made
-// of it, the same in both triangles of an edge, so that no ray slips between them.
+// A vertex in the frame of the ray depends on the vertex and the ray only. `precise` keeps it, and the edge functions
+// computed from it, equal in both triangles of an edge, so that no ray slips between them.
 vec3 toRayFrame(RayFrame frame, vec3 v) {
   precise vec3 p =
       vec3(frame.u.x * v.x + frame.u.y * v.y + frame.u.z * v.z, frame.w.x * v.x + frame.w.y * v.y + frame.w.z * v.z,
@@ -21,8 +21,8 @@ vec3 toRayFrame(RayFrame frame, vec3 v) {
   return p;
 }
 
-// The distance along the ray to the triangle a, b, c (relative to the ray's origin), or a negative number. Both sides
-// count, and so does the triangle's rim.
+// The distance along the ray to the triangle a, b, c (relative to the origin of the ray), or a negative number. Both
+// sides and the rim of the triangle are hit.
 float intersectTriangle(RayFrame frame, vec3 v0, vec3 v1, vec3 v2) {
   const vec3 a = toRayFrame(frame, v0);
   const vec3 b = toRayFrame(frame, v1);

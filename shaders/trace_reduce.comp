@@ -1,6 +1,6 @@
 #version 450
-// The shape diameter of one cone per lane, from its rays' lengths (the twin of coneValue() in src/cone/cone.h). Lengths
-// are compared by their bits, which order them, as none is negative but those of rays that are not valid.
+// The shape diameter of one cone per lane, from the lengths of its rays (the twin of coneValue() in src/cone/cone.h).
+// Lengths are compared by their bits, whose order is that of the lengths: only invalid rays are negative.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/cone_layout.h"
 #include "shared/cone_rules.h"
@@ -9,7 +9,7 @@ layout(local_size_x_id = 0) in;
 layout(constant_id = 1) const uint kRayCount = 30;
 
 layout(set = 0, binding = 0, rgba32ui) uniform readonly uimageBuffer rayTexels;
-layout(set = 0, binding = 1) readonly buffer Lengths { uint lengths[]; };  // As trace_seed.comp leaves them.
+layout(set = 0, binding = 1) readonly buffer Lengths { uint lengths[]; };  // Written by trace_seed.comp.
 layout(set = 0, binding = 2) writeonly buffer Results { uint results[]; };
 layout(push_constant) uniform Push { ConePush push; };
 
@@ -23,7 +23,7 @@ uint countBelow(uint bits) {
   return count;
 }
 
-// The largest bits that no more than `rank` lengths are below: those of the length of that rank.
+// The largest bits that at most `rank` lengths are below: the bits of the length of that rank.
 uint findRank(uint rank) {
   uint bits = 0u;
   for (uint bit = 0x40000000u; bit != 0u; bit >>= 1)
@@ -31,7 +31,7 @@ uint findRank(uint rank) {
   return bits;
 }
 
-// Of the length of the next rank.
+// The bits of the length of the next rank.
 uint findNext(uint bits, uint rank) {
   if (countBelow(bits + 1u) > rank + 1u) return bits;
   uint next = kNotValid;
@@ -71,11 +71,11 @@ void main() {
   for (uint ray = 0u; ray < kRayCount; ++ray) {
     const uint bits = lengths[ray * push.coneCount + cone];
     const bool isIncomplete = bits == kIterationLimitBits;
-    const bool isValid = uintBitsToFloat(bits) >= 0.0;  // kIterationLimitBits are no number's.
+    const bool isValid = uintBitsToFloat(bits) >= 0.0;  // kIterationLimitBits is a NaN.
     incompleteCount += isIncomplete ? 1u : 0u;
     validCount += isValid ? 1u : 0u;
     mean += isValid ? uintBitsToFloat(bits) : 0.0;
-    lengthBits[ray] = isValid ? bits & 0x7fffffffu : kNotValid;  // -0 is 0
+    lengthBits[ray] = isValid ? bits & 0x7fffffffu : kNotValid;  // -0 becomes 0.
   }
   uint result = kNoValueBits;
   if (validCount > 0u) result = floatBitsToUint(weightedMean(validCount, mean / float(validCount)));

@@ -1,7 +1,7 @@
 #version 450
-// The lengths of the cones' rays, transposed: neighbouring lanes hold the same few rays of neighbouring seeds, which
-// walk nearly the same nodes. Workgroup (x, y) traces kLanesPerCone rays, from the y-th so many on, of
-// kConesPerWorkgroup cones; trace_reduce.comp makes values of the lengths.
+// The lengths of the rays of the cones, transposed: neighbouring lanes have the same few rays of neighbouring seeds,
+// which visit nearly the same nodes. Workgroup (x, y) traces kLanesPerCone rays, from ray y kLanesPerCone on, of
+// kConesPerWorkgroup cones. trace_reduce.comp computes the values from the lengths.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/cone_layout.h"
 

@@ -1,10 +1,10 @@
-// The scalars of a conjugate-gradient iteration, one description for every backend: in C++ a template over float and
+// The scalars of a conjugate-gradient iteration, one description for every solver: in C++ a template over float and
 // double, in GLSL float.
 //
 // One reduction per iteration (Meurant 1987, "Multitasking the conjugate gradient method on the CRAY X-MP/48"): besides
-// p.Mp and r.r, the sums r.Mp and Mp.Mp give the next r.r before the step is made. Unlike the recurrence of
-// Chronopoulos and Gear (1989), this one multiplies the direction itself and sums r.r in every iteration: in float32 it
-// drifts no more than the textbook iteration, and it needs one vector less.
+// p.Mp and r.r, the sums r.Mp and Mp.Mp give the next r.r before the step. Unlike the recurrence of Chronopoulos and
+// Gear (1989), this one multiplies the direction itself and sums r.r in every iteration: in float32 it drifts no more
+// than the textbook iteration, and it needs one vector less.
 #ifndef ASDFVK_CG_RULES_H
 #define ASDFVK_CG_RULES_H
 
@@ -16,7 +16,7 @@ using glsl::uint;
 
 const uint kCgRunning = 0u;
 const uint kCgConverged = 1u;
-const uint kCgBrokenDown = 2u;  // p.Mp or r.r is not positive, is only rounding, or has overflowed.
+const uint kCgBrokenDown = 2u;  // p.Mp or r.r is not positive, is rounding noise, or has overflowed.
 
 const float kMaxCgSum = 3.0e38f;  // Larger sums have overflowed or are NaN.
 const float kCgFloatRounding = 1.0e-7f;
@@ -46,7 +46,7 @@ struct CgRules {
     uint status;
   };
 
-  // rounding: share of p.p at or below which p.Mp is only rounding; a step by it would move x but not the residual.
+  // rounding: share of p.p at or below which p.Mp is rounding noise; a step by it would change x but not the residual.
   ASDFVK_CG_FUNCTION CgStep nextCgStep(CgSums sums, Real toleranceSquared, Real rounding) {
     CgStep next;
     next.alpha = Real(0);
@@ -58,7 +58,7 @@ struct CgRules {
           sums.productDot > rounding * sums.directionSquared && sums.productDot < kMaxCgSum))
       return next;
     const Real alpha = sums.residualDot / sums.productDot;
-    // The next r.r over this one. Rounding can make it negative where almost nothing is left.
+    // The next r.r divided by this one. Rounding can make it negative near convergence.
     const Real beta =
         Real(1) - alpha * ((Real(2) * sums.residualProduct - alpha * sums.productSquared) / sums.residualDot);
     if (!(alpha < kMaxCgSum && beta < kMaxCgSum)) return next;

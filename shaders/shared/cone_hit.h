@@ -1,4 +1,4 @@
-// What one ray of a cone met; included by C++ and by GLSL, which writes it as a uvec2 of the two fields' bits.
+// The hit of one ray of a cone; included by C++ and by GLSL, which writes it as a uvec2 of the bits of both fields.
 #ifndef ASDFVK_CONE_HIT_H
 #define ASDFVK_CONE_HIT_H
 
@@ -10,14 +10,14 @@ namespace asdfvk {
 using glsl::uint;
 #endif
 
-const uint kNoFace = 0xffffffffu;            // The face of a ray that met nothing.
+const uint kNoFace = 0xffffffffu;            // The face of a ray without a hit.
 const uint kMissDistanceBits = 0x7f800000u;  // Its distance: infinity.
 
 #ifdef __cplusplus
 // 8 bytes.
 struct ConeHit {
   float distance;  // In normalised units (Bvh::normalization).
-  uint face;       // The one that stands for its copies, or kNoFace.
+  uint face;       // Representative of its coincident faces, or kNoFace.
 };
 static_assert(sizeof(ConeHit) == 8);
 static_assert(offsetof(ConeHit, distance) == 0 && offsetof(ConeHit, face) == 4);

@@ -1,4 +1,4 @@
-// What the cone kernel reads and writes; included by C++ and by GLSL.
+// Input and output of the cone kernels; included by C++ and by GLSL.
 #ifndef ASDFVK_CONE_LAYOUT_H
 #define ASDFVK_CONE_LAYOUT_H
 
@@ -13,18 +13,18 @@ using glsl::vec3;
 
 const uint kConeOriginTexelCount = 3u;
 
-// Where a cone starts, 48 bytes; kernels read it as texels of 16 (format rgba32ui). Normalised coordinates. The frame's
-// axis is cross(tangent, bitangent).
+// The start of a cone, 48 bytes; kernels read it as texels of 16 bytes (format rgba32ui). Normalised coordinates. The
+// axis of the frame is cross(tangent, bitangent).
 struct ConeOrigin {
   vec3 origin;
-  uint excludedFace;  // Hits on this face are passed through: the seed face or the one that stands for its copies.
+  uint excludedFace;  // Hits on this face are ignored: the representative of the seed face.
   vec3 tangent;
   uint unused0;
   vec3 bitangent;
   uint unused1;
 };
 
-// One ray of every cone, 16 bytes and one texel, in the cone's frame.
+// One ray of every cone, 16 bytes and one texel, in the frame of the cone.
 struct ConeRay {
   vec3 direction;
   float weight;
@@ -38,7 +38,7 @@ struct ConePush {
 
 // A result is the bits of a length in normalised units, or one of these.
 const uint kNoValueBits = 0x7fc00000u;         // No valid ray: a quiet NaN.
-const uint kIterationLimitBits = 0x7fc00001u;  // The iteration guard stopped the cone: trace it elsewhere.
+const uint kIterationLimitBits = 0x7fc00001u;  // The iteration limit stopped the cone: the reference traces it.
 
 #ifdef __cplusplus
 static_assert(sizeof(ConeOrigin) == 48);

@@ -1,4 +1,4 @@
-// The slacks in the definition of the shape diameter, the same for every backend; included by C++ and by GLSL.
+// Tolerances in the definition of the shape diameter, the same for every backend; included by C++ and by GLSL.
 #ifndef ASDFVK_CONE_RULES_H
 #define ASDFVK_CONE_RULES_H
 
@@ -6,9 +6,9 @@
 namespace asdfvk {
 #endif
 
-// A hit is false, and its ray dropped, where the cosine between the seed's and the hit face's normal exceeds that of
-// the angle asked for (90 degrees) by more than this (0.06 degrees there), so that walls meant to be perpendicular do
-// not depend on rounding: without it 3.6 % of the faces of a CAD part changed with the last bit of a normal.
+// A hit is false, and its ray dropped, where the cosine of the angle between the normals of seed and hit face exceeds
+// that of the false-hit angle (default 90 degrees) by more than this (0.06 degrees there), so that perpendicular walls
+// do not depend on rounding. Without it 3.6 % of the faces of a CAD part changed with the last bit of a normal.
 const float kFalseHitSlack = 1e-3f;
 
 // A length is kept when |length - median| <= standard deviations + this * median, so that ties (two rays are always a

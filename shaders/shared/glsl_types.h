@@ -1,4 +1,4 @@
-// The GLSL types that structs shared by host and device are written in, for C++.
+// The GLSL types of structs shared by host and device, for C++.
 #pragma once
 
 #include <cstdint>

@@ -1,8 +1,8 @@
-// What the kernels of the Poisson solvers share with the host; included by C++ and by GLSL.
+// Data that the kernels of the Poisson solvers share with the host; included by C++ and by GLSL.
 //
-// The system A is solved in the scaled form (I - S) y = b with S = I - D^-1/2 A D^-1/2, D the diagonal of A, so that S
-// has none: conjugate gradients on it are Jacobi-preconditioned conjugate gradients on A, without a vector to divide
-// by.
+// The system A is solved in the scaled form (I - S) y = b with S = I - D^-1/2 A D^-1/2, D the diagonal of A, so that
+// the diagonal of S is 0. Conjugate gradients on it are Jacobi-preconditioned conjugate gradients on A, without a
+// vector to divide by.
 #ifndef ASDFVK_POISSON_LAYOUT_H
 #define ASDFVK_POISSON_LAYOUT_H
 
@@ -17,7 +17,7 @@ namespace asdfvk {
 #endif
 
 // A row of S, 32 bytes, read as two rgba32ui texels: its first three entries, which are all of them on a manifold mesh,
-// and where the rest stands. Absent entries have coupling 0 and the row's own column.
+// and the position of the further ones. Absent entries have coupling 0 and the column of the row itself.
 const uint kPoissonRowTexelCount = 2u;
 struct PoissonRow {
   uint column0, column1, column2;
@@ -26,11 +26,11 @@ struct PoissonRow {
   uint tailCount;
 };
 
-// Each workgroup leaves one partial sum per scalar, and each workgroup adds all of them up again.
+// Each workgroup writes one partial sum per scalar, and each workgroup adds all of them.
 const uint kMaxPoissonWorkgroupCount = 256u;
 
-// The scalars of the iteration, 16 bytes. There are two: an iteration reads one and writes the other, so that no
-// workgroup sees a word that another one is writing.
+// The scalars of the iteration, 16 bytes. There are two states: an iteration reads one and writes the other, so that no
+// workgroup reads a word that another one writes.
 struct CgState {
   float residualSquared;   // The squared norm of the unscaled residual before the last iteration; 1 at the start.
   float toleranceSquared;  // At or below this residualSquared it has converged.
@@ -38,8 +38,8 @@ struct CgState {
   uint status;  // See cg_rules.h; unless kCgRunning, there are no more iterations.
 };
 
-// What vkCmdDispatchIndirect reads, 12 bytes. The iteration that finds that there is no more to do sets x to 0, so that
-// those recorded after it cost next to nothing.
+// Arguments of vkCmdDispatchIndirect, 12 bytes. The last iteration sets x to 0, so that iterations recorded after it
+// take almost no time.
 struct DispatchSize {
   uint x, y, z;
 };

@@ -13,7 +13,7 @@
 namespace asdfvk {
 namespace {
 
-// Rays that a device traces side by side, and that therefore should be neighbours.
+// Rays that a device traces side by side, so they should be neighbours.
 constexpr size_t kRunLength = 8;
 
 struct Ray {
@@ -22,8 +22,8 @@ struct Ray {
   double weight = 0;
 };
 
-// Reorders whole rays so that each run of kRunLength is a compact patch of the cone: sectors of azimuth, each of `rows`
-// runs; rows are stacked by the angle to the axis, and there is one row until sectors would become slivers.
+// Reorders whole rays so that each run of kRunLength is a compact patch of the cone: sectors of azimuth with `rows`
+// runs each, by increasing angle to the axis. There is one row unless sectors would be slivers.
 void sortIntoCompactRuns(std::vector<Ray>& rays, double halfAngle) {
   const double runCount = std::ceil(static_cast<double>(rays.size()) / kRunLength);
   const double squareSectorCount = 2 * std::numbers::pi * std::sin(halfAngle / 2) / halfAngle;
@@ -56,7 +56,7 @@ Cone makeCone(const ConeOptions& options) {
   if (!(options.outlierDeviations > 0))
     throw Error(ErrorCode::OptionOutOfRange,
                 fmt::format("{} standard deviations are out of range; give more than 0", options.outlierDeviations));
-  // Vogel 1979. The versine 1 - cos t is kept instead of the cosine, so that narrow cones lose no digits.
+  // Vogel 1979. Stores the versine 1 - cos t instead of the cosine, so that narrow cones lose no digits.
   const double halfAngle = options.openingAngleDegrees * std::numbers::pi / 360;
   const double maxVersine = 2 * std::pow(std::sin(halfAngle / 2), 2);
   const double goldenAngle = std::numbers::pi * (3 - std::sqrt(5.0));
@@ -93,7 +93,8 @@ ConeFrame coneFrame(const Vec3d& z) {
 ConeFrame faceConeFrame(const Cone& cone, const Vec3d& normal, uint32_t face) {
   const ConeFrame frame = coneFrame(-normal);
   if (cone.rotation == ConeRotation::Fixed) return frame;
-  const double angle = 2 * std::numbers::pi * Random(face).real();  // The first number of a seed is a hash of it.
+  const double angle =
+      2 * std::numbers::pi * Random(face).real();  // The first random number of a seed is a hash of the seed.
   const double cosine = std::cos(angle), sine = std::sin(angle);
   return {cosine * frame.tangent + sine * frame.bitangent, cosine * frame.bitangent - sine * frame.tangent, frame.axis};
 }

@@ -10,24 +10,24 @@
 
 namespace asdfvk {
 
-/// The rays of every cone, in the cone's frame (z = the axis). The order is part of the table: by azimuth, in sectors
-/// so that each run of 8 rays from a multiple of 8 is a compact patch of the cone (a sector has one such run up to
-/// about 50 rays at 120 degrees; beyond, its runs are ordered by the angle to the axis). directions and weights have
-/// rayCount entries.
+/// The rays of every cone, in the frame of the cone (z = the axis). The order is part of the table: by azimuth, in
+/// sectors, so that each run of 8 rays from a multiple of 8 is a compact patch of the cone. A sector has one such run
+/// up to about 50 rays at 120 degrees; with more rays its runs are ordered by the angle to the axis. directions and
+/// weights have rayCount entries.
 struct Cone {
   std::vector<Vec3d> directions;  ///< Unit.
   std::vector<double> weights;    ///< 1 / angle to the axis, in 1 / radians.
-  double falseHitCosine = 0;     ///< A hit is false where the cosine of both normals' angle is above this: the slack of
-                                 ///< shared/cone_rules.h is in it.
-  double outlierDeviations = 1;  ///< As in the options.
-  double halfAngleRadians = 0;   ///< Between the axis and the rim.
+  double falseHitCosine = 0;      ///< A hit is false where the cosine of the angle between the normals is above this.
+                                  ///< Includes the slack of shared/cone_rules.h.
+  double outlierDeviations = 1;   ///< As in the options.
+  double halfAngleRadians = 0;    ///< Angle between the axis and the rim.
   ConeRotation rotation = ConeRotation::Fixed;
 };
 
 /// A golden-angle (Vogel) spiral, uniform in solid angle. Throws Error{Usage} for options out of range.
 [[nodiscard]] Cone makeCone(const ConeOptions& options);
 
-/// Whether a hit on a face with the one normal is dropped by the cone of a face with the other: both look the same way.
+/// Whether a hit is false: the normal of the hit face is within the false-hit angle of the normal of the seed face.
 [[nodiscard]] inline bool isFalseHit(const Cone& cone, const Vec3d& seedNormal, const Vec3d& hitNormal) {
   return dot(seedNormal, hitNormal) > cone.falseHitCosine;
 }
@@ -37,28 +37,28 @@ struct ConeFrame {
   Vec3d tangent, bitangent, axis;
 };
 
-/// Duff et al. 2017, "Building an Orthonormal Basis, Revisited", with the jump moved to axis.z = -0.7, where no
-/// axis-aligned wall has its normal. `axis` is a unit vector: minus the face normal.
+/// Duff et al. 2017, "Building an Orthonormal Basis, Revisited", with the discontinuity at axis.z = -0.7, where no
+/// axis-aligned wall has its normal. axis: unit, minus the normal of the face.
 [[nodiscard]] ConeFrame coneFrame(const Vec3d& axis);
 
-/// The frame of the rays of a face with that unit normal: coneFrame(-normal), turned about its axis as the cone's
-/// rotation says.
+/// The frame of the rays of a face with that unit normal: coneFrame(-normal), turned about its axis by the rotation of
+/// the cone.
 [[nodiscard]] ConeFrame faceConeFrame(const Cone& cone, const Vec3d& normal, uint32_t face);
 
-/// Which lengths of a cone are no outliers.
+/// The range of lengths that are no outliers.
 struct LengthWindow {
   double median = 0, bound = 0;
   [[nodiscard]] bool keeps(double length) const { return std::abs(length - median) <= bound; }
 };
 
-/// The lengths within outlierDeviations standard deviations (population, about the mean) of the median (mean of the
-/// middle two for an even count), with the slack kOutlierSlack of shared/cone_rules.h. Precondition: there is one, and
-/// no more than kMaxRayCount.
+/// The range of lengths within outlierDeviations standard deviations (population, about the mean) of the median (mean
+/// of the middle two for an even count), with the slack kOutlierSlack of shared/cone_rules.h. Precondition: 1 to
+/// kMaxRayCount lengths.
 [[nodiscard]] LengthWindow keptWindow(std::span<const double> lengths, double outlierDeviations);
 
-/// The shape diameter from the lengths of a cone's valid rays: the weighted mean of those in keptWindow(). kNoValue for
-/// no rays, and where none is so near the median, which takes fewer than 1 deviation. lengths and weights have one
-/// entry per valid ray, in the cone's order.
+/// The shape diameter from the lengths of the valid rays of a cone: the weighted mean of those in keptWindow().
+/// kNoValue without rays, and where no length is in the window, which needs fewer than 1 deviation. lengths and weights
+/// have one entry per valid ray, in the order of the cone.
 [[nodiscard]] double coneValue(std::span<const double> lengths, std::span<const double> weights,
                                double outlierDeviations = 1);
 

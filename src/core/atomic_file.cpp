@@ -19,7 +19,7 @@ static_assert(std::endian::native == std::endian::little, "the binary formats ar
 
 namespace {
 
-// Whoever exchanges the name for null owns it, so that a signal handler never reads one that is being freed.
+// The thread that exchanges the name for null owns it, so that a signal handler never reads a freed name.
 std::atomic<const char*> unfinished{nullptr};
 static_assert(std::atomic<const char*>::is_always_lock_free);
 
@@ -35,7 +35,7 @@ AtomicFile::AtomicFile(const std::filesystem::path& target)
     descriptor_ = STDOUT_FILENO;
     return;
   }
-  if (target_.empty()) throw Error(ErrorCode::OutputNotWritable, "the result has no file to go to: its name is empty");
+  if (target_.empty()) throw Error(ErrorCode::OutputNotWritable, "the name of the result file is empty");
   struct stat status {};
   if (::stat(target_.c_str(), &status) != 0) {
     if (errno != ENOENT) fail(errno, "");
@@ -67,13 +67,13 @@ void AtomicFile::openTemporary() {
     descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   } while (descriptor_ < 0 && errno == EEXIST);
   if (descriptor_ >= 0) {
-    announceTemporary();  // Not before: what was there belongs to another process.
+    announceTemporary();  // Only now: an earlier file of that name belongs to another process.
     return;
   }
   const int reason = errno;
   const std::filesystem::path folder = target_.has_parent_path() ? target_.parent_path() : ".";
   temporary_.clear();
-  if (reason == ENOENT) fail(reason, fmt::format("the folder {} is not there; create it first", folder.string()));
+  if (reason == ENOENT) fail(reason, fmt::format("the folder {} does not exist; create it first", folder.string()));
   fail(reason, fmt::format("creating a temporary file in {}", folder.string()));
 }
 
@@ -121,7 +121,7 @@ void AtomicFile::commit() {
   flush();
   const int descriptor = std::exchange(descriptor_, -1);
   if (isStandardOutput_) return;
-  // A full network disk may only tell at the close.
+  // A full network disk may report its error only at the close.
   if (::close(descriptor) != 0 || (!temporary_.empty() && ::rename(temporary_.c_str(), target_.c_str()) != 0)) {
     failAndRemove(errno);
   }
@@ -132,7 +132,7 @@ void AtomicFile::commit() {
 void AtomicFile::failAndRemove(int errorNumber) {
   const bool isAtomic = !temporary_.empty();
   closeAndRemove();
-  fail(errorNumber, isAtomic ? "nothing was left behind" : "");
+  fail(errorNumber, isAtomic ? "no partial file remains" : "");
 }
 
 void AtomicFile::closeAndRemove() noexcept {

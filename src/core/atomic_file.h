@@ -9,10 +9,10 @@
 
 namespace asdfvk {
 
-/// A file that appears whole or not at all: bytes go to a temporary file beside the target, which commit() renames over
-/// it. Without a commit(), or when something fails, the temporary is removed and what was there before stays as it was.
-/// An existing file keeps its mode; a symbolic link is followed. What is not a regular file (/dev/null, a FIFO) and
-/// "-", standard output, are written to directly. Every failure is an Error{Output} with the system's reason.
+/// A file that appears whole or not at all: bytes go to a temporary file beside the target, which commit() renames to
+/// it. Without a commit(), or on failure, the temporary file is removed and the previous file is unchanged. An existing
+/// file keeps its mode; a symbolic link is followed. Targets that are not regular files (/dev/null, a FIFO) and "-",
+/// standard output, are written directly. Every failure is an Error{Output} with the reason of the system.
 class AtomicFile {
  public:
   explicit AtomicFile(const std::filesystem::path& target);
@@ -20,7 +20,7 @@ class AtomicFile {
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
 
-  /// Room for up to `size` bytes, at most kMaxReserve, of which advance() then takes as many as were filled.
+  /// Memory for up to `size` bytes, at most kMaxReserve; advance() adds those that the caller filled.
   [[nodiscard]] char* reserve(size_t size) {
     if (size > kBufferSize - used_) flush();
     return buffer_.get() + used_;
@@ -29,14 +29,14 @@ class AtomicFile {
 
   void write(const void* bytes, size_t size);
   void write(std::string_view text) { write(text.data(), text.size()); }
-  /// The bytes of a number as they lie in memory; little-endian on every machine that this builds for.
+  /// The bytes of a number as in memory: little-endian on every supported machine.
   template <typename T>
   void put(const T& value) {
     std::memcpy(reserve(sizeof(T)), &value, sizeof(T));
     advance(sizeof(T));
   }
 
-  /// Writes out what is left and puts the file in place.
+  /// Writes the remaining bytes and renames the file to its target.
   void commit();
 
   static constexpr size_t kMaxReserve = size_t{1} << 16;
@@ -52,16 +52,16 @@ class AtomicFile {
   [[noreturn]] void failAndRemove(int errorNumber);
   [[noreturn]] void fail(int errorNumber, const std::string& during) const;
 
-  std::filesystem::path target_, temporary_;  ///< temporary_ is empty where the target is written to directly.
-  std::unique_ptr<char[]> announced_;         ///< The name as removeUnfinishedFile() finds it.
+  std::filesystem::path target_, temporary_;  ///< temporary_ is empty where the target is written directly.
+  std::unique_ptr<char[]> announced_;         ///< The name that removeUnfinishedFile() reads.
   bool isStandardOutput_ = false;
   int descriptor_ = -1;
   std::unique_ptr<char[]> buffer_;
   size_t used_ = 0;
 };
 
-/// Removes the temporary of the one AtomicFile that is being written, if there is one: the last act of a process that
-/// ends at once. Async-signal-safe. Of several files at the same time only the first one is known.
+/// Removes the temporary file of the one AtomicFile that is being written, if any, before a process ends at once.
+/// Async-signal-safe. Of several open files it removes the first one only.
 void removeUnfinishedFile() noexcept;
 
 }  // namespace asdfvk

@@ -8,8 +8,8 @@
 
 namespace asdfvk {
 
-/// An axis-aligned box; empty (min > max) until something is added. Corners anywhere in T's range are welcome: what
-/// would overflow is T's largest number instead.
+/// An axis-aligned box; empty (min > max) until something is added. Corners may be anywhere in the range of T: sums
+/// that would overflow become the largest number of T.
 template <typename T>
 struct Box3 {
   Vec3<T> min{std::numeric_limits<T>::infinity(), std::numeric_limits<T>::infinity(),
@@ -41,7 +41,7 @@ struct Box3 {
     const Vec3<T> s = size();
     return saturated(std::hypot(s.x, s.y, s.z));
   }
-  /// Precondition: a unit in which areas neither overflow nor underflow, such as the normalised one.
+  /// Precondition: a unit in which areas neither overflow nor underflow, such as normalised units.
   [[nodiscard]] T halfArea() const {
     const Vec3<T> s = size();
     return s.x * s.y + s.y * s.z + s.z * s.x;

@@ -28,10 +28,10 @@ struct Buckets {
   }
 };
 
-/// Entries on their way into numbered buckets, for those who need to see each bucket once and not to keep them: a
-/// radix sort in two steps, of which the second works on runs of buckets that fit into a cache. Without atomic
-/// operations, each of which would wait for memory by itself. Linear as long as buckets are small, n log n at worst;
-/// the same for any number of threads. Entry: ordered; left uninitialised by its default constructor, best of all.
+/// Entries on their way into numbered buckets, for callers that read each bucket once and do not keep it. A radix sort
+/// in two steps; the second step works on runs of buckets that fit into a cache. It needs no atomic operations, each of
+/// which would wait for memory. Linear for small buckets, n log n at worst. The same result on any number of threads.
+/// Entry: ordered; its default constructor should leave it uninitialised.
 template <typename Entry>
 class StagedEntries {
  public:
@@ -97,7 +97,7 @@ class StagedEntries {
     Entry entry;
   };
 
-  /// counts: of each block of items and run, which become where the block's entries of that run begin.
+  /// counts: per block of items and run; replaced by the positions at which the entries of that block and run begin.
   void turnIntoCursors(std::vector<std::vector<uint32_t>>& counts, size_t runCount) {
     uint64_t total = 0;
     for (size_t run = 0; run < runCount; ++run) {
@@ -114,15 +114,15 @@ class StagedEntries {
   static void sort(std::span<Entry> entries) {
     constexpr size_t kWorthParallelSort = size_t{1} << 16;
     if (entries.size() >= kWorthParallelSort) {
-      // Isolated: another run begun by this thread meanwhile would overwrite this one's scratch.
+      // Isolated: another run on this thread in the meantime would overwrite the scratch memory of this one.
       tbb::this_task_arena::isolate([&] { tbb::parallel_sort(entries.begin(), entries.end()); });
     } else if (entries.size() > 1) {
       std::sort(entries.begin(), entries.end());
     }
   }
 
-  /// room(begin, size) tells where the run's entries go, visit(bucket, begin, entries) takes each bucket; begin: of all
-  /// entries in the order of buckets.
+  /// room(begin, size) returns the memory for the entries of a run; visit(bucket, begin, entries) receives each bucket.
+  /// begin: position among all entries, in the order of the buckets.
   template <typename Room, typename Visit>
   void forEachRun(const Room& room, const Visit& visit) const {
     tbb::enumerable_thread_specific<std::vector<uint32_t>> ends;
@@ -147,12 +147,12 @@ class StagedEntries {
   }
 
   size_t bucketCount_ = 0;
-  uint32_t shift_ = 0;                ///< A run is the buckets whose numbers agree but for so many low bits.
+  uint32_t shift_ = 0;                ///< Buckets whose numbers differ in this many low bits only form a run.
   std::vector<uint32_t> runBegins_;   ///< #runs+1
   std::unique_ptr<Staged[]> staged_;  ///< By run.
 };
 
-/// All of it kept. See StagedEntries.
+/// Buckets that are kept. See StagedEntries.
 template <typename Entry, typename Emit>
 [[nodiscard]] Buckets<Entry> sortIntoBuckets(size_t bucketCount, size_t itemCount, const Emit& emit) {
   return StagedEntries<Entry>(bucketCount, itemCount, emit).toBuckets();

@@ -6,7 +6,7 @@
 
 namespace asdfvk {
 
-/// A broken precondition or invariant: a mistake in the program, never in its input.
+/// A broken precondition or invariant: an error of the program, not of its input.
 class CheckFailure : public std::logic_error {
   using std::logic_error::logic_error;
 };

@@ -12,7 +12,7 @@
 namespace asdfvk {
 
 /// The sum of term(0) .. term(count - 1), in parallel over blocks of fixed size and then over the blocks in order: the
-/// same bits whatever the number of threads.
+/// same bits on any number of threads.
 template <typename Term>
 [[nodiscard]] double orderedSum(size_t count, const Term& term) {
   constexpr size_t kBlock = 8192;
@@ -32,11 +32,11 @@ template <typename Term>
 
 inline constexpr double kLeastPlainSquare = 1e-200, kLargestPlainSquare = 1e300;
 
-/// The Euclidean norm of entry(0) .. entry(count - 1), free of overflow and underflow; NaN if an entry is.
+/// The Euclidean norm of entry(0) .. entry(count - 1), without overflow and underflow; NaN if an entry is NaN.
 template <typename Entry>
 [[nodiscard]] double orderedNorm(size_t count, const Entry& entry) {
   const double squared = orderedSum(count, [&](size_t i) { return entry(i) * entry(i); });
-  // In between, no square that counts has left the range of double.
+  // Between these bounds no relevant square has left the range of double.
   if (squared > kLeastPlainSquare && squared < kLargestPlainSquare) return std::sqrt(squared);
   double largest = 0;
   for (size_t i = 0; i < count; ++i) {

@@ -12,7 +12,7 @@ namespace asdfvk {
 
 inline constexpr size_t kItemsPerTask = 4096;
 
-/// Calls body(i) for every i in [0, count), in parallel; a body that writes only what belongs to i gives the same bits
+/// Calls body(i) for every i in [0, count), in parallel. If body(i) writes only data of i, the result has the same bits
 /// on any number of threads.
 template <typename Body>
 void forEachInParallel(size_t count, const Body& body) {
@@ -22,7 +22,7 @@ void forEachInParallel(size_t count, const Body& body) {
                     });
 }
 
-/// How many i in [0, count) hold(i) is true of, in parallel.
+/// Number of i in [0, count) for which hold(i) is true, in parallel.
 template <typename Holds>
 [[nodiscard]] uint64_t countInParallel(size_t count, const Holds& holds) {
   return tbb::parallel_reduce(

@@ -6,8 +6,8 @@
 
 namespace asdfvk {
 
-/// A seeded generator (SplitMix64, Steele, Lea and Flood 2014) whose numbers are the same with every standard library,
-/// which std::shuffle and the std distributions do not promise.
+/// A seeded generator (SplitMix64, Steele, Lea and Flood 2014). Its numbers are the same with every standard library,
+/// unlike those of std::shuffle and the std distributions.
 class Random {
  public:
   explicit Random(uint64_t seed) : state_(seed) {}

@@ -4,7 +4,7 @@
 
 namespace asdfvk {
 
-/// Wall-clock seconds since it was made.
+/// Wall-clock seconds since construction.
 class Stopwatch {
  public:
   [[nodiscard]] double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }

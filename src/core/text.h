@@ -13,7 +13,7 @@
 
 namespace asdfvk {
 
-/// The text with A to Z in lower case, whatever the locale.
+/// The text with A to Z in lower case, independent of the locale.
 [[nodiscard]] inline std::string lowerCase(std::string_view text) {
   std::string lower(text);
   std::transform(lower.begin(), lower.end(), lower.begin(),
@@ -21,7 +21,7 @@ namespace asdfvk {
   return lower;
 }
 
-/// "1 vertex", "2 vertices"; the plural is the singular and an s where none is given.
+/// "1 vertex", "2 vertices". Without a plural, an s is appended to the singular.
 [[nodiscard]] inline std::string counted(uint64_t count, std::string_view singular, std::string_view plural = {}) {
   if (count == 1) return fmt::format("1 {}", singular);
   return plural.empty() ? fmt::format("{} {}s", count, singular) : fmt::format("{} {}", count, plural);

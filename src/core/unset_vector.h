@@ -7,11 +7,11 @@
 
 namespace asdfvk {
 
-/// Leaves the elements that a vector is made or grown with unset, so that those who write them, in parallel, are the
-/// first to touch their memory.
+/// An allocator that leaves new elements uninitialised, so that the parallel code that writes them is the first to
+/// access their memory.
 template <typename T>
 struct UnsetAllocator : std::allocator<T> {
-  static_assert(std::is_trivially_copyable_v<T>);  // Such objects begin to live with their memory.
+  static_assert(std::is_trivially_copyable_v<T>);  // Lifetime of such objects begins with their memory.
   template <typename U>
   struct rebind {
     using other = UnsetAllocator<U>;

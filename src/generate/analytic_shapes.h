@@ -7,15 +7,17 @@
 
 namespace asdfvk {
 
-// Shapes whose diameters are known in closed form, centred at the origin, triangulated evenly. `faceCount` is a wish.
+// Shapes whose diameters are known in closed form, centred at the origin, triangulated evenly. faceCount is
+// approximate.
 
 struct SphereParameters {
   double radius = 1;
 };
-/// A geodesic sphere of 20 n^2 faces: each side of an icosahedron cut into n^2, projected. Diameter 2 radius.
+/// A geodesic sphere of 20 n^2 faces: each side of an icosahedron divided into n^2 triangles, projected. Diameter 2
+/// radius.
 [[nodiscard]] GeneratedShape makeSphere(uint64_t faceCount, const SphereParameters& parameters = {});
-/// An icosahedron under OpenMesh's Loop subdivision, projected after each step: 20 * 4^n faces, the nearest power by
-/// ratio. Diameter 2 radius.
+/// An icosahedron under OpenMesh's Loop subdivision, projected after each step: 20 * 4^n faces, with the n whose ratio
+/// to faceCount is closest to 1. Diameter 2 radius.
 [[nodiscard]] GeneratedShape makeIcosphere(uint64_t faceCount, const SphereParameters& parameters = {});
 
 struct BoxParameters {
@@ -42,7 +44,7 @@ struct CylinderParameters {
 [[nodiscard]] GeneratedShape makeCylinder(uint64_t faceCount, const CylinderParameters& parameters = {});
 
 struct TorusParameters {
-  double ringRadius = 1;    ///< From the axis z to the tube's centre.
+  double ringRadius = 1;    ///< From the axis z to the centre of the tube.
   double tubeRadius = 0.3;  ///< Half the diameter.
 };
 [[nodiscard]] GeneratedShape makeTorus(uint64_t faceCount, const TorusParameters& parameters = {});

@@ -87,7 +87,7 @@ class BoxGrid {
 
 GeneratedShape makeBox(uint64_t faceCount, const BoxParameters& parameters) {
   const Vec3d& size = parameters.size;
-  // Two triangles per square cell; where one direction is thinner than a cell it still takes one.
+  // Two triangles per square cell, and at least one cell per direction.
   const double cellArea = 4 * (size.x * size.y + size.y * size.z + size.z * size.x) / double(faceCount);
   const double edge = std::sqrt(cellArea);
   const auto cells = [&](double extent) { return static_cast<uint32_t>(std::max(1.0, std::round(extent / edge))); };

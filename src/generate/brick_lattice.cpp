@@ -29,7 +29,7 @@ void forEachIndex(size_t count, Body body) {
   });
 }
 
-// Below this many points in all, no brick is left out, so that repairs of coarse lattices may go anywhere.
+// Below this number of points in all no brick is left out, so that repairs of coarse lattices may add points anywhere.
 constexpr double kSmallLattice = 64.0 * 64.0 * 64.0;
 const double kSqrt3 = std::sqrt(3.0);
 
@@ -44,7 +44,7 @@ uint32_t CellCorners::mask(int32_t x, int32_t y, int32_t z) const {
 
 BrickLattice::BrickLattice(const CapsuleUnion& field, double spacing)
     : field_(field.withRadiiAtLeast(spacing * kSqrt3 / 2)), spacing_(spacing) {
-  // Off the shape's planes of symmetry, where many points would be ties.
+  // Off the planes of symmetry of the shape, where many points would be ties.
   origin_ = field_.bounds().min - Vec3d{1.37, 1.61, 1.23} * spacing;
   const Vec3d extent = field_.bounds().max - origin_ + Vec3d{2, 2, 2} * spacing;
   for (size_t axis = 0; axis < 3; ++axis) {
@@ -129,7 +129,7 @@ CellCorners BrickLattice::corners(const Brick& brick) const {
     for (int32_t z = dz * kBrickEdge; z < kBrickEdge + dz; ++z)
       for (int32_t y = dy * kBrickEdge; y < kBrickEdge + dy; ++y)
         for (int32_t x = dx * kBrickEdge; x < kBrickEdge + dx; ++x) {
-          // A brick that was left out is all inside or all outside, and well so: the field itself tells.
+          // A brick that was left out is wholly inside or outside, so the sign of the field is exact there.
           corners.at(x, y, z) =
               owner < 0 ? field_.value(position(brick, x, y, z)) < 0
                         : (bricks_[static_cast<size_t>(owner)].inside[static_cast<size_t>(z % kBrickEdge)] >>
@@ -142,7 +142,7 @@ CellCorners BrickLattice::corners(const Brick& brick) const {
 
 void BrickLattice::makeWellComposed() {
   using Flips = std::vector<Coordinates>;
-  // Every round adds points, so that it ends.
+  // Terminates: every round adds points.
   for (;;) {
     std::vector<Flips> flipsOf(bricks_.size());
     forEachIndex(bricks_.size(), [&](size_t i) {

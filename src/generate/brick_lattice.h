@@ -15,8 +15,8 @@ inline constexpr int32_t kBrickEdge = 8;
 
 /// 8^3 lattice points near the surface. Point (x, y, z) of the brick is bit x + 8 y of word z.
 struct Brick {
-  std::array<int32_t, 3> coordinates{};   ///< Of its lowest point, over kBrickEdge.
-  CapsuleUnion::Selection selection = 0;  ///< The capsules that matter here.
+  std::array<int32_t, 3> coordinates{};   ///< Of its lowest point, divided by kBrickEdge.
+  CapsuleUnion::Selection selection = 0;  ///< The capsules that affect this brick.
   std::array<uint64_t, 8> inside{};
 };
 
@@ -30,18 +30,19 @@ class CellCorners {
 
  private:
   [[nodiscard]] static size_t index(int32_t x, int32_t y, int32_t z) {
-    return static_cast<size_t>(x + (kBrickEdge + 1) * (y + (kBrickEdge + 1) * z));
+    const int32_t flag = x + (kBrickEdge + 1) * (y + (kBrickEdge + 1) * z);
+    return static_cast<size_t>(flag);
   }
   std::array<bool, (kBrickEdge + 1) * (kBrickEdge + 1) * (kBrickEdge + 1)> flags_{};
 };
 
-/// Which points of a cubic lattice lie inside a shape, kept only near its surface: bricks that the surface cannot
-/// reach, by the field's Lipschitz bound, are left out.
+/// Points of a cubic lattice inside a shape, stored only near its surface: bricks that the surface cannot reach, by the
+/// Lipschitz bound of the field, are left out.
 ///
 /// The set of inside points is made well-composed (Latecki, 1997): no four points around a lattice face and no eight
-/// around a cell touch only across a diagonal. Then, and only then, the boundary of the points' voxels is a closed
-/// 2-manifold, whatever the resolution. And no part thinner than a cell falls apart: for the signs, radii are raised to
-/// half a cell's diagonal.
+/// around a cell touch only across a diagonal. This is necessary and sufficient for the boundary of the voxels of the
+/// points to be a closed 2-manifold at any resolution. For the signs, radii are at least half the diagonal of a cell,
+/// so that parts thinner than a cell stay connected.
 class BrickLattice {
  public:
   BrickLattice(const CapsuleUnion& field, double spacing);
@@ -52,7 +53,7 @@ class BrickLattice {
   [[nodiscard]] CellCorners corners(const Brick& brick) const;
   /// The brick at these brick coordinates, or -1.
   [[nodiscard]] int64_t find(int32_t x, int32_t y, int32_t z) const;
-  /// Lattice edges that the surface crosses: the quads of its polygonisation.
+  /// Number of lattice edges that the surface crosses: the quads of its polygonisation.
   [[nodiscard]] uint64_t crossedEdgeCount() const;
 
  private:

@@ -16,8 +16,8 @@ void forEachBit(uint64_t bits, Use use) {
   for (; bits != 0; bits &= bits - 1) use(static_cast<size_t>(std::countr_zero(bits)));
 }
 
-// The cubic smooth minimum: where |a - b| < blend it sinks below min(a, b), by blend / 6 at most, with two continuous
-// derivatives. `share` is the derivative by b; the one by a is 1 - share.
+// Cubic smooth minimum: where |a - b| < blend it is below min(a, b), by at most blend / 6, with two continuous
+// derivatives. `share` is the derivative with respect to b; that with respect to a is 1 - share.
 struct SmoothMinimum {
   double value, share;
 };
@@ -57,8 +57,8 @@ CapsuleUnion::CapsuleUnion(std::vector<Capsule> capsules) : capsules_(std::move(
   bounds_ = {bounds_.min - margin, bounds_.max + margin};
 }
 
-// |p - c(s)| - r(s) over the axis is convex in s; its minimum lies ahead of the foot of the perpendicular on the side
-// where the radius grows.
+// |p - c(s)| - r(s) over the axis is convex in s. Its minimum is ahead of the foot of the perpendicular, in the
+// direction of growing radius.
 CapsuleUnion::Nearest CapsuleUnion::nearest(const Axis& axis, const Vec3d& p) {
   const Vec3d fromOrigin = p - axis.origin;
   const double along = dot(fromOrigin, axis.direction);

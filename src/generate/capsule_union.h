@@ -14,11 +14,11 @@ struct Capsule {
   Vec3d a, b;
   double radiusA = 1, radiusB = 1;
   uint32_t part = 0;
-  double blend = 0;  ///< How far around a joint it melts into the capsules before it, as a length; 0 for a sharp seam.
+  double blend = 0;  ///< Width of the smooth transition to the capsules before it, a length; 0 for a sharp seam.
 };
 
-/// A smooth union of at most kMaxCapsules capsules as an implicit surface: negative inside, and never changing faster
-/// than the distance walked (Lipschitz bound 1), which is what the polygoniser prunes space by.
+/// A smooth union of at most kMaxCapsules capsules as an implicit surface: negative inside, with Lipschitz bound 1, by
+/// which the polygoniser prunes space.
 class CapsuleUnion {
  public:
   static constexpr size_t kMaxCapsules = 64;
@@ -35,17 +35,17 @@ class CapsuleUnion {
   [[nodiscard]] double value(const Vec3d& p, Selection selection = kAll) const;
   [[nodiscard]] Sample sample(const Vec3d& p, Selection selection = kAll) const;
 
-  /// The capsules that shape the surface within `radius` of p.
+  /// The capsules that determine the surface within `radius` of p.
   [[nodiscard]] Selection near(const Vec3d& p, double radius) const;
 
   struct Dominating {
     uint32_t part = 0;
-    double diameter = 0;  ///< Of the ball that p is nearest to.
+    double diameter = 0;  ///< Of the ball nearest to p.
   };
-  /// Of the capsule that p is nearest to (the first of equals).
+  /// Of the capsule nearest to p, the first of equals.
   [[nodiscard]] Dominating dominating(const Vec3d& p, Selection selection = kAll) const;
 
-  /// Holds the surface, blends included.
+  /// A box that contains the surface, blends included.
   [[nodiscard]] const Box3d& bounds() const { return bounds_; }
 
   /// The same with no radius below `radius`.
@@ -57,8 +57,7 @@ class CapsuleUnion {
     double length = 0;
     double radius = 0;       ///< At the origin.
     double radiusSlope = 0;  ///< Change of the radius per length; above -1 and below 1.
-    double lean =
-        0;  ///< How far the nearest ball lies ahead of the foot of the perpendicular, per distance from the axis.
+    double lean = 0;  ///< Shift of the nearest ball from the foot of the perpendicular, per distance from the axis.
     double blend = 0;
     uint32_t part = 0;
   };

@@ -7,11 +7,11 @@
 
 namespace asdfvk {
 
-// Smooth unions of capsules with the part and the local diameter of each face. Heights are about 2, z is up.
-// From about 2000 faces on they are spheres by topology; coarser lattices may let neighbouring limbs touch.
+// Smooth unions of capsules with the part and the local diameter of each face. Heights are about 2, z is up. With at
+// least about 2000 faces they are topological spheres; on coarser lattices neighbouring limbs may touch.
 
 struct CreatureParameters {
-  double thickness = 1;  ///< Factor on all radii; a large one lets limbs grow together.
+  double thickness = 1;  ///< Factor on all radii; large factors merge limbs.
 };
 
 /// Four legs. Parts: 0 torso, 1 neck, 2 head, 3 tail, 4 and 5 front legs, 6 and 7 hind legs (left, right), 8 and 9

@@ -70,7 +70,7 @@ class CylinderGrid {
 }  // namespace
 
 GeneratedShape makeCylinder(uint64_t faceCount, const CylinderParameters& parameters) {
-  // The discs have 12 r^2 faces, the mantle 12 r per layer; r for edges of one length, then the layers for the count.
+  // The discs have 12 r^2 faces, the mantle 12 r per layer. r gives edges of equal length, the layers give the count.
   const double layersPerRing = parameters.length / parameters.radius * (3 / std::numbers::pi);
   const double wished = std::max(1.0, std::round(std::sqrt(double(faceCount) / (12 * (1 + layersPerRing)))));
   const double layers = std::max(1.0, std::round((double(faceCount) - 12 * wished * wished) / (12 * wished)));

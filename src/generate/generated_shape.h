@@ -7,15 +7,15 @@
 
 namespace asdfvk {
 
-/// A closed, manifold triangle mesh, outward by the right-hand rule, and what is known of it by construction.
+/// A closed, manifold triangle mesh, outward by the right-hand rule, with the part and diameter of each face.
 struct GeneratedShape {
   Mesh mesh;
-  std::vector<uint32_t> part;   ///< #F, the part that the face belongs to; 0 where a shape has one part only.
-  std::vector<float> diameter;  ///< #F, the true local diameter of the shape beneath the face, in the mesh's unit.
+  std::vector<uint32_t> part;   ///< #F, part of the face; 0 where a shape has one part only.
+  std::vector<float> diameter;  ///< #F, true local diameter of the shape at the face, in the unit of the mesh.
 };
 
-/// The face counts that a generator can be asked for. What it makes is within about 15 % of the wish, below some
-/// hundred faces as near as the shape allows.
+/// Range of face counts. The result is within about 15 % of the requested count; below some hundred faces it is the
+/// closest count that the shape allows.
 inline constexpr uint64_t kMinFaceCount = 20;
 inline constexpr uint64_t kMaxFaceCount = 50'000'000;
 

@@ -8,7 +8,7 @@
 
 namespace asdfvk {
 
-// The number of crossed edges goes with 1 / spacing^2, ever more exactly so as the lattice gets finer.
+// The number of crossed edges is proportional to 1 / spacing^2, more exactly on finer lattices.
 BrickLattice latticeOfSize(const CapsuleUnion& field, uint64_t quadCount) {
   const auto wished = static_cast<double>(quadCount);
   double spacing = field.bounds().diagonal() / 20;
@@ -22,7 +22,7 @@ BrickLattice latticeOfSize(const CapsuleUnion& field, uint64_t quadCount) {
       bestError = error;
       best.emplace(std::move(lattice));
     }
-    // Coarse lattices gain and lose quads in jumps: shorter steps find a way between two of them.
+    // The number of quads of coarse lattices changes in jumps: shorter steps find counts between them.
     const double power = attempt < 6 ? 0.5 : 0.2;
     spacing *= std::pow(std::clamp(ratio, 1.0 / 64, 64.0), power);
   }

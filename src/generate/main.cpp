@@ -51,7 +51,7 @@ int main(int argc, char** argv) {
                "asdf-vk-generate");
   app.add_option("shape", options.shape, fmt::format("One of {}", fmt::join(shapeNames(), ", ")))->required();
   app.add_option("-o,--output", options.output, "The PLY file to write; - is standard output")->required();
-  app.add_option("--faces", options.faceCount, "About how many faces")->capture_default_str();
+  app.add_option("--faces", options.faceCount, "Approximate number of faces")->capture_default_str();
   app.add_option("--scale", options.scale, "Factor on all lengths")->capture_default_str();
   app.add_option("--translate", options.translate, "Shift by X Y Z, after the scaling");
   app.add_flag("--double", options.doubleVertices, "Write vertices as double instead of float");

@@ -38,12 +38,13 @@ std::vector<std::string_view> shapeNames() {
 
 GeneratedShape generateShape(std::string_view name, uint64_t faceCount) {
   if (faceCount < kMinFaceCount || faceCount > kMaxFaceCount)
-    throw Error(ErrorCode::OptionOutOfRange, fmt::format("{} will not do; the generator makes {} to {}",
-                                                         counted(faceCount, "face"), kMinFaceCount, kMaxFaceCount));
+    throw Error(ErrorCode::OptionOutOfRange,
+                fmt::format("a face count of {} is out of range ({} to {})", groupDigits(faceCount), kMinFaceCount,
+                            groupDigits(kMaxFaceCount)));
   for (const NamedShape& shape : kShapes)
     if (shape.name == name) return shape.make(faceCount);
   throw Error(ErrorCode::OptionOutOfRange,
-              fmt::format("no shape is called {}; there are {}", name, fmt::join(shapeNames(), ", ")));
+              fmt::format("unknown shape {}; the shapes are {}", name, fmt::join(shapeNames(), ", ")));
 }
 
 }  // namespace asdfvk

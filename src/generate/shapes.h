@@ -10,7 +10,7 @@
 
 namespace asdfvk {
 
-/// The names that generateShape() knows.
+/// Names of the shapes.
 [[nodiscard]] std::vector<std::string_view> shapeNames();
 
 /// The shape of that name with its default parameters and about `faceCount` faces; the same bits on any number of

@@ -9,7 +9,8 @@
 namespace asdfvk {
 namespace {
 
-/// The vertices of an icosahedron whose edges are cut into n: corners first, then edges, then the insides of its sides.
+/// The vertices of an icosahedron whose edges are divided into n: corners first, then edges, then the interiors of its
+/// sides.
 class GeodesicGrid {
  public:
   GeodesicGrid(uint32_t n, double radius) : n_(n), radius_(radius) {

@@ -83,7 +83,7 @@ class SurfaceNets {
             const uint32_t mask = signs.mask(x, y, z);
             if (mask == 0 || mask == 0xff) continue;
             cells.crossed[static_cast<size_t>(z)] |= uint64_t{1} << (x + kBrickEdge * y);
-            ++cells.firstVertex;  // a count until the sums below
+            ++cells.firstVertex;  // A count until the prefix sums below.
           }
       }
       forEachCrossedEdge(signs, [&](int, int32_t, int32_t, int32_t, bool) { ++cells.firstQuad; });
@@ -100,7 +100,7 @@ class SurfaceNets {
     shape_.diameter.resize(2 * quadCount);
   }
 
-  /// The vertex of a cell whose coordinates may lie up to one brick beyond this one; kNone when it is not crossed.
+  /// The vertex of a cell at most one brick beyond this one; kNone when the surface does not cross it.
   [[nodiscard]] uint32_t vertexOf(size_t brick, int32_t x, int32_t y, int32_t z) const {
     if (((x | y | z) & ~(kBrickEdge - 1)) != 0) {
       const auto floorDivide = [](int32_t c) { return c < 0 ? -1 : c / kBrickEdge; };
@@ -142,8 +142,8 @@ class SurfaceNets {
     });
   }
 
-  /// Moves each vertex by `share` of the way to its neighbours' mean, then by Newton's steps to the surface, never
-  /// further than one spacing along an axis from its cell's centre.
+  /// Moves each vertex by `share` of the way to the mean of its neighbours, then by Newton's steps to the surface, at
+  /// most one spacing along each axis from the centre of its cell.
   void moveVertices(double share, int newtonSteps) {
     const std::vector<Vec3d>& from = shape_.mesh.vertices;
     std::vector<Vec3d> to(from.size());
@@ -174,7 +174,7 @@ class SurfaceNets {
 
   [[nodiscard]] Vec3d newtonStep(const Vec3d& p, CapsuleUnion::Selection selection) const {
     const CapsuleUnion::Sample sample = field_.sample(p, selection);
-    // Midway between two limbs the gradients cancel: take the plain distance there rather than a leap.
+    // Midway between two limbs the gradients cancel: a step of the distance, because a Newton step would be too long.
     const double squared = std::max(0.05, dot(sample.gradient, sample.gradient));
     return sample.gradient * (-sample.value / squared);
   }

@@ -7,10 +7,10 @@
 
 namespace asdfvk {
 
-/// The surface of a smooth union of capsules as a closed manifold of about `faceCount` well-shaped triangles, with part
-/// and diameter of each. Surface nets (Gibson, 1998) on a sparse lattice: a vertex per cell that the surface crosses, a
-/// quad per crossed lattice edge; vertices are evened out along the surface and then set onto it by Newton's steps.
-/// Differs from the paper in that the lattice is well-composed first, so that the result is a manifold.
+/// The surface of a smooth union of capsules as a closed manifold of about `faceCount` well-shaped triangles, with the
+/// part and diameter of each. Surface nets (Gibson, 1998) on a sparse lattice: a vertex per cell that the surface
+/// crosses, a quad per crossed lattice edge. Vertices are spread evenly along the surface, then moved onto it by
+/// Newton's steps. Differs from the paper: the lattice is made well-composed first, so that the result is a manifold.
 [[nodiscard]] GeneratedShape polygonise(const CapsuleUnion& field, uint64_t faceCount);
 
 }  // namespace asdfvk

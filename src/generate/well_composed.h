@@ -4,9 +4,9 @@
 
 namespace asdfvk {
 
-/// The eight points around a lattice cell, as a mask of those inside (bit i + 2 j + 4 k: corner (i, j, k)), are
-/// well-composed when no two inside and no two outside points touch only across a diagonal of a cell's side or of the
-/// cell. Returns -1 for such a mask, else an outside corner whose filling mends it or comes one step nearer.
+/// The eight points around a lattice cell, as a mask of those inside (bit i + 2 j + 4 k: corner (i, j, k)).
+/// Well-composed: no two inside and no two outside points touch only across a diagonal of a side or of the cell.
+/// Returns -1 for such a mask, else an outside corner that, once inside, repairs the mask or comes one step closer.
 [[nodiscard]] int32_t cornerToFill(uint32_t mask);
 
 }  // namespace asdfvk

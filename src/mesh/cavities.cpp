@@ -14,30 +14,30 @@
 namespace asdfvk {
 namespace {
 
-// Rays run along the third axis of a frame that is parallel to no axis, plane or diagonal that a mesh may be built
-// along.
-struct RayFrame {
+// Rays run along the third axis of a frame that is not parallel to the axes, planes and diagonals along which meshes
+// are often built.
+struct ProjectionFrame {
   Normalization normalization;
 
   [[nodiscard]] Vec3d toFrame(const Vec3d& p) const {
     static constexpr Vec3d kX{0.80134262, -0.56937194, -0.18349152}, kY{0.50881031, 0.48112718, 0.71386211};
-    static constexpr Vec3d kZ = cross(kX, kY);  // Only nearly orthonormal, which inside and outside do not mind.
+    static constexpr Vec3d kZ = cross(kX, kY);  // Only nearly orthonormal, which parity does not need.
     const Vec3d q = normalization.toNormalized(p);
     return {dot(kX, q), dot(kY, q), dot(kZ, q)};
   }
 };
 
-struct Probe {
+struct TestRay {
   uint32_t component = 0;
   Vec3d point;  // In the ray frame.
 };
 
 struct ClosedComponents {
-  std::vector<Box3d> boxes;   // Of closed components, else empty.
-  std::vector<Probe> probes;  // Grouped by component, ascending.
+  std::vector<Box3d> boxes;   // Empty for components that are not closed.
+  std::vector<TestRay> rays;  // Grouped by component, ascending.
 };
 
-ClosedComponents gatherClosed(const TriangleMesh& mesh, const Components& components, const RayFrame& frame) {
+ClosedComponents gatherClosed(const TriangleMesh& mesh, const Components& components, const ProjectionFrame& frame) {
   const size_t count = components.components.size();
   ClosedComponents closed{std::vector<Box3d>(count), {}};
   std::vector<std::array<uint32_t, 6>> extremes(count);  // Vertices: lowest, highest along x, y, z.
@@ -61,7 +61,7 @@ ClosedComponents gatherClosed(const TriangleMesh& mesh, const Components& compon
     std::sort(extreme.begin(), extreme.end());
     const auto end = std::unique(extreme.begin(), extreme.end());
     for (auto vertex = extreme.begin(); vertex != end; ++vertex)
-      closed.probes.push_back({component, frame.toFrame(mesh.vertices[*vertex])});
+      closed.rays.push_back({component, frame.toFrame(mesh.vertices[*vertex])});
   }
   return closed;
 }
@@ -72,8 +72,8 @@ bool containsStrictly(const Box3d& outer, const Box3d& inner) {
   return true;
 }
 
-// The side of p of an edge, computed from the edge's lower vertex to its upper one, so that the two faces of an edge
-// never disagree: a ray that meets an edge crosses one of them, whatever the rounding.
+// The side of an edge on which p lies, computed from the lower vertex to the upper one, so that the two faces of an
+// edge always agree: a ray that hits an edge crosses exactly one of them, independent of rounding.
 double sideOfEdge(const Face& face, const std::array<Vec3d, 3>& corners, size_t i, const Vec3d& p) {
   const size_t j = (i + 1) % 3;
   const auto plane = [](const Vec3d& v) { return Point2{v.x, v.y}; };
@@ -99,13 +99,13 @@ bool rayCrosses(const Face& face, const std::array<Vec3d, 3>& corners, const Vec
   return height > p.z;
 }
 
-// For each probe 1 when its ray crosses an odd number of faces of the components whose boxes contain its own one. The
-// sum over components has the parity of the number of those that the probe is inside of.
-std::vector<uint8_t> parities(const TriangleMesh& mesh, const Components& components, const RayFrame& frame,
+// For each test ray 1 when it crosses an odd number of faces of the components whose boxes contain its own one. The sum
+// over components has the parity of the number of components that contain the ray origin.
+std::vector<uint8_t> parities(const TriangleMesh& mesh, const Components& components, const ProjectionFrame& frame,
                               const ClosedComponents& closed) {
   std::vector<Point2> points;
-  points.reserve(closed.probes.size());
-  for (const Probe& probe : closed.probes) points.push_back({probe.point.x, probe.point.y});
+  points.reserve(closed.rays.size());
+  for (const TestRay& ray : closed.rays) points.push_back({ray.point.x, ray.point.y});
   const PlanePoints tree(points);
   std::vector<uint8_t> result(points.size(), 0);
   forEachInParallel(mesh.faces.size(), [&](uint32_t f) {
@@ -119,8 +119,8 @@ std::vector<uint8_t> parities(const TriangleMesh& mesh, const Components& compon
       triangle[i] = {corners[i].x, corners[i].y};
     }
     tree.forEachNear(triangle, [&](uint32_t index) {
-      const Probe& probe = closed.probes[index];
-      if (containsStrictly(box, closed.boxes[probe.component]) && rayCrosses(face, corners, probe.point))
+      const TestRay& ray = closed.rays[index];
+      if (containsStrictly(box, closed.boxes[ray.component]) && rayCrosses(face, corners, ray.point))
         std::atomic_ref<uint8_t>(result[index]).fetch_xor(1, std::memory_order_relaxed);
     });
   });
@@ -133,12 +133,12 @@ std::vector<uint8_t> findCavities(const TriangleMesh& mesh, const Components& co
   std::vector<uint8_t> isCavity(components.components.size(), 0);
   const auto isClosed = [](const Component& component) { return component.isClosed; };
   if (std::count_if(components.components.begin(), components.components.end(), isClosed) < 2) return isCavity;
-  const RayFrame frame{normalizationOf(boundsOfFiniteVertices(mesh))};
+  const ProjectionFrame frame{normalizationOf(boundsOfFiniteVertices(mesh))};
   const ClosedComponents closed = gatherClosed(mesh, components, frame);
   const std::vector<uint8_t> isOdd = parities(mesh, components, frame, closed);
-  for (const Probe& probe : closed.probes) isCavity[probe.component] = 1;
+  for (const TestRay& ray : closed.rays) isCavity[ray.component] = 1;
   for (size_t i = 0; i < isOdd.size(); ++i)
-    if (!isOdd[i]) isCavity[closed.probes[i].component] = 0;
+    if (!isOdd[i]) isCavity[closed.rays[i].component] = 0;
   return isCavity;
 }
 

@@ -9,9 +9,9 @@
 namespace asdfvk {
 
 /// For each component 1 when it is closed and lies inside an odd number of other closed components, else 0.
-/// #components. Told by the parity of the faces that rays from its outermost vertices along each axis cross: one that
-/// sticks out of another is not inside it. For n faces and c components about n log c; more only where many components
-/// lie in each other, or many long faces cross many components.
+/// #components. Determined by the parity of the faces crossed by rays from its outermost vertices along each axis; a
+/// component that sticks out of another one is not inside it. Takes about n log c for n faces and c components; more
+/// only where many components are nested, or many long faces cross many components.
 [[nodiscard]] std::vector<uint8_t> findCavities(const TriangleMesh& mesh, const Components& components);
 
 }  // namespace asdfvk

@@ -16,7 +16,7 @@ struct FaceKey {
 };
 
 // The face between the lowest vertices at its corners, ascending. A face that this collapses has no area and keeps its
-// own vertices: which of its copies is which matters to no ray.
+// own vertices: no ray depends on its identity.
 Face placeOf(const Face& face, const std::vector<uint32_t>& lowestVertices) {
   Face place{lowestVertices[face[0]], lowestVertices[face[1]], lowestVertices[face[2]]};
   if (!hasDistinctVertices(place)) place = face;
@@ -41,7 +41,7 @@ std::vector<uint32_t> lowestAmong(const TriangleMesh& mesh, const std::vector<ui
   return representatives;
 }
 
-// In a closed mesh a face and its copy are alone at each of their three edges.
+// In a closed mesh a face and its copy are the only faces at each of their three edges.
 bool hasCopyByVertices(const DualGraph& closedGraph) {
   return countInParallel(closedGraph.faceCount(), [&](uint32_t f) {
            const std::span<const uint32_t> around = closedGraph.neighboursOf(f);

@@ -8,14 +8,14 @@
 
 namespace asdfvk {
 
-/// For each face the lowest face with its corners at the same three points, in either winding, be they the same
-/// vertices or copies of them (see coincidentVertices()); itself where there is no other. #F. Faces with two corners at
-/// one point go by their vertices alone. Coincident faces lie at distance 0 of each other, where a hit is rounding
-/// noise: they share one identity, so that a cone passes through its own face's copies and every backend sees the same
-/// one of them.
+/// For each face the lowest face with its corners at the same three points, in either winding, with the same vertices
+/// or with copies of them (see coincidentVertices()); the face itself where there is no other. #F. Faces with two
+/// corners at one point are compared by their vertices. Coincident faces are at distance 0 of each other, where hits
+/// are rounding noise. They share one identity: a cone ignores the copies of its own face, and every backend reports
+/// the same copy.
 [[nodiscard]] std::vector<uint32_t> coincidentRepresentatives(const TriangleMesh& mesh);
 
-/// The same, faster where the edges rule copies out.
+/// The same; faster where the edges exclude copies.
 [[nodiscard]] std::vector<uint32_t> coincidentRepresentatives(const TriangleMesh& mesh, const EdgeSurvey& edges);
 
 }  // namespace asdfvk

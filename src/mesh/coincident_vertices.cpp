@@ -8,7 +8,7 @@
 namespace asdfvk {
 namespace {
 
-/// A vertex and what tells nearly all points of a bucket apart.
+/// A vertex and a hash that distinguishes nearly all points of a bucket.
 struct Fingerprint {
   uint32_t hash;
   uint32_t vertex;
@@ -27,10 +27,10 @@ std::vector<uint32_t> coincidentVertices(const TriangleMesh& mesh) {
     put(static_cast<uint32_t>(hash & (bucketCount - 1)), Fingerprint{static_cast<uint32_t>(hash >> 32), vertex});
   });
   points.forEachBucket([&](uint32_t, std::span<const Fingerprint> bucket) {
-    size_t first = 0;  // Of those with the same hash.
+    size_t first = 0;  // Of the entries with the same hash.
     for (size_t i = 1; i < bucket.size(); ++i) {
       if (bucket[i].hash != bucket[first].hash) first = i;
-      // The first of them, but for points that differ and hash alike all the same.
+      // Nearly always the first; different points may have the same hash.
       size_t same = first;
       while (!(mesh.vertices[bucket[same].vertex] == mesh.vertices[bucket[i].vertex])) ++same;
       lowest[bucket[i].vertex] = bucket[same].vertex;

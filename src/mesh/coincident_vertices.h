@@ -7,8 +7,8 @@
 
 namespace asdfvk {
 
-/// For each vertex the lowest vertex at the very same point; itself where there is no other. #V. -0 equals 0; a vertex
-/// with a number that is not finite equals only itself.
+/// For each vertex the lowest vertex at exactly the same point; the vertex itself where there is no other. #V. -0
+/// equals 0. A vertex with a non-finite coordinate equals only itself.
 [[nodiscard]] std::vector<uint32_t> coincidentVertices(const TriangleMesh& mesh);
 
 }  // namespace asdfvk

@@ -16,8 +16,8 @@ namespace {
 // A volume below this share of the sum of its terms' factors is rounding noise: a few units in the last place.
 constexpr double kVolumeNoise = 1e-15;
 
-/// Sets of faces that grow together, each known by its lowest face; by any number of threads at once (Anderson and Woll
-/// 1991, "Wait-free parallel algorithms for the union-find problem", with links to the lower index).
+/// Disjoint sets of faces, merged by any number of threads at once; each set is identified by its lowest face (Anderson
+/// and Woll 1991, "Wait-free parallel algorithms for the union-find problem", with links to the lower index).
 class FaceSets {
  public:
   explicit FaceSets(uint32_t faceCount) : parents_(faceCount) {
@@ -30,7 +30,7 @@ class FaceSets {
       if (parent == face) return face;
       const uint32_t grandparent = load(parent);
       if (parent == grandparent) return parent;
-      slot(face).store(grandparent, std::memory_order_relaxed);  // Halves the way; any ancestor will do.
+      slot(face).store(grandparent, std::memory_order_relaxed);  // Path halving: any ancestor is valid.
       face = grandparent;
     }
   }
@@ -71,7 +71,7 @@ void label(const DualGraph& graph, Components& result) {
       componentOf[face] = static_cast<uint32_t>(result.components.size());
       result.components.push_back(component);
     } else {
-      componentOf[face] = componentOf[lowest];  // Which is lower and has its index already.
+      componentOf[face] = componentOf[lowest];  // `lowest` is lower and already has its index.
     }
     ++result.components[componentOf[face]].faceCount;
   }
@@ -134,13 +134,13 @@ void judgeClosedness(const TriangleMesh& mesh, const DualGraph& graph, Component
   }
 }
 
-// The volume of some faces of one component, and what rounding may make of it.
+// The volume of some faces of one component, and a bound on its rounding error.
 struct VolumeSum {
   uint32_t component = 0;
   double sum = 0, noise = 0;
 };
 
-// Of a fixed range of faces, so that the sums do not depend on the number of threads.
+// Over a fixed range of faces, so that the sums do not depend on the number of threads.
 std::vector<VolumeSum> sumVolumes(const TriangleMesh& mesh, const Components& components, double scale, uint32_t begin,
                                   uint32_t end) {
   std::vector<VolumeSum> sums;
@@ -150,7 +150,7 @@ std::vector<VolumeSum> sumVolumes(const TriangleMesh& mesh, const Components& co
     if (sums.empty() || sums.back().component != component) sums.push_back({component});
     const Vec3d& origin = mesh.vertices[mesh.faces[components.components[component].firstFace][0]];
     const auto [i, j, k] = mesh.faces[f];
-    // Scaled first, which rounds nothing, because differences of huge coordinates may overflow.
+    // Scaled first, which is exact: differences of huge coordinates may overflow.
     const Vec3d corner = mesh.vertices[i] * scale;
     const Vec3d a = corner - origin * scale;
     const Vec3d ab = mesh.vertices[j] * scale - corner, ac = mesh.vertices[k] * scale - corner;
@@ -160,8 +160,8 @@ std::vector<VolumeSum> sumVolumes(const TriangleMesh& mesh, const Components& co
   return sums;
 }
 
-// Volumes are summed in normalised units around a corner of the component, so that neither the unit nor a shift of the
-// mesh costs digits.
+// Volumes are summed in normalised units around a corner of the component, so that neither the unit nor a translation
+// of the mesh costs digits.
 void measureVolumes(const TriangleMesh& mesh, Components& result) {
   const double scale = normalizationOf(boundsOfFiniteVertices(mesh)).scale;
   const size_t blockCount = (mesh.faces.size() + kItemsPerTask - 1) / kItemsPerTask;

@@ -8,14 +8,14 @@
 
 namespace asdfvk {
 
-/// The faces of the mesh that hang together over the dual graph.
+/// A set of faces connected in the dual graph.
 struct Component {
   uint32_t firstFace = 0;  ///< Its lowest face.
   uint32_t faceCount = 0;
   bool isClosed = false;  ///< Each edge has exactly two faces; triangles with a repeated vertex do not count.
-  bool isConsistentlyWound = false;  ///< The two faces of each such edge run through it in opposite directions.
+  bool isConsistentlyWound = false;  ///< The two faces of each such edge traverse it in opposite directions.
   double signedVolume = 0;           ///< In mesh units cubed; negative where faces look inwards, 0 where rounding hides
-                                     ///< the sign. Sound for closed, consistently wound components only.
+                                     ///< the sign. Valid for closed, consistently wound components only.
 };
 
 struct Components {
@@ -23,11 +23,11 @@ struct Components {
   std::vector<Component> components;  ///< By lowest face.
 };
 
-/// Precondition: no index is out of range, and `graph` is the mesh's. A face with a non-finite corner is a component of
-/// its own, and the hole that it leaves makes the others open.
+/// Precondition: no index is out of range, and `graph` is that of the mesh. A face with a non-finite corner is a
+/// component of its own; the hole that it leaves makes the component around it open.
 [[nodiscard]] Components findComponents(const TriangleMesh& mesh, const DualGraph& graph);
 
-/// The same, faster where the mesh has no open edge.
+/// The same; faster where the mesh has no open edge.
 [[nodiscard]] Components findComponents(const TriangleMesh& mesh, const EdgeSurvey& edges);
 
 }  // namespace asdfvk

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-// By its largest coordinate, so that products neither underflow nor overflow; zero stays zero.
+// Scales by the largest coordinate, so that products neither underflow nor overflow; zero stays zero.
 Vec3d scaledToOne(const Vec3d& v) {
   const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
   return largest > 0 ? v / largest : v;

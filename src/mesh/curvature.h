@@ -8,15 +8,15 @@ namespace asdfvk {
 
 /// Discrete Gaussian curvature of each vertex without a unit, its angle defect: 2 pi minus the angles of the faces
 /// around it, or pi minus them where an edge at it has only one face (Meyer, Desbrun, Schroeder and Barr 2003, not
-/// divided by an area). #V; 0 for a vertex without faces. Over a closed mesh they sum to 2 pi times its Euler
+/// divided by an area). #V; 0 for a vertex without faces. Over a closed mesh the sum is 2 pi times the Euler
 /// characteristic.
 ///
-/// A face of zero area contributes the angles of the limit that it is, which sum to pi: 0, 0 and pi where its corners
-/// are in line, 0, pi/2 and pi/2 where two of them are at one place, pi/3 each where all are. A face with a repeated
-/// vertex or a non-finite corner contributes none. Precondition: no index is out of range.
+/// A face of zero area contributes the limits of its angles, which sum to pi: 0, 0 and pi for collinear corners; 0,
+/// pi/2 and pi/2 where two corners coincide; pi/3 each where all coincide. A face with a repeated vertex or a
+/// non-finite corner contributes none. Precondition: no index is out of range.
 [[nodiscard]] std::vector<double> vertexAngleDefects(const TriangleMesh& mesh);
 
-/// Per face the mean of its three vertices' angle defects. #F
+/// Per face the mean of the angle defects of its three vertices. #F
 [[nodiscard]] std::vector<double> faceCurvature(const TriangleMesh& mesh);
 
 }  // namespace asdfvk

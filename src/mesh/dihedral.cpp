@@ -10,7 +10,7 @@ namespace asdfvk {
 double signedDihedralAngle(const FaceGeometry& geometry, uint32_t f, uint32_t g) {
   if (geometry.isDegenerate(f) || geometry.isDegenerate(g)) return 0;
   const Vec3d &ofF = geometry.normals[f], &ofG = geometry.normals[g];
-  // Unlike the arc cosine this is exact for small angles too.
+  // Unlike the arc cosine, accurate for small angles.
   const double angle = std::atan2(length(cross(ofF, ofG)), dot(ofF, ofG));
   // Halves, so that their difference does not overflow.
   const Vec3d between = geometry.barycentres[g] * 0.5 - geometry.barycentres[f] * 0.5;

@@ -8,8 +8,8 @@
 
 namespace asdfvk {
 
-/// An edge shared by more faces than this joins each to the one before and the one after it in file order only, so that
-/// no input makes the graph quadratic.
+/// An edge shared by more faces than this joins each only to its predecessor and its successor in file order, so that
+/// the size of the graph is never quadratic.
 inline constexpr uint32_t kMaxFacesJoinedAllToAll = 32;
 
 /// The dual graph: a node per face, an arc in both directions per shared mesh edge (two faces that share two edges have
@@ -25,10 +25,10 @@ struct DualGraph {
   }
 };
 
-/// Edges are matched by sorting, so that non-manifold input is welcome: an edge of k faces joins all of them (but see
-/// kMaxFacesJoinedAllToAll), a boundary edge none. An edge whose two ends are the same vertex, and a face with a
-/// non-finite corner, join nothing. Vertices are told by index, not by place: a mesh whose faces do not share them is
-/// open everywhere. Precondition: every index of a face is below the vertex count.
+/// Edges are matched by sorting, so that non-manifold input is valid: an edge of k faces joins all of them (but see
+/// kMaxFacesJoinedAllToAll), a boundary edge none. An edge between a vertex and itself and a face with a non-finite
+/// corner join nothing. Vertices are compared by index, not by position: a mesh whose faces share no vertices is open
+/// everywhere. Precondition: every index of a face is below the vertex count.
 [[nodiscard]] DualGraph buildDualGraph(const TriangleMesh& mesh);
 
 }  // namespace asdfvk

@@ -22,7 +22,7 @@ struct EdgeCounts {
 /// From a face to a neighbour.
 using Arc = std::pair<uint32_t, uint32_t>;
 
-/// What a thread has found.
+/// Results of one thread.
 struct Findings {
   EdgeCounts counts;
   std::vector<Arc> furtherArcs;
@@ -97,7 +97,7 @@ class Survey {
     }
   }
 
-  /// Where each face has three arcs, `across_` holds the rows as they are.
+  /// Where each face has three arcs, `across_` already holds the rows.
   DualGraph closedGraph() {
     DualGraph graph;
     graph.offsets.resize(mesh_.faces.size() + 1);

@@ -7,14 +7,14 @@
 
 namespace asdfvk {
 
-/// What one pass over the edges of a mesh tells.
+/// Results of one pass over the edges of a mesh.
 struct EdgeSurvey {
   DualGraph graph;  ///< See buildDualGraph().
-  // Of the triangles with finite corners and three distinct vertices, as in MeshDefects.
+  // Over triangles with finite corners and three distinct vertices, as in MeshDefects.
   uint64_t boundaryEdgeCount = 0;
-  uint64_t nonManifoldEdgeCount = 0;   ///< Of more than two faces.
-  uint64_t inconsistentEdgeCount = 0;  ///< Whose two faces run through them in the same direction.
-  /// Every face has finite corners and three distinct vertices, and each edge exactly two of them.
+  uint64_t nonManifoldEdgeCount = 0;   ///< Edges of more than two faces.
+  uint64_t inconsistentEdgeCount = 0;  ///< Edges whose two faces traverse them in the same direction.
+  /// Every face has finite corners and three distinct vertices, and each edge exactly two faces.
   bool isClosed = false;
 };
 

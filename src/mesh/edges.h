@@ -22,8 +22,9 @@ struct EdgeEntry {
 /// The faces around every edge, by the edge's lower vertex. 36 B per face.
 class EdgeTable {
  public:
-  /// Faces for which takesPart(face) is false have no edge; an edge between a vertex and itself is none. A face that
-  /// runs along an edge twice, a-b-a, is there once. Precondition: every index of a face is below the vertex count.
+  /// Faces for which takesPart(face) is false have no edges; an edge between a vertex and itself is ignored. A face
+  /// that traverses an edge twice, a-b-a, is entered once. Precondition: every index of a face is below the vertex
+  /// count.
   template <typename TakesPart>
   EdgeTable(const TriangleMesh& mesh, const TakesPart& takesPart)
       : entries_(mesh.vertices.size(), mesh.faces.size(), [&](uint32_t f, auto&& put) {

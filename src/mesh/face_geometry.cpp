@@ -15,12 +15,12 @@ struct NormalAndArea {
   double area = 0;
 };
 
-// Sums of two differences of any two numbers times this do not overflow.
+// Sums of two differences of any two numbers, times this factor, do not overflow.
 constexpr double kQuarter = 0.25;
 
 Vec3d quarterOf(const Vec3d& from, const Vec3d& to) { return to * kQuarter - from * kQuarter; }
 
-// Edges are scaled by the longest one before they are multiplied, so that tiny and huge units neither underflow nor
+// Edges are divided by the longest one before they are multiplied, so that tiny and huge units neither underflow nor
 // overflow.
 NormalAndArea normalAndArea(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
   const Vec3d ab = quarterOf(a, b), ac = quarterOf(a, c), bc = quarterOf(b, c);
@@ -33,7 +33,7 @@ NormalAndArea normalAndArea(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
   const Vec3d scaledCross = cross(scaledAb, scaledAc);
   const double doubledArea = length(scaledCross);
   if (!(doubledArea > kDegenerateHeightRatio * longestSquared)) return {};
-  // An area beyond a double's range must neither read as degenerate nor as infinite.
+  // An area beyond the range of double must neither count as degenerate nor become infinite.
   using Limits = std::numeric_limits<double>;
   const double area = 0.5 * doubledArea * (longest / kQuarter) * (longest / kQuarter);
   return {scaledCross / doubledArea, std::clamp(area, Limits::min(), Limits::max())};

@@ -8,7 +8,7 @@
 
 namespace asdfvk {
 
-/// Otherwise the face is an edge or a point, whatever its coordinates.
+/// Three distinct vertices; otherwise the face is an edge or a point, independent of the coordinates.
 [[nodiscard]] constexpr bool hasDistinctVertices(const Face& face) {
   return face[0] != face[1] && face[1] != face[2] && face[2] != face[0];
 }

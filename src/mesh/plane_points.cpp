@@ -47,7 +47,7 @@ bool PlanePoints::mayTouch(const Node& node, const std::array<Point2, 3>& triang
     const Point2 &a = triangle[i], &b = triangle[(i + 1) % 3];
     const double nx = -(b.y - a.y) * winding, ny = (b.x - a.x) * winding;  // Points into the triangle.
     const Point2 innermost{nx > 0 ? node.max.x : node.min.x, ny > 0 ? node.max.y : node.min.y};
-    // A slack far above rounding, so that no point whose rounded side is inside is passed over.
+    // A tolerance far above rounding, so that no point inside is missed.
     const double slack = 1e-12 * (std::abs(nx) + std::abs(ny));
     if (nx * (innermost.x - a.x) + ny * (innermost.y - a.y) < -slack) return false;
   }

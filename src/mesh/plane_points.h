@@ -9,12 +9,12 @@
 
 namespace asdfvk {
 
-/// Points of the plane in a k-d tree, to find those that a triangle may contain.
+/// Points of the plane in a k-d tree: finds those that a triangle may contain.
 class PlanePoints {
  public:
   explicit PlanePoints(std::span<const Point2> points);
 
-  /// Calls visit(index) for every point inside the triangle, and for some outside of it near by.
+  /// Calls visit(index) for every point inside the triangle, and for some near it.
   template <typename Visit>
   void forEachNear(const std::array<Point2, 3>& triangle, const Visit& visit) const {
     if (!nodes_.empty()) descend(0, triangle, visit);

@@ -16,7 +16,7 @@ constexpr double kRadiansPerDegree = std::numbers::pi / 180;
 Camera orient(const Vec3d& boxSize, Up upwards, const View& view) {
   const Vec3d up = directionOf(upwards);
   const size_t axis = static_cast<size_t>(upwards) % 3;
-  // With y up the usual front is z, with z up it is -y, as modelling programs have it.
+  // Conventions of modelling programs: the front is z with y up, and -y with z up.
   const size_t usualFront = axis == 2 ? 1 : 2, otherFront = axis == 0 ? 1 : 0;
   const bool isBroadside = boxSize[otherFront] >= boxSize[usualFront];
   Vec3d front;

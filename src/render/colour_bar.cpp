@@ -9,7 +9,7 @@
 namespace asdfvk {
 namespace {
 
-// Lengths over the capitals' height.
+// Lengths divided by the height of capitals.
 constexpr double kBarWidth = 1.3, kTickLength = 0.4, kLabelGap = 0.35, kTitleGap = 1.4;
 constexpr double kHeightShare = 0.62, kWidestTitle = 1.0 / 3;
 

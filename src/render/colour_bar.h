@@ -11,7 +11,7 @@ namespace asdfvk {
 /// The colour bar as a column of its own at the right side of a picture.
 struct ColourBar {
   ColourRange range;
-  std::string title;     ///< Above the bar; made smaller where it is wider than a third of the picture.
+  std::string title;     ///< Above the bar; scaled down where it is wider than a third of the picture.
   double capHeight = 0;  ///< Of the text, in pixels.
 };
 

@@ -9,12 +9,12 @@
 
 namespace asdfvk {
 
-/// Faces that meet at a sharper angle than this are shaded apart.
+/// Faces that meet at a sharper angle than this are not smoothed.
 inline constexpr double kCreaseAngleDegrees = 40;
 
-/// #F unit normals at each face's three corners: those of the vertex's faces that lie within kCreaseAngleDegrees of the
-/// face, added up by their angles at the vertex. A face whose winding contradicts is turned over for it. A vertex of
-/// very many faces, the hub of a fan, smooths nothing. Those of a degenerate face are zero.
+/// #F unit normals at the three corners of each face: the sum of the normals of the faces at the vertex that are within
+/// kCreaseAngleDegrees of this face, weighted by their angles at the vertex. Normals of opposite winding are reversed.
+/// Vertices of very many faces (the hub of a fan) are not smoothed. Zero for a degenerate face.
 [[nodiscard]] std::vector<std::array<Vec3d, 3>> cornerNormals(const TriangleMesh& mesh, const FaceGeometry& geometry);
 
 }  // namespace asdfvk

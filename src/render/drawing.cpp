@@ -11,7 +11,7 @@
 namespace asdfvk {
 namespace {
 
-constexpr double kStrokeShare = 0.13;  ///< Of the capitals' height.
+constexpr double kStrokeShare = 0.13;  ///< Of the height of capitals.
 
 double squared(double x) { return x * x; }
 
@@ -34,7 +34,7 @@ double distanceToGlyph(const FontPoint& p, const Glyph& glyph, double dotExtra) 
 
 void drawGlyph(Image& image, const Glyph& glyph, double left, double baseline, double pixelsPerUnit,
                const Rgb& colour) {
-  constexpr double kAscent = 17, kDescent = 6, kSide = 3;  // In font units: no glyph reaches farther.
+  constexpr double kAscent = 17, kDescent = 6, kSide = 3;  // In font units: bounds of all glyphs.
   const double halfWidth = std::max(0.5, kStrokeShare * kCapHeight * pixelsPerUnit / 2);
   const double dotExtra = 0.35 * kStrokeShare * kCapHeight;
   const int beginX = std::max(0, static_cast<int>(std::floor(left - kSide * pixelsPerUnit)));

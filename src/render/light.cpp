@@ -11,13 +11,13 @@ namespace asdfvk {
 namespace {
 
 constexpr uint32_t kAmbientRayCount = 4, kKeyRayCount = 2;  ///< Per pixel.
-constexpr double kKeyRadius = 0.22;                         ///< Of the lamp's disk, at distance 1.
-constexpr double kAmbientReach = 0.9;                       ///< What is farther off darkens nothing; normalised unit.
+constexpr double kKeyRadius = 0.22;                         ///< Of the disk of the lamp, at distance 1.
+constexpr double kAmbientReach = 0.9;  ///< Farther surfaces cast no ambient shadow; normalised unit.
 constexpr double kAmbient = 0.55, kKey = 0.52, kFill = 0.08, kGroundShare = 0.66;
 
 const double kGoldenAngle = std::numbers::pi * (3 - std::sqrt(5.0));
 
-/// Point i of `count` evenly spread ones in the unit disk (Vogel's spiral).
+/// Point i of `count` evenly spread points in the unit disk (Vogel's spiral).
 struct DiskPoint {
   double x, y;
 };
@@ -26,13 +26,13 @@ DiskPoint diskPoint(uint32_t i, uint32_t count) {
   return {radius * std::cos(angle), radius * std::sin(angle)};
 }
 
-/// A direction into the surface is turned out of it again.
+/// Reflects directions that point into the surface.
 Vec3d outOf(const Vec3d& faceNormal, const Vec3d& direction) {
   const double height = dot(faceNormal, direction);
   return height < 0 ? direction - faceNormal * (2 * height) : direction;
 }
 
-/// Where ray `ray` of `rayCount` of a pattern lies among those of all patterns.
+/// Index of ray `ray` of `rayCount` of a pattern among the rays of all patterns.
 uint32_t placeOf(uint32_t pattern, uint32_t ray) { return pattern + LightRig::kPatternCount * ray; }
 
 }  // namespace
@@ -54,7 +54,7 @@ Light LightRig::sample(const PictureScene& scene, const SurfacePoint& point, uin
   }
   const ConeFrame lamp = RayFrame(point.lifted, keyDirection_).frame;
   double lit = 0;
-  // A surface that looks away gets no key light anyway.
+  // A surface that faces away gets no key light.
   if (dot(point.normal, keyDirection_) > 0) {
     for (uint32_t ray = 0; ray < kKeyRayCount; ++ray) {
       const DiskPoint d = diskPoint(placeOf(pattern, ray), kKeyRayCount * kPatternCount);

@@ -8,11 +8,11 @@
 namespace asdfvk {
 namespace {
 
-/// A joint bilateral weight: 0 across edges, 1 on a flat piece.
+/// Joint bilateral weight: 0 across edges, 1 on a flat surface.
 double likeness(const SeenPoint& a, const SeenPoint& b, double pixelSize) {
   const double cosine = double(dot(a.normal, b.normal));
   if (cosine < 0.5) return 0;
-  // A bent surface leaves its tangent plane slowly, another one behind it lies pixels away.
+  // A curved surface is close to its tangent plane; a surface behind it is pixels away.
   const double offPlane = std::abs(double(dot(a.normal, b.position - a.position))) / (3 * pixelSize);
   const double across = double(length(b.position - a.position)) / (12 * pixelSize);
   return std::pow(cosine, 8) * std::exp(-offPlane * offPlane - across * across);

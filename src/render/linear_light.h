@@ -5,12 +5,12 @@
 
 namespace asdfvk {
 
-// Light is added up in linear sRGB; 1 is white.
+// Light is added in linear sRGB; 1 is white.
 
 [[nodiscard]] Vec3d toLinear(const Rgb& colour);
-/// What lies outside [0, 1] becomes the nearer end.
+/// Values outside [0, 1] are clamped.
 [[nodiscard]] Rgb toRgb(const Vec3d& linear);
-/// `share` of `over` laid on `under`.
+/// Blends `share` of `over` onto `under`.
 [[nodiscard]] Rgb blend(const Rgb& under, const Rgb& over, double share);
 
 }  // namespace asdfvk

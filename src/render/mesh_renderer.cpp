@@ -12,9 +12,9 @@
 namespace asdfvk {
 namespace {
 
-/// Neighbours whose channels differ by more than this show a step.
+/// A difference above this between the channels of neighbouring pixels is an edge.
 constexpr int kVisibleStep = 6;
-/// Further looks at such a pixel, on a rotated grid that has each row and column once.
+/// Additional samples of an edge pixel, on a rotated grid with one sample per row and column.
 constexpr int kLookCount = 16;
 
 class MeshRenderer {
@@ -54,7 +54,7 @@ class MeshRenderer {
     const auto point = trace(x + 0.5, y + 0.5);
     if (!point) return;
     constexpr int side = LightRig::kPatternSide;
-    // 7 is prime to the patterns' number: neighbours get rays that are far apart.
+    // 7 is coprime to the number of patterns: neighbours get distant rays.
     const auto pattern = static_cast<uint32_t>(7 * (x % side + side * (y % side))) % LightRig::kPatternCount;
     SeenPoint seen = toSeen(*point);
     seen.light = rig_.sample(scene_, *point, pattern);

@@ -9,8 +9,8 @@
 
 namespace asdfvk {
 
-/// Draws the mesh over what the image holds, shaded and antialiased: pixels that differ from a neighbour are looked at
-/// closer. faceColours: #F. The same bits for any number of threads.
+/// Draws the mesh onto the image, shaded and antialiased: pixels that differ from a neighbour get more samples.
+/// faceColours: #F. The same bits for any number of threads.
 void renderMesh(Image& image, const PictureScene& scene, const Camera& camera, std::span<const Rgb> faceColours,
                 const RunControl& control);
 

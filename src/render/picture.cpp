@@ -14,7 +14,7 @@ namespace asdfvk {
 namespace {
 
 constexpr Rgb kNeutral{210, 209, 204}, kHighlight{206, 38, 30};
-// Over the picture's height.
+// Divided by the height of the picture.
 constexpr double kCapHeightShare = 0.026, kMarginShare = 0.04;
 
 std::vector<Rgb> faceColoursOf(const Picture& picture, const ColourRange& range) {
@@ -28,7 +28,7 @@ std::vector<Rgb> faceColoursOf(const Picture& picture, const ColourRange& range)
   return colours;
 }
 
-/// A square in the highlight's colour and the title.
+/// A square in the colour of the highlight, and the title.
 void drawLegend(Image& image, const Picture& picture, const PixelArea& area, double capHeight) {
   const double swatch = picture.highlighted.empty() ? 0 : capHeight * 1.6;
   const double cap = fittingCapHeight(picture.title, capHeight, area.width - swatch);

@@ -18,19 +18,19 @@ inline constexpr int kMinPictureSide = 64, kMaxPictureSide = 8192;
 /// A mesh to draw, with its geometry and hierarchy. Views only.
 struct Picture {
   const SceneData& scene;
-  /// #F, in the colours of colourOf() with a colour bar beside them; grey where it is NaN. Empty: the mesh is light and
-  /// has no bar.
+  /// #F, in the colours of colourOf() with a colour bar; grey where NaN. Empty: the mesh is light grey without a bar.
   std::span<const double> values;
-  std::span<const uint8_t> highlighted;  ///< #F: 1 for a face in a colour that stands out, over its value's. Or empty.
-  std::string title;                     ///< Above the bar; without one, above the mesh.
-  std::optional<ColourRange> range;      ///< Of the bar; unset: percentileRange() of the values.
-  int width = 1200, height = 900;        ///< In pixels, kMinPictureSide to kMaxPictureSide.
+  std::span<const uint8_t>
+      highlighted;    ///< #F: 1 for a face in the highlight colour instead of that of its value. Or empty.
+  std::string title;  ///< Above the bar; without one, above the mesh.
+  std::optional<ColourRange> range;  ///< Of the bar; unset: percentileRange() of the values.
+  int width = 1200, height = 900;    ///< In pixels, kMinPictureSide to kMaxPictureSide.
   View view;
-  double textScale = 1;  ///< Of title and labels; above 1 where a picture is to be printed small.
+  double textScale = 1;  ///< Of title and labels; above 1 for pictures that are printed small.
 };
 
 /// Renders with rays on the CPU: parallel projection, white background, soft light. The same bits for any number of
-/// threads. A mesh that rays cannot meet (no face, none with an area) leaves the background. Precondition: every index
+/// threads. A mesh that rays cannot hit (no face, none with an area) leaves the background. Precondition: every index
 /// of a face is below the vertex count. Throws Error{Cancelled}.
 [[nodiscard]] Image render(const Picture& picture, const RunControl& control = {});
 

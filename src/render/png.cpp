@@ -11,7 +11,7 @@
 namespace asdfvk {
 
 std::vector<char> encodePng(const Image& image) {
-  static_assert(sizeof(Rgb) == 3, "rows are handed over as they lie in memory");
+  static_assert(sizeof(Rgb) == 3, "rows are passed to libpng as in memory");
   png_image description{};
   description.version = PNG_IMAGE_VERSION;
   description.width = static_cast<png_uint_32>(image.width());

@@ -18,10 +18,10 @@ struct Glyph {
   std::vector<std::vector<FontPoint>> strokes;
 };
 
-/// Every printable ASCII character has a glyph of its own; any other byte has the question mark's.
+/// Every printable ASCII character has a glyph; all other bytes have that of the question mark.
 [[nodiscard]] const Glyph& glyphOf(char character);
 
-/// From one glyph's left side to the next one's.
+/// Distance from the left side of a glyph to that of the next one.
 [[nodiscard]] double advanceOf(char character);
 
 }  // namespace asdfvk

@@ -33,7 +33,7 @@ struct Step {
   int exponent = 0;
 
   [[nodiscard]] double multiple(double n) const {
-    // Dividing by a whole power of ten gives the double nearest to the decimal number, multiplying by 0.1 does not.
+    // Division by a power of ten gives the double nearest to the decimal number; multiplication by 0.1 does not.
     return exponent < 0 ? n * mantissa / std::pow(10.0, -exponent) : n * mantissa * std::pow(10.0, exponent);
   }
   [[nodiscard]] int lastDigit() const { return mantissa == 2.5 ? exponent - 1 : exponent; }

@@ -9,7 +9,7 @@
 namespace asdfvk {
 namespace {
 
-/// Points that are this near to the lowest one touch the floor; over the longest side of the box.
+/// Points within this distance of the lowest one touch the floor; divided by the longest side of the box.
 constexpr double kFloorShare = 0.025;
 
 struct FloorPoint {
@@ -17,7 +17,7 @@ struct FloorPoint {
   auto operator<=>(const FloorPoint&) const = default;
 };
 
-/// Twice the signed area of the triangle; positive where c lies left of the way from a to b.
+/// Twice the signed area of the triangle; positive where c is left of the line from a to b.
 double turn(const FloorPoint& a, const FloorPoint& b, const FloorPoint& c) {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
@@ -78,7 +78,7 @@ double standingShare(std::span<const Vec3d> points, Up up) {
 }
 
 Up guessUp(std::span<const Vec3d> points) {
-  // The likelier ones first: a table stands even better on its top.
+  // The likely directions first: a table is even more stable upside down.
   constexpr std::array<Up, 5> kOthers{Up::Z, Up::MinusY, Up::MinusZ, Up::X, Up::MinusX};
   constexpr double kBad = 0.05, kGood = 0.2;
   if (standingShare(points, Up::Y) > kBad) return Up::Y;

@@ -10,13 +10,13 @@ namespace asdfvk {
 /// Unit.
 [[nodiscard]] Vec3d directionOf(Up up);
 
-/// How well the points stand on a floor with that direction up: the area between the lowest of them over the area of
-/// the box from above, negative where the mean of the points is not over it and they would fall; 0 where what is
-/// lowest has no area.
+/// Stability of the points on a floor with that direction up: the area of the hull of the lowest points over the area
+/// of the box seen from above. Negative where the mean of the points is outside of the hull, so that they would fall; 0
+/// where the hull has no area.
 [[nodiscard]] double standingShare(std::span<const Vec3d> points, Up up);
 
-/// Y, unless the points stand badly that way and well in another one, z before the rest: static stability, the simplest
-/// sign of uprightness in Fu, Cohen-Or, Dror and Sheffer 2008 (Upright Orientation of Man-Made Objects).
+/// Y, unless the points are unstable that way and stable in another one; z before the others. Static stability is the
+/// simplest criterion of Fu, Cohen-Or, Dror and Sheffer 2008 (Upright Orientation of Man-Made Objects).
 [[nodiscard]] Up guessUp(std::span<const Vec3d> points);
 
 }  // namespace asdfvk

@@ -6,12 +6,12 @@ namespace asdfvk {
 
 enum class Up { X, Y, Z, MinusX, MinusY, MinusZ };
 
-/// Where a mesh is looked at from. Azimuth and elevation 0 look at its broad side: along the shorter one of the two
-/// axes of its box that lie level.
+/// Direction of view. Azimuth and elevation 0 show the broad side of the mesh: the view is along the shorter of the two
+/// horizontal axes of its box.
 struct View {
-  std::optional<Up> up;          ///< Unset: guessUp(), as no file tells.
-  double azimuthDegrees = 30;    ///< How far the viewer has gone to the right around the up direction.
-  double elevationDegrees = 18;  ///< How far he then has gone up; -90 to 90.
+  std::optional<Up> up;          ///< Unset: guessUp(), because no format stores it.
+  double azimuthDegrees = 30;    ///< Position of the viewer to the right, around the up direction.
+  double elevationDegrees = 18;  ///< Position of the viewer above the horizon, -90 to 90.
 };
 
 }  // namespace asdfvk

@@ -37,12 +37,13 @@ Buffer::Buffer(const Device& device, uint64_t byteCount, VkBufferUsageFlags usag
   info.size = byteCount;
   info.usage = usage;
   requireSuccess(vkCreateBuffer(device_, &info, nullptr, &buffer_), "creating a buffer");
-  Buffer guard = std::move(*this);  // frees what was made so far if something below throws
+  Buffer guard = std::move(*this);  // Frees the members created so far if a later step throws.
 
   VkMemoryRequirements requirements{};
   vkGetBufferMemoryRequirements(guard.device_, guard.buffer_, &requirements);
   const auto type = pickMemoryType(device, requirements.memoryTypeBits, kind);
-  if (!type) throw Error(ErrorCode::DeviceLimit, fmt::format("{} has no memory fit for a buffer", device.facts().name));
+  if (!type)
+    throw Error(ErrorCode::DeviceLimit, fmt::format("{} has no memory type for this buffer", device.facts().name));
   VkMemoryAllocateInfo allocation{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
   allocation.allocationSize = requirements.size;
   allocation.memoryTypeIndex = *type;

@@ -10,12 +10,12 @@
 namespace asdfvk {
 
 enum class MemoryKind {
-  DeviceLocal,  ///< Where kernels are quickest; mapped too where the device shares its memory with the host.
-  DeviceOnly,   ///< The same, never mapped: what a device with memory of its own gives, on any device.
+  DeviceLocal,  ///< Fastest for kernels; also mapped where device and host share memory.
+  DeviceOnly,   ///< The same, never mapped: as on a device with separate memory, for tests.
   HostVisible,  ///< Mapped and coherent, cached where there is a choice.
 };
 
-/// A buffer with memory of its own. Throws Error{Device} when the device has not got that much.
+/// A buffer with its memory. Throws Error{Device} when the device lacks the memory.
 class Buffer {
  public:
   Buffer() = default;
@@ -26,7 +26,7 @@ class Buffer {
 
   [[nodiscard]] VkBuffer handle() const { return buffer_; }
   [[nodiscard]] uint64_t byteCount() const { return byteCount_; }
-  /// Null where the host cannot see the memory.
+  /// Null where the host cannot access the memory.
   [[nodiscard]] std::byte* mapped() const { return mapped_; }
   template <typename T>
   [[nodiscard]] std::span<T> mappedAs() const {
@@ -58,8 +58,8 @@ class TexelView {
   VkBufferView view_ = VK_NULL_HANDLE;
 };
 
-/// A device-local buffer filled with `bytes`, through a staging buffer where the host cannot write it. At least 16
-/// bytes are allocated, so that an empty span still gives a buffer to bind.
+/// A device-local buffer filled with `bytes`, through a staging buffer where the host cannot write to it. At least 16
+/// bytes are allocated, because an empty buffer cannot be bound.
 [[nodiscard]] Buffer uploadBuffer(const Device& device, std::span<const std::byte> bytes, VkBufferUsageFlags usage,
                                   MemoryKind kind = MemoryKind::DeviceLocal);
 

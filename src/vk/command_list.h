@@ -10,7 +10,7 @@
 
 namespace asdfvk {
 
-/// One command buffer, recorded and submitted again and again: begin(), record, submitAndWait().
+/// One command buffer, recorded and submitted repeatedly: begin(), record, submitAndWait().
 class CommandList {
  public:
   explicit CommandList(const Device& device);
@@ -19,21 +19,21 @@ class CommandList {
   CommandList& operator=(const CommandList&) = delete;
 
   void begin();
-  /// `pushConstants` has the byte count that the pipeline was made with.
+  /// `pushConstants` has the byte count of the pipeline's description.
   void dispatch(const ComputePipeline& pipeline, const BindingSet& bindings, std::span<const std::byte> pushConstants,
                 uint32_t workgroupCount, uint32_t workgroupCountY = 1);
-  /// The same over as many workgroups as the VkDispatchIndirectCommand in `size` says when it is the dispatch's turn.
-  /// size: made with VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT.
+  /// The same with the workgroup counts of the VkDispatchIndirectCommand in `size`, read when the dispatch starts.
+  /// size: created with VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT.
   void dispatchIndirect(const ComputePipeline& pipeline, const BindingSet& bindings,
                         std::span<const std::byte> pushConstants, const Buffer& size);
-  /// The whole of a buffer made with VK_BUFFER_USAGE_TRANSFER_DST_BIT.
+  /// Fills a whole buffer that was created with VK_BUFFER_USAGE_TRANSFER_DST_BIT.
   void fillWithZeros(const Buffer& buffer);
   void copy(const Buffer& from, uint64_t fromOffset, const Buffer& to, uint64_t toOffset, uint64_t byteCount);
-  /// What was recorded before has finished, and its writes are seen by the kernels, copies, indirect dispatches and
-  /// host reads after it.
+  /// Memory barrier: all earlier commands finish, and their writes are visible to later kernels, copies, indirect
+  /// dispatches and host reads.
   void barrier();
-  /// Throws Error{Device} when the device is lost. There is no time limit: drivers turn a GPU that hangs into a lost
-  /// one, and work that is still running could not be freed.
+  /// Throws Error{Device} when the device is lost. There is no time limit: drivers report a GPU that hangs as lost, and
+  /// the resources of running work cannot be freed.
   void submitAndWait();
 
  private:

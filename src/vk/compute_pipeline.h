@@ -11,9 +11,9 @@
 
 namespace asdfvk {
 
-/// What a compute pipeline is made of.
+/// Description of a compute pipeline.
 struct ComputePipelineDescription {
-  std::string name;  ///< The shader's, for messages.
+  std::string name;  ///< Of the shader, for messages.
   std::span<const uint32_t> spirv;
   std::vector<VkDescriptorType> bindings;  ///< Binding i of set 0 has type bindings[i].
   uint32_t pushConstantByteCount = 0;
@@ -41,7 +41,7 @@ class ComputePipeline {
   VkPipeline pipeline_ = VK_NULL_HANDLE;
 };
 
-/// What fills one binding: a whole buffer or a texel view.
+/// The resource of one binding: a whole buffer or a texel view.
 struct Binding {
   Binding(const Buffer& storage) : buffer(storage.handle()) {}
   Binding(const TexelView& texels) : view(texels.handle()) {}
@@ -49,7 +49,7 @@ struct Binding {
   VkBufferView view = VK_NULL_HANDLE;
 };
 
-/// The buffers that a pipeline's dispatches read and write; the buffers must outlive it.
+/// The buffers that the dispatches of a pipeline read and write; they must outlive it.
 class BindingSet {
  public:
   BindingSet(const Device& device, const ComputePipeline& pipeline, std::span<const Binding> bindings);

@@ -48,7 +48,7 @@ DeviceFacts describeDevice(VkPhysicalDevice device) {
   facts.maxWorkgroupCount = basic.limits.maxComputeWorkGroupCount[0];
   facts.maxStorageBufferRange = basic.limits.maxStorageBufferRange;
   facts.maxTexelBufferElements = basic.limits.maxTexelBufferElements;
-  if (basic.apiVersion < VK_API_VERSION_1_2) return facts;  // the structures below came with 1.1 and 1.2
+  if (basic.apiVersion < VK_API_VERSION_1_2) return facts;  // The structures below need Vulkan 1.1 and 1.2.
 
   VkPhysicalDeviceMaintenance3Properties maintenance{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES};
   VkPhysicalDeviceSubgroupProperties subgroup{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES, &maintenance};

@@ -22,7 +22,7 @@ class Device {
   [[nodiscard]] VkQueue queue() const { return queue_; }
   [[nodiscard]] VkCommandPool commandPool() const { return commandPool_; }
   [[nodiscard]] const DeviceFacts& facts() const { return facts_; }
-  /// The first memory type among `allowedTypes` with all of `wanted`; none when there is no such type.
+  /// The first memory type among `allowedTypes` with all of `wanted`; unset when there is none.
   [[nodiscard]] std::optional<uint32_t> findMemoryType(uint32_t allowedTypes, VkMemoryPropertyFlags wanted) const;
   [[nodiscard]] VkMemoryPropertyFlags memoryFlags(uint32_t type) const {
     return memory_.memoryTypes[type].propertyFlags;

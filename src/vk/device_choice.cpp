@@ -29,7 +29,7 @@ int rank(DeviceKind kind) {
   return 5;
 }
 
-/// Whether `digits` stands in `text` as a whole number: 90 is not in "RTX 4090", but 4090 is.
+/// Whether `digits` is a whole number within `text`: "RTX 4090" holds 4090 but not 90.
 bool holdsNumber(const std::string& text, const std::string& digits) {
   const auto isDigit = [&](size_t i) { return i < text.size() && std::isdigit(static_cast<unsigned char>(text[i])); };
   for (size_t at = text.find(digits); at != std::string::npos; at = text.find(digits, at + 1))
@@ -47,7 +47,7 @@ bool isSelected(const DeviceFacts& device, uint32_t index, size_t deviceCount, c
   return isIndex ? wanted == index : holdsNumber(device.name, selector);
 }
 
-/// Empty when nothing speaks against the device.
+/// The reason for a refusal, or empty.
 std::string refusal(const DeviceFacts& device, uint32_t index, size_t deviceCount, const DeviceRequest& request) {
   if (!isSelected(device, index, deviceCount, request.selector))
     return fmt::format("is not the requested device '{}'", request.selector);

@@ -9,7 +9,7 @@
 
 namespace asdfvk {
 
-/// What the validation layers said. Outlives the instance, whose destruction may still add to it.
+/// Messages of the validation layers. Outlives the instance, whose destruction may still add messages.
 class ValidationLog {
  public:
   void add(std::string message);
@@ -43,7 +43,7 @@ class Instance {
   std::shared_ptr<ValidationLog> log_;
 };
 
-/// True when the environment variable ASDF_VK_VALIDATION is set and not "0": for tests and for bug reports.
+/// True when the environment variable ASDF_VK_VALIDATION is set and not "0".
 [[nodiscard]] bool validationRequestedByEnvironment();
 
 }  // namespace asdfvk

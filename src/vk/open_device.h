@@ -11,11 +11,11 @@ namespace asdfvk {
 
 struct OpenedDevice {
   std::unique_ptr<Device> device;
-  /// One line per device with its name and what was decided on it; the opened one first, with its driver.
+  /// One line per device with its name and the decision; the opened one first, with its driver.
   std::vector<std::string> reasons;
 };
 
-/// Opens the device that chooseDevice() picks. Throws Error{Device} with the reason of every refusal in one line.
+/// Opens the device that chooseDevice() returns. Throws Error{Device} with the reasons of all refusals in one line.
 [[nodiscard]] OpenedDevice openDevice(const Instance& instance, const DeviceRequest& request);
 
 }  // namespace asdfvk

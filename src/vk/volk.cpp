@@ -1,3 +1,3 @@
-// The one translation unit that holds Volk's function pointers.
+// The one translation unit with the function pointers of Volk.
 #define VOLK_IMPLEMENTATION
 #include <volk.h>
