@@ -75,8 +75,9 @@ void reverseFaces(PreparedMesh& prepared, const Reverse& reverse) {
   prepared.mesh = prepared.storage;
   for (uint32_t f = 0; f < prepared.mesh.faceCount(); ++f) {
     const uint32_t inputFace = prepared.mesh.inputFaceOf(f);
-    const bool isFirst = f == 0 || prepared.mesh.inputFaceOf(f - 1) != inputFace;
-    if (isFirst && before[f] != prepared.mesh.faces[f]) prepared.reversedFaces.push_back(inputFace);
+    std::vector<uint64_t>& reversed = prepared.reversedFaces;
+    if (before[f] != prepared.mesh.faces[f] && (reversed.empty() || reversed.back() != inputFace))
+      reversed.push_back(inputFace);
   }
 }
 

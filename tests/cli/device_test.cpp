@@ -1,37 +1,43 @@
 #include <filesystem>
 
+#include "asdf_vk/session.h"
 #include "cli/lavapipe.h"
 #include "cli/program_under_test.h"
 #include "cli/sample_files.h"
 #include "cli/scratch_folder.h"
-#include "trace/embree/embree_tracer.h"
 
 namespace asdfvk::test {
 namespace {
 
 const ChildOptions kNoDriver = withDrivers("/nonexistent.json");
 
-TEST_CASE("without a Vulkan device Embree runs, or where there is none the reference, and one line says why") {
+TEST_CASE("without a Vulkan device auto takes Embree, or where it is not built in the reference, with the reasons") {
   const ScratchFolder folder;
   const std::string mesh = folder.write("cube.off", cubeOff());
   const ChildOutcome outcome = runAsdf({mesh, "--json"}, kNoDriver);
   INFO(outcome.error);
   CHECK_EQ(outcome.exitCode, 0);
-  CHECK_EQ(nlohmann::json::parse(outcome.output).at("backend").get<std::string>(), hasEmbree() ? "cpu" : "reference");
-  const std::string first = linesOf(outcome.error).at(0);
-  CHECK(first.starts_with("asdf-vk: "));
-  CHECK(first.find(hasEmbree() ? "Embree" : "reference") != std::string::npos);
-  CHECK(first.find("Vulkan") != std::string::npos);
+  CHECK_EQ(nlohmann::json::parse(outcome.output).at("backend").get<std::string>(),
+           isBackendBuilt("cpu") ? "cpu" : "reference");
+  const std::vector<std::string> lines = linesOf(outcome.error);
+  CHECK(lines.at(0).starts_with(isBackendBuilt("cpu") ? "asdf-vk: Embree " : "asdf-vk: reference"));
+  CHECK(lines.at(1).starts_with("asdf-vk: vulkan: not available: "));
+  CHECK_EQ(lines.at(2).starts_with("asdf-vk: cpu: not available: "), !isBackendBuilt("cpu"));
+  // The default of a kernel option does not require Vulkan.
+  CHECK_EQ(runAsdf({mesh, "--quiet", "--kernel", "auto", "--bvh", "auto", "--fetch", "auto"}, kNoDriver).exitCode, 0);
 }
 
-TEST_CASE("who insists on Vulkan or a GPU and has none gets 3 and no result") {
+TEST_CASE("a required Vulkan device, kernel or GPU that is missing gives 3 and no result") {
   const ScratchFolder folder;
   const std::string mesh = folder.write("cube.off", cubeOff());
-  checkFailure(runAsdf({mesh, "--backend", "vulkan", "--quiet"}, kNoDriver), 3, "");
+  checkFailure(runAsdf({mesh, "--backend", "vulkan", "--quiet"}, kNoDriver), 3, "--backend");
   checkFailure(runAsdf({mesh, "--require-gpu", "--quiet"}, kNoDriver), 3, "");
+  checkFailure(runAsdf({mesh, "--kernel", "ray", "--quiet"}, kNoDriver), 3, "");
   const ChildOutcome json = runAsdf({mesh, "--backend", "vulkan", "--quiet", "--json"}, kNoDriver);
   CHECK_EQ(json.exitCode, 3);
-  CHECK_FALSE(nlohmann::json::parse(json.output).at("error").get<std::string>().empty());
+  const nlohmann::json failure = nlohmann::json::parse(json.output);
+  CHECK_FALSE(failure.at("error").get<std::string>().empty());
+  CHECK_EQ(failure.at("code").get<std::string>(), "noVulkanDriver");
   CHECK_EQ(folder.names(), std::vector<std::string>{"cube.off"});
 }
 
@@ -67,7 +73,7 @@ TEST_CASE("lavapipe is listed, runs, and is no GPU") {
   }
 }
 
-TEST_CASE("a variant of the shaders that is asked for runs, on Vulkan, and is told") {
+TEST_CASE("a requested kernel variant runs, on Vulkan, and is in the report") {
   const auto lavapipe = lavapipeOnly();
   if (!lavapipe) return;
   const ScratchFolder folder;
@@ -88,23 +94,23 @@ TEST_CASE("a variant of the shaders that is asked for runs, on Vulkan, and is to
   CHECK_EQ(choiceWith({"--backend", "vulkan"}), "seed wide texel");
 }
 
-TEST_CASE("where the only Vulkan device is the CPU, Embree runs instead and one line says why") {
+TEST_CASE("auto takes Vulkan on a CPU device, too, and names Embree where it is built in") {
   const auto lavapipe = lavapipeOnly();
   if (!lavapipe) return;
   const ScratchFolder folder;
   const std::string mesh = folder.write("cube.off", cubeOff());
   const ChildOutcome outcome = runAsdf({mesh, "--json"}, *lavapipe);
   CHECK_EQ(outcome.exitCode, 0);
-  CHECK_EQ(nlohmann::json::parse(outcome.output).at("backend").get<std::string>(), hasEmbree() ? "cpu" : "vulkan");
+  CHECK_EQ(nlohmann::json::parse(outcome.output).at("backend").get<std::string>(), "vulkan");
   const std::string first = linesOf(outcome.error).at(0);
   CHECK(first.find("llvmpipe") != std::string::npos);
-  CHECK((first.find("faster than") != std::string::npos) == hasEmbree());
+  CHECK_EQ(first.find("--backend cpu") != std::string::npos, isBackendBuilt("cpu"));
 }
 
-TEST_CASE("Embree runs where it is asked for and was built in, else there is a remedy") {
+TEST_CASE("--backend cpu runs Embree where it is built in, else the error has a remedy") {
   const ScratchFolder folder;
   const std::string mesh = folder.write("cube.off", cubeOff());
-  if (!hasEmbree()) {
+  if (!isBackendBuilt("cpu")) {
     checkFailure(runAsdf({mesh, "--backend", "cpu", "--quiet"}), 3, "libembree-dev");
     return;
   }
@@ -118,7 +124,7 @@ TEST_CASE("Embree runs where it is asked for and was built in, else there is a r
   CHECK(json.at("check").at("independent").get<bool>());
 }
 
-TEST_CASE("each device that is passed over has its line with the reason") {
+TEST_CASE("each rejected device has its line with the reason") {
   const auto lavapipe = lavapipeOnly();
   if (!lavapipe) return;
   // Two manifests of one driver are two devices.

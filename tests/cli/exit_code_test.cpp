@@ -27,6 +27,18 @@ TEST_CASE("each kind of error has its documented exit code") {
   CHECK_EQ(codeOf(ErrorCode::Cancelled), 130);
 }
 
+TEST_CASE("a failure has the name of its code, and a remedy by options where there is one") {
+  const Failure device = failureOf(Error(ErrorCode::NoVulkanDriver, "no driver"));
+  CHECK_EQ(device.name, "noVulkanDriver");
+  CHECK(device.message.starts_with("no driver; "));
+  CHECK(device.message.find("--backend") != std::string::npos);
+  CHECK_EQ(failureOf(Error(ErrorCode::EquationLimit, "x")).message, "x; use --solver cpu");
+  const Failure input = failureOf(Error(ErrorCode::UnreadableInput, "line 3: no number"));
+  CHECK_EQ(input.name, "unreadableInput");
+  CHECK_EQ(input.message, "line 3: no number");
+  CHECK_EQ(failureOf(42).name, "internal");
+}
+
 TEST_CASE("a check that failed is 5, one that could not fail is 0") {
   CheckReport check;
   check.tracedCount = 2000;

@@ -36,7 +36,7 @@ TEST_CASE("a signal between chunks cancels with 130 and leaves no file") {
     CHECK_EQ(outcome.exitCode, 130);
     CHECK(outcome.error.find("asdf-vk: error: " + mesh + ": cancelled") != std::string::npos);
     CHECK(outcome.error.find("[") != std::string::npos);
-    CHECK_EQ(nlohmann::json::parse(outcome.output).at("error").get<std::string>(), "cancelled");
+    CHECK_EQ(nlohmann::json::parse(outcome.output).at("code").get<std::string>(), "cancelled");
     CHECK_EQ(folder.names(), std::vector<std::string>{"sphere.off"});
   }
 }

@@ -48,7 +48,9 @@ TEST_CASE("--json is exactly one document with every promised key and its type")
   CHECK(sdf.at("min").get<double>() <= sdf.at("median").get<double>());
   CHECK(sdf.at("median").get<double>() <= sdf.at("max").get<double>());
   CHECK(sdf.at("max").get<double>() < 2);
-  CHECK(json.at("warnings").is_array());
+  CHECK(json.at("warnings").empty());
+  CHECK(json.at("warningCodes").empty());
+  CHECK_EQ(json.at("reversedFaceCount").get<uint64_t>(), 0);
   CHECK_EQ(json.at("defects").at("boundaryEdgeCount").get<uint64_t>(), 0);
   const Json& check = json.at("check");
   CHECK_FALSE(check.at("independent").get<bool>());
@@ -74,8 +76,9 @@ TEST_CASE("--json is exactly one document with every promised key and its type")
   const Json& options = json.at("options");
   CHECK_EQ(options.at("seeds").get<std::string>(), "10%");
   const std::vector<std::pair<const char*, const char*>> names{
-      {"recipe", "balanced"}, {"sampler", "blue-noise"}, {"coneRotation", "fixed"}, {"weights", "feature"},
-      {"guidance", "hits"},   {"orient", "keep"},        {"smooth", "off"},         {"solver", "auto"}};
+      {"recipe", "balanced"},     {"sampler", "blue-noise"}, {"coneRotation", "fixed"}, {"weights", "feature"},
+      {"guidance", "prediction"}, {"orient", "keep"},        {"smooth", "off"},         {"solver", "auto"},
+      {"kernel", "auto"},         {"bvh", "auto"},           {"fetch", "auto"},         {"backend", "reference"}};
   for (const auto& [key, name] : names) CHECK_EQ(options.at(key).get<std::string>(), name);
   for (const char* key : {"maxError", "timeBudgetSeconds"}) CHECK(options.at(key).is_null());
   CHECK_EQ(options.at("pooling").get<double>(), 0);
@@ -124,7 +127,7 @@ TEST_CASE("options that contradict each other only together with a recipe end wi
   const ScratchFolder folder;
   const std::string mesh = folder.write("cube.off", cubeOff());
   checkFailure(runAsdf({mesh, "--quiet", "--backend", "reference", "--recipe", "paper", "--pooling", "0.5"}), 1,
-               "use guidance by hits");
+               "pooling");
 }
 
 TEST_CASE("numbers that are not there are null") {
@@ -134,7 +137,29 @@ TEST_CASE("numbers that are not there are null") {
   CHECK_EQ(json.at("noValueCount").get<uint64_t>(), 1);
   CHECK(json.at("sdf").at("median").is_null());
   CHECK(json.at("check").is_null());
-  CHECK_FALSE(json.at("warnings").empty());
+  REQUIRE_FALSE(json.at("warnings").empty());
+  REQUIRE_EQ(json.at("warningCodes").size(), json.at("warnings").size());
+  CHECK_EQ(json.at("warningCodes").back().get<std::string>(), "missingValues");
+}
+
+TEST_CASE("the fields of a result are summarised in the document") {
+  const ScratchFolder folder;
+  const std::string mesh = folder.write("sphere.off", sphereOff(12));
+  const Json json = onlyDocument(runAsdf({mesh, "--json", "--quiet", "--backend", "reference"}));
+  const Json& fields = json.at("fields");
+  REQUIRE_EQ(fields.size(), 3);
+  const std::vector<std::string> names{"sdf", "seed", "error"}, units{"length", "", "length"},
+      types{"float64", "uint8", "float64"};
+  for (size_t i = 0; i < 3; ++i) {
+    CHECK_EQ(fields[i].at("name").get<std::string>(), names[i]);
+    CHECK_EQ(fields[i].at("unit").get<std::string>(), units[i]);
+    CHECK_EQ(fields[i].at("type").get<std::string>(), types[i]);
+    CHECK_EQ(fields[i].at("per").get<std::string>(), "face");
+    CHECK_EQ(fields[i].at("components").get<int>(), 1);
+    CHECK_EQ(fields[i].at("missingCount").get<int>(), 0);
+  }
+  for (const char* key : {"min", "median", "max"}) CHECK_EQ(fields[0].at(key), json.at("sdf").at(key));
+  CHECK_EQ(fields[1].at("max").get<double>(), 1);
 }
 
 TEST_CASE("of several meshes one bad one is reported and the others are done") {
@@ -151,6 +176,7 @@ TEST_CASE("of several meshes one bad one is reported and the others are done") {
   for (size_t i = 0; i < 3; ++i) CHECK_EQ(Json::parse(lines[i]).at("mesh").get<std::string>(), meshes[i]);
   CHECK_EQ(Json::parse(lines[0]).at("faceCount").get<int>(), 12);
   CHECK_FALSE(Json::parse(lines[1]).at("error").get<std::string>().empty());
+  CHECK_EQ(Json::parse(lines[1]).at("code").get<std::string>(), "unreadableInput");
   CHECK_EQ(Json::parse(lines[2]).at("faceCount").get<int>(), 12);
   CHECK_EQ(folder.names(), std::vector<std::string>{"a.asdf.csv", "a.off", "b.ply", "c.asdf.csv", "c.stl"});
 }

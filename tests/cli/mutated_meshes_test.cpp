@@ -2,12 +2,12 @@
 
 #include <array>
 
+#include "asdf_vk/session.h"
 #include "cli/lavapipe.h"
 #include "cli/mutation.h"
 #include "cli/program_under_test.h"
 #include "cli/sample_files.h"
 #include "cli/scratch_folder.h"
-#include "trace/embree/embree_tracer.h"
 
 namespace asdfvk::test {
 namespace {
@@ -88,7 +88,7 @@ TEST_CASE("2,000 mutated meshes each end in a result or in a documented exit cod
 }
 
 TEST_CASE("100 mutated meshes do so with Embree") {
-  if (!hasEmbree()) return;
+  if (!isBackendBuilt("cpu")) return;
   const Counts total = runMutated(kDeviceMeshCount, "cpu", {});
   CHECK(total.done > kDeviceMeshCount / 10);
   CHECK(total.refused > kDeviceMeshCount / 10);

@@ -2,11 +2,14 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <limits>
+#include <set>
+#include <sstream>
 
 #include "asdf_vk/error.h"
-#include "cli/option_values.h"
+#include "cli/option_parsing.h"
 #include "cli/scratch_folder.h"
 
 namespace asdfvk {
@@ -33,16 +36,18 @@ TEST_CASE("a mesh alone means the defaults") {
   CHECK_EQ(line.options.cone.openingAngleDegrees, 120);
   CHECK(line.recipe == Recipe::Balanced);
   CHECK_EQ(line.options.sampler, "blue-noise");
-  CHECK(line.options.interpolation.weights == ArcWeightKind::Feature);
-  CHECK(line.options.interpolation.guidance == Guidance::Hits);
+  CHECK(line.options.interpolation.weights == ArcWeights::Feature);
+  CHECK(line.options.interpolation.guidance == Guidance::Prediction);
   CHECK_EQ(line.options.interpolation.pooling, 0);
   CHECK(line.options.cone.rotation == ConeRotation::Fixed);
   CHECK(line.options.estimatesError);
-  CHECK_FALSE(line.options.rounds.areAsked());
+  CHECK_FALSE(line.options.rounds.areSet());
   CHECK(line.options.orientation == Orientation::Keep);
-  CHECK(line.options.solver == SolverChoice::Auto);
-  CHECK(line.session.backend == Backend::Auto);
-  CHECK(line.session.trace.isEmpty());
+  CHECK_EQ(line.options.solver, "auto");
+  CHECK_EQ(line.session.backend, "auto");
+  const TraceVariant& variant = line.session.variant;
+  CHECK((variant.kernel.empty() && variant.bvh.empty() && variant.fetch.empty()));
+  CHECK_EQ(line.fields, std::vector<std::string>{"sdf", "seed"});
   CHECK_FALSE(line.options.checkCount.has_value());
   CHECK_FALSE(line.answer.has_value());
   CHECK(line.output.empty());
@@ -54,7 +59,7 @@ TEST_CASE("the options of a picture") {
   const CommandLine line = parseCommandLine(
       {"a.ply", "--picture", "b.PNG", "--picture-of", "seeds", "--picture-view", "-20,7.5", "--picture-up", "-x"});
   CHECK_EQ(line.picture, "b.PNG");
-  CHECK(line.pictureOf == PictureOf::Seeds);
+  CHECK(line.pictureOf == "seed");
   CHECK_EQ(line.pictureView.azimuthDegrees, -20);
   CHECK_EQ(line.pictureView.elevationDegrees, 7.5);
   CHECK(line.pictureView.up == Up::MinusX);
@@ -67,100 +72,118 @@ TEST_CASE("the options of a picture") {
   CHECK(refusal({"a.ply", "-o", "-", "--picture", "-"}).find("standard output") != std::string::npos);
 }
 
+/// An option with a value that is not the default, and whether the value is in its field.
+struct OptionCase {
+  std::vector<std::string> arguments;
+  bool (*isSet)(const CommandLine& line);
+};
+
+const std::vector<OptionCase>& optionCases() {
+  using Line = CommandLine;
+  static const std::vector<OptionCase> cases{
+      {{"--seeds", "25%"}, [](const Line& l) { return l.options.seeds.share == 0.25; }},
+      {{"--rng-seed", "18446744073709551615"},
+       [](const Line& l) { return l.options.randomSeed == std::numeric_limits<uint64_t>::max(); }},
+      {{"--rays", "64"}, [](const Line& l) { return l.options.cone.rayCount == 64; }},
+      {{"--angle", "90.5"}, [](const Line& l) { return l.options.cone.openingAngleDegrees == 90.5; }},
+      {{"--false-hit-angle", "45"}, [](const Line& l) { return l.options.cone.falseHitAngleDegrees == 45; }},
+      {{"--outlier-deviations", "1.5"}, [](const Line& l) { return l.options.cone.outlierDeviations == 1.5; }},
+      {{"--cone-rotation", "hashed"}, [](const Line& l) { return l.options.cone.rotation == ConeRotation::Hashed; }},
+      {{"--recipe", "quality"}, [](const Line& l) { return l.recipe == Recipe::Quality; }},
+      {{"--sampler", "farthest-point"}, [](const Line& l) { return l.options.sampler == "farthest-point"; }},
+      {{"--max-error", "1.5%"}, [](const Line& l) { return l.options.rounds.maxError == 0.015; }},
+      {{"--time-budget", "2.5s"}, [](const Line& l) { return l.options.rounds.timeBudgetSeconds == 2.5; }},
+      {{"--no-estimate"}, [](const Line& l) { return !l.options.estimatesError; }},
+      {{"--weights", "distance"},
+       [](const Line& l) { return l.options.interpolation.weights == ArcWeights::Distance; }},
+      {{"--guidance", "curvature"},
+       [](const Line& l) { return l.options.interpolation.guidance == Guidance::Curvature; }},
+      {{"--pooling", "0.3"}, [](const Line& l) { return l.options.interpolation.pooling == 0.3; }},
+      {{"--smooth", "3x2"},
+       [](const Line& l) {
+         const SmoothingOptions& smoothing = l.options.smoothing;
+         return smoothing.isOn && smoothing.window == SmoothingOptions::Window{.rings = 3, .passes = 2};
+       }},
+      {{"--solver", "jacobi"}, [](const Line& l) { return l.options.solver == "jacobi"; }},
+      {{"--tolerance", "1e-3"}, [](const Line& l) { return l.options.solverOptions.tolerance == 1e-3; }},
+      {{"--max-iterations", "77"}, [](const Line& l) { return l.options.solverOptions.maxIterations == 77; }},
+      {{"--orient", "flip"}, [](const Line& l) { return l.options.orientation == Orientation::Flip; }},
+      {{"--check=all"}, [](const Line& l) { return l.options.checkCount == std::numeric_limits<uint64_t>::max(); }},
+      {{"--output", "b.ply"}, [](const Line& l) { return l.output == "b.ply"; }},
+      {{"-o", "b.ply"}, [](const Line& l) { return l.output == "b.ply"; }},
+      {{"--format", "vtu"}, [](const Line& l) { return l.format == "vtu"; }},
+      {{"--fields", "error,sdf"},
+       [](const Line& l) {
+         return l.fields == std::vector<std::string>{"error", "sdf"};
+       }},
+      {{"--ascii"}, [](const Line& l) { return l.ascii; }},
+      {{"--json"}, [](const Line& l) { return l.json; }},
+      {{"--quiet"}, [](const Line& l) { return l.quiet; }},
+      {{"--picture", "b.png"}, [](const Line& l) { return l.picture == "b.png" && l.options.keepsScene; }},
+      {{"--picture-of", "error", "--picture", "b.png"}, [](const Line& l) { return l.pictureOf == "error"; }},
+      {{"--picture-view", "5,7.5", "--picture", "b.png"},
+       [](const Line& l) { return l.pictureView.azimuthDegrees == 5 && l.pictureView.elevationDegrees == 7.5; }},
+      {{"--picture-up", "-x", "--picture", "b.png"}, [](const Line& l) { return l.pictureView.up == Up::MinusX; }},
+      {{"--backend", "reference"}, [](const Line& l) { return l.session.backend == "reference"; }},
+      {{"--device", "llvmpipe"}, [](const Line& l) { return l.session.device == "llvmpipe"; }},
+      {{"--require-gpu"}, [](const Line& l) { return l.session.requireGpu; }},
+      {{"--list-devices"}, [](const Line& l) { return l.listDevices; }},
+      {{"--threads", "3"}, [](const Line& l) { return l.threadCount == 3; }},
+      {{"--kernel", "packet"}, [](const Line& l) { return l.session.variant.kernel == "packet"; }},
+      {{"--bvh", "binary"}, [](const Line& l) { return l.session.variant.bvh == "binary"; }},
+      {{"--fetch", "storage"}, [](const Line& l) { return l.session.variant.fetch == "storage"; }},
+  };
+  return cases;
+}
+
+/// "--seeds" of "  --seeds N%|N|all   Faces ..." and so on.
+std::set<std::string> optionsIn(const std::string& help) {
+  std::set<std::string> names;
+  std::istringstream lines(help);
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.starts_with("  -")) continue;
+    const size_t begin = line.find("--");
+    names.insert(line.substr(begin, line.find_first_of(" \n", begin) - begin));
+  }
+  return names;
+}
+
 TEST_CASE("every option reaches its field") {
-  const CommandLine line = parseCommandLine({"a.ply",
-                                             "--seeds",
-                                             "25%",
-                                             "--rng-seed",
-                                             "18446744073709551615",
-                                             "--rays",
-                                             "64",
-                                             "--angle",
-                                             "90.5",
-                                             "--false-hit-angle",
-                                             "45",
-                                             "--outlier-deviations",
-                                             "1.5",
-                                             "--solver",
-                                             "jacobi",
-                                             "--recipe",
-                                             "quality",
-                                             "--sampler",
-                                             "farthest-point",
-                                             "--max-error",
-                                             "1.5%",
-                                             "--time-budget",
-                                             "2.5s",
-                                             "--no-estimate",
-                                             "--cone-rotation",
-                                             "fixed",
-                                             "--weights",
-                                             "distance",
-                                             "--guidance",
-                                             "hits",
-                                             "--smooth",
-                                             "3x2",
-                                             "--pooling",
-                                             "0.3",
-                                             "--tolerance",
-                                             "1e-3",
-                                             "--orient",
-                                             "flip",
-                                             "-o",
-                                             "b.ply",
-                                             "--max-iterations",
-                                             "77",
-                                             "--ascii",
-                                             "--format",
-                                             "ply",
-                                             "--backend",
-                                             "vulkan",
-                                             "--device",
-                                             "llvmpipe",
-                                             "--require-gpu",
-                                             "--kernel",
-                                             "packet",
-                                             "--bvh",
-                                             "binary",
-                                             "--fetch",
-                                             "storage",
-                                             "--check=all",
-                                             "--json",
-                                             "--quiet",
-                                             "--threads",
-                                             "3"});
-  CHECK_EQ(line.options.seeds.share, 0.25);
-  CHECK_EQ(line.options.randomSeed, std::numeric_limits<uint64_t>::max());
-  CHECK_EQ(line.options.cone.rayCount, 64);
-  CHECK_EQ(line.options.cone.openingAngleDegrees, 90.5);
-  CHECK_EQ(line.options.cone.falseHitAngleDegrees, 45);
-  CHECK_EQ(line.options.cone.outlierDeviations, 1.5);
-  CHECK(line.options.solver == SolverChoice::Jacobi);
-  CHECK(line.recipe == Recipe::Quality);
-  CHECK_EQ(line.options.sampler, "farthest-point");
-  CHECK_EQ(line.options.rounds.maxError.value(), 0.015);
-  CHECK_EQ(line.options.rounds.timeBudgetSeconds.value(), 2.5);
-  CHECK_FALSE(line.options.estimatesError);
-  CHECK(line.options.cone.rotation == ConeRotation::Fixed);
-  CHECK(line.options.interpolation.weights == ArcWeightKind::Distance);
-  CHECK(line.options.interpolation.guidance == Guidance::Hits);
-  CHECK(line.options.smoothing.isOn);
-  CHECK_EQ(line.options.smoothing.window.value().window, 3);
-  CHECK_EQ(line.options.smoothing.window.value().passes, 2);
-  CHECK_EQ(line.options.interpolation.pooling, 0.3);
-  CHECK_EQ(line.options.solverOptions.tolerance, 1e-3);
-  CHECK_EQ(line.options.solverOptions.maxIterations, 77);
-  CHECK(line.options.orientation == Orientation::Flip);
-  CHECK_EQ(line.output, "b.ply");
-  CHECK_EQ(line.format, "ply");
-  CHECK(line.session.backend == Backend::Vulkan);
-  CHECK_EQ(line.session.device, "llvmpipe");
-  CHECK(line.session.trace.kernel == TraceKernel::Packet);
-  CHECK(line.session.trace.bvh == BvhLayout::Binary);
-  CHECK(line.session.trace.fetch == BvhFetch::Storage);
-  CHECK_EQ(line.options.checkCount.value(), std::numeric_limits<uint64_t>::max());
-  CHECK_EQ(line.threadCount, 3);
-  CHECK((line.ascii && line.json && line.quiet && line.session.requireGpu));
+  const CommandLine defaults = parseCommandLine({"a.ply"});
+  for (const OptionCase& option : optionCases()) {
+    INFO(option.arguments.front());
+    CHECK_FALSE(option.isSet(defaults));
+    std::vector<std::string> arguments = option.arguments;
+    arguments.emplace_back("a.ply");
+    const CommandLine line = parseCommandLine(arguments);
+    CHECK(option.isSet(line));
+    CHECK_EQ(line.meshes, std::vector<std::string>{"a.ply"});
+  }
+}
+
+TEST_CASE("the table of options above is complete") {
+  std::set<std::string> inTable{"--help", "--version"};
+  for (const OptionCase& option : optionCases()) {
+    const std::string& name = option.arguments.front();
+    if (name != "-o") inTable.insert(name.substr(0, name.find('=')));
+  }
+  CHECK(optionsIn(parseCommandLine({"--help=all"}).answer.value()) == inTable);
+}
+
+TEST_CASE("a kernel variant of auto is the default") {
+  const TraceVariant variant =
+      parseCommandLine({"a.ply", "--kernel", "auto", "--bvh", "auto", "--fetch", "auto"}).session.variant;
+  CHECK((variant.kernel.empty() && variant.bvh.empty() && variant.fetch.empty()));
+}
+
+TEST_CASE("--fields keeps the order of the names") {
+  const auto fieldsOf = [](const char* text) { return parseCommandLine({"a.ply", "--fields", text}).fields; };
+  CHECK_EQ(fieldsOf("seed"), std::vector<std::string>{"seed"});
+  CHECK_EQ(fieldsOf("error,seed,sdf"), std::vector<std::string>{"error", "seed", "sdf"});
+  CHECK_EQ(refusal({"a.ply", "--fields", "sdf,sdf"}), "--fields: 'sdf,sdf' names sdf twice");
+  CHECK(refusal({"a.ply", "--fields", "sdf,depth"}).starts_with("--fields: 'depth' is not a field"));
+  for (const char* text : {"", ",", "sdf,", ",sdf", "sdf,,seed", "sdf seed", "SDF"})
+    CHECK_MESSAGE(refusal({"a.ply", "--fields", text}).starts_with("--fields: '"), text);
 }
 
 TEST_CASE("--check without a number does not take the mesh after it for one") {
@@ -224,6 +247,9 @@ TEST_CASE("values out of range are refused with the option's name") {
                                                   {"--weights", "1"},
                                                   {"--guidance", "0.5"},
                                                   {"--guidance", "gauss"},
+                                                  {"--fields", "depth"},
+                                                  {"--picture-of", "curvature"},
+                                                  {"--kernel", "wide"},
                                                   {"--pooling", "-0.1"},
                                                   {"--pooling", "1.1"},
                                                   {"--pooling", "half"},
@@ -248,7 +274,7 @@ TEST_CASE("values out of range are refused with the option's name") {
   CHECK_EQ(refusal({"a.ply", "--recipe", "best"}), "--recipe: 'best' is not one of paper|balanced|quality");
   CHECK_EQ(refusal({"a.ply", "--sampler", "spiral"}),
            "--sampler: 'spiral' is not one of random|blue-noise|farthest-point|normal-space|adaptive");
-  CHECK_EQ(refusal({"a.ply", "--guidance", "2"}), "--guidance: '2' is not one of none|curvature|hits");
+  CHECK_EQ(refusal({"a.ply", "--guidance", "2"}), "--guidance: '2' is not one of none|curvature|prediction");
   for (const char* text : {"", "%", "1%%", "nan%", "1 %", "inf"})
     CHECK_MESSAGE(refusal({"a.ply", "--max-error", text}).starts_with("--max-error: "), text);
   for (const char* text : {"", "s", "2 s", "2ms", "inf", "nans", "2ss"})
@@ -278,16 +304,21 @@ TEST_CASE("options that contradict each other are refused") {
     for (const char* solver : {"auto", "cpu", "eigen"})
       CHECK_EQ(refusal({"a.ply", "--backend", backend, "--solver", solver}), "accepted");
   }
-  const std::vector<std::string> errorPicture{"a.ply", "--picture", "b.png", "--picture-of", "error"};
-  const auto with = [&](const std::vector<std::string>& further) {
-    std::vector<std::string> arguments = errorPicture;
-    arguments.insert(arguments.end(), further.begin(), further.end());
-    return refusal(arguments);
-  };
-  CHECK_EQ(with({}), "accepted");
-  CHECK(with({"--no-estimate"}).find("--no-estimate") != std::string::npos);
-  CHECK(with({"--seeds", "all"}).find("--seeds all") != std::string::npos);
-  CHECK_EQ(with({"--no-estimate", "--max-error", "1%"}), "accepted");
+}
+
+TEST_CASE("a picture or field of the error needs an estimate") {
+  for (const auto& ofError : {std::vector<std::string>{"a.ply", "--picture", "b.png", "--picture-of", "error"},
+                              {"a.ply", "--fields", "sdf,error"}}) {
+    const auto with = [&](const std::vector<std::string>& further) {
+      std::vector<std::string> arguments = ofError;
+      arguments.insert(arguments.end(), further.begin(), further.end());
+      return refusal(arguments);
+    };
+    CHECK_EQ(with({}), "accepted");
+    CHECK(with({"--no-estimate"}).find("--no-estimate") != std::string::npos);
+    CHECK(with({"--seeds", "all"}).find("--seeds all") != std::string::npos);
+    CHECK_EQ(with({"--no-estimate", "--max-error", "1%"}), "accepted");
+  }
 }
 
 TEST_CASE("each sampler, weight and guidance has its name") {
@@ -295,7 +326,7 @@ TEST_CASE("each sampler, weight and guidance has its name") {
     return parseCommandLine({"a.ply", option, name}).options;
   };
   for (const std::string& name : samplerNames()) CHECK_EQ(optionsWith("--sampler", name.c_str()).sampler, name);
-  CHECK(optionsWith("--weights", "distance").interpolation.weights == ArcWeightKind::Distance);
+  CHECK(optionsWith("--weights", "distance").interpolation.weights == ArcWeights::Distance);
   CHECK(optionsWith("--guidance", "none").interpolation.guidance == Guidance::None);
   CHECK(optionsWith("--guidance", "curvature").interpolation.guidance == Guidance::Curvature);
   CHECK(optionsWith("--cone-rotation", "hashed").cone.rotation == ConeRotation::Hashed);
@@ -306,7 +337,7 @@ TEST_CASE("the options of their own overrule the recipe, wherever it stands") {
                                 {"a.ply", "--weights", "feature", "--recipe", "paper"}}) {
     const CommandLine line = parseCommandLine(arguments);
     CHECK(line.recipe == Recipe::Paper);
-    CHECK(line.options.interpolation.weights == ArcWeightKind::Feature);
+    CHECK(line.options.interpolation.weights == ArcWeights::Feature);
     CHECK(line.options.interpolation.guidance == Guidance::Curvature);
     CHECK_EQ(line.options.sampler, "random");
   }
@@ -316,7 +347,7 @@ TEST_CASE("the options of their own overrule the recipe, wherever it stands") {
   CHECK(line.options.cone.rotation == ConeRotation::Fixed);
   CHECK(line.options.interpolation.guidance == Guidance::None);
   CHECK_EQ(line.options.interpolation.pooling, 0);
-  CHECK(line.options.interpolation.weights == ArcWeightKind::Feature);
+  CHECK(line.options.interpolation.weights == ArcWeights::Feature);
   CHECK_EQ(parseCommandLine({"a.ply", "--seeds", "3", "--recipe", "paper"}).options.seeds.count, 3);
 }
 
@@ -348,14 +379,29 @@ TEST_CASE("rounds begin with few seeds unless a number is told") {
   CHECK_EQ(parseCommandLine({"a.ply", "--recipe", "paper"}).options.seeds.share, 0.1);
 }
 
-TEST_CASE("the help names every option of the computation") {
-  const std::string help = parseCommandLine({"--help"}).answer.value();
+TEST_CASE("--help has the most needed options, --help=all all of them in groups") {
+  const std::string basic = parseCommandLine({"--help"}).answer.value();
+  CHECK_EQ(optionsIn(basic),
+           std::set<std::string>{"--help", "--version", "--recipe", "--seeds", "--max-error", "--orient", "--output",
+                                 "--fields", "--check", "--json", "--picture", "--backend"});
+  CHECK(basic.find("--help=all lists all options") != std::string::npos);
+  const std::string all = parseCommandLine({"--help=all"}).answer.value();
+  size_t previous = 0;
+  for (const char* group :
+       {"Options:", "Seeds and rays:", "Experiments (the defaults are best):", "Output:", "Picture:", "Device:"}) {
+    const size_t position = all.find("\n" + std::string(group) + "\n");
+    CHECK_MESSAGE(position != std::string::npos, group);
+    CHECK_MESSAGE(position > previous, group);
+    previous = position;
+    CHECK_EQ(basic.find(group) != std::string::npos, std::string(group) == "Options:");
+  }
   for (const char* part :
        {"--recipe paper|balanced|quality", "--sampler random|blue-noise|farthest-point|normal-space|adaptive",
         "--max-error E%", "--time-budget SECONDS", "--no-estimate", "--cone-rotation fixed|hashed",
-        "--weights distance|feature", "--guidance none|curvature|hits", "--pooling P", "--picture-of sdf|seeds|error",
-        "balanced (default)"})
-    CHECK_MESSAGE(help.find(part) != std::string::npos, part);
+        "--weights distance|feature", "--guidance none|curvature|prediction", "--pooling P",
+        "--picture-of sdf|seeds|error", "--fields NAME,...", "balanced (default)"})
+    CHECK_MESSAGE(all.find(part) != std::string::npos, part);
+  CHECK_EQ(parseCommandLine({"--", "--help=all"}).meshes, std::vector<std::string>{"--help=all"});
 }
 
 TEST_CASE("seed counts are read as they are told") {

@@ -3,9 +3,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "cli/report_json.h"
-#include "cli/report_text.h"
-#include "core/text.h"
+#include "cli/report.h"
 
 namespace asdfvk {
 namespace {
@@ -13,8 +11,9 @@ namespace {
 const std::string kMesh = "horse.ply";
 const std::string kOutput = "horse.asdf.ply";
 
-Report sampleReport() {
-  Report report;
+Result sampleResult() {
+  Result result;
+  Report& report = result.report;
   report.faceCount = 96966;
   report.triangleCount = 96966;
   report.vertexCount = 48485;
@@ -26,15 +25,15 @@ Report sampleReport() {
   report.raysPerSecond = 1.25e6;
   report.solver = {"cg", 73, 9e-6, true};
   report.sdf = {0.5, 1.5, 2.5};
-  return report;
+  return result;
 }
 
 bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 TEST_CASE("the text report tells mesh, device, seeds, speed, solver and values") {
   const CommandLine line;
-  const Report report = sampleReport();
-  const std::string text = textReport({kMesh, kOutput, line, report});
+  const Result result = sampleResult();
+  const std::string text = textReport({kMesh, kOutput, line, result});
   for (const char* part : {"horse.ply: 96,966 faces, 48,485 vertices, 1 component\n", "vulkan on some device",
                            "9,697 faces cast rays (10 %)", "290,910 rays", "1.25 Mrays/s", "cg, 73 iterations",
                            "min 0.5, median 1.5, max 2.5", "horse.asdf.ply"})
@@ -46,10 +45,11 @@ TEST_CASE("the text report tells mesh, device, seeds, speed, solver and values")
 
 TEST_CASE("one of anything is told in the singular") {
   const CommandLine line;
-  Report report = sampleReport();
+  Result result = sampleResult();
+  Report& report = result.report;
   report.faceCount = report.triangleCount = report.vertexCount = report.seedCount = report.rayCount = 1;
   report.solver.iterations = 1;
-  const std::string text = textReport({kMesh, kOutput, line, report});
+  const std::string text = textReport({kMesh, kOutput, line, result});
   for (const char* part :
        {": 1 face, 1 vertex, 1 component\n", " 1 face casts rays (", " 1 ray in all", " 1 iteration,"})
     CHECK_MESSAGE(holds(text, part), text);
@@ -57,48 +57,52 @@ TEST_CASE("one of anything is told in the singular") {
 
 TEST_CASE("the text report names what is out of the ordinary") {
   const CommandLine line;
-  Report report = sampleReport();
+  Result result = sampleResult();
+  Report& report = result.report;
   report.triangleCount = 100000;
   report.redoneConeCount = 1;
   report.noValueCount = 2;
   report.solver.converged = false;
-  const std::string text = textReport({kMesh, kOutput, line, report});
+  const std::string text = textReport({kMesh, kOutput, line, result});
   for (const char* part : {"(100,000 triangles)", "1 cone redone", "2 faces without a value", "NOT CONVERGED"})
     CHECK_MESSAGE(holds(text, part), text);
 }
 
 TEST_CASE("the text report tells the recipe, and the estimated error where there is one") {
   CommandLine line;
-  Report report = sampleReport();
-  CHECK(holds(textReport({kMesh, kOutput, line, report}), "recipe balanced"));
-  CHECK_FALSE(holds(textReport({kMesh, kOutput, line, report}), "  error "));
+  Result result = sampleResult();
+  Report& report = result.report;
+  CHECK(holds(textReport({kMesh, kOutput, line, result}), "recipe balanced"));
+  CHECK_FALSE(holds(textReport({kMesh, kOutput, line, result}), "  error "));
   line.recipe = Recipe::Paper;
   report.estimatedError = ErrorEstimate{0.01234, 0.00056, 1234, {{77, 0.456}, {3, 0.4}}};
-  const std::string text = textReport({kMesh, kOutput, line, report});
+  const std::string text = textReport({kMesh, kOutput, line, result});
   CHECK(holds(text, "recipe paper"));
   CHECK_MESSAGE(
       holds(text, "\n  error     1.23 % +- 0.06 of the range on average, from 1,234 held-out faces; 46 % at face 77\n"),
       text);
   report.roundCount = 3;
-  CHECK(holds(textReport({kMesh, kOutput, line, report}), "; 46 % at face 77; 3 rounds\n"));
+  CHECK(holds(textReport({kMesh, kOutput, line, result}), "; 46 % at face 77; 3 rounds\n"));
 }
 
 TEST_CASE("stages that took time are named in their order, the others are not") {
   const CommandLine line;
-  Report report = sampleReport();
-  report.stageSeconds.sample = 0.25;
-  report.stageSeconds.predict = 0.5;
-  report.stageSeconds.estimate = 0.125;
-  CHECK(holds(textReport({kMesh, kOutput, line, report}), "sample 0.250 s, predict 0.500, estimate 0.125\n"));
+  Result result = sampleResult();
+  Report& report = result.report;
+  report.stageSeconds[Stage::Sample] = 0.25;
+  report.stageSeconds[Stage::Predict] = 0.5;
+  report.stageSeconds[Stage::Estimate] = 0.125;
+  CHECK(holds(textReport({kMesh, kOutput, line, result}), "sample 0.250 s, predict 0.500, estimate 0.125\n"));
 }
 
 TEST_CASE("JSON has the estimate, or null") {
   const CommandLine line;
-  Report report = sampleReport();
-  CHECK(nlohmann::json::parse(jsonReport({kMesh, kOutput, line, report})).at("estimatedError").is_null());
+  Result result = sampleResult();
+  Report& report = result.report;
+  CHECK(nlohmann::json::parse(jsonReport({kMesh, kOutput, line, result})).at("estimatedError").is_null());
   report.estimatedError = ErrorEstimate{0.01, 0.002, 400, {{77, 0.5}, {3, 0.25}}};
   report.roundCount = 4;
-  const nlohmann::json json = nlohmann::json::parse(jsonReport({kMesh, kOutput, line, report}));
+  const nlohmann::json json = nlohmann::json::parse(jsonReport({kMesh, kOutput, line, result}));
   const nlohmann::json& estimate = json.at("estimatedError");
   CHECK_EQ(estimate.at("average").get<double>(), 0.01);
   CHECK_EQ(estimate.at("standardError").get<double>(), 0.002);
@@ -110,51 +114,81 @@ TEST_CASE("JSON has the estimate, or null") {
 
 TEST_CASE("a share of agreeing faces is never rounded up to all of them") {
   const CommandLine line;
-  Report report = sampleReport();
+  Result result = sampleResult();
+  Report& report = result.report;
   report.check.emplace();
   report.check->tracedCount = 1000000;
   report.check->agreeingCount = 999999;
-  CHECK(holds(textReport({kMesh, kOutput, line, report}), "99.99 % of 1,000,000 traced faces"));
+  CHECK(holds(textReport({kMesh, kOutput, line, result}), "99.99 % of 1,000,000 traced faces"));
   report.check->agreeingCount = 1000000;
-  CHECK(holds(textReport({kMesh, kOutput, line, report}), "100 % of"));
+  CHECK(holds(textReport({kMesh, kOutput, line, result}), "100 % of"));
 }
 
 TEST_CASE("faces without a value on either side are told apart from those that agree") {
   const CommandLine line;
-  Report report = sampleReport();
+  Result result = sampleResult();
+  Report& report = result.report;
   report.check.emplace();
   report.check->tracedCount = 103;
   report.check->agreeingCount = 99;
   report.check->noValueAgreeCount = 3;
-  const std::string text = textReport({kMesh, kOutput, line, report});
+  const std::string text = textReport({kMesh, kOutput, line, result});
   CHECK(holds(text, "99 % of 100 traced faces"));
   CHECK(holds(text, "; 3 more without a value on either side"));
   report.check->tracedCount = report.check->noValueAgreeCount = 1;
-  CHECK(holds(textReport({kMesh, kOutput, line, report}), "1 traced face, none with a value on either side"));
+  CHECK(holds(textReport({kMesh, kOutput, line, result}), "1 traced face, none with a value on either side"));
 }
 
 TEST_CASE("a check that compared nothing is told as such and not as passed") {
   const CommandLine line;
-  Report report = sampleReport();
+  Result result = sampleResult();
+  Report& report = result.report;
   report.check.emplace();
   CHECK(holds(checkFailure(*report.check), "nothing was compared"));
-  CHECK(holds(textReport({kMesh, kOutput, line, report}), "nothing was compared"));
-  const nlohmann::json json = nlohmann::json::parse(jsonReport({kMesh, kOutput, line, report}));
+  CHECK(holds(textReport({kMesh, kOutput, line, result}), "nothing was compared"));
+  const nlohmann::json json = nlohmann::json::parse(jsonReport({kMesh, kOutput, line, result}));
   CHECK_FALSE(json.at("check").at("passed").get<bool>());
 }
 
 TEST_CASE("JSON has null for what is not finite and is one line") {
   const CommandLine line;
-  Report report = sampleReport();
+  Result result = sampleResult();
+  Report& report = result.report;
   report.sdf = {};
   report.check.emplace();
   report.check->worstDifference = std::numeric_limits<double>::infinity();
-  report.warnings = {"two\nlines"};
-  const std::string text = jsonReport({kMesh, kOutput, line, report});
+  report.warnings = {{WarningCode::MeshDefect, "two\nlines", {}}};
+  result.fields = {{.name = "sdf", .values = std::vector<double>{kNoValue, kNoValue}}};
+  const std::string text = jsonReport({kMesh, kOutput, line, result});
   CHECK_EQ(text.find('\n'), text.size() - 1);
   const nlohmann::json json = nlohmann::json::parse(text);
   for (const char* key : {"min", "median", "max"}) CHECK(json.at("sdf").at(key).is_null());
   CHECK(json.at("check").at("worstDifference").is_null());
+  CHECK(json.at("fields").at(0).at("median").is_null());
+  CHECK_EQ(json.at("fields").at(0).at("missingCount").get<int>(), 2);
+}
+
+TEST_CASE("a warning ends with the options that help, in both reports with its code") {
+  CHECK_EQ(textWarning({WarningCode::MeshDefect, "2 faces have no area", {}}), "2 faces have no area");
+  CHECK(holds(textWarning({WarningCode::InvertedComponents, "x", {}}), "x; --orient auto "));
+  CHECK(holds(textWarning({WarningCode::NotConverged, "x", {}}), "--max-iterations"));
+  CHECK(holds(textWarning({WarningCode::FinishedOnCpu, "x", {}}), "--solver cpu"));
+  CHECK_EQ(textWarning({WarningCode::MissingValues, "x", {}}), "x");
+  CHECK(holds(textWarning({WarningCode::MissingValues, "x", {{"cause", "inverted"}}}), "--orient auto"));
+  CHECK(holds(textWarning({WarningCode::MissingValues, "x", {{"cause", "open"}}}), "--orient flip"));
+  const CommandLine line;
+  Result result = sampleResult();
+  result.report.warnings = {{WarningCode::NotConverged, "x", {}}, {WarningCode::InvertedComponents, "y", {}}};
+  const nlohmann::json json = nlohmann::json::parse(jsonReport({kMesh, kOutput, line, result}));
+  CHECK_EQ(json.at("warningCodes"), nlohmann::json({"notConverged", "invertedComponents"}));
+  CHECK_EQ(json.at("warnings").at(1).get<std::string>(), textWarning(result.report.warnings[1]));
+}
+
+TEST_CASE("a failure as JSON has mesh, error and code") {
+  const std::string text = jsonFailure("a.ply", "deviceLost", "two\nlines");
+  CHECK_EQ(text.find('\n'), text.size() - 1);
+  CHECK_EQ(nlohmann::json::parse(text),
+           nlohmann::json({{"mesh", "a.ply"}, {"error", "two\nlines"}, {"code", "deviceLost"}}));
 }
 
 TEST_CASE("devices are listed with number and reason, or the reason why there are none") {

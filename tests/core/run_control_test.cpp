@@ -4,6 +4,8 @@
 
 #include <vector>
 
+#include "asdf_vk/error.h"
+
 using namespace asdfvk;
 
 TEST_CASE("a checkpoint reports progress, or nothing where nobody listens") {

@@ -22,12 +22,12 @@ void addSeed(TracedSeeds& seeds, uint32_t face, double value) {
   seeds.isSeed[face] = 1;
 }
 
-/// Six faces: 0 and 1 are placed seeds, 2 and 3 probes that the interpolation misses by 1 and by 2.
+/// Six faces: 0 and 1 are sampled seeds, 2 and 3 are held out; the interpolation without them is off by 1 and by 2.
 struct SixFaces {
   Mesh mesh;
   TracedSeeds traced{6};
-  Probes probes{{2, 3}, {1, 1}};
-  std::vector<double> values{0, 10, 5, 8, 5, 5}, pattern, result{0, 10, 4, 6, 5, 5};
+  HeldOutFaces heldOut{{2, 3}, {1, 1}};
+  std::vector<double> values{0, 10, 5, 8, 5, 5}, indicator, result{0, 10, 4, 6, 5, 5};
 
   SixFaces() {
     mesh.faces.resize(6);
@@ -37,11 +37,11 @@ struct SixFaces {
     addSeed(traced, 3, 6);
   }
   [[nodiscard]] EstimatedErrors estimate() const {
-    return estimateErrors(mesh, {traced, probes, values, pattern, result});
+    return estimateErrors(mesh, {traced, heldOut, values, indicator, result});
   }
 };
 
-/// What the probes, half of the seeds, are worth to the other faces once they are seeds.
+/// Factor of the errors when the held-out faces, half of the seeds, become seeds.
 const double kHalfGain = std::pow(0.5, 0.12);
 
 double meanOf(const std::vector<double>& values) {
@@ -50,16 +50,15 @@ double meanOf(const std::vector<double>& values) {
 
 }  // namespace
 
-TEST_CASE(
-    "without a pattern every face that casts no rays is expected to err as the probes do, but for what they add") {
+TEST_CASE("without an indicator every interpolated face has the mean error of held-out faces, less their gain") {
   const SixFaces six;
   const EstimatedErrors errors = six.estimate();
   const std::vector<double> expected{0, 0, 0, 0, 1.5 * kHalfGain, 1.5 * kHalfGain};
   REQUIRE(errors.expected.size() == 6);
   for (size_t face = 0; face < 6; ++face) CHECK(errors.expected[face] == doctest::Approx(expected[face]));
   CHECK(errors.estimate.average == doctest::Approx(kHalfGain * 3.0 / 6 / 10));
-  // The standard error of the mean of 1 and 2 is 0.5; it stands for two faces of six, over the range 10. What the
-  // probes add is as uncertain as it is great.
+  // The standard error of the mean of 1 and 2 is 0.5; it is scaled to two faces of six and the range 10. The gain of
+  // the held-out faces has an uncertainty of its own size.
   CHECK(errors.estimate.standardError ==
         doctest::Approx(kHalfGain * std::hypot(0.5, 1.5 * (1 - kHalfGain)) * 2 / 6 / 10));
   CHECK(errors.estimate.heldOutCount == 2);
@@ -70,19 +69,19 @@ TEST_CASE(
   CHECK(errors.estimate.worstFaces[1].error == doctest::Approx(0.1));
 }
 
-TEST_CASE("errors are spread by the pattern, and a probe counts by its weight") {
+TEST_CASE("errors are in proportion to the indicator, and a held-out face counts by its weight") {
   SixFaces six;
-  six.pattern = {9, 9, 1.5, 3.5, 2.5, 0.5};
+  six.indicator = {9, 9, 1.5, 3.5, 2.5, 0.5};
   const EstimatedErrors errors = six.estimate();
   CHECK(errors.expected[4] == doctest::Approx(kHalfGain * 3.0 / (1.5 + 3.5) * 2.5));
   CHECK(errors.expected[5] == doctest::Approx(kHalfGain * 3.0 / (1.5 + 3.5) * 0.5));
   CHECK(errors.expected[3] == 0);
   CHECK(errors.estimate.average == doctest::Approx(kHalfGain * 1.8 / 6 / 10));
-  // The probes are 0.1 beside the ratio, each on its side; the two faces have 3 of the pattern, a probe 2.5.
+  // The held-out faces are 0.1 below and above the ratio; the two faces have an indicator of 3, a held-out face 2.5.
   CHECK(errors.estimate.standardError ==
         doctest::Approx(kHalfGain * std::hypot(0.1 / 2.5, 0.6 * (1 - kHalfGain)) * 3 / 6 / 10));
 
-  six.probes.weights = {3, 1};
+  six.heldOut.weights = {3, 1};
   const EstimatedErrors weighted = six.estimate();
   const double ratio = (3 * 1.0 + 2.0) / (3 * 1.5 + 3.5);
   CHECK(weighted.expected[4] == doctest::Approx(kHalfGain * ratio * 2.5));
@@ -92,13 +91,13 @@ TEST_CASE("errors are spread by the pattern, and a probe counts by its weight") 
                         std::hypot(std::sqrt(2.0) * std::hypot(first, second) / 8, ratio * (1 - kHalfGain)) * 3 / 6 /
                         10));
 
-  six.probes.weights = {1, 0};  // It was chosen for certain, and speaks for no other.
+  six.heldOut.weights = {1, 0};  // Inclusion probability 1: it stands for no other.
   CHECK(six.estimate().estimate.heldOutCount == 0);
 }
 
-TEST_CASE("a probe that was chosen for certain is among the worst faces and speaks for no other") {
+TEST_CASE("a held-out face of inclusion probability 1 is among the worst faces and stands for no other") {
   SixFaces six;
-  six.probes = {{2, 3, 1}, {1, 1, 0}};
+  six.heldOut = {{2, 3, 1}, {1, 1, 0}};
   six.values[1] = 4;
   const EstimatedErrors errors = six.estimate();
   CHECK(errors.expected[4] == doctest::Approx(std::pow(0.25, 0.12) * 1.5));
@@ -108,7 +107,7 @@ TEST_CASE("a probe that was chosen for certain is among the worst faces and spea
   CHECK(errors.estimate.worstFaces[0].error == doctest::Approx(0.6));
 }
 
-TEST_CASE("seeds whose values were moved err by as much") {
+TEST_CASE("the error of a seed is the difference by which its value was moved") {
   SixFaces six;
   six.result[0] = 1;
   six.result[3] = 5;
@@ -118,7 +117,7 @@ TEST_CASE("seeds whose values were moved err by as much") {
   CHECK(errors.estimate.average == doctest::Approx((1 + 1 + kHalfGain * (1.5 + 1.5)) / 6 / 10));
 }
 
-TEST_CASE("faces without a value have no error, and probes without one tell nothing") {
+TEST_CASE("faces without a value have no error, and held-out faces without one do not count") {
   SixFaces six;
   six.values[5] = six.result[5] = kNoValue;
   const EstimatedErrors errors = six.estimate();
@@ -129,9 +128,9 @@ TEST_CASE("faces without a value have no error, and probes without one tell noth
   CHECK(six.estimate().estimate.heldOutCount == 0);
 }
 
-TEST_CASE("an estimate takes two probes and a range") {
+TEST_CASE("an estimate needs two held-out faces and a positive range") {
   SixFaces one;
-  one.probes = {{2}, {1}};
+  one.heldOut = {{2}, {1}};
   CHECK(one.estimate().estimate.heldOutCount == 0);
   for (const double entry : one.estimate().expected) CHECK(entry == 0);
   SixFaces flat;
@@ -146,15 +145,15 @@ TEST_CASE("no more than five worst faces, by their number in the file") {
   mesh.polygons.firstCorner.resize(11);
   for (uint32_t face = 0; face < 20; ++face) mesh.polygons.inputFaceOf.push_back(face / 2);
   TracedSeeds traced(20);
-  Probes probes;
+  HeldOutFaces heldOut;
   addSeed(traced, 0, 0);
   for (uint32_t face = 6; face < 20; ++face) {
     addSeed(traced, face, face);
-    probes.append({{face}, {1}});
+    heldOut.append({{face}, {1}});
   }
   std::vector<double> values(20, 6.0), result(20, 0.0);
   std::iota(result.begin(), result.end(), 0.0);
-  const EstimatedErrors errors = estimateErrors(mesh, {traced, probes, values, {}, result});
+  const EstimatedErrors errors = estimateErrors(mesh, {traced, heldOut, values, {}, result});
   REQUIRE(errors.estimate.worstFaces.size() == 5);
   CHECK(errors.estimate.worstFaces[0].face == 9);  // Triangle 19.
   CHECK(errors.estimate.worstFaces[1].face == 9);
@@ -162,7 +161,7 @@ TEST_CASE("no more than five worst faces, by their number in the file") {
   for (size_t i = 1; i < 5; ++i) CHECK(errors.estimate.worstFaces[i].error < errors.estimate.worstFaces[i - 1].error);
 }
 
-TEST_CASE("the estimate is right on average, and as far off as it says") {
+TEST_CASE("the estimate is right on average, and its standard error is that of its errors") {
   for (const Recipe recipe : {Recipe::Balanced, Recipe::Paper, Recipe::Quality}) {
     for (const std::string name : {"animal", "hand"}) {
       CAPTURE(name);
@@ -173,12 +172,11 @@ TEST_CASE("the estimate is right on average, and as far off as it says") {
       constexpr int kRunCount = 8;
       double ratios = 0, squares = 0;
       for (int run = 1; run <= kRunCount; ++run) {
-        Mesh input = mesh;
         options.randomSeed = static_cast<uint64_t>(run);
-        const Result result = referenceSession().compute(input, options);
+        const Result result = referenceSession().compute(mesh, options);
         REQUIRE(result.report.estimatedError);
         const ErrorEstimate& estimate = *result.report.estimatedError;
-        const double real = averageError(result.sdf, truth);
+        const double real = averageError(result.sdf(), truth);
         ratios += estimate.average / real;
         squares += std::pow((estimate.average - real) / estimate.standardError, 2);
         CHECK(estimate.heldOutCount == result.report.seedCount / 4);
@@ -193,60 +191,58 @@ TEST_CASE("the estimate is right on average, and as far off as it says") {
   }
 }
 
-TEST_CASE("seeds are expected to be right, and the mean of what is expected is the estimate") {
-  Mesh mesh = makeAnimal(3000).mesh;
+TEST_CASE("seeds have an expected error of 0, and the mean of the expected errors is the estimate") {
+  const Mesh mesh = makeAnimal(3000).mesh;
   const Result result = referenceSession().compute(mesh, {});
   REQUIRE(result.report.estimatedError);
-  REQUIRE(result.expectedError.size() == result.sdf.size());
-  for (size_t face = 0; face < result.sdf.size(); ++face)
-    CHECK((result.expectedError[face] == 0) == (result.isSeed[face] == 1));
+  const std::vector<double>& expected = test::expectedErrors(result);
+  REQUIRE(expected.size() == result.sdf().size());
+  for (size_t face = 0; face < result.sdf().size(); ++face) CHECK((expected[face] == 0) == (result.seed()[face] == 1));
   double low = 1e30, high = -1e30;
-  for (size_t face = 0; face < result.sdf.size(); ++face)
-    if (result.isSeed[face]) low = std::min(low, result.sdf[face]), high = std::max(high, result.sdf[face]);
-  CHECK(meanOf(result.expectedError) / (high - low) ==
-        doctest::Approx(result.report.estimatedError->average).epsilon(1e-9));
+  for (size_t face = 0; face < result.sdf().size(); ++face)
+    if (result.seed()[face]) low = std::min(low, result.sdf()[face]), high = std::max(high, result.sdf()[face]);
+  CHECK(meanOf(expected) / (high - low) == doctest::Approx(result.report.estimatedError->average).epsilon(1e-9));
 
   Options pooled;
   applyRecipe(Recipe::Quality, pooled);
   const Result moved = referenceSession().compute(mesh, pooled);
   size_t movedSeedCount = 0;
-  for (size_t face = 0; face < moved.sdf.size(); ++face)
-    movedSeedCount += moved.isSeed[face] == 1 && moved.expectedError[face] > 0;
+  for (size_t face = 0; face < moved.sdf().size(); ++face)
+    movedSeedCount += moved.seed()[face] == 1 && test::expectedErrors(moved)[face] > 0;
   CHECK(movedSeedCount > moved.report.seedCount * 9 / 10);
 }
 
-TEST_CASE("faces are expected to err where they do") {
+TEST_CASE("expected errors are large where errors are large") {
   const Mesh mesh = makeAnimal(3000).mesh;
   const std::vector<double> truth = test::tracedEverywhere(mesh);
-  Mesh input = mesh;
-  const Result result = referenceSession().compute(input, {});
+  const Result result = referenceSession().compute(mesh, {});
+  const std::vector<double>& expected = test::expectedErrors(result);
   std::vector<size_t> faces;
   for (size_t face = 0; face < truth.size(); ++face)
-    if (!result.isSeed[face]) faces.push_back(face);
-  std::sort(faces.begin(), faces.end(),
-            [&](size_t a, size_t b) { return result.expectedError[a] < result.expectedError[b]; });
+    if (!result.seed()[face]) faces.push_back(face);
+  std::sort(faces.begin(), faces.end(), [&](size_t a, size_t b) { return expected[a] < expected[b]; });
   double low = 0, high = 0;
   const size_t half = faces.size() / 2;
-  for (size_t i = 0; i < 2 * half; ++i) (i < half ? low : high) += std::abs(result.sdf[faces[i]] - truth[faces[i]]);
+  for (size_t i = 0; i < 2 * half; ++i) (i < half ? low : high) += std::abs(result.sdf()[faces[i]] - truth[faces[i]]);
   CHECK(high > 1.3 * low);
 }
 
-TEST_CASE("there is no estimate where nobody asks, where every face is a seed and where there is one seed") {
-  Mesh mesh = makeTorus(1000).mesh;
-  Options unasked, all, one;
-  unasked.estimatesError = false;
-  all.seeds.kind = SeedCount::Kind::All;
-  one.seeds = {.kind = SeedCount::Kind::Count, .count = 1};
-  for (const Options& options : {unasked, all, one}) {
+TEST_CASE("there is no estimate without a request, where every face is a seed and where there is one seed") {
+  const Mesh mesh = makeTorus(1000).mesh;
+  Options unrequested, all, one;
+  unrequested.estimatesError = false;
+  all.seeds = SeedCount::all();
+  one.seeds = SeedCount::ofCount(1);
+  for (const Options& options : {unrequested, all, one}) {
     const Result result = referenceSession().compute(mesh, options);
     CHECK_FALSE(result.report.estimatedError.has_value());
-    CHECK(result.expectedError.empty());
+    CHECK(result.field("error") == nullptr);
     CHECK(result.report.noValueCount == 0);
   }
 }
 
-TEST_CASE("asking for rounds until an error is asking for the estimate") {
-  Mesh mesh = makeTorus(1000).mesh;
+TEST_CASE("a maximum error requests the estimate") {
+  const Mesh mesh = makeTorus(1000).mesh;
   Options options;
   options.estimatesError = false;
   options.rounds.maxError = 0.5;

@@ -13,7 +13,7 @@ using namespace asdfvk;
 
 namespace {
 
-/// A sphere with some seeds, of which the prediction is what the test says.
+/// A sphere with some seeds, whose prediction the test sets.
 struct SeededSphere {
   Mesh mesh = makeSphere(320).mesh;
   FaceGeometry geometry = computeFaceGeometry(mesh);
@@ -29,7 +29,7 @@ struct SeededSphere {
     prediction.nearest = NearestCells(cells, graph, geometry, seeds, 6);
     prediction.values.assign(mesh.faces.size(), 2.0);
   }
-  [[nodiscard]] std::vector<double> pattern() const { return errorPattern(prediction, seeds, values); }
+  [[nodiscard]] std::vector<double> indicator() const { return errorIndicator(prediction, seeds, values); }
   [[nodiscard]] uint32_t faceOfCell(uint32_t cell) const {
     for (uint32_t face = 0; face < mesh.faces.size(); ++face)
       if (prediction.cellOf[face] == cell && face != seeds[cell]) return face;
@@ -39,29 +39,29 @@ struct SeededSphere {
 
 }  // namespace
 
-TEST_CASE("where all agree errors are expected alike everywhere, where nothing is known too") {
+TEST_CASE("the indicator is constant where predictions equal the seeds, also for a face without a prediction") {
   SeededSphere sphere;
   sphere.prediction.values[sphere.faceOfCell(1)] = kNoValue;
-  const std::vector<double> pattern = sphere.pattern();
-  CHECK(pattern[0] > 0);
-  CHECK(std::all_of(pattern.begin(), pattern.end(), [&](double entry) { return entry == pattern[0]; }));
+  const std::vector<double> indicator = sphere.indicator();
+  CHECK(indicator[0] > 0);
+  CHECK(std::all_of(indicator.begin(), indicator.end(), [&](double entry) { return entry == indicator[0]; }));
 }
 
-TEST_CASE("a face is expected to err as its prediction is off its seed, beside half of the mean") {
+TEST_CASE("the indicator of a face is the difference to its seed plus half of the mean") {
   SeededSphere sphere;
   const uint32_t face = sphere.faceOfCell(2);
   sphere.prediction.values[face] = 5;
-  const std::vector<double> pattern = sphere.pattern();
-  const double mean = 3.0 / static_cast<double>(pattern.size());
-  CHECK(pattern[face] == doctest::Approx(3 + 0.5 * mean));
-  CHECK(pattern[sphere.seeds[2]] == doctest::Approx(0.5 * mean));
+  const std::vector<double> indicator = sphere.indicator();
+  const double mean = 3.0 / static_cast<double>(indicator.size());
+  CHECK(indicator[face] == doctest::Approx(3 + 0.5 * mean));
+  CHECK(indicator[sphere.seeds[2]] == doctest::Approx(0.5 * mean));
 }
 
-TEST_CASE("a cell is expected to err as its seed is off the seeds around") {
+TEST_CASE("the indicator of a cell grows with the difference between its seed and neighbouring seeds") {
   SeededSphere sphere;
   sphere.values[120] = 8;
-  const std::vector<double> pattern = sphere.pattern();
-  const auto of = [&](uint32_t cell) { return pattern[sphere.seeds[cell]]; };
+  const std::vector<double> indicator = sphere.indicator();
+  const auto of = [&](uint32_t cell) { return indicator[sphere.seeds[cell]]; };
   REQUIRE(sphere.prediction.nearest.of(2).size() > 1);
   // Its own prediction is off by 6 besides; of the neighbours of each other cell one may be off by 6.
   CHECK(of(2) > of(0));
@@ -73,15 +73,16 @@ TEST_CASE("a cell is expected to err as its seed is off the seeds around") {
   }
 }
 
-TEST_CASE("a face about which nothing is known is expected to err as the mean") {
+TEST_CASE("a face without a prediction, or with a seed without a value, has the mean indicator") {
   SeededSphere sphere;
   sphere.prediction.values[sphere.faceOfCell(1)] = 5;
   const uint32_t unpredicted = sphere.faceOfCell(0);
   sphere.prediction.values[unpredicted] = kNoValue;
   sphere.values[120] = kNoValue;  // A seed of which no ray met anything.
   const uint32_t ofNoValue = sphere.faceOfCell(2);
-  const std::vector<double> pattern = sphere.pattern();
-  CHECK(pattern[unpredicted] == doctest::Approx(3 * pattern[sphere.seeds[0]]));
-  CHECK(pattern[ofNoValue] == pattern[unpredicted]);
-  CHECK(std::all_of(pattern.begin(), pattern.end(), [](double entry) { return entry > 0 && std::isfinite(entry); }));
+  const std::vector<double> indicator = sphere.indicator();
+  CHECK(indicator[unpredicted] == doctest::Approx(3 * indicator[sphere.seeds[0]]));
+  CHECK(indicator[ofNoValue] == indicator[unpredicted]);
+  CHECK(
+      std::all_of(indicator.begin(), indicator.end(), [](double entry) { return entry > 0 && std::isfinite(entry); }));
 }

@@ -1,4 +1,4 @@
-#include "pipeline/check.h"
+#include "estimate/reference_check.h"
 
 #include <doctest/doctest.h>
 
@@ -6,7 +6,9 @@
 #include <limits>
 #include <memory>
 
+#include "bvh/bvh.h"
 #include "generate/shapes.h"
+#include "pipeline/prepared_mesh.h"
 #include "support/shared_session.h"
 #include "trace/reference_tracer.h"
 
@@ -16,7 +18,7 @@ namespace {
 
 constexpr uint64_t kAll = std::numeric_limits<uint64_t>::max();
 
-/// A mesh of which every face was traced, so that a test can spoil values.
+/// A mesh with all faces traced, so that a test can change values.
 struct TracedSphere {
   Mesh mesh = makeSphere(320).mesh;
   PreparedMesh prepared = prepareMesh(mesh, Orientation::Keep);
@@ -26,18 +28,19 @@ struct TracedSphere {
   TracedSeeds traced{prepared.geometry.areas.size()};
 
   TracedSphere() {
-    const std::unique_ptr<ConeTracer> tracer = makeReferenceTracer(scene, cone);
-    SeedTracing(prepared, *tracer, cone.directions.size(), false).trace(prepared.castableFaces, traced, {});
+    traced.faces = prepared.traceableFaces;
+    std::fill(traced.isSeed.begin(), traced.isSeed.end(), uint8_t{1});
+    makeReferenceTracer(scene, cone)->trace(traced.faces, {traced.values}, {});
   }
   [[nodiscard]] CheckReport check(uint64_t count) const {
-    return checkAgainstReference(mesh, prepared, scene, cone, {traced, traced.values}, count, 1, {});
+    return checkAgainstReference(scene, cone, prepared.traceableFaces, {traced, traced.values}, count, 1, {});
   }
 };
 
 }  // namespace
 
 TEST_CASE("a traced result agrees with the reference and its interpolation error is small") {
-  Mesh mesh = makeTorus(4000).mesh;
+  const Mesh mesh = makeTorus(4000).mesh;
   Options options;
   options.checkCount = 1000;
   const Result result = test::vulkanSession().compute(mesh, options);
@@ -58,10 +61,10 @@ TEST_CASE("a traced result agrees with the reference and its interpolation error
   CHECK(check.interpolatedMaximumError == check.maximumError);
 }
 
-TEST_CASE("few seeds among many faces are all checked, whatever the number asked for") {
-  Mesh mesh = makeTorus(4000).mesh;
+TEST_CASE("few seeds among many faces are all checked, whatever the requested number") {
+  const Mesh mesh = makeTorus(4000).mesh;
   Options options;
-  options.seeds = {.kind = SeedCount::Kind::Count, .count = 1};
+  options.seeds = SeedCount::ofCount(1);
   options.checkCount = 5;
   const CheckReport check = test::vulkanSession().compute(mesh, options).report.check.value();
   CHECK(check.tracedCount == 1);
@@ -69,8 +72,8 @@ TEST_CASE("few seeds among many faces are all checked, whatever the number asked
   CHECK(check.passed);
 }
 
-TEST_CASE("what the reference traced is not compared with the reference") {
-  Mesh mesh = makeTorus(2000).mesh;
+TEST_CASE("values that the reference traced are not compared with the reference") {
+  const Mesh mesh = makeTorus(2000).mesh;
   Options options;
   options.checkCount = 500;
   const CheckReport check = test::referenceSession().compute(mesh, options).report.check.value();
@@ -99,7 +102,7 @@ TEST_CASE("wrong values are found, with the face of the worst") {
   CHECK(sphere.check(kAll).worstFace == 78);
 }
 
-TEST_CASE("one miss among few faces is let pass, a miss that is all there is not") {
+TEST_CASE("one miss among few faces passes, the only face must not miss") {
   TracedSphere sphere;
   sphere.traced.values[77] *= 1.01;
   CHECK(sphere.check(kAll).passed);
@@ -112,14 +115,14 @@ TEST_CASE("one miss among few faces is let pass, a miss that is all there is not
   CHECK_FALSE(alone.passed);
 }
 
-TEST_CASE("faces without a value on either side are counted apart") {
+TEST_CASE("faces without a value on both sides are counted separately") {
   Mesh mesh = makeSphere(320).mesh;
-  // A second, flat part, whose rays meet nothing.
+  // A second, flat part, whose rays hit nothing.
   const auto first = static_cast<uint32_t>(mesh.vertices.size());
   for (const Vec3d& corner : {Vec3d{50, 0, 0}, Vec3d{51, 0, 0}, Vec3d{50, 1, 0}}) mesh.vertices.push_back(corner);
   mesh.faces.push_back({first, first + 1, first + 2});
   Options options;
-  options.seeds.kind = SeedCount::Kind::All;
+  options.seeds = SeedCount::all();
   options.checkCount = kAll;
   const CheckReport check = test::vulkanSession().compute(mesh, options).report.check.value();
   CHECK(check.tracedCount == 321);
@@ -136,9 +139,9 @@ TEST_CASE("without a traced face a check has not passed") {
 }
 
 TEST_CASE("a check has its own part of the progress and ends it") {
-  Mesh mesh = makeTorus(4000).mesh;
+  const Mesh mesh = makeTorus(4000).mesh;
   Options options;
-  options.seeds.kind = SeedCount::Kind::All;
+  options.seeds = SeedCount::all();
   options.checkCount = kAll;
   std::vector<double> fractions;
   const RunControl control{{}, [&](double fraction) { fractions.push_back(fraction); }};

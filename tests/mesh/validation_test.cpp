@@ -17,7 +17,9 @@ MeshDefects defectsOf(const Mesh& mesh) {
   return findDefects(mesh, computeFaceGeometry(mesh), coincidentRepresentatives(mesh), surveyEdges(mesh));
 }
 
-std::vector<std::string> sentencesOf(const Mesh& mesh) { return defectsOf(mesh).sentences(); }
+std::vector<std::string> sentencesOf(const Mesh& mesh) {
+  return sentencesOf(defectsOf(mesh), !mesh.polygons.isEmpty());
+}
 
 }  // namespace
 
@@ -43,7 +45,7 @@ TEST_CASE("faces of zero area are counted, with and without a repeated vertex") 
   mesh.faces.push_back({0, 0, 1});
   const MeshDefects defects = defectsOf(mesh);
   CHECK(defects.zeroAreaFaceCount == 2);
-  CHECK(defects.sentences().front() == "2 faces have zero area: they cast no rays and are interpolated");
+  CHECK(sentencesOf(defects, false).front() == "2 faces have zero area: they cast no rays and are interpolated");
   CHECK(defects.nonManifoldEdgeCount == 1);  // The face in line is a third one on the edge, the collapsed one is none.
   CHECK(defects.boundaryEdgeCount == 2);
 }
@@ -63,7 +65,8 @@ TEST_CASE("an edge of three faces is non-manifold, its pages are open") {
   CHECK(defects.nonManifoldEdgeCount == 1);
   CHECK(defects.boundaryEdgeCount == 6);
   CHECK(defects.inconsistentEdgeCount == 0);
-  CHECK(defects.sentences().front() == "1 edge has more than two faces: values are interpolated across all of them");
+  CHECK(sentencesOf(defects, false).front() ==
+        "1 edge has more than two faces: values are interpolated across all of them");
 }
 
 TEST_CASE("a face wound against its neighbours has three inconsistent edges") {
@@ -91,7 +94,7 @@ TEST_CASE("NaN and infinite coordinates are counted by vertex and face, the hole
     CHECK(defects.nonFiniteFaceCount == 3);
     CHECK(defects.zeroAreaFaceCount == 0);
     CHECK(defects.boundaryEdgeCount == 3);
-    CHECK(defects.sentences()[0] == "1 vertex has a coordinate that is no finite number");
+    CHECK(sentencesOf(defects, false)[0] == "1 vertex has a coordinate that is not a finite number");
   }
 }
 
@@ -117,7 +120,7 @@ TEST_CASE("a second layer with vertices of its own is a layer of duplicates") {
   CHECK(defects.boundaryEdgeCount == 0);
   CHECK(defects.nonManifoldEdgeCount == 0);  // Edges go by index.
   CHECK(sentencesOf(twice) ==
-        std::vector<std::string>{"12 faces lie exactly on earlier ones: rays pass through their own copies"});
+        std::vector<std::string>{"12 faces duplicate earlier ones: rays pass through their own copies"});
 }
 
 TEST_CASE("on a mesh of polygons the sentences count triangles and say so") {
@@ -126,5 +129,5 @@ TEST_CASE("on a mesh of polygons the sentences count triangles and say so") {
   const std::vector<std::string> sentences = sentencesOf(mesh);
   REQUIRE(sentences.size() >= 2);
   CHECK(sentences[0] == "1 triangle has zero area: it casts no rays and is interpolated");
-  CHECK(sentences[1] == "2 triangles lie exactly on earlier ones: rays pass through their own copies");
+  CHECK(sentences[1] == "2 triangles duplicate earlier ones: rays pass through their own copies");
 }

@@ -8,7 +8,7 @@
 
 namespace asdfvk::test {
 
-/// The mean of |values - truth| over the range of the truth: the average of the paper's Table 1. No entry is NaN.
+/// Mean of |values - truth| divided by the range of the truth: the average of Table 1 of the paper. No entry is NaN.
 inline double averageError(const std::vector<double>& values, const std::vector<double>& truth) {
   const auto [low, high] = std::minmax_element(truth.begin(), truth.end());
   double sum = 0;
@@ -16,12 +16,12 @@ inline double averageError(const std::vector<double>& values, const std::vector<
   return sum / (static_cast<double>(truth.size()) * (*high - *low));
 }
 
-/// The values with rays cast from every face, with that cone.
-inline std::vector<double> tracedEverywhere(Mesh mesh, const ConeOptions& cone = {}) {
+/// Values with rays of that cone cast from every face.
+inline std::vector<double> tracedEverywhere(const Mesh& mesh, const ConeOptions& cone = {}) {
   Options options;
-  options.seeds.kind = SeedCount::Kind::All;
+  options.seeds = SeedCount::all();
   options.cone = cone;
-  return referenceSession().compute(mesh, options).sdf;
+  return referenceSession().compute(mesh, options).sdf();
 }
 
 /// Two meshes in one, the other moved.

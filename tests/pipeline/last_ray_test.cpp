@@ -1,88 +1,130 @@
-#include "pipeline/seed_rounds.h"
-
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <memory>
+#include <utility>
 #include <vector>
 
+#include "bvh/bvh.h"
 #include "generate/shapes.h"
+#include "pipeline/rounds.h"
 #include "trace/reference_tracer.h"
 
 using namespace asdfvk;
 
 namespace {
 
-/// Counts calls and passes them on, until it is let go of.
-class CountingTracer final : public ConeTracer {
+enum class Event { Trace, Release, Solve };
+using Events = std::vector<Event>;
+
+/// The reference, with a record of its calls and of its end.
+class RecordingTracer final : public ConeTracer {
  public:
-  CountingTracer(const TraceScene& scene, const Cone& cone, uint32_t& callCount)
-      : tracer_(makeReferenceTracer(scene, cone)), callCount_(callCount) {}
+  RecordingTracer(std::unique_ptr<ConeTracer> tracer, Events& events) : tracer_(std::move(tracer)), events_(events) {}
+  ~RecordingTracer() override { events_.push_back(Event::Release); }
 
   TraceStatistics trace(std::span<const uint32_t> seedFaces, const ConeResults& results,
                         const RunControl& control) override {
-    ++callCount_;
+    events_.push_back(Event::Trace);
     return tracer_->trace(seedFaces, results, control);
   }
 
  private:
   std::unique_ptr<ConeTracer> tracer_;
-  uint32_t& callCount_;
+  Events& events_;
+};
+
+class RecordingSolver final : public PoissonSolver {
+ public:
+  explicit RecordingSolver(Events& events) : solver_(makeCpuCgSolver()), events_(events) {}
+
+  SolverReport solve(const PoissonSystem& system, const SolverOptions& options, std::span<double> solution,
+                     const RunControl& control) override {
+    events_.push_back(Event::Solve);
+    return solver_->solve(system, options, solution, control);
+  }
+
+ private:
+  std::unique_ptr<PoissonSolver> solver_;
+  Events& events_;
+};
+
+class RecordingBackend final : public Backend {
+ public:
+  explicit RecordingBackend(Events& events) : events_(events) {}
+
+  [[nodiscard]] std::string deviceName() const override { return "recording"; }
+  [[nodiscard]] std::vector<std::string> deviceLines() const override { return {deviceName()}; }
+  [[nodiscard]] std::unique_ptr<ConeTracer> makeTracer(const TraceScene& scene, const Cone& cone, bool) override {
+    return std::make_unique<RecordingTracer>(makeReferenceTracer(scene, cone), events_);
+  }
+
+ private:
+  Events& events_;
 };
 
 struct Outcome {
-  uint32_t lastRayCount = 0;  ///< Calls of afterLastRay.
-  uint32_t callCount = 0;     ///< Of the tracer.
-  uint32_t callCountAtLastRay = 0;
+  Events events;
   uint32_t roundCount = 0;
   uint64_t seedCount = 0, faceCount = 0;
+  size_t nodeCount = 0;  ///< Of the hierarchy after the rounds.
+
+  [[nodiscard]] auto count(Event event) const { return std::count(events.begin(), events.end(), event); }
+  [[nodiscard]] auto release() const { return std::find(events.begin(), events.end(), Event::Release); }
 };
 
-Outcome run(const Options& options) {
-  Mesh mesh = makeTorus(4000).mesh;
+Outcome run(Options options, bool keepsNodes = false) {
+  Outcome outcome;
+  options.solver = "recording";
+  const Mesh mesh = makeTorus(4000).mesh;
   const PreparedMesh prepared = prepareMesh(mesh, Orientation::Keep);
-  const Bvh bvh = buildBvh(mesh, prepared.geometry, prepared.representatives);
+  Bvh bvh = buildBvh(mesh, prepared.geometry, prepared.representatives);
   const TraceScene scene{mesh, prepared.geometry, prepared.representatives, bvh};
   const Cone cone = makeCone(options.cone);
-  ComputeBackend backend({.backend = Backend::Reference});
-  std::vector<std::string> warnings;
-  Outcome outcome;
-  CountingTracer tracer(scene, cone, outcome.callCount);
-  SeedTracing tracing(prepared, tracer, cone.directions.size(), true);
-  Interpolation interpolation(prepared, scene, cone, options, backend, warnings);
-  const Stopwatch clock;
+  RecordingBackend backend(outcome.events);
+  Solvers solvers;
+  solvers["recording"] = std::make_unique<RecordingSolver>(outcome.events);
   StageSeconds seconds;
-  SeedRounds rounds(mesh, prepared, options, tracing, interpolation, clock, seconds, [&] {
-    ++outcome.lastRayCount;
-    outcome.callCountAtLastRay = outcome.callCount;
-  });
-  rounds.run({});
+  StageClock clock(seconds);
+  std::vector<Warning> warnings;
+  const Computation computation{options, prepared, scene, cone, backend, solvers, clock, warnings};
+  const RoundsResult result = runRounds(computation, std::make_unique<SeedTracing>(computation, bvh, keepsNodes), {});
   outcome.faceCount = mesh.faces.size();
-  outcome.roundCount = rounds.roundCount();
-  outcome.seedCount = rounds.traced().faces.size();
+  outcome.roundCount = result.roundCount;
+  outcome.seedCount = result.traced.faces.size();
+  outcome.nodeCount = bvh.nodes.size();
   return outcome;
 }
 
 }  // namespace
 
-TEST_CASE("the last ray is told of once, and none is cast after it, in one round and in two") {
+TEST_CASE("the tracer is released once, after the last ray and before all solutions, in one round and in two") {
   for (const bool isAdaptive : {false, true}) {
     CAPTURE(isAdaptive);
     Options options;
     if (isAdaptive) options.sampler = "adaptive";
     const Outcome outcome = run(options);
     CHECK(outcome.roundCount == (isAdaptive ? 2u : 1u));
-    CHECK(outcome.lastRayCount == 1);
-    CHECK(outcome.callCountAtLastRay == outcome.callCount);
-    CHECK(outcome.callCount >= 3);  // Placed seeds, probes and scouts.
+    CHECK(outcome.count(Event::Release) == 1);
+    CHECK(std::find(outcome.release(), outcome.events.end(), Event::Trace) == outcome.events.end());
+    CHECK(std::find(outcome.events.begin(), outcome.release(), Event::Solve) == outcome.release());
+    CHECK(outcome.count(Event::Solve) == 2);  // Without held-out faces and with them.
+    CHECK(outcome.count(Event::Trace) >= 3);  // Sampled seeds, held-out faces and extreme seeds.
     CHECK(outcome.seedCount == (outcome.faceCount + 5) / 10);
   }
 }
 
-TEST_CASE("while further rounds may follow no ray is the last one") {
+TEST_CASE("the tracer is kept while further rounds may follow") {
   Options options;
   options.rounds.maxError = 0.004;
   options.seeds.share = 0.02;
   const Outcome outcome = run(options);
   CHECK(outcome.roundCount > 1);
-  CHECK(outcome.lastRayCount == 0);
+  CHECK(outcome.count(Event::Release) == 1);
+  CHECK(outcome.events.back() == Event::Release);
+}
+
+TEST_CASE("the nodes of the hierarchy are released with the tracer unless they are needed later") {
+  CHECK(run({}).nodeCount == 0);
+  CHECK(run({}, true).nodeCount > 0);
 }

@@ -9,7 +9,7 @@
 using namespace asdfvk;
 
 TEST_CASE("an OpenMesh mesh in memory gets its values as a face property") {
-  Mesh torus = makeTorus(1000).mesh;
+  const Mesh torus = makeTorus(1000).mesh;
   OpenMesh::TriMesh_ArrayKernelT<> halfEdges;
   for (const Vec3d& v : torus.vertices)
     halfEdges.add_vertex({static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)});
@@ -17,10 +17,10 @@ TEST_CASE("an OpenMesh mesh in memory gets its values as a face property") {
     halfEdges.add_face(OpenMesh::VertexHandle(static_cast<int>(a)), OpenMesh::VertexHandle(static_cast<int>(b)),
                        OpenMesh::VertexHandle(static_cast<int>(c)));
 
-  computeOnOpenMesh(halfEdges, [](Mesh mesh) { return test::vulkanSession().compute(mesh, {}).sdf; });
+  computeOnOpenMesh(halfEdges, [](const Mesh& mesh) { return test::vulkanSession().compute(mesh, {}).sdf(); });
 
   const auto property = OpenMesh::getProperty<OpenMesh::FaceHandle, double>(halfEdges, "sdf");
-  const std::vector<double> expected = test::vulkanSession().compute(torus, {}).sdf;
+  const std::vector<double> expected = test::vulkanSession().compute(torus, {}).sdf();
   for (const auto face : halfEdges.faces())
     CHECK(property[face] == doctest::Approx(expected[static_cast<size_t>(face.idx())]).epsilon(1e-3));
 }

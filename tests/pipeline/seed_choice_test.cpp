@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 #include "asdf_vk/error.h"
 #include "generate/shapes.h"
@@ -12,7 +13,13 @@ using namespace asdfvk;
 
 namespace {
 
-PreparedMesh prepared(Mesh mesh) { return prepareMesh(mesh, Orientation::Keep); }
+/// A mesh with what is prepared of it, which refers to its arrays.
+struct Sample {
+  explicit Sample(Mesh theMesh) : mesh(std::move(theMesh)) {}
+
+  Mesh mesh;
+  PreparedMesh prepared = prepareMesh(mesh, Orientation::Keep);
+};
 
 std::vector<uint32_t> joined(const std::vector<uint32_t>& a, const std::vector<uint32_t>& b) {
   std::vector<uint32_t> all;
@@ -25,19 +32,19 @@ bool isAscendingWithoutRepeats(const std::vector<uint32_t>& faces) {
 }
 
 SeedChoice joined(const SeedChoice& a, const SeedChoice& b) {
-  return {joined(a.placed, b.placed), joined(a.probes, b.probes)};
+  return {joined(a.sampled, b.sampled), joined(a.heldOut, b.heldOut)};
 }
 
-SeedShares shares(uint64_t count, uint64_t probeCount) { return {.placed = count - probeCount, .probes = probeCount}; }
+SeedShares shares(uint64_t count, uint64_t heldOutCount) {
+  return {.sampled = count - heldOutCount, .heldOut = heldOutCount};
+}
 
-std::vector<uint32_t> allOf(const SeedChoice& choice) { return joined(choice.placed, choice.probes); }
+std::vector<uint32_t> allOf(const SeedChoice& choice) { return joined(choice.sampled, choice.heldOut); }
 
 }  // namespace
 
 TEST_CASE("a share is of the faces that can cast rays, one at least; a count is no more than there are") {
-  const auto share = [](double of, uint64_t faceCount) {
-    return resolveSeedCount({.kind = SeedCount::Kind::Share, .share = of}, faceCount);
-  };
+  const auto share = [](double of, uint64_t faceCount) { return resolveSeedCount(SeedCount::ofShare(of), faceCount); };
   CHECK(share(0.1, 1000) == 100);
   CHECK(share(0.1, 1004) == 100);
   CHECK(share(0.1, 1006) == 101);
@@ -45,47 +52,49 @@ TEST_CASE("a share is of the faces that can cast rays, one at least; a count is 
   CHECK(share(1, 1000) == 1000);
   CHECK(share(0.1, 0) == 0);
   for (const double bad : {0.0, -0.1, 1.01}) CHECK_THROWS_AS((void)share(bad, 10), Error);
-  CHECK(resolveSeedCount({.kind = SeedCount::Kind::Count, .count = 7}, 1000) == 7);
-  CHECK(resolveSeedCount({.kind = SeedCount::Kind::Count, .count = 7000}, 1000) == 1000);
-  CHECK_THROWS_AS((void)resolveSeedCount({.kind = SeedCount::Kind::Count, .count = 0}, 10), Error);
-  CHECK(resolveSeedCount({.kind = SeedCount::Kind::All}, 1000) == 1000);
+  CHECK(resolveSeedCount(SeedCount::ofCount(7), 1000) == 7);
+  CHECK(resolveSeedCount(SeedCount::ofCount(7000), 1000) == 1000);
+  CHECK_THROWS_AS((void)resolveSeedCount(SeedCount::ofCount(0), 10), Error);
+  CHECK(resolveSeedCount(SeedCount::all(), 1000) == 1000);
 }
 
-TEST_CASE("seeds are shared out without a rest: at most a quarter for probes, a tenth for scouts") {
+TEST_CASE("seeds are divided without a rest: at most a quarter is held out, a tenth are extreme seeds") {
   for (const uint64_t count : {0u, 1u, 3u, 9u, 10u, 100u, 1000u, 30'000u, 1'000'000u})
     for (const uint64_t earlier : {0u, 50u, 100'000u})
       for (const bool predicts : {false, true}) {
-        const SeedShares shares = shareOut(count, earlier, predicts);
-        CHECK(shares.placed + shares.probes + shares.scouts == count);
-        CHECK(shares.probes <= count / 4);
-        CHECK(shares.scouts <= count / 10);
-        if (!predicts) CHECK(shares.scouts == 0);
-        if (earlier == 100'000u) CHECK(shares.probes == 0);
+        const SeedShares shares = shareSeeds(count, earlier, predicts);
+        CHECK(shares.sampled + shares.heldOut + shares.extreme == count);
+        CHECK(shares.heldOut <= count / 4);
+        CHECK(shares.extreme <= count / 10);
+        if (!predicts) CHECK(shares.extreme == 0);
+        if (earlier == 100'000u) CHECK(shares.heldOut == 0);
       }
-  CHECK(shareOut(100, 0, true).probes == 25);
-  CHECK(shareOut(100, 0, true).scouts == 10);
-  CHECK(shareOut(200, 0, true).scouts == 16);
-  CHECK(shareOut(1000, 0, true).scouts == 40);
-  CHECK(shareOut(1'000'000, 0, true).probes <= 2000);
-  CHECK(shareOut(1'000'000, 0, true).scouts <= 400);
-  CHECK(shareOut(2000, 150, true).probes + 150 == shareOut(2000, 0, true).probes);
+  CHECK(shareSeeds(100, 0, true).heldOut == 25);
+  CHECK(shareSeeds(100, 0, true).extreme == 10);
+  CHECK(shareSeeds(200, 0, true).extreme == 16);
+  CHECK(shareSeeds(1000, 0, true).extreme == 40);
+  CHECK(shareSeeds(1'000'000, 0, true).heldOut <= 2000);
+  CHECK(shareSeeds(1'000'000, 0, true).extreme <= 400);
+  CHECK(shareSeeds(2000, 150, true).heldOut + 150 == shareSeeds(2000, 0, true).heldOut);
 }
 
-TEST_CASE("scouts are the faces with the greatest predictions that are no seeds yet") {
-  const PreparedMesh mesh = prepared(makeSphere(80).mesh);
+TEST_CASE("extreme seeds are the faces with the greatest predictions that are not seeds yet") {
+  const Sample sample(makeSphere(80).mesh);
+  const PreparedMesh& mesh = sample.prepared;
   std::vector<double> prediction(80);
   for (size_t face = 0; face < 80; ++face) prediction[face] = static_cast<double>(face % 40);
   std::vector<uint8_t> isSeed(80, 0);
   isSeed[39] = isSeed[78] = 1;
   prediction[77] = kNoValue;
-  CHECK(chooseScouts(mesh, prediction, isSeed, 5) == std::vector<uint32_t>{36, 37, 38, 76, 79});
-  CHECK(chooseScouts(mesh, prediction, isSeed, 1) == std::vector<uint32_t>{79});
-  CHECK(chooseScouts(mesh, prediction, isSeed, 0).empty());
-  CHECK(chooseScouts(mesh, prediction, isSeed, 1000).size() == 77);
+  CHECK(extremeSeeds(mesh.traceableFaces, prediction, isSeed, 5) == std::vector<uint32_t>{36, 37, 38, 76, 79});
+  CHECK(extremeSeeds(mesh.traceableFaces, prediction, isSeed, 1) == std::vector<uint32_t>{79});
+  CHECK(extremeSeeds(mesh.traceableFaces, prediction, isSeed, 0).empty());
+  CHECK(extremeSeeds(mesh.traceableFaces, prediction, isSeed, 1000).size() == 77);
 }
 
-TEST_CASE("each sampler gives as many placed seeds and probes as were asked for, all different, round by round") {
-  const PreparedMesh mesh = prepared(makeAnimal(2500).mesh);
+TEST_CASE("each sampler gives the requested numbers of seeds and held-out faces, all different, in every round") {
+  const Sample sample(makeAnimal(2500).mesh);
+  const PreparedMesh& mesh = sample.prepared;
   for (const std::string& sampler : samplerNames()) {
     CAPTURE(sampler);
     Options options;
@@ -93,10 +102,10 @@ TEST_CASE("each sampler gives as many placed seeds and probes as were asked for,
     SeedChoice chosen;
     for (const uint64_t count : {100u, 40u, 300u}) {
       const SeedChoice choice = chooseSeeds(mesh, options, shares(count, count / 4), chosen, {});
-      CHECK(choice.probes.size() == count / 4);
-      CHECK(choice.placed.size() == count - count / 4);
-      CHECK(isAscendingWithoutRepeats(choice.placed));
-      CHECK(isAscendingWithoutRepeats(choice.probes));
+      CHECK(choice.heldOut.size() == count / 4);
+      CHECK(choice.sampled.size() == count - count / 4);
+      CHECK(isAscendingWithoutRepeats(choice.sampled));
+      CHECK(isAscendingWithoutRepeats(choice.heldOut));
       chosen = joined(chosen, choice);
       CHECK(isAscendingWithoutRepeats(allOf(chosen)));
     }
@@ -104,47 +113,50 @@ TEST_CASE("each sampler gives as many placed seeds and probes as were asked for,
   }
 }
 
-TEST_CASE("the faces that are left are all chosen in the end") {
-  const PreparedMesh mesh = prepared(makeTorus(400).mesh);
+TEST_CASE("all remaining faces can be chosen") {
+  const Sample sample(makeTorus(400).mesh);
+  const PreparedMesh& mesh = sample.prepared;
   for (const std::string& sampler : samplerNames()) {
     CAPTURE(sampler);
     Options options;
     options.sampler = sampler;
     const SeedChoice first = chooseSeeds(mesh, options, shares(100, 25), {}, {});
-    const uint64_t left = mesh.castableFaces.size() - 100;
+    const uint64_t left = mesh.traceableFaces.size() - 100;
     const SeedChoice rest = chooseSeeds(mesh, options, shares(left, 0), first, {});
-    CHECK(allOf(joined(first, rest)) == mesh.castableFaces);
+    CHECK(allOf(joined(first, rest)) == mesh.traceableFaces);
   }
 }
 
-TEST_CASE("which seeds are placed at random does not depend on how many of them are probes") {
-  const PreparedMesh mesh = prepared(makeTorus(1000).mesh);
+TEST_CASE("random seeds do not depend on how many of them are held out") {
+  const Sample sample(makeTorus(1000).mesh);
+  const PreparedMesh& mesh = sample.prepared;
   Options options;
   options.sampler = "random";
   const SeedChoice without = chooseSeeds(mesh, options, shares(120, 0), {}, {});
   const SeedChoice with = chooseSeeds(mesh, options, shares(120, 30), {}, {});
-  CHECK(without.probes.empty());
-  CHECK(with.probes.size() == 30);
-  CHECK(allOf(with) == without.placed);
+  CHECK(without.heldOut.empty());
+  CHECK(with.heldOut.size() == 30);
+  CHECK(allOf(with) == without.sampled);
   CHECK(allOf(chooseSeeds(mesh, options, shares(80, 20), with, {})) ==
-        chooseSeeds(mesh, options, shares(80, 0), without, {}).placed);
+        chooseSeeds(mesh, options, shares(80, 0), without, {}).sampled);
 }
 
-TEST_CASE("probes are anywhere, also next to placed seeds") {
-  // Blue noise keeps its distance; a probe that did too would lie where errors are greatest.
-  const PreparedMesh mesh = prepared(makeSphere(2000).mesh);
+TEST_CASE("held-out faces are anywhere, also next to sampled seeds") {
+  // Blue noise keeps its distance; held-out faces that did too would lie where errors are greatest.
+  const Sample sample(makeSphere(2000).mesh);
+  const PreparedMesh& mesh = sample.prepared;
   size_t touchingCount = 0;
   const SeedChoice choice = chooseSeeds(mesh, {}, shares(400, 100), {}, {});
-  std::vector<uint8_t> isPlaced(2000, 0);
-  for (const uint32_t face : choice.placed) isPlaced[face] = 1;
+  std::vector<uint8_t> isSampled(2000, 0);
+  for (const uint32_t face : choice.sampled) isSampled[face] = 1;
   const auto touches = [&](uint32_t face) {
     const auto neighbours = mesh.graph.neighboursOf(face);
-    return std::any_of(neighbours.begin(), neighbours.end(), [&](uint32_t other) { return isPlaced[other] == 1; });
+    return std::any_of(neighbours.begin(), neighbours.end(), [&](uint32_t other) { return isSampled[other] == 1; });
   };
   size_t touchingOfAll = 0, others = 0;
-  for (const uint32_t face : choice.probes) touchingCount += touches(face);
+  for (const uint32_t face : choice.heldOut) touchingCount += touches(face);
   for (uint32_t face = 0; face < 2000; ++face)
-    if (!isPlaced[face]) {
+    if (!isSampled[face]) {
       ++others;
       touchingOfAll += touches(face);
     }
@@ -152,16 +164,17 @@ TEST_CASE("probes are anywhere, also next to placed seeds") {
   CHECK(static_cast<double>(touchingCount) / 100 == doctest::Approx(share).epsilon(0.3));
 }
 
-TEST_CASE("an adaptive choice is denser where the weight is great") {
-  const PreparedMesh mesh = prepared(makeSphere(2000).mesh);
-  std::vector<double> weight(2000, 0.01);
+TEST_CASE("an adaptive choice is denser where the density is great") {
+  const Sample sample(makeSphere(2000).mesh);
+  const PreparedMesh& mesh = sample.prepared;
+  std::vector<double> density(2000, 0.01);
   const auto isUp = [&](uint32_t face) { return mesh.geometry.barycentres[face].z > 0; };
   for (uint32_t face = 0; face < 2000; ++face)
-    if (isUp(face)) weight[face] = 1;
+    if (isUp(face)) density[face] = 1;
   Options options;
   options.sampler = "adaptive";
   const SeedChoice first = chooseSeeds(mesh, options, shares(50, 12), {}, {});
-  const SeedChoice second = chooseSeeds(mesh, options, shares(100, 0), first, weight);
+  const SeedChoice second = chooseSeeds(mesh, options, shares(100, 0), first, density);
   CHECK(isAscendingWithoutRepeats(allOf(joined(first, second))));
-  CHECK(std::count_if(second.placed.begin(), second.placed.end(), isUp) > 70);
+  CHECK(std::count_if(second.sampled.begin(), second.sampled.end(), isUp) > 70);
 }

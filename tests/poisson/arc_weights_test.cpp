@@ -23,7 +23,7 @@ HandGraph roof(double degrees, double rise) {
 
 TEST_CASE("weights by distance are those of the paper") {
   const HandGraph hand = roof(30, 0);
-  CHECK(arcWeights(ArcWeightKind::Distance, hand.graph, hand.geometry) == std::vector<double>{0.5, 0.5, 0.2, 0.2});
+  CHECK(arcWeights(ArcWeights::Distance, hand.graph, hand.geometry) == std::vector<double>{0.5, 0.5, 0.2, 0.2});
 }
 
 TEST_CASE("weights by feature halve at 3 degrees on a concave and at 8 on a convex edge, and are 1 on a flat one") {
@@ -39,7 +39,7 @@ TEST_CASE("weights by feature halve at 3 degrees on a concave and at 8 on a conv
                                               {0, 0, 1}}) {
     CAPTURE(degrees);
     const HandGraph hand = roof(degrees, rise);
-    const std::vector<double> weights = arcWeights(ArcWeightKind::Feature, hand.graph, hand.geometry);
+    const std::vector<double> weights = arcWeights(ArcWeights::Feature, hand.graph, hand.geometry);
     CHECK(weights[0] == doctest::Approx(weight));
     CHECK(weights[1] == weights[0]);
     CHECK(weights[2] == 1);
@@ -50,12 +50,12 @@ TEST_CASE("an edge at a degenerate face has the feature weight of a flat one") {
   HandGraph hand = roof(90, 3);
   hand.geometry.areas[1] = 0;
   hand.geometry.normals[1] = {};
-  CHECK(arcWeights(ArcWeightKind::Feature, hand.graph, hand.geometry) == std::vector<double>{1, 1, 1, 1});
+  CHECK(arcWeights(ArcWeights::Feature, hand.graph, hand.geometry) == std::vector<double>{1, 1, 1, 1});
 }
 
 TEST_CASE("weights are positive, finite and the same bits both ways, whatever the mesh and its unit") {
   for (SampleProblem& problem : sampleProblems())
-    for (ArcWeightKind kind : kArcWeightKinds)
+    for (ArcWeights kind : kAllArcWeights)
       for (double unit : {1.0, 0x1p-1000, 0x1p1000}) {
         CAPTURE(problem.name);
         CAPTURE(unit);
@@ -80,12 +80,12 @@ TEST_CASE("weights are positive, finite and the same bits both ways, whatever th
 
 TEST_CASE("faces farther apart than numbers reach keep a positive weight") {
   const HandGraph hand({{-1.7e308, 0, 0}, {1.7e308, 0, 0}}, {{0, 1}});
-  CHECK(arcWeights(ArcWeightKind::Distance, hand.graph, hand.geometry)[0] > 0);
+  CHECK(arcWeights(ArcWeights::Distance, hand.graph, hand.geometry)[0] > 0);
 }
 
 TEST_CASE("a divergence is the sum worked out by hand, over the neighbours that have a value") {
   const HandGraph hand({{0, 0, 0}, {2, 0, 0}, {2, 5, 0}, {2, 0, 4}}, {{0, 1}, {1, 2}, {1, 3}});
-  const std::vector<double> weights = arcWeights(ArcWeightKind::Distance, hand.graph, hand.geometry);
+  const std::vector<double> weights = arcWeights(ArcWeights::Distance, hand.graph, hand.geometry);
   CHECK(divergenceOf(hand.graph, weights, std::vector<double>{1, 3, 8, 7}) ==
         std::vector<double>{-1, 0.5 * 2 + 0.2 * -5 + 0.25 * -4, 1, 1});
   CHECK(divergenceOf(hand.graph, weights, std::vector<double>{1, 3, kNoValue, 7}) == std::vector<double>{-1, 0, 0, 1});

@@ -86,7 +86,7 @@ TEST_CASE("guided by a field that the known values agree with, the field is the 
 TEST_CASE("weights, divergence and system have the same bits on any number of threads") {
   const SampleProblem problem("torus", torus(160, 80));
   const std::vector<double> field = randomField(problem.values.size());
-  for (ArcWeightKind kind : kArcWeightKinds) {
+  for (ArcWeights kind : kAllArcWeights) {
     std::vector<std::vector<double>> numbers[3];
     for (const size_t threadCount : {1, 2, 3}) {
       const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threadCount);

@@ -63,7 +63,7 @@ struct HandGraph {
 /// The paper's system: weights 1 / distance.
 inline PoissonSystem distanceSystem(const DualGraph& graph, const FaceGeometry& geometry,
                                     std::span<const double> values, std::span<const double> divergence = {}) {
-  return buildPoissonSystem(graph, arcWeights(ArcWeightKind::Distance, graph, geometry), values, divergence);
+  return buildPoissonSystem(graph, arcWeights(ArcWeights::Distance, graph, geometry), values, divergence);
 }
 
 /// Unit distances between the faces; the first and the last are known.

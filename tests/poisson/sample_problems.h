@@ -14,7 +14,7 @@
 
 namespace asdfvk {
 
-inline constexpr std::array<ArcWeightKind, 2> kArcWeightKinds{ArcWeightKind::Distance, ArcWeightKind::Feature};
+inline constexpr std::array<ArcWeights, 2> kAllArcWeights{ArcWeights::Distance, ArcWeights::Feature};
 
 /// What an interpolation is about but for its weights.
 struct SampleProblem {
@@ -82,7 +82,7 @@ inline std::vector<SampleProblem> sampleProblems() {
 
 struct Setting {
   const SampleProblem& problem;
-  ArcWeightKind kind;
+  ArcWeights kind;
   std::vector<double> weights;  ///< One per arc.
 };
 
@@ -90,7 +90,7 @@ struct Setting {
 template <typename Test>
 void forEachSetting(const Test& test) {
   for (const SampleProblem& problem : sampleProblems())
-    for (ArcWeightKind kind : kArcWeightKinds) {
+    for (ArcWeights kind : kAllArcWeights) {
       CAPTURE(problem.name);
       CAPTURE(static_cast<int>(kind));
       test(Setting{problem, kind, arcWeights(kind, problem.graph, problem.geometry)});

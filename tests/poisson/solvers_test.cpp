@@ -370,7 +370,7 @@ TEST_CASE("systems with any weights come out as dense algebra solves them") {
   forEachSetting([&](const Setting& setting) {
     const auto& [problem, kind, weights] = setting;
     // Its coincident faces tie each other a billion times stronger than others; see the test after this.
-    if (kind == ArcWeightKind::Distance && problem.name == "dense random faces") return;
+    if (kind == ArcWeights::Distance && problem.name == "dense random faces") return;
     const PoissonSystem system = buildPoissonSystem(problem.graph, weights, problem.values, {});
     const DenseTwin twin(problem.graph, weights, problem.values, {});
     for (SolverUnderTest& under : solvers) {
@@ -405,7 +405,7 @@ TEST_CASE("coincident faces may keep float32 from converging, but nothing is mad
 TEST_CASE("a solver starts at the first guess") {
   SolversUnderTest solvers;
   const SampleProblem problem("torus", torus(14, 10));
-  const std::vector<double> weights = arcWeights(ArcWeightKind::Feature, problem.graph, problem.geometry);
+  const std::vector<double> weights = arcWeights(ArcWeights::Feature, problem.graph, problem.geometry);
   const DenseTwin twin(problem.graph, weights, problem.values, {});
   std::vector<double> guess(problem.values.size(), 1.25);
   const auto build = [&] {

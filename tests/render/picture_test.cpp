@@ -8,7 +8,9 @@
 #include <numbers>
 #include <set>
 
+#include "asdf_vk/error.h"
 #include "generate/shapes.h"
+#include "mesh/coincident_faces.h"
 #include "mesh/face_geometry.h"
 
 namespace asdfvk {
@@ -16,9 +18,16 @@ namespace {
 
 constexpr int kWidth = 320, kHeight = 240;
 
+/// The mesh must outlive the scene.
+SceneData sceneOf(const Mesh& mesh) {
+  SceneData scene{{}, mesh, computeFaceGeometry(mesh), coincidentRepresentatives(mesh), {}};
+  scene.bvh = buildBvh(mesh, scene.geometry, scene.representatives);
+  return scene;
+}
+
 Image renderSmall(const Mesh& mesh, std::span<const double> values = {}, std::span<const uint8_t> highlighted = {},
                   const std::string& title = "", const View& view = {}) {
-  return render({.mesh = mesh,
+  return render({.scene = sceneOf(mesh),
                  .values = values,
                  .highlighted = highlighted,
                  .title = title,
@@ -185,7 +194,8 @@ TEST_CASE("the bar takes the side, and its colours come from the map") {
 TEST_CASE("a given range decides the colours") {
   const Mesh mesh = generateShape("sphere", 500).mesh;
   const std::vector<double> values(mesh.faceCount(), 1.0);
-  Picture picture{.mesh = mesh,
+  const SceneData scene = sceneOf(mesh);
+  Picture picture{.scene = scene,
                   .values = values,
                   .highlighted = {},
                   .title = "",
@@ -217,7 +227,8 @@ TEST_CASE("highlighted faces stand out of a light body, and their legend above i
 
 TEST_CASE("text grows with its scale, and the mesh makes room") {
   const Mesh mesh;
-  Picture picture{.mesh = mesh,
+  const SceneData scene = sceneOf(mesh);
+  Picture picture{.scene = scene,
                   .values = {},
                   .highlighted = {},
                   .title = "seeds",
@@ -254,7 +265,8 @@ TEST_CASE("both sides of a face are seen") {
 
 TEST_CASE("a stop request ends the rendering, progress goes from 0 to 1") {
   const Mesh mesh = generateShape("sphere", 500).mesh;
-  const Picture picture{.mesh = mesh,
+  const SceneData scene = sceneOf(mesh);
+  const Picture picture{.scene = scene,
                         .values = {},
                         .highlighted = {},
                         .title = "",

@@ -11,6 +11,7 @@
 
 using namespace asdfvk;
 using test::kNaN;
+using Window = SmoothingOptions::Window;
 
 namespace {
 
@@ -93,8 +94,8 @@ TEST_CASE("a constant field, a lone face and a face among none with a value stay
 TEST_CASE("noise becomes less, and less still with a wider window and another pass") {
   const DualGraph graph = test::torusGraph(5000);
   const std::vector<double> values = test::noisyField(graph.faceCount(), 3, 0.1);
-  const auto left = [&](const BilateralOptions& options) {
-    return variance(smoothBilaterally(graph, values, options)) / variance(values);
+  const auto left = [&](const Window& window) {
+    return variance(smoothBilaterally(graph, values, window)) / variance(values);
   };
   const double narrow = left({1, 1}), wide = left({2, 1}), twice = left({2, 2});
   CHECK(narrow < 0.8);
@@ -156,12 +157,12 @@ TEST_CASE("any number of threads gives the same bits") {
 }
 
 TEST_CASE("the finer the mesh, the more is smoothed, and a fine one most") {
-  CHECK(bilateralOptionsFor(0) == BilateralOptions{1, 1});
-  CHECK(bilateralOptionsFor(9'999) == BilateralOptions{1, 1});
-  CHECK(bilateralOptionsFor(10'000) == BilateralOptions{2, 1});
-  CHECK(bilateralOptionsFor(89'999) == BilateralOptions{2, 1});
-  CHECK(bilateralOptionsFor(90'000) == BilateralOptions{2, 2});
-  CHECK(bilateralOptionsFor(~uint64_t{0}) == BilateralOptions{2, 2});
+  CHECK(smoothingWindowFor(0) == Window{1, 1});
+  CHECK(smoothingWindowFor(9'999) == Window{1, 1});
+  CHECK(smoothingWindowFor(10'000) == Window{2, 1});
+  CHECK(smoothingWindowFor(89'999) == Window{2, 1});
+  CHECK(smoothingWindowFor(90'000) == Window{2, 2});
+  CHECK(smoothingWindowFor(~uint64_t{0}) == Window{2, 2});
 }
 
 TEST_CASE("a window out of range is refused with the range") {

@@ -1,22 +1,47 @@
 #pragma once
 
-#include <cstdlib>
+#include <doctest/doctest.h>
 
-#include "pipeline/asdf.h"
+#include <algorithm>
+#include <cstdlib>
+#include <vector>
+
+#include "asdf_vk/session.h"
 
 namespace asdfvk::test {
 
-/// One session on the best Vulkan device for a whole test program, under the validation layers: compute() throws what
-/// they say.
+/// One session on the best Vulkan device for a whole test program, under the validation layers: compute() throws
+/// Error{ValidationFailed} for what they report.
 inline Session& vulkanSession() {
   ::setenv("ASDF_VK_VALIDATION", "1", 1);
-  static Session session({.backend = Backend::Vulkan});
+  static Session session({.backend = "vulkan"});
   return session;
 }
 
 inline Session& referenceSession() {
-  static Session session({.backend = Backend::Reference});
+  static Session session({.backend = "reference"});
   return session;
+}
+
+inline Options allSeeds() {
+  Options options;
+  options.seeds = SeedCount::all();
+  return options;
+}
+
+/// The field "error" of a result that must have one.
+inline const std::vector<double>& expectedErrors(const Result& result) {
+  const Field* field = result.field("error");
+  REQUIRE(field != nullptr);
+  REQUIRE(field->reals() != nullptr);
+  return *field->reals();
+}
+
+/// The first warning of that code, or null.
+inline const Warning* findWarning(const Report& report, WarningCode code) {
+  const auto found = std::find_if(report.warnings.begin(), report.warnings.end(),
+                                  [&](const Warning& warning) { return warning.code == code; });
+  return found == report.warnings.end() ? nullptr : &*found;
 }
 
 }  // namespace asdfvk::test

@@ -29,7 +29,7 @@ Vec3d rayOf(const Cone& cone, size_t i, const Vec3d& normal) {
 
 }  // namespace
 
-TEST_CASE("each ray in a sphere converges to the chord 2 R cos t") {
+TEST_CASE("each ray in a sphere converges to the chord 2 R cos t" * doctest::test_suite("slow")) {
   const Cone cone = makeCone(kNarrowCone);
   double previous = std::numeric_limits<double>::infinity();
   for (uint32_t levels = 2; levels <= 5; ++levels) {
@@ -48,7 +48,7 @@ TEST_CASE("each ray in a sphere converges to the chord 2 R cos t") {
   CHECK(previous < 0.02);
 }
 
-TEST_CASE("a sphere's mean value converges to the exact one") {
+TEST_CASE("a sphere's mean value converges to the exact one" * doctest::test_suite("slow")) {
   double previous = std::numeric_limits<double>::infinity();
   for (uint32_t levels = 2; levels <= 5; ++levels) {
     const std::vector<double> values = TracedMesh(shapes::icosphere(levels, 3)).values(kNarrowCone);

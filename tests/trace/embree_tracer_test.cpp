@@ -88,7 +88,7 @@ TEST_CASE("Embree obeys every option of the cone") {
   checkParity(traced, {.rotation = ConeRotation::Hashed});
 }
 
-TEST_CASE("cones of nearly 180 degrees do not end at their own face") {
+TEST_CASE("cones of nearly 180 degrees do not end at their own face" * doctest::test_suite("slow")) {
   if (!isEmbreeThere()) return;
   const ConeOptions wide{.rayCount = 1024, .openingAngleDegrees = 179.9999};
   const TracedMesh traced(shapes::icosphere(3));

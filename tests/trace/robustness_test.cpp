@@ -6,6 +6,7 @@
 #include <limits>
 #include <thread>
 
+#include "asdf_vk/error.h"
 #include "core/check.h"
 #include "shapes.h"
 #include "traced_mesh.h"

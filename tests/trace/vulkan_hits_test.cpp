@@ -75,7 +75,7 @@ TEST_CASE("rays that meet nothing say so on both backends") {
   });
 }
 
-TEST_CASE("any number of rays gives the reference's hits") {
+TEST_CASE("any number of rays gives the reference's hits" * doctest::test_suite("slow")) {
   const test::ValidatedDevice device;
   const Mesh mesh = shapes::jittered(shapes::icosphere(2), 0.02, 3);
   for (const uint32_t rayCount : {1u, 7u, 33u, 257u, 1024u}) {
@@ -100,7 +100,7 @@ TEST_CASE("writing hits changes no bit of the values") {
   });
 }
 
-TEST_CASE("any workgroup shape gives the same hits") {
+TEST_CASE("any workgroup shape gives the same hits" * doctest::test_suite("slow")) {
   const test::ValidatedDevice device;
   const TracedMesh traced(generateShape("animal", 1500).mesh);
   forEveryVariant(Fetches::TexelOnly, [&](const VulkanTraceChoice& choice) {

@@ -73,7 +73,7 @@ TEST_CASE("the kernel gives the reference's values on open, crossing, nested and
   });
 }
 
-TEST_CASE("any number of rays from 1 to 1024 gives the reference's values") {
+TEST_CASE("any number of rays from 1 to 1024 gives the reference's values" * doctest::test_suite("slow")) {
   const test::ValidatedDevice device;
   const TracedMesh traced(generateShape("torus", 600).mesh);
   for (const uint32_t rayCount : {1u, 2u, 3u, 7u, 8u, 9u, 31u, 32u, 33u, 64u, 100u, 255u, 256u, 257u, 1000u, 1024u}) {
@@ -85,7 +85,7 @@ TEST_CASE("any number of rays from 1 to 1024 gives the reference's values") {
   }
 }
 
-TEST_CASE("any workgroup shape gives the same bits") {
+TEST_CASE("any workgroup shape gives the same bits" * doctest::test_suite("slow")) {
   const test::ValidatedDevice device;
   const TracedMesh traced(generateShape("animal", 1500).mesh);
   forEveryVariant(Fetches::TexelOnly, [&](const VulkanTraceChoice& choice) {
@@ -137,7 +137,7 @@ TEST_CASE("the device's own iteration guard suffices for its workgroup shape") {
   }
 }
 
-TEST_CASE("hostile cones run into the device's own guard, are redone and agree") {
+TEST_CASE("hostile cones run into the device's own guard, are redone and agree" * doctest::test_suite("slow")) {
   // Long needles through one another: each ray's walk meets most of their boxes.
   Mesh needles;
   Random random(4);

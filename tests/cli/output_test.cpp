@@ -1,0 +1,100 @@
+#include "asdf_vk/files.h"
+#include "cli/program_under_test.h"
+#include "cli/sample_files.h"
+#include "cli/scratch_folder.h"
+
+namespace asdfvk::test {
+namespace {
+
+/// The faces with the last two corners exchanged.
+std::vector<Face> reversed(std::vector<Face> faces) {
+  for (Face& face : faces) std::swap(face[1], face[2]);
+  return faces;
+}
+
+nlohmann::json runOrient(const std::string& mesh, const char* orientation, const std::string& output) {
+  const ChildOutcome outcome =
+      runAsdf({mesh, "--orient", orientation, "-o", output, "--json", "--quiet", "--backend", "reference"});
+  INFO(outcome.error);
+  REQUIRE_EQ(outcome.exitCode, 0);
+  return nlohmann::json::parse(outcome.output);
+}
+
+TEST_CASE("--fields writes its fields in its order") {
+  const ScratchFolder folder;
+  const std::string mesh = folder.write("sphere.off", sphereOff(12));
+  const auto rowsOf = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{mesh, "-o", folder / "out.csv", "--quiet", "--backend", "reference"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const ChildOutcome outcome = runAsdf(arguments);
+    INFO(outcome.error);
+    REQUIRE_EQ(outcome.exitCode, 0);
+    return linesOf(folder.read("out.csv"));
+  };
+  const std::vector<std::string> all = rowsOf({"--fields", "sdf,seed,error"});
+  CHECK_EQ(all.at(0), "face,sdf,seed,error");
+  CHECK_EQ(rowsOf({}).at(0), "face,sdf,seed");
+  CHECK_EQ(rowsOf({"--fields", "sdf"}).at(0), "face,sdf");
+  const std::vector<std::string> swapped = rowsOf({"--fields", "error,sdf"});
+  CHECK_EQ(swapped.at(0), "face,error,sdf");
+  REQUIRE_EQ(swapped.size(), all.size());
+  for (size_t i = 1; i < all.size(); ++i) {
+    const size_t sdf = all[i].find(',') + 1, seed = all[i].find(',', sdf) + 1, error = all[i].find(',', seed) + 1;
+    CHECK_EQ(swapped[i], all[i].substr(0, sdf) + all[i].substr(error) + "," + all[i].substr(sdf, seed - 1 - sdf));
+  }
+}
+
+TEST_CASE("a field that is unknown or needs a missing estimate ends with 1 and writes nothing") {
+  const ScratchFolder folder;
+  const std::string mesh = folder.write("sphere.off", sphereOff(12));
+  const auto run = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{mesh, "--quiet", "--backend", "reference", "--fields"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return runAsdf(arguments);
+  };
+  checkFailure(run({"depth"}), 1, "'depth'");
+  checkFailure(run({"sdf,error", "--no-estimate"}), 1, "--no-estimate");
+  checkFailure(run({"sdf,error", "--seeds", "all"}), 1, "--seeds all");
+  // So few seeds that only the computation shows that no estimate is possible.
+  checkFailure(run({"error", "--seeds", "1"}), 1, "--seeds");
+  const ChildOutcome json = run({"error", "--seeds", "1", "--json"});
+  CHECK_EQ(json.exitCode, 1);
+  CHECK_EQ(nlohmann::json::parse(json.output).at("code").get<std::string>(), "unknownField");
+  CHECK_EQ(folder.names(), std::vector<std::string>{"sphere.off"});
+}
+
+TEST_CASE("the faces that --orient reverses are reversed in the file, in the order of the input") {
+  const ScratchFolder folder;
+  const std::string mesh = folder.write("cube.off", cubeOff());
+  const std::string inverted = folder / "inverted.ply";
+  const std::vector<Face> faces = readMesh(mesh).faces;
+  CHECK_EQ(runOrient(mesh, "flip", inverted).at("reversedFaceCount").get<int>(), 12);
+  CHECK(readMesh(inverted).faces == reversed(faces));
+
+  const nlohmann::json kept = runOrient(inverted, "keep", folder / "kept.ply");
+  CHECK_EQ(kept.at("reversedFaceCount").get<int>(), 0);
+  CHECK_EQ(kept.at("warningCodes").at(0).get<std::string>(), "invertedComponents");
+  CHECK(readMesh(folder / "kept.ply").faces == reversed(faces));
+
+  const nlohmann::json corrected = runOrient(inverted, "auto", folder / "corrected.ply");
+  CHECK_EQ(corrected.at("reversedFaceCount").get<int>(), 12);
+  CHECK_EQ(corrected.at("warningCodes"), nlohmann::json::array({"componentsReversed"}));
+  CHECK(readMesh(folder / "corrected.ply").faces == faces);
+
+  CHECK_EQ(runOrient(mesh, "auto", folder / "same.ply").at("reversedFaceCount").get<int>(), 0);
+  CHECK(readMesh(folder / "same.ply").faces == faces);
+}
+
+TEST_CASE("--orient reverses the corners of polygons after the first") {
+  const ScratchFolder folder;
+  const std::string mesh =
+      folder.write("polygons.off", "OFF\n5 4 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0.5 2 0\n4 0 1 2 3\n2 0 1\n3 3 2 4\n0\n");
+  const std::vector<uint32_t> corners{0, 3, 2, 1, 0, 1, 3, 4, 2};
+  CHECK_EQ(runOrient(mesh, "flip", folder / "out.ply").at("reversedFaceCount").get<int>(), 2);
+  const Mesh written = readMesh(folder / "out.ply");
+  CHECK(written.polygons.corners == corners);
+  CHECK(written.polygons.firstCorner == std::vector<uint64_t>{0, 4, 6, 9, 9});
+}
+
+}  // namespace
+}  // namespace asdfvk::test
