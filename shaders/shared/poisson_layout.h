@@ -1,23 +1,22 @@
-// Data that the kernels of the Poisson solvers share with the host; included by C++ and by GLSL.
+// What the kernels of the Poisson solvers share with the host: structs, and the scalars of a conjugate-gradient
+// iteration. Included by C++ and by GLSL.
 //
-// The system A is solved in the scaled form (I - S) y = b with S = I - D^-1/2 A D^-1/2, D the diagonal of A, so that
-// the diagonal of S is 0. Conjugate gradients on it are Jacobi-preconditioned conjugate gradients on A, without a
-// vector to divide by.
+// The system A is solved in the scaled form (I - S) y = b with S = I - D^-1/2 A D^-1/2, D the diagonal of A. The
+// diagonal of S is 0. Conjugate gradients on this form are Jacobi-preconditioned conjugate gradients on A without a
+// division.
 #ifndef ASDFVK_POISSON_LAYOUT_H
 #define ASDFVK_POISSON_LAYOUT_H
 
 #ifdef __cplusplus
 #include <cstddef>
-#endif
 
-#include "shared/cg_rules.h"
-
-#ifdef __cplusplus
+#include "shared/glsl_types.h"
 namespace asdfvk {
+using glsl::uint;
 #endif
 
-// A row of S, 32 bytes, read as two rgba32ui texels: its first three entries, which are all of them on a manifold mesh,
-// and the position of the further ones. Absent entries have coupling 0 and the column of the row itself.
+// A row of S, 32 bytes, read as two rgba32ui texels: its first three entries, on a manifold mesh all of them, and the
+// place of the rest. An absent entry has coupling 0 and the column of the row.
 const uint kPoissonRowTexelCount = 2u;
 struct PoissonRow {
   uint column0, column1, column2;
@@ -26,25 +25,25 @@ struct PoissonRow {
   uint tailCount;
 };
 
-// Each workgroup writes one partial sum per scalar, and each workgroup adds all of them.
+// Each workgroup writes one partial sum per scalar, and each workgroup adds up all of them.
 const uint kMaxPoissonWorkgroupCount = 256u;
 
-// The scalars of the iteration, 16 bytes. There are two states: an iteration reads one and writes the other, so that no
-// workgroup reads a word that another one writes.
+// State of the iteration, 16 bytes. There are two: an iteration reads one and writes the other, so that no workgroup
+// reads a word that another one writes.
 struct CgState {
-  float residualSquared;   // The squared norm of the unscaled residual before the last iteration; 1 at the start.
-  float toleranceSquared;  // At or below this residualSquared it has converged.
+  float residualSquared;   // Squared weighted norm of the residual before the last iteration; 1 at the start.
+  float toleranceSquared;  // Converged when residualSquared is at or below this.
   uint iterationCount;
-  uint status;  // See cg_rules.h; unless kCgRunning, there are no more iterations.
+  uint status;  // kCgRunning, or why no iterations follow.
 };
 
-// Arguments of vkCmdDispatchIndirect, 12 bytes. The last iteration sets x to 0, so that iterations recorded after it
-// take almost no time.
+// Operand of vkCmdDispatchIndirect, 12 bytes. At the end of the run x is set to 0, which leaves the iterations recorded
+// after it empty.
 struct DispatchSize {
   uint x, y, z;
 };
 
-// One partial sum per workgroup, all as in CgSums, 6144 bytes.
+// One partial sum per workgroup of each of the CgSums, 6144 bytes.
 struct PoissonSums {
   float directionSquared[kMaxPoissonWorkgroupCount];
   float productDot[kMaxPoissonWorkgroupCount];
@@ -56,10 +55,73 @@ struct PoissonSums {
 
 struct PoissonPush {
   uint unknownCount;
-  uint stateIndex;  // The CgState that this iteration reads; it writes the other one.
+  uint stateIndex;  // Of the CgState that this iteration reads. It writes the other.
 };
 
+// The scalars of an iteration, one description for every backend: in C++ a template over float and double, in GLSL
+// float.
+//
+// One reduction per iteration (Meurant 1987, "Multitasking the conjugate gradient method on the CRAY X-MP/48"): besides
+// p.Mp and r.r, the sums r.Mp and Mp.Mp give the next r.r before the step is made. Unlike the recurrence of
+// Chronopoulos and Gear (1989), this one multiplies the direction itself and sums r.r in every iteration: in float32 it
+// drifts no more than the textbook iteration, and it needs one vector less.
+const uint kCgRunning = 0u;
+const uint kCgConverged = 1u;
+const uint kCgBrokenDown = 2u;  // p.Mp or r.r is not positive, is only rounding, or has overflowed.
+
+const float kMaxCgSum = 3.0e38f;  // Larger sums have overflowed or are NaN.
+const float kCgFloatRounding = 1.0e-7f;
+
 #ifdef __cplusplus
+#define ASDFVK_CG_FUNCTION [[nodiscard]] static
+template <typename Real>
+struct CgRules {
+#else
+#define ASDFVK_CG_FUNCTION
+#define Real float
+#endif
+
+  // Sums over all rows, for the residual r, the direction p and its product Mp.
+  struct CgSums {
+    Real directionSquared;  // p.p
+    Real productDot;        // p.Mp
+    Real productSquared;    // Mp.Mp
+    Real residualProduct;   // r.Mp
+    Real residualDot;       // r.r
+    Real residualSquared;   // r.r, each square times the residual weight of its row
+  };
+
+  // x += alpha p, r -= alpha Mp, p = r + beta p; no step unless `status` is kCgRunning.
+  struct CgStep {
+    Real alpha, beta;
+    uint status;
+  };
+
+  // rounding: share of p.p at or below which p.Mp is only rounding; a step by it would move x but not the residual.
+  ASDFVK_CG_FUNCTION CgStep nextCgStep(CgSums sums, Real toleranceSquared, Real rounding) {
+    CgStep next;
+    next.alpha = Real(0);
+    next.beta = Real(0);
+    next.status = kCgConverged;
+    if (sums.residualSquared <= toleranceSquared) return next;
+    next.status = kCgBrokenDown;
+    if (!(sums.residualSquared < kMaxCgSum && sums.residualDot > Real(0) && sums.residualDot < kMaxCgSum &&
+          sums.productDot > rounding * sums.directionSquared && sums.productDot < kMaxCgSum))
+      return next;
+    const Real alpha = sums.residualDot / sums.productDot;
+    // The next r.r over this one. Rounding can make it negative where almost nothing is left.
+    const Real beta =
+        Real(1) - alpha * ((Real(2) * sums.residualProduct - alpha * sums.productSquared) / sums.residualDot);
+    if (!(alpha < kMaxCgSum && beta < kMaxCgSum)) return next;
+    next.alpha = alpha;
+    next.beta = beta > Real(0) ? beta : Real(0);
+    next.status = kCgRunning;
+    return next;
+  }
+
+#ifdef __cplusplus
+};
+
 static_assert(sizeof(PoissonRow) == 16 * kPoissonRowTexelCount);
 static_assert(offsetof(PoissonRow, column0) == 0 && offsetof(PoissonRow, column1) == 4);
 static_assert(offsetof(PoissonRow, column2) == 8 && offsetof(PoissonRow, tailBegin) == 12);
@@ -78,10 +140,13 @@ static_assert(sizeof(PoissonPush) == 8);
 static_assert(offsetof(PoissonPush, unknownCount) == 0 && offsetof(PoissonPush, stateIndex) == 4);
 }  // namespace asdfvk
 #else
+#undef Real
+
 PoissonRow decodePoissonRow(uvec4 t0, uvec4 t1) {
   const vec3 couplings = uintBitsToFloat(t1.xyz);
   return PoissonRow(t0.x, t0.y, t0.z, t0.w, couplings.x, couplings.y, couplings.z, t1.w);
 }
 #endif
+#undef ASDFVK_CG_FUNCTION
 
 #endif

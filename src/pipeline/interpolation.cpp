@@ -11,7 +11,6 @@
 #include "core/parallel.h"
 #include "mesh/curvature.h"
 #include "poisson/arc_weights.h"
-#include "poisson/divergence.h"
 #include "poisson/poisson_system.h"
 #include "poisson/solvers.h"
 

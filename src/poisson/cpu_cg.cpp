@@ -14,7 +14,6 @@
 
 #include "core/check.h"
 #include "core/parallel.h"
-#include "poisson/poisson_solver.h"
 
 namespace asdfvk {
 namespace {

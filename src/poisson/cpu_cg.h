@@ -11,8 +11,7 @@
 #include "core/unset_vector.h"
 #include "poisson/refinement.h"
 #include "poisson/scaled_system.h"
-#include "poisson/solver_progress.h"
-#include "shared/cg_rules.h"
+#include "shared/poisson_layout.h"
 
 namespace asdfvk {
 
@@ -27,7 +26,7 @@ class CpuCg {
   struct State {
     Real residualSquared = 1;  ///< Squared weighted norm of the residual before the last iteration.
     uint32_t iterationCount = 0;
-    uint32_t status = kCgRunning;  ///< See cg_rules.h; no iterations follow unless it is kCgRunning.
+    uint32_t status = kCgRunning;  ///< kCgRunning, or why no iterations follow.
   };
 
   /// rightHandSide: #U, of weighted norm 1. Converged when the norm of the residual is at or below `reduction`. The

@@ -6,55 +6,76 @@
 #include "core/check.h"
 #include "core/ordered_sum.h"
 #include "core/parallel.h"
-#include "poisson/weighted_graph.h"
 
 namespace asdfvk {
 namespace {
 
 constexpr uint32_t kNotUnknown = std::numeric_limits<uint32_t>::max();
 
-// Breadth first from the known faces; true where a face is known or joined to one.
-std::vector<uint8_t> reachedFromKnown(const DualGraph& graph, std::span<const double> values) {
-  std::vector<uint8_t> reached(graph.faceCount(), 0);
+struct WeightedGraph {
+  const DualGraph& graph;
+  std::span<const double> weights;
+
+  /// Calls visit(g, w_fg) for each neighbour g of face f in ascending order: once per neighbour with the sum of the
+  /// weights of its arcs, without f itself.
+  template <typename Visit>
+  void visitNeighbours(uint32_t face, const Visit& visit) const {
+    for (uint32_t arc = graph.offsets[face]; arc < graph.offsets[face + 1];) {
+      const uint32_t neighbour = graph.neighbours[arc];
+      double weight = 0;
+      for (; arc < graph.offsets[face + 1] && graph.neighbours[arc] == neighbour; ++arc) weight += weights[arc];
+      if (neighbour != face) visit(neighbour, weight);
+    }
+  }
+};
+
+double finiteOrZero(std::span<const double> perFace, uint32_t face) {
+  return !perFace.empty() && std::isfinite(perFace[face]) ? perFace[face] : 0;
+}
+
+/// #F: 1 for a face that is constrained or that a path of arcs connects to a constraint. Breadth-first search.
+std::vector<uint8_t> searchReachableFaces(const DualGraph& graph, std::span<const double> constraints) {
+  std::vector<uint8_t> isReachable(graph.faceCount(), 0);
   std::vector<uint32_t> queue;
   queue.reserve(graph.faceCount());
   for (uint32_t face = 0; face < graph.faceCount(); ++face)
-    if (std::isfinite(values[face])) {
-      reached[face] = 1;
+    if (std::isfinite(constraints[face])) {
+      isReachable[face] = 1;
       queue.push_back(face);
     }
   for (size_t next = 0; next < queue.size(); ++next)
     for (uint32_t neighbour : graph.neighboursOf(queue[next]))
-      if (!reached[neighbour]) {
-        reached[neighbour] = 1;
+      if (!isReachable[neighbour]) {
+        isReachable[neighbour] = 1;
         queue.push_back(neighbour);
       }
-  return reached;
+  return isReachable;
 }
 
-// The same where it is known which faces hang together.
-std::vector<uint8_t> reachedInComponents(std::span<const uint32_t> componentOf, std::span<const double> values) {
-  std::vector<uint8_t> isKnown;
-  for (size_t face = 0; face < values.size(); ++face) {
-    if (componentOf[face] >= isKnown.size()) isKnown.resize(componentOf[face] + size_t{1}, 0);
-    if (std::isfinite(values[face])) isKnown[componentOf[face]] = 1;
+/// The same from known components.
+std::vector<uint8_t> reachableFacesOf(std::span<const uint32_t> componentOf, std::span<const double> constraints) {
+  std::vector<uint8_t> isConstrained;  // Per component.
+  for (size_t face = 0; face < constraints.size(); ++face) {
+    if (componentOf[face] >= isConstrained.size()) isConstrained.resize(componentOf[face] + size_t{1}, 0);
+    if (std::isfinite(constraints[face])) isConstrained[componentOf[face]] = 1;
   }
-  std::vector<uint8_t> reached(values.size());
-  forEachInParallel(values.size(), [&](size_t face) { reached[face] = isKnown[componentOf[face]]; });
-  return reached;
+  std::vector<uint8_t> isReachable(constraints.size());
+  forEachInParallel(constraints.size(), [&](size_t face) { isReachable[face] = isConstrained[componentOf[face]]; });
+  return isReachable;
 }
 
-double meanOfKnown(std::span<const double> values) {
-  const auto count =
-      static_cast<size_t>(orderedSum(values.size(), [&](size_t i) { return std::isfinite(values[i]) ? 1.0 : 0.0; }));
+double meanOf(std::span<const double> constraints) {
+  const auto count = static_cast<size_t>(
+      orderedSum(constraints.size(), [&](size_t i) { return std::isfinite(constraints[i]) ? 1.0 : 0.0; }));
   if (count == 0) return 0;
-  // Divided before they are added, so that values near the end of the range do not overflow.
-  return orderedSum(values.size(),
-                    [&](size_t i) { return std::isfinite(values[i]) ? values[i] / static_cast<double>(count) : 0.0; });
+  // Division before addition: values near the largest number do not overflow.
+  return orderedSum(constraints.size(), [&](size_t i) {
+    return std::isfinite(constraints[i]) ? constraints[i] / static_cast<double>(count) : 0.0;
+  });
 }
 
-// Fills everything but the unknown faces and the first guess.
-void assemble(const WeightedGraph& graph, std::span<const uint32_t> unknownOf, std::span<const double> values,
+/// Fills all of `system` but faces, firstGuess and knownMean. unknownOf: #F, kNotUnknown for the other faces.
+void assemble(const WeightedGraph& graph, std::span<const uint32_t> unknownOf, std::span<const double> constraints,
               std::span<const double> divergence, PoissonSystem& system) {
   const size_t unknownCount = system.faces.size();
   system.rowOffsets.assign(unknownCount + 1, 0);
@@ -78,7 +99,7 @@ void assemble(const WeightedGraph& graph, std::span<const uint32_t> unknownOf, s
     graph.visitNeighbours(system.faces[row], [&](uint32_t neighbour, double weight) {
       diagonal += weight;
       if (unknownOf[neighbour] == kNotUnknown) {
-        rightHandSide += weight * values[neighbour];
+        rightHandSide += weight * constraints[neighbour];
       } else {
         system.columns[next] = unknownOf[neighbour];
         system.entries[next++] = -weight;
@@ -92,22 +113,23 @@ void assemble(const WeightedGraph& graph, std::span<const uint32_t> unknownOf, s
 }  // namespace
 
 PoissonSystem buildPoissonSystem(const DualGraph& graph, std::span<const double> weights,
-                                 std::span<const double> values, std::span<const double> divergence,
+                                 std::span<const double> constraints, std::span<const double> divergence,
                                  const PoissonOptions& options) {
   const size_t faceCount = graph.faceCount();
   ASDFVK_CHECK_OP(weights.size(), ==, graph.neighbours.size());
-  ASDFVK_CHECK_OP(values.size(), ==, faceCount);
+  ASDFVK_CHECK_OP(constraints.size(), ==, faceCount);
   if (!divergence.empty()) ASDFVK_CHECK_OP(divergence.size(), ==, faceCount);
   if (!options.firstGuess.empty()) ASDFVK_CHECK_OP(options.firstGuess.size(), ==, faceCount);
   if (!options.componentOf.empty()) ASDFVK_CHECK_OP(options.componentOf.size(), ==, faceCount);
 
   PoissonSystem system;
-  system.knownMean = meanOfKnown(values);
-  const std::vector<uint8_t> reached =
-      options.componentOf.empty() ? reachedFromKnown(graph, values) : reachedInComponents(options.componentOf, values);
+  system.knownMean = meanOf(constraints);
+  const std::vector<uint8_t> isReachable = options.componentOf.empty()
+                                               ? searchReachableFaces(graph, constraints)
+                                               : reachableFacesOf(options.componentOf, constraints);
   std::vector<uint32_t> unknownOf(faceCount, kNotUnknown);
   for (uint32_t face = 0; face < faceCount; ++face)
-    if (reached[face] && !std::isfinite(values[face])) {
+    if (isReachable[face] && !std::isfinite(constraints[face])) {
       unknownOf[face] = system.unknownCount();
       system.faces.push_back(face);
     }
@@ -118,8 +140,45 @@ PoissonSystem buildPoissonSystem(const DualGraph& graph, std::span<const double>
       system.firstGuess[row] = std::isfinite(guess) ? guess : system.knownMean;
     });
   }
-  assemble({graph, weights}, unknownOf, values, divergence, system);
+  assemble({graph, weights}, unknownOf, constraints, divergence, system);
   return system;
+}
+
+std::vector<double> divergenceOf(const DualGraph& graph, std::span<const double> weights,
+                                 std::span<const double> field) {
+  ASDFVK_CHECK_OP(weights.size(), ==, graph.neighbours.size());
+  ASDFVK_CHECK_OP(field.size(), ==, size_t{graph.faceCount()});
+  const WeightedGraph weighted{graph, weights};
+  std::vector<double> divergence(field.size(), 0.0);
+  forEachInParallel(field.size(), [&](size_t face) {
+    if (!std::isfinite(field[face])) return;
+    weighted.visitNeighbours(static_cast<uint32_t>(face), [&](uint32_t neighbour, double weight) {
+      if (std::isfinite(field[neighbour])) divergence[face] += weight * (field[face] - field[neighbour]);
+    });
+  });
+  return divergence;
+}
+
+void computeResidual(const PoissonSystem& system, std::span<const double> solution, std::span<double> residual) {
+  ASDFVK_CHECK_OP(solution.size(), ==, system.faces.size());
+  ASDFVK_CHECK_OP(residual.size(), ==, system.faces.size());
+  forEachInParallel(system.faces.size(), [&](size_t row) {
+    double sum = system.rightHandSide[row] - system.diagonal[row] * solution[row];
+    for (uint32_t i = system.rowOffsets[row]; i < system.rowOffsets[row + 1]; ++i)
+      sum -= system.entries[i] * solution[system.columns[i]];
+    residual[row] = sum;
+  });
+}
+
+double residualNorm(const PoissonSystem& system, std::span<const double> residual) {
+  return orderedNorm(residual.size(), [&](size_t row) { return residual[row] / system.diagonal[row]; });
+}
+
+double relativeResidual(const PoissonSystem& system, std::span<const double> solution) {
+  std::vector<double> residual(solution.size());
+  computeResidual(system, solution, residual);
+  const double norm = residualNorm(system, residual);
+  return norm == 0 ? 0 : norm / residualNorm(system, system.rightHandSide);
 }
 
 }  // namespace asdfvk

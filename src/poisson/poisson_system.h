@@ -6,8 +6,9 @@
 
 #include "core/unset_vector.h"
 #include "mesh/dual_graph.h"
-#include "mesh/mesh.h"
 
+/// The Poisson equation of the ASDF paper (section 4.1) over the dual graph, its assembly and its residual. #F: faces,
+/// #U: unknowns.
 namespace asdfvk {
 
 /// A u = b for the unknown faces of an interpolation. A is symmetric, positive definite and an M-matrix: its
@@ -15,49 +16,52 @@ namespace asdfvk {
 struct PoissonSystem {
   std::vector<uint32_t> faces;        ///< #U: the face of each unknown, ascending.
   std::vector<uint32_t> rowOffsets;   ///< #U+1
-  UnsetVector<uint32_t> columns;      ///< Unknown indices, without the row's own.
-  UnsetVector<double> entries;        ///< Off-diagonal ones of A, one per column.
-  UnsetVector<double> diagonal;       ///< #U, > 0. Also what the known neighbours take part in.
+  UnsetVector<uint32_t> columns;      ///< Indices of unknowns, without the diagonal.
+  UnsetVector<double> entries;        ///< Off-diagonal entries of A, one per column.
+  UnsetVector<double> diagonal;       ///< #U, > 0. Includes the weights of constrained neighbours.
   UnsetVector<double> rightHandSide;  ///< #U
-  std::vector<double> firstGuess;     ///< #U, or empty: knownMean everywhere. Where the solvers start.
-  double knownMean = 0;               ///< Mean of the known values.
+  std::vector<double> firstGuess;     ///< #U: start of the solvers; empty: knownMean everywhere.
+  double knownMean = 0;               ///< Mean of the constraints.
 
   [[nodiscard]] uint32_t unknownCount() const { return static_cast<uint32_t>(faces.size()); }
 };
 
 struct PoissonOptions {
-  /// #F, or empty. Where it is not finite the mean of the known values stands in.
-  std::span<const double> firstGuess;
-  /// #F, Components::componentOf, or empty: then it is found out which faces hang together.
-  std::span<const uint32_t> componentOf;
+  std::span<const double> firstGuess;     ///< #F, or empty. Non-finite entries are replaced by the knownMean.
+  std::span<const uint32_t> componentOf;  ///< #F, Components::componentOf, or empty: components are searched.
 };
 
-/// The interpolation of the ASDF paper, section 4.1, over the dual graph:
+/// The interpolation of the ASDF paper, section 4.1:
 ///
 ///     sum_{g in N(f)} w_fg u(f) - sum_{g in N(f), g unknown} w_fg u(g)
-///         = sum_{g in N(f), g known} w_fg value(g) + divergence(f)
+///         = sum_{g in N(f), g constrained} w_fg constraint(g) + divergence(f)
 ///
-/// which minimises sum w_fg (u_f - u_g)^2 if there is no divergence; then u stays within the range of the known values.
-/// Faces that no path of arcs joins to a known one are left out.
+/// Without a divergence it minimises sum w_fg (u_f - u_g)^2, and u stays within the range of the constraints. Faces
+/// that no path of arcs connects to a constraint are not unknowns.
 ///
-/// weights: one per arc, see arcWeights(); > 0, finite, the same both ways (two arcs to the same face count as one with
-/// the sum of their weights). values: #F, finite where the face is known (a Dirichlet constraint), NaN where it is not.
-/// divergence: #F, or empty for none; non-finite entries count as 0. It is -curv for the paper's guidance by
-/// curvature, and divergenceOf(field) for guidance by any field: if the known values are the field's, it is the
-/// solution.
+/// weights: one per arc, see arcWeights(); > 0, finite, equal in both directions. Several arcs between two faces count
+/// as one with the sum of their weights; an arc from a face to itself is ignored. constraints: #F, the value of a
+/// constrained face (Dirichlet), NaN elsewhere. divergence: #F, or empty for none; non-finite entries count as 0. It is
+/// minus the curvature for the paper's guidance, and divergenceOf(field) for guidance by any field: if the constraints
+/// are values of the field, the field is the solution.
 [[nodiscard]] PoissonSystem buildPoissonSystem(const DualGraph& graph, std::span<const double> weights,
-                                               std::span<const double> values, std::span<const double> divergence,
+                                               std::span<const double> constraints, std::span<const double> divergence,
                                                const PoissonOptions& options = {});
+
+/// #F: per face the sum over its neighbours g of w_fg (field(f) - field(g)), where both are finite. weights: one per
+/// arc.
+[[nodiscard]] std::vector<double> divergenceOf(const DualGraph& graph, std::span<const double> weights,
+                                               std::span<const double> field);
 
 /// residual = b - A x, in double. solution, residual: #U.
 void computeResidual(const PoissonSystem& system, std::span<const double> solution, std::span<double> residual);
 
-/// ||D^-1 r||, D the diagonal of A: what each face's equation is off by, in the unit of the values. Unlike ||r|| it
-/// does not let the large weights of a finely meshed patch hide what is wrong elsewhere. residual: #U.
+/// ||D^-1 r||, D the diagonal of A: the error of each equation in the unit of the values. Unlike in ||r||, the large
+/// weights of a finely meshed patch do not hide errors elsewhere. residual: #U.
 [[nodiscard]] double residualNorm(const PoissonSystem& system, std::span<const double> residual);
 
-/// ||D^-1 (b - A x)|| / ||D^-1 b|| in double; 0 for an empty system and wherever the residual is 0, infinite where only
-/// b is.
+/// ||D^-1 (b - A x)|| / ||D^-1 b|| in double; 0 for an empty system and for a residual of 0, infinite where only b is
+/// 0.
 [[nodiscard]] double relativeResidual(const PoissonSystem& system, std::span<const double> solution);
 
 }  // namespace asdfvk

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "core/check.h"
 #include "core/parallel.h"
@@ -10,12 +9,24 @@
 namespace asdfvk {
 namespace {
 
-// Asked of a pass beyond what is needed, so that rounding in its own residual does not cost another pass.
+// A pass reduces the residual a little more than necessary: rounding in its own residual then costs no further pass.
 constexpr double kSafety = 0.9;
-// A pass that leaves more than this share of the residual has met the limit of its precision.
+// A pass that leaves more than this share of the residual has reached the limit of its precision.
 constexpr double kStagnation = 0.5;
 
 }  // namespace
+
+SolverProgress::SolverProgress(const PoissonSystem& system, const SolverOptions& options, const RunControl& control)
+    : control_(control), target_(options.tolerance * residualNorm(system, system.rightHandSide)) {}
+
+void SolverProgress::checkpoint(double residualNorm) {
+  if (first_ == 0) first_ = residualNorm;
+  if (residualNorm > 0 && target_ > 0 && first_ > target_) {
+    const double done = std::log(first_ / residualNorm) / std::log(first_ / target_);
+    if (std::isfinite(done)) fraction_ = std::max(fraction_, std::clamp(done, 0.0, 1.0));
+  }
+  control_.checkpoint(fraction_);
+}
 
 SolverReport solveByRefinement(const std::string& name, const PoissonSystem& system, const SolverOptions& options,
                                std::span<double> solution, const std::vector<Corrector>& correctors) {
@@ -37,12 +48,11 @@ SolverReport solveByRefinement(const std::string& name, const PoissonSystem& sys
   double norm = residualNorm(system, residual);
   for (auto corrector = correctors.begin(); corrector != correctors.end();) {
     if (!(norm > target) || report.iterations >= options.maxIterations) break;
-    report.iterations +=
-        corrector->correct({.residual = residual,
-                            .norm = norm,
-                            .reduction = std::max(kSafety * target / norm, corrector->strongestReduction),
-                            .maxIterations = options.maxIterations - report.iterations,
-                            .correction = correction});
+    report.iterations += corrector->correct({.residual = residual,
+                                             .norm = norm,
+                                             .reduction = std::max(kSafety * target / norm, corrector->minReduction),
+                                             .maxIterations = options.maxIterations - report.iterations,
+                                             .correction = correction});
     forEachInParallel(solution.size(), [&](size_t row) { correction[row] += solution[row]; });
     computeResidual(system, correction, residual);
     const double newNorm = residualNorm(system, residual);  // Not finite if the correction is not.

@@ -6,32 +6,50 @@
 #include <string>
 #include <vector>
 
+#include "asdf_vk/run_control.h"
 #include "poisson/poisson_solver.h"
 
+/// Iterative refinement, which every solver runs under.
 namespace asdfvk {
 
-/// What a solver is asked for in one pass: an approximation of the e with A e = residual.
-struct CorrectionRequest {
-  std::span<const double> residual;  ///< #U
-  double norm = 0;                   ///< Its residualNorm(), > 0.
-  double reduction = 0;              ///< residualNorm() at or below this share of the residual's is enough.
-  uint32_t maxIterations = 0;
-  std::span<double> correction;  ///< #U, e, to be written whole.
+/// Converts residuals to a fraction done. A Krylov or Jacobi iteration reduces the residual by about the same factor
+/// each time, so the fraction is logarithmic between the first residual and the target. It never decreases.
+class SolverProgress {
+ public:
+  SolverProgress(const PoissonSystem& system, const SolverOptions& options, const RunControl& control);
+
+  /// residualNorm: ||D^-1 (b - A x)|| as the solver computes it. Throws Error{Cancelled}.
+  void checkpoint(double residualNorm);
+
+ private:
+  const RunControl& control_;
+  double target_;
+  double first_ = 0;
+  double fraction_ = 0;
 };
 
-/// Returns the iterations spent.
+/// Request of one pass: an approximation of the e with A e = residual.
+struct CorrectionRequest {
+  std::span<const double> residual;  ///< #U
+  double norm = 0;                   ///< residualNorm() of `residual`, > 0.
+  double reduction = 0;              ///< The pass may end when the norm is at or below this share of `norm`.
+  uint32_t maxIterations = 0;
+  std::span<double> correction;  ///< #U: e, overwritten.
+};
+
+/// Returns the number of iterations.
 using CorrectionSolver = std::function<uint32_t(const CorrectionRequest& request)>;
 
-/// A solver in whatever precision it has.
+/// A solver of any precision.
 struct Corrector {
-  double strongestReduction = 0;  ///< The most that one pass of it can be asked for in its precision.
+  double minReduction = 0;  ///< Smallest reduction that one pass reaches in its precision.
   CorrectionSolver correct;
 };
 
-/// Iterative refinement (Wilkinson 1963): from the first guess on, residuals in double, corrections by the first of the
-/// `correctors`, until the true relative residual is within the tolerance or the iterations are spent. Where a pass no
-/// longer helps the next corrector takes over, and after the last one it ends. A correction that is not finite or makes
-/// it worse is not added. name: for the report. solution: #U, written whole.
+/// Iterative refinement (Wilkinson 1963): residuals in double, corrections by the first of the `correctors`, from the
+/// first guess until the true relative residual is within the tolerance or the iterations are used up. When a pass
+/// stagnates the next corrector takes over; after the last one the refinement ends. A correction that is not finite or
+/// increases the residual is discarded. name: for the report. solution: #U, overwritten.
 [[nodiscard]] SolverReport solveByRefinement(const std::string& name, const PoissonSystem& system,
                                              const SolverOptions& options, std::span<double> solution,
                                              const std::vector<Corrector>& correctors);

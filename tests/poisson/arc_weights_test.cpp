@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "poisson/divergence.h"
+#include "poisson/poisson_system.h"
 #include "sample_problems.h"
 
 using namespace asdfvk;

@@ -3,7 +3,7 @@
 #include <initializer_list>
 #include <limits>
 
-#include "shared/cg_rules.h"
+#include "shared/poisson_layout.h"
 
 using namespace asdfvk;
 

@@ -7,7 +7,7 @@
 
 #include "dense_twin.h"
 #include "mesh/components.h"
-#include "poisson/divergence.h"
+#include "poisson/poisson_system.h"
 #include "sample_problems.h"
 
 using namespace asdfvk;

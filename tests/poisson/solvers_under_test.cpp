@@ -1,7 +1,7 @@
 #include "solvers_under_test.h"
 
-#include "poisson/vulkan/vulkan_cg_solver.h"
-#include "poisson/vulkan/vulkan_jacobi_solver.h"
+#include "poisson/vulkan/vulkan_cg.h"
+#include "poisson/vulkan/vulkan_jacobi.h"
 
 namespace asdfvk {
 

@@ -5,8 +5,8 @@
 #include <array>
 
 #include "asdf_vk/error.h"
-#include "poisson/vulkan/vulkan_cg_solver.h"
-#include "poisson/vulkan/vulkan_jacobi_solver.h"
+#include "poisson/vulkan/vulkan_cg.h"
+#include "poisson/vulkan/vulkan_jacobi.h"
 
 namespace asdfvk {
 namespace {

@@ -1,14 +1,23 @@
 #include "poisson/vulkan/vulkan_cg.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 
-#include "poisson/vulkan/vulkan_kernel.h"
+#include "core/stopwatch.h"
 #include "spirv/cg_product.comp.h"
 #include "spirv/cg_step.comp.h"
 
 namespace asdfvk {
 namespace {
+
+// The recurred residual departs from the true one at about 1e-7 of the first one.
+constexpr double kMinReduction = 1e-6;
+// Iterations after convergence are empty, so batches may grow; a batch stays below what a user notices.
+constexpr uint32_t kFirstBatch = 8;
+constexpr uint32_t kMaxBatch = 64;
+constexpr double kMaxBatchSeconds = 0.05;
 
 constexpr VkBufferUsageFlags kSizeUsage =
     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
@@ -24,6 +33,39 @@ std::array<CgState, 2> firstStates(double reduction) {
 Buffer makeVector(const Device& device, size_t count) {
   return {device, count * sizeof(float), kPoissonVectorUsage, MemoryKind::DeviceLocal};
 }
+
+class VulkanCgSolver final : public PoissonSolver {
+ public:
+  explicit VulkanCgSolver(const Device& device) : device_(device), kernels_(device) {}
+
+  SolverReport solve(const PoissonSystem& system, const SolverOptions& options, std::span<double> solution,
+                     const RunControl& control) override {
+    const DeviceMethod method{
+        .name = "cg", .minReduction = kMinReduction, .finishesOnCpu = true, .solve = [this](const DevicePass& pass) {
+          return iterate(pass);
+        }};
+    return solveOnDevice(method, device_, system, options, solution, control);
+  }
+
+ private:
+  DevicePassResult iterate(const DevicePass& pass) const {
+    VulkanCg cg(device_, kernels_, pass.matrix, pass.rightHandSide, pass.request.reduction);
+    CgState state{};
+    uint32_t batch = kFirstBatch;
+    for (uint32_t recorded = 0; state.status == kCgRunning && recorded < pass.request.maxIterations;) {
+      const Stopwatch stopwatch;
+      const uint32_t iterationCount = std::min(batch, pass.request.maxIterations - recorded);
+      state = cg.advance(iterationCount);
+      recorded += iterationCount;
+      if (2 * stopwatch.seconds() < kMaxBatchSeconds) batch = std::min(2 * batch, kMaxBatch);
+      pass.progress.checkpoint(pass.request.norm * std::sqrt(static_cast<double>(state.residualSquared)));
+    }
+    return {cg.solution(), state.iterationCount};
+  }
+
+  const Device& device_;
+  VulkanCgKernels kernels_;
+};
 
 }  // namespace
 
@@ -72,7 +114,7 @@ CgState VulkanCg::advance(uint32_t iterationCount) {
   commands_.submitAndWait();
   std::array<CgState, 2> states;
   std::memcpy(&states, statesOnHost_.mapped(), sizeof states);
-  // The iteration that ended it was the last to write, whichever that was.
+  // The iteration that ended the run wrote last.
   return states[1 - stateIndex_].status != kCgRunning ? states[1 - stateIndex_] : states[stateIndex_];
 }
 
@@ -86,6 +128,10 @@ std::vector<float> VulkanCg::download(const Buffer& vector) const {
   std::vector<float> values(unknownCount_);
   downloadBuffer(device_, vector, std::as_writable_bytes(std::span(values)));
   return values;
+}
+
+std::unique_ptr<PoissonSolver> makeVulkanCgSolver(const Device& device) {
+  return std::make_unique<VulkanCgSolver>(device);
 }
 
 }  // namespace asdfvk

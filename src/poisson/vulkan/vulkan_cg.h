@@ -1,35 +1,36 @@
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
-#include "poisson/vulkan/vulkan_matrix.h"
+#include "poisson/vulkan/vulkan_system.h"
 #include "shared/poisson_layout.h"
 #include "vk/command_list.h"
 #include "vk/compute_pipeline.h"
 
 namespace asdfvk {
 
-/// The two kernels of one iteration, made once per device: shaders/cg_*.comp.
+/// The two kernels of an iteration, created once per device: shaders/poisson/cg_*.comp.
 struct VulkanCgKernels {
   explicit VulkanCgKernels(const Device& device);
 
   ComputePipeline product, step;
 };
 
-/// Conjugate gradients on (I - S) y = b from y = 0 on, all vectors and scalars on the device. Everything given must
+/// Conjugate gradients on (I - S) y = b from y = 0, with all vectors and scalars on the device. The arguments must
 /// outlive it.
 class VulkanCg {
  public:
-  /// rightHandSide: #U, of weighted norm 1. It has converged when the residual's is at or below `reduction`.
+  /// rightHandSide: #U, of weighted norm 1. Converged when the norm of the residual is at or below `reduction`.
   VulkanCg(const Device& device, const VulkanCgKernels& kernels, const VulkanMatrix& matrix,
            std::span<const float> rightHandSide, double reduction);
 
   /// Runs up to `iterationCount` iterations in one submission, fewer when it converges or breaks down before one of
-  /// them; those that are left then cost next to nothing.
+  /// them. The dispatches of the others are empty.
   CgState advance(uint32_t iterationCount);
 
-  /// Workgroups of the next dispatch: 0 once it has converged or broken down.
+  /// Workgroups of the next dispatch: 0 after convergence or breakdown.
   [[nodiscard]] uint32_t workgroupCount() const;
   [[nodiscard]] std::vector<float> solution() const { return download(solution_); }
   [[nodiscard]] std::vector<float> residual() const { return download(residual_); }
@@ -44,10 +45,16 @@ class VulkanCg {
   uint32_t unknownCount_;
   uint32_t stateIndex_ = 0;
   Buffer solution_, residual_, direction_, product_, states_, sums_;
-  Buffer size_;  ///< Of all dispatches to come, set to 0 by the device when there is no more to do.
+  Buffer size_;  ///< Of the following dispatches. The device sets it to 0 at the end.
   Buffer statesOnHost_;
   BindingSet productBindings_, stepBindings_;
   CommandList commands_;
 };
+
+/// Jacobi-preconditioned conjugate gradients in float32 on the device, under iterative refinement in double. The
+/// scalars stay on the device; the host reads them every few iterations. Where float32 stagnates, the iteration of
+/// makeEigenSolver() continues on the CPU. The kernels are created here, once for many systems. The device must outlive
+/// the solver. solve() throws Error{EquationLimit} for a system that exceeds a limit of the device.
+[[nodiscard]] std::unique_ptr<PoissonSolver> makeVulkanCgSolver(const Device& device);
 
 }  // namespace asdfvk

@@ -1,16 +1,20 @@
 #include "poisson/vulkan/vulkan_jacobi.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
 
-#include "poisson/vulkan/vulkan_kernel.h"
 #include "shared/poisson_layout.h"
 #include "spirv/jacobi_sweep.comp.h"
 
 namespace asdfvk {
 namespace {
 
+// A stationary iteration loses nothing by a restart, and float32 does not stagnate over so small a reduction.
+constexpr double kMinReduction = 1e-2;
+// Fixed: the end of the iteration depends on it, and the same input must give the same bits.
+constexpr uint32_t kBatch = 32;
 constexpr uint32_t kBindingCount = 8;
 
 Buffer uploadZeros(const Device& device, size_t count) {
@@ -29,6 +33,36 @@ std::array<Binding, kBindingCount> bind(const VulkanMatrix& matrix, const Buffer
           to,
           sums};
 }
+
+class VulkanJacobiSolver final : public PoissonSolver {
+ public:
+  explicit VulkanJacobiSolver(const Device& device) : device_(device), kernel_(device) {}
+
+  SolverReport solve(const PoissonSystem& system, const SolverOptions& options, std::span<double> solution,
+                     const RunControl& control) override {
+    const DeviceMethod method{.name = "jacobi",
+                              .minReduction = kMinReduction,
+                              .finishesOnCpu = false,
+                              .solve = [this](const DevicePass& pass) { return iterate(pass); }};
+    return solveOnDevice(method, device_, system, options, solution, control);
+  }
+
+ private:
+  DevicePassResult iterate(const DevicePass& pass) const {
+    VulkanJacobi jacobi(device_, kernel_, pass.matrix, pass.rightHandSide);
+    uint32_t iterationCount = 0;
+    for (double norm = 1; norm > pass.request.reduction && iterationCount < pass.request.maxIterations;) {
+      const uint32_t batch = std::min(kBatch, pass.request.maxIterations - iterationCount);
+      norm = jacobi.advance(batch);
+      iterationCount += batch;
+      pass.progress.checkpoint(pass.request.norm * norm);
+    }
+    return {jacobi.solution(), iterationCount};
+  }
+
+  const Device& device_;
+  VulkanJacobiKernel kernel_;
+};
 
 }  // namespace
 
@@ -71,6 +105,10 @@ std::vector<float> VulkanJacobi::solution() const {
   std::vector<float> values(unknownCount_);
   downloadBuffer(device_, iterates_[current_], std::as_writable_bytes(std::span(values)));
   return values;
+}
+
+std::unique_ptr<PoissonSolver> makeVulkanJacobiSolver(const Device& device) {
+  return std::make_unique<VulkanJacobiSolver>(device);
 }
 
 }  // namespace asdfvk

@@ -1,29 +1,31 @@
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
-#include "poisson/vulkan/vulkan_matrix.h"
+#include "poisson/vulkan/vulkan_system.h"
 #include "vk/command_list.h"
 #include "vk/compute_pipeline.h"
 
 namespace asdfvk {
 
-/// The kernel of a Jacobi iteration, made once per device: shaders/jacobi_sweep.comp.
+/// The kernel of an iteration, created once per device: shaders/poisson/jacobi_sweep.comp.
 struct VulkanJacobiKernel {
   explicit VulkanJacobiKernel(const Device& device);
 
   ComputePipeline sweep;
 };
 
-/// Jacobi iterations on (I - S) y = b from y = 0 on. Everything given must outlive it.
+/// Jacobi iterations on (I - S) y = b from y = 0. The arguments must outlive it.
 class VulkanJacobi {
  public:
   /// rightHandSide: #U, of weighted norm 1.
   VulkanJacobi(const Device& device, const VulkanJacobiKernel& kernel, const VulkanMatrix& matrix,
                std::span<const float> rightHandSide);
 
-  /// Runs `iterationCount` > 0 iterations in one submission. Returns the weighted norm of the residual before the last.
+  /// Runs `iterationCount` > 0 iterations in one submission. Returns the weighted norm of the residual before the last
+  /// one.
   double advance(uint32_t iterationCount);
 
   [[nodiscard]] std::vector<float> solution() const;
@@ -33,10 +35,14 @@ class VulkanJacobi {
   const VulkanJacobiKernel& kernel_;
   uint32_t unknownCount_;
   uint32_t workgroupCount_;
-  uint32_t current_ = 0;  ///< The iterate that is newest.
+  uint32_t current_ = 0;  ///< Index of the newest iterate.
   Buffer rightHandSide_, iterates_[2], sums_, sumsOnHost_;
-  BindingSet bindings_[2];  ///< [i] reads iterates_[i] and writes the other one.
+  BindingSet bindings_[2];  ///< [i] reads iterates_[i] and writes the other.
   CommandList commands_;
 };
+
+/// Jacobi iterations in float32 on the device, under iterative refinement in double: slow, for comparison. Otherwise as
+/// makeVulkanCgSolver().
+[[nodiscard]] std::unique_ptr<PoissonSolver> makeVulkanJacobiSolver(const Device& device);
 
 }  // namespace asdfvk

@@ -1,11 +1,10 @@
 #version 450
-// Conjugate gradients, first half of an iteration: the product (I - S) p and the partial sums that the second half
-// needs.
+// Conjugate gradients, first half of an iteration: the product q = (I - S) p and the partial sums for the second half.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/poisson_layout.h"
 
-#include "poisson_lanes.glsl"
-#include "poisson_matrix.glsl"
+#include "lanes.glsl"
+#include "matrix.glsl"
 
 layout(set = 0, binding = 3) readonly buffer ResidualWeights { float residualWeights[]; };
 layout(set = 0, binding = 4) readonly buffer Residual { float r[]; };

@@ -1,10 +1,10 @@
 #version 450
-// One Jacobi iteration, y' = b + S y, and the partial sums of the squares of the residual r = b + S y - y.
+// One Jacobi iteration, y' = b + S y, and the partial sums of the squares of the residual y' - y of y.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/poisson_layout.h"
 
-#include "poisson_lanes.glsl"
-#include "poisson_matrix.glsl"
+#include "lanes.glsl"
+#include "matrix.glsl"
 
 layout(set = 0, binding = 3) readonly buffer RightHandSide { float b[]; };
 layout(set = 0, binding = 4) readonly buffer ResidualWeights { float residualWeights[]; };

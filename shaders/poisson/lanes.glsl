@@ -1,4 +1,4 @@
-// Distribution of rows over lanes, and sums over lanes, for the Poisson kernels. Include first.
+// Distribution of rows to lanes and sums over a workgroup, for the Poisson kernels. Include first.
 layout(local_size_x_id = 0) in;
 layout(constant_id = 0) const uint kLaneCount = 64;  // A power of two and a multiple of 8.
 
@@ -9,11 +9,11 @@ shared mat2x3 laneSums[kLaneCount];
 uint firstRow() { return gl_WorkGroupID.x * kLaneCount + gl_LocalInvocationID.x; }
 uint rowStride() { return gl_NumWorkGroups.x * kLaneCount; }
 
-// The sum over the lanes of the workgroup, returned in all of them. A tree of fixed shape, so that repeated runs on a
-// device give the same bits.
+// The sum over the lanes of the workgroup, returned to each lane. The tree has a fixed shape, so that the bits are the
+// same in every run on a device.
 mat2x3 workgroupSum(mat2x3 value) {
   const uint lane = gl_LocalInvocationID.x;
-  barrier();  // Every lane has read the previous sum.
+  barrier();  // Every lane has read the sum before.
   laneSums[lane] = value;
   barrier();
   for (uint count = kLaneCount / 2u; count > 0u; count /= 2u) {

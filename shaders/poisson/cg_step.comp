@@ -1,10 +1,10 @@
 #version 450
-// Conjugate gradients, second half of an iteration: the scalars, x += alpha p, r -= alpha (I - S) p and p = r + beta p.
-// Where the iteration has ended, it disables all iterations that were recorded after it.
+// Conjugate gradients, second half of an iteration: the scalars, then x += alpha p, r -= alpha q and p = r + beta p.
+// After convergence or breakdown it sets the size of the following dispatches to 0 instead.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/poisson_layout.h"
 
-#include "poisson_lanes.glsl"
+#include "lanes.glsl"
 
 layout(set = 0, binding = 0) readonly buffer Product { float q[]; };
 layout(set = 0, binding = 1) buffer Solution { float x[]; };

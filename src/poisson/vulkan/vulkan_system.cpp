@@ -1,0 +1,112 @@
+#include "poisson/vulkan/vulkan_system.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <optional>
+
+#include "asdf_vk/error.h"
+#include "poisson/cpu_cg.h"
+#include "shared/poisson_layout.h"
+
+namespace asdfvk {
+namespace {
+
+// Every workgroup adds up the partial sums of all workgroups, which must be little work compared with its rows. A GPU
+// has lanes to fill and adds 256 sums in one step; a CPU device has neither advantage.
+constexpr uint32_t kGpuLaneCount = 256, kGpuRowsPerLane = 4;
+constexpr uint32_t kCpuLaneCount = 32, kCpuRowsPerLane = 32;
+// The rest is a margin for loops that the compiler adds.
+constexpr uint64_t kMaxLoopIterationCount = kCpuDeviceLoopIterationCount / 10 * 9;
+
+uint32_t minRowsPerLane(const DeviceFacts& facts) {
+  return facts.kind == DeviceKind::Cpu ? kCpuRowsPerLane : kGpuRowsPerLane;
+}
+
+uint64_t divideUp(uint64_t dividend, uint64_t divisor) { return (dividend + divisor - 1) / divisor; }
+
+template <typename T>
+Buffer uploadArray(const Device& device, const UnsetVector<T>& array, VkBufferUsageFlags usage) {
+  return uploadBuffer(device, std::as_bytes(std::span(array)), usage);
+}
+
+}  // namespace
+
+uint32_t poissonLaneCount(const DeviceFacts& facts) {
+  const uint32_t wanted = facts.kind == DeviceKind::Cpu ? kCpuLaneCount : kGpuLaneCount;
+  return std::bit_floor(std::min({wanted, facts.maxWorkgroupInvocations, facts.maxWorkgroupSize}));
+}
+
+PoissonGrid choosePoissonGrid(const DeviceFacts& facts, uint32_t unknownCount) {
+  const uint32_t laneCount = poissonLaneCount(facts);
+  const uint64_t wanted = divideUp(unknownCount, uint64_t{laneCount} * minRowsPerLane(facts));
+  return {laneCount, static_cast<uint32_t>(std::clamp<uint64_t>(wanted, 1, kMaxPoissonWorkgroupCount))};
+}
+
+void requireSystemFits(const DeviceFacts& facts, uint64_t unknownCount, uint64_t tailCount, uint64_t longestRow) {
+  const auto refuse = [&](const std::string& reason) {
+    throw Error(ErrorCode::EquationLimit, fmt::format("the Poisson system of {} unknowns exceeds a limit of {}: {}",
+                                                      unknownCount, facts.name, reason));
+  };
+  const uint64_t texelCount = unknownCount * kPoissonRowTexelCount;
+  if (texelCount > facts.maxTexelBufferElements)
+    refuse(fmt::format("{} texels in one buffer, at most {}", texelCount, facts.maxTexelBufferElements));
+  const uint64_t byteCount = sizeof(uint32_t) * std::max(unknownCount, tailCount);
+  if (byteCount > facts.maxStorageBufferRange)
+    refuse(fmt::format("{} MiB in one buffer, at most {}", (byteCount >> 20) + 1, facts.maxStorageBufferRange >> 20));
+  const uint64_t laneCount = poissonLaneCount(facts);
+  const uint64_t rowsPerLane = divideUp(unknownCount, laneCount * kMaxPoissonWorkgroupCount);
+  // The loops of a kernel: rows and their entries, partial sums, two reduction trees.
+  const uint64_t iterationCount = std::max<uint64_t>(rowsPerLane, minRowsPerLane(facts)) * (longestRow + 1) +
+                                  divideUp(kMaxPoissonWorkgroupCount, laneCount) + 2u * std::bit_width(laneCount);
+  if (iterationCount > kMaxLoopIterationCount)
+    refuse(fmt::format("{} loop iterations of a lane (rows have up to {} entries), at most {}", iterationCount,
+                       longestRow, kMaxLoopIterationCount));
+}
+
+ComputePipelineDescription describePoissonKernel(const DeviceFacts& facts, const std::string& name,
+                                                 std::span<const uint32_t> spirv, uint32_t bindingCount,
+                                                 bool withMatrix) {
+  std::vector<VkDescriptorType> bindings(bindingCount, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
+  if (withMatrix) bindings[0] = VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER;
+  return {name, spirv, bindings, sizeof(PoissonPush), {/* kLaneCount= */ poissonLaneCount(facts)}};
+}
+
+VulkanMatrix::VulkanMatrix(const Device& device, const ScaledSystem& system) {
+  requireSystemFits(device.facts(), system.unknownCount(), system.tailColumns().size(), system.longestRow());
+  grid = choosePoissonGrid(device.facts(), system.unknownCount());
+  rows = uploadArray(device, system.rows(), VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT);
+  rowTexels = TexelView(device, rows);
+  tailColumns = uploadArray(device, system.tailColumns(), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+  tailCouplings = uploadArray(device, system.tailCouplings(), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+  residualWeights = uploadArray(device, system.residualWeights(), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+}
+
+SolverReport solveOnDevice(const DeviceMethod& method, const Device& device, const PoissonSystem& system,
+                           const SolverOptions& options, std::span<double> solution, const RunControl& control) {
+  SolverProgress progress(system, options, control);
+  const ScaledSystem scaled(system);
+  std::optional<VulkanMatrix> matrix;
+  std::vector<Corrector> correctors{{method.minReduction, [&](const CorrectionRequest& request) {
+                                       if (!matrix) matrix.emplace(device, scaled);
+                                       progress.checkpoint(request.norm);
+                                       const auto b = scaled.scaleResidual(request.residual, request.norm);
+                                       const DevicePassResult result = method.solve({*matrix, b, request, progress});
+                                       scaled.unscaleCorrection(result.solution, request.norm, request.correction);
+                                       return result.iterationCount;
+                                     }}};
+  bool finishedOnCpu = false;
+  if (method.finishesOnCpu) {
+    const Corrector onCpu = makeDoubleCorrector(system, progress);
+    correctors.push_back({onCpu.minReduction, [&finishedOnCpu, onCpu](const CorrectionRequest& request) {
+                            finishedOnCpu = true;
+                            return onCpu.correct(request);
+                          }});
+  }
+  SolverReport report = solveByRefinement(method.name, system, options, solution, correctors);
+  report.finishedOnCpu = finishedOnCpu;
+  return report;
+}
+
+}  // namespace asdfvk

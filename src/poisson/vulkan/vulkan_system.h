@@ -1,0 +1,78 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "poisson/refinement.h"
+#include "poisson/scaled_system.h"
+#include "vk/buffer.h"
+#include "vk/compute_pipeline.h"
+#include "vk/device.h"
+
+/// A Poisson system on a device, for any iteration that runs there in float32.
+namespace asdfvk {
+
+/// Size of the dispatches for one system.
+struct PoissonGrid {
+  uint32_t laneCount = 0;  ///< Per workgroup.
+  uint32_t workgroupCount = 0;
+};
+
+/// Lanes per workgroup on this device: the specialization constant of the pipelines.
+[[nodiscard]] uint32_t poissonLaneCount(const DeviceFacts& facts);
+[[nodiscard]] PoissonGrid choosePoissonGrid(const DeviceFacts& facts, uint32_t unknownCount);
+
+/// tailCount: entries beyond the third of their row. Throws Error{EquationLimit} when an array exceeds the binding size
+/// of the device, or a lane might exceed the loop iterations after which Mesa's CPU device ends loops silently.
+void requireSystemFits(const DeviceFacts& facts, uint64_t unknownCount, uint64_t tailCount, uint64_t longestRow);
+
+/// Usage of vectors that kernels write and the host reads.
+inline constexpr VkBufferUsageFlags kPoissonVectorUsage =
+    VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+
+/// The pipeline of a Poisson kernel. withMatrix: its first three bindings are those of
+/// shaders/poisson/matrix.glsl.
+[[nodiscard]] ComputePipelineDescription describePoissonKernel(const DeviceFacts& facts, const std::string& name,
+                                                               std::span<const uint32_t> spirv, uint32_t bindingCount,
+                                                               bool withMatrix);
+
+/// The matrix on the device, bindings 0 to 2 of shaders/poisson/matrix.glsl, and the residual weights.
+struct VulkanMatrix {
+  /// Throws as requireSystemFits().
+  VulkanMatrix(const Device& device, const ScaledSystem& system);
+
+  PoissonGrid grid;
+  Buffer rows;
+  TexelView rowTexels;
+  Buffer tailColumns, tailCouplings, residualWeights;
+};
+
+/// One pass of the refinement on the device.
+struct DevicePass {
+  const VulkanMatrix& matrix;
+  std::span<const float> rightHandSide;  ///< #U, of weighted norm 1; stands for a residual of norm request.norm.
+  const CorrectionRequest& request;
+  SolverProgress& progress;
+};
+
+struct DevicePassResult {
+  std::vector<float> solution;  ///< #U
+  uint32_t iterationCount = 0;
+};
+
+struct DeviceMethod {
+  std::string name;     ///< For the report.
+  double minReduction;  ///< See Corrector.
+  bool finishesOnCpu;   ///< makeDoubleCorrector() continues where float32 stagnates.
+  std::function<DevicePassResult(const DevicePass& pass)> solve;
+};
+
+/// solveByRefinement() with passes on the device. The matrix is uploaded in the first pass.
+[[nodiscard]] SolverReport solveOnDevice(const DeviceMethod& method, const Device& device, const PoissonSystem& system,
+                                         const SolverOptions& options, std::span<double> solution,
+                                         const RunControl& control);
+
+}  // namespace asdfvk
