@@ -15,6 +15,7 @@
 #include "cli/computation_options.h"
 #include "cli/option_parsing.h"
 #include "core/text.h"
+#include "pipeline/valid_options.h"
 
 namespace asdfvk {
 namespace {
@@ -191,7 +192,7 @@ void addDevice(CLI::App& app, CommandLine& line) {
 }
 
 void validateOptions(const CommandLine& line) {
-  const auto fail = [](const char* message) { throw Error(ErrorCode::OptionConflict, message); };
+  const auto fail = [](const std::string& message) { throw Error(ErrorCode::OptionConflict, message); };
   if (line.meshes.empty() && !line.listDevices) fail("no mesh was given; asdf-vk --help lists the options");
   if (std::count(line.meshes.begin(), line.meshes.end(), "-") > 1)
     fail("standard input ('-') can be read only once; name it once");
@@ -216,10 +217,10 @@ void validateOptions(const CommandLine& line) {
     fail("--picture-of error needs an estimate; drop --no-estimate, and --seeds all, which has no error");
   if (std::count(line.fields.begin(), line.fields.end(), "error") > 0 && !estimates)
     fail("--fields error needs an estimate; drop --no-estimate, and --seeds all, which has no error");
-  if (isCpu && (line.options.solver == "cg" || line.options.solver == "jacobi"))
-    fail(
-        "--solver cg and jacobi run on a Vulkan device, which --backend cpu and reference do not use; use --solver "
-        "cpu");
+  if (isCpu && solverNeedsDevice(line.options.solver))
+    fail(fmt::format(
+        "--solver {} runs on a Vulkan device, which --backend cpu and reference do not use; use --solver cpu",
+        line.options.solver));
 }
 
 /// The help of the most needed options; all groups with `showsAll`.

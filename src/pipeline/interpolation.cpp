@@ -11,8 +11,8 @@
 #include "core/parallel.h"
 #include "mesh/curvature.h"
 #include "poisson/arc_weights.h"
+#include "poisson/poisson_solver.h"
 #include "poisson/poisson_system.h"
-#include "poisson/solvers.h"
 
 namespace asdfvk {
 namespace {
@@ -121,32 +121,33 @@ std::vector<double> Interpolation::divergence() {
   return {};
 }
 
-PoissonSolver& Interpolation::solver(const std::string& name) {
-  // A CPU device needs more time than the CPU for the same iterations (docs/speed.md).
-  if (name == "auto") return solver(computation_.backend.runsOnCpu() ? "cpu" : "cg");
+SolverReport Interpolation::solveWith(const std::string& name, const PoissonSystem& system, std::span<double> solution,
+                                      const RunControl& control) {
   std::unique_ptr<PoissonSolver>& solver = computation_.solvers[name];
   if (!solver) solver = makeSolver(name, computation_.backend.device());
-  return *solver;
+  SolverReport report = solver->solve(system, computation_.options.solverOptions, solution, control);
+  report.name = name;
+  return report;
 }
 
 SolverReport Interpolation::solveSystem(const PoissonSystem& system, std::vector<double>& values,
                                         const RunControl& control) {
   if (system.unknownCount() == 0) return {.name = "none"};
-  const Options& options = computation_.options;
+  const std::string& choice = computation_.options.solver;
+  const bool isAutomatic = choice == kAutomaticSolver;
+  // A CPU device needs more time than the CPU for the same iterations (docs/speed.md).
+  const std::string name = isAutomatic ? defaultSolver(!computation_.backend.runsOnCpu()).name : choice;
   std::vector<double> solution(system.unknownCount());
-  const auto solveWith = [&](const std::string& name) {
-    return solver(name).solve(system, options.solverOptions, solution, control);
-  };
   SolverReport report;
   try {
-    report = solveWith(options.solver);
+    report = solveWith(name, system, solution, control);
   } catch (const Error& error) {
-    if (options.solver != "auto" || error.kind() != ErrorKind::Device) throw;
+    if (!isAutomatic || error.kind() != ErrorKind::Device) throw;
     computation_.warnings.push_back(
         {WarningCode::SolvedOnCpu,
          fmt::format("the CPU solved the equation because the device failed: {}", error.what()),
          {}});
-    report = solveWith("cpu");
+    report = solveWith(defaultSolver(false).name, system, solution, control);
   }
   for (size_t i = 0; i < solution.size(); ++i) values[system.faces[i]] = solution[i];
   return report;

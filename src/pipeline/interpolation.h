@@ -33,7 +33,8 @@ class Interpolation {
  private:
   [[nodiscard]] const std::vector<double>& weights();
   [[nodiscard]] std::vector<double> divergence();
-  [[nodiscard]] PoissonSolver& solver(const std::string& name);
+  SolverReport solveWith(const std::string& solver, const PoissonSystem& system, std::span<double> solution,
+                         const RunControl& control);
   SolverReport solveSystem(const PoissonSystem& system, std::vector<double>& values, const RunControl& control);
 
   const Computation& computation_;

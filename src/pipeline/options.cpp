@@ -5,7 +5,7 @@
 #include "asdf_vk/error.h"
 #include "pipeline/seed_choice.h"
 #include "pipeline/valid_options.h"
-#include "poisson/solvers.h"
+#include "poisson/poisson_solver.h"
 #include "seeds/samplers.h"
 #include "smooth/bilateral.h"
 
@@ -37,10 +37,12 @@ void applyRecipe(Recipe recipe, Options& options) {
 }
 
 std::vector<std::string> solverNames() {
-  std::vector<std::string> names{"auto"};
-  for (const SolverRow& row : solverTable()) names.emplace_back(row.name);
+  std::vector<std::string> names{kAutomaticSolver};
+  for (const Solver& solver : solverTable()) names.emplace_back(solver.name);
   return names;
 }
+
+bool solverNeedsDevice(const std::string& name) { return name != kAutomaticSolver && findSolver(name).needsDevice; }
 
 std::vector<std::string> samplerNames() {
   std::vector<std::string> names;

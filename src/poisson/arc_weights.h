@@ -8,14 +8,17 @@
 
 namespace asdfvk {
 
-/// Where the weight of a Feature arc has fallen to a half. Across a sharper edge the shape diameter changes
-/// more, and on organic shapes some five times more where it is concave.
+/// Dihedral angles at which the weight Feature is 1/2. The shape diameter changes more across sharper edges, and on
+/// organic shapes about five times more across concave edges than across convex ones.
 inline constexpr double kConcaveScaleDegrees = 3;
 inline constexpr double kConvexScaleDegrees = 8;
 
-/// One weight per arc, in the order of graph.neighbours: positive, finite, and the same bits in both directions.
-/// Distances below 1e-9 of the box's diagonal count as that, so that coincident barycentres keep the matrix finite.
-/// Distance has the unit of 1 / length, the others have none.
+/// The larger the weight of an arc, the closer the interpolated values of its two faces.
+///   Distance: 1 / distance of the barycentres (ASDF paper, section 4.1)
+///   Feature:  1 / (1 + (a / s)^2), a: dihedral angle, s: kConcaveScaleDegrees or kConvexScaleDegrees
+/// One weight per arc, in the order of graph.neighbours: positive, finite, and with the same bits in both directions.
+/// Unit: Distance 1 / length, Feature none. Distances below 1e-9 of the diagonal of the bounding box are replaced by
+/// that, which keeps the matrix finite for coincident barycentres.
 [[nodiscard]] std::vector<double> arcWeights(ArcWeights kind, const DualGraph& graph, const FaceGeometry& geometry);
 
 }  // namespace asdfvk

@@ -14,6 +14,7 @@
 
 #include "core/check.h"
 #include "core/parallel.h"
+#include "poisson/poisson_solver.h"
 
 namespace asdfvk {
 namespace {
@@ -86,7 +87,7 @@ class CpuCgSolver final : public PoissonSolver {
                      const RunControl& control) override {
     SolverProgress progress(system, options, control);
     return solveByRefinement(
-        "cpu", system, options, solution,
+        system, options, solution,
         {makeCorrector<ScaledSystem>(system, progress, kMinFloatReduction), makeDoubleCorrector(system, progress)});
   }
 };
@@ -96,7 +97,7 @@ class EigenSolver final : public PoissonSolver {
   SolverReport solve(const PoissonSystem& system, const SolverOptions& options, std::span<double> solution,
                      const RunControl& control) override {
     SolverProgress progress(system, options, control);
-    return solveByRefinement("eigen", system, options, solution, {makeDoubleCorrector(system, progress)});
+    return solveByRefinement(system, options, solution, {makeDoubleCorrector(system, progress)});
   }
 };
 
@@ -209,8 +210,8 @@ Corrector makeDoubleCorrector(const PoissonSystem& system, SolverProgress& progr
   return makeCorrector<EigenSystem>(system, progress, kMinDoubleReduction);
 }
 
-std::unique_ptr<PoissonSolver> makeCpuCgSolver() { return std::make_unique<CpuCgSolver>(); }
+std::unique_ptr<PoissonSolver> makeCpuCgSolver(const Device*) { return std::make_unique<CpuCgSolver>(); }
 
-std::unique_ptr<PoissonSolver> makeEigenSolver() { return std::make_unique<EigenSolver>(); }
+std::unique_ptr<PoissonSolver> makeEigenSolver(const Device*) { return std::make_unique<EigenSolver>(); }
 
 }  // namespace asdfvk

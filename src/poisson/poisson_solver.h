@@ -1,32 +1,56 @@
 #pragma once
 
-#include <cstdint>
 #include <memory>
 #include <span>
-#include <string>
-#include <vector>
+#include <string_view>
 
 #include "asdf_vk/options.h"
 #include "asdf_vk/report.h"
 #include "asdf_vk/run_control.h"
 #include "poisson/poisson_system.h"
 
+/// Solvers of the Poisson equation. A new solver is a file with its class, the declaration of its make function here,
+/// and a row of the table in poisson_solver.cpp.
 namespace asdfvk {
+
+class Device;
 
 class PoissonSolver {
  public:
   virtual ~PoissonSolver() = default;
 
-  /// solution: one entry per unknown of the system, written whole. Throws Error{Cancelled}, Error{Device}.
+  /// Overwrites solution (#U). The name in the report is empty. Throws Error{Cancelled}, Error{Device};
+  /// Error{EquationLimit} for a system that exceeds a limit of the device.
   virtual SolverReport solve(const PoissonSystem& system, const SolverOptions& options, std::span<double> solution,
                              const RunControl& control) = 0;
 };
 
-/// Jacobi-preconditioned conjugate gradients in float32 on all cores of the CPU, under iterative refinement; where
-/// float32 does not get there, Eigen's in double carry on.
-[[nodiscard]] std::unique_ptr<PoissonSolver> makeCpuCgSolver();
+/// device: where the solver runs, null for a solver that needs none; must outlive the solver. Solvers on a device
+/// create their kernels here, once for many systems.
+using MakeSolver = std::unique_ptr<PoissonSolver>(const Device* device);
 
-/// Jacobi-preconditioned conjugate gradients with Eigen, in double on the CPU, products on all cores.
-[[nodiscard]] std::unique_ptr<PoissonSolver> makeEigenSolver();
+/// Jacobi-preconditioned conjugate gradients in float32, under iterative refinement in double: on the device, and on
+/// all cores of the CPU. Where float32 stagnates, the iteration of makeEigenSolver() continues on the CPU.
+[[nodiscard]] MakeSolver makeVulkanCgSolver, makeCpuCgSolver;
+/// Jacobi iterations in float32 on the device, under iterative refinement in double: slow, for comparison.
+[[nodiscard]] MakeSolver makeVulkanJacobiSolver;
+/// Jacobi-preconditioned conjugate gradients in double on all cores of the CPU, with an Eigen matrix.
+[[nodiscard]] MakeSolver makeEigenSolver;
+
+struct Solver {
+  const char* name;
+  bool needsDevice;
+  MakeSolver* make;
+};
+
+inline constexpr const char* kAutomaticSolver = "auto";  ///< Stands for defaultSolver(); not a row of the table.
+
+[[nodiscard]] std::span<const Solver> solverTable();
+/// Throws Error{UnknownName}.
+[[nodiscard]] const Solver& findSolver(std::string_view name);
+/// The default solver on a device, or the one on the CPU.
+[[nodiscard]] const Solver& defaultSolver(bool needsDevice);
+/// Throws Error{UnknownName}; Error{NoDeviceForKernel} where the solver needs a device and `device` is null.
+[[nodiscard]] std::unique_ptr<PoissonSolver> makeSolver(std::string_view name, const Device* device);
 
 }  // namespace asdfvk

@@ -74,7 +74,7 @@ double meanOf(std::span<const double> constraints) {
   });
 }
 
-/// Fills all of `system` but faces, firstGuess and knownMean. unknownOf: #F, kNotUnknown for the other faces.
+/// Fills all of `system` but faces, firstGuess and constraintMean. unknownOf: #F, kNotUnknown for the other faces.
 void assemble(const WeightedGraph& graph, std::span<const uint32_t> unknownOf, std::span<const double> constraints,
               std::span<const double> divergence, PoissonSystem& system) {
   const size_t unknownCount = system.faces.size();
@@ -123,7 +123,7 @@ PoissonSystem buildPoissonSystem(const DualGraph& graph, std::span<const double>
   if (!options.componentOf.empty()) ASDFVK_CHECK_OP(options.componentOf.size(), ==, faceCount);
 
   PoissonSystem system;
-  system.knownMean = meanOf(constraints);
+  system.constraintMean = meanOf(constraints);
   const std::vector<uint8_t> isReachable = options.componentOf.empty()
                                                ? searchReachableFaces(graph, constraints)
                                                : reachableFacesOf(options.componentOf, constraints);
@@ -137,7 +137,7 @@ PoissonSystem buildPoissonSystem(const DualGraph& graph, std::span<const double>
     system.firstGuess.resize(system.faces.size());
     forEachInParallel(system.faces.size(), [&](size_t row) {
       const double guess = options.firstGuess[system.faces[row]];
-      system.firstGuess[row] = std::isfinite(guess) ? guess : system.knownMean;
+      system.firstGuess[row] = std::isfinite(guess) ? guess : system.constraintMean;
     });
   }
   assemble({graph, weights}, unknownOf, constraints, divergence, system);

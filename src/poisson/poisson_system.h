@@ -20,14 +20,14 @@ struct PoissonSystem {
   UnsetVector<double> entries;        ///< Off-diagonal entries of A, one per column.
   UnsetVector<double> diagonal;       ///< #U, > 0. Includes the weights of constrained neighbours.
   UnsetVector<double> rightHandSide;  ///< #U
-  std::vector<double> firstGuess;     ///< #U: start of the solvers; empty: knownMean everywhere.
-  double knownMean = 0;               ///< Mean of the constraints.
+  std::vector<double> firstGuess;     ///< #U: start of the solvers; empty: constraintMean everywhere.
+  double constraintMean = 0;          ///< Mean of the constraints.
 
   [[nodiscard]] uint32_t unknownCount() const { return static_cast<uint32_t>(faces.size()); }
 };
 
 struct PoissonOptions {
-  std::span<const double> firstGuess;     ///< #F, or empty. Non-finite entries are replaced by the knownMean.
+  std::span<const double> firstGuess;     ///< #F, or empty. Non-finite entries are replaced by the constraintMean.
   std::span<const uint32_t> componentOf;  ///< #F, Components::componentOf, or empty: components are searched.
 };
 

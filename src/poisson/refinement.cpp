@@ -28,13 +28,12 @@ void SolverProgress::checkpoint(double residualNorm) {
   control_.checkpoint(fraction_);
 }
 
-SolverReport solveByRefinement(const std::string& name, const PoissonSystem& system, const SolverOptions& options,
-                               std::span<double> solution, const std::vector<Corrector>& correctors) {
+SolverReport solveByRefinement(const PoissonSystem& system, const SolverOptions& options, std::span<double> solution,
+                               const std::vector<Corrector>& correctors) {
   ASDFVK_CHECK_OP(solution.size(), ==, system.faces.size());
   SolverReport report;
-  report.name = name;
   if (system.firstGuess.empty())
-    std::fill(solution.begin(), solution.end(), system.knownMean);
+    std::fill(solution.begin(), solution.end(), system.constraintMean);
   else
     std::copy(system.firstGuess.begin(), system.firstGuess.end(), solution.begin());
   const double rightHandNorm = residualNorm(system, system.rightHandSide);

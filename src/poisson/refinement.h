@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <functional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "asdf_vk/run_control.h"
@@ -49,9 +48,8 @@ struct Corrector {
 /// Iterative refinement (Wilkinson 1963): residuals in double, corrections by the first of the `correctors`, from the
 /// first guess until the true relative residual is within the tolerance or the iterations are used up. When a pass
 /// stagnates the next corrector takes over; after the last one the refinement ends. A correction that is not finite or
-/// increases the residual is discarded. name: for the report. solution: #U, overwritten.
-[[nodiscard]] SolverReport solveByRefinement(const std::string& name, const PoissonSystem& system,
-                                             const SolverOptions& options, std::span<double> solution,
-                                             const std::vector<Corrector>& correctors);
+/// increases the residual is discarded. solution: #U, overwritten.
+[[nodiscard]] SolverReport solveByRefinement(const PoissonSystem& system, const SolverOptions& options,
+                                             std::span<double> solution, const std::vector<Corrector>& correctors);
 
 }  // namespace asdfvk

@@ -5,41 +5,40 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <utility>
 
 #include "asdf_vk/error.h"
 #include "core/check.h"
-#include "smooth/ring_window.h"
 
 namespace asdfvk {
 namespace {
 
 struct Rule {
   uint64_t minFaceCount;
-  SmoothingOptions::Window options;
+  SmoothingOptions::Window window;
 };
-// Finest first; docs/accuracy.md has the errors behind it.
+// Finest mesh first; docs/accuracy.md has the errors.
 constexpr std::array<Rule, 3> kRules{{{90'000, {2, 2}}, {10'000, {2, 1}}, {0, {1, 1}}}};
 
-/// exp(-ring^2 / (2 (window / 2)^2))
-double ringWeight(uint32_t ring, uint32_t window) {
-  const double ratio = 2.0 * ring / window;
+/// exp(-ring^2 / (2 (ringCount / 2)^2))
+double ringWeight(uint32_t ring, uint32_t ringCount) {
+  const double ratio = 2.0 * ring / ringCount;
   return std::exp(-0.5 * ratio * ratio);
 }
 
-// Differences are divided by their largest, so that no unit makes their squares overflow or vanish.
+// Differences are divided by the largest one, so that their squares neither overflow nor underflow in any unit.
 double smoothedValue(const RingWindow& window, std::span<const double> values) {
   const double value = values[window.faces().front()];
   if (std::isnan(value)) return value;
-  double largest = 0;
+  double maxDifference = 0;
   for (uint32_t face : window.faces())
-    if (!std::isnan(values[face])) largest = std::max(largest, std::abs(values[face] - value));
-  if (largest == 0) return value;
+    if (!std::isnan(values[face])) maxDifference = std::max(maxDifference, std::abs(values[face] - value));
+  if (maxDifference == 0) return value;
   double squares = 0, count = 0;
   for (uint32_t face : window.faces()) {
     if (std::isnan(values[face])) continue;
-    const double difference = (values[face] - value) / largest;
+    const double difference = (values[face] - value) / maxDifference;
     squares += difference * difference;
     ++count;
   }
@@ -48,45 +47,67 @@ double smoothedValue(const RingWindow& window, std::span<const double> values) {
   for (uint32_t ring = 0; ring <= window.ringCount(); ++ring)
     for (uint32_t face : window.ring(ring)) {
       if (std::isnan(values[face])) continue;
-      const double difference = (values[face] - value) / largest;
+      const double difference = (values[face] - value) / maxDifference;
       const double weight = ringWeight(ring, window.ringCount()) * std::exp(exponent * difference * difference);
       weights += weight;
       sum += weight * difference;
     }
-  return value + largest * (sum / weights);
+  return value + maxDifference * (sum / weights);
 }
 
 }  // namespace
 
 SmoothingOptions::Window smoothingWindowFor(uint64_t faceCount) {
   return std::find_if(kRules.begin(), kRules.end(), [&](const Rule& rule) { return faceCount >= rule.minFaceCount; })
-      ->options;
+      ->window;
 }
 
-void requireValid(const SmoothingOptions::Window& options) {
-  if (options.rings < 1 || options.rings > kMaxBilateralWindow)
-    throw Error(ErrorCode::OptionOutOfRange, fmt::format("a smoothing window of {} rings is out of range; use 1 to {}",
-                                                         options.rings, kMaxBilateralWindow));
+void requireValid(const SmoothingOptions::Window& window) {
+  if (window.rings < 1 || window.rings > kMaxBilateralWindow)
+    throw Error(ErrorCode::OptionOutOfRange, fmt::format("a smoothing window of {} rings is out of range (1 to {})",
+                                                         window.rings, kMaxBilateralWindow));
 }
 
 std::vector<double> smoothBilaterally(const DualGraph& graph, std::span<const double> values,
-                                      const SmoothingOptions::Window& options) {
-  requireValid(options);
+                                      const SmoothingOptions::Window& window) {
+  requireValid(window);
   ASDFVK_CHECK_OP(values.size(), ==, size_t{graph.faceCount()});
   std::vector<double> from(values.begin(), values.end()), to(values.size());
-  for (uint32_t pass = 0; pass < options.passes; ++pass) {
+  for (uint32_t pass = 0; pass < window.passes; ++pass) {
     constexpr uint32_t kGrain = 1024;
     tbb::parallel_for(tbb::blocked_range<uint32_t>(0, graph.faceCount(), kGrain),
                       [&](const tbb::blocked_range<uint32_t>& range) {
-                        RingWindow window;
+                        RingWindow faces;
                         for (uint32_t face = range.begin(); face < range.end(); ++face) {
-                          window.gather(graph, face, options.rings);
-                          to[face] = smoothedValue(window, from);
+                          faces.gather(graph, face, window.rings);
+                          to[face] = smoothedValue(faces, from);
                         }
                       });
     std::swap(from, to);
   }
   return from;
+}
+
+void RingWindow::gather(const DualGraph& graph, uint32_t face, uint32_t ringCount) {
+  ASDFVK_CHECK_OP(ringCount, >=, 1u);
+  ASDFVK_CHECK_OP(ringCount, <=, kMaxBilateralWindow);
+  ringCount_ = ringCount;
+  faces_[0] = face;
+  ringEnds_[0] = 1;
+  uint32_t count = 1, arcsLeft = kMaxWindowArcCount;
+  for (uint32_t ring = 1; ring <= ringCount; ++ring) {
+    // A neighbour of the ring before lies in that ring, in the one before it, or in this one.
+    const uint32_t searchBegin = ring < 2 ? 0 : ringBegin(ring - 2);
+    const uint32_t parentEnd = count;
+    for (uint32_t parent = ringBegin(ring - 1); parent < parentEnd; ++parent)
+      for (uint32_t neighbour : graph.neighboursOf(faces_[parent])) {
+        if (arcsLeft == 0 || count == kMaxWindowFaceCount) break;
+        --arcsLeft;
+        const auto end = faces_.begin() + count;
+        if (std::find(faces_.begin() + searchBegin, end, neighbour) == end) faces_[count++] = neighbour;
+      }
+    ringEnds_[ring] = count;
+  }
 }
 
 }  // namespace asdfvk

@@ -11,7 +11,8 @@ using namespace asdfvk;
 
 namespace {
 
-/// Three faces in a row at distances 2 and 5, the middle one turned by `degrees` about y; barycentres at its height.
+/// Three faces in a row at distances 2 and 5. The second and third are turned by `degrees` about y and lie `rise`
+/// higher.
 HandGraph roof(double degrees, double rise) {
   HandGraph hand({{0, 0, 0}, {2, 0, rise}, {2, 5, rise}}, {{0, 1}, {1, 2}});
   const double angle = degrees * std::numbers::pi / 180;
@@ -21,12 +22,12 @@ HandGraph roof(double degrees, double rise) {
 
 }  // namespace
 
-TEST_CASE("weights by distance are those of the paper") {
+TEST_CASE("Distance weights are 1 / distance, as in the paper") {
   const HandGraph hand = roof(30, 0);
   CHECK(arcWeights(ArcWeights::Distance, hand.graph, hand.geometry) == std::vector<double>{0.5, 0.5, 0.2, 0.2});
 }
 
-TEST_CASE("weights by feature halve at 3 degrees on a concave and at 8 on a convex edge, and are 1 on a flat one") {
+TEST_CASE("Feature weights are 1/2 at 3 degrees on a concave and at 8 on a convex edge, and 1 on a flat one") {
   struct Expected {
     double degrees, rise, weight;
   };
@@ -46,16 +47,16 @@ TEST_CASE("weights by feature halve at 3 degrees on a concave and at 8 on a conv
   }
 }
 
-TEST_CASE("an edge at a degenerate face has the feature weight of a flat one") {
+TEST_CASE("an edge of a degenerate face has the Feature weight of a flat one") {
   HandGraph hand = roof(90, 3);
   hand.geometry.areas[1] = 0;
   hand.geometry.normals[1] = {};
   CHECK(arcWeights(ArcWeights::Feature, hand.graph, hand.geometry) == std::vector<double>{1, 1, 1, 1});
 }
 
-TEST_CASE("weights are positive, finite and the same bits both ways, whatever the mesh and its unit") {
+TEST_CASE("weights are positive, finite and have the same bits in both directions, for any mesh and unit") {
   for (SampleProblem& problem : sampleProblems())
-    for (ArcWeights kind : kAllArcWeights)
+    for (ArcWeights kind : kArcWeights)
       for (double unit : {1.0, 0x1p-1000, 0x1p1000}) {
         CAPTURE(problem.name);
         CAPTURE(unit);
@@ -78,12 +79,12 @@ TEST_CASE("weights are positive, finite and the same bits both ways, whatever th
       }
 }
 
-TEST_CASE("faces farther apart than numbers reach keep a positive weight") {
+TEST_CASE("the weight of a distance that overflows is positive") {
   const HandGraph hand({{-1.7e308, 0, 0}, {1.7e308, 0, 0}}, {{0, 1}});
   CHECK(arcWeights(ArcWeights::Distance, hand.graph, hand.geometry)[0] > 0);
 }
 
-TEST_CASE("a divergence is the sum worked out by hand, over the neighbours that have a value") {
+TEST_CASE("the divergence is the sum computed by hand, over the neighbours with a value") {
   const HandGraph hand({{0, 0, 0}, {2, 0, 0}, {2, 5, 0}, {2, 0, 4}}, {{0, 1}, {1, 2}, {1, 3}});
   const std::vector<double> weights = arcWeights(ArcWeights::Distance, hand.graph, hand.geometry);
   CHECK(divergenceOf(hand.graph, weights, std::vector<double>{1, 3, 8, 7}) ==

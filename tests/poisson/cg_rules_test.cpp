@@ -2,6 +2,7 @@
 
 #include <initializer_list>
 #include <limits>
+#include <type_traits>
 
 #include "shared/poisson_layout.h"
 
@@ -9,64 +10,68 @@ using namespace asdfvk;
 
 namespace {
 
-using CgSums = CgRules<float>::CgSums;
-using CgStep = CgRules<float>::CgStep;
+template <typename Real>
+struct Sample {
+  using Sums = typename CgRules<Real>::CgSums;
 
-CgStep nextCgStep(const CgSums& sums, float toleranceSquared) {
-  return CgRules<float>::nextCgStep(sums, toleranceSquared, kCgFloatRounding);
-}
+  static constexpr Sums kSums{.directionSquared = 9,
+                              .productDot = 4,
+                              .productSquared = 3,
+                              .residualProduct = Real(3.5),
+                              .residualDot = 8,
+                              .residualSquared = 1};
+  static constexpr Real kRounding = std::is_same_v<Real, float> ? Real(1e-7) : Real(2e-16);
 
-constexpr CgSums kSound{.directionSquared = 9,
-                        .productDot = 4,
-                        .productSquared = 3,
-                        .residualProduct = 3.5f,
-                        .residualDot = 8,
-                        .residualSquared = 1};
+  static auto next(const Sums& sums, double toleranceSquared) {
+    return CgRules<Real>::nextCgStep(sums, static_cast<Real>(toleranceSquared), kRounding);
+  }
+};
 
 }  // namespace
 
-TEST_CASE("a step's scalars are worked out by hand, that of the next direction from the residual to come") {
+TEST_CASE_TEMPLATE("the scalars of a step are those computed by hand", Real, float, double) {
   // alpha = 8 / 4; |r - alpha Mp|^2 = 8 - 2 * 2 * 3.5 + 4 * 3 = 6, over 8.
-  const CgStep next = nextCgStep(kSound, 0.5f);
+  const auto next = Sample<Real>::next(Sample<Real>::kSums, 0.5);
   CHECK(next.status == kCgRunning);
   CHECK(next.alpha == 2);
-  CHECK(next.beta == 0.75f);
+  CHECK(next.beta == 0.75);
 }
 
-TEST_CASE("a residual to come that rounding makes negative counts as nothing") {
-  CgSums sums = kSound;
+TEST_CASE_TEMPLATE("a next residual that rounding makes negative counts as 0", Real, float, double) {
+  auto sums = Sample<Real>::kSums;
   sums.productSquared = 1;
-  const CgStep next = nextCgStep(sums, 0.5f);
+  const auto next = Sample<Real>::next(sums, 0.5);
   CHECK(next.status == kCgRunning);
   CHECK(next.beta == 0);
 }
 
-TEST_CASE("it has converged at the tolerance, whatever the other sums say") {
-  for (float product : {4.0f, 0.0f, -1.0f}) {
-    CgSums sums = kSound;
+TEST_CASE_TEMPLATE("the iteration has converged at the tolerance, for any other sums", Real, float, double) {
+  for (Real product : {Real(4), Real(0), Real(-1)}) {
+    auto sums = Sample<Real>::kSums;
     sums.productDot = product;
-    CHECK(nextCgStep(sums, 1).status == kCgConverged);
-    CHECK(nextCgStep(sums, 0.5f).status == (product > 0 ? kCgRunning : kCgBrokenDown));
+    CHECK(Sample<Real>::next(sums, 1).status == kCgConverged);
+    CHECK(Sample<Real>::next(sums, 0.5).status == (product > 0 ? kCgRunning : kCgBrokenDown));
   }
 }
 
-TEST_CASE("a product that is no more than rounding of its direction breaks it down") {
-  CgSums sums = kSound;
-  sums.directionSquared = 3e7f;
-  CHECK(nextCgStep(sums, 0.5f).status == kCgRunning);
-  sums.directionSquared = 5e7f;
-  CHECK(nextCgStep(sums, 0.5f).status == kCgBrokenDown);
+TEST_CASE_TEMPLATE("a product that is only rounding of its direction is a breakdown", Real, float, double) {
+  auto sums = Sample<Real>::kSums;
+  sums.directionSquared = Real(0.75) * sums.productDot / Sample<Real>::kRounding;
+  CHECK(Sample<Real>::next(sums, 0.5).status == kCgRunning);
+  sums.directionSquared = Real(1.25) * sums.productDot / Sample<Real>::kRounding;
+  CHECK(Sample<Real>::next(sums, 0.5).status == kCgBrokenDown);
 }
 
-TEST_CASE("sums that are no positive numbers, or have overflowed, break it down") {
-  for (float bad : {-1.0f, std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN()})
-    for (float CgSums::*sum : {&CgSums::directionSquared, &CgSums::productDot, &CgSums::productSquared,
-                               &CgSums::residualProduct, &CgSums::residualDot, &CgSums::residualSquared}) {
-      const bool isBad = bad != -1 || sum == &CgSums::productDot || sum == &CgSums::residualDot;
-      if (!isBad || (bad > 0 && sum == &CgSums::residualProduct)) continue;  // It makes beta -infinity, which is 0.
-      CgSums sums = kSound;
+TEST_CASE_TEMPLATE("sums that are not positive or have overflowed are a breakdown", Real, float, double) {
+  using Sums = typename Sample<Real>::Sums;
+  for (Real bad : {Real(-1), std::numeric_limits<Real>::infinity(), std::numeric_limits<Real>::quiet_NaN()})
+    for (Real Sums::*sum : {&Sums::directionSquared, &Sums::productDot, &Sums::productSquared, &Sums::residualProduct,
+                            &Sums::residualDot, &Sums::residualSquared}) {
+      const bool isBad = bad != -1 || sum == &Sums::productDot || sum == &Sums::residualDot;
+      if (!isBad || (bad > 0 && sum == &Sums::residualProduct)) continue;  // beta = -infinity counts as 0.
+      auto sums = Sample<Real>::kSums;
       sums.*sum = bad;
-      const CgStep next = nextCgStep(sums, 0.5f);
+      const auto next = Sample<Real>::next(sums, 0.5);
       CHECK(next.status == kCgBrokenDown);
       CHECK(next.alpha == 0);
       CHECK(next.beta == 0);

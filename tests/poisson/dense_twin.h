@@ -9,10 +9,10 @@
 
 namespace asdfvk {
 
-/// The interpolation by dense algebra over all faces, straight from its definition; nothing is shared with
-/// src/poisson but the weights.
+/// The interpolation by dense algebra over all faces, directly from its definition; independent of src/poisson except
+/// for the weights.
 struct DenseTwin {
-  std::vector<Eigen::Index> faces;  ///< Unknown ones that a known one reaches.
+  std::vector<Eigen::Index> faces;  ///< Unknowns: faces that a path connects to a constraint.
   Eigen::MatrixXd matrix;
   Eigen::VectorXd rightHandSide, solution;
   Eigen::MatrixXd laplacian;  ///< Over all faces.
@@ -40,7 +40,7 @@ struct DenseTwin {
     solution = matrix.ldlt().solve(rightHandSide);
   }
 
-  /// The largest error of a value, over the relative residual ||D^-1 (b - A x)|| / ||D^-1 b||: a bound.
+  /// Bound of the largest error of a value divided by the relative residual ||D^-1 (b - A x)|| / ||D^-1 b||.
   [[nodiscard]] double largestErrorOverResidual() const {
     const Eigen::VectorXd diagonal = matrix.diagonal();
     const Eigen::MatrixXd magnified = matrix.inverse() * diagonal.asDiagonal();

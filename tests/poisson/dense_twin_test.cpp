@@ -40,7 +40,7 @@ bool sameBits(const Vector& a, const Vector& b) {
 
 }  // namespace
 
-TEST_CASE("matrix and right-hand side are those of dense algebra, with any weights") {
+TEST_CASE("matrix and right-hand side are those of dense algebra, for all weights") {
   forEachSetting([&](const Setting& setting) {
     const auto& [problem, kind, weights] = setting;
     std::vector<double> divergence = randomField(problem.values.size());
@@ -56,7 +56,7 @@ TEST_CASE("matrix and right-hand side are those of dense algebra, with any weigh
     const Eigen::Map<const Eigen::VectorXd> b(system.rightHandSide.data(), matrix.rows());
     CHECK(((b - twin.rightHandSide).array() / scale).abs().maxCoeff() <
           1e-14 * (1 + (twin.rightHandSide.array() / scale).abs().maxCoeff()));
-    // Conjugate gradients want this to the bit.
+    // Conjugate gradients assume exact symmetry.
     CHECK(matrix == matrix.transpose());
     for (uint32_t row = 0; row < system.unknownCount(); ++row)
       CHECK(std::adjacent_find(system.columns.begin() + system.rowOffsets[row],
@@ -66,7 +66,7 @@ TEST_CASE("matrix and right-hand side are those of dense algebra, with any weigh
   });
 }
 
-TEST_CASE("guided by a field that the known values agree with, the field is the solution") {
+TEST_CASE("with constraints and divergence of a field, the field is the solution") {
   forEachSetting([&](const Setting& setting) {
     const auto& [problem, kind, weights] = setting;
     const std::vector<double> field = randomField(problem.values.size());
@@ -86,7 +86,7 @@ TEST_CASE("guided by a field that the known values agree with, the field is the 
 TEST_CASE("weights, divergence and system have the same bits on any number of threads") {
   const SampleProblem problem("torus", torus(160, 80));
   const std::vector<double> field = randomField(problem.values.size());
-  for (ArcWeights kind : kAllArcWeights) {
+  for (ArcWeights kind : kArcWeights) {
     std::vector<std::vector<double>> numbers[3];
     for (const size_t threadCount : {1, 2, 3}) {
       const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threadCount);
@@ -104,7 +104,7 @@ TEST_CASE("weights, divergence and system have the same bits on any number of th
   }
 }
 
-TEST_CASE("a first guess is taken where it is finite, else the mean of the known values stands in") {
+TEST_CASE("a first guess that is not finite is replaced by the mean of the constraints") {
   const HandGraph hand(std::vector<Vec3d>(4), {{0, 1}, {1, 2}, {2, 3}});
   const std::vector<double> weights(6, 1.0), values{2, kNoValue, kNoValue, 4};
   CHECK(buildPoissonSystem(hand.graph, weights, values, {}).firstGuess.empty());
@@ -113,7 +113,7 @@ TEST_CASE("a first guess is taken where it is finite, else the mean of the known
   CHECK(system.firstGuess == std::vector<double>{3, 7});
 }
 
-TEST_CASE("with components given the system is the same as without") {
+TEST_CASE("given components lead to the same system as searched ones") {
   const Mesh mesh = randomFaces(60, 300, 1);
   SampleProblem problem("random faces", mesh);
   const std::vector<double> weights(problem.graph.neighbours.size(), 1.0);
@@ -124,7 +124,7 @@ TEST_CASE("with components given the system is the same as without") {
       buildPoissonSystem(problem.graph, weights, problem.values, {}, {.componentOf = components.componentOf});
   const auto unknownCount =
       std::count_if(problem.values.begin(), problem.values.end(), [](double value) { return !std::isfinite(value); });
-  REQUIRE(searched.unknownCount() < unknownCount);  // Some component has no known face.
+  REQUIRE(searched.unknownCount() < unknownCount);  // Some component has no constraint.
   CHECK(told.faces == searched.faces);
   CHECK(told.columns == searched.columns);
   CHECK(sameBits(told.entries, searched.entries));

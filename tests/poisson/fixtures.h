@@ -17,7 +17,7 @@
 
 namespace asdfvk {
 
-/// A closed torus of 2 * rings * sides triangles: enough of a surface for the solvers, at any size.
+/// A closed torus of 2 * rings * sides triangles.
 inline Mesh torus(uint32_t rings, uint32_t sides) {
   Mesh mesh;
   for (uint32_t i = 0; i < rings; ++i)
@@ -36,7 +36,7 @@ inline Mesh torus(uint32_t rings, uint32_t sides) {
   return mesh;
 }
 
-/// A dual graph and barycentres given by hand: `arcs` are joined in both directions.
+/// A dual graph and barycentres given by hand; each edge is an arc in both directions.
 struct HandGraph {
   DualGraph graph;
   FaceGeometry geometry;
@@ -66,7 +66,7 @@ inline PoissonSystem distanceSystem(const DualGraph& graph, const FaceGeometry& 
   return buildPoissonSystem(graph, arcWeights(ArcWeights::Distance, graph, geometry), values, divergence);
 }
 
-/// Unit distances between the faces; the first and the last are known.
+/// A row of faces at unit distances with constraints at the first and the last.
 inline PoissonSystem chain(size_t faceCount, double first, double last) {
   std::vector<Vec3d> barycentres;
   std::vector<std::pair<uint32_t, uint32_t>> edges;
@@ -81,7 +81,7 @@ inline PoissonSystem chain(size_t faceCount, double first, double last) {
   return distanceSystem(hand.graph, hand.geometry, values);
 }
 
-/// A torus with a known value, uniform in [1, 2), on about one face in ten.
+/// A torus with constraints, uniform in [1, 2), on about one face in ten.
 inline PoissonSystem torusSystem(uint32_t rings, uint32_t sides, double unit = 1) {
   const Mesh mesh = torus(rings, sides);
   Random random(5);

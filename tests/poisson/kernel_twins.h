@@ -7,7 +7,7 @@
 
 namespace asdfvk {
 
-/// What the kernels compute, in double, straight from the system's definition; nothing here is shared with src/poisson.
+/// The results of the kernels in double, directly from the definition of the system; independent of src/poisson.
 struct KernelTwins {
   const PoissonSystem& system;
   double meanDiagonal = 0;
@@ -25,7 +25,7 @@ struct KernelTwins {
     return std::sqrt(squared);
   }
 
-  /// b of (I - S) y = b for A e = residual, scaled so that the norm above of the residual becomes 1.
+  /// b of (I - S) y = b for A e = residual, scaled so that norm(residual) becomes 1.
   [[nodiscard]] Vector scaled(const Vector& residual) const {
     const double whole = norm(residual);
     Vector b(residual.size());
@@ -44,7 +44,7 @@ struct KernelTwins {
     return result;
   }
 
-  /// The squared norm above for the scaled residual r, over its first value.
+  /// The squared norm() of the scaled residual r, over its first value.
   [[nodiscard]] double squaredNorm(const Vector& r) const {
     double sum = 0;
     for (size_t i = 0; i < r.size(); ++i) sum += r[i] * r[i] * meanDiagonal / system.diagonal[i];

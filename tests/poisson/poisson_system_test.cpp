@@ -13,8 +13,8 @@ PoissonSystem build(const HandGraph& hand, const std::vector<double>& values) {
 
 }  // namespace
 
-TEST_CASE("rows, entries and right-hand side are those of the equation, written out by hand") {
-  // 0 (known, 5) -- 1 -- 2 -- 3 (known, 2), and an arc 1 -- 3; distances 1, 2, 4 along x and 1 -- 3 is 6 apart.
+TEST_CASE("rows, entries and right-hand side are those computed by hand") {
+  // 0 (constraint 5) -- 1 -- 2 -- 3 (constraint 2), and an arc 1 -- 3; distances 1, 2, 4, and 6 for 1 -- 3.
   const HandGraph hand({{0, 0, 0}, {1, 0, 0}, {3, 0, 0}, {7, 0, 0}}, {{0, 1}, {1, 2}, {2, 3}, {1, 3}});
   const PoissonSystem system = distanceSystem(hand.graph, hand.geometry, std::vector<double>{5, kNoValue, kNoValue, 2},
                                               std::vector<double>{-27, -1.5, 0.75, -27});
@@ -26,10 +26,11 @@ TEST_CASE("rows, entries and right-hand side are those of the equation, written 
   CHECK(system.diagonal[1] == doctest::Approx(0.5 + 0.25));
   CHECK(system.rightHandSide[0] == doctest::Approx(5.0 + 2.0 / 6 - 3 * 0.5));
   CHECK(system.rightHandSide[1] == doctest::Approx(0.25 * 2 + 3 * 0.25));
-  CHECK(system.knownMean == doctest::Approx(3.5));
+  CHECK(system.constraintMean == doctest::Approx(3.5));
 }
 
-TEST_CASE("two arcs between the same faces are one entry of twice the weight, and an arc to itself is none") {
+TEST_CASE(
+    "two arcs between the same faces are one entry of twice the weight; an arc from a face to itself is ignored") {
   const HandGraph hand({{0, 0, 0}, {2, 0, 0}, {4, 0, 0}}, {{0, 1}, {1, 2}, {1, 2}, {2, 2}});
   const PoissonSystem system = build(hand, {1, kNoValue, kNoValue});
   CHECK(system.columns == UnsetVector<uint32_t>{1, 0});
@@ -38,29 +39,29 @@ TEST_CASE("two arcs between the same faces are one entry of twice the weight, an
   CHECK(system.rightHandSide == UnsetVector<double>{0.5, 0});
 }
 
-TEST_CASE("faces that no path joins to a known one are left out") {
+TEST_CASE("faces that no path connects to a constraint are not unknowns") {
   const HandGraph hand({{0, 0, 0}, {1, 0, 0}, {5, 0, 0}, {6, 0, 0}, {9, 0, 0}}, {{0, 1}, {2, 3}});
   const PoissonSystem system = build(hand, {kNoValue, 4, kNoValue, kNoValue, kNoValue});
   CHECK(system.faces == std::vector<uint32_t>{0});
   CHECK(system.columns.empty());
 }
 
-TEST_CASE("a mesh without any known face is left out whole") {
+TEST_CASE("without a constraint there is no unknown") {
   const HandGraph hand({{0, 0, 0}, {1, 0, 0}}, {{0, 1}});
   const PoissonSystem system = build(hand, {kNoValue, kNoValue});
   CHECK(system.unknownCount() == 0);
   CHECK(system.rowOffsets == std::vector<uint32_t>{0});
-  CHECK(system.knownMean == 0);
+  CHECK(system.constraintMean == 0);
   CHECK(relativeResidual(system, {}) == 0);
 }
 
-TEST_CASE("a mesh whose faces are all known has no unknown, and an empty one neither") {
+TEST_CASE("a mesh with constraints at all faces and an empty mesh have no unknown") {
   const HandGraph hand({{0, 0, 0}, {1, 0, 0}}, {{0, 1}});
   CHECK(build(hand, {1, 2}).unknownCount() == 0);
   CHECK(build(HandGraph({}, {}), {}).unknownCount() == 0);
 }
 
-TEST_CASE("coincident barycentres keep the matrix finite: a billionth of the diagonal is the shortest distance") {
+TEST_CASE("coincident barycentres keep the matrix finite: distances below 1e-9 of the diagonal are replaced") {
   const HandGraph hand({{0, 0, 0}, {0, 0, 0}, {0, 3, 4}}, {{0, 1}, {1, 2}});
   const PoissonSystem system = build(hand, {1, kNoValue, 3});
   CHECK(system.diagonal[0] == doctest::Approx(1 / (1e-9 * 5) + 1.0 / 5));
@@ -68,7 +69,7 @@ TEST_CASE("coincident barycentres keep the matrix finite: a billionth of the dia
   CHECK(std::isfinite(build(point, {1, kNoValue}).diagonal[0]));
 }
 
-TEST_CASE("huge and tiny units change the entries by their factor only") {
+TEST_CASE("a change of unit multiplies the entries by its factor") {
   const std::vector<Vec3d> unit{{0, 0, 0}, {1, 2, 0}, {3, 1, 1}};
   const std::vector<double> values{1, kNoValue, kNoValue};
   const PoissonSystem reference = build(HandGraph(unit, {{0, 1}, {1, 2}}), values);
@@ -83,8 +84,8 @@ TEST_CASE("huge and tiny units change the entries by their factor only") {
   }
 }
 
-TEST_CASE("the relative residual is the one worked out by hand") {
-  // 2 u = 6 in effect: one unknown between two known faces at distance 1.
+TEST_CASE("the relative residual is the one computed by hand") {
+  // The equation is 2 u = 6: one unknown between two constraints at distance 1.
   const HandGraph hand({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, {{0, 1}, {1, 2}});
   const PoissonSystem system = build(hand, {2, kNoValue, 4});
   CHECK(relativeResidual(system, std::vector<double>{3}) == 0);
@@ -92,7 +93,7 @@ TEST_CASE("the relative residual is the one worked out by hand") {
   CHECK(relativeResidual(system, std::vector<double>{1.5}) == doctest::Approx(0.5));
 }
 
-TEST_CASE("a divergence that is not a number pulls at nothing") {
+TEST_CASE("a divergence of NaN counts as 0") {
   const HandGraph hand({{0, 0, 0}, {1, 0, 0}}, {{0, 1}});
   const PoissonSystem system =
       distanceSystem(hand.graph, hand.geometry, std::vector<double>{2, kNoValue}, std::vector<double>{0, kNoValue});

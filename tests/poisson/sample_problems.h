@@ -14,15 +14,15 @@
 
 namespace asdfvk {
 
-inline constexpr std::array<ArcWeights, 2> kAllArcWeights{ArcWeights::Distance, ArcWeights::Feature};
+inline constexpr std::array<ArcWeights, 2> kArcWeights{ArcWeights::Distance, ArcWeights::Feature};
 
-/// What an interpolation is about but for its weights.
+/// An interpolation without its weights.
 struct SampleProblem {
   std::string name;
   DualGraph graph;
   FaceGeometry geometry;
   bool isManifold = true;
-  std::vector<double> values;  ///< In [1, 2), on about one face in eight; not in each component.
+  std::vector<double> values;  ///< In [1, 2), on about one face in eight; some components have none.
 
   SampleProblem(std::string theName, const Mesh& mesh, uint64_t randomSeed = 5)
       : name(std::move(theName)), graph(buildDualGraph(mesh)), geometry(computeFaceGeometry(mesh)) {
@@ -33,8 +33,8 @@ struct SampleProblem {
   }
 };
 
-/// Random faces over few vertices: degenerate ones, duplicates, edges of many faces; and far from them a sheet of two
-/// faces and a face on its own.
+/// Random faces over few vertices: degenerate ones, duplicates, edges of many faces. Far from them a sheet of two faces
+/// and a single face.
 inline Mesh randomFaces(uint32_t vertexCount, uint32_t faceCount, uint64_t randomSeed) {
   Mesh mesh;
   Random random(randomSeed);
@@ -50,7 +50,7 @@ inline Mesh randomFaces(uint32_t vertexCount, uint32_t faceCount, uint64_t rando
   return mesh;
 }
 
-/// Faces (0, 1, i) for i = 2 .. pageCount + 1, which share the edge 0-1, and at each page's outer edge another face.
+/// Faces (0, 1, i) for i = 2 .. pageCount + 1, which share the edge 0-1, and a further face at the edge 1-i of each.
 inline Mesh openBook(uint32_t pageCount) {
   Mesh mesh;
   mesh.vertices = {{0, 0, 0}, {0, 0, 1}};
@@ -90,7 +90,7 @@ struct Setting {
 template <typename Test>
 void forEachSetting(const Test& test) {
   for (const SampleProblem& problem : sampleProblems())
-    for (ArcWeights kind : kAllArcWeights) {
+    for (ArcWeights kind : kArcWeights) {
       CAPTURE(problem.name);
       CAPTURE(static_cast<int>(kind));
       test(Setting{problem, kind, arcWeights(kind, problem.graph, problem.geometry)});

@@ -16,8 +16,8 @@ using namespace asdfvk;
 
 namespace {
 
-// Weights of very different size, rows of 0 to 9 entries and faces without an unknown neighbour, on more rows than one
-// pass of the lanes covers; the last workgroup has lanes to spare.
+// Weights of very different size, rows of 0 to 9 entries, faces without an unknown neighbour, more rows than lanes, and
+// idle lanes in the last workgroup.
 PoissonSystem unevenSystem() {
   const Mesh mesh = torus(211, 101);
   FaceGeometry geometry = computeFaceGeometry(mesh);
@@ -58,7 +58,7 @@ double difference(std::span<const float> kernel, const std::vector<double>& twin
 
 }  // namespace
 
-TEST_CASE("a residual is scaled and a correction scaled back as the definition says") {
+TEST_CASE("residuals are scaled and corrections scaled back as defined") {
   const PoissonSystem system = unevenSystem();
   const ScaledSystem scaled(system);
   const std::vector<double> residual = randomResidual(system.unknownCount());
@@ -68,14 +68,14 @@ TEST_CASE("a residual is scaled and a correction scaled back as the definition s
   for (size_t i = 0; i < b.size(); ++i)
     squared += static_cast<double>(b[i]) * static_cast<double>(b[i]) * static_cast<double>(scaled.residualWeights()[i]);
   CHECK(squared == doctest::Approx(1));
-  // Where S is nothing, y = b and the correction is the residual over the diagonal.
+  // For S = 0, y = b and the correction is the residual over the diagonal.
   std::vector<double> correction(b.size());
   scaled.unscaleCorrection(b, KernelTwins{system}.norm(residual), correction);
   for (size_t i = 0; i < b.size(); i += 97)
     CHECK(correction[i] == doctest::Approx(residual[i] / system.diagonal[i]).epsilon(1e-6));
 }
 
-TEST_CASE("iterations with one reduction give what the textbook's give, on the device and on the CPU") {
+TEST_CASE("iterations with one reduction give the vectors of the textbook, on the device and on the CPU") {
   const test::ValidatedDevice device;
   const PoissonSystem system = unevenSystem();
   const ScaledSystem scaled(system);
@@ -108,7 +108,7 @@ TEST_CASE("iterations with one reduction give what the textbook's give, on the d
   }
 }
 
-TEST_CASE("iterations after convergence change nothing, however they are batched") {
+TEST_CASE("iterations after convergence change nothing, for any batches") {
   const test::ValidatedDevice device;
   const PoissonSystem system = torusSystem(40, 20);
   const ScaledSystem scaled(system);
@@ -164,7 +164,7 @@ TEST_CASE("an exact solution ends the iteration without a division of 0 by 0") {
   check(onCpu);
 }
 
-TEST_CASE("a product that is no positive number stops the iteration and says so") {
+TEST_CASE("a product that is not positive ends the iteration as a breakdown") {
   const test::ValidatedDevice device;
   PoissonSystem system = chain(4, 1, 3);
   std::fill(system.entries.begin(), system.entries.end(), -10.0);  // indefinite
@@ -186,7 +186,7 @@ TEST_CASE("a product that is no positive number stops the iteration and says so"
   check(onCpu);
 }
 
-TEST_CASE("Jacobi sweeps give what their twin on the CPU gives") {
+TEST_CASE("Jacobi sweeps give the vectors of their CPU twin") {
   const test::ValidatedDevice device;
   const PoissonSystem system = unevenSystem();
   const ScaledSystem scaled(system);
@@ -239,7 +239,7 @@ TEST_CASE("a system that exceeds a limit of the device is refused") {
   CHECK_FALSE(fits(32'769, 0, 3));
 }
 
-TEST_CASE("every system gets at least one workgroup and at most as many as the sums hold") {
+TEST_CASE("every system has at least one workgroup and at most kMaxPoissonWorkgroupCount") {
   DeviceFacts facts;
   facts.kind = DeviceKind::Discrete;
   facts.maxWorkgroupInvocations = facts.maxWorkgroupSize = 1000;

@@ -11,11 +11,10 @@
 
 using namespace asdfvk;
 using test::kNaN;
-using Window = SmoothingOptions::Window;
 
 namespace {
 
-// The definition in bilateral.h, word for word.
+// The definition in bilateral.h, written out.
 double definedValue(const DualGraph& graph, const std::vector<double>& values, uint32_t face, uint32_t window) {
   const std::vector<uint32_t> ring = test::hopsFrom(graph, face, window);
   double squares = 0, count = 0;
@@ -50,7 +49,7 @@ bool haveSameBits(const std::vector<double>& a, const std::vector<double>& b) {
 
 }  // namespace
 
-TEST_CASE("three faces in a row come out as computed by hand") {
+TEST_CASE("three faces in a row have the values computed by hand") {
   const std::vector<double> smoothed = smoothBilaterally(test::stripGraph(3), std::vector<double>{0, 1, 3}, {1, 1});
   // Differences -1, 0, 2, so sigma^2 = 5/3; ring 1 has exp(-1 / (2 * 0.25)).
   const double left = std::exp(-2.0) * std::exp(-0.3), right = std::exp(-2.0) * std::exp(-1.2);
@@ -60,7 +59,7 @@ TEST_CASE("three faces in a row come out as computed by hand") {
   CHECK(smoothed[0] == doctest::Approx(weight / (1 + weight)).epsilon(1e-14));
 }
 
-TEST_CASE("every face becomes what the definition says, around faces without a value too") {
+TEST_CASE("every face has the value of the definition, also around faces without a value") {
   const DualGraph graph = test::torusGraph(600);
   std::vector<double> values = test::noisyField(graph.faceCount(), 3, 1);
   for (uint32_t face = 0; face < graph.faceCount(); face += 11) values[face] = kNaN;
@@ -77,7 +76,7 @@ TEST_CASE("every face becomes what the definition says, around faces without a v
   }
 }
 
-TEST_CASE("a constant field, a lone face and a face among none with a value stay as they are") {
+TEST_CASE("a constant field, an isolated face and a face whose neighbours have no value do not change") {
   const DualGraph graph = test::torusGraph(600);
   const std::vector<double> constant(graph.faceCount(), 0.1);
   CHECK(smoothBilaterally(graph, constant, {2, 3}) == constant);
@@ -91,11 +90,11 @@ TEST_CASE("a constant field, a lone face and a face among none with a value stay
   CHECK(smoothBilaterally(test::graphOf({}), std::vector<double>{}, {2, 1}).empty());
 }
 
-TEST_CASE("noise becomes less, and less still with a wider window and another pass") {
+TEST_CASE("noise decreases, more so with more rings and with another pass") {
   const DualGraph graph = test::torusGraph(5000);
   const std::vector<double> values = test::noisyField(graph.faceCount(), 3, 0.1);
-  const auto left = [&](const Window& window) {
-    return variance(smoothBilaterally(graph, values, window)) / variance(values);
+  const auto left = [&](const SmoothingOptions::Window& options) {
+    return variance(smoothBilaterally(graph, values, options)) / variance(values);
   };
   const double narrow = left({1, 1}), wide = left({2, 1}), twice = left({2, 2});
   CHECK(narrow < 0.8);
@@ -105,7 +104,7 @@ TEST_CASE("noise becomes less, and less still with a wider window and another pa
   CHECK(left({2, 0}) == 1);
 }
 
-TEST_CASE("a step much larger than the noise is kept while the noise beside it is not") {
+TEST_CASE("a step much larger than the noise is kept, the noise beside it decreases") {
   const uint32_t faceCount = 2000;
   const DualGraph graph = test::stripGraph(faceCount);
   std::vector<double> values = test::noisyField(faceCount, 1, 0.02);
@@ -114,7 +113,7 @@ TEST_CASE("a step much larger than the noise is kept while the noise beside it i
   for (uint32_t face = 0; face < faceCount; ++face) {
     const double level = face < faceCount / 2 ? 1 : 11;
     const bool isBesideStep = face + 2 >= faceCount / 2 && face < faceCount / 2 + 2;
-    // Of a plain mean with the weights of the rings it would be 0.33.
+    // A mean with the weights of the rings alone would be off by 0.33.
     REQUIRE(std::abs(smoothed[face] - level) < (isBesideStep ? 0.15 * 10 : 0.02));
   }
   const auto far = [&](const std::vector<double>& field) {
@@ -123,7 +122,7 @@ TEST_CASE("a step much larger than the noise is kept while the noise beside it i
   CHECK(far(smoothed) < 0.6 * far(values));
 }
 
-TEST_CASE("the unit of the values does not matter, to the last bit for powers of two") {
+TEST_CASE("a unit that is a power of two does not change the relative bits") {
   const DualGraph graph = test::torusGraph(600);
   const std::vector<double> values = test::noisyField(graph.faceCount(), 3, 1);
   const std::vector<double> expected = smoothBilaterally(graph, values, {2, 2});
@@ -136,7 +135,7 @@ TEST_CASE("the unit of the values does not matter, to the last bit for powers of
   }
 }
 
-TEST_CASE("passes smooth what the one before gave, and none changes nothing") {
+TEST_CASE("a pass filters the result of the pass before, and 0 passes change nothing") {
   const DualGraph graph = test::torusGraph(600);
   const std::vector<double> values = test::noisyField(graph.faceCount(), 3, 1);
   const std::vector<double> once = smoothBilaterally(graph, values, {2, 1});
@@ -145,7 +144,7 @@ TEST_CASE("passes smooth what the one before gave, and none changes nothing") {
   CHECK(smoothBilaterally(graph, values, {2, 0}) == values);
 }
 
-TEST_CASE("any number of threads gives the same bits") {
+TEST_CASE("the bits are the same on any number of threads") {
   const DualGraph graph = test::torusGraph(20000);
   const std::vector<double> values = test::noisyField(graph.faceCount(), 3, 1);
   const auto onThreads = [&](size_t count) {
@@ -156,23 +155,22 @@ TEST_CASE("any number of threads gives the same bits") {
   for (size_t count : {2u, 4u}) CHECK(haveSameBits(onThreads(count), alone));
 }
 
-TEST_CASE("the finer the mesh, the more is smoothed, and a fine one most") {
-  CHECK(smoothingWindowFor(0) == Window{1, 1});
-  CHECK(smoothingWindowFor(9'999) == Window{1, 1});
-  CHECK(smoothingWindowFor(10'000) == Window{2, 1});
-  CHECK(smoothingWindowFor(89'999) == Window{2, 1});
-  CHECK(smoothingWindowFor(90'000) == Window{2, 2});
-  CHECK(smoothingWindowFor(~uint64_t{0}) == Window{2, 2});
+TEST_CASE("the automatic window grows with the number of faces") {
+  CHECK(smoothingWindowFor(0) == SmoothingOptions::Window{1, 1});
+  CHECK(smoothingWindowFor(9'999) == SmoothingOptions::Window{1, 1});
+  CHECK(smoothingWindowFor(10'000) == SmoothingOptions::Window{2, 1});
+  CHECK(smoothingWindowFor(89'999) == SmoothingOptions::Window{2, 1});
+  CHECK(smoothingWindowFor(90'000) == SmoothingOptions::Window{2, 2});
+  CHECK(smoothingWindowFor(~uint64_t{0}) == SmoothingOptions::Window{2, 2});
 }
 
-TEST_CASE("a window out of range is refused with the range") {
-  for (uint32_t window : {0u, 5u, ~0u}) {
+TEST_CASE("a number of rings out of range is refused") {
+  for (uint32_t ringCount : {0u, 5u, ~0u}) {
     try {
-      static_cast<void>(smoothBilaterally(test::stripGraph(3), std::vector<double>{1, 2, 3}, {window, 1}));
+      static_cast<void>(smoothBilaterally(test::stripGraph(3), std::vector<double>{1, 2, 3}, {ringCount, 1}));
       FAIL_CHECK("accepted");
     } catch (const Error& error) {
-      CHECK(error.kind() == ErrorKind::Usage);
-      CHECK(std::string(error.what()).find("use 1 to 4") != std::string::npos);
+      CHECK(error.code() == ErrorCode::OptionOutOfRange);
     }
   }
 }

@@ -1,4 +1,4 @@
-#include "smooth/ring_window.h"
+#include "smooth/bilateral.h"
 
 #include <doctest/doctest.h>
 
@@ -22,7 +22,7 @@ using Faces = std::vector<uint32_t>;
 
 }  // namespace
 
-TEST_CASE("the rings of a tetrahedron are its face, the three others, and nothing") {
+TEST_CASE("the rings of a tetrahedron are the face, the three others, and empty ones") {
   Mesh mesh;
   mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   mesh.faces = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
@@ -34,7 +34,7 @@ TEST_CASE("the rings of a tetrahedron are its face, the three others, and nothin
   CHECK(window.faces().size() == 4);
 }
 
-TEST_CASE("the rings of a strip go both ways until it ends") {
+TEST_CASE("the rings of a strip extend in both directions to its ends") {
   RingWindow window;
   const DualGraph graph = test::stripGraph(9);
   window.gather(graph, 6, 4);
@@ -48,7 +48,7 @@ TEST_CASE("the rings of a strip go both ways until it ends") {
   CHECK(window.faces().size() == 3);
 }
 
-TEST_CASE("rings are the distances that a search over the whole graph finds") {
+TEST_CASE("rings are the distances of a search over the whole graph") {
   for (const char* shape : {"torus", "animal"}) {
     const DualGraph graph = buildDualGraph(generateShape(shape, 2000).mesh);
     RingWindow window;
@@ -67,7 +67,7 @@ TEST_CASE("rings are the distances that a search over the whole graph finds") {
   }
 }
 
-TEST_CASE("a window among very many faces at an edge is cut, and has no face twice") {
+TEST_CASE("a window with very many faces at an edge is cut off and has no face twice") {
   RingWindow window;
   window.gather(test::coincidentGraph(33), 4, 4);
   CHECK(window.ring(1).size() == 32);
@@ -78,7 +78,7 @@ TEST_CASE("a window among very many faces at an edge is cut, and has no face twi
   CHECK(window.ring(2).empty());
 }
 
-TEST_CASE("a window is gathered along so many arcs and no more") {
+TEST_CASE("a window is gathered along at most kMaxWindowArcCount arcs") {
   std::vector<std::vector<uint32_t>> rows(3);
   rows[0].assign(kMaxWindowArcCount - 1, 1);
   rows[0].push_back(2);
@@ -90,7 +90,7 @@ TEST_CASE("a window is gathered along so many arcs and no more") {
   CHECK(sortedRing(window, 1) == Faces{1});
 }
 
-TEST_CASE("no ring and too many rings are mistakes of the caller") {
+TEST_CASE("0 rings and too many rings fail a check") {
   RingWindow window;
   CHECK_THROWS_AS(window.gather(test::stripGraph(3), 0, 0), CheckFailure);
   CHECK_THROWS_AS(window.gather(test::stripGraph(3), 0, kMaxBilateralWindow + 1), CheckFailure);

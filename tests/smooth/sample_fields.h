@@ -24,7 +24,7 @@ inline DualGraph graphOf(const std::vector<std::vector<uint32_t>>& rows) {
   return graph;
 }
 
-/// The faces of a triangle strip, each joined to the one before and the one after it.
+/// The faces of a triangle strip, each connected to the one before and the one after it.
 inline DualGraph stripGraph(uint32_t faceCount) {
   DualGraph graph;
   graph.offsets.push_back(0);
@@ -36,7 +36,7 @@ inline DualGraph stripGraph(uint32_t faceCount) {
   return graph;
 }
 
-/// Each face joined to each other one by so many arcs.
+/// Every two faces connected by `arcCount` arcs.
 inline DualGraph completeGraph(uint32_t faceCount, uint32_t arcCount = 1) {
   std::vector<std::vector<uint32_t>> rows(faceCount);
   for (uint32_t face = 0; face < faceCount; ++face)
@@ -45,12 +45,12 @@ inline DualGraph completeGraph(uint32_t faceCount, uint32_t arcCount = 1) {
   return graphOf(rows);
 }
 
-/// Faces that all have all three edges in common.
+/// Faces that share all three edges.
 inline DualGraph coincidentGraph(uint32_t faceCount) { return completeGraph(faceCount, 3); }
 
 inline DualGraph torusGraph(uint64_t faceCount) { return buildDualGraph(generateShape("torus", faceCount).mesh); }
 
-/// Steps from `from`, or ~0u beyond `limit`: a plain breadth-first search over all faces.
+/// Number of arcs from `from`, ~0u beyond `limit`: breadth-first search over all faces.
 inline std::vector<uint32_t> hopsFrom(const DualGraph& graph, uint32_t from, uint32_t limit) {
   std::vector<uint32_t> hops(graph.faceCount(), ~0u);
   std::queue<uint32_t> queue({from});

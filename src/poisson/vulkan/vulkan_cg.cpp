@@ -40,10 +40,9 @@ class VulkanCgSolver final : public PoissonSolver {
 
   SolverReport solve(const PoissonSystem& system, const SolverOptions& options, std::span<double> solution,
                      const RunControl& control) override {
-    const DeviceMethod method{
-        .name = "cg", .minReduction = kMinReduction, .finishesOnCpu = true, .solve = [this](const DevicePass& pass) {
-          return iterate(pass);
-        }};
+    const DeviceMethod method{.minReduction = kMinReduction,
+                              .finishesOnCpu = true,
+                              .solve = [this](const DevicePass& pass) { return iterate(pass); }};
     return solveOnDevice(method, device_, system, options, solution, control);
   }
 
@@ -130,8 +129,8 @@ std::vector<float> VulkanCg::download(const Buffer& vector) const {
   return values;
 }
 
-std::unique_ptr<PoissonSolver> makeVulkanCgSolver(const Device& device) {
-  return std::make_unique<VulkanCgSolver>(device);
+std::unique_ptr<PoissonSolver> makeVulkanCgSolver(const Device* device) {
+  return std::make_unique<VulkanCgSolver>(*device);
 }
 
 }  // namespace asdfvk

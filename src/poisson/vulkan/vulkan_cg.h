@@ -1,6 +1,5 @@
 #pragma once
 
-#include <memory>
 #include <span>
 #include <vector>
 
@@ -50,11 +49,5 @@ class VulkanCg {
   BindingSet productBindings_, stepBindings_;
   CommandList commands_;
 };
-
-/// Jacobi-preconditioned conjugate gradients in float32 on the device, under iterative refinement in double. The
-/// scalars stay on the device; the host reads them every few iterations. Where float32 stagnates, the iteration of
-/// makeEigenSolver() continues on the CPU. The kernels are created here, once for many systems. The device must outlive
-/// the solver. solve() throws Error{EquationLimit} for a system that exceeds a limit of the device.
-[[nodiscard]] std::unique_ptr<PoissonSolver> makeVulkanCgSolver(const Device& device);
 
 }  // namespace asdfvk

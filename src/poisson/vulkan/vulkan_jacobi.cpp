@@ -40,8 +40,7 @@ class VulkanJacobiSolver final : public PoissonSolver {
 
   SolverReport solve(const PoissonSystem& system, const SolverOptions& options, std::span<double> solution,
                      const RunControl& control) override {
-    const DeviceMethod method{.name = "jacobi",
-                              .minReduction = kMinReduction,
+    const DeviceMethod method{.minReduction = kMinReduction,
                               .finishesOnCpu = false,
                               .solve = [this](const DevicePass& pass) { return iterate(pass); }};
     return solveOnDevice(method, device_, system, options, solution, control);
@@ -107,8 +106,8 @@ std::vector<float> VulkanJacobi::solution() const {
   return values;
 }
 
-std::unique_ptr<PoissonSolver> makeVulkanJacobiSolver(const Device& device) {
-  return std::make_unique<VulkanJacobiSolver>(device);
+std::unique_ptr<PoissonSolver> makeVulkanJacobiSolver(const Device* device) {
+  return std::make_unique<VulkanJacobiSolver>(*device);
 }
 
 }  // namespace asdfvk

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <memory>
 #include <span>
 #include <vector>
 
@@ -40,9 +39,5 @@ class VulkanJacobi {
   BindingSet bindings_[2];  ///< [i] reads iterates_[i] and writes the other.
   CommandList commands_;
 };
-
-/// Jacobi iterations in float32 on the device, under iterative refinement in double: slow, for comparison. Otherwise as
-/// makeVulkanCgSolver().
-[[nodiscard]] std::unique_ptr<PoissonSolver> makeVulkanJacobiSolver(const Device& device);
 
 }  // namespace asdfvk

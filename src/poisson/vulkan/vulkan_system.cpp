@@ -104,7 +104,7 @@ SolverReport solveOnDevice(const DeviceMethod& method, const Device& device, con
                             return onCpu.correct(request);
                           }});
   }
-  SolverReport report = solveByRefinement(method.name, system, options, solution, correctors);
+  SolverReport report = solveByRefinement(system, options, solution, correctors);
   report.finishedOnCpu = finishedOnCpu;
   return report;
 }

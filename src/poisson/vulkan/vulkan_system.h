@@ -64,7 +64,6 @@ struct DevicePassResult {
 };
 
 struct DeviceMethod {
-  std::string name;     ///< For the report.
   double minReduction;  ///< See Corrector.
   bool finishesOnCpu;   ///< makeDoubleCorrector() continues where float32 stagnates.
   std::function<DevicePassResult(const DevicePass& pass)> solve;

@@ -1,0 +1,45 @@
+#include "poisson/poisson_solver.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "asdf_vk/error.h"
+
+namespace asdfvk {
+namespace {
+
+/// The first solver that needs a device is the default on a device, the first one that needs none is that on the CPU.
+constexpr std::array kSolvers{
+    Solver{.name = "cg", .needsDevice = true, .make = makeVulkanCgSolver},
+    Solver{.name = "jacobi", .needsDevice = true, .make = makeVulkanJacobiSolver},
+    Solver{.name = "cpu", .needsDevice = false, .make = makeCpuCgSolver},
+    Solver{.name = "eigen", .needsDevice = false, .make = makeEigenSolver},
+};
+
+}  // namespace
+
+std::span<const Solver> solverTable() { return kSolvers; }
+
+const Solver& findSolver(std::string_view name) {
+  const auto found =
+      std::find_if(kSolvers.begin(), kSolvers.end(), [&](const Solver& solver) { return solver.name == name; });
+  if (found == kSolvers.end())
+    throw Error(ErrorCode::UnknownName, fmt::format("no solver is called '{}'", name), {{"name", std::string(name)}});
+  return *found;
+}
+
+const Solver& defaultSolver(bool needsDevice) {
+  return *std::find_if(kSolvers.begin(), kSolvers.end(),
+                       [&](const Solver& solver) { return solver.needsDevice == needsDevice; });
+}
+
+std::unique_ptr<PoissonSolver> makeSolver(std::string_view name, const Device* device) {
+  const Solver& solver = findSolver(name);
+  if (solver.needsDevice && device == nullptr)
+    throw Error(ErrorCode::NoDeviceForKernel,
+                fmt::format("the solver {} runs on a Vulkan device and this backend has none", name));
+  return solver.make(device);
+}
+
+}  // namespace asdfvk
