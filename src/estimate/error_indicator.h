@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "predict/reprojection.h"
+#include "predict/prediction.h"
 
 namespace asdfvk {
 

@@ -67,9 +67,9 @@ void keepWithinTraced(const Components& components, const std::vector<ComponentV
 
 }  // namespace
 
-void Interpolation::predict(const TracedCones& traced) {
-  if (traced.hits.empty()) return;
-  prediction_ = reprojectHits(computation_.scene, computation_.prepared.graph, computation_.cone, traced, {},
+void Interpolation::predict(const SeedHits& hits) {
+  if (hits.hits.empty()) return;
+  prediction_ = predictValues(computation_.scene, computation_.prepared.graph, computation_.cone, hits, {},
                               std::move(prediction_));
 }
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "pipeline/computation.h"
-#include "predict/reprojection.h"
+#include "predict/prediction.h"
 
 namespace asdfvk {
 
@@ -22,8 +22,8 @@ class Interpolation {
   explicit Interpolation(const Computation& computation) : computation_(computation) {}
 
   /// Predicts all faces from the hits of these seeds; without hits it does nothing. Seeds of an earlier call must be at
-  /// the same places of traced.seeds.
-  void predict(const TracedCones& traced);
+  /// the same indices of hits.seeds.
+  void predict(const SeedHits& hits);
   /// The last one; empty without Guidance::Prediction.
   [[nodiscard]] const Prediction& prediction() const { return prediction_; }
 

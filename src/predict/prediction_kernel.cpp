@@ -63,10 +63,10 @@ class GroupSum {
   Floats parts_[kPointGroupSize / kLaneCount<Floats>] = {};
 };
 
-/// The traced cones of a prediction. buffer: 3 kPointGroupSize floats for each of their groups.
+/// The seeds of a prediction. buffer: 3 kPointGroupSize floats for each of their groups.
 struct KernelInput {
   const PointGroup* groups;
-  std::span<const WeighedCone> cones;
+  std::span<const WeightedRange> ranges;
   float medianLength;
   float* buffer;
 };
@@ -78,10 +78,10 @@ struct ConeSums {
   GroupSum<Floats> weight, weightedLength;    ///< Of the inliers.
 };
 
-/// The points of the traced cones, `count` entries in each array; 0 where a point is not in the virtual cone.
+/// The hit points, `count` entries in each array; 0 where a point is not in the virtual cone.
 struct ConePoints {
   float* lengths;  ///< From the virtual cone's origin.
-  float* masses;   ///< The solid angle that the point represents there, times the weight of its traced cone.
+  float* masses;   ///< The solid angle that the point represents there, times the weight of its seed.
   float* weights;  ///< Mass divided by the angle to the axis.
   size_t count;
 };
@@ -102,10 +102,10 @@ ASDFVK_ALWAYS_INLINE inline void project(const PredictionKernel::Rules& rules, c
                maxChange = broadcast<Floats>(kMaxSolidAngleChange);
   const Floats minVersine = broadcast<Floats>(rules.minVersine), minCosine = broadcast<Floats>(rules.minCosine),
                maxNormalCosine = broadcast<Floats>(rules.maxNormalCosine);
-  for (const WeighedCone& cone : input.cones) {
-    const PointGroup* const begin = input.groups + cone.firstGroup;
-    const float coneWeight = cone.weight;
-    for (const PointGroup* group = begin; group < begin + cone.groupCount; ++group) {
+  for (const WeightedRange& range : input.ranges) {
+    const PointGroup* const begin = input.groups + range.firstGroup;
+    const float seedWeight = range.weight;
+    for (const PointGroup* group = begin; group < begin + range.groupCount; ++group) {
 #pragma GCC unroll 4
       for (size_t i = 0; i < kPointGroupSize; i += kLaneCount<Floats>) {
         const Floats x = load<Floats>(group->x + i) - origin.x, y = load<Floats>(group->y + i) - origin.y,
@@ -121,7 +121,7 @@ ASDFVK_ALWAYS_INLINE inline void project(const PredictionKernel::Rules& rules, c
         // False for a miss, whose numbers are NaN.
         const Ints isInCone = lessEqual(minCosine, cosine) & lessEqual(normalCosine, maxNormalCosine) &
                               notEqual(load<Ints>(group->face + i), ownFace);
-        const Floats mass = select(isInCone, coneWeight * change), lengthInCone = select(isInCone, length);
+        const Floats mass = select(isInCone, seedWeight * change), lengthInCone = select(isInCone, length);
         const Floats weight = mass * (approximateRsqrt(versine) * sqrtOverAngle(versine));
         store(points.lengths + points.count + i, lengthInCone);
         store(points.masses + points.count + i, mass);
@@ -189,7 +189,7 @@ template <typename Floats>
 ASDFVK_ALWAYS_INLINE inline float predictedValue(const PredictionKernel::Rules& rules, const KernelInput& input,
                                                  const VirtualCone& at) {
   size_t capacity = 0;
-  for (const WeighedCone& cone : input.cones) capacity += cone.groupCount * kPointGroupSize;
+  for (const WeightedRange& range : input.ranges) capacity += range.groupCount * kPointGroupSize;
   ConePoints points{input.buffer, input.buffer + capacity, input.buffer + 2 * capacity, 0};
   ConeSums<Floats> sums;
   project(rules, input, at, points, sums);
@@ -247,12 +247,12 @@ PredictionKernel::PredictionKernel(const Cone& cone, InstructionSet instructionS
   rules_.outlierDeviations = static_cast<float>(cone.outlierDeviations);
 }
 
-double PredictionKernel::value(const std::vector<PointGroup>& groups, std::span<const WeighedCone> cones,
+double PredictionKernel::value(const std::vector<PointGroup>& groups, std::span<const WeightedRange> ranges,
                                const VirtualCone& at, float medianLength) {
   size_t groupCount = 0;
-  for (const WeighedCone& cone : cones) groupCount += cone.groupCount;
+  for (const WeightedRange& range : ranges) groupCount += range.groupCount;
   buffer_.resize(std::max(buffer_.size(), 3 * kPointGroupSize * groupCount));
-  const KernelInput input{groups.data(), cones, medianLength, buffer_.data()};
+  const KernelInput input{groups.data(), ranges, medianLength, buffer_.data()};
   return static_cast<double>(dispatch<Float16>(instructionSet_, [&]<typename Floats>() ASDFVK_ALWAYS_INLINE {
     return predictedValue<Floats>(rules_, input, at);
   }));

@@ -24,14 +24,14 @@ struct alignas(64) PointGroup {
   uint32_t face[kPointGroupSize];   ///< The face hit.
 };
 
-/// The points of one traced cone: a range of groups.
-struct PointCone {
+/// The hit points of one seed: a range of groups.
+struct HitRange {
   uint32_t firstGroup = 0, groupCount = 0;
   float medianLength = 0;  ///< Of its valid rays; 0 without any.
 };
 
-/// A traced cone that contributes to a prediction.
-struct WeighedCone {
+/// A seed that contributes to a prediction.
+struct WeightedRange {
   uint32_t firstGroup = 0, groupCount = 0;
   float weight = 0;  ///< Factor of its points' weights, above 0.
 };
@@ -57,16 +57,16 @@ struct SeedWeighting {
 /// The lower bound of a seed's weight: a single seed, however far, is better than none.
 inline constexpr float kMinSeedWeight = 1e-6f;
 
-/// Predicts the values of virtual cones from the points of traced cones. Results have the same bits on every
+/// Predicts the values of virtual cones from the hit points of seeds. Results have the same bits on every
 /// instruction set. Keeps its buffers from call to call.
 class PredictionKernel {
  public:
   /// Precondition: this machine has the instruction set.
   explicit PredictionKernel(const Cone& cone, InstructionSet instructionSet = widestInstructionSet());
 
-  /// The shape diameter in normalised units, kNoValue where no point lies in the virtual cone. cones: ranges of
+  /// The shape diameter in normalised units, kNoValue where no point lies in the virtual cone. ranges: of
   /// `groups`. medianLength: of the points, to a factor of a few; lengths are summed as differences from it.
-  [[nodiscard]] double value(const std::vector<PointGroup>& groups, std::span<const WeighedCone> cones,
+  [[nodiscard]] double value(const std::vector<PointGroup>& groups, std::span<const WeightedRange> ranges,
                              const VirtualCone& at, float medianLength);
 
   /// weights: kPointGroupSize, each at least kMinSeedWeight.

@@ -13,18 +13,19 @@ namespace asdfvk {
 
 inline constexpr uint32_t kNoCell = std::numeric_limits<uint32_t>::max();
 
-/// The faces that are nearest to each seed, counted in steps over the dual graph: its cell. Cells are told by their
-/// seed's index.
+/// Voronoi cells of the seeds on the dual graph: each face belongs to the seed that is the fewest steps away. A cell
+/// has the index of its seed.
 struct SeedCells {
-  std::vector<uint32_t> cellOf;  ///< #F; kNoCell where no path leads from a seed.
-  Buckets<uint32_t> faces;       ///< #S: the faces of each cell, ascending, the seed among them.
+  std::vector<uint32_t> cellOf;  ///< #F; kNoCell in a component without a seed.
+  Buckets<uint32_t> faces;       ///< #S: the faces of each cell, ascending, including the seed.
 };
 
-/// Breadth first from all seeds at once; linear. seeds: face indices, each once; kNoFace leaves a cell empty.
+/// Breadth-first search from all seeds at once; linear time. seeds: face indices, each once; kNoFace leaves a cell
+/// empty.
 [[nodiscard]] SeedCells buildSeedCells(const DualGraph& graph, std::span<const uint32_t> seeds);
 
-/// Per cell: itself and up to `neighbourCount` of the cells that share an edge with it, those with the nearest seeds:
-/// itself first, the others by the distance of their seed's barycentre from its own.
+/// For each cell: itself, then those of the cells that share an edge with it whose seeds are nearest, at most
+/// neighbourCount, by ascending distance between the barycentres of the seeds.
 class NearestCells {
  public:
   NearestCells() = default;
@@ -36,7 +37,7 @@ class NearestCells {
 
  private:
   size_t stride_ = 1;
-  std::vector<uint32_t> nearest_;  // #S x stride, kNoCell where there are no more.
+  std::vector<uint32_t> nearest_;  // #S x stride, padded with kNoCell.
 };
 
 }  // namespace asdfvk

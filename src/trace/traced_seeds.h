@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "mesh/mesh.h"
@@ -8,15 +9,26 @@
 
 namespace asdfvk {
 
-/// Faces that cast rays, and what came of it.
+/// The faces that cast rays, and their results.
 struct TracedSeeds {
   explicit TracedSeeds(size_t faceCount) : values(faceCount, kNoValue), isSeed(faceCount, 0) {}
 
-  std::vector<double> values;   ///< #F, NaN where no ray was cast or none was valid.
+  std::vector<double> values;   ///< #F; NaN where no ray was cast or no hit was valid.
   std::vector<uint8_t> isSeed;  ///< #F, 1 where rays were cast.
   std::vector<uint32_t> faces;  ///< #S, in the order in which they were traced.
-  std::vector<ConeHit> hits;    ///< #S x rays, see ConeResults::hits; empty if nobody wants them.
+  std::vector<ConeHit> hits;    ///< #S x rays, see ConeResults::hits; empty where hits are not kept.
   TraceStatistics statistics;
+};
+
+/// A view of the hits of all rays of some seeds.
+struct SeedHits {
+  std::span<const uint32_t> seeds;  ///< #S faces; kNoFace: this seed and its hits are ignored.
+  std::span<const ConeHit> hits;    ///< #S x rays, as ConeResults::hits.
+
+  [[nodiscard]] std::span<const ConeHit> of(uint32_t seed) const {
+    const size_t rayCount = seeds.empty() ? 0 : hits.size() / seeds.size();
+    return hits.subspan(seed * rayCount, rayCount);
+  }
 };
 
 }  // namespace asdfvk

@@ -10,57 +10,58 @@
 namespace asdfvk::test {
 namespace {
 
-constexpr double kLargestChange = 4;
-constexpr double kShareOfPool = 0.75;
-// Of the deviation: two deviations halved four times, and a little for rounding.
+constexpr double kMaxChange = 4;
+constexpr double kPooledShare = 0.75;
+// Tolerance of the median over the deviation: an interval of two deviations bisected four times, plus rounding.
 constexpr double kMedianSlack = 1.01 / 8;
 
-struct SeenHit {
+struct VisibleHit {
   double length = 0, mass = 0, angle = 0;
-  bool isKeptBySeed = false;
+  bool isInlierOfSeed = false;
 };
 
-std::vector<SeenHit> seenFrom(const Cone& cone, const std::vector<PointGroup>& groups,
-                              std::span<const WeighedCone> cones, const VirtualCone& at) {
-  double leastAngle = std::numeric_limits<double>::max();
-  for (const double weight : cone.weights) leastAngle = std::min(leastAngle, 1 / weight);
-  std::vector<SeenHit> seen;
-  const auto look = [&](const PointGroup& group, size_t lane, float weight) {
-    const Vec3d way = Vec3d{group.x[lane], group.y[lane], group.z[lane]} - at.origin;
+std::vector<VisibleHit> visibleFrom(const Cone& cone, const std::vector<PointGroup>& groups,
+                                    std::span<const WeightedRange> ranges, const VirtualCone& at) {
+  double minAngle = std::numeric_limits<double>::max();
+  for (const double weight : cone.weights) minAngle = std::min(minAngle, 1 / weight);
+  std::vector<VisibleHit> visible;
+  const auto add = [&](const PointGroup& group, size_t lane, float weight) {
+    const Vec3d offset = Vec3d{group.x[lane], group.y[lane], group.z[lane]} - at.origin;
     const Vec3d normal{group.nx[lane], group.ny[lane], group.nz[lane]};
-    if (std::isnan(way.x) || group.face[lane] == at.face || dot(at.normal, normal) > cone.falseHitCosine) return;
-    const double distance = length(way);
-    const double cosine = -dot(way, at.normal) / distance;
+    if (std::isnan(offset.x) || group.face[lane] == at.face || dot(at.normal, normal) > cone.falseHitCosine) return;
+    const double distance = length(offset);
+    const double cosine = -dot(offset, at.normal) / distance;
     if (cosine < std::cos(cone.halfAngleRadians)) return;
     const double change = std::clamp(static_cast<double>(group.solidAngleRatio[lane]) / (distance * distance),
-                                     1 / kLargestChange, kLargestChange);
-    seen.push_back({.length = distance,
-                    .mass = static_cast<double>(weight) * change,
-                    .angle = std::max(leastAngle, std::acos(std::min(1.0, cosine))),
-                    .isKeptBySeed = group.isInlier[lane] == 1});
+                                     1 / kMaxChange, kMaxChange);
+    visible.push_back({.length = distance,
+                       .mass = static_cast<double>(weight) * change,
+                       .angle = std::max(minAngle, std::acos(std::min(1.0, cosine))),
+                       .isInlierOfSeed = group.isInlier[lane] == 1});
   };
-  for (const WeighedCone& weighed : cones)
-    for (uint32_t i = 0; i < weighed.groupCount; ++i)
-      for (size_t lane = 0; lane < kPointGroupSize; ++lane) look(groups[weighed.firstGroup + i], lane, weighed.weight);
-  std::sort(seen.begin(), seen.end(), [](const SeenHit& a, const SeenHit& b) { return a.length < b.length; });
-  return seen;
+  for (const WeightedRange& range : ranges)
+    for (uint32_t i = 0; i < range.groupCount; ++i)
+      for (size_t lane = 0; lane < kPointGroupSize; ++lane) add(groups[range.firstGroup + i], lane, range.weight);
+  std::sort(visible.begin(), visible.end(),
+            [](const VisibleHit& a, const VisibleHit& b) { return a.length < b.length; });
+  return visible;
 }
 
-/// The least length up to which half of the mass lies.
-double medianOf(const std::vector<SeenHit>& seen, double wholeMass) {
+/// The smallest length up to which at least half of the mass lies.
+double medianOf(const std::vector<VisibleHit>& visible, double wholeMass) {
   double below = 0;
-  for (const SeenHit& hit : seen) {
+  for (const VisibleHit& hit : visible) {
     below += hit.mass;
     if (below >= wholeMass / 2) return hit.length;
   }
-  return seen.back().length;
+  return visible.back().length;
 }
 
-double meanAround(const std::vector<SeenHit>& seen, double median, double bound) {
+double meanAround(const std::vector<VisibleHit>& visible, double median, double bound) {
   double weights = 0, weighted = 0;
-  for (const SeenHit& hit : seen) {
-    const bool isKeptByPool = std::abs(hit.length - median) <= bound;
-    const double share = (isKeptByPool ? kShareOfPool : 0) + (hit.isKeptBySeed ? 1 - kShareOfPool : 0);
+  for (const VisibleHit& hit : visible) {
+    const bool isInlierOfPool = std::abs(hit.length - median) <= bound;
+    const double share = (isInlierOfPool ? kPooledShare : 0) + (hit.isInlierOfSeed ? 1 - kPooledShare : 0);
     weights += hit.mass / hit.angle * share;
     weighted += hit.mass / hit.angle * share * hit.length;
   }
@@ -69,31 +70,32 @@ double meanAround(const std::vector<SeenHit>& seen, double median, double bound)
 
 }  // namespace
 
-TwinValue plainTwin(const Cone& cone, const std::vector<PointGroup>& groups, std::span<const WeighedCone> cones,
+TwinValue plainTwin(const Cone& cone, const std::vector<PointGroup>& groups, std::span<const WeightedRange> ranges,
                     const VirtualCone& at) {
-  const std::vector<SeenHit> seen = seenFrom(cone, groups, cones, at);
-  if (seen.empty()) return {kNoValue, {}};
+  const std::vector<VisibleHit> visible = visibleFrom(cone, groups, ranges, at);
+  if (visible.empty()) return {kNoValue, {}};
   double mass = 0, mean = 0, squares = 0;
-  for (const SeenHit& hit : seen) {
+  for (const VisibleHit& hit : visible) {
     mass += hit.mass;
     mean += hit.mass * hit.length;
   }
   mean /= mass;
-  for (const SeenHit& hit : seen) squares += hit.mass * (hit.length - mean) * (hit.length - mean);
-  const double median = medianOf(seen, mass);
+  for (const VisibleHit& hit : visible) squares += hit.mass * (hit.length - mean) * (hit.length - mean);
+  const double median = medianOf(visible, mass);
   const double bound = cone.outlierDeviations * std::sqrt(squares / mass) + static_cast<double>(kOutlierSlack) * median;
 
-  TwinValue value{meanAround(seen, median, bound), {}};
-  // The mean changes only where a length enters or leaves the window: one median from each stretch between is enough.
+  TwinValue value{meanAround(visible, median, bound), {}};
+  // The mean changes only where a length enters or leaves the window, so that one median per interval in between is
+  // enough.
   const double slack = kMedianSlack * std::sqrt(squares / mass);
   std::vector<double> changes{median - slack, median + slack};
-  for (const SeenHit& hit : seen)
+  for (const VisibleHit& hit : visible)
     for (const double change : {hit.length - bound, hit.length + bound})
       if (std::abs(change - median) < slack) changes.push_back(change);
   std::sort(changes.begin(), changes.end());
   value.admissible.push_back(value.exact);
   for (size_t i = 0; i + 1 < changes.size(); ++i)
-    value.admissible.push_back(meanAround(seen, 0.5 * (changes[i] + changes[i + 1]), bound));
+    value.admissible.push_back(meanAround(visible, 0.5 * (changes[i] + changes[i + 1]), bound));
   return value;
 }
 

@@ -7,16 +7,16 @@
 
 namespace asdfvk::test {
 
-/// What a virtual cone's value may be: with the exact weighted median, and with any that is as near to it as
-/// PredictionKernel comes.
+/// The value of a virtual cone with the exact weighted median, and its values with every median within the tolerance of
+/// PredictionKernel.
 struct TwinValue {
   double exact = 0;
-  std::vector<double> admissible;  ///< `exact` among them.
+  std::vector<double> admissible;  ///< Includes `exact`.
 };
 
-/// PredictionKernel::value() in double precision, ray by ray, with the exact arc cosine and a sorted median. Empty
-/// `admissible` and NaN where no point lies in the cone.
+/// PredictionKernel::value() in double precision, point by point, with the exact arc cosine and a sorted median. Where
+/// no point lies in the cone: NaN, and `admissible` is empty.
 [[nodiscard]] TwinValue plainTwin(const Cone& cone, const std::vector<PointGroup>& groups,
-                                  std::span<const WeighedCone> cones, const VirtualCone& at);
+                                  std::span<const WeightedRange> ranges, const VirtualCone& at);
 
 }  // namespace asdfvk::test

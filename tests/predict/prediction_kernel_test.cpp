@@ -11,8 +11,8 @@
 #include <numeric>
 
 #include "generate/shapes.h"
+#include "predict/hit_points.h"
 #include "predict/plain_twin.h"
-#include "predict/seed_points.h"
 #include "predict/seeded_mesh.h"
 
 using namespace asdfvk;
@@ -20,37 +20,37 @@ using test::SeededMesh;
 
 namespace {
 
-/// The points of some cones of a mesh, each of weight 1.
-struct Gathering {
+/// The hit points of some seeds of a mesh, each with the weight 1.
+struct TestInput {
   std::vector<PointGroup> groups;
-  std::vector<WeighedCone> cones;
-  float medianLength = 0;  ///< Of the first cone.
+  std::vector<WeightedRange> ranges;
+  float medianLength = 0;  ///< Of the first seed.
 
-  Gathering(const SeededMesh& seeded, const std::vector<uint32_t>& seeds) {
+  TestInput(const SeededMesh& seeded, const std::vector<uint32_t>& seeds) {
     const TraceScene scene = seeded.scene();
-    SeedPoints points(scene, seeded.cone, seeded.traced());
+    HitPoints points(scene, seeded.cone, seeded.seedHits());
     for (const uint32_t seed : seeds) {
-      const PointCone cone = points.gather(seed);
-      if (cones.empty()) medianLength = cone.medianLength;
-      cones.push_back({cone.firstGroup, cone.groupCount, 1});
+      const HitRange range = points.append(seed);
+      if (ranges.empty()) medianLength = range.medianLength;
+      ranges.push_back({range.firstGroup, range.groupCount, 1});
     }
     groups = points.groups();
   }
 
-  void weigh(Random& random, double least) {
-    for (WeighedCone& cone : cones) cone.weight = static_cast<float>(least + random.real());
+  void weigh(Random& random, double minWeight) {
+    for (WeightedRange& range : ranges) range.weight = static_cast<float>(minWeight + random.real());
   }
 
-  /// change(group, lane, cone) for each place of each cone.
+  /// Calls change(group, lane, seed) for each point of each seed.
   template <typename Change>
   void change(const Change& change) {
-    for (size_t cone = 0; cone < cones.size(); ++cone)
-      for (uint32_t i = 0; i < cones[cone].groupCount; ++i)
-        for (size_t lane = 0; lane < kPointGroupSize; ++lane) change(groups[cones[cone].firstGroup + i], lane, cone);
+    for (size_t seed = 0; seed < ranges.size(); ++seed)
+      for (uint32_t i = 0; i < ranges[seed].groupCount; ++i)
+        for (size_t lane = 0; lane < kPointGroupSize; ++lane) change(groups[ranges[seed].firstGroup + i], lane, seed);
   }
 
   [[nodiscard]] double value(PredictionKernel& kernel, const VirtualCone& at) const {
-    return kernel.value(groups, cones, at, medianLength);
+    return kernel.value(groups, ranges, at, medianLength);
   }
 };
 
@@ -66,9 +66,9 @@ Vec3d randomUnit(Random& random) {
   }
 }
 
-/// Points all over the box, of which some are misses.
-void scramble(Gathering& gathering, Random& random) {
-  gathering.change([&](PointGroup& group, size_t lane, size_t) {
+/// Random points in the box; some are misses.
+void scramble(TestInput& input, Random& random) {
+  input.change([&](PointGroup& group, size_t lane, size_t) {
     const Vec3d normal = randomUnit(random);
     const bool isMiss = random.index(6) == 0;
     for (float* coordinate : {group.x, group.y, group.z})
@@ -90,44 +90,44 @@ struct Agreement {
       CHECK(std::isnan(value));
       return;
     }
-    double least = std::numeric_limits<double>::max();
-    for (const double candidate : twin.admissible) least = std::min(least, std::abs(value - candidate) / candidate);
-    CHECK_MESSAGE(least < 1e-3, value, " against ", twin.exact);
+    double minDifference = std::numeric_limits<double>::max();
+    for (const double candidate : twin.admissible)
+      minDifference = std::min(minDifference, std::abs(value - candidate) / candidate);
+    CHECK_MESSAGE(minDifference < 1e-3, value, " against ", twin.exact);
     ++count;
     exactCount += std::abs(value - twin.exact) < 1e-3 * twin.exact;
   }
 };
 
-std::vector<uint32_t> firstCones(uint32_t count) {
-  std::vector<uint32_t> cones(count);
-  std::iota(cones.begin(), cones.end(), 0u);
-  return cones;
+std::vector<uint32_t> firstSeeds(uint32_t count) {
+  std::vector<uint32_t> seeds(count);
+  std::iota(seeds.begin(), seeds.end(), 0u);
+  return seeds;
 }
 
 }  // namespace
 
-TEST_CASE("random hits give what a plain double-precision twin gives") {
+TEST_CASE("random hits give the value of the double-precision twin") {
   Random random(11);
   Agreement agreement;
   for (const ConeOptions& options :
        {ConeOptions{}, ConeOptions{.rayCount = 5, .openingAngleDegrees = 150, .outlierDeviations = 0.7},
         ConeOptions{.rayCount = 64, .openingAngleDegrees = 60, .falseHitAngleDegrees = 30}}) {
     const SeededMesh seeded(makeSphere(180).mesh, 7, options);
-    Gathering gathering(seeded, firstCones(7));
+    TestInput input(seeded, firstSeeds(7));
     PredictionKernel kernel(seeded.cone);
     for (int round = 0; round < 200; ++round) {
-      scramble(gathering, random);
-      gathering.weigh(random, 1e-6);
+      scramble(input, random);
+      input.weigh(random, 1e-6);
       const VirtualCone at{0.5 * randomUnit(random), randomUnit(random), random.index(50)};
-      agreement.compare(gathering.value(kernel, at),
-                        test::plainTwin(seeded.cone, gathering.groups, gathering.cones, at));
+      agreement.compare(input.value(kernel, at), test::plainTwin(seeded.cone, input.groups, input.ranges, at));
     }
   }
   CHECK(agreement.count > 550);
   CHECK(agreement.exactCount > agreement.count * 7 / 10);
 }
 
-TEST_CASE("real hits give what a plain double-precision twin gives") {
+TEST_CASE("real hits give the value of the double-precision twin") {
   Random random(12);
   Agreement agreement;
   const SeededMesh seeded(makeHand(3000).mesh, 60);
@@ -135,44 +135,42 @@ TEST_CASE("real hits give what a plain double-precision twin gives") {
   PredictionKernel kernel(seeded.cone);
   const NearestCells nearest(cells, seeded.graph, seeded.geometry, seeded.seeds, 6);
   for (uint32_t cell = 0; cell < 60; ++cell) {
-    Gathering gathering(seeded, {nearest.of(cell).begin(), nearest.of(cell).end()});
-    gathering.weigh(random, 0.01);
+    TestInput input(seeded, {nearest.of(cell).begin(), nearest.of(cell).end()});
+    input.weigh(random, 0.01);
     for (const uint32_t face : cells.faces[cell].first(std::min<size_t>(10, cells.faces[cell].size())))
-      agreement.compare(gathering.value(kernel, coneOf(seeded, face)),
-                        test::plainTwin(seeded.cone, gathering.groups, gathering.cones, coneOf(seeded, face)));
+      agreement.compare(input.value(kernel, coneOf(seeded, face)),
+                        test::plainTwin(seeded.cone, input.groups, input.ranges, coneOf(seeded, face)));
   }
   CHECK(agreement.count > 400);
   CHECK(agreement.exactCount > agreement.count * 7 / 10);
 }
 
-TEST_CASE("a seed seen from itself keeps about its own value") {
-  // Every ray stands for its own solid angle then; only the median of an even count is another one.
+TEST_CASE("the prediction of a seed from its own hits is close to its value") {
+  // All solid angle ratios are 1; only the median of an even count differs.
   const SeededMesh seeded(makeAnimal(2500).mesh, 200);
   PredictionKernel kernel(seeded.cone);
   size_t farCount = 0;
   double sum = 0;
   for (uint32_t i = 0; i < seeded.seeds.size(); ++i) {
-    Gathering gathering(seeded, {i});
-    gathering.cones[0].weight = 0.3f;
-    const double value =
-        seeded.bvh.normalization.toMeshLength(gathering.value(kernel, coneOf(seeded, seeded.seeds[i])));
-    const double off = std::abs(value - seeded.values[i]) / seeded.values[i];
-    farCount += off > 1e-3;
-    sum += off;
+    TestInput input(seeded, {i});
+    input.ranges[0].weight = 0.3f;
+    const double value = seeded.bvh.normalization.toMeshLength(input.value(kernel, coneOf(seeded, seeded.seeds[i])));
+    const double error = std::abs(value - seeded.values[i]) / seeded.values[i];
+    farCount += error > 1e-3;
+    sum += error;
   }
-  MESSAGE("off by ", sum / 200, " on average, far off ", farCount, " of 200");
   CHECK(sum / 200 < 0.01);
   CHECK(farCount < 30);
 }
 
-TEST_CASE("cones of more weight have more of a say") {
+TEST_CASE("a seed with a larger weight has more influence") {
   const SeededMesh seeded(makeAnimal(2500).mesh, 2);
-  Gathering gathering(seeded, {0, 1});
-  // Both cones see a wall across, one at 0.5 and one at 0.7.
-  gathering.change([&](PointGroup& group, size_t lane, size_t cone) {
+  TestInput input(seeded, {0, 1});
+  // One seed hits a wall at 0.5, the other a wall at 0.7.
+  input.change([&](PointGroup& group, size_t lane, size_t seed) {
     group.x[lane] = 0.001f * static_cast<float>(lane);
     group.y[lane] = 0;
-    group.z[lane] = cone == 0 ? -0.5f : -0.7f;
+    group.z[lane] = seed == 0 ? -0.5f : -0.7f;
     group.nx[lane] = group.ny[lane] = 0;
     group.nz[lane] = -1;
     group.solidAngleRatio[lane] = 0.3f;
@@ -183,75 +181,75 @@ TEST_CASE("cones of more weight have more of a say") {
   const VirtualCone at{{0, 0, 0}, {0, 0, 1}, 0};
   double last = 1;
   for (const float weight : {0.1f, 0.5f, 1.0f, 2.0f, 10.0f}) {
-    gathering.cones[0].weight = weight;
-    const double value = gathering.value(kernel, at);
+    input.ranges[0].weight = weight;
+    const double value = input.value(kernel, at);
     CHECK(value < last);
     CHECK(value > 0.5);
     last = value;
   }
 }
 
-TEST_CASE("points on the face itself, points behind it and points that look its way do not count") {
+TEST_CASE("points on the face itself, points outside of its cone and false hits are ignored") {
   const SeededMesh seeded(makeSphere(180).mesh, 1);
-  Gathering gathering(seeded, {0});
+  TestInput input(seeded, {0});
   PredictionKernel kernel(seeded.cone);
   const VirtualCone at{{0, 0, 0}, {0, 0, 1}, 5};
   const auto valueWith = [&](float z, float nz, uint32_t face) {
-    gathering.change([&](PointGroup& group, size_t lane, size_t) {
+    input.change([&](PointGroup& group, size_t lane, size_t) {
       group.x[lane] = group.y[lane] = group.nx[lane] = group.ny[lane] = 0;
       group.z[lane] = z;
       group.nz[lane] = nz;
       group.solidAngleRatio[lane] = group.isInlier[lane] = 1;
       group.face[lane] = face;
     });
-    return gathering.value(kernel, at);
+    return input.value(kernel, at);
   };
   CHECK(valueWith(-0.5f, -1, 6) == doctest::Approx(0.5));
   CHECK(std::isnan(valueWith(-0.5f, -1, 5)));
   CHECK(std::isnan(valueWith(0.5f, -1, 6)));
   CHECK(std::isnan(valueWith(-0.5f, 1, 6)));
-  CHECK(std::isnan(valueWith(0, -1, 6)));  // At the face's own centre.
+  CHECK(std::isnan(valueWith(0, -1, 6)));  // At the origin of the cone.
 }
 
-TEST_CASE("rays that met nothing change nothing") {
+TEST_CASE("misses are ignored") {
   const SeededMesh seeded(makeTorus(900).mesh, 2);
-  Gathering both(seeded, {0, 1}), first(seeded, {0});
-  both.change([&](PointGroup& group, size_t lane, size_t cone) {
-    if (cone == 1) group.x[lane] = group.y[lane] = group.z[lane] = std::numeric_limits<float>::quiet_NaN();
+  TestInput both(seeded, {0, 1}), first(seeded, {0});
+  both.change([&](PointGroup& group, size_t lane, size_t seed) {
+    if (seed == 1) group.x[lane] = group.y[lane] = group.z[lane] = std::numeric_limits<float>::quiet_NaN();
   });
   PredictionKernel kernel(seeded.cone);
-  for (Gathering* gathering : {&both, &first}) gathering->cones[0].weight = 0.5f;
+  for (TestInput* input : {&both, &first}) input->ranges[0].weight = 0.5f;
   const VirtualCone at = coneOf(seeded, seeded.seeds[0]);
   const double value = both.value(kernel, at);
   CHECK(std::isfinite(value));
   CHECK(value == first.value(kernel, at));
 }
 
-TEST_CASE("what an expected length is taken from does not matter") {
+TEST_CASE("the median length passed to the kernel affects rounding only") {
   const SeededMesh seeded(makeAnimal(2500).mesh, 40);
   PredictionKernel kernel(seeded.cone);
   for (uint32_t i = 0; i + 2 < 40; ++i) {
-    Gathering gathering(seeded, {i, i + 1, i + 2});
+    TestInput input(seeded, {i, i + 1, i + 2});
     const VirtualCone at = coneOf(seeded, seeded.seeds[i]);
-    const double expected = gathering.value(kernel, at);
-    gathering.medianLength *= 0.5f;
-    const double value = gathering.value(kernel, at);
+    const double expected = input.value(kernel, at);
+    input.medianLength *= 0.5f;
+    const double value = input.value(kernel, at);
     CHECK(std::isnan(value) == std::isnan(expected));
     if (!std::isnan(value)) CHECK(value == doctest::Approx(expected).epsilon(0.02));
   }
 }
 
-TEST_CASE("a narrow cone, all of whose lengths are about the same, has their value") {
+TEST_CASE("the value of a narrow cone with almost equal lengths is their value") {
   const SeededMesh seeded(makeSphere(2000).mesh, 20, {.openingAngleDegrees = 0.1});
   PredictionKernel kernel(seeded.cone);
   for (uint32_t i = 0; i < 20; ++i) {
-    const Gathering gathering(seeded, {i});
-    CHECK(seeded.bvh.normalization.toMeshLength(gathering.value(kernel, coneOf(seeded, seeded.seeds[i]))) ==
+    const TestInput input(seeded, {i});
+    CHECK(seeded.bvh.normalization.toMeshLength(input.value(kernel, coneOf(seeded, seeded.seeds[i]))) ==
           doctest::Approx(seeded.values[i]).epsilon(1e-3));
   }
 }
 
-TEST_CASE("seeds weigh as their distance and the turn of their normal say") {
+TEST_CASE("the weight of a seed is a Gaussian of its distance and of the angle between the normals") {
   Random random(14);
   SeedGroup seeds;
   std::vector<Vec3d> positions, normals;
@@ -286,7 +284,7 @@ TEST_CASE("seeds weigh as their distance and the turn of their normal say") {
 TEST_CASE("wide instructions and the baseline give the same bits") {
   Random random(13);
   const SeededMesh seeded(makeSphere(180).mesh, 5, {.rayCount = 30, .openingAngleDegrees = 140});
-  Gathering gathering(seeded, firstCones(5));
+  TestInput input(seeded, firstSeeds(5));
   for (const InstructionSet instructionSet : {InstructionSet::Avx2, InstructionSet::Avx512}) {
     if (!hasInstructionSet(instructionSet)) {
       MESSAGE("skipped: this machine lacks wide instructions");
@@ -295,10 +293,10 @@ TEST_CASE("wide instructions and the baseline give the same bits") {
     PredictionKernel wide(seeded.cone, instructionSet), baseline(seeded.cone, InstructionSet::Baseline);
     size_t valueCount = 0;
     for (int round = 0; round < 500; ++round) {
-      scramble(gathering, random);
-      gathering.weigh(random, 1e-6);
+      scramble(input, random);
+      input.weigh(random, 1e-6);
       const VirtualCone at{0.5 * randomUnit(random), randomUnit(random), random.index(50)};
-      const double a = gathering.value(wide, at), b = gathering.value(baseline, at);
+      const double a = input.value(wide, at), b = input.value(baseline, at);
       valueCount += std::isfinite(a);
       CHECK(std::bit_cast<uint64_t>(a) == std::bit_cast<uint64_t>(b));
     }

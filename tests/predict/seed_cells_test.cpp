@@ -54,7 +54,7 @@ void checkCells(const DualGraph& graph, const std::vector<uint32_t>& seeds) {
       if (cells.cellOf[face] == cell) toOwnSeed[face] = steps[face];
     }
   }
-  // Also where no seed can be reached: then both are kFar, and there is no cell.
+  // Without a reachable seed both are kFar, and there is no cell.
   CHECK(toOwnSeed == nearest);
   for (uint32_t face = 0; face < nearest.size(); ++face)
     CHECK((cells.cellOf[face] == kNoCell) == (nearest[face] == kFar));
@@ -88,19 +88,19 @@ void checkCells(const DualGraph& graph, const std::vector<uint32_t>& seeds) {
 
 }  // namespace
 
-TEST_CASE("each face is in the cell of a seed that no other is nearer than") {
+TEST_CASE("each face is in the cell of a nearest seed") {
   for (const size_t seedCount : {size_t{1}, size_t{2}, size_t{17}, size_t{160}}) {
     CAPTURE(seedCount);
     checkCells(buildDualGraph(makeTorus(900).mesh), randomSeeds(makeTorus(900).mesh.faceCount(), seedCount, seedCount));
   }
 }
 
-TEST_CASE("when every face is a seed each cell is one face") {
+TEST_CASE("with every face a seed each cell is one face") {
   const DualGraph graph = buildDualGraph(makeSphere(180).mesh);
   checkCells(graph, randomSeeds(graph.faceCount(), graph.faceCount(), 3));
 }
 
-TEST_CASE("components without a seed, and faces that nothing is next to, have no cell") {
+TEST_CASE("components without a seed and isolated faces have no cell") {
   Mesh mesh = test::joined(makeSphere(320).mesh, makeSphere(80).mesh, {5, 0, 0});
   const auto vertex = static_cast<uint32_t>(mesh.vertices.size());
   for (const Vec3d& corner : {Vec3d{9, 0, 0}, Vec3d{10, 0, 0}, Vec3d{9, 1, 0}}) mesh.vertices.push_back(corner);
@@ -123,7 +123,7 @@ TEST_CASE("without seeds there are no cells") {
   CHECK(cells.faces.bucketCount() == 0);
 }
 
-TEST_CASE("a seed that is left out has an empty cell, and the others theirs as if it were not there") {
+TEST_CASE("a seed marked with kNoFace has an empty cell and does not affect the other cells") {
   const DualGraph graph = buildDualGraph(makeTorus(900).mesh);
   const FaceGeometry geometry = computeFaceGeometry(makeTorus(900).mesh);
   std::vector<uint32_t> seeds = randomSeeds(graph.faceCount(), 60, 4), used;
@@ -144,7 +144,7 @@ TEST_CASE("a seed that is left out has an empty cell, and the others theirs as i
   }
 }
 
-TEST_CASE("the nearest cells are the own one, then the neighbours by the distance of their seeds") {
+TEST_CASE("the nearest cells are the cell itself, then its neighbours by the distance of their seeds") {
   const Mesh mesh = makeTorus(900).mesh;
   const DualGraph graph = buildDualGraph(mesh);
   const FaceGeometry geometry = computeFaceGeometry(mesh);

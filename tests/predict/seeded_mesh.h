@@ -7,12 +7,12 @@
 #include "mesh/coincident_faces.h"
 #include "mesh/dual_graph.h"
 #include "predict/seed_cells.h"
-#include "predict/traced_cones.h"
 #include "trace/reference_tracer.h"
+#include "trace/traced_seeds.h"
 
 namespace asdfvk::test {
 
-/// A mesh of which some faces, chosen at random, have cast their rays.
+/// A mesh with random seeds and their hits.
 struct SeededMesh {
   Mesh mesh;
   FaceGeometry geometry;
@@ -21,7 +21,7 @@ struct SeededMesh {
   DualGraph graph;
   Cone cone;
   std::vector<uint32_t> seeds;
-  std::vector<double> values;  ///< #S, of the seeds, in the mesh's unit.
+  std::vector<double> values;  ///< #S, in the unit of the mesh.
   std::vector<ConeHit> hits;   ///< #S x rays
 
   SeededMesh(Mesh source, size_t seedCount, const ConeOptions& options = {}, uint64_t randomSeed = 1)
@@ -43,13 +43,13 @@ struct SeededMesh {
   SeededMesh& operator=(const SeededMesh&) = delete;
 
   [[nodiscard]] TraceScene scene() const { return {mesh, geometry, representatives, bvh}; }
-  [[nodiscard]] TracedCones traced() const { return {seeds, hits}; }
+  [[nodiscard]] SeedHits seedHits() const { return {seeds, hits}; }
   [[nodiscard]] SeedCells cells() const { return buildSeedCells(graph, seeds); }
-  /// What the face's own rays would say, in the mesh's unit.
+  /// The value from the face's own rays, in the unit of the mesh.
   [[nodiscard]] double tracedValue(uint32_t face) const { return referenceCone(scene(), cone, face); }
 };
 
-/// Both, one after the other in the file.
+/// The faces of `mesh`, then those of `other`.
 inline Mesh joined(Mesh mesh, const Mesh& other, const Vec3d& shift) {
   const auto offset = static_cast<uint32_t>(mesh.vertices.size());
   for (const Vec3d& vertex : other.vertices) mesh.vertices.push_back(vertex + shift);

@@ -21,16 +21,16 @@ std::vector<uint32_t> allFaces(size_t count) {
 
 }  // namespace
 
-TEST_CASE("a component with a valued seed asks for nothing") {
+TEST_CASE("a component in which a seed has a value gets no further seeds") {
   const std::vector<uint32_t> componentOf{0, 0, 0};
   const std::vector<double> values{kNone, 2.0, kNone};
   const std::vector<uint32_t> untried{0, 2};
   CHECK(ComponentSeeds(componentOf, values, untried, 1).next(values).empty());
 }
 
-TEST_CASE("no face at all asks for nothing") { CHECK(ComponentSeeds({}, {}, {}, 1).next({}).empty()); }
+TEST_CASE("an empty mesh gets no further seeds") { CHECK(ComponentSeeds({}, {}, {}, 1).next({}).empty()); }
 
-TEST_CASE("each component without a value gets one seed first, whatever the others have") {
+TEST_CASE("the first batch has one face of each component without a value") {
   const std::vector<uint32_t> componentOf{0, 1, 0, 2, 1, 2, 2};
   std::vector<double> values(7, kNone);
   values[0] = 1.5;
@@ -41,7 +41,7 @@ TEST_CASE("each component without a value gets one seed first, whatever the othe
   CHECK(components == std::set<uint32_t>{1, 2});
 }
 
-TEST_CASE("a component leaves the round in which one of its faces got a value") {
+TEST_CASE("a component gets no further seeds once one of its faces has a value") {
   std::vector<uint32_t> componentOf(20, 0);
   std::fill(componentOf.begin() + 10, componentOf.end(), 1);
   std::vector<double> values(20, kNone);
@@ -57,7 +57,7 @@ TEST_CASE("a component leaves the round in which one of its faces got a value") 
   CHECK(further.next(values).empty());
 }
 
-TEST_CASE("a component of 100,000 faces without any value is through in 17 rounds, each face tried once") {
+TEST_CASE("a component of 100,000 faces without any value takes 17 batches, and each face is tried once") {
   const size_t faceCount = 100'000;
   const std::vector<uint32_t> componentOf(faceCount, 0);
   const std::vector<double> values(faceCount, kNone);
@@ -75,7 +75,7 @@ TEST_CASE("a component of 100,000 faces without any value is through in 17 round
   CHECK(tried == allFaces(faceCount));
 }
 
-TEST_CASE("faces that were tried or cannot cast rays are never asked for") {
+TEST_CASE("only untried faces that can cast rays are returned") {
   const std::vector<uint32_t> componentOf(6, 0);
   const std::vector<double> values(6, kNone);
   ComponentSeeds further(componentOf, values, std::vector<uint32_t>{1, 4}, 2);
@@ -86,7 +86,7 @@ TEST_CASE("faces that were tried or cannot cast rays are never asked for") {
   CHECK(tried == std::vector<uint32_t>{1, 4});
 }
 
-TEST_CASE("the face tried first is random by the seed and the same each time") {
+TEST_CASE("the first face depends on the random seed and is reproducible") {
   const std::vector<uint32_t> componentOf(1000, 0);
   const std::vector<double> values(1000, kNone);
   std::set<uint32_t> firsts;

@@ -18,16 +18,16 @@ namespace {
 constexpr std::array<SampleSeeds*, 2> kSpacingSamplers{blueNoiseSeeds, farthestPointSeeds};
 
 struct Spacing {
-  float least = 0;  ///< From a seed to the nearest other.
-  float cover = 0;  ///< From a face to the nearest seed, at most.
+  float min = 0;       ///< Smallest distance from a seed to the nearest other seed.
+  float covering = 0;  ///< Largest distance from a face to the nearest seed.
 };
 
 Spacing spacingOf(const Surface& surface, std::span<const float> lengths, std::span<const uint32_t> seeds) {
   const std::vector<float> nearest = distancesToNearestOther(surface.graph, lengths, seeds);
   const std::vector<float> distances = distancesToNearest(surface.graph, lengths, seeds);
-  float cover = 0;
-  for (uint32_t face : surface.candidates) cover = std::max(cover, distances[face]);
-  return {*std::min_element(nearest.begin(), nearest.end()), cover};
+  float covering = 0;
+  for (uint32_t face : surface.candidates) covering = std::max(covering, distances[face]);
+  return {*std::min_element(nearest.begin(), nearest.end()), covering};
 }
 
 // The step of the radius, and the rounding of float over the arcs of a path.
@@ -42,7 +42,7 @@ std::vector<uint32_t> facesWith(const Surface& surface, auto&& predicate) {
 
 }  // namespace
 
-TEST_CASE("seeds cover the surface within the distance that they keep from each other") {
+TEST_CASE("the covering radius is at most the smallest distance between seeds") {
   for (const char* shape : {"torus", "sphere", "cube", "hand"}) {
     CAPTURE(shape);
     const Surface& surface = generatedSurface(shape, 4000);
@@ -52,13 +52,13 @@ TEST_CASE("seeds cover the surface within the distance that they keep from each 
       const auto count = static_cast<uint64_t>(share * static_cast<double>(surface.candidates.size()));
       for (SampleSeeds* sampler : kSpacingSamplers) {
         const Spacing spacing = spacingOf(surface, lengths, sampler(surface.domain(), count, {}, 3));
-        CHECK(spacing.cover <= spacing.least * kStepAndRounding);
+        CHECK(spacing.covering <= spacing.min * kStepAndRounding);
       }
     }
   }
 }
 
-TEST_CASE("at a tenth of the faces blue-noise seeds are 3 hops apart, random ones often neighbours") {
+TEST_CASE("at 10 % of the faces blue-noise seeds are at least 3 hops apart, and some random seeds are neighbours") {
   for (const char* shape : {"torus", "sphere"}) {
     CAPTURE(shape);
     const Surface& surface = generatedSurface(shape, 4000);
@@ -79,7 +79,7 @@ TEST_CASE("at a tenth of the faces blue-noise seeds are 3 hops apart, random one
 TEST_CASE("seeds fill the gaps between existing ones") {
   const Surface& sphere = generatedSurface("sphere", 4000);
   const std::vector<float> lengths = arcLengths(sphere.graph, sphere.geometry);
-  // All of the northern half is taken, so the southern gets all new seeds, its border excepted.
+  // All faces of the northern half are seeds, so that the new seeds are in the southern half, away from the equator.
   const auto north = facesWith(sphere, [](const Vec3d& at) { return at.z > 0; });
   for (SampleSeeds* sampler : kSpacingSamplers) {
     const auto seeds = sampler(sphere.domain(), 60, north, 1);
@@ -87,17 +87,17 @@ TEST_CASE("seeds fill the gaps between existing ones") {
     std::vector<uint32_t> all = north;
     all.insert(all.end(), seeds.begin(), seeds.end());
     const std::vector<float> fromNorth = distancesToNearest(sphere.graph, lengths, north);
-    float least = std::numeric_limits<float>::infinity();
-    for (uint32_t seed : seeds) least = std::min(least, fromNorth[seed]);
+    float minDistance = std::numeric_limits<float>::infinity();
+    for (uint32_t seed : seeds) minDistance = std::min(minDistance, fromNorth[seed]);
     const auto nearest = distancesToNearestOther(sphere.graph, lengths, seeds);
-    least = std::min(least, *std::min_element(nearest.begin(), nearest.end()));
-    const std::vector<float> cover = distancesToNearest(sphere.graph, lengths, all);
-    CHECK(least >= 5);
-    CHECK(*std::max_element(cover.begin(), cover.end()) <= least * kStepAndRounding);
+    minDistance = std::min(minDistance, *std::min_element(nearest.begin(), nearest.end()));
+    const std::vector<float> toNearest = distancesToNearest(sphere.graph, lengths, all);
+    CHECK(minDistance >= 5);
+    CHECK(*std::max_element(toNearest.begin(), toNearest.end()) <= minDistance * kStepAndRounding);
   }
 }
 
-TEST_CASE("seeds added in rounds keep apart as those chosen at once do") {
+TEST_CASE("seeds added in rounds keep the spacing of seeds selected at once") {
   const Surface& torus = generatedSurface("torus", 4000);
   const std::vector<float> lengths = arcLengths(torus.graph, torus.geometry);
   for (SampleSeeds* sampler : kSpacingSamplers) {
@@ -106,13 +106,13 @@ TEST_CASE("seeds added in rounds keep apart as those chosen at once do") {
       const auto seeds = sampler(torus.domain(), 100, all, round);
       all.insert(all.end(), seeds.begin(), seeds.end());
       const Spacing spacing = spacingOf(torus, lengths, all);
-      CHECK(spacing.cover <= spacing.least * kStepAndRounding);
+      CHECK(spacing.covering <= spacing.min * kStepAndRounding);
     }
     CHECK(all.size() == 400);
   }
 }
 
-TEST_CASE("each component that there are seeds for gets its first before any gets its second") {
+TEST_CASE("components get a first seed before any of them gets a second one") {
   Mesh mesh;
   for (uint32_t i = 0; i < 50; ++i) mesh = together(std::move(mesh), strip(3 + i));
   const Surface surface(mesh);
@@ -130,7 +130,7 @@ TEST_CASE("each component that there are seeds for gets its first before any get
   CHECK(componentsAmong(blueNoiseSeeds(surface.domain(), 50, {}, 1)) == 50);
 }
 
-TEST_CASE("farthest points of a strip are the ends and then the middle, whatever comes first") {
+TEST_CASE("farthest points of a strip are the ends and the middle for any random seed") {
   const Surface surface(strip(129));
   for (uint64_t randomSeed = 1; randomSeed < 6; ++randomSeed) {
     const std::vector<uint32_t> middle{64};
@@ -155,7 +155,7 @@ TEST_CASE("there are more seeds where the surface bends") {
     CHECK(shareAtEdge(sampler(cube.domain(), 200, {}, 2)) > 1.2 * shareAtEdge(cube.candidates));
 }
 
-TEST_CASE("where the density is k times as high there are k times as many seeds") {
+TEST_CASE("the number of seeds per face is proportional to the density") {
   const Surface& torus = generatedSurface("torus", 40'000);
   const auto dense = facesWith(torus, [](const Vec3d& at) { return at.x > 0; });
   const double facesInDense = static_cast<double>(dense.size());
@@ -177,7 +177,7 @@ TEST_CASE("where the density is k times as high there are k times as many seeds"
   }
 }
 
-TEST_CASE("the unit of the density does not matter, and an even one leaves blue noise") {
+TEST_CASE("the unit of the density does not matter, and a constant density gives blue noise") {
   const Surface& torus = generatedSurface("torus", 4000);
   const auto weighted = [&](double even) {
     return weightedBlueNoiseSeeds(torus.domain(), std::vector<double>(torus.graph.faceCount(), even), 300, {}, 8);
@@ -189,7 +189,7 @@ TEST_CASE("the unit of the density does not matter, and an even one leaves blue 
   CHECK(*std::min_element(nearest.begin(), nearest.end()) >= 3);
 }
 
-TEST_CASE("a density that is not positive and finite is a mistake") {
+TEST_CASE("a density that is not positive and finite fails a check") {
   const Surface surface(strip(3));
   for (double wrong : {0.0, -1.0, std::numeric_limits<double>::infinity(), std::nan("")}) {
     CAPTURE(wrong);

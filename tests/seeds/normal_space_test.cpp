@@ -32,11 +32,11 @@ Vec3d randomDirection(Random& random) {
 
 }  // namespace
 
-TEST_CASE("the bins share the sphere within a factor of 2, and each is a small part of it in one place") {
+TEST_CASE("the bins of directions differ in size by less than a factor of 2, and each is compact") {
   Random random(1);
   std::array<int, kNormalBinCount> counts{};
   std::array<Vec3d, kNormalBinCount> firstIn{};
-  const int directionCount = 486'000;  // 1000 to a bin.
+  const int directionCount = 486'000;  // 1000 per bin.
   for (int i = 0; i < directionCount; ++i) {
     const Vec3d direction = randomDirection(random);
     const uint32_t bin = normalBinOf(direction);
@@ -48,7 +48,7 @@ TEST_CASE("the bins share the sphere within a factor of 2, and each is a small p
   CHECK(*std::max_element(counts.begin(), counts.end()) < 1400);
 }
 
-TEST_CASE("an axis and its neighbourhood are one bin, another for each") {
+TEST_CASE("each axis and its neighbourhood are in one bin of their own") {
   std::set<uint32_t> bins;
   for (size_t axis = 0; axis < 3; ++axis) {
     for (double sign : {1.0, -1.0}) {
@@ -66,7 +66,7 @@ TEST_CASE("an axis and its neighbourhood are one bin, another for each") {
   CHECK(bins.size() == 6);
 }
 
-TEST_CASE("each side of a long box gets as many seeds as any other") {
+TEST_CASE("each side of a long box gets the same number of seeds") {
   const Surface box(makeBox(20'000, {{1, 1, 10}}).mesh);
   std::set<uint64_t> perSide;
   for (uint64_t count : countsOf(box, normalSpaceSeeds(box.domain(), 600, {}, 1)))
@@ -74,7 +74,7 @@ TEST_CASE("each side of a long box gets as many seeds as any other") {
   CHECK(perSide == std::set<uint64_t>{100});
 }
 
-TEST_CASE("the bins are filled evenly as far as their faces go, the last seeds one to a bin") {
+TEST_CASE("the bins with enough faces have equal numbers of seeds, except for one seed each") {
   const Surface& cylinder = generatedSurface("cylinder", 6000);
   const BinCounts available = countsOf(cylinder, cylinder.candidates);
   for (uint64_t count : {10u, 333u, 3000u, 5000u}) {
@@ -86,7 +86,7 @@ TEST_CASE("the bins are filled evenly as far as their faces go, the last seeds o
   }
 }
 
-TEST_CASE("existing seeds count as their bin's") {
+TEST_CASE("existing seeds count in their bin") {
   const Surface box(makeBox(6000, {{1, 1, 1}}).mesh);
   std::vector<uint32_t> existing;  // 100 on one side, 50 on another.
   const auto sideOf = [&](uint32_t face) { return normalBinOf(box.geometry.normals[face]); };

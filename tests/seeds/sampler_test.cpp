@@ -50,7 +50,7 @@ Mesh islands(uint32_t count) {
   return mesh;
 }
 
-/// Every seventh face squeezed to an edge, by its neighbour's corner, and one face with a corner at infinity.
+/// Every seventh face with two equal corners, and one face with a corner at infinity.
 Mesh withDegenerateFaces(Mesh mesh) {
   for (size_t face = 0; face < mesh.faces.size(); face += 7)
     mesh.vertices[mesh.faces[face][0]] = mesh.vertices[mesh.faces[face][1]];
@@ -60,7 +60,7 @@ Mesh withDegenerateFaces(Mesh mesh) {
 
 }  // namespace
 
-TEST_CASE("any count of seeds comes out exactly, candidates only, each once, ascending") {
+TEST_CASE("any count of seeds is exact; they are distinct candidates, ascending") {
   const Surface& torus = generatedSurface("torus", 2000);
   const auto size = static_cast<uint64_t>(torus.candidates.size());
   forEachSampler([&](auto sample) {
@@ -88,7 +88,7 @@ TEST_CASE("an empty mesh, one face, and no candidate") {
   });
 }
 
-TEST_CASE("existing seeds are not chosen again, and what is left is chosen to the last face") {
+TEST_CASE("existing seeds are not selected again, and all remaining faces can be selected") {
   const Surface& sphere = generatedSurface("sphere", 1000);
   const auto size = static_cast<uint64_t>(sphere.candidates.size());
   forEachSampler([&](auto sample) {
@@ -109,7 +109,7 @@ TEST_CASE("existing seeds are not chosen again, and what is left is chosen to th
   });
 }
 
-TEST_CASE("faces that are no candidates are never seeds, and degenerate faces do no harm") {
+TEST_CASE("only candidates are seeds, on a mesh with degenerate faces") {
   const Surface dented(withDegenerateFaces(generatedSurface("torus", 2000).mesh));
   REQUIRE(dented.candidates.size() < dented.graph.faceCount());
   REQUIRE(dented.candidates.size() > 300);
@@ -123,7 +123,7 @@ TEST_CASE("faces that are no candidates are never seeds, and degenerate faces do
   });
 }
 
-TEST_CASE("components smaller than the space between seeds, fewer and more seeds than components") {
+TEST_CASE("components smaller than the spacing of the seeds, with fewer and with more seeds than components") {
   const Surface scattered(islands(300));
   forEachSampler([&](auto sample) {
     for (uint64_t count : {1u, 10u, 300u, 600u, 1000u}) {
@@ -136,7 +136,7 @@ TEST_CASE("components smaller than the space between seeds, fewer and more seeds
   });
 }
 
-TEST_CASE("the same seeds each time and on any number of threads, others with another random seed") {
+TEST_CASE("seeds are the same on every run and any number of threads, and differ with another random seed") {
   const Surface& torus = generatedSurface("torus", 20'000);
   forEachSampler([&](auto sample) {
     const Seeds seeds = sample(torus.domain(), 1500, {}, 11);
@@ -147,13 +147,13 @@ TEST_CASE("the same seeds each time and on any number of threads, others with an
   });
 }
 
-TEST_CASE("an existing face that the mesh has not is a mistake") {
+TEST_CASE("an existing face outside of the mesh fails a check") {
   const Surface one(strip(2));
   forEachSampler(
       [&](auto sample) { CHECK_THROWS_AS(static_cast<void>(sample(one.domain(), 1, Seeds{2}, 1)), CheckFailure); });
 }
 
-TEST_CASE("a sampler is found by its name, and no two have the same") {
+TEST_CASE("samplers are found by their names, which are unique") {
   std::set<std::string> names;
   for (const Sampler& sampler : kSamplers) {
     CHECK(findSampler(sampler.name) == &sampler);

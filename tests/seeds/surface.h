@@ -18,21 +18,21 @@ struct Surface {
   std::vector<uint32_t> candidates;  ///< All faces that are not degenerate.
 };
 
-/// One generated shape of asdfvk-generate. The shapes of the same name and size are made once.
+/// A generated shape. Each name and size is generated once.
 const Surface& generatedSurface(const char* name, uint64_t faceCount);
 
-/// A row of triangles in the plane z = 0, face i beside face i + 1.
+/// A row of triangles in the plane z = 0; faces i and i + 1 are neighbours.
 asdfvk::Mesh strip(uint32_t faceCount);
-/// All faces of both; no vertex in common.
+/// All faces of both, without common vertices.
 asdfvk::Mesh together(asdfvk::Mesh mesh, const asdfvk::Mesh& other);
 
 /// 1 per arc: distances count mesh edges.
 std::vector<float> hops(const asdfvk::DualGraph& graph);
-/// Distance along the arcs from each face to the nearest of the seeds, infinite where there is none, by relaxing all
-/// arcs until nothing changes: slow, and nothing else than the definition.
+/// Distance along the arcs from each face to the nearest seed, infinite without one: relaxes all arcs until nothing
+/// changes.
 std::vector<float> distancesToNearest(const asdfvk::DualGraph& graph, std::span<const float> arcLengths,
                                       std::span<const uint32_t> seeds);
-/// For each seed the distance to the nearest other one, infinite where it has none in its component.
+/// Distance from each seed to the nearest other seed, infinite where its component has no other.
 std::vector<float> distancesToNearestOther(const asdfvk::DualGraph& graph, std::span<const float> arcLengths,
                                            std::span<const uint32_t> seeds);
 

@@ -8,7 +8,7 @@
 
 using namespace asdfvk;
 
-TEST_CASE("distances to a growing set of seeds are those by definition, up to the limit") {
+TEST_CASE("distances to a growing set of seeds equal the definition up to the limit") {
   const Surface& hand = generatedSurface("hand", 3000);
   for (const std::vector<float>& lengths : {hops(hand.graph), arcLengths(hand.graph, hand.geometry)}) {
     SurfaceDistances distances(hand.graph, lengths);
@@ -37,7 +37,7 @@ TEST_CASE("distances to a growing set of seeds are those by definition, up to th
   }
 }
 
-TEST_CASE("a ball holds the faces of the component, nearest first, each once, ball after ball") {
+TEST_CASE("each ball lists all faces of the component once, nearest first") {
   const Surface surface(together(generatedSurface("torus", 500).mesh, strip(5)));
   const std::vector<float> lengths = arcLengths(surface.graph, surface.geometry);
   SurfaceBall ball(surface.graph, lengths);

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "predict/prediction_kernel.h"
+#include "trace/traced_seeds.h"
+
+namespace asdfvk {
+
+/// The hit points of seeds in the layout of PredictionKernel.
+class HitPoints {
+ public:
+  /// Scene, cone and arrays must outlive it.
+  HitPoints(const TraceScene& scene, const Cone& cone, const SeedHits& hits);
+
+  void clear();
+
+  /// Appends the points of all rays of a seed; misses and padding have NaN coordinates.
+  HitRange append(uint32_t seed);
+
+  [[nodiscard]] const std::vector<PointGroup>& groups() const { return groups_; }
+
+ private:
+  [[nodiscard]] bool isValid(uint32_t seedFace, const ConeHit& hit) const;
+  [[nodiscard]] LengthWindow inlierWindow(uint32_t seed) const;
+  [[nodiscard]] HitRange appendEmpty(size_t pointCount);
+
+  const TraceScene& scene_;
+  const Cone& cone_;
+  SeedHits hits_;
+  std::vector<PointGroup> groups_;
+};
+
+}  // namespace asdfvk

@@ -1,0 +1,227 @@
+#include "predict/prediction.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <utility>
+
+#include "core/check.h"
+#include "predict/hit_points.h"
+#include "predict/prediction_kernel.h"
+
+namespace asdfvk {
+namespace {
+
+// Standard deviation of the Gaussian weight of the angle between the normals of the seed and of the face.
+constexpr float kNormalDeviationRadians = 0.5f;
+
+// A seed with less than this share of the total weight is ignored: this adds 1 % to the error and saves a third of the
+// time (docs/experiments.md).
+constexpr float kMinWeightShare = 0.08f;
+
+// Cells predicted with one set of hit points; together they have 1.5 times as many contributing seeds as cells.
+constexpr size_t kBlockSize = 128;
+
+/// Input that all cells share.
+struct PredictionTask {
+  const TraceScene& scene;
+  const Cone& cone;
+  const SeedHits& hits;
+  const SeedCells& cells;
+  const NearestCells& nearest;
+  const PredictionOptions& options;
+  const Prediction& earlier;
+};
+
+/// Predicts the faces of one block of cells after another. Cells of a block are close to each other and share the hit
+/// points of their seeds.
+class CellPredictor {
+ public:
+  /// The task must outlive it.
+  explicit CellPredictor(const PredictionTask& task)
+      : task_(task), points_(task.scene, task.cone, task.hits), kernel_(task.cone) {
+    weighting_.inverseAngleVariance = 1 / (kNormalDeviationRadians * kNormalDeviationRadians);
+  }
+
+  /// values: #F; those of the cells' faces are written.
+  void run(std::span<const uint32_t> cells, std::vector<double>& values) {
+    points_.clear();
+    cached_.assign(std::bit_ceil(2 * cells.size() * (1 + task_.options.neighbourCount)), {});
+    for (size_t i = 0; i < cells.size(); ++i) {
+      if (i + 1 < cells.size()) prefetchFaces(cells[i + 1]);
+      runCell(cells[i], values);
+    }
+  }
+
+ private:
+  void runCell(uint32_t cell, std::vector<double>& values);
+  void prefetchFaces(uint32_t cell) const;
+  [[nodiscard]] HitRange hitsOf(uint32_t seed);
+  void reuseEarlier(uint32_t cell, std::vector<double>& values);
+  void gatherNeighbours(std::span<const uint32_t> neighbourSeeds);
+  void weighNeighbours(const VirtualCone& at);
+  [[nodiscard]] double valueAt(const VirtualCone& at, float minWeightShare);
+
+  const PredictionTask& task_;
+  HitPoints points_;
+  PredictionKernel kernel_;
+  struct CachedHits {
+    uint32_t seed = kNoCell;
+    HitRange range;
+  };
+  std::vector<CachedHits> cached_;  // By seed: a hash table with open addressing; its size is a power of two.
+
+  // Of the current cell:
+  std::vector<uint32_t> remainingFaces_;
+  std::vector<HitRange> neighbourHits_;
+  std::vector<SeedGroup> neighbourSeeds_;
+  SeedWeighting weighting_;
+  std::vector<float> weights_;
+  std::vector<WeightedRange> weighted_;
+};
+
+void CellPredictor::runCell(uint32_t cell, std::vector<double>& values) {
+  const TraceScene& scene = task_.scene;
+  reuseEarlier(cell, values);
+  if (remainingFaces_.empty()) return;
+  gatherNeighbours(task_.nearest.of(cell));
+  for (const uint32_t face : remainingFaces_) {
+    const Vec3d& normal = scene.geometry.normals[face];
+    if (normal.x == 0 && normal.y == 0 && normal.z == 0) continue;  // Degenerate.
+    const VirtualCone at{scene.bvh.normalization.toNormalized(scene.geometry.barycentres[face]), normal,
+                         scene.representatives[face]};
+    weighNeighbours(at);
+    double value = valueAt(at, kMinWeightShare);
+    if (std::isnan(value)) value = valueAt(at, 0);
+    values[face] = scene.bvh.normalization.toMeshLength(value);
+  }
+}
+
+/// The faces of a cell are neighbours on the surface but not in memory.
+void CellPredictor::prefetchFaces(uint32_t cell) const {
+  const FaceGeometry& geometry = task_.scene.geometry;
+  for (const uint32_t face : task_.cells.faces[cell]) {
+    __builtin_prefetch(&geometry.barycentres[face]);
+    __builtin_prefetch(&geometry.normals[face]);
+    __builtin_prefetch(&task_.scene.representatives[face]);
+  }
+}
+
+/// The hit points of the seed, computed on first use.
+HitRange CellPredictor::hitsOf(uint32_t seed) {
+  size_t place = seed * 0x9e37'79b1u;  // Knuth's multiplicative hash.
+  for (;; ++place) {
+    CachedHits& cached = cached_[place & (cached_.size() - 1)];
+    if (cached.seed == seed) return cached.range;
+    if (cached.seed != kNoCell) continue;
+    cached = {seed, points_.append(seed)};
+    return cached.range;
+  }
+}
+
+/// Copies the values of faces that are in the same cell as before, if the contributing seeds are the same too. The
+/// others become the remaining faces.
+void CellPredictor::reuseEarlier(uint32_t cell, std::vector<double>& values) {
+  const Prediction& earlier = task_.earlier;
+  const std::span<const uint32_t> faces = task_.cells.faces[cell];
+  remainingFaces_.assign(faces.begin(), faces.end());
+  if (cell >= earlier.nearest.cellCount() || !std::ranges::equal(earlier.nearest.of(cell), task_.nearest.of(cell)))
+    return;
+  std::erase_if(remainingFaces_, [&](uint32_t face) {
+    const bool isSame = earlier.cellOf[face] == cell;
+    if (isSame) values[face] = earlier.values[face];
+    return isSame;
+  });
+}
+
+void CellPredictor::gatherNeighbours(std::span<const uint32_t> neighbourSeeds) {
+  const TraceScene& scene = task_.scene;
+  neighbourHits_.clear();
+  neighbourSeeds_.assign((neighbourSeeds.size() + kPointGroupSize - 1) / kPointGroupSize, {});
+  Vec3d centre;
+  double sum = 0;
+  for (size_t i = 0; i < neighbourSeeds.size(); ++i) {
+    neighbourHits_.push_back(hitsOf(neighbourSeeds[i]));
+    const uint32_t face = task_.hits.seeds[neighbourSeeds[i]];
+    const Vec3d origin = scene.bvh.normalization.toNormalized(scene.geometry.barycentres[face]);
+    const Vec3d& normal = scene.geometry.normals[face];
+    SeedGroup& group = neighbourSeeds_[i / kPointGroupSize];
+    const size_t lane = i % kPointGroupSize;
+    group.x[lane] = static_cast<float>(origin.x);
+    group.y[lane] = static_cast<float>(origin.y);
+    group.z[lane] = static_cast<float>(origin.z);
+    group.nx[lane] = static_cast<float>(normal.x);
+    group.ny[lane] = static_cast<float>(normal.y);
+    group.nz[lane] = static_cast<float>(normal.z);
+    if (i == 0) centre = origin;
+    sum += length(origin - centre);
+  }
+  const double halfMeanDistance = sum / static_cast<double>(2 * std::max<size_t>(1, neighbourSeeds.size() - 1));
+  const double deviation = task_.options.distanceDeviation * halfMeanDistance;
+  weighting_.inverseVariance = deviation > 0 ? static_cast<float>(1 / (deviation * deviation)) : 0.0f;
+}
+
+void CellPredictor::weighNeighbours(const VirtualCone& at) {
+  weights_.resize(neighbourSeeds_.size() * kPointGroupSize);
+  for (size_t i = 0; i < neighbourSeeds_.size(); ++i)
+    kernel_.weigh(neighbourSeeds_[i], weighting_, at, &weights_[i * kPointGroupSize]);
+}
+
+/// From the seeds with at least minWeightShare of the total weight.
+double CellPredictor::valueAt(const VirtualCone& at, float minWeightShare) {
+  float sum = 0;
+  for (size_t i = 0; i < neighbourHits_.size(); ++i) sum += weights_[i];
+  weighted_.resize(neighbourHits_.size());
+  size_t count = 0;
+  for (size_t i = 0; i < neighbourHits_.size(); ++i) {  // Branch-free: the condition is unpredictable.
+    weighted_[count] = {neighbourHits_[i].firstGroup, neighbourHits_[i].groupCount, weights_[i]};
+    count += weights_[i] >= minWeightShare * sum ? 1 : 0;
+  }
+  weighted_.resize(count);
+  return kernel_.value(points_.groups(), weighted_, at, neighbourHits_[0].medianLength);
+}
+
+/// The cells in the order of their seeds in the hierarchy, which puts neighbours in space next to each other.
+std::vector<uint32_t> cellsInOrder(const TraceScene& scene, std::span<const uint32_t> seeds, const SeedCells& cells) {
+  std::vector<uint32_t> order;
+  std::vector<uint8_t> isListed(seeds.size(), 0);
+  order.reserve(seeds.size());
+  for (const uint32_t face : scene.bvh.slotFaces) {
+    const uint32_t cell = cells.cellOf[face];
+    if (cell == kNoCell || seeds[cell] != face) continue;
+    order.push_back(cell);
+    isListed[cell] = 1;
+  }
+  // The hierarchy does not contain copies of other faces.
+  for (uint32_t cell = 0; cell < seeds.size(); ++cell)
+    if (seeds[cell] != kNoFace && !isListed[cell]) order.push_back(cell);
+  return order;
+}
+
+}  // namespace
+
+Prediction predictValues(const TraceScene& scene, const DualGraph& graph, const Cone& cone, const SeedHits& hits,
+                         const PredictionOptions& options, Prediction earlier) {
+  ASDFVK_CHECK_OP(hits.hits.size(), ==, hits.seeds.size() * cone.directions.size());
+  SeedCells cells = buildSeedCells(graph, hits.seeds);
+  Prediction prediction{std::vector<double>(scene.geometry.areas.size(), kNoValue),
+                        {},
+                        NearestCells(cells, graph, scene.geometry, hits.seeds, options.neighbourCount)};
+  const PredictionTask task{scene, cone, hits, cells, prediction.nearest, options, earlier};
+  const std::vector<uint32_t> order = cellsInOrder(scene, hits.seeds, cells);
+  const size_t blockCount = (order.size() + kBlockSize - 1) / kBlockSize;
+  tbb::parallel_for(tbb::blocked_range<size_t>(0, blockCount), [&](const tbb::blocked_range<size_t>& range) {
+    CellPredictor predictor(task);
+    for (size_t block = range.begin(); block < range.end(); ++block) {
+      const size_t first = block * kBlockSize;
+      predictor.run(std::span(order).subspan(first, std::min(kBlockSize, order.size() - first)), prediction.values);
+    }
+  });
+  prediction.cellOf = std::move(cells.cellOf);
+  return prediction;
+}
+
+}  // namespace asdfvk

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <vector>
+
+#include "predict/seed_cells.h"
+#include "trace/traced_seeds.h"
+
+/// Prediction of the shape diameter of faces that cast no rays, from the hits of the seeds around them. The hit points
+/// are on the opposite side of the shape, and most of them are visible from the face too: from its barycentre each has
+/// a distance and an angle to the axis of the face's cone. The points in that cone, weighted by the solid angle that
+/// they represent there, take the place of the face's own hits in the definition of the value (cone/cone.h). No ray is
+/// cast, and occlusion between the face and a point is not tested.
+///
+/// Source: reprojection of cached rays in global illumination (Ward and Heckbert 1992, "Irradiance gradients"; Bekaert,
+/// Sbert and Halton 2002, "Accelerating path tracing by re-using paths"). The gradient of the prediction is a guidance
+/// field as in the ASDF paper, section 4.1, which uses the curvature.
+namespace asdfvk {
+
+struct PredictionOptions {
+  uint32_t neighbourCount = 6;  ///< Cells around the cell of a face whose seeds contribute, besides its own seed.
+  /// Standard deviation of the Gaussian distance weight, in units of half the mean distance to the neighbouring seeds.
+  double distanceDeviation = 1.5;
+};
+
+struct Prediction {
+  /// #F, seeds included, in the unit of the mesh; kNoValue where a face is degenerate, belongs to no cell, or has no
+  /// hit point in its cone.
+  std::vector<double> values;
+  std::vector<uint32_t> cellOf;  ///< #F, as SeedCells::cellOf.
+  NearestCells nearest;          ///< The cells whose seeds contributed, per cell.
+};
+
+/// The same on any number of threads. earlier: a prediction of the same scene, cone and options whose seeds have the
+/// same indices in `hits` as far as they are still there, or empty; values that did not change are copied from it.
+[[nodiscard]] Prediction predictValues(const TraceScene& scene, const DualGraph& graph, const Cone& cone,
+                                       const SeedHits& hits, const PredictionOptions& options, Prediction earlier = {});
+
+}  // namespace asdfvk
