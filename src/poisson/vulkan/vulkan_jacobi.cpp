@@ -12,7 +12,7 @@ namespace asdfvk {
 namespace {
 
 // A stationary iteration loses nothing by a restart, and float32 does not stagnate over so small a reduction.
-constexpr double kMinReduction = 1e-2;
+constexpr double kJacobiMinReduction = 1e-2;
 // Fixed: the end of the iteration depends on it, and the same input must give the same bits.
 constexpr uint32_t kBatch = 32;
 constexpr uint32_t kBindingCount = 8;
@@ -40,7 +40,7 @@ class VulkanJacobiSolver final : public PoissonSolver {
 
   SolverReport solve(const PoissonSystem& system, const SolverOptions& options, std::span<double> solution,
                      const RunControl& control) override {
-    const DeviceMethod method{.minReduction = kMinReduction,
+    const DeviceMethod method{.minReduction = kJacobiMinReduction,
                               .finishesOnCpu = false,
                               .solve = [this](const DevicePass& pass) { return iterate(pass); }};
     return solveOnDevice(method, device_, system, options, solution, control);
