@@ -6,10 +6,10 @@
 #include <cmath>
 #include <optional>
 
-#include "exact_values.h"
 #include "core/text.h"
-#include "pipeline/compute_backend.h"
-#include "seeds/random_permutation.h"
+#include "exact_values.h"
+#include "pipeline/backend.h"
+#include "seeds/samplers.h"
 #include "support/computation.h"
 #include "support/measurement.h"
 #include "support/program.h"
@@ -34,18 +34,18 @@ struct Errors {
 };
 
 /// Traces up to `count` random faces that have an exact value.
-std::vector<TracedFace> traceRandomFaces(ComputeBackend& backend, Mesh mesh, const AnalyticShape& shape,
+std::vector<TracedFace> traceRandomFaces(Backend& backend, Mesh mesh, const AnalyticShape& shape,
                                          const ConeOptions& coneOptions, const Arguments& arguments,
                                          const RunControl& control) {
   const TraceableMesh traceable(std::move(mesh));
   const FaceGeometry& geometry = traceable.prepared.geometry;
   std::vector<uint32_t> candidates;
-  for (const uint32_t face : traceable.prepared.castableFaces)
+  for (const uint32_t face : traceable.prepared.traceableFaces)
     if (shape.hasExactValue(geometry.barycentres[face])) candidates.push_back(face);
   const std::vector<uint32_t> faces = randomPermutationSeeds(candidates, arguments.seedCount, arguments.randomSeed);
   const Cone cone = makeCone(coneOptions);
   std::vector<double> values(faces.size());
-  backend.makeTracer(traceable.scene(), cone)->trace(faces, {values}, control);
+  backend.makeTracer(traceable.scene(), cone, false)->trace(faces, {values}, control);
   std::vector<TracedFace> traced;
   for (size_t i = 0; i < faces.size(); ++i)
     traced.push_back({geometry.barycentres[faces[i]], geometry.normals[faces[i]], values[i]});
@@ -53,7 +53,7 @@ std::vector<TracedFace> traceRandomFaces(ComputeBackend& backend, Mesh mesh, con
 }
 
 Errors errorsOf(const AnalyticShape& shape, uint64_t faceCount, const ConeOptions& cone, const Arguments& arguments,
-                ComputeBackend& backend, const RunControl& control) {
+                Backend& backend, const RunControl& control) {
   Mesh mesh = shape.makeMesh(faceCount).mesh;
   const double angle = facetAngle(shape, mesh);
   Errors errors{mesh.faceCount(), 0, {}, {}};
@@ -98,8 +98,8 @@ std::string row(const Errors& errors, const std::optional<Errors>& coarser) {
                      errors.stable.empty() ? "-" : fmt::format("{:.2e}", stable.max), maximumOrder);
 }
 
-void printTable(const AnalyticShape& shape, const ConeOptions& cone, const Arguments& arguments,
-                ComputeBackend& backend, const RunControl& control) {
+void printTable(const AnalyticShape& shape, const ConeOptions& cone, const Arguments& arguments, Backend& backend,
+                const RunControl& control) {
   writeOutput(fmt::format(
       "\n{}; cone of {:g} degrees\n\n"
       "|     faces | traced | no value | mean     | max      | median   | order | stable | stable max | order |\n"
@@ -114,12 +114,13 @@ void printTable(const AnalyticShape& shape, const ConeOptions& cone, const Argum
 }
 
 void run(const Arguments& arguments, const RunControl& control) {
-  ComputeBackend backend(sessionOptionsOf(arguments.backend, arguments.device));
+  const NamedBackend named = openBackend(sessionOptionsOf(arguments.backend, arguments.device));
+  Backend& backend = *named.backend;
   writeOutput(fmt::format(
       "{} ({}), {} rays per cone\nrelative errors of up to {} random faces; order: p in error ~ edge length^p\n"
       "stable: faces with no ray so near to the thresholds of false intersections and outliers that the facets of the\n"
       "mesh can change its classification\n",
-      backend.deviceName(), backend.name(), arguments.rayCount, arguments.seedCount));
+      backend.deviceName(), named.name, arguments.rayCount, arguments.seedCount));
   for (const double angle : arguments.angles) {
     const ConeOptions cone{arguments.rayCount, angle};
     for (const AnalyticShape& shape : analyticShapes(cone)) printTable(shape, cone, arguments, backend, control);

@@ -4,17 +4,18 @@
 #include <functional>
 #include <memory>
 
+#include "asdf_vk/files.h"
 #include "baselines.h"
 #include "core/stopwatch.h"
-#include "asdf_vk/files.h"
-#include "cli/choice_names.h"
-#include "pipeline/compute_backend.h"
+#include "pipeline/backend.h"
+#include "pipeline/choice_names.h"
 #include "pipeline/seed_choice.h"
-#include "seeds/random_permutation.h"
+#include "seeds/samplers.h"
 #include "support/computation.h"
 #include "support/process.h"
 #include "trace/embree/embree_tracer.h"
 #include "trace/seed_order.h"
+#include "trace/vulkan/vulkan_trace_choice.h"
 
 namespace asdfvk::bench {
 namespace {
@@ -25,17 +26,19 @@ std::vector<std::string> fastBackends() {
 }
 
 /// Every backend by its name, and Vulkan with each kernel that is not the device's default.
-std::map<std::string, std::unique_ptr<ComputeBackend>> makeBackends(const std::string& device) {
-  std::map<std::string, std::unique_ptr<ComputeBackend>> backends;
-  backends["reference"] = std::make_unique<ComputeBackend>(sessionOptionsOf("reference", device));
-  for (const std::string& name : fastBackends())
-    backends[name] = std::make_unique<ComputeBackend>(sessionOptionsOf(name, device));
-  const TraceKernel defaultKernel = backends["vulkan"]->traceChoice()->kernel;
-  for (const auto& [name, kernel] : kTraceKernels) {
-    if (!kernel || kernel == defaultKernel) continue;
+std::map<std::string, std::unique_ptr<Backend>> openBackends(const std::string& device) {
+  std::map<std::string, std::unique_ptr<Backend>> backends;
+  const auto open = [&](const std::string& name, const SessionOptions& options) {
+    backends[name] = openBackend(options).backend;
+  };
+  open("reference", sessionOptionsOf("reference", device));
+  for (const std::string& name : fastBackends()) open(name, sessionOptionsOf(name, device));
+  const std::string defaultKernel = backends["vulkan"]->traceVariant()->kernel;
+  for (const auto& [name, kernel] : kernelNames()) {
+    if (name == defaultKernel) continue;
     SessionOptions options = sessionOptionsOf("vulkan", device);
-    options.trace.kernel = kernel;
-    backends[std::string("vulkan ") + name] = std::make_unique<ComputeBackend>(options);
+    options.variant.kernel = name;
+    open(std::string("vulkan ") + name, options);
   }
   return backends;
 }
@@ -44,8 +47,8 @@ std::map<std::string, std::unique_ptr<ComputeBackend>> makeBackends(const std::s
 class MeshComparison {
  public:
   MeshComparison(std::string path, const std::string& device)
-      : path_(std::move(path)), device_(device), mesh_(readMesh(path_)), backends_(makeBackends(device)) {
-    for (const auto& [name, backend] : backends_) tracers_[name] = backend->makeTracer(mesh_.scene(), cone_);
+      : path_(std::move(path)), device_(device), mesh_(readMesh(path_)), backends_(openBackends(device)) {
+    for (const auto& [name, backend] : backends_) tracers_[name] = backend->makeTracer(mesh_.scene(), cone_, false);
     for (const std::string& name : fastBackends())
       sessions_[name] = std::make_unique<Session>(sessionOptionsOf(name, device));
   }
@@ -106,7 +109,7 @@ class MeshComparison {
 
   /// Random faces in the order of the hierarchy, which is the fastest for every tracer; ours would sort them.
   std::vector<uint32_t> chooseSeeds(const std::string& count) const {
-    const std::vector<uint32_t>& candidates = mesh_.prepared.castableFaces;
+    const std::vector<uint32_t>& candidates = mesh_.prepared.traceableFaces;
     const std::vector<uint32_t> chosen = randomPermutationSeeds(
         candidates, resolveSeedCount(parseSeedCount(count), candidates.size()), Options{}.randomSeed);
     std::vector<uint32_t> seeds;
@@ -121,7 +124,7 @@ class MeshComparison {
       makeEmbreeBaseline(mesh_.scene(), mesh_.bvh.slotFaces, cone_, EmbreeMode::Fast);
   std::unique_ptr<EmbreeBaseline> embreeRobust_ =
       makeEmbreeBaseline(mesh_.scene(), mesh_.bvh.slotFaces, cone_, EmbreeMode::Robust);
-  std::map<std::string, std::unique_ptr<ComputeBackend>> backends_;
+  std::map<std::string, std::unique_ptr<Backend>> backends_;
   std::map<std::string, std::unique_ptr<ConeTracer>> tracers_;
   std::map<std::string, std::unique_ptr<Session>> sessions_;
 };

@@ -7,10 +7,10 @@
 #include <functional>
 #include <thread>
 
+#include "asdf_vk/files.h"
 #include "baselines.h"
 #include "bvh/device_bvh.h"
-#include "asdf_vk/files.h"
-#include "seeds/random_permutation.h"
+#include "seeds/samplers.h"
 #include "support/bvh_statistics.h"
 #include "support/computation.h"
 #include "support/measurement.h"
@@ -91,7 +91,7 @@ std::vector<uint32_t> selectGroups(const std::vector<uint32_t>& seeds, uint64_t 
   return selected;
 }
 
-std::string walksText(const TraceScene& scene, const Cone& cone, const std::vector<uint32_t>& castable,
+std::string walksText(const TraceScene& scene, const Cone& cone, const std::vector<uint32_t>& traceable,
                       const Arguments& arguments) {
   std::string text =
       "\nper ray; shared: per step of a subgroup\n"
@@ -100,7 +100,7 @@ std::string walksText(const TraceScene& scene, const Cone& cone, const std::vect
   for (const BvhLayout layout : {BvhLayout::Binary, BvhLayout::Wide}) {
     const DeviceBvh bvh = encodeDeviceBvh(scene.bvh, scene.mesh, scene.geometry, layout);
     for (const uint32_t percent : {100u, 10u}) {
-      const std::vector<uint32_t> chosen = randomPermutationSeeds(castable, castable.size() * percent / 100, 1);
+      const std::vector<uint32_t> chosen = randomPermutationSeeds(traceable, traceable.size() * percent / 100, 1);
       std::vector<uint32_t> seeds;
       for (const uint32_t i : SeedOrder(scene).of(chosen)) seeds.push_back(chosen[i]);
       const WalkCounts counts = countWalks(bvh, scene, cone, selectGroups(seeds, arguments.walkedSeedCount));
@@ -120,7 +120,8 @@ void measure(const std::string& path, const Arguments& arguments) {
   writeOutput(fmt::format("\n{}: {} faces on {}\nSAH cost {:.2f}, {} nodes, {} leaves, depth {}\n", path,
                           mesh.mesh.faceCount(), toText(thisMachine()), statistics.sahCost, statistics.nodeCount,
                           statistics.leafCount, statistics.depth));
-  if (arguments.walkedSeedCount > 0) writeOutput(walksText(mesh.scene(), cone, mesh.prepared.castableFaces, arguments));
+  if (arguments.walkedSeedCount > 0)
+    writeOutput(walksText(mesh.scene(), cone, mesh.prepared.traceableFaces, arguments));
   if (arguments.roundCount > 0) writeOutput(timesText(mesh.scene(), cone, arguments));
 }
 

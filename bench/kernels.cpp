@@ -7,8 +7,7 @@
 #include <optional>
 
 #include "asdf_vk/files.h"
-#include "cli/choice_names.h"
-#include "seeds/random_permutation.h"
+#include "seeds/samplers.h"
 #include "support/computation.h"
 #include "support/measurement.h"
 #include "support/program.h"
@@ -48,6 +47,12 @@ std::vector<VulkanTraceChoice> allVariants() {
       for (const BvhFetch fetch : {BvhFetch::Texel, BvhFetch::Storage})
         if (const VulkanTraceChoice choice{kernel, bvh, fetch}; choice != kBaseline) all.push_back(choice);
   return all;
+}
+
+/// "seed wide texel"
+std::string nameOf(const VulkanTraceChoice& choice) {
+  const TraceVariant variant = variantOf(choice);
+  return fmt::format("{} {} {}", variant.kernel, variant.bvh, variant.fetch);
 }
 
 std::vector<Row> makeRows(const Arguments& arguments, const Device& device, const TraceScene& scene, const Cone& cone) {
@@ -94,7 +99,7 @@ void timeRows(std::vector<Row>& rows, const std::vector<uint32_t>& seeds, uint32
 
 void measure(const std::string& path, const Arguments& arguments, const Device& device, const RunControl& control) {
   const TraceableMesh mesh(readMesh(path));
-  const std::vector<uint32_t>& faces = mesh.prepared.castableFaces;
+  const std::vector<uint32_t>& faces = mesh.prepared.traceableFaces;
   const Cone cone = makeCone({.rayCount = arguments.rayCount});
   const Clock clock = device.facts().kind == DeviceKind::Cpu ? Clock::ProcessCpu : Clock::Wall;
   std::vector<Row> rows = makeRows(arguments, device, mesh.scene(), cone);

@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
+#include "asdf_vk/files.h"
 #include "core/stopwatch.h"
 #include "core/text.h"
-#include "asdf_vk/files.h"
 #include "support/measurement.h"
 #include "support/process.h"
 #include "support/program.h"

@@ -36,12 +36,12 @@ struct MeshRow {
 MeshRow measure(Session& session, const std::string& path, uint32_t truthRayCount, const RunControl& control) {
   MeshRow row;
   row.name = path.substr(path.rfind('/') + 1);
-  Mesh mesh = readMesh(path);
+  const Mesh mesh = readMesh(path);
   const auto compute = [&](const Options& options) { return session.compute(mesh, options, control); };
   const Result full = compute(recipeOptions(Recipe::Paper, 100));
   const Result truth = compute(truthOptions(truthRayCount));
-  const auto error = [&](const Result& result) { return errorsOverRange(full.sdf, result.sdf).average; };
-  const auto truthError = [&](const Result& result) { return errorsOverRange(truth.sdf, result.sdf).average; };
+  const auto error = [&](const Result& result) { return errorsOverRange(full.sdf(), result.sdf()).average; };
+  const auto truthError = [&](const Result& result) { return errorsOverRange(truth.sdf(), result.sdf()).average; };
   const double floor = truthError(full);
 
   row.faceCount = full.report.faceCount;
@@ -56,7 +56,7 @@ MeshRow measure(Session& session, const std::string& path, uint32_t truthRayCoun
     row.iterations =
         static_cast<double>(balanced.report.solver.iterations) / std::max(1u, paper.report.solver.iterations);
     const StageSeconds& seconds = balanced.report.stageSeconds;
-    row.overTrace = (seconds.sample + seconds.predict + seconds.solve) / seconds.trace;
+    row.overTrace = (seconds[Stage::Sample] + seconds[Stage::Predict] + seconds[Stage::Solve]) / seconds[Stage::Trace];
   }
   const Result quality = compute(recipeOptions(Recipe::Quality, 10));
   row.quality = error(quality);

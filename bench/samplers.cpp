@@ -7,12 +7,11 @@
 #include <cmath>
 #include <numeric>
 
+#include "asdf_vk/files.h"
 #include "core/stopwatch.h"
 #include "core/text.h"
 #include "generate/shapes.h"
-#include "asdf_vk/files.h"
-#include "seeds/sampler.h"
-#include "seeds/surface_ball.h"
+#include "seeds/samplers.h"
 #include "seeds/surface_distances.h"
 #include "support/measurement.h"
 #include "support/program.h"
@@ -21,23 +20,6 @@ namespace {
 
 using namespace asdfvk;
 using namespace asdfvk::bench;
-
-struct Row {
-  const char* name;
-  SamplerKind kind;
-  SurfaceMetric metric;
-};
-constexpr std::array<Row, 9> kRows{{
-    {"random permutation", SamplerKind::Random, SurfaceMetric::Hops},
-    {"depth-first stride", SamplerKind::DepthFirst, SurfaceMetric::Hops},
-    {"normal space", SamplerKind::NormalSpace, SurfaceMetric::Hops},
-    {"blue noise, hops", SamplerKind::BlueNoise, SurfaceMetric::Hops},
-    {"blue noise, length", SamplerKind::BlueNoise, SurfaceMetric::Length},
-    {"blue noise, angle", SamplerKind::BlueNoise, SurfaceMetric::Angle},
-    {"farthest point, hops", SamplerKind::FarthestPoint, SurfaceMetric::Hops},
-    {"farthest point, length", SamplerKind::FarthestPoint, SurfaceMetric::Length},
-    {"farthest point, angle", SamplerKind::FarthestPoint, SurfaceMetric::Angle},
-}};
 
 /// Distances in one metric. The only seed of a component has no nearest other seed and is skipped.
 struct Evenness {
@@ -89,30 +71,30 @@ void measure(const std::string& name, const Mesh& mesh, double percent, uint32_t
   const SeedDomain domain{graph, geometry, candidates};
   const auto count = static_cast<uint64_t>(percent / 100 * static_cast<double>(candidates.size()));
   std::string text = fmt::format(
-      "{}: {} faces, {} seeds; distances in the angle metric, and in hops where stated\n\n"
+      "{}: {} faces, {} seeds; distances in the metric of the samplers, and in hops where stated\n\n"
       "| sampler | ms | / random | to nearest other seed: min | mean | deviation | in hops: min | mean "
       "| face to nearest seed: rms | max |\n"
       "|---------|---:|---------:|---------------------------:|-----:|----------:|-------------:|-----:"
       "|--------------------------:|----:|\n",
       name, groupDigits(mesh.faceCount()), groupDigits(count));
-  const std::vector<float> angles = arcLengths(graph, geometry, SurfaceMetric::Angle);
-  const std::vector<float> hops = arcLengths(graph, geometry, SurfaceMetric::Hops);
-  double randomMedian = 0;
-  for (const Row& row : kRows) {
+  const std::vector<float> lengths = arcLengths(graph, geometry), hops(lengths.size(), 1.0f);
+  std::vector<double> randomMilliseconds;
+  for (const Sampler& sampler : kSamplers) {
+    if (sampler.refine != nullptr) continue;  // Needs error indicators.
     std::vector<double> milliseconds;
     std::vector<uint32_t> seeds;
     for (uint32_t round = 0; round < roundCount; ++round) {
       const Stopwatch watch;
-      seeds = sampleSeeds(row.kind, row.metric, domain, count, {}, round + 1);
+      seeds = sampler.sample(domain, count, {}, round + 1);
       milliseconds.push_back(1e3 * watch.seconds());
     }
-    const Dispersion time = dispersionOf(milliseconds);
-    if (row.kind == SamplerKind::Random) randomMedian = time.median;
-    const Evenness inAngles = evennessOf(graph, angles, seeds), inHops = evennessOf(graph, hops, seeds);
+    if (sampler.name == std::string_view("random")) randomMilliseconds = milliseconds;
+    const Evenness evenness = evennessOf(graph, lengths, seeds), inHops = evennessOf(graph, hops, seeds);
     text += fmt::format("| {} | {} | {:.1f} | {:.2f} | {:.2f} | {:.2f} | {:.0f} | {:.2f} | {:.2f} | {:.1f} |\n",
-                        row.name, toText(time, 1), time.median / randomMedian, inAngles.nearestMin,
-                        inAngles.nearestMean, inAngles.nearestDeviation, inHops.nearestMin, inHops.nearestMean,
-                        inAngles.coverRms, inAngles.coverMax);
+                        sampler.name, toText(dispersionOf(milliseconds), 1),
+                        dispersionOf(milliseconds).median / dispersionOf(randomMilliseconds).median,
+                        evenness.nearestMin, evenness.nearestMean, evenness.nearestDeviation, inHops.nearestMin,
+                        inHops.nearestMean, evenness.coverRms, evenness.coverMax);
   }
   writeOutput(text + "\n");
 }

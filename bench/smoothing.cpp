@@ -4,10 +4,10 @@
 
 #include <array>
 
+#include "asdf_vk/files.h"
 #include "core/stopwatch.h"
 #include "core/text.h"
-#include "asdf_vk/files.h"
-#include "pipeline/compute_backend.h"
+#include "pipeline/backend.h"
 #include "smooth/bilateral.h"
 #include "support/computation.h"
 #include "support/measurement.h"
@@ -18,7 +18,7 @@ namespace {
 using namespace asdfvk;
 using namespace asdfvk::bench;
 
-constexpr std::array<BilateralOptions, 7> kVariants{{{1, 1}, {1, 2}, {1, 3}, {2, 1}, {2, 2}, {3, 1}, {4, 1}}};
+constexpr std::array<SmoothingOptions::Window, 7> kVariants{{{1, 1}, {1, 2}, {1, 3}, {2, 1}, {2, 2}, {3, 1}, {4, 1}}};
 
 struct Arguments {
   std::vector<std::string> meshes;
@@ -27,12 +27,12 @@ struct Arguments {
 };
 
 /// The function with `rayCount` rays at every face.
-std::vector<double> traceAllFaces(ComputeBackend& backend, const TraceableMesh& mesh, uint32_t rayCount,
-                                  ConeRotation rotation, const RunControl& control) {
+std::vector<double> traceAllFaces(Backend& backend, const TraceableMesh& mesh, uint32_t rayCount, ConeRotation rotation,
+                                  const RunControl& control) {
   const Cone cone = makeCone({.rayCount = rayCount, .rotation = rotation});
-  const std::vector<uint32_t>& faces = mesh.prepared.castableFaces;
+  const std::vector<uint32_t>& faces = mesh.prepared.traceableFaces;
   std::vector<double> values(faces.size()), field(mesh.mesh.faceCount(), kNoValue);
-  backend.makeTracer(mesh.scene(), cone)->trace(faces, {values}, control);
+  backend.makeTracer(mesh.scene(), cone, false)->trace(faces, {values}, control);
   for (size_t i = 0; i < faces.size(); ++i) field[faces[i]] = values[i];
   return field;
 }
@@ -48,7 +48,7 @@ Dispersion milliseconds(uint32_t runCount, const Task& task) {
   return dispersionOf(samples);
 }
 
-void measure(ComputeBackend& backend, const std::string& path, const Arguments& arguments, const RunControl& control) {
+void measure(Backend& backend, const std::string& path, const Arguments& arguments, const RunControl& control) {
   const TraceableMesh mesh(readMesh(path));
   const std::vector<double> truth =
       traceAllFaces(backend, mesh, arguments.truthRayCount, ConeRotation::Hashed, control);
@@ -56,20 +56,20 @@ void measure(ComputeBackend& backend, const std::string& path, const Arguments& 
   const std::vector<double> fixed = traceAllFaces(backend, mesh, arguments.rayCount, ConeRotation::Fixed, control);
   const auto error = [&](const std::vector<double>& values) { return errorsOverRange(truth, values).average; };
 
-  const BilateralOptions automatic = bilateralOptionsFor(mesh.mesh.faceCount());
+  const SmoothingOptions::Window automatic = smoothingWindowFor(mesh.mesh.faceCount());
   std::string text = fmt::format(
       "{}: {} faces; {}\naverage error of {} rays against {} rays, over the range of the latter; automatic choice: "
-      "window {}, passes {}\n\n"
-      "| window | passes | hashed cones | fixed cones | ms |\n"
+      "rings {}, passes {}\n\n"
+      "|  rings | passes | hashed cones | fixed cones | ms |\n"
       "|-------:|-------:|-------------:|------------:|---:|\n"
       "|      - |      0 |       {:.4f} |      {:.4f} |    |\n",
       path, groupDigits(mesh.mesh.faceCount()), backend.deviceName(), arguments.rayCount, arguments.truthRayCount,
-      automatic.window, automatic.passes, error(hashed), error(fixed));
-  for (const BilateralOptions& options : kVariants) {
+      automatic.rings, automatic.passes, error(hashed), error(fixed));
+  for (const SmoothingOptions::Window& window : kVariants) {
     const auto smooth = [&](const std::vector<double>& values) {
-      return smoothBilaterally(mesh.prepared.graph, values, options);
+      return smoothBilaterally(mesh.prepared.graph, values, window);
     };
-    text += fmt::format("| {:>6} | {:>6} |       {:.4f} |      {:.4f} | {} |\n", options.window, options.passes,
+    text += fmt::format("| {:>6} | {:>6} |       {:.4f} |      {:.4f} | {} |\n", window.rings, window.passes,
                         error(smooth(hashed)), error(smooth(fixed)),
                         toText(milliseconds(arguments.runCount, [&] { return smooth(hashed); }), 1));
   }
@@ -88,7 +88,7 @@ int main(int argc, char** argv) {
   program.add("--runs", arguments.runCount, "Timed runs, after one for warm-up", {1, 1000});
   program.add("--device", arguments.device, "Vulkan device: index or part of its name");
   return program.run(argc, argv, [&](const RunControl& control) {
-    ComputeBackend backend(sessionOptionsOf("vulkan", arguments.device));
-    for (const std::string& mesh : arguments.meshes) measure(backend, mesh, arguments, control);
+    const NamedBackend named = openBackend(sessionOptionsOf("vulkan", arguments.device));
+    for (const std::string& mesh : arguments.meshes) measure(*named.backend, mesh, arguments, control);
   });
 }

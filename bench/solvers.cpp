@@ -7,14 +7,15 @@
 #include <array>
 #include <functional>
 
+#include "asdf_vk/files.h"
 #include "core/text.h"
 #include "generate/creatures.h"
-#include "asdf_vk/files.h"
 #include "mesh/dual_graph.h"
 #include "mesh/face_geometry.h"
 #include "poisson/arc_weights.h"
 #include "poisson/poisson_solver.h"
 #include "poisson/poisson_system.h"
+#include "poisson/solvers.h"
 #include "support/computation.h"
 #include "support/measurement.h"
 #include "support/program.h"
@@ -33,28 +34,27 @@ struct Arguments {
   bool solvesSystem = false;
 };
 
-struct SolverRow {
-  SolverChoice choice;
+struct SolverTimes {
+  const char* name;
   SolverReport report = {};
   std::vector<double> seconds = {};
 };
 
 /// Times the solve stage of whole computations.
-void compareSolvers(Session& session, const std::string& name, Mesh& mesh, const std::string& seeds,
+void compareSolvers(Session& session, const std::string& name, const Mesh& mesh, const std::string& seeds,
                     const Arguments& arguments, const RunControl& control) {
-  std::array<SolverRow, 4> rows{
-      {{SolverChoice::Eigen}, {SolverChoice::Cpu}, {SolverChoice::Cg}, {SolverChoice::Jacobi}}};
+  std::array<SolverTimes, 4> rows{{{"eigen"}, {"cpu"}, {"cg"}, {"jacobi"}}};
   Options options;
   options.seeds = parseSeedCount(seeds);
   options.solverOptions.tolerance = arguments.tolerance;
   std::string device;
   for (uint32_t round = 0; round <= arguments.runCount; ++round)
-    for (SolverRow& row : rows) {
-      options.solver = row.choice;
+    for (SolverTimes& row : rows) {
+      options.solver = row.name;
       const Report report = session.compute(mesh, options, control).report;
       device = report.device;
       row.report = report.solver;
-      if (round > 0) row.seconds.push_back(report.stageSeconds.solve);  // Round 0 is the warm-up.
+      if (round > 0) row.seconds.push_back(report.stageSeconds[Stage::Solve]);  // Round 0 is the warm-up.
     }
   std::string text = fmt::format(
       "{}: {} faces, seeds {}, tolerance {:g}, {} rounds on {}; {}\n"
@@ -63,8 +63,8 @@ void compareSolvers(Session& session, const std::string& name, Mesh& mesh, const
       "|--------|-----------:|---------:|-----------|--------:|--------:|\n",
       name, groupDigits(mesh.inputFaceCount()), seeds, arguments.tolerance, arguments.runCount, toText(thisMachine()),
       device);
-  for (const SolverRow& row : rows)
-    text += fmt::format("| {:<6} | {:>10} | {:.2e} | {:<9} | {} | {} |\n", row.report.name, row.report.iterations,
+  for (const SolverTimes& row : rows)
+    text += fmt::format("| {:<6} | {:>10} | {:.2e} | {:<9} | {} | {} |\n", row.name, row.report.iterations,
                         row.report.relativeResidual, row.report.converged ? "yes" : "no",
                         toText(dispersionOf(row.seconds), 3), toText(ratioOf(row.seconds, rows[0].seconds), 2));
   writeOutput(text + "\n");
@@ -118,18 +118,18 @@ struct SystemRow {
 };
 
 /// The harmonic system (no guidance, no prediction) of the seeds of a computation.
-std::optional<PoissonSystem> harmonicSystem(Session& session, Mesh& mesh, const std::string& seeds,
+std::optional<PoissonSystem> harmonicSystem(Session& session, const Mesh& mesh, const std::string& seeds,
                                             const RunControl& control) {
   Options options;
   options.seeds = parseSeedCount(seeds);
   options.estimatesError = false;
   const Result result = session.compute(mesh, options, control);
-  if (result.sdf.size() != mesh.faces.size()) return {};  // Polygons: the values are not those of the triangles.
-  std::vector<double> values(result.sdf.size(), kNoValue);
+  if (!mesh.polygons.isEmpty()) return {};  // The values are not those of the triangles.
+  std::vector<double> values(mesh.faces.size(), kNoValue);
   for (size_t face = 0; face < values.size(); ++face)
-    if (result.isSeed[face]) values[face] = result.sdf[face];
+    if (result.seed()[face] != 0) values[face] = result.sdf()[face];
   const DualGraph graph = buildDualGraph(mesh);
-  return buildPoissonSystem(graph, arcWeights(ArcWeightKind::Feature, graph, computeFaceGeometry(mesh)), values, {});
+  return buildPoissonSystem(graph, arcWeights(ArcWeights::Feature, graph, computeFaceGeometry(mesh)), values, {});
 }
 
 /// Times our solvers and Eigen's on the system alone.
@@ -178,7 +178,7 @@ void compareOnSystem(const PoissonSystem& system, const Arguments& arguments, co
 
 void run(const Arguments& arguments, const RunControl& control) {
   Session session(sessionOptionsOf("vulkan", arguments.device));
-  const auto measure = [&](const std::string& name, Mesh mesh) {
+  const auto measure = [&](const std::string& name, const Mesh& mesh) {
     for (const std::string& seeds : arguments.seeds) {
       compareSolvers(session, name, mesh, seeds, arguments, control);
       if (!arguments.solvesSystem) continue;

@@ -12,7 +12,8 @@ namespace {
 
 double secondsOf(const FileRun& run, TimeSpan span) {
   const StageSeconds& seconds = run.report.stageSeconds;
-  return span == TimeSpan::Total ? run.totalSeconds : seconds.sample + seconds.trace + seconds.predict + seconds.solve;
+  if (span == TimeSpan::Total) return run.totalSeconds;
+  return seconds[Stage::Sample] + seconds[Stage::Trace] + seconds[Stage::Predict] + seconds[Stage::Solve];
 }
 
 /// The quantity of every run.
@@ -41,8 +42,8 @@ ColdRun runCold(const std::string& mesh, const StageRow& row, const std::string&
 
 }  // namespace
 
-Dispersion StageRow::stage(double StageSeconds::*member) const {
-  return dispersionOf(samplesOf(*this, [&](const FileRun& run) { return run.report.stageSeconds.*member; }));
+Dispersion StageRow::seconds(Stage stage) const {
+  return dispersionOf(samplesOf(*this, [&](const FileRun& run) { return run.report.stageSeconds[stage]; }));
 }
 
 Dispersion StageRow::total() const {
@@ -70,7 +71,7 @@ std::optional<Dispersion> StageMeasurement::overFullTrace(const StageRow& row) c
   const StageRow* full = find("all", row.backend);
   if (full == nullptr || full == &row) return {};
   return ratioOf(samplesOf(row, [](const FileRun& run) { return secondsOf(run, TimeSpan::Interpolation); }),
-                 samplesOf(*full, [](const FileRun& run) { return run.report.stageSeconds.trace; }));
+                 samplesOf(*full, [](const FileRun& run) { return run.report.stageSeconds[Stage::Trace]; }));
 }
 
 StageBench::StageBench(StageRequest request) : request_(std::move(request)) {

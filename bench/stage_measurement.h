@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/asdf.h"
+#include "asdf_vk/session.h"
 #include "support/computation.h"
 #include "support/measurement.h"
 
@@ -33,7 +33,7 @@ struct StageRow {
   std::vector<FileRun> runs = {};
   ColdRun cold = {};
 
-  [[nodiscard]] Dispersion stage(double StageSeconds::*member) const;
+  [[nodiscard]] Dispersion seconds(Stage stage) const;
   [[nodiscard]] Dispersion total() const;
   [[nodiscard]] Dispersion raysPerSecond() const;
 };

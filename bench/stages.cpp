@@ -24,6 +24,12 @@ struct Arguments {
   bool isCold = false;
 };
 
+std::vector<Stage> allStages() {
+  std::vector<Stage> stages;
+  for (size_t i = 0; i < kStageCount; ++i) stages.push_back(static_cast<Stage>(i));
+  return stages;
+}
+
 std::string line(const std::vector<std::string>& cells) {
   std::string text = fmt::format("| {:<5} | {:<9} |", cells[0], cells[1]);
   for (size_t i = 2; i < cells.size(); ++i) text += fmt::format(" {:>12} |", cells[i]);
@@ -63,14 +69,14 @@ std::string ratiosText(const StageMeasurement& measurement) {
 /// A heading, a Markdown table with one line per row, and ratios.
 std::string toTable(const StageMeasurement& measurement, const Machine& machine) {
   std::vector<std::string> titles{"seeds", "backend"};
-  for (const auto& [name, member] : kStages) titles.emplace_back(name);
+  for (const Stage stage : allStages()) titles.emplace_back(nameOf(stage));
   titles.insert(titles.end(), {"total", "Mrays/s", "per core", "cold", "peak MiB"});
   std::string text = heading(measurement, machine) + line(titles) + "|-------|-----------|";
   for (size_t i = 2; i < titles.size(); ++i) text += "-------------:|";
   text += "\n";
   for (const StageRow& row : measurement.rows) {
     std::vector<std::string> cells{row.seeds, row.backend};
-    for (const auto& [name, member] : kStages) cells.push_back(toText(row.stage(member), 3));
+    for (const Stage stage : allStages()) cells.push_back(toText(row.seconds(stage), 3));
     cells.push_back(toText(row.total(), 3));
     cells.push_back(megaRays(row.raysPerSecond(), 1));
     cells.push_back(row.runsOnCpu ? megaRays(row.raysPerSecond(), machine.threads) : "-");
@@ -84,7 +90,7 @@ std::string toTable(const StageMeasurement& measurement, const Machine& machine)
 Json toJson(const StageMeasurement& measurement, const StageRow& row, const Machine& machine) {
   const Report& report = row.runs.front().report;
   Json stages;
-  for (const auto& [name, member] : kStages) stages[name] = bench::toJson(row.stage(member));
+  for (const Stage stage : allStages()) stages[nameOf(stage)] = bench::toJson(row.seconds(stage));
   return {{"mesh", measurement.mesh},
           {"faceCount", report.faceCount},
           {"triangleCount", report.triangleCount},

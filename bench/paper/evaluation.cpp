@@ -8,9 +8,9 @@
 #include <set>
 #include <stdexcept>
 
+#include "asdf_vk/files.h"
 #include "core/check.h"
 #include "generate/shapes.h"
-#include "asdf_vk/files.h"
 #include "support/computation.h"
 #include "support/measurement.h"
 #include "support/program.h"
@@ -50,22 +50,24 @@ double rangeOf(const Result& result) { return result.report.sdf.max - result.rep
 
 ShareResult compare(const Result& result, const Result& full, const Result& truth, double percent,
                     double fullTraceSeconds) {
-  const FieldErrors errors = errorsOverRange(full.sdf, result.sdf);
-  const FieldErrors truthErrors = errorsOverRange(truth.sdf, result.sdf);
+  const FieldErrors errors = errorsOverRange(full.sdf(), result.sdf());
+  const FieldErrors truthErrors = errorsOverRange(truth.sdf(), result.sdf());
   const double scale = rangeOf(truth) / rangeOf(full);
   const StageSeconds& seconds = result.report.stageSeconds;
-  return {.percent = percent,
-          .seedCount = result.report.seedCount,
-          .averageError = errors.average,
-          .maximumError = errors.maximum,
-          .truthAverageError = truthErrors.average * scale,
-          .truthMaximumError = truthErrors.maximum * scale,
-          .estimatedError = result.report.estimatedError ? result.report.estimatedError->average : kNoValue,
-          .sampleSeconds = seconds.sample,
-          .traceSeconds = seconds.trace,
-          .predictSeconds = seconds.predict,
-          .solveSeconds = seconds.solve,
-          .timeRatio = (seconds.sample + seconds.trace + seconds.predict + seconds.solve) / fullTraceSeconds};
+  return {
+      .percent = percent,
+      .seedCount = result.report.seedCount,
+      .averageError = errors.average,
+      .maximumError = errors.maximum,
+      .truthAverageError = truthErrors.average * scale,
+      .truthMaximumError = truthErrors.maximum * scale,
+      .estimatedError = result.report.estimatedError ? result.report.estimatedError->average : kNoValue,
+      .sampleSeconds = seconds[Stage::Sample],
+      .traceSeconds = seconds[Stage::Trace],
+      .predictSeconds = seconds[Stage::Predict],
+      .solveSeconds = seconds[Stage::Solve],
+      .timeRatio = (seconds[Stage::Sample] + seconds[Stage::Trace] + seconds[Stage::Predict] + seconds[Stage::Solve]) /
+                   fullTraceSeconds};
 }
 
 }  // namespace
@@ -93,7 +95,10 @@ Evaluation evaluate(Session& session, NamedMesh& mesh, const EvaluationOptions& 
   const auto compute = [&](const Options& computation) { return session.compute(mesh.mesh, computation, control); };
   writeProgress(mesh.name + ": warm-up");
   for (const auto& [recipeName, recipe] : kRecipes) static_cast<void>(compute(recipeOptions(recipe, 1)));
-  Evaluation evaluation{.name = mesh.name, .full = compute(recipeOptions(Recipe::Paper, 100)), .recipes = {}};
+  Options fullOptions = recipeOptions(Recipe::Paper, 100);
+  fullOptions.keepsScene = true;
+  Evaluation evaluation{.name = mesh.name, .full = compute(fullOptions), .recipes = {}};
+  mesh.scene = evaluation.full.scene;
   if (!(evaluation.range() > 0))
     throw std::runtime_error(mesh.name + ": all values are equal; errors over their range are undefined");
   writeProgress(fmt::format("{}: {} rays at each of {} faces", mesh.name, options.truthRayCount,
@@ -108,7 +113,7 @@ Evaluation evaluate(Session& session, NamedMesh& mesh, const EvaluationOptions& 
     for (size_t i = 0; i < kPercents.size(); ++i)
       for (size_t j = 0; j < kRecipes.size(); ++j) {
         const Result result = compute(recipeOptions(kRecipes[j].second, kPercents[i], round));
-        if (i == 0 && j == 0) fullTraceSeconds.push_back(result.report.stageSeconds.trace);
+        if (i == 0 && j == 0) fullTraceSeconds.push_back(result.report.stageSeconds[Stage::Trace]);
         samples[j][i].push_back(compare(result, evaluation.full, truth, kPercents[i], fullTraceSeconds.back()));
       }
   }

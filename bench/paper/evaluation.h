@@ -2,12 +2,14 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
-#include "pipeline/asdf.h"
-#include "cli/choice_names.h"
+#include "asdf_vk/session.h"
+#include "pipeline/choice_names.h"
 #include "render/view.h"
+#include "trace/scene_data.h"
 
 namespace asdfvk::bench {
 
@@ -17,7 +19,8 @@ inline constexpr std::array<double, 7> kPercents{100, 50, 20, 10, 5, 2, 1};
 struct NamedMesh {
   std::string name;  ///< Unique; letters, digits, "-", "_" and "." only, because file names contain it.
   Mesh mesh;
-  View view = {};  ///< Of its pictures.
+  View view = {};                               ///< Of its pictures.
+  std::shared_ptr<const SceneData> scene = {};  ///< For its pictures; evaluate() sets it.
 };
 
 /// Reads the meshes and names them by their files. Throws Error{Input}.

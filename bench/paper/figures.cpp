@@ -19,12 +19,12 @@ constexpr const char* kSdfTitle = "SDF";
 constexpr double kLaplacianPercentile = 0.99, kErrorPercentile = 0.98;
 
 std::string errorCaption(const std::string& name, const Evaluation& evaluation, const Result& result) {
-  const FieldErrors errors = errorsOverRange(evaluation.full.sdf, result.sdf);
+  const FieldErrors errors = errorsOverRange(evaluation.full.sdf(), result.sdf());
   return fmt::format("{}: average error {:.4f}, maximum {:.3f}", name, errors.average, errors.maximum);
 }
 
 void drawLaplacian(PictureWriter& pictures, const NamedMesh& mesh, const Evaluation& evaluation) {
-  std::vector<double> values = absoluteLaplacian(mesh.mesh, toTriangles(mesh.mesh, evaluation.full.sdf));
+  std::vector<double> values = absoluteLaplacian(mesh.mesh, toTriangles(mesh.mesh, evaluation.full.sdf()));
   const double top = percentileOf(values, kLaplacianPercentile);
   for (double& value : values) value = top > 0 ? value / top : 0 * value;
   const auto low = std::count_if(values.begin(), values.end(), [](double v) { return v < 0.1; });
@@ -38,15 +38,15 @@ void drawLaplacian(PictureWriter& pictures, const NamedMesh& mesh, const Evaluat
 void drawErrors(PictureWriter& pictures, const NamedMesh& mesh, const Evaluation& evaluation, const Result& paper,
                 const Result& balanced) {
   const auto errorsOf = [&](const Result& result) {
-    std::vector<double> errors(result.sdf.size());
+    std::vector<double> errors(result.sdf().size());
     for (size_t i = 0; i < errors.size(); ++i)
-      errors[i] = std::abs(result.sdf[i] - evaluation.full.sdf[i]) / evaluation.range();
+      errors[i] = std::abs(result.sdf()[i] - evaluation.full.sdf()[i]) / evaluation.range();
     return errors;
   };
   const std::vector<double> paperErrors = errorsOf(paper), balancedErrors = errorsOf(balanced);
   const FieldStyle style{"|error| / range", {0, percentileOf(paperErrors, kErrorPercentile)}};
   if (balanced.report.estimatedError) {
-    std::vector<double> expected = balanced.expectedError;
+    std::vector<double> expected = *balanced.field("error")->reals();
     for (double& error : expected) error /= evaluation.range();
     pictures.drawField(
         4, "figure4-expected", mesh, expected, style,
@@ -57,9 +57,9 @@ void drawErrors(PictureWriter& pictures, const NamedMesh& mesh, const Evaluation
                      errorCaption("balanced", evaluation, balanced));
 }
 
-Options samplerOptions(const SamplerChoice& sampler, Recipe recipe, uint64_t randomSeed) {
+Options samplerOptions(const std::string& sampler, Recipe recipe, uint64_t randomSeed) {
   Options options = recipeOptions(recipe, kSamplerPercent, randomSeed);
-  std::tie(options.sampler, options.isAdaptive) = sampler;
+  options.sampler = sampler;
   options.estimatesError = false;  // Its held-out faces are random whatever the sampler, and seeds in the result.
   return options;
 }
@@ -72,15 +72,15 @@ void drawMeshFigures(PictureWriter& pictures, Session& session, NamedMesh& mesh,
     return session.compute(mesh.mesh, recipeOptions(recipe, percent), control);
   };
   const Result paper = compute(Recipe::Paper, kFigurePercent), balanced = compute(Recipe::Balanced, kFigurePercent);
-  const FieldStyle style{kSdfTitle, percentileRange(evaluation.full.sdf)};
+  const FieldStyle style{kSdfTitle, percentileRange(evaluation.full.sdf())};
   const auto draw = [&](int figure, const std::string& name, const Result& result, const std::string& caption) {
-    pictures.drawField(figure, name, mesh, result.sdf, style, caption);
+    pictures.drawField(figure, name, mesh, result.sdf(), style, caption);
   };
   const auto seedCaption = [](const char* recipe, const Result& result) {
     return fmt::format("{}: {} seeds", recipe, groupDigits(result.report.seedCount));
   };
-  pictures.drawSeeds(1, "figure1-seeds-paper", mesh, paper.isSeed, seedCaption("paper", paper));
-  pictures.drawSeeds(1, "figure1-seeds-balanced", mesh, balanced.isSeed, seedCaption("balanced", balanced));
+  pictures.drawSeeds(1, "figure1-seeds-paper", mesh, paper.seed(), seedCaption("paper", paper));
+  pictures.drawSeeds(1, "figure1-seeds-balanced", mesh, balanced.seed(), seedCaption("balanced", balanced));
   draw(1, "figure1-sdf-paper", paper, errorCaption("paper", evaluation, paper));
   draw(1, "figure1-sdf-balanced", balanced, errorCaption("balanced", evaluation, balanced));
   drawLaplacian(pictures, mesh, evaluation);
@@ -98,13 +98,13 @@ void drawMeshFigures(PictureWriter& pictures, Session& session, NamedMesh& mesh,
 CsvTable drawSamplers(PictureWriter& pictures, Session& session, NamedMesh& mesh, const Evaluation& evaluation,
                       uint32_t seedSetCount, const RunControl& control) {
   CsvTable table{{"sampler", "seeds", "paper_average_error", "balanced_average_error"}, {}};
-  for (const auto& [name, sampler] : kSamplers) {
+  for (const std::string& sampler : samplerNames()) {
     std::vector<double> paper, balanced;
     Result first;
     for (uint32_t round = 1; round <= seedSetCount; ++round) {
       const auto compute = [&](Recipe recipe, std::vector<double>& errors) {
         Result result = session.compute(mesh.mesh, samplerOptions(sampler, recipe, round), control);
-        errors.push_back(errorsOverRange(evaluation.full.sdf, result.sdf).average);
+        errors.push_back(errorsOverRange(evaluation.full.sdf(), result.sdf()).average);
         return result;
       };
       Result result = compute(Recipe::Balanced, balanced);
@@ -113,10 +113,10 @@ CsvTable drawSamplers(PictureWriter& pictures, Session& session, NamedMesh& mesh
     }
     const double paperError = dispersionOf(paper).median, balancedError = dispersionOf(balanced).median;
     table.rows.push_back(
-        {name, std::to_string(first.report.seedCount), csvNumber(paperError), csvNumber(balancedError)});
+        {sampler, std::to_string(first.report.seedCount), csvNumber(paperError), csvNumber(balancedError)});
     pictures.drawSeeds(
-        7, fmt::format("figure7-{}", name), mesh, first.isSeed,
-        fmt::format("{}: average error {:.4f} (paper), {:.4f} (balanced)", name, paperError, balancedError));
+        7, fmt::format("figure7-{}", sampler), mesh, first.seed(),
+        fmt::format("{}: average error {:.4f} (paper), {:.4f} (balanced)", sampler, paperError, balancedError));
   }
   return table;
 }
@@ -125,7 +125,7 @@ void drawAllMeshes(PictureWriter& pictures, Session& session, std::vector<NamedM
                    const RunControl& control) {
   for (NamedMesh& mesh : meshes) {
     const Result result = session.compute(mesh.mesh, recipeOptions(Recipe::Balanced, kFigurePercent), control);
-    pictures.drawField(8, "figure8-" + mesh.name, mesh, result.sdf, {kSdfTitle, percentileRange(result.sdf)},
+    pictures.drawField(8, "figure8-" + mesh.name, mesh, result.sdf(), {kSdfTitle, percentileRange(result.sdf())},
                        fmt::format("{}: {} faces, {} seeds", mesh.name, groupDigits(result.report.faceCount),
                                    groupDigits(result.report.seedCount)));
   }

@@ -8,20 +8,14 @@
 #include <cstddef>
 #include <limits>
 
+#include "asdf_vk/files.h"
 #include "core/check.h"
 #include "core/stopwatch.h"
-#include "asdf_vk/files.h"
-#include "asdf_vk/files.h"
 
 namespace asdfvk::bench {
 
 SessionOptions sessionOptionsOf(const std::string& backend, const std::string& device) {
-  if (backend == "auto") return {.backend = Backend::Auto, .device = device};
-  if (backend == "vulkan") return {.backend = Backend::Vulkan, .device = device};
-  if (backend == "cpu") return {.backend = Backend::Cpu, .device = {}};
-  if (backend == "reference") return {.backend = Backend::Reference, .device = {}};
-  throw Error(ErrorCode::UnknownName,
-              fmt::format("'{}' is not a backend; allowed: auto, vulkan, cpu and reference", backend));
+  return {.backend = backend, .device = backend == "vulkan" || backend == "auto" ? device : ""};
 }
 
 SeedCount parseSeedCount(const std::string& text) {
@@ -35,15 +29,15 @@ SeedCount parseSeedCount(const std::string& text) {
                               text));
     return number;
   };
-  if (text == "all") return {SeedCount::Kind::All, 1, 0};
-  if (!text.ends_with('%')) return {SeedCount::Kind::Count, 0, parse(text, std::numeric_limits<uint64_t>::max())};
-  return {SeedCount::Kind::Share, parse(std::string_view(text).substr(0, text.size() - 1), 100.0) / 100, 0};
+  if (text == "all") return SeedCount::all();
+  if (!text.ends_with('%')) return SeedCount::ofCount(parse(text, std::numeric_limits<uint64_t>::max()));
+  return SeedCount::ofShare(parse(std::string_view(text).substr(0, text.size() - 1), 100.0) / 100);
 }
 
 Options recipeOptions(Recipe recipe, double percent, uint64_t randomSeed) {
   Options options;
   applyRecipe(recipe, options);
-  options.seeds = {percent == 100 ? SeedCount::Kind::All : SeedCount::Kind::Share, percent / 100, 0};
+  options.seeds = percent == 100 ? SeedCount::all() : SeedCount::ofShare(percent / 100);
   options.randomSeed = randomSeed;
   return options;
 }
@@ -58,13 +52,13 @@ Options truthOptions(uint32_t rayCount) {
 FileRun runFile(Session& session, const std::filesystem::path& path, const Options& options,
                 const std::filesystem::path& output, const RunControl& control) {
   const Stopwatch total;
-  Mesh mesh = readMesh(path);
+  const Mesh mesh = readMesh(path);
   const double readSeconds = total.seconds();
   Result result = session.compute(mesh, options, control);
   const Stopwatch writing;
-  writeResult(output, mesh, {result.sdf, result.isSeed});
-  result.report.stageSeconds.write = writing.seconds();
-  result.report.stageSeconds.read = readSeconds;
+  writeResult(output, mesh, std::span<const Field>(result.fields).first(2));  // "sdf" and "seed".
+  result.report.stageSeconds[Stage::Write] = writing.seconds();
+  result.report.stageSeconds[Stage::Read] = readSeconds;
   return {std::move(result.report), total.seconds()};
 }
 

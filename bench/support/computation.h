@@ -4,18 +4,18 @@
 #include <span>
 #include <string>
 
+#include "asdf_vk/session.h"
 #include "bvh/bvh.h"
-#include "pipeline/asdf.h"
 #include "pipeline/prepared_mesh.h"
 #include "trace/cone_tracer.h"
 
 /// Computations that several benchmarks share, and their errors.
 namespace asdfvk::bench {
 
-/// backend: "auto", "vulkan", "cpu" or "reference"; other names throw Error{Usage}. device: of Vulkan.
+/// backend: of backendNames(). device: of Vulkan; other backends ignore it.
 [[nodiscard]] SessionOptions sessionOptionsOf(const std::string& backend, const std::string& device);
 
-/// "10%" (above 0, at most 100), "2000" (at least 1) or "all". Throws Error{Usage}.
+/// "10%" (above 0, at most 100), "2000" (at least 1) or "all". Throws Error{OptionOutOfRange}.
 [[nodiscard]] SeedCount parseSeedCount(const std::string& text);
 
 /// Options of a recipe with seeds at `percent` of the faces; 100: at all faces.
@@ -46,14 +46,14 @@ struct FieldErrors {
 struct TraceableMesh {
   Mesh mesh;
   PreparedMesh prepared = prepareMesh(mesh, Orientation::Keep);
-  Bvh bvh = buildBvh(mesh, prepared.geometry, prepared.representatives);
+  Bvh bvh = buildBvh(prepared.mesh, prepared.geometry, prepared.representatives);
 
   explicit TraceableMesh(Mesh source) : mesh(std::move(source)) {}
   TraceableMesh(const TraceableMesh&) = delete;
   TraceableMesh& operator=(const TraceableMesh&) = delete;
 
   /// Views of this object.
-  [[nodiscard]] TraceScene scene() const { return {mesh, prepared.geometry, prepared.representatives, bvh}; }
+  [[nodiscard]] TraceScene scene() const { return {prepared.mesh, prepared.geometry, prepared.representatives, bvh}; }
 };
 
 }  // namespace asdfvk::bench
