@@ -36,7 +36,7 @@ class RecordingTracer final : public ConeTracer {
 
 class RecordingSolver final : public PoissonSolver {
  public:
-  explicit RecordingSolver(Events& events) : solver_(makeCpuCgSolver()), events_(events) {}
+  explicit RecordingSolver(Events& events) : solver_(makeCpuCgSolver(nullptr)), events_(events) {}
 
   SolverReport solve(const PoissonSystem& system, const SolverOptions& options, std::span<double> solution,
                      const RunControl& control) override {
