@@ -23,6 +23,10 @@ void takeArrays(const MeshView& view, PreparedMesh& prepared) {
   requireValidArrays(view);
   if (view.inputFaceCount() == 0)
     throw Error(ErrorCode::EmptyMesh, "the mesh has no faces; a shape diameter needs a surface");
+  const std::span<const uint64_t> first = view.firstCorner();
+  const auto hasTriangle = [](uint64_t begin, uint64_t end) { return end - begin >= 3; };
+  if (!first.empty() && std::adjacent_find(first.begin(), first.end(), hasTriangle) == first.end())
+    throw Error(ErrorCode::EmptyMesh, "no face of the mesh has three corners; a shape diameter needs a surface");
   if (const Mesh* mesh = view.mesh()) {
     if (!mesh->polygons.isEmpty() && mesh->polygons.inputFaceOf.size() != mesh->faces.size())
       throw Error(ErrorCode::ArraySize, "the polygons of the mesh do not name an input face for each triangle");

@@ -146,9 +146,9 @@ TEST_CASE("each rejected device has its line with the reason") {
   const std::vector<std::string> best = firstLines({mesh, "--backend", "vulkan"});
   CHECK(best.at(0).find("chosen, driver") != std::string::npos);
   CHECK(best.at(1).find("usable but ranks behind device 0") != std::string::npos);
-  const std::vector<std::string> asked = firstLines({mesh, "--backend", "vulkan", "--device", "1"});
-  CHECK(asked.at(0).find("chosen, driver") != std::string::npos);
-  CHECK(asked.at(1).find("is not the requested device '1'") != std::string::npos);
+  const std::vector<std::string> chosen = firstLines({mesh, "--backend", "vulkan", "--device", "1"});
+  CHECK(chosen.at(0).find("chosen, driver") != std::string::npos);
+  CHECK(chosen.at(1).find("is not the requested device '1'") != std::string::npos);
   CHECK(firstLines({mesh, "--backend", "vulkan", "--quiet"}).empty());
 }
 

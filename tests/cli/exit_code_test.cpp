@@ -48,7 +48,7 @@ TEST_CASE("a check that failed is 5, one that could not fail is 0") {
   CHECK_EQ(static_cast<int>(exitCodeOf(CheckReport{.isIndependent = false})), 0);
 }
 
-TEST_CASE("a mistake in the program is 70 and says so, too little memory is the mesh's failure") {
+TEST_CASE("a mistake in the program is 70 with its place, too little memory is a failure of the mesh") {
   const Failure broken = failureOf(CheckFailure("a.cpp:1: x"));
   CHECK_EQ(static_cast<int>(broken.code), 70);
   CHECK(broken.message.find("a.cpp:1: x") != std::string::npos);

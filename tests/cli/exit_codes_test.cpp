@@ -46,7 +46,7 @@ TEST_CASE("--version prints the version and the commit that the JSON report has"
   CHECK_EQ(runAsdf({"--version"}).output, "asdf-vk " + version + " (" + commit + ")\n");
 }
 
-TEST_CASE("a good mesh ends with 0 and its result lies beside it") {
+TEST_CASE("a good mesh gives 0 and a result beside it") {
   const ScratchFolder folder;
   const std::string mesh = folder.write("cube.off", cubeOff());
   const ChildOutcome outcome = runAsdf({mesh, "--backend", "reference"});
@@ -88,7 +88,7 @@ TEST_CASE("a picture is one more output, and a failed one ends with 4" * doctest
   checkFailure(run({"--quiet", "--json", "--picture", "-"}), 1, "--picture");
 }
 
-TEST_CASE("a picture of the expected error takes an estimate" * doctest::test_suite("slow")) {
+TEST_CASE("a picture of the expected error needs an estimate" * doctest::test_suite("slow")) {
   const ScratchFolder folder;
   const std::string mesh = folder.write("sphere.off", sphereOff(12));
   const auto run = [&](const std::string& input, const std::vector<std::string>& more) {
@@ -108,7 +108,7 @@ TEST_CASE("a picture of the expected error takes an estimate" * doctest::test_su
   checkFailure(run(quads, {}), 1, "give more --seeds");
 }
 
-TEST_CASE("each form of --seeds is taken and wrong ones are usage errors") {
+TEST_CASE("each form of --seeds is accepted and wrong ones are usage errors") {
   const ScratchFolder folder;
   const std::string mesh = folder.write("cube.off", cubeOff());
   for (const char* seeds : {"all", "10%", "0.5%", "100%", "1", "12", "1000000"}) {
@@ -202,7 +202,7 @@ TEST_CASE("a check that passes ends with 0, one without any traced face with 5")
   checkFailure(runAsdf({flat, "--check", "--backend", "vulkan", "--quiet"}, *lavapipe), 5, "nothing was compared");
 }
 
-TEST_CASE("a check of the reference by itself says that it compares nothing and ends with 0") {
+TEST_CASE("a check of the reference by itself compares nothing, reports that, and ends with 0") {
   const ScratchFolder folder;
   const std::string mesh = folder.write("sphere.off", sphereOff(16));
   const ChildOutcome outcome = runAsdf({mesh, "--check", "--backend", "reference"});
@@ -213,7 +213,7 @@ TEST_CASE("a check of the reference by itself says that it compares nothing and 
   CHECK(outcome.error.find("100 %") == std::string::npos);
 }
 
-TEST_CASE("--quiet says nothing at all when all went well") {
+TEST_CASE("--quiet prints nothing without an error") {
   const ScratchFolder folder;
   // Open, and thus with a warning.
   const std::string mesh = folder.write("open.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");

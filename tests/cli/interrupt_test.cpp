@@ -23,7 +23,7 @@ TEST_CASE("a signal between chunks cancels with 130 and leaves no file") {
   const ScratchFolder folder;
   const std::string mesh = folder.write("sphere.off", sphereOff(150));
   for (const int signal : {SIGINT, SIGTERM}) {
-    // The bar on the terminal tells that the computation is under way.
+    // The bar on the terminal shows that the computation runs.
     ChildOptions options;
     options.errorIsTerminal = true;
     std::vector<std::string> arguments = longWork(mesh);

@@ -15,7 +15,7 @@ Json onlyDocument(const ChildOutcome& outcome) {
   return Json::parse(outcome.output);
 }
 
-TEST_CASE("--json is exactly one document with every promised key and its type") {
+TEST_CASE("--json is exactly one document with every documented key and its type") {
   const ScratchFolder folder;
   const std::string mesh = folder.write("sphere.off", sphereOff(16));
   const Json json = onlyDocument(runAsdf({mesh, "--json", "--backend", "reference", "--rng-seed", "7", "--check=all"}));
@@ -84,7 +84,7 @@ TEST_CASE("--json is exactly one document with every promised key and its type")
   CHECK_EQ(options.at("pooling").get<double>(), 0);
 }
 
-TEST_CASE("what was asked for is in the options of the document") {
+TEST_CASE("the options of the command line are in the document") {
   const ScratchFolder folder;
   const std::string mesh = folder.write("sphere.off", sphereOff(12));
   const Json json = onlyDocument(

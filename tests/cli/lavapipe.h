@@ -16,8 +16,8 @@ inline ChildOptions withDrivers(const std::string& file) {
   return options;
 }
 
-/// The program shall find Mesa's CPU device and no other. Where it is not installed the test that asks says so and has
-/// nothing to do.
+/// Environment in which Mesa's CPU device is the only one. Empty, with a message, where it is not installed: the test
+/// is skipped.
 inline std::optional<ChildOptions> lavapipeOnly() {
   const std::string driver = "/usr/share/vulkan/icd.d/lvp_icd.x86_64.json";
   if (std::filesystem::exists(driver)) return withDrivers(driver);

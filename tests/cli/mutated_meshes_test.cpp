@@ -21,7 +21,7 @@ struct Counts {
   int done = 0, refused = 0;
 };
 
-/// Runs the program on all of `meshes`: each must have its line, and its result exactly when the line tells no error.
+/// Runs the program on all of `meshes`: each must have its line, and its result exactly when the line has no error.
 Counts runBatch(const std::vector<std::string>& meshes, const std::string& backend, const ChildOptions& options) {
   const ScratchFolder results;
   std::vector<std::string> arguments = meshes;

@@ -27,7 +27,7 @@ std::string refusal(const std::vector<std::string>& arguments) {
   return "accepted";
 }
 
-TEST_CASE("a mesh alone means the defaults") {
+TEST_CASE("a mesh alone gives the defaults") {
   const CommandLine line = parseCommandLine({"a.ply"});
   CHECK_EQ(line.meshes, std::vector<std::string>{"a.ply"});
   CHECK(line.options.seeds.kind == SeedCount::Kind::Share);
@@ -196,7 +196,7 @@ TEST_CASE("--check without a number does not take the mesh after it for one") {
   CHECK_EQ(parseCommandLine({"--", "--check"}).meshes, std::vector<std::string>{"--check"});
 }
 
-TEST_CASE("a number after --check that was meant for it is told, not taken for a mesh") {
+TEST_CASE("a number after --check and a space is an error, not a mesh") {
   CHECK_EQ(refusal({"a.ply", "--check", "5"}), "--check takes its number with an equals sign: --check=5");
   CHECK_EQ(refusal({"--check", "all", "a.ply"}), "--check takes its number with an equals sign: --check=all");
   CHECK_EQ(refusal({"--check", "5.ply", "7"}), "accepted");
@@ -209,7 +209,7 @@ TEST_CASE("a number after --check that was meant for it is told, not taken for a
   CHECK_EQ(answer, "accepted");
 }
 
-TEST_CASE("the last words on meshes: many, standard input, odd names") {
+TEST_CASE("meshes: many, standard input, odd names") {
   CHECK_EQ(parseCommandLine({"a.ply", "--quiet", "-", "b c.off"}).meshes,
            std::vector<std::string>{"a.ply", "-", "b c.off"});
   CHECK_EQ(parseCommandLine({"--", "-x.ply"}).meshes, std::vector<std::string>{"-x.ply"});
@@ -332,7 +332,7 @@ TEST_CASE("each sampler, weight and guidance has its name") {
   CHECK(optionsWith("--cone-rotation", "hashed").cone.rotation == ConeRotation::Hashed);
 }
 
-TEST_CASE("the options of their own overrule the recipe, wherever it stands") {
+TEST_CASE("single options override the recipe, in any order") {
   for (const auto& arguments : {std::vector<std::string>{"a.ply", "--recipe", "paper", "--weights", "feature"},
                                 {"a.ply", "--weights", "feature", "--recipe", "paper"}}) {
     const CommandLine line = parseCommandLine(arguments);
@@ -351,14 +351,14 @@ TEST_CASE("the options of their own overrule the recipe, wherever it stands") {
   CHECK_EQ(parseCommandLine({"a.ply", "--seeds", "3", "--recipe", "paper"}).options.seeds.count, 3);
 }
 
-TEST_CASE("errors and times are told with their sign or without") {
+TEST_CASE("errors and times are read with their unit or without") {
   for (const char* text : {"1%", "0.01", "1.0%", "1e-2"})
     CHECK_EQ(parseCommandLine({"a.ply", "--max-error", text}).options.rounds.maxError.value(), doctest::Approx(0.01));
   for (const char* text : {"2s", "2", "2.0s", "2e0"})
     CHECK_EQ(parseCommandLine({"a.ply", "--time-budget", text}).options.rounds.timeBudgetSeconds.value(), 2);
 }
 
-TEST_CASE("smoothing is off, by the number of faces, or as told") {
+TEST_CASE("smoothing is off, by the number of faces, or by a given window") {
   const auto smoothing = [](const char* text) {
     return parseCommandLine({"a.ply", "--smooth", text}).options.smoothing;
   };
@@ -371,7 +371,7 @@ TEST_CASE("smoothing is off, by the number of faces, or as told") {
     CHECK_MESSAGE(refusal({"a.ply", "--smooth", text}).starts_with("--smooth: '"), text);
 }
 
-TEST_CASE("rounds begin with few seeds unless a number is told") {
+TEST_CASE("rounds begin with few seeds unless --seeds is given") {
   CHECK_EQ(parseCommandLine({"a.ply", "--max-error", "1%"}).options.seeds.share, 0.02);
   CHECK_EQ(parseCommandLine({"a.ply", "--time-budget", "1s"}).options.seeds.share, 0.02);
   CHECK_EQ(parseCommandLine({"a.ply", "--seeds", "5%", "--max-error", "1%"}).options.seeds.share, 0.05);
@@ -404,7 +404,7 @@ TEST_CASE("--help has the most needed options, --help=all all of them in groups"
   CHECK_EQ(parseCommandLine({"--", "--help=all"}).meshes, std::vector<std::string>{"--help=all"});
 }
 
-TEST_CASE("seed counts are read as they are told") {
+TEST_CASE("the text of a seed count is the one it was read from") {
   for (const char* text : {"all", "10%", "12.5%", "100%", "0.001%", "1", "12345678901"})
     CHECK_EQ(toText(parseSeedCount(text)), text);
 }

@@ -23,7 +23,7 @@ CommandLine lineOf(std::vector<std::string> meshes, const std::string& output = 
 
 using Names = std::vector<std::string>;
 
-TEST_CASE("a result lies beside its mesh unless told otherwise") {
+TEST_CASE("a result lies beside its mesh by default") {
   CHECK_EQ(planOutputs(lineOf({"dir/horse.off"})), Names{"dir/horse.asdf.ply"});
   CHECK_EQ(planOutputs(lineOf({"horse"})), Names{"horse.asdf.ply"});
   CHECK_EQ(planOutputs(lineOf({"a.b.obj"}, "", "vtu")), Names{"a.b.asdf.vtu"});
@@ -77,12 +77,12 @@ TEST_CASE("thousands of meshes are planned with a few looks at each") {
   for (int i = 0; i < 5000; ++i) meshes.push_back(folder / fmt::format("mesh{}.off", i));
   meshes.push_back(folder.write("other.off", ""));
   CHECK_EQ(planOutputs(lineOf(meshes)).size(), 5001);
-  // Only a look at the files can tell that this result is an input.
+  // Only the files themselves show that this result is an input.
   std::filesystem::create_hard_link(folder / "other.off", folder / "mesh4999.asdf.ply");
   CHECK_THROWS_AS((void)planOutputs(lineOf(meshes)), Error);
 }
 
-TEST_CASE("a device is a place to write to for who may make no file beside it") {
+TEST_CASE("a device can be written to without permission for its folder") {
   const pid_t child = fork();
   REQUIRE(child >= 0);
   if (child == 0) {
@@ -99,7 +99,7 @@ TEST_CASE("a device is a place to write to for who may make no file beside it") 
   CHECK_EQ(WEXITSTATUS(status), 0);
 }
 
-TEST_CASE("a place where no file can be is told before the work") {
+TEST_CASE("an impossible place for a file is an error before the work") {
   const test::ScratchFolder folder;
   CHECK_NOTHROW(requireWritablePlace(folder / "new.ply"));
   CHECK_NOTHROW(requireWritablePlace(folder.write("old.ply", "x")));

@@ -26,7 +26,7 @@ inline std::vector<std::string> linesOf(const std::string& text) {
   return lines;
 }
 
-/// The program ended with `exitCode` and said so in one line that holds `part`. To be run with --quiet.
+/// The program ended with `exitCode` and printed one error line, which contains `part`. For runs with --quiet.
 inline void checkFailure(const ChildOutcome& outcome, int exitCode, const std::string& part) {
   INFO(outcome.error);
   CHECK_EQ(outcome.signal, 0);

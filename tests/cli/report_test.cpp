@@ -30,7 +30,7 @@ Result sampleResult() {
 
 bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
-TEST_CASE("the text report tells mesh, device, seeds, speed, solver and values") {
+TEST_CASE("the text report has mesh, device, seeds, speed, solver and values") {
   const CommandLine line;
   const Result result = sampleResult();
   const std::string text = textReport({kMesh, kOutput, line, result});
@@ -43,7 +43,7 @@ TEST_CASE("the text report tells mesh, device, seeds, speed, solver and values")
   CHECK_FALSE(holds(text, "check"));
 }
 
-TEST_CASE("one of anything is told in the singular") {
+TEST_CASE("a count of one has a singular noun") {
   const CommandLine line;
   Result result = sampleResult();
   Report& report = result.report;
@@ -55,7 +55,7 @@ TEST_CASE("one of anything is told in the singular") {
     CHECK_MESSAGE(holds(text, part), text);
 }
 
-TEST_CASE("the text report names what is out of the ordinary") {
+TEST_CASE("the text report names exceptions") {
   const CommandLine line;
   Result result = sampleResult();
   Report& report = result.report;
@@ -68,7 +68,7 @@ TEST_CASE("the text report names what is out of the ordinary") {
     CHECK_MESSAGE(holds(text, part), text);
 }
 
-TEST_CASE("the text report tells the recipe, and the estimated error where there is one") {
+TEST_CASE("the text report has the recipe, and the estimated error where there is one") {
   CommandLine line;
   Result result = sampleResult();
   Report& report = result.report;
@@ -85,7 +85,7 @@ TEST_CASE("the text report tells the recipe, and the estimated error where there
   CHECK(holds(textReport({kMesh, kOutput, line, result}), "; 46 % at face 77; 3 rounds\n"));
 }
 
-TEST_CASE("stages that took time are named in their order, the others are not") {
+TEST_CASE("stages that ran are named in their order, the others are not") {
   const CommandLine line;
   Result result = sampleResult();
   Report& report = result.report;
@@ -124,7 +124,7 @@ TEST_CASE("a share of agreeing faces is never rounded up to all of them") {
   CHECK(holds(textReport({kMesh, kOutput, line, result}), "100 % of"));
 }
 
-TEST_CASE("faces without a value on either side are told apart from those that agree") {
+TEST_CASE("faces without a value on either side are counted apart from those that agree") {
   const CommandLine line;
   Result result = sampleResult();
   Report& report = result.report;
@@ -139,7 +139,7 @@ TEST_CASE("faces without a value on either side are told apart from those that a
   CHECK(holds(textReport({kMesh, kOutput, line, result}), "1 traced face, none with a value on either side"));
 }
 
-TEST_CASE("a check that compared nothing is told as such and not as passed") {
+TEST_CASE("a check that compared nothing is reported as such and not as passed") {
   const CommandLine line;
   Result result = sampleResult();
   Report& report = result.report;
@@ -150,7 +150,7 @@ TEST_CASE("a check that compared nothing is told as such and not as passed") {
   CHECK_FALSE(json.at("check").at("passed").get<bool>());
 }
 
-TEST_CASE("JSON has null for what is not finite and is one line") {
+TEST_CASE("JSON has null for numbers that are not finite and is one line") {
   const CommandLine line;
   Result result = sampleResult();
   Report& report = result.report;

@@ -8,7 +8,7 @@
 
 using namespace asdfvk;
 
-TEST_CASE("a checkpoint reports progress, or nothing where nobody listens") {
+TEST_CASE("a checkpoint reports progress, or nothing without a callback") {
   CHECK_NOTHROW(RunControl{}.checkpoint(0.5));
   std::vector<double> fractions;
   RunControl control;
@@ -20,8 +20,8 @@ TEST_CASE("a checkpoint reports progress, or nothing where nobody listens") {
 
 TEST_CASE("a checkpoint after a stop request throws Cancelled and reports nothing") {
   std::stop_source source;
-  bool wasTold = false;
-  const RunControl control{source.get_token(), [&](double) { wasTold = true; }};
+  bool wasCalled = false;
+  const RunControl control{source.get_token(), [&](double) { wasCalled = true; }};
   source.request_stop();
   try {
     control.checkpoint(0.5);
@@ -29,5 +29,5 @@ TEST_CASE("a checkpoint after a stop request throws Cancelled and reports nothin
   } catch (const Error& error) {
     CHECK(error.kind() == ErrorKind::Cancelled);
   }
-  CHECK_FALSE(wasTold);
+  CHECK_FALSE(wasCalled);
 }
