@@ -15,7 +15,6 @@
 #include "poisson/arc_weights.h"
 #include "poisson/poisson_solver.h"
 #include "poisson/poisson_system.h"
-#include "poisson/solvers.h"
 #include "support/computation.h"
 #include "support/measurement.h"
 #include "support/program.h"

@@ -1,5 +1,5 @@
-// Walks either hierarchy for the nearest hits of all rays of a subgroup together: they share the stack and the node, which
-// is entered when one of them enters it, nearest first for the first of them. Every loop runs alike in all lanes.
+// Walks either hierarchy for the nearest hits of all rays of a subgroup together: they share the stack and the node,
+// which is entered when one of them enters it, nearest first for the first of them. Every loop runs alike in all lanes.
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #extension GL_KHR_shader_subgroup_ballot : require
 

@@ -14,10 +14,10 @@ vec4 distancesTo(uint bytes, float perByte, float start) {
 }
 
 // A nibble of ones for each of the four boxes that the ray enters before `limit`. Distances are compared by their bits,
-// which order those that are not negative. Of a box altogether before the ray's origin, where it would be left is one of
-// the nearest planes by bits and where it would be entered one of the farthest, so it is not entered. (Of floats llvmpipe
-// takes three instructions for each minimum, on behalf of NaNs that do not come here.) Needs no margin for rounding:
-// kWideBoxMargin has it.
+// which order those that are not negative. Of a box altogether before the ray's origin, where it would be left is one
+// of the nearest planes by bits and where it would be entered one of the farthest, so it is not entered. (Of floats
+// llvmpipe takes three instructions for each minimum, on behalf of NaNs that do not come here.) Needs no margin for
+// rounding: kWideBoxMargin has it.
 uint enterBoxes(uvec3 near, uvec3 far, vec3 perByte, vec3 start, float limit) {
   const vec4 nearX = distancesTo(near.x, perByte.x, start.x), farX = distancesTo(far.x, perByte.x, start.x);
   const vec4 nearY = distancesTo(near.y, perByte.y, start.y), farY = distancesTo(far.y, perByte.y, start.y);
@@ -126,8 +126,8 @@ uint takeSlot(inout LeafQueue queue, uint otherwise) {
   return lowest == 0u ? otherwise : slot;
 }
 
-// Triangles wait until some lane has those of three nodes to test: otherwise most lanes would wait for the few that have
-// one after nearly every node. Then two are tested at a time, which fills the waiting for either's texels.
+// Triangles wait until some lane has those of three nodes to test: otherwise most lanes would wait for the few that
+// have one after nearly every node. Then two are tested at a time, which fills the waiting for either's texels.
 Hit walkWide(vec3 origin, vec3 direction, uint excludedFace, inout uint iterationCount) {
   const RayFrame frame = makeRayFrame(direction);
   const WideRay ray = makeWideRay(origin, direction);

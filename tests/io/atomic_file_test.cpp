@@ -91,7 +91,7 @@ TEST_CASE("a missing folder, a folder as target, an empty name and a file as fol
   checkRefused(folder.path(), "Is a directory");
   checkRefused((folder / "missing").string() + "/", "Is a directory");
   checkRefused(folder / "file/out.ply", "Not a directory");
-  checkRefused("", "its name is empty");
+  checkRefused("", "name of the result file is empty");
 }
 
 TEST_CASE("a read-only folder and a read-only file are refused") {
