@@ -94,9 +94,9 @@ class PlyWriter {
   }
 
   void writeProperties(std::span<const FieldColumn> columns) {
-    constexpr std::array<std::string_view, 3> kTypes{"float", "uchar", "uint"};  // Of the alternatives of Values.
+    constexpr std::array<std::string_view, 3> kPlyTypes{"float", "uchar", "uint"};  // Of the alternatives of Values.
     for (const FieldColumn& column : columns)
-      file_.write(fmt::format("property {} {}\n", kTypes[column.field->values.index()], column.name));
+      file_.write(fmt::format("property {} {}\n", kPlyTypes[column.field->values.index()], column.name));
   }
 
   template <typename T>

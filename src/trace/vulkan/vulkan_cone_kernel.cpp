@@ -52,9 +52,8 @@ const Device& requireSubgroups(const Device& device, TraceKernel kernel) {
   const DeviceFacts& facts = device.facts();
   if (facts.hasSubgroupVote && (facts.hasSubgroupArithmetic || kernel != TraceKernel::Packet)) return device;
   throw Error(ErrorCode::KernelUnsupported,
-              fmt::format("{} does not let the lanes of a subgroup {}; use {}", facts.name,
-                          facts.hasSubgroupVote ? "add up" : "vote",
-                          facts.hasSubgroupVote ? "another kernel than packet" : "--backend reference"));
+              fmt::format("the compute shaders of {} have no subgroup {}, which the kernel needs", facts.name,
+                          facts.hasSubgroupVote ? "arithmetic" : "vote"));
 }
 
 }  // namespace
