@@ -263,7 +263,8 @@ TEST_CASE("a device without the subgroup operations of a kernel is refused with 
   facts.hasSubgroupArithmetic = false;
   const Device noArithmetic(physical, facts);
   const VulkanTraceChoice packet{TraceKernel::Packet, BvhLayout::Binary, BvhFetch::Texel};
-  CHECK_THROWS_WITH_AS(VulkanConeKernel(noArithmetic, {30, false, packet}), doctest::Contains("subgroup arithmetic"), Error);
+  CHECK_THROWS_WITH_AS(VulkanConeKernel(noArithmetic, {30, false, packet}), doctest::Contains("subgroup arithmetic"),
+                       Error);
   CHECK_NOTHROW(VulkanConeKernel(noArithmetic, {30}));
   facts.hasSubgroupVote = false;
   const Device noVote(physical, facts);
