@@ -13,7 +13,7 @@
 #include "seeds/samplers.h"
 #include "support/computation.h"
 #include "support/process.h"
-#include "trace/embree/embree_tracer.h"
+#include "trace/cone_tracer.h"
 #include "trace/seed_order.h"
 #include "trace/vulkan/vulkan_trace_choice.h"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "trace/ray_triangle.h"
+#include "trace/nearest_hit.h"
 
 namespace asdfvk::bench {
 namespace {

@@ -1,4 +1,4 @@
-// An orthonormal frame around a ray, in which its hits are computed (the twin of src/trace/ray_triangle.h).
+// An orthonormal frame around a ray, in which its hits are computed (the twin of src/trace/nearest_hit.h).
 struct RayFrame {
   vec3 u, w, direction;
 };

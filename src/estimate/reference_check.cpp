@@ -6,7 +6,6 @@
 
 #include "core/median.h"
 #include "seeds/samplers.h"
-#include "trace/reference_tracer.h"
 
 namespace asdfvk {
 namespace {

@@ -10,8 +10,7 @@
 
 #include "asdf_vk/error.h"
 #include "core/text.h"
-#include "trace/embree/embree_tracer.h"
-#include "trace/reference_tracer.h"
+#include "trace/cone_tracer.h"
 
 namespace asdfvk {
 namespace {

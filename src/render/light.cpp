@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "render/unit_vector.h"
-#include "trace/ray_triangle.h"
+#include "trace/nearest_hit.h"
 
 namespace asdfvk {
 namespace {

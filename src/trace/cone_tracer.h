@@ -1,7 +1,9 @@
 #pragma once
 
 #include <bit>
+#include <cmath>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 
@@ -15,7 +17,7 @@
 
 namespace asdfvk {
 
-/// What cones are traced against. Views only: everything must outlive the tracer.
+/// The mesh and the hierarchy that rays are traced against. Views only: everything must outlive the tracer.
 struct TraceScene {
   TriangleMesh mesh;
   const FaceGeometry& geometry;
@@ -25,40 +27,67 @@ struct TraceScene {
 
 struct TraceStatistics {
   uint64_t rayCount = 0;
-  uint64_t redoneConeCount =
-      0;  ///< Cones that the reference traced instead of a device: beyond its iterations or float32.
+  /// Cones traced by the reference instead: iteration limit of the device reached, or too small for float32.
+  uint64_t redoneConeCount = 0;
 };
 
-/// Where the results of N cones of R rays go.
+/// Output arrays for N cones of R rays.
 struct ConeResults {
   std::span<double> values;  ///< N.
-  /// What each ray met, valid or not: empty when nobody asks, else N R, ray r of cone i (in the order of
-  /// Cone::directions) at i R + r. A false intersection is reported with its face; isFalseHit() tells.
+  /// The nearest hit of each ray, rejected hits included: N x R, ray r of cone i (in the order of Cone::directions) at
+  /// i R + r. Empty: hits are not written.
   std::span<ConeHit> hits = {};
 };
 
 inline constexpr ConeHit kMiss{std::bit_cast<float>(kMissDistanceBits), kNoFace};
 
-/// Throws CheckFailure when the results have no room for so many cones.
+/// Throws CheckFailure when the sizes of the results do not match.
 inline void checkSizes(const ConeResults& results, size_t coneCount, size_t rayCount) {
   ASDFVK_CHECK_OP(results.values.size(), ==, coneCount);
   if (!results.hits.empty()) ASDFVK_CHECK_OP(results.hits.size(), ==, coneCount * rayCount);
 }
 
-/// A way to trace cones. All of them share one accept rule: the nearest hit that is not on the seed face itself or a
-/// copy of it; dropped when that hit is false (see isFalseHit()) or nothing is hit.
+/// Traces batches of cones. Every implementation has the same rule: a ray ends at the nearest hit that is not on the
+/// seed face or a copy of it, and counts unless that hit is false (see isFalseHit()) or missing.
 class ConeTracer {
  public:
   virtual ~ConeTracer() = default;
 
-  /// results.values[i] becomes the shape diameter at seedFaces[i] in the mesh's unit, or kNoValue when no ray of its
-  /// cone is valid; it has the same bits whether hits are asked for or not. Precondition: no seed face is degenerate.
+  /// Sets results.values[i] to the shape diameter at seedFaces[i] in the mesh's unit, or to kNoValue when no ray of its
+  /// cone counts. Values have the same bits with and without hits. Precondition: no seed face is degenerate.
   /// Throws Error{Cancelled} between chunks, Error{Device}.
   virtual TraceStatistics trace(std::span<const uint32_t> seedFaces, const ConeResults& results,
                                 const RunControl& control) = 0;
 
-  /// Of what making it took, the seconds that went by before anything was brought to a device; 0 without one.
+  /// Seconds of the construction that encoded the hierarchy for a device, before the upload; 0 without a device.
   [[nodiscard]] virtual double encodeSeconds() const { return 0; }
 };
+
+/// Double precision, watertight, on all cores of the CPU: the other tracers are compared with it. Values do not depend
+/// on the number of threads.
+[[nodiscard]] std::unique_ptr<ConeTracer> makeReferenceTracer(const TraceScene& scene, const Cone& cone);
+
+/// Embree (Wald et al. 2014) on all cores of the CPU, in float32; lengths are recomputed in double. Values do not
+/// depend on the number of threads. Cones too small for float32 are traced by the reference. The cone must outlive the
+/// tracer. Throws Error{Device} when Embree fails or this build has none.
+[[nodiscard]] std::unique_ptr<ConeTracer> makeEmbreeTracer(const TraceScene& scene, const Cone& cone);
+
+/// Whether this build has Embree, which is optional.
+[[nodiscard]] bool hasEmbree();
+
+/// Throws Error{Device} when this build has no Embree.
+void requireEmbree();
+
+/// Name and version of the loaded library, as "Embree 3.13.5"; empty without Embree.
+[[nodiscard]] std::string embreeName();
+
+// In normalised units. A tracer in float32, whose resolution is 2^-24 at the rim of the bounding box, leaves cones of
+// smaller faces or with a shorter diameter to the reference.
+inline constexpr double kMinFloatFace = 0x1p-16;
+inline constexpr double kMinFloatDiameter = 0x1p-14;
+
+[[nodiscard]] inline bool isTooSmallForFloat(const TraceScene& scene, uint32_t seedFace) {
+  return std::sqrt(scene.geometry.areas[seedFace]) * scene.bvh.normalization.scale < kMinFloatFace;
+}
 
 }  // namespace asdfvk

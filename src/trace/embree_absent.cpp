@@ -1,6 +1,6 @@
 // Built in place of the other embree_* files where there is no Embree.
 #include "asdf_vk/error.h"
-#include "trace/embree/embree_tracer.h"
+#include "trace/cone_tracer.h"
 
 namespace asdfvk {
 

@@ -7,13 +7,13 @@
 namespace asdfvk {
 namespace {
 
-// Boxes are tested as if they were larger by this, so that no box is missed whose triangle the ray hits by the triangle
-// test's rounding: coordinates relative to the origin are below 3.5 and off by a few units of 2^-53 of that. It takes
-// the place of the relative margin of Ize 2013, which does not cover a ray that runs along a box's side.
+// Boxes are enlarged by this margin, so that every triangle hit after rounding has its box hit as well: coordinates
+// relative to the origin are below 3.5, with errors of a few units of 2^-53 of that. An absolute margin, because the
+// relative one of Ize 2013 does not cover a ray along a side of the box.
 constexpr double kBoxMargin = 1e-14;
 
-// Slabs, ordered by the ray's sign. A direction of 0 becomes one so small that it moves the ray by nothing; its inverse
-// still times any box is finite.
+// Slabs ordered by the signs of the direction. A component of 0 is replaced by one that is too small to move the ray;
+// its inverse times any box coordinate stays finite.
 struct SlabTest {
   Vec3d inverse, nearOrigin, farOrigin;
   std::array<bool, 3> isNegative{};

@@ -1,20 +1,54 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 
 #include "bvh/bvh.h"
+#include "cone/cone.h"
+#include "core/vec3.h"
 #include "shared/cone_hit.h"
-#include "trace/ray_triangle.h"
 
 namespace asdfvk {
+
+inline constexpr double kNoHit = std::numeric_limits<double>::infinity();
+
+/// Coordinate frame of a ray, in which triangles are tested: origin at 0, direction along z.
+struct RayFrame {
+  Vec3d origin;
+  ConeFrame frame;  ///< frame.axis is the ray's unit direction.
+
+  RayFrame(const Vec3d& rayOrigin, const Vec3d& direction) : origin(rayOrigin), frame(coneFrame(direction)) {}
+
+  /// Depends on the vertex and the ray only: triangles that share a vertex get the same coordinates.
+  [[nodiscard]] Vec3d toRay(const Vec3d& p) const {
+    const Vec3d d = p - origin;
+    return {dot(d, frame.tangent), dot(d, frame.bitangent), dot(d, frame.axis)};
+  }
+};
+
+/// Distance along the ray to either side of the triangle, or kNoHit. Watertight, after Woop, Benthin and Wald 2013,
+/// with a rotation instead of their shear. Rounding is monotone, so a sign becomes zero at worst, never wrong; zero
+/// counts as inside, so a ray between two triangles hits at least one of them.
+[[nodiscard]] inline double rayTriangleDistance(const RayFrame& ray, const Vec3d& v0, const Vec3d& v1,
+                                                const Vec3d& v2) {
+  const Vec3d a = ray.toRay(v0), b = ray.toRay(v1), c = ray.toRay(v2);
+  const double u = c.x * b.y - c.y * b.x;
+  const double v = a.x * c.y - a.y * c.x;
+  const double w = b.x * a.y - b.y * a.x;
+  if ((u < 0 || v < 0 || w < 0) && (u > 0 || v > 0 || w > 0)) return kNoHit;
+  const double det = u + v + w;
+  if (det == 0) return kNoHit;
+  const double t = (u * a.z + v * b.z + w * c.z) / det;
+  return t >= 0 ? t : kNoHit;
+}
 
 struct RayHit {
   double distance = kNoHit;  ///< In normalised units.
   uint32_t face = kNoFace;   ///< kNoFace for a miss.
 };
 
-/// The nearest triangle of the hierarchy that the ray meets, other than `skippedFace`; the lowest face among equally
-/// near ones. Origin and unit direction are in normalised coordinates; the origin lies in the root's box or near it.
+/// The nearest triangle hit by the ray, except `skippedFace`; of equally near ones the lowest face index. Origin and
+/// unit direction are in normalised coordinates; the origin lies in the root's box or near it.
 [[nodiscard]] RayHit nearestHit(const Bvh& bvh, const TriangleMesh& mesh, const Vec3d& origin, const Vec3d& direction,
                                 uint32_t skippedFace);
 

@@ -3,12 +3,10 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-#include <algorithm>
 #include <array>
 
 #include "core/check.h"
-#include "core/stopwatch.h"
-#include "trace/chunk_size.h"
+#include "trace/chunks.h"
 #include "trace/nearest_hit.h"
 
 namespace asdfvk {
@@ -32,20 +30,12 @@ class ReferenceTracer final : public ConeTracer {
     const size_t rayCount = cone_.directions.size();
     checkSizes(results, seedFaces.size(), rayCount);
     const size_t hitCount = results.hits.empty() ? 0 : rayCount;  // per cone
-    const auto total = static_cast<double>(seedFaces.size());
-    ChunkSize chunk(64, seedFaces.size());
-    for (size_t begin = 0; begin < seedFaces.size();) {
-      control.checkpoint(static_cast<double>(begin) / total);
-      const size_t end = std::min<size_t>(begin + chunk.current(), seedFaces.size());
-      const Stopwatch stopwatch;
+    forEachChunk(seedFaces.size(), ChunkSize(64, seedFaces.size()), control, [&](size_t begin, size_t end) {
       tbb::parallel_for(tbb::blocked_range<size_t>(begin, end, 8), [&](const tbb::blocked_range<size_t>& range) {
         for (size_t i = range.begin(); i < range.end(); ++i)
           results.values[i] = referenceCone(scene_, cone_, seedFaces[i], results.hits.subspan(i * hitCount, hitCount));
       });
-      chunk.adapt(end - begin, stopwatch.seconds());
-      begin = end;
-    }
-    control.checkpoint(1);
+    });
     return {.rayCount = seedFaces.size() * rayCount, .redoneConeCount = 0};
   }
 

@@ -8,7 +8,7 @@
 
 namespace asdfvk {
 
-/// Neighbouring cones walk the same nodes: seeds are best visited in the order of their triangles in the hierarchy.
+/// Order of the seeds by their triangles in the hierarchy: neighbouring cones traverse the same nodes.
 class SeedOrder {
  public:
   explicit SeedOrder(const TraceScene& scene);
@@ -16,10 +16,10 @@ class SeedOrder {
   /// A permutation of the indices into seedFaces; equal seeds keep their order.
   [[nodiscard]] std::vector<uint32_t> of(std::span<const uint32_t> seedFaces) const;
 
-  /// The triangle slot of the face or of the one that stands for it; kNoFace where that is not in the hierarchy.
+  /// Index of the face's representative in the hierarchy; kNoFace where it is not in the hierarchy.
   [[nodiscard]] uint32_t slotOf(uint32_t face) const { return slotOfFace_[representatives_[face]]; }
 
-  /// Begins to fetch what slotOf() reads.
+  /// Prefetches the memory that slotOf() reads.
   void prefetch(uint32_t face) const {
     __builtin_prefetch(&representatives_[face]);
     __builtin_prefetch(&slotOfFace_[face]);

@@ -9,7 +9,7 @@
 
 namespace asdfvk {
 
-/// The faces that cast rays, and their results.
+/// Seed faces and their results.
 struct TracedSeeds {
   explicit TracedSeeds(size_t faceCount) : values(faceCount, kNoValue), isSeed(faceCount, 0) {}
 

@@ -10,7 +10,6 @@
 #include "generate/shapes.h"
 #include "pipeline/prepared_mesh.h"
 #include "support/shared_session.h"
-#include "trace/reference_tracer.h"
 
 using namespace asdfvk;
 

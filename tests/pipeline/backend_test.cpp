@@ -7,7 +7,7 @@
 #include <string>
 
 #include "support/require_failure.h"
-#include "trace/embree/embree_tracer.h"
+#include "trace/cone_tracer.h"
 
 using namespace asdfvk;
 

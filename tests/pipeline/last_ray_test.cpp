@@ -8,7 +8,6 @@
 #include "bvh/bvh.h"
 #include "generate/shapes.h"
 #include "pipeline/rounds.h"
-#include "trace/reference_tracer.h"
 
 using namespace asdfvk;
 

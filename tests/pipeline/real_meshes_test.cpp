@@ -7,7 +7,7 @@
 #include "asdf_vk/files.h"
 #include "support/real_meshes.h"
 #include "support/shared_session.h"
-#include "trace/embree/embree_tracer.h"
+#include "trace/cone_tracer.h"
 
 using namespace asdfvk;
 namespace fs = std::filesystem;

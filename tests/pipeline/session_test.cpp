@@ -11,7 +11,7 @@
 #include "generate/shapes.h"
 #include "support/require_failure.h"
 #include "support/shared_session.h"
-#include "trace/embree/embree_tracer.h"
+#include "trace/cone_tracer.h"
 
 using namespace asdfvk;
 using test::allSeeds;

@@ -1,4 +1,4 @@
-#include "trace/embree/embree_tracer.h"
+#include "trace/cone_tracer.h"
 
 #include <doctest/doctest.h>
 #include <tbb/global_control.h>

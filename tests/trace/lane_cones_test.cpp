@@ -86,18 +86,18 @@ TEST_CASE("eight cones side by side have the bits of coneValue, for any number o
 TEST_CASE("lengths are those to the planes of hits in double, but for slivers, misses and false hits") {
   Random random(8);
   const TracedMesh traced(shapes::jittered(shapes::icosphere(2), 0.1, 4));
-  const std::vector<SlotPlane> planes = slotPlanes(traced.scene());
+  const std::vector<TrianglePlane> planes = trianglePlanes(traced.scene());
   const Cone cone = makeCone({});
   const Eight eight = eightCones(traced, cone, random);
   std::vector<LaneHits> hits(cone.directions.size());
   for (size_t ray = 0; ray < hits.size(); ++ray)
     for (size_t lane = 0; lane < LaneCones::kWidth; ++lane) {
-      const auto slot = static_cast<uint32_t>(random.real() * static_cast<double>(planes.size()));
-      const SlotPlane& plane = planes[slot];
+      const auto primitive = static_cast<uint32_t>(random.real() * static_cast<double>(planes.size()));
+      const TrianglePlane& plane = planes[primitive];
       const double length =
           (plane.offset - dot(plane.normal, eight.origins[lane])) / dot(plane.normal, eight.directions[ray][lane]);
       const double off = std::array{0.0, 5e-5, -5e-5, 8e-5, -8e-5}[(ray + lane) % 5];  // 2^-14 is 6.1e-5.
-      hits[ray].slots[lane] = (ray + lane) % 7 == 0 ? kNoFace : slot;
+      hits[ray].primitives[lane] = (ray + lane) % 7 == 0 ? kNoFace : primitive;
       hits[ray].distances[lane] = static_cast<float>(length + off);
     }
   for (const InstructionSet instructionSet : instructionSets()) {
@@ -108,13 +108,13 @@ TEST_CASE("lengths are those to the planes of hits in double, but for slivers, m
       bool leaves = false;
       for (size_t ray = 0; ray < hits.size(); ++ray) {
         const double length = lanes.lengths()[ray][lane];
-        const uint32_t slot = hits[ray].slots[lane];
-        if (slot == kNoFace) {
+        const uint32_t primitive = hits[ray].primitives[lane];
+        if (primitive == kNoFace) {
           CHECK(length == kInfinity);
           leaves = true;
           continue;
         }
-        const SlotPlane& plane = planes[slot];
+        const TrianglePlane& plane = planes[primitive];
         const double cosine = dot(plane.normal, eight.directions[ray][lane]);
         const double onPlane = (plane.offset - dot(plane.normal, eight.origins[lane])) / cosine;
         const double distance = hits[ray].distances[lane];
@@ -137,21 +137,21 @@ TEST_CASE("lengths are those to the planes of hits in double, but for slivers, m
 
 TEST_CASE("one ray that meets nothing, or an outer side, leaves the surface; none else does") {
   const TracedMesh traced(shapes::icosphere(2));
-  const std::vector<SlotPlane> planes = slotPlanes(traced.scene());
+  const std::vector<TrianglePlane> planes = trianglePlanes(traced.scene());
   const Cone cone = makeCone({});
   Random random(5);
   const Eight eight = eightCones(traced, cone, random);
   std::vector<LaneHits> hits(cone.directions.size());
   for (size_t ray = 0; ray < hits.size(); ++ray)
     for (size_t lane = 0; lane < LaneCones::kWidth; ++lane)
-      for (uint32_t slot = 0; slot < planes.size(); ++slot)  // Any from within.
-        if (dot(planes[slot].normal, eight.directions[ray][lane]) > 0.5) hits[ray].slots[lane] = slot;
+      for (uint32_t primitive = 0; primitive < planes.size(); ++primitive)  // Any from within.
+        if (dot(planes[primitive].normal, eight.directions[ray][lane]) > 0.5) hits[ray].primitives[lane] = primitive;
   for (const InstructionSet instructionSet : instructionSets()) {
     LaneCones lanes(cone, planes, instructionSet);
     std::vector<LaneHits> changed = hits;
-    changed[17].slots[3] = kNoFace;
-    for (uint32_t slot = 0; slot < planes.size(); ++slot)
-      if (dot(planes[slot].normal, eight.directions[29][6]) < -0.5) changed[29].slots[6] = slot;
+    changed[17].primitives[3] = kNoFace;
+    for (uint32_t primitive = 0; primitive < planes.size(); ++primitive)
+      if (dot(planes[primitive].normal, eight.directions[29][6]) < -0.5) changed[29].primitives[6] = primitive;
     lanes.measure(eight.frames, changed);
     for (size_t lane = 0; lane < LaneCones::kWidth; ++lane)
       CHECK(lanes.leavesSurface(lane) == (lane == 3 || lane == 6));

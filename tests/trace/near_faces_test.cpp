@@ -1,4 +1,4 @@
-#include "trace/embree/near_faces.h"
+#include "trace/embree/lane_cones.h"
 
 #include <doctest/doctest.h>
 
@@ -31,15 +31,15 @@ double distanceToTriangle(const Vec3d& p, const std::array<Vec3d, 3>& corners) {
   return isAbove ? std::abs(dot(p - corners[0], normal)) / length(normal) : nearest;
 }
 
-/// The distance from the point to the nearest triangle but that of its slot, in normalised units.
-double nearestOther(const TracedMesh& traced, const SlotPoint& point) {
+/// The distance from the point to the nearest triangle but that of its primitive, in normalised units.
+double nearestOther(const TracedMesh& traced, const PrimitivePoint& point) {
   double nearest = std::numeric_limits<double>::infinity();
-  for (uint32_t slot = 0; slot < traced.bvh.slotFaces.size(); ++slot) {
-    if (slot == point.slot) continue;
+  for (uint32_t primitive = 0; primitive < traced.bvh.slotFaces.size(); ++primitive) {
+    if (primitive == point.primitive) continue;
     std::array<Vec3d, 3> corners;
     for (size_t k = 0; k < 3; ++k)
-      corners[k] =
-          traced.bvh.normalization.toNormalized(traced.mesh.vertices[traced.mesh.faces[traced.bvh.slotFaces[slot]][k]]);
+      corners[k] = traced.bvh.normalization.toNormalized(
+          traced.mesh.vertices[traced.mesh.faces[traced.bvh.slotFaces[primitive]][k]]);
     nearest = std::min(nearest, distanceToTriangle(point.point, corners));
   }
   return nearest;
@@ -47,11 +47,12 @@ double nearestOther(const TracedMesh& traced, const SlotPoint& point) {
 
 /// Barycentres in the order of slots; returns how many had a neighbour.
 size_t checkAll(const TracedMesh& traced, double radius, size_t groupSize, InstructionSet instructionSet) {
-  const std::vector<SlotPlane> planes = slotPlanes(traced.scene());
-  std::vector<SlotPoint> points;
-  for (uint32_t slot = 0; slot < planes.size(); ++slot)
+  const std::vector<TrianglePlane> planes = trianglePlanes(traced.scene());
+  std::vector<PrimitivePoint> points;
+  for (uint32_t primitive = 0; primitive < planes.size(); ++primitive)
     points.push_back(
-        {traced.bvh.normalization.toNormalized(traced.geometry.barycentres[traced.bvh.slotFaces[slot]]), slot});
+        {traced.bvh.normalization.toNormalized(traced.geometry.barycentres[traced.bvh.slotFaces[primitive]]),
+         primitive});
   size_t foundCount = 0;
   for (size_t first = 0; first < points.size(); first += groupSize) {
     const auto some = std::span(points).subspan(first, std::min(groupSize, points.size() - first));
@@ -85,19 +86,19 @@ TEST_CASE("a face nearer than the radius is found, and none that is far, as brut
 TEST_CASE("walls that touch are found on both sides, whatever their cuts") {
   const Mesh box = shapes::box({2, 2, 2}, 3);
   const TracedMesh traced(shapes::joined(box, shapes::scaledAndShifted(shapes::box({2, 2, 2}, 4), 1, {2, 0, 0})));
-  const std::vector<SlotPlane> planes = slotPlanes(traced.scene());
-  for (uint32_t slot = 0; slot < planes.size(); ++slot) {
-    const uint32_t face = traced.bvh.slotFaces[slot];
+  const std::vector<TrianglePlane> planes = trianglePlanes(traced.scene());
+  for (uint32_t primitive = 0; primitive < planes.size(); ++primitive) {
+    const uint32_t face = traced.bvh.slotFaces[primitive];
     const Vec3d barycentre = traced.geometry.barycentres[face];
-    const SlotPoint point{traced.bvh.normalization.toNormalized(barycentre), slot};
+    const PrimitivePoint point{traced.bvh.normalization.toNormalized(barycentre), primitive};
     CHECK(haveNeighboursWithin(traced.scene(), planes, {&point, 1}, 0x1p-21)[0] == (std::abs(barycentre.x - 1) < 1e-9));
   }
 }
 
 TEST_CASE("nothing is near where there is no other face") {
   const TracedMesh none(Mesh{});
-  const SlotPoint point{{0, 0, 0}, 0};
+  const PrimitivePoint point{{0, 0, 0}, 0};
   CHECK(!haveNeighboursWithin(none.scene(), {}, {&point, 1}, 1)[0]);
   const TracedMesh alone(Mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}, {}});
-  CHECK(!haveNeighboursWithin(alone.scene(), slotPlanes(alone.scene()), {&point, 1}, 1)[0]);
+  CHECK(!haveNeighboursWithin(alone.scene(), trianglePlanes(alone.scene()), {&point, 1}, 1)[0]);
 }

@@ -4,7 +4,6 @@
 #include <cstring>
 #include <vector>
 
-#include "trace/reference_tracer.h"
 #include "trace/vulkan/vulkan_tracer.h"
 #include "traced_mesh.h"
 

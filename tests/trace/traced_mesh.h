@@ -5,7 +5,6 @@
 #include <utility>
 #include <vector>
 
-#include "trace/reference_tracer.h"
 
 namespace asdfvk {
 

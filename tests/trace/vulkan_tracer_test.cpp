@@ -11,7 +11,7 @@
 #include "generate/shapes.h"
 #include "shapes.h"
 #include "support/test_device.h"
-#include "trace/chunk_size.h"
+#include "trace/chunks.h"
 #include "trace_results.h"
 #include "vulkan_variants.h"
 
@@ -328,7 +328,7 @@ TEST_CASE("chunks grow and shrink towards their time, within bounds") {
   for (int i = 0; i < 20; ++i) chunk.adapt(chunk.current(), 1e-9);
   CHECK(chunk.current() == 1'000'000);
   for (int i = 0; i < 20; ++i) chunk.adapt(chunk.current(), 100);
-  CHECK(chunk.current() == ChunkSize::kSmallest);
+  CHECK(chunk.current() == ChunkSize::kMin);
 }
 
 TEST_CASE("a mesh beyond a device's limits is refused with a remedy") {

@@ -1,68 +1,156 @@
 #include "trace/embree/embree_cones.h"
 
-#include "trace/float_limits.h"
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <limits>
+#include <new>
+
+#include "asdf_vk/error.h"
 
 namespace asdfvk {
+namespace {
+
+/// Throws the pending error of the device, if any; null: the error of a failed creation.
+void throwEmbreeError(RTCDevice device) {
+  switch (const RTCError error = rtcGetDeviceError(device)) {
+    case RTC_ERROR_NONE:
+      return;
+    case RTC_ERROR_OUT_OF_MEMORY:
+      throw std::bad_alloc();
+    default:
+      throw Error(ErrorCode::EmbreeFailed, fmt::format("Embree failed with error {}", static_cast<int>(error)));
+  }
+}
+
+struct FloatPoint {
+  float x, y, z;
+};
+
+void copyTriangles(const TraceScene& scene, RTCGeometry geometry) {
+  const std::span<const Vec3d> vertices = scene.mesh.vertices;
+  const std::vector<uint32_t>& slotFaces = scene.bvh.slotFaces;
+  auto* points = static_cast<FloatPoint*>(rtcSetNewGeometryBuffer(
+      geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(FloatPoint), vertices.size()));
+  auto* triangles = static_cast<Face*>(
+      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(Face), slotFaces.size()));
+  if (points == nullptr || triangles == nullptr) return;  // The error stays pending in the device.
+  tbb::parallel_for(size_t{0}, vertices.size(), [&](size_t i) {
+    const Vec3d p = scene.bvh.normalization.toNormalized(vertices[i]);
+    points[i] = {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+  });
+  tbb::parallel_for(size_t{0}, slotFaces.size(), [&](size_t i) { triangles[i] = scene.mesh.faces[slotFaces[i]]; });
+}
+
+}  // namespace
+
+static_assert(RTC_INVALID_GEOMETRY_ID == kNoFace);
+
+EmbreeScene::EmbreeScene(const TraceScene& scene, EmbreeMode mode) : mode_(mode), device_(rtcNewDevice(nullptr)) {
+  if (!device_) throwEmbreeError(nullptr);
+  scene_.reset(rtcNewScene(device_.get()));
+  if (mode == EmbreeMode::Robust) rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
+  rtcSetSceneBuildQuality(scene_.get(), RTC_BUILD_QUALITY_MEDIUM);
+  RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
+  copyTriangles(scene, geometry);
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometryByID(scene_.get(), geometry, 0);
+  rtcReleaseGeometry(geometry);
+  rtcCommitScene(scene_.get());
+  throwEmbreeError(device_.get());
+}
 
 EmbreeConeGroup::EmbreeConeGroup(const EmbreeCones& cones)
-    : cones_(cones), rays_(cones.rayStart), lanes_(cones.cone, cones.planes), met_(cones.cone.directions.size()) {}
+    : cones_(cones), lanes_(cones.cone, cones.planes), hits_(cones.cone.directions.size()) {
+  for (size_t lane = 0; lane < kWidth; ++lane) {
+    packet_.ray.tnear[lane] = static_cast<float>(cones.rayStart);
+    packet_.ray.mask[lane] = ~0u;
+    packet_.hit.primID[lane] = kNoFace;
+  }
+}
 
 void EmbreeConeGroup::add(const EmbreeSeed& seed) {
   const size_t lane = size_++;
   const Vec3d& normal = cones_.scene.geometry.normals[seed.face];
   const Vec3d origin = cones_.scene.bvh.normalization.toNormalized(cones_.scene.geometry.barycentres[seed.face]);
   seeds_[lane] = seed;
-  points_[lane] = {origin, seed.slot};
+  points_[lane] = {origin, seed.primitive};
   frames_.set(lane, faceConeFrame(cones_.cone, normal, seed.face), origin, normal);
-  rays_.setOrigin(lane, origin);
+  isActive_[lane] = -1;
+  packet_.ray.org_x[lane] = static_cast<float>(origin.x);
+  packet_.ray.org_y[lane] = static_cast<float>(origin.y);
+  packet_.ray.org_z[lane] = static_cast<float>(origin.z);
 }
 
 void EmbreeConeGroup::clear() {
-  for (size_t lane = 0; lane < size_; ++lane) rays_.remove(lane);
+  isActive_.fill(0);
   size_ = 0;
 }
 
 void EmbreeConeGroup::trace() {
-  findUnfit();
-  for (size_t ray = 0; ray < met_.size(); ++ray) {
-    met_[ray] = rays_.cast(cones_.embree, frames_, cones_.cone.directions[ray]);
-    for (const uint32_t slot : met_[ray].slots)
-      if (slot != kNoFace) __builtin_prefetch(&cones_.planes[slot]);
+  skipUnfit();
+  for (size_t ray = 0; ray < hits_.size(); ++ray) {
+    hits_[ray] = cast(cones_.cone.directions[ray]);
+    for (const uint32_t primitive : hits_[ray].primitives)
+      if (primitive != kNoFace) __builtin_prefetch(&cones_.planes[primitive]);
   }
-  lanes_.measure(frames_, met_);
+  lanes_.measure(frames_, hits_);
   values_ = lanes_.values();
   for (size_t lane = 0; lane < size_; ++lane) {
-    isDoubtful_[lane] =
-        isUnfit_[lane] || leavesSurface(lane) || values_[lane] < kShortestFloatDiameter || metItself(lane);
+    isDoubtful_[lane] = isUncast_[lane] || leavesSurface(lane) || values_[lane] < kMinFloatDiameter || hitsItself(lane);
     if (!seeds_[lane].hits.empty()) writeHits(lane);
   }
 }
 
-/// Takes cones out that are too small for float32, or that have another face as near as rays begin.
-void EmbreeConeGroup::findUnfit() {
+/// Deactivates cones that are too small for float32, or that have another face within the start of their rays.
+void EmbreeConeGroup::skipUnfit() {
   const std::array<bool, kWidth> hasNeighbour =
       haveNeighboursWithin(cones_.scene, cones_.planes, {points_.data(), size_}, cones_.rayStart);
   for (size_t lane = 0; lane < size_; ++lane) {
-    isUnfit_[lane] = hasNeighbour[lane] || isTooSmallForFloat(cones_.scene, seeds_[lane].face);
-    if (isUnfit_[lane]) rays_.remove(lane);
+    isUncast_[lane] = hasNeighbour[lane] || isTooSmallForFloat(cones_.scene, seeds_[lane].face);
+    if (isUncast_[lane]) isActive_[lane] = 0;
   }
 }
 
-bool EmbreeConeGroup::leavesSurface(size_t lane) const {
-  return !isUnfit_[lane] && cones_.embree.mode() != EmbreeMode::Robust && lanes_.leavesSurface(lane);
+/// Casts one ray of all cones; coneDirection: one of Cone::directions.
+LaneHits EmbreeConeGroup::cast(const Vec3d& coneDirection) {
+  float* const rows[] = {packet_.ray.dir_x, packet_.ray.dir_y, packet_.ray.dir_z};
+  const Vec3d& d = coneDirection;
+  for (size_t axis = 0; axis < 3; ++axis)
+    for (size_t lane = 0; lane < kWidth; ++lane)
+      rows[axis][lane] = static_cast<float>(d.x * frames_.tangents[axis][lane] + d.y * frames_.bitangents[axis][lane] +
+                                            d.z * frames_.axes[axis][lane]);
+  for (size_t lane = 0; lane < kWidth; ++lane) {
+    packet_.ray.tfar[lane] = std::numeric_limits<float>::infinity();
+    packet_.hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID;
+    packet_.hit.primID[lane] = kNoFace;
+  }
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+  rtcIntersect8(isActive_.data(), cones_.embree.get(), &context, &packet_);
+  LaneHits hits;
+  std::copy_n(packet_.hit.primID, kWidth, hits.primitives.begin());
+  std::copy_n(packet_.ray.tfar, kWidth, hits.distances.begin());
+  return hits;
 }
 
-bool EmbreeConeGroup::metItself(size_t lane) const {
+bool EmbreeConeGroup::leavesSurface(size_t lane) const {
+  return !isUncast_[lane] && cones_.embree.mode() != EmbreeMode::Robust && lanes_.leavesSurface(lane);
+}
+
+bool EmbreeConeGroup::hitsItself(size_t lane) const {
   bool result = false;
-  for (const LaneHits& hits : met_) result |= hits.slots[lane] == seeds_[lane].slot;
+  for (const LaneHits& hits : hits_) result |= hits.primitives[lane] == seeds_[lane].primitive;
   return result;
 }
 
 void EmbreeConeGroup::writeHits(size_t lane) const {
-  for (size_t ray = 0; ray < met_.size(); ++ray) {
-    const uint32_t slot = met_[ray].slots[lane];
+  for (size_t ray = 0; ray < hits_.size(); ++ray) {
+    const uint32_t primitive = hits_[ray].primitives[lane];
     seeds_[lane].hits[ray] =
-        slot == kNoFace ? kMiss : ConeHit{met_[ray].distances[lane], cones_.scene.bvh.slotFaces[slot]};
+        primitive == kNoFace ? kMiss : ConeHit{hits_[ray].distances[lane], cones_.scene.bvh.slotFaces[primitive]};
   }
 }
 

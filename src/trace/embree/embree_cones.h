@@ -1,39 +1,71 @@
 #pragma once
 
+#include <embree3/rtcore.h>
+
 #include <array>
+#include <memory>
 #include <span>
+#include <type_traits>
 #include <vector>
 
-#include "trace/embree/embree_rays.h"
 #include "trace/embree/lane_cones.h"
-#include "trace/embree/near_faces.h"
 
+// What is traced with Embree: its scene, and groups of eight cones. Lengths are in normalised units.
 namespace asdfvk {
 
-/// What does not change from cone to cone. Views only.
+struct EmbreeRelease {
+  void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+  void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+};
+using EmbreeDevice = std::unique_ptr<std::remove_pointer_t<RTCDevice>, EmbreeRelease>;
+
+enum class EmbreeMode {
+  Fastest,  ///< A ray may pass between two adjacent triangles: 1 of 600,000 on a scanned model, of 26 on a cylinder.
+  Robust,   ///< No ray does; a fifth slower.
+};
+
+/// Embree's hierarchy over the primitives of ours: primitive i has index i in both. Normalised coordinates, float32.
+/// Built on all threads, with the same bits for any number of them.
+class EmbreeScene {
+ public:
+  /// Throws Error{Device}.
+  EmbreeScene(const TraceScene& scene, EmbreeMode mode);
+
+  [[nodiscard]] RTCScene get() const { return scene_.get(); }
+  [[nodiscard]] EmbreeMode mode() const { return mode_; }
+
+ private:
+  EmbreeMode mode_;
+  // In this order: the scene is destroyed before its device.
+  EmbreeDevice device_;
+  std::unique_ptr<std::remove_pointer_t<RTCScene>, EmbreeRelease> scene_;
+};
+
+/// What all cones of a trace share. Views only.
 struct EmbreeCones {
   const TraceScene& scene;
   const Cone& cone;
-  std::span<const SlotPlane> planes;
+  std::span<const TrianglePlane> planes;
   const EmbreeScene& embree;
-  double rayStart = 0;  ///< In normalised units.
+  double rayStart = 0;  ///< Rays end at the nearest triangle that is at least this far away.
 };
 
-/// A cone to trace and where its hits go.
+/// A cone to trace and the place of its hits.
 struct EmbreeSeed {
-  uint32_t face = 0, slot = 0;
-  std::span<ConeHit> hits;  ///< A ray's each, or none.
+  uint32_t face = 0, primitive = 0;
+  std::span<ConeHit> hits;  ///< One per ray, or empty.
 };
 
-/// Traces up to eight cones side by side, the same ray of each at once, with room that is kept from call to call.
+/// Traces up to eight neighbouring cones together: each packet holds the same ray of all of them. Embree traverses for
+/// each ray alone (RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT), so that hits do not depend on the other cones. Keeps its
+/// memory from call to call.
 class EmbreeConeGroup {
  public:
-  static constexpr size_t kWidth = EmbreeRays::kWidth;
+  static constexpr size_t kWidth = LaneHits::kWidth;
 
   explicit EmbreeConeGroup(const EmbreeCones& cones);
 
-  /// Adds a cone to those that trace() will trace. Precondition: there are fewer than kWidth, and the face is not
-  /// degenerate.
+  /// Adds a cone for the next trace(). Preconditions: fewer than kWidth cones, and the face is not degenerate.
   void add(const EmbreeSeed& seed);
   [[nodiscard]] size_t size() const { return size_; }
   [[nodiscard]] const EmbreeSeed& seed(size_t lane) const { return seeds_[lane]; }
@@ -44,29 +76,31 @@ class EmbreeConeGroup {
 
   /// In normalised units, or kNoValue. Meaningless when isDoubtful().
   [[nodiscard]] double value(size_t lane) const { return values_[lane]; }
-  /// Whether float32 may have got the cone wrong, so that the reference is to trace it: the face or the value is too
-  /// small, another face is as near as rays begin, a ray came back to the face, or leavesSurface().
+  /// Whether float32 may be too coarse for the cone, so that the reference has to trace it: the face or the value is
+  /// too small, another face is within the start of the rays, a ray hit its own face, or leavesSurface().
   [[nodiscard]] bool isDoubtful(size_t lane) const { return isDoubtful_[lane]; }
-  /// Whether a ray met nothing or the outer side of a face, as it does where it fell between two triangles of a closed
-  /// surface; never in robust mode, nor of a cone that was doubtful before its rays. Unseen stays a ray that is inside
-  /// a second shell as well, or that fell between two triangles twice.
+  /// Whether a ray had no hit or hit the outer side of a face, as a ray does that passed between two triangles of a
+  /// closed surface. False in robust mode and for cones that were not cast. Not detected: a ray that is inside a second
+  /// shell too, or that passed between triangles twice.
   [[nodiscard]] bool leavesSurface(size_t lane) const;
 
  private:
   EmbreeCones cones_;
-  EmbreeRays rays_;
   LaneFrames frames_;
   LaneCones lanes_;
+  RTCRayHit8 packet_{};
+  alignas(32) std::array<int, kWidth> isActive_{};  // -1 or 0, as Embree expects.
   size_t size_ = 0;
   std::array<EmbreeSeed, kWidth> seeds_;
-  std::array<SlotPoint, kWidth> points_;
+  std::array<PrimitivePoint, kWidth> points_;
   std::array<double, kWidth> values_{};
-  std::array<bool, kWidth> isUnfit_{};  // Casts no rays.
+  std::array<bool, kWidth> isUncast_{};
   std::array<bool, kWidth> isDoubtful_{};
-  std::vector<LaneHits> met_;  // Per ray.
+  std::vector<LaneHits> hits_;  // Per ray.
 
-  void findUnfit();
-  [[nodiscard]] bool metItself(size_t lane) const;
+  void skipUnfit();
+  [[nodiscard]] LaneHits cast(const Vec3d& coneDirection);
+  [[nodiscard]] bool hitsItself(size_t lane) const;
   void writeHits(size_t lane) const;
 };
 

@@ -1,5 +1,3 @@
-#include "trace/embree/embree_tracer.h"
-
 #include <fmt/format.h>
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
@@ -10,12 +8,8 @@
 #include <cmath>
 
 #include "core/check.h"
-#include "core/stopwatch.h"
-#include "trace/chunk_size.h"
+#include "trace/chunks.h"
 #include "trace/embree/embree_cones.h"
-#include "trace/embree/embree_scene.h"
-#include "trace/embree/slot_planes.h"
-#include "trace/float_limits.h"
 #include "trace/reference_tracer.h"
 #include "trace/seed_order.h"
 
@@ -24,11 +18,11 @@ namespace {
 
 constexpr size_t kFirstEmbreeChunkRayCount = 1u << 16;  // 0.01 to 0.03 s on two cores.
 
-/// Rays begin so far from the seed that float32 cannot take them back to the seed's own face: its plane is off by no
-/// more than 2^-22, and rays at the rim meet it latest. (A filter function that passes through the face costs 6 % of
-/// all time.) At most as far as the smallest face that is traced in float32 is wide.
+/// Distance from the barycentre at which rays start, so that rounding to float32 cannot make them hit the seed face:
+/// its plane is off by at most 2^-22, and rays at the rim of the cone cross it last. At most the width of the smallest
+/// face that is traced in float32. (A filter function that skips the face costs 6 % of the time.)
 double rayStart(const Cone& cone) {
-  return std::min(0x1p-22 / std::max(std::cos(cone.halfAngleRadians), 1e-9), kSmallestFloatFace);
+  return std::min(0x1p-22 / std::max(std::cos(cone.halfAngleRadians), 1e-9), kMinFloatFace);
 }
 
 class EmbreeTracer final : public ConeTracer {
@@ -38,10 +32,10 @@ class EmbreeTracer final : public ConeTracer {
         cone_(cone),
         rayStart_(rayStart(cone)),
         seedOrder_(scene),
-        planes_(slotPlanes(scene)),
+        planes_(trianglePlanes(scene)),
         embree_(std::make_unique<EmbreeScene>(scene, EmbreeMode::Fastest)) {
-    if (!seemsToNeedRobustMode()) return;
-    embree_.reset();  // Not two of them at once.
+    if (!needsRobustMode()) return;
+    embree_.reset();  // Before the second one is built: less memory at the peak.
     embree_ = std::make_unique<EmbreeScene>(scene, EmbreeMode::Robust);
   }
 
@@ -55,19 +49,13 @@ class EmbreeTracer final : public ConeTracer {
     const EmbreeCones cones{scene_, cone_, planes_, *embree_, rayStart_};
     tbb::enumerable_thread_specific<EmbreeConeGroup> groups([&] { return EmbreeConeGroup(cones); });
     const size_t groupCount = (order.size() + kGroupSize - 1) / kGroupSize;
-    ChunkSize chunk(std::max<size_t>(1, kFirstEmbreeChunkRayCount / (kGroupSize * rayCount)), groupCount);
-    for (size_t begin = 0; begin < groupCount;) {
-      control.checkpoint(static_cast<double>(begin) / static_cast<double>(groupCount));
-      const size_t end = std::min<size_t>(begin + chunk.current(), groupCount);
-      const Stopwatch stopwatch;
+    const ChunkSize chunk(std::max<size_t>(1, kFirstEmbreeChunkRayCount / (kGroupSize * rayCount)), groupCount);
+    forEachChunk(groupCount, chunk, control, [&](size_t begin, size_t end) {
       tbb::parallel_for(tbb::blocked_range<size_t>(begin, end), [&](const tbb::blocked_range<size_t>& range) {
         EmbreeConeGroup& group = groups.local();
         for (size_t i = range.begin(); i < range.end(); ++i) redoneConeCount += traceGroup(task, i, group);
       });
-      chunk.adapt(end - begin, stopwatch.seconds());
-      begin = end;
-    }
-    control.checkpoint(1);
+    });
     return {seedFaces.size() * rayCount, redoneConeCount};
   }
 
@@ -77,7 +65,7 @@ class EmbreeTracer final : public ConeTracer {
   struct Task {
     std::span<const uint32_t> order, seedFaces;
     const ConeResults& results;
-    size_t hitCount;  // Per cone; 0 when nobody asks.
+    size_t hitCount;  // Per cone; 0 when hits are not written.
   };
 
   /// Traces the cones of a group of the task's order. Returns how many of them the reference traced.
@@ -107,7 +95,7 @@ class EmbreeTracer final : public ConeTracer {
     return redoneConeCount;
   }
 
-  /// What is known of seeds lies scattered: it comes while the group before is traced.
+  /// Prefetches the scattered data of the next group's seeds while a group is traced.
   void prefetch(const Task& task, size_t begin) const {
     for (size_t i = begin; i < std::min(begin + kGroupSize, task.order.size()); ++i) {
       const uint32_t face = task.seedFaces[task.order[i]];
@@ -118,10 +106,10 @@ class EmbreeTracer final : public ConeTracer {
     }
   }
 
-  /// Whether so many cones of a sample seem to leave the surface outside of robust mode, as those of an open or
-  /// crossing one do, that tracing them again would take longer than robust mode does.
-  [[nodiscard]] bool seemsToNeedRobustMode() const {
-    constexpr size_t kSampleSize = 64, kBearableCount = 1;
+  /// Whether so many cones of a sample leave the surface, as on an open or self-intersecting mesh, that tracing them
+  /// again with the reference would take longer than robust mode.
+  [[nodiscard]] bool needsRobustMode() const {
+    constexpr size_t kSampleSize = 64, kMaxLeavingCount = 1;
     EmbreeConeGroup group({scene_, cone_, planes_, *embree_, rayStart_});
     const std::vector<uint32_t>& faces = scene_.bvh.slotFaces;
     const size_t count = std::min(kSampleSize, faces.size());
@@ -129,20 +117,20 @@ class EmbreeTracer final : public ConeTracer {
     for (size_t i = 0; i < count;) {
       group.clear();
       for (; i < count && group.size() < kGroupSize; ++i) {
-        const size_t slot = i * faces.size() / count;
-        group.add({faces[slot], static_cast<uint32_t>(slot), {}});
+        const size_t primitive = i * faces.size() / count;
+        group.add({faces[primitive], static_cast<uint32_t>(primitive), {}});
       }
       group.trace();
       for (size_t lane = 0; lane < group.size(); ++lane) leavingCount += group.leavesSurface(lane);
     }
-    return leavingCount > kBearableCount;
+    return leavingCount > kMaxLeavingCount;
   }
 
   TraceScene scene_;
   const Cone& cone_;
   double rayStart_;  // In normalised units, as all lengths here.
   SeedOrder seedOrder_;
-  std::vector<SlotPlane> planes_;
+  std::vector<TrianglePlane> planes_;
   std::unique_ptr<EmbreeScene> embree_;
 };
 

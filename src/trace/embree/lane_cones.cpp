@@ -1,5 +1,8 @@
 #include "trace/embree/lane_cones.h"
 
+#include <tbb/parallel_for.h>
+
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -14,7 +17,6 @@ using Mask = IntsOf<Double4>;
 constexpr size_t kDoubleCount = kLaneCount<Double4>;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Rows become columns.
 ASDFVK_ALWAYS_INLINE inline void transpose(Double4 (&rows)[kDoubleCount]) {
   const Double4 even01 = __builtin_shufflevector(rows[0], rows[1], 0, 4, 2, 6);
   const Double4 odd01 = __builtin_shufflevector(rows[0], rows[1], 1, 5, 3, 7);
@@ -26,7 +28,6 @@ ASDFVK_ALWAYS_INLINE inline void transpose(Double4 (&rows)[kDoubleCount]) {
   rows[3] = __builtin_shufflevector(odd01, odd23, 2, 3, 6, 7);
 }
 
-/// Four vectors of space.
 struct Vec3Double4 {
   Double4 x, y, z;
 };
@@ -35,8 +36,8 @@ ASDFVK_ALWAYS_INLINE inline Vec3Double4 loadRows(const LaneFrames::Rows& rows, s
   return {load<Double4>(&rows[0][first]), load<Double4>(&rows[1][first]), load<Double4>(&rows[2][first])};
 }
 
-/// Batcher's odd-even merge sort (1968) of so many numbers: exchanges with numbers beyond the last are left out, as if
-/// those were infinite.
+/// Batcher's odd-even merge sort (1968) of `count` numbers. Exchanges with positions beyond the last are omitted, as if
+/// infinite numbers stood there.
 std::vector<std::pair<uint16_t, uint16_t>> sortingNetwork(size_t count) {
   std::vector<std::pair<uint16_t, uint16_t>> exchanges;
   for (size_t sorted = 1; sorted < count; sorted *= 2)
@@ -48,7 +49,102 @@ std::vector<std::pair<uint16_t, uint16_t>> sortingNetwork(size_t count) {
   return exchanges;
 }
 
+/// One traversal of the hierarchy for all points: points close together mostly visit the same nodes.
+class NeighbourWalk {
+ public:
+  ASDFVK_ALWAYS_INLINE NeighbourWalk(const TraceScene& scene, std::span<const TrianglePlane> planes,
+                                     std::span<const PrimitivePoint> points, double radius)
+      : scene_(scene), planes_(planes), points_(points), radius_(radius) {
+    ASDFVK_CHECK_OP(points.size(), <=, kLaneCount<Float8>);
+    // Covers the rounding to float32; the boxes of nodes contain the triangles in double too.
+    const double reach = radius + 0x1p-23;
+    for (size_t axis = 0; axis < 3; ++axis)
+      for (size_t lane = 0; lane < kLaneCount<Float8>; ++lane) {
+        const double centre = lane < points.size() ? points[lane].point[axis] : 4;  // Outside of every box.
+        low_[axis][lane] = static_cast<float>(centre - reach);
+        high_[axis][lane] = static_cast<float>(centre + reach);
+      }
+  }
+
+  ASDFVK_ALWAYS_INLINE std::array<bool, kLaneCount<Float8>> run() {
+    const std::span<const BvhNode> nodes = scene_.bvh.nodes;
+    std::array<uint32_t, kMaxBvhDepth + 1> stack;
+    size_t stackSize = 0;
+    if (!nodes.empty()) stack[stackSize++] = 0;
+    while (stackSize > 0) {
+      const BvhNode& node = nodes[stack[--stackSize]];
+      if (node.isLeaf()) {
+        testLeaf(node);
+        continue;
+      }
+      for (const uint32_t child : {node.first, node.first + 1})
+        if (overlapsAny(nodes[child])) {
+          stack[stackSize++] = child;
+          if (!nodes[child].isLeaf()) {
+            __builtin_prefetch(&nodes[nodes[child].first]);
+            __builtin_prefetch(&nodes[nodes[child].first + 1]);
+          } else {
+            __builtin_prefetch(&planes_[nodes[child].first]);
+          }
+        }
+    }
+    return isFound_;
+  }
+
+ private:
+  /// Lanes whose boxes overlap that of the node.
+  [[nodiscard]] ASDFVK_ALWAYS_INLINE IntsOf<Float8> overlaps(const BvhNode& node) const {
+    return (low_[0] <= node.max.x) & (low_[1] <= node.max.y) & (low_[2] <= node.max.z) & (high_[0] >= node.min.x) &
+           (high_[1] >= node.min.y) & (high_[2] >= node.min.z);
+  }
+
+  [[nodiscard]] ASDFVK_ALWAYS_INLINE bool overlapsAny(const BvhNode& node) const {
+    const auto words = std::bit_cast<std::array<uint64_t, 4>>(overlaps(node));
+    return (words[0] | words[1] | words[2] | words[3]) != 0;
+  }
+
+  ASDFVK_ALWAYS_INLINE void testLeaf(const BvhNode& leaf) {
+    const IntsOf<Float8> isIn = overlaps(leaf);
+    for (size_t lane = 0; lane < points_.size(); ++lane) {
+      if (isIn[lane] == 0 || isFound_[lane]) continue;
+      for (uint32_t primitive = leaf.first; primitive < leaf.first + leaf.triangleCount; ++primitive)
+        if (primitive != points_[lane].primitive && isNear(points_[lane].point, primitive)) isFound_[lane] = true;
+    }
+  }
+
+  /// Tests the plane and the three lines of the edges, each moved outwards by the radius; beyond an acute corner the
+  /// tested region extends farther.
+  [[nodiscard]] bool isNear(const Vec3d& point, uint32_t primitive) const {
+    const TrianglePlane& plane = planes_[primitive];
+    if (std::abs(dot(plane.normal, point) - plane.offset) > radius_) return false;
+    const Face& face = scene_.mesh.faces[scene_.bvh.slotFaces[primitive]];
+    const auto corner = [&](size_t k) { return scene_.bvh.normalization.toNormalized(scene_.mesh.vertices[face[k]]); };
+    for (size_t k = 0; k < 3; ++k) {
+      const Vec3d edge = corner((k + 1) % 3) - corner(k);
+      if (dot(cross(plane.normal, edge), point - corner(k)) < -radius_ * length(edge)) return false;
+    }
+    return true;
+  }
+
+  const TraceScene& scene_;
+  std::span<const TrianglePlane> planes_;
+  std::span<const PrimitivePoint> points_;
+  double radius_;
+  std::array<Float8, 3> low_{}, high_{};  // The boxes around the points.
+  std::array<bool, kLaneCount<Float8>> isFound_{};
+};
+
 }  // namespace
+
+std::vector<TrianglePlane> trianglePlanes(const TraceScene& scene) {
+  std::vector<TrianglePlane> planes(scene.bvh.slotFaces.size());
+  tbb::parallel_for(size_t{0}, planes.size(), [&](size_t primitive) {
+    const uint32_t face = scene.bvh.slotFaces[primitive];
+    const Vec3d& normal = scene.geometry.normals[face];
+    planes[primitive] = {normal, dot(normal, scene.bvh.normalization.toNormalized(scene.geometry.barycentres[face]))};
+  });
+  return planes;
+}
 
 void LaneFrames::set(size_t lane, const ConeFrame& frame, const Vec3d& origin, const Vec3d& normal) {
   for (size_t axis = 0; axis < 3; ++axis) {
@@ -60,7 +156,7 @@ void LaneFrames::set(size_t lane, const ConeFrame& frame, const Vec3d& origin, c
   }
 }
 
-LaneCones::LaneCones(const Cone& cone, std::span<const SlotPlane> planes, InstructionSet instructionSet)
+LaneCones::LaneCones(const Cone& cone, std::span<const TrianglePlane> planes, InstructionSet instructionSet)
     : cone_(cone),
       planes_(planes),
       instructionSet_(instructionSet),
@@ -70,9 +166,9 @@ LaneCones::LaneCones(const Cone& cone, std::span<const SlotPlane> planes, Instru
 
 ASDFVK_ALWAYS_INLINE inline void LaneCones::computeLengths(const LaneFrames& frames, std::span<const LaneHits> hits) {
   constexpr double kPlaneTolerance = 0x1p-14;
-  // Not through this: the compiler would read them anew after every length that is stored.
+  // Local copies: through `this` the compiler would reload them after every store of a length.
   const Vec3d* const directions = cone_.directions.data();
-  const SlotPlane* const slotPlanes = planes_.data();
+  const TrianglePlane* const trianglePlanes = planes_.data();
   std::array<double, kWidth>* const lengths = lengths_.data();
   const double falseHitCosine = cone_.falseHitCosine;
   for (size_t first = 0; first < kWidth; first += kDoubleCount) {
@@ -85,10 +181,10 @@ ASDFVK_ALWAYS_INLINE inline void LaneCones::computeLengths(const LaneFrames& fra
       Double4 planes[kDoubleCount], distance{};
       Mask isHit{};
       for (size_t k = 0; k < kDoubleCount; ++k) {
-        const uint32_t slot = hit.slots[first + k];
-        isHit[k] = slot == kNoFace ? 0 : -1;
+        const uint32_t primitive = hit.primitives[first + k];
+        isHit[k] = primitive == kNoFace ? 0 : -1;
         distance[k] = hit.distances[first + k];
-        planes[k] = load<Double4>(&slotPlanes[slot == kNoFace ? 0 : slot].normal.x);
+        planes[k] = load<Double4>(&trianglePlanes[primitive == kNoFace ? 0 : primitive].normal.x);
       }
       transpose(planes);
       const Vec3Double4 normal{planes[0], planes[1], planes[2]};
@@ -124,7 +220,7 @@ ASDFVK_ALWAYS_INLINE inline void LaneCones::sort() {
 ASDFVK_ALWAYS_INLINE inline void LaneCones::computeValues(std::array<double, kWidth>& values) {
   sort();
   for (size_t first = 0; first < kWidth; first += kDoubleCount) {
-    // Sums run over the rays in order, and adding a zero changes no bit.
+    // Sums in the order of the rays, as in coneValue(); adding zero changes no bit.
     Double4 count{}, sum{}, squares{}, median, deviation, weightedSum{}, weightSum{};
     for (const auto& lengths : lengths_) {
       const Double4 length = load<Double4>(&lengths[first]);
@@ -165,6 +261,14 @@ std::array<double, LaneCones::kWidth> LaneCones::values() {
   std::array<double, kWidth> values;
   dispatch<Float8>(instructionSet_, [&]<typename>() ASDFVK_ALWAYS_INLINE { computeValues(values); });
   return values;
+}
+
+std::array<bool, 8> haveNeighboursWithin(const TraceScene& scene, std::span<const TrianglePlane> planes,
+                                         std::span<const PrimitivePoint> points, double radius,
+                                         InstructionSet instructionSet) {
+  return dispatch<Float8>(instructionSet, [&]<typename>() ASDFVK_ALWAYS_INLINE {
+    return NeighbourWalk(scene, planes, points, radius).run();
+  });
 }
 
 }  // namespace asdfvk

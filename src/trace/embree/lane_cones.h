@@ -8,20 +8,31 @@
 
 #include "cone/cone.h"
 #include "core/simd.h"
-#include "trace/embree/slot_planes.h"
+#include "trace/cone_tracer.h"
 
+// Eight cones side by side, in double and independent of Embree: their values from the hits of their rays, and whether
+// another triangle is near their origins. All in normalised coordinates.
 namespace asdfvk {
 
-/// What the same ray of eight cones met.
+/// Plane of a triangle: normal * p = offset. 32 bytes, all that is needed of a triangle that a ray has hit.
+struct TrianglePlane {
+  Vec3d normal;  ///< Unit.
+  double offset = 0;
+};
+static_assert(sizeof(TrianglePlane) == 32);
+
+/// One per primitive of the hierarchy.
+[[nodiscard]] std::vector<TrianglePlane> trianglePlanes(const TraceScene& scene);
+
+/// Hits of the same ray of eight cones.
 struct LaneHits {
   static constexpr size_t kWidth = 8;
 
-  std::array<uint32_t, kWidth> slots;  ///< kNoFace for a miss.
+  std::array<uint32_t, kWidth> primitives;  ///< kNoFace for a miss.
   std::array<float, kWidth> distances;
 };
 
-/// Eight cones side by side: their frames and, of the faces that cast them, the barycentres and normals, each the x of
-/// all lanes, then the y, then the z. In normalised coordinates.
+/// Frames of eight cones, and barycentres and normals of their seed faces: the x of all lanes, then the y, then the z.
 struct LaneFrames {
   using Rows = std::array<std::array<double, LaneHits::kWidth>, 3>;
 
@@ -30,26 +41,24 @@ struct LaneFrames {
   void set(size_t lane, const ConeFrame& frame, const Vec3d& origin, const Vec3d& normal);
 };
 
-/// From what the rays of eight cones met to their values, in double and with the bits that isFalseHit() and coneValue()
-/// give one cone. Room is kept from call to call.
+/// Computes values from hits with the bits of isFalseHit() and coneValue(). Keeps its memory from call to call.
 class LaneCones {
  public:
   static constexpr size_t kWidth = LaneHits::kWidth;
 
   /// The cone and the planes must outlive it. Precondition: this machine has the instruction set.
-  LaneCones(const Cone& cone, std::span<const SlotPlane> planes,
+  LaneCones(const Cone& cone, std::span<const TrianglePlane> planes,
             InstructionSet instructionSet = widestInstructionSet());
 
-  /// Computes the lengths of all rays from hits, one entry per ray of the cone. A hit whose triangle's plane is not
-  /// near the distance is on a sliver, whose normal tells little: it keeps the distance.
+  /// Computes the lengths of all rays; hits: one entry per ray of the cone. The length is the distance to the
+  /// triangle's plane; on a sliver, whose plane is not near the hit, it is the hit's distance.
   void measure(const LaneFrames& frames, std::span<const LaneHits> hits);
-  /// Whether a ray met nothing or the side of a face from which the cone's own normal points away: on a closed surface
-  /// no ray from within does.
+  /// Whether a ray had no hit, or hit the outer side of a face: impossible from inside a closed surface.
   [[nodiscard]] bool leavesSurface(size_t lane) const { return leavesSurface_[lane] != 0; }
 
   /// One length per ray and lane; infinite where the ray does not count.
   [[nodiscard]] std::span<std::array<double, kWidth>> lengths() { return lengths_; }
-  /// The shape diameters by lengths(), as coneValue() defines them.
+  /// Shape diameters from lengths(), as coneValue() defines them.
   [[nodiscard]] std::array<double, kWidth> values();
 
  private:
@@ -58,11 +67,23 @@ class LaneCones {
   void sort();
 
   const Cone& cone_;
-  std::span<const SlotPlane> planes_;
+  std::span<const TrianglePlane> planes_;
   InstructionSet instructionSet_;
   std::vector<std::array<double, kWidth>> lengths_, sorted_;  // Per ray.
   std::vector<std::pair<uint16_t, uint16_t>> exchanges_;      // Of the sorting network.
   std::array<int64_t, kWidth> leavesSurface_{};
 };
+
+/// A point on a primitive of the hierarchy.
+struct PrimitivePoint {
+  Vec3d point;
+  uint32_t primitive = 0;
+};
+
+/// For each of up to eight points, which should be close together: whether another triangle than its own is within
+/// `radius`. Conservative: also true for some triangles slightly farther away.
+[[nodiscard]] std::array<bool, 8> haveNeighboursWithin(const TraceScene& scene, std::span<const TrianglePlane> planes,
+                                                       std::span<const PrimitivePoint> points, double radius,
+                                                       InstructionSet instructionSet = widestInstructionSet());
 
 }  // namespace asdfvk

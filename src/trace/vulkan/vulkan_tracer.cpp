@@ -8,8 +8,7 @@
 
 #include "core/check.h"
 #include "core/stopwatch.h"
-#include "trace/chunk_size.h"
-#include "trace/float_limits.h"
+#include "trace/chunks.h"
 #include "trace/reference_tracer.h"
 #include "trace/seed_order.h"
 #include "trace/vulkan/vulkan_cone_buffers.h"
@@ -65,16 +64,12 @@ class VulkanTracer final : public ConeTracer {
 
   void traceOnDevice(std::span<const uint32_t> seedFaces, const std::vector<uint32_t>& order,
                      const ConeResults& results, std::vector<uint32_t>& redone, const RunControl& control) {
-    ChunkSize chunk(std::max<uint64_t>(1, kFirstChunkRayCount / kernel_.rayCount()), largestConeChunk(kernel_));
-    for (size_t begin = 0; begin < order.size();) {
-      control.checkpoint(static_cast<double>(begin) / static_cast<double>(order.size()));
-      const size_t count = std::min<size_t>(chunk.current(), order.size() - begin);
-      const Stopwatch watch;
-      traceChunk(seedFaces, std::span(order).subspan(begin, count));
-      readChunk(std::span(order).subspan(begin, count), results, redone);
-      chunk.adapt(count, watch.seconds());
-      begin += count;
-    }
+    const ChunkSize chunk(std::max<uint64_t>(1, kFirstChunkRayCount / kernel_.rayCount()), largestConeChunk(kernel_));
+    forEachChunk(order.size(), chunk, control, [&](size_t begin, size_t end) {
+      const std::span<const uint32_t> cones = std::span(order).subspan(begin, end - begin);
+      traceChunk(seedFaces, cones);
+      readChunk(cones, results, redone);
+    });
   }
 
   void traceChunk(std::span<const uint32_t> seedFaces, std::span<const uint32_t> order) {
@@ -110,7 +105,7 @@ class VulkanTracer final : public ConeTracer {
     const std::span<const uint32_t> lengths = buffers_.results.mappedAs<uint32_t>();
     for (size_t i = 0; i < order.size(); ++i) {
       const double length = lengths[i] == kNoValueBits ? kNoValue : std::bit_cast<float>(lengths[i]);
-      if (lengths[i] == kIterationLimitBits || length < kShortestFloatDiameter) redone.push_back(order[i]);
+      if (lengths[i] == kIterationLimitBits || length < kMinFloatDiameter) redone.push_back(order[i]);
       results.values[order[i]] = scene_.bvh.normalization.toMeshLength(length);
     }
     if (!results.hits.empty()) copyHits(order, buffers_.hits.mappedAs<ConeHit>(), results.hits);
