@@ -8,7 +8,6 @@
 #include "core/unset_vector.h"
 #include "mesh/face_geometry.h"
 #include "mesh/mesh.h"
-#include "mesh/normalization.h"
 #include "shared/bvh_layout.h"
 
 namespace asdfvk {

@@ -14,7 +14,7 @@
 #include "io/input_faces.h"
 #include "io/input_failure.h"
 #include "io/text_scanner.h"
-#include "mesh/point_hash.h"
+#include "mesh/coincident_faces.h"
 
 namespace asdfvk {
 namespace {

@@ -4,15 +4,98 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <numeric>
+#include <span>
 
 #include "core/box3.h"
 #include "core/parallel.h"
-#include "mesh/normalization.h"
-#include "mesh/plane_points.h"
-#include "mesh/vertex_bounds.h"
+#include "mesh/face_geometry.h"
+#include "mesh/point2.h"
 
 namespace asdfvk {
 namespace {
+
+constexpr uint32_t kLeafSize = 6;
+
+/// A k-d tree of points in the plane; finds the points that a triangle may contain.
+class PlanePoints {
+ public:
+  explicit PlanePoints(std::span<const Point2> points);
+
+  /// Calls visit(index) for every point inside the triangle, and for some points near it.
+  template <typename Visit>
+  void forEachNear(const std::array<Point2, 3>& triangle, const Visit& visit) const {
+    if (!nodes_.empty()) descend(0, triangle, visit);
+  }
+
+ private:
+  struct Node {
+    Point2 min, max;
+    uint32_t begin = 0, end = 0;  // In order_.
+    uint32_t upperChild = 0;      // 0: a leaf; the lower child is the next node.
+  };
+
+  uint32_t build(std::span<const Point2> points, uint32_t begin, uint32_t end);
+  [[nodiscard]] static bool mayTouch(const Node& node, const std::array<Point2, 3>& triangle);
+
+  template <typename Visit>
+  void descend(uint32_t index, const std::array<Point2, 3>& triangle, const Visit& visit) const {
+    const Node& node = nodes_[index];
+    if (!mayTouch(node, triangle)) return;
+    if (node.upperChild == 0) {
+      for (uint32_t i = node.begin; i < node.end; ++i) visit(order_[i]);
+      return;
+    }
+    descend(index + 1, triangle, visit);
+    descend(node.upperChild, triangle, visit);
+  }
+
+  std::vector<uint32_t> order_;
+  std::vector<Node> nodes_;
+};
+
+PlanePoints::PlanePoints(std::span<const Point2> points) : order_(points.size()) {
+  std::iota(order_.begin(), order_.end(), 0u);
+  if (!points.empty()) build(points, 0, static_cast<uint32_t>(points.size()));
+}
+
+uint32_t PlanePoints::build(std::span<const Point2> points, uint32_t begin, uint32_t end) {
+  const uint32_t index = static_cast<uint32_t>(nodes_.size());
+  Node node{points[order_[begin]], points[order_[begin]], begin, end, 0};
+  for (uint32_t i = begin; i < end; ++i) {
+    const Point2& p = points[order_[i]];
+    node.min = {std::min(node.min.x, p.x), std::min(node.min.y, p.y)};
+    node.max = {std::max(node.max.x, p.x), std::max(node.max.y, p.y)};
+  }
+  nodes_.push_back(node);
+  if (end - begin <= kLeafSize) return index;
+  const bool splitX = node.max.x - node.min.x >= node.max.y - node.min.y;
+  const uint32_t middle = begin + (end - begin) / 2;
+  std::nth_element(order_.begin() + begin, order_.begin() + middle, order_.begin() + end, [&](uint32_t a, uint32_t b) {
+    return splitX ? points[a].x < points[b].x : points[a].y < points[b].y;
+  });
+  build(points, begin, middle);
+  const uint32_t upper = build(points, middle, end);
+  nodes_[index].upperChild = upper;
+  return index;
+}
+
+// The separating axis test of a box and a triangle: the box's two axes, then the triangle's three edges.
+bool PlanePoints::mayTouch(const Node& node, const std::array<Point2, 3>& triangle) {
+  const auto [minX, maxX] = std::minmax({triangle[0].x, triangle[1].x, triangle[2].x});
+  const auto [minY, maxY] = std::minmax({triangle[0].y, triangle[1].y, triangle[2].y});
+  if (maxX < node.min.x || minX > node.max.x || maxY < node.min.y || minY > node.max.y) return false;
+  const double winding = sideOf(triangle[0], triangle[1], triangle[2]) < 0 ? -1 : 1;
+  for (size_t i = 0; i < 3; ++i) {
+    const Point2 &a = triangle[i], &b = triangle[(i + 1) % 3];
+    const double nx = -(b.y - a.y) * winding, ny = (b.x - a.x) * winding;  // Points into the triangle.
+    const Point2 innermost{nx > 0 ? node.max.x : node.min.x, ny > 0 ? node.max.y : node.min.y};
+    // A tolerance far above rounding, so that no point inside is missed.
+    const double slack = 1e-12 * (std::abs(nx) + std::abs(ny));
+    if (nx * (innermost.x - a.x) + ny * (innermost.y - a.y) < -slack) return false;
+  }
+  return true;
+}
 
 // Rays run along the third axis of a frame that is not parallel to the axes, planes and diagonals along which meshes
 // are often built.
@@ -21,7 +104,7 @@ struct ProjectionFrame {
 
   [[nodiscard]] Vec3d toFrame(const Vec3d& p) const {
     static constexpr Vec3d kX{0.80134262, -0.56937194, -0.18349152}, kY{0.50881031, 0.48112718, 0.71386211};
-    static constexpr Vec3d kZ = cross(kX, kY);  // Only nearly orthonormal, which parity does not need.
+    static constexpr Vec3d kZ = cross(kX, kY);  // Nearly orthonormal, which is sufficient for parity.
     const Vec3d q = normalization.toNormalized(p);
     return {dot(kX, q), dot(kY, q), dot(kZ, q)};
   }
@@ -72,8 +155,8 @@ bool containsStrictly(const Box3d& outer, const Box3d& inner) {
   return true;
 }
 
-// The side of an edge on which p lies, computed from the lower vertex to the upper one, so that the two faces of an
-// edge always agree: a ray that hits an edge crosses exactly one of them, independent of rounding.
+// The side of an edge on which p lies, computed from the lower vertex to the upper one, so that both faces of an edge
+// have the same value: a ray that hits an edge crosses exactly one of them, independent of rounding.
 double sideOfEdge(const Face& face, const std::array<Vec3d, 3>& corners, size_t i, const Vec3d& p) {
   const size_t j = (i + 1) % 3;
   const auto plane = [](const Vec3d& v) { return Point2{v.x, v.y}; };
@@ -99,8 +182,8 @@ bool rayCrosses(const Face& face, const std::array<Vec3d, 3>& corners, const Vec
   return height > p.z;
 }
 
-// For each test ray 1 when it crosses an odd number of faces of the components whose boxes contain its own one. The sum
-// over components has the parity of the number of components that contain the ray origin.
+// For each test ray 1 where it crosses an odd number of faces of the components whose boxes contain the box of its own
+// component. That is the parity of the number of components that contain the ray origin.
 std::vector<uint8_t> parities(const TriangleMesh& mesh, const Components& components, const ProjectionFrame& frame,
                               const ClosedComponents& closed) {
   std::vector<Point2> points;

@@ -1,22 +1,53 @@
 #include "mesh/coincident_faces.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "core/buckets.h"
-#include "mesh/coincident_vertices.h"
 
 namespace asdfvk {
 namespace {
 
-// A face without its lowest vertex, which is its bucket.
+/// A vertex and a hash that distinguishes nearly all points of a bucket.
+struct Fingerprint {
+  uint32_t hash;
+  uint32_t vertex;
+  auto operator<=>(const Fingerprint&) const = default;
+};
+
+/// For each vertex the lowest vertex at exactly the same point; the vertex itself where there is no other. #V. -0
+/// equals 0. A vertex with a non-finite coordinate equals only itself.
+std::vector<uint32_t> coincidentVertices(const TriangleMesh& mesh) {
+  std::vector<uint32_t> lowest(mesh.vertices.size());
+  forEachInParallel(lowest.size(), [&](uint32_t vertex) { lowest[vertex] = vertex; });
+  const size_t bucketCount = std::bit_ceil(mesh.vertices.size() / 8 + 1);
+  const StagedEntries<Fingerprint> points(bucketCount, mesh.vertices.size(), [&](uint32_t vertex, auto&& put) {
+    if (!isFinite(mesh.vertices[vertex])) return;
+    const uint64_t hash = hashOf(mesh.vertices[vertex] + Vec3d{});  // -0 becomes 0.
+    put(static_cast<uint32_t>(hash & (bucketCount - 1)), Fingerprint{static_cast<uint32_t>(hash >> 32), vertex});
+  });
+  points.forEachBucket([&](uint32_t, std::span<const Fingerprint> bucket) {
+    size_t first = 0;  // Of the entries with the same hash.
+    for (size_t i = 1; i < bucket.size(); ++i) {
+      if (bucket[i].hash != bucket[first].hash) first = i;
+      // Nearly always the first; different points may have the same hash.
+      size_t same = first;
+      while (!(mesh.vertices[bucket[same].vertex] == mesh.vertices[bucket[i].vertex])) ++same;
+      lowest[bucket[i].vertex] = bucket[same].vertex;
+    }
+  });
+  return lowest;
+}
+
+/// A face without its lowest vertex, which is its bucket.
 struct FaceKey {
   uint64_t otherVertices = 0;
   uint32_t face = 0;
   auto operator<=>(const FaceKey&) const = default;
 };
 
-// The face between the lowest vertices at its corners, ascending. A face that this collapses has no area and keeps its
-// own vertices: no ray depends on its identity.
+/// The face between the lowest vertices at its corners, ascending. A face that this collapses has no area and keeps its
+/// own vertices: no ray depends on its identity.
 Face placeOf(const Face& face, const std::vector<uint32_t>& lowestVertices) {
   Face place{lowestVertices[face[0]], lowestVertices[face[1]], lowestVertices[face[2]]};
   if (!hasDistinctVertices(place)) place = face;
@@ -41,7 +72,7 @@ std::vector<uint32_t> lowestAmong(const TriangleMesh& mesh, const std::vector<ui
   return representatives;
 }
 
-// In a closed mesh a face and its copy are the only faces at each of their three edges.
+/// In a closed mesh a face and its copy are the only faces at each of their three edges.
 bool hasCopyByVertices(const DualGraph& closedGraph) {
   return countInParallel(closedGraph.faceCount(), [&](uint32_t f) {
            const std::span<const uint32_t> around = closedGraph.neighboursOf(f);
@@ -50,10 +81,6 @@ bool hasCopyByVertices(const DualGraph& closedGraph) {
 }
 
 }  // namespace
-
-std::vector<uint32_t> coincidentRepresentatives(const TriangleMesh& mesh) {
-  return lowestAmong(mesh, coincidentVertices(mesh));
-}
 
 std::vector<uint32_t> coincidentRepresentatives(const TriangleMesh& mesh, const EdgeSurvey& edges) {
   const std::vector<uint32_t> lowestVertices = coincidentVertices(mesh);

@@ -1,21 +1,33 @@
 #pragma once
 
+#include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
-#include "mesh/edge_survey.h"
+#include "core/vec3.h"
+#include "mesh/dual_graph.h"
 #include "mesh/mesh.h"
 
 namespace asdfvk {
 
-/// For each face the lowest face with its corners at the same three points, in either winding, with the same vertices
-/// or with copies of them (see coincidentVertices()); the face itself where there is no other. #F. Faces with two
-/// corners at one point are compared by their vertices. Coincident faces are at distance 0 of each other, where hits
-/// are rounding noise. They share one identity: a cone ignores the copies of its own face, and every backend reports
-/// the same copy.
-[[nodiscard]] std::vector<uint32_t> coincidentRepresentatives(const TriangleMesh& mesh);
+/// A hash of the point's bits: the finalizer of SplitMix64 over each number in turn. -0 and 0 differ.
+[[nodiscard]] inline uint64_t hashOf(const Vec3d& point) {
+  uint64_t h = 0;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    h = (h ^ std::bit_cast<uint64_t>(point[axis])) + 0x9e3779b97f4a7c15u;
+    h = (h ^ (h >> 30)) * 0xbf58476d1ce4e5b9u;
+    h = (h ^ (h >> 27)) * 0x94d049bb133111ebu;
+    h ^= h >> 31;
+  }
+  return h;
+}
 
-/// The same; faster where the edges exclude copies.
+/// For each face the lowest face with its corners at the same three points, in either winding, with the same vertices
+/// or with copies of them; the face itself where there is no other. #F. Points are the same where their coordinates are
+/// equal and finite; -0 equals 0. Faces with two corners at one point are compared by their vertices. Coincident faces
+/// are at distance 0 of each other, where hits are rounding noise. They share one identity: a cone ignores the copies
+/// of its own face, and every backend reports the same copy. `edges`: of the mesh; they often exclude copies.
 [[nodiscard]] std::vector<uint32_t> coincidentRepresentatives(const TriangleMesh& mesh, const EdgeSurvey& edges);
 
 }  // namespace asdfvk

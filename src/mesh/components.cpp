@@ -7,13 +7,13 @@
 #include <utility>
 
 #include "core/parallel.h"
-#include "mesh/normalization.h"
-#include "mesh/vertex_bounds.h"
+#include "mesh/face_geometry.h"
 
 namespace asdfvk {
 namespace {
 
-// A volume below this share of the sum of its terms' factors is rounding noise: a few units in the last place.
+// Bound on the rounding error of a volume, relative to the sum of the products of the three lengths in each of its
+// terms: a few units in the last place.
 constexpr double kVolumeNoise = 1e-15;
 
 /// Disjoint sets of faces, merged by any number of threads at once; each set is identified by its lowest face (Anderson
@@ -30,7 +30,7 @@ class FaceSets {
       if (parent == face) return face;
       const uint32_t grandparent = load(parent);
       if (parent == grandparent) return parent;
-      slot(face).store(grandparent, std::memory_order_relaxed);  // Path halving: any ancestor is valid.
+      parentOf(face).store(grandparent, std::memory_order_relaxed);  // Path halving: any ancestor is valid.
       face = grandparent;
     }
   }
@@ -42,13 +42,13 @@ class FaceSets {
       if (a == b) return;
       if (a < b) std::swap(a, b);
       uint32_t expected = a;
-      if (slot(a).compare_exchange_strong(expected, b, std::memory_order_relaxed)) return;
+      if (parentOf(a).compare_exchange_strong(expected, b, std::memory_order_relaxed)) return;
     }
   }
 
  private:
-  [[nodiscard]] std::atomic_ref<uint32_t> slot(uint32_t face) { return std::atomic_ref<uint32_t>(parents_[face]); }
-  [[nodiscard]] uint32_t load(uint32_t face) { return slot(face).load(std::memory_order_relaxed); }
+  [[nodiscard]] std::atomic_ref<uint32_t> parentOf(uint32_t face) { return std::atomic_ref<uint32_t>(parents_[face]); }
+  [[nodiscard]] uint32_t load(uint32_t face) { return parentOf(face).load(std::memory_order_relaxed); }
 
   std::vector<uint32_t> parents_;  ///< #F, never above the face itself.
 };
@@ -77,56 +77,24 @@ void label(const DualGraph& graph, Components& result) {
   }
 }
 
-enum class EdgeUse { None, From, To };  // From: the face runs from p to q.
-
-EdgeUse useOfEdge(const Face& face, uint32_t p, uint32_t q) {
-  for (size_t i = 0; i < 3; ++i) {
-    const uint32_t from = face[i], to = face[(i + 1) % 3];
-    if (from == p && to == q) return EdgeUse::From;
-    if (from == q && to == p) return EdgeUse::To;
+/// Faces that are not proper (EdgeKind) neither open a component nor close it.
+void judgeClosedness(const TriangleMesh& mesh, const EdgeSurvey& edges, Components& result) {
+  if (edges.isClosed && edges.inconsistentEdgeCount == 0) {
+    for (Component& component : result.components) component.isClosed = component.isConsistentlyWound = true;
+    return;
   }
-  return EdgeUse::None;
-}
-
-struct Surroundings {
-  bool areClosed = true;
-  bool areConsistent = true;
-};
-
-Surroundings surroundingsOf(const TriangleMesh& mesh, const DualGraph& graph, uint32_t f) {
-  const Face& face = mesh.faces[f];
-  Surroundings result;
-  for (size_t i = 0; i < 3; ++i) {
-    uint32_t previous = f, count = 0;
-    EdgeUse lastUse = EdgeUse::None;
-    for (uint32_t neighbour : graph.neighboursOf(f)) {
-      if (neighbour == previous || !hasDistinctVertices(mesh.faces[neighbour])) continue;
-      previous = neighbour;
-      const EdgeUse use = useOfEdge(mesh.faces[neighbour], face[i], face[(i + 1) % 3]);
-      if (use == EdgeUse::None) continue;
-      ++count;
-      lastUse = use;
-    }
-    if (count != 1) {
-      result.areClosed = false;
-    } else if (lastUse == EdgeUse::From) {
-      result.areConsistent = false;
-    }
-  }
-  return result;
-}
-
-void judgeClosedness(const TriangleMesh& mesh, const DualGraph& graph, Components& result) {
   const size_t count = result.components.size();
   std::vector<uint8_t> hasProperFace(count, 0), isOpen(count, 0), isInconsistent(count, 0);
   const auto raise = [](uint8_t& flag) { std::atomic_ref<uint8_t>(flag).store(1, std::memory_order_relaxed); };
   forEachInParallel(mesh.faces.size(), [&](uint32_t f) {
-    if (!hasDistinctVertices(mesh.faces[f])) return;
+    if (!hasDistinctVertices(mesh.faces[f]) || !mesh.hasFiniteCorners(f)) return;
     const uint32_t component = result.componentOf[f];
-    const Surroundings around = surroundingsOf(mesh, graph, f);
     raise(hasProperFace[component]);
-    if (!around.areClosed) raise(isOpen[component]);
-    if (!around.areConsistent) raise(isInconsistent[component]);
+    for (size_t i = 0; i < 3; ++i) {
+      const EdgeKind kind = edges.edgeKinds[size_t{3} * f + i];
+      if (kind == EdgeKind::Inconsistent) raise(isInconsistent[component]);
+      if (kind == EdgeKind::Boundary || kind == EdgeKind::NonManifold) raise(isOpen[component]);
+    }
   });
   for (size_t i = 0; i < count; ++i) {
     result.components[i].isClosed = hasProperFace[i] && !isOpen[i];
@@ -134,13 +102,13 @@ void judgeClosedness(const TriangleMesh& mesh, const DualGraph& graph, Component
   }
 }
 
-// The volume of some faces of one component, and a bound on its rounding error.
+/// Volume over some faces of one component, and a bound on its rounding error.
 struct VolumeSum {
   uint32_t component = 0;
   double sum = 0, noise = 0;
 };
 
-// Over a fixed range of faces, so that the sums do not depend on the number of threads.
+/// Over a fixed range of faces, so that the sums do not depend on the number of threads.
 std::vector<VolumeSum> sumVolumes(const TriangleMesh& mesh, const Components& components, double scale, uint32_t begin,
                                   uint32_t end) {
   std::vector<VolumeSum> sums;
@@ -160,8 +128,8 @@ std::vector<VolumeSum> sumVolumes(const TriangleMesh& mesh, const Components& co
   return sums;
 }
 
-// Volumes are summed in normalised units around a corner of the component, so that neither the unit nor a translation
-// of the mesh costs digits.
+/// Volumes are summed in normalised units around a corner of the component: the unit and a translation of the mesh cost
+/// no digits.
 void measureVolumes(const TriangleMesh& mesh, Components& result) {
   const double scale = normalizationOf(boundsOfFiniteVertices(mesh)).scale;
   const size_t blockCount = (mesh.faces.size() + kItemsPerTask - 1) / kItemsPerTask;
@@ -186,19 +154,10 @@ void measureVolumes(const TriangleMesh& mesh, Components& result) {
 
 }  // namespace
 
-Components findComponents(const TriangleMesh& mesh, const DualGraph& graph) {
-  Components result;
-  label(graph, result);
-  judgeClosedness(mesh, graph, result);
-  measureVolumes(mesh, result);
-  return result;
-}
-
 Components findComponents(const TriangleMesh& mesh, const EdgeSurvey& edges) {
-  if (!edges.isClosed || edges.inconsistentEdgeCount > 0) return findComponents(mesh, edges.graph);
   Components result;
   label(edges.graph, result);
-  for (Component& component : result.components) component.isClosed = component.isConsistentlyWound = true;
+  judgeClosedness(mesh, edges, result);
   measureVolumes(mesh, result);
   return result;
 }

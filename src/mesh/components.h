@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "mesh/edge_survey.h"
+#include "mesh/dual_graph.h"
 #include "mesh/mesh.h"
 
 namespace asdfvk {
@@ -14,8 +14,8 @@ struct Component {
   uint32_t faceCount = 0;
   bool isClosed = false;  ///< Each edge has exactly two faces; triangles with a repeated vertex do not count.
   bool isConsistentlyWound = false;  ///< The two faces of each such edge traverse it in opposite directions.
-  double signedVolume = 0;           ///< In mesh units cubed; negative where faces look inwards, 0 where rounding hides
-                                     ///< the sign. Valid for closed, consistently wound components only.
+  double signedVolume = 0;  ///< In mesh units cubed; negative where faces point inwards, 0 where rounding hides
+                            ///< the sign. Valid for closed, consistently wound components only.
 };
 
 struct Components {
@@ -23,11 +23,8 @@ struct Components {
   std::vector<Component> components;  ///< By lowest face.
 };
 
-/// Precondition: no index is out of range, and `graph` is that of the mesh. A face with a non-finite corner is a
-/// component of its own; the hole that it leaves makes the component around it open.
-[[nodiscard]] Components findComponents(const TriangleMesh& mesh, const DualGraph& graph);
-
-/// The same; faster where the mesh has no open edge.
+/// `edges`: of the mesh. Precondition: every index of a face is below the vertex count. A face with a non-finite corner
+/// is a component of its own; the hole that it leaves makes the component around it open.
 [[nodiscard]] Components findComponents(const TriangleMesh& mesh, const EdgeSurvey& edges);
 
 }  // namespace asdfvk

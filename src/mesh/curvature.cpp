@@ -5,7 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "mesh/edges.h"
+#include "core/buckets.h"
+#include "core/check.h"
 
 namespace asdfvk {
 namespace {
@@ -28,16 +29,40 @@ double angleAt(const Vec3d& apex, const Vec3d& b, const Vec3d& c) {
 
 }  // namespace
 
+double signedDihedralAngle(const FaceGeometry& geometry, uint32_t f, uint32_t g) {
+  if (geometry.isDegenerate(f) || geometry.isDegenerate(g)) return 0;
+  const Vec3d &ofF = geometry.normals[f], &ofG = geometry.normals[g];
+  // Unlike the arc cosine, accurate for small angles.
+  const double angle = std::atan2(length(cross(ofF, ofG)), dot(ofF, ofG));
+  // Halves, so that their difference does not overflow.
+  const Vec3d between = geometry.barycentres[g] * 0.5 - geometry.barycentres[f] * 0.5;
+  const bool isConcave = dot(ofF, between) > 0 && dot(ofG, between) < 0;
+  return isConcave ? angle : -angle;
+}
+
+std::vector<double> signedDihedralAngles(const DualGraph& graph, const FaceGeometry& geometry) {
+  ASDFVK_CHECK_OP(geometry.normals.size(), ==, size_t{graph.faceCount()});
+  std::vector<double> angles(graph.neighbours.size());
+  forEachInParallel(graph.faceCount(), [&](uint32_t face) {
+    for (uint32_t arc = graph.offsets[face]; arc < graph.offsets[face + 1]; ++arc)
+      angles[arc] = signedDihedralAngle(geometry, face, graph.neighbours[arc]);
+  });
+  return angles;
+}
+
 std::vector<double> vertexAngleDefects(const TriangleMesh& mesh) {
   const auto takesPart = [&](uint32_t f) { return hasDistinctVertices(mesh.faces[f]) && mesh.hasFiniteCorners(f); };
   std::vector<uint8_t> isOnBoundary(mesh.vertices.size(), 0);
   const auto mark = [&](uint32_t vertex) {
     std::atomic_ref<uint8_t>(isOnBoundary[vertex]).store(1, std::memory_order_relaxed);
   };
-  EdgeTable(mesh, takesPart).forEachEdge([&](uint32_t lower, std::span<const EdgeEntry> around) {
-    if (around.size() != 1) return;
-    mark(lower);
-    mark(around.front().upperVertex);
+  const std::vector<EdgeKind> kinds = surveyEdges(mesh).edgeKinds;
+  forEachInParallel(mesh.faces.size(), [&](uint32_t f) {
+    for (size_t i = 0; i < 3; ++i) {
+      if (kinds[size_t{3} * f + i] != EdgeKind::Boundary) continue;
+      mark(mesh.faces[f][i]);
+      mark(mesh.faces[f][(i + 1) % 3]);
+    }
   });
   const Buckets<uint32_t> facesOf =
       sortIntoBuckets<uint32_t>(mesh.vertices.size(), mesh.faces.size(), [&](uint32_t f, auto&& put) {

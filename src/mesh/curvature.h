@@ -1,10 +1,22 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
+#include "mesh/dual_graph.h"
+#include "mesh/face_geometry.h"
 #include "mesh/mesh.h"
 
 namespace asdfvk {
+
+/// The angle in radians between the normals of two neighbouring faces: 0 where they lie in one plane, up to pi where
+/// they are folded onto each other, positive on a concave edge and negative on a convex one. An edge is concave where
+/// the barycentre of each face is in front of the plane of the other; edges of opposite winding are not. 0 where a face
+/// is degenerate. The same bits when the faces are swapped.
+[[nodiscard]] double signedDihedralAngle(const FaceGeometry& geometry, uint32_t f, uint32_t g);
+
+/// For the two faces of each arc, in the order of graph.neighbours.
+[[nodiscard]] std::vector<double> signedDihedralAngles(const DualGraph& graph, const FaceGeometry& geometry);
 
 /// Discrete Gaussian curvature of each vertex without a unit, its angle defect: 2 pi minus the angles of the faces
 /// around it, or pi minus them where an edge at it has only one face (Meyer, Desbrun, Schroeder and Barr 2003, not
@@ -13,7 +25,7 @@ namespace asdfvk {
 ///
 /// A face of zero area contributes the limits of its angles, which sum to pi: 0, 0 and pi for collinear corners; 0,
 /// pi/2 and pi/2 where two corners coincide; pi/3 each where all coincide. A face with a repeated vertex or a
-/// non-finite corner contributes none. Precondition: no index is out of range.
+/// non-finite corner contributes none. Precondition: every index of a face is below the vertex count.
 [[nodiscard]] std::vector<double> vertexAngleDefects(const TriangleMesh& mesh);
 
 /// Per face the mean of the angle defects of its three vertices. #F

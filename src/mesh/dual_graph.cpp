@@ -1,9 +1,198 @@
 #include "mesh/dual_graph.h"
 
-#include "mesh/edge_survey.h"
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_sort.h>
+
+#include <algorithm>
+#include <compare>
+#include <utility>
+
+#include "core/buckets.h"
 
 namespace asdfvk {
+namespace {
 
-DualGraph buildDualGraph(const TriangleMesh& mesh) { return surveyEdges(mesh).graph; }
+constexpr uint32_t kNoNeighbour = UINT32_MAX;
+constexpr uint32_t kMany = UINT32_MAX - 1;  ///< The edge's arcs are among the further ones.
+
+/// A face at an edge. Entries are in buckets by the edge's lower vertex and ordered by its upper vertex, then by face.
+/// 36 bytes per face.
+struct EdgeEntry {
+  uint32_t upperVertex;
+  uint32_t corner;  ///< 3 f + i: the edge runs from corner i of face f to the next one.
+
+  [[nodiscard]] uint32_t face() const { return corner / 3; }
+  auto operator<=>(const EdgeEntry&) const = default;
+};
+
+/// Calls put(lowerVertex, entry) for each edge of a face. An edge between a vertex and itself is ignored; a face that
+/// traverses an edge twice, a-b-a, is entered once.
+template <typename Put>
+void putEdges(const Face& face, uint32_t f, const Put& put) {
+  const auto [a, b, c] = face;
+  const auto putEdge = [&](uint32_t p, uint32_t q, uint32_t i) {
+    if (p != q) put(std::min(p, q), EdgeEntry{std::max(p, q), 3 * f + i});
+  };
+  putEdge(a, b, 0);
+  if (c != a) putEdge(b, c, 1);
+  if (b != c && a != b) putEdge(c, a, 2);
+}
+
+struct EdgeCounts {
+  uint64_t boundary = 0, nonManifold = 0, inconsistent = 0;
+};
+
+/// From a face to a neighbour.
+using Arc = std::pair<uint32_t, uint32_t>;
+
+/// Results of one thread.
+struct Findings {
+  EdgeCounts counts;
+  std::vector<Arc> furtherArcs;
+};
+
+class Survey {
+ public:
+  explicit Survey(const TriangleMesh& mesh)
+      : mesh_(mesh),
+        hasFiniteVertices_(
+            countInParallel(mesh.vertices.size(), [&](uint32_t v) { return !isFinite(mesh.vertices[v]); }) == 0),
+        hasDistinctVertices_(
+            countInParallel(mesh.faces.size(), [&](uint32_t f) { return !hasDistinctVertices(mesh.faces[f]); }) == 0),
+        across_(3 * mesh.faces.size(), kNoNeighbour),
+        kinds_(3 * mesh.faces.size(), EdgeKind::Regular) {}
+
+  EdgeSurvey run() {
+    visitEdges();
+    EdgeSurvey survey;
+    std::vector<Arc> furtherArcs;
+    for (const Findings& findings : findings_) {
+      survey.boundaryEdgeCount += findings.counts.boundary;
+      survey.nonManifoldEdgeCount += findings.counts.nonManifold;
+      survey.inconsistentEdgeCount += findings.counts.inconsistent;
+      furtherArcs.insert(furtherArcs.end(), findings.furtherArcs.begin(), findings.furtherArcs.end());
+    }
+    survey.isClosed =
+        hasFiniteVertices_ && hasDistinctVertices_ && survey.boundaryEdgeCount == 0 && survey.nonManifoldEdgeCount == 0;
+    survey.graph = survey.isClosed ? closedGraph() : anyGraph(std::move(furtherArcs));
+    survey.edgeKinds = std::move(kinds_);
+    return survey;
+  }
+
+ private:
+  void visitEdges() {
+    const StagedEntries<EdgeEntry> entries(mesh_.vertices.size(), mesh_.faces.size(), [&](uint32_t f, auto&& put) {
+      if (hasFiniteVertices_ || mesh_.hasFiniteCorners(f)) putEdges(mesh_.faces[f], f, put);
+    });
+    entries.forEachBucket([&](uint32_t lower, std::span<const EdgeEntry> bucket) {
+      for (size_t begin = 0, end = 0; begin < bucket.size(); begin = end) {
+        const uint32_t upper = bucket[begin].upperVertex;
+        while (end < bucket.size() && bucket[end].upperVertex == upper) ++end;
+        const std::span<const EdgeEntry> around = bucket.subspan(begin, end - begin);
+        join(around);
+        classify(lower, around);
+      }
+    });
+  }
+
+  /// Of a face that has edges.
+  [[nodiscard]] bool isProper(uint32_t face) const {
+    return hasDistinctVertices_ || hasDistinctVertices(mesh_.faces[face]);
+  }
+  [[nodiscard]] bool runsFrom(uint32_t vertex, const EdgeEntry& entry) const {
+    return mesh_.faces[entry.face()][entry.corner % 3] == vertex;
+  }
+
+  void classify(uint32_t lower, std::span<const EdgeEntry> around) {
+    size_t properCount = 0, runningUpCount = 0;
+    for (const EdgeEntry& entry : around) {
+      if (!isProper(entry.face())) continue;
+      ++properCount;
+      runningUpCount += runsFrom(lower, entry) ? 1 : 0;
+    }
+    if (properCount == 0 || (properCount == 2 && runningUpCount == 1)) return;
+    EdgeCounts& counts = findings_.local().counts;
+    ++(properCount == 1 ? counts.boundary : properCount == 2 ? counts.inconsistent : counts.nonManifold);
+    const EdgeKind kind = properCount == 1   ? EdgeKind::Boundary
+                          : properCount == 2 ? EdgeKind::Inconsistent
+                                             : EdgeKind::NonManifold;
+    for (const EdgeEntry& entry : around)
+      if (isProper(entry.face())) kinds_[entry.corner] = kind;
+  }
+
+  void join(std::span<const EdgeEntry> around) {
+    if (around.size() == 2) {
+      across_[around[0].corner] = around[1].face();
+      across_[around[1].corner] = around[0].face();
+    }
+    if (around.size() <= 2) return;
+    std::vector<Arc>& furtherArcs = findings_.local().furtherArcs;
+    const size_t reach = around.size() <= kMaxFacesJoinedAllToAll ? around.size() : 1;
+    for (size_t i = 0; i < around.size(); ++i) {
+      across_[around[i].corner] = kMany;
+      for (size_t j = i + 1; j < around.size() && j <= i + reach; ++j) {
+        furtherArcs.emplace_back(around[i].face(), around[j].face());
+        furtherArcs.emplace_back(around[j].face(), around[i].face());
+      }
+    }
+  }
+
+  /// Where each face has three arcs, `across_` already holds the rows.
+  DualGraph closedGraph() {
+    DualGraph graph;
+    graph.offsets.resize(mesh_.faces.size() + 1);
+    forEachInParallel(mesh_.faces.size(), [&](uint32_t f) {
+      graph.offsets[f + 1] = 3 * (f + 1);
+      std::sort(&across_[size_t{3} * f], &across_[size_t{3} * f] + 3);
+    });
+    graph.neighbours = std::move(across_);
+    return graph;
+  }
+
+  DualGraph anyGraph(std::vector<Arc> furtherArcs) {
+    tbb::parallel_sort(furtherArcs.begin(), furtherArcs.end());
+    DualGraph graph;
+    std::vector<uint32_t>& offsets = graph.offsets;
+    offsets.assign(mesh_.faces.size() + 1, 0);
+    forEachInParallel(mesh_.faces.size(), [&](uint32_t f) {
+      for (size_t i = 0; i < 3; ++i) offsets[f + 1] += across_[size_t{3} * f + i] < kMany ? 1 : 0;
+    });
+    for (const auto& [face, neighbour] : furtherArcs) ++offsets[face + 1];
+    uint64_t total = 0;
+    for (uint32_t& offset : offsets) {
+      total += offset;
+      if (total > UINT32_MAX)
+        throw Error(ErrorCode::MeshTooLarge, "the mesh has more connections between faces than 32 bits can index");
+      offset = static_cast<uint32_t>(total);
+    }
+    graph.neighbours.resize(total);
+    forEachInParallel(mesh_.faces.size(), [&](uint32_t f) {
+      const auto begin = graph.neighbours.begin() + offsets[f];
+      auto end = begin;
+      bool hasFurther = false;
+      for (size_t i = 0; i < 3; ++i) {
+        const uint32_t neighbour = across_[size_t{3} * f + i];
+        hasFurther = hasFurther || neighbour == kMany;
+        if (neighbour < kMany) *end++ = neighbour;
+      }
+      if (hasFurther)
+        for (auto arc = std::lower_bound(furtherArcs.begin(), furtherArcs.end(), Arc(f, 0));
+             arc != furtherArcs.end() && arc->first == f; ++arc)
+          *end++ = arc->second;
+      std::sort(begin, end);
+    });
+    return graph;
+  }
+
+  const TriangleMesh& mesh_;
+  bool hasFiniteVertices_, hasDistinctVertices_;
+  std::vector<uint32_t> across_;  ///< #F x 3: the face on the other side of each edge.
+  std::vector<EdgeKind> kinds_;   ///< See EdgeSurvey::edgeKinds.
+  tbb::enumerable_thread_specific<Findings> findings_;
+};
+
+}  // namespace
+
+EdgeSurvey surveyEdges(const TriangleMesh& mesh) { return Survey(mesh).run(); }
 
 }  // namespace asdfvk

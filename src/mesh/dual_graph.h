@@ -25,10 +25,33 @@ struct DualGraph {
   }
 };
 
-/// Edges are matched by sorting, so that non-manifold input is valid: an edge of k faces joins all of them (but see
-/// kMaxFacesJoinedAllToAll), a boundary edge none. An edge between a vertex and itself and a face with a non-finite
-/// corner join nothing. Vertices are compared by index, not by position: a mesh whose faces share no vertices is open
-/// everywhere. Precondition: every index of a face is below the vertex count.
-[[nodiscard]] DualGraph buildDualGraph(const TriangleMesh& mesh);
+/// Class of an edge by its proper faces: those with finite corners and three distinct vertices.
+enum class EdgeKind : uint8_t {
+  Regular,       ///< Two faces that traverse it in opposite directions.
+  Inconsistent,  ///< Two faces that traverse it in the same direction.
+  Boundary,      ///< One face.
+  NonManifold,   ///< More than two faces.
+};
+
+/// Results of one pass over the edges of a mesh.
+struct EdgeSurvey {
+  DualGraph graph;  ///< See buildDualGraph().
+  /// #F x 3: entry 3 f + i is the edge from corner i of the proper face f to the next corner. Regular for other faces.
+  std::vector<EdgeKind> edgeKinds;
+  uint64_t boundaryEdgeCount = 0;
+  uint64_t nonManifoldEdgeCount = 0;
+  uint64_t inconsistentEdgeCount = 0;
+  bool isClosed = false;  ///< Every face is proper, and each edge has exactly two faces.
+};
+
+/// Precondition: every index of a face is below the vertex count. Throws Error{MeshTooLarge} where there are more than
+/// 2^32 - 1 edges or arcs.
+[[nodiscard]] EdgeSurvey surveyEdges(const TriangleMesh& mesh);
+
+/// The graph of the survey. Edges are matched by sorting, so that non-manifold input is valid: an edge of k faces joins
+/// all of them (but see kMaxFacesJoinedAllToAll), a boundary edge none. An edge between a vertex and itself and a face
+/// with a non-finite corner join nothing. Vertices are compared by index, not by position: a mesh whose faces share no
+/// vertices is open everywhere.
+[[nodiscard]] inline DualGraph buildDualGraph(const TriangleMesh& mesh) { return surveyEdges(mesh).graph; }
 
 }  // namespace asdfvk

@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "core/parallel.h"
-#include "mesh/vertex_bounds.h"
 
 namespace asdfvk {
 namespace {
@@ -39,6 +38,11 @@ NormalAndArea normalAndArea(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
   return {scaledCross / doubledArea, std::clamp(area, Limits::min(), Limits::max())};
 }
 
+Box3d joined(Box3d a, const Box3d& b) {
+  a.add(b);
+  return a;
+}
+
 }  // namespace
 
 FaceGeometry computeFaceGeometry(const TriangleMesh& mesh) {
@@ -69,6 +73,27 @@ FaceGeometry computeFaceGeometry(const TriangleMesh& mesh) {
   geometry.bounds =
       tbb::parallel_reduce(tbb::blocked_range<size_t>(0, faceCount, kItemsPerTask), Box3d{}, computeRange, joined);
   return geometry;
+}
+
+Box3d boundsOfFiniteVertices(const TriangleMesh& mesh) {
+  const auto boundRange = [&](const tbb::blocked_range<size_t>& range, Box3d bounds) {
+    for (size_t i = range.begin(); i < range.end(); ++i)
+      if (isFinite(mesh.vertices[i])) bounds.add(mesh.vertices[i]);
+    return bounds;
+  };
+  return tbb::parallel_reduce(tbb::blocked_range<size_t>(0, mesh.vertices.size(), kItemsPerTask), Box3d{}, boundRange,
+                              joined);
+}
+
+Normalization normalizationOf(const Box3d& bounds) {
+  const Vec3d halfSize = bounds.halfSize();
+  const double halfExtent = std::max({halfSize.x, halfSize.y, halfSize.z});
+  Normalization normalization{bounds.centre(), 1};
+  if (!(halfExtent > 0) || !std::isfinite(halfExtent)) return normalization;
+  int exponent = 0;
+  std::frexp(halfExtent, &exponent);  // halfExtent = m * 2^exponent with m in [0.5, 1)
+  normalization.scale = std::ldexp(1.0, std::clamp(-exponent, -1024, 1023));
+  return normalization;
 }
 
 }  // namespace asdfvk

@@ -8,7 +8,7 @@
 
 namespace asdfvk {
 
-/// Three distinct vertices; otherwise the face is an edge or a point, independent of the coordinates.
+/// False where the face is an edge or a point, independent of the coordinates.
 [[nodiscard]] constexpr bool hasDistinctVertices(const Face& face) {
   return face[0] != face[1] && face[1] != face[2] && face[2] != face[0];
 }
@@ -22,8 +22,8 @@ struct PolygonsView {
   [[nodiscard]] bool isEmpty() const { return firstCorner.empty(); }
 };
 
-/// The mesh as all algorithms take it: a view of triangles and of the input faces that they were cut from. The arrays
-/// must outlive it.
+/// The mesh type of all algorithms: a view of triangles and of the input faces that they were cut from. The arrays must
+/// outlive it.
 struct TriangleMesh {
   std::span<const Vec3d> vertices;  ///< #V; may hold non-finite numbers.
   std::span<const Face> faces;      ///< #F

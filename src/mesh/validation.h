@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "asdf_vk/report.h"
-#include "mesh/edge_survey.h"
+#include "mesh/dual_graph.h"
 #include "mesh/face_geometry.h"
 #include "mesh/mesh.h"
 
@@ -20,10 +20,10 @@ namespace asdfvk {
 /// with an index at or above the vertex count.
 void requireValidArrays(const MeshView& view);
 
-/// Faces with an index at or above the vertex count. Precondition of all other functions: there is none.
+/// Faces with an index at or above the vertex count. All functions that take a TriangleMesh require it to be 0.
 [[nodiscard]] uint64_t countFacesWithIndexOutOfRange(const TriangleMesh& mesh);
 
-/// All are of the same mesh.
+/// All arguments are of the same mesh.
 [[nodiscard]] MeshDefects findDefects(const TriangleMesh& mesh, const FaceGeometry& geometry,
                                       std::span<const uint32_t> representatives, const EdgeSurvey& edges);
 

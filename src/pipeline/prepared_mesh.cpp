@@ -8,7 +8,6 @@
 #include "asdf_vk/error.h"
 #include "io/input_faces.h"
 #include "mesh/coincident_faces.h"
-#include "mesh/edge_survey.h"
 #include "mesh/orientation.h"
 #include "mesh/validation.h"
 

@@ -7,7 +7,7 @@
 
 #include "core/check.h"
 #include "core/parallel.h"
-#include "mesh/dihedral.h"
+#include "mesh/curvature.h"
 
 namespace asdfvk {
 namespace {

@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "core/check.h"
-#include "mesh/dihedral.h"
+#include "mesh/curvature.h"
 
 namespace asdfvk {
 namespace {

@@ -134,6 +134,39 @@ TEST_CASE("the dual graph of random soups is what comparing all faces gives") {
   }
 }
 
+TEST_CASE("the kinds of the edges of a random soup are what comparing all faces gives") {
+  for (uint64_t seed = 0; seed < 60; ++seed) {
+    const Mesh mesh = shapes::soup(5 + static_cast<uint32_t>(seed % 9), 12, seed);
+    const EdgeSurvey survey = surveyEdges(mesh);
+    REQUIRE(survey.edgeKinds.size() == 3 * mesh.faces.size());
+    double boundaryCount = 0, inconsistentCount = 0, nonManifoldCount = 0;  // Shares of an edge, one per face.
+    for (uint32_t f = 0; f < mesh.faceCount(); ++f)
+      for (size_t i = 0; i < 3; ++i) {
+        const uint32_t from = mesh.faces[f][i], to = mesh.faces[f][(i + 1) % 3];
+        uint32_t sameCount = 0, oppositeCount = 0;
+        for (const Face& other : mesh.faces)
+          for (size_t j = 0; hasDistinctVertices(other) && j < 3; ++j) {
+            sameCount += other[j] == from && other[(j + 1) % 3] == to ? 1 : 0;
+            oppositeCount += other[j] == to && other[(j + 1) % 3] == from ? 1 : 0;
+          }
+        const uint32_t count = sameCount + oppositeCount;
+        EdgeKind expected = EdgeKind::Regular;
+        if (hasDistinctVertices(mesh.faces[f])) {
+          if (count == 1) expected = EdgeKind::Boundary;
+          if (count == 2 && sameCount == 2) expected = EdgeKind::Inconsistent;
+          if (count > 2) expected = EdgeKind::NonManifold;
+        }
+        REQUIRE(survey.edgeKinds[3 * f + i] == expected);
+        boundaryCount += expected == EdgeKind::Boundary ? 1 : 0;
+        inconsistentCount += expected == EdgeKind::Inconsistent ? 0.5 : 0;
+        nonManifoldCount += expected == EdgeKind::NonManifold ? 1.0 / count : 0;
+      }
+    CHECK(static_cast<double>(survey.boundaryEdgeCount) == boundaryCount);
+    CHECK(static_cast<double>(survey.inconsistentEdgeCount) == inconsistentCount);
+    CHECK(static_cast<double>(survey.nonManifoldEdgeCount) == doctest::Approx(nonManifoldCount));
+  }
+}
+
 TEST_CASE("the dual graph does not depend on the number of threads") {
   Mesh mesh = shapes::sphere(6);
   Random random(5);

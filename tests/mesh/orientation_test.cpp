@@ -26,7 +26,7 @@ struct Analysis {
 };
 
 Analysis analyse(const Mesh& mesh) {
-  Analysis result{findComponents(mesh, buildDualGraph(mesh)), {}};
+  Analysis result{findComponents(mesh, surveyEdges(mesh)), {}};
   result.report = analyseOrientation(mesh, result.components);
   return result;
 }
@@ -190,7 +190,7 @@ TEST_CASE("flipping all faces inverts everything, open or not, and keeps degener
   Mesh mesh = together(shapes::grid(2), placed(sphere(1), 1, {0, 0, 5}));
   mesh.faces.push_back({0, 0, 1});
   FaceGeometry geometry = computeFaceGeometry(mesh);
-  Components components = findComponents(mesh, buildDualGraph(mesh));
+  Components components = findComponents(mesh, surveyEdges(mesh));
   const double volume = components.components[1].signedVolume;
   flipAllFaces(mesh, geometry, components);
   CHECK(components.components[1].signedVolume == -volume);

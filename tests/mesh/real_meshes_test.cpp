@@ -56,13 +56,14 @@ TEST_CASE("real meshes have the faces that their files count and the defects tha
     const Mesh mesh = readMesh(*folder / name);
     CHECK(mesh.inputFaceCount() == expected.inputFaceCount);
     REQUIRE(countFacesWithIndexOutOfRange(mesh) == 0);
+    const EdgeSurvey edges = surveyEdges(mesh);
     const MeshDefects defects =
-        findDefects(mesh, computeFaceGeometry(mesh), coincidentRepresentatives(mesh), surveyEdges(mesh));
+        findDefects(mesh, computeFaceGeometry(mesh), coincidentRepresentatives(mesh, edges), edges);
     CHECK(defects.boundaryEdgeCount == expected.boundaryEdgeCount);
     CHECK(defects.nonManifoldEdgeCount == expected.nonManifoldEdgeCount);
     CHECK(defects.zeroAreaFaceCount == expected.zeroAreaFaceCount);
     CHECK(defects.duplicateFaceCount == expected.duplicateFaceCount);
-    const Components components = findComponents(mesh, buildDualGraph(mesh));
+    const Components components = findComponents(mesh, edges);
     CHECK(components.components.size() == expected.componentCount);
     CHECK(analyseOrientation(mesh, components).invertedComponents.size() == expected.invertedComponentCount);
   }

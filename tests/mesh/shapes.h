@@ -4,7 +4,7 @@
 
 #include "mesh/mesh.h"
 
-/// Small shapes for the tests of this folder; closed ones look outwards.
+/// Small shapes for the tests of this folder; faces of closed shapes point outwards.
 namespace shapes {
 
 asdfvk::Mesh tetrahedron();

@@ -14,7 +14,8 @@ using namespace asdfvk;
 namespace {
 
 MeshDefects defectsOf(const Mesh& mesh) {
-  return findDefects(mesh, computeFaceGeometry(mesh), coincidentRepresentatives(mesh), surveyEdges(mesh));
+  const EdgeSurvey edges = surveyEdges(mesh);
+  return findDefects(mesh, computeFaceGeometry(mesh), coincidentRepresentatives(mesh, edges), edges);
 }
 
 std::vector<std::string> sentencesOf(const Mesh& mesh) {

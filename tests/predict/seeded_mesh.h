@@ -27,7 +27,7 @@ struct SeededMesh {
   SeededMesh(Mesh source, size_t seedCount, const ConeOptions& options = {}, uint64_t randomSeed = 1)
       : mesh(std::move(source)),
         geometry(computeFaceGeometry(mesh)),
-        representatives(coincidentRepresentatives(mesh)),
+        representatives(coincidentRepresentatives(mesh, surveyEdges(mesh))),
         bvh(buildBvh(mesh, geometry, representatives)),
         graph(buildDualGraph(mesh)),
         cone(makeCone(options)) {

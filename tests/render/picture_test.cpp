@@ -20,7 +20,7 @@ constexpr int kWidth = 320, kHeight = 240;
 
 /// The mesh must outlive the scene.
 SceneData sceneOf(const Mesh& mesh) {
-  SceneData scene{{}, mesh, computeFaceGeometry(mesh), coincidentRepresentatives(mesh), {}};
+  SceneData scene{{}, mesh, computeFaceGeometry(mesh), coincidentRepresentatives(mesh, surveyEdges(mesh)), {}};
   scene.bvh = buildBvh(mesh, scene.geometry, scene.representatives);
   return scene;
 }

@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-#include "mesh/dihedral.h"
+#include "mesh/curvature.h"
 #include "seeds/surface.h"
 #include "seeds/surface_distances.h"
 
