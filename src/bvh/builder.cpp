@@ -1,25 +1,29 @@
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <memory>
+#include <span>
+#include <vector>
 
 #include "bvh/bvh.h"
-#include "bvh/subtree.h"
+#include "bvh/sah.h"
+#include "bvh/small_tree.h"
 #include "core/check.h"
 #include "core/unset_vector.h"
 
 namespace asdfvk {
 namespace {
 
-// Faces that are looked at by one task.
+// Faces per task.
 constexpr size_t kBlockFaceCount = 4096;
 
-// At or below the number itself, and at or below it rounded to nearest: lowered by at least the error of rounding,
-// without a branch on what that is.
+// A float at or below d, and at or below d rounded to nearest. Branch-free: lowered by a bound on the rounding error.
 float roundedDown(double d) { return static_cast<float>(d - std::abs(d) * 0x1p-23 - 0x1p-149); }
 
-// Holds the corners as doubles and as floats.
+// Contains the corners in double and rounded to float.
 SplitBox outerBox(const TriangleMesh& mesh, const Face& face, const Normalization& normalization) {
   const Vec3d &a = mesh.vertices[face[0]], &b = mesh.vertices[face[1]], &c = mesh.vertices[face[2]];
   const auto least = [](double x, double y, double z) { return std::min(std::min(x, y), z); };
@@ -39,7 +43,7 @@ bool isFinite(const SplitBox& box) {
   return finite;
 }
 
-// In the order of the faces.
+// The faces of the hierarchy, ascending.
 UnsetVector<SplitTriangle> collectTriangles(const TriangleMesh& mesh, const FaceGeometry& geometry,
                                             std::span<const uint32_t> representatives,
                                             const Normalization& normalization) {
@@ -65,15 +69,125 @@ UnsetVector<SplitTriangle> collectTriangles(const TriangleMesh& mesh, const Face
   return triangles;
 }
 
-// A finished run of nodes and where it goes: its root to `index`, the rest from `next` on.
+/// A part of the hierarchy under construction: either an inner node with two children, or a finished run of nodes.
+struct Subtree {
+  std::unique_ptr<Subtree> left, right;  ///< Both or none.
+  SplitBox box;
+  std::vector<BvhNode> nodes;  ///< Without children: root first; child indices are relative to this run.
+  uint32_t depth = 0;          ///< Levels below its root.
+  size_t nodeCount = 0;        ///< All nodes of the subtree, root included.
+};
+
+// Parts up to this size are built by one thread, into one run of nodes.
+constexpr size_t kSequentialTriangleCount = 4096;
+
+// Upper bound on the levels that median splits and small trees need for `count` triangles.
+uint32_t levelsOfMedianSplits(size_t count) {
+  const size_t smallTreeCount = (count + kMaxSmallTreeCount - 1) / kMaxSmallTreeCount;
+  return static_cast<uint32_t>(std::bit_width(smallTreeCount - 1) + kMaxSmallTreeCount - 1);
+}
+
+// Reorders the triangles and returns the number on the left. SAH may separate a single triangle; median splits of the
+// rest must then stay within kMaxBvhDepth.
+size_t splitTriangles(std::span<SplitTriangle> triangles, uint32_t level, const BvhOptions& options) {
+  if (levelsOfMedianSplits(triangles.size()) < kMaxBvhDepth - level) {
+    const size_t leftCount = splitBySah(triangles, options.binCount);
+    if (leftCount > 0) return leftCount;
+  }
+  return splitAtMedian(triangles);
+}
+
+class RunBuilder {
+ public:
+  RunBuilder(const BvhOptions& options, std::span<uint32_t> slotFaces, Subtree& run)
+      : options_(options), slotFaces_(slotFaces), run_(run) {}
+
+  // Returns the box of the triangles.
+  SplitBox build(size_t nodeIndex, std::span<SplitTriangle> triangles, uint32_t firstSlot, uint32_t level,
+                 uint32_t depth) {
+    if (triangles.size() <= kMaxSmallTreeCount) {
+      const SmallTree tree(triangles, options_.maxLeafTriangleCount);
+      run_.depth = std::max(run_.depth, depth + tree[tree.root()].depth);
+      write(tree, tree.root(), nodeIndex, triangles, firstSlot);
+      return tree[tree.root()].box;
+    }
+    const size_t leftCount = splitTriangles(triangles, level, options_);
+    const size_t children = addChildren();
+    SplitBox box = build(children, triangles.first(leftCount), firstSlot, level + 1, depth + 1);
+    box.grow(build(children + 1, triangles.subspan(leftCount), firstSlot + static_cast<uint32_t>(leftCount), level + 1,
+                   depth + 1));
+    run_.nodes[nodeIndex] = box.toNode(static_cast<uint32_t>(children), 0);
+    return box;
+  }
+
+ private:
+  size_t addChildren() {
+    run_.nodes.resize(run_.nodes.size() + 2);
+    return run_.nodes.size() - 2;
+  }
+  // Returns the slot after the triangles of the tree's node.
+  uint32_t write(const SmallTree& tree, uint32_t treeNode, size_t nodeIndex, std::span<const SplitTriangle> triangles,
+                 uint32_t slot) {
+    const SmallTree::Node& node = tree[treeNode];
+    if (node.isLeaf) {
+      run_.nodes[nodeIndex] = node.box.toNode(slot, node.triangleCount);
+      return writeFaces(tree, treeNode, triangles, slot);
+    }
+    const size_t children = addChildren();
+    run_.nodes[nodeIndex] = node.box.toNode(static_cast<uint32_t>(children), 0);
+    return write(tree, node.right, children + 1, triangles, write(tree, node.left, children, triangles, slot));
+  }
+  uint32_t writeFaces(const SmallTree& tree, uint32_t treeNode, std::span<const SplitTriangle> triangles,
+                      uint32_t slot) {
+    const SmallTree::Node& node = tree[treeNode];
+    if (node.triangleCount > 1)
+      return writeFaces(tree, node.right, triangles, writeFaces(tree, node.left, triangles, slot));
+    slotFaces_[slot] = triangles[treeNode].face();
+    return slot + 1;
+  }
+
+  const BvhOptions& options_;
+  std::span<uint32_t> slotFaces_;
+  Subtree& run_;
+};
+
+/// Builds over `triangles`, which it reorders. slotFaces: of all slots; those from `firstSlot` on are written, one per
+/// triangle. level: the number of levels above. Large parts are separate tasks; the result does not depend on the
+/// number of threads.
+std::unique_ptr<Subtree> buildSubtree(std::span<SplitTriangle> triangles, std::span<uint32_t> slotFaces,
+                                      uint32_t firstSlot, uint32_t level, const BvhOptions& options) {
+  auto subtree = std::make_unique<Subtree>();
+  if (triangles.size() <= kSequentialTriangleCount) {
+    subtree->nodes.reserve(2 * triangles.size());
+    subtree->nodes.resize(1);
+    subtree->box = RunBuilder(options, slotFaces, *subtree).build(0, triangles, firstSlot, level, 0);
+    subtree->nodes.shrink_to_fit();
+    subtree->nodeCount = subtree->nodes.size();
+    return subtree;
+  }
+  const size_t leftCount = splitTriangles(triangles, level, options);
+  tbb::parallel_invoke(
+      [&] { subtree->left = buildSubtree(triangles.first(leftCount), slotFaces, firstSlot, level + 1, options); },
+      [&] {
+        subtree->right = buildSubtree(triangles.subspan(leftCount), slotFaces,
+                                      firstSlot + static_cast<uint32_t>(leftCount), level + 1, options);
+      });
+  subtree->box = subtree->left->box;
+  subtree->box.grow(subtree->right->box);
+  subtree->depth = 1 + std::max(subtree->left->depth, subtree->right->depth);
+  subtree->nodeCount = 1 + subtree->left->nodeCount + subtree->right->nodeCount;
+  return subtree;
+}
+
+// A run of nodes and its destination: `index` for its root, `next` onwards for the others.
 struct Placement {
   const std::vector<BvhNode>& run;
   uint32_t index = 0, next = 0;
 };
 
-// Lays the runs of a finished subtree end to end and writes the nodes above them. A node's place is given by its
-// parent; what is below it follows from `next` on: first the pair of children, then all below the left one, then all
-// below the right one. Returns where the subtree ends.
+// Assigns destinations to the runs of a subtree and writes the nodes above them. The parent determines the index of a
+// node; its descendants start at `next`: the pair of children, then all nodes below the left child, then all below the
+// right child. Returns the index after the subtree.
 uint32_t place(const Subtree& subtree, uint32_t index, uint32_t next, std::span<BvhNode> nodes,
                std::vector<Placement>& placements) {
   if (!subtree.left) {

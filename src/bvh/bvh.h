@@ -12,10 +12,11 @@
 
 namespace asdfvk {
 
-/// 32 bytes. Boxes are in normalised coordinates, rounded outwards: they hold a triangle both as doubles and as floats.
+/// 32 bytes. Boxes are in normalised coordinates and rounded outwards: they contain the corners of a triangle in double
+/// and rounded to float.
 struct BvhNode {
   Vec3f min;
-  uint32_t first = 0;  ///< Inner: index of the left child, the right one follows it. Leaf: its first triangle slot.
+  uint32_t first = 0;  ///< Inner: index of the left child, the right one follows it. Leaf: first triangle slot.
   Vec3f max;
   uint32_t triangleCount = 0;  ///< 0 for an inner node.
 
@@ -26,7 +27,7 @@ struct BvhNode {
 struct Bvh {
   UnsetVector<BvhNode> nodes;
   std::vector<uint32_t> slotFaces;  ///< Face index of each triangle slot; each traceable face once.
-  uint32_t depth = 0;               ///< Levels below the root: a stack of `depth` entries is enough to walk it.
+  uint32_t depth = 0;               ///< Levels below the root; the size of a traversal stack.
   Normalization normalization;
 };
 
@@ -35,14 +36,15 @@ inline constexpr float kNodeCost = 1.0f;
 inline constexpr float kTriangleCost = 1.0f;
 
 struct BvhOptions {
-  /// More than eight is as good as eight. What a wide node's leaf holds, as others are halved without care.
+  /// At most; values above 8 have the effect of 8. The default is the capacity of a leaf of the wide layout, which
+  /// halves larger leaves regardless of their cost.
   uint32_t maxLeafTriangleCount = kMaxWideLeafTriangleCount;
   uint32_t binCount = 16;  ///< Per axis, 2 to 32; fewer where there are few triangles.
 };
 
 /// Binned surface-area heuristic (Wald 2007), parallel over subtrees, with the same result for any thread count.
-/// Holds the faces that are not degenerate and that represent themselves (see coincidentRepresentatives()), but for any
-/// whose normalised corners are not finite, as they are in a mesh as wide as the range of double.
+/// Contains the faces that are not degenerate and that represent themselves (see coincidentRepresentatives()), except
+/// those whose normalised corners are not finite, which occur in meshes as wide as the range of double.
 [[nodiscard]] Bvh buildBvh(const TriangleMesh& mesh, const FaceGeometry& geometry,
                            std::span<const uint32_t> representatives, const BvhOptions& options = {});
 

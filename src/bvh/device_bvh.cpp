@@ -13,7 +13,7 @@ namespace asdfvk {
 namespace {
 
 constexpr float kFarAway = 1e6f;
-// Slots whose faces are fetched ahead of their use: they lie anywhere in a mesh whose order is not the hierarchy's.
+// Prefetch distance in slots: faces of consecutive slots may be far apart in memory.
 constexpr size_t kPrefetchDistance = 16;
 
 vec3 toDevice(const Vec3f& v) { return {v.x, v.y, v.z}; }
@@ -36,9 +36,8 @@ DeviceBvhNode encodeRootLeaf(const BvhNode& root) {
           .unused1 = 0};
 }
 
-// innerIndex: for each node the number of inner nodes before it.
 UnsetVector<DeviceBvhNode> encodeNodes(std::span<const BvhNode> nodes) {
-  std::vector<uint32_t> innerIndex(nodes.size());
+  std::vector<uint32_t> innerIndex(nodes.size());  // Number of inner nodes before each node.
   uint32_t innerCount = 0;
   for (size_t i = 0; i < nodes.size(); ++i) {
     innerIndex[i] = innerCount;
@@ -68,7 +67,7 @@ struct OctahedralNormal {
   float u, v;
 };
 
-// Without a branch on the side of the sphere, which is hard to foresee.
+// Branch-free: the side of the sphere is unpredictable.
 OctahedralNormal encodeNormal(const Vec3d& n) {
   const double scale = 1 / (std::abs(n.x) + std::abs(n.y) + std::abs(n.z));
   const double u = n.x * scale, v = n.y * scale;

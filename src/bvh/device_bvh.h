@@ -10,8 +10,8 @@
 
 namespace asdfvk {
 
-/// Boxes grow by this on a device, in normalised units: its triangle test in float32 is off by a few units of 2^-24 of
-/// coordinates up to 3.5, and no box may be missed whose triangle is hit.
+/// Margin of the boxes on a device, in normalised units. The triangle test in float32 has an error of a few units of
+/// 2^-24 times coordinates up to 3.5, and a ray must enter each box that contains a triangle it hits.
 inline constexpr float kDeviceBoxMargin = 0x1p-20f;
 
 enum class BvhLayout {
@@ -19,10 +19,10 @@ enum class BvhLayout {
   Wide,    ///< DeviceWideNode: eight children, boxes in bytes.
 };
 
-/// The hierarchy in the layout of shared/bvh_layout.h. A walk needs a stack of `depth` entries.
+/// The hierarchy in the layout of shared/bvh_layout.h. A traversal stack needs `depth` entries.
 struct DeviceBvh {
-  /// One of them is empty, both for an empty Bvh: then there is nothing to trace against. Binary nodes are the inner
-  /// nodes of the Bvh, in the Bvh's order.
+  /// Only the array of the layout is filled; both are empty for an empty Bvh. Binary nodes are the inner nodes of the
+  /// Bvh, in the same order.
   UnsetVector<DeviceBvhNode> nodes;
   UnsetVector<DeviceWideNode> wideNodes;
   UnsetVector<DeviceTriangle> triangles;  ///< One per slot; corners rounded to nearest.
@@ -33,8 +33,8 @@ struct DeviceBvh {
   }
 };
 
-/// Binary: a Bvh whose root is a leaf becomes one node with that leaf on both sides, of which the right one has a box
-/// far away. Throws Error{Device} for more triangles than a reference can count.
+/// Binary: a Bvh whose root is a leaf becomes one node with that leaf as both children, the right one with a box that
+/// no ray enters. Throws Error{DeviceLimit} for more triangles than a reference can index.
 [[nodiscard]] DeviceBvh encodeDeviceBvh(const Bvh& bvh, const TriangleMesh& mesh, const FaceGeometry& geometry,
                                         BvhLayout layout = BvhLayout::Binary);
 

@@ -27,8 +27,8 @@ struct Clusters {
   }
 };
 
-// Of several that are as near, each takes the first pair of them in the order of (smaller index, greater index): so the
-// first of the nearest pairs is mutual.
+// Ties go to the first pair in the order of (smaller index, greater index), so that the first of the nearest pairs is
+// mutual.
 template <typename Floats>
 ASDFVK_ALWAYS_INLINE inline void findNearest(const Clusters& clusters, Nearest& nearest) {
   using Ints = IntsOf<Floats>;

@@ -5,27 +5,29 @@
 #include <span>
 
 #include "bvh/bvh.h"
-#include "bvh/split_box.h"
+#include "bvh/sah.h"
 #include "core/simd.h"
 
 namespace asdfvk {
 
-/// As many triangles as a SmallTree holds.
+/// Largest number of triangles of a SmallTree.
 inline constexpr size_t kMaxSmallTreeCount = 8;
 
-/// A hierarchy over very few triangles, made from below: again and again, clusters that are each other's nearest become
-/// one, where near means a small common box (as in Meister and Bittner 2018, among all instead of among neighbours).
-/// That is faster there than splitting from above, and no worse.
+/// A hierarchy over few triangles, built by agglomerative clustering: each pass merges the pairs of clusters that are
+/// mutual nearest neighbours; the distance of two clusters is the area of their common box (Meister and Bittner 2018,
+/// but with all clusters as candidates). For so few triangles it is faster than splitting from the top, at no higher
+/// cost of the tree.
 class SmallTree {
  public:
-  /// triangles: 1 to kMaxSmallTreeCount. A cluster of up to maxLeafTriangleCount is a leaf where that is no dearer.
-  /// The same on each instruction set. Precondition: this machine has it.
+  /// triangles: 1 to kMaxSmallTreeCount. A cluster of up to maxLeafTriangleCount triangles becomes a leaf where that
+  /// does not raise the cost. All instruction sets give the same tree. Precondition: the processor has
+  /// `instructionSet`.
   SmallTree(std::span<const SplitTriangle> triangles, uint32_t maxLeafTriangleCount,
             InstructionSet instructionSet = widestInstructionSet());
 
   struct Node {
     SplitBox box;
-    float cost = 0;  ///< Expected, by the surface-area heuristic, times its area.
+    float cost = 0;  ///< By the surface-area heuristic, times the half area of the box.
     uint8_t left = 0, right = 0;
     uint8_t triangleCount = 1, depth = 0;
     bool isLeaf = true;

@@ -1,22 +1,94 @@
 #include "bvh/wide_bvh.h"
 
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
+#include <limits>
 
-#include "bvh/wide_collapse.h"
-#include "bvh/wide_node.h"
 #include "core/check.h"
+#include "core/simd.h"
 
 namespace asdfvk {
 namespace {
+
+// Subtrees at these levels are separate tasks.
+constexpr uint32_t kParallelSearchLevelCount = 10;
+
+float halfAreaOf(const BvhNode& node) { return Box3f{node.min, node.max}.halfArea(); }
+
+// Entry [i - 1]: the least cost of i children from both sides, and how many of them come from the left side.
+struct Sharing {
+  std::array<float, kWideChildCount> costs;
+  std::array<int32_t, kWideChildCount> leftCounts;
+};
+
+// Vectorised over i; loops over the number k of children from the left side. Ties go to the least k. More than
+// maxLeftCount are never cheaper.
+Sharing shareChildren(const std::array<float, kWideChildCount>& left, uint32_t maxLeftCount,
+                      const std::array<float, kWideChildCount>& right) {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  std::array<float, 2 * kWideChildCount> padded;  // At least one child comes from the right side.
+  std::fill_n(padded.begin(), kWideChildCount, kInfinity);
+  std::copy(right.begin(), right.end(), padded.begin() + kWideChildCount);
+  Sharing sharing;
+  for (size_t half = 0; half < kWideChildCount; half += 4) {
+    Float4 least = broadcast<Float4>(kInfinity);
+    IntsOf<Float4> leftCount{};
+    for (uint32_t k = 1; k <= maxLeftCount; ++k) {
+      const Float4 cost = load<Float4>(&padded[kWideChildCount + half - k]) + left[k - 1];
+      const IntsOf<Float4> isLess = cost < least;
+      least = isLess ? cost : least;
+      leftCount = isLess ? broadcast<IntsOf<Float4>>(static_cast<int32_t>(k)) : leftCount;
+    }
+    store(&sharing.costs[half], least);
+    store(&sharing.leftCounts[half], leftCount);
+  }
+  return sharing;
+}
+
+constexpr int kExponentBias = 127;
+constexpr uint32_t kMaxByte = 255;
+
+// Exponent bits of normal doubles: library calls would dominate the time of quantizeBoxes().
+int exponentOf(double positive) { return static_cast<int>(std::bit_cast<uint64_t>(positive) >> 52) - 1023; }
+double powerOfTwo(int e) { return std::bit_cast<double>(static_cast<uint64_t>(e + 1023) << 52); }
+
+// The least e with extent <= 255 * 2^e.
+int exponentFor(double extent) {
+  int e = exponentOf(extent / kMaxByte) + 1;
+  if (kMaxByte * powerOfTwo(e - 1) >= extent) --e;
+  return std::max(e, 1 - kExponentBias);
+}
+
+constexpr float kNone = -1e30f;
+
+// Of eight numbers. The index replaces the last three bits of each number, which do not matter.
+uint32_t indexOfMax(const Float4& low, const Float4& high) {
+  using Ints = IntsOf<Float4>;
+  const Ints indices = {0, 1, 2, 3};
+  const auto tagged = [](const Float4& numbers, const Ints& tags) {
+    return std::bit_cast<Float4>((std::bit_cast<Ints>(numbers) & ~7) | tags);
+  };
+  const Float4 greatest = max(tagged(low, indices), tagged(high, indices + 4));
+  return std::bit_cast<uint32_t>(std::max(std::max(float{greatest[0]}, float{greatest[1]}),
+                                          std::max(float{greatest[2]}, float{greatest[3]}))) &
+         7;
+}
+
+uint32_t floorOf(double notNegative) { return static_cast<uint32_t>(notNegative); }
+uint32_t ceilOf(double notNegative) {
+  const uint32_t below = floorOf(notNegative);
+  return below + (below < notNegative ? 1 : 0);
+}
 
 constexpr uint32_t kParallelLevelCount = 4;
 
 Box3f boxOf(const BvhNode& node) { return {node.min, node.max}; }
 
-// Halves leaves until none is too large; the halves come behind all nodes.
+// Halves leaves until none is too large; the halves are appended to the nodes.
 UnsetVector<BvhNode> withSmallLeaves(UnsetVector<BvhNode> nodes) {
   for (size_t i = 0; i < nodes.size(); ++i) {
     const BvhNode leaf = nodes[i];
@@ -29,7 +101,7 @@ UnsetVector<BvhNode> withSmallLeaves(UnsetVector<BvhNode> nodes) {
   return nodes;
 }
 
-// Writes the wide nodes, each to where its parent says.
+// Writes the wide nodes; a parent determines the indices of its children.
 class WideEncoder {
  public:
   WideEncoder(std::span<const BvhNode> nodes, std::span<const uint32_t> slotFaces)
@@ -41,7 +113,8 @@ class WideEncoder {
   WideBvh take() { return std::move(bvh_); }
 
  private:
-  // All below it goes to nodes from `next` and triangles from `slot` on. Returns the levels below it.
+  // Descendants are written to nodes from `next` on and triangles from `slot` on. Returns the number of levels below
+  // the node.
   uint32_t encode(uint32_t binaryNode, uint32_t index, uint32_t next, uint32_t slot, uint32_t level) {
     const WideChildren children = collapse_.childrenOf(binaryNode);
     std::array<Box3f, kWideChildCount> boxes;
@@ -102,6 +175,134 @@ class WideEncoder {
 };
 
 }  // namespace
+
+WideCollapse::WideCollapse(std::span<const BvhNode> nodes) : nodes_(nodes), choices_(nodes.size()) {
+  ASDFVK_CHECK(!nodes.empty());
+  Forests forests;
+  chooseFrom(0, 0, forests);
+}
+
+void WideCollapse::chooseFrom(uint32_t node, uint32_t level, Forests& forests) {
+  if (nodes_[node].isLeaf()) {
+    ASDFVK_CHECK_OP(nodes_[node].triangleCount, <=, kMaxWideLeafTriangleCount);
+    forests.costs.fill(halfAreaOf(nodes_[node]) * static_cast<float>(nodes_[node].triangleCount));
+    forests.nodeCounts.fill(0);
+    return;
+  }
+  const uint32_t child = nodes_[node].first;
+  Forests left, right;
+  if (level < kParallelSearchLevelCount) {
+    tbb::parallel_invoke([&] { chooseFrom(child, level + 1, left); }, [&] { chooseFrom(child + 1, level + 1, right); });
+  } else {
+    chooseFrom(child, level + 1, left);
+    chooseFrom(child + 1, level + 1, right);
+  }
+  choose(node, left, right, forests);
+}
+
+void WideCollapse::choose(uint32_t node, const Forests& left, const Forests& right, Forests& forests) {
+  Choice& choice = choices_[node];
+  const SlotRange leftSlots = slotsOf(nodes_[node].first), rightSlots = slotsOf(nodes_[node].first + 1);
+  choice.slots = {leftSlots.first, leftSlots.count + rightSlots.count};
+  const uint32_t maxLeftCount =
+      nodes_[nodes_[node].first].isLeaf() ? 1 : std::min(leftSlots.count, kWideChildCount - 1);
+  const Sharing sharing = shareChildren(left.costs, maxLeftCount, right.costs);
+  const auto nodeCount = [&](uint32_t childCount) {
+    const auto k = static_cast<uint32_t>(sharing.leftCounts[childCount - 1]);
+    return left.nodeCounts[k - 1] + right.nodeCounts[childCount - k - 1];
+  };
+  const float area = halfAreaOf(nodes_[node]), leafCost = area * static_cast<float>(choice.slots.count);
+  choice.nodeCountBelow = nodeCount(kWideChildCount);
+  choice.leftCounts = static_cast<uint32_t>(sharing.leftCounts.back()) << 4 * (kWideChildCount - 1);
+  forests.costs[0] = sharing.costs.back() + area * kWideNodeCost;
+  forests.nodeCounts[0] = 1 + choice.nodeCountBelow;
+  if (choice.slots.count <= kMaxWideLeafTriangleCount && leafCost <= forests.costs[0]) {
+    choice.leftCounts |= 1;
+    forests.costs[0] = leafCost;
+    forests.nodeCounts[0] = 0;
+  }
+  for (uint32_t i = 2; i < kWideChildCount; ++i) {
+    const bool isCheaper = sharing.costs[i - 1] < forests.costs[i - 2];
+    forests.costs[i - 1] = isCheaper ? sharing.costs[i - 1] : forests.costs[i - 2];
+    forests.nodeCounts[i - 1] = isCheaper ? nodeCount(i) : forests.nodeCounts[i - 2];
+    if (isCheaper) choice.leftCounts |= static_cast<uint32_t>(sharing.leftCounts[i - 1]) << 4 * (i - 1);
+  }
+}
+
+void WideCollapse::addRoots(uint32_t node, uint32_t rootCount, WideChildren& children) const {
+  if (nodes_[node].isLeaf()) return children.add({node, true});
+  const Choice& choice = choices_[node];
+  while (rootCount > 1 && choice.leftCount(rootCount) == 0) --rootCount;
+  if (rootCount == 1) return children.add({node, (choice.leftCounts & 1) != 0});
+  addRoots(nodes_[node].first, choice.leftCount(rootCount), children);
+  addRoots(nodes_[node].first + 1, rootCount - choice.leftCount(rootCount), children);
+}
+
+WideChildren WideCollapse::childrenOf(uint32_t node) const {
+  WideChildren children;
+  if (nodes_[node].isLeaf()) {
+    children.add({node, true});
+    return children;
+  }
+  const uint32_t leftCount = choices_[node].leftCount(kWideChildCount);
+  addRoots(nodes_[node].first, leftCount, children);
+  addRoots(nodes_[node].first + 1, kWideChildCount - leftCount, children);
+  return children;
+}
+
+std::array<uint32_t, kWideChildCount> chooseSlots(std::span<const Box3f> children) {
+  Box3f all;
+  for (const Box3f& child : children) all.add(child);
+  const Vec3f centre = all.centre();
+  std::array<Vec3f, kWideChildCount> offsets;
+  std::array<float, kWideChildCount> distances;
+  distances.fill(kNone);
+  for (size_t child = 0; child < children.size(); ++child) {
+    const Vec3f& offset = offsets[child] = children[child].centre() - centre;
+    distances[child] = std::abs(offset.x) + std::abs(offset.y) + std::abs(offset.z);
+  }
+  const Float4 xSigns = {-1, 1, -1, 1}, ySigns = {-1, -1, 1, 1};
+  std::array<uint32_t, kWideChildCount> slots{};
+  std::array<float, kWideChildCount> penalties{};  // kNone for assigned slots.
+  for (size_t i = 0; i < children.size(); ++i) {
+    const uint32_t child = indexOfMax(load<Float4>(&distances[0]), load<Float4>(&distances[4]));
+    distances[child] = kNone;
+    const auto [x, y, z] = offsets[child];
+    const Float4 along = x * xSigns + y * ySigns;
+    slots[child] = indexOfMax(along - z + load<Float4>(&penalties[0]), along + z + load<Float4>(&penalties[4]));
+    penalties[slots[child]] = kNone;
+  }
+  return slots;
+}
+
+DeviceWideNode quantizeBoxes(std::span<const Box3f> children, const std::array<uint32_t, kWideChildCount>& slots) {
+  Box3f all;
+  for (const Box3f& child : children) all.add(child);
+  const Vec3f origin = all.min - Vec3f{kWideBoxMargin, kWideBoxMargin, kWideBoxMargin};
+  DeviceWideNode node{};
+  node.origin = {origin.x, origin.y, origin.z};
+  uint64_t emptySlots = ~uint64_t{0};
+  for (size_t i = 0; i < children.size(); ++i) emptySlots &= ~(uint64_t{kMaxByte} << 8 * slots[i]);
+  for (size_t axis = 0; axis < 3; ++axis) {
+    const double start = origin[axis], margin = kWideBoxMargin;
+    const int e = exponentFor(static_cast<double>(all.max[axis]) + margin - start);
+    node.exponents |= static_cast<uint32_t>(e + kExponentBias) << 8 * axis;
+    const double perUnit = powerOfTwo(-e);
+    uint64_t lowers = emptySlots, uppers = 0;  // an empty slot's box has its lower corner above its upper one
+    for (size_t i = 0; i < children.size(); ++i) {
+      const double lower = static_cast<double>(children[i].min[axis]) - margin - start;
+      const double upper = static_cast<double>(children[i].max[axis]) + margin - start;
+      const uint32_t upperByte = ceilOf(upper * perUnit);
+      ASDFVK_CHECK_OP(upperByte, <=, kMaxByte);
+      lowers |= uint64_t{floorOf(std::max(0.0, lower * perUnit))} << 8 * slots[i];
+      uppers |= uint64_t{upperByte} << 8 * slots[i];
+    }
+    uvec4& planes = axis == 0 ? node.x : axis == 1 ? node.y : node.z;
+    planes = {{static_cast<uint32_t>(lowers), static_cast<uint32_t>(lowers >> 32), static_cast<uint32_t>(uppers),
+               static_cast<uint32_t>(uppers >> 32)}};
+  }
+  return node;
+}
 
 WideBvh encodeWideBvh(const Bvh& bvh) {
   const bool hasLargeLeaves = std::any_of(bvh.nodes.begin(), bvh.nodes.end(), [](const BvhNode& node) {

@@ -1,19 +1,101 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <span>
 
 #include "bvh/bvh.h"
+#include "core/box3.h"
 #include "core/unset_vector.h"
 #include "shared/bvh_layout.h"
 
 namespace asdfvk {
 
-/// The wide nodes of shared/bvh_layout.h, children behind their parents: those of a node, then all below the first,
-/// then all below the second, and so on.
+/// Cost of a wide node in the surface-area heuristic, in triangle tests.
+inline constexpr float kWideNodeCost = 2.0f;
+
+/// A child of a wide node: a node of the binary hierarchy that becomes a wide node or, with all nodes below it, a leaf.
+struct WideChild {
+  uint32_t node = 0;
+  bool isLeaf = false;
+};
+
+/// The children of one wide node, from left to right in the binary hierarchy.
+struct WideChildren {
+  std::array<WideChild, kWideChildCount> items;
+  uint32_t count = 0;
+  void add(const WideChild& child) { items[count++] = child; }
+  [[nodiscard]] std::span<const WideChild> all() const { return std::span(items).first(count); }
+};
+
+/// Selects the nodes of a binary hierarchy that become nodes and leaves of one with up to eight children per node. The
+/// expected cost of a ray by the surface-area heuristic is minimal (Ylitie, Karras and Laine 2017, section 3.1).
+class WideCollapse {
+ public:
+  /// nodes: as in Bvh, at least one, leaves of at most kMaxWideLeafTriangleCount triangles; must outlive this object.
+  /// Parallel, with the same result for any thread count.
+  explicit WideCollapse(std::span<const BvhNode> nodes);
+
+  /// Children of the wide node that a binary node becomes. A root that is a leaf becomes a wide node with itself as the
+  /// only child.
+  [[nodiscard]] WideChildren childrenOf(uint32_t node) const;
+  /// Consecutive slots of the triangles below a binary node.
+  struct SlotRange {
+    uint32_t first = 0, count = 0;
+  };
+  [[nodiscard]] SlotRange slotsOf(uint32_t node) const {
+    return nodes_[node].isLeaf() ? SlotRange{nodes_[node].first, nodes_[node].triangleCount} : choices_[node].slots;
+  }
+  /// Number of wide nodes below the wide node that a binary node becomes.
+  [[nodiscard]] uint32_t nodeCountBelow(uint32_t node) const {
+    return nodes_[node].isLeaf() ? 0 : choices_[node].nodeCountBelow;
+  }
+
+ private:
+  // Cheapest ways to make a subtree of the binary hierarchy at most i children of a wide node above it, i = 1 to 7.
+  // Entry [i - 1]: cost and number of wide nodes.
+  struct Forests {
+    std::array<float, kWideChildCount> costs;
+    std::array<uint32_t, kWideChildCount> nodeCounts;
+  };
+  // Choices at an inner node of the binary hierarchy.
+  struct Choice {
+    // Nibble i - 1, i = 2 to 8: how many of i children come from the left child; 0 where i - 1 children are as cheap.
+    // Lowest nibble: 1 where the node as a single child is a leaf.
+    uint32_t leftCounts;
+    uint32_t nodeCountBelow;
+    SlotRange slots;
+    [[nodiscard]] uint32_t leftCount(uint32_t childCount) const { return leftCounts >> 4 * (childCount - 1) & 15; }
+  };
+
+  void chooseFrom(uint32_t node, uint32_t level, Forests& forests);
+  void choose(uint32_t node, const Forests& left, const Forests& right, Forests& forests);
+  void addRoots(uint32_t node, uint32_t rootCount, WideChildren& children) const;
+
+  std::span<const BvhNode> nodes_;
+  UnsetVector<Choice> choices_;  // Per binary node; unset for leaves.
+};
+
+/// Margin of the boxes of a wide hierarchy on a device, in normalised units. Besides the error of the triangle test
+/// (kDeviceBoxMargin) it covers the error of decoding a box in float32, up to 6 units of 2^-24, and three roundings of
+/// the distance to a plane, each equivalent to a shift of the plane by 2^-24 of a distance up to 3.5
+/// (shaders/wide_walk.glsl).
+inline constexpr float kWideBoxMargin = 0x1p-18f;
+
+/// A different slot s for each of at most eight children. A ray whose direction has the sign bits q should hit the
+/// children in ascending order of s ^ q. Greedy (Ylitie et al. 2017, section 3.2, use an auction).
+[[nodiscard]] std::array<uint32_t, kWideChildCount> chooseSlots(std::span<const Box3f> children);
+
+/// A node with the boxes of `children` in `slots`, rounded outwards and with the margin; its references are not set.
+[[nodiscard]] DeviceWideNode quantizeBoxes(std::span<const Box3f> children,
+                                           const std::array<uint32_t, kWideChildCount>& slots);
+
+/// Wide nodes in the layout of shared/bvh_layout.h. After a node follow its children, then all nodes below the first
+/// child, then all below the second, and so on.
 struct WideBvh {
   UnsetVector<DeviceWideNode> nodes;
-  UnsetVector<uint32_t> slotFaces;  ///< As in Bvh; a subtree has the same range of slots as there.
-  uint32_t depth = 0;               ///< Levels below the root: a walk needs a stack of so many entries.
+  UnsetVector<uint32_t> slotFaces;  ///< As in Bvh; the range of slots of a subtree is the same.
+  uint32_t depth = 0;               ///< Levels below the root; the size of a traversal stack.
 };
 
 /// Collapses `bvh`, which has at least one node, by WideCollapse. Leaves of more than kMaxWideLeafTriangleCount are

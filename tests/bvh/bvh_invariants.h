@@ -30,7 +30,7 @@ inline bool holdsBox(const BvhNode& outer, const BvhNode& inner) {
   return holds(outer, Vec3d(inner.min)) && holds(outer, Vec3d(inner.max));
 }
 
-/// Checks all that a hierarchy promises, over exactly the faces `expectedFaces` (ascending).
+/// Checks all invariants of a hierarchy over exactly the faces `expectedFaces` (ascending).
 inline void checkInvariants(const Bvh& bvh, const Mesh& mesh, const std::vector<uint32_t>& expectedFaces,
                             const BvhOptions& options = {}) {
   std::vector<uint32_t> faces = bvh.slotFaces;

@@ -30,7 +30,7 @@ float asFloat(uint32_t bits) {
 
 Vec3f pointOf(const Texel& texel) { return {asFloat(texel[0]), asFloat(texel[1]), asFloat(texel[2])}; }
 
-// One child as the shader finds it: two texels of its parent.
+// One child as the shader decodes it, from two texels of its parent.
 struct Child {
   Vec3f min, max;
   uint32_t first = 0, count = 0;
@@ -53,7 +53,7 @@ Vec3d normalOf(float u, float v) {
   return n / length(n);
 }
 
-// Walks both trees side by side and counts the device nodes met.
+// Traverses both trees together and counts the visited device nodes.
 size_t countEqualNodes(const Bvh& bvh, uint32_t index, const std::vector<Texel>& texels, uint32_t deviceIndex) {
   size_t count = 1;
   for (uint32_t side = 0; side < 2; ++side) {
@@ -115,7 +115,7 @@ TEST_CASE("a root that is a leaf becomes a node with a box far away on its right
     CHECK(left.first == 0);
     CHECK(left.count == count);
     for (size_t axis = 0; axis < 3; ++axis) CHECK(right.min[axis] > 1000);
-    CHECK(right.count == count);  // A leaf all the same: whoever enters it must not take it for the root.
+    CHECK(right.count == count);  // It is a leaf too: a reference to an inner node 0 would be a cycle.
     CHECK(right.first == 0);
     checkTriangles(bvh, mesh, texelsOf(device.triangles));
   }

@@ -1,3 +1,5 @@
+#include "bvh/wide_bvh.h"
+
 #include <doctest/doctest.h>
 #include <tbb/global_control.h>
 
@@ -7,8 +9,6 @@
 #include <numeric>
 
 #include "bvh/device_bvh.h"
-#include "bvh/wide_collapse.h"
-#include "bvh/wide_node.h"
 #include "bvh_invariants.h"
 #include "bvh_meshes.h"
 
@@ -97,7 +97,7 @@ void checkWide(const Mesh& mesh, const BvhOptions& options = {}) {
 
 float halfArea(const BvhNode& node) { return Box3f{node.min, node.max}.halfArea(); }
 
-// The least cost of a subtree as at most `rootCount` children, by trying everything. Costs as in wide_collapse.cpp.
+// The least cost of a subtree as at most `rootCount` children, by exhaustive search. Costs as in WideCollapse.
 double leastCost(std::span<const BvhNode> nodes, uint32_t node, uint32_t rootCount) {
   const auto slotCount = [&](auto&& self, uint32_t n) -> uint32_t {
     return nodes[n].isLeaf() ? nodes[n].triangleCount : self(self, nodes[n].first) + self(self, nodes[n].first + 1);

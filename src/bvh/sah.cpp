@@ -1,4 +1,4 @@
-#include "bvh/binned_sah.h"
+#include "bvh/sah.h"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@ namespace asdfvk {
 namespace {
 
 constexpr uint32_t kMaxBinCount = 32;
-// Of so many triangles, evenly taken, bins tell nearly as well where to split as of all of them.
+// Size of the sample, taken at a constant stride. Its best split is nearly as good as that of all triangles.
 constexpr size_t kSampleCount = 1024;
 
 struct Bin {
@@ -17,14 +17,14 @@ struct Bin {
   uint32_t count;
 };
 
-// Maps doubled centres to bins, per axis; an axis on which the centres coincide (or nearly, so that a float's range
-// does not hold the factor) has factor 0 and cannot be split.
+// Maps doubled centres to bins, per axis. An axis has factor 0 and cannot be split where the centres coincide, or are
+// so close that the factor overflows.
 struct Binning {
   Float4 origin, factor{};
   uint32_t binCount = 0;
 
   Binning(const SplitBox& centres, uint32_t count) : origin(centres.lower), binCount(count) {
-    // A little less than the bins, so that rounding takes no centre beyond the last of them.
+    // Slightly less than the bin count, so that rounding moves no centre beyond the last bin.
     const float width = static_cast<float>(count) * (1 - 0x1p-20f);
     const Float4 extents = centres.extents();
     for (size_t axis = 0; axis < 3; ++axis)
@@ -33,14 +33,16 @@ struct Binning {
   [[nodiscard]] IntsOf<Float4> binsOf(const SplitBox& box) const {
     return __builtin_convertvector((box.doubledCentre() - origin) * factor, IntsOf<Float4>);
   }
-  // Between the number of its bin and the next one; outside of all bins for what was not among the centres.
+  // Position in units of bins; the integer part is the index of the bin. May be out of range for triangles that are not
+  // in the sample.
   [[nodiscard]] float place(const SplitBox& box, size_t axis) const {
     return (box.doubledCentre(axis) - origin[axis]) * factor[axis];
   }
 };
 
 struct Candidate {
-  float cost = std::numeric_limits<float>::infinity();  // Area times triangles, not yet over the parent's area.
+  float cost =
+      std::numeric_limits<float>::infinity();  // Half area times triangle count; not divided by the parent's area.
   size_t axis = 0;
   uint32_t firstRightBin = 0;
 };
@@ -75,7 +77,7 @@ SplitBox boundCentres(std::span<const SplitTriangle> triangles, size_t stride) {
   return centres;
 }
 
-// Whether a triangle goes left is hard to foresee, so nothing branches on it.
+// Branch-free: the condition is unpredictable.
 template <typename IsLeft>
 size_t partitionTriangles(std::span<SplitTriangle> triangles, const IsLeft& isLeft) {
   size_t leftCount = 0;
@@ -93,7 +95,7 @@ size_t partitionTriangles(std::span<SplitTriangle> triangles, const IsLeft& isLe
 
 size_t splitBySah(std::span<SplitTriangle> triangles, uint32_t binCount) {
   const size_t stride = std::max<size_t>(1, triangles.size() / kSampleCount);
-  // Few triangles do not pay for many bins (Wald 2007 and Embree do likewise).
+  // Fewer bins for few triangles, as in Wald 2007 and Embree.
   const auto adaptedCount = static_cast<uint32_t>(std::min<size_t>(binCount, 4 + triangles.size() / 4));
   const Binning binning(boundCentres(triangles, stride), std::clamp(adaptedCount, 2u, kMaxBinCount));
   std::array<std::array<Bin, kMaxBinCount>, 3> bins;

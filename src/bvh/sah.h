@@ -4,13 +4,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <span>
 
 #include "bvh/bvh.h"
 #include "core/simd.h"
 
 namespace asdfvk {
 
-/// A box while the hierarchy is built: the upper bounds are held negated, so that growing it is two minimums.
+/// A box during the build. Upper bounds are stored negated, so that growing the box takes two minimums.
 struct SplitBox {
   Float4 lower, negatedUpper;
 
@@ -23,7 +24,7 @@ struct SplitBox {
     negatedUpper = min(other.negatedUpper, negatedUpper);
   }
   [[nodiscard]] Float4 extents() const { return -(negatedUpper + lower); }
-  /// Twice the centre, so that nothing is rounded more than once.
+  /// Twice the centre, with a single rounding.
   [[nodiscard]] Float4 doubledCentre() const { return lower - negatedUpper; }
   [[nodiscard]] float doubledCentre(size_t axis) const { return lower[axis] - negatedUpper[axis]; }
   [[nodiscard]] float halfArea() const {
@@ -36,7 +37,7 @@ struct SplitBox {
   }
 };
 
-/// A triangle while the hierarchy is built: its box, and in the lower corner's spare lane its face. 32 bytes.
+/// A triangle during the build, 32 bytes: its box, and its face in the unused lane of the lower corner.
 struct SplitTriangle {
   SplitBox box;
 
@@ -45,5 +46,14 @@ struct SplitTriangle {
   [[nodiscard]] uint32_t face() const { return std::bit_cast<uint32_t>(float{box.lower[3]}); }
 };
 static_assert(sizeof(SplitTriangle) == 32);
+
+/// Splits by the binned surface-area heuristic (Wald 2007), evaluated over a sample where there are many triangles.
+/// Reorders `triangles` and returns the number of triangles on the left, at least one and less than all. Returns 0
+/// without reordering where all centres of the sample coincide. binCount: per axis, 2 to 32.
+[[nodiscard]] size_t splitBySah(std::span<SplitTriangle> triangles, uint32_t binCount);
+
+/// Splits at the median of the centres on their widest axis; in the middle of the order where all centres coincide.
+/// Precondition: at least two triangles.
+[[nodiscard]] size_t splitAtMedian(std::span<SplitTriangle> triangles);
 
 }  // namespace asdfvk
