@@ -4,14 +4,16 @@
 #include <cstdint>
 #include <optional>
 
+#include "bvh/device_bvh.h"
+#include "cone/cone.h"
+#include "shared/cone_layout.h"
 #include "trace/vulkan/vulkan_trace_choice.h"
-#include "trace/vulkan/vulkan_workgroup_shape.h"
 #include "vk/compute_pipeline.h"
 #include "vk/device.h"
 
 namespace asdfvk {
 
-/// What a kernel is compiled for.
+/// Parameters for which a kernel is compiled.
 struct ConeKernelRequest {
   uint32_t rayCount;
   bool writesHits = false;
@@ -23,14 +25,15 @@ struct ConeKernelRequest {
 class VulkanConeKernel {
  public:
   VulkanConeKernel(const Device& device, const ConeKernelRequest& request);
-  /// For tests that want another shape than the device's own.
+  /// With a given shape instead of that of the device; for tests.
   VulkanConeKernel(const Device& device, const ConeKernelRequest& request, const VulkanWorkgroupShape& shape);
 
   [[nodiscard]] const Device& device() const { return device_; }
   [[nodiscard]] const VulkanTraceChoice& choice() const { return choice_; }
   /// Binds nodes and triangles (texels, then storage), rays, origins, results or lengths, hits.
   [[nodiscard]] const ComputePipeline& pipeline() const { return pipeline_; }
-  /// Of a kernel that leaves lengths, one per ray and cone: what makes results of them. Binds rays, lengths, results.
+  /// Computes results from lengths; null unless pipeline() writes lengths, one per ray and cone. Binds rays, lengths,
+  /// results.
   [[nodiscard]] const ComputePipeline* reduction() const { return reduction_ ? &*reduction_ : nullptr; }
   [[nodiscard]] uint32_t rayCount() const { return request_.rayCount; }
   [[nodiscard]] bool writesHits() const { return request_.writesHits; }
@@ -45,5 +48,32 @@ class VulkanConeKernel {
   ComputePipeline pipeline_;
   std::optional<ComputePipeline> reduction_;
 };
+
+/// Largest number of cones of one dispatch: each buffer stays within the limits of the device and at most 32 MiB.
+[[nodiscard]] uint64_t largestConeChunk(const VulkanConeKernel& kernel);
+
+/// All buffers that a kernel binds: a scene and a cone on its device, and memory for one chunk of cones.
+struct ConeBuffers {
+  /// Throws Error{DeviceLimit} when the scene exceeds the limits of the device.
+  ConeBuffers(const VulkanConeKernel& kernel, const DeviceBvh& bvh, const Cone& cone);
+
+  Buffer nodes, triangles, rays;
+  Buffer origins;  ///< Mapped: a ConeOrigin per cone.
+  Buffer lengths;  ///< Bits of a float per ray and cone, if there is a reduction.
+  Buffer results;  ///< Mapped: a uint32_t per cone, see shared/cone_layout.h.
+  Buffer hits;     ///< Mapped: a ConeHit per cone and ray, if the kernel writes them.
+
+ private:
+  Buffer nothing_;  // Bound in place of the hierarchy by the BvhFetch that is not selected.
+  TexelView nodeTexels_, triangleTexels_, rayTexels_, originTexels_;
+
+ public:
+  BindingSet bindings;
+  std::optional<BindingSet> reductionBindings;
+};
+
+[[nodiscard]] inline glsl::vec3 toGlsl(const Vec3d& v) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+}
 
 }  // namespace asdfvk

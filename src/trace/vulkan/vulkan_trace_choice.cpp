@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "asdf_vk/error.h"
 
 namespace asdfvk {
@@ -36,6 +38,16 @@ std::string nameIn(VariantNames<T> names, T value) {
   return {};
 }
 
+// One ray per lane.
+VulkanWorkgroupShape seedShape(const DeviceFacts& device) {
+  VulkanWorkgroupShape shape{1, std::min({64u, device.maxWorkgroupInvocations, device.maxWorkgroupSize})};
+  if (device.kind == DeviceKind::Cpu)
+    shape.iterationLimit = kCpuDeviceLoopIterationCount / std::max(1u, device.subgroupSize);
+  return shape;
+}
+
+uint32_t roundUp(uint32_t value, uint32_t multiple) { return (value + multiple - 1) / multiple * multiple; }
+
 }  // namespace
 
 VulkanTraceChoice defaultTraceChoice(const DeviceFacts& device) {
@@ -60,6 +72,26 @@ VulkanTraceRequest traceRequestOf(const TraceVariant& variant) {
 
 TraceVariant variantOf(const VulkanTraceChoice& choice) {
   return {nameIn(kernelNames(), choice.kernel), nameIn(bvhNames(), choice.bvh), nameIn(fetchNames(), choice.fetch)};
+}
+
+VulkanWorkgroupShape workgroupShapeFor(const DeviceFacts& device, uint32_t rayCount, TraceKernel kernel) {
+  if (kernel == TraceKernel::Seed) return seedShape(device);
+  VulkanWorkgroupShape shape;
+  const uint32_t widest = std::min({256u, device.maxWorkgroupInvocations, device.maxWorkgroupSize});
+  if (device.kind != DeviceKind::Cpu) {
+    shape.lanesPerCone = std::min(widest, roundUp(rayCount, std::clamp(device.subgroupSize, 8u, 32u)));
+    shape.conesPerWorkgroup = std::max(1u, std::min(128u, device.maxWorkgroupInvocations) / shape.lanesPerCone);
+    return shape;
+  }
+  shape.lanesPerCone = std::min(widest, roundUp(rayCount, 8));
+  // Iterations of the reduction: three loops over all rays, and one over all rays for each ray of the lane.
+  const uint32_t raysPerLane = (rayCount + shape.lanesPerCone - 1) / shape.lanesPerCone;
+  const uint32_t reductionCount = rayCount * (3 + raysPerLane) + 2 * raysPerLane + 64;
+  // The limit counts the lanes of a subgroup together. Lanes of a packet run every loop together; those of other
+  // kernels may run different iterations.
+  const uint32_t sharingCount = kernel == TraceKernel::Packet ? 1 : std::max(1u, device.subgroupSize);
+  shape.iterationLimit = (kCpuDeviceLoopIterationCount - reductionCount) / sharingCount;
+  return shape;
 }
 
 }  // namespace asdfvk

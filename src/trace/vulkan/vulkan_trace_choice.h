@@ -14,15 +14,15 @@ namespace asdfvk {
 
 /// Assignment of rays to the lanes of a device.
 enum class TraceKernel {
-  Packet,  ///< shaders/trace_packet.comp: as Ray, but the lanes of a subgroup share a stack and a node.
-  Ray,     ///< shaders/trace_cone.comp: a workgroup per cone or few, each lane walks its own ray.
-  Seed,    ///< shaders/trace_seed.comp: neighbouring lanes walk one ray of neighbouring seeds.
+  Packet,  ///< shaders/trace_packet.comp: as Ray, but the lanes of a subgroup traverse the hierarchy together.
+  Ray,     ///< shaders/trace_cone.comp: a workgroup per cone or a few cones; each lane traces its own rays.
+  Seed,    ///< shaders/trace_seed.comp: neighbouring lanes trace the same ray of neighbouring seeds.
 };
 
 /// How kernels read the hierarchy.
 enum class BvhFetch {
   Storage,  ///< Storage buffers.
-  Texel,    ///< Storage texel buffers: far quicker on llvmpipe, and not bound to a storage buffer's range.
+  Texel,    ///< Storage texel buffers: much faster on llvmpipe, and not limited to the range of a storage buffer.
 };
 
 /// Variant of the kernels; all variants compute the same values.
@@ -57,5 +57,17 @@ using VariantNames = std::span<const std::pair<const char*, T>>;
 /// By names; an empty name and "auto" leave a member unset. Throws Error{UnknownName}.
 [[nodiscard]] VulkanTraceRequest traceRequestOf(const TraceVariant& variant);
 [[nodiscard]] TraceVariant variantOf(const VulkanTraceChoice& choice);
+
+/// Workgroups of the cone kernel.
+struct VulkanWorkgroupShape {
+  /// Ray, Packet: each lane traces rayCount / lanesPerCone rays, rounded up. Seed: number of rays of a cone in
+  /// neighbouring lanes.
+  uint32_t lanesPerCone = 32;
+  uint32_t conesPerWorkgroup = 1;
+  uint32_t iterationLimit = 60'000;  ///< Per lane; cones that exceed it are traced by the reference.
+};
+
+[[nodiscard]] VulkanWorkgroupShape workgroupShapeFor(const DeviceFacts& device, uint32_t rayCount,
+                                                     TraceKernel kernel = TraceKernel::Ray);
 
 }  // namespace asdfvk

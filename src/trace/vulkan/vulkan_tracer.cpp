@@ -11,7 +11,7 @@
 #include "trace/chunks.h"
 #include "trace/reference_tracer.h"
 #include "trace/seed_order.h"
-#include "trace/vulkan/vulkan_cone_buffers.h"
+#include "trace/vulkan/vulkan_cone_kernel.h"
 #include "vk/command_list.h"
 
 namespace asdfvk {
@@ -111,7 +111,7 @@ class VulkanTracer final : public ConeTracer {
     if (!results.hits.empty()) copyHits(order, buffers_.hits.mappedAs<ConeHit>(), results.hits);
   }
 
-  /// From the cones in `order` to where they belong.
+  /// Copies the hits of each cone to its position in `order`.
   void copyHits(std::span<const uint32_t> order, std::span<const ConeHit> from, std::span<ConeHit> to) const {
     const size_t rayCount = kernel_.rayCount();
     tbb::parallel_for(size_t{0}, order.size(), [&](size_t i) {
@@ -124,7 +124,7 @@ class VulkanTracer final : public ConeTracer {
             const RunControl& control) const {
     const std::unique_ptr<ConeTracer> reference = makeReferenceTracer(scene_, cone_);
     const size_t hitCount = results.hits.empty() ? 0 : kernel_.rayCount();  // per cone
-    const size_t blockSize = largestConeChunk(kernel_);                     // so that hits are not all there twice
+    const size_t blockSize = largestConeChunk(kernel_);                     // bounds the copies of hits
     const auto total = static_cast<double>(redone.size());
     for (size_t begin = 0; begin < redone.size(); begin += blockSize) {
       const std::span<const uint32_t> block =

@@ -7,10 +7,10 @@
 
 namespace asdfvk {
 
-/// Uploads the scene and traces on the kernel's device, in float32. Cones that the kernel gives up on, and those too
-/// small for float32, are traced by the reference. The kernel, the scene and the cone must outlive the tracer; the cone
-/// has the kernel's ray count. Hits may be asked for when the kernel writes them. Throws Error{Device} when the scene
-/// exceeds the device's limits.
+/// Uploads the scene and traces on the kernel's device, in float32. The reference traces cones that exceed the
+/// iteration limit of the kernel or are too small for float32. The kernel, the scene and the cone must outlive the
+/// tracer; the cone has the ray count of the kernel. Hits may be requested if the kernel writes them. Throws
+/// Error{DeviceLimit} when the scene exceeds the limits of the device.
 [[nodiscard]] std::unique_ptr<ConeTracer> makeVulkanTracer(const VulkanConeKernel& kernel, const TraceScene& scene,
                                                            const Cone& cone);
 
