@@ -1,14 +1,14 @@
-// Walks the binary hierarchy of shared/bvh_layout.h for the nearest hit of one ray.
+// Nearest hit of one ray in the binary hierarchy of shared/bvh_layout.h.
 DeviceBvhNode loadNode(uint index) {
   const uint t = index * kBvhNodeTexelCount;
   return decodeBvhNode(fetchNode(t), fetchNode(t + 1u), fetchNode(t + 2u), fetchNode(t + 3u));
 }
 
-// Boxes are left three roundings later than computed (Ize 2013).
+// Moves the exit of a box outwards by three roundings (Ize 2013).
 const float kExitMargin = 1.0 + 6.0 * 5.9604645e-8;
 
-// Where the ray enters the box, or kFarAway when it misses it or enters beyond `limit`. The exit is moved outwards by
-// three roundings (Ize 2013); what the triangle test itself is off by, the boxes have grown by (kDeviceBoxMargin).
+// Distance at which the ray enters the box; kFarAway where it misses the box or enters beyond `limit`. The margin of
+// the boxes covers the error of the triangle test (kDeviceBoxMargin).
 float enterBox(vec3 boxMin, vec3 boxMax, vec3 origin, vec3 inverseDirection, float limit) {
   const vec3 t0 = (boxMin - origin) * inverseDirection;
   const vec3 t1 = (boxMax - origin) * inverseDirection;

@@ -1,5 +1,5 @@
-// How the hierarchy's texels are fetched: bindings 0 to 3 of every kernel that walks it. Only the images or only the
-// buffers hold it; texels are far quicker on llvmpipe.
+// Access to the texels of the hierarchy: bindings 0 to 3 of every kernel that traverses it. Either the images or the
+// buffers hold it; images are much faster on llvmpipe.
 #include "shared/bvh_layout.h"
 
 layout(constant_id = 5) const bool kFetchesTexels = true;

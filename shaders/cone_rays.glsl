@@ -1,4 +1,4 @@
-// Where the rays of the cones start and how they end, for every kernel that traces them. Needs `push`.
+// Origins, directions, lengths and hits of the rays of cones, for every kernel that traces them. Needs `push`.
 #include "shared/cone_hit.h"
 #include "shared/cone_layout.h"
 #include "shared/cone_rules.h"
@@ -18,7 +18,8 @@ ConeOrigin loadOrigin(uint cone) {
 
 #include "nearest_hit.glsl"
 
-// The length of a ray, kDropped when it hits nothing or a face that looks along the seed's normal (minus the axis).
+// The length of a ray; kDropped where it hits nothing, or a face whose normal is too close to that of the seed (minus
+// the axis).
 float validLength(Hit hit, vec3 axis) {
   if (hit.slot == kNoSlot) return kDropped;
   const DeviceTriangle triangle = loadTriangle(hit.slot);

@@ -1,5 +1,6 @@
-// Walks either hierarchy for the nearest hits of all rays of a subgroup together: they share the stack and the node,
-// which is entered when one of them enters it, nearest first for the first of them. Every loop runs alike in all lanes.
+// Nearest hits of all rays of a subgroup, in either hierarchy. The lanes share the stack and the node: a node is
+// entered if a ray of any lane enters it, in the order of distance of the first lane. All loops are uniform over the
+// subgroup.
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #extension GL_KHR_shader_subgroup_ballot : require
 

@@ -21,8 +21,8 @@ vec3 toRayFrame(RayFrame frame, vec3 v) {
   return p;
 }
 
-// The distance along the ray to the triangle a, b, c (relative to the origin of the ray), or a negative number. Both
-// sides and the rim of the triangle are hit.
+// The distance along the ray to the triangle a, b, c (relative to the origin of the ray), or a negative number. Rays
+// hit both sides and the edges of the triangle.
 float intersectTriangle(RayFrame frame, vec3 v0, vec3 v1, vec3 v2) {
   const vec3 a = toRayFrame(frame, v0);
   const vec3 b = toRayFrame(frame, v1);

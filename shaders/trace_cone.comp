@@ -1,5 +1,5 @@
 #version 450
-// Lane = ray: each lane of a cone walks the hierarchy on its own.
+// A ray per lane: each lane traverses the hierarchy independently.
 #extension GL_GOOGLE_include_directive : require
 #define FIND_NEAREST_HIT findNearestHit
 #include "cone_lanes.glsl"

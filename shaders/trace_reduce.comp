@@ -23,7 +23,7 @@ uint countBelow(uint bits) {
   return count;
 }
 
-// The largest bits that at most `rank` lengths are below: the bits of the length of that rank.
+// Bits of the length of a rank: the largest bits such that at most `rank` lengths are below.
 uint findRank(uint rank) {
   uint bits = 0u;
   for (uint bit = 0x40000000u; bit != 0u; bit >>= 1)

@@ -1,4 +1,4 @@
-// What the walks through both hierarchies share. Needs the constants kFarAway and kIterationLimit.
+// Common parts of the traversals of both hierarchies. Needs the constants kFarAway and kIterationLimit.
 #include "bvh_fetch.glsl"
 #include "ray_frame.glsl"
 
@@ -6,8 +6,8 @@ const uint kNoSlot = 0xffffffffu;
 
 struct Hit {
   float distance;
-  uint slot;        // kNoSlot: nothing was hit.
-  bool isComplete;  // False: the iteration guard ended the walk.
+  uint slot;        // kNoSlot: no hit.
+  bool isComplete;  // False: the iteration limit ended the traversal.
 };
 
 vec3 invert(vec3 direction) {
@@ -19,7 +19,7 @@ float distanceTo(DeviceTriangle triangle, RayFrame frame, vec3 origin) {
   return intersectTriangle(frame, triangle.v0 - origin, triangle.v1 - origin, triangle.v2 - origin);
 }
 
-// Keeps `hit` or the triangle in `slot`, at `distance`, negative where there is none.
+// Replaces `hit` by the triangle in `slot` if that is nearer. distance: negative where the ray misses the triangle.
 void keepNearest(float distance, uint slot, uint faceIndex, uint excludedFace, inout Hit hit) {
   if (distance >= 0.0 && distance < hit.distance && faceIndex != excludedFace) {
     hit.distance = distance;
@@ -32,7 +32,7 @@ void testTriangle(RayFrame frame, vec3 origin, uint slot, uint excludedFace, ino
   keepNearest(distanceTo(triangle, frame, origin), slot, triangle.faceIndex, excludedFace, hit);
 }
 
-// Two, or twice the same.
+// slot0 and slot1 may be equal.
 void testTriangles(RayFrame frame, vec3 origin, uint slot0, uint slot1, uint excludedFace, inout Hit hit) {
   const DeviceTriangle triangle0 = loadTriangle(slot0), triangle1 = loadTriangle(slot1);
   const float distance0 = distanceTo(triangle0, frame, origin), distance1 = distanceTo(triangle1, frame, origin);

@@ -1,4 +1,4 @@
-// Walks the wide hierarchy of shared/bvh_layout.h for the nearest hit of one ray (Ylitie, Karras and Laine 2017).
+// Nearest hit of one ray in the wide hierarchy of shared/bvh_layout.h (Ylitie, Karras and Laine 2017).
 #extension GL_KHR_shader_subgroup_vote : require
 
 DeviceWideNode loadWideNode(uint index) {
@@ -6,18 +6,18 @@ DeviceWideNode loadWideNode(uint index) {
   return decodeWideNode(fetchNode(t), fetchNode(t + 1u), fetchNode(t + 2u), fetchNode(t + 3u), fetchNode(t + 4u));
 }
 
-// The distances to the planes of four boxes on one axis. The bytes are converted where they are: signed conversions are
-// the quick ones.
+// Distances to the planes of four boxes on one axis. Bytes 0 to 2 are converted without a shift and scaled afterwards.
+// Signed conversions are faster than unsigned ones.
 vec4 distancesTo(uint bytes, float perByte, float start) {
   const vec4 planes = vec4(int(bytes & 0xffu), int(bytes & 0xff00u), int(bytes & 0xff0000u), int(bytes >> 24));
   return planes * (perByte * vec4(1.0, 1.0 / 256.0, 1.0 / 65536.0, 1.0)) + start;
 }
 
-// A nibble of ones for each of the four boxes that the ray enters before `limit`. Distances are compared by their bits,
-// which order those that are not negative. Of a box altogether before the ray's origin, where it would be left is one
-// of the nearest planes by bits and where it would be entered one of the farthest, so it is not entered. (Of floats
-// llvmpipe takes three instructions for each minimum, on behalf of NaNs that do not come here.) Needs no margin for
-// rounding: kWideBoxMargin has it.
+// A nibble of ones for each of the four boxes that the ray enters before `limit`. Distances are compared by their bits
+// as integers, which is the order of floats that are not negative, and the reverse order of negative ones. All
+// distances of a box behind the origin are negative: by bits its exit is below its entry, so it is not entered. On
+// llvmpipe a minimum of floats takes three instructions, because of NaNs, which do not occur here. kWideBoxMargin
+// includes the margin for rounding.
 uint enterBoxes(uvec3 near, uvec3 far, vec3 perByte, vec3 start, float limit) {
   const vec4 nearX = distancesTo(near.x, perByte.x, start.x), farX = distancesTo(far.x, perByte.x, start.x);
   const vec4 nearY = distancesTo(near.y, perByte.y, start.y), farY = distancesTo(far.y, perByte.y, start.y);
@@ -40,7 +40,7 @@ uint permuteNibbles(uint bits, bvec3 isNegative) {
 // The exponent of a power of two below 2^31.
 uint exponentOf(uint power) { return (floatBitsToUint(float(int(power))) >> 23) - 127u; }
 
-// What the walk needs of a ray.
+// A ray prepared for the traversal.
 struct WideRay {
   vec3 origin, inverseDirection;
   bvec3 isNegative;  // Of the direction.
@@ -50,7 +50,7 @@ WideRay makeWideRay(vec3 origin, vec3 direction) {
   return WideRay(origin, invert(direction), lessThan(direction, vec3(0.0)));
 }
 
-// A nibble for each child that the ray enters before `limit`: the child's nibble of childBits.
+// The nibbles of childBits of the children that the ray enters before `limit`; the other nibbles are 0.
 uint enterChildren(DeviceWideNode node, WideRay ray, float limit) {
   const uvec3 exponents = uvec3(node.exponents << 23, node.exponents << 15, node.exponents << 7) & 0x7f800000u;
   const vec3 perByte = uintBitsToFloat(exponents) * ray.inverseDirection;
@@ -63,9 +63,9 @@ uint enterChildren(DeviceWideNode node, WideRay ray, float limit) {
          node.childBits;
 }
 
-// The children of one node that the ray has still to enter: `base` is the node's childBase; `bits` has bit 4 p + 3 for
-// each of them, p = its slot ^ the ray's octant, so that the lowest comes first, and bit 4 s + 2 for each slot s of the
-// node with an inner child. bits is 0 when there are none.
+// Inner children of one node that are still to be entered. `base` is the childBase of the node. `bits` has bit 4 p + 3
+// for each of them, p = its slot ^ the octant of the ray, so that the lowest bit is the nearest child, and bit 4 s + 2
+// for each slot s of the node with an inner child. `bits` is 0 if the ray enters none of them.
 struct Group {
   uint base, bits;
 };
@@ -77,7 +77,7 @@ Group groupOf(DeviceWideNode node, uint children, bvec3 isNegative) {
 
 bool hasMore(Group group) { return (group.bits & kWideInnerBits) != 0u; }
 
-// Takes the nearest out of a group that has one and returns its node.
+// Removes the nearest child from a group that has one and returns its node.
 uint takeNearest(inout Group group, bvec3 isNegative) {
   const uint rest = (group.bits & kWideInnerBits) >> 3;
   const uint nearest = rest & (~rest + 1u);
@@ -89,15 +89,15 @@ uint takeNearest(inout Group group, bvec3 isNegative) {
   return group.base + rank;
 }
 
-// The triangles of one node that the ray has still to be tested with: `bits` of `all` those that there are, in the
-// nibbles of DeviceWideNode::childBits.
+// Triangles of one node that are still to be tested. `bits` marks them, `all` marks all triangles of the node, both in
+// the nibbles of DeviceWideNode::childBits; `base` is the triangleBase of the node.
 struct Leaves {
   uint base, bits, all;
 };
 
 const Leaves kNoLeaves = Leaves(0u, 0u, 0u);
 
-// Those that wait, none behind one that is empty.
+// Postponed triangles; an empty entry is followed by empty ones only.
 struct LeafQueue {
   Leaves first, second, third;
 };
@@ -113,7 +113,7 @@ void add(inout LeafQueue queue, Leaves leaves) {
   }
 }
 
-// Takes a triangle out and returns its slot, or `otherwise` where none waits.
+// Removes a triangle and returns its slot; returns `otherwise` if the queue is empty.
 uint takeSlot(inout LeafQueue queue, uint otherwise) {
   const uint lowest = queue.first.bits & (~queue.first.bits + 1u);
   const uint slot = queue.first.base + bitCount(queue.first.all & (lowest - 1u));
@@ -126,8 +126,9 @@ uint takeSlot(inout LeafQueue queue, uint otherwise) {
   return lowest == 0u ? otherwise : slot;
 }
 
-// Triangles wait until some lane has those of three nodes to test: otherwise most lanes would wait for the few that
-// have one after nearly every node. Then two are tested at a time, which fills the waiting for either's texels.
+// Triangle tests are postponed until a lane of the subgroup has triangles of three nodes: with tests after each node
+// most lanes would be idle during the tests of a few. Two triangles are tested at a time, which hides the latency of
+// loading them.
 Hit walkWide(vec3 origin, vec3 direction, uint excludedFace, inout uint iterationCount) {
   const RayFrame frame = makeRayFrame(direction);
   const WideRay ray = makeWideRay(origin, direction);
@@ -162,7 +163,7 @@ Hit walkWide(vec3 origin, vec3 direction, uint excludedFace, inout uint iteratio
       testTriangles(frame, origin, slot, takeSlot(queue, slot), excludedFace, hit);
       ++iterationCount;
     }
-    iterationCount += 3u;  // This loop's own, and what entering the two inner ones costs.
+    iterationCount += 3u;  // For this loop, and for entering the two inner loops.
   }
   hit.isComplete = iterationCount <= kIterationLimit;
   return hit;

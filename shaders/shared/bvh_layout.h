@@ -1,5 +1,5 @@
-// The bounding volume hierarchy as a device reads it; included by C++ and by GLSL. Both arrays are arrays of 16-byte
-// texels (format rgba32ui); floats travel as their bits. Coordinates are normalised, see Normalization.
+// Layout of the bounding volume hierarchy on a device; included by C++ and by GLSL. Both arrays consist of 16-byte
+// texels (format rgba32ui); floats are stored as their bits. Coordinates are normalised, see Normalization.
 //
 //   node, 64 bytes                                       triangle, 48 bytes, in slot order
 //   byte  0  leftMin.xyz   left         texel 0          byte  0  v0.xyz  faceIndex
@@ -7,10 +7,10 @@
 //   byte 32  rightMin.xyz  right        texel 2          byte 32  v2.xyz  normalV
 //   byte 48  rightMax.xyz  unused       texel 3
 //
-// A node holds its two children's boxes and a reference to each: an inner child is its node's index, a leaf is its
-// first triangle slot with the count of its triangles (1 to kMaxLeafTriangleCount) above kReferenceCountShift. Node 0
-// is the root. The normal is the one of the double-precision mesh, octahedrally encoded (Cigolle et al. 2014): that of
-// the rounded corners would be noise on small faces.
+// A node holds the boxes of its two children and a reference to each: the node index of an inner child, or the first
+// triangle slot of a leaf with its triangle count (1 to kMaxLeafTriangleCount) in the bits above kReferenceCountShift.
+// Node 0 is the root. The normal is that of the double-precision mesh, octahedrally encoded (Cigolle et al. 2014): the
+// normal of the rounded corners would be noise on small faces.
 //
 //   wide node, 80 bytes, of up to eight children (after Ylitie, Karras and Laine 2017)
 //   byte  0  origin.xyz  exponents                       texel 0
@@ -19,10 +19,10 @@
 //
 // The box of the child in slot s spans origin + lower[s] * scale to origin + upper[s] * scale on each axis, with the
 // bytes lower[s] and upper[s] and the power of two `scale` whose biased exponent is byte 0, 1 or 2 of `exponents`.
-// Nibble s of childBits tells what the child is: 8 an inner one, 1, 3 or 7 a leaf of as many triangles as it has bits,
-// 0 nothing. The inner children's nodes follow each other from childBase on, the leaves' triangles from triangleBase
-// on, both in the order of the slots. Which child takes which slot is chosen so that a ray whose direction has the sign
-// bits q (x in bit 0) meets the children about in the order of slot ^ q.
+// Nibble s of childBits is the kind of the child: 8 an inner child; 1, 3 or 7 a leaf with as many triangles as the
+// nibble has bits; 0 no child. The nodes of inner children are consecutive from childBase on, the triangles of leaves
+// from triangleBase on, both in the order of the slots. Slots are assigned so that a ray whose direction has the sign
+// bits q (x in bit 0) hits the children approximately in the order of slot ^ q.
 #ifndef ASDFVK_BVH_LAYOUT_H
 #define ASDFVK_BVH_LAYOUT_H
 
@@ -40,12 +40,12 @@ const uint kBvhNodeTexelCount = 4u;
 const uint kWideNodeTexelCount = 5u;
 const uint kBvhTriangleTexelCount = 3u;
 
-// Deepest hierarchy that a traversal stack has room for; the builder splits at the median where SAH would go deeper.
+// Capacity of a traversal stack, in levels; the builder splits at the median where SAH would go deeper.
 const uint kMaxBvhDepth = 48u;
 
 const uint kReferenceCountShift = 28u;
 const uint kReferenceFirstMask = 0x0fffffffu;
-const uint kMaxLeafTriangleCount = 14u;  // So that no reference looks like kNoReference.
+const uint kMaxLeafTriangleCount = 14u;  // 15 would make a reference equal to kNoReference.
 const uint kNoReference = 0xffffffffu;
 
 const uint kWideChildCount = 8u;
