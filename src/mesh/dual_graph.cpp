@@ -4,6 +4,7 @@
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
+#include <array>
 #include <compare>
 #include <utility>
 
@@ -38,16 +39,12 @@ void putEdges(const Face& face, uint32_t f, const Put& put) {
   if (b != c && a != b) putEdge(c, a, 2);
 }
 
-struct EdgeCounts {
-  uint64_t boundary = 0, nonManifold = 0, inconsistent = 0;
-};
-
 /// From a face to a neighbour.
 using Arc = std::pair<uint32_t, uint32_t>;
 
 /// Results of one thread.
 struct Findings {
-  EdgeCounts counts;
+  std::array<uint64_t, 4> edgeCounts{};  ///< By EdgeKind; regular edges are not counted.
   std::vector<Arc> furtherArcs;
 };
 
@@ -67,9 +64,10 @@ class Survey {
     EdgeSurvey survey;
     std::vector<Arc> furtherArcs;
     for (const Findings& findings : findings_) {
-      survey.boundaryEdgeCount += findings.counts.boundary;
-      survey.nonManifoldEdgeCount += findings.counts.nonManifold;
-      survey.inconsistentEdgeCount += findings.counts.inconsistent;
+      const auto countOf = [&](EdgeKind kind) { return findings.edgeCounts[static_cast<size_t>(kind)]; };
+      survey.boundaryEdgeCount += countOf(EdgeKind::Boundary);
+      survey.nonManifoldEdgeCount += countOf(EdgeKind::NonManifold);
+      survey.inconsistentEdgeCount += countOf(EdgeKind::Inconsistent);
       furtherArcs.insert(furtherArcs.end(), findings.furtherArcs.begin(), findings.furtherArcs.end());
     }
     survey.isClosed =
@@ -111,13 +109,12 @@ class Survey {
       runningUpCount += runsFrom(lower, entry) ? 1 : 0;
     }
     if (properCount == 0 || (properCount == 2 && runningUpCount == 1)) return;
-    EdgeCounts& counts = findings_.local().counts;
-    ++(properCount == 1 ? counts.boundary : properCount == 2 ? counts.inconsistent : counts.nonManifold);
     const EdgeKind kind = properCount == 1   ? EdgeKind::Boundary
                           : properCount == 2 ? EdgeKind::Inconsistent
                                              : EdgeKind::NonManifold;
     for (const EdgeEntry& entry : around)
       if (isProper(entry.face())) kinds_[entry.corner] = kind;
+    ++findings_.local().edgeCounts[static_cast<size_t>(kind)];
   }
 
   void join(std::span<const EdgeEntry> around) {
