@@ -84,7 +84,7 @@ TEST_CASE("identicalCentroids are split by index") {
   Mesh mesh;
   Random random(3);
   for (int i = 0; i < 10000; ++i) {
-    // The two ends of each box are mirrored in the origin, in numbers that floats hold.
+    // Both corners of each box are symmetric about the origin, with coordinates that are exact in float.
     const double r = (1.0 + random.index(64)) / 64;
     addTriangle(mesh, {-r, -r, -r}, {r, r, r}, {r, -r, 0});
   }
@@ -133,7 +133,7 @@ TEST_CASE("nanVertex and infinite vertices leave the other faces in the hierarch
   checkInvariants(buildOver(mesh), mesh, expected);
 }
 
-TEST_CASE("asWideAsDouble is held like any other mesh") {
+TEST_CASE("a hierarchy contains all faces of asWideAsDouble") {
   Mesh mesh = soup(100, 9);
   addTriangle(mesh, {-1.7e308, 0, 0}, {-1.6e308, 0, 0}, {-1.7e308, 1e307, 0});
   addTriangle(mesh, {1.7e308, 0, 0}, {1.6e308, 0, 0}, {1.7e308, 1e307, 0});
@@ -158,7 +158,7 @@ TEST_CASE("hugeAndManyTiny, and flatInOnePlane, keep the invariants") {
   checkInvariants(buildOver(mesh), mesh, everyFaceRepresentsItself(mesh));
 }
 
-TEST_CASE("only the representative of coincident faces is held") {
+TEST_CASE("of coincident faces a hierarchy contains the representative only") {
   const Mesh mesh = soup(10, 13);
   std::vector<uint32_t> representatives = everyFaceRepresentsItself(mesh);
   representatives[7] = 2;

@@ -160,7 +160,7 @@ TEST_CASE("a wide hierarchy of far, flat, huge, tiny and equal triangles keeps i
   checkWide(series, BvhOptions{1, 2});
 }
 
-TEST_CASE("an empty hierarchy is wide too") {
+TEST_CASE("the wide layout of an empty hierarchy is empty") {
   const DeviceBvh bvh = encodeDeviceBvh(Bvh{}, Mesh{}, FaceGeometry{}, BvhLayout::Wide);
   CHECK(bvh.nodeBytes().empty());
   CHECK(bvh.triangles.empty());

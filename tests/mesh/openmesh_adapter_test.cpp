@@ -55,7 +55,7 @@ TEST_CASE("an OpenMesh mesh becomes the same vertices and faces in handle order"
   checkRoundTrip<DoubleMesh>({});
 }
 
-TEST_CASE("values come to lie in a double face property by handle") {
+TEST_CASE("values are written to a double face property by handle") {
   DoubleMesh mesh = toOpenMesh<DoubleMesh>(shapes::cube());
   computeOnOpenMesh(mesh, [](const Mesh& plain) {
     std::vector<double> values = computeFaceGeometry(plain).areas;

@@ -80,7 +80,7 @@ TEST_CASE("a shape that sticks out of another one or equals it is not inside it"
   CHECK(cavitiesIn(together(shapes::cube(), placed(shapes::cube(), 0.5, {0.5, 0, 0}))) == Cavities{0, 0});  // Touches.
 }
 
-TEST_CASE("probes straight above the corners and edges of a container are judged rightly") {
+TEST_CASE("test rays through corners and edges of a container cross the right number of faces") {
   CHECK(cavitiesIn(together(shapes::cube(), placed(shapes::cube(), 0.5))) == Cavities{0, 1});
   CHECK(cavitiesIn(together(sphere(0), placed(sphere(0), 0.5))) == Cavities{0, 1});
   CHECK(cavitiesIn(together(shapes::grid(4), placed(shapes::cube(), 0.5, {2, 2, 1}))) == Cavities{0, 0});
