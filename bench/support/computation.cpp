@@ -56,7 +56,7 @@ FileRun runFile(Session& session, const std::filesystem::path& path, const Optio
   const double readSeconds = total.seconds();
   Result result = session.compute(mesh, options, control);
   const Stopwatch writing;
-  writeResult(output, mesh, std::span<const Field>(result.fields).first(2));  // "sdf" and "seed".
+  writeResult(output, mesh, result.fields, {.format = {}, .fields = {"sdf", "seed"}});
   result.report.stageSeconds[Stage::Write] = writing.seconds();
   result.report.stageSeconds[Stage::Read] = readSeconds;
   return {std::move(result.report), total.seconds()};

@@ -21,8 +21,9 @@ namespace asdfvk {
 [[nodiscard]] ASDFVK_API Mesh parseMesh(std::span<const char> bytes, std::string_view extension = {});
 
 struct WriteOptions {
-  std::string format;  ///< "ply", "vtu", "npy", "npz" or "csv"; empty: the extension of the path. "-" needs it.
-  bool ascii = false;  ///< PLY only; other formats ignore it.
+  std::string format;                    ///< Of resultFormats(); empty: by the extension of the path. "-" needs it.
+  std::vector<std::string> fields = {};  ///< Names of the fields to write, in this order; empty: all.
+  bool ascii = false;                    ///< PLY only; other formats ignore it.
 };
 
 /// Names of the formats that writeResult() writes.
@@ -39,9 +40,9 @@ struct WriteOptions {
 /// VTU: all fields. NPY: the first field. NPZ: all fields. CSV: a row per face, the first column `face`; or a row per
 /// vertex, the first column `vertex`, where no field is per face. PLY and CSV split three components into NAME_x,
 /// NAME_y and NAME_z. No value is NaN in .npy, .npz and .csv, 0 in .ply and .vtu.
-/// Throws Error{OutputNotWritable}; Error{UnknownFormat}; Error{OptionConflict} for a field whose size does not fit the
-/// mesh, an invalid or repeated name, and fields that the format cannot hold; Error{ArraySize}, Error{IndexOutOfRange}
-/// for an invalid mesh.
+/// Throws Error{OutputNotWritable}; Error{UnknownFormat}; Error{UnknownField} for a name that no field has;
+/// Error{OptionConflict} for a field whose size does not fit the mesh, an invalid or repeated name, and fields that the
+/// format cannot hold; Error{ArraySize}, Error{IndexOutOfRange} for an invalid mesh.
 ASDFVK_API void writeResult(const std::filesystem::path& path, const MeshView& mesh, std::span<const Field> fields,
                             const WriteOptions& options = {});
 

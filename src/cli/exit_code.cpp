@@ -8,6 +8,8 @@ namespace {
 /// The remedy in terms of options and packages, or empty where the reason suffices.
 const char* remedyFor(ErrorCode code) {
   switch (code) {
+    case ErrorCode::UnknownField:
+      return "so few seeds allow no estimate; give more --seeds";
     case ErrorCode::NoVulkanLoader:
       return "install libvulkan1, or use --backend cpu or reference";
     case ErrorCode::NoVulkanDriver:

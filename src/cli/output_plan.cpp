@@ -122,7 +122,9 @@ std::vector<std::string> planOutputs(const CommandLine& line) {
 }
 
 WriteOptions writeOptionsOf(const CommandLine& line) {
-  return {.format = line.output == "-" && line.format.empty() ? "ply" : line.format, .ascii = line.ascii};
+  return {.format = line.output == "-" && line.format.empty() ? "ply" : line.format,
+          .fields = line.fields,
+          .ascii = line.ascii};
 }
 
 void requireWritablePlace(const std::string& output) {

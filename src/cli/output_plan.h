@@ -13,7 +13,7 @@ namespace asdfvk {
 /// them in place of an input, several meshes and one file.
 [[nodiscard]] std::vector<std::string> planOutputs(const CommandLine& line);
 
-/// The format is set where --format or standard output ask for one.
+/// The fields of --fields; the format where --format or standard output decide it.
 [[nodiscard]] WriteOptions writeOptionsOf(const CommandLine& line);
 
 /// Throws Error{Output} when it is plain that no file can be written there, so that it is told before the work.

@@ -25,8 +25,7 @@ std::vector<T> onTriangles(const TriangleMesh& mesh, const std::vector<T>& ofInp
 void writePicture(const CommandLine& line, const Result& result, const RunControl& control) {
   const Field* field = result.field(line.pictureOf);
   if (field == nullptr)
-    throw Error(ErrorCode::UnknownField,
-                "--picture-of " + line.pictureOf + ": so few seeds allow no estimate; give more --seeds");
+    throw Error(ErrorCode::UnknownField, "--picture-of: the result has no field " + line.pictureOf);
   const TriangleMesh& mesh = result.scene->mesh;
   Picture picture{.scene = *result.scene, .title = field->label, .view = line.pictureView};
   std::vector<double> values;

@@ -14,6 +14,7 @@
 #include "cli/report.h"
 #include "cli/terminal.h"
 #include "core/stopwatch.h"
+#include "mesh/orientation.h"
 
 namespace asdfvk {
 namespace {
@@ -36,35 +37,6 @@ struct MeshReport {
   std::string json;
 };
 
-/// The fields of --fields. Throws Error{UnknownField} where an estimate was requested and none was possible.
-std::vector<Field> selectFields(const Result& result, const std::vector<std::string>& names) {
-  std::vector<Field> fields;
-  for (const std::string& name : names) {
-    const Field* field = result.field(name);
-    if (field == nullptr)
-      throw Error(ErrorCode::UnknownField,
-                  "the result has no field " + name + ": so few seeds allow no estimate; give more --seeds");
-    fields.push_back(*field);
-  }
-  return fields;
-}
-
-/// Reverses the faces that --orient reversed. The scene of the result has its own copy where there is any.
-void reverseFaces(Mesh& mesh, const std::vector<uint64_t>& inputFaces) {
-  std::vector<uint8_t> isReversed(mesh.inputFaceCount(), 0);
-  for (const uint64_t face : inputFaces) isReversed[face] = 1;
-  Polygons& polygons = mesh.polygons;
-  for (uint32_t f = 0; f < mesh.faceCount(); ++f)
-    if (isReversed[polygons.isEmpty() ? f : polygons.inputFaceOf[f]]) std::swap(mesh.faces[f][1], mesh.faces[f][2]);
-  if (polygons.isEmpty()) return;
-  for (const uint64_t face : inputFaces) {
-    const auto corner = [&](uint64_t i) {
-      return polygons.corners.begin() + static_cast<std::ptrdiff_t>(polygons.firstCorner[i]);
-    };
-    std::reverse(corner(face) + 1, corner(face + 1));  // The first corner stays the first.
-  }
-}
-
 MeshReport runMesh(Session& session, const std::string& name, const std::string& output, const CommandLine& line,
                    const std::stop_token& stop) {
   requireWritablePlace(output);
@@ -81,8 +53,8 @@ MeshReport runMesh(Session& session, const std::string& name, const std::string&
     if (stop.stop_requested()) throw Error(ErrorCode::Cancelled, "cancelled");
     StageSeconds& seconds = result.report.stageSeconds;
     const Stopwatch writeWatch;
-    reverseFaces(mesh, result.report.reversedFaces);
-    writeResult(output, mesh, selectFields(result, line.fields), writeOptionsOf(line));
+    flipInputFaces(mesh, result.report.reversedFaces);  // The scene of the result has its own copy.
+    writeResult(output, mesh, result.fields, writeOptionsOf(line));
     seconds[Stage::Write] = writeWatch.seconds();
     seconds[Stage::Read] = readSeconds;
     if (!line.picture.empty())

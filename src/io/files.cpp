@@ -79,7 +79,7 @@ std::string resultFormatOf(const std::filesystem::path& path, const WriteOptions
 void writeResult(const std::filesystem::path& path, const MeshView& mesh, std::span<const Field> fields,
                  const WriteOptions& options) {
   const FileFormat& format = findResultFormat(path, options.format);
-  const ResultView result(mesh, fields, options.ascii);
+  const ResultView result(mesh, fields, options.fields, options.ascii);
   AtomicFile file(path);
   format.write(file, result);
   file.commit();

@@ -8,6 +8,7 @@
 
 #include "asdf_vk/error.h"
 #include "core/text.h"
+#include "io/input_failure.h"
 #include "io/stored_fields.h"
 #include "mesh/validation.h"
 
@@ -31,13 +32,21 @@ void requireValidField(const Field& field, const MeshView& mesh) {
 
 }  // namespace
 
-ResultView::ResultView(const MeshView& mesh, std::span<const Field> fields, bool ascii)
-    : mesh_(mesh), fields_(fields), isAscii_(ascii) {
+ResultView::ResultView(const MeshView& mesh, std::span<const Field> fields, std::span<const std::string> names,
+                       bool ascii)
+    : mesh_(mesh), isAscii_(ascii) {
   requireValidArrays(mesh);
-  std::set<std::string_view> names;
-  for (const Field& field : fields) {
+  if (names.empty()) fields_.assign(fields.begin(), fields.end());
+  for (const std::string& name : names) {
+    const Field* const field = findField(fields, name);
+    if (field == nullptr)
+      throw Error(ErrorCode::UnknownField, fmt::format("the result has no field {}", printable(name)));
+    fields_.emplace_back(*field);
+  }
+  std::set<std::string_view> used;
+  for (const Field& field : fields_) {
     requireValidField(field, mesh);
-    if (!names.insert(field.name).second) failConflict(fmt::format("two fields have the name {}", field.name));
+    if (!used.insert(field.name).second) failConflict(fmt::format("two fields have the name {}", field.name));
   }
 }
 

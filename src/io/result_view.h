@@ -1,22 +1,27 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "asdf_vk/field.h"
 #include "asdf_vk/mesh.h"
+#include "io/stored_fields.h"
 
 namespace asdfvk {
 
 /// The arguments of a writer: a mesh of input faces and the fields on it.
 class ResultView {
  public:
-  /// Throws Error{OptionConflict} for a field with an invalid or repeated name, with other than 1 or 3 components, or
-  /// whose size does not fit the mesh; the errors of requireValidArrays() for an invalid mesh. The arrays must outlive
-  /// the view.
-  ResultView(const MeshView& mesh, std::span<const Field> fields, bool ascii = false);
+  /// names: the fields to write, in this order; empty: all. Throws Error{UnknownField} for a name that no field has;
+  /// Error{OptionConflict} for a field with an invalid or repeated name, with other than 1 or 3 components, or whose
+  /// size does not fit the mesh; the errors of requireValidArrays() for an invalid mesh. The arrays must outlive the
+  /// view.
+  ResultView(const MeshView& mesh, std::span<const Field> fields, std::span<const std::string> names, bool ascii);
 
-  [[nodiscard]] std::span<const Field> fields() const { return fields_; }
+  [[nodiscard]] FieldReferences fields() const { return fields_; }
   [[nodiscard]] bool isAscii() const { return isAscii_; }
 
   [[nodiscard]] uint64_t vertexCount() const { return mesh_.vertexCount(); }
@@ -42,7 +47,7 @@ class ResultView {
 
  private:
   MeshView mesh_;
-  std::span<const Field> fields_;
+  std::vector<std::reference_wrapper<const Field>> fields_;
   bool isAscii_;
 };
 

@@ -55,7 +55,7 @@ bool isFieldName(std::string_view name) {
   return !name.empty() && std::all_of(name.begin(), name.end(), isAllowed);
 }
 
-std::vector<FieldColumn> columnsOf(std::span<const Field> fields, FieldLocation location, const Field* omitted,
+std::vector<FieldColumn> columnsOf(FieldReferences fields, FieldLocation location, const Field* omitted,
                                    std::initializer_list<std::string_view> reservedNames) {
   std::set<std::string, std::less<>> names(reservedNames.begin(), reservedNames.end());
   std::vector<FieldColumn> columns;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstring>
+#include <functional>
 #include <initializer_list>
 #include <span>
 #include <string>
@@ -17,6 +18,8 @@ namespace asdfvk {
 /// At least one character; letters of ASCII, digits and '_' only.
 [[nodiscard]] bool isFieldName(std::string_view name);
 
+using FieldReferences = std::span<const std::reference_wrapper<const Field>>;
+
 /// One component of a field, for formats without vectors: a property of PLY, a column of CSV.
 struct FieldColumn {
   std::string name;  ///< The name of the field; with three components, and _x, _y or _z.
@@ -32,8 +35,7 @@ struct FieldColumn {
 
 /// The columns of the fields of that location, in order, without those of the field `omitted`. Throws
 /// Error{OptionConflict} for two columns of one name, and for a reserved name.
-[[nodiscard]] std::vector<FieldColumn> columnsOf(std::span<const Field> fields, FieldLocation location,
-                                                 const Field* omitted,
+[[nodiscard]] std::vector<FieldColumn> columnsOf(FieldReferences fields, FieldLocation location, const Field* omitted,
                                                  std::initializer_list<std::string_view> reservedNames);
 
 /// The inverse: joins three successive fields of one location and type, named NAME_x, NAME_y and NAME_z, to NAME.

@@ -14,14 +14,16 @@ namespace {
 constexpr size_t kNamedComponents = 5;
 
 void flipPolygons(Polygons& polygons, std::span<const uint8_t> isFlipped) {
+  constexpr uint64_t kNone = ~uint64_t{0};
+  uint64_t last = kNone;
   for (size_t f = 0; f < polygons.inputFaceOf.size(); ++f) {
-    const uint32_t input = polygons.inputFaceOf[f];
-    const bool isFirstTriangle = f == 0 || polygons.inputFaceOf[f - 1] != input;
-    if (!isFirstTriangle || !isFlipped[f]) continue;
+    const uint64_t input = polygons.inputFaceOf[f];
+    if (!isFlipped[f] || input == last) continue;
+    last = input;
     const auto corner = [&](size_t i) {
       return polygons.corners.begin() + static_cast<std::ptrdiff_t>(polygons.firstCorner[i]);
     };
-    std::reverse(corner(input) + 1, corner(input + size_t{1}));  // The first corner stays the first.
+    std::reverse(corner(input) + 1, corner(input + 1));
   }
 }
 
@@ -74,14 +76,28 @@ OrientationReport analyseOrientation(const TriangleMesh& mesh, const Components&
   return report;
 }
 
-void flipFaces(Mesh& mesh, FaceGeometry& geometry, std::span<const uint8_t> isFlipped) {
+void flipFaces(Mesh& mesh, std::span<const uint8_t> isFlipped) {
   ASDFVK_CHECK_OP(isFlipped.size(), ==, mesh.faces.size());
-  for (uint32_t f = 0; f < mesh.faceCount(); ++f) {
-    if (!isFlipped[f]) continue;
-    std::swap(mesh.faces[f][1], mesh.faces[f][2]);
-    if (!geometry.isDegenerate(f)) geometry.normals[f] = -geometry.normals[f];
-  }
+  for (uint32_t f = 0; f < mesh.faceCount(); ++f)
+    if (isFlipped[f]) std::swap(mesh.faces[f][1], mesh.faces[f][2]);
   flipPolygons(mesh.polygons, isFlipped);
+}
+
+void flipFaces(Mesh& mesh, FaceGeometry& geometry, std::span<const uint8_t> isFlipped) {
+  flipFaces(mesh, isFlipped);
+  for (uint32_t f = 0; f < mesh.faceCount(); ++f)
+    if (isFlipped[f] && !geometry.isDegenerate(f)) geometry.normals[f] = -geometry.normals[f];
+}
+
+void flipInputFaces(Mesh& mesh, std::span<const uint64_t> inputFaces) {
+  std::vector<uint8_t> isFlipped(mesh.faces.size(), 0);
+  size_t next = 0;
+  for (uint32_t f = 0; f < mesh.faceCount() && next < inputFaces.size(); ++f) {
+    const uint64_t input = mesh.polygons.isEmpty() ? f : mesh.polygons.inputFaceOf[f];
+    while (next < inputFaces.size() && inputFaces[next] < input) ++next;
+    isFlipped[f] = next < inputFaces.size() && inputFaces[next] == input;
+  }
+  flipFaces(mesh, isFlipped);
 }
 
 void flipAllFaces(Mesh& mesh, FaceGeometry& geometry, Components& components) {

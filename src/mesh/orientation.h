@@ -26,9 +26,13 @@ struct OrientationReport {
 /// inconsistently wound or without volume are never inverted.
 [[nodiscard]] OrientationReport analyseOrientation(const TriangleMesh& mesh, const Components& components);
 
-/// Reverses the faces f with isFlipped[f] != 0 (#F): their winding, their normal, and the corners of their input face.
-/// An input face is reversed if the first of its triangles is.
+/// Reverses the winding of the triangles f with isFlipped[f] != 0 (#F), and the corners of each input face that has one
+/// of them. The first corner stays the first.
+void flipFaces(Mesh& mesh, std::span<const uint8_t> isFlipped);
+/// The same with the normals.
 void flipFaces(Mesh& mesh, FaceGeometry& geometry, std::span<const uint8_t> isFlipped);
+/// The same for all triangles of these input faces.
+void flipInputFaces(Mesh& mesh, std::span<const uint64_t> inputFaces);
 
 /// Reverses every face.
 void flipAllFaces(Mesh& mesh, FaceGeometry& geometry, Components& components);

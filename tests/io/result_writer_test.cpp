@@ -90,6 +90,25 @@ TEST_CASE("invalid and repeated names of fields are rejected by every format") {
   requireRejected({makeField("a", values), makeField("a", values, FieldLocation::PerVertex)});
 }
 
+TEST_CASE("the options choose the fields to write and their order") {
+  const auto names = [](const std::vector<std::string>& chosen) {
+    const std::string csv = written(".csv", tetrahedron(), kFaceFields, {.format = {}, .fields = chosen});
+    return csv.substr(0, csv.find('\n'));
+  };
+  CHECK(names({}) == "face,sdf,seed");
+  CHECK(names({"seed"}) == "face,seed");
+  CHECK(names({"seed", "sdf"}) == "face,seed,sdf");
+  const Folder folder;
+  const auto write = [&](const std::vector<std::string>& chosen) {
+    return codeOf([&] {
+      writeResult(folder / "out.ply", tetrahedron(), kFaceFields, {.format = {}, .fields = chosen});
+    });
+  };
+  CHECK(write({"sdf", "error"}) == ErrorCode::UnknownField);
+  CHECK(write({"sdf", "sdf"}) == ErrorCode::OptionConflict);
+  CHECK(folder.names().empty());
+}
+
 TEST_CASE("names that a format uses itself, or two columns of one name, are rejected by this format only") {
   const auto write = [](const std::string& extension, const std::vector<Field>& fields) {
     return codeOf([&] { (void)written(extension, tetrahedron(), fields); });

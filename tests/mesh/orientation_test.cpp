@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <vector>
 
 #include "core/check.h"
@@ -184,6 +185,53 @@ TEST_CASE("flipping turns an input face's corners once, however many triangles i
   CHECK(mesh.faces[3] == Face{0, 4, 5});
   CHECK(geometry.normals[0] == Vec3d{0, 0, -1});
   CHECK_THROWS_AS(flipFaces(mesh, geometry, std::vector<uint8_t>{1}), CheckFailure);
+}
+
+TEST_CASE("a polygon is reversed even if its first triangle repeats a corner") {
+  // A cube of quads that looks inwards. The first quad repeats its second corner, so that its first triangle is an edge,
+  // which belongs to no closed component.
+  Mesh mesh = inverted(shapes::cube());
+  mesh.polygons.firstCorner = {0};
+  for (uint32_t quad = 0; quad < 6; ++quad) {
+    const Face first = mesh.faces[2 * quad], second = mesh.faces[2 * quad + 1];
+    std::vector<uint32_t>& corners = mesh.polygons.corners;
+    corners.insert(corners.end(), {first[0], first[1]});
+    corners.insert(corners.end(), {second[1], second[2]});
+    if (quad == 0) corners.insert(corners.begin() + 1, corners[1]);
+    mesh.polygons.firstCorner.push_back(corners.size());
+    mesh.polygons.inputFaceOf.insert(mesh.polygons.inputFaceOf.end(), {quad, quad});
+  }
+  const Face edge{mesh.faces[0][0], mesh.faces[0][1], mesh.faces[0][1]};
+  mesh.faces.insert(mesh.faces.begin(), edge);
+  mesh.polygons.inputFaceOf.insert(mesh.polygons.inputFaceOf.begin(), 0);
+  const Mesh before = mesh;
+
+  FaceGeometry geometry = computeFaceGeometry(mesh);
+  Analysis analysis = analyse(mesh);
+  REQUIRE(analysis.report.invertedComponents.size() == 1);
+  orientOutward(mesh, geometry, analysis.components, analysis.report);
+  Mesh asCaller = before;
+  flipInputFaces(asCaller, std::vector<uint64_t>{0, 1, 2, 3, 4, 5});
+  for (size_t i = 0; i < 6; ++i) {
+    CAPTURE(i);
+    std::vector<uint32_t> reversed(before.polygons.corners.begin() + int(before.polygons.firstCorner[i]),
+                                   before.polygons.corners.begin() + int(before.polygons.firstCorner[i + 1]));
+    std::reverse(reversed.begin() + 1, reversed.end());
+    CHECK(std::equal(reversed.begin(), reversed.end(),
+                     mesh.polygons.corners.begin() + int(before.polygons.firstCorner[i])));
+  }
+  CHECK(asCaller.polygons.corners == mesh.polygons.corners);
+  CHECK(std::equal(asCaller.faces.begin() + 1, asCaller.faces.end(), mesh.faces.begin() + 1));
+}
+
+TEST_CASE("only the named input faces are reversed") {
+  Mesh mesh = shapes::tetrahedron();
+  const std::vector<Face> before = mesh.faces;
+  flipInputFaces(mesh, std::vector<uint64_t>{1, 3});
+  CHECK(mesh.faces == std::vector<Face>{before[0],
+                                        {before[1][0], before[1][2], before[1][1]},
+                                        before[2],
+                                        {before[3][0], before[3][2], before[3][1]}});
 }
 
 TEST_CASE("flipping all faces inverts everything, open or not, and keeps degenerate normals at zero") {
