@@ -30,7 +30,7 @@ enum class ErrorCode {
   EmptyMesh,        ///< No faces.
   ArraySize,        ///< The size of an array does not fit: no multiple of 3, or offsets that do not ascend.
   IndexOutOfRange,  ///< A face refers to a vertex that does not exist.
-  MeshTooLarge,     ///< More connections than 32 bits can index.
+  MeshTooLarge,     ///< More vertices, faces or connections than 32 bits can index.
   InputTooLarge,    ///< Does not fit into memory.
   // Device
   NoVulkanLoader,  ///< libvulkan.so.1 is not installed.

@@ -14,7 +14,7 @@ namespace asdfvk {
 
 /// Reads a mesh of PLY, OFF, OBJ or STL, "-" from standard input. The content decides the format, then the extension
 /// (OBJ and binary STL have no magic number). Opens no other file. Throws Error{UnreadableInput} whose one line has the
-/// file, the line or byte, and the reason.
+/// file, the line or byte, and the reason; Error{MeshTooLarge}, Error{InputTooLarge}.
 [[nodiscard]] ASDFVK_API Mesh readMesh(const std::filesystem::path& path);
 
 /// The same from memory. extension: "ply", ".OBJ", or empty; used where the content does not decide.

@@ -8,6 +8,7 @@
 #include <limits>
 #include <utility>
 
+#include "asdf_vk/error.h"
 #include "core/text.h"
 #include "io/input_failure.h"
 #include "io/triangulate.h"
@@ -17,6 +18,10 @@ namespace {
 
 constexpr uint64_t kMaxIndexCount = std::numeric_limits<uint32_t>::max();
 constexpr uint64_t kPolygonsPerBlock = 4096;
+
+[[noreturn]] void failSize(const std::string& counts) {
+  throw Error(ErrorCode::MeshTooLarge, fmt::format("has {}; at most {} are supported", counts, kMaxIndexCount));
+}
 
 void triangulateAll(std::span<const Vec3d> vertices, Polygons& polygons, std::vector<Face>& triangles) {
   const uint64_t polygonCount = polygons.firstCorner.size() - 1;
@@ -28,8 +33,7 @@ void triangulateAll(std::span<const Vec3d> vertices, Polygons& polygons, std::ve
     triangleCount += std::max<uint64_t>(cornerCountOf(i), 2) - 2;
   }
   if (triangleCount > kMaxIndexCount || polygonCount > kMaxIndexCount)
-    failInput(fmt::format("has {} and {} triangles; at most {} of each are supported", counted(polygonCount, "face"),
-                          triangleCount, kMaxIndexCount));
+    failSize(fmt::format("{} and {} triangles", counted(polygonCount, "face"), triangleCount));
   triangles.resize(triangleCount);
   polygons.inputFaceOf.resize(triangleCount);
   const auto cutBlock = [&](uint64_t block) {
@@ -96,15 +100,13 @@ void InputFaces::moveTo(std::span<const Vec3d> vertices, Mesh& mesh) {
   if (triangles_.empty())
     failInput(count() == 1 ? "the only face has fewer than three corners"
                            : fmt::format("none of the {} faces has three corners", count()));
-  if (triangles_.size() > kMaxIndexCount)
-    failInput(fmt::format("has {} faces; at most {} are supported", triangles_.size(), kMaxIndexCount));
+  if (triangles_.size() > kMaxIndexCount) failSize(fmt::format("{} faces", triangles_.size()));
   mesh.faces = std::move(triangles_);
   mesh.polygons = std::move(polygons_);
 }
 
 void requireIndexableVertexCount(uint64_t count) {
-  if (count > kMaxIndexCount)
-    failInput(fmt::format("has {} vertices; at most {} are supported", count, kMaxIndexCount));
+  if (count > kMaxIndexCount) failSize(fmt::format("{} vertices", count));
 }
 
 }  // namespace asdfvk

@@ -21,8 +21,8 @@ class InputFaces {
   }
 
   /// Sets mesh.faces and mesh.polygons. Preconditions: mesh.vertices is complete and every corner is below its size.
-  /// Throws Error{UnreadableInput} where there are no faces, none has three corners, or there are more than 2^32 - 1
-  /// faces or triangles.
+  /// Throws Error{UnreadableInput} where there are no faces or none has three corners, Error{MeshTooLarge} for more
+  /// than 2^32 - 1 faces or triangles.
   void moveTo(Mesh& mesh) { moveTo(mesh.vertices, mesh); }
   void moveTo(std::span<const Vec3d> vertices, Mesh& mesh);
 
@@ -33,7 +33,7 @@ class InputFaces {
   Polygons polygons_;            ///< From then on.
 };
 
-/// Throws Error{UnreadableInput} for more than 2^32 - 1 vertices.
+/// Throws Error{MeshTooLarge} for more than 2^32 - 1 vertices.
 void requireIndexableVertexCount(uint64_t count);
 
 }  // namespace asdfvk

@@ -31,7 +31,7 @@ struct OrientationReport {
 void flipFaces(Mesh& mesh, std::span<const uint8_t> isFlipped);
 /// The same with the normals.
 void flipFaces(Mesh& mesh, FaceGeometry& geometry, std::span<const uint8_t> isFlipped);
-/// The same for all triangles of these input faces.
+/// The same for all triangles of these input faces, which ascend.
 void flipInputFaces(Mesh& mesh, std::span<const uint64_t> inputFaces);
 
 /// Reverses every face.

@@ -15,12 +15,6 @@
 namespace asdfvk {
 namespace {
 
-constexpr std::array kBackends{
-    BackendRow{"vulkan", true, [] { return true; }, makeVulkanBackend},
-    BackendRow{"cpu", false, hasEmbree, makeEmbreeBackend},
-    BackendRow{"reference", false, [] { return true; }, makeReferenceBackend},
-};
-
 std::string cpuThreads() {
   return counted(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism), "thread");
 }
@@ -49,6 +43,26 @@ class ReferenceBackend final : public Backend {
   }
 };
 
+template <typename T>
+std::unique_ptr<Backend> makeOnCpu(const SessionOptions&) {
+  return std::make_unique<T>();
+}
+
+/// make() throws Error of kind Device where the backend is not available.
+struct BackendRow {
+  const char* name;
+  bool usesVulkan;
+  bool (*isBuilt)();
+  std::unique_ptr<Backend> (*make)(const SessionOptions& options);
+};
+
+/// In the order in which "auto" tries them.
+constexpr std::array kBackends{
+    BackendRow{"vulkan", true, [] { return true; }, makeVulkanBackend},
+    BackendRow{"cpu", false, hasEmbree, makeOnCpu<EmbreeBackend>},
+    BackendRow{"reference", false, [] { return true; }, makeOnCpu<ReferenceBackend>},
+};
+
 bool requestsVulkan(const SessionOptions& options) {
   const TraceVariant& variant = options.variant;
   return options.requireGpu || !options.device.empty() || !variant.kernel.empty() || !variant.bvh.empty() ||
@@ -66,11 +80,6 @@ NamedBackend open(const BackendRow& row, const SessionOptions& options) {
 }
 
 }  // namespace
-
-std::span<const BackendRow> backendTable() { return kBackends; }
-
-std::unique_ptr<Backend> makeEmbreeBackend(const SessionOptions&) { return std::make_unique<EmbreeBackend>(); }
-std::unique_ptr<Backend> makeReferenceBackend(const SessionOptions&) { return std::make_unique<ReferenceBackend>(); }
 
 NamedBackend openBackend(const SessionOptions& options) {
   if (options.backend != "auto") {

@@ -1,9 +1,8 @@
 #pragma once
 
 #include <memory>
-#include <span>
+#include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "asdf_vk/report.h"
@@ -32,36 +31,24 @@ class Backend {
   /// For solvers that need one; null without Vulkan.
   [[nodiscard]] virtual const Device* device() const { return nullptr; }
 
-  /// The scene and the cone must outlive the tracer. writesHits: the tracer may be asked for hits.
+  /// The scene and the cone must outlive the tracer. writesHits: the tracer can return the hits of the rays.
   [[nodiscard]] virtual std::unique_ptr<ConeTracer> makeTracer(const TraceScene& scene, const Cone& cone,
                                                                bool writesHits) = 0;
   /// Throws Error{ValidationFailed} with the first message if the validation layers are on and reported a problem.
   virtual void requireSilentValidation() const {}
 };
 
-/// A row of the table of backends. make() throws Error of kind Device where the backend is not available.
-struct BackendRow {
-  const char* name;
-  bool usesVulkan;
-  bool (*isBuilt)();
-  std::unique_ptr<Backend> (*make)(const SessionOptions& options);
-};
-
-/// In the order in which "auto" tries them.
-[[nodiscard]] std::span<const BackendRow> backendTable();
-
 struct NamedBackend {
   std::string name;
   std::unique_ptr<Backend> backend;
-  std::vector<std::string> deviceLines;  ///< With the reasons why earlier rows of the table were not used.
+  std::vector<std::string> deviceLines;  ///< With the reasons why "auto" rejected other backends.
 };
 
 /// The backend of that name, or the first that is available for "auto". Throws Error{UnknownName} and Error of kind
 /// Device.
 [[nodiscard]] NamedBackend openBackend(const SessionOptions& options);
 
+/// Throws Error of kind Device.
 [[nodiscard]] std::unique_ptr<Backend> makeVulkanBackend(const SessionOptions& options);
-[[nodiscard]] std::unique_ptr<Backend> makeEmbreeBackend(const SessionOptions& options);
-[[nodiscard]] std::unique_ptr<Backend> makeReferenceBackend(const SessionOptions& options);
 
 }  // namespace asdfvk

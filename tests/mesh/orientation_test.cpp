@@ -195,13 +195,12 @@ TEST_CASE("a polygon is reversed even if its first triangle repeats a corner") {
   for (uint32_t quad = 0; quad < 6; ++quad) {
     const Face first = mesh.faces[2 * quad], second = mesh.faces[2 * quad + 1];
     std::vector<uint32_t>& corners = mesh.polygons.corners;
-    corners.insert(corners.end(), {first[0], first[1]});
-    corners.insert(corners.end(), {second[1], second[2]});
+    corners.insert(corners.end(), {first[0], second[1], first[1], first[2]});
     if (quad == 0) corners.insert(corners.begin() + 1, corners[1]);
     mesh.polygons.firstCorner.push_back(corners.size());
     mesh.polygons.inputFaceOf.insert(mesh.polygons.inputFaceOf.end(), {quad, quad});
   }
-  const Face edge{mesh.faces[0][0], mesh.faces[0][1], mesh.faces[0][1]};
+  const Face edge{mesh.polygons.corners[0], mesh.polygons.corners[1], mesh.polygons.corners[1]};
   mesh.faces.insert(mesh.faces.begin(), edge);
   mesh.polygons.inputFaceOf.insert(mesh.polygons.inputFaceOf.begin(), 0);
   const Mesh before = mesh;
