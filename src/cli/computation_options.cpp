@@ -1,8 +1,8 @@
-#include "cli/computation_options.h"
-
+// The options of the computation: flags, and their values in the JSON report.
 #include <fmt/format.h>
 
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "asdf_vk/error.h"
 #include "cli/option_parsing.h"
@@ -36,6 +36,19 @@ SmoothingOptions parseSmoothing(const std::string& text) {
                                         static_cast<uint32_t>(parseWholeNumber(text.substr(cross + 1), 1, 100))};
   return {.isOn = true, .window = window};
 }
+
+std::string toText(const SmoothingOptions& smoothing) {
+  if (!smoothing.isOn) return "off";
+  if (!smoothing.window) return "auto";
+  return fmt::format("{}x{}", smoothing.window->rings, smoothing.window->passes);
+}
+
+template <typename T>
+nlohmann::ordered_json optional(const std::optional<T>& value) {
+  return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json(nullptr);
+}
+
+std::string nameOrAuto(const std::string& name) { return name.empty() ? "auto" : name; }
 
 void addBasics(CLI::App& app, CommandLine& line) {
   Options& options = line.options;
@@ -189,6 +202,35 @@ void addComputation(CLI::App& app, CommandLine& line) {
   addSeeds(app, line.options);
   addRays(app, line.options);
   addExperiments(app, line.options);
+}
+
+nlohmann::ordered_json optionValues(const CommandLine& line) {
+  const Options& options = line.options;
+  const InterpolationOptions& interpolation = options.interpolation;
+  return {{"recipe", nameOf(kRecipes, line.recipe)},
+          {"seeds", toText(options.seeds)},
+          {"sampler", options.sampler},
+          {"maxError", optional(options.rounds.maxError)},
+          {"timeBudgetSeconds", optional(options.rounds.timeBudgetSeconds)},
+          {"rays", options.cone.rayCount},
+          {"angleDegrees", options.cone.openingAngleDegrees},
+          {"falseHitAngleDegrees", options.cone.falseHitAngleDegrees},
+          {"outlierDeviations", options.cone.outlierDeviations},
+          {"coneRotation", nameOf(kConeRotations, options.cone.rotation)},
+          {"smooth", toText(options.smoothing)},
+          {"orient", nameOf(kOrientations, options.orientation)},
+          {"weights", nameOf(kWeights, interpolation.weights)},
+          {"guidance", nameOf(kGuidances, interpolation.guidance)},
+          {"pooling", interpolation.pooling},
+          {"solver", options.solver},
+          {"tolerance", options.solverOptions.tolerance},
+          {"maxIterations", options.solverOptions.maxIterations},
+          {"backend", line.session.backend},
+          {"device", line.session.device},
+          {"requireGpu", line.session.requireGpu},
+          {"kernel", nameOrAuto(line.session.variant.kernel)},
+          {"bvh", nameOrAuto(line.session.variant.bvh)},
+          {"fetch", nameOrAuto(line.session.variant.fetch)}};
 }
 
 }  // namespace asdfvk

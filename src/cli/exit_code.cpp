@@ -5,15 +5,19 @@
 namespace asdfvk {
 namespace {
 
-/// The remedy in terms of options and packages, or empty where the reason suffices.
-const char* remedyFor(ErrorCode code) {
+/// What the user can do, in options and packages; empty where the reason suffices.
+std::string remedyFor(ErrorCode code, bool requiresGpu) {
+  const auto orOnCpu = [&](const std::string& remedy) {
+    return requiresGpu ? remedy : remedy + ", or use --backend cpu or reference";
+  };
   switch (code) {
     case ErrorCode::UnknownField:
       return "so few seeds allow no estimate; give more --seeds";
     case ErrorCode::NoVulkanLoader:
-      return "install libvulkan1, or use --backend cpu or reference";
+      return orOnCpu("install libvulkan1");
     case ErrorCode::NoVulkanDriver:
-      return "install a driver (mesa-vulkan-drivers has one for any CPU), or use --backend cpu or reference";
+      return requiresGpu ? "install the driver of the GPU, or drop --require-gpu"
+                         : orOnCpu("install a driver (mesa-vulkan-drivers has one for any CPU)");
     case ErrorCode::NoUsableDevice:
       return "see --list-devices";
     case ErrorCode::GpuRequired:
@@ -25,15 +29,15 @@ const char* remedyFor(ErrorCode code) {
     case ErrorCode::NoDeviceForKernel:
       return "use --backend vulkan, or drop --solver, --kernel, --bvh and --fetch";
     case ErrorCode::KernelUnsupported:
-      return "use another --kernel, or --backend reference";
+      return requiresGpu ? "use another --kernel" : "use another --kernel, or --backend reference";
     case ErrorCode::DeviceLimit:
     case ErrorCode::OutOfDeviceMemory:
-      return "use a smaller mesh, or --backend cpu or reference";
+      return orOnCpu("use a smaller mesh");
     case ErrorCode::EquationLimit:
       return "use --solver cpu";
     case ErrorCode::DeviceLost:
     case ErrorCode::DeviceTimeout:
-      return "try again, or use --backend cpu or reference";
+      return orOnCpu("try again");
     case ErrorCode::MeshTooLarge:
       return "split the mesh";
     default:
@@ -41,12 +45,12 @@ const char* remedyFor(ErrorCode code) {
   }
 }
 
-}  // namespace
-
-std::string messageOf(const Error& error) {
-  const std::string remedy = remedyFor(error.code());
+std::string messageOf(const Error& error, bool requiresGpu) {
+  const std::string remedy = remedyFor(error.code(), requiresGpu);
   return remedy.empty() ? error.what() : std::string(error.what()) + "; " + remedy;
 }
+
+}  // namespace
 
 ExitCode exitCodeOf(ErrorKind kind) {
   switch (kind) {
@@ -68,11 +72,11 @@ ExitCode exitCodeOf(const CheckReport& check) {
   return check.passed || !check.isIndependent ? ExitCode::Done : ExitCode::CheckFailed;
 }
 
-Failure currentFailure() {
+Failure currentFailure(bool requiresGpu) {
   try {
     throw;
   } catch (const Error& error) {
-    return {exitCodeOf(error.kind()), oneLine(messageOf(error)), nameOf(error.code())};
+    return {exitCodeOf(error.kind()), oneLine(messageOf(error, requiresGpu)), nameOf(error.code())};
   } catch (const std::bad_alloc&) {
     return {ExitCode::Input, "not enough memory for this mesh; use a machine with more memory or a coarser mesh",
             nameOf(ErrorCode::InputTooLarge)};

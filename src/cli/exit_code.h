@@ -20,21 +20,18 @@ enum class ExitCode : int {
 };
 
 [[nodiscard]] ExitCode exitCodeOf(ErrorKind kind);
-/// The reason, then the remedy by options of the command line, if there is one.
-[[nodiscard]] std::string messageOf(const Error& error);
-
 /// Done or CheckFailed. A check that is not independent has nothing to fail.
 [[nodiscard]] ExitCode exitCodeOf(const CheckReport& check);
 
-/// A failure as it is reported; message is one line.
+/// A failure as it is reported.
 struct Failure {
   ExitCode code = ExitCode::Internal;
-  std::string message;
+  std::string message;            ///< One line: the reason, then what the user can do about it.
   std::string name = "internal";  ///< nameOf(ErrorCode).
 };
 
-/// Describes the exception being handled; to be called in a catch block.
-[[nodiscard]] Failure currentFailure();
+/// Describes the exception being handled; to be called in a catch block. requiresGpu: do not propose the CPU.
+[[nodiscard]] Failure currentFailure(bool requiresGpu = false);
 
 /// The same text with every control character replaced by a space, so that a message stays one line whatever the names
 /// in it.

@@ -13,10 +13,21 @@
 
 #include "asdf_vk/error.h"
 #include "asdf_vk/options.h"
+#include "cli/options.h"
 #include "pipeline/choice_names.h"
 
 /// Kinds of options with a value, and the values themselves. A wrong value is Error of kind Usage.
 namespace asdfvk {
+
+/// Groups of --help=all. --help shows the first one only.
+inline constexpr const char* kBasicGroup = "Options";
+inline constexpr const char* kExperimentGroup = "Experiments (the defaults are best)";
+
+/// Share of the seeds in the first round where further rounds may follow and --seeds is not given.
+inline constexpr double kFirstRoundShare = 0.02;
+
+/// Adds the options of the computation, which set line.options and line.recipe.
+void addComputation(CLI::App& app, CommandLine& line);
 
 /// parse: reads the value and throws Error; the name of the option is put before its message.
 template <typename Parse>
@@ -47,6 +58,20 @@ inline CLI::Option* addName(CLI::App& app, const std::string& name, std::string&
   });
 }
 
+/// "auto", then the names of a table: a range of strings, or of pairs of a name and a value.
+template <typename Names>
+[[nodiscard]] std::vector<std::string> withAuto(const Names& names) {
+  std::vector<std::string> result{"auto"};
+  for (const auto& entry : names) {
+    if constexpr (requires { entry.first; }) {
+      result.emplace_back(entry.first);
+    } else {
+      result.emplace_back(entry);
+    }
+  }
+  return result;
+}
+
 /// One of several named values. target: a variable that outlives the parsing, or a function that takes the value.
 template <typename Target, typename T, size_t N>
 CLI::Option* addChoice(CLI::App& app, const std::string& name, Target&& target, const ChoiceNames<T, N>& choices,
@@ -74,7 +99,7 @@ CLI::Option* addChoice(CLI::App& app, const std::string& name, Target&& target, 
 /// A finite number.
 [[nodiscard]] double parseNumber(const std::string& text);
 
-/// A finite number that `accepts` returns true for. complaint: end of the message otherwise, as in "'7' is not from 0
+/// A finite number for which `accepts` returns true. complaint: end of the message otherwise, as in "'7' is not from 0
 /// to 1".
 [[nodiscard]] double parseNumber(const std::string& text, const std::function<bool(double)>& accepts,
                                  const char* complaint);

@@ -12,18 +12,17 @@
 #include "asdf_vk/error.h"
 #include "asdf_vk/files.h"
 #include "asdf_vk/version.h"
-#include "cli/computation_options.h"
 #include "cli/option_parsing.h"
 #include "core/text.h"
 #include "pipeline/valid_options.h"
+#include "trace/vulkan/vulkan_trace_choice.h"
 
 namespace asdfvk {
 namespace {
 
 constexpr const char* kDescription =
     "Computes the shape diameter function of triangle meshes (how thick the shape is, seen from each face): rays\n"
-    "from seed faces on a Vulkan device, interpolation for the other faces. Reads PLY, OFF, OBJ and STL; '-' is\n"
-    "standard input.";
+    "from seed faces on a Vulkan device, interpolation for the other faces.";
 
 constexpr const char* kFooter =
     "Exit codes: 0 done, 1 usage, 2 input unreadable, 3 no device or device lost, 4 output not writable,\n"
@@ -48,18 +47,30 @@ void expandBareCheck(std::vector<std::string>& arguments) {
   }
 }
 
-/// Removes --help=all; returns whether it was there.
+/// Replaces --help=all by --help; returns whether it was there.
 bool takeHelpAll(std::vector<std::string>& arguments) {
-  const auto end = std::find(arguments.begin(), arguments.end(), "--");
-  const auto found = std::find(arguments.begin(), end, "--help=all");
-  if (found == end) return false;
-  *found = "--help";
-  return true;
+  constexpr std::string_view kPrefix = "--help=";
+  bool showsAll = false;
+  for (std::string& argument : arguments) {
+    if (argument == "--") break;
+    if (!argument.starts_with(kPrefix)) continue;
+    const std::string value = argument.substr(kPrefix.size());
+    if (value != "all") throw Error(ErrorCode::OptionOutOfRange, fmt::format("--help: '{}' is not all", value));
+    argument = "--help";
+    showsAll = true;
+  }
+  return showsAll;
+}
+
+void requireFieldName(const std::string& name) {
+  const std::vector<std::string> known = resultFieldNames();
+  if (std::find(known.begin(), known.end(), name) == known.end())
+    throw Error(ErrorCode::UnknownName,
+                fmt::format("'{}' is not a field; the fields are {}", name, fmt::join(known, ", ")));
 }
 
 /// "sdf,seed,error"
 std::vector<std::string> parseFields(const std::string& text) {
-  const std::vector<std::string> known = resultFieldNames();
   std::vector<std::string> names;
   for (size_t begin = 0; begin <= text.size();) {
     const size_t end = std::min(text.find(',', begin), text.size());
@@ -68,9 +79,7 @@ std::vector<std::string> parseFields(const std::string& text) {
       throw Error(ErrorCode::OptionOutOfRange, fmt::format("'{}' is not a list of names such as sdf,seed,error", text));
     if (std::count(names.begin(), names.end(), names.back()) > 1)
       throw Error(ErrorCode::OptionOutOfRange, fmt::format("'{}' names {} twice", text, names.back()));
-    if (std::find(known.begin(), known.end(), names.back()) == known.end())
-      throw Error(ErrorCode::UnknownName,
-                  fmt::format("'{}' is not a field; the fields are {}", names.back(), fmt::join(known, ", ")));
+    requireFieldName(names.back());
     begin = end + 1;
   }
   return names;
@@ -128,14 +137,11 @@ void addPicture(CLI::App& app, CommandLine& line) {
       ->group(kBasicGroup);
   CLI::Option* needsPicture = app.get_option("--picture");
   const char* const group = "Picture";
-  addValue(app, "--picture-of", "sdf|seeds|error",
-           "The shape diameter, the seed faces, or the expected error; default sdf",
+  addValue(app, "--picture-of", fmt::format("{}", fmt::join(resultFieldNames(), "|")),
+           fmt::format("Field to show; default {}", line.pictureOf),
            [&](const std::string& text) {
-             const std::string name = text == "seeds" ? "seed" : text;
-             const std::vector<std::string> known = resultFieldNames();
-             if (std::find(known.begin(), known.end(), name) == known.end())
-               throw Error(ErrorCode::UnknownName, fmt::format("'{}' is not one of sdf|seeds|error", text));
-             line.pictureOf = name;
+             line.pictureOf = text == "seeds" ? "seed" : text;  // "seeds": the name in version 0.1.
+             requireFieldName(line.pictureOf);
            })
       ->group(group)
       ->needs(needsPicture);
@@ -159,11 +165,6 @@ void addPicture(CLI::App& app, CommandLine& line) {
       ->needs(needsPicture);
 }
 
-std::vector<std::string> withAuto(std::vector<std::string> names) {
-  names.insert(names.begin(), "auto");
-  return names;
-}
-
 void addDevice(CLI::App& app, CommandLine& line) {
   addName(app, "--backend", line.session.backend, withAuto(backendNames()),
           "A Vulkan device, Embree on the CPU, the double-precision reference, or the\n"
@@ -179,14 +180,14 @@ void addDevice(CLI::App& app, CommandLine& line) {
     line.threadCount = static_cast<uint32_t>(parseWholeNumber(text, 1, 1024));
   })->group(group);
   TraceVariant& variant = line.session.variant;
-  addName(app, "--kernel", variant.kernel, {"auto", "seed", "ray", "packet"},
+  addName(app, "--kernel", variant.kernel, withAuto(kernelNames()),
           "Vulkan: neighbouring lanes trace one ray of neighbouring seeds, the rays of\n"
           "one seed, or these as a packet; default auto, by the device")
       ->group(kExperimentGroup);
-  addName(app, "--bvh", variant.bvh, {"auto", "wide", "binary"},
+  addName(app, "--bvh", variant.bvh, withAuto(bvhNames()),
           "Vulkan: hierarchy of eight children in quantised boxes, or of two in float32;\ndefault auto")
       ->group(kExperimentGroup);
-  addName(app, "--fetch", variant.fetch, {"auto", "texel", "storage"},
+  addName(app, "--fetch", variant.fetch, withAuto(fetchNames()),
           "Vulkan: the hierarchy is read from texel or storage buffers; default auto")
       ->group(kExperimentGroup);
 }
@@ -227,8 +228,7 @@ void validateOptions(const CommandLine& line) {
 std::string helpOf(CLI::App& app, bool showsAll) {
   if (showsAll) return app.help();
   for (CLI::Option* option : app.get_options())
-    if (const std::string group = option->get_group(); group != kBasicGroup && group != "Options" && group != "OPTIONS")
-      if (!option->get_positional()) option->group("");
+    if (option->get_group() != kBasicGroup && !option->get_positional()) option->group("");
   app.footer("--help=all lists all options.\n" + std::string(kFooter));
   return app.help();
 }
@@ -241,7 +241,8 @@ CommandLine parseCommandLine(std::vector<std::string> arguments) {
   app.footer(kFooter);
   app.set_help_flag("-h,--help", "Print the most needed options; --help=all prints all");
   app.set_version_flag("--version", fmt::format("asdf-vk {} ({})", ASDFVK_VERSION, ASDFVK_COMMIT), "Print the version");
-  app.add_option("meshes", line.meshes, "Meshes: PLY, OFF, OBJ or STL; '-' is standard input")->option_text("MESH...");
+  app.add_option("meshes", line.meshes, fmt::format("Meshes: .{}; - is standard input", fmt::join(meshFormats(), " .")))
+      ->option_text("MESH...");
   addComputation(app, line);
   addOutput(app, line);
   addPicture(app, line);

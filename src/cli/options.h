@@ -1,19 +1,46 @@
 #pragma once
 
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "cli/command_line.h"
+#include "asdf_vk/session.h"
+#include "render/view.h"
 
 namespace asdfvk {
 
-/// How many faces --check takes when it names no number.
+/// The parsed command line, after every option was validated, alone and against the others.
+struct CommandLine {
+  std::vector<std::string> meshes;  ///< Paths, "-" for standard input (at most once).
+  SessionOptions session;
+  Recipe recipe = Recipe::Balanced;  ///< Applied to `options` before other options.
+  Options options;
+  std::string output;                              ///< A file, a directory, "-"; empty: beside each input.
+  std::string format;                              ///< A name of resultFormats(); empty: by `output`, else ply.
+  std::vector<std::string> fields{"sdf", "seed"};  ///< Fields to write, in this order.
+  std::string picture;                             ///< A .png, "-" for standard output; empty: none.
+  std::string pictureOf = "sdf";                   ///< Name of the field to show.
+  View pictureView;
+  bool ascii = false;
+  bool json = false;
+  bool quiet = false;
+  bool listDevices = false;
+  uint32_t threadCount = 0;           ///< 0: the number of cores.
+  std::optional<std::string> answer;  ///< The text of --help or --version; nothing else is done then.
+};
+
+/// Number of faces of --check without a value.
 inline constexpr uint64_t kDefaultCheckCount = 2000;
 
-/// Reads the arguments after the program's name. Throws Error{Usage} whose line names the option.
+/// Reads the arguments after the name of the program. Throws Error of kind Usage whose line names the option.
 [[nodiscard]] CommandLine parseCommandLine(std::vector<std::string> arguments);
 
-/// Three lines for who calls the program without any argument.
+/// The values of the options that affect the result: the key "options" of the JSON report.
+[[nodiscard]] nlohmann::ordered_json optionValues(const CommandLine& line);
+
+/// Three lines, for a call without arguments.
 [[nodiscard]] std::string shortUsage();
 
 }  // namespace asdfvk

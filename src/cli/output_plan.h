@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "asdf_vk/files.h"
-#include "cli/command_line.h"
+#include "cli/options.h"
 
 namespace asdfvk {
 

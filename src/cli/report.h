@@ -4,7 +4,7 @@
 #include <string>
 
 #include "asdf_vk/session.h"
-#include "cli/command_line.h"
+#include "cli/options.h"
 
 namespace asdfvk {
 

@@ -6,8 +6,6 @@
 #include <nlohmann/json.hpp>
 
 #include "asdf_vk/version.h"
-#include "cli/option_parsing.h"
-#include "pipeline/choice_names.h"
 
 namespace asdfvk {
 namespace {
@@ -18,48 +16,6 @@ Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nul
 
 std::string oneLineOf(const Json& json) {
   return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
-}
-
-std::string toText(const SmoothingOptions& smoothing) {
-  if (!smoothing.isOn) return "off";
-  if (!smoothing.window) return "auto";
-  return fmt::format("{}x{}", smoothing.window->rings, smoothing.window->passes);
-}
-
-template <typename T>
-Json optional(const std::optional<T>& value) {
-  return value ? Json(*value) : Json(nullptr);
-}
-
-std::string nameOrAuto(const std::string& name) { return name.empty() ? "auto" : name; }
-
-Json optionsOf(const CommandLine& line) {
-  const Options& options = line.options;
-  const InterpolationOptions& interpolation = options.interpolation;
-  return {{"recipe", nameOf(kRecipes, line.recipe)},
-          {"seeds", toText(options.seeds)},
-          {"sampler", options.sampler},
-          {"maxError", optional(options.rounds.maxError)},
-          {"timeBudgetSeconds", optional(options.rounds.timeBudgetSeconds)},
-          {"rays", options.cone.rayCount},
-          {"angleDegrees", options.cone.openingAngleDegrees},
-          {"falseHitAngleDegrees", options.cone.falseHitAngleDegrees},
-          {"outlierDeviations", options.cone.outlierDeviations},
-          {"coneRotation", nameOf(kConeRotations, options.cone.rotation)},
-          {"smooth", toText(options.smoothing)},
-          {"orient", nameOf(kOrientations, options.orientation)},
-          {"weights", nameOf(kWeights, interpolation.weights)},
-          {"guidance", nameOf(kGuidances, interpolation.guidance)},
-          {"pooling", interpolation.pooling},
-          {"solver", options.solver},
-          {"tolerance", options.solverOptions.tolerance},
-          {"maxIterations", options.solverOptions.maxIterations},
-          {"backend", line.session.backend},
-          {"device", line.session.device},
-          {"requireGpu", line.session.requireGpu},
-          {"kernel", nameOrAuto(line.session.variant.kernel)},
-          {"bvh", nameOrAuto(line.session.variant.bvh)},
-          {"fetch", nameOrAuto(line.session.variant.fetch)}};
 }
 
 Json variantOf(const std::optional<TraceVariant>& variant) {
@@ -173,7 +129,7 @@ std::string jsonReport(const MeshOutcome& outcome) {
   for (const Field& field : outcome.result.fields) json["fields"].push_back(fieldOf(field));
   json["version"] = ASDFVK_VERSION;
   json["commit"] = ASDFVK_COMMIT;
-  json["options"] = optionsOf(outcome.line);
+  json["options"] = optionValues(outcome.line);
   return oneLineOf(json);
 }
 

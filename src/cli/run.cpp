@@ -1,6 +1,5 @@
 #include "cli/run.h"
 
-#include <algorithm>
 #include <optional>
 #include <string>
 #include <utility>
@@ -9,12 +8,13 @@
 #include "asdf_vk/asdf_vk.h"
 #include "cli/interrupt.h"
 #include "cli/output_plan.h"
-#include "cli/picture_output.h"
-#include "cli/progress.h"
 #include "cli/report.h"
 #include "cli/terminal.h"
 #include "core/stopwatch.h"
 #include "mesh/orientation.h"
+#include "render/picture.h"
+#include "render/png.h"
+#include "trace/scene_data.h"
 
 namespace asdfvk {
 namespace {
@@ -36,6 +36,36 @@ struct MeshReport {
   ExitCode code = ExitCode::Done;
   std::string json;
 };
+
+/// From entries per input face to entries per triangle.
+template <typename T>
+std::vector<T> onTriangles(const TriangleMesh& mesh, const std::vector<T>& ofInputFaces) {
+  if (mesh.polygons.isEmpty()) return ofInputFaces;
+  std::vector<T> result;
+  result.reserve(mesh.faces.size());
+  for (const uint32_t inputFace : mesh.polygons.inputFaceOf) result.push_back(ofInputFaces[inputFace]);
+  return result;
+}
+
+/// Renders the field of --picture-of and writes it, whole or not at all. Precondition: result.scene is set. Throws
+/// Error{OutputNotWritable}, Error{UnknownField} and Error{Cancelled}.
+void writePicture(const CommandLine& line, const Result& result, const RunControl& control) {
+  const Field* field = result.field(line.pictureOf);
+  if (field == nullptr)
+    throw Error(ErrorCode::UnknownField, "--picture-of: the result has no field " + line.pictureOf);
+  const TriangleMesh& mesh = result.scene->mesh;
+  Picture picture{.scene = *result.scene, .title = field->label, .view = line.pictureView};
+  std::vector<double> values;
+  std::vector<uint8_t> flags;
+  if (const std::vector<double>* reals = field->reals()) {
+    values = onTriangles(mesh, *reals);
+    picture.values = values;
+  } else if (const auto* marks = std::get_if<std::vector<uint8_t>>(&field->values)) {
+    flags = onTriangles(mesh, *marks);
+    picture.highlighted = flags;
+  }
+  writePng(line.picture, render(picture, control));
+}
 
 MeshReport runMesh(Session& session, const std::string& name, const std::string& output, const CommandLine& line,
                    const std::stop_token& stop) {
@@ -74,12 +104,12 @@ MeshReport runMesh(Session& session, const std::string& name, const std::string&
 
 /// Runs `step`, which returns a MeshReport; an exception becomes one and is printed as an error of the mesh.
 template <typename Step>
-MeshReport reportOf(const std::string& mesh, Step step) {
+MeshReport reportOf(const std::string& mesh, bool requiresGpu, Step step) {
   try {
     return step();
   } catch (...) {
-    Failure failure = currentFailure();
-    const std::string prefix = mesh + ": ";  // Readers name the file, too.
+    Failure failure = currentFailure(requiresGpu);
+    const std::string prefix = mesh + ": ";  // The messages of readers begin with the file, too.
     if (failure.message.starts_with(prefix)) failure.message.erase(0, prefix.size());
     printError(mesh, failure.message);
     return {failure.code, jsonFailure(mesh, failure.name, failure.message)};
@@ -94,7 +124,7 @@ void printDeviceLines(const Session& session) {
 }
 
 ExitCode failWithoutSession(const CommandLine& line) {
-  const Failure failure = currentFailure();
+  const Failure failure = currentFailure(line.session.requireGpu);
   printError("", failure.message);
   for (const std::string& mesh : line.meshes)
     if (line.json) writeStandardOutput(jsonFailure(mesh, failure.name, failure.message));
@@ -116,7 +146,7 @@ ExitCode runMeshes(const CommandLine& line, const std::stop_token& stop) {
   ExitCode first = ExitCode::Done;
   for (size_t i = 0; i < line.meshes.size(); ++i) {
     const std::string& mesh = line.meshes[i];
-    const MeshReport report = reportOf(mesh, [&] { return runMesh(*session, mesh, outputs[i], line, stop); });
+    const MeshReport report = reportOf(mesh, line.session.requireGpu, [&] { return runMesh(*session, mesh, outputs[i], line, stop); });
     if (first == ExitCode::Done) first = report.code;
     if (line.json) writeStandardOutput(report.json);
     if (report.code == ExitCode::Cancelled) break;

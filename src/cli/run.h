@@ -2,7 +2,7 @@
 
 #include <stop_token>
 
-#include "cli/command_line.h"
+#include "cli/options.h"
 #include "cli/exit_code.h"
 
 namespace asdfvk {
