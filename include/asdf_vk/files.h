@@ -20,6 +20,9 @@ namespace asdfvk {
 /// The same from memory. extension: "ply", ".OBJ", or empty; used where the content does not decide.
 [[nodiscard]] ASDFVK_API Mesh parseMesh(std::span<const char> bytes, std::string_view extension = {});
 
+/// Names of the formats that readMesh() reads.
+[[nodiscard]] ASDFVK_API std::vector<std::string> meshFormats();
+
 struct WriteOptions {
   std::string format;                    ///< Of resultFormats(); empty: by the extension of the path. "-" needs it.
   std::vector<std::string> fields = {};  ///< Names of the fields to write, in this order; empty: all.

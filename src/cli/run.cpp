@@ -51,8 +51,7 @@ std::vector<T> onTriangles(const TriangleMesh& mesh, const std::vector<T>& ofInp
 /// Error{OutputNotWritable}, Error{UnknownField} and Error{Cancelled}.
 void writePicture(const CommandLine& line, const Result& result, const RunControl& control) {
   const Field* field = result.field(line.pictureOf);
-  if (field == nullptr)
-    throw Error(ErrorCode::UnknownField, "--picture-of: the result has no field " + line.pictureOf);
+  if (field == nullptr) throw Error(ErrorCode::UnknownField, "--picture-of: the result has no field " + line.pictureOf);
   const TriangleMesh& mesh = result.scene->mesh;
   Picture picture{.scene = *result.scene, .title = field->label, .view = line.pictureView};
   std::vector<double> values;
@@ -146,7 +145,8 @@ ExitCode runMeshes(const CommandLine& line, const std::stop_token& stop) {
   ExitCode first = ExitCode::Done;
   for (size_t i = 0; i < line.meshes.size(); ++i) {
     const std::string& mesh = line.meshes[i];
-    const MeshReport report = reportOf(mesh, line.session.requireGpu, [&] { return runMesh(*session, mesh, outputs[i], line, stop); });
+    const MeshReport report =
+        reportOf(mesh, line.session.requireGpu, [&] { return runMesh(*session, mesh, outputs[i], line, stop); });
     if (first == ExitCode::Done) first = report.code;
     if (line.json) writeStandardOutput(report.json);
     if (report.code == ExitCode::Cancelled) break;

@@ -2,8 +2,8 @@
 
 #include <stop_token>
 
-#include "cli/options.h"
 #include "cli/exit_code.h"
+#include "cli/options.h"
 
 namespace asdfvk {
 

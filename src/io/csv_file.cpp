@@ -1,4 +1,5 @@
-// Comma-separated values: a header line, then a row per face or per vertex, numbered from 0 in the first column.
+// Comma-separated values: a header line, then a row per face or per vertex, numbered from 0 in the first column `face`
+// or `vertex`. Numbers have the shortest text that reads back the same; all fields that are read are real.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,7 +12,6 @@
 #include "core/text.h"
 #include "io/formats.h"
 #include "io/input_failure.h"
-#include "io/result_view.h"
 #include "io/stored_fields.h"
 
 namespace asdfvk {
@@ -88,8 +88,6 @@ class CsvScanner {
   bool isLineDone_ = true;
 };
 
-}  // namespace
-
 void writeCsv(AtomicFile& file, const ResultView& result) {
   const std::vector<FieldColumn> faceColumns = columnsOf(result.fields(), FieldLocation::PerFace, nullptr, {"face"});
   const std::vector<FieldColumn> vertexColumns =
@@ -130,5 +128,10 @@ std::vector<Field> parseCsvFields(std::span<const char> bytes) {
   }
   return joinColumns(std::move(columns));
 }
+
+}  // namespace
+
+extern const FileFormat kCsvFormat{
+    .name = "csv", .extensions = {"csv"}, .detect = detectCsv, .parseFields = parseCsvFields, .write = writeCsv};
 
 }  // namespace asdfvk

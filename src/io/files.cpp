@@ -1,19 +1,98 @@
 #include "asdf_vk/files.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <memory>
 #include <new>
 
 #include "asdf_vk/error.h"
 #include "core/atomic_file.h"
 #include "core/text.h"
-#include "io/file_bytes.h"
 #include "io/formats.h"
 #include "io/input_failure.h"
-#include "io/result_view.h"
+#include "io/stored_fields.h"
 
 namespace asdfvk {
 namespace {
+
+class Descriptor {
+ public:
+  explicit Descriptor(const std::filesystem::path& path)
+      : value_(path == "-" ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
+    if (value_ < 0) failInput(fmt::format("cannot be opened: {}", std::strerror(errno)));
+  }
+  ~Descriptor() {
+    if (value_ != STDIN_FILENO) ::close(value_);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  [[nodiscard]] int value() const { return value_; }
+
+ private:
+  int value_;
+};
+
+/// A whole file in memory. Not mapped: a file that shrinks while it is mapped ends the process.
+class FileBytes {
+ public:
+  /// "-" is standard input. Pipes are read to their end. Throws Error{UnreadableInput} with the reason of the system.
+  [[nodiscard]] static FileBytes read(const std::filesystem::path& path);
+
+  [[nodiscard]] std::span<const char> bytes() const { return {data_.get(), size_}; }
+
+ private:
+  struct Free {
+    void operator()(char* data) const { std::free(data); }
+  };
+
+  void grow(size_t capacity);
+  void readAll(int descriptor);
+
+  std::unique_ptr<char, Free> data_;  ///< From malloc: realloc grows it in place where possible, and does not clear it.
+  size_t size_ = 0;
+  size_t capacity_ = 0;
+};
+
+void FileBytes::grow(size_t capacity) {
+  auto* data = static_cast<char*>(std::realloc(data_.get(), capacity));
+  if (data == nullptr) throw std::bad_alloc();
+  static_cast<void>(data_.release());
+  data_.reset(data);
+  capacity_ = capacity;
+}
+
+void FileBytes::readAll(int descriptor) {
+  constexpr size_t kMaxRead = size_t{1} << 30;  // Linux reads at most 2 GiB at once.
+  for (;;) {
+    if (size_ == capacity_) grow(2 * capacity_);
+    const ssize_t count = ::read(descriptor, data_.get() + size_, std::min(capacity_ - size_, kMaxRead));
+    if (count == 0) return;
+    if (count < 0 && errno != EINTR) failInput(fmt::format("cannot be read: {}", std::strerror(errno)));
+    if (count > 0) size_ += static_cast<size_t>(count);
+  }
+}
+
+FileBytes FileBytes::read(const std::filesystem::path& path) {
+  const Descriptor descriptor(path);
+  struct stat status {};
+  if (::fstat(descriptor.value(), &status) != 0) failInput(fmt::format("cannot be read: {}", std::strerror(errno)));
+  if (S_ISDIR(status.st_mode)) failInput("is a directory, not a file");
+  // A device such as /dev/zero has no end.
+  if (S_ISBLK(status.st_mode) || (S_ISCHR(status.st_mode) && ::isatty(descriptor.value()) == 0))
+    failInput("is a device, not a file");
+  FileBytes file;
+  // One byte more than the size of the file: the read that finds its end needs no larger buffer.
+  file.grow(S_ISREG(status.st_mode) ? static_cast<size_t>(status.st_size) + 1 : size_t{1} << 16);
+  file.readAll(descriptor.value());
+  return file;
+}
 
 /// The result of parse(bytes, extension); errors start with the name of the file.
 template <typename Parse>
@@ -29,18 +108,34 @@ auto readFile(const std::filesystem::path& path, Parse parse) {
   }
 }
 
+using HasOperation = bool (*)(const FileFormat& format);
 bool isMeshFormat(const FileFormat& format) { return format.parseMesh != nullptr; }
 bool isFieldFormat(const FileFormat& format) { return format.parseFields != nullptr; }
 bool isResultFormat(const FileFormat& format) { return format.write != nullptr; }
 
-const FileFormat& formatFor(std::span<const char> bytes, std::string_view extension,
-                            bool (*hasOperation)(const FileFormat&), std::string_view contents) {
+std::vector<std::string> namesOf(HasOperation hasOperation) {
+  std::vector<std::string> names;
+  for (const FileFormat* const format : fileFormats())
+    if (hasOperation(*format)) names.emplace_back(format->name);
+  return names;
+}
+
+/// "stl, ply or off"
+std::string listOf(HasOperation hasOperation) {
+  const std::vector<std::string> names = namesOf(hasOperation);
+  std::string text;
+  for (size_t i = 0; i < names.size(); ++i) text += (i == 0 ? "" : i + 1 == names.size() ? " or " : ", ") + names[i];
+  return text;
+}
+
+const FileFormat& formatFor(std::span<const char> bytes, std::string_view extension, HasOperation hasOperation,
+                            std::string_view contents) {
   if (bytes.empty()) failInput("is empty");
   const FileFormat* const format = detectFormat(bytes, extension);
   if (format == nullptr || !hasOperation(*format))
     failInput(fmt::format("has {}; {} are read from {}",
                           format == nullptr ? "an unknown format" : fmt::format("the format {}", format->name),
-                          contents, namesOfFormatsWith(hasOperation)));
+                          contents, listOf(hasOperation)));
   return *format;
 }
 
@@ -50,8 +145,7 @@ const FileFormat& findResultFormat(const std::filesystem::path& path, const std:
   const std::string reason = !name.empty() ? fmt::format("'{}' is not a format of results", printable(name))
                              : path == "-" ? std::string("standard output has no extension that names a format")
                                            : fmt::format("the extension of {} does not name a format", path.string());
-  throw Error(ErrorCode::UnknownFormat,
-              fmt::format("{}; results are written as {}", reason, namesOfFormatsWith(isResultFormat)));
+  throw Error(ErrorCode::UnknownFormat, fmt::format("{}; results are written as {}", reason, listOf(isResultFormat)));
 }
 
 }  // namespace
@@ -65,12 +159,8 @@ Mesh readMesh(const std::filesystem::path& path) {
       path, [](std::span<const char> bytes, const std::string& extension) { return parseMesh(bytes, extension); });
 }
 
-std::vector<std::string> resultFormats() {
-  std::vector<std::string> names;
-  for (const FileFormat& format : fileFormats())
-    if (isResultFormat(format)) names.emplace_back(format.name);
-  return names;
-}
+std::vector<std::string> meshFormats() { return namesOf(isMeshFormat); }
+std::vector<std::string> resultFormats() { return namesOf(isResultFormat); }
 
 std::string resultFormatOf(const std::filesystem::path& path, const WriteOptions& options) {
   return std::string(findResultFormat(path, options.format).name);

@@ -5,13 +5,14 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
 #include "asdf_vk/error.h"
+#include "core/check.h"
 #include "core/text.h"
 #include "io/input_failure.h"
-#include "io/triangulate.h"
 
 namespace asdfvk {
 namespace {
@@ -20,7 +21,8 @@ constexpr uint64_t kMaxIndexCount = std::numeric_limits<uint32_t>::max();
 constexpr uint64_t kPolygonsPerBlock = 4096;
 
 [[noreturn]] void failSize(const std::string& counts) {
-  throw Error(ErrorCode::MeshTooLarge, fmt::format("has {}; at most {} are supported", counts, kMaxIndexCount));
+  throw Error(ErrorCode::MeshTooLarge,
+              fmt::format("the mesh has {}; at most {} are supported", counts, kMaxIndexCount));
 }
 
 void triangulateAll(std::span<const Vec3d> vertices, Polygons& polygons, std::vector<Face>& triangles) {
@@ -52,6 +54,13 @@ void triangulateAll(std::span<const Vec3d> vertices, Polygons& polygons, std::ve
   };
   if (firstTriangleOfBlock.size() == 1) return cutBlock(0);
   tbb::parallel_for(uint64_t{0}, uint64_t{firstTriangleOfBlock.size()}, cutBlock);
+}
+
+/// A corner whose turn has a smaller sine is straight.
+constexpr double kStraightSine = 1e-10;
+
+void cutFan(std::span<const uint32_t> corners, std::span<Face> triangles) {
+  for (size_t i = 0; i < triangles.size(); ++i) triangles[i] = {corners[0], corners[i + 1], corners[i + 2]};
 }
 
 }  // namespace
@@ -107,6 +116,113 @@ void InputFaces::moveTo(std::span<const Vec3d> vertices, Mesh& mesh) {
 
 void requireIndexableVertexCount(uint64_t count) {
   if (count > kMaxIndexCount) failSize(fmt::format("{} vertices", count));
+}
+
+void PolygonTriangulator::triangulate(std::span<const Vec3d> vertices, std::span<const uint32_t> corners,
+                                      std::span<Face> triangles) {
+  ASDFVK_CHECK_OP(corners.size(), ==, triangles.size() + 2);
+  const size_t count = corners.size();
+  if (count == 3 || count > kMaxEarClippedCorners || !project(vertices, corners)) return cutFan(corners, triangles);
+  previous_.resize(count);
+  next_.resize(count);
+  for (size_t i = 0; i < count; ++i) {
+    previous_[i] = static_cast<uint32_t>((i + count - 1) % count);
+    next_[i] = static_cast<uint32_t>((i + 1) % count);
+  }
+  turn_.resize(count);
+  reflex_.clear();
+  for (uint32_t i = 0; i < count; ++i) {
+    turn_[i] = turnAt(i);
+    if (!(turn_[i] > kStraightSine)) reflex_.push_back(i);
+  }
+  if (reflex_.empty()) return cutFan(corners, triangles);
+  clipEars(corners, triangles);
+}
+
+bool PolygonTriangulator::project(std::span<const Vec3d> vertices, std::span<const uint32_t> corners) {
+  // Relative to a corner and to the size of the polygon: independent of the unit and of the distance to the origin.
+  const Vec3d origin = vertices[corners[0]];
+  double size = 0;
+  for (const uint32_t corner : corners) {
+    const Vec3d p = vertices[corner] - origin;
+    for (size_t axis = 0; axis < 3; ++axis) {
+      if (!std::isfinite(p[axis])) return false;
+      size = std::max(size, std::abs(p[axis]));
+    }
+  }
+  if (!(size > 0)) return false;
+  const auto local = [&](size_t i) {
+    const Vec3d p = vertices[corners[i]] - origin;
+    return Vec3d{p.x / size, p.y / size, p.z / size};
+  };
+  Vec3d normal;
+  for (size_t i = 0; i < corners.size(); ++i) {
+    const Vec3d a = local(i), b = local(i + 1 == corners.size() ? 0 : i + 1);
+    normal = normal + Vec3d{(a.y - b.y) * (a.z + b.z), (a.z - b.z) * (a.x + b.x), (a.x - b.x) * (a.y + b.y)};
+  }
+  size_t axis = 0;
+  for (size_t other = 1; other < 3; ++other)
+    if (std::abs(normal[other]) > std::abs(normal[axis])) axis = other;
+  if (!(std::abs(normal[axis]) > 0)) return false;
+  const size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
+  points_.resize(corners.size());
+  for (size_t i = 0; i < corners.size(); ++i) {
+    const Vec3d p = local(i);
+    points_[i] = normal[axis] > 0 ? Point2{p[u], p[v]} : Point2{p[v], p[u]};
+  }
+  return true;
+}
+
+/// Sine of the turn from the edge before `corner` to the edge after it: positive to the left, 0 for an empty edge.
+double PolygonTriangulator::turnAt(uint32_t corner) const {
+  const Point2 a = points_[previous_[corner]], b = points_[corner], c = points_[next_[corner]];
+  const double cross = (b.x - a.x) * (c.y - b.y) - (b.y - a.y) * (c.x - b.x);
+  const double lengths = std::hypot(b.x - a.x, b.y - a.y) * std::hypot(c.x - b.x, c.y - b.y);
+  return lengths > 0 ? cross / lengths : 0;
+}
+
+bool PolygonTriangulator::isEar(uint32_t corner) const {
+  if (!(turn_[corner] > kStraightSine)) return false;
+  const uint32_t before = previous_[corner], after = next_[corner];
+  const Point2 a = points_[before], b = points_[corner], c = points_[after];
+  return std::none_of(reflex_.begin(), reflex_.end(), [&](uint32_t other) {
+    if (isClipped_[other] || other == before || other == corner || other == after) return false;
+    // The ends of a bridge to a hole occur twice; the copy of a corner is no obstacle.
+    const Point2 p = points_[other];
+    if (p == a || p == b || p == c) return false;
+    return sideOf(a, b, p) >= 0 && sideOf(b, c, p) >= 0 && sideOf(c, a, p) >= 0;
+  });
+}
+
+/// The first ear from `start` on. A polygon without ears crosses itself or is flat: then the sharpest left turn.
+uint32_t PolygonTriangulator::findEar(uint32_t start, size_t leftCount) const {
+  uint32_t corner = start, sharpest = start;
+  for (size_t i = 0; i < leftCount; ++i, corner = next_[corner]) {
+    if (isEar_[corner]) return corner;
+    if (turn_[corner] > turn_[sharpest]) sharpest = corner;
+  }
+  return sharpest;
+}
+
+void PolygonTriangulator::clipEars(std::span<const uint32_t> corners, std::span<Face> triangles) {
+  isClipped_.assign(corners.size(), 0);
+  isEar_.resize(corners.size());
+  for (uint32_t i = 0; i < corners.size(); ++i) isEar_[i] = isEar(i);
+  uint32_t start = 0;
+  size_t leftCount = corners.size();
+  for (Face& triangle : triangles) {
+    const uint32_t ear = findEar(start, leftCount--);
+    const uint32_t before = previous_[ear], after = next_[ear];
+    triangle = {corners[before], corners[ear], corners[after]};
+    next_[before] = after;
+    previous_[after] = before;
+    isClipped_[ear] = 1;
+    for (const uint32_t neighbour : {before, after}) {
+      turn_[neighbour] = turnAt(neighbour);
+      isEar_[neighbour] = isEar(neighbour);
+    }
+    start = after;  // Continuing after the ear spreads the cuts; otherwise all would share one corner.
+  }
 }
 
 }  // namespace asdfvk

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "mesh/mesh.h"
+#include "mesh/point2.h"
 
 namespace asdfvk {
 
@@ -35,5 +36,35 @@ class InputFaces {
 
 /// Throws Error{MeshTooLarge} for more than 2^32 - 1 vertices.
 void requireIndexableVertexCount(uint64_t count);
+
+/// Concave polygons with more corners are cut into a fan, which may overlap itself: the time of ear clipping is
+/// quadratic in the corner count.
+inline constexpr size_t kMaxEarClippedCorners = 1000;
+
+/// Cuts polygons into triangles of the same winding. Reuses its working memory.
+class PolygonTriangulator {
+ public:
+  /// Fills all n - 2 `triangles` of a polygon with n >= 3 corners, degenerate ones included. A polygon with a left turn
+  /// at every corner becomes the fan of its first corner. Any other polygon is cut by ear clipping (Meisters 1975), in
+  /// the coordinate plane closest to its Newell normal. Straight corners are clipped last, which avoids empty triangles
+  /// where possible. A polygon with non-finite corners or without area becomes the fan. Precondition: every corner is
+  /// below the vertex count.
+  void triangulate(std::span<const Vec3d> vertices, std::span<const uint32_t> corners, std::span<Face> triangles);
+
+ private:
+  /// False where the polygon spans no plane.
+  [[nodiscard]] bool project(std::span<const Vec3d> vertices, std::span<const uint32_t> corners);
+  [[nodiscard]] double turnAt(uint32_t corner) const;
+  [[nodiscard]] bool isEar(uint32_t corner) const;
+  [[nodiscard]] uint32_t findEar(uint32_t start, size_t leftCount) const;
+  void clipEars(std::span<const uint32_t> corners, std::span<Face> triangles);
+
+  // Per corner of the current polygon; previous_ and next_ link the corners that are not yet clipped to a ring.
+  std::vector<Point2> points_;
+  std::vector<uint32_t> previous_, next_;
+  std::vector<double> turn_;
+  std::vector<uint8_t> isEar_, isClipped_;
+  std::vector<uint32_t> reflex_;  ///< Corners without a left turn in the whole polygon; only these can lie in an ear.
+};
 
 }  // namespace asdfvk

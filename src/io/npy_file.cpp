@@ -1,3 +1,5 @@
+// The first field: version 1.0, shape (n,) or (n, 3), '<f4', '|u1' or '<u4'. Read as a face field named `values`: the
+// format has neither names nor locations. Also reads '<f8'.
 #include "io/npy_file.h"
 
 #include <fmt/format.h>
@@ -14,7 +16,6 @@
 #include "core/text.h"
 #include "io/formats.h"
 #include "io/input_failure.h"
-#include "io/result_view.h"
 #include "io/stored_fields.h"
 
 namespace asdfvk {
@@ -137,6 +138,8 @@ Field parseNpy(std::span<const char> bytes, uint64_t byte) {
   return field;
 }
 
+namespace {
+
 Match detectNpy(std::span<const char> bytes) {
   return std::string_view(bytes.data(), bytes.size()).starts_with("\x93NUMPY") ? Match::Certain : Match::None;
 }
@@ -153,5 +156,10 @@ void writeNpy(AtomicFile& file, const ResultView& result) {
   file.write(npyHeader(field));
   putNpyEntries(field, [&](std::span<const char> part) { file.write(part.data(), part.size()); });
 }
+
+}  // namespace
+
+extern const FileFormat kNpyFormat{
+    .name = "npy", .extensions = {"npy"}, .detect = detectNpy, .parseFields = parseNpyFields, .write = writeNpy};
 
 }  // namespace asdfvk

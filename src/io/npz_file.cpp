@@ -1,5 +1,6 @@
-// .npz of NumPy: a zip archive (APPNOTE.TXT of PKWARE, 4.3) of .npy, not compressed. The members, each after its local
-// header, then the central directory.
+// .npz of NumPy: a zip archive (APPNOTE.TXT of PKWARE, 4.3), not compressed: a member FIELD.npy per field, with "face"
+// or "vertex" as its comment. The members, each after its local header, then the central directory. Members without a
+// comment, as NumPy writes them, are face fields.
 #include <fmt/format.h>
 #include <zlib.h>
 
@@ -13,7 +14,6 @@
 #include "io/formats.h"
 #include "io/input_failure.h"
 #include "io/npy_file.h"
-#include "io/result_view.h"
 #include "io/stored_fields.h"
 
 namespace asdfvk {
@@ -153,8 +153,6 @@ class ZipReader {
   uint64_t next_ = 0;  ///< First byte of the next member.
 };
 
-}  // namespace
-
 void writeNpz(AtomicFile& file, const ResultView& result) {
   std::vector<ZipMember> members;
   uint64_t offset = 0, directorySize = 0;
@@ -202,5 +200,10 @@ std::vector<Field> parseNpzFields(std::span<const char> bytes) {
   requireReadableNames(fields);
   return fields;
 }
+
+}  // namespace
+
+extern const FileFormat kNpzFormat{
+    .name = "npz", .extensions = {"npz"}, .detect = detectNpz, .parseFields = parseNpzFields, .write = writeNpz};
 
 }  // namespace asdfvk

@@ -1,5 +1,5 @@
-// Wavefront OBJ: vertices and polygons. The reader ignores normals, texture coordinates, groups, materials, lines and
-// free-form surfaces, and opens no file that a statement (mtllib, ...) names.
+// Wavefront OBJ: the statements `v` and `f`. The reader ignores all other statements of the format, and opens no file
+// that one of them (mtllib, ...) names; `call` is an error, as is an unknown statement.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -123,12 +123,14 @@ class ObjReader {
   uint64_t highestIndexLine_ = 0;
 };
 
-}  // namespace
-
 Match detectObj(std::span<const char> bytes) {
   return isKeyword(firstWord(bytes, '#')) ? Match::Possible : Match::None;
 }
 
 Mesh parseObj(std::span<const char> bytes) { return ObjReader(bytes).read(); }
+
+}  // namespace
+
+extern const FileFormat kObjFormat{.name = "obj", .extensions = {"obj"}, .detect = detectObj, .parseMesh = parseObj};
 
 }  // namespace asdfvk

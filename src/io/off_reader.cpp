@@ -1,5 +1,6 @@
-// The Object File Format of Geomview: [ST][C][N]OFF, counts, one vertex per line, faces. The reader ignores the numbers
-// that the prefixes add to a vertex (texture coordinates, a colour, a normal) and the colour of a face.
+// The Object File Format of Geomview in ASCII: [ST][C][N]OFF, which may be missing, counts, one vertex per line, faces.
+// The numbers after the coordinates of a vertex (texture coordinates, a colour, a normal) must agree with the prefixes
+// and are ignored, as is the colour of a face, up to four numbers.
 #include <fmt/format.h>
 
 #include <optional>
@@ -126,8 +127,6 @@ void readFaces(TextScanner& text, uint64_t count, uint64_t vertexCount, InputFac
   }
 }
 
-}  // namespace
-
 Match detectOff(std::span<const char> bytes) {
   return parseKeyword(firstWord(bytes, '#')) ? Match::Certain : Match::None;
 }
@@ -155,5 +154,10 @@ Mesh parseOff(std::span<const char> bytes) {
   faces.moveTo(mesh);
   return mesh;
 }
+
+}  // namespace
+
+extern const FileFormat kOffFormat{
+    .name = "off", .extensions = {"off", "coff", "noff"}, .detect = detectOff, .parseMesh = parseOff};
 
 }  // namespace asdfvk

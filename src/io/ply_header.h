@@ -9,6 +9,9 @@
 
 namespace asdfvk {
 
+class AtomicFile;
+class ResultView;
+
 /// Start of the comment that names the field written as the property `quality`, as in "NAME (LABEL), ..." or "NAME,
 /// ...".
 inline constexpr std::string_view kPlyQualityComment = "asdf-vk: quality is ";
@@ -56,5 +59,8 @@ struct PlyHeader {
 
 /// Reads and checks the header. Throws Error{UnreadableInput} with the line. Names are views into `bytes`.
 [[nodiscard]] PlyHeader parsePlyHeader(std::span<const char> bytes);
+
+/// FileFormat::write of PLY.
+void writePly(AtomicFile& file, const ResultView& result);
 
 }  // namespace asdfvk

@@ -1,4 +1,8 @@
-// PLY (Turk 1994): a header (ply_header.h), then the rows of its elements, as text or binary (ply_source.h).
+// PLY 1.0 (Turk 1994): a header (ply_header.h), then the rows of its elements, ASCII or binary of either byte order
+// (ply_source.h). A mesh needs the element `vertex` with x, y, z of any numeric type, and the element `face` with the
+// list vertex_indices or vertex_index, or `tristrips`, or both; in any order. The reader of a mesh ignores all other
+// elements and properties; the reader of fields takes the numbers of vertices and faces in files of any program: uchar
+// as uint8, ushort and uint as uint32, others as real. In ASCII each row begins on a new line.
 #include <fmt/format.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -296,8 +300,6 @@ std::vector<PlyColumn> columnsOfHeader(const PlyHeader& header) {
   return columns;
 }
 
-}  // namespace
-
 Match detectPly(std::span<const char> bytes) { return firstWord(bytes) == "ply" ? Match::Certain : Match::None; }
 
 Mesh parsePly(std::span<const char> bytes) {
@@ -322,5 +324,14 @@ std::vector<Field> parsePlyFields(std::span<const char> bytes) {
   requireReadableNames(fields);
   return joinColumns(std::move(fields));
 }
+
+}  // namespace
+
+extern const FileFormat kPlyFormat{.name = "ply",
+                                   .extensions = {"ply"},
+                                   .detect = detectPly,
+                                   .parseMesh = parsePly,
+                                   .parseFields = parsePlyFields,
+                                   .write = writePly};
 
 }  // namespace asdfvk

@@ -1,3 +1,5 @@
+// Vertices with their fields, then faces: the list `uchar int vertex_indices` (`int int` above 255 corners), `float
+// quality` and its colour `uchar red green blue alpha`, then the other face fields: float, uchar or uint.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,7 +14,6 @@
 #include "io/formats.h"
 #include "io/input_failure.h"
 #include "io/ply_header.h"
-#include "io/result_view.h"
 #include "io/stored_fields.h"
 
 namespace asdfvk {

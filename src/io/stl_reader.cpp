@@ -1,5 +1,6 @@
-// STL, binary and ASCII. It has no indices, so corners at the same point become one vertex; otherwise no face would
-// have a neighbour. The reader ignores normals and attribute bytes; the vertex order decides which side is outside.
+// STL, ASCII, or binary, recognised by the exact size that its face count implies. It has no indices, so corners at the
+// same point become one vertex; otherwise no face would have a neighbour. The reader ignores normals and attribute
+// bytes; the vertex order decides which side is outside.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -173,8 +174,6 @@ Mesh parseAscii(std::span<const char> bytes) {
   return weldedMesh(welder, std::move(triangles));
 }
 
-}  // namespace
-
 Match detectStl(std::span<const char> bytes) {
   return hasBinarySize(bytes) || beginsWithSolid(bytes) ? Match::Certain : Match::None;
 }
@@ -186,5 +185,10 @@ Mesh parseStl(std::span<const char> bytes) {
   if (hasBinarySize(bytes) || hasZeroByte || !beginsWithSolid(bytes)) return parseBinary(bytes);
   return parseAscii(bytes);
 }
+
+}  // namespace
+
+extern const FileFormat kStlFormat{
+    .name = "stl", .extensions = {"stl", "stla", "stlb"}, .detect = detectStl, .parseMesh = parseStl};
 
 }  // namespace asdfvk

@@ -17,6 +17,9 @@
 #include "io/text_scanner.h"
 
 namespace asdfvk {
+
+void writeVtu(AtomicFile& file, const ResultView& result);  // vtu_writer.cpp
+
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "arrays are read by copying their bytes");
@@ -262,8 +265,6 @@ class VtuReader {
   bool hasWideSizes_ = false;
 };
 
-}  // namespace
-
 Match detectVtu(std::span<const char> bytes) {
   const std::string_view beginning(bytes.data(), std::min<size_t>(bytes.size(), 256));
   return beginning.starts_with('<') && beginning.find("<VTKFile") != std::string_view::npos ? Match::Certain
@@ -271,5 +272,10 @@ Match detectVtu(std::span<const char> bytes) {
 }
 
 std::vector<Field> parseVtuFields(std::span<const char> bytes) { return VtuReader(bytes).read(); }
+
+}  // namespace
+
+extern const FileFormat kVtuFormat{
+    .name = "vtu", .extensions = {"vtu"}, .detect = detectVtu, .parseFields = parseVtuFields, .write = writeVtu};
 
 }  // namespace asdfvk

@@ -1,4 +1,4 @@
-// XML unstructured grid of VTK, with arrays as inline base64.
+// Unstructured grid of VTK in XML with arrays as inline base64: PointData and CellData of Float32, UInt8 and UInt32.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,7 +11,6 @@
 
 #include "core/atomic_file.h"
 #include "io/formats.h"
-#include "io/result_view.h"
 #include "io/stored_fields.h"
 
 namespace asdfvk {

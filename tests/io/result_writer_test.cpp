@@ -100,9 +100,8 @@ TEST_CASE("the options choose the fields to write and their order") {
   CHECK(names({"seed", "sdf"}) == "face,seed,sdf");
   const Folder folder;
   const auto write = [&](const std::vector<std::string>& chosen) {
-    return codeOf([&] {
-      writeResult(folder / "out.ply", tetrahedron(), kFaceFields, {.format = {}, .fields = chosen});
-    });
+    return codeOf(
+        [&] { writeResult(folder / "out.ply", tetrahedron(), kFaceFields, {.format = {}, .fields = chosen}); });
   };
   CHECK(write({"sdf", "error"}) == ErrorCode::UnknownField);
   CHECK(write({"sdf", "sdf"}) == ErrorCode::OptionConflict);

@@ -188,8 +188,8 @@ TEST_CASE("flipping turns an input face's corners once, however many triangles i
 }
 
 TEST_CASE("a polygon is reversed even if its first triangle repeats a corner") {
-  // A cube of quads that looks inwards. The first quad repeats its second corner, so that its first triangle is an edge,
-  // which belongs to no closed component.
+  // A cube of quads that looks inwards. The first quad repeats its second corner, so that its first triangle is an
+  // edge, which belongs to no closed component.
   Mesh mesh = inverted(shapes::cube());
   mesh.polygons.firstCorner = {0};
   for (uint32_t quad = 0; quad < 6; ++quad) {
