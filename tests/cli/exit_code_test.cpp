@@ -10,11 +10,11 @@ namespace asdfvk {
 namespace {
 
 template <typename Exception>
-Failure failureOf(const Exception& exception) {
+Failure failureOf(const Exception& exception, bool requiresGpu = false) {
   try {
     throw exception;
   } catch (...) {
-    return currentFailure();
+    return currentFailure(requiresGpu);
   }
 }
 
@@ -37,6 +37,15 @@ TEST_CASE("a failure has the name of its code, and a remedy by options where the
   CHECK_EQ(input.name, "unreadableInput");
   CHECK_EQ(input.message, "line 3: no number");
   CHECK_EQ(failureOf(42).name, "internal");
+}
+
+TEST_CASE("no remedy contradicts --require-gpu") {
+  for (const ErrorCode code : {ErrorCode::NoVulkanLoader, ErrorCode::NoVulkanDriver, ErrorCode::KernelUnsupported,
+                               ErrorCode::DeviceLimit, ErrorCode::OutOfDeviceMemory, ErrorCode::DeviceLost}) {
+    CHECK(failureOf(Error(code, "x"), false).message.find("reference") != std::string::npos);
+    CHECK_EQ(failureOf(Error(code, "x"), true).message.find("--backend"), std::string::npos);
+    CHECK_EQ(failureOf(Error(code, "x"), true).message.find("CPU"), std::string::npos);
+  }
 }
 
 TEST_CASE("a check that failed is 5, one that could not fail is 0") {

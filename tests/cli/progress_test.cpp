@@ -1,4 +1,4 @@
-#include "cli/progress.h"
+#include "cli/terminal.h"
 
 #include <doctest/doctest.h>
 

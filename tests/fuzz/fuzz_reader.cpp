@@ -1,5 +1,5 @@
-#include "fuzz_reader.h"
-
+// The harness of the reader of ASDFVK_FORMAT. It requires that the reader either throws Error of kind Input with one line,
+// or returns a mesh whose arrays fit together; and that its memory never exceeds 64 times the input plus 256 KiB.
 #include <sanitizer/allocator_interface.h>
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 #include "asdf_vk/error.h"
 #include "io/formats.h"
 
-namespace asdfvk::fuzz {
+namespace asdfvk {
 namespace {
 
 constexpr int64_t kMaxBytesPerInputByte = 64;
@@ -61,9 +61,7 @@ void requireSound(const Mesh& mesh) {
   require(triangle == mesh.faces.size(), "a triangle belongs to no polygon");
 }
 
-}  // namespace
-
-int readOnce(Mesh (*parser)(std::span<const char>), const uint8_t* data, size_t size) {
+int readOnce(const FileFormat& format, const uint8_t* data, size_t size) {
   static const int isInstalled = __sanitizer_install_malloc_and_free_hooks(onMalloc, onFree);
   require(isInstalled != 0, "the allocation hooks could not be installed");
   liveBytes = 0;
@@ -72,7 +70,7 @@ int readOnce(Mesh (*parser)(std::span<const char>), const uint8_t* data, size_t 
   try {
     const std::span bytes(reinterpret_cast<const char*>(data), size);
     static_cast<void>(detectFormat(bytes, ""));
-    const Mesh mesh = parser(bytes);
+    const Mesh mesh = format.parseMesh(bytes);
     isCounting = false;
     requireSound(mesh);
   } catch (const Error& error) {
@@ -88,4 +86,10 @@ int readOnce(Mesh (*parser)(std::span<const char>), const uint8_t* data, size_t 
   return 0;
 }
 
-}  // namespace asdfvk::fuzz
+}  // namespace
+}  // namespace asdfvk
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  static const asdfvk::FileFormat& format = *asdfvk::formatOfExtension(ASDFVK_FORMAT);
+  return asdfvk::readOnce(format, data, size);
+}

@@ -5,12 +5,12 @@
 using namespace asdfvk;
 using asdfvk::test::errorOf;
 using asdfvk::test::holds;
+using asdfvk::test::kSquare;
 using asdfvk::test::parse;
 
 namespace {
 
-const std::string kCorners = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
-const std::vector<Vec3d> kSquare = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+const std::string kCorners = asdfvk::test::squareCorners("v ");
 
 }  // namespace
 
@@ -19,7 +19,7 @@ TEST_CASE("OBJ corners are read in all their forms") {
                            "f 1// 2// 3//", "f -4 -3 -2", "f -4/-1/-1 -3/-1/-1 -2/-1/-1", "f 1 \\\n2 \\\r\n 3",
                            "f 1 2 3\\\n", "fo 1 2 3", "f 1 2 3 # f 1 2 3", "  f\t1  2 3  "}) {
     CAPTURE(face);
-    const Mesh mesh = parse(parseObj, kCorners + "vt 0 0\nvt 1 0\nvt 1 1\nvn 0 0 1\n" + face + "\n");
+    const Mesh mesh = parse("obj", kCorners + "vt 0 0\nvt 1 0\nvt 1 1\nvn 0 0 1\n" + face + "\n");
     CHECK(mesh.vertices == kSquare);
     CHECK(mesh.faces == std::vector<Face>{{0, 1, 2}});
     CHECK(mesh.polygons.isEmpty());
@@ -27,14 +27,14 @@ TEST_CASE("OBJ corners are read in all their forms") {
 }
 
 TEST_CASE("negative OBJ indices count back from the last vertex, positive ones may refer to later vertices") {
-  const Mesh mesh = parse(parseObj, "f 2 3 4\nv 0 0 0\nv 1 0 0\nv 1 1 0\nf -3 -2 -1\nv 0 1 0\nf -3 -2 -1\n");
+  const Mesh mesh = parse("obj", "f 2 3 4\nv 0 0 0\nv 1 0 0\nv 1 1 0\nf -3 -2 -1\nv 0 1 0\nf -3 -2 -1\n");
   CHECK(mesh.vertices == kSquare);
   CHECK(mesh.faces == std::vector<Face>{{1, 2, 3}, {0, 1, 2}, {1, 2, 3}});
 }
 
 TEST_CASE("other OBJ statements are ignored, and no other file is opened") {
   const Mesh mesh =
-      parse(parseObj,
+      parse("obj",
             "# comment \\\nmtllib /dev/zero no such file.mtl\no a name\n\ng group one\ns off\nusemtl red\n"
             "v 0 0 0 1\nv 1 0 0 0.5 0.5 0.5\nv 1 1 0 1 0.5 0.5 0.5\nv 0 1 0\nvp 0.5\nvn 0 0 1\nvt 0 0 0\n"
             "l 1 2 3\np 1\ncstype bezier\ndeg 3\ncurv 0 1 1 2 3 4\nparm u 0 1\nend\nf 1 2 3 4\n");
@@ -46,27 +46,27 @@ TEST_CASE("other OBJ statements are ignored, and no other file is opened") {
 TEST_CASE("OBJ lines may end with CR alone and begin with a byte order mark") {
   std::string text = "\xef\xbb\xbf" + kCorners + "f 1 2 3\n";
   for (char& c : text) c = c == '\n' ? '\r' : c;
-  CHECK(parse(parseObj, text).vertices == kSquare);
+  CHECK(parse("obj", text).vertices == kSquare);
 }
 
 TEST_CASE("errors of an OBJ file name the line and the reason") {
-  CHECK(holds(errorOf(parseObj, ""), "neither points nor faces"));
-  CHECK(holds(errorOf(parseObj, kCorners), "4 points and no face"));
-  CHECK(holds(errorOf(parseObj, "Dear reader,\nthis is a letter.\n"), "line 1: 'Dear' is not an OBJ keyword"));
-  CHECK(holds(errorOf(parseObj, kCorners + "f 1 2 5\nf 1 2 3\n"), "line 5: vertex index 5 is out of range"));
-  CHECK(holds(errorOf(parseObj, kCorners + "f 1 2 -5\n"), "line 5: vertex index -5 is out of range"));
-  CHECK(holds(errorOf(parseObj, kCorners + "f 1 2 0\n"), "line 5: vertex index 0"));
-  CHECK(holds(errorOf(parseObj, kCorners + "f 1 2 4294967297\n"), "line 5: vertex index 4294967297"));
-  CHECK(holds(errorOf(parseObj, kCorners + "f 1 2 99999999999999999999\n"), "'99999999999999999999' is not a corner"));
-  CHECK(holds(errorOf(parseObj, kCorners + "f 1 2 3/x\n"), "line 5: '3/x' is not a corner"));
-  CHECK(holds(errorOf(parseObj, kCorners + "f 1 2 3/1/1/1\n"), "'3/1/1/1' is not a corner"));
-  CHECK(holds(errorOf(parseObj, kCorners + "f 1 2 3.0\n"), "'3.0' is not a corner"));
-  CHECK(holds(errorOf(parseObj, kCorners + "f\n"), "line 5: a face has no corners"));
-  CHECK(holds(errorOf(parseObj, kCorners + "f 1 2\n"), "the only face has fewer than three corners"));
-  CHECK(holds(errorOf(parseObj, "v 0 0\n"), "line 1: a vertex has 2 numbers"));
-  CHECK(holds(errorOf(parseObj, "v 0 0 0,5\n"), "line 1: expected a vertex coordinate, found '0,5'"));
-  CHECK(holds(errorOf(parseObj, "v 1 2 3 4 5 6 7 8\n"), "more than seven numbers"));
-  CHECK(holds(errorOf(parseObj, "v 1e400 0 0\n"), "too large"));
-  CHECK(holds(errorOf(parseObj, kCorners + "call other.obj\n"), "never opened"));
-  CHECK(holds(errorOf(parseObj, kCorners + "f 1 \\\n 2 \\\n x\n"), "line 7: 'x' is not a corner"));
+  CHECK(holds(errorOf("obj", ""), "neither points nor faces"));
+  CHECK(holds(errorOf("obj", kCorners), "4 points and no face"));
+  CHECK(holds(errorOf("obj", "Dear reader,\nthis is a letter.\n"), "line 1: 'Dear' is not an OBJ keyword"));
+  CHECK(holds(errorOf("obj", kCorners + "f 1 2 5\nf 1 2 3\n"), "line 5: vertex index 5 is out of range"));
+  CHECK(holds(errorOf("obj", kCorners + "f 1 2 -5\n"), "line 5: vertex index -5 is out of range"));
+  CHECK(holds(errorOf("obj", kCorners + "f 1 2 0\n"), "line 5: vertex index 0"));
+  CHECK(holds(errorOf("obj", kCorners + "f 1 2 4294967297\n"), "line 5: vertex index 4294967297"));
+  CHECK(holds(errorOf("obj", kCorners + "f 1 2 99999999999999999999\n"), "'99999999999999999999' is not a corner"));
+  CHECK(holds(errorOf("obj", kCorners + "f 1 2 3/x\n"), "line 5: '3/x' is not a corner"));
+  CHECK(holds(errorOf("obj", kCorners + "f 1 2 3/1/1/1\n"), "'3/1/1/1' is not a corner"));
+  CHECK(holds(errorOf("obj", kCorners + "f 1 2 3.0\n"), "'3.0' is not a corner"));
+  CHECK(holds(errorOf("obj", kCorners + "f\n"), "line 5: a face has no corners"));
+  CHECK(holds(errorOf("obj", kCorners + "f 1 2\n"), "the only face has fewer than three corners"));
+  CHECK(holds(errorOf("obj", "v 0 0\n"), "line 1: a vertex has 2 numbers"));
+  CHECK(holds(errorOf("obj", "v 0 0 0,5\n"), "line 1: expected a vertex coordinate, found '0,5'"));
+  CHECK(holds(errorOf("obj", "v 1 2 3 4 5 6 7 8\n"), "more than seven numbers"));
+  CHECK(holds(errorOf("obj", "v 1e400 0 0\n"), "too large"));
+  CHECK(holds(errorOf("obj", kCorners + "call other.obj\n"), "never opened"));
+  CHECK(holds(errorOf("obj", kCorners + "f 1 \\\n 2 \\\n x\n"), "line 7: 'x' is not a corner"));
 }

@@ -50,7 +50,7 @@ void requireTriangleAndQuad(std::string_view coordinateType, std::string_view in
   for (const bool isBig : {false, true}) {
     CAPTURE(coordinateType);
     CAPTURE(isBig);
-    const Mesh mesh = parse(parsePly, binaryPly<Coordinate, Index>(coordinateType, indexType, isBig));
+    const Mesh mesh = parse("ply", binaryPly<Coordinate, Index>(coordinateType, indexType, isBig));
     CHECK(mesh.vertices == std::vector<Vec3d>{{0, 0, 0}, {100, 0, 0}, {100, 50, 0}, {0, 50, 7}});
     REQUIRE(mesh.faces.size() == 3);
     CHECK(mesh.faces[0] == Face{0, 1, 2});
@@ -95,7 +95,7 @@ TEST_CASE("PLY properties, lists and elements outside of the mesh are ignored in
                             "0 1\n";
   const std::vector<Vec3d> vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   const std::vector<Face> faces = {{0, 1, 2}, {2, 1, 0}};
-  const Mesh fromAscii = parse(parsePly, ascii);
+  const Mesh fromAscii = parse("ply", ascii);
   CHECK(fromAscii.vertices == vertices);
   CHECK(fromAscii.faces == faces);
   CHECK(fromAscii.polygons.isEmpty());
@@ -117,11 +117,11 @@ TEST_CASE("PLY properties, lists and elements outside of the mesh are ignored in
     i16(2), f32(0.5f), f32(0.25f), f32(0.5f), u8(3), i32(0), i32(1), i32(2), u8(1), u8(65);
     i16(0), f32(0.5f), u8(3), i32(2), i32(1), i32(0), u8(0);
     i32(0), i32(1);
-    const Mesh mesh = parse(parsePly, bytes);
+    const Mesh mesh = parse("ply", bytes);
     CHECK(mesh.vertices == vertices);
     CHECK(mesh.faces == faces);
-    CHECK(errorOf(parsePly, bytes.substr(0, bytes.size() - 1)) != "no error");
-    CHECK(holds(errorOf(parsePly, bytes + "x"), "unexpected 1 byte after the last row"));
+    CHECK(errorOf("ply", bytes.substr(0, bytes.size() - 1)) != "no error");
+    CHECK(holds(errorOf("ply", bytes + "x"), "unexpected 1 byte after the last row"));
   }
 }
 
@@ -131,7 +131,7 @@ TEST_CASE("every truncation of a PLY file is an error") {
         asciiPly("0 0 0\n1 0 0\n0 1 0\n3 0 1 2")})
     for (size_t size = 0; size < whole.size(); ++size) {
       CAPTURE(size);
-      CHECK(errorOf(parsePly, std::string_view(whole).substr(0, size)) != "no error");
+      CHECK(errorOf("ply", std::string_view(whole).substr(0, size)) != "no error");
     }
 }
 
@@ -139,7 +139,7 @@ TEST_CASE("PLY tristrips become triangles of one winding, restarted at -1, witho
   const std::string header =
       "element vertex 5\nproperty float x\nproperty float y\nproperty float z\nelement tristrips 1\n"
       "property list int int vertex_indices\nend_header\n";
-  const Mesh mesh = parse(parsePly, "ply\nformat ascii 1.0\n" + header +
+  const Mesh mesh = parse("ply", "ply\nformat ascii 1.0\n" + header +
                                         "0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 2 0\n"
                                         "12 0 1 2 3 4 -1 1 3 2 2 -1 0\n");
   CHECK(mesh.faces == std::vector<Face>{{0, 1, 2}, {2, 1, 3}, {2, 3, 4}, {1, 3, 2}});
@@ -147,8 +147,8 @@ TEST_CASE("PLY tristrips become triangles of one winding, restarted at -1, witho
   std::string bytes = "ply\nformat binary_big_endian 1.0\n" + header;
   for (const float number : {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 2, 0}) bytes += packed(number, true);
   for (const int number : {12, 0, 1, 2, 3, 4, -1, 1, 3, 2, 2, -1, 0}) bytes += packed(number, true);
-  CHECK(parse(parsePly, bytes).faces == mesh.faces);
-  CHECK(holds(errorOf(parsePly, "ply\nformat ascii 1.0\n" + header + "0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 2 0\n3 0 1 -2\n"),
+  CHECK(parse("ply", bytes).faces == mesh.faces);
+  CHECK(holds(errorOf("ply", "ply\nformat ascii 1.0\n" + header + "0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 2 0\n3 0 1 -2\n"),
               "line 15: vertex index -2 is out of range"));
 }
 
@@ -161,7 +161,7 @@ TEST_CASE("PLY header lines may end with LF, CRLF or CR, whatever the first byte
   for (const char* lineEnd : {"\n", "\r\n", "\r"}) {
     std::string text;
     for (const char c : lf) c == '\n' ? text += lineEnd : text += c;
-    const Mesh mesh = parse(parsePly, text + body);
+    const Mesh mesh = parse("ply", text + body);
     CHECK(mesh.polygons.corners.size() == 10);
     CHECK(mesh.vertices.size() == 11);
     CHECK(mesh.vertices[10] == Vec3d{1, 1, 1});
@@ -170,63 +170,63 @@ TEST_CASE("PLY header lines may end with LF, CRLF or CR, whatever the first byte
 
 TEST_CASE("ASCII PLY accepts signs, exponents, inf and nan; numbers below the range of double are 0") {
   const Mesh mesh =
-      parse(parsePly, asciiPly("nan -inf +1.5\n1e39 4.9e-324 1e-400\n-1E-999999999999999999999 .5 5.\n3 0 1 2\n"));
+      parse("ply", asciiPly("nan -inf +1.5\n1e39 4.9e-324 1e-400\n-1E-999999999999999999999 .5 5.\n3 0 1 2\n"));
   CHECK(std::isnan(mesh.vertices[0].x));
   CHECK(mesh.vertices[0].y == -std::numeric_limits<double>::infinity());
   CHECK(mesh.vertices[0].z == 1.5);
   CHECK(mesh.vertices[1] == Vec3d{1e39, 4.9e-324, 0});
   CHECK(mesh.vertices[2] == Vec3d{0, 0.5, 5});
-  CHECK(holds(errorOf(parsePly, asciiPly("0 0 1e400\n")), "truncated"));
-  CHECK(holds(errorOf(parsePly, asciiPly("0 0 1e400\n1 0 0\n0 1 0\n3 0 1 2\n")), "line 10: z is too large"));
+  CHECK(holds(errorOf("ply", asciiPly("0 0 1e400\n")), "truncated"));
+  CHECK(holds(errorOf("ply", asciiPly("0 0 1e400\n1 0 0\n0 1 0\n3 0 1 2\n")), "line 10: z is too large"));
   for (const char* tiny :
        {"1e-400", "0.00001e-9223372036854775807", "1e-9223372036854775808", "-1e-99999999999999999999"})
-    CHECK(parse(parsePly, asciiPly(std::string(tiny) + " 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")).vertices[0] == Vec3d{0, 0, 0});
+    CHECK(parse("ply", asciiPly(std::string(tiny) + " 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")).vertices[0] == Vec3d{0, 0, 0});
   for (const char* huge : {"1e400", "123e9223372036854775807", "1e+9223372036854775808", "-1e99999999999999999999"})
-    CHECK(holds(errorOf(parsePly, asciiPly(std::string(huge) + " 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")), "x is too large"));
-  CHECK(parse(parsePly, asciiPly("0." + std::string(400, '0') + "1 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")).vertices[0].x == 0);
-  CHECK(holds(errorOf(parsePly, asciiPly("1" + std::string(400, '0') + " 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")),
+    CHECK(holds(errorOf("ply", asciiPly(std::string(huge) + " 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")), "x is too large"));
+  CHECK(parse("ply", asciiPly("0." + std::string(400, '0') + "1 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")).vertices[0].x == 0);
+  CHECK(holds(errorOf("ply", asciiPly("1" + std::string(400, '0') + " 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")),
               "x is too large"));
-  CHECK(holds(errorOf(parsePly, asciiPly("0 0 0,5\n1 0 0\n0 1 0\n3 0 1 2\n")), "line 10: expected z, found '0,5'"));
+  CHECK(holds(errorOf("ply", asciiPly("0 0 0,5\n1 0 0\n0 1 0\n3 0 1 2\n")), "line 10: expected z, found '0,5'"));
 }
 
 TEST_CASE("ASCII PLY of CRLF lines, with blank lines and a byte order mark, is read") {
   std::string text = "\xef\xbb\xbf";
   for (const char c : asciiPly("\n0 0 0\n1 0 0\n\n0 1 0\n3 0 1\n2\n\n")) c == '\n' ? text += "\r\n" : text += c;
-  CHECK(parse(parsePly, text).faces == std::vector<Face>{{0, 1, 2}});
+  CHECK(parse("ply", text).faces == std::vector<Face>{{0, 1, 2}});
 }
 
 TEST_CASE("errors of a PLY file name the line or byte and the reason") {
   const std::string corners(kPlyCorners);
-  CHECK(holds(errorOf(parsePly, ""), "line 1"));
-  CHECK(holds(errorOf(parsePly, "plx\n"), "begins with 'ply'"));
-  CHECK(holds(errorOf(parsePly, "ply\nformat ascii 2.0\n"), "line 2: PLY version '2.0' is not supported"));
-  CHECK(holds(errorOf(parsePly, "ply\nformat text 1.0\n"), "'text' is not a PLY encoding"));
-  CHECK(holds(errorOf(parsePly, "ply\nelement vertex 3\nend_header\n"), "without a format line"));
-  CHECK(holds(errorOf(parsePly, "ply\nformat ascii 1.0\nelement vertex -3\n"),
+  CHECK(holds(errorOf("ply", ""), "line 1"));
+  CHECK(holds(errorOf("ply", "plx\n"), "begins with 'ply'"));
+  CHECK(holds(errorOf("ply", "ply\nformat ascii 2.0\n"), "line 2: PLY version '2.0' is not supported"));
+  CHECK(holds(errorOf("ply", "ply\nformat text 1.0\n"), "'text' is not a PLY encoding"));
+  CHECK(holds(errorOf("ply", "ply\nelement vertex 3\nend_header\n"), "without a format line"));
+  CHECK(holds(errorOf("ply", "ply\nformat ascii 1.0\nelement vertex -3\n"),
               "line 3: the count of the element is negative"));
-  CHECK(holds(errorOf(parsePly, "ply\nformat ascii 1.0\nelement vertex 3\nproperty half x\n"),
+  CHECK(holds(errorOf("ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty half x\n"),
               "'half' is not a PLY type"));
-  CHECK(holds(errorOf(parsePly, asciiPly(corners + "3 0 1 3\n")), "line 13: vertex index 3 is out of range"));
-  CHECK(holds(errorOf(parsePly, asciiPly(corners + "3 0 1 -1\n")), "line 13: vertex index -1 is out of range"));
+  CHECK(holds(errorOf("ply", asciiPly(corners + "3 0 1 3\n")), "line 13: vertex index 3 is out of range"));
+  CHECK(holds(errorOf("ply", asciiPly(corners + "3 0 1 -1\n")), "line 13: vertex index -1 is out of range"));
   CHECK(
-      holds(errorOf(parsePly, asciiPly(corners + "3 0 1 2 7\n")), "line 13: row 0 of element 'face' has more numbers"));
+      holds(errorOf("ply", asciiPly(corners + "3 0 1 2 7\n")), "line 13: row 0 of element 'face' has more numbers"));
   CHECK(
-      holds(errorOf(parsePly, asciiPly(corners + "3 0 1 2\n3 0 1 2\n")), "line 14: unexpected '3' after the last row"));
-  CHECK(holds(errorOf(parsePly, asciiPly(corners + "3 0 1 2.5\n")),
+      holds(errorOf("ply", asciiPly(corners + "3 0 1 2\n3 0 1 2\n")), "line 14: unexpected '3' after the last row"));
+  CHECK(holds(errorOf("ply", asciiPly(corners + "3 0 1 2.5\n")),
               "line 13: expected a vertex index, an integer, found '2.5'"));
-  CHECK(holds(errorOf(parsePly, asciiPly(corners + "-1 0 1 2\n")), "a list of length -1 does not fit"));
-  CHECK(holds(errorOf(parsePly, asciiPly(corners, "")), "a point cloud"));
-  CHECK(holds(errorOf(parsePly, asciiPly(corners, "element face 0\nproperty list uchar int vertex_indices\n")),
+  CHECK(holds(errorOf("ply", asciiPly(corners + "-1 0 1 2\n")), "a list of length -1 does not fit"));
+  CHECK(holds(errorOf("ply", asciiPly(corners, "")), "a point cloud"));
+  CHECK(holds(errorOf("ply", asciiPly(corners, "element face 0\nproperty list uchar int vertex_indices\n")),
               "3 points and no face"));
-  CHECK(holds(errorOf(parsePly, asciiPly(corners + "2 0 1\n")), "the only face has fewer than three corners"));
-  CHECK(holds(errorOf(parsePly, asciiPly(corners + "1\n", "element face 1\nproperty int vertex_indices\n")),
+  CHECK(holds(errorOf("ply", asciiPly(corners + "2 0 1\n")), "the only face has fewer than three corners"));
+  CHECK(holds(errorOf("ply", asciiPly(corners + "1\n", "element face 1\nproperty int vertex_indices\n")),
               "must be a list of integers"));
-  CHECK(holds(errorOf(parsePly, asciiPly(corners + "1\n", "element face 1\nproperty int x\n")),
+  CHECK(holds(errorOf("ply", asciiPly(corners + "1\n", "element face 1\nproperty int x\n")),
               "no list vertex_indices"));
   const std::string binary = binaryPly<float, uint8_t>("float", "uchar", false);
   std::string wrong = binary;
   wrong.back() = 4;
-  CHECK(errorOf(parsePly, wrong) ==
+  CHECK(errorOf("ply", wrong) ==
         "byte " + std::to_string(wrong.size() - 1) + ": vertex index 4 is out of range; the mesh has 4 vertices");
 }
 
@@ -241,7 +241,7 @@ TEST_CASE("an index out of range in a binary PLY of triangles is an error") {
       bytes += '\3';
       for (const int corner : face) bytes += packed(corner, false);
     }
-    CHECK(holds(errorOf(parsePly, bytes), "vertex index " + std::to_string(index) + " is out of range"));
+    CHECK(holds(errorOf("ply", bytes), "vertex index " + std::to_string(index) + " is out of range"));
   }
 }
 
@@ -259,7 +259,7 @@ TEST_CASE("a large binary PLY gives the same mesh in parallel and row by row") {
       bytes += static_cast<char>(count);
       for (uint32_t c = 0; c < count; ++c) bytes += packed(corner(face, c), false);
     }
-    const Mesh mesh = parse(parsePly, bytes);
+    const Mesh mesh = parse("ply", bytes);
     REQUIRE(mesh.vertices.size() == 70000);
     REQUIRE(mesh.inputFaceCount() == kFaceCount);
     CHECK(mesh.polygons.isEmpty() == !hasQuad);

@@ -180,7 +180,7 @@ TEST_CASE("the comment of a PLY has the label of the field, which the reader ign
   sdf.label = "shape diameter";
   const std::string ply = written(".ply", tetrahedron(), {sdf});
   CHECK(contains(ply, "comment asdf-vk: quality is sdf (shape diameter), 0 (and grey) where there is no value\n"));
-  const std::vector<Field> fields = parsePlyFields(ply);
+  const std::vector<Field> fields = formatOfExtension("ply")->parseFields(ply);
   REQUIRE(fields.size() == 1);
   CHECK(fields[0].name == "sdf");
 }

@@ -159,7 +159,7 @@ TEST_CASE("the numbers of a PLY of another program are its fields") {
       "property float z\nproperty uchar red\nproperty short height\nelement face 1\nproperty int part\n"
       "property list uchar int vertex_indices\nproperty ushort quality\nend_header\n"
       "0 0 0 255 -7\n1 0 0 0 8\n0 1 0 1 9\n-3 3 0 1 2 65535\n";
-  const std::vector<Field> fields = parsePlyFields(ply);
+  const std::vector<Field> fields = formatOfExtension("ply")->parseFields(ply);
   REQUIRE(fields.size() == 4);
   CHECK(fields[0].name == "red");
   CHECK(fields[0].values == Field::Values(std::vector<uint8_t>{255, 0, 1}));

@@ -7,28 +7,12 @@
 #include <thread>
 
 #include "reading.h"
+#include "written_file.h"
 
 using namespace asdfvk;
 using asdfvk::test::holds;
 
 namespace {
-
-/// A new folder, removed with its content.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "asdfvk-readers-XXXXXX").string();
-    REQUIRE(::mkdtemp(name.data()) != nullptr);
-    path_ = name;
-  }
-  ~TemporaryFolder() { std::filesystem::remove_all(path_); }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  [[nodiscard]] std::filesystem::path operator/(std::string_view name) const { return path_ / name; }
-
- private:
-  std::filesystem::path path_;
-};
 
 std::string errorOfReading(const std::filesystem::path& path) {
   try {
@@ -67,13 +51,13 @@ TEST_CASE("the content decides the format, then the extension, then a possible k
 }
 
 TEST_CASE("a file with the extension of another format is read by its content") {
-  const TemporaryFolder folder;
+  const Folder folder;
   std::ofstream(folder / "mesh.stl") << kOff;
   CHECK(readMesh(folder / "mesh.stl").faces == std::vector<Face>{{0, 1, 2}});
 }
 
 TEST_CASE("a mesh is read from a pipe") {
-  const TemporaryFolder folder;
+  const Folder folder;
   REQUIRE(::mkfifo((folder / "pipe").c_str(), 0600) == 0);
   // Longer than the buffer of a pipe: several reads.
   std::string text(kObj);
@@ -85,7 +69,7 @@ TEST_CASE("a mesh is read from a pipe") {
 }
 
 TEST_CASE("'-' and /dev/stdin are standard input") {
-  const TemporaryFolder folder;
+  const Folder folder;
   std::ofstream(folder / "mesh") << kOff;
   for (const char* name : {"-", "/dev/stdin"}) {
     CAPTURE(name);
@@ -98,7 +82,7 @@ TEST_CASE("'-' and /dev/stdin are standard input") {
 }
 
 TEST_CASE("errors name the file and the reason") {
-  const TemporaryFolder folder;
+  const Folder folder;
   CHECK(holds(errorOfReading(folder / "missing.ply"), "missing.ply: cannot be opened: No such file"));
   CHECK(holds(errorOfReading(folder / ""), "is a directory"));
   CHECK(holds(errorOfReading("/dev/zero"), "/dev/zero: is a device"));
@@ -109,4 +93,17 @@ TEST_CASE("errors name the file and the reason") {
       holds(errorOfReading(folder / "letter.txt"), "has an unknown format; meshes are read from stl, ply, off or obj"));
   std::ofstream(folder / "bad.obj") << "v 0 0 0\nf 1 2 3\n";
   CHECK(holds(errorOfReading(folder / "bad.obj"), "bad.obj: line 2: vertex index 3"));
+}
+
+TEST_CASE("more vertices than 32 bits can index are an error of their own") {
+  try {
+    static_cast<void>(parseMesh(std::string_view("ply\nformat binary_little_endian 1.0\nelement vertex 4294967296\n"
+                                                 "property float x\nproperty float y\nproperty float z\n"
+                                                 "element face 1\nproperty list uchar int vertex_indices\n"
+                                                 "end_header\n")));
+    FAIL_CHECK("no error");
+  } catch (const Error& error) {
+    CHECK(error.code() == ErrorCode::MeshTooLarge);
+    CHECK(holds(error.what(), "4294967296 vertices; at most 4294967295"));
+  }
 }

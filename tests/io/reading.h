@@ -2,6 +2,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "asdf_vk/error.h"
 #include "asdf_vk/files.h"
@@ -9,19 +10,29 @@
 
 namespace asdfvk::test {
 
-using Parser = Mesh (*)(std::span<const char>);
-
-inline Mesh parse(Parser parser, std::string_view text) { return parser(std::span(text.data(), text.size())); }
+/// The mesh that the reader of the format makes of the text.
+inline Mesh parse(std::string_view format, std::string_view text) {
+  return formatOfExtension(format)->parseMesh(std::span(text.data(), text.size()));
+}
 
 /// The message of the Error{UnreadableInput} that parsing throws; "no error" without one.
-inline std::string errorOf(Parser parser, std::string_view text) {
+inline std::string errorOf(std::string_view format, std::string_view text) {
   try {
-    static_cast<void>(parse(parser, text));
+    static_cast<void>(parse(format, text));
   } catch (const Error& error) {
     return error.kind() == ErrorKind::Input ? error.what() : "an error of another kind";
   }
   return "no error";
 }
+
+/// The corners of a unit square, as lines of text that each begin with `prefix` and end with `suffix`, and as points.
+inline std::string squareCorners(std::string_view prefix = "", std::string_view suffix = "") {
+  std::string text;
+  for (const char* corner : {"0 0 0", "1 0 0", "1 1 0", "0 1 0"})
+    text.append(prefix).append(corner).append(suffix).append("\n");
+  return text;
+}
+inline const std::vector<Vec3d> kSquare{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
 
 inline bool holds(std::string_view text, std::string_view part) { return text.find(part) != std::string_view::npos; }
 

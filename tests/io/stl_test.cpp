@@ -29,7 +29,6 @@ std::string binaryStl(std::string_view header, const std::vector<Triangle>& tria
 }
 
 const std::vector<Triangle> kStlSquare = {{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}}, {{{0, -0.0f, 0}, {1, 1, 0}, {0, 1, 0}}}};
-const std::vector<Vec3d> kSquareVertices = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
 const std::vector<Face> kSquareFaces = {{0, 1, 2}, {0, 2, 3}};
 
 const std::string kFacets =
@@ -38,7 +37,7 @@ const std::string kFacets =
     "  endloop\nendfacet\n";
 
 void requireSquare(const Mesh& mesh) {
-  CHECK(mesh.vertices == kSquareVertices);
+  CHECK(mesh.vertices == asdfvk::test::kSquare);
   CHECK(mesh.faces == kSquareFaces);
   CHECK(mesh.polygons.isEmpty());
   for (const Vec3d& p : mesh.vertices) CHECK(!(std::signbit(p.x) || std::signbit(p.y) || std::signbit(p.z)));
@@ -48,26 +47,26 @@ void requireSquare(const Mesh& mesh) {
 
 TEST_CASE("binary STL is welded, also where its header begins with solid") {
   for (const char* header : {"", "binary", "solid outer shell", "solid\nfacet normal 0 0 1\nouter loop"})
-    requireSquare(parse(parseStl, binaryStl(header, kStlSquare)));
+    requireSquare(parse("stl", binaryStl(header, kStlSquare)));
 }
 
 TEST_CASE("ASCII STL is welded: any name, blank lines, several solids, capitals") {
   for (const char* name : {"", " outer shell", " facet endsolid solid"}) {
     CAPTURE(name);
-    requireSquare(parse(parseStl, "solid" + std::string(name) + "\n" + kFacets + "endsolid" + name + "\n"));
+    requireSquare(parse("stl", "solid" + std::string(name) + "\n" + kFacets + "endsolid" + name + "\n"));
   }
   std::string text = "  solid x\n" + kFacets + "endsolid x\n\nsolid y\n" + kFacets + "endsolid";
-  const Mesh twice = parse(parseStl, text);
-  CHECK(twice.vertices == kSquareVertices);
+  const Mesh twice = parse("stl", text);
+  CHECK(twice.vertices == asdfvk::test::kSquare);
   CHECK(twice.faces == std::vector<Face>{{0, 1, 2}, {0, 2, 3}, {0, 1, 2}, {0, 2, 3}});
   for (char& c : text) c = c == '\n' ? '\r' : static_cast<char>(std::toupper(c));
-  CHECK(parse(parseStl, text).faces == twice.faces);
+  CHECK(parse("stl", text).faces == twice.faces);
 }
 
 TEST_CASE("corners with a NaN are never welded, infinite ones are") {
   const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
   const Mesh mesh = parse(
-      parseStl, binaryStl("", {{{{nan, 0, 0}, {inf, 0, 0}, {nan, 0, 0}}}, {{{0, nan, 0}, {inf, 0, 0}, {0, -inf, 0}}}}));
+      "stl", binaryStl("", {{{{nan, 0, 0}, {inf, 0, 0}, {nan, 0, 0}}}, {{{0, nan, 0}, {inf, 0, 0}, {0, -inf, 0}}}}));
   CHECK(mesh.faces == std::vector<Face>{{0, 1, 2}, {3, 1, 4}});
 }
 
@@ -77,7 +76,7 @@ TEST_CASE("vertices keep the order of first appearance in an STL of 50,000 point
   std::vector<Triangle> triangles;
   for (uint32_t i = 0; i < kPointCount; ++i)
     triangles.push_back({point(i), point((i + 1) % kPointCount), point(i / 2)});
-  const Mesh mesh = parse(parseStl, binaryStl("", triangles));
+  const Mesh mesh = parse("stl", binaryStl("", triangles));
   REQUIRE(mesh.vertices.size() == kPointCount);
   size_t wrongCount = 0;
   for (uint32_t i = 0; i < kPointCount; ++i) {
@@ -88,20 +87,20 @@ TEST_CASE("vertices keep the order of first appearance in an STL of 50,000 point
 }
 
 TEST_CASE("errors of an STL file name the line or the size and the reason") {
-  CHECK(holds(errorOf(parseStl, ""), "neither ASCII STL"));
-  CHECK(holds(errorOf(parseStl, "solid\nendsolid\n"), "neither points nor faces"));
-  CHECK(holds(errorOf(parseStl, binaryStl("", {})), "neither points nor faces"));
+  CHECK(holds(errorOf("stl", ""), "neither ASCII STL"));
+  CHECK(holds(errorOf("stl", "solid\nendsolid\n"), "neither points nor faces"));
+  CHECK(holds(errorOf("stl", binaryStl("", {})), "neither points nor faces"));
   const std::string binary = binaryStl("", kStlSquare);
-  CHECK(holds(errorOf(parseStl, binary + "x"),
+  CHECK(holds(errorOf("stl", binary + "x"),
               "must have 184 bytes; this file has 185 and continues after the last face"));
-  CHECK(holds(errorOf(parseStl, binaryStl("solid", kStlSquare) + "x"), "continues after the last face"));
-  for (size_t size = 0; size < binary.size(); ++size) CHECK(errorOf(parseStl, binary.substr(0, size)) != "no error");
+  CHECK(holds(errorOf("stl", binaryStl("solid", kStlSquare) + "x"), "continues after the last face"));
+  for (size_t size = 0; size < binary.size(); ++size) CHECK(errorOf("stl", binary.substr(0, size)) != "no error");
   const std::string ascii = "solid\n" + kFacets + "endsolid";
-  for (size_t size = 0; size < ascii.size(); ++size) CHECK(errorOf(parseStl, ascii.substr(0, size)) != "no error");
-  CHECK(holds(errorOf(parseStl, "solid\nvertex 0 0 0\n"), "line 2: expected 'facet' or 'endsolid', found 'vertex'"));
-  CHECK(holds(errorOf(parseStl, ascii + "\nrubbish\n"), "line 19: expected 'solid', found 'rubbish'"));
-  CHECK(holds(errorOf(parseStl, "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0,5\n"),
+  for (size_t size = 0; size < ascii.size(); ++size) CHECK(errorOf("stl", ascii.substr(0, size)) != "no error");
+  CHECK(holds(errorOf("stl", "solid\nvertex 0 0 0\n"), "line 2: expected 'facet' or 'endsolid', found 'vertex'"));
+  CHECK(holds(errorOf("stl", ascii + "\nrubbish\n"), "line 19: expected 'solid', found 'rubbish'"));
+  CHECK(holds(errorOf("stl", "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0,5\n"),
               "line 4: expected a vertex coordinate, found '0,5'"));
-  CHECK(holds(errorOf(parseStl, "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nendloop\n"),
+  CHECK(holds(errorOf("stl", "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nendloop\n"),
               "line 6: expected 'vertex', found 'endloop'"));
 }

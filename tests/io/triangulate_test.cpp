@@ -1,4 +1,4 @@
-#include "io/triangulate.h"
+#include "io/input_faces.h"
 
 #include <doctest/doctest.h>
 

@@ -1,0 +1,113 @@
+#include <doctest/doctest.h>
+
+#include <filesystem>
+#include <utility>
+
+#include "cli/refusal.h"
+#include "cli/scratch_folder.h"
+
+namespace asdfvk {
+namespace {
+
+TEST_CASE("a number after --check and a space is an error, not a mesh") {
+  CHECK_EQ(refusal({"a.ply", "--check", "5"}), "--check takes its number with an equals sign: --check=5");
+  CHECK_EQ(refusal({"--check", "all", "a.ply"}), "--check takes its number with an equals sign: --check=all");
+  CHECK_EQ(refusal({"--check", "5.ply", "7"}), "accepted");
+  const test::ScratchFolder folder;
+  const auto before = std::filesystem::current_path();
+  std::filesystem::current_path(folder / "");
+  folder.write("5", "");
+  const std::string answer = refusal({"--check", "5"});
+  std::filesystem::current_path(before);
+  CHECK_EQ(answer, "accepted");
+}
+
+TEST_CASE("values out of range are refused with the option's name") {
+  const std::vector<std::pair<std::string, std::vector<std::string>>> rejected{
+      {"--rays", {"0", "1025", "ten", "3.5", "-3"}},
+      {"--angle", {"0", "180", "nan", "1e999"}},
+      {"--false-hit-angle", {"181"}},
+      {"--outlier-deviations", {"0"}},
+      {"--tolerance", {"0", "1"}},
+      {"--max-iterations", {"0", ""}},
+      {"--recipe", {"best", "Paper"}},
+      {"--sampler", {"blue"}},
+      {"--max-error", {"0%", "-1%", "100%", "1"}},
+      {"--time-budget", {"0", "-2s"}},
+      {"--cone-rotation", {"random"}},
+      {"--weights", {"1"}},
+      {"--guidance", {"0.5", "gauss"}},
+      {"--fields", {"depth"}},
+      {"--picture-of", {"curvature"}},
+      {"--kernel", {"wide"}},
+      {"--pooling", {"-0.1", "1.1", "half"}},
+      {"--solver", {"best"}},
+      {"--orient", {"inwards"}},
+      {"--backend", {"cuda"}},
+      {"--format", {"stl"}},
+      {"--threads", {"0", "1000000"}},
+      {"--rng-seed", {"-1", "0x10"}},
+      {"--seeds", {"nan%", "1e3"}},
+  };
+  for (const auto& [option, values] : rejected)
+    for (const std::string& value : values) {
+      const std::string message = refusal({"a.ply", option, value});
+      CHECK_MESSAGE(message.starts_with(option + ": '" + value + "' is not "), message);
+    }
+  CHECK_EQ(refusal({"a.ply", "--max-error", "soon"}), "--max-error: 'soon' is not a number");
+  CHECK_EQ(refusal({"a.ply", "--max-error", "150%"}), "--max-error: '150%' is not above 0% and below 100%");
+  CHECK_EQ(refusal({"a.ply", "--time-budget", "0s"}), "--time-budget: '0s' is not a time above 0 s");
+  CHECK_EQ(refusal({"a.ply", "--recipe", "best"}), "--recipe: 'best' is not one of paper|balanced|quality");
+  CHECK_EQ(refusal({"a.ply", "--sampler", "spiral"}),
+           "--sampler: 'spiral' is not one of random|blue-noise|farthest-point|normal-space|adaptive");
+  CHECK_EQ(refusal({"a.ply", "--guidance", "2"}), "--guidance: '2' is not one of none|curvature|prediction");
+  for (const char* text : {"", "%", "1%%", "nan%", "1 %", "inf"})
+    CHECK_MESSAGE(refusal({"a.ply", "--max-error", text}).starts_with("--max-error: "), text);
+  for (const char* text : {"", "s", "2 s", "2ms", "inf", "nans", "2ss"})
+    CHECK_MESSAGE(refusal({"a.ply", "--time-budget", text}).starts_with("--time-budget: "), text);
+  CHECK(refusal({"a.ply", "--check=0"}).starts_with("--check: '0'"));
+  CHECK(refusal({"a.ply", "--check=-1"}).starts_with("--check: "));
+  CHECK(refusal({"a.ply", "-o", ""}).starts_with("--output: "));
+}
+
+TEST_CASE("unknown, doubled and bare options are refused") {
+  CHECK(refusal({"a.ply", "--bogus"}).find("--bogus") != std::string::npos);
+  CHECK(refusal({"a.ply", "--rays", "3", "--rays", "4"}).find("--rays") != std::string::npos);
+  CHECK(refusal({"a.ply", "--rays"}).find("--rays") != std::string::npos);
+  CHECK_EQ(refusal({"--help=some"}), "--help: 'some' is not all");
+  CHECK_EQ(refusal({"a.ply", "--help="}), "--help: '' is not all");
+}
+
+TEST_CASE("options that contradict each other are refused") {
+  CHECK(refusal({"a.ply", "-o", "-", "--json"}) != "accepted");
+  for (const char* backend : {"cpu", "reference"}) {
+    CHECK(refusal({"a.ply", "--backend", backend, "--require-gpu"}).find("--require-gpu") != std::string::npos);
+    CHECK(refusal({"a.ply", "--backend", backend, "--device", "0"}).find("--device") != std::string::npos);
+    for (const auto& [option, value] : {std::pair{"--kernel", "seed"}, {"--bvh", "wide"}, {"--fetch", "texel"}}) {
+      CHECK(refusal({"a.ply", "--backend", backend, option, value}).find(option) != std::string::npos);
+      CHECK_EQ(refusal({"a.ply", "--backend", backend, option, "auto"}), "accepted");
+    }
+    for (const char* solver : {"cg", "jacobi"})
+      CHECK(refusal({"a.ply", "--backend", backend, "--solver", solver}).find("--solver") != std::string::npos);
+    for (const char* solver : {"auto", "cpu", "eigen"})
+      CHECK_EQ(refusal({"a.ply", "--backend", backend, "--solver", solver}), "accepted");
+  }
+}
+
+TEST_CASE("a picture or field of the error needs an estimate") {
+  for (const auto& ofError : {std::vector<std::string>{"a.ply", "--picture", "b.png", "--picture-of", "error"},
+                              {"a.ply", "--fields", "sdf,error"}}) {
+    const auto with = [&](const std::vector<std::string>& further) {
+      std::vector<std::string> arguments = ofError;
+      arguments.insert(arguments.end(), further.begin(), further.end());
+      return refusal(arguments);
+    };
+    CHECK_EQ(with({}), "accepted");
+    CHECK(with({"--no-estimate"}).find("--no-estimate") != std::string::npos);
+    CHECK(with({"--seeds", "all"}).find("--seeds all") != std::string::npos);
+    CHECK_EQ(with({"--no-estimate", "--max-error", "1%"}), "accepted");
+  }
+}
+
+}  // namespace
+}  // namespace asdfvk
