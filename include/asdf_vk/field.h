@@ -22,7 +22,7 @@ struct Field {
   using Values = std::variant<std::vector<double>, std::vector<uint8_t>, std::vector<uint32_t>>;
 
   std::string name;   ///< Letters, digits, '_'; unique within a result.
-  std::string label;  ///< For people: "shape diameter".
+  std::string label;  ///< Display name: "shape diameter".
   std::string unit;   ///< "length" (the unit of the mesh), or empty for numbers without a unit, flags and indices.
   FieldLocation location = FieldLocation::PerFace;
   uint32_t componentCount = 1;  ///< 3 for a point.

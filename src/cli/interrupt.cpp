@@ -19,8 +19,8 @@ namespace {
 
 constexpr std::array kSignals{SIGINT, SIGTERM, SIGHUP};
 
-// All that the handler touches: lock-free atomics (one behind removeUnfinishedFile()) and a pipe. A byte in the pipe is
-// a stop request, its closing the end.
+// The handler uses lock-free atomics (one behind removeUnfinishedFile()) and a pipe only. A byte in the pipe is a stop
+// request; its closing ends the waiting thread.
 std::atomic<bool> isListening{false};
 std::atomic<int> signalCount{0};
 std::atomic<int> pipeWriteEnd{-1};

@@ -5,9 +5,9 @@
 
 namespace asdfvk {
 
-/// While it lives, SIGINT, SIGTERM and SIGHUP (those that were not ignored) are ours. A first one asks the computation
-/// to stop where there is one, and ends the program at once where there is none and thus nothing to leave half done; a
-/// second one always ends it at once, with ExitCode::Cancelled and without a half-written file. One object at a time.
+/// Handles SIGINT, SIGTERM and SIGHUP, except those that were ignored, during its lifetime. The first signal requests a
+/// stop of the computation, or ends the program where Listening is not alive. The second one ends the program. It then
+/// exits with ExitCode::Cancelled and leaves no half-written file. One object at a time.
 class Interrupt {
  public:
   Interrupt();
@@ -17,7 +17,7 @@ class Interrupt {
 
   [[nodiscard]] std::stop_token token() const { return source_.get_token(); }
 
-  /// Marks the time in which a stop request is listened to.
+  /// During its lifetime a computation polls token().
   class Listening {
    public:
     Listening();

@@ -203,7 +203,7 @@ void validateOptions(const CommandLine& line) {
   if (!line.picture.empty() && line.meshes.size() > 1)
     fail("--picture takes one mesh; name one mesh, or run them one by one");
   if (line.picture == "-" && (line.output == "-" || line.json))
-    fail("--picture - needs standard output for itself; give it a file, or drop --json and -o -");
+    fail("--picture - writes to standard output, as do --json and -o -; give it a file, or drop them");
   const bool isCpu = line.session.backend == "cpu" || line.session.backend == "reference";
   const TraceVariant& variant = line.session.variant;
   if (isCpu && line.session.requireGpu)

@@ -52,7 +52,7 @@ std::string normalised(const fs::path& path) {
   return fs::absolute(path, ignored).lexically_normal().string();
 }
 
-/// Files as the system tells them apart, links followed, and by name where they are not there yet.
+/// Set of files, compared by device and inode, which follows links, and by normalised path for files that do not exist.
 class FileSet {
  public:
   void insert(const std::string& path) {
@@ -116,7 +116,8 @@ std::vector<std::string> planOutputs(const CommandLine& line) {
     for (const std::string& output : outputs)
       if (output != "-") results.insert(output);
     if (results.holds(line.picture))
-      usageError(fmt::format("{} would take both the result and the picture; choose another --picture", line.picture));
+      usageError(
+          fmt::format("{} is the path of both the result and the picture; choose another --picture", line.picture));
   }
   return outputs;
 }
@@ -135,7 +136,7 @@ void requireWritablePlace(const std::string& output) {
     throw Error(ErrorCode::OutputNotWritable, fmt::format("{} cannot be written: {}", output, reason));
   };
   std::error_code error;
-  // A device or a FIFO is written to directly: nothing is made in its folder.
+  // A device or a FIFO is written directly: no file is created in its folder.
   if (const fs::file_status status = fs::status(path, error);
       fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status))
     return;

@@ -8,15 +8,14 @@
 
 namespace asdfvk {
 
-/// Where the result of each mesh goes: one entry per mesh, "-" for standard output. Throws Error{Usage} when the names
-/// contradict each other: two results or a result and the picture in one file, one of
-/// them in place of an input, several meshes and one file.
+/// Path of the result of each mesh, "-" for standard output. Throws Error{OptionConflict} where two results, or a
+/// result and the picture, have one path, where one of them is an input, and for several meshes with one file.
 [[nodiscard]] std::vector<std::string> planOutputs(const CommandLine& line);
 
 /// The fields of --fields; the format where --format or standard output decide it.
 [[nodiscard]] WriteOptions writeOptionsOf(const CommandLine& line);
 
-/// Throws Error{Output} when it is plain that no file can be written there, so that it is told before the work.
+/// Throws Error{OutputNotWritable} where no file can be written: a check before the work begins.
 void requireWritablePlace(const std::string& output);
 
 }  // namespace asdfvk

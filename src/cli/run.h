@@ -7,9 +7,10 @@
 
 namespace asdfvk {
 
-/// Reads, computes and writes each mesh and reports on it. A mesh that fails is reported and the others are done; a
-/// missing device and a stop request end the run. Returns Done or the code of the first failure. Throws Error{Usage}
-/// before any work when the outputs contradict each other, Error{Output} when the report cannot be written.
+/// Reads, computes and writes each mesh and reports on it. A mesh that fails is reported and does not affect the
+/// others; a missing device or a stop request ends the run. Returns Done or the code of the first failure. Throws
+/// Error{OptionConflict} before any work where outputs contradict each other, Error{OutputNotWritable} where the report
+/// cannot be written.
 [[nodiscard]] ExitCode runMeshes(const CommandLine& line, const std::stop_token& stop);
 
 /// Prints the devices on standard output.

@@ -6,7 +6,7 @@
 
 namespace asdfvk {
 
-/// Writes all of it to standard output. Throws Error{Output} with the reason: a full disk, a closed pipe.
+/// Writes all of it to standard output. Throws Error{OutputNotWritable} with the reason: a full disk, a closed pipe.
 void writeStandardOutput(std::string_view text);
 
 /// Writes to standard error; ignores a failure, which cannot be reported anywhere.
@@ -16,13 +16,13 @@ void writeStandardError(std::string_view text);
 void printError(std::string_view subject, std::string_view message);
 void printWarning(std::string_view subject, std::string_view message);
 
-/// A failed write becomes an error of the call instead of a signal, and a file that is opened can never take the place
-/// of a standard stream that the caller closed.
+/// Ignores SIGPIPE, so that write() reports a closed pipe, and opens standard streams that the caller closed, so that
+/// no other file gets their numbers.
 void secureStandardStreams();
 
 [[nodiscard]] bool isStandardErrorTerminal();
 
-/// A one-line bar that first shows after a second, is redrawn ten times a second at most, and leaves no trace.
+/// A one-line bar, shown after one second, redrawn at most ten times per second, and wiped by the destructor.
 class ProgressBar {
  public:
   /// `write` puts text on the terminal; `now` gives seconds.
@@ -31,7 +31,7 @@ class ProgressBar {
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  /// fraction in [0, 1]; what lies outside is taken for the nearer end.
+  /// fraction: clamped to [0, 1].
   void update(double fraction);
   /// Wipes the bar; must be called before anything else is written to the terminal.
   void clear();

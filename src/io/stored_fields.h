@@ -14,12 +14,13 @@
 #include "asdf_vk/field.h"
 #include "asdf_vk/mesh.h"
 
-// Fields as files hold them: names, columns of single components, numbers.
+// Fields as files hold them: names, columns of single components, numbers; and the arguments of a writer.
 namespace asdfvk {
 
 /// At least one character; letters of ASCII, digits and '_' only.
 [[nodiscard]] bool isFieldName(std::string_view name);
 
+/// Fields selected for a writer.
 using FieldReferences = std::span<const std::reference_wrapper<const Field>>;
 
 /// One component of a field, for formats without vectors: a property of PLY, a column of CSV.

@@ -31,7 +31,8 @@ TEST_CASE("a required Vulkan device, kernel or GPU that is missing gives 3 and n
   const ScratchFolder folder;
   const std::string mesh = folder.write("cube.off", cubeOff());
   checkFailure(runAsdf({mesh, "--backend", "vulkan", "--quiet"}, kNoDriver), 3, "--backend");
-  checkFailure(runAsdf({mesh, "--require-gpu", "--quiet"}, kNoDriver), 3, "install the driver of the GPU, or drop --require-gpu");
+  checkFailure(runAsdf({mesh, "--require-gpu", "--quiet"}, kNoDriver), 3,
+               "install the driver of the GPU, or drop --require-gpu");
   checkFailure(runAsdf({mesh, "--kernel", "ray", "--quiet"}, kNoDriver), 3, "");
   const ChildOutcome json = runAsdf({mesh, "--backend", "vulkan", "--quiet", "--json"}, kNoDriver);
   CHECK_EQ(json.exitCode, 3);

@@ -1,5 +1,5 @@
-// The harness of the reader of ASDFVK_FORMAT. It requires that the reader either throws Error of kind Input with one line,
-// or returns a mesh whose arrays fit together; and that its memory never exceeds 64 times the input plus 256 KiB.
+// The harness of the reader of ASDFVK_FORMAT. It requires that the reader either throws Error of kind Input with one
+// line, or returns a mesh whose arrays fit together; and that its memory never exceeds 64 times the input plus 256 KiB.
 #include <sanitizer/allocator_interface.h>
 
 #include <algorithm>

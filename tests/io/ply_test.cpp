@@ -140,8 +140,8 @@ TEST_CASE("PLY tristrips become triangles of one winding, restarted at -1, witho
       "element vertex 5\nproperty float x\nproperty float y\nproperty float z\nelement tristrips 1\n"
       "property list int int vertex_indices\nend_header\n";
   const Mesh mesh = parse("ply", "ply\nformat ascii 1.0\n" + header +
-                                        "0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 2 0\n"
-                                        "12 0 1 2 3 4 -1 1 3 2 2 -1 0\n");
+                                     "0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 2 0\n"
+                                     "12 0 1 2 3 4 -1 1 3 2 2 -1 0\n");
   CHECK(mesh.faces == std::vector<Face>{{0, 1, 2}, {2, 1, 3}, {2, 3, 4}, {1, 3, 2}});
   CHECK(mesh.polygons.isEmpty());
   std::string bytes = "ply\nformat binary_big_endian 1.0\n" + header;
@@ -184,8 +184,8 @@ TEST_CASE("ASCII PLY accepts signs, exponents, inf and nan; numbers below the ra
   for (const char* huge : {"1e400", "123e9223372036854775807", "1e+9223372036854775808", "-1e99999999999999999999"})
     CHECK(holds(errorOf("ply", asciiPly(std::string(huge) + " 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")), "x is too large"));
   CHECK(parse("ply", asciiPly("0." + std::string(400, '0') + "1 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")).vertices[0].x == 0);
-  CHECK(holds(errorOf("ply", asciiPly("1" + std::string(400, '0') + " 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")),
-              "x is too large"));
+  CHECK(
+      holds(errorOf("ply", asciiPly("1" + std::string(400, '0') + " 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")), "x is too large"));
   CHECK(holds(errorOf("ply", asciiPly("0 0 0,5\n1 0 0\n0 1 0\n3 0 1 2\n")), "line 10: expected z, found '0,5'"));
 }
 
@@ -204,14 +204,12 @@ TEST_CASE("errors of a PLY file name the line or byte and the reason") {
   CHECK(holds(errorOf("ply", "ply\nelement vertex 3\nend_header\n"), "without a format line"));
   CHECK(holds(errorOf("ply", "ply\nformat ascii 1.0\nelement vertex -3\n"),
               "line 3: the count of the element is negative"));
-  CHECK(holds(errorOf("ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty half x\n"),
-              "'half' is not a PLY type"));
+  CHECK(
+      holds(errorOf("ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty half x\n"), "'half' is not a PLY type"));
   CHECK(holds(errorOf("ply", asciiPly(corners + "3 0 1 3\n")), "line 13: vertex index 3 is out of range"));
   CHECK(holds(errorOf("ply", asciiPly(corners + "3 0 1 -1\n")), "line 13: vertex index -1 is out of range"));
-  CHECK(
-      holds(errorOf("ply", asciiPly(corners + "3 0 1 2 7\n")), "line 13: row 0 of element 'face' has more numbers"));
-  CHECK(
-      holds(errorOf("ply", asciiPly(corners + "3 0 1 2\n3 0 1 2\n")), "line 14: unexpected '3' after the last row"));
+  CHECK(holds(errorOf("ply", asciiPly(corners + "3 0 1 2 7\n")), "line 13: row 0 of element 'face' has more numbers"));
+  CHECK(holds(errorOf("ply", asciiPly(corners + "3 0 1 2\n3 0 1 2\n")), "line 14: unexpected '3' after the last row"));
   CHECK(holds(errorOf("ply", asciiPly(corners + "3 0 1 2.5\n")),
               "line 13: expected a vertex index, an integer, found '2.5'"));
   CHECK(holds(errorOf("ply", asciiPly(corners + "-1 0 1 2\n")), "a list of length -1 does not fit"));
@@ -221,8 +219,7 @@ TEST_CASE("errors of a PLY file name the line or byte and the reason") {
   CHECK(holds(errorOf("ply", asciiPly(corners + "2 0 1\n")), "the only face has fewer than three corners"));
   CHECK(holds(errorOf("ply", asciiPly(corners + "1\n", "element face 1\nproperty int vertex_indices\n")),
               "must be a list of integers"));
-  CHECK(holds(errorOf("ply", asciiPly(corners + "1\n", "element face 1\nproperty int x\n")),
-              "no list vertex_indices"));
+  CHECK(holds(errorOf("ply", asciiPly(corners + "1\n", "element face 1\nproperty int x\n")), "no list vertex_indices"));
   const std::string binary = binaryPly<float, uint8_t>("float", "uchar", false);
   std::string wrong = binary;
   wrong.back() = 4;

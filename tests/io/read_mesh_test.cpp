@@ -97,10 +97,11 @@ TEST_CASE("errors name the file and the reason") {
 
 TEST_CASE("more vertices than 32 bits can index are an error of their own") {
   try {
-    static_cast<void>(parseMesh(std::string_view("ply\nformat binary_little_endian 1.0\nelement vertex 4294967296\n"
-                                                 "property float x\nproperty float y\nproperty float z\n"
-                                                 "element face 1\nproperty list uchar int vertex_indices\n"
-                                                 "end_header\n")));
+    static_cast<void>(
+        parseMesh(std::string_view("ply\nformat binary_little_endian 1.0\nelement vertex 4294967296\n"
+                                   "property float x\nproperty float y\nproperty float z\n"
+                                   "element face 1\nproperty list uchar int vertex_indices\n"
+                                   "end_header\n")));
     FAIL_CHECK("no error");
   } catch (const Error& error) {
     CHECK(error.code() == ErrorCode::MeshTooLarge);
