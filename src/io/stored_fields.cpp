@@ -110,8 +110,8 @@ std::vector<Field> joinColumns(std::vector<Field> columns) {
 void requireReadableNames(std::span<const Field> fields) {
   std::set<std::string_view> names;
   for (const Field& field : fields) {
-    if (!isFieldName(field.name)) failInput(fmt::format("{} is not a name of a field", quoted(field.name)));
-    if (!names.insert(field.name).second) failInput(fmt::format("has two fields {}", quoted(field.name)));
+    if (!isFieldName(field.name)) failInput(fmt::format("{} is not a name of a field", asdfvk::quoted(field.name)));
+    if (!names.insert(field.name).second) failInput(fmt::format("has two fields {}", asdfvk::quoted(field.name)));
   }
 }
 

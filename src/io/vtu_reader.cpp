@@ -254,8 +254,8 @@ class VtuReader {
       failAtByte(tag.byte, fmt::format("arrays of type {} are not supported", quoted(type)));
     }
     if (entries.size() % entrySize != 0 || field.size() % field.componentCount != 0 || field.itemCount() != itemCount)
-      failAtByte(tag.byte, fmt::format("array {} has {} of {} and {}; the piece has {} items", quoted(field.name),
-                                       counted(entries.size(), "byte"), type,
+      failAtByte(tag.byte, fmt::format("array {} has {} of {} and {}; the piece has {} items",
+                                       asdfvk::quoted(field.name), counted(entries.size(), "byte"), type,
                                        counted(field.componentCount, "component"), itemCount));
     return field;
   }

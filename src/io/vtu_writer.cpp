@@ -76,8 +76,8 @@ constexpr std::string_view vtkTypeName() {
 
 /// The VTK cell type of a face: empty cell, vertex, line, triangle, polygon.
 uint8_t cellTypeOf(size_t cornerCount) {
-  constexpr std::array<uint8_t, 4> kTypes{0, 1, 3, 5};
-  return cornerCount < kTypes.size() ? kTypes[cornerCount] : uint8_t{7};
+  constexpr std::array<uint8_t, 4> kCellTypes{0, 1, 3, 5};
+  return cornerCount < kCellTypes.size() ? kCellTypes[cornerCount] : uint8_t{7};
 }
 
 class VtuWriter {

@@ -97,8 +97,7 @@ void requireRoundTrip(const std::string& extension, const Mesh& mesh, const std:
 /// The message of the Error{UnreadableInput} of reading `content` as that format; "no error" without one.
 std::string errorOfFields(const std::string& extension, const std::string& content) {
   try {
-    for (const FileFormat& format : fileFormats())
-      if (format.name == extension) static_cast<void>(format.parseFields(content));
+    static_cast<void>(formatOfExtension(extension)->parseFields(content));
   } catch (const Error& error) {
     return error.code() == ErrorCode::UnreadableInput ? error.what() : "an error of another kind";
   }
