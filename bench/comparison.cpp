@@ -121,9 +121,9 @@ class MeshComparison {
   TraceableMesh mesh_;
   Cone cone_ = makeCone({});
   std::unique_ptr<EmbreeBaseline> embreeFast_ =
-      makeEmbreeBaseline(mesh_.scene(), mesh_.bvh.slotFaces, cone_, EmbreeMode::Fast);
+      makeEmbreeBaseline(mesh_.scene(), mesh_.bvh.primitiveFaces, cone_, EmbreeMode::Fast);
   std::unique_ptr<EmbreeBaseline> embreeRobust_ =
-      makeEmbreeBaseline(mesh_.scene(), mesh_.bvh.slotFaces, cone_, EmbreeMode::Robust);
+      makeEmbreeBaseline(mesh_.scene(), mesh_.bvh.primitiveFaces, cone_, EmbreeMode::Robust);
   std::map<std::string, std::unique_ptr<Backend>> backends_;
   std::map<std::string, std::unique_ptr<ConeTracer>> tracers_;
   std::map<std::string, std::unique_ptr<Session>> sessions_;

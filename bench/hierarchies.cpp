@@ -47,7 +47,7 @@ std::vector<Row> makeRows(const TraceScene& scene, const Cone& cone) {
                         {"wide layout", [=] { encode(scene.bvh, BvhLayout::Wide); }},
                         {"build and wide layout", [=] { encode(build(), BvhLayout::Wide); }}};
   // Embree receives the faces in file order, as our builder does, and in the order of our hierarchy for comparison.
-  const std::vector<uint32_t>& hierarchyOrder = scene.bvh.slotFaces;
+  const std::vector<uint32_t>& hierarchyOrder = scene.bvh.primitiveFaces;
   std::vector<uint32_t> fileOrder = hierarchyOrder;
   std::sort(fileOrder.begin(), fileOrder.end());
   const auto commit = [=, &cone](const std::vector<uint32_t>& faces) {

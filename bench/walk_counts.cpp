@@ -41,9 +41,9 @@ class Walk {
     return near <= far ? near : std::numeric_limits<double>::infinity();
   }
 
-  void test(uint32_t slot) {
+  void test(uint32_t primitive) {
     ++steps_.back();
-    const DeviceTriangle& t = bvh_.triangles[slot];
+    const DeviceTriangle& t = bvh_.triangles[primitive];
     if (t.faceIndex == excludedFace_) return;
     const auto point = [](const vec3& v) { return Vec3d{v.x, v.y, v.z}; };
     distance_ = std::min(distance_, rayTriangleDistance(frame_, point(t.v0), point(t.v1), point(t.v2)));
@@ -66,7 +66,7 @@ class Walk {
       if (std::isinf(child.distance)) continue;
       const uint32_t count = child.reference >> kReferenceCountShift, first = child.reference & kReferenceFirstMask;
       if (count == 0) enterBinary(first);
-      for (uint32_t slot = first; slot < first + count; ++slot) test(slot);
+      for (uint32_t primitive = first; primitive < first + count; ++primitive) test(primitive);
     }
   }
 

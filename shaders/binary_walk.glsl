@@ -25,7 +25,7 @@ Hit walkBinary(vec3 origin, vec3 direction, uint excludedFace, inout uint iterat
   uint stack[kMaxBvhDepth];
   uint stackSize = 0u;
   uint current = 0u;
-  Hit hit = Hit(kFarAway, kNoSlot, true);
+  Hit hit = Hit(kFarAway, kNoPrimitive, true);
 
   while (current != kNoReference) {
     while (current <= kReferenceFirstMask) {
@@ -55,7 +55,7 @@ Hit walkBinary(vec3 origin, vec3 direction, uint excludedFace, inout uint iterat
     if (current != kNoReference) {
       const uint first = current & kReferenceFirstMask;
       const uint end = first + (current >> kReferenceCountShift);
-      for (uint slot = first; slot < end; ++slot) testTriangle(frame, origin, slot, excludedFace, hit);
+      for (uint primitive = first; primitive < end; ++primitive) testTriangle(frame, origin, primitive, excludedFace, hit);
       iterationCount += end - first + 1u;
       if (stackSize > 0u) {
         --stackSize;

@@ -19,7 +19,7 @@ uvec4 fetchTriangle(uint index) {
   return triangleBlocks[index];
 }
 
-DeviceTriangle loadTriangle(uint slot) {
-  const uint t = slot * kBvhTriangleTexelCount;
+DeviceTriangle loadTriangle(uint primitive) {
+  const uint t = primitive * kBvhTriangleTexelCount;
   return decodeTriangle(fetchTriangle(t), fetchTriangle(t + 1u), fetchTriangle(t + 2u));
 }

@@ -21,13 +21,13 @@ ConeOrigin loadOrigin(uint cone) {
 // The length of a ray; kDropped where it hits nothing, or a face whose normal is too close to that of the seed (minus
 // the axis).
 float validLength(Hit hit, vec3 axis) {
-  if (hit.slot == kNoSlot) return kDropped;
-  const DeviceTriangle triangle = loadTriangle(hit.slot);
+  if (hit.primitive == kNoPrimitive) return kDropped;
+  const DeviceTriangle triangle = loadTriangle(hit.primitive);
   const vec3 normal = decodeNormal(triangle.normalU, triangle.normalV);
   return -dot(normal, axis) > push.falseHitCosine ? kDropped : hit.distance;
 }
 
 uvec2 encodeHit(Hit hit) {
-  if (hit.slot == kNoSlot) return uvec2(kMissDistanceBits, kNoFace);
-  return uvec2(floatBitsToUint(hit.distance), loadTriangle(hit.slot).faceIndex);
+  if (hit.primitive == kNoPrimitive) return uvec2(kMissDistanceBits, kNoFace);
+  return uvec2(floatBitsToUint(hit.distance), loadTriangle(hit.primitive).faceIndex);
 }

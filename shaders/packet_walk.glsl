@@ -10,14 +10,14 @@ Hit walkBinaryTogether(vec3 origin, vec3 direction, uint excludedFace, inout uin
   uint stack[kMaxBvhDepth + 1u];
   uint stackSize = 1u;
   stack[0] = 0u;
-  Hit hit = Hit(kFarAway, kNoSlot, true);
+  Hit hit = Hit(kFarAway, kNoPrimitive, true);
   while (stackSize > 0u && iterationCount <= kIterationLimit) {
     --stackSize;
     const uint current = stack[stackSize];
-    uint slot = current & kReferenceFirstMask;
-    const uint end = slot + (current >> kReferenceCountShift);
-    iterationCount += 2u + end - slot;
-    if (slot == end) {
+    uint primitive = current & kReferenceFirstMask;
+    const uint end = primitive + (current >> kReferenceCountShift);
+    iterationCount += 2u + end - primitive;
+    if (primitive == end) {
       const DeviceBvhNode node = loadNode(current);
       const float left = enterBox(node.leftMin, node.leftMax, origin, inverseDirection, hit.distance);
       const float right = enterBox(node.rightMin, node.rightMax, origin, inverseDirection, hit.distance);
@@ -32,7 +32,7 @@ Hit walkBinaryTogether(vec3 origin, vec3 direction, uint excludedFace, inout uin
         ++stackSize;
       }
     }
-    for (; slot < end; ++slot) testTriangle(frame, origin, slot, excludedFace, hit);
+    for (; primitive < end; ++primitive) testTriangle(frame, origin, primitive, excludedFace, hit);
   }
   hit.isComplete = iterationCount <= kIterationLimit;
   return hit;
@@ -46,7 +46,7 @@ Hit walkWideTogether(vec3 origin, vec3 direction, uint excludedFace, inout uint 
   uint stackBits[kMaxWideBvhDepth];
   uint stackSize = 0u;
   Group group = Group(0u, 8u);
-  Hit hit = Hit(kFarAway, kNoSlot, true);
+  Hit hit = Hit(kFarAway, kNoPrimitive, true);
   while (group.bits != 0u && iterationCount <= kIterationLimit) {
     const uint index = takeNearest(group, isNegative);
     if (hasMore(group)) {

@@ -2,11 +2,11 @@
 #include "bvh_fetch.glsl"
 #include "ray_frame.glsl"
 
-const uint kNoSlot = 0xffffffffu;
+const uint kNoPrimitive = 0xffffffffu;
 
 struct Hit {
   float distance;
-  uint slot;        // kNoSlot: no hit.
+  uint primitive;        // kNoPrimitive: no hit.
   bool isComplete;  // False: the iteration limit ended the traversal.
 };
 
@@ -19,17 +19,17 @@ float distanceTo(DeviceTriangle triangle, RayFrame frame, vec3 origin) {
   return intersectTriangle(frame, triangle.v0 - origin, triangle.v1 - origin, triangle.v2 - origin);
 }
 
-// Replaces `hit` by the triangle in `slot` if that is nearer. distance: negative where the ray misses the triangle.
-void keepNearest(float distance, uint slot, uint faceIndex, uint excludedFace, inout Hit hit) {
+// Replaces `hit` by the triangle in `primitive` if that is nearer. distance: negative where the ray misses the triangle.
+void keepNearest(float distance, uint primitive, uint faceIndex, uint excludedFace, inout Hit hit) {
   if (distance >= 0.0 && distance < hit.distance && faceIndex != excludedFace) {
     hit.distance = distance;
-    hit.slot = slot;
+    hit.primitive = primitive;
   }
 }
 
-void testTriangle(RayFrame frame, vec3 origin, uint slot, uint excludedFace, inout Hit hit) {
-  const DeviceTriangle triangle = loadTriangle(slot);
-  keepNearest(distanceTo(triangle, frame, origin), slot, triangle.faceIndex, excludedFace, hit);
+void testTriangle(RayFrame frame, vec3 origin, uint primitive, uint excludedFace, inout Hit hit) {
+  const DeviceTriangle triangle = loadTriangle(primitive);
+  keepNearest(distanceTo(triangle, frame, origin), primitive, triangle.faceIndex, excludedFace, hit);
 }
 
 // slot0 and slot1 may be equal.

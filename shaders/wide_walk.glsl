@@ -113,17 +113,17 @@ void add(inout LeafQueue queue, Leaves leaves) {
   }
 }
 
-// Removes a triangle and returns its slot; returns `otherwise` if the queue is empty.
-uint takeSlot(inout LeafQueue queue, uint otherwise) {
+// Removes and returns a primitive; returns `otherwise` if the queue is empty.
+uint takePrimitive(inout LeafQueue queue, uint otherwise) {
   const uint lowest = queue.first.bits & (~queue.first.bits + 1u);
-  const uint slot = queue.first.base + bitCount(queue.first.all & (lowest - 1u));
+  const uint primitive = queue.first.base + bitCount(queue.first.all & (lowest - 1u));
   queue.first.bits ^= lowest;
   if (queue.first.bits == 0u) {
     queue.first = queue.second;
     queue.second = queue.third;
     queue.third.bits = 0u;
   }
-  return lowest == 0u ? otherwise : slot;
+  return lowest == 0u ? otherwise : primitive;
 }
 
 // Triangle tests are postponed until a lane of the subgroup has triangles of three nodes: with tests after each node
@@ -137,7 +137,7 @@ Hit walkWide(vec3 origin, vec3 direction, uint excludedFace, inout uint iteratio
   uint stackSize = 0u;
   Group group = Group(0u, 8u);  // The root.
   LeafQueue queue = LeafQueue(kNoLeaves, kNoLeaves, kNoLeaves);
-  Hit hit = Hit(kFarAway, kNoSlot, true);
+  Hit hit = Hit(kFarAway, kNoPrimitive, true);
 
   while (group.bits != 0u) {
     while (group.bits != 0u) {
@@ -159,8 +159,8 @@ Hit walkWide(vec3 origin, vec3 direction, uint excludedFace, inout uint iteratio
       if (subgroupAny(queue.third.bits != 0u)) break;
     }
     while (queue.first.bits != 0u) {
-      const uint slot = takeSlot(queue, kNoSlot);
-      testTriangles(frame, origin, slot, takeSlot(queue, slot), excludedFace, hit);
+      const uint primitive = takePrimitive(queue, kNoPrimitive);
+      testTriangles(frame, origin, primitive, takePrimitive(queue, primitive), excludedFace, hit);
       ++iterationCount;
     }
     iterationCount += 3u;  // For this loop, and for entering the two inner loops.

@@ -1,14 +1,14 @@
 // Layout of the bounding volume hierarchy on a device; included by C++ and by GLSL. Both arrays consist of 16-byte
 // texels (format rgba32ui); floats are stored as their bits. Coordinates are normalised, see Normalization.
 //
-//   node, 64 bytes                                       triangle, 48 bytes, in slot order
+//   node, 64 bytes                                       triangle, 48 bytes, in primitive order
 //   byte  0  leftMin.xyz   left         texel 0          byte  0  v0.xyz  faceIndex
 //   byte 16  leftMax.xyz   unused       texel 1          byte 16  v1.xyz  normalU
 //   byte 32  rightMin.xyz  right        texel 2          byte 32  v2.xyz  normalV
 //   byte 48  rightMax.xyz  unused       texel 3
 //
 // A node holds the boxes of its two children and a reference to each: the node index of an inner child, or the first
-// triangle slot of a leaf with its triangle count (1 to kMaxLeafTriangleCount) in the bits above kReferenceCountShift.
+// primitive of a leaf with its triangle count (1 to kMaxLeafTriangleCount) in the bits above kReferenceCountShift.
 // Node 0 is the root. The normal is that of the double-precision mesh, octahedrally encoded (Cigolle et al. 2014): the
 // normal of the rounded corners would be noise on small faces.
 //

@@ -99,23 +99,23 @@ size_t splitTriangles(std::span<SplitTriangle> triangles, uint32_t level, const 
 
 class RunBuilder {
  public:
-  RunBuilder(const BvhOptions& options, std::span<uint32_t> slotFaces, Subtree& run)
-      : options_(options), slotFaces_(slotFaces), run_(run) {}
+  RunBuilder(const BvhOptions& options, std::span<uint32_t> primitiveFaces, Subtree& run)
+      : options_(options), primitiveFaces_(primitiveFaces), run_(run) {}
 
   // Returns the box of the triangles.
-  SplitBox build(size_t nodeIndex, std::span<SplitTriangle> triangles, uint32_t firstSlot, uint32_t level,
+  SplitBox build(size_t nodeIndex, std::span<SplitTriangle> triangles, uint32_t firstPrimitive, uint32_t level,
                  uint32_t depth) {
     if (triangles.size() <= kMaxSmallTreeCount) {
       const SmallTree tree(triangles, options_.maxLeafTriangleCount);
       run_.depth = std::max(run_.depth, depth + tree[tree.root()].depth);
-      write(tree, tree.root(), nodeIndex, triangles, firstSlot);
+      write(tree, tree.root(), nodeIndex, triangles, firstPrimitive);
       return tree[tree.root()].box;
     }
     const size_t leftCount = splitTriangles(triangles, level, options_);
     const size_t children = addChildren();
-    SplitBox box = build(children, triangles.first(leftCount), firstSlot, level + 1, depth + 1);
-    box.grow(build(children + 1, triangles.subspan(leftCount), firstSlot + static_cast<uint32_t>(leftCount), level + 1,
-                   depth + 1));
+    SplitBox box = build(children, triangles.first(leftCount), firstPrimitive, level + 1, depth + 1);
+    box.grow(build(children + 1, triangles.subspan(leftCount), firstPrimitive + static_cast<uint32_t>(leftCount),
+                   level + 1, depth + 1));
     run_.nodes[nodeIndex] = box.toNode(static_cast<uint32_t>(children), 0);
     return box;
   }
@@ -125,52 +125,54 @@ class RunBuilder {
     run_.nodes.resize(run_.nodes.size() + 2);
     return run_.nodes.size() - 2;
   }
-  // Returns the slot after the triangles of the tree's node.
+  // Returns the primitive after the triangles of the tree's node.
   uint32_t write(const SmallTree& tree, uint32_t treeNode, size_t nodeIndex, std::span<const SplitTriangle> triangles,
-                 uint32_t slot) {
+                 uint32_t primitive) {
     const SmallTree::Node& node = tree[treeNode];
     if (node.isLeaf) {
-      run_.nodes[nodeIndex] = node.box.toNode(slot, node.triangleCount);
-      return writeFaces(tree, treeNode, triangles, slot);
+      run_.nodes[nodeIndex] = node.box.toNode(primitive, node.triangleCount);
+      return writeFaces(tree, treeNode, triangles, primitive);
     }
     const size_t children = addChildren();
     run_.nodes[nodeIndex] = node.box.toNode(static_cast<uint32_t>(children), 0);
-    return write(tree, node.right, children + 1, triangles, write(tree, node.left, children, triangles, slot));
+    return write(tree, node.right, children + 1, triangles, write(tree, node.left, children, triangles, primitive));
   }
   uint32_t writeFaces(const SmallTree& tree, uint32_t treeNode, std::span<const SplitTriangle> triangles,
-                      uint32_t slot) {
+                      uint32_t primitive) {
     const SmallTree::Node& node = tree[treeNode];
     if (node.triangleCount > 1)
-      return writeFaces(tree, node.right, triangles, writeFaces(tree, node.left, triangles, slot));
-    slotFaces_[slot] = triangles[treeNode].face();
-    return slot + 1;
+      return writeFaces(tree, node.right, triangles, writeFaces(tree, node.left, triangles, primitive));
+    primitiveFaces_[primitive] = triangles[treeNode].face();
+    return primitive + 1;
   }
 
   const BvhOptions& options_;
-  std::span<uint32_t> slotFaces_;
+  std::span<uint32_t> primitiveFaces_;
   Subtree& run_;
 };
 
-/// Builds over `triangles`, which it reorders. slotFaces: of all slots; those from `firstSlot` on are written, one per
-/// triangle. level: the number of levels above. Large parts are separate tasks; the result does not depend on the
-/// number of threads.
-std::unique_ptr<Subtree> buildSubtree(std::span<SplitTriangle> triangles, std::span<uint32_t> slotFaces,
-                                      uint32_t firstSlot, uint32_t level, const BvhOptions& options) {
+/// Builds over `triangles`, which it reorders. primitiveFaces: of all primitives; those from `firstPrimitive` on are
+/// written, one per triangle. level: the number of levels above. Large parts are separate tasks; the result does not
+/// depend on the number of threads.
+std::unique_ptr<Subtree> buildSubtree(std::span<SplitTriangle> triangles, std::span<uint32_t> primitiveFaces,
+                                      uint32_t firstPrimitive, uint32_t level, const BvhOptions& options) {
   auto subtree = std::make_unique<Subtree>();
   if (triangles.size() <= kSequentialTriangleCount) {
     subtree->nodes.reserve(2 * triangles.size());
     subtree->nodes.resize(1);
-    subtree->box = RunBuilder(options, slotFaces, *subtree).build(0, triangles, firstSlot, level, 0);
+    subtree->box = RunBuilder(options, primitiveFaces, *subtree).build(0, triangles, firstPrimitive, level, 0);
     subtree->nodes.shrink_to_fit();
     subtree->nodeCount = subtree->nodes.size();
     return subtree;
   }
   const size_t leftCount = splitTriangles(triangles, level, options);
   tbb::parallel_invoke(
-      [&] { subtree->left = buildSubtree(triangles.first(leftCount), slotFaces, firstSlot, level + 1, options); },
       [&] {
-        subtree->right = buildSubtree(triangles.subspan(leftCount), slotFaces,
-                                      firstSlot + static_cast<uint32_t>(leftCount), level + 1, options);
+        subtree->left = buildSubtree(triangles.first(leftCount), primitiveFaces, firstPrimitive, level + 1, options);
+      },
+      [&] {
+        subtree->right = buildSubtree(triangles.subspan(leftCount), primitiveFaces,
+                                      firstPrimitive + static_cast<uint32_t>(leftCount), level + 1, options);
       });
   subtree->box = subtree->left->box;
   subtree->box.grow(subtree->right->box);
@@ -224,8 +226,8 @@ Bvh buildBvh(const TriangleMesh& mesh, const FaceGeometry& geometry, std::span<c
   bvh.normalization = normalizationOf(geometry.bounds);
   UnsetVector<SplitTriangle> triangles = collectTriangles(mesh, geometry, representatives, bvh.normalization);
   if (triangles.empty()) return bvh;
-  bvh.slotFaces.resize(triangles.size());
-  const std::unique_ptr<Subtree> root = buildSubtree(triangles, bvh.slotFaces, 0, 0, options);
+  bvh.primitiveFaces.resize(triangles.size());
+  const std::unique_ptr<Subtree> root = buildSubtree(triangles, bvh.primitiveFaces, 0, 0, options);
   triangles = {};
   bvh.depth = root->depth;
   bvh.nodes = assemble(*root);

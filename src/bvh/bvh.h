@@ -16,7 +16,7 @@ namespace asdfvk {
 /// and rounded to float.
 struct BvhNode {
   Vec3f min;
-  uint32_t first = 0;  ///< Inner: index of the left child, the right one follows it. Leaf: first triangle slot.
+  uint32_t first = 0;  ///< Inner: index of the left child, the right one follows it. Leaf: first primitive.
   Vec3f max;
   uint32_t triangleCount = 0;  ///< 0 for an inner node.
 
@@ -26,8 +26,8 @@ struct BvhNode {
 /// A binary bounding volume hierarchy. nodes[0] is the root; without any triangle there are no nodes.
 struct Bvh {
   UnsetVector<BvhNode> nodes;
-  std::vector<uint32_t> slotFaces;  ///< Face index of each triangle slot; each traceable face once.
-  uint32_t depth = 0;               ///< Levels below the root; the size of a traversal stack.
+  std::vector<uint32_t> primitiveFaces;  ///< Face index of each primitive; each traceable face once.
+  uint32_t depth = 0;                    ///< Levels below the root; the size of a traversal stack.
   Normalization normalization;
 };
 

@@ -13,7 +13,7 @@ namespace asdfvk {
 namespace {
 
 constexpr float kFarAway = 1e6f;
-// Prefetch distance in slots: faces of consecutive slots may be far apart in memory.
+// Prefetch distance in primitives: faces of consecutive primitives may be far apart in memory.
 constexpr size_t kPrefetchDistance = 16;
 
 vec3 toDevice(const Vec3f& v) { return {v.x, v.y, v.z}; }
@@ -76,13 +76,13 @@ OctahedralNormal encodeNormal(const Vec3d& n) {
   return {static_cast<float>(isUp ? u : foldedU), static_cast<float>(isUp ? v : foldedV)};
 }
 
-UnsetVector<DeviceTriangle> encodeTriangles(std::span<const uint32_t> slotFaces, const Bvh& bvh,
+UnsetVector<DeviceTriangle> encodeTriangles(std::span<const uint32_t> primitiveFaces, const Bvh& bvh,
                                             const TriangleMesh& mesh, const FaceGeometry& geometry) {
-  UnsetVector<DeviceTriangle> triangles(slotFaces.size());
-  tbb::parallel_for(size_t{0}, slotFaces.size(), [&](size_t slot) {
-    const uint32_t face = slotFaces[slot];
-    if (slot + kPrefetchDistance < slotFaces.size()) {
-      const uint32_t later = slotFaces[slot + kPrefetchDistance];
+  UnsetVector<DeviceTriangle> triangles(primitiveFaces.size());
+  tbb::parallel_for(size_t{0}, primitiveFaces.size(), [&](size_t primitive) {
+    const uint32_t face = primitiveFaces[primitive];
+    if (primitive + kPrefetchDistance < primitiveFaces.size()) {
+      const uint32_t later = primitiveFaces[primitive + kPrefetchDistance];
       __builtin_prefetch(&mesh.faces[later]);
       __builtin_prefetch(&geometry.normals[later]);
     }
@@ -90,7 +90,7 @@ UnsetVector<DeviceTriangle> encodeTriangles(std::span<const uint32_t> slotFaces,
       return toDevice(Vec3f(bvh.normalization.toNormalized(mesh.vertices[mesh.faces[face][k]])));
     };
     const OctahedralNormal normal = encodeNormal(geometry.normals[face]);
-    triangles[slot] = {corner(0), face, corner(1), normal.u, corner(2), normal.v};
+    triangles[primitive] = {corner(0), face, corner(1), normal.u, corner(2), normal.v};
   });
   return triangles;
 }
@@ -100,16 +100,16 @@ UnsetVector<DeviceTriangle> encodeTriangles(std::span<const uint32_t> slotFaces,
 DeviceBvh encodeDeviceBvh(const Bvh& bvh, const TriangleMesh& mesh, const FaceGeometry& geometry, BvhLayout layout) {
   DeviceBvh device;
   if (bvh.nodes.empty()) return device;
-  if (bvh.slotFaces.size() > kReferenceFirstMask)
+  if (bvh.primitiveFaces.size() > kReferenceFirstMask)
     throw Error(ErrorCode::DeviceLimit, fmt::format("the mesh has {} triangles and the device's hierarchy holds {}",
-                                                    bvh.slotFaces.size(), kReferenceFirstMask));
+                                                    bvh.primitiveFaces.size(), kReferenceFirstMask));
   if (layout == BvhLayout::Wide) {
     WideBvh wide = encodeWideBvh(bvh);
-    return {{}, std::move(wide.nodes), encodeTriangles(wide.slotFaces, bvh, mesh, geometry), wide.depth};
+    return {{}, std::move(wide.nodes), encodeTriangles(wide.primitiveFaces, bvh, mesh, geometry), wide.depth};
   }
   device.nodes =
       bvh.nodes[0].isLeaf() ? UnsetVector<DeviceBvhNode>{encodeRootLeaf(bvh.nodes[0])} : encodeNodes(bvh.nodes);
-  device.triangles = encodeTriangles(bvh.slotFaces, bvh, mesh, geometry);
+  device.triangles = encodeTriangles(bvh.primitiveFaces, bvh, mesh, geometry);
   device.depth = bvh.depth;
   return device;
 }

@@ -25,7 +25,7 @@ struct DeviceBvh {
   /// Bvh, in the same order.
   UnsetVector<DeviceBvhNode> nodes;
   UnsetVector<DeviceWideNode> wideNodes;
-  UnsetVector<DeviceTriangle> triangles;  ///< One per slot; corners rounded to nearest.
+  UnsetVector<DeviceTriangle> triangles;  ///< One per primitive; corners rounded to nearest.
   uint32_t depth = 0;
 
   [[nodiscard]] std::span<const std::byte> nodeBytes() const {

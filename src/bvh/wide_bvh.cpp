@@ -104,18 +104,18 @@ UnsetVector<BvhNode> withSmallLeaves(UnsetVector<BvhNode> nodes) {
 // Writes the wide nodes; a parent determines the indices of its children.
 class WideEncoder {
  public:
-  WideEncoder(std::span<const BvhNode> nodes, std::span<const uint32_t> slotFaces)
-      : nodes_(nodes), slotFaces_(slotFaces), collapse_(nodes) {
+  WideEncoder(std::span<const BvhNode> nodes, std::span<const uint32_t> primitiveFaces)
+      : nodes_(nodes), primitiveFaces_(primitiveFaces), collapse_(nodes) {
     bvh_.nodes.resize(1 + collapse_.nodeCountBelow(0));
-    bvh_.slotFaces.resize(slotFaces.size());
+    bvh_.primitiveFaces.resize(primitiveFaces.size());
     bvh_.depth = encode(0, 0, 1, 0, 0);
   }
   WideBvh take() { return std::move(bvh_); }
 
  private:
-  // Descendants are written to nodes from `next` on and triangles from `slot` on. Returns the number of levels below
-  // the node.
-  uint32_t encode(uint32_t binaryNode, uint32_t index, uint32_t next, uint32_t slot, uint32_t level) {
+  // Descendants are written to nodes from `next` on and triangles from `primitive` on. Returns the number of levels
+  // below the node.
+  uint32_t encode(uint32_t binaryNode, uint32_t index, uint32_t next, uint32_t primitive, uint32_t level) {
     const WideChildren children = collapse_.childrenOf(binaryNode);
     std::array<Box3f, kWideChildCount> boxes;
     for (uint32_t i = 0; i < children.count; ++i) boxes[i] = boxOf(nodes_[children.items[i].node]);
@@ -123,10 +123,10 @@ class WideEncoder {
     const std::array<uint32_t, kWideChildCount> slots = chooseSlots(used);
     DeviceWideNode node = quantizeBoxes(used, slots);
     node.childBase = next;
-    node.triangleBase = slot;
+    node.triangleBase = primitive;
 
     struct Inner {
-      uint32_t binaryNode, index, next, slot;
+      uint32_t binaryNode, index, next, primitive;
     };
     std::array<WideChild, kWideChildCount> inSlot{};
     std::array<bool, kWideChildCount> isUsed{};
@@ -138,11 +138,11 @@ class WideEncoder {
     uint32_t innerCount = 0;
     for (uint32_t s = 0; s < kWideChildCount; ++s) {
       if (!isUsed[s]) continue;
-      const WideCollapse::SlotRange range = collapse_.slotsOf(inSlot[s].node);
+      const WideCollapse::PrimitiveRange range = collapse_.primitivesOf(inSlot[s].node);
       if (inSlot[s].isLeaf) {
         node.childBits |= ((1u << range.count) - 1) << 4 * s;
-        std::copy_n(slotFaces_.begin() + range.first, range.count, bvh_.slotFaces.begin() + slot);
-        slot += range.count;
+        std::copy_n(primitiveFaces_.begin() + range.first, range.count, bvh_.primitiveFaces.begin() + primitive);
+        primitive += range.count;
       } else {
         node.childBits |= kWideInnerBits & 0xfu << 4 * s;
         inner[innerCount] = {inSlot[s].node, next + innerCount, 0, 0};
@@ -153,13 +153,13 @@ class WideEncoder {
     next += innerCount;
     for (Inner& child : std::span(inner).first(innerCount)) {
       child.next = next;
-      child.slot = slot;
+      child.primitive = primitive;
       next += collapse_.nodeCountBelow(child.binaryNode);
-      slot += collapse_.slotsOf(child.binaryNode).count;
+      primitive += collapse_.primitivesOf(child.binaryNode).count;
     }
     std::array<uint32_t, kWideChildCount> depths{};
     const auto descend = [&](uint32_t i) {
-      depths[i] = 1 + encode(inner[i].binaryNode, inner[i].index, inner[i].next, inner[i].slot, level + 1);
+      depths[i] = 1 + encode(inner[i].binaryNode, inner[i].index, inner[i].next, inner[i].primitive, level + 1);
     };
     if (level < kParallelLevelCount)
       tbb::parallel_for(0u, innerCount, descend);
@@ -169,7 +169,7 @@ class WideEncoder {
   }
 
   std::span<const BvhNode> nodes_;
-  std::span<const uint32_t> slotFaces_;
+  std::span<const uint32_t> primitiveFaces_;
   WideCollapse collapse_;
   WideBvh bvh_;
 };
@@ -202,21 +202,22 @@ void WideCollapse::chooseFrom(uint32_t node, uint32_t level, Forests& forests) {
 
 void WideCollapse::choose(uint32_t node, const Forests& left, const Forests& right, Forests& forests) {
   Choice& choice = choices_[node];
-  const SlotRange leftSlots = slotsOf(nodes_[node].first), rightSlots = slotsOf(nodes_[node].first + 1);
-  choice.slots = {leftSlots.first, leftSlots.count + rightSlots.count};
+  const PrimitiveRange leftPrimitives = primitivesOf(nodes_[node].first),
+                       rightPrimitives = primitivesOf(nodes_[node].first + 1);
+  choice.primitives = {leftPrimitives.first, leftPrimitives.count + rightPrimitives.count};
   const uint32_t maxLeftCount =
-      nodes_[nodes_[node].first].isLeaf() ? 1 : std::min(leftSlots.count, kWideChildCount - 1);
+      nodes_[nodes_[node].first].isLeaf() ? 1 : std::min(leftPrimitives.count, kWideChildCount - 1);
   const Sharing sharing = shareChildren(left.costs, maxLeftCount, right.costs);
   const auto nodeCount = [&](uint32_t childCount) {
     const auto k = static_cast<uint32_t>(sharing.leftCounts[childCount - 1]);
     return left.nodeCounts[k - 1] + right.nodeCounts[childCount - k - 1];
   };
-  const float area = halfAreaOf(nodes_[node]), leafCost = area * static_cast<float>(choice.slots.count);
+  const float area = halfAreaOf(nodes_[node]), leafCost = area * static_cast<float>(choice.primitives.count);
   choice.nodeCountBelow = nodeCount(kWideChildCount);
   choice.leftCounts = static_cast<uint32_t>(sharing.leftCounts.back()) << 4 * (kWideChildCount - 1);
   forests.costs[0] = sharing.costs.back() + area * kWideNodeCost;
   forests.nodeCounts[0] = 1 + choice.nodeCountBelow;
-  if (choice.slots.count <= kMaxWideLeafTriangleCount && leafCost <= forests.costs[0]) {
+  if (choice.primitives.count <= kMaxWideLeafTriangleCount && leafCost <= forests.costs[0]) {
     choice.leftCounts |= 1;
     forests.costs[0] = leafCost;
     forests.nodeCounts[0] = 0;
@@ -308,8 +309,8 @@ WideBvh encodeWideBvh(const Bvh& bvh) {
   const bool hasLargeLeaves = std::any_of(bvh.nodes.begin(), bvh.nodes.end(), [](const BvhNode& node) {
     return node.triangleCount > kMaxWideLeafTriangleCount;
   });
-  WideBvh wide = hasLargeLeaves ? WideEncoder(withSmallLeaves(bvh.nodes), bvh.slotFaces).take()
-                                : WideEncoder(bvh.nodes, bvh.slotFaces).take();
+  WideBvh wide = hasLargeLeaves ? WideEncoder(withSmallLeaves(bvh.nodes), bvh.primitiveFaces).take()
+                                : WideEncoder(bvh.nodes, bvh.primitiveFaces).take();
   ASDFVK_CHECK_OP(wide.depth, <=, kMaxWideBvhDepth);
   return wide;
 }

@@ -39,12 +39,13 @@ class WideCollapse {
   /// Children of the wide node that a binary node becomes. A root that is a leaf becomes a wide node with itself as the
   /// only child.
   [[nodiscard]] WideChildren childrenOf(uint32_t node) const;
-  /// Consecutive slots of the triangles below a binary node.
-  struct SlotRange {
+  /// Consecutive primitives below a binary node.
+  struct PrimitiveRange {
     uint32_t first = 0, count = 0;
   };
-  [[nodiscard]] SlotRange slotsOf(uint32_t node) const {
-    return nodes_[node].isLeaf() ? SlotRange{nodes_[node].first, nodes_[node].triangleCount} : choices_[node].slots;
+  [[nodiscard]] PrimitiveRange primitivesOf(uint32_t node) const {
+    return nodes_[node].isLeaf() ? PrimitiveRange{nodes_[node].first, nodes_[node].triangleCount}
+                                 : choices_[node].primitives;
   }
   /// Number of wide nodes below the wide node that a binary node becomes.
   [[nodiscard]] uint32_t nodeCountBelow(uint32_t node) const {
@@ -64,7 +65,7 @@ class WideCollapse {
     // Lowest nibble: 1 where the node as a single child is a leaf.
     uint32_t leftCounts;
     uint32_t nodeCountBelow;
-    SlotRange slots;
+    PrimitiveRange primitives;
     [[nodiscard]] uint32_t leftCount(uint32_t childCount) const { return leftCounts >> 4 * (childCount - 1) & 15; }
   };
 
@@ -94,8 +95,8 @@ inline constexpr float kWideBoxMargin = 0x1p-18f;
 /// child, then all below the second, and so on.
 struct WideBvh {
   UnsetVector<DeviceWideNode> nodes;
-  UnsetVector<uint32_t> slotFaces;  ///< As in Bvh; the range of slots of a subtree is the same.
-  uint32_t depth = 0;               ///< Levels below the root; the size of a traversal stack.
+  UnsetVector<uint32_t> primitiveFaces;  ///< As in Bvh; the range of primitives of a subtree is the same.
+  uint32_t depth = 0;                    ///< Levels below the root; the size of a traversal stack.
 };
 
 /// Collapses `bvh`, which has at least one node, by WideCollapse. Leaves of more than kMaxWideLeafTriangleCount are

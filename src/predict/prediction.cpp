@@ -189,7 +189,7 @@ std::vector<uint32_t> cellsInOrder(const TraceScene& scene, std::span<const uint
   std::vector<uint32_t> order;
   std::vector<uint8_t> isListed(seeds.size(), 0);
   order.reserve(seeds.size());
-  for (const uint32_t face : scene.bvh.slotFaces) {
+  for (const uint32_t face : scene.bvh.primitiveFaces) {
     const uint32_t cell = cells.cellOf[face];
     if (cell == kNoCell || seeds[cell] != face) continue;
     order.push_back(cell);

@@ -37,8 +37,8 @@ PictureScene::PictureScene(const SceneData& scene)
 
 std::vector<Vec3d> PictureScene::points() const {
   std::vector<Vec3d> points;
-  points.reserve(bvh_.slotFaces.size() * 3);
-  for (const uint32_t face : bvh_.slotFaces)
+  points.reserve(bvh_.primitiveFaces.size() * 3);
+  for (const uint32_t face : bvh_.primitiveFaces)
     for (const uint32_t vertex : mesh_.faces[face])
       points.push_back(bvh_.normalization.toNormalized(mesh_.vertices[vertex]));
   return points;

@@ -76,8 +76,8 @@ class Walk {
 
  private:
   void testLeaf(const BvhNode& leaf) {
-    for (uint32_t slot = leaf.first; slot < leaf.first + leaf.triangleCount; ++slot) {
-      const uint32_t face = bvh_.slotFaces[slot];
+    for (uint32_t primitive = leaf.first; primitive < leaf.first + leaf.triangleCount; ++primitive) {
+      const uint32_t face = bvh_.primitiveFaces[primitive];
       if (face == skippedFace_) continue;
       const double distance = rayTriangleDistance(ray_, corner(face, 0), corner(face, 1), corner(face, 2));
       const bool isLowerTie = distance == best_.distance && face < best_.face && distance < kNoHit;

@@ -17,17 +17,17 @@ class SeedOrder {
   [[nodiscard]] std::vector<uint32_t> of(std::span<const uint32_t> seedFaces) const;
 
   /// Index of the face's representative in the hierarchy; kNoFace where it is not in the hierarchy.
-  [[nodiscard]] uint32_t slotOf(uint32_t face) const { return slotOfFace_[representatives_[face]]; }
+  [[nodiscard]] uint32_t primitiveOf(uint32_t face) const { return primitiveOfFace_[representatives_[face]]; }
 
-  /// Prefetches the memory that slotOf() reads.
+  /// Prefetches the memory that primitiveOf() reads.
   void prefetch(uint32_t face) const {
     __builtin_prefetch(&representatives_[face]);
-    __builtin_prefetch(&slotOfFace_[face]);
+    __builtin_prefetch(&primitiveOfFace_[face]);
   }
 
  private:
   std::span<const uint32_t> representatives_;
-  std::vector<uint32_t> slotOfFace_;  // #F
+  std::vector<uint32_t> primitiveOfFace_;  // #F
 };
 
 }  // namespace asdfvk

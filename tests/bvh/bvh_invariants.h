@@ -33,14 +33,14 @@ inline bool holdsBox(const BvhNode& outer, const BvhNode& inner) {
 /// Checks all invariants of a hierarchy over exactly the faces `expectedFaces` (ascending).
 inline void checkInvariants(const Bvh& bvh, const Mesh& mesh, const std::vector<uint32_t>& expectedFaces,
                             const BvhOptions& options = {}) {
-  std::vector<uint32_t> faces = bvh.slotFaces;
+  std::vector<uint32_t> faces = bvh.primitiveFaces;
   std::sort(faces.begin(), faces.end());
   CHECK(faces == expectedFaces);
   CHECK(bvh.nodes.empty() == expectedFaces.empty());
   CHECK(bvh.depth <= kMaxBvhDepth);
   if (bvh.nodes.empty()) return;
 
-  std::vector<int> nodeVisits(bvh.nodes.size()), slotVisits(bvh.slotFaces.size());
+  std::vector<int> nodeVisits(bvh.nodes.size()), primitiveVisits(bvh.primitiveFaces.size());
   uint32_t deepest = 0;
   size_t badBoxes = 0, largeLeaves = 0;
   struct Entry {
@@ -64,10 +64,10 @@ inline void checkInvariants(const Bvh& bvh, const Mesh& mesh, const std::vector<
       continue;
     }
     if (node.triangleCount > options.maxLeafTriangleCount) ++largeLeaves;
-    for (uint32_t slot = node.first; slot < node.first + node.triangleCount; ++slot) {
-      REQUIRE(slot < bvh.slotFaces.size());
-      ++slotVisits[slot];
-      for (const uint32_t vertex : mesh.faces[bvh.slotFaces[slot]]) {
+    for (uint32_t primitive = node.first; primitive < node.first + node.triangleCount; ++primitive) {
+      REQUIRE(primitive < bvh.primitiveFaces.size());
+      ++primitiveVisits[primitive];
+      for (const uint32_t vertex : mesh.faces[bvh.primitiveFaces[primitive]]) {
         const Vec3d p = bvh.normalization.toNormalized(mesh.vertices[vertex]);
         if (!holds(node, p) || !holds(node, Vec3d(Vec3f(p)))) ++badBoxes;
       }
@@ -77,7 +77,7 @@ inline void checkInvariants(const Bvh& bvh, const Mesh& mesh, const std::vector<
   CHECK(largeLeaves == 0);
   CHECK(deepest == bvh.depth);
   CHECK(std::all_of(nodeVisits.begin(), nodeVisits.end(), [](int n) { return n == 1; }));
-  CHECK(std::all_of(slotVisits.begin(), slotVisits.end(), [](int n) { return n == 1; }));
+  CHECK(std::all_of(primitiveVisits.begin(), primitiveVisits.end(), [](int n) { return n == 1; }));
 }
 
 }  // namespace asdfvk

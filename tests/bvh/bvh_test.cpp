@@ -47,7 +47,7 @@ TEST_CASE("the bits do not depend on the number of threads") {
     bvhs[threadCount - 1] = buildOver(mesh);
   }
   for (const Bvh& other : {bvhs[1], bvhs[2]}) {
-    CHECK(other.slotFaces == bvhs[0].slotFaces);
+    CHECK(other.primitiveFaces == bvhs[0].primitiveFaces);
     CHECK(other.depth == bvhs[0].depth);
     REQUIRE(other.nodes.size() == bvhs[0].nodes.size());
     CHECK(std::memcmp(other.nodes.data(), bvhs[0].nodes.data(), other.nodes.size() * sizeof(BvhNode)) == 0);

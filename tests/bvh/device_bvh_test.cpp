@@ -72,16 +72,16 @@ size_t countEqualNodes(const Bvh& bvh, uint32_t index, const std::vector<Texel>&
 }
 
 void checkTriangles(const Bvh& bvh, const Mesh& mesh, const std::vector<Texel>& texels) {
-  REQUIRE(texels.size() == 3 * bvh.slotFaces.size());
+  REQUIRE(texels.size() == 3 * bvh.primitiveFaces.size());
   const FaceGeometry geometry = computeFaceGeometry(mesh);
-  for (size_t slot = 0; slot < bvh.slotFaces.size(); ++slot) {
-    const uint32_t face = bvh.slotFaces[slot];
-    REQUIRE(texels[3 * slot][3] == face);
-    const Vec3d normal = normalOf(asFloat(texels[3 * slot + 1][3]), asFloat(texels[3 * slot + 2][3]));
+  for (size_t primitive = 0; primitive < bvh.primitiveFaces.size(); ++primitive) {
+    const uint32_t face = bvh.primitiveFaces[primitive];
+    REQUIRE(texels[3 * primitive][3] == face);
+    const Vec3d normal = normalOf(asFloat(texels[3 * primitive + 1][3]), asFloat(texels[3 * primitive + 2][3]));
     REQUIRE(length(normal - geometry.normals[face]) < 3e-7);
     for (size_t k = 0; k < 3; ++k) {
       const Vec3d p = bvh.normalization.toNormalized(mesh.vertices[mesh.faces[face][k]]);
-      REQUIRE(pointOf(texels[3 * slot + k]) == Vec3f(p));
+      REQUIRE(pointOf(texels[3 * primitive + k]) == Vec3f(p));
     }
   }
 }

@@ -122,7 +122,7 @@ double costOf(std::span<const BvhNode> nodes, const WideCollapse& collapse, uint
   double cost = halfArea(nodes[node]) * kWideNodeCost;
   const WideChildren children = collapse.childrenOf(node);
   for (const WideChild& child : children.all())
-    cost += child.isLeaf ? halfArea(nodes[child.node]) * collapse.slotsOf(child.node).count
+    cost += child.isLeaf ? halfArea(nodes[child.node]) * collapse.primitivesOf(child.node).count
                          : costOf(nodes, collapse, child.node);
   return cost;
 }

@@ -34,24 +34,24 @@ double distanceToTriangle(const Vec3d& p, const std::array<Vec3d, 3>& corners) {
 /// The distance from the point to the nearest triangle but that of its primitive, in normalised units.
 double nearestOther(const TracedMesh& traced, const PrimitivePoint& point) {
   double nearest = std::numeric_limits<double>::infinity();
-  for (uint32_t primitive = 0; primitive < traced.bvh.slotFaces.size(); ++primitive) {
+  for (uint32_t primitive = 0; primitive < traced.bvh.primitiveFaces.size(); ++primitive) {
     if (primitive == point.primitive) continue;
     std::array<Vec3d, 3> corners;
     for (size_t k = 0; k < 3; ++k)
       corners[k] = traced.bvh.normalization.toNormalized(
-          traced.mesh.vertices[traced.mesh.faces[traced.bvh.slotFaces[primitive]][k]]);
+          traced.mesh.vertices[traced.mesh.faces[traced.bvh.primitiveFaces[primitive]][k]]);
     nearest = std::min(nearest, distanceToTriangle(point.point, corners));
   }
   return nearest;
 }
 
-/// Barycentres in the order of slots; returns how many had a neighbour.
+/// Barycentres in the order of primitives; returns how many had a neighbour.
 size_t checkAll(const TracedMesh& traced, double radius, size_t groupSize, InstructionSet instructionSet) {
   const std::vector<TrianglePlane> planes = trianglePlanes(traced.scene());
   std::vector<PrimitivePoint> points;
   for (uint32_t primitive = 0; primitive < planes.size(); ++primitive)
     points.push_back(
-        {traced.bvh.normalization.toNormalized(traced.geometry.barycentres[traced.bvh.slotFaces[primitive]]),
+        {traced.bvh.normalization.toNormalized(traced.geometry.barycentres[traced.bvh.primitiveFaces[primitive]]),
          primitive});
   size_t foundCount = 0;
   for (size_t first = 0; first < points.size(); first += groupSize) {
@@ -88,7 +88,7 @@ TEST_CASE("walls that touch are found on both sides, whatever their cuts") {
   const TracedMesh traced(shapes::joined(box, shapes::scaledAndShifted(shapes::box({2, 2, 2}, 4), 1, {2, 0, 0})));
   const std::vector<TrianglePlane> planes = trianglePlanes(traced.scene());
   for (uint32_t primitive = 0; primitive < planes.size(); ++primitive) {
-    const uint32_t face = traced.bvh.slotFaces[primitive];
+    const uint32_t face = traced.bvh.primitiveFaces[primitive];
     const Vec3d barycentre = traced.geometry.barycentres[face];
     const PrimitivePoint point{traced.bvh.normalization.toNormalized(barycentre), primitive};
     CHECK(haveNeighboursWithin(traced.scene(), planes, {&point, 1}, 0x1p-21)[0] == (std::abs(barycentre.x - 1) < 1e-9));

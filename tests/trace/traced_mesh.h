@@ -5,7 +5,6 @@
 #include <utility>
 #include <vector>
 
-
 namespace asdfvk {
 
 /// A mesh with all that tracing needs.

@@ -30,17 +30,18 @@ struct FloatPoint {
 
 void copyTriangles(const TraceScene& scene, RTCGeometry geometry) {
   const std::span<const Vec3d> vertices = scene.mesh.vertices;
-  const std::vector<uint32_t>& slotFaces = scene.bvh.slotFaces;
+  const std::vector<uint32_t>& primitiveFaces = scene.bvh.primitiveFaces;
   auto* points = static_cast<FloatPoint*>(rtcSetNewGeometryBuffer(
       geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(FloatPoint), vertices.size()));
-  auto* triangles = static_cast<Face*>(
-      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(Face), slotFaces.size()));
+  auto* triangles = static_cast<Face*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                                               sizeof(Face), primitiveFaces.size()));
   if (points == nullptr || triangles == nullptr) return;  // The error stays pending in the device.
   tbb::parallel_for(size_t{0}, vertices.size(), [&](size_t i) {
     const Vec3d p = scene.bvh.normalization.toNormalized(vertices[i]);
     points[i] = {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
   });
-  tbb::parallel_for(size_t{0}, slotFaces.size(), [&](size_t i) { triangles[i] = scene.mesh.faces[slotFaces[i]]; });
+  tbb::parallel_for(size_t{0}, primitiveFaces.size(),
+                    [&](size_t i) { triangles[i] = scene.mesh.faces[primitiveFaces[i]]; });
 }
 
 }  // namespace
@@ -150,7 +151,7 @@ void EmbreeConeGroup::writeHits(size_t lane) const {
   for (size_t ray = 0; ray < hits_.size(); ++ray) {
     const uint32_t primitive = hits_[ray].primitives[lane];
     seeds_[lane].hits[ray] =
-        primitive == kNoFace ? kMiss : ConeHit{hits_[ray].distances[lane], cones_.scene.bvh.slotFaces[primitive]};
+        primitive == kNoFace ? kMiss : ConeHit{hits_[ray].distances[lane], cones_.scene.bvh.primitiveFaces[primitive]};
   }
 }
 

@@ -78,7 +78,7 @@ class EmbreeTracer final : public ConeTracer {
     for (size_t i = begin; i < end; ++i) {
       const uint32_t face = seedFaces[order[i]];
       ASDFVK_CHECK(!scene_.geometry.isDegenerate(face));
-      group.add({face, seedOrder_.slotOf(face), hitsOf(order[i])});
+      group.add({face, seedOrder_.primitiveOf(face), hitsOf(order[i])});
     }
     group.trace();
     uint64_t redoneConeCount = 0;
@@ -111,7 +111,7 @@ class EmbreeTracer final : public ConeTracer {
   [[nodiscard]] bool needsRobustMode() const {
     constexpr size_t kSampleSize = 64, kMaxLeavingCount = 1;
     EmbreeConeGroup group({scene_, cone_, planes_, *embree_, rayStart_});
-    const std::vector<uint32_t>& faces = scene_.bvh.slotFaces;
+    const std::vector<uint32_t>& faces = scene_.bvh.primitiveFaces;
     const size_t count = std::min(kSampleSize, faces.size());
     size_t leavingCount = 0;
     for (size_t i = 0; i < count;) {

@@ -117,7 +117,7 @@ class NeighbourWalk {
   [[nodiscard]] bool isNear(const Vec3d& point, uint32_t primitive) const {
     const TrianglePlane& plane = planes_[primitive];
     if (std::abs(dot(plane.normal, point) - plane.offset) > radius_) return false;
-    const Face& face = scene_.mesh.faces[scene_.bvh.slotFaces[primitive]];
+    const Face& face = scene_.mesh.faces[scene_.bvh.primitiveFaces[primitive]];
     const auto corner = [&](size_t k) { return scene_.bvh.normalization.toNormalized(scene_.mesh.vertices[face[k]]); };
     for (size_t k = 0; k < 3; ++k) {
       const Vec3d edge = corner((k + 1) % 3) - corner(k);
@@ -137,9 +137,9 @@ class NeighbourWalk {
 }  // namespace
 
 std::vector<TrianglePlane> trianglePlanes(const TraceScene& scene) {
-  std::vector<TrianglePlane> planes(scene.bvh.slotFaces.size());
+  std::vector<TrianglePlane> planes(scene.bvh.primitiveFaces.size());
   tbb::parallel_for(size_t{0}, planes.size(), [&](size_t primitive) {
-    const uint32_t face = scene.bvh.slotFaces[primitive];
+    const uint32_t face = scene.bvh.primitiveFaces[primitive];
     const Vec3d& normal = scene.geometry.normals[face];
     planes[primitive] = {normal, dot(normal, scene.bvh.normalization.toNormalized(scene.geometry.barycentres[face]))};
   });
