@@ -55,7 +55,8 @@ Hit walkBinary(vec3 origin, vec3 direction, uint excludedFace, inout uint iterat
     if (current != kNoReference) {
       const uint first = current & kReferenceFirstMask;
       const uint end = first + (current >> kReferenceCountShift);
-      for (uint primitive = first; primitive < end; ++primitive) testTriangle(frame, origin, primitive, excludedFace, hit);
+      for (uint primitive = first; primitive < end; ++primitive)
+        testTriangle(frame, origin, primitive, excludedFace, hit);
       iterationCount += end - first + 1u;
       if (stackSize > 0u) {
         --stackSize;

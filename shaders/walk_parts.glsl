@@ -6,7 +6,7 @@ const uint kNoPrimitive = 0xffffffffu;
 
 struct Hit {
   float distance;
-  uint primitive;        // kNoPrimitive: no hit.
+  uint primitive;   // kNoPrimitive: no hit.
   bool isComplete;  // False: the iteration limit ended the traversal.
 };
 
@@ -19,7 +19,8 @@ float distanceTo(DeviceTriangle triangle, RayFrame frame, vec3 origin) {
   return intersectTriangle(frame, triangle.v0 - origin, triangle.v1 - origin, triangle.v2 - origin);
 }
 
-// Replaces `hit` by the triangle in `primitive` if that is nearer. distance: negative where the ray misses the triangle.
+// Replaces `hit` by the triangle in `primitive` if that is nearer. distance: negative where the ray misses the
+// triangle.
 void keepNearest(float distance, uint primitive, uint faceIndex, uint excludedFace, inout Hit hit) {
   if (distance >= 0.0 && distance < hit.distance && faceIndex != excludedFace) {
     hit.distance = distance;

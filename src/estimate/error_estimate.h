@@ -20,6 +20,7 @@ struct EstimateInput {
   /// 1943.
   std::span<const double> indicator;
   std::span<const double> result;  ///< Interpolated from all seeds.
+  bool predicts = true;            ///< Whether the interpolation used predictions.
 };
 
 struct EstimatedErrors {

@@ -151,8 +151,8 @@ void Rounds::runRound(uint64_t count, bool isLast, const RunControl& control) {
   }
   if (estimates) {
     const auto scope = clock_.time(Stage::Estimate);
-    EstimatedErrors errors =
-        estimateErrors(computation_.scene.mesh, {traced_, heldOut_, withoutHeldOut, indicator, result_.values});
+    EstimatedErrors errors = estimateErrors(computation_.scene.mesh,
+                                            {traced_, heldOut_, withoutHeldOut, indicator, result_.values, predicts});
     if (errors.estimate.heldOutCount > 0) errors_ = std::move(errors);
   }
   interpolationSeconds_ = clock_.elapsed() - begin - (raySeconds() - earlierRays);

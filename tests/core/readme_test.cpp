@@ -10,7 +10,7 @@
 
 namespace {
 
-std::string readText(const std::string& name) {
+std::string readDocument(const std::string& name) {
   std::ifstream in(std::string(ASDFVK_SOURCE_DIR) + "/" + name);
   REQUIRE_MESSAGE(in, name);
   return {std::istreambuf_iterator<char>(in), {}};
@@ -59,8 +59,8 @@ std::vector<std::string> namedPaths(const std::string& page) {
 }  // namespace
 
 TEST_CASE("the C++ example of README.md is the code that the tests of consumers compile") {
-  const std::string file = readText("tests/consumer/readme_example.cpp");
-  CHECK(between(readText("README.md"), "```cpp\n", "```") ==
+  const std::string file = readDocument("tests/consumer/readme_example.cpp");
+  CHECK(between(readDocument("README.md"), "```cpp\n", "```") ==
         unindented(between(file, "  // [README]\n", "  // [README]"), 2));
 }
 
@@ -68,7 +68,7 @@ TEST_CASE("files that the pages name exist") {
   const std::filesystem::path root(ASDFVK_SOURCE_DIR);
   for (const char* page : {"README.md", "CONTRIBUTING.md", "docs/architecture.md", "docs/options.md", "docs/formats.md",
                            "docs/method.md", "docs/accuracy.md", "docs/speed.md", "docs/experiments.md"}) {
-    for (const std::string& path : namedPaths(readText(page))) {
+    for (const std::string& path : namedPaths(readDocument(page))) {
       INFO(page, " names ", path);
       CHECK(std::filesystem::exists(root / path));
     }

@@ -5,6 +5,10 @@
 #include <utility>
 #include <vector>
 
+#include "bvh/bvh.h"
+#include "mesh/coincident_faces.h"
+#include "trace/reference_tracer.h"
+
 namespace asdfvk {
 
 /// A mesh with all that tracing needs.
