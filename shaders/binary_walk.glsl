@@ -4,7 +4,7 @@ DeviceBvhNode loadNode(uint index) {
   return decodeBvhNode(fetchNode(t), fetchNode(t + 1u), fetchNode(t + 2u), fetchNode(t + 3u));
 }
 
-// Moves the exit of a box outwards by three roundings (Ize 2013).
+// Factor on the exit distance of a box: covers three rounding errors (Ize 2013).
 const float kExitMargin = 1.0 + 6.0 * 5.9604645e-8;
 
 // Distance at which the ray enters the box; kFarAway where it misses the box or enters beyond `limit`. The margin of

@@ -5,8 +5,8 @@
 
 float lengthAt(uint base, uint ray) { return lengths[base + ray]; }
 
-// Each lane ranks its own rays among all; those of the two middle ranks give the median (the same ray twice for an odd
-// count). Returns the number of valid rays and their mean.
+// Each lane computes the ranks of its rays among all; the rays of the two middle ranks determine the median (the same
+// ray twice for an odd count). Returns the number of valid rays and their mean.
 void findMiddles(uint base, uint slot, uint lane, out uint validCount, out float mean) {
   validCount = 0u;
   mean = 0.0;

@@ -12,8 +12,8 @@ RayFrame makeRayFrame(vec3 direction) {
                   vec3(b, s + direction.y * direction.y * a, -direction.y), direction);
 }
 
-// A vertex in the frame of the ray depends on the vertex and the ray only. `precise` keeps it, and the edge functions
-// computed from it, equal in both triangles of an edge, so that no ray slips between them.
+// A vertex in the frame of the ray depends on the vertex and the ray only. `precise` makes it, and the edge functions
+// computed from it, bit-identical in both triangles of an edge, so that no ray passes between them.
 vec3 toRayFrame(RayFrame frame, vec3 v) {
   precise vec3 p =
       vec3(frame.u.x * v.x + frame.u.y * v.y + frame.u.z * v.z, frame.w.x * v.x + frame.w.y * v.y + frame.w.z * v.z,
@@ -31,7 +31,7 @@ float intersectTriangle(RayFrame frame, vec3 v0, vec3 v1, vec3 v2) {
   precise const float edgeB = a.x * c.y - a.y * c.x;
   precise const float edgeC = b.x * a.y - b.y * a.x;
   const float det = edgeA + edgeB + edgeC;
-  // Inside where all three have the sign of their sum, or are 0.
+  // Inside if each of the three is 0 or has the sign of their sum.
   const uvec3 turned = floatBitsToUint(vec3(edgeA, edgeB, edgeC)) ^ (floatBitsToUint(det) & 0x80000000u);
   const bool inside = all(greaterThanEqual(uintBitsToFloat(turned), vec3(0.0))) && det != 0.0;
   return inside ? (edgeA * a.z + edgeB * b.z + edgeC * c.z) / det : -1.0;

@@ -23,7 +23,7 @@ uint countBelow(uint bits) {
   return count;
 }
 
-// Bits of the length of a rank: the largest bits such that at most `rank` lengths are below.
+// Bits of the length with the given rank: the largest number with at most `rank` lengths below it.
 uint findRank(uint rank) {
   uint bits = 0u;
   for (uint bit = 0x40000000u; bit != 0u; bit >>= 1)

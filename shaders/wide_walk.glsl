@@ -13,11 +13,11 @@ vec4 distancesTo(uint bytes, float perByte, float start) {
   return planes * (perByte * vec4(1.0, 1.0 / 256.0, 1.0 / 65536.0, 1.0)) + start;
 }
 
-// A nibble of ones for each of the four boxes that the ray enters before `limit`. Distances are compared by their bits
-// as integers, which is the order of floats that are not negative, and the reverse order of negative ones. All
-// distances of a box behind the origin are negative: by bits its exit is below its entry, so it is not entered. On
-// llvmpipe a minimum of floats takes three instructions, because of NaNs, which do not occur here. kWideBoxMargin
-// includes the margin for rounding.
+// A nibble of ones for each of the four boxes that the ray enters before `limit`. Distances are compared as integers,
+// by their bits: the order of non-negative floats, and the reverse order of negative floats. All distances of a box
+// behind the origin are negative: by bits its exit is below its entry, so it is not entered. A minimum of floats takes
+// three instructions on llvmpipe because of NaNs, which do not occur here. kWideBoxMargin includes the margin for
+// rounding.
 uint enterBoxes(uvec3 near, uvec3 far, vec3 perByte, vec3 start, float limit) {
   const vec4 nearX = distancesTo(near.x, perByte.x, start.x), farX = distancesTo(far.x, perByte.x, start.x);
   const vec4 nearY = distancesTo(near.y, perByte.y, start.y), farY = distancesTo(far.y, perByte.y, start.y);
@@ -77,7 +77,7 @@ Group groupOf(DeviceWideNode node, uint children, bvec3 isNegative) {
 
 bool hasMore(Group group) { return (group.bits & kWideInnerBits) != 0u; }
 
-// Removes the nearest child from a group that has one and returns its node.
+// Removes the nearest child from a non-empty group and returns its node.
 uint takeNearest(inout Group group, bvec3 isNegative) {
   const uint rest = (group.bits & kWideInnerBits) >> 3;
   const uint nearest = rest & (~rest + 1u);
@@ -126,9 +126,9 @@ uint takePrimitive(inout LeafQueue queue, uint otherwise) {
   return lowest == 0u ? otherwise : primitive;
 }
 
-// Triangle tests are postponed until a lane of the subgroup has triangles of three nodes: with tests after each node
-// most lanes would be idle during the tests of a few. Two triangles are tested at a time, which hides the latency of
-// loading them.
+// Triangle tests are postponed until a lane of the subgroup has triangles of three nodes: with tests after each node,
+// most lanes would be idle while a few lanes test triangles. Two triangles are tested at a time, which hides the
+// latency of loading them.
 Hit walkWide(vec3 origin, vec3 direction, uint excludedFace, inout uint iterationCount) {
   const RayFrame frame = makeRayFrame(direction);
   const WideRay ray = makeWideRay(origin, direction);
@@ -163,7 +163,7 @@ Hit walkWide(vec3 origin, vec3 direction, uint excludedFace, inout uint iteratio
       testTriangles(frame, origin, primitive, takePrimitive(queue, primitive), excludedFace, hit);
       ++iterationCount;
     }
-    iterationCount += 3u;  // For this loop, and for entering the two inner loops.
+    iterationCount += 3u;  // One iteration of this loop, and the entries of the two inner loops.
   }
   hit.isComplete = iterationCount <= kIterationLimit;
   return hit;

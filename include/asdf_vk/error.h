@@ -22,20 +22,20 @@ enum class ErrorCode {
   // Usage
   OptionOutOfRange,
   OptionConflict,
-  UnknownName,    ///< Of a sampler, solver, backend, format or shape.
+  UnknownName,    ///< No sampler, solver, backend, format or shape has this name.
   UnknownFormat,  ///< Neither an option nor the extension of the file names a format.
   UnknownField,   ///< The result has no field of that name.
   // Input
-  UnreadableInput,  ///< The file cannot be opened, or breaks its format; the message has line or byte.
+  UnreadableInput,  ///< The file cannot be opened or violates its format; the message contains line or byte.
   EmptyMesh,        ///< No faces.
-  ArraySize,        ///< The size of an array does not fit: no multiple of 3, or offsets that do not ascend.
+  ArraySize,        ///< The size of an array is not a multiple of 3, or offsets do not ascend.
   IndexOutOfRange,  ///< A face refers to a vertex that does not exist.
   MeshTooLarge,     ///< More vertices, faces or connections than 32 bits can index.
   InputTooLarge,    ///< Does not fit into memory.
   // Device
   NoVulkanLoader,  ///< libvulkan.so.1 is not installed.
   NoVulkanDriver,  ///< No driver, or none that the loader can start.
-  NoUsableDevice,  ///< Every device was rejected; the message has the reasons.
+  NoUsableDevice,  ///< Every device was rejected; the message contains the reasons.
   GpuRequired,     ///< A GPU was required and the backend runs on the CPU.
   NoEmbree,        ///< The library was built without Embree.
   EmbreeFailed,

@@ -12,19 +12,20 @@
 
 namespace asdfvk {
 
-/// Reads a mesh of PLY, OFF, OBJ or STL, "-" from standard input. The content decides the format, then the extension
-/// (OBJ and binary STL have no magic number). Opens no other file. Throws Error{UnreadableInput} whose one line has the
-/// file, the line or byte, and the reason; Error{MeshTooLarge}, Error{InputTooLarge}.
+/// Reads a mesh of PLY, OFF, OBJ or STL, "-" from standard input. The format is detected from the content, or from the
+/// extension where the content is ambiguous (OBJ and binary STL have no magic number). Files that the mesh refers to
+/// are not opened. Throws Error{UnreadableInput}: one line with the file, the line or byte, and the reason;
+/// Error{MeshTooLarge}, Error{InputTooLarge}.
 [[nodiscard]] ASDFVK_API Mesh readMesh(const std::filesystem::path& path);
 
-/// The same from memory. extension: "ply", ".OBJ", or empty; used where the content does not decide.
+/// The same from memory. extension: "ply", ".OBJ", or empty; used where the content is ambiguous.
 [[nodiscard]] ASDFVK_API Mesh parseMesh(std::span<const char> bytes, std::string_view extension = {});
 
 /// Names of the formats that readMesh() reads.
 [[nodiscard]] ASDFVK_API std::vector<std::string> meshFormats();
 
 struct WriteOptions {
-  std::string format;                    ///< Of resultFormats(); empty: by the extension of the path. "-" needs it.
+  std::string format;                    ///< One of resultFormats(); empty: by the extension. Required for "-".
   std::vector<std::string> fields = {};  ///< Names of the fields to write, in this order; empty: all.
   bool ascii = false;                    ///< PLY only; other formats ignore it.
 };
@@ -37,12 +38,13 @@ struct WriteOptions {
 [[nodiscard]] ASDFVK_API std::string resultFormatOf(const std::filesystem::path& path,
                                                     const WriteOptions& options = {});
 
-/// Writes the fields, and in .ply and .vtu the mesh, whole or not at all; "-" is standard output. Vertices are float
-/// where every coordinate is exactly a float, else double.
-/// PLY: the first real face field with one component is `quality` and gives the colour; the others follow by name.
-/// VTU: all fields. NPY: the first field. NPZ: all fields. CSV: a row per face, the first column `face`; or a row per
-/// vertex, the first column `vertex`, where no field is per face. PLY and CSV split three components into NAME_x,
-/// NAME_y and NAME_z. No value is NaN in .npy, .npz and .csv, 0 in .ply and .vtu.
+/// Writes the fields, and in .ply and .vtu also the mesh. The file is replaced atomically; "-" is standard output.
+/// Vertices are float if every coordinate is exactly representable as float, else double.
+/// PLY: the first real-valued face field with one component is the property `quality` and determines the colour; the
+/// other fields are properties with their own names.
+/// VTU: all fields. NPY: the first field. NPZ: all fields. CSV: one row per face with the first column `face`; if no
+/// field is per face, one row per vertex with the first column `vertex`. PLY and CSV split three components into
+/// NAME_x, NAME_y and NAME_z. A missing value is NaN in .npy, .npz and .csv, 0 in .ply and .vtu.
 /// Throws Error{OutputNotWritable}; Error{UnknownFormat}; Error{UnknownField} for a name that no field has;
 /// Error{OptionConflict} for a field whose size does not fit the mesh, an invalid or repeated name, and fields that the
 /// format cannot hold; Error{ArraySize}, Error{IndexOutOfRange} for an invalid mesh.
@@ -50,8 +52,8 @@ ASDFVK_API void writeResult(const std::filesystem::path& path, const MeshView& m
                             const WriteOptions& options = {});
 
 /// Reads the fields of a file that writeResult() wrote, of any of its formats, in the order of the file. Real values
-/// are double, in CSV all values. No format stores units and labels; NPY has one field, named `values`. A PLY of
-/// another program gives its numbers per vertex and per face. Throws Error{UnreadableInput}.
+/// are double; in CSV all values are. No format stores units and labels. NPY has one field, named `values`. From a PLY
+/// file of another program, all numeric properties of vertices and faces are read. Throws Error{UnreadableInput}.
 [[nodiscard]] ASDFVK_API std::vector<Field> readFields(const std::filesystem::path& path);
 
 }  // namespace asdfvk

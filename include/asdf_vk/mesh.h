@@ -32,7 +32,7 @@ using Face = std::array<uint32_t, 3>;
 /// "No value" of a face: a quiet NaN.
 inline constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 
-/// The faces of the input where not all of them are triangles. Input face i has the corners
+/// The input faces of a mesh with other faces than triangles. Input face i has the corners
 /// corners[firstCorner[i]] .. corners[firstCorner[i + 1] - 1], in file order; it may have fewer than three.
 struct Polygons {
   std::vector<uint64_t> firstCorner;  ///< #I+1, or empty: every input face is one triangle.
@@ -42,7 +42,7 @@ struct Polygons {
   [[nodiscard]] bool isEmpty() const { return firstCorner.empty(); }
 };
 
-/// A triangle mesh as plain arrays, as readMesh() returns it: faces in file order, none lost, doubled or reordered.
+/// A triangle mesh as plain arrays, as readMesh() returns it: all faces of the file, in file order.
 struct Mesh {
   std::vector<Vec3d> vertices;  ///< #V, in the unit of the file; may hold non-finite numbers (Report::defects).
   std::vector<Face> faces;      ///< #F triangles.
@@ -56,8 +56,8 @@ struct Mesh {
 };
 
 /// The arrays of a caller, which must outlive the view. Positions in double and triangles are used in place; float
-/// positions (24 bytes per vertex) and polygons (triangulated, about 16 bytes per corner) are converted inside of the
-/// library. A face is called input face here: fields have one value per input face, in this order.
+/// positions (24 bytes per vertex) and polygons (triangulated, about 16 bytes per corner) are converted by the library.
+/// Its faces are called input faces: fields have one value per input face, in this order.
 class MeshView {
  public:
   MeshView(const Mesh& mesh);  // NOLINT: implicit by design

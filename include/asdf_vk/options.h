@@ -9,19 +9,19 @@
 
 namespace asdfvk {
 
-/// How the rays of a face lie about its axis.
+/// Rotation of the rays of a cone about its axis.
 enum class ConeRotation {
-  Fixed,   ///< A function of the axis, so that neighbouring faces cast nearly parallel rays.
-  Hashed,  ///< Turned by a hash of the face index: errors of neighbouring faces are independent.
+  Fixed,   ///< Determined by the axis: neighbouring faces cast nearly parallel rays.
+  Hashed,  ///< Determined by a hash of the face index: errors of neighbouring faces are independent.
 };
 
 /// The cone of rays of a face: Shapira, Shamir and Cohen-Or 2008, section 3; ASDF paper, section 3.
 struct ConeOptions {
   uint32_t rayCount = 30;            ///< 1 to kMaxRayCount.
   double openingAngleDegrees = 120;  ///< Full angle, above 0 and below 180.
-  /// A hit on a face whose normal is within this angle of the normal of the ray's face is false and dropped; 0 to 180.
+  /// A hit is false, and dropped, if the angle between the normals of hit face and seed face is below this; 0 to 180.
   double falseHitAngleDegrees = 90;
-  double outlierDeviations = 1;  ///< Lengths farther from the median than so many standard deviations are dropped; > 0.
+  double outlierDeviations = 1;  ///< Lengths farther than this from the median are dropped; standard deviations, > 0.
   ConeRotation rotation = ConeRotation::Fixed;
 };
 inline constexpr uint32_t kMaxRayCount = 1024;
@@ -40,7 +40,7 @@ struct SeedCount {
 /// Weights of the edges of the dual graph in the Poisson equation.
 enum class ArcWeights {
   Distance,  ///< 1 / distance of the barycentres: ASDF paper, section 4.1.
-  Feature,   ///< Falls with the dihedral angle, faster on concave edges (src/poisson).
+  Feature,   ///< Decreases with the dihedral angle, faster on concave edges (src/poisson).
 };
 
 /// Guidance field of the Poisson equation (ASDF paper, section 4.1).
@@ -53,8 +53,8 @@ enum class Guidance {
 struct InterpolationOptions {
   ArcWeights weights = ArcWeights::Feature;
   Guidance guidance = Guidance::Prediction;
-  /// 0 to 1, with Guidance::Prediction: fraction by which each value, traced ones included, is moved from the
-  /// interpolated value to the predicted one. 0 keeps the traced values.
+  /// Weight of the prediction in the result, 0 to 1: value = (1 - pooling) interpolated + pooling predicted, at seeds
+  /// too. 0 keeps the traced values. Above 0 requires Guidance::Prediction.
   double pooling = 0;
 };
 
@@ -74,7 +74,7 @@ struct SmoothingOptions {
   std::optional<Window> window;  ///< Unset: chosen by the number of faces.
 };
 
-/// Conditions under which further rounds of seeds are added. A round keeps all that earlier rounds traced.
+/// Conditions under which further rounds of seeds are added. A round keeps the traced values of all earlier rounds.
 struct RoundOptions {
   std::optional<double> maxError;           ///< Until the estimated average error is at most this share of the range.
   std::optional<double> timeBudgetSeconds;  ///< While time is left, counted from the start of compute().
@@ -82,10 +82,10 @@ struct RoundOptions {
   [[nodiscard]] bool areSet() const { return maxError || timeBudgetSeconds; }
 };
 
-/// Treatment of closed components whose faces look inwards.
+/// Treatment of inverted components: closed components whose faces are oriented inwards.
 enum class Orientation {
-  Keep,  ///< Unchanged; the report names them.
-  Auto,  ///< Outer shells look outwards, shells inside another one (cavities) inwards.
+  Keep,  ///< Unchanged; the report lists them.
+  Auto,  ///< Outer shells are oriented outwards, cavities (shells inside another shell) inwards.
   Flip,  ///< Every face is reversed.
 };
 
@@ -102,19 +102,20 @@ struct Options {
   std::string solver = "auto";
   SolverOptions solverOptions;
   Orientation orientation = Orientation::Keep;
-  /// Recompute so many random traced faces, and so many random faces of all, with the double-precision reference.
+  /// Number of random traced faces, and of random faces of the whole mesh, that the double-precision reference
+  /// recomputes.
   std::optional<uint64_t> checkCount;
   bool keepsScene = false;  ///< Keep geometry and hierarchy in Result::scene, for a picture.
 };
 
-/// Sets of options; the defaults of Options are the balanced one.
+/// Sets of options. The defaults of Options are those of Balanced.
 enum class Recipe {
   Paper,     ///< ASDF paper: random seeds, weights 1 / distance, curvature guidance, fixed cones.
   Balanced,  ///< Blue noise, weights by dihedral angle, guidance by prediction; traced values are kept.
   Quality,   ///< Balanced with hashed cones and values pooled with the prediction: least error against many rays.
 };
 
-/// Sets the options that a recipe decides (sampler, weights, guidance, pooling, cone rotation) and no other.
+/// Sets the options of a recipe: sampler, weights, guidance, pooling, cone rotation. The others are unchanged.
 ASDFVK_API void applyRecipe(Recipe recipe, Options& options);
 
 [[nodiscard]] ASDFVK_API std::vector<std::string> samplerNames();

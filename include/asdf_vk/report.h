@@ -19,7 +19,7 @@ enum class Stage {
   Geometry,  ///< Normals, areas, components, defects, orientation.
   Graph,     ///< Dual graph and edge defects.
   Bvh,       ///< Hierarchy.
-  Encode,    ///< Hierarchy in the layout that is traced, or the scenes of Embree.
+  Encode,    ///< Conversion of the hierarchy to the layout of the device, or the Embree scenes.
   Upload,    ///< Creation and release of kernels and buffers of the device; 0 without Vulkan.
   Sample,    ///< Selection of the seeds.
   Trace,     ///< Rays.
@@ -45,7 +45,7 @@ struct StageSeconds {
 /// and three distinct vertices; rays ignore all other triangles.
 struct MeshDefects {
   uint64_t zeroAreaFaceCount = 0;
-  uint64_t duplicateFaceCount = 0;  ///< Beyond the first of each set of faces with the same three positions.
+  uint64_t duplicateFaceCount = 0;  ///< Faces with the same three positions as an earlier face.
   uint64_t nonFiniteVertexCount = 0;
   uint64_t nonFiniteFaceCount = 0;  ///< Faces with a non-finite corner.
   uint64_t boundaryEdgeCount = 0;
@@ -57,8 +57,8 @@ struct MeshDefects {
 
 enum class WarningCode {
   MeshDefect,          ///< One of MeshDefects.
-  InvertedComponents,  ///< Components look inwards and were left so.
-  ComponentsReversed,  ///< Components looked inwards and were reversed (Orientation::Auto).
+  InvertedComponents,  ///< Inverted components were found and left unchanged.
+  ComponentsReversed,  ///< Inverted components were reversed (Orientation::Auto).
   MissingValues,       ///< Faces without a value. Details: {"cause", "inverted"}, {"cause", "open"} where likely.
   FinishedOnCpu,       ///< The solver of the device reached the limit of float32; the CPU continued in double.
   SolvedOnCpu,         ///< The device failed to solve the equation; the CPU solved it.
@@ -81,12 +81,12 @@ struct SolverReport {
   bool finishedOnCpu = false;  ///< Started on a device in float32 and finished in double.
 };
 
-/// Estimate of the error of the result against the function traced at all faces. Held-out faces, sampled at random with
-/// a probability that grows with the error indicator, cast rays but are left out of an interpolation of their own; its
-/// errors there are scaled to all faces. In the result the held-out faces are seeds like the others, which lowers its
-/// error; the estimate corrects for that.
+/// Estimate of the error of the result, compared with tracing all faces. Held-out faces are sampled at random with a
+/// probability that increases with the error indicator. They cast rays, but a separate interpolation does not use them;
+/// its errors at these faces are extrapolated to all faces. The result uses them as seeds, which lowers its error; the
+/// estimate corrects for that.
 struct ErrorEstimate {
-  double average = 0;        ///< Over all faces, seeds included, divided by the range of the values (paper, Table 1).
+  double average = 0;        ///< Mean over all faces and seeds, divided by the range of the values (paper, Table 1).
   double standardError = 0;  ///< Of `average`.
   uint64_t heldOutCount = 0;
   struct WorstFace {
@@ -96,27 +96,27 @@ struct ErrorEstimate {
   std::vector<WorstFace> worstFaces;  ///< Held-out faces with the largest errors, in descending order.
 };
 
-/// Comparison with the double-precision reference on two random samples of faces: traced faces, to verify the device,
-/// and faces of all that can cast rays, to measure the interpolation error.
+/// Comparison with the double-precision reference on two random samples: of the traced faces, to verify the device, and
+/// of all faces that can cast rays, to measure the interpolation error.
 struct CheckReport {
-  /// False when the reference itself traced. No traced face is compared then; only the errors below are meaningful.
+  /// False when the reference traced the rays: no traced face is compared, and only the errors below are meaningful.
   bool isIndependent = true;
   uint64_t tracedCount = 0;        ///< Traced faces that were recomputed.
-  uint64_t agreeingCount = 0;      ///< Of those, within kAgreementTolerance of the diagonal of the bounding box.
-  uint64_t noValueAgreeCount = 0;  ///< Of those, without a value on both sides.
-  double medianDifference = 0;     ///< Divided by the diagonal, over traced faces with a value on some side.
-  double worstDifference = 0;      ///< Likewise; infinite if only one side has a value.
+  uint64_t agreeingCount = 0;      ///< Of those, differing by at most kAgreementTolerance bounding-box diagonals.
+  uint64_t noValueAgreeCount = 0;  ///< Of those, without a value in both computations.
+  double medianDifference = 0;     ///< In diagonals, over traced faces with a value in one or both computations.
+  double worstDifference = 0;      ///< In diagonals; infinite if only one computation has a value.
   uint64_t worstFace = 0;          ///< Input face of worstDifference.
 
-  uint64_t comparedCount = 0;           ///< Faces of the sample of all, seeds included, with a value on both sides.
-  double averageError = 0;              ///< Over them, divided by the range of their reference values.
+  uint64_t comparedCount = 0;           ///< Faces of the second sample with a value in both computations.
+  double averageError = 0;              ///< Over compared faces, divided by the range of their reference values.
   double maximumError = 0;              ///< Likewise.
   uint64_t interpolatedCount = 0;       ///< Compared faces that were interpolated.
-  double interpolatedAverageError = 0;  ///< Over them, divided by the same range.
+  double interpolatedAverageError = 0;  ///< Over interpolated faces, divided by the same range.
   double interpolatedMaximumError = 0;  ///< Likewise.
 
   /// At least one traced face agrees, and at most max(1, kAllowedMissShare tracedCount) disagree: a ray that grazes an
-  /// edge may end on either side.
+  /// edge may hit either of its faces.
   bool passed = false;
 
   [[nodiscard]] uint64_t missCount() const { return tracedCount - agreeingCount - noValueAgreeCount; }
@@ -129,7 +129,7 @@ struct ValueRange {
   double min = kNoValue, median = kNoValue, max = kNoValue;
 };
 
-/// The variant of the Vulkan kernels, by names.
+/// Names of the variant of the Vulkan kernels.
 struct TraceVariant {
   std::string kernel;  ///< "seed", "ray" or "packet"
   std::string bvh;     ///< "wide" or "binary"
@@ -143,7 +143,7 @@ struct Report {
   uint64_t componentCount = 0;
   uint64_t seedCount = 0;  ///< Triangles that cast rays.
   uint64_t rayCount = 0;
-  uint64_t redoneConeCount = 0;  ///< Cones traced by the reference, beyond the limits of the device or of float32.
+  uint64_t redoneConeCount = 0;  ///< Cones beyond the limits of the device or of float32, traced by the reference.
   uint64_t noValueCount = 0;     ///< Input faces.
   uint64_t randomSeed = 0;
   uint32_t roundCount = 1;                   ///< Rounds of seeds.

@@ -14,7 +14,8 @@ struct RunControl {
 
   /// Reports progress. Throws Error{Cancelled} when a stop was requested.
   ASDFVK_API void checkpoint(double fraction) const;
-  /// For a part of the work: its 0..1 is from..to of the whole. The part must not outlive this.
+  /// Control for a part of the work: maps the progress 0..1 of the part to from..to of the whole. The part must not
+  /// outlive this.
   [[nodiscard]] ASDFVK_API RunControl part(double from, double to) const;
 };
 

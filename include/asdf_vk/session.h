@@ -20,9 +20,9 @@ struct SessionOptions {
   /// "auto": a Vulkan device (GPUs first, CPU devices such as lavapipe included), else Embree, else the reference.
   /// "vulkan", "cpu" (Embree) and "reference" (double precision) fail with Error{Device} where they are not available.
   std::string backend = "auto";
-  std::string device;       ///< Of Vulkan: an index of listDevices(), or a part of a name; empty: the first by rank.
+  std::string device;       ///< Vulkan device: an index in listDevices() or a part of a name; empty: the highest rank.
   bool requireGpu = false;  ///< Reject CPU devices, Embree and the reference.
-  TraceVariant variant;     ///< Empty members take the default of the device; any other requires Vulkan.
+  TraceVariant variant;     ///< Empty members: the default of the device. Other values require Vulkan.
 };
 
 /// Result of a computation. Fields: "sdf" (the shape diameter in the unit of the mesh), "seed" (1 where rays were cast)
@@ -49,7 +49,7 @@ struct DeviceInfo {
   bool usable = false;
   std::string reason;  ///< "chosen" by default, or the reason why it is ranked lower or rejected.
 };
-/// Every Vulkan device of this machine. Empty without a Vulkan loader; `reason` then has the reason.
+/// Every Vulkan device of this machine. If the list is empty for lack of a Vulkan loader, `reason` is set.
 [[nodiscard]] ASDFVK_API std::vector<DeviceInfo> listDevices(std::string* reason = nullptr);
 
 [[nodiscard]] ASDFVK_API std::vector<std::string> backendNames();

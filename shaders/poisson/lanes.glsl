@@ -13,7 +13,7 @@ uint rowStride() { return gl_NumWorkGroups.x * kLaneCount; }
 // same in every run on a device.
 mat2x3 workgroupSum(mat2x3 value) {
   const uint lane = gl_LocalInvocationID.x;
-  barrier();  // Every lane has read the sum before.
+  barrier();  // All lanes have read the previous sum.
   laneSums[lane] = value;
   barrier();
   for (uint count = kLaneCount / 2u; count > 0u; count /= 2u) {

@@ -40,12 +40,12 @@ const uint kBvhNodeTexelCount = 4u;
 const uint kWideNodeTexelCount = 5u;
 const uint kBvhTriangleTexelCount = 3u;
 
-// Capacity of a traversal stack, in levels; the builder splits at the median where SAH would go deeper.
+// Capacity of a traversal stack, in levels; the builder splits at the median where SAH splits would exceed it.
 const uint kMaxBvhDepth = 48u;
 
 const uint kReferenceCountShift = 28u;
 const uint kReferenceFirstMask = 0x0fffffffu;
-const uint kMaxLeafTriangleCount = 14u;  // 15 would make a reference equal to kNoReference.
+const uint kMaxLeafTriangleCount = 14u;  // With 15 a reference could equal kNoReference.
 const uint kNoReference = 0xffffffffu;
 
 const uint kWideChildCount = 8u;

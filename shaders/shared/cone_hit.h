@@ -11,7 +11,7 @@ using glsl::uint;
 #endif
 
 const uint kNoFace = 0xffffffffu;            // The face of a ray without a hit.
-const uint kMissDistanceBits = 0x7f800000u;  // Its distance: infinity.
+const uint kMissDistanceBits = 0x7f800000u;  // The distance of a ray without a hit: infinity.
 
 #ifdef __cplusplus
 // 8 bytes.

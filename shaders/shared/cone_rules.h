@@ -6,9 +6,10 @@
 namespace asdfvk {
 #endif
 
-// A hit is false, and its ray dropped, where the cosine of the angle between the normals of seed and hit face exceeds
-// that of the false-hit angle (default 90 degrees) by more than this (0.06 degrees there), so that perpendicular walls
-// do not depend on rounding. Without it 3.6 % of the faces of a CAD part changed with the last bit of a normal.
+// Slack of the false-hit rule: a hit is false, and its ray dropped, if the cosine of the angle between the normals of
+// seed face and hit face exceeds the cosine of the false-hit angle by more than this. At the default of 90 degrees the
+// slack is 0.06 degrees, so that hits on perpendicular walls do not depend on rounding. Without it 3.6 % of the faces
+// of a CAD part changed with the last bit of a normal.
 const float kFalseHitSlack = 1e-3f;
 
 // A length is kept when |length - median| <= standard deviations + this * median, so that ties (two rays are always a

@@ -1,5 +1,5 @@
-// What the kernels of the Poisson solvers share with the host: structs, and the scalars of a conjugate-gradient
-// iteration. Included by C++ and by GLSL.
+// Structs shared by the kernels of the Poisson solvers and the host, and the scalars of a conjugate-gradient iteration.
+// Included by C++ and by GLSL.
 //
 // The system A is solved in the scaled form (I - S) y = b with S = I - D^-1/2 A D^-1/2, D the diagonal of A. The
 // diagonal of S is 0. Conjugate gradients on this form are Jacobi-preconditioned conjugate gradients on A without a
@@ -15,8 +15,8 @@ namespace asdfvk {
 using glsl::uint;
 #endif
 
-// A row of S, 32 bytes, read as two rgba32ui texels: its first three entries, on a manifold mesh all of them, and the
-// place of the rest. An absent entry has coupling 0 and the column of the row.
+// A row of S, 32 bytes, read as two rgba32ui texels: its first three entries and the location of the others. On a
+// manifold mesh a row has at most three. An absent entry has coupling 0 and the column of the row.
 const uint kPoissonRowTexelCount = 2u;
 struct PoissonRow {
   uint column0, column1, column2;
@@ -28,17 +28,17 @@ struct PoissonRow {
 // Each workgroup writes one partial sum per scalar, and each workgroup adds up all of them.
 const uint kMaxPoissonWorkgroupCount = 256u;
 
-// State of the iteration, 16 bytes. There are two: an iteration reads one and writes the other, so that no workgroup
-// reads a word that another one writes.
+// State of the iteration, 16 bytes. Double-buffered: an iteration reads one state and writes the other, so that no
+// workgroup reads a word that another workgroup writes.
 struct CgState {
   float residualSquared;   // Squared weighted norm of the residual before the last iteration; 1 at the start.
   float toleranceSquared;  // Converged when residualSquared is at or below this.
   uint iterationCount;
-  uint status;  // kCgRunning, or why no iterations follow.
+  uint status;  // kCgRunning, or the reason of the end.
 };
 
-// Operand of vkCmdDispatchIndirect, 12 bytes. At the end of the run x is set to 0, which leaves the iterations recorded
-// after it empty.
+// Operand of vkCmdDispatchIndirect, 12 bytes. x is set to 0 when the run ends, so that the remaining recorded
+// iterations do nothing.
 struct DispatchSize {
   uint x, y, z;
 };
@@ -55,7 +55,7 @@ struct PoissonSums {
 
 struct PoissonPush {
   uint unknownCount;
-  uint stateIndex;  // Of the CgState that this iteration reads. It writes the other.
+  uint stateIndex;  // The CgState that this iteration reads; it writes the other one.
 };
 
 // The scalars of an iteration, one description for every backend: in C++ a template over float and double, in GLSL
@@ -67,7 +67,7 @@ struct PoissonPush {
 // drifts no more than the textbook iteration, and it needs one vector less.
 const uint kCgRunning = 0u;
 const uint kCgConverged = 1u;
-const uint kCgBrokenDown = 2u;  // p.Mp or r.r is not positive, is only rounding, or has overflowed.
+const uint kCgBrokenDown = 2u;  // p.Mp or r.r is not positive, consists of rounding errors, or has overflowed.
 
 const float kMaxCgSum = 3.0e38f;  // Larger sums have overflowed or are NaN.
 const float kCgFloatRounding = 1.0e-7f;
@@ -97,7 +97,8 @@ struct CgRules {
     uint status;
   };
 
-  // rounding: share of p.p at or below which p.Mp is only rounding; a step by it would move x but not the residual.
+  // rounding: share of p.p at or below which p.Mp consists of rounding errors; a step with it would change x but not
+  // the residual.
   ASDFVK_CG_FUNCTION CgStep nextCgStep(CgSums sums, Real toleranceSquared, Real rounding) {
     CgStep next;
     next.alpha = Real(0);
@@ -109,7 +110,7 @@ struct CgRules {
           sums.productDot > rounding * sums.directionSquared && sums.productDot < kMaxCgSum))
       return next;
     const Real alpha = sums.residualDot / sums.productDot;
-    // The next r.r over this one. Rounding can make it negative where almost nothing is left.
+    // The ratio of the next r.r to this one. Rounding can make it negative when the residual is tiny.
     const Real beta =
         Real(1) - alpha * ((Real(2) * sums.residualProduct - alpha * sums.productSquared) / sums.residualDot);
     if (!(alpha < kMaxCgSum && beta < kMaxCgSum)) return next;

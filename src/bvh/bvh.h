@@ -23,7 +23,7 @@ struct BvhNode {
   [[nodiscard]] bool isLeaf() const { return triangleCount > 0; }
 };
 
-/// A binary bounding volume hierarchy. nodes[0] is the root; without any triangle there are no nodes.
+/// A binary bounding volume hierarchy. nodes[0] is the root; empty without triangles.
 struct Bvh {
   UnsetVector<BvhNode> nodes;
   std::vector<uint32_t> primitiveFaces;  ///< Face index of each primitive; each traceable face once.
@@ -36,15 +36,15 @@ inline constexpr float kNodeCost = 1.0f;
 inline constexpr float kTriangleCost = 1.0f;
 
 struct BvhOptions {
-  /// At most; values above 8 have the effect of 8. The default is the capacity of a leaf of the wide layout, which
-  /// halves larger leaves regardless of their cost.
+  /// Upper limit; values above 8 act as 8. The default is the capacity of a leaf of the wide layout, which halves
+  /// larger leaves regardless of their cost.
   uint32_t maxLeafTriangleCount = kMaxWideLeafTriangleCount;
   uint32_t binCount = 16;  ///< Per axis, 2 to 32; fewer where there are few triangles.
 };
 
 /// Binned surface-area heuristic (Wald 2007), parallel over subtrees, with the same result for any thread count.
-/// Contains the faces that are not degenerate and that represent themselves (see coincidentRepresentatives()), except
-/// those whose normalised corners are not finite, which occur in meshes as wide as the range of double.
+/// Contains the non-degenerate faces that are their own representative (see coincidentRepresentatives()). Faces with
+/// non-finite normalised corners, which occur in meshes as wide as the range of double, are left out.
 [[nodiscard]] Bvh buildBvh(const TriangleMesh& mesh, const FaceGeometry& geometry,
                            std::span<const uint32_t> representatives, const BvhOptions& options = {});
 

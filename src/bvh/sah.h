@@ -52,8 +52,8 @@ static_assert(sizeof(SplitTriangle) == 32);
 /// without reordering where all centres of the sample coincide. binCount: per axis, 2 to 32.
 [[nodiscard]] size_t splitBySah(std::span<SplitTriangle> triangles, uint32_t binCount);
 
-/// Splits at the median of the centres on their widest axis; in the middle of the order where all centres coincide.
-/// Precondition: at least two triangles.
+/// Splits at the median of the centres along their widest axis; if all centres coincide, into halves in the given
+/// order. Precondition: at least two triangles.
 [[nodiscard]] size_t splitAtMedian(std::span<SplitTriangle> triangles);
 
 }  // namespace asdfvk

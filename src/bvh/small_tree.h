@@ -15,8 +15,8 @@ inline constexpr size_t kMaxSmallTreeCount = 8;
 
 /// A hierarchy over few triangles, built by agglomerative clustering: each pass merges the pairs of clusters that are
 /// mutual nearest neighbours; the distance of two clusters is the area of their common box (Meister and Bittner 2018,
-/// but with all clusters as candidates). For so few triangles it is faster than splitting from the top, at no higher
-/// cost of the tree.
+/// but with all clusters as candidates). For this number of triangles it is faster than top-down splitting, and the
+/// tree has no higher cost.
 class SmallTree {
  public:
   /// triangles: 1 to kMaxSmallTreeCount. A cluster of up to maxLeafTriangleCount triangles becomes a leaf where that
@@ -33,7 +33,7 @@ class SmallTree {
     bool isLeaf = true;
   };
   [[nodiscard]] uint32_t root() const { return root_; }
-  /// Nodes below triangles.size() are a triangle each, the others have two children.
+  /// Nodes with an index below triangles.size() are single triangles, the others have two children.
   [[nodiscard]] const Node& operator[](uint32_t node) const { return nodes_[node]; }
 
  private:

@@ -19,7 +19,7 @@ constexpr uint32_t kParallelSearchLevelCount = 10;
 
 float halfAreaOf(const BvhNode& node) { return Box3f{node.min, node.max}.halfArea(); }
 
-// Entry [i - 1]: the least cost of i children from both sides, and how many of them come from the left side.
+// Entry [i - 1]: the least cost of i children from both sides, and the number of them from the left side.
 struct Sharing {
   std::array<float, kWideChildCount> costs;
   std::array<int32_t, kWideChildCount> leftCounts;
@@ -65,7 +65,7 @@ int exponentFor(double extent) {
 
 constexpr float kNone = -1e30f;
 
-// Of eight numbers. The index replaces the last three bits of each number, which do not matter.
+// Of eight numbers. The index replaces the last three bits of each number, which are below the required precision.
 uint32_t indexOfMax(const Float4& low, const Float4& high) {
   using Ints = IntsOf<Float4>;
   const Ints indices = {0, 1, 2, 3};

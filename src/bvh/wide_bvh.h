@@ -53,7 +53,7 @@ class WideCollapse {
   }
 
  private:
-  // Cheapest ways to make a subtree of the binary hierarchy at most i children of a wide node above it, i = 1 to 7.
+  // Cheapest ways to collapse a subtree of the binary hierarchy into at most i children of a wide node, i = 1 to 7.
   // Entry [i - 1]: cost and number of wide nodes.
   struct Forests {
     std::array<float, kWideChildCount> costs;
@@ -61,8 +61,8 @@ class WideCollapse {
   };
   // Choices at an inner node of the binary hierarchy.
   struct Choice {
-    // Nibble i - 1, i = 2 to 8: how many of i children come from the left child; 0 where i - 1 children are as cheap.
-    // Lowest nibble: 1 where the node as a single child is a leaf.
+    // Nibble i - 1, i = 2 to 8: number of the i children that the left child contributes; 0 if i - 1 children are as
+    // cheap. Lowest nibble: 1 if the node as a single child is a leaf.
     uint32_t leftCounts;
     uint32_t nodeCountBelow;
     PrimitiveRange primitives;
@@ -83,16 +83,16 @@ class WideCollapse {
 /// (shaders/wide_walk.glsl).
 inline constexpr float kWideBoxMargin = 0x1p-18f;
 
-/// A different slot s for each of at most eight children. A ray whose direction has the sign bits q should hit the
-/// children in ascending order of s ^ q. Greedy (Ylitie et al. 2017, section 3.2, use an auction).
+/// Assigns a different slot s to each of at most eight children, so that a ray whose direction has the sign bits q hits
+/// the children approximately in ascending order of s ^ q. Greedy (Ylitie et al. 2017, section 3.2, use an auction).
 [[nodiscard]] std::array<uint32_t, kWideChildCount> chooseSlots(std::span<const Box3f> children);
 
 /// A node with the boxes of `children` in `slots`, rounded outwards and with the margin; its references are not set.
 [[nodiscard]] DeviceWideNode quantizeBoxes(std::span<const Box3f> children,
                                            const std::array<uint32_t, kWideChildCount>& slots);
 
-/// Wide nodes in the layout of shared/bvh_layout.h. After a node follow its children, then all nodes below the first
-/// child, then all below the second, and so on.
+/// Wide nodes in the layout of shared/bvh_layout.h. Order: the root, its children, all nodes below the first child, all
+/// nodes below the second child, and so on; likewise in each subtree.
 struct WideBvh {
   UnsetVector<DeviceWideNode> nodes;
   UnsetVector<uint32_t> primitiveFaces;  ///< As in Bvh; the range of primitives of a subtree is the same.

@@ -76,7 +76,7 @@ void addBasics(CLI::App& app, CommandLine& line) {
            })
       ->group(kBasicGroup);
   addChoice(app, "--orient", options.orientation, kOrientations,
-            "Closed components that look inwards: report them, reverse them, or reverse\n"
+            "Inverted closed components: report them, reverse them, or reverse\n"
             "all faces; default keep")
       ->group(kBasicGroup);
 }

@@ -5,7 +5,7 @@
 namespace asdfvk {
 namespace {
 
-/// What the user can do, in options and packages; empty where the reason suffices.
+/// The remedy: options or packages; empty where the reason suffices.
 std::string remedyFor(ErrorCode code, bool requiresGpu) {
   const auto orOnCpu = [&](const std::string& remedy) {
     return requiresGpu ? remedy : remedy + ", or use --backend cpu or reference";

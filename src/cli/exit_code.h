@@ -10,31 +10,30 @@ namespace asdfvk {
 /// Exit status of the program: that of the first failure.
 enum class ExitCode : int {
   Done = 0,
-  Usage = 1,        ///< The command line has no meaning.
+  Usage = 1,        ///< The command line is invalid.
   Input = 2,        ///< A mesh is unreadable, or there is nothing to compute on it.
   Device = 3,       ///< No device, or it was lost, and no fallback is allowed.
   Output = 4,       ///< A result or report cannot be written.
   CheckFailed = 5,  ///< --check found traced faces that disagree with the reference, or no traced face at all.
-  Internal = 70,    ///< A mistake in the program.
+  Internal = 70,    ///< A defect of the program.
   Cancelled = 130,  ///< SIGINT, SIGTERM or SIGHUP.
 };
 
 [[nodiscard]] ExitCode exitCodeOf(ErrorKind kind);
-/// Done or CheckFailed. A check that is not independent has nothing to fail.
+/// Done or CheckFailed. A check that is not independent cannot fail.
 [[nodiscard]] ExitCode exitCodeOf(const CheckReport& check);
 
 /// A failure as it is reported.
 struct Failure {
   ExitCode code = ExitCode::Internal;
-  std::string message;            ///< One line: the reason, then what the user can do about it.
+  std::string message;            ///< One line: the reason, then the remedy.
   std::string name = "internal";  ///< nameOf(ErrorCode).
 };
 
 /// Describes the exception being handled; to be called in a catch block. requiresGpu: do not propose the CPU.
 [[nodiscard]] Failure currentFailure(bool requiresGpu = false);
 
-/// The same text with every control character replaced by a space, so that a message stays one line whatever the names
-/// in it.
+/// The same text with every control character replaced by a space, so that a message with any file name is one line.
 [[nodiscard]] std::string oneLine(std::string text);
 
 }  // namespace asdfvk

@@ -6,8 +6,8 @@
 namespace asdfvk {
 
 /// Handles SIGINT, SIGTERM and SIGHUP, except those that were ignored, during its lifetime. The first signal requests a
-/// stop of the computation, or ends the program where Listening is not alive. The second one ends the program. It then
-/// exits with ExitCode::Cancelled and leaves no half-written file. One object at a time.
+/// stop of the computation, or ends the program if no Listening exists. The second one ends the program. The program
+/// then exits with ExitCode::Cancelled and leaves no half-written file. One object at a time.
 class Interrupt {
  public:
   Interrupt();

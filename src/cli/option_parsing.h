@@ -23,7 +23,7 @@ namespace asdfvk {
 inline constexpr const char* kBasicGroup = "Options";
 inline constexpr const char* kExperimentGroup = "Experiments (the defaults are best)";
 
-/// Share of the seeds in the first round where further rounds may follow and --seeds is not given.
+/// Seed share of the first round if further rounds may follow and --seeds is not given.
 inline constexpr double kFirstRoundShare = 0.02;
 
 /// Adds the options of the computation, which set line.options and line.recipe.
@@ -107,7 +107,7 @@ CLI::Option* addChoice(CLI::App& app, const std::string& name, Target&& target, 
 /// "10%" (above 0, at most 100), "2000" (at least 1) or "all".
 [[nodiscard]] SeedCount parseSeedCount(const std::string& text);
 
-/// "2000" (at least 1) or "all", which is the largest number.
+/// "2000" (at least 1) or "all" (parsed as the largest number).
 [[nodiscard]] uint64_t parseCheckCount(const std::string& text);
 
 /// In the form that parseSeedCount() reads.

@@ -11,7 +11,7 @@
 
 namespace asdfvk {
 
-/// The parsed command line, after every option was validated, alone and against the others.
+/// The parsed command line. Every option, and every combination of options, is validated.
 struct CommandLine {
   std::vector<std::string> meshes;  ///< Paths, "-" for standard input (at most once).
   SessionOptions session;
@@ -28,13 +28,14 @@ struct CommandLine {
   bool quiet = false;
   bool listDevices = false;
   uint32_t threadCount = 0;           ///< 0: the number of cores.
-  std::optional<std::string> answer;  ///< The text of --help or --version; nothing else is done then.
+  std::optional<std::string> answer;  ///< The text of --help or --version; if set, nothing is computed.
 };
 
 /// Number of faces of --check without a value.
 inline constexpr uint64_t kDefaultCheckCount = 2000;
 
-/// Reads the arguments after the name of the program. Throws Error of kind Usage whose line names the option.
+/// Reads the arguments after the name of the program. Throws Error of kind Usage; the message contains the name of the
+/// option.
 [[nodiscard]] CommandLine parseCommandLine(std::vector<std::string> arguments);
 
 /// The values of the options that affect the result: the key "options" of the JSON report.

@@ -8,11 +8,11 @@
 
 namespace asdfvk {
 
-/// Path of the result of each mesh, "-" for standard output. Throws Error{OptionConflict} where two results, or a
-/// result and the picture, have one path, where one of them is an input, and for several meshes with one file.
+/// Path of the result of each mesh, "-" for standard output. Throws Error{OptionConflict} if two outputs (results,
+/// picture) have the same path, if an output is an input, or if several meshes have one output file.
 [[nodiscard]] std::vector<std::string> planOutputs(const CommandLine& line);
 
-/// The fields of --fields; the format where --format or standard output decide it.
+/// The fields of --fields, and the format if --format is given or the output is standard output.
 [[nodiscard]] WriteOptions writeOptionsOf(const CommandLine& line);
 
 /// Throws Error{OutputNotWritable} where no file can be written: a check before the work begins.

@@ -81,18 +81,18 @@ std::string estimateRow(const Report& report) {
 }
 
 std::string tracedCheck(const CheckReport& check) {
-  if (!check.isIndependent) return "the reference traced the rays itself: nothing to compare";
+  if (!check.isIndependent) return "the reference traced the rays: nothing to compare";
   if (check.tracedCount == 0) return "no face could be traced, so nothing was compared";
   const uint64_t withValue = check.tracedCount - check.noValueAgreeCount;
   if (withValue == 0)
-    return fmt::format("{}, none with a value on either side: nothing to compare",
+    return fmt::format("{}, none with a value in either computation: nothing to compare",
                        counted(check.tracedCount, "traced face"));
   std::string text =
       fmt::format("{} of {} within {:g} of the diagonal; median difference {:.2g}, worst {:.2g} (face {})",
                   percent(check.agreeingCount, withValue), counted(withValue, "traced face"), kAgreementTolerance,
                   check.medianDifference, check.worstDifference, check.worstFace);
   if (check.noValueAgreeCount > 0)
-    text += fmt::format("; {} more without a value on either side", groupDigits(check.noValueAgreeCount));
+    text += fmt::format("; {} more without a value in either computation", groupDigits(check.noValueAgreeCount));
   return text;
 }
 

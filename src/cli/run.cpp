@@ -47,7 +47,7 @@ std::vector<T> onTriangles(const TriangleMesh& mesh, const std::vector<T>& ofInp
   return result;
 }
 
-/// Renders the field of --picture-of and writes it, whole or not at all. Precondition: result.scene is set. Throws
+/// Renders the field of --picture-of and writes it atomically. Precondition: result.scene is set. Throws
 /// Error{OutputNotWritable}, Error{UnknownField} and Error{Cancelled}.
 void writePicture(const CommandLine& line, const Result& result, const RunControl& control) {
   const Field* field = result.field(line.pictureOf);

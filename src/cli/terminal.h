@@ -17,7 +17,7 @@ void printError(std::string_view subject, std::string_view message);
 void printWarning(std::string_view subject, std::string_view message);
 
 /// Ignores SIGPIPE, so that write() reports a closed pipe, and opens standard streams that the caller closed, so that
-/// no other file gets their numbers.
+/// no other file gets their descriptors.
 void secureStandardStreams();
 
 [[nodiscard]] bool isStandardErrorTerminal();
@@ -25,7 +25,7 @@ void secureStandardStreams();
 /// A one-line bar, shown after one second, redrawn at most ten times per second, and wiped by the destructor.
 class ProgressBar {
  public:
-  /// `write` puts text on the terminal; `now` gives seconds.
+  /// `write` writes text to the terminal; `now` returns seconds.
   ProgressBar(std::function<void(std::string_view)> write, std::function<double()> now);
   ~ProgressBar() { clear(); }
   ProgressBar(const ProgressBar&) = delete;

@@ -55,7 +55,8 @@ Cone makeCone(const ConeOptions& options) {
         fmt::format("a false-hit angle of {} degrees is out of range; give 0 to 180", options.falseHitAngleDegrees));
   if (!(options.outlierDeviations > 0))
     throw Error(ErrorCode::OptionOutOfRange,
-                fmt::format("{} standard deviations are out of range; give more than 0", options.outlierDeviations));
+                fmt::format("an outlier limit of {} standard deviations is out of range; give more than 0",
+                            options.outlierDeviations));
   // Vogel 1979. Stores the versine 1 - cos t instead of the cosine, so that narrow cones lose no digits.
   const double halfAngle = options.openingAngleDegrees * std::numbers::pi / 360;
   const double maxVersine = 2 * std::pow(std::sin(halfAngle / 2), 2);

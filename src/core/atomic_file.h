@@ -9,8 +9,8 @@
 
 namespace asdfvk {
 
-/// A file that appears whole or not at all: bytes go to a temporary file beside the target, which commit() renames to
-/// it. Without a commit(), or on failure, the temporary file is removed and the previous file is unchanged. An existing
+/// Atomic replacement of a file: bytes go to a temporary file beside the target, and commit() renames it to the target.
+/// Without a commit(), or on failure, the temporary file is removed and the previous file is unchanged. An existing
 /// file keeps its mode; a symbolic link is followed. Targets that are not regular files (/dev/null, a FIFO) and "-",
 /// standard output, are written directly. Every failure is an Error{Output} with the reason of the system.
 class AtomicFile {
@@ -53,14 +53,14 @@ class AtomicFile {
   [[noreturn]] void fail(int errorNumber, const std::string& during) const;
 
   std::filesystem::path target_, temporary_;  ///< temporary_ is empty where the target is written directly.
-  std::unique_ptr<char[]> announced_;         ///< The name that removeUnfinishedFile() reads.
+  std::unique_ptr<char[]> announced_;         ///< The path that removeUnfinishedFile() reads.
   bool isStandardOutput_ = false;
   int descriptor_ = -1;
   std::unique_ptr<char[]> buffer_;
   size_t used_ = 0;
 };
 
-/// Removes the temporary file of the one AtomicFile that is being written, if any, before a process ends at once.
+/// Removes the temporary file of the one AtomicFile that is being written, if any, before a process is terminated.
 /// Async-signal-safe. Of several open files it removes the first one only.
 void removeUnfinishedFile() noexcept;
 

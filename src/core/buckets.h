@@ -28,10 +28,10 @@ struct Buckets {
   }
 };
 
-/// Entries on their way into numbered buckets, for callers that read each bucket once and do not keep it. A radix sort
-/// in two steps; the second step works on runs of buckets that fit into a cache. It needs no atomic operations, each of
-/// which would wait for memory. Linear for small buckets, n log n at worst. The same result on any number of threads.
-/// Entry: ordered; its default constructor should leave it uninitialised.
+/// Entries grouped by bucket number, for callers that read each bucket once and do not keep it. A radix sort in two
+/// steps; the second step works on runs of buckets that fit into a cache. It needs no atomic operations, each of which
+/// would wait for memory. Linear for small buckets, n log n at worst. The same result on any number of threads. Entry:
+/// ordered; its default constructor should leave it uninitialised.
 template <typename Entry>
 class StagedEntries {
  public:
@@ -152,7 +152,7 @@ class StagedEntries {
   std::unique_ptr<Staged[]> staged_;  ///< By run.
 };
 
-/// Buckets that are kept. See StagedEntries.
+/// Sorts entries into buckets by StagedEntries and stores them.
 template <typename Entry, typename Emit>
 [[nodiscard]] Buckets<Entry> sortIntoBuckets(size_t bucketCount, size_t itemCount, const Emit& emit) {
   return StagedEntries<Entry>(bucketCount, itemCount, emit).toBuckets();

@@ -7,8 +7,8 @@
 
 /// Vectors of numbers, by the vector extensions of GCC and Clang, and code compiled for several instruction sets.
 ///
-/// Operators work on each number of a vector and round as the scalar operators do: results have the same bits on every
-/// instruction set. Compilers split a vector that is wider than the registers.
+/// Operators are element-wise and round like the scalar operators: results have the same bits on every instruction set.
+/// Compilers split a vector that is wider than the registers.
 ///
 /// Code for several instruction sets is called through dispatch(). All its functions that take or return vectors are
 /// always inlined, so that they are compiled for the instruction set of their caller and need no calling convention.
@@ -29,7 +29,7 @@ using IntsOf = decltype(V{} == V{});
 template <typename V>
 using NumberOf = std::remove_cvref_t<decltype(V{}[0])>;
 
-/// How many numbers a vector holds.
+/// Number of lanes of a vector.
 template <typename V>
 inline constexpr size_t kLaneCount = sizeof(V) / sizeof(NumberOf<V>);
 
@@ -89,8 +89,8 @@ template <typename V>
   return reinterpret_cast<V>(mask & reinterpret_cast<IntsOf<V>>(a));
 }
 
-/// 1 / sqrt(x) to a relative error of 1e-3 for positive x: half the exponent by integer arithmetic, then one Newton
-/// step with constants that balance its error. A large number for 0.
+/// 1 / sqrt(x) for positive x, relative error 1e-3; a large number for 0. The first approximation halves the exponent
+/// by integer arithmetic. One Newton step follows, with constants that balance its error.
 template <typename Floats>
 [[nodiscard]] ASDFVK_ALWAYS_INLINE inline Floats approximateRsqrt(const Floats& x) {
   const auto bits = 0x5f376a40 - (reinterpret_cast<IntsOf<Floats>>(x) >> 1);
@@ -115,9 +115,10 @@ template <typename Floats>
   return powerOfRest * reinterpret_cast<Floats>(whole << 23);
 }
 
-/// The instruction sets that dispatch() chooses from. A machine that has one has those before it.
+/// The instruction sets that dispatch() chooses from. Ascending: a machine with an instruction set has all earlier
+/// ones.
 enum class InstructionSet {
-  Baseline,  ///< The one that the program is compiled for.
+  Baseline,  ///< The instruction set for which the program is compiled.
   Avx2,
   Avx512,
 };

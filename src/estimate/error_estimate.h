@@ -16,8 +16,8 @@ struct EstimateInput {
   const HeldOutFaces& heldOut;
   std::span<const double> withoutHeldOut;  ///< Interpolated without the held-out faces.
   /// Error indicator, or empty for a constant one. It distributes the errors measured at held-out faces over all faces:
-  /// a ratio estimate (Cochran 1977, chapter 6); where it also was the sampling density, that of Hansen and Hurwitz
-  /// 1943.
+  /// a ratio estimate (Cochran 1977, chapter 6). If it was also the sampling density, this is the estimate of Hansen
+  /// and Hurwitz 1943.
   std::span<const double> indicator;
   std::span<const double> result;  ///< Interpolated from all seeds.
   bool predicts = true;            ///< Whether the interpolation used predictions.
@@ -28,8 +28,8 @@ struct EstimatedErrors {
   std::vector<double> expected;  ///< #F, in the unit of the mesh; 0 where a face has no value.
 };
 
-/// Error of the result, from the errors at held-out faces. Without two held-out faces of a value and a positive weight,
-/// or without a positive range of values, the estimate has heldOutCount = 0.
+/// Error of the result, from the errors at held-out faces. heldOutCount is 0 if fewer than two held-out faces have a
+/// value and a positive weight, or if the range of values is not positive.
 [[nodiscard]] EstimatedErrors estimateErrors(const TriangleMesh& mesh, const EstimateInput& input);
 
 }  // namespace asdfvk

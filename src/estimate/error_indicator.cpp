@@ -32,7 +32,7 @@ std::vector<double> neighbourDeviation(const NearestCells& nearest, std::span<co
   return deviation;
 }
 
-/// Adds the floor to each entry, and gives faces without an entry the mean.
+/// Adds the floor to each entry; faces without an entry receive the mean.
 void addFloor(std::vector<double>& indicator) {
   double sum = 0;
   size_t count = 0;

@@ -38,7 +38,7 @@ std::vector<uint32_t> samplePivotally(std::span<const uint32_t> candidates, cons
   double held = 0;  // Inclusion probability of the holder, given the decisions on all faces before it.
   for (const uint32_t face : candidates) {
     const double own = probabilities.of(face), sum = held + own, number = random.real();
-    if (sum < 1) {  // One of the two takes over the probability of the other.
+    if (sum < 1) {  // One of the two receives the probability of the other.
       if (number * sum >= held) holder = face;
       held = sum;
     } else {  // One of the two is sampled, the other keeps the rest.

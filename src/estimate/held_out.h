@@ -6,7 +6,7 @@
 
 namespace asdfvk {
 
-/// Faces sampled at random, where the error of an interpolation without them is measured without bias.
+/// Random sample of faces for the unbiased measurement of the error of an interpolation that does not use them.
 struct HeldOutFaces {
   std::vector<uint32_t> faces;
   /// Sampling weight 1 / p - 1, p the inclusion probability, divided by the number of candidates per held-out face.
@@ -20,9 +20,10 @@ struct HeldOutFaces {
   return (randomSeed ^ 0x7072'6f62'6500'0000u) + earlierHeldOutCount;
 }
 
-/// `count` of the candidates, or all of them, each with an inclusion probability in proportion to its error indicator,
-/// at most 1. Ordered pivotal method (Deville and Tille 1998, "Unequal probability sampling without replacement through
-/// a splitting method"; Chauvet 2012): neighbours in the list compete, so that the sample is spread over it.
+/// Samples `count` of the candidates, or all if there are fewer. The inclusion probability of a face is proportional to
+/// its error indicator, but at most 1. Ordered pivotal method (Deville and Tille 1998, "Unequal probability sampling
+/// without replacement through a splitting method"; Chauvet 2012): neighbours in the list exclude each other, so that
+/// the sample is spread over the list.
 /// indicator: #F, above 0. Returns ascending faces if the candidates are ascending.
 [[nodiscard]] HeldOutFaces sampleHeldOut(std::span<const uint32_t> candidates, std::span<const double> indicator,
                                          uint64_t count, uint64_t randomSeed);

@@ -41,8 +41,8 @@ class CellCorners {
 ///
 /// The set of inside points is made well-composed (Latecki, 1997): no four points around a lattice face and no eight
 /// around a cell touch only across a diagonal. This is necessary and sufficient for the boundary of the voxels of the
-/// points to be a closed 2-manifold at any resolution. For the signs, radii are at least half the diagonal of a cell,
-/// so that parts thinner than a cell stay connected.
+/// points to be a closed 2-manifold at any resolution. Inside points are determined with all radii raised to at least
+/// half the diagonal of a cell, so that parts thinner than a cell stay connected.
 class BrickLattice {
  public:
   BrickLattice(const CapsuleUnion& field, double spacing);

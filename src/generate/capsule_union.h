@@ -8,13 +8,13 @@
 
 namespace asdfvk {
 
-/// The union of the balls whose centre runs from a to b while their radius goes from radiusA to radiusB.
+/// The union of the balls whose centre and radius are interpolated linearly from (a, radiusA) to (b, radiusB).
 /// Precondition: neither end ball lies within the other.
 struct Capsule {
   Vec3d a, b;
   double radiusA = 1, radiusB = 1;
   uint32_t part = 0;
-  double blend = 0;  ///< Width of the smooth transition to the capsules before it, a length; 0 for a sharp seam.
+  double blend = 0;  ///< Width of the smooth transition to the preceding capsules, a length; 0 for a sharp seam.
 };
 
 /// A smooth union of at most kMaxCapsules capsules as an implicit surface: negative inside, with Lipschitz bound 1, by
@@ -42,13 +42,13 @@ class CapsuleUnion {
     uint32_t part = 0;
     double diameter = 0;  ///< Of the ball nearest to p.
   };
-  /// Of the capsule nearest to p, the first of equals.
+  /// Part and diameter of the capsule nearest to p; of equally near ones the first.
   [[nodiscard]] Dominating dominating(const Vec3d& p, Selection selection = kAll) const;
 
   /// A box that contains the surface, blends included.
   [[nodiscard]] const Box3d& bounds() const { return bounds_; }
 
-  /// The same with no radius below `radius`.
+  /// A copy with all radii raised to at least `radius`.
   [[nodiscard]] CapsuleUnion withRadiiAtLeast(double radius) const;
 
  private:

@@ -6,7 +6,7 @@
 
 namespace asdfvk {
 
-/// Writes binary little-endian PLY, whole or not at all: vertices as float or double, faces as
+/// Writes binary little-endian PLY, atomically: vertices as float or double, faces as
 /// `uchar int vertex_indices`, `float diameter`, `int part`. "-" is standard output. Throws Error{Output}.
 void writeGeneratedPly(const std::filesystem::path& path, const GeneratedShape& shape, bool doubleVertices);
 

@@ -7,7 +7,7 @@
 
 namespace asdfvk {
 
-/// A closed, manifold triangle mesh, outward by the right-hand rule, with the part and diameter of each face.
+/// A closed, manifold triangle mesh, oriented outwards, with the part and diameter of each face.
 struct GeneratedShape {
   Mesh mesh;
   std::vector<uint32_t> part;   ///< #F, part of the face; 0 where a shape has one part only.

@@ -11,7 +11,7 @@ using Rgba = std::array<uint8_t, 4>;
 /// The colour of a face without a value.
 inline constexpr Rgba kNoValueColour{128, 128, 128, 255};
 
-/// What the ends of the colour map stand for.
+/// Values at the ends of the colour map.
 struct ColourRange {
   double low = 0, high = 0;
 };
@@ -19,9 +19,9 @@ struct ColourRange {
 /// The 1st to the 99th percentile (nearest rank) of the finite values; {0, 0} where there is none.
 [[nodiscard]] ColourRange percentileRange(std::span<const double> values);
 
-/// The perceptual map viridis (Smith and van der Walt 2015, CC0) through nine of its colours, evenly spaced and joined
-/// linearly. Values beyond the range have the colour of its end, all have the middle one where the range is a point,
-/// NaN is grey.
+/// The perceptual map viridis (Smith and van der Walt 2015, CC0) , interpolated linearly between nine of its colours.
+/// Values beyond the range have the colour of its end. If the range is a point, all values have the middle colour. NaN
+/// is grey.
 [[nodiscard]] Rgba colourOf(double value, const ColourRange& range);
 
 }  // namespace asdfvk

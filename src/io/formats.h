@@ -13,8 +13,8 @@ namespace asdfvk {
 class AtomicFile;
 class ResultView;
 
-/// Whether the content of a file is of a format. Possible is weaker than the extension of the file, Certain is
-/// stronger.
+/// Result of the detection of a format from the content of a file. Certain overrides the extension of the file; the
+/// extension overrides Possible.
 enum class Match { None, Possible, Certain };
 
 /// A format of files, defined as kNAMEFormat in src/io/NAME_*.cpp. A function is null where the format lacks the
@@ -25,9 +25,9 @@ struct FileFormat {
   Match (*detect)(std::span<const char> bytes);
 
   /// Reads a mesh. Text may have LF, CRLF or CR line ends and a UTF-8 byte order mark. Throws Error{UnreadableInput}
-  /// for a file that is truncated, continues after its end, has an index out of range, or has no face with three
-  /// corners; Error{MeshTooLarge}. Memory: at most 64 times the size of the input and a few MB. A file with other faces
-  /// than triangles fills Mesh::polygons, and is triangulated (input_faces.h).
+  /// for a file that is truncated, has further bytes after its end, has an index out of range, or has no face with
+  /// three corners; Error{MeshTooLarge}. Memory: at most 64 times the size of the input and a few MB. Faces other than
+  /// triangles are triangulated and stored in Mesh::polygons (input_faces.h).
   Mesh (*parseMesh)(std::span<const char> bytes) = nullptr;
 
   /// Reads the fields of a result. Throws Error{UnreadableInput} for a file that is truncated or contradicts itself,
@@ -44,7 +44,7 @@ struct FileFormat {
 /// extension: in any case, with or without the dot. Null for an unknown one.
 [[nodiscard]] const FileFormat* formatOfExtension(std::string_view extension);
 
-/// The first format whose content matches with certainty, else that of the extension, else the first possible one, else
+/// The first format with Match::Certain, else the format of the extension, else the first with Match::Possible, else
 /// null.
 [[nodiscard]] const FileFormat* detectFormat(std::span<const char> bytes, std::string_view extension);
 

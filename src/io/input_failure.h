@@ -11,7 +11,7 @@ namespace asdfvk {
 [[noreturn]] void failAtLine(uint64_t line, std::string_view reason);
 [[noreturn]] void failAtByte(uint64_t byte, std::string_view reason);
 
-/// Text of the file for a message: at most 60 characters, others than printable ASCII replaced by '?'.
+/// Text of the file for a message: at most 60 characters; bytes other than printable ASCII are replaced by '?'.
 [[nodiscard]] std::string printable(std::string_view token);
 /// The same in quotes.
 [[nodiscard]] std::string quoted(std::string_view token);

@@ -48,8 +48,8 @@ template <typename Out, bool isSwapped>
   return Out{};
 }
 
-// Two sources of the numbers after a PLY header, with the same members. The parameter `expected` names the number in
-// the error of a file that ends there. fail() reports the place of the last number.
+// Two readers of the numbers after a PLY header, with the same interface. expected: the name of the number, for the
+// error message of a truncated file. fail() reports the position of the last number.
 
 /// Rows of text. A row may continue on further lines, but the next row begins on a new line, so that a row with a wrong
 /// number of values is found where it occurs.
@@ -61,7 +61,8 @@ class PlyAsciiSource {
       : text_(bytes.subspan(header.bodyOffset), {}, header.bodyLine) {}
 
   [[nodiscard]] uint64_t remaining() const { return text_.remaining(); }
-  /// Whether the rest of the file can hold so many rows of at least minRowSize bytes; the last one may lack its end.
+  /// Whether the rest of the file can hold `count` rows of at least minRowSize bytes; the last row may lack its line
+  /// break.
   [[nodiscard]] bool canHoldRows(uint64_t count, uint64_t minRowSize) const {
     return count <= (text_.remaining() + 1) / minRowSize;
   }
@@ -110,7 +111,7 @@ class PlyBinarySource {
 
   [[noreturn]] void fail(std::string_view reason) const { failAtByte(last_, reason); }
 
-  // Random access, for rows of one size: `offset` counts from the next number. Precondition: within remaining().
+  // Random access, for rows of one size: offset: bytes from the next number. Precondition: within remaining().
   template <typename Out>
   [[nodiscard]] Out load(uint64_t offset, PlyType type) const {
     return loadPly<Out, isSwapped>(bytes_.data() + at_ + offset, type);

@@ -14,7 +14,7 @@
 #include "asdf_vk/field.h"
 #include "asdf_vk/mesh.h"
 
-// Fields as files hold them: names, columns of single components, numbers; and the arguments of a writer.
+// Representation of fields in files: names, columns of single components, numbers; and the arguments of a writer.
 namespace asdfvk {
 
 /// At least one character; letters of ASCII, digits and '_' only.
@@ -25,11 +25,11 @@ using FieldReferences = std::span<const std::reference_wrapper<const Field>>;
 
 /// One component of a field, for formats without vectors: a property of PLY, a column of CSV.
 struct FieldColumn {
-  std::string name;  ///< The name of the field; with three components, and _x, _y or _z.
+  std::string name;  ///< The name of the field, followed by _x, _y or _z if it has three components.
   const Field* field = nullptr;
   uint32_t component = 0;
 
-  /// Calls put with the entry of a face or vertex: double, uint8_t or uint32_t.
+  /// Calls put(entry) with the entry of a face or vertex, a double, uint8_t or uint32_t.
   template <typename Put>
   void putEntry(uint64_t item, Put put) const {
     std::visit([&](const auto& entries) { put(entries[item * field->componentCount + component]); }, field->values);
@@ -41,10 +41,11 @@ struct FieldColumn {
 [[nodiscard]] std::vector<FieldColumn> columnsOf(FieldReferences fields, FieldLocation location, const Field* omitted,
                                                  std::initializer_list<std::string_view> reservedNames);
 
-/// The inverse: joins three successive fields of one location and type, named NAME_x, NAME_y and NAME_z, to NAME.
+/// Inverse of columnsOf(): joins three successive fields of one location and type, named NAME_x, NAME_y and NAME_z, to
+/// NAME.
 [[nodiscard]] std::vector<Field> joinColumns(std::vector<Field> columns);
 
-/// Throws Error{UnreadableInput} for an invalid name and for two equal ones, as in a file.
+/// Throws Error{UnreadableInput} for an invalid name and for two equal names.
 void requireReadableNames(std::span<const Field> fields);
 
 /// An entry of a field in a format of float32 numbers without NaN: 0 for no value.
@@ -52,8 +53,8 @@ void requireReadableNames(std::span<const Field> fields);
 [[nodiscard]] inline uint8_t withoutNan(uint8_t value) { return value; }
 [[nodiscard]] inline uint32_t withoutNan(uint32_t value) { return value; }
 
-/// Numbers of type T, unaligned and in the byte order of the host, as the entries of a field: float as double. Ignores
-/// an incomplete number at the end.
+/// Converts bytes to the entries of a field: numbers of type T, unaligned and in the byte order of the host. float
+/// becomes double. An incomplete number at the end is ignored.
 template <typename T>
 [[nodiscard]] Field::Values storedEntries(std::span<const char> bytes) {
   std::vector<std::conditional_t<std::is_floating_point_v<T>, double, T>> entries(bytes.size() / sizeof(T));
@@ -86,7 +87,7 @@ class ResultView {
     return mesh_.corners().subspan(first, mesh_.firstCorner()[face + 1] - first);
   }
 
-  /// Whether float holds every coordinate exactly; non-finite ones are held.
+  /// Whether every coordinate is exactly representable as float; non-finite ones count as representable.
   [[nodiscard]] bool hasFloatVertices() const;
   /// Calls put(T) for x, y, z of each vertex.
   template <typename T, typename Put>
@@ -95,7 +96,7 @@ class ResultView {
     for (const float coordinate : mesh_.floats()) put(static_cast<T>(coordinate));
   }
 
-  /// The field that a viewer should show first: the first one of that location with one component and real values.
+  /// The field that viewers show by default: the first real-valued one of that location with one component.
   [[nodiscard]] const Field* mainField(FieldLocation location) const;
 
  private:

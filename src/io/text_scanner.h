@@ -13,8 +13,8 @@ struct TextSyntax {
 };
 
 /// Words and numbers of a text, with their line numbers. Lines end with LF, CRLF or CR. Reads within `bytes` only, and
-/// returns views into them. A missing word or a word that is no number throws Error{UnreadableInput} with the line and
-/// the name of the expected item, which may contain words of the file.
+/// returns views into them. A missing word, or a word that is not a number, throws Error{UnreadableInput} with the line
+/// and the name of the expected item. The name may contain words of the file.
 class TextScanner {
  public:
   /// Skips a UTF-8 byte order mark at the beginning.

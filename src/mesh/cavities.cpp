@@ -155,7 +155,7 @@ bool containsStrictly(const Box3d& outer, const Box3d& inner) {
   return true;
 }
 
-// The side of an edge on which p lies, computed from the lower vertex to the upper one, so that both faces of an edge
+// The side of p relative to an edge, computed from the lower vertex to the upper one, so that both faces of an edge
 // have the same value: a ray that hits an edge crosses exactly one of them, independent of rounding.
 double sideOfEdge(const Face& face, const std::array<Vec3d, 3>& corners, size_t i, const Vec3d& p) {
   const size_t j = (i + 1) % 3;

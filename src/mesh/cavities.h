@@ -8,10 +8,10 @@
 
 namespace asdfvk {
 
-/// For each component 1 when it is closed and lies inside an odd number of other closed components, else 0.
-/// #components. Determined by the parity of the faces crossed by rays from its outermost vertices along each axis; a
-/// component that sticks out of another one is not inside it. Time: about n log c for n faces and c components; more
-/// where many components are nested, or many long faces cross many components.
+/// For each component 1 if it is closed and inside an odd number of other closed components, else 0. #components.
+/// Determined by the parity of the faces crossed by rays from its outermost vertices along each axis; a component that
+/// is only partly inside another one counts as outside. Time: about n log c for n faces and c components; more where
+/// many components are nested, or many long faces cross many components.
 [[nodiscard]] std::vector<uint8_t> findCavities(const TriangleMesh& mesh, const Components& components);
 
 }  // namespace asdfvk

@@ -23,11 +23,11 @@ namespace asdfvk {
   return h;
 }
 
-/// For each face the lowest face with its corners at the same three points, in either winding, with the same vertices
-/// or with copies of them; the face itself where there is no other. #F. Points are the same where their coordinates are
-/// equal and finite; -0 equals 0. Faces with two corners at one point are compared by their vertices. Coincident faces
-/// are at distance 0 of each other, where hits are rounding noise. They share one identity: a cone ignores the copies
-/// of its own face, and every backend reports the same copy. `edges`: of the mesh; they often exclude copies.
+/// #F: the representative of each face, the face of lowest index with its corners at the same three points. Winding and
+/// vertex indices may differ. Points are the same where their coordinates are equal and finite; -0 equals 0. Faces with
+/// two corners at one point are compared by their vertices. The distance between coincident faces is 0, so that hits
+/// between them are rounding noise. They are treated as one face: a cone ignores hits on copies of its seed face, and
+/// every backend reports the same copy. edges: of the mesh; they often prove quickly that there are no copies.
 [[nodiscard]] std::vector<uint32_t> coincidentRepresentatives(const TriangleMesh& mesh, const EdgeSurvey& edges);
 
 }  // namespace asdfvk

@@ -48,10 +48,10 @@ struct EdgeSurvey {
 /// 2^32 - 1 edges or arcs.
 [[nodiscard]] EdgeSurvey surveyEdges(const TriangleMesh& mesh);
 
-/// The graph of the survey. Edges are matched by sorting, so that non-manifold input is valid: an edge of k faces joins
-/// all of them (but see kMaxFacesJoinedAllToAll), a boundary edge none. An edge between a vertex and itself and a face
-/// with a non-finite corner join nothing. Vertices are compared by index, not by position: a mesh whose faces share no
-/// vertices is open everywhere.
+/// The dual graph of surveyEdges(). Edges are matched by sorting, so that non-manifold input is valid: an edge of k
+/// faces joins all of them (but see kMaxFacesJoinedAllToAll), a boundary edge none. Edges from a vertex to itself and
+/// edges of faces with a non-finite corner join no faces. Vertices are compared by index, not by position: a mesh whose
+/// faces share no vertices is open everywhere.
 [[nodiscard]] inline DualGraph buildDualGraph(const TriangleMesh& mesh) { return surveyEdges(mesh).graph; }
 
 }  // namespace asdfvk

@@ -37,7 +37,7 @@ struct Normalization {
   double scale = 1;  ///< Normalised units per mesh unit; a power of two, so that scaling is exact.
 
   [[nodiscard]] Vec3d toNormalized(const Vec3d& p) const { return (p - centre) * scale; }
-  /// At most the largest double, which only meshes as wide as the range of double would exceed.
+  /// Clamped to the largest double; only meshes as wide as the range of double need that.
   [[nodiscard]] double toMeshLength(double normalizedLength) const {
     return std::min(normalizedLength / scale, std::numeric_limits<double>::max());
   }

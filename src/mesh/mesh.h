@@ -8,7 +8,7 @@
 
 namespace asdfvk {
 
-/// False where the face is an edge or a point, independent of the coordinates.
+/// Whether the three vertices of the face differ; independent of the coordinates.
 [[nodiscard]] constexpr bool hasDistinctVertices(const Face& face) {
   return face[0] != face[1] && face[1] != face[2] && face[2] != face[0];
 }

@@ -25,7 +25,7 @@ class Backend {
   [[nodiscard]] virtual std::vector<std::string> deviceLines() const = 0;
   /// Whether the CPU traces: also true for a CPU device of Vulkan.
   [[nodiscard]] virtual bool runsOnCpu() const { return true; }
-  /// Whether values agree with the reference by construction.
+  /// Whether this backend is the reference itself.
   [[nodiscard]] virtual bool isReference() const { return false; }
   [[nodiscard]] virtual std::optional<TraceVariant> traceVariant() const { return std::nullopt; }
   /// For solvers that need one; null without Vulkan.

@@ -19,7 +19,7 @@ namespace asdfvk {
 /// The solvers of a session by name, created at first use.
 using Solvers = std::map<std::string, std::unique_ptr<PoissonSolver>>;
 
-/// What all steps of one computation share. References only: Session::compute() owns everything.
+/// Data shared by all steps of one computation. References only: Session::compute() owns everything.
 struct Computation {
   const Options& options;
   const PreparedMesh& prepared;

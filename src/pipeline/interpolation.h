@@ -18,7 +18,7 @@ struct Interpolated {
 class Interpolation {
  public:
   /// The computation must outlive it. Where the solver is "auto" and the device fails or is too small, the CPU solves
-  /// and a warning has the reason.
+  /// the equation and a warning contains the reason.
   explicit Interpolation(const Computation& computation) : computation_(computation) {}
 
   /// Predicts all faces from the hits of these seeds; without hits it does nothing. Seeds of an earlier call must be at

@@ -58,9 +58,10 @@ void requireValid(const Options& options) {
     throw Error(ErrorCode::OptionConflict, "pooling needs the prediction; choose guidance by prediction");
   (void)samplerOf(options);
   if (options.smoothing.window) requireValid(*options.smoothing.window);
-  if (options.rounds.maxError && !(*options.rounds.maxError > 0)) fail("the maximum error is not above 0");
+  if (options.rounds.maxError && !(*options.rounds.maxError > 0))
+    fail(fmt::format("a maximum error of {} is out of range; give more than 0", *options.rounds.maxError));
   if (options.rounds.timeBudgetSeconds && !(*options.rounds.timeBudgetSeconds > 0))
-    fail("the time budget is not above 0 s");
+    fail(fmt::format("a time budget of {} s is out of range; give more than 0", *options.rounds.timeBudgetSeconds));
 }
 
 }  // namespace asdfvk

@@ -28,7 +28,7 @@ void takeArrays(const MeshView& view, PreparedMesh& prepared) {
     throw Error(ErrorCode::EmptyMesh, "no face of the mesh has three corners; a shape diameter needs a surface");
   if (const Mesh* mesh = view.mesh()) {
     if (!mesh->polygons.isEmpty() && mesh->polygons.inputFaceOf.size() != mesh->faces.size())
-      throw Error(ErrorCode::ArraySize, "the polygons of the mesh do not name an input face for each triangle");
+      throw Error(ErrorCode::ArraySize, "the polygons of the mesh do not assign an input face to each triangle");
     prepared.mesh = *mesh;
     return;
   }

@@ -15,21 +15,21 @@ namespace asdfvk {
 
 /// Everything about a mesh that does not depend on rays, seeds or devices.
 struct PreparedMesh {
-  Mesh storage;       ///< Arrays of `mesh` that are not the caller's: converted, triangulated or reversed.
+  Mesh storage;       ///< Arrays of `mesh` that differ from those of the caller: converted, triangulated or reversed.
   TriangleMesh mesh;  ///< Of `storage` and of the arrays of the caller.
   FaceGeometry geometry;
   std::vector<uint32_t> representatives;  ///< #F, see coincidentRepresentatives().
   DualGraph graph;
   Components components;
-  std::vector<uint32_t> invertedComponents;  ///< Components that look inwards and were left so. Ascending.
+  std::vector<uint32_t> invertedComponents;  ///< Inverted components that were left unchanged. Ascending.
   std::vector<uint64_t> reversedFaces;       ///< Input faces, ascending.
   MeshDefects defects;
   std::vector<Warning> warnings;
   std::vector<uint32_t> traceableFaces;  ///< Faces that are not degenerate: they can cast rays. Ascending.
 };
 
-/// The arrays of the caller must outlive the result. Reverses faces, in arrays of the result, as `orientation` says.
-/// Throws Error{EmptyMesh}, Error{ArraySize}, Error{IndexOutOfRange}, Error{MeshTooLarge}.
+/// The arrays of the caller must outlive the result. Faces are reversed according to `orientation`, in arrays of the
+/// result. Throws Error{EmptyMesh}, Error{ArraySize}, Error{IndexOutOfRange}, Error{MeshTooLarge}.
 [[nodiscard]] PreparedMesh prepareMesh(const MeshView& mesh, Orientation orientation, StageClock& clock);
 
 /// The same without a clock.

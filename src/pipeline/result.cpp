@@ -40,7 +40,7 @@ Warning missingValues(const Report& report, const MissingCauses& causes) {
                               report.noValueCount, counted(report.faceCount, "face")),
                   {}};
   const std::string inverted = "their component is inverted";
-  const std::string open = "the surface is open, so that rays escape, or its faces look inwards";
+  const std::string open = "the surface is open, so that rays escape, or its faces are oriented inwards";
   if (causes.isInverted) warning.details.push_back({"cause", "inverted"});
   if (causes.isOpen) warning.details.push_back({"cause", "open"});
   if (causes.isInverted || causes.isOpen)

@@ -239,7 +239,7 @@ uint64_t Rounds::remainingCount() const {
   return computation_.prepared.traceableFaces.size() - sampled_.sampled.size() - sampled_.heldOut.size();
 }
 
-/// Seeds of the next round; 0 where the conditions of the rounds are met.
+/// Seeds of the next round; 0 if the conditions of the rounds are fulfilled.
 uint64_t Rounds::furtherCount() const {
   if (!options_.rounds.areSet() || remainingCount() == 0) return 0;
   return std::min({countForError(), countForTime(), remainingCount()});

@@ -45,8 +45,9 @@ struct RoundsResult {
   uint32_t roundCount = 0;
 };
 
-/// Chooses seeds, casts their rays, interpolates and estimates the error, in one round, or in several that keep what
-/// earlier rounds traced. tracing is released after the last ray, before the last interpolation where that is known.
+/// Chooses seeds, casts their rays, interpolates and estimates the error, in one round or several; each round keeps the
+/// traced values of the earlier ones. `tracing` is released after the last ray: before the last interpolation if no
+/// further round can follow.
 [[nodiscard]] RoundsResult runRounds(const Computation& computation, std::unique_ptr<SeedTracing> tracing,
                                      const RunControl& control);
 

@@ -13,8 +13,8 @@ namespace asdfvk {
 /// Number of seeds among the faces that can cast rays; at least one where there is any. Throws Error{OptionOutOfRange}.
 [[nodiscard]] uint64_t resolveSeedCount(const SeedCount& request, uint64_t traceableFaceCount);
 
-/// Seeds of two kinds: those of the sampler, and held-out faces, sampled at random among the other faces, where the
-/// error of an interpolation from the first kind is measured without bias.
+/// Two kinds of seeds: those of the sampler, and held-out faces. The latter are sampled at random among the other
+/// faces, for an unbiased measurement of the error of an interpolation from the former.
 struct SeedChoice {
   std::vector<uint32_t> sampled, heldOut;  ///< Ascending and disjoint.
 };
@@ -22,7 +22,7 @@ struct SeedChoice {
 /// The sampler of the options. Throws Error{UnknownName}.
 [[nodiscard]] const Sampler& samplerOf(const Options& options);
 
-/// How a number of further seeds is divided when the error is to be estimated.
+/// Division of a number of further seeds when the error is estimated.
 struct SeedShares {
   uint64_t sampled = 0, heldOut = 0;
   uint64_t extreme = 0;  ///< See extremeSeeds().
@@ -31,14 +31,14 @@ struct SeedShares {
 /// earlierHeldOutCount: of the rounds before. predicts: a prediction will be available for extreme seeds.
 [[nodiscard]] SeedShares shareSeeds(uint64_t count, uint64_t earlierHeldOutCount, bool predicts);
 
-/// Further seeds of the sampler, and held-out faces with equal probability among the others (none are requested here
-/// where a prediction is available: see sampleHeldOut()). earlier: all earlier seeds. density: #F, for the second half
-/// of the seeds of an adaptive sampler (Sampler::refine); otherwise empty.
+/// Selects further seeds: by the sampler, and held-out faces with equal probability among the others. The number of
+/// held-out faces is 0 if a prediction is available (see sampleHeldOut()). earlier: all earlier seeds. density: #F, for
+/// the second half of the seeds of an adaptive sampler (Sampler::refine); otherwise empty.
 [[nodiscard]] SeedChoice chooseSeeds(const PreparedMesh& prepared, const Options& options, const SeedShares& shares,
                                      const SeedChoice& earlier, std::span<const double> density = {});
 
 /// The `count` candidates with the greatest predictions that are not seeds yet, ascending. Errors are relative to the
-/// range of the function, whose upper end is at a few faces that samplers miss. prediction, isSeed: #F.
+/// range of the function, whose maximum occurs at a few faces that samplers often miss. prediction, isSeed: #F.
 [[nodiscard]] std::vector<uint32_t> extremeSeeds(std::span<const uint32_t> traceableFaces,
                                                  std::span<const double> prediction, std::span<const uint8_t> isSeed,
                                                  uint64_t count);

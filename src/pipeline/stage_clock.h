@@ -8,8 +8,8 @@
 
 namespace asdfvk {
 
-/// Wall-clock time of the stages of one computation, charged by scopes. A nested scope pauses the enclosing one, so
-/// that no time is counted twice.
+/// Wall-clock time of the stages of one computation. A Scope measures one stage; a nested Scope pauses the enclosing
+/// one, so that no time is counted twice.
 class StageClock {
  public:
   explicit StageClock(StageSeconds& seconds) : seconds_(seconds) {}
@@ -29,12 +29,12 @@ class StageClock {
   };
   [[nodiscard]] Scope time(Stage stage) { return {*this, stage}; }
 
-  /// Charges `seconds` that were counted under one stage to another.
+  /// Moves `seconds` from one stage to another.
   void transfer(Stage from, Stage to, double seconds) {
     seconds_[from] -= seconds;
     seconds_[to] += seconds;
   }
-  /// Of a stage that no scope is timing now.
+  /// Seconds of a stage. Precondition: no Scope of this stage is open.
   [[nodiscard]] double secondsOf(Stage stage) const { return seconds_[stage]; }
   /// Since construction.
   [[nodiscard]] double elapsed() const { return std::chrono::duration<double>(Clock::now() - begin_).count(); }

@@ -26,7 +26,7 @@ class CpuCg {
   struct State {
     Real residualSquared = 1;  ///< Squared weighted norm of the residual before the last iteration.
     uint32_t iterationCount = 0;
-    uint32_t status = kCgRunning;  ///< kCgRunning, or why no iterations follow.
+    uint32_t status = kCgRunning;  ///< kCgRunning, or the reason of the end.
   };
 
   /// rightHandSide: #U, of weighted norm 1. Converged when the norm of the residual is at or below `reduction`. The
@@ -56,7 +56,7 @@ class CpuCg {
   State state_;
   UnsetVector<Real> solution_, residual_, direction_, product_;
   std::vector<BlockSums> sums_;
-  tbb::affinity_partitioner partitioner_;  ///< Each core keeps the blocks that its caches hold.
+  tbb::affinity_partitioner partitioner_;  ///< Assigns the same blocks to the same core in every pass, for its caches.
 };
 
 /// CpuCg in double with an Eigen matrix. The arguments must outlive the corrector.

@@ -8,11 +8,11 @@
 #include "asdf_vk/run_control.h"
 #include "poisson/poisson_solver.h"
 
-/// Iterative refinement, which every solver runs under.
+/// Iterative refinement, the outer iteration of every solver.
 namespace asdfvk {
 
-/// Converts residuals to a fraction done. A Krylov or Jacobi iteration reduces the residual by about the same factor
-/// each time, so the fraction is logarithmic between the first residual and the target. It never decreases.
+/// Converts residuals to a fraction of the work. A Krylov or Jacobi iteration reduces the residual by about the same
+/// factor each time, so the fraction is logarithmic between the first residual and the target. It never decreases.
 class SolverProgress {
  public:
   SolverProgress(const PoissonSystem& system, const SolverOptions& options, const RunControl& control);
@@ -46,8 +46,8 @@ struct Corrector {
 };
 
 /// Iterative refinement (Wilkinson 1963): residuals in double, corrections by the first of the `correctors`, from the
-/// first guess until the true relative residual is within the tolerance or the iterations are used up. When a pass
-/// stagnates the next corrector takes over; after the last one the refinement ends. A correction that is not finite or
+/// first guess until the true relative residual is within the tolerance or the iteration limit is reached. When a pass
+/// stagnates, the next corrector is used; after the last one the refinement ends. A correction that is not finite or
 /// increases the residual is discarded. solution: #U, overwritten.
 [[nodiscard]] SolverReport solveByRefinement(const PoissonSystem& system, const SolverOptions& options,
                                              std::span<double> solution, const std::vector<Corrector>& correctors);

@@ -17,7 +17,8 @@ class DiagonalScaling {
  public:
   explicit DiagonalScaling(const PoissonSystem& system);
 
-  /// #U: the sum of the squares of b - (I - S) y, each times its weight, is the squared residualNorm() of the residual.
+  /// #U: weights w for which sum w_i r_i^2, r = b - (I - S) y, is the square of residualNorm() of the corresponding
+  /// residual of A e = residual.
   [[nodiscard]] const UnsetVector<Real>& residualWeights() const { return residualWeights_; }
 
   /// b for A e = residual, of weighted norm 1. norm: residualNorm() of the residual.
@@ -35,7 +36,8 @@ class DiagonalScaling {
   UnsetVector<Real> residualWeights_;
 };
 
-/// A Poisson system as devices and CpuCg solve it in float32. Rows are those of the system, which must outlive it.
+/// A Poisson system in scaled form and float32, for devices and CpuCg. Rows correspond to those of the system, which
+/// must outlive this object.
 class ScaledSystem : public DiagonalScaling<float> {
  public:
   using Real = float;

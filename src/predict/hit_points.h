@@ -17,7 +17,7 @@ class HitPoints {
 
   void clear();
 
-  /// Appends the points of all rays of a seed; misses and padding have NaN coordinates.
+  /// Appends the hit points of all rays of a seed; misses and padding have NaN coordinates.
   HitRange append(uint32_t seed);
 
   [[nodiscard]] const std::vector<PointGroup>& groups() const { return groups_; }

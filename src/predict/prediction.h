@@ -8,8 +8,8 @@
 /// Prediction of the shape diameter of faces that cast no rays, from the hits of the seeds around them. The hit points
 /// are on the opposite side of the shape, and most of them are visible from the face too: from its barycentre each has
 /// a distance and an angle to the axis of the face's cone. The points in that cone, weighted by the solid angle that
-/// they represent there, take the place of the face's own hits in the definition of the value (cone/cone.h). No ray is
-/// cast, and occlusion between the face and a point is not tested.
+/// they represent there, replace the hits of the face in the definition of the value (cone/cone.h). No ray is cast, and
+/// occlusion between the face and a point is not tested.
 ///
 /// Source: reprojection of cached rays in global illumination (Ward and Heckbert 1992, "Irradiance gradients"; Bekaert,
 /// Sbert and Halton 2002, "Accelerating path tracing by re-using paths"). The gradient of the prediction is a guidance
@@ -30,8 +30,8 @@ struct Prediction {
   NearestCells nearest;          ///< The cells whose seeds contributed, per cell.
 };
 
-/// The same on any number of threads. earlier: a prediction of the same scene, cone and options whose seeds have the
-/// same indices in `hits` as far as they are still there, or empty; values that did not change are copied from it.
+/// The same on any number of threads. earlier: empty, or a prediction of the same scene, cone and options; seeds that
+/// still exist have the same indices in `hits`. Unchanged values are copied from it.
 [[nodiscard]] Prediction predictValues(const TraceScene& scene, const DualGraph& graph, const Cone& cone,
                                        const SeedHits& hits, const PredictionOptions& options, Prediction earlier = {});
 

@@ -20,14 +20,14 @@ struct alignas(64) PointGroup {
   float nx[kPointGroupSize], ny[kPointGroupSize], nz[kPointGroupSize];  ///< The unit normal of the face hit.
   /// The area that the ray represents at the point, divided by the solid angle of a ray.
   float solidAngleRatio[kPointGroupSize];
-  float isInlier[kPointGroupSize];  ///< 1 where the outlier rule of the seed's own cone keeps the ray, else 0.
+  float isInlier[kPointGroupSize];  ///< 1 if the ray is not an outlier in the cone of its seed, else 0.
   uint32_t face[kPointGroupSize];   ///< The face hit.
 };
 
 /// The hit points of one seed: a range of groups.
 struct HitRange {
   uint32_t firstGroup = 0, groupCount = 0;
-  float medianLength = 0;  ///< Of its valid rays; 0 without any.
+  float medianLength = 0;  ///< Of the valid rays; 0 if there are none.
 };
 
 /// A seed that contributes to a prediction.
@@ -54,7 +54,7 @@ struct SeedWeighting {
   float inverseAngleVariance = 0;  ///< 1 / square of the standard deviation of the angle in radians.
 };
 
-/// The lower bound of a seed's weight: a single seed, however far, is better than none.
+/// The lower bound of a seed's weight, so that the only seed counts at any distance.
 inline constexpr float kMinSeedWeight = 1e-6f;
 
 /// Predicts the values of virtual cones from the hit points of seeds. Results have the same bits on every
@@ -65,7 +65,8 @@ class PredictionKernel {
   explicit PredictionKernel(const Cone& cone, InstructionSet instructionSet = widestInstructionSet());
 
   /// The shape diameter in normalised units, kNoValue where no point lies in the virtual cone. ranges: of
-  /// `groups`. medianLength: of the points, to a factor of a few; lengths are summed as differences from it.
+  /// `groups`. medianLength: the approximate median distance of the points; sums are over differences from it, which
+  /// reduces rounding errors.
   [[nodiscard]] double value(const std::vector<PointGroup>& groups, std::span<const WeightedRange> ranges,
                              const VirtualCone& at, float medianLength);
 
@@ -76,7 +77,7 @@ class PredictionKernel {
   struct Rules {
     float minCosine = 0;        ///< Between the axis and the direction to a point in the cone.
     float maxNormalCosine = 0;  ///< Between the normals of the face and of the face hit.
-    float minVersine = 0;       ///< 1 - cosine; points nearer to the axis have the weight of points there.
+    float minVersine = 0;       ///< 1 - cosine of the angle below which the weight of a point is constant.
     float outlierDeviations = 0;
   };
 

@@ -7,19 +7,19 @@
 
 namespace asdfvk {
 
-/// Share of the light that reaches a point, each in [0, 1].
+/// Visible share of each light at a point, in [0, 1].
 struct Light {
-  float ambient = 1;  ///< Of the sky's hemisphere over the point.
+  float ambient = 1;  ///< Of the sky hemisphere above the point.
   float key = 1;      ///< Of the key light, a disk that casts soft shadows.
 };
 
-/// Lamps that move with the camera: the key light is behind the viewer's left shoulder.
+/// Lights that move with the camera: the key light is behind and above the viewer, to the left.
 class LightRig {
  public:
   explicit LightRig(const Camera& camera);
 
-  /// Each pixel of a square of this side casts other rays; those of the square are spread evenly (Keller and Heidrich
-  /// 2001, Interleaved Sampling). filterLight() combines them.
+  /// Interleaved sampling (Keller and Heidrich 2001): the pixels of a square of this side cast different rays, together
+  /// evenly distributed. filterLight() combines them.
   static constexpr int kPatternSide = 5;
   static constexpr uint32_t kPatternCount = kPatternSide * kPatternSide;
 
@@ -28,7 +28,8 @@ class LightRig {
   /// Light from the rays of all patterns.
   [[nodiscard]] Light gather(const PictureScene& scene, const SurfacePoint& point) const;
 
-  /// Linear light reflected to the viewer by a diffuse surface of that linear colour. normal: unit, towards the viewer.
+  /// Linear light reflected to the viewer by a diffuse surface of the linear colour `colour`. normal: unit, towards the
+  /// viewer.
   [[nodiscard]] Vec3d shade(const Vec3d& colour, const Vec3d& normal, const Light& light) const;
 
  private:

@@ -10,7 +10,7 @@ namespace asdfvk {
 /// The bytes of a PNG file: 8 bits per channel, RGB, sRGB.
 [[nodiscard]] std::vector<char> encodePng(const Image& image);
 
-/// Appears whole or not at all (see AtomicFile); "-" is standard output. Throws Error{Output} with the reason.
+/// Writes the file atomically (see AtomicFile); "-" is standard output. Throws Error{Output} with the reason.
 void writePng(const std::filesystem::path& path, const Image& image);
 
 }  // namespace asdfvk

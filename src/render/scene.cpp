@@ -10,7 +10,7 @@
 namespace asdfvk {
 namespace {
 
-/// How far outside of the box a ray begins, so that rounding does not put it behind a face in the box's side.
+/// Distance of the ray origin from the box, so that rounding does not move it behind a face on the side of the box.
 constexpr double kClearance = 1e-3;
 
 /// Share of each corner in the triangle's point that is nearest to p or near it: never negative, adding up to 1.
@@ -46,7 +46,7 @@ std::vector<Vec3d> PictureScene::points() const {
 
 std::optional<SurfacePoint> PictureScene::firstOnLine(const Vec3d& point, const Vec3d& direction) const {
   if (bvh_.nodes.empty()) return std::nullopt;
-  // nearestHit() wants an origin near the box, whose rounding it knows; and most of a picture misses the box.
+  // nearestHit() requires an origin near the box, for its rounding bounds. Most rays of a picture miss the box.
   const BvhNode& root = bvh_.nodes[0];
   double enter = -kNoHit, leave = kNoHit;
   for (size_t axis = 0; axis < 3; ++axis) {

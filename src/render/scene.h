@@ -9,29 +9,29 @@
 
 namespace asdfvk {
 
-/// Where a ray of the picture met the mesh. Normals are unit and look towards where the ray came from.
+/// The hit of a picture ray. Normals are unit and point against the ray.
 struct SurfacePoint {
   uint32_t face = 0;
   Vec3d position;
-  Vec3d lifted;      ///< `position` on the smooth surface that `normal` tells of; where further rays start.
+  Vec3d lifted;      ///< `position` moved to the smooth surface of `normal`; origin of further rays.
   Vec3d faceNormal;  ///< Of the flat face.
   Vec3d normal;      ///< Interpolated between the corners, see cornerNormals().
 };
 
-/// A mesh made ready for the picture's rays. Coordinates are normalised ones (see Normalization).
+/// A mesh prepared for picture rays. Coordinates are normalised (see Normalization).
 class PictureScene {
  public:
-  /// The scene must outlive this.
+  /// The scene must outlive this object.
   explicit PictureScene(const SceneData& scene);
 
-  /// The finite vertices of the faces that rays can meet, some of them more than once.
+  /// The finite vertices of the faces that rays can hit, some of them more than once.
   [[nodiscard]] std::vector<Vec3d> points() const;
 
   /// The first point of the mesh on the whole line through `point` along the unit `direction`.
   [[nodiscard]] std::optional<SurfacePoint> firstOnLine(const Vec3d& point, const Vec3d& direction) const;
 
   /// Distance from origin, which lies in the mesh's box or near it, to the nearest face other than `skippedFace`;
-  /// infinite where the way is free.
+  /// infinite for a miss.
   [[nodiscard]] double freeDistance(const Vec3d& origin, const Vec3d& direction, uint32_t skippedFace) const;
 
  private:

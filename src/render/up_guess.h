@@ -11,12 +11,13 @@ namespace asdfvk {
 [[nodiscard]] Vec3d directionOf(Up up);
 
 /// Stability of the points on a floor with that direction up: the area of the hull of the lowest points over the area
-/// of the box seen from above. Negative where the mean of the points is outside of the hull, so that they would fall; 0
-/// where the hull has no area.
+/// of the box seen from above. Negative if the mean of the points is outside of the hull (unstable); 0 if the hull has
+/// no area.
 [[nodiscard]] double standingShare(std::span<const Vec3d> points, Up up);
 
-/// Y, unless the points are unstable that way and stable in another one; z before the others. Static stability is the
-/// simplest criterion of Fu, Cohen-Or, Dror and Sheffer 2008 (Upright Orientation of Man-Made Objects).
+/// Y, unless the points are unstable with y up and stable with another direction up; of the others, z is tested first.
+/// Static stability is the simplest criterion of Fu, Cohen-Or, Dror and Sheffer 2008 (Upright Orientation of Man-Made
+/// Objects).
 [[nodiscard]] Up guessUp(std::span<const Vec3d> points);
 
 }  // namespace asdfvk

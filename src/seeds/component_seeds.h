@@ -7,21 +7,22 @@
 
 namespace asdfvk {
 
-/// Further seeds for connected components in which no seed has a value. Each call of next() returns a batch of faces
-/// from every such component, one face at first and twice as many each time, until one of its faces has a value; all
-/// faces of a batch become seeds. A component of n faces of which none gets a value takes about log2(n) batches.
+/// Further seeds for connected components in which no seed has a value. Each call of next() returns a batch with faces
+/// of every such component; all of them become seeds. The number of faces per component is 1 in the first batch and
+/// doubles with each batch, until a face of the component has a value. A component of n faces without any value takes
+/// about log2(n) batches.
 ///
 ///     ComponentSeeds further(componentOf, values, untriedFaces, randomSeed);
 ///     for (auto batch = further.next(values); !batch.empty(); batch = further.next(values)) traceInto(values, batch);
 class ComponentSeeds {
  public:
   /// componentOf, values: #F; NaN = no value. untriedFaces: the faces that can cast rays and are not seeds, each once.
-  /// They are tried in random order, the same for the same input and randomSeed.
+  /// Their order is random, and the same for the same input and randomSeed.
   ComponentSeeds(std::span<const uint32_t> componentOf, std::span<const double> values,
                  std::span<const uint32_t> untriedFaces, uint64_t randomSeed);
 
-  /// The next batch, ascending, no face twice over all calls; empty when each component has a value or has no faces
-  /// left. values: #F, with those of the last batch.
+  /// The next batch, ascending; a face occurs in one batch only. Empty if each component has a value or no faces left.
+  /// values: #F, with those of the last batch.
   [[nodiscard]] std::vector<uint32_t> next(std::span<const double> values);
 
  private:
@@ -31,7 +32,7 @@ class ComponentSeeds {
   };
 
   std::vector<uint32_t> order_;
-  std::vector<Queue> queues_;  ///< Of the components without a value that have faces to try, by component.
+  std::vector<Queue> queues_;  ///< Of the components without a value and with untried faces, by component.
   size_t batchSize_ = 1;
 };
 

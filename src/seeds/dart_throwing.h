@@ -8,8 +8,7 @@
 
 namespace asdfvk {
 
-/// The radius takes this many values, evenly spaced, from each power of two to the next: it decreases in steps of 1 to
-/// 2 %.
+/// Number of radii from each power of two to the next, evenly spaced: the radius decreases in steps of 1 to 2 %.
 inline constexpr uint32_t kRadiiPerOctave = 64;
 
 struct ThrownDarts {
@@ -19,11 +18,11 @@ struct ThrownDarts {
 };
 
 /// Hierarchical dart throwing (McCool and Fiume, "Hierarchical Poisson disk sampling distributions", 1992) on the dual
-/// graph: at each radius every waiting face, in order, becomes a dart if all darts are at least the radius away; then
-/// the radius decreases. Other than in the paper, a face waits at the radius that its distance to the darts allows and
-/// is skipped until then, so that small steps of the radius cost no more than large ones.
+/// graph: at each radius every candidate face, in order, becomes a dart if its distance to every dart is at least the
+/// radius; then the radius decreases. Difference from the paper: a face is skipped until the radius is at most its
+/// distance to the darts, so that small steps of the radius cost no more than large ones.
 ///
-/// waiting: the faces that may become darts, in order. count: at most their number.
+/// waiting: the candidate faces, in order. count: at most their number.
 /// startRadius: kMinArcLength or more; infinity gives farthest-point sampling.
 /// distances: from the existing seeds, exact up to the start radius; the darts are added.
 [[nodiscard]] ThrownDarts throwDarts(std::vector<uint32_t> waiting, uint64_t count, float startRadius,

@@ -14,7 +14,7 @@
 /// declaration of that function and a row of kSamplers.
 namespace asdfvk {
 
-/// The faces to select from. What it refers to must outlive it.
+/// The faces to select from. Graph, geometry and candidates must outlive this object.
 struct SeedDomain {
   const DualGraph& graph;
   const FaceGeometry& geometry;
@@ -26,12 +26,13 @@ struct SeedDomain {
 [[nodiscard]] std::vector<uint32_t> remainingCandidates(const SeedDomain& domain, std::span<const uint32_t> existing);
 
 /// Selects exactly `count` of the candidates that are not in `existing`, or all of them. existing: faces selected
-/// before, in any order. Returns the new seeds, ascending: the same for the same input and randomSeed on any number of
-/// threads. A connected component may get no seed; some get none if there are fewer seeds than components.
+/// before, in any order. Returns the new seeds, ascending. The result depends on the input and randomSeed only, not on
+/// the number of threads. A connected component may get no seed; some get none if there are fewer seeds than
+/// components.
 using SampleSeeds = std::vector<uint32_t>(const SeedDomain& domain, uint64_t count, std::span<const uint32_t> existing,
                                           uint64_t randomSeed);
 
-/// The same with more seeds where the density is higher. density: #F, positive and finite, in any unit.
+/// Like SampleSeeds, with more seeds where the density is higher. density: #F, positive and finite, in any unit.
 using SampleSeedsByDensity = std::vector<uint32_t>(const SeedDomain& domain, std::span<const double> density,
                                                    uint64_t count, std::span<const uint32_t> existing,
                                                    uint64_t randomSeed);
@@ -65,7 +66,7 @@ using SampleSeedsByDensity = std::vector<uint32_t>(const SeedDomain& domain, std
 
 /// Normal-space sampling (Rusinkiewicz and Levoy, "Efficient variants of the ICP algorithm", 2001; future work of the
 /// ASDF paper): the same number of seeds from each bin of normals, existing ones counted, while the bin has candidates;
-/// random within a bin. Interpolates worse than a random selection.
+/// random within a bin. Interpolation from these seeds has larger errors than from a random selection.
 [[nodiscard]] SampleSeeds normalSpaceSeeds;
 
 /// Bins of directions: a grid of kBinsPerSide^2 on each side of a cube. Along the middle lines of a side a bin is 10

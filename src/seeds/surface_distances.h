@@ -28,8 +28,8 @@ inline constexpr float kMaxArcLength = 0x1p+20f;
 [[nodiscard]] std::vector<float> arcLengths(const DualGraph& graph, const FaceGeometry& geometry);
 
 /// The distance of each face to the nearest of a growing set of seeds: Dijkstra's algorithm from each new seed, pruned
-/// where an older seed is as near, so that a new seed costs time in proportion to the faces that it is nearest to. The
-/// graph and the lengths must outlive it.
+/// at faces with an older seed at most as far. The time of a new seed is proportional to the number of faces to which
+/// it is the nearest. The graph and the lengths must outlive it.
 class SurfaceDistances {
  public:
   static constexpr float kUnreached = std::numeric_limits<float>::infinity();
@@ -44,7 +44,7 @@ class SurfaceDistances {
   /// 0 for a seed.
   [[nodiscard]] float at(uint32_t face) const { return distances_[face]; }
 
-  /// Prefetches what at(face) and adding the face access first.
+  /// Prefetches the memory that at(face) and the addition of the face access first.
   void prefetch(uint32_t face) const {
     __builtin_prefetch(&distances_[face]);
     __builtin_prefetch(&graph_.offsets[face]);

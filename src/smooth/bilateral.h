@@ -35,8 +35,8 @@ inline constexpr uint32_t kMaxBilateralWindow = 4;  ///< Rings.
 /// Throws Error{OptionOutOfRange} for a number of rings out of range.
 void requireValid(const SmoothingOptions::Window& window);
 
-/// Four rings around a face have at most 1 + 3 + 6 + 12 + 24 = 46 faces, found along 66 arcs, if every edge joins two
-/// faces. Windows are cut off at these limits, which bounds their cost where more faces meet at an edge.
+/// If every edge joins at most two faces, four rings around a face have at most 1 + 3 + 6 + 12 + 24 = 46 faces, and 66
+/// arcs are visited. Windows are truncated at these limits, which bounds their cost where more faces share an edge.
 inline constexpr uint32_t kMaxWindowFaceCount = 64;
 inline constexpr uint32_t kMaxWindowArcCount = 96;
 

@@ -48,13 +48,13 @@ inline void checkSizes(const ConeResults& results, size_t coneCount, size_t rayC
 }
 
 /// Traces batches of cones. Every implementation has the same rule: a ray ends at the nearest hit that is not on the
-/// seed face or a copy of it, and counts unless that hit is false (see isFalseHit()) or missing.
+/// seed face or a copy of it. The ray is valid if there is such a hit and it is not false (see isFalseHit()).
 class ConeTracer {
  public:
   virtual ~ConeTracer() = default;
 
-  /// Sets results.values[i] to the shape diameter at seedFaces[i] in the mesh's unit, or to kNoValue when no ray of its
-  /// cone counts. Values have the same bits with and without hits. Precondition: no seed face is degenerate.
+  /// Sets results.values[i] to the shape diameter at seedFaces[i] in the mesh's unit, or to kNoValue if no ray of its
+  /// cone is valid. Values have the same bits with and without hits. Precondition: no seed face is degenerate.
   /// Throws Error{Cancelled} between chunks, Error{Device}.
   virtual TraceStatistics trace(std::span<const uint32_t> seedFaces, const ConeResults& results,
                                 const RunControl& control) = 0;
@@ -81,8 +81,8 @@ void requireEmbree();
 /// Name and version of the loaded library, as "Embree 3.13.5"; empty without Embree.
 [[nodiscard]] std::string embreeName();
 
-// In normalised units. A tracer in float32, whose resolution is 2^-24 at the rim of the bounding box, leaves cones of
-// smaller faces or with a shorter diameter to the reference.
+// In normalised units. Tracers in float32 (resolution 2^-24 at the rim of the bounding box) delegate cones of smaller
+// faces, or with a smaller diameter, to the reference.
 inline constexpr double kMinFloatFace = 0x1p-16;
 inline constexpr double kMinFloatDiameter = 0x1p-14;
 

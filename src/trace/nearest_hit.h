@@ -27,8 +27,8 @@ struct RayFrame {
 };
 
 /// Distance along the ray to either side of the triangle, or kNoHit. Watertight, after Woop, Benthin and Wald 2013,
-/// with a rotation instead of their shear. Rounding is monotone, so a sign becomes zero at worst, never wrong; zero
-/// counts as inside, so a ray between two triangles hits at least one of them.
+/// with a rotation instead of their shear. Rounding is monotone: it can change a number to zero but not invert its
+/// sign. Zero counts as inside, so that a ray between two triangles hits at least one of them.
 [[nodiscard]] inline double rayTriangleDistance(const RayFrame& ray, const Vec3d& v0, const Vec3d& v1,
                                                 const Vec3d& v2) {
   const Vec3d a = ray.toRay(v0), b = ray.toRay(v1), c = ray.toRay(v2);

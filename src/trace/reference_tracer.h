@@ -4,12 +4,12 @@
 
 namespace asdfvk {
 
-/// Length of one ray in the mesh's unit, or kNoValue when it does not count (no hit, or a false hit). Precondition: the
+/// Length of one ray in the mesh's unit, or kNoValue for an invalid ray (no hit, or a false hit). Precondition: the
 /// seed face is not degenerate.
 [[nodiscard]] double referenceRayLength(const TraceScene& scene, const Cone& cone, const Vec3d& direction,
                                         uint32_t seedFace);
 
-/// The value of one cone, with the bits of makeReferenceTracer()'s tracer. Thread-safe. hits: empty, or one per ray.
+/// The value of one cone, bit-identical with that of makeReferenceTracer(). Thread-safe. hits: empty, or one per ray.
 double referenceCone(const TraceScene& scene, const Cone& cone, uint32_t seedFace, std::span<ConeHit> hits = {});
 
 }  // namespace asdfvk

@@ -31,12 +31,12 @@ struct DeviceFacts {
 };
 
 /// llvmpipe silently ends all loops of an invocation after this many iterations, counted for the lanes of a subgroup
-/// together (lp_bld_ir_common.h of Mesa, LP_MAX_TGSI_LOOP_ITERATIONS). Kernels on CPU devices stay below.
+/// together (lp_bld_ir_common.h of Mesa, LP_MAX_TGSI_LOOP_ITERATIONS). Kernels on CPU devices stay below this limit.
 inline constexpr uint32_t kCpuDeviceLoopIterationCount = 65'535;
 
 struct DeviceRequest {
-  /// An index. Digits that are no index are a whole number within a name ("4090"); other text is a part of a name, in
-  /// any case. Empty: any device.
+  /// An index. A number that is not an index matches a whole number within a device name ("4090"). Other text matches a
+  /// part of a name, ignoring case. Empty: any device.
   std::string selector;
   bool requireGpu = false;  ///< Refuse CPU devices.
 };

@@ -124,7 +124,7 @@ TEST_CASE("a share of agreeing faces is never rounded up to all of them") {
   CHECK(holds(textReport({kMesh, kOutput, line, result}), "100 % of"));
 }
 
-TEST_CASE("faces without a value on either side are counted apart from those that agree") {
+TEST_CASE("faces without a value in either computation are counted separately from those that agree") {
   const CommandLine line;
   Result result = sampleResult();
   Report& report = result.report;
@@ -134,9 +134,9 @@ TEST_CASE("faces without a value on either side are counted apart from those tha
   report.check->noValueAgreeCount = 3;
   const std::string text = textReport({kMesh, kOutput, line, result});
   CHECK(holds(text, "99 % of 100 traced faces"));
-  CHECK(holds(text, "; 3 more without a value on either side"));
+  CHECK(holds(text, "; 3 more without a value in either computation"));
   report.check->tracedCount = report.check->noValueAgreeCount = 1;
-  CHECK(holds(textReport({kMesh, kOutput, line, result}), "1 traced face, none with a value on either side"));
+  CHECK(holds(textReport({kMesh, kOutput, line, result}), "1 traced face, none with a value in either computation"));
 }
 
 TEST_CASE("a check that compared nothing is reported as such and not as passed") {

@@ -14,7 +14,7 @@ namespace {
 
 // The recurred residual departs from the true one at about 1e-7 of the first one.
 constexpr double kMinReduction = 1e-6;
-// Iterations after convergence are empty, so batches may grow; a batch stays below what a user notices.
+// Iterations after convergence are empty, so batches may grow; the time of a batch remains imperceptible.
 constexpr uint32_t kFirstBatch = 8;
 constexpr uint32_t kMaxBatch = 64;
 constexpr double kMaxBatchSeconds = 0.05;

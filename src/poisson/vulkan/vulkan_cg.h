@@ -26,7 +26,7 @@ class VulkanCg {
            std::span<const float> rightHandSide, double reduction);
 
   /// Runs up to `iterationCount` iterations in one submission, fewer when it converges or breaks down before one of
-  /// them. The dispatches of the others are empty.
+  /// them. The dispatches of the remaining iterations are empty.
   CgState advance(uint32_t iterationCount);
 
   /// Workgroups of the next dispatch: 0 after convergence or breakdown.

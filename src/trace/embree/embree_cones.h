@@ -10,7 +10,7 @@
 
 #include "trace/embree/lane_cones.h"
 
-// What is traced with Embree: its scene, and groups of eight cones. Lengths are in normalised units.
+// The Embree scene, and tracing in groups of eight cones. Lengths are in normalised units.
 namespace asdfvk {
 
 struct EmbreeRelease {
@@ -20,11 +20,11 @@ struct EmbreeRelease {
 using EmbreeDevice = std::unique_ptr<std::remove_pointer_t<RTCDevice>, EmbreeRelease>;
 
 enum class EmbreeMode {
-  Fastest,  ///< A ray may pass between two adjacent triangles: 1 of 600,000 on a scanned model, of 26 on a cylinder.
-  Robust,   ///< No ray does; a fifth slower.
+  Fastest,  ///< Rays may pass between adjacent triangles: 1 of 600,000 on a scanned model, 1 of 26 on a cylinder.
+  Robust,   ///< No ray passes between adjacent triangles; a fifth slower.
 };
 
-/// Embree's hierarchy over the primitives of ours: primitive i has index i in both. Normalised coordinates, float32.
+/// Embree's hierarchy over the primitives of the Bvh: primitive i has index i in both. Normalised coordinates, float32.
 /// Built on all threads, with the same bits for any number of them.
 class EmbreeScene {
  public:
@@ -41,7 +41,7 @@ class EmbreeScene {
   std::unique_ptr<std::remove_pointer_t<RTCScene>, EmbreeRelease> scene_;
 };
 
-/// What all cones of a trace share. Views only.
+/// Data shared by all cones of a trace. Views only.
 struct EmbreeCones {
   const TraceScene& scene;
   const Cone& cone;
@@ -76,12 +76,13 @@ class EmbreeConeGroup {
 
   /// In normalised units, or kNoValue. Meaningless when isDoubtful().
   [[nodiscard]] double value(size_t lane) const { return values_[lane]; }
-  /// Whether float32 may be too coarse for the cone, so that the reference has to trace it: the face or the value is
-  /// too small, another face is within the start of the rays, a ray hit its own face, or leavesSurface().
+  /// Whether float32 may be too coarse for the cone, so that the reference must trace it. True if the face or the value
+  /// is too small, if another face is nearer than the start of the rays, if a ray hit its own face, or if
+  /// leavesSurface().
   [[nodiscard]] bool isDoubtful(size_t lane) const { return isDoubtful_[lane]; }
-  /// Whether a ray had no hit or hit the outer side of a face, as a ray does that passed between two triangles of a
-  /// closed surface. False in robust mode and for cones that were not cast. Not detected: a ray that is inside a second
-  /// shell too, or that passed between triangles twice.
+  /// Whether a ray had no hit or hit the outer side of a face. In a closed surface this means that the ray passed
+  /// between two triangles. False in robust mode and for cones that were not cast. Not detected: such a ray inside a
+  /// second shell, or one that passed between triangles twice.
   [[nodiscard]] bool leavesSurface(size_t lane) const;
 
  private:

@@ -68,7 +68,7 @@ class EmbreeTracer final : public ConeTracer {
     size_t hitCount;  // Per cone; 0 when hits are not written.
   };
 
-  /// Traces the cones of a group of the task's order. Returns how many of them the reference traced.
+  /// Traces the cones of a group of the task's order. Returns the number of cones that the reference traced.
   uint64_t traceGroup(const Task& task, size_t index, EmbreeConeGroup& group) const {
     const std::span<const uint32_t> order = task.order, seedFaces = task.seedFaces;
     const auto hitsOf = [&](uint32_t seed) { return task.results.hits.subspan(seed * task.hitCount, task.hitCount); };
@@ -106,7 +106,7 @@ class EmbreeTracer final : public ConeTracer {
     }
   }
 
-  /// Whether so many cones of a sample leave the surface, as on an open or self-intersecting mesh, that tracing them
+  /// Whether many cones of a sample leave the surface, as on an open or self-intersecting mesh, so that tracing them
   /// again with the reference would take longer than robust mode.
   [[nodiscard]] bool needsRobustMode() const {
     constexpr size_t kSampleSize = 64, kMaxLeavingCount = 1;

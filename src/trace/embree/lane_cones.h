@@ -10,11 +10,11 @@
 #include "core/simd.h"
 #include "trace/cone_tracer.h"
 
-// Eight cones side by side, in double and independent of Embree: their values from the hits of their rays, and whether
-// another triangle is near their origins. All in normalised coordinates.
+// Eight cones, one per lane, in double and independent of Embree: computes their values from the hits of their rays,
+// and detects other triangles near their origins. Coordinates are normalised.
 namespace asdfvk {
 
-/// Plane of a triangle: normal * p = offset. 32 bytes, all that is needed of a triangle that a ray has hit.
+/// Plane of a triangle: normal * p = offset. 32 bytes: all the data of a hit triangle that is needed.
 struct TrianglePlane {
   Vec3d normal;  ///< Unit.
   double offset = 0;
@@ -41,7 +41,8 @@ struct LaneFrames {
   void set(size_t lane, const ConeFrame& frame, const Vec3d& origin, const Vec3d& normal);
 };
 
-/// Computes values from hits with the bits of isFalseHit() and coneValue(). Keeps its memory from call to call.
+/// Computes values from hits; the results are bit-identical with those of isFalseHit() and coneValue(). Keeps its
+/// memory from call to call.
 class LaneCones {
  public:
   static constexpr size_t kWidth = LaneHits::kWidth;
@@ -51,12 +52,12 @@ class LaneCones {
             InstructionSet instructionSet = widestInstructionSet());
 
   /// Computes the lengths of all rays; hits: one entry per ray of the cone. The length is the distance to the
-  /// triangle's plane; on a sliver, whose plane is not near the hit, it is the hit's distance.
+  /// triangle's plane; on a sliver, whose plane is not near the hit, it is the distance of the hit.
   void measure(const LaneFrames& frames, std::span<const LaneHits> hits);
   /// Whether a ray had no hit, or hit the outer side of a face: impossible from inside a closed surface.
   [[nodiscard]] bool leavesSurface(size_t lane) const { return leavesSurface_[lane] != 0; }
 
-  /// One length per ray and lane; infinite where the ray does not count.
+  /// One length per ray and lane; infinite for invalid rays.
   [[nodiscard]] std::span<std::array<double, kWidth>> lengths() { return lengths_; }
   /// Shape diameters from lengths(), as coneValue() defines them.
   [[nodiscard]] std::array<double, kWidth> values();
@@ -80,8 +81,8 @@ struct PrimitivePoint {
   uint32_t primitive = 0;
 };
 
-/// For each of up to eight points, which should be close together: whether another triangle than its own is within
-/// `radius`. Conservative: also true for some triangles slightly farther away.
+/// Whether a triangle other than the point's own is within `radius`, for each of up to eight points. Fastest if the
+/// points are close together. Conservative: also true for some triangles slightly farther away.
 [[nodiscard]] std::array<bool, 8> haveNeighboursWithin(const TraceScene& scene, std::span<const TrianglePlane> planes,
                                                        std::span<const PrimitivePoint> points, double radius,
                                                        InstructionSet instructionSet = widestInstructionSet());
