@@ -102,7 +102,7 @@ TEST_CASE("the device's texels decode to the same tree, boxes and triangles") {
 
 TEST_CASE("a root that is a leaf becomes a node with a box far away on its right") {
   for (const uint32_t count : {1u, 3u}) {
-    Mesh mesh;  // Large triangles over each other: not worth a split.
+    Mesh mesh;  // Large overlapping triangles: SAH does not split them.
     for (uint32_t i = 0; i < count; ++i) addTriangle(mesh, {0, 0, 1e-3 * i}, {1, 0, 0.5}, {0, 1, 0.7});
     const Bvh bvh = buildOver(mesh);
     REQUIRE(bvh.nodes.size() == 1);
@@ -121,7 +121,7 @@ TEST_CASE("a root that is a leaf becomes a node with a box far away on its right
   }
 }
 
-TEST_CASE("an empty hierarchy is encoded as nothing") {
+TEST_CASE("an empty hierarchy has empty arrays") {
   const DeviceBvh device = encodeDeviceBvh(Bvh{}, Mesh{}, FaceGeometry{});
   CHECK(device.nodes.empty());
   CHECK(device.triangles.empty());

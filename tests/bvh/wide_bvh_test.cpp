@@ -35,7 +35,7 @@ double plane(const DeviceWideNode& node, size_t axis, uint32_t slot, uint32_t co
   return origin[axis] + std::exp2(int{bytes[12 + axis]} - 127) * bytes[32 + 16 * axis + 8 * corner + slot];
 }
 
-// How far a point is outside the box of the child in `slot`; negative inside.
+// Distance of a point from the box of the child in `slot`; negative inside.
 double distanceOutside(const DeviceWideNode& node, uint32_t slot, const vec3& p) {
   const double coordinates[3] = {p.x, p.y, p.z};
   double distance = -1;

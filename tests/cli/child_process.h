@@ -10,8 +10,8 @@ namespace asdfvk::test {
 
 struct ChildOptions {
   std::string input;                                             ///< Its standard input.
-  std::vector<std::pair<std::string, std::string>> environment;  ///< Set besides what it inherits.
-  std::string outputFile;        ///< Its standard output goes there instead of into ChildOutcome.
+  std::vector<std::pair<std::string, std::string>> environment;  ///< Added to the inherited ones.
+  std::string outputFile;        ///< Receives its standard output, instead of ChildOutcome.
   bool keepInputOpen = false;    ///< Its standard input does not end after `input`.
   bool errorIsTerminal = false;  ///< Standard error is a pseudo-terminal instead of a pipe.
 };

@@ -11,7 +11,7 @@ namespace {
 
 const ChildOptions kNoDriver = withDrivers("/nonexistent.json");
 
-TEST_CASE("without a Vulkan device auto takes Embree, or where it is not built in the reference, with the reasons") {
+TEST_CASE("without a Vulkan device auto selects Embree, or the reference if Embree is not built in, with the reasons") {
   const ScratchFolder folder;
   const std::string mesh = folder.write("cube.off", cubeOff());
   const ChildOutcome outcome = runAsdf({mesh, "--json"}, kNoDriver);
@@ -95,7 +95,7 @@ TEST_CASE("a requested kernel variant runs, on Vulkan, and is in the report") {
   CHECK_EQ(choiceWith({"--backend", "vulkan"}), "seed wide texel");
 }
 
-TEST_CASE("auto takes Vulkan on a CPU device, too, and names Embree where it is built in") {
+TEST_CASE("auto selects Vulkan also on a CPU device, and mentions Embree if it is built in") {
   const auto lavapipe = lavapipeOnly();
   if (!lavapipe) return;
   const ScratchFolder folder;

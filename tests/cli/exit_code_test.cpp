@@ -65,7 +65,7 @@ TEST_CASE("a mistake in the program is 70 with its place, too little memory is a
   CHECK_EQ(static_cast<int>(failureOf(std::bad_alloc()).code), 2);
 }
 
-TEST_CASE("messages are one line whatever is in them") {
+TEST_CASE("messages are one line for any content") {
   CHECK_EQ(failureOf(Error(ErrorCode::UnreadableInput, "a\nb\tc\x1b[2J")).message, "a b c [2J");
   CHECK_EQ(oneLine("caf\xc3\xa9"), "caf\xc3\xa9");
 }

@@ -173,7 +173,7 @@ TEST_CASE("--fields keeps the order of the names") {
     CHECK_MESSAGE(refusal({"a.ply", "--fields", text}).starts_with("--fields: '"), text);
 }
 
-TEST_CASE("--check without a number does not take the mesh after it for one") {
+TEST_CASE("--check without a number does not parse the next mesh name as one") {
   for (const auto& arguments : {std::vector<std::string>{"--check", "a.ply"}, {"a.ply", "--check"}}) {
     const CommandLine line = parseCommandLine(arguments);
     CHECK_EQ(line.meshes, std::vector<std::string>{"a.ply"});

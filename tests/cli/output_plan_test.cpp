@@ -33,7 +33,7 @@ TEST_CASE("a result lies beside its mesh by default") {
   CHECK_EQ(planOutputs(lineOf({"a.ply"}, "/dev/null", "npy")), Names{"/dev/null"});
 }
 
-TEST_CASE("a directory takes the results of all meshes") {
+TEST_CASE("a directory receives the results of all meshes") {
   const test::ScratchFolder folder;
   CHECK_EQ(planOutputs(lineOf({"x/a.ply", "-"}, folder / "", "npy")),
            Names{folder / "a.asdf.npy", folder / "stdin.asdf.npy"});
@@ -71,7 +71,7 @@ TEST_CASE("outputs that contradict each other are usage errors") {
   CHECK(isRefused(ascii));
 }
 
-TEST_CASE("thousands of meshes are planned with a few looks at each") {
+TEST_CASE("thousands of meshes are planned with a few file operations for each") {
   const test::ScratchFolder folder;
   Names meshes;
   for (int i = 0; i < 5000; ++i) meshes.push_back(folder / fmt::format("mesh{}.off", i));

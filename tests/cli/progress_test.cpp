@@ -30,7 +30,7 @@ TEST_CASE("the bar waits for a second, is redrawn ten times a second, and is wip
   CHECK(screen.ends_with("\r\x1b[K"));
 }
 
-TEST_CASE("the bar's text keeps its width and takes any number") {
+TEST_CASE("the text of the bar has constant width for any number") {
   const size_t width = progressText(0).size();
   for (const double fraction : {-1.0, 0.0, 0.004, 0.5, 0.999, 1.0, 2.0, std::numeric_limits<double>::quiet_NaN()})
     CHECK_EQ(progressText(fraction).size(), width);

@@ -87,7 +87,7 @@ TEST_CASE("frames are continuous everywhere but at an axis height of -0.7") {
   CHECK(largestTurn(withHeight(-0.7 - 1e-9, 0.3), withHeight(-0.7 + 1e-9, 0.3)) > 0.1);
 }
 
-TEST_CASE("a fixed cone's frame is the one of its axis, whatever the face") {
+TEST_CASE("the frame of a fixed cone depends on its axis only") {
   const Cone cone = makeCone({});
   Random random(3);
   for (uint32_t face = 0; face < 100; ++face) {

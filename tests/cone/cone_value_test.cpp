@@ -21,7 +21,7 @@ TEST_CASE("no ray gives no value") { CHECK(std::isnan(valueOf({}, {}))); }
 TEST_CASE("one ray gives its length") { CHECK(valueOf({3.5}, {2}) == 3.5); }
 
 TEST_CASE("two rays are a tie and both count") {
-  // Both lie exactly one standard deviation from the median, whatever rounding says.
+  // Both are exactly one standard deviation from the median, up to rounding.
   CHECK(valueOf({1, 2}, {1, 3}) == doctest::Approx(1.75));
   for (int i = 1; i < 200; ++i) {
     const double a = 0.1 * i, b = 1 / (0.3 + i);
@@ -31,8 +31,8 @@ TEST_CASE("two rays are a tie and both count") {
 }
 
 TEST_CASE("the median of an even count is the mean of the middle two") {
-  // 0, 0, 4, 5: median 2, mean 2.25, deviation sqrt(5.1875) = 2.2776: 5 is 3 away and goes. With 0 or 4 as the median,
-  // other rays would stay.
+  // 0, 0, 4, 5: median 2, mean 2.25, deviation sqrt(5.1875) = 2.2776: 5 is 3 away and is dropped. With 0 or 4 as the
+  // median, other rays would stay.
   CHECK(valueOf({5, 0, 4, 0}, {1, 1, 1, 1}) == doctest::Approx(4.0 / 3));
 }
 
@@ -42,7 +42,7 @@ TEST_CASE("an outlier is dropped and the weights count") {
 }
 
 TEST_CASE("the deviation is the population's") {
-  // Median 3, mean 2.7, population deviation 1.4697, sample deviation 1.6432: 4.5 (1.5 away) goes only by the
+  // Median 3, mean 2.7, population deviation 1.4697, sample deviation 1.6432: 4.5 (1.5 away) is dropped only by the
   // population's.
   const std::vector<double> lengths = {0, 3, 3, 3, 4.5};
   CHECK(valueOf(lengths, {1, 1, 1, 1, 1}) == doctest::Approx(3));

@@ -38,7 +38,7 @@ auto emitterOf(const Items& items) {
 
 }  // namespace
 
-TEST_CASE("entries stand in their buckets, ascending, whatever the number of buckets, items and threads") {
+TEST_CASE("entries are in their buckets, ascending, for any number of buckets, items and threads") {
   for (const size_t threadCount : {1, 4}) {
     const tbb::global_control threads(tbb::global_control::max_allowed_parallelism, threadCount);
     for (const uint32_t bucketCount : {1u, 2u, 7u, 512u, 513u, 100'000u}) {

@@ -54,7 +54,7 @@ struct Include {
   size_t line = 0;
 };
 
-// What stands between the brackets or quotes of an include line, else nothing.
+// The path between the brackets or quotes of an include line, or empty.
 std::string includeTargetOf(const std::string& line) {
   const size_t hash = line.find_first_not_of(" \t");
   if (hash == std::string::npos || line[hash] != '#') return {};
@@ -138,7 +138,7 @@ TEST_CASE("layers have no circle: each includes only layers that are free of it 
   CHECK(free.size() == layers().size());
 }
 
-TEST_CASE("what host and device share includes nothing of src") {
+TEST_CASE("headers shared by host and device include nothing of src") {
   const fs::path shared = fs::path(ASDFVK_SOURCE_DIR) / "shaders" / "shared";
   if (!fs::exists(shared)) return;
   for (const fs::directory_entry& entry : fs::directory_iterator(shared))

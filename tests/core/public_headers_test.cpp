@@ -11,7 +11,7 @@ namespace {
 
 const fs::path kInclude = fs::path(ASDFVK_SOURCE_DIR) / "include";
 
-/// Adds what the file includes, directly or not, to `own` ("asdf_vk/...") and `foreign`.
+/// Adds the direct and indirect includes of the file to `own` ("asdf_vk/...") and `foreign`.
 void addIncludes(const std::string& file, std::set<std::string>& own, std::set<std::string>& foreign) {
   if (!own.insert(file).second) return;
   // version.h is generated from a template without includes.

@@ -91,7 +91,7 @@ TEST_CASE("errors are in proportion to the indicator, and a held-out face counts
                         std::hypot(std::sqrt(2.0) * std::hypot(first, second) / 8, ratio * (1 - kHalfGain)) * 3 / 6 /
                         10));
 
-  six.heldOut.weights = {1, 0};  // Inclusion probability 1: it stands for no other.
+  six.heldOut.weights = {1, 0};  // Inclusion probability 1: it represents no other face.
   CHECK(six.estimate().estimate.heldOutCount == 0);
 }
 

@@ -78,7 +78,7 @@ TEST_CASE("a face without a prediction, or with a seed without a value, has the 
   sphere.prediction.values[sphere.faceOfCell(1)] = 5;
   const uint32_t unpredicted = sphere.faceOfCell(0);
   sphere.prediction.values[unpredicted] = kNoValue;
-  sphere.values[120] = kNoValue;  // A seed of which no ray met anything.
+  sphere.values[120] = kNoValue;  // A seed without any hit.
   const uint32_t ofNoValue = sphere.faceOfCell(2);
   const std::vector<double> indicator = sphere.indicator();
   CHECK(indicator[unpredicted] == doctest::Approx(3 * indicator[sphere.seeds[0]]));

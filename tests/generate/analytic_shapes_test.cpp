@@ -51,7 +51,7 @@ TEST_CASE("the icosphere has 20 * 4^n faces with all its vertices on the sphere"
   for (const Vec3d& p : shape.mesh.vertices) REQUIRE(length(p) == doctest::Approx(3).epsilon(1e-12));
 }
 
-TEST_CASE("analytic shapes know their diameter") {
+TEST_CASE("analytic shapes have their exact diameter") {
   const auto checkDiameter = [](const GeneratedShape& shape, double expected) {
     REQUIRE(shape.diameter.size() == shape.mesh.faces.size());
     for (float diameter : shape.diameter) REQUIRE(diameter == static_cast<float>(expected));

@@ -41,7 +41,7 @@ TEST_CASE("every part of a creature is there, already in a hundred faces or so")
   }
 }
 
-TEST_CASE("the vertices of a creature lie on its surface and its faces look outwards") {
+TEST_CASE("the vertices of a creature are on its surface and its faces are oriented outwards") {
   for (const auto& [name, field, partCount] : creatures()) {
     CAPTURE(name);
     const Mesh mesh = generateShape(name, 100000).mesh;

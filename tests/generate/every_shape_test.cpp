@@ -28,7 +28,7 @@ TEST_CASE("every shape is closed and manifold at every resolution, with no degen
   }
 }
 
-TEST_CASE("every shape comes near the number of faces that was asked for") {
+TEST_CASE("every shape has about the requested number of faces") {
   for (const std::string_view name : shapeNames()) {
     if (name == "icosphere") continue;  // powers of four
     for (const uint64_t count : {1000, 5000, 20000, 100000}) {

@@ -10,7 +10,7 @@
 
 namespace asdfvk {
 
-/// What a closed manifold surface is judged by.
+/// Properties of a closed manifold surface.
 struct Topology {
   uint64_t badEdgeCount = 0;    ///< Edges that are not used exactly once in each direction.
   uint64_t badVertexCount = 0;  ///< Vertices whose faces do not form one fan, or that no face uses.

@@ -84,7 +84,7 @@ TEST_CASE("a write that the system refuses leaves the old file and no temporary"
   CHECK(folder.names() == std::vector<std::string>{"out.ply"});
 }
 
-TEST_CASE("a missing folder, a folder as target, an empty name and a file as folder are told with their reason") {
+TEST_CASE("a missing folder, a folder as target, an empty name and a file as folder are reported with their reason") {
   const Folder folder;
   putContent(folder / "file", "");
   checkRefused(folder / "missing/out.ply", "create it first");
@@ -108,7 +108,7 @@ TEST_CASE("a read-only folder and a read-only file are refused") {
   ::chmod(folder.path().c_str(), 0755);
 }
 
-TEST_CASE("a full disk is told") { checkRefused("/dev/full", "No space left on device"); }
+TEST_CASE("a full disk is reported") { checkRefused("/dev/full", "No space left on device"); }
 
 TEST_CASE("a file that is replaced keeps its mode, and a symbolic link stays one") {
   const Folder folder;

@@ -58,7 +58,7 @@ TEST_CASE("faces that share an edge or a repeated vertex do not coincide") {
   CHECK(representativesOf(mesh) == std::vector<uint32_t>{0, 1, 2, 3, 2});
 }
 
-TEST_CASE("representatives of random soups are what comparing all faces gives") {
+TEST_CASE("representatives of random soups equal those by comparison of all faces") {
   for (uint64_t seed = 0; seed < 20; ++seed) {
     const Mesh mesh = shapes::soup(5, 80, seed);
     const auto sorted = [](Face face) {
@@ -88,7 +88,7 @@ TEST_CASE("a copy with vertices of its own coincides with the original, in eithe
   CHECK(moved[count + 1] == count + 1);  // Near is not the same.
 }
 
-TEST_CASE("at one point are -0 and 0, but NaN and infinity never") {
+TEST_CASE("-0 and 0 are the same coordinate, but NaN and infinity equal none") {
   const auto twoFaces = [](double x, double otherX) {
     return Mesh{
         {{x, 0, 0}, {1, 0, 0}, {0, 1, 0}, {otherX, -0.0, 0}, {1, 0, -0.0}, {-0.0, 1, 0}}, {{0, 1, 2}, {4, 3, 5}}, {}};
@@ -108,7 +108,7 @@ TEST_CASE("faces that collapse into a line or a point go by their vertices") {
   CHECK(representativesOf(mesh) == std::vector<uint32_t>{0, 1, 0, 3});
 }
 
-TEST_CASE("of a soup on few points, shared or not, copies are what comparing all positions gives") {
+TEST_CASE("copies in a soup on few points, shared or not, equal those by comparison of all positions") {
   const Mesh welded = shapes::soup(6, 300, 3);
   Mesh soup;
   for (const Face& face : welded.faces) {

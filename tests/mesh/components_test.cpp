@@ -102,7 +102,7 @@ TEST_CASE("components are numbered by their lowest face") {
   CHECK(result.components[1].faceCount == 4);
 }
 
-TEST_CASE("faces that meet in a vertex only are apart") {
+TEST_CASE("faces that share only a vertex are not connected") {
   const Mesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}}, {{0, 1, 2}, {0, 3, 4}}, {}};
   CHECK(componentsOf(mesh).components.size() == 2);
 }
@@ -196,7 +196,7 @@ TEST_CASE("one face wound against the others makes a component inconsistent") {
   CHECK_FALSE(result.components[0].isConsistentlyWound);
 }
 
-TEST_CASE("closedness of random soups, with non-finite corners or not, is what a map of all edges gives") {
+TEST_CASE("closedness of random soups, with non-finite corners or not, equals that by a map of all edges") {
   for (uint64_t seed = 0; seed < 40; ++seed) {
     CAPTURE(seed);
     Mesh mesh = shapes::together(shapes::cube(), shapes::inverted(shapes::sphere(1)));
@@ -227,7 +227,7 @@ TEST_CASE("the components of a shuffled mesh of many are all found") {
   }
 }
 
-TEST_CASE("components of many faces in any order are what walking from face to face gives, on any number of threads") {
+TEST_CASE("components of many faces in any order equal those of a breadth-first search, on any number of threads") {
   // A sheet with holes: many components, with long paths between their faces.
   Mesh mesh = shapes::grid(200);
   Random random(3);

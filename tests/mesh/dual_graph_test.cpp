@@ -124,7 +124,7 @@ TEST_CASE("a face with a non-finite corner joins nothing") {
   }
 }
 
-TEST_CASE("the dual graph of random soups is what comparing all faces gives") {
+TEST_CASE("the dual graph of random soups equals that by comparison of all faces") {
   for (uint64_t seed = 0; seed < 60; ++seed) {
     const uint32_t vertexCount = 4 + static_cast<uint32_t>(seed % 9);
     const Mesh mesh = shapes::soup(vertexCount, vertexCount * 3, seed);
@@ -134,7 +134,7 @@ TEST_CASE("the dual graph of random soups is what comparing all faces gives") {
   }
 }
 
-TEST_CASE("the kinds of the edges of a random soup are what comparing all faces gives") {
+TEST_CASE("the edge kinds of a random soup equal those by comparison of all faces") {
   for (uint64_t seed = 0; seed < 60; ++seed) {
     const Mesh mesh = shapes::soup(5 + static_cast<uint32_t>(seed % 9), 12, seed);
     const EdgeSurvey survey = surveyEdges(mesh);

@@ -52,7 +52,7 @@ TEST_CASE("an area beyond the range of a double is neither degenerate nor infini
   }
 }
 
-TEST_CASE("the faces of a cube look outwards and cover it") {
+TEST_CASE("the faces of a cube are oriented outwards and cover it") {
   const FaceGeometry geometry = computeFaceGeometry(shapes::cube());
   double area = 0;
   for (size_t f = 0; f < 12; ++f) {

@@ -52,7 +52,7 @@ TEST_CASE("a lone closed shape is inverted when its volume is negative") {
   CHECK(invertedIn(inverted(placed(sphere(2), 1e-3, {1e5, 1e5, 1e5}))) == Indices{0});
 }
 
-TEST_CASE("a cavity looks inwards") {
+TEST_CASE("a cavity is oriented inwards") {
   const Mesh outer = sphere(3), inner = placed(sphere(2), 0.5, {0.1, 0.2, 0});
   CHECK(cavitiesIn(together(outer, inner)) == Cavities{0, 1});
   CHECK(invertedIn(together(outer, inverted(inner))).empty());
@@ -124,7 +124,7 @@ TEST_CASE("of thousands of components each cavity is found") {
   CHECK(cavitiesIn(mesh) == expected);
 }
 
-TEST_CASE("orienting turns the inverted components only, once, and what is derived with them") {
+TEST_CASE("orienting reverses the inverted components only, once, and their derived data") {
   Mesh mesh = together(together(inverted(sphere(2)), inverted(placed(sphere(1), 0.5))),
                        placed(inverted(shapes::cube()), 1, {5, 0, 0}));
   FaceGeometry geometry = computeFaceGeometry(mesh);
@@ -188,8 +188,8 @@ TEST_CASE("flipping turns an input face's corners once, however many triangles i
 }
 
 TEST_CASE("a polygon is reversed even if its first triangle repeats a corner") {
-  // A cube of quads that looks inwards. The first quad repeats its second corner, so that its first triangle is an
-  // edge, which belongs to no closed component.
+  // An inverted cube of quads. The first quad repeats its second corner, so that its first triangle is an edge, which
+  // belongs to no closed component.
   Mesh mesh = inverted(shapes::cube());
   mesh.polygons.firstCorner = {0};
   for (uint32_t quad = 0; quad < 6; ++quad) {

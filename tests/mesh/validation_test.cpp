@@ -124,7 +124,7 @@ TEST_CASE("a second layer with vertices of its own is a layer of duplicates") {
         std::vector<std::string>{"12 faces duplicate earlier ones: rays pass through their own copies"});
 }
 
-TEST_CASE("on a mesh of polygons the sentences count triangles and say so") {
+TEST_CASE("on a mesh of polygons the sentences count triangles and name them") {
   Mesh mesh{{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}, {0, 2, 3}, {3, 2, 0}}, {}};
   mesh.polygons = {{0, 4, 8}, {0, 1, 2, 3, 0, 2, 3, 0}, {0, 0, 1, 1}};
   const std::vector<std::string> sentences = sentencesOf(mesh);

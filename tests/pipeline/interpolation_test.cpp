@@ -119,7 +119,7 @@ TEST_CASE("components without a seed of their own get one, whatever the guidance
   }
 }
 
-TEST_CASE("an open mesh and one with defects give values or none, never a wrong kind of number") {
+TEST_CASE("values of an open mesh and of one with defects are finite or NaN, and errors are finite") {
   Mesh open = makeAnimal(2500).mesh;
   std::erase_if(open.faces, [&](const Face& face) { return open.vertices[face[0]].x > 0.3; });
   Mesh broken = makeAnimal(2500).mesh;

@@ -13,7 +13,7 @@ using namespace asdfvk;
 
 namespace {
 
-/// A mesh with what is prepared of it, which refers to its arrays.
+/// A mesh with its PreparedMesh, which refers to the arrays of the mesh.
 struct Sample {
   explicit Sample(Mesh theMesh) : mesh(std::move(theMesh)) {}
 
@@ -142,7 +142,8 @@ TEST_CASE("random seeds do not depend on how many of them are held out") {
 }
 
 TEST_CASE("held-out faces are anywhere, also next to sampled seeds") {
-  // Blue noise keeps its distance; held-out faces that did too would lie where errors are greatest.
+  // Blue noise has a minimum distance. Held-out faces with the same minimum distance would be where errors are
+  // greatest.
   const Sample sample(makeSphere(2000).mesh);
   const PreparedMesh& mesh = sample.prepared;
   size_t touchingCount = 0;

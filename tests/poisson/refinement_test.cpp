@@ -59,7 +59,7 @@ TEST_CASE("a pass that stagnates is the last") {
   CHECK(report.relativeResidual == doctest::Approx(0.6));
 }
 
-TEST_CASE("after a pass that stagnates or increases the residual the next corrector takes over") {
+TEST_CASE("after a pass that stagnates or increases the residual the next corrector is used") {
   for (double share : {0.1, 2.5, std::numeric_limits<double>::quiet_NaN()}) {
     CAPTURE(share);
     Passes poor, good;

@@ -404,7 +404,7 @@ TEST_CASE("the solution is that of dense algebra, for all weights") {
     const PoissonSystem system = buildPoissonSystem(problem.graph, weights, problem.values, {});
     const DenseTwin twin(problem.graph, weights, problem.values, {});
     for (SolverUnderTest& under : solvers) {
-      // Thousands of iterations where many faces meet at an edge.
+      // Thousands of iterations if many faces share an edge.
       if (under.name == "jacobi" && !problem.isManifold) continue;
       CAPTURE(under.name);
       const auto [report, solution] = solveTightly(under, system);

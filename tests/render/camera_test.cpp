@@ -48,7 +48,7 @@ TEST_CASE("without angles the broad side is seen from the usual front") {
   CHECK(isNear(front({1, 3, 2}, Up::X), {0, 0, 1}));
 }
 
-TEST_CASE("a positive azimuth takes the viewer to his right") {
+TEST_CASE("a positive azimuth moves the viewer to the right") {
   const std::vector<Vec3d> points = boxCorners({}, {1, 1, 1});
   const Camera front = frameCamera(points, {Up::Y, 0, 0}, {0, 0, 100, 100});
   const Camera aside = frameCamera(points, {Up::Y, 30, 0}, {0, 0, 100, 100});
@@ -75,7 +75,7 @@ TEST_CASE("points just fill the area, centred") {
   }
 }
 
-TEST_CASE("nothing to see has a camera, too") {
+TEST_CASE("an empty scene has a camera") {
   const std::vector<Vec3d> one{{5, 5, 5}};
   for (const std::span<const Vec3d> points : {std::span<const Vec3d>(), std::span<const Vec3d>(one)}) {
     const Camera camera = frameCamera(points, {}, {0, 0, 100, 50});
@@ -101,7 +101,7 @@ std::vector<Vec3d> table(size_t axis, double sign) {
   return points;
 }
 
-TEST_CASE("points stand on the area between the lowest ones, if their mean is over it") {
+TEST_CASE("points are stable if their mean is above the hull of the lowest ones") {
   CHECK_EQ(standingShare(boxCorners({}, {1, 2, 3}), Up::Z), doctest::Approx(1));
   CHECK_EQ(standingShare(table(1, 1), Up::Y), doctest::Approx(1.9 * 1.1 / (2.4 * 1.6)));
   std::vector<Vec3d> overhang = boxCorners({0, 0, 0}, {1, 1, 1});
@@ -111,7 +111,7 @@ TEST_CASE("points stand on the area between the lowest ones, if their mean is ov
   CHECK_EQ(standingShare({}, Up::Y), 0);
 }
 
-TEST_CASE("what is up is guessed to be y unless the points would fall over") {
+TEST_CASE("the up direction is y unless the points are unstable") {
   CHECK(guessUp(boxCorners({}, {1, 1, 1})) == Up::Y);
   CHECK(guessUp({}) == Up::Y);
   CHECK(guessUp(table(1, 1)) == Up::Y);

@@ -9,7 +9,7 @@ namespace {
 
 auto normalsOf(const Mesh& mesh) { return cornerNormals(mesh, computeFaceGeometry(mesh)); }
 
-TEST_CASE("the corners of a sphere look along its radius") {
+TEST_CASE("the corner normals of a sphere are along its radius") {
   const Mesh mesh = generateShape("sphere", 2000).mesh;
   const auto normals = normalsOf(mesh);
   for (uint32_t face = 0; face < mesh.faceCount(); ++face)

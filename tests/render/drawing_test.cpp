@@ -20,7 +20,7 @@ struct Ink {
   }
 };
 
-TEST_CASE("text is as wide and high as it is said to be, up to its stroke") {
+TEST_CASE("text has the reported width and height, up to its stroke") {
   Image image(600, 100);
   drawText(image, "HANDLE", 50, 70, 40);
   const Ink ink(image);
@@ -41,7 +41,7 @@ TEST_CASE("strokes are antialiased, and dark in their middle") {
   CHECK_LE(between, 2);
 }
 
-TEST_CASE("what lies outside of the image is cut off") {
+TEST_CASE("drawing outside of the image is clipped") {
   Image image(20, 20);
   drawText(image, "cut off at both sides", -30, 15, 20);
   const Ink ink(image);

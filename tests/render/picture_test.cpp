@@ -49,7 +49,7 @@ TEST_CASE("a sphere's silhouette is the disk that fills the height, and lies in 
   const Mesh mesh = generateShape("sphere", 20000).mesh;
   const std::vector<uint8_t> all(mesh.faceCount(), 1);
   const Image image = renderSmall(mesh, {}, all);
-  // On white the green of the highlight tells how much of a pixel is covered; 188 is half the light.
+  // On white, the green of the highlight is a measure of the coverage of a pixel; 188 is half the light.
   double count = 0, sumX = 0, sumY = 0;
   for (int y = 0; y < kHeight; ++y)
     for (int x = 0; x < kWidth; ++x)
@@ -65,7 +65,7 @@ TEST_CASE("a sphere's silhouette is the disk that fills the height, and lies in 
 }
 
 TEST_CASE("edges are antialiased, against the background and between colours") {
-  // A square seen from above, whose diagonal parts highlighted from plain.
+  // A square seen from above; its diagonal separates highlighted from plain.
   Mesh mesh;
   mesh.vertices = {{-1, 0, 1}, {1, 0, 1}, {0.9, 0, -1}, {-0.9, 0, -1}};
   mesh.faces = {{0, 1, 2}, {0, 2, 3}};
@@ -174,7 +174,7 @@ TEST_CASE("equal values, a range that is a point, infinite ones: a picture all t
   CHECK_GT(countInk(renderSmall(mesh, values)), 1000);
 }
 
-TEST_CASE("the bar takes the side, and its colours come from the map") {
+TEST_CASE("the bar is at the side, with the colours of the map") {
   const Mesh mesh = generateShape("sphere", 500).mesh;
   std::vector<double> values(mesh.faceCount());
   for (size_t i = 0; i < values.size(); ++i) values[i] = double(i);

@@ -33,7 +33,7 @@ TEST_CASE("every printable character has a glyph of its own within its box") {
   }
 }
 
-TEST_CASE("capitals and digits are as high as they are said to be") {
+TEST_CASE("capitals and digits have the documented height") {
   for (const char c : std::string_view("ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789")) {
     double top = 0;
     for (const auto& stroke : glyphOf(c).strokes)

@@ -177,7 +177,7 @@ TEST_CASE("the number of seeds per face is proportional to the density") {
   }
 }
 
-TEST_CASE("the unit of the density does not matter, and a constant density gives blue noise") {
+TEST_CASE("the result is independent of the unit of the density, and a constant density gives blue noise") {
   const Surface& torus = generatedSurface("torus", 4000);
   const auto weighted = [&](double even) {
     return weightedBlueNoiseSeeds(torus.domain(), std::vector<double>(torus.graph.faceCount(), even), 300, {}, 8);

@@ -28,7 +28,7 @@ asdfvk::Mesh together(asdfvk::Mesh mesh, const asdfvk::Mesh& other);
 
 /// 1 per arc: distances count mesh edges.
 std::vector<float> hops(const asdfvk::DualGraph& graph);
-/// Distance along the arcs from each face to the nearest seed, infinite without one: relaxes all arcs until nothing
+/// Distance along the arcs from each face to the nearest seed, infinite without a seed: relaxes all arcs until nothing
 /// changes.
 std::vector<float> distancesToNearest(const asdfvk::DualGraph& graph, std::span<const float> arcLengths,
                                       std::span<const uint32_t> seeds);

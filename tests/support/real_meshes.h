@@ -8,8 +8,8 @@
 
 namespace asdfvk::test {
 
-/// The folder of real meshes, which this repository may not carry. Where there is none the test that asks says so and
-/// has nothing to do; CTest reports it as skipped.
+/// The folder of real meshes, which are not part of this repository. Without it the test prints a message and ends;
+/// CTest reports it as skipped.
 inline std::optional<std::filesystem::path> realMeshFolder() {
   if (const char* folder = std::getenv("ASDF_VK_MESH_DIR")) return folder;
   MESSAGE("skipped: ASDF_VK_MESH_DIR is not set");

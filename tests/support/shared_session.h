@@ -11,7 +11,7 @@
 namespace asdfvk::test {
 
 /// One session on the best Vulkan device for a whole test program, under the validation layers: compute() throws
-/// Error{ValidationFailed} for what they report.
+/// Error{ValidationFailed} for their messages.
 inline Session& vulkanSession() {
   ::setenv("ASDF_VK_VALIDATION", "1", 1);
   static Session session({.backend = "vulkan"});

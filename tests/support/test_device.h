@@ -10,7 +10,7 @@
 namespace asdfvk::test {
 
 /// The best Vulkan device of this machine under core and synchronization validation. Its end is the check that the
-/// layers had nothing to say; tests/vk holds the control which proves that they would.
+/// layers reported nothing; tests/vk has the control that proves that they report errors.
 class ValidatedDevice {
  public:
   ValidatedDevice()

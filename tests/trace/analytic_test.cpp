@@ -13,8 +13,8 @@ using namespace asdfvk;
 namespace {
 
 // Values of the published formulas, worked out apart from this code. On a sphere a ray at more than 45 degrees to the
-// axis ends on a face that looks along the seed's normal and is dropped: of the default 30 rays 18 stay, but the last
-// of them is 0.1 degrees from that edge, closer than the facets of small spheres tell. Hence these two cones.
+// axis ends on a face oriented like the seed and is dropped: of the default 30 rays 18 stay, but the last of them is
+// 0.1 degrees from that edge, closer than the facets of small spheres resolve. Hence these two cones.
 constexpr ConeOptions kNarrowCone = {30, 80};
 constexpr double kUnitSphereInNarrowCone = 1.781859515259041;
 constexpr ConeOptions kWideCone = {29, 120};
@@ -63,7 +63,8 @@ TEST_CASE("a sphere's mean value converges to the exact one" * doctest::test_sui
 }
 
 TEST_CASE("on a sphere the rays beyond 45 degrees are dropped") {
-  // Of the dropped rays the nearest is 0.7 degrees from that edge, about what a facet's normal is off the sphere's.
+  // Of the dropped rays the nearest is 0.7 degrees from that edge, about the angle between the normals of a facet and
+  // of the sphere.
   const std::vector<double> values = TracedMesh(shapes::icosphere(5)).values(kWideCone);
   const auto isExact = [](double value) { return std::abs(value - kUnitSphereInWideCone) < 1e-3; };
   CHECK(std::count_if(values.begin(), values.end(), isExact) >= 0.99 * static_cast<double>(values.size()));
@@ -123,8 +124,9 @@ TEST_CASE("an inverted sphere has no value anywhere") {
   for (const double value : TracedMesh(shapes::inverted(shapes::icosphere(2))).values()) CHECK(std::isnan(value));
 }
 
-TEST_CASE("a ray that meets a face looking its seed's way is dropped and does not look further") {
-  // Below the seed lies a sheet that looks up like it; a floor that looks down lies further on.
+TEST_CASE("a ray whose nearest hit has the orientation of its seed is dropped and does not continue") {
+  // Below the seed there is a sheet that is oriented upwards, like the seed; further below, a floor that is oriented
+  // downwards.
   Mesh mesh;
   const auto addTriangle = [&](double z, double size, bool up) {
     const auto first = static_cast<uint32_t>(mesh.vertices.size());

@@ -13,7 +13,7 @@ namespace asdfvk {
 /// in the mesh's own coordinates, intersections by signed volumes, the value by sorting.
 struct BruteForceCone {
   std::vector<double> rayLengths;  ///< One per ray of the cone; NaN for a dropped one.
-  /// What each ray met, dropped or not, in the mesh's unit; infinity and kNoFace for a miss.
+  /// The nearest hit of each ray, dropped or not, in the mesh's unit; infinity and kNoFace for a miss.
   std::vector<double> hitDistances;
   std::vector<uint32_t> hitFaces;
   double value = kNoValue;

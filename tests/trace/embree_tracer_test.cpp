@@ -18,7 +18,7 @@ using namespace asdfvk;
 
 namespace {
 
-/// Where this build has no Embree the test that asks says so and has nothing to do.
+/// Without Embree in this build the test prints that and ends.
 bool isEmbreeThere() {
   if (!hasEmbree()) MESSAGE("skipped: built without Embree");
   return hasEmbree();
@@ -40,11 +40,11 @@ void checkParity(const TracedMesh& traced, const ConeOptions& options = {}) {
   CHECK(missCount(results.hits) == missCount(reference.hits));
   CHECK(results.statistics.redoneConeCount <= reference.values.size() / 100);
   CHECK(results.statistics.rayCount == reference.hits.size());
-  CHECK(haveSameBits(traceByEmbree(traced, options).values, results.values));  // whether hits are asked for or not
+  CHECK(haveSameBits(traceByEmbree(traced, options).values, results.values));  // With and without requested hits.
 }
 
-/// Two layers of the same square, cut along the other diagonals, which look away from each other: every ray from one
-/// meets faces of both at the same distance, exactly.
+/// Two layers of the same square, cut along the other diagonals, with opposite orientations: every ray from one hits
+/// faces of both at exactly the same distance.
 Mesh twoLayersOfAWall(uint32_t side) {
   Mesh mesh;
   const double step = 2.0 / side;
@@ -99,7 +99,7 @@ TEST_CASE("cones of nearly 180 degrees do not end at their own face" * doctest::
   CHECK(differingCount(results.values, traceByReference(traced, wide, Wanted::Values).values, 2) == 0);
 }
 
-TEST_CASE("where Embree traces alone, lengths are the reference's to what double resolves") {
+TEST_CASE("where only Embree traces, lengths equal those of the reference to the resolution of double") {
   if (!isEmbreeThere()) return;
   const TracedMesh traced(shapes::jittered(shapes::icosphere(3), 0.03, 7));
   const TraceResults results = traceByEmbree(traced);
@@ -130,7 +130,7 @@ TEST_CASE("details too small for float32 are the reference's to the bit, and cou
 
 TEST_CASE("a wall nearer than rays begin is not passed through: the reference traces those cones") {
   if (!isEmbreeThere()) return;
-  // A box, and just inside of it a smaller one that looks inwards: a shell far thinner than float32 resolves.
+  // A box with a slightly smaller, inverted one inside: a shell far thinner than the resolution of float32.
   const Mesh outer = shapes::box({2, 2, 2}, 4);
   const TracedMesh traced(shapes::joined(outer, shapes::inverted(shapes::scaledAndShifted(outer, 1 - 2e-7, {}))));
   const TraceResults results = traceByEmbree(traced, {}, Wanted::ValuesAndHits);
@@ -153,7 +153,7 @@ TEST_CASE("Embree leaks no ray along the sides of boxes, nor through vertices an
 
 TEST_CASE("rays that fall between two triangles are noticed, and the reference traces their cones") {
   if (!isEmbreeThere()) return;
-  // Embree, outside of robust mode, lets 26 of these 600,000 rays through where vertices are floats, as in files.
+  // With float vertices, as in files, 26 of these 600,000 rays pass between triangles in Embree's fast mode.
   Mesh mesh = generateShape("cylinder", 20'000).mesh;
   for (Vec3d& vertex : mesh.vertices) vertex = Vec3d(Vec3f(vertex));
   const TracedMesh traced(mesh);
@@ -241,7 +241,7 @@ TEST_CASE("meshes without a face, or with one, have no value") {
   CHECK(missCount(none.hits) == none.hits.size());
 }
 
-TEST_CASE("a trace by Embree tells its progress and stops between chunks when it is asked to") {
+TEST_CASE("a trace by Embree reports its progress and stops between chunks on request") {
   if (!isEmbreeThere()) return;
   const TracedMesh traced(generateShape("torus", 10'000).mesh);
   std::vector<double> fractions;
@@ -275,7 +275,7 @@ TEST_CASE("results without room for the cones, and degenerate seeds, are refused
   CHECK_THROWS_AS(tracer->trace(std::vector<uint32_t>{0, 20}, {values}, {}), CheckFailure);
 }
 
-TEST_CASE("a build without Embree says what to do") {
+TEST_CASE("a build without Embree reports the remedy") {
   if (hasEmbree()) {
     CHECK(embreeName().starts_with("Embree 3."));
     return;

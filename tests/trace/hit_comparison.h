@@ -9,10 +9,10 @@
 
 namespace asdfvk {
 
-// What float32 makes of coordinates near 1 when the ray is grazing: distances shorter than 1e-2 are off by it.
+// The absolute error of float32 at coordinates near 1 for grazing rays: applies to distances shorter than 1e-2.
 inline constexpr float kResolution = 0x1p-20f;
 
-/// Rays that met another face, or the same at a distance that is not the same to 1e-4 of it or kResolution.
+/// Rays with a different face, or with distances that differ by more than 1e-4 of the distance and kResolution.
 inline size_t differingRays(const std::vector<ConeHit>& a, const std::vector<ConeHit>& b) {
   REQUIRE(a.size() == b.size());
   size_t count = 0;
@@ -25,7 +25,7 @@ inline size_t differingRays(const std::vector<ConeHit>& a, const std::vector<Con
   return count;
 }
 
-/// Rays that met nothing; each of them is infinitely long, and no other.
+/// Rays without a hit. Their distances, and no others, are infinite.
 inline size_t missCount(const std::vector<ConeHit>& hits) {
   size_t count = 0;
   for (const ConeHit& hit : hits) {

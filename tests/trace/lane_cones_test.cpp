@@ -20,7 +20,7 @@ std::vector<InstructionSet> instructionSets() {
   return {InstructionSet::Baseline, widestInstructionSet()};
 }
 
-/// What coneValue() says of one lane.
+/// The value of one lane by coneValue().
 double valueOfLane(const Cone& cone, std::span<const std::array<double, LaneCones::kWidth>> lengths, size_t lane) {
   std::vector<double> valid, weights;
   for (size_t ray = 0; ray < lengths.size(); ++ray) {
@@ -37,7 +37,7 @@ struct Eight {
   std::array<Vec3d, LaneCones::kWidth> origins, normals;
 };
 
-/// The cones of eight faces of a mesh, of which the rays meet random faces.
+/// The cones of eight faces of a mesh, with rays that hit random faces.
 Eight eightCones(const TracedMesh& traced, const Cone& cone, Random& random) {
   Eight eight;
   eight.directions.resize(cone.directions.size());
@@ -135,7 +135,7 @@ TEST_CASE("lengths are those to the planes of hits in double, but for slivers, m
   }
 }
 
-TEST_CASE("one ray that meets nothing, or an outer side, leaves the surface; none else does") {
+TEST_CASE("a ray leaves the surface if and only if it has no hit or hits an outer side") {
   const TracedMesh traced(shapes::icosphere(2));
   const std::vector<TrianglePlane> planes = trianglePlanes(traced.scene());
   const Cone cone = makeCone({});

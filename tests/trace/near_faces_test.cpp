@@ -45,7 +45,7 @@ double nearestOther(const TracedMesh& traced, const PrimitivePoint& point) {
   return nearest;
 }
 
-/// Barycentres in the order of primitives; returns how many had a neighbour.
+/// Barycentres in the order of primitives; returns the number of those with a neighbour.
 size_t checkAll(const TracedMesh& traced, double radius, size_t groupSize, InstructionSet instructionSet) {
   const std::vector<TrianglePlane> planes = trianglePlanes(traced.scene());
   std::vector<PrimitivePoint> points;
@@ -60,7 +60,7 @@ size_t checkAll(const TracedMesh& traced, double radius, size_t groupSize, Instr
     for (size_t lane = 0; lane < some.size(); ++lane) {
       const double nearest = nearestOther(traced, some[lane]);
       if (nearest <= radius) CHECK(found[lane]);
-      if (nearest > 20 * radius) CHECK(!found[lane]);  // At an acute corner the moved lines meet far out.
+      if (nearest > 20 * radius) CHECK(!found[lane]);  // At an acute corner the moved lines intersect far away.
       foundCount += found[lane];
     }
     for (size_t lane = some.size(); lane < found.size(); ++lane) CHECK(!found[lane]);
@@ -70,7 +70,7 @@ size_t checkAll(const TracedMesh& traced, double radius, size_t groupSize, Instr
 
 }  // namespace
 
-TEST_CASE("a face nearer than the radius is found, and none that is far, as brute force says") {
+TEST_CASE("faces nearer than the radius are found and far ones are not, as by brute force") {
   for (const InstructionSet instructionSet : {InstructionSet::Baseline, widestInstructionSet()}) {
     const TracedMesh soup(shapes::soup(300, 7));
     const size_t few = checkAll(soup, 0.005, 8, instructionSet), more = checkAll(soup, 0.02, 5, instructionSet);

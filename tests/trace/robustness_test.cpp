@@ -76,7 +76,7 @@ TEST_CASE("doubled faces, in either winding, change no value and have the value 
   for (size_t f = 0; f < count; ++f) CHECK(doubledValues[f] == values[f]);
   size_t copy = count;
   for (size_t f = 0; f < count; f += 3) CHECK(doubledValues[copy++] == doctest::Approx(values[f]).epsilon(1e-9));
-  for (; copy < doubled.faces.size(); ++copy) CHECK(std::isnan(doubledValues[copy]));  // They look inwards.
+  for (; copy < doubled.faces.size(); ++copy) CHECK(std::isnan(doubledValues[copy]));  // They are oriented inwards.
 }
 
 TEST_CASE("zeroAreaFaces and faces with a NaN corner change no value of the others") {

@@ -4,7 +4,7 @@
 
 #include "mesh/mesh.h"
 
-// Small shapes whose answers are known. Closed ones look outwards.
+// Small shapes with known diameters. Closed ones are oriented outwards.
 namespace asdfvk::shapes {
 
 /// A refined icosahedron with its vertices on the sphere: 20 * 4^levels faces.
@@ -22,13 +22,13 @@ Mesh cylinder(double radius, double height, uint32_t sideCount, uint32_t ringCou
 /// Random triangles through each other.
 Mesh soup(uint32_t faceCount, uint64_t seed);
 
-/// A sphere with a smaller one inside that looks inwards: a shell.
+/// A sphere with a smaller, inverted one inside: a shell.
 Mesh shell(double outerRadius, double innerRadius);
 
 /// Two boxes that share one edge, which therefore has four faces.
 Mesh boxesWithSharedEdge();
 
-/// Moves each vertex by up to `amount`, so that nothing is in a special position.
+/// Moves each vertex by up to `amount`, so that the vertices are in general position.
 Mesh jittered(Mesh mesh, double amount, uint64_t seed);
 
 Mesh scaledAndShifted(Mesh mesh, double scale, const Vec3d& shift);

@@ -9,10 +9,10 @@
 
 namespace asdfvk {
 
-/// What a tracer gives for every seed face of a mesh, in the order of TracedMesh::seedFaces().
+/// The results of a tracer for all seed faces of a mesh, in the order of TracedMesh::seedFaces().
 struct TraceResults {
   std::vector<double> values;
-  std::vector<ConeHit> hits;  ///< Empty unless asked for.
+  std::vector<ConeHit> hits;  ///< Empty unless requested.
   TraceStatistics statistics;
 };
 

@@ -25,7 +25,7 @@ TraceResults hitsByReference(const TracedMesh& traced, const ConeOptions& option
   return traceByReference(traced, options, Wanted::ValuesAndHits);
 }
 
-/// What kernels are compared with; traced once for all of them.
+/// The reference results for all kernels; traced once.
 struct ReferenceHits {
   TracedMesh traced;
   ConeOptions options;
@@ -60,7 +60,7 @@ TEST_CASE("the kernel's hits are the reference's, and give its values") {
   });
 }
 
-TEST_CASE("rays that meet nothing say so on both backends") {
+TEST_CASE("rays without a hit are misses on both backends") {
   const test::ValidatedDevice device;
   const TracedMesh open(shapes::jittered(shapes::openBox({1, 1, 1}, 6), 0.02, 2));
   const size_t expected = missCount(hitsByReference(open).hits);
@@ -160,7 +160,7 @@ TEST_CASE("turned cones have the reference's values, which are not those of fixe
   CHECK(differingCount(values, traceByKernel(kernel, traced, {}, Wanted::Values).values, diagonal) > values.size() / 2);
 }
 
-TEST_CASE("hits asked of a kernel that writes none are refused") {
+TEST_CASE("requesting hits from a kernel that writes none is refused") {
   const test::ValidatedDevice device;
   const VulkanConeKernel kernel(*device, {kRayCount});
   const TracedMesh traced(shapes::icosphere(0));

@@ -133,12 +133,12 @@ TEST_CASE("the device's own iteration guard suffices for its workgroup shape") {
     const VulkanWorkgroupShape seeds = workgroupShapeFor(cpu, rayCount, TraceKernel::Seed);
     REQUIRE(8ull * seeds.iterationLimit <= 65'535);
     REQUIRE(seeds.lanesPerCone * seeds.conesPerWorkgroup % 8 == 0);
-    REQUIRE(31ull * rayCount + 5 * rayCount + 31 <= 65'535);  // what trace_reduce.comp's loops need
+    REQUIRE(31ull * rayCount + 5 * rayCount + 31 <= 65'535);  // The iterations of the loops of trace_reduce.comp.
   }
 }
 
 TEST_CASE("hostile cones run into the device's own guard, are redone and agree" * doctest::test_suite("slow")) {
-  // Long needles through one another: each ray's walk meets most of their boxes.
+  // Long needles through one another: each ray enters most of their boxes.
   Mesh needles;
   Random random(4);
   const auto point = [&] { return Vec3d{random.real() * 2 - 1, random.real() * 2 - 1, random.real() * 2 - 1}; };
@@ -235,7 +235,7 @@ TEST_CASE("a GPU's workgroups hold several cones") {
   CHECK(workgroupShapeFor(gpu, 1024).lanesPerCone == 128);
 }
 
-TEST_CASE("the kernel is chosen by the class of the device, and as asked for") {
+TEST_CASE("the kernel is chosen by the class of the device, or as requested") {
   DeviceFacts facts;
   facts.subgroupSize = 8;
   facts.kind = DeviceKind::Cpu;
@@ -300,7 +300,7 @@ TEST_CASE("copies of faces, and degenerate ones beside them, change no value") {
     CHECK(values[count + i] == doctest::Approx(expected[7 * i]).epsilon(1e-6));
 }
 
-TEST_CASE("a trace on the device stops between chunks when it is asked to") {
+TEST_CASE("a trace on the device stops between chunks on request") {
   const test::ValidatedDevice device;
   const VulkanConeKernel kernel(*device, {30});
   const TracedMesh traced(generateShape("torus", 40'000).mesh);

@@ -8,7 +8,7 @@ namespace asdfvk {
 
 enum class Fetches { All, TexelOnly };
 
-/// Calls body(choice) for every variant of the kernels; a check that fails says which it was.
+/// Calls body(choice) for every variant of the kernels; the message of a failed check names the variant.
 template <typename Body>
 void forEveryVariant(Fetches fetches, const Body& body) {
   for (const TraceKernel kernel : {TraceKernel::Packet, TraceKernel::Ray, TraceKernel::Seed}) {
