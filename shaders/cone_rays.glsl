@@ -7,7 +7,7 @@ layout(set = 0, binding = 4, rgba32ui) uniform readonly uimageBuffer rayTexels;
 layout(set = 0, binding = 5, rgba32ui) uniform readonly uimageBuffer originTexels;
 
 const float kFarAway = 1e30;  // Greater than any distance in normalised coordinates.
-const float kDropped = -1.0;  // The length of a ray that is not valid.
+const float kDropped = -1.0;  // The length of an invalid ray.
 
 ConeRay loadRay(uint ray) { return decodeConeRay(imageLoad(rayTexels, int(ray))); }
 

@@ -6,8 +6,8 @@ DeviceWideNode loadWideNode(uint index) {
   return decodeWideNode(fetchNode(t), fetchNode(t + 1u), fetchNode(t + 2u), fetchNode(t + 3u), fetchNode(t + 4u));
 }
 
-// Distances to the planes of four boxes on one axis. Bytes 0 to 2 are converted without a shift and scaled afterwards.
-// Signed conversions are faster than unsigned ones.
+// Distances to the planes of four boxes on one axis. Bytes 0 to 2 are masked but not shifted; the scale corrects for
+// that. Signed conversions are faster than unsigned ones.
 vec4 distancesTo(uint bytes, float perByte, float start) {
   const vec4 planes = vec4(int(bytes & 0xffu), int(bytes & 0xff00u), int(bytes & 0xff0000u), int(bytes >> 24));
   return planes * (perByte * vec4(1.0, 1.0 / 256.0, 1.0 / 65536.0, 1.0)) + start;

@@ -51,9 +51,9 @@ struct WriteOptions {
 ASDFVK_API void writeResult(const std::filesystem::path& path, const MeshView& mesh, std::span<const Field> fields,
                             const WriteOptions& options = {});
 
-/// Reads the fields of a file that writeResult() wrote, of any of its formats, in the order of the file. Real values
-/// are double; in CSV all values are. No format stores units and labels. NPY has one field, named `values`. From a PLY
-/// file of another program, all numeric properties of vertices and faces are read. Throws Error{UnreadableInput}.
+/// Reads the fields of a file in any format of writeResult(), in the order of the file. Real values are double; in CSV
+/// all values are. No format stores units and labels. NPY has one field, named `values`. From a PLY file of another
+/// program, all numeric properties of vertices and faces are read. Throws Error{UnreadableInput}.
 [[nodiscard]] ASDFVK_API std::vector<Field> readFields(const std::filesystem::path& path);
 
 }  // namespace asdfvk

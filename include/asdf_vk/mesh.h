@@ -81,7 +81,7 @@ class MeshView {
   [[nodiscard]] std::span<const float> floats() const { return floats_; }     ///< Empty for double positions.
   [[nodiscard]] std::span<const uint32_t> corners() const { return corners_; }
   [[nodiscard]] std::span<const uint64_t> firstCorner() const { return firstCorner_; }  ///< Empty for triangles.
-  /// The mesh that this is a view of, whose triangulation is reused; null for arrays.
+  /// The viewed Mesh, whose triangulation is reused; null for a view of arrays.
   [[nodiscard]] const Mesh* mesh() const { return mesh_; }
 
  private:

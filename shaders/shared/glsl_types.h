@@ -7,7 +7,7 @@ namespace asdfvk::glsl {
 
 using uint = uint32_t;
 
-/// 12 bytes; always followed by a 4-byte scalar, so that std430 agrees.
+/// 12 bytes. Must be followed by a 4-byte scalar: std430 aligns a vec3 to 16 bytes.
 struct vec3 {
   float x, y, z;
   constexpr bool operator==(const vec3&) const = default;

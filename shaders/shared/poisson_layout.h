@@ -63,8 +63,8 @@ struct PoissonPush {
 //
 // One reduction per iteration (Meurant 1987, "Multitasking the conjugate gradient method on the CRAY X-MP/48"): besides
 // p.Mp and r.r, the sums r.Mp and Mp.Mp give the next r.r before the step is made. Unlike the recurrence of
-// Chronopoulos and Gear (1989), this one multiplies the direction itself and sums r.r in every iteration: in float32 it
-// drifts no more than the textbook iteration, and it needs one vector less.
+// Chronopoulos and Gear (1989), this one multiplies the direction itself and sums r.r in every iteration. In float32 it
+// therefore drifts no more than the textbook iteration. It needs one vector fewer.
 const uint kCgRunning = 0u;
 const uint kCgConverged = 1u;
 const uint kCgBrokenDown = 2u;  // p.Mp or r.r is not positive, consists of rounding errors, or has overflowed.

@@ -11,7 +11,7 @@
 namespace asdfvk {
 
 /// Margin of the boxes on a device, in normalised units. The triangle test in float32 has an error of a few units of
-/// 2^-24 times coordinates up to 3.5, and a ray must enter each box that contains a triangle it hits.
+/// 2^-24 times coordinates up to 3.5. A ray must enter each box that contains a triangle that it hits.
 inline constexpr float kDeviceBoxMargin = 0x1p-20f;
 
 enum class BvhLayout {

@@ -14,8 +14,8 @@ namespace asdfvk {
 inline constexpr size_t kMaxSmallTreeCount = 8;
 
 /// A hierarchy over few triangles, built by agglomerative clustering: each pass merges the pairs of clusters that are
-/// mutual nearest neighbours; the distance of two clusters is the area of their common box (Meister and Bittner 2018,
-/// but with all clusters as candidates). For this number of triangles it is faster than top-down splitting, and the
+/// mutual nearest neighbours (Meister and Bittner 2018, but with all clusters as candidates). The distance of two
+/// clusters is the area of their common box. For this number of triangles it is faster than top-down splitting, and the
 /// tree has no higher cost.
 class SmallTree {
  public:

@@ -28,16 +28,16 @@ struct WideChildren {
   [[nodiscard]] std::span<const WideChild> all() const { return std::span(items).first(count); }
 };
 
-/// Selects the nodes of a binary hierarchy that become nodes and leaves of one with up to eight children per node. The
-/// expected cost of a ray by the surface-area heuristic is minimal (Ylitie, Karras and Laine 2017, section 3.1).
+/// Collapses a binary hierarchy into one with up to eight children per node: selects the binary nodes that become wide
+/// nodes or leaves. Minimises the cost by the surface-area heuristic (Ylitie, Karras and Laine 2017, section 3.1).
 class WideCollapse {
  public:
   /// nodes: as in Bvh, at least one, leaves of at most kMaxWideLeafTriangleCount triangles; must outlive this object.
   /// Parallel, with the same result for any thread count.
   explicit WideCollapse(std::span<const BvhNode> nodes);
 
-  /// Children of the wide node that a binary node becomes. A root that is a leaf becomes a wide node with itself as the
-  /// only child.
+  /// Children of the wide node that replaces a binary node. A root that is a leaf becomes a wide node with itself as
+  /// the only child.
   [[nodiscard]] WideChildren childrenOf(uint32_t node) const;
   /// Consecutive primitives below a binary node.
   struct PrimitiveRange {
@@ -47,7 +47,7 @@ class WideCollapse {
     return nodes_[node].isLeaf() ? PrimitiveRange{nodes_[node].first, nodes_[node].triangleCount}
                                  : choices_[node].primitives;
   }
-  /// Number of wide nodes below the wide node that a binary node becomes.
+  /// Number of wide nodes below the wide node that replaces a binary node.
   [[nodiscard]] uint32_t nodeCountBelow(uint32_t node) const {
     return nodes_[node].isLeaf() ? 0 : choices_[node].nodeCountBelow;
   }
@@ -77,10 +77,9 @@ class WideCollapse {
   UnsetVector<Choice> choices_;  // Per binary node; unset for leaves.
 };
 
-/// Margin of the boxes of a wide hierarchy on a device, in normalised units. Besides the error of the triangle test
-/// (kDeviceBoxMargin) it covers the error of decoding a box in float32, up to 6 units of 2^-24, and three roundings of
-/// the distance to a plane, each equivalent to a shift of the plane by 2^-24 of a distance up to 3.5
-/// (shaders/wide_walk.glsl).
+/// Margin of the boxes of a wide hierarchy on a device, in normalised units. It is the sum of three errors: of the
+/// triangle test (kDeviceBoxMargin); of decoding a box in float32, up to 6 units of 2^-24; and of the distance to a
+/// plane (shaders/wide_walk.glsl), with three roundings that each shift the plane by up to 3.5 units of 2^-24.
 inline constexpr float kWideBoxMargin = 0x1p-18f;
 
 /// Assigns a different slot s to each of at most eight children, so that a ray whose direction has the sign bits q hits
@@ -91,8 +90,8 @@ inline constexpr float kWideBoxMargin = 0x1p-18f;
 [[nodiscard]] DeviceWideNode quantizeBoxes(std::span<const Box3f> children,
                                            const std::array<uint32_t, kWideChildCount>& slots);
 
-/// Wide nodes in the layout of shared/bvh_layout.h. Order: the root, its children, all nodes below the first child, all
-/// nodes below the second child, and so on; likewise in each subtree.
+/// Wide nodes in the layout of shared/bvh_layout.h. Order in each subtree: the root; its children; all nodes below the
+/// first child; all nodes below the second child; and so on.
 struct WideBvh {
   UnsetVector<DeviceWideNode> nodes;
   UnsetVector<uint32_t> primitiveFaces;  ///< As in Bvh; the range of primitives of a subtree is the same.

@@ -144,8 +144,8 @@ void addRays(CLI::App& app, Options& options) {
            })
       ->group(group);
   addChoice(app, "--cone-rotation", options.cone.rotation, kConeRotations,
-            "Cones of neighbouring faces have parallel rays (fixed), or each is turned by a\n"
-            "hash of its face, so that their errors are independent; default fixed")
+            "Rotation of the cones: fixed (parallel rays in neighbouring cones) or hashed (by\n"
+            "face index, so that errors are independent); default fixed")
       ->group(group);
   addValue(app, "--smooth", "off|auto|RxP",
            "Bilateral filter over R rings of faces, P passes; auto: by the number of\n"
@@ -165,7 +165,7 @@ void addExperiments(CLI::App& app, Options& options) {
             "values predicted from the hits of neighbouring seeds; default prediction")
       ->group(kExperimentGroup);
   addValue(app, "--pooling", "P",
-           fmt::format("Share by which values move to the prediction, 0 (traced values are kept) to\n"
+           fmt::format("Weight of the prediction in the values, 0 (traced values are kept) to\n"
                        "1; default {}",
                        defaults.interpolation.pooling),
            [&](const std::string& text) {

@@ -99,7 +99,7 @@ CLI::Option* addChoice(CLI::App& app, const std::string& name, Target&& target, 
 /// A finite number.
 [[nodiscard]] double parseNumber(const std::string& text);
 
-/// A finite number for which `accepts` returns true. complaint: end of the message otherwise, as in "'7' is not from 0
+/// A finite number for which `accepts` returns true. complaint: the end of the error message, as in "'7' is not from 0
 /// to 1".
 [[nodiscard]] double parseNumber(const std::string& text, const std::function<bool(double)>& accepts,
                                  const char* complaint);

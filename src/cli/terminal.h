@@ -16,8 +16,8 @@ void writeStandardError(std::string_view text);
 void printError(std::string_view subject, std::string_view message);
 void printWarning(std::string_view subject, std::string_view message);
 
-/// Ignores SIGPIPE, so that write() reports a closed pipe, and opens standard streams that the caller closed, so that
-/// no other file gets their descriptors.
+/// Ignores SIGPIPE, so that write() reports a closed pipe. Opens standard streams that the caller closed, so that no
+/// other file gets their descriptors.
 void secureStandardStreams();
 
 [[nodiscard]] bool isStandardErrorTerminal();

@@ -20,7 +20,7 @@ class AtomicFile {
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
 
-  /// Memory for up to `size` bytes, at most kMaxReserve; advance() adds those that the caller filled.
+  /// Returns memory for up to `size` bytes, at most kMaxReserve; advance() appends the bytes that the caller wrote.
   [[nodiscard]] char* reserve(size_t size) {
     if (size > kBufferSize - used_) flush();
     return buffer_.get() + used_;

@@ -30,8 +30,8 @@ struct Buckets {
 
 /// Entries grouped by bucket number, for callers that read each bucket once and do not keep it. A radix sort in two
 /// steps; the second step works on runs of buckets that fit into a cache. It needs no atomic operations, each of which
-/// would wait for memory. Linear for small buckets, n log n at worst. The same result on any number of threads. Entry:
-/// ordered; its default constructor should leave it uninitialised.
+/// would wait for memory. Time: linear for small buckets, n log n in the worst case. The same result on any number of
+/// threads. Entry: ordered; its default constructor should leave it uninitialised.
 template <typename Entry>
 class StagedEntries {
  public:
@@ -97,7 +97,7 @@ class StagedEntries {
     Entry entry;
   };
 
-  /// counts: per block of items and run; replaced by the positions at which the entries of that block and run begin.
+  /// Replaces counts[block][run], numbers of entries, by the positions of the first entry of each block and run.
   void turnIntoCursors(std::vector<std::vector<uint32_t>>& counts, size_t runCount) {
     uint64_t total = 0;
     for (size_t run = 0; run < runCount; ++run) {
@@ -114,7 +114,7 @@ class StagedEntries {
   static void sort(std::span<Entry> entries) {
     constexpr size_t kWorthParallelSort = size_t{1} << 16;
     if (entries.size() >= kWorthParallelSort) {
-      // Isolated: another run on this thread in the meantime would overwrite the scratch memory of this one.
+      // Isolated: the thread must not start another run during the sort, which would overwrite the scratch memory.
       tbb::this_task_arena::isolate([&] { tbb::parallel_sort(entries.begin(), entries.end()); });
     } else if (entries.size() > 1) {
       std::sort(entries.begin(), entries.end());
@@ -147,7 +147,7 @@ class StagedEntries {
   }
 
   size_t bucketCount_ = 0;
-  uint32_t shift_ = 0;                ///< Buckets whose numbers differ in this many low bits only form a run.
+  uint32_t shift_ = 0;                ///< Buckets whose numbers differ only in this many low bits form a run.
   std::vector<uint32_t> runBegins_;   ///< #runs+1
   std::unique_ptr<Staged[]> staged_;  ///< By run.
 };

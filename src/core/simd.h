@@ -12,7 +12,7 @@
 ///
 /// Code for several instruction sets is called through dispatch(). All its functions that take or return vectors are
 /// always inlined, so that they are compiled for the instruction set of their caller and need no calling convention.
-/// They are defined above their callers: GCC ignores the attribute of a definition below.
+/// Their definitions must precede their callers: otherwise GCC ignores the attribute.
 #define ASDFVK_ALWAYS_INLINE __attribute__((always_inline))
 
 namespace asdfvk {
@@ -65,8 +65,8 @@ template <typename V>
   return a > b ? a : b;
 }
 
-/// The mask where a <= b. For vectors of any size, as are notEqual() and select(): GCC 12 compiles the operators for
-/// masks of 64 bytes number by number.
+/// The mask where a <= b. Replaces the operator, like notEqual() and select(): GCC 12 compiles the operators for
+/// 64-byte masks element by element.
 template <typename V>
 [[nodiscard]] ASDFVK_ALWAYS_INLINE inline IntsOf<V> lessEqual(const V& a, const V& b) {
   if constexpr (sizeof(V) < 64)
@@ -152,7 +152,7 @@ template <typename Code>
 }
 #endif
 
-/// Runs `code`, compiled for the instruction set, and returns what it returns: a lambda
+/// Runs `code`, compiled for the instruction set, and returns its result. code: a lambda
 /// `[&]<typename Floats>() ASDFVK_ALWAYS_INLINE { ... }`, where Floats is the vector of floats that fills a register,
 /// at most Widest (Float8 or Float16). Precondition: this machine has the instruction set.
 template <typename Widest, typename Code>

@@ -11,7 +11,7 @@ namespace asdfvk {
 /// access their memory.
 template <typename T>
 struct UnsetAllocator : std::allocator<T> {
-  static_assert(std::is_trivially_copyable_v<T>);  // Lifetime of such objects begins with their memory.
+  static_assert(std::is_trivially_copyable_v<T>);  // Elements need no constructor call.
   template <typename U>
   struct rebind {
     using other = UnsetAllocator<U>;

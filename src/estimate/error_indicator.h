@@ -7,10 +7,10 @@
 
 namespace asdfvk {
 
-/// A-priori indicator of the interpolation error of each face, up to a factor. It is the sum of two absolute
-/// differences from the value v of the seed of its cell: between the prediction of the face and v, and the mean between
-/// the values of the neighbouring seeds and v. prediction: from these seeds. seeds: #S, as given to the prediction.
-/// values: #F; only those of the seeds are read. Returns #F, above 0; a face without an indicator gets the mean.
+/// A-priori indicator of the interpolation error of each face, up to a factor. It is |p - v| + mean |v' - v|, with the
+/// prediction p of the face, the value v of the seed of its cell, and the values v' of the neighbouring seeds.
+/// prediction: from these seeds. seeds: #S, as given to the prediction. values: #F; only those of the seeds are read.
+/// Returns #F, above 0; a face without an indicator gets the mean.
 [[nodiscard]] std::vector<double> errorIndicator(const Prediction& prediction, std::span<const uint32_t> seeds,
                                                  std::span<const double> values);
 

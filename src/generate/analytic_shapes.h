@@ -16,8 +16,8 @@ struct SphereParameters {
 /// A geodesic sphere of 20 n^2 faces: each side of an icosahedron divided into n^2 triangles, projected. Diameter 2
 /// radius.
 [[nodiscard]] GeneratedShape makeSphere(uint64_t faceCount, const SphereParameters& parameters = {});
-/// An icosahedron under OpenMesh's Loop subdivision, projected after each step: 20 * 4^n faces, with the n whose ratio
-/// to faceCount is closest to 1. Diameter 2 radius.
+/// An icosahedron under OpenMesh's Loop subdivision, projected after each step: 20 * 4^n faces, with the n for which 20
+/// * 4^n / faceCount is closest to 1. Diameter 2 radius.
 [[nodiscard]] GeneratedShape makeIcosphere(uint64_t faceCount, const SphereParameters& parameters = {});
 
 struct BoxParameters {

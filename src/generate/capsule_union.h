@@ -17,8 +17,8 @@ struct Capsule {
   double blend = 0;  ///< Width of the smooth transition to the preceding capsules, a length; 0 for a sharp seam.
 };
 
-/// A smooth union of at most kMaxCapsules capsules as an implicit surface: negative inside, with Lipschitz bound 1, by
-/// which the polygoniser prunes space.
+/// A smooth union of at most kMaxCapsules capsules as an implicit surface: negative inside, with Lipschitz constant 1.
+/// The polygoniser uses the constant to skip empty space.
 class CapsuleUnion {
  public:
   static constexpr size_t kMaxCapsules = 64;
@@ -57,7 +57,7 @@ class CapsuleUnion {
     double length = 0;
     double radius = 0;       ///< At the origin.
     double radiusSlope = 0;  ///< Change of the radius per length; above -1 and below 1.
-    double lean = 0;  ///< Shift of the nearest ball from the foot of the perpendicular, per distance from the axis.
+    double lean = 0;  ///< Along the axis: (centre of the nearest ball - projection of p) / distance of p from the axis.
     double blend = 0;
     uint32_t part = 0;
   };

@@ -6,8 +6,8 @@
 
 namespace asdfvk {
 
-/// Writes binary little-endian PLY, atomically: vertices as float or double, faces as
-/// `uchar int vertex_indices`, `float diameter`, `int part`. "-" is standard output. Throws Error{Output}.
+/// Writes a binary little-endian PLY file, atomically. Vertices are float or double; the properties of faces are `list
+/// uchar int vertex_indices`, `float diameter` and `int part`. "-" is standard output. Throws Error{Output}.
 void writeGeneratedPly(const std::filesystem::path& path, const GeneratedShape& shape, bool doubleVertices);
 
 }  // namespace asdfvk

@@ -7,7 +7,7 @@
 namespace asdfvk {
 
 /// The lattice with the spacing at which the surface crosses about `quadCount` edges: within 2 % where possible, else
-/// the closest of the spacings tried.
+/// the closest of the tested spacings.
 [[nodiscard]] BrickLattice latticeOfSize(const CapsuleUnion& field, uint64_t quadCount);
 
 }  // namespace asdfvk

@@ -19,7 +19,7 @@ struct ColourRange {
 /// The 1st to the 99th percentile (nearest rank) of the finite values; {0, 0} where there is none.
 [[nodiscard]] ColourRange percentileRange(std::span<const double> values);
 
-/// The perceptual map viridis (Smith and van der Walt 2015, CC0) , interpolated linearly between nine of its colours.
+/// The perceptual map viridis (Smith and van der Walt 2015, CC0), interpolated linearly between nine of its colours.
 /// Values beyond the range have the colour of its end. If the range is a point, all values have the middle colour. NaN
 /// is grey.
 [[nodiscard]] Rgba colourOf(double value, const ColourRange& range);

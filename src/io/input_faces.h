@@ -59,7 +59,7 @@ class PolygonTriangulator {
   [[nodiscard]] uint32_t findEar(uint32_t start, size_t leftCount) const;
   void clipEars(std::span<const uint32_t> corners, std::span<Face> triangles);
 
-  // Per corner of the current polygon; previous_ and next_ link the corners that are not yet clipped to a ring.
+  // Per corner of the current polygon; previous_ and next_ link the corners that are not yet clipped, as a ring.
   std::vector<Point2> points_;
   std::vector<uint32_t> previous_, next_;
   std::vector<double> turn_;

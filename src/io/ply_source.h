@@ -51,8 +51,8 @@ template <typename Out, bool isSwapped>
 // Two readers of the numbers after a PLY header, with the same interface. expected: the name of the number, for the
 // error message of a truncated file. fail() reports the position of the last number.
 
-/// Rows of text. A row may continue on further lines, but the next row begins on a new line, so that a row with a wrong
-/// number of values is found where it occurs.
+/// Rows of text. A row may continue on further lines, but every row begins on a new line. The line of a row with a
+/// wrong number of values is therefore known.
 class PlyAsciiSource {
  public:
   static constexpr bool kIsBinary = false;

@@ -25,7 +25,7 @@ namespace asdfvk {
 
 /// #F: the representative of each face, the face of lowest index with its corners at the same three points. Winding and
 /// vertex indices may differ. Points are the same where their coordinates are equal and finite; -0 equals 0. Faces with
-/// two corners at one point are compared by their vertices. The distance between coincident faces is 0, so that hits
+/// two corners at one point are compared by vertex indices. The distance between coincident faces is 0, so that hits
 /// between them are rounding noise. They are treated as one face: a cone ignores hits on copies of its seed face, and
 /// every backend reports the same copy. edges: of the mesh; they often prove quickly that there are no copies.
 [[nodiscard]] std::vector<uint32_t> coincidentRepresentatives(const TriangleMesh& mesh, const EdgeSurvey& edges);

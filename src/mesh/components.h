@@ -12,7 +12,7 @@ namespace asdfvk {
 struct Component {
   uint32_t firstFace = 0;  ///< The lowest face index.
   uint32_t faceCount = 0;
-  bool isClosed = false;  ///< Each edge has exactly two faces; triangles with a repeated vertex do not count.
+  bool isClosed = false;             ///< Each edge has exactly two faces; triangles with a repeated vertex are ignored.
   bool isConsistentlyWound = false;  ///< The two faces of each such edge traverse it in opposite directions.
   double signedVolume = 0;  ///< In mesh units cubed; negative where faces point inwards, 0 where the sign is uncertain
                             ///< because of rounding. Valid for closed, consistently wound components only.

@@ -9,19 +9,18 @@
 
 namespace asdfvk {
 
-/// The angle in radians between the normals of two neighbouring faces: 0 where they lie in one plane, up to pi where
-/// they are folded onto each other, positive on a concave edge and negative on a convex one. An edge is concave where
-/// the barycentre of each face is in front of the plane of the other; edges of opposite winding are never concave. 0
-/// where a face is degenerate. The same bits when the faces are swapped.
+/// The angle in radians between the normals of two neighbouring faces: 0 for coplanar faces, up to pi for faces folded
+/// onto each other, positive on a concave edge, negative on a convex edge. An edge is concave where the barycentre of
+/// each face is in front of the plane of the other; edges of opposite winding are never concave. 0 where a face is
+/// degenerate. The result has the same bits if the faces are swapped.
 [[nodiscard]] double signedDihedralAngle(const FaceGeometry& geometry, uint32_t f, uint32_t g);
 
 /// For the two faces of each arc, in the order of graph.neighbours.
 [[nodiscard]] std::vector<double> signedDihedralAngles(const DualGraph& graph, const FaceGeometry& geometry);
 
-/// Discrete Gaussian curvature of each vertex without a unit, its angle defect: 2 pi minus the angles of the faces
-/// around it, or pi minus them where an edge at it has only one face (Meyer, Desbrun, Schroeder and Barr 2003, not
-/// divided by an area). #V; 0 for a vertex without faces. Over a closed mesh the sum is 2 pi times the Euler
-/// characteristic.
+/// Discrete Gaussian curvature of each vertex: its angle defect in radians, 2 pi minus the sum of the angles of its
+/// faces, or pi minus the sum at a boundary vertex (Meyer, Desbrun, Schroeder and Barr 2003, not divided by an area).
+/// #V; 0 for a vertex without faces. Over a closed mesh the sum is 2 pi times the Euler characteristic.
 ///
 /// A face of zero area contributes the limits of its angles, which sum to pi: 0, 0 and pi for collinear corners; 0,
 /// pi/2 and pi/2 where two corners coincide; pi/3 each where all coincide. A face with a repeated vertex or a

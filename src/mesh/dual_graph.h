@@ -8,8 +8,8 @@
 
 namespace asdfvk {
 
-/// An edge shared by more faces than this joins each only to its predecessor and its successor in file order, so that
-/// the size of the graph is never quadratic.
+/// If more faces than this share an edge, each of them is joined only to the previous and the next one in file order.
+/// The size of the graph is therefore never quadratic.
 inline constexpr uint32_t kMaxFacesJoinedAllToAll = 32;
 
 /// The dual graph: a node per face, an arc in both directions per shared mesh edge (two faces that share two edges have

@@ -13,7 +13,7 @@
 
 namespace asdfvk {
 
-/// Everything about a mesh that does not depend on rays, seeds or devices.
+/// Data of a mesh that is independent of rays, seeds and devices.
 struct PreparedMesh {
   Mesh storage;       ///< Arrays of `mesh` that differ from those of the caller: converted, triangulated or reversed.
   TriangleMesh mesh;  ///< Of `storage` and of the arrays of the caller.

@@ -18,8 +18,8 @@ namespace asdfvk {
 /// 1 where any triangle of the input face is a seed. isSeed: #F. Returns #I.
 [[nodiscard]] std::vector<uint8_t> seedsOfInputFaces(const TriangleMesh& mesh, std::span<const uint8_t> isSeed);
 
-/// Adds the range of the values, the number of missing ones and the warnings about values and solver to the report.
-/// sdf: #I. values: #F.
+/// Adds to the report: the range of the values, the number of missing values, warnings about values and solver. sdf:
+/// #I. values: #F.
 void describeValues(Report& report, const PreparedMesh& prepared, const std::vector<double>& sdf,
                     std::span<const double> values);
 

@@ -13,8 +13,8 @@ namespace asdfvk {
 /// Number of seeds among the faces that can cast rays; at least one where there is any. Throws Error{OptionOutOfRange}.
 [[nodiscard]] uint64_t resolveSeedCount(const SeedCount& request, uint64_t traceableFaceCount);
 
-/// Two kinds of seeds: those of the sampler, and held-out faces. The latter are sampled at random among the other
-/// faces, for an unbiased measurement of the error of an interpolation from the former.
+/// Two kinds of seeds: those of the sampler, and held-out faces. Held-out faces are sampled at random among the other
+/// faces; the error of an interpolation without them is measured there without bias.
 struct SeedChoice {
   std::vector<uint32_t> sampled, heldOut;  ///< Ascending and disjoint.
 };
@@ -37,8 +37,8 @@ struct SeedShares {
 [[nodiscard]] SeedChoice chooseSeeds(const PreparedMesh& prepared, const Options& options, const SeedShares& shares,
                                      const SeedChoice& earlier, std::span<const double> density = {});
 
-/// The `count` candidates with the greatest predictions that are not seeds yet, ascending. Errors are relative to the
-/// range of the function, whose maximum occurs at a few faces that samplers often miss. prediction, isSeed: #F.
+/// The `count` candidates with the greatest predictions that are not seeds yet, ascending. Samplers often miss the few
+/// faces with the maximum of the function, and errors are relative to its range. prediction, isSeed: #F.
 [[nodiscard]] std::vector<uint32_t> extremeSeeds(std::span<const uint32_t> traceableFaces,
                                                  std::span<const double> prediction, std::span<const uint8_t> isSeed,
                                                  uint64_t count);

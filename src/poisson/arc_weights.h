@@ -17,8 +17,8 @@ inline constexpr double kConvexScaleDegrees = 8;
 ///   Distance: 1 / distance of the barycentres (ASDF paper, section 4.1)
 ///   Feature:  1 / (1 + (a / s)^2), a: dihedral angle, s: kConcaveScaleDegrees or kConvexScaleDegrees
 /// One weight per arc, in the order of graph.neighbours: positive, finite, and with the same bits in both directions.
-/// Unit: Distance 1 / length, Feature none. Distances below 1e-9 of the diagonal of the bounding box are replaced by
-/// that, which keeps the matrix finite for coincident barycentres.
+/// Unit: 1 / length for Distance, none for Feature. Distances below 1e-9 of the diagonal of the bounding box are
+/// replaced by that, which keeps the matrix finite for coincident barycentres.
 [[nodiscard]] std::vector<double> arcWeights(ArcWeights kind, const DualGraph& graph, const FaceGeometry& geometry);
 
 }  // namespace asdfvk

@@ -33,7 +33,7 @@ class CpuCg {
   /// system must outlive this.
   CpuCg(const System& system, UnsetVector<Real> rightHandSide, double reduction);
 
-  /// Up to `iterationCount` iterations, fewer when it converges or breaks down before one of them.
+  /// Runs up to `iterationCount` iterations; stops at convergence or breakdown.
   State advance(uint32_t iterationCount);
 
   [[nodiscard]] std::span<const Real> solution() const { return solution_; }

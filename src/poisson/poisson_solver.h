@@ -9,8 +9,8 @@
 #include "asdf_vk/run_control.h"
 #include "poisson/poisson_system.h"
 
-/// Solvers of the Poisson equation. A new solver is a file with its class, the declaration of its make function here,
-/// and a row of the table in poisson_solver.cpp.
+/// Solvers of the Poisson equation. A new solver requires a file with its class, the declaration of its make function
+/// here, and a row of the table in poisson_solver.cpp.
 namespace asdfvk {
 
 class Device;

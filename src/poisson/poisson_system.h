@@ -37,7 +37,7 @@ struct PoissonOptions {
 ///         = sum_{g in N(f), g constrained} w_fg constraint(g) + divergence(f)
 ///
 /// Without a divergence it minimises sum w_fg (u_f - u_g)^2, and u stays within the range of the constraints. Faces
-/// that no path of arcs connects to a constraint are not unknowns.
+/// without a path of arcs to a constraint are not unknowns.
 ///
 /// weights: one per arc, see arcWeights(); > 0, finite, equal in both directions. Several arcs between two faces count
 /// as one with the sum of their weights; an arc from a face to itself is ignored. constraints: #F, the value of a

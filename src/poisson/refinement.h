@@ -27,7 +27,7 @@ class SolverProgress {
   double fraction_ = 0;
 };
 
-/// Request of one pass: an approximation of the e with A e = residual.
+/// Request of one pass: an approximate solution e of A e = residual.
 struct CorrectionRequest {
   std::span<const double> residual;  ///< #U
   double norm = 0;                   ///< residualNorm() of `residual`, > 0.

@@ -17,7 +17,7 @@
 namespace asdfvk {
 
 struct PredictionOptions {
-  uint32_t neighbourCount = 6;  ///< Cells around the cell of a face whose seeds contribute, besides its own seed.
+  uint32_t neighbourCount = 6;  ///< Number of neighbouring cells whose seeds contribute to a face.
   /// Standard deviation of the Gaussian distance weight, in units of half the mean distance to the neighbouring seeds.
   double distanceDeviation = 1.5;
 };
@@ -30,8 +30,8 @@ struct Prediction {
   NearestCells nearest;          ///< The cells whose seeds contributed, per cell.
 };
 
-/// The same on any number of threads. earlier: empty, or a prediction of the same scene, cone and options; seeds that
-/// still exist have the same indices in `hits`. Unchanged values are copied from it.
+/// The result does not depend on the number of threads. earlier: empty, or a prediction of the same scene, cone and
+/// options; seeds that still exist have the same indices in `hits`. Unchanged values are copied from it.
 [[nodiscard]] Prediction predictValues(const TraceScene& scene, const DualGraph& graph, const Cone& cone,
                                        const SeedHits& hits, const PredictionOptions& options, Prediction earlier = {});
 

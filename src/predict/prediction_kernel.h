@@ -11,7 +11,7 @@
 
 namespace asdfvk {
 
-/// Points and seeds are processed in groups of this size, which is that of the widest vector.
+/// Group size of points and seeds: the lane count of the widest vector.
 inline constexpr size_t kPointGroupSize = kLaneCount<Float16>;
 
 /// Hit points of rays, in normalised units. All arrays have one entry per point.
@@ -54,7 +54,7 @@ struct SeedWeighting {
   float inverseAngleVariance = 0;  ///< 1 / square of the standard deviation of the angle in radians.
 };
 
-/// The lower bound of a seed's weight, so that the only seed counts at any distance.
+/// The lower bound of a seed's weight, so that a single seed contributes at any distance.
 inline constexpr float kMinSeedWeight = 1e-6f;
 
 /// Predicts the values of virtual cones from the hit points of seeds. Results have the same bits on every

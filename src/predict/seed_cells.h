@@ -24,8 +24,8 @@ struct SeedCells {
 /// empty.
 [[nodiscard]] SeedCells buildSeedCells(const DualGraph& graph, std::span<const uint32_t> seeds);
 
-/// For each cell: itself, then those of the cells that share an edge with it whose seeds are nearest, at most
-/// neighbourCount, by ascending distance between the barycentres of the seeds.
+/// For each cell: the cell itself, then the nearest of the cells that share an edge with it, at most neighbourCount, by
+/// ascending distance between the barycentres of the seeds.
 class NearestCells {
  public:
   NearestCells() = default;

@@ -25,8 +25,8 @@ struct Camera {
   }
 };
 
-/// The camera of `view` in which the points fill `area`, centred. Without points, or with all of them at one place, the
-/// area spans a unit.
+/// The camera of `view` in which the points fill `area`, centred. Without points, or if all points coincide, the area
+/// spans one unit of length.
 [[nodiscard]] Camera frameCamera(std::span<const Vec3d> points, const View& view, const PixelArea& area);
 
 }  // namespace asdfvk

@@ -9,7 +9,7 @@
 
 namespace asdfvk {
 
-/// Faces that meet at a sharper angle than this are not smoothed.
+/// Normals are not smoothed between faces with a larger angle between their normals.
 inline constexpr double kCreaseAngleDegrees = 40;
 
 /// #F unit normals at the three corners of each face: the sum of the normals of the faces at the vertex that are within

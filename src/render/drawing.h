@@ -19,7 +19,7 @@ void drawText(Image& image, std::string_view text, double left, double baseline,
 /// The largest capital height up to `capHeight` at which the text is no wider than `width`.
 [[nodiscard]] double fittingCapHeight(std::string_view text, double capHeight, double width);
 
-/// Fills the rectangle; pixels at its sides by the covered share.
+/// Fills the rectangle; pixels at its border are blended by coverage.
 void fillRectangle(Image& image, double left, double top, double width, double height, const Rgb& colour);
 
 }  // namespace asdfvk

@@ -34,7 +34,8 @@ struct NearbyLight {
 };
 [[nodiscard]] NearbyLight lightNearby(const SeenPoints& seen, int x, int y, int radius, const SeenPoint& like);
 
-/// Replaces the light of each point by that of the square of patterns around it (see LightRig), then smooths it once.
+/// Replaces the light of each point by the mean over the square of patterns around it (see LightRig), then smooths it
+/// once.
 void filterLight(SeenPoints& seen, const RunControl& control);
 
 }  // namespace asdfvk

@@ -9,8 +9,8 @@
 
 namespace asdfvk {
 
-/// Calls body(x, y) for every pixel, in parallel over tiles, in bands of rows with a checkpoint of `control` before
-/// each.
+/// Calls body(x, y) for every pixel: in bands of rows, with a checkpoint of `control` before each band, in parallel
+/// over the tiles of a band.
 template <typename Body>
 void forEachPixel(int width, int height, const RunControl& control, const Body& body) {
   constexpr int kTileSide = 16;

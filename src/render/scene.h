@@ -27,7 +27,7 @@ class PictureScene {
   /// The finite vertices of the faces that rays can hit, some of them more than once.
   [[nodiscard]] std::vector<Vec3d> points() const;
 
-  /// The first point of the mesh on the whole line through `point` along the unit `direction`.
+  /// The first hit on the infinite line through `point` along the unit `direction`.
   [[nodiscard]] std::optional<SurfacePoint> firstOnLine(const Vec3d& point, const Vec3d& direction) const;
 
   /// Distance from origin, which lies in the mesh's box or near it, to the nearest face other than `skippedFace`;

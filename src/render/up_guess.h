@@ -15,7 +15,7 @@ namespace asdfvk {
 /// no area.
 [[nodiscard]] double standingShare(std::span<const Vec3d> points, Up up);
 
-/// Y, unless the points are unstable with y up and stable with another direction up; of the others, z is tested first.
+/// Y if the points are stable with y up, or in no direction. Otherwise another stable direction; z is tested first.
 /// Static stability is the simplest criterion of Fu, Cohen-Or, Dror and Sheffer 2008 (Upright Orientation of Man-Made
 /// Objects).
 [[nodiscard]] Up guessUp(std::span<const Vec3d> points);

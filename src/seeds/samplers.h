@@ -10,8 +10,8 @@
 #include "mesh/dual_graph.h"
 #include "mesh/face_geometry.h"
 
-/// Samplers: selection of seeds, the faces that cast rays. A new sampler is a file with its function, and here the
-/// declaration of that function and a row of kSamplers.
+/// Samplers: selection of seeds, the faces that cast rays. A new sampler requires a file with its function, and here
+/// the declaration of that function and a row of kSamplers.
 namespace asdfvk {
 
 /// The faces to select from. Graph, geometry and candidates must outlive this object.
@@ -27,8 +27,7 @@ struct SeedDomain {
 
 /// Selects exactly `count` of the candidates that are not in `existing`, or all of them. existing: faces selected
 /// before, in any order. Returns the new seeds, ascending. The result depends on the input and randomSeed only, not on
-/// the number of threads. A connected component may get no seed; some get none if there are fewer seeds than
-/// components.
+/// the number of threads. A connected component may remain without a seed.
 using SampleSeeds = std::vector<uint32_t>(const SeedDomain& domain, uint64_t count, std::span<const uint32_t> existing,
                                           uint64_t randomSeed);
 
@@ -54,7 +53,7 @@ using SampleSeedsByDensity = std::vector<uint32_t>(const SeedDomain& domain, std
 
 /// Blue noise with arcs stretched by the square root of the density, so that the spacing is proportional to
 /// density^-1/2. On smooth meshes the number of seeds per face is proportional to the density within 10 to 20 % while
-/// at most a tenth of the faces are seeds; with more seeds the dense parts fill up.
+/// at most a tenth of the faces are seeds; with more seeds the dense parts are saturated.
 [[nodiscard]] SampleSeedsByDensity weightedBlueNoiseSeeds;
 
 /// Farthest-point sampling (Gonzalez, "Clustering to minimize the maximum intercluster distance", 1985) in the
@@ -70,7 +69,8 @@ using SampleSeedsByDensity = std::vector<uint32_t>(const SeedDomain& domain, std
 [[nodiscard]] SampleSeeds normalSpaceSeeds;
 
 /// Bins of directions: a grid of kBinsPerSide^2 on each side of a cube. Along the middle lines of a side a bin is 10
-/// degrees wide. Each axis is in the middle of a bin, so that rounding does not scatter an axis-aligned wall.
+/// degrees wide. Each axis is in the middle of a bin, so that rounding does not distribute an axis-aligned wall over
+/// several bins.
 inline constexpr uint32_t kBinsPerSide = 9;
 inline constexpr uint32_t kNormalBinCount = 6 * kBinsPerSide * kBinsPerSide;
 /// normal: unit. Returns less than kNormalBinCount.

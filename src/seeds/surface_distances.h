@@ -22,7 +22,7 @@ inline constexpr float kMinArcLength = 0x1p-20f;
 inline constexpr float kMaxArcLength = 0x1p+20f;
 
 /// The length of each arc, aligned with graph.neighbours, the same in both directions: sqrt(1 + (a / s)^2) for the
-/// dihedral angle a of the edge, with s from above. No unit; 1 between coplanar faces. The angles are those of
+/// dihedral angle a of the edge, s: the constants above. No unit; 1 between coplanar faces. The angles are those of
 /// signedDihedralAngle(): a degenerate face counts as coplanar with its neighbour, and the angle between faces of
 /// opposite winding is that of their normals.
 [[nodiscard]] std::vector<float> arcLengths(const DualGraph& graph, const FaceGeometry& geometry);

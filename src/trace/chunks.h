@@ -19,7 +19,7 @@ class ChunkSize {
   ChunkSize(uint64_t first, uint64_t largest) : size_(std::min(first, largest)), largest_(largest) {}
 
   [[nodiscard]] uint64_t current() const { return size_; }
-  /// A chunk of `count` took `seconds`. The size changes at most fourfold, which bounds the effect of one wrong time.
+  /// A chunk of `count` took `seconds`. The size changes at most fourfold, which bounds the effect of one outlier.
   void adapt(uint64_t count, double seconds) {
     const double ideal = static_cast<double>(count) * kTargetSeconds / std::max(seconds, 1e-6);
     const double bounded = std::clamp(ideal, static_cast<double>(size_) / 4, static_cast<double>(size_) * 4);

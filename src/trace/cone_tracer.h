@@ -59,7 +59,7 @@ class ConeTracer {
   virtual TraceStatistics trace(std::span<const uint32_t> seedFaces, const ConeResults& results,
                                 const RunControl& control) = 0;
 
-  /// Seconds of the construction that encoded the hierarchy for a device, before the upload; 0 without a device.
+  /// Seconds that the constructor spent on encoding the hierarchy for a device, without the upload; 0 without a device.
   [[nodiscard]] virtual double encodeSeconds() const { return 0; }
 };
 

@@ -11,7 +11,7 @@ namespace asdfvk {
 
 enum class MemoryKind {
   DeviceLocal,  ///< Fastest for kernels; also mapped where device and host share memory.
-  DeviceOnly,   ///< The same, never mapped: as on a device with separate memory, for tests.
+  DeviceOnly,   ///< Never mapped, as on a device with separate memory; for tests.
   HostVisible,  ///< Mapped and coherent, cached where there is a choice.
 };
 

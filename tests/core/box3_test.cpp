@@ -7,7 +7,7 @@
 
 using namespace asdfvk;
 
-TEST_CASE("an empty box has no size and takes on what is added") {
+TEST_CASE("an empty box has no size and grows to the added points") {
   Box3d box;
   CHECK(box.isEmpty());
   CHECK(box.size() == Vec3d{});

@@ -121,7 +121,7 @@ std::vector<std::string> objectionsIn(const fs::path& root) {
 
 }  // namespace
 
-TEST_CASE("a folder of src includes only what its layer may") {
+TEST_CASE("a folder of src includes only the layers that are allowed for it") {
   REQUIRE(fs::exists(kSource / "core" / "check.h"));
   REQUIRE(includesOf(kSource / "core" / "box3.h").size() == 4);
   for (const std::string& reason : objectionsIn(kSource)) FAIL_CHECK(reason);

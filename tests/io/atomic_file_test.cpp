@@ -45,7 +45,7 @@ void checkRefused(const std::filesystem::path& path, const std::string& reason) 
 
 }  // namespace
 
-TEST_CASE("a committed file holds what was written, larger than the buffer too, and nothing else is left") {
+TEST_CASE("a committed file contains the written bytes, also beyond the buffer size, and no other file is left") {
   const Folder folder;
   std::string large;
   for (int i = 0; i < 1'000'000; ++i) large += std::to_string(i);

@@ -117,8 +117,8 @@ TEST_CASE("the up direction is y unless the points are unstable") {
   CHECK(guessUp(table(1, 1)) == Up::Y);
   CHECK(guessUp(table(2, 1)) == Up::Z);
   CHECK(guessUp(table(0, 1)) == Up::X);
-  CHECK(guessUp(table(1, -1)) == Up::Y);  // It stands on its top.
-  // A spear on its tip stands in no way.
+  CHECK(guessUp(table(1, -1)) == Up::Y);  // Stable on its top.
+  // // Stable in no direction: a spear on its tip.
   CHECK(guessUp(std::vector<Vec3d>{{0, 0, 0}, {0.5, 3, 0}, {-0.2, 3.5, 0.4}, {0.7, 4, -0.4}}) == Up::Y);
 }
 

@@ -218,7 +218,7 @@ TEST_CASE("Embree's values have the same bits with one thread and with two, amon
   }
 }
 
-TEST_CASE("Embree's values do not depend on the order of the seeds, nor on what was traced before") {
+TEST_CASE("Embree's values do not depend on the order of the seeds, nor on earlier traces") {
   if (!isEmbreeThere()) return;
   const TracedMesh traced(generateShape("hand", 4000).mesh);
   const Cone cone = makeCone({});

@@ -25,8 +25,8 @@ class VulkanCg {
   VulkanCg(const Device& device, const VulkanCgKernels& kernels, const VulkanMatrix& matrix,
            std::span<const float> rightHandSide, double reduction);
 
-  /// Runs up to `iterationCount` iterations in one submission, fewer when it converges or breaks down before one of
-  /// them. The dispatches of the remaining iterations are empty.
+  /// Runs up to `iterationCount` iterations in one submission; stops at convergence or breakdown. The dispatches of the
+  /// remaining iterations are empty.
   CgState advance(uint32_t iterationCount);
 
   /// Workgroups of the next dispatch: 0 after convergence or breakdown.

@@ -47,10 +47,10 @@ struct EmbreeCones {
   const Cone& cone;
   std::span<const TrianglePlane> planes;
   const EmbreeScene& embree;
-  double rayStart = 0;  ///< Rays end at the nearest triangle that is at least this far away.
+  double rayStart = 0;  ///< Minimum distance of a hit.
 };
 
-/// A cone to trace and the place of its hits.
+/// A cone to trace, and the output array of its hits.
 struct EmbreeSeed {
   uint32_t face = 0, primitive = 0;
   std::span<ConeHit> hits;  ///< One per ray, or empty.

@@ -14,7 +14,7 @@
 // and detects other triangles near their origins. Coordinates are normalised.
 namespace asdfvk {
 
-/// Plane of a triangle: normal * p = offset. 32 bytes: all the data of a hit triangle that is needed.
+/// Plane of a triangle: normal * p = offset. 32 bytes; no other data of a hit triangle is needed.
 struct TrianglePlane {
   Vec3d normal;  ///< Unit.
   double offset = 0;

@@ -64,7 +64,7 @@ struct ConeBuffers {
   Buffer hits;     ///< Mapped: a ConeHit per cone and ray, if the kernel writes them.
 
  private:
-  Buffer nothing_;  // Bound in place of the hierarchy by the BvhFetch that is not selected.
+  Buffer nothing_;  // Placeholder for the bindings of the BvhFetch that is not selected.
   TexelView nodeTexels_, triangleTexels_, rayTexels_, originTexels_;
 
  public:
