@@ -12,7 +12,7 @@
 #include "support/measurement.h"
 #include "support/program.h"
 #include "trace/vulkan/vulkan_tracer.h"
-#include "vk/open_device.h"
+#include "vk/device.h"
 
 namespace {
 

@@ -12,7 +12,6 @@
 #include "generate/creatures.h"
 #include "mesh/dual_graph.h"
 #include "mesh/face_geometry.h"
-#include "poisson/arc_weights.h"
 #include "poisson/poisson_solver.h"
 #include "poisson/poisson_system.h"
 #include "support/computation.h"

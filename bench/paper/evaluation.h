@@ -8,7 +8,7 @@
 
 #include "asdf_vk/session.h"
 #include "pipeline/choice_names.h"
-#include "render/view.h"
+#include "render/camera.h"
 #include "trace/scene_data.h"
 
 namespace asdfvk::bench {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "asdf_vk/session.h"
-#include "render/view.h"
+#include "render/camera.h"
 
 namespace asdfvk {
 

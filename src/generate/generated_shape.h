@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <vector>
 
 #include "mesh/mesh.h"
@@ -21,5 +22,9 @@ inline constexpr uint64_t kMaxFaceCount = 50'000'000;
 
 /// Gives every face part 0 and the same diameter.
 [[nodiscard]] GeneratedShape withUniformDiameter(Mesh mesh, double diameter);
+
+/// Writes a binary little-endian PLY file, atomically. Vertices are float or double; the properties of faces are `list
+/// uchar int vertex_indices`, `float diameter` and `int part`. "-" is standard output. Throws Error{Output}.
+void writeGeneratedPly(const std::filesystem::path& path, const GeneratedShape& shape, bool doubleVertices);
 
 }  // namespace asdfvk

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "asdf_vk/error.h"
-#include "generate/generated_ply.h"
+#include "generate/generated_shape.h"
 #include "generate/shapes.h"
 
 namespace {

@@ -2,10 +2,15 @@
 
 #include <cstdint>
 
+#include "generate/brick_lattice.h"
 #include "generate/capsule_union.h"
 #include "generate/generated_shape.h"
 
 namespace asdfvk {
+
+/// The lattice with the spacing at which the surface crosses about `quadCount` edges: within 2 % where possible, else
+/// the closest of the tested spacings.
+[[nodiscard]] BrickLattice latticeOfSize(const CapsuleUnion& field, uint64_t quadCount);
 
 /// The surface of a smooth union of capsules as a closed manifold of about `faceCount` well-shaped triangles, with the
 /// part and diameter of each. Surface nets (Gibson, 1998) on a sparse lattice: a vertex per cell that the surface

@@ -10,7 +10,6 @@
 #include "asdf_vk/error.h"
 #include "core/parallel.h"
 #include "mesh/curvature.h"
-#include "poisson/arc_weights.h"
 #include "poisson/poisson_solver.h"
 #include "poisson/poisson_system.h"
 

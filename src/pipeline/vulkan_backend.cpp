@@ -9,7 +9,7 @@
 #include "trace/vulkan/vulkan_cone_kernel.h"
 #include "trace/vulkan/vulkan_trace_choice.h"
 #include "trace/vulkan/vulkan_tracer.h"
-#include "vk/open_device.h"
+#include "vk/device.h"
 
 namespace asdfvk {
 namespace {

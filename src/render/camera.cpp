@@ -1,14 +1,44 @@
 #include "render/camera.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "core/box3.h"
-#include "render/up_guess.h"
 
 namespace asdfvk {
 namespace {
+
+/// Points within this distance of the lowest one touch the floor; divided by the longest side of the box.
+constexpr double kFloorShare = 0.025;
+
+struct FloorPoint {
+  double x = 0, y = 0;
+  auto operator<=>(const FloorPoint&) const = default;
+};
+
+/// Twice the signed area of the triangle; positive where c is left of the line from a to b.
+double turn(const FloorPoint& a, const FloorPoint& b, const FloorPoint& c) {
+  return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
+/// Counter-clockwise (Andrew's monotone chain); fewer than three points where they lie in a line.
+std::vector<FloorPoint> convexHull(std::vector<FloorPoint> points) {
+  std::sort(points.begin(), points.end());
+  std::vector<FloorPoint> hull;
+  for (int side = 0; side < 2; ++side) {
+    const size_t begin = hull.size();
+    for (const FloorPoint& point : points) {
+      while (hull.size() >= begin + 2 && turn(hull[hull.size() - 2], hull.back(), point) <= 0) hull.pop_back();
+      hull.push_back(point);
+    }
+    hull.pop_back();
+    std::reverse(points.begin(), points.end());
+  }
+  return hull;
+}
 
 constexpr double kRadiansPerDegree = std::numbers::pi / 180;
 
@@ -34,6 +64,53 @@ Camera orient(const Vec3d& boxSize, Up upwards, const View& view) {
 }
 
 }  // namespace
+
+Vec3d directionOf(Up up) {
+  const auto index = static_cast<size_t>(up);
+  Vec3d direction;
+  direction[index % 3] = index < 3 ? 1 : -1;
+  return direction;
+}
+
+double standingShare(std::span<const Vec3d> points, Up up) {
+  if (points.empty()) return 0;
+  const Vec3d direction = directionOf(up);
+  const size_t axis = static_cast<size_t>(up) % 3, first = (axis + 1) % 3, second = (axis + 2) % 3;
+  Box3d box;
+  Vec3d mean;
+  double floor = dot(points[0], direction);
+  for (const Vec3d& point : points) {
+    box.add(point);
+    mean += point / double(points.size());
+    floor = std::min(floor, dot(point, direction));
+  }
+  const Vec3d size = box.size();
+  const double reach = kFloorShare * std::max({size.x, size.y, size.z});
+  std::vector<FloorPoint> lowest;
+  for (const Vec3d& point : points)
+    if (dot(point, direction) <= floor + reach) lowest.push_back({point[first], point[second]});
+  const std::vector<FloorPoint> hull = convexHull(std::move(lowest));
+  if (hull.size() < 3) return 0;
+  double area = 0;
+  bool stands = true;
+  for (size_t i = 0; i < hull.size(); ++i) {
+    const FloorPoint &a = hull[i], &b = hull[(i + 1) % hull.size()];
+    area += turn(hull[0], a, b) / 2;
+    stands &= turn(a, b, {mean[first], mean[second]}) >= 0;
+  }
+  const double share = area / (size[first] * size[second]);
+  return stands ? share : -share;
+}
+
+Up guessUp(std::span<const Vec3d> points) {
+  // The likely directions first: a table is even more stable upside down.
+  constexpr std::array<Up, 5> kOthers{Up::Z, Up::MinusY, Up::MinusZ, Up::X, Up::MinusX};
+  constexpr double kBad = 0.05, kGood = 0.2;
+  if (standingShare(points, Up::Y) > kBad) return Up::Y;
+  const auto* found =
+      std::find_if(kOthers.begin(), kOthers.end(), [&](Up other) { return standingShare(points, other) > kGood; });
+  return found == kOthers.end() ? Up::Y : *found;
+}
 
 Camera frameCamera(std::span<const Vec3d> points, const View& view, const PixelArea& area) {
   Box3d box, seen;

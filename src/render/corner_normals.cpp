@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "core/buckets.h"
-#include "render/unit_vector.h"
+#include "render/image.h"
 
 namespace asdfvk {
 namespace {

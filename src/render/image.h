@@ -1,11 +1,18 @@
 #pragma once
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
+#include "asdf_vk/run_control.h"
 #include "core/check.h"
+#include "core/vec3.h"
 
 namespace asdfvk {
 
@@ -39,5 +46,34 @@ class Image {
   int width_, height_;
   std::vector<Rgb> pixels_;
 };
+
+// Light is added in linear sRGB; 1 is white.
+
+[[nodiscard]] Vec3d toLinear(const Rgb& colour);
+/// Values outside [0, 1] are clamped.
+[[nodiscard]] Rgb toRgb(const Vec3d& linear);
+/// Blends `share` of `over` onto `under`.
+[[nodiscard]] Rgb blend(const Rgb& under, const Rgb& over, double share);
+
+/// v scaled to length 1, or `fallback` if v has no direction.
+[[nodiscard]] inline Vec3d unitVector(const Vec3d& v, const Vec3d& fallback) {
+  const double norm = length(v);
+  return norm > 1e-150 && std::isfinite(norm) ? v / norm : fallback;
+}
+
+/// Calls body(x, y) for every pixel: in bands of rows, with a checkpoint of `control` before each band, in parallel
+/// over the tiles of a band.
+template <typename Body>
+void forEachPixel(int width, int height, const RunControl& control, const Body& body) {
+  constexpr int kTileSide = 16;
+  for (int top = 0; top < height; top += kTileSide) {
+    control.checkpoint(static_cast<double>(top) / height);
+    const int bottom = std::min(top + kTileSide, height);
+    tbb::parallel_for(tbb::blocked_range<int>(0, width, kTileSide), [&](const tbb::blocked_range<int>& columns) {
+      for (int y = top; y < bottom; ++y)
+        for (int x = columns.begin(); x < columns.end(); ++x) body(x, y);
+    });
+  }
+}
 
 }  // namespace asdfvk

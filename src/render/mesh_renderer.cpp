@@ -4,10 +4,8 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "render/image.h"
 #include "render/light.h"
-#include "render/light_filter.h"
-#include "render/linear_light.h"
-#include "render/pixel_loop.h"
 
 namespace asdfvk {
 namespace {

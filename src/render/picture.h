@@ -7,8 +7,8 @@
 
 #include "asdf_vk/run_control.h"
 #include "io/colour_map.h"
+#include "render/camera.h"
 #include "render/image.h"
-#include "render/view.h"
 #include "trace/scene_data.h"
 
 namespace asdfvk {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "render/corner_normals.h"
-#include "render/unit_vector.h"
+#include "render/image.h"
 #include "trace/nearest_hit.h"
 
 namespace asdfvk {

@@ -6,9 +6,9 @@
 #include <cstring>
 #include <set>
 
+#include "generate/brick_lattice.h"
 #include "generate/shapes.h"
 #include "generate/surface_nets.h"
-#include "generate/well_composed.h"
 #include "topology.h"
 
 using namespace asdfvk;

@@ -7,7 +7,7 @@
 #include <iterator>
 #include <string>
 
-#include "generate/generated_ply.h"
+#include "generate/generated_shape.h"
 #include "generate/shapes.h"
 
 using namespace asdfvk;

@@ -12,7 +12,6 @@
 #include "mesh/dual_graph.h"
 #include "mesh/face_geometry.h"
 #include "mesh/mesh.h"
-#include "poisson/arc_weights.h"
 #include "poisson/poisson_system.h"
 
 namespace asdfvk {

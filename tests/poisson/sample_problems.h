@@ -10,7 +10,7 @@
 #include "core/random.h"
 #include "fixtures.h"
 #include "generate/shapes.h"
-#include "poisson/arc_weights.h"
+#include "poisson/poisson_system.h"
 
 namespace asdfvk {
 

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "core/random.h"
-#include "render/up_guess.h"
 
 namespace asdfvk {
 namespace {

@@ -1,4 +1,4 @@
-#include "render/stroke_font.h"
+#include "render/drawing.h"
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,4 @@
-#include "render/ticks.h"
+#include "render/colour_bar.h"
 
 #include <doctest/doctest.h>
 

@@ -4,8 +4,8 @@
 
 #include <memory>
 
+#include "vk/device.h"
 #include "vk/instance.h"
-#include "vk/open_device.h"
 
 namespace asdfvk::test {
 

@@ -1,4 +1,4 @@
-#include "render/linear_light.h"
+#include "render/image.h"
 
 #include <algorithm>
 #include <cmath>
