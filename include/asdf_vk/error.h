@@ -32,6 +32,8 @@ enum class ErrorCode {
   IndexOutOfRange,  ///< A face refers to a vertex that does not exist.
   MeshTooLarge,     ///< More vertices, faces or connections than 32 bits can index.
   InputTooLarge,    ///< Does not fit into memory.
+  NoValues,         ///< No face has a value.
+  TooFewValues,     ///< Fewer different values than clusters.
   // Device
   NoVulkanLoader,  ///< libvulkan.so.1 is not installed.
   NoVulkanDriver,  ///< No driver, or none that the loader can start.

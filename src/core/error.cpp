@@ -25,6 +25,8 @@ constexpr std::array kErrors{
     ErrorRow{ErrorCode::IndexOutOfRange, ErrorKind::Input, "indexOutOfRange"},
     ErrorRow{ErrorCode::MeshTooLarge, ErrorKind::Input, "meshTooLarge"},
     ErrorRow{ErrorCode::InputTooLarge, ErrorKind::Input, "inputTooLarge"},
+    ErrorRow{ErrorCode::NoValues, ErrorKind::Input, "noValues"},
+    ErrorRow{ErrorCode::TooFewValues, ErrorKind::Input, "tooFewValues"},
     ErrorRow{ErrorCode::NoVulkanLoader, ErrorKind::Device, "noVulkanLoader"},
     ErrorRow{ErrorCode::NoVulkanDriver, ErrorKind::Device, "noVulkanDriver"},
     ErrorRow{ErrorCode::NoUsableDevice, ErrorKind::Device, "noUsableDevice"},

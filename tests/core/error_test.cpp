@@ -28,6 +28,8 @@ const std::vector<Row> kRows{
     {ErrorCode::IndexOutOfRange, ErrorKind::Input, "indexOutOfRange"},
     {ErrorCode::MeshTooLarge, ErrorKind::Input, "meshTooLarge"},
     {ErrorCode::InputTooLarge, ErrorKind::Input, "inputTooLarge"},
+    {ErrorCode::NoValues, ErrorKind::Input, "noValues"},
+    {ErrorCode::TooFewValues, ErrorKind::Input, "tooFewValues"},
     {ErrorCode::NoVulkanLoader, ErrorKind::Device, "noVulkanLoader"},
     {ErrorCode::NoVulkanDriver, ErrorKind::Device, "noVulkanDriver"},
     {ErrorCode::NoUsableDevice, ErrorKind::Device, "noUsableDevice"},

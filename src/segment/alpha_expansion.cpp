@@ -1,0 +1,92 @@
+#include "segment/alpha_expansion.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/check.h"
+
+namespace asdfvk {
+namespace {
+
+constexpr double kMinRelativeDecrease = 1e-10;
+constexpr uint32_t kNoNode = std::numeric_limits<uint32_t>::max();
+
+}  // namespace
+
+double labelEnergy(const LabelProblem& problem, std::span<const uint32_t> labels) {
+  double energy = 0;
+  for (uint32_t face = 0; face < labels.size(); ++face) energy += problem.dataCost(face, labels[face]);
+  for (const LabelEdge& edge : problem.edges)
+    if (labels[edge.f] != labels[edge.g]) energy += edge.cost;
+  return energy;
+}
+
+double AlphaExpansion::minimize(const LabelProblem& problem, std::span<uint32_t> labels, const Limits& limits) {
+  ASDFVK_CHECK_OP(labels.size() * problem.labelCount, ==, problem.dataCosts.size());
+  double energy = labelEnergy(problem, labels);
+  ASDFVK_CHECK(std::isfinite(energy));
+  const uint32_t labelCount = std::min(limits.expandedLabelCount, problem.labelCount);
+  // An expansion after which nothing has changed would find the same again, and the label of the last change has been
+  // expanded as far as it can.
+  uint32_t unchangedCount = 0;
+  for (uint32_t round = 0; round < limits.maxRoundCount; ++round)
+    for (uint32_t label = 0; label < labelCount; ++label) {
+      if (unchangedCount == labelCount) return energy;
+      ++unchangedCount;
+      if (!expand(problem, labels, label)) continue;
+      const double lower = labelEnergy(problem, expanded_);
+      if (!(energy - lower > kMinRelativeDecrease * std::abs(energy))) continue;
+      std::copy(expanded_.begin(), expanded_.end(), labels.begin());
+      energy = lower;
+      unchangedCount = 1;
+    }
+  return energy;
+}
+
+// A node on the source's side takes the label. With x = 1 for such a node, an edge of cost w between nodes of equal
+// labels costs w where they differ in x: an edge of capacity w in both directions. If the labels differ, it costs
+// w unless both are 1: w - w/2 (x_f + x_g) plus w/2 where they differ in x.
+bool AlphaExpansion::expand(const LabelProblem& problem, std::span<const uint32_t> labels, uint32_t label) {
+  nodeOf_.resize(labels.size());
+  gains_.clear();
+  for (uint32_t face = 0; face < labels.size(); ++face) {
+    const double cost = problem.dataCost(face, label);
+    const bool canChange = labels[face] != label && std::isfinite(cost);
+    nodeOf_[face] = canChange ? static_cast<uint32_t>(gains_.size()) : kNoNode;
+    if (canChange) gains_.push_back(problem.dataCost(face, labels[face]) - cost);
+  }
+  flow_.reset(static_cast<uint32_t>(gains_.size()));
+  for (const LabelEdge& edge : problem.edges) {
+    const uint32_t f = nodeOf_[edge.f], g = nodeOf_[edge.g];
+    const bool isUncut = labels[edge.f] == labels[edge.g];
+    if (f != kNoNode && g != kNoNode) {
+      if (edge.cost == 0) continue;
+      const double capacity = isUncut ? edge.cost : edge.cost / 2;
+      flow_.addEdge(f, g, capacity, capacity);
+      if (!isUncut) {
+        gains_[f] += capacity;
+        gains_[g] += capacity;
+      }
+    } else if (f != kNoNode || g != kNoNode) {
+      // The other face keeps its label.
+      double& gain = gains_[f != kNoNode ? f : g];
+      if (isUncut)
+        gain -= edge.cost;
+      else if (labels[f != kNoNode ? edge.g : edge.f] == label)
+        gain += edge.cost;
+    }
+  }
+  if (std::none_of(gains_.begin(), gains_.end(), [](double gain) { return gain > 0; })) return false;
+  for (uint32_t node = 0; node < gains_.size(); ++node) flow_.addTerminal(node, gains_[node]);
+  static_cast<void>(flow_.solve());
+  bool isChanged = false;
+  expanded_.assign(labels.begin(), labels.end());
+  for (uint32_t face = 0; face < labels.size(); ++face)
+    if (nodeOf_[face] != kNoNode && flow_.isSource(nodeOf_[face])) {
+      expanded_[face] = label;
+      isChanged = true;
+    }
+  return isChanged;
+}
+
+}  // namespace asdfvk

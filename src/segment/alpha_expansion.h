@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "segment/max_flow.h"
+
+namespace asdfvk {
+
+/// Two faces that prefer equal labels.
+struct LabelEdge {
+  uint32_t f, g;  ///< Different faces.
+  double cost;    ///< Not negative; paid where their labels differ.
+};
+
+/// The energy of a labelling is the sum of the data costs of the faces and of the costs of cut edges (Potts model).
+struct LabelProblem {
+  uint32_t labelCount = 0;
+  std::span<const double> dataCosts;  ///< #F x labelCount, by face; infinite where a label is forbidden, never NaN.
+  std::span<const LabelEdge> edges;   ///< Several edges between two faces add up.
+
+  [[nodiscard]] uint32_t faceCount() const { return static_cast<uint32_t>(dataCosts.size() / labelCount); }
+  [[nodiscard]] double dataCost(uint32_t face, uint32_t label) const {
+    return dataCosts[size_t{face} * labelCount + label];
+  }
+};
+
+/// labels: #F, below problem.labelCount. Infinite where a label is forbidden.
+[[nodiscard]] double labelEnergy(const LabelProblem& problem, std::span<const uint32_t> labels);
+
+/// Alpha expansion: Y. Boykov, O. Veksler, R. Zabih: Fast Approximate Energy Minimization via Graph Cuts, PAMI 2001.
+/// Expanding a label gives it to the set of faces that lowers the energy most, of equal sets the one with the fewest
+/// faces. The graph has a node per face that can change, and no auxiliary nodes: V. Kolmogorov, R. Zabih: What Energy
+/// Functions Can Be Minimized via Graph Cuts?, PAMI 2004. Faces to which the label is forbidden have no node, so the
+/// work is that of the others, beside one pass over faces and edges. Deterministic. An object reuses its memory.
+class AlphaExpansion {
+ public:
+  struct Limits {
+    uint32_t expandedLabelCount = std::numeric_limits<uint32_t>::max();  ///< Only labels below are expanded.
+    uint32_t maxRoundCount = std::numeric_limits<uint32_t>::max();
+  };
+
+  /// Expands the labels in order, in rounds, until a round changes nothing. An expansion that does not lower the energy
+  /// by more than 1e-10 of it is not kept, so that rounding errors do not repeat for ever. labels: #F, below
+  /// problem.labelCount and allowed; they are improved in place. Returns their energy.
+  double minimize(const LabelProblem& problem, std::span<uint32_t> labels, const Limits& limits);
+  double minimize(const LabelProblem& problem, std::span<uint32_t> labels) { return minimize(problem, labels, {}); }
+
+ private:
+  /// Writes the labels after the best expansion to expanded_. False where no face changes.
+  bool expand(const LabelProblem& problem, std::span<const uint32_t> labels, uint32_t label);
+
+  MaxFlow flow_;
+  std::vector<uint32_t> nodeOf_;  ///< #F
+  std::vector<double> gains_;  ///< Per node: decrease of the energy if this face alone changes and no edge has a node
+                               ///< at both ends.
+  std::vector<uint32_t> expanded_;
+};
+
+}  // namespace asdfvk

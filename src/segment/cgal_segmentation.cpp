@@ -1,0 +1,123 @@
+#include "segment/cgal_segmentation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "asdf_vk/error.h"
+#include "core/check.h"
+#include "core/parallel.h"
+#include "segment/soft_clustering.h"
+
+namespace asdfvk {
+namespace {
+
+constexpr double kLeastArgument = 5e-6;  ///< Of the logarithms of the costs.
+constexpr double kConvexFactor = 0.08, kSmoothnessUnit = 100;
+
+double costOf(double argument) { return -std::log(std::max(kLeastArgument, argument)); }
+
+/// The edge runs from corner i of f to the next one.
+double edgeArgument(const FaceGeometry& geometry, const TriangleMesh& mesh, uint32_t f, uint32_t i, uint32_t g) {
+  if (geometry.isDegenerate(f) || geometry.isDegenerate(g)) return 0;
+  const Vec3d &ofF = geometry.normals[f], &ofG = geometry.normals[g];
+  // Unlike the arc cosine, accurate for small angles.
+  const double angle = std::atan2(length(cross(ofF, ofG)), dot(ofF, ofG));
+  const uint32_t from = mesh.faces[f][i], to = mesh.faces[f][(i + 1) % 3];
+  const Face& other = mesh.faces[g];
+  const uint32_t apex = *std::find_if(other.begin(), other.end(), [&](uint32_t v) { return v != from && v != to; });
+  const bool isConvex = dot(ofF, mesh.vertices[apex] - mesh.vertices[from]) < 0;
+  return angle / std::numbers::pi * (isConvex ? kConvexFactor : 1);
+}
+
+void requireValid(const CgalSegmentationOptions& options) {
+  if (!std::isfinite(options.smoothness))
+    throw Error(ErrorCode::OptionOutOfRange, fmt::format("a smoothness of {} is no number", options.smoothness));
+}
+
+}  // namespace
+
+CgalSegmentation segmentLikeCgal(const FaceGeometry& geometry, const TriangleMesh& mesh,
+                                 const FaceNeighbours& neighbours, std::span<const double> values,
+                                 const CgalSegmentationOptions& options) {
+  requireValid(options);
+  ASDFVK_CHECK_OP(values.size(), ==, mesh.faces.size());
+  ASDFVK_CHECK_OP(neighbours.size(), ==, mesh.faces.size());
+  if (values.empty()) throw Error(ErrorCode::NoValues, "there are no values to cluster");
+  std::vector<double> logarithms(values.size());
+  for (size_t face = 0; face < values.size(); ++face) logarithms[face] = std::log(5 * values[face] + 1) / std::log(6.0);
+  ASDFVK_CHECK(std::all_of(logarithms.begin(), logarithms.end(), [](double value) { return std::isfinite(value); }));
+  const uint32_t clusterCount = options.clusterCount;
+  SoftClustering clustering = clusterSoftly(logarithms, clusterCount);
+  std::vector<double>& costs = clustering.probabilities;
+  CgalSegmentation result;
+  result.clusters.resize(values.size());
+  forEachInParallel(values.size(), [&](uint32_t face) {
+    const auto row = std::span(costs).subspan(size_t{face} * clusterCount, clusterCount);
+    result.clusters[face] = static_cast<uint32_t>(std::max_element(row.begin(), row.end()) - row.begin());
+    for (double& cost : row) cost = costOf(cost);
+  });
+  const std::vector<LabelEdge> edges = cgalEdgeCosts(geometry, mesh, neighbours, options.smoothness);
+  const bool isFirstOnly = options.expansion == CgalExpansion::First;
+  result.energy = AlphaExpansion().minimize({clusterCount, costs, edges}, result.clusters,
+                                            {.expandedLabelCount = isFirstOnly ? 1 : clusterCount});
+  LabelComponents components = findLabelComponents(neighbours, result.clusters, values);
+  result.segments = std::move(components.componentOf);
+  result.segmentCount = components.componentCount;
+  return result;
+}
+
+std::vector<LabelEdge> cgalEdgeCosts(const FaceGeometry& geometry, const TriangleMesh& mesh,
+                                     const FaceNeighbours& neighbours, double smoothness) {
+  const auto isOwner = [&](uint32_t f, uint32_t i) { return neighbours[f][i] != kNoNeighbour && f < neighbours[f][i]; };
+  std::vector<uint32_t> firstEdge(neighbours.size() + 1);
+  for (uint32_t f = 0; f < neighbours.size(); ++f)
+    firstEdge[f + 1] = firstEdge[f] + isOwner(f, 0) + isOwner(f, 1) + isOwner(f, 2);
+  std::vector<LabelEdge> edges(firstEdge.back());
+  const double unit = kSmoothnessUnit * std::max(0.0, smoothness);
+  forEachInParallel(neighbours.size(), [&](uint32_t f) {
+    for (uint32_t i = 0, edge = firstEdge[f]; i < 3; ++i) {
+      if (!isOwner(f, i)) continue;
+      const uint32_t g = neighbours[f][i];
+      edges[edge++] = {f, g, unit * costOf(edgeArgument(geometry, mesh, f, i, g))};
+    }
+  });
+  return edges;
+}
+
+LabelComponents findLabelComponents(const FaceNeighbours& neighbours, std::span<const uint32_t> labels,
+                                    std::span<const double> values) {
+  constexpr uint32_t kNone = kNoNeighbour;
+  LabelComponents result{std::vector<uint32_t>(labels.size(), kNone)};
+  std::vector<uint32_t>& componentOf = result.componentOf;
+  std::vector<double> means;
+  std::vector<uint32_t> faces;
+  for (uint32_t first = 0; first < labels.size(); ++first) {
+    if (componentOf[first] != kNone) continue;
+    const auto component = static_cast<uint32_t>(means.size());
+    double sum = 0;
+    faces.assign(1, first);
+    componentOf[first] = component;
+    for (size_t i = 0; i < faces.size(); ++i) {
+      sum += values[faces[i]];
+      for (const uint32_t face : neighbours[faces[i]])
+        if (face != kNoNeighbour && componentOf[face] == kNone && labels[face] == labels[first]) {
+          componentOf[face] = component;
+          faces.push_back(face);
+        }
+    }
+    means.push_back(sum / static_cast<double>(faces.size()));
+  }
+  std::vector<uint32_t> order(means.size()), rankOf(means.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return means[a] < means[b]; });
+  for (uint32_t rank = 0; rank < order.size(); ++rank) rankOf[order[rank]] = rank;
+  for (uint32_t& component : componentOf) component = rankOf[component];
+  result.componentCount = static_cast<uint32_t>(means.size());
+  return result;
+}
+
+}  // namespace asdfvk

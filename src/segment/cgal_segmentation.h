@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "mesh/face_geometry.h"
+#include "segment/alpha_expansion.h"
+#include "segment/face_neighbours.h"
+
+/// The segmentation of CGAL's segmentation_from_sdf_values(), from its manual and from its outputs (version 5.5.1; no
+/// code of CGAL): L. Shapira, A. Shamir, D. Cohen-Or: Consistent Mesh Partitioning and Skeletonisation using the Shape
+/// Diameter Function, 2008. Soft clustering of the values, then a graph cut that prefers concave edges.
+namespace asdfvk {
+
+enum class CgalExpansion {
+  All,    ///< Every cluster is expanded: Shapira's method, and that of other versions of CGAL.
+  First,  ///< Only the cluster of the least values is expanded, as CGAL 5.5.1 does.
+};
+
+struct CgalSegmentationOptions {
+  uint32_t clusterCount = 5;  ///< 1 to kMaxClusterCount.
+  double smoothness = 0.26;   ///< Weight of the edge costs; below 0 is 0. CGAL's manual has 0 to 1.
+  CgalExpansion expansion = CgalExpansion::All;
+};
+
+struct CgalSegmentation {
+  std::vector<uint32_t> clusters;  ///< #F, ascending by their mean value.
+  std::vector<uint32_t> segments;  ///< #F: the connected faces of one cluster, numbered by ascending mean value.
+  uint32_t segmentCount = 0;
+  double energy = 0;  ///< Of the clusters, see LabelProblem.
+};
+
+/// values: #F, finite, not negative, normalised by postprocessLikeCgal(). The same labels as CGAL's from equal values
+/// on manifold meshes. The same result on any number of threads. Throws Error{NoValues} without faces,
+/// Error{OptionOutOfRange} and Error{TooFewValues} where there are fewer different values than clusters. Noise of 1e-3
+/// of the range may change many labels: the clustering is not stable.
+[[nodiscard]] CgalSegmentation segmentLikeCgal(const FaceGeometry& geometry, const TriangleMesh& mesh,
+                                               const FaceNeighbours& neighbours, std::span<const double> values,
+                                               const CgalSegmentationOptions& options);
+
+/// An edge per pair of neighbouring faces and common edge, ascending by face f < g. Its cost is
+///   100 max(0, smoothness) * -log(max(5e-6, s angle / pi)), angle: between the normals; s: 0.08 on a convex edge,
+///   else 1.
+/// The angle counts as 0 where a face is degenerate.
+[[nodiscard]] std::vector<LabelEdge> cgalEdgeCosts(const FaceGeometry& geometry, const TriangleMesh& mesh,
+                                                   const FaceNeighbours& neighbours, double smoothness);
+
+/// Components of neighbouring faces of equal label, numbered by ascending mean value, then by first face.
+struct LabelComponents {
+  std::vector<uint32_t> componentOf;  ///< #F
+  uint32_t componentCount = 0;
+};
+[[nodiscard]] LabelComponents findLabelComponents(const FaceNeighbours& neighbours, std::span<const uint32_t> labels,
+                                                  std::span<const double> values);
+
+}  // namespace asdfvk

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace asdfvk {
+
+/// Maximum flow and minimum cut between two terminals, source and sink, by the method of Y. Boykov and V. Kolmogorov:
+/// An Experimental Comparison of Min-Cut/Max-Flow Algorithms for Energy Minimization in Vision, PAMI 2004. Two search
+/// trees grow from the terminals; where they touch, flow is augmented; cut-off subtrees are adopted by other parents
+/// of their tree, the nearest to the terminal first, or become free.
+/// Usage: reset(), then capacities, then solve(), then the sides. The arrays are reused: an object that has solved a
+/// problem allocates nothing for another that is no larger. Deterministic. 28 bytes per node and 32 per edge.
+class MaxFlow {
+ public:
+  /// Nodes without capacities.
+  void reset(uint32_t nodeCount);
+
+  /// Adds `capacity` from the source to the node; negative: -capacity from the node to the sink. Capacities of one node
+  /// to both terminals cancel out: the flow through the node alone is not part of the value of solve(). Finite.
+  void addTerminal(uint32_t node, double capacity);
+
+  /// Adds an edge with a capacity in both directions, finite and not negative. Precondition: a != b.
+  void addEdge(uint32_t a, uint32_t b, double capacity, double reverseCapacity);
+
+  /// The value of the maximum flow; an empty graph has 0. Once per reset().
+  double solve();
+
+  /// Whether the node is on the source's side of the minimum cut: reachable from the source in the residual graph. Of
+  /// all minimum cuts this one has the fewest nodes on that side; nodes between the cuts are not source.
+  [[nodiscard]] bool isSource(uint32_t node) const { return nodes_[node].tree == Tree::Source; }
+
+  [[nodiscard]] uint32_t nodeCount() const { return static_cast<uint32_t>(nodes_.size()); }
+
+ private:
+  static constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
+  static constexpr uint32_t kTerminal = kNone - 1;  ///< Parent of a root.
+  static constexpr uint32_t kOrphan = kNone - 2;
+
+  enum class Tree : uint8_t { Free, Source, Sink };
+
+  struct Node {
+    uint32_t firstArc = kNone;
+    uint32_t parent = kNone;     ///< Arc to the parent, kTerminal, kOrphan, or kNone for a free node.
+    uint32_t checkedAt = 0;      ///< Time at which `distance` was valid.
+    uint32_t distance : 29 = 0;  ///< Arcs to the terminal, as far as known.
+    Tree tree : 2 = Tree::Free;
+    bool isActive : 1 = false;  ///< In the queue.
+    double terminal = 0;        ///< Residual capacity from the source, or minus that to the sink.
+  };
+
+  /// Arc 2 e is edge e from a to b, arc 2 e + 1 its reverse.
+  struct Arc {
+    uint32_t to;
+    uint32_t next;  ///< Of the same node.
+    double residual;
+  };
+
+  void activate(uint32_t node);
+  /// Grows the tree at an active node. Returns an arc from the source's tree to the sink's tree, or kNone.
+  uint32_t grow(uint32_t node);
+  void augment(uint32_t bridge);
+  void adoptOrphans();
+  void adopt(uint32_t orphan);
+  void makeOrphan(uint32_t node);
+  /// Arcs from the node to its terminal, kNone when it hangs on an orphan.
+  uint32_t distanceToTerminal(uint32_t node);
+  /// The residual capacity that a node of this tree has through `arc` to its child; for the sink: from its child.
+  [[nodiscard]] double residualToChild(Tree tree, uint32_t arc) const {
+    return arcs_[tree == Tree::Source ? arc : arc ^ 1].residual;
+  }
+
+  std::vector<Node> nodes_;
+  std::vector<Arc> arcs_;
+  std::vector<uint32_t> queue_;  ///< Ring of active nodes.
+  size_t queueBegin_ = 0, queueSize_ = 0;
+  std::vector<uint32_t> orphans_;
+  uint32_t time_ = 0;
+  double flow_ = 0;
+};
+
+}  // namespace asdfvk

@@ -1,0 +1,258 @@
+#include "segment/soft_clustering.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "asdf_vk/error.h"
+
+namespace asdfvk {
+namespace {
+
+constexpr uint32_t kMaxMoveCount = 10, kMaxMaximizationCount = 10;
+constexpr double kConvergedChange = 1e-3;  ///< Of the likelihood, relative.
+
+/// The generator rand48 of POSIX with CGAL's seed.
+class Rand48 {
+ public:
+  Rand48() { static_cast<void>(next()); }  // CGAL does not use the first number.
+
+  /// 31 bits.
+  uint32_t next() {
+    constexpr uint64_t kMask = (uint64_t{1} << 48) - 1;
+    state_ = (state_ * 0x5DEECE66D + 11) & kMask;
+    return static_cast<uint32_t>(state_ >> 17);
+  }
+
+  /// In [0, count), as boost::uniform_int draws it.
+  size_t index(size_t count) {
+    const size_t bucket = kRange / count;
+    for (;;)
+      if (const size_t drawn = next() / bucket; drawn < count) return drawn;
+  }
+
+  /// In [0, 1).
+  double real() { return next() / static_cast<double>(kRange); }
+
+ private:
+  static constexpr size_t kRange = size_t{1} << 31;
+  uint64_t state_ = uint64_t{1340818006} << 16 | 0x330E;
+};
+
+[[noreturn]] void refuse(uint32_t clusterCount) {
+  throw Error(ErrorCode::TooFewValues, fmt::format("fewer than {} different values; {} clusters need at least as many",
+                                                   clusterCount, clusterCount));
+}
+
+void requireDifferentValues(std::span<const double> values, uint32_t clusterCount) {
+  std::vector<double> different;
+  for (const double value : values) {
+    if (different.size() == clusterCount) return;
+    if (std::find(different.begin(), different.end(), value) == different.end()) different.push_back(value);
+  }
+  if (different.size() < clusterCount) refuse(clusterCount);
+}
+
+/// Each further seed is drawn with a probability proportional to the squared distance to the nearest seed before.
+std::vector<double> chooseSeeds(std::span<const double> values, uint32_t clusterCount) {
+  Rand48 random;
+  std::vector<double> seeds{values[random.index(values.size())]};
+  std::vector<double> squares(values.size(), std::numeric_limits<double>::infinity());
+  while (seeds.size() < clusterCount) {
+    double total = 0;
+    for (size_t i = 0; i < values.size(); ++i) {
+      const double distance = values[i] - seeds.back();
+      squares[i] = std::min(squares[i], distance * distance);
+      total += squares[i];
+    }
+    if (total == 0) refuse(clusterCount);  // The squares of all distances are too small for a double.
+    const double target = random.real() * total;
+    size_t chosen = 0, i = 0;
+    for (double sum = 0; i < values.size() && !(sum > target); ++i)
+      if (squares[i] > 0) {
+        sum += squares[i];
+        chosen = i;
+      }
+    seeds.push_back(values[chosen]);
+  }
+  return seeds;
+}
+
+/// Returns whether a value changed its cluster. The first of equally near centers.
+bool assignToNearest(std::span<const double> values, std::span<const double> centers, std::span<uint32_t> clusterOf) {
+  bool isChanged = false;
+  for (size_t i = 0; i < values.size(); ++i) {
+    uint32_t nearest = 0;
+    double least = std::abs(values[i] - centers[0]);
+    for (uint32_t c = 1; c < centers.size(); ++c) {
+      const double distance = std::abs(values[i] - centers[c]);
+      nearest = distance < least ? c : nearest;
+      least = std::min(least, distance);
+    }
+    isChanged |= clusterOf[i] != nearest;
+    clusterOf[i] = nearest;
+  }
+  return isChanged;
+}
+
+/// A center without values stays.
+void moveToMeans(std::span<const double> values, std::span<const uint32_t> clusterOf, std::span<double> centers) {
+  std::vector<double> sums(centers.size()), counts(centers.size());
+  for (size_t i = 0; i < values.size(); ++i) {
+    sums[clusterOf[i]] += values[i];
+    ++counts[clusterOf[i]];
+  }
+  for (size_t c = 0; c < centers.size(); ++c)
+    if (counts[c] > 0) centers[c] = sums[c] / counts[c];
+}
+
+struct Gaussian {
+  double mean, deviation, weight;
+
+  /// Up to the factor 1 / sqrt(2 pi). A deviation of 0 is 1 at the mean.
+  [[nodiscard]] double density(double value) const {
+    if (deviation == 0) return value == mean ? weight : 0;
+    const double ratio = (value - mean) / deviation;
+    return weight / deviation * std::exp(-0.5 * ratio * ratio);
+  }
+};
+
+class Mixture {
+ public:
+  /// Starts at the means of the clusters, with equal weights.
+  Mixture(std::span<const double> values, const HardClustering& clusters)
+      : values_(values), probabilities_(values.size() * clusters.centers.size()) {
+    std::vector<double> squares(clusters.centers.size()), counts(clusters.centers.size());
+    for (size_t i = 0; i < values.size(); ++i) {
+      const double distance = values[i] - clusters.centers[clusters.clusterOf[i]];
+      squares[clusters.clusterOf[i]] += distance * distance;
+      ++counts[clusters.clusterOf[i]];
+    }
+    const double weight = 1.0 / static_cast<double>(clusters.centers.size());
+    for (size_t c = 0; c < clusters.centers.size(); ++c)
+      gaussians_.push_back({clusters.centers[c], counts[c] > 0 ? std::sqrt(squares[c] / counts[c]) : 0, weight});
+  }
+
+  /// Sets the probabilities of the clusters; returns the logarithm of the likelihood, without constants.
+  double expect() {
+    return sumOverBlocks<1>([&](size_t begin, size_t end, size_t, std::array<double, 1>& sum) {
+      for (size_t i = begin; i < end; ++i) {
+        double* row = &probabilities_[i * gaussians_.size()];
+        double total = 0;
+        for (size_t c = 0; c < gaussians_.size(); ++c) total += row[c] = gaussians_[c].density(values_[i]);
+        if (!(total > 0)) total = row[nearest(values_[i])] = std::numeric_limits<double>::min();
+        sum[0] += std::log(total);
+        for (size_t c = 0; c < gaussians_.size(); ++c) row[c] /= total;
+      }
+    })[0];
+  }
+
+  /// Sets the Gaussians to the most likely ones for the probabilities.
+  void maximize() {
+    const size_t clusterCount = gaussians_.size();
+    for (size_t c = 0; c < clusterCount; ++c) {
+      const auto [share, first] = sumOverBlocks<2>([&](size_t begin, size_t end, size_t, std::array<double, 2>& sum) {
+        for (size_t i = begin; i < end; ++i) {
+          const double p = probabilities_[i * clusterCount + c];
+          sum[0] += p;
+          sum[1] += p * values_[i];
+        }
+      });
+      if (share == 0) {
+        gaussians_[c].weight = 0;
+        continue;
+      }
+      const double mean = first / share;
+      const double second = sumOverBlocks<1>([&](size_t begin, size_t end, size_t, std::array<double, 1>& sum) {
+        for (size_t i = begin; i < end; ++i) {
+          const double distance = values_[i] - mean;
+          sum[0] += probabilities_[i * clusterCount + c] * distance * distance;
+        }
+      })[0];
+      gaussians_[c] = {mean, std::sqrt(second / share), share / static_cast<double>(values_.size())};
+    }
+  }
+
+  [[nodiscard]] SoftClustering byMean() const {
+    std::vector<size_t> order(gaussians_.size());
+    std::iota(order.begin(), order.end(), size_t{0});
+    std::stable_sort(order.begin(), order.end(),
+                     [&](size_t a, size_t b) { return gaussians_[a].mean < gaussians_[b].mean; });
+    SoftClustering result;
+    result.probabilities.resize(probabilities_.size());
+    for (size_t c = 0; c < order.size(); ++c) {
+      const Gaussian& gaussian = gaussians_[order[c]];
+      result.means.push_back(gaussian.mean);
+      result.deviations.push_back(gaussian.deviation);
+      result.weights.push_back(gaussian.weight);
+      for (size_t i = 0; i < values_.size(); ++i)
+        result.probabilities[i * order.size() + c] = probabilities_[i * order.size() + order[c]];
+    }
+    return result;
+  }
+
+ private:
+  /// Of the means: for a value at which all densities underflow.
+  [[nodiscard]] size_t nearest(double value) const {
+    const auto isNearer = [&](const Gaussian& a, const Gaussian& b) {
+      return std::abs(value - a.mean) < std::abs(value - b.mean);
+    };
+    return static_cast<size_t>(std::min_element(gaussians_.begin(), gaussians_.end(), isNearer) - gaussians_.begin());
+  }
+
+  /// Sums of N numbers over blocks of fixed size, then over the blocks in order.
+  template <size_t N, typename Body>
+  [[nodiscard]] std::array<double, N> sumOverBlocks(const Body& body) const {
+    constexpr size_t kBlock = 4096;
+    std::vector<std::array<double, N>> sums((values_.size() + kBlock - 1) / kBlock);
+    tbb::parallel_for(size_t{0}, sums.size(), [&](size_t block) {
+      body(block * kBlock, std::min(values_.size(), (block + 1) * kBlock), block, sums[block]);
+    });
+    std::array<double, N> total{};
+    for (const std::array<double, N>& sum : sums)
+      for (size_t n = 0; n < N; ++n) total[n] += sum[n];
+    return total;
+  }
+
+  std::span<const double> values_;
+  std::vector<Gaussian> gaussians_;
+  std::vector<double> probabilities_;
+};
+
+}  // namespace
+
+HardClustering clusterByMeans(std::span<const double> values, uint32_t clusterCount) {
+  if (clusterCount < 1 || clusterCount > kMaxClusterCount)
+    throw Error(ErrorCode::OptionOutOfRange,
+                fmt::format("{} clusters is out of range (1 to {})", clusterCount, kMaxClusterCount));
+  requireDifferentValues(values, clusterCount);
+  HardClustering result{chooseSeeds(values, clusterCount), std::vector<uint32_t>(values.size())};
+  assignToNearest(values, result.centers, result.clusterOf);
+  bool isChanged = true;
+  for (uint32_t move = 0; move < kMaxMoveCount && isChanged; ++move) {
+    moveToMeans(values, result.clusterOf, result.centers);
+    isChanged = assignToNearest(values, result.centers, result.clusterOf);
+  }
+  return result;
+}
+
+SoftClustering clusterSoftly(std::span<const double> values, uint32_t clusterCount) {
+  Mixture mixture(values, clusterByMeans(values, clusterCount));
+  static_cast<void>(mixture.expect());
+  double before = 0;
+  for (uint32_t step = 0; step < kMaxMaximizationCount; ++step) {
+    mixture.maximize();
+    const double likelihood = mixture.expect();
+    // The first comparison is after the second step.
+    if (step > 0 && std::abs(likelihood - before) < kConvergedChange * std::abs(likelihood)) break;
+    before = likelihood;
+  }
+  return mixture.byMean();
+}
+
+}  // namespace asdfvk

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+/// Soft clustering of numbers by a Gaussian mixture, which k-means++ starts: the method, the random numbers and the
+/// limits of CGAL's segmentation_from_sdf_values(), from its outputs (version 5.5.1; no code of CGAL).
+namespace asdfvk {
+
+/// Clusters ascend by mean.
+struct SoftClustering {
+  std::vector<double> means, deviations, weights;  ///< Per cluster. A deviation may be 0; weights sum to 1.
+  std::vector<double> probabilities;  ///< #values x #clusters, by value: that of the cluster given the value.
+
+  [[nodiscard]] uint32_t clusterCount() const { return static_cast<uint32_t>(means.size()); }
+};
+
+inline constexpr uint32_t kMaxClusterCount = 100;
+
+/// Expectation and maximization (A. Dempster, N. Laird, D. Rubin: Maximum Likelihood from Incomplete Data via the EM
+/// Algorithm, 1977), at most 10 steps, from those of clusterByMeans(). values: finite. The same bits on any number
+/// of threads. Throws Error{OptionOutOfRange} for a number of clusters outside 1 .. kMaxClusterCount, and
+/// Error{TooFewValues} where there are fewer different values than clusters.
+[[nodiscard]] SoftClustering clusterSoftly(std::span<const double> values, uint32_t clusterCount);
+
+/// k-means (at most 10 steps) from the seeds of k-means++ (D. Arthur, S. Vassilvitskii: k-means++: The Advantages of
+/// Careful Seeding, SODA 2007).
+struct HardClustering {
+  std::vector<double> centers;      ///< In the order of the seeds.
+  std::vector<uint32_t> clusterOf;  ///< #values, of the nearest center.
+};
+
+/// Throws as clusterSoftly().
+[[nodiscard]] HardClustering clusterByMeans(std::span<const double> values, uint32_t clusterCount);
+
+}  // namespace asdfvk

@@ -1,0 +1,18 @@
+#include <filesystem>
+
+#include "asdf_vk/files.h"
+#include "cgal_comparison.h"
+#include "support/real_meshes.h"
+
+using namespace asdfvk;
+
+// bench/cgal_comparison.cpp has the long list.
+TEST_CASE("real meshes, open and closed: values and segments of CGAL") {
+  const auto folder = test::realMeshFolder();
+  if (!folder) return;
+  for (const char* name :
+       {"open/decimated-knight.off", "open/elephant-with-holes.off", "open/suzanne.obj", "models/cow.off"}) {
+    CAPTURE(name);
+    test::checkAgainstCgal(readMesh(*folder / name));
+  }
+}
