@@ -29,6 +29,7 @@ void MaxFlow::addEdge(uint32_t a, uint32_t b, double capacity, double reverseCap
 
 double MaxFlow::solve() {
   ASDFVK_CHECK_OP(arcs_.size(), <, size_t{kOrphan});
+  routeAlongForest();
   for (uint32_t node = 0; node < nodeCount(); ++node) {
     Node& n = nodes_[node];
     if (n.terminal == 0) continue;
@@ -51,6 +52,42 @@ double MaxFlow::solve() {
     }
   }
   return flow_;
+}
+
+// Moves what a node has from the source, or to the sink, to its parent in the tree as far as the edge carries it. That
+// changes the value of no cut but by what cancels out.
+void MaxFlow::routeAlongForest() {
+  constexpr size_t kMaxTreeSize = 512;  // 64 to 8,000 are as fast within the noise.
+  size_t begin = 0, end = 0;
+  for (uint32_t root = 0; root < nodeCount(); ++root) {
+    if (nodes_[root].parent != kNone) continue;
+    const size_t first = end;
+    nodes_[root].parent = kTerminal;
+    queue_[end++] = root;
+    for (; begin < end; ++begin)
+      for (uint32_t arc = nodes_[queue_[begin]].firstArc; arc != kNone && end - first < kMaxTreeSize;
+           arc = arcs_[arc].next) {
+        Node& child = nodes_[arcs_[arc].to];
+        if (child.parent != kNone) continue;
+        child.parent = arc ^ 1;
+        queue_[end++] = arcs_[arc].to;
+      }
+  }
+  while (end-- > 0) {
+    Node& n = nodes_[queue_[end]];
+    const uint32_t toParent = n.parent;
+    n.parent = kNone;
+    if (toParent == kTerminal) continue;
+    double& parentTerminal = nodes_[arcs_[toParent].to].terminal;
+    const bool isFromSource = n.terminal > 0;
+    const uint32_t forward = isFromSource ? toParent : toParent ^ 1;
+    const double amount = std::min(std::abs(n.terminal), arcs_[forward].residual);
+    arcs_[forward].residual -= amount;
+    arcs_[forward ^ 1].residual += amount;
+    if ((parentTerminal > 0) != isFromSource) flow_ += std::min(amount, std::abs(parentTerminal));
+    n.terminal -= isFromSource ? amount : -amount;
+    parentTerminal += isFromSource ? amount : -amount;
+  }
 }
 
 void MaxFlow::activate(uint32_t node) {

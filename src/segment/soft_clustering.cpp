@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "asdf_vk/error.h"
 
@@ -15,6 +16,7 @@ namespace asdfvk {
 namespace {
 
 constexpr uint32_t kMaxMoveCount = 10, kMaxMaximizationCount = 10;
+constexpr double kMinProduct = 1e-200;
 constexpr double kConvergedChange = 1e-3;  ///< Of the likelihood, relative.
 
 /// The generator rand48 of POSIX with CGAL's seed.
@@ -113,12 +115,13 @@ void moveToMeans(std::span<const double> values, std::span<const uint32_t> clust
 
 struct Gaussian {
   double mean, deviation, weight;
+  double factor = weight / deviation, exponent = -0.5 / (deviation * deviation);
 
   /// Up to the factor 1 / sqrt(2 pi). A deviation of 0 is 1 at the mean.
   [[nodiscard]] double density(double value) const {
-    if (deviation == 0) return value == mean ? weight : 0;
-    const double ratio = (value - mean) / deviation;
-    return weight / deviation * std::exp(-0.5 * ratio * ratio);
+    const double distance = value - mean;
+    if (std::isinf(exponent)) return distance == 0 ? weight : 0;
+    return factor * std::exp(exponent * distance * distance);
   }
 };
 
@@ -141,14 +144,20 @@ class Mixture {
   /// Sets the probabilities of the clusters; returns the logarithm of the likelihood, without constants.
   double expect() {
     return sumOverBlocks<1>([&](size_t begin, size_t end, size_t, std::array<double, 1>& sum) {
+      double product = 1;  // Of likelihoods: a logarithm takes long.
       for (size_t i = begin; i < end; ++i) {
         double* row = &probabilities_[i * gaussians_.size()];
         double total = 0;
         for (size_t c = 0; c < gaussians_.size(); ++c) total += row[c] = gaussians_[c].density(values_[i]);
-        if (!(total > 0)) total = row[nearest(values_[i])] = std::numeric_limits<double>::min();
-        sum[0] += std::log(total);
-        for (size_t c = 0; c < gaussians_.size(); ++c) row[c] /= total;
+        if (!(total > 0)) total = row[nearest(values_[i])] = kMinProduct;
+        if (product * total < kMinProduct || product * total > 1 / kMinProduct)
+          sum[0] += std::log(std::exchange(product, 1)) + std::log(total);
+        else
+          product *= total;
+        const double inverse = 1 / total;
+        for (size_t c = 0; c < gaussians_.size(); ++c) row[c] *= inverse;
       }
+      sum[0] += std::log(product);
     })[0];
   }
 
@@ -164,7 +173,7 @@ class Mixture {
         }
       });
       if (share == 0) {
-        gaussians_[c].weight = 0;
+        gaussians_[c] = {gaussians_[c].mean, gaussians_[c].deviation, 0};
         continue;
       }
       const double mean = first / share;

@@ -21,6 +21,7 @@ inline void checkAgainstCgal(const Mesh& source) {
   const std::vector<double> raw = oracle.rawValues();
   const CgalOracle::Values expected = oracle.postprocess(raw);
   const FaceNeighbours neighbours = findFaceNeighbours(mesh);
+  CHECK(findFaceNeighbours(source) == neighbours);
   const CgalValues values = postprocessLikeCgal(neighbours, raw);
   CHECK(values.least == doctest::Approx(expected.least).epsilon(1e-12));
   CHECK(values.greatest == doctest::Approx(expected.greatest).epsilon(1e-12));

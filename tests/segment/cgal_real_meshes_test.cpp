@@ -10,8 +10,8 @@ using namespace asdfvk;
 TEST_CASE("real meshes, open and closed: values and segments of CGAL") {
   const auto folder = test::realMeshFolder();
   if (!folder) return;
-  for (const char* name :
-       {"open/decimated-knight.off", "open/elephant-with-holes.off", "open/suzanne.obj", "models/cow.off"}) {
+  for (const char* name : {"open/decimated-knight.off", "open/elephant-with-holes.off", "open/suzanne.obj",
+                           "open/teapot.obj", "models/cow.off"}) {
     CAPTURE(name);
     test::checkAgainstCgal(readMesh(*folder / name));
   }
