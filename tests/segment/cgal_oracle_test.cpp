@@ -7,7 +7,7 @@
 using namespace asdfvk;
 
 TEST_CASE("generated shapes: values and segments of CGAL") {
-  for (const char* shape : {"animal", "figure", "cylinder"}) {
+  for (const std::string shape : {"animal", "figure", "cylinder"}) {
     CAPTURE(shape);
     test::checkAgainstCgal(generateShape(shape, 1000).mesh);
   }

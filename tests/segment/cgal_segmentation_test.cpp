@@ -112,7 +112,7 @@ TEST_CASE("a smoothness that is no number is refused") {
 }
 
 TEST_CASE("all labels expanded: the energy of the slow twin, never above that of the first label only") {
-  for (const char* shape : {"animal", "hand", "figure"})
+  for (const std::string shape : {"animal", "hand", "figure"})
     for (const uint64_t faceCount : {400u, 5000u})
       for (const test::Setting& setting : test::kSettings) {
         CAPTURE(shape);

@@ -41,6 +41,18 @@ TEST_CASE("faces of opposite winding, of edges with three faces, and broken face
   CHECK(findFaceNeighbours(Mesh{vertices, {{0, 1, 2}, {1, 0, 5}}, {}}) == FaceNeighbours{none, none});
 }
 
+TEST_CASE("an edge where two closed surfaces touch joins the faces of each") {
+  // Two tetrahedra with the common edge 0-1.
+  const std::vector<Vec3d> vertices{{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {1, 1, 0}, {-1, 0, 0}, {-1, -1, 0}};
+  const Mesh both{
+      vertices, {{0, 2, 3}, {0, 1, 2}, {1, 0, 3}, {1, 3, 2}, {0, 4, 5}, {0, 1, 4}, {1, 0, 5}, {1, 5, 4}}, {}};
+  const FaceNeighbours neighbours = findFaceNeighbours(both);
+  CHECK(neighbours[1][0] == 2);
+  CHECK(neighbours[2][0] == 1);
+  CHECK(neighbours[5][0] == 6);
+  CHECK(neighbours[6][0] == 5);
+}
+
 TEST_CASE("on a closed surface the neighbours are those of the dual graph") {
   const Mesh mesh = generateShape("torus", 2000).mesh;
   const DualGraph graph = buildDualGraph(mesh);
