@@ -20,10 +20,22 @@ constexpr double kConvexFactor = 0.08, kSmoothnessUnit = 100;
 
 double costOf(double argument) { return -std::log(std::max(kLeastArgument, argument)); }
 
-/// The edge runs from corner i of f to the next one.
+/// Unit also where a face is degenerate but the cross product is not 0; rounding errors may dominate it then.
+Vec3d normalOf(const FaceGeometry& geometry, const TriangleMesh& mesh, uint32_t face) {
+  if (!geometry.isDegenerate(face)) return geometry.normals[face];
+  const auto [a, b, c] = mesh.faces[face];
+  const Vec3d normal = cross(mesh.vertices[b] - mesh.vertices[a], mesh.vertices[c] - mesh.vertices[a]);
+  return normal == Vec3d{} ? normal : normal / length(normal);
+}
+
+/// The edge runs from corner i of f to the next one. An angle at a face of no area is 0 or pi by the signs of zeros in
+/// CGAL, and the edge convex. Known for faces g without area only; with f it does not always agree.
 double edgeArgument(const FaceGeometry& geometry, const TriangleMesh& mesh, uint32_t f, uint32_t i, uint32_t g) {
-  if (geometry.isDegenerate(f) || geometry.isDegenerate(g)) return 0;
-  const Vec3d &ofF = geometry.normals[f], &ofG = geometry.normals[g];
+  const Vec3d ofF = normalOf(geometry, mesh, f), ofG = normalOf(geometry, mesh, g);
+  if (ofF == Vec3d{} || ofG == Vec3d{}) {
+    const Vec3d signs = ofF == Vec3d{} ? -ofG : ofF;
+    return signs.x > 0 && signs.y > 0 && signs.z > 0 ? 0 : kConvexFactor;
+  }
   // Unlike the arc cosine, accurate for small angles.
   const double angle = std::atan2(length(cross(ofF, ofG)), dot(ofF, ofG));
   const uint32_t from = mesh.faces[f][i], to = mesh.faces[f][(i + 1) % 3];

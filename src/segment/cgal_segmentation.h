@@ -42,7 +42,8 @@ struct CgalSegmentation {
 /// An edge per pair of neighbouring faces and common edge, ascending by face f < g. Its cost is
 ///   100 max(0, smoothness) * -log(max(5e-6, s angle / pi)), angle: between the normals; s: 0.08 on a convex edge,
 ///   else 1.
-/// The angle counts as 0 where a face is degenerate.
+/// Where g has no area, s angle / pi is 0 if all components of the normal of f are positive, else 0.08, as CGAL
+/// computes it; where f has none, 0 if all components of the normal of g are negative, else 0.08.
 [[nodiscard]] std::vector<LabelEdge> cgalEdgeCosts(const FaceGeometry& geometry, const TriangleMesh& mesh,
                                                    const FaceNeighbours& neighbours, double smoothness);
 

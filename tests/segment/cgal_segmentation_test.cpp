@@ -46,6 +46,19 @@ TEST_CASE("a flat edge costs most, a convex one more than a concave one of equal
   CHECK(costAtAngle(1, -3) == 0);
 }
 
+TEST_CASE("at a face of no area the edge is convex and folded, or flat by the signs of the other's normal") {
+  const auto costs = [](const std::vector<Face>& faces) {
+    // Corner 2 is on the edge 0-1; the normal of 0, 1, 3 is (1, 1, 1) times a number.
+    const Mesh mesh{{{0, 0, 0}, {2, -2, 0}, {1, -1, 0}, {0, 2, -2}}, faces, {}};
+    return cgalEdgeCosts(computeFaceGeometry(mesh), mesh, findFaceNeighbours(mesh), 0.01).at(0).cost;
+  };
+  const double flat = -std::log(5e-6), folded = -std::log(0.08);
+  CHECK(costs({{0, 1, 3}, {1, 0, 2}}) == doctest::Approx(flat));
+  CHECK(costs({{1, 0, 3}, {0, 1, 2}}) == doctest::Approx(folded));
+  CHECK(costs({{1, 0, 2}, {0, 1, 3}}) == doctest::Approx(folded));
+  CHECK(costs({{0, 1, 2}, {1, 0, 3}}) == doctest::Approx(flat));
+}
+
 TEST_CASE("a common edge has one cost, a border none") {
   const std::vector<LabelEdge> edges = edgesAtAngle(1, 1);
   REQUIRE(edges.size() == 1);
