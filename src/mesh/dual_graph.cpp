@@ -5,39 +5,17 @@
 
 #include <algorithm>
 #include <array>
-#include <compare>
 #include <utility>
 
-#include "core/buckets.h"
+#include "asdf_vk/error.h"
+#include "core/parallel.h"
+#include "mesh/edges.h"
 
 namespace asdfvk {
 namespace {
 
 constexpr uint32_t kNoNeighbour = UINT32_MAX;
 constexpr uint32_t kMany = UINT32_MAX - 1;  ///< The edge's arcs are among the further ones.
-
-/// A face at an edge. Entries are in buckets by the edge's lower vertex and ordered by its upper vertex, then by face.
-/// 36 bytes per face.
-struct EdgeEntry {
-  uint32_t upperVertex;
-  uint32_t corner;  ///< 3 f + i: the edge runs from corner i of face f to the next one.
-
-  [[nodiscard]] uint32_t face() const { return corner / 3; }
-  auto operator<=>(const EdgeEntry&) const = default;
-};
-
-/// Calls put(lowerVertex, entry) for each edge of a face. An edge between a vertex and itself is ignored; a face that
-/// traverses an edge twice, a-b-a, is entered once.
-template <typename Put>
-void putEdges(const Face& face, uint32_t f, const Put& put) {
-  const auto [a, b, c] = face;
-  const auto putEdge = [&](uint32_t p, uint32_t q, uint32_t i) {
-    if (p != q) put(std::min(p, q), EdgeEntry{std::max(p, q), 3 * f + i});
-  };
-  putEdge(a, b, 0);
-  if (c != a) putEdge(b, c, 1);
-  if (b != c && a != b) putEdge(c, a, 2);
-}
 
 /// From a face to a neighbour.
 using Arc = std::pair<uint32_t, uint32_t>;
@@ -79,17 +57,10 @@ class Survey {
 
  private:
   void visitEdges() {
-    const StagedEntries<EdgeEntry> entries(mesh_.vertices.size(), mesh_.faces.size(), [&](uint32_t f, auto&& put) {
-      if (hasFiniteVertices_ || mesh_.hasFiniteCorners(f)) putEdges(mesh_.faces[f], f, put);
-    });
-    entries.forEachBucket([&](uint32_t lower, std::span<const EdgeEntry> bucket) {
-      for (size_t begin = 0, end = 0; begin < bucket.size(); begin = end) {
-        const uint32_t upper = bucket[begin].upperVertex;
-        while (end < bucket.size() && bucket[end].upperVertex == upper) ++end;
-        const std::span<const EdgeEntry> around = bucket.subspan(begin, end - begin);
-        join(around);
-        classify(lower, around);
-      }
+    const EdgeTable edges(mesh_, [&](uint32_t f) { return hasFiniteVertices_ || mesh_.hasFiniteCorners(f); });
+    edges.forEachEdge([&](uint32_t lower, std::span<const EdgeEntry> around) {
+      join(around);
+      classify(lower, around);
     });
   }
 

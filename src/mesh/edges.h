@@ -1,0 +1,57 @@
+#pragma once
+
+#include <algorithm>
+#include <compare>
+#include <cstdint>
+#include <span>
+
+#include "core/buckets.h"
+#include "mesh/mesh.h"
+
+namespace asdfvk {
+
+/// A face at an edge. Entries of an edge are ordered by face.
+struct EdgeEntry {
+  uint32_t upperVertex;
+  uint32_t corner;  ///< 3 f + i: the edge runs from corner i of face f to the next one.
+
+  [[nodiscard]] uint32_t face() const { return corner / 3; }
+  auto operator<=>(const EdgeEntry&) const = default;
+};
+
+/// The faces around every edge, in buckets by the lower vertex of the edge. 36 bytes per face.
+class EdgeTable {
+ public:
+  /// Faces for which takesPart(face) is false have no edges; an edge between a vertex and itself is ignored; a face
+  /// that traverses an edge twice, a-b-a, is entered once. Precondition: every index of a face is below the vertex
+  /// count.
+  template <typename TakesPart>
+  EdgeTable(const TriangleMesh& mesh, const TakesPart& takesPart)
+      : entries_(mesh.vertices.size(), mesh.faces.size(), [&](uint32_t f, auto&& put) {
+          if (!takesPart(f)) return;
+          const auto [a, b, c] = mesh.faces[f];
+          const auto putEdge = [&](uint32_t p, uint32_t q, uint32_t i) {
+            if (p != q) put(std::min(p, q), EdgeEntry{std::max(p, q), 3 * f + i});
+          };
+          putEdge(a, b, 0);
+          if (c != a) putEdge(b, c, 1);
+          if (b != c && a != b) putEdge(c, a, 2);
+        }) {}
+
+  /// Calls visit(lowerVertex, entries) once for every edge, in parallel.
+  template <typename Visit>
+  void forEachEdge(const Visit& visit) const {
+    entries_.forEachBucket([&](uint32_t lower, std::span<const EdgeEntry> bucket) {
+      for (size_t begin = 0, end = 0; begin < bucket.size(); begin = end) {
+        const uint32_t upper = bucket[begin].upperVertex;
+        while (end < bucket.size() && bucket[end].upperVertex == upper) ++end;
+        visit(lower, bucket.subspan(begin, end - begin));
+      }
+    });
+  }
+
+ private:
+  StagedEntries<EdgeEntry> entries_;
+};
+
+}  // namespace asdfvk
