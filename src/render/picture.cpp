@@ -7,6 +7,7 @@
 #include "render/camera.h"
 #include "render/colour_bar.h"
 #include "render/drawing.h"
+#include "render/label_colours.h"
 #include "render/mesh_renderer.h"
 #include "render/scene.h"
 
@@ -18,6 +19,7 @@ constexpr Rgb kNeutral{210, 209, 204}, kHighlight{206, 38, 30};
 constexpr double kCapHeightShare = 0.026, kMarginShare = 0.04;
 
 std::vector<Rgb> faceColoursOf(const Picture& picture, const ColourRange& range) {
+  if (!picture.labels.empty()) return labelColours(picture.scene.mesh, picture.scene.geometry.areas, picture.labels);
   std::vector<Rgb> colours(picture.scene.mesh.faceCount(), kNeutral);
   for (size_t face = 0; face < picture.values.size(); ++face) {
     const Rgba colour = colourOf(picture.values[face], range);
@@ -44,6 +46,7 @@ Image render(const Picture& picture, const RunControl& control) {
   ASDFVK_CHECK(kMinPictureSide <= picture.height && picture.height <= kMaxPictureSide);
   ASDFVK_CHECK(picture.values.empty() || picture.values.size() == picture.scene.mesh.faces.size());
   ASDFVK_CHECK(picture.highlighted.empty() || picture.highlighted.size() == picture.scene.mesh.faces.size());
+  ASDFVK_CHECK(picture.labels.empty() || picture.labels.size() == picture.scene.mesh.faces.size());
   control.checkpoint(0);
 
   Image image(picture.width, picture.height);
