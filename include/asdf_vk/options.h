@@ -74,6 +74,31 @@ struct SmoothingOptions {
   std::optional<Window> window;  ///< Unset: chosen by the number of faces.
 };
 
+/// Treatment of the finished values, for the field "normalized".
+enum class Postprocess {
+  None,
+  Cgal,  ///< As CGAL's sdf_values_postprocessing(): missing values filled, bilateral filter, mapped to [0, 1].
+};
+
+/// Division of the mesh by its values, for the field "segment".
+enum class Segmentation {
+  None,
+  Cgal,  ///< As CGAL's segmentation_from_sdf_values(); implies Postprocess::Cgal.
+};
+
+enum class CgalExpansion {
+  All,    ///< Every cluster is expanded: the method of Shapira et al. 2008, and that of other versions of CGAL.
+  First,  ///< Only the cluster of the least values is expanded, as CGAL 5.5.1 does.
+};
+
+struct CgalSegmentationOptions {
+  uint32_t clusterCount = 5;  ///< Of values, 2 to kMaxClusterCount. A cluster may have several segments, or none.
+  double smoothness = 0.26;   ///< Weight of the edge costs, 0 to kMaxSmoothness. CGAL's manual has 0 to 1.
+  CgalExpansion expansion = CgalExpansion::All;
+};
+inline constexpr uint32_t kMaxClusterCount = 100;
+inline constexpr double kMaxSmoothness = 1000;
+
 /// Conditions under which further rounds of seeds are added. A round keeps the traced values of all earlier rounds.
 struct RoundOptions {
   std::optional<double> maxError;           ///< Until the estimated average error is at most this share of the range.
@@ -97,6 +122,9 @@ struct Options {
   uint64_t randomSeed = 1;  ///< The same seed, mesh, options and device give the same bits.
   InterpolationOptions interpolation;
   SmoothingOptions smoothing;
+  Postprocess postprocess = Postprocess::None;
+  Segmentation segmentation = Segmentation::None;
+  CgalSegmentationOptions cgalSegmentation;  ///< Ignored unless `segmentation` is Cgal.
   bool estimatesError = true;
   RoundOptions rounds;
   std::string solver = "auto";
@@ -106,6 +134,10 @@ struct Options {
   /// recomputes.
   std::optional<uint64_t> checkCount;
   bool keepsScene = false;  ///< Keep geometry and hierarchy in Result::scene, for a picture.
+
+  [[nodiscard]] bool postprocesses() const {
+    return postprocess == Postprocess::Cgal || segmentation == Segmentation::Cgal;
+  }
 };
 
 /// Sets of options. The defaults of Options are those of Balanced.

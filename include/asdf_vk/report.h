@@ -27,9 +27,11 @@ enum class Stage {
   Solve,     ///< Poisson equation.
   Estimate,  ///< Error estimate, with the predictions and solutions it needs.
   Smooth,
+  Postprocess,  ///< Values to [0, 1], with the neighbours of each face.
+  Segment,
   Write,
 };
-inline constexpr size_t kStageCount = 13;
+inline constexpr size_t kStageCount = 15;
 /// "read", "geometry", ...
 [[nodiscard]] ASDFVK_API const char* nameOf(Stage stage);
 
@@ -129,6 +131,16 @@ struct ValueRange {
   double min = kNoValue, median = kNoValue, max = kNoValue;
 };
 
+/// The smoothed values before Postprocess maps them to [0, 1], in the unit of the mesh.
+struct PostprocessReport {
+  double least = 0, greatest = 0;
+};
+
+/// The labels of the field "segment" are 0 .. segmentCount - 1; each has a face.
+struct SegmentationReport {
+  uint32_t segmentCount = 0;
+};
+
 /// Names of the variant of the Vulkan kernels.
 struct TraceVariant {
   std::string kernel;  ///< "seed", "ray" or "packet"
@@ -155,6 +167,8 @@ struct Report {
   double raysPerSecond = 0;
   SolverReport solver;
   ValueRange sdf;
+  std::optional<PostprocessReport> postprocess;    ///< Set where the result has the field "normalized".
+  std::optional<SegmentationReport> segmentation;  ///< Set where the result has the field "segment".
   MeshDefects defects;
   std::vector<uint64_t> reversedFaces;  ///< Input faces that Options::orientation reversed, ascending.
   std::vector<Warning> warnings;

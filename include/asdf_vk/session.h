@@ -25,8 +25,12 @@ struct SessionOptions {
   TraceVariant variant;     ///< Empty members: the default of the device. Other values require Vulkan.
 };
 
-/// Result of a computation. Fields: "sdf" (the shape diameter in the unit of the mesh), "seed" (1 where rays were cast)
-/// and, with an estimate, "error" (expected error in the unit of the mesh; 0 at seeds that keep their value).
+/// The entry of the field "segment" for an input face without a triangle.
+inline constexpr uint32_t kNoSegment = 0xffffffff;
+
+/// Result of a computation. Fields: "sdf" (the shape diameter in the unit of the mesh), "seed" (1 where rays were
+/// cast); with an estimate "error" (expected error in the unit of the mesh; 0 at seeds that keep their value); with
+/// Options::postprocess "normalized" (0 to 1); with Options::segmentation "segment" (ascending by the mean value).
 struct Result {
   std::vector<Field> fields;
   Report report;

@@ -27,6 +27,14 @@ inline constexpr ChoiceNames<Guidance, 3> kGuidances{
 inline constexpr ChoiceNames<Orientation, 3> kOrientations{
     {{"keep", Orientation::Keep}, {"auto", Orientation::Auto}, {"flip", Orientation::Flip}}};
 
+inline constexpr ChoiceNames<Postprocess, 2> kPostprocesses{{{"none", Postprocess::None}, {"cgal", Postprocess::Cgal}}};
+
+inline constexpr ChoiceNames<Segmentation, 2> kSegmentations{
+    {{"none", Segmentation::None}, {"cgal", Segmentation::Cgal}}};
+
+inline constexpr ChoiceNames<CgalExpansion, 2> kCgalExpansions{
+    {{"all", CgalExpansion::All}, {"first", CgalExpansion::First}}};
+
 /// "paper|balanced|quality"
 template <typename T, size_t N>
 [[nodiscard]] std::string joined(const ChoiceNames<T, N>& names) {

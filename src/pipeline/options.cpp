@@ -58,6 +58,13 @@ void requireValid(const Options& options) {
     throw Error(ErrorCode::OptionConflict, "pooling needs the prediction; choose guidance by prediction");
   (void)samplerOf(options);
   if (options.smoothing.window) requireValid(*options.smoothing.window);
+  const CgalSegmentationOptions& cgal = options.cgalSegmentation;
+  if (options.segmentation == Segmentation::Cgal) {
+    if (cgal.clusterCount < 2 || cgal.clusterCount > kMaxClusterCount)
+      fail(fmt::format("{} clusters are out of range (2 to {})", cgal.clusterCount, kMaxClusterCount));
+    if (!(cgal.smoothness >= 0 && cgal.smoothness <= kMaxSmoothness))
+      fail(fmt::format("a smoothness of {} is out of range (0 to {})", cgal.smoothness, kMaxSmoothness));
+  }
   if (options.rounds.maxError && !(*options.rounds.maxError > 0))
     fail(fmt::format("a maximum error of {} is out of range; give more than 0", *options.rounds.maxError));
   if (options.rounds.timeBudgetSeconds && !(*options.rounds.timeBudgetSeconds > 0))

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <utility>
 
 #include "core/median.h"
 #include "core/text.h"
@@ -59,6 +60,18 @@ ValueRange rangeOf(const std::vector<double>& values) {
   return range;
 }
 
+/// Numbers the labels in use 0, 1, ... in their order.
+void renumber(std::vector<uint32_t>& labels, size_t labelCount) {
+  std::vector<uint32_t> newLabels(labelCount, kNoSegment);
+  for (const uint32_t label : labels)
+    if (label != kNoSegment) newLabels[label] = 0;
+  uint32_t count = 0;
+  for (uint32_t& label : newLabels)
+    if (label != kNoSegment) label = count++;
+  for (uint32_t& label : labels)
+    if (label != kNoSegment) label = newLabels[label];
+}
+
 }  // namespace
 
 std::vector<double> valuesOfInputFaces(const TriangleMesh& mesh, std::span<const double> values,
@@ -86,6 +99,32 @@ std::vector<uint8_t> seedsOfInputFaces(const TriangleMesh& mesh, std::span<const
   return seeds;
 }
 
+std::vector<uint32_t> segmentsOfInputFaces(const TriangleMesh& mesh, std::span<const uint32_t> segments,
+                                           std::span<const double> areas) {
+  if (mesh.polygons.isEmpty()) return {segments.begin(), segments.end()};
+  std::vector<uint32_t> labels(mesh.inputFaceCount(), kNoSegment);
+  std::vector<std::pair<uint32_t, double>> areaOf;  // Of the labels of a polygon.
+  uint32_t labelCount = 0;
+  for (uint32_t begin = 0, end = 0; begin < mesh.faceCount(); begin = end) {
+    const uint32_t inputFace = mesh.inputFaceOf(begin);
+    areaOf.clear();
+    for (; end < mesh.faceCount() && mesh.inputFaceOf(end) == inputFace; ++end)
+      areaOf.emplace_back(segments[end], areas[end]);
+    std::stable_sort(areaOf.begin(), areaOf.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    double largest = -1, area = 0;
+    for (size_t i = 0; i < areaOf.size(); ++i) {
+      const auto [label, share] = areaOf[i];
+      area = i > 0 && areaOf[i - 1].first == label ? area + share : share;
+      if (area <= largest) continue;
+      largest = area;
+      labels[inputFace] = label;
+    }
+    labelCount = std::max(labelCount, areaOf.back().first + 1);
+  }
+  renumber(labels, labelCount);
+  return labels;
+}
+
 void describeValues(Report& report, const PreparedMesh& prepared, const std::vector<double>& sdf,
                     std::span<const double> values) {
   report.sdf = rangeOf(sdf);
@@ -107,9 +146,9 @@ void describeValues(Report& report, const PreparedMesh& prepared, const std::vec
 }
 
 const char* nameOf(Stage stage) {
-  constexpr std::array<const char*, kStageCount> kNames{"read",     "geometry", "graph", "bvh",     "encode",
-                                                        "upload",   "sample",   "trace", "predict", "solve",
-                                                        "estimate", "smooth",   "write"};
+  constexpr std::array<const char*, kStageCount> kNames{"read",     "geometry", "graph",       "bvh",     "encode",
+                                                        "upload",   "sample",   "trace",       "predict", "solve",
+                                                        "estimate", "smooth",   "postprocess", "segment", "write"};
   return kNames[static_cast<size_t>(stage)];
 }
 

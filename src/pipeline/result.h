@@ -18,6 +18,12 @@ namespace asdfvk {
 /// 1 where any triangle of the input face is a seed. isSeed: #F. Returns #I.
 [[nodiscard]] std::vector<uint8_t> seedsOfInputFaces(const TriangleMesh& mesh, std::span<const uint8_t> isSeed);
 
+/// Segments of input faces from those of triangles (#F): that with the largest area in the polygon, the lowest of equal
+/// ones; kNoSegment for a polygon without a triangle. Returns #I. Labels that no input face has are removed, and the
+/// others keep their order.
+[[nodiscard]] std::vector<uint32_t> segmentsOfInputFaces(const TriangleMesh& mesh, std::span<const uint32_t> segments,
+                                                         std::span<const double> areas);
+
 /// Adds to the report: the range of the values, the number of missing values, warnings about values and solver. sdf:
 /// #I. values: #F.
 void describeValues(Report& report, const PreparedMesh& prepared, const std::vector<double>& sdf,

@@ -8,6 +8,7 @@
 #include "pipeline/computation.h"
 #include "pipeline/result.h"
 #include "pipeline/rounds.h"
+#include "pipeline/segments.h"
 #include "pipeline/valid_options.h"
 #include "smooth/bilateral.h"
 #include "trace/scene_data.h"
@@ -46,8 +47,8 @@ void describeRounds(Report& report, const RoundsResult& rounds) {
   if (rounds.errors) report.estimatedError = rounds.errors->estimate;
 }
 
-std::vector<Field> fieldsOf(const PreparedMesh& prepared, const RoundsResult& rounds,
-                            const std::vector<double>& values) {
+std::vector<Field> fieldsOf(const PreparedMesh& prepared, const RoundsResult& rounds, const std::vector<double>& values,
+                            SegmentedValues&& segmented) {
   const std::vector<double>& areas = prepared.geometry.areas;
   std::vector<Field> fields;
   fields.push_back({.name = "sdf",
@@ -61,12 +62,18 @@ std::vector<Field> fieldsOf(const PreparedMesh& prepared, const RoundsResult& ro
                       .label = "expected error",
                       .unit = "length",
                       .values = valuesOfInputFaces(prepared.mesh, rounds.errors->expected, areas)});
+  if (!segmented.normalized.empty())
+    fields.push_back({.name = "normalized",
+                      .label = "normalised diameter",
+                      .values = valuesOfInputFaces(prepared.mesh, segmented.normalized, areas)});
+  if (!segmented.segments.empty())
+    fields.push_back({.name = "segment", .label = "segments", .values = std::move(segmented.segments)});
   return fields;
 }
 
 }  // namespace
 
-std::vector<std::string> resultFieldNames() { return {"sdf", "seed", "error"}; }
+std::vector<std::string> resultFieldNames() { return {"sdf", "seed", "error", "normalized", "segment"}; }
 
 struct Session::State {
   explicit State(const SessionOptions& options) : named(openBackend(options)) {}
@@ -115,11 +122,12 @@ Result Session::compute(const MeshView& mesh, const Options& options, const RunC
     values = smoothBilaterally(prepared.graph, values,
                                smoothing.window.value_or(smoothingWindowFor(prepared.graph.faceCount())));
   }
+  SegmentedValues segmented = segmentValues(prepared, values, options, clock, report, {control.stop, {}});
   if (options.checkCount)
     report.check =
         checkAgainstReference(scene, cone, prepared.traceableFaces, {rounds.traced, values, backend.isReference()},
                               *options.checkCount, options.randomSeed, control.part(roundsEnd, 1));
-  result.fields = fieldsOf(prepared, rounds, values);
+  result.fields = fieldsOf(prepared, rounds, values, std::move(segmented));
   describeValues(report, prepared, result.sdf(), values);
   backend.requireSilentValidation();
   if (options.keepsScene)

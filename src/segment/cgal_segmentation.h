@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "asdf_vk/options.h"
 #include "mesh/face_geometry.h"
 #include "segment/alpha_expansion.h"
 #include "segment/face_neighbours.h"
@@ -13,17 +14,6 @@
 /// Diameter Function, 2008. Soft clustering of the values, then a graph cut that prefers concave edges.
 namespace asdfvk {
 
-enum class CgalExpansion {
-  All,    ///< Every cluster is expanded: Shapira's method, and that of other versions of CGAL.
-  First,  ///< Only the cluster of the least values is expanded, as CGAL 5.5.1 does.
-};
-
-struct CgalSegmentationOptions {
-  uint32_t clusterCount = 5;  ///< 1 to kMaxClusterCount.
-  double smoothness = 0.26;   ///< Weight of the edge costs; below 0 is 0. CGAL's manual has 0 to 1.
-  CgalExpansion expansion = CgalExpansion::All;
-};
-
 struct CgalSegmentation {
   std::vector<uint32_t> clusters;  ///< #F, ascending by their mean value.
   std::vector<uint32_t> segments;  ///< #F: the connected faces of one cluster, numbered by ascending mean value.
@@ -32,7 +22,8 @@ struct CgalSegmentation {
 };
 
 /// values: #F, finite, not negative, normalised by postprocessLikeCgal(). The same labels as CGAL's from equal values
-/// on manifold meshes. The same result on any number of threads. Throws Error{NoValues} without faces,
+/// on manifold meshes. The same result on any number of threads. One cluster and a smoothness below 0, which is 0, are
+/// allowed here. Throws Error{NoValues} without faces,
 /// Error{OptionOutOfRange} and Error{TooFewValues} where there are fewer different values than clusters. Noise of 1e-3
 /// of the range may change many labels: the clustering is not stable.
 [[nodiscard]] CgalSegmentation segmentLikeCgal(const FaceGeometry& geometry, const TriangleMesh& mesh,

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "asdf_vk/error.h"
+#include "asdf_vk/options.h"
 
 namespace asdfvk {
 namespace {

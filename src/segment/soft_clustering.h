@@ -16,8 +16,6 @@ struct SoftClustering {
   [[nodiscard]] uint32_t clusterCount() const { return static_cast<uint32_t>(means.size()); }
 };
 
-inline constexpr uint32_t kMaxClusterCount = 100;
-
 /// Expectation and maximization (A. Dempster, N. Laird, D. Rubin: Maximum Likelihood from Incomplete Data via the EM
 /// Algorithm, 1977), at most 10 steps, from those of clusterByMeans(). values: finite. The same bits on any number
 /// of threads. Throws Error{OptionOutOfRange} for a number of clusters outside 1 .. kMaxClusterCount, and

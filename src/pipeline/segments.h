@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "asdf_vk/options.h"
+#include "asdf_vk/run_control.h"
+#include "pipeline/prepared_mesh.h"
+
+namespace asdfvk {
+
+/// Results of Options::postprocess and Options::segmentation. Empty where they were not requested.
+struct SegmentedValues {
+  std::vector<double> normalized;  ///< #F
+  std::vector<uint32_t> segments;  ///< #I, see segmentsOfInputFaces().
+};
+
+/// Post-processes and segments by the values of the triangles (#F, NaN for no value), and adds the results to the
+/// report. A power of two as the unit of the mesh changes no bit. The same bits on any number of threads. Throws
+/// Error{NoValues}, and Error{TooFewValues} where there are fewer different values than clusters.
+[[nodiscard]] SegmentedValues segmentValues(const PreparedMesh& prepared, std::span<const double> values,
+                                            const Options& options, StageClock& clock, Report& report,
+                                            const RunControl& control);
+
+}  // namespace asdfvk

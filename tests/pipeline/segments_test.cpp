@@ -1,0 +1,317 @@
+#include "pipeline/segments.h"
+
+#include <doctest/doctest.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "asdf_vk/error.h"
+#include "asdf_vk/session.h"
+#include "generate/shapes.h"
+#include "pipeline/result.h"
+#include "segment/cgal_postprocess.h"
+#include "segment/cgal_segmentation.h"
+#include "support/require_failure.h"
+#include "support/shared_session.h"
+#include "trace/cone_tracer.h"
+
+using namespace asdfvk;
+using test::allSeeds;
+using test::referenceSession;
+using test::requireFailure;
+
+namespace {
+
+using Labels = std::vector<uint32_t>;
+
+Options segmented(uint32_t clusterCount = 5) {
+  Options options = allSeeds();
+  options.cone.rayCount = 10;
+  options.segmentation = Segmentation::Cgal;
+  options.cgalSegmentation.clusterCount = clusterCount;
+  return options;
+}
+
+const std::vector<double>& normalizedOf(const Result& result) {
+  const Field* field = result.field("normalized");
+  REQUIRE(field != nullptr);
+  CHECK(field->unit.empty());
+  return std::get<std::vector<double>>(field->values);
+}
+
+const Labels& segmentsOf(const Result& result) {
+  const Field* field = result.field("segment");
+  REQUIRE(field != nullptr);
+  CHECK(field->unit.empty());
+  return std::get<Labels>(field->values);
+}
+
+/// Appends a copy of `other`, scaled and shifted.
+void append(Mesh& mesh, const Mesh& other, double scale, const Vec3d& shift) {
+  const auto offset = static_cast<uint32_t>(mesh.vertices.size());
+  for (const Vec3d& v : other.vertices) mesh.vertices.push_back(v * scale + shift);
+  for (const auto& [a, b, c] : other.faces) mesh.faces.push_back({a + offset, b + offset, c + offset});
+}
+
+/// A sphere and two of half its size.
+Mesh threeSpheres() {
+  Mesh mesh = makeSphere(320).mesh;
+  append(mesh, makeSphere(80).mesh, 0.5, {4, 0, 0});
+  append(mesh, makeSphere(80).mesh, 0.5, {-4, 0, 0});
+  return mesh;
+}
+
+struct Segmented {
+  SegmentedValues values;
+  Report report;
+};
+
+Segmented segment(const Mesh& mesh, const std::vector<double>& values, const Options& options) {
+  Segmented result;
+  StageClock clock(result.report.stageSeconds);
+  result.values = segmentValues(prepareMesh(mesh, Orientation::Keep), values, options, clock, result.report, {});
+  return result;
+}
+
+}  // namespace
+
+TEST_CASE("without a request there is no field, no stage and no report of segments") {
+  const Result result = referenceSession().compute(makeTorus(200).mesh, allSeeds());
+  CHECK(result.field("normalized") == nullptr);
+  CHECK(result.field("segment") == nullptr);
+  CHECK_FALSE(result.report.postprocess.has_value());
+  CHECK_FALSE(result.report.segmentation.has_value());
+  CHECK(result.report.stageSeconds[Stage::Postprocess] == 0);
+  CHECK(result.report.stageSeconds[Stage::Segment] == 0);
+}
+
+TEST_CASE("post-processing alone gives values from 0 to 1, and the range that they had") {
+  Options options = allSeeds();
+  options.postprocess = Postprocess::Cgal;
+  const Mesh mesh = makeTorus(800).mesh;
+  const Result result = referenceSession().compute(mesh, options);
+  const std::vector<double>& normalized = normalizedOf(result);
+  REQUIRE(normalized.size() == mesh.faces.size());
+  CHECK(*std::min_element(normalized.begin(), normalized.end()) == 0);
+  CHECK(*std::max_element(normalized.begin(), normalized.end()) == 1);
+  CHECK(result.field("segment") == nullptr);
+  CHECK(result.report.stageSeconds[Stage::Postprocess] > 0);
+  CHECK(result.report.stageSeconds[Stage::Segment] == 0);
+  REQUIRE(result.report.postprocess.has_value());
+  CHECK(result.report.postprocess->least >= result.report.sdf.min);
+  CHECK(result.report.postprocess->greatest <= result.report.sdf.max);
+  CHECK(result.report.postprocess->least < result.report.postprocess->greatest);
+}
+
+TEST_CASE("the fields are those of src/segment for the values of the result") {
+  const Mesh mesh = generateShape("animal", 1500).mesh;
+  for (const CgalExpansion expansion : {CgalExpansion::All, CgalExpansion::First}) {
+    Options options = segmented(3);
+    options.cgalSegmentation.smoothness = 0.1;
+    options.cgalSegmentation.expansion = expansion;
+    const Result result = referenceSession().compute(mesh, options);
+    const FaceNeighbours neighbours = findFaceNeighbours(mesh);
+    const CgalValues values = postprocessLikeCgal(neighbours, result.sdf());
+    CHECK(normalizedOf(result) == values.normalized);
+    CHECK(result.report.postprocess->least == values.least);
+    CHECK(result.report.postprocess->greatest == values.greatest);
+    const CgalSegmentation expected =
+        segmentLikeCgal(computeFaceGeometry(mesh), mesh, neighbours, values.normalized, options.cgalSegmentation);
+    CHECK(segmentsOf(result) == expected.segments);
+    REQUIRE(result.report.segmentation.has_value());
+    CHECK(result.report.segmentation->segmentCount == expected.segmentCount);
+    CHECK(result.report.stageSeconds[Stage::Segment] > 0);
+  }
+}
+
+TEST_CASE("interpolated and smoothed values can be segmented, too") {
+  Options options = segmented();
+  options.seeds = SeedCount::ofShare(0.2);
+  options.smoothing.isOn = true;
+  const Mesh mesh = makeTorus(1000).mesh;
+  const Result result = referenceSession().compute(mesh, options);
+  CHECK(segmentsOf(result).size() == mesh.faces.size());
+  CHECK(normalizedOf(result) == postprocessLikeCgal(findFaceNeighbours(mesh), result.sdf()).normalized);
+}
+
+TEST_CASE("components are segments of their own, on every backend the same ones") {
+  const Mesh mesh = threeSpheres();
+  const size_t firstSmall = makeSphere(320).mesh.faces.size(), smallCount = makeSphere(80).mesh.faces.size();
+  Labels expected(firstSmall, 2);
+  expected.insert(expected.end(), smallCount, 0);
+  expected.insert(expected.end(), smallCount, 1);
+  const auto check = [&](Session& session) {
+    const Result result = session.compute(mesh, segmented(2));
+    Labels labels = segmentsOf(result);
+    // The two small spheres have equal values up to rounding: either of them may be first.
+    if (labels[firstSmall] == 1)
+      for (uint32_t& label : labels) label = label == 2 ? 2 : 1 - label;
+    CHECK(labels == expected);
+    CHECK(result.report.segmentation->segmentCount == 3);
+  };
+  check(referenceSession());
+  if (!hasEmbree()) return;
+  Session embree({.backend = "cpu"});
+  check(embree);
+}
+
+TEST_CASE("the same bits on one thread and on two, and with a power of two as the unit") {
+  const GeneratedShape shape = generateShape("hand", 3000);
+  std::vector<double> values(shape.diameter.begin(), shape.diameter.end());
+  values[17] = kNoValue;
+  const auto onThreads = [&](size_t count) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, count);
+    return segment(shape.mesh, values, segmented());
+  };
+  const Segmented expected = onThreads(1), parallel = onThreads(2);
+  CHECK(parallel.values.normalized == expected.values.normalized);
+  CHECK(parallel.values.segments == expected.values.segments);
+  for (const int exponent : {-600, -3, 600, 1000}) {
+    CAPTURE(exponent);
+    Mesh scaled = shape.mesh;
+    for (Vec3d& v : scaled.vertices) v = v * std::ldexp(1.0, exponent);
+    std::vector<double> scaledValues = values;
+    for (double& value : scaledValues) value = std::ldexp(value, exponent);
+    const Segmented result = segment(scaled, scaledValues, segmented());
+    CHECK(result.values.normalized == expected.values.normalized);
+    CHECK(result.values.segments == expected.values.segments);
+    CHECK(result.report.postprocess->greatest == std::ldexp(expected.report.postprocess->greatest, exponent));
+  }
+}
+
+TEST_CASE("a face without a value is filled, and so is a component without any") {
+  Mesh mesh = makeSphere(320).mesh;
+  append(mesh, Mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}, {}}, 1, {5, 0, 0});
+  const Result result = referenceSession().compute(mesh, segmented(2));
+  CHECK(std::isnan(result.sdf().back()));
+  CHECK(result.report.noValueCount == 1);
+  CHECK(std::none_of(normalizedOf(result).begin(), normalizedOf(result).end(), [](double v) { return std::isnan(v); }));
+  CHECK(segmentsOf(result).size() == mesh.faces.size());
+  CHECK(*std::max_element(segmentsOf(result).begin(), segmentsOf(result).end()) + 1 ==
+        result.report.segmentation->segmentCount);
+}
+
+TEST_CASE("open, non-manifold and degenerate meshes have segments") {
+  const Mesh sphere = makeSphere(320).mesh;
+  Mesh open = sphere;
+  open.faces.erase(open.faces.begin(), open.faces.begin() + 40);
+  Mesh fin = sphere;  // A face more at an edge, which then has three.
+  fin.vertices.push_back({0, 0, 3});
+  fin.faces.push_back({fin.faces[0][0], fin.faces[0][1], static_cast<uint32_t>(fin.vertices.size() - 1)});
+  Mesh degenerate = sphere;
+  const Face first = sphere.faces[0];
+  degenerate.faces.push_back({first[0], first[0], first[1]});
+  degenerate.faces.push_back({first[0], first[1], static_cast<uint32_t>(degenerate.vertices.size())});
+  degenerate.vertices.push_back((sphere.vertices[first[0]] + sphere.vertices[first[1]]) * 0.5);
+  Mesh infinite = sphere;
+  infinite.vertices[7] = {kNoValue, 0, INFINITY};
+  Mesh doubled = sphere;
+  doubled.faces.insert(doubled.faces.end(), sphere.faces.begin(), sphere.faces.end());
+  for (const Mesh& mesh : {open, fin, degenerate, infinite, doubled}) {
+    CAPTURE(mesh.faces.size());
+    const Result result = referenceSession().compute(mesh, segmented(2));
+    REQUIRE(segmentsOf(result).size() == mesh.faces.size());
+    const uint32_t count = result.report.segmentation->segmentCount;
+    CHECK(*std::max_element(segmentsOf(result).begin(), segmentsOf(result).end()) + 1 == count);
+    CHECK(std::all_of(normalizedOf(result).begin(), normalizedOf(result).end(),
+                      [](double v) { return 0 <= v && v <= 1; }));
+  }
+}
+
+TEST_CASE("no value anywhere, and fewer different values than clusters, are errors of the input") {
+  const Mesh triangle{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}, {}};
+  Options options = allSeeds();
+  options.postprocess = Postprocess::Cgal;
+  requireFailure([&] { (void)referenceSession().compute(triangle, options); }, ErrorCode::NoValues,
+                 "no face has a value");
+  requireFailure([&] { (void)referenceSession().compute(triangle, segmented()); }, ErrorCode::NoValues);
+  requireFailure([] { (void)referenceSession().compute(makeCube(12).mesh, segmented(13)); }, ErrorCode::TooFewValues,
+                 "13 clusters");
+  requireFailure([&] { (void)segment(triangle, {0.5}, segmented(2)); }, ErrorCode::TooFewValues);
+  CHECK(kindOf(ErrorCode::NoValues) == ErrorKind::Input);
+  CHECK(kindOf(ErrorCode::TooFewValues) == ErrorKind::Input);
+}
+
+TEST_CASE("equal values stay lengths, as CGAL leaves them") {
+  Options options = allSeeds();
+  options.postprocess = Postprocess::Cgal;
+  const Mesh mesh = makeTorus(200).mesh;
+  const std::vector<double> values(mesh.faces.size(), 3.0);
+  const Segmented result = segment(mesh, values, options);
+  CHECK(result.values.normalized == values);
+  CHECK(result.report.postprocess->least == 3);
+  CHECK(result.report.postprocess->greatest == 3);
+}
+
+TEST_CASE("numbers out of range are errors of usage, if there is a segmentation") {
+  const Mesh mesh = makeSphere(80).mesh;
+  for (const uint32_t count : {0u, 1u, 101u})
+    requireFailure([&] { (void)referenceSession().compute(mesh, segmented(count)); }, ErrorCode::OptionOutOfRange,
+                   "clusters are out of range (2 to 100)");
+  for (const double smoothness : {-0.1, 1000.5, double(INFINITY), kNoValue}) {
+    Options options = segmented();
+    options.cgalSegmentation.smoothness = smoothness;
+    requireFailure([&] { (void)referenceSession().compute(mesh, options); }, ErrorCode::OptionOutOfRange,
+                   "out of range (0 to 1000)");
+  }
+  Options unused = allSeeds();
+  unused.cgalSegmentation.clusterCount = 0;
+  CHECK(referenceSession().compute(mesh, unused).field("segment") == nullptr);
+}
+
+TEST_CASE("the greatest smoothness leaves one segment per component, 0 follows the clusters") {
+  const Mesh mesh = makeTorus(600).mesh;
+  Options options = segmented(4);
+  options.cgalSegmentation.smoothness = kMaxSmoothness;
+  CHECK(referenceSession().compute(mesh, options).report.segmentation->segmentCount == 1);
+  options.cgalSegmentation.smoothness = 0;
+  CHECK(referenceSession().compute(mesh, options).report.segmentation->segmentCount > 1);
+}
+
+TEST_CASE("a polygon has the label of its largest area; labels without a polygon are removed") {
+  // A quad of two triangles, a point, a pentagon of three triangles, a quad of no area.
+  Mesh mesh;
+  mesh.vertices.resize(5);
+  mesh.faces.resize(7);
+  mesh.polygons = {{0, 4, 5, 10, 14}, {0, 1, 2, 3, 0, 0, 1, 2, 3, 4, 0, 1, 2, 3}, {0, 0, 2, 2, 2, 3, 3}};
+  const Labels triangles{4, 1, 5, 2, 5, 9, 3};
+  CHECK(segmentsOfInputFaces(mesh, triangles, std::vector<double>{2, 1, 1, 1.5, 1, 0, 0}) ==
+        Labels{1, kNoSegment, 2, 0});
+  CHECK(segmentsOfInputFaces(mesh, triangles, std::vector<double>{1, 1, 1, 3, 1, 0, 0}) == Labels{0, kNoSegment, 1, 2});
+  mesh.polygons = {};
+  CHECK(segmentsOfInputFaces(mesh, triangles, std::vector<double>(7, 1.0)) == triangles);
+}
+
+TEST_CASE("a mesh of polygons has one normalised value and one segment per input face") {
+  // The sides of a cube and the faces of a smaller one, all quads, and a face of two corners.
+  std::vector<double> positions;
+  std::vector<uint32_t> corners;
+  std::vector<uint64_t> firstCorner{0};
+  for (const double size : {1.0, 0.25}) {
+    const auto offset = static_cast<uint32_t>(positions.size() / 3);
+    for (uint32_t i = 0; i < 8; ++i)
+      for (uint32_t axis = 0; axis < 3; ++axis)
+        positions.push_back(size * ((i >> axis) & 1) + (size < 1 && axis == 0 ? 3 : 0));
+    for (const auto& quad : {std::array{0u, 2u, 3u, 1u},
+                             {4u, 5u, 7u, 6u},
+                             {0u, 1u, 5u, 4u},
+                             {2u, 6u, 7u, 3u},
+                             {0u, 4u, 6u, 2u},
+                             {1u, 3u, 7u, 5u}}) {
+      for (const uint32_t corner : quad) corners.push_back(corner + offset);
+      firstCorner.push_back(corners.size());
+    }
+  }
+  corners.insert(corners.end(), {0, 1});
+  firstCorner.push_back(corners.size());
+  const MeshView mesh(std::span<const double>(positions), corners, firstCorner);
+  const Result result = referenceSession().compute(mesh, segmented(2));
+  CHECK(segmentsOf(result) == Labels{1, 1, 1, 1, 1, 1, 0, 0, 0, 0, 0, 0, kNoSegment});
+  CHECK(result.report.segmentation->segmentCount == 2);
+  REQUIRE(normalizedOf(result).size() == 13);
+  CHECK(std::isnan(normalizedOf(result).back()));
+  for (size_t face = 0; face < 12; ++face)
+    CHECK(normalizedOf(result)[face] == doctest::Approx(face < 6 ? 1 : 0).epsilon(0.2));
+}
