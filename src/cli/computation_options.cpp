@@ -154,6 +154,41 @@ void addRays(CLI::App& app, Options& options) {
       ->group(group);
 }
 
+void addSegments(CLI::App& app, Options& options) {
+  const CgalSegmentationOptions defaults;
+  const char* const group = "Segments";
+  addChoice(app, "--postprocess", options.postprocess, kPostprocesses,
+            "Field normalized. cgal: missing values are filled, all are smoothed and mapped\n"
+            "to 0 .. 1, as CGAL does; default none")
+      ->group(group);
+  addChoice(app, "--segment", options.segmentation, kSegmentations,
+            "Field segment. cgal: soft clustering and graph cut, as CGAL does; implies\n"
+            "--postprocess cgal; for --seeds all; default none")
+      ->group(group);
+  addValue(app, "--clusters", "K",
+           fmt::format("--segment cgal: clusters of values, 2 to {}; the number of segments is\n"
+                       "another one; default {}",
+                       kMaxClusterCount, defaults.clusterCount),
+           [&](const std::string& text) {
+             options.cgalSegmentation.clusterCount = static_cast<uint32_t>(parseWholeNumber(text, 2, kMaxClusterCount));
+           })
+      ->group(group);
+  addValue(app, "--smoothness", "L",
+           fmt::format("--segment cgal: weight of the boundaries, 0 to {}, usually at most 1;\n"
+                       "default {}",
+                       kMaxSmoothness, defaults.smoothness),
+           [&](const std::string& text) {
+             options.cgalSegmentation.smoothness = parseNumber(
+                 text, [](double x) { return x >= 0 && x <= kMaxSmoothness; },
+                 fmt::format("is not from 0 to {}", kMaxSmoothness).c_str());
+           })
+      ->group(group);
+  addChoice(app, "--cgal-expansion", options.cgalSegmentation.expansion, kCgalExpansions,
+            "--segment cgal: the graph cut expands all clusters, or the first one only, as\n"
+            "CGAL 5.5.1 does; default all")
+      ->group(group);
+}
+
 void addExperiments(CLI::App& app, Options& options) {
   const Options defaults;
   addChoice(app, "--weights", options.interpolation.weights, kWeights,
@@ -201,7 +236,30 @@ void addComputation(CLI::App& app, CommandLine& line) {
   addBasics(app, line);
   addSeeds(app, line.options);
   addRays(app, line.options);
+  addSegments(app, line.options);
   addExperiments(app, line.options);
+}
+
+void completeSegments(const CLI::App& app, CommandLine& line) {
+  const auto isGiven = [&app](const char* option) { return app.count(option) > 0; };
+  const auto fail = [](const std::string& message) { throw Error(ErrorCode::OptionConflict, message); };
+  Options& options = line.options;
+  if (options.segmentation == Segmentation::None)
+    for (const char* option : {"--clusters", "--smoothness", "--cgal-expansion"})
+      if (isGiven(option)) fail(fmt::format("{} needs --segment cgal", option));
+  if (options.segmentation == Segmentation::Cgal && isGiven("--postprocess") &&
+      options.postprocess == Postprocess::None)
+    fail("--segment cgal contradicts --postprocess none; drop one");
+  if (options.postprocesses()) options.postprocess = Postprocess::Cgal;
+  const auto require = [&](const char* field, bool isComputed, const char* remedy) {
+    if (isComputed && !isGiven("--fields")) line.fields.emplace_back(field);
+    if (isComputed) return;
+    if (std::count(line.fields.begin(), line.fields.end(), field) > 0)
+      fail(fmt::format("--fields {} needs {}", field, remedy));
+    if (line.pictureOf == field) fail(fmt::format("--picture-of {} needs {}", field, remedy));
+  };
+  require("normalized", options.postprocesses(), "--postprocess cgal");
+  require("segment", options.segmentation != Segmentation::None, "--segment cgal");
 }
 
 nlohmann::ordered_json optionValues(const CommandLine& line) {
@@ -218,6 +276,11 @@ nlohmann::ordered_json optionValues(const CommandLine& line) {
           {"outlierDeviations", options.cone.outlierDeviations},
           {"coneRotation", nameOf(kConeRotations, options.cone.rotation)},
           {"smooth", toText(options.smoothing)},
+          {"postprocess", nameOf(kPostprocesses, options.postprocess)},
+          {"segment", nameOf(kSegmentations, options.segmentation)},
+          {"clusters", options.cgalSegmentation.clusterCount},
+          {"smoothness", options.cgalSegmentation.smoothness},
+          {"cgalExpansion", nameOf(kCgalExpansions, options.cgalSegmentation.expansion)},
           {"orient", nameOf(kOrientations, options.orientation)},
           {"weights", nameOf(kWeights, interpolation.weights)},
           {"guidance", nameOf(kGuidances, interpolation.guidance)},

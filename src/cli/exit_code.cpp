@@ -13,6 +13,10 @@ std::string remedyFor(ErrorCode code, bool requiresGpu) {
   switch (code) {
     case ErrorCode::UnknownField:
       return "so few seeds allow no estimate; give more --seeds";
+    case ErrorCode::NoValues:
+      return "try --orient auto or flip, or drop --postprocess and --segment";
+    case ErrorCode::TooFewValues:
+      return "give fewer --clusters, or drop --segment";
     case ErrorCode::NoVulkanLoader:
       return orOnCpu("install libvulkan1");
     case ErrorCode::NoVulkanDriver:

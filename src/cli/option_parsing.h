@@ -29,6 +29,10 @@ inline constexpr double kFirstRoundShare = 0.02;
 /// Adds the options of the computation, which set line.options and line.recipe.
 void addComputation(CLI::App& app, CommandLine& line);
 
+/// After parsing: validates the options of post-processing and segmentation and applies what they imply; adds their
+/// fields to line.fields unless --fields is given.
+void completeSegments(const CLI::App& app, CommandLine& line);
+
 /// parse: reads the value and throws Error; the name of the option is put before its message.
 template <typename Parse>
 CLI::Option* addValue(CLI::App& app, const std::string& name, const std::string& placeholder, const std::string& text,

@@ -95,10 +95,11 @@ void addOutput(CLI::App& app, CommandLine& line) {
              line.output = text;
            })
       ->group(kBasicGroup);
-  addValue(
-      app, "--fields", "NAME,...",
-      fmt::format("Fields to write: {}; default {}", fmt::join(resultFieldNames(), ", "), fmt::join(line.fields, ",")),
-      [&](const std::string& text) { line.fields = parseFields(text); })
+  addValue(app, "--fields", "NAME,...",
+           fmt::format("Fields to write: {};\n"
+                       "default {}, and those of --postprocess and --segment",
+                       fmt::join(resultFieldNames(), ", "), fmt::join(line.fields, ",")),
+           [&](const std::string& text) { line.fields = parseFields(text); })
       ->group(kBasicGroup);
   addValue(app, "--check", "[=N|all]",
            fmt::format("Recompute N random traced faces, and N of all faces, with the reference\n"
@@ -271,6 +272,7 @@ CommandLine parseCommandLine(std::vector<std::string> arguments) {
   for (std::string* name : {&variant.kernel, &variant.bvh, &variant.fetch})
     if (*name == "auto") name->clear();
   line.options.keepsScene = !line.picture.empty();
+  completeSegments(app, line);
   validateOptions(line);
   return line;
 }

@@ -49,6 +49,11 @@ Json estimateOf(const std::optional<ErrorEstimate>& estimate) {
           {"worstFaces", std::move(worst)}};
 }
 
+Json postprocessOf(const std::optional<PostprocessReport>& postprocess) {
+  if (!postprocess) return nullptr;
+  return {{"least", number(postprocess->least)}, {"greatest", number(postprocess->greatest)}};
+}
+
 Json stagesOf(const StageSeconds& seconds) {
   Json json;
   for (size_t i = 0; i < kStageCount; ++i) json[nameOf(static_cast<Stage>(i))] = number(seconds.seconds[i]);
@@ -114,6 +119,8 @@ std::string jsonReport(const MeshOutcome& outcome) {
                     {"finishedOnCpu", report.solver.finishedOnCpu}};
   json["sdf"] = {
       {"min", number(report.sdf.min)}, {"median", number(report.sdf.median)}, {"max", number(report.sdf.max)}};
+  json["postprocess"] = postprocessOf(report.postprocess);
+  json["segmentCount"] = report.segmentation ? Json(report.segmentation->segmentCount) : Json(nullptr);
   json["estimatedError"] = estimateOf(report.estimatedError);
   json["roundCount"] = report.roundCount;
   json["check"] = checkOf(report.check);

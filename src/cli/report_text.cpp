@@ -115,6 +115,14 @@ std::string textReport(const MeshOutcome& outcome) {
   text += row("speed", fmt::format("{:.3g} Mrays/s", report.raysPerSecond / 1e6));
   text += row("solver", solverRow(report.solver));
   text += row("diameter", valueRow(report));
+  if (report.postprocess)
+    text += row("smoothed", fmt::format("min {:.6g}, max {:.6g}, mapped to 0 and 1", report.postprocess->least,
+                                        report.postprocess->greatest));
+  if (report.segmentation)
+    text += row("segments",
+                fmt::format("{} from {} clusters, smoothness {:g}", groupDigits(report.segmentation->segmentCount),
+                            outcome.line.options.cgalSegmentation.clusterCount,
+                            outcome.line.options.cgalSegmentation.smoothness));
   if (report.estimatedError) text += row("error", estimateRow(report));
   if (report.check) {
     text += row("check", tracedCheck(*report.check));

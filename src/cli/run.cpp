@@ -56,12 +56,16 @@ void writePicture(const CommandLine& line, const Result& result, const RunContro
   Picture picture{.scene = *result.scene, .title = field->label, .view = line.pictureView};
   std::vector<double> values;
   std::vector<uint8_t> flags;
+  std::vector<uint32_t> labels;
   if (const std::vector<double>* reals = field->reals()) {
     values = onTriangles(mesh, *reals);
     picture.values = values;
   } else if (const auto* marks = std::get_if<std::vector<uint8_t>>(&field->values)) {
     flags = onTriangles(mesh, *marks);
     picture.highlighted = flags;
+  } else if (const auto* indices = std::get_if<std::vector<uint32_t>>(&field->values)) {
+    labels = onTriangles(mesh, *indices);
+    picture.labels = labels;
   }
   writePng(line.picture, render(picture, control));
 }

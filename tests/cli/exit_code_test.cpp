@@ -33,6 +33,8 @@ TEST_CASE("a failure has the name of its code, and a remedy by options where the
   CHECK(device.message.starts_with("no driver; "));
   CHECK(device.message.find("--backend") != std::string::npos);
   CHECK_EQ(failureOf(Error(ErrorCode::EquationLimit, "x")).message, "x; use --solver cpu");
+  CHECK_EQ(failureOf(Error(ErrorCode::TooFewValues, "x")).message, "x; give fewer --clusters, or drop --segment");
+  CHECK_EQ(static_cast<int>(failureOf(Error(ErrorCode::NoValues, "x")).code), 2);
   const Failure input = failureOf(Error(ErrorCode::UnreadableInput, "line 3: no number"));
   CHECK_EQ(input.name, "unreadableInput");
   CHECK_EQ(input.message, "line 3: no number");

@@ -34,7 +34,7 @@ TEST_CASE("--json is exactly one document with every documented key and its type
   CHECK(json.at("device").is_string());
   CHECK(json.at("traceChoice").is_null());
   for (const char* stage : {"read", "geometry", "graph", "bvh", "encode", "upload", "sample", "trace", "predict",
-                            "solve", "estimate", "smooth", "write"}) {
+                            "solve", "estimate", "smooth", "postprocess", "segment", "write"}) {
     CHECK(json.at("stageSeconds").at(stage).is_number());
     CHECK(json.at("stageSeconds").at(stage).get<double>() >= 0);
   }
@@ -76,9 +76,11 @@ TEST_CASE("--json is exactly one document with every documented key and its type
   const Json& options = json.at("options");
   CHECK_EQ(options.at("seeds").get<std::string>(), "10%");
   const std::vector<std::pair<const char*, const char*>> names{
-      {"recipe", "balanced"},     {"sampler", "blue-noise"}, {"coneRotation", "fixed"}, {"weights", "feature"},
-      {"guidance", "prediction"}, {"orient", "keep"},        {"smooth", "off"},         {"solver", "auto"},
-      {"kernel", "auto"},         {"bvh", "auto"},           {"fetch", "auto"},         {"backend", "reference"}};
+      {"recipe", "balanced"}, {"sampler", "blue-noise"},  {"coneRotation", "fixed"},
+      {"weights", "feature"}, {"guidance", "prediction"}, {"orient", "keep"},
+      {"smooth", "off"},      {"solver", "auto"},         {"postprocess", "none"},
+      {"segment", "none"},    {"cgalExpansion", "all"},   {"kernel", "auto"},
+      {"bvh", "auto"},        {"fetch", "auto"},          {"backend", "reference"}};
   for (const auto& [key, name] : names) CHECK_EQ(options.at(key).get<std::string>(), name);
   for (const char* key : {"maxError", "timeBudgetSeconds"}) CHECK(options.at(key).is_null());
   CHECK_EQ(options.at("pooling").get<double>(), 0);

@@ -45,6 +45,11 @@ TEST_CASE("values out of range are refused with the option's name") {
       {"--orient", {"inwards"}},
       {"--backend", {"cuda"}},
       {"--format", {"stl"}},
+      {"--postprocess", {"shapira", ""}},
+      {"--segment", {"kmeans", "CGAL"}},
+      {"--clusters", {"1", "101", "-2", "2.5", "five"}},
+      {"--smoothness", {"-0.1", "1000.5", "nan", "inf", "much"}},
+      {"--cgal-expansion", {"last"}},
       {"--threads", {"0", "1000000"}},
       {"--rng-seed", {"-1", "0x10"}},
       {"--seeds", {"nan%", "1e3"}},
@@ -92,6 +97,26 @@ TEST_CASE("options that contradict each other are refused") {
     for (const char* solver : {"auto", "cpu", "eigen"})
       CHECK_EQ(refusal({"a.ply", "--backend", backend, "--solver", solver}), "accepted");
   }
+}
+
+TEST_CASE("options of the segmentation need it, as do its fields") {
+  for (const auto& [option, value] :
+       {std::pair{"--clusters", "3"}, {"--smoothness", "1"}, {"--cgal-expansion", "all"}}) {
+    const std::string message = std::string(option) + " needs --segment cgal";
+    CHECK_EQ(refusal({"a.ply", option, value}), message);
+    CHECK_EQ(refusal({"a.ply", option, value, "--segment", "none"}), message);
+    CHECK_EQ(refusal({"a.ply", option, value, "--postprocess", "cgal"}), message);
+    CHECK_EQ(refusal({"a.ply", option, value, "--segment", "cgal"}), "accepted");
+  }
+  CHECK_EQ(refusal({"a.ply", "--segment", "cgal", "--postprocess", "none"}),
+           "--segment cgal contradicts --postprocess none; drop one");
+  CHECK_EQ(refusal({"a.ply", "--segment", "cgal", "--postprocess", "cgal"}), "accepted");
+  CHECK_EQ(refusal({"a.ply", "--fields", "normalized"}), "--fields normalized needs --postprocess cgal");
+  CHECK_EQ(refusal({"a.ply", "--fields", "segment", "--postprocess", "cgal"}), "--fields segment needs --segment cgal");
+  CHECK_EQ(refusal({"a.ply", "--fields", "normalized", "--segment", "cgal"}), "accepted");
+  CHECK_EQ(refusal({"a.ply", "--picture", "b.png", "--picture-of", "segment"}),
+           "--picture-of segment needs --segment cgal");
+  CHECK_EQ(refusal({"a.ply", "--picture", "b.png", "--picture-of", "segment", "--segment", "cgal"}), "accepted");
 }
 
 TEST_CASE("a picture or field of the error needs an estimate") {

@@ -91,6 +91,20 @@ const std::vector<OptionCase>& optionCases() {
          const SmoothingOptions& smoothing = l.options.smoothing;
          return smoothing.isOn && smoothing.window == SmoothingOptions::Window{.rings = 3, .passes = 2};
        }},
+      {{"--postprocess", "cgal"},
+       [](const Line& l) {
+         return l.options.postprocess == Postprocess::Cgal && l.options.segmentation == Segmentation::None;
+       }},
+      {{"--segment", "cgal"},
+       [](const Line& l) {
+         return l.options.segmentation == Segmentation::Cgal && l.options.postprocess == Postprocess::Cgal;
+       }},
+      {{"--clusters", "3", "--segment", "cgal"},
+       [](const Line& l) { return l.options.cgalSegmentation.clusterCount == 3; }},
+      {{"--smoothness", "0.5", "--segment", "cgal"},
+       [](const Line& l) { return l.options.cgalSegmentation.smoothness == 0.5; }},
+      {{"--cgal-expansion", "first", "--segment", "cgal"},
+       [](const Line& l) { return l.options.cgalSegmentation.expansion == CgalExpansion::First; }},
       {{"--solver", "jacobi"}, [](const Line& l) { return l.options.solver == "jacobi"; }},
       {{"--tolerance", "1e-3"}, [](const Line& l) { return l.options.solverOptions.tolerance == 1e-3; }},
       {{"--max-iterations", "77"}, [](const Line& l) { return l.options.solverOptions.maxIterations == 77; }},
@@ -171,6 +185,17 @@ TEST_CASE("--fields keeps the order of the names") {
   CHECK(refusal({"a.ply", "--fields", "sdf,depth"}).starts_with("--fields: 'depth' is not a field"));
   for (const char* text : {"", ",", "sdf,", ",sdf", "sdf,,seed", "sdf seed", "SDF"})
     CHECK_MESSAGE(refusal({"a.ply", "--fields", text}).starts_with("--fields: '"), text);
+}
+
+TEST_CASE("the fields of --postprocess and --segment are written without --fields") {
+  const auto fieldsOf = [](std::vector<std::string> arguments) {
+    arguments.emplace_back("a.ply");
+    return parseCommandLine(arguments).fields;
+  };
+  CHECK_EQ(fieldsOf({"--postprocess", "cgal"}), std::vector<std::string>{"sdf", "seed", "normalized"});
+  CHECK_EQ(fieldsOf({"--segment", "cgal"}), std::vector<std::string>{"sdf", "seed", "normalized", "segment"});
+  CHECK_EQ(fieldsOf({"--segment", "cgal", "--fields", "segment"}), std::vector<std::string>{"segment"});
+  CHECK_EQ(fieldsOf({"--segment", "none", "--postprocess", "none"}), std::vector<std::string>{"sdf", "seed"});
 }
 
 TEST_CASE("--check without a number does not parse the next mesh name as one") {
@@ -259,8 +284,8 @@ TEST_CASE("--help has the most needed options, --help=all all of them in groups"
   CHECK(basic.find("--help=all lists all options") != std::string::npos);
   const std::string all = parseCommandLine({"--help=all"}).answer.value();
   size_t previous = 0;
-  for (const char* group :
-       {"Options:", "Seeds and rays:", "Experiments (the defaults are best):", "Output:", "Picture:", "Device:"}) {
+  for (const char* group : {"Options:", "Seeds and rays:", "Segments:", "Experiments (the defaults are best):",
+                            "Output:", "Picture:", "Device:"}) {
     const size_t position = all.find("\n" + std::string(group) + "\n");
     CHECK_MESSAGE(position != std::string::npos, group);
     CHECK_MESSAGE(position > previous, group);
@@ -271,8 +296,9 @@ TEST_CASE("--help has the most needed options, --help=all all of them in groups"
        {"--recipe paper|balanced|quality", "--sampler random|blue-noise|farthest-point|normal-space|adaptive",
         "--max-error E%", "--time-budget SECONDS", "--no-estimate", "--cone-rotation fixed|hashed",
         "--weights distance|feature", "--guidance none|curvature|prediction", "--pooling P",
-        "--picture-of sdf|seed|error", "--kernel auto|seed|ray|packet", "--bvh auto|wide|binary",
-        "--fetch auto|texel|storage", "MESH...", ".stl .ply .off .obj", "--fields NAME,...", "balanced (default)"})
+        "--picture-of sdf|seed|error|normalized|segment", "--segment none|cgal", "--kernel auto|seed|ray|packet",
+        "--bvh auto|wide|binary", "--fetch auto|texel|storage", "MESH...", ".stl .ply .off .obj", "--fields NAME,...",
+        "balanced (default)"})
     CHECK_MESSAGE(all.find(part) != std::string::npos, part);
   CHECK_EQ(parseCommandLine({"--", "--help=all"}).meshes, std::vector<std::string>{"--help=all"});
 }

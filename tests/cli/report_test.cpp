@@ -85,6 +85,21 @@ TEST_CASE("the text report has the recipe, and the estimated error where there i
   CHECK(holds(textReport({kMesh, kOutput, line, result}), "; 46 % at face 77; 3 rounds\n"));
 }
 
+TEST_CASE("the reports have the smoothed range and the number of segments, where there are any") {
+  CommandLine line;
+  line.options.cgalSegmentation.clusterCount = 3;
+  Result result = sampleResult();
+  CHECK_FALSE(holds(textReport({kMesh, kOutput, line, result}), "segments"));
+  result.report.postprocess = PostprocessReport{0.25, 2.5};
+  result.report.segmentation = SegmentationReport{1234};
+  const std::string text = textReport({kMesh, kOutput, line, result});
+  CHECK_MESSAGE(holds(text, "\n  smoothed  min 0.25, max 2.5, mapped to 0 and 1\n"), text);
+  CHECK_MESSAGE(holds(text, "\n  segments  1,234 from 3 clusters, smoothness 0.26\n"), text);
+  const nlohmann::json json = nlohmann::json::parse(jsonReport({kMesh, kOutput, line, result}));
+  CHECK_EQ(json.at("postprocess"), nlohmann::json({{"least", 0.25}, {"greatest", 2.5}}));
+  CHECK_EQ(json.at("segmentCount"), 1234);
+}
+
 TEST_CASE("stages that ran are named in their order, the others are not") {
   const CommandLine line;
   Result result = sampleResult();
