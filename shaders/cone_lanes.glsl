@@ -37,7 +37,7 @@ void main() {
     const vec3 direction = local.x * start.tangent + local.y * start.bitangent + local.z * axis;
     const Hit hit = FIND_NEAREST_HIT(start.origin, direction, start.excludedFace, iterationCount);
     if (!hit.isComplete) atomicAdd(incompleteCounts[slot], 1u);
-    lengths[base + ray] = validLength(hit, axis);
+    lengths[base + ray] = validLength(hit, axis, direction);
     if (kWritesHits && exists) hits[cone * kRayCount + ray] = encodeHit(hit);
   }
   barrier();
@@ -45,9 +45,15 @@ void main() {
   float mean;
   findMiddles(base, slot, lane, validCount, mean);
   barrier();
+  const float median = medianOf(slot);
+  if (kIsCgal) {
+    barrier();  // All lanes have read the median from `middles`.
+    findMiddleDeviations(base, slot, lane, validCount, median);
+    barrier();
+  }
   if (lane == 0u && exists) {
     uint bits = kNoValueBits;
-    if (validCount > 0u) bits = floatBitsToUint(weightedMeanAroundMedian(base, slot, validCount, mean));
+    if (validCount > 0u) bits = floatBitsToUint(weightedMean(base, slot, validCount, mean, median));
     results[cone] = incompleteCounts[slot] > 0u ? kIterationLimitBits : bits;
   }
 }

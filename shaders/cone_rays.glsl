@@ -6,6 +6,8 @@
 layout(set = 0, binding = 4, rgba32ui) uniform readonly uimageBuffer rayTexels;
 layout(set = 0, binding = 5, rgba32ui) uniform readonly uimageBuffer originTexels;
 
+layout(constant_id = 8) const bool kIsCgal = false;  // The definition of the shape diameter; otherwise the paper's.
+
 const float kFarAway = 1e30;  // Greater than any distance in normalised coordinates.
 const float kDropped = -1.0;  // The length of an invalid ray.
 
@@ -18,13 +20,13 @@ ConeOrigin loadOrigin(uint cone) {
 
 #include "nearest_hit.glsl"
 
-// The length of a ray; kDropped where it hits nothing, or a face whose normal is too close to that of the seed (minus
-// the axis).
-float validLength(Hit hit, vec3 axis) {
+// The length of a ray; kDropped where it hits nothing, or where the hit is false: by the angle between the normal of
+// the face and that of the seed (minus the axis), or between the normal of the face and the ray.
+float validLength(Hit hit, vec3 axis, vec3 direction) {
   if (hit.primitive == kNoPrimitive) return kDropped;
   const DeviceTriangle triangle = loadTriangle(hit.primitive);
   const vec3 normal = decodeNormal(triangle.normalU, triangle.normalV);
-  return -dot(normal, axis) > push.falseHitCosine ? kDropped : hit.distance;
+  return -dot(normal, kIsCgal ? direction : axis) > push.falseHitCosine ? kDropped : hit.distance;
 }
 
 uvec2 encodeHit(Hit hit) {

@@ -1,6 +1,7 @@
 // Reduces the lengths of the rays of one cone to its value, with all lanes of the cone (the twin of coneValue() in
 // src/cone/cone.h). Needs the shared array `lengths` with the kRayCount entries of the cone from `base` on, negative
-// for invalid rays; the shared array `middles`; loadRay(); `push`; and the constants kRayCount and kLanesPerCone.
+// for invalid rays; the shared array `middles`; loadRay(); `push`; and the constants kRayCount,
+// kLanesPerCone and kIsCgal.
 #include "shared/cone_rules.h"
 
 float lengthAt(uint base, uint ray) { return lengths[base + ray]; }
@@ -28,16 +29,39 @@ void findMiddles(uint base, uint slot, uint lane, out uint validCount, out float
   }
 }
 
-// Called by one lane, after a barrier.
-float weightedMeanAroundMedian(uint base, uint slot, uint validCount, float mean) {
-  const float median = 0.5 * (middles[2u * slot] + middles[2u * slot + 1u]);
+float medianOf(uint slot) { return 0.5 * (middles[2u * slot] + middles[2u * slot + 1u]); }
+
+// As findMiddles(), of the absolute differences from the median.
+void findMiddleDeviations(uint base, uint slot, uint lane, uint validCount, float median) {
+  for (uint ray = lane; ray < kRayCount; ray += kLanesPerCone) {
+    if (lengthAt(base, ray) < 0.0) continue;
+    const float own = abs(lengthAt(base, ray) - median);
+    uint rank = 0u;
+    for (uint other = 0u; other < kRayCount; ++other) {
+      const float difference = abs(lengthAt(base, other) - median);
+      rank += lengthAt(base, other) >= 0.0 && (difference < own || (difference == own && other < ray)) ? 1u : 0u;
+    }
+    if (rank == (validCount - 1u) / 2u) middles[2u * slot] = own;
+    if (rank == validCount / 2u) middles[2u * slot + 1u] = own;
+  }
+}
+
+// The largest difference from the median of a length that is kept. Called after a barrier, which follows
+// findMiddleDeviations() if kIsCgal.
+float outlierBound(uint base, uint slot, uint validCount, float mean, float median) {
+  if (kIsCgal) return push.outlierDeviations * medianOf(slot);
   float variance = 0.0;
   for (uint ray = 0u; ray < kRayCount; ++ray) {
     const float l = lengthAt(base, ray);
     variance += l >= 0.0 ? (l - mean) * (l - mean) : 0.0;
   }
   const float deviation = sqrt(variance / float(validCount));
-  const float bound = push.outlierDeviations * deviation + kOutlierSlack * median;
+  return push.outlierDeviations * deviation + kOutlierSlack * median;
+}
+
+// Called by one lane.
+float weightedMean(uint base, uint slot, uint validCount, float mean, float median) {
+  const float bound = outlierBound(base, slot, validCount, mean, median);
   float sum = 0.0;
   float weightSum = 0.0;
   for (uint ray = 0u; ray < kRayCount; ++ray) {

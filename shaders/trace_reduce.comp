@@ -7,6 +7,7 @@
 
 layout(local_size_x_id = 0) in;
 layout(constant_id = 1) const uint kRayCount = 30;
+layout(constant_id = 2) const bool kIsCgal = false;  // As in cone_rays.glsl.
 
 layout(set = 0, binding = 0, rgba32ui) uniform readonly uimageBuffer rayTexels;
 layout(set = 0, binding = 1) readonly buffer Lengths { uint lengths[]; };  // Written by trace_seed.comp.
@@ -39,17 +40,49 @@ uint findNext(uint bits, uint rank) {
   return next;
 }
 
-float weightedMean(uint validCount, float mean) {
+// Bits of the absolute difference of a length from the median.
+uint deviationBits(uint ray, float median) {
+  if (lengthBits[ray] == kNotValid) return kNotValid;
+  return floatBitsToUint(abs(uintBitsToFloat(lengthBits[ray]) - median));
+}
+
+// The mean of the middle two deviations. Each pass determines two bits, which halves the iterations of findRank().
+float medianDeviation(uint validCount, float median) {
   const uint rank = (validCount - 1u) / 2u;
-  const uint lower = findRank(rank);
-  const uint upper = validCount % 2u == 0u ? findNext(lower, rank) : lower;
-  const float median = 0.5 * (uintBitsToFloat(lower) + uintBitsToFloat(upper));
+  uint bits = 0u;
+  for (int shift = 30; shift >= 0; shift -= 2) {
+    const uvec3 limits = bits | uvec3(1u, 2u, 3u) << uint(shift);
+    uvec3 counts = uvec3(0u);
+    for (uint ray = 0u; ray < kRayCount; ++ray) counts += uvec3(lessThan(uvec3(deviationBits(ray, median)), limits));
+    bits = counts.z <= rank ? limits.z : counts.y <= rank ? limits.y : counts.x <= rank ? limits.x : bits;
+  }
+  uint upToCount = 0u;
+  uint next = kNotValid;
+  for (uint ray = 0u; ray < kRayCount; ++ray) {
+    const uint own = deviationBits(ray, median);
+    upToCount += own <= bits ? 1u : 0u;
+    next = own > bits ? min(next, own) : next;
+  }
+  const uint upper = validCount % 2u == 0u && upToCount == rank + 1u ? next : bits;
+  return 0.5 * (uintBitsToFloat(bits) + uintBitsToFloat(upper));
+}
+
+float outlierBound(uint validCount, float mean, float median) {
+  if (kIsCgal) return push.outlierDeviations * medianDeviation(validCount, median);
   float variance = 0.0;
   for (uint ray = 0u; ray < kRayCount; ++ray) {
     const float l = uintBitsToFloat(lengthBits[ray]);
     variance += lengthBits[ray] != kNotValid ? (l - mean) * (l - mean) : 0.0;
   }
-  const float bound = push.outlierDeviations * sqrt(variance / float(validCount)) + kOutlierSlack * median;
+  return push.outlierDeviations * sqrt(variance / float(validCount)) + kOutlierSlack * median;
+}
+
+float weightedMean(uint validCount, float mean) {
+  const uint rank = (validCount - 1u) / 2u;
+  const uint lower = findRank(rank);
+  const uint upper = validCount % 2u == 0u ? findNext(lower, rank) : lower;
+  const float median = 0.5 * (uintBitsToFloat(lower) + uintBitsToFloat(upper));
+  const float bound = outlierBound(validCount, mean, median);
   float sum = 0.0;
   float weightSum = 0.0;
   for (uint ray = 0u; ray < kRayCount; ++ray) {

@@ -15,14 +15,22 @@ enum class ConeRotation {
   Hashed,  ///< Determined by a hash of the face index: errors of neighbouring faces are independent.
 };
 
-/// The cone of rays of a face: Shapira, Shamir and Cohen-Or 2008, section 3; ASDF paper, section 3.
+/// Definition of the shape diameter of a face (docs/method.md).
+enum class Definition {
+  Paper,  ///< Shapira, Shamir and Cohen-Or 2008, section 3; ASDF paper, section 3.
+  Cgal,   ///< sdf_values() of CGAL 5.5 without its post-processing; see applyDefinition().
+};
+
+/// The cone of rays of a face.
 struct ConeOptions {
   uint32_t rayCount = 30;            ///< 1 to kMaxRayCount.
   double openingAngleDegrees = 120;  ///< Full angle, above 0 and below 180.
+  // The next three belong to Definition::Paper and must have their defaults with another definition.
   /// A hit is false, and dropped, if the angle between the normals of hit face and seed face is below this; 0 to 180.
   double falseHitAngleDegrees = 90;
   double outlierDeviations = 1;  ///< Lengths farther than this from the median are dropped; standard deviations, > 0.
   ConeRotation rotation = ConeRotation::Fixed;
+  Definition definition = Definition::Paper;
 };
 inline constexpr uint32_t kMaxRayCount = 1024;
 
@@ -149,6 +157,10 @@ enum class Recipe {
 
 /// Sets the options of a recipe: sampler, weights, guidance, pooling, cone rotation. The others are unchanged.
 ASDFVK_API void applyRecipe(Recipe recipe, Options& options);
+
+/// Sets the definition with its number of rays and its share of seeds. Paper: 30 rays, 10 % of the faces. Cgal: 25
+/// rays, all faces. The others are unchanged.
+ASDFVK_API void applyDefinition(Definition definition, Options& options);
 
 [[nodiscard]] ASDFVK_API std::vector<std::string> samplerNames();
 [[nodiscard]] ASDFVK_API std::vector<std::string> solverNames();

@@ -33,7 +33,7 @@ struct ConeRay {
 struct ConePush {
   uint coneCount;
   float falseHitCosine;     // See Cone in src/cone/cone.h.
-  float outlierDeviations;  // Likewise.
+  float outlierDeviations;  // Cone::outliers.
 };
 
 // A result is the bits of a length in normalised units, or one of these.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "asdf_vk/error.h"
@@ -16,10 +17,14 @@ namespace {
 // Rays that a device traces side by side, so they should be neighbours.
 constexpr size_t kRunLength = 8;
 
+const double kGoldenAngle = std::numbers::pi * (3 - std::sqrt(5.0));
+
 struct Ray {
   double azimuth = 0;  // Radians, 0 .. 2 pi.
+  double angle = 0;    // To the axis, in radians.
   Vec3d direction;
   double weight = 0;
+  double solidAngle = 1;
 };
 
 // Reorders whole rays so that each run of kRunLength is a compact patch of the cone: sectors of azimuth with `rows`
@@ -34,13 +39,11 @@ void sortIntoCompactRuns(std::vector<Ray>& rays, double halfAngle) {
   for (size_t begin = 0; begin < rays.size(); begin += sectorRayCount) {
     const auto first = rays.begin() + static_cast<std::ptrdiff_t>(begin);
     const auto last = rays.begin() + static_cast<std::ptrdiff_t>(std::min(begin + sectorRayCount, rays.size()));
-    std::sort(first, last, [](const Ray& a, const Ray& b) { return a.weight > b.weight; });
+    std::sort(first, last, [](const Ray& a, const Ray& b) { return a.angle < b.angle; });
   }
 }
 
-}  // namespace
-
-Cone makeCone(const ConeOptions& options) {
+void requireInRange(const ConeOptions& options) {
   if (options.rayCount < 1 || options.rayCount > kMaxRayCount)
     throw Error(ErrorCode::OptionOutOfRange,
                 fmt::format("a cone of {} rays is out of range; give 1 to {}", options.rayCount, kMaxRayCount));
@@ -57,29 +60,82 @@ Cone makeCone(const ConeOptions& options) {
     throw Error(ErrorCode::OptionOutOfRange,
                 fmt::format("an outlier limit of {} standard deviations is out of range; give more than 0",
                             options.outlierDeviations));
-  // Vogel 1979. Stores the versine 1 - cos t instead of the cosine, so that narrow cones lose no digits.
-  const double halfAngle = options.openingAngleDegrees * std::numbers::pi / 360;
+}
+
+/// Throws where an option of the paper's definition is set.
+void requireNoPaperOption(const ConeOptions& options) {
+  const ConeOptions defaults;
+  const auto require = [](bool isDefault, const char* name) {
+    if (!isDefault)
+      throw Error(ErrorCode::OptionConflict,
+                  fmt::format("{} belongs to the definition 'paper'; drop it, or the definition 'cgal'", name));
+  };
+  require(options.falseHitAngleDegrees == defaults.falseHitAngleDegrees, "a false-hit angle");
+  require(options.outlierDeviations == defaults.outlierDeviations, "an outlier limit");
+  require(options.rotation == defaults.rotation, "a rotation of the cones, which the recipe 'quality' sets,");
+}
+
+// Vogel 1979. Stores the versine 1 - cos t instead of the cosine, so that narrow cones lose no digits.
+std::vector<Ray> paperRays(uint32_t count, double halfAngle) {
   const double maxVersine = 2 * std::pow(std::sin(halfAngle / 2), 2);
-  const double goldenAngle = std::numbers::pi * (3 - std::sqrt(5.0));
-  std::vector<Ray> rays(options.rayCount);
+  std::vector<Ray> rays(count);
   for (size_t i = 0; i < rays.size(); ++i) {
-    const double versine = (static_cast<double>(i) + 0.5) / options.rayCount * maxVersine;
+    const double versine = (static_cast<double>(i) + 0.5) / count * maxVersine;
     const double sine = std::sqrt(versine * (2 - versine));
-    const double phi = static_cast<double>(i) * goldenAngle;
+    const double phi = static_cast<double>(i) * kGoldenAngle;
     rays[i].azimuth = std::fmod(phi, 2 * std::numbers::pi);
     rays[i].direction = {sine * std::cos(phi), sine * std::sin(phi), 1 - versine};
-    rays[i].weight = 1 / (2 * std::asin(std::sqrt(versine / 2)));
+    rays[i].angle = 2 * std::asin(std::sqrt(versine / 2));
+    rays[i].weight = 1 / rays[i].angle;
   }
-  sortIntoCompactRuns(rays, halfAngle);
+  return rays;
+}
 
+// Ray i passes the disk that closes the cone at i / count of its radius.
+std::vector<Ray> cgalRays(uint32_t count, double halfAngle) {
+  // The axis ray represents the inner half of a step; this is the mean radius there, in steps.
+  constexpr double kAxisRadius = 0.25;
+  std::vector<Ray> rays(count);
+  for (size_t i = 0; i < rays.size(); ++i) {
+    const auto step = static_cast<double>(i);
+    const double radius = std::sin(halfAngle) * (step / count);
+    const double phi = step * kGoldenAngle;
+    const Vec3d direction{radius * std::cos(phi), radius * std::sin(phi), std::cos(halfAngle)};
+    rays[i].azimuth = std::fmod(phi, 2 * std::numbers::pi);
+    rays[i].direction = direction / length(direction);
+    rays[i].angle = std::atan(std::tan(halfAngle) * (step / count));
+    rays[i].weight = 1;
+    // Rays per solid angle: 1 / (sin t cos^2 t).
+    const double t = std::atan(std::tan(halfAngle) * (std::max(step, kAxisRadius) / count));
+    rays[i].solidAngle = std::sin(t) * std::cos(t) * std::cos(t);
+  }
+  return rays;
+}
+
+}  // namespace
+
+Cone makeCone(const ConeOptions& options) {
+  const bool isCgal = options.definition == Definition::Cgal;
+  requireInRange(options);
+  if (isCgal) requireNoPaperOption(options);
   Cone cone;
+  cone.definition = options.definition;
   cone.falseHitCosine = std::cos(options.falseHitAngleDegrees * std::numbers::pi / 180) + kFalseHitSlack;
-  cone.outlierDeviations = options.outlierDeviations;
+  cone.outliers.deviations = options.outlierDeviations;
   cone.halfAngleRadians = options.openingAngleDegrees * std::numbers::pi / 360;
   cone.rotation = options.rotation;
+  if (isCgal) {
+    // The greatest number below 0 that is normal in float32: an angle of 90 degrees is not acute.
+    cone.falseHitCosine = -static_cast<double>(std::numeric_limits<float>::min());
+    cone.outliers = {.spread = OutlierRule::Spread::MedianDeviation, .deviations = 1.5, .slack = 0};
+  }
+  std::vector<Ray> rays =
+      isCgal ? cgalRays(options.rayCount, cone.halfAngleRadians) : paperRays(options.rayCount, cone.halfAngleRadians);
+  sortIntoCompactRuns(rays, cone.halfAngleRadians);
   for (const Ray& ray : rays) {
     cone.directions.push_back(ray.direction);
     cone.weights.push_back(ray.weight);
+    cone.solidAngles.push_back(ray.solidAngle);
   }
   return cone;
 }
@@ -89,6 +145,27 @@ ConeFrame coneFrame(const Vec3d& z) {
   const double a = -1 / (s + z.z);
   const double b = z.x * z.y * a;
   return {{1 + s * z.x * z.x * a, s * b, -s * z.x}, {b, s + z.y * z.y * a, -z.y}, z};
+}
+
+ConeFrame cgalConeFrame(const Vec3d& inward) {
+  const Vec3d n = inward / length(inward);
+  const Vec3d magnitude{std::abs(n.x), std::abs(n.y), std::abs(n.z)};
+  Vec3d v;
+  if (n.x == 0) {
+    v = {1, 0, 0};
+  } else if (n.y == 0) {
+    v = {0, 1, 0};
+  } else if (n.z == 0) {
+    v = {0, 0, 1};
+  } else if (magnitude.x <= magnitude.y && magnitude.x <= magnitude.z) {
+    v = {0, -n.z, n.y};
+  } else if (magnitude.y <= magnitude.z) {
+    v = {-n.z, 0, n.x};
+  } else {
+    v = {-n.y, n.x, 0};
+  }
+  const Vec3d tangent = v / length(v), bitangent = cross(n, tangent);
+  return {tangent, bitangent / length(bitangent), n};
 }
 
 ConeFrame faceConeFrame(const Cone& cone, const Vec3d& normal, uint32_t face) {

@@ -7,42 +7,65 @@
 
 #include "asdf_vk/options.h"
 #include "core/vec3.h"
+#include "shared/cone_rules.h"
 
 namespace asdfvk {
 
-/// The rays of every cone, in the frame of the cone (z = the axis). Rays are ordered by azimuth, in sectors, so that
-/// each aligned group of 8 rays is a compact patch of the cone. Up to about 50 rays at 120 degrees a sector is one
-/// group; with more rays the groups of a sector are ordered by the angle to the axis. directions and weights have
-/// rayCount entries.
+/// Lengths farther from the median than a multiple of their spread are outliers.
+struct OutlierRule {
+  enum class Spread {
+    StandardDeviation,  ///< Of the population, about the mean.
+    MedianDeviation,    ///< Median of the absolute differences from the median.
+  };
+
+  Spread spread = Spread::StandardDeviation;
+  double deviations = 1;                              ///< Largest difference from the median, in units of the spread.
+  double slack = static_cast<double>(kOutlierSlack);  ///< Added to it, in units of the median.
+};
+
+/// The rays of every cone and the rules for their hits: a definition of the shape diameter as data. Rays are in the
+/// frame of the cone (z = the axis). They are ordered by azimuth, in sectors, so that each aligned group of 8 rays is a
+/// compact patch of the cone. Up to about 50 rays at 120 degrees a sector is one group; with more rays the groups of a
+/// sector are ordered by the angle to the axis. directions, weights and solidAngles have rayCount entries.
 struct Cone {
-  std::vector<Vec3d> directions;  ///< Unit.
-  std::vector<double> weights;    ///< 1 / angle to the axis, in 1 / radians.
-  double falseHitCosine = 0;      ///< A hit is false where the cosine of the angle between the normals is above this.
-                                  ///< Includes the slack of shared/cone_rules.h.
-  double outlierDeviations = 1;   ///< As in the options.
-  double halfAngleRadians = 0;    ///< Angle between the axis and the rim.
+  Definition definition = Definition::Paper;  ///< Selects the frame and the vector that falseHitCosine refers to.
+  std::vector<Vec3d> directions;              ///< Unit.
+  std::vector<double> weights;                ///< Paper: 1 / angle to the axis, in 1 / radians. Cgal: 1.
+  std::vector<double> solidAngles;            ///< That each ray represents, up to a common factor; Paper: 1.
+  double falseHitCosine = 0;                  ///< See isFalseHit(); includes the slack of shared/cone_rules.h.
+  OutlierRule outliers;
+  double halfAngleRadians = 0;  ///< Angle between the axis and the rim.
   ConeRotation rotation = ConeRotation::Fixed;
 };
 
-/// A golden-angle (Vogel) spiral, uniform in solid angle. Throws Error{Usage} for options out of range.
+/// Paper: a golden-angle (Vogel) spiral, uniform in solid angle. Cgal: the spiral of CGAL's disk, uniform in the
+/// tangent of the angle to the axis. Throws Error{Usage} for options out of range and options of another definition.
 [[nodiscard]] Cone makeCone(const ConeOptions& options);
 
-/// Whether a hit is false: the normal of the hit face is within the false-hit angle of the normal of the seed face.
-[[nodiscard]] inline bool isFalseHit(const Cone& cone, const Vec3d& seedNormal, const Vec3d& hitNormal) {
-  return dot(seedNormal, hitNormal) > cone.falseHitCosine;
+/// Whether a hit is false. Paper: the normal of the hit face is within the false-hit angle of the normal of the seed
+/// face. Cgal: the angle between the ray and the normal of the hit face is not acute. direction: of the ray.
+[[nodiscard]] inline bool isFalseHit(const Cone& cone, const Vec3d& seedNormal, const Vec3d& direction,
+                                     const Vec3d& hitNormal) {
+  const double cosine = cone.definition == Definition::Paper ? dot(seedNormal, hitNormal) : -dot(direction, hitNormal);
+  return cosine > cone.falseHitCosine;
 }
 
 /// A right-handed orthonormal frame; a ray of the cone is x * tangent + y * bitangent + z * axis.
 struct ConeFrame {
   Vec3d tangent, bitangent, axis;
+
+  [[nodiscard]] Vec3d toWorld(const Vec3d& ray) const { return ray.x * tangent + ray.y * bitangent + ray.z * axis; }
 };
 
 /// Duff et al. 2017, "Building an Orthonormal Basis, Revisited", with the discontinuity moved to axis.z = -0.7, because
 /// normals of axis-aligned walls have z = -1, 0 or 1. axis: unit, minus the normal of the face.
 [[nodiscard]] ConeFrame coneFrame(const Vec3d& axis);
 
-/// The frame of the rays of a face with the unit normal `normal`: coneFrame(-normal), turned about its axis by the
-/// rotation of the cone.
+/// CGAL's frame. inward: not zero, of any length; coordinates that are exactly 0 select the tangent.
+[[nodiscard]] ConeFrame cgalConeFrame(const Vec3d& inward);
+
+/// The frame of the rays of a face with the unit normal `normal`, by Definition::Paper: coneFrame(-normal), turned
+/// about its axis by the rotation of the cone.
 [[nodiscard]] ConeFrame faceConeFrame(const Cone& cone, const Vec3d& normal, uint32_t face);
 
 /// The range of lengths that are not outliers.
@@ -51,15 +74,14 @@ struct LengthWindow {
   [[nodiscard]] bool keeps(double length) const { return std::abs(length - median) <= bound; }
 };
 
-/// The median of the lengths (mean of the middle two for an even count) and the bound: outlierDeviations standard
-/// deviations (population, about the mean) plus the slack kOutlierSlack of shared/cone_rules.h. Precondition: 1 to
+/// The median of the lengths (mean of the middle two for an even count) and the bound of the rule. Precondition: 1 to
 /// kMaxRayCount lengths.
-[[nodiscard]] LengthWindow keptWindow(std::span<const double> lengths, double outlierDeviations);
+[[nodiscard]] LengthWindow keptWindow(std::span<const double> lengths, const OutlierRule& rule);
 
 /// The shape diameter from the lengths of the valid rays of a cone: the weighted mean of those in keptWindow().
-/// kNoValue without valid rays, and if no length is in the window, which requires outlierDeviations < 1. lengths and
+/// kNoValue without valid rays, and if no length is in the window, which requires less than 1 deviation. lengths and
 /// weights have one entry per valid ray, in the order of the cone.
 [[nodiscard]] double coneValue(std::span<const double> lengths, std::span<const double> weights,
-                               double outlierDeviations = 1);
+                               const OutlierRule& rule = {});
 
 }  // namespace asdfvk

@@ -6,7 +6,6 @@
 #include "cone/cone.h"
 #include "core/check.h"
 #include "mesh/mesh.h"
-#include "shared/cone_rules.h"
 
 namespace asdfvk {
 namespace {
@@ -19,6 +18,12 @@ double takeMedian(std::span<double> lengths) {
   return 0.5 * (*middle + *std::max_element(lengths.begin(), middle));
 }
 
+/// Reorders and overwrites `lengths`.
+double takeMedianDeviation(std::span<double> lengths, double median) {
+  for (double& length : lengths) length = std::abs(length - median);
+  return takeMedian(lengths);
+}
+
 double standardDeviation(std::span<const double> lengths) {
   const double count = static_cast<double>(lengths.size());
   const double mean = std::accumulate(lengths.begin(), lengths.end(), 0.0) / count;
@@ -29,19 +34,22 @@ double standardDeviation(std::span<const double> lengths) {
 
 }  // namespace
 
-LengthWindow keptWindow(std::span<const double> lengths, double outlierDeviations) {
+LengthWindow keptWindow(std::span<const double> lengths, const OutlierRule& rule) {
   ASDFVK_CHECK_OP(lengths.size(), >, size_t{0});
   ASDFVK_CHECK_OP(lengths.size(), <=, size_t{kMaxRayCount});
   std::array<double, kMaxRayCount> scratch;
   std::copy(lengths.begin(), lengths.end(), scratch.begin());
-  const double median = takeMedian({scratch.data(), lengths.size()});
-  return {median, outlierDeviations * standardDeviation(lengths) + kOutlierSlack * median};
+  const std::span<double> copy(scratch.data(), lengths.size());
+  const double median = takeMedian(copy);
+  const double spread = rule.spread == OutlierRule::Spread::StandardDeviation ? standardDeviation(lengths)
+                                                                              : takeMedianDeviation(copy, median);
+  return {median, rule.deviations * spread + rule.slack * median};
 }
 
-double coneValue(std::span<const double> lengths, std::span<const double> weights, double outlierDeviations) {
+double coneValue(std::span<const double> lengths, std::span<const double> weights, const OutlierRule& rule) {
   ASDFVK_CHECK_OP(lengths.size(), ==, weights.size());
   if (lengths.empty()) return kNoValue;
-  const LengthWindow window = keptWindow(lengths, outlierDeviations);
+  const LengthWindow window = keptWindow(lengths, rule);
   double weightedSum = 0, weightSum = 0;
   for (size_t i = 0; i < lengths.size(); ++i) {
     if (!window.keeps(lengths[i])) continue;

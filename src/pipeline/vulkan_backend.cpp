@@ -32,7 +32,8 @@ class VulkanBackend final : public Backend {
 
   [[nodiscard]] std::unique_ptr<ConeTracer> makeTracer(const TraceScene& scene, const Cone& cone,
                                                        bool writesHits) override {
-    const ConeKernelRequest request{static_cast<uint32_t>(cone.directions.size()), writesHits, choice_};
+    const ConeKernelRequest request{static_cast<uint32_t>(cone.directions.size()), writesHits, choice_,
+                                    cone.definition};
     std::unique_ptr<VulkanConeKernel>& kernel = kernels_[request];
     if (!kernel) kernel = std::make_unique<VulkanConeKernel>(*opened_.device, request);
     return makeVulkanTracer(*kernel, scene, cone);

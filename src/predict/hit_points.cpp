@@ -44,18 +44,20 @@ HitPoints::HitPoints(const TraceScene& scene, const Cone& cone, const SeedHits& 
 void HitPoints::clear() { groups_.clear(); }
 
 /// Neither a miss nor a false hit.
-bool HitPoints::isValid(uint32_t seedFace, const ConeHit& hit) const {
+bool HitPoints::isValid(uint32_t seedFace, const Vec3d& direction, const ConeHit& hit) const {
   return hit.face != kNoFace &&
-         !isFalseHit(cone_, scene_.geometry.normals[seedFace], scene_.geometry.normals[hit.face]);
+         !isFalseHit(cone_, scene_.geometry.normals[seedFace], direction, scene_.geometry.normals[hit.face]);
 }
 
 /// The lengths that the outlier rule of the seed's own cone keeps, in normalised units.
-LengthWindow HitPoints::inlierWindow(uint32_t seed) const {
+LengthWindow HitPoints::inlierWindow(uint32_t seed, const ConeFrame& frame) const {
+  const std::span<const ConeHit> hits = hits_.of(seed);
   std::array<double, kMaxRayCount> lengths;
   size_t count = 0;
-  for (const ConeHit& hit : hits_.of(seed))
-    if (isValid(hits_.seeds[seed], hit)) lengths[count++] = static_cast<double>(hit.distance);
-  return count > 0 ? keptWindow({lengths.data(), count}, cone_.outlierDeviations) : LengthWindow{};
+  for (size_t ray = 0; ray < hits.size(); ++ray)
+    if (isValid(hits_.seeds[seed], frame.toWorld(cone_.directions[ray]), hits[ray]))
+      lengths[count++] = static_cast<double>(hits[ray].distance);
+  return count > 0 ? keptWindow({lengths.data(), count}, cone_.outliers) : LengthWindow{};
 }
 
 HitRange HitPoints::appendEmpty(size_t pointCount) {
@@ -72,20 +74,20 @@ HitRange HitPoints::append(uint32_t seed) {
   // The normals are at random places in memory: without the prefetch the cache misses take most of the time.
   for (const ConeHit& hit : hits)
     if (hit.face != kNoFace) __builtin_prefetch(&scene_.geometry.normals[hit.face]);
-  const LengthWindow window = inlierWindow(seed);
-  const ConeFrame frame = faceConeFrame(cone_, scene_.geometry.normals[seedFace], seedFace);
+  const ConeFrame frame = seedConeFrame(scene_, cone_, seedFace);
+  const LengthWindow window = inlierWindow(seed, frame);
   const Vec3d origin = scene_.bvh.normalization.toNormalized(scene_.geometry.barycentres[seedFace]);
   HitRange range = appendEmpty(hits.size());
   range.medianLength = static_cast<float>(window.median);
   for (size_t ray = 0; ray < hits.size(); ++ray) {
     const ConeHit& hit = hits[ray];
     if (hit.face == kNoFace) continue;
-    const Vec3d& local = cone_.directions[ray];
-    const Vec3d direction = local.x * frame.tangent + local.y * frame.bitangent + local.z * frame.axis;
+    const Vec3d direction = frame.toWorld(cone_.directions[ray]);
     const auto length = static_cast<double>(hit.distance);
     put(groups_[range.firstGroup + ray / kPointGroupSize], ray % kPointGroupSize,
-        {origin + length * direction, scene_.geometry.normals[hit.face], hit.distance * hit.distance,
-         isValid(seedFace, hit) && window.keeps(length), hit.face});
+        {origin + length * direction, scene_.geometry.normals[hit.face],
+         hit.distance * hit.distance * static_cast<float>(cone_.solidAngles[ray]),
+         isValid(seedFace, direction, hit) && window.keeps(length), hit.face});
   }
   return range;
 }

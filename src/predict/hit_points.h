@@ -23,8 +23,8 @@ class HitPoints {
   [[nodiscard]] const std::vector<PointGroup>& groups() const { return groups_; }
 
  private:
-  [[nodiscard]] bool isValid(uint32_t seedFace, const ConeHit& hit) const;
-  [[nodiscard]] LengthWindow inlierWindow(uint32_t seed) const;
+  [[nodiscard]] bool isValid(uint32_t seedFace, const Vec3d& direction, const ConeHit& hit) const;
+  [[nodiscard]] LengthWindow inlierWindow(uint32_t seed, const ConeFrame& frame) const;
   [[nodiscard]] HitRange appendEmpty(size_t pointCount);
 
   const TraceScene& scene_;

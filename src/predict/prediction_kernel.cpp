@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "shared/cone_rules.h"
-
 namespace asdfvk {
 namespace {
 
@@ -16,6 +14,9 @@ constexpr double kCosineSlack = 2e-6;
 // the two solid angles differ by more than this factor, the point is close to one of the origins and far from the
 // other, and the surface around it is not a disc.
 constexpr float kMaxSolidAngleChange = 4;
+
+// Where the median is searched again for the spread, the deviation does not bound it as closely.
+constexpr int kSpreadPassCount = 3;
 
 // The share of a length's weight that depends on the outlier rule for all lengths pooled; the rest depends on the rule
 // for the seed's own cone. The pooled rule is less noisy; the other has the noise of a traced cone.
@@ -81,8 +82,8 @@ struct ConeSums {
 /// The hit points, `count` entries in each array; 0 where a point is not in the virtual cone.
 struct ConePoints {
   float* lengths;  ///< From the virtual cone's origin.
-  float* masses;   ///< The solid angle that the point represents there, times the weight of its seed.
-  float* weights;  ///< Mass divided by the angle to the axis.
+  float* masses;   ///< The number of rays that the point represents there, up to a factor, times the seed's weight.
+  float* weights;  ///< Paper: mass divided by the angle to the axis. Cgal: mass.
   size_t count;
 };
 
@@ -92,7 +93,7 @@ ASDFVK_ALWAYS_INLINE inline Floats sqrtOverAngle(const Floats& x) {
   return 0.706948624f - x * (0.0564995318f + x * 0.0136869098f);
 }
 
-template <typename Floats>
+template <Definition kDefinition, typename Floats>
 ASDFVK_ALWAYS_INLINE inline void project(const PredictionKernel::Rules& rules, const KernelInput& input,
                                          const VirtualCone& at, ConePoints& points, ConeSums<Floats>& sums) {
   using Ints = IntsOf<Floats>;
@@ -113,16 +114,27 @@ ASDFVK_ALWAYS_INLINE inline void project(const PredictionKernel::Rules& rules, c
         const Floats inverse = rsqrt(x * x + y * y + z * z);
         const Floats length = (x * x + y * y + z * z) * inverse;
         const Floats cosine = (x * -normal.x + y * -normal.y + z * -normal.z) * inverse;
-        const Floats normalCosine = load<Floats>(group->nx + i) * normal.x + load<Floats>(group->ny + i) * normal.y +
-                                    load<Floats>(group->nz + i) * normal.z;
-        const Floats change =
-            min(max(load<Floats>(group->solidAngleRatio + i) * (inverse * inverse), minChange), maxChange);
+        const Floats nx = load<Floats>(group->nx + i), ny = load<Floats>(group->ny + i),
+                     nz = load<Floats>(group->nz + i);
+        const Floats ratio = load<Floats>(group->solidAngleRatio + i) * (inverse * inverse);
         const Floats versine = max(1 - cosine, minVersine);
+        Floats normalCosine, change;
+        if constexpr (kDefinition == Definition::Paper) {
+          normalCosine = nx * normal.x + ny * normal.y + nz * normal.z;
+          change = min(max(ratio, minChange), maxChange);
+        } else {
+          normalCosine = -(nx * x + ny * y + nz * z);
+          // Rays per solid angle at this angle t to the axis: 1 / (sin t cos^2 t).
+          const Floats density = rsqrt(versine * (2 - versine)) / (cosine * cosine);
+          change = min(max(ratio * density, minChange), maxChange);
+        }
         // False for a miss, whose numbers are NaN.
         const Ints isInCone = lessEqual(minCosine, cosine) & lessEqual(normalCosine, maxNormalCosine) &
                               notEqual(load<Ints>(group->face + i), ownFace);
         const Floats mass = select(isInCone, seedWeight * change), lengthInCone = select(isInCone, length);
-        const Floats weight = mass * (approximateRsqrt(versine) * sqrtOverAngle(versine));
+        Floats weight = mass;
+        if constexpr (kDefinition == Definition::Paper)
+          weight = mass * (approximateRsqrt(versine) * sqrtOverAngle(versine));
         store(points.lengths + points.count + i, lengthInCone);
         store(points.masses + points.count + i, mass);
         store(points.weights + points.count + i, weight);
@@ -144,10 +156,10 @@ struct MedianBounds {
   float low, high, massToLow, massToHigh;
 };
 
-/// The quarter of the interval where the mass reaches `halfMass`.
-template <typename Floats>
-ASDFVK_ALWAYS_INLINE inline MedianBounds quarterOf(const ConePoints& points, const MedianBounds& bounds,
-                                                   float halfMass) {
+/// The quarter of the interval where the mass reaches `halfMass`. keyOf: of the lengths, the numbers that are compared.
+template <typename Floats, typename KeyOf>
+ASDFVK_ALWAYS_INLINE inline MedianBounds quarterOf(const ConePoints& points, const MedianBounds& bounds, float halfMass,
+                                                   const KeyOf& keyOf) {
   const float quarter = 0.25f * (bounds.high - bounds.low);
   const Floats first = broadcast<Floats>(bounds.low + quarter), second = broadcast<Floats>(bounds.low + 2 * quarter),
                third = broadcast<Floats>(bounds.low + 3 * quarter);
@@ -155,10 +167,11 @@ ASDFVK_ALWAYS_INLINE inline MedianBounds quarterOf(const ConePoints& points, con
   for (size_t group = 0; group < points.count; group += kPointGroupSize) {
 #pragma GCC unroll 4
     for (size_t i = 0; i < kPointGroupSize; i += kLaneCount<Floats>) {
-      const Floats length = load<Floats>(points.lengths + group + i), mass = load<Floats>(points.masses + group + i);
-      toFirst.add(i, select(lessEqual(length, first), mass));
-      toSecond.add(i, select(lessEqual(length, second), mass));
-      toThird.add(i, select(lessEqual(length, third), mass));
+      const Floats key = keyOf(load<Floats>(points.lengths + group + i));
+      const Floats mass = load<Floats>(points.masses + group + i);
+      toFirst.add(i, select(lessEqual(key, first), mass));
+      toSecond.add(i, select(lessEqual(key, second), mass));
+      toThird.add(i, select(lessEqual(key, third), mass));
     }
   }
   const float masses[3] = {toFirst.total(), toSecond.total(), toThird.total()};
@@ -176,30 +189,37 @@ ASDFVK_ALWAYS_INLINE inline MedianBounds quarterOf(const ConePoints& points, con
   return result;
 }
 
-template <typename Floats>
-ASDFVK_ALWAYS_INLINE inline float medianBetween(const ConePoints& points, MedianBounds bounds) {
+template <typename Floats, typename KeyOf>
+ASDFVK_ALWAYS_INLINE inline float medianBetween(const ConePoints& points, MedianBounds bounds, int passCount,
+                                                const KeyOf& keyOf) {
   const float halfMass = 0.5f * bounds.massToHigh;
-  for (int pass = 0; pass < kMedianPassCount; ++pass) bounds = quarterOf<Floats>(points, bounds, halfMass);
+  for (int pass = 0; pass < passCount; ++pass) bounds = quarterOf<Floats>(points, bounds, halfMass, keyOf);
   const float between = bounds.massToHigh - bounds.massToLow;
   const float share = between > 0 ? (halfMass - bounds.massToLow) / between : 0.5f;
   return bounds.low + share * (bounds.high - bounds.low);
 }
 
-template <typename Floats>
+template <Definition kDefinition, typename Floats>
 ASDFVK_ALWAYS_INLINE inline float predictedValue(const PredictionKernel::Rules& rules, const KernelInput& input,
                                                  const VirtualCone& at) {
   size_t capacity = 0;
   for (const WeightedRange& range : input.ranges) capacity += range.groupCount * kPointGroupSize;
   ConePoints points{input.buffer, input.buffer + capacity, input.buffer + 2 * capacity, 0};
   ConeSums<Floats> sums;
-  project(rules, input, at, points, sums);
+  project<kDefinition>(rules, input, at, points, sums);
   const float mass = sums.mass.total();
   if (!(mass > 0)) return std::numeric_limits<float>::quiet_NaN();
   const float meanDifference = sums.difference.total() / mass,
               variance = sums.square.total() / mass - meanDifference * meanDifference;
   const float mean = input.medianLength + meanDifference, deviation = variance > 0 ? std::sqrt(variance) : 0.0f;
-  const float median = medianBetween<Floats>(points, {mean - deviation, mean + deviation, 0, mass});
-  const float bound = rules.outlierDeviations * deviation + kOutlierSlack * median;
+  const float median = medianBetween<Floats>(points, {mean - deviation, mean + deviation, 0, mass}, kMedianPassCount,
+                                             [](const Floats& length) ASDFVK_ALWAYS_INLINE { return length; });
+  float spread = deviation;
+  if constexpr (kDefinition == Definition::Cgal)  // At most twice the deviation, by Chebyshev's inequality.
+    spread = medianBetween<Floats>(points, {0, 2 * deviation, 0, mass}, kSpreadPassCount,
+                                   [median](const Floats& length)
+                                       ASDFVK_ALWAYS_INLINE { return max(length - median, median - length); });
+  const float bound = rules.outlierDeviations * spread + rules.outlierSlack * median;
   const Floats low = broadcast<Floats>(median - bound), high = broadcast<Floats>(median + bound);
   GroupSum<Floats> pooledWeight, pooledLength;
   for (size_t group = 0; group < points.count; group += kPointGroupSize) {
@@ -240,11 +260,16 @@ ASDFVK_ALWAYS_INLINE inline void weighSeeds(const SeedGroup& seeds, const SeedWe
 }  // namespace
 
 PredictionKernel::PredictionKernel(const Cone& cone, InstructionSet instructionSet) : instructionSet_(instructionSet) {
-  const double minAngle = 1 / *std::max_element(cone.weights.begin(), cone.weights.end());
+  // In the definition of CGAL the axis ray represents the least solid angle, of nearly the sine of its mean angle.
+  const double minAngle = cone.definition == Definition::Paper
+                              ? 1 / *std::max_element(cone.weights.begin(), cone.weights.end())
+                              : *std::min_element(cone.solidAngles.begin(), cone.solidAngles.end());
   rules_.minCosine = static_cast<float>(std::cos(cone.halfAngleRadians) - kCosineSlack);
   rules_.maxNormalCosine = static_cast<float>(cone.falseHitCosine);
   rules_.minVersine = static_cast<float>(2 * std::pow(std::sin(minAngle / 2), 2));
-  rules_.outlierDeviations = static_cast<float>(cone.outlierDeviations);
+  rules_.outlierDeviations = static_cast<float>(cone.outliers.deviations);
+  rules_.outlierSlack = static_cast<float>(cone.outliers.slack);
+  rules_.definition = cone.definition;
 }
 
 double PredictionKernel::value(const std::vector<PointGroup>& groups, std::span<const WeightedRange> ranges,
@@ -254,7 +279,8 @@ double PredictionKernel::value(const std::vector<PointGroup>& groups, std::span<
   buffer_.resize(std::max(buffer_.size(), 3 * kPointGroupSize * groupCount));
   const KernelInput input{groups.data(), ranges, medianLength, buffer_.data()};
   return static_cast<double>(dispatch<Float16>(instructionSet_, [&]<typename Floats>() ASDFVK_ALWAYS_INLINE {
-    return predictedValue<Floats>(rules_, input, at);
+    if (rules_.definition == Definition::Paper) return predictedValue<Definition::Paper, Floats>(rules_, input, at);
+    return predictedValue<Definition::Cgal, Floats>(rules_, input, at);
   }));
 }
 

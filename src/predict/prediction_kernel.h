@@ -18,7 +18,7 @@ inline constexpr size_t kPointGroupSize = kLaneCount<Float16>;
 struct alignas(64) PointGroup {
   float x[kPointGroupSize], y[kPointGroupSize], z[kPointGroupSize];     ///< NaN for a miss and for padding.
   float nx[kPointGroupSize], ny[kPointGroupSize], nz[kPointGroupSize];  ///< The unit normal of the face hit.
-  /// The area that the ray represents at the point, divided by the solid angle of a ray.
+  /// The area that the ray represents at the point, divided by the unit of Cone::solidAngles.
   float solidAngleRatio[kPointGroupSize];
   float isInlier[kPointGroupSize];  ///< 1 if the ray is not an outlier in the cone of its seed, else 0.
   uint32_t face[kPointGroupSize];   ///< The face hit.
@@ -76,9 +76,10 @@ class PredictionKernel {
   /// The rules of the cone, in float32.
   struct Rules {
     float minCosine = 0;        ///< Between the axis and the direction to a point in the cone.
-    float maxNormalCosine = 0;  ///< Between the normals of the face and of the face hit.
+    float maxNormalCosine = 0;  ///< Cone::falseHitCosine.
     float minVersine = 0;       ///< 1 - cosine of the angle below which the weight of a point is constant.
-    float outlierDeviations = 0;
+    float outlierDeviations = 0, outlierSlack = 0;
+    Definition definition = Definition::Paper;
   };
 
  private:

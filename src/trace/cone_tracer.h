@@ -25,6 +25,9 @@ struct TraceScene {
   const Bvh& bvh;
 };
 
+/// The frame of the rays of a face, by the definition of the cone. Precondition: the face is not degenerate.
+[[nodiscard]] ConeFrame seedConeFrame(const TraceScene& scene, const Cone& cone, uint32_t face);
+
 struct TraceStatistics {
   uint64_t rayCount = 0;
   /// Cones traced by the reference instead: iteration limit of the device reached, or too small for float32.

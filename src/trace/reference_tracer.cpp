@@ -16,9 +16,9 @@ RayHit hitOf(const TraceScene& scene, const Vec3d& origin, const Vec3d& directio
   return nearestHit(scene.bvh, scene.mesh, origin, direction, scene.representatives[seedFace]);
 }
 
-bool isValid(const TraceScene& scene, const Cone& cone, uint32_t seedFace, const RayHit& hit) {
+bool isValid(const TraceScene& scene, const Cone& cone, const Vec3d& direction, uint32_t seedFace, const RayHit& hit) {
   const std::vector<Vec3d>& normals = scene.geometry.normals;
-  return hit.face != kNoFace && !isFalseHit(cone, normals[seedFace], normals[hit.face]);
+  return hit.face != kNoFace && !isFalseHit(cone, normals[seedFace], direction, normals[hit.face]);
 }
 
 class ReferenceTracer final : public ConeTracer {
@@ -46,6 +46,17 @@ class ReferenceTracer final : public ConeTracer {
 
 }  // namespace
 
+ConeFrame seedConeFrame(const TraceScene& scene, const Cone& cone, uint32_t face) {
+  const Vec3d& normal = scene.geometry.normals[face];
+  if (cone.definition == Definition::Paper) return faceConeFrame(cone, normal, face);
+  // From the corners as they are: scaled or moved ones lose coordinates of the normal that are exactly 0.
+  const auto [i, j, k] = scene.mesh.faces[face];
+  const Vec3d& a = scene.mesh.vertices[i];
+  const Vec3d inward = -cross(scene.mesh.vertices[j] - a, scene.mesh.vertices[k] - a);
+  const double norm = length(inward);  // Out of range in extreme units.
+  return cgalConeFrame(norm > 0 && std::isfinite(norm) ? inward : -normal);
+}
+
 std::unique_ptr<ConeTracer> makeReferenceTracer(const TraceScene& scene, const Cone& cone) {
   return std::make_unique<ReferenceTracer>(scene, cone);
 }
@@ -53,26 +64,25 @@ std::unique_ptr<ConeTracer> makeReferenceTracer(const TraceScene& scene, const C
 double referenceRayLength(const TraceScene& scene, const Cone& cone, const Vec3d& direction, uint32_t seedFace) {
   const Vec3d origin = scene.bvh.normalization.toNormalized(scene.geometry.barycentres[seedFace]);
   const RayHit hit = hitOf(scene, origin, direction, seedFace);
-  return isValid(scene, cone, seedFace, hit) ? scene.bvh.normalization.toMeshLength(hit.distance) : kNoValue;
+  return isValid(scene, cone, direction, seedFace, hit) ? scene.bvh.normalization.toMeshLength(hit.distance) : kNoValue;
 }
 
 double referenceCone(const TraceScene& scene, const Cone& cone, uint32_t seedFace, std::span<ConeHit> hits) {
   ASDFVK_CHECK(!scene.geometry.isDegenerate(seedFace));
-  const ConeFrame frame = faceConeFrame(cone, scene.geometry.normals[seedFace], seedFace);
+  const ConeFrame frame = seedConeFrame(scene, cone, seedFace);
   const Vec3d origin = scene.bvh.normalization.toNormalized(scene.geometry.barycentres[seedFace]);
   std::array<double, kMaxRayCount> distances, weights;
   size_t validCount = 0;
   for (size_t i = 0; i < cone.directions.size(); ++i) {
-    const Vec3d& d = cone.directions[i];
-    const Vec3d direction = d.x * frame.tangent + d.y * frame.bitangent + d.z * frame.axis;
+    const Vec3d direction = frame.toWorld(cone.directions[i]);
     const RayHit hit = hitOf(scene, origin, direction, seedFace);
     if (!hits.empty()) hits[i] = {static_cast<float>(hit.distance), hit.face};
-    if (!isValid(scene, cone, seedFace, hit)) continue;
+    if (!isValid(scene, cone, direction, seedFace, hit)) continue;
     distances[validCount] = hit.distance;
     weights[validCount] = cone.weights[i];
     ++validCount;
   }
-  const double value = coneValue({distances.data(), validCount}, {weights.data(), validCount}, cone.outlierDeviations);
+  const double value = coneValue({distances.data(), validCount}, {weights.data(), validCount}, cone.outliers);
   return scene.bvh.normalization.toMeshLength(value);
 }
 

@@ -87,6 +87,31 @@ TEST_CASE("frames are continuous everywhere but at an axis height of -0.7") {
   CHECK(largestTurn(withHeight(-0.7 - 1e-9, 0.3), withHeight(-0.7 + 1e-9, 0.3)) > 0.1);
 }
 
+TEST_CASE("CGAL's frame begins with an axis at a coordinate of zero, else it drops the least coordinate") {
+  const auto tangentOf = [](const Vec3d& inward) { return cgalConeFrame(inward).tangent; };
+  CHECK(tangentOf({0, 0, 1}) == Vec3d{1, 0, 0});
+  CHECK(tangentOf({-0.0, 2, 1}) == Vec3d{1, 0, 0});
+  CHECK(tangentOf({7, 0, 0}) == Vec3d{0, 1, 0});
+  CHECK(tangentOf({1, 0, -3}) == Vec3d{0, 1, 0});
+  CHECK(tangentOf({1, -2, 0}) == Vec3d{0, 0, 1});
+  CHECK(length(tangentOf({-1, 2, 3}) - Vec3d{0, -3, 2} / std::sqrt(13.0)) < 1e-15);
+  CHECK(length(tangentOf({2, -1, 3}) - Vec3d{-3, 0, 2} / std::sqrt(13.0)) < 1e-15);
+  CHECK(length(tangentOf({3, 2, -1}) - Vec3d{-2, 3, 0} / std::sqrt(13.0)) < 1e-15);
+  CHECK(tangentOf({1, 1, 1}).x == 0);
+  CHECK(tangentOf({2, -1, 1}).y == 0);
+  CHECK(tangentOf({1, 3, -1}).x == 0);
+  CHECK(tangentOf({1e-300, 1, 1}).x == 0);
+  CHECK(cgalConeFrame({0, 0, 1}).bitangent == Vec3d{0, 1, 0});
+  Random random(6);
+  for (int i = 0; i < 2000; ++i) {
+    const Vec3d axis = randomUnit(random);
+    const ConeFrame frame = cgalConeFrame(axis * 1e3);
+    CHECK(length(frame.axis - axis) < 1e-15);
+    checkFrame(frame, frame.axis);
+    CHECK(std::abs(handedness(frame) - 1) < 1e-14);
+  }
+}
+
 TEST_CASE("the frame of a fixed cone depends on its axis only") {
   const Cone cone = makeCone({});
   Random random(3);

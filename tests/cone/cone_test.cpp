@@ -53,6 +53,61 @@ TEST_CASE("a cone holds exactly the rays of the golden-angle spiral, each once")
   }
 }
 
+TEST_CASE("a cone of CGAL's definition holds exactly the rays of CGAL's disk, each once, with equal weights") {
+  for (const uint32_t count : {1u, 2u, 12u, 25u, 64u, 333u}) {
+    const Cone cone = makeCone({.rayCount = count, .definition = Definition::Cgal});
+    REQUIRE(cone.directions.size() == count);
+    CHECK(cone.weights == std::vector<double>(count, 1));
+    std::vector<int> matchCount(count, 0);
+    for (uint32_t i = 0; i < count; ++i) {
+      const double radius = double(i) / count, phi = i * (3 - std::sqrt(5.0)) * std::numbers::pi;
+      const double sine = std::sin(std::numbers::pi / 3), cosine = std::cos(std::numbers::pi / 3);
+      const Vec3d onDisk{sine * radius * std::cos(phi), sine * radius * std::sin(phi), cosine};
+      for (size_t k = 0; k < count; ++k) matchCount[k] += length(cone.directions[k] - onDisk / length(onDisk)) < 1e-12;
+    }
+    CHECK(std::all_of(matchCount.begin(), matchCount.end(), [](int n) { return n == 1; }));
+  }
+}
+
+TEST_CASE("the solid angles of CGAL's rays are as their spiral fills the cone") {
+  // The cap between the tangents r and r + dr of the angle to the axis has the solid angle 2 pi r dr (1 + r^2)^(-3/2).
+  const uint32_t count = 400;
+  const Cone cone = makeCone({.rayCount = count, .definition = Definition::Cgal});
+  double sum = 0, inner = 0;
+  for (uint32_t k = 0; k < count; ++k) {
+    sum += cone.solidAngles[k];
+    if (cone.directions[k].z > std::cos(0.5)) inner += cone.solidAngles[k];
+  }
+  CHECK(inner / sum == doctest::Approx((1 - std::cos(0.5)) / (1 - std::cos(std::numbers::pi / 3))).epsilon(0.02));
+  CHECK(*std::min_element(cone.solidAngles.begin(), cone.solidAngles.end()) > 0);
+}
+
+TEST_CASE("options of the paper's definition are usage errors in another one") {
+  const Definition cgal = Definition::Cgal;
+  CHECK(kindThrownBy({.falseHitAngleDegrees = 80, .definition = cgal}) == ErrorKind::Usage);
+  CHECK(kindThrownBy({.outlierDeviations = 2, .definition = cgal}) == ErrorKind::Usage);
+  CHECK(kindThrownBy({.rotation = ConeRotation::Hashed, .definition = cgal}) == ErrorKind::Usage);
+  CHECK_NOTHROW((void)makeCone({.rayCount = 25, .openingAngleDegrees = 60, .definition = cgal}));
+}
+
+TEST_CASE("a hit is false by the normals of both faces, or by the ray and the normal of the face hit") {
+  const Cone paper = makeCone({}), cgal = makeCone({.definition = Definition::Cgal});
+  const Vec3d seed{0, 0, -1}, axis{0, 0, 1}, oblique{0.6, 0, 0.8};
+  for (const Vec3d& direction : {axis, oblique}) {
+    CHECK_FALSE(isFalseHit(paper, seed, direction, axis));
+    CHECK(isFalseHit(paper, seed, direction, -axis));
+    CHECK_FALSE(isFalseHit(cgal, seed, direction, axis));
+    CHECK(isFalseHit(cgal, seed, direction, -axis));
+  }
+  // A wall beside the seed that leans over it: the ray hits its inner side, but the normals are close.
+  const Vec3d leaning{0.8, 0, -0.6 + 1e-3};
+  CHECK(isFalseHit(paper, seed, oblique, leaning));
+  CHECK_FALSE(isFalseHit(cgal, seed, oblique, leaning));
+  CHECK(isFalseHit(cgal, seed, {1, 0, 0}, {0, 1, 0}));  // 90 degrees are not acute.
+  CHECK(isFalseHit(cgal, seed, {1, 0, 0}, {-0.0, 1, 0}));
+  CHECK_FALSE(isFalseHit(cgal, seed, {1, 0, 0}, {1e-30, 1, 0}));
+}
+
 TEST_CASE("all rays are unit vectors inside the cone") {
   const Cone cone = makeCone({1000, 90});
   for (const Vec3d& d : cone.directions) {

@@ -54,6 +54,26 @@ TEST_CASE("equal lengths give that length") {
   CHECK(valueOf(std::vector<double>(30, 0.0), weights) == 0);
 }
 
+TEST_CASE("CGAL's definition keeps lengths within one and a half median deviations, and is their plain mean") {
+  const auto cgalValue = [](const std::vector<double>& lengths) {
+    const Cone cone = makeCone({.rayCount = 25, .definition = Definition::Cgal});
+    return coneValue(lengths, std::vector<double>(lengths.size(), 1), cone.outliers);
+  };
+  CHECK(std::isnan(cgalValue({})));
+  CHECK(cgalValue({3.5}) == 3.5);
+  CHECK(cgalValue({0, 10}) == 5);
+  // Median 3, differences 0, 1, 1, 2, 97: the bound is 1.5.
+  CHECK(cgalValue({4, 100, 1, 3, 2}) == 3);
+  // Median 3, differences 1, 1, 2, 7: the bound is 2.25.
+  CHECK(cgalValue({10, 1, 2, 4}) == doctest::Approx(7.0 / 3));
+  // Median 5, differences 0, 2, 3, 4, 10: the bound is 4.5.
+  CHECK(cgalValue({5, 3, 8, 1, 15}) == 4.25);
+  // Median 6, differences 0, 1, 2, 2, 3, 6, 14: the bound is 3, which 9 has exactly.
+  CHECK(cgalValue({4, 20, 8, 6, 0, 9, 5}) == doctest::Approx(6.4));
+  // A difference of 0 in the middle keeps the equal lengths only.
+  CHECK(cgalValue({5, 5, 5, 9}) == 5);
+}
+
 TEST_CASE("a weight for each length is a precondition") {
   CHECK_THROWS_AS(valueOf({1, 2}, {1}), CheckFailure);
   const std::vector<double> tooMany(kMaxRayCount + 1, 1.0);

@@ -72,15 +72,16 @@ void checkPoints(const SeededMesh& seeded) {
       const Vec3d offset =
           point - seeded.bvh.normalization.toNormalized(seeded.geometry.barycentres[seeded.seeds[seed]]);
       CHECK(length(offset) == doctest::Approx(hit.distance).epsilon(1e-5));
-      CHECK(group.solidAngleRatio[at] == doctest::Approx(dot(offset, offset)).epsilon(1e-4));
-      if (isFalseHit(seeded.cone, seedNormal, seeded.geometry.normals[hit.face])) {
+      CHECK(group.solidAngleRatio[at] ==
+            doctest::Approx(seeded.cone.solidAngles[ray] * dot(offset, offset)).epsilon(1e-4));
+      if (isFalseHit(seeded.cone, seedNormal, offset, seeded.geometry.normals[hit.face])) {
         CHECK(group.isInlier[at] == 0);
       } else {
         isInlier.push_back(group.isInlier[at]);
         lengths.push_back(static_cast<double>(hit.distance));
       }
     }
-    const std::vector<bool> expected = inliersOf(lengths, seeded.cone.outlierDeviations);
+    const std::vector<bool> expected = inliersOf(lengths, seeded.cone.outliers.deviations);
     for (size_t i = 0; i < expected.size(); ++i) CHECK(isInlier[i] == (expected[i] ? 1.0f : 0.0f));
     if (lengths.empty()) CHECK(range.medianLength == 0);
     std::sort(lengths.begin(), lengths.end());

@@ -22,21 +22,25 @@ struct VisibleHit {
 
 std::vector<VisibleHit> visibleFrom(const Cone& cone, const std::vector<PointGroup>& groups,
                                     std::span<const WeightedRange> ranges, const VirtualCone& at) {
+  const bool isPaper = cone.definition == Definition::Paper;
   double minAngle = std::numeric_limits<double>::max();
   for (const double weight : cone.weights) minAngle = std::min(minAngle, 1 / weight);
+  if (!isPaper) minAngle = *std::min_element(cone.solidAngles.begin(), cone.solidAngles.end());
   std::vector<VisibleHit> visible;
   const auto add = [&](const PointGroup& group, size_t lane, float weight) {
     const Vec3d offset = Vec3d{group.x[lane], group.y[lane], group.z[lane]} - at.origin;
     const Vec3d normal{group.nx[lane], group.ny[lane], group.nz[lane]};
-    if (std::isnan(offset.x) || group.face[lane] == at.face || dot(at.normal, normal) > cone.falseHitCosine) return;
+    if (std::isnan(offset.x) || group.face[lane] == at.face || isFalseHit(cone, at.normal, offset, normal)) return;
     const double distance = length(offset);
     const double cosine = -dot(offset, at.normal) / distance;
     if (cosine < std::cos(cone.halfAngleRadians)) return;
-    const double change = std::clamp(static_cast<double>(group.solidAngleRatio[lane]) / (distance * distance),
+    const double angle = std::max(minAngle, std::acos(std::min(1.0, cosine)));
+    const double density = isPaper ? 1 : 1 / (std::sin(angle) * cosine * cosine);
+    const double change = std::clamp(density * static_cast<double>(group.solidAngleRatio[lane]) / (distance * distance),
                                      1 / kMaxChange, kMaxChange);
     visible.push_back({.length = distance,
                        .mass = static_cast<double>(weight) * change,
-                       .angle = std::max(minAngle, std::acos(std::min(1.0, cosine))),
+                       .angle = isPaper ? angle : 1,
                        .isInlierOfSeed = group.isInlier[lane] == 1});
   };
   for (const WeightedRange& range : ranges)
@@ -68,6 +72,29 @@ double meanAround(const std::vector<VisibleHit>& visible, double median, double 
   return weights > 0 ? weighted / weights : kNoValue;
 }
 
+/// With medians and bounds sampled within the tolerance of the kernel.
+TwinValue cgalTwin(const std::vector<VisibleHit>& visible, double median, double deviation, double mass) {
+  constexpr int kSampleCount = 60;
+  constexpr double kSpreadSlack = 1.01 / 32;  // As kMedianSlack; the kernel bisects once more.
+  const auto spreadAbout = [&](double centre) {
+    std::vector<VisibleHit> differences = visible;
+    for (VisibleHit& hit : differences) hit.length = std::abs(hit.length - centre);
+    std::sort(differences.begin(), differences.end(),
+              [](const VisibleHit& a, const VisibleHit& b) { return a.length < b.length; });
+    return medianOf(differences, mass);
+  };
+  TwinValue value{meanAround(visible, median, 1.5 * spreadAbout(median)), {}};
+  value.admissible.push_back(value.exact);
+  for (int i = -kSampleCount; i <= kSampleCount; ++i) {
+    const double centre = median + kMedianSlack * deviation * i / kSampleCount;
+    const double spread = spreadAbout(centre);
+    for (int j = -kSampleCount; j <= kSampleCount; ++j)
+      value.admissible.push_back(
+          meanAround(visible, centre, 1.5 * (spread + kSpreadSlack * deviation * j / kSampleCount)));
+  }
+  return value;
+}
+
 }  // namespace
 
 TwinValue plainTwin(const Cone& cone, const std::vector<PointGroup>& groups, std::span<const WeightedRange> ranges,
@@ -82,12 +109,14 @@ TwinValue plainTwin(const Cone& cone, const std::vector<PointGroup>& groups, std
   mean /= mass;
   for (const VisibleHit& hit : visible) squares += hit.mass * (hit.length - mean) * (hit.length - mean);
   const double median = medianOf(visible, mass);
-  const double bound = cone.outlierDeviations * std::sqrt(squares / mass) + static_cast<double>(kOutlierSlack) * median;
+  const double deviation = std::sqrt(squares / mass);
+  if (cone.definition == Definition::Cgal) return cgalTwin(visible, median, deviation, mass);
+  const double bound = cone.outliers.deviations * deviation + static_cast<double>(kOutlierSlack) * median;
 
   TwinValue value{meanAround(visible, median, bound), {}};
   // The mean changes only where a length enters or leaves the window, so that one median per interval in between is
   // enough.
-  const double slack = kMedianSlack * std::sqrt(squares / mass);
+  const double slack = kMedianSlack * deviation;
   std::vector<double> changes{median - slack, median + slack};
   for (const VisibleHit& hit : visible)
     for (const double change : {hit.length - bound, hit.length + bound})

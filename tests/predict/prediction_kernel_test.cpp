@@ -112,7 +112,8 @@ TEST_CASE("random hits give the value of the double-precision twin") {
   Agreement agreement;
   for (const ConeOptions& options :
        {ConeOptions{}, ConeOptions{.rayCount = 5, .openingAngleDegrees = 150, .outlierDeviations = 0.7},
-        ConeOptions{.rayCount = 64, .openingAngleDegrees = 60, .falseHitAngleDegrees = 30}}) {
+        ConeOptions{.rayCount = 64, .openingAngleDegrees = 60, .falseHitAngleDegrees = 30},
+        ConeOptions{.rayCount = 25, .definition = Definition::Cgal}}) {
     const SeededMesh seeded(makeSphere(180).mesh, 7, options);
     TestInput input(seeded, firstSeeds(7));
     PredictionKernel kernel(seeded.cone);

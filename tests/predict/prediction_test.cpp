@@ -62,7 +62,7 @@ double coneValueOf(const Cone& cone, const ChordOf& chordOf) {
     lengths.push_back(chord.length);
     weights.push_back(cone.weights[ray]);
   }
-  return coneValue(lengths, weights, cone.outlierDeviations);
+  return coneValue(lengths, weights, cone.outliers);
 }
 
 Chord chordOfUnitSphere(const Vec3d& direction) { return {2 * direction.z, 1 - 2 * direction.z * direction.z}; }

@@ -48,7 +48,8 @@ BruteForceCone traceByBruteForce(const Mesh& mesh, const Cone& cone, uint32_t se
   const Corners seed = cornersOf(mesh, seedFace);
   const Vec3d origin = (seed.a + seed.b + seed.c) / 3.0;
   const Vec3d normal = seed.normal() / length(seed.normal());
-  const ConeFrame frame = faceConeFrame(cone, normal, seedFace);
+  const bool isPaper = cone.definition == Definition::Paper;
+  const ConeFrame frame = isPaper ? faceConeFrame(cone, normal, seedFace) : cgalConeFrame(-seed.normal());
   const std::vector<Corners> others = facesToHit(mesh, seedFace);
   BruteForceCone result;
   for (const Vec3d& d : cone.directions) {
@@ -63,13 +64,41 @@ BruteForceCone traceByBruteForce(const Mesh& mesh, const Cone& cone, uint32_t se
       nearestFace = corners.face;
       nearestNormal = corners.normal() / length(corners.normal());
     }
-    const bool isValid = std::isfinite(nearest) && !(dot(normal, nearestNormal) > cone.falseHitCosine);
+    const bool isFalse =
+        isPaper ? dot(normal, nearestNormal) > cone.falseHitCosine : dot(direction, nearestNormal) <= 0;
+    const bool isValid = std::isfinite(nearest) && !isFalse;
     result.rayLengths.push_back(isValid ? nearest : kNoValue);
     result.hitDistances.push_back(nearest);
     result.hitFaces.push_back(nearestFace);
   }
-  result.value = valueBySorting(result.rayLengths, cone.weights);
+  result.value = isPaper ? valueBySorting(result.rayLengths, cone.weights) : cgalValueBySorting(result.rayLengths);
   return result;
+}
+
+namespace {
+
+double medianOf(std::vector<double> numbers) {
+  std::sort(numbers.begin(), numbers.end());
+  return 0.5 * (numbers[(numbers.size() - 1) / 2] + numbers[numbers.size() / 2]);
+}
+
+}  // namespace
+
+double cgalValueBySorting(const std::vector<double>& rayLengths) {
+  std::vector<double> lengths, differences;
+  for (const double l : rayLengths)
+    if (!std::isnan(l)) lengths.push_back(l);
+  if (lengths.empty()) return kNoValue;
+  const double median = medianOf(lengths);
+  for (const double l : lengths) differences.push_back(std::abs(l - median));
+  const double bound = 1.5 * medianOf(differences);
+  double sum = 0, count = 0;
+  for (const double l : lengths)
+    if (std::abs(l - median) <= bound) {
+      sum += l;
+      ++count;
+    }
+  return sum / count;
 }
 
 double valueBySorting(const std::vector<double>& rayLengths, const std::vector<double>& weights) {

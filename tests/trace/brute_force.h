@@ -22,7 +22,8 @@ struct BruteForceCone {
 /// Precondition: the seed face is not degenerate.
 [[nodiscard]] BruteForceCone traceByBruteForce(const Mesh& mesh, const Cone& cone, uint32_t seedFace);
 
-/// The value of a cone from its rays' lengths, NaN for a dropped one.
+/// The value of a cone from its rays' lengths, NaN for a dropped one, by the definition of CGAL or of the paper.
+[[nodiscard]] double cgalValueBySorting(const std::vector<double>& rayLengths);
 [[nodiscard]] double valueBySorting(const std::vector<double>& rayLengths, const std::vector<double>& weights);
 
 }  // namespace asdfvk

@@ -88,6 +88,18 @@ TEST_CASE("Embree obeys every option of the cone") {
   checkParity(traced, {.rotation = ConeRotation::Hashed});
 }
 
+TEST_CASE("Embree gives the reference's values by CGAL's definition") {
+  if (!isEmbreeThere()) return;
+  for (const std::string_view name : shapeNames()) {
+    CAPTURE(name);
+    checkParity(TracedMesh(shapes::jittered(generateShape(name, 2000).mesh, 1e-4, 9)),
+                {.rayCount = 25, .definition = Definition::Cgal});
+  }
+  const TracedMesh traced(generateShape("animal", 1500).mesh);
+  for (const uint32_t rayCount : {1u, 2u, 7u, 8u, 33u, 257u})
+    checkParity(traced, {.rayCount = rayCount, .definition = Definition::Cgal});
+}
+
 TEST_CASE("cones of nearly 180 degrees do not end at their own face" * doctest::test_suite("slow")) {
   if (!isEmbreeThere()) return;
   const ConeOptions wide{.rayCount = 1024, .openingAngleDegrees = 179.9999};

@@ -8,14 +8,16 @@ namespace asdfvk {
 inline double valueOfHits(const TracedMesh& traced, const Cone& cone, uint32_t seedFace,
                           std::span<const ConeHit> hits) {
   const std::vector<Vec3d>& normals = traced.geometry.normals;
+  const ConeFrame frame = seedConeFrame(traced.scene(), cone, seedFace);
   std::vector<double> lengths, weights;
   for (size_t ray = 0; ray < hits.size(); ++ray) {
     const ConeHit& hit = hits[ray];
-    if (hit.face == kNoFace || isFalseHit(cone, normals[seedFace], normals[hit.face])) continue;
+    if (hit.face == kNoFace) continue;
+    if (isFalseHit(cone, normals[seedFace], frame.toWorld(cone.directions[ray]), normals[hit.face])) continue;
     lengths.push_back(hit.distance);
     weights.push_back(cone.weights[ray]);
   }
-  return traced.bvh.normalization.toMeshLength(coneValue(lengths, weights, cone.outlierDeviations));
+  return traced.bvh.normalization.toMeshLength(coneValue(lengths, weights, cone.outliers));
 }
 
 /// valueOfHits() of every seed face.

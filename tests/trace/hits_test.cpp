@@ -50,12 +50,14 @@ TEST_CASE("the reference's hits are the nearest faces by brute force, false ones
   const HitCounts open = compareWithBruteForce(shapes::jittered(shapes::openBox({1, 1, 1}, 6), 0.02, 2));
   const HitCounts turned = compareWithBruteForce(shapes::jittered(shapes::icosphere(2), 0.05, 4),
                                                  {.rayCount = 12, .rotation = ConeRotation::Hashed});
-  for (const HitCounts& counts : {dented, soup, open, turned}) {
+  const HitCounts cgal = compareWithBruteForce(shapes::soup(300, 5), {.rayCount = 25, .definition = Definition::Cgal});
+  for (const HitCounts& counts : {dented, soup, open, turned, cgal}) {
     CHECK(counts.rays > 1000);
     CHECK(counts.wrongFaces == 0);
     CHECK(counts.wrongDistances == 0);
   }
   CHECK(soup.falseHits > 100);
+  CHECK(cgal.falseHits > 100);
   CHECK(soup.misses > 100);
   CHECK(open.misses > 100);
   CHECK(dented.misses == 0);
@@ -69,7 +71,8 @@ TEST_CASE("asking the reference for hits changes no bit of the values") {
 
 TEST_CASE("the reference's hits give its values") {
   for (const ConeOptions& options : {ConeOptions{}, ConeOptions{.rayCount = 7, .rotation = ConeRotation::Hashed},
-                                     ConeOptions{.falseHitAngleDegrees = 30, .outlierDeviations = 2}}) {
+                                     ConeOptions{.falseHitAngleDegrees = 30, .outlierDeviations = 2},
+                                     ConeOptions{.rayCount = 25, .definition = Definition::Cgal}}) {
     const TracedMesh traced(generateShape("animal", 1500).mesh);
     const TraceResults results = traceByReference(traced, options, Wanted::ValuesAndHits);
     const std::vector<double> values = valuesOfHits(traced, options, results.hits);

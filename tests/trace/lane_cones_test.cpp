@@ -28,7 +28,7 @@ double valueOfLane(const Cone& cone, std::span<const std::array<double, LaneCone
     valid.push_back(lengths[ray][lane]);
     weights.push_back(cone.weights[ray]);
   }
-  return coneValue(valid, weights, cone.outlierDeviations);
+  return coneValue(valid, weights, cone.outliers);
 }
 
 struct Eight {
@@ -60,8 +60,11 @@ Eight eightCones(const TracedMesh& traced, const Cone& cone, Random& random) {
 TEST_CASE("eight cones side by side have the bits of coneValue, for any number of rays") {
   Random random(3);
   for (const uint32_t rayCount : {1u, 2u, 3u, 4u, 5u, 7u, 8u, 9u, 16u, 30u, 31u, 33u, 100u, 1024u})
-    for (const double deviations : {1.0, 0.3, 2.5}) {
-      const Cone cone = makeCone({.rayCount = rayCount, .outlierDeviations = deviations});
+    for (const ConeOptions& options : {ConeOptions{rayCount},
+                                       {.rayCount = rayCount, .outlierDeviations = 0.3},
+                                       {.rayCount = rayCount, .outlierDeviations = 2.5},
+                                       {.rayCount = rayCount, .definition = Definition::Cgal}}) {
+      const Cone cone = makeCone(options);
       for (const InstructionSet instructionSet : instructionSets()) {
         LaneCones lanes(cone, {}, instructionSet);
         for (int turn = 0; turn < 20; ++turn) {
@@ -83,11 +86,13 @@ TEST_CASE("eight cones side by side have the bits of coneValue, for any number o
     }
 }
 
-TEST_CASE("lengths are those to the planes of hits in double, but for slivers, misses and false hits") {
+namespace {
+
+void checkLengths(const ConeOptions& options) {
   Random random(8);
   const TracedMesh traced(shapes::jittered(shapes::icosphere(2), 0.1, 4));
   const std::vector<TrianglePlane> planes = trianglePlanes(traced.scene());
-  const Cone cone = makeCone({});
+  const Cone cone = makeCone(options);
   const Eight eight = eightCones(traced, cone, random);
   std::vector<LaneHits> hits(cone.directions.size());
   for (size_t ray = 0; ray < hits.size(); ++ray)
@@ -119,7 +124,7 @@ TEST_CASE("lengths are those to the planes of hits in double, but for slivers, m
         const double onPlane = (plane.offset - dot(plane.normal, eight.origins[lane])) / cosine;
         const double distance = hits[ray].distances[lane];
         leaves |= cosine <= 0;
-        if (isFalseHit(cone, eight.normals[lane], plane.normal)) {
+        if (isFalseHit(cone, eight.normals[lane], eight.directions[ray][lane], plane.normal)) {
           CHECK(length == kInfinity);
           continue;
         }
@@ -133,6 +138,13 @@ TEST_CASE("lengths are those to the planes of hits in double, but for slivers, m
     CHECK(validCount > 50);
     CHECK(keptDistanceCount > 10);
   }
+}
+
+}  // namespace
+
+TEST_CASE("lengths are those to the planes of hits in double, but for slivers, misses and false hits") {
+  checkLengths({});
+  checkLengths({.definition = Definition::Cgal});
 }
 
 TEST_CASE("a ray leaves the surface if and only if it has no hit or hits an outer side") {

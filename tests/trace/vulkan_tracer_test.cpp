@@ -133,7 +133,11 @@ TEST_CASE("the device's own iteration guard suffices for its workgroup shape") {
     const VulkanWorkgroupShape seeds = workgroupShapeFor(cpu, rayCount, TraceKernel::Seed);
     REQUIRE(8ull * seeds.iterationLimit <= 65'535);
     REQUIRE(seeds.lanesPerCone * seeds.conesPerWorkgroup % 8 == 0);
-    REQUIRE(31ull * rayCount + 5 * rayCount + 31 <= 65'535);  // The iterations of the loops of trace_reduce.comp.
+    // The iterations of the loops of trace_reduce.comp, by either definition.
+    REQUIRE(31ull * rayCount + 5 * rayCount + 31 + 17 * rayCount + 16 <= 65'535);
+    const VulkanWorkgroupShape cgal = workgroupShapeFor(cpu, rayCount, TraceKernel::Ray, Definition::Cgal);
+    REQUIRE(8ull * cgal.iterationLimit + reduction + uint64_t{rayCount} * raysPerLane + 2 * raysPerLane <= 65'535);
+    REQUIRE(cgal.iterationLimit > 5000);
   }
 }
 

@@ -77,7 +77,7 @@ void EmbreeConeGroup::add(const EmbreeSeed& seed) {
   const Vec3d origin = cones_.scene.bvh.normalization.toNormalized(cones_.scene.geometry.barycentres[seed.face]);
   seeds_[lane] = seed;
   points_[lane] = {origin, seed.primitive};
-  frames_.set(lane, faceConeFrame(cones_.cone, normal, seed.face), origin, normal);
+  frames_.set(lane, seedConeFrame(cones_.scene, cones_.cone, seed.face), origin, normal);
   isActive_[lane] = -1;
   packet_.ray.org_x[lane] = static_cast<float>(origin.x);
   packet_.ray.org_y[lane] = static_cast<float>(origin.y);

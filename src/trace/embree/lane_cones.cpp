@@ -8,7 +8,6 @@
 
 #include "core/check.h"
 #include "mesh/mesh.h"
-#include "shared/cone_rules.h"
 
 namespace asdfvk {
 namespace {
@@ -171,6 +170,7 @@ ASDFVK_ALWAYS_INLINE inline void LaneCones::computeLengths(const LaneFrames& fra
   const TrianglePlane* const trianglePlanes = planes_.data();
   std::array<double, kWidth>* const lengths = lengths_.data();
   const double falseHitCosine = cone_.falseHitCosine;
+  const bool isPaper = cone_.definition == Definition::Paper;
   for (size_t first = 0; first < kWidth; first += kDoubleCount) {
     const Vec3Double4 tangent = loadRows(frames.tangents, first), bitangent = loadRows(frames.bitangents, first),
                       axis = loadRows(frames.axes, first), origin = loadRows(frames.origins, first),
@@ -194,7 +194,8 @@ ASDFVK_ALWAYS_INLINE inline void LaneCones::computeLengths(const LaneFrames& fra
                                   d.x * tangent.y + d.y * bitangent.y + d.z * axis.y,
                                   d.x * tangent.z + d.y * bitangent.z + d.z * axis.z};
       const Double4 cosine = normal.x * direction.x + normal.y * direction.y + normal.z * direction.z;
-      const Double4 facing = seedNormal.x * normal.x + seedNormal.y * normal.y + seedNormal.z * normal.z;
+      const Double4 facing =
+          isPaper ? seedNormal.x * normal.x + seedNormal.y * normal.y + seedNormal.z * normal.z : -cosine;
       const Double4 onPlane = (offset - (normal.x * origin.x + normal.y * origin.y + normal.z * origin.z)) / cosine;
       const Double4 difference = onPlane - distance;
       const Mask isNear = (difference <= kPlaneTolerance) & (difference >= -kPlaneTolerance);
@@ -207,8 +208,8 @@ ASDFVK_ALWAYS_INLINE inline void LaneCones::computeLengths(const LaneFrames& fra
   }
 }
 
+/// Sorts sorted_.
 ASDFVK_ALWAYS_INLINE inline void LaneCones::sort() {
-  sorted_ = lengths_;
   for (const auto& [low, high] : exchanges_)
     for (size_t first = 0; first < kWidth; first += kDoubleCount) {
       const Double4 a = load<Double4>(&sorted_[low][first]), b = load<Double4>(&sorted_[high][first]);
@@ -217,16 +218,38 @@ ASDFVK_ALWAYS_INLINE inline void LaneCones::sort() {
     }
 }
 
-ASDFVK_ALWAYS_INLINE inline void LaneCones::computeValues(std::array<double, kWidth>& values) {
+/// Replaces sorted_ by the sorted absolute differences of the lengths from the medians, one per lane.
+ASDFVK_ALWAYS_INLINE inline void LaneCones::sortDeviations(std::span<const double> medians) {
+  for (size_t ray = 0; ray < lengths_.size(); ++ray)
+    for (size_t first = 0; first < kWidth; first += kDoubleCount) {
+      const Double4 difference = load<Double4>(&lengths_[ray][first]) - load<Double4>(&medians[first]);
+      store(&sorted_[ray][first], difference < 0 ? -difference : difference);
+    }
   sort();
+}
+
+ASDFVK_ALWAYS_INLINE inline void LaneCones::computeValues(std::array<double, kWidth>& values) {
+  const OutlierRule& rule = cone_.outliers;
+  std::array<double, kWidth> counts, medians, spreads;
+  const auto middles = [&](std::array<double, kWidth>& result) {
+    for (size_t lane = 0; lane < kWidth; ++lane) {
+      const auto rays = static_cast<size_t>(counts[lane]);
+      const double upper = rays == 0 ? 0 : sorted_[rays / 2][lane];
+      result[lane] = rays == 0 || rays % 2 == 1 ? upper : 0.5 * (upper + sorted_[rays / 2 - 1][lane]);
+    }
+  };
+  sorted_ = lengths_;
+  sort();
+  // Sums in the order of the rays, as in coneValue(); adding zero changes no bit.
   for (size_t first = 0; first < kWidth; first += kDoubleCount) {
-    // Sums in the order of the rays, as in coneValue(); adding zero changes no bit.
-    Double4 count{}, sum{}, squares{}, median, deviation, weightedSum{}, weightSum{};
+    Double4 count{}, sum{}, squares{};
     for (const auto& lengths : lengths_) {
       const Double4 length = load<Double4>(&lengths[first]);
       count += length < kInfinity ? broadcast<Double4>(1) : Double4{};
       sum += length < kInfinity ? length : Double4{};
     }
+    store(&counts[first], count);
+    if (rule.spread != OutlierRule::Spread::StandardDeviation) continue;
     const Double4 mean = sum / count;
     for (const auto& lengths : lengths_) {
       const Double4 length = load<Double4>(&lengths[first]);
@@ -234,13 +257,17 @@ ASDFVK_ALWAYS_INLINE inline void LaneCones::computeValues(std::array<double, kWi
       squares += length < kInfinity ? difference * difference : Double4{};
     }
     const Double4 variance = squares / count;
-    for (size_t k = 0; k < kDoubleCount; ++k) {
-      const auto rays = static_cast<size_t>(count[k]);
-      const double upper = rays == 0 ? 0 : sorted_[rays / 2][first + k];
-      median[k] = rays == 0 || rays % 2 == 1 ? upper : 0.5 * (upper + sorted_[rays / 2 - 1][first + k]);
-      deviation[k] = std::sqrt(variance[k]);
-    }
-    const Double4 bound = cone_.outlierDeviations * deviation + static_cast<double>(kOutlierSlack) * median;
+    for (size_t k = 0; k < kDoubleCount; ++k) spreads[first + k] = std::sqrt(variance[k]);
+  }
+  middles(medians);
+  if (rule.spread == OutlierRule::Spread::MedianDeviation) {
+    sortDeviations(medians);
+    middles(spreads);
+  }
+  for (size_t first = 0; first < kWidth; first += kDoubleCount) {
+    const Double4 median = load<Double4>(&medians[first]);
+    const Double4 bound = rule.deviations * load<Double4>(&spreads[first]) + rule.slack * median;
+    Double4 weightedSum{}, weightSum{};
     for (size_t ray = 0; ray < lengths_.size(); ++ray) {
       const Double4 length = load<Double4>(&lengths_[ray][first]);
       const Double4 difference = length - median;

@@ -66,6 +66,7 @@ class LaneCones {
   void computeLengths(const LaneFrames& frames, std::span<const LaneHits> hits);
   void computeValues(std::array<double, kWidth>& values);
   void sort();
+  void sortDeviations(std::span<const double> medians);
 
   const Cone& cone_;
   std::span<const TrianglePlane> planes_;

@@ -33,6 +33,10 @@ Shader shaderOf(TraceKernel kernel) {
   return {"trace_seed.comp", k_trace_seed_comp};
 }
 
+VkBool32 isCgal(const ConeKernelRequest& request) {
+  return request.definition == Definition::Cgal ? VK_TRUE : VK_FALSE;
+}
+
 ComputePipelineDescription describe(const ConeKernelRequest& request, const VulkanTraceChoice& choice,
                                     const VulkanWorkgroupShape& shape) {
   const Shader shader = shaderOf(choice.kernel);
@@ -47,7 +51,8 @@ ComputePipelineDescription describe(const ConeKernelRequest& request, const Vulk
                                       /* WRITES_HITS= */ request.writesHits ? VK_TRUE : VK_FALSE,
                                       /* FETCHES_TEXELS= */ choice.fetch == BvhFetch::Texel ? VK_TRUE : VK_FALSE,
                                       /* IS_WIDE= */ choice.bvh == BvhLayout::Wide ? VK_TRUE : VK_FALSE,
-                                      /* LANE_COUNT= */ shape.lanesPerCone * shape.conesPerWorkgroup}};
+                                      /* LANE_COUNT= */ shape.lanesPerCone * shape.conesPerWorkgroup,
+                                      /* IS_CGAL= */ isCgal(request)}};
 }
 
 /// Returns the device, or throws.
@@ -92,8 +97,9 @@ uint64_t hitBufferByteCount(const VulkanConeKernel& kernel) {
 }  // namespace
 
 VulkanConeKernel::VulkanConeKernel(const Device& device, const ConeKernelRequest& request)
-    : VulkanConeKernel(device, request,
-                       workgroupShapeFor(device.facts(), request.rayCount, choiceFor(device, request).kernel)) {}
+    : VulkanConeKernel(
+          device, request,
+          workgroupShapeFor(device.facts(), request.rayCount, choiceFor(device, request).kernel, request.definition)) {}
 
 VulkanConeKernel::VulkanConeKernel(const Device& device, const ConeKernelRequest& request,
                                    const VulkanWorkgroupShape& shape)
@@ -103,12 +109,12 @@ VulkanConeKernel::VulkanConeKernel(const Device& device, const ConeKernelRequest
       shape_(shape),
       pipeline_(device, describe(request_, choice_, shape_)) {
   if (choice_.kernel == TraceKernel::Seed)
-    reduction_.emplace(device,
-                       ComputePipelineDescription{.name = "trace_reduce.comp",
-                                                  .spirv = k_trace_reduce_comp,
-                                                  .bindings = {kTexels, kStorage, kStorage},
-                                                  .pushConstantByteCount = sizeof(ConePush),
-                                                  .specializationConstants = {kReductionLaneCount, request.rayCount}});
+    reduction_.emplace(device, ComputePipelineDescription{.name = "trace_reduce.comp",
+                                                          .spirv = k_trace_reduce_comp,
+                                                          .bindings = {kTexels, kStorage, kStorage},
+                                                          .pushConstantByteCount = sizeof(ConePush),
+                                                          .specializationConstants = {
+                                                              kReductionLaneCount, request.rayCount, isCgal(request)}});
 }
 
 uint64_t largestConeChunk(const VulkanConeKernel& kernel) {

@@ -18,6 +18,7 @@ struct ConeKernelRequest {
   uint32_t rayCount;
   bool writesHits = false;
   std::optional<VulkanTraceChoice> choice = {};  ///< None: defaultTraceChoice().
+  Definition definition = Definition::Paper;
   auto operator<=>(const ConeKernelRequest&) const = default;
 };
 
@@ -36,6 +37,7 @@ class VulkanConeKernel {
   /// results.
   [[nodiscard]] const ComputePipeline* reduction() const { return reduction_ ? &*reduction_ : nullptr; }
   [[nodiscard]] uint32_t rayCount() const { return request_.rayCount; }
+  [[nodiscard]] Definition definition() const { return request_.definition; }
   [[nodiscard]] bool writesHits() const { return request_.writesHits; }
   [[nodiscard]] const VulkanWorkgroupShape& shape() const { return shape_; }
   static constexpr uint32_t kReductionLaneCount = 64;

@@ -74,7 +74,8 @@ TraceVariant variantOf(const VulkanTraceChoice& choice) {
   return {nameIn(kernelNames(), choice.kernel), nameIn(bvhNames(), choice.bvh), nameIn(fetchNames(), choice.fetch)};
 }
 
-VulkanWorkgroupShape workgroupShapeFor(const DeviceFacts& device, uint32_t rayCount, TraceKernel kernel) {
+VulkanWorkgroupShape workgroupShapeFor(const DeviceFacts& device, uint32_t rayCount, TraceKernel kernel,
+                                       Definition definition) {
   if (kernel == TraceKernel::Seed) return seedShape(device);
   VulkanWorkgroupShape shape;
   const uint32_t widest = std::min({256u, device.maxWorkgroupInvocations, device.maxWorkgroupSize});
@@ -84,9 +85,11 @@ VulkanWorkgroupShape workgroupShapeFor(const DeviceFacts& device, uint32_t rayCo
     return shape;
   }
   shape.lanesPerCone = std::min(widest, roundUp(rayCount, 8));
-  // Iterations of the reduction: three loops over all rays, and one over all rays for each ray of the lane.
+  // Iterations of the reduction: three loops over all rays, and one over all rays for each ray of the lane; in the
+  // definition of CGAL another one of these.
   const uint32_t raysPerLane = (rayCount + shape.lanesPerCone - 1) / shape.lanesPerCone;
-  const uint32_t reductionCount = rayCount * (3 + raysPerLane) + 2 * raysPerLane + 64;
+  const uint32_t rankCount = definition == Definition::Cgal ? 2 * raysPerLane : raysPerLane;
+  const uint32_t reductionCount = rayCount * (3 + rankCount) + 2 * rankCount + 64;
   // The limit counts the lanes of a subgroup together. Lanes of a packet run every loop together; those of other
   // kernels may run different iterations.
   const uint32_t sharingCount = kernel == TraceKernel::Packet ? 1 : std::max(1u, device.subgroupSize);

@@ -6,6 +6,7 @@
 #include <span>
 #include <utility>
 
+#include "asdf_vk/options.h"
 #include "asdf_vk/report.h"
 #include "bvh/device_bvh.h"
 #include "vk/device_choice.h"
@@ -68,6 +69,7 @@ struct VulkanWorkgroupShape {
 };
 
 [[nodiscard]] VulkanWorkgroupShape workgroupShapeFor(const DeviceFacts& device, uint32_t rayCount,
-                                                     TraceKernel kernel = TraceKernel::Ray);
+                                                     TraceKernel kernel = TraceKernel::Ray,
+                                                     Definition definition = Definition::Paper);
 
 }  // namespace asdfvk

@@ -29,6 +29,7 @@ class VulkanTracer final : public ConeTracer {
         buffers_(kernel, encode(), cone),
         commands_(kernel.device()) {
     ASDFVK_CHECK_OP(cone.directions.size(), ==, size_t{kernel.rayCount()});
+    ASDFVK_CHECK(cone.definition == kernel.definition());
   }
 
   TraceStatistics trace(std::span<const uint32_t> seedFaces, const ConeResults& results,
@@ -76,7 +77,7 @@ class VulkanTracer final : public ConeTracer {
     const std::span<ConeOrigin> origins = buffers_.origins.mappedAs<ConeOrigin>();
     tbb::parallel_for(size_t{0}, order.size(), [&](size_t i) {
       const uint32_t face = seedFaces[order[i]];
-      const ConeFrame frame = faceConeFrame(cone_, scene_.geometry.normals[face], face);
+      const ConeFrame frame = seedConeFrame(scene_, cone_, face);
       origins[i] = {toGlsl(scene_.bvh.normalization.toNormalized(scene_.geometry.barycentres[face])),
                     scene_.representatives[face],
                     toGlsl(frame.tangent),
@@ -85,7 +86,7 @@ class VulkanTracer final : public ConeTracer {
                     0};
     });
     const ConePush push{static_cast<uint32_t>(order.size()), static_cast<float>(cone_.falseHitCosine),
-                        static_cast<float>(cone_.outlierDeviations)};
+                        static_cast<float>(cone_.outliers.deviations)};
     const auto groupCount = [](uint32_t count, uint32_t perGroup) { return (count + perGroup - 1) / perGroup; };
     const VulkanWorkgroupShape& shape = kernel_.shape();
     commands_.begin();

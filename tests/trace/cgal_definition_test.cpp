@@ -1,0 +1,65 @@
+#include <doctest/doctest.h>
+
+#include "generate/shapes.h"
+#include "shapes.h"
+#include "support/test_device.h"
+#include "trace_results.h"
+#include "vulkan_variants.h"
+
+using namespace asdfvk;
+
+namespace {
+
+ConeOptions ofCgal(uint32_t rayCount) { return {.rayCount = rayCount, .definition = Definition::Cgal}; }
+
+/// A mesh and its values by the reference.
+struct CgalReference {
+  TracedMesh traced;
+  ConeOptions options;
+  std::vector<double> values;
+
+  CgalReference(const Mesh& mesh, uint32_t rayCount)
+      : traced(mesh), options(ofCgal(rayCount)), values(traceByReference(traced, options, Wanted::Values).values) {}
+
+  void check(const VulkanConeKernel& kernel) const {
+    const std::vector<double> found = traceByKernel(kernel, traced, options, Wanted::Values).values;
+    CHECK(differingCount(found, values, traced.geometry.bounds.diagonal()) <= values.size() / 1000);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("the kernels give the reference's values by CGAL's definition") {
+  const test::ValidatedDevice device;
+  std::vector<CgalReference> references;
+  for (const std::string_view name : shapeNames()) references.emplace_back(generateShape(name, 2000).mesh, 25);
+  for (const Mesh& mesh : {shapes::openBox({1, 2, 3}, 8), shapes::soup(2000, 5), shapes::shell(2, 1)})
+    references.emplace_back(shapes::jittered(mesh, 1e-3, 1), 25);
+  forEveryVariant(Fetches::TexelOnly, [&](const VulkanTraceChoice& choice) {
+    const VulkanConeKernel kernel(*device, {25, false, choice, Definition::Cgal});
+    for (size_t i = 0; i < references.size(); ++i) {
+      CAPTURE(i);
+      references[i].check(kernel);
+    }
+  });
+}
+
+TEST_CASE("any number of rays gives the reference's values by CGAL's definition" * doctest::test_suite("slow")) {
+  const test::ValidatedDevice device;
+  const Mesh mesh = generateShape("torus", 600).mesh;
+  for (const uint32_t rayCount : {1u, 2u, 3u, 8u, 33u, 100u, 256u, 1000u, 1024u}) {
+    CAPTURE(rayCount);
+    const CgalReference reference(mesh, rayCount);
+    for (const TraceKernel kernel : {TraceKernel::Packet, TraceKernel::Ray, TraceKernel::Seed})
+      reference.check(
+          VulkanConeKernel(*device, {rayCount, false, VulkanTraceChoice{kernel, BvhLayout::Wide}, Definition::Cgal}));
+  }
+}
+
+TEST_CASE("a kernel of one definition refuses a cone of another one") {
+  const test::ValidatedDevice device;
+  const TracedMesh traced(shapes::icosphere(0));
+  const VulkanConeKernel kernel(*device, {30});
+  const Cone cone = makeCone(ofCgal(30));
+  CHECK_THROWS_AS((void)makeVulkanTracer(kernel, traced.scene(), cone), CheckFailure);
+}
