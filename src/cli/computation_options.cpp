@@ -10,6 +10,8 @@
 namespace asdfvk {
 namespace {
 
+constexpr const char* kRayGroup = "Seeds and rays";
+
 /// "10%", as --seeds takes it.
 std::string defaultSeeds() { return fmt::format("{}%", Options{}.seeds.share * 100); }
 
@@ -56,12 +58,18 @@ void addBasics(CLI::App& app, CommandLine& line) {
     line.recipe = recipe;
     applyRecipe(recipe, line.options);
   };
-  // First: its callback must run before those of the options that it sets.
+  // First the recipe and the definition: their callbacks must run before those of the options that they set.
   addChoice(app, "--recipe", apply, kRecipes,
             "Set of options; single options override it. paper: as the ASDF paper.\n"
             "balanced (default): half of the error of paper. quality: rays pooled over\n"
             "neighbouring seeds, least error against many rays")
       ->group(kBasicGroup);
+  addChoice(
+      app, "--definition", [&options](const Definition& definition) { applyDefinition(definition, options); },
+      kDefinitions,
+      "Definition of the values: of the ASDF paper, or of CGAL's sdf_values without\n"
+      "post-processing. cgal: --rays 25 --seeds all unless given; default paper")
+      ->group(kRayGroup);
   addValue(app, "--seeds", "N%|N|all", "Faces that cast rays: a share, a count or all; default " + defaultSeeds(),
            [&](const std::string& text) { options.seeds = parseSeedCount(text); })
       ->group(kBasicGroup);
@@ -83,7 +91,7 @@ void addBasics(CLI::App& app, CommandLine& line) {
 
 void addSeeds(CLI::App& app, Options& options) {
   const Options defaults;
-  const char* const group = "Seeds and rays";
+  const char* const group = kRayGroup;
   addName(app, "--sampler", options.sampler, samplerNames(),
           fmt::format("Selection of the seed faces. adaptive: blue noise in two passes, the second\n"
                       "denser where the first predicts errors; default {}",
@@ -111,7 +119,7 @@ void addSeeds(CLI::App& app, Options& options) {
 
 void addRays(CLI::App& app, Options& options) {
   const Options defaults;
-  const char* const group = "Seeds and rays";
+  const char* const group = kRayGroup;
   addValue(app, "--rays", "N", fmt::format("Rays per cone, 1 to {}; default {}", kMaxRayCount, defaults.cone.rayCount),
            [&](const std::string& text) {
              options.cone.rayCount = static_cast<uint32_t>(parseWholeNumber(text, 1, kMaxRayCount));
@@ -126,8 +134,8 @@ void addRays(CLI::App& app, Options& options) {
            })
       ->group(group);
   addValue(app, "--false-hit-angle", "DEGREES",
-           fmt::format("A hit is false where the normals of the hit face and of the seed differ by\n"
-                       "less than this, 0 to 180; default {}",
+           fmt::format("Of paper: a hit is false where the normals of the hit face and of the seed\n"
+                       "differ by less than this, 0 to 180; default {}",
                        defaults.cone.falseHitAngleDegrees),
            [&](const std::string& text) {
              options.cone.falseHitAngleDegrees = parseNumber(
@@ -135,8 +143,8 @@ void addRays(CLI::App& app, Options& options) {
            })
       ->group(group);
   addValue(app, "--outlier-deviations", "S",
-           fmt::format("Lengths farther from the median than S standard deviations are dropped,\n"
-                       "above 0; default {}",
+           fmt::format("Of paper: lengths farther from the median than S standard deviations are\n"
+                       "dropped, above 0; default {}",
                        defaults.cone.outlierDeviations),
            [&](const std::string& text) {
              options.cone.outlierDeviations = parseNumber(
@@ -144,8 +152,8 @@ void addRays(CLI::App& app, Options& options) {
            })
       ->group(group);
   addChoice(app, "--cone-rotation", options.cone.rotation, kConeRotations,
-            "Rotation of the cones: fixed (parallel rays in neighbouring cones) or hashed (by\n"
-            "face index, so that errors are independent); default fixed")
+            "Of paper: rotation of the cones: fixed (parallel rays in neighbouring cones) or\n"
+            "hashed (by face index, so that errors are independent); default fixed")
       ->group(group);
   addValue(app, "--smooth", "off|auto|RxP",
            "Bilateral filter over R rings of faces, P passes; auto: by the number of\n"
@@ -265,16 +273,21 @@ void completeSegments(const CLI::App& app, CommandLine& line) {
 nlohmann::ordered_json optionValues(const CommandLine& line) {
   const Options& options = line.options;
   const InterpolationOptions& interpolation = options.interpolation;
+  const bool isPaper = options.cone.definition == Definition::Paper;  // Options of another definition are null.
+  const auto ofPaper = [&](const auto& value) {
+    return isPaper ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
+  };
   return {{"recipe", nameOf(kRecipes, line.recipe)},
+          {"definition", nameOf(kDefinitions, options.cone.definition)},
           {"seeds", toText(options.seeds)},
           {"sampler", options.sampler},
           {"maxError", optional(options.rounds.maxError)},
           {"timeBudgetSeconds", optional(options.rounds.timeBudgetSeconds)},
           {"rays", options.cone.rayCount},
           {"angleDegrees", options.cone.openingAngleDegrees},
-          {"falseHitAngleDegrees", options.cone.falseHitAngleDegrees},
-          {"outlierDeviations", options.cone.outlierDeviations},
-          {"coneRotation", nameOf(kConeRotations, options.cone.rotation)},
+          {"falseHitAngleDegrees", ofPaper(options.cone.falseHitAngleDegrees)},
+          {"outlierDeviations", ofPaper(options.cone.outlierDeviations)},
+          {"coneRotation", ofPaper(nameOf(kConeRotations, options.cone.rotation))},
           {"smooth", toText(options.smoothing)},
           {"postprocess", nameOf(kPostprocesses, options.postprocess)},
           {"segment", nameOf(kSegmentations, options.segmentation)},

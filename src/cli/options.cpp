@@ -193,6 +193,18 @@ void addDevice(CLI::App& app, CommandLine& line) {
       ->group(kExperimentGroup);
 }
 
+/// Throws where options of the paper's definition are given with another one.
+void requireNoPaperOption(const CLI::App& app, const CommandLine& line) {
+  if (line.options.cone.definition == Definition::Paper) return;
+  for (const char* name : {"--false-hit-angle", "--outlier-deviations", "--cone-rotation"})
+    if (app.count(name) > 0)
+      throw Error(ErrorCode::OptionConflict,
+                  fmt::format("{} belongs to --definition paper; drop one of the two", name));
+  if (line.options.cone.rotation != ConeRotation::Fixed)
+    throw Error(ErrorCode::OptionConflict,
+                "--recipe quality rotates the cones, which belongs to --definition paper; use another recipe");
+}
+
 void validateOptions(const CommandLine& line) {
   const auto fail = [](const std::string& message) { throw Error(ErrorCode::OptionConflict, message); };
   if (line.meshes.empty() && !line.listDevices) fail("no mesh was given; asdf-vk --help lists the options");
@@ -273,6 +285,7 @@ CommandLine parseCommandLine(std::vector<std::string> arguments) {
     if (*name == "auto") name->clear();
   line.options.keepsScene = !line.picture.empty();
   completeSegments(app, line);
+  requireNoPaperOption(app, line);
   validateOptions(line);
   return line;
 }

@@ -15,6 +15,8 @@ using ChoiceNames = std::array<std::pair<const char*, T>, N>;
 inline constexpr ChoiceNames<Recipe, 3> kRecipes{
     {{"paper", Recipe::Paper}, {"balanced", Recipe::Balanced}, {"quality", Recipe::Quality}}};
 
+inline constexpr ChoiceNames<Definition, 2> kDefinitions{{{"paper", Definition::Paper}, {"cgal", Definition::Cgal}}};
+
 inline constexpr ChoiceNames<ConeRotation, 2> kConeRotations{
     {{"fixed", ConeRotation::Fixed}, {"hashed", ConeRotation::Hashed}}};
 

@@ -35,6 +35,9 @@ struct Computation {
   [[nodiscard]] bool keepsHits() const {
     return predicts() && (options.seeds.kind != SeedCount::Kind::All || options.interpolation.pooling > 0);
   }
+  /// Whether faces that cannot be traced, and traced faces without a valid ray, have no value in the result. Otherwise
+  /// they are interpolated.
+  [[nodiscard]] bool keepsMissing() const { return cone.definition == Definition::Cgal; }
   [[nodiscard]] bool estimatesError() const { return options.estimatesError || options.rounds.maxError.has_value(); }
 };
 

@@ -78,7 +78,9 @@ Interpolated Interpolation::solve(std::span<const double> constraints, const Run
   result.values.assign(constraints.begin(), constraints.end());
   result.solver.name = "none";
   const std::span<const double> predicted = prediction_.values;
-  const bool hasAll = std::all_of(constraints.begin(), constraints.end(), [](double v) { return std::isfinite(v); });
+  const bool needsNone = computation_.keepsMissing() && computation_.options.seeds.kind == SeedCount::Kind::All;
+  const bool hasAll =
+      needsNone || std::all_of(constraints.begin(), constraints.end(), [](double v) { return std::isfinite(v); });
   if (!hasAll) {
     const std::vector<ComponentValues> traced = componentValues(components, constraints);
     const auto buildSystem = [&] {  // Frees the guess before the solution.

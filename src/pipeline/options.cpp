@@ -12,6 +12,8 @@
 namespace asdfvk {
 namespace {
 
+constexpr uint32_t kCgalRayCount = 25;  // The default of CGAL's sdf_values().
+
 [[noreturn]] void fail(const std::string& reason) { throw Error(ErrorCode::OptionOutOfRange, reason); }
 
 }  // namespace
@@ -34,6 +36,13 @@ void applyRecipe(Recipe recipe, Options& options) {
       options.interpolation.pooling = 0.75;
       break;
   }
+}
+
+void applyDefinition(Definition definition, Options& options) {
+  const Options paper;
+  options.cone.definition = definition;
+  options.cone.rayCount = definition == Definition::Cgal ? kCgalRayCount : paper.cone.rayCount;
+  options.seeds = definition == Definition::Cgal ? SeedCount::all() : paper.seeds;
 }
 
 std::vector<std::string> solverNames() {

@@ -1,5 +1,6 @@
 #include "asdf_vk/session.h"
 
+#include <cmath>
 #include <utility>
 
 #include "bvh/bvh.h"
@@ -45,6 +46,13 @@ void describeRounds(Report& report, const RoundsResult& rounds) {
   report.solver = rounds.interpolated.solver;
   report.roundCount = rounds.roundCount;
   if (rounds.errors) report.estimatedError = rounds.errors->estimate;
+}
+
+/// Removes the values of traced and of degenerate faces that have none of their own.
+void removeMissing(const PreparedMesh& prepared, const TracedSeeds& traced, std::vector<double>& values) {
+  for (uint32_t face = 0; face < values.size(); ++face)
+    if (prepared.geometry.isDegenerate(face) || (traced.isSeed[face] && std::isnan(traced.values[face])))
+      values[face] = kNoValue;
 }
 
 std::vector<Field> fieldsOf(const PreparedMesh& prepared, const RoundsResult& rounds, const std::vector<double>& values,
@@ -117,6 +125,7 @@ Result Session::compute(const MeshView& mesh, const Options& options, const RunC
       runRounds(computation, std::make_unique<SeedTracing>(computation, bvh, keepsNodes), control.part(0, roundsEnd));
   describeRounds(report, rounds);
   std::vector<double> values = rounds.interpolated.values;
+  if (computation.keepsMissing()) removeMissing(prepared, rounds.traced, values);
   if (const SmoothingOptions& smoothing = options.smoothing; smoothing.isOn) {
     const auto scope = clock.time(Stage::Smooth);
     values = smoothBilaterally(prepared.graph, values,

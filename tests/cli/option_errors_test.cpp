@@ -31,6 +31,7 @@ TEST_CASE("values out of range are refused with the option's name") {
       {"--tolerance", {"0", "1"}},
       {"--max-iterations", {"0", ""}},
       {"--recipe", {"best", "Paper"}},
+      {"--definition", {"shapira", ""}},
       {"--sampler", {"blue"}},
       {"--max-error", {"0%", "-1%", "100%", "1"}},
       {"--time-budget", {"0", "-2s"}},
@@ -117,6 +118,19 @@ TEST_CASE("options of the segmentation need it, as do its fields") {
   CHECK_EQ(refusal({"a.ply", "--picture", "b.png", "--picture-of", "segment"}),
            "--picture-of segment needs --segment cgal");
   CHECK_EQ(refusal({"a.ply", "--picture", "b.png", "--picture-of", "segment", "--segment", "cgal"}), "accepted");
+}
+
+TEST_CASE("options of the paper's definition are refused with another one") {
+  for (const auto& [option, value] :
+       {std::pair{"--false-hit-angle", "90"}, {"--outlier-deviations", "1"}, {"--cone-rotation", "fixed"}}) {
+    CHECK_EQ(refusal({"a.ply", "--definition", "paper", option, value}), "accepted");
+    for (const auto& arguments : {std::vector<std::string>{"a.ply", "--definition", "cgal", option, value},
+                                  {"a.ply", option, value, "--definition", "cgal"}})
+      CHECK_EQ(refusal(arguments), std::string(option) + " belongs to --definition paper; drop one of the two");
+  }
+  CHECK(refusal({"a.ply", "--definition", "cgal", "--recipe", "quality"}).starts_with("--recipe quality rotates"));
+  CHECK_EQ(refusal({"a.ply", "--definition", "cgal", "--recipe", "paper"}), "accepted");
+  CHECK_EQ(refusal({"a.ply", "--definition", "CGAL"}), "--definition: 'CGAL' is not one of paper|cgal");
 }
 
 TEST_CASE("a picture or field of the error needs an estimate") {

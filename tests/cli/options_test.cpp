@@ -76,6 +76,11 @@ const std::vector<OptionCase>& optionCases() {
       {{"--false-hit-angle", "45"}, [](const Line& l) { return l.options.cone.falseHitAngleDegrees == 45; }},
       {{"--outlier-deviations", "1.5"}, [](const Line& l) { return l.options.cone.outlierDeviations == 1.5; }},
       {{"--cone-rotation", "hashed"}, [](const Line& l) { return l.options.cone.rotation == ConeRotation::Hashed; }},
+      {{"--definition", "cgal"},
+       [](const Line& l) {
+         return l.options.cone.definition == Definition::Cgal && l.options.cone.rayCount == 25 &&
+                l.options.seeds.kind == SeedCount::Kind::All;
+       }},
       {{"--recipe", "quality"}, [](const Line& l) { return l.recipe == Recipe::Quality; }},
       {{"--sampler", "farthest-point"}, [](const Line& l) { return l.options.sampler == "farthest-point"; }},
       {{"--max-error", "1.5%"}, [](const Line& l) { return l.options.rounds.maxError == 0.015; }},
@@ -248,6 +253,25 @@ TEST_CASE("single options override the recipe, in any order") {
   CHECK_EQ(parseCommandLine({"a.ply", "--seeds", "3", "--recipe", "paper"}).options.seeds.count, 3);
 }
 
+TEST_CASE("--definition cgal has 25 rays and all faces unless they are given, in any order") {
+  const auto coneOf = [](const std::vector<std::string>& arguments) {
+    return parseCommandLine(arguments).options.cone;
+  };
+  for (const auto& arguments :
+       {std::vector<std::string>{"a.ply", "--definition", "cgal", "--rays", "12", "--seeds", "10%", "--angle", "90"},
+        {"a.ply", "--angle", "90", "--seeds", "10%", "--rays", "12", "--definition", "cgal"}}) {
+    const CommandLine line = parseCommandLine(arguments);
+    CHECK(line.options.cone.definition == Definition::Cgal);
+    CHECK_EQ(line.options.cone.rayCount, 12);
+    CHECK_EQ(line.options.cone.openingAngleDegrees, 90);
+    CHECK_EQ(line.options.seeds.share, 0.1);
+  }
+  CHECK_EQ(parseCommandLine({"a.ply", "--definition", "cgal", "--max-error", "1%"}).options.seeds.share, 0.02);
+  CHECK_EQ(parseCommandLine({"a.ply", "--recipe", "paper", "--definition", "cgal"}).options.sampler, "random");
+  CHECK_EQ(coneOf({"a.ply", "--definition", "paper"}).rayCount, 30);
+  CHECK_EQ(parseCommandLine({"a.ply", "--definition", "paper"}).options.seeds.share, 0.1);
+}
+
 TEST_CASE("errors and times are read with their unit or without") {
   for (const char* text : {"1%", "0.01", "1.0%", "1e-2"})
     CHECK_EQ(parseCommandLine({"a.ply", "--max-error", text}).options.rounds.maxError.value(), doctest::Approx(0.01));
@@ -295,7 +319,7 @@ TEST_CASE("--help has the most needed options, --help=all all of them in groups"
   for (const char* part :
        {"--recipe paper|balanced|quality", "--sampler random|blue-noise|farthest-point|normal-space|adaptive",
         "--max-error E%", "--time-budget SECONDS", "--no-estimate", "--cone-rotation fixed|hashed",
-        "--weights distance|feature", "--guidance none|curvature|prediction", "--pooling P",
+        "--definition paper|cgal", "--weights distance|feature", "--guidance none|curvature|prediction", "--pooling P",
         "--picture-of sdf|seed|error|normalized|segment", "--segment none|cgal", "--kernel auto|seed|ray|packet",
         "--bvh auto|wide|binary", "--fetch auto|texel|storage", "MESH...", ".stl .ply .off .obj", "--fields NAME,...",
         "balanced (default)"})
