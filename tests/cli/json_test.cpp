@@ -84,6 +84,22 @@ TEST_CASE("--json is exactly one document with every documented key and its type
   for (const auto& [key, name] : names) CHECK_EQ(options.at(key).get<std::string>(), name);
   for (const char* key : {"maxError", "timeBudgetSeconds"}) CHECK(options.at(key).is_null());
   CHECK_EQ(options.at("pooling").get<double>(), 0);
+  CHECK_EQ(options.at("definition").get<std::string>(), "paper");
+  CHECK_EQ(options.at("falseHitAngleDegrees").get<double>(), 90);
+  CHECK_EQ(options.at("outlierDeviations").get<double>(), 1);
+}
+
+TEST_CASE("options of the paper's definition are null with CGAL's") {
+  const ScratchFolder folder;
+  const std::string mesh = folder.write("sphere.off", sphereOff(12));
+  const Json json =
+      onlyDocument(runAsdf({mesh, "--json", "--quiet", "--backend", "reference", "--definition", "cgal"}));
+  const Json& options = json.at("options");
+  CHECK_EQ(options.at("definition").get<std::string>(), "cgal");
+  CHECK_EQ(options.at("rays").get<uint64_t>(), 25);
+  CHECK_EQ(options.at("seeds").get<std::string>(), "all");
+  for (const char* key : {"falseHitAngleDegrees", "outlierDeviations", "coneRotation"})
+    CHECK(options.at(key).is_null());
 }
 
 TEST_CASE("the options of the command line are in the document") {
