@@ -67,7 +67,7 @@ class MeshView {
   MeshView(std::span<const float> positions, std::span<const uint32_t> triangles)
       : floats_(positions), corners_(triangles) {}
   /// Input face i has the corners corners[firstCorner[i]] .. corners[firstCorner[i + 1] - 1]. firstCorner: #I+1,
-  /// ascending from 0 to corners.size().
+  /// ascending from 0 to corners.size(). An empty firstCorner means triangles.
   MeshView(std::span<const double> positions, std::span<const uint32_t> corners, std::span<const uint64_t> firstCorner)
       : doubles_(positions), corners_(corners), firstCorner_(firstCorner) {}
   MeshView(std::span<const float> positions, std::span<const uint32_t> corners, std::span<const uint64_t> firstCorner)

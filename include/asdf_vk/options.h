@@ -141,7 +141,9 @@ struct Options {
   /// Number of random traced faces, and of random faces of the whole mesh, that the double-precision reference
   /// recomputes.
   std::optional<uint64_t> checkCount;
-  bool keepsScene = false;  ///< Keep geometry and hierarchy in Result::scene, for a picture.
+  /// Keep geometry and hierarchy in Result::scene, for a picture. The scene views the arrays of the mesh, which must
+  /// outlive it.
+  bool keepsScene = false;
 
   [[nodiscard]] bool postprocesses() const {
     return postprocess == Postprocess::Cgal || segmentation == Segmentation::Cgal;

@@ -133,7 +133,7 @@ struct ValueRange {
 
 /// The smoothed values before Postprocess maps them to [0, 1], in the unit of the mesh.
 struct PostprocessReport {
-  double least = 0, greatest = 0;
+  double min = 0, max = 0;
 };
 
 /// The labels of the field "segment" are 0 .. segmentCount - 1; each has a face.

@@ -7,7 +7,8 @@
 
 namespace asdfvk {
 
-/// Cancellation and progress of a computation, polled between chunks of about 50 to 100 ms.
+/// Cancellation and progress of a computation. Polled between chunks of rays of about 50 to 100 ms, between iterations
+/// of the solver, and between the other stages, each of which runs to its end.
 struct RunControl {
   std::stop_token stop;                           ///< A requested stop ends the computation with Error{Cancelled}.
   std::function<void(double fraction)> progress;  ///< Called from the calling thread with 0 to 1; may be empty.

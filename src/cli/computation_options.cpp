@@ -174,8 +174,8 @@ void addSegments(CLI::App& app, Options& options) {
             "--postprocess cgal; for --seeds all; default none")
       ->group(group);
   addValue(app, "--clusters", "K",
-           fmt::format("--segment cgal: clusters of values, 2 to {}; the number of segments is\n"
-                       "another one; default {}",
+           fmt::format("--segment cgal: clusters of values, 2 to {}; not the number of segments;\n"
+                       "default {}",
                        kMaxClusterCount, defaults.clusterCount),
            [&](const std::string& text) {
              options.cgalSegmentation.clusterCount = static_cast<uint32_t>(parseWholeNumber(text, 2, kMaxClusterCount));

@@ -51,7 +51,7 @@ Json estimateOf(const std::optional<ErrorEstimate>& estimate) {
 
 Json postprocessOf(const std::optional<PostprocessReport>& postprocess) {
   if (!postprocess) return nullptr;
-  return {{"least", number(postprocess->least)}, {"greatest", number(postprocess->greatest)}};
+  return {{"min", number(postprocess->min)}, {"max", number(postprocess->max)}};
 }
 
 Json stagesOf(const StageSeconds& seconds) {

@@ -116,8 +116,8 @@ std::string textReport(const MeshOutcome& outcome) {
   text += row("solver", solverRow(report.solver));
   text += row("diameter", valueRow(report));
   if (report.postprocess)
-    text += row("smoothed", fmt::format("min {:.6g}, max {:.6g}, mapped to 0 and 1", report.postprocess->least,
-                                        report.postprocess->greatest));
+    text += row("smoothed", fmt::format("min {:.6g}, max {:.6g}, mapped to 0 and 1", report.postprocess->min,
+                                        report.postprocess->max));
   if (report.segmentation)
     text += row("segments",
                 fmt::format("{} from {} clusters, smoothness {:g}", groupDigits(report.segmentation->segmentCount),

@@ -30,14 +30,14 @@ template <typename Term>
   return total;
 }
 
-inline constexpr double kLeastPlainSquare = 1e-200, kLargestPlainSquare = 1e300;
+inline constexpr double kMinPlainSquare = 1e-200, kMaxPlainSquare = 1e300;
 
 /// The Euclidean norm of entry(0) .. entry(count - 1), without overflow and underflow; NaN if an entry is NaN.
 template <typename Entry>
 [[nodiscard]] double orderedNorm(size_t count, const Entry& entry) {
   const double squared = orderedSum(count, [&](size_t i) { return entry(i) * entry(i); });
   // Between these bounds no relevant square has left the range of double.
-  if (squared > kLeastPlainSquare && squared < kLargestPlainSquare) return std::sqrt(squared);
+  if (squared > kMinPlainSquare && squared < kMaxPlainSquare) return std::sqrt(squared);
   double largest = 0;
   for (size_t i = 0; i < count; ++i) {
     const double magnitude = std::abs(entry(i));

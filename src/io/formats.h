@@ -27,7 +27,7 @@ struct FileFormat {
   /// Reads a mesh. Text may have LF, CRLF or CR line ends and a UTF-8 byte order mark. Throws Error{UnreadableInput}
   /// for a file that is truncated, has further bytes after its end, has an index out of range, or has no face with
   /// three corners; Error{MeshTooLarge}. Memory: at most 64 times the size of the input and a few MB. Faces other than
-  /// triangles are triangulated and stored in Mesh::polygons (input_faces.h).
+  /// triangles are triangulated and stored in Mesh::polygons (mesh/input_faces.h).
   Mesh (*parseMesh)(std::span<const char> bytes) = nullptr;
 
   /// Reads the fields of a result. Throws Error{UnreadableInput} for a file that is truncated or contradicts itself,

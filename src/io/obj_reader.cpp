@@ -8,9 +8,9 @@
 
 #include "core/text.h"
 #include "io/formats.h"
-#include "io/input_faces.h"
 #include "io/input_failure.h"
 #include "io/text_scanner.h"
+#include "mesh/input_faces.h"
 
 namespace asdfvk {
 namespace {
@@ -68,7 +68,7 @@ class ObjReader {
     if (count < 3 || count == 5)
       failAtLine(text_.line(), fmt::format("a vertex has {} numbers; 3, 4, 6 or 7 are allowed", count));
     mesh_.vertices.push_back({numbers[0], numbers[1], numbers[2]});
-    requireIndexableVertexCount(mesh_.vertices.size());
+    requireAtMost(kMaxIndexCount, mesh_.vertices.size(), "vertices");
   }
 
   void readFace() {

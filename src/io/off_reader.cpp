@@ -7,9 +7,9 @@
 
 #include "core/text.h"
 #include "io/formats.h"
-#include "io/input_faces.h"
 #include "io/input_failure.h"
 #include "io/text_scanner.h"
+#include "mesh/input_faces.h"
 
 namespace asdfvk {
 namespace {
@@ -145,7 +145,7 @@ Mesh parseOff(std::span<const char> bytes) {
                                         "the file is truncated or the counts are wrong",
                                         counted(vertexCount, "vertex", "vertices"), counted(faceCount, "face"),
                                         counted(text.remaining(), "byte")));
-  requireIndexableVertexCount(vertexCount);
+  requireAtMost(kMaxIndexCount, vertexCount, "vertices");
   Mesh mesh;
   InputFaces faces;
   readVertices(text, header, vertexCount, mesh.vertices);

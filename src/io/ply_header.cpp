@@ -5,9 +5,9 @@
 #include <algorithm>
 
 #include "core/text.h"
-#include "io/input_faces.h"
 #include "io/input_failure.h"
 #include "io/text_scanner.h"
+#include "mesh/input_faces.h"
 
 namespace asdfvk {
 namespace {
@@ -93,7 +93,7 @@ uint64_t assignRoles(std::span<PlyElement> elements) {
   if (faces == nullptr && strips == nullptr)
     failInput(
         fmt::format("has {} and no element 'face': a point cloud, not a mesh", counted(vertices->count, "point")));
-  requireIndexableVertexCount(vertices->count);
+  requireAtMost(kMaxIndexCount, vertices->count, "vertices");
   return vertices->count;
 }
 

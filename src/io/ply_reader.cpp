@@ -17,11 +17,11 @@
 
 #include "core/text.h"
 #include "io/formats.h"
-#include "io/input_faces.h"
 #include "io/input_failure.h"
 #include "io/ply_header.h"
 #include "io/ply_source.h"
 #include "io/stored_fields.h"
+#include "mesh/input_faces.h"
 
 namespace asdfvk {
 namespace {

@@ -12,10 +12,10 @@
 
 #include "core/text.h"
 #include "io/formats.h"
-#include "io/input_faces.h"
 #include "io/input_failure.h"
 #include "io/text_scanner.h"
 #include "mesh/coincident_faces.h"
+#include "mesh/input_faces.h"
 
 namespace asdfvk {
 namespace {
@@ -63,7 +63,7 @@ uint32_t CornerWelder::indexOf(Vec3d point) {
   if (!isNan && table_[slot] != kEmptySlot) return table_[slot];
   const auto index = static_cast<uint32_t>(points_.size());
   points_.push_back(point);
-  requireIndexableVertexCount(points_.size());
+  requireAtMost(kMaxIndexCount, points_.size(), "vertices");
   if (!isNan) {
     table_[slot] = index;
     if (points_.size() * 3 > table_.size() * 2) resizeTable(table_.size() * 2);

@@ -1,12 +1,21 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 
 #include "asdf_vk/mesh.h"
 #include "core/vec3.h"
 
 namespace asdfvk {
+
+/// Greatest number of vertices and of input faces: an index has 32 bits, and one of them stands for none.
+inline constexpr uint64_t kMaxIndexCount = std::numeric_limits<uint32_t>::max();
+/// Greatest number of triangles: the three corners of each are numbered in 32 bits.
+inline constexpr uint64_t kMaxTriangleCount = kMaxIndexCount / 3;
+
+/// Throws Error{MeshTooLarge} where count > limit. plural: the counted elements, as "triangles".
+void requireAtMost(uint64_t limit, uint64_t count, const char* plural);
 
 /// Whether the three vertices of the face differ; independent of the coordinates.
 [[nodiscard]] constexpr bool hasDistinctVertices(const Face& face) {

@@ -42,6 +42,19 @@ void requirePolygons(const MeshView& view) {
                 fmt::format("the first corners of the polygons do not ascend from 0 to {}", view.corners().size()));
 }
 
+/// Of a mesh of polygons.
+void requireTriangulation(const Mesh& mesh) {
+  if (mesh.polygons.isEmpty()) return;
+  requireAtMost(kMaxTriangleCount, mesh.faces.size(), "triangles");
+  const std::vector<uint32_t>& inputFaceOf = mesh.polygons.inputFaceOf;
+  if (inputFaceOf.size() != mesh.faces.size())
+    throw Error(ErrorCode::ArraySize, "the polygons of the mesh do not assign an input face to each triangle");
+  if (!inputFaceOf.empty() &&
+      (inputFaceOf.back() >= mesh.inputFaceCount() || !std::is_sorted(inputFaceOf.begin(), inputFaceOf.end())))
+    throw Error(ErrorCode::ArraySize,
+                fmt::format("the input faces of the triangles do not ascend from 0 to {}", mesh.inputFaceCount() - 1));
+}
+
 [[noreturn]] void failIndex(uint64_t faceCount, const char* face, size_t vertexCount) {
   throw Error(ErrorCode::IndexOutOfRange,
               fmt::format("{} with a vertex that does not exist: the mesh has {}", counted(faceCount, face),
@@ -76,6 +89,12 @@ void requireIndices(const MeshView& view) {
 
 }  // namespace
 
+void requireAtMost(uint64_t limit, uint64_t count, const char* plural) {
+  if (count > limit)
+    throw Error(ErrorCode::MeshTooLarge,
+                fmt::format("the mesh has {} {}; at most {} are supported", count, plural, limit));
+}
+
 void requireValidArrays(const MeshView& view) {
   requireMultipleOf3(view.doubles().size() + view.floats().size(), "vertex positions");
   if (view.firstCorner().empty()) {
@@ -83,6 +102,9 @@ void requireValidArrays(const MeshView& view) {
   } else {
     requirePolygons(view);
   }
+  requireAtMost(kMaxIndexCount, view.vertexCount(), "vertices");
+  requireAtMost(view.firstCorner().empty() ? kMaxTriangleCount : kMaxIndexCount, view.inputFaceCount(), "faces");
+  if (view.mesh() != nullptr) requireTriangulation(*view.mesh());
   requireIndices(view);
 }
 
@@ -128,8 +150,7 @@ std::vector<std::string> sentencesOf(const MeshDefects& defects, bool isOfPolygo
            "have corners that are not finite: they are ignored and get no value");
   add(defects.shortPolygonCount, "input face has fewer than three corners: it gets no value",
       "input faces have fewer than three corners: they get no value");
-  addFaces(defects.zeroAreaFaceCount, "has zero area: it casts no rays and is interpolated",
-           "have zero area: they cast no rays and are interpolated");
+  addFaces(defects.zeroAreaFaceCount, "has zero area: it casts no rays", "have zero area: they cast no rays");
   addFaces(defects.duplicateFaceCount, "duplicates an earlier one: rays pass through its own copies",
            "duplicate earlier ones: rays pass through their own copies");
   add(defects.nonManifoldEdgeCount, "edge has more than two faces: values are interpolated across all of them",

@@ -16,8 +16,8 @@ namespace asdfvk {
 /// from polygons, and the sentences call them triangles instead of faces.
 [[nodiscard]] std::vector<std::string> sentencesOf(const MeshDefects& defects, bool isOfPolygons);
 
-/// Throws Error{ArraySize} for arrays of a wrong size and offsets that do not ascend, Error{IndexOutOfRange} for faces
-/// with an index at or above the vertex count.
+/// Throws Error{ArraySize} for arrays of a wrong size and offsets that do not ascend, Error{MeshTooLarge} beyond
+/// kMaxIndexCount and kMaxTriangleCount, Error{IndexOutOfRange} for faces with an index at or above the vertex count.
 void requireValidArrays(const MeshView& view);
 
 /// Faces with an index at or above the vertex count. All functions that take a TriangleMesh require it to be 0.

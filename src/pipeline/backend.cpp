@@ -21,12 +21,14 @@ std::string cpuThreads() {
 
 class EmbreeBackend final : public Backend {
  public:
-  EmbreeBackend() { requireEmbree(); }
-  [[nodiscard]] std::string deviceName() const override { return fmt::format("{} on {}", embreeName(), cpuThreads()); }
+  [[nodiscard]] std::string deviceName() const override { return fmt::format("{} on {}", library_, cpuThreads()); }
   [[nodiscard]] std::vector<std::string> deviceLines() const override { return {deviceName()}; }
   [[nodiscard]] std::unique_ptr<ConeTracer> makeTracer(const TraceScene& scene, const Cone& cone, bool) override {
     return makeEmbreeTracer(scene, cone);
   }
+
+ private:
+  std::string library_ = embreeName();
 };
 
 class ReferenceBackend final : public Backend {

@@ -59,13 +59,19 @@ std::vector<std::string> samplerNames() {
   return names;
 }
 
-void requireValid(const Options& options) {
+void requireValid(const Options& options, bool hasDevice) {
   const InterpolationOptions& interpolation = options.interpolation;
   if (!(interpolation.pooling >= 0 && interpolation.pooling <= 1))
     fail(fmt::format("a pooling of {} is out of range (0 to 1)", interpolation.pooling));
   if (interpolation.pooling > 0 && interpolation.guidance != Guidance::Prediction)
     throw Error(ErrorCode::OptionConflict, "pooling needs the prediction; choose guidance by prediction");
   (void)samplerOf(options);
+  (void)resolveSeedCount(options.seeds, 1);
+  if (options.solver != kAutomaticSolver) requireUsable(findSolver(options.solver), hasDevice);
+  if (const double tolerance = options.solverOptions.tolerance; !(tolerance > 0 && tolerance < 1))
+    fail(fmt::format("a tolerance of {} is out of range (above 0, below 1)", tolerance));
+  if (options.solverOptions.maxIterations == 0) fail("0 iterations are out of range; give 1 or more");
+  if (options.checkCount == 0) fail("a check of 0 faces is out of range; give 1 or more");
   if (options.smoothing.window) requireValid(*options.smoothing.window);
   const CgalSegmentationOptions& cgal = options.cgalSegmentation;
   if (options.segmentation == Segmentation::Cgal) {
@@ -74,8 +80,8 @@ void requireValid(const Options& options) {
     if (!(cgal.smoothness >= 0 && cgal.smoothness <= kMaxSmoothness))
       fail(fmt::format("a smoothness of {} is out of range (0 to {})", cgal.smoothness, kMaxSmoothness));
   }
-  if (options.rounds.maxError && !(*options.rounds.maxError > 0))
-    fail(fmt::format("a maximum error of {} is out of range; give more than 0", *options.rounds.maxError));
+  if (options.rounds.maxError && !(*options.rounds.maxError > 0 && *options.rounds.maxError < 1))
+    fail(fmt::format("a maximum error of {} is out of range (above 0, below 1)", *options.rounds.maxError));
   if (options.rounds.timeBudgetSeconds && !(*options.rounds.timeBudgetSeconds > 0))
     fail(fmt::format("a time budget of {} s is out of range; give more than 0", *options.rounds.timeBudgetSeconds));
 }

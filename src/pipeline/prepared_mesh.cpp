@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "asdf_vk/error.h"
-#include "io/input_faces.h"
 #include "mesh/coincident_faces.h"
+#include "mesh/input_faces.h"
 #include "mesh/orientation.h"
 #include "mesh/validation.h"
 
@@ -27,8 +27,8 @@ void takeArrays(const MeshView& view, PreparedMesh& prepared) {
   if (!first.empty() && std::adjacent_find(first.begin(), first.end(), hasTriangle) == first.end())
     throw Error(ErrorCode::EmptyMesh, "no face of the mesh has three corners; a shape diameter needs a surface");
   if (const Mesh* mesh = view.mesh()) {
-    if (!mesh->polygons.isEmpty() && mesh->polygons.inputFaceOf.size() != mesh->faces.size())
-      throw Error(ErrorCode::ArraySize, "the polygons of the mesh do not assign an input face to each triangle");
+    if (mesh->faces.empty())
+      throw Error(ErrorCode::EmptyMesh, "the mesh has no triangles; a shape diameter needs a surface");
     prepared.mesh = *mesh;
     return;
   }

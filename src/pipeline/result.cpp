@@ -34,11 +34,11 @@ MissingCauses causesOf(const PreparedMesh& prepared, std::span<const double> val
   return causes;
 }
 
-Warning missingValues(const Report& report, const MissingCauses& causes) {
+Warning missingValues(const Report& report, const MissingCauses& causes, bool keepsMissing) {
   Warning warning{WarningCode::MissingValues,
-                  fmt::format("{} of {} without a value: no ray from these faces, or from faces connected to them, hit "
-                              "the opposite side of the shape",
-                              report.noValueCount, counted(report.faceCount, "face")),
+                  fmt::format("{} of {} without a value: no ray from these faces{} hit the opposite side of the shape",
+                              report.noValueCount, counted(report.faceCount, "face"),
+                              keepsMissing ? "" : ", or from faces connected to them,"),
                   {}};
   const std::string inverted = "their component is inverted";
   const std::string open = "the surface is open, so that rays escape, or its faces are oriented inwards";
@@ -126,11 +126,12 @@ std::vector<uint32_t> segmentsOfInputFaces(const TriangleMesh& mesh, std::span<c
 }
 
 void describeValues(Report& report, const PreparedMesh& prepared, const std::vector<double>& sdf,
-                    std::span<const double> values) {
+                    std::span<const double> values, bool keepsMissing) {
   report.sdf = rangeOf(sdf);
   report.noValueCount =
       static_cast<uint64_t>(std::count_if(sdf.begin(), sdf.end(), [](double v) { return std::isnan(v); }));
-  if (report.noValueCount > 0) report.warnings.push_back(missingValues(report, causesOf(prepared, values)));
+  if (report.noValueCount > 0)
+    report.warnings.push_back(missingValues(report, causesOf(prepared, values), keepsMissing));
   if (report.solver.finishedOnCpu)
     report.warnings.push_back(
         {WarningCode::FinishedOnCpu,

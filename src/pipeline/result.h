@@ -25,8 +25,8 @@ namespace asdfvk {
                                                          std::span<const double> areas);
 
 /// Adds to the report: the range of the values, the number of missing values, warnings about values and solver. sdf:
-/// #I. values: #F.
+/// #I. values: #F. keepsMissing: see Computation.
 void describeValues(Report& report, const PreparedMesh& prepared, const std::vector<double>& sdf,
-                    std::span<const double> values);
+                    std::span<const double> values, bool keepsMissing);
 
 }  // namespace asdfvk

@@ -16,10 +16,10 @@ CgalValues postprocess(const PreparedMesh& prepared, const FaceNeighbours& neigh
   std::vector<double> scaled(values.begin(), values.end());
   for (double& value : scaled) value *= unit.scale;
   CgalValues result = postprocessLikeCgal(neighbours, scaled);
-  if (result.least == result.greatest)
+  if (result.min == result.max)
     for (double& value : result.normalized) value = unit.toMeshLength(value);
-  result.least = unit.toMeshLength(result.least);
-  result.greatest = unit.toMeshLength(result.greatest);
+  result.min = unit.toMeshLength(result.min);
+  result.max = unit.toMeshLength(result.max);
   return result;
 }
 
@@ -42,7 +42,7 @@ SegmentedValues segmentValues(const PreparedMesh& prepared, std::span<const doub
     const auto scope = clock.time(Stage::Postprocess);
     neighbours = findFaceNeighbours(prepared.mesh);
     CgalValues postprocessed = postprocess(prepared, neighbours, values);
-    report.postprocess = PostprocessReport{postprocessed.least, postprocessed.greatest};
+    report.postprocess = PostprocessReport{postprocessed.min, postprocessed.max};
     result.normalized = std::move(postprocessed.normalized);
   }
   if (options.segmentation != Segmentation::Cgal) return result;

@@ -48,11 +48,14 @@ void describeRounds(Report& report, const RoundsResult& rounds) {
   if (rounds.errors) report.estimatedError = rounds.errors->estimate;
 }
 
-/// Removes the values of traced and of degenerate faces that have none of their own.
-void removeMissing(const PreparedMesh& prepared, const TracedSeeds& traced, std::vector<double>& values) {
-  for (uint32_t face = 0; face < values.size(); ++face)
-    if (prepared.geometry.isDegenerate(face) || (traced.isSeed[face] && std::isnan(traced.values[face])))
-      values[face] = kNoValue;
+/// Removes the values, and the expected errors, of traced and of degenerate faces that have no value of their own.
+void removeMissing(const PreparedMesh& prepared, RoundsResult& rounds) {
+  for (uint32_t face = 0; face < rounds.interpolated.values.size(); ++face) {
+    const bool isTraced = rounds.traced.isSeed[face];
+    if (!prepared.geometry.isDegenerate(face) && !(isTraced && std::isnan(rounds.traced.values[face]))) continue;
+    rounds.interpolated.values[face] = kNoValue;
+    if (rounds.errors) rounds.errors->expected[face] = 0;
+  }
 }
 
 std::vector<Field> fieldsOf(const PreparedMesh& prepared, const RoundsResult& rounds, const std::vector<double>& values,
@@ -98,11 +101,11 @@ const std::string& Session::backend() const { return state_->named.name; }
 bool Session::runsOnCpu() const { return state_->named.backend->runsOnCpu(); }
 
 Result Session::compute(const MeshView& mesh, const Options& options, const RunControl& control) {
-  requireValid(options);
   Result result;
   Report& report = result.report;
   StageClock clock(report.stageSeconds);
   Backend& backend = *state_->named.backend;
+  requireValid(options, backend.device() != nullptr);
   const Cone cone = makeCone(options.cone);
   describeBackend(report, state_->named);
   report.randomSeed = options.randomSeed;
@@ -121,11 +124,11 @@ Result Session::compute(const MeshView& mesh, const Options& options, const RunC
   const Computation computation{options, prepared, scene, cone, backend, state_->solvers, clock, report.warnings};
   const double roundsEnd = options.checkCount ? kRoundsEndBeforeCheck : 1;
   const bool keepsNodes = options.checkCount || options.keepsScene;
-  const RoundsResult rounds =
+  RoundsResult rounds =
       runRounds(computation, std::make_unique<SeedTracing>(computation, bvh, keepsNodes), control.part(0, roundsEnd));
   describeRounds(report, rounds);
+  if (computation.keepsMissing()) removeMissing(prepared, rounds);
   std::vector<double> values = rounds.interpolated.values;
-  if (computation.keepsMissing()) removeMissing(prepared, rounds.traced, values);
   if (const SmoothingOptions& smoothing = options.smoothing; smoothing.isOn) {
     const auto scope = clock.time(Stage::Smooth);
     values = smoothBilaterally(prepared.graph, values,
@@ -137,7 +140,7 @@ Result Session::compute(const MeshView& mesh, const Options& options, const RunC
         checkAgainstReference(scene, cone, prepared.traceableFaces, {rounds.traced, values, backend.isReference()},
                               *options.checkCount, options.randomSeed, control.part(roundsEnd, 1));
   result.fields = fieldsOf(prepared, rounds, values, std::move(segmented));
-  describeValues(report, prepared, result.sdf(), values);
+  describeValues(report, prepared, result.sdf(), values, computation.keepsMissing());
   backend.requireSilentValidation();
   if (options.keepsScene)
     result.scene =

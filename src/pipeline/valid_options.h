@@ -6,9 +6,9 @@
 
 namespace asdfvk {
 
-/// Throws Error{OptionOutOfRange} or Error{OptionConflict}. Cone, seed count, sampler and solver are validated where
-/// they are used.
-void requireValid(const Options& options);
+/// Throws Error{OptionOutOfRange}, Error{OptionConflict}, Error{UnknownName}; Error{NoDeviceForKernel} for a solver
+/// that needs a device without one. makeCone() validates the cone.
+void requireValid(const Options& options, bool hasDevice);
 
 /// Whether a solver of solverNames() needs a Vulkan device; false for "auto". Throws Error{UnknownName}.
 [[nodiscard]] bool solverNeedsDevice(const std::string& name);

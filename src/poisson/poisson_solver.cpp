@@ -34,11 +34,15 @@ const Solver& defaultSolver(bool needsDevice) {
                        [&](const Solver& solver) { return solver.needsDevice == needsDevice; });
 }
 
+void requireUsable(const Solver& solver, bool hasDevice) {
+  if (solver.needsDevice && !hasDevice)
+    throw Error(ErrorCode::NoDeviceForKernel,
+                fmt::format("the solver {} runs on a Vulkan device and this backend has none", solver.name));
+}
+
 std::unique_ptr<PoissonSolver> makeSolver(std::string_view name, const Device* device) {
   const Solver& solver = findSolver(name);
-  if (solver.needsDevice && device == nullptr)
-    throw Error(ErrorCode::NoDeviceForKernel,
-                fmt::format("the solver {} runs on a Vulkan device and this backend has none", name));
+  requireUsable(solver, device != nullptr);
   return solver.make(device);
 }
 

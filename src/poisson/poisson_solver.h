@@ -50,7 +50,9 @@ inline constexpr const char* kAutomaticSolver = "auto";  ///< Stands for default
 [[nodiscard]] const Solver& findSolver(std::string_view name);
 /// The default solver on a device, or the one on the CPU.
 [[nodiscard]] const Solver& defaultSolver(bool needsDevice);
-/// Throws Error{UnknownName}; Error{NoDeviceForKernel} where the solver needs a device and `device` is null.
+/// Throws Error{NoDeviceForKernel} for a solver that needs a device without one.
+void requireUsable(const Solver& solver, bool hasDevice);
+/// Throws Error{UnknownName}; the error of requireUsable() where `device` is null.
 [[nodiscard]] std::unique_ptr<PoissonSolver> makeSolver(std::string_view name, const Device* device);
 
 }  // namespace asdfvk

@@ -112,12 +112,12 @@ std::vector<double> filterLikeCgal(const FaceNeighbours& neighbours, std::span<c
 
 CgalValues postprocessLikeCgal(const FaceNeighbours& neighbours, std::span<const double> values) {
   CgalValues result{filterLikeCgal(neighbours, fillMissingValues(neighbours, values))};
-  const auto [least, greatest] = std::minmax_element(result.normalized.begin(), result.normalized.end());
-  result.least = *least;
-  result.greatest = *greatest;
-  if (result.least == result.greatest) return result;
-  const double range = result.greatest - result.least;
-  for (double& value : result.normalized) value = (value - result.least) / range;
+  const auto [min, max] = std::minmax_element(result.normalized.begin(), result.normalized.end());
+  result.min = *min;
+  result.max = *max;
+  if (result.min == result.max) return result;
+  const double range = result.max - result.min;
+  for (double& value : result.normalized) value = (value - result.min) / range;
   return result;
 }
 

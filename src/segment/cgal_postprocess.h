@@ -12,7 +12,7 @@ namespace asdfvk {
 
 struct CgalValues {
   std::vector<double> normalized;  ///< #F, in [0, 1]; the smoothed values where all of them are equal.
-  double least = 0, greatest = 0;  ///< Of the smoothed values, in the unit of the input.
+  double min = 0, max = 0;         ///< Of the smoothed values, in the unit of the input.
 };
 
 /// values: #F, finite, or NaN for no value. Within 1e-12 of CGAL's result on manifold meshes. The same bits on any

@@ -15,10 +15,10 @@
 namespace asdfvk {
 namespace {
 
-constexpr double kLeastArgument = 5e-6;  ///< Of the logarithms of the costs.
+constexpr double kMinArgument = 5e-6;  ///< Of the logarithms of the costs.
 constexpr double kConvexFactor = 0.08, kSmoothnessUnit = 100;
 
-double costOf(double argument) { return -std::log(std::max(kLeastArgument, argument)); }
+double costOf(double argument) { return -std::log(std::max(kMinArgument, argument)); }
 
 /// Unit also where a face is degenerate but the cross product is not 0; rounding errors may dominate it then.
 Vec3d normalOf(const FaceGeometry& geometry, const TriangleMesh& mesh, uint32_t face) {

@@ -78,10 +78,7 @@ class ConeTracer {
 /// Whether this build has Embree, which is optional.
 [[nodiscard]] bool hasEmbree();
 
-/// Throws Error{Device} when this build has no Embree.
-void requireEmbree();
-
-/// Name and version of the loaded library, as "Embree 3.13.5"; empty without Embree.
+/// Name and version of the loaded library, as "Embree 3.13.5". Throws Error{NoEmbree}, Error{EmbreeFailed}.
 [[nodiscard]] std::string embreeName();
 
 // In normalised units. Tracers in float32 (resolution 2^-24 at the rim of the bounding box) delegate cones of smaller

@@ -3,16 +3,16 @@
 #include "trace/cone_tracer.h"
 
 namespace asdfvk {
+namespace {
+
+[[noreturn]] void fail() { throw Error(ErrorCode::NoEmbree, "the library was built without Embree"); }
+
+}  // namespace
 
 bool hasEmbree() { return false; }
 
-void requireEmbree() { throw Error(ErrorCode::NoEmbree, "the library was built without Embree"); }
+std::string embreeName() { fail(); }
 
-std::string embreeName() { return {}; }
-
-std::unique_ptr<ConeTracer> makeEmbreeTracer(const TraceScene&, const Cone&) {
-  requireEmbree();
-  return {};
-}
+std::unique_ptr<ConeTracer> makeEmbreeTracer(const TraceScene&, const Cone&) { fail(); }
 
 }  // namespace asdfvk

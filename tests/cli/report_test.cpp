@@ -96,7 +96,7 @@ TEST_CASE("the reports have the smoothed range and the number of segments, where
   CHECK_MESSAGE(holds(text, "\n  smoothed  min 0.25, max 2.5, mapped to 0 and 1\n"), text);
   CHECK_MESSAGE(holds(text, "\n  segments  1,234 from 3 clusters, smoothness 0.26\n"), text);
   const nlohmann::json json = nlohmann::json::parse(jsonReport({kMesh, kOutput, line, result}));
-  CHECK_EQ(json.at("postprocess"), nlohmann::json({{"least", 0.25}, {"greatest", 2.5}}));
+  CHECK_EQ(json.at("postprocess"), nlohmann::json({{"min", 0.25}, {"max", 2.5}}));
   CHECK_EQ(json.at("segmentCount"), 1234);
 }
 

@@ -45,8 +45,8 @@ TEST_CASE("the document has the options, the smoothed range, the number of segme
   CHECK_EQ(options.at("clusters"), 3);
   CHECK_EQ(options.at("smoothness"), 0.1);
   CHECK_EQ(options.at("cgalExpansion"), "first");
-  CHECK(json.at("postprocess").at("least").get<double>() >= json.at("sdf").at("min").get<double>());
-  CHECK(json.at("postprocess").at("greatest").get<double>() <= json.at("sdf").at("max").get<double>());
+  CHECK(json.at("postprocess").at("min").get<double>() >= json.at("sdf").at("min").get<double>());
+  CHECK(json.at("postprocess").at("max").get<double>() <= json.at("sdf").at("max").get<double>());
   CHECK_EQ(fieldOf(json, "normalized").at("type"), "float64");
   CHECK_EQ(fieldOf(json, "normalized").at("unit"), "");
   CHECK_EQ(fieldOf(json, "normalized").at("max"), 1);

@@ -7,7 +7,7 @@
 #include <numeric>
 #include <vector>
 
-#include "shapes.h"
+#include "support/shapes.h"
 
 using namespace asdfvk;
 
@@ -18,7 +18,7 @@ std::vector<uint32_t> representativesOf(const Mesh& mesh) { return coincidentRep
 }  // namespace
 
 TEST_CASE("the two sides of a pillow are copies, though each edge has two faces") {
-  Mesh mesh = shapes::placed(shapes::cube(), 1, {5, 0, 0});
+  Mesh mesh = shapes::scaledAndShifted(shapes::cube(), 1, {5, 0, 0});
   const auto v = static_cast<uint32_t>(mesh.vertices.size());
   mesh.vertices.insert(mesh.vertices.end(), {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
   mesh.faces.insert(mesh.faces.begin(), {v, v + 1, v + 2});
@@ -30,7 +30,7 @@ TEST_CASE("the two sides of a pillow are copies, though each edge has two faces"
 }
 
 TEST_CASE("of two closed shells with vertices of their own at the same places one is the other's copy") {
-  const Mesh mesh = shapes::together(shapes::cube(), shapes::cube());
+  const Mesh mesh = shapes::joined(shapes::cube(), shapes::cube());
   CHECK(surveyEdges(mesh).isClosed);
   const std::vector<uint32_t> representatives = representativesOf(mesh);
   for (uint32_t f = 0; f < mesh.faceCount(); ++f) CHECK(representatives[f] == f % 12);
@@ -60,7 +60,7 @@ TEST_CASE("faces that share an edge or a repeated vertex do not coincide") {
 
 TEST_CASE("representatives of random soups equal those by comparison of all faces") {
   for (uint64_t seed = 0; seed < 20; ++seed) {
-    const Mesh mesh = shapes::soup(5, 80, seed);
+    const Mesh mesh = shapes::randomFaces(5, 80, seed);
     const auto sorted = [](Face face) {
       std::sort(face.begin(), face.end());
       return face;
@@ -79,12 +79,12 @@ TEST_CASE("a copy with vertices of its own coincides with the original, in eithe
   const Mesh sphere = shapes::sphere(3);
   const uint32_t count = sphere.faceCount();
   for (const Mesh& copy : {sphere, shapes::inverted(sphere)}) {
-    const std::vector<uint32_t> representatives = representativesOf(shapes::together(sphere, copy));
+    const std::vector<uint32_t> representatives = representativesOf(shapes::joined(sphere, copy));
     REQUIRE(representatives.size() == 2 * size_t{count});
     for (uint32_t f = 0; f < representatives.size(); ++f) REQUIRE(representatives[f] == f % count);
   }
   const std::vector<uint32_t> moved =
-      representativesOf(shapes::together(sphere, shapes::placed(sphere, 1, {1e-15, 0, 0})));
+      representativesOf(shapes::joined(sphere, shapes::scaledAndShifted(sphere, 1, {1e-15, 0, 0})));
   CHECK(moved[count + 1] == count + 1);  // Near is not the same.
 }
 
@@ -109,7 +109,7 @@ TEST_CASE("faces that collapse into a line or a point go by their vertices") {
 }
 
 TEST_CASE("copies in a soup on few points, shared or not, equal those by comparison of all positions") {
-  const Mesh welded = shapes::soup(6, 300, 3);
+  const Mesh welded = shapes::randomFaces(6, 300, 3);
   Mesh soup;
   for (const Face& face : welded.faces) {
     const auto v = static_cast<uint32_t>(soup.vertices.size());

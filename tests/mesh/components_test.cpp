@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "core/random.h"
-#include "shapes.h"
+#include "support/shapes.h"
 
 using namespace asdfvk;
 
@@ -90,7 +90,7 @@ std::vector<uint32_t> componentsByWalking(const DualGraph& graph) {
 TEST_CASE("an empty mesh has no component") { CHECK(componentsOf({}).components.empty()); }
 
 TEST_CASE("components are numbered by their lowest face") {
-  Mesh mesh = shapes::together(shapes::cube(), shapes::placed(shapes::tetrahedron(), 1, {5, 0, 0}));
+  Mesh mesh = shapes::joined(shapes::cube(), shapes::scaledAndShifted(shapes::tetrahedron(), 1, {5, 0, 0}));
   std::swap(mesh.faces[1], mesh.faces[13]);
   const Components result = componentsOf(mesh);
   REQUIRE(result.components.size() == 2);
@@ -111,7 +111,7 @@ TEST_CASE("closed shapes have their volume, negative when inverted, at any scale
   for (const double scale : {1e-90, 1e-30, 1.0, 1e3, 1e30, 1e90}) {
     CAPTURE(scale);
     const double volume = 8 * scale * scale * scale;
-    const Mesh cube = shapes::placed(shapes::cube(), scale, Vec3d{1e6, -3e6, 2e6} * scale);
+    const Mesh cube = shapes::scaledAndShifted(shapes::cube(), scale, Vec3d{1e6, -3e6, 2e6} * scale);
     const Component outward = componentsOf(cube).components[0];
     const Component inward = componentsOf(shapes::inverted(cube)).components[0];
     CHECK(outward.isClosed);
@@ -125,8 +125,9 @@ TEST_CASE("closed shapes have their volume, negative when inverted, at any scale
 }
 
 TEST_CASE("a volume below the range of a double keeps its sign") {
-  CHECK(componentsOf(shapes::placed(shapes::cube(), 1e-150)).components[0].signedVolume > 0);
-  CHECK(componentsOf(shapes::inverted(shapes::placed(shapes::cube(), 1e-150))).components[0].signedVolume < 0);
+  CHECK(componentsOf(shapes::scaledAndShifted(shapes::cube(), 1e-150)).components[0].signedVolume > 0);
+  CHECK(componentsOf(shapes::inverted(shapes::scaledAndShifted(shapes::cube(), 1e-150))).components[0].signedVolume <
+        0);
 }
 
 TEST_CASE("a flat pillow is closed and has no volume, in any plane") {
@@ -199,14 +200,14 @@ TEST_CASE("one face wound against the others makes a component inconsistent") {
 TEST_CASE("closedness of random soups, with non-finite corners or not, equals that by a map of all edges") {
   for (uint64_t seed = 0; seed < 40; ++seed) {
     CAPTURE(seed);
-    Mesh mesh = shapes::together(shapes::cube(), shapes::inverted(shapes::sphere(1)));
+    Mesh mesh = shapes::joined(shapes::cube(), shapes::inverted(shapes::sphere(1)));
     const auto vertexCount = static_cast<uint32_t>(mesh.vertices.size());
     // A third face at an edge, faces with a repeated vertex, and copies.
     Random random(seed);
     for (uint32_t i = 0; i < seed % 7; ++i)
       mesh.faces.push_back({random.index(8), random.index(8), random.index(vertexCount)});
     for (uint32_t i = 0; i < seed % 3; ++i) std::swap(mesh.faces[20 + i][0], mesh.faces[20 + i][1]);
-    mesh = shapes::together(std::move(mesh), shapes::soup(5, 12, seed));
+    mesh = shapes::joined(std::move(mesh), shapes::randomFaces(5, 12, seed));
     if (seed % 4 == 3) mesh.vertices[random.index(vertexCount)].y = std::numeric_limits<double>::infinity();
     (void)componentsOf(mesh);
   }
@@ -214,7 +215,8 @@ TEST_CASE("closedness of random soups, with non-finite corners or not, equals th
 
 TEST_CASE("the components of a shuffled mesh of many are all found") {
   Mesh mesh;
-  for (int i = 0; i < 200; ++i) mesh = shapes::together(mesh, shapes::placed(shapes::sphere(1), 1, {3.0 * i, 0, 0}));
+  for (int i = 0; i < 200; ++i)
+    mesh = shapes::joined(mesh, shapes::scaledAndShifted(shapes::sphere(1), 1, {3.0 * i, 0, 0}));
   Random random(3);
   random.shuffle(std::span<Face>(mesh.faces));
   const Components result = componentsOf(mesh);

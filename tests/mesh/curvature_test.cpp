@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "shapes.h"
+#include "support/shapes.h"
 
 using namespace asdfvk;
 
@@ -38,7 +38,7 @@ Mesh folded(double angle) {
 
 TEST_CASE("each corner of a cube has the angle defect pi/2 at any scale") {
   for (const double scale : {1e-150, 1e-30, 1.0, 1e3, 1e30, 1e150}) {
-    for (const double defect : vertexAngleDefects(shapes::placed(shapes::cube(), scale)))
+    for (const double defect : vertexAngleDefects(shapes::scaledAndShifted(shapes::cube(), scale)))
       CHECK(defect == doctest::Approx(std::numbers::pi / 2));
   }
   for (const double curvature : faceCurvature(shapes::cube()))
@@ -49,7 +49,7 @@ TEST_CASE("angle defects of closed meshes sum to 2 pi times the Euler characteri
   CHECK(sumOfDefects(shapes::tetrahedron()) == doctest::Approx(4 * std::numbers::pi));
   CHECK(sumOfDefects(shapes::sphere(4)) == doctest::Approx(4 * std::numbers::pi));
   CHECK(sumOfDefects(shapes::torus(3, 1, 40, 20)) == doctest::Approx(0).epsilon(1e-9));
-  CHECK(sumOfDefects(shapes::together(shapes::cube(), shapes::placed(shapes::cube(), 1, {5, 0, 0}))) ==
+  CHECK(sumOfDefects(shapes::joined(shapes::cube(), shapes::scaledAndShifted(shapes::cube(), 1, {5, 0, 0}))) ==
         doctest::Approx(8 * std::numbers::pi));
 }
 
@@ -85,7 +85,7 @@ TEST_CASE("faces of zero area keep the sum of the defects") {
 }
 
 TEST_CASE("repeated vertices, non-finite corners and lone vertices leave finite curvature") {
-  Mesh mesh = shapes::together(shapes::cube(), shapes::tetrahedron());
+  Mesh mesh = shapes::joined(shapes::cube(), shapes::tetrahedron());
   mesh.vertices.push_back({9, 9, 9});
   mesh.vertices[8].x = std::numeric_limits<double>::quiet_NaN();
   mesh.faces.push_back({0, 0, 1});
@@ -156,7 +156,7 @@ TEST_CASE("angles do not depend on the unit") {
   const Mesh mesh = shapes::torus(4, 1, 12, 12);
   const std::vector<double> expected = anglesOf(mesh);
   for (double unit : {0x1p-400, 0x1p400}) {
-    const std::vector<double> angles = anglesOf(shapes::placed(mesh, unit));
+    const std::vector<double> angles = anglesOf(shapes::scaledAndShifted(mesh, unit));
     REQUIRE(angles.size() == expected.size());
     for (size_t arc = 0; arc < angles.size(); ++arc) CHECK(angles[arc] == doctest::Approx(expected[arc]));
   }
@@ -164,7 +164,7 @@ TEST_CASE("angles do not depend on the unit") {
 
 TEST_CASE("both directions of an arc have the same bits, whatever the input") {
   for (uint64_t seed : {1, 2, 3}) {
-    const Mesh mesh = shapes::soup(40, 300, seed);
+    const Mesh mesh = shapes::randomFaces(40, 300, seed);
     const DualGraph graph = buildDualGraph(mesh);
     const std::vector<double> angles = anglesOf(mesh);
     for (uint32_t f = 0; f < graph.faceCount(); ++f)

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/random.h"
-#include "shapes.h"
+#include "support/shapes.h"
 
 using namespace asdfvk;
 
@@ -120,14 +120,14 @@ TEST_CASE("a face with a non-finite corner joins nothing") {
     Mesh mesh = shapes::tetrahedron();
     mesh.vertices[0].y = bad;
     CHECK(buildDualGraph(mesh).neighbours.empty());
-    CHECK(row(buildDualGraph(shapes::together(mesh, shapes::tetrahedron())), 4) == std::vector<uint32_t>{5, 6, 7});
+    CHECK(row(buildDualGraph(shapes::joined(mesh, shapes::tetrahedron())), 4) == std::vector<uint32_t>{5, 6, 7});
   }
 }
 
 TEST_CASE("the dual graph of random soups equals that by comparison of all faces") {
   for (uint64_t seed = 0; seed < 60; ++seed) {
     const uint32_t vertexCount = 4 + static_cast<uint32_t>(seed % 9);
-    const Mesh mesh = shapes::soup(vertexCount, vertexCount * 3, seed);
+    const Mesh mesh = shapes::randomFaces(vertexCount, vertexCount * 3, seed);
     const auto rows = bruteForceRows(mesh);
     const DualGraph graph = buildDualGraph(mesh);
     for (uint32_t f = 0; f < mesh.faceCount(); ++f) REQUIRE(row(graph, f) == rows[f]);
@@ -136,7 +136,7 @@ TEST_CASE("the dual graph of random soups equals that by comparison of all faces
 
 TEST_CASE("the edge kinds of a random soup equal those by comparison of all faces") {
   for (uint64_t seed = 0; seed < 60; ++seed) {
-    const Mesh mesh = shapes::soup(5 + static_cast<uint32_t>(seed % 9), 12, seed);
+    const Mesh mesh = shapes::randomFaces(5 + static_cast<uint32_t>(seed % 9), 12, seed);
     const EdgeSurvey survey = surveyEdges(mesh);
     REQUIRE(survey.edgeKinds.size() == 3 * mesh.faces.size());
     double boundaryCount = 0, inconsistentCount = 0, nonManifoldCount = 0;  // Shares of an edge, one per face.

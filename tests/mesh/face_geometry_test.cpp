@@ -6,7 +6,7 @@
 #include <initializer_list>
 #include <limits>
 
-#include "shapes.h"
+#include "support/shapes.h"
 
 using namespace asdfvk;
 
@@ -65,7 +65,7 @@ TEST_CASE("the faces of a cube are oriented outwards and cover it") {
 TEST_CASE("a shift far from the origin leaves normals and areas") {
   const Vec3d shift{1e9, -2e9, 3e9};  // Exact for the cube's corners.
   const FaceGeometry near = computeFaceGeometry(shapes::cube());
-  const FaceGeometry far = computeFaceGeometry(shapes::placed(shapes::cube(), 1, shift));
+  const FaceGeometry far = computeFaceGeometry(shapes::scaledAndShifted(shapes::cube(), 1, shift));
   CHECK(far.normals == near.normals);
   CHECK(far.areas == near.areas);
   for (size_t f = 0; f < 12; ++f) CHECK(distance(far.barycentres[f] - shift, near.barycentres[f]) < 1e-6);

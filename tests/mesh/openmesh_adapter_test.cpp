@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "mesh/face_geometry.h"
-#include "shapes.h"
 #include "support/require_failure.h"
+#include "support/shapes.h"
 
 using namespace asdfvk;
 
@@ -51,7 +51,7 @@ void checkRoundTrip(const Mesh& expected) {
 TEST_CASE("an OpenMesh mesh becomes the same vertices and faces in handle order") {
   checkRoundTrip<FloatMesh>(shapes::cube());
   checkRoundTrip<FloatMesh>(shapes::grid(4));
-  checkRoundTrip<DoubleMesh>(shapes::placed(shapes::cube(), 0.1));
+  checkRoundTrip<DoubleMesh>(shapes::scaledAndShifted(shapes::cube(), 0.1));
   checkRoundTrip<DoubleMesh>({});
 }
 

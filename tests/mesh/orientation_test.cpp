@@ -8,13 +8,13 @@
 
 #include "core/check.h"
 #include "core/random.h"
-#include "shapes.h"
+#include "support/shapes.h"
 
 using namespace asdfvk;
 using shapes::inverted;
-using shapes::placed;
+using shapes::joined;
+using shapes::scaledAndShifted;
 using shapes::sphere;
-using shapes::together;
 
 namespace {
 
@@ -46,23 +46,24 @@ TEST_CASE("a lone closed shape is inverted when its volume is negative") {
   CHECK(invertedIn(inverted(sphere(2))) == Indices{0});
   for (const double scale : {1e-170, 1e-150, 1e160, 1.7e308}) {
     CAPTURE(scale);
-    CHECK(invertedIn(placed(sphere(2), scale)).empty());
-    CHECK(invertedIn(inverted(placed(sphere(2), scale))) == Indices{0});
+    CHECK(invertedIn(scaledAndShifted(sphere(2), scale)).empty());
+    CHECK(invertedIn(inverted(scaledAndShifted(sphere(2), scale))) == Indices{0});
   }
-  CHECK(invertedIn(inverted(placed(sphere(2), 1e-3, {1e5, 1e5, 1e5}))) == Indices{0});
+  CHECK(invertedIn(inverted(scaledAndShifted(sphere(2), 1e-3, {1e5, 1e5, 1e5}))) == Indices{0});
 }
 
 TEST_CASE("a cavity is oriented inwards") {
-  const Mesh outer = sphere(3), inner = placed(sphere(2), 0.5, {0.1, 0.2, 0});
-  CHECK(cavitiesIn(together(outer, inner)) == Cavities{0, 1});
-  CHECK(invertedIn(together(outer, inverted(inner))).empty());
-  CHECK(invertedIn(together(outer, inner)) == Indices{1});
-  CHECK(invertedIn(together(inverted(inner), outer)).empty());
-  CHECK(invertedIn(together(inverted(outer), inner)) == Indices{0, 1});
+  const Mesh outer = sphere(3), inner = scaledAndShifted(sphere(2), 0.5, {0.1, 0.2, 0});
+  CHECK(cavitiesIn(joined(outer, inner)) == Cavities{0, 1});
+  CHECK(invertedIn(joined(outer, inverted(inner))).empty());
+  CHECK(invertedIn(joined(outer, inner)) == Indices{1});
+  CHECK(invertedIn(joined(inverted(inner), outer)).empty());
+  CHECK(invertedIn(joined(inverted(outer), inner)) == Indices{0, 1});
 }
 
 TEST_CASE("spheres in each other alternate") {
-  const Mesh nested = together(together(sphere(2), placed(sphere(3), 0.7)), placed(sphere(2), 0.3, {0.1, 0, 0}));
+  const Mesh nested =
+      joined(joined(sphere(2), scaledAndShifted(sphere(3), 0.7)), scaledAndShifted(sphere(2), 0.3, {0.1, 0, 0}));
   CHECK(cavitiesIn(nested) == Cavities{0, 1, 0});
   CHECK(invertedIn(nested) == Indices{1});
   CHECK(invertedIn(inverted(nested)) == Indices{0, 2});
@@ -70,63 +71,64 @@ TEST_CASE("spheres in each other alternate") {
 
 TEST_CASE("a sphere in a torus's hole is in its box but not inside it") {
   const Mesh torus = shapes::torus(3, 1, 40, 20);
-  CHECK(cavitiesIn(together(torus, placed(sphere(3), 0.9))) == Cavities{0, 0});
-  CHECK(invertedIn(together(torus, placed(inverted(sphere(3)), 0.9))) == Indices{1});
-  CHECK(cavitiesIn(together(torus, placed(sphere(3), 0.9, {3, 0, 0}))) == Cavities{0, 1});
+  CHECK(cavitiesIn(joined(torus, scaledAndShifted(sphere(3), 0.9))) == Cavities{0, 0});
+  CHECK(invertedIn(joined(torus, scaledAndShifted(inverted(sphere(3)), 0.9))) == Indices{1});
+  CHECK(cavitiesIn(joined(torus, scaledAndShifted(sphere(3), 0.9, {3, 0, 0}))) == Cavities{0, 1});
 }
 
 TEST_CASE("a shape that sticks out of another one or equals it is not inside it") {
-  CHECK(cavitiesIn(together(sphere(3), placed(sphere(2), 0.5, {0.45, 0.45, 0.45}))) == Cavities{0, 0});
-  CHECK(cavitiesIn(together(shapes::cube(), shapes::cube())) == Cavities{0, 0});
-  CHECK(cavitiesIn(together(shapes::cube(), placed(shapes::cube(), 0.5, {0.5, 0, 0}))) == Cavities{0, 0});  // Touches.
+  CHECK(cavitiesIn(joined(sphere(3), scaledAndShifted(sphere(2), 0.5, {0.45, 0.45, 0.45}))) == Cavities{0, 0});
+  CHECK(cavitiesIn(joined(shapes::cube(), shapes::cube())) == Cavities{0, 0});
+  CHECK(cavitiesIn(joined(shapes::cube(), scaledAndShifted(shapes::cube(), 0.5, {0.5, 0, 0}))) ==
+        Cavities{0, 0});  // Touches.
 }
 
 TEST_CASE("test rays through corners and edges of a container cross the right number of faces") {
-  CHECK(cavitiesIn(together(shapes::cube(), placed(shapes::cube(), 0.5))) == Cavities{0, 1});
-  CHECK(cavitiesIn(together(sphere(0), placed(sphere(0), 0.5))) == Cavities{0, 1});
-  CHECK(cavitiesIn(together(shapes::grid(4), placed(shapes::cube(), 0.5, {2, 2, 1}))) == Cavities{0, 0});
+  CHECK(cavitiesIn(joined(shapes::cube(), scaledAndShifted(shapes::cube(), 0.5))) == Cavities{0, 1});
+  CHECK(cavitiesIn(joined(sphere(0), scaledAndShifted(sphere(0), 0.5))) == Cavities{0, 1});
+  CHECK(cavitiesIn(joined(shapes::grid(4), scaledAndShifted(shapes::cube(), 0.5, {2, 2, 1}))) == Cavities{0, 0});
 }
 
 TEST_CASE("open and inconsistently wound components are never inverted") {
   Mesh open = inverted(sphere(2));
   open.faces.pop_back();
   CHECK(invertedIn(open).empty());
-  CHECK(cavitiesIn(together(open, placed(sphere(2), 0.5))) == Cavities{0, 0});
+  CHECK(cavitiesIn(joined(open, scaledAndShifted(sphere(2), 0.5))) == Cavities{0, 0});
 
   Mesh mixed = inverted(sphere(2));
   std::swap(mixed.faces[5][1], mixed.faces[5][2]);
   CHECK(invertedIn(mixed).empty());
-  CHECK(cavitiesIn(together(mixed, placed(sphere(2), 0.5))) == Cavities{0, 1});  // It still encloses.
+  CHECK(cavitiesIn(joined(mixed, scaledAndShifted(sphere(2), 0.5))) == Cavities{0, 1});  // It still encloses.
 }
 
 TEST_CASE("cavities are found at any scale, shift and number of threads") {
-  const Mesh nested = together(together(sphere(4), placed(sphere(4), 0.7)), placed(sphere(4), 0.3));
+  const Mesh nested = joined(joined(sphere(4), scaledAndShifted(sphere(4), 0.7)), scaledAndShifted(sphere(4), 0.3));
   for (const double scale : {1e-150, 1e-30, 1e-3, 1e3, 1e30, 1e150})
-    CHECK(cavitiesIn(placed(nested, scale)) == Cavities{0, 1, 0});
-  CHECK(cavitiesIn(placed(nested, 1, {1e6, -1e6, 1e6})) == Cavities{0, 1, 0});
+    CHECK(cavitiesIn(scaledAndShifted(nested, scale)) == Cavities{0, 1, 0});
+  CHECK(cavitiesIn(scaledAndShifted(nested, 1, {1e6, -1e6, 1e6})) == Cavities{0, 1, 0});
   const tbb::global_control oneThread(tbb::global_control::max_allowed_parallelism, 1);
   CHECK(cavitiesIn(nested) == Cavities{0, 1, 0});
 }
 
 TEST_CASE("of thousands of components each cavity is found") {
   const int n = 12;  // Shells on a grid; every third one has a core, and all are inside of one large sphere.
-  Mesh mesh = placed(sphere(5), 40);
+  Mesh mesh = scaledAndShifted(sphere(5), 40);
   Cavities expected{0};
   Random random(11);
   for (int i = 0; i < n * n * n; ++i) {
     const Vec3d centre{3.0 * (i % n) - 16.5, 3.0 * (i / n % n) - 16.5, 3.0 * (i / n / n) - 16.5};
-    mesh = together(std::move(mesh), placed(sphere(1), 1, centre));
+    mesh = joined(std::move(mesh), scaledAndShifted(sphere(1), 1, centre));
     expected.push_back(1);
     if (i % 3 != 0) continue;
-    mesh = together(std::move(mesh), placed(shapes::cube(), 0.3 + 0.1 * random.real(), centre));
+    mesh = joined(std::move(mesh), scaledAndShifted(shapes::cube(), 0.3 + 0.1 * random.real(), centre));
     expected.push_back(0);
   }
   CHECK(cavitiesIn(mesh) == expected);
 }
 
 TEST_CASE("orienting reverses the inverted components only, once, and their derived data") {
-  Mesh mesh = together(together(inverted(sphere(2)), inverted(placed(sphere(1), 0.5))),
-                       placed(inverted(shapes::cube()), 1, {5, 0, 0}));
+  Mesh mesh = joined(joined(inverted(sphere(2)), inverted(scaledAndShifted(sphere(1), 0.5))),
+                     scaledAndShifted(inverted(shapes::cube()), 1, {5, 0, 0}));
   FaceGeometry geometry = computeFaceGeometry(mesh);
   Analysis analysis = analyse(mesh);
   CHECK(analysis.report.invertedComponents == Indices{0, 2});
@@ -157,7 +159,7 @@ TEST_CASE("one inverted component is named in the singular") {
 }
 
 TEST_CASE("inverted components of a mesh of polygons are named by input faces") {
-  Mesh mesh = together(shapes::cube(), placed(inverted(shapes::cube()), 1, {5, 0, 0}));
+  Mesh mesh = joined(shapes::cube(), scaledAndShifted(inverted(shapes::cube()), 1, {5, 0, 0}));
   mesh.polygons.firstCorner = {0, 2};  // A line comes before the twelve quads.
   mesh.polygons.corners = {0, 1};
   for (uint32_t quad = 0; quad < 12; ++quad) {
@@ -234,7 +236,7 @@ TEST_CASE("only the named input faces are reversed") {
 }
 
 TEST_CASE("flipping all faces inverts everything, open or not, and keeps degenerate normals at zero") {
-  Mesh mesh = together(shapes::grid(2), placed(sphere(1), 1, {0, 0, 5}));
+  Mesh mesh = joined(shapes::grid(2), scaledAndShifted(sphere(1), 1, {0, 0, 5}));
   mesh.faces.push_back({0, 0, 1});
   FaceGeometry geometry = computeFaceGeometry(mesh);
   Components components = findComponents(mesh, surveyEdges(mesh));

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "mesh/coincident_faces.h"
-#include "shapes.h"
+#include "support/shapes.h"
 
 using namespace asdfvk;
 
@@ -46,7 +46,7 @@ TEST_CASE("faces of zero area are counted, with and without a repeated vertex") 
   mesh.faces.push_back({0, 0, 1});
   const MeshDefects defects = defectsOf(mesh);
   CHECK(defects.zeroAreaFaceCount == 2);
-  CHECK(sentencesOf(defects, false).front() == "2 faces have zero area: they cast no rays and are interpolated");
+  CHECK(sentencesOf(defects, false).front() == "2 faces have zero area: they cast no rays");
   CHECK(defects.nonManifoldEdgeCount == 1);  // The face in line is a third one on the edge, the collapsed one is none.
   CHECK(defects.boundaryEdgeCount == 2);
 }
@@ -115,7 +115,7 @@ TEST_CASE("input faces with fewer than three corners are counted") {
 }
 
 TEST_CASE("a second layer with vertices of its own is a layer of duplicates") {
-  const Mesh twice = shapes::together(shapes::cube(), shapes::cube());
+  const Mesh twice = shapes::joined(shapes::cube(), shapes::cube());
   const MeshDefects defects = defectsOf(twice);
   CHECK(defects.duplicateFaceCount == 12);
   CHECK(defects.boundaryEdgeCount == 0);
@@ -129,6 +129,6 @@ TEST_CASE("on a mesh of polygons the sentences count triangles and name them") {
   mesh.polygons = {{0, 4, 8}, {0, 1, 2, 3, 0, 2, 3, 0}, {0, 0, 1, 1}};
   const std::vector<std::string> sentences = sentencesOf(mesh);
   REQUIRE(sentences.size() >= 2);
-  CHECK(sentences[0] == "1 triangle has zero area: it casts no rays and is interpolated");
+  CHECK(sentences[0] == "1 triangle has zero area: it casts no rays");
   CHECK(sentences[1] == "2 triangles duplicate earlier ones: rays pass through their own copies");
 }

@@ -24,12 +24,4 @@ inline std::vector<double> tracedEverywhere(const Mesh& mesh, const ConeOptions&
   return referenceSession().compute(mesh, options).sdf();
 }
 
-/// Two meshes in one, the other moved.
-inline Mesh joined(Mesh mesh, const Mesh& other, const Vec3d& shift) {
-  const auto offset = static_cast<uint32_t>(mesh.vertices.size());
-  for (const Vec3d& vertex : other.vertices) mesh.vertices.push_back(vertex + shift);
-  for (const auto& [a, b, c] : other.faces) mesh.faces.push_back({a + offset, b + offset, c + offset});
-  return mesh;
-}
-
 }  // namespace asdfvk::test

@@ -9,6 +9,7 @@
 #include "pipeline/average_error.h"
 #include "smooth/bilateral.h"
 #include "support/require_failure.h"
+#include "support/shapes.h"
 
 using namespace asdfvk;
 using test::averageError;
@@ -105,8 +106,8 @@ TEST_CASE("guidance by curvature changes the values") {
 }
 
 TEST_CASE("components without a seed of their own get one, whatever the guidance") {
-  const Mesh mesh =
-      test::joined(test::joined(makeTorus(2000).mesh, makeSphere(20).mesh, {5, 0, 0}), makeSphere(80).mesh, {0, 5, 0});
+  const Mesh mesh = shapes::joined(shapes::joined(makeTorus(2000).mesh, makeSphere(20).mesh, {5, 0, 0}),
+                                   makeSphere(80).mesh, {0, 5, 0});
   for (const Guidance guidance : {Guidance::None, Guidance::Curvature, Guidance::Prediction}) {
     CAPTURE(static_cast<int>(guidance));
     Options options = with(guidance);
@@ -192,7 +193,7 @@ TEST_CASE("a part a hundred thousand times smaller than the other is interpolate
   const size_t faceCount = animal.faces.size();
   Mesh smaller = animal;
   for (Vec3d& vertex : smaller.vertices) vertex = kSmaller * vertex;
-  const Mesh mesh = test::joined(animal, smaller, {3, 0, 0});
+  const Mesh mesh = shapes::joined(animal, smaller, {3, 0, 0});
   const std::vector<double> traced = test::tracedEverywhere(mesh);
   const auto small = [&](const std::vector<double>& values) {
     return std::vector<double>(values.begin() + static_cast<std::ptrdiff_t>(faceCount), values.end());

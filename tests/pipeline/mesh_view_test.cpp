@@ -8,7 +8,9 @@
 #include "generate/shapes.h"
 #include "pipeline/average_error.h"
 #include "pipeline/prepared_mesh.h"
+#include "support/bits.h"
 #include "support/require_failure.h"
+#include "support/shapes.h"
 
 using namespace asdfvk;
 using test::allSeeds;
@@ -45,14 +47,10 @@ void reverse(Mesh& mesh, size_t begin, size_t end) {
   for (size_t face = begin; face < end; ++face) std::swap(mesh.faces[face][1], mesh.faces[face][2]);
 }
 
-bool haveSameBits(const std::vector<double>& a, const std::vector<double>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
-}
-
 void requireSameResult(const Result& a, const Result& b) {
-  CHECK(haveSameBits(a.sdf(), b.sdf()));
+  CHECK(test::haveSameBits(a.sdf(), b.sdf()));
   CHECK(a.seed() == b.seed());
-  CHECK(haveSameBits(test::expectedErrors(a), test::expectedErrors(b)));
+  CHECK(test::haveSameBits(test::expectedErrors(a), test::expectedErrors(b)));
 }
 
 Options with(Orientation orientation) {
@@ -107,7 +105,7 @@ TEST_CASE("polygons as arrays have one value per input face, in double and in fl
   for (const double value : result.sdf()) CHECK(value == doctest::Approx(1).epsilon(0.1));
   const std::vector<float> floats = cube.floats();
   const Result ofFloats = referenceSession().compute(MeshView(floats, cube.corners, cube.firstCorner), allSeeds());
-  CHECK(haveSameBits(ofFloats.sdf(), result.sdf()));
+  CHECK(test::haveSameBits(ofFloats.sdf(), result.sdf()));
 
   const PreparedMesh prepared = prepareMesh(cube.polygons(), Orientation::Keep);
   CHECK(static_cast<const void*>(prepared.mesh.vertices.data()) == cube.positions.data());
@@ -119,7 +117,7 @@ TEST_CASE("polygons as arrays have one value per input face, in double and in fl
                    {polygons.corners.begin(), polygons.corners.end()},
                    {polygons.inputFaceOf.begin(), polygons.inputFaceOf.end()}};
   CHECK(mesh.polygons.corners == cube.corners);
-  CHECK(haveSameBits(referenceSession().compute(mesh, allSeeds()).sdf(), result.sdf()));
+  CHECK(test::haveSameBits(referenceSession().compute(mesh, allSeeds()).sdf(), result.sdf()));
 }
 
 TEST_CASE("triangles as polygons of three corners give the same bits as triangles") {
@@ -168,6 +166,28 @@ TEST_CASE("sizes that do not fit are ArraySize") {
   Mesh mesh = makeCube(12).mesh;
   mesh.polygons = {{0, 3}, {0, 1, 2}, {0, 0}};  // Twelve triangles, but two of input faces.
   requireFailure(compute(mesh), ErrorCode::ArraySize, "input face");
+  mesh = makeCube(12).mesh;
+  mesh.polygons = {{0, 3, 6}, {0, 1, 2, 0, 2, 3}, std::vector<uint32_t>(12, 1)};
+  CHECK(referenceSession().compute(mesh).sdf().size() == 2);
+  mesh.polygons.inputFaceOf.back() = 2;  // Beyond the last input face.
+  requireFailure(compute(mesh), ErrorCode::ArraySize, "from 0 to 1");
+  mesh.polygons.inputFaceOf.back() = 0;  // Descends.
+  requireFailure(compute(mesh), ErrorCode::ArraySize, "from 0 to 1");
+  mesh.polygons.inputFaceOf.clear();
+  mesh.faces.clear();
+  requireFailure(compute(mesh), ErrorCode::EmptyMesh, "no triangles");
+}
+
+TEST_CASE("more faces or vertices than 32 bits can index are MeshTooLarge") {
+  // The sizes are checked before any entry is read: the arrays behind these spans are short.
+  const Arrays torus(makeTorus(400).mesh);
+  constexpr size_t kTooManyCorners = (size_t{1} << 32) + 2, kTooManyCoordinates = size_t{3} << 32;
+  const std::span<const uint32_t> corners(torus.corners.data(), kTooManyCorners);
+  const std::span<const double> positions(torus.positions.data(), kTooManyCoordinates);
+  requireFailure([&] { (void)referenceSession().compute(MeshView(torus.positions, corners)); }, ErrorCode::MeshTooLarge,
+                 "1431655766 faces; at most 1431655765");
+  requireFailure([&] { (void)referenceSession().compute(MeshView(positions, torus.corners)); }, ErrorCode::MeshTooLarge,
+                 "4294967296 vertices; at most 4294967295");
 }
 
 TEST_CASE("an index out of range is IndexOutOfRange, with the number of faces") {
@@ -205,7 +225,7 @@ TEST_CASE("arrays without a face are EmptyMesh") {
 
 TEST_CASE("faces are reversed in a copy: the arrays of the caller do not change, and the report has the faces") {
   const Mesh torus = makeTorus(1000).mesh;
-  Mesh mesh = test::joined(torus, makeSphere(320).mesh, {8, 0, 0});
+  Mesh mesh = shapes::joined(torus, makeSphere(320).mesh, {8, 0, 0});
   const size_t torusCount = torus.faces.size();
   const Mesh correct = mesh;
   reverse(mesh, torusCount, mesh.faces.size());

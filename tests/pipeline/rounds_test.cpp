@@ -8,6 +8,7 @@
 
 #include "generate/shapes.h"
 #include "pipeline/average_error.h"
+#include "support/shapes.h"
 
 using namespace asdfvk;
 using test::averageError;
@@ -46,7 +47,7 @@ bool isWithin(const std::vector<uint8_t>& few, const std::vector<uint8_t>& many)
 Mesh manySpheres() {
   Mesh mesh = makeAnimal(1500).mesh;
   for (int i = 0; i < 30; ++i)
-    mesh = test::joined(mesh, makeSphere(80, {.radius = 0.1 + 0.01 * i}).mesh, {3.0 + i, 0, 0});
+    mesh = shapes::joined(mesh, makeSphere(80, {.radius = 0.1 + 0.01 * i}).mesh, {3.0 + i, 0, 0});
   return mesh;
 }
 

@@ -10,6 +10,7 @@
 #include "core/stopwatch.h"
 #include "generate/shapes.h"
 #include "support/require_failure.h"
+#include "support/shapes.h"
 #include "support/shared_session.h"
 #include "trace/cone_tracer.h"
 
@@ -22,19 +23,10 @@ using test::vulkanSession;
 
 namespace {
 
-Mesh scaledAndShifted(Mesh mesh, double scale, const Vec3d& shift) {
-  for (Vec3d& v : mesh.vertices) v = v * scale + shift;
-  return mesh;
-}
-
 /// Two spheres that do not touch.
 Mesh twoSpheres(uint64_t faceCount, uint64_t smallFaceCount) {
-  Mesh mesh = makeSphere(faceCount).mesh;
-  const Mesh other = scaledAndShifted(makeSphere(smallFaceCount).mesh, 0.5, {4, 0, 0});
-  const auto offset = static_cast<uint32_t>(mesh.vertices.size());
-  mesh.vertices.insert(mesh.vertices.end(), other.vertices.begin(), other.vertices.end());
-  for (const auto& [a, b, c] : other.faces) mesh.faces.push_back({a + offset, b + offset, c + offset});
-  return mesh;
+  return shapes::joined(makeSphere(faceCount).mesh, shapes::scaledAndShifted(makeSphere(smallFaceCount).mesh, 0.5),
+                        {4, 0, 0});
 }
 
 double largestRelativeDifference(const std::vector<double>& a, const std::vector<double>& b) {
@@ -99,7 +91,7 @@ TEST_CASE("scaling and shifting a mesh scales its values and nothing else") {
                {1e307, {0, 0, 0}}, {1, {1e6, -2e6, 3e5}}, {1e3, {1e8, 0, 0}}};
   for (const auto& [scale, shift] : cases) {
     CAPTURE(scale);
-    const Mesh moved = scaledAndShifted(mesh, scale, shift);
+    const Mesh moved = shapes::scaledAndShifted(mesh, scale, shift);
     std::vector<double> values = vulkanSession().compute(moved, allSeeds()).sdf();
     for (double& value : values) value /= scale;
     // A ray that grazes an edge may change sides with the last bit of a coordinate.
@@ -269,14 +261,26 @@ TEST_CASE("a mesh that is all degenerate has no values and is no error") {
   CHECK(result.report.seedCount == 0);
 }
 
-TEST_CASE("options out of range are errors of usage") {
+TEST_CASE("options out of range are errors, also where nothing uses them") {
   const Mesh mesh = makeSphere(80).mesh;
-  Options none;
-  none.seeds = SeedCount::ofShare(0);
-  requireFailure([&] { (void)referenceSession().compute(mesh, none); }, ErrorCode::OptionOutOfRange, "seed share");
-  Options rays;
-  rays.cone.rayCount = 1025;
-  requireFailure([&] { (void)referenceSession().compute(mesh, rays); }, ErrorCode::OptionOutOfRange, "1025");
+  const auto requireRefusal = [&](const char* part, const auto& set) {
+    Options options;
+    options.seeds = SeedCount::all();
+    set(options);
+    requireFailure([&] { (void)referenceSession().compute(mesh, options); }, ErrorCode::OptionOutOfRange, part);
+  };
+  requireRefusal("seed share of 0", [](Options& options) { options.seeds = SeedCount::ofShare(0); });
+  requireRefusal("seed count of 0", [](Options& options) { options.seeds = SeedCount::ofCount(0); });
+  requireRefusal("1025", [](Options& options) { options.cone.rayCount = 1025; });
+  requireRefusal("tolerance of 0", [](Options& options) { options.solverOptions.tolerance = 0; });
+  requireRefusal("tolerance of 1", [](Options& options) { options.solverOptions.tolerance = 1; });
+  requireRefusal("0 iterations", [](Options& options) { options.solverOptions.maxIterations = 0; });
+  requireRefusal("check of 0", [](Options& options) { options.checkCount = 0; });
+  requireRefusal("maximum error of 1", [](Options& options) { options.rounds.maxError = 1; });
+  Options options;
+  options.seeds = SeedCount::all();
+  options.solver = "gauss";
+  requireFailure([&] { (void)referenceSession().compute(mesh, options); }, ErrorCode::UnknownName, "gauss");
 }
 
 TEST_CASE("the reference has no solver on a device") {

@@ -9,6 +9,7 @@
 #include "mesh/components.h"
 #include "poisson/poisson_system.h"
 #include "sample_problems.h"
+#include "support/bits.h"
 
 using namespace asdfvk;
 
@@ -31,11 +32,6 @@ std::vector<double> randomField(size_t size) {
   std::vector<double> field(size);
   for (double& entry : field) entry = 10 * (random.real() - 0.5);
   return field;
-}
-
-template <typename Vector>
-bool sameBits(const Vector& a, const Vector& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(a[0])) == 0;
 }
 
 }  // namespace
@@ -98,8 +94,8 @@ TEST_CASE("weights, divergence and system have the same bits on any number of th
         numbers[threadCount - 1].emplace_back(ofSystem.begin(), ofSystem.end());
     }
     for (size_t i = 0; i < numbers[0].size(); ++i) {
-      CHECK(sameBits(numbers[0][i], numbers[1][i]));
-      CHECK(sameBits(numbers[0][i], numbers[2][i]));
+      CHECK(test::haveSameBits(numbers[0][i], numbers[1][i]));
+      CHECK(test::haveSameBits(numbers[0][i], numbers[2][i]));
     }
   }
 }
@@ -120,13 +116,13 @@ TEST_CASE("given components lead to the same system as searched ones") {
   const Components components = findComponents(mesh, surveyEdges(mesh));
   REQUIRE(components.components.size() > 3);
   const PoissonSystem searched = buildPoissonSystem(problem.graph, weights, problem.values, {});
-  const PoissonSystem told =
+  const PoissonSystem given =
       buildPoissonSystem(problem.graph, weights, problem.values, {}, {.componentOf = components.componentOf});
   const auto unknownCount =
       std::count_if(problem.values.begin(), problem.values.end(), [](double value) { return !std::isfinite(value); });
   REQUIRE(searched.unknownCount() < unknownCount);  // Some component has no constraint.
-  CHECK(told.faces == searched.faces);
-  CHECK(told.columns == searched.columns);
-  CHECK(sameBits(told.entries, searched.entries));
-  CHECK(sameBits(told.rightHandSide, searched.rightHandSide));
+  CHECK(given.faces == searched.faces);
+  CHECK(given.columns == searched.columns);
+  CHECK(test::haveSameBits(given.entries, searched.entries));
+  CHECK(test::haveSameBits(given.rightHandSide, searched.rightHandSide));
 }

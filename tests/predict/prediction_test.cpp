@@ -10,6 +10,8 @@
 
 #include "generate/shapes.h"
 #include "predict/seeded_mesh.h"
+#include "support/bits.h"
+#include "support/shapes.h"
 
 using namespace asdfvk;
 using test::SeededMesh;
@@ -18,11 +20,6 @@ namespace {
 
 std::vector<double> predict(const SeededMesh& seeded, const PredictionOptions& options = {}) {
   return predictValues(seeded.scene(), seeded.graph, seeded.cone, seeded.seedHits(), options).values;
-}
-
-bool sameBits(const std::vector<double>& a, const std::vector<double>& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); });
 }
 
 /// Mean and maximum of |a - b| / b over the chosen faces that are not seeds.
@@ -138,7 +135,7 @@ TEST_CASE("predictions have the same bits on any number of threads") {
   const std::vector<double> many = predict(seeded);
   for (const size_t threadCount : {size_t{1}, size_t{2}}) {
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threadCount);
-    CHECK(sameBits(predict(seeded), many));
+    CHECK(test::haveSameBits(predict(seeded), many));
   }
 }
 
@@ -158,10 +155,10 @@ TEST_CASE("predictions scale with the mesh and do not change when it is shifted"
                {10, {300, -200, 500}, false}};
   for (const auto& [scale, shift, isExact] : cases) {
     CAPTURE(scale);
-    std::vector<double> values = predict(SeededMesh(test::scaledAndShifted(mesh, scale, shift), 150));
+    std::vector<double> values = predict(SeededMesh(shapes::scaledAndShifted(mesh, scale, shift), 150));
     for (double& value : values) value /= scale;
     if (isExact) {
-      CHECK(sameBits(values, expected));
+      CHECK(test::haveSameBits(values, expected));
       continue;
     }
     double error = 0;
@@ -174,7 +171,7 @@ TEST_CASE("predictions scale with the mesh and do not change when it is shifted"
 }
 
 TEST_CASE("degenerate faces and faces of components without a seed have no prediction, the others have one") {
-  Mesh mesh = test::joined(makeSphere(500).mesh, makeSphere(180).mesh, {4, 0, 0});
+  Mesh mesh = shapes::joined(makeSphere(500).mesh, makeSphere(180).mesh, {4, 0, 0});
   const Face first = mesh.faces[0];
   mesh.faces.push_back({first[0], first[0], first[1]});
   SeededMesh seeded(mesh, 680);
@@ -229,9 +226,9 @@ TEST_CASE("values with unchanged contributing seeds are copied from the earlier 
     return predictValues(seeded.scene(), seeded.graph, seeded.cone, {seeds, seeded.hits}, options, std::move(earlier));
   };
   const Prediction few = predictFrom(fewer, {}), all = predictFrom(seeded.seeds, {});
-  CHECK_FALSE(sameBits(few.values, all.values));
-  CHECK(sameBits(predictFrom(seeded.seeds, few).values, all.values));
-  CHECK(sameBits(predictFrom(fewer, all).values, few.values));
+  CHECK_FALSE(test::haveSameBits(few.values, all.values));
+  CHECK(test::haveSameBits(predictFrom(seeded.seeds, few).values, all.values));
+  CHECK(test::haveSameBits(predictFrom(fewer, all).values, few.values));
   // -1 marks values that are copied.
   Prediction marked = few;
   for (double& value : marked.values) value = -1;
@@ -262,7 +259,7 @@ TEST_CASE("seeds marked with kNoFace are ignored") {
   const auto predictFrom = [&](const std::vector<uint32_t>& seeds, const std::vector<ConeHit>& hits) {
     return predictValues(seeded.scene(), seeded.graph, seeded.cone, {seeds, hits}, {}).values;
   };
-  CHECK(sameBits(predictFrom(leftOut, seeded.hits), predictFrom(used, usedHits)));
+  CHECK(test::haveSameBits(predictFrom(leftOut, seeded.hits), predictFrom(used, usedHits)));
 }
 
 TEST_CASE("there is one value per face without seeds, and with every face a seed") {
@@ -301,7 +298,7 @@ TEST_CASE(
                     std::ranges::equal(few.nearest.of(cell), all.nearest.of(cell));
     }
     CHECK(movedCount > 10);
-    CHECK(sameBits(predictFrom(fewer, all).values, few.values));
-    CHECK(sameBits(predictFrom(seeded.seeds, few).values, all.values));
+    CHECK(test::haveSameBits(predictFrom(fewer, all).values, few.values));
+    CHECK(test::haveSameBits(predictFrom(seeded.seeds, few).values, all.values));
   }
 }

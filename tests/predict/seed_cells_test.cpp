@@ -8,6 +8,7 @@
 
 #include "generate/shapes.h"
 #include "predict/seeded_mesh.h"
+#include "support/shapes.h"
 
 using namespace asdfvk;
 
@@ -101,7 +102,7 @@ TEST_CASE("with every face a seed each cell is one face") {
 }
 
 TEST_CASE("components without a seed and isolated faces have no cell") {
-  Mesh mesh = test::joined(makeSphere(320).mesh, makeSphere(80).mesh, {5, 0, 0});
+  Mesh mesh = shapes::joined(makeSphere(320).mesh, makeSphere(80).mesh, {5, 0, 0});
   const auto vertex = static_cast<uint32_t>(mesh.vertices.size());
   for (const Vec3d& corner : {Vec3d{9, 0, 0}, Vec3d{10, 0, 0}, Vec3d{9, 1, 0}}) mesh.vertices.push_back(corner);
   mesh.faces.push_back({vertex, vertex + 1, vertex + 2});

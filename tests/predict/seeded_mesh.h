@@ -49,17 +49,4 @@ struct SeededMesh {
   [[nodiscard]] double tracedValue(uint32_t face) const { return referenceCone(scene(), cone, face); }
 };
 
-/// The faces of `mesh`, then those of `other`.
-inline Mesh joined(Mesh mesh, const Mesh& other, const Vec3d& shift) {
-  const auto offset = static_cast<uint32_t>(mesh.vertices.size());
-  for (const Vec3d& vertex : other.vertices) mesh.vertices.push_back(vertex + shift);
-  for (const auto& [a, b, c] : other.faces) mesh.faces.push_back({a + offset, b + offset, c + offset});
-  return mesh;
-}
-
-inline Mesh scaledAndShifted(Mesh mesh, double scale, const Vec3d& shift) {
-  for (Vec3d& vertex : mesh.vertices) vertex = vertex * scale + shift;
-  return mesh;
-}
-
 }  // namespace asdfvk::test

@@ -10,6 +10,7 @@
 #include "seeds/samplers.h"
 #include "seeds/surface.h"
 #include "seeds/surface_distances.h"
+#include "support/shapes.h"
 
 using namespace asdfvk;
 
@@ -114,7 +115,7 @@ TEST_CASE("seeds added in rounds keep the spacing of seeds selected at once") {
 
 TEST_CASE("components get a first seed before any of them gets a second one") {
   Mesh mesh;
-  for (uint32_t i = 0; i < 50; ++i) mesh = together(std::move(mesh), strip(3 + i));
+  for (uint32_t i = 0; i < 50; ++i) mesh = shapes::joined(std::move(mesh), strip(3 + i));
   const Surface surface(mesh);
   const auto componentsAmong = [&](const std::vector<uint32_t>& seeds) {
     size_t count = 0, end = 0;

@@ -11,6 +11,7 @@
 #include "core/check.h"
 #include "seeds/samplers.h"
 #include "seeds/surface.h"
+#include "support/shapes.h"
 
 using namespace asdfvk;
 
@@ -46,7 +47,7 @@ bool areAllIn(const Seeds& seeds, std::span<const uint32_t> allowed) {
 /// Flat islands of 1 to 7 faces.
 Mesh islands(uint32_t count) {
   Mesh mesh;
-  for (uint32_t i = 0; i < count; ++i) mesh = together(std::move(mesh), strip(1 + i % 7));
+  for (uint32_t i = 0; i < count; ++i) mesh = shapes::joined(std::move(mesh), strip(1 + i % 7));
   return mesh;
 }
 

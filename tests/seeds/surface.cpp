@@ -38,14 +38,6 @@ Mesh strip(uint32_t faceCount) {
   return mesh;
 }
 
-Mesh together(Mesh mesh, const Mesh& other) {
-  const auto firstVertex = static_cast<uint32_t>(mesh.vertices.size());
-  mesh.vertices.insert(mesh.vertices.end(), other.vertices.begin(), other.vertices.end());
-  for (const Face& face : other.faces)
-    mesh.faces.push_back({face[0] + firstVertex, face[1] + firstVertex, face[2] + firstVertex});
-  return mesh;
-}
-
 std::vector<float> hops(const DualGraph& graph) { return std::vector<float>(graph.neighbours.size(), 1.0f); }
 
 std::vector<float> distancesToNearest(const DualGraph& graph, std::span<const float> arcLengths,

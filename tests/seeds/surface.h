@@ -23,8 +23,6 @@ const Surface& generatedSurface(const char* name, uint64_t faceCount);
 
 /// A row of triangles in the plane z = 0; faces i and i + 1 are neighbours.
 asdfvk::Mesh strip(uint32_t faceCount);
-/// All faces of both, without common vertices.
-asdfvk::Mesh together(asdfvk::Mesh mesh, const asdfvk::Mesh& other);
 
 /// 1 per arc: distances count mesh edges.
 std::vector<float> hops(const asdfvk::DualGraph& graph);

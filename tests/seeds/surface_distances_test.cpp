@@ -5,6 +5,7 @@
 #include "core/random.h"
 #include "seeds/surface.h"
 #include "seeds/surface_distances.h"
+#include "support/shapes.h"
 
 using namespace asdfvk;
 
@@ -38,7 +39,7 @@ TEST_CASE("distances to a growing set of seeds equal the definition up to the li
 }
 
 TEST_CASE("each ball lists all faces of the component once, nearest first") {
-  const Surface surface(together(generatedSurface("torus", 500).mesh, strip(5)));
+  const Surface surface(shapes::joined(generatedSurface("torus", 500).mesh, strip(5)));
   const std::vector<float> lengths = arcLengths(surface.graph, surface.geometry);
   SurfaceBall ball(surface.graph, lengths);
   const uint32_t islandBegin = surface.graph.faceCount() - 5;

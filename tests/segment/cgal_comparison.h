@@ -23,8 +23,8 @@ inline void checkAgainstCgal(const Mesh& source) {
   const FaceNeighbours neighbours = findFaceNeighbours(mesh);
   CHECK(findFaceNeighbours(source) == neighbours);
   const CgalValues values = postprocessLikeCgal(neighbours, raw);
-  CHECK(values.least == doctest::Approx(expected.least).epsilon(1e-12));
-  CHECK(values.greatest == doctest::Approx(expected.greatest).epsilon(1e-12));
+  CHECK(values.min == doctest::Approx(expected.min).epsilon(1e-12));
+  CHECK(values.max == doctest::Approx(expected.max).epsilon(1e-12));
   double difference = 0;
   for (size_t face = 0; face < raw.size(); ++face)
     difference = std::max(difference, std::abs(values.normalized[face] - expected.normalized[face]));

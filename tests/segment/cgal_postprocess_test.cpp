@@ -90,12 +90,12 @@ TEST_CASE("values are mapped to [0, 1], the ends are returned") {
   for (size_t face = 0; face < values.size(); face += 13) values[face] = kMissing;
   const CgalValues result = postprocessLikeCgal(sample.neighbours, values);
   const Values filtered = filterLikeCgal(sample.neighbours, fillMissingValues(sample.neighbours, values));
-  CHECK(result.least == *std::min_element(filtered.begin(), filtered.end()));
-  CHECK(result.greatest == *std::max_element(filtered.begin(), filtered.end()));
+  CHECK(result.min == *std::min_element(filtered.begin(), filtered.end()));
+  CHECK(result.max == *std::max_element(filtered.begin(), filtered.end()));
   CHECK(*std::min_element(result.normalized.begin(), result.normalized.end()) == 0);
   CHECK(*std::max_element(result.normalized.begin(), result.normalized.end()) == 1);
   for (size_t face = 0; face < values.size(); ++face)
-    REQUIRE(result.least + result.normalized[face] * (result.greatest - result.least) ==
+    REQUIRE(result.min + result.normalized[face] * (result.max - result.min) ==
             doctest::Approx(filtered[face]).epsilon(1e-14));
 }
 
@@ -104,8 +104,8 @@ TEST_CASE("all values equal: they stay as they are") {
   const Values equal(sample.mesh.faceCount(), 0.3);
   const CgalValues result = postprocessLikeCgal(sample.neighbours, equal);
   CHECK(result.normalized == equal);
-  CHECK(result.least == 0.3);
-  CHECK(result.greatest == 0.3);
+  CHECK(result.min == 0.3);
+  CHECK(result.max == 0.3);
 }
 
 TEST_CASE("one face keeps its value; two faces become 0 and 1") {

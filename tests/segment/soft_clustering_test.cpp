@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <numeric>
 
+#include "asdf_vk/options.h"
 #include "sample_problems.h"
 #include "support/require_failure.h"
 

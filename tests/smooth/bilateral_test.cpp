@@ -8,6 +8,7 @@
 
 #include "asdf_vk/error.h"
 #include "sample_fields.h"
+#include "support/bits.h"
 
 using namespace asdfvk;
 using test::kNaN;
@@ -41,10 +42,6 @@ double variance(const std::vector<double>& values) {
   const double count = static_cast<double>(values.size());
   for (double value : values) squares += std::pow(value - sum / count, 2);
   return squares / count;
-}
-
-bool haveSameBits(const std::vector<double>& a, const std::vector<double>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
 }
 
 }  // namespace
@@ -131,7 +128,7 @@ TEST_CASE("a unit that is a power of two does not change the relative bits") {
     for (double& value : scaled) value *= unit;
     scaled = smoothBilaterally(graph, scaled, {2, 2});
     for (double& value : scaled) value /= unit;
-    CHECK(haveSameBits(scaled, expected));
+    CHECK(test::haveSameBits(scaled, expected));
   }
 }
 
@@ -152,7 +149,7 @@ TEST_CASE("the bits are the same on any number of threads") {
     return smoothBilaterally(graph, values, {2, 2});
   };
   const std::vector<double> alone = onThreads(1);
-  for (size_t count : {2u, 4u}) CHECK(haveSameBits(onThreads(count), alone));
+  for (size_t count : {2u, 4u}) CHECK(test::haveSameBits(onThreads(count), alone));
 }
 
 TEST_CASE("the automatic window grows with the number of faces") {

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "brute_force.h"
-#include "shapes.h"
+#include "support/shapes.h"
 #include "traced_mesh.h"
 
 using namespace asdfvk;

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-#include "shapes.h"
+#include "support/shapes.h"
 #include "traced_mesh.h"
 
 using namespace asdfvk;

@@ -1,7 +1,7 @@
 #include <doctest/doctest.h>
 
 #include "generate/shapes.h"
-#include "shapes.h"
+#include "support/shapes.h"
 #include "support/test_device.h"
 #include "trace_results.h"
 #include "vulkan_variants.h"
@@ -46,7 +46,7 @@ TEST_CASE("the kernels give the reference's values by CGAL's definition") {
 
 TEST_CASE("any number of rays gives the reference's values by CGAL's definition" * doctest::test_suite("slow")) {
   const test::ValidatedDevice device;
-  const Mesh mesh = generateShape("torus", 600).mesh;
+  const Mesh mesh = generateShape("torus", 200).mesh;
   for (const uint32_t rayCount : {1u, 2u, 3u, 8u, 33u, 100u, 256u, 1000u, 1024u}) {
     CAPTURE(rayCount);
     const CgalReference reference(mesh, rayCount);

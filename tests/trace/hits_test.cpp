@@ -7,7 +7,7 @@
 #include "core/check.h"
 #include "generate/shapes.h"
 #include "hit_checks.h"
-#include "shapes.h"
+#include "support/shapes.h"
 
 using namespace asdfvk;
 
@@ -66,7 +66,7 @@ TEST_CASE("the reference's hits are the nearest faces by brute force, false ones
 TEST_CASE("asking the reference for hits changes no bit of the values") {
   const TracedMesh traced(generateShape("animal", 1500).mesh);
   const TraceResults values = traceByReference(traced, {}, Wanted::Values);
-  CHECK(haveSameBits(traceByReference(traced, {}, Wanted::ValuesAndHits).values, values.values));
+  CHECK(test::haveSameBits(traceByReference(traced, {}, Wanted::ValuesAndHits).values, values.values));
 }
 
 TEST_CASE("the reference's hits give its values") {

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "core/random.h"
-#include "shapes.h"
+#include "support/shapes.h"
 #include "trace_results.h"
 
 using namespace asdfvk;

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/random.h"
-#include "shapes.h"
+#include "support/shapes.h"
 #include "traced_mesh.h"
 
 using namespace asdfvk;

@@ -8,16 +8,13 @@
 
 #include "asdf_vk/error.h"
 #include "core/check.h"
-#include "shapes.h"
+#include "support/bits.h"
+#include "support/shapes.h"
 #include "traced_mesh.h"
 
 using namespace asdfvk;
 
 namespace {
-
-bool haveSameBits(const std::vector<double>& a, const std::vector<double>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
-}
 
 std::vector<double> firstValues(const Mesh& mesh, size_t count) {
   std::vector<double> values = TracedMesh(mesh).values();
@@ -43,7 +40,7 @@ TEST_CASE("scaling by a power of two scales each value to the bit") {
     std::vector<double> scaled =
         TracedMesh(shapes::scaledAndShifted(dentedSphere(), std::ldexp(1.0, exponent), {})).values();
     for (double& value : scaled) value = std::ldexp(value, -exponent);
-    CHECK(haveSameBits(values, scaled));
+    CHECK(test::haveSameBits(values, scaled));
   }
 }
 
@@ -87,7 +84,7 @@ TEST_CASE("zeroAreaFaces and faces with a NaN corner change no value of the othe
   defective.vertices.insert(defective.vertices.end(), {{0, 0, 0}, {0.1, 0, 0}, {0.2, 0, 0}, {nan, 0, 0}});
   const auto n = static_cast<uint32_t>(mesh.vertices.size());
   defective.faces.insert(defective.faces.end(), {{n, n + 1, n + 2}, {n, n, n}, {n, n + 1, n + 3}, {0, 0, 1}});
-  CHECK(haveSameBits(firstValues(defective, values.size()), values));
+  CHECK(test::haveSameBits(firstValues(defective, values.size()), values));
 }
 
 TEST_CASE("values have the same bits with one thread and with more") {
@@ -97,7 +94,7 @@ TEST_CASE("values have the same bits with one thread and with more") {
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threadCount);
     values[threadCount - 1] = traced.values();
   }
-  CHECK(haveSameBits(values[0], values[1]));
+  CHECK(test::haveSameBits(values[0], values[1]));
   const Cone cone = makeCone({});
   for (uint32_t f = 0; f < traced.mesh.faceCount(); f += 17)
     CHECK(referenceCone(traced.scene(), cone, f) == values[0][f]);

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <vector>
 
+#include "support/bits.h"
 #include "trace/vulkan/vulkan_tracer.h"
 #include "traced_mesh.h"
 
@@ -47,11 +48,6 @@ inline uint64_t differingCount(const std::vector<double>& a, const std::vector<d
     count += !isSame;
   }
   return count;
-}
-
-template <typename T>
-bool haveSameBits(const std::vector<T>& a, const std::vector<T>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
 }
 
 }  // namespace asdfvk

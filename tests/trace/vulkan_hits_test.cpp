@@ -6,7 +6,7 @@
 #include "generate/shapes.h"
 #include "hit_checks.h"
 #include "hit_comparison.h"
-#include "shapes.h"
+#include "support/shapes.h"
 #include "support/test_device.h"
 #include "vulkan_variants.h"
 
@@ -94,8 +94,8 @@ TEST_CASE("writing hits changes no bit of the values") {
     const VulkanConeKernel writing(*device, {kRayCount, true, choice}), plain(*device, {kRayCount, false, choice});
     for (const TracedMesh& traced : meshes) {
       const std::vector<double> expected = traceByKernel(plain, traced, {}, Wanted::Values).values;
-      CHECK(haveSameBits(hitsByKernel(writing, traced).values, expected));
-      CHECK(haveSameBits(traceByKernel(writing, traced, {}, Wanted::Values).values, expected));
+      CHECK(test::haveSameBits(hitsByKernel(writing, traced).values, expected));
+      CHECK(test::haveSameBits(traceByKernel(writing, traced, {}, Wanted::Values).values, expected));
     }
   });
 }
@@ -108,7 +108,7 @@ TEST_CASE("any workgroup shape gives the same hits" * doctest::test_suite("slow"
     const std::vector<ConeHit> expected = hitsByKernel(VulkanConeKernel(*device, request), traced).hits;
     for (const VulkanWorkgroupShape shape :
          {VulkanWorkgroupShape{8, 1, 8000}, VulkanWorkgroupShape{16, 3, 8000}, VulkanWorkgroupShape{64, 2, 8000}})
-      CHECK(haveSameBits(hitsByKernel(VulkanConeKernel(*device, request, shape), traced).hits, expected));
+      CHECK(test::haveSameBits(hitsByKernel(VulkanConeKernel(*device, request, shape), traced).hits, expected));
   });
 }
 
@@ -118,7 +118,7 @@ TEST_CASE("hits of cones that the reference redoes are the reference's") {
   const TraceResults reference = hitsByReference(traced);
   const TraceResults all = hitsByKernel(VulkanConeKernel(*device, {kRayCount, true}, {32, 1, 1}), traced);
   CHECK(all.statistics.redoneConeCount == reference.values.size());
-  CHECK(haveSameBits(all.hits, reference.hits));
+  CHECK(test::haveSameBits(all.hits, reference.hits));
   const TraceResults some = hitsByKernel(VulkanConeKernel(*device, {kRayCount, true}, {32, 1, 45}), traced);
   CHECK(some.statistics.redoneConeCount > 0);
   CHECK(some.statistics.redoneConeCount < reference.values.size());
@@ -140,11 +140,11 @@ TEST_CASE("hits do not depend on where a chunk ends") {
   const RunControl counting{{}, [&](double) { ++checkpointCount; }};
   const TraceResults results = hitsByKernel(VulkanConeKernel(small, {kRayCount, true}), traced, {}, counting);
   CHECK(checkpointCount >= results.values.size() / 101);
-  CHECK(haveSameBits(results.hits, expected.hits));
-  CHECK(haveSameBits(results.values, expected.values));
+  CHECK(test::haveSameBits(results.hits, expected.hits));
+  CHECK(test::haveSameBits(results.values, expected.values));
 
   const TraceResults redone = hitsByKernel(VulkanConeKernel(small, {kRayCount, true}, {32, 1, 1}), traced);
-  CHECK(haveSameBits(redone.hits, hitsByReference(traced).hits));
+  CHECK(test::haveSameBits(redone.hits, hitsByReference(traced).hits));
   CHECK(instance.validationLog()->messages().empty());
 }
 

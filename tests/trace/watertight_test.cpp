@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "core/random.h"
-#include "shapes.h"
+#include "support/shapes.h"
 #include "trace/nearest_hit.h"
 #include "traced_mesh.h"
 

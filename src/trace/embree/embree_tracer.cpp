@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cmath>
 
+#include "asdf_vk/error.h"
 #include "core/check.h"
 #include "trace/chunks.h"
 #include "trace/embree/embree_cones.h"
@@ -138,10 +139,9 @@ class EmbreeTracer final : public ConeTracer {
 
 bool hasEmbree() { return true; }
 
-void requireEmbree() {}
-
 std::string embreeName() {
   const EmbreeDevice device(rtcNewDevice(nullptr));
+  if (!device) throw Error(ErrorCode::EmbreeFailed, "Embree cannot create a device");
   const auto part = [&](RTCDeviceProperty property) { return rtcGetDeviceProperty(device.get(), property); };
   return fmt::format("Embree {}.{}.{}", part(RTC_DEVICE_PROPERTY_VERSION_MAJOR),
                      part(RTC_DEVICE_PROPERTY_VERSION_MINOR), part(RTC_DEVICE_PROPERTY_VERSION_PATCH));

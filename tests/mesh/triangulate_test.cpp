@@ -1,4 +1,4 @@
-#include "io/input_faces.h"
+#include "mesh/input_faces.h"
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,4 @@
-#include "io/input_faces.h"
+#include "mesh/input_faces.h"
 
 #include <fmt/format.h>
 #include <tbb/blocked_range.h>
@@ -6,24 +6,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "asdf_vk/error.h"
 #include "core/check.h"
 #include "core/text.h"
-#include "io/input_failure.h"
 
 namespace asdfvk {
 namespace {
 
-constexpr uint64_t kMaxIndexCount = std::numeric_limits<uint32_t>::max();
 constexpr uint64_t kPolygonsPerBlock = 4096;
 
-[[noreturn]] void failSize(const std::string& counts) {
-  throw Error(ErrorCode::MeshTooLarge,
-              fmt::format("the mesh has {}; at most {} are supported", counts, kMaxIndexCount));
-}
+[[noreturn]] void failInput(const std::string& reason) { throw Error(ErrorCode::UnreadableInput, reason); }
 
 void triangulateAll(std::span<const Vec3d> vertices, Polygons& polygons, std::vector<Face>& triangles) {
   const uint64_t polygonCount = polygons.firstCorner.size() - 1;
@@ -34,8 +28,8 @@ void triangulateAll(std::span<const Vec3d> vertices, Polygons& polygons, std::ve
     if (i % kPolygonsPerBlock == 0) firstTriangleOfBlock.push_back(triangleCount);
     triangleCount += std::max<uint64_t>(cornerCountOf(i), 2) - 2;
   }
-  if (triangleCount > kMaxIndexCount || polygonCount > kMaxIndexCount)
-    failSize(fmt::format("{} and {} triangles", counted(polygonCount, "face"), triangleCount));
+  requireAtMost(kMaxIndexCount, polygonCount, "faces");
+  requireAtMost(kMaxTriangleCount, triangleCount, "triangles");
   triangles.resize(triangleCount);
   polygons.inputFaceOf.resize(triangleCount);
   const auto cutBlock = [&](uint64_t block) {
@@ -109,13 +103,9 @@ void InputFaces::moveTo(std::span<const Vec3d> vertices, Mesh& mesh) {
   if (triangles_.empty())
     failInput(count() == 1 ? "the only face has fewer than three corners"
                            : fmt::format("none of the {} faces has three corners", count()));
-  if (triangles_.size() > kMaxIndexCount) failSize(fmt::format("{} faces", triangles_.size()));
+  requireAtMost(kMaxTriangleCount, triangles_.size(), "faces");
   mesh.faces = std::move(triangles_);
   mesh.polygons = std::move(polygons_);
-}
-
-void requireIndexableVertexCount(uint64_t count) {
-  if (count > kMaxIndexCount) failSize(fmt::format("{} vertices", count));
 }
 
 void PolygonTriangulator::triangulate(std::span<const Vec3d> vertices, std::span<const uint32_t> corners,

@@ -1,4 +1,4 @@
-#include "shapes.h"
+#include "support/shapes.h"
 
 #include <array>
 #include <cmath>
@@ -87,12 +87,33 @@ Mesh boxWithSides(const Vec3d& size, uint32_t side, bool hasTop) {
   return mesh;
 }
 
-}  // namespace
-
-Mesh icosphere(uint32_t levels, double radius) {
-  Mesh mesh = icosahedron();
+Mesh onSphere(Mesh mesh, uint32_t levels, double radius) {
   for (uint32_t i = 0; i < levels; ++i) mesh = refined(mesh);
   for (Vec3d& v : mesh.vertices) v = v * (radius / length(v));
+  return mesh;
+}
+
+}  // namespace
+
+Mesh icosphere(uint32_t levels, double radius) { return onSphere(icosahedron(), levels, radius); }
+
+Mesh sphere(uint32_t levels) {
+  Mesh mesh{{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}},
+            {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}},
+            {}};
+  return onSphere(std::move(mesh), levels, 1);
+}
+
+Mesh tetrahedron() {
+  return {{{1, 1, 1}, {-1, -1, 1}, {-1, 1, -1}, {1, -1, -1}}, {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}, {}};
+}
+
+Mesh cube() {
+  Mesh mesh;
+  for (int corner = 0; corner < 8; ++corner)
+    mesh.vertices.push_back({corner & 1 ? 1.0 : -1.0, corner & 2 ? 1.0 : -1.0, corner & 4 ? 1.0 : -1.0});
+  mesh.faces = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
   return mesh;
 }
 
@@ -118,6 +139,74 @@ Mesh cylinder(double radius, double height, uint32_t sideCount, uint32_t ringCou
       mesh.faces.insert(mesh.faces.end(), {{low + i, low + next, high + next}, {low + i, high + next, high + i}});
     }
     mesh.faces.insert(mesh.faces.end(), {{bottom, next, i}, {bottom + 1, top + i, top + next}});
+  }
+  return mesh;
+}
+
+Mesh torus(double majorRadius, double minorRadius, uint32_t majorCount, uint32_t minorCount) {
+  Mesh mesh;
+  for (uint32_t i = 0; i < majorCount; ++i) {
+    for (uint32_t j = 0; j < minorCount; ++j) {
+      const double u = 2 * std::numbers::pi * i / majorCount, v = 2 * std::numbers::pi * j / minorCount;
+      const double r = majorRadius + minorRadius * std::cos(v);
+      mesh.vertices.push_back({r * std::cos(u), r * std::sin(u), minorRadius * std::sin(v)});
+    }
+  }
+  for (uint32_t i = 0; i < majorCount; ++i) {
+    for (uint32_t j = 0; j < minorCount; ++j) {
+      const uint32_t nextI = (i + 1) % majorCount, nextJ = (j + 1) % minorCount;
+      const uint32_t a = i * minorCount + j, b = nextI * minorCount + j, c = nextI * minorCount + nextJ,
+                     d = i * minorCount + nextJ;
+      mesh.faces.push_back({a, b, c});
+      mesh.faces.push_back({a, c, d});
+    }
+  }
+  return mesh;
+}
+
+Mesh grid(uint32_t n) {
+  Mesh mesh;
+  for (uint32_t y = 0; y <= n; ++y)
+    for (uint32_t x = 0; x <= n; ++x) mesh.vertices.push_back({double(x), double(y), 0});
+  for (uint32_t y = 0; y < n; ++y) {
+    for (uint32_t x = 0; x < n; ++x) {
+      const uint32_t a = y * (n + 1) + x, b = a + 1, c = a + n + 1, d = c + 1;
+      mesh.faces.push_back({a, b, c});
+      mesh.faces.push_back({b, d, c});
+    }
+  }
+  return mesh;
+}
+
+Mesh book(uint32_t pageCount) {
+  Mesh mesh{{{0, 0, 0}, {0, 0, 1}}, {}, {}};
+  for (uint32_t page = 0; page < pageCount; ++page) {
+    const double angle = 2 * std::numbers::pi * page / pageCount;
+    mesh.vertices.push_back({std::cos(angle), std::sin(angle), 0.5});
+    mesh.faces.push_back({0, 1, page + 2});
+  }
+  return mesh;
+}
+
+Mesh fan(uint32_t faceCount, bool apexFirst) {
+  Mesh mesh;
+  const uint32_t apex = apexFirst ? 0 : faceCount + 1, firstOnRim = apexFirst ? 1 : 0;
+  mesh.vertices.resize(faceCount + 2);
+  for (uint32_t i = 0; i <= faceCount; ++i) {
+    const double angle = std::numbers::pi * i / faceCount;
+    mesh.vertices[firstOnRim + i] = {std::cos(angle), std::sin(angle), 0};
+  }
+  for (uint32_t i = 0; i < faceCount; ++i) mesh.faces.push_back({apex, firstOnRim + i, firstOnRim + i + 1});
+  return mesh;
+}
+
+Mesh randomFaces(uint32_t vertexCount, uint32_t faceCount, uint64_t seed) {
+  Random random(seed);
+  Mesh mesh;
+  for (uint32_t i = 0; i < vertexCount; ++i) mesh.vertices.push_back({random.real(), random.real(), random.real()});
+  for (uint32_t i = 0; i < faceCount; ++i) {
+    const uint32_t a = random.index(vertexCount), b = random.index(vertexCount), c = random.index(vertexCount);
+    mesh.faces.push_back({a, b, c});
   }
   return mesh;
 }
@@ -165,11 +254,10 @@ Mesh inverted(Mesh mesh) {
   return mesh;
 }
 
-Mesh joined(const Mesh& a, const Mesh& b) {
-  Mesh mesh = a;
-  const auto offset = static_cast<uint32_t>(a.vertices.size());
-  mesh.vertices.insert(mesh.vertices.end(), b.vertices.begin(), b.vertices.end());
-  for (const auto& [i, j, k] : b.faces) mesh.faces.push_back({i + offset, j + offset, k + offset});
+Mesh joined(Mesh mesh, const Mesh& other, const Vec3d& shift) {
+  const auto offset = static_cast<uint32_t>(mesh.vertices.size());
+  for (const Vec3d& vertex : other.vertices) mesh.vertices.push_back(vertex + shift);
+  for (const auto& [a, b, c] : other.faces) mesh.faces.push_back({a + offset, b + offset, c + offset});
   return mesh;
 }
 

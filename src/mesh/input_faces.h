@@ -34,9 +34,6 @@ class InputFaces {
   Polygons polygons_;            ///< From then on.
 };
 
-/// Throws Error{MeshTooLarge} for more than 2^32 - 1 vertices.
-void requireIndexableVertexCount(uint64_t count);
-
 /// Concave polygons with more corners are cut into a fan, which may overlap itself, because the time of ear clipping is
 /// quadratic in the corner count.
 inline constexpr size_t kMaxEarClippedCorners = 1000;
