@@ -1,5 +1,4 @@
 # Programs, library, headers, CMake package and pkg-config file, in the folders of GNUInstallDirs.
-include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 set(packageFolder ${CMAKE_INSTALL_LIBDIR}/cmake/asdf-vk)
@@ -30,5 +29,16 @@ configure_package_config_file(asdf-vk-config.cmake.in ${PROJECT_BINARY_DIR}/asdf
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/asdf-vk-config-version.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/asdf-vk-config.cmake ${PROJECT_BINARY_DIR}/asdf-vk-config-version.cmake
         DESTINATION ${packageFolder})
+# Relative to the file itself, so that `cmake --install --prefix` may change the prefix.
+set(pkgConfigFolder ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+set(ASDFVK_PC_PREFIX ${CMAKE_INSTALL_PREFIX})
+if(NOT IS_ABSOLUTE "${pkgConfigFolder}")
+  file(RELATIVE_PATH prefixFromFile "/${pkgConfigFolder}" "/")
+  set(ASDFVK_PC_PREFIX "\${pcfiledir}/${prefixFromFile}")
+endif()
+set(ASDFVK_PC_LIBDIR "\${prefix}")
+set(ASDFVK_PC_INCLUDEDIR "\${prefix}")
+cmake_path(APPEND ASDFVK_PC_LIBDIR "${CMAKE_INSTALL_LIBDIR}")
+cmake_path(APPEND ASDFVK_PC_INCLUDEDIR "${CMAKE_INSTALL_INCLUDEDIR}")
 configure_file(asdf-vk.pc.in ${PROJECT_BINARY_DIR}/asdf-vk.pc @ONLY)
-install(FILES ${PROJECT_BINARY_DIR}/asdf-vk.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+install(FILES ${PROJECT_BINARY_DIR}/asdf-vk.pc DESTINATION ${pkgConfigFolder})
