@@ -100,9 +100,9 @@ TEST_CASE("post-processing alone gives values from 0 to 1, and the range that th
   CHECK(result.report.stageSeconds[Stage::Postprocess] > 0);
   CHECK(result.report.stageSeconds[Stage::Segment] == 0);
   REQUIRE(result.report.postprocess.has_value());
-  CHECK(result.report.postprocess->least >= result.report.sdf.min);
-  CHECK(result.report.postprocess->greatest <= result.report.sdf.max);
-  CHECK(result.report.postprocess->least < result.report.postprocess->greatest);
+  CHECK(result.report.postprocess->min >= result.report.sdf.min);
+  CHECK(result.report.postprocess->max <= result.report.sdf.max);
+  CHECK(result.report.postprocess->min < result.report.postprocess->max);
 }
 
 TEST_CASE("the fields are those of src/segment for the values of the result") {
@@ -115,8 +115,8 @@ TEST_CASE("the fields are those of src/segment for the values of the result") {
     const FaceNeighbours neighbours = findFaceNeighbours(mesh);
     const CgalValues values = postprocessLikeCgal(neighbours, result.sdf());
     CHECK(normalizedOf(result) == values.normalized);
-    CHECK(result.report.postprocess->least == values.least);
-    CHECK(result.report.postprocess->greatest == values.greatest);
+    CHECK(result.report.postprocess->min == values.min);
+    CHECK(result.report.postprocess->max == values.max);
     const CgalSegmentation expected =
         segmentLikeCgal(computeFaceGeometry(mesh), mesh, neighbours, values.normalized, options.cgalSegmentation);
     CHECK(segmentsOf(result) == expected.segments);
@@ -177,7 +177,7 @@ TEST_CASE("the same bits on one thread and on two, and with a power of two as th
     const Segmented result = segment(scaled, scaledValues, segmented());
     CHECK(result.values.normalized == expected.values.normalized);
     CHECK(result.values.segments == expected.values.segments);
-    CHECK(result.report.postprocess->greatest == std::ldexp(expected.report.postprocess->greatest, exponent));
+    CHECK(result.report.postprocess->max == std::ldexp(expected.report.postprocess->max, exponent));
   }
 }
 
@@ -241,8 +241,8 @@ TEST_CASE("equal values stay lengths, as CGAL leaves them") {
   const std::vector<double> values(mesh.faces.size(), 3.0);
   const Segmented result = segment(mesh, values, options);
   CHECK(result.values.normalized == values);
-  CHECK(result.report.postprocess->least == 3);
-  CHECK(result.report.postprocess->greatest == 3);
+  CHECK(result.report.postprocess->min == 3);
+  CHECK(result.report.postprocess->max == 3);
 }
 
 TEST_CASE("numbers out of range are errors of usage, if there is a segmentation") {

@@ -61,7 +61,7 @@ std::vector<double> CgalOracle::rawValues() {
 CgalOracle::Values CgalOracle::postprocess(std::span<const double> values) {
   surface_->setValues(values);
   Values result;
-  std::tie(result.least, result.greatest) = CGAL::sdf_values_postprocessing(surface_->mesh, surface_->values);
+  std::tie(result.min, result.max) = CGAL::sdf_values_postprocessing(surface_->mesh, surface_->values);
   for (const FaceIndex face : surface_->mesh.faces()) result.normalized.push_back(surface_->values[face]);
   return result;
 }

@@ -25,7 +25,7 @@ class CgalOracle {
 
   struct Values {
     std::vector<double> normalized;
-    double least = 0, greatest = 0;
+    double min = 0, max = 0;
   };
   /// values: #F, NaN for no value; at least one has a value.
   [[nodiscard]] Values postprocess(std::span<const double> values);
