@@ -21,7 +21,7 @@ struct Field {
   /// Real numbers are double in memory and in CSV, float32 in the binary formats; NaN = no value.
   using Values = std::variant<std::vector<double>, std::vector<uint8_t>, std::vector<uint32_t>>;
 
-  std::string name;   ///< Letters, digits, '_'; unique within a result.
+  std::string name;   ///< Letters, digits, '_'; unique among the fields of a result with the same location.
   std::string label;  ///< Display name: "shape diameter".
   std::string unit;   ///< "length" (the unit of the mesh), or empty for numbers without a unit, flags and indices.
   FieldLocation location = FieldLocation::PerFace;
@@ -40,8 +40,11 @@ struct Field {
   [[nodiscard]] const std::vector<double>* reals() const { return std::get_if<std::vector<double>>(&values); }
 };
 
-/// The field of that name, or null.
+/// The first field of that name, or null.
 [[nodiscard]] ASDFVK_API const Field* findField(std::span<const Field> fields, std::string_view name);
+/// The field of that name and location, or null.
+[[nodiscard]] ASDFVK_API const Field* findField(std::span<const Field> fields, std::string_view name,
+                                                FieldLocation location);
 
 /// Smallest and largest finite entry, the upper median, and the number of entries without a value. Without any value
 /// the three numbers are NaN.

@@ -13,6 +13,12 @@ const Field* findField(std::span<const Field> fields, std::string_view name) {
   return found == fields.end() ? nullptr : &*found;
 }
 
+const Field* findField(std::span<const Field> fields, std::string_view name, FieldLocation location) {
+  const auto found = std::find_if(fields.begin(), fields.end(),
+                                  [&](const Field& field) { return field.name == name && field.location == location; });
+  return found == fields.end() ? nullptr : &*found;
+}
+
 FieldSummary summarize(const Field& field) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   std::vector<double> present;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "core/median.h"
+
 namespace asdfvk {
 namespace {
 
@@ -24,13 +26,8 @@ ColourRange percentileRange(std::span<const double> values) {
   finite.reserve(values.size());
   std::copy_if(values.begin(), values.end(), std::back_inserter(finite), [](double v) { return std::isfinite(v); });
   if (finite.empty()) return {};
-  const auto atRank = [&](double share) {
-    const auto rank = static_cast<std::ptrdiff_t>(std::lround(share * double(finite.size() - 1)));
-    std::nth_element(finite.begin(), finite.begin() + rank, finite.end());
-    return finite[static_cast<size_t>(rank)];
-  };
-  const double low = atRank(0.01);
-  return {low, atRank(0.99)};
+  const double low = percentileOf(finite, 0.01);
+  return {low, percentileOf(finite, 0.99)};
 }
 
 Rgba colourOf(double value, const ColourRange& range) {

@@ -1,11 +1,13 @@
 // .npz of NumPy: a zip archive (APPNOTE.TXT of PKWARE, 4.3), not compressed: a member FIELD.npy per field, with "face"
-// or "vertex" as its comment. The members, each after its local header, then the central directory. Members without a
+// or "vertex" as its comment. A vertex field with the name of a face field is the member vertex_FIELD.npy with the
+// comment "vertex FIELD". The members, each after its local header, then the central directory. Members without a
 // comment, as NumPy writes them, are face fields.
 #include <fmt/format.h>
 #include <zlib.h>
 
 #include <cstring>
 #include <limits>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -21,6 +23,7 @@ namespace {
 
 constexpr uint32_t kLocalSignature = 0x04034b50, kCentralSignature = 0x02014b50, kEndSignature = 0x06054b50;
 constexpr uint64_t kLocalSize = 30, kCentralSize = 46, kEndSize = 22;
+constexpr std::string_view kRenamed = "vertex ";  // Start of the comment of a member with another name than its field.
 constexpr uint16_t kZipVersion = 20;
 constexpr uint16_t kFirstDate = 0x21;  // 1980-01-01, the first one; the current date would change the bytes.
 
@@ -31,8 +34,8 @@ uint32_t checksumOf(std::span<const char> part, uint32_t earlier = 0) {
 }
 
 struct ZipMember {
-  std::string name;       ///< FIELD.npy, the name that NumPy expects.
-  std::string_view kind;  ///< "face" or "vertex", the comment of the member.
+  std::string name;  ///< FIELD.npy, the name that NumPy expects.
+  std::string kind;  ///< "face", "vertex" or "vertex FIELD", the comment of the member.
   uint32_t checksum = 0;
   uint32_t size = 0;
   uint32_t offset = 0;  ///< Of the local header.
@@ -142,8 +145,8 @@ class ZipReader {
       failAtByte(dataAt, fmt::format("the checksum of member {} is wrong", quoted(name)));
     Field field = parseNpy(data, dataAt);
     name.remove_suffix(4);
-    field.name = name;
-    field.location = kind == "vertex" ? FieldLocation::PerVertex : FieldLocation::PerFace;
+    field.name = kind.starts_with(kRenamed) ? kind.substr(kRenamed.size()) : name;
+    field.location = kind.starts_with("vertex") ? FieldLocation::PerVertex : FieldLocation::PerFace;
     return field;
   }
 
@@ -153,13 +156,33 @@ class ZipReader {
   uint64_t next_ = 0;  ///< First byte of the next member.
 };
 
-void writeNpz(AtomicFile& file, const ResultView& result) {
+/// Named; the other members are not set.
+std::vector<ZipMember> namedMembers(FieldReferences fields) {
+  std::set<std::string_view> faceNames;
+  for (const Field& field : fields)
+    if (field.location == FieldLocation::PerFace) faceNames.insert(field.name);
   std::vector<ZipMember> members;
-  uint64_t offset = 0, directorySize = 0;
-  for (const Field& field : result.fields()) {
+  std::set<std::string> names;
+  for (const Field& field : fields) {
     ZipMember& member = members.emplace_back();
     member.name = field.name + ".npy";
     member.kind = field.location == FieldLocation::PerFace ? "face" : "vertex";
+    if (field.location == FieldLocation::PerVertex && faceNames.contains(field.name)) {
+      member.name = "vertex_" + member.name;
+      member.kind = std::string(kRenamed) + field.name;
+    }
+    if (!names.insert(member.name).second)
+      throw Error(ErrorCode::OptionConflict, fmt::format("two fields need the member {} of a .npz", member.name));
+  }
+  return members;
+}
+
+void writeNpz(AtomicFile& file, const ResultView& result) {
+  std::vector<ZipMember> members = namedMembers(result.fields());
+  uint64_t offset = 0, directorySize = 0;
+  for (size_t i = 0; i < members.size(); ++i) {
+    const Field& field = result.fields()[i];
+    ZipMember& member = members[i];
     member.offset = static_cast<uint32_t>(offset);
     const uint64_t size = npyHeader(field).size() + npyEntriesSize(field);
     member.size = static_cast<uint32_t>(size);

@@ -12,9 +12,10 @@ namespace asdfvk {
 class AtomicFile;
 class ResultView;
 
-/// Start of the comment that names the field written as the property `quality`, as in "NAME (LABEL), ..." or "NAME,
-/// ...".
-inline constexpr std::string_view kPlyQualityComment = "asdf-vk: quality is ";
+/// Start of the comment that names the field written as the property `quality` of the faces or of the vertices, as in
+/// "NAME (LABEL), ..." or "NAME, ...".
+inline constexpr std::string_view kPlyQualityComment = "asdf-vk: quality is ",
+                                  kPlyVertexQualityComment = "asdf-vk: quality of vertices is ";
 
 enum class PlyEncoding { Ascii, BinaryLittleEndian, BinaryBigEndian };
 enum class PlyType : uint8_t { Int8, UInt8, Int16, UInt16, Int32, UInt32, Float32, Float64 };

@@ -258,11 +258,13 @@ void readBody(std::span<const char> bytes, const PlyHeader& header, PlyContents&
   PlyBody<PlyBinarySource<true>>(bytes, header, contents).read();
 }
 
-/// The name of the field that writePly() stored as `quality`; empty where the file is from another program.
-std::string_view mainFieldOf(const PlyHeader& header) {
+/// The name of the field that writePly() stored as `quality` of faces or vertices; empty where it stored none, and
+/// where the file is from another program.
+std::string_view mainFieldOf(const PlyHeader& header, PlyRole role) {
+  const std::string_view beginning = role == PlyRole::Faces ? kPlyQualityComment : kPlyVertexQualityComment;
   for (const std::string_view comment : header.comments)
-    if (comment.starts_with(kPlyQualityComment)) {
-      const std::string_view rest = comment.substr(kPlyQualityComment.size());
+    if (comment.starts_with(beginning)) {
+      const std::string_view rest = comment.substr(beginning.size());
       return rest.substr(0, rest.find_first_of(", "));
     }
   return {};
@@ -278,11 +280,11 @@ Field::Values emptyValuesOf(PlyType type) {
 /// The numbers of vertices and faces, without coordinates and without the colour of the main field.
 std::vector<PlyColumn> columnsOfHeader(const PlyHeader& header) {
   constexpr std::array<std::string_view, 4> kColours{"red", "green", "blue", "alpha"};
-  const std::string_view mainField = mainFieldOf(header);
   std::vector<PlyColumn> columns;
   for (const PlyElement& element : header.elements) {
     if (element.role != PlyRole::Vertices && element.role != PlyRole::Faces) continue;
-    const bool hasMainField = element.role == PlyRole::Faces && !mainField.empty();
+    const std::string_view mainField = mainFieldOf(header, element.role);
+    const bool hasMainField = !mainField.empty();
     for (size_t i = 0; i < element.properties.size(); ++i) {
       const PlyProperty& property = element.properties[i];
       const bool isColour = std::find(kColours.begin(), kColours.end(), property.name) != kColours.end();

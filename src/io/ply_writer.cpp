@@ -1,8 +1,10 @@
-// Vertices with their fields, then faces: the list `uchar int vertex_indices` (`int int` above 255 corners), `float
-// quality` and its colour `uchar red green blue alpha`, then the other face fields: float, uchar or uint.
+// Vertices with their fields, then faces: the list `uchar int vertex_indices` (`int int` above 255 corners) and their
+// fields. Fields: of the main one `float quality` and its colour `uchar red green blue alpha`, then the others by name:
+// float, uchar or uint.
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <initializer_list>
 #include <limits>
 #include <string>
 #include <type_traits>
@@ -52,16 +54,55 @@ class RowWriter {
   bool isFirst_ = true;
 };
 
+/// The fields of an element: the main one as `quality` and its colour, the others by name.
+class ElementFields {
+ public:
+  ElementFields(const ResultView& result, FieldLocation location, std::initializer_list<std::string_view> reservedNames)
+      : main_(result.mainField(location)), columns_(columnsOf(result.fields(), location, main_, reservedNames)) {
+    if (main_ != nullptr) range_ = percentileRange(*main_->reals());
+  }
+
+  /// No line without a main field.
+  void writeComment(AtomicFile& file, std::string_view beginning) const {
+    if (main_ != nullptr)
+      file.write(fmt::format("comment {}{}{}, 0 (and grey) where there is no value\n", beginning, main_->name,
+                             main_->label.empty() ? "" : fmt::format(" ({})", printable(main_->label))));
+  }
+
+  void writeProperties(AtomicFile& file) const {
+    constexpr std::array<std::string_view, 3> kPlyTypes{"float", "uchar", "uint"};  // Of the alternatives of Values.
+    if (main_ != nullptr)
+      file.write(
+          "property float quality\n"
+          "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty uchar alpha\n");
+    for (const FieldColumn& column : columns_)
+      file.write(fmt::format("property {} {}\n", kPlyTypes[column.field->values.index()], column.name));
+  }
+
+  void put(RowWriter& row, uint64_t item) const {
+    if (main_ != nullptr) {
+      const double value = (*main_->reals())[item];
+      row.put(withoutNan(value));
+      for (const uint8_t channel : colourOf(value, range_)) row.put(channel);
+    }
+    for (const FieldColumn& column : columns_) row.put(column, item);
+  }
+
+ private:
+  const Field* main_;  ///< May be null.
+  std::vector<FieldColumn> columns_;
+  ColourRange range_;
+};
+
 class PlyWriter {
  public:
   PlyWriter(AtomicFile& file, const ResultView& result)
       : file_(file),
         row_(file, result.isAscii()),
         result_(result),
-        main_(result.mainField(FieldLocation::PerFace)),
-        vertexColumns_(columnsOf(result.fields(), FieldLocation::PerVertex, nullptr, {"x", "y", "z"})),
-        faceColumns_(columnsOf(result.fields(), FieldLocation::PerFace, main_,
-                               {"vertex_indices", "vertex_index", "quality", "red", "green", "blue", "alpha"})) {
+        vertexFields_(result, FieldLocation::PerVertex, {"x", "y", "z", "quality", "red", "green", "blue", "alpha"}),
+        faceFields_(result, FieldLocation::PerFace,
+                    {"vertex_indices", "vertex_index", "quality", "red", "green", "blue", "alpha"}) {
     size_t maxCornerCount = 0;
     for (uint64_t face = 0; face < result.faceCount(); ++face)
       maxCornerCount = std::max(maxCornerCount, result.cornersOf(face).size());
@@ -78,26 +119,15 @@ class PlyWriter {
  private:
   void writeHeader(std::string_view scalar) {
     file_.write(fmt::format("ply\nformat {} 1.0\n", result_.isAscii() ? "ascii" : "binary_little_endian"));
-    if (main_ != nullptr)
-      file_.write(fmt::format("comment {}{}{}, 0 (and grey) where there is no value\n", kPlyQualityComment, main_->name,
-                              main_->label.empty() ? "" : fmt::format(" ({})", printable(main_->label))));
+    faceFields_.writeComment(file_, kPlyQualityComment);
+    vertexFields_.writeComment(file_, kPlyVertexQualityComment);
     file_.write(fmt::format("element vertex {}\n", result_.vertexCount()));
     for (const char axis : {'x', 'y', 'z'}) file_.write(fmt::format("property {} {}\n", scalar, axis));
-    writeProperties(vertexColumns_);
+    vertexFields_.writeProperties(file_);
     file_.write(fmt::format("element face {}\nproperty list {} int vertex_indices\n", result_.faceCount(),
                             hasByteLengths_ ? "uchar" : "int"));
-    if (main_ != nullptr)
-      file_.write(
-          "property float quality\n"
-          "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty uchar alpha\n");
-    writeProperties(faceColumns_);
+    faceFields_.writeProperties(file_);
     file_.write("end_header\n");
-  }
-
-  void writeProperties(std::span<const FieldColumn> columns) {
-    constexpr std::array<std::string_view, 3> kPlyTypes{"float", "uchar", "uint"};  // Of the alternatives of Values.
-    for (const FieldColumn& column : columns)
-      file_.write(fmt::format("property {} {}\n", kPlyTypes[column.field->values.index()], column.name));
   }
 
   template <typename T>
@@ -106,24 +136,18 @@ class PlyWriter {
     result_.putCoordinates<T>([&](T coordinate) {
       row_.put(coordinate);
       if (++numberCount % 3 != 0) return;
-      for (const FieldColumn& column : vertexColumns_) row_.put(column, numberCount / 3 - 1);
+      vertexFields_.put(row_, numberCount / 3 - 1);
       row_.endRow();
     });
   }
 
   template <typename Length>
   void writeFaces() {
-    const ColourRange range = main_ == nullptr ? ColourRange{} : percentileRange(*main_->reals());
     for (uint64_t face = 0; face < result_.faceCount(); ++face) {
       const std::span<const uint32_t> corners = result_.cornersOf(face);
       row_.put(static_cast<Length>(corners.size()));
       for (const uint32_t corner : corners) row_.put(static_cast<int32_t>(corner));
-      if (main_ != nullptr) {
-        const double value = (*main_->reals())[face];
-        row_.put(withoutNan(value));
-        for (const uint8_t channel : colourOf(value, range)) row_.put(channel);
-      }
-      for (const FieldColumn& column : faceColumns_) row_.put(column, face);
+      faceFields_.put(row_, face);
       row_.endRow();
     }
   }
@@ -131,8 +155,7 @@ class PlyWriter {
   AtomicFile& file_;
   RowWriter row_;
   const ResultView& result_;
-  const Field* main_;  ///< Written as quality and colour; may be null.
-  std::vector<FieldColumn> vertexColumns_, faceColumns_;
+  ElementFields vertexFields_, faceFields_;
   bool hasByteLengths_ = true;
 };
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <set>
 #include <utility>
 
@@ -108,10 +109,11 @@ std::vector<Field> joinColumns(std::vector<Field> columns) {
 }
 
 void requireReadableNames(std::span<const Field> fields) {
-  std::set<std::string_view> names;
+  std::set<std::pair<FieldLocation, std::string_view>> names;
   for (const Field& field : fields) {
     if (!isFieldName(field.name)) failInput(fmt::format("{} is not a name of a field", asdfvk::quoted(field.name)));
-    if (!names.insert(field.name).second) failInput(fmt::format("has two fields {}", asdfvk::quoted(field.name)));
+    if (!names.emplace(field.location, field.name).second)
+      failInput(fmt::format("has two fields {}", asdfvk::quoted(field.name)));
   }
 }
 
@@ -121,15 +123,16 @@ ResultView::ResultView(const MeshView& mesh, std::span<const Field> fields, std:
   requireValidArrays(mesh);
   if (names.empty()) fields_.assign(fields.begin(), fields.end());
   for (const std::string& name : names) {
-    const Field* const field = findField(fields, name);
-    if (field == nullptr)
+    if (findField(fields, name) == nullptr)
       throw Error(ErrorCode::UnknownField, fmt::format("the result has no field {}", printable(name)));
-    fields_.emplace_back(*field);
+    std::copy_if(fields.begin(), fields.end(), std::back_inserter(fields_),
+                 [&](const Field& field) { return field.name == name; });
   }
-  std::set<std::string_view> used;
+  std::set<std::pair<FieldLocation, std::string_view>> used;
   for (const Field& field : fields_) {
     requireValidField(field, mesh);
-    if (!used.insert(field.name).second) failConflict(fmt::format("two fields have the name {}", field.name));
+    if (!used.emplace(field.location, field.name).second)
+      failConflict(fmt::format("two fields have the name {}", field.name));
   }
 }
 

@@ -45,7 +45,7 @@ struct FieldColumn {
 /// NAME.
 [[nodiscard]] std::vector<Field> joinColumns(std::vector<Field> columns);
 
-/// Throws Error{UnreadableInput} for an invalid name and for two equal names.
+/// Throws Error{UnreadableInput} for an invalid name and for two fields of one name and location.
 void requireReadableNames(std::span<const Field> fields);
 
 /// An entry of a field in a format of float32 numbers without NaN: 0 for no value.
@@ -69,10 +69,10 @@ template <typename T>
 /// The arguments of a writer: a mesh of input faces and the fields on it.
 class ResultView {
  public:
-  /// names: the fields to write, in this order; empty: all. Throws Error{UnknownField} for a name that no field has;
-  /// Error{OptionConflict} for a field with an invalid or repeated name, with other than 1 or 3 components, or whose
-  /// size does not fit the mesh; the errors of requireValidArrays() for an invalid mesh. The arrays must outlive the
-  /// view.
+  /// names: the fields to write, in this order, of any location; empty: all. Throws Error{UnknownField} for a name that
+  /// no field has; Error{OptionConflict} for a field with an invalid or repeated name, with other than 1 or 3
+  /// components, or whose size does not fit the mesh; the errors of requireValidArrays() for an invalid mesh. The
+  /// arrays must outlive the view.
   ResultView(const MeshView& mesh, std::span<const Field> fields, std::span<const std::string> names, bool ascii);
 
   [[nodiscard]] FieldReferences fields() const { return fields_; }

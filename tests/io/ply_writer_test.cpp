@@ -155,12 +155,14 @@ TEST_CASE("PLY holds vertex fields after the coordinates and every type of face 
   const auto [header, body] = split(written(".ply", tetrahedron(), fields, {.format = {}, .ascii = true}));
   CHECK(contains(header,
                  "comment asdf-vk: quality is error, 0 (and grey) where there is no value\n"
-                 "element vertex 4\nproperty float x\nproperty float y\nproperty float z\nproperty float angle\n"
+                 "comment asdf-vk: quality of vertices is angle, 0 (and grey) where there is no value\n"
+                 "element vertex 4\nproperty float x\nproperty float y\nproperty float z\nproperty float quality\n"
+                 "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty uchar alpha\n"
                  "property uchar flags_x\nproperty uchar flags_y\nproperty uchar flags_z\n"
                  "element face 4\nproperty list uchar int vertex_indices\nproperty float quality\n"
                  "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty uchar alpha\n"
                  "property uint part\nproperty float axis_x\nproperty float axis_y\nproperty float axis_z\n"));
-  CHECK(body.starts_with("0 0 0 0.5 0 255 1\n1 0 0 1.5 2 3 4\n"));
+  CHECK(body.starts_with("0 0 0 0.5 68 1 84 255 0 255 1\n1 0 0 1.5 49 103 141 255 2 3 4\n"));
   CHECK(contains(body,
                  "\n3 0 1 2 0.25 253 231 37 255 7 1 2 3\n3 0 3 1 0 68 1 84 255 0 0 5 6\n3 0 2 3 0 68 1 84 255 "
                  "4000000000 7 8 9\n"));

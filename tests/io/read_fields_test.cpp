@@ -89,7 +89,7 @@ void requireRoundTrip(const std::string& extension, const Mesh& mesh, const std:
   REQUIRE(read.size() == fields.size());
   for (const Field& field : read) {
     size_t i = 0;
-    while (i + 1 < fields.size() && fields[i].name != field.name) ++i;
+    while (i + 1 < fields.size() && (fields[i].name != field.name || fields[i].location != field.location)) ++i;
     requireSame(field, fields[i], storedBy(extension));
   }
 }
@@ -117,6 +117,35 @@ TEST_CASE("fields of every type and location survive writing and reading as PLY,
     const std::vector<Field> fields = everyField(mesh);
     for (const char* format : {"ply", "vtu", "npz"}) requireRoundTrip(format, mesh, fields);
     requireRoundTrip("ply", mesh, fields, {.format = {}, .ascii = true});
+  }
+}
+
+TEST_CASE("a face field and a vertex field may have one name") {
+  const Mesh mesh = polygonMesh();
+  std::vector<Field> fields = everyField(FieldLocation::PerFace, mesh.inputFaceCount(), "a_");
+  for (Field& field : everyField(FieldLocation::PerVertex, mesh.vertices.size(), "a_"))
+    fields.push_back(std::move(field));
+  for (const char* format : {"ply", "vtu", "npz"}) requireRoundTrip(format, mesh, fields);
+  // In NPZ the vertex field has another name, which no other field may have.
+  const std::string npz = written(".npz", mesh, fields);
+  CHECK(holds(npz, "vertex_a_real_1.npy"));
+  fields.push_back(makeField("vertex_a_real_1", std::vector<double>(mesh.inputFaceCount())));
+  CHECK_THROWS_AS((void)written(".npz", mesh, fields), Error);
+  requireRoundTrip("vtu", mesh, fields);
+}
+
+TEST_CASE("a name selects the fields of both locations") {
+  const Mesh mesh = tetrahedron();
+  const std::vector<Field> fields{makeField("a", std::vector<double>(4, 1)), makeField("b", std::vector<double>(4, 2)),
+                                  makeField("a", std::vector<double>(4, 3), FieldLocation::PerVertex),
+                                  makeField("b", std::vector<double>(4, 4), FieldLocation::PerVertex)};
+  const Folder folder;
+  writeResult(folder / "out.vtu", mesh, fields, {.format = {}, .fields = {"b"}});
+  const std::vector<Field> read = readFields(folder / "out.vtu");
+  REQUIRE(read.size() == 2);
+  for (const Field& field : read) {
+    CHECK(field.name == "b");
+    CHECK(field.at(0) == (field.location == FieldLocation::PerFace ? 2 : 4));
   }
 }
 

@@ -87,7 +87,7 @@ TEST_CASE("invalid and repeated names of fields are rejected by every format") {
     requireRejected({makeField(name, values)});
   }
   requireRejected({makeField("a", values), makeField("b", values), makeField("a", values)});
-  requireRejected({makeField("a", values), makeField("a", values, FieldLocation::PerVertex)});
+  requireRejected({makeField("a", values, FieldLocation::PerVertex), makeField("a", values, FieldLocation::PerVertex)});
 }
 
 TEST_CASE("the options choose the fields to write and their order") {
@@ -119,7 +119,8 @@ TEST_CASE("names that a format uses itself, or two columns of one name, are reje
     CHECK(!write(".csv", {sdf, reserved}));
   }
   CHECK(!write(".ply", {makeField("quality", std::vector<double>(4))}));
-  CHECK(write(".ply", {sdf, makeField("x", std::vector<double>(4), FieldLocation::PerVertex)}) ==
+  CHECK(!write(".ply", {makeField("quality", std::vector<double>(4), FieldLocation::PerVertex)}));
+  CHECK(write(".ply", {sdf, makeField("x", std::vector<uint8_t>(4), FieldLocation::PerVertex)}) ==
         ErrorCode::OptionConflict);
   CHECK(write(".csv", {makeField("face", std::vector<double>(4))}) == ErrorCode::OptionConflict);
   const std::vector<Field> columns{makeField("p", std::vector<double>(12), FieldLocation::PerFace, 3),
