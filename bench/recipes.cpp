@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "asdf_vk/files.h"
 #include "support/computation.h"
@@ -17,56 +18,91 @@ using namespace asdfvk;
 using namespace asdfvk::bench;
 
 constexpr std::array<double, 3> kEstimatedPercents{5, 10, 20};
+constexpr double kMaxError = 0.01, kMaxRelativeError = 0.05;
+
+/// Estimated over actual error.
+struct EstimateRatios {
+  double average = 0, robustAverage = 0, relativeMedian = 0, relativePercentile90 = 0;
+};
+struct NamedRatio {
+  const char* name;
+  double EstimateRatios::*ratio;
+};
+constexpr std::array<NamedRatio, 4> kEstimateRatios{{{"average", &EstimateRatios::average},
+                                                     {"robust average", &EstimateRatios::robustAverage},
+                                                     {"median of the relative error", &EstimateRatios::relativeMedian},
+                                                     {"90th percentile of it", &EstimateRatios::relativePercentile90}}};
+
+EstimateRatios ratiosOf(const ErrorEstimate& estimate, const FieldErrors& actual) {
+  const auto over = [](double a, double b) { return a == b ? 1 : a / b; };
+  return {over(estimate.average, actual.average), over(estimate.robustAverage, actual.robustAverage),
+          over(estimate.relativeMedian, actual.relativeMedian),
+          over(estimate.relativePercentile90, actual.relativePercentile90)};
+}
 
 /// Average errors over the range of the reference. Full: the function of 30 rays at every face, fixed cones. Truth:
 /// many rays at every face, hashed cones. Floor: the error of the full function against the truth.
 struct MeshRow {
   std::string name;
   uint64_t faceCount = 0;
-  double paper = 0, balanced = 0, quality = 0;               ///< At 10 %, against the full function.
-  double balancedTruth = 0, qualityTruth = 0;                ///< At 10 %, against the truth, over the floor.
-  double qualityTruthAt40 = 0;                               ///< At 40 %, likewise.
-  std::array<double, kEstimatedPercents.size()> estimate{};  ///< Balanced: estimated over actual error.
-  double boundedError = 0;                                   ///< Balanced, --max-error 1%: actual error.
-  double boundedShare = 0;                                   ///< Likewise: share of the faces that are seeds.
-  double iterations = 0;                                     ///< Solver iterations, balanced over paper, at 10 %.
-  double overTrace = 0;  ///< Time of sample, predict and solve over that of trace, balanced at 10 %.
+  double paper = 0, balanced = 0, quality = 0;                      ///< At 10 %, against the full function.
+  double balancedTruth = 0, qualityTruth = 0;                       ///< At 10 %, against the truth, over the floor.
+  double qualityTruthAt40 = 0;                                      ///< At 40 %, likewise.
+  std::array<EstimateRatios, kEstimatedPercents.size()> estimates;  ///< Balanced.
+  double boundedError = 0;                                          ///< Balanced, --max-error 1%: actual error.
+  double boundedShare = 0;                                          ///< Likewise: share of the faces that are seeds.
+  double boundedRelativeError = 0;  ///< Balanced, --max-error 5%rel: actual median of the relative error.
+  double boundedRelativeShare = 0;  ///< Likewise: share of the faces that are seeds.
+  double iterations = 0;            ///< Solver iterations, balanced over paper, at 10 %.
+  double overTrace = 0;             ///< Time of sample, predict and solve over that of trace, balanced at 10 %.
 };
 
-MeshRow measure(Session& session, const std::string& path, uint32_t truthRayCount, const RunControl& control) {
+/// With `onlyEstimates` the estimates only.
+MeshRow measure(Session& session, const std::string& path, uint32_t truthRayCount, bool onlyEstimates,
+                const RunControl& control) {
   MeshRow row;
   row.name = path.substr(path.rfind('/') + 1);
   const Mesh mesh = readMesh(path);
   const auto compute = [&](const Options& options) { return session.compute(mesh, options, control); };
+  const auto shareOf = [](const Result& result) {
+    return static_cast<double>(result.report.seedCount) / static_cast<double>(result.report.faceCount);
+  };
   const Result full = compute(recipeOptions(Recipe::Paper, 100));
+  row.faceCount = full.report.faceCount;
+  const auto errors = [&](const Result& result) { return errorsOverRange(full.sdf(), result.sdf()); };
+  Result balanced;  // At 10 %.
+  for (size_t i = 0; i < kEstimatedPercents.size(); ++i) {
+    Result result = compute(recipeOptions(Recipe::Balanced, kEstimatedPercents[i]));
+    if (result.report.estimatedError) row.estimates[i] = ratiosOf(*result.report.estimatedError, errors(result));
+    if (kEstimatedPercents[i] == 10) balanced = std::move(result);
+  }
+  if (onlyEstimates) return row;
+
   const Result truth = compute(truthOptions(truthRayCount));
-  const auto error = [&](const Result& result) { return errorsOverRange(full.sdf(), result.sdf()).average; };
   const auto truthError = [&](const Result& result) { return errorsOverRange(truth.sdf(), result.sdf()).average; };
   const double floor = truthError(full);
-
-  row.faceCount = full.report.faceCount;
   const Result paper = compute(recipeOptions(Recipe::Paper, 10));
-  row.paper = error(paper);
-  for (size_t i = 0; i < kEstimatedPercents.size(); ++i) {
-    const Result balanced = compute(recipeOptions(Recipe::Balanced, kEstimatedPercents[i]));
-    if (balanced.report.estimatedError) row.estimate[i] = balanced.report.estimatedError->average / error(balanced);
-    if (kEstimatedPercents[i] != 10) continue;
-    row.balanced = error(balanced);
-    row.balancedTruth = truthError(balanced) / floor;
-    row.iterations =
-        static_cast<double>(balanced.report.solver.iterations) / std::max(1u, paper.report.solver.iterations);
-    const StageSeconds& seconds = balanced.report.stageSeconds;
-    row.overTrace = (seconds[Stage::Sample] + seconds[Stage::Predict] + seconds[Stage::Solve]) / seconds[Stage::Trace];
-  }
+  row.paper = errors(paper).average;
+  row.balanced = errors(balanced).average;
+  row.balancedTruth = truthError(balanced) / floor;
+  row.iterations =
+      static_cast<double>(balanced.report.solver.iterations) / std::max(1u, paper.report.solver.iterations);
+  const StageSeconds& seconds = balanced.report.stageSeconds;
+  row.overTrace = (seconds[Stage::Sample] + seconds[Stage::Predict] + seconds[Stage::Solve]) / seconds[Stage::Trace];
   const Result quality = compute(recipeOptions(Recipe::Quality, 10));
-  row.quality = error(quality);
+  row.quality = errors(quality).average;
   row.qualityTruth = truthError(quality) / floor;
   row.qualityTruthAt40 = truthError(compute(recipeOptions(Recipe::Quality, 40))) / floor;
   Options bounded = recipeOptions(Recipe::Balanced, 2);
-  bounded.rounds.maxError = 0.01;
+  bounded.rounds.maxError = kMaxError;
   const Result boundedResult = compute(bounded);
-  row.boundedError = error(boundedResult);
-  row.boundedShare = static_cast<double>(boundedResult.report.seedCount) / static_cast<double>(row.faceCount);
+  row.boundedError = errors(boundedResult).average;
+  row.boundedShare = shareOf(boundedResult);
+  bounded.rounds = {};
+  bounded.rounds.maxRelativeError = kMaxRelativeError;
+  const Result boundedRelative = compute(bounded);
+  row.boundedRelativeError = errors(boundedRelative).relativeMedian;
+  row.boundedRelativeShare = shareOf(boundedRelative);
   return row;
 }
 
@@ -104,43 +140,89 @@ double percentWithin(const std::vector<double>& values, double low, double high)
   return 100 * static_cast<double>(count) / static_cast<double>(values.size());
 }
 
-std::string summaryOf(const char* title, const std::vector<MeshRow>& rows) {
-  if (rows.empty()) return {};
+std::string estimateSummary(const std::vector<MeshRow>& rows) {
+  std::string text;
+  for (const NamedRatio& kind : kEstimateRatios) {
+    std::vector<double> all;
+    for (size_t i = 0; i < kEstimatedPercents.size(); ++i) {
+      const auto ratios = valuesOf(rows, [&](const MeshRow& row) { return row.estimates[i].*kind.ratio; });
+      all.insert(all.end(), ratios.begin(), ratios.end());
+      text += fmt::format(
+          "  estimated / actual {} at {:g} %: geometric mean {:.3f}, within .75 to 1.33: {:.1f} %, within .67 to 1.5: "
+          "{:.1f} %\n",
+          kind.name, kEstimatedPercents[i], geometricMeanOf(ratios), percentWithin(ratios, .75, 1.33),
+          percentWithin(ratios, .67, 1.5));
+    }
+    text +=
+        fmt::format("  estimated / actual {}, all shares: within .75 to 1.33: {:.1f} %, within .67 to 1.5: {:.1f} %\n",
+                    kind.name, percentWithin(all, .75, 1.33), percentWithin(all, .67, 1.5));
+  }
+  return text;
+}
+
+std::string recipeSummary(const std::vector<MeshRow>& rows) {
   const auto ratios = valuesOf(rows, [](const MeshRow& row) { return row.balanced / row.paper; });
-  const std::vector<double> bounded = valuesOf(rows, &MeshRow::boundedError);
-  std::string text = fmt::format("\n{} ({} meshes)\n", title, rows.size());
-  text += fmt::format("  error at 10 %, balanced / paper: geometric mean {:.3f}, maximum {:.3f}\n",
-                      geometricMeanOf(ratios), maximumOf(ratios));
+  const std::vector<double> bounded = valuesOf(rows, &MeshRow::boundedError),
+                            boundedRelative = valuesOf(rows, &MeshRow::boundedRelativeError);
+  std::string text = fmt::format("  error at 10 %, balanced / paper: geometric mean {:.3f}, maximum {:.3f}\n",
+                                 geometricMeanOf(ratios), maximumOf(ratios));
   text +=
       fmt::format("  error against the truth / floor: quality at 10 % {}; quality at 40 % {}; balanced at 10 % {}\n",
                   meanAndMaximum(valuesOf(rows, &MeshRow::qualityTruth), 3),
                   meanAndMaximum(valuesOf(rows, &MeshRow::qualityTruthAt40), 3),
                   meanAndMaximum(valuesOf(rows, &MeshRow::balancedTruth), 3));
-  std::vector<double> all;
-  for (size_t i = 0; i < kEstimatedPercents.size(); ++i) {
-    const auto estimates = valuesOf(rows, [&](const MeshRow& row) { return row.estimate[i]; });
-    all.insert(all.end(), estimates.begin(), estimates.end());
-    text += fmt::format("  estimated / actual error at {:g} %: geometric mean {:.3f}, within .75 to 1.33: {:.1f} %\n",
-                        kEstimatedPercents[i], geometricMeanOf(estimates), percentWithin(estimates, .75, 1.33));
-  }
-  text += fmt::format("  estimated / actual error, all shares: within .75 to 1.33: {:.1f} %\n",
-                      percentWithin(all, .75, 1.33));
   text += fmt::format(
       "  --max-error 1%: actual error at most 1.2 % on {:.1f} % of the meshes, maximum {:.2f} %; mean share of seeds "
       "{:.1f} %\n",
       percentWithin(bounded, 0, .012), 100 * maximumOf(bounded), 100 * meanOf(valuesOf(rows, &MeshRow::boundedShare)));
+  text += fmt::format(
+      "  --max-error 5%rel: actual median at most 6 % on {:.1f} % of the meshes, maximum {:.2f} %; mean share of seeds "
+      "{:.1f} %\n",
+      percentWithin(boundedRelative, 0, .06), 100 * maximumOf(boundedRelative),
+      100 * meanOf(valuesOf(rows, &MeshRow::boundedRelativeShare)));
   text += fmt::format("  solver iterations, balanced / paper: {}\n",
                       meanAndMaximum(valuesOf(rows, &MeshRow::iterations), 2));
   return text + fmt::format("  (sample + predict + solve) / trace at 10 %: {}\n",
                             meanAndMaximum(valuesOf(rows, &MeshRow::overTrace), 2));
 }
 
-std::string toText(const MeshRow& row) {
-  return fmt::format(
-      "| {} | {} | {:.4f} | {:.4f} | {:.3f} | {:.3f} | {:.3f} | {:.3f} | {:.2f} {:.2f} {:.2f} | {:.4f} ({:.1f} %) |\n",
-      row.name, row.faceCount, row.paper, row.balanced, row.balanced / row.paper, row.balancedTruth, row.qualityTruth,
-      row.qualityTruthAt40, row.estimate[0], row.estimate[1], row.estimate[2], row.boundedError,
-      100 * row.boundedShare);
+std::string summaryOf(const char* title, const std::vector<MeshRow>& rows, bool onlyEstimates) {
+  if (rows.empty()) return {};
+  return fmt::format("\n{} ({} meshes)\n", title, rows.size()) + estimateSummary(rows) +
+         (onlyEstimates ? "" : recipeSummary(rows));
+}
+
+/// "1.02 0.99 1.01", by share of seeds.
+std::string toText(const MeshRow& row, double EstimateRatios::*ratio) {
+  std::string text;
+  for (const EstimateRatios& ratios : row.estimates)
+    text += fmt::format("{}{:.2f}", text.empty() ? "" : " ", ratios.*ratio);
+  return text;
+}
+
+std::string toText(const MeshRow& row, bool onlyEstimates) {
+  std::string text = fmt::format("| {} | {} |", row.name, row.faceCount);
+  for (const NamedRatio& kind : kEstimateRatios) text += fmt::format(" {} |", toText(row, kind.ratio));
+  if (!onlyEstimates)
+    text += fmt::format(
+        " {:.4f} | {:.4f} | {:.3f} | {:.3f} | {:.3f} | {:.3f} | {:.4f} ({:.1f} %) | {:.4f} ({:.1f} %) |", row.paper,
+        row.balanced, row.balanced / row.paper, row.balancedTruth, row.qualityTruth, row.qualityTruthAt40,
+        row.boundedError, 100 * row.boundedShare, row.boundedRelativeError, 100 * row.boundedRelativeShare);
+  return text + "\n";
+}
+
+std::string headerOf(bool onlyEstimates) {
+  std::string header = "| mesh | faces |", line = "|---|---|";
+  const auto add = [&](const std::string& column) {
+    header += fmt::format(" {} |", column);
+    line += "---|";
+  };
+  for (const NamedRatio& kind : kEstimateRatios) add(fmt::format("estimated / actual {} at 5, 10, 20 %", kind.name));
+  if (!onlyEstimates)
+    for (const char* column : {"paper, 10 %", "balanced", "ratio", "balanced / floor", "quality / floor",
+                               "quality 40 % / floor", "--max-error 1% (seeds)", "--max-error 5%rel (seeds)"})
+      add(column);
+  return header + "\n" + line + "\n";
 }
 
 }  // namespace
@@ -150,22 +232,22 @@ int main(int argc, char** argv) {
   std::vector<std::string> meshes;
   std::string backend = "vulkan", device;
   uint32_t truthRayCount = 600;
+  bool onlyEstimates = false;
   program.addMeshes(meshes);
   program.add("--backend", backend, "vulkan, cpu or reference");
   program.add("--device", device, "Vulkan device: index or part of its name");
   program.add("--truth-rays", truthRayCount, "Rays per face of the truth", {31, kMaxRayCount});
+  program.add("--only-estimates", onlyEstimates, "Only the error estimates of balanced: a tenth of the time");
   return program.run(argc, argv, [&](const RunControl& control) {
     Session session(sessionOptionsOf(backend, device));
     std::vector<MeshRow> rows, odd, even;
-    writeOutput(
-        "| mesh | faces | paper, 10 % | balanced | ratio | balanced / floor | quality / floor | quality 40 % / floor | "
-        "estimated / actual error at 5, 10, 20 % | --max-error 1% (seeds) "
-        "|\n|---|---|---|---|---|---|---|---|---|---|\n");
+    writeOutput(headerOf(onlyEstimates));
     for (const std::string& mesh : meshes) {
-      rows.push_back(measure(session, mesh, truthRayCount, control));
+      rows.push_back(measure(session, mesh, truthRayCount, onlyEstimates, control));
       (rows.size() % 2 == 1 ? odd : even).push_back(rows.back());
-      writeOutput(toText(rows.back()));
+      writeOutput(toText(rows.back(), onlyEstimates));
     }
-    writeOutput(summaryOf("odd places", odd) + summaryOf("even places", even) + summaryOf("all", rows));
+    writeOutput(summaryOf("odd places", odd, onlyEstimates) + summaryOf("even places", even, onlyEstimates) +
+                summaryOf("all", rows, onlyEstimates));
   });
 }

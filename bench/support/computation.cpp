@@ -10,6 +10,7 @@
 
 #include "asdf_vk/files.h"
 #include "core/check.h"
+#include "core/median.h"
 #include "core/stopwatch.h"
 
 namespace asdfvk::bench {
@@ -67,19 +68,26 @@ FieldErrors errorsOverRange(std::span<const double> full, std::span<const double
   double low = std::numeric_limits<double>::infinity(), high = -low, sum = 0;
   size_t count = 0;
   FieldErrors errors;
+  std::vector<double> present, relative;
   for (size_t i = 0; i < full.size(); ++i) {
     if (std::isnan(full[i])) continue;
     low = std::min(low, full[i]);
     high = std::max(high, full[i]);
+    present.push_back(full[i]);
     if (std::isnan(approximate[i])) continue;
     const double error = std::abs(approximate[i] - full[i]);
     sum += error;
+    relative.push_back(error == 0 ? 0 : error / std::abs(full[i]));
     errors.maximum = std::max(errors.maximum, error);
     ++count;
   }
-  if (!(high > low)) return {};
+  if (!(high > low) || count == 0) return {};
   errors.average = sum / static_cast<double>(count) / (high - low);
   errors.maximum /= high - low;
+  const double low1 = percentileOf(present, 0.01), high99 = percentileOf(present, 0.99);
+  errors.robustAverage = sum / static_cast<double>(count) / (high99 - low1);
+  errors.relativeMedian = percentileOf(relative, 0.5);
+  errors.relativePercentile90 = percentileOf(relative, 0.9);
   return errors;
 }
 

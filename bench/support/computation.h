@@ -37,6 +37,8 @@ struct FileRun {
 /// over all faces with a value in both. Seeds count too; their error is usually 0.
 struct FieldErrors {
   double average = 0, maximum = 0;
+  double robustAverage = 0;                             ///< Over the 1st to the 99th percentile of the first field.
+  double relativeMedian = 0, relativePercentile90 = 0;  ///< Of difference / value of the first field.
 };
 
 /// full, approximate: #I, NaN for no value. All 0 when the range is empty.

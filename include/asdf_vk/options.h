@@ -110,9 +110,11 @@ inline constexpr double kMaxSmoothness = 1000;
 /// Conditions under which further rounds of seeds are added. A round keeps the traced values of all earlier rounds.
 struct RoundOptions {
   std::optional<double> maxError;           ///< Until the estimated average error is at most this share of the range.
+  std::optional<double> maxRelativeError;   ///< Until the estimated median of error / value is at most this.
   std::optional<double> timeBudgetSeconds;  ///< While time is left, counted from the start of compute().
 
-  [[nodiscard]] bool areSet() const { return maxError || timeBudgetSeconds; }
+  [[nodiscard]] bool limitError() const { return maxError || maxRelativeError; }
+  [[nodiscard]] bool areSet() const { return limitError() || timeBudgetSeconds; }
 };
 
 /// Treatment of inverted components: closed components whose faces are oriented inwards.
@@ -120,6 +122,12 @@ enum class Orientation {
   Keep,  ///< Unchanged; the report lists them.
   Auto,  ///< Outer shells are oriented outwards, cavities (shells inside another shell) inwards.
   Flip,  ///< Every face is reversed.
+};
+
+/// Elements of the mesh that the fields of a result describe.
+enum class PerElement {
+  Faces,     ///< Input faces.
+  Vertices,  ///< Input faces, and further fields with the same names per vertex: means over its faces by area.
 };
 
 /// Options of one computation. Sampler and solver are names, listed by samplerNames() and solverNames().
@@ -138,6 +146,8 @@ struct Options {
   std::string solver = "auto";
   SolverOptions solverOptions;
   Orientation orientation = Orientation::Keep;
+  bool computesCentres = false;  ///< Adds the field "centre", for skeletons.
+  PerElement per = PerElement::Faces;
   /// Number of random traced faces, and of random faces of the whole mesh, that the double-precision reference
   /// recomputes.
   std::optional<uint64_t> checkCount;

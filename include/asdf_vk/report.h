@@ -65,6 +65,7 @@ enum class WarningCode {
   FinishedOnCpu,       ///< The solver of the device reached the limit of float32; the CPU continued in double.
   SolvedOnCpu,         ///< The device failed to solve the equation; the CPU solved it.
   NotConverged,        ///< The solver stopped at its iteration limit.
+  RangeDominated,      ///< The range is no scale for errors: few faces have most of it. Details: {"robustShare", X}.
 };
 /// "missingValues"
 [[nodiscard]] ASDFVK_API const char* nameOf(WarningCode code);
@@ -90,6 +91,13 @@ struct SolverReport {
 struct ErrorEstimate {
   double average = 0;        ///< Mean over all faces and seeds, divided by the range of the values (paper, Table 1).
   double standardError = 0;  ///< Of `average`.
+  /// Mean error divided by the robust range of the values, from their 1st to their 99th percentile. To be preferred to
+  /// `average` where few faces have the extreme values (WarningCode::RangeDominated). Not finite without such a range.
+  double robustAverage = 0;
+  /// Median and 90th percentile of error / value over all faces, seeds included: half, and 90 %, of the faces have at
+  /// most this. 0 where that many faces are seeds. Infinite where the value of such a face is 0.
+  double relativeMedian = 0, relativePercentile90 = 0;
+  double relativeMedianStandardError = 0;
   uint64_t heldOutCount = 0;
   struct WorstFace {
     uint64_t face = 0;  ///< Input face.
@@ -129,6 +137,9 @@ inline constexpr double kAllowedMissShare = 0.001;
 /// Over the faces with a value; NaN when there is none.
 struct ValueRange {
   double min = kNoValue, median = kNoValue, max = kNoValue;
+  double percentile1 = kNoValue, percentile99 = kNoValue;
+
+  [[nodiscard]] double robustRange() const { return percentile99 - percentile1; }
 };
 
 /// The smoothed values before Postprocess maps them to [0, 1], in the unit of the mesh.

@@ -30,7 +30,9 @@ inline constexpr uint32_t kNoSegment = 0xffffffff;
 
 /// Result of a computation. Fields: "sdf" (the shape diameter in the unit of the mesh), "seed" (1 where rays were
 /// cast); with an estimate "error" (expected error in the unit of the mesh; 0 at seeds that keep their value); with
-/// Options::postprocess "normalized" (0 to 1); with Options::segmentation "segment" (ascending by the mean value).
+/// Options::postprocess "normalized" (0 to 1); with Options::segmentation "segment" (ascending by the mean value); with
+/// Options::computesCentres "centre" (x, y, z: the barycentre, moved inwards along the normal by half of the shape
+/// diameter). With PerElement::Vertices fields per vertex with the same names follow those per face.
 struct Result {
   std::vector<Field> fields;
   Report report;
@@ -41,7 +43,7 @@ struct Result {
   [[nodiscard]] const std::vector<double>& sdf() const { return std::get<std::vector<double>>(fields.at(0).values); }
   /// #I, 1 where rays were cast.
   [[nodiscard]] const std::vector<uint8_t>& seed() const { return std::get<std::vector<uint8_t>>(fields.at(1).values); }
-  /// Null where the result has no such field.
+  /// The field per face. Null where the result has no such field.
   [[nodiscard]] const Field* field(std::string_view name) const { return findField(fields, name); }
 };
 

@@ -3,6 +3,7 @@
 
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <string_view>
 
 #include "asdf_vk/error.h"
 #include "cli/option_parsing.h"
@@ -20,6 +21,16 @@ double parseShare(const std::string& text) {
   const bool isPercent = text.ends_with('%');
   const double number = parseNumber(isPercent ? text.substr(0, text.size() - 1) : text);
   return isPercent ? number / 100 : number;
+}
+
+/// "1%" (of the range) or "5%rel" (of the value).
+void parseMaxError(const std::string& text, RoundOptions& rounds) {
+  constexpr std::string_view kRelative = "rel";
+  const bool isRelative = text.ends_with(kRelative);
+  const double share = parseShare(isRelative ? text.substr(0, text.size() - kRelative.size()) : text);
+  if (!(share > 0 && share < 1))
+    throw Error(ErrorCode::OptionOutOfRange, fmt::format("'{}' is not above 0% and below 100%", text));
+  (isRelative ? rounds.maxRelativeError : rounds.maxError) = share;
 }
 
 /// "2s" or "2".
@@ -73,15 +84,12 @@ void addBasics(CLI::App& app, CommandLine& line) {
   addValue(app, "--seeds", "N%|N|all", "Faces that cast rays: a share, a count or all; default " + defaultSeeds(),
            [&](const std::string& text) { options.seeds = parseSeedCount(text); })
       ->group(kBasicGroup);
-  addValue(app, "--max-error", "E%",
+  addValue(app, "--max-error", "E%[rel]",
            fmt::format("Add seeds until the estimated average error is below this share of the\n"
-                       "range; starts with {}% or --seeds",
+                       "range, or with rel until the median of error / value is; starts with {}%\n"
+                       "or --seeds",
                        kFirstRoundShare * 100),
-           [&](const std::string& text) {
-             options.rounds.maxError = parseShare(text);
-             if (!(*options.rounds.maxError > 0 && *options.rounds.maxError < 1))
-               throw Error(ErrorCode::OptionOutOfRange, fmt::format("'{}' is not above 0% and below 100%", text));
-           })
+           [&](const std::string& text) { parseMaxError(text, options.rounds); })
       ->group(kBasicGroup);
   addChoice(app, "--orient", options.orientation, kOrientations,
             "Inverted closed components: report them, reverse them, or reverse\n"
@@ -282,6 +290,7 @@ nlohmann::ordered_json optionValues(const CommandLine& line) {
           {"seeds", toText(options.seeds)},
           {"sampler", options.sampler},
           {"maxError", optional(options.rounds.maxError)},
+          {"maxRelativeError", optional(options.rounds.maxRelativeError)},
           {"timeBudgetSeconds", optional(options.rounds.timeBudgetSeconds)},
           {"rays", options.cone.rayCount},
           {"angleDegrees", options.cone.openingAngleDegrees},
@@ -295,6 +304,7 @@ nlohmann::ordered_json optionValues(const CommandLine& line) {
           {"smoothness", options.cgalSegmentation.smoothness},
           {"cgalExpansion", nameOf(kCgalExpansions, options.cgalSegmentation.expansion)},
           {"orient", nameOf(kOrientations, options.orientation)},
+          {"per", nameOf(kPerElements, options.per)},
           {"weights", nameOf(kWeights, interpolation.weights)},
           {"guidance", nameOf(kGuidances, interpolation.guidance)},
           {"pooling", interpolation.pooling},

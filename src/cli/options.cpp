@@ -85,6 +85,12 @@ std::vector<std::string> parseFields(const std::string& text) {
   return names;
 }
 
+/// Throws unless the name of a file has the extension or is "-".
+void requireExtension(const std::string& name, const std::string& extension) {
+  if (name != "-" && lowerCase(std::filesystem::path(name).extension().string()) != extension)
+    throw Error(ErrorCode::OptionOutOfRange, fmt::format("'{}' does not end in {}", name, extension));
+}
+
 void addOutput(CLI::App& app, CommandLine& line) {
   addValue(app, "-o,--output", "FILE|DIR|-",
            fmt::format("Result: a file (.{}), a directory, or - for standard\n"
@@ -99,7 +105,10 @@ void addOutput(CLI::App& app, CommandLine& line) {
            fmt::format("Fields to write: {};\n"
                        "default {}, and those of --postprocess and --segment",
                        fmt::join(resultFieldNames(), ", "), fmt::join(line.fields, ",")),
-           [&](const std::string& text) { line.fields = parseFields(text); })
+           [&](const std::string& text) {
+             line.fields = parseFields(text);
+             if (std::count(line.fields.begin(), line.fields.end(), "centre") > 0) line.options.computesCentres = true;
+           })
       ->group(kBasicGroup);
   addValue(app, "--check", "[=N|all]",
            fmt::format("Recompute N random traced faces, and N of all faces, with the reference\n"
@@ -112,6 +121,19 @@ void addOutput(CLI::App& app, CommandLine& line) {
   addName(app, "--format", line.format, resultFormats(), "Format where -o does not decide it; default ply")
       ->group(group);
   app.add_flag("--ascii", line.ascii, "Write PLY as text")->group(group);
+  addChoice(app, "--per", line.options.per, kPerElements,
+            "vertex: also fields per vertex, means over its faces by area, with the names of\n"
+            "those per face; .csv and .npy hold these only; default face")
+      ->group(group);
+  addValue(app, "--points", "FILE.ply",
+           "Also write the skeleton points of the faces, half of the shape diameter below\n"
+           "each, with radius and segment, for one mesh; - is standard output",
+           [&](const std::string& text) {
+             requireExtension(text, ".ply");
+             line.points = text;
+             line.options.computesCentres = true;
+           })
+      ->group(group);
   app.add_flag("--quiet", line.quiet, "Print errors only")->group(group);
 }
 
@@ -131,18 +153,22 @@ void parseViewAngles(const std::string& text, View& view) {
 void addPicture(CLI::App& app, CommandLine& line) {
   addValue(app, "--picture", "FILE.png", "Also render the coloured mesh, for one mesh; - is standard output",
            [&](const std::string& text) {
-             if (text != "-" && lowerCase(std::filesystem::path(text).extension().string()) != ".png")
-               throw Error(ErrorCode::OptionOutOfRange, fmt::format("'{}' does not end in .png", text));
+             requireExtension(text, ".png");
              line.picture = text;
            })
       ->group(kBasicGroup);
   CLI::Option* needsPicture = app.get_option("--picture");
   const char* const group = "Picture";
-  addValue(app, "--picture-of", fmt::format("{}", fmt::join(resultFieldNames(), "|")),
+  std::vector<std::string> shown = resultFieldNames();
+  std::erase(shown, "centre");
+  addValue(app, "--picture-of", fmt::format("{}", fmt::join(shown, "|")),
            fmt::format("Field to show; default {}", line.pictureOf),
            [&](const std::string& text) {
              line.pictureOf = text == "seeds" ? "seed" : text;  // "seeds": the name in version 0.1.
              requireFieldName(line.pictureOf);
+             if (line.pictureOf == "centre")
+               throw Error(ErrorCode::OptionOutOfRange,
+                           "'centre' has three components; a picture shows a field of one component");
            })
       ->group(group)
       ->needs(needsPicture);
@@ -217,6 +243,10 @@ void validateOptions(const CommandLine& line) {
     fail("--picture takes one mesh; name one mesh, or run them one by one");
   if (line.picture == "-" && (line.output == "-" || line.json))
     fail("--picture - writes to standard output, as do --json and -o -; give it a file, or drop them");
+  if (!line.points.empty() && line.meshes.size() > 1)
+    fail("--points takes one mesh; name one mesh, or run them one by one");
+  if (line.points == "-" && (line.output == "-" || line.json || line.picture == "-"))
+    fail("--points - writes to standard output, as do --json, -o - and --picture -; give it a file, or drop them");
   const bool isCpu = line.session.backend == "cpu" || line.session.backend == "reference";
   const TraceVariant& variant = line.session.variant;
   if (isCpu && line.session.requireGpu)
@@ -225,8 +255,8 @@ void validateOptions(const CommandLine& line) {
     fail("--device chooses a Vulkan device, which --backend cpu and reference do not use; drop one");
   if (isCpu && !(variant.kernel.empty() && variant.bvh.empty() && variant.fetch.empty()))
     fail("--kernel, --bvh and --fetch choose shaders, which --backend cpu and reference do not use; drop one");
-  const bool estimates =
-      (line.options.estimatesError || line.options.rounds.maxError) && line.options.seeds.kind != SeedCount::Kind::All;
+  const bool estimates = (line.options.estimatesError || line.options.rounds.limitError()) &&
+                         line.options.seeds.kind != SeedCount::Kind::All;
   if (line.pictureOf == "error" && !estimates)
     fail("--picture-of error needs an estimate; drop --no-estimate, and --seeds all, which has no error");
   if (std::count(line.fields.begin(), line.fields.end(), "error") > 0 && !estimates)

@@ -23,6 +23,7 @@ struct CommandLine {
   std::string picture;                             ///< A .png, "-" for standard output; empty: none.
   std::string pictureOf = "sdf";                   ///< Name of the field to show.
   View pictureView;
+  std::string points;  ///< A .ply for the skeleton points, "-" for standard output; empty: none.
   bool ascii = false;
   bool json = false;
   bool quiet = false;

@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -109,16 +110,19 @@ std::vector<std::string> planOutputs(const CommandLine& line) {
   for (const std::string& output : outputs)
     if (output != "-" && inputs.holds(output))
       usageError(fmt::format("{} is an input and would be overwritten; choose another -o", output));
-  if (!line.picture.empty() && line.picture != "-") {
-    if (inputs.holds(line.picture))
-      usageError(fmt::format("{} is an input and would be overwritten; choose another --picture", line.picture));
-    FileSet results;
+  FileSet planned;
+  if (!line.picture.empty() || !line.points.empty())
     for (const std::string& output : outputs)
-      if (output != "-") results.insert(output);
-    if (results.holds(line.picture))
-      usageError(
-          fmt::format("{} is the path of both the result and the picture; choose another --picture", line.picture));
-  }
+      if (output != "-") planned.insert(output);
+  const auto planFurther = [&](const std::string& path, const char* option) {
+    if (path.empty() || path == "-") return;
+    if (inputs.holds(path))
+      usageError(fmt::format("{} is an input and would be overwritten; choose another {}", path, option));
+    if (planned.holds(path)) usageError(fmt::format("{} is the path of two outputs; choose another {}", path, option));
+    planned.insert(path);
+  };
+  planFurther(line.picture, "--picture");
+  planFurther(line.points, "--points");
   return outputs;
 }
 
@@ -126,6 +130,16 @@ WriteOptions writeOptionsOf(const CommandLine& line) {
   return {.format = line.output == "-" && line.format.empty() ? "ply" : line.format,
           .fields = line.fields,
           .ascii = line.ascii};
+}
+
+std::span<const Field> writableFields(const CommandLine& line, const std::string& output,
+                                      std::span<const Field> fields) {
+  if (line.options.per == PerElement::Faces) return fields;
+  const std::string format = resultFormatOf(output, writeOptionsOf(line));
+  if (format != "csv" && format != "npy") return fields;
+  const auto first = std::find_if(fields.begin(), fields.end(),
+                                  [](const Field& field) { return field.location == FieldLocation::PerVertex; });
+  return {first, fields.end()};
 }
 
 void requireWritablePlace(const std::string& output) {

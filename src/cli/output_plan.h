@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -9,11 +10,16 @@
 namespace asdfvk {
 
 /// Path of the result of each mesh, "-" for standard output. Throws Error{OptionConflict} if two outputs (results,
-/// picture) have the same path, if an output is an input, or if several meshes have one output file.
+/// picture, points) have the same path, if an output is an input, or if several meshes have one output file.
 [[nodiscard]] std::vector<std::string> planOutputs(const CommandLine& line);
 
 /// The fields of --fields, and the format if --format is given or the output is standard output.
 [[nodiscard]] WriteOptions writeOptionsOf(const CommandLine& line);
+
+/// The fields of a result that the output can hold together: all, but the vertex fields only where the format has
+/// either rows per face or rows per vertex. Precondition: vertex fields follow face fields.
+[[nodiscard]] std::span<const Field> writableFields(const CommandLine& line, const std::string& output,
+                                                    std::span<const Field> fields);
 
 /// Throws Error{OutputNotWritable} where no file can be written: a check before the work begins.
 void requireWritablePlace(const std::string& output);

@@ -45,6 +45,10 @@ Json estimateOf(const std::optional<ErrorEstimate>& estimate) {
     worst.push_back({{"face", face.face}, {"error", number(face.error)}});
   return {{"average", number(estimate->average)},
           {"standardError", number(estimate->standardError)},
+          {"robustAverage", number(estimate->robustAverage)},
+          {"relativeMedian", number(estimate->relativeMedian)},
+          {"relativeMedianStandardError", number(estimate->relativeMedianStandardError)},
+          {"relativePercentile90", number(estimate->relativePercentile90)},
           {"heldOutCount", estimate->heldOutCount},
           {"worstFaces", std::move(worst)}};
 }
@@ -98,6 +102,7 @@ std::string jsonReport(const MeshOutcome& outcome) {
   json["mesh"] = outcome.mesh;
   json["output"] = outcome.output;
   json["picture"] = outcome.line.picture.empty() ? Json(nullptr) : Json(outcome.line.picture);
+  json["points"] = outcome.line.points.empty() ? Json(nullptr) : Json(outcome.line.points);
   json["faceCount"] = report.faceCount;
   json["triangleCount"] = report.triangleCount;
   json["vertexCount"] = report.vertexCount;
@@ -117,8 +122,11 @@ std::string jsonReport(const MeshOutcome& outcome) {
                     {"relativeResidual", number(report.solver.relativeResidual)},
                     {"converged", report.solver.converged},
                     {"finishedOnCpu", report.solver.finishedOnCpu}};
-  json["sdf"] = {
-      {"min", number(report.sdf.min)}, {"median", number(report.sdf.median)}, {"max", number(report.sdf.max)}};
+  json["sdf"] = {{"min", number(report.sdf.min)},
+                 {"percentile1", number(report.sdf.percentile1)},
+                 {"median", number(report.sdf.median)},
+                 {"percentile99", number(report.sdf.percentile99)},
+                 {"max", number(report.sdf.max)}};
   json["postprocess"] = postprocessOf(report.postprocess);
   json["segmentCount"] = report.segmentation ? Json(report.segmentation->segmentCount) : Json(nullptr);
   json["estimatedError"] = estimateOf(report.estimatedError);

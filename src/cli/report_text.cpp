@@ -70,13 +70,22 @@ std::string valueRow(const Report& report) {
   return text;
 }
 
+/// A share in percent: two digits, or all before the point.
+std::string twoDigits(double share) {
+  return std::abs(share) < 0.1 ? fmt::format("{:.2g}", 100 * share) : fmt::format("{:.0f}", 100 * share);
+}
+
 std::string estimateRow(const Report& report) {
   const ErrorEstimate& estimate = *report.estimatedError;
-  std::string text =
-      fmt::format("{:.2f} % +- {:.2f} of the range on average, from {} held-out faces", 100 * estimate.average,
-                  100 * estimate.standardError, groupDigits(estimate.heldOutCount));
+  std::string text = fmt::format(
+      "{:.2f} % +- {:.2f} of the range on average; relative error {} % +- {} in the median, {} % at the 90th "
+      "percentile; from {} held-out faces",
+      100 * estimate.average, 100 * estimate.standardError, twoDigits(estimate.relativeMedian),
+      twoDigits(estimate.relativeMedianStandardError), twoDigits(estimate.relativePercentile90),
+      groupDigits(estimate.heldOutCount));
   if (!estimate.worstFaces.empty())
-    text += fmt::format("; {:.0f} % at face {}", 100 * estimate.worstFaces[0].error, estimate.worstFaces[0].face);
+    text += fmt::format("; {:.0f} % of the range at face {}", 100 * estimate.worstFaces[0].error,
+                        estimate.worstFaces[0].face);
   return text + (report.roundCount > 1 ? fmt::format("; {} rounds", report.roundCount) : "");
 }
 
@@ -130,6 +139,7 @@ std::string textReport(const MeshOutcome& outcome) {
   }
   const auto placeText = [](const std::string& place) { return place == "-" ? "standard output" : place; };
   text += row("output", placeText(outcome.output));
+  if (!outcome.line.points.empty()) text += row("points", placeText(outcome.line.points));
   if (!outcome.line.picture.empty()) text += row("picture", placeText(outcome.line.picture));
   return text;
 }
@@ -142,6 +152,7 @@ std::string textWarning(const Warning& warning) {
   }
   if (warning.code == WarningCode::InvertedComponents) text += "; --orient auto reverses inverted components";
   if (warning.code == WarningCode::FinishedOnCpu) text += "; --solver cpu may be faster here";
+  if (warning.code == WarningCode::RangeDominated) text += "; use the relative error, as --max-error E%rel does";
   if (warning.code == WarningCode::NotConverged) text += "; raise --max-iterations or --tolerance";
   return text;
 }

@@ -1,5 +1,7 @@
 #include "cli/run.h"
 
+#include <fmt/format.h>
+
 #include <optional>
 #include <string>
 #include <utility>
@@ -52,6 +54,10 @@ std::vector<T> onTriangles(const TriangleMesh& mesh, const std::vector<T>& ofInp
 void writePicture(const CommandLine& line, const Result& result, const RunControl& control) {
   const Field* field = result.field(line.pictureOf);
   if (field == nullptr) throw Error(ErrorCode::UnknownField, "--picture-of: the result has no field " + line.pictureOf);
+  if (field->componentCount != 1)
+    throw Error(ErrorCode::OptionConflict,
+                fmt::format("--picture-of: field {} has {} components; a picture shows a field of one component",
+                            line.pictureOf, field->componentCount));
   const TriangleMesh& mesh = result.scene->mesh;
   Picture picture{.scene = *result.scene, .title = field->label, .view = line.pictureView};
   std::vector<double> values;
@@ -74,6 +80,7 @@ MeshReport runMesh(Session& session, const std::string& name, const std::string&
                    const std::stop_token& stop) {
   requireWritablePlace(output);
   if (!line.picture.empty()) requireWritablePlace(line.picture);
+  if (!line.points.empty()) requireWritablePlace(line.points);
   const Stopwatch readWatch;
   Mesh mesh = readMesh(name);
   const double readSeconds = readWatch.seconds();
@@ -87,7 +94,8 @@ MeshReport runMesh(Session& session, const std::string& name, const std::string&
     StageSeconds& seconds = result.report.stageSeconds;
     const Stopwatch writeWatch;
     flipInputFaces(mesh, result.report.reversedFaces);  // The scene of the result has its own copy.
-    writeResult(output, mesh, result.fields, writeOptionsOf(line));
+    writeResult(output, mesh, writableFields(line, output, result.fields), writeOptionsOf(line));
+    if (!line.points.empty()) writePoints(line.points, result.fields);
     seconds[Stage::Write] = writeWatch.seconds();
     seconds[Stage::Read] = readSeconds;
     if (!line.picture.empty())

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
+
+#include "core/median.h"
 
 namespace asdfvk {
 namespace {
@@ -24,6 +27,14 @@ double tracedRange(const EstimateInput& input) {
   return high > low ? high - low : 0;
 }
 
+/// From the 1st to the 99th percentile of the values. Precondition: a face has one.
+double robustRange(std::span<const double> values) {
+  std::vector<double> present;
+  std::copy_if(values.begin(), values.end(), std::back_inserter(present), [](double v) { return !std::isnan(v); });
+  const double low = percentileOf(present, 0.01);
+  return percentileOf(present, 0.99) - low;
+}
+
 /// Error indicator of a face.
 double indicatorOf(const EstimateInput& input, size_t face) {
   return input.indicator.empty() ? 1 : input.indicator[face];
@@ -38,7 +49,7 @@ double gainBySeeds(const EstimateInput& input) {
 
 struct Measurement {
   uint32_t face = 0;
-  double error = 0, indicator = 0, weight = 0;
+  double error = 0, indicator = 0, weight = 0, value = 0;
 };
 
 /// Of the held-out faces with a value.
@@ -47,7 +58,7 @@ std::vector<Measurement> measureErrors(const EstimateInput& input) {
   for (size_t i = 0; i < input.heldOut.faces.size(); ++i) {
     const uint32_t face = input.heldOut.faces[i];
     const Measurement measurement{face, std::abs(input.withoutHeldOut[face] - input.traced.values[face]),
-                                  indicatorOf(input, face), input.heldOut.weights[i]};
+                                  indicatorOf(input, face), input.heldOut.weights[i], input.traced.values[face]};
     if (!std::isnan(measurement.error) && !std::isnan(input.result[face])) measured.push_back(measurement);
   }
   return measured;
@@ -63,6 +74,71 @@ std::vector<ErrorEstimate::WorstFace> worstOf(const TriangleMesh& mesh, std::vec
   std::vector<ErrorEstimate::WorstFace> worst;
   for (size_t i = 0; i < count; ++i) worst.push_back({mesh.inputFaceOf(measured[i].face), measured[i].error / range});
   return worst;
+}
+
+/// 0 / 0 is 0: a value without an error.
+double relativeError(double error, double value) { return error == 0 ? 0 : error / std::abs(value); }
+
+/// Numbers that stand for several faces each.
+class WeightedSample {
+ public:
+  void add(double number, double weight) { entries_.push_back({number, weight}); }
+
+  /// Before the first quantile.
+  void sort() {
+    std::sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) {
+      return a.number != b.number ? a.number < b.number : a.weight < b.weight;
+    });
+    for (const Entry& entry : entries_) sum_ += entry.weight;
+  }
+
+  /// The smallest number such that at least this share of the weights is at numbers up to it.
+  [[nodiscard]] double quantile(double share) const {
+    double below = 0;
+    for (const Entry& entry : entries_) {
+      below += entry.weight;
+      if (below >= share * sum_) return entry.number;
+    }
+    return entries_.back().number;
+  }
+
+ private:
+  struct Entry {
+    double number, weight;
+  };
+  std::vector<Entry> entries_;
+  double sum_ = 0;
+};
+
+/// Quantiles of the relative errors: of seeds, which are known, and of held-out faces, each of which stands for
+/// interpolated faces by its sampling weight. interpolatedCount: those with a value.
+void estimateRelativeErrors(const EstimateInput& input, const std::vector<Measurement>& measured, double gain,
+                            size_t interpolatedCount, ErrorEstimate& estimate) {
+  WeightedSample errors;
+  size_t count = interpolatedCount;
+  for (const uint32_t face : input.traced.faces) {
+    const double traced = input.traced.values[face], error = std::abs(input.result[face] - traced);
+    if (std::isnan(error)) continue;
+    errors.add(relativeError(error, traced), 1);
+    ++count;
+  }
+  double weightSum = 0, squareSum = 0;
+  for (const Measurement& m : measured) {
+    weightSum += m.weight;
+    squareSum += m.weight * m.weight;
+  }
+  const double facesPerWeight = static_cast<double>(interpolatedCount) / weightSum;
+  for (const Measurement& m : measured)
+    if (m.weight > 0) errors.add(gain * relativeError(m.error, m.value), m.weight * facesPerWeight);
+  errors.sort();
+  estimate.relativeMedian = errors.quantile(0.5);
+  estimate.relativePercentile90 = errors.quantile(0.9);
+  // Woodruff 1952: the standard error of the share of faces below the median, mapped through the quantiles.
+  const double interpolatedShare = static_cast<double>(interpolatedCount) / static_cast<double>(count);
+  const double medianShare = std::clamp(1 - 0.5 / interpolatedShare, 0.0, 1.0);  // Of the interpolated faces.
+  const double deviation = interpolatedShare * std::sqrt(medianShare * (1 - medianShare) * squareSum) / weightSum;
+  const double spread = (errors.quantile(std::min(1.0, 0.5 + deviation)) - errors.quantile(0.5 - deviation)) / 2;
+  estimate.relativeMedianStandardError = std::hypot(spread, (1 - gain) / gain * estimate.relativeMedian);
 }
 
 }  // namespace
@@ -90,17 +166,22 @@ EstimatedErrors estimateErrors(const TriangleMesh& mesh, const EstimateInput& in
   const double gain = gainBySeeds(input), gainDeviation = 1 - gain;
 
   double sum = 0, interpolatedIndicator = 0;
-  size_t count = 0;
+  size_t count = 0, interpolatedCount = 0;
   for (size_t face = 0; face < input.result.size(); ++face) {
     if (std::isnan(input.result[face])) continue;
     const double traced = input.traced.values[face], indicator = indicatorOf(input, face);
     const bool isInterpolated = std::isnan(traced);
     result.expected[face] = isInterpolated ? gain * ratio * indicator : std::abs(input.result[face] - traced);
-    if (isInterpolated) interpolatedIndicator += indicator;
+    if (isInterpolated) {
+      interpolatedIndicator += indicator;
+      ++interpolatedCount;
+    }
     sum += result.expected[face];
     ++count;
   }
   const double scale = 1 / (static_cast<double>(count) * range);
+  estimateRelativeErrors(input, measured, gain, interpolatedCount, result.estimate);
+  result.estimate.robustAverage = sum / static_cast<double>(count) / robustRange(input.result);
   result.estimate.average = sum * scale;
   result.estimate.standardError =
       gain * std::hypot(ratioDeviation, gainDeviation * ratio) * interpolatedIndicator * scale;

@@ -37,6 +37,9 @@ inline constexpr ChoiceNames<Segmentation, 2> kSegmentations{
 inline constexpr ChoiceNames<CgalExpansion, 2> kCgalExpansions{
     {{"all", CgalExpansion::All}, {"first", CgalExpansion::First}}};
 
+inline constexpr ChoiceNames<PerElement, 2> kPerElements{
+    {{"face", PerElement::Faces}, {"vertex", PerElement::Vertices}}};
+
 /// "paper|balanced|quality"
 template <typename T, size_t N>
 [[nodiscard]] std::string joined(const ChoiceNames<T, N>& names) {

@@ -80,8 +80,9 @@ void requireValid(const Options& options, bool hasDevice) {
     if (!(cgal.smoothness >= 0 && cgal.smoothness <= kMaxSmoothness))
       fail(fmt::format("a smoothness of {} is out of range (0 to {})", cgal.smoothness, kMaxSmoothness));
   }
-  if (options.rounds.maxError && !(*options.rounds.maxError > 0 && *options.rounds.maxError < 1))
-    fail(fmt::format("a maximum error of {} is out of range (above 0, below 1)", *options.rounds.maxError));
+  for (const std::optional<double>& maxError : {options.rounds.maxError, options.rounds.maxRelativeError})
+    if (maxError && !(*maxError > 0 && *maxError < 1))
+      fail(fmt::format("a maximum error of {} is out of range (above 0, below 1)", *maxError));
   if (options.rounds.timeBudgetSeconds && !(*options.rounds.timeBudgetSeconds > 0))
     fail(fmt::format("a time budget of {} s is out of range; give more than 0", *options.rounds.timeBudgetSeconds));
 }

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <optional>
 #include <utility>
 
 #include "core/median.h"
@@ -13,6 +14,13 @@
 
 namespace asdfvk {
 namespace {
+
+/// A mean normal that is shorter has no direction: the triangles of the polygon face each other.
+constexpr double kNoNormal = 1e-9;
+
+// The range is no scale for errors where the robust range is below this share of it, or where the median relative error
+// is large and far above the average error over the range. No clean mesh is near (docs/accuracy.md).
+constexpr double kMinRobustShare = 0.1, kLargeRelativeError = 0.1, kMaxRelativeOverAverage = 5;
 
 /// Likely reasons of missing values.
 struct MissingCauses {
@@ -55,9 +63,32 @@ ValueRange rangeOf(const std::vector<double>& values) {
   std::copy_if(values.begin(), values.end(), std::back_inserter(present), [](double v) { return !std::isnan(v); });
   if (present.empty()) return {};
   const auto [low, high] = std::minmax_element(present.begin(), present.end());
-  ValueRange range{*low, 0, *high};
+  ValueRange range{.min = *low, .max = *high};
   range.median = upperMedian(present);
+  range.percentile1 = percentileOf(present, 0.01);
+  range.percentile99 = percentileOf(present, 0.99);
   return range;
+}
+
+/// The warning where errors over the range are reported and look small only because of the range.
+std::optional<Warning> rangeDominated(const Report& report) {
+  if (!report.estimatedError && !report.check) return std::nullopt;
+  const double robustShare = report.sdf.robustRange() / (report.sdf.max - report.sdf.min);
+  const ErrorEstimate estimate = report.estimatedError.value_or(ErrorEstimate{});
+  const bool isLarge = estimate.relativeMedian > kLargeRelativeError &&
+                       estimate.relativeMedian > kMaxRelativeOverAverage * estimate.average;
+  if (!isLarge && !(robustShare < kMinRobustShare)) return std::nullopt;
+  Warning warning{WarningCode::RangeDominated,
+                  fmt::format("a few faces have most of the range of the values (98 % of the faces are within {:.2g} % "
+                              "of it), so that errors over the range look small",
+                              100 * robustShare),
+                  {{"robustShare", fmt::format("{:.6g}", robustShare)}}};
+  if (isLarge)
+    warning.message = fmt::format(
+        "most values are small against their range, so that errors over the range look small: {:.2g} % of the range on "
+        "average, but {:.0f} % of the value in the median",
+        100 * estimate.average, 100 * estimate.relativeMedian);
+  return warning;
 }
 
 /// Numbers the labels in use 0, 1, ... in their order.
@@ -125,6 +156,28 @@ std::vector<uint32_t> segmentsOfInputFaces(const TriangleMesh& mesh, std::span<c
   return labels;
 }
 
+std::vector<double> centresOfInputFaces(const TriangleMesh& mesh, const FaceGeometry& geometry,
+                                        std::span<const double> sdf) {
+  std::vector<Vec3d> places(sdf.size()), normals(sdf.size());
+  std::vector<double> areas(sdf.size(), 0);
+  for (uint32_t face = 0; face < mesh.faceCount(); ++face) {
+    if (geometry.isDegenerate(face)) continue;
+    const uint32_t inputFace = mesh.inputFaceOf(face);
+    areas[inputFace] += geometry.areas[face];
+    const double share = geometry.areas[face] / areas[inputFace];  // Means by increments: they cannot overflow.
+    places[inputFace] += (geometry.barycentres[face] - places[inputFace]) * share;
+    normals[inputFace] += (geometry.normals[face] - normals[inputFace]) * share;
+  }
+  std::vector<double> centres(3 * sdf.size(), kNoValue);
+  for (size_t i = 0; i < sdf.size(); ++i) {
+    const double norm = length(normals[i]);
+    if (std::isnan(sdf[i]) || !(norm > kNoNormal)) continue;
+    const Vec3d centre = places[i] - normals[i] * (sdf[i] / 2 / norm);
+    for (size_t axis = 0; axis < 3; ++axis) centres[3 * i + axis] = centre[axis];
+  }
+  return centres;
+}
+
 void describeValues(Report& report, const PreparedMesh& prepared, const std::vector<double>& sdf,
                     std::span<const double> values, bool keepsMissing) {
   report.sdf = rangeOf(sdf);
@@ -132,6 +185,7 @@ void describeValues(Report& report, const PreparedMesh& prepared, const std::vec
       static_cast<uint64_t>(std::count_if(sdf.begin(), sdf.end(), [](double v) { return std::isnan(v); }));
   if (report.noValueCount > 0)
     report.warnings.push_back(missingValues(report, causesOf(prepared, values), keepsMissing));
+  if (std::optional<Warning> warning = rangeDominated(report)) report.warnings.push_back(std::move(*warning));
   if (report.solver.finishedOnCpu)
     report.warnings.push_back(
         {WarningCode::FinishedOnCpu,
@@ -169,6 +223,8 @@ const char* nameOf(WarningCode code) {
       return "solvedOnCpu";
     case WarningCode::NotConverged:
       return "notConverged";
+    case WarningCode::RangeDominated:
+      return "rangeDominated";
   }
   return "unknown";
 }

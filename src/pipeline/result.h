@@ -24,6 +24,12 @@ namespace asdfvk {
 [[nodiscard]] std::vector<uint32_t> segmentsOfInputFaces(const TriangleMesh& mesh, std::span<const uint32_t> segments,
                                                          std::span<const double> areas);
 
+/// Skeleton points of input faces: c - n sdf / 2, the middle of the shape below the face. c and n are the barycentre
+/// and the normal of a triangle; of a polygon, the means over its triangles weighted by area, n scaled to length 1.
+/// sdf: #I. Returns 3 #I: x, y, z; NaN where there is no value or no normal (all triangles of zero area).
+[[nodiscard]] std::vector<double> centresOfInputFaces(const TriangleMesh& mesh, const FaceGeometry& geometry,
+                                                      std::span<const double> sdf);
+
 /// Adds to the report: the range of the values, the number of missing values, warnings about values and solver. sdf:
 /// #I. values: #F. keepsMissing: see Computation.
 void describeValues(Report& report, const PreparedMesh& prepared, const std::vector<double>& sdf,

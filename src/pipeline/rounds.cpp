@@ -91,6 +91,7 @@ class Rounds {
   [[nodiscard]] std::vector<double> solveWithoutHeldOut(std::span<const uint32_t> extremes, const RunControl& control);
   [[nodiscard]] uint64_t furtherCount() const;
   [[nodiscard]] uint64_t countForError() const;
+  [[nodiscard]] uint64_t countForTarget(std::optional<double> maximum, double estimate, double standardError) const;
   [[nodiscard]] uint64_t countForTime() const;
   [[nodiscard]] uint64_t remainingCount() const;
   [[nodiscard]] double raySeconds() const { return clock_.secondsOf(Stage::Trace) + clock_.secondsOf(Stage::Sample); }
@@ -246,11 +247,20 @@ uint64_t Rounds::furtherCount() const {
 }
 
 uint64_t Rounds::countForError() const {
-  if (!options_.rounds.maxError) return remainingCount();
+  const RoundOptions& rounds = options_.rounds;
+  if (!rounds.limitError()) return remainingCount();
+  if (!errors_) return static_cast<uint64_t>(std::ceil((kMaxGrowth - 1) * static_cast<double>(traced_.faces.size())));
+  const ErrorEstimate& estimate = errors_->estimate;
+  return std::max(
+      countForTarget(rounds.maxError, estimate.average, estimate.standardError),
+      countForTarget(rounds.maxRelativeError, estimate.relativeMedian, estimate.relativeMedianStandardError));
+}
+
+/// Seeds until an error, now with this estimate and standard error, is bounded by the target; 0 without one.
+uint64_t Rounds::countForTarget(std::optional<double> maximum, double estimate, double standardError) const {
+  if (!maximum) return 0;
   const auto seedCount = static_cast<double>(traced_.faces.size());
-  if (!errors_) return static_cast<uint64_t>(std::ceil((kMaxGrowth - 1) * seedCount));
-  const double target = *options_.rounds.maxError;
-  const double bound = errors_->estimate.average + kStandardErrors * errors_->estimate.standardError;
+  const double target = *maximum, bound = estimate + kStandardErrors * standardError;
   if (bound <= target) return 0;
   // The number of interpolated faces falls with the seeds, and the error of each with a power of their number.
   const auto candidateCount = static_cast<double>(computation_.prepared.traceableFaces.size());

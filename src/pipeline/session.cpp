@@ -1,6 +1,7 @@
 #include "asdf_vk/session.h"
 
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "bvh/bvh.h"
@@ -11,6 +12,7 @@
 #include "pipeline/rounds.h"
 #include "pipeline/segments.h"
 #include "pipeline/valid_options.h"
+#include "pipeline/vertex_fields.h"
 #include "smooth/bilateral.h"
 #include "trace/scene_data.h"
 
@@ -82,9 +84,22 @@ std::vector<Field> fieldsOf(const PreparedMesh& prepared, const RoundsResult& ro
   return fields;
 }
 
+/// Adds the fields that derive from other fields.
+void addDerivedFields(std::vector<Field>& fields, const PreparedMesh& prepared, const Options& options) {
+  if (options.computesCentres)
+    fields.push_back({.name = "centre",
+                      .label = "skeleton point",
+                      .unit = "length",
+                      .componentCount = 3,
+                      .values = centresOfInputFaces(prepared.mesh, prepared.geometry, *fields.front().reals())});
+  if (options.per != PerElement::Vertices) return;
+  std::vector<Field> further = vertexFieldsOf(prepared.mesh, prepared.geometry.areas, fields);
+  fields.insert(fields.end(), std::make_move_iterator(further.begin()), std::make_move_iterator(further.end()));
+}
+
 }  // namespace
 
-std::vector<std::string> resultFieldNames() { return {"sdf", "seed", "error", "normalized", "segment"}; }
+std::vector<std::string> resultFieldNames() { return {"sdf", "seed", "error", "normalized", "segment", "centre"}; }
 
 struct Session::State {
   explicit State(const SessionOptions& options) : named(openBackend(options)) {}
@@ -140,6 +155,7 @@ Result Session::compute(const MeshView& mesh, const Options& options, const RunC
         checkAgainstReference(scene, cone, prepared.traceableFaces, {rounds.traced, values, backend.isReference()},
                               *options.checkCount, options.randomSeed, control.part(roundsEnd, 1));
   result.fields = fieldsOf(prepared, rounds, values, std::move(segmented));
+  addDerivedFields(result.fields, prepared, options);
   describeValues(report, prepared, result.sdf(), values, computation.keepsMissing());
   backend.requireSilentValidation();
   if (options.keepsScene)

@@ -67,6 +67,10 @@ TEST_CASE("--json is exactly one document with every documented key and its type
   CHECK(estimate.at("average").get<double>() < 1);
   CHECK(estimate.at("standardError").get<double>() > 0);
   CHECK_EQ(estimate.at("heldOutCount").get<uint64_t>(), 96 / 4);
+  CHECK(estimate.at("robustAverage").get<double>() > estimate.at("average").get<double>());
+  CHECK(estimate.at("relativeMedian").get<double>() > 0);
+  CHECK(estimate.at("relativeMedianStandardError").get<double>() > 0);
+  CHECK(estimate.at("relativePercentile90").get<double>() > estimate.at("relativeMedian").get<double>());
   REQUIRE_EQ(estimate.at("worstFaces").size(), 5);
   for (const Json& worst : estimate.at("worstFaces")) {
     CHECK(worst.at("face").get<uint64_t>() < 960);
@@ -80,9 +84,10 @@ TEST_CASE("--json is exactly one document with every documented key and its type
       {"weights", "feature"}, {"guidance", "prediction"}, {"orient", "keep"},
       {"smooth", "off"},      {"solver", "auto"},         {"postprocess", "none"},
       {"segment", "none"},    {"cgalExpansion", "all"},   {"kernel", "auto"},
-      {"bvh", "auto"},        {"fetch", "auto"},          {"backend", "reference"}};
+      {"bvh", "auto"},        {"fetch", "auto"},          {"backend", "reference"},
+      {"per", "face"}};
   for (const auto& [key, name] : names) CHECK_EQ(options.at(key).get<std::string>(), name);
-  for (const char* key : {"maxError", "timeBudgetSeconds"}) CHECK(options.at(key).is_null());
+  for (const char* key : {"maxError", "maxRelativeError", "timeBudgetSeconds"}) CHECK(options.at(key).is_null());
   CHECK_EQ(options.at("pooling").get<double>(), 0);
   CHECK_EQ(options.at("definition").get<std::string>(), "paper");
   CHECK_EQ(options.at("falseHitAngleDegrees").get<double>(), 90);
@@ -139,6 +144,17 @@ TEST_CASE("--max-error adds seeds until the estimate is below it") {
   const Json all = onlyDocument(runAsdf({mesh, "--json", "--quiet", "--backend", "reference", "--max-error", "1e-9"}));
   CHECK_EQ(all.at("seedCount").get<uint64_t>(), 960);
   CHECK(all.at("roundCount").get<uint64_t>() > 1);
+}
+
+TEST_CASE("--max-error with rel adds seeds until the median of the relative error is below it") {
+  const ScratchFolder folder;
+  const std::string mesh = folder.write("sphere.off", sphereOff(16));
+  const Json json =
+      onlyDocument(runAsdf({mesh, "--json", "--quiet", "--backend", "reference", "--max-error", "0.1%rel"}));
+  CHECK(json.at("estimatedError").at("relativeMedian").get<double>() <= 0.001);
+  CHECK_EQ(json.at("options").at("maxRelativeError").get<double>(), 0.001);
+  CHECK(json.at("options").at("maxError").is_null());
+  CHECK(json.at("roundCount").get<uint64_t>() > 1);
 }
 
 TEST_CASE("options that contradict each other only together with a recipe end with 1") {

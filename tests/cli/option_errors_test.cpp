@@ -33,13 +33,14 @@ TEST_CASE("values out of range are refused with the option's name") {
       {"--recipe", {"best", "Paper"}},
       {"--definition", {"shapira", ""}},
       {"--sampler", {"blue"}},
-      {"--max-error", {"0%", "-1%", "100%", "1"}},
+      {"--max-error", {"0%", "-1%", "100%", "1", "0%rel", "100%rel", "1rel"}},
       {"--time-budget", {"0", "-2s"}},
       {"--cone-rotation", {"random"}},
       {"--weights", {"1"}},
       {"--guidance", {"0.5", "gauss"}},
       {"--fields", {"depth"}},
       {"--picture-of", {"curvature"}},
+      {"--per", {"edge", "vertices", ""}},
       {"--kernel", {"wide"}},
       {"--pooling", {"-0.1", "1.1", "half"}},
       {"--solver", {"best"}},
@@ -62,12 +63,14 @@ TEST_CASE("values out of range are refused with the option's name") {
     }
   CHECK_EQ(refusal({"a.ply", "--max-error", "soon"}), "--max-error: 'soon' is not a number");
   CHECK_EQ(refusal({"a.ply", "--max-error", "150%"}), "--max-error: '150%' is not above 0% and below 100%");
+  CHECK_EQ(refusal({"a.ply", "--max-error", "fiverel"}), "--max-error: 'five' is not a number");
+  CHECK_EQ(refusal({"a.ply", "--max-error", "150%rel"}), "--max-error: '150%rel' is not above 0% and below 100%");
   CHECK_EQ(refusal({"a.ply", "--time-budget", "0s"}), "--time-budget: '0s' is not a time above 0 s");
   CHECK_EQ(refusal({"a.ply", "--recipe", "best"}), "--recipe: 'best' is not one of paper|balanced|quality");
   CHECK_EQ(refusal({"a.ply", "--sampler", "spiral"}),
            "--sampler: 'spiral' is not one of random|blue-noise|farthest-point|normal-space|adaptive");
   CHECK_EQ(refusal({"a.ply", "--guidance", "2"}), "--guidance: '2' is not one of none|curvature|prediction");
-  for (const char* text : {"", "%", "1%%", "nan%", "1 %", "inf"})
+  for (const char* text : {"", "%", "1%%", "nan%", "1 %", "inf", "rel", "%rel", "5% rel", "5%relrel"})
     CHECK_MESSAGE(refusal({"a.ply", "--max-error", text}).starts_with("--max-error: "), text);
   for (const char* text : {"", "s", "2 s", "2ms", "inf", "nans", "2ss"})
     CHECK_MESSAGE(refusal({"a.ply", "--time-budget", text}).starts_with("--time-budget: "), text);
@@ -98,6 +101,20 @@ TEST_CASE("options that contradict each other are refused") {
     for (const char* solver : {"auto", "cpu", "eigen"})
       CHECK_EQ(refusal({"a.ply", "--backend", backend, "--solver", solver}), "accepted");
   }
+}
+
+TEST_CASE("skeleton points go to one .ply file, and a picture shows none of their components") {
+  CHECK_EQ(refusal({"a.ply", "--points", "b.obj"}), "--points: 'b.obj' does not end in .ply");
+  CHECK_EQ(refusal({"a.ply", "--points", ""}), "--points: '' does not end in .ply");
+  CHECK_EQ(refusal({"a.ply", "b.ply", "--points", "c.ply"}),
+           "--points takes one mesh; name one mesh, or run them one by one");
+  for (const auto& other : {std::vector<std::string>{"--json"}, {"-o", "-"}, {"--picture", "-"}}) {
+    std::vector<std::string> arguments{"a.ply", "--points", "-"};
+    arguments.insert(arguments.end(), other.begin(), other.end());
+    CHECK(refusal(arguments).starts_with("--points - writes to standard output"));
+  }
+  CHECK_EQ(refusal({"a.ply", "--picture", "b.png", "--picture-of", "centre"}),
+           "--picture-of: 'centre' has three components; a picture shows a field of one component");
 }
 
 TEST_CASE("options of the segmentation need it, as do its fields") {

@@ -84,6 +84,10 @@ const std::vector<OptionCase>& optionCases() {
       {{"--recipe", "quality"}, [](const Line& l) { return l.recipe == Recipe::Quality; }},
       {{"--sampler", "farthest-point"}, [](const Line& l) { return l.options.sampler == "farthest-point"; }},
       {{"--max-error", "1.5%"}, [](const Line& l) { return l.options.rounds.maxError == 0.015; }},
+      {{"--max-error", "5%rel"},
+       [](const Line& l) {
+         return l.options.rounds.maxRelativeError == 0.05 && !l.options.rounds.maxError.has_value();
+       }},
       {{"--time-budget", "2.5s"}, [](const Line& l) { return l.options.rounds.timeBudgetSeconds == 2.5; }},
       {{"--no-estimate"}, [](const Line& l) { return !l.options.estimatesError; }},
       {{"--weights", "distance"},
@@ -122,6 +126,10 @@ const std::vector<OptionCase>& optionCases() {
        [](const Line& l) {
          return l.fields == std::vector<std::string>{"error", "sdf"};
        }},
+      {{"--fields", "centre"}, [](const Line& l) { return l.options.computesCentres; }},
+      {{"--per", "vertex"}, [](const Line& l) { return l.options.per == PerElement::Vertices; }},
+      {{"--points", "b.PLY"}, [](const Line& l) { return l.points == "b.PLY" && l.options.computesCentres; }},
+      {{"--points", "-"}, [](const Line& l) { return l.points == "-"; }},
       {{"--ascii"}, [](const Line& l) { return l.ascii; }},
       {{"--json"}, [](const Line& l) { return l.json; }},
       {{"--quiet"}, [](const Line& l) { return l.quiet; }},
@@ -275,6 +283,11 @@ TEST_CASE("--definition cgal has 25 rays and all faces unless they are given, in
 TEST_CASE("errors and times are read with their unit or without") {
   for (const char* text : {"1%", "0.01", "1.0%", "1e-2"})
     CHECK_EQ(parseCommandLine({"a.ply", "--max-error", text}).options.rounds.maxError.value(), doctest::Approx(0.01));
+  for (const char* text : {"1%rel", "0.01rel"}) {
+    const RoundOptions rounds = parseCommandLine({"a.ply", "--max-error", text}).options.rounds;
+    CHECK_EQ(rounds.maxRelativeError.value(), doctest::Approx(0.01));
+    CHECK_FALSE(rounds.maxError.has_value());
+  }
   for (const char* text : {"2s", "2", "2.0s", "2e0"})
     CHECK_EQ(parseCommandLine({"a.ply", "--time-budget", text}).options.rounds.timeBudgetSeconds.value(), 2);
 }
@@ -294,6 +307,7 @@ TEST_CASE("smoothing is off, by the number of faces, or by a given window") {
 
 TEST_CASE("rounds begin with few seeds unless --seeds is given") {
   CHECK_EQ(parseCommandLine({"a.ply", "--max-error", "1%"}).options.seeds.share, 0.02);
+  CHECK_EQ(parseCommandLine({"a.ply", "--max-error", "5%rel"}).options.seeds.share, 0.02);
   CHECK_EQ(parseCommandLine({"a.ply", "--time-budget", "1s"}).options.seeds.share, 0.02);
   CHECK_EQ(parseCommandLine({"a.ply", "--seeds", "5%", "--max-error", "1%"}).options.seeds.share, 0.05);
   CHECK_EQ(parseCommandLine({"a.ply", "--max-error", "1%", "--seeds", "10%"}).options.seeds.share, 0.1);
@@ -316,13 +330,27 @@ TEST_CASE("--help has the most needed options, --help=all all of them in groups"
     previous = position;
     CHECK_EQ(basic.find(group) != std::string::npos, std::string(group) == "Options:");
   }
-  for (const char* part :
-       {"--recipe paper|balanced|quality", "--sampler random|blue-noise|farthest-point|normal-space|adaptive",
-        "--max-error E%", "--time-budget SECONDS", "--no-estimate", "--cone-rotation fixed|hashed",
-        "--definition paper|cgal", "--weights distance|feature", "--guidance none|curvature|prediction", "--pooling P",
-        "--picture-of sdf|seed|error|normalized|segment", "--segment none|cgal", "--kernel auto|seed|ray|packet",
-        "--bvh auto|wide|binary", "--fetch auto|texel|storage", "MESH...", ".stl .ply .off .obj", "--fields NAME,...",
-        "balanced (default)"})
+  for (const char* part : {"--recipe paper|balanced|quality",
+                           "--sampler random|blue-noise|farthest-point|normal-space|adaptive",
+                           "--max-error E%[rel]",
+                           "--per face|vertex",
+                           "--points FILE.ply",
+                           "--time-budget SECONDS",
+                           "--no-estimate",
+                           "--cone-rotation fixed|hashed",
+                           "--definition paper|cgal",
+                           "--weights distance|feature",
+                           "--guidance none|curvature|prediction",
+                           "--pooling P",
+                           "--picture-of sdf|seed|error|normalized|segment",
+                           "--segment none|cgal",
+                           "--kernel auto|seed|ray|packet",
+                           "--bvh auto|wide|binary",
+                           "--fetch auto|texel|storage",
+                           "MESH...",
+                           ".stl .ply .off .obj",
+                           "--fields NAME,...",
+                           "balanced (default)"})
     CHECK_MESSAGE(all.find(part) != std::string::npos, part);
   CHECK_EQ(parseCommandLine({"--", "--help=all"}).meshes, std::vector<std::string>{"--help=all"});
 }

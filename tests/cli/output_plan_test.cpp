@@ -66,9 +66,31 @@ TEST_CASE("outputs that contradict each other are usage errors") {
   CHECK(isRefused(withPicture(lineOf({"a.ply"}, "out.png", "ply"), "out.png")));
   CHECK_FALSE(isRefused(withPicture(lineOf({"a.ply"}, "out.ply"), "out.png")));
   CHECK_FALSE(isRefused(withPicture(lineOf({"a.ply"}, "out.ply"), "-")));
+  const auto withPoints = [](CommandLine line, const std::string& points) {
+    line.points = points;
+    return line;
+  };
+  CHECK(isRefused(withPoints(lineOf({"a.ply"}, "out.ply"), "x/../out.ply")));
+  CHECK(isRefused(withPoints(lineOf({"a.ply"}, "out.ply"), "a.ply")));
+  CHECK(isRefused(withPoints(lineOf({"a.ply"}), "a.asdf.ply")));
+  CHECK_FALSE(isRefused(withPoints(lineOf({"a.ply"}, "out.ply"), "points.ply")));
+  CHECK_FALSE(isRefused(withPoints(lineOf({"a.ply"}, "out.ply"), "-")));
+  CHECK(isRefused(withPoints(withPicture(lineOf({"a.ply"}), "b"), "b")));
   CommandLine ascii = lineOf({"a.ply"}, "out.csv");
   ascii.ascii = true;
   CHECK(isRefused(ascii));
+}
+
+TEST_CASE("a format of rows per face or per vertex holds the vertex fields where there are any") {
+  const std::vector<Field> fields{{.name = "a"}, {.name = "b"}, {.name = "a", .location = FieldLocation::PerVertex}};
+  CommandLine line = lineOf({"a.ply"}, "out");
+  CHECK_EQ(writableFields(line, "out.csv", fields).size(), 3);
+  line.options.per = PerElement::Vertices;
+  for (const char* whole : {"out.ply", "out.vtu", "out.npz"}) CHECK_EQ(writableFields(line, whole, fields).size(), 3);
+  for (const char* one : {"out.csv", "out.npy"}) {
+    REQUIRE_EQ(writableFields(line, one, fields).size(), 1);
+    CHECK_EQ(&writableFields(line, one, fields)[0], &fields[2]);
+  }
 }
 
 TEST_CASE("thousands of meshes are planned with a few file operations for each") {

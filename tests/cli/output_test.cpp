@@ -96,5 +96,47 @@ TEST_CASE("--orient reverses the corners of polygons after the first") {
   CHECK(written.polygons.firstCorner == std::vector<uint64_t>{0, 4, 6, 9, 9});
 }
 
+TEST_CASE("--per vertex adds fields per vertex, and .csv holds these only") {
+  const ScratchFolder folder;
+  const std::string mesh = folder.write("sphere.off", sphereOff(10));
+  const auto run = [&](const std::string& output) {
+    const ChildOutcome outcome = runAsdf({mesh, "-o", folder / output, "--quiet", "--backend", "reference", "--per",
+                                          "vertex", "--fields", "sdf,centre"});
+    INFO(outcome.error);
+    REQUIRE_EQ(outcome.exitCode, 0);
+    return readFields(folder / output);
+  };
+  for (const char* output : {"out.ply", "out.vtu", "out.npz"}) {
+    const std::vector<Field> fields = run(output);
+    REQUIRE_EQ(fields.size(), 4);
+    for (const FieldLocation location : {FieldLocation::PerFace, FieldLocation::PerVertex})
+      for (const char* name : {"sdf", "centre"}) CHECK(findField(fields, name, location) != nullptr);
+    CHECK_EQ(findField(fields, "centre", FieldLocation::PerVertex)->componentCount, 3);
+    CHECK_EQ(findField(fields, "sdf", FieldLocation::PerVertex)->size(), readMesh(mesh).vertices.size());
+  }
+  CHECK_EQ(run("out.csv").at(0).location, FieldLocation::PerVertex);
+  CHECK_EQ(linesOf(folder.read("out.csv")).at(0), "vertex,sdf,centre_x,centre_y,centre_z");
+  CHECK_EQ(run("out.npy").at(0).size(), readMesh(mesh).vertices.size());
+}
+
+TEST_CASE("--points writes the skeleton points beside the result") {
+  const ScratchFolder folder;
+  const std::string mesh = folder.write("sphere.off", sphereOff(10));
+  const ChildOutcome outcome = runAsdf({mesh, "-o", folder / "out.csv", "--points", folder / "points.ply", "--json",
+                                        "--backend", "reference", "--segment", "cgal", "--clusters", "2"});
+  INFO(outcome.error);
+  REQUIRE_EQ(outcome.exitCode, 0);
+  CHECK_EQ(nlohmann::json::parse(outcome.output).at("points"), folder / "points.ply");
+  CHECK(outcome.error.find("\n  points    " + (folder / "points.ply")) != std::string::npos);
+  const std::string ply = folder.read("points.ply"), end = "end_header\n";
+  CHECK(ply.find("element vertex 360\n") != std::string::npos);
+  CHECK(ply.find("property uint part\n") != std::string::npos);
+  CHECK_EQ(ply.size(), ply.find(end) + end.size() + 360 * 20);
+  CHECK_EQ(linesOf(folder.read("out.csv")).at(0), "face,sdf,seed,normalized,segment");
+  const ChildOutcome streamed =
+      runAsdf({mesh, "-o", folder / "out.csv", "--points", "-", "--quiet", "--backend", "reference"});
+  CHECK(streamed.output.starts_with("ply\n"));
+}
+
 }  // namespace
 }  // namespace asdfvk::test

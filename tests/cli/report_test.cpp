@@ -75,14 +75,22 @@ TEST_CASE("the text report has the recipe, and the estimated error where there i
   CHECK(holds(textReport({kMesh, kOutput, line, result}), "recipe balanced"));
   CHECK_FALSE(holds(textReport({kMesh, kOutput, line, result}), "  error "));
   line.recipe = Recipe::Paper;
-  report.estimatedError = ErrorEstimate{0.01234, 0.00056, 1234, {{77, 0.456}, {3, 0.4}}};
+  report.estimatedError = ErrorEstimate{.average = 0.01234,
+                                        .standardError = 0.00056,
+                                        .relativeMedian = 0.0234,
+                                        .relativePercentile90 = 0.345,
+                                        .relativeMedianStandardError = 0.0012,
+                                        .heldOutCount = 1234,
+                                        .worstFaces = {{77, 0.456}, {3, 0.4}}};
   const std::string text = textReport({kMesh, kOutput, line, result});
   CHECK(holds(text, "recipe paper"));
   CHECK_MESSAGE(
-      holds(text, "\n  error     1.23 % +- 0.06 of the range on average, from 1,234 held-out faces; 46 % at face 77\n"),
+      holds(text,
+            "\n  error     1.23 % +- 0.06 of the range on average; relative error 2.3 % +- 0.12 in the median, 34 % at "
+            "the 90th percentile; from 1,234 held-out faces; 46 % of the range at face 77\n"),
       text);
   report.roundCount = 3;
-  CHECK(holds(textReport({kMesh, kOutput, line, result}), "; 46 % at face 77; 3 rounds\n"));
+  CHECK(holds(textReport({kMesh, kOutput, line, result}), "; 46 % of the range at face 77; 3 rounds\n"));
 }
 
 TEST_CASE("the reports have the smoothed range and the number of segments, where there are any") {
@@ -115,13 +123,20 @@ TEST_CASE("JSON has the estimate, or null") {
   Result result = sampleResult();
   Report& report = result.report;
   CHECK(nlohmann::json::parse(jsonReport({kMesh, kOutput, line, result})).at("estimatedError").is_null());
-  report.estimatedError = ErrorEstimate{0.01, 0.002, 400, {{77, 0.5}, {3, 0.25}}};
+  report.estimatedError = ErrorEstimate{.average = 0.01,
+                                        .standardError = 0.002,
+                                        .relativeMedian = 0.02,
+                                        .relativePercentile90 = std::numeric_limits<double>::infinity(),
+                                        .heldOutCount = 400,
+                                        .worstFaces = {{77, 0.5}, {3, 0.25}}};
   report.roundCount = 4;
   const nlohmann::json json = nlohmann::json::parse(jsonReport({kMesh, kOutput, line, result}));
   const nlohmann::json& estimate = json.at("estimatedError");
   CHECK_EQ(estimate.at("average").get<double>(), 0.01);
   CHECK_EQ(estimate.at("standardError").get<double>(), 0.002);
   CHECK_EQ(estimate.at("heldOutCount").get<int>(), 400);
+  CHECK_EQ(estimate.at("relativeMedian").get<double>(), 0.02);
+  CHECK(estimate.at("relativePercentile90").is_null());
   CHECK_EQ(estimate.at("worstFaces").at(1).at("face").get<int>(), 3);
   CHECK_EQ(estimate.at("worstFaces").at(1).at("error").get<double>(), 0.25);
   CHECK_EQ(json.at("roundCount").get<int>(), 4);

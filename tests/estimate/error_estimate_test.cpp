@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <string>
 
+#include "core/median.h"
 #include "generate/shapes.h"
 #include "pipeline/average_error.h"
 
@@ -139,6 +141,67 @@ TEST_CASE("an estimate needs two held-out faces and a positive range") {
   CHECK(flat.estimate().estimate.heldOutCount == 0);
 }
 
+namespace {
+
+/// 100 faces of the value 10, with a median relative error at the held-out faces 2 .. 5. Faces 0 and 1 are sampled.
+struct HundredFaces {
+  Mesh mesh;
+  TracedSeeds traced{100};
+  HeldOutFaces heldOut{{2, 3, 4, 5}, {1, 1, 1, 1}};
+  std::vector<double> values = std::vector<double>(100, 10.0), result = values;
+
+  HundredFaces() {
+    mesh.faces.resize(100);
+    for (uint32_t face = 0; face < 6; ++face) addSeed(traced, face, 10);
+    traced.values[1] = result[1] = 20;
+    for (uint32_t face = 2; face < 6; ++face) values[face] = 10 + face;  // 20 to 50 % off.
+  }
+  [[nodiscard]] ErrorEstimate estimate() const {
+    return estimateErrors(mesh, {traced, heldOut, values, {}, result}).estimate;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("quantiles of the relative error are those of held-out faces by their weights, and of seeds") {
+  HundredFaces faces;
+  const double gain = std::pow(1 - 4.0 / 6, 0.12);
+  // Six faces without an error, then 23.5 faces of each held-out face.
+  CHECK(faces.estimate().relativeMedian == doctest::Approx(0.3 * gain));
+  CHECK(faces.estimate().relativePercentile90 == doctest::Approx(0.5 * gain));
+  CHECK(faces.estimate().relativeMedianStandardError > 0);
+  faces.heldOut.weights = {8, 1, 0.6, 0.4};
+  CHECK(faces.estimate().relativeMedian == doctest::Approx(0.2 * gain));
+  CHECK(faces.estimate().relativePercentile90 == doctest::Approx(0.3 * gain));
+  // Half of the faces are seeds.
+  for (uint32_t face = 6; face < 52; ++face) addSeed(faces.traced, face, 10);
+  CHECK(faces.estimate().relativeMedian == 0);
+  CHECK(faces.estimate().relativeMedianStandardError == 0);
+  CHECK(faces.estimate().relativePercentile90 > 0);
+}
+
+TEST_CASE("values of seeds that were moved have a relative error, infinite where the traced value is 0") {
+  HundredFaces faces;
+  for (uint32_t face = 6; face < 70; ++face) addSeed(faces.traced, face, 10);
+  CHECK(faces.estimate().relativeMedian == 0);
+  for (uint32_t face = 6; face < 70; ++face) faces.result[face] = 10.5;
+  CHECK(faces.estimate().relativeMedian == doctest::Approx(0.05));
+  for (uint32_t face = 6; face < 70; ++face) faces.traced.values[face] = 0;
+  CHECK(faces.estimate().relativePercentile90 == std::numeric_limits<double>::infinity());
+}
+
+TEST_CASE("the robust average is over the range without one percent of the values at each end") {
+  HundredFaces faces;
+  for (uint32_t face = 0; face < 100; ++face) faces.result[face] = 10 + 0.01 * face;
+  for (uint32_t face = 0; face < 6; ++face) faces.result[face] = faces.traced.values[face];
+  faces.traced.values[1] = faces.result[1] = 1010;
+  const ErrorEstimate estimate = faces.estimate();
+  // 1000 and 0.98: from the second to the last but one of the values 10, ..., 10.99, 1010.
+  CHECK(estimate.robustAverage / estimate.average == doctest::Approx(1000 / 0.99).epsilon(0.02));
+  CHECK(estimate.average < 0.01);
+  CHECK(estimate.robustAverage > 1);
+}
+
 TEST_CASE("no more than five worst faces, by their number in the file") {
   Mesh mesh;
   mesh.faces.resize(20);
@@ -167,25 +230,40 @@ namespace {
 struct Accuracy {
   double ratio = 0;      ///< Mean of estimate / real error.
   double deviation = 0;  ///< Root mean square of the error of the estimate, in standard errors.
+  double median = 0, percentile90 = 0, robust = 0;  ///< Means of estimate / real error.
+  double medianDeviation = 0;                       ///< As `deviation`, of the median.
 };
 
 Accuracy accuracyOf(const std::string& shape, Options options) {
   const Mesh mesh = generateShape(shape, 3000).mesh;
   const std::vector<double> truth = test::tracedEverywhere(mesh, options.cone);
+  std::vector<double> sorted = truth;
+  const double range = percentileOf(sorted, 1) - percentileOf(sorted, 0),
+               robustRange = percentileOf(sorted, 0.99) - percentileOf(sorted, 0.01);
   constexpr int kRunCount = 8;
-  double ratios = 0, squares = 0;
+  Accuracy accuracy;
   for (int run = 1; run <= kRunCount; ++run) {
     options.randomSeed = static_cast<uint64_t>(run);
     const Result result = referenceSession().compute(mesh, options);
     REQUIRE(result.report.estimatedError);
     const ErrorEstimate& estimate = *result.report.estimatedError;
     const double real = averageError(result.sdf(), truth);
-    ratios += estimate.average / real;
-    squares += std::pow((estimate.average - real) / estimate.standardError, 2);
+    const double median = test::relativeErrorAt(0.5, result.sdf(), truth);
+    accuracy.ratio += estimate.average / real / kRunCount;
+    accuracy.deviation += std::pow((estimate.average - real) / estimate.standardError, 2) / kRunCount;
+    accuracy.median += estimate.relativeMedian / median / kRunCount;
+    accuracy.medianDeviation +=
+        std::pow((estimate.relativeMedian - median) / estimate.relativeMedianStandardError, 2) / kRunCount;
+    accuracy.percentile90 +=
+        estimate.relativePercentile90 / test::relativeErrorAt(0.9, result.sdf(), truth) / kRunCount;
+    accuracy.robust += estimate.robustAverage / (real * range / robustRange) / kRunCount;
     CHECK(estimate.heldOutCount == result.report.seedCount / 4);
   }
-  const Accuracy accuracy{ratios / kRunCount, std::sqrt(squares / kRunCount)};
-  MESSAGE(shape, ": estimate over real error ", accuracy.ratio, ", off by ", accuracy.deviation, " standard errors");
+  accuracy.deviation = std::sqrt(accuracy.deviation);
+  accuracy.medianDeviation = std::sqrt(accuracy.medianDeviation);
+  MESSAGE(shape, ": estimate over real error ", accuracy.ratio, ", off by ", accuracy.deviation,
+          " standard errors; median ", accuracy.median, ", off by ", accuracy.medianDeviation, "; 90th percentile ",
+          accuracy.percentile90, "; robust ", accuracy.robust);
   return accuracy;
 }
 
@@ -204,6 +282,14 @@ TEST_CASE("the estimate is right on average, and its standard error is that of i
       CHECK(accuracy.ratio < 1.25);
       CHECK(accuracy.deviation > 0.2);
       CHECK(accuracy.deviation < 2.5);
+      CHECK(accuracy.median > 0.8);
+      CHECK(accuracy.median < 1.25);
+      CHECK(accuracy.medianDeviation > 0.2);
+      CHECK(accuracy.medianDeviation < 2.5);
+      CHECK(accuracy.percentile90 > 0.8);
+      CHECK(accuracy.percentile90 < 1.25);
+      CHECK(accuracy.robust > 0.8);
+      CHECK(accuracy.robust < 1.25);
     }
 }
 

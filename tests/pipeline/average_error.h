@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "core/median.h"
+#include "core/vec3.h"
 #include "support/shared_session.h"
 
 namespace asdfvk::test {
@@ -14,6 +16,13 @@ inline double averageError(const std::vector<double>& values, const std::vector<
   double sum = 0;
   for (size_t i = 0; i < truth.size(); ++i) sum += std::abs(values[i] - truth[i]);
   return sum / (static_cast<double>(truth.size()) * (*high - *low));
+}
+
+/// The quantile of |values - truth| / truth.
+inline double relativeErrorAt(double share, const std::vector<double>& values, const std::vector<double>& truth) {
+  std::vector<double> errors;
+  for (size_t i = 0; i < truth.size(); ++i) errors.push_back(std::abs(values[i] - truth[i]) / truth[i]);
+  return percentileOf(errors, share);
 }
 
 /// Values with rays of that cone cast from every face.

@@ -167,6 +167,7 @@ TEST_CASE("options of the interpolation and of rounds out of range are errors of
                  ErrorCode::OptionOutOfRange, "");
   for (const double bad : {-1.0, 0.0, std::nan("")}) {
     requireFailure([&](Options& o) { o.rounds.maxError = bad; }, ErrorCode::OptionOutOfRange, "error");
+    requireFailure([&](Options& o) { o.rounds.maxRelativeError = bad; }, ErrorCode::OptionOutOfRange, "error");
     requireFailure([&](Options& o) { o.rounds.timeBudgetSeconds = bad; }, ErrorCode::OptionOutOfRange, "time budget");
   }
 }

@@ -77,6 +77,31 @@ TEST_CASE("rounds end when the estimated error is below the maximum, and so is t
   }
 }
 
+TEST_CASE("rounds end when the estimated median of the relative error is below its maximum, and so is the real one") {
+  for (const std::string name : {"animal", "hand"}) {
+    CAPTURE(name);
+    const Mesh mesh = generateShape(name, 4000).mesh;
+    const std::vector<double> truth = test::tracedEverywhere(mesh);
+    Options options = roundsUntil(0.5);
+    options.rounds.maxRelativeError = 0.012;
+    const Result result = computeRounds(mesh, options);
+    REQUIRE(result.report.estimatedError);
+    const double real = test::relativeErrorAt(0.5, result.sdf(), truth);
+    MESSAGE(name, ": real median ", real, " with ", result.report.seedCount, " seeds in ", result.report.roundCount);
+    CHECK(result.report.estimatedError->relativeMedian <= 0.012);
+    CHECK(real <= 1.2 * 0.012);
+    CHECK(real > 0);
+    CHECK(result.report.roundCount > 1);
+    CHECK(result.report.seedCount < mesh.faces.size() / 2);
+    // Both maxima hold where both are given.
+    options.rounds.maxError = 0.008;
+    const Result both = computeRounds(mesh, options);
+    REQUIRE(both.report.estimatedError);
+    CHECK(both.report.estimatedError->average <= 0.008);
+    CHECK(both.report.estimatedError->relativeMedian <= 0.012);
+  }
+}
+
 TEST_CASE("a first round that is good enough is the only one") {
   const Mesh mesh = makeAnimal(2500).mesh;
   const Result result = computeRounds(mesh, roundsUntil(0.5));

@@ -392,3 +392,27 @@ TEST_CASE("Embree gives the values of the reference, and the check treats it as 
   options.seeds = {};
   requireFailure([&] { (void)session.compute(mesh, options); }, ErrorCode::NoDeviceForKernel, "the solver cg");
 }
+
+TEST_CASE("a few faces with most of the range are a warning where errors over the range are reported") {
+  Mesh mesh = makeAnimal(3000).mesh;
+  Options options;
+  CHECK(findWarning(referenceSession().compute(mesh, options).report, WarningCode::RangeDominated) == nullptr);
+  const Mesh large = shapes::scaledAndShifted(makeSphere(20).mesh, 50, {200, 0, 0});
+  const auto offset = static_cast<uint32_t>(mesh.vertices.size());
+  mesh.vertices.insert(mesh.vertices.end(), large.vertices.begin(), large.vertices.end());
+  for (const auto& [a, b, c] : large.faces) mesh.faces.push_back({a + offset, b + offset, c + offset});
+  const Result result = referenceSession().compute(mesh, options);
+  const Warning* warning = findWarning(result.report, WarningCode::RangeDominated);
+  REQUIRE(warning != nullptr);
+  REQUIRE(warning->details.size() == 1);
+  CHECK(warning->details[0].name == "robustShare");
+  const ValueRange& range = result.report.sdf;
+  CHECK(std::stod(warning->details[0].value) ==
+        doctest::Approx(range.robustRange() / (range.max - range.min)).epsilon(1e-3));
+  REQUIRE(result.report.estimatedError);
+  CHECK(result.report.estimatedError->robustAverage > 10 * result.report.estimatedError->average);
+  options.estimatesError = false;
+  CHECK(findWarning(referenceSession().compute(mesh, options).report, WarningCode::RangeDominated) == nullptr);
+  options.checkCount = 10;
+  CHECK(findWarning(referenceSession().compute(mesh, options).report, WarningCode::RangeDominated) != nullptr);
+}
