@@ -22,6 +22,12 @@ void forEachInParallel(size_t count, const Body& body) {
                     });
 }
 
+/// The same for few and long bodies: each may run on a thread of its own.
+template <typename Body>
+void forEachTask(size_t count, const Body& body) {
+  tbb::parallel_for(size_t{0}, count, [&](size_t i) { body(i); });
+}
+
 /// Number of i in [0, count) for which hold(i) is true, in parallel.
 template <typename Holds>
 [[nodiscard]] uint64_t countInParallel(size_t count, const Holds& holds) {

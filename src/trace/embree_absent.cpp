@@ -1,6 +1,7 @@
 // Built in place of the other embree_* files where there is no Embree.
 #include "asdf_vk/error.h"
 #include "trace/cone_tracer.h"
+#include "trace/sight_tracer.h"
 
 namespace asdfvk {
 namespace {
@@ -14,5 +15,10 @@ bool hasEmbree() { return false; }
 std::string embreeName() { fail(); }
 
 std::unique_ptr<ConeTracer> makeEmbreeTracer(const TraceScene&, const Cone&) { fail(); }
+
+std::unique_ptr<SightTracer> makeEmbreeSightTracer(const TraceScene&) {
+  requireEmbree();
+  return {};
+}
 
 }  // namespace asdfvk

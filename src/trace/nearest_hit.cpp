@@ -96,7 +96,53 @@ class Walk {
   RayHit best_;
 };
 
+/// Visits in any order, up to the first hit between two distances.
+class AnyHitWalk {
+ public:
+  AnyHitWalk(const Bvh& bvh, const TriangleMesh& mesh, const Vec3d& origin, const Vec3d& direction)
+      : bvh_(bvh), mesh_(mesh), ray_(origin, direction), slabs_(origin, direction) {}
+
+  [[nodiscard]] bool run(double begin, double end) const {
+    if (bvh_.nodes.empty()) return false;
+    std::array<uint32_t, kMaxBvhDepth + 1> stack;
+    size_t stackSize = 0;
+    stack[stackSize++] = 0;
+    while (stackSize > 0) {
+      const BvhNode& node = bvh_.nodes[stack[--stackSize]];
+      if (slabs_.entry(node, end) == kNoHit) continue;
+      if (node.isLeaf()) {
+        if (isHit(node, begin, end)) return true;
+        continue;
+      }
+      stack[stackSize++] = node.first + 1;
+      stack[stackSize++] = node.first;
+    }
+    return false;
+  }
+
+ private:
+  [[nodiscard]] bool isHit(const BvhNode& leaf, double begin, double end) const {
+    for (uint32_t primitive = leaf.first; primitive < leaf.first + leaf.triangleCount; ++primitive) {
+      const Face& face = mesh_.faces[bvh_.primitiveFaces[primitive]];
+      const double distance = rayTriangleDistance(ray_, corner(face[0]), corner(face[1]), corner(face[2]));
+      if (begin <= distance && distance <= end) return true;
+    }
+    return false;
+  }
+  [[nodiscard]] Vec3d corner(uint32_t vertex) const { return bvh_.normalization.toNormalized(mesh_.vertices[vertex]); }
+
+  const Bvh& bvh_;
+  const TriangleMesh& mesh_;
+  RayFrame ray_;
+  SlabTest slabs_;
+};
+
 }  // namespace
+
+bool isHitBetween(const Bvh& bvh, const TriangleMesh& mesh, const Vec3d& origin, const Vec3d& direction, double begin,
+                  double end) {
+  return AnyHitWalk(bvh, mesh, origin, direction).run(begin, end);
+}
 
 RayHit nearestHit(const Bvh& bvh, const TriangleMesh& mesh, const Vec3d& origin, const Vec3d& direction,
                   uint32_t skippedFace) {

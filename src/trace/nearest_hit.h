@@ -52,4 +52,9 @@ struct RayHit {
 [[nodiscard]] RayHit nearestHit(const Bvh& bvh, const TriangleMesh& mesh, const Vec3d& origin, const Vec3d& direction,
                                 uint32_t skippedFace);
 
+/// Whether the ray hits a triangle at a distance from `begin` to `end`. Origin and direction as in nearestHit(), but
+/// the origin may be anywhere in normalised coordinates of a length of at most 4.
+[[nodiscard]] bool isHitBetween(const Bvh& bvh, const TriangleMesh& mesh, const Vec3d& origin, const Vec3d& direction,
+                                double begin, double end);
+
 }  // namespace asdfvk
