@@ -91,7 +91,8 @@ enum class Postprocess {
 /// Division of the mesh by its values, for the field "segment".
 enum class Segmentation {
   None,
-  Cgal,  ///< As CGAL's segmentation_from_sdf_values(); implies Postprocess::Cgal.
+  Cgal,   ///< As CGAL's segmentation_from_sdf_values(); implies Postprocess::Cgal.
+  Parts,  ///< The parts that people see: from values, creases and lines of sight, without a number of parts.
 };
 
 enum class CgalExpansion {
@@ -106,6 +107,16 @@ struct CgalSegmentationOptions {
 };
 inline constexpr uint32_t kMaxClusterCount = 100;
 inline constexpr double kMaxSmoothness = 1000;
+
+struct PartsOptions {
+  /// 1 to kMaxPartCount: that many parts, if components and faces allow. Unset: the number is found.
+  std::optional<uint32_t> partCount;
+  /// The cost at which the merging of regions stops is divided by this, so that more detail means more parts.
+  /// kMinDetail to kMaxDetail; must be 1 with partCount.
+  double detail = 1;
+};
+inline constexpr uint32_t kMaxPartCount = 100;
+inline constexpr double kMinDetail = 0.1, kMaxDetail = 10;
 
 /// Conditions under which further rounds of seeds are added. A round keeps the traced values of all earlier rounds.
 struct RoundOptions {
@@ -141,6 +152,7 @@ struct Options {
   Postprocess postprocess = Postprocess::None;
   Segmentation segmentation = Segmentation::None;
   CgalSegmentationOptions cgalSegmentation;  ///< Ignored unless `segmentation` is Cgal.
+  PartsOptions parts;                        ///< Ignored unless `segmentation` is Parts.
   bool estimatesError = true;
   RoundOptions rounds;
   std::string solver = "auto";

@@ -66,6 +66,8 @@ enum class WarningCode {
   SolvedOnCpu,         ///< The device failed to solve the equation; the CPU solved it.
   NotConverged,        ///< The solver stopped at its iteration limit.
   RangeDominated,      ///< The range is no scale for errors: few faces have most of it. Details: {"robustShare", X}.
+  ThinShell,           ///< The shape is a thin wall around a cavity or an open sheet: its parts are uncertain.
+  PartCountDiffers,    ///< The number of parts is not the requested one, because of components or faces.
 };
 /// "missingValues"
 [[nodiscard]] ASDFVK_API const char* nameOf(WarningCode code);
@@ -147,9 +149,22 @@ struct PostprocessReport {
   double min = 0, max = 0;
 };
 
+/// Of Segmentation::Parts.
+struct PartsReport {
+  /// Numbers of parts at a detail divided and multiplied by 1.25: the result is stable where both are the number of
+  /// segments.
+  uint32_t fewestCount = 0, mostCount = 0;
+  /// Mean Rand index of the result with those from other numbers of patches, weighted by area: 1 where all are equal.
+  /// Below about 0.9 the parts depend on chance.
+  double agreement = 1;
+  bool isThinShell = false;        ///< See WarningCode::ThinShell.
+  std::vector<double> areaShares;  ///< Per segment, of the area of all faces; sum 1.
+};
+
 /// The labels of the field "segment" are 0 .. segmentCount - 1; each has a face.
 struct SegmentationReport {
   uint32_t segmentCount = 0;
+  std::optional<PartsReport> parts;  ///< Set with Segmentation::Parts.
 };
 
 /// Names of the variant of the Vulkan kernels.

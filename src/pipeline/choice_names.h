@@ -31,8 +31,8 @@ inline constexpr ChoiceNames<Orientation, 3> kOrientations{
 
 inline constexpr ChoiceNames<Postprocess, 2> kPostprocesses{{{"none", Postprocess::None}, {"cgal", Postprocess::Cgal}}};
 
-inline constexpr ChoiceNames<Segmentation, 2> kSegmentations{
-    {{"none", Segmentation::None}, {"cgal", Segmentation::Cgal}}};
+inline constexpr ChoiceNames<Segmentation, 3> kSegmentations{
+    {{"none", Segmentation::None}, {"parts", Segmentation::Parts}, {"cgal", Segmentation::Cgal}}};
 
 inline constexpr ChoiceNames<CgalExpansion, 2> kCgalExpansions{
     {{"all", CgalExpansion::All}, {"first", CgalExpansion::First}}};

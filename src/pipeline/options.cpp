@@ -80,6 +80,14 @@ void requireValid(const Options& options, bool hasDevice) {
     if (!(cgal.smoothness >= 0 && cgal.smoothness <= kMaxSmoothness))
       fail(fmt::format("a smoothness of {} is out of range (0 to {})", cgal.smoothness, kMaxSmoothness));
   }
+  if (const PartsOptions& parts = options.parts; options.segmentation == Segmentation::Parts) {
+    if (parts.partCount && (*parts.partCount < 1 || *parts.partCount > kMaxPartCount))
+      fail(fmt::format("{} parts are out of range (1 to {})", *parts.partCount, kMaxPartCount));
+    if (!(parts.detail >= kMinDetail && parts.detail <= kMaxDetail))
+      fail(fmt::format("a detail of {} is out of range ({} to {})", parts.detail, kMinDetail, kMaxDetail));
+    if (parts.partCount && parts.detail != 1)
+      throw Error(ErrorCode::OptionConflict, "a number of parts and a detail contradict each other");
+  }
   for (const std::optional<double>& maxError : {options.rounds.maxError, options.rounds.maxRelativeError})
     if (maxError && !(*maxError > 0 && *maxError < 1))
       fail(fmt::format("a maximum error of {} is out of range (above 0, below 1)", *maxError));

@@ -225,6 +225,10 @@ const char* nameOf(WarningCode code) {
       return "notConverged";
     case WarningCode::RangeDominated:
       return "rangeDominated";
+    case WarningCode::ThinShell:
+      return "thinShell";
+    case WarningCode::PartCountDiffers:
+      return "partCountDiffers";
   }
   return "unknown";
 }

@@ -7,6 +7,8 @@
 #include "asdf_vk/options.h"
 #include "asdf_vk/run_control.h"
 #include "pipeline/prepared_mesh.h"
+#include "segment/parts.h"
+#include "trace/cone_tracer.h"
 
 namespace asdfvk {
 
@@ -17,10 +19,18 @@ struct SegmentedValues {
 };
 
 /// Post-processes and segments by the values of the triangles (#F, NaN for no value), and adds the results to the
-/// report. A power of two as the unit of the mesh changes no bit. The same bits on any number of threads. Throws
-/// Error{NoValues}, and Error{TooFewValues} where there are fewer different values than clusters.
+/// report. sight: for Segmentation::Parts only. A power of two as the unit of the mesh changes no bit. The same bits on
+/// any number of threads. Throws Error{NoValues}, and Error{TooFewValues} where there are fewer different values than
+/// clusters.
 [[nodiscard]] SegmentedValues segmentValues(const PreparedMesh& prepared, std::span<const double> values,
-                                            const Options& options, StageClock& clock, Report& report,
-                                            const RunControl& control);
+                                            const Options& options, const LineOfSight& sight, StageClock& clock,
+                                            Report& report, const RunControl& control);
+
+/// Lines of sight in the scene, which must outlive the result: by Embree where this build has it and `usesReference` is
+/// false, else by the reference. A tracer is made at the first call.
+[[nodiscard]] LineOfSight makeLineOfSight(const TraceScene& scene, bool usesReference, const RunControl& control);
+
+/// Whether that needs the nodes of the hierarchy.
+[[nodiscard]] bool sightNeedsNodes(const Options& options, bool usesReference);
 
 }  // namespace asdfvk

@@ -138,7 +138,7 @@ Result Session::compute(const MeshView& mesh, const Options& options, const RunC
 
   const Computation computation{options, prepared, scene, cone, backend, state_->solvers, clock, report.warnings};
   const double roundsEnd = options.checkCount ? kRoundsEndBeforeCheck : 1;
-  const bool keepsNodes = options.checkCount || options.keepsScene;
+  const bool keepsNodes = options.checkCount || options.keepsScene || sightNeedsNodes(options, backend.isReference());
   RoundsResult rounds =
       runRounds(computation, std::make_unique<SeedTracing>(computation, bvh, keepsNodes), control.part(0, roundsEnd));
   describeRounds(report, rounds);
@@ -149,7 +149,9 @@ Result Session::compute(const MeshView& mesh, const Options& options, const RunC
     values = smoothBilaterally(prepared.graph, values,
                                smoothing.window.value_or(smoothingWindowFor(prepared.graph.faceCount())));
   }
-  SegmentedValues segmented = segmentValues(prepared, values, options, clock, report, {control.stop, {}});
+  const RunControl silent{control.stop, {}};
+  SegmentedValues segmented = segmentValues(
+      prepared, values, options, makeLineOfSight(scene, backend.isReference(), silent), clock, report, silent);
   if (options.checkCount)
     report.check =
         checkAgainstReference(scene, cone, prepared.traceableFaces, {rounds.traced, values, backend.isReference()},

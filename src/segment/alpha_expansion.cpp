@@ -22,7 +22,7 @@ double labelEnergy(const LabelProblem& problem, std::span<const uint32_t> labels
 }
 
 double AlphaExpansion::minimize(const LabelProblem& problem, std::span<uint32_t> labels, const Limits& limits) {
-  ASDFVK_CHECK_OP(labels.size() * problem.labelCount, ==, problem.dataCosts.size());
+  ASDFVK_CHECK_OP(labels.size(), ==, problem.faceCount());
   double energy = labelEnergy(problem, labels);
   ASDFVK_CHECK(std::isfinite(energy));
   const uint32_t labelCount = std::min(limits.expandedLabelCount, problem.labelCount);

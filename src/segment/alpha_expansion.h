@@ -21,9 +21,23 @@ struct LabelProblem {
   std::span<const double> dataCosts;  ///< #F x labelCount, by face; infinite where a label is forbidden, never NaN.
   std::span<const LabelEdge> edges;   ///< Several edges between two faces add up.
 
-  [[nodiscard]] uint32_t faceCount() const { return static_cast<uint32_t>(dataCosts.size() / labelCount); }
+  /// Instead of dataCosts, for few allowed labels per face: those of face f are choices[firstChoices[f]] ..
+  /// choices[firstChoices[f + 1] - 1], others are forbidden.
+  struct Choice {
+    uint32_t label;
+    double cost;
+  };
+  std::span<const uint32_t> firstChoices;  ///< #F+1, or empty.
+  std::span<const Choice> choices;
+
+  [[nodiscard]] uint32_t faceCount() const {
+    return static_cast<uint32_t>(firstChoices.empty() ? dataCosts.size() / labelCount : firstChoices.size() - 1);
+  }
   [[nodiscard]] double dataCost(uint32_t face, uint32_t label) const {
-    return dataCosts[size_t{face} * labelCount + label];
+    if (firstChoices.empty()) return dataCosts[size_t{face} * labelCount + label];
+    for (uint32_t i = firstChoices[face]; i < firstChoices[face + 1]; ++i)
+      if (choices[i].label == label) return choices[i].cost;
+    return std::numeric_limits<double>::infinity();
   }
 };
 

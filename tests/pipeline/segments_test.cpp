@@ -71,7 +71,7 @@ struct Segmented {
 Segmented segment(const Mesh& mesh, const std::vector<double>& values, const Options& options) {
   Segmented result;
   StageClock clock(result.report.stageSeconds);
-  result.values = segmentValues(prepareMesh(mesh, Orientation::Keep), values, options, clock, result.report, {});
+  result.values = segmentValues(prepareMesh(mesh, Orientation::Keep), values, options, {}, clock, result.report, {});
   return result;
 }
 

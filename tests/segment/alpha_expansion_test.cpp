@@ -132,6 +132,26 @@ TEST_CASE("only the labels below the limit are expanded, and rounds are limited"
   CHECK(labels == Labels{1, 2});
 }
 
+TEST_CASE("a list of the allowed labels gives the same as a table of all") {
+  for (uint64_t seed = 0; seed < 20; ++seed) {
+    const OwnedProblem problem = randomProblem(40, 6, 120, 0.7, seed);
+    std::vector<uint32_t> firstChoices{0};
+    std::vector<LabelProblem::Choice> choices;
+    for (uint32_t face = 0; face < 40; ++face) {
+      for (uint32_t label = 6; label-- > 0;)
+        if (const double cost = problem.view().dataCost(face, label); std::isfinite(cost))
+          choices.push_back({label, cost});
+      firstChoices.push_back(static_cast<uint32_t>(choices.size()));
+    }
+    const LabelProblem list{6, {}, problem.edges, firstChoices, choices};
+    CHECK(list.faceCount() == problem.view().faceCount());
+    Labels expected(40, 0), labels(40, 0);
+    const double energy = AlphaExpansion().minimize(problem.view(), expected);
+    CHECK(AlphaExpansion().minimize(list, labels) == energy);
+    CHECK(labels == expected);
+  }
+}
+
 TEST_CASE("no faces and no edges") {
   AlphaExpansion expansion;
   CHECK(expansion.minimize({3, {}, {}}, {}) == 0);

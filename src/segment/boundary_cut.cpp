@@ -1,0 +1,203 @@
+#include "segment/boundary_cut.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <tuple>
+#include <utility>
+
+#include "segment/alpha_expansion.h"
+#include "segment/surface_front.h"
+
+namespace asdfvk {
+namespace {
+
+constexpr double kDataWeight = 0.5;
+constexpr double kConcaveRadians = 10 * std::numbers::pi / 180;  ///< At which the cost of an edge is halved.
+constexpr double kConvexRadians = 60 * std::numbers::pi / 180;   ///< At which it is doubled.
+constexpr uint32_t kMaxRoundCount = 3;
+
+/// Cost of a boundary along an edge.
+double edgeCost(double length, double angle) {
+  const double concave = std::max(0.0, angle) / kConcaveRadians, convex = std::max(0.0, -angle) / kConvexRadians;
+  return length / kCutReach / (1 + concave * concave) * (1 + std::min(1.0, convex));
+}
+
+/// A label that a face may take.
+struct Choice {
+  uint32_t face, label;
+  float distance;  ///< From the label.
+};
+
+/// Ascending by label. Faces of their own label are left out.
+std::vector<Choice> choicesOf(const PartSurface& surface, std::span<const uint32_t> labels, uint32_t labelCount) {
+  std::vector<std::vector<std::pair<uint32_t, float>>> sources(labelCount);  // Faces next to a label, by label.
+  for (uint32_t face = 0; face < surface.faceCount(); ++face)
+    for (uint32_t arc = surface.offsets[face]; arc < surface.offsets[face + 1]; ++arc)
+      if (const auto& [other, length] = surface.arcs[arc]; labels[other] != labels[face])
+        sources[labels[face]].emplace_back(other, length);
+  const auto reach = static_cast<float>(kCutReach);
+  SurfaceFront front(surface.offsets, surface.arcs);
+  std::vector<Choice> choices;
+  for (uint32_t label = 0; label < labelCount; ++label) {
+    for (const auto& [face, distance] : sources[label])
+      if (distance <= reach) front.add(face, distance, label);
+    front.advance(reach, [&](uint32_t face) { return labels[face] != label; });
+    for (const uint32_t face : front.reached()) choices.push_back({face, label, front.distances()[face]});
+    front.clear();
+  }
+  return choices;
+}
+
+/// The face of each label farthest from other labels; where several are beyond the reach, the one with the largest
+/// area.
+struct Anchors {
+  std::vector<uint32_t> faces;   ///< Per label.
+  std::vector<float> distances;  ///< #F, to the nearest other label; kUnreached beyond the reach.
+};
+
+Anchors anchorsOf(const PartSurface& surface, std::span<const uint32_t> labels, uint32_t labelCount,
+                  std::span<const Choice> choices) {
+  Anchors anchors{std::vector<uint32_t>(labelCount, kNoLabel),
+                  std::vector<float>(labels.size(), SurfaceFront::kUnreached)};
+  std::vector<float>& nearest = anchors.distances;
+  for (const Choice& choice : choices) nearest[choice.face] = std::min(nearest[choice.face], choice.distance);
+  for (uint32_t face = 0; face < labels.size(); ++face) {
+    if (labels[face] == kNoLabel) continue;
+    uint32_t& anchor = anchors.faces[labels[face]];
+    if (anchor == kNoLabel ||
+        std::pair(nearest[face], surface.areas[face]) > std::pair(nearest[anchor], surface.areas[anchor]))
+      anchor = face;
+  }
+  return anchors;
+}
+
+/// Removes the choices of faces that keep their label: the anchors and, of labels within the reach of others, the inner
+/// half. Otherwise the cut would shrink small parts to a point, whose boundary is short.
+void keepCores(std::vector<Choice>& choices, std::span<const uint32_t> labels, const Anchors& anchors) {
+  std::erase_if(choices, [&](const Choice& choice) {
+    const uint32_t anchor = anchors.faces[labels[choice.face]];
+    const float depth = anchors.distances[anchor];
+    const bool isInnerHalf = depth < SurfaceFront::kUnreached && anchors.distances[choice.face] > depth / 2;
+    return choice.face == anchor || isInnerHalf;
+  });
+}
+
+/// The graph cut over the faces that may change and their neighbours, which are fixed.
+void expandLabels(const PartSurface& surface, std::vector<uint32_t>& labels, uint32_t labelCount,
+                  std::span<const Choice> choices) {
+  std::vector<uint32_t> itemOf(labels.size(), kNoLabel), faces;
+  const auto addItem = [&](uint32_t face) {
+    if (itemOf[face] != kNoLabel) return;
+    itemOf[face] = static_cast<uint32_t>(faces.size());
+    faces.push_back(face);
+  };
+  for (const Choice& choice : choices) addItem(choice.face);
+  const auto changeableCount = static_cast<uint32_t>(faces.size());
+  for (uint32_t item = 0; item < changeableCount; ++item)
+    for (uint32_t arc = surface.offsets[faces[item]]; arc < surface.offsets[faces[item] + 1]; ++arc)
+      addItem(surface.arcs[arc].face);
+  // Each face first has its own label, without a cost.
+  std::vector<uint32_t> labelOf(faces.size()), firstChoices(faces.size() + 1, 0);
+  for (const Choice& choice : choices) ++firstChoices[itemOf[choice.face] + 1];
+  for (uint32_t item = 0; item < faces.size(); ++item) firstChoices[item + 1] += firstChoices[item] + 1;
+  std::vector<LabelProblem::Choice> costs(firstChoices.back());
+  std::vector<uint32_t> next(firstChoices.begin(), firstChoices.end() - 1);
+  for (uint32_t item = 0; item < faces.size(); ++item) {
+    labelOf[item] = labels[faces[item]];
+    costs[next[item]++] = {labelOf[item], 0};
+  }
+  for (const auto& [face, label, distance] : choices)
+    costs[next[itemOf[face]]++] = {
+        label, kDataWeight * double{surface.areas[face]} / (kCutReach * kCutReach) * double{distance} / kCutReach};
+  std::vector<LabelEdge> edges;
+  for (uint32_t item = 0; item < changeableCount; ++item)
+    for (uint32_t arc = surface.offsets[faces[item]]; arc < surface.offsets[faces[item] + 1]; ++arc) {
+      const uint32_t other = itemOf[surface.arcs[arc].face];
+      if (other > item)
+        edges.push_back({item, other, edgeCost(double{surface.edgeLengths[arc]}, double{surface.angles[arc]})});
+    }
+  AlphaExpansion().minimize({labelCount, {}, edges, firstChoices, costs}, labelOf, {.maxRoundCount = kMaxRoundCount});
+  for (uint32_t item = 0; item < changeableCount; ++item) labels[faces[item]] = labelOf[item];
+}
+
+/// Connected faces of one label.
+struct Pieces {
+  std::vector<uint32_t> pieceOf;  ///< #F, kNoLabel where there is no label.
+  std::vector<uint32_t> labels;   ///< Per piece.
+};
+
+Pieces findPieces(const PartSurface& surface, std::span<const uint32_t> labels) {
+  Pieces pieces{std::vector<uint32_t>(labels.size(), kNoLabel), {}};
+  std::vector<uint32_t> stack;
+  for (uint32_t first = 0; first < labels.size(); ++first) {
+    if (labels[first] == kNoLabel || pieces.pieceOf[first] != kNoLabel) continue;
+    const auto piece = static_cast<uint32_t>(pieces.labels.size());
+    pieces.labels.push_back(labels[first]);
+    pieces.pieceOf[first] = piece;
+    stack.push_back(first);
+    while (!stack.empty()) {
+      const uint32_t face = stack.back();
+      stack.pop_back();
+      for (uint32_t arc = surface.offsets[face]; arc < surface.offsets[face + 1]; ++arc) {
+        const uint32_t other = surface.arcs[arc].face;
+        if (pieces.pieceOf[other] != kNoLabel || labels[other] != labels[face]) continue;
+        pieces.pieceOf[other] = piece;
+        stack.push_back(other);
+      }
+    }
+  }
+  return pieces;
+}
+
+/// Gives each piece without the anchor of its label the neighbouring label with the longest common boundary.
+void joinLoosePieces(const PartSurface& surface, std::vector<uint32_t>& labels, std::span<const uint32_t> anchors) {
+  for (;;) {
+    const Pieces pieces = findPieces(surface, labels);
+    std::vector<uint8_t> isLoose(pieces.labels.size(), 1);
+    for (const uint32_t anchor : anchors)
+      if (anchor != kNoLabel) isLoose[pieces.pieceOf[anchor]] = 0;
+    std::vector<std::tuple<uint32_t, uint32_t, double>> boundaries;  // Loose piece, label beyond, length.
+    for (uint32_t face = 0; face < labels.size(); ++face) {
+      const uint32_t piece = pieces.pieceOf[face];
+      if (piece == kNoLabel || !isLoose[piece]) continue;
+      for (uint32_t arc = surface.offsets[face]; arc < surface.offsets[face + 1]; ++arc) {
+        const uint32_t other = surface.arcs[arc].face;
+        if (labels[other] != labels[face] && !isLoose[pieces.pieceOf[other]])
+          boundaries.emplace_back(piece, labels[other], double{surface.edgeLengths[arc]});
+      }
+    }
+    if (boundaries.empty()) return;
+    std::stable_sort(boundaries.begin(), boundaries.end(), [](const auto& x, const auto& y) {
+      return std::pair(std::get<0>(x), std::get<1>(x)) < std::pair(std::get<0>(y), std::get<1>(y));
+    });
+    std::vector<uint32_t> newLabels = pieces.labels;
+    std::vector<double> longest(pieces.labels.size(), -1);
+    for (size_t begin = 0, end = 0; begin < boundaries.size(); begin = end) {
+      const auto [piece, label, first] = boundaries[begin];
+      double length = 0;
+      for (; end < boundaries.size() && std::get<0>(boundaries[end]) == piece && std::get<1>(boundaries[end]) == label;
+           ++end)
+        length += std::get<2>(boundaries[end]);
+      if (length <= longest[piece]) continue;
+      longest[piece] = length;
+      newLabels[piece] = label;
+    }
+    for (uint32_t face = 0; face < labels.size(); ++face)
+      if (pieces.pieceOf[face] != kNoLabel) labels[face] = newLabels[pieces.pieceOf[face]];
+  }
+}
+
+}  // namespace
+
+std::vector<uint32_t> cutBoundaries(const PartSurface& surface, std::vector<uint32_t> labels, uint32_t labelCount) {
+  std::vector<Choice> choices = choicesOf(surface, labels, labelCount);
+  const Anchors anchors = anchorsOf(surface, labels, labelCount, choices);
+  keepCores(choices, labels, anchors);
+  expandLabels(surface, labels, labelCount, choices);
+  joinLoosePieces(surface, labels, anchors.faces);
+  return labels;
+}
+
+}  // namespace asdfvk

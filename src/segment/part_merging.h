@@ -1,0 +1,107 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "segment/patches.h"
+
+namespace asdfvk {
+
+/// Weights of the cost of merging two regions (docs/segmentation.md has the formula).
+struct MergeWeights {
+  double localSight, sight;      ///< Of the share of blocked lines of sight, near and in all.
+  double step, borderStep;       ///< Of differences of the log value, between the means and across the border.
+  double concave, bend, convex;  ///< Of the angles at the border: of edges, of patches where concave, where convex.
+  double neck;                   ///< Of smaller values at the border than in both regions.
+  double stepLimit, angleLimit;  ///< Upper limits of the differences, and of the angles in radians.
+  double areaExponent, borderExponent;
+  double threshold;  ///< Merging stops before the first cost above it.
+};
+
+/// With lines of sight.
+inline constexpr MergeWeights kSightWeights{0.3, 0.15, 0.5, 0.15, 3, 0.9, 0.18, 0.4, 2, 0.55, 0.375, -1.85, 0.0335};
+/// Without.
+inline constexpr MergeWeights kShapeWeights{0, 0, 0.5, 0.2, 4.25, 0.67, 0.15, 0.18, 2.3, 1, 0.38, -1.2, 0.0363};
+
+/// How far pairs of patches see each other: a symmetric matrix of numbers from 0 to 1, at first 1.
+class SightMatrix {
+ public:
+  explicit SightMatrix(uint32_t count) : count_(count), entries_(size_t{count} * count, 1.0f) {}
+
+  [[nodiscard]] uint32_t size() const { return count_; }
+  [[nodiscard]] float at(uint32_t i, uint32_t j) const { return entries_[size_t{i} * count_ + j]; }
+  void set(uint32_t i, uint32_t j, float sight) {
+    entries_[size_t{i} * count_ + j] = entries_[size_t{j} * count_ + i] = sight;
+  }
+
+ private:
+  uint32_t count_;
+  std::vector<float> entries_;
+};
+
+/// Regions of patches, merged pair by pair, the cheapest first: a hierarchy, of which each state is a level. A copy
+/// continues on its own. Deterministic.
+class PartMerging {
+ public:
+  /// sight: between the patches of `data`.
+  PartMerging(const PatchData& data, const SightMatrix& sight, const MergeWeights& weights);
+
+  [[nodiscard]] uint32_t regionCount() const { return regionCount_; }
+  /// The cost of the next merge; unset where no two regions are adjacent.
+  [[nodiscard]] std::optional<double> nextCost() const;
+  /// Precondition: there is a next merge.
+  void mergeNext();
+
+  /// Merges until the next cost is above the threshold.
+  void mergeUpTo(double threshold);
+  /// Merges until there are at most `count` regions, or none are adjacent.
+  void mergeToCount(uint32_t count);
+  /// Merges the smallest region with the neighbour of the least cost, while one with a neighbour has less area.
+  void mergeSmallerThan(double area);
+
+  /// The costs of the merges so far, in their order.
+  [[nodiscard]] std::span<const double> costs() const { return costs_; }
+  /// The region of each patch, numbered from 0 by the first patch.
+  [[nodiscard]] std::vector<uint32_t> regionOfPatches() const;
+
+ private:
+  struct Region {
+    double area, logSum;  ///< logSum: area times log value.
+    bool isAlive = true;
+    std::vector<uint32_t> borders;
+  };
+  /// Sums over the borders between the patches of two regions.
+  struct Border {
+    uint32_t a, b;
+    double length, crease, bend, step, mean;  ///< crease: concave minus convex. Others: length times quantity.
+    double cost = 0;
+    bool isAlive = true;
+
+    [[nodiscard]] uint32_t other(uint32_t region) const { return region == a ? b : a; }
+  };
+  /// Sums over pairs of patches of two regions: products of areas, seen ones only, and both with the kernel of
+  /// nearness.
+  struct PairSums {
+    float seen = 0, nearSeen = 0, near = 0;
+  };
+
+  [[nodiscard]] double costOf(const Border& border) const;
+  [[nodiscard]] uint32_t cheapestBorder(std::span<const uint32_t> among) const;
+  void merge(uint32_t border);
+  [[nodiscard]] PairSums& pairSums(uint32_t i, uint32_t j) { return pairs_[size_t{i} * regions_.size() + j]; }
+  [[nodiscard]] const PairSums& pairSums(uint32_t i, uint32_t j) const {
+    return pairs_[size_t{i} * regions_.size() + j];
+  }
+
+  MergeWeights weights_;
+  std::vector<Region> regions_;  ///< One per patch; merged ones are not alive.
+  std::vector<Border> borders_;
+  std::vector<PairSums> pairs_;
+  std::vector<uint32_t> regionOf_;  ///< Per patch.
+  std::vector<double> costs_;
+  uint32_t regionCount_;
+};
+
+}  // namespace asdfvk

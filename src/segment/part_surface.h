@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "mesh/dual_graph.h"
+#include "mesh/face_geometry.h"
+#include "mesh/mesh.h"
+
+namespace asdfvk {
+
+/// What the segmentation into parts reads of a mesh and its values. Lengths are in units of the square root of the
+/// area of the mesh, areas in units of that area: nothing depends on the unit of the mesh, and a power of two as the
+/// unit changes no bit.
+struct PartSurface {
+  struct Arc {
+    uint32_t face;  ///< Neighbour.
+    float length;
+  };
+  std::span<const uint32_t> offsets;  ///< #F+1, of the dual graph; views the caller's graph.
+  /// #arcs, as DualGraph::neighbours, with the length of the path between the barycentres across the edge.
+  std::vector<Arc> arcs;
+  /// #arcs: length of that path plus kCreaseLength (3 max(0, angle) + |difference of the log values|).
+  std::vector<Arc> creasedArcs;
+  std::vector<float> edgeLengths;  ///< #arcs
+  std::vector<float> angles;       ///< #arcs: dihedral angle in radians, positive on a concave edge.
+  std::vector<Vec3d> centres;      ///< #F; the origin for a face with a non-finite corner.
+  std::vector<float> areas;        ///< #F, sum 1; 0 for degenerate faces.
+  std::vector<float> logValues;    ///< #F, natural logarithm of the value in units of length.
+  double meshLength = 1;           ///< Unit of length, in the unit of the mesh.
+
+  [[nodiscard]] uint32_t faceCount() const { return static_cast<uint32_t>(areas.size()); }
+};
+
+/// Length of a concave crease of 1/3 radian, in units of length.
+inline constexpr double kCreaseLength = 0.00704;
+
+/// graph: of the mesh; it must outlive the result. values: #F, not negative, NaN for no value. A missing value becomes
+/// that of the face with the fewest edges between; in a component without values, the mean logarithm of all. Values
+/// below 1e-4 of the largest are raised to that. Throws Error{NoValues} where no face has a value.
+[[nodiscard]] PartSurface makePartSurface(const TriangleMesh& mesh, const FaceGeometry& geometry,
+                                          const DualGraph& graph, std::span<const double> values);
+
+}  // namespace asdfvk

@@ -1,0 +1,270 @@
+#include "segment/parts.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+#include "core/parallel.h"
+#include "segment/boundary_cut.h"
+#include "segment/part_merging.h"
+#include "segment/part_surface.h"
+#include "segment/patches.h"
+#include "segment/rand_index.h"
+
+namespace asdfvk {
+namespace {
+
+constexpr std::array<uint32_t, 5> kPatchCounts{200, 250, 300, 350, 400};
+/// On coarse meshes there are fewer patches: each face a patch would give too many parts.
+constexpr uint32_t kMinFacesPerPatch = 3;
+/// Depth below the surface of the ends of lines of sight, in shape diameters.
+constexpr double kSightDepth = 0.3;
+/// Volume over area and mean value: about 0.4 for a wall, 0.28 for a tube, 0.19 for a ball.
+constexpr double kMinWallShape = 0.36;
+/// Plates, too, are walls, but see themselves.
+constexpr double kMaxWallSight = 0.5;
+
+/// Whether closed components make up most of the area and are thin walls, by their volume.
+bool isWall(const PartsInput& input, const PartSurface& surface) {
+  double volume = 0, area = 0, product = 0;
+  for (uint32_t face = 0; face < surface.faceCount(); ++face) {
+    const Component& component = input.components.components[input.components.componentOf[face]];
+    if (!component.isClosed || !component.isConsistentlyWound) continue;
+    const double faceArea = double{surface.areas[face]};
+    volume += dot(surface.centres[face], input.geometry.normals[face]) * faceArea / 3;
+    area += faceArea;
+    product += faceArea * std::exp(double{surface.logValues[face]});
+  }
+  return area > 0.5 && std::abs(volume) > kMinWallShape * product;
+}
+
+/// Per component: its share of the area, and the face farthest from its centre.
+struct ComponentShapes {
+  std::vector<double> areas;
+  std::vector<uint32_t> farthestFaces;
+};
+
+ComponentShapes shapesOf(const PartSurface& surface, const Components& components) {
+  const size_t count = components.components.size();
+  ComponentShapes shapes{std::vector<double>(count, 0), std::vector<uint32_t>(count, 0)};
+  std::vector<Vec3d> centres(count);
+  std::vector<double> largest(count, -1);
+  for (uint32_t face = 0; face < surface.faceCount(); ++face) {
+    const uint32_t component = components.componentOf[face];
+    shapes.areas[component] += double{surface.areas[face]};
+    centres[component] += surface.centres[face] * double{surface.areas[face]};
+  }
+  for (uint32_t face = 0; face < surface.faceCount(); ++face) {
+    const uint32_t component = components.componentOf[face];
+    if (!(shapes.areas[component] > 0)) continue;
+    const Vec3d fromCentre = surface.centres[face] - centres[component] / shapes.areas[component];
+    if (const double squared = dot(fromCentre, fromCentre); squared > largest[component]) {
+      largest[component] = squared;
+      shapes.farthestFaces[component] = face;
+    }
+  }
+  return shapes;
+}
+
+/// At least one per requested part.
+std::array<uint32_t, 5> patchCountsFor(uint32_t faceCount, const PartsOptions& options) {
+  std::array<uint32_t, 5> counts = kPatchCounts;
+  const double scale = std::min(1.0, faceCount / double{kMinFacesPerPatch * kPatchCounts.back()});
+  for (uint32_t& count : counts) count = std::max(static_cast<uint32_t>(count * scale), options.partCount.value_or(1));
+  return counts;
+}
+
+/// One of the divisions that are compared.
+struct Division {
+  Patches patches;
+  PatchData data;
+  std::optional<PartMerging> merging;  ///< Before the first merge.
+  std::vector<uint32_t> labels;        ///< #F, 0 where there is no patch.
+};
+
+/// Sums over pairs of patches.
+struct SightSums {
+  double seen = 0, all = 0;
+};
+
+SightMatrix findSight(const PartsInput& input, const PartSurface& surface, const PatchData& data,
+                      const LineOfSight& sight, SightSums& sums) {
+  const auto count = static_cast<uint32_t>(data.patches.size());
+  std::vector<Vec3d> points;
+  for (const PatchData::Patch& patch : data.patches) {
+    const uint32_t face = patch.centreFace;
+    const double diameter = std::exp(double{surface.logValues[face]}) * surface.meshLength;
+    points.push_back(input.geometry.barycentres[face] - input.geometry.normals[face] * (kSightDepth * diameter));
+  }
+  std::vector<std::pair<uint32_t, uint32_t>> pairs;
+  std::vector<LineSegment> segments;
+  const auto componentOf = [&](uint32_t patch) { return input.components.componentOf[data.patches[patch].centreFace]; };
+  for (uint32_t i = 0; i < count; ++i)
+    for (uint32_t j = i + 1; j < count; ++j) {
+      if (componentOf(i) != componentOf(j)) continue;
+      pairs.emplace_back(i, j);
+      segments.push_back({points[i], points[j]});
+    }
+  const std::vector<uint8_t> isClear = sight(segments);
+  SightMatrix matrix(count);
+  for (size_t k = 0; k < pairs.size(); ++k) {
+    const auto [i, j] = pairs[k];
+    matrix.set(i, j, isClear[k] ? 1.0f : 0.0f);
+    const double weight = data.patches[i].area * data.patches[j].area;
+    sums.all += weight;
+    sums.seen += isClear[k] ? weight : 0;
+  }
+  return matrix;
+}
+
+/// The level of the hierarchy that the options request, scaled by `factor`.
+void mergeParts(PartMerging& merging, const PartsOptions& options, const MergeWeights& weights) {
+  if (options.partCount)
+    merging.mergeToCount(*options.partCount);
+  else
+    merging.mergeUpTo(weights.threshold / options.detail);
+}
+
+std::vector<uint32_t> labelsOf(const Patches& patches, const PartMerging& merging, uint32_t labelWithoutPatch) {
+  const std::vector<uint32_t> regions = merging.regionOfPatches();
+  std::vector<uint32_t> labels(patches.patchOf.size());
+  for (size_t face = 0; face < labels.size(); ++face)
+    labels[face] = patches.patchOf[face] == kNoPatch ? labelWithoutPatch : regions[patches.patchOf[face]];
+  return labels;
+}
+
+/// The threshold that separates the level from the next one.
+double thresholdOf(const PartMerging& merging, const PartsOptions& options, const MergeWeights& weights) {
+  if (!options.partCount) return weights.threshold / options.detail;
+  double last = 0;
+  for (const double cost : merging.costs()) last = std::max(last, cost);
+  const double next = std::max(last, merging.nextCost().value_or(last));
+  return std::sqrt(last * next);
+}
+
+uint32_t countAt(const Division& division, double threshold, bool mergesSmall) {
+  PartMerging merging = *division.merging;
+  merging.mergeUpTo(threshold);
+  if (mergesSmall) merging.mergeSmallerThan(kMinPartArea);
+  return merging.regionCount();
+}
+
+/// The division with the largest sum of Rand indices with the others, and their mean.
+std::pair<size_t, double> mostTypical(std::span<const Division> divisions, std::span<const float> areas) {
+  const size_t count = divisions.size();
+  std::vector<double> indices(count * count, 0);
+  forEachTask(count * count, [&](size_t k) {
+    const size_t i = k / count, j = k % count;
+    if (i < j)
+      indices[i * count + j] = indices[j * count + i] = randIndex(divisions[i].labels, divisions[j].labels, areas);
+  });
+  std::vector<double> sums(count, 0);
+  for (size_t i = 0; i < count; ++i)
+    for (size_t j = 0; j < count; ++j) sums[i] += indices[i * count + j];
+  const auto best = static_cast<size_t>(std::max_element(sums.begin(), sums.end()) - sums.begin());
+  return {best, sums[best] / static_cast<double>(count - 1)};
+}
+
+/// Gives the faces without a label that of the patch nearest to the centre of their component.
+void labelSmallComponents(const PartsInput& input, const PartSurface& surface, const Division& division,
+                          std::vector<uint32_t>& labels) {
+  const size_t count = input.components.components.size();
+  std::vector<Vec3d> centres(count);
+  std::vector<uint32_t> faceCounts(count, 0), labelOf(count, kNoLabel);
+  for (uint32_t face = 0; face < labels.size(); ++face) {
+    if (labels[face] != kNoLabel) continue;
+    const uint32_t component = input.components.componentOf[face];
+    centres[component] += surface.centres[face];
+    ++faceCounts[component];
+  }
+  forEachInParallel(count, [&](uint32_t component) {
+    if (faceCounts[component] == 0) return;
+    const Vec3d centre = centres[component] / static_cast<double>(faceCounts[component]);
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const PatchData::Patch& patch : division.data.patches) {
+      const Vec3d between = patch.centre - centre;
+      if (const double squared = dot(between, between); squared < nearest) {
+        nearest = squared;
+        labelOf[component] = labels[patch.centreFace];
+      }
+    }
+  });
+  for (uint32_t face = 0; face < labels.size(); ++face)
+    if (labels[face] == kNoLabel) labels[face] = labelOf[input.components.componentOf[face]];
+}
+
+/// Numbers the labels by the mean of their values, weighted by area.
+void sortByValue(const PartSurface& surface, std::vector<uint32_t>& labels, uint32_t labelCount) {
+  std::vector<double> sums(labelCount, 0), areas(labelCount, 0), means(labelCount, 0);
+  for (uint32_t face = 0; face < labels.size(); ++face) {
+    // So that labels without area have a mean, too.
+    const double area = std::max(double{surface.areas[face]}, 1e-12);
+    sums[labels[face]] += area * std::exp(double{surface.logValues[face]});
+    areas[labels[face]] += area;
+  }
+  for (uint32_t label = 0; label < labelCount; ++label) means[label] = sums[label] / areas[label];
+  std::vector<uint32_t> order(labelCount), rank(labelCount);
+  std::iota(order.begin(), order.end(), 0u);
+  std::stable_sort(order.begin(), order.end(), [&](uint32_t i, uint32_t j) { return means[i] < means[j]; });
+  for (uint32_t i = 0; i < labelCount; ++i) rank[order[i]] = i;
+  for (uint32_t& label : labels) label = rank[label];
+}
+
+}  // namespace
+
+Parts segmentIntoParts(const PartsInput& input, const PartsOptions& options, const LineOfSight& sight) {
+  const PartSurface surface = makePartSurface(input.mesh, input.geometry, input.graph, input.values);
+  const ComponentShapes shapes = shapesOf(surface, input.components);
+  std::vector<uint32_t> firstSeeds;
+  for (size_t component = 0; component < shapes.areas.size(); ++component)
+    if (shapes.areas[component] >= kMinPartArea) firstSeeds.push_back(shapes.farthestFaces[component]);
+  Parts parts;
+  if (firstSeeds.empty()) {
+    parts.partOf = input.components.componentOf;
+    parts.partCount = parts.fewest = parts.most = static_cast<uint32_t>(shapes.areas.size());
+    sortByValue(surface, parts.partOf, parts.partCount);
+    return parts;
+  }
+
+  std::vector<Division> divisions(kPatchCounts.size());
+  std::vector<Patches> patches = makePatches(surface, firstSeeds, patchCountsFor(surface.faceCount(), options));
+  forEachTask(divisions.size(), [&](size_t i) {
+    divisions[i].patches = std::move(patches[i]);
+    divisions[i].data = describePatches(surface, input.geometry.normals, divisions[i].patches);
+  });
+  std::vector<SightMatrix> matrices;
+  SightSums sums;
+  for (const Division& division : divisions) matrices.push_back(findSight(input, surface, division.data, sight, sums));
+  parts.meanSight = sums.all > 0 ? sums.seen / sums.all : 1;
+  parts.isThinShell = parts.meanSight < kMaxWallSight && isWall(input, surface);
+  const MergeWeights& weights = parts.isThinShell ? kShapeWeights : kSightWeights;
+  forEachTask(divisions.size(), [&](size_t i) {
+    Division& division = divisions[i];
+    division.merging.emplace(division.data, matrices[i], weights);
+    PartMerging merging = *division.merging;
+    mergeParts(merging, options, weights);
+    division.labels = labelsOf(division.patches, merging, merging.regionCount());
+  });
+  const auto [chosen, agreement] = mostTypical(divisions, surface.areas);
+  parts.agreement = agreement;
+
+  const Division& division = divisions[chosen];
+  PartMerging merging = *division.merging;
+  mergeParts(merging, options, weights);
+  const bool mergesSmall = !options.partCount;
+  if (mergesSmall) merging.mergeSmallerThan(kMinPartArea);
+  parts.partCount = merging.regionCount();
+  const double threshold = thresholdOf(merging, options, weights);
+  parts.fewest = std::min(parts.partCount, countAt(division, threshold * kStabilityFactor, mergesSmall));
+  parts.most = std::max(parts.partCount, countAt(division, threshold / kStabilityFactor, mergesSmall));
+  parts.partOf = cutBoundaries(surface, labelsOf(division.patches, merging, kNoLabel), parts.partCount);
+  labelSmallComponents(input, surface, division, parts.partOf);
+  sortByValue(surface, parts.partOf, parts.partCount);
+  return parts;
+}
+
+}  // namespace asdfvk

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "asdf_vk/options.h"
+#include "core/line_segment.h"
+#include "mesh/components.h"
+#include "mesh/dual_graph.h"
+#include "mesh/face_geometry.h"
+#include "mesh/mesh.h"
+
+/// Segmentation into parts without a number of parts: patches, lines of sight between them, merging of the pair that
+/// costs least, the most typical of several such divisions, and a graph cut. docs/segmentation.md has the definition
+/// and its sources.
+namespace asdfvk {
+
+/// Whether no face lies between the ends of each segment (in the unit of the mesh, ends excluded): 1, else 0.
+using LineOfSight = std::function<std::vector<uint8_t>(std::span<const LineSegment>)>;
+
+/// A mesh and its values.
+struct PartsInput {
+  const TriangleMesh& mesh;
+  const FaceGeometry& geometry;
+  const DualGraph& graph;
+  const Components& components;
+  std::span<const double> values;  ///< #F, not negative; NaN for no value.
+};
+
+struct Parts {
+  std::vector<uint32_t> partOf;  ///< #F, numbered by ascending mean value.
+  uint32_t partCount = 0;
+  uint32_t fewest = 0, most = 0;  ///< Numbers of parts at kStabilityFactor times the threshold, and at 1 over that.
+  double agreement = 1;           ///< Mean Rand index of the chosen division with the other ones, weighted by area.
+  bool isThinShell = false;       ///< A closed thin wall whose sides do not see each other; sight was not used.
+  double meanSight = 1;           ///< Over pairs of patches of a component, weighted by the product of their areas.
+};
+
+inline constexpr double kStabilityFactor = 1.25;
+/// Share of the area below which a component is no part of its own, and a part is merged.
+inline constexpr double kMinPartArea = 0.01;
+
+/// Components below kMinPartArea take the part of the patch that is nearest in space; if there is no larger component,
+/// each is a part. Other parts never extend over several components. With options.partCount there are that many
+/// parts: more where there are more components, fewer where there are fewer faces; none of them is merged for its
+/// size. The same result on any number of threads. Throws Error{NoValues} where no face has a value, and what `sight`
+/// throws.
+[[nodiscard]] Parts segmentIntoParts(const PartsInput& input, const PartsOptions& options, const LineOfSight& sight);
+
+}  // namespace asdfvk

@@ -1,0 +1,182 @@
+#include "segment/patches.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "core/check.h"
+#include "core/parallel.h"
+#include "segment/surface_front.h"
+
+namespace asdfvk {
+namespace {
+
+constexpr uint32_t kLloydRoundCount = 2;
+constexpr uint32_t kNoFaceFound = 0xffffffff;
+
+/// The face of the largest distance. Distances may only decrease between calls; those of one block of faces are
+/// compared only where the largest distance that the block had is needed.
+class FarthestFace {
+ public:
+  explicit FarthestFace(std::span<const float> distances)
+      : distances_(distances),
+        bounds_((distances.size() + kBlock - 1) / kBlock, std::numeric_limits<float>::infinity()) {}
+
+  /// kNoFaceFound where no reached face has a distance above 0.
+  uint32_t find() {
+    for (;;) {
+      const auto bound = std::max_element(bounds_.begin(), bounds_.end());
+      if (!(*bound > 0)) return kNoFaceFound;
+      const auto begin = static_cast<size_t>(bound - bounds_.begin()) * kBlock;
+      const size_t end = std::min(begin + kBlock, distances_.size());
+      float largest = 0;
+      size_t at = begin;
+      for (size_t face = begin; face < end; ++face)
+        if (distances_[face] > largest && distances_[face] < SurfaceFront::kUnreached) {
+          largest = distances_[face];
+          at = face;
+        }
+      if (largest == *bound) return static_cast<uint32_t>(at);
+      *bound = largest;
+    }
+  }
+
+ private:
+  static constexpr size_t kBlock = 1024;
+  std::span<const float> distances_;
+  std::vector<float> bounds_;
+};
+
+struct SeededPatches {
+  Patches patches;
+  std::vector<uint32_t> seeds;
+};
+
+/// The patches around the farthest points, for each count.
+std::vector<SeededPatches> sampleFarthest(const PartSurface& surface, std::span<const uint32_t> firstSeeds,
+                                          std::span<const uint32_t> counts) {
+  SurfaceFront front(surface.offsets, surface.creasedArcs);
+  std::vector<uint32_t> seeds;
+  const auto addSeed = [&](uint32_t face) {
+    front.add(face, 0, static_cast<uint32_t>(seeds.size()));
+    front.advance();
+    seeds.push_back(face);
+  };
+  for (const uint32_t face : firstSeeds) addSeed(face);
+  FarthestFace farthest(front.distances());
+  std::vector<SeededPatches> results;
+  for (const uint32_t count : counts) {
+    while (seeds.size() < count) {
+      const uint32_t face = farthest.find();
+      if (face == kNoFaceFound) break;
+      addSeed(face);
+    }
+    Patches patches{{front.labels().begin(), front.labels().end()}, static_cast<uint32_t>(seeds.size())};
+    if (front.reached().size() < surface.faceCount())
+      for (uint32_t face = 0; face < surface.faceCount(); ++face)
+        if (front.distances()[face] == SurfaceFront::kUnreached) patches.patchOf[face] = kNoPatch;
+    results.push_back({std::move(patches), seeds});
+  }
+  return results;
+}
+
+/// Moves each seed to the face of its patch farthest from the other patches, and divides the surface again.
+void improve(const PartSurface& surface, SurfaceFront& front, SeededPatches& seeded) {
+  std::vector<uint32_t>& patchOf = seeded.patches.patchOf;
+  front.clear();
+  for (uint32_t face = 0; face < surface.faceCount(); ++face)
+    for (uint32_t arc = surface.offsets[face]; arc < surface.offsets[face + 1]; ++arc)
+      if (const auto& [neighbour, length] = surface.creasedArcs[arc]; patchOf[neighbour] != patchOf[face])
+        front.add(face, length / 2, 0);
+  front.advance();
+  std::vector<float> farthest(seeded.patches.count, -1);
+  for (uint32_t face = 0; face < surface.faceCount(); ++face) {
+    const float distance = front.distances()[face];
+    if (patchOf[face] == kNoPatch || distance == SurfaceFront::kUnreached || distance <= farthest[patchOf[face]])
+      continue;
+    farthest[patchOf[face]] = distance;
+    seeded.seeds[patchOf[face]] = face;
+  }
+  front.clear();
+  for (uint32_t patch = 0; patch < seeded.patches.count; ++patch) front.add(seeded.seeds[patch], 0, patch);
+  front.advance();
+  for (uint32_t face = 0; face < surface.faceCount(); ++face)
+    if (patchOf[face] != kNoPatch) patchOf[face] = front.labels()[face];
+}
+
+}  // namespace
+
+std::vector<Patches> makePatches(const PartSurface& surface, std::span<const uint32_t> firstSeeds,
+                                 std::span<const uint32_t> counts) {
+  ASDFVK_CHECK(!firstSeeds.empty());
+  std::vector<SeededPatches> seeded = sampleFarthest(surface, firstSeeds, counts);
+  forEachTask(seeded.size(), [&](size_t i) {
+    SurfaceFront front(surface.offsets, surface.creasedArcs);
+    for (uint32_t round = 0; round < kLloydRoundCount; ++round) improve(surface, front, seeded[i]);
+  });
+  std::vector<Patches> results;
+  for (SeededPatches& entry : seeded) results.push_back(std::move(entry.patches));
+  return results;
+}
+
+PatchData describePatches(const PartSurface& surface, std::span<const Vec3d> normals, const Patches& patches) {
+  PatchData data;
+  data.patches.resize(patches.count);
+  std::vector<double> faceCounts(patches.count, 0);
+  std::vector<Vec3d> plainCentres(patches.count);
+  std::vector<double> plainLogs(patches.count, 0);
+  for (uint32_t face = 0; face < surface.faceCount(); ++face) {
+    const uint32_t index = patches.patchOf[face];
+    if (index == kNoPatch) continue;
+    PatchData::Patch& patch = data.patches[index];
+    const double area = double{surface.areas[face]};
+    patch.area += area;
+    patch.logValue += area * double{surface.logValues[face]};
+    patch.centre += surface.centres[face] * area;
+    patch.normal += normals[face] * area;
+    plainCentres[index] += surface.centres[face];
+    plainLogs[index] += double{surface.logValues[face]};
+    ++faceCounts[index];
+  }
+  for (uint32_t i = 0; i < patches.count; ++i) {
+    PatchData::Patch& patch = data.patches[i];
+    const bool hasArea = patch.area > 0;  // Otherwise the plain means.
+    patch.logValue = hasArea ? patch.logValue / patch.area : plainLogs[i] / std::max(1.0, faceCounts[i]);
+    patch.centre = hasArea ? patch.centre / patch.area : plainCentres[i] / std::max(1.0, faceCounts[i]);
+    if (const double norm = length(patch.normal); norm > 0) patch.normal = patch.normal / norm;
+  }
+  std::vector<double> nearest(patches.count, std::numeric_limits<double>::infinity());
+  std::vector<PatchData::Border> edges;
+  for (uint32_t face = 0; face < surface.faceCount(); ++face) {
+    const uint32_t index = patches.patchOf[face];
+    if (index == kNoPatch) continue;
+    const Vec3d toCentre = surface.centres[face] - data.patches[index].centre;
+    if (const double squared = dot(toCentre, toCentre); squared < nearest[index]) {
+      nearest[index] = squared;
+      data.patches[index].centreFace = face;
+    }
+    for (uint32_t arc = surface.offsets[face]; arc < surface.offsets[face + 1]; ++arc) {
+      const uint32_t other = patches.patchOf[surface.arcs[arc].face];
+      if (other <= index) continue;  // Each edge once; neighbours of patches have patches.
+      const double length = double{surface.edgeLengths[arc]}, angle = double{surface.angles[arc]};
+      edges.push_back({index, other, length, length * std::max(0.0, angle), length * std::max(0.0, -angle)});
+    }
+  }
+  const auto isBefore = [](const PatchData::Border& x, const PatchData::Border& y) {
+    return std::pair(x.a, x.b) < std::pair(y.a, y.b);
+  };
+  std::stable_sort(edges.begin(), edges.end(), isBefore);
+  for (const PatchData::Border& edge : edges) {
+    if (data.borders.empty() || isBefore(data.borders.back(), edge)) {
+      data.borders.push_back(edge);
+      continue;
+    }
+    PatchData::Border& border = data.borders.back();
+    border.length += edge.length;
+    border.concave += edge.concave;
+    border.convex += edge.convex;
+  }
+  return data;
+}
+
+}  // namespace asdfvk

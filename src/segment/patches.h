@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/vec3.h"
+#include "segment/part_surface.h"
+
+namespace asdfvk {
+
+inline constexpr uint32_t kNoPatch = 0xffffffff;
+
+/// Connected pieces of the surface of about equal size, whose borders prefer concave edges and changes of the values.
+struct Patches {
+  std::vector<uint32_t> patchOf;  ///< #F, below `count`; kNoPatch for faces that no seed reaches.
+  uint32_t count = 0;
+};
+
+/// Patches around the farthest points of the surface, improved by two rounds of Lloyd's method: the new seed of a patch
+/// is its face farthest from its border. Distances are those over PartSurface::creasedArcs.
+/// firstSeeds: at least one, a face of each component that is divided; no two of a component. counts: ascending; the
+/// result has the patches for each. A result has fewer patches where there are fewer faces, and one per first seed at
+/// least. Deterministic, parallel over the counts; the farthest points of a count begin with those of a smaller one.
+[[nodiscard]] std::vector<Patches> makePatches(const PartSurface& surface, std::span<const uint32_t> firstSeeds,
+                                               std::span<const uint32_t> counts);
+
+/// What the merging reads of patches. Lengths and areas as in PartSurface.
+struct PatchData {
+  struct Patch {
+    double area = 0;
+    double logValue = 0;      ///< Mean by area.
+    Vec3d centre;             ///< Mean by area.
+    Vec3d normal;             ///< Of unit length, or 0.
+    uint32_t centreFace = 0;  ///< The face of the patch nearest to its centre.
+  };
+  /// Two adjacent patches a < b, and sums over the edges between them.
+  struct Border {
+    uint32_t a = 0, b = 0;
+    double length = 0;
+    double concave = 0, convex = 0;  ///< Length times angle in radians.
+  };
+  std::vector<Patch> patches;
+  std::vector<Border> borders;  ///< Ascending by (a, b).
+};
+
+[[nodiscard]] PatchData describePatches(const PartSurface& surface, std::span<const Vec3d> normals,
+                                        const Patches& patches);
+
+}  // namespace asdfvk
