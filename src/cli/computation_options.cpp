@@ -170,41 +170,6 @@ void addRays(CLI::App& app, Options& options) {
       ->group(group);
 }
 
-void addSegments(CLI::App& app, Options& options) {
-  const CgalSegmentationOptions defaults;
-  const char* const group = "Segments";
-  addChoice(app, "--postprocess", options.postprocess, kPostprocesses,
-            "Field normalized. cgal: missing values are filled, all are smoothed and mapped\n"
-            "to 0 .. 1, as CGAL does; default none")
-      ->group(group);
-  addChoice(app, "--segment", options.segmentation, kSegmentations,
-            "Field segment. cgal: soft clustering and graph cut, as CGAL does; implies\n"
-            "--postprocess cgal; for --seeds all; default none")
-      ->group(group);
-  addValue(app, "--clusters", "K",
-           fmt::format("--segment cgal: clusters of values, 2 to {}; not the number of segments;\n"
-                       "default {}",
-                       kMaxClusterCount, defaults.clusterCount),
-           [&](const std::string& text) {
-             options.cgalSegmentation.clusterCount = static_cast<uint32_t>(parseWholeNumber(text, 2, kMaxClusterCount));
-           })
-      ->group(group);
-  addValue(app, "--smoothness", "L",
-           fmt::format("--segment cgal: weight of the boundaries, 0 to {}, usually at most 1;\n"
-                       "default {}",
-                       kMaxSmoothness, defaults.smoothness),
-           [&](const std::string& text) {
-             options.cgalSegmentation.smoothness = parseNumber(
-                 text, [](double x) { return x >= 0 && x <= kMaxSmoothness; },
-                 fmt::format("is not from 0 to {}", kMaxSmoothness).c_str());
-           })
-      ->group(group);
-  addChoice(app, "--cgal-expansion", options.cgalSegmentation.expansion, kCgalExpansions,
-            "--segment cgal: the graph cut expands all clusters, or the first one only, as\n"
-            "CGAL 5.5.1 does; default all")
-      ->group(group);
-}
-
 void addExperiments(CLI::App& app, Options& options) {
   const Options defaults;
   addChoice(app, "--weights", options.interpolation.weights, kWeights,
@@ -256,28 +221,6 @@ void addComputation(CLI::App& app, CommandLine& line) {
   addExperiments(app, line.options);
 }
 
-void completeSegments(const CLI::App& app, CommandLine& line) {
-  const auto isGiven = [&app](const char* option) { return app.count(option) > 0; };
-  const auto fail = [](const std::string& message) { throw Error(ErrorCode::OptionConflict, message); };
-  Options& options = line.options;
-  if (options.segmentation == Segmentation::None)
-    for (const char* option : {"--clusters", "--smoothness", "--cgal-expansion"})
-      if (isGiven(option)) fail(fmt::format("{} needs --segment cgal", option));
-  if (options.segmentation == Segmentation::Cgal && isGiven("--postprocess") &&
-      options.postprocess == Postprocess::None)
-    fail("--segment cgal contradicts --postprocess none; drop one");
-  if (options.postprocesses()) options.postprocess = Postprocess::Cgal;
-  const auto require = [&](const char* field, bool isComputed, const char* remedy) {
-    if (isComputed && !isGiven("--fields")) line.fields.emplace_back(field);
-    if (isComputed) return;
-    if (std::count(line.fields.begin(), line.fields.end(), field) > 0)
-      fail(fmt::format("--fields {} needs {}", field, remedy));
-    if (line.pictureOf == field) fail(fmt::format("--picture-of {} needs {}", field, remedy));
-  };
-  require("normalized", options.postprocesses(), "--postprocess cgal");
-  require("segment", options.segmentation != Segmentation::None, "--segment cgal");
-}
-
 nlohmann::ordered_json optionValues(const CommandLine& line) {
   const Options& options = line.options;
   const InterpolationOptions& interpolation = options.interpolation;
@@ -285,38 +228,35 @@ nlohmann::ordered_json optionValues(const CommandLine& line) {
   const auto ofPaper = [&](const auto& value) {
     return isPaper ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
   };
-  return {{"recipe", nameOf(kRecipes, line.recipe)},
-          {"definition", nameOf(kDefinitions, options.cone.definition)},
-          {"seeds", toText(options.seeds)},
-          {"sampler", options.sampler},
-          {"maxError", optional(options.rounds.maxError)},
-          {"maxRelativeError", optional(options.rounds.maxRelativeError)},
-          {"timeBudgetSeconds", optional(options.rounds.timeBudgetSeconds)},
-          {"rays", options.cone.rayCount},
-          {"angleDegrees", options.cone.openingAngleDegrees},
-          {"falseHitAngleDegrees", ofPaper(options.cone.falseHitAngleDegrees)},
-          {"outlierDeviations", ofPaper(options.cone.outlierDeviations)},
-          {"coneRotation", ofPaper(nameOf(kConeRotations, options.cone.rotation))},
-          {"smooth", toText(options.smoothing)},
-          {"postprocess", nameOf(kPostprocesses, options.postprocess)},
-          {"segment", nameOf(kSegmentations, options.segmentation)},
-          {"clusters", options.cgalSegmentation.clusterCount},
-          {"smoothness", options.cgalSegmentation.smoothness},
-          {"cgalExpansion", nameOf(kCgalExpansions, options.cgalSegmentation.expansion)},
-          {"orient", nameOf(kOrientations, options.orientation)},
-          {"per", nameOf(kPerElements, options.per)},
-          {"weights", nameOf(kWeights, interpolation.weights)},
-          {"guidance", nameOf(kGuidances, interpolation.guidance)},
-          {"pooling", interpolation.pooling},
-          {"solver", options.solver},
-          {"tolerance", options.solverOptions.tolerance},
-          {"maxIterations", options.solverOptions.maxIterations},
-          {"backend", line.session.backend},
-          {"device", line.session.device},
-          {"requireGpu", line.session.requireGpu},
-          {"kernel", nameOrAuto(line.session.variant.kernel)},
-          {"bvh", nameOrAuto(line.session.variant.bvh)},
-          {"fetch", nameOrAuto(line.session.variant.fetch)}};
+  nlohmann::ordered_json values{{"recipe", nameOf(kRecipes, line.recipe)},
+                                {"definition", nameOf(kDefinitions, options.cone.definition)},
+                                {"seeds", toText(options.seeds)},
+                                {"sampler", options.sampler},
+                                {"maxError", optional(options.rounds.maxError)},
+                                {"maxRelativeError", optional(options.rounds.maxRelativeError)},
+                                {"timeBudgetSeconds", optional(options.rounds.timeBudgetSeconds)},
+                                {"rays", options.cone.rayCount},
+                                {"angleDegrees", options.cone.openingAngleDegrees},
+                                {"falseHitAngleDegrees", ofPaper(options.cone.falseHitAngleDegrees)},
+                                {"outlierDeviations", ofPaper(options.cone.outlierDeviations)},
+                                {"coneRotation", ofPaper(nameOf(kConeRotations, options.cone.rotation))},
+                                {"smooth", toText(options.smoothing)},
+                                {"orient", nameOf(kOrientations, options.orientation)},
+                                {"per", nameOf(kPerElements, options.per)},
+                                {"weights", nameOf(kWeights, interpolation.weights)},
+                                {"guidance", nameOf(kGuidances, interpolation.guidance)},
+                                {"pooling", interpolation.pooling},
+                                {"solver", options.solver},
+                                {"tolerance", options.solverOptions.tolerance},
+                                {"maxIterations", options.solverOptions.maxIterations},
+                                {"backend", line.session.backend},
+                                {"device", line.session.device},
+                                {"requireGpu", line.session.requireGpu},
+                                {"kernel", nameOrAuto(line.session.variant.kernel)},
+                                {"bvh", nameOrAuto(line.session.variant.bvh)},
+                                {"fetch", nameOrAuto(line.session.variant.fetch)}};
+  values.update(segmentOptionValues(options));
+  return values;
 }
 
 }  // namespace asdfvk

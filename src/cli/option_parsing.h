@@ -29,6 +29,16 @@ inline constexpr double kFirstRoundShare = 0.02;
 /// Adds the options of the computation, which set line.options and line.recipe.
 void addComputation(CLI::App& app, CommandLine& line);
 
+/// Adds the options of post-processing and segmentation.
+void addSegments(CLI::App& app, Options& options);
+
+/// --segment without a value, at the end or before an option or a file, becomes --segment=parts. A file is a name that
+/// has a dot or a slash, is "-", or exists.
+void expandBareSegment(std::vector<std::string>& arguments);
+
+/// The values of these options for the JSON report.
+[[nodiscard]] nlohmann::ordered_json segmentOptionValues(const Options& options);
+
 /// After parsing: validates the options of post-processing and segmentation and applies what they imply; adds their
 /// fields to line.fields unless --fields is given.
 void completeSegments(const CLI::App& app, CommandLine& line);

@@ -292,6 +292,7 @@ CommandLine parseCommandLine(std::vector<std::string> arguments) {
   addDevice(app, line);
 
   expandBareCheck(arguments);
+  expandBareSegment(arguments);
   const bool showsAll = takeHelpAll(arguments);
   std::reverse(arguments.begin(), arguments.end());  // CLI11 takes them from the back.
   try {

@@ -58,6 +58,13 @@ Json postprocessOf(const std::optional<PostprocessReport>& postprocess) {
   return {{"min", number(postprocess->min)}, {"max", number(postprocess->max)}};
 }
 
+Json partsOf(const std::optional<SegmentationReport>& segmentation) {
+  if (!segmentation || !segmentation->parts) return nullptr;
+  const PartsReport& parts = *segmentation->parts;
+  return {{"count", segmentation->segmentCount},  {"fewestCount", parts.fewestCount}, {"mostCount", parts.mostCount},
+          {"agreement", number(parts.agreement)}, {"thinShell", parts.isThinShell},   {"areaShares", parts.areaShares}};
+}
+
 Json stagesOf(const StageSeconds& seconds) {
   Json json;
   for (size_t i = 0; i < kStageCount; ++i) json[nameOf(static_cast<Stage>(i))] = number(seconds.seconds[i]);
@@ -129,6 +136,7 @@ std::string jsonReport(const MeshOutcome& outcome) {
                  {"max", number(report.sdf.max)}};
   json["postprocess"] = postprocessOf(report.postprocess);
   json["segmentCount"] = report.segmentation ? Json(report.segmentation->segmentCount) : Json(nullptr);
+  json["parts"] = partsOf(report.segmentation);
   json["estimatedError"] = estimateOf(report.estimatedError);
   json["roundCount"] = report.roundCount;
   json["check"] = checkOf(report.check);

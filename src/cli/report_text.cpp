@@ -4,12 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "core/text.h"
 #include "pipeline/choice_names.h"
 
 namespace asdfvk {
 namespace {
+
+/// Parts whose areas are listed.
+constexpr size_t kMaxListedParts = 12;
 
 std::string counted(uint64_t count, const char* noun) {
   return fmt::format("{} {}{}", groupDigits(count), noun, count == 1 ? "" : "s");
@@ -75,6 +79,36 @@ std::string twoDigits(double share) {
   return std::abs(share) < 0.1 ? fmt::format("{:.2g}", 100 * share) : fmt::format("{:.0f}", 100 * share);
 }
 
+/// "41, 12 and 8.5 %", the largest first; at most kMaxListedParts.
+std::string areaText(std::vector<double> shares) {
+  std::sort(shares.begin(), shares.end(), std::greater<>());
+  const size_t count = std::min(shares.size(), kMaxListedParts);
+  std::string text;
+  for (size_t i = 0; i < count; ++i) {
+    const char* separator = i == 0 ? "" : i + 1 == shares.size() ? " and " : ", ";
+    text += fmt::format("{}{:.2g}", separator, 100 * shares[i]);
+  }
+  if (shares.size() > count) text += fmt::format(" and {} more", shares.size() - count);
+  return text;
+}
+
+std::string segmentRows(const SegmentationReport& segmentation, const Options& options) {
+  if (!segmentation.parts)
+    return row("segments", fmt::format("{} from {} clusters, smoothness {:g}", groupDigits(segmentation.segmentCount),
+                                       options.cgalSegmentation.clusterCount, options.cgalSegmentation.smoothness));
+  const PartsReport& parts = *segmentation.parts;
+  const std::string range = parts.fewestCount == parts.mostCount
+                                ? fmt::format("{}", parts.fewestCount)
+                                : fmt::format("{} to {}", parts.fewestCount, parts.mostCount);
+  const double detail = options.parts.detail;
+  const std::string when = options.parts.partCount
+                               ? "at costs 25 % higher and lower"
+                               : fmt::format("at --detail {:.3g} to {:.3g}", detail / 1.25, detail * 1.25);
+  return row("parts", fmt::format("{}; {} {}; agreement {:.2f}", groupDigits(segmentation.segmentCount), range, when,
+                                  parts.agreement)) +
+         row("", fmt::format("of {} % of the area", areaText(parts.areaShares)));
+}
+
 std::string estimateRow(const Report& report) {
   const ErrorEstimate& estimate = *report.estimatedError;
   std::string text = fmt::format(
@@ -127,11 +161,7 @@ std::string textReport(const MeshOutcome& outcome) {
   if (report.postprocess)
     text += row("smoothed", fmt::format("min {:.6g}, max {:.6g}, mapped to 0 and 1", report.postprocess->min,
                                         report.postprocess->max));
-  if (report.segmentation)
-    text += row("segments",
-                fmt::format("{} from {} clusters, smoothness {:g}", groupDigits(report.segmentation->segmentCount),
-                            outcome.line.options.cgalSegmentation.clusterCount,
-                            outcome.line.options.cgalSegmentation.smoothness));
+  if (report.segmentation) text += segmentRows(*report.segmentation, outcome.line.options);
   if (report.estimatedError) text += row("error", estimateRow(report));
   if (report.check) {
     text += row("check", tracedCheck(*report.check));
@@ -151,6 +181,7 @@ std::string textWarning(const Warning& warning) {
     if (detail.value == "open") text += "; --orient flip reverses all faces";
   }
   if (warning.code == WarningCode::InvertedComponents) text += "; --orient auto reverses inverted components";
+  if (warning.code == WarningCode::ThinShell) text += "; --detail changes the number of parts";
   if (warning.code == WarningCode::FinishedOnCpu) text += "; --solver cpu may be faster here";
   if (warning.code == WarningCode::RangeDominated) text += "; use the relative error, as --max-error E%rel does";
   if (warning.code == WarningCode::NotConverged) text += "; raise --max-iterations or --tolerance";

@@ -87,7 +87,9 @@ TEST_CASE("--json is exactly one document with every documented key and its type
       {"bvh", "auto"},        {"fetch", "auto"},          {"backend", "reference"},
       {"per", "face"}};
   for (const auto& [key, name] : names) CHECK_EQ(options.at(key).get<std::string>(), name);
-  for (const char* key : {"maxError", "maxRelativeError", "timeBudgetSeconds"}) CHECK(options.at(key).is_null());
+  CHECK_EQ(options.at("detail").get<double>(), 1);
+  for (const char* key : {"maxError", "maxRelativeError", "timeBudgetSeconds", "parts"})
+    CHECK(options.at(key).is_null());
   CHECK_EQ(options.at("pooling").get<double>(), 0);
   CHECK_EQ(options.at("definition").get<std::string>(), "paper");
   CHECK_EQ(options.at("falseHitAngleDegrees").get<double>(), 90);

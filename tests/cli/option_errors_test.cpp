@@ -48,7 +48,9 @@ TEST_CASE("values out of range are refused with the option's name") {
       {"--backend", {"cuda"}},
       {"--format", {"stl"}},
       {"--postprocess", {"shapira", ""}},
-      {"--segment", {"kmeans", "CGAL"}},
+      {"--segment", {"kmeans", "CGAL", "Parts"}},
+      {"--parts", {"0", "101", "-1", "2.5", "many", "10%"}},
+      {"--detail", {"0", "0.09", "10.1", "-1", "nan", "inf", "fine"}},
       {"--clusters", {"1", "101", "-2", "2.5", "five"}},
       {"--smoothness", {"-0.1", "1000.5", "nan", "inf", "much"}},
       {"--cgal-expansion", {"last"}},
@@ -130,11 +132,30 @@ TEST_CASE("options of the segmentation need it, as do its fields") {
            "--segment cgal contradicts --postprocess none; drop one");
   CHECK_EQ(refusal({"a.ply", "--segment", "cgal", "--postprocess", "cgal"}), "accepted");
   CHECK_EQ(refusal({"a.ply", "--fields", "normalized"}), "--fields normalized needs --postprocess cgal");
-  CHECK_EQ(refusal({"a.ply", "--fields", "segment", "--postprocess", "cgal"}), "--fields segment needs --segment cgal");
+  CHECK_EQ(refusal({"a.ply", "--fields", "segment", "--postprocess", "cgal"}), "--fields segment needs --segment");
   CHECK_EQ(refusal({"a.ply", "--fields", "normalized", "--segment", "cgal"}), "accepted");
-  CHECK_EQ(refusal({"a.ply", "--picture", "b.png", "--picture-of", "segment"}),
-           "--picture-of segment needs --segment cgal");
+  CHECK_EQ(refusal({"a.ply", "--picture", "b.png", "--picture-of", "segment"}), "--picture-of segment needs --segment");
   CHECK_EQ(refusal({"a.ply", "--picture", "b.png", "--picture-of", "segment", "--segment", "cgal"}), "accepted");
+}
+
+TEST_CASE("options of the parts need them, and contradict each other and CGAL's") {
+  for (const auto& [option, value] : {std::pair{"--parts", "3"}, {"--detail", "2"}}) {
+    const std::string message = std::string(option) + " needs --segment parts";
+    CHECK_EQ(refusal({"a.ply", option, value}), message);
+    CHECK_EQ(refusal({"a.ply", option, value, "--segment", "none"}), message);
+    CHECK_EQ(refusal({"a.ply", option, value, "--segment", "cgal"}), message);
+    CHECK_EQ(refusal({"a.ply", option, value, "--segment", "parts"}), "accepted");
+    CHECK_EQ(refusal({"a.ply", option, value, "--segment"}), "accepted");
+  }
+  for (const auto& [option, value] : {std::pair{"--clusters", "3"}, {"--smoothness", "1"}, {"--cgal-expansion", "all"}})
+    CHECK_EQ(refusal({"a.ply", option, value, "--segment", "parts"}), std::string(option) + " needs --segment cgal");
+  CHECK_EQ(refusal({"a.ply", "--segment", "--parts", "3", "--detail", "2"}),
+           "--parts and --detail contradict each other; drop one");
+  CHECK_EQ(refusal({"a.ply", "--segment", "--postprocess", "none"}), "accepted");
+  CHECK_EQ(refusal({"a.ply", "--segment", "--fields", "normalized"}), "--fields normalized needs --postprocess cgal");
+  CHECK_EQ(refusal({"a.ply", "--segment", "--picture", "b.png", "--picture-of", "segment"}), "accepted");
+  CHECK_EQ(refusal({"a.ply", "--segment", "twelve"}), "--segment: 'twelve' is not one of none|parts|cgal");
+  CHECK_EQ(refusal({"a.ply", "--segment", "--segment"}), "--segment takes exactly one value, once");
 }
 
 TEST_CASE("options of the paper's definition are refused with another one") {

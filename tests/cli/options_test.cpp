@@ -108,6 +108,13 @@ const std::vector<OptionCase>& optionCases() {
        [](const Line& l) {
          return l.options.segmentation == Segmentation::Cgal && l.options.postprocess == Postprocess::Cgal;
        }},
+      {{"--parts", "7", "--segment", "parts"},
+       [](const Line& l) {
+         return l.options.segmentation == Segmentation::Parts && l.options.parts.partCount == 7u &&
+                l.options.postprocess == Postprocess::None;
+       }},
+      {{"--detail", "2.5", "--segment"},
+       [](const Line& l) { return l.options.parts.detail == 2.5 && !l.options.parts.partCount; }},
       {{"--clusters", "3", "--segment", "cgal"},
        [](const Line& l) { return l.options.cgalSegmentation.clusterCount == 3; }},
       {{"--smoothness", "0.5", "--segment", "cgal"},
@@ -200,6 +207,25 @@ TEST_CASE("--fields keeps the order of the names") {
     CHECK_MESSAGE(refusal({"a.ply", "--fields", text}).starts_with("--fields: '"), text);
 }
 
+TEST_CASE("--segment without a value is --segment parts, wherever it stands") {
+  using Arguments = std::vector<std::string>;
+  for (const Arguments& arguments : {Arguments{"a.ply", "--segment"},
+                                     {"--segment", "a.ply"},
+                                     {"--segment", "a.ply", "--json"},
+                                     {"--segment", "--json", "a.ply"},
+                                     {"--segment", "folder/mesh"},
+                                     {"--segment", "-"},
+                                     {"--segment=parts", "a.ply"},
+                                     {"--segment", "parts", "a.ply"},
+                                     {"--segment", "--", "a.ply"}}) {
+    const CommandLine line = parseCommandLine(arguments);
+    CHECK(line.options.segmentation == Segmentation::Parts);
+    CHECK_EQ(line.meshes.size(), 1);
+  }
+  CHECK(parseCommandLine({"a.ply", "--segment", "none"}).options.segmentation == Segmentation::None);
+  CHECK_EQ(parseCommandLine({"a.ply", "--", "--segment"}).meshes, Arguments{"a.ply", "--segment"});
+}
+
 TEST_CASE("the fields of --postprocess and --segment are written without --fields") {
   const auto fieldsOf = [](std::vector<std::string> arguments) {
     arguments.emplace_back("a.ply");
@@ -207,6 +233,7 @@ TEST_CASE("the fields of --postprocess and --segment are written without --field
   };
   CHECK_EQ(fieldsOf({"--postprocess", "cgal"}), std::vector<std::string>{"sdf", "seed", "normalized"});
   CHECK_EQ(fieldsOf({"--segment", "cgal"}), std::vector<std::string>{"sdf", "seed", "normalized", "segment"});
+  CHECK_EQ(fieldsOf({"--segment"}), std::vector<std::string>{"sdf", "seed", "segment"});
   CHECK_EQ(fieldsOf({"--segment", "cgal", "--fields", "segment"}), std::vector<std::string>{"segment"});
   CHECK_EQ(fieldsOf({"--segment", "none", "--postprocess", "none"}), std::vector<std::string>{"sdf", "seed"});
 }
@@ -343,7 +370,7 @@ TEST_CASE("--help has the most needed options, --help=all all of them in groups"
                            "--guidance none|curvature|prediction",
                            "--pooling P",
                            "--picture-of sdf|seed|error|normalized|segment",
-                           "--segment none|cgal",
+                           "--segment none|parts|cgal",
                            "--kernel auto|seed|ray|packet",
                            "--bvh auto|wide|binary",
                            "--fetch auto|texel|storage",

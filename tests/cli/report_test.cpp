@@ -99,13 +99,38 @@ TEST_CASE("the reports have the smoothed range and the number of segments, where
   Result result = sampleResult();
   CHECK_FALSE(holds(textReport({kMesh, kOutput, line, result}), "segments"));
   result.report.postprocess = PostprocessReport{0.25, 2.5};
-  result.report.segmentation = SegmentationReport{1234};
+  result.report.segmentation = SegmentationReport{1234, {}};
   const std::string text = textReport({kMesh, kOutput, line, result});
   CHECK_MESSAGE(holds(text, "\n  smoothed  min 0.25, max 2.5, mapped to 0 and 1\n"), text);
   CHECK_MESSAGE(holds(text, "\n  segments  1,234 from 3 clusters, smoothness 0.26\n"), text);
   const nlohmann::json json = nlohmann::json::parse(jsonReport({kMesh, kOutput, line, result}));
   CHECK_EQ(json.at("postprocess"), nlohmann::json({{"min", 0.25}, {"max", 2.5}}));
   CHECK_EQ(json.at("segmentCount"), 1234);
+}
+
+TEST_CASE("the reports have the parts, how stable their number is, and their areas") {
+  CommandLine line;
+  Result result = sampleResult();
+  result.report.segmentation = SegmentationReport{3, PartsReport{3, 5, 0.956, false, {0.085, 0.7149, 0.2}}};
+  const std::string text = textReport({kMesh, kOutput, line, result});
+  CHECK_MESSAGE(holds(text, "\n  parts     3; 3 to 5 at --detail 0.8 to 1.25; agreement 0.96\n"), text);
+  CHECK_MESSAGE(holds(text, "\n            of 71, 20 and 8.5 % of the area\n"), text);
+  CHECK_FALSE(holds(text, "clusters"));
+  line.options.parts.partCount = 3;
+  result.report.segmentation->parts->areaShares.assign(15, 0.0625);
+  CHECK(holds(textReport({kMesh, kOutput, line, result}), "; 3 to 5 at costs 25 % higher and lower; "));
+  CHECK(holds(textReport({kMesh, kOutput, line, result}), "6.2 and 3 more % of the area\n"));
+  const nlohmann::json json = nlohmann::json::parse(jsonReport({kMesh, kOutput, line, result}));
+  CHECK_EQ(json.at("segmentCount"), 3);
+  const nlohmann::json& parts = json.at("parts");
+  CHECK_EQ(parts.at("count"), 3);
+  CHECK_EQ(parts.at("fewestCount"), 3);
+  CHECK_EQ(parts.at("mostCount"), 5);
+  CHECK_EQ(parts.at("agreement"), 0.956);
+  CHECK_EQ(parts.at("thinShell"), false);
+  CHECK_EQ(parts.at("areaShares").size(), 15);
+  result.report.segmentation->parts.reset();
+  CHECK(nlohmann::json::parse(jsonReport({kMesh, kOutput, line, result})).at("parts").is_null());
 }
 
 TEST_CASE("stages that ran are named in their order, the others are not") {

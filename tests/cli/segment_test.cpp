@@ -101,6 +101,31 @@ TEST_CASE("processes give the same segments, whatever their number of threads") 
   CHECK(segmentsOn("4") == expected);
 }
 
+TEST_CASE("--segment without a value writes parts, in the file, the report and the document") {
+  const ScratchFolder folder;
+  const std::string mesh = folder.write("sphere.off", sphereOff(10));
+  const ChildOutcome outcome = runAsdf({"--segment", mesh, "--backend", "reference", "--seeds", "all", "--rays", "10",
+                                        "-o", folder / "out.csv", "--json"});
+  INFO(outcome.error);
+  REQUIRE_EQ(outcome.exitCode, 0);
+  CHECK_EQ(linesOf(folder.read("out.csv")).at(0), "face,sdf,seed,segment");
+  CHECK(outcome.error.find("\n  parts     1; ") != std::string::npos);
+  CHECK(outcome.error.find("\n            of 1") != std::string::npos);
+  const Json json = Json::parse(outcome.output);
+  CHECK_EQ(json.at("options").at("segment"), "parts");
+  CHECK_EQ(json.at("parts").at("count"), json.at("segmentCount"));
+  CHECK(json.at("postprocess").is_null());
+  CHECK(json.at("stageSeconds").at("segment").get<double>() > 0);
+  CHECK_EQ(fieldOf(json, "segment").at("type"), "uint32");
+  const Json cut = documentOf({mesh, "--json", "--segment", "parts", "--parts", "4"});
+  CHECK_EQ(cut.at("segmentCount"), 4);
+  CHECK_EQ(cut.at("parts").at("areaShares").size(), 4);
+  CHECK_EQ(cut.at("options").at("parts"), 4);
+  const std::string cube = folder.write("cube.off", cubeOff());
+  const Json few = documentOf({cube, "--json", "--segment", "parts", "--parts", "50"});
+  CHECK_EQ(few.at("warningCodes"), Json::array({"partCountDiffers"}));
+}
+
 TEST_CASE("a mesh without values, and one with too few, end with 2 and a remedy") {
   const ScratchFolder folder;
   const std::string open = folder.write("open.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");

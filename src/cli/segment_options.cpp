@@ -1,0 +1,127 @@
+// The options of post-processing and segmentation: flags, what they imply, and their values in the JSON report.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "asdf_vk/error.h"
+#include "cli/option_parsing.h"
+
+namespace asdfvk {
+namespace {
+
+constexpr const char* kSegmentGroup = "Segments";
+
+bool looksLikeFile(const std::string& text) {
+  std::error_code ignored;
+  return text == "-" || text.find_first_of("./") != std::string::npos || std::filesystem::exists(text, ignored);
+}
+
+void addParts(CLI::App& app, PartsOptions& options) {
+  addValue(app, "--parts", "N",
+           fmt::format("--segment parts: the number of parts, 1 to {}; default: it is found", kMaxPartCount),
+           [&](const std::string& text) {
+             options.partCount = static_cast<uint32_t>(parseWholeNumber(text, 1, kMaxPartCount));
+           })
+      ->group(kSegmentGroup);
+  addValue(app, "--detail", "X",
+           fmt::format("--segment parts: divides the cost at which merging stops, {} to {}; a larger\n"
+                       "number gives more parts; default {}",
+                       kMinDetail, kMaxDetail, PartsOptions{}.detail),
+           [&](const std::string& text) {
+             options.detail = parseNumber(
+                 text, [](double x) { return x >= kMinDetail && x <= kMaxDetail; },
+                 fmt::format("is not from {} to {}", kMinDetail, kMaxDetail).c_str());
+           })
+      ->group(kSegmentGroup);
+}
+
+void addCgal(CLI::App& app, CgalSegmentationOptions& options) {
+  const CgalSegmentationOptions defaults;
+  addValue(app, "--clusters", "K",
+           fmt::format("--segment cgal: clusters of values, 2 to {}; the number of segments is\n"
+                       "another one; default {}",
+                       kMaxClusterCount, defaults.clusterCount),
+           [&](const std::string& text) {
+             options.clusterCount = static_cast<uint32_t>(parseWholeNumber(text, 2, kMaxClusterCount));
+           })
+      ->group(kSegmentGroup);
+  addValue(app, "--smoothness", "L",
+           fmt::format("--segment cgal: weight of the boundaries, 0 to {}, usually at most 1;\n"
+                       "default {}",
+                       kMaxSmoothness, defaults.smoothness),
+           [&](const std::string& text) {
+             options.smoothness = parseNumber(
+                 text, [](double x) { return x >= 0 && x <= kMaxSmoothness; },
+                 fmt::format("is not from 0 to {}", kMaxSmoothness).c_str());
+           })
+      ->group(kSegmentGroup);
+  addChoice(app, "--cgal-expansion", options.expansion, kCgalExpansions,
+            "--segment cgal: the graph cut expands all clusters, or the first one only, as\n"
+            "CGAL 5.5.1 does; default all")
+      ->group(kSegmentGroup);
+}
+
+}  // namespace
+
+void addSegments(CLI::App& app, Options& options) {
+  addChoice(app, "--postprocess", options.postprocess, kPostprocesses,
+            "Field normalized. cgal: missing values are filled, all are smoothed and mapped\n"
+            "to 0 .. 1, as CGAL does; default none")
+      ->group(kSegmentGroup);
+  addChoice(app, "--segment", options.segmentation, kSegmentations,
+            "Field segment. parts: the parts that people see, also --segment without a\n"
+            "value. cgal: soft clustering and graph cut, as CGAL does; implies\n"
+            "--postprocess cgal; for --seeds all. Default none")
+      ->group(kSegmentGroup);
+  addParts(app, options.parts);
+  addCgal(app, options.cgalSegmentation);
+}
+
+void expandBareSegment(std::vector<std::string>& arguments) {
+  for (size_t i = 0; i < arguments.size() && arguments[i] != "--"; ++i) {
+    if (arguments[i] != "--segment") continue;
+    if (i + 1 == arguments.size() || arguments[i + 1].starts_with("-") || looksLikeFile(arguments[i + 1]))
+      arguments[i] = fmt::format("--segment={}", nameOf(kSegmentations, Segmentation::Parts));
+  }
+}
+
+void completeSegments(const CLI::App& app, CommandLine& line) {
+  const auto isGiven = [&app](const char* option) { return app.count(option) > 0; };
+  const auto fail = [](const std::string& message) { throw Error(ErrorCode::OptionConflict, message); };
+  Options& options = line.options;
+  if (options.segmentation != Segmentation::Cgal)
+    for (const char* option : {"--clusters", "--smoothness", "--cgal-expansion"})
+      if (isGiven(option)) fail(fmt::format("{} needs --segment cgal", option));
+  if (options.segmentation != Segmentation::Parts)
+    for (const char* option : {"--parts", "--detail"})
+      if (isGiven(option)) fail(fmt::format("{} needs --segment parts", option));
+  if (isGiven("--parts") && isGiven("--detail")) fail("--parts and --detail contradict each other; drop one");
+  if (options.segmentation == Segmentation::Cgal && isGiven("--postprocess") &&
+      options.postprocess == Postprocess::None)
+    fail("--segment cgal contradicts --postprocess none; drop one");
+  if (options.postprocesses()) options.postprocess = Postprocess::Cgal;
+  const auto require = [&](const char* field, bool isComputed, const char* remedy) {
+    if (isComputed && !isGiven("--fields")) line.fields.emplace_back(field);
+    if (isComputed) return;
+    if (std::count(line.fields.begin(), line.fields.end(), field) > 0)
+      fail(fmt::format("--fields {} needs {}", field, remedy));
+    if (line.pictureOf == field) fail(fmt::format("--picture-of {} needs {}", field, remedy));
+  };
+  require("normalized", options.postprocesses(), "--postprocess cgal");
+  require("segment", options.segmentation != Segmentation::None, "--segment");
+}
+
+nlohmann::ordered_json segmentOptionValues(const Options& options) {
+  const PartsOptions& parts = options.parts;
+  return {{"postprocess", nameOf(kPostprocesses, options.postprocess)},
+          {"segment", nameOf(kSegmentations, options.segmentation)},
+          {"parts", parts.partCount ? nlohmann::ordered_json(*parts.partCount) : nlohmann::ordered_json(nullptr)},
+          {"detail", parts.detail},
+          {"clusters", options.cgalSegmentation.clusterCount},
+          {"smoothness", options.cgalSegmentation.smoothness},
+          {"cgalExpansion", nameOf(kCgalExpansions, options.cgalSegmentation.expansion)}};
+}
+
+}  // namespace asdfvk
