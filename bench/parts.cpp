@@ -88,6 +88,17 @@ Score scoreOf(Session& session, const Model& model, const std::string& seeds, co
   return score;
 }
 
+/// Mean error of a human segmentation against another one; 0 with one only.
+double errorOfPeople(const Model& model) {
+  double sum = 0, count = 0;
+  for (size_t i = 0; i < model.humans.size(); ++i)
+    for (size_t j = 0; j < i; ++j) {
+      sum += 1 - randIndex(model.humans[i], model.humans[j]);
+      ++count;
+    }
+  return count > 0 ? sum / count : 0;
+}
+
 struct Mean {
   double sum = 0, count = 0;
   void add(double value) {
@@ -108,12 +119,15 @@ void run(const Arguments& arguments, const RunControl& control) {
   Session session(sessionOptionsOf(arguments.backend, arguments.device));
   const size_t columnCount = arguments.seeds.size();
   std::map<uint32_t, std::vector<Mean>> errors;  // By category.
-  std::vector<Mean> all(columnCount), counts(columnCount), seconds(columnCount);
+  std::vector<Mean> all(columnCount + 1), counts(columnCount), seconds(columnCount);
   for (const uint32_t id : idsIn(arguments.folder)) {
     control.checkpoint(0);
     const Model model = readModel(arguments.folder, id);
     const uint32_t category = (id - 1) / kModelsPerCategory;
-    errors[category].resize(columnCount);
+    errors[category].resize(columnCount + 1);
+    const double ofPeople = errorOfPeople(model);
+    errors[category].back().add(ofPeople);
+    all.back().add(ofPeople);
     for (size_t i = 0; i < columnCount; ++i) {
       const Score score = scoreOf(session, model, arguments.seeds[i], arguments, {control.stop, {}});
       errors[category][i].add(score.error);
@@ -126,7 +140,7 @@ void run(const Arguments& arguments, const RunControl& control) {
   std::string text = fmt::format("{}\nRand index error against people, by faces that cast rays\n\n| category |",
                                  toText(thisMachine()));
   for (const std::string& seeds : arguments.seeds) text += fmt::format(" {} |", seeds);
-  text += "\n|---|";
+  text += " people |\n|---|---|";
   for (size_t i = 0; i < columnCount; ++i) text += "---|";
   const auto addRow = [&](const std::string& name, const std::vector<Mean>& means, int decimals) {
     text += fmt::format("\n| {} |", name);

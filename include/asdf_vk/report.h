@@ -16,22 +16,23 @@ namespace asdfvk {
 /// The stages of a computation, in the order in which they run.
 enum class Stage {
   Read,
-  Geometry,  ///< Normals, areas, components, defects, orientation.
-  Graph,     ///< Dual graph and edge defects.
-  Bvh,       ///< Hierarchy.
-  Encode,    ///< Conversion of the hierarchy to the layout of the device, or the Embree scenes.
-  Upload,    ///< Creation and release of kernels and buffers of the device; 0 without Vulkan.
-  Sample,    ///< Selection of the seeds.
-  Trace,     ///< Rays.
-  Predict,   ///< Prediction from hits.
-  Solve,     ///< Poisson equation.
-  Estimate,  ///< Error estimate, with the predictions and solutions it needs.
+  Geometry,   ///< Normals, areas, components, defects, orientation.
+  Graph,      ///< Dual graph and edge defects.
+  Bvh,        ///< Hierarchy.
+  Encode,     ///< Conversion of the hierarchy to the layout of the device, or the Embree scenes.
+  Upload,     ///< Creation and release of kernels and buffers of the device; 0 without Vulkan.
+  Sample,     ///< Selection of the seeds.
+  Trace,      ///< Rays.
+  Thickness,  ///< Measure::Thickness: balls, interpolation, regions.
+  Predict,    ///< Prediction from hits.
+  Solve,      ///< Poisson equation.
+  Estimate,   ///< Error estimate, with the predictions and solutions it needs.
   Smooth,
   Postprocess,  ///< Values to [0, 1], with the neighbours of each face.
   Segment,
   Write,
 };
-inline constexpr size_t kStageCount = 15;
+inline constexpr size_t kStageCount = 16;
 /// "read", "geometry", ...
 [[nodiscard]] ASDFVK_API const char* nameOf(Stage stage);
 
@@ -149,10 +150,12 @@ struct PostprocessReport {
   double min = 0, max = 0;
 };
 
+inline constexpr double kPartStabilityFactor = 1.25;
+
 /// Of Segmentation::Parts.
 struct PartsReport {
-  /// Numbers of parts at a detail divided and multiplied by 1.25: the result is stable where both are the number of
-  /// segments.
+  /// Numbers of parts at a detail divided and multiplied by kPartStabilityFactor: the result is stable where both are
+  /// the number of segments.
   uint32_t fewestCount = 0, mostCount = 0;
   /// Mean Rand index of the result with those from other numbers of patches, weighted by area: 1 where all are equal.
   /// Below about 0.9 the parts depend on chance.
@@ -165,6 +168,29 @@ struct PartsReport {
 struct SegmentationReport {
   uint32_t segmentCount = 0;
   std::optional<PartsReport> parts;  ///< Set with Segmentation::Parts.
+};
+
+/// Faces below ThicknessOptions::thinnerThan that are connected over shared edges. Lengths in the unit of the mesh.
+struct ThinRegion {
+  uint64_t faceCount = 0;  ///< Input faces.
+  double area = 0;         ///< Of its triangles.
+  double areaShare = 0;    ///< Of the area of the mesh.
+  double least = 0;        ///< Least thickness.
+  uint64_t leastFace = 0;  ///< Input face with the least thickness.
+  Vec3d place;             ///< Barycentre of the triangle with the least thickness.
+};
+
+/// Set where the result has the field "thickness". Percentiles are over the area of the triangles with a thickness.
+struct ThicknessReport {
+  double min = kNoValue, p1 = kNoValue, p5 = kNoValue, p50 = kNoValue, p95 = kNoValue, max = kNoValue;
+  uint64_t noValueCount = 0;     ///< Input faces without a thickness.
+  uint64_t tracedCount = 0;      ///< Triangles whose thickness is from their own rays; the others are interpolated.
+  uint64_t verifiedCount = 0;    ///< Of those, not seeds: traced because their region is thin, or next to it.
+  uint64_t unrefinedCount = 0;   ///< Of those, without an opposing wall in sight: the least of their rays.
+  uint64_t redoneBallCount = 0;  ///< Balls beyond the limits of the device or of float32, shrunk by the reference.
+  std::optional<double> thinnerThan;       ///< ThicknessOptions::thinnerThan.
+  std::vector<ThinRegion> thinRegions;     ///< By descending area. Empty without thinnerThan.
+  double thinArea = 0, thinAreaShare = 0;  ///< Of all thin regions.
 };
 
 /// Names of the variant of the Vulkan kernels.
@@ -195,6 +221,7 @@ struct Report {
   ValueRange sdf;
   std::optional<PostprocessReport> postprocess;    ///< Set where the result has the field "normalized".
   std::optional<SegmentationReport> segmentation;  ///< Set where the result has the field "segment".
+  std::optional<ThicknessReport> thickness;        ///< Set where the result has the field "thickness".
   MeshDefects defects;
   std::vector<uint64_t> reversedFaces;  ///< Input faces that Options::orientation reversed, ascending.
   std::vector<Warning> warnings;

@@ -69,9 +69,9 @@ void warnAboutParts(const Parts& parts, const Options& options, Report& report) 
 }
 
 void segmentByParts(const PreparedMesh& prepared, std::span<const double> values, const Options& options,
-                    const LineOfSight& sight, Report& report, SegmentedValues& result) {
+                    const LineOfSight& sight, const RunControl& control, Report& report, SegmentedValues& result) {
   const Parts parts = segmentIntoParts({prepared.mesh, prepared.geometry, prepared.graph, prepared.components, values},
-                                       options.parts, sight);
+                                       options.parts, sight, control);
   result.segments = segmentsOfInputFaces(prepared.mesh, parts.partOf, prepared.geometry.areas);
   const uint32_t count = countSegments(result.segments);
   report.segmentation =
@@ -98,7 +98,7 @@ SegmentedValues segmentValues(const PreparedMesh& prepared, std::span<const doub
   control.checkpoint(0.5);
   const auto scope = clock.time(Stage::Segment);
   if (options.segmentation == Segmentation::Parts) {
-    segmentByParts(prepared, values, options, sight, report, result);
+    segmentByParts(prepared, values, options, sight, control, report, result);
     return result;
   }
   const CgalSegmentation segmentation =

@@ -82,27 +82,32 @@ double PartMerging::costOf(const Border& border) const {
          std::pow(border.length / std::sqrt(area), w.borderExponent);
 }
 
-uint32_t PartMerging::cheapestBorder(std::span<const uint32_t> among) const {
+void PartMerging::keepCheaper(uint32_t border, uint32_t& cheapest) const {
+  if (borders_[border].isAlive && (cheapest == kNoBorder || borders_[border].cost < borders_[cheapest].cost))
+    cheapest = border;
+}
+
+uint32_t PartMerging::cheapestBorder() const {
   uint32_t cheapest = kNoBorder;
-  for (const uint32_t border : among)
-    if (borders_[border].isAlive && (cheapest == kNoBorder || borders_[border].cost < borders_[cheapest].cost))
-      cheapest = border;
+  for (uint32_t border = 0; border < borders_.size(); ++border) keepCheaper(border, cheapest);
+  return cheapest;
+}
+
+uint32_t PartMerging::cheapestBorderOf(const Region& region) const {
+  uint32_t cheapest = kNoBorder;
+  for (const uint32_t border : region.borders) keepCheaper(border, cheapest);
   return cheapest;
 }
 
 std::optional<double> PartMerging::nextCost() const {
-  std::optional<double> least;
-  for (const Border& border : borders_)
-    if (border.isAlive && (!least || border.cost < *least)) least = border.cost;
-  return least;
+  const uint32_t border = cheapestBorder();
+  return border == kNoBorder ? std::nullopt : std::optional(borders_[border].cost);
 }
 
 void PartMerging::mergeNext() {
-  uint32_t cheapest = kNoBorder;
-  for (uint32_t i = 0; i < borders_.size(); ++i)
-    if (borders_[i].isAlive && (cheapest == kNoBorder || borders_[i].cost < borders_[cheapest].cost)) cheapest = i;
-  ASDFVK_CHECK_OP(cheapest, !=, kNoBorder);
-  merge(cheapest);
+  const uint32_t border = cheapestBorder();
+  ASDFVK_CHECK_OP(border, !=, kNoBorder);
+  merge(border);
 }
 
 /// Region b becomes part of region a.
@@ -163,12 +168,12 @@ void PartMerging::mergeSmallerThan(double area) {
     uint32_t smallest = kNoBorder;
     for (uint32_t i = 0; i < regions_.size(); ++i) {
       const Region& region = regions_[i];
-      if (region.isAlive && region.area < area && cheapestBorder(region.borders) != kNoBorder &&
+      if (region.isAlive && region.area < area && cheapestBorderOf(region) != kNoBorder &&
           (smallest == kNoBorder || region.area < regions_[smallest].area))
         smallest = i;
     }
     if (smallest == kNoBorder) return;
-    merge(cheapestBorder(regions_[smallest].borders));
+    merge(cheapestBorderOf(regions_[smallest]));
   }
 }
 

@@ -28,18 +28,18 @@ constexpr double kMinWallShape = 0.36;
 /// Plates, too, are walls, but see themselves.
 constexpr double kMaxWallSight = 0.5;
 
-/// Whether closed components make up most of the area and are thin walls, by their volume.
+/// Whether most of the area belongs to closed components and has values, and these are thin walls by their volume.
 bool isWall(const PartsInput& input, const PartSurface& surface) {
-  double volume = 0, area = 0, product = 0;
+  double volume = 0, valuedArea = 0, product = 0;
   for (uint32_t face = 0; face < surface.faceCount(); ++face) {
     const Component& component = input.components.components[input.components.componentOf[face]];
     if (!component.isClosed || !component.isConsistentlyWound) continue;
     const double faceArea = double{surface.areas[face]};
     volume += dot(surface.centres[face], input.geometry.normals[face]) * faceArea / 3;
-    area += faceArea;
+    valuedArea += std::isnan(input.values[face]) ? 0 : faceArea;
     product += faceArea * std::exp(double{surface.logValues[face]});
   }
-  return area > 0.5 && std::abs(volume) > kMinWallShape * product;
+  return valuedArea > 0.5 && std::abs(volume) > kMinWallShape * product;
 }
 
 /// Per component: its share of the area, and the face farthest from its centre.
@@ -216,7 +216,8 @@ void sortByValue(const PartSurface& surface, std::vector<uint32_t>& labels, uint
 
 }  // namespace
 
-Parts segmentIntoParts(const PartsInput& input, const PartsOptions& options, const LineOfSight& sight) {
+Parts segmentIntoParts(const PartsInput& input, const PartsOptions& options, const LineOfSight& sight,
+                       const RunControl& control) {
   const PartSurface surface = makePartSurface(input.mesh, input.geometry, input.graph, input.values);
   const ComponentShapes shapes = shapesOf(surface, input.components);
   std::vector<uint32_t> firstSeeds;
@@ -230,12 +231,14 @@ Parts segmentIntoParts(const PartsInput& input, const PartsOptions& options, con
     return parts;
   }
 
+  control.checkpoint(0);
   std::vector<Division> divisions(kPatchCounts.size());
   std::vector<Patches> patches = makePatches(surface, firstSeeds, patchCountsFor(surface.faceCount(), options));
   forEachTask(divisions.size(), [&](size_t i) {
     divisions[i].patches = std::move(patches[i]);
     divisions[i].data = describePatches(surface, input.geometry.normals, divisions[i].patches);
   });
+  control.checkpoint(0.5);
   std::vector<SightMatrix> matrices;
   SightSums sums;
   for (const Division& division : divisions) matrices.push_back(findSight(input, surface, division.data, sight, sums));
@@ -259,8 +262,9 @@ Parts segmentIntoParts(const PartsInput& input, const PartsOptions& options, con
   if (mergesSmall) merging.mergeSmallerThan(kMinPartArea);
   parts.partCount = merging.regionCount();
   const double threshold = thresholdOf(merging, options, weights);
-  parts.fewest = std::min(parts.partCount, countAt(division, threshold * kStabilityFactor, mergesSmall));
-  parts.most = std::max(parts.partCount, countAt(division, threshold / kStabilityFactor, mergesSmall));
+  parts.fewest = std::min(parts.partCount, countAt(division, threshold * kPartStabilityFactor, mergesSmall));
+  parts.most = std::max(parts.partCount, countAt(division, threshold / kPartStabilityFactor, mergesSmall));
+  control.checkpoint(0.8);
   parts.partOf = cutBoundaries(surface, labelsOf(division.patches, merging, kNoLabel), parts.partCount);
   labelSmallComponents(input, surface, division, parts.partOf);
   sortByValue(surface, parts.partOf, parts.partCount);

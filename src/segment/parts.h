@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "asdf_vk/options.h"
+#include "asdf_vk/report.h"
+#include "asdf_vk/run_control.h"
 #include "core/line_segment.h"
 #include "mesh/components.h"
 #include "mesh/dual_graph.h"
@@ -32,21 +34,21 @@ struct PartsInput {
 struct Parts {
   std::vector<uint32_t> partOf;  ///< #F, numbered by ascending mean value.
   uint32_t partCount = 0;
-  uint32_t fewest = 0, most = 0;  ///< Numbers of parts at kStabilityFactor times the threshold, and at 1 over that.
+  uint32_t fewest = 0, most = 0;  ///< Numbers of parts at kPartStabilityFactor times the threshold, and at 1 over that.
   double agreement = 1;           ///< Mean Rand index of the chosen division with the other ones, weighted by area.
   bool isThinShell = false;       ///< A closed thin wall whose sides do not see each other; sight was not used.
   double meanSight = 1;           ///< Over pairs of patches of a component, weighted by the product of their areas.
 };
 
-inline constexpr double kStabilityFactor = 1.25;
 /// Share of the area below which a component is no part of its own, and a part is merged.
 inline constexpr double kMinPartArea = 0.01;
 
 /// Components below kMinPartArea take the part of the patch that is nearest in space; if there is no larger component,
 /// each is a part. Other parts never extend over several components. With options.partCount there are that many
 /// parts: more where there are more components, fewer where there are fewer faces; none of them is merged for its
-/// size. The same result on any number of threads. Throws Error{NoValues} where no face has a value, and what `sight`
-/// throws.
-[[nodiscard]] Parts segmentIntoParts(const PartsInput& input, const PartsOptions& options, const LineOfSight& sight);
+/// size. The same result on any number of threads. Throws Error{NoValues} where no face has a value, what `sight`
+/// throws, and Error{Cancelled} between steps.
+[[nodiscard]] Parts segmentIntoParts(const PartsInput& input, const PartsOptions& options, const LineOfSight& sight,
+                                     const RunControl& control = {});
 
 }  // namespace asdfvk
