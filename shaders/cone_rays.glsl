@@ -8,7 +8,6 @@ layout(set = 0, binding = 5, rgba32ui) uniform readonly uimageBuffer originTexel
 
 layout(constant_id = 8) const bool kIsCgal = false;  // The definition of the shape diameter; otherwise the paper's.
 
-const float kFarAway = 1e30;  // Greater than any distance in normalised coordinates.
 const float kDropped = -1.0;  // The length of an invalid ray.
 
 ConeRay loadRay(uint ray) { return decodeConeRay(imageLoad(rayTexels, int(ray))); }
@@ -17,6 +16,10 @@ ConeOrigin loadOrigin(uint cone) {
   const int t = int(cone * kConeOriginTexelCount);
   return decodeConeOrigin(imageLoad(originTexels, t), imageLoad(originTexels, t + 1), imageLoad(originTexels, t + 2));
 }
+
+#include "walk_parts.glsl"
+
+#include "ray_query.glsl"
 
 #include "nearest_hit.glsl"
 

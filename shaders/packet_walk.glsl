@@ -4,13 +4,11 @@
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #extension GL_KHR_shader_subgroup_ballot : require
 
-Hit walkBinaryTogether(vec3 origin, vec3 direction, uint excludedFace, inout uint iterationCount) {
-  const RayFrame frame = makeRayFrame(direction);
-  const vec3 inverseDirection = invert(direction);
+Hit walkBinaryTogether(Query query, float limit, inout uint iterationCount) {
   uint stack[kMaxBvhDepth + 1u];
   uint stackSize = 1u;
   stack[0] = 0u;
-  Hit hit = Hit(kFarAway, kNoPrimitive, true);
+  Hit hit = Hit(limit, kNoPrimitive, true);
   while (stackSize > 0u && iterationCount <= kIterationLimit) {
     --stackSize;
     const uint current = stack[stackSize];
@@ -19,8 +17,8 @@ Hit walkBinaryTogether(vec3 origin, vec3 direction, uint excludedFace, inout uin
     iterationCount += 2u + end - primitive;
     if (primitive == end) {
       const DeviceBvhNode node = loadNode(current);
-      const float left = enterBox(node.leftMin, node.leftMax, origin, inverseDirection, hit.distance);
-      const float right = enterBox(node.rightMin, node.rightMax, origin, inverseDirection, hit.distance);
+      const float left = enterBox(node.leftMin, node.leftMax, node.leftNormals, query, hit.distance);
+      const float right = enterBox(node.rightMin, node.rightMax, node.rightNormals, query, hit.distance);
       const uint entered = subgroupOr((left < kFarAway ? 1u : 0u) | (right < kFarAway ? 2u : 0u));
       const bool leftIsNear = subgroupBroadcastFirst(left <= right ? 1u : 0u) != 0u;
       if ((entered & (leftIsNear ? 2u : 1u)) != 0u) {
@@ -32,21 +30,19 @@ Hit walkBinaryTogether(vec3 origin, vec3 direction, uint excludedFace, inout uin
         ++stackSize;
       }
     }
-    for (; primitive < end; ++primitive) testTriangle(frame, origin, primitive, excludedFace, hit);
+    for (; primitive < end; ++primitive) testTriangle(query, primitive, hit);
   }
   hit.isComplete = iterationCount <= kIterationLimit;
   return hit;
 }
 
-Hit walkWideTogether(vec3 origin, vec3 direction, uint excludedFace, inout uint iterationCount) {
-  const RayFrame frame = makeRayFrame(direction);
-  const WideRay ray = makeWideRay(origin, direction);
-  const bvec3 isNegative = bvec3(subgroupBroadcastFirst(uvec3(ray.isNegative)));
+Hit walkWideTogether(Query query, float limit, inout uint iterationCount) {
+  const bvec3 isNegative = bvec3(subgroupBroadcastFirst(uvec3(query.isNegative)));
   uint stackBases[kMaxWideBvhDepth];
   uint stackBits[kMaxWideBvhDepth];
   uint stackSize = 0u;
   Group group = Group(0u, 8u);
-  Hit hit = Hit(kFarAway, kNoPrimitive, true);
+  Hit hit = Hit(limit, kNoPrimitive, true);
   while (group.bits != 0u && iterationCount <= kIterationLimit) {
     const uint index = takeNearest(group, isNegative);
     if (hasMore(group)) {
@@ -55,7 +51,7 @@ Hit walkWideTogether(vec3 origin, vec3 direction, uint excludedFace, inout uint 
       ++stackSize;
     }
     const DeviceWideNode node = loadWideNode(index);
-    const uint children = subgroupOr(enterChildren(node, ray, hit.distance));
+    const uint children = subgroupOr(enterChildren(index, node, query, hit.distance));
     const uint leaves = node.childBits & ~kWideInnerBits;
     uint triangles = children & leaves;
     group = groupOf(node, children, isNegative);
@@ -66,7 +62,7 @@ Hit walkWideTogether(vec3 origin, vec3 direction, uint excludedFace, inout uint 
     iterationCount += 2u + bitCount(triangles);
     for (; triangles != 0u; triangles &= triangles - 1u) {
       const uint below = (triangles & (~triangles + 1u)) - 1u;
-      testTriangle(frame, origin, node.triangleBase + bitCount(leaves & below), excludedFace, hit);
+      testTriangle(query, node.triangleBase + bitCount(leaves & below), hit);
     }
   }
   hit.isComplete = iterationCount <= kIterationLimit;

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
+#include <bit>
 #include <cmath>
 
 #include "asdf_vk/error.h"
+#include "bvh/normal_bounds.h"
 #include "bvh/wide_bvh.h"
 #include "core/check.h"
 
@@ -29,11 +31,11 @@ DeviceBvhNode encodeRootLeaf(const BvhNode& root) {
   return {.leftMin = grownMin(root.min),
           .left = leafReference(root),
           .leftMax = grownMax(root.max),
-          .unused0 = 0,
+          .leftNormals = kAnyNormals,
           .rightMin = {kFarAway, kFarAway, kFarAway},
           .right = leafReference(root),
           .rightMax = {kFarAway, kFarAway, kFarAway},
-          .unused1 = 0};
+          .rightNormals = kAnyNormals};
 }
 
 UnsetVector<DeviceBvhNode> encodeNodes(std::span<const BvhNode> nodes) {
@@ -54,11 +56,11 @@ UnsetVector<DeviceBvhNode> encodeNodes(std::span<const BvhNode> nodes) {
     encoded[innerIndex[i]] = {.leftMin = grownMin(left.min),
                               .left = referenceTo(leftIndex),
                               .leftMax = grownMax(left.max),
-                              .unused0 = 0,
+                              .leftNormals = kAnyNormals,
                               .rightMin = grownMin(right.min),
                               .right = referenceTo(leftIndex + 1),
                               .rightMax = grownMax(right.max),
-                              .unused1 = 0};
+                              .rightNormals = kAnyNormals};
   });
   return encoded;
 }
@@ -95,7 +97,55 @@ UnsetVector<DeviceTriangle> encodeTriangles(std::span<const uint32_t> primitiveF
   return triangles;
 }
 
+/// The bounds of the normals of consecutive triangles.
+NormalBounds boundsOfTriangles(const DeviceBvh& bvh, const FaceGeometry& geometry, uint32_t first, uint32_t count) {
+  NormalBounds bounds;
+  for (uint32_t i = first; i < first + count; ++i) bounds.add(geometry.normals[bvh.triangles[i].faceIndex]);
+  return bounds;
+}
+
+void addToBinary(DeviceBvh& bvh, const FaceGeometry& geometry) {
+  const auto boundsOf = [&](uint32_t reference) {
+    if (reference > kReferenceFirstMask)
+      return boundsOfTriangles(bvh, geometry, reference & kReferenceFirstMask, reference >> kReferenceCountShift);
+    NormalBounds bounds{bvh.nodes[reference].leftNormals};
+    bounds.add(NormalBounds{bvh.nodes[reference].rightNormals});
+    return bounds;
+  };
+  for (size_t i = bvh.nodes.size(); i-- > 0;) {  // Backwards: children follow their parent.
+    bvh.nodes[i].leftNormals = boundsOf(bvh.nodes[i].left).bits;
+    bvh.nodes[i].rightNormals = boundsOf(bvh.nodes[i].right).bits;
+  }
+}
+
+void addToWide(DeviceBvh& bvh, const FaceGeometry& geometry) {
+  bvh.childNormals.resize(bvh.wideNodes.size());
+  for (size_t i = bvh.wideNodes.size(); i-- > 0;) {
+    const DeviceWideNode& node = bvh.wideNodes[i];
+    std::array<uint32_t, kWideChildCount>& normals = bvh.childNormals[i];
+    uint32_t child = node.childBase, triangle = node.triangleBase;
+    for (uint32_t slot = 0; slot < kWideChildCount; ++slot) {
+      const uint32_t kind = node.childBits >> 4 * slot & 15;
+      NormalBounds bounds;
+      if (kind == 8) {
+        for (const uint32_t bits : bvh.childNormals[child]) bounds.add(NormalBounds{bits});
+        ++child;
+      } else {
+        const auto count = static_cast<uint32_t>(std::popcount(kind));
+        bounds = boundsOfTriangles(bvh, geometry, triangle, count);
+        triangle += count;
+      }
+      normals[slot] = bounds.bits;
+    }
+  }
+}
+
 }  // namespace
+
+void DeviceBvh::addNormalBounds(const FaceGeometry& geometry) {
+  addToBinary(*this, geometry);
+  addToWide(*this, geometry);
+}
 
 DeviceBvh encodeDeviceBvh(const Bvh& bvh, const TriangleMesh& mesh, const FaceGeometry& geometry, BvhLayout layout) {
   DeviceBvh device;
@@ -105,7 +155,7 @@ DeviceBvh encodeDeviceBvh(const Bvh& bvh, const TriangleMesh& mesh, const FaceGe
                                                     bvh.primitiveFaces.size(), kReferenceFirstMask));
   if (layout == BvhLayout::Wide) {
     WideBvh wide = encodeWideBvh(bvh);
-    return {{}, std::move(wide.nodes), encodeTriangles(wide.primitiveFaces, bvh, mesh, geometry), wide.depth};
+    return {{}, std::move(wide.nodes), encodeTriangles(wide.primitiveFaces, bvh, mesh, geometry), {}, wide.depth};
   }
   device.nodes =
       bvh.nodes[0].isLeaf() ? UnsetVector<DeviceBvhNode>{encodeRootLeaf(bvh.nodes[0])} : encodeNodes(bvh.nodes);

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <span>
+#include <vector>
 
 #include "bvh/bvh.h"
 #include "core/unset_vector.h"
@@ -26,7 +28,12 @@ struct DeviceBvh {
   UnsetVector<DeviceBvhNode> nodes;
   UnsetVector<DeviceWideNode> wideNodes;
   UnsetVector<DeviceTriangle> triangles;  ///< One per primitive; corners rounded to nearest.
+  /// Bounds of the normals below each slot of each wide node (NormalBounds); empty before addNormalBounds().
+  std::vector<std::array<uint32_t, kWideChildCount>> childNormals;
   uint32_t depth = 0;
+
+  /// Sets childNormals, or the bounds in binary nodes.
+  void addNormalBounds(const FaceGeometry& geometry);
 
   [[nodiscard]] std::span<const std::byte> nodeBytes() const {
     return nodes.empty() ? std::as_bytes(std::span(wideNodes)) : std::as_bytes(std::span(nodes));

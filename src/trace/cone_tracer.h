@@ -8,22 +8,13 @@
 #include <string>
 
 #include "asdf_vk/run_control.h"
-#include "bvh/bvh.h"
 #include "cone/cone.h"
 #include "core/check.h"
-#include "mesh/face_geometry.h"
-#include "mesh/mesh.h"
 #include "shared/cone_hit.h"
+#include "trace/ball_shrinker.h"
+#include "trace/trace_scene.h"
 
 namespace asdfvk {
-
-/// The mesh and the hierarchy that rays are traced against. Views only: everything must outlive the tracer.
-struct TraceScene {
-  TriangleMesh mesh;
-  const FaceGeometry& geometry;
-  std::span<const uint32_t> representatives;  ///< #F, see coincidentRepresentatives().
-  const Bvh& bvh;
-};
 
 /// The frame of the rays of a face, by the definition of the cone. Precondition: the face is not degenerate.
 [[nodiscard]] ConeFrame seedConeFrame(const TraceScene& scene, const Cone& cone, uint32_t face);
@@ -61,6 +52,9 @@ class ConeTracer {
   /// Throws Error{Cancelled} between chunks, Error{Device}.
   virtual TraceStatistics trace(std::span<const uint32_t> seedFaces, const ConeResults& results,
                                 const RunControl& control) = 0;
+
+  /// Shrinks balls in the scene of this tracer, on the same device. The tracer must outlive it. Throws Error{Device}.
+  [[nodiscard]] virtual std::unique_ptr<BallShrinker> makeBallShrinker(const OpposingWalls& walls) = 0;
 
   /// Seconds that the constructor spent on encoding the hierarchy for a device, without the upload; 0 without a device.
   [[nodiscard]] virtual double encodeSeconds() const { return 0; }

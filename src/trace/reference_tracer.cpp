@@ -39,6 +39,10 @@ class ReferenceTracer final : public ConeTracer {
     return {.rayCount = seedFaces.size() * rayCount, .redoneConeCount = 0};
   }
 
+  std::unique_ptr<BallShrinker> makeBallShrinker(const OpposingWalls& walls) override {
+    return makeReferenceBallShrinker(scene_, walls);
+  }
+
  private:
   TraceScene scene_;
   const Cone& cone_;
@@ -62,7 +66,7 @@ std::unique_ptr<ConeTracer> makeReferenceTracer(const TraceScene& scene, const C
 }
 
 double referenceRayLength(const TraceScene& scene, const Cone& cone, const Vec3d& direction, uint32_t seedFace) {
-  const Vec3d origin = scene.bvh.normalization.toNormalized(scene.geometry.barycentres[seedFace]);
+  const Vec3d origin = scene.originOf(seedFace);
   const RayHit hit = hitOf(scene, origin, direction, seedFace);
   return isValid(scene, cone, direction, seedFace, hit) ? scene.bvh.normalization.toMeshLength(hit.distance) : kNoValue;
 }
@@ -70,7 +74,7 @@ double referenceRayLength(const TraceScene& scene, const Cone& cone, const Vec3d
 double referenceCone(const TraceScene& scene, const Cone& cone, uint32_t seedFace, std::span<ConeHit> hits) {
   ASDFVK_CHECK(!scene.geometry.isDegenerate(seedFace));
   const ConeFrame frame = seedConeFrame(scene, cone, seedFace);
-  const Vec3d origin = scene.bvh.normalization.toNormalized(scene.geometry.barycentres[seedFace]);
+  const Vec3d origin = scene.originOf(seedFace);
   std::array<double, kMaxRayCount> distances, weights;
   size_t validCount = 0;
   for (size_t i = 0; i < cone.directions.size(); ++i) {

@@ -9,6 +9,11 @@
 
 namespace asdfvk {
 
+struct ThicknessStatistics {
+  uint64_t unrefinedCount = 0;   ///< Faces without an opposing wall in sight; see measureThickness().
+  uint64_t redoneBallCount = 0;  ///< See BallShrinker::shrink().
+};
+
 /// Seed faces and their results.
 struct TracedSeeds {
   explicit TracedSeeds(size_t faceCount) : values(faceCount, kNoValue), isSeed(faceCount, 0) {}
@@ -18,6 +23,8 @@ struct TracedSeeds {
   std::vector<uint32_t> faces;  ///< #S, in the order in which they were traced.
   std::vector<ConeHit> hits;    ///< #S x rays, see ConeResults::hits; empty where hits are not kept.
   TraceStatistics statistics;
+  std::vector<double> thickness;  ///< As `values`; empty where the thickness is not measured.
+  ThicknessStatistics thicknessStatistics;
 };
 
 /// A view of the hits of all rays of some seeds.

@@ -3,6 +3,7 @@
 #include <cstring>
 #include <vector>
 
+#include "shared/ball_layout.h"
 #include "shared/bvh_layout.h"
 #include "shared/cone_layout.h"
 #include "spirv/layout_probe.comp.h"
@@ -45,23 +46,24 @@ TEST_CASE("each field of the shared structs arrives on the device in its place")
   const auto rays = distinctWords<ConeRay>(3000);
   const auto origins = distinctWords<ConeOrigin>(4000);
   const auto wideNodes = distinctWords<DeviceWideNode>(5000);
+  const auto balls = distinctWords<BallStart>(6000);
 
   constexpr auto kTexel = VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT;
   constexpr auto kStorage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
   const Buffer nodeBuffer = upload(*device, nodes, kTexel), triangleBuffer = upload(*device, triangles, kTexel);
   const TexelView nodeView(*device, nodeBuffer), triangleView(*device, triangleBuffer);
   const Buffer rayBuffer = upload(*device, rays, kTexel), originBuffer = upload(*device, origins, kTexel);
-  const Buffer wideBuffer = upload(*device, wideNodes, kTexel);
+  const Buffer wideBuffer = upload(*device, wideNodes, kTexel), ballBuffer = upload(*device, balls, kStorage);
   const TexelView rayView(*device, rayBuffer), originView(*device, originBuffer), wideView(*device, wideBuffer);
   const Buffer words(*device, 4096, kStorage, MemoryKind::HostVisible);
   constexpr auto kTexels = VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER;
-  const ComputePipeline probe(*device,
-                              {"layout_probe.comp",
-                               k_layout_probe_comp,
-                               {kTexels, kTexels, kTexels, kTexels, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kTexels},
-                               0,
-                               {}});
-  const Binding bindings[] = {nodeView, triangleView, rayView, originView, words, wideView};
+  const ComputePipeline probe(*device, {"layout_probe.comp",
+                                        k_layout_probe_comp,
+                                        {kTexels, kTexels, kTexels, kTexels, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kTexels,
+                                         VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
+                                        0,
+                                        {}});
+  const Binding bindings[] = {nodeView, triangleView, rayView, originView, words, wideView, ballBuffer};
   const BindingSet set(*device, probe, bindings);
   CommandList commands(*device);
   commands.begin();
@@ -75,8 +77,9 @@ TEST_CASE("each field of the shared structs arrives on the device in its place")
   appendWords(expected, rays[1]);
   appendWords(expected, origins[1]);
   appendWords(expected, wideNodes[1]);
+  appendWords(expected, balls[1]);
   const std::span<uint32_t> seen = words.mappedAs<uint32_t>();
-  REQUIRE(expected.size() == 64);
+  REQUIRE(expected.size() == 72);
   for (size_t i = 0; i < expected.size(); ++i) {
     CAPTURE(i);
     CHECK(seen[i] == expected[i]);

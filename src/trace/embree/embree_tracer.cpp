@@ -60,6 +60,10 @@ class EmbreeTracer final : public ConeTracer {
     return {seedFaces.size() * rayCount, redoneConeCount};
   }
 
+  std::unique_ptr<BallShrinker> makeBallShrinker(const OpposingWalls& walls) override {
+    return makeReferenceBallShrinker(scene_, walls);
+  }
+
  private:
   static constexpr size_t kGroupSize = EmbreeConeGroup::kWidth;
 

@@ -1,7 +1,5 @@
 #include "trace/embree/lane_cones.h"
 
-#include <tbb/parallel_for.h>
-
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -134,16 +132,6 @@ class NeighbourWalk {
 };
 
 }  // namespace
-
-std::vector<TrianglePlane> trianglePlanes(const TraceScene& scene) {
-  std::vector<TrianglePlane> planes(scene.bvh.primitiveFaces.size());
-  tbb::parallel_for(size_t{0}, planes.size(), [&](size_t primitive) {
-    const uint32_t face = scene.bvh.primitiveFaces[primitive];
-    const Vec3d& normal = scene.geometry.normals[face];
-    planes[primitive] = {normal, dot(normal, scene.bvh.normalization.toNormalized(scene.geometry.barycentres[face]))};
-  });
-  return planes;
-}
 
 void LaneFrames::set(size_t lane, const ConeFrame& frame, const Vec3d& origin, const Vec3d& normal) {
   for (size_t axis = 0; axis < 3; ++axis) {

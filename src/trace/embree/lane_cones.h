@@ -9,20 +9,11 @@
 #include "cone/cone.h"
 #include "core/simd.h"
 #include "trace/cone_tracer.h"
+#include "trace/triangle_planes.h"
 
 // Eight cones, one per lane, in double and independent of Embree: computes their values from the hits of their rays,
 // and detects other triangles near their origins. Coordinates are normalised.
 namespace asdfvk {
-
-/// Plane of a triangle: normal * p = offset. 32 bytes; no other data of a hit triangle is needed.
-struct TrianglePlane {
-  Vec3d normal;  ///< Unit.
-  double offset = 0;
-};
-static_assert(sizeof(TrianglePlane) == 32);
-
-/// One per primitive of the hierarchy.
-[[nodiscard]] std::vector<TrianglePlane> trianglePlanes(const TraceScene& scene);
 
 /// Hits of the same ray of eight cones.
 struct LaneHits {

@@ -6,7 +6,9 @@
 #include <vector>
 
 #include "asdf_vk/error.h"
+#include "shared/ball_layout.h"
 #include "shared/cone_hit.h"
+#include "spirv/shrink_ball.comp.h"
 #include "spirv/trace_cone.comp.h"
 #include "spirv/trace_packet.comp.h"
 #include "spirv/trace_reduce.comp.h"
@@ -53,6 +55,19 @@ ComputePipelineDescription describe(const ConeKernelRequest& request, const Vulk
                                       /* IS_WIDE= */ choice.bvh == BvhLayout::Wide ? VK_TRUE : VK_FALSE,
                                       /* LANE_COUNT= */ shape.lanesPerCone * shape.conesPerWorkgroup,
                                       /* IS_CGAL= */ isCgal(request)}};
+}
+
+ComputePipelineDescription describeBalls(const Device& device, const VulkanTraceChoice& choice) {
+  const uint32_t iterationLimit =
+      workgroupShapeFor(device.facts(), 1, TraceKernel::Seed, Definition::Paper).iterationLimit;
+  return {.name = "shrink_ball.comp",
+          .spirv = k_shrink_ball_comp,
+          .bindings = {kTexels, kTexels, kStorage, kStorage, kTexels, kStorage, kStorage},
+          .pushConstantByteCount = sizeof(BallPush),
+          .specializationConstants = {/* LANE_COUNT= */ VulkanConeKernel::kBallLaneCount, 0, 0,
+                                      /* ITERATION_LIMIT= */ iterationLimit, 0,
+                                      /* FETCHES_TEXELS= */ choice.fetch == BvhFetch::Texel ? VK_TRUE : VK_FALSE,
+                                      /* IS_WIDE= */ choice.bvh == BvhLayout::Wide ? VK_TRUE : VK_FALSE}};
 }
 
 /// Returns the device, or throws.
@@ -115,6 +130,7 @@ VulkanConeKernel::VulkanConeKernel(const Device& device, const ConeKernelRequest
                                                           .pushConstantByteCount = sizeof(ConePush),
                                                           .specializationConstants = {
                                                               kReductionLaneCount, request.rayCount, isCgal(request)}});
+  if (request.shrinksBalls) balls_.emplace(device, describeBalls(device, choice_));
 }
 
 uint64_t largestConeChunk(const VulkanConeKernel& kernel) {
@@ -140,17 +156,31 @@ ConeBuffers::ConeBuffers(const VulkanConeKernel& kernel, const DeviceBvh& bvh, c
               MemoryKind::DeviceOnly),
       results(kernel.device(), largestConeChunk(kernel) * sizeof(uint32_t), kStorageUsage, MemoryKind::HostVisible),
       hits(kernel.device(), hitBufferByteCount(kernel), kStorageUsage, MemoryKind::HostVisible),
+      childNormals(uploadBuffer(kernel.device(), std::as_bytes(std::span(bvh.childNormals)), kTexelUsage)),
       nothing_(kernel.device(), 16, kTexelUsage | kStorageUsage, MemoryKind::DeviceLocal),
       nodeTexels_(kernel.device(), fetchesTexels(kernel) ? nodes : nothing_),
       triangleTexels_(kernel.device(), fetchesTexels(kernel) ? triangles : nothing_),
       rayTexels_(kernel.device(), rays),
       originTexels_(kernel.device(), origins),
+      childNormalTexels_(kernel.device(), childNormals),
       bindings(kernel.device(), kernel.pipeline(),
                std::vector<Binding>{nodeTexels_, triangleTexels_, fetchesTexels(kernel) ? nothing_ : nodes,
                                     fetchesTexels(kernel) ? nothing_ : triangles, rayTexels_, originTexels_,
                                     kernel.reduction() ? lengths : results, hits}) {
   if (kernel.reduction())
     reductionBindings.emplace(kernel.device(), *kernel.reduction(), std::vector<Binding>{rayTexels_, lengths, results});
+}
+
+std::vector<Binding> ConeBuffers::ballBindings(const VulkanConeKernel& kernel, const Buffer& starts,
+                                               const Buffer& walls) const {
+  const bool isTexel = fetchesTexels(kernel);
+  return {nodeTexels_,
+          triangleTexels_,
+          isTexel ? nothing_ : nodes,
+          isTexel ? nothing_ : triangles,
+          childNormalTexels_,
+          starts,
+          walls};
 }
 
 }  // namespace asdfvk

@@ -3,6 +3,7 @@
 #include <compare>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "bvh/device_bvh.h"
 #include "cone/cone.h"
@@ -19,6 +20,7 @@ struct ConeKernelRequest {
   bool writesHits = false;
   std::optional<VulkanTraceChoice> choice = {};  ///< None: defaultTraceChoice().
   Definition definition = Definition::Paper;
+  bool shrinksBalls = false;
   auto operator<=>(const ConeKernelRequest&) const = default;
 };
 
@@ -36,11 +38,14 @@ class VulkanConeKernel {
   /// Computes results from lengths; null unless pipeline() writes lengths, one per ray and cone. Binds rays, lengths,
   /// results.
   [[nodiscard]] const ComputePipeline* reduction() const { return reduction_ ? &*reduction_ : nullptr; }
+  /// shaders/shrink_ball.comp; null unless the request has shrinksBalls. Binds nodes and triangles as pipeline(),
+  /// bounds of normals, balls, walls.
+  [[nodiscard]] const ComputePipeline* balls() const { return balls_ ? &*balls_ : nullptr; }
   [[nodiscard]] uint32_t rayCount() const { return request_.rayCount; }
   [[nodiscard]] Definition definition() const { return request_.definition; }
   [[nodiscard]] bool writesHits() const { return request_.writesHits; }
   [[nodiscard]] const VulkanWorkgroupShape& shape() const { return shape_; }
-  static constexpr uint32_t kReductionLaneCount = 64;
+  static constexpr uint32_t kReductionLaneCount = 64, kBallLaneCount = 64;
 
  private:
   const Device& device_;
@@ -48,7 +53,7 @@ class VulkanConeKernel {
   VulkanTraceChoice choice_;
   VulkanWorkgroupShape shape_;
   ComputePipeline pipeline_;
-  std::optional<ComputePipeline> reduction_;
+  std::optional<ComputePipeline> reduction_, balls_;
 };
 
 /// Largest number of cones of one dispatch: each buffer stays within the limits of the device and at most 32 MiB.
@@ -60,18 +65,23 @@ struct ConeBuffers {
   ConeBuffers(const VulkanConeKernel& kernel, const DeviceBvh& bvh, const Cone& cone);
 
   Buffer nodes, triangles, rays;
-  Buffer origins;  ///< Mapped: a ConeOrigin per cone.
-  Buffer lengths;  ///< Bits of a float per ray and cone, if there is a reduction.
-  Buffer results;  ///< Mapped: a uint32_t per cone, see shared/cone_layout.h.
-  Buffer hits;     ///< Mapped: a ConeHit per cone and ray, if the kernel writes them.
+  Buffer origins;       ///< Mapped: a ConeOrigin per cone.
+  Buffer lengths;       ///< Bits of a float per ray and cone, if there is a reduction.
+  Buffer results;       ///< Mapped: a uint32_t per cone, see shared/cone_layout.h.
+  Buffer hits;          ///< Mapped: a ConeHit per cone and ray, if the kernel writes them.
+  Buffer childNormals;  ///< DeviceBvh::childNormals.
 
  private:
   Buffer nothing_;  // Placeholder for the bindings of the BvhFetch that is not selected.
-  TexelView nodeTexels_, triangleTexels_, rayTexels_, originTexels_;
+  TexelView nodeTexels_, triangleTexels_, rayTexels_, originTexels_, childNormalTexels_;
 
  public:
   BindingSet bindings;
   std::optional<BindingSet> reductionBindings;
+
+  /// Of VulkanConeKernel::balls().
+  [[nodiscard]] std::vector<Binding> ballBindings(const VulkanConeKernel& kernel, const Buffer& starts,
+                                                  const Buffer& walls) const;
 };
 
 [[nodiscard]] inline glsl::vec3 toGlsl(const Vec3d& v) {

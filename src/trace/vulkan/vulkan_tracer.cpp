@@ -11,6 +11,7 @@
 #include "trace/chunks.h"
 #include "trace/reference_tracer.h"
 #include "trace/seed_order.h"
+#include "trace/vulkan/vulkan_balls.h"
 #include "trace/vulkan/vulkan_cone_kernel.h"
 #include "vk/command_list.h"
 
@@ -54,11 +55,17 @@ class VulkanTracer final : public ConeTracer {
     return {statistics.rayCount, redone.size()};
   }
 
+  std::unique_ptr<BallShrinker> makeBallShrinker(const OpposingWalls& walls) override {
+    ASDFVK_CHECK(kernel_.balls() != nullptr);
+    return makeVulkanBallShrinker(kernel_, buffers_, scene_, walls);
+  }
+
   double encodeSeconds() const override { return encodeSeconds_; }
 
  private:
   DeviceBvh encode() {
     DeviceBvh bvh = encodeDeviceBvh(scene_.bvh, scene_.mesh, scene_.geometry, kernel_.choice().bvh);
+    if (kernel_.balls() != nullptr) bvh.addNormalBounds(scene_.geometry);
     encodeSeconds_ = watch_.seconds();
     return bvh;
   }

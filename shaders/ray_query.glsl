@@ -1,0 +1,80 @@
+// The query of the traversals for one ray: the boxes that it enters, and the triangles that it hits.
+#include "ray_frame.glsl"
+#include "wide_boxes.glsl"
+
+struct Query {
+  RayFrame frame;
+  vec3 origin, inverseDirection;
+  bvec3 isNegative;  // Of the direction.
+  uint excludedFace;
+};
+
+vec3 invert(vec3 direction) {
+  const vec3 tiny = vec3(1e-20);
+  return 1.0 / mix(direction, mix(tiny, -tiny, lessThan(direction, vec3(0.0))), lessThan(abs(direction), tiny));
+}
+
+Query makeQuery(vec3 origin, vec3 direction, uint excludedFace) {
+  return Query(makeRayFrame(direction), origin, invert(direction), lessThan(direction, vec3(0.0)), excludedFace);
+}
+
+float distanceTo(DeviceTriangle triangle, Query query) {
+  const vec3 origin = query.origin;
+  return intersectTriangle(query.frame, triangle.v0 - origin, triangle.v1 - origin, triangle.v2 - origin);
+}
+
+void testTriangle(Query query, uint primitive, inout Hit hit) {
+  const DeviceTriangle triangle = loadTriangle(primitive);
+  keepNearest(distanceTo(triangle, query), primitive, triangle.faceIndex, query.excludedFace, hit);
+}
+
+// slot0 and slot1 may be equal.
+void testTriangles(Query query, uint slot0, uint slot1, inout Hit hit) {
+  const DeviceTriangle triangle0 = loadTriangle(slot0), triangle1 = loadTriangle(slot1);
+  const float distance0 = distanceTo(triangle0, query), distance1 = distanceTo(triangle1, query);
+  keepNearest(distance0, slot0, triangle0.faceIndex, query.excludedFace, hit);
+  keepNearest(distance1, slot1, triangle1.faceIndex, query.excludedFace, hit);
+}
+
+// Factor on the exit distance of a box: covers three rounding errors (Ize 2013).
+const float kExitMargin = 1.0 + 6.0 * 5.9604645e-8;
+
+// Distance at which the ray enters the box; kFarAway where it misses the box or enters beyond `limit`. The margin of
+// the boxes covers the error of the triangle test (kDeviceBoxMargin).
+float enterBox(vec3 boxMin, vec3 boxMax, uint normalBounds, Query query, float limit) {
+  const vec3 t0 = (boxMin - query.origin) * query.inverseDirection;
+  const vec3 t1 = (boxMax - query.origin) * query.inverseDirection;
+  const vec3 tNear = min(t0, t1);
+  const vec3 tFar = max(t0, t1);
+  const float enter = max(max(tNear.x, tNear.y), max(tNear.z, 0.0));
+  const float leave = min(min(tFar.x, tFar.y), tFar.z) * kExitMargin;
+  return enter <= min(leave, limit) ? enter : kFarAway;
+}
+
+// A nibble of ones for each of the four boxes that the ray enters before `limit`. Distances are compared as integers,
+// by their bits: the order of non-negative floats, and the reverse order of negative floats. All distances of a box
+// behind the origin are negative: by bits its exit is below its entry, so it is not entered. A minimum of floats takes
+// three instructions on llvmpipe because of NaNs, which do not occur here. kWideBoxMargin includes the margin for
+// rounding.
+uint enterBoxes(uvec3 near, uvec3 far, vec3 perByte, vec3 start, float limit) {
+  const vec4 nearX = distancesTo(near.x, perByte.x, start.x), farX = distancesTo(far.x, perByte.x, start.x);
+  const vec4 nearY = distancesTo(near.y, perByte.y, start.y), farY = distancesTo(far.y, perByte.y, start.y);
+  const vec4 nearZ = distancesTo(near.z, perByte.z, start.z), farZ = distancesTo(far.z, perByte.z, start.z);
+  const ivec4 enter = max(max(floatBitsToInt(nearX), floatBitsToInt(nearY)), floatBitsToInt(nearZ));
+  const ivec4 inside = min(min(floatBitsToInt(farX), floatBitsToInt(farY)), floatBitsToInt(farZ));
+  const ivec4 leave = min(inside, ivec4(floatBitsToInt(limit)));
+  return (enter.x <= leave.x ? 0xfu : 0u) | (enter.y <= leave.y ? 0xf0u : 0u) | (enter.z <= leave.z ? 0xf00u : 0u) |
+         (enter.w <= leave.w ? 0xf000u : 0u);
+}
+
+// The nibbles of childBits of the children that the ray enters before `limit`; the other nibbles are 0.
+uint enterChildren(uint index, DeviceWideNode node, Query query, float limit) {
+  const vec3 perByte = stepsOf(node) * query.inverseDirection;
+  const vec3 start = (node.origin - query.origin) * query.inverseDirection;
+  const uvec4 x = query.isNegative.x ? node.x.zwxy : node.x;
+  const uvec4 y = query.isNegative.y ? node.y.zwxy : node.y;
+  const uvec4 z = query.isNegative.z ? node.z.zwxy : node.z;
+  return (enterBoxes(uvec3(x.x, y.x, z.x), uvec3(x.z, y.z, z.z), perByte, start, limit) |
+          enterBoxes(uvec3(x.y, y.y, z.y), uvec3(x.w, y.w, z.w), perByte, start, limit) << 16) &
+         node.childBits;
+}
