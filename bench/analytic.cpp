@@ -45,7 +45,7 @@ std::vector<TracedFace> traceRandomFaces(Backend& backend, Mesh mesh, const Anal
   const std::vector<uint32_t> faces = randomPermutationSeeds(candidates, arguments.seedCount, arguments.randomSeed);
   const Cone cone = makeCone(coneOptions);
   std::vector<double> values(faces.size());
-  backend.makeTracer(traceable.scene(), cone, false)->trace(faces, {values}, control);
+  backend.makeTracer(traceable.scene(), cone, {})->trace(faces, {values}, control);
   std::vector<TracedFace> traced;
   for (size_t i = 0; i < faces.size(); ++i)
     traced.push_back({geometry.barycentres[faces[i]], geometry.normals[faces[i]], values[i]});

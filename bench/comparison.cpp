@@ -48,7 +48,7 @@ class MeshComparison {
  public:
   MeshComparison(std::string path, const std::string& device)
       : path_(std::move(path)), device_(device), mesh_(readMesh(path_)), backends_(openBackends(device)) {
-    for (const auto& [name, backend] : backends_) tracers_[name] = backend->makeTracer(mesh_.scene(), cone_, false);
+    for (const auto& [name, backend] : backends_) tracers_[name] = backend->makeTracer(mesh_.scene(), cone_, {});
     for (const std::string& name : fastBackends())
       sessions_[name] = std::make_unique<Session>(sessionOptionsOf(name, device));
   }

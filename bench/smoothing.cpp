@@ -32,7 +32,7 @@ std::vector<double> traceAllFaces(Backend& backend, const TraceableMesh& mesh, u
   const Cone cone = makeCone({.rayCount = rayCount, .rotation = rotation});
   const std::vector<uint32_t>& faces = mesh.prepared.traceableFaces;
   std::vector<double> values(faces.size()), field(mesh.mesh.faceCount(), kNoValue);
-  backend.makeTracer(mesh.scene(), cone, false)->trace(faces, {values}, control);
+  backend.makeTracer(mesh.scene(), cone, {})->trace(faces, {values}, control);
   for (size_t i = 0; i < faces.size(); ++i) field[faces[i]] = values[i];
   return field;
 }

@@ -118,6 +118,22 @@ struct PartsOptions {
 inline constexpr uint32_t kMaxPartCount = 100;
 inline constexpr double kMinDetail = 0.1, kMaxDetail = 10;
 
+/// Quantity that is measured at each face.
+enum class Measure {
+  ShapeDiameter,  ///< Field "sdf".
+  Thickness,      ///< Fields "sdf" and "thickness", from the same rays (docs/thickness.md).
+};
+
+/// Wall thickness of a face: the diameter of the largest ball that touches the face at its barycentre from inside and
+/// contains no point of an opposing wall.
+struct ThicknessOptions {
+  /// Faces whose normals differ by at least this angle are opposing walls; above 90 and at most 180.
+  double wallAngleDegrees = 120;
+  /// Report the connected regions below this thickness, in the unit of the mesh; above 0. Requires Measure::Thickness.
+  /// All faces of a region cast rays, whatever `seeds` is.
+  std::optional<double> thinnerThan;
+};
+
 /// Conditions under which further rounds of seeds are added. A round keeps the traced values of all earlier rounds.
 struct RoundOptions {
   std::optional<double> maxError;           ///< Until the estimated average error is at most this share of the range.
@@ -153,6 +169,8 @@ struct Options {
   Segmentation segmentation = Segmentation::None;
   CgalSegmentationOptions cgalSegmentation;  ///< Ignored unless `segmentation` is Cgal.
   PartsOptions parts;                        ///< Ignored unless `segmentation` is Parts.
+  Measure measure = Measure::ShapeDiameter;
+  ThicknessOptions thickness;
   bool estimatesError = true;
   RoundOptions rounds;
   std::string solver = "auto";

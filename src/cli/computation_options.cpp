@@ -218,6 +218,7 @@ void addComputation(CLI::App& app, CommandLine& line) {
   addSeeds(app, line.options);
   addRays(app, line.options);
   addSegments(app, line.options);
+  addMeasure(app, line);
   addExperiments(app, line.options);
 }
 
@@ -256,6 +257,7 @@ nlohmann::ordered_json optionValues(const CommandLine& line) {
                                 {"bvh", nameOrAuto(line.session.variant.bvh)},
                                 {"fetch", nameOrAuto(line.session.variant.fetch)}};
   values.update(segmentOptionValues(options));
+  values.update(measureOptionValues(line));
   return values;
 }
 

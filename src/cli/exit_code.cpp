@@ -1,5 +1,6 @@
 #include "cli/exit_code.h"
 
+#include <cmath>
 #include <new>
 
 namespace asdfvk {
@@ -74,6 +75,11 @@ ExitCode exitCodeOf(ErrorKind kind) {
 
 ExitCode exitCodeOf(const CheckReport& check) {
   return check.passed || !check.isIndependent ? ExitCode::Done : ExitCode::CheckFailed;
+}
+
+ExitCode exitCodeOf(const ThicknessReport& thickness, double limit) {
+  if (std::isnan(thickness.min)) return ExitCode::Input;
+  return thickness.min < limit ? ExitCode::TooThin : ExitCode::Done;
 }
 
 Failure currentFailure(bool requiresGpu) {

@@ -15,6 +15,7 @@ enum class ExitCode : int {
   Device = 3,       ///< No device, or it was lost, and no fallback is allowed.
   Output = 4,       ///< A result or report cannot be written.
   CheckFailed = 5,  ///< --check found traced faces that disagree with the reference, or no traced face at all.
+  TooThin = 6,      ///< --fail-if-thinner: a face is thinner.
   Internal = 70,    ///< A defect of the program.
   Cancelled = 130,  ///< SIGINT, SIGTERM or SIGHUP.
 };
@@ -22,6 +23,9 @@ enum class ExitCode : int {
 [[nodiscard]] ExitCode exitCodeOf(ErrorKind kind);
 /// Done or CheckFailed. A check that is not independent cannot fail.
 [[nodiscard]] ExitCode exitCodeOf(const CheckReport& check);
+
+/// Done or TooThin; Input where no face has a thickness, because a limit that was not checked is not passed.
+[[nodiscard]] ExitCode exitCodeOf(const ThicknessReport& thickness, double limit);
 
 /// A failure as it is reported.
 struct Failure {

@@ -43,6 +43,11 @@ void expandBareSegment(std::vector<std::string>& arguments);
 /// fields to line.fields unless --fields is given.
 void completeSegments(const CLI::App& app, CommandLine& line);
 
+/// The same for the options of the measured quantity.
+void addMeasure(CLI::App& app, CommandLine& line);
+[[nodiscard]] nlohmann::ordered_json measureOptionValues(const CommandLine& line);
+void completeMeasure(const CLI::App& app, CommandLine& line);
+
 /// parse: reads the value and throws Error; the name of the option is put before its message.
 template <typename Parse>
 CLI::Option* addValue(CLI::App& app, const std::string& name, const std::string& placeholder, const std::string& text,

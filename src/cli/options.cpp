@@ -26,8 +26,8 @@ constexpr const char* kDescription =
 
 constexpr const char* kFooter =
     "Exit codes: 0 done, 1 usage, 2 input unreadable, 3 no device or device lost, 4 output not writable,\n"
-    "5 a requested check failed, 70 internal error, 130 cancelled. With several meshes the others are computed\n"
-    "and the code of the first failure is returned.";
+    "5 a requested check failed, 6 thinner than --fail-if-thinner, 70 internal error, 130 cancelled. With several\n"
+    "meshes the others are computed and the code of the first failure is returned.";
 
 bool isCheckCount(const std::string& text) {
   return text == "all" || (!text.empty() && text.find_first_not_of("0123456789") == std::string::npos);
@@ -103,7 +103,7 @@ void addOutput(CLI::App& app, CommandLine& line) {
       ->group(kBasicGroup);
   addValue(app, "--fields", "NAME,...",
            fmt::format("Fields to write: {};\n"
-                       "default {}, and those of --postprocess and --segment",
+                       "default {}, and those of --measure, --postprocess and --segment",
                        fmt::join(resultFieldNames(), ", "), fmt::join(line.fields, ",")),
            [&](const std::string& text) {
              line.fields = parseFields(text);
@@ -162,7 +162,7 @@ void addPicture(CLI::App& app, CommandLine& line) {
   std::vector<std::string> shown = resultFieldNames();
   std::erase(shown, "centre");
   addValue(app, "--picture-of", fmt::format("{}", fmt::join(shown, "|")),
-           fmt::format("Field to show; default {}", line.pictureOf),
+           fmt::format("Field to show; default {}, or thickness with --measure thickness", line.pictureOf),
            [&](const std::string& text) {
              line.pictureOf = text == "seeds" ? "seed" : text;  // "seeds": the name in version 0.1.
              requireFieldName(line.pictureOf);
@@ -316,6 +316,7 @@ CommandLine parseCommandLine(std::vector<std::string> arguments) {
     if (*name == "auto") name->clear();
   line.options.keepsScene = !line.picture.empty();
   completeSegments(app, line);
+  completeMeasure(app, line);
   requireNoPaperOption(app, line);
   validateOptions(line);
   return line;

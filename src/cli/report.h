@@ -22,6 +22,9 @@ struct MeshOutcome {
 /// "the check failed: ..." with the reason, one line.
 [[nodiscard]] std::string checkFailure(const CheckReport& check);
 
+/// "thinner than 1.5: ..." with the place of the least thickness, one line; or why there is none.
+[[nodiscard]] std::string thinFailure(const ThicknessReport& thickness, double limit);
+
 /// The message and, where there is one, the remedy by options.
 [[nodiscard]] std::string textWarning(const Warning& warning);
 

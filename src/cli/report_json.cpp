@@ -65,6 +65,34 @@ Json partsOf(const std::optional<SegmentationReport>& segmentation) {
           {"agreement", number(parts.agreement)}, {"thinShell", parts.isThinShell},   {"areaShares", parts.areaShares}};
 }
 
+Json thicknessOf(const std::optional<ThicknessReport>& thickness) {
+  if (!thickness) return nullptr;
+  Json regions = nullptr;
+  if (thickness->thinnerThan) regions = Json::array();
+  for (const ThinRegion& region : thickness->thinRegions)
+    regions.push_back({{"faceCount", region.faceCount},
+                       {"area", number(region.area)},
+                       {"areaShare", number(region.areaShare)},
+                       {"least", number(region.least)},
+                       {"leastFace", region.leastFace},
+                       {"place", {number(region.place.x), number(region.place.y), number(region.place.z)}}});
+  const auto ofRegions = [&](double value) { return thickness->thinnerThan ? number(value) : Json(nullptr); };
+  return {{"min", number(thickness->min)},
+          {"p1", number(thickness->p1)},
+          {"p5", number(thickness->p5)},
+          {"p50", number(thickness->p50)},
+          {"p95", number(thickness->p95)},
+          {"max", number(thickness->max)},
+          {"noValueCount", thickness->noValueCount},
+          {"tracedCount", thickness->tracedCount},
+          {"verifiedCount", thickness->verifiedCount},
+          {"unrefinedCount", thickness->unrefinedCount},
+          {"redoneBallCount", thickness->redoneBallCount},
+          {"thinArea", ofRegions(thickness->thinArea)},
+          {"thinAreaShare", ofRegions(thickness->thinAreaShare)},
+          {"thinRegions", std::move(regions)}};
+}
+
 Json stagesOf(const StageSeconds& seconds) {
   Json json;
   for (size_t i = 0; i < kStageCount; ++i) json[nameOf(static_cast<Stage>(i))] = number(seconds.seconds[i]);
@@ -137,6 +165,7 @@ std::string jsonReport(const MeshOutcome& outcome) {
   json["postprocess"] = postprocessOf(report.postprocess);
   json["segmentCount"] = report.segmentation ? Json(report.segmentation->segmentCount) : Json(nullptr);
   json["parts"] = partsOf(report.segmentation);
+  json["thickness"] = thicknessOf(report.thickness);
   json["estimatedError"] = estimateOf(report.estimatedError);
   json["roundCount"] = report.roundCount;
   json["check"] = checkOf(report.check);

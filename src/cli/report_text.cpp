@@ -101,9 +101,10 @@ std::string segmentRows(const SegmentationReport& segmentation, const Options& o
                                 ? fmt::format("{}", parts.fewestCount)
                                 : fmt::format("{} to {}", parts.fewestCount, parts.mostCount);
   const double detail = options.parts.detail;
-  const std::string when = options.parts.partCount
-                               ? "at costs 25 % higher and lower"
-                               : fmt::format("at --detail {:.3g} to {:.3g}", detail / 1.25, detail * 1.25);
+  const std::string when =
+      options.parts.partCount
+          ? fmt::format("at costs {:.0f} % higher and lower", 100 * (kPartStabilityFactor - 1))
+          : fmt::format("at --detail {:.3g} to {:.3g}", detail / kPartStabilityFactor, detail * kPartStabilityFactor);
   return row("parts", fmt::format("{}; {} {}; agreement {:.2f}", groupDigits(segmentation.segmentCount), range, when,
                                   parts.agreement)) +
          row("", fmt::format("of {} % of the area", areaText(parts.areaShares)));
@@ -121,6 +122,38 @@ std::string estimateRow(const Report& report) {
     text += fmt::format("; {:.0f} % of the range at face {}", 100 * estimate.worstFaces[0].error,
                         estimate.worstFaces[0].face);
   return text + (report.roundCount > 1 ? fmt::format("; {} rounds", report.roundCount) : "");
+}
+
+std::string regionRow(const ThinRegion& region) {
+  return fmt::format("least {:.6g} at ({:.6g}, {:.6g}, {:.6g}), face {}; {}, area {:.4g} ({:.3g} %)", region.least,
+                     region.place.x, region.place.y, region.place.z, region.leastFace,
+                     counted(region.faceCount, "face"), region.area, 100 * region.areaShare);
+}
+
+/// Percentiles, what is traced, and the largest thin regions.
+std::string thicknessRows(const Report& report) {
+  constexpr size_t kShownRegionCount = 5;
+  const ThicknessReport& thickness = *report.thickness;
+  if (std::isnan(thickness.min)) return row("thickness", "none: no face has a valid ray");
+  std::string text =
+      fmt::format("min {:.6g}, by area p1 {:.6g}, p5 {:.6g}, p50 {:.6g}, p95 {:.6g}, max {:.6g}", thickness.min,
+                  thickness.p1, thickness.p5, thickness.p50, thickness.p95, thickness.max);
+  if (thickness.noValueCount > 0) text += fmt::format("; {} without a value", counted(thickness.noValueCount, "face"));
+  std::string rows = row("thickness", text);
+  if (!thickness.thinnerThan) return rows;
+  const std::vector<ThinRegion>& regions = thickness.thinRegions;
+  text = regions.empty() ? fmt::format("no face below {:g}", *thickness.thinnerThan)
+                         : fmt::format("{} below {:g}: area {:.4g} ({:.3g} %)", counted(regions.size(), "region"),
+                                       *thickness.thinnerThan, thickness.thinArea, 100 * thickness.thinAreaShare);
+  if (thickness.tracedCount < report.triangleCount)
+    text += fmt::format("; {} traced, other faces interpolated: smaller thin places may be missing",
+                        percent(thickness.tracedCount, report.triangleCount));
+  rows += row("thin", text);
+  for (size_t i = 0; i < std::min(regions.size(), kShownRegionCount); ++i) rows += row("", regionRow(regions[i]));
+  if (regions.size() > kShownRegionCount)
+    rows +=
+        row("", fmt::format("and {} smaller ones; --json has all", groupDigits(regions.size() - kShownRegionCount)));
+  return rows;
 }
 
 std::string tracedCheck(const CheckReport& check) {
@@ -163,6 +196,7 @@ std::string textReport(const MeshOutcome& outcome) {
                                         report.postprocess->max));
   if (report.segmentation) text += segmentRows(*report.segmentation, outcome.line.options);
   if (report.estimatedError) text += row("error", estimateRow(report));
+  if (report.thickness) text += thicknessRows(report);
   if (report.check) {
     text += row("check", tracedCheck(*report.check));
     if (report.check->interpolatedCount > 0) text += row("", errorCheck(*report.check));
@@ -189,6 +223,14 @@ std::string textWarning(const Warning& warning) {
 }
 
 std::string checkFailure(const CheckReport& check) { return fmt::format("the check failed: {}", tracedCheck(check)); }
+
+std::string thinFailure(const ThicknessReport& thickness, double limit) {
+  if (std::isnan(thickness.min)) return fmt::format("no face has a thickness, which must be at least {:g}", limit);
+  const auto thinnest = std::min_element(thickness.thinRegions.begin(), thickness.thinRegions.end(),
+                                         [](const ThinRegion& a, const ThinRegion& b) { return a.least < b.least; });
+  return fmt::format("thinner than {:g}: thickness {:.6g} at ({:.6g}, {:.6g}, {:.6g}), face {}", limit, thinnest->least,
+                     thinnest->place.x, thinnest->place.y, thinnest->place.z, thinnest->leastFace);
+}
 
 std::string textDevices(std::span<const DeviceInfo> devices, const std::string& reason) {
   if (devices.empty()) return fmt::format("no Vulkan device: {}\n", reason);

@@ -110,6 +110,12 @@ MeshReport runMesh(Session& session, const std::string& name, const std::string&
   MeshReport report{ExitCode::Done, jsonReport(outcome)};
   if (result.report.check) report.code = exitCodeOf(*result.report.check);
   if (report.code != ExitCode::Done) printError(name, checkFailure(*result.report.check));
+  if (line.failIfThinner) {
+    const ThicknessReport& thickness = *result.report.thickness;
+    const ExitCode code = exitCodeOf(thickness, *line.failIfThinner);
+    if (code != ExitCode::Done) printError(name, thinFailure(thickness, *line.failIfThinner));
+    if (report.code == ExitCode::Done) report.code = code;
+  }
   return report;
 }
 

@@ -23,7 +23,8 @@ class EmbreeBackend final : public Backend {
  public:
   [[nodiscard]] std::string deviceName() const override { return fmt::format("{} on {}", library_, cpuThreads()); }
   [[nodiscard]] std::vector<std::string> deviceLines() const override { return {deviceName()}; }
-  [[nodiscard]] std::unique_ptr<ConeTracer> makeTracer(const TraceScene& scene, const Cone& cone, bool) override {
+  [[nodiscard]] std::unique_ptr<ConeTracer> makeTracer(const TraceScene& scene, const Cone& cone,
+                                                       const TracerNeeds&) override {
     return makeEmbreeTracer(scene, cone);
   }
 
@@ -40,7 +41,8 @@ class ReferenceBackend final : public Backend {
     return {fmt::format("reference: {}", deviceName())};
   }
   [[nodiscard]] bool isReference() const override { return true; }
-  [[nodiscard]] std::unique_ptr<ConeTracer> makeTracer(const TraceScene& scene, const Cone& cone, bool) override {
+  [[nodiscard]] std::unique_ptr<ConeTracer> makeTracer(const TraceScene& scene, const Cone& cone,
+                                                       const TracerNeeds&) override {
     return makeReferenceTracer(scene, cone);
   }
 };

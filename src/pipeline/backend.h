@@ -14,6 +14,12 @@ namespace asdfvk {
 
 class Device;
 
+/// What a tracer is used for besides the values.
+struct TracerNeeds {
+  bool hits = false;   ///< The hits of the rays.
+  bool balls = false;  ///< ConeTracer::makeBallShrinker().
+};
+
 /// Traces the rays and owns the solvers: a Vulkan device with its pipelines, Embree, or the reference.
 class Backend {
  public:
@@ -31,9 +37,9 @@ class Backend {
   /// For solvers that need one; null without Vulkan.
   [[nodiscard]] virtual const Device* device() const { return nullptr; }
 
-  /// The scene and the cone must outlive the tracer. writesHits: the tracer can return the hits of the rays.
+  /// The scene and the cone must outlive the tracer.
   [[nodiscard]] virtual std::unique_ptr<ConeTracer> makeTracer(const TraceScene& scene, const Cone& cone,
-                                                               bool writesHits) = 0;
+                                                               const TracerNeeds& needs) = 0;
   /// Throws Error{ValidationFailed} with the first message if the validation layers are on and reported a problem.
   virtual void requireSilentValidation() const {}
 };

@@ -38,6 +38,7 @@ struct Computation {
   /// Whether faces that cannot be traced, and traced faces without a valid ray, have no value in the result. Otherwise
   /// they are interpolated.
   [[nodiscard]] bool keepsMissing() const { return cone.definition == Definition::Cgal; }
+  [[nodiscard]] bool measuresThickness() const { return options.measure == Measure::Thickness; }
   [[nodiscard]] bool estimatesError() const { return options.estimatesError || options.rounds.limitError(); }
 };
 

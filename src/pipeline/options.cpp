@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "asdf_vk/error.h"
+#include "cone/thickness.h"
 #include "pipeline/seed_choice.h"
 #include "pipeline/valid_options.h"
 #include "poisson/poisson_solver.h"
@@ -79,6 +82,13 @@ void requireValid(const Options& options, bool hasDevice) {
       fail(fmt::format("{} clusters are out of range (2 to {})", cgal.clusterCount, kMaxClusterCount));
     if (!(cgal.smoothness >= 0 && cgal.smoothness <= kMaxSmoothness))
       fail(fmt::format("a smoothness of {} is out of range (0 to {})", cgal.smoothness, kMaxSmoothness));
+  }
+  if (options.measure == Measure::Thickness) (void)makeOpposingWalls(options.thickness.wallAngleDegrees);
+  if (const std::optional<double>& limit = options.thickness.thinnerThan; limit) {
+    if (!(*limit > 0 && std::isfinite(*limit)))
+      fail(fmt::format("a thickness limit of {} is out of range; give more than 0", *limit));
+    if (options.measure != Measure::Thickness)
+      throw Error(ErrorCode::OptionConflict, "a thickness limit needs the measure thickness");
   }
   if (const PartsOptions& parts = options.parts; options.segmentation == Segmentation::Parts) {
     if (parts.partCount && (*parts.partCount < 1 || *parts.partCount > kMaxPartCount))

@@ -201,9 +201,9 @@ void describeValues(Report& report, const PreparedMesh& prepared, const std::vec
 }
 
 const char* nameOf(Stage stage) {
-  constexpr std::array<const char*, kStageCount> kNames{"read",     "geometry", "graph",       "bvh",     "encode",
-                                                        "upload",   "sample",   "trace",       "predict", "solve",
-                                                        "estimate", "smooth",   "postprocess", "segment", "write"};
+  constexpr std::array<const char*, kStageCount> kNames{
+      "read",      "geometry", "graph", "bvh",      "encode", "upload",      "sample",  "trace",
+      "thickness", "predict",  "solve", "estimate", "smooth", "postprocess", "segment", "write"};
   return kNames[static_cast<size_t>(stage)];
 }
 

@@ -13,6 +13,7 @@
 
 #include "estimate/error_indicator.h"
 #include "seeds/component_seeds.h"
+#include "trace/thickness_tracer.h"
 
 namespace asdfvk {
 namespace {
@@ -28,6 +29,9 @@ constexpr double kMinRoundShare = 0.05;
 constexpr double kPlannedShare = 0.8;
 // Above the number of faces of any mesh.
 constexpr double kMaxSeedCount = 1e18;
+
+// Part of the progress of tracing with Measure::Thickness.
+constexpr double kTracedBeforeThickness = 0.7;
 
 // Parts of the progress of a round.
 constexpr double kTracedProgress = 0.7, kIndicatorProgress = 0.73, kHeldOutTracedProgress = 0.83,
@@ -77,8 +81,9 @@ class Rounds {
     const uint64_t traceableCount = computation_.prepared.traceableFaces.size();
     runRound(resolveSeedCount(options_.seeds, traceableCount), !options_.rounds.areSet(), control);
     while (const uint64_t further = furtherCount()) runRound(further, false, {control.stop, {}});
+    FaceThickness thickness = measureThickness(control);
     control.checkpoint(1);
-    return {std::move(traced_), std::move(result_), std::move(errors_), roundCount_};
+    return {std::move(traced_), std::move(result_), std::move(errors_), roundCount_, std::move(thickness)};
   }
 
  private:
@@ -89,6 +94,7 @@ class Rounds {
   std::vector<uint32_t> traceByPrediction(const SeedShares& shares, std::span<const double> indicator,
                                           const RunControl& control);
   [[nodiscard]] std::vector<double> solveWithoutHeldOut(std::span<const uint32_t> extremes, const RunControl& control);
+  [[nodiscard]] FaceThickness measureThickness(const RunControl& control);
   [[nodiscard]] uint64_t furtherCount() const;
   [[nodiscard]] uint64_t countForError() const;
   [[nodiscard]] uint64_t countForTarget(std::optional<double> maximum, double estimate, double standardError) const;
@@ -137,7 +143,7 @@ void Rounds::runRound(uint64_t count, bool isLast, const RunControl& control) {
     control.checkpoint(kIndicatorProgress);
     extremes = traceByPrediction(shares, indicator, control.part(kIndicatorProgress, kHeldOutTracedProgress));
   }
-  if (isLast) tracing_.reset();
+  if (isLast && !verifiesThickness(computation_)) tracing_.reset();
   std::vector<double> withoutHeldOut;
   if (estimates)
     withoutHeldOut = solveWithoutHeldOut(extremes, control.part(kHeldOutTracedProgress, kHeldOutSolvedProgress));
@@ -236,6 +242,18 @@ std::vector<double> Rounds::solveWithoutHeldOut(std::span<const uint32_t> extrem
   return interpolation_.solve(traced_.values, control).values;
 }
 
+/// Of all faces; verified by further rays where it is interpolated. These faces are no seeds.
+FaceThickness Rounds::measureThickness(const RunControl& control) {
+  if (!computation_.measuresThickness()) return {};
+  const auto scope = clock_.time(Stage::Thickness);
+  FaceThickness thickness = interpolateThickness(computation_, traced_, {control.stop, {}});
+  if (verifiesThickness(computation_) && remainingCount() > 0) {
+    const std::span<const double> expected = errors_ ? std::span<const double>(errors_->expected) : std::span<double>{};
+    verifyThinRegions(computation_, *tracing_, expected, thickness, {control.stop, {}});
+  }
+  return thickness;
+}
+
 uint64_t Rounds::remainingCount() const {
   return computation_.prepared.traceableFaces.size() - sampled_.sampled.size() - sampled_.heldOut.size();
 }
@@ -292,13 +310,20 @@ SeedTracing::SeedTracing(const Computation& computation, Bvh& bvh, bool keepsNod
   const Stage stage = setUpStage(computation.backend);
   {
     const auto scope = computation.clock.time(stage);
-    tracer_ = computation.backend.makeTracer(computation.scene, computation.cone, computation.keepsHits());
+    tracer_ = computation.backend.makeTracer(
+        computation.scene, computation.cone,
+        {.hits = computation.keepsHits() || computation.measuresThickness(), .balls = computation.measuresThickness()});
+    if (computation.measuresThickness()) {
+      walls_ = makeOpposingWalls(computation.options.thickness.wallAngleDegrees);
+      shrinker_ = tracer_->makeBallShrinker(walls_);
+    }
   }
   computation.clock.transfer(stage, Stage::Encode, tracer_->encodeSeconds());
 }
 
 SeedTracing::~SeedTracing() {
   const auto scope = computation_.clock.time(setUpStage(computation_.backend));
+  shrinker_.reset();
   tracer_.reset();
   if (!keepsNodes_) bvh_.nodes = {};
   returnFreedMemory();
@@ -306,9 +331,17 @@ SeedTracing::~SeedTracing() {
 
 void SeedTracing::trace(std::span<const uint32_t> faces, TracedSeeds& traced, const RunControl& control) {
   std::vector<double> values(faces.size());
-  const size_t hitCount = traced.hits.size();
-  if (computation_.keepsHits()) traced.hits.resize(hitCount + faces.size() * computation_.cone.directions.size());
-  const TraceStatistics statistics = tracer_->trace(faces, {values, std::span(traced.hits).subspan(hitCount)}, control);
+  const size_t earlierHitCount = traced.hits.size(), hitCount = faces.size() * computation_.cone.directions.size();
+  std::vector<ConeHit> forThickness;
+  if (computation_.keepsHits())
+    traced.hits.resize(earlierHitCount + hitCount);
+  else if (shrinker_)
+    forThickness.resize(hitCount);
+  const std::span<ConeHit> hits =
+      computation_.keepsHits() ? std::span(traced.hits).subspan(earlierHitCount) : std::span(forThickness);
+  const double traceEnd = shrinker_ ? kTracedBeforeThickness : 1;
+  const TraceStatistics statistics = tracer_->trace(faces, {values, hits}, control.part(0, traceEnd));
+  if (shrinker_) measureThickness(faces, hits, traced, control.part(traceEnd, 1));
   traced.statistics.rayCount += statistics.rayCount;
   traced.statistics.redoneConeCount += statistics.redoneConeCount;
   traced.faces.insert(traced.faces.end(), faces.begin(), faces.end());
@@ -316,6 +349,18 @@ void SeedTracing::trace(std::span<const uint32_t> faces, TracedSeeds& traced, co
     traced.values[faces[i]] = values[i];
     traced.isSeed[faces[i]] = 1;
   }
+}
+
+void SeedTracing::measureThickness(std::span<const uint32_t> faces, std::span<const ConeHit> hits, TracedSeeds& traced,
+                                   const RunControl& control) {
+  const auto scope = computation_.clock.time(Stage::Thickness);
+  std::vector<double> thickness(faces.size());
+  const ThicknessStatistics statistics = asdfvk::measureThickness(computation_.scene, computation_.cone, walls_,
+                                                                  {faces, hits}, *shrinker_, thickness, control);
+  traced.thicknessStatistics.unrefinedCount += statistics.unrefinedCount;
+  traced.thicknessStatistics.redoneBallCount += statistics.redoneBallCount;
+  if (traced.thickness.empty()) traced.thickness.assign(traced.values.size(), kNoValue);
+  for (size_t i = 0; i < faces.size(); ++i) traced.thickness[faces[i]] = thickness[i];
 }
 
 void SeedTracing::reserve(TracedSeeds& traced, size_t furtherCount) const {

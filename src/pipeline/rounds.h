@@ -9,6 +9,7 @@
 #include "estimate/error_estimate.h"
 #include "pipeline/interpolation.h"
 #include "pipeline/seed_choice.h"
+#include "pipeline/thickness.h"
 #include "trace/traced_seeds.h"
 
 namespace asdfvk {
@@ -23,7 +24,7 @@ class SeedTracing {
   SeedTracing(const SeedTracing&) = delete;
   SeedTracing& operator=(const SeedTracing&) = delete;
 
-  /// Adds `faces`, none of which may be in `traced`.
+  /// Adds `faces`, none of which may be in `traced`. With Measure::Thickness also their thickness.
   void trace(std::span<const uint32_t> faces, TracedSeeds& traced, const RunControl& control);
   /// Reserves memory for further seeds, so that growing does not copy the hits, which are most of the memory.
   void reserve(TracedSeeds& traced, size_t furtherCount) const;
@@ -31,10 +32,15 @@ class SeedTracing {
   void traceComponentsWithoutValue(TracedSeeds& traced, const RunControl& control);
 
  private:
+  void measureThickness(std::span<const uint32_t> faces, std::span<const ConeHit> hits, TracedSeeds& traced,
+                        const RunControl& control);
+
   const Computation& computation_;
   Bvh& bvh_;
   bool keepsNodes_;
   std::unique_ptr<ConeTracer> tracer_;
+  OpposingWalls walls_;
+  std::unique_ptr<BallShrinker> shrinker_;  ///< Null unless the thickness is measured. Destroyed before the tracer.
 };
 
 /// Result of all rounds.
@@ -43,6 +49,7 @@ struct RoundsResult {
   Interpolated interpolated;
   std::optional<EstimatedErrors> errors;
   uint32_t roundCount = 0;
+  FaceThickness thickness;  ///< Empty unless the thickness is measured.
 };
 
 /// Chooses seeds, casts their rays, interpolates and estimates the error, in one round or several; each round keeps the

@@ -11,6 +11,7 @@
 #include "pipeline/result.h"
 #include "pipeline/rounds.h"
 #include "pipeline/segments.h"
+#include "pipeline/thickness.h"
 #include "pipeline/valid_options.h"
 #include "pipeline/vertex_fields.h"
 #include "smooth/bilateral.h"
@@ -41,8 +42,8 @@ void describeMesh(Report& report, const PreparedMesh& prepared) {
 
 void describeRounds(Report& report, const RoundsResult& rounds) {
   report.seedCount = rounds.traced.faces.size();
-  report.rayCount = rounds.traced.statistics.rayCount;
-  report.redoneConeCount = rounds.traced.statistics.redoneConeCount;
+  report.rayCount = rounds.traced.statistics.rayCount + rounds.thickness.rays.rayCount;
+  report.redoneConeCount = rounds.traced.statistics.redoneConeCount + rounds.thickness.rays.redoneConeCount;
   const double traceSeconds = report.stageSeconds[Stage::Trace];
   report.raysPerSecond = traceSeconds > 0 ? static_cast<double>(report.rayCount) / traceSeconds : 0;
   report.solver = rounds.interpolated.solver;
@@ -81,6 +82,11 @@ std::vector<Field> fieldsOf(const PreparedMesh& prepared, const RoundsResult& ro
                       .values = valuesOfInputFaces(prepared.mesh, segmented.normalized, areas)});
   if (!segmented.segments.empty())
     fields.push_back({.name = "segment", .label = "segments", .values = std::move(segmented.segments)});
+  if (!rounds.thickness.values.empty())
+    fields.push_back({.name = "thickness",
+                      .label = "wall thickness",
+                      .unit = "length",
+                      .values = thicknessOfInputFaces(prepared.mesh, rounds.thickness.values)});
   return fields;
 }
 
@@ -99,7 +105,9 @@ void addDerivedFields(std::vector<Field>& fields, const PreparedMesh& prepared, 
 
 }  // namespace
 
-std::vector<std::string> resultFieldNames() { return {"sdf", "seed", "error", "normalized", "segment", "centre"}; }
+std::vector<std::string> resultFieldNames() {
+  return {"sdf", "seed", "error", "normalized", "segment", "thickness", "centre"};
+}
 
 struct Session::State {
   explicit State(const SessionOptions& options) : named(openBackend(options)) {}
@@ -159,6 +167,10 @@ Result Session::compute(const MeshView& mesh, const Options& options, const RunC
   result.fields = fieldsOf(prepared, rounds, values, std::move(segmented));
   addDerivedFields(result.fields, prepared, options);
   describeValues(report, prepared, result.sdf(), values, computation.keepsMissing());
+  if (const Field* field = result.field("thickness")) {
+    const auto scope = clock.time(Stage::Thickness);
+    report.thickness = describeThickness(prepared, rounds.thickness, *field->reals(), options.thickness.thinnerThan);
+  }
   backend.requireSilentValidation();
   if (options.keepsScene)
     result.scene =

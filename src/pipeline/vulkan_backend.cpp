@@ -31,9 +31,9 @@ class VulkanBackend final : public Backend {
   [[nodiscard]] const Device* device() const override { return opened_.device.get(); }
 
   [[nodiscard]] std::unique_ptr<ConeTracer> makeTracer(const TraceScene& scene, const Cone& cone,
-                                                       bool writesHits) override {
-    const ConeKernelRequest request{static_cast<uint32_t>(cone.directions.size()), writesHits, choice_,
-                                    cone.definition};
+                                                       const TracerNeeds& needs) override {
+    const ConeKernelRequest request{static_cast<uint32_t>(cone.directions.size()), needs.hits, choice_, cone.definition,
+                                    needs.balls};
     std::unique_ptr<VulkanConeKernel>& kernel = kernels_[request];
     if (!kernel) kernel = std::make_unique<VulkanConeKernel>(*opened_.device, request);
     return makeVulkanTracer(*kernel, scene, cone);

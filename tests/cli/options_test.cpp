@@ -104,6 +104,11 @@ const std::vector<OptionCase>& optionCases() {
        [](const Line& l) {
          return l.options.postprocess == Postprocess::Cgal && l.options.segmentation == Segmentation::None;
        }},
+      {{"--measure", "thickness"}, [](const Line& l) { return l.options.measure == Measure::Thickness; }},
+      {{"--thinner-than", "0.5"}, [](const Line& l) { return l.options.thickness.thinnerThan == 0.5; }},
+      {{"--fail-if-thinner", "0.25"}, [](const Line& l) { return l.failIfThinner == 0.25; }},
+      {{"--wall-angle", "150", "--measure", "thickness"},
+       [](const Line& l) { return l.options.thickness.wallAngleDegrees == 150; }},
       {{"--segment", "cgal"},
        [](const Line& l) {
          return l.options.segmentation == Segmentation::Cgal && l.options.postprocess == Postprocess::Cgal;

@@ -27,6 +27,9 @@ class RecordingTracer final : public ConeTracer {
     events_.push_back(Event::Trace);
     return tracer_->trace(seedFaces, results, control);
   }
+  std::unique_ptr<BallShrinker> makeBallShrinker(const OpposingWalls& walls) override {
+    return tracer_->makeBallShrinker(walls);
+  }
 
  private:
   std::unique_ptr<ConeTracer> tracer_;
@@ -54,7 +57,8 @@ class RecordingBackend final : public Backend {
 
   [[nodiscard]] std::string deviceName() const override { return "recording"; }
   [[nodiscard]] std::vector<std::string> deviceLines() const override { return {deviceName()}; }
-  [[nodiscard]] std::unique_ptr<ConeTracer> makeTracer(const TraceScene& scene, const Cone& cone, bool) override {
+  [[nodiscard]] std::unique_ptr<ConeTracer> makeTracer(const TraceScene& scene, const Cone& cone,
+                                                       const TracerNeeds&) override {
     return std::make_unique<RecordingTracer>(makeReferenceTracer(scene, cone), events_);
   }
 

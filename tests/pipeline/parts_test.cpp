@@ -6,6 +6,7 @@
 #include <stop_token>
 
 #include "generate/shapes.h"
+#include "pipeline/segments.h"
 #include "segment/rand_index.h"
 #include "support/require_failure.h"
 #include "support/shared_session.h"
@@ -181,6 +182,25 @@ TEST_CASE("open, non-manifold and degenerate meshes have parts; one triangle has
   }
   const Mesh triangle{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}, {}};
   requireFailure([&] { (void)fastSession().compute(triangle, withParts()); }, ErrorCode::NoValues);
+}
+
+TEST_CASE("a requested stop ends the segmentation") {
+  const Mesh mesh = makeSphere(320).mesh;
+  const PreparedMesh prepared = prepareMesh(mesh, Orientation::Keep);
+  Report report;
+  StageClock clock(report.stageSeconds);
+  std::stop_source source;
+  // Within a line of sight: after the values were checked.
+  const LineOfSight stopping = [&](std::span<const LineSegment> segments) {
+    source.request_stop();
+    return std::vector<uint8_t>(segments.size(), 1);
+  };
+  requireFailure(
+      [&] {
+        (void)segmentValues(prepared, std::vector<double>(320, 1.0), withParts(), stopping, clock, report,
+                            {source.get_token(), {}});
+      },
+      ErrorCode::Cancelled);
 }
 
 TEST_CASE("options of parts out of range are errors of usage") {

@@ -1,0 +1,91 @@
+// The options of the measured quantity, and their values in the JSON report.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "asdf_vk/error.h"
+#include "cli/option_parsing.h"
+
+namespace asdfvk {
+namespace {
+
+constexpr const char* kField = "thickness";
+
+double parseThickness(const std::string& text) {
+  return parseNumber(
+      text, [](double x) { return x > 0; }, "is not a thickness above 0");
+}
+
+[[noreturn]] void fail(const std::string& message) { throw Error(ErrorCode::OptionConflict, message); }
+
+/// The limits imply the measure; all faces cast rays unless the number of seeds is given.
+void applyLimits(const CLI::App& app, CommandLine& line) {
+  const auto isGiven = [&app](const char* option) { return app.count(option) > 0; };
+  Options& options = line.options;
+  std::optional<double>& limit = options.thickness.thinnerThan;
+  if (line.failIfThinner) {
+    if (limit && *limit < *line.failIfThinner)
+      fail("--fail-if-thinner is above --thinner-than, whose regions are reported; raise --thinner-than, or drop it");
+    if (!limit) limit = line.failIfThinner;
+  }
+  if (!limit) return;
+  if (isGiven("--measure") && options.measure != Measure::Thickness)
+    fail("--thinner-than and --fail-if-thinner contradict --measure sdf; drop one");
+  options.measure = Measure::Thickness;
+  if (!isGiven("--seeds") && !options.rounds.areSet()) options.seeds = SeedCount::all();
+}
+
+}  // namespace
+
+void addMeasure(CLI::App& app, CommandLine& line) {
+  Options& options = line.options;
+  const char* const group = "Thickness";
+  addChoice(app, "--measure", options.measure, kMeasures,
+            "thickness: also field thickness, the diameter of the largest ball inside that\n"
+            "touches the face; it is written first. Default sdf")
+      ->group(group);
+  addValue(app, "--thinner-than", "T",
+           "List the connected regions thinner than T, in the unit of the mesh; implies\n"
+           "--measure thickness, and --seeds all unless given",
+           [&options](const std::string& text) { options.thickness.thinnerThan = parseThickness(text); })
+      ->group(group);
+  addValue(app, "--fail-if-thinner", "T", "The same, and exit code 6 where a face is thinner than T",
+           [&line](const std::string& text) { line.failIfThinner = parseThickness(text); })
+      ->group(group);
+  addValue(app, "--wall-angle", "DEGREES",
+           fmt::format("--measure thickness: a wall is opposing if its normal differs by this from that\n"
+                       "of the face, above 90 and at most 180; default {}",
+                       options.thickness.wallAngleDegrees),
+           [&options](const std::string& text) {
+             options.thickness.wallAngleDegrees = parseNumber(
+                 text, [](double x) { return x > 90 && x <= 180; }, "is not above 90 and at most 180");
+           })
+      ->group(group);
+}
+
+void completeMeasure(const CLI::App& app, CommandLine& line) {
+  applyLimits(app, line);
+  if (line.options.measure == Measure::Thickness) {
+    if (app.count("--fields") == 0) line.fields.insert(line.fields.begin(), kField);
+    if (app.count("--picture-of") == 0) line.pictureOf = kField;
+    return;
+  }
+  if (app.count("--wall-angle") > 0) fail("--wall-angle needs --measure thickness");
+  if (std::count(line.fields.begin(), line.fields.end(), kField) > 0)
+    fail("--fields thickness needs --measure thickness");
+  if (line.pictureOf == kField) fail("--picture-of thickness needs --measure thickness");
+}
+
+nlohmann::ordered_json measureOptionValues(const CommandLine& line) {
+  using Json = nlohmann::ordered_json;
+  const ThicknessOptions& thickness = line.options.thickness;
+  const bool isMeasured = line.options.measure == Measure::Thickness;
+  const auto orNull = [](const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); };
+  return {{"measure", nameOf(kMeasures, line.options.measure)},
+          {"wallAngleDegrees", isMeasured ? Json(thickness.wallAngleDegrees) : Json(nullptr)},
+          {"thinnerThan", orNull(thickness.thinnerThan)},
+          {"failIfThinner", orNull(line.failIfThinner)}};
+}
+
+}  // namespace asdfvk

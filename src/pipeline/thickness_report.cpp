@@ -1,0 +1,104 @@
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "pipeline/thickness.h"
+
+namespace asdfvk {
+namespace {
+
+/// The least value such that triangles of at least `share` of the area have a value up to it. order: of the triangles
+/// with a value, by value.
+double percentileOf(std::span<const uint32_t> order, std::span<const double> values, std::span<const double> areas,
+                    double totalArea, double share) {
+  double area = 0;
+  for (const uint32_t face : order) {
+    area += areas[face];
+    if (area >= share * totalArea) return values[face];
+  }
+  return order.empty() ? kNoValue : values[order.back()];
+}
+
+void describePercentiles(std::span<const double> values, std::span<const double> areas, ThicknessReport& report) {
+  std::vector<uint32_t> order;
+  for (uint32_t face = 0; face < values.size(); ++face)
+    if (!std::isnan(values[face])) order.push_back(face);
+  if (order.empty()) return;
+  std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return values[a] < values[b]; });
+  double total = 0;
+  for (const uint32_t face : order) total += areas[face];
+  const auto percentile = [&](double share) { return percentileOf(order, values, areas, total, share); };
+  report.min = values[order.front()];
+  report.p1 = percentile(0.01);
+  report.p5 = percentile(0.05);
+  report.p50 = percentile(0.5);
+  report.p95 = percentile(0.95);
+  report.max = values[order.back()];
+}
+
+/// The thin faces that are connected with `first`, itself included; ascending.
+std::vector<uint32_t> takeRegion(const DualGraph& graph, uint32_t first, std::vector<uint8_t>& isThin) {
+  std::vector<uint32_t> region{first};
+  isThin[first] = 0;
+  for (size_t i = 0; i < region.size(); ++i)
+    for (const uint32_t neighbour : graph.neighboursOf(region[i]))
+      if (std::exchange(isThin[neighbour], uint8_t{0}) != 0) region.push_back(neighbour);
+  std::sort(region.begin(), region.end());
+  return region;
+}
+
+ThinRegion describeRegion(const PreparedMesh& prepared, std::span<const uint32_t> faces,
+                          std::span<const double> values) {
+  ThinRegion region;
+  const uint32_t thinnest =
+      *std::min_element(faces.begin(), faces.end(), [&](uint32_t a, uint32_t b) { return values[a] < values[b]; });
+  region.least = values[thinnest];
+  region.leastFace = prepared.mesh.inputFaceOf(thinnest);
+  region.place = prepared.geometry.barycentres[thinnest];
+  uint64_t lastInputFace = prepared.mesh.inputFaceCount();
+  for (const uint32_t face : faces) {
+    region.area += prepared.geometry.areas[face];
+    region.faceCount += prepared.mesh.inputFaceOf(face) == lastInputFace ? 0 : 1;
+    lastInputFace = prepared.mesh.inputFaceOf(face);
+  }
+  return region;
+}
+
+void describeThinRegions(const PreparedMesh& prepared, std::span<const double> values, double limit,
+                         ThicknessReport& report) {
+  const std::vector<double>& areas = prepared.geometry.areas;
+  std::vector<uint8_t> isThin(values.size());
+  for (size_t face = 0; face < values.size(); ++face) isThin[face] = values[face] < limit ? 1 : 0;
+  for (uint32_t face = 0; face < values.size(); ++face)
+    if (isThin[face] != 0)
+      report.thinRegions.push_back(describeRegion(prepared, takeRegion(prepared.graph, face, isThin), values));
+  const double total = std::accumulate(areas.begin(), areas.end(), 0.0);
+  for (ThinRegion& region : report.thinRegions) {
+    region.areaShare = total > 0 ? region.area / total : 0;
+    report.thinArea += region.area;
+    report.thinAreaShare += region.areaShare;
+  }
+  std::stable_sort(report.thinRegions.begin(), report.thinRegions.end(),
+                   [](const ThinRegion& a, const ThinRegion& b) { return a.area > b.area; });
+}
+
+}  // namespace
+
+ThicknessReport describeThickness(const PreparedMesh& prepared, const FaceThickness& thickness,
+                                  std::span<const double> field, const std::optional<double>& limit) {
+  ThicknessReport report;
+  describePercentiles(thickness.values, prepared.geometry.areas, report);
+  report.noValueCount =
+      static_cast<uint64_t>(std::count_if(field.begin(), field.end(), [](double v) { return std::isnan(v); }));
+  report.tracedCount =
+      static_cast<uint64_t>(std::count(thickness.isTraced.begin(), thickness.isTraced.end(), uint8_t{1}));
+  report.verifiedCount = thickness.verifiedCount;
+  report.unrefinedCount = thickness.statistics.unrefinedCount;
+  report.redoneBallCount = thickness.statistics.redoneBallCount;
+  report.thinnerThan = limit;
+  if (limit) describeThinRegions(prepared, thickness.values, *limit, report);
+  return report;
+}
+
+}  // namespace asdfvk

@@ -1,0 +1,201 @@
+#include "pipeline/thickness.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "generate/shapes.h"
+#include "support/require_failure.h"
+#include "support/shared_session.h"
+
+using namespace asdfvk;
+using test::allSeeds;
+using test::referenceSession;
+using test::requireFailure;
+using test::vulkanSession;
+
+namespace {
+
+Options thickness(std::optional<double> limit = {}, SeedCount seeds = SeedCount::all()) {
+  Options options;
+  options.seeds = seeds;
+  options.measure = Measure::Thickness;
+  options.thickness.thinnerThan = limit;
+  return options;
+}
+
+const std::vector<double>& thicknessOf(const Result& result) {
+  const Field* field = result.field("thickness");
+  REQUIRE(field != nullptr);
+  CHECK(field->unit == "length");
+  return *field->reals();
+}
+
+constexpr double kThick = 0.4, kThin = 0.1;
+
+/// A slab of width 2 and thickness 0.4, 0.1 thick above a dent in its bottom: |x|, |y| < 0.4.
+Mesh dentedSlab(uint64_t faceCount = 3000) {
+  Mesh mesh = makeSlab(faceCount, {.width = 2, .thickness = kThick}).mesh;
+  for (Vec3d& v : mesh.vertices)
+    if (v.z < 0 && std::max(std::abs(v.x), std::abs(v.y)) < 0.4) v.z = kThick / 2 - kThin;
+  return mesh;
+}
+
+}  // namespace
+
+TEST_CASE("the shape diameter and the seeds have the same bits with and without the thickness") {
+  const Mesh mesh = makeAnimal(3000).mesh;
+  for (Session* session : {&referenceSession(), &vulkanSession()})
+    for (const SeedCount& seeds : {SeedCount::all(), SeedCount::ofShare(0.1)})
+      for (const Definition definition : {Definition::Paper, Definition::Cgal}) {
+        Options plain;
+        applyDefinition(definition, plain);
+        plain.seeds = seeds;
+        Options measured = plain;
+        measured.measure = Measure::Thickness;
+        measured.thickness.thinnerThan = 0.3;
+        const Result expected = session->compute(mesh, plain), found = session->compute(mesh, measured);
+        CHECK(found.sdf() == expected.sdf());
+        CHECK(found.seed() == expected.seed());
+        CHECK(expected.field("thickness") == nullptr);
+        CHECK_FALSE(expected.report.thickness.has_value());
+      }
+}
+
+TEST_CASE("backends agree in the thickness, by both definitions of the rays") {
+  const Mesh mesh = makeHand(4000).mesh;
+  for (const Definition definition : {Definition::Paper, Definition::Cgal}) {
+    Options options = thickness();
+    applyDefinition(definition, options);
+    options.seeds = SeedCount::all();
+    const Result expected = referenceSession().compute(mesh, options), found = vulkanSession().compute(mesh, options);
+    const double range = expected.report.thickness->max;
+    size_t differentCount = 0;
+    for (size_t i = 0; i < mesh.faces.size(); ++i)
+      differentCount += std::abs(thicknessOf(expected)[i] - thicknessOf(found)[i]) <= 1e-5 * range ? 0 : 1;
+    CHECK(differentCount <= mesh.faces.size() / 1000);
+  }
+}
+
+TEST_CASE("the regions of a slab with a thin place are the dent and the face above it") {
+  const Mesh mesh = dentedSlab();
+  for (Session* session : {&referenceSession(), &vulkanSession()}) {
+    const Result result = session->compute(mesh, thickness(0.2));
+    const ThicknessReport& report = result.report.thickness.value();
+    REQUIRE(report.thinRegions.size() == 2);
+    double area = 0;
+    uint64_t faceCount = 0;
+    for (const ThinRegion& region : report.thinRegions) {
+      CHECK(region.least == doctest::Approx(kThin).epsilon(1e-6));
+      CHECK(std::max(std::abs(region.place.x), std::abs(region.place.y)) < 0.45);
+      CHECK(thicknessOf(result)[region.leastFace] == region.least);
+      CHECK(region.area > 0.5);  // The dent is 0.8 wide, without its slopes.
+      CHECK(region.area < 1);    // Up to 0.1 beside it the balls touch the rim of the dent.
+      CHECK(region.areaShare == doctest::Approx(region.area / 11.2).epsilon(0.05));
+      area += region.area;
+      faceCount += region.faceCount;
+    }
+    CHECK(report.thinRegions[0].area >= report.thinRegions[1].area);
+    CHECK(report.thinArea == doctest::Approx(area));
+    const auto& values = thicknessOf(result);
+    CHECK(std::count_if(values.begin(), values.end(), [](double v) { return v < 0.2; }) ==
+          static_cast<std::ptrdiff_t>(faceCount));
+    CHECK(report.min == doctest::Approx(kThin).epsilon(1e-6));
+    CHECK(report.p50 == doctest::Approx(kThick).epsilon(1e-6));
+    CHECK(report.tracedCount == mesh.faces.size());
+    CHECK(report.verifiedCount == 0);
+  }
+  const Result none = referenceSession().compute(mesh, thickness(0.05));
+  CHECK(none.report.thickness->thinRegions.empty());
+  CHECK(none.report.thickness->thinArea == 0);
+}
+
+TEST_CASE("percentiles are by area") {
+  // Of the area of a flat box, 8 of 9.6 are 0.2 thick, the rest 2.
+  const Result result = referenceSession().compute(makeSlab(2000, {.width = 2, .thickness = 0.2}).mesh, thickness());
+  const ThicknessReport& report = result.report.thickness.value();
+  for (const double value : {report.min, report.p1, report.p5, report.p50}) CHECK(value == doctest::Approx(0.2));
+  for (const double value : {report.p95, report.max}) CHECK(value == doctest::Approx(2));
+  CHECK(report.noValueCount == 0);
+  CHECK_FALSE(report.thinnerThan.has_value());
+}
+
+TEST_CASE("thin regions between seeds are traced with all that is around them") {
+  const Mesh mesh = dentedSlab(6000);
+  const std::vector<double> truth = thicknessOf(referenceSession().compute(mesh, thickness()));
+  for (Session* session : {&referenceSession(), &vulkanSession()}) {
+    const Result result = session->compute(mesh, thickness(0.2, SeedCount::ofShare(0.05)));
+    const ThicknessReport& report = result.report.thickness.value();
+    const std::vector<double>& values = thicknessOf(result);
+    CHECK(report.thinRegions.size() == 2);
+    CHECK(report.verifiedCount > 100);
+    CHECK(report.tracedCount == result.report.seedCount + report.verifiedCount);
+    CHECK(report.tracedCount < mesh.faces.size() / 2);
+    size_t wrongCount = 0, missedCount = 0;
+    for (size_t face = 0; face < values.size(); ++face) {
+      if (values[face] < 0.2) wrongCount += std::abs(values[face] - truth[face]) < 1e-6 ? 0 : 1;
+      missedCount += truth[face] < 0.2 && values[face] >= 0.2 ? 1 : 0;
+    }
+    CHECK(wrongCount == 0);
+    CHECK(missedCount == 0);
+    CHECK(report.max <= 2.0001);
+    CHECK(report.noValueCount == 0);
+  }
+}
+
+TEST_CASE("without a limit other faces are interpolated and nothing is verified") {
+  const Mesh mesh = dentedSlab(6000);
+  const Result result = referenceSession().compute(mesh, thickness({}, SeedCount::ofShare(0.1)));
+  CHECK(result.report.thickness->verifiedCount == 0);
+  CHECK(result.report.thickness->tracedCount == result.report.seedCount);
+  CHECK(result.report.thickness->noValueCount == 0);
+  CHECK(result.report.stageSeconds[Stage::Thickness] > 0);
+}
+
+TEST_CASE("a polygon has the least thickness of its triangles, which is reported once") {
+  // A wedge of quads: each side is one polygon, whose two triangles differ in thickness.
+  const std::vector<double> positions{0, 0, 0, 4, 0, 0, 4, 2, 0, 0, 2, 0, 0, 0, 1, 4, 0, 0.5, 4, 2, 0.5, 0, 2, 1};
+  const std::vector<uint32_t> corners{3, 2, 1, 0, 4, 5, 6, 7, 0, 1, 5, 4, 2, 3, 7, 6, 1, 2, 6, 5, 3, 0, 4, 7};
+  const std::vector<uint64_t> firstCorner{0, 4, 8, 12, 16, 20, 24};
+  const Result result = referenceSession().compute(MeshView(positions, corners, firstCorner), thickness(0.9));
+  const std::vector<double>& values = thicknessOf(result);
+  REQUIRE(values.size() == 6);
+  CHECK(values[0] < 0.7);  // 4 / 3 from the thin end: about 0.65.
+  CHECK(values[0] > 0.6);
+  const ThicknessReport& report = result.report.thickness.value();
+  REQUIRE(report.thinRegions.size() == 2);
+  for (const ThinRegion& region : report.thinRegions) {
+    CHECK(region.faceCount == 1);
+    CHECK(values[region.leastFace] == region.least);
+  }
+}
+
+TEST_CASE("degenerate faces and faces without a valid ray have no thickness") {
+  Mesh mesh = makeSphere(500).mesh;
+  mesh.faces.push_back({0, 0, 1});
+  for (const SeedCount& seeds : {SeedCount::all(), SeedCount::ofShare(0.2)}) {
+    const Result result = referenceSession().compute(mesh, thickness(0.1, seeds));
+    CHECK(std::isnan(thicknessOf(result).back()));
+    CHECK(result.report.thickness->noValueCount == 1);
+    CHECK(result.report.thickness->thinRegions.empty());
+  }
+  const Mesh open{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}, {}};
+  const Result none = referenceSession().compute(open, thickness(1));
+  CHECK(std::isnan(none.report.thickness->min));
+  CHECK(none.report.thickness->thinRegions.empty());
+}
+
+TEST_CASE("options out of range are refused") {
+  const Mesh mesh = makeSphere(200).mesh;
+  Options options = thickness();
+  for (const double angle : {90.0, 181.0}) {
+    options.thickness.wallAngleDegrees = angle;
+    requireFailure([&] { (void)referenceSession().compute(mesh, options); }, ErrorCode::OptionOutOfRange, "opposing");
+  }
+  for (const double limit : {0.0, -1.0, std::nan("")})
+    requireFailure([&] { (void)referenceSession().compute(mesh, thickness(limit)); }, ErrorCode::OptionOutOfRange);
+  Options plain = allSeeds();
+  plain.thickness.thinnerThan = 1;
+  requireFailure([&] { (void)referenceSession().compute(mesh, plain); }, ErrorCode::OptionConflict, "measure");
+}
