@@ -33,8 +33,8 @@ extern "C" void onSignal(int) {
   const int savedErrno = errno;
   if (signalCount.fetch_add(1) > 0 || !isListening.load()) {
     removeUnfinishedFile();
-    constexpr std::string_view message = "asdf-vk: error: cancelled\n";
-    [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, message.data(), message.size());
+    constexpr std::string_view kMessage = "asdf-vk: error: cancelled\n";
+    [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, kMessage.data(), kMessage.size());
     _exit(static_cast<int>(ExitCode::Cancelled));
   }
   [[maybe_unused]] const ssize_t written = write(pipeWriteEnd.load(), "x", 1);
