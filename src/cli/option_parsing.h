@@ -33,7 +33,7 @@ void addComputation(CLI::App& app, CommandLine& line);
 void addSegments(CLI::App& app, Options& options);
 
 /// --segment without a value, at the end or before an option or a file, becomes --segment=parts. A file is a name that
-/// has a dot or a slash, is "-", or exists.
+/// has a dot or a slash, is "-", or exists; the names of kSegmentations are values, also where such a file exists.
 void expandBareSegment(std::vector<std::string>& arguments);
 
 /// The values of these options for the JSON report.

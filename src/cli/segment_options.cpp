@@ -13,6 +13,11 @@ namespace {
 
 constexpr const char* kSegmentGroup = "Segments";
 
+bool isSegmentation(const std::string& text) {
+  return std::any_of(kSegmentations.begin(), kSegmentations.end(),
+                     [&](const auto& choice) { return choice.first == text; });
+}
+
 bool looksLikeFile(const std::string& text) {
   std::error_code ignored;
   return text == "-" || text.find_first_of("./") != std::string::npos || std::filesystem::exists(text, ignored);
@@ -82,6 +87,7 @@ void addSegments(CLI::App& app, Options& options) {
 void expandBareSegment(std::vector<std::string>& arguments) {
   for (size_t i = 0; i < arguments.size() && arguments[i] != "--"; ++i) {
     if (arguments[i] != "--segment") continue;
+    if (i + 1 < arguments.size() && isSegmentation(arguments[i + 1])) continue;
     if (i + 1 == arguments.size() || arguments[i + 1].starts_with("-") || looksLikeFile(arguments[i + 1]))
       arguments[i] = fmt::format("--segment={}", nameOf(kSegmentations, Segmentation::Parts));
   }

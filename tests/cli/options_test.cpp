@@ -3,12 +3,14 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <limits>
 #include <set>
 #include <sstream>
 
 #include "cli/option_parsing.h"
 #include "cli/refusal.h"
+#include "cli/scratch_folder.h"
 
 namespace asdfvk {
 namespace {
@@ -229,6 +231,19 @@ TEST_CASE("--segment without a value is --segment parts, wherever it stands") {
   }
   CHECK(parseCommandLine({"a.ply", "--segment", "none"}).options.segmentation == Segmentation::None);
   CHECK_EQ(parseCommandLine({"a.ply", "--", "--segment"}).meshes, Arguments{"a.ply", "--segment"});
+}
+
+TEST_CASE("the value of --segment is no file, also where a file or folder has its name") {
+  const test::ScratchFolder folder;
+  for (const char* name : {"parts", "cgal"}) (void)folder.write(name, "");
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::current_path(folder / ".");
+  std::vector<CommandLine> lines;
+  for (const char* name : {"parts", "cgal"}) lines.push_back(parseCommandLine({"a.ply", "--segment", name}));
+  std::filesystem::current_path(before);
+  CHECK(lines[0].options.segmentation == Segmentation::Parts);
+  CHECK(lines[1].options.segmentation == Segmentation::Cgal);
+  for (const CommandLine& line : lines) CHECK_EQ(line.meshes, std::vector<std::string>{"a.ply"});
 }
 
 TEST_CASE("the fields of --postprocess and --segment are written without --fields") {
