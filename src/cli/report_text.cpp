@@ -86,9 +86,9 @@ std::string areaText(std::vector<double> shares) {
   std::string text;
   for (size_t i = 0; i < count; ++i) {
     const char* separator = i == 0 ? "" : i + 1 == shares.size() ? " and " : ", ";
-    text += fmt::format("{}{:.2g}", separator, 100 * shares[i]);
+    text += separator + twoDigits(shares[i]);
   }
-  if (shares.size() > count) text += fmt::format(" and {} more", shares.size() - count);
+  if (shares.size() > count) text += fmt::format(" and {} more", groupDigits(shares.size() - count));
   return text;
 }
 
@@ -98,16 +98,17 @@ std::string segmentRows(const SegmentationReport& segmentation, const Options& o
                                        options.cgalSegmentation.clusterCount, options.cgalSegmentation.smoothness));
   const PartsReport& parts = *segmentation.parts;
   const std::string range = parts.fewestCount == parts.mostCount
-                                ? fmt::format("{}", parts.fewestCount)
-                                : fmt::format("{} to {}", parts.fewestCount, parts.mostCount);
+                                ? groupDigits(parts.fewestCount)
+                                : groupDigits(parts.fewestCount) + " to " + groupDigits(parts.mostCount);
   const double detail = options.parts.detail;
   const std::string when =
       options.parts.partCount
-          ? fmt::format("at costs {:.0f} % higher and lower", 100 * (kPartStabilityFactor - 1))
+          ? fmt::format("if the cost limit changes by {:.0f} %", 100 * (kPartStabilityFactor - 1))
           : fmt::format("at --detail {:.3g} to {:.3g}", detail / kPartStabilityFactor, detail * kPartStabilityFactor);
-  return row("parts", fmt::format("{}; {} {}; agreement {:.2f}", groupDigits(segmentation.segmentCount), range, when,
-                                  parts.agreement)) +
-         row("", fmt::format("of {} % of the area", areaText(parts.areaShares)));
+  std::string rows = row("parts", fmt::format("{}; {} {}; agreement {:.2f}", groupDigits(segmentation.segmentCount),
+                                              range, when, parts.agreement));
+  if (parts.areaShares.size() > 1) rows += row("", fmt::format("of {} % of the area", areaText(parts.areaShares)));
+  return rows;
 }
 
 std::string estimateRow(const Report& report) {

@@ -118,8 +118,10 @@ TEST_CASE("the reports have the parts, how stable their number is, and their are
   CHECK_FALSE(holds(text, "clusters"));
   line.options.parts.partCount = 3;
   result.report.segmentation->parts->areaShares.assign(15, 0.0625);
-  CHECK(holds(textReport({kMesh, kOutput, line, result}), "; 3 to 5 at costs 25 % higher and lower; "));
+  CHECK(holds(textReport({kMesh, kOutput, line, result}), "; 3 to 5 if the cost limit changes by 25 %; "));
   CHECK(holds(textReport({kMesh, kOutput, line, result}), "6.2 and 3 more % of the area\n"));
+  result.report.segmentation->parts->areaShares = {0.996, 0.004};
+  CHECK(holds(textReport({kMesh, kOutput, line, result}), "\n            of 100 and 0.4 % of the area\n"));
   const nlohmann::json json = nlohmann::json::parse(jsonReport({kMesh, kOutput, line, result}));
   CHECK_EQ(json.at("segmentCount"), 3);
   const nlohmann::json& parts = json.at("parts");
@@ -128,7 +130,12 @@ TEST_CASE("the reports have the parts, how stable their number is, and their are
   CHECK_EQ(parts.at("mostCount"), 5);
   CHECK_EQ(parts.at("agreement"), 0.956);
   CHECK_EQ(parts.at("thinShell"), false);
-  CHECK_EQ(parts.at("areaShares").size(), 15);
+  CHECK_EQ(parts.at("areaShares").size(), 2);
+  line.options.parts.partCount.reset();
+  result.report.segmentation = SegmentationReport{2000, PartsReport{2000, 2000, 1, false, {}}};
+  CHECK(holds(textReport({kMesh, kOutput, line, result}), "\n  parts     2,000; 2,000 at --detail 0.8 to 1.25; "));
+  result.report.segmentation = SegmentationReport{1, PartsReport{1, 1, 1, false, {1}}};
+  CHECK_FALSE(holds(textReport({kMesh, kOutput, line, result}), "of the area"));
   result.report.segmentation->parts.reset();
   CHECK(nlohmann::json::parse(jsonReport({kMesh, kOutput, line, result})).at("parts").is_null());
 }
