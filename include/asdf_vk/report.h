@@ -67,7 +67,7 @@ enum class WarningCode {
   SolvedOnCpu,         ///< The device failed to solve the equation; the CPU solved it.
   NotConverged,        ///< The solver stopped at its iteration limit.
   RangeDominated,      ///< The range is no scale for errors: few faces have most of it. Details: {"robustShare", X}.
-  ThinShell,           ///< The shape is a thin wall around a cavity or an open sheet: its parts are uncertain.
+  ThinShell,           ///< The shape is a thin wall around a cavity: its parts are uncertain.
   PartCountDiffers,    ///< The number of parts is not the requested one, because of components or faces.
 };
 /// "missingValues"

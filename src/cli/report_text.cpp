@@ -216,7 +216,7 @@ std::string textWarning(const Warning& warning) {
     if (detail.value == "open") text += "; --orient flip reverses all faces";
   }
   if (warning.code == WarningCode::InvertedComponents) text += "; --orient auto reverses inverted components";
-  if (warning.code == WarningCode::ThinShell) text += "; --detail changes the number of parts";
+  if (warning.code == WarningCode::ThinShell) text += "; fewer parts: --detail 0.5, more: --detail 2";
   if (warning.code == WarningCode::FinishedOnCpu) text += "; --solver cpu may be faster here";
   if (warning.code == WarningCode::RangeDominated) text += "; use the relative error, as --max-error E%rel does";
   if (warning.code == WarningCode::NotConverged) text += "; raise --max-iterations or --tolerance";
