@@ -27,6 +27,8 @@ constexpr double kSightDepth = 0.3;
 constexpr double kMinWallShape = 0.36;
 /// Plates, too, are walls, but see themselves.
 constexpr double kMaxWallSight = 0.5;
+/// Share of the area up to which all components below kMinPartArea take a neighbouring part.
+constexpr double kMaxAbsorbedArea = 0.05;
 
 /// Whether most of the area belongs to closed components and has values, and these are thin walls by their volume.
 bool isWall(const PartsInput& input, const PartSurface& surface) {
@@ -68,6 +70,30 @@ ComponentShapes shapesOf(const PartSurface& surface, const Components& component
     }
   }
   return shapes;
+}
+
+/// What becomes of the components that are neither: they take the nearest part.
+struct ComponentRoles {
+  std::vector<uint32_t> firstSeeds;  ///< A face of each component that is divided into parts.
+  std::vector<uint32_t> whole;       ///< Components that are a part each.
+};
+
+/// Where the small components have much of the area, as in a file of many equal objects, they are parts themselves,
+/// except those that are small beside the largest component.
+ComponentRoles rolesOf(const ComponentShapes& shapes) {
+  double smallArea = 0, largest = 0;
+  for (const double area : shapes.areas) {
+    smallArea += area < kMinPartArea ? area : 0;
+    largest = std::max(largest, area);
+  }
+  ComponentRoles roles;
+  for (uint32_t component = 0; component < shapes.areas.size(); ++component) {
+    if (const double area = shapes.areas[component]; area >= kMinPartArea)
+      roles.firstSeeds.push_back(shapes.farthestFaces[component]);
+    else if (smallArea > kMaxAbsorbedArea && area >= kMinPartArea * largest)
+      roles.whole.push_back(component);
+  }
+  return roles;
 }
 
 /// At least one per requested part.
@@ -169,9 +195,10 @@ std::pair<size_t, double> mostTypical(std::span<const Division> divisions, std::
   return {best, sums[best] / static_cast<double>(count - 1)};
 }
 
-/// Gives the faces without a label that of the patch nearest to the centre of their component.
+/// Labels the faces without a label: the components in `whole` by the labels from `labelCount` on, the others by the
+/// patch or whole component nearest to the centre of their component.
 void labelSmallComponents(const PartsInput& input, const PartSurface& surface, const Division& division,
-                          std::vector<uint32_t>& labels) {
+                          std::span<const uint32_t> whole, uint32_t labelCount, std::vector<uint32_t>& labels) {
   const size_t count = input.components.components.size();
   std::vector<Vec3d> centres(count);
   std::vector<uint32_t> faceCounts(count, 0), labelOf(count, kNoLabel);
@@ -181,15 +208,23 @@ void labelSmallComponents(const PartsInput& input, const PartSurface& surface, c
     centres[component] += surface.centres[face];
     ++faceCounts[component];
   }
+  for (size_t component = 0; component < count; ++component)
+    centres[component] = centres[component] / std::max(1.0, static_cast<double>(faceCounts[component]));
+  std::vector<std::pair<Vec3d, uint32_t>> targets;
+  for (const PatchData::Patch& patch : division.data.patches)
+    targets.emplace_back(patch.centre, labels[patch.centreFace]);
+  for (const uint32_t component : whole) {
+    labelOf[component] = labelCount++;
+    targets.emplace_back(centres[component], labelOf[component]);
+  }
   forEachInParallel(count, [&](uint32_t component) {
-    if (faceCounts[component] == 0) return;
-    const Vec3d centre = centres[component] / static_cast<double>(faceCounts[component]);
+    if (faceCounts[component] == 0 || labelOf[component] != kNoLabel) return;
     double nearest = std::numeric_limits<double>::infinity();
-    for (const PatchData::Patch& patch : division.data.patches) {
-      const Vec3d between = patch.centre - centre;
+    for (const auto& [centre, label] : targets) {
+      const Vec3d between = centre - centres[component];
       if (const double squared = dot(between, between); squared < nearest) {
         nearest = squared;
-        labelOf[component] = labels[patch.centreFace];
+        labelOf[component] = label;
       }
     }
   });
@@ -220,11 +255,12 @@ Parts segmentIntoParts(const PartsInput& input, const PartsOptions& options, con
                        const RunControl& control) {
   const PartSurface surface = makePartSurface(input.mesh, input.geometry, input.graph, input.values);
   const ComponentShapes shapes = shapesOf(surface, input.components);
-  std::vector<uint32_t> firstSeeds;
-  for (size_t component = 0; component < shapes.areas.size(); ++component)
-    if (shapes.areas[component] >= kMinPartArea) firstSeeds.push_back(shapes.farthestFaces[component]);
+  const ComponentRoles roles = rolesOf(shapes);
+  const auto wholeCount = static_cast<uint32_t>(roles.whole.size());
+  PartsOptions dividing = options;  // For the components that are divided.
+  if (options.partCount) dividing.partCount = *options.partCount - std::min(*options.partCount, wholeCount);
   Parts parts;
-  if (firstSeeds.empty()) {
+  if (roles.firstSeeds.empty()) {
     parts.partOf = input.components.componentOf;
     parts.partCount = parts.fewest = parts.most = static_cast<uint32_t>(shapes.areas.size());
     sortByValue(surface, parts.partOf, parts.partCount);
@@ -233,7 +269,7 @@ Parts segmentIntoParts(const PartsInput& input, const PartsOptions& options, con
 
   control.checkpoint(0);
   std::vector<Division> divisions(kPatchCounts.size());
-  std::vector<Patches> patches = makePatches(surface, firstSeeds, patchCountsFor(surface.faceCount(), options));
+  std::vector<Patches> patches = makePatches(surface, roles.firstSeeds, patchCountsFor(surface.faceCount(), options));
   forEachTask(divisions.size(), [&](size_t i) {
     divisions[i].patches = std::move(patches[i]);
     divisions[i].data = describePatches(surface, input.geometry.normals, divisions[i].patches);
@@ -249,7 +285,7 @@ Parts segmentIntoParts(const PartsInput& input, const PartsOptions& options, con
     Division& division = divisions[i];
     division.merging.emplace(division.data, matrices[i], weights);
     PartMerging merging = *division.merging;
-    mergeParts(merging, options, weights);
+    mergeParts(merging, dividing, weights);
     division.labels = labelsOf(division.patches, merging, merging.regionCount());
   });
   const auto [chosen, agreement] = mostTypical(divisions, surface.areas);
@@ -257,16 +293,17 @@ Parts segmentIntoParts(const PartsInput& input, const PartsOptions& options, con
 
   const Division& division = divisions[chosen];
   PartMerging merging = *division.merging;
-  mergeParts(merging, options, weights);
+  mergeParts(merging, dividing, weights);
   const bool mergesSmall = !options.partCount;
   if (mergesSmall) merging.mergeSmallerThan(kMinPartArea);
-  parts.partCount = merging.regionCount();
-  const double threshold = thresholdOf(merging, options, weights);
-  parts.fewest = std::min(parts.partCount, countAt(division, threshold * kPartStabilityFactor, mergesSmall));
-  parts.most = std::max(parts.partCount, countAt(division, threshold / kPartStabilityFactor, mergesSmall));
+  const uint32_t regionCount = merging.regionCount();
+  parts.partCount = regionCount + wholeCount;
+  const double threshold = thresholdOf(merging, dividing, weights);
+  parts.fewest = wholeCount + std::min(regionCount, countAt(division, threshold * kPartStabilityFactor, mergesSmall));
+  parts.most = wholeCount + std::max(regionCount, countAt(division, threshold / kPartStabilityFactor, mergesSmall));
   control.checkpoint(0.8);
-  parts.partOf = cutBoundaries(surface, labelsOf(division.patches, merging, kNoLabel), parts.partCount);
-  labelSmallComponents(input, surface, division, parts.partOf);
+  parts.partOf = cutBoundaries(surface, labelsOf(division.patches, merging, kNoLabel), regionCount);
+  labelSmallComponents(input, surface, division, roles.whole, regionCount, parts.partOf);
   sortByValue(surface, parts.partOf, parts.partCount);
   return parts;
 }

@@ -40,14 +40,15 @@ struct Parts {
   double meanSight = 1;           ///< Over pairs of patches of a component, weighted by the product of their areas.
 };
 
-/// Share of the area below which a component is no part of its own, and a part is merged.
+/// Share of the area below which a component is not divided, and a part is merged.
 inline constexpr double kMinPartArea = 0.01;
 
-/// Components below kMinPartArea take the part of the patch that is nearest in space; if there is no larger component,
-/// each is a part. Other parts never extend over several components. With options.partCount there are that many
-/// parts: more where there are more components, fewer where there are fewer faces; none of them is merged for its
-/// size. The same result on any number of threads. Throws Error{NoValues} where no face has a value, what `sight`
-/// throws, and Error{Cancelled} between steps.
+/// Components below kMinPartArea take the part that is nearest in space if they have at most 5 % of the area together.
+/// If they have more, each is a part, except those below kMinPartArea times the largest component, which take the
+/// nearest part; if no component has kMinPartArea, each is a part. Other parts never extend over several components.
+/// With options.partCount there are that many parts: more where there are more components, fewer where there are fewer
+/// faces; none of them is merged for its size. The same result on any number of threads. Throws Error{NoValues} where
+/// no face has a value, what `sight` throws, and Error{Cancelled} between steps.
 [[nodiscard]] Parts segmentIntoParts(const PartsInput& input, const PartsOptions& options, const LineOfSight& sight,
                                      const RunControl& control = {});
 

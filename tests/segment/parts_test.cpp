@@ -205,6 +205,24 @@ TEST_CASE("a part does not extend over components, unless they are small") {
   CHECK(segment(mesh, PartsOptions{.partCount = 1}).partCount == 2);
 }
 
+TEST_CASE("equal objects are a part each, though one of them is a little larger") {
+  const Mesh tetrahedron{
+      {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}, {}};
+  Mesh mesh;
+  for (int i = 0; i < 121; ++i) append(mesh, tetrahedron, i == 60 ? 1.2 : 1, {2.0 * (i % 11), 2.0 * (i / 11), 0});
+  append(mesh, tetrahedron, 0.01, {-0.1, 0, 0});  // Far below 1 % of the largest one.
+  const Parts parts = segment(mesh);
+  checkParts(parts, mesh.faces.size());
+  CHECK(parts.partCount == 121);
+  CHECK(parts.fewest == 121);
+  for (size_t face = 0; face < mesh.faces.size() - 4; ++face) CHECK(parts.partOf[face] == parts.partOf[face / 4 * 4]);
+  CHECK(parts.partOf.back() == parts.partOf[0]);
+  CHECK(segment(mesh, PartsOptions{.partCount = 100}).partCount == 121);
+  const Parts divided = segment(mesh, PartsOptions{.partCount = 122});
+  checkParts(divided, mesh.faces.size());
+  CHECK(divided.partCount == 122);
+}
+
 TEST_CASE("a soup of small components has a part for each") {
   Mesh soup;
   for (int i = 0; i < 150; ++i)
