@@ -35,15 +35,14 @@ uint32_t countSegments(std::span<const uint32_t> segments) {
   return count;
 }
 
-/// Shares of the area of all triangles, by the segment of their input face.
-std::vector<double> areaSharesOf(const PreparedMesh& prepared, std::span<const uint32_t> segments, uint32_t count) {
-  const Normalization unit = normalizationOf(prepared.geometry.bounds);
+/// Sums of the areas of the triangles (#F), by the segment of their input face; divided by the sum of all.
+std::vector<double> areaSharesOf(const TriangleMesh& mesh, std::span<const double> areas,
+                                 std::span<const uint32_t> segments, uint32_t count) {
   std::vector<double> shares(count, 0);
   double sum = 0;
-  for (uint32_t face = 0; face < prepared.mesh.faceCount(); ++face) {
-    const double area = prepared.geometry.areas[face] * unit.scale * unit.scale;
-    shares[segments[prepared.mesh.inputFaceOf(face)]] += area;
-    sum += area;
+  for (uint32_t face = 0; face < mesh.faceCount(); ++face) {
+    shares[segments[mesh.inputFaceOf(face)]] += areas[face];
+    sum += areas[face];
   }
   for (double& share : shares) share /= sum;
   return shares;
@@ -72,11 +71,11 @@ void segmentByParts(const PreparedMesh& prepared, std::span<const double> values
                     const LineOfSight& sight, const RunControl& control, Report& report, SegmentedValues& result) {
   const Parts parts = segmentIntoParts({prepared.mesh, prepared.geometry, prepared.graph, prepared.components, values},
                                        options.parts, sight, control);
-  result.segments = segmentsOfInputFaces(prepared.mesh, parts.partOf, prepared.geometry.areas);
+  result.segments = segmentsOfInputFaces(prepared.mesh, parts.partOf, parts.areas);
   const uint32_t count = countSegments(result.segments);
   report.segmentation =
       SegmentationReport{count, PartsReport{parts.fewest, parts.most, parts.agreement, parts.isThinShell,
-                                            areaSharesOf(prepared, result.segments, count)}};
+                                            areaSharesOf(prepared.mesh, parts.areas, result.segments, count)}};
   warnAboutParts(parts, options, report);
 }
 

@@ -260,6 +260,7 @@ Parts segmentIntoParts(const PartsInput& input, const PartsOptions& options, con
   PartsOptions dividing = options;  // For the components that are divided.
   if (options.partCount) dividing.partCount = *options.partCount - std::min(*options.partCount, wholeCount);
   Parts parts;
+  parts.areas.assign(surface.areas.begin(), surface.areas.end());
   if (roles.firstSeeds.empty()) {
     parts.partOf = input.components.componentOf;
     parts.partCount = parts.fewest = parts.most = static_cast<uint32_t>(shapes.areas.size());

@@ -34,6 +34,7 @@ struct PartsInput {
 struct Parts {
   std::vector<uint32_t> partOf;  ///< #F, numbered by ascending mean value.
   uint32_t partCount = 0;
+  std::vector<double> areas;      ///< #F, shares of the area of the mesh.
   uint32_t fewest = 0, most = 0;  ///< Numbers of parts at kPartStabilityFactor times the threshold, and at 1 over that.
   double agreement = 1;           ///< Mean Rand index of the chosen division with the other ones, weighted by area.
   bool isThinShell = false;       ///< A closed thin wall whose sides do not see each other; sight was not used.

@@ -130,6 +130,25 @@ TEST_CASE("a thin shell is a warning") {
   CHECK(findWarning(result.report, WarningCode::ThinShell) != nullptr);
 }
 
+TEST_CASE("shares of the area do not depend on the scale") {
+  const Mesh animal = generateShape("animal", 1500).mesh;
+  const auto sharesAt = [&](double scale) {
+    Mesh mesh = animal;
+    for (Vec3d& v : mesh.vertices) v = v * scale;
+    const Result result = fastSession().compute(mesh, withParts());
+    checkReport(result);
+    return result.report.segmentation->parts->areaShares;
+  };
+  const std::vector<double> expected = sharesAt(1);
+  REQUIRE(expected.size() > 1);
+  for (const double scale : {1e-160, 1e160}) {
+    CAPTURE(scale);
+    const std::vector<double> shares = sharesAt(scale);
+    REQUIRE(shares.size() == expected.size());
+    for (size_t i = 0; i < shares.size(); ++i) CHECK(shares[i] == doctest::Approx(expected[i]).epsilon(0.02));
+  }
+}
+
 TEST_CASE("parts of polygons are labels of input faces") {
   // The sides of two cubes as quads, and a face of two corners.
   std::vector<double> positions;

@@ -170,6 +170,7 @@ TEST_CASE("the same parts on one thread and on many, and with a power of two as 
       return inside(scaled);
     });
     CHECK(parts.partOf == expected.partOf);
+    CHECK(parts.areas == expected.areas);
   }
 }
 
