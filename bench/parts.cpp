@@ -112,7 +112,7 @@ void printModel(uint32_t id, const std::string& seeds, const Score& score) {
   const PartsReport& parts = *score.report.parts;
   writeOutput(fmt::format("{:>4} {:>4}  error {:.4f}  parts {:>3} ({} to {})  agreement {:.3f}  thin {}  {:.3f} s\n",
                           id, seeds, score.error, score.report.segmentCount, parts.fewestCount, parts.mostCount,
-                          parts.agreement, parts.isThinShell ? 1 : 0, score.seconds));
+                          parts.agreement.value_or(kNoValue), parts.isThinShell ? 1 : 0, score.seconds));
 }
 
 void run(const Arguments& arguments, const RunControl& control) {

@@ -59,16 +59,17 @@ struct MeshDefects {
 };
 
 enum class WarningCode {
-  MeshDefect,          ///< One of MeshDefects.
-  InvertedComponents,  ///< Inverted components were found and left unchanged.
-  ComponentsReversed,  ///< Inverted components were reversed (Orientation::Auto).
-  MissingValues,       ///< Faces without a value. Details: {"cause", "inverted"}, {"cause", "open"} where likely.
-  FinishedOnCpu,       ///< The solver of the device reached the limit of float32; the CPU continued in double.
-  SolvedOnCpu,         ///< The device failed to solve the equation; the CPU solved it.
-  NotConverged,        ///< The solver stopped at its iteration limit.
-  RangeDominated,      ///< The range is no scale for errors: few faces have most of it. Details: {"robustShare", X}.
-  ThinShell,           ///< The shape is a thin wall around a cavity: its parts are uncertain.
-  PartCountDiffers,    ///< The number of parts is not the requested one, because of components or faces.
+  MeshDefect,           ///< One of MeshDefects.
+  InvertedComponents,   ///< Inverted components were found and left unchanged.
+  ComponentsReversed,   ///< Inverted components were reversed (Orientation::Auto).
+  MissingValues,        ///< Faces without a value. Details: {"cause", "inverted"}, {"cause", "open"} where likely.
+  FinishedOnCpu,        ///< The solver of the device reached the limit of float32; the CPU continued in double.
+  SolvedOnCpu,          ///< The device failed to solve the equation; the CPU solved it.
+  NotConverged,         ///< The solver stopped at its iteration limit.
+  RangeDominated,       ///< The range is no scale for errors: few faces have most of it. Details: {"robustShare", X}.
+  ThinShell,            ///< The shape is a thin wall around a cavity: its parts are uncertain.
+  PartCountDiffers,     ///< The number of parts is not the requested one, because of components or faces.
+  OnlySmallComponents,  ///< No component has 1 % of the area: each is a part.
 };
 /// "missingValues"
 [[nodiscard]] ASDFVK_API const char* nameOf(WarningCode code);
@@ -157,9 +158,10 @@ struct PartsReport {
   /// Numbers of parts at a detail divided and multiplied by kPartStabilityFactor: the result is stable where both are
   /// the number of segments.
   uint32_t fewestCount = 0, mostCount = 0;
-  /// Mean Rand index of the result with those from other numbers of patches, weighted by area: 1 where all are equal.
-  /// Below about 0.9 the parts depend on chance.
-  double agreement = 1;
+  /// Mean Rand index, weighted by area, of the chosen division with those from other numbers of patches, before small
+  /// parts are merged and boundaries cut: 1 where all are equal. Below about 0.9, other numbers of patches give other
+  /// parts. Unset where nothing is compared (WarningCode::OnlySmallComponents).
+  std::optional<double> agreement;
   bool isThinShell = false;        ///< See WarningCode::ThinShell.
   std::vector<double> areaShares;  ///< Per segment, of the area of all faces; sum 1.
 };

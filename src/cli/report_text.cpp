@@ -105,8 +105,9 @@ std::string segmentRows(const SegmentationReport& segmentation, const Options& o
       options.parts.partCount
           ? fmt::format("if the cost limit changes by {:.0f} %", 100 * (kPartStabilityFactor - 1))
           : fmt::format("at --detail {:.3g} to {:.3g}", detail / kPartStabilityFactor, detail * kPartStabilityFactor);
-  std::string rows = row("parts", fmt::format("{}; {} {}; agreement {:.2f}", groupDigits(segmentation.segmentCount),
-                                              range, when, parts.agreement));
+  const std::string agreement = parts.agreement ? fmt::format("; agreement {:.2f}", *parts.agreement) : "";
+  std::string rows =
+      row("parts", fmt::format("{}; {} {}{}", groupDigits(segmentation.segmentCount), range, when, agreement));
   if (parts.areaShares.size() > 1) rows += row("", fmt::format("of {} % of the area", areaText(parts.areaShares)));
   return rows;
 }
@@ -217,6 +218,7 @@ std::string textWarning(const Warning& warning) {
   }
   if (warning.code == WarningCode::InvertedComponents) text += "; --orient auto reverses inverted components";
   if (warning.code == WarningCode::ThinShell) text += "; fewer parts: --detail 0.5, more: --detail 2";
+  if (warning.code == WarningCode::OnlySmallComponents) text += "; weld equal vertices if they are one surface";
   if (warning.code == WarningCode::FinishedOnCpu) text += "; --solver cpu may be faster here";
   if (warning.code == WarningCode::RangeDominated) text += "; use the relative error, as --max-error E%rel does";
   if (warning.code == WarningCode::NotConverged) text += "; raise --max-iterations or --tolerance";

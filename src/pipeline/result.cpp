@@ -229,6 +229,8 @@ const char* nameOf(WarningCode code) {
       return "thinShell";
     case WarningCode::PartCountDiffers:
       return "partCountDiffers";
+    case WarningCode::OnlySmallComponents:
+      return "onlySmallComponents";
   }
   return "unknown";
 }

@@ -57,6 +57,12 @@ void warnAboutParts(const Parts& parts, const Options& options, Report& report) 
                      100 * parts.meanSight),
          {}});
   const uint32_t count = report.segmentation->segmentCount;
+  if (!parts.agreement)
+    report.warnings.push_back(
+        {WarningCode::OnlySmallComponents,
+         fmt::format("no component has {:g} % of the area, so each of the {} components is a part", 100 * kMinPartArea,
+                     groupDigits(parts.partCount)),
+         {}});
   if (const auto requested = options.parts.partCount; requested && *requested != count)
     report.warnings.push_back(
         {WarningCode::PartCountDiffers,

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -36,9 +37,11 @@ struct Parts {
   uint32_t partCount = 0;
   std::vector<double> areas;      ///< #F, shares of the area of the mesh.
   uint32_t fewest = 0, most = 0;  ///< Numbers of parts at kPartStabilityFactor times the threshold, and at 1 over that.
-  double agreement = 1;           ///< Mean Rand index of the chosen division with the other ones, weighted by area.
-  bool isThinShell = false;       ///< A closed thin wall whose sides do not see each other; sight was not used.
-  double meanSight = 1;           ///< Over pairs of patches of a component, weighted by the product of their areas.
+  /// Mean Rand index of the chosen division with the other ones, weighted by area, before small parts are merged and
+  /// boundaries cut. Unset where no component has kMinPartArea: nothing is compared.
+  std::optional<double> agreement;
+  bool isThinShell = false;  ///< A closed thin wall whose sides do not see each other; sight was not used.
+  double meanSight = 1;      ///< Over pairs of patches of a component, weighted by the product of their areas.
 };
 
 /// Share of the area below which a component is not divided, and a part is merged.

@@ -132,8 +132,9 @@ TEST_CASE("the reports have the parts, how stable their number is, and their are
   CHECK_EQ(parts.at("thinShell"), false);
   CHECK_EQ(parts.at("areaShares").size(), 2);
   line.options.parts.partCount.reset();
-  result.report.segmentation = SegmentationReport{2000, PartsReport{2000, 2000, 1, false, {}}};
-  CHECK(holds(textReport({kMesh, kOutput, line, result}), "\n  parts     2,000; 2,000 at --detail 0.8 to 1.25; "));
+  result.report.segmentation = SegmentationReport{2000, PartsReport{2000, 2000, {}, false, {}}};
+  CHECK(holds(textReport({kMesh, kOutput, line, result}), "\n  parts     2,000; 2,000 at --detail 0.8 to 1.25\n"));
+  CHECK(nlohmann::json::parse(jsonReport({kMesh, kOutput, line, result})).at("parts").at("agreement").is_null());
   result.report.segmentation = SegmentationReport{1, PartsReport{1, 1, 1, false, {1}}};
   CHECK_FALSE(holds(textReport({kMesh, kOutput, line, result}), "of the area"));
   result.report.segmentation->parts.reset();

@@ -51,8 +51,8 @@ void checkReport(const Result& result) {
   CHECK(report.parts->areaShares.size() == report.segmentCount);
   const std::vector<double>& shares = report.parts->areaShares;
   CHECK(std::accumulate(shares.begin(), shares.end(), 0.0) == doctest::Approx(1));
-  CHECK(report.parts->agreement > 0);
-  CHECK(report.parts->agreement <= 1);
+  CHECK(report.parts->agreement.value_or(0) > 0);
+  CHECK(report.parts->agreement.value_or(2) <= 1);
 }
 
 /// A thin wall between two spheres.
@@ -121,6 +121,23 @@ TEST_CASE("a number of parts that components do not allow is a warning") {
   const Result cube = fastSession().compute(makeCube(12).mesh, options);
   CHECK(cube.report.segmentation->segmentCount == 12);
   CHECK(findWarning(cube.report, WarningCode::PartCountDiffers) != nullptr);
+}
+
+TEST_CASE("a mesh of small components only is a warning") {
+  const Mesh cube = makeCube(12).mesh;
+  Mesh mesh;
+  for (uint32_t i = 0; i < 1100; ++i) {
+    const auto offset = static_cast<uint32_t>(mesh.vertices.size());
+    for (const Vec3d& v : cube.vertices) mesh.vertices.push_back(v + Vec3d{5.0 * i, 0, 0});
+    for (const auto& [a, b, c] : cube.faces) mesh.faces.push_back({a + offset, b + offset, c + offset});
+  }
+  Options options = withParts();
+  options.cone.rayCount = 2;
+  const Result result = fastSession().compute(mesh, options);
+  const Warning* warning = findWarning(result.report, WarningCode::OnlySmallComponents);
+  REQUIRE(warning != nullptr);
+  CHECK(warning->message == "no component has 1 % of the area, so each of the 1,100 components is a part");
+  CHECK_FALSE(result.report.segmentation->parts->agreement.has_value());
 }
 
 TEST_CASE("a thin shell is a warning") {
