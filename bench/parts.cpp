@@ -1,5 +1,5 @@
-// How far do parts agree with those that people draw? The Rand index error of --segment parts against the human
-// segmentations of the Princeton Segmentation Benchmark (Chen, Golovinskiy and Funkhouser 2009), and the time.
+// The Rand index error of --segment parts against the human segmentations of the Princeton Segmentation Benchmark
+// (Chen, Golovinskiy and Funkhouser 2009), and the time.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -52,8 +52,8 @@ void warnAboutParts(const Parts& parts, const Options& options, Report& report) 
   if (parts.isThinShell)
     report.warnings.push_back(
         {WarningCode::ThinShell,
-         fmt::format("the shape is a thin wall around a cavity: {:.0f} % of its patches see each other; its parts are "
-                     "less certain than those of solid shapes",
+         fmt::format("the shape is a thin wall around a cavity: {:.0f} % of the pairs of its patches have a clear "
+                     "line of sight; its parts are less certain than those of solid shapes",
                      100 * parts.meanSight),
          {}});
   const uint32_t count = report.segmentation->segmentCount;

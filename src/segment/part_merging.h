@@ -25,7 +25,7 @@ inline constexpr MergeWeights kSightWeights{0.3, 0.15, 0.5, 0.15, 3, 0.9, 0.18, 
 /// Without.
 inline constexpr MergeWeights kShapeWeights{0, 0, 0.5, 0.2, 4.25, 0.67, 0.15, 0.18, 2.3, 1, 0.38, -1.2, 0.0363};
 
-/// How far pairs of patches see each other: a symmetric matrix of numbers from 0 to 1, at first 1.
+/// Visibility of pairs of patches: a symmetric matrix of numbers from 0 to 1, at first 1.
 class SightMatrix {
  public:
   explicit SightMatrix(uint32_t count) : count_(count), entries_(size_t{count} * count, 1.0f) {}

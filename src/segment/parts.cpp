@@ -25,7 +25,7 @@ constexpr uint32_t kMinFacesPerPatch = 3;
 constexpr double kSightDepth = 0.3;
 /// Volume over area and mean value: about 0.4 for a wall, 0.28 for a tube, 0.19 for a ball.
 constexpr double kMinWallShape = 0.36;
-/// Plates, too, are walls, but see themselves.
+/// Plates, too, are walls, but most pairs of their patches have a clear line of sight.
 constexpr double kMaxWallSight = 0.5;
 /// Share of the area up to which all components below kMinPartArea take a neighbouring part.
 constexpr double kMaxAbsorbedArea = 0.05;
@@ -147,7 +147,7 @@ SightMatrix findSight(const PartsInput& input, const PartSurface& surface, const
   return matrix;
 }
 
-/// The level of the hierarchy that the options request, scaled by `factor`.
+/// Merges to the level of the hierarchy that the options request.
 void mergeParts(PartMerging& merging, const PartsOptions& options, const MergeWeights& weights) {
   if (options.partCount)
     merging.mergeToCount(*options.partCount);

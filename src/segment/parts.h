@@ -40,7 +40,7 @@ struct Parts {
   /// Mean Rand index of the chosen division with the other ones, weighted by area, before small parts are merged and
   /// boundaries cut. Unset where no component has kMinPartArea: nothing is compared.
   std::optional<double> agreement;
-  bool isThinShell = false;  ///< A closed thin wall whose sides do not see each other; sight was not used.
+  bool isThinShell = false;  ///< A closed thin wall around a cavity; lines of sight were not used.
   double meanSight = 1;      ///< Over pairs of patches of a component, weighted by the product of their areas.
 };
 
