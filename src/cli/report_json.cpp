@@ -61,10 +61,11 @@ Json postprocessOf(const std::optional<PostprocessReport>& postprocess) {
 Json partsOf(const std::optional<SegmentationReport>& segmentation) {
   if (!segmentation || !segmentation->parts) return nullptr;
   const PartsReport& parts = *segmentation->parts;
-  return {
-      {"count", segmentation->segmentCount}, {"fewestCount", parts.fewestCount},
-      {"mostCount", parts.mostCount},        {"agreement", parts.agreement ? number(*parts.agreement) : Json(nullptr)},
-      {"thinShell", parts.isThinShell},      {"areaShares", parts.areaShares}};
+  return {{"fewestCount", parts.fewestCount},
+          {"mostCount", parts.mostCount},
+          {"agreement", parts.agreement ? number(*parts.agreement) : Json(nullptr)},
+          {"thinShell", parts.isThinShell},
+          {"areaShares", parts.areaShares}};
 }
 
 Json thicknessOf(const std::optional<ThicknessReport>& thickness) {

@@ -125,7 +125,7 @@ TEST_CASE("the reports have the parts, how stable their number is, and their are
   const nlohmann::json json = nlohmann::json::parse(jsonReport({kMesh, kOutput, line, result}));
   CHECK_EQ(json.at("segmentCount"), 3);
   const nlohmann::json& parts = json.at("parts");
-  CHECK_EQ(parts.at("count"), 3);
+  CHECK_FALSE(parts.contains("count"));
   CHECK_EQ(parts.at("fewestCount"), 3);
   CHECK_EQ(parts.at("mostCount"), 5);
   CHECK_EQ(parts.at("agreement"), 0.956);

@@ -113,7 +113,7 @@ TEST_CASE("--segment without a value writes parts, in the file, the report and t
   CHECK(outcome.error.find("of the area") == std::string::npos);
   const Json json = Json::parse(outcome.output);
   CHECK_EQ(json.at("options").at("segment"), "parts");
-  CHECK_EQ(json.at("parts").at("count"), json.at("segmentCount"));
+  CHECK_EQ(json.at("parts").at("areaShares").size(), json.at("segmentCount"));
   CHECK(json.at("postprocess").is_null());
   CHECK(json.at("stageSeconds").at("segment").get<double>() > 0);
   CHECK_EQ(fieldOf(json, "segment").at("type"), "uint32");
