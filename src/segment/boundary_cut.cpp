@@ -35,7 +35,8 @@ std::vector<Choice> choicesOf(const PartSurface& surface, std::span<const uint32
   std::vector<std::vector<std::pair<uint32_t, float>>> sources(labelCount);  // Faces next to a label, by label.
   for (uint32_t face = 0; face < surface.faceCount(); ++face)
     for (uint32_t arc = surface.offsets[face]; arc < surface.offsets[face + 1]; ++arc)
-      if (const auto& [other, length] = surface.arcs[arc]; labels[other] != labels[face])
+      if (const auto& [other, length] = surface.arcs[arc];
+          labels[other] != labels[face] && labels[face] != kNoLabel && labels[other] != kNoLabel)
         sources[labels[face]].emplace_back(other, length);
   const auto reach = static_cast<float>(kCutReach);
   SurfaceFront front(surface.offsets, surface.arcs);
@@ -43,7 +44,7 @@ std::vector<Choice> choicesOf(const PartSurface& surface, std::span<const uint32
   for (uint32_t label = 0; label < labelCount; ++label) {
     for (const auto& [face, distance] : sources[label])
       if (distance <= reach) front.add(face, distance, label);
-    front.advance(reach, [&](uint32_t face) { return labels[face] != label; });
+    front.advance(reach, [&](uint32_t face) { return labels[face] != label && labels[face] != kNoLabel; });
     for (const uint32_t face : front.reached()) choices.push_back({face, label, front.distances()[face]});
     front.clear();
   }
@@ -97,7 +98,7 @@ void expandLabels(const PartSurface& surface, std::vector<uint32_t>& labels, uin
   const auto changeableCount = static_cast<uint32_t>(faces.size());
   for (uint32_t item = 0; item < changeableCount; ++item)
     for (uint32_t arc = surface.offsets[faces[item]]; arc < surface.offsets[faces[item] + 1]; ++arc)
-      addItem(surface.arcs[arc].face);
+      if (const uint32_t other = surface.arcs[arc].face; labels[other] != kNoLabel) addItem(other);
   // Each face first has its own label, without a cost.
   std::vector<uint32_t> labelOf(faces.size()), firstChoices(faces.size() + 1, 0);
   for (const Choice& choice : choices) ++firstChoices[itemOf[choice.face] + 1];
@@ -115,7 +116,7 @@ void expandLabels(const PartSurface& surface, std::vector<uint32_t>& labels, uin
   for (uint32_t item = 0; item < changeableCount; ++item)
     for (uint32_t arc = surface.offsets[faces[item]]; arc < surface.offsets[faces[item] + 1]; ++arc) {
       const uint32_t other = itemOf[surface.arcs[arc].face];
-      if (other > item)
+      if (other > item && other != kNoLabel)
         edges.push_back({item, other, edgeCost(double{surface.edgeLengths[arc]}, double{surface.angles[arc]})});
     }
   AlphaExpansion().minimize({labelCount, {}, edges, firstChoices, costs}, labelOf, {.maxRoundCount = kMaxRoundCount});
@@ -164,7 +165,7 @@ void joinLoosePieces(const PartSurface& surface, std::vector<uint32_t>& labels, 
       if (piece == kNoLabel || !isLoose[piece]) continue;
       for (uint32_t arc = surface.offsets[face]; arc < surface.offsets[face + 1]; ++arc) {
         const uint32_t other = surface.arcs[arc].face;
-        if (labels[other] != labels[face] && !isLoose[pieces.pieceOf[other]])
+        if (labels[other] != labels[face] && labels[other] != kNoLabel && !isLoose[pieces.pieceOf[other]])
           boundaries.emplace_back(piece, labels[other], double{surface.edgeLengths[arc]});
       }
     }

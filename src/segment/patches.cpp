@@ -101,7 +101,8 @@ void improve(const PartSurface& surface, SurfaceFront& front, SeededPatches& see
   for (uint32_t patch = 0; patch < seeded.patches.count; ++patch) front.add(seeded.seeds[patch], 0, patch);
   front.advance();
   for (uint32_t face = 0; face < surface.faceCount(); ++face)
-    if (patchOf[face] != kNoPatch) patchOf[face] = front.labels()[face];
+    if (patchOf[face] != kNoPatch)
+      patchOf[face] = front.distances()[face] == SurfaceFront::kUnreached ? kNoPatch : front.labels()[face];
 }
 
 }  // namespace
@@ -157,7 +158,7 @@ PatchData describePatches(const PartSurface& surface, std::span<const Vec3d> nor
     }
     for (uint32_t arc = surface.offsets[face]; arc < surface.offsets[face + 1]; ++arc) {
       const uint32_t other = patches.patchOf[surface.arcs[arc].face];
-      if (other <= index) continue;  // Each edge once; neighbours of patches have patches.
+      if (other <= index || other == kNoPatch) continue;  // Each edge once.
       const double length = double{surface.edgeLengths[arc]}, angle = double{surface.angles[arc]};
       edges.push_back({index, other, length, length * std::max(0.0, angle), length * std::max(0.0, -angle)});
     }

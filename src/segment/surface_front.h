@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -26,14 +27,15 @@ class SurfaceFront {
         labels_(offsets.size() - 1, 0),
         buckets_(kBucketCount) {
     double sum = 0;
-    for (const Arc& arc : arcs) sum += double{arc.length};
+    for (const Arc& arc : arcs) sum += std::isfinite(arc.length) ? double{arc.length} : 0;
     const double width = sum > 0 ? kWidthOverMeanLength * sum / static_cast<double>(arcs.size()) : 1;
     perWidth_ = static_cast<float>(1 / width);
   }
 
-  /// Makes a face a source at this distance, unless it is as near to another one. Distances apply after advance().
+  /// Makes a face a source at this distance, unless it is as near to another one. Distances apply after advance(). NaN
+  /// and infinity reach nothing.
   void add(uint32_t face, float distance, uint32_t label) {
-    if (distance >= distances_[face]) return;
+    if (!(distance < distances_[face])) return;
     if (distances_[face] == kUnreached) touched_.push_back(face);
     distances_[face] = distance;
     labels_[face] = label;

@@ -53,6 +53,18 @@ TEST_CASE("a ragged boundary near a concave fold moves into the fold") {
     REQUIRE(result[face] == (columnOf(face, kWidth) < kLength / 2 ? 0 : 1));
 }
 
+TEST_CASE("faces without a label keep none, next to faces with a label, too") {
+  constexpr uint32_t kLength = 40, kWidth = 20;
+  Labels labels(foldedStrip(kLength, kWidth).faces.size());
+  for (uint32_t face = 0; face < labels.size(); ++face)
+    labels[face] = face % 97 == 5 || (columnOf(face, kWidth) == 17 && face % 3 == 0) ? kNoLabel
+                   : columnOf(face, kWidth) < 18                                     ? 0
+                                                                                     : 1;
+  const Labels result = cut(foldedStrip(kLength, kWidth), labels, 2);
+  for (uint32_t face = 0; face < labels.size(); ++face)
+    CHECK((labels[face] == kNoLabel ? result[face] == kNoLabel : result[face] < 2));
+}
+
 TEST_CASE("a boundary farther than the reach from the fold is straightened where it is") {
   constexpr uint32_t kLength = 80, kWidth = 40;
   const Mesh mesh = foldedStrip(kLength, kWidth);

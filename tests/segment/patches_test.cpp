@@ -41,6 +41,21 @@ TEST_CASE("the surface has the area 1, lengths without a unit, and the angles of
   }
 }
 
+TEST_CASE("arcs without a finite length are no way to a face") {
+  Surface sphere(makeSphere(320).mesh);
+  constexpr uint32_t kCut = 100;  // No arc enters or leaves it.
+  for (uint32_t face = 0; face < 320; ++face)
+    for (uint32_t arc = sphere.surface.offsets[face]; arc < sphere.surface.offsets[face + 1]; ++arc)
+      if (PartSurface::Arc& creased = sphere.surface.creasedArcs[arc]; face == kCut || creased.face == kCut)
+        creased.length = arc % 2 == 0 ? std::nanf("") : INFINITY;
+  const std::vector<uint32_t> seeds{0}, counts{8};
+  const Patches patches = makePatches(sphere.surface, seeds, counts)[0];
+  CHECK(patches.count == 8);
+  for (uint32_t face = 0; face < 320; ++face) CHECK((patches.patchOf[face] < 8) == (face != kCut));
+  const PatchData data = describePatches(sphere.surface, sphere.sample.geometry.normals, patches);
+  for (const PatchData::Border& border : data.borders) CHECK(border.b < 8);
+}
+
 TEST_CASE("two faces with several common edges have an arc for each") {
   const Surface flat(Mesh{{{0, 0, 0}, {3, 0, 0}, {0, 4, 0}}, {{0, 1, 2}, {2, 1, 0}}, {}});
   REQUIRE(flat.surface.arcs.size() == 6);
