@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <ranges>
 
 #include "core/check.h"
 
@@ -82,21 +83,17 @@ double PartMerging::costOf(const Border& border) const {
          std::pow(border.length / std::sqrt(area), w.borderExponent);
 }
 
-void PartMerging::keepCheaper(uint32_t border, uint32_t& cheapest) const {
-  if (borders_[border].isAlive && (cheapest == kNoBorder || borders_[border].cost < borders_[cheapest].cost))
-    cheapest = border;
+template <typename Indices>
+uint32_t PartMerging::cheapestOf(const Indices& borders) const {
+  uint32_t cheapest = kNoBorder;
+  for (const uint32_t border : borders)
+    if (borders_[border].isAlive && (cheapest == kNoBorder || borders_[border].cost < borders_[cheapest].cost))
+      cheapest = border;
+  return cheapest;
 }
 
 uint32_t PartMerging::cheapestBorder() const {
-  uint32_t cheapest = kNoBorder;
-  for (uint32_t border = 0; border < borders_.size(); ++border) keepCheaper(border, cheapest);
-  return cheapest;
-}
-
-uint32_t PartMerging::cheapestBorderOf(const Region& region) const {
-  uint32_t cheapest = kNoBorder;
-  for (const uint32_t border : region.borders) keepCheaper(border, cheapest);
-  return cheapest;
+  return cheapestOf(std::views::iota(uint32_t{0}, static_cast<uint32_t>(borders_.size())));
 }
 
 std::optional<double> PartMerging::nextCost() const {
@@ -156,24 +153,33 @@ void PartMerging::merge(uint32_t border) {
 }
 
 void PartMerging::mergeUpTo(double threshold) {
-  for (auto cost = nextCost(); cost && *cost <= threshold; cost = nextCost()) mergeNext();
+  for (uint32_t border = cheapestBorder(); border != kNoBorder && borders_[border].cost <= threshold;
+       border = cheapestBorder())
+    merge(border);
 }
 
 void PartMerging::mergeToCount(uint32_t count) {
-  while (regionCount_ > count && nextCost()) mergeNext();
+  while (regionCount_ > count) {
+    const uint32_t border = cheapestBorder();
+    if (border == kNoBorder) return;
+    merge(border);
+  }
 }
 
 void PartMerging::mergeSmallerThan(double area) {
   for (;;) {
-    uint32_t smallest = kNoBorder;
+    uint32_t smallest = kNoBorder, cheapest = kNoBorder;
     for (uint32_t i = 0; i < regions_.size(); ++i) {
       const Region& region = regions_[i];
-      if (region.isAlive && region.area < area && cheapestBorderOf(region) != kNoBorder &&
-          (smallest == kNoBorder || region.area < regions_[smallest].area))
-        smallest = i;
+      if (!region.isAlive || region.area >= area) continue;
+      if (smallest != kNoBorder && region.area >= regions_[smallest].area) continue;
+      const uint32_t border = cheapestOf(region.borders);
+      if (border == kNoBorder) continue;
+      smallest = i;
+      cheapest = border;
     }
     if (smallest == kNoBorder) return;
-    merge(cheapestBorderOf(regions_[smallest]));
+    merge(cheapest);
   }
 }
 

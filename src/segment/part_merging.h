@@ -88,10 +88,10 @@ class PartMerging {
   };
 
   [[nodiscard]] double costOf(const Border& border) const;
-  /// Replaces `cheapest` by a border that costs less and is alive.
-  void keepCheaper(uint32_t border, uint32_t& cheapest) const;
+  /// The one of the least cost, the first of equal ones.
+  template <typename Indices>
+  [[nodiscard]] uint32_t cheapestOf(const Indices& borders) const;
   [[nodiscard]] uint32_t cheapestBorder() const;
-  [[nodiscard]] uint32_t cheapestBorderOf(const Region& region) const;
   void merge(uint32_t border);
   [[nodiscard]] PairSums& pairSums(uint32_t i, uint32_t j) { return pairs_[size_t{i} * regions_.size() + j]; }
   [[nodiscard]] const PairSums& pairSums(uint32_t i, uint32_t j) const {
