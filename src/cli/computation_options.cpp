@@ -27,7 +27,14 @@ double parseShare(const std::string& text) {
 void parseMaxError(const std::string& text, RoundOptions& rounds) {
   constexpr std::string_view kRelative = "rel";
   const bool isRelative = text.ends_with(kRelative);
-  const double share = parseShare(isRelative ? text.substr(0, text.size() - kRelative.size()) : text);
+  const auto share = [&] {
+    try {
+      return parseShare(isRelative ? text.substr(0, text.size() - kRelative.size()) : text);
+    } catch (const Error&) {
+      throw Error(ErrorCode::OptionOutOfRange,
+                  fmt::format("'{}' is not an error such as 1% (of the range) or 5%rel (of the value)", text));
+    }
+  }();
   if (!(share > 0 && share < 1))
     throw Error(ErrorCode::OptionOutOfRange, fmt::format("'{}' is not above 0% and below 100%", text));
   (isRelative ? rounds.maxRelativeError : rounds.maxError) = share;
