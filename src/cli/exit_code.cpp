@@ -7,7 +7,7 @@ namespace asdfvk {
 namespace {
 
 /// The remedy: options or packages; empty where the reason suffices.
-std::string remedyFor(ErrorCode code, bool requiresGpu) {
+std::string remedyFor(ErrorCode code, bool requiresGpu, const std::string& valueOptions) {
   const auto orOnCpu = [&](const std::string& remedy) {
     return requiresGpu ? remedy : remedy + ", or use --backend cpu or reference";
   };
@@ -15,7 +15,7 @@ std::string remedyFor(ErrorCode code, bool requiresGpu) {
     case ErrorCode::UnknownField:
       return "so few seeds allow no estimate; give more --seeds";
     case ErrorCode::NoValues:
-      return "try --orient auto or flip, or drop --postprocess and --segment";
+      return "try --orient auto or flip" + (valueOptions.empty() ? "" : ", or drop " + valueOptions);
     case ErrorCode::TooFewValues:
       return "give fewer --clusters, or drop --segment";
     case ErrorCode::NoVulkanLoader:
@@ -50,8 +50,8 @@ std::string remedyFor(ErrorCode code, bool requiresGpu) {
   }
 }
 
-std::string messageOf(const Error& error, bool requiresGpu) {
-  const std::string remedy = remedyFor(error.code(), requiresGpu);
+std::string messageOf(const Error& error, bool requiresGpu, const std::string& valueOptions) {
+  const std::string remedy = remedyFor(error.code(), requiresGpu, valueOptions);
   return remedy.empty() ? error.what() : std::string(error.what()) + "; " + remedy;
 }
 
@@ -82,11 +82,11 @@ ExitCode exitCodeOf(const ThicknessReport& thickness, double limit) {
   return thickness.min < limit ? ExitCode::TooThin : ExitCode::Done;
 }
 
-Failure currentFailure(bool requiresGpu) {
+Failure currentFailure(bool requiresGpu, const std::string& valueOptions) {
   try {
     throw;
   } catch (const Error& error) {
-    return {exitCodeOf(error.kind()), oneLine(messageOf(error, requiresGpu)), nameOf(error.code())};
+    return {exitCodeOf(error.kind()), oneLine(messageOf(error, requiresGpu, valueOptions)), nameOf(error.code())};
   } catch (const std::bad_alloc&) {
     return {ExitCode::Input, "not enough memory for this mesh; use a machine with more memory or a coarser mesh",
             nameOf(ErrorCode::InputTooLarge)};

@@ -35,7 +35,8 @@ struct Failure {
 };
 
 /// Describes the exception being handled; to be called in a catch block. requiresGpu: do not propose the CPU.
-[[nodiscard]] Failure currentFailure(bool requiresGpu = false);
+/// valueOptions: CommandLine::valueOptions.
+[[nodiscard]] Failure currentFailure(bool requiresGpu = false, const std::string& valueOptions = "");
 
 /// The same text with every control character replaced by a space, so that a message with any file name is one line.
 [[nodiscard]] std::string oneLine(std::string text);

@@ -24,7 +24,8 @@ struct CommandLine {
   std::string picture;                             ///< A .png, "-" for standard output; empty: none.
   std::string pictureOf = "sdf";                   ///< Name of the field to show.
   View pictureView;
-  std::string points;  ///< A .ply for the skeleton points, "-" for standard output; empty: none.
+  std::string valueOptions;  ///< Those given that need values: --postprocess, --segment, or both with "and".
+  std::string points;        ///< A .ply for the skeleton points, "-" for standard output; empty: none.
   bool ascii = false;
   bool json = false;
   bool quiet = false;

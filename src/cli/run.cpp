@@ -121,11 +121,11 @@ MeshReport runMesh(Session& session, const std::string& name, const std::string&
 
 /// Runs `step`, which returns a MeshReport; an exception becomes one and is printed as an error of the mesh.
 template <typename Step>
-MeshReport reportOf(const std::string& mesh, bool requiresGpu, Step step) {
+MeshReport reportOf(const std::string& mesh, const CommandLine& line, Step step) {
   try {
     return step();
   } catch (...) {
-    Failure failure = currentFailure(requiresGpu);
+    Failure failure = currentFailure(line.session.requireGpu, line.valueOptions);
     const std::string prefix = mesh + ": ";  // The messages of readers begin with the file, too.
     if (failure.message.starts_with(prefix)) failure.message.erase(0, prefix.size());
     printError(mesh, failure.message);
@@ -163,8 +163,7 @@ ExitCode runMeshes(const CommandLine& line, const std::stop_token& stop) {
   ExitCode first = ExitCode::Done;
   for (size_t i = 0; i < line.meshes.size(); ++i) {
     const std::string& mesh = line.meshes[i];
-    const MeshReport report =
-        reportOf(mesh, line.session.requireGpu, [&] { return runMesh(*session, mesh, outputs[i], line, stop); });
+    const MeshReport report = reportOf(mesh, line, [&] { return runMesh(*session, mesh, outputs[i], line, stop); });
     if (first == ExitCode::Done) first = report.code;
     if (line.json) writeStandardOutput(report.json);
     if (report.code == ExitCode::Cancelled) break;

@@ -107,6 +107,9 @@ void completeSegments(const CLI::App& app, CommandLine& line) {
   if (options.segmentation == Segmentation::Cgal && isGiven("--postprocess") &&
       options.postprocess == Postprocess::None)
     fail("--segment cgal contradicts --postprocess none; drop one");
+  if (isGiven("--postprocess") && options.postprocess != Postprocess::None) line.valueOptions = "--postprocess";
+  if (isGiven("--segment") && options.segmentation != Segmentation::None)
+    line.valueOptions += line.valueOptions.empty() ? "--segment" : " and --segment";
   if (options.postprocesses()) options.postprocess = Postprocess::Cgal;
   const auto require = [&](const char* field, bool isComputed, const char* remedy) {
     if (isComputed && !isGiven("--fields")) line.fields.emplace_back(field);

@@ -129,7 +129,18 @@ TEST_CASE("--segment without a value writes parts, in the file, the report and t
 TEST_CASE("a mesh without values, and one with too few, end with 2 and a remedy") {
   const ScratchFolder folder;
   const std::string open = folder.write("open.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
-  checkFailure(runSegment({open, "--postprocess", "cgal"}), 2, "no face has a value; try --orient auto or flip");
+  checkFailure(runSegment({open, "--postprocess", "cgal"}), 2,
+               "no face has a value; try --orient auto or flip, or drop --postprocess");
+  const auto ending = [&](std::vector<std::string> options) {
+    options.push_back(open);
+    const std::string error = runSegment(options).error;
+    return error.substr(std::min(error.size(), error.rfind(';')));
+  };
+  CHECK_EQ(ending({"--postprocess", "cgal"}), "; try --orient auto or flip, or drop --postprocess\n");
+  CHECK_EQ(ending({"--segment"}), "; try --orient auto or flip, or drop --segment\n");
+  CHECK_EQ(ending({"--segment", "cgal"}), "; try --orient auto or flip, or drop --segment\n");
+  CHECK_EQ(ending({"--segment", "--postprocess", "cgal"}),
+           "; try --orient auto or flip, or drop --postprocess and --segment\n");
   const std::string cube = folder.write("cube.off", cubeOff());
   const ChildOutcome outcome = runSegment({cube, "--segment", "cgal", "--clusters", "13", "--json"});
   checkFailure(outcome, 2, "fewer than 13 different values; 13 clusters need at least as many; give fewer --clusters");
