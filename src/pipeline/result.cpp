@@ -130,6 +130,20 @@ std::vector<uint8_t> seedsOfInputFaces(const TriangleMesh& mesh, std::span<const
   return seeds;
 }
 
+uint32_t labelOfLargestArea(std::vector<std::pair<uint32_t, double>>& areas) {
+  std::stable_sort(areas.begin(), areas.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  double largest = -1, sum = 0;
+  uint32_t best = kNoSegment;
+  for (size_t i = 0; i < areas.size(); ++i) {
+    const auto [label, area] = areas[i];
+    sum = i > 0 && areas[i - 1].first == label ? sum + area : area;
+    if (sum <= largest) continue;
+    largest = sum;
+    best = label;
+  }
+  return best;
+}
+
 std::vector<uint32_t> segmentsOfInputFaces(const TriangleMesh& mesh, std::span<const uint32_t> segments,
                                            std::span<const double> areas) {
   if (mesh.polygons.isEmpty()) return {segments.begin(), segments.end()};
@@ -141,15 +155,7 @@ std::vector<uint32_t> segmentsOfInputFaces(const TriangleMesh& mesh, std::span<c
     areaOf.clear();
     for (; end < mesh.faceCount() && mesh.inputFaceOf(end) == inputFace; ++end)
       areaOf.emplace_back(segments[end], areas[end]);
-    std::stable_sort(areaOf.begin(), areaOf.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-    double largest = -1, area = 0;
-    for (size_t i = 0; i < areaOf.size(); ++i) {
-      const auto [label, share] = areaOf[i];
-      area = i > 0 && areaOf[i - 1].first == label ? area + share : share;
-      if (area <= largest) continue;
-      largest = area;
-      labels[inputFace] = label;
-    }
+    labels[inputFace] = labelOfLargestArea(areaOf);
     labelCount = std::max(labelCount, areaOf.back().first + 1);
   }
   renumber(labels, labelCount);

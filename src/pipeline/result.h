@@ -2,6 +2,7 @@
 
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "asdf_vk/session.h"
@@ -17,6 +18,10 @@ namespace asdfvk {
 
 /// 1 where any triangle of the input face is a seed. isSeed: #F. Returns #I.
 [[nodiscard]] std::vector<uint8_t> seedsOfInputFaces(const TriangleMesh& mesh, std::span<const uint8_t> isSeed);
+
+/// The label with the largest sum of areas, the lowest of equal ones; kNoSegment where there is none. Sorts the pairs
+/// of a label and an area by label.
+[[nodiscard]] uint32_t labelOfLargestArea(std::vector<std::pair<uint32_t, double>>& areas);
 
 /// Segments of input faces from those of triangles (#F): that with the largest area in the polygon, the lowest of equal
 /// ones; kNoSegment for a polygon without a triangle. Returns #I. Labels that no input face has are removed, and the

@@ -1,6 +1,5 @@
 #include "pipeline/vertex_fields.h"
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -8,6 +7,7 @@
 #include "core/buckets.h"
 #include "core/check.h"
 #include "core/parallel.h"
+#include "pipeline/result.h"
 
 namespace asdfvk {
 namespace {
@@ -54,15 +54,7 @@ std::vector<uint32_t> labelsOf(const VertexFaces& at, const std::vector<uint32_t
     for (const uint32_t face : at.facesAt[vertex])
       if (const uint32_t label = entries[at.mesh.inputFaceOf(face)]; label != kNoSegment)
         areaOf.emplace_back(label, at.areas[face]);
-    std::stable_sort(areaOf.begin(), areaOf.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-    double largest = -1, area = 0;
-    for (size_t i = 0; i < areaOf.size(); ++i) {
-      const bool isNext = i == 0 || areaOf[i].first != areaOf[i - 1].first;
-      area = isNext ? areaOf[i].second : area + areaOf[i].second;
-      if (area <= largest) continue;
-      largest = area;
-      labels[vertex] = areaOf[i].first;
-    }
+    labels[vertex] = labelOfLargestArea(areaOf);
   });
   return labels;
 }
