@@ -35,6 +35,10 @@ double robustRange(std::span<const double> values) {
   return percentileOf(present, 0.99) - low;
 }
 
+/// The power of two at or below the range. Errors are squared in this unit: at any scale of the mesh the squares
+/// neither overflow nor underflow, and the division is exact.
+double unitOf(double range) { return std::scalbn(1.0, std::ilogb(range)); }
+
 /// Error indicator of a face.
 double indicatorOf(const EstimateInput& input, size_t face) {
   return input.indicator.empty() ? 1 : input.indicator[face];
@@ -153,14 +157,15 @@ EstimatedErrors estimateErrors(const TriangleMesh& mesh, const EstimateInput& in
       std::count_if(measured.begin(), measured.end(), [](const Measurement& m) { return m.weight > 0; });
   if (representativeCount < 2 || !(range > 0)) return result;
 
+  const double unit = unitOf(range);
   double errorSum = 0, indicatorSum = 0;
   for (const Measurement& m : measured) {
-    errorSum += m.weight * m.error;
+    errorSum += m.weight * (m.error / unit);
     indicatorSum += m.weight * m.indicator;
   }
   const double ratio = errorSum / indicatorSum;
   double squareSum = 0;
-  for (const Measurement& m : measured) squareSum += std::pow(m.weight * (m.error - ratio * m.indicator), 2);
+  for (const Measurement& m : measured) squareSum += std::pow(m.weight * (m.error / unit - ratio * m.indicator), 2);
   const auto sampleSize = static_cast<double>(representativeCount);
   const double ratioDeviation = std::sqrt(squareSum * sampleSize / (sampleSize - 1)) / indicatorSum;
   const double gain = gainBySeeds(input), gainDeviation = 1 - gain;
@@ -171,17 +176,17 @@ EstimatedErrors estimateErrors(const TriangleMesh& mesh, const EstimateInput& in
     if (std::isnan(input.result[face])) continue;
     const double traced = input.traced.values[face], indicator = indicatorOf(input, face);
     const bool isInterpolated = std::isnan(traced);
-    result.expected[face] = isInterpolated ? gain * ratio * indicator : std::abs(input.result[face] - traced);
+    result.expected[face] = isInterpolated ? gain * ratio * indicator * unit : std::abs(input.result[face] - traced);
     if (isInterpolated) {
       interpolatedIndicator += indicator;
       ++interpolatedCount;
     }
-    sum += result.expected[face];
+    sum += result.expected[face] / unit;
     ++count;
   }
-  const double scale = 1 / (static_cast<double>(count) * range);
+  const double scale = 1 / (static_cast<double>(count) * (range / unit));
   estimateRelativeErrors(input, measured, gain, interpolatedCount, result.estimate);
-  result.estimate.robustAverage = sum / static_cast<double>(count) / robustRange(input.result);
+  result.estimate.robustAverage = sum / static_cast<double>(count) / (robustRange(input.result) / unit);
   result.estimate.average = sum * scale;
   result.estimate.standardError =
       gain * std::hypot(ratioDeviation, gainDeviation * ratio) * interpolatedIndicator * scale;

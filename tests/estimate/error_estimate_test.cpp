@@ -97,6 +97,25 @@ TEST_CASE("errors are in proportion to the indicator, and a held-out face counts
   CHECK(six.estimate().estimate.heldOutCount == 0);
 }
 
+TEST_CASE("the estimate has the same bits at any power of two of the unit of length") {
+  SixFaces six;
+  six.indicator = {9, 9, 1.5, 3.5, 2.5, 0.5};
+  six.heldOut.weights = {3, 1};
+  const ErrorEstimate expected = six.estimate().estimate;
+  for (const double scale : {0x1p500, 0x1p-500, 0x1p1000, 0x1p-1000}) {
+    SixFaces scaled = six;
+    for (std::vector<double>* lengths : {&scaled.traced.values, &scaled.values, &scaled.indicator, &scaled.result})
+      for (double& length : *lengths) length *= scale;
+    const EstimatedErrors errors = scaled.estimate();
+    CHECK(errors.expected[4] == six.estimate().expected[4] * scale);
+    CHECK(errors.estimate.average == expected.average);
+    CHECK(errors.estimate.standardError == expected.standardError);
+    CHECK(errors.estimate.robustAverage == expected.robustAverage);
+    CHECK(errors.estimate.relativeMedian == expected.relativeMedian);
+    CHECK(errors.estimate.worstFaces[0].error == expected.worstFaces[0].error);
+  }
+}
+
 TEST_CASE("a held-out face of inclusion probability 1 is among the worst faces and stands for no other") {
   SixFaces six;
   six.heldOut = {{2, 3, 1}, {1, 1, 0}};
