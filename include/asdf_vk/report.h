@@ -138,7 +138,7 @@ struct CheckReport {
 inline constexpr double kAgreementTolerance = 1e-4;
 inline constexpr double kAllowedMissShare = 0.001;
 
-/// Over the faces with a value; NaN when there is none.
+/// Over the faces with a value, each counted once whatever its area; NaN when there is none.
 struct ValueRange {
   double min = kNoValue, median = kNoValue, max = kNoValue;
   double percentile1 = kNoValue, percentile99 = kNoValue;
@@ -177,14 +177,16 @@ struct ThinRegion {
   uint64_t faceCount = 0;  ///< Input faces.
   double area = 0;         ///< Of its triangles.
   double areaShare = 0;    ///< Of the area of the mesh.
-  double least = 0;        ///< Least thickness.
-  uint64_t leastFace = 0;  ///< Input face with the least thickness.
+  double min = 0;          ///< Least thickness.
+  uint64_t minFace = 0;    ///< Input face with the least thickness.
   Vec3d place;             ///< Barycentre of the triangle with the least thickness.
 };
 
-/// Set where the result has the field "thickness". Percentiles are over the area of the triangles with a thickness.
+/// Set where the result has the field "thickness". Median and percentiles are by area, over the
+/// triangles with a thickness.
 struct ThicknessReport {
-  double min = kNoValue, p1 = kNoValue, p5 = kNoValue, p50 = kNoValue, p95 = kNoValue, max = kNoValue;
+  double min = kNoValue, median = kNoValue, max = kNoValue;
+  double percentile1 = kNoValue, percentile5 = kNoValue, percentile95 = kNoValue;
   uint64_t noValueCount = 0;     ///< Input faces without a thickness.
   uint64_t tracedCount = 0;      ///< Triangles whose thickness is from their own rays; the others are interpolated.
   uint64_t verifiedCount = 0;    ///< Of those, not seeds: traced because their region is thin, or next to it.

@@ -127,9 +127,9 @@ std::string estimateRow(const Report& report) {
 }
 
 std::string regionRow(const ThinRegion& region) {
-  return fmt::format("least {:.6g} at ({:.6g}, {:.6g}, {:.6g}), face {}; {}, area {:.4g} ({:.3g} %)", region.least,
-                     region.place.x, region.place.y, region.place.z, region.leastFace,
-                     counted(region.faceCount, "face"), region.area, 100 * region.areaShare);
+  return fmt::format("least {:.6g} at ({:.6g}, {:.6g}, {:.6g}), face {}; {}, area {:.4g} ({:.3g} %)", region.min,
+                     region.place.x, region.place.y, region.place.z, region.minFace, counted(region.faceCount, "face"),
+                     region.area, 100 * region.areaShare);
 }
 
 /// Percentiles, what is traced, and the largest thin regions.
@@ -137,9 +137,9 @@ std::string thicknessRows(const Report& report) {
   constexpr size_t kShownRegionCount = 5;
   const ThicknessReport& thickness = *report.thickness;
   if (std::isnan(thickness.min)) return row("thickness", "none: no face has a valid ray");
-  std::string text =
-      fmt::format("min {:.6g}, by area p1 {:.6g}, p5 {:.6g}, p50 {:.6g}, p95 {:.6g}, max {:.6g}", thickness.min,
-                  thickness.p1, thickness.p5, thickness.p50, thickness.p95, thickness.max);
+  std::string text = fmt::format("min {:.6g}, by area p1 {:.6g}, p5 {:.6g}, p50 {:.6g}, p95 {:.6g}, max {:.6g}",
+                                 thickness.min, thickness.percentile1, thickness.percentile5, thickness.median,
+                                 thickness.percentile95, thickness.max);
   if (thickness.noValueCount > 0) text += fmt::format("; {} without a value", counted(thickness.noValueCount, "face"));
   std::string rows = row("thickness", text);
   if (!thickness.thinnerThan) return rows;
@@ -230,9 +230,9 @@ std::string checkFailure(const CheckReport& check) { return fmt::format("the che
 std::string thinFailure(const ThicknessReport& thickness, double limit) {
   if (std::isnan(thickness.min)) return fmt::format("no face has a thickness, which must be at least {:g}", limit);
   const auto thinnest = std::min_element(thickness.thinRegions.begin(), thickness.thinRegions.end(),
-                                         [](const ThinRegion& a, const ThinRegion& b) { return a.least < b.least; });
+                                         [](const ThinRegion& a, const ThinRegion& b) { return a.min < b.min; });
   return fmt::format("thinner than {:g}: thickness {:.6g} at ({:.6g}, {:.6g}, {:.6g}), face {}", limit, thinnest->least,
-                     thinnest->place.x, thinnest->place.y, thinnest->place.z, thinnest->leastFace);
+                     thinnest->place.x, thinnest->place.y, thinnest->place.z, thinnest->minFace);
 }
 
 std::string textDevices(std::span<const DeviceInfo> devices, const std::string& reason) {

@@ -30,10 +30,10 @@ void describePercentiles(std::span<const double> values, std::span<const double>
   for (const uint32_t face : order) total += areas[face];
   const auto percentile = [&](double share) { return percentileOf(order, values, areas, total, share); };
   report.min = values[order.front()];
-  report.p1 = percentile(0.01);
-  report.p5 = percentile(0.05);
-  report.p50 = percentile(0.5);
-  report.p95 = percentile(0.95);
+  report.percentile1 = percentile(0.01);
+  report.percentile5 = percentile(0.05);
+  report.median = percentile(0.5);
+  report.percentile95 = percentile(0.95);
   report.max = values[order.back()];
 }
 
@@ -53,8 +53,8 @@ ThinRegion describeRegion(const PreparedMesh& prepared, std::span<const uint32_t
   ThinRegion region;
   const uint32_t thinnest =
       *std::min_element(faces.begin(), faces.end(), [&](uint32_t a, uint32_t b) { return values[a] < values[b]; });
-  region.least = values[thinnest];
-  region.leastFace = prepared.mesh.inputFaceOf(thinnest);
+  region.min = values[thinnest];
+  region.minFace = prepared.mesh.inputFaceOf(thinnest);
   region.place = prepared.geometry.barycentres[thinnest];
   uint64_t lastInputFace = prepared.mesh.inputFaceCount();
   for (const uint32_t face : faces) {

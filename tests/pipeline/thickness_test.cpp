@@ -87,9 +87,9 @@ TEST_CASE("the regions of a slab with a thin place are the dent and the face abo
     double area = 0;
     uint64_t faceCount = 0;
     for (const ThinRegion& region : report.thinRegions) {
-      CHECK(region.least == doctest::Approx(kThin).epsilon(1e-6));
+      CHECK(region.min == doctest::Approx(kThin).epsilon(1e-6));
       CHECK(std::max(std::abs(region.place.x), std::abs(region.place.y)) < 0.45);
-      CHECK(thicknessOf(result)[region.leastFace] == region.least);
+      CHECK(thicknessOf(result)[region.minFace] == region.min);
       CHECK(region.area > 0.5);  // The dent is 0.8 wide, without its slopes.
       CHECK(region.area < 1);    // Up to 0.1 beside it the balls touch the rim of the dent.
       CHECK(region.areaShare == doctest::Approx(region.area / 11.2).epsilon(0.05));
@@ -102,7 +102,7 @@ TEST_CASE("the regions of a slab with a thin place are the dent and the face abo
     CHECK(std::count_if(values.begin(), values.end(), [](double v) { return v < 0.2; }) ==
           static_cast<std::ptrdiff_t>(faceCount));
     CHECK(report.min == doctest::Approx(kThin).epsilon(1e-6));
-    CHECK(report.p50 == doctest::Approx(kThick).epsilon(1e-6));
+    CHECK(report.median == doctest::Approx(kThick).epsilon(1e-6));
     CHECK(report.tracedCount == mesh.faces.size());
     CHECK(report.verifiedCount == 0);
   }
@@ -115,8 +115,9 @@ TEST_CASE("percentiles are by area") {
   // Of the area of a flat box, 8 of 9.6 are 0.2 thick, the rest 2.
   const Result result = referenceSession().compute(makeSlab(2000, {.width = 2, .thickness = 0.2}).mesh, thickness());
   const ThicknessReport& report = result.report.thickness.value();
-  for (const double value : {report.min, report.p1, report.p5, report.p50}) CHECK(value == doctest::Approx(0.2));
-  for (const double value : {report.p95, report.max}) CHECK(value == doctest::Approx(2));
+  for (const double value : {report.min, report.percentile1, report.percentile5, report.median})
+    CHECK(value == doctest::Approx(0.2));
+  for (const double value : {report.percentile95, report.max}) CHECK(value == doctest::Approx(2));
   CHECK(report.noValueCount == 0);
   CHECK_FALSE(report.thinnerThan.has_value());
 }
@@ -167,7 +168,7 @@ TEST_CASE("a polygon has the least thickness of its triangles, which is reported
   REQUIRE(report.thinRegions.size() == 2);
   for (const ThinRegion& region : report.thinRegions) {
     CHECK(region.faceCount == 1);
-    CHECK(values[region.leastFace] == region.least);
+    CHECK(values[region.minFace] == region.min);
   }
 }
 
