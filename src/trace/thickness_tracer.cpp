@@ -5,12 +5,16 @@
 #include <vector>
 
 #include "core/parallel.h"
+#include "trace/chunks.h"
 #include "trace/nearest_hit.h"
 
 namespace asdfvk {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr uint64_t kFirstChunk = 4096;
+// Part of the progress in which the first balls are found; they shrink in the rest.
+constexpr double kFoundProgress = 0.2;
 
 /// The diameter by the hit of a ray, in normalised units, and the hit face.
 struct Candidate {
@@ -97,8 +101,13 @@ ThicknessStatistics measureThickness(const TraceScene& scene, const Cone& cone, 
                                      const RunControl& control) {
   ASDFVK_CHECK_OP(thickness.size(), ==, hits.seeds.size());
   std::vector<InscribedBall> balls(hits.seeds.size());
-  forEachInParallel(balls.size(),
-                    [&](uint32_t i) { balls[i] = FirstBall(scene, cone, walls, hits.seeds[i], hits.of(i)).find(); });
+  forEachChunk(balls.size(), ChunkSize(kFirstChunk, balls.size()), control.part(0, kFoundProgress),
+               [&](size_t begin, size_t end) {
+                 forEachInParallel(end - begin, [&](uint32_t offset) {
+                   const size_t i = begin + offset;
+                   balls[i] = FirstBall(scene, cone, walls, hits.seeds[i], hits.of(i)).find();
+                 });
+               });
   const auto toLength = [&](const InscribedBall& ball) {
     return ball.diameter < kInfinity ? scene.bvh.normalization.toMeshLength(ball.diameter) : kNoValue;
   };
@@ -114,7 +123,7 @@ ThicknessStatistics measureThickness(const TraceScene& scene, const Cone& cone, 
   }
   for (size_t i = 0; i < indices.size(); ++i) balls[i] = balls[indices[i]];  // indices[i] >= i.
   balls.resize(indices.size());
-  statistics.redoneBallCount = shrinker.shrink(balls, control);
+  statistics.redoneBallCount = shrinker.shrink(balls, control.part(kFoundProgress, 1));
   for (size_t i = 0; i < indices.size(); ++i) thickness[indices[i]] = toLength(balls[i]);
   return statistics;
 }

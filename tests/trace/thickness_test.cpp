@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <limits>
+#include <stop_token>
 #include <string>
 
 #include "brute_force.h"
@@ -186,6 +187,37 @@ TEST_CASE("without an opposing wall the least ray counts, without a valid hit th
   CHECK(measureByReference(traced, 175).statistics.unrefinedCount == 6);
   const TracedMesh inverted(shapes::inverted(shapes::icosphere(1)));
   for (const double value : measureByReference(inverted).values) CHECK(std::isnan(value));
+}
+
+TEST_CASE("a stop while the first balls are found ends the measurement before any ball shrinks") {
+  struct CountingShrinker final : BallShrinker {
+    int callCount = 0;
+    uint64_t shrink(std::span<InscribedBall>, const RunControl&) override {
+      ++callCount;
+      return 0;
+    }
+  };
+  const TracedMesh sphere(shapes::icosphere(4));  // More faces than the first chunk has.
+  const Cone cone = makeCone({});
+  const std::vector<uint32_t> seeds = sphere.seedFaces();
+  const std::vector<ConeHit> hits(seeds.size() * cone.directions.size(), kMiss);
+  std::vector<double> values(seeds.size());
+  std::stop_source stop;
+  std::vector<double> fractions;
+  const RunControl control{stop.get_token(), [&](double fraction) {
+                             fractions.push_back(fraction);
+                             if (fraction > 0) stop.request_stop();
+                           }};
+  CountingShrinker shrinker;
+  try {
+    (void)measureThickness(sphere.scene(), cone, makeOpposingWalls(120), {seeds, hits}, shrinker, values, control);
+    FAIL("the measurement was not cancelled");
+  } catch (const Error& error) {
+    CHECK(error.kind() == ErrorKind::Cancelled);
+  }
+  CHECK(shrinker.callCount == 0);
+  REQUIRE(fractions.size() == 2);
+  CHECK(fractions[1] < 0.2);
 }
 
 TEST_CASE("meshes of one face, two faces, needles, copies and none have a thickness or none, without failure") {
