@@ -2,8 +2,14 @@
 // (the twin of src/trace/reference_balls.cpp). Hit::distance is the diameter of the ball. Needs `push`.
 #include "wide_boxes.glsl"
 
-layout(set = 0, binding = 4,
-       rgba32ui) uniform readonly uimageBuffer childNormalTexels;  // Wide: DeviceBvh::childNormals.
+// Wide: DeviceBvh::childNormals, fetched as the hierarchy (bvh_fetch.glsl): from this image, or from the end of
+// nodeBlocks, because some devices allow four storage buffers only.
+layout(set = 0, binding = 4, rgba32ui) uniform readonly uimageBuffer childNormalTexels;
+
+uvec4 fetchChildNormals(uint index) {
+  if (kFetchesTexels) return imageLoad(childNormalTexels, int(index));
+  return nodeBlocks[push.childNormalStart + index];
+}
 
 struct Query {
   vec3 origin, axis;
@@ -67,11 +73,11 @@ uint enterBoxes(uvec3 lower, uvec3 upper, uvec4 normalBounds, Query query, vec3 
 uint enterChildren(uint index, DeviceWideNode node, Query query, float diameter) {
   const vec3 perByte = stepsOf(node);
   const vec3 start = node.origin - centreOf(query, diameter);
-  const int t = 2 * int(index);
+  const uint t = 2u * index;
   return (enterBoxes(uvec3(node.x.x, node.y.x, node.z.x), uvec3(node.x.z, node.y.z, node.z.z),
-                     imageLoad(childNormalTexels, t), query, perByte, start, diameter) |
+                     fetchChildNormals(t), query, perByte, start, diameter) |
           enterBoxes(uvec3(node.x.y, node.y.y, node.z.y), uvec3(node.x.w, node.y.w, node.z.w),
-                     imageLoad(childNormalTexels, t + 1), query, perByte, start, diameter)
+                     fetchChildNormals(t + 1u), query, perByte, start, diameter)
               << 16) &
          node.childBits;
 }

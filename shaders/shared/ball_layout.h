@@ -21,7 +21,8 @@ struct BallStart {
 
 struct BallPush {
   uint ballCount;
-  float wallCosine;  // OpposingWalls of src/cone/thickness.h.
+  float wallCosine;       // OpposingWalls of src/cone/thickness.h.
+  uint childNormalStart;  // In nodeBlocks, in blocks of 16 bytes; unused with texels.
 };
 
 // A result is a face, kNoFace (of cone_hit.h) where no wall is inside of the ball, or this: the iteration limit stopped
@@ -32,7 +33,8 @@ const uint kUnfinishedBall = 0xfffffffeu;
 static_assert(sizeof(BallStart) == 32);
 static_assert(offsetof(BallStart, origin) == 0 && offsetof(BallStart, excludedFace) == 12);
 static_assert(offsetof(BallStart, axis) == 16 && offsetof(BallStart, diameter) == 28);
-static_assert(sizeof(BallPush) == 8 && offsetof(BallPush, wallCosine) == 4);
+static_assert(sizeof(BallPush) == 12 && offsetof(BallPush, wallCosine) == 4);
+static_assert(offsetof(BallPush, childNormalStart) == 8);
 }  // namespace asdfvk
 #endif
 

@@ -295,6 +295,29 @@ TEST_CASE("the kernel has the reference's thickness, in every variant") {
   }
 }
 
+TEST_CASE(
+    "a hierarchy beyond the texels of a device is measured with --fetch storage, and refused before with texels") {
+  const Instance instance;
+  const VkPhysicalDevice physical = instance.physicalDevices().front();
+  DeviceFacts facts = describeDevice(physical);
+  facts.maxTexelBufferElements = 100;
+  facts.maxStorageBuffersPerStage = 4;  // The least that Vulkan allows.
+  const Device small(physical, facts);
+  const TracedMesh traced(shapeNamed("torus", 1200));
+  const Cone cone = makeCone({});
+  const auto kernelFor = [&](BvhFetch fetch) {
+    return VulkanConeKernel(small, {.rayCount = 30,
+                                    .writesHits = true,
+                                    .choice = VulkanTraceChoice{TraceKernel::Ray, BvhLayout::Wide, fetch},
+                                    .shrinksBalls = true});
+  };
+  const VulkanConeKernel storage = kernelFor(BvhFetch::Storage), texels = kernelFor(BvhFetch::Texel);
+  const Thickness found = measure(traced, *makeVulkanTracer(storage, traced.scene(), cone), cone);
+  CHECK(worstDifference(found.values, measureByReference(traced).values, traced.geometry.bounds.diagonal()) < 1e-5);
+  CHECK_THROWS_WITH_AS((void)makeVulkanTracer(texels, traced.scene(), cone), doctest::Contains("texels in one buffer"),
+                       Error);
+}
+
 TEST_CASE("balls beyond the limits of the device are shrunk by the reference") {
   const test::ValidatedDevice device;
   const Cone cone = makeCone({});

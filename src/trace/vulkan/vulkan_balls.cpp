@@ -32,6 +32,7 @@ class VulkanBallShrinker final : public BallShrinker {
         walls_(walls),
         order_(scene),
         largestChunk_(largestChunk(kernel.device())),
+        childNormalStart_(buffers.childNormalStart),
         starts_(kernel.device(), largestChunk_ * sizeof(BallStart), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
                 MemoryKind::HostVisible),
         results_(kernel.device(), largestChunk_ * sizeof(uint32_t), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
@@ -66,7 +67,7 @@ class VulkanBallShrinker final : public BallShrinker {
       starts[i] = {toGlsl(scene_.originOf(ball.face)), scene_.representatives[ball.face],
                    toGlsl(-scene_.geometry.normals[ball.face]), static_cast<float>(ball.diameter)};
     });
-    const BallPush push{static_cast<uint32_t>(chunk.size()), static_cast<float>(walls_.cosine)};
+    const BallPush push{static_cast<uint32_t>(chunk.size()), static_cast<float>(walls_.cosine), childNormalStart_};
     commands_.begin();
     commands_.dispatch(pipeline_, bindings_, bytesOf(push),
                        (push.ballCount + VulkanConeKernel::kBallLaneCount - 1) / VulkanConeKernel::kBallLaneCount);
@@ -99,6 +100,7 @@ class VulkanBallShrinker final : public BallShrinker {
   OpposingWalls walls_;
   SeedOrder order_;
   uint64_t largestChunk_;
+  uint32_t childNormalStart_;
   Buffer starts_, results_;  // Mapped: BallStart, and a uint32_t per ball.
   BindingSet bindings_;
   CommandList commands_;

@@ -85,6 +85,8 @@ constexpr uint64_t kMaxChunkConeCount = 1u << 17;
 constexpr uint64_t kMaxHitBufferByteCount = 32u << 20;
 constexpr uint64_t kMaxLengthBufferByteCount = 16u << 20;
 
+constexpr size_t kBlockByteCount = 16;  // A texel, or a uvec4 of a storage buffer.
+
 constexpr VkBufferUsageFlags kTexelUsage = VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT;
 constexpr VkBufferUsageFlags kStorageUsage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
 
@@ -99,6 +101,21 @@ bool fetchesTexels(const VulkanConeKernel& kernel) { return kernel.choice().fetc
 
 Buffer uploadHierarchy(const VulkanConeKernel& kernel, std::span<const std::byte> bytes) {
   return uploadBuffer(kernel.device(), bytes, fetchesTexels(kernel) ? kTexelUsage : kStorageUsage);
+}
+
+/// With storage the bounds of normals follow the nodes in the same buffer.
+Buffer uploadNodes(const VulkanConeKernel& kernel, const DeviceBvh& bvh) {
+  if (fetchesTexels(kernel) || bvh.childNormals.empty()) return uploadHierarchy(kernel, bvh.nodeBytes());
+  const std::span<const std::byte> nodes = bvh.nodeBytes(), normals = std::as_bytes(std::span(bvh.childNormals));
+  std::vector<std::byte> both(nodes.begin(), nodes.end());
+  both.insert(both.end(), normals.begin(), normals.end());
+  return uploadHierarchy(kernel, both);
+}
+
+Buffer uploadChildNormals(const VulkanConeKernel& kernel, const DeviceBvh& bvh) {
+  std::span<const std::byte> bytes;
+  if (fetchesTexels(kernel)) bytes = std::as_bytes(std::span(bvh.childNormals));
+  return uploadBuffer(kernel.device(), bytes, kTexelUsage);
 }
 
 /// Per cone.
@@ -147,7 +164,7 @@ uint64_t largestConeChunk(const VulkanConeKernel& kernel) {
 }
 
 ConeBuffers::ConeBuffers(const VulkanConeKernel& kernel, const DeviceBvh& bvh, const Cone& cone)
-    : nodes(uploadHierarchy(kernel, bvh.nodeBytes())),
+    : nodes(uploadNodes(kernel, bvh)),
       triangles(uploadHierarchy(kernel, std::as_bytes(std::span(bvh.triangles)))),
       rays(uploadRays(kernel.device(), cone)),
       origins(kernel.device(), largestConeChunk(kernel) * sizeof(ConeOrigin), kTexelUsage, MemoryKind::HostVisible),
@@ -156,7 +173,8 @@ ConeBuffers::ConeBuffers(const VulkanConeKernel& kernel, const DeviceBvh& bvh, c
               MemoryKind::DeviceOnly),
       results(kernel.device(), largestConeChunk(kernel) * sizeof(uint32_t), kStorageUsage, MemoryKind::HostVisible),
       hits(kernel.device(), hitBufferByteCount(kernel), kStorageUsage, MemoryKind::HostVisible),
-      childNormals(uploadBuffer(kernel.device(), std::as_bytes(std::span(bvh.childNormals)), kTexelUsage)),
+      childNormals(uploadChildNormals(kernel, bvh)),
+      childNormalStart(static_cast<uint32_t>(bvh.nodeBytes().size() / kBlockByteCount)),
       nothing_(kernel.device(), 16, kTexelUsage | kStorageUsage, MemoryKind::DeviceLocal),
       nodeTexels_(kernel.device(), fetchesTexels(kernel) ? nodes : nothing_),
       triangleTexels_(kernel.device(), fetchesTexels(kernel) ? triangles : nothing_),

@@ -65,11 +65,12 @@ struct ConeBuffers {
   ConeBuffers(const VulkanConeKernel& kernel, const DeviceBvh& bvh, const Cone& cone);
 
   Buffer nodes, triangles, rays;
-  Buffer origins;       ///< Mapped: a ConeOrigin per cone.
-  Buffer lengths;       ///< Bits of a float per ray and cone, if there is a reduction.
-  Buffer results;       ///< Mapped: a uint32_t per cone, see shared/cone_layout.h.
-  Buffer hits;          ///< Mapped: a ConeHit per cone and ray, if the kernel writes them.
-  Buffer childNormals;  ///< DeviceBvh::childNormals.
+  Buffer origins;             ///< Mapped: a ConeOrigin per cone.
+  Buffer lengths;             ///< Bits of a float per ray and cone, if there is a reduction.
+  Buffer results;             ///< Mapped: a uint32_t per cone, see shared/cone_layout.h.
+  Buffer hits;                ///< Mapped: a ConeHit per cone and ray, if the kernel writes them.
+  Buffer childNormals;        ///< DeviceBvh::childNormals with BvhFetch::Texel.
+  uint32_t childNormalStart;  ///< Their place in `nodes` with BvhFetch::Storage, in blocks of 16 bytes.
 
  private:
   Buffer nothing_;  // Placeholder for the bindings of the BvhFetch that is not selected.
