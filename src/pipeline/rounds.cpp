@@ -1,19 +1,13 @@
 #include "pipeline/rounds.h"
 
-#if defined(__GLIBC__)
-#include <malloc.h>
-#endif
-
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <iterator>
 #include <limits>
 #include <utility>
 
 #include "estimate/error_indicator.h"
-#include "seeds/component_seeds.h"
-#include "trace/thickness_tracer.h"
+#include "pipeline/seed_choice.h"
 
 namespace asdfvk {
 namespace {
@@ -30,9 +24,6 @@ constexpr double kPlannedShare = 0.8;
 // Above the number of faces of any mesh.
 constexpr double kMaxSeedCount = 1e18;
 
-// Part of the progress of tracing with Measure::Thickness.
-constexpr double kTracedBeforeThickness = 0.7;
-
 // Parts of the progress of a round.
 constexpr double kTracedProgress = 0.7, kIndicatorProgress = 0.73, kHeldOutTracedProgress = 0.83,
                  kHeldOutSolvedProgress = 0.87, kPredictedProgress = 0.93;
@@ -40,13 +31,6 @@ constexpr double kTracedProgress = 0.7, kIndicatorProgress = 0.73, kHeldOutTrace
 std::vector<uint32_t> sorted(std::vector<uint32_t> faces) {
   std::sort(faces.begin(), faces.end());
   return faces;
-}
-
-/// Returns freed memory to the system: libraries free many small pieces, and later steps need large ones.
-void returnFreedMemory() {
-#if defined(__GLIBC__)
-  malloc_trim(0);
-#endif
 }
 
 /// Hides the values of some faces during its life.
@@ -300,86 +284,7 @@ uint64_t Rounds::countForTime() const {
   return static_cast<uint64_t>(std::min(count, kMaxSeedCount));
 }
 
-/// Stage of creating and releasing a tracer: without Vulkan nothing is uploaded.
-Stage setUpStage(const Backend& backend) { return backend.traceVariant() ? Stage::Upload : Stage::Encode; }
-
 }  // namespace
-
-SeedTracing::SeedTracing(const Computation& computation, Bvh& bvh, bool keepsNodes)
-    : computation_(computation), bvh_(bvh), keepsNodes_(keepsNodes) {
-  const Stage stage = setUpStage(computation.backend);
-  {
-    const auto scope = computation.clock.time(stage);
-    tracer_ = computation.backend.makeTracer(
-        computation.scene, computation.cone,
-        {.hits = computation.keepsHits() || computation.measuresThickness(), .balls = computation.measuresThickness()});
-    if (computation.measuresThickness()) {
-      walls_ = makeOpposingWalls(computation.options.thickness.wallAngleDegrees);
-      shrinker_ = tracer_->makeBallShrinker(walls_);
-    }
-  }
-  computation.clock.transfer(stage, Stage::Encode, tracer_->encodeSeconds());
-}
-
-SeedTracing::~SeedTracing() {
-  const auto scope = computation_.clock.time(setUpStage(computation_.backend));
-  shrinker_.reset();
-  tracer_.reset();
-  if (!keepsNodes_) bvh_.nodes = {};
-  returnFreedMemory();
-}
-
-void SeedTracing::trace(std::span<const uint32_t> faces, TracedSeeds& traced, const RunControl& control) {
-  std::vector<double> values(faces.size());
-  const size_t earlierHitCount = traced.hits.size(), hitCount = faces.size() * computation_.cone.directions.size();
-  std::vector<ConeHit> forThickness;
-  if (computation_.keepsHits())
-    traced.hits.resize(earlierHitCount + hitCount);
-  else if (shrinker_)
-    forThickness.resize(hitCount);
-  const std::span<ConeHit> hits =
-      computation_.keepsHits() ? std::span(traced.hits).subspan(earlierHitCount) : std::span(forThickness);
-  const double traceEnd = shrinker_ ? kTracedBeforeThickness : 1;
-  const TraceStatistics statistics = tracer_->trace(faces, {values, hits}, control.part(0, traceEnd));
-  if (shrinker_) measureThickness(faces, hits, traced, control.part(traceEnd, 1));
-  traced.statistics.rayCount += statistics.rayCount;
-  traced.statistics.redoneConeCount += statistics.redoneConeCount;
-  traced.faces.insert(traced.faces.end(), faces.begin(), faces.end());
-  for (size_t i = 0; i < faces.size(); ++i) {
-    traced.values[faces[i]] = values[i];
-    traced.isSeed[faces[i]] = 1;
-  }
-}
-
-void SeedTracing::measureThickness(std::span<const uint32_t> faces, std::span<const ConeHit> hits, TracedSeeds& traced,
-                                   const RunControl& control) {
-  const auto scope = computation_.clock.time(Stage::Thickness);
-  std::vector<double> thickness(faces.size());
-  const ThicknessStatistics statistics = asdfvk::measureThickness(computation_.scene, computation_.cone, walls_,
-                                                                  {faces, hits}, *shrinker_, thickness, control);
-  traced.thicknessStatistics.unrefinedCount += statistics.unrefinedCount;
-  traced.thicknessStatistics.redoneBallCount += statistics.redoneBallCount;
-  if (traced.thickness.empty()) traced.thickness.assign(traced.values.size(), kNoValue);
-  for (size_t i = 0; i < faces.size(); ++i) traced.thickness[faces[i]] = thickness[i];
-}
-
-void SeedTracing::reserve(TracedSeeds& traced, size_t furtherCount) const {
-  traced.faces.reserve(traced.faces.size() + furtherCount);
-  if (computation_.keepsHits())
-    traced.hits.reserve(traced.hits.size() + furtherCount * computation_.cone.directions.size());
-}
-
-void SeedTracing::traceComponentsWithoutValue(TracedSeeds& traced, const RunControl& control) {
-  std::vector<uint32_t> untried;
-  for (const uint32_t face : computation_.prepared.traceableFaces)
-    if (!traced.isSeed[face]) untried.push_back(face);
-  if (untried.empty()) return;
-  ComponentSeeds further(computation_.prepared.components.componentOf, traced.values, untried,
-                         computation_.options.randomSeed);
-  const RunControl silent{control.stop, {}};
-  for (auto batch = further.next(traced.values); !batch.empty(); batch = further.next(traced.values))
-    trace(batch, traced, silent);
-}
 
 RoundsResult runRounds(const Computation& computation, std::unique_ptr<SeedTracing> tracing,
                        const RunControl& control) {

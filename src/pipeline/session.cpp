@@ -10,6 +10,7 @@
 #include "pipeline/computation.h"
 #include "pipeline/result.h"
 #include "pipeline/rounds.h"
+#include "pipeline/seed_tracing.h"
 #include "pipeline/segments.h"
 #include "pipeline/thickness.h"
 #include "pipeline/valid_options.h"

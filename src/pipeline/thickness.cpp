@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "pipeline/interpolation.h"
-#include "pipeline/rounds.h"
+#include "pipeline/seed_tracing.h"
 
 namespace asdfvk {
 namespace {
