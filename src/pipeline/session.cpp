@@ -104,6 +104,27 @@ void addDerivedFields(std::vector<Field>& fields, const PreparedMesh& prepared, 
   fields.insert(fields.end(), std::make_move_iterator(further.begin()), std::make_move_iterator(further.end()));
 }
 
+/// The values of the triangles, smoothed if requested.
+std::vector<double> finalValues(const PreparedMesh& prepared, const std::vector<double>& values,
+                                const SmoothingOptions& smoothing, StageClock& clock) {
+  if (!smoothing.isOn) return values;
+  const auto scope = clock.time(Stage::Smooth);
+  return smoothBilaterally(prepared.graph, values,
+                           smoothing.window.value_or(smoothingWindowFor(prepared.graph.faceCount())));
+}
+
+/// Describes the values and the thickness that the fields of the result have.
+void describeFields(Result& result, const Computation& computation, const RoundsResult& rounds,
+                    const std::vector<double>& values) {
+  Report& report = result.report;
+  describeValues(report, computation.prepared, result.sdf(), values, computation.keepsMissing());
+  const Field* field = result.field("thickness");
+  if (field == nullptr) return;
+  const auto scope = computation.clock.time(Stage::Thickness);
+  report.thickness = describeThickness(computation.prepared, rounds.thickness, *field->reals(),
+                                       computation.options.thickness.thinnerThan);
+}
+
 }  // namespace
 
 std::vector<std::string> resultFieldNames() {
@@ -152,12 +173,7 @@ Result Session::compute(const MeshView& mesh, const Options& options, const RunC
       runRounds(computation, std::make_unique<SeedTracing>(computation, bvh, keepsNodes), control.part(0, roundsEnd));
   describeRounds(report, rounds);
   if (computation.keepsMissing()) removeMissing(prepared, rounds);
-  std::vector<double> values = rounds.interpolated.values;
-  if (const SmoothingOptions& smoothing = options.smoothing; smoothing.isOn) {
-    const auto scope = clock.time(Stage::Smooth);
-    values = smoothBilaterally(prepared.graph, values,
-                               smoothing.window.value_or(smoothingWindowFor(prepared.graph.faceCount())));
-  }
+  const std::vector<double> values = finalValues(prepared, rounds.interpolated.values, options.smoothing, clock);
   const RunControl silent{control.stop, {}};
   SegmentedValues segmented = segmentValues(
       prepared, values, options, makeLineOfSight(scene, backend.isReference(), silent), clock, report, silent);
@@ -167,11 +183,7 @@ Result Session::compute(const MeshView& mesh, const Options& options, const RunC
                               *options.checkCount, options.randomSeed, control.part(roundsEnd, 1));
   result.fields = fieldsOf(prepared, rounds, values, std::move(segmented));
   addDerivedFields(result.fields, prepared, options);
-  describeValues(report, prepared, result.sdf(), values, computation.keepsMissing());
-  if (const Field* field = result.field("thickness")) {
-    const auto scope = clock.time(Stage::Thickness);
-    report.thickness = describeThickness(prepared, rounds.thickness, *field->reals(), options.thickness.thinnerThan);
-  }
+  describeFields(result, computation, rounds, values);
   backend.requireSilentValidation();
   if (options.keepsScene)
     result.scene =
