@@ -231,7 +231,7 @@ std::string thinFailure(const ThicknessReport& thickness, double limit) {
   if (std::isnan(thickness.min)) return fmt::format("no face has a thickness, which must be at least {:g}", limit);
   const auto thinnest = std::min_element(thickness.thinRegions.begin(), thickness.thinRegions.end(),
                                          [](const ThinRegion& a, const ThinRegion& b) { return a.min < b.min; });
-  return fmt::format("thinner than {:g}: thickness {:.6g} at ({:.6g}, {:.6g}, {:.6g}), face {}", limit, thinnest->least,
+  return fmt::format("thinner than {:g}: thickness {:.6g} at ({:.6g}, {:.6g}, {:.6g}), face {}", limit, thinnest->min,
                      thinnest->place.x, thinnest->place.y, thinnest->place.z, thinnest->minFace);
 }
 
