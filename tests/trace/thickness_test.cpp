@@ -295,8 +295,7 @@ TEST_CASE("the kernel has the reference's thickness, in every variant") {
   }
 }
 
-TEST_CASE(
-    "a hierarchy beyond the texels of a device is measured with --fetch storage, and refused before with texels") {
+TEST_CASE("a hierarchy beyond the texel limit of a device is measured with storage and refused with texels") {
   const Instance instance;
   const VkPhysicalDevice physical = instance.physicalDevices().front();
   DeviceFacts facts = describeDevice(physical);
