@@ -74,8 +74,8 @@ uint enterChildren(uint index, DeviceWideNode node, Query query, float diameter)
   const vec3 perByte = stepsOf(node);
   const vec3 start = node.origin - centreOf(query, diameter);
   const uint t = 2u * index;
-  return (enterBoxes(uvec3(node.x.x, node.y.x, node.z.x), uvec3(node.x.z, node.y.z, node.z.z),
-                     fetchChildNormals(t), query, perByte, start, diameter) |
+  return (enterBoxes(uvec3(node.x.x, node.y.x, node.z.x), uvec3(node.x.z, node.y.z, node.z.z), fetchChildNormals(t),
+                     query, perByte, start, diameter) |
           enterBoxes(uvec3(node.x.y, node.y.y, node.z.y), uvec3(node.x.w, node.y.w, node.z.w),
                      fetchChildNormals(t + 1u), query, perByte, start, diameter)
               << 16) &
