@@ -21,10 +21,16 @@ struct Counts {
   int done = 0, refused = 0;
 };
 
+/// Further options of the batches, in turn. The backends with 100 meshes use the first two.
+const std::array<std::vector<std::string>, 5> kFurtherOptions{
+    {{"--segment", "parts"}, {"--measure", "thickness", "--thinner-than", "0.5", "--seeds", "20%"}, {}, {}, {}}};
+
 /// Runs the program on all of `meshes`: each must have its line, and its result exactly when the line has no error.
-Counts runBatch(const std::vector<std::string>& meshes, const std::string& backend, const ChildOptions& options) {
+Counts runBatch(const std::vector<std::string>& meshes, const std::string& backend,
+                const std::vector<std::string>& further, const ChildOptions& options) {
   const ScratchFolder results;
   std::vector<std::string> arguments = meshes;
+  arguments.insert(arguments.end(), further.begin(), further.end());
   for (const char* option : {"--backend", backend.c_str(), "--rays", "8", "--json", "--quiet", "--format", "csv", "-o"})
     arguments.emplace_back(option);
   arguments.push_back(results / "");
@@ -67,13 +73,14 @@ Counts runMutated(int meshCount, const std::string& backend, const ChildOptions&
   Random random(20);
   Counts total;
   for (int first = 0; first < meshCount; first += kMeshesPerRun) {
+    const size_t batch = static_cast<size_t>(first / kMeshesPerRun);
     const ScratchFolder folder;
     std::vector<std::string> meshes;
     for (int i = first; i < first + kMeshesPerRun; ++i) {
       const Sample& sample = samples[static_cast<size_t>(i) % samples.size()];
       meshes.push_back(folder.write(fmt::format("mesh{:04}.{}", i, sample.extension), mutate(sample.bytes, random)));
     }
-    const Counts counts = runBatch(meshes, backend, options);
+    const Counts counts = runBatch(meshes, backend, kFurtherOptions[batch % kFurtherOptions.size()], options);
     total.done += counts.done;
     total.refused += counts.refused;
   }
