@@ -15,35 +15,35 @@
 namespace asdfvk {
 
 /// The number of type T at `at`, unaligned, in the byte order of the file.
-template <typename T, bool isSwapped>
+template <typename T, bool kIsSwapped>
 [[nodiscard]] T loadScalar(const char* at) {
   std::array<char, sizeof(T)> bytes;
   std::memcpy(bytes.data(), at, sizeof(T));
-  if constexpr (isSwapped)
+  if constexpr (kIsSwapped)
     for (size_t i = 0; i < sizeof(T) / 2; ++i) std::swap(bytes[i], bytes[sizeof(T) - 1 - i]);
   return std::bit_cast<T>(bytes);
 }
 
 /// The number of the given type as double or int64_t; either holds every integer type.
-template <typename Out, bool isSwapped>
+template <typename Out, bool kIsSwapped>
 [[nodiscard]] Out loadPly(const char* at, PlyType type) {
   switch (type) {
     case PlyType::Int8:
-      return static_cast<Out>(loadScalar<int8_t, isSwapped>(at));
+      return static_cast<Out>(loadScalar<int8_t, kIsSwapped>(at));
     case PlyType::UInt8:
-      return static_cast<Out>(loadScalar<uint8_t, isSwapped>(at));
+      return static_cast<Out>(loadScalar<uint8_t, kIsSwapped>(at));
     case PlyType::Int16:
-      return static_cast<Out>(loadScalar<int16_t, isSwapped>(at));
+      return static_cast<Out>(loadScalar<int16_t, kIsSwapped>(at));
     case PlyType::UInt16:
-      return static_cast<Out>(loadScalar<uint16_t, isSwapped>(at));
+      return static_cast<Out>(loadScalar<uint16_t, kIsSwapped>(at));
     case PlyType::Int32:
-      return static_cast<Out>(loadScalar<int32_t, isSwapped>(at));
+      return static_cast<Out>(loadScalar<int32_t, kIsSwapped>(at));
     case PlyType::UInt32:
-      return static_cast<Out>(loadScalar<uint32_t, isSwapped>(at));
+      return static_cast<Out>(loadScalar<uint32_t, kIsSwapped>(at));
     case PlyType::Float32:
-      return static_cast<Out>(loadScalar<float, isSwapped>(at));
+      return static_cast<Out>(loadScalar<float, kIsSwapped>(at));
     case PlyType::Float64:
-      return static_cast<Out>(loadScalar<double, isSwapped>(at));
+      return static_cast<Out>(loadScalar<double, kIsSwapped>(at));
   }
   return Out{};
 }
@@ -85,8 +85,8 @@ class PlyAsciiSource {
   TextScanner text_;
 };
 
-/// Rows of bytes; isSwapped: in the other byte order than the host.
-template <bool isSwapped>
+/// Rows of bytes; kIsSwapped: in the other byte order than the host.
+template <bool kIsSwapped>
 class PlyBinarySource {
  public:
   static constexpr bool kIsBinary = true;
@@ -114,7 +114,7 @@ class PlyBinarySource {
   // Random access, for rows of one size: offset: bytes from the next number. Precondition: within remaining().
   template <typename Out>
   [[nodiscard]] Out load(uint64_t offset, PlyType type) const {
-    return loadPly<Out, isSwapped>(bytes_.data() + at_ + offset, type);
+    return loadPly<Out, kIsSwapped>(bytes_.data() + at_ + offset, type);
   }
   void skipBytes(uint64_t count) { last_ = at_ += count; }
 

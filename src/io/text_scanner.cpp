@@ -37,10 +37,10 @@ bool isTiny(std::string_view number) {
 
 TextScanner::TextScanner(std::span<const char> bytes, TextSyntax syntax, uint64_t firstLine)
     : at_(bytes.data()), end_(bytes.data() + bytes.size()), line_(firstLine) {
-  for (const char c : {' ', '\t', '\v', '\f'}) classes_[static_cast<unsigned char>(c)] = kBlank;
-  for (const char c : {'\n', '\r'}) classes_[static_cast<unsigned char>(c)] = kLineBreak;
-  if (syntax.comment != '\0') classes_[static_cast<unsigned char>(syntax.comment)] = kComment;
-  if (syntax.backslashContinues) classes_['\\'] = kBackslash;
+  for (const char c : {' ', '\t', '\v', '\f'}) classes_[static_cast<unsigned char>(c)] = CharClass::Blank;
+  for (const char c : {'\n', '\r'}) classes_[static_cast<unsigned char>(c)] = CharClass::LineBreak;
+  if (syntax.comment != '\0') classes_[static_cast<unsigned char>(syntax.comment)] = CharClass::Comment;
+  if (syntax.backslashContinues) classes_['\\'] = CharClass::Backslash;
   if (std::string_view(at_, bytes.size()).starts_with(kByteOrderMark)) at_ += kByteOrderMark.size();
 }
 

@@ -28,7 +28,7 @@ class TextScanner {
   /// Skips blanks and comments; true where the line, continuation lines included, has no more words.
   [[nodiscard]] bool atLineEnd() {
     skipBlanks();
-    return at_ == end_ || classOf(*at_) == kLineBreak;
+    return at_ == end_ || classOf(*at_) == CharClass::LineBreak;
   }
   /// Skips blanks, comments and line breaks; true at the end of the text.
   [[nodiscard]] bool atEnd() {
@@ -58,25 +58,25 @@ class TextScanner {
   void skipBytes(size_t byteCount) { at_ += byteCount; }
 
  private:
-  enum CharClass : uint8_t { kWord, kBlank, kLineBreak, kComment, kBackslash };
+  enum class CharClass : uint8_t { Word, Blank, LineBreak, Comment, Backslash };
 
   [[nodiscard]] CharClass classOf(char c) const { return classes_[static_cast<unsigned char>(c)]; }
   [[nodiscard]] bool isContinuation(const char* p) const {
-    return classOf(*p) == kBackslash && p + 1 != end_ && classOf(p[1]) == kLineBreak;
+    return classOf(*p) == CharClass::Backslash && p + 1 != end_ && classOf(p[1]) == CharClass::LineBreak;
   }
   [[nodiscard]] bool endsWord(const char* p) const {
     if (p == end_) return true;
     const CharClass c = classOf(*p);
-    return c != kWord && (c != kBackslash || isContinuation(p));
+    return c != CharClass::Word && (c != CharClass::Backslash || isContinuation(p));
   }
   void skipBlanks() {
     while (at_ != end_) {
       const CharClass c = classOf(*at_);
-      if (c == kBlank) {
+      if (c == CharClass::Blank) {
         ++at_;
-      } else if (c == kComment) {
-        while (at_ != end_ && classOf(*at_) != kLineBreak) ++at_;
-      } else if (c == kBackslash && isContinuation(at_)) {
+      } else if (c == CharClass::Comment) {
+        while (at_ != end_ && classOf(*at_) != CharClass::LineBreak) ++at_;
+      } else if (c == CharClass::Backslash && isContinuation(at_)) {
         ++at_;
         skipLineBreak();
       } else {

@@ -51,9 +51,9 @@ class MeshRenderer {
   void look(int x, int y) {
     const auto point = trace(x + 0.5, y + 0.5);
     if (!point) return;
-    constexpr int side = LightRig::kPatternSide;
+    constexpr int kSide = LightRig::kPatternSide;
     // 7 is coprime to the number of patterns: neighbours get distant rays.
-    const auto pattern = static_cast<uint32_t>(7 * (x % side + side * (y % side))) % LightRig::kPatternCount;
+    const auto pattern = static_cast<uint32_t>(7 * (x % kSide + kSide * (y % kSide))) % LightRig::kPatternCount;
     SeenPoint seen = toSeen(*point);
     seen.light = rig_.sample(scene_, *point, pattern);
     seen_.at(x, y) = seen;
