@@ -106,8 +106,8 @@ SegmentedValues segmentValues(const PreparedMesh& prepared, std::span<const doub
     segmentByParts(prepared, values, options, sight, control, report, result);
     return result;
   }
-  const CgalSegmentation segmentation =
-      segmentLikeCgal(prepared.geometry, prepared.mesh, neighbours, result.normalized, options.cgalSegmentation);
+  const CgalSegmentation segmentation = segmentLikeCgal(prepared.geometry, prepared.mesh, neighbours, result.normalized,
+                                                        options.cgalSegmentation, control);
   result.segments = segmentsOfInputFaces(prepared.mesh, segmentation.segments, prepared.geometry.areas);
   report.segmentation = SegmentationReport{countSegments(result.segments), {}};
   return result;

@@ -21,7 +21,9 @@ double labelEnergy(const LabelProblem& problem, std::span<const uint32_t> labels
   return energy;
 }
 
-double AlphaExpansion::minimize(const LabelProblem& problem, std::span<uint32_t> labels, const Limits& limits) {
+double AlphaExpansion::minimize(const LabelProblem& problem, std::span<uint32_t> labels, const Limits& limits,
+                                const RunControl& control) {
+  const RunControl stopOnly{control.stop, {}};
   ASDFVK_CHECK_OP(labels.size(), ==, problem.faceCount());
   double energy = labelEnergy(problem, labels);
   ASDFVK_CHECK(std::isfinite(energy));
@@ -33,6 +35,7 @@ double AlphaExpansion::minimize(const LabelProblem& problem, std::span<uint32_t>
     for (uint32_t label = 0; label < labelCount; ++label) {
       if (unchangedCount == labelCount) return energy;
       ++unchangedCount;
+      stopOnly.checkpoint(0);
       if (!expand(problem, labels, label)) continue;
       const double lower = labelEnergy(problem, expanded_);
       if (!(energy - lower > kMinRelativeDecrease * std::abs(energy))) continue;

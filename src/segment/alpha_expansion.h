@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "asdf_vk/run_control.h"
 #include "segment/max_flow.h"
 
 namespace asdfvk {
@@ -58,8 +59,10 @@ class AlphaExpansion {
 
   /// Expands the labels in order, in rounds, until a round changes nothing. An expansion that does not lower the energy
   /// by more than 1e-10 of it is not kept, so that rounding errors do not repeat for ever. labels: #F, below
-  /// problem.labelCount and allowed; they are improved in place. Returns their energy.
-  double minimize(const LabelProblem& problem, std::span<uint32_t> labels, const Limits& limits);
+  /// problem.labelCount and allowed; they are improved in place. Returns their energy. Throws Error{Cancelled} between
+  /// expansions.
+  double minimize(const LabelProblem& problem, std::span<uint32_t> labels, const Limits& limits,
+                  const RunControl& control = {});
   double minimize(const LabelProblem& problem, std::span<uint32_t> labels) { return minimize(problem, labels, {}); }
 
  private:

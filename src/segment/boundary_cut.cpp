@@ -87,7 +87,7 @@ void keepCores(std::vector<Choice>& choices, std::span<const uint32_t> labels, c
 
 /// The graph cut over the faces that may change and their neighbours, which are fixed.
 void expandLabels(const PartSurface& surface, std::vector<uint32_t>& labels, uint32_t labelCount,
-                  std::span<const Choice> choices) {
+                  std::span<const Choice> choices, const RunControl& control) {
   std::vector<uint32_t> itemOf(labels.size(), kNoLabel), faces;
   const auto addItem = [&](uint32_t face) {
     if (itemOf[face] != kNoLabel) return;
@@ -119,7 +119,8 @@ void expandLabels(const PartSurface& surface, std::vector<uint32_t>& labels, uin
       if (other > item && other != kNoLabel)
         edges.push_back({item, other, edgeCost(double{surface.edgeLengths[arc]}, double{surface.angles[arc]})});
     }
-  AlphaExpansion().minimize({labelCount, {}, edges, firstChoices, costs}, labelOf, {.maxRoundCount = kMaxRoundCount});
+  AlphaExpansion().minimize({labelCount, {}, edges, firstChoices, costs}, labelOf, {.maxRoundCount = kMaxRoundCount},
+                            control);
   for (uint32_t item = 0; item < changeableCount; ++item) labels[faces[item]] = labelOf[item];
 }
 
@@ -192,11 +193,12 @@ void joinLoosePieces(const PartSurface& surface, std::vector<uint32_t>& labels, 
 
 }  // namespace
 
-std::vector<uint32_t> cutBoundaries(const PartSurface& surface, std::vector<uint32_t> labels, uint32_t labelCount) {
+std::vector<uint32_t> cutBoundaries(const PartSurface& surface, std::vector<uint32_t> labels, uint32_t labelCount,
+                                    const RunControl& control) {
   std::vector<Choice> choices = choicesOf(surface, labels, labelCount);
   const Anchors anchors = anchorsOf(surface, labels, labelCount, choices);
   keepCores(choices, labels, anchors);
-  expandLabels(surface, labels, labelCount, choices);
+  expandLabels(surface, labels, labelCount, choices, control);
   joinLoosePieces(surface, labels, anchors.faces);
   return labels;
 }

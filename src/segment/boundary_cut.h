@@ -15,7 +15,8 @@ inline constexpr double kCutReach = 0.0577350269189626;  ///< sqrt(1 / 300)
 /// each label is connected: loose pieces take the neighbouring label with the longest common boundary. Every label
 /// keeps a face. Precondition: each label is connected. labels: #F, below labelCount; faces with kNoLabel are ignored
 /// and keep it.
+/// Throws Error{Cancelled} between expansions.
 [[nodiscard]] std::vector<uint32_t> cutBoundaries(const PartSurface& surface, std::vector<uint32_t> labels,
-                                                  uint32_t labelCount);
+                                                  uint32_t labelCount, const RunControl& control = {});
 
 }  // namespace asdfvk

@@ -54,7 +54,7 @@ void requireValid(const CgalSegmentationOptions& options) {
 
 CgalSegmentation segmentLikeCgal(const FaceGeometry& geometry, const TriangleMesh& mesh,
                                  const FaceNeighbours& neighbours, std::span<const double> values,
-                                 const CgalSegmentationOptions& options) {
+                                 const CgalSegmentationOptions& options, const RunControl& control) {
   requireValid(options);
   ASDFVK_CHECK_OP(values.size(), ==, mesh.faces.size());
   ASDFVK_CHECK_OP(neighbours.size(), ==, mesh.faces.size());
@@ -75,7 +75,7 @@ CgalSegmentation segmentLikeCgal(const FaceGeometry& geometry, const TriangleMes
   const std::vector<LabelEdge> edges = cgalEdgeCosts(geometry, mesh, neighbours, options.smoothness);
   const bool isFirstOnly = options.expansion == CgalExpansion::First;
   result.energy = AlphaExpansion().minimize({clusterCount, costs, edges}, result.clusters,
-                                            {.expandedLabelCount = isFirstOnly ? 1 : clusterCount});
+                                            {.expandedLabelCount = isFirstOnly ? 1 : clusterCount}, control);
   LabelComponents components = findLabelComponents(neighbours, result.clusters, values);
   result.segments = std::move(components.componentOf);
   result.segmentCount = components.componentCount;

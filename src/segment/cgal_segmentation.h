@@ -25,10 +25,10 @@ struct CgalSegmentation {
 /// on manifold meshes. The same result on any number of threads. One cluster and a smoothness below 0, which is 0, are
 /// allowed here. Throws Error{NoValues} without faces,
 /// Error{OptionOutOfRange} and Error{TooFewValues} where there are fewer different values than clusters. Noise of 1e-3
-/// of the range may change many labels: the clustering is not stable.
+/// of the range may change many labels: the clustering is not stable. Throws Error{Cancelled} between expansions.
 [[nodiscard]] CgalSegmentation segmentLikeCgal(const FaceGeometry& geometry, const TriangleMesh& mesh,
                                                const FaceNeighbours& neighbours, std::span<const double> values,
-                                               const CgalSegmentationOptions& options);
+                                               const CgalSegmentationOptions& options, const RunControl& control = {});
 
 /// An edge per pair of neighbouring faces and common edge, ascending by face f < g. Its cost is
 ///   100 max(0, smoothness) * -log(max(5e-6, s angle / pi)), angle: between the normals; s: 0.08 on a convex edge,

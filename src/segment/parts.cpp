@@ -303,7 +303,7 @@ Parts segmentIntoParts(const PartsInput& input, const PartsOptions& options, con
   parts.fewest = wholeCount + std::min(regionCount, countAt(division, threshold * kPartStabilityFactor, mergesSmall));
   parts.most = wholeCount + std::max(regionCount, countAt(division, threshold / kPartStabilityFactor, mergesSmall));
   control.checkpoint(0.8);
-  parts.partOf = cutBoundaries(surface, labelsOf(division.patches, merging, kNoLabel), regionCount);
+  parts.partOf = cutBoundaries(surface, labelsOf(division.patches, merging, kNoLabel), regionCount, control);
   labelSmallComponents(input, surface, division, roles.whole, regionCount, parts.partOf);
   sortByValue(surface, parts.partOf, parts.partCount);
   return parts;

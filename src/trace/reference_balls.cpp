@@ -19,9 +19,9 @@ namespace {
 
 /// Added to the radius for the distances to boxes, which are computed in float32: covers their rounding at coordinates
 /// up to 8 and squared radii up to 64. Diameters are computed in double.
-constexpr double kBoxMargin = 0x1p-19;
+constexpr double kBallBoxMargin = 0x1p-19;
 
-constexpr size_t kFirstChunk = 1024, kGrain = 64;
+constexpr size_t kFirstChunkBallCount = 1024, kGrain = 64;
 
 /// One traversal of the hierarchy with a shrinking ball.
 class BallWalk {
@@ -67,7 +67,7 @@ class BallWalk {
  private:
   void update() {
     centre_ = Vec3f(origin_ + 0.5 * ball_.diameter * axis_);
-    const double radius = 0.5 * ball_.diameter + kBoxMargin;
+    const double radius = 0.5 * ball_.diameter + kBallBoxMargin;
     squaredRadius_ = static_cast<float>(radius * radius);
   }
 
@@ -129,7 +129,7 @@ class ReferenceBallShrinker final : public BallShrinker {
     std::vector<uint32_t> faces(balls.size());
     std::transform(balls.begin(), balls.end(), faces.begin(), [](const InscribedBall& ball) { return ball.face; });
     const std::vector<uint32_t> order = order_.of(faces);
-    forEachChunk(balls.size(), ChunkSize(kFirstChunk, balls.size()), control, [&](size_t begin, size_t end) {
+    forEachChunk(balls.size(), ChunkSize(kFirstChunkBallCount, balls.size()), control, [&](size_t begin, size_t end) {
       tbb::parallel_for(tbb::blocked_range<size_t>(begin, end, kGrain), [&](const tbb::blocked_range<size_t>& range) {
         for (size_t i = range.begin(); i < range.end(); ++i)
           BallWalk(scene_, normalBounds_, planes_, walls_, balls[order[i]]).run();

@@ -11,14 +11,14 @@
 namespace asdfvk {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr uint64_t kFirstChunk = 4096;
+constexpr double kNoDiameter = std::numeric_limits<double>::infinity();
+constexpr uint64_t kFirstChunkFaceCount = 4096;
 // Part of the progress in which the first balls are found; they shrink in the rest.
 constexpr double kFoundProgress = 0.2;
 
 /// The diameter by the hit of a ray, in normalised units, and the hit face.
 struct Candidate {
-  double diameter = kInfinity;
+  double diameter = kNoDiameter;
   uint32_t face = kNoFace;
   size_t ray = 0;
 };
@@ -45,8 +45,8 @@ class FirstBall {
       best = {axis.distance, axis.face, 0};
     }
     // In double from the wall: the distance of the hit is a float.
-    const double touching = touchingDiameter(scene_, face_, best.face, kInfinity);
-    return {face_, best.face, touching < kInfinity ? touching : best.diameter};
+    const double touching = touchingDiameter(scene_, face_, best.face, kNoDiameter);
+    return {face_, best.face, touching < kNoDiameter ? touching : best.diameter};
   }
 
  private:
@@ -101,7 +101,7 @@ ThicknessStatistics measureThickness(const TraceScene& scene, const Cone& cone, 
                                      const RunControl& control) {
   ASDFVK_CHECK_OP(thickness.size(), ==, hits.seeds.size());
   std::vector<InscribedBall> balls(hits.seeds.size());
-  forEachChunk(balls.size(), ChunkSize(kFirstChunk, balls.size()), control.part(0, kFoundProgress),
+  forEachChunk(balls.size(), ChunkSize(kFirstChunkFaceCount, balls.size()), control.part(0, kFoundProgress),
                [&](size_t begin, size_t end) {
                  forEachInParallel(end - begin, [&](uint32_t offset) {
                    const size_t i = begin + offset;
@@ -109,7 +109,7 @@ ThicknessStatistics measureThickness(const TraceScene& scene, const Cone& cone, 
                  });
                });
   const auto toLength = [&](const InscribedBall& ball) {
-    return ball.diameter < kInfinity ? scene.bvh.normalization.toMeshLength(ball.diameter) : kNoValue;
+    return ball.diameter < kNoDiameter ? scene.bvh.normalization.toMeshLength(ball.diameter) : kNoValue;
   };
   ThicknessStatistics statistics;
   std::vector<uint32_t> indices;
@@ -119,7 +119,7 @@ ThicknessStatistics measureThickness(const TraceScene& scene, const Cone& cone, 
       continue;
     }
     thickness[i] = toLength(balls[i]);
-    statistics.unrefinedCount += balls[i].diameter < kInfinity ? 1 : 0;
+    statistics.unrefinedCount += balls[i].diameter < kNoDiameter ? 1 : 0;
   }
   for (size_t i = 0; i < indices.size(); ++i) balls[i] = balls[indices[i]];  // indices[i] >= i.
   balls.resize(indices.size());

@@ -30,12 +30,6 @@ Options withParts(double seedShare = 1) {
   return options;
 }
 
-const Labels& segmentsOf(const Result& result) {
-  const Field* field = result.field("segment");
-  REQUIRE(field != nullptr);
-  return std::get<Labels>(field->values);
-}
-
 /// Embree where this build has it: it is faster.
 Session& fastSession() {
   static Session session({.backend = hasEmbree() ? "cpu" : "reference"});
@@ -43,7 +37,7 @@ Session& fastSession() {
 }
 
 void checkReport(const Result& result) {
-  const Labels& labels = segmentsOf(result);
+  const Labels& labels = test::segmentsOf(result);
   REQUIRE(result.report.segmentation.has_value());
   const SegmentationReport& report = *result.report.segmentation;
   REQUIRE(report.parts.has_value());
@@ -71,7 +65,7 @@ TEST_CASE("parts are a field, a report and a stage, and no normalised values") {
   const GeneratedShape animal = generateShape("animal", 3000);
   const Result result = fastSession().compute(animal.mesh, withParts());
   checkReport(result);
-  CHECK(1 - randIndex(segmentsOf(result), animal.part) < 0.1);
+  CHECK(1 - randIndex(test::segmentsOf(result), animal.part) < 0.1);
   CHECK(result.field("normalized") == nullptr);
   CHECK_FALSE(result.report.postprocess.has_value());
   CHECK(result.report.stageSeconds[Stage::Segment] > 0);
@@ -89,7 +83,7 @@ TEST_CASE("parts from few seeds, and beside normalised values") {
   options.postprocess = Postprocess::Cgal;
   const Result result = fastSession().compute(hand.mesh, options);
   checkReport(result);
-  CHECK(1 - randIndex(segmentsOf(result), hand.part) < 0.2);
+  CHECK(1 - randIndex(test::segmentsOf(result), hand.part) < 0.2);
   CHECK(result.field("normalized") != nullptr);
 }
 
@@ -99,7 +93,7 @@ TEST_CASE("the reference gives nearly the same parts as Embree" * doctest::test_
   const Result expected = referenceSession().compute(mesh, withParts()),
                fast = fastSession().compute(mesh, withParts());
   checkReport(expected);
-  CHECK(randIndex(segmentsOf(expected), segmentsOf(fast)) > 0.98);
+  CHECK(randIndex(test::segmentsOf(expected), test::segmentsOf(fast)) > 0.98);
 }
 
 TEST_CASE("a number of parts that components do not allow is a warning") {
@@ -189,7 +183,7 @@ TEST_CASE("parts of polygons are labels of input faces") {
   firstCorner.push_back(corners.size());
   const MeshView mesh(std::span<const double>(positions), corners, firstCorner);
   const Result result = fastSession().compute(mesh, withParts());
-  const Labels& labels = segmentsOf(result);
+  const Labels& labels = test::segmentsOf(result);
   REQUIRE(labels.size() == 13);
   CHECK(labels[12] == kNoSegment);
   CHECK(result.report.segmentation->segmentCount == 2);
@@ -213,7 +207,7 @@ TEST_CASE("open, non-manifold and degenerate meshes have parts; one triangle has
   for (const Mesh& mesh : {open, fin, infinite, doubled}) {
     CAPTURE(mesh.faces.size());
     const Result result = fastSession().compute(mesh, withParts());
-    CHECK(segmentsOf(result).size() == mesh.faces.size());
+    CHECK(test::segmentsOf(result).size() == mesh.faces.size());
     checkReport(result);
   }
   const Mesh triangle{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}, {}};

@@ -41,13 +41,6 @@ const std::vector<double>& normalizedOf(const Result& result) {
   return std::get<std::vector<double>>(field->values);
 }
 
-const Labels& segmentsOf(const Result& result) {
-  const Field* field = result.field("segment");
-  REQUIRE(field != nullptr);
-  CHECK(field->unit.empty());
-  return std::get<Labels>(field->values);
-}
-
 /// Appends a copy of `other`, scaled and shifted.
 void append(Mesh& mesh, const Mesh& other, double scale, const Vec3d& shift) {
   const auto offset = static_cast<uint32_t>(mesh.vertices.size());
@@ -119,7 +112,7 @@ TEST_CASE("the fields are those of src/segment for the values of the result") {
     CHECK(result.report.postprocess->max == values.max);
     const CgalSegmentation expected =
         segmentLikeCgal(computeFaceGeometry(mesh), mesh, neighbours, values.normalized, options.cgalSegmentation);
-    CHECK(segmentsOf(result) == expected.segments);
+    CHECK(test::segmentsOf(result) == expected.segments);
     REQUIRE(result.report.segmentation.has_value());
     CHECK(result.report.segmentation->segmentCount == expected.segmentCount);
     CHECK(result.report.stageSeconds[Stage::Segment] > 0);
@@ -132,7 +125,7 @@ TEST_CASE("interpolated and smoothed values can be segmented, too") {
   options.smoothing.isOn = true;
   const Mesh mesh = makeTorus(1000).mesh;
   const Result result = referenceSession().compute(mesh, options);
-  CHECK(segmentsOf(result).size() == mesh.faces.size());
+  CHECK(test::segmentsOf(result).size() == mesh.faces.size());
   CHECK(normalizedOf(result) == postprocessLikeCgal(findFaceNeighbours(mesh), result.sdf()).normalized);
 }
 
@@ -144,7 +137,7 @@ TEST_CASE("components are segments of their own, on every backend the same ones"
   expected.insert(expected.end(), smallCount, 1);
   const auto check = [&](Session& session) {
     const Result result = session.compute(mesh, segmented(2));
-    Labels labels = segmentsOf(result);
+    Labels labels = test::segmentsOf(result);
     // The two small spheres have equal values up to rounding: either of them may be first.
     if (labels[firstSmall] == 1)
       for (uint32_t& label : labels) label = label == 2 ? 2 : 1 - label;
@@ -188,8 +181,8 @@ TEST_CASE("a face without a value is filled, and so is a component without any")
   CHECK(std::isnan(result.sdf().back()));
   CHECK(result.report.noValueCount == 1);
   CHECK(std::none_of(normalizedOf(result).begin(), normalizedOf(result).end(), [](double v) { return std::isnan(v); }));
-  CHECK(segmentsOf(result).size() == mesh.faces.size());
-  CHECK(*std::max_element(segmentsOf(result).begin(), segmentsOf(result).end()) + 1 ==
+  CHECK(test::segmentsOf(result).size() == mesh.faces.size());
+  CHECK(*std::max_element(test::segmentsOf(result).begin(), test::segmentsOf(result).end()) + 1 ==
         result.report.segmentation->segmentCount);
 }
 
@@ -212,9 +205,9 @@ TEST_CASE("open, non-manifold and degenerate meshes have segments") {
   for (const Mesh& mesh : {open, fin, degenerate, infinite, doubled}) {
     CAPTURE(mesh.faces.size());
     const Result result = referenceSession().compute(mesh, segmented(2));
-    REQUIRE(segmentsOf(result).size() == mesh.faces.size());
+    REQUIRE(test::segmentsOf(result).size() == mesh.faces.size());
     const uint32_t count = result.report.segmentation->segmentCount;
-    CHECK(*std::max_element(segmentsOf(result).begin(), segmentsOf(result).end()) + 1 == count);
+    CHECK(*std::max_element(test::segmentsOf(result).begin(), test::segmentsOf(result).end()) + 1 == count);
     CHECK(std::all_of(normalizedOf(result).begin(), normalizedOf(result).end(),
                       [](double v) { return 0 <= v && v <= 1; }));
   }
@@ -308,7 +301,7 @@ TEST_CASE("a mesh of polygons has one normalised value and one segment per input
   firstCorner.push_back(corners.size());
   const MeshView mesh(std::span<const double>(positions), corners, firstCorner);
   const Result result = referenceSession().compute(mesh, segmented(2));
-  CHECK(segmentsOf(result) == Labels{1, 1, 1, 1, 1, 1, 0, 0, 0, 0, 0, 0, kNoSegment});
+  CHECK(test::segmentsOf(result) == Labels{1, 1, 1, 1, 1, 1, 0, 0, 0, 0, 0, 0, kNoSegment});
   CHECK(result.report.segmentation->segmentCount == 2);
   REQUIRE(normalizedOf(result).size() == 13);
   CHECK(std::isnan(normalizedOf(result).back()));

@@ -8,6 +8,7 @@
 #include "core/check.h"
 #include "sample_problems.h"
 #include "slow_expansion.h"
+#include "support/require_failure.h"
 
 using namespace asdfvk;
 
@@ -150,6 +151,19 @@ TEST_CASE("a list of the allowed labels gives the same as a table of all") {
     CHECK(AlphaExpansion().minimize(list, labels) == energy);
     CHECK(labels == expected);
   }
+}
+
+TEST_CASE("a requested stop ends the expansion") {
+  std::stop_source source;
+  source.request_stop();
+  const std::vector<double> costs{0, 1, 1, 0};
+  const std::vector<LabelEdge> edges{{0, 1, 1}};
+  std::vector<uint32_t> labels{1, 0};
+  test::requireFailure(
+      [&] {
+        AlphaExpansion().minimize({2, costs, edges}, labels, {}, {source.get_token(), {}});
+      },
+      ErrorCode::Cancelled);
 }
 
 TEST_CASE("no faces and no edges") {

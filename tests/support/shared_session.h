@@ -44,4 +44,12 @@ inline const Warning* findWarning(const Report& report, WarningCode code) {
   return found == report.warnings.end() ? nullptr : &*found;
 }
 
+/// The field "segment".
+inline const std::vector<uint32_t>& segmentsOf(const Result& result) {
+  const Field* field = result.field("segment");
+  REQUIRE(field != nullptr);
+  CHECK(field->unit.empty());
+  return std::get<std::vector<uint32_t>>(field->values);
+}
+
 }  // namespace asdfvk::test

@@ -63,7 +63,7 @@ double bruteForce(const Mesh& mesh, const test::BruteForceThickness& balls, cons
   return valid < kNoHit ? valid : kNoValue;
 }
 
-void checkAgainstBruteForce(const std::string& name, const Mesh& mesh, double wallAngle = 120) {
+void checkThicknessByBruteForce(const std::string& name, const Mesh& mesh, double wallAngle = 120) {
   CAPTURE(name);
   const TracedMesh traced(mesh);
   const Thickness found = measureByReference(traced, wallAngle);
@@ -108,11 +108,11 @@ std::vector<Mesh> variousMeshes() {
 
 TEST_CASE("the reference has the thickness of brute force") {
   int index = 0;
-  for (const Mesh& mesh : variousMeshes()) checkAgainstBruteForce(std::to_string(index++), mesh);
-  checkAgainstBruteForce("dented sphere", shapes::jittered(shapes::icosphere(3), 0.05, 1));
-  checkAgainstBruteForce("cylinder", shapes::cylinder(1, 5, 25, 8));
-  checkAgainstBruteForce("hand, 150 degrees", shapeNamed("hand", 1500), 150);
-  checkAgainstBruteForce("hand, 91 degrees", shapeNamed("hand", 1500), 91);
+  for (const Mesh& mesh : variousMeshes()) checkThicknessByBruteForce(std::to_string(index++), mesh);
+  checkThicknessByBruteForce("dented sphere", shapes::jittered(shapes::icosphere(3), 0.05, 1));
+  checkThicknessByBruteForce("cylinder", shapes::cylinder(1, 5, 25, 8));
+  checkThicknessByBruteForce("hand, 150 degrees", shapeNamed("hand", 1500), 150);
+  checkThicknessByBruteForce("hand, 91 degrees", shapeNamed("hand", 1500), 91);
 }
 
 TEST_CASE("a slab and a cube have the distance of their walls, edges at a right angle are not thin") {
@@ -181,8 +181,8 @@ TEST_CASE("without an opposing wall the least ray counts, without a valid hit th
   const Mesh pyramid{{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, {0, 0, 2}},
                      {{0, 2, 1}, {0, 3, 2}, {0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}},
                      {}};
-  checkAgainstBruteForce("pyramid",
-                         shapes::joined(pyramid, shapes::scaledAndShifted(shapes::icosphere(1), 0.3, {9, 0, 0})), 175);
+  checkThicknessByBruteForce(
+      "pyramid", shapes::joined(pyramid, shapes::scaledAndShifted(shapes::icosphere(1), 0.3, {9, 0, 0})), 175);
   const TracedMesh traced(pyramid);
   CHECK(measureByReference(traced, 175).statistics.unrefinedCount == 6);
   const TracedMesh inverted(shapes::inverted(shapes::icosphere(1)));

@@ -15,7 +15,7 @@
 namespace asdfvk {
 namespace {
 
-constexpr uint64_t kFirstChunk = 4096;
+constexpr uint64_t kFirstChunkInvocationCount = 4096;
 constexpr uint64_t kMaxChunk = 1u << 17;  // 4 MiB of 32 bytes each.
 
 uint64_t largestChunk(const Device& device) {
@@ -50,11 +50,12 @@ class VulkanBallShrinker final : public BallShrinker {
     });
     std::vector<uint32_t> redone(firstSmall, order.end());  // Indices into balls.
     order.erase(firstSmall, order.end());
-    forEachChunk(order.size(), ChunkSize(kFirstChunk, largestChunk_), control, [&](size_t begin, size_t end) {
-      const std::span<const uint32_t> chunk = std::span(order).subspan(begin, end - begin);
-      run(balls, chunk);
-      read(balls, chunk, redone);
-    });
+    forEachChunk(order.size(), ChunkSize(kFirstChunkInvocationCount, largestChunk_), control,
+                 [&](size_t begin, size_t end) {
+                   const std::span<const uint32_t> chunk = std::span(order).subspan(begin, end - begin);
+                   run(balls, chunk);
+                   read(balls, chunk, redone);
+                 });
     redo(balls, redone, control);
     return redone.size();
   }
