@@ -29,7 +29,7 @@ struct CgalReference {
 
 }  // namespace
 
-TEST_CASE("the kernels give the reference's values by CGAL's definition") {
+TEST_CASE("the kernels give the reference's values by CGAL's definition" * doctest::test_suite("slow")) {
   const test::ValidatedDevice device;
   std::vector<CgalReference> references;
   for (const std::string_view name : shapeNames()) references.emplace_back(generateShape(name, 2000).mesh, 25);

@@ -127,7 +127,7 @@ TEST_CASE("a slab and a cube have the distance of their walls, edges at a right 
   }
 }
 
-TEST_CASE("spheres, cylinders and tori approach their diameters as the mesh becomes finer") {
+TEST_CASE("spheres, cylinders and tori approach their diameters as the mesh becomes finer" * doctest::test_suite("slow")) {
   const auto worstOf = [](const Mesh& mesh, double diameter, double greatestHeight) {
     const TracedMesh traced(mesh);
     const std::vector<double> values = measureByReference(traced).values;
@@ -274,7 +274,7 @@ TEST_CASE("Embree has the reference's thickness") {
   }
 }
 
-TEST_CASE("the kernel has the reference's thickness, in every variant") {
+TEST_CASE("the kernel has the reference's thickness, in every variant" * doctest::test_suite("slow")) {
   const test::ValidatedDevice device;
   for (const Mesh& mesh : variousMeshes()) {
     const TracedMesh traced(mesh);

@@ -86,7 +86,7 @@ TEST_CASE("any number of rays gives the reference's hits" * doctest::test_suite(
   }
 }
 
-TEST_CASE("writing hits changes no bit of the values") {
+TEST_CASE("writing hits changes no bit of the values" * doctest::test_suite("slow")) {
   const test::ValidatedDevice device;
   std::vector<TracedMesh> meshes;
   for (const std::string_view name : {"animal", "hand", "torus"}) meshes.emplace_back(generateShape(name, 2000).mesh);

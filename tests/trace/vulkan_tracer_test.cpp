@@ -42,7 +42,7 @@ std::vector<std::vector<double>> referencesOf(const std::vector<TracedMesh>& mes
 
 }  // namespace
 
-TEST_CASE("the kernel gives the reference's values on every generated shape") {
+TEST_CASE("the kernel gives the reference's values on every generated shape" * doctest::test_suite("slow")) {
   const test::ValidatedDevice device;
   std::vector<TracedMesh> meshes;
   for (const std::string_view name : shapeNames()) meshes.emplace_back(generateShape(name, 1200).mesh);
