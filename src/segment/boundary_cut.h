@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "asdf_vk/run_control.h"
 #include "segment/part_surface.h"
 
 namespace asdfvk {

@@ -127,7 +127,8 @@ TEST_CASE("a slab and a cube have the distance of their walls, edges at a right 
   }
 }
 
-TEST_CASE("spheres, cylinders and tori approach their diameters as the mesh becomes finer" * doctest::test_suite("slow")) {
+TEST_CASE("spheres, cylinders and tori approach their diameters as the mesh becomes finer" *
+          doctest::test_suite("slow")) {
   const auto worstOf = [](const Mesh& mesh, double diameter, double greatestHeight) {
     const TracedMesh traced(mesh);
     const std::vector<double> values = measureByReference(traced).values;
