@@ -15,6 +15,8 @@ struct RunControl {
 
   /// Reports progress. Throws Error{Cancelled} when a stop was requested.
   ASDFVK_API void checkpoint(double fraction) const;
+  /// Cancellation only, for steps that report no progress.
+  [[nodiscard]] RunControl withoutProgress() const { return {stop, {}}; }
   /// Control for a part of the work: maps the progress 0..1 of the part to from..to of the whole. The part must not
   /// outlive this object.
   [[nodiscard]] ASDFVK_API RunControl part(double from, double to) const;

@@ -64,7 +64,7 @@ void RunControl::checkpoint(double fraction) const {
 }
 
 RunControl RunControl::part(double from, double to) const {
-  RunControl control{stop, {}};
+  RunControl control = withoutProgress();
   if (progress) control.progress = [this, from, to](double fraction) { progress(from + fraction * (to - from)); };
   return control;
 }

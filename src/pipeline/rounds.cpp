@@ -64,7 +64,7 @@ class Rounds {
   RoundsResult run(const RunControl& control) {
     const uint64_t traceableCount = computation_.prepared.traceableFaces.size();
     runRound(resolveSeedCount(options_.seeds, traceableCount), !options_.rounds.areSet(), control);
-    while (const uint64_t further = furtherCount()) runRound(further, false, {control.stop, {}});
+    while (const uint64_t further = furtherCount()) runRound(further, false, control.withoutProgress());
     FaceThickness thickness = measureThickness(control);
     control.checkpoint(1);
     return {std::move(traced_), std::move(result_), std::move(errors_), roundCount_, std::move(thickness)};
@@ -230,10 +230,10 @@ std::vector<double> Rounds::solveWithoutHeldOut(std::span<const uint32_t> extrem
 FaceThickness Rounds::measureThickness(const RunControl& control) {
   if (!computation_.measuresThickness()) return {};
   const auto scope = clock_.time(Stage::Thickness);
-  FaceThickness thickness = interpolateThickness(computation_, traced_, {control.stop, {}});
+  FaceThickness thickness = interpolateThickness(computation_, traced_, control.withoutProgress());
   if (verifiesThickness(computation_) && remainingCount() > 0) {
     const std::span<const double> expected = errors_ ? std::span<const double>(errors_->expected) : std::span<double>{};
-    verifyThinRegions(computation_, *tracing_, expected, thickness, {control.stop, {}});
+    verifyThinRegions(computation_, *tracing_, expected, thickness, control.withoutProgress());
   }
   return thickness;
 }

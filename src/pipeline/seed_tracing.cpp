@@ -99,9 +99,8 @@ void SeedTracing::traceComponentsWithoutValue(TracedSeeds& traced, const RunCont
   if (untried.empty()) return;
   ComponentSeeds further(computation_.prepared.components.componentOf, traced.values, untried,
                          computation_.options.randomSeed);
-  const RunControl silent{control.stop, {}};
   for (auto batch = further.next(traced.values); !batch.empty(); batch = further.next(traced.values))
-    trace(batch, traced, silent);
+    trace(batch, traced, control.withoutProgress());
 }
 
 }  // namespace asdfvk

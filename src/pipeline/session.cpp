@@ -174,9 +174,9 @@ Result Session::compute(const MeshView& mesh, const Options& options, const RunC
   describeRounds(report, rounds);
   if (computation.keepsMissing()) removeMissing(prepared, rounds);
   const std::vector<double> values = finalValues(prepared, rounds.interpolated.values, options.smoothing, clock);
-  const RunControl silent{control.stop, {}};
+  const RunControl stopOnly = control.withoutProgress();
   SegmentedValues segmented = segmentValues(
-      prepared, values, options, makeLineOfSight(scene, backend.isReference(), silent), clock, report, silent);
+      prepared, values, options, makeLineOfSight(scene, backend.isReference(), stopOnly), clock, report, stopOnly);
   if (options.checkCount)
     report.check =
         checkAgainstReference(scene, cone, prepared.traceableFaces, {rounds.traced, values, backend.isReference()},

@@ -23,7 +23,7 @@ double labelEnergy(const LabelProblem& problem, std::span<const uint32_t> labels
 
 double AlphaExpansion::minimize(const LabelProblem& problem, std::span<uint32_t> labels, const Limits& limits,
                                 const RunControl& control) {
-  const RunControl stopOnly{control.stop, {}};
+  const RunControl stopOnly = control.withoutProgress();
   ASDFVK_CHECK_OP(labels.size(), ==, problem.faceCount());
   double energy = labelEnergy(problem, labels);
   ASDFVK_CHECK(std::isfinite(energy));

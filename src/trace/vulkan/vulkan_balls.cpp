@@ -92,7 +92,7 @@ class VulkanBallShrinker final : public BallShrinker {
     if (indices.empty()) return;
     std::vector<InscribedBall> copies;
     for (const uint32_t i : indices) copies.push_back(balls[i]);
-    makeReferenceBallShrinker(scene_, walls_)->shrink(copies, {control.stop, {}});
+    makeReferenceBallShrinker(scene_, walls_)->shrink(copies, control.withoutProgress());
     for (size_t i = 0; i < indices.size(); ++i) balls[indices[i]] = copies[i];
   }
 
