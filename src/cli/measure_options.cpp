@@ -72,9 +72,7 @@ void completeMeasure(const CLI::App& app, CommandLine& line) {
     return;
   }
   if (app.count("--wall-angle") > 0) fail("--wall-angle needs --measure thickness");
-  if (std::count(line.fields.begin(), line.fields.end(), kField) > 0)
-    fail("--fields thickness needs --measure thickness");
-  if (line.pictureOf == kField) fail("--picture-of thickness needs --measure thickness");
+  refuseField(line, kField, "--measure thickness");
 }
 
 nlohmann::ordered_json measureOptionValues(const CommandLine& line) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -77,6 +78,14 @@ std::string toText(const SeedCount& seeds) {
       break;
   }
   return fmt::format("{:.6g}%", seeds.share * 100);
+}
+
+void refuseField(const CommandLine& line, const std::string& field, const std::string& needed) {
+  const auto refuse = [&](const char* option) {
+    throw Error(ErrorCode::OptionConflict, fmt::format("{} {} needs {}", option, field, needed));
+  };
+  if (std::count(line.fields.begin(), line.fields.end(), field) > 0) refuse("--fields");
+  if (line.pictureOf == field) refuse("--picture-of");
 }
 
 }  // namespace asdfvk

@@ -29,6 +29,9 @@ inline constexpr double kFirstRoundShare = 0.02;
 /// Adds the options of the computation, which set line.options and line.recipe.
 void addComputation(CLI::App& app, CommandLine& line);
 
+/// Throws Error{OptionConflict} where --fields or --picture-of names a field that only the option `needed` computes.
+void refuseField(const CommandLine& line, const std::string& field, const std::string& needed);
+
 /// Adds the options of post-processing and segmentation.
 void addSegments(CLI::App& app, Options& options);
 

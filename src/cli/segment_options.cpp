@@ -45,8 +45,8 @@ void addParts(CLI::App& app, PartsOptions& options) {
 void addCgal(CLI::App& app, CgalSegmentationOptions& options) {
   const CgalSegmentationOptions defaults;
   addValue(app, "--clusters", "K",
-           fmt::format("--segment cgal: clusters of values, 2 to {}; the number of segments is\n"
-                       "another one; default {}",
+           fmt::format("--segment cgal: clusters of values, 2 to {}; not the number of segments;\n"
+                       "default {}",
                        kMaxClusterCount, defaults.clusterCount),
            [&](const std::string& text) {
              options.clusterCount = static_cast<uint32_t>(parseWholeNumber(text, 2, kMaxClusterCount));
@@ -113,10 +113,7 @@ void completeSegments(const CLI::App& app, CommandLine& line) {
   if (options.postprocesses()) options.postprocess = Postprocess::Cgal;
   const auto require = [&](const char* field, bool isComputed, const char* remedy) {
     if (isComputed && !isGiven("--fields")) line.fields.emplace_back(field);
-    if (isComputed) return;
-    if (std::count(line.fields.begin(), line.fields.end(), field) > 0)
-      fail(fmt::format("--fields {} needs {}", field, remedy));
-    if (line.pictureOf == field) fail(fmt::format("--picture-of {} needs {}", field, remedy));
+    if (!isComputed) refuseField(line, field, remedy);
   };
   require("normalized", options.postprocesses(), "--postprocess cgal");
   require("segment", options.segmentation != Segmentation::None, "--segment");
