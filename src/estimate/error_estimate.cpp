@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/median.h"
+#include "core/weighted_sample.h"
 
 namespace asdfvk {
 namespace {
@@ -82,37 +83,6 @@ std::vector<ErrorEstimate::WorstFace> worstOf(const TriangleMesh& mesh, std::vec
 
 /// 0 / 0 is 0: a value without an error.
 double relativeError(double error, double value) { return error == 0 ? 0 : error / std::abs(value); }
-
-/// Numbers that stand for several faces each.
-class WeightedSample {
- public:
-  void add(double number, double weight) { entries_.push_back({number, weight}); }
-
-  /// Before the first quantile.
-  void sort() {
-    std::sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) {
-      return a.number != b.number ? a.number < b.number : a.weight < b.weight;
-    });
-    for (const Entry& entry : entries_) sum_ += entry.weight;
-  }
-
-  /// The smallest number such that at least this share of the weights is at numbers up to it.
-  [[nodiscard]] double quantile(double share) const {
-    double below = 0;
-    for (const Entry& entry : entries_) {
-      below += entry.weight;
-      if (below >= share * sum_) return entry.number;
-    }
-    return entries_.back().number;
-  }
-
- private:
-  struct Entry {
-    double number, weight;
-  };
-  std::vector<Entry> entries_;
-  double sum_ = 0;
-};
 
 /// Quantiles of the relative errors: of seeds, which are known, and of held-out faces, each of which stands for
 /// interpolated faces by its sampling weight. interpolatedCount: those with a value.

@@ -3,38 +3,25 @@
 #include <numeric>
 #include <utility>
 
+#include "core/weighted_sample.h"
 #include "pipeline/thickness.h"
 
 namespace asdfvk {
 namespace {
 
-/// The least value such that triangles of at least `share` of the area have a value up to it. order: of the triangles
-/// with a value, by value.
-double percentileOf(std::span<const uint32_t> order, std::span<const double> values, std::span<const double> areas,
-                    double totalArea, double share) {
-  double area = 0;
-  for (const uint32_t face : order) {
-    area += areas[face];
-    if (area >= share * totalArea) return values[face];
-  }
-  return order.empty() ? kNoValue : values[order.back()];
-}
-
+/// By area, over the triangles with a value.
 void describePercentiles(std::span<const double> values, std::span<const double> areas, ThicknessReport& report) {
-  std::vector<uint32_t> order;
-  for (uint32_t face = 0; face < values.size(); ++face)
-    if (!std::isnan(values[face])) order.push_back(face);
-  if (order.empty()) return;
-  std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return values[a] < values[b]; });
-  double total = 0;
-  for (const uint32_t face : order) total += areas[face];
-  const auto percentile = [&](double share) { return percentileOf(order, values, areas, total, share); };
-  report.min = values[order.front()];
-  report.percentile1 = percentile(0.01);
-  report.percentile5 = percentile(0.05);
-  report.median = percentile(0.5);
-  report.percentile95 = percentile(0.95);
-  report.max = values[order.back()];
+  WeightedSample sample;
+  for (size_t face = 0; face < values.size(); ++face)
+    if (!std::isnan(values[face])) sample.add(values[face], areas[face]);
+  if (sample.isEmpty()) return;
+  sample.sort();
+  report.min = sample.min();
+  report.percentile1 = sample.quantile(0.01);
+  report.percentile5 = sample.quantile(0.05);
+  report.median = sample.quantile(0.5);
+  report.percentile95 = sample.quantile(0.95);
+  report.max = sample.max();
 }
 
 /// The thin faces that are connected with `first`, itself included; ascending.
