@@ -8,6 +8,7 @@
 #include "generate/shapes.h"
 #include "pipeline/segments.h"
 #include "segment/rand_index.h"
+#include "support/quad_cubes.h"
 #include "support/require_failure.h"
 #include "support/shared_session.h"
 #include "trace/cone_tracer.h"
@@ -161,28 +162,8 @@ TEST_CASE("shares of the area do not depend on the scale") {
 }
 
 TEST_CASE("parts of polygons are labels of input faces") {
-  // The sides of two cubes as quads, and a face of two corners.
-  std::vector<double> positions;
-  std::vector<uint32_t> corners;
-  std::vector<uint64_t> firstCorner{0};
-  for (const double shift : {0.0, 3.0}) {
-    const auto offset = static_cast<uint32_t>(positions.size() / 3);
-    for (uint32_t i = 0; i < 8; ++i)
-      for (uint32_t axis = 0; axis < 3; ++axis) positions.push_back(((i >> axis) & 1) + (axis == 0 ? shift : 0));
-    for (const auto& quad : {std::array{0u, 2u, 3u, 1u},
-                             {4u, 5u, 7u, 6u},
-                             {0u, 1u, 5u, 4u},
-                             {2u, 6u, 7u, 3u},
-                             {0u, 4u, 6u, 2u},
-                             {1u, 3u, 7u, 5u}}) {
-      for (const uint32_t corner : quad) corners.push_back(corner + offset);
-      firstCorner.push_back(corners.size());
-    }
-  }
-  corners.insert(corners.end(), {0, 1});
-  firstCorner.push_back(corners.size());
-  const MeshView mesh(std::span<const double>(positions), corners, firstCorner);
-  const Result result = fastSession().compute(mesh, withParts());
+  const test::QuadCubes cubes(std::array{test::QuadCubes::Cube{1, 0}, test::QuadCubes::Cube{1, 3}});
+  const Result result = fastSession().compute(cubes.view(), withParts());
   const Labels& labels = test::segmentsOf(result);
   REQUIRE(labels.size() == 13);
   CHECK(labels[12] == kNoSegment);

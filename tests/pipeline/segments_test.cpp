@@ -13,7 +13,9 @@
 #include "pipeline/result.h"
 #include "segment/cgal_postprocess.h"
 #include "segment/cgal_segmentation.h"
+#include "support/quad_cubes.h"
 #include "support/require_failure.h"
+#include "support/shapes.h"
 #include "support/shared_session.h"
 #include "trace/cone_tracer.h"
 
@@ -41,18 +43,11 @@ const std::vector<double>& normalizedOf(const Result& result) {
   return std::get<std::vector<double>>(field->values);
 }
 
-/// Appends a copy of `other`, scaled and shifted.
-void append(Mesh& mesh, const Mesh& other, double scale, const Vec3d& shift) {
-  const auto offset = static_cast<uint32_t>(mesh.vertices.size());
-  for (const Vec3d& v : other.vertices) mesh.vertices.push_back(v * scale + shift);
-  for (const auto& [a, b, c] : other.faces) mesh.faces.push_back({a + offset, b + offset, c + offset});
-}
-
 /// A sphere and two of half its size.
 Mesh threeSpheres() {
   Mesh mesh = makeSphere(320).mesh;
-  append(mesh, makeSphere(80).mesh, 0.5, {4, 0, 0});
-  append(mesh, makeSphere(80).mesh, 0.5, {-4, 0, 0});
+  mesh = shapes::joined(std::move(mesh), shapes::scaledAndShifted(makeSphere(80).mesh, 0.5), {4, 0, 0});
+  mesh = shapes::joined(std::move(mesh), shapes::scaledAndShifted(makeSphere(80).mesh, 0.5), {-4, 0, 0});
   return mesh;
 }
 
@@ -176,7 +171,7 @@ TEST_CASE("the same bits on one thread and on two, and with a power of two as th
 
 TEST_CASE("a face without a value is filled, and so is a component without any") {
   Mesh mesh = makeSphere(320).mesh;
-  append(mesh, Mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}, {}}, 1, {5, 0, 0});
+  mesh = shapes::joined(std::move(mesh), Mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}, {}}, {5, 0, 0});
   const Result result = referenceSession().compute(mesh, segmented(2));
   CHECK(std::isnan(result.sdf().back()));
   CHECK(result.report.noValueCount == 1);
@@ -278,29 +273,8 @@ TEST_CASE("a polygon has the label of its largest area; labels without a polygon
 }
 
 TEST_CASE("a mesh of polygons has one normalised value and one segment per input face") {
-  // The sides of a cube and the faces of a smaller one, all quads, and a face of two corners.
-  std::vector<double> positions;
-  std::vector<uint32_t> corners;
-  std::vector<uint64_t> firstCorner{0};
-  for (const double size : {1.0, 0.25}) {
-    const auto offset = static_cast<uint32_t>(positions.size() / 3);
-    for (uint32_t i = 0; i < 8; ++i)
-      for (uint32_t axis = 0; axis < 3; ++axis)
-        positions.push_back(size * ((i >> axis) & 1) + (size < 1 && axis == 0 ? 3 : 0));
-    for (const auto& quad : {std::array{0u, 2u, 3u, 1u},
-                             {4u, 5u, 7u, 6u},
-                             {0u, 1u, 5u, 4u},
-                             {2u, 6u, 7u, 3u},
-                             {0u, 4u, 6u, 2u},
-                             {1u, 3u, 7u, 5u}}) {
-      for (const uint32_t corner : quad) corners.push_back(corner + offset);
-      firstCorner.push_back(corners.size());
-    }
-  }
-  corners.insert(corners.end(), {0, 1});
-  firstCorner.push_back(corners.size());
-  const MeshView mesh(std::span<const double>(positions), corners, firstCorner);
-  const Result result = referenceSession().compute(mesh, segmented(2));
+  const test::QuadCubes cubes(std::array{test::QuadCubes::Cube{1, 0}, test::QuadCubes::Cube{0.25, 3}});
+  const Result result = referenceSession().compute(cubes.view(), segmented(2));
   CHECK(test::segmentsOf(result) == Labels{1, 1, 1, 1, 1, 1, 0, 0, 0, 0, 0, 0, kNoSegment});
   CHECK(result.report.segmentation->segmentCount == 2);
   REQUIRE(normalizedOf(result).size() == 13);

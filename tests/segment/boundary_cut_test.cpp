@@ -6,6 +6,7 @@
 
 #include "generate/analytic_shapes.h"
 #include "part_samples.h"
+#include "support/shapes.h"
 
 using namespace asdfvk;
 using namespace asdfvk::test;
@@ -101,7 +102,7 @@ TEST_CASE("a small label keeps its inner half") {
 
 TEST_CASE("faces without a label keep none") {
   Mesh mesh = makeSphere(320).mesh;
-  append(mesh, makeSphere(20).mesh, 0.1, {3, 0, 0});
+  mesh = shapes::joined(std::move(mesh), shapes::scaledAndShifted(makeSphere(20).mesh, 0.1), {3, 0, 0});
   Labels labels(mesh.faces.size(), 0);
   for (uint32_t face = 100; face < 320; ++face) labels[face] = 1;
   std::fill(labels.begin() + 320, labels.end(), kNoLabel);

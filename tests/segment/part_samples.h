@@ -54,13 +54,6 @@ inline std::vector<uint8_t> seeEverything(std::span<const LineSegment> segments)
   return std::vector<uint8_t>(segments.size(), 1);
 }
 
-/// Appends a copy of `other`, scaled and shifted.
-inline void append(Mesh& mesh, const Mesh& other, double scale, const Vec3d& shift) {
-  const auto offset = static_cast<uint32_t>(mesh.vertices.size());
-  for (const Vec3d& v : other.vertices) mesh.vertices.push_back(v * scale + shift);
-  for (const auto& [a, b, c] : other.faces) mesh.faces.push_back({a + offset, b + offset, c + offset});
-}
-
 /// The labels are 0 .. count - 1, each in use.
 inline bool areConsecutive(const std::vector<uint32_t>& labels, uint32_t count) {
   std::vector<uint8_t> isUsed(count, 0);

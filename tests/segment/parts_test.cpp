@@ -10,6 +10,7 @@
 #include "part_samples.h"
 #include "segment/rand_index.h"
 #include "support/require_failure.h"
+#include "support/shapes.h"
 
 using namespace asdfvk;
 using namespace asdfvk::test;
@@ -194,9 +195,11 @@ TEST_CASE("missing values, zero values and holes change little") {
 
 TEST_CASE("a part does not extend over components, unless they are small") {
   Mesh mesh = makeSphere(320).mesh;
-  append(mesh, makeSphere(80).mesh, 0.5, {4, 0, 0});
-  append(mesh, makeSphere(20).mesh, 0.05, {0, 0, 1.1});   // A thousandth of the area, near the first one.
-  append(mesh, makeSphere(20).mesh, 0.05, {4, 0, -0.6});  // The same near the second one.
+  mesh = shapes::joined(std::move(mesh), shapes::scaledAndShifted(makeSphere(80).mesh, 0.5), {4, 0, 0});
+  mesh = shapes::joined(std::move(mesh), shapes::scaledAndShifted(makeSphere(20).mesh, 0.05),
+                        {0, 0, 1.1});  // A thousandth of the area, near the first one.
+  mesh = shapes::joined(std::move(mesh), shapes::scaledAndShifted(makeSphere(20).mesh, 0.05),
+                        {4, 0, -0.6});  // The same near the second one.
   const Parts parts = segment(mesh);
   checkParts(parts, mesh.faces.size());
   CHECK(parts.partCount == 2);
@@ -210,8 +213,11 @@ TEST_CASE("equal objects are a part each, though one of them is a little larger"
   const Mesh tetrahedron{
       {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}, {}};
   Mesh mesh;
-  for (int i = 0; i < 121; ++i) append(mesh, tetrahedron, i == 60 ? 1.2 : 1, {2.0 * (i % 11), 2.0 * (i / 11), 0});
-  append(mesh, tetrahedron, 0.01, {-0.1, 0, 0});  // Far below 1 % of the largest one.
+  for (int i = 0; i < 121; ++i)
+    mesh = shapes::joined(std::move(mesh), shapes::scaledAndShifted(tetrahedron, i == 60 ? 1.2 : 1),
+                          {2.0 * (i % 11), 2.0 * (i / 11), 0});
+  mesh = shapes::joined(std::move(mesh), shapes::scaledAndShifted(tetrahedron, 0.01),
+                        {-0.1, 0, 0});  // Far below 1 % of the largest one.
   const Parts parts = segment(mesh);
   checkParts(parts, mesh.faces.size());
   CHECK(parts.partCount == 121);
@@ -227,7 +233,7 @@ TEST_CASE("equal objects are a part each, though one of them is a little larger"
 TEST_CASE("a soup of small components has a part for each") {
   Mesh soup;
   for (int i = 0; i < 150; ++i)
-    append(soup, Mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}, {}}, 1, {2.0 * i, 0, 0});
+    soup = shapes::joined(std::move(soup), Mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}, {}}, {2.0 * i, 0, 0});
   const Parts parts = segment(soup);
   checkParts(parts, 150);
   CHECK(parts.partCount == 150);
@@ -283,7 +289,7 @@ TEST_CASE("a wall around a cavity is a thin shell; a plate, a tube and a ball ar
   Mesh bowl = makeSphere(1280).mesh;
   Mesh inside = makeSphere(1280).mesh;
   for (Face& face : inside.faces) std::swap(face[1], face[2]);
-  append(bowl, inside, 0.9, {});
+  bowl = shapes::joined(std::move(bowl), shapes::scaledAndShifted(inside, 0.9));
   CHECK(isShell(bowl, 0.125, blocked));
   CHECK_FALSE(isShell(bowl, 0.125, seeEverything));
   CHECK_FALSE(isShell(makeSlab(1000).mesh, 0.125, seeEverything));

@@ -7,6 +7,7 @@
 
 #include "generate/analytic_shapes.h"
 #include "part_samples.h"
+#include "support/shapes.h"
 
 using namespace asdfvk;
 using namespace asdfvk::test;
@@ -66,7 +67,7 @@ TEST_CASE("two faces with several common edges have an arc for each") {
 
 TEST_CASE("a missing value is that of the nearest face, and a component without any has the mean") {
   Mesh mesh = makeSphere(80).mesh;
-  append(mesh, makeSphere(20).mesh, 1, {5, 0, 0});
+  mesh = shapes::joined(std::move(mesh), makeSphere(20).mesh, {5, 0, 0});
   std::vector<double> values(100, std::nan(""));
   values[0] = 1;
   values[70] = 4;
@@ -117,7 +118,7 @@ TEST_CASE("patches cover the surface, are connected, and have about equal areas"
 
 TEST_CASE("components without a seed have no patch, and a patch per face is the most") {
   Mesh mesh = makeSphere(80).mesh;
-  append(mesh, makeSphere(20).mesh, 1, {5, 0, 0});
+  mesh = shapes::joined(std::move(mesh), makeSphere(20).mesh, {5, 0, 0});
   const Surface both(mesh);
   const std::vector<uint32_t> first{0}, second{0, 90};
   const Patches one = makePatches(both.surface, first, std::vector<uint32_t>{7})[0];
