@@ -51,8 +51,8 @@ double leastDiameter(const Vec3d& axis, const WallTriangle& wall, double limit) 
   const Vec3d point = 0.5 * diameter * (offset < 0 ? axis - wall.normal : axis + wall.normal);
   bool isInside = hasPoint;
   double least = kInfinity;
-  // All larger balls contain the point in which the least one touches the plane. So, where it is outside of the
-  // triangle, the least diameter over the triangle is on an edge that faces it.
+  // Balls that touch the plane all contain the point at which the least of them touches it. If this point is outside of
+  // the triangle, the least diameter over the triangle is on an edge that faces the point.
   const auto visitEdge = [&](const Vec3d& from, const Vec3d& to) {
     if (hasPoint && dot(cross(to - from, point - from), wall.normal) >= 0) return;
     isInside = false;

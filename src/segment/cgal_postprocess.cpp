@@ -19,15 +19,15 @@ class RingSearch {
  public:
   explicit RingSearch(size_t faceCount) : visitedFor_(faceCount, kNoNeighbour) {}
 
-  void search(const FaceNeighbours& neighbours, uint32_t center, uint32_t ringCount) {
-    faces_.assign(1, center);
+  void search(const FaceNeighbours& neighbours, uint32_t centre, uint32_t ringCount) {
+    faces_.assign(1, centre);
     ringEnds_.assign(1, 1);
-    visitedFor_[center] = center;
+    visitedFor_[centre] = centre;
     for (size_t parent = 0; ringEnds_.size() <= ringCount;) {
       for (const size_t end = faces_.size(); parent < end; ++parent)
         for (const uint32_t face : neighbours[faces_[parent]])
-          if (face != kNoNeighbour && visitedFor_[face] != center) {
-            visitedFor_[face] = center;
+          if (face != kNoNeighbour && visitedFor_[face] != centre) {
+            visitedFor_[face] = centre;
             faces_.push_back(face);
           }
       ringEnds_.push_back(faces_.size());
@@ -38,7 +38,7 @@ class RingSearch {
   [[nodiscard]] std::span<const size_t> ringEnds() const { return ringEnds_; }  ///< In faces(), from ring 0 on.
 
  private:
-  std::vector<uint32_t> visitedFor_;  ///< #F, the center of the last search that found the face.
+  std::vector<uint32_t> visitedFor_;  ///< #F, the centre of the last search that found the face.
   std::vector<uint32_t> faces_;
   std::vector<size_t> ringEnds_;
 };

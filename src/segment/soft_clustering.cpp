@@ -86,14 +86,14 @@ std::vector<double> chooseSeeds(std::span<const double> values, uint32_t cluster
   return seeds;
 }
 
-/// Returns whether a value changed its cluster. The first of equally near centers.
-bool assignToNearest(std::span<const double> values, std::span<const double> centers, std::span<uint32_t> clusterOf) {
+/// Returns whether a value changed its cluster. The first of equally near centres.
+bool assignToNearest(std::span<const double> values, std::span<const double> centres, std::span<uint32_t> clusterOf) {
   bool isChanged = false;
   for (size_t i = 0; i < values.size(); ++i) {
     uint32_t nearest = 0;
-    double least = std::abs(values[i] - centers[0]);
-    for (uint32_t c = 1; c < centers.size(); ++c) {
-      const double distance = std::abs(values[i] - centers[c]);
+    double least = std::abs(values[i] - centres[0]);
+    for (uint32_t c = 1; c < centres.size(); ++c) {
+      const double distance = std::abs(values[i] - centres[c]);
       nearest = distance < least ? c : nearest;
       least = std::min(least, distance);
     }
@@ -103,15 +103,15 @@ bool assignToNearest(std::span<const double> values, std::span<const double> cen
   return isChanged;
 }
 
-/// A center without values stays.
-void moveToMeans(std::span<const double> values, std::span<const uint32_t> clusterOf, std::span<double> centers) {
-  std::vector<double> sums(centers.size()), counts(centers.size());
+/// A centre without values stays.
+void moveToMeans(std::span<const double> values, std::span<const uint32_t> clusterOf, std::span<double> centres) {
+  std::vector<double> sums(centres.size()), counts(centres.size());
   for (size_t i = 0; i < values.size(); ++i) {
     sums[clusterOf[i]] += values[i];
     ++counts[clusterOf[i]];
   }
-  for (size_t c = 0; c < centers.size(); ++c)
-    if (counts[c] > 0) centers[c] = sums[c] / counts[c];
+  for (size_t c = 0; c < centres.size(); ++c)
+    if (counts[c] > 0) centres[c] = sums[c] / counts[c];
 }
 
 struct Gaussian {
@@ -130,16 +130,16 @@ class Mixture {
  public:
   /// Starts at the means of the clusters, with equal weights.
   Mixture(std::span<const double> values, const HardClustering& clusters)
-      : values_(values), probabilities_(values.size() * clusters.centers.size()) {
-    std::vector<double> squares(clusters.centers.size()), counts(clusters.centers.size());
+      : values_(values), probabilities_(values.size() * clusters.centres.size()) {
+    std::vector<double> squares(clusters.centres.size()), counts(clusters.centres.size());
     for (size_t i = 0; i < values.size(); ++i) {
-      const double distance = values[i] - clusters.centers[clusters.clusterOf[i]];
+      const double distance = values[i] - clusters.centres[clusters.clusterOf[i]];
       squares[clusters.clusterOf[i]] += distance * distance;
       ++counts[clusters.clusterOf[i]];
     }
-    const double weight = 1.0 / static_cast<double>(clusters.centers.size());
-    for (size_t c = 0; c < clusters.centers.size(); ++c)
-      gaussians_.push_back({clusters.centers[c], counts[c] > 0 ? std::sqrt(squares[c] / counts[c]) : 0, weight});
+    const double weight = 1.0 / static_cast<double>(clusters.centres.size());
+    for (size_t c = 0; c < clusters.centres.size(); ++c)
+      gaussians_.push_back({clusters.centres[c], counts[c] > 0 ? std::sqrt(squares[c] / counts[c]) : 0, weight});
   }
 
   /// Sets the probabilities of the clusters; returns the logarithm of the likelihood, without constants.
@@ -242,11 +242,11 @@ HardClustering clusterByMeans(std::span<const double> values, uint32_t clusterCo
                 fmt::format("{} clusters is out of range (1 to {})", clusterCount, kMaxClusterCount));
   requireDifferentValues(values, clusterCount);
   HardClustering result{chooseSeeds(values, clusterCount), std::vector<uint32_t>(values.size())};
-  assignToNearest(values, result.centers, result.clusterOf);
+  assignToNearest(values, result.centres, result.clusterOf);
   bool isChanged = true;
   for (uint32_t move = 0; move < kMaxMoveCount && isChanged; ++move) {
-    moveToMeans(values, result.clusterOf, result.centers);
-    isChanged = assignToNearest(values, result.centers, result.clusterOf);
+    moveToMeans(values, result.clusterOf, result.centres);
+    isChanged = assignToNearest(values, result.centres, result.clusterOf);
   }
   return result;
 }

@@ -25,8 +25,8 @@ struct SoftClustering {
 /// k-means (at most 10 steps) from the seeds of k-means++ (D. Arthur, S. Vassilvitskii: k-means++: The Advantages of
 /// Careful Seeding, SODA 2007).
 struct HardClustering {
-  std::vector<double> centers;      ///< In the order of the seeds.
-  std::vector<uint32_t> clusterOf;  ///< #values, of the nearest center.
+  std::vector<double> centres;      ///< In the order of the seeds.
+  std::vector<uint32_t> clusterOf;  ///< #values, of the nearest centre.
 };
 
 /// Throws as clusterSoftly().

@@ -32,14 +32,14 @@ Values numbersAround(const Values& means, double deviation, uint32_t perCluster)
 }  // namespace
 
 TEST_CASE("the first seed is drawn by the second number of rand48") {
-  // As many clusters as different values: every value becomes a center that never moves.
+  // As many clusters as different values: every value becomes a centre that never moves.
   Values values(20);
   std::iota(values.begin(), values.end(), 0.0);
   const HardClustering clustering = clusterByMeans(values, 20);
   srand48(1340818006);
   static_cast<void>(lrand48());
-  CHECK(clustering.centers[0] == static_cast<double>(lrand48() / ((1L << 31) / 20)));
-  Values sorted = clustering.centers;
+  CHECK(clustering.centres[0] == static_cast<double>(lrand48() / ((1L << 31) / 20)));
+  Values sorted = clustering.centres;
   std::sort(sorted.begin(), sorted.end());
   CHECK(sorted == values);
 }
@@ -63,14 +63,14 @@ TEST_CASE("further seeds are drawn by the squares of the distances") {
     }
     seeds.push_back(values[chosen]);
   }
-  CHECK(clusterByMeans(values, 5).centers == seeds);
+  CHECK(clusterByMeans(values, 5).centres == seeds);
 }
 
 TEST_CASE("k-means ends at the means of the nearest values") {
   const HardClustering clustering = clusterByMeans(Values{0, 1, 2, 100, 101, 105}, 2);
-  Values centers = clustering.centers;
-  std::sort(centers.begin(), centers.end());
-  CHECK(centers == Values{1, 102});
+  Values centres = clustering.centres;
+  std::sort(centres.begin(), centres.end());
+  CHECK(centres == Values{1, 102});
   CHECK(clustering.clusterOf[0] == clustering.clusterOf[2]);
   CHECK(clustering.clusterOf[0] != clustering.clusterOf[3]);
 }
