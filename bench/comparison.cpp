@@ -8,7 +8,7 @@
 #include "baselines.h"
 #include "core/stopwatch.h"
 #include "pipeline/backend.h"
-#include "pipeline/choice_names.h"
+#include "asdf_vk/choices.h"
 #include "pipeline/seed_choice.h"
 #include "seeds/samplers.h"
 #include "support/computation.h"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "asdf_vk/session.h"
-#include "pipeline/choice_names.h"
+#include "asdf_vk/choices.h"
 #include "render/camera.h"
 #include "trace/scene_data.h"
 

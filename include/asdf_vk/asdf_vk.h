@@ -8,11 +8,13 @@
 ///   asdfvk::writeResult("horse.vtu", mesh, result.fields);
 ///
 /// These headers need the standard library only. openmesh.h, for meshes of OpenMesh, is separate.
-#include "asdf_vk/error.h"    // IWYU pragma: export
-#include "asdf_vk/field.h"    // IWYU pragma: export
-#include "asdf_vk/files.h"    // IWYU pragma: export
-#include "asdf_vk/mesh.h"     // IWYU pragma: export
-#include "asdf_vk/options.h"  // IWYU pragma: export
-#include "asdf_vk/report.h"   // IWYU pragma: export
-#include "asdf_vk/session.h"  // IWYU pragma: export
-#include "asdf_vk/version.h"  // IWYU pragma: export
+#include "asdf_vk/choices.h"      // IWYU pragma: export
+#include "asdf_vk/error.h"        // IWYU pragma: export
+#include "asdf_vk/field.h"        // IWYU pragma: export
+#include "asdf_vk/files.h"        // IWYU pragma: export
+#include "asdf_vk/mesh.h"         // IWYU pragma: export
+#include "asdf_vk/options.h"      // IWYU pragma: export
+#include "asdf_vk/report.h"       // IWYU pragma: export
+#include "asdf_vk/run_control.h"  // IWYU pragma: export
+#include "asdf_vk/session.h"      // IWYU pragma: export
+#include "asdf_vk/version.h"      // IWYU pragma: export

@@ -143,6 +143,8 @@ struct RoundOptions {
   [[nodiscard]] bool limitError() const { return maxError || maxRelativeError; }
   [[nodiscard]] bool areSet() const { return limitError() || timeBudgetSeconds; }
 };
+/// Share of seeds of the first round where rounds are set and no seeds: of the command line and of the Python module.
+inline constexpr double kFirstRoundShare = 0.02;
 
 /// Treatment of inverted components: closed components whose faces are oriented inwards.
 enum class Orientation {

@@ -14,7 +14,7 @@
 #include "asdf_vk/error.h"
 #include "asdf_vk/options.h"
 #include "cli/options.h"
-#include "pipeline/choice_names.h"
+#include "asdf_vk/choices.h"
 
 /// Kinds of options with a value, and the values themselves. A wrong value is Error of kind Usage.
 namespace asdfvk {
@@ -22,9 +22,6 @@ namespace asdfvk {
 /// Groups of --help=all. --help shows the first one only.
 inline constexpr const char* kBasicGroup = "Options";
 inline constexpr const char* kExperimentGroup = "Experiments (the defaults are best)";
-
-/// Seed share of the first round if further rounds may follow and --seeds is not given.
-inline constexpr double kFirstRoundShare = 0.02;
 
 /// Adds the options of the computation, which set line.options and line.recipe.
 void addComputation(CLI::App& app, CommandLine& line);

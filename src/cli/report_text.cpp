@@ -7,7 +7,7 @@
 #include <functional>
 
 #include "core/text.h"
-#include "pipeline/choice_names.h"
+#include "asdf_vk/choices.h"
 
 namespace asdfvk {
 namespace {

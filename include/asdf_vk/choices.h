@@ -1,12 +1,14 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "asdf_vk/options.h"
 
-/// Names of enumerators in options and reports.
+/// Names of the enumerators of Options, as the command line, the JSON report and the Python module use them.
 namespace asdfvk {
 
 template <typename T, size_t N>
@@ -49,6 +51,14 @@ template <typename T, size_t N>
   std::string text;
   for (const auto& [name, value] : names) text += (text.empty() ? "" : "|") + std::string(name);
   return text;
+}
+
+/// Null for an unknown name.
+template <typename T, size_t N>
+[[nodiscard]] const T* findChoice(const ChoiceNames<T, N>& names, std::string_view name) {
+  for (const auto& [candidate, value] : names)
+    if (candidate == name) return &value;
+  return nullptr;
 }
 
 template <typename T, size_t N>
