@@ -29,6 +29,8 @@ enum class ErrorCode {
   UnreadableInput,  ///< The file cannot be opened or violates its format; the message contains line or byte.
   EmptyMesh,        ///< No faces.
   ArraySize,        ///< The size of an array is not a multiple of 3, or offsets do not ascend.
+  ArrayType,        ///< The elements of an array have an unsupported type. Python module only.
+  NonFiniteNumber,  ///< A NaN or an infinite number where only finite ones are allowed.
   IndexOutOfRange,  ///< A face refers to a vertex that does not exist.
   MeshTooLarge,     ///< More vertices, faces or connections than 32 bits can index.
   InputTooLarge,    ///< Does not fit into memory.
@@ -50,6 +52,7 @@ enum class ErrorCode {
   DeviceTimeout,
   ValidationFailed,  ///< The Vulkan validation layers reported a problem.
   VulkanFailed,      ///< Any other failure of a Vulkan call.
+  ForkedProcess,     ///< Use in a process forked after the first use. Python module only.
   // Output
   OutputNotWritable,
   // Cancelled

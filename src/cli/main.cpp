@@ -1,8 +1,4 @@
-#include <oneapi/tbb/global_control.h>
-
-#include <cstdlib>
-#include <optional>
-
+#include "asdf_vk/run_control.h"
 #include "cli/exit_code.h"
 #include "cli/interrupt.h"
 #include "cli/options.h"
@@ -11,14 +7,6 @@
 
 namespace asdfvk {
 namespace {
-
-/// Limits the threads of TBB and of lavapipe, which reads its variable when the device is opened.
-std::optional<oneapi::tbb::global_control> limitThreads(uint32_t threadCount) {
-  if (threadCount == 0) return std::nullopt;
-  setenv("LP_NUM_THREADS", std::to_string(threadCount).c_str(), 1);
-  return std::optional<oneapi::tbb::global_control>(std::in_place, oneapi::tbb::global_control::max_allowed_parallelism,
-                                                    threadCount);
-}
 
 /// Throws nothing: a failure is one line on standard error.
 ExitCode runProgram(const std::vector<std::string>& arguments) {
@@ -32,7 +20,7 @@ ExitCode runProgram(const std::vector<std::string>& arguments) {
       writeStandardOutput(*line.answer);
       return ExitCode::Done;
     }
-    const auto threadLimit = limitThreads(line.threadCount);
+    const ThreadLimit threadLimit(line.threadCount);
     const Interrupt interrupt;
     if (line.listDevices) {
       printDevices(line);

@@ -22,6 +22,8 @@ constexpr std::array kErrors{
     ErrorRow{ErrorCode::UnreadableInput, ErrorKind::Input, "unreadableInput"},
     ErrorRow{ErrorCode::EmptyMesh, ErrorKind::Input, "emptyMesh"},
     ErrorRow{ErrorCode::ArraySize, ErrorKind::Input, "arraySize"},
+    ErrorRow{ErrorCode::ArrayType, ErrorKind::Input, "arrayType"},
+    ErrorRow{ErrorCode::NonFiniteNumber, ErrorKind::Input, "nonFiniteNumber"},
     ErrorRow{ErrorCode::IndexOutOfRange, ErrorKind::Input, "indexOutOfRange"},
     ErrorRow{ErrorCode::MeshTooLarge, ErrorKind::Input, "meshTooLarge"},
     ErrorRow{ErrorCode::InputTooLarge, ErrorKind::Input, "inputTooLarge"},
@@ -42,6 +44,7 @@ constexpr std::array kErrors{
     ErrorRow{ErrorCode::DeviceTimeout, ErrorKind::Device, "deviceTimeout"},
     ErrorRow{ErrorCode::ValidationFailed, ErrorKind::Device, "validationFailed"},
     ErrorRow{ErrorCode::VulkanFailed, ErrorKind::Device, "vulkanFailed"},
+    ErrorRow{ErrorCode::ForkedProcess, ErrorKind::Device, "forkedProcess"},
     ErrorRow{ErrorCode::OutputNotWritable, ErrorKind::Output, "outputNotWritable"},
     ErrorRow{ErrorCode::Cancelled, ErrorKind::Cancelled, "cancelled"},
 };

@@ -148,7 +148,7 @@ bool Session::runsOnCpu() const { return state_->named.backend->runsOnCpu(); }
 Result Session::compute(const MeshView& mesh, const Options& options, const RunControl& control) {
   Result result;
   Report& report = result.report;
-  StageClock clock(report.stageSeconds);
+  StageClock clock(report.stageSeconds, control.stageBegan);
   Backend& backend = *state_->named.backend;
   requireValid(options, backend.device() != nullptr);
   const Cone cone = makeCone(options.cone);

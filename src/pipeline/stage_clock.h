@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <optional>
 #include <utility>
 
@@ -12,7 +13,9 @@ namespace asdfvk {
 /// one, so that no time is counted twice.
 class StageClock {
  public:
-  explicit StageClock(StageSeconds& seconds) : seconds_(seconds) {}
+  /// began: called whenever another stage begins or goes on; may be empty.
+  explicit StageClock(StageSeconds& seconds, std::function<void(Stage)> began = {})
+      : seconds_(seconds), began_(std::move(began)) {}
   StageClock(const StageClock&) = delete;
   StageClock& operator=(const StageClock&) = delete;
 
@@ -46,10 +49,12 @@ class StageClock {
     const Clock::time_point now = Clock::now();
     if (current_) seconds_[*current_] += std::chrono::duration<double>(now - lastSwitch_).count();
     lastSwitch_ = now;
+    if (stage && stage != current_ && began_) began_(*stage);
     return std::exchange(current_, stage);
   }
 
   StageSeconds& seconds_;
+  std::function<void(Stage)> began_;
   Clock::time_point begin_ = Clock::now();
   Clock::time_point lastSwitch_ = begin_;
   std::optional<Stage> current_;

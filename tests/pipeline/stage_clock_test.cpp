@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include <vector>
+
 #include <chrono>
 #include <numeric>
 #include <thread>
@@ -94,4 +96,16 @@ TEST_CASE("an exception ends its scope, and the enclosing one continues") {
   }
   CHECK(seconds[Stage::Trace] >= kPause);
   CHECK(seconds[Stage::Solve] < kPause);
+}
+
+TEST_CASE("a clock calls back for each stage that begins or goes on") {
+  StageSeconds seconds;
+  std::vector<Stage> stages;
+  StageClock clock(seconds, [&](Stage stage) { stages.push_back(stage); });
+  {
+    const auto outer = clock.time(Stage::Solve);
+    { const auto same = clock.time(Stage::Solve); }
+    { const auto inner = clock.time(Stage::Predict); }
+  }
+  CHECK(stages == std::vector{Stage::Solve, Stage::Predict, Stage::Solve});
 }
