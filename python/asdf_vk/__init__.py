@@ -1,0 +1,52 @@
+"""Shape diameter function of triangle meshes on Vulkan: how thick the shape is, seen from each face.
+
+    import asdf_vk
+    values = asdf_vk.shape_diameter(vertices, faces)    # float32 (m,), in the unit of the mesh, NaN = no value
+    labels = asdf_vk.segment(vertices, faces)           # int32 (m,)
+
+`vertices` is (n, 3) float, `faces` (m, 3) int; an object with both (trimesh.Trimesh) serves as well.
+"""
+
+from __future__ import annotations
+
+from ._core import version as __version__
+from ._errors import (
+    ArrayTypeError,
+    CancelledError,
+    DeviceError,
+    Error,
+    InputError,
+    MeshWarning,
+    OutputError,
+    UsageError,
+)
+from ._files import Fields, Mesh, read_fields, read_mesh, write
+from ._functions import segment, shape_diameter, skeleton_points, thickness
+from ._report import Info
+from ._session import Device, Session, close_default_sessions, devices
+
+__all__ = [
+    "ArrayTypeError",
+    "CancelledError",
+    "Device",
+    "DeviceError",
+    "Error",
+    "Fields",
+    "Info",
+    "InputError",
+    "Mesh",
+    "MeshWarning",
+    "OutputError",
+    "Session",
+    "UsageError",
+    "__version__",
+    "close_default_sessions",
+    "devices",
+    "read_fields",
+    "read_mesh",
+    "segment",
+    "shape_diameter",
+    "skeleton_points",
+    "thickness",
+    "write",
+]

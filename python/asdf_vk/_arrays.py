@@ -1,0 +1,152 @@
+"""Arrays of the caller as the library needs them: checked, and copied only where type or layout differ."""
+
+from __future__ import annotations
+
+from typing import Any, Union
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _core
+from ._errors import error_of
+
+# A mesh for the extension: its own Mesh, or vertices and faces.
+MeshArguments = Union["tuple[_core.Mesh]", "tuple[NDArray[Any], NDArray[np.uint32]]"]
+
+_MAX_ROW_COUNT = 2**32 - 1  # Indices have 32 bits.
+
+
+def mesh_arguments(mesh: Any, faces: Any = None) -> MeshArguments:
+    """Accepts vertices and faces, a Mesh, or an object with `vertices` and `faces`."""
+    if faces is None:
+        if isinstance(mesh, _core.Mesh):
+            return (mesh,)
+        if not (hasattr(mesh, "vertices") and hasattr(mesh, "faces")):
+            raise error_of(
+                "arrayType",
+                f"an object of type {type(mesh).__name__} is no mesh: it has no `vertices` and `faces`; "
+                "pass vertices (n, 3) and faces (m, 3)",
+            )
+        mesh, faces = mesh.vertices, mesh.faces
+    vertices = points_array(mesh, "vertices")
+    triangles = _indices(faces, len(vertices))
+    _require_finite(vertices, triangles)
+    return vertices, triangles
+
+
+def points_array(value: Any, name: str) -> NDArray[Any]:
+    """(n, 3) float32 or float64, C-contiguous; other real numbers become float64. Not checked for NaN."""
+    array = _as_array(value, name, "fiu", "real numbers")
+    _require_shape(array, name)
+    return _native(array, np.float32 if array.dtype in (np.float32, np.float16) else np.float64, name)
+
+
+def values_array(value: Any, name: str, count: int) -> NDArray[np.float64]:
+    """(count,) float64."""
+    array = _as_array(value, name, "fiu", "real numbers")
+    if array.shape != (count,):
+        raise error_of("arraySize", f"{name} has the shape {array.shape}, not ({count},)")
+    return _native(array, np.float64, name)
+
+
+def mask_array(value: Any, count: int) -> NDArray[np.uint8]:
+    """A mask of faces: (count,) bool, or indices of faces."""
+    array = _as_array(value, "faces", "biu", "a mask (bool) or indices of faces")
+    if array.dtype.kind == "b":
+        if array.shape != (count,):
+            raise error_of("arraySize", f"the mask of faces has the shape {array.shape}, not ({count},)")
+        return _native(array, np.bool_, "faces").view(np.uint8)
+    if array.ndim != 1:
+        raise error_of("arraySize", f"the indices of faces have the shape {array.shape}, not (k,)")
+    if array.size and not (0 <= int(array.min()) and int(array.max()) < count):
+        raise error_of(
+            "indexOutOfRange",
+            f"the indices of faces reach from {array.min()} to {array.max()}; allowed are 0 to {count - 1}",
+        )
+    mask = np.zeros(count, np.uint8)
+    mask[array] = 1
+    return mask
+
+
+def field_array(value: Any, name: str) -> NDArray[Any]:
+    """An array to write: bool and uint8 as uint8, other integers as uint32 (-1 as 0xffffffff), reals as float64."""
+    array = _as_array(value, f"field {name}", "bfiu", "numbers")
+    if array.ndim not in (1, 2):
+        raise error_of("arraySize", f"field {name} has the shape {array.shape}, not (items,) or (items, components)")
+    if array.dtype.kind == "f":
+        return _native(array, np.float64, name)
+    if array.dtype.kind == "b":
+        return _native(array, np.bool_, name).view(np.uint8)
+    if array.dtype == np.uint8:
+        return _native(array, np.uint8, name)
+    if array.size and not (-1 <= int(array.min()) and int(array.max()) < 2**32):
+        raise error_of("optionOutOfRange", f"field {name} has integers outside of -1 to {2**32 - 1}")
+    if array.dtype.itemsize < 4:
+        array = array.astype(np.int64)
+    return _native(array, np.uint32, name)
+
+
+def _as_array(value: Any, name: str, kinds: str, wanted: str) -> NDArray[Any]:
+    try:
+        array = np.asarray(value)
+    except (MemoryError, KeyboardInterrupt):
+        raise
+    except Exception as error:
+        raise error_of("arrayType", f"{name} cannot be converted to an array: {error}") from error
+    if np.ma.isMaskedArray(value) and np.ma.getmaskarray(value).any():
+        raise error_of("arrayType", f"{name} is a masked array with masked entries; fill or remove them")
+    if array.dtype.kind not in kinds:
+        raise error_of("arrayType", f"{name} has the type {array.dtype}, not {wanted}")
+    return array
+
+
+def _require_shape(array: NDArray[Any], name: str) -> None:
+    if array.ndim != 2 or array.shape[1] != 3:
+        raise error_of("arraySize", f"{name} has the shape {array.shape}, not (n, 3)")
+    if len(array) > _MAX_ROW_COUNT:
+        raise error_of("meshTooLarge", f"{name} has {len(array)} rows, more than {_MAX_ROW_COUNT}")
+
+
+def _native(array: NDArray[Any], dtype: Any, name: str) -> NDArray[Any]:
+    """The array itself where its type, byte order, alignment and layout fit, else a copy."""
+    try:
+        with np.errstate(over="ignore"):
+            return np.require(array, dtype, ["C_CONTIGUOUS", "ALIGNED"])
+    except MemoryError as error:
+        raise error_of("inputTooLarge", f"{name} does not fit into memory as {np.dtype(dtype).name}") from error
+
+
+def _indices(value: Any, vertex_count: int) -> NDArray[np.uint32]:
+    array = _as_array(value, "faces", "iu", "integers")
+    _require_shape(array, "faces")
+    if array.size:
+        least, greatest = int(array.min()), int(array.max())
+        if least < 0 or greatest >= vertex_count:
+            wrong = (array < 0) | (array >= vertex_count)
+            face = int(np.flatnonzero(wrong.any(axis=1))[0])
+            raise error_of(
+                "indexOutOfRange",
+                f"face {face} has the vertex indices {array[face].tolist()}; allowed are 0 to {vertex_count - 1}",
+                {"face": str(face)},
+            )
+    if array.dtype == np.int32:
+        array = array.view(np.uint32)
+    return _native(array, np.uint32, "faces")
+
+
+def _require_finite(vertices: NDArray[Any], faces: NDArray[np.uint32]) -> None:
+    """Vertices of no face may have any coordinates."""
+    if np.isfinite(vertices).all():
+        return
+    wrong = ~np.isfinite(vertices).all(axis=1)
+    of_face = wrong[faces].any(axis=1)
+    if not of_face.any():
+        return
+    face = int(np.flatnonzero(of_face)[0])
+    vertex = int(faces[face][wrong[faces[face]]][0])
+    raise error_of(
+        "nonFiniteNumber",
+        f"vertex {vertex} of face {face} has the coordinates {vertices[vertex].tolist()}; "
+        f"remove the {int(of_face.sum())} faces with such vertices",
+        {"vertex": str(vertex), "face": str(face)},
+    )

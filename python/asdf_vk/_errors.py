@@ -1,0 +1,80 @@
+"""Exceptions: one class per kind of error, with the code of the library."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from . import _core
+
+
+class Error(Exception):
+    """Base of all errors of asdf_vk.
+
+    code: name of the error in the library, for example "indexOutOfRange".
+    details: values of the error by name.
+    """
+
+    def __init__(self, message: str, code: str, details: dict[str, str] | None = None) -> None:
+        super().__init__(message)
+        self.code = code
+        self.details = dict(details or {})
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return error_of, (self.code, str(self), self.details)
+
+
+class UsageError(Error, ValueError):
+    """An option is unknown, out of range or contradicts another."""
+
+
+class InputError(Error, ValueError):
+    """A mesh or an array cannot be used, or there is nothing to compute on."""
+
+
+class ArrayTypeError(InputError, TypeError):
+    """The elements of an array have an unsupported type."""
+
+
+class DeviceError(Error, RuntimeError):
+    """No usable device, or the device was lost or is too small."""
+
+
+class OutputError(Error, OSError):
+    """A result cannot be written."""
+
+    def __str__(self) -> str:  # OSError would print its number.
+        return str(self.args[0])
+
+
+class CancelledError(Error):
+    """The progress callback returned False."""
+
+
+class MeshWarning(UserWarning):
+    """A property of the mesh or of its values that results may depend on.
+
+    code: name of the warning in the library, for example "missingValues".
+    """
+
+    def __init__(self, message: str, code: str) -> None:
+        super().__init__(message)
+        self.code = code
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return MeshWarning, (str(self), self.code)
+
+
+_CLASS_OF_KIND: dict[str, type[Error]] = {
+    "usage": UsageError,
+    "input": InputError,
+    "device": DeviceError,
+    "output": OutputError,
+    "cancelled": CancelledError,
+}
+
+
+def error_of(code: str, message: str, details: dict[str, str] | None = None) -> Error:
+    """The exception for an error code of the library."""
+    if code == "arrayType":
+        return ArrayTypeError(message, code, details)
+    return _CLASS_OF_KIND[_core.error_kinds[code]](message, code, details)

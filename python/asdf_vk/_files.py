@@ -1,0 +1,78 @@
+"""Mesh and result files."""
+
+from __future__ import annotations
+
+import os
+from typing import Any, Mapping, NamedTuple
+
+from numpy.typing import ArrayLike, NDArray
+
+from . import _core
+from ._arrays import field_array, mesh_arguments
+from ._errors import error_of
+
+Mesh = _core.Mesh
+
+
+class Fields(NamedTuple):
+    """Fields of a file by name: per face and per vertex."""
+
+    fields: dict[str, NDArray[Any]]
+    vertex_fields: dict[str, NDArray[Any]]
+
+
+def read_mesh(path: str | os.PathLike[str]) -> Mesh:
+    """Reads PLY, OFF, OBJ or STL. All faces, in file order.
+
+    The result has `vertices` (n, 3) float64 and `faces` (m, 3) int32, both read-only views. Of a file with other
+    faces than triangles, `faces` is a triangulation, `face_of_triangle` (m,) the face of the file of each triangle,
+    and functions return a value per face of the file (`face_count`). Raises InputError.
+    """
+    return _core.read_mesh(_path(path))
+
+
+def read_fields(path: str | os.PathLike[str]) -> Fields:
+    """Reads the fields of a result file of any format of write(). Raises InputError."""
+    return Fields(*_core.read_fields(_path(path)))
+
+
+def write(
+    path: str | os.PathLike[str],
+    mesh: Any,
+    fields: Mapping[str, ArrayLike] | None = None,
+    *,
+    vertex_fields: Mapping[str, ArrayLike] | None = None,
+    format: str = "",
+    ascii: bool = False,
+) -> None:
+    """Writes fields, and in .ply and .vtu also the mesh. The file is replaced atomically.
+
+    mesh: a Mesh, an object with `vertices` and `faces`, or a tuple of these two arrays.
+    fields, vertex_fields: arrays by name, per face and per vertex: (items,) or (items, 3). Info has them too. The
+        first field of real numbers is the quality and the colour of a .ply.
+    format: "ply", "vtu", "npy", "npz" or "csv"; empty: by the extension.
+
+    Raises OutputError, InputError, UsageError.
+    """
+    arguments = mesh_arguments(*mesh) if isinstance(mesh, tuple) and len(mesh) == 2 else mesh_arguments(mesh)
+    _core.write(_path(path), *arguments, _arrays_of(fields), _arrays_of(vertex_fields), format, ascii)
+
+
+def _arrays_of(fields: Mapping[str, ArrayLike] | None) -> dict[str, NDArray[Any]]:
+    if fields is None:
+        return {}
+    if not hasattr(fields, "items"):
+        raise error_of("optionOutOfRange", f"fields of type {type(fields).__name__} are no mapping of names to arrays")
+    return {str(name): field_array(array, str(name)) for name, array in fields.items()}
+
+
+def _path(path: str | os.PathLike[str]) -> str:
+    try:
+        text = os.fspath(path)
+    except TypeError as error:
+        raise error_of("optionOutOfRange", f"{path!r} is not a path") from error
+    if not isinstance(text, str):
+        text = os.fsdecode(text)
+    if "\0" in text:
+        raise error_of("optionOutOfRange", f"{text!r} is not a path")
+    return text

@@ -1,0 +1,225 @@
+"""The free functions: one mesh, one call."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Literal, overload
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _core, _measures
+from ._arrays import mesh_arguments
+from ._errors import error_of
+from ._options import FunctionOptions, Progress
+from ._report import Info
+from ._session import Session, default_session
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+_BACKEND_OPTIONS = ("backend", "device", "require_gpu", "threads")
+
+
+class _OneMesh:
+    """A mesh that is computed once."""
+
+    def __init__(self, mesh: Any, faces: Any, options: dict[str, Any]) -> None:
+        """Removes the options of the backend from `options`."""
+        self._session = session_of(options)
+        self._arguments = mesh_arguments(mesh, faces)
+
+    def compute(self, options: dict[str, Any], progress: Progress | None) -> _core.ComputedFields:
+        return self._session._compute(self._arguments, options, progress)
+
+
+def session_of(options: dict[str, Any]) -> Session:
+    """The session that `options` name or describe; removes these options."""
+    session = options.pop("session", None)
+    described = {name: options.pop(name) for name in _BACKEND_OPTIONS if name in options}
+    if session is None:
+        return default_session(**described)
+    if described:
+        raise error_of("optionConflict", f"{', '.join(described)} and a session exclude each other")
+    if not isinstance(session, Session):
+        raise error_of("optionOutOfRange", f"session={session!r} is not a Session")
+    return session
+
+
+@overload
+def shape_diameter(
+    vertices: Any,
+    faces: ArrayLike | None = None,
+    *,
+    per: Literal["face", "vertex"] = "face",
+    return_info: Literal[False] = False,
+    **options: Unpack[FunctionOptions],
+) -> NDArray[np.float32]: ...
+@overload
+def shape_diameter(
+    vertices: Any,
+    faces: ArrayLike | None = None,
+    *,
+    per: Literal["face", "vertex"] = "face",
+    return_info: Literal[True],
+    **options: Unpack[FunctionOptions],
+) -> tuple[NDArray[np.float32], Info]: ...
+def shape_diameter(
+    vertices: Any,
+    faces: ArrayLike | None = None,
+    *,
+    per: Literal["face", "vertex"] = "face",
+    return_info: bool = False,
+    **options: Any,
+) -> Any:
+    """Shape diameter function: how thick the shape is behind each face.
+
+    vertices: (n, 3) float32 or float64, or an object with `vertices` and `faces` (Mesh, trimesh.Trimesh).
+    faces: (m, 3) int32, uint32 or int64 indices, counter-clockwise seen from outside. Other integer types are
+        converted. float64 and 32-bit integers are used in place.
+    per: "face", or "vertex" for the means over the faces of each vertex by area.
+    options: see FunctionOptions, for example seeds=0.1 (share of the faces that cast rays) or seeds="all".
+
+    Returns float32 (m,) or (n,), in the unit of the mesh, NaN = no value; with return_info=True also an Info.
+    Raises InputError, UsageError, DeviceError, CancelledError. Issues MeshWarning.
+    """
+    target = _OneMesh(vertices, faces, options)
+    return _measures.shape_diameter(target, per, return_info, options)
+
+
+@overload
+def thickness(
+    vertices: Any,
+    faces: ArrayLike | None = None,
+    *,
+    thinner_than: float | None = None,
+    wall_angle: float | None = None,
+    per: Literal["face", "vertex"] = "face",
+    return_info: Literal[False] = False,
+    **options: Unpack[FunctionOptions],
+) -> NDArray[np.float32]: ...
+@overload
+def thickness(
+    vertices: Any,
+    faces: ArrayLike | None = None,
+    *,
+    thinner_than: float | None = None,
+    wall_angle: float | None = None,
+    per: Literal["face", "vertex"] = "face",
+    return_info: Literal[True],
+    **options: Unpack[FunctionOptions],
+) -> tuple[NDArray[np.float32], Info]: ...
+def thickness(
+    vertices: Any,
+    faces: ArrayLike | None = None,
+    *,
+    thinner_than: float | None = None,
+    wall_angle: float | None = None,
+    per: Literal["face", "vertex"] = "face",
+    return_info: bool = False,
+    **options: Any,
+) -> Any:
+    """Wall thickness: diameter of the largest ball that touches a face from inside, clear of opposing walls.
+
+    vertices, faces, per, options: as for shape_diameter().
+    thinner_than: report the connected regions below this thickness (unit of the mesh) in info.thickness; their
+        faces are all traced.
+    wall_angle: faces whose normals differ by at least this many degrees are opposing walls, above 90 to 180;
+        default 120.
+
+    Returns float32 (m,) or (n,), in the unit of the mesh, NaN = no value; with return_info=True also an Info.
+    Raises and warns as shape_diameter().
+    """
+    target = _OneMesh(vertices, faces, options)
+    return _measures.thickness(target, thinner_than, wall_angle, per, return_info, options)
+
+
+@overload
+def segment(
+    vertices: Any,
+    faces: ArrayLike | None = None,
+    *,
+    method: Literal["parts", "cgal"] = "parts",
+    parts: int | None = None,
+    detail: float | None = None,
+    clusters: int | None = None,
+    smoothness: float | None = None,
+    expansion: Literal["all", "first"] | None = None,
+    return_info: Literal[False] = False,
+    **options: Unpack[FunctionOptions],
+) -> NDArray[np.int32]: ...
+@overload
+def segment(
+    vertices: Any,
+    faces: ArrayLike | None = None,
+    *,
+    method: Literal["parts", "cgal"] = "parts",
+    parts: int | None = None,
+    detail: float | None = None,
+    clusters: int | None = None,
+    smoothness: float | None = None,
+    expansion: Literal["all", "first"] | None = None,
+    return_info: Literal[True],
+    **options: Unpack[FunctionOptions],
+) -> tuple[NDArray[np.int32], Info]: ...
+def segment(
+    vertices: Any,
+    faces: ArrayLike | None = None,
+    *,
+    method: Literal["parts", "cgal"] = "parts",
+    parts: int | None = None,
+    detail: float | None = None,
+    clusters: int | None = None,
+    smoothness: float | None = None,
+    expansion: Literal["all", "first"] | None = None,
+    return_info: bool = False,
+    **options: Any,
+) -> Any:
+    """Segments of the surface: the parts that people see, or those of CGAL's segmentation.
+
+    vertices, faces, options: as for shape_diameter().
+    method="parts": parts: that many, 1 to 100; None finds the number. detail: 0.1 to 10, more means more parts.
+    method="cgal": clusters of values, 2 to 100, default 5; smoothness, default 0.26; expansion of "all" clusters,
+        or of the "first" as CGAL 5.5.1. CGAL's values need definition="cgal" too; see asdf_vk.compat.cgal.
+
+    Returns int32 (m,), labels 0 to k - 1 ascending by mean value, -1 for a face without a triangle; with
+    return_info=True also an Info. Raises and warns as shape_diameter().
+    """
+    target = _OneMesh(vertices, faces, options)
+    of_method = {
+        "parts": parts,
+        "detail": detail,
+        "clusters": clusters,
+        "smoothness": smoothness,
+        "expansion": expansion,
+    }
+    return _measures.segment(target, method, of_method, return_info, options)
+
+
+@overload
+def skeleton_points(
+    vertices: Any,
+    faces: ArrayLike | None = None,
+    *,
+    return_info: Literal[False] = False,
+    **options: Unpack[FunctionOptions],
+) -> tuple[NDArray[np.float64], NDArray[np.float32]]: ...
+@overload
+def skeleton_points(
+    vertices: Any,
+    faces: ArrayLike | None = None,
+    *,
+    return_info: Literal[True],
+    **options: Unpack[FunctionOptions],
+) -> tuple[NDArray[np.float64], NDArray[np.float32], Info]: ...
+def skeleton_points(
+    vertices: Any, faces: ArrayLike | None = None, *, return_info: bool = False, **options: Any
+) -> Any:
+    """Points half-way through the shape: each barycentre moved inwards by half of the shape diameter.
+
+    vertices, faces, options: as for shape_diameter().
+
+    Returns points, float64 (m, 3), and radii, float32 (m,), half of the shape diameters, both NaN where a face
+    has no value; with return_info=True also an Info. Raises and warns as shape_diameter().
+    """
+    target = _OneMesh(vertices, faces, options)
+    return _measures.skeleton_points(target, return_info, options)

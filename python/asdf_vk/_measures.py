@@ -1,0 +1,100 @@
+"""What the free functions and Scene have in common: options in, arrays out."""
+
+from __future__ import annotations
+
+import warnings
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _core
+from ._errors import MeshWarning, error_of
+from ._options import Progress
+from ._report import Info, info_of
+
+_SINGLE_PRECISION_BUT = "centre"  # Points need double far from the origin.
+_STACK_LEVEL = 4  # The caller of the public function.
+
+
+class Target(Protocol):
+    """A mesh on a session."""
+
+    def compute(self, options: dict[str, Any], progress: Progress | None) -> _core.ComputedFields: ...
+
+
+def _array(computed: _core.ComputedFields, name: str, per_vertex: bool) -> NDArray[Any]:
+    return computed.array(name, per_vertex, name != _SINGLE_PRECISION_BUT)
+
+
+def _info(computed: _core.ComputedFields) -> Info:
+    def arrays(per_vertex: bool) -> dict[str, NDArray[Any]]:
+        return {name: _array(computed, name, per_vertex) for name in computed.names(per_vertex)}
+
+    return info_of(computed.report(), arrays(False), arrays(True))
+
+
+def _computed(target: Target, options: dict[str, Any], implied: dict[str, Any]) -> _core.ComputedFields:
+    """Computes with the caller's options and those that the function implies."""
+    options = dict(options)
+    progress = options.pop("progress", None)
+    if progress is not None and not callable(progress):
+        raise error_of("optionOutOfRange", f"progress={progress!r} is not callable")
+    for name in implied:
+        if name in options:
+            raise error_of("unknownName", f"there is no option '{name}' here")
+    computed = target.compute({**options, **implied}, progress)
+    for warning in computed.warnings():
+        warnings.warn(MeshWarning(warning["message"], warning["code"]), stacklevel=_STACK_LEVEL)
+    return computed
+
+
+def _per_vertex(per: str) -> bool:
+    if per not in ("face", "vertex"):
+        raise error_of("unknownName", f"per={per!r} is unknown; the names are face, vertex")
+    return per == "vertex"
+
+
+def shape_diameter(target: Target, per: str, return_info: bool, options: dict[str, Any]) -> Any:
+    per_vertex = _per_vertex(per)
+    computed = _computed(target, options, {"per": per})
+    values = _array(computed, "sdf", per_vertex)
+    return (values, _info(computed)) if return_info else values
+
+
+def thickness(
+    target: Target,
+    thinner_than: float | None,
+    wall_angle: float | None,
+    per: str,
+    return_info: bool,
+    options: dict[str, Any],
+) -> Any:
+    per_vertex = _per_vertex(per)
+    implied = {"measure": "thickness", "thinner_than": thinner_than, "wall_angle": wall_angle, "per": per}
+    computed = _computed(target, options, implied)
+    values = _array(computed, "thickness", per_vertex)
+    return (values, _info(computed)) if return_info else values
+
+
+_METHOD_OF = {"parts": "parts", "detail": "parts", "clusters": "cgal", "smoothness": "cgal", "expansion": "cgal"}
+
+
+def segment(
+    target: Target, method: str, of_method: dict[str, Any], return_info: bool, options: dict[str, Any]
+) -> Any:
+    if method not in ("parts", "cgal"):
+        raise error_of("unknownName", f"method={method!r} is unknown; the names are parts, cgal")
+    for name, value in of_method.items():
+        if value is not None and _METHOD_OF[name] != method:
+            raise error_of("optionConflict", f"{name} belongs to method={_METHOD_OF[name]!r}, not {method!r}")
+    computed = _computed(target, options, {"segmentation": method, **of_method})
+    labels = computed.array("segment", False, True)
+    return (labels, _info(computed)) if return_info else labels
+
+
+def skeleton_points(target: Target, return_info: bool, options: dict[str, Any]) -> Any:
+    computed = _computed(target, options, {"centres": True})
+    points = computed.array("centre", False, False)
+    radii = computed.array("sdf", False, True) / np.float32(2)
+    return (points, radii, _info(computed)) if return_info else (points, radii)

@@ -1,0 +1,214 @@
+"""Typed results. Lengths are in the unit of the mesh; `face` and counts of faces refer to input faces."""
+
+from __future__ import annotations
+
+import dataclasses
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+@dataclass(frozen=True)
+class ValueRange:
+    """Over the faces with a value; NaN when there is none."""
+
+    min: float
+    percentile1: float
+    median: float
+    percentile99: float
+    max: float
+
+
+@dataclass(frozen=True)
+class SolverReport:
+    name: str
+    iterations: int
+    relative_residual: float
+    converged: bool
+    finished_on_cpu: bool
+
+
+@dataclass(frozen=True)
+class WorstFace:
+    face: int
+    error: float
+    """Divided by the range of the values."""
+
+
+@dataclass(frozen=True)
+class ErrorEstimate:
+    """Estimated error, compared with tracing all faces. Shares of the range unless called relative (error / value)."""
+
+    average: float
+    standard_error: float
+    robust_average: float
+    relative_median: float
+    relative_percentile90: float
+    relative_median_standard_error: float
+    held_out_count: int
+    worst_faces: tuple[WorstFace, ...]
+
+
+@dataclass(frozen=True)
+class CheckReport:
+    """Comparison with the double-precision reference: traced faces, then all faces."""
+
+    passed: bool
+    is_independent: bool
+    traced_count: int
+    agreeing_count: int
+    no_value_agree_count: int
+    median_difference: float
+    worst_difference: float
+    worst_face: int
+    compared_count: int
+    average_error: float
+    maximum_error: float
+    interpolated_count: int
+    interpolated_average_error: float
+    interpolated_maximum_error: float
+
+
+@dataclass(frozen=True)
+class PartsReport:
+    fewest_count: int
+    most_count: int
+    agreement: float | None
+    is_thin_shell: bool
+    area_shares: tuple[float, ...]
+    """Per part; sum 1."""
+
+
+@dataclass(frozen=True)
+class ThinRegion:
+    """Connected faces thinner than `thinner_than`."""
+
+    face_count: int
+    area: float
+    area_share: float
+    min: float
+    min_face: int
+    place: tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class ThicknessReport:
+    min: float
+    percentile1: float
+    percentile5: float
+    median: float
+    percentile95: float
+    max: float
+    no_value_count: int
+    traced_count: int
+    verified_count: int
+    unrefined_count: int
+    redone_ball_count: int
+    thinner_than: float | None
+    thin_area: float
+    thin_area_share: float
+    thin_regions: tuple[ThinRegion, ...]
+
+
+@dataclass(frozen=True)
+class MeshDefects:
+    zero_area_face_count: int
+    duplicate_face_count: int
+    non_finite_vertex_count: int
+    non_finite_face_count: int
+    boundary_edge_count: int
+    non_manifold_edge_count: int
+    inconsistent_edge_count: int
+    unreferenced_vertex_count: int
+    short_polygon_count: int
+
+
+@dataclass(frozen=True)
+class Warning:
+    code: str
+    """For example "missingValues"."""
+    message: str
+    details: dict[str, str]
+
+
+@dataclass(frozen=True)
+class Info:
+    """What a computation did, and all its fields."""
+
+    face_count: int
+    triangle_count: int
+    vertex_count: int
+    component_count: int
+    seed_count: int
+    ray_count: int
+    redone_cone_count: int
+    no_value_count: int
+    random_seed: int
+    round_count: int
+    backend: str
+    device: str
+    runs_on_cpu: bool
+    stage_seconds: dict[str, float]
+    rays_per_second: float
+    solver: SolverReport
+    sdf: ValueRange
+    normalized_range: tuple[float, float] | None
+    segment_count: int | None
+    parts: PartsReport | None
+    thickness: ThicknessReport | None
+    defects: MeshDefects
+    reversed_faces: tuple[int, ...]
+    warnings: tuple[Warning, ...]
+    estimated_error: ErrorEstimate | None
+    """None where every face is a seed."""
+    check: CheckReport | None
+    fields: dict[str, NDArray[Any]]
+    """Per face: "sdf" float32, "seed" uint8 (1 where rays were cast), "error" float32 (expected error), ..."""
+    vertex_fields: dict[str, NDArray[Any]]
+    """Per vertex, with per="vertex"."""
+
+    @property
+    def seed(self) -> NDArray[np.uint8]:
+        """(m,), 1 where rays were cast."""
+        return self.fields["seed"]
+
+    @property
+    def error(self) -> NDArray[np.float32] | None:
+        """(m,), expected error in the unit of the mesh; None without an estimate."""
+        return self.fields.get("error")
+
+
+_NESTED: dict[str, type] = {
+    "solver": SolverReport,
+    "sdf": ValueRange,
+    "parts": PartsReport,
+    "thickness": ThicknessReport,
+    "defects": MeshDefects,
+    "estimated_error": ErrorEstimate,
+    "check": CheckReport,
+}
+_LISTED: dict[str, type] = {"worst_faces": WorstFace, "thin_regions": ThinRegion, "warnings": Warning}
+
+
+def _typed(name: str, value: Any) -> Any:
+    if isinstance(value, list):
+        item = _LISTED.get(name)
+        return tuple(_structured(item, entry) if item else entry for entry in value)
+    return _structured(_NESTED[name], value) if name in _NESTED and value is not None else value
+
+
+def _structured(structure: type, values: dict[str, Any]) -> Any:
+    return structure(**{name: _typed(name, value) for name, value in values.items()})
+
+
+def info_of(
+    report: dict[str, Any], fields: dict[str, NDArray[Any]], vertex_fields: dict[str, NDArray[Any]]
+) -> Info:
+    """The report of the extension as an Info."""
+    return _structured(Info, {**report, "fields": fields, "vertex_fields": vertex_fields})
+
+
+def field_names(structure: type) -> list[str]:
+    return [field.name for field in dataclasses.fields(structure)]

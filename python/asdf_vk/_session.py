@@ -1,0 +1,122 @@
+"""Devices, sessions, and the sessions of the free functions."""
+
+from __future__ import annotations
+
+import atexit
+import threading
+from dataclasses import dataclass
+from typing import Any
+
+from . import _core
+from ._arrays import MeshArguments
+from ._errors import error_of
+from ._options import Progress
+
+
+@dataclass(frozen=True)
+class Device:
+    """A Vulkan device of this machine."""
+
+    name: str
+    driver: str
+    kind: str
+    usable: bool
+    reason: str
+    """"chosen" by default, or the reason why it is ranked lower or rejected."""
+
+
+def devices() -> list[Device]:
+    """Every Vulkan device of this machine. Empty without a Vulkan loader."""
+    return [Device(**device) for device in _core.devices()]
+
+
+class Session:
+    """A device with its pipelines, kept for any number of meshes.
+
+    backend: "auto" (Vulkan, else Embree, else the reference), "vulkan", "cpu" (Embree) or "reference".
+    device: Vulkan device, an index or a part of a name; empty: the highest rank.
+    require_gpu: fail where the CPU would trace.
+    threads: CPU threads; 0: the number of cores. Results do not depend on it.
+
+    Any number of threads may use it; one computation runs at a time. Raises DeviceError.
+    """
+
+    def __init__(
+        self, *, backend: str = "auto", device: str | int = "", require_gpu: bool = False, threads: int = 0
+    ) -> None:
+        self._open: _core.Session | None = _core.Session(*_session_key(backend, device, require_gpu, threads))
+
+    @property
+    def backend(self) -> str:
+        """"vulkan", "cpu" or "reference"."""
+        return self._core.backend
+
+    @property
+    def device_lines(self) -> list[str]:
+        """The chosen device and the reason; then a line per device that was not chosen."""
+        return self._core.device_lines
+
+    @property
+    def runs_on_cpu(self) -> bool:
+        """Whether the CPU traces: Embree, the reference, or a CPU device of Vulkan."""
+        return self._core.runs_on_cpu
+
+    def close(self) -> None:
+        """Releases the device."""
+        self._open = None
+
+    def __enter__(self) -> Session:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def __repr__(self) -> str:
+        if self._open is None:
+            return "<asdf_vk.Session, closed>"
+        return f"<asdf_vk.Session, {self.device_lines[0]}>"
+
+    @property
+    def _core(self) -> _core.Session:
+        if self._open is None:
+            raise error_of("optionConflict", "the session is closed")
+        return self._open
+
+    def _compute(
+        self, mesh: MeshArguments, options: dict[str, Any], progress: Progress | None
+    ) -> _core.ComputedFields:
+        return self._core.compute(*mesh, options, progress)
+
+
+def _session_key(backend: Any, device: Any, require_gpu: Any, threads: Any) -> tuple[str, str, bool, int]:
+    if isinstance(device, int) and not isinstance(device, bool):
+        device = str(device)
+    if not (isinstance(backend, str) and isinstance(device, str) and isinstance(require_gpu, bool)):
+        raise error_of("optionOutOfRange", "backend and device are strings, and require_gpu is True or False")
+    if not isinstance(threads, int) or isinstance(threads, bool) or not 0 <= threads <= 1024:
+        raise error_of("optionOutOfRange", f"threads={threads!r} is not a whole number from 0 to 1024")
+    return backend, device, require_gpu, threads
+
+
+_default_sessions: dict[tuple[str, str, bool, int], Session] = {}
+_default_sessions_lock = threading.Lock()
+
+
+def default_session(
+    backend: str = "auto", device: str | int = "", require_gpu: bool = False, threads: int = 0
+) -> Session:
+    """The session of the free functions for these options, opened at first use and kept."""
+    key = _session_key(backend, device, require_gpu, threads)
+    with _default_sessions_lock:
+        session = _default_sessions.get(key)
+        if session is None:
+            session = Session(backend=backend, device=device, require_gpu=require_gpu, threads=threads)
+            _default_sessions[key] = session
+        return session
+
+
+@atexit.register
+def close_default_sessions() -> None:
+    """Releases the devices that the free functions use. They are opened again when needed."""
+    with _default_sessions_lock:
+        _default_sessions.clear()

@@ -1,0 +1,31 @@
+#include "arrays.h"
+
+#include <string>
+
+#include "asdf_vk/error.h"
+
+namespace py = pybind11;
+
+namespace asdfvk::python {
+
+template <typename T>
+std::span<const T> entriesOf(const py::array& array) {
+  const bool isAligned = (array.flags() & py::detail::npy_api::NPY_ARRAY_ALIGNED_) != 0;
+  if (!py::isinstance<py::array_t<T, py::array::c_style>>(array) || !isAligned)
+    throw Error(ErrorCode::ArrayType,
+                "an array is not aligned, C-contiguous and of type " + std::string(py::str(py::dtype::of<T>())));
+  return {static_cast<const T*>(array.data()), static_cast<size_t>(array.size())};
+}
+
+template std::span<const double> entriesOf<double>(const py::array&);
+template std::span<const float> entriesOf<float>(const py::array&);
+template std::span<const uint32_t> entriesOf<uint32_t>(const py::array&);
+template std::span<const uint8_t> entriesOf<uint8_t>(const py::array&);
+
+MeshView viewOf(const py::array& vertices, const py::array& faces) {
+  const std::span<const uint32_t> corners = entriesOf<uint32_t>(faces);
+  if (py::isinstance<py::array_t<float>>(vertices)) return {entriesOf<float>(vertices), corners};
+  return {entriesOf<double>(vertices), corners};
+}
+
+}  // namespace asdfvk::python

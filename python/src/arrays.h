@@ -1,0 +1,39 @@
+#pragma once
+
+#include <pybind11/numpy.h>
+
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "asdf_vk/mesh.h"
+
+namespace asdfvk::python {
+
+/// The entries of a C-contiguous array of T, in place. Throws Error{ArrayType} for any other array.
+template <typename T>
+[[nodiscard]] std::span<const T> entriesOf(const pybind11::array& array);
+
+/// A view of the arrays, which must outlive it. vertices: #V x 3 double or float; faces: #F x 3 uint32.
+[[nodiscard]] MeshView viewOf(const pybind11::array& vertices, const pybind11::array& faces);
+
+/// An array that views `data` and keeps `owner` alive. Read-only.
+template <typename T>
+[[nodiscard]] pybind11::array_t<T> viewAsArray(const T* data, std::vector<pybind11::ssize_t> shape,
+                                               const pybind11::handle& owner) {
+  pybind11::array_t<T> array(std::move(shape), data, owner);
+  pybind11::detail::array_proxy(array.ptr())->flags &= ~pybind11::detail::npy_api::NPY_ARRAY_WRITEABLE_;
+  return array;
+}
+
+/// An array that owns the entries.
+template <typename T>
+[[nodiscard]] pybind11::array_t<T> asArray(std::vector<T>&& entries, std::vector<pybind11::ssize_t> shape = {}) {
+  if (shape.empty()) shape.push_back(static_cast<pybind11::ssize_t>(entries.size()));
+  auto* owned = new std::vector<T>(std::move(entries));
+  const pybind11::capsule owner(owned, [](void* pointer) { delete static_cast<std::vector<T>*>(pointer); });
+  return pybind11::array_t<T>(std::move(shape), owned->data(), owner);
+}
+
+}  // namespace asdfvk::python

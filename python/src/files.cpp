@@ -1,0 +1,112 @@
+#include "files.h"
+
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <filesystem>
+
+#include "arrays.h"
+#include "asdf_vk/error.h"
+#include "asdf_vk/files.h"
+#include "interruptible.h"
+#include "session.h"
+
+namespace py = pybind11;
+
+namespace asdfvk::python {
+namespace {
+
+Mesh readWithoutGil(const std::filesystem::path& path) {
+  requireSameProcess();
+  const py::gil_scoped_release released;
+  return readMesh(path);
+}
+
+py::array verticesOf(const py::object& self) {
+  const auto& mesh = self.cast<const Mesh&>();
+  return viewAsArray(reinterpret_cast<const double*>(mesh.vertices.data()),
+                     {static_cast<py::ssize_t>(mesh.vertices.size()), 3}, self);
+}
+
+py::array facesOf(const py::object& self) {
+  const auto& mesh = self.cast<const Mesh&>();
+  return viewAsArray(reinterpret_cast<const int32_t*>(mesh.faces.data()),
+                     {static_cast<py::ssize_t>(mesh.faces.size()), 3}, self);
+}
+
+py::object faceOfTriangle(const py::object& self) {
+  const std::vector<uint32_t>& faces = self.cast<const Mesh&>().polygons.inputFaceOf;
+  if (faces.empty()) return py::none();
+  return viewAsArray(reinterpret_cast<const int32_t*>(faces.data()), {static_cast<py::ssize_t>(faces.size())}, self);
+}
+
+/// A field of the entries of an array of doubles, bytes or uint32, (items,) or (items, components).
+Field fieldOf(const std::string& name, const py::array& array, FieldLocation location) {
+  Field field{.name = name, .label = name, .unit = {}, .location = location, .componentCount = 1, .values = {}};
+  if (array.ndim() == 2) field.componentCount = static_cast<uint32_t>(array.shape(1));
+  const auto assign = [&]<typename T>(std::span<const T> entries) {
+    field.values = std::vector<T>(entries.begin(), entries.end());
+  };
+  if (py::isinstance<py::array_t<uint8_t>>(array)) {
+    assign(entriesOf<uint8_t>(array));
+  } else if (py::isinstance<py::array_t<uint32_t>>(array)) {
+    assign(entriesOf<uint32_t>(array));
+  } else {
+    assign(entriesOf<double>(array));
+  }
+  return field;
+}
+
+std::vector<Field> fieldsOf(const py::dict& perFace, const py::dict& perVertex) {
+  std::vector<Field> fields;
+  for (const auto& [name, array] : perFace)
+    fields.push_back(fieldOf(name.cast<std::string>(), array.cast<py::array>(), FieldLocation::PerFace));
+  for (const auto& [name, array] : perVertex)
+    fields.push_back(fieldOf(name.cast<std::string>(), array.cast<py::array>(), FieldLocation::PerVertex));
+  return fields;
+}
+
+void write(const std::filesystem::path& path, const MeshView& mesh, const py::dict& perFace, const py::dict& perVertex,
+           const std::string& format, bool ascii) {
+  requireSameProcess();
+  const std::vector<Field> fields = fieldsOf(perFace, perVertex);
+  const py::gil_scoped_release released;
+  writeResult(path, mesh, fields, {.format = format, .fields = {}, .ascii = ascii});
+}
+
+/// Fields per face and fields per vertex of a file, by name.
+py::tuple readFieldsOf(const std::filesystem::path& path) {
+  requireSameProcess();
+  auto* fields = new std::vector<Field>();
+  const py::capsule owner(fields, [](void* pointer) { delete static_cast<std::vector<Field>*>(pointer); });
+  {
+    const py::gil_scoped_release released;
+    *fields = readFields(path);
+  }
+  py::dict perFace, perVertex;
+  for (const Field& field : *fields)
+    (field.location == FieldLocation::PerFace ? perFace : perVertex)[py::str(field.name)] =
+        arrayOf(field, false, owner);
+  return py::make_tuple(perFace, perVertex);
+}
+
+}  // namespace
+
+void bindFiles(py::module_& module) {
+  py::class_<Mesh>(module, "Mesh")
+      .def_property_readonly("vertices", verticesOf)
+      .def_property_readonly("faces", facesOf)
+      .def_property_readonly("face_count", &Mesh::inputFaceCount)
+      .def_property_readonly("face_of_triangle", faceOfTriangle);
+  module.def("read_mesh", readWithoutGil);
+  module.def("read_fields", readFieldsOf);
+  module.def("write",
+             [](const std::filesystem::path& path, const Mesh& mesh, const py::dict& perFace, const py::dict& perVertex,
+                const std::string& format, bool ascii) { write(path, mesh, perFace, perVertex, format, ascii); });
+  module.def("write", [](const std::filesystem::path& path, const py::array& vertices, const py::array& faces,
+                         const py::dict& perFace, const py::dict& perVertex, const std::string& format,
+                         bool ascii) { write(path, viewOf(vertices, faces), perFace, perVertex, format, ascii); });
+}
+
+}  // namespace asdfvk::python

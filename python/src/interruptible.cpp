@@ -1,0 +1,97 @@
+#include "interruptible.h"
+
+#include <unistd.h>
+
+#include <atomic>
+#include <chrono>
+#include <exception>
+#include <future>
+#include <thread>
+#include <utility>
+
+#include "asdf_vk/error.h"
+#include "asdf_vk/report.h"
+
+namespace py = pybind11;
+
+namespace asdfvk::python {
+namespace {
+
+constexpr auto kPollInterval = std::chrono::milliseconds(20);
+
+std::atomic<pid_t> firstProcess{0};
+
+/// The state that the working thread writes and the calling thread reports.
+struct Progress {
+  std::atomic<double> fraction{0};
+  std::atomic<const char*> stage{""};
+};
+
+/// Calls `callback` where the progress has changed. Returns whether the work may go on.
+class ProgressCall {
+ public:
+  ProgressCall(const Progress& progress, const py::object& callback) : progress_(progress), callback_(callback) {}
+
+  bool operator()() {
+    const double fraction = progress_.fraction;
+    const char* stage = progress_.stage;
+    if (callback_.is_none() || (fraction == lastFraction_ && stage == lastStage_)) return true;
+    lastFraction_ = fraction;
+    lastStage_ = stage;
+    return !callback_(fraction, stage).is(py::bool_(false));
+  }
+
+ private:
+  const Progress& progress_;
+  const py::object& callback_;
+  double lastFraction_ = -1;
+  const char* lastStage_ = nullptr;
+};
+
+}  // namespace
+
+void runInterruptibly(const std::function<void(const RunControl&)>& work, const py::object& progress) {
+  Progress state;
+  ProgressCall call(state, progress);
+  std::stop_source source;
+  const RunControl control{source.get_token(), [&](double fraction) { state.fraction = fraction; },
+                           [&](Stage stage) { state.stage = nameOf(stage); }};
+  std::packaged_task<void()> task([&] { work(control); });
+  std::future<void> done = task.get_future();
+  std::exception_ptr raised;
+  {
+    const py::gil_scoped_release released;
+    const std::jthread worker(std::move(task));
+    while (done.wait_for(kPollInterval) != std::future_status::ready) {
+      if (source.stop_requested()) continue;
+      const py::gil_scoped_acquire acquired;
+      try {
+        if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+        if (!call()) source.request_stop();
+      } catch (...) {
+        raised = std::current_exception();
+        source.request_stop();
+      }
+    }
+  }
+  if (raised) std::rethrow_exception(raised);
+  done.get();
+  state.fraction = 1;
+  call();
+}
+
+bool isForkedProcess() {
+  const pid_t first = firstProcess;
+  return first != 0 && first != getpid();
+}
+
+void requireSameProcess() {
+  pid_t unset = 0;
+  firstProcess.compare_exchange_strong(unset, getpid());
+  if (isForkedProcess())
+    throw Error(ErrorCode::ForkedProcess,
+                "this process was forked after the first use of asdf_vk, whose threads and devices do not survive a "
+                "fork; start processes with the method 'spawn' or 'forkserver', or first use asdf_vk in the child");
+}
+
+}  // namespace asdfvk::python

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <functional>
+
+#include "asdf_vk/run_control.h"
+
+namespace asdfvk::python {
+
+/// Runs `work` on a thread of its own, without the GIL, and waits for it. The calling thread polls for signals and
+/// calls `progress` (None, or a callable of a fraction from 0 to 1 and the name of a stage) every 20 ms. An exception
+/// of either requests a stop and is thrown once `work` has ended; so is Error{Cancelled} when `progress` returns False.
+/// Throws what `work` throws.
+void runInterruptibly(const std::function<void(const RunControl&)>& work, const pybind11::object& progress);
+
+/// Throws Error{ForkedProcess} in a process that was forked after the first call: threads and devices do not survive a
+/// fork.
+void requireSameProcess();
+
+/// Whether requireSameProcess() would throw.
+[[nodiscard]] bool isForkedProcess();
+
+}  // namespace asdfvk::python

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <vector>
+
+#include "asdf_vk/error.h"
+#include "asdf_vk/report.h"
+
+namespace asdfvk::python {
+
+/// The report as a dictionary with the fields of asdf_vk.Report, nested ones as dictionaries. Unset ones are None.
+[[nodiscard]] pybind11::dict dictOf(const Report& report);
+
+/// Dictionaries with code, message and details.
+[[nodiscard]] pybind11::list listOf(const std::vector<Warning>& warnings);
+
+[[nodiscard]] pybind11::dict dictOf(const std::vector<ErrorDetail>& details);
+
+}  // namespace asdfvk::python
