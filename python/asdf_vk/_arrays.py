@@ -11,16 +11,16 @@ from . import _core
 from ._errors import error_of
 
 # A mesh for the extension: its own Mesh, or vertices and faces.
-MeshArguments = Union["tuple[_core.Mesh]", "tuple[NDArray[Any], NDArray[np.uint32]]"]
+MeshArgument = Union["_core.Mesh", "tuple[NDArray[Any], NDArray[np.uint32]]"]
 
 _MAX_ROW_COUNT = 2**32 - 1  # Indices have 32 bits.
 
 
-def mesh_arguments(mesh: Any, faces: Any = None) -> MeshArguments:
+def mesh_argument(mesh: Any, faces: Any = None) -> MeshArgument:
     """Accepts vertices and faces, a Mesh, or an object with `vertices` and `faces`."""
     if faces is None:
         if isinstance(mesh, _core.Mesh):
-            return (mesh,)
+            return mesh
         if not (hasattr(mesh, "vertices") and hasattr(mesh, "faces")):
             raise error_of(
                 "arrayType",

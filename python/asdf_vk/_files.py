@@ -8,7 +8,7 @@ from typing import Any, Mapping, NamedTuple
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core
-from ._arrays import field_array, mesh_arguments
+from ._arrays import field_array, mesh_argument
 from ._errors import error_of
 
 Mesh = _core.Mesh
@@ -54,8 +54,8 @@ def write(
 
     Raises OutputError, InputError, UsageError.
     """
-    arguments = mesh_arguments(*mesh) if isinstance(mesh, tuple) and len(mesh) == 2 else mesh_arguments(mesh)
-    _core.write(_path(path), *arguments, _arrays_of(fields), _arrays_of(vertex_fields), format, ascii)
+    argument = mesh_argument(*mesh) if isinstance(mesh, tuple) and len(mesh) == 2 else mesh_argument(mesh)
+    _core.write(_path(path), argument, _arrays_of(fields), _arrays_of(vertex_fields), format, ascii)
 
 
 def _arrays_of(fields: Mapping[str, ArrayLike] | None) -> dict[str, NDArray[Any]]:

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core, _measures
-from ._arrays import mesh_arguments
+from ._arrays import mesh_argument
 from ._errors import error_of
 from ._options import FunctionOptions, Progress
 from ._report import Info
@@ -26,10 +26,10 @@ class _OneMesh:
     def __init__(self, mesh: Any, faces: Any, options: dict[str, Any]) -> None:
         """Removes the options of the backend from `options`."""
         self._session = session_of(options)
-        self._arguments = mesh_arguments(mesh, faces)
+        self._mesh = mesh_argument(mesh, faces)
 
     def compute(self, options: dict[str, Any], progress: Progress | None) -> _core.ComputedFields:
-        return self._session._compute(self._arguments, options, progress)
+        return self._session._compute(self._mesh, options, progress)
 
 
 def session_of(options: dict[str, Any]) -> Session:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from . import _core
 from ._errors import MeshWarning, error_of
-from ._options import Progress
+from ._options import ComputeOptions, Progress
 from ._report import Info, info_of
 
 _SINGLE_PRECISION_BUT = "centre"  # Points need double far from the origin.
@@ -40,9 +40,9 @@ def _computed(target: Target, options: dict[str, Any], implied: dict[str, Any]) 
     progress = options.pop("progress", None)
     if progress is not None and not callable(progress):
         raise error_of("optionOutOfRange", f"progress={progress!r} is not callable")
-    for name in implied:
-        if name in options:
-            raise error_of("unknownName", f"there is no option '{name}' here")
+    for name in options:
+        if name not in ComputeOptions.__annotations__:
+            raise error_of("unknownName", f"there is no option '{name}'", {"option": name})
     computed = target.compute({**options, **implied}, progress)
     for warning in computed.warnings():
         warnings.warn(MeshWarning(warning["message"], warning["code"]), stacklevel=_STACK_LEVEL)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -207,7 +207,7 @@ def info_of(
     report: dict[str, Any], fields: dict[str, NDArray[Any]], vertex_fields: dict[str, NDArray[Any]]
 ) -> Info:
     """The report of the extension as an Info."""
-    return _structured(Info, {**report, "fields": fields, "vertex_fields": vertex_fields})
+    return cast(Info, _structured(Info, {**report, "fields": fields, "vertex_fields": vertex_fields}))
 
 
 def field_names(structure: type) -> list[str]:

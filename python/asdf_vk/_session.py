@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from . import _core
-from ._arrays import MeshArguments
+from ._arrays import MeshArgument
 from ._errors import error_of
 from ._options import Progress
 
@@ -49,17 +49,17 @@ class Session:
     @property
     def backend(self) -> str:
         """"vulkan", "cpu" or "reference"."""
-        return self._core.backend
+        return self._opened.backend
 
     @property
     def device_lines(self) -> list[str]:
         """The chosen device and the reason; then a line per device that was not chosen."""
-        return self._core.device_lines
+        return self._opened.device_lines
 
     @property
     def runs_on_cpu(self) -> bool:
         """Whether the CPU traces: Embree, the reference, or a CPU device of Vulkan."""
-        return self._core.runs_on_cpu
+        return self._opened.runs_on_cpu
 
     def close(self) -> None:
         """Releases the device."""
@@ -77,15 +77,15 @@ class Session:
         return f"<asdf_vk.Session, {self.device_lines[0]}>"
 
     @property
-    def _core(self) -> _core.Session:
+    def _opened(self) -> _core.Session:
         if self._open is None:
             raise error_of("optionConflict", "the session is closed")
         return self._open
 
     def _compute(
-        self, mesh: MeshArguments, options: dict[str, Any], progress: Progress | None
+        self, mesh: MeshArgument, options: dict[str, Any], progress: Progress | None
     ) -> _core.ComputedFields:
-        return self._core.compute(*mesh, options, progress)
+        return self._opened.compute(mesh, options, progress)
 
 
 def _session_key(backend: Any, device: Any, require_gpu: Any, threads: Any) -> tuple[str, str, bool, int]:

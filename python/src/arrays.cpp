@@ -22,10 +22,14 @@ template std::span<const float> entriesOf<float>(const py::array&);
 template std::span<const uint32_t> entriesOf<uint32_t>(const py::array&);
 template std::span<const uint8_t> entriesOf<uint8_t>(const py::array&);
 
-MeshView viewOf(const py::array& vertices, const py::array& faces) {
-  const std::span<const uint32_t> corners = entriesOf<uint32_t>(faces);
-  if (py::isinstance<py::array_t<float>>(vertices)) return {entriesOf<float>(vertices), corners};
-  return {entriesOf<double>(vertices), corners};
+MeshView viewOf(const py::object& mesh) {
+  if (py::isinstance<Mesh>(mesh)) return mesh.cast<const Mesh&>();
+  if (!py::isinstance<py::tuple>(mesh) || py::len(mesh) != 2)
+    throw Error(ErrorCode::ArrayType, "a mesh is a Mesh, or a tuple of vertices and faces");
+  const auto arrays = mesh.cast<std::pair<py::array, py::array>>();
+  const std::span<const uint32_t> corners = entriesOf<uint32_t>(arrays.second);
+  if (py::isinstance<py::array_t<float>>(arrays.first)) return {entriesOf<float>(arrays.first), corners};
+  return {entriesOf<double>(arrays.first), corners};
 }
 
 }  // namespace asdfvk::python

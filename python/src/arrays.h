@@ -15,8 +15,9 @@ namespace asdfvk::python {
 template <typename T>
 [[nodiscard]] std::span<const T> entriesOf(const pybind11::array& array);
 
-/// A view of the arrays, which must outlive it. vertices: #V x 3 double or float; faces: #F x 3 uint32.
-[[nodiscard]] MeshView viewOf(const pybind11::array& vertices, const pybind11::array& faces);
+/// A view of a Mesh, or of a tuple of vertices (#V x 3 double or float) and faces (#F x 3 uint32), which must outlive
+/// it. Throws Error{ArrayType} for anything else.
+[[nodiscard]] MeshView viewOf(const pybind11::object& mesh);
 
 /// An array that views `data` and keeps `owner` alive. Read-only.
 template <typename T>

@@ -67,12 +67,13 @@ std::vector<Field> fieldsOf(const py::dict& perFace, const py::dict& perVertex) 
   return fields;
 }
 
-void write(const std::filesystem::path& path, const MeshView& mesh, const py::dict& perFace, const py::dict& perVertex,
-           const std::string& format, bool ascii) {
+void write(const std::filesystem::path& path, const py::object& mesh, const py::dict& perFace,
+           const py::dict& perVertex, const std::string& format, bool ascii) {
   requireSameProcess();
   const std::vector<Field> fields = fieldsOf(perFace, perVertex);
+  const MeshView view = viewOf(mesh);
   const py::gil_scoped_release released;
-  writeResult(path, mesh, fields, {.format = format, .fields = {}, .ascii = ascii});
+  writeResult(path, view, fields, {.format = format, .fields = {}, .ascii = ascii});
 }
 
 /// Fields per face and fields per vertex of a file, by name.
@@ -94,19 +95,17 @@ py::tuple readFieldsOf(const std::filesystem::path& path) {
 }  // namespace
 
 void bindFiles(py::module_& module) {
-  py::class_<Mesh>(module, "Mesh")
-      .def_property_readonly("vertices", verticesOf)
-      .def_property_readonly("faces", facesOf)
-      .def_property_readonly("face_count", &Mesh::inputFaceCount)
-      .def_property_readonly("face_of_triangle", faceOfTriangle);
+  py::class_<Mesh>(module, "Mesh", "A mesh as read_mesh() returns it: all faces of the file, in file order.")
+      .def_property_readonly("vertices", verticesOf, "(n, 3) float64, in the unit of the file; read-only.")
+      .def_property_readonly("faces", facesOf,
+                             "(m, 3) int32 triangles, counter-clockwise seen from outside; read-only.")
+      .def_property_readonly("face_count", &Mesh::inputFaceCount,
+                             "Faces of the file. Functions return a value for each.")
+      .def_property_readonly("face_of_triangle", faceOfTriangle,
+                             "(m,) int32, the face of the file of each triangle; None where all are triangles.");
   module.def("read_mesh", readWithoutGil);
   module.def("read_fields", readFieldsOf);
-  module.def("write",
-             [](const std::filesystem::path& path, const Mesh& mesh, const py::dict& perFace, const py::dict& perVertex,
-                const std::string& format, bool ascii) { write(path, mesh, perFace, perVertex, format, ascii); });
-  module.def("write", [](const std::filesystem::path& path, const py::array& vertices, const py::array& faces,
-                         const py::dict& perFace, const py::dict& perVertex, const std::string& format,
-                         bool ascii) { write(path, viewOf(vertices, faces), perFace, perVertex, format, ascii); });
+  module.def("write", write);
 }
 
 }  // namespace asdfvk::python

@@ -110,20 +110,13 @@ void bindSession(py::module_& module) {
       .def_property_readonly("device_lines", [](const SharedSession& self) { return self.session().deviceLines(); })
       .def_property_readonly("runs_on_cpu", [](const SharedSession& self) { return self.session().runsOnCpu(); })
       .def("compute",
-           [](SharedSession& self, const Mesh& mesh, const py::dict& options, const py::object& progress) {
+           [](SharedSession& self, const py::object& mesh, const py::dict& options, const py::object& progress) {
              const Options parsed = optionsOf(options);
+             const MeshView view = viewOf(mesh);
              return computed(self, progress, [&](Session& session, const RunControl& control) {
-               return session.compute(mesh, parsed, control);
+               return session.compute(view, parsed, control);
              });
-           })
-      .def("compute", [](SharedSession& self, const py::array& vertices, const py::array& faces,
-                         const py::dict& options, const py::object& progress) {
-        const Options parsed = optionsOf(options);
-        const MeshView view = viewOf(vertices, faces);
-        return computed(self, progress, [&](Session& session, const RunControl& control) {
-          return session.compute(view, parsed, control);
-        });
-      });
+           });
 }
 
 }  // namespace

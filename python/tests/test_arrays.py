@@ -1,0 +1,107 @@
+"""Arrays of the caller: what is accepted, what is copied, what is never changed."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+import asdf_vk
+from asdf_vk import _arrays
+from shapes import cube, sphere
+
+SLOW_TYPES = (np.int8, np.int16, np.uint16, np.int64, np.uint64)
+
+
+def address(array: NDArray[Any]) -> int:
+    return int(array.__array_interface__["data"][0])
+
+
+def test_fitting_arrays_are_used_in_place() -> None:
+    vertices, faces = cube()
+    for vertex_type in (np.float64, np.float32):
+        for face_type in (np.int32, np.uint32):
+            given = vertices.astype(vertex_type), faces.astype(face_type)
+            used: Any = _arrays.mesh_argument(*given)
+            assert [address(array) for array in used] == [address(array) for array in given]
+
+
+def test_other_layouts_are_copied() -> None:
+    vertices, faces = cube()
+    given = np.asfortranarray(vertices), faces[::-1]
+    used: Any = _arrays.mesh_argument(*given)
+    for array, original in zip(used, given):
+        assert array.flags.c_contiguous
+        np.testing.assert_array_equal(array, original)
+
+
+def test_inputs_are_never_changed(reference: asdf_vk.Session) -> None:
+    vertices, faces = sphere(2)
+    vertices.setflags(write=False)
+    faces.setflags(write=False)
+    before = vertices.copy(), faces.copy()
+    with pytest.warns(asdf_vk.MeshWarning, match="inverted"):
+        asdf_vk.shape_diameter(vertices, faces, orient="flip", session=reference)
+    np.testing.assert_array_equal(vertices, before[0])
+    np.testing.assert_array_equal(faces, before[1])
+
+
+def test_accepted_arrays(reference: asdf_vk.Session) -> None:
+    vertices, faces = cube()
+
+    def values(v: Any, f: Any = None) -> NDArray[Any]:
+        return asdf_vk.shape_diameter(v, f, seeds="all", session=reference)
+
+    expected = values(vertices, faces)
+    unaligned = np.zeros(vertices.nbytes + 1, np.uint8)[1:].view(np.float64).reshape(vertices.shape)
+    unaligned[:] = vertices
+    for v in (unaligned, vertices[::-1][::-1], vertices.astype(np.float16), vertices.astype(np.longdouble)):
+        np.testing.assert_array_equal(values(v, faces), expected)
+    np.testing.assert_array_equal(values(vertices.astype(np.int64), faces), expected)
+    for integer in SLOW_TYPES:
+        np.testing.assert_array_equal(values(vertices, faces.astype(integer)), expected)
+    np.testing.assert_array_equal(values(vertices, np.asfortranarray(faces)), expected)
+    np.testing.assert_array_equal(values(vertices.tolist(), faces.tolist()), expected)
+    np.testing.assert_array_equal(values(SimpleNamespace(vertices=vertices, faces=faces)), expected)
+    np.testing.assert_array_equal(values(np.ma.MaskedArray(vertices), faces), expected)
+    spread = np.zeros((len(vertices), 6))[:, ::2]
+    spread[:] = vertices
+    np.testing.assert_array_equal(values(spread, faces), expected)
+
+
+def test_reversed_rows_are_other_faces(reference: asdf_vk.Session) -> None:
+    vertices, faces = sphere(2)
+    forwards = asdf_vk.shape_diameter(vertices, faces, seeds="all", session=reference)
+    backwards = asdf_vk.shape_diameter(vertices, faces[::-1], seeds="all", session=reference)
+    np.testing.assert_allclose(backwards, forwards[::-1], rtol=1e-5)
+
+
+def test_vertices_of_no_face_may_be_nan(reference: asdf_vk.Session) -> None:
+    vertices, faces = cube()
+    with_nan = np.concatenate([vertices, [[np.nan, 0, 0]]])
+    with pytest.warns(asdf_vk.MeshWarning, match="1 vertex has a coordinate that is not a finite number"):
+        values, info = asdf_vk.shape_diameter(with_nan, faces, seeds="all", session=reference, return_info=True)
+    assert np.isfinite(values).all() and info.defects.unreferenced_vertex_count == 1
+
+
+def test_arrays_outlive_what_they_came_from() -> None:
+    vertices, faces = sphere(2)
+    info = asdf_vk.shape_diameter(vertices, faces, return_info=True)[1]
+    seed = info.seed
+    count = int(seed.sum())
+    del info, vertices, faces
+    for _ in range(10):
+        asdf_vk.shape_diameter(*sphere(2))
+    assert int(seed.sum()) == count
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+def test_extreme_units(dtype: Any) -> None:
+    vertices, faces = sphere(3)
+    vertices = vertices.astype(dtype)
+    expected = asdf_vk.shape_diameter(vertices, faces)
+    for scale in (dtype(2.0**-60), dtype(2.0**60)):
+        np.testing.assert_allclose(asdf_vk.shape_diameter(vertices * scale, faces) / scale, expected, rtol=1e-6)

@@ -1,0 +1,209 @@
+"""Wrong arguments of every kind: an exception of asdf_vk with a code of the library, never a crash."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import Any, Callable, Iterator
+
+import numpy as np
+import pytest
+
+import asdf_vk
+from asdf_vk import _core
+from shapes import cube
+
+VERTICES, FACES = cube()
+
+OBJECTS: list[Any] = [
+    None,
+    True,
+    0,
+    1.5,
+    1j,
+    "text",
+    b"bytes",
+    object(),
+    {},
+    {1: 2},
+    set(),
+    [],
+    [[]],
+    [[1, 2], [3]],
+    [["a", "b", "c"]],
+    [[None, None, None]],
+    np.float64(1),
+    np.zeros(3),
+    np.zeros((8, 3, 1)),
+    np.zeros((8, 2)),
+    np.zeros((8, 4)),
+    np.zeros((3, 8)),
+    np.zeros((8, 3), complex),
+    np.zeros((8, 3), "datetime64[s]"),
+    np.zeros((8, 3), "U4"),
+    np.zeros((8, 3), "V8"),
+    np.zeros((8, 3), object),
+    np.zeros((8, 3), [("a", float)]),
+    np.ma.masked_all((8, 3)),
+    range(3),
+    lambda: None,
+    SimpleNamespace(vertices=VERTICES),
+]
+NUMBERS: list[Any] = [float("nan"), float("inf"), -float("inf"), -1, -0.5, 0, 2**64, 10**400, "x", "", [], 1j, object()]
+TEXTS: list[Any] = [1, 1.5, "", "unknown", b"all", object(), "\0", "x" * 10000]
+
+
+def with_corner(value: Any, dtype: Any) -> Any:
+    faces = FACES.astype(dtype)
+    faces[5, 1] = value
+    return faces
+
+
+def with_coordinate(value: float) -> Any:
+    vertices = VERTICES.copy()
+    vertices[3, 1] = value
+    return vertices
+
+
+def wrong_meshes() -> Iterator[tuple[Any, Any]]:
+    for wrong in OBJECTS:
+        yield wrong, FACES
+        if wrong is not None:
+            yield VERTICES, wrong
+        if wrong is not None:
+            yield wrong, wrong
+    yield VERTICES, FACES.astype(np.float64)
+    yield VERTICES, FACES + 0.5
+    yield VERTICES, FACES.astype(bool)
+    for value, dtype in ((-1, np.int32), (8, np.int32), (-1, np.int64), (2**32, np.int64), (2**63 - 1, np.int64)):
+        yield VERTICES, with_corner(value, dtype)
+    yield VERTICES, with_corner(2**64 - 1, np.uint64)
+    yield VERTICES, with_corner(2**32 - 1, np.uint32)
+    yield VERTICES, with_corner(-128, np.int8)
+    for number in (np.nan, np.inf, -np.inf):
+        yield with_coordinate(number), FACES
+        yield with_coordinate(number).astype(np.float32), FACES
+    yield VERTICES[:0], FACES
+    yield VERTICES, FACES[:0]
+    yield VERTICES[:0], FACES[:0]
+    yield np.broadcast_to(np.float32(0), (2**33, 3)), FACES
+    yield VERTICES, np.broadcast_to(np.int8(0), (2**40, 3))
+    yield np.broadcast_to(np.int8(0), (2**32 - 1, 3)), FACES
+
+
+NUMERIC = ["max_error", "max_relative_error", "time_budget", "rays", "cone_angle", "random_seed", "max_iterations"]
+NUMERIC += ["false_hit_angle", "outlier_deviations", "pooling", "tolerance", "check"]
+TEXTUAL = ["recipe", "definition", "sampler", "cone_rotation", "orient", "smooth", "weights", "guidance", "solver"]
+VALID = {
+    ("random_seed", 0),
+    ("pooling", 0),
+    ("false_hit_angle", 0),
+    ("time_budget", 2**64),
+    ("outlier_deviations", 2**64),
+}
+
+
+def wrong_options() -> Iterator[dict[str, Any]]:
+    for name in NUMERIC:
+        for number in NUMBERS:
+            if not (isinstance(number, int) and (name, number) in VALID):
+                yield {name: number}
+    for name in TEXTUAL:
+        for text in TEXTS:
+            yield {name: text}
+    for seeds in (0, -1, 0.0, 1.5, float("nan"), "x%", "%", "200%", "nan%", "all ", "", 2**64, [], b"all", 1j):
+        yield {"seeds": seeds}
+    for smooth in ((1,), (0, 1), (1, 2, 3), (9, 1), ("a", 1), [2, 1], (2.0, 1)):
+        yield {"smooth": smooth}
+    yield {"estimate": 1}
+    yield {"progress": 1}
+    yield {"unknown": 1}
+    yield {"measure": "thickness"}
+    yield {"threads": -1}
+    yield {"threads": 1.5}
+    yield {"threads": 10**9}
+    yield {"backend": "gpu"}
+    yield {"backend": 1}
+    yield {"device": "no such device"}
+    yield {"device": 99}
+    yield {"device": 1.5}
+    yield {"require_gpu": 1}
+    yield {"session": 1}
+    yield {"session": None, "per": "edge"}
+    yield {"definition": "cgal", "false_hit_angle": 10}
+
+
+def fails(call: Callable[[], Any]) -> bool:
+    try:
+        call()
+    except asdf_vk.Error as error:
+        assert error.code in _core.error_kinds
+        assert str(error) and "\n" not in str(error)
+        return True
+    return False
+
+
+def test_wrong_meshes() -> None:
+    accepted = [
+        (type(v), type(f))
+        for v, f in wrong_meshes()
+        if not fails(lambda: asdf_vk.shape_diameter(v, f, backend="reference"))
+    ]
+    assert accepted == []
+
+
+def test_wrong_options() -> None:
+    function: Any = asdf_vk.shape_diameter
+    accepted = [
+        options
+        for options in wrong_options()
+        if not fails(lambda: function(VERTICES, FACES, **{"backend": "reference", **options}))
+    ]
+    assert accepted == []
+
+
+def test_kinds_of_wrong_input_are_many() -> None:
+    assert len(list(wrong_meshes())) + len(list(wrong_options())) >= 200
+
+
+def test_wrong_arguments_of_the_other_functions(reference: asdf_vk.Session) -> None:
+    def segment(**options: Any) -> Callable[[], Any]:
+        return lambda: asdf_vk.segment(VERTICES, FACES, session=reference, **options)
+
+    def thickness(**options: Any) -> Callable[[], Any]:
+        return lambda: asdf_vk.thickness(VERTICES, FACES, session=reference, **options)
+
+    assert fails(segment(method="x"))
+    assert fails(segment(parts=0)) and fails(segment(parts=101)) and fails(segment(parts=2, detail=2))
+    assert fails(segment(clusters=3)) and fails(segment(method="cgal", parts=3))
+    assert fails(segment(method="cgal", clusters=1)) and fails(segment(method="cgal", smoothness=-1))
+    assert fails(segment(method="cgal", smoothness=float("nan"))) and fails(segment(method="cgal", expansion="x"))
+    assert fails(segment(postprocess="cgal")) and fails(segment(seeds=-1))
+    assert fails(thickness(thinner_than=0)) and fails(thickness(thinner_than=float("nan")))
+    assert fails(thickness(wall_angle=90)) and fails(thickness(wall_angle=181)) and fails(thickness(per="x"))
+
+
+def test_wrong_files(tmp_path: Any) -> None:
+    for path in (1, None, object(), "", "\0", tmp_path, tmp_path / "none"):
+        assert fails(lambda: asdf_vk.read_mesh(path)), path
+        assert fails(lambda: asdf_vk.read_fields(path)), path
+        assert fails(lambda: asdf_vk.write(path, cube())), path
+    garbage = tmp_path / "garbage.ply"
+    for text in (b"", b"ply", b"\xff" * 100, b"ply\nformat ascii 1.0\nelement vertex 4000000000\nend_header\n"):
+        garbage.write_bytes(text)
+        assert fails(lambda: asdf_vk.read_mesh(garbage))
+    target = tmp_path / "x.ply"
+    wrong_fields: list[Any] = [1, "x", {"a": 1}, {"a": "text"}, {"a": np.zeros((12, 3, 3))}, {"a": np.zeros(3)}]
+    wrong_fields += [{"": np.zeros(12)}, {"a b": np.zeros(12)}, {"a": np.full(12, 2**40)}, {"a": np.zeros(12, complex)}]
+    for fields in wrong_fields:
+        assert fails(lambda: asdf_vk.write(target, cube(), fields)), fields
+    assert not target.exists()
+
+
+def test_a_wrong_mesh_has_the_position_in_its_message() -> None:
+    with pytest.raises(asdf_vk.InputError, match="face 5") as index:
+        asdf_vk.shape_diameter(VERTICES, with_corner(-1, np.int64))
+    assert index.value.code == "indexOutOfRange" and index.value.details == {"face": "5"}
+    with pytest.raises(asdf_vk.InputError, match="vertex 3") as number:
+        asdf_vk.shape_diameter(with_coordinate(np.nan), FACES)
+    assert number.value.code == "nonFiniteNumber"
+    assert isinstance(number.value, ValueError)

@@ -1,0 +1,60 @@
+"""Type annotations: of the package, of these tests, and as a caller sees them."""
+
+from __future__ import annotations
+
+import inspect
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import asdf_vk
+from asdf_vk import _core
+
+_ROOT = Path(__file__).resolve().parents[2]
+
+
+def mypy(*arguments: str, folder: Path = _ROOT) -> str:
+    pytest.importorskip("mypy")
+    command = [sys.executable, "-m", "mypy", "--config-file", str(_ROOT / "pyproject.toml"), *arguments]
+    environment = {**os.environ, "MYPYPATH": str(_ROOT / "python")}
+    finished = subprocess.run(command, capture_output=True, text=True, cwd=folder, env=environment)
+    return finished.stdout + finished.stderr
+
+
+def test_the_package_and_its_tests_are_typed() -> None:
+    found = mypy(
+        "--cache-dir=/dev/null", "python/asdf_vk", "python/tests", "python/cgal_Segmentation_Module.py"
+    )
+    assert found.startswith("Success"), found
+
+
+def test_a_caller_sees_types(tmp_path: Path) -> None:
+    (tmp_path / "caller.py").write_text(
+        "import asdf_vk\n"
+        "import numpy as np\n"
+        "v, f = np.zeros((3, 3)), np.zeros((1, 3), int)\n"
+        "reveal_type(asdf_vk.shape_diameter(v, f))\n"
+        "reveal_type(asdf_vk.segment(v, f, return_info=True)[1].segment_count)\n"
+        "asdf_vk.shape_diameter(v, f, rays='many')\n"
+    )
+    found = mypy("--cache-dir=/dev/null", "caller.py", folder=tmp_path)
+    assert "numpy.floating[numpy._typing._32Bit]" in found and "Union[builtins.int, None]" in found, found
+    assert re.search(r"caller.py:6: error: No overload", found) and "Found 1 error" in found, found
+
+
+def test_stubs_name_what_the_extension_has() -> None:
+    stub = (Path(asdf_vk.__file__).parent / "_core.pyi").read_text()
+    declared = set(re.findall(r"^(?:class|def) (\w+)|^(\w+):", stub, re.MULTILINE))
+    names = {name for pair in declared for name in pair if name}
+    assert names == {name for name in dir(_core) if not name.startswith("__")}
+
+
+def test_everything_public_has_a_docstring() -> None:
+    for name in asdf_vk.__all__:
+        item = getattr(asdf_vk, name)
+        if callable(item):
+            assert inspect.getdoc(item), name

@@ -1,0 +1,148 @@
+"""Values, segments and thickness: of shapes with known values, and equal to those of the program."""
+
+from __future__ import annotations
+
+import subprocess
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+import asdf_vk
+from asdf_vk import _arrays, _core, _options, _report
+from shapes import cube, dumbbell, joined, sphere
+
+
+def bits(values: NDArray[Any]) -> NDArray[Any]:
+    return values.view(np.uint32)
+
+
+def by_program(program: Path, mesh: Path, result: Path, *options: str) -> NDArray[Any]:
+    subprocess.run([program, mesh, "-o", result, "--quiet", *options], check=True)
+    return np.load(result)
+
+
+def test_the_diameter_of_a_sphere() -> None:
+    values = asdf_vk.shape_diameter(*sphere(4), seeds="all")
+    assert values.dtype == np.float32 and values.shape == (20 * 4**4,)
+    # 30 rays within 60 degrees of the axis, weighted by 1 / angle (docs/method.md).
+    np.testing.assert_allclose(values, 1.717, rtol=0.01)
+
+
+def test_the_thickness_of_a_sphere_and_of_a_cube() -> None:
+    np.testing.assert_allclose(asdf_vk.thickness(*sphere(4), seeds="all"), 2, rtol=0.01)
+    np.testing.assert_allclose(asdf_vk.thickness(*cube(), seeds="all"), 1, rtol=1e-6)
+
+
+def test_skeleton_points_of_a_cube_lie_on_its_middle_planes() -> None:
+    points, radii, info = asdf_vk.skeleton_points(*cube(), seeds="all", return_info=True)
+    assert points.dtype == np.float64 and points.shape == (12, 3)
+    vertices, faces = cube()
+    centres = vertices[faces].mean(axis=1)
+    np.testing.assert_allclose(np.linalg.norm(points - centres, axis=1), radii, rtol=1e-6)
+    np.testing.assert_array_equal(radii * 2, info.fields["sdf"])
+
+
+def test_parts_and_clusters() -> None:
+    mesh = joined(sphere(3), (sphere(2)[0] * 0.4 + [3, 0, 0], sphere(2)[1]))
+    labels, info = asdf_vk.segment(*mesh, return_info=True)
+    assert labels.dtype == np.int32 and info.segment_count == labels.max() + 1 == 2
+    assert info.parts is not None and sum(info.parts.area_shares) == pytest.approx(1)
+    assert len(set(labels[:1280])) == len(set(labels[1280:])) == 1
+    clusters, info = asdf_vk.segment(*dumbbell(), method="cgal", clusters=2, return_info=True)
+    assert info.parts is None and info.segment_count == clusters.max() + 1 >= 2
+
+
+def test_fields_and_report() -> None:
+    vertices, faces = sphere(4)
+    values, info = asdf_vk.shape_diameter(vertices, faces, seeds=0.2, return_info=True)
+    assert info.seed_count == info.seed.sum() == round(0.2 * len(faces))
+    assert info.face_count == len(faces) and info.vertex_count == len(vertices)
+    np.testing.assert_array_equal(info.fields["sdf"], values)
+    assert info.error is not None and (info.error[info.seed == 1] == 0).all() and info.error.max() > 0
+    assert info.estimated_error is not None and info.estimated_error.held_out_count > 0
+    assert info.sdf.min == pytest.approx(values.min())
+    assert info.stage_seconds["trace"] > 0 and info.warnings == ()
+    assert info.check is None
+    info = asdf_vk.shape_diameter(vertices, faces, seeds="all", check="all", return_info=True)[1]
+    assert info.check is not None and info.check.passed and info.estimated_error is None
+
+
+def test_per_vertex() -> None:
+    vertices, faces = dumbbell()
+    values, info = asdf_vk.shape_diameter(vertices, faces, per="vertex", return_info=True)
+    assert values.shape == (len(vertices),)
+    vertex = int(faces[100, 0])
+    around = info.fields["sdf"][(faces == vertex).any(axis=1)]
+    assert around.min() <= values[vertex] <= around.max()
+
+
+def test_no_value_is_nan() -> None:
+    vertices, faces = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]]), np.array([[0, 1, 2]])
+    with pytest.warns(asdf_vk.MeshWarning) as caught:
+        values = asdf_vk.shape_diameter(vertices, faces)
+    assert np.isnan(values).all()
+    assert "missingValues" in [getattr(warning.message, "code") for warning in caught]
+    assert {Path(warning.filename) for warning in caught} == {Path(__file__)}
+
+
+def test_options_reach_the_library() -> None:
+    mesh = dumbbell()
+    paper = asdf_vk.shape_diameter(*mesh, recipe="paper")
+    assert (paper != asdf_vk.shape_diameter(*mesh)).any()
+    assert asdf_vk.shape_diameter(*mesh, seeds=50, return_info=True)[1].seed_count == 50
+    assert asdf_vk.shape_diameter(*mesh, seeds="5 %", return_info=True)[1].seed_count == 256
+    assert asdf_vk.shape_diameter(*mesh, definition="cgal", return_info=True)[1].seed_count == 5120
+    assert asdf_vk.shape_diameter(*mesh, rays=7, seeds=100, return_info=True)[1].ray_count == 700
+    first = asdf_vk.shape_diameter(*mesh, max_error=0.5, return_info=True)[1]
+    assert first.seed_count == 102  # 2 %, as the program
+    assert asdf_vk.shape_diameter(*mesh, random_seed=None, return_info=True)[1].random_seed == 1
+
+
+def test_names_of_options_and_of_the_report_agree_with_the_extension() -> None:
+    implied = {"segmentation", "parts", "detail", "clusters", "smoothness", "expansion", "postprocess"}
+    implied |= {"measure", "wall_angle", "thinner_than", "centres", "per"}
+    assert set(_options.ComputeOptions.__annotations__) == set(_core.option_names()) - implied
+    computed = asdf_vk.Session(backend="reference")._compute(_arrays.mesh_argument(*cube()), {"check": 1}, None)
+    assert set(computed.report()) | {"fields", "vertex_fields"} == set(_report.field_names(_report.Info))
+
+
+CALLS = [
+    ((), lambda mesh: asdf_vk.shape_diameter(mesh)),
+    (("--recipe", "quality", "--seeds", "all"), lambda mesh: asdf_vk.shape_diameter(mesh, recipe="quality", seeds="all")),
+    (("--measure", "thickness", "--fields", "thickness"), lambda mesh: asdf_vk.thickness(mesh)),
+    (("--segment", "--fields", "segment"), lambda mesh: asdf_vk.segment(mesh)),
+    (
+        ("--definition", "cgal", "--segment", "cgal", "--fields", "segment"),
+        lambda mesh: asdf_vk.segment(mesh, method="cgal", definition="cgal"),
+    ),
+]
+
+
+@pytest.mark.parametrize("options, call", CALLS, ids=["sdf", "quality", "thickness", "parts", "cgal"])
+def test_same_bits_as_the_program(program: Path, tmp_path: Path, options: tuple[str, ...], call: Any) -> None:
+    vertices, faces = dumbbell()
+    path = tmp_path / "dumbbell.ply"
+    asdf_vk.write(path, (vertices, faces))
+    expected = by_program(program, path, tmp_path / "result.npy", *options)
+    of_file = call(asdf_vk.read_mesh(path))
+    np.testing.assert_array_equal(bits(of_file), bits(expected))
+
+
+def test_same_bits_for_arrays_of_any_type() -> None:
+    vertices, faces = dumbbell()
+    vertices = vertices.astype(np.float32)
+    expected = asdf_vk.shape_diameter(vertices, faces)
+    for v in (vertices, vertices.astype(np.float64), np.asfortranarray(vertices), vertices.astype(">f8")):
+        for f in (faces, faces.astype(np.uint32), faces.astype(np.int64), faces.astype(np.uint64), faces.tolist()):
+            np.testing.assert_array_equal(asdf_vk.shape_diameter(v, f), expected)
+
+
+def test_real_meshes_have_the_bits_of_the_program(program: Path, mesh_folder: Path, tmp_path: Path) -> None:
+    for name in ("cow.off", "fandisk.off", "3holes.off"):
+        path = mesh_folder / "models" / name
+        for options, call in CALLS:
+            expected = by_program(program, path, tmp_path / "result.npy", *options)
+            np.testing.assert_array_equal(bits(call(asdf_vk.read_mesh(path))), bits(expected), err_msg=name)
