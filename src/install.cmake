@@ -1,14 +1,28 @@
-# Programs, library, headers, CMake package and pkg-config file, in the folders of GNUInstallDirs.
+# Programs with their man pages and completions, library, headers, CMake package and pkg-config file, in the folders of
+# GNUInstallDirs. Components: program, development, and python (python/CMakeLists.txt).
 include(CMakePackageConfigHelpers)
 
 set(packageFolder ${CMAKE_INSTALL_LIBDIR}/cmake/asdf-vk)
-install(TARGETS asdfvk-library EXPORT asdf-vk-targets)
+install(TARGETS asdfvk-library EXPORT asdf-vk-targets COMPONENT development)
 if(ASDF_VK_PROGRAM)
-  install(TARGETS asdf-vk asdf-vk-generate)
+  install(TARGETS asdf-vk asdf-vk-generate COMPONENT program)
+
+  find_program(ASDF_VK_GZIP gzip REQUIRED)
+  mark_as_advanced(ASDF_VK_GZIP)
+  set(documents ${PROJECT_BINARY_DIR}/documents)
+  set(manPages ${documents}/man/man1/asdf-vk.1 ${documents}/man/man1/asdf-vk-generate.1)
+  add_custom_command(OUTPUT ${documents}/written
+                     COMMAND asdfvk-write-documents ${documents}
+                     COMMAND ${ASDF_VK_GZIP} -9nf ${manPages}
+                     COMMAND ${CMAKE_COMMAND} -E touch ${documents}/written
+                     COMMENT "Writing man pages and completions" VERBATIM)
+  add_custom_target(asdfvk-documents-files ALL DEPENDS ${documents}/written)
+  install(DIRECTORY ${documents}/man ${documents}/bash-completion ${documents}/zsh ${documents}/fish
+          DESTINATION ${CMAKE_INSTALL_DATADIR} COMPONENT program)
 endif()
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/asdf_vk ${PROJECT_BINARY_DIR}/include/asdf_vk
-        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
-install(EXPORT asdf-vk-targets NAMESPACE asdf-vk:: DESTINATION ${packageFolder})
+        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development FILES_MATCHING PATTERN "*.h")
+install(EXPORT asdf-vk-targets NAMESPACE asdf-vk:: DESTINATION ${packageFolder} COMPONENT development)
 
 get_target_property(libraryType asdfvk-library TYPE)
 set(ASDFVK_IS_STATIC OFF)
@@ -28,7 +42,7 @@ configure_package_config_file(asdf-vk-config.cmake.in ${PROJECT_BINARY_DIR}/asdf
                               INSTALL_DESTINATION ${packageFolder})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/asdf-vk-config-version.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/asdf-vk-config.cmake ${PROJECT_BINARY_DIR}/asdf-vk-config-version.cmake
-        DESTINATION ${packageFolder})
+        DESTINATION ${packageFolder} COMPONENT development)
 # Relative to the file itself, so that `cmake --install --prefix` may change the prefix.
 set(pkgConfigFolder ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 set(ASDFVK_PC_PREFIX ${CMAKE_INSTALL_PREFIX})
@@ -41,4 +55,4 @@ set(ASDFVK_PC_INCLUDEDIR "\${prefix}")
 cmake_path(APPEND ASDFVK_PC_LIBDIR "${CMAKE_INSTALL_LIBDIR}")
 cmake_path(APPEND ASDFVK_PC_INCLUDEDIR "${CMAKE_INSTALL_INCLUDEDIR}")
 configure_file(asdf-vk.pc.in ${PROJECT_BINARY_DIR}/asdf-vk.pc @ONLY)
-install(FILES ${PROJECT_BINARY_DIR}/asdf-vk.pc DESTINATION ${pkgConfigFolder})
+install(FILES ${PROJECT_BINARY_DIR}/asdf-vk.pc DESTINATION ${pkgConfigFolder} COMPONENT development)

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <string>
+#include <utility>
 
 #include "asdf_vk/error.h"
 #include "asdf_vk/report.h"
@@ -19,6 +21,20 @@ enum class ExitCode : int {
   Internal = 70,    ///< A defect of the program.
   Cancelled = 130,  ///< SIGINT, SIGTERM or SIGHUP.
 };
+
+/// Meaning of each code, for the help and the man page.
+inline constexpr std::array<std::pair<ExitCode, const char*>, 9> kExitCodes{
+    {{ExitCode::Done, "done"},
+     {ExitCode::Usage, "usage"},
+     {ExitCode::Input, "input unreadable"},
+     {ExitCode::Device, "no device or device lost"},
+     {ExitCode::Output, "output not writable"},
+     {ExitCode::CheckFailed, "a requested check failed"},
+     {ExitCode::TooThin, "thinner than --fail-if-thinner"},
+     {ExitCode::Internal, "internal error"},
+     {ExitCode::Cancelled, "cancelled"}}};
+inline constexpr const char* kExitCodeOfSeveralMeshes =
+    "With several meshes the others are computed and the code of the first failure is returned.";
 
 [[nodiscard]] ExitCode exitCodeOf(ErrorKind kind);
 /// Done or CheckFailed. A check that is not independent cannot fail.

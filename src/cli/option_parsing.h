@@ -23,6 +23,11 @@ namespace asdfvk {
 inline constexpr const char* kBasicGroup = "Options";
 inline constexpr const char* kExperimentGroup = "Experiments (the defaults are best)";
 
+/// Name, description and every option of the program, which set `line`. The type name of an option, if it contains "|",
+/// lists its values for completions where the placeholder in the help is only a name for them: "sdf|seed",
+/// "FILE.ply|FILE.off".
+void addOptions(CLI::App& app, CommandLine& line);
+
 /// Adds the options of the computation, which set line.options and line.recipe.
 void addComputation(CLI::App& app, CommandLine& line);
 

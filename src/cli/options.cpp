@@ -7,11 +7,13 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <sstream>
 #include <utility>
 
 #include "asdf_vk/error.h"
 #include "asdf_vk/files.h"
 #include "asdf_vk/version.h"
+#include "cli/exit_code.h"
 #include "cli/option_parsing.h"
 #include "core/text.h"
 #include "pipeline/valid_options.h"
@@ -24,10 +26,26 @@ constexpr const char* kDescription =
     "Computes the shape diameter function of triangle meshes (how thick the shape is, seen from each face): rays\n"
     "from seed faces on a Vulkan device, interpolation for the other faces.";
 
-constexpr const char* kFooter =
-    "Exit codes: 0 done, 1 usage, 2 input unreadable, 3 no device or device lost, 4 output not writable,\n"
-    "5 a requested check failed, 6 thinner than --fail-if-thinner, 70 internal error, 130 cancelled. With several\n"
-    "meshes the others are computed and the code of the first failure is returned.";
+/// Lines of at most 110 characters.
+std::string wrapped(const std::string& text) {
+  constexpr size_t kWidth = 110;
+  std::string lines;
+  size_t width = 0;
+  std::istringstream words(text);
+  for (std::string word; words >> word; width += word.size() + 1) {
+    if (width + word.size() > kWidth) width = 0;
+    if (!lines.empty()) lines += width == 0 ? '\n' : ' ';
+    lines += word;
+  }
+  return lines;
+}
+
+std::string footer() {
+  std::string codes;
+  for (const auto& [code, meaning] : kExitCodes)
+    codes += fmt::format("{}{} {}", codes.empty() ? "" : ", ", static_cast<int>(code), meaning);
+  return wrapped(fmt::format("Exit codes: {}. {}", codes, kExitCodeOfSeveralMeshes));
+}
 
 bool isCheckCount(const std::string& text) {
   return text == "all" || (!text.empty() && text.find_first_not_of("0123456789") == std::string::npos);
@@ -109,6 +127,7 @@ void addOutput(CLI::App& app, CommandLine& line) {
              line.fields = parseFields(text);
              if (std::count(line.fields.begin(), line.fields.end(), "centre") > 0) line.options.computesCentres = true;
            })
+      ->type_name(fmt::format("{}", fmt::join(resultFieldNames(), "|")))
       ->group(kBasicGroup);
   addValue(app, "--check", "[=N|all]",
            fmt::format("Recompute N random traced faces, and N of all faces, with the reference\n"
@@ -272,25 +291,31 @@ std::string helpOf(CLI::App& app, bool showsAll) {
   if (showsAll) return app.help();
   for (CLI::Option* option : app.get_options())
     if (option->get_group() != kBasicGroup && !option->get_positional()) option->group("");
-  app.footer("--help=all lists all options.\n" + std::string(kFooter));
+  app.footer("--help=all lists all options.\n" + footer());
   return app.help();
 }
 
 }  // namespace
 
-CommandLine parseCommandLine(std::vector<std::string> arguments) {
-  CommandLine line;
-  CLI::App app(kDescription, "asdf-vk");
-  app.footer(kFooter);
+void addOptions(CLI::App& app, CommandLine& line) {
+  app.name("asdf-vk");
+  app.description(kDescription);
+  app.footer(footer());
   app.set_help_flag("-h,--help", "Print the most needed options; --help=all prints all");
   app.set_version_flag("--version", fmt::format("asdf-vk {} ({})", ASDFVK_VERSION, ASDFVK_COMMIT), "Print the version");
   app.add_option("meshes", line.meshes, fmt::format("Meshes: .{}; - is standard input", fmt::join(meshFormats(), " .")))
-      ->option_text("MESH...");
+      ->option_text("MESH...")
+      ->type_name(fmt::format("FILE.{}|-", fmt::join(meshFormats(), "|FILE.")));
   addComputation(app, line);
   addOutput(app, line);
   addPicture(app, line);
   addDevice(app, line);
+}
 
+CommandLine parseCommandLine(std::vector<std::string> arguments) {
+  CommandLine line;
+  CLI::App app;
+  addOptions(app, line);
   expandBareCheck(arguments);
   expandBareSegment(arguments);
   const bool showsAll = takeHelpAll(arguments);

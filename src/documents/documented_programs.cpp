@@ -1,0 +1,59 @@
+// What the man pages have beyond the options.
+#include "asdf_vk/version.h"
+#include "cli/exit_code.h"
+#include "cli/option_parsing.h"
+#include "documents/program.h"
+#include "generate/generator_options.h"
+
+namespace asdfvk {
+namespace {
+
+Program documentedAsdfVk() {
+  CommandLine line;
+  CLI::App app;
+  addOptions(app, line);
+  Program program = describe(app);
+  program.version = ASDFVK_VERSION;
+  program.summary = "compute the shape diameter function of triangle meshes";
+  for (const auto& [code, meaning] : kExitCodes) program.exitCodes.emplace_back(static_cast<int>(code), meaning);
+  program.exitNote = kExitCodeOfSeveralMeshes;
+  program.files = {{"NAME.asdf.ply",
+                    "The result for the mesh NAME.ply (or .off, .obj, .stl), beside it, unless -o is given: the mesh, "
+                    "the fields of its faces, and their colours."}};
+  program.environment = {
+      {"ASDF_VK_VALIDATION", "1 enables the Vulkan validation layers; anything that they report is an error."},
+      {"VK_DRIVER_FILES",
+       "Of the Vulkan loader: the driver manifests to use instead of the installed ones, separated "
+       "by colons."}};
+  program.examples = {
+      {"Write the values of the faces to mesh.asdf.ply:", "asdf-vk mesh.ply"},
+      {"Choose the number of seeds by the error, and check the values with the reference:",
+       "asdf-vk mesh.ply --max-error 1% --check"},
+      {"Find the parts of a shape, and draw them:",
+       "asdf-vk mesh.ply --segment --picture parts.png --picture-of segment"},
+      {"Fail where a part is thinner than 0.8, in the unit of the mesh:", "asdf-vk part.stl --fail-if-thinner 0.8"},
+      {"Read from standard input, write comma-separated values to standard output:",
+       "asdf-vk-generate animal -o - | asdf-vk - -o - --format csv"}};
+  program.seeAlso = {"asdf-vk-generate(1)", "vulkaninfo(1)"};
+  return program;
+}
+
+Program documentedGenerator() {
+  GeneratorOptions options;
+  CLI::App app;
+  addOptions(app, options);
+  Program program = describe(app);
+  program.version = ASDFVK_VERSION;
+  program.summary = "generate triangle meshes of known shape diameter";
+  program.exitCodes.assign(kGeneratorExitCodes.begin(), kGeneratorExitCodes.end());
+  program.examples = {{"An animal of about 20,000 faces:", "asdf-vk-generate animal -o animal.ply"},
+                      {"A sphere of radius 10:", "asdf-vk-generate sphere --scale 10 -o sphere.ply"}};
+  program.seeAlso = {"asdf-vk(1)"};
+  return program;
+}
+
+}  // namespace
+
+std::vector<Program> documentedPrograms() { return {documentedAsdfVk(), documentedGenerator()}; }
+
+}  // namespace asdfvk

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+/// A program as its man page and its completions show it. Everything about options is read from the CLI::App that also
+/// parses the command line.
+namespace asdfvk {
+
+/// Values of an option or argument.
+struct Values {
+  std::string placeholder;              ///< As in the help: "N%|N|all", "FILE.ply", "[=N|all]"; empty for a flag.
+  uint32_t count = 0;                   ///< 0 for a flag.
+  bool areAttached = false;             ///< Optional, and given as --name=value only.
+  bool areList = false;                 ///< Words separated by commas.
+  bool areFiles = false;                ///< A file is among the values.
+  std::vector<std::string> words;       ///< Literal values: "paper", "balanced".
+  std::vector<std::string> extensions;  ///< Of the files, without the dot; empty: any.
+};
+
+/// Values from a placeholder. An alternative (between bars) in lower case is a literal value; FILE is any file,
+/// FILE.ply one of that extension; ",..." at the end marks a list.
+[[nodiscard]] Values parseValues(const std::string& placeholder);
+
+struct DocumentedOption {
+  std::vector<std::string> names;  ///< "-o", "--output"; none for an argument.
+  Values values;
+  std::string text;   ///< The help as one line.
+  std::string group;  ///< Heading in the help.
+  std::vector<std::string> needs;
+  bool isRequired = false;
+};
+
+/// All text is plain: no markup.
+struct Program {
+  std::string name;
+  std::string version;
+  std::string summary;  ///< For whatis and apropos: no capital, no full stop.
+  std::string description;
+  std::vector<DocumentedOption> arguments, options;  ///< In the order of the help.
+  std::vector<std::pair<int, std::string>> exitCodes;
+  std::string exitNote;
+  std::vector<std::pair<std::string, std::string>> files, environment;  ///< Name and meaning.
+  std::vector<std::pair<std::string, std::string>> examples;            ///< What it does, command.
+  std::vector<std::string> seeAlso;                                     ///< Other man pages: "man(1)".
+};
+
+/// Name, description, arguments and options of `app`. Throws CheckFailure where an option has no name that starts with
+/// two dashes.
+[[nodiscard]] Program describe(const CLI::App& app);
+
+/// asdf-vk and asdf-vk-generate.
+[[nodiscard]] std::vector<Program> documentedPrograms();
+
+/// The first sentence of the help of an option, or its part before a semicolon: completions have one line per option.
+[[nodiscard]] std::string briefText(const DocumentedOption& option);
+
+[[nodiscard]] std::string manPage(const Program& program);
+[[nodiscard]] std::string bashCompletion(const Program& program);
+[[nodiscard]] std::string zshCompletion(const Program& program);
+[[nodiscard]] std::string fishCompletion(const Program& program);
+
+}  // namespace asdfvk

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <array>
+#include <cstdint>
+#include <string>
+#include <utility>
+
+namespace asdfvk {
+
+/// The command line of asdf-vk-generate.
+struct GeneratorOptions {
+  std::string shape, output;
+  uint64_t faceCount = 20000;
+  double scale = 1;
+  std::array<double, 3> translate{0, 0, 0};
+  bool doubleVertices = false;
+};
+
+/// Exit codes of asdf-vk-generate; those of asdf-vk have the same numbers.
+inline constexpr int kGeneratorUsage = 1, kGeneratorOutput = 4;
+inline constexpr std::array<std::pair<int, const char*>, 3> kGeneratorExitCodes{
+    {{0, "done"}, {kGeneratorUsage, "usage"}, {kGeneratorOutput, "output not writable"}}};
+
+/// Name, description and every option of the program, which set `options`.
+void addOptions(CLI::App& app, GeneratorOptions& options);
+
+}  // namespace asdfvk

@@ -1,0 +1,135 @@
+# Debian packages of Debian 12 by CPack: asdf-vk, libasdf-vk-dev, and python3-asdf-vk where the Python module is built.
+# A package is an install component. Used by the preset `packages` and scripts/test-packages:
+#   cmake --preset packages && cmake --build --preset packages && cpack --preset packages
+set(components program development)
+if(TARGET asdfvk-python)
+  list(APPEND components python)
+endif()
+set(CPACK_COMPONENTS_ALL ${components})
+set(CPACK_GENERATOR DEB)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_COMPONENTS_GROUPING IGNORE)
+set(CPACK_PACKAGE_NAME asdf-vk)
+set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
+set(CPACK_PACKAGE_CONTACT "The asdf-vk authors <asdf-vk@localhost.localdomain>")
+set(CPACK_PACKAGING_INSTALL_PREFIX ${CMAKE_INSTALL_PREFIX})
+set(CPACK_PACKAGE_DIRECTORY ${PROJECT_BINARY_DIR}/deb)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ
+    WORLD_EXECUTE)
+set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
+set(CPACK_DEBIAN_PACKAGE_MAINTAINER "${CPACK_PACKAGE_CONTACT}")
+set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
+
+# The Vulkan loader is opened at run time: the programs work without it, on the CPU.
+set(vulkan "libvulkan1, mesa-vulkan-drivers | vulkan-icd")
+set(description
+"The shape diameter function is the thickness of a shape behind each face of
+ its surface. It serves to segment, skeletonise, check and retrieve shapes.
+ Rays from a tenth of the faces are traced by Vulkan compute, on a GPU or a
+ CPU, and the values of the other faces are interpolated. The error is
+ estimated. Parts and the wall thickness are computed from the same rays.
+ .
+ ")
+
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME asdf-vk)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION graphics)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "${vulkan}")
+set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "shape diameter function of triangle meshes by Vulkan compute
+ ${description}This package has the programs asdf-vk and asdf-vk-generate.")
+
+# What asdf-vk-config.cmake finds. The static library is bound to the symbols of one major version of fmt.
+string(REGEX MATCH "^[0-9]+" fmtMajor "${fmt_VERSION}")
+math(EXPR fmtNext "${fmtMajor} + 1")
+set(depends "libfmt-dev (>= ${fmtMajor}), libfmt-dev (<< ${fmtNext}), libtbb-dev (>= 2021), zlib1g-dev")
+if(TARGET embree)
+  string(APPEND depends ", libembree-dev (>= 3)")
+endif()
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libasdf-vk-dev)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "${depends}")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS "${vulkan}")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS libopenmesh-dev)
+set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "shape diameter function of triangle meshes - development files
+ ${description}This package has the static library, its headers, a CMake package and a
+ pkg-config file.")
+
+# The module is bound to the minor version of Python it is built for.
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-asdf-vk)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.11), python3 (<< 3.12), python3-numpy")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "${vulkan}")
+set(CPACK_DEBIAN_PYTHON_DESCRIPTION "shape diameter function of triangle meshes - Python module
+ ${description}This package has the Python module asdf_vk.")
+
+# Files for /usr/share/doc of each package, and maintainer scripts. Both changelogs are of the version of the project.
+set(folder ${PROJECT_BINARY_DIR}/debian)
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/LICENSE
+             ${PROJECT_SOURCE_DIR}/CHANGELOG.md)
+function(writeGzip text name)
+  file(WRITE ${folder}/${name} "${text}")
+  execute_process(COMMAND ${ASDF_VK_GZIP} -9nf ${folder}/${name} COMMAND_ERROR_IS_FATAL ANY)
+endfunction()
+
+file(READ ${PROJECT_SOURCE_DIR}/LICENSE license)
+string(REGEX MATCH "Copyright \\(c\\) ([^\n]*)\n\n(.*)" ignored "${license}")
+set(holder "${CMAKE_MATCH_1}")
+string(REGEX REPLACE "\n+$" "" license "${CMAKE_MATCH_2}")
+string(REPLACE "\n\n" "\n.\n" license "${license}")
+string(REPLACE "\n" "\n " license "${license}")
+file(WRITE ${folder}/copyright
+"Format: https://www.debian.org/doc/packaging-manuals/copyright-format/1.0/
+Upstream-Name: asdf-vk
+
+Files: *
+Copyright: ${holder}
+License: Expat
+
+License: Expat
+ ${license}
+")
+
+file(READ ${PROJECT_SOURCE_DIR}/CHANGELOG.md changes)
+writeGzip("${changes}" changelog)
+set(date "")
+if(GIT_FOUND AND NOT DEFINED ENV{SOURCE_DATE_EPOCH})
+  execute_process(COMMAND ${GIT_EXECUTABLE} -C ${PROJECT_SOURCE_DIR} log -1 --format=%cD OUTPUT_VARIABLE date
+                  OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
+endif()
+if(NOT date)
+  string(TIMESTAMP date "%a, %d %b %Y %H:%M:%S +0000" UTC)
+endif()
+writeGzip("asdf-vk (${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE}) unstable; urgency=medium
+
+  * Version ${PROJECT_VERSION}; its changes are in changelog.gz.
+
+ -- ${CPACK_PACKAGE_CONTACT}  ${date}
+" changelog.Debian)
+
+# Removes the bytecode with the package.
+file(WRITE ${folder}/postinst "#!/bin/sh
+set -e
+if [ \"$1\" = configure ] && command -v py3compile >/dev/null; then
+  py3compile -p python3-asdf-vk
+fi
+")
+file(WRITE ${folder}/prerm "#!/bin/sh
+set -e
+if command -v py3clean >/dev/null; then
+  py3clean -p python3-asdf-vk
+fi
+")
+file(CHMOD ${folder}/postinst ${folder}/prerm PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE
+     WORLD_READ WORLD_EXECUTE)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${folder}/postinst ${folder}/prerm)
+
+foreach(component IN LISTS components)
+  string(TOUPPER ${component} upper)
+  install(FILES ${folder}/copyright ${folder}/changelog.gz ${folder}/changelog.Debian.gz
+          DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${CPACK_DEBIAN_${upper}_PACKAGE_NAME} COMPONENT ${component})
+endforeach()
+include(CPack)
