@@ -1,6 +1,7 @@
 # Debian packages of Debian 12 by CPack: asdf-vk, libasdf-vk-dev, and python3-asdf-vk where the Python module is built.
 # A package is an install component. Used by the preset `packages` and scripts/test-packages:
 #   cmake --preset packages && cmake --build --preset packages && cpack --preset packages
+include(GNUInstallDirs)
 set(components program development)
 if(TARGET asdfvk-python)
   list(APPEND components python)
@@ -11,7 +12,7 @@ set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_COMPONENTS_GROUPING IGNORE)
 set(CPACK_PACKAGE_NAME asdf-vk)
 set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
-set(CPACK_PACKAGE_CONTACT "The asdf-vk authors <asdf-vk@localhost.localdomain>")
+set(CPACK_PACKAGE_CONTACT "The asdf-vk authors <maintainers@asdf-vk.example>")
 set(CPACK_PACKAGING_INSTALL_PREFIX ${CMAKE_INSTALL_PREFIX})
 set(CPACK_PACKAGE_DIRECTORY ${PROJECT_BINARY_DIR}/deb)
 set(CPACK_STRIP_FILES ON)
@@ -19,27 +20,27 @@ set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXE
     WORLD_EXECUTE)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
-set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
 set(CPACK_DEBIAN_PACKAGE_MAINTAINER "${CPACK_PACKAGE_CONTACT}")
 set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
 
 # The Vulkan loader is opened at run time: the programs work without it, on the CPU.
 set(vulkan "libvulkan1, mesa-vulkan-drivers | vulkan-icd")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")  # The first line of a description is the summary.
 set(description
 "The shape diameter function is the thickness of a shape behind each face of
- its surface. It serves to segment, skeletonise, check and retrieve shapes.
- Rays from a tenth of the faces are traced by Vulkan compute, on a GPU or a
- CPU, and the values of the other faces are interpolated. The error is
- estimated. Parts and the wall thickness are computed from the same rays.
- .
- ")
+its surface. It serves to segment, skeletonise, check and retrieve shapes.
+Rays from a tenth of the faces are traced by Vulkan compute, on a GPU or a
+CPU, and the values of the other faces are interpolated. The error is
+estimated. Parts and the wall thickness are computed from the same rays.
+
+")
 
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME asdf-vk)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "${vulkan}")
 set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "shape diameter function of triangle meshes by Vulkan compute
- ${description}This package has the programs asdf-vk and asdf-vk-generate.")
+${description}This package has the programs asdf-vk and asdf-vk-generate.")
 
 # What asdf-vk-config.cmake finds. The static library is bound to the symbols of one major version of fmt.
 string(REGEX MATCH "^[0-9]+" fmtMajor "${fmt_VERSION}")
@@ -54,8 +55,8 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "${depends}")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS "${vulkan}")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS libopenmesh-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "shape diameter function of triangle meshes - development files
- ${description}This package has the static library, its headers, a CMake package and a
- pkg-config file.")
+${description}This package has the static library, its headers, a CMake package and a
+pkg-config file.")
 
 # The module is bound to the minor version of Python it is built for.
 set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-asdf-vk)
@@ -64,9 +65,10 @@ set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.11), python3 (<< 3.12), python3-numpy")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "${vulkan}")
 set(CPACK_DEBIAN_PYTHON_DESCRIPTION "shape diameter function of triangle meshes - Python module
- ${description}This package has the Python module asdf_vk.")
+${description}This package has the Python module asdf_vk.")
 
-# Files for /usr/share/doc of each package, and maintainer scripts. Both changelogs are of the version of the project.
+# Files for /usr/share/doc of each package, and maintainer scripts. The changelog has the version of the project;
+# NEWS is CHANGELOG.md.
 set(folder ${PROJECT_BINARY_DIR}/debian)
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/LICENSE
              ${PROJECT_SOURCE_DIR}/CHANGELOG.md)
@@ -94,7 +96,7 @@ License: Expat
 ")
 
 file(READ ${PROJECT_SOURCE_DIR}/CHANGELOG.md changes)
-writeGzip("${changes}" changelog)
+writeGzip("${changes}" NEWS)
 set(date "")
 if(GIT_FOUND AND NOT DEFINED ENV{SOURCE_DATE_EPOCH})
   execute_process(COMMAND ${GIT_EXECUTABLE} -C ${PROJECT_SOURCE_DIR} log -1 --format=%cD OUTPUT_VARIABLE date
@@ -103,12 +105,12 @@ endif()
 if(NOT date)
   string(TIMESTAMP date "%a, %d %b %Y %H:%M:%S +0000" UTC)
 endif()
-writeGzip("asdf-vk (${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE}) unstable; urgency=medium
+writeGzip("asdf-vk (${PROJECT_VERSION}) unstable; urgency=medium
 
-  * Version ${PROJECT_VERSION}; its changes are in changelog.gz.
+  * Version ${PROJECT_VERSION}; its changes are in NEWS.gz.
 
  -- ${CPACK_PACKAGE_CONTACT}  ${date}
-" changelog.Debian)
+" changelog)
 
 # Removes the bytecode with the package.
 file(WRITE ${folder}/postinst "#!/bin/sh
@@ -127,9 +129,22 @@ file(CHMOD ${folder}/postinst ${folder}/prerm PERMISSIONS OWNER_READ OWNER_WRITE
      WORLD_READ WORLD_EXECUTE)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${folder}/postinst ${folder}/prerm)
 
+# Sections that only name the compiler.
+find_program(ASDF_VK_STRIP strip REQUIRED)
+mark_as_advanced(ASDF_VK_STRIP)
+file(WRITE ${folder}/strip.cmake "
+file(GLOB_RECURSE binaries \${CPACK_TEMPORARY_DIRECTORY}/*.a \${CPACK_TEMPORARY_DIRECTORY}/*.so
+     \${CPACK_TEMPORARY_DIRECTORY}/*/usr/bin/*)
+foreach(binary IN LISTS binaries)
+  execute_process(COMMAND ${ASDF_VK_STRIP} --strip-debug --enable-deterministic-archives --remove-section=.comment
+                          --remove-section=.note \${binary} COMMAND_ERROR_IS_FATAL ANY)
+endforeach()
+")
+set(CPACK_PRE_BUILD_SCRIPTS ${folder}/strip.cmake)
+
 foreach(component IN LISTS components)
   string(TOUPPER ${component} upper)
-  install(FILES ${folder}/copyright ${folder}/changelog.gz ${folder}/changelog.Debian.gz
+  install(FILES ${folder}/copyright ${folder}/changelog.gz ${folder}/NEWS.gz
           DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${CPACK_DEBIAN_${upper}_PACKAGE_NAME} COMPONENT ${component})
 endforeach()
 include(CPack)
