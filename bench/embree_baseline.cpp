@@ -51,7 +51,7 @@ class EmbreeBaselineScene final : public EmbreeBaseline {
 
  private:
   double sumOfLengths(uint32_t face) const {
-    const ConeFrame frame = faceConeFrame(cone_, scene_.geometry.normals[face], face);
+    const ConeFrame frame = paperConeFrame(cone_, scene_.geometry.normals[face], face);
     const Vec3f origin(scene_.bvh.normalization.toNormalized(scene_.geometry.barycentres[face]));
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);

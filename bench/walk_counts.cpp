@@ -113,7 +113,7 @@ WalkCounts countWalks(const DeviceBvh& bvh, const TraceScene& scene, const Cone&
     for (const Vec3d& local : cone.directions) {
       Steps together;
       for (const uint32_t face : seeds.subspan(begin, kNeighbourCount)) {
-        const ConeFrame frame = faceConeFrame(cone, scene.geometry.normals[face], face);
+        const ConeFrame frame = paperConeFrame(cone, scene.geometry.normals[face], face);
         const Vec3d direction = frame.tangent * local.x + frame.bitangent * local.y + frame.axis * local.z;
         const Vec3d origin = scene.bvh.normalization.toNormalized(scene.geometry.barycentres[face]);
         const Steps steps = Walk(bvh, origin, direction, scene.representatives[face]).steps();

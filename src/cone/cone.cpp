@@ -168,11 +168,11 @@ ConeFrame cgalConeFrame(const Vec3d& inward) {
   return {tangent, bitangent / length(bitangent), n};
 }
 
-ConeFrame faceConeFrame(const Cone& cone, const Vec3d& normal, uint32_t face) {
+ConeFrame paperConeFrame(const Cone& cone, const Vec3d& normal, uint64_t key) {
   const ConeFrame frame = coneFrame(-normal);
   if (cone.rotation == ConeRotation::Fixed) return frame;
   const double angle =
-      2 * std::numbers::pi * Random(face).real();  // The first random number of a seed is a hash of the seed.
+      2 * std::numbers::pi * Random(key).real();  // The first random number of a seed is a hash of the seed.
   const double cosine = std::cos(angle), sine = std::sin(angle);
   return {cosine * frame.tangent + sine * frame.bitangent, cosine * frame.bitangent - sine * frame.tangent, frame.axis};
 }

@@ -64,9 +64,9 @@ struct ConeFrame {
 /// CGAL's frame. inward: not zero, of any length; coordinates that are exactly 0 select the tangent.
 [[nodiscard]] ConeFrame cgalConeFrame(const Vec3d& inward);
 
-/// The frame of the rays of a face with the unit normal `normal`, by Definition::Paper: coneFrame(-normal), turned
-/// about its axis by the rotation of the cone.
-[[nodiscard]] ConeFrame faceConeFrame(const Cone& cone, const Vec3d& normal, uint32_t face);
+/// The frame of the rays at a unit normal, by Definition::Paper: coneFrame(-normal), turned about its axis by the
+/// rotation of the cone. key: hashed by ConeRotation::Hashed; for a face its index.
+[[nodiscard]] ConeFrame paperConeFrame(const Cone& cone, const Vec3d& normal, uint64_t key);
 
 /// The range of lengths that are not outliers.
 struct LengthWindow {

@@ -19,6 +19,23 @@ namespace asdfvk {
 /// The frame of the rays of a face, by the definition of the cone. Precondition: the face is not degenerate.
 [[nodiscard]] ConeFrame seedConeFrame(const TraceScene& scene, const Cone& cone, uint32_t face);
 
+/// Place and frame of the rays of one cone.
+struct ConeStart {
+  Vec3d origin;                    ///< In normalised coordinates.
+  Vec3d normal;                    ///< Unit, outwards; the false hits of Definition::Paper refer to it.
+  ConeFrame frame;                 ///< Its axis is minus the normal.
+  uint32_t skippedFace = kNoFace;  ///< Hits on this representative are ignored.
+};
+
+/// The cone of a face: from its barycentre, without hits on the face and its copies. Precondition: not degenerate.
+[[nodiscard]] inline ConeStart coneStartOfFace(const TraceScene& scene, const Cone& cone, uint32_t face) {
+  return {scene.originOf(face), scene.geometry.normals[face], seedConeFrame(scene, cone, face),
+          scene.representatives[face]};
+}
+
+/// A cone anywhere; it may hit every face. normal: unit. ConeRotation::Hashed turns it by a hash of the origin.
+[[nodiscard]] ConeStart coneStartAt(const Cone& cone, const Vec3d& origin, const Vec3d& normal);
+
 struct TraceStatistics {
   uint64_t rayCount = 0;
   /// Cones traced by the reference instead: iteration limit of the device reached, or too small for float32.
@@ -53,6 +70,11 @@ class ConeTracer {
   virtual TraceStatistics trace(std::span<const uint32_t> seedFaces, const ConeResults& results,
                                 const RunControl& control) = 0;
 
+  /// The same for cones anywhere; origins are finite. A cone of coneStartOfFace() has the value that trace() gives its
+  /// face, up to rounding.
+  virtual TraceStatistics traceAt(std::span<const ConeStart> starts, const ConeResults& results,
+                                  const RunControl& control) = 0;
+
   /// Shrinks balls in the scene of this tracer, on the same device. The tracer must outlive it. Throws Error{Device}.
   [[nodiscard]] virtual std::unique_ptr<BallShrinker> makeBallShrinker(const OpposingWalls& walls) = 0;
 
@@ -82,6 +104,13 @@ inline constexpr double kMinFloatDiameter = 0x1p-14;
 
 [[nodiscard]] inline bool isTooSmallForFloat(const TraceScene& scene, uint32_t seedFace) {
   return std::sqrt(scene.geometry.areas[seedFace]) * scene.bvh.normalization.scale < kMinFloatFace;
+}
+
+/// Whether a point is in the normalised box [-1, 1]^3 or near it. The traversals require that; rays of other cones
+/// start where they enter the box, and are traced by the reference.
+[[nodiscard]] inline bool isNearBox(const Vec3d& origin) {
+  constexpr double kNearBox = 1 + 0x1p-6;
+  return std::abs(origin.x) <= kNearBox && std::abs(origin.y) <= kNearBox && std::abs(origin.z) <= kNearBox;
 }
 
 }  // namespace asdfvk

@@ -3,22 +3,49 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "core/check.h"
+#include "mesh/coincident_faces.h"
 #include "trace/chunks.h"
 #include "trace/nearest_hit.h"
 
 namespace asdfvk {
 namespace {
 
-RayHit hitOf(const TraceScene& scene, const Vec3d& origin, const Vec3d& direction, uint32_t seedFace) {
-  return nearestHit(scene.bvh, scene.mesh, origin, direction, scene.representatives[seedFace]);
+/// Distance at which a ray enters the box [-1, 1]^3, slightly enlarged; kNoHit where it misses it.
+double entryIntoBox(const Vec3d& origin, const Vec3d& direction) {
+  constexpr double kSide = 1 + 0x1p-7;
+  double enter = 0, leave = kNoHit;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    const double d = direction[axis];
+    if (d == 0) {
+      if (!(std::abs(origin[axis]) <= kSide)) return kNoHit;
+      continue;
+    }
+    const double a = (-kSide - origin[axis]) / d, b = (kSide - origin[axis]) / d;
+    enter = std::max(enter, std::min(a, b));
+    leave = std::min(leave, std::max(a, b));
+  }
+  return enter <= leave ? enter : kNoHit;
 }
 
-bool isValid(const TraceScene& scene, const Cone& cone, const Vec3d& direction, uint32_t seedFace, const RayHit& hit) {
-  const std::vector<Vec3d>& normals = scene.geometry.normals;
-  return hit.face != kNoFace && !isFalseHit(cone, normals[seedFace], direction, normals[hit.face]);
+/// nearestHit() from any finite origin.
+RayHit hitOf(const TraceScene& scene, const Vec3d& origin, const Vec3d& direction, uint32_t skippedFace) {
+  if (isNearBox(origin)) return nearestHit(scene.bvh, scene.mesh, origin, direction, skippedFace);
+  const double entry = entryIntoBox(origin, direction);
+  const Vec3d entered = origin + entry * direction;
+  if (!isNearBox(entered)) return {};  // It misses the box, or is so far away that rounding leaves no place in it.
+  RayHit hit = nearestHit(scene.bvh, scene.mesh, entered, direction, skippedFace);
+  hit.distance += entry;
+  return hit;
+}
+
+bool isValid(const TraceScene& scene, const Cone& cone, const Vec3d& direction, const Vec3d& normal,
+             const RayHit& hit) {
+  return hit.face != kNoFace && !isFalseHit(cone, normal, direction, scene.geometry.normals[hit.face]);
 }
 
 class ReferenceTracer final : public ConeTracer {
@@ -27,16 +54,12 @@ class ReferenceTracer final : public ConeTracer {
 
   TraceStatistics trace(std::span<const uint32_t> seedFaces, const ConeResults& results,
                         const RunControl& control) override {
-    const size_t rayCount = cone_.directions.size();
-    checkSizes(results, seedFaces.size(), rayCount);
-    const size_t hitCount = results.hits.empty() ? 0 : rayCount;  // per cone
-    forEachChunk(seedFaces.size(), ChunkSize(64, seedFaces.size()), control, [&](size_t begin, size_t end) {
-      tbb::parallel_for(tbb::blocked_range<size_t>(begin, end, 8), [&](const tbb::blocked_range<size_t>& range) {
-        for (size_t i = range.begin(); i < range.end(); ++i)
-          results.values[i] = referenceCone(scene_, cone_, seedFaces[i], results.hits.subspan(i * hitCount, hitCount));
-      });
-    });
-    return {.rayCount = seedFaces.size() * rayCount, .redoneConeCount = 0};
+    return traceAll(seedFaces, results, control);
+  }
+
+  TraceStatistics traceAt(std::span<const ConeStart> starts, const ConeResults& results,
+                          const RunControl& control) override {
+    return traceAll(starts, results, control);
   }
 
   std::unique_ptr<BallShrinker> makeBallShrinker(const OpposingWalls& walls) override {
@@ -44,6 +67,21 @@ class ReferenceTracer final : public ConeTracer {
   }
 
  private:
+  /// cones: faces or starts.
+  template <typename Cones>
+  TraceStatistics traceAll(const Cones& cones, const ConeResults& results, const RunControl& control) const {
+    const size_t rayCount = cone_.directions.size();
+    checkSizes(results, cones.size(), rayCount);
+    const size_t hitCount = results.hits.empty() ? 0 : rayCount;  // per cone
+    forEachChunk(cones.size(), ChunkSize(64, cones.size()), control, [&](size_t begin, size_t end) {
+      tbb::parallel_for(tbb::blocked_range<size_t>(begin, end, 8), [&](const tbb::blocked_range<size_t>& range) {
+        for (size_t i = range.begin(); i < range.end(); ++i)
+          results.values[i] = referenceCone(scene_, cone_, cones[i], results.hits.subspan(i * hitCount, hitCount));
+      });
+    });
+    return {.rayCount = cones.size() * rayCount, .redoneConeCount = 0};
+  }
+
   TraceScene scene_;
   const Cone& cone_;
 };
@@ -52,7 +90,7 @@ class ReferenceTracer final : public ConeTracer {
 
 ConeFrame seedConeFrame(const TraceScene& scene, const Cone& cone, uint32_t face) {
   const Vec3d& normal = scene.geometry.normals[face];
-  if (cone.definition == Definition::Paper) return faceConeFrame(cone, normal, face);
+  if (cone.definition == Definition::Paper) return paperConeFrame(cone, normal, face);
   // From the corners as they are: scaled or moved ones lose coordinates of the normal that are exactly 0.
   const auto [i, j, k] = scene.mesh.faces[face];
   const Vec3d& a = scene.mesh.vertices[i];
@@ -61,33 +99,43 @@ ConeFrame seedConeFrame(const TraceScene& scene, const Cone& cone, uint32_t face
   return cgalConeFrame(norm > 0 && std::isfinite(norm) ? inward : -normal);
 }
 
+ConeStart coneStartAt(const Cone& cone, const Vec3d& origin, const Vec3d& normal) {
+  const ConeFrame frame =
+      cone.definition == Definition::Paper ? paperConeFrame(cone, normal, hashOf(origin)) : cgalConeFrame(-normal);
+  return {origin, normal, frame, kNoFace};
+}
+
 std::unique_ptr<ConeTracer> makeReferenceTracer(const TraceScene& scene, const Cone& cone) {
   return std::make_unique<ReferenceTracer>(scene, cone);
 }
 
 double referenceRayLength(const TraceScene& scene, const Cone& cone, const Vec3d& direction, uint32_t seedFace) {
   const Vec3d origin = scene.originOf(seedFace);
-  const RayHit hit = hitOf(scene, origin, direction, seedFace);
-  return isValid(scene, cone, direction, seedFace, hit) ? scene.bvh.normalization.toMeshLength(hit.distance) : kNoValue;
+  const RayHit hit = hitOf(scene, origin, direction, scene.representatives[seedFace]);
+  return isValid(scene, cone, direction, scene.geometry.normals[seedFace], hit)
+             ? scene.bvh.normalization.toMeshLength(hit.distance)
+             : kNoValue;
 }
 
-double referenceCone(const TraceScene& scene, const Cone& cone, uint32_t seedFace, std::span<ConeHit> hits) {
-  ASDFVK_CHECK(!scene.geometry.isDegenerate(seedFace));
-  const ConeFrame frame = seedConeFrame(scene, cone, seedFace);
-  const Vec3d origin = scene.originOf(seedFace);
+double referenceCone(const TraceScene& scene, const Cone& cone, const ConeStart& start, std::span<ConeHit> hits) {
   std::array<double, kMaxRayCount> distances, weights;
   size_t validCount = 0;
   for (size_t i = 0; i < cone.directions.size(); ++i) {
-    const Vec3d direction = frame.toWorld(cone.directions[i]);
-    const RayHit hit = hitOf(scene, origin, direction, seedFace);
+    const Vec3d direction = start.frame.toWorld(cone.directions[i]);
+    const RayHit hit = hitOf(scene, start.origin, direction, start.skippedFace);
     if (!hits.empty()) hits[i] = {static_cast<float>(hit.distance), hit.face};
-    if (!isValid(scene, cone, direction, seedFace, hit)) continue;
+    if (!isValid(scene, cone, direction, start.normal, hit)) continue;
     distances[validCount] = hit.distance;
     weights[validCount] = cone.weights[i];
     ++validCount;
   }
   const double value = coneValue({distances.data(), validCount}, {weights.data(), validCount}, cone.outliers);
   return scene.bvh.normalization.toMeshLength(value);
+}
+
+double referenceCone(const TraceScene& scene, const Cone& cone, uint32_t seedFace, std::span<ConeHit> hits) {
+  ASDFVK_CHECK(!scene.geometry.isDegenerate(seedFace));
+  return referenceCone(scene, cone, coneStartOfFace(scene, cone, seedFace), hits);
 }
 
 }  // namespace asdfvk

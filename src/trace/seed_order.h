@@ -30,4 +30,9 @@ class SeedOrder {
   std::vector<uint32_t> primitiveOfFace_;  // #F
 };
 
+/// A permutation of the indices into `starts` that puts neighbours in space next to each other (Morton 1966):
+/// neighbouring cones traverse the same nodes. Origins beyond the normalised box are ordered as their nearest points in
+/// it.
+[[nodiscard]] std::vector<uint32_t> spatialOrder(std::span<const ConeStart> starts);
+
 }  // namespace asdfvk

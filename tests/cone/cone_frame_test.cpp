@@ -43,7 +43,7 @@ Vec3d withHeight(double z, double azimuth) {
 // In turns, 0 to 1.
 double turnOf(const Cone& cone, const Vec3d& normal, uint32_t face) {
   const ConeFrame fixed = coneFrame(-normal);
-  const Vec3d tangent = faceConeFrame(cone, normal, face).tangent;
+  const Vec3d tangent = paperConeFrame(cone, normal, face).tangent;
   const double turn = std::atan2(dot(tangent, fixed.bitangent), dot(tangent, fixed.tangent)) / (2 * std::numbers::pi);
   return turn < 0 ? turn + 1 : turn;
 }
@@ -117,7 +117,7 @@ TEST_CASE("the frame of a fixed cone depends on its axis only") {
   Random random(3);
   for (uint32_t face = 0; face < 100; ++face) {
     const Vec3d normal = randomUnit(random);
-    const ConeFrame frame = faceConeFrame(cone, normal, face), expected = coneFrame(-normal);
+    const ConeFrame frame = paperConeFrame(cone, normal, face), expected = coneFrame(-normal);
     CHECK(frame.tangent == expected.tangent);
     CHECK(frame.bitangent == expected.bitangent);
     CHECK(frame.axis == -normal);
@@ -129,7 +129,7 @@ TEST_CASE("hashed frames are orthonormal and right-handed") {
   Random random(4);
   for (uint32_t face = 0; face < 2000; ++face) {
     const Vec3d normal = randomUnit(random);
-    const ConeFrame frame = faceConeFrame(cone, normal, face);
+    const ConeFrame frame = paperConeFrame(cone, normal, face);
     checkFrame(frame, -normal);
     CHECK(std::abs(handedness(frame) - 1) < 1e-14);
   }

@@ -27,6 +27,10 @@ class RecordingTracer final : public ConeTracer {
     events_.push_back(Event::Trace);
     return tracer_->trace(seedFaces, results, control);
   }
+  TraceStatistics traceAt(std::span<const ConeStart> starts, const ConeResults& results,
+                          const RunControl& control) override {
+    return tracer_->traceAt(starts, results, control);
+  }
   std::unique_ptr<BallShrinker> makeBallShrinker(const OpposingWalls& walls) override {
     return tracer_->makeBallShrinker(walls);
   }

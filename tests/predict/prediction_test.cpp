@@ -98,7 +98,7 @@ TEST_CASE("on a long cylinder, away from the caps, predictions are close to the 
   // Which rays are along the axis of the cylinder depends on the tangent of the frame, so on the face.
   const auto exact = [&](uint32_t face) {
     const Vec3d& normal = seeded.geometry.normals[face];
-    const ConeFrame frame = faceConeFrame(seeded.cone, normal, face);
+    const ConeFrame frame = paperConeFrame(seeded.cone, normal, face);
     return coneValueOf(seeded.cone, [&](const Vec3d& d) {
       const Vec3d direction = d.x * frame.tangent + d.y * frame.bitangent + d.z * frame.axis;
       const double chord = 2 * 0.25 * -dot(direction, normal) / (1 - direction.z * direction.z);

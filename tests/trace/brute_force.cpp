@@ -49,7 +49,7 @@ BruteForceCone traceByBruteForce(const Mesh& mesh, const Cone& cone, uint32_t se
   const Vec3d origin = (seed.a + seed.b + seed.c) / 3.0;
   const Vec3d normal = seed.normal() / length(seed.normal());
   const bool isPaper = cone.definition == Definition::Paper;
-  const ConeFrame frame = isPaper ? faceConeFrame(cone, normal, seedFace) : cgalConeFrame(-seed.normal());
+  const ConeFrame frame = isPaper ? paperConeFrame(cone, normal, seedFace) : cgalConeFrame(-seed.normal());
   const std::vector<Corners> others = facesToHit(mesh, seedFace);
   BruteForceCone result;
   for (const Vec3d& d : cone.directions) {

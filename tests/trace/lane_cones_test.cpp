@@ -45,7 +45,7 @@ Eight eightCones(const TracedMesh& traced, const Cone& cone, Random& random) {
     const auto face = static_cast<uint32_t>(random.real() * static_cast<double>(traced.mesh.faceCount()));
     eight.normals[lane] = traced.geometry.normals[face];
     eight.origins[lane] = traced.bvh.normalization.toNormalized(traced.geometry.barycentres[face]);
-    const ConeFrame frame = faceConeFrame(cone, eight.normals[lane], face);
+    const ConeFrame frame = paperConeFrame(cone, eight.normals[lane], face);
     eight.frames.set(lane, frame, eight.origins[lane], eight.normals[lane]);
     for (size_t ray = 0; ray < cone.directions.size(); ++ray) {
       const Vec3d& d = cone.directions[ray];

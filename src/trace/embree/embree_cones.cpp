@@ -73,11 +73,10 @@ EmbreeConeGroup::EmbreeConeGroup(const EmbreeCones& cones)
 
 void EmbreeConeGroup::add(const EmbreeSeed& seed) {
   const size_t lane = size_++;
-  const Vec3d& normal = cones_.scene.geometry.normals[seed.face];
-  const Vec3d origin = cones_.scene.bvh.normalization.toNormalized(cones_.scene.geometry.barycentres[seed.face]);
+  const Vec3d& origin = seed.start.origin;
   seeds_[lane] = seed;
   points_[lane] = {origin, seed.primitive};
-  frames_.set(lane, seedConeFrame(cones_.scene, cones_.cone, seed.face), origin, normal);
+  frames_.set(lane, seed.start.frame, origin, seed.start.normal);
   isActive_[lane] = -1;
   packet_.ray.org_x[lane] = static_cast<float>(origin.x);
   packet_.ray.org_y[lane] = static_cast<float>(origin.y);
@@ -109,7 +108,7 @@ void EmbreeConeGroup::skipUnfit() {
   const std::array<bool, kWidth> hasNeighbour =
       haveNeighboursWithin(cones_.scene, cones_.planes, {points_.data(), size_}, cones_.rayStart);
   for (size_t lane = 0; lane < size_; ++lane) {
-    isUncast_[lane] = hasNeighbour[lane] || isTooSmallForFloat(cones_.scene, seeds_[lane].face);
+    isUncast_[lane] = hasNeighbour[lane] || !seeds_[lane].fitsFloat;
     if (isUncast_[lane]) isActive_[lane] = 0;
   }
 }
@@ -142,6 +141,7 @@ bool EmbreeConeGroup::leavesSurface(size_t lane) const {
 }
 
 bool EmbreeConeGroup::hitsItself(size_t lane) const {
+  if (seeds_[lane].primitive == kNoFace) return false;
   bool result = false;
   for (const LaneHits& hits : hits_) result |= hits.primitives[lane] == seeds_[lane].primitive;
   return result;

@@ -52,8 +52,10 @@ struct EmbreeCones {
 
 /// A cone to trace, and the output array of its hits.
 struct EmbreeSeed {
-  uint32_t face = 0, primitive = 0;
-  std::span<ConeHit> hits;  ///< One per ray, or empty.
+  ConeStart start;
+  uint32_t primitive = kNoFace;  ///< Of the face that the origin lies on; kNoFace: of none.
+  bool fitsFloat = true;         ///< Otherwise the cone is not cast, and isDoubtful().
+  std::span<ConeHit> hits;       ///< One per ray, or empty.
 };
 
 /// Traces up to eight neighbouring cones together: each packet holds the same ray of all of them. Embree traverses for
@@ -65,7 +67,7 @@ class EmbreeConeGroup {
 
   explicit EmbreeConeGroup(const EmbreeCones& cones);
 
-  /// Adds a cone for the next trace(). Preconditions: fewer than kWidth cones, and the face is not degenerate.
+  /// Adds a cone for the next trace(). Precondition: fewer than kWidth cones.
   void add(const EmbreeSeed& seed);
   [[nodiscard]] size_t size() const { return size_; }
   [[nodiscard]] const EmbreeSeed& seed(size_t lane) const { return seeds_[lane]; }
@@ -76,9 +78,9 @@ class EmbreeConeGroup {
 
   /// In normalised units, or kNoValue. Meaningless when isDoubtful().
   [[nodiscard]] double value(size_t lane) const { return values_[lane]; }
-  /// Whether float32 may be too coarse for the cone, so that the reference must trace it. True if the face or the value
-  /// is too small, if another face is nearer than the start of the rays, if a ray hit its own face, or if
-  /// leavesSurface().
+  /// Whether float32 may be too coarse for the cone, so that the reference must trace it. True without
+  /// EmbreeSeed::fitsFloat, if the value is too small, if another face is nearer than the start of the rays, if a ray
+  /// hit its own face, or if leavesSurface().
   [[nodiscard]] bool isDoubtful(size_t lane) const { return isDoubtful_[lane]; }
   /// Whether a ray had no hit or hit the outer side of a face. In a closed surface this means that the ray passed
   /// between two triangles. False in robust mode and for cones that were not cast. Not detected: such a ray inside a

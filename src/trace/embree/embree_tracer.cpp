@@ -26,6 +26,9 @@ double rayStart(const Cone& cone) {
   return std::min(0x1p-22 / std::max(std::cos(cone.halfAngleRadians), 1e-9), kMinFloatFace);
 }
 
+/// The same for rays that start at no face: the rounding of the origin and of the faces, which no angle enlarges.
+constexpr double kFreeRayStart = 0x1p-22;
+
 class EmbreeTracer final : public ConeTracer {
  public:
   EmbreeTracer(const TraceScene& scene, const Cone& cone)
@@ -42,22 +45,16 @@ class EmbreeTracer final : public ConeTracer {
 
   TraceStatistics trace(std::span<const uint32_t> seedFaces, const ConeResults& results,
                         const RunControl& control) override {
-    const size_t rayCount = cone_.directions.size();
-    checkSizes(results, seedFaces.size(), rayCount);
-    const std::vector<uint32_t> order = seedOrder_.of(seedFaces);
-    const Task task{order, seedFaces, results, results.hits.empty() ? 0 : rayCount};
-    std::atomic<uint64_t> redoneConeCount = 0;
-    const EmbreeCones cones{scene_, cone_, planes_, *embree_, rayStart_};
-    tbb::enumerable_thread_specific<EmbreeConeGroup> groups([&] { return EmbreeConeGroup(cones); });
-    const size_t groupCount = (order.size() + kGroupSize - 1) / kGroupSize;
-    const ChunkSize chunk(std::max<size_t>(1, kFirstEmbreeChunkRayCount / (kGroupSize * rayCount)), groupCount);
-    forEachChunk(groupCount, chunk, control, [&](size_t begin, size_t end) {
-      tbb::parallel_for(tbb::blocked_range<size_t>(begin, end), [&](const tbb::blocked_range<size_t>& range) {
-        EmbreeConeGroup& group = groups.local();
-        for (size_t i = range.begin(); i < range.end(); ++i) redoneConeCount += traceGroup(task, i, group);
-      });
-    });
-    return {seedFaces.size() * rayCount, redoneConeCount};
+    const auto seedOf = [&](uint32_t i) { return seedAt(seedFaces[i]); };
+    const auto prefetchSeed = [&](uint32_t i) { prefetch(seedFaces[i]); };
+    return traceAll(seedOrder_.of(seedFaces), rayStart_, seedOf, prefetchSeed, results, control);
+  }
+
+  TraceStatistics traceAt(std::span<const ConeStart> starts, const ConeResults& results,
+                          const RunControl& control) override {
+    const auto seedOf = [&](uint32_t i) { return EmbreeSeed{starts[i], kNoFace, isNearBox(starts[i].origin), {}}; };
+    const auto prefetchSeed = [&](uint32_t i) { __builtin_prefetch(&starts[i]); };
+    return traceAll(spatialOrder(starts), kFreeRayStart, seedOf, prefetchSeed, results, control);
   }
 
   std::unique_ptr<BallShrinker> makeBallShrinker(const OpposingWalls& walls) override {
@@ -67,48 +64,70 @@ class EmbreeTracer final : public ConeTracer {
  private:
   static constexpr size_t kGroupSize = EmbreeConeGroup::kWidth;
 
-  struct Task {
-    std::span<const uint32_t> order, seedFaces;
-    const ConeResults& results;
-    size_t hitCount;  // Per cone; 0 when hits are not written.
-  };
+  /// The cone of a face, without its output array.
+  [[nodiscard]] EmbreeSeed seedAt(uint32_t face) const {
+    ASDFVK_CHECK(!scene_.geometry.isDegenerate(face));
+    const uint32_t primitive = seedOrder_.primitiveOf(face);
+    return {
+        coneStartOfFace(scene_, cone_, face), primitive, primitive != kNoFace && !isTooSmallForFloat(scene_, face), {}};
+  }
 
-  /// Traces the cones of a group of the task's order. Returns the number of cones that the reference traced.
-  uint64_t traceGroup(const Task& task, size_t index, EmbreeConeGroup& group) const {
-    const std::span<const uint32_t> order = task.order, seedFaces = task.seedFaces;
-    const auto hitsOf = [&](uint32_t seed) { return task.results.hits.subspan(seed * task.hitCount, task.hitCount); };
-    const size_t begin = index * kGroupSize, end = std::min(begin + kGroupSize, order.size());
-    prefetch(task, end);
-    group.clear();
-    for (size_t i = begin; i < end; ++i) {
-      const uint32_t face = seedFaces[order[i]];
-      ASDFVK_CHECK(!scene_.geometry.isDegenerate(face));
-      group.add({face, seedOrder_.primitiveOf(face), hitsOf(order[i])});
-    }
-    group.trace();
+  void prefetch(uint32_t face) const {
+    __builtin_prefetch(&scene_.geometry.barycentres[face]);
+    __builtin_prefetch(&scene_.geometry.normals[face]);
+    __builtin_prefetch(&scene_.geometry.areas[face]);
+    seedOrder_.prefetch(face);
+  }
+
+  /// seedOf(i): cone i without its output array; prefetchSeed(i): the memory that seedOf(i) reads.
+  template <typename SeedOf, typename PrefetchSeed>
+  TraceStatistics traceAll(const std::vector<uint32_t>& order, double rayStart, const SeedOf& seedOf,
+                           const PrefetchSeed& prefetchSeed, const ConeResults& results, const RunControl& control) {
+    const size_t rayCount = cone_.directions.size();
+    checkSizes(results, order.size(), rayCount);
+    const size_t hitCount = results.hits.empty() ? 0 : rayCount;  // Per cone.
+    const auto hitsOf = [&](uint32_t cone) { return results.hits.subspan(cone * hitCount, hitCount); };
+    std::atomic<uint64_t> redoneConeCount = 0;
+    const EmbreeCones cones{scene_, cone_, planes_, *embree_, rayStart};
+    tbb::enumerable_thread_specific<EmbreeConeGroup> groups([&] { return EmbreeConeGroup(cones); });
+    const size_t groupCount = (order.size() + kGroupSize - 1) / kGroupSize;
+    const auto traceGroup = [&](size_t index, EmbreeConeGroup& group) {
+      const size_t begin = index * kGroupSize, end = std::min(begin + kGroupSize, order.size());
+      // The scattered data of the next group, while this one is traced.
+      for (size_t i = end; i < std::min(end + kGroupSize, order.size()); ++i) prefetchSeed(order[i]);
+      group.clear();
+      for (size_t i = begin; i < end; ++i) {
+        EmbreeSeed seed = seedOf(order[i]);
+        seed.hits = hitsOf(order[i]);
+        group.add(seed);
+      }
+      group.trace();
+      redoneConeCount += takeValues(group, std::span(order).subspan(begin, end - begin), results.values);
+    };
+    const ChunkSize chunk(std::max<size_t>(1, kFirstEmbreeChunkRayCount / (kGroupSize * rayCount)), groupCount);
+    forEachChunk(groupCount, chunk, control, [&](size_t begin, size_t end) {
+      tbb::parallel_for(tbb::blocked_range<size_t>(begin, end), [&](const tbb::blocked_range<size_t>& range) {
+        EmbreeConeGroup& group = groups.local();
+        for (size_t i = range.begin(); i < range.end(); ++i) traceGroup(i, group);
+      });
+    });
+    return {order.size() * rayCount, redoneConeCount};
+  }
+
+  /// Sets the values of the cones of a group. Returns the number of those that the reference traced.
+  uint64_t takeValues(const EmbreeConeGroup& group, std::span<const uint32_t> cones, std::span<double> values) const {
     uint64_t redoneConeCount = 0;
-    for (size_t lane = 0; lane < group.size(); ++lane) {
-      const uint32_t seed = order[begin + lane];
-      double& value = task.results.values[seed];
+    for (size_t lane = 0; lane < cones.size(); ++lane) {
+      double& value = values[cones[lane]];
       if (group.isDoubtful(lane)) {
-        value = referenceCone(scene_, cone_, seedFaces[seed], hitsOf(seed));
+        const EmbreeSeed& seed = group.seed(lane);
+        value = referenceCone(scene_, cone_, seed.start, seed.hits);
         ++redoneConeCount;
       } else {
         value = scene_.bvh.normalization.toMeshLength(group.value(lane));
       }
     }
     return redoneConeCount;
-  }
-
-  /// Prefetches the scattered data of the next group's seeds while a group is traced.
-  void prefetch(const Task& task, size_t begin) const {
-    for (size_t i = begin; i < std::min(begin + kGroupSize, task.order.size()); ++i) {
-      const uint32_t face = task.seedFaces[task.order[i]];
-      __builtin_prefetch(&scene_.geometry.barycentres[face]);
-      __builtin_prefetch(&scene_.geometry.normals[face]);
-      __builtin_prefetch(&scene_.geometry.areas[face]);
-      seedOrder_.prefetch(face);
-    }
   }
 
   /// Whether many cones of a sample leave the surface, as on an open or self-intersecting mesh, so that tracing them
@@ -123,7 +142,7 @@ class EmbreeTracer final : public ConeTracer {
       group.clear();
       for (; i < count && group.size() < kGroupSize; ++i) {
         const size_t primitive = i * faces.size() / count;
-        group.add({faces[primitive], static_cast<uint32_t>(primitive), {}});
+        group.add(seedAt(faces[primitive]));
       }
       group.trace();
       for (size_t lane = 0; lane < group.size(); ++lane) leavingCount += group.leavesSurface(lane);

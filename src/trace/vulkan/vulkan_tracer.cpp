@@ -35,24 +35,16 @@ class VulkanTracer final : public ConeTracer {
 
   TraceStatistics trace(std::span<const uint32_t> seedFaces, const ConeResults& results,
                         const RunControl& control) override {
-    checkSizes(results, seedFaces.size(), kernel_.rayCount());
-    ASDFVK_CHECK(results.hits.empty() || kernel_.writesHits());
-    const TraceStatistics statistics{seedFaces.size() * cone_.directions.size(), 0};
-    if (scene_.bvh.nodes.empty()) {
-      std::fill(results.values.begin(), results.values.end(), kNoValue);
-      std::fill(results.hits.begin(), results.hits.end(), kMiss);
-      return statistics;
-    }
-    std::vector<uint32_t> order = seedOrder_.of(seedFaces);
-    const auto firstSmall = std::stable_partition(
-        order.begin(), order.end(), [&](uint32_t i) { return !isTooSmallForFloat(scene_, seedFaces[i]); });
-    std::vector<uint32_t> redone(firstSmall, order.end());  // indices into seedFaces
-    order.erase(firstSmall, order.end());
-    const double deviceShare =
-        static_cast<double>(order.size()) / static_cast<double>(std::max<size_t>(1, seedFaces.size()));
-    traceOnDevice(seedFaces, order, results, redone, control.part(0, deviceShare));
-    redo(seedFaces, redone, results, control.part(deviceShare, 1));
-    return {statistics.rayCount, redone.size()};
+    return traceAll(
+        seedOrder_.of(seedFaces), [&](uint32_t i) { return coneStartOfFace(scene_, cone_, seedFaces[i]); },
+        [&](uint32_t i) { return !isTooSmallForFloat(scene_, seedFaces[i]); }, results, control);
+  }
+
+  TraceStatistics traceAt(std::span<const ConeStart> starts, const ConeResults& results,
+                          const RunControl& control) override {
+    return traceAll(
+        spatialOrder(starts), [&](uint32_t i) -> const ConeStart& { return starts[i]; },
+        [&](uint32_t i) { return isNearBox(starts[i].origin); }, results, control);
   }
 
   std::unique_ptr<BallShrinker> makeBallShrinker(const OpposingWalls& walls) override {
@@ -70,29 +62,52 @@ class VulkanTracer final : public ConeTracer {
     return bvh;
   }
 
-  void traceOnDevice(std::span<const uint32_t> seedFaces, const std::vector<uint32_t>& order,
-                     const ConeResults& results, std::vector<uint32_t>& redone, const RunControl& control) {
+  /// order: of the cones on the device. startOf(i): the start of cone i. fitsFloat(i): whether the device can trace it.
+  template <typename StartOf, typename FitsFloat>
+  TraceStatistics traceAll(std::vector<uint32_t> order, const StartOf& startOf, const FitsFloat& fitsFloat,
+                           const ConeResults& results, const RunControl& control) {
+    const size_t coneCount = order.size();
+    checkSizes(results, coneCount, kernel_.rayCount());
+    ASDFVK_CHECK(results.hits.empty() || kernel_.writesHits());
+    const uint64_t rayCount = coneCount * cone_.directions.size();
+    if (scene_.bvh.nodes.empty()) {
+      std::fill(results.values.begin(), results.values.end(), kNoValue);
+      std::fill(results.hits.begin(), results.hits.end(), kMiss);
+      return {rayCount, 0};
+    }
+    const auto firstUnfit = std::stable_partition(order.begin(), order.end(), fitsFloat);
+    std::vector<uint32_t> redone(firstUnfit, order.end());
+    order.erase(firstUnfit, order.end());
+    const double deviceShare = static_cast<double>(order.size()) / static_cast<double>(std::max<size_t>(1, coneCount));
+    traceOnDevice(order, startOf, results, redone, control.part(0, deviceShare));
+    redo(redone, startOf, results, control.part(deviceShare, 1));
+    return {rayCount, redone.size()};
+  }
+
+  template <typename StartOf>
+  void traceOnDevice(const std::vector<uint32_t>& order, const StartOf& startOf, const ConeResults& results,
+                     std::vector<uint32_t>& redone, const RunControl& control) {
     const ChunkSize chunk(std::max<uint64_t>(1, kFirstChunkRayCount / kernel_.rayCount()), largestConeChunk(kernel_));
     forEachChunk(order.size(), chunk, control, [&](size_t begin, size_t end) {
       const std::span<const uint32_t> cones = std::span(order).subspan(begin, end - begin);
-      traceChunk(seedFaces, cones);
+      writeOrigins(cones, startOf);
+      dispatch(static_cast<uint32_t>(cones.size()));
       readChunk(cones, results, redone);
     });
   }
 
-  void traceChunk(std::span<const uint32_t> seedFaces, std::span<const uint32_t> order) {
+  template <typename StartOf>
+  void writeOrigins(std::span<const uint32_t> order, const StartOf& startOf) {
     const std::span<ConeOrigin> origins = buffers_.origins.mappedAs<ConeOrigin>();
     tbb::parallel_for(size_t{0}, order.size(), [&](size_t i) {
-      const uint32_t face = seedFaces[order[i]];
-      const ConeFrame frame = seedConeFrame(scene_, cone_, face);
-      origins[i] = {toGlsl(scene_.bvh.normalization.toNormalized(scene_.geometry.barycentres[face])),
-                    scene_.representatives[face],
-                    toGlsl(frame.tangent),
-                    0,
-                    toGlsl(frame.bitangent),
-                    0};
+      const ConeStart& start = startOf(order[i]);
+      origins[i] = {
+          toGlsl(start.origin), start.skippedFace, toGlsl(start.frame.tangent), 0, toGlsl(start.frame.bitangent), 0};
     });
-    const ConePush push{static_cast<uint32_t>(order.size()), static_cast<float>(cone_.falseHitCosine),
+  }
+
+  void dispatch(uint32_t coneCount) {
+    const ConePush push{coneCount, static_cast<float>(cone_.falseHitCosine),
                         static_cast<float>(cone_.outliers.deviations)};
     const auto groupCount = [](uint32_t count, uint32_t perGroup) { return (count + perGroup - 1) / perGroup; };
     const VulkanWorkgroupShape& shape = kernel_.shape();
@@ -128,21 +143,23 @@ class VulkanTracer final : public ConeTracer {
     });
   }
 
-  void redo(std::span<const uint32_t> seedFaces, const std::vector<uint32_t>& redone, const ConeResults& results,
+  template <typename StartOf>
+  void redo(const std::vector<uint32_t>& redone, const StartOf& startOf, const ConeResults& results,
             const RunControl& control) const {
     const std::unique_ptr<ConeTracer> reference = makeReferenceTracer(scene_, cone_);
     const size_t hitCount = results.hits.empty() ? 0 : kernel_.rayCount();  // per cone
-    const size_t blockSize = largestConeChunk(kernel_);                     // bounds the copies of hits
+    const size_t blockSize = largestConeChunk(kernel_);                     // bounds the copies of starts and hits
     const auto total = static_cast<double>(redone.size());
     for (size_t begin = 0; begin < redone.size(); begin += blockSize) {
       const std::span<const uint32_t> block =
           std::span(redone).subspan(begin, std::min(blockSize, redone.size() - begin));
-      std::vector<uint32_t> faces;
-      for (const uint32_t i : block) faces.push_back(seedFaces[i]);
+      std::vector<ConeStart> starts;
+      starts.reserve(block.size());
+      for (const uint32_t i : block) starts.push_back(startOf(i));
       std::vector<double> values(block.size());
       std::vector<ConeHit> hits(block.size() * hitCount);
-      reference->trace(
-          faces, {values, hits},
+      reference->traceAt(
+          starts, {values, hits},
           control.part(static_cast<double>(begin) / total, static_cast<double>(begin + block.size()) / total));
       for (size_t i = 0; i < block.size(); ++i) results.values[block[i]] = values[i];
       if (hitCount > 0) copyHits(block, hits, results.hits);
