@@ -19,7 +19,7 @@ void PictureWriter::drawField(int figure, const std::string& name, const NamedMe
 void PictureWriter::drawTriangleField(int figure, const std::string& name, const NamedMesh& mesh,
                                       const std::vector<double>& values, const FieldStyle& style,
                                       const std::string& caption) {
-  const Image image = render({.scene = *mesh.scene,
+  const Image image = render({.scene = mesh.scene->scene,
                               .values = values,
                               .title = style.title,
                               .range = style.range,
@@ -34,7 +34,7 @@ void PictureWriter::drawTriangleField(int figure, const std::string& name, const
 void PictureWriter::drawSeeds(int figure, const std::string& name, const NamedMesh& mesh,
                               const std::vector<uint8_t>& isSeed, const std::string& caption) {
   const std::vector<uint8_t> highlighted = toTriangles(mesh.mesh, isSeed);
-  const Image image = render({.scene = *mesh.scene,
+  const Image image = render({.scene = mesh.scene->scene,
                               .highlighted = highlighted,
                               .width = kWidth,
                               .height = kHeight,

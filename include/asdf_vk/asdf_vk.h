@@ -16,5 +16,6 @@
 #include "asdf_vk/options.h"      // IWYU pragma: export
 #include "asdf_vk/report.h"       // IWYU pragma: export
 #include "asdf_vk/run_control.h"  // IWYU pragma: export
+#include "asdf_vk/scene.h"        // IWYU pragma: export
 #include "asdf_vk/session.h"      // IWYU pragma: export
 #include "asdf_vk/version.h"      // IWYU pragma: export

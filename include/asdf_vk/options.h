@@ -31,6 +31,8 @@ struct ConeOptions {
   double outlierDeviations = 1;  ///< Lengths farther than this from the median are dropped; standard deviations, > 0.
   ConeRotation rotation = ConeRotation::Fixed;
   Definition definition = Definition::Paper;
+
+  bool operator==(const ConeOptions&) const = default;
 };
 inline constexpr uint32_t kMaxRayCount = 1024;
 

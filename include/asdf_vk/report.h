@@ -205,14 +205,15 @@ struct TraceVariant {
 };
 
 struct Report {
-  uint64_t faceCount = 0;  ///< Input faces.
+  uint64_t faceCount = 0;        ///< Input faces.
+  uint64_t regionFaceCount = 0;  ///< Those of the region of Scene::compute(); without a region all.
   uint64_t triangleCount = 0;
   uint64_t vertexCount = 0;
   uint64_t componentCount = 0;
   uint64_t seedCount = 0;  ///< Triangles that cast rays.
   uint64_t rayCount = 0;
   uint64_t redoneConeCount = 0;  ///< Cones beyond the limits of the device or of float32, traced by the reference.
-  uint64_t noValueCount = 0;     ///< Input faces.
+  uint64_t noValueCount = 0;     ///< Input faces; of the region where there is one.
   uint64_t randomSeed = 0;
   uint32_t roundCount = 1;                   ///< Rounds of seeds.
   std::string backend;                       ///< "vulkan", "cpu" or "reference".

@@ -80,12 +80,13 @@ class ASDFVK_API Session {
   /// Whether the CPU traces: Embree, the reference, or a CPU device of Vulkan.
   [[nodiscard]] bool runsOnCpu() const;
 
-  /// Does not change the mesh. Throws Error of kind Input (no face, index out of range), Usage, Device or Cancelled.
+  /// For several computations on one mesh see Scene. Does not change the mesh. Throws Error of kind Input (no face,
+  /// index out of range), Usage, Device or Cancelled.
   [[nodiscard]] Result compute(const MeshView& mesh, const Options& options = {}, const RunControl& control = {});
 
  private:
-  struct State;
-  std::unique_ptr<State> state_;
+  friend class Scene;
+  std::unique_ptr<struct SessionState> state_;
 };
 
 }  // namespace asdfvk

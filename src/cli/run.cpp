@@ -58,8 +58,8 @@ void writePicture(const CommandLine& line, const Result& result, const RunContro
     throw Error(ErrorCode::OptionConflict,
                 fmt::format("--picture-of: field {} has {} components; a picture shows a field of one component",
                             line.pictureOf, field->componentCount));
-  const TriangleMesh& mesh = result.scene->mesh;
-  Picture picture{.scene = *result.scene, .title = field->label, .view = line.pictureView};
+  const TriangleMesh& mesh = result.scene->scene.mesh;
+  Picture picture{.scene = result.scene->scene, .title = field->label, .view = line.pictureView};
   std::vector<double> values;
   std::vector<uint8_t> flags;
   std::vector<uint32_t> labels;

@@ -9,6 +9,7 @@
 #include "asdf_vk/report.h"
 #include "cone/cone.h"
 #include "pipeline/backend.h"
+#include "pipeline/face_domain.h"
 #include "pipeline/prepared_mesh.h"
 #include "pipeline/stage_clock.h"
 #include "poisson/poisson_solver.h"
@@ -19,10 +20,11 @@ namespace asdfvk {
 /// The solvers of a session by name, created at first use.
 using Solvers = std::map<std::string, std::unique_ptr<PoissonSolver>>;
 
-/// Data shared by all steps of one computation. References only: Session::compute() owns everything.
+/// Data shared by all steps of one computation. References only: computeOn() and its caller own everything.
 struct Computation {
   const Options& options;
   const PreparedMesh& prepared;
+  const FaceDomain& domain;
   const TraceScene& scene;
   const Cone& cone;
   Backend& backend;

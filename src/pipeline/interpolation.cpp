@@ -23,13 +23,13 @@ struct ComponentValues {
   uint64_t count = 0;
 };
 
-std::vector<ComponentValues> componentValues(const Components& components, std::span<const double> constraints) {
-  std::vector<ComponentValues> values(components.components.size());
+std::vector<ComponentValues> componentValues(const FaceDomain& domain, std::span<const double> constraints) {
+  std::vector<ComponentValues> values(domain.componentCount);
   for (size_t face = 0; face < constraints.size();
        ++face) {  // In face order, so that the order of the seeds does not change the last bit.
     const double value = constraints[face];
     if (!std::isfinite(value)) continue;
-    ComponentValues& component = values[components.componentOf[face]];
+    ComponentValues& component = values[domain.componentOf[face]];
     component.low = std::min(component.low, value);
     component.high = std::max(component.high, value);
     ++component.count;
@@ -39,11 +39,11 @@ std::vector<ComponentValues> componentValues(const Components& components, std::
 }
 
 /// Start of the solvers: the prediction, or the mean of the seeds of the component where there is none.
-std::vector<double> firstGuess(const Components& components, const std::vector<ComponentValues>& traced,
+std::vector<double> firstGuess(const FaceDomain& domain, const std::vector<ComponentValues>& traced,
                                std::span<const double> prediction) {
-  std::vector<double> guess(components.componentOf.size(), kNoValue);
+  std::vector<double> guess(domain.componentOf.size(), kNoValue);
   forEachInParallel(guess.size(), [&](size_t face) {
-    const ComponentValues& component = traced[components.componentOf[face]];
+    const ComponentValues& component = traced[domain.componentOf[face]];
     if (component.count > 0) guess[face] = component.mean;
     if (!prediction.empty() && std::isfinite(prediction[face])) guess[face] = prediction[face];
   });
@@ -53,10 +53,10 @@ std::vector<double> firstGuess(const Components& components, const std::vector<C
 /// Limits values of a component, which guidance moves beyond those of the seeds: below to the smaller of the lowest
 /// seed value and the prediction of the face, above to the highest seed value, since the faces with the greatest
 /// predictions are seeds (extremeSeeds()).
-void keepWithinTraced(const Components& components, const std::vector<ComponentValues>& traced,
+void keepWithinTraced(const FaceDomain& domain, const std::vector<ComponentValues>& traced,
                       std::span<const double> predicted, std::vector<double>& values) {
   forEachInParallel(values.size(), [&](size_t face) {
-    const ComponentValues& component = traced[components.componentOf[face]];
+    const ComponentValues& component = traced[domain.componentOf[face]];
     if (component.count == 0 || !std::isfinite(values[face])) return;
     const double prediction = predicted[face];
     const double low = std::isfinite(prediction) ? std::min(component.low, prediction) : component.low;
@@ -68,12 +68,12 @@ void keepWithinTraced(const Components& components, const std::vector<ComponentV
 
 void Interpolation::predict(const SeedHits& hits) {
   if (hits.hits.empty()) return;
-  prediction_ = predictValues(computation_.scene, computation_.prepared.graph, computation_.cone, hits, {},
-                              std::move(prediction_));
+  prediction_ =
+      predictValues(computation_.scene, computation_.domain.graph, computation_.cone, hits, {}, std::move(prediction_));
 }
 
 Interpolated Interpolation::solve(std::span<const double> constraints, const RunControl& control) {
-  const Components& components = computation_.prepared.components;
+  const FaceDomain& domain = computation_.domain;
   Interpolated result;
   result.values.assign(constraints.begin(), constraints.end());
   result.solver.name = "none";
@@ -82,15 +82,15 @@ Interpolated Interpolation::solve(std::span<const double> constraints, const Run
   const bool hasAll =
       needsNone || std::all_of(constraints.begin(), constraints.end(), [](double v) { return std::isfinite(v); });
   if (!hasAll) {
-    const std::vector<ComponentValues> traced = componentValues(components, constraints);
+    const std::vector<ComponentValues> traced = componentValues(domain, constraints);
     const auto buildSystem = [&] {  // Frees the guess before the solution.
-      const std::vector<double> guess = firstGuess(components, traced, predicted);
-      return buildPoissonSystem(computation_.prepared.graph, weights(), constraints, divergence(),
-                                {.firstGuess = guess, .componentOf = components.componentOf});
+      const std::vector<double> guess = firstGuess(domain, traced, predicted);
+      return buildPoissonSystem(computation_.domain.graph, weights(), constraints, divergence(),
+                                {.firstGuess = guess, .componentOf = domain.componentOf});
     };
     const PoissonSystem system = buildSystem();
     result.solver = solveSystem(system, result.values, control);
-    if (!predicted.empty()) keepWithinTraced(components, traced, predicted, result.values);
+    if (!predicted.empty()) keepWithinTraced(domain, traced, predicted, result.values);
   }
   if (const double pooling = computation_.options.interpolation.pooling; pooling > 0)
     for (size_t face = 0; face < predicted.size(); ++face)
@@ -100,9 +100,9 @@ Interpolated Interpolation::solve(std::span<const double> constraints, const Run
 }
 
 const std::vector<double>& Interpolation::weights() {
-  const PreparedMesh& prepared = computation_.prepared;
   if (weights_.empty())
-    weights_ = arcWeights(computation_.options.interpolation.weights, prepared.graph, prepared.geometry);
+    weights_ = arcWeights(computation_.options.interpolation.weights, computation_.domain.graph,
+                          computation_.prepared.geometry);
   return weights_;
 }
 
@@ -110,7 +110,7 @@ std::vector<double> Interpolation::divergence() {
   switch (computation_.options.interpolation.guidance) {
     case Guidance::Prediction:
       if (prediction_.values.empty()) return {};
-      return divergenceOf(computation_.prepared.graph, weights(), prediction_.values);
+      return divergenceOf(computation_.domain.graph, weights(), prediction_.values);
     case Guidance::Curvature: {
       std::vector<double> divergence = faceCurvature(computation_.scene.mesh);
       for (double& entry : divergence) entry = -entry;

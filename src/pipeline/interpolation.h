@@ -10,7 +10,7 @@ namespace asdfvk {
 
 /// Values of all faces, interpolated from those of the seeds.
 struct Interpolated {
-  std::vector<double> values;  ///< #F; NaN in components without any value.
+  std::vector<double> values;  ///< #F; NaN outside of the domain and in components without any value.
   SolverReport solver;         ///< Its name is "none" where there was nothing to solve.
 };
 

@@ -28,12 +28,13 @@ struct MissingCauses {
   bool isOpen = false;      ///< A face without a value belongs to an open component.
 };
 
-MissingCauses causesOf(const PreparedMesh& prepared, std::span<const double> values) {
+MissingCauses causesOf(const PreparedMesh& prepared, const FaceDomain& domain, std::span<const double> values) {
   std::vector<uint8_t> isInverted(prepared.components.components.size(), 0);
   for (const uint32_t index : prepared.invertedComponents) isInverted[index] = 1;
   MissingCauses causes;
   for (uint32_t f = 0; f < prepared.mesh.faceCount(); ++f) {
-    if (!std::isnan(values[f]) || prepared.geometry.isDegenerate(f)) continue;
+    if (!std::isnan(values[f]) || prepared.geometry.isDegenerate(f) || !domain.contains(prepared.mesh.inputFaceOf(f)))
+      continue;
     const uint32_t component = prepared.components.componentOf[f];
     causes.isInverted = causes.isInverted || isInverted[component];
     causes.isOpen = causes.isOpen || !prepared.components.components[component].isClosed;
@@ -45,7 +46,7 @@ MissingCauses causesOf(const PreparedMesh& prepared, std::span<const double> val
 Warning missingValues(const Report& report, const MissingCauses& causes, bool keepsMissing) {
   Warning warning{WarningCode::MissingValues,
                   fmt::format("{} of {} without a value: no ray from these faces{} hit the opposite side of the shape",
-                              report.noValueCount, counted(report.faceCount, "face"),
+                              report.noValueCount, counted(report.regionFaceCount, "face"),
                               keepsMissing ? "" : ", or from faces connected to them,"),
                   {}};
   const std::string inverted = "their component is inverted";
@@ -184,13 +185,18 @@ std::vector<double> centresOfInputFaces(const TriangleMesh& mesh, const FaceGeom
   return centres;
 }
 
-void describeValues(Report& report, const PreparedMesh& prepared, const std::vector<double>& sdf,
-                    std::span<const double> values, bool keepsMissing) {
+uint64_t countWithoutValue(const FaceDomain& domain, std::span<const double> field) {
+  uint64_t count = 0;
+  for (size_t i = 0; i < field.size(); ++i) count += std::isnan(field[i]) && domain.contains(i) ? 1 : 0;
+  return count;
+}
+
+void describeValues(Report& report, const PreparedMesh& prepared, const FaceDomain& domain,
+                    const std::vector<double>& sdf, std::span<const double> values, bool keepsMissing) {
   report.sdf = rangeOf(sdf);
-  report.noValueCount =
-      static_cast<uint64_t>(std::count_if(sdf.begin(), sdf.end(), [](double v) { return std::isnan(v); }));
+  report.noValueCount = countWithoutValue(domain, sdf);
   if (report.noValueCount > 0)
-    report.warnings.push_back(missingValues(report, causesOf(prepared, values), keepsMissing));
+    report.warnings.push_back(missingValues(report, causesOf(prepared, domain, values), keepsMissing));
   if (std::optional<Warning> warning = rangeDominated(report)) report.warnings.push_back(std::move(*warning));
   if (report.solver.finishedOnCpu)
     report.warnings.push_back(

@@ -7,7 +7,7 @@
 
 #include "asdf_vk/session.h"
 #include "mesh/mesh.h"
-#include "pipeline/prepared_mesh.h"
+#include "pipeline/face_domain.h"
 
 namespace asdfvk {
 
@@ -35,9 +35,12 @@ namespace asdfvk {
 [[nodiscard]] std::vector<double> centresOfInputFaces(const TriangleMesh& mesh, const FaceGeometry& geometry,
                                                       std::span<const double> sdf);
 
-/// Adds to the report: the range of the values, the number of missing values, warnings about values and solver. sdf:
-/// #I. values: #F. keepsMissing: see Computation.
-void describeValues(Report& report, const PreparedMesh& prepared, const std::vector<double>& sdf,
-                    std::span<const double> values, bool keepsMissing);
+/// Number of input faces of the domain without a value. field: #I.
+[[nodiscard]] uint64_t countWithoutValue(const FaceDomain& domain, std::span<const double> field);
+
+/// Adds to the report: the range of the values, the number of missing values of the domain, warnings about values and
+/// solver. sdf: #I. values: #F. keepsMissing: see Computation.
+void describeValues(Report& report, const PreparedMesh& prepared, const FaceDomain& domain,
+                    const std::vector<double>& sdf, std::span<const double> values, bool keepsMissing);
 
 }  // namespace asdfvk

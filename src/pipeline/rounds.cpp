@@ -62,7 +62,7 @@ class Rounds {
         traced_(computation.prepared.geometry.areas.size()) {}
 
   RoundsResult run(const RunControl& control) {
-    const uint64_t traceableCount = computation_.prepared.traceableFaces.size();
+    const uint64_t traceableCount = computation_.domain.traceableFaces.size();
     runRound(resolveSeedCount(options_.seeds, traceableCount), !options_.rounds.areSet(), control);
     while (const uint64_t further = furtherCount()) runRound(further, false, control.withoutProgress());
     FaceThickness thickness = measureThickness(control);
@@ -154,7 +154,7 @@ void Rounds::traceSampled(const SeedShares& shares, std::span<const double> dens
   ++roundCount_;
   SeedChoice choice = [&] {
     const auto scope = clock_.time(Stage::Sample);
-    return chooseSeeds(computation_.prepared, options_, shares, sampled_, density);
+    return chooseSeeds(computation_.domain, computation_.prepared.geometry, options_, shares, sampled_, density);
   }();
   const auto scope = clock_.time(Stage::Trace);
   const auto sampledCount = static_cast<double>(choice.sampled.size()),
@@ -196,7 +196,7 @@ std::vector<uint32_t> Rounds::traceByPrediction(const SeedShares& shares, std::s
   HeldOutFaces heldOut;
   {
     const auto scope = clock_.time(Stage::Sample);
-    const std::vector<uint32_t>& traceable = computation_.prepared.traceableFaces;
+    const std::span<const uint32_t> traceable = computation_.domain.traceableFaces;
     extremes = extremeSeeds(traceable, interpolation_.prediction().values, traced_.isSeed, shares.extreme);
     std::vector<uint32_t> candidates;
     auto extreme = extremes.begin();
@@ -239,7 +239,7 @@ FaceThickness Rounds::measureThickness(const RunControl& control) {
 }
 
 uint64_t Rounds::remainingCount() const {
-  return computation_.prepared.traceableFaces.size() - sampled_.sampled.size() - sampled_.heldOut.size();
+  return computation_.domain.traceableFaces.size() - sampled_.sampled.size() - sampled_.heldOut.size();
 }
 
 /// Seeds of the next round; 0 if the conditions of the rounds are fulfilled.
@@ -265,7 +265,7 @@ uint64_t Rounds::countForTarget(std::optional<double> maximum, double estimate, 
   const double target = *maximum, bound = estimate + kStandardErrors * standardError;
   if (bound <= target) return 0;
   // The number of interpolated faces falls with the seeds, and the error of each with a power of their number.
-  const auto candidateCount = static_cast<double>(computation_.prepared.traceableFaces.size());
+  const auto candidateCount = static_cast<double>(computation_.domain.traceableFaces.size());
   const double perFace = bound / (1 - seedCount / candidateCount);
   double growth = kMinGrowth;
   while (growth < kMaxGrowth && growth * seedCount < candidateCount &&

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "asdf_vk/options.h"
-#include "pipeline/prepared_mesh.h"
+#include "pipeline/face_domain.h"
 #include "seeds/samplers.h"
 
 namespace asdfvk {
@@ -34,8 +34,9 @@ struct SeedShares {
 /// Selects further seeds: by the sampler, and held-out faces with equal probability among the others. The number of
 /// held-out faces is 0 if a prediction is available (see sampleHeldOut()). earlier: all earlier seeds. density: #F, for
 /// the second half of the seeds of an adaptive sampler (Sampler::refine); otherwise empty.
-[[nodiscard]] SeedChoice chooseSeeds(const PreparedMesh& prepared, const Options& options, const SeedShares& shares,
-                                     const SeedChoice& earlier, std::span<const double> density = {});
+[[nodiscard]] SeedChoice chooseSeeds(const FaceDomain& faces, const FaceGeometry& geometry, const Options& options,
+                                     const SeedShares& shares, const SeedChoice& earlier,
+                                     std::span<const double> density = {});
 
 /// The `count` candidates with the greatest predictions that are not seeds yet, ascending. Samplers often miss the few
 /// faces with the maximum of the function, and errors are relative to its range. prediction, isSeed: #F.

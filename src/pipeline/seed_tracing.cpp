@@ -23,32 +23,27 @@ void returnFreedMemory() {
 #endif
 }
 
-/// Stage of creating and releasing a tracer: without Vulkan nothing is uploaded.
-Stage setUpStage(const Backend& backend) { return backend.traceVariant() ? Stage::Upload : Stage::Encode; }
-
 }  // namespace
 
-SeedTracing::SeedTracing(const Computation& computation, Bvh& bvh, bool keepsNodes)
-    : computation_(computation), bvh_(bvh), keepsNodes_(keepsNodes) {
-  const Stage stage = setUpStage(computation.backend);
-  {
-    const auto scope = computation.clock.time(stage);
-    tracer_ = computation.backend.makeTracer(
-        computation.scene, computation.cone,
-        {.hits = computation.keepsHits() || computation.measuresThickness(), .balls = computation.measuresThickness()});
-    if (computation.measuresThickness()) {
-      walls_ = makeOpposingWalls(computation.options.thickness.wallAngleDegrees);
-      shrinker_ = tracer_->makeBallShrinker(walls_);
-    }
-  }
-  computation.clock.transfer(stage, Stage::Encode, tracer_->encodeSeconds());
+SeedTracing::SeedTracing(const Computation& computation, SceneTracers& tracers, Bvh* released)
+    : computation_(computation),
+      released_(released),
+      tracer_(tracers.get(computation.options.cone,
+                          {.hits = computation.keepsHits() || computation.measuresThickness(),
+                           .balls = computation.measuresThickness()},
+                          computation.clock)) {
+  if (!computation.measuresThickness()) return;
+  const auto scope = computation.clock.time(setUpStage(computation.backend));
+  walls_ = makeOpposingWalls(computation.options.thickness.wallAngleDegrees);
+  shrinker_ = tracer_->tracer->makeBallShrinker(walls_);
 }
 
 SeedTracing::~SeedTracing() {
   const auto scope = computation_.clock.time(setUpStage(computation_.backend));
   shrinker_.reset();
   tracer_.reset();
-  if (!keepsNodes_) bvh_.nodes = {};
+  if (released_ == nullptr) return;
+  released_->nodes = {};
   returnFreedMemory();
 }
 
@@ -63,7 +58,7 @@ void SeedTracing::trace(std::span<const uint32_t> faces, TracedSeeds& traced, co
   const std::span<ConeHit> hits =
       computation_.keepsHits() ? std::span(traced.hits).subspan(earlierHitCount) : std::span(forThickness);
   const double traceEnd = shrinker_ ? kTracedBeforeThickness : 1;
-  const TraceStatistics statistics = tracer_->trace(faces, {values, hits}, control.part(0, traceEnd));
+  const TraceStatistics statistics = tracer_->tracer->trace(faces, {values, hits}, control.part(0, traceEnd));
   if (shrinker_) measureThickness(faces, hits, traced, control.part(traceEnd, 1));
   traced.statistics.rayCount += statistics.rayCount;
   traced.statistics.redoneConeCount += statistics.redoneConeCount;
@@ -94,11 +89,10 @@ void SeedTracing::reserve(TracedSeeds& traced, size_t furtherCount) const {
 
 void SeedTracing::traceComponentsWithoutValue(TracedSeeds& traced, const RunControl& control) {
   std::vector<uint32_t> untried;
-  for (const uint32_t face : computation_.prepared.traceableFaces)
+  for (const uint32_t face : computation_.domain.traceableFaces)
     if (!traced.isSeed[face]) untried.push_back(face);
   if (untried.empty()) return;
-  ComponentSeeds further(computation_.prepared.components.componentOf, traced.values, untried,
-                         computation_.options.randomSeed);
+  ComponentSeeds further(computation_.domain.componentOf, traced.values, untried, computation_.options.randomSeed);
   for (auto batch = further.next(traced.values); !batch.empty(); batch = further.next(traced.values))
     trace(batch, traced, control.withoutProgress());
 }

@@ -5,18 +5,19 @@
 
 #include "bvh/bvh.h"
 #include "pipeline/computation.h"
+#include "pipeline/scene_tracers.h"
 #include "trace/ball_shrinker.h"
 #include "trace/cone_tracer.h"
 #include "trace/traced_seeds.h"
 
 namespace asdfvk {
 
-/// Casts the rays of seeds of one mesh. Owns the tracer, and the nodes of the hierarchy unless they are needed later:
-/// both are released by its destructor.
+/// Casts the rays of seeds of one computation. Its destructor releases the tracer, unless `tracers` keep it, and the
+/// nodes of the hierarchy if they are not needed later.
 class SeedTracing {
  public:
-  /// The computation must outlive it. keepsNodes: the nodes of `bvh` are left in place.
-  SeedTracing(const Computation& computation, Bvh& bvh, bool keepsNodes);
+  /// The computation must outlive it. released: the hierarchy whose nodes the destructor releases; null: none.
+  SeedTracing(const Computation& computation, SceneTracers& tracers, Bvh* released);
   ~SeedTracing();
   SeedTracing(const SeedTracing&) = delete;
   SeedTracing& operator=(const SeedTracing&) = delete;
@@ -33,9 +34,8 @@ class SeedTracing {
                         const RunControl& control);
 
   const Computation& computation_;
-  Bvh& bvh_;
-  bool keepsNodes_;
-  std::unique_ptr<ConeTracer> tracer_;
+  Bvh* released_;
+  std::shared_ptr<SceneTracer> tracer_;
   OpposingWalls walls_;
   std::unique_ptr<BallShrinker> shrinker_;  ///< Null unless the thickness is measured. Destroyed before the tracer.
 };

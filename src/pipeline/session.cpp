@@ -1,144 +1,14 @@
 #include "asdf_vk/session.h"
 
-#include <cmath>
-#include <iterator>
-#include <utility>
-
-#include "bvh/bvh.h"
-#include "estimate/reference_check.h"
-#include "pipeline/backend.h"
-#include "pipeline/computation.h"
-#include "pipeline/result.h"
-#include "pipeline/rounds.h"
-#include "pipeline/seed_tracing.h"
-#include "pipeline/segments.h"
-#include "pipeline/thickness.h"
-#include "pipeline/valid_options.h"
-#include "pipeline/vertex_fields.h"
-#include "smooth/bilateral.h"
-#include "trace/scene_data.h"
+#include "pipeline/compute.h"
 
 namespace asdfvk {
-namespace {
-
-/// Progress at which the comparison with the reference begins.
-constexpr double kRoundsEndBeforeCheck = 0.6;
-
-void describeBackend(Report& report, const NamedBackend& named) {
-  report.backend = named.name;
-  report.device = named.backend->deviceName();
-  report.traceVariant = named.backend->traceVariant();
-  report.runsOnCpu = named.backend->runsOnCpu();
-}
-
-void describeMesh(Report& report, const PreparedMesh& prepared) {
-  report.faceCount = prepared.mesh.inputFaceCount();
-  report.triangleCount = prepared.mesh.faceCount();
-  report.vertexCount = prepared.mesh.vertices.size();
-  report.componentCount = prepared.components.components.size();
-  report.defects = prepared.defects;
-  report.reversedFaces = prepared.reversedFaces;
-  report.warnings = prepared.warnings;
-}
-
-void describeRounds(Report& report, const RoundsResult& rounds) {
-  report.seedCount = rounds.traced.faces.size();
-  report.rayCount = rounds.traced.statistics.rayCount + rounds.thickness.rays.rayCount;
-  report.redoneConeCount = rounds.traced.statistics.redoneConeCount + rounds.thickness.rays.redoneConeCount;
-  const double traceSeconds = report.stageSeconds[Stage::Trace];
-  report.raysPerSecond = traceSeconds > 0 ? static_cast<double>(report.rayCount) / traceSeconds : 0;
-  report.solver = rounds.interpolated.solver;
-  report.roundCount = rounds.roundCount;
-  if (rounds.errors) report.estimatedError = rounds.errors->estimate;
-}
-
-/// Removes the values, and the expected errors, of traced and of degenerate faces that have no value of their own.
-void removeMissing(const PreparedMesh& prepared, RoundsResult& rounds) {
-  for (uint32_t face = 0; face < rounds.interpolated.values.size(); ++face) {
-    const bool isTraced = rounds.traced.isSeed[face];
-    if (!prepared.geometry.isDegenerate(face) && !(isTraced && std::isnan(rounds.traced.values[face]))) continue;
-    rounds.interpolated.values[face] = kNoValue;
-    if (rounds.errors) rounds.errors->expected[face] = 0;
-  }
-}
-
-std::vector<Field> fieldsOf(const PreparedMesh& prepared, const RoundsResult& rounds, const std::vector<double>& values,
-                            SegmentedValues&& segmented) {
-  const std::vector<double>& areas = prepared.geometry.areas;
-  std::vector<Field> fields;
-  fields.push_back({.name = "sdf",
-                    .label = "shape diameter",
-                    .unit = "length",
-                    .values = valuesOfInputFaces(prepared.mesh, values, areas)});
-  fields.push_back(
-      {.name = "seed", .label = "seeds", .values = seedsOfInputFaces(prepared.mesh, rounds.traced.isSeed)});
-  if (rounds.errors)
-    fields.push_back({.name = "error",
-                      .label = "expected error",
-                      .unit = "length",
-                      .values = valuesOfInputFaces(prepared.mesh, rounds.errors->expected, areas)});
-  if (!segmented.normalized.empty())
-    fields.push_back({.name = "normalized",
-                      .label = "normalised diameter",
-                      .values = valuesOfInputFaces(prepared.mesh, segmented.normalized, areas)});
-  if (!segmented.segments.empty())
-    fields.push_back({.name = "segment", .label = "segments", .values = std::move(segmented.segments)});
-  if (!rounds.thickness.values.empty())
-    fields.push_back({.name = "thickness",
-                      .label = "wall thickness",
-                      .unit = "length",
-                      .values = thicknessOfInputFaces(prepared.mesh, rounds.thickness.values)});
-  return fields;
-}
-
-/// Adds the fields that derive from other fields.
-void addDerivedFields(std::vector<Field>& fields, const PreparedMesh& prepared, const Options& options) {
-  if (options.computesCentres)
-    fields.push_back({.name = "centre",
-                      .label = "skeleton point",
-                      .unit = "length",
-                      .componentCount = 3,
-                      .values = centresOfInputFaces(prepared.mesh, prepared.geometry, *fields.front().reals())});
-  if (options.per != PerElement::Vertices) return;
-  std::vector<Field> further = vertexFieldsOf(prepared.mesh, prepared.geometry.areas, fields);
-  fields.insert(fields.end(), std::make_move_iterator(further.begin()), std::make_move_iterator(further.end()));
-}
-
-/// The values of the triangles, smoothed if requested.
-std::vector<double> finalValues(const PreparedMesh& prepared, const std::vector<double>& values,
-                                const SmoothingOptions& smoothing, StageClock& clock) {
-  if (!smoothing.isOn) return values;
-  const auto scope = clock.time(Stage::Smooth);
-  return smoothBilaterally(prepared.graph, values,
-                           smoothing.window.value_or(smoothingWindowFor(prepared.graph.faceCount())));
-}
-
-/// Describes the values and the thickness that the fields of the result have.
-void describeFields(Result& result, const Computation& computation, const RoundsResult& rounds,
-                    const std::vector<double>& values) {
-  Report& report = result.report;
-  describeValues(report, computation.prepared, result.sdf(), values, computation.keepsMissing());
-  const Field* field = result.field("thickness");
-  if (field == nullptr) return;
-  const auto scope = computation.clock.time(Stage::Thickness);
-  report.thickness = describeThickness(computation.prepared, rounds.thickness, *field->reals(),
-                                       computation.options.thickness.thinnerThan);
-}
-
-}  // namespace
 
 std::vector<std::string> resultFieldNames() {
   return {"sdf", "seed", "error", "normalized", "segment", "thickness", "centre"};
 }
 
-struct Session::State {
-  explicit State(const SessionOptions& options) : named(openBackend(options)) {}
-
-  NamedBackend named;
-  Solvers solvers;  ///< Destroyed before the device that they use.
-};
-
-Session::Session(const SessionOptions& options) : state_(std::make_unique<State>(options)) {}
+Session::Session(const SessionOptions& options) : state_(std::make_unique<SessionState>(options)) {}
 Session::~Session() = default;
 
 const std::vector<std::string>& Session::deviceLines() const { return state_->named.deviceLines; }
@@ -147,48 +17,11 @@ bool Session::runsOnCpu() const { return state_->named.backend->runsOnCpu(); }
 
 Result Session::compute(const MeshView& mesh, const Options& options, const RunControl& control) {
   Result result;
-  Report& report = result.report;
-  StageClock clock(report.stageSeconds, control.stageBegan);
-  Backend& backend = *state_->named.backend;
-  requireValid(options, backend.device() != nullptr);
-  const Cone cone = makeCone(options.cone);
-  describeBackend(report, state_->named);
-  report.randomSeed = options.randomSeed;
-
-  control.checkpoint(0);
-  PreparedMesh prepared = prepareMesh(mesh, options.orientation, clock);
-  describeMesh(report, prepared);
-  control.checkpoint(0);
-  Bvh bvh = [&] {
-    const auto scope = clock.time(Stage::Bvh);
-    return buildBvh(prepared.mesh, prepared.geometry, prepared.representatives);
-  }();
-  const TraceScene scene{prepared.mesh, prepared.geometry, prepared.representatives, bvh};
-  control.checkpoint(0);
-
-  const Computation computation{options, prepared, scene, cone, backend, state_->solvers, clock, report.warnings};
-  const double roundsEnd = options.checkCount ? kRoundsEndBeforeCheck : 1;
-  const bool keepsNodes = options.checkCount || options.keepsScene || sightNeedsNodes(options, backend.isReference());
-  RoundsResult rounds =
-      runRounds(computation, std::make_unique<SeedTracing>(computation, bvh, keepsNodes), control.part(0, roundsEnd));
-  describeRounds(report, rounds);
-  if (computation.keepsMissing()) removeMissing(prepared, rounds);
-  const std::vector<double> values = finalValues(prepared, rounds.interpolated.values, options.smoothing, clock);
-  const RunControl stopOnly = control.withoutProgress();
-  SegmentedValues segmented = segmentValues(
-      prepared, values, options, makeLineOfSight(scene, backend.isReference(), stopOnly), clock, report, stopOnly);
-  if (options.checkCount)
-    report.check =
-        checkAgainstReference(scene, cone, prepared.traceableFaces, {rounds.traced, values, backend.isReference()},
-                              *options.checkCount, options.randomSeed, control.part(roundsEnd, 1));
-  result.fields = fieldsOf(prepared, rounds, values, std::move(segmented));
-  addDerivedFields(result.fields, prepared, options);
-  describeFields(result, computation, rounds, values);
-  backend.requireSilentValidation();
-  if (options.keepsScene)
-    result.scene =
-        std::make_shared<SceneData>(SceneData{std::move(prepared.storage), prepared.mesh, std::move(prepared.geometry),
-                                              std::move(prepared.representatives), std::move(bvh)});
+  StageClock clock(result.report.stageSeconds, control.stageBegan);
+  (void)requireComputable(*state_, options);  // Before the mesh is prepared.
+  const auto scene = std::make_shared<PreparedScene>(mesh, options.orientation, clock, control);
+  SceneTracers tracers(*state_->named.backend, scene->view(), 0);
+  computeOn({*state_, scene, wholeMesh(scene->prepared), tracers, true}, options, clock, control, result);
   return result;
 }
 

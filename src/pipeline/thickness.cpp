@@ -14,16 +14,16 @@ namespace {
 class FacesToTrace {
  public:
   FacesToTrace(const Computation& computation, const FaceThickness& thickness)
-      : prepared_(computation.prepared), isSettled_(thickness.isTraced) {
+      : graph_(computation.domain.graph), isSettled_(thickness.isTraced) {
     for (uint32_t face = 0; face < isSettled_.size(); ++face)
-      if (prepared_.geometry.isDegenerate(face)) isSettled_[face] = 1;
+      if (computation.prepared.geometry.isDegenerate(face)) isSettled_[face] = 1;
   }
 
   void add(uint32_t face) {
     if (std::exchange(isSettled_[face], uint8_t{1}) == 0) faces_.push_back(face);
   }
   void addNeighboursOf(uint32_t face) {
-    for (const uint32_t neighbour : prepared_.graph.neighboursOf(face)) add(neighbour);
+    for (const uint32_t neighbour : graph_.neighboursOf(face)) add(neighbour);
   }
   /// Ascending.
   [[nodiscard]] std::vector<uint32_t> take() {
@@ -32,7 +32,7 @@ class FacesToTrace {
   }
 
  private:
-  const PreparedMesh& prepared_;
+  const DualGraph& graph_;
   std::vector<uint8_t> isSettled_;  // #F, 1: traced, to be traced, or degenerate.
   std::vector<uint32_t> faces_;
 };
@@ -51,15 +51,21 @@ FaceThickness interpolateThickness(const Computation& computation, const TracedS
   thickness.statistics = traced.thicknessStatistics;
   thickness.values = traced.thickness;
   if (thickness.values.empty()) thickness.values.assign(traced.values.size(), kNoValue);
-  const std::vector<uint32_t>& traceable = computation.prepared.traceableFaces;
+  const std::span<const uint32_t> traceable = computation.domain.traceableFaces;
   if (std::all_of(traceable.begin(), traceable.end(), [&](uint32_t face) { return traced.isSeed[face] != 0; }))
     return thickness;
   Options harmonic = computation.options;
   harmonic.interpolation.guidance = Guidance::None;
   harmonic.interpolation.pooling = 0;
-  const Computation withoutGuidance{harmonic,          computation.prepared, computation.scene,
-                                    computation.cone,  computation.backend,  computation.solvers,
-                                    computation.clock, computation.warnings};
+  const Computation withoutGuidance{harmonic,
+                                    computation.prepared,
+                                    computation.domain,
+                                    computation.scene,
+                                    computation.cone,
+                                    computation.backend,
+                                    computation.solvers,
+                                    computation.clock,
+                                    computation.warnings};
   const std::vector<double> interpolated = Interpolation(withoutGuidance).solve(thickness.values, control).values;
   for (const uint32_t face : traceable)
     if (traced.isSeed[face] == 0) thickness.values[face] = interpolated[face];

@@ -37,8 +37,10 @@ void verifyThinRegions(const Computation& computation, SeedTracing& tracing, std
 /// The field: for each input face the least value of its triangles; NaN without one. values: #F. Returns #I.
 [[nodiscard]] std::vector<double> thicknessOfInputFaces(const TriangleMesh& mesh, std::span<const double> values);
 
-/// Percentiles, and the regions below the limit if there is one. field: thicknessOfInputFaces().
-[[nodiscard]] ThicknessReport describeThickness(const PreparedMesh& prepared, const FaceThickness& thickness,
-                                                std::span<const double> field, const std::optional<double>& limit);
+/// Percentiles, and the regions below the limit if there is one, of the faces of the domain. field:
+/// thicknessOfInputFaces().
+[[nodiscard]] ThicknessReport describeThickness(const PreparedMesh& prepared, const FaceDomain& domain,
+                                                const FaceThickness& thickness, std::span<const double> field,
+                                                const std::optional<double>& limit);
 
 }  // namespace asdfvk

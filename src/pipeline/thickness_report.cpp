@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 #include "core/weighted_sample.h"
+#include "pipeline/result.h"
 #include "pipeline/thickness.h"
 
 namespace asdfvk {
@@ -52,15 +52,22 @@ ThinRegion describeRegion(const PreparedMesh& prepared, std::span<const uint32_t
   return region;
 }
 
-void describeThinRegions(const PreparedMesh& prepared, std::span<const double> values, double limit,
-                         ThicknessReport& report) {
-  const std::vector<double>& areas = prepared.geometry.areas;
+/// Of the faces of the domain.
+double totalArea(const PreparedMesh& prepared, const FaceDomain& domain) {
+  double total = 0;
+  for (uint32_t face = 0; face < prepared.mesh.faceCount(); ++face)
+    if (domain.contains(prepared.mesh.inputFaceOf(face))) total += prepared.geometry.areas[face];
+  return total;
+}
+
+void describeThinRegions(const PreparedMesh& prepared, const FaceDomain& domain, std::span<const double> values,
+                         double limit, ThicknessReport& report) {
   std::vector<uint8_t> isThin(values.size());
   for (size_t face = 0; face < values.size(); ++face) isThin[face] = values[face] < limit ? 1 : 0;
   for (uint32_t face = 0; face < values.size(); ++face)
     if (isThin[face] != 0)
       report.thinRegions.push_back(describeRegion(prepared, takeRegion(prepared.graph, face, isThin), values));
-  const double total = std::accumulate(areas.begin(), areas.end(), 0.0);
+  const double total = totalArea(prepared, domain);
   for (ThinRegion& region : report.thinRegions) {
     region.areaShare = total > 0 ? region.area / total : 0;
     report.thinArea += region.area;
@@ -72,19 +79,19 @@ void describeThinRegions(const PreparedMesh& prepared, std::span<const double> v
 
 }  // namespace
 
-ThicknessReport describeThickness(const PreparedMesh& prepared, const FaceThickness& thickness,
-                                  std::span<const double> field, const std::optional<double>& limit) {
+ThicknessReport describeThickness(const PreparedMesh& prepared, const FaceDomain& domain,
+                                  const FaceThickness& thickness, std::span<const double> field,
+                                  const std::optional<double>& limit) {
   ThicknessReport report;
   describePercentiles(thickness.values, prepared.geometry.areas, report);
-  report.noValueCount =
-      static_cast<uint64_t>(std::count_if(field.begin(), field.end(), [](double v) { return std::isnan(v); }));
+  report.noValueCount = countWithoutValue(domain, field);
   report.tracedCount =
       static_cast<uint64_t>(std::count(thickness.isTraced.begin(), thickness.isTraced.end(), uint8_t{1}));
   report.verifiedCount = thickness.verifiedCount;
   report.unrefinedCount = thickness.statistics.unrefinedCount;
   report.redoneBallCount = thickness.statistics.redoneBallCount;
   report.thinnerThan = limit;
-  if (limit) describeThinRegions(prepared, thickness.values, *limit, report);
+  if (limit) describeThinRegions(prepared, domain, thickness.values, *limit, report);
   return report;
 }
 

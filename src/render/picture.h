@@ -9,7 +9,7 @@
 #include "io/colour_map.h"
 #include "render/camera.h"
 #include "render/image.h"
-#include "trace/scene_data.h"
+#include "trace/trace_scene.h"
 
 namespace asdfvk {
 
@@ -17,7 +17,7 @@ inline constexpr int kMinPictureSide = 64, kMaxPictureSide = 8192;
 
 /// A mesh to draw, with its geometry and hierarchy. Views only.
 struct Picture {
-  const SceneData& scene;
+  const TraceScene& scene;
   /// #F, in the colours of colourOf() with a colour bar; grey where NaN. Empty: the mesh is light grey without a bar.
   std::span<const double> values;
   std::span<const uint8_t> highlighted;  ///< #F: 1 for a face in the highlight colour; or empty.

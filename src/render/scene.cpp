@@ -29,7 +29,7 @@ std::array<double, 3> barycentrics(const std::array<Vec3d, 3>& corners, const Ve
 
 }  // namespace
 
-PictureScene::PictureScene(const SceneData& scene)
+PictureScene::PictureScene(const TraceScene& scene)
     : mesh_(scene.mesh),
       geometry_(scene.geometry),
       bvh_(scene.bvh),

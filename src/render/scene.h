@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "mesh/mesh.h"
-#include "trace/scene_data.h"
+#include "trace/trace_scene.h"
 
 namespace asdfvk {
 
@@ -22,7 +22,7 @@ struct SurfacePoint {
 class PictureScene {
  public:
   /// The scene must outlive this object.
-  explicit PictureScene(const SceneData& scene);
+  explicit PictureScene(const TraceScene& scene);
 
   /// The finite vertices of the faces that rays can hit, some of them more than once.
   [[nodiscard]] std::vector<Vec3d> points() const;

@@ -1,25 +1,15 @@
 #pragma once
 
-#include <cstdint>
-#include <vector>
+#include <memory>
 
-#include "asdf_vk/mesh.h"
-#include "bvh/bvh.h"
-#include "mesh/face_geometry.h"
-#include "mesh/mesh.h"
-#include "trace/cone_tracer.h"
+#include "trace/trace_scene.h"
 
 namespace asdfvk {
 
-/// A mesh with its geometry and hierarchy, owned. Result::scene of the public interface.
+/// A mesh with its geometry and hierarchy. Result::scene of the public interface.
 struct SceneData {
-  Mesh storage;       ///< Arrays of `mesh` that are not the caller's.
-  TriangleMesh mesh;  ///< Of `storage` and of the arrays of the caller, which must outlive this.
-  FaceGeometry geometry;
-  std::vector<uint32_t> representatives;  ///< #F, see coincidentRepresentatives().
-  Bvh bvh;
-
-  [[nodiscard]] TraceScene view() const { return {mesh, geometry, representatives, bvh}; }
+  std::shared_ptr<const void> owner;  ///< Of all that `scene` views but the arrays of the caller.
+  TraceScene scene;
 };
 
 }  // namespace asdfvk

@@ -94,8 +94,11 @@ Outcome run(Options options, bool keepsNodes = false) {
   StageSeconds seconds;
   StageClock clock(seconds);
   std::vector<Warning> warnings;
-  const Computation computation{options, prepared, scene, cone, backend, solvers, clock, warnings};
-  const RoundsResult result = runRounds(computation, std::make_unique<SeedTracing>(computation, bvh, keepsNodes), {});
+  const FaceDomain domain = wholeMesh(prepared);
+  const Computation computation{options, prepared, domain, scene, cone, backend, solvers, clock, warnings};
+  SceneTracers tracers(backend, scene, 0);
+  const RoundsResult result =
+      runRounds(computation, std::make_unique<SeedTracing>(computation, tracers, keepsNodes ? nullptr : &bvh), {});
   outcome.faceCount = mesh.faces.size();
   outcome.roundCount = result.roundCount;
   outcome.seedCount = result.traced.faces.size();

@@ -39,6 +39,11 @@ SeedShares shares(uint64_t count, uint64_t heldOutCount) {
   return {.sampled = count - heldOutCount, .heldOut = heldOutCount};
 }
 
+SeedChoice choose(const PreparedMesh& mesh, const Options& options, const SeedShares& shares, const SeedChoice& earlier,
+                  std::span<const double> density) {
+  return chooseSeeds(wholeMesh(mesh), mesh.geometry, options, shares, earlier, density);
+}
+
 std::vector<uint32_t> allOf(const SeedChoice& choice) { return joined(choice.sampled, choice.heldOut); }
 
 }  // namespace
@@ -101,7 +106,7 @@ TEST_CASE("each sampler gives the requested numbers of seeds and held-out faces,
     options.sampler = sampler;
     SeedChoice chosen;
     for (const uint64_t count : {100u, 40u, 300u}) {
-      const SeedChoice choice = chooseSeeds(mesh, options, shares(count, count / 4), chosen, {});
+      const SeedChoice choice = choose(mesh, options, shares(count, count / 4), chosen, {});
       CHECK(choice.heldOut.size() == count / 4);
       CHECK(choice.sampled.size() == count - count / 4);
       CHECK(isAscendingWithoutRepeats(choice.sampled));
@@ -120,9 +125,9 @@ TEST_CASE("all remaining faces can be chosen") {
     CAPTURE(sampler);
     Options options;
     options.sampler = sampler;
-    const SeedChoice first = chooseSeeds(mesh, options, shares(100, 25), {}, {});
+    const SeedChoice first = choose(mesh, options, shares(100, 25), {}, {});
     const uint64_t left = mesh.traceableFaces.size() - 100;
-    const SeedChoice rest = chooseSeeds(mesh, options, shares(left, 0), first, {});
+    const SeedChoice rest = choose(mesh, options, shares(left, 0), first, {});
     CHECK(allOf(joined(first, rest)) == mesh.traceableFaces);
   }
 }
@@ -132,13 +137,13 @@ TEST_CASE("random seeds do not depend on how many of them are held out") {
   const PreparedMesh& mesh = sample.prepared;
   Options options;
   options.sampler = "random";
-  const SeedChoice without = chooseSeeds(mesh, options, shares(120, 0), {}, {});
-  const SeedChoice with = chooseSeeds(mesh, options, shares(120, 30), {}, {});
+  const SeedChoice without = choose(mesh, options, shares(120, 0), {}, {});
+  const SeedChoice with = choose(mesh, options, shares(120, 30), {}, {});
   CHECK(without.heldOut.empty());
   CHECK(with.heldOut.size() == 30);
   CHECK(allOf(with) == without.sampled);
-  CHECK(allOf(chooseSeeds(mesh, options, shares(80, 20), with, {})) ==
-        chooseSeeds(mesh, options, shares(80, 0), without, {}).sampled);
+  CHECK(allOf(choose(mesh, options, shares(80, 20), with, {})) ==
+        choose(mesh, options, shares(80, 0), without, {}).sampled);
 }
 
 TEST_CASE("held-out faces are anywhere, also next to sampled seeds") {
@@ -147,7 +152,7 @@ TEST_CASE("held-out faces are anywhere, also next to sampled seeds") {
   const Sample sample(makeSphere(2000).mesh);
   const PreparedMesh& mesh = sample.prepared;
   size_t touchingCount = 0;
-  const SeedChoice choice = chooseSeeds(mesh, {}, shares(400, 100), {}, {});
+  const SeedChoice choice = choose(mesh, {}, shares(400, 100), {}, {});
   std::vector<uint8_t> isSampled(2000, 0);
   for (const uint32_t face : choice.sampled) isSampled[face] = 1;
   const auto touches = [&](uint32_t face) {
@@ -174,8 +179,8 @@ TEST_CASE("an adaptive choice is denser where the density is great") {
     if (isUp(face)) density[face] = 1;
   Options options;
   options.sampler = "adaptive";
-  const SeedChoice first = chooseSeeds(mesh, options, shares(50, 12), {}, {});
-  const SeedChoice second = chooseSeeds(mesh, options, shares(100, 0), first, density);
+  const SeedChoice first = choose(mesh, options, shares(50, 12), {}, {});
+  const SeedChoice second = choose(mesh, options, shares(100, 0), first, density);
   CHECK(isAscendingWithoutRepeats(allOf(joined(first, second))));
   CHECK(std::count_if(second.sampled.begin(), second.sampled.end(), isUp) > 70);
 }

@@ -18,16 +18,24 @@ namespace {
 
 constexpr int kWidth = 320, kHeight = 240;
 
-/// The mesh must outlive the scene.
-SceneData sceneOf(const Mesh& mesh) {
-  SceneData scene{{}, mesh, computeFaceGeometry(mesh), coincidentRepresentatives(mesh, surveyEdges(mesh)), {}};
-  scene.bvh = buildBvh(mesh, scene.geometry, scene.representatives);
-  return scene;
-}
+/// Geometry and hierarchy of a mesh, which must outlive it.
+struct DrawnMesh {
+  explicit DrawnMesh(const Mesh& drawn)
+      : mesh(drawn),
+        geometry(computeFaceGeometry(mesh)),
+        representatives(coincidentRepresentatives(mesh, surveyEdges(mesh))),
+        bvh(buildBvh(mesh, geometry, representatives)) {}
+
+  TriangleMesh mesh;
+  FaceGeometry geometry;
+  std::vector<uint32_t> representatives;
+  Bvh bvh;
+  TraceScene scene{mesh, geometry, representatives, bvh};
+};
 
 Image renderSmall(const Mesh& mesh, std::span<const double> values = {}, std::span<const uint8_t> highlighted = {},
                   const std::string& title = "", const View& view = {}) {
-  return render({.scene = sceneOf(mesh),
+  return render({.scene = DrawnMesh(mesh).scene,
                  .values = values,
                  .highlighted = highlighted,
                  .title = title,
@@ -194,8 +202,8 @@ TEST_CASE("the bar is at the side, with the colours of the map") {
 TEST_CASE("a given range decides the colours") {
   const Mesh mesh = generateShape("sphere", 500).mesh;
   const std::vector<double> values(mesh.faceCount(), 1.0);
-  const SceneData scene = sceneOf(mesh);
-  Picture picture{.scene = scene,
+  const DrawnMesh drawn(mesh);
+  Picture picture{.scene = drawn.scene,
                   .values = values,
                   .highlighted = {},
                   .title = "",
@@ -227,8 +235,8 @@ TEST_CASE("highlighted faces stand out of a light body, and their legend above i
 
 TEST_CASE("text grows with its scale, and the mesh makes room") {
   const Mesh mesh;
-  const SceneData scene = sceneOf(mesh);
-  Picture picture{.scene = scene,
+  const DrawnMesh drawn(mesh);
+  Picture picture{.scene = drawn.scene,
                   .values = {},
                   .highlighted = {},
                   .title = "seeds",
@@ -265,8 +273,8 @@ TEST_CASE("both sides of a face are seen") {
 
 TEST_CASE("a stop request ends the rendering, progress goes from 0 to 1") {
   const Mesh mesh = generateShape("sphere", 500).mesh;
-  const SceneData scene = sceneOf(mesh);
-  const Picture picture{.scene = scene,
+  const DrawnMesh drawn(mesh);
+  const Picture picture{.scene = drawn.scene,
                         .values = {},
                         .highlighted = {},
                         .title = "",

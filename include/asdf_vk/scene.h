@@ -1,0 +1,79 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "asdf_vk/api.h"
+#include "asdf_vk/mesh.h"
+#include "asdf_vk/options.h"
+#include "asdf_vk/report.h"
+#include "asdf_vk/run_control.h"
+#include "asdf_vk/session.h"
+
+namespace asdfvk {
+
+/// Scene::valuesAt() moves points inwards by this share of the diagonal of the bounding box. Rays in float32 then start
+/// at least 80 times as far below the surface as coordinates are rounded, 2^-23 of the box; and points that were
+/// rounded to float32 or to six digits are inside.
+inline constexpr double kPointOffset = 1e-5;
+
+/// A mesh prepared once for any number of computations on one session: geometry, dual graph, hierarchy, and the tracers
+/// of the last kPreparedConeCount sets of cone options (for Vulkan the hierarchy on the device). Not thread-safe, like
+/// its session, with which any number of scenes may exist at a time.
+///
+/// Memory per face of a closed mesh, beside the arrays of the caller: about 0.3 kB, and for each tracer about 0.1 kB on
+/// the device (Vulkan) or 0.2 kB (Embree).
+class ASDFVK_API Scene {
+ public:
+  /// The session and the arrays of the mesh must outlive the scene. Does not change the mesh. Throws Error of kind
+  /// Input (no face, index out of range) or Cancelled.
+  Scene(Session& session, const MeshView& mesh, Orientation orientation = Orientation::Keep,
+        const RunControl& control = {});
+  ~Scene();
+  Scene(const Scene&) = delete;
+  Scene& operator=(const Scene&) = delete;
+
+  /// As Session::compute(), with the same bits, but without preparing the mesh: Report::stageSeconds has 0 for the
+  /// stages Geometry, Graph and Bvh, and for Encode and Upload where a tracer is reused. Options::orientation must be
+  /// Keep or that of the scene; else it throws Error{OptionConflict}.
+  ///
+  /// region: #I, nonzero = inside; empty: the whole mesh. Seeds are chosen inside, and a share of seeds is a share of
+  /// these faces; rays hit the whole mesh; the Poisson equation has the faces inside and the edges between them. Real
+  /// fields are NaN outside, flags 0. The report counts the faces inside (seeds, missing values, ranges, thin regions
+  /// and their areas), except that faceCount, triangleCount, vertexCount, componentCount, defects, reversedFaces and
+  /// the warnings about defects and orientation are of the whole mesh. A region of all faces gives the same bits as
+  /// none. Throws Error{ArraySize} for another size than #I, Error{EmptyMesh} for a region without a face,
+  /// Error{OptionConflict} with post-processing or segmentation, which need the whole mesh.
+  [[nodiscard]] Result compute(const Options& options = {}, std::span<const uint8_t> region = {},
+                               const RunControl& control = {});
+
+  /// Shape diameter at points: a cone of rays around minus the normal, from the point moved inwards by kPointOffset.
+  /// points: 3 #P numbers, x y z in the unit of the mesh. normals: 3 #P numbers, outwards, of any length above 0.
+  /// Returns #P values in the unit of the mesh; NaN where no ray hits the opposite side, as at most points outside.
+  ///
+  /// Definition as for faces (docs/method.md), with the given normal in place of that of the face, and no face that
+  /// rays pass through. At the barycentre of a face, with its normal, the value is that of the face less about
+  /// kPointOffset times the diagonal; walls thinner than that are not resolved. ConeRotation::Hashed turns each cone by
+  /// a hash of its point, so that its values differ from those of faces by the noise of the rays. Points farther from
+  /// the bounding box than 1/128 of its longest side are traced in double precision, more slowly.
+  ///
+  /// The tracer is kept: further calls with the same cone options cost only their rays. Throws Error{ArraySize} where a
+  /// size is not a multiple of 3 or the sizes differ, Error{OptionOutOfRange} with the index for a number that is not
+  /// finite and for a normal of length 0, and Error of kind Usage, Device or Cancelled.
+  [[nodiscard]] std::vector<double> valuesAt(std::span<const double> points, std::span<const double> normals,
+                                             const ConeOptions& cone = {}, const RunControl& control = {});
+
+  /// Seconds of the constructor: the stages Geometry, Graph and Bvh.
+  [[nodiscard]] const StageSeconds& preparationSeconds() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// Number of sets of cone options whose tracers a Scene keeps.
+inline constexpr size_t kPreparedConeCount = 2;
+
+}  // namespace asdfvk

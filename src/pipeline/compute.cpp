@@ -1,0 +1,192 @@
+#include "pipeline/compute.h"
+
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+#include "core/parallel.h"
+#include "estimate/reference_check.h"
+#include "pipeline/result.h"
+#include "pipeline/rounds.h"
+#include "pipeline/seed_tracing.h"
+#include "pipeline/segments.h"
+#include "pipeline/thickness.h"
+#include "pipeline/valid_options.h"
+#include "pipeline/vertex_fields.h"
+#include "smooth/bilateral.h"
+#include "trace/scene_data.h"
+
+namespace asdfvk {
+namespace {
+
+/// Progress at which the comparison with the reference begins.
+constexpr double kRoundsEndBeforeCheck = 0.6;
+
+void describeBackend(Report& report, const NamedBackend& named) {
+  report.backend = named.name;
+  report.device = named.backend->deviceName();
+  report.traceVariant = named.backend->traceVariant();
+  report.runsOnCpu = named.backend->runsOnCpu();
+}
+
+void describeMesh(Report& report, const PreparedMesh& prepared, const FaceDomain& domain) {
+  report.faceCount = prepared.mesh.inputFaceCount();
+  report.regionFaceCount = domain.inputFaces.empty() ? report.faceCount
+                                                     : countInParallel(domain.inputFaces.size(),
+                                                                       [&](uint32_t i) { return domain.contains(i); });
+  report.triangleCount = prepared.mesh.faceCount();
+  report.vertexCount = prepared.mesh.vertices.size();
+  report.componentCount = prepared.components.components.size();
+  report.defects = prepared.defects;
+  report.reversedFaces = prepared.reversedFaces;
+  report.warnings = prepared.warnings;
+}
+
+void describeRounds(Report& report, const RoundsResult& rounds) {
+  report.seedCount = rounds.traced.faces.size();
+  report.rayCount = rounds.traced.statistics.rayCount + rounds.thickness.rays.rayCount;
+  report.redoneConeCount = rounds.traced.statistics.redoneConeCount + rounds.thickness.rays.redoneConeCount;
+  const double traceSeconds = report.stageSeconds[Stage::Trace];
+  report.raysPerSecond = traceSeconds > 0 ? static_cast<double>(report.rayCount) / traceSeconds : 0;
+  report.solver = rounds.interpolated.solver;
+  report.roundCount = rounds.roundCount;
+  if (rounds.errors) report.estimatedError = rounds.errors->estimate;
+}
+
+/// Removes the values, and the expected errors, of traced and of degenerate faces that have no value of their own.
+void removeMissing(const PreparedMesh& prepared, RoundsResult& rounds) {
+  for (uint32_t face = 0; face < rounds.interpolated.values.size(); ++face) {
+    const bool isTraced = rounds.traced.isSeed[face];
+    if (!prepared.geometry.isDegenerate(face) && !(isTraced && std::isnan(rounds.traced.values[face]))) continue;
+    rounds.interpolated.values[face] = kNoValue;
+    if (rounds.errors) rounds.errors->expected[face] = 0;
+  }
+}
+
+/// Removes the expected errors of faces outside of the domain.
+void removeErrorsOutside(const PreparedMesh& prepared, const FaceDomain& domain, EstimatedErrors& errors) {
+  if (domain.inputFaces.empty()) return;
+  for (uint32_t face = 0; face < errors.expected.size(); ++face)
+    if (!domain.contains(prepared.mesh.inputFaceOf(face))) errors.expected[face] = kNoValue;
+}
+
+std::vector<Field> fieldsOf(const PreparedMesh& prepared, const RoundsResult& rounds, const std::vector<double>& values,
+                            SegmentedValues&& segmented) {
+  const std::vector<double>& areas = prepared.geometry.areas;
+  std::vector<Field> fields;
+  fields.push_back({.name = "sdf",
+                    .label = "shape diameter",
+                    .unit = "length",
+                    .values = valuesOfInputFaces(prepared.mesh, values, areas)});
+  fields.push_back(
+      {.name = "seed", .label = "seeds", .values = seedsOfInputFaces(prepared.mesh, rounds.traced.isSeed)});
+  if (rounds.errors)
+    fields.push_back({.name = "error",
+                      .label = "expected error",
+                      .unit = "length",
+                      .values = valuesOfInputFaces(prepared.mesh, rounds.errors->expected, areas)});
+  if (!segmented.normalized.empty())
+    fields.push_back({.name = "normalized",
+                      .label = "normalised diameter",
+                      .values = valuesOfInputFaces(prepared.mesh, segmented.normalized, areas)});
+  if (!segmented.segments.empty())
+    fields.push_back({.name = "segment", .label = "segments", .values = std::move(segmented.segments)});
+  if (!rounds.thickness.values.empty())
+    fields.push_back({.name = "thickness",
+                      .label = "wall thickness",
+                      .unit = "length",
+                      .values = thicknessOfInputFaces(prepared.mesh, rounds.thickness.values)});
+  return fields;
+}
+
+/// Adds the fields that derive from other fields.
+void addDerivedFields(std::vector<Field>& fields, const PreparedMesh& prepared, const Options& options) {
+  if (options.computesCentres)
+    fields.push_back({.name = "centre",
+                      .label = "skeleton point",
+                      .unit = "length",
+                      .componentCount = 3,
+                      .values = centresOfInputFaces(prepared.mesh, prepared.geometry, *fields.front().reals())});
+  if (options.per != PerElement::Vertices) return;
+  std::vector<Field> further = vertexFieldsOf(prepared.mesh, prepared.geometry.areas, fields);
+  fields.insert(fields.end(), std::make_move_iterator(further.begin()), std::make_move_iterator(further.end()));
+}
+
+/// The values of the triangles, smoothed if requested.
+std::vector<double> finalValues(const FaceDomain& domain, const std::vector<double>& values,
+                                const SmoothingOptions& smoothing, StageClock& clock) {
+  if (!smoothing.isOn) return values;
+  const auto scope = clock.time(Stage::Smooth);
+  return smoothBilaterally(domain.graph, values,
+                           smoothing.window.value_or(smoothingWindowFor(domain.graph.faceCount())));
+}
+
+/// Describes the values and the thickness that the fields of the result have.
+void describeFields(Result& result, const Computation& computation, const RoundsResult& rounds,
+                    const std::vector<double>& values) {
+  Report& report = result.report;
+  describeValues(report, computation.prepared, computation.domain, result.sdf(), values, computation.keepsMissing());
+  const Field* field = result.field("thickness");
+  if (field == nullptr) return;
+  const auto scope = computation.clock.time(Stage::Thickness);
+  report.thickness = describeThickness(computation.prepared, computation.domain, rounds.thickness, *field->reals(),
+                                       computation.options.thickness.thinnerThan);
+}
+
+/// The scene for pictures. A scene that is not used again keeps nothing else.
+std::shared_ptr<const SceneData> sceneData(const std::shared_ptr<PreparedScene>& scene, bool isLast) {
+  if (isLast) {
+    PreparedMesh& prepared = scene->prepared;
+    prepared.graph = {};
+    prepared.components = {};
+    prepared.traceableFaces = {};
+  }
+  return std::make_shared<SceneData>(SceneData{scene, scene->view()});
+}
+
+}  // namespace
+
+Cone requireComputable(const SessionState& session, const Options& options) {
+  requireValid(options, session.named.backend->device() != nullptr);
+  return makeCone(options.cone);
+}
+
+void computeOn(const ComputationTask& task, const Options& options, StageClock& clock, const RunControl& control,
+               Result& result) {
+  Report& report = result.report;
+  const auto& [session, sharedScene, domain, tracers, isLast] = task;
+  Backend& backend = *session.named.backend;
+  const PreparedMesh& prepared = sharedScene->prepared;
+  const Cone cone = requireComputable(session, options);
+  describeBackend(report, session.named);
+  report.randomSeed = options.randomSeed;
+  describeMesh(report, prepared, domain);
+
+  const TraceScene scene = sharedScene->view();
+  const Computation computation{options, prepared,        domain, scene,          cone,
+                                backend, session.solvers, clock,  report.warnings};
+  const double roundsEnd = options.checkCount ? kRoundsEndBeforeCheck : 1;
+  const bool keepsNodes =
+      !isLast || options.checkCount || options.keepsScene || sightNeedsNodes(options, backend.isReference());
+  RoundsResult rounds = runRounds(
+      computation, std::make_unique<SeedTracing>(computation, tracers, keepsNodes ? nullptr : &sharedScene->bvh),
+      control.part(0, roundsEnd));
+  describeRounds(report, rounds);
+  if (computation.keepsMissing()) removeMissing(prepared, rounds);
+  if (rounds.errors) removeErrorsOutside(prepared, domain, *rounds.errors);
+  const std::vector<double> values = finalValues(domain, rounds.interpolated.values, options.smoothing, clock);
+  const RunControl stopOnly = control.withoutProgress();
+  SegmentedValues segmented = segmentValues(
+      prepared, values, options, makeLineOfSight(scene, backend.isReference(), stopOnly), clock, report, stopOnly);
+  if (options.checkCount)
+    report.check =
+        checkAgainstReference(scene, cone, domain.traceableFaces, {rounds.traced, values, backend.isReference()},
+                              *options.checkCount, options.randomSeed, control.part(roundsEnd, 1));
+  result.fields = fieldsOf(prepared, rounds, values, std::move(segmented));
+  addDerivedFields(result.fields, prepared, options);
+  describeFields(result, computation, rounds, values);
+  backend.requireSilentValidation();
+  if (options.keepsScene) result.scene = sceneData(sharedScene, isLast);
+}
+
+}  // namespace asdfvk

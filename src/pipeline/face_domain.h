@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "mesh/dual_graph.h"
+#include "pipeline/prepared_mesh.h"
+
+namespace asdfvk {
+
+/// The faces that get values, and how they are connected: the whole mesh, or a region of it. Views only.
+struct FaceDomain {
+  const DualGraph& graph;                 ///< #F nodes; arcs between faces of the domain only.
+  std::span<const uint32_t> componentOf;  ///< #F: components of this graph; other faces are in one of their own.
+  size_t componentCount = 0;
+  std::span<const uint32_t> traceableFaces;  ///< Faces of the domain that can cast rays, ascending.
+  std::span<const uint8_t> inputFaces;       ///< #I, nonzero = in the domain; empty: all are.
+
+  /// Of the index of an input face.
+  [[nodiscard]] bool contains(uint64_t inputFace) const { return inputFaces.empty() || inputFaces[inputFace] != 0; }
+};
+
+[[nodiscard]] FaceDomain wholeMesh(const PreparedMesh& prepared);
+
+/// A region of the mesh. The mesh and the array of its input faces must outlive it.
+class Region {
+ public:
+  /// inputFaces: #I, nonzero = in the region.
+  Region(const PreparedMesh& prepared, std::span<const uint8_t> inputFaces);
+
+  [[nodiscard]] FaceDomain domain() const {
+    return {graph_, componentOf_, componentCount_, traceableFaces_, inputFaces_};
+  }
+
+ private:
+  void connect(const PreparedMesh& prepared);
+  void labelComponents();
+
+  std::span<const uint8_t> inputFaces_;
+  std::vector<uint8_t> isInside_;  // #F
+  DualGraph graph_;
+  std::vector<uint32_t> componentOf_;
+  size_t componentCount_ = 0;
+  std::vector<uint32_t> traceableFaces_;
+};
+
+/// Empty where the region has all faces or is not given. Throws Error{ArraySize} for another size than #I,
+/// Error{EmptyMesh} for a region without a face.
+[[nodiscard]] std::optional<Region> regionOf(const PreparedMesh& prepared, std::span<const uint8_t> inputFaces);
+
+}  // namespace asdfvk

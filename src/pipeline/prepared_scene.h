@@ -1,0 +1,30 @@
+#pragma once
+
+#include "bvh/bvh.h"
+#include "pipeline/prepared_mesh.h"
+#include "trace/trace_scene.h"
+
+namespace asdfvk {
+
+/// A mesh with all that computations on it need but a tracer. At a fixed address: tracers refer to it.
+struct PreparedScene {
+  PreparedMesh prepared;
+  Bvh bvh;
+
+  /// Throws as prepareMesh(), and Error{Cancelled} between the stages.
+  PreparedScene(const MeshView& mesh, Orientation orientation, StageClock& clock, const RunControl& control)
+      : prepared((control.checkpoint(0), prepareMesh(mesh, orientation, clock))) {
+    control.checkpoint(0);
+    {
+      const auto scope = clock.time(Stage::Bvh);
+      bvh = buildBvh(prepared.mesh, prepared.geometry, prepared.representatives);
+    }
+    control.checkpoint(0);
+  }
+  PreparedScene(const PreparedScene&) = delete;
+  PreparedScene& operator=(const PreparedScene&) = delete;
+
+  [[nodiscard]] TraceScene view() const { return {prepared.mesh, prepared.geometry, prepared.representatives, bvh}; }
+};
+
+}  // namespace asdfvk

@@ -1,0 +1,126 @@
+#include "asdf_vk/scene.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "asdf_vk/error.h"
+#include "core/parallel.h"
+#include "core/vec3.h"
+#include "pipeline/compute.h"
+
+namespace asdfvk {
+namespace {
+
+/// Points traced at a time: their starts take 9 MB.
+constexpr size_t kPointChunkSize = 1u << 16;
+
+Vec3d vectorAt(std::span<const double> numbers, size_t i) {
+  return {numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]};
+}
+
+void requirePoints(std::span<const double> points, std::span<const double> normals) {
+  if (points.size() % 3 != 0 || normals.size() != points.size())
+    throw Error(ErrorCode::ArraySize,
+                fmt::format("there are {} coordinates of points and {} of normals; give three of each per point",
+                            points.size(), normals.size()));
+  const auto fail = [](size_t i, const char* reason) {
+    throw Error(ErrorCode::OptionOutOfRange, fmt::format("point {} {}", i, reason), {{"index", std::to_string(i)}});
+  };
+  for (size_t i = 0; i < points.size() / 3; ++i) {
+    const Vec3d normal = vectorAt(normals, i);
+    if (!isFinite(vectorAt(points, i))) fail(i, "has a coordinate that is not finite");
+    if (!isFinite(normal)) fail(i, "has a normal with a number that is not finite");
+    if (normal == Vec3d{}) fail(i, "has a normal of length 0; give a direction");
+  }
+}
+
+/// At any length above 0: squares neither overflow nor underflow.
+Vec3d unitVector(const Vec3d& v) {
+  const Vec3d scaled = v / std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+  return scaled / length(scaled);
+}
+
+void requireNoConflict(const Options& options, Orientation orientation, bool hasRegion) {
+  if (options.orientation != Orientation::Keep && options.orientation != orientation)
+    throw Error(ErrorCode::OptionConflict,
+                "the scene was prepared with another orientation; leave that of the options at Keep");
+  if (!hasRegion) return;
+  if (options.segmentation != Segmentation::None)
+    throw Error(ErrorCode::OptionConflict, "a region has no segments; segment the whole mesh");
+  if (options.postprocesses())
+    throw Error(ErrorCode::OptionConflict, "a region is not post-processed; post-process the whole mesh");
+}
+
+}  // namespace
+
+struct Scene::State {
+  State(SessionState& theSession, const MeshView& mesh, Orientation theOrientation, const RunControl& control)
+      : session(theSession), orientation(theOrientation) {
+    StageClock clock(preparation);
+    scene = std::make_shared<PreparedScene>(mesh, orientation, clock, control);
+    tracers = std::make_unique<SceneTracers>(*session.named.backend, scene->view(), kPreparedConeCount);
+  }
+
+  SessionState& session;
+  Orientation orientation;
+  StageSeconds preparation;
+  std::shared_ptr<PreparedScene> scene;
+  std::unique_ptr<SceneTracers> tracers;  ///< Destroyed before the scene.
+};
+
+Scene::Scene(Session& session, const MeshView& mesh, Orientation orientation, const RunControl& control)
+    : state_(std::make_unique<State>(*session.state_, mesh, orientation, control)) {}
+Scene::~Scene() = default;
+
+const StageSeconds& Scene::preparationSeconds() const { return state_->preparation; }
+
+Result Scene::compute(const Options& options, std::span<const uint8_t> region, const RunControl& control) {
+  Result result;
+  StageClock clock(result.report.stageSeconds);
+  requireNoConflict(options, state_->orientation, !region.empty());
+  (void)requireComputable(state_->session, options);
+  control.checkpoint(0);
+  const PreparedMesh& prepared = state_->scene->prepared;
+  const std::optional<Region> part = [&] {
+    const auto scope = clock.time(Stage::Sample);
+    return regionOf(prepared, region);
+  }();
+  const FaceDomain domain = part ? part->domain() : wholeMesh(prepared);
+  computeOn({state_->session, state_->scene, domain, *state_->tracers, false}, options, clock, control, result);
+  return result;
+}
+
+std::vector<double> Scene::valuesAt(std::span<const double> points, std::span<const double> normals,
+                                    const ConeOptions& cone, const RunControl& control) {
+  requirePoints(points, normals);
+  control.checkpoint(0);
+  StageSeconds seconds;
+  StageClock clock(seconds);
+  const std::shared_ptr<SceneTracer> tracer = state_->tracers->get(cone, {}, clock);
+  const Box3d& bounds = state_->scene->prepared.geometry.bounds;
+  const Normalization& unit = state_->scene->bvh.normalization;
+  const double offset = kPointOffset * length(unit.toNormalized(bounds.max) - unit.toNormalized(bounds.min));
+  const size_t count = points.size() / 3;
+  std::vector<double> values(count);
+  std::vector<ConeStart> starts;
+  for (size_t begin = 0; begin < count; begin += kPointChunkSize) {
+    const size_t end = std::min(begin + kPointChunkSize, count);
+    starts.resize(end - begin);
+    forEachInParallel(starts.size(), [&](uint32_t i) {
+      const Vec3d normal = unitVector(vectorAt(normals, begin + i));
+      starts[i] = coneStartAt(tracer->cone, unit.toNormalized(vectorAt(points, begin + i)) - offset * normal, normal);
+    });
+    const auto total = static_cast<double>(count);
+    tracer->tracer->traceAt(starts, {std::span(values).subspan(begin, starts.size())},
+                            control.part(static_cast<double>(begin) / total, static_cast<double>(end) / total));
+  }
+  control.checkpoint(1);
+  state_->session.named.backend->requireSilentValidation();
+  return values;
+}
+
+}  // namespace asdfvk

@@ -1,0 +1,42 @@
+#include "pipeline/scene_tracers.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace asdfvk {
+
+std::shared_ptr<SceneTracer> SceneTracers::get(const ConeOptions& options, const TracerNeeds& needs,
+                                               StageClock& clock) {
+  TracerNeeds allNeeds = needs;
+  const auto found =
+      std::find_if(kept_.begin(), kept_.end(), [&](const auto& entry) { return entry->options == options; });
+  if (found != kept_.end()) {
+    const TracerNeeds& served = (*found)->needs;
+    if ((served.hits || !needs.hits) && (served.balls || !needs.balls)) {
+      std::rotate(kept_.begin(), found, found + 1);
+      return kept_.front();
+    }
+    allNeeds = {.hits = needs.hits || served.hits, .balls = needs.balls || served.balls};
+    kept_.erase(found);  // Before the new one is made: less memory at the peak.
+  }
+  if (capacity_ == 0) return make(options, allNeeds, clock);
+  if (kept_.size() == capacity_) kept_.pop_back();
+  kept_.insert(kept_.begin(), make(options, allNeeds, clock));
+  return kept_.front();
+}
+
+std::shared_ptr<SceneTracer> SceneTracers::make(const ConeOptions& options, const TracerNeeds& needs,
+                                                StageClock& clock) const {
+  auto made = std::make_shared<SceneTracer>(SceneTracer{options, makeCone(options), needs, nullptr});
+  const Stage stage = setUpStage(backend_);
+  {
+    const auto scope = clock.time(stage);
+    made->tracer = backend_.makeTracer(scene_, made->cone, needs);
+  }
+  clock.transfer(stage, Stage::Encode, made->tracer->encodeSeconds());
+  return made;
+}
+
+Stage setUpStage(const Backend& backend) { return backend.traceVariant() ? Stage::Upload : Stage::Encode; }
+
+}  // namespace asdfvk

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include "cone/cone.h"
+#include "pipeline/backend.h"
+#include "pipeline/stage_clock.h"
+#include "trace/trace_scene.h"
+
+namespace asdfvk {
+
+/// A tracer with the cone that it refers to.
+struct SceneTracer {
+  ConeOptions options;
+  Cone cone;
+  TracerNeeds needs;
+  std::unique_ptr<ConeTracer> tracer;
+};
+
+/// The tracers of one scene. The last ones used are kept, because making one encodes and uploads the hierarchy.
+class SceneTracers {
+ public:
+  /// Backend and scene must outlive it and all tracers. capacity: number of tracers to keep.
+  SceneTracers(Backend& backend, const TraceScene& scene, size_t capacity)
+      : backend_(backend), scene_(scene), capacity_(capacity) {}
+
+  /// A tracer for these cones: a kept one that serves the needs, or a new one. Creation is charged to the clock. Throws
+  /// as makeCone(), and Error{Device}.
+  [[nodiscard]] std::shared_ptr<SceneTracer> get(const ConeOptions& options, const TracerNeeds& needs,
+                                                 StageClock& clock);
+
+ private:
+  [[nodiscard]] std::shared_ptr<SceneTracer> make(const ConeOptions& options, const TracerNeeds& needs,
+                                                  StageClock& clock) const;
+
+  Backend& backend_;
+  TraceScene scene_;
+  size_t capacity_;
+  std::vector<std::shared_ptr<SceneTracer>> kept_;  // The last used first; each has other options.
+};
+
+/// Stage of creating and releasing a tracer: without Vulkan nothing is uploaded.
+[[nodiscard]] Stage setUpStage(const Backend& backend);
+
+}  // namespace asdfvk
