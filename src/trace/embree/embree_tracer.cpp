@@ -52,6 +52,7 @@ class EmbreeTracer final : public ConeTracer {
 
   TraceStatistics traceAt(std::span<const ConeStart> starts, const ConeResults& results,
                           const RunControl& control) override {
+    if (planes_.empty()) return makeReferenceTracer(scene_, cone_)->traceAt(starts, results, control);
     const auto seedOf = [&](uint32_t i) { return EmbreeSeed{starts[i], kNoFace, isNearBox(starts[i].origin), {}}; };
     const auto prefetchSeed = [&](uint32_t i) { __builtin_prefetch(&starts[i]); };
     return traceAll(spatialOrder(starts), kFreeRayStart, seedOf, prefetchSeed, results, control);
