@@ -57,7 +57,8 @@ class ASDFVK_API Scene {
   /// rays pass through. At the barycentre of a face, with its normal, the value is that of the face less about
   /// kPointOffset times the diagonal; walls thinner than that are not resolved. ConeRotation::Hashed turns each cone by
   /// a hash of its point, so that its values differ from those of faces by the noise of the rays. Points farther from
-  /// the bounding box than 1/128 of its longest side are traced in double precision, more slowly.
+  /// the bounding box than 1/128 of its longest side are traced in double precision, more slowly; at 2^31 times that
+  /// side there is no value.
   ///
   /// The tracer is kept: further calls with the same cone options cost only their rays. Throws Error{ArraySize} where a
   /// size is not a multiple of 3 or the sizes differ, Error{OptionOutOfRange} with the index for a number that is not

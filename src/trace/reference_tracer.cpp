@@ -15,6 +15,9 @@
 namespace asdfvk {
 namespace {
 
+/// From here on rounding moves the place where a ray enters the box by more than 2^-20: there are no hits.
+constexpr double kFarthestOrigin = 0x1p32;
+
 /// Distance at which a ray enters the box [-1, 1]^3, slightly enlarged; kNoHit where it misses it.
 double entryIntoBox(const Vec3d& origin, const Vec3d& direction) {
   constexpr double kSide = 1 + 0x1p-7;
@@ -32,12 +35,13 @@ double entryIntoBox(const Vec3d& origin, const Vec3d& direction) {
   return enter <= leave ? enter : kNoHit;
 }
 
-/// nearestHit() from any finite origin.
+/// nearestHit() from any origin.
 RayHit hitOf(const TraceScene& scene, const Vec3d& origin, const Vec3d& direction, uint32_t skippedFace) {
   if (isNearBox(origin)) return nearestHit(scene.bvh, scene.mesh, origin, direction, skippedFace);
+  if (!(std::max({std::abs(origin.x), std::abs(origin.y), std::abs(origin.z)}) <= kFarthestOrigin)) return {};
   const double entry = entryIntoBox(origin, direction);
   const Vec3d entered = origin + entry * direction;
-  if (!isNearBox(entered)) return {};  // It misses the box, or is so far away that rounding leaves no place in it.
+  if (!isNearBox(entered)) return {};  // It misses the box.
   RayHit hit = nearestHit(scene.bvh, scene.mesh, entered, direction, skippedFace);
   hit.distance += entry;
   return hit;

@@ -1,10 +1,16 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <optional>
 #include <set>
+#include <vector>
 
 #include "asdf_vk/files.h"
+#include "asdf_vk/scene.h"
+#include "core/vec3.h"
+#include "mesh/face_geometry.h"
 #include "support/real_meshes.h"
 #include "support/shared_session.h"
 #include "trace/cone_tracer.h"
@@ -85,4 +91,50 @@ TEST_CASE("a tenth of the faces of horse interpolates the others far better than
     CHECK(result.report.check->averageError < 0.0108);  // With the paper's method 0.0141.
   }
   if (!meshes.empty()) CHECK(isHorseThere);
+}
+
+namespace {
+
+/// At the barycentres of 1000 faces the values of points are those of the faces.
+void checkPoints(const fs::path& path, Session& session) {
+  CAPTURE(path.string());
+  const Mesh mesh = readMesh(path);
+  if (!mesh.polygons.isEmpty()) return;
+  Scene scene(session, mesh);
+  for (const Definition definition : {Definition::Paper, Definition::Cgal}) {
+    Options options;
+    applyDefinition(definition, options);
+    options.seeds = SeedCount::ofCount(1000);
+    options.estimatesError = false;
+    const Result result = scene.compute(options);
+    std::vector<double> points, normals, ofFaces;
+    for (uint32_t f = 0; f < mesh.faceCount(); ++f) {
+      if (result.seed()[f] == 0) continue;
+      const auto [i, j, k] = mesh.faces[f];
+      const Vec3d &a = mesh.vertices[i], &b = mesh.vertices[j], &c = mesh.vertices[k];
+      const Vec3d point = (a + b + c) / 3.0, normal = cross(b - a, c - a);
+      points.insert(points.end(), {point.x, point.y, point.z});
+      normals.insert(normals.end(), {normal.x, normal.y, normal.z});
+      ofFaces.push_back(result.sdf()[f]);
+    }
+    const std::vector<double> values = scene.valuesAt(points, normals, options.cone);
+    const double tolerance = 1e-4 * boundsOfFiniteVertices(mesh).diagonal();
+    size_t differingCount = 0;
+    for (size_t i = 0; i < values.size(); ++i)
+      differingCount +=
+          !(std::abs(values[i] - ofFaces[i]) <= tolerance) && std::isnan(values[i]) + std::isnan(ofFaces[i]) != 2;
+    MESSAGE(path.filename().string(), ", ", session.backend(), ", definition ", static_cast<int>(definition), ": ",
+            differingCount, " of ", values.size(), " differ");
+    CHECK(differingCount <= values.size() / 50);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("real models: points at barycentres have the values of the faces") {
+  std::vector<Session*> sessions{&test::vulkanSession(), &test::referenceSession()};
+  std::optional<Session> embree;
+  if (isBackendBuilt("cpu")) sessions.push_back(&embree.emplace(SessionOptions{.backend = "cpu"}));
+  for (const fs::path& path : realMeshes("models"))
+    for (Session* session : sessions) checkPoints(path, *session);
 }
