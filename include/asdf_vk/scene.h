@@ -36,8 +36,8 @@ class ASDFVK_API Scene {
   Scene& operator=(const Scene&) = delete;
 
   /// As Session::compute(), with the same bits, but without preparing the mesh: Report::stageSeconds has 0 for the
-  /// stages Geometry, Graph and Bvh, and for Encode and Upload where a tracer is reused. Options::orientation must be
-  /// Keep or that of the scene; else it throws Error{OptionConflict}.
+  /// stages Geometry, Graph and Bvh, and the creation of a new tracer only for Encode and Upload. Options::orientation
+  /// must be Keep or that of the scene; else it throws Error{OptionConflict}.
   ///
   /// region: #I, nonzero = inside; empty: the whole mesh. Seeds are chosen inside, and a share of seeds is a share of
   /// these faces; rays hit the whole mesh; the Poisson equation has the faces inside and the edges between them. Real
