@@ -27,8 +27,8 @@ enum class ErrorCode {
   UnknownField,   ///< The result has no field of that name.
   // Input
   UnreadableInput,  ///< The file cannot be opened or violates its format; the message contains line or byte.
-  EmptyMesh,        ///< No faces.
-  ArraySize,        ///< The size of an array is not a multiple of 3, or offsets do not ascend.
+  EmptyMesh,        ///< No faces in the mesh, or in the region of it.
+  ArraySize,        ///< An array has a wrong size, or offsets do not ascend.
   ArrayType,        ///< The elements of an array have an unsupported type. Python module only.
   NonFiniteNumber,  ///< A NaN or an infinite number where only finite ones are allowed.
   IndexOutOfRange,  ///< A face refers to a vertex that does not exist.

@@ -176,7 +176,7 @@ struct SegmentationReport {
 struct ThinRegion {
   uint64_t faceCount = 0;  ///< Input faces.
   double area = 0;         ///< Of its triangles.
-  double areaShare = 0;    ///< Of the area of the mesh.
+  double areaShare = 0;    ///< Of the area of the mesh, or of the region of Scene::compute().
   double min = 0;          ///< Least thickness.
   uint64_t minFace = 0;    ///< Input face with the least thickness.
   Vec3d place;             ///< Barycentre of the triangle with the least thickness.
