@@ -17,7 +17,7 @@ namespace asdfvk {
 
 /// Scene::valuesAt() moves points inwards by this share of the diagonal of the bounding box. Rays in float32 then start
 /// at least 80 times as far below the surface as coordinates are rounded, 2^-23 of the box; and points that were
-/// rounded to float32 or to six digits are inside.
+/// rounded to float32 or to six digits are inside, unless the mesh is far from the origin.
 inline constexpr double kPointOffset = 1e-5;
 
 /// A mesh prepared once for any number of computations on one session: geometry, dual graph, hierarchy, and the tracers
