@@ -61,8 +61,8 @@ class ASDFVK_API Scene {
   /// 1/128 of its longest side are traced in double precision, more slowly; at 2^31 times that side there is no value.
   ///
   /// The tracer is kept: further calls with the same cone options cost only their rays. Throws Error{ArraySize} where a
-  /// size is not a multiple of 3 or the sizes differ, Error{OptionOutOfRange} with the index for a number that is not
-  /// finite and for a normal of length 0, and Error of kind Usage, Device or Cancelled.
+  /// size is not a multiple of 3 or the sizes differ, Error{NonFiniteNumber} with the index for a number that is not
+  /// finite, Error{OptionOutOfRange} for a normal of length 0, and Error of kind Usage, Device or Cancelled.
   [[nodiscard]] std::vector<double> valuesAt(std::span<const double> points, std::span<const double> normals,
                                              const ConeOptions& cone = {}, const RunControl& control = {});
 

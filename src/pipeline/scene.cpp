@@ -27,14 +27,14 @@ void requirePoints(std::span<const double> points, std::span<const double> norma
     throw Error(ErrorCode::ArraySize,
                 fmt::format("there are {} coordinates of points and {} of normals; give three of each per point",
                             points.size(), normals.size()));
-  const auto fail = [](size_t i, const char* reason) {
-    throw Error(ErrorCode::OptionOutOfRange, fmt::format("point {} {}", i, reason), {{"index", std::to_string(i)}});
+  const auto fail = [](ErrorCode code, size_t i, const char* reason) {
+    throw Error(code, fmt::format("point {} {}", i, reason), {{"index", std::to_string(i)}});
   };
   for (size_t i = 0; i < points.size() / 3; ++i) {
     const Vec3d normal = vectorAt(normals, i);
-    if (!isFinite(vectorAt(points, i))) fail(i, "has a coordinate that is not finite");
-    if (!isFinite(normal)) fail(i, "has a normal with a number that is not finite");
-    if (normal == Vec3d{}) fail(i, "has a normal of length 0; give a direction");
+    if (!isFinite(vectorAt(points, i))) fail(ErrorCode::NonFiniteNumber, i, "has a coordinate that is not finite");
+    if (!isFinite(normal)) fail(ErrorCode::NonFiniteNumber, i, "has a normal with a number that is not finite");
+    if (normal == Vec3d{}) fail(ErrorCode::OptionOutOfRange, i, "has a normal of length 0; give a direction");
   }
 }
 
@@ -60,7 +60,7 @@ void requireNoConflict(const Options& options, Orientation orientation, bool has
 struct Scene::State {
   State(SessionState& theSession, const MeshView& mesh, Orientation theOrientation, const RunControl& control)
       : session(theSession), orientation(theOrientation) {
-    StageClock clock(preparation);
+    StageClock clock(preparation, control.stageBegan);
     scene = std::make_shared<PreparedScene>(mesh, orientation, clock, control);
     tracers = std::make_unique<SceneTracers>(*session.named.backend, scene->view(), kPreparedConeCount);
   }
@@ -80,7 +80,7 @@ const StageSeconds& Scene::preparationSeconds() const { return state_->preparati
 
 Result Scene::compute(const Options& options, std::span<const uint8_t> region, const RunControl& control) {
   Result result;
-  StageClock clock(result.report.stageSeconds);
+  StageClock clock(result.report.stageSeconds, control.stageBegan);
   requireNoConflict(options, state_->orientation, !region.empty());
   (void)requireComputable(state_->session, options);
   control.checkpoint(0);
@@ -99,7 +99,7 @@ std::vector<double> Scene::valuesAt(std::span<const double> points, std::span<co
   requirePoints(points, normals);
   control.checkpoint(0);
   StageSeconds seconds;
-  StageClock clock(seconds);
+  StageClock clock(seconds, control.stageBegan);
   const std::shared_ptr<SceneTracer> tracer = state_->tracers->get(cone, {}, clock);
   const Box3d& bounds = state_->scene->prepared.geometry.bounds;
   const Normalization& unit = state_->scene->bvh.normalization;

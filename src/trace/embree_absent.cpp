@@ -16,9 +16,6 @@ std::string embreeName() { fail(); }
 
 std::unique_ptr<ConeTracer> makeEmbreeTracer(const TraceScene&, const Cone&) { fail(); }
 
-std::unique_ptr<SightTracer> makeEmbreeSightTracer(const TraceScene&) {
-  requireEmbree();
-  return {};
-}
+std::unique_ptr<SightTracer> makeEmbreeSightTracer(const TraceScene&) { fail(); }
 
 }  // namespace asdfvk
