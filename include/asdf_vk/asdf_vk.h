@@ -8,6 +8,7 @@
 ///   asdfvk::writeResult("horse.vtu", mesh, result.fields);
 ///
 /// These headers need the standard library only. openmesh.h, for meshes of OpenMesh, is separate.
+#include "asdf_vk/cgal.h"         // IWYU pragma: export
 #include "asdf_vk/choices.h"      // IWYU pragma: export
 #include "asdf_vk/error.h"        // IWYU pragma: export
 #include "asdf_vk/field.h"        // IWYU pragma: export

@@ -36,6 +36,7 @@ enum class ErrorCode {
   InputTooLarge,    ///< Does not fit into memory.
   NoValues,         ///< No face has a value.
   TooFewValues,     ///< Fewer different values than clusters.
+  ValueOutOfRange,  ///< A value per face that the caller passed is negative, infinite, missing or too large.
   // Device
   NoVulkanLoader,  ///< libvulkan.so.1 is not installed.
   NoVulkanDriver,  ///< No driver, or none that the loader can start.

@@ -29,6 +29,7 @@ constexpr std::array kErrors{
     ErrorRow{ErrorCode::InputTooLarge, ErrorKind::Input, "inputTooLarge"},
     ErrorRow{ErrorCode::NoValues, ErrorKind::Input, "noValues"},
     ErrorRow{ErrorCode::TooFewValues, ErrorKind::Input, "tooFewValues"},
+    ErrorRow{ErrorCode::ValueOutOfRange, ErrorKind::Input, "valueOutOfRange"},
     ErrorRow{ErrorCode::NoVulkanLoader, ErrorKind::Device, "noVulkanLoader"},
     ErrorRow{ErrorCode::NoVulkanDriver, ErrorKind::Device, "noVulkanDriver"},
     ErrorRow{ErrorCode::NoUsableDevice, ErrorKind::Device, "noUsableDevice"},

@@ -62,6 +62,13 @@ std::vector<std::string> samplerNames() {
   return names;
 }
 
+void requireValid(const CgalSegmentationOptions& options) {
+  if (options.clusterCount < 2 || options.clusterCount > kMaxClusterCount)
+    fail(fmt::format("{} clusters are out of range (2 to {})", options.clusterCount, kMaxClusterCount));
+  if (!(options.smoothness >= 0 && options.smoothness <= kMaxSmoothness))
+    fail(fmt::format("a smoothness of {} is out of range (0 to {})", options.smoothness, kMaxSmoothness));
+}
+
 void requireValid(const Options& options, bool hasDevice) {
   const InterpolationOptions& interpolation = options.interpolation;
   if (!(interpolation.pooling >= 0 && interpolation.pooling <= 1))
@@ -76,13 +83,7 @@ void requireValid(const Options& options, bool hasDevice) {
   if (options.solverOptions.maxIterations == 0) fail("0 iterations are out of range; give 1 or more");
   if (options.checkCount == 0) fail("a check of 0 faces is out of range; give 1 or more");
   if (options.smoothing.window) requireValid(*options.smoothing.window);
-  const CgalSegmentationOptions& cgal = options.cgalSegmentation;
-  if (options.segmentation == Segmentation::Cgal) {
-    if (cgal.clusterCount < 2 || cgal.clusterCount > kMaxClusterCount)
-      fail(fmt::format("{} clusters are out of range (2 to {})", cgal.clusterCount, kMaxClusterCount));
-    if (!(cgal.smoothness >= 0 && cgal.smoothness <= kMaxSmoothness))
-      fail(fmt::format("a smoothness of {} is out of range (0 to {})", cgal.smoothness, kMaxSmoothness));
-  }
+  if (options.segmentation == Segmentation::Cgal) requireValid(options.cgalSegmentation);
   if (options.measure == Measure::Thickness) (void)makeOpposingWalls(options.thickness.wallAngleDegrees);
   if (const std::optional<double>& limit = options.thickness.thinnerThan; limit) {
     if (!(*limit > 0 && std::isfinite(*limit)))

@@ -12,13 +12,11 @@
 #include "mesh/validation.h"
 
 namespace asdfvk {
-namespace {
 
 // The arrays of a caller are used in place.
 static_assert(sizeof(Vec3d) == 3 * sizeof(double) && sizeof(Face) == 3 * sizeof(uint32_t));
 
-/// Sets storage and mesh.
-void takeArrays(const MeshView& view, PreparedMesh& prepared) {
+TriangleMesh trianglesOf(const MeshView& view, Mesh& storage) {
   requireValidArrays(view);
   if (view.inputFaceCount() == 0)
     throw Error(ErrorCode::EmptyMesh, "the mesh has no faces; a shape diameter needs a surface");
@@ -29,32 +27,35 @@ void takeArrays(const MeshView& view, PreparedMesh& prepared) {
   if (const Mesh* mesh = view.mesh()) {
     if (mesh->faces.empty())
       throw Error(ErrorCode::EmptyMesh, "the mesh has no triangles; a shape diameter needs a surface");
-    prepared.mesh = *mesh;
-    return;
+    return *mesh;
   }
+  TriangleMesh triangles;
   const size_t vertexCount = view.vertexCount();
   if (view.floats().empty()) {
-    prepared.mesh.vertices = {reinterpret_cast<const Vec3d*>(view.doubles().data()), vertexCount};
+    triangles.vertices = {reinterpret_cast<const Vec3d*>(view.doubles().data()), vertexCount};
   } else {
-    prepared.storage.vertices.resize(vertexCount);
+    storage.vertices.resize(vertexCount);
     for (size_t v = 0; v < vertexCount; ++v)
       for (size_t axis = 0; axis < 3; ++axis)
-        prepared.storage.vertices[v][axis] = static_cast<double>(view.floats()[3 * v + axis]);
-    prepared.mesh.vertices = prepared.storage.vertices;
+        storage.vertices[v][axis] = static_cast<double>(view.floats()[3 * v + axis]);
+    triangles.vertices = storage.vertices;
   }
   if (view.firstCorner().empty()) {
-    prepared.mesh.faces = {reinterpret_cast<const Face*>(view.corners().data()), view.corners().size() / 3};
-    return;
+    triangles.faces = {reinterpret_cast<const Face*>(view.corners().data()), view.corners().size() / 3};
+    return triangles;
   }
   InputFaces faces;
   faces.reserve(view.inputFaceCount());
   for (uint64_t i = 0; i < view.inputFaceCount(); ++i)
     faces.add(view.corners().subspan(view.firstCorner()[i], view.firstCorner()[i + 1] - view.firstCorner()[i]));
-  faces.moveTo(prepared.mesh.vertices, prepared.storage);
-  const TriangleMesh triangles = prepared.storage;
-  prepared.mesh.faces = triangles.faces;
-  prepared.mesh.polygons = triangles.polygons;
+  faces.moveTo(triangles.vertices, storage);
+  const TriangleMesh stored = storage;
+  triangles.faces = stored.faces;
+  triangles.polygons = stored.polygons;
+  return triangles;
 }
+
+namespace {
 
 /// Copies arrays of the caller, so that faces can be reversed.
 void ownArrays(PreparedMesh& prepared) {
@@ -107,7 +108,7 @@ void orient(PreparedMesh& prepared, Orientation orientation) {
 PreparedMesh prepareMesh(const MeshView& view, Orientation orientation, StageClock& clock) {
   const auto scope = clock.time(Stage::Geometry);
   PreparedMesh prepared;
-  takeArrays(view, prepared);
+  prepared.mesh = trianglesOf(view, prepared.storage);
   const TriangleMesh& mesh = prepared.mesh;
   prepared.geometry = computeFaceGeometry(mesh);
   EdgeSurvey edges = [&] {

@@ -28,8 +28,12 @@ struct PreparedMesh {
   std::vector<uint32_t> traceableFaces;  ///< Faces that are not degenerate: they can cast rays. Ascending.
 };
 
-/// The arrays of the caller must outlive the result. Faces are reversed according to `orientation`, in arrays of the
+/// The triangles of a caller. storage: receives the arrays that differ from those of the caller; both must outlive the
 /// result. Throws Error{EmptyMesh}, Error{ArraySize}, Error{IndexOutOfRange}, Error{MeshTooLarge}.
+[[nodiscard]] TriangleMesh trianglesOf(const MeshView& view, Mesh& storage);
+
+/// The arrays of the caller must outlive the result. Faces are reversed according to `orientation`, in arrays of the
+/// result. Throws as trianglesOf().
 [[nodiscard]] PreparedMesh prepareMesh(const MeshView& mesh, Orientation orientation, StageClock& clock);
 
 /// The same without a clock.

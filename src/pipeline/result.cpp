@@ -145,22 +145,33 @@ uint32_t labelOfLargestArea(std::vector<std::pair<uint32_t, double>>& areas) {
   return best;
 }
 
-std::vector<uint32_t> segmentsOfInputFaces(const TriangleMesh& mesh, std::span<const uint32_t> segments,
-                                           std::span<const double> areas) {
-  if (mesh.polygons.isEmpty()) return {segments.begin(), segments.end()};
-  std::vector<uint32_t> labels(mesh.inputFaceCount(), kNoSegment);
+std::vector<uint32_t> labelsOfInputFaces(const TriangleMesh& mesh, std::span<const uint32_t> labels,
+                                         std::span<const double> areas) {
+  if (mesh.polygons.isEmpty()) return {labels.begin(), labels.end()};
+  std::vector<uint32_t> ofInputFaces(mesh.inputFaceCount(), kNoSegment);
   std::vector<std::pair<uint32_t, double>> areaOf;  // Of the labels of a polygon.
-  uint32_t labelCount = 0;
   for (uint32_t begin = 0, end = 0; begin < mesh.faceCount(); begin = end) {
     const uint32_t inputFace = mesh.inputFaceOf(begin);
     areaOf.clear();
     for (; end < mesh.faceCount() && mesh.inputFaceOf(end) == inputFace; ++end)
-      areaOf.emplace_back(segments[end], areas[end]);
-    labels[inputFace] = labelOfLargestArea(areaOf);
-    labelCount = std::max(labelCount, areaOf.back().first + 1);
+      areaOf.emplace_back(labels[end], areas[end]);
+    ofInputFaces[inputFace] = labelOfLargestArea(areaOf);
   }
-  renumber(labels, labelCount);
-  return labels;
+  return ofInputFaces;
+}
+
+std::vector<uint32_t> segmentsOfInputFaces(const TriangleMesh& mesh, std::span<const uint32_t> segments,
+                                           std::span<const double> areas) {
+  std::vector<uint32_t> ofInputFaces = labelsOfInputFaces(mesh, segments, areas);
+  if (!mesh.polygons.isEmpty()) renumber(ofInputFaces, *std::max_element(segments.begin(), segments.end()) + size_t{1});
+  return ofInputFaces;
+}
+
+uint32_t countSegments(std::span<const uint32_t> segments) {
+  uint32_t count = 0;
+  for (const uint32_t segment : segments)
+    if (segment != kNoSegment) count = std::max(count, segment + 1);
+  return count;
 }
 
 std::vector<double> centresOfInputFaces(const TriangleMesh& mesh, const FaceGeometry& geometry,

@@ -23,11 +23,17 @@ namespace asdfvk {
 /// of a label and an area by label.
 [[nodiscard]] uint32_t labelOfLargestArea(std::vector<std::pair<uint32_t, double>>& areas);
 
-/// Segments of input faces from those of triangles (#F): that with the largest area in the polygon, the lowest of equal
-/// ones; kNoSegment for a polygon without a triangle. Returns #I. Labels that no input face has are removed, and the
-/// others keep their order.
+/// Labels of input faces from those of triangles (#F): that with the largest area in the polygon, the lowest of equal
+/// ones; kNoSegment for a polygon without a triangle. Returns #I.
+[[nodiscard]] std::vector<uint32_t> labelsOfInputFaces(const TriangleMesh& mesh, std::span<const uint32_t> labels,
+                                                       std::span<const double> areas);
+
+/// The same for segments: numbers that no input face has are removed, and the others keep their order.
 [[nodiscard]] std::vector<uint32_t> segmentsOfInputFaces(const TriangleMesh& mesh, std::span<const uint32_t> segments,
                                                          std::span<const double> areas);
+
+/// Of the numbers other than kNoSegment, which begin at 0.
+[[nodiscard]] uint32_t countSegments(std::span<const uint32_t> segments);
 
 /// Skeleton points of input faces: c - n sdf / 2, the middle of the shape below the face. c and n are the barycentre
 /// and the normal of a triangle; of a polygon, the means over its triangles weighted by area, n scaled to length 1.

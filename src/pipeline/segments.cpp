@@ -15,26 +15,6 @@
 namespace asdfvk {
 namespace {
 
-/// In a unit in which no square overflows or underflows.
-CgalValues postprocess(const PreparedMesh& prepared, const FaceNeighbours& neighbours, std::span<const double> values) {
-  const Normalization unit = normalizationOf(prepared.geometry.bounds);
-  std::vector<double> scaled(values.begin(), values.end());
-  for (double& value : scaled) value *= unit.scale;
-  CgalValues result = postprocessLikeCgal(neighbours, scaled);
-  if (result.min == result.max)
-    for (double& value : result.normalized) value = unit.toMeshLength(value);
-  result.min = unit.toMeshLength(result.min);
-  result.max = unit.toMeshLength(result.max);
-  return result;
-}
-
-uint32_t countSegments(std::span<const uint32_t> segments) {
-  uint32_t count = 0;
-  for (const uint32_t segment : segments)
-    if (segment != kNoSegment) count = std::max(count, segment + 1);
-  return count;
-}
-
 /// Sums of the areas of the triangles (#F), by the segment of their input face; divided by the sum of all.
 std::vector<double> areaSharesOf(const TriangleMesh& mesh, std::span<const double> areas,
                                  std::span<const uint32_t> segments, uint32_t count) {
@@ -95,7 +75,7 @@ SegmentedValues segmentValues(const PreparedMesh& prepared, std::span<const doub
   if (options.postprocesses()) {
     const auto scope = clock.time(Stage::Postprocess);
     neighbours = findFaceNeighbours(prepared.mesh);
-    CgalValues postprocessed = postprocess(prepared, neighbours, values);
+    CgalValues postprocessed = postprocessLikeCgal(neighbours, values, control);
     report.postprocess = PostprocessReport{postprocessed.min, postprocessed.max};
     result.normalized = std::move(postprocessed.normalized);
   }

@@ -10,6 +10,9 @@ namespace asdfvk {
 /// that needs a device without one. makeCone() validates the cone.
 void requireValid(const Options& options, bool hasDevice);
 
+/// Throws Error{OptionOutOfRange}.
+void requireValid(const CgalSegmentationOptions& options);
+
 /// Whether a solver of solverNames() needs a Vulkan device; false for "auto". Throws Error{UnknownName}.
 [[nodiscard]] bool solverNeedsDevice(const std::string& name);
 

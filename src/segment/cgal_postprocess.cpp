@@ -3,9 +3,11 @@
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
+#include <tbb/partitioner.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "asdf_vk/error.h"
 #include "core/check.h"
@@ -13,6 +15,8 @@
 
 namespace asdfvk {
 namespace {
+
+constexpr size_t kFacesPerProgress = size_t{1} << 14, kFacesPerPoll = 256;
 
 /// The faces around a face by breadth-first search.
 class RingSearch {
@@ -64,6 +68,19 @@ double filteredValue(const RingSearch& rings, std::span<const double> ringWeight
   return sum / weights;
 }
 
+/// A power of two that brings the greatest magnitude into [0.5, 1), so that no square overflows or underflows; 1 where
+/// all values are 0 or missing.
+double unitOf(std::span<const double> values) {
+  double greatest = 0;
+  for (const double value : values)
+    if (std::abs(value) > greatest) greatest = std::abs(value);
+  int exponent = 0;
+  std::frexp(greatest, &exponent);
+  return std::ldexp(1.0, std::min(-exponent, 1023));
+}
+
+double fromUnit(double value, double unit) { return std::min(value / unit, std::numeric_limits<double>::max()); }
+
 }  // namespace
 
 std::vector<double> fillMissingValues(const FaceNeighbours& neighbours, std::span<const double> values) {
@@ -89,7 +106,8 @@ std::vector<double> fillMissingValues(const FaceNeighbours& neighbours, std::spa
   return filled;
 }
 
-std::vector<double> filterLikeCgal(const FaceNeighbours& neighbours, std::span<const double> values) {
+std::vector<double> filterLikeCgal(const FaceNeighbours& neighbours, std::span<const double> values,
+                                   const RunControl& control) {
   ASDFVK_CHECK_OP(values.size(), ==, neighbours.size());
   const auto ringCount = static_cast<uint32_t>(std::sqrt(static_cast<double>(values.size()) / 2000)) + 1;
   std::vector<double> ringWeights;
@@ -99,25 +117,36 @@ std::vector<double> filterLikeCgal(const FaceNeighbours& neighbours, std::span<c
   }
   std::vector<double> filtered(values.size());
   tbb::enumerable_thread_specific<RingSearch> searches([&] { return RingSearch(values.size()); });
-  tbb::parallel_for(tbb::blocked_range<uint32_t>(0, static_cast<uint32_t>(values.size()), 256),
-                    [&](const tbb::blocked_range<uint32_t>& range) {
-                      RingSearch& rings = searches.local();
-                      for (uint32_t face = range.begin(); face < range.end(); ++face) {
-                        rings.search(neighbours, face, ringCount);
-                        filtered[face] = filteredValue(rings, ringWeights, values);
-                      }
-                    });
+  for (size_t begin = 0; begin < values.size(); begin += kFacesPerProgress) {
+    control.checkpoint(static_cast<double>(begin) / static_cast<double>(values.size()));
+    const size_t end = std::min(values.size(), begin + kFacesPerProgress);
+    tbb::parallel_for(
+        tbb::blocked_range<uint32_t>(static_cast<uint32_t>(begin), static_cast<uint32_t>(end), kFacesPerPoll),
+        [&](const tbb::blocked_range<uint32_t>& range) {
+          if (control.stop.stop_requested()) return;
+          RingSearch& rings = searches.local();
+          for (uint32_t face = range.begin(); face < range.end(); ++face) {
+            rings.search(neighbours, face, ringCount);
+            filtered[face] = filteredValue(rings, ringWeights, values);
+          }
+        },
+        tbb::simple_partitioner{});
+  }
+  control.checkpoint(1);
   return filtered;
 }
 
-CgalValues postprocessLikeCgal(const FaceNeighbours& neighbours, std::span<const double> values) {
-  CgalValues result{filterLikeCgal(neighbours, fillMissingValues(neighbours, values))};
-  const auto [min, max] = std::minmax_element(result.normalized.begin(), result.normalized.end());
-  result.min = *min;
-  result.max = *max;
-  if (result.min == result.max) return result;
-  const double range = result.max - result.min;
-  for (double& value : result.normalized) value = (value - result.min) / range;
+CgalValues postprocessLikeCgal(const FaceNeighbours& neighbours, std::span<const double> values,
+                               const RunControl& control) {
+  const double unit = unitOf(values);
+  std::vector<double> scaled(values.begin(), values.end());
+  for (double& value : scaled) value *= unit;
+  CgalValues result{filterLikeCgal(neighbours, fillMissingValues(neighbours, scaled), control)};
+  const auto [least, greatest] = std::minmax_element(result.normalized.begin(), result.normalized.end());
+  const double min = *least, max = *greatest, range = max - min;
+  for (double& value : result.normalized) value = range == 0 ? fromUnit(value, unit) : (value - min) / range;
+  result.min = fromUnit(min, unit);
+  result.max = fromUnit(max, unit);
   return result;
 }
 

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "asdf_vk/run_control.h"
 #include "segment/face_neighbours.h"
 
 /// The post-processing of CGAL's sdf_values_postprocessing(), from its manual and from its outputs (version 5.5.1; no
@@ -15,9 +16,11 @@ struct CgalValues {
   double min = 0, max = 0;         ///< Of the smoothed values, in the unit of the input.
 };
 
-/// values: #F, finite, or NaN for no value. Within 1e-12 of CGAL's result on manifold meshes. The same bits on any
-/// number of threads. Throws Error{NoValues} where no face has a value.
-[[nodiscard]] CgalValues postprocessLikeCgal(const FaceNeighbours& neighbours, std::span<const double> values);
+/// values: #F, finite, or NaN for no value. Within 1e-12 of CGAL's result on manifold meshes. A power of two as the
+/// unit of the values changes no bit. The same bits on any number of threads. Throws Error{NoValues} where no face has
+/// a value, and Error{Cancelled}.
+[[nodiscard]] CgalValues postprocessLikeCgal(const FaceNeighbours& neighbours, std::span<const double> values,
+                                             const RunControl& control = {});
 
 /// The first step: for the faces in order, a missing value becomes the mean of those neighbours that have a value by
 /// then; what is missing at the end becomes the least value. Throws as postprocessLikeCgal().
@@ -26,7 +29,9 @@ struct CgalValues {
 /// The second step. The value of a face becomes the mean over the faces within R rings of neighbours around it, itself
 /// included, with the weights
 ///   exp(-(ring / (R / 2))^2 / 2) exp(-((v_g - v_f) / sigma_f)^2 / 2),
-/// R = 1 + floor(sqrt(#F / 2000)), sigma_f: 1.5 times the root mean square of v_g - v_f. All values finite.
-[[nodiscard]] std::vector<double> filterLikeCgal(const FaceNeighbours& neighbours, std::span<const double> values);
+/// R = 1 + floor(sqrt(#F / 2000)), sigma_f: 1.5 times the root mean square of v_g - v_f. All values finite,
+/// with finite squares. Polled every 256 faces. Throws Error{Cancelled}.
+[[nodiscard]] std::vector<double> filterLikeCgal(const FaceNeighbours& neighbours, std::span<const double> values,
+                                                 const RunControl& control = {});
 
 }  // namespace asdfvk

@@ -30,6 +30,7 @@ const std::vector<Row> kRows{
     {ErrorCode::InputTooLarge, ErrorKind::Input, "inputTooLarge"},
     {ErrorCode::NoValues, ErrorKind::Input, "noValues"},
     {ErrorCode::TooFewValues, ErrorKind::Input, "tooFewValues"},
+    {ErrorCode::ValueOutOfRange, ErrorKind::Input, "valueOutOfRange"},
     {ErrorCode::NoVulkanLoader, ErrorKind::Device, "noVulkanLoader"},
     {ErrorCode::NoVulkanDriver, ErrorKind::Device, "noVulkanDriver"},
     {ErrorCode::NoUsableDevice, ErrorKind::Device, "noUsableDevice"},

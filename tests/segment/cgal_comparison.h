@@ -37,6 +37,7 @@ inline void checkAgainstCgal(const Mesh& source) {
     const CgalSegmentation ours = segmentLikeCgal(computeFaceGeometry(mesh), mesh, neighbours, expected.normalized,
                                                   {setting.clusterCount, setting.smoothness, CgalExpansion::First});
     CHECK(ours.segments == segments);
+    CHECK(ours.clusters == oracle.segment(expected.normalized, setting.clusterCount, setting.smoothness, true));
   }
 }
 
