@@ -1,0 +1,1 @@
+"""Functions with the names, parameters and definitions of other libraries."""

@@ -1,0 +1,147 @@
+"""The extension module cgal_Segmentation_Module of pipelines for neuron meshes, on asdf_vk instead of CGAL.
+
+    import cgal_Segmentation_Module
+    code = cgal_Segmentation_Module.cgal_segmentation("neuron", 3, 0.20)
+    # reads neuron.off, writes neuron-cgal_3_0.20.csv and neuron-cgal_3_0.20_sdf.csv
+
+    labels, values = cgal_Segmentation_Module.cgal_segmentation_arrays(vertices, faces, 3, 0.20)
+
+Nothing is printed. Definitions and differences: asdf_vk.compat.cgal.
+"""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+import threading
+from typing import TYPE_CHECKING, Any, Literal
+
+import asdf_vk
+from asdf_vk.compat.cgal import values_and_segments
+
+if TYPE_CHECKING:
+    import numpy as np
+    from asdf_vk._options import BackendOptions
+    from numpy.typing import ArrayLike, NDArray
+    from typing_extensions import Unpack
+
+__all__ = ["cgal_segmentation", "cgal_segmentation_arrays"]
+
+DONE, CANNOT_OPEN, CANNOT_PARSE, EMPTY, NOT_TRIANGLES = 1, 2, 3, 4, 6
+
+_EXIT_CODE_OFFSET = 100  # Of a new process; lower codes are failures of the interpreter.
+_COUNTS_LIMIT = 1 << 16  # Bytes within which an OFF file must have its counts.
+
+
+def cgal_segmentation(
+    path_without_extension: str | os.PathLike[str],
+    clusters: int,
+    smoothness: float,
+    *,
+    expansion: Literal["all", "first"] = "all",
+    **options: Unpack[BackendOptions],
+) -> int:
+    """Computes values and segments of the mesh PATH.off (ASCII or binary) and writes them beside it.
+
+    clusters: 2 to 100. smoothness: 0 to 1000.
+    expansion, options: as in asdf_vk.compat.cgal.
+
+    PATH-cgal_{clusters}_{smoothness:.2f}.csv has the segment of each face, from 0 on, a line per face in the order of
+    the mesh; PATH-cgal_{clusters}_{smoothness:.2f}_sdf.csv has the values from 0 to 1, with 6 significant digits. The
+    files appear whole, or not at all.
+
+    Returns 1 done, 2 PATH.off cannot be opened, 3 it is no OFF file or violates the format, 4 it has no faces, 6 a
+    face is not a triangle. Raises asdf_vk.Error for what has no code, such as fewer different values than clusters,
+    and OSError where a file cannot be written.
+
+    In a process that was forked after a use of asdf_vk, the work runs in a new process of the same interpreter.
+    """
+    path = os.fspath(path_without_extension)
+    try:
+        mesh = _read_triangles(path + ".off")
+        if isinstance(mesh, int):
+            return mesh
+        labels, values = cgal_segmentation_arrays(mesh, None, clusters, smoothness, expansion=expansion, **options)
+    except asdf_vk.DeviceError as error:
+        if error.code != "forkedProcess" or "session" in options:
+            raise
+        return _in_new_process(path, clusters, smoothness, {"expansion": expansion, **options})
+    name = f"{path}-cgal_{clusters}_{smoothness:.2f}"
+    segments = "".join([f"{label}\n" for label in labels.tolist()])
+    numbers = "".join([f"{value:g}\n" for value in values.tolist()])
+    _write_whole({f"{name}.csv": segments, f"{name}_sdf.csv": numbers})
+    return DONE
+
+
+def cgal_segmentation_arrays(
+    vertices: Any,
+    faces: ArrayLike | None,
+    clusters: int,
+    smoothness: float,
+    *,
+    expansion: Literal["all", "first"] = "all",
+    **options: Unpack[BackendOptions],
+) -> tuple[NDArray[np.int32], NDArray[np.float64]]:
+    """The same in memory, without files and codes.
+
+    vertices, faces: (n, 3) and (m, 3), or an object with `vertices` and `faces`, and None.
+
+    Returns the segments, int32 (m,), and the values from 0 to 1, float64 (m,). Raises asdf_vk.Error.
+    """
+    segmentation = {"clusters": clusters, "smoothness": smoothness, "expansion": expansion}
+    values, labels = values_and_segments(vertices, faces, segmentation, {**options})
+    return labels, values
+
+
+def _read_triangles(path: str) -> asdf_vk.Mesh | int:
+    """The mesh, or the code of the failure."""
+    try:
+        with open(path, "rb") as file:
+            start = file.read(_COUNTS_LIMIT)
+    except OSError:
+        return CANNOT_OPEN
+    words = b"\n".join(line.split(b"#")[0] for line in start.splitlines()).split()
+    if not words or not words[0].endswith(b"OFF"):
+        return CANNOT_PARSE
+    if len(words) > 2 and words[1].isdigit() and words[2].isdigit() and int(words[2]) == 0:
+        return EMPTY
+    try:
+        mesh = asdf_vk.read_mesh(path)
+    except asdf_vk.InputError as error:
+        if error.code != "unreadableInput":
+            raise
+        return CANNOT_PARSE
+    return mesh if mesh.face_of_triangle is None else NOT_TRIANGLES
+
+
+def _write_whole(texts: dict[str, str]) -> None:
+    """Writes beside the files, and renames when all are complete."""
+    suffix = f".{os.getpid()}-{threading.get_ident()}.tmp"
+    try:
+        for path, text in texts.items():
+            with open(path + suffix, "w", encoding="ascii", newline="\n") as file:
+                file.write(text)
+        for path in texts:
+            os.replace(path + suffix, path)
+    finally:
+        for path in texts:
+            if os.path.exists(path + suffix):
+                os.remove(path + suffix)
+
+
+def _in_new_process(path: str, clusters: int, smoothness: float, options: dict[str, Any]) -> int:
+    """Threads and devices of this process did not survive the fork; a new interpreter has its own."""
+    script = (
+        "import sys, cgal_Segmentation_Module as module\n"
+        f"code = module.cgal_segmentation({path!r}, {clusters!r}, {float(smoothness)!r}, **{options!r})\n"
+        f"sys.exit({_EXIT_CODE_OFFSET} + code)"
+    )
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(entry or os.getcwd() for entry in sys.path)}
+    done = subprocess.run(
+        [sys.executable, "-c", script], env=environment, stdin=subprocess.DEVNULL, capture_output=True, text=True
+    )
+    if done.returncode < _EXIT_CODE_OFFSET:
+        lines = done.stderr.strip().splitlines() or [f"exit code {done.returncode}"]
+        raise RuntimeError(f"the process that computes {path}.off failed: {lines[-1]}")
+    return done.returncode - _EXIT_CODE_OFFSET

@@ -1,0 +1,53 @@
+#include "cgal.h"
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "arrays.h"
+#include "asdf_vk/cgal.h"
+#include "interruptible.h"
+#include "options.h"
+
+namespace py = pybind11;
+
+namespace asdfvk::python {
+namespace {
+
+/// mesh: a Mesh, or vertices and faces; it must outlive the view.
+MeshView meshOf(const py::tuple& mesh) {
+  if (mesh.size() == 1) return mesh[0].cast<const Mesh&>();
+  return viewOf(mesh[0].cast<py::array>(), mesh[1].cast<py::array>());
+}
+
+py::tuple postprocess(const py::tuple& mesh, const py::array& values, const py::object& progress) {
+  requireSameProcess();
+  const MeshView view = meshOf(mesh);
+  const std::span<const double> numbers = entriesOf<double>(values);
+  PostprocessedSdf result;
+  runInterruptibly([&](const RunControl& control) { result = postprocessSdf(view, numbers, control); }, progress);
+  return py::make_tuple(asArray(std::move(result.normalized)), result.min, result.max);
+}
+
+py::tuple segment(const py::tuple& mesh, const py::array& values, const py::dict& options, bool returnsClusters,
+                  const py::object& progress) {
+  requireSameProcess();
+  const MeshView view = meshOf(mesh);
+  const CgalSegmentationOptions parsed = optionsOf(options).cgalSegmentation;
+  const CgalLabels kind = returnsClusters ? CgalLabels::Clusters : CgalLabels::Segments;
+  const std::span<const double> numbers = entriesOf<double>(values);
+  LabelledFaces result;
+  runInterruptibly([&](const RunControl& control) { result = segmentSdf(view, numbers, parsed, kind, control); },
+                   progress);
+  // As int32, in which kNoSegment is -1.
+  return py::make_tuple(asArray(std::vector<int32_t>(result.labels.begin(), result.labels.end())), result.count);
+}
+
+}  // namespace
+
+void bindCgal(py::module_& module) {
+  module.def("postprocess_sdf", postprocess);
+  module.def("segment_sdf", segment);
+}
+
+}  // namespace asdfvk::python

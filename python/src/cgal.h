@@ -1,0 +1,12 @@
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+namespace asdfvk::python {
+
+/// Adds the functions of asdf_vk/cgal.h: postprocess_sdf(mesh, values, progress) -> (normalized, min, max) and
+/// segment_sdf(mesh, values, options, returns_clusters, progress) -> (labels, count). mesh: a tuple of a Mesh, or of
+/// vertices and faces; values: double; options: clusters, smoothness and expansion as in optionsOf().
+void bindCgal(pybind11::module_& module);
+
+}  // namespace asdfvk::python
