@@ -1,10 +1,10 @@
 #!/usr/bin/python3
-"""Compares cgal_Segmentation_Module with CGAL: values from 0 to 1, and labels with the rule of CGAL 5.5.1.
+"""Compares cgal_Segmentation_Module with CGAL: values from 0 to 1, and labels by the rule of 5.5.1.
 
     PYTHONPATH=BUILD/python bench/cgal_module.py BUILD/bench/asdfvk-bench-cgal-oracle MESH...
 
-A row per mesh and setting: clusters, smoothness, greatest difference of two values, share of equal labels, segments
-here and of CGAL, and seconds here.
+A row per mesh and setting: clusters, smoothness, greatest difference of two values, share of equal
+labels, segments here and of CGAL, and seconds here.
 """
 
 from __future__ import annotations
@@ -26,27 +26,30 @@ def main() -> None:
     parser.add_argument("--settings", default="5/0.26,3/0.2", help="clusters/smoothness,...")
     parser.add_argument("--backend", default="auto")
     arguments = parser.parse_args()
-    print("| mesh | faces | k / smoothness | difference of values | equal labels | segments | of CGAL | s |")
+    print("| mesh | faces | k / smoothness | difference | equal labels | segments | of CGAL | s |")
     print("|---|---|---|---|---|---|---|---|")
     for path in map(pathlib.Path, arguments.meshes):
         mesh = asdf_vk.read_mesh(path)
         for setting in arguments.settings.split(","):
             clusters, smoothness = setting.split("/")
             command = [arguments.oracle, path, "--clusters", clusters, "--smoothness", smoothness]
-            lines = subprocess.run(command, check=True, capture_output=True, text=True).stdout.splitlines()
-            expected = np.loadtxt(lines)
+            done = subprocess.run(command, check=True, capture_output=True, text=True)
+            expected = np.loadtxt(done.stdout.splitlines())
             start = time.perf_counter()
             labels, values = cgal_segmentation_arrays(
-                mesh, None, int(clusters), float(smoothness), expansion="first", backend=arguments.backend
+                mesh,
+                None,
+                int(clusters),
+                float(smoothness),
+                expansion="first",
+                backend=arguments.backend,
             )
             seconds = time.perf_counter() - start
             difference = np.abs(values - expected[:, 0]).max()
             equal = (labels == expected[:, 1]).mean()
             counts = f"{labels.max() + 1} | {int(expected[:, 1].max()) + 1}"
-            print(
-                f"| {path.name} | {len(labels)} | {setting} | {difference:.2g} | {equal:.4%} | {counts} | {seconds:.2f} |",
-                flush=True,
-            )
+            row = [path.name, len(labels), setting, f"{difference:.2g}", f"{equal:.4%}", counts]
+            print("| " + " | ".join(map(str, row)) + f" | {seconds:.2f} |", flush=True)
 
 
 if __name__ == "__main__":

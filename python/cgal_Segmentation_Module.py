@@ -1,4 +1,4 @@
-"""The extension module cgal_Segmentation_Module of pipelines for neuron meshes, on asdf_vk instead of CGAL.
+"""The extension module cgal_Segmentation_Module of neuron pipelines, on asdf_vk instead of CGAL.
 
     import cgal_Segmentation_Module
     code = cgal_Segmentation_Module.cgal_segmentation("neuron", 3, 0.20)
@@ -42,27 +42,30 @@ def cgal_segmentation(
     expansion: Literal["all", "first"] = "all",
     **options: Unpack[BackendOptions],
 ) -> int:
-    """Computes values and segments of the mesh PATH.off (ASCII or binary) and writes them beside it.
+    """Computes values and segments of the mesh PATH.off and writes them beside it.
 
     clusters: 2 to 100. smoothness: 0 to 1000.
     expansion, options: as in asdf_vk.compat.cgal.
 
-    PATH-cgal_{clusters}_{smoothness:.2f}.csv has the segment of each face, from 0 on, a line per face in the order of
-    the mesh; PATH-cgal_{clusters}_{smoothness:.2f}_sdf.csv has the values from 0 to 1, with 6 significant digits. The
-    files appear whole, or not at all.
+    PATH-cgal_{clusters}_{smoothness:.2f}.csv has the segment of each face, from 0 on, a line per
+    face in the order of the mesh; PATH-cgal_{clusters}_{smoothness:.2f}_sdf.csv has the values from
+    0 to 1, with 6 significant digits. The files appear whole, or not at all.
 
-    Returns 1 done, 2 PATH.off cannot be opened, 3 it is no OFF file or violates the format, 4 it has no faces, 6 a
-    face is not a triangle. Raises asdf_vk.Error for what has no code, such as fewer different values than clusters,
-    and OSError where a file cannot be written.
+    Returns 1 done, 2 PATH.off cannot be opened, 3 it is no OFF file or violates the format, 4 it
+    has no faces, 6 a face is not a triangle. Raises asdf_vk.Error for what has no code, such as
+    fewer different values than clusters, and OSError where a file cannot be written.
 
-    In a process that was forked after a use of asdf_vk, the work runs in a new process of the same interpreter.
+    In a process that was forked after a use of asdf_vk, the work runs in a new process of the same
+    interpreter.
     """
     path = os.fspath(path_without_extension)
     try:
         mesh = _read_triangles(path + ".off")
         if isinstance(mesh, int):
             return mesh
-        labels, values = cgal_segmentation_arrays(mesh, None, clusters, smoothness, expansion=expansion, **options)
+        labels, values = cgal_segmentation_arrays(
+            mesh, None, clusters, smoothness, expansion=expansion, **options
+        )
     except asdf_vk.DeviceError as error:
         if error.code != "forkedProcess" or "session" in options:
             raise
@@ -87,7 +90,8 @@ def cgal_segmentation_arrays(
 
     vertices, faces: (n, 3) and (m, 3), or an object with `vertices` and `faces`, and None.
 
-    Returns the segments, int32 (m,), and the values from 0 to 1, float64 (m,). Raises asdf_vk.Error.
+    Returns the segments, int32 (m,), and the values from 0 to 1, float64 (m,).
+    Raises asdf_vk.Error.
     """
     segmentation = {"clusters": clusters, "smoothness": smoothness, "expansion": expansion}
     values, labels = values_and_segments(vertices, faces, segmentation, {**options})
@@ -131,15 +135,20 @@ def _write_whole(texts: dict[str, str]) -> None:
 
 
 def _in_new_process(path: str, clusters: int, smoothness: float, options: dict[str, Any]) -> int:
-    """Threads and devices of this process did not survive the fork; a new interpreter has its own."""
+    """Threads and devices do not survive a fork; a new interpreter has its own."""
+    clusters, smoothness = int(clusters), float(smoothness)  # NumPy's numbers have other texts.
     script = (
         "import sys, cgal_Segmentation_Module as module\n"
-        f"code = module.cgal_segmentation({path!r}, {clusters!r}, {float(smoothness)!r}, **{options!r})\n"
+        f"code = module.cgal_segmentation({path!r}, {clusters!r}, {smoothness!r}, **{options!r})\n"
         f"sys.exit({_EXIT_CODE_OFFSET} + code)"
     )
-    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(entry or os.getcwd() for entry in sys.path)}
+    search_path = os.pathsep.join(entry or os.getcwd() for entry in sys.path)
     done = subprocess.run(
-        [sys.executable, "-c", script], env=environment, stdin=subprocess.DEVNULL, capture_output=True, text=True
+        [sys.executable, "-c", script],
+        env={**os.environ, "PYTHONPATH": search_path},
+        stdin=subprocess.DEVNULL,
+        capture_output=True,
+        text=True,
     )
     if done.returncode < _EXIT_CODE_OFFSET:
         lines = done.stderr.strip().splitlines() or [f"exit code {done.returncode}"]

@@ -51,3 +51,10 @@ def write(
     path: str, mesh: _MeshArgument, fields: dict[str, NDArray[Any]], vertex_fields: dict[str, NDArray[Any]],
     format: str, ascii: bool,
 ) -> None: ...
+def postprocess_sdf(
+    mesh: _MeshArgument, values: NDArray[np.float64], threads: int, progress: _Progress
+) -> tuple[NDArray[np.float64], float, float]: ...
+def segment_sdf(
+    mesh: _MeshArgument, values: NDArray[np.float64], options: dict[str, Any], returns_clusters: bool,
+    threads: int, progress: _Progress,
+) -> tuple[NDArray[np.int32], int]: ...

@@ -93,9 +93,14 @@ def _session_key(backend: Any, device: Any, require_gpu: Any, threads: Any) -> t
         device = str(device)
     if not (isinstance(backend, str) and isinstance(device, str) and isinstance(require_gpu, bool)):
         raise error_of("optionOutOfRange", "backend and device are strings, and require_gpu is True or False")
+    return backend, device, require_gpu, thread_count(threads)
+
+
+def thread_count(threads: Any) -> int:
+    """Checks a number of CPU threads; 0: the number of cores."""
     if not isinstance(threads, int) or isinstance(threads, bool) or not 0 <= threads <= 1024:
         raise error_of("optionOutOfRange", f"threads={threads!r} is not a whole number from 0 to 1024")
-    return backend, device, require_gpu, threads
+    return threads
 
 
 _default_sessions: dict[tuple[str, str, bool, int], Session] = {}

@@ -6,6 +6,7 @@
 
 #include "arrays.h"
 #include "asdf_vk/cgal.h"
+#include "asdf_vk/run_control.h"
 #include "interruptible.h"
 #include "options.h"
 
@@ -20,25 +21,35 @@ MeshView meshOf(const py::tuple& mesh) {
   return viewOf(mesh[0].cast<py::array>(), mesh[1].cast<py::array>());
 }
 
-py::tuple postprocess(const py::tuple& mesh, const py::array& values, const py::object& progress) {
+py::tuple postprocess(const py::tuple& mesh, const py::array& values, uint32_t threadCount,
+                      const py::object& progress) {
   requireSameProcess();
   const MeshView view = meshOf(mesh);
   const std::span<const double> numbers = entriesOf<double>(values);
   PostprocessedSdf result;
-  runInterruptibly([&](const RunControl& control) { result = postprocessSdf(view, numbers, control); }, progress);
+  runInterruptibly(
+      [&](const RunControl& control) {
+        const ThreadLimit limit(threadCount);
+        result = postprocessSdf(view, numbers, control);
+      },
+      progress);
   return py::make_tuple(asArray(std::move(result.normalized)), result.min, result.max);
 }
 
 py::tuple segment(const py::tuple& mesh, const py::array& values, const py::dict& options, bool returnsClusters,
-                  const py::object& progress) {
+                  uint32_t threadCount, const py::object& progress) {
   requireSameProcess();
   const MeshView view = meshOf(mesh);
   const CgalSegmentationOptions parsed = optionsOf(options).cgalSegmentation;
   const CgalLabels kind = returnsClusters ? CgalLabels::Clusters : CgalLabels::Segments;
   const std::span<const double> numbers = entriesOf<double>(values);
   LabelledFaces result;
-  runInterruptibly([&](const RunControl& control) { result = segmentSdf(view, numbers, parsed, kind, control); },
-                   progress);
+  runInterruptibly(
+      [&](const RunControl& control) {
+        const ThreadLimit limit(threadCount);
+        result = segmentSdf(view, numbers, parsed, kind, control);
+      },
+      progress);
   // As int32, in which kNoSegment is -1.
   return py::make_tuple(asArray(std::vector<int32_t>(result.labels.begin(), result.labels.end())), result.count);
 }

@@ -7,6 +7,7 @@
 
 #include "arrays.h"
 #include "asdf_vk/asdf_vk.h"
+#include "cgal.h"
 #include "files.h"
 #include "interruptible.h"
 #include "options.h"
@@ -139,4 +140,5 @@ PYBIND11_MODULE(_core, module) {
   module.def("devices", devices);
   bindFiles(module);
   bindSession(module);
+  bindCgal(module);
 }

@@ -4,15 +4,17 @@
     values, (low, high) = cgal.sdf_values(vertices, faces)
     labels, count = cgal.segmentation_from_sdf_values(vertices, faces, values)
 
-Names of parameters and defaults are CGAL's. The functions follow the manual and the outputs of CGAL 5.5.1 and contain
-none of its code. What differs:
+Names of parameters and defaults are CGAL's. The functions follow the manual and the outputs of
+CGAL 5.5.1 and contain none of its code. What differs:
 
 - A missing value is NaN in results; CGAL has -1. Both are accepted in arguments.
-- All clusters are expanded by default, as some versions of CGAL do; expansion="first" is the rule of CGAL 5.5.1.
-- Meshes need not be manifold. Faces are neighbours across an edge of two faces of equal orientation; an edge of more
-  faces is divided as CGAL's readers do by splitting vertices. CGAL's readers also reverse faces of such meshes.
-- Fewer different values than clusters, and a mesh without any value, are errors (InputError, codes "tooFewValues" and
-  "noValues"); CGAL does not end, or crashes.
+- All clusters are expanded by default, as some versions of CGAL do; expansion="first" is the rule
+  of CGAL 5.5.1.
+- Meshes need not be manifold. Faces are neighbours across an edge of two faces of equal
+  orientation; an edge of more faces is divided as CGAL's readers do by splitting vertices. CGAL's
+  readers also reverse faces of such meshes.
+- Fewer different values than clusters, and a mesh without any value, are errors (InputError, codes
+  "tooFewValues" and "noValues"); CGAL does not end, or crashes.
 - number_of_clusters is 2 to 100, smoothing_lambda 0 to 1000, number_of_rays 1 to 1024.
 """
 
@@ -30,6 +32,7 @@ from .._arrays import MeshArguments, mesh_arguments, values_array
 from .._errors import MeshWarning, error_of
 from .._functions import session_of
 from .._options import BackendOptions, Progress
+from .._session import thread_count
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -53,32 +56,36 @@ def sdf_values(
 ) -> tuple[NDArray[np.float64], tuple[float, float]]:
     """CGAL's sdf_values(): the shape diameter of each face, by default post-processed.
 
-    vertices, faces: (n, 3) and (m, 3), or an object with `vertices` and `faces`; see asdf_vk.shape_diameter().
+    vertices, faces: (n, 3) and (m, 3), or an object with `vertices` and `faces`; see
+        asdf_vk.shape_diameter().
     cone_angle: full opening angle in radians, above 0 and below pi; rounded to 1e-9 degrees.
     number_of_rays: per face, 1 to 1024.
     postprocess: apply sdf_values_postprocessing().
-    seeds: faces that cast rays: "all" as in CGAL, a share such as 0.1, or a count. The others are interpolated; the
-        segments of interpolated values are other ones than CGAL's.
+    seeds: faces that cast rays: "all" as in CGAL, a share such as 0.1, or a count. The others are
+        interpolated; the segments of interpolated values are other ones than CGAL's.
     progress: called with a fraction from 0 to 1 and the name of the stage; False cancels.
     options: backend, device, require_gpu, threads, session; see asdf_vk.Session.
 
-    Returns float64 (m,), and the least and greatest value. Post-processed: values in [0, 1] and no NaN; the two are
-    those of the smoothed values, in the unit of the mesh. Otherwise all are in the unit of the mesh, NaN = no value,
-    and the two are NaN where no face has a value.
+    Returns float64 (m,), and the least and greatest value. Post-processed: values in [0, 1] and no
+    NaN; the two are those of the smoothed values, in the unit of the mesh. Otherwise all are in the
+    unit of the mesh, NaN = no value, and the two are NaN where no face has a value.
     Raises InputError, UsageError, DeviceError, CancelledError. Issues MeshWarning.
     """
     try:
         degrees = round(math.degrees(cone_angle), _ANGLE_DIGITS)
     except (TypeError, OverflowError) as error:
-        raise error_of("optionOutOfRange", f"cone_angle={cone_angle!r} is not an angle in radians") from error
-    mesh = mesh_arguments(vertices, faces)
+        message = f"cone_angle={cone_angle!r} is not an angle in radians"
+        raise error_of("optionOutOfRange", message) from error
     described = {"cone_angle": degrees, "rays": number_of_rays, "seeds": seeds}
-    computed = _computed(mesh, described, {**options}, progress)
+    if postprocess:
+        described["postprocess"] = "cgal"
+    computed = _computed(vertices, faces, described, {**options}, progress)
     for warning in computed.warnings():
         warnings.warn(MeshWarning(warning["message"], warning["code"]), stacklevel=2)
-    values: NDArray[np.float64] = computed.array("sdf", False, False)
     if postprocess:
-        return _postprocessed(mesh, values, progress)
+        limits: tuple[float, float] = computed.report()["normalized_range"]
+        return computed.array("normalized", False, False), limits
+    values: NDArray[np.float64] = computed.array("sdf", False, False)
     present = values[~np.isnan(values)]
     if present.size == 0:
         return values, (math.nan, math.nan)
@@ -90,21 +97,25 @@ def sdf_values_postprocessing(
     faces: ArrayLike | None,
     sdf_values: ArrayLike,
     *,
+    threads: int = 0,
     progress: Progress | None = None,
 ) -> tuple[NDArray[np.float64], tuple[float, float]]:
-    """CGAL's sdf_values_postprocessing(): missing values filled, a bilateral filter, mapped to [0, 1].
+    """CGAL's sdf_values_postprocessing(): fills missing values, smooths, and maps to [0, 1].
 
     vertices, faces: as for sdf_values(); faces is None where `vertices` is an object with both.
     sdf_values: (m,), at least 0 and finite; NaN and -1 are missing values. Not changed.
+    threads: CPU threads; 0: the number of cores. progress: as for sdf_values().
 
-    Returns float64 (m,) in [0, 1], and the least and greatest value before that, in the unit of `sdf_values`. Where
-    the smoothed values are all equal, they stay as they are. Raises InputError.
+    Returns float64 (m,) in [0, 1], and the least and greatest value before that, in the unit of
+    `sdf_values`. Where the smoothed values are all equal, they stay as they are.
+    Raises InputError, CancelledError.
     """
     mesh = mesh_arguments(vertices, faces)
     values = values_array(sdf_values, "sdf_values", _face_count(mesh))
     if (values == _MISSING).any():
         values = np.where(values == _MISSING, np.nan, values)
-    return _postprocessed(mesh, values, progress)
+    normalized, low, high = _core.postprocess_sdf(mesh, values, thread_count(threads), progress)
+    return normalized, (low, high)
 
 
 def segmentation_from_sdf_values(
@@ -116,9 +127,10 @@ def segmentation_from_sdf_values(
     smoothing_lambda: float = 0.26,
     output_cluster_ids: bool = False,
     expansion: Literal["all", "first"] = "all",
+    threads: int = 0,
     progress: Progress | None = None,
 ) -> tuple[NDArray[np.int32], int]:
-    """CGAL's segmentation_from_sdf_values(): clusters of values, divided into connected segments by a graph cut.
+    """CGAL's segmentation_from_sdf_values(): clusters of values, and a graph cut into segments.
 
     vertices, faces: as for sdf_values_postprocessing().
     sdf_values: (m,), post-processed: 0 to 1, no NaN. Not changed.
@@ -126,42 +138,46 @@ def segmentation_from_sdf_values(
     smoothing_lambda: weight of the boundaries, 0 to 1000; CGAL's manual has 0 to 1.
     output_cluster_ids: return the clusters instead of the segments.
     expansion: clusters that the graph cut expands: "all", or the "first" only as CGAL 5.5.1.
+    threads, progress: as for sdf_values_postprocessing().
 
-    Returns int32 (m,) and the number of segments: labels 0 to k - 1, ascending by mean value; or the clusters and
-    `number_of_clusters`. Equal labels need values equal to about 1e-5 of the range: noise of 1e-3 may change many.
+    Returns int32 (m,) and the number of segments: labels 0 to k - 1, ascending by mean value; or
+    the clusters and `number_of_clusters`. Equal labels need values equal to about 1e-5 of the
+    range: noise of 1e-3 may change many.
     Raises InputError, UsageError, CancelledError.
     """
     mesh = mesh_arguments(vertices, faces)
     values = values_array(sdf_values, "sdf_values", _face_count(mesh))
-    options = {"clusters": number_of_clusters, "smoothness": smoothing_lambda, "expansion": expansion}
-    return _core.segment_sdf(mesh, values, options, bool(output_cluster_ids), progress)
+    options = {
+        "clusters": number_of_clusters,
+        "smoothness": smoothing_lambda,
+        "expansion": expansion,
+    }
+    returns_clusters = bool(output_cluster_ids)
+    return _core.segment_sdf(
+        mesh, values, options, returns_clusters, thread_count(threads), progress
+    )
 
 
 def values_and_segments(
     vertices: Any, faces: ArrayLike | None, segmentation: dict[str, Any], options: dict[str, Any]
 ) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
     """Post-processed values and segments, without warnings; options: of the backend."""
-    mesh = mesh_arguments(vertices, faces)
-    computed = _computed(mesh, {}, options, None)
-    values, _ = _postprocessed(mesh, computed.array("sdf", False, False), None)
-    labels, _ = _core.segment_sdf(mesh, values, segmentation, False, None)
-    return values, labels
+    computed = _computed(vertices, faces, {"segmentation": "cgal", **segmentation}, options, None)
+    return computed.array("normalized", False, False), computed.array("segment", False, False)
 
 
 def _computed(
-    mesh: MeshArguments, described: dict[str, Any], options: dict[str, Any], progress: Progress | None
+    vertices: Any,
+    faces: ArrayLike | None,
+    described: dict[str, Any],
+    options: dict[str, Any],
+    progress: Progress | None,
 ) -> _core.ComputedFields:
     session = session_of(options)
     if options:
         raise error_of("unknownName", f"there is no option '{next(iter(options))}' here")
-    return session._compute(mesh, {"definition": "cgal", "estimate": False, **described}, progress)
-
-
-def _postprocessed(
-    mesh: MeshArguments, values: NDArray[np.float64], progress: Progress | None
-) -> tuple[NDArray[np.float64], tuple[float, float]]:
-    normalized, low, high = _core.postprocess_sdf(mesh, values, progress)
-    return normalized, (low, high)
+    implied = {"definition": "cgal", "estimate": False}
+    return session._compute(mesh_arguments(vertices, faces), {**implied, **described}, progress)
 
 
 def _face_count(mesh: MeshArguments) -> int:
