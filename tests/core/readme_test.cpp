@@ -68,7 +68,7 @@ TEST_CASE("files that the pages name exist") {
   const std::filesystem::path root(ASDFVK_SOURCE_DIR);
   for (const char* page :
        {"README.md", "CONTRIBUTING.md", "docs/architecture.md", "docs/options.md", "docs/formats.md", "docs/method.md",
-        "docs/segmentation.md", "docs/accuracy.md", "docs/speed.md", "docs/experiments.md"}) {
+        "docs/segmentation.md", "docs/cgal.md", "docs/accuracy.md", "docs/speed.md", "docs/experiments.md"}) {
     for (const std::string& path : namedPaths(readDocument(page))) {
       INFO(page, " names ", path);
       CHECK(std::filesystem::exists(root / path));
