@@ -15,16 +15,10 @@ namespace py = pybind11;
 namespace asdfvk::python {
 namespace {
 
-/// mesh: a Mesh, or vertices and faces; it must outlive the view.
-MeshView meshOf(const py::tuple& mesh) {
-  if (mesh.size() == 1) return mesh[0].cast<const Mesh&>();
-  return viewOf(mesh[0].cast<py::array>(), mesh[1].cast<py::array>());
-}
-
-py::tuple postprocess(const py::tuple& mesh, const py::array& values, uint32_t threadCount,
+py::tuple postprocess(const py::object& mesh, const py::array& values, uint32_t threadCount,
                       const py::object& progress) {
   requireSameProcess();
-  const MeshView view = meshOf(mesh);
+  const MeshView view = viewOf(mesh);
   const std::span<const double> numbers = entriesOf<double>(values);
   PostprocessedSdf result;
   runInterruptibly(
@@ -36,10 +30,10 @@ py::tuple postprocess(const py::tuple& mesh, const py::array& values, uint32_t t
   return py::make_tuple(asArray(std::move(result.normalized)), result.min, result.max);
 }
 
-py::tuple segment(const py::tuple& mesh, const py::array& values, const py::dict& options, bool returnsClusters,
+py::tuple segment(const py::object& mesh, const py::array& values, const py::dict& options, bool returnsClusters,
                   uint32_t threadCount, const py::object& progress) {
   requireSameProcess();
-  const MeshView view = meshOf(mesh);
+  const MeshView view = viewOf(mesh);
   const CgalSegmentationOptions parsed = optionsOf(options).cgalSegmentation;
   const CgalLabels kind = returnsClusters ? CgalLabels::Clusters : CgalLabels::Segments;
   const std::span<const double> numbers = entriesOf<double>(values);

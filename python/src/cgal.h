@@ -5,9 +5,8 @@
 namespace asdfvk::python {
 
 /// Adds the functions of asdf_vk/cgal.h: postprocess_sdf(mesh, values, threads, progress) -> (normalized, min, max) and
-/// segment_sdf(mesh, values, options, returns_clusters, threads, progress) -> (labels, count). mesh: a tuple of a Mesh,
-/// or of vertices and faces; values: double; options: clusters, smoothness and expansion as in optionsOf(); threads:
-/// see ThreadLimit.
+/// segment_sdf(mesh, values, options, returns_clusters, threads, progress) -> (labels, count). mesh: see viewOf();
+/// values: double; options: clusters, smoothness and expansion as in optionsOf(); threads: see ThreadLimit.
 void bindCgal(pybind11::module_& module);
 
 }  // namespace asdfvk::python

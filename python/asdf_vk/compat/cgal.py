@@ -28,7 +28,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .. import _core
-from .._arrays import MeshArguments, mesh_arguments, values_array
+from .._arrays import MeshArgument, mesh_argument, values_array
 from .._errors import MeshWarning, error_of
 from .._functions import session_of
 from .._options import BackendOptions, Progress
@@ -110,7 +110,7 @@ def sdf_values_postprocessing(
     `sdf_values`. Where the smoothed values are all equal, they stay as they are.
     Raises InputError, CancelledError.
     """
-    mesh = mesh_arguments(vertices, faces)
+    mesh = mesh_argument(vertices, faces)
     values = values_array(sdf_values, "sdf_values", _face_count(mesh))
     if (values == _MISSING).any():
         values = np.where(values == _MISSING, np.nan, values)
@@ -145,7 +145,7 @@ def segmentation_from_sdf_values(
     range: noise of 1e-3 may change many.
     Raises InputError, UsageError, CancelledError.
     """
-    mesh = mesh_arguments(vertices, faces)
+    mesh = mesh_argument(vertices, faces)
     values = values_array(sdf_values, "sdf_values", _face_count(mesh))
     options = {
         "clusters": number_of_clusters,
@@ -177,9 +177,8 @@ def _computed(
     if options:
         raise error_of("unknownName", f"there is no option '{next(iter(options))}' here")
     implied = {"definition": "cgal", "estimate": False}
-    return session._compute(mesh_arguments(vertices, faces), {**implied, **described}, progress)
+    return session._compute(mesh_argument(vertices, faces), {**implied, **described}, progress)
 
 
-def _face_count(mesh: MeshArguments) -> int:
-    first, last = mesh[0], mesh[-1]
-    return first.face_count if isinstance(first, _core.Mesh) else len(np.asarray(last))
+def _face_count(mesh: MeshArgument) -> int:
+    return mesh.face_count if isinstance(mesh, _core.Mesh) else len(mesh[1])
