@@ -4,11 +4,11 @@
 #include <functional>
 #include <memory>
 
+#include "asdf_vk/choices.h"
 #include "asdf_vk/files.h"
 #include "baselines.h"
 #include "core/stopwatch.h"
 #include "pipeline/backend.h"
-#include "asdf_vk/choices.h"
 #include "pipeline/seed_choice.h"
 #include "seeds/samplers.h"
 #include "support/computation.h"

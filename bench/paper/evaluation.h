@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "asdf_vk/session.h"
 #include "asdf_vk/choices.h"
+#include "asdf_vk/session.h"
 #include "render/camera.h"
 #include "trace/scene_data.h"
 

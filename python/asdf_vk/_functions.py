@@ -185,13 +185,7 @@ def segment(
     return_info=True also an Info. Raises and warns as shape_diameter().
     """
     target = _OneMesh(vertices, faces, options)
-    of_method = {
-        "parts": parts,
-        "detail": detail,
-        "clusters": clusters,
-        "smoothness": smoothness,
-        "expansion": expansion,
-    }
+    of_method = _measures.method_options(parts, detail, clusters, smoothness, expansion)
     return _measures.segment(target, method, of_method, return_info, options)
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from typing import Any, Protocol
+from typing import Any, Collection, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,15 +34,20 @@ def _info(computed: _core.ComputedFields) -> Info:
     return info_of(computed.report(), arrays(False), arrays(True))
 
 
-def _computed(target: Target, options: dict[str, Any], implied: dict[str, Any]) -> _core.ComputedFields:
-    """Computes with the caller's options and those that the function implies."""
-    options = dict(options)
+def split_progress(options: dict[str, Any], allowed: Collection[str]) -> Progress | None:
+    """Removes `progress` from the options and returns it. Only the names of `allowed` may be left."""
     progress = options.pop("progress", None)
     if progress is not None and not callable(progress):
         raise error_of("optionOutOfRange", f"progress={progress!r} is not callable")
     for name in options:
-        if name not in ComputeOptions.__annotations__:
+        if name not in allowed:
             raise error_of("unknownName", f"there is no option '{name}'", {"option": name})
+    return progress
+
+
+def _computed(target: Target, options: dict[str, Any], implied: dict[str, Any]) -> _core.ComputedFields:
+    """Computes with the caller's options and those that the function implies."""
+    progress = split_progress(options, ComputeOptions.__annotations__)
     computed = target.compute({**options, **implied}, progress)
     for warning in computed.warnings():
         warnings.warn(MeshWarning(warning["message"], warning["code"]), stacklevel=_STACK_LEVEL)
@@ -78,6 +83,23 @@ def thickness(
 
 
 _METHOD_OF = {"parts": "parts", "detail": "parts", "clusters": "cgal", "smoothness": "cgal", "expansion": "cgal"}
+
+
+def method_options(
+    parts: int | None,
+    detail: float | None,
+    clusters: int | None,
+    smoothness: float | None,
+    expansion: str | None,
+) -> dict[str, Any]:
+    """The options of segment() by name."""
+    return {
+        "parts": parts,
+        "detail": detail,
+        "clusters": clusters,
+        "smoothness": smoothness,
+        "expansion": expansion,
+    }
 
 
 def segment(

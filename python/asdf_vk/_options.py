@@ -48,6 +48,17 @@ class ComputeOptions(TypedDict, total=False):
     """Recompute this many traced faces ("all": all) with the reference, for info.check."""
 
 
+class ConeOptions(TypedDict, total=False):
+    """Options of Scene.at(): those of the cone of rays, as in ComputeOptions."""
+
+    definition: Literal["paper", "cgal"] | None
+    rays: int | None
+    cone_angle: float | None
+    false_hit_angle: float | None
+    outlier_deviations: float | None
+    cone_rotation: Literal["fixed", "hashed"] | None
+
+
 class CallOptions(TypedDict, total=False):
     """Options of every call."""
 
@@ -55,8 +66,12 @@ class CallOptions(TypedDict, total=False):
     """Called with a fraction from 0 to 1 and the name of the stage; False cancels (CancelledError)."""
 
 
+class PointOptions(ConeOptions, CallOptions, total=False):
+    """Options of Scene.at()."""
+
+
 class SceneOptions(ComputeOptions, CallOptions, total=False):
-    """Options of the methods of Scene."""
+    """Options of the other methods of Scene."""
 
 
 class BackendOptions(TypedDict, total=False):

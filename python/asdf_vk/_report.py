@@ -138,6 +138,8 @@ class Info:
     """What a computation did, and all its fields."""
 
     face_count: int
+    region_face_count: int
+    """Faces of the region; without one all."""
     triangle_count: int
     vertex_count: int
     component_count: int

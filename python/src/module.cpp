@@ -3,16 +3,13 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
-#include <optional>
-
-#include "arrays.h"
 #include "asdf_vk/asdf_vk.h"
 #include "cgal.h"
 #include "files.h"
 #include "interruptible.h"
 #include "options.h"
 #include "report.h"
-#include "session.h"
+#include "scene.h"
 
 namespace py = pybind11;
 using namespace pybind11::literals;
@@ -61,13 +58,6 @@ py::dict errorKinds() {
   return kinds;
 }
 
-template <typename Compute>
-std::unique_ptr<ComputedFields> computed(SharedSession& session, const py::object& progress, const Compute& compute) {
-  std::optional<Result> result;
-  session.run([&](Session& idle, const RunControl& control) { result = compute(idle, control); }, progress);
-  return std::make_unique<ComputedFields>(std::move(*result));
-}
-
 py::list devices() {
   requireSameProcess();
   py::list list;
@@ -80,44 +70,6 @@ py::list devices() {
     list.append(py::dict("name"_a = device.name, "driver"_a = device.driver, "kind"_a = device.kind,
                          "usable"_a = device.usable, "reason"_a = device.reason));
   return list;
-}
-
-void bindSession(py::module_& module) {
-  py::class_<ComputedFields>(module, "ComputedFields")
-      .def("names",
-           [](const ComputedFields& self, bool perVertex) {
-             std::vector<std::string> names;
-             for (const Field& field : self.fields())
-               if ((field.location == FieldLocation::PerVertex) == perVertex) names.push_back(field.name);
-             return names;
-           })
-      .def("array",
-           [](const py::object& self, const std::string& name, bool perVertex, bool single) {
-             const auto& fields = self.cast<const ComputedFields&>();
-             const Field* field =
-                 findField(fields.fields(), name, perVertex ? FieldLocation::PerVertex : FieldLocation::PerFace);
-             if (field == nullptr) throw Error(ErrorCode::UnknownField, "the result has no field '" + name + "'");
-             return arrayOf(*field, single, self);
-           })
-      .def("warnings", [](const ComputedFields& self) { return listOf(self.report().warnings); })
-      .def("report", [](const ComputedFields& self) { return dictOf(self.report()); });
-
-  py::class_<SharedSession>(module, "Session")
-      .def(py::init([](const std::string& backend, const std::string& device, bool requireGpu, uint32_t threadCount) {
-        return std::make_unique<SharedSession>(
-            SessionOptions{.backend = backend, .device = device, .requireGpu = requireGpu, .variant = {}}, threadCount);
-      }))
-      .def_property_readonly("backend", [](const SharedSession& self) { return self.session().backend(); })
-      .def_property_readonly("device_lines", [](const SharedSession& self) { return self.session().deviceLines(); })
-      .def_property_readonly("runs_on_cpu", [](const SharedSession& self) { return self.session().runsOnCpu(); })
-      .def("compute",
-           [](SharedSession& self, const py::object& mesh, const py::dict& options, const py::object& progress) {
-             const Options parsed = optionsOf(options);
-             const MeshView view = viewOf(mesh);
-             return computed(self, progress, [&](Session& session, const RunControl& control) {
-               return session.compute(view, parsed, control);
-             });
-           });
 }
 
 }  // namespace
@@ -139,6 +91,6 @@ PYBIND11_MODULE(_core, module) {
   module.def("mesh_formats", meshFormats);
   module.def("devices", devices);
   bindFiles(module);
-  bindSession(module);
+  bindScenes(module);
   bindCgal(module);
 }

@@ -110,11 +110,12 @@ py::dict dictOf(const std::vector<ErrorDetail>& details) {
 
 py::dict dictOf(const Report& report) {
   const auto convert = [](const auto& value) { return dictOf(value); };
-  py::dict dict("face_count"_a = report.faceCount, "triangle_count"_a = report.triangleCount,
-                "vertex_count"_a = report.vertexCount, "component_count"_a = report.componentCount,
-                "seed_count"_a = report.seedCount, "ray_count"_a = report.rayCount,
-                "redone_cone_count"_a = report.redoneConeCount, "no_value_count"_a = report.noValueCount,
-                "random_seed"_a = report.randomSeed, "round_count"_a = report.roundCount);
+  py::dict dict("face_count"_a = report.faceCount, "region_face_count"_a = report.regionFaceCount,
+                "triangle_count"_a = report.triangleCount, "vertex_count"_a = report.vertexCount,
+                "component_count"_a = report.componentCount, "seed_count"_a = report.seedCount,
+                "ray_count"_a = report.rayCount, "redone_cone_count"_a = report.redoneConeCount,
+                "no_value_count"_a = report.noValueCount, "random_seed"_a = report.randomSeed,
+                "round_count"_a = report.roundCount);
   dict["backend"] = report.backend;
   dict["device"] = report.device;
   dict["runs_on_cpu"] = report.runsOnCpu;

@@ -58,4 +58,10 @@ void SharedSession::run(const std::function<void(Session&, const RunControl&)>& 
       progress);
 }
 
+void SharedSession::releaseWhenIdle(std::unique_ptr<Scene>& scene) {
+  const py::gil_scoped_release released;
+  const std::scoped_lock lock(mutex_);
+  scene.reset();
+}
+
 }  // namespace asdfvk::python

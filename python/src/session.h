@@ -3,12 +3,13 @@
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <string>
 #include <vector>
 
-#include "asdf_vk/files.h"
+#include "asdf_vk/scene.h"
 #include "asdf_vk/session.h"
 
 namespace asdfvk::python {
@@ -44,6 +45,8 @@ class SharedSession {
 
   /// Runs `work` when no other thread uses the session, see runInterruptibly().
   void run(const std::function<void(Session&, const RunControl&)>& work, const pybind11::object& progress);
+  /// Destroys a scene of this session when no other thread uses the session.
+  void releaseWhenIdle(std::unique_ptr<Scene>& scene);
 
  private:
   std::unique_ptr<Session> session_;

@@ -11,10 +11,10 @@
 #include <type_traits>
 #include <vector>
 
+#include "asdf_vk/choices.h"
 #include "asdf_vk/error.h"
 #include "asdf_vk/options.h"
 #include "cli/options.h"
-#include "asdf_vk/choices.h"
 
 /// Kinds of options with a value, and the values themselves. A wrong value is Error of kind Usage.
 namespace asdfvk {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <functional>
 
-#include "core/text.h"
 #include "asdf_vk/choices.h"
+#include "core/text.h"
 
 namespace asdfvk {
 namespace {

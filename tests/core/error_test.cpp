@@ -25,6 +25,8 @@ const std::vector<Row> kRows{
     {ErrorCode::UnreadableInput, ErrorKind::Input, "unreadableInput"},
     {ErrorCode::EmptyMesh, ErrorKind::Input, "emptyMesh"},
     {ErrorCode::ArraySize, ErrorKind::Input, "arraySize"},
+    {ErrorCode::ArrayType, ErrorKind::Input, "arrayType"},
+    {ErrorCode::NonFiniteNumber, ErrorKind::Input, "nonFiniteNumber"},
     {ErrorCode::IndexOutOfRange, ErrorKind::Input, "indexOutOfRange"},
     {ErrorCode::MeshTooLarge, ErrorKind::Input, "meshTooLarge"},
     {ErrorCode::InputTooLarge, ErrorKind::Input, "inputTooLarge"},
@@ -46,6 +48,7 @@ const std::vector<Row> kRows{
     {ErrorCode::DeviceTimeout, ErrorKind::Device, "deviceTimeout"},
     {ErrorCode::ValidationFailed, ErrorKind::Device, "validationFailed"},
     {ErrorCode::VulkanFailed, ErrorKind::Device, "vulkanFailed"},
+    {ErrorCode::ForkedProcess, ErrorKind::Device, "forkedProcess"},
     {ErrorCode::OutputNotWritable, ErrorKind::Output, "outputNotWritable"},
     {ErrorCode::Cancelled, ErrorKind::Cancelled, "cancelled"},
 };

@@ -322,7 +322,7 @@ TEST_CASE("invalid points, normals and cones throw, and the message names the po
   };
   for (const double bad : {std::nan(""), kInfinity, -kInfinity})
     for (const bool isNormal : {false, true})
-      requireFailure([&] { callWith(7, bad, isNormal); }, ErrorCode::OptionOutOfRange, "point 2 has");
+      requireFailure([&] { callWith(7, bad, isNormal); }, ErrorCode::NonFiniteNumber, "point 2 has");
   std::vector<double> normals = good;
   std::fill_n(normals.begin() + 3, 3, 0.0);
   try {

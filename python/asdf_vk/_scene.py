@@ -1,0 +1,195 @@
+"""Many queries on one mesh."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Literal, overload
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _core, _measures
+from ._arrays import mask_array, mesh_argument, pairs_array
+from ._functions import session_of
+from ._options import BackendOptions, ConeOptions, PointOptions, Progress, SceneOptions
+from ._report import Info
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+
+class _Region:
+    """The scene, or the faces of it that a mask names."""
+
+    def __init__(self, scene: Scene, faces: ArrayLike | None) -> None:
+        self._scene = scene._opened
+        self._mask = None if faces is None else mask_array(faces, scene.face_count)
+
+    def compute(self, options: dict[str, Any], progress: Progress | None) -> _core.ComputedFields:
+        return self._scene.compute(options, self._mask, progress)
+
+
+class Scene:
+    """A mesh prepared once: geometry, hierarchy and tracer are kept on the device of a session.
+
+    vertices, faces: as for shape_diameter().
+    orient: inverted closed components: "keep", "auto" (reverse them) or "flip" (reverse all faces).
+    options: session, or backend, device, require_gpu and threads.
+
+    `faces=` of the methods is a region: a mask, (m,) bool, or indices of faces. Rays are cast by faces of the region
+    only and hit the whole mesh; the other faces have no value.
+    Any number of threads may use it; one computation of a session runs at a time.
+    """
+
+    def __init__(
+        self,
+        vertices: Any,
+        faces: ArrayLike | None = None,
+        *,
+        orient: Literal["keep", "auto", "flip"] = "keep",
+        progress: Progress | None = None,
+        **options: Unpack[BackendOptions],
+    ) -> None:
+        settings: dict[str, Any] = dict(options)
+        session = session_of(settings)
+        _measures.split_progress(settings, ())
+        mesh = mesh_argument(vertices, faces)
+        self._opened = _core.Scene(session._opened, mesh, {"orient": orient}, progress)
+        self.face_count: int = mesh.face_count if isinstance(mesh, _core.Mesh) else len(mesh[1])
+        """Faces of the mesh: functions return a value for each."""
+
+    def at(self, points: ArrayLike, normals: ArrayLike, **options: Unpack[PointOptions]) -> NDArray[np.float32]:
+        """Shape diameter at points: a cone of rays around minus the normal.
+
+        points: (k, 3), on the surface or inside. normals: (k, 3), outwards, of any length above 0.
+        options: definition, rays, cone_angle, false_hit_angle, outlier_deviations, cone_rotation, progress.
+
+        Returns float32 (k,), in the unit of the mesh, NaN = no value. A point starts 1e-5 of the diagonal of the
+        bounding box inside, so that it does not hit the surface that it lies on.
+        """
+        settings: dict[str, Any] = dict(options)
+        progress = _measures.split_progress(settings, ConeOptions.__annotations__)
+        return self._opened.values_at(*pairs_array(points, normals), settings, progress)
+
+    @overload
+    def shape_diameter(
+        self,
+        *,
+        faces: ArrayLike | None = None,
+        per: Literal["face", "vertex"] = "face",
+        return_info: Literal[False] = False,
+        **options: Unpack[SceneOptions],
+    ) -> NDArray[np.float32]: ...
+    @overload
+    def shape_diameter(
+        self,
+        *,
+        faces: ArrayLike | None = None,
+        per: Literal["face", "vertex"] = "face",
+        return_info: Literal[True],
+        **options: Unpack[SceneOptions],
+    ) -> tuple[NDArray[np.float32], Info]: ...
+    def shape_diameter(
+        self,
+        *,
+        faces: ArrayLike | None = None,
+        per: Literal["face", "vertex"] = "face",
+        return_info: bool = False,
+        **options: Any,
+    ) -> Any:
+        """As asdf_vk.shape_diameter()."""
+        return _measures.shape_diameter(_Region(self, faces), per, return_info, options)
+
+    @overload
+    def thickness(
+        self,
+        *,
+        faces: ArrayLike | None = None,
+        thinner_than: float | None = None,
+        wall_angle: float | None = None,
+        per: Literal["face", "vertex"] = "face",
+        return_info: Literal[False] = False,
+        **options: Unpack[SceneOptions],
+    ) -> NDArray[np.float32]: ...
+    @overload
+    def thickness(
+        self,
+        *,
+        faces: ArrayLike | None = None,
+        thinner_than: float | None = None,
+        wall_angle: float | None = None,
+        per: Literal["face", "vertex"] = "face",
+        return_info: Literal[True],
+        **options: Unpack[SceneOptions],
+    ) -> tuple[NDArray[np.float32], Info]: ...
+    def thickness(
+        self,
+        *,
+        faces: ArrayLike | None = None,
+        thinner_than: float | None = None,
+        wall_angle: float | None = None,
+        per: Literal["face", "vertex"] = "face",
+        return_info: bool = False,
+        **options: Any,
+    ) -> Any:
+        """As asdf_vk.thickness()."""
+        return _measures.thickness(_Region(self, faces), thinner_than, wall_angle, per, return_info, options)
+
+    @overload
+    def segment(
+        self,
+        *,
+        method: Literal["parts", "cgal"] = "parts",
+        parts: int | None = None,
+        detail: float | None = None,
+        clusters: int | None = None,
+        smoothness: float | None = None,
+        expansion: Literal["all", "first"] | None = None,
+        return_info: Literal[False] = False,
+        **options: Unpack[SceneOptions],
+    ) -> NDArray[np.int32]: ...
+    @overload
+    def segment(
+        self,
+        *,
+        method: Literal["parts", "cgal"] = "parts",
+        parts: int | None = None,
+        detail: float | None = None,
+        clusters: int | None = None,
+        smoothness: float | None = None,
+        expansion: Literal["all", "first"] | None = None,
+        return_info: Literal[True],
+        **options: Unpack[SceneOptions],
+    ) -> tuple[NDArray[np.int32], Info]: ...
+    def segment(
+        self,
+        *,
+        method: Literal["parts", "cgal"] = "parts",
+        parts: int | None = None,
+        detail: float | None = None,
+        clusters: int | None = None,
+        smoothness: float | None = None,
+        expansion: Literal["all", "first"] | None = None,
+        return_info: bool = False,
+        **options: Any,
+    ) -> Any:
+        """As asdf_vk.segment(), of the whole mesh."""
+        of_method = _measures.method_options(parts, detail, clusters, smoothness, expansion)
+        return _measures.segment(_Region(self, None), method, of_method, return_info, options)
+
+    @overload
+    def skeleton_points(
+        self,
+        *,
+        faces: ArrayLike | None = None,
+        return_info: Literal[False] = False,
+        **options: Unpack[SceneOptions],
+    ) -> tuple[NDArray[np.float64], NDArray[np.float32]]: ...
+    @overload
+    def skeleton_points(
+        self, *, faces: ArrayLike | None = None, return_info: Literal[True], **options: Unpack[SceneOptions]
+    ) -> tuple[NDArray[np.float64], NDArray[np.float32], Info]: ...
+    def skeleton_points(
+        self, *, faces: ArrayLike | None = None, return_info: bool = False, **options: Any
+    ) -> Any:
+        """As asdf_vk.skeleton_points()."""
+        return _measures.skeleton_points(_Region(self, faces), return_info, options)

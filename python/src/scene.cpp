@@ -1,0 +1,129 @@
+#include "scene.h"
+
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "arrays.h"
+#include "asdf_vk/scene.h"
+#include "interruptible.h"
+#include "options.h"
+#include "report.h"
+#include "session.h"
+
+namespace py = pybind11;
+
+namespace asdfvk::python {
+namespace {
+
+/// Runs `compute` on the session when no other thread uses it.
+template <typename Compute>
+std::unique_ptr<ComputedFields> computed(SharedSession& session, const py::object& progress, const Compute& compute) {
+  std::optional<Result> result;
+  session.run([&](Session& idle, const RunControl& control) { result = compute(idle, control); }, progress);
+  return std::make_unique<ComputedFields>(std::move(*result));
+}
+
+/// A scene with what it refers to: the session and the arrays of the mesh.
+class SharedScene {
+ public:
+  SharedScene(std::shared_ptr<SharedSession> session, const py::object& mesh, const py::dict& options,
+              const py::object& progress)
+      : session_(std::move(session)), mesh_(mesh) {
+    const Orientation orientation = optionsOf(options).orientation;
+    const MeshView view = viewOf(mesh_);
+    session_->run(
+        [&](Session& idle, const RunControl& control) {
+          scene_ = std::make_unique<Scene>(idle, view, orientation, control);
+        },
+        progress);
+  }
+  /// When no other thread uses the session. For forked processes see ~SharedSession().
+  ~SharedScene() {
+    if (isForkedProcess()) {
+      (void)scene_.release();
+    } else {
+      session_->releaseWhenIdle(scene_);
+    }
+  }
+  SharedScene(const SharedScene&) = delete;
+  SharedScene& operator=(const SharedScene&) = delete;
+
+  [[nodiscard]] std::unique_ptr<ComputedFields> compute(const py::dict& options, const py::object& region,
+                                                        const py::object& progress) {
+    const Options parsed = optionsOf(options);
+    std::span<const uint8_t> mask;
+    if (!region.is_none()) mask = entriesOf<uint8_t>(region.cast<py::array>());
+    return computed(*session_, progress,
+                    [&](Session&, const RunControl& control) { return scene_->compute(parsed, mask, control); });
+  }
+
+  /// points, normals: #P x 3 double. Returns #P float.
+  [[nodiscard]] py::array_t<float> valuesAt(const py::array& points, const py::array& normals, const py::dict& options,
+                                            const py::object& progress) {
+    const ConeOptions cone = optionsOf(options).cone;
+    const std::span<const double> origins = entriesOf<double>(points), axes = entriesOf<double>(normals);
+    std::vector<double> values;
+    session_->run([&](Session&, const RunControl& control) { values = scene_->valuesAt(origins, axes, cone, control); },
+                  progress);
+    return asArray(std::vector<float>(values.begin(), values.end()));
+  }
+
+ private:
+  std::shared_ptr<SharedSession> session_;
+  py::object mesh_;
+  std::unique_ptr<Scene> scene_;
+};
+
+}  // namespace
+
+void bindScenes(py::module_& module) {
+  py::class_<ComputedFields>(module, "ComputedFields")
+      .def("names",
+           [](const ComputedFields& self, bool perVertex) {
+             std::vector<std::string> names;
+             for (const Field& field : self.fields())
+               if ((field.location == FieldLocation::PerVertex) == perVertex) names.push_back(field.name);
+             return names;
+           })
+      .def("array",
+           [](const py::object& self, const std::string& name, bool perVertex, bool single) {
+             const auto& fields = self.cast<const ComputedFields&>();
+             const Field* field =
+                 findField(fields.fields(), name, perVertex ? FieldLocation::PerVertex : FieldLocation::PerFace);
+             if (field == nullptr) throw Error(ErrorCode::UnknownField, "the result has no field '" + name + "'");
+             return arrayOf(*field, single, self);
+           })
+      .def("warnings", [](const ComputedFields& self) { return listOf(self.report().warnings); })
+      .def("report", [](const ComputedFields& self) { return dictOf(self.report()); });
+
+  py::class_<SharedSession, std::shared_ptr<SharedSession>>(module, "Session")
+      .def(py::init([](const std::string& backend, const std::string& device, bool requireGpu, uint32_t threadCount) {
+        return std::make_shared<SharedSession>(
+            SessionOptions{.backend = backend, .device = device, .requireGpu = requireGpu, .variant = {}}, threadCount);
+      }))
+      .def_property_readonly("backend", [](const SharedSession& self) { return self.session().backend(); })
+      .def_property_readonly("device_lines", [](const SharedSession& self) { return self.session().deviceLines(); })
+      .def_property_readonly("runs_on_cpu", [](const SharedSession& self) { return self.session().runsOnCpu(); })
+      .def("compute",
+           [](SharedSession& self, const py::object& mesh, const py::dict& options, const py::object& progress) {
+             const Options parsed = optionsOf(options);
+             const MeshView view = viewOf(mesh);
+             return computed(self, progress, [&](Session& session, const RunControl& control) {
+               return session.compute(view, parsed, control);
+             });
+           });
+
+  py::class_<SharedScene>(module, "Scene")
+      .def(py::init<std::shared_ptr<SharedSession>, const py::object&, const py::dict&, const py::object&>())
+      .def("compute", &SharedScene::compute)
+      .def("values_at", &SharedScene::valuesAt);
+}
+
+}  // namespace asdfvk::python
