@@ -226,7 +226,7 @@ def test_same_bits_as_the_command_line(tmp_path: Path, mesh: Arrays) -> None:
         assert np.array_equal(labels, expected["segment"])
 
 
-@pytest.mark.skipif(CGAL_ORACLE is None, reason="ASDF_VK_CGAL_ORACLE is not set")
+@pytest.mark.skipif(not CGAL_ORACLE, reason="ASDF_VK_CGAL_ORACLE is not set")
 @pytest.mark.parametrize(("clusters", "smoothness"), [(2, 0.05), (3, 0.02), (3, 0.05), (5, 0.08)])
 def test_values_and_labels_of_cgal(
     tmp_path: Path, mesh: Arrays, clusters: int, smoothness: float

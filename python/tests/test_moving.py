@@ -26,6 +26,9 @@ def test_open3d_ray_casting() -> None:
     points, normals = barycentres_and_normals(vertices, faces)
     scene = open3d.t.geometry.RaycastingScene()
     scene.add_triangles(open3d.core.Tensor(vertices.astype(np.float32)), open3d.core.Tensor(faces.astype(np.uint32)))
+    control = np.array([[0, 0, 5, 0, 0, -1]], np.float32)
+    if not np.isfinite(scene.cast_rays(open3d.core.Tensor(control))["t_hit"].numpy()).all():
+        pytest.skip("this build of Open3D hits nothing")
     rays = np.concatenate([points - 1e-4 * normals, -normals], axis=1).astype(np.float32)
     theirs = scene.cast_rays(open3d.core.Tensor(rays))["t_hit"].numpy()
     ours = asdf_vk.Scene(vertices, faces).at(points, normals, **AXIS_ONLY)

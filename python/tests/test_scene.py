@@ -29,13 +29,15 @@ def test_a_scene_has_the_values_of_the_functions() -> None:
     mesh = dumbbell()
     scene = asdf_vk.Scene(*mesh)
     assert scene.face_count == len(mesh[1])
-    for options in ({}, {"seeds": "all"}, {"recipe": "paper"}, {"definition": "cgal"}):
-        given: dict[str, Any] = dict(options)
+    all_given: list[dict[str, Any]] = [{}, {"seeds": "all"}, {"recipe": "paper"}, {"definition": "cgal"}]
+    for given in all_given:
         np.testing.assert_array_equal(scene.shape_diameter(**given), asdf_vk.shape_diameter(*mesh, **given))
     np.testing.assert_array_equal(scene.thickness(), asdf_vk.thickness(*mesh))
     np.testing.assert_array_equal(scene.segment(), asdf_vk.segment(*mesh))
-    for ours, theirs in zip(scene.skeleton_points(), asdf_vk.skeleton_points(*mesh)):
-        np.testing.assert_array_equal(ours, theirs)
+    points, radii = scene.skeleton_points()
+    expected_points, expected_radii = asdf_vk.skeleton_points(*mesh)
+    np.testing.assert_array_equal(points, expected_points)
+    np.testing.assert_array_equal(radii, expected_radii)
 
 
 def test_values_at_barycentres_are_those_of_the_faces(scene: asdf_vk.Scene) -> None:

@@ -1,0 +1,26 @@
+// Seconds of Session::compute() on the arrays of a mesh, one run per line of standard input, for comparison with the
+// Python module in turns (bench/python_call.py). asdfvk-bench-call MESH [BACKEND]
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <iostream>
+#include <string>
+
+#include "asdf_vk/asdf_vk.h"
+#include "core/stopwatch.h"
+
+int main(int argc, char** argv) {
+  if (argc < 2) {
+    std::cerr << "usage: asdfvk-bench-call MESH [BACKEND]\n";
+    return 1;
+  }
+  const asdfvk::Mesh mesh = asdfvk::readMesh(argv[1]);
+  asdfvk::Session session({.backend = argc > 2 ? argv[2] : "auto", .device = {}, .variant = {}});
+  for (std::string line; std::getline(std::cin, line);) {
+    const asdfvk::Stopwatch watch;
+    const asdfvk::Result result = session.compute(mesh);
+    fmt::print("{}\n", watch.seconds());
+    std::fflush(stdout);
+  }
+  return 0;
+}

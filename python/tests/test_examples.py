@@ -1,0 +1,58 @@
+"""The examples of the manual run and print what they say."""
+
+from __future__ import annotations
+
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import asdf_vk
+from shapes import cube, dumbbell
+
+_ROOT = Path(__file__).resolve().parents[2]
+
+
+def test_parts_and_thickness(tmp_path: Path) -> None:
+    pytest.importorskip("matplotlib")
+    asdf_vk.write(tmp_path / "dumbbell.ply", dumbbell())
+    script = _ROOT / "docs/examples/parts_and_thickness.py"
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
+    finished = subprocess.run(
+        [sys.executable, script, tmp_path / "dumbbell.ply", tmp_path],
+        env=environment, capture_output=True, text=True,
+    )  # fmt: skip
+    assert finished.returncode == 0, finished.stderr
+    count = re.search(r"^(\d+) parts$", finished.stdout, re.MULTILINE)
+    assert count is not None and int(count.group(1)) >= 2
+    assert (tmp_path / "parts.png").read_bytes().startswith(b"\x89PNG")
+    fields = asdf_vk.read_fields(tmp_path / "parts.ply").fields
+    np.testing.assert_array_equal(fields["part"], asdf_vk.segment(*dumbbell()))
+
+
+def test_thin_walls(tmp_path: Path, program: Path) -> None:
+    vertices, faces = cube()
+    asdf_vk.write(tmp_path / "thick.ply", (vertices, faces))
+    asdf_vk.write(tmp_path / "thin.ply", (vertices * [1, 1, 0.1], faces))
+    environment = {**os.environ, "PATH": f"{program.parent}{os.pathsep}{os.environ['PATH']}"}
+    finished = subprocess.run(
+        [_ROOT / "docs/examples/thin_walls.sh", "0.5", tmp_path / "thick.ply", tmp_path / "thin.ply"],
+        env=environment, capture_output=True, text=True,
+    )  # fmt: skip
+    assert finished.returncode == 6, finished.stderr
+    thick, thin = finished.stdout.splitlines()
+    assert thick.endswith("thick.ply: 0 faces thinner than 0.5")
+    assert re.search(r"thin.ply: [1-9]\d* faces thinner than 0.5$", thin)
+
+
+def test_the_python_of_the_readme() -> None:
+    blocks = re.findall(r"```python\n(.*?)```", (_ROOT / "README.md").read_text(), re.DOTALL)
+    assert len(blocks) == 1
+    names = dict(zip(("vertices", "faces"), dumbbell()))
+    exec(blocks[0], names)
+    values = names["values"]
+    assert isinstance(values, np.ndarray) and values.shape == (5120,)
