@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import atexit
+import os
 import threading
 from dataclasses import dataclass
 from typing import Any
@@ -105,6 +106,15 @@ def thread_count(threads: Any) -> int:
 
 _default_sessions: dict[tuple[str, str, bool, int], Session] = {}
 _default_sessions_lock = threading.Lock()
+
+
+def _renew_lock() -> None:
+    """In a forked process, where the thread that holds the lock does not exist."""
+    global _default_sessions_lock
+    _default_sessions_lock = threading.Lock()
+
+
+os.register_at_fork(after_in_child=_renew_lock)
 
 
 def default_session(

@@ -79,16 +79,13 @@ void write(const std::filesystem::path& path, const py::object& mesh, const py::
 /// Fields per face and fields per vertex of a file, by name.
 py::tuple readFieldsOf(const std::filesystem::path& path) {
   requireSameProcess();
-  auto* fields = new std::vector<Field>();
-  const py::capsule owner(fields, [](void* pointer) { delete static_cast<std::vector<Field>*>(pointer); });
-  {
+  const std::vector<Field> fields = [&] {
     const py::gil_scoped_release released;
-    *fields = readFields(path);
-  }
+    return readFields(path);
+  }();
   py::dict perFace, perVertex;
-  for (const Field& field : *fields)
-    (field.location == FieldLocation::PerFace ? perFace : perVertex)[py::str(field.name)] =
-        arrayOf(field, false, owner);
+  for (const Field& field : fields)
+    (field.location == FieldLocation::PerFace ? perFace : perVertex)[py::str(field.name)] = arrayOf(field, false);
   return py::make_tuple(perFace, perVertex);
 }
 

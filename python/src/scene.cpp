@@ -93,12 +93,11 @@ void bindScenes(py::module_& module) {
              return names;
            })
       .def("array",
-           [](const py::object& self, const std::string& name, bool perVertex, bool single) {
-             const auto& fields = self.cast<const ComputedFields&>();
+           [](const ComputedFields& self, const std::string& name, bool perVertex, bool single) {
              const Field* field =
-                 findField(fields.fields(), name, perVertex ? FieldLocation::PerVertex : FieldLocation::PerFace);
+                 findField(self.fields(), name, perVertex ? FieldLocation::PerVertex : FieldLocation::PerFace);
              if (field == nullptr) throw Error(ErrorCode::UnknownField, "the result has no field '" + name + "'");
-             return arrayOf(*field, single, self);
+             return arrayOf(*field, single);
            })
       .def("warnings", [](const ComputedFields& self) { return listOf(self.report().warnings); })
       .def("report", [](const ComputedFields& self) { return dictOf(self.report()); });

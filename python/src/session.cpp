@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 
-#include "arrays.h"
 #include "interruptible.h"
 
 namespace py = pybind11;
@@ -21,18 +20,16 @@ std::vector<py::ssize_t> shapeOf(const Field& field) {
 
 }  // namespace
 
-py::array arrayOf(const Field& field, bool single, const py::handle& owner) {
-  if (const std::vector<double>* reals = field.reals()) {
-    if (!single) return viewAsArray(reals->data(), shapeOf(field), owner);
-    py::array_t<float> array(shapeOf(field));
-    std::transform(reals->begin(), reals->end(), array.mutable_data(),
-                   [](double real) { return static_cast<float>(real); });
+py::array arrayOf(const Field& field, bool single) {
+  const auto convert = [&]<typename T>(const auto& entries, T) -> py::array {
+    py::array_t<T> array(shapeOf(field));
+    std::transform(entries.begin(), entries.end(), array.mutable_data(),
+                   [](auto entry) { return static_cast<T>(entry); });
     return array;
-  }
-  if (const auto* flags = std::get_if<std::vector<uint8_t>>(&field.values))
-    return viewAsArray(flags->data(), shapeOf(field), owner);
-  const auto& indices = std::get<std::vector<uint32_t>>(field.values);
-  return viewAsArray(reinterpret_cast<const int32_t*>(indices.data()), shapeOf(field), owner);
+  };
+  if (const std::vector<double>* reals = field.reals()) return single ? convert(*reals, 0.0f) : convert(*reals, 0.0);
+  if (const auto* flags = std::get_if<std::vector<uint8_t>>(&field.values)) return convert(*flags, uint8_t{});
+  return convert(std::get<std::vector<uint32_t>>(field.values), int32_t{});
 }
 
 SharedSession::SharedSession(const SessionOptions& options, uint32_t threadCount) : threadCount_(threadCount) {

@@ -26,10 +26,9 @@ class ComputedFields {
   Result result_;
 };
 
-/// The array of a field, (items,) or (items, components). Real numbers become float32 where `single` is set, and
-/// double otherwise; uint32 becomes int32, in which 0xffffffff is -1. Integers and doubles view the field, which
-/// `owner` keeps alive.
-[[nodiscard]] pybind11::array arrayOf(const Field& field, bool single, const pybind11::handle& owner);
+/// The array of a field, (items,) or (items, components), with memory of its own. Real numbers become float32 where
+/// `single` is set, and double otherwise; uint32 becomes int32, in which 0xffffffff is -1.
+[[nodiscard]] pybind11::array arrayOf(const Field& field, bool single);
 
 /// Session for Python: any number of threads may call it, one computation at a time.
 class SharedSession {
