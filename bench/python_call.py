@@ -1,13 +1,12 @@
-"""Time of asdf_vk.shape_diameter() on arrays over that of Session::compute(), in turns, and what is copied.
+"""Time of asdf_vk.shape_diameter() on arrays over that of Session::compute(), in turns.
 
     PYTHONPATH=build/release/python /usr/bin/python3 bench/python_call.py build/release/bench/asdfvk-bench-call MESH
 
-Prints medians and the median of the ratios, then the growth of the peak of memory by arrays of the right type.
+Prints the medians and the median of the ratios.
 """
 
 from __future__ import annotations
 
-import resource
 import statistics
 import subprocess
 import sys
@@ -45,20 +44,6 @@ def main() -> None:
     python, cpp = (statistics.median(times) for times in zip(*pairs))
     ratio = statistics.median(a / b for a, b in pairs)
     print(f"{path}, {len(faces)} faces, {backend}: Python {python:.4f} s, library {cpp:.4f} s, ratio {ratio:.3f}")
-
-    # The arrays of a mesh whose computation takes little: 4 million vertices, of which the faces use few.
-    many = np.zeros((4_000_000, 3))
-    many[: len(vertices)] = vertices
-    few = faces[:12]
-    for name, array in (("float64", many), ("float64, Fortran order", np.asfortranarray(many))):
-        asdf_vk.shape_diameter(vertices, few, backend="reference")
-        before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-        try:
-            asdf_vk.shape_diameter(array, few, backend="reference")
-        except asdf_vk.Error as error:
-            print(error)
-        after = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-        print(f"{name}: array {array.nbytes / 1e6:.0f} MB, peak grows by {(after - before) / 1e3:.0f} MB")
 
 
 if __name__ == "__main__":

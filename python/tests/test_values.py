@@ -140,9 +140,21 @@ def test_same_bits_for_arrays_of_any_type() -> None:
             np.testing.assert_array_equal(asdf_vk.shape_diameter(v, f), expected)
 
 
-def test_real_meshes_have_the_bits_of_the_program(program: Path, mesh_folder: Path, tmp_path: Path) -> None:
-    for name in ("cow.off", "fandisk.off", "3holes.off"):
-        path = mesh_folder / "models" / name
-        for options, call in CALLS:
-            expected = by_program(program, path, tmp_path / "result.npy", *options)
-            np.testing.assert_array_equal(bits(call(asdf_vk.read_mesh(path))), bits(expected), err_msg=name)
+_MODELS = ["cow", "fandisk", "3holes"]
+_FURTHER_MODELS = ["horse-10k", "fertility", "cheburashka"]
+_PSB = ["1", "101", "121", "141"]
+
+
+@pytest.mark.filterwarnings("ignore::asdf_vk.MeshWarning")
+@pytest.mark.parametrize(
+    "name",
+    [f"models/{name}.off" for name in _MODELS]
+    + [pytest.param(f"models/{name}.off", marks=pytest.mark.slow) for name in _FURTHER_MODELS]
+    + [pytest.param(f"psb/off/{name}.off", marks=pytest.mark.slow) for name in _PSB],
+)
+def test_real_meshes_have_the_bits_of_the_program(
+    program: Path, mesh_folder: Path, tmp_path: Path, name: str
+) -> None:
+    for options, call in CALLS:
+        expected = by_program(program, mesh_folder / name, tmp_path / "result.npy", *options)
+        np.testing.assert_array_equal(bits(call(asdf_vk.read_mesh(mesh_folder / name))), bits(expected))
