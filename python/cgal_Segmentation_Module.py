@@ -12,6 +12,7 @@ Nothing is printed. Definitions and differences: asdf_vk.compat.cgal.
 from __future__ import annotations
 
 import os
+import pickle
 import subprocess
 import sys
 import threading
@@ -30,7 +31,6 @@ __all__ = ["cgal_segmentation", "cgal_segmentation_arrays"]
 
 DONE, CANNOT_OPEN, CANNOT_PARSE, EMPTY, NOT_TRIANGLES = 1, 2, 3, 4, 6
 
-_EXIT_CODE_OFFSET = 100  # Of a new process; lower codes are failures of the interpreter.
 _COUNTS_LIMIT = 1 << 16  # Bytes within which an OFF file must have its counts.
 
 
@@ -58,7 +58,7 @@ def cgal_segmentation(
     In a process that was forked after a use of asdf_vk, the work runs in a new process of the same
     interpreter.
     """
-    path = os.fspath(path_without_extension)
+    path = os.fsdecode(path_without_extension)
     try:
         mesh = _read_triangles(path + ".off")
         if isinstance(mesh, int):
@@ -134,23 +134,31 @@ def _write_whole(texts: dict[str, str]) -> None:
                 os.remove(path + suffix)
 
 
+_CHILD = """import pickle, sys
+import cgal_Segmentation_Module as module
+arguments, options = pickle.load(sys.stdin.buffer)
+try:
+    outcome = module.cgal_segmentation(*arguments, **options)
+except Exception as error:
+    outcome = error
+pickle.dump(outcome, sys.stdout.buffer)
+"""
+
+
 def _in_new_process(path: str, clusters: int, smoothness: float, options: dict[str, Any]) -> int:
-    """Threads and devices do not survive a fork; a new interpreter has its own."""
-    clusters, smoothness = int(clusters), float(smoothness)  # NumPy's numbers have other texts.
-    script = (
-        "import sys, cgal_Segmentation_Module as module\n"
-        f"code = module.cgal_segmentation({path!r}, {clusters!r}, {smoothness!r}, **{options!r})\n"
-        f"sys.exit({_EXIT_CODE_OFFSET} + code)"
-    )
+    """For a forked process, which has no threads and devices of its parent. Raises what the new process raised."""
     search_path = os.pathsep.join(entry or os.getcwd() for entry in sys.path)
     done = subprocess.run(
-        [sys.executable, "-c", script],
+        [sys.executable, "-c", _CHILD],
+        input=pickle.dumps(((path, clusters, smoothness), options)),
         env={**os.environ, "PYTHONPATH": search_path},
-        stdin=subprocess.DEVNULL,
         capture_output=True,
-        text=True,
     )
-    if done.returncode < _EXIT_CODE_OFFSET:
-        lines = done.stderr.strip().splitlines() or [f"exit code {done.returncode}"]
-        raise RuntimeError(f"the process that computes {path}.off failed: {lines[-1]}")
-    return done.returncode - _EXIT_CODE_OFFSET
+    if done.returncode != 0:
+        lines = done.stderr.decode(errors="replace").strip().splitlines()
+        reason = lines[-1] if lines else f"exit code {done.returncode}"
+        raise RuntimeError(f"the process that computes {path}.off failed: {reason}")
+    outcome: int | Exception = pickle.loads(done.stdout)
+    if isinstance(outcome, Exception):
+        raise outcome
+    return outcome

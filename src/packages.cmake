@@ -59,13 +59,17 @@ ${description}This package has the static library, its headers, a CMake package 
 pkg-config file.")
 
 # The module is bound to the minor version of Python it is built for.
+if(TARGET asdfvk-python)
+  math(EXPR pythonNext "${Python_VERSION_MINOR} + 1")
+endif()
 set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-asdf-vk)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.11), python3 (<< 3.12), python3-numpy")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.${Python_VERSION_MINOR}), python3 (<< 3.${pythonNext}), python3-numpy")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "${vulkan}")
 set(CPACK_DEBIAN_PYTHON_DESCRIPTION "shape diameter function of triangle meshes - Python module
-${description}This package has the Python module asdf_vk.")
+${description}This package has the Python module asdf_vk, and cgal_Segmentation_Module for
+programs that call that extension of CGAL.")
 
 # Files for /usr/share/doc of each package, and maintainer scripts. The changelog has the version of the project;
 # NEWS is CHANGELOG.md.

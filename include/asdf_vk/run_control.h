@@ -28,7 +28,7 @@ struct RunControl {
 };
 
 /// Limits the CPU threads of the library in this process while it exists, and those of the CPU device lavapipe in
-/// sessions that are opened meanwhile. Results do not depend on it.
+/// sessions that are opened meanwhile (unless LP_NUM_THREADS is set). Results do not depend on it.
 class ASDFVK_API ThreadLimit {
  public:
   /// threadCount: 1 or more; 0 is the number of cores. Of several limits the least applies.

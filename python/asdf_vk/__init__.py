@@ -52,3 +52,7 @@ __all__ = [
     "thickness",
     "write",
 ]
+
+for _name in __all__:  # In tracebacks and in help(): the module that users import.
+    if callable(globals()[_name]):
+        globals()[_name].__module__ = __name__

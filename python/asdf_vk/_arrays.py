@@ -59,7 +59,11 @@ def values_array(value: Any, name: str, count: int) -> NDArray[np.float64]:
 
 def mask_array(value: Any, count: int) -> NDArray[np.uint8]:
     """A mask of faces: (count,) bool, or indices of faces."""
-    array = _as_array(value, "faces", "biu", "a mask (bool) or indices of faces")
+    array = _as_array(value, "faces", "bfiu", "a mask (bool) or indices of faces")
+    if array.size == 0:  # [] is an array of float64.
+        array = np.zeros(0, np.int64)
+    if array.dtype.kind == "f":
+        raise error_of("arrayType", f"faces has the type {array.dtype}, not a mask (bool) or indices of faces")
     if array.dtype.kind == "b":
         if array.shape != (count,):
             raise error_of("arraySize", f"the mask of faces has the shape {array.shape}, not ({count},)")
@@ -73,6 +77,8 @@ def mask_array(value: Any, count: int) -> NDArray[np.uint8]:
         )
     mask = np.zeros(count, np.uint8)
     mask[array] = 1
+    if mask.sum() != array.size:
+        raise error_of("optionConflict", f"faces has {array.size} integers with repeats; a mask has the type bool")
     return mask
 
 
@@ -130,6 +136,8 @@ def _indices(value: Any, vertex_count: int) -> NDArray[np.uint32]:
     if array.size:
         least, greatest = int(array.min()), int(array.max())
         if least < 0 or greatest >= vertex_count:
+            if vertex_count == 0:
+                raise error_of("indexOutOfRange", "there are faces, but no vertices")
             wrong = (array < 0) | (array >= vertex_count)
             face = int(np.flatnonzero(wrong.any(axis=1))[0])
             raise error_of(

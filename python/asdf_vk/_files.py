@@ -54,6 +54,8 @@ def write(
 
     Raises OutputError, InputError, UsageError.
     """
+    if not isinstance(format, str) or not isinstance(ascii, bool):
+        raise error_of("optionOutOfRange", f"format={format!r} and ascii={ascii!r} are not a string and True or False")
     argument = mesh_argument(*mesh) if isinstance(mesh, tuple) and len(mesh) == 2 else mesh_argument(mesh)
     _core.write(_path(path), argument, _arrays_of(fields), _arrays_of(vertex_fields), format, ascii)
 
@@ -63,7 +65,12 @@ def _arrays_of(fields: Mapping[str, ArrayLike] | None) -> dict[str, NDArray[Any]
         return {}
     if not hasattr(fields, "items"):
         raise error_of("optionOutOfRange", f"fields of type {type(fields).__name__} are no mapping of names to arrays")
-    return {str(name): field_array(array, str(name)) for name, array in fields.items()}
+    arrays = {}
+    for name, array in fields.items():
+        if not isinstance(name, str) or not name.isprintable():
+            raise error_of("optionOutOfRange", f"{name!r} is not the name of a field")
+        arrays[name] = field_array(array, name)
+    return arrays
 
 
 def _path(path: str | os.PathLike[str]) -> str:

@@ -9,16 +9,12 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _core, _measures
 from ._arrays import mesh_argument
-from ._errors import error_of
 from ._options import FunctionOptions, Progress
 from ._report import Info
-from ._session import Session, default_session
+from ._session import session_of
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
-
-_BACKEND_OPTIONS = ("backend", "device", "require_gpu", "threads")
-
 
 class _OneMesh:
     """A mesh that is computed once."""
@@ -30,19 +26,6 @@ class _OneMesh:
 
     def compute(self, options: dict[str, Any], progress: Progress | None) -> _core.ComputedFields:
         return self._session._compute(self._mesh, options, progress)
-
-
-def session_of(options: dict[str, Any]) -> Session:
-    """The session that `options` name or describe; removes these options."""
-    session = options.pop("session", None)
-    described = {name: options.pop(name) for name in _BACKEND_OPTIONS if name in options}
-    if session is None:
-        return default_session(**described)
-    if described:
-        raise error_of("optionConflict", f"{', '.join(described)} and a session exclude each other")
-    if not isinstance(session, Session):
-        raise error_of("optionOutOfRange", f"session={session!r} is not a Session")
-    return session
 
 
 @overload
@@ -77,7 +60,10 @@ def shape_diameter(
     faces: (m, 3) int32, uint32 or int64 indices, counter-clockwise seen from outside. Other integer types are
         converted. float64 and 32-bit integers are used in place.
     per: "face", or "vertex" for the means over the faces of each vertex by area.
-    options: see FunctionOptions, for example seeds=0.1 (share of the faces that cast rays) or seeds="all".
+    options: seeds (faces that cast rays: 0.1, 5000, "10%" or "all"), rays, cone_angle, recipe, definition, max_error,
+        max_relative_error, time_budget, random_seed, sampler, estimate, orient, smooth, check, false_hit_angle,
+        outlier_deviations, cone_rotation, weights, guidance, pooling, solver, tolerance, max_iterations; backend,
+        device, require_gpu, threads or session; progress. docs/python.md explains them.
 
     Returns float32 (m,) or (n,), in the unit of the mesh, NaN = no value; with return_info=True also an Info.
     Raises InputError, UsageError, DeviceError, CancelledError. Issues MeshWarning.
@@ -174,7 +160,7 @@ def segment(
     return_info: bool = False,
     **options: Any,
 ) -> Any:
-    """Segments of the surface: the parts that people see, or those of CGAL's segmentation.
+    """Segments of the surface: parts by shape diameter and line of sight, or CGAL's segmentation.
 
     vertices, faces, options: as for shape_diameter().
     method="parts": parts: that many, 1 to 100; None finds the number. detail: 0.1 to 10, more means more parts.

@@ -1,4 +1,4 @@
-"""What the free functions and Scene have in common: options in, arrays out."""
+"""Shared implementation of the free functions and of Scene."""
 
 from __future__ import annotations
 
@@ -10,10 +10,9 @@ from numpy.typing import NDArray
 
 from . import _core
 from ._errors import MeshWarning, error_of
-from ._options import ComputeOptions, Progress
+from ._options import ComputeOptions, Progress, checked_progress
 from ._report import Info, info_of
 
-_SINGLE_PRECISION_BUT = "centre"  # Points need double far from the origin.
 _STACK_LEVEL = 4  # The caller of the public function.
 
 
@@ -23,22 +22,16 @@ class Target(Protocol):
     def compute(self, options: dict[str, Any], progress: Progress | None) -> _core.ComputedFields: ...
 
 
-def _array(computed: _core.ComputedFields, name: str, per_vertex: bool) -> NDArray[Any]:
-    return computed.array(name, per_vertex, name != _SINGLE_PRECISION_BUT)
-
-
 def _info(computed: _core.ComputedFields) -> Info:
     def arrays(per_vertex: bool) -> dict[str, NDArray[Any]]:
-        return {name: _array(computed, name, per_vertex) for name in computed.names(per_vertex)}
+        return {name: computed.array(name, per_vertex, True) for name in computed.names(per_vertex)}
 
     return info_of(computed.report(), arrays(False), arrays(True))
 
 
 def split_progress(options: dict[str, Any], allowed: Collection[str]) -> Progress | None:
     """Removes `progress` from the options and returns it. Only the names of `allowed` may be left."""
-    progress = options.pop("progress", None)
-    if progress is not None and not callable(progress):
-        raise error_of("optionOutOfRange", f"progress={progress!r} is not callable")
+    progress = checked_progress(options.pop("progress", None))
     for name in options:
         if name not in allowed:
             raise error_of("unknownName", f"there is no option '{name}'", {"option": name})
@@ -55,7 +48,7 @@ def _computed(target: Target, options: dict[str, Any], implied: dict[str, Any]) 
 
 
 def _per_vertex(per: str) -> bool:
-    if per not in ("face", "vertex"):
+    if not isinstance(per, str) or per not in ("face", "vertex"):
         raise error_of("unknownName", f"per={per!r} is unknown; the names are face, vertex")
     return per == "vertex"
 
@@ -63,7 +56,7 @@ def _per_vertex(per: str) -> bool:
 def shape_diameter(target: Target, per: str, return_info: bool, options: dict[str, Any]) -> Any:
     per_vertex = _per_vertex(per)
     computed = _computed(target, options, {"per": per})
-    values = _array(computed, "sdf", per_vertex)
+    values = computed.array("sdf", per_vertex, True)
     return (values, _info(computed)) if return_info else values
 
 
@@ -78,7 +71,7 @@ def thickness(
     per_vertex = _per_vertex(per)
     implied = {"measure": "thickness", "thinner_than": thinner_than, "wall_angle": wall_angle, "per": per}
     computed = _computed(target, options, implied)
-    values = _array(computed, "thickness", per_vertex)
+    values = computed.array("thickness", per_vertex, True)
     return (values, _info(computed)) if return_info else values
 
 
@@ -105,7 +98,7 @@ def method_options(
 def segment(
     target: Target, method: str, of_method: dict[str, Any], return_info: bool, options: dict[str, Any]
 ) -> Any:
-    if method not in ("parts", "cgal"):
+    if not isinstance(method, str) or method not in ("parts", "cgal"):
         raise error_of("unknownName", f"method={method!r} is unknown; the names are parts, cgal")
     for name, value in of_method.items():
         if value is not None and _METHOD_OF[name] != method:
@@ -117,6 +110,6 @@ def segment(
 
 def skeleton_points(target: Target, return_info: bool, options: dict[str, Any]) -> Any:
     computed = _computed(target, options, {"centres": True})
-    points = computed.array("centre", False, False)
+    points = computed.array("centre", False, True)
     radii = computed.array("sdf", False, True) / np.float32(2)
     return (points, radii, _info(computed)) if return_info else (points, radii)

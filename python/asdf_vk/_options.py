@@ -2,12 +2,21 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Callable, Literal, Optional, TypedDict, Union
+from typing import TYPE_CHECKING, Any, Callable, Literal, Optional, TypedDict, Union
+
+from ._errors import error_of
 
 if TYPE_CHECKING:
     from ._session import Session
 
 Progress = Callable[[float, str], Optional[bool]]
+
+
+def checked_progress(progress: Any) -> Progress | None:
+    """The callback, or None."""
+    if progress is not None and not callable(progress):
+        raise error_of("optionOutOfRange", f"progress={progress!r} is not callable")
+    return progress
 
 
 class ComputeOptions(TypedDict, total=False):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, cast
 
 import numpy as np
@@ -133,9 +133,9 @@ class Warning:
     details: dict[str, str]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Info:
-    """What a computation did, and all its fields."""
+    """Report of a computation, and its fields."""
 
     face_count: int
     region_face_count: int
@@ -161,14 +161,14 @@ class Info:
     parts: PartsReport | None
     thickness: ThicknessReport | None
     defects: MeshDefects
-    reversed_faces: tuple[int, ...]
+    reversed_faces: tuple[int, ...] = field(repr=False)
     warnings: tuple[Warning, ...]
     estimated_error: ErrorEstimate | None
     """None where every face is a seed."""
     check: CheckReport | None
-    fields: dict[str, NDArray[Any]]
+    fields: dict[str, NDArray[Any]] = field(repr=False)
     """Per face: "sdf" float32, "seed" uint8 (1 where rays were cast), "error" float32 (expected error), ..."""
-    vertex_fields: dict[str, NDArray[Any]]
+    vertex_fields: dict[str, NDArray[Any]] = field(repr=False)
     """Per vertex, with per="vertex"."""
 
     @property
@@ -213,4 +213,4 @@ def info_of(
 
 
 def field_names(structure: type) -> list[str]:
-    return [field.name for field in dataclasses.fields(structure)]
+    return [entry.name for entry in dataclasses.fields(structure)]

@@ -9,9 +9,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _core, _measures
 from ._arrays import mask_array, mesh_argument, pairs_array
-from ._functions import session_of
-from ._options import BackendOptions, ConeOptions, PointOptions, Progress, SceneOptions
+from ._errors import error_of
+from ._options import BackendOptions, ConeOptions, PointOptions, Progress, SceneOptions, checked_progress
 from ._report import Info
+from ._session import session_of
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -29,9 +30,9 @@ class _Region:
 
 
 class Scene:
-    """A mesh prepared once: geometry, hierarchy and tracer are kept on the device of a session.
+    """A mesh prepared once for many queries: geometry and hierarchy, and the tracers on the device of a session.
 
-    vertices, faces: as for shape_diameter().
+    vertices, faces: as for shape_diameter(). Arrays are copied.
     orient: inverted closed components: "keep", "auto" (reverse them) or "flip" (reverse all faces).
     options: session, or backend, device, require_gpu and threads.
 
@@ -53,9 +54,32 @@ class Scene:
         session = session_of(settings)
         _measures.split_progress(settings, ())
         mesh = mesh_argument(vertices, faces)
-        self._opened = _core.Scene(session._opened, mesh, {"orient": orient}, progress)
+        if isinstance(mesh, tuple):  # The scene outlives the call, in which the caller may change the arrays.
+            mesh = mesh[0].copy(), mesh[1].copy()
+        self._open: _core.Scene | None = _core.Scene(
+            session._opened, mesh, {"orient": orient}, checked_progress(progress)
+        )
         self.face_count: int = mesh.face_count if isinstance(mesh, _core.Mesh) else len(mesh[1])
         """Faces of the mesh: functions return a value for each."""
+
+    def close(self) -> None:
+        """Releases the memory of the scene."""
+        self._open = None
+
+    def __enter__(self) -> Scene:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def __repr__(self) -> str:
+        return f"<asdf_vk.Scene, {'closed' if self._open is None else f'{self.face_count} faces'}>"
+
+    @property
+    def _opened(self) -> _core.Scene:
+        if self._open is None:
+            raise error_of("optionConflict", "the scene is closed")
+        return self._open
 
     def at(self, points: ArrayLike, normals: ArrayLike, **options: Unpack[PointOptions]) -> NDArray[np.float32]:
         """Shape diameter at points: a cone of rays around minus the normal.
@@ -96,7 +120,7 @@ class Scene:
         return_info: bool = False,
         **options: Any,
     ) -> Any:
-        """As asdf_vk.shape_diameter()."""
+        """As asdf_vk.shape_diameter(), of the whole mesh or of a region (faces)."""
         return _measures.shape_diameter(_Region(self, faces), per, return_info, options)
 
     @overload
@@ -131,7 +155,7 @@ class Scene:
         return_info: bool = False,
         **options: Any,
     ) -> Any:
-        """As asdf_vk.thickness()."""
+        """As asdf_vk.thickness(), of the whole mesh or of a region (faces)."""
         return _measures.thickness(_Region(self, faces), thinner_than, wall_angle, per, return_info, options)
 
     @overload
@@ -191,5 +215,5 @@ class Scene:
     def skeleton_points(
         self, *, faces: ArrayLike | None = None, return_info: bool = False, **options: Any
     ) -> Any:
-        """As asdf_vk.skeleton_points()."""
+        """As asdf_vk.skeleton_points(), of the whole mesh or of a region (faces)."""
         return _measures.skeleton_points(_Region(self, faces), return_info, options)

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import atexit
+import operator
 import os
 import threading
 from dataclasses import dataclass
 from typing import Any
+
+import numpy as np
 
 from . import _core
 from ._arrays import MeshArgument
@@ -63,7 +66,7 @@ class Session:
         return self._opened.runs_on_cpu
 
     def close(self) -> None:
-        """Releases the device."""
+        """Releases the device; scenes of the session keep it until they are closed."""
         self._open = None
 
     def __enter__(self) -> Session:
@@ -90,18 +93,30 @@ class Session:
 
 
 def _session_key(backend: Any, device: Any, require_gpu: Any, threads: Any) -> tuple[str, str, bool, int]:
-    if isinstance(device, int) and not isinstance(device, bool):
-        device = str(device)
-    if not (isinstance(backend, str) and isinstance(device, str) and isinstance(require_gpu, bool)):
-        raise error_of("optionOutOfRange", "backend and device are strings, and require_gpu is True or False")
-    return backend, device, require_gpu, thread_count(threads)
+    if not isinstance(device, str):
+        device = str(_index(device, "device", 0, 2**31, "an index or a part of a name"))
+    for name, text in (("backend", backend), ("device", device)):
+        if not isinstance(text, str) or not text.isprintable():
+            raise error_of("optionOutOfRange", f"{name}={text!r} is not a name")
+    if not isinstance(require_gpu, (bool, np.bool_)):
+        raise error_of("optionOutOfRange", f"require_gpu={require_gpu!r} is not True or False")
+    return backend, device, bool(require_gpu), thread_count(threads)
 
 
 def thread_count(threads: Any) -> int:
     """Checks a number of CPU threads; 0: the number of cores."""
-    if not isinstance(threads, int) or isinstance(threads, bool) or not 0 <= threads <= 1024:
-        raise error_of("optionOutOfRange", f"threads={threads!r} is not a whole number from 0 to 1024")
-    return threads
+    return _index(threads, "threads", 0, 1024, "a whole number from 0 to 1024")
+
+
+def _index(value: Any, name: str, least: int, most: int, wanted: str) -> int:
+    if not isinstance(value, (bool, np.bool_)):
+        try:
+            index = operator.index(value)
+        except TypeError:
+            index = -1
+        if least <= index <= most:
+            return index
+    raise error_of("optionOutOfRange", f"{name}={value!r} is not {wanted}")
 
 
 _default_sessions: dict[tuple[str, str, bool, int], Session] = {}
@@ -135,3 +150,19 @@ def close_default_sessions() -> None:
     """Releases the devices that the free functions use. They are opened again when needed."""
     with _default_sessions_lock:
         _default_sessions.clear()
+
+
+_BACKEND_OPTIONS = ("backend", "device", "require_gpu", "threads")
+
+
+def session_of(options: dict[str, Any]) -> Session:
+    """The session that `options` name or describe; removes these options."""
+    session = options.pop("session", None)
+    described = {name: options.pop(name) for name in _BACKEND_OPTIONS if name in options}
+    if session is None:
+        return default_session(**described)
+    if described:
+        raise error_of("optionConflict", f"{', '.join(described)} and a session exclude each other")
+    if not isinstance(session, Session):
+        raise error_of("optionOutOfRange", f"session={session!r} is not a Session")
+    return session

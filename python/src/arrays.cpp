@@ -1,5 +1,8 @@
 #include "arrays.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <string>
 
 #include "asdf_vk/error.h"
@@ -7,6 +10,15 @@
 namespace py = pybind11;
 
 namespace asdfvk::python {
+namespace {
+
+std::vector<py::ssize_t> shapeOf(const Field& field) {
+  std::vector<py::ssize_t> shape{static_cast<py::ssize_t>(field.itemCount())};
+  if (field.componentCount != 1) shape.push_back(field.componentCount);
+  return shape;
+}
+
+}  // namespace
 
 template <typename T>
 std::span<const T> entriesOf(const py::array& array) {
@@ -30,6 +42,36 @@ MeshView viewOf(const py::object& mesh) {
   const std::span<const uint32_t> corners = entriesOf<uint32_t>(arrays.second);
   if (py::isinstance<py::array_t<float>>(arrays.first)) return {entriesOf<float>(arrays.first), corners};
   return {entriesOf<double>(arrays.first), corners};
+}
+
+py::array_t<float> singles(std::span<const double> numbers, const std::string& name) {
+  py::array_t<float> array(static_cast<py::ssize_t>(numbers.size()));
+  float* single = array.mutable_data();
+  for (const double number : numbers) {
+    const double size = std::abs(number);
+    if ((size > std::numeric_limits<float>::max() && std::isfinite(number)) ||
+        (size != 0 && size < std::numeric_limits<float>::denorm_min()))
+      throw Error(ErrorCode::ValueOutOfRange, "a value of " + name +
+                                                  " in the unit of the mesh does not fit into float32: " +
+                                                  std::string(py::repr(py::float_(number))) + "; scale the mesh");
+    *single++ = static_cast<float>(number);
+  }
+  return array;
+}
+
+py::array arrayOf(const Field& field, bool single) {
+  const auto convert = [&]<typename T>(const auto& entries, T) -> py::array {
+    py::array_t<T> array(shapeOf(field));
+    std::transform(entries.begin(), entries.end(), array.mutable_data(),
+                   [](auto entry) { return static_cast<T>(entry); });
+    return array;
+  };
+  if (const std::vector<double>* reals = field.reals()) {
+    if (single && field.componentCount == 1) return singles(*reals, "'" + field.name + "'");
+    return convert(*reals, 0.0);
+  }
+  if (const auto* flags = std::get_if<std::vector<uint8_t>>(&field.values)) return convert(*flags, uint8_t{});
+  return convert(std::get<std::vector<uint32_t>>(field.values), int32_t{});
 }
 
 }  // namespace asdfvk::python

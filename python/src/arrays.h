@@ -4,9 +4,11 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
+#include "asdf_vk/field.h"
 #include "asdf_vk/mesh.h"
 
 namespace asdfvk::python {
@@ -27,6 +29,15 @@ template <typename T>
   pybind11::detail::array_proxy(array.ptr())->flags &= ~pybind11::detail::npy_api::NPY_ARRAY_WRITEABLE_;
   return array;
 }
+
+/// As float32. Throws Error{ValueOutOfRange} for a finite number beyond its range, or so small that it would be 0.
+/// name: of the numbers, for the message.
+[[nodiscard]] pybind11::array_t<float> singles(std::span<const double> numbers, const std::string& name);
+
+/// The array of a field, (items,) or (items, components), with memory of its own. Real numbers become float32 where
+/// `single` is set and the field has one component, see singles(), and double otherwise; uint32 becomes int32, in which
+/// 0xffffffff is -1.
+[[nodiscard]] pybind11::array arrayOf(const Field& field, bool single);
 
 /// An array that owns the entries.
 template <typename T>

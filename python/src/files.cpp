@@ -4,13 +4,16 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <cstring>
 #include <filesystem>
+#include <string>
+#include <string_view>
 
 #include "arrays.h"
 #include "asdf_vk/error.h"
 #include "asdf_vk/files.h"
 #include "interruptible.h"
-#include "session.h"
+#include "report.h"
 
 namespace py = pybind11;
 
@@ -85,8 +88,35 @@ py::tuple readFieldsOf(const std::filesystem::path& path) {
   }();
   py::dict perFace, perVertex;
   for (const Field& field : fields)
-    (field.location == FieldLocation::PerFace ? perFace : perVertex)[py::str(field.name)] = arrayOf(field, false);
+    (field.location == FieldLocation::PerFace ? perFace : perVertex)[textOf(field.name)] = arrayOf(field, false);
   return py::make_tuple(perFace, perVertex);
+}
+
+/// The arrays of a mesh, for pickle.
+py::tuple stateOf(const Mesh& mesh) {
+  const auto bytesOf = [](const auto& entries) {
+    return py::bytes(reinterpret_cast<const char*>(entries.data()), entries.size() * sizeof(entries[0]));
+  };
+  const Polygons& polygons = mesh.polygons;
+  return py::make_tuple(bytesOf(mesh.vertices), bytesOf(mesh.faces), bytesOf(polygons.firstCorner),
+                        bytesOf(polygons.corners), bytesOf(polygons.inputFaceOf));
+}
+
+Mesh meshOf(const py::tuple& state) {
+  if (state.size() != 5) throw Error(ErrorCode::ArraySize, "the pickled mesh has not five arrays");
+  size_t i = 0;
+  const auto read = [&](auto& entries) {
+    const auto bytes = state[i++].cast<std::string_view>();
+    entries.resize(bytes.size() / sizeof(entries[0]));
+    std::memcpy(entries.data(), bytes.data(), entries.size() * sizeof(entries[0]));
+  };
+  Mesh mesh;
+  read(mesh.vertices);
+  read(mesh.faces);
+  read(mesh.polygons.firstCorner);
+  read(mesh.polygons.corners);
+  read(mesh.polygons.inputFaceOf);
+  return mesh;
 }
 
 }  // namespace
@@ -99,7 +129,14 @@ void bindFiles(py::module_& module) {
       .def_property_readonly("face_count", &Mesh::inputFaceCount,
                              "Faces of the file. Functions return a value for each.")
       .def_property_readonly("face_of_triangle", faceOfTriangle,
-                             "(m,) int32, the face of the file of each triangle; None where all are triangles.");
+                             "(m,) int32, the face of the file of each triangle; None where all are triangles.")
+      .def("__repr__",
+           [](const Mesh& self) {
+             return "<asdf_vk.Mesh, " + std::to_string(self.vertices.size()) + " vertices, " +
+                    std::to_string(self.inputFaceCount()) + " faces>";
+           })
+      .def(py::pickle([](const Mesh& mesh) { return stateOf(mesh); },
+                      [](const py::tuple& state) { return meshOf(state); }));
   module.def("read_mesh", readWithoutGil);
   module.def("read_fields", readFieldsOf);
   module.def("write", write);

@@ -38,7 +38,10 @@ class ProgressCall {
     if (callback_.is_none() || (fraction == lastFraction_ && stage == lastStage_)) return true;
     lastFraction_ = fraction;
     lastStage_ = stage;
-    return !callback_(fraction, stage).is(py::bool_(false));
+    const py::object answer = callback_(fraction, stage);
+    const bool isFlag =
+        py::isinstance<py::bool_>(answer) || py::isinstance(answer, py::module_::import("numpy").attr("bool_"));
+    return !isFlag || PyObject_IsTrue(answer.ptr()) == 1;
   }
 
  private:
@@ -90,8 +93,8 @@ void requireSameProcess() {
   firstProcess.compare_exchange_strong(unset, getpid());
   if (isForkedProcess())
     throw Error(ErrorCode::ForkedProcess,
-                "this process was forked after the first use of asdf_vk, whose threads and devices do not survive a "
-                "fork; start processes with the method 'spawn' or 'forkserver', or first use asdf_vk in the child");
+                "this process was forked after the first use of asdf_vk and has no threads or devices of its parent; "
+                "start processes with the method 'spawn' or 'forkserver', or first use asdf_vk in the child");
 }
 
 }  // namespace asdfvk::python

@@ -10,12 +10,12 @@ namespace asdfvk::python {
 
 /// Runs `work` on a thread of its own, without the GIL, and waits for it. The calling thread polls for signals and
 /// calls `progress` (None, or a callable of a fraction from 0 to 1 and the name of a stage) every 20 ms. An exception
-/// of either requests a stop and is thrown once `work` has ended; so is Error{Cancelled} when `progress` returns False.
-/// Throws what `work` throws.
+/// of either requests a stop and is thrown once `work` has ended; so is Error{Cancelled} when `progress` returns False
+/// (bool or numpy.bool_). Throws what `work` throws.
 void runInterruptibly(const std::function<void(const RunControl&)>& work, const pybind11::object& progress);
 
-/// Throws Error{ForkedProcess} in a process that was forked after the first call: threads and devices do not survive a
-/// fork.
+/// Throws Error{ForkedProcess} in a process that was forked after the first call: it has no threads
+/// or devices of its parent.
 void requireSameProcess();
 
 /// Whether requireSameProcess() would throw.

@@ -20,7 +20,7 @@ namespace {
 /// Raises the class of asdf_vk._errors for the kind of the error.
 void raise(const Error& error) {
   const py::object make = py::module_::import("asdf_vk._errors").attr("error_of");
-  const py::object exception = make(nameOf(error.code()), error.what(), dictOf(error.details()));
+  const py::object exception = make(nameOf(error.code()), textOf(error.what()), dictOf(error.details()));
   PyErr_SetObject(reinterpret_cast<PyObject*>(Py_TYPE(exception.ptr())), exception.ptr());
 }
 
@@ -83,12 +83,6 @@ PYBIND11_MODULE(_core, module) {
   module.attr("error_kinds") = errorKinds();
   py::register_local_exception_translator(translate);
   module.def("option_names", optionNames);
-  module.def("backend_names", backendNames);
-  module.def("is_backend_built", isBackendBuilt);
-  module.def("sampler_names", samplerNames);
-  module.def("solver_names", solverNames);
-  module.def("result_formats", resultFormats);
-  module.def("mesh_formats", meshFormats);
   module.def("devices", devices);
   bindFiles(module);
   bindScenes(module);

@@ -25,12 +25,21 @@ struct Value {
   }
 };
 
+/// bool, or NumPy's.
+bool isFlag(const py::handle& object) {
+  return py::isinstance<py::bool_>(object) || py::isinstance(object, py::module_::import("numpy").attr("bool_"));
+}
+
+/// An integer of Python or NumPy.
 bool isWhole(const py::handle& object) {
-  return PyIndex_Check(object.ptr()) != 0 && !py::isinstance<py::bool_>(object);
+  if (PyIndex_Check(object.ptr()) == 0 || isFlag(object)) return false;
+  if (py::reinterpret_steal<py::object>(PyNumber_Index(object.ptr()))) return true;
+  PyErr_Clear();
+  return false;
 }
 
 double numberOf(const Value& value) {
-  if (!PyNumber_Check(value.object.ptr()) || py::isinstance<py::bool_>(value.object)) value.fail("a number");
+  if (isFlag(value.object)) value.fail("a number");
   const double number = PyFloat_AsDouble(value.object.ptr());
   if (PyErr_Occurred() != nullptr) {
     PyErr_Clear();
@@ -47,7 +56,6 @@ T wholeOf(const Value& value, uint64_t minimum = 0, uint64_t maximum = std::nume
   };
   if (!isWhole(value.object)) fail();
   const auto index = py::reinterpret_steal<py::object>(PyNumber_Index(value.object.ptr()));
-  if (!index) throw py::error_already_set();
   const unsigned long long number = PyLong_AsUnsignedLongLong(index.ptr());
   if (PyErr_Occurred() != nullptr) {
     PyErr_Clear();
@@ -58,13 +66,18 @@ T wholeOf(const Value& value, uint64_t minimum = 0, uint64_t maximum = std::nume
 }
 
 std::string textOf(const Value& value) {
-  if (!py::isinstance<py::str>(value.object)) value.fail("a string");
-  return value.object.cast<std::string>();
+  Py_ssize_t size = 0;
+  const char* text = PyUnicode_Check(value.object.ptr()) ? PyUnicode_AsUTF8AndSize(value.object.ptr(), &size) : nullptr;
+  if (text == nullptr) {  // Also for half of a surrogate pair.
+    PyErr_Clear();
+    value.fail("a string");
+  }
+  return {text, static_cast<size_t>(size)};
 }
 
 bool flagOf(const Value& value) {
-  if (!py::isinstance<py::bool_>(value.object)) value.fail("True or False");
-  return value.object.cast<bool>();
+  if (!isFlag(value.object)) value.fail("True or False");
+  return PyObject_IsTrue(value.object.ptr()) == 1;
 }
 
 template <typename T, size_t N>
@@ -79,7 +92,7 @@ T choiceOf(const Value& value, const ChoiceNames<T, N>& names) {
 /// A share as a float, a count as an int, "all", or "10%".
 SeedCount seedCountOf(const Value& value) {
   if (py::isinstance<py::str>(value.object)) {
-    const std::string text = value.object.cast<std::string>();
+    const std::string text = textOf(value);
     if (text == "all") return SeedCount::all();
     if (!text.ends_with('%')) value.fail("'all', a share such as 0.1 or '10%', or a count");
     const py::object percent =
@@ -98,7 +111,7 @@ SeedCount seedCountOf(const Value& value) {
 /// "off", "auto", or (rings, passes).
 SmoothingOptions smoothingOf(const Value& value) {
   if (py::isinstance<py::str>(value.object)) {
-    const std::string text = value.object.cast<std::string>();
+    const std::string text = textOf(value);
     if (text == "off") return {};
     if (text == "auto") return {.isOn = true, .window = {}};
   }
@@ -111,8 +124,10 @@ SmoothingOptions smoothingOf(const Value& value) {
 }
 
 uint64_t checkCountOf(const Value& value) {
-  if (py::isinstance<py::str>(value.object) && value.object.cast<std::string>() == "all")
+  if (py::isinstance<py::str>(value.object)) {
+    if (textOf(value) != "all") value.fail("'all' or a count of at least 1");
     return std::numeric_limits<uint64_t>::max();
+  }
   return wholeOf<uint64_t>(value, 1);
 }
 

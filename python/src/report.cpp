@@ -97,14 +97,19 @@ py::dict dictOf(const StageSeconds& seconds) {
 py::list listOf(const std::vector<Warning>& warnings) {
   py::list list;
   for (const Warning& warning : warnings)
-    list.append(py::dict("code"_a = nameOf(warning.code), "message"_a = warning.message,
+    list.append(py::dict("code"_a = nameOf(warning.code), "message"_a = textOf(warning.message),
                          "details"_a = dictOf(warning.details)));
   return list;
 }
 
+py::str textOf(const std::string& text) {
+  return py::reinterpret_steal<py::str>(
+      PyUnicode_DecodeUTF8(text.data(), static_cast<Py_ssize_t>(text.size()), "surrogateescape"));
+}
+
 py::dict dictOf(const std::vector<ErrorDetail>& details) {
   py::dict dict;
-  for (const ErrorDetail& detail : details) dict[py::str(detail.name)] = detail.value;
+  for (const ErrorDetail& detail : details) dict[textOf(detail.name)] = textOf(detail.value);
   return dict;
 }
 

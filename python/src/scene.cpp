@@ -44,12 +44,12 @@ class SharedScene {
         },
         progress);
   }
-  /// When no other thread uses the session. For forked processes see ~SharedSession().
+  /// See SharedSession::release(), and for forked processes ~SharedSession().
   ~SharedScene() {
     if (isForkedProcess()) {
       (void)scene_.release();
     } else {
-      session_->releaseWhenIdle(scene_);
+      session_->release(std::move(scene_));
     }
   }
   SharedScene(const SharedScene&) = delete;
@@ -72,7 +72,7 @@ class SharedScene {
     std::vector<double> values;
     session_->run([&](Session&, const RunControl& control) { values = scene_->valuesAt(origins, axes, cone, control); },
                   progress);
-    return asArray(std::vector<float>(values.begin(), values.end()));
+    return singles(values, "at()");
   }
 
  private:

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
 #include <functional>
@@ -26,10 +25,6 @@ class ComputedFields {
   Result result_;
 };
 
-/// The array of a field, (items,) or (items, components), with memory of its own. Real numbers become float32 where
-/// `single` is set, and double otherwise; uint32 becomes int32, in which 0xffffffff is -1.
-[[nodiscard]] pybind11::array arrayOf(const Field& field, bool single);
-
 /// Session for Python: any number of threads may call it, one computation at a time.
 class SharedSession {
  public:
@@ -44,13 +39,15 @@ class SharedSession {
 
   /// Runs `work` when no other thread uses the session, see runInterruptibly().
   void run(const std::function<void(Session&, const RunControl&)>& work, const pybind11::object& progress);
-  /// Destroys a scene of this session when no other thread uses the session.
-  void releaseWhenIdle(std::unique_ptr<Scene>& scene);
+  /// Destroys a scene of this session, at once or, while another thread uses the session, before the next use.
+  void release(std::unique_ptr<Scene> scene);
 
  private:
   std::unique_ptr<Session> session_;
   uint32_t threadCount_;
   std::timed_mutex mutex_;
+  std::mutex releasedMutex_;  ///< Of `released_`; locked before `mutex_` is tried, never while it is waited for.
+  std::vector<std::unique_ptr<Scene>> released_;  ///< Destroyed before the session.
 };
 
 }  // namespace asdfvk::python

@@ -98,6 +98,14 @@ def test_arrays_outlive_what_they_came_from() -> None:
     assert int(seed.sum()) == count
 
 
+def test_values_beyond_float32() -> None:
+    vertices, faces = cube()
+    for scale in (1e39, 1e-50):
+        with pytest.raises(asdf_vk.InputError, match="float32") as caught:
+            asdf_vk.shape_diameter(vertices * scale, faces)
+        assert caught.value.code == "valueOutOfRange"
+
+
 @pytest.mark.parametrize("dtype", [np.float32, np.float64])
 def test_extreme_units(dtype: Any) -> None:
     vertices, faces = sphere(3)

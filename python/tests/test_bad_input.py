@@ -10,6 +10,7 @@ import pytest
 
 import asdf_vk
 from asdf_vk import _core
+from asdf_vk.compat import cgal
 from shapes import cube
 
 VERTICES, FACES = cube()
@@ -48,8 +49,8 @@ OBJECTS: list[Any] = [
     lambda: None,
     SimpleNamespace(vertices=VERTICES),
 ]
-NUMBERS: list[Any] = [float("nan"), float("inf"), -float("inf"), -1, -0.5, 0, 2**64, 10**400, "x", "", [], 1j, object()]
-TEXTS: list[Any] = [1, 1.5, "", "unknown", b"all", object(), "\0", "x" * 10000]
+NUMBERS: list[Any] = [np.array([0.1, 0.2]), np.array(0.5j), np.array("x"), np.True_, "\ud800", float("nan"), float("inf"), -float("inf"), -1, -0.5, 0, 2**64, 10**400, "x", "", [], 1j, object()]
+TEXTS: list[Any] = ["\ud800", np.array(["all"]), 1, 1.5, "", "unknown", b"all", object(), "\0", "x" * 10000]
 
 
 def with_corner(value: Any, dtype: Any) -> Any:
@@ -126,6 +127,12 @@ def wrong_options() -> Iterator[dict[str, Any]]:
     yield {"device": "no such device"}
     yield {"device": 99}
     yield {"device": 1.5}
+    yield {"device": "\ud800"}
+    yield {"device": np.float64(0)}
+    yield {"threads": np.True_}
+    yield {"require_gpu": None}
+    yield {"per": np.array(["face"])}
+    yield {"per": None}
     yield {"require_gpu": 1}
     yield {"session": 1}
     yield {"session": None, "per": "edge"}
@@ -187,16 +194,48 @@ def test_wrong_files(tmp_path: Any) -> None:
         assert fails(lambda: asdf_vk.read_mesh(path)), path
         assert fails(lambda: asdf_vk.read_fields(path)), path
         assert fails(lambda: asdf_vk.write(path, cube())), path
+    assert fails(lambda: asdf_vk.read_mesh(b"/tmp/\xff.ply"))  # type: ignore[arg-type]
+    assert fails(lambda: asdf_vk.write(tmp_path / "x.ply", cube(), format=None))  # type: ignore[arg-type]
+    assert fails(lambda: asdf_vk.write(tmp_path / "x.ply", cube(), ascii="yes"))  # type: ignore[arg-type]
     garbage = tmp_path / "garbage.ply"
     for text in (b"", b"ply", b"\xff" * 100, b"ply\nformat ascii 1.0\nelement vertex 4000000000\nend_header\n"):
         garbage.write_bytes(text)
         assert fails(lambda: asdf_vk.read_mesh(garbage))
     target = tmp_path / "x.ply"
     wrong_fields: list[Any] = [1, "x", {"a": 1}, {"a": "text"}, {"a": np.zeros((12, 3, 3))}, {"a": np.zeros(3)}]
-    wrong_fields += [{"": np.zeros(12)}, {"a b": np.zeros(12)}, {"a": np.full(12, 2**40)}, {"a": np.zeros(12, complex)}]
+    wrong_fields += [{"\ud800": np.zeros(12)}, {1: np.zeros(12)}, {"a\0": np.zeros(12)}, {"": np.zeros(12)}, {"a b": np.zeros(12)}, {"a": np.full(12, 2**40)}, {"a": np.zeros(12, complex)}]
     for fields in wrong_fields:
         assert fails(lambda: asdf_vk.write(target, cube(), fields)), fields
     assert not target.exists()
+
+
+def test_numpy_scalars_are_numbers_and_flags(reference: asdf_vk.Session) -> None:
+    numbers: dict[str, Any] = {"seeds": np.int64(5), "rays": np.int32(7), "cone_angle": np.float32(90)}
+    numbers |= {"estimate": np.False_, "random_seed": np.uint64(3)}
+    info = asdf_vk.shape_diameter(*cube(), session=reference, return_info=True, **numbers)[1]
+    assert info.seed_count == 5 and info.ray_count == 35 and info.random_seed == 3
+    half: Any = np.float32(0.5)
+    assert asdf_vk.shape_diameter(*cube(), seeds=half, return_info=True)[1].seed_count == 6
+    asdf_vk.Session(backend="reference", threads=np.int64(1), require_gpu=np.False_)  # type: ignore[arg-type]
+
+
+def test_wrong_arguments_of_the_functions_of_cgal() -> None:
+    values = np.linspace(0, 1, 12)
+
+    def segment(**options: Any) -> Callable[[], Any]:
+        return lambda: cgal.segmentation_from_sdf_values(VERTICES, FACES, values, **options)
+
+    for wrong in OBJECTS:
+        assert fails(lambda: cgal.sdf_values_postprocessing(VERTICES, FACES, wrong)), wrong
+        assert fails(lambda: cgal.segmentation_from_sdf_values(VERTICES, FACES, wrong)), wrong
+    for number in NUMBERS:
+        if not isinstance(number, int) or number != 0:
+            assert fails(segment(smoothing_lambda=number)), number
+        assert fails(segment(number_of_clusters=number)), number
+        assert fails(lambda: cgal.sdf_values(VERTICES, FACES, cone_angle=number)), number
+        assert fails(lambda: cgal.sdf_values(VERTICES, FACES, number_of_rays=number)), number
+    assert fails(segment(number_of_clusters=None)) and fails(segment(expansion="x")) and fails(segment(threads=-1))
+    assert fails(segment(progress=1)) and fails(lambda: cgal.sdf_values(VERTICES, FACES, foo=1))  # type: ignore[call-arg]
 
 
 def test_a_wrong_mesh_has_the_position_in_its_message() -> None:

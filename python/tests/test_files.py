@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import copy
+import pickle
 from pathlib import Path
 
 import numpy as np
@@ -51,6 +53,17 @@ def test_polygons_have_a_value_each(tmp_path: Path) -> None:
     assert values.shape == (6,)
     asdf_vk.write(tmp_path / "quads.ply", mesh, {"sdf": values})
     assert asdf_vk.read_mesh(tmp_path / "quads.ply").face_count == 6
+
+
+def test_a_mesh_can_be_pickled(tmp_path: Path) -> None:
+    path = tmp_path / "quads.off"
+    path.write_text("OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n4 3 2 1 0\n")
+    mesh = asdf_vk.read_mesh(path)
+    copies = pickle.loads(pickle.dumps(mesh)), copy.deepcopy(mesh)
+    for other in copies:
+        np.testing.assert_array_equal(other.vertices, mesh.vertices)
+        np.testing.assert_array_equal(other.faces, mesh.faces)
+        assert other.face_count == 2 and repr(other) == repr(mesh) == "<asdf_vk.Mesh, 4 vertices, 2 faces>"
 
 
 def test_failures_leave_nothing_behind(tmp_path: Path) -> None:

@@ -20,6 +20,71 @@ def barycentres_and_normals(vertices: NDArray[Any], faces: NDArray[Any]) -> tupl
     return (a + b + c) / 3, normals / np.linalg.norm(normals, axis=1, keepdims=True)
 
 
+def first_hits(vertices: NDArray[Any], faces: NDArray[Any], origins: NDArray[Any], axes: NDArray[Any]) -> NDArray[Any]:
+    """Distances to the first triangle along each ray, itself excluded (t > 1e-6), by Moeller and Trumbore; or inf."""
+    a = vertices[faces[:, 0]]
+    edge1, edge2 = vertices[faces[:, 1]] - a, vertices[faces[:, 2]] - a
+    found = np.full(len(origins), np.inf)
+    for i, (origin, axis) in enumerate(zip(origins, axes)):
+        p = np.cross(axis, edge2)
+        det = (edge1 * p).sum(axis=1)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            t = origin - a
+            u = (t * p).sum(axis=1) / det
+            q = np.cross(t, edge1)
+            v = (q @ axis) / det
+            distance = (edge2 * q).sum(axis=1) / det
+        inside = (u >= 0) & (v >= 0) & (u + v <= 1) & (distance > 1e-6)
+        if inside.any():
+            found[i] = distance[inside].min()
+    return found
+
+
+def largest_balls(vertices: NDArray[Any], faces: NDArray[Any], points: NDArray[Any], normals: NDArray[Any]) -> Any:
+    """Diameters of the largest balls that touch the points from inside and contain no vertex."""
+    diameters = np.full(len(points), np.inf)
+    for i, (point, normal) in enumerate(zip(points, normals)):
+        to_vertices = vertices - point
+        depth = -(to_vertices @ normal)
+        below = depth > 1e-9
+        diameters[i] = ((to_vertices[below] ** 2).sum(axis=1) / depth[below]).min()
+    return diameters
+
+
+def test_one_ray_by_numpy() -> None:
+    """trimesh `ray`, and Open3D."""
+    vertices, faces = dumbbell()
+    chosen = np.arange(0, len(faces), 37)
+    points, normals = (array[chosen] for array in barycentres_and_normals(vertices, faces))
+    theirs = first_hits(vertices, faces, points, -normals)
+    # A ray along the axis alone, which drops no hit by the direction of the face that it hits.
+    ours = asdf_vk.Scene(vertices, faces).at(points, normals, false_hit_angle=0, **AXIS_ONLY)
+    np.testing.assert_array_equal(np.isfinite(ours), np.isfinite(theirs))
+    close = np.isclose(ours, theirs, atol=1e-3)
+    assert close.mean() > 0.97  # Rays 0.005 degrees apart may hit other faces.
+
+
+def test_the_largest_ball_by_numpy() -> None:
+    """trimesh `max_sphere`, on a convex shape, where all walls oppose."""
+    vertices, faces = sphere(4)
+    points, normals = barycentres_and_normals(vertices, faces)
+    chosen = np.arange(0, len(faces), 41)
+    theirs = largest_balls(vertices, faces, points[chosen], normals[chosen])
+    np.testing.assert_allclose(asdf_vk.thickness(vertices, faces, seeds="all")[chosen], theirs, rtol=0.02)
+
+
+def test_the_mean_over_a_half_space_by_numpy() -> None:
+    """libigl: uniform directions in 180 degrees, plain mean."""
+    vertices, faces = sphere(4)
+    points, normals = (array[:1] for array in barycentres_and_normals(vertices, faces))
+    random = np.random.default_rng(1).normal(size=(400, 3))
+    axes = random / np.linalg.norm(random, axis=1, keepdims=True)
+    axes *= -np.sign(axes @ normals[0])[:, None]
+    theirs = first_hits(vertices, faces, np.repeat(points, len(axes), axis=0), axes)
+    assert np.mean(theirs[np.isfinite(theirs)]) == pytest.approx(1, rel=0.06)
+    assert asdf_vk.Scene(vertices, faces).at(points, normals, rays=1000)[0] == pytest.approx(1.717, rel=0.01)
+
+
 def test_open3d_ray_casting() -> None:
     open3d = pytest.importorskip("open3d")
     vertices, faces = dumbbell()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import gc
 import threading
+import time
 from typing import Any
 
 import numpy as np
@@ -95,6 +96,12 @@ def test_wrong_arguments() -> None:
         lambda: scene.shape_diameter(faces=[-1]),
         lambda: scene.shape_diameter(faces=np.ones(12)),
         lambda: scene.shape_diameter(faces=[[1]]),
+        lambda: scene.shape_diameter(faces=[1, 2, 1]),
+        lambda: scene.shape_diameter(faces=np.ones(12, int)),
+        lambda: scene.shape_diameter(faces=np.ones(12, np.uint8)),
+        lambda: scene.shape_diameter(faces=[]),
+        lambda: scene.shape_diameter(faces="all"),
+        lambda: asdf_vk.Scene(*cube(), progress=3),  # type: ignore[arg-type]
         lambda: scene.shape_diameter(backend="cpu"),  # type: ignore[call-overload]
         lambda: scene.shape_diameter(orient="flip"),
         lambda: asdf_vk.Scene(*cube(), orient="x"),  # type: ignore[arg-type]
@@ -118,6 +125,23 @@ def test_a_scene_keeps_what_it_needs() -> None:
     np.testing.assert_array_equal(scene.shape_diameter(), asdf_vk.shape_diameter(*sphere(3), backend="vulkan"))
 
 
+def test_a_scene_does_not_follow_changes_of_the_arrays() -> None:
+    vertices, faces = sphere(2)
+    scene = asdf_vk.Scene(vertices, faces)
+    expected = asdf_vk.shape_diameter(vertices, faces, seeds="all")
+    faces[:] = 2**30
+    vertices[:] = np.nan
+    np.testing.assert_array_equal(scene.shape_diameter(seeds="all"), expected)
+
+
+def test_close() -> None:
+    with asdf_vk.Scene(*cube()) as scene:
+        assert "12 faces" in repr(scene)
+    with pytest.raises(asdf_vk.UsageError, match="closed"):
+        scene.shape_diameter()
+    assert "closed" in repr(scene)
+
+
 def test_scenes_are_released_while_another_thread_computes() -> None:
     session = asdf_vk.Session()
     worker = threading.Thread(
@@ -127,9 +151,12 @@ def test_scenes_are_released_while_another_thread_computes() -> None:
     for scene in scenes:
         scene.shape_diameter()
     worker.start()
+    begin = time.monotonic()
     scenes.clear()
     gc.collect()
+    assert time.monotonic() - begin < 0.5  # It does not wait for the other thread.
     worker.join()
+    asdf_vk.shape_diameter(*cube(), session=session)
 
 
 def test_orientation() -> None:

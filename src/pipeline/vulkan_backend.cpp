@@ -1,6 +1,11 @@
 #include <fmt/format.h>
+#include <tbb/global_control.h>
+#include <tbb/info.h>
 
+#include <cstdlib>
 #include <map>
+#include <mutex>
+#include <string>
 #include <utility>
 
 #include "asdf_vk/error.h"
@@ -13,6 +18,33 @@
 
 namespace asdfvk {
 namespace {
+
+/// While it exists, lavapipe creates devices with as many threads as ThreadLimit allows, if that is less than the
+/// default.
+class LavapipeThreads {
+ public:
+  LavapipeThreads() : lock_(mutex()) {
+    const size_t limit = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+    isSet_ = limit < static_cast<size_t>(tbb::info::default_concurrency()) && std::getenv(kVariable) == nullptr;
+    if (isSet_) setenv(kVariable, std::to_string(limit).c_str(), 1);
+  }
+  ~LavapipeThreads() {
+    if (isSet_) unsetenv(kVariable);
+  }
+  LavapipeThreads(const LavapipeThreads&) = delete;
+  LavapipeThreads& operator=(const LavapipeThreads&) = delete;
+
+ private:
+  static constexpr const char* kVariable = "LP_NUM_THREADS";
+
+  static std::mutex& mutex() {
+    static std::mutex instance;
+    return instance;
+  }
+
+  std::scoped_lock<std::mutex> lock_;
+  bool isSet_ = false;
+};
 
 class VulkanBackend final : public Backend {
  public:
@@ -61,6 +93,7 @@ class VulkanBackend final : public Backend {
 }  // namespace
 
 std::unique_ptr<Backend> makeVulkanBackend(const SessionOptions& options) {
+  const LavapipeThreads threads;
   return std::make_unique<VulkanBackend>(options);
 }
 

@@ -30,9 +30,8 @@ from numpy.typing import ArrayLike, NDArray
 from .. import _core
 from .._arrays import MeshArgument, mesh_argument, values_array
 from .._errors import MeshWarning, error_of
-from .._functions import session_of
-from .._options import BackendOptions, Progress
-from .._session import thread_count
+from .._options import BackendOptions, Progress, checked_progress
+from .._session import session_of, thread_count
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -62,7 +61,7 @@ def sdf_values(
     number_of_rays: per face, 1 to 1024.
     postprocess: apply sdf_values_postprocessing().
     seeds: faces that cast rays: "all" as in CGAL, a share such as 0.1, or a count. The others are
-        interpolated; the segments of interpolated values are other ones than CGAL's.
+        interpolated; their segments differ from CGAL's.
     progress: called with a fraction from 0 to 1 and the name of the stage; False cancels.
     options: backend, device, require_gpu, threads, session; see asdf_vk.Session.
 
@@ -72,10 +71,14 @@ def sdf_values(
     Raises InputError, UsageError, DeviceError, CancelledError. Issues MeshWarning.
     """
     try:
+        if isinstance(cone_angle, (bool, np.bool_)):
+            raise TypeError("a flag")
         degrees = round(math.degrees(cone_angle), _ANGLE_DIGITS)
-    except (TypeError, OverflowError) as error:
+    except (TypeError, ValueError, OverflowError) as error:
         message = f"cone_angle={cone_angle!r} is not an angle in radians"
         raise error_of("optionOutOfRange", message) from error
+    if number_of_rays is None:
+        raise error_of("optionOutOfRange", "number_of_rays=None is not a number")
     described = {"cone_angle": degrees, "rays": number_of_rays, "seeds": seeds}
     if postprocess:
         described["postprocess"] = "cgal"
@@ -114,7 +117,7 @@ def sdf_values_postprocessing(
     values = values_array(sdf_values, "sdf_values", _face_count(mesh))
     if (values == _MISSING).any():
         values = np.where(values == _MISSING, np.nan, values)
-    normalized, low, high = _core.postprocess_sdf(mesh, values, thread_count(threads), progress)
+    normalized, low, high = _core.postprocess_sdf(mesh, values, thread_count(threads), checked_progress(progress))
     return normalized, (low, high)
 
 
@@ -147,6 +150,8 @@ def segmentation_from_sdf_values(
     """
     mesh = mesh_argument(vertices, faces)
     values = values_array(sdf_values, "sdf_values", _face_count(mesh))
+    if number_of_clusters is None or smoothing_lambda is None:
+        raise error_of("optionOutOfRange", "number_of_clusters and smoothing_lambda are numbers, not None")
     options = {
         "clusters": number_of_clusters,
         "smoothness": smoothing_lambda,
@@ -154,7 +159,7 @@ def segmentation_from_sdf_values(
     }
     returns_clusters = bool(output_cluster_ids)
     return _core.segment_sdf(
-        mesh, values, options, returns_clusters, thread_count(threads), progress
+        mesh, values, options, returns_clusters, thread_count(threads), checked_progress(progress)
     )
 
 
@@ -177,7 +182,7 @@ def _computed(
     if options:
         raise error_of("unknownName", f"there is no option '{next(iter(options))}' here")
     implied = {"definition": "cgal", "estimate": False}
-    return session._compute(mesh_argument(vertices, faces), {**implied, **described}, progress)
+    return session._compute(mesh_argument(vertices, faces), {**implied, **described}, checked_progress(progress))
 
 
 def _face_count(mesh: MeshArgument) -> int:
