@@ -1,13 +1,11 @@
 #include "seeds/surface_distances.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "core/check.h"
+#include "core/parallel.h"
 #include "mesh/curvature.h"
 
 namespace asdfvk {
@@ -25,17 +23,21 @@ double lengthAcross(double signedAngleRadians) {
   return std::sqrt(1 + bend * bend);
 }
 
-constexpr auto kNearestOnTop = [](const auto& a, const auto& b) { return a.distance > b.distance; };
-
 }  // namespace
 
 std::vector<float> arcLengths(const DualGraph& graph, const FaceGeometry& geometry) {
   ASDFVK_CHECK_OP(geometry.areas.size(), ==, graph.faceCount());
   std::vector<float> lengths(graph.neighbours.size());
-  tbb::parallel_for(tbb::blocked_range<uint32_t>(0, graph.faceCount(), 4096), [&](const auto& range) {
-    for (uint32_t face = range.begin(); face != range.end(); ++face)
-      for (uint32_t arc = graph.offsets[face]; arc < graph.offsets[face + 1]; ++arc)
-        lengths[arc] = limitedLength(lengthAcross(signedDihedralAngle(geometry, face, graph.neighbours[arc])));
+  // Each length is computed once and stored for both directions, with two values where two faces share two edges.
+  forEachInParallel(graph.faceCount(), [&](uint32_t face) {
+    for (uint32_t arc = graph.offsets[face]; arc < graph.offsets[face + 1]; ++arc) {
+      const uint32_t neighbour = graph.neighbours[arc];
+      if (neighbour < face) continue;
+      lengths[arc] = limitedLength(lengthAcross(signedDihedralAngle(geometry, face, neighbour)));
+      const std::span<const uint32_t> back = graph.neighboursOf(neighbour);
+      const auto [begin, end] = std::equal_range(back.begin(), back.end(), face);
+      std::fill_n(lengths.begin() + graph.offsets[neighbour] + (begin - back.begin()), end - begin, lengths[arc]);
+    }
   });
   return lengths;
 }
@@ -45,44 +47,27 @@ SurfaceDistances::SurfaceDistances(const DualGraph& graph, std::span<const float
   ASDFVK_CHECK_OP(arcLengths.size(), ==, graph.neighbours.size());
 }
 
-// A pushed face is popped soon, and its arcs are at a random place in memory.
-void SurfaceDistances::prefetchArcs(uint32_t face) const {
-  const uint32_t arc = graph_.offsets[face];
-  if (arc == graph_.neighbours.size()) return;
-  __builtin_prefetch(&graph_.neighbours[arc]);
-  __builtin_prefetch(&arcLengths_[arc]);
-}
-
-void SurfaceDistances::push(Entry entry) {
-  heap_.push_back(entry);
-  std::push_heap(heap_.begin(), heap_.end(), kNearestOnTop);
-}
-
-SurfaceDistances::Entry SurfaceDistances::pop() {
-  std::pop_heap(heap_.begin(), heap_.end(), kNearestOnTop);
-  const Entry entry = heap_.back();
-  heap_.pop_back();
-  return entry;
-}
-
 void SurfaceDistances::add(std::span<const uint32_t> seeds, float limit) {
+  struct Labels {
+    const DualGraph& graph;
+    std::span<const float> arcLengths;
+    std::span<float> distances;
+    [[nodiscard]] float at(uint32_t face) const { return distances[face]; }
+    [[nodiscard]] static uint32_t faceOf(uint32_t node) { return node; }
+    bool lower(uint32_t face, float distance, uint32_t& node) const {
+      if (distance >= distances[face]) return false;
+      node = face;
+      distances[face] = distance;
+      __builtin_prefetch(graph.neighbours.data() + graph.offsets[face]);
+      __builtin_prefetch(arcLengths.data() + graph.offsets[face]);
+      return true;
+    }
+  };
   for (uint32_t seed : seeds) {
     distances_[seed] = 0;
-    prefetchArcs(seed);
-    push({0, seed});
+    pending_.push_back({0, seed, seed});
   }
-  while (!heap_.empty()) {
-    const Entry entry = pop();
-    if (entry.distance > distances_[entry.face]) continue;
-    for (uint32_t arc = graph_.offsets[entry.face]; arc < graph_.offsets[entry.face + 1]; ++arc) {
-      const float distance = entry.distance + arcLengths_[arc];
-      float& stored = distances_[graph_.neighbours[arc]];
-      if (distance >= stored || distance >= limit) continue;
-      stored = distance;
-      prefetchArcs(graph_.neighbours[arc]);
-      push({distance, graph_.neighbours[arc]});
-    }
-  }
+  correctLabels(graph_, arcLengths_, limit, pending_, Labels{graph_, arcLengths_, distances_});
 }
 
 void SurfaceDistances::clear() { std::fill(distances_.begin(), distances_.end(), kUnreached); }

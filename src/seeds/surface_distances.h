@@ -8,6 +8,7 @@
 
 #include "mesh/dual_graph.h"
 #include "mesh/face_geometry.h"
+#include "seeds/label_correcting.h"
 
 /// Distances between faces along the arcs of the dual graph.
 namespace asdfvk {
@@ -27,9 +28,9 @@ inline constexpr float kMaxArcLength = 0x1p+20f;
 /// opposite winding is that of their normals.
 [[nodiscard]] std::vector<float> arcLengths(const DualGraph& graph, const FaceGeometry& geometry);
 
-/// The distance of each face to the nearest of a growing set of seeds: Dijkstra's algorithm from each new seed, pruned
-/// at faces with an older seed at most as far. The time of a new seed is proportional to the number of faces to which
-/// it is the nearest. The graph and the lengths must outlive it.
+/// The distance of each face to the nearest of a growing set of seeds: shortest paths from each new seed, pruned at
+/// faces with an older seed at most as far. The time of a new seed is proportional to the number of faces to which it
+/// is the nearest. The graph and the lengths must outlive it.
 class SurfaceDistances {
  public:
   static constexpr float kUnreached = std::numeric_limits<float>::infinity();
@@ -49,23 +50,25 @@ class SurfaceDistances {
     __builtin_prefetch(&distances_[face]);
     __builtin_prefetch(&graph_.offsets[face]);
   }
+  /// Prefetches the memory that the addition of the face accesses next. Some time after prefetch().
+  void prefetchArcs(uint32_t face) const {
+    __builtin_prefetch(graph_.neighbours.data() + graph_.offsets[face]);
+    __builtin_prefetch(arcLengths_.data() + graph_.offsets[face]);
+  }
 
   /// Removes all seeds.
   void clear();
 
- private:
-  struct Entry {
-    float distance;
-    uint32_t face;
-  };
-  void prefetchArcs(uint32_t face) const;
-  void push(Entry entry);
-  [[nodiscard]] Entry pop();
+  [[nodiscard]] const DualGraph& graph() const { return graph_; }
+  [[nodiscard]] std::span<const float> arcLengths() const { return arcLengths_; }
+  /// The distances in place, for a caller that adds several seeds at once.
+  [[nodiscard]] std::span<float> values() { return distances_; }
 
+ private:
   const DualGraph& graph_;
   std::span<const float> arcLengths_;
-  std::vector<float> distances_;  ///< #F
-  std::vector<Entry> heap_;       ///< Empty between calls; a member to reuse its memory.
+  std::vector<float> distances_;      ///< #F
+  std::vector<PendingFace> pending_;  ///< Empty between calls; a member to reuse its memory.
 };
 
 /// The faces around a face by ascending distance (Dijkstra's algorithm), for one centre after another; the memory is
@@ -75,10 +78,7 @@ class SurfaceBall {
   /// arcLengths: aligned with graph.neighbours, positive.
   SurfaceBall(const DualGraph& graph, std::span<const float> arcLengths);
 
-  struct Member {
-    float distance = 0;  ///< From the centre.
-    uint32_t face = 0;
-  };
+  using Member = FaceDistance;  ///< With the distance from the centre.
 
   /// Starts again around `centre`, which is the first member.
   void startAt(uint32_t centre);
