@@ -1,4 +1,5 @@
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <cmath>
@@ -59,7 +60,7 @@ std::vector<uint32_t> blueNoise(const SeedDomain& domain, std::span<const float>
     distances.add(existing, startRadius);
     ThrownDarts darts = throwDarts(waiting, count, startRadius, distances);
     if (!darts.leaveGaps || startRadius == SurfaceDistances::kUnreached) {
-      std::sort(darts.faces.begin(), darts.faces.end());
+      tbb::parallel_sort(darts.faces.begin(), darts.faces.end());
       return std::move(darts.faces);
     }
     startRadius = growthCount < kMaxGrowthCount ? kRadiusGrowth * startRadius : SurfaceDistances::kUnreached;
