@@ -100,3 +100,21 @@ TEST_CASE("on a cube the arcs across its edges are long and the others are 1") {
   CHECK(edge > 100);
   CHECK(flat + edge == static_cast<std::ptrdiff_t>(lengths.size()));
 }
+
+TEST_CASE("both directions of an arc have the length of their angle, also where faces share edges more than once") {
+  // Faces 0 and 1 share three edges, one of them with two further faces.
+  Mesh mesh = book(25);
+  mesh.vertices.push_back({2, 3, 1});
+  mesh.faces = {{0, 1, 2}, {0, 2, 1}, {0, 1, 3}, {1, 0, 4}};
+  const Surface folded(mesh);
+  for (const Surface* surface : {&folded, &generatedSurface("hand", 1000)}) {
+    const std::vector<float> lengths = arcLengths(surface->graph, surface->geometry);
+    for (uint32_t face = 0; face < surface->graph.faceCount(); ++face) {
+      for (uint32_t arc = surface->graph.offsets[face]; arc < surface->graph.offsets[face + 1]; ++arc) {
+        const double angle = signedDihedralAngle(surface->geometry, face, surface->graph.neighbours[arc]) / kDegree;
+        const double bend = angle / (angle > 0 ? kConcaveAngleDegrees : kConvexAngleDegrees);
+        CHECK(lengths[arc] == doctest::Approx(std::sqrt(1 + bend * bend)).epsilon(1e-6));
+      }
+    }
+  }
+}

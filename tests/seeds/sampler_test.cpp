@@ -1,6 +1,5 @@
 // Properties of every sampler.
 #include <doctest/doctest.h>
-#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <iterator>
@@ -8,6 +7,7 @@
 #include <set>
 #include <string>
 
+#include "asdf_vk/run_control.h"
 #include "core/check.h"
 #include "seeds/samplers.h"
 #include "seeds/surface.h"
@@ -143,8 +143,13 @@ TEST_CASE("seeds are the same on every run and any number of threads, and differ
     const Seeds seeds = sample(torus.domain(), 1500, {}, 11);
     CHECK(seeds == sample(torus.domain(), 1500, {}, 11));
     CHECK(seeds != sample(torus.domain(), 1500, {}, 12));
-    const tbb::global_control oneThread(tbb::global_control::max_allowed_parallelism, 1);
-    CHECK(seeds == sample(torus.domain(), 1500, {}, 11));
+    const Seeds further = sample(torus.domain(), 1500, seeds, 11);
+    for (uint32_t threadCount : {1u, 2u, 7u}) {
+      CAPTURE(threadCount);
+      const ThreadLimit limit(threadCount);
+      CHECK(seeds == sample(torus.domain(), 1500, {}, 11));
+      CHECK(further == sample(torus.domain(), 1500, seeds, 11));
+    }
   });
 }
 

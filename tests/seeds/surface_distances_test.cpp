@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/random.h"
 #include "seeds/surface.h"
@@ -36,6 +37,25 @@ TEST_CASE("distances to a growing set of seeds equal the definition up to the li
     distances.clear();
     CHECK(distances.at(seeds[0]) == SurfaceDistances::kUnreached);
   }
+}
+
+TEST_CASE("distances over more arcs than the queue visits, with arcs of very different lengths, equal the definition") {
+  const Surface surface(shapes::joined(strip(1000), generatedSurface("torus", 20'000).mesh));
+  std::vector<float> lengths(surface.graph.neighbours.size());
+  for (uint32_t face = 0; face < surface.graph.faceCount(); ++face) {
+    for (uint32_t arc = surface.graph.offsets[face]; arc < surface.graph.offsets[face + 1]; ++arc) {
+      const uint64_t sum = uint64_t{face} + surface.graph.neighbours[arc];
+      lengths[arc] = static_cast<float>(std::exp2(20 * Random(sum).real() - 10));
+    }
+  }
+  const std::vector<uint32_t> seeds{2, 5000, 900};
+  SurfaceDistances distances(surface.graph, lengths);
+  distances.add(seeds, SurfaceDistances::kUnreached);
+  const std::vector<float> expected = distancesToNearest(surface.graph, lengths, seeds);
+  size_t differentCount = 0;
+  for (uint32_t face = 0; face < surface.graph.faceCount(); ++face)
+    differentCount += distances.at(face) != expected[face];
+  CHECK(differentCount == 0);
 }
 
 TEST_CASE("each ball lists all faces of the component once, nearest first") {
