@@ -94,6 +94,8 @@ class Throwing {
     const float radius = lowestOf(level);
     for (size_t i = 0; i < tried.size(); ++i) {
       if (i + kPrefetchDistance < tried.size()) distances_.prefetch(tried[i + kPrefetchDistance]);
+      if (const size_t soon = i + kPrefetchDistance / 2; soon < tried.size() && distances_.at(tried[soon]) >= radius)
+        distances_.prefetchArcs(tried[soon]);
       const uint32_t face = tried[i];
       if (const float distance = distances_.at(face); distance < radius) {
         wait(face, distance);
