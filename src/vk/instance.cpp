@@ -72,6 +72,8 @@ Instance::Instance(const InstanceOptions& options) {
   requireSuccess(vkCreateInstance(&info, nullptr, &instance_), "creating a Vulkan instance");
   volkLoadInstance(instance_);
   if (!options.validation) return;
+  destroyMessenger_ = reinterpret_cast<PFN_vkDestroyDebugUtilsMessengerEXT>(
+      vkGetInstanceProcAddr(instance_, "vkDestroyDebugUtilsMessengerEXT"));
   const VkResult result = vkCreateDebugUtilsMessengerEXT(instance_, &messenger, nullptr, &messenger_);
   if (result == VK_SUCCESS) return;
   vkDestroyInstance(instance_, nullptr);
@@ -79,7 +81,7 @@ Instance::Instance(const InstanceOptions& options) {
 }
 
 Instance::~Instance() {
-  if (messenger_) vkDestroyDebugUtilsMessengerEXT(instance_, messenger_, nullptr);
+  if (messenger_) destroyMessenger_(instance_, messenger_, nullptr);
   vkDestroyInstance(instance_, nullptr);
 }
 

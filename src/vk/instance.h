@@ -40,6 +40,8 @@ class Instance {
  private:
   VkInstance instance_ = VK_NULL_HANDLE;
   VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
+  /// Of this instance: Volk's function is null after the creation of an instance without the extension.
+  PFN_vkDestroyDebugUtilsMessengerEXT destroyMessenger_ = nullptr;
   std::shared_ptr<ValidationLog> log_;
 };
 

@@ -96,6 +96,18 @@ TEST_CASE("control: the validation layers report a missing barrier and a wrong c
   CHECK(all.find("VUID-VkBufferCreateInfo-size-00912") != std::string::npos);
 }
 
+TEST_CASE("an instance without validation does not disturb one with validation") {
+  std::shared_ptr<ValidationLog> log;
+  {
+    const Instance validated({.validation = true});
+    log = validated.validationLog();
+    const Instance plain;
+    CHECK_FALSE(plain.validationLog());
+    CHECK(validated.physicalDevices().size() == plain.physicalDevices().size());
+  }
+  CHECK(log->messages().empty());
+}
+
 TEST_CASE("a buffer beyond the device's limits is an error that names the limit") {
   const test::ValidatedDevice device;
   DeviceFacts small = device->facts();
