@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 
@@ -145,6 +146,15 @@ void addToWide(DeviceBvh& bvh, const FaceGeometry& geometry) {
 void DeviceBvh::addNormalBounds(const FaceGeometry& geometry) {
   addToBinary(*this, geometry);
   addToWide(*this, geometry);
+}
+
+uint64_t maxBlockCount(const Bvh& bvh, BvhLayout layout) {
+  const uint64_t innerCount = bvh.nodes.size() / 2;  // Each inner node has two children.
+  // Each wide node replaces an inner node.
+  const uint64_t normalBlockCount = kWideChildCount * sizeof(uint32_t) / kDeviceBlockByteCount;
+  const uint64_t perNode = layout == BvhLayout::Binary ? kBvhNodeTexelCount : kWideNodeTexelCount + normalBlockCount;
+  return std::max(std::max<uint64_t>(1, innerCount) * perNode,
+                  uint64_t{bvh.primitiveFaces.size()} * kBvhTriangleTexelCount);
 }
 
 DeviceBvh encodeDeviceBvh(const Bvh& bvh, const TriangleMesh& mesh, const FaceGeometry& geometry, BvhLayout layout) {

@@ -40,6 +40,12 @@ struct DeviceBvh {
   }
 };
 
+inline constexpr size_t kDeviceBlockByteCount = 16;  ///< A texel, or a uvec4 of a storage buffer.
+
+/// Upper bound of the blocks of the largest array of encodeDeviceBvh(), bounds of normals included. Leaves have at most
+/// kMaxWideLeafTriangleCount triangles.
+[[nodiscard]] uint64_t maxBlockCount(const Bvh& bvh, BvhLayout layout);
+
 /// Binary: a Bvh whose root is a leaf becomes one node with that leaf as both children, the right one with a box that
 /// no ray enters. Throws Error{DeviceLimit} for more triangles than a reference can index.
 [[nodiscard]] DeviceBvh encodeDeviceBvh(const Bvh& bvh, const TriangleMesh& mesh, const FaceGeometry& geometry,

@@ -25,7 +25,6 @@ constexpr double kRoundsEndBeforeCheck = 0.6;
 void describeBackend(Report& report, const NamedBackend& named) {
   report.backend = named.name;
   report.device = named.backend->deviceName();
-  report.traceVariant = named.backend->traceVariant();
   report.runsOnCpu = named.backend->runsOnCpu();
 }
 
@@ -168,9 +167,9 @@ void computeOn(const ComputationTask& task, const Options& options, StageClock& 
   const double roundsEnd = options.checkCount ? kRoundsEndBeforeCheck : 1;
   const bool keepsNodes =
       !isLast || options.checkCount || options.keepsScene || sightNeedsNodes(options, backend.isReference());
-  RoundsResult rounds = runRounds(
-      computation, std::make_unique<SeedTracing>(computation, tracers, keepsNodes ? nullptr : &sharedScene->bvh),
-      control.part(0, roundsEnd));
+  auto tracing = std::make_unique<SeedTracing>(computation, tracers, keepsNodes ? nullptr : &sharedScene->bvh);
+  report.traceVariant = tracing->traceVariant();
+  RoundsResult rounds = runRounds(computation, std::move(tracing), control.part(0, roundsEnd));
   describeRounds(report, rounds);
   if (computation.keepsMissing()) removeMissing(prepared, rounds);
   if (rounds.errors) removeErrorsOutside(prepared, domain, *rounds.errors);

@@ -32,6 +32,7 @@ std::shared_ptr<SceneTracer> SceneTracers::make(const ConeOptions& options, cons
   {
     const auto scope = clock.time(stage);
     made->tracer = backend_.makeTracer(scene_, made->cone, needs);
+    made->variant = backend_.traceVariant();
   }
   clock.transfer(stage, Stage::Encode, made->tracer->encodeSeconds());
   return made;

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "cone/cone.h"
@@ -17,6 +18,7 @@ struct SceneTracer {
   Cone cone;
   TracerNeeds needs;
   std::unique_ptr<ConeTracer> tracer;
+  std::optional<TraceVariant> variant = {};  ///< Of the kernels; unset without Vulkan.
 };
 
 /// The tracers of one scene. The last ones used are kept, because making one encodes and uploads the hierarchy.

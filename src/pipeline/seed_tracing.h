@@ -22,6 +22,8 @@ class SeedTracing {
   SeedTracing(const SeedTracing&) = delete;
   SeedTracing& operator=(const SeedTracing&) = delete;
 
+  /// Of the kernels; unset without Vulkan.
+  [[nodiscard]] const std::optional<TraceVariant>& traceVariant() const { return tracer_->variant; }
   /// Adds `faces`, none of which may be in `traced`. With Measure::Thickness also their thickness.
   void trace(std::span<const uint32_t> faces, TracedSeeds& traced, const RunControl& control);
   /// Reserves memory for further seeds, so that growing does not copy the hits, which are most of the memory.

@@ -64,6 +64,7 @@ class VulkanBackend final : public Backend {
 
   [[nodiscard]] std::unique_ptr<ConeTracer> makeTracer(const TraceScene& scene, const Cone& cone,
                                                        const TracerNeeds& needs) override {
+    choice_ = traceChoiceFor(facts(), request_, scene.bvh);
     const ConeKernelRequest request{static_cast<uint32_t>(cone.directions.size()), needs.hits, choice_, cone.definition,
                                     needs.balls};
     std::unique_ptr<VulkanConeKernel>& kernel = kernels_[request];

@@ -77,6 +77,12 @@ std::string_view toString(DeviceKind kind) {
   return "other";
 }
 
+bool prefersTexels(const DeviceFacts& device) {
+  constexpr uint64_t kTexelByteCount = 16;
+  return device.kind == DeviceKind::Cpu &&
+         device.maxTexelBufferElements >= device.maxStorageBufferRange / kTexelByteCount;
+}
+
 DeviceChoice chooseDevice(std::span<const DeviceFacts> devices, const DeviceRequest& request) {
   DeviceChoice choice;
   for (uint32_t i = 0; i < devices.size(); ++i) {

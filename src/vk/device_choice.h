@@ -30,6 +30,12 @@ struct DeviceFacts {
   uint64_t maxMemoryAllocationSize = 0;  ///< Bytes.
 };
 
+/// Whether kernels read large read-only arrays as texels instead of from storage buffers: on CPU devices, where that is
+/// faster, unless storage buffers can be larger. Random loads of 16 bytes from texel buffers are up to 3 times slower
+/// than from storage buffers on NVIDIA GPUs since Volta, and equal on AMD GPUs (Aaltonen,
+/// https://github.com/sebbbi/perftest); many devices allow 65,536 texels only.
+[[nodiscard]] bool prefersTexels(const DeviceFacts& device);
+
 /// llvmpipe silently ends all loops of an invocation after this many iterations, counted for the lanes of a subgroup
 /// together (lp_bld_ir_common.h of Mesa, LP_MAX_TGSI_LOOP_ITERATIONS). Kernels on CPU devices stay below this limit.
 inline constexpr uint32_t kCpuDeviceLoopIterationCount = 65'535;

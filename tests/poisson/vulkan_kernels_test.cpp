@@ -234,9 +234,40 @@ TEST_CASE("a system that exceeds a limit of the device is refused") {
   CHECK_FALSE(fits(1'000'000, 36'000'000, 90));
   CHECK_FALSE(fits(11'000'000, 100, 93));  // Loop iterations.
   CHECK(fits(1000, 3000, 93));
-  facts.maxTexelBufferElements = 65'536;
-  CHECK(fits(32'768, 0, 3));
-  CHECK_FALSE(fits(32'769, 0, 3));
+  facts.maxTexelBufferElements = 65'536;  // Storage buffers reach further: 32 bytes per row.
+  CHECK(fits(4u << 20, 0, 3));
+  CHECK_FALSE(fits((4u << 20) + 1, 0, 3));
+  facts.maxTexelBufferElements = 1u << 27;
+  facts.kind = DeviceKind::Discrete;
+  CHECK_FALSE(fits((4u << 20) + 1, 0, 3));
+}
+
+TEST_CASE("rows are read from a storage buffer where the device allows few texels, with the same results") {
+  const Instance instance({.validation = true});
+  const VkPhysicalDevice physical = instance.physicalDevices().front();
+  const PoissonSystem system = unevenSystem();
+  const ScaledSystem scaled(system);
+  const std::vector<double> residual = randomResidual(system.unknownCount());
+  const UnsetVector<float> b = scaled.scaleResidual(residual, KernelTwins{system}.norm(residual));
+  std::vector<std::vector<float>> solutions;
+  for (const uint64_t texelCount : {uint64_t{100}, describeDevice(physical).maxTexelBufferElements}) {
+    DeviceFacts facts = describeDevice(physical);
+    facts.maxTexelBufferElements = texelCount;
+    const Device device(physical, facts);
+    const VulkanMatrix matrix(device, scaled);
+    CHECK(matrix.storageRows.byteCount() == (prefersTexels(facts) ? 16 : 32 * uint64_t{system.unknownCount()}));
+    const VulkanCgKernels cgKernels(device);
+    VulkanCg cg(device, cgKernels, matrix, b, 0);
+    cg.advance(5);
+    const VulkanJacobiKernel jacobiKernel(device);
+    VulkanJacobi jacobi(device, jacobiKernel, matrix, b);
+    jacobi.advance(7);
+    solutions.push_back(cg.solution());
+    const std::vector<float> byJacobi = jacobi.solution();
+    solutions.back().insert(solutions.back().end(), byJacobi.begin(), byJacobi.end());
+  }
+  CHECK(solutions[0] == solutions[1]);
+  CHECK(instance.validationLog()->messages().empty());
 }
 
 TEST_CASE("every system has at least one workgroup and at most kMaxPoissonWorkgroupCount") {

@@ -159,7 +159,9 @@ TEST_CASE("hostile cones run into the device's own guard, are redone and agree" 
   std::vector<double> values(seeds.size()), reference(seeds.size());
   makeReferenceTracer(traced.scene(), cone)->trace(seeds, {reference}, {});
   forEveryVariant(Fetches::TexelOnly, [&](const VulkanTraceChoice& choice) {
-    const VulkanConeKernel kernel(*device, {30, false, choice});
+    VulkanTraceChoice fitting = choice;
+    if (device->facts().maxTexelBufferElements < 3 * needles.faces.size()) fitting.fetch = BvhFetch::Storage;
+    const VulkanConeKernel kernel(*device, {30, false, fitting});
     const TraceStatistics statistics = makeVulkanTracer(kernel, traced.scene(), cone)->trace(seeds, {values}, {});
     if (device->facts().kind == DeviceKind::Cpu) CHECK(statistics.redoneConeCount > 0);
     CHECK(differingCount(values, reference, traced.geometry.bounds.diagonal()) <= 1);
@@ -245,19 +247,56 @@ TEST_CASE("the kernel is chosen by the class of the device, or as requested") {
   facts.kind = DeviceKind::Cpu;
   CHECK(defaultTraceChoice(facts).kernel == TraceKernel::Seed);
   CHECK(defaultTraceChoice(facts).bvh == BvhLayout::Wide);
+  facts.maxTexelBufferElements = 1u << 27;
+  facts.maxStorageBufferRange = 1u << 27;
+  CHECK(defaultTraceChoice(facts).fetch == BvhFetch::Texel);
+  facts.maxTexelBufferElements = 65'536;
+  CHECK(defaultTraceChoice(facts).fetch == BvhFetch::Storage);
   facts.kind = DeviceKind::Discrete;
+  facts.maxTexelBufferElements = 1u << 27;
   for (const uint32_t size : {8u, 32u, 64u}) {
     facts.subgroupSize = size;
-    CHECK(defaultTraceChoice(facts).fetch == BvhFetch::Texel);
+    CHECK(defaultTraceChoice(facts).fetch == BvhFetch::Storage);
+    CHECK(defaultTraceChoice(facts).bvh == BvhLayout::Wide);
     const VulkanTraceChoice best = defaultTraceChoice(facts);
     CHECK(traceChoiceFor(facts, {}) == best);
     CHECK(traceChoiceFor(facts, {.fetch = BvhFetch::Storage}) ==
           VulkanTraceChoice{best.kernel, best.bvh, BvhFetch::Storage});
+    CHECK(traceChoiceFor(facts, {.fetch = BvhFetch::Texel}).fetch == BvhFetch::Texel);
   }
   const test::ValidatedDevice device;
   CHECK(VulkanConeKernel(*device, {30}).choice() == defaultTraceChoice(device->facts()));
   const VulkanTraceChoice packet{TraceKernel::Packet, BvhLayout::Wide, BvhFetch::Storage};
   CHECK(VulkanConeKernel(*device, {30, false, packet}).choice() == packet);
+}
+
+TEST_CASE("a hierarchy that exceeds the limit of one fetch is read by the other, unless a fetch is requested") {
+  const TracedMesh traced(generateShape("torus", 2000).mesh);
+  for (const BvhLayout layout : {BvhLayout::Binary, BvhLayout::Wide}) {
+    const uint64_t blockCount = maxBlockCount(traced.scene().bvh, layout);
+    DeviceBvh encoded = encodeDeviceBvh(traced.scene().bvh, traced.mesh, traced.geometry, layout);
+    encoded.addNormalBounds(traced.geometry);
+    const uint64_t nodeByteCount = encoded.nodeBytes().size() + std::as_bytes(std::span(encoded.childNormals)).size();
+    CHECK(nodeByteCount <= 16 * blockCount);
+    CHECK(encoded.triangles.size() * sizeof(DeviceTriangle) <= 16 * blockCount);
+    CHECK(blockCount <= 6 * encoded.triangles.size());
+
+    DeviceFacts facts;
+    const auto fetchWith = [&](uint64_t texelCount, uint64_t storageByteCount, std::optional<BvhFetch> requested) {
+      facts.maxTexelBufferElements = texelCount;
+      facts.maxStorageBufferRange = storageByteCount;
+      return traceChoiceFor(facts, {.bvh = layout, .fetch = requested}, traced.scene().bvh).fetch;
+    };
+    facts.kind = DeviceKind::Discrete;
+    CHECK(fetchWith(blockCount, 16 * blockCount, {}) == BvhFetch::Storage);
+    CHECK(fetchWith(blockCount, 16 * blockCount - 1, {}) == BvhFetch::Texel);
+    CHECK(fetchWith(blockCount - 1, 16 * blockCount - 1, {}) == BvhFetch::Storage);
+    CHECK(fetchWith(blockCount, 100, BvhFetch::Storage) == BvhFetch::Storage);
+    facts.kind = DeviceKind::Cpu;
+    CHECK(fetchWith(blockCount, 16 * blockCount, {}) == BvhFetch::Texel);
+    CHECK(fetchWith(blockCount - 1, 16 * blockCount, {}) == BvhFetch::Storage);
+    CHECK(fetchWith(100, 16 * blockCount, BvhFetch::Texel) == BvhFetch::Texel);
+  }
 }
 
 TEST_CASE("a device without the subgroup operations of a kernel is refused with a remedy") {
@@ -341,7 +380,7 @@ TEST_CASE("a mesh beyond a device's limits is refused with a remedy") {
   DeviceFacts facts = describeDevice(physical);
   facts.maxTexelBufferElements = 100;
   const Device small(physical, facts);
-  const VulkanConeKernel kernel(small, {30});
+  const VulkanConeKernel kernel(small, {30, false, VulkanTraceChoice{}});
   const TracedMesh traced(generateShape("sphere", 500).mesh);
   const Cone cone = makeCone({});
   CHECK_THROWS_WITH_AS((void)makeVulkanTracer(kernel, traced.scene(), cone), doctest::Contains("texels in one buffer"),

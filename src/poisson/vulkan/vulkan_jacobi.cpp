@@ -15,7 +15,7 @@ namespace {
 constexpr double kJacobiMinReduction = 1e-2;
 // Fixed: the end of the iteration depends on it, and the same input must give the same bits.
 constexpr uint32_t kBatch = 32;
-constexpr uint32_t kBindingCount = 8;
+constexpr uint32_t kBindingCount = 9;
 
 Buffer uploadZeros(const Device& device, size_t count) {
   return uploadBuffer(device, std::as_bytes(std::span<const float>(std::vector<float>(count, 0.0f))),
@@ -31,7 +31,8 @@ std::array<Binding, kBindingCount> bind(const VulkanMatrix& matrix, const Buffer
           matrix.residualWeights,
           from,
           to,
-          sums};
+          sums,
+          matrix.storageRows};
 }
 
 class VulkanJacobiSolver final : public PoissonSolver {

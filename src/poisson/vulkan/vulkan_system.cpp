@@ -17,6 +17,7 @@ namespace {
 // has lanes to fill and adds 256 sums in one step; a CPU device has neither advantage.
 constexpr uint32_t kGpuLaneCount = 256, kGpuRowsPerLane = 4;
 constexpr uint32_t kCpuLaneCount = 32, kCpuRowsPerLane = 32;
+constexpr uint64_t kRowBlockByteCount = sizeof(PoissonRow) / kPoissonRowTexelCount;
 // The rest is a margin for loops that the compiler adds.
 constexpr uint64_t kMaxLoopIterationCount = kCpuDeviceLoopIterationCount / 10 * 9;
 
@@ -49,10 +50,11 @@ void requireSystemFits(const DeviceFacts& facts, uint64_t unknownCount, uint64_t
     throw Error(ErrorCode::EquationLimit, fmt::format("the Poisson system of {} unknowns exceeds a limit of {}: {}",
                                                       unknownCount, facts.name, reason));
   };
-  const uint64_t texelCount = unknownCount * kPoissonRowTexelCount;
-  if (texelCount > facts.maxTexelBufferElements)
-    refuse(fmt::format("{} texels in one buffer, at most {}", texelCount, facts.maxTexelBufferElements));
-  const uint64_t byteCount = sizeof(uint32_t) * std::max(unknownCount, tailCount);
+  const uint64_t blockCount = unknownCount * kPoissonRowTexelCount;
+  if (prefersTexels(facts) && blockCount > facts.maxTexelBufferElements)
+    refuse(fmt::format("{} texels in one buffer, at most {}", blockCount, facts.maxTexelBufferElements));
+  const uint64_t byteCount = std::max(sizeof(uint32_t) * std::max(unknownCount, tailCount),
+                                      prefersTexels(facts) ? 0 : blockCount * kRowBlockByteCount);
   if (byteCount > facts.maxStorageBufferRange)
     refuse(fmt::format("{} MiB in one buffer, at most {}", (byteCount >> 20) + 1, facts.maxStorageBufferRange >> 20));
   const uint64_t laneCount = poissonLaneCount(facts);
@@ -70,14 +72,21 @@ ComputePipelineDescription describePoissonKernel(const DeviceFacts& facts, const
                                                  bool withMatrix) {
   std::vector<VkDescriptorType> bindings(bindingCount, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
   if (withMatrix) bindings[0] = VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER;
-  return {name, spirv, bindings, sizeof(PoissonPush), {/* kLaneCount= */ poissonLaneCount(facts)}};
+  return {name,
+          spirv,
+          bindings,
+          sizeof(PoissonPush),
+          {/* kLaneCount= */ poissonLaneCount(facts), /* kFetchesTexels= */ prefersTexels(facts) ? VK_TRUE : VK_FALSE}};
 }
 
 VulkanMatrix::VulkanMatrix(const Device& device, const ScaledSystem& system) {
   requireSystemFits(device.facts(), system.unknownCount(), system.tailColumns().size(), system.longestRow());
   grid = choosePoissonGrid(device.facts(), system.unknownCount());
-  rows = uploadArray(device, system.rows(), VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT);
-  rowTexels = TexelView(device, rows);
+  const bool asTexels = prefersTexels(device.facts());
+  const std::span<const std::byte> rows = std::as_bytes(std::span(system.rows())), none;
+  texelRows = uploadBuffer(device, asTexels ? rows : none, VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT);
+  rowTexels = TexelView(device, texelRows);
+  storageRows = uploadBuffer(device, asTexels ? none : rows, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
   tailColumns = uploadArray(device, system.tailColumns(), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
   tailCouplings = uploadArray(device, system.tailCouplings(), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
   residualWeights = uploadArray(device, system.residualWeights(), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);

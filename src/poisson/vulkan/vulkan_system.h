@@ -33,19 +33,18 @@ void requireSystemFits(const DeviceFacts& facts, uint64_t unknownCount, uint64_t
 inline constexpr VkBufferUsageFlags kPoissonVectorUsage =
     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
 
-/// The pipeline of a Poisson kernel. withMatrix: its first three bindings are those of
-/// shaders/poisson/matrix.glsl.
+/// The pipeline of a Poisson kernel. withMatrix: it has the bindings of shaders/poisson/matrix.glsl.
 [[nodiscard]] ComputePipelineDescription describePoissonKernel(const DeviceFacts& facts, const std::string& name,
                                                                std::span<const uint32_t> spirv, uint32_t bindingCount,
                                                                bool withMatrix);
 
-/// The matrix on the device, bindings 0 to 2 of shaders/poisson/matrix.glsl, and the residual weights.
+/// The matrix on the device, bindings 0 to 2 and 8 of shaders/poisson/matrix.glsl, and the residual weights.
 struct VulkanMatrix {
   /// Throws as requireSystemFits().
   VulkanMatrix(const Device& device, const ScaledSystem& system);
 
   PoissonGrid grid;
-  Buffer rows;
+  Buffer texelRows, storageRows;  ///< One of them holds the rows.
   TexelView rowTexels;
   Buffer tailColumns, tailCouplings, residualWeights;
 };

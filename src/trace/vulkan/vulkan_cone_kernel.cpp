@@ -85,8 +85,6 @@ constexpr uint64_t kMaxChunkConeCount = 1u << 17;
 constexpr uint64_t kMaxHitBufferByteCount = 32u << 20;
 constexpr uint64_t kMaxLengthBufferByteCount = 16u << 20;
 
-constexpr size_t kBlockByteCount = 16;  // A texel, or a uvec4 of a storage buffer.
-
 constexpr VkBufferUsageFlags kTexelUsage = VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT;
 constexpr VkBufferUsageFlags kStorageUsage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
 
@@ -174,7 +172,7 @@ ConeBuffers::ConeBuffers(const VulkanConeKernel& kernel, const DeviceBvh& bvh, c
       results(kernel.device(), largestConeChunk(kernel) * sizeof(uint32_t), kStorageUsage, MemoryKind::HostVisible),
       hits(kernel.device(), hitBufferByteCount(kernel), kStorageUsage, MemoryKind::HostVisible),
       childNormals(uploadChildNormals(kernel, bvh)),
-      childNormalStart(static_cast<uint32_t>(bvh.nodeBytes().size() / kBlockByteCount)),
+      childNormalStart(static_cast<uint32_t>(bvh.nodeBytes().size() / kDeviceBlockByteCount)),
       nothing_(kernel.device(), 16, kTexelUsage | kStorageUsage, MemoryKind::DeviceLocal),
       nodeTexels_(kernel.device(), fetchesTexels(kernel) ? nodes : nothing_),
       triangleTexels_(kernel.device(), fetchesTexels(kernel) ? triangles : nothing_),

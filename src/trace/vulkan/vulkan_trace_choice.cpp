@@ -10,11 +10,10 @@ namespace asdfvk {
 namespace {
 
 // The fastest variant by class of device, independent of the share of seeds and the number of rays.
-constexpr VulkanTraceChoice kCpuDevice{TraceKernel::Seed, BvhLayout::Wide, BvhFetch::Texel};      // measured
-constexpr VulkanTraceChoice kSmallSubgroup{TraceKernel::Seed, BvhLayout::Wide, BvhFetch::Texel};  // as CPU devices
+constexpr VulkanTraceChoice kCpuDevice{TraceKernel::Seed, BvhLayout::Wide, BvhFetch::Texel};  // measured
 // Not measured yet.
-constexpr VulkanTraceChoice kSubgroupOf32{TraceKernel::Ray, BvhLayout::Binary, BvhFetch::Texel};
-constexpr VulkanTraceChoice kSubgroupOf64{TraceKernel::Ray, BvhLayout::Binary, BvhFetch::Texel};
+constexpr VulkanTraceChoice kSmallSubgroup{TraceKernel::Seed, BvhLayout::Wide, BvhFetch::Storage};
+constexpr VulkanTraceChoice kLargeSubgroup{TraceKernel::Ray, BvhLayout::Wide, BvhFetch::Storage};
 
 constexpr uint32_t kMaxSmallSubgroup = 16;
 
@@ -51,14 +50,27 @@ uint32_t roundUp(uint32_t value, uint32_t multiple) { return (value + multiple -
 }  // namespace
 
 VulkanTraceChoice defaultTraceChoice(const DeviceFacts& device) {
-  if (device.kind == DeviceKind::Cpu) return kCpuDevice;
+  if (device.kind == DeviceKind::Cpu)
+    return {kCpuDevice.kernel, kCpuDevice.bvh, prefersTexels(device) ? BvhFetch::Texel : BvhFetch::Storage};
   if (device.subgroupSize <= kMaxSmallSubgroup) return kSmallSubgroup;
-  return device.subgroupSize <= 32 ? kSubgroupOf32 : kSubgroupOf64;
+  return kLargeSubgroup;
 }
 
 VulkanTraceChoice traceChoiceFor(const DeviceFacts& device, const VulkanTraceRequest& request) {
   const VulkanTraceChoice best = defaultTraceChoice(device);
   return {request.kernel.value_or(best.kernel), request.bvh.value_or(best.bvh), request.fetch.value_or(best.fetch)};
+}
+
+VulkanTraceChoice traceChoiceFor(const DeviceFacts& device, const VulkanTraceRequest& request, const Bvh& bvh) {
+  VulkanTraceChoice choice = traceChoiceFor(device, request);
+  const uint64_t blockCount = maxBlockCount(bvh, choice.bvh);
+  const auto fits = [&](BvhFetch fetch) {
+    return fetch == BvhFetch::Texel ? blockCount <= device.maxTexelBufferElements
+                                    : blockCount <= device.maxStorageBufferRange / kDeviceBlockByteCount;
+  };
+  const BvhFetch other = choice.fetch == BvhFetch::Texel ? BvhFetch::Storage : BvhFetch::Texel;
+  if (!request.fetch && !fits(choice.fetch) && fits(other)) choice.fetch = other;
+  return choice;
 }
 
 VariantNames<TraceKernel> kernelNames() { return kKernels; }

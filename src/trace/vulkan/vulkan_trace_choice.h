@@ -8,6 +8,7 @@
 
 #include "asdf_vk/options.h"
 #include "asdf_vk/report.h"
+#include "bvh/bvh.h"
 #include "bvh/device_bvh.h"
 #include "vk/device_choice.h"
 
@@ -23,7 +24,7 @@ enum class TraceKernel {
 /// How kernels read the hierarchy.
 enum class BvhFetch {
   Storage,  ///< Storage buffers.
-  Texel,    ///< Storage texel buffers: much faster on llvmpipe, and not limited to the range of a storage buffer.
+  Texel,    ///< Storage texel buffers: much faster on llvmpipe. Many devices allow 65,536 texels of 16 bytes only.
 };
 
 /// Variant of the kernels; all variants compute the same values.
@@ -47,6 +48,10 @@ struct VulkanTraceRequest {
 [[nodiscard]] VulkanTraceChoice defaultTraceChoice(const DeviceFacts& device);
 /// The default with the requested members replaced.
 [[nodiscard]] VulkanTraceChoice traceChoiceFor(const DeviceFacts& device, const VulkanTraceRequest& request);
+/// The same for one hierarchy: where the default fetch was not requested and the hierarchy may exceed its limit, the
+/// other fetch if the hierarchy fits that one.
+[[nodiscard]] VulkanTraceChoice traceChoiceFor(const DeviceFacts& device, const VulkanTraceRequest& request,
+                                               const Bvh& bvh);
 
 /// Names of the variants, as in options and reports.
 template <typename T>
