@@ -43,15 +43,17 @@ class ComputePipeline {
 
 /// The resource of one binding: a whole buffer or a texel view.
 struct Binding {
-  Binding(const Buffer& storage) : buffer(storage.handle()) {}
+  Binding(const Buffer& storage) : buffer(storage.handle()), byteCount(storage.byteCount()) {}
   Binding(const TexelView& texels) : view(texels.handle()) {}
   VkBuffer buffer = VK_NULL_HANDLE;
+  uint64_t byteCount = 0;
   VkBufferView view = VK_NULL_HANDLE;
 };
 
 /// The buffers that the dispatches of a pipeline read and write; they must outlive it.
 class BindingSet {
  public:
+  /// Throws Error{DeviceLimit} for a buffer beyond DeviceFacts::maxStorageBufferRange.
   BindingSet(const Device& device, const ComputePipeline& pipeline, std::span<const Binding> bindings);
   ~BindingSet();
   BindingSet(const BindingSet&) = delete;

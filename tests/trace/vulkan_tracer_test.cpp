@@ -9,6 +9,7 @@
 #include "asdf_vk/error.h"
 #include "core/random.h"
 #include "generate/shapes.h"
+#include "support/require_failure.h"
 #include "support/shapes.h"
 #include "support/test_device.h"
 #include "trace/chunks.h"
@@ -385,6 +386,23 @@ TEST_CASE("a mesh beyond a device's limits is refused with a remedy") {
   const Cone cone = makeCone({});
   CHECK_THROWS_WITH_AS((void)makeVulkanTracer(kernel, traced.scene(), cone), doctest::Contains("texels in one buffer"),
                        Error);
+}
+
+TEST_CASE("a mesh beyond the range of a storage buffer is refused") {
+  const Instance instance;
+  const VkPhysicalDevice physical = instance.physicalDevices().front();
+  const TracedMesh traced(generateShape("sphere", 2000).mesh);
+  const Cone cone = makeCone({});
+  DeviceFacts facts = describeDevice(physical);
+  const auto make = [&](uint64_t range) {
+    facts.maxStorageBufferRange = range;
+    const Device device(physical, facts);
+    const VulkanConeKernel kernel(
+        device, {30, false, VulkanTraceChoice{TraceKernel::Seed, BvhLayout::Wide, BvhFetch::Storage}});
+    (void)makeVulkanTracer(kernel, traced.scene(), cone);
+  };
+  CHECK_NOTHROW(make(48 * traced.mesh.faces.size()));
+  test::requireFailure([&] { make(48 * traced.mesh.faces.size() - 1); }, ErrorCode::DeviceLimit, "one storage buffer");
 }
 
 TEST_CASE("a device with too few storage buffers for a kernel is refused before the kernel is made") {
