@@ -18,6 +18,8 @@ namespace asdfvk {
 /// The backend that traces the rays. Backends and kernel variants are names, listed by backendNames().
 struct SessionOptions {
   /// "auto": a Vulkan device (GPUs first, CPU devices such as lavapipe included), else Embree, else the reference.
+  /// Where the device of "auto" is lost or out of memory, the session continues with the next of them, for that mesh
+  /// and all later ones, with WarningCode::BackendReplaced.
   /// "vulkan", "cpu" (Embree) and "reference" (double precision) fail with Error{Device} where they are not available.
   std::string backend = "auto";
   std::string device;       ///< Vulkan device: an index in listDevices() or a part of a name; empty: the highest rank.
@@ -75,7 +77,7 @@ class ASDFVK_API Session {
 
   /// First line: the chosen device and the reason. Then one line per device that was not chosen.
   [[nodiscard]] const std::vector<std::string>& deviceLines() const;
-  /// "vulkan", "cpu" or "reference"
+  /// "vulkan", "cpu" or "reference"; changes where "auto" replaces a backend, as deviceLines() and runsOnCpu().
   [[nodiscard]] const std::string& backend() const;
   /// Whether the CPU traces: Embree, the reference, or a CPU device of Vulkan.
   [[nodiscard]] bool runsOnCpu() const;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 #include <utility>
 
 #include "asdf_vk/error.h"
@@ -67,6 +68,8 @@ constexpr std::array kBackends{
     BackendRow{"reference", false, [] { return true; }, makeOnCpu<ReferenceBackend>},
 };
 
+constexpr std::string_view kAutomaticBackend = "auto";
+
 bool requestsVulkan(const SessionOptions& options) {
   const TraceVariant& variant = options.variant;
   return options.requireGpu || !options.device.empty() || !variant.kernel.empty() || !variant.bvh.empty() ||
@@ -83,19 +86,10 @@ NamedBackend open(const BackendRow& row, const SessionOptions& options) {
   return named;
 }
 
-}  // namespace
-
-NamedBackend openBackend(const SessionOptions& options) {
-  if (options.backend != "auto") {
-    const auto row = std::find_if(kBackends.begin(), kBackends.end(),
-                                  [&](const BackendRow& candidate) { return candidate.name == options.backend; });
-    if (row == kBackends.end())
-      throw Error(ErrorCode::UnknownName, fmt::format("no backend is called '{}'; the names are auto, {}",
-                                                      options.backend, fmt::join(backendNames(), ", ")));
-    return open(*row, options);
-  }
+/// The first of the rows that is available.
+NamedBackend openFirst(std::span<const BackendRow> rows, const SessionOptions& options) {
   std::vector<std::string> rejected;
-  for (const BackendRow& row : kBackends) {
+  for (const BackendRow& row : rows) {
     try {
       NamedBackend named = open(row, options);
       named.deviceLines.insert(named.deviceLines.end(), rejected.begin(), rejected.end());
@@ -106,6 +100,28 @@ NamedBackend openBackend(const SessionOptions& options) {
     }
   }
   throw Error(ErrorCode::NoUsableDevice, "no backend is available");
+}
+
+}  // namespace
+
+NamedBackend openBackend(const SessionOptions& options) {
+  if (options.backend != kAutomaticBackend) {
+    const auto row = std::find_if(kBackends.begin(), kBackends.end(),
+                                  [&](const BackendRow& candidate) { return candidate.name == options.backend; });
+    if (row == kBackends.end())
+      throw Error(ErrorCode::UnknownName, fmt::format("no backend is called '{}'; the names are auto, {}",
+                                                      options.backend, fmt::join(backendNames(), ", ")));
+    return open(*row, options);
+  }
+  return openFirst(kBackends, options);
+}
+
+std::optional<NamedBackend> openNextBackend(const SessionOptions& options, std::string_view failed) {
+  if (options.backend != kAutomaticBackend || requestsVulkan(options)) return std::nullopt;
+  const auto row = std::find_if(kBackends.begin(), kBackends.end(),
+                                [&](const BackendRow& candidate) { return candidate.name == failed; });
+  if (row == kBackends.end() || row + 1 == kBackends.end()) return std::nullopt;
+  return openFirst(std::span(row + 1, kBackends.end()), options);
 }
 
 bool isBackendBuilt(std::string_view name) {

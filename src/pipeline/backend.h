@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "asdf_vk/report.h"
@@ -54,6 +55,10 @@ struct NamedBackend {
 /// The backend of that name, or the first that is available for "auto". Throws Error{UnknownName} and Error of kind
 /// Device.
 [[nodiscard]] NamedBackend openBackend(const SessionOptions& options);
+
+/// The first available backend after the one called `failed` in the order of "auto". None unless the options leave the
+/// choice to "auto" without a request for Vulkan.
+[[nodiscard]] std::optional<NamedBackend> openNextBackend(const SessionOptions& options, std::string_view failed);
 
 /// Throws Error of kind Device.
 [[nodiscard]] std::unique_ptr<Backend> makeVulkanBackend(const SessionOptions& options);

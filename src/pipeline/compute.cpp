@@ -150,6 +150,10 @@ Cone requireComputable(const SessionState& session, const Options& options) {
   return makeCone(options.cone);
 }
 
+bool needsDevice(const Options& options) {
+  return options.solver != kAutomaticSolver && findSolver(options.solver).needsDevice;
+}
+
 void computeOn(const ComputationTask& task, const Options& options, StageClock& clock, const RunControl& control,
                Result& result) {
   Report& report = result.report;
@@ -160,6 +164,7 @@ void computeOn(const ComputationTask& task, const Options& options, StageClock& 
   describeBackend(report, session.named);
   report.randomSeed = options.randomSeed;
   describeMesh(report, prepared, domain);
+  report.warnings.insert(report.warnings.end(), session.warnings().begin(), session.warnings().end());
 
   const TraceScene scene = sharedScene->view();
   const Computation computation{options, prepared,        domain, scene,          cone,

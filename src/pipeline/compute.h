@@ -28,4 +28,7 @@ void computeOn(const ComputationTask& task, const Options& options, StageClock& 
 /// The cone of the options. Throws where they are invalid on this session.
 [[nodiscard]] Cone requireComputable(const SessionState& session, const Options& options);
 
+/// Whether the options request a solver that runs on a device. Precondition: requireComputable().
+[[nodiscard]] bool needsDevice(const Options& options);
+
 }  // namespace asdfvk

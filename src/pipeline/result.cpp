@@ -242,6 +242,8 @@ const char* nameOf(WarningCode code) {
       return "missingValues";
     case WarningCode::FinishedOnCpu:
       return "finishedOnCpu";
+    case WarningCode::BackendReplaced:
+      return "backendReplaced";
     case WarningCode::SolvedOnCpu:
       return "solvedOnCpu";
     case WarningCode::NotConverged:

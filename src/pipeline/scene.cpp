@@ -55,54 +55,10 @@ void requireNoConflict(const Options& options, Orientation orientation, bool has
     throw Error(ErrorCode::OptionConflict, "a region is not post-processed; post-process the whole mesh");
 }
 
-}  // namespace
-
-struct Scene::State {
-  State(SessionState& theSession, const MeshView& mesh, Orientation theOrientation, const RunControl& control)
-      : session(theSession), orientation(theOrientation) {
-    StageClock clock(preparation, control.stageBegan);
-    scene = std::make_shared<PreparedScene>(mesh, orientation, clock, control);
-    tracers = std::make_unique<SceneTracers>(*session.named.backend, scene->view(), kPreparedConeCount);
-  }
-
-  SessionState& session;
-  Orientation orientation;
-  StageSeconds preparation;
-  std::shared_ptr<PreparedScene> scene;
-  std::unique_ptr<SceneTracers> tracers;  ///< Destroyed before the scene.
-};
-
-Scene::Scene(Session& session, const MeshView& mesh, Orientation orientation, const RunControl& control)
-    : state_(std::make_unique<State>(*session.state_, mesh, orientation, control)) {}
-Scene::~Scene() = default;
-
-const StageSeconds& Scene::preparationSeconds() const { return state_->preparation; }
-
-Result Scene::compute(const Options& options, std::span<const uint8_t> region, const RunControl& control) {
-  Result result;
-  StageClock clock(result.report.stageSeconds, control.stageBegan);
-  requireNoConflict(options, state_->orientation, !region.empty());
-  (void)requireComputable(state_->session, options);
-  control.checkpoint(0);
-  const PreparedMesh& prepared = state_->scene->prepared;
-  const std::optional<Region> part = [&] {
-    const auto scope = clock.time(Stage::Sample);
-    return regionOf(prepared, region);
-  }();
-  const FaceDomain domain = part ? part->domain() : wholeMesh(prepared);
-  computeOn({state_->session, state_->scene, domain, *state_->tracers, false}, options, clock, control, result);
-  return result;
-}
-
-std::vector<double> Scene::valuesAt(std::span<const double> points, std::span<const double> normals,
-                                    const ConeOptions& cone, const RunControl& control) {
-  requirePoints(points, normals);
-  control.checkpoint(0);
-  StageSeconds seconds;
-  StageClock clock(seconds, control.stageBegan);
-  const std::shared_ptr<SceneTracer> tracer = state_->tracers->get(cone, {}, clock);
-  const Box3d& bounds = state_->scene->prepared.geometry.bounds;
-  const Normalization& unit = state_->scene->bvh.normalization;
+std::vector<double> valuesWith(const SceneTracer& tracer, const PreparedScene& scene, std::span<const double> points,
+                               std::span<const double> normals, const RunControl& control) {
+  const Box3d& bounds = scene.prepared.geometry.bounds;
+  const Normalization& unit = scene.bvh.normalization;
   const double offset = kPointOffset * length(unit.toNormalized(bounds.max) - unit.toNormalized(bounds.min));
   const size_t count = points.size() / 3;
   std::vector<double> values(count);
@@ -112,15 +68,77 @@ std::vector<double> Scene::valuesAt(std::span<const double> points, std::span<co
     starts.resize(end - begin);
     forEachInParallel(starts.size(), [&](uint32_t i) {
       const Vec3d normal = unitVector(vectorAt(normals, begin + i));
-      starts[i] = coneStartAt(tracer->cone, unit.toNormalized(vectorAt(points, begin + i)) - offset * normal, normal);
+      starts[i] = coneStartAt(tracer.cone, unit.toNormalized(vectorAt(points, begin + i)) - offset * normal, normal);
     });
     const auto total = static_cast<double>(count);
-    tracer->tracer->traceAt(starts, {std::span(values).subspan(begin, starts.size())},
-                            control.part(static_cast<double>(begin) / total, static_cast<double>(end) / total));
+    tracer.tracer->traceAt(starts, {std::span(values).subspan(begin, starts.size())},
+                           control.part(static_cast<double>(begin) / total, static_cast<double>(end) / total));
   }
   control.checkpoint(1);
-  state_->session.named.backend->requireSilentValidation();
   return values;
+}
+
+}  // namespace
+
+struct Scene::State {
+  State(SessionState& theSession, const MeshView& mesh, Orientation theOrientation, const RunControl& control)
+      : session(theSession), orientation(theOrientation) {
+    StageClock clock(preparation, control.stageBegan);
+    scene = std::make_shared<PreparedScene>(mesh, orientation, clock, control);
+  }
+
+  /// Of the backend that the session has now.
+  SceneTracers& tracers() {
+    if (!tracers_ || &tracers_->backend() != session.named.backend.get())
+      tracers_ = std::make_unique<SceneTracers>(*session.named.backend, scene->view(), kPreparedConeCount);
+    return *tracers_;
+  }
+
+  SessionState& session;
+  Orientation orientation;
+  StageSeconds preparation;
+  std::shared_ptr<PreparedScene> scene;
+
+ private:
+  std::unique_ptr<SceneTracers> tracers_;  // Destroyed before the scene.
+};
+
+Scene::Scene(Session& session, const MeshView& mesh, Orientation orientation, const RunControl& control)
+    : state_(std::make_unique<State>(*session.state_, mesh, orientation, control)) {}
+Scene::~Scene() = default;
+
+const StageSeconds& Scene::preparationSeconds() const { return state_->preparation; }
+
+Result Scene::compute(const Options& options, std::span<const uint8_t> region, const RunControl& control) {
+  requireNoConflict(options, state_->orientation, !region.empty());
+  (void)requireComputable(state_->session, options);
+  control.checkpoint(0);
+  return state_->session.compute(!needsDevice(options), control, [&](const RunControl& rest) {
+    Result result;
+    StageClock clock(result.report.stageSeconds, rest.stageBegan);
+    const PreparedMesh& prepared = state_->scene->prepared;
+    const std::optional<Region> part = [&] {
+      const auto scope = clock.time(Stage::Sample);
+      return regionOf(prepared, region);
+    }();
+    const FaceDomain domain = part ? part->domain() : wholeMesh(prepared);
+    computeOn({state_->session, state_->scene, domain, state_->tracers(), false}, options, clock, rest, result);
+    return result;
+  });
+}
+
+std::vector<double> Scene::valuesAt(std::span<const double> points, std::span<const double> normals,
+                                    const ConeOptions& cone, const RunControl& control) {
+  requirePoints(points, normals);
+  control.checkpoint(0);
+  return state_->session.compute(true, control, [&](const RunControl& rest) {
+    StageSeconds seconds;
+    StageClock clock(seconds, rest.stageBegan);
+    const std::shared_ptr<SceneTracer> tracer = state_->tracers().get(cone, {}, clock);
+    std::vector<double> values = valuesWith(*tracer, *state_->scene, points, normals, rest);
+    state_->session.named.backend->requireSilentValidation();
+    return values;
+  });
 }
 
 }  // namespace asdfvk

@@ -28,6 +28,7 @@ class SceneTracers {
   SceneTracers(Backend& backend, const TraceScene& scene, size_t capacity)
       : backend_(backend), scene_(scene), capacity_(capacity) {}
 
+  [[nodiscard]] const Backend& backend() const { return backend_; }
   /// A tracer for these cones: a kept one that serves the needs, or a new one. Creation is charged to the clock. Throws
   /// as makeCone(), and Error{Device}.
   [[nodiscard]] std::shared_ptr<SceneTracer> get(const ConeOptions& options, const TracerNeeds& needs,

@@ -16,13 +16,15 @@ const std::string& Session::backend() const { return state_->named.name; }
 bool Session::runsOnCpu() const { return state_->named.backend->runsOnCpu(); }
 
 Result Session::compute(const MeshView& mesh, const Options& options, const RunControl& control) {
-  Result result;
-  StageClock clock(result.report.stageSeconds, control.stageBegan);
   (void)requireComputable(*state_, options);  // Before the mesh is prepared.
-  const auto scene = std::make_shared<PreparedScene>(mesh, options.orientation, clock, control);
-  SceneTracers tracers(*state_->named.backend, scene->view(), 0);
-  computeOn({*state_, scene, wholeMesh(scene->prepared), tracers, true}, options, clock, control, result);
-  return result;
+  return state_->compute(!needsDevice(options), control, [&](const RunControl& rest) {
+    Result result;
+    StageClock clock(result.report.stageSeconds, rest.stageBegan);
+    const auto scene = std::make_shared<PreparedScene>(mesh, options.orientation, clock, rest);
+    SceneTracers tracers(*state_->named.backend, scene->view(), 0);
+    computeOn({*state_, scene, wholeMesh(scene->prepared), tracers, true}, options, clock, rest, result);
+    return result;
+  });
 }
 
 }  // namespace asdfvk

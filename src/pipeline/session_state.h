@@ -1,16 +1,58 @@
 #pragma once
 
+#include <memory>
+#include <vector>
+
 #include "pipeline/backend.h"
 #include "pipeline/computation.h"
 
 namespace asdfvk {
 
 /// Session::state_.
-struct SessionState {
-  explicit SessionState(const SessionOptions& options) : named(openBackend(options)) {}
+class SessionState {
+ public:
+  explicit SessionState(const SessionOptions& options) : named(openBackend(options)), options_(options) {}
+
+  /// Calls compute(control). Where the device fails, is lost or is out of memory, and another backend may be used, the
+  /// session continues with that one, and compute() is called again; the progress never decreases. mayReplace: whether
+  /// the computation needs no device.
+  template <typename Compute>
+  auto compute(bool mayReplace, const RunControl& control, const Compute& compute);
+
+  /// For each computation after a backend was replaced.
+  [[nodiscard]] const std::vector<Warning>& warnings() const { return warnings_; }
 
   NamedBackend named;
   Solvers solvers;  ///< Destroyed before the device that they use.
+
+ private:
+  /// Opens the next backend of "auto". Returns false where there is none, or where the options request this one.
+  bool replaceBackend(const Error& failure);
+
+  SessionOptions options_;
+  std::vector<Warning> warnings_;
+  std::vector<std::unique_ptr<Backend>> replaced_;  // Kept: tracers of scenes may refer to them.
 };
+
+template <typename Compute>
+auto SessionState::compute(bool mayReplace, const RunControl& control, const Compute& compute) {
+  double done = 0;
+  RunControl watched = control;
+  if (control.progress)
+    watched.progress = [&](double fraction) {
+      done = fraction;
+      control.progress(fraction);
+    };
+  while (true) {
+    const double begin = done;
+    RunControl rest = watched.part(begin, 1);
+    rest.stageBegan = control.stageBegan;
+    try {
+      return compute(rest);
+    } catch (const Error& error) {
+      if (!mayReplace || !replaceBackend(error)) throw;
+    }
+  }
+}
 
 }  // namespace asdfvk

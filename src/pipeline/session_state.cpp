@@ -1,0 +1,36 @@
+#include "pipeline/session_state.h"
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <utility>
+
+#include "asdf_vk/error.h"
+
+namespace asdfvk {
+namespace {
+
+/// Whether the device or its driver failed, as opposed to a mesh or an option that it does not allow.
+bool isFailureOfDevice(ErrorCode code) {
+  return code == ErrorCode::DeviceLost || code == ErrorCode::OutOfDeviceMemory || code == ErrorCode::DeviceTimeout ||
+         code == ErrorCode::VulkanFailed || code == ErrorCode::KernelUnsupported;
+}
+
+}  // namespace
+
+bool SessionState::replaceBackend(const Error& failure) {
+  if (!isFailureOfDevice(failure.code())) return false;
+  std::optional<NamedBackend> next = openNextBackend(options_, named.name);
+  if (!next) return false;
+  warnings_.push_back(
+      {WarningCode::BackendReplaced,
+       fmt::format("the backend {} replaces {}, which failed: {}", next->name, named.name, failure.what()),
+       {{"failed", named.name}, {"code", nameOf(failure.code())}}});
+  next->deviceLines.push_back(fmt::format("{}: failed: {}", named.name, failure.what()));
+  solvers.clear();
+  replaced_.push_back(std::move(named.backend));
+  named = std::move(*next);
+  return true;
+}
+
+}  // namespace asdfvk
