@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstring>
 #include <utility>
+#include <vector>
 
 #include "asdf_vk/error.h"
 #include "vk/command_list.h"
@@ -16,13 +17,18 @@ namespace {
 constexpr uint64_t kStagingByteCount = 64u << 20;
 constexpr VkMemoryPropertyFlags kMappable = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
 
-std::optional<uint32_t> pickMemoryType(const Device& device, uint32_t allowed, MemoryKind kind) {
+/// The types that may hold a buffer of that kind, the best first.
+std::vector<uint32_t> rankMemoryTypes(const Device& device, uint32_t allowed, MemoryKind kind) {
   using Flags = VkMemoryPropertyFlags;
   const Flags local = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, cached = VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
   const Flags preferences[2][3] = {{local | kMappable | cached, local, 0}, {kMappable | cached, kMappable, kMappable}};
+  std::vector<uint32_t> ranked;
   for (const Flags wanted : preferences[kind == MemoryKind::HostVisible ? 1 : 0])
-    if (const auto type = device.findMemoryType(allowed, wanted)) return type;
-  return {};
+    while (const auto type = device.findMemoryType(allowed, wanted)) {
+      ranked.push_back(*type);
+      allowed &= ~(1u << *type);
+    }
+  return ranked;
 }
 
 }  // namespace
@@ -41,16 +47,21 @@ Buffer::Buffer(const Device& device, uint64_t byteCount, VkBufferUsageFlags usag
 
   VkMemoryRequirements requirements{};
   vkGetBufferMemoryRequirements(guard.device_, guard.buffer_, &requirements);
-  const auto type = pickMemoryType(device, requirements.memoryTypeBits, kind);
-  if (!type)
+  const std::vector<uint32_t> types = rankMemoryTypes(device, requirements.memoryTypeBits, kind);
+  if (types.empty())
     throw Error(ErrorCode::DeviceLimit, fmt::format("{} has no memory type for this buffer", device.facts().name));
   VkMemoryAllocateInfo allocation{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
   allocation.allocationSize = requirements.size;
-  allocation.memoryTypeIndex = *type;
-  requireSuccess(vkAllocateMemory(guard.device_, &allocation, nullptr, &guard.memory_),
-                 fmt::format("allocating {} MiB on {}", (byteCount >> 20) + 1, device.facts().name));
+  VkResult allocated = VK_ERROR_OUT_OF_DEVICE_MEMORY;
+  for (const uint32_t type : types) {
+    allocation.memoryTypeIndex = type;
+    allocated = vkAllocateMemory(guard.device_, &allocation, nullptr, &guard.memory_);
+    if (allocated != VK_ERROR_OUT_OF_DEVICE_MEMORY) break;
+  }
+  requireSuccess(allocated, fmt::format("allocating {} MiB on {}", (byteCount >> 20) + 1, device.facts().name));
+  const VkMemoryPropertyFlags flags = device.memoryFlags(allocation.memoryTypeIndex);
   requireSuccess(vkBindBufferMemory(guard.device_, guard.buffer_, guard.memory_, 0), "binding memory");
-  if (kind != MemoryKind::DeviceOnly && (device.memoryFlags(*type) & kMappable) == kMappable) {
+  if (kind != MemoryKind::DeviceOnly && (flags & kMappable) == kMappable) {
     void* pointer = nullptr;
     requireSuccess(vkMapMemory(guard.device_, guard.memory_, 0, VK_WHOLE_SIZE, 0, &pointer), "mapping memory");
     guard.mapped_ = static_cast<std::byte*>(pointer);

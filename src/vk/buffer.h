@@ -15,7 +15,7 @@ enum class MemoryKind {
   HostVisible,  ///< Mapped and coherent, cached where there is a choice.
 };
 
-/// A buffer with its memory. Throws Error{Device} when the device lacks the memory.
+/// A buffer with its memory: of the best type that has enough left. Throws Error{OutOfDeviceMemory, DeviceLimit}.
 class Buffer {
  public:
   Buffer() = default;

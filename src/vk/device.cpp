@@ -118,8 +118,12 @@ Device::~Device() {
 }
 
 std::optional<uint32_t> Device::findMemoryType(uint32_t allowedTypes, VkMemoryPropertyFlags wanted) const {
+  // Allowed with a feature, or for other resources, only.
+  constexpr VkMemoryPropertyFlags kSpecial =
+      VK_MEMORY_PROPERTY_PROTECTED_BIT | VK_MEMORY_PROPERTY_LAZILY_ALLOCATED_BIT |
+      VK_MEMORY_PROPERTY_DEVICE_COHERENT_BIT_AMD | VK_MEMORY_PROPERTY_RDMA_CAPABLE_BIT_NV;
   for (uint32_t i = 0; i < memory_.memoryTypeCount; ++i)
-    if ((allowedTypes & (1u << i)) && (memoryFlags(i) & wanted) == wanted) return i;
+    if (!(memoryFlags(i) & kSpecial) && (allowedTypes & (1u << i)) && (memoryFlags(i) & wanted) == wanted) return i;
   return {};
 }
 
