@@ -18,7 +18,7 @@ void main() {
   CgState state = states[push.stateIndex];
   const uint lane = gl_LocalInvocationID.x;
   mat2x3 partial = mat2x3(0.0);
-  for (uint i = lane; i < gl_NumWorkGroups.x; i += kLaneCount)
+  for (uint i = lane; i < push.workgroupCount; i += kLaneCount)
     partial += mat2x3(sums.directionSquared[i], sums.productDot[i], sums.productSquared[i], sums.residualProduct[i],
                       sums.residualDot[i], sums.residualSquared[i]);
   const mat2x3 total = workgroupSum(partial);

@@ -7,7 +7,7 @@ layout(push_constant) uniform Push { PoissonPush push; };
 shared mat2x3 laneSums[kLaneCount];
 
 uint firstRow() { return gl_WorkGroupID.x * kLaneCount + gl_LocalInvocationID.x; }
-uint rowStride() { return gl_NumWorkGroups.x * kLaneCount; }
+uint rowStride() { return push.workgroupCount * kLaneCount; }
 
 // The sum over the lanes of the workgroup, returned to each lane. The tree has a fixed shape, so that the bits are the
 // same in every run on a device.

@@ -56,6 +56,9 @@ struct PoissonSums {
 struct PoissonPush {
   uint unknownCount;
   uint stateIndex;  // The CgState that this iteration reads; it writes the other one.
+  // Of a dispatch that is not empty. gl_NumWorkGroups is no substitute: some drivers load it while the kernel runs, from
+  // the DispatchSize that cg_step.comp overwrites.
+  uint workgroupCount;
 };
 
 // The scalars of an iteration, one description for every backend: in C++ a template over float and double, in GLSL
@@ -137,8 +140,9 @@ static_assert(sizeof(PoissonSums) == 6144);
 static_assert(offsetof(PoissonSums, directionSquared) == 0 && offsetof(PoissonSums, productDot) == 1024);
 static_assert(offsetof(PoissonSums, productSquared) == 2048 && offsetof(PoissonSums, residualProduct) == 3072);
 static_assert(offsetof(PoissonSums, residualDot) == 4096 && offsetof(PoissonSums, residualSquared) == 5120);
-static_assert(sizeof(PoissonPush) == 8);
+static_assert(sizeof(PoissonPush) == 12);
 static_assert(offsetof(PoissonPush, unknownCount) == 0 && offsetof(PoissonPush, stateIndex) == 4);
+static_assert(offsetof(PoissonPush, workgroupCount) == 8);
 }  // namespace asdfvk
 #else
 #undef Real

@@ -21,24 +21,25 @@ void main() {
   }
   words[8] = push.unknownCount;
   words[9] = push.stateIndex;
-  words[10] = dispatchSize.x;
-  words[11] = dispatchSize.y;
-  words[12] = dispatchSize.z;
+  words[10] = push.workgroupCount;
+  words[11] = dispatchSize.x;
+  words[12] = dispatchSize.y;
+  words[13] = dispatchSize.z;
   const PoissonRow row = decodePoissonRow(imageLoad(rows, 0), imageLoad(rows, 1));
-  words[13] = row.column0;
-  words[14] = row.column1;
-  words[15] = row.column2;
-  words[16] = row.tailBegin;
-  words[17] = row.tailCount;
-  words[18] = floatBitsToUint(row.coupling0);
-  words[19] = floatBitsToUint(row.coupling1);
-  words[20] = floatBitsToUint(row.coupling2);
+  words[14] = row.column0;
+  words[15] = row.column1;
+  words[16] = row.column2;
+  words[17] = row.tailBegin;
+  words[18] = row.tailCount;
+  words[19] = floatBitsToUint(row.coupling0);
+  words[20] = floatBitsToUint(row.coupling1);
+  words[21] = floatBitsToUint(row.coupling2);
   for (uint i = 0u; i < kMaxPoissonWorkgroupCount; ++i) {
-    words[21u + i] = floatBitsToUint(sums.directionSquared[i]);
-    words[21u + kMaxPoissonWorkgroupCount + i] = floatBitsToUint(sums.productDot[i]);
-    words[21u + 2u * kMaxPoissonWorkgroupCount + i] = floatBitsToUint(sums.productSquared[i]);
-    words[21u + 3u * kMaxPoissonWorkgroupCount + i] = floatBitsToUint(sums.residualProduct[i]);
-    words[21u + 4u * kMaxPoissonWorkgroupCount + i] = floatBitsToUint(sums.residualDot[i]);
-    words[21u + 5u * kMaxPoissonWorkgroupCount + i] = floatBitsToUint(sums.residualSquared[i]);
+    words[22u + i] = floatBitsToUint(sums.directionSquared[i]);
+    words[22u + kMaxPoissonWorkgroupCount + i] = floatBitsToUint(sums.productDot[i]);
+    words[22u + 2u * kMaxPoissonWorkgroupCount + i] = floatBitsToUint(sums.productSquared[i]);
+    words[22u + 3u * kMaxPoissonWorkgroupCount + i] = floatBitsToUint(sums.residualProduct[i]);
+    words[22u + 4u * kMaxPoissonWorkgroupCount + i] = floatBitsToUint(sums.residualDot[i]);
+    words[22u + 5u * kMaxPoissonWorkgroupCount + i] = floatBitsToUint(sums.residualSquared[i]);
   }
 }

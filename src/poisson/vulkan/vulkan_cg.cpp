@@ -77,6 +77,7 @@ VulkanCg::VulkanCg(const Device& device, const VulkanCgKernels& kernels, const V
     : device_(device),
       kernels_(kernels),
       unknownCount_(static_cast<uint32_t>(rightHandSide.size())),
+      workgroupCount_(matrix.grid.workgroupCount),
       solution_(makeVector(device, rightHandSide.size())),
       residual_(uploadBuffer(device, std::as_bytes(rightHandSide), kPoissonVectorUsage)),
       direction_(makeVector(device, rightHandSide.size())),
@@ -102,7 +103,7 @@ VulkanCg::VulkanCg(const Device& device, const VulkanCgKernels& kernels, const V
 CgState VulkanCg::advance(uint32_t iterationCount) {
   commands_.begin();
   for (uint32_t i = 0; i < iterationCount; ++i) {
-    const PoissonPush push{unknownCount_, stateIndex_};
+    const PoissonPush push{unknownCount_, stateIndex_, workgroupCount_};
     commands_.dispatchIndirect(kernels_.product, productBindings_, bytesOf(push), size_);
     commands_.barrier();
     commands_.dispatchIndirect(kernels_.step, stepBindings_, bytesOf(push), size_);

@@ -42,6 +42,7 @@ class VulkanCg {
   const Device& device_;
   const VulkanCgKernels& kernels_;
   uint32_t unknownCount_;
+  uint32_t workgroupCount_;
   uint32_t stateIndex_ = 0;
   Buffer solution_, residual_, direction_, product_, states_, sums_;
   Buffer size_;  ///< Of the following dispatches. The device sets it to 0 at the end.
