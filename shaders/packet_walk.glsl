@@ -51,7 +51,8 @@ Hit walkWideTogether(Query query, float limit, inout uint iterationCount) {
       ++stackSize;
     }
     const DeviceWideNode node = loadWideNode(index);
-    const uint children = subgroupOr(enterChildren(index, node, query, hit.distance));
+    // The mask bounds the references of a lane at another node, should the subgroup have diverged.
+    const uint children = subgroupOr(enterChildren(index, node, query, hit.distance)) & node.childBits;
     const uint leaves = node.childBits & ~kWideInnerBits;
     uint triangles = children & leaves;
     group = groupOf(node, children, isNegative);

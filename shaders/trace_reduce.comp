@@ -15,6 +15,7 @@ layout(set = 0, binding = 2) writeonly buffer Results { uint results[]; };
 layout(push_constant) uniform Push { ConePush push; };
 
 const uint kNotValid = 0xffffffffu;
+const uint kInfinityBits = 0x7f800000u;
 
 uint lengthBits[kRayCount];
 
@@ -104,7 +105,8 @@ void main() {
   for (uint ray = 0u; ray < kRayCount; ++ray) {
     const uint bits = lengths[ray * push.coneCount + cone];
     const bool isIncomplete = bits == kIterationLimitBits;
-    const bool isValid = uintBitsToFloat(bits) >= 0.0;  // kIterationLimitBits is a NaN.
+    // By its bits, because a device may assume that there are no NaNs such as kIterationLimitBits.
+    const bool isValid = bits <= kInfinityBits || bits == 0x80000000u;
     incompleteCount += isIncomplete ? 1u : 0u;
     validCount += isValid ? 1u : 0u;
     mean += isValid ? uintBitsToFloat(bits) : 0.0;

@@ -56,8 +56,8 @@ struct PoissonSums {
 struct PoissonPush {
   uint unknownCount;
   uint stateIndex;  // The CgState that this iteration reads; it writes the other one.
-  // Of a dispatch that is not empty. gl_NumWorkGroups is no substitute: some drivers load it while the kernel runs, from
-  // the DispatchSize that cg_step.comp overwrites.
+  // Of a dispatch that is not empty. gl_NumWorkGroups is no substitute: some drivers load it while the kernel runs,
+  // from the DispatchSize that cg_step.comp overwrites.
   uint workgroupCount;
 };
 
@@ -72,7 +72,7 @@ const uint kCgRunning = 0u;
 const uint kCgConverged = 1u;
 const uint kCgBrokenDown = 2u;  // p.Mp or r.r is not positive, consists of rounding errors, or has overflowed.
 
-const float kMaxCgSum = 3.0e38f;  // Larger sums have overflowed or are NaN.
+const float kMaxCgSum = 3.0e38f;  // Larger sums have overflowed.
 const float kCgFloatRounding = 1.0e-7f;
 
 #ifdef __cplusplus
@@ -100,23 +100,34 @@ struct CgRules {
     uint status;
   };
 
+  // False also for a NaN, which a device may assume not to exist: there by the bits.
+  ASDFVK_CG_FUNCTION bool isBounded(Real sum) {
+#ifdef __cplusplus
+    return sum > -kMaxCgSum && sum < kMaxCgSum;
+#else
+  return (floatBitsToUint(sum) & 0x7fffffffu) < floatBitsToUint(kMaxCgSum);
+#endif
+  }
+
   // rounding: share of p.p at or below which p.Mp consists of rounding errors; a step with it would change x but not
   // the residual.
   ASDFVK_CG_FUNCTION CgStep nextCgStep(CgSums sums, Real toleranceSquared, Real rounding) {
     CgStep next;
     next.alpha = Real(0);
     next.beta = Real(0);
-    next.status = kCgConverged;
-    if (sums.residualSquared <= toleranceSquared) return next;
     next.status = kCgBrokenDown;
-    if (!(sums.residualSquared < kMaxCgSum && sums.residualDot > Real(0) && sums.residualDot < kMaxCgSum &&
-          sums.productDot > rounding * sums.directionSquared && sums.productDot < kMaxCgSum))
+    if (!isBounded(sums.residualSquared)) return next;
+    if (sums.residualSquared <= toleranceSquared) {
+      next.status = kCgConverged;
       return next;
+    }
+    if (!(isBounded(sums.residualDot) && isBounded(sums.directionSquared) && isBounded(sums.productDot))) return next;
+    if (!(sums.residualDot > Real(0) && sums.productDot > rounding * sums.directionSquared)) return next;
     const Real alpha = sums.residualDot / sums.productDot;
     // The ratio of the next r.r to this one. Rounding can make it negative when the residual is tiny.
     const Real beta =
         Real(1) - alpha * ((Real(2) * sums.residualProduct - alpha * sums.productSquared) / sums.residualDot);
-    if (!(alpha < kMaxCgSum && beta < kMaxCgSum)) return next;
+    if (!(isBounded(alpha) && isBounded(beta))) return next;
     next.alpha = alpha;
     next.beta = beta > Real(0) ? beta : Real(0);
     next.status = kCgRunning;

@@ -32,9 +32,14 @@ std::optional<uint32_t> findComputeQueueFamily(VkPhysicalDevice device) {
   vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
   std::vector<VkQueueFamilyProperties> families(count);
   vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
-  for (uint32_t i = 0; i < count; ++i)
-    if (families[i].queueFlags & VK_QUEUE_COMPUTE_BIT) return i;
-  return {};
+  // A family without graphics does not delay the desktop, and on some systems has a longer watchdog.
+  std::optional<uint32_t> found;
+  for (uint32_t i = 0; i < count; ++i) {
+    if (!(families[i].queueFlags & VK_QUEUE_COMPUTE_BIT)) continue;
+    if (!(families[i].queueFlags & VK_QUEUE_GRAPHICS_BIT)) return i;
+    if (!found) found = i;
+  }
+  return found;
 }
 
 }  // namespace
