@@ -2,7 +2,7 @@
 // traces the rays i, i + kLanesPerCone, ..., and the lanes reduce the lengths to one float. Needs FIND_NEAREST_HIT.
 #include "shared/cone_layout.h"
 
-layout(local_size_x_id = 0, local_size_y_id = 1) in;
+layout(local_size_x_id = 7, local_size_y_id = 9) in;  // kLanesPerCone, kConesPerWorkgroup: an id is used once only.
 layout(constant_id = 0) const uint kLanesPerCone = 32;
 layout(constant_id = 1) const uint kConesPerWorkgroup = 1;
 layout(constant_id = 2) const uint kRayCount = 30;

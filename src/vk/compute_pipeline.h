@@ -17,7 +17,7 @@ struct ComputePipelineDescription {
   std::span<const uint32_t> spirv;
   std::vector<VkDescriptorType> bindings;  ///< Binding i of set 0 has type bindings[i].
   uint32_t pushConstantByteCount = 0;
-  std::vector<uint32_t> specializationConstants;  ///< Entry i: the value of the constant with id i.
+  std::vector<uint32_t> specializationConstants;  ///< Entry i: the value of the constant with id i, if any.
 };
 
 class ComputePipeline {

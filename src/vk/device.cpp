@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cstring>
 #include <utility>
 
 #include "asdf_vk/error.h"
@@ -27,22 +28,50 @@ DeviceKind kindOf(VkPhysicalDeviceType type) {
   }
 }
 
+DeviceVendor vendorOf(uint32_t pciId) {
+  switch (pciId) {
+    case 0x10de:
+      return DeviceVendor::Nvidia;
+    case 0x1002:
+      return DeviceVendor::Amd;
+    case 0x8086:
+      return DeviceVendor::Intel;
+    default:
+      return DeviceVendor::Other;
+  }
+}
+
 std::optional<uint32_t> findComputeQueueFamily(VkPhysicalDevice device) {
   uint32_t count = 0;
   vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
   std::vector<VkQueueFamilyProperties> families(count);
   vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
-  // A family without graphics does not delay the desktop, and on some systems has a longer watchdog.
+  return chooseComputeQueueFamily(families);
+}
+
+/// A device with VK_KHR_portability_subset must be opened with it.
+std::vector<const char*> requiredExtensions(VkPhysicalDevice device) {
+  constexpr const char* kPortabilitySubset = "VK_KHR_portability_subset";
+  uint32_t count = 0;
+  vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr);
+  std::vector<VkExtensionProperties> extensions(count);
+  vkEnumerateDeviceExtensionProperties(device, nullptr, &count, extensions.data());
+  for (const VkExtensionProperties& extension : extensions)
+    if (std::strcmp(extension.extensionName, kPortabilitySubset) == 0) return {kPortabilitySubset};
+  return {};
+}
+
+}  // namespace
+
+std::optional<uint32_t> chooseComputeQueueFamily(std::span<const VkQueueFamilyProperties> families) {
   std::optional<uint32_t> found;
-  for (uint32_t i = 0; i < count; ++i) {
+  for (uint32_t i = 0; i < families.size(); ++i) {
     if (!(families[i].queueFlags & VK_QUEUE_COMPUTE_BIT)) continue;
     if (!(families[i].queueFlags & VK_QUEUE_GRAPHICS_BIT)) return i;
     if (!found) found = i;
   }
   return found;
 }
-
-}  // namespace
 
 OpenedDevice openDevice(const Instance& instance, const DeviceRequest& request) {
   const std::vector<VkPhysicalDevice> physical = instance.physicalDevices();
@@ -68,6 +97,7 @@ DeviceFacts describeDevice(VkPhysicalDevice device) {
   DeviceFacts facts;
   facts.name = basic.deviceName;
   facts.kind = kindOf(basic.deviceType);
+  facts.vendor = vendorOf(basic.vendorID);
   facts.apiVersion = basic.apiVersion;
   facts.computeQueueFamily = findComputeQueueFamily(device);
   facts.maxWorkgroupInvocations = basic.limits.maxComputeWorkGroupInvocations;
@@ -84,6 +114,7 @@ DeviceFacts describeDevice(VkPhysicalDevice device) {
   VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &driver, {}};
   vkGetPhysicalDeviceProperties2(device, &properties);
   facts.driver = fmt::format("{} {}", driver.driverName, driver.driverInfo);
+  facts.endsLongLoops = driver.driverID == VK_DRIVER_ID_MESA_LLVMPIPE && llvmpipeEndsLongLoops(driver.driverInfo);
   facts.subgroupSize = subgroup.subgroupSize;
   const auto offers = [&](VkSubgroupFeatureFlagBits operations) {
     return (subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0 &&
@@ -105,6 +136,9 @@ Device::Device(VkPhysicalDevice physical, DeviceFacts facts) : facts_(std::move(
   VkDeviceCreateInfo info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO};
   info.queueCreateInfoCount = 1;
   info.pQueueCreateInfos = &queueInfo;
+  const std::vector<const char*> extensions = requiredExtensions(physical);
+  info.enabledExtensionCount = static_cast<uint32_t>(extensions.size());
+  info.ppEnabledExtensionNames = extensions.data();
   requireSuccess(vkCreateDevice(physical, &info, nullptr, &device_), "opening " + facts_.name);
   vkGetDeviceQueue(device_, *facts_.computeQueueFamily, 0, &queue_);
 

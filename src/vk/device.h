@@ -3,6 +3,8 @@
 #include <volk.h>
 
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -10,6 +12,10 @@
 #include "vk/instance.h"
 
 namespace asdfvk {
+
+/// The first family with compute and without graphics, which does not delay the desktop and on some systems has a
+/// longer watchdog; else the first with compute.
+[[nodiscard]] std::optional<uint32_t> chooseComputeQueueFamily(std::span<const VkQueueFamilyProperties> families);
 
 [[nodiscard]] DeviceFacts describeDevice(VkPhysicalDevice device);
 

@@ -77,6 +77,16 @@ std::string_view toString(DeviceKind kind) {
   return "other";
 }
 
+bool llvmpipeEndsLongLoops(std::string_view driverInfo) {
+  constexpr std::string_view kPrefix = "Mesa ";
+  constexpr uint32_t kFirstWithoutLimit = 25;
+  if (!driverInfo.starts_with(kPrefix)) return true;
+  uint32_t major = 0;
+  const std::string_view version = driverInfo.substr(kPrefix.size());
+  return std::from_chars(version.data(), version.data() + version.size(), major).ec != std::errc{} ||
+         major < kFirstWithoutLimit;
+}
+
 bool prefersTexels(const DeviceFacts& device) {
   constexpr uint64_t kTexelByteCount = 16;
   return device.kind == DeviceKind::Cpu &&

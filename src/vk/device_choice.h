@@ -4,11 +4,13 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace asdfvk {
 
 enum class DeviceKind { Discrete, Integrated, Virtual, Cpu, Other };
+enum class DeviceVendor { Nvidia, Amd, Intel, Other };
 
 /// Facts that the choice of a device depends on, and limits that programs adapt to. Plain data, so that the choice can
 /// be tested without a device.
@@ -16,6 +18,7 @@ struct DeviceFacts {
   std::string name;
   std::string driver;
   DeviceKind kind = DeviceKind::Other;
+  DeviceVendor vendor = DeviceVendor::Other;
   uint32_t apiVersion = 0;  ///< As VK_MAKE_API_VERSION packs it.
   std::optional<uint32_t> computeQueueFamily;
   uint32_t subgroupSize = 1;
@@ -28,6 +31,7 @@ struct DeviceFacts {
   uint64_t maxStorageBufferRange = 0;  ///< Bytes.
   uint64_t maxTexelBufferElements = 0;
   uint64_t maxMemoryAllocationSize = 0;  ///< Bytes.
+  bool endsLongLoops = false;            ///< Kernels must stay below kMaxLoopIterationCount: llvmpipe before Mesa 25.
 };
 
 /// Whether kernels read large read-only arrays as texels instead of from storage buffers: on CPU devices, where that is
@@ -36,9 +40,11 @@ struct DeviceFacts {
 /// https://github.com/sebbbi/perftest); many devices allow 65,536 texels only.
 [[nodiscard]] bool prefersTexels(const DeviceFacts& device);
 
-/// llvmpipe silently ends all loops of an invocation after this many iterations, counted for the lanes of a subgroup
-/// together (lp_bld_ir_common.h of Mesa, LP_MAX_TGSI_LOOP_ITERATIONS). Kernels on CPU devices stay below this limit.
-inline constexpr uint32_t kCpuDeviceLoopIterationCount = 65'535;
+/// llvmpipe before Mesa 25 silently ends all loops of an invocation after this many iterations, counted for the lanes
+/// of a subgroup together (lp_bld_ir_common.h of Mesa, LP_MAX_TGSI_LOOP_ITERATIONS).
+inline constexpr uint32_t kMaxLoopIterationCount = 65'535;
+/// driverInfo: of the driver llvmpipe, for example "Mesa 22.3.6 (LLVM 15.0.6)".
+[[nodiscard]] bool llvmpipeEndsLongLoops(std::string_view driverInfo);
 
 struct DeviceRequest {
   /// An index. A number that is not an index matches a whole number within a device name ("4090"). Other text matches a

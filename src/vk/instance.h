@@ -24,7 +24,8 @@ struct InstanceOptions {
   bool validation = false;  ///< Core and synchronization validation; Error{Device} where the layer is not installed.
 };
 
-/// A Vulkan 1.2 instance. Throws Error{Device} with the reason when there is no loader or no driver.
+/// A Vulkan 1.2 instance, which also lists devices of incomplete implementations (VK_KHR_portability_subset). Throws
+/// Error{Device} with the reason when there is no loader or no driver.
 class Instance {
  public:
   explicit Instance(const InstanceOptions& options = {});

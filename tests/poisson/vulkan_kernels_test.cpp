@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 #include <numeric>
 
 #include "asdf_vk/error.h"
@@ -10,6 +11,10 @@
 #include "poisson/cpu_cg.h"
 #include "poisson/vulkan/vulkan_cg.h"
 #include "poisson/vulkan/vulkan_jacobi.h"
+#include "spirv/cg_product.comp.h"
+#include "spirv/cg_step.comp.h"
+#include "spirv/jacobi_sweep.comp.h"
+#include "support/specialization_ids.h"
 #include "support/test_device.h"
 
 using namespace asdfvk;
@@ -186,6 +191,19 @@ TEST_CASE("a product that is not positive ends the iteration as a breakdown") {
   check(onCpu);
 }
 
+TEST_CASE("a right-hand side that is not a number ends the iteration as a breakdown") {
+  const test::ValidatedDevice device;
+  const PoissonSystem system = chain(4, 1, 3);
+  const ScaledSystem scaled(system);
+  const VulkanCgKernels kernels(*device);
+  const VulkanMatrix matrix(*device, scaled);
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  VulkanCg onDevice(*device, kernels, matrix, std::vector<float>{nan, 1}, 1e-3);
+  CHECK(onDevice.advance(10).status == kCgBrokenDown);
+  CpuCg onCpu(scaled, {nan, 1}, 1e-3);
+  CHECK(onCpu.advance(10).status == kCgBrokenDown);
+}
+
 TEST_CASE("Jacobi sweeps give the vectors of their CPU twin") {
   const test::ValidatedDevice device;
   const PoissonSystem system = unevenSystem();
@@ -216,6 +234,7 @@ TEST_CASE("a system that exceeds a limit of the device is refused") {
   facts.name = "Toy";
   facts.kind = DeviceKind::Cpu;
   facts.maxWorkgroupInvocations = facts.maxWorkgroupSize = 1024;
+  facts.endsLongLoops = true;
   facts.maxStorageBufferRange = 128u << 20;
   facts.maxTexelBufferElements = 1u << 27;
   const auto fits = [&](uint64_t unknownCount, uint64_t tailCount, uint64_t longestRow) {
@@ -233,6 +252,9 @@ TEST_CASE("a system that exceeds a limit of the device is refused") {
   CHECK_FALSE(fits(36'000'000, 0, 3));  // 137.3 MiB in one buffer.
   CHECK_FALSE(fits(1'000'000, 36'000'000, 90));
   CHECK_FALSE(fits(11'000'000, 100, 93));  // Loop iterations.
+  facts.endsLongLoops = false;
+  CHECK(fits(11'000'000, 100, 93));
+  facts.endsLongLoops = true;
   CHECK(fits(1000, 3000, 93));
   facts.maxTexelBufferElements = 65'536;  // Storage buffers reach further: 32 bytes per row.
   CHECK(fits(4u << 20, 0, 3));
@@ -268,6 +290,12 @@ TEST_CASE("rows are read from a storage buffer where the device allows few texel
   }
   CHECK(solutions[0] == solutions[1]);
   CHECK(instance.validationLog()->messages().empty());
+}
+
+TEST_CASE("each specialization constant of the Poisson shaders has an id of its own") {
+  CHECK(test::hasDistinctSpecializationIds(k_cg_product_comp));
+  CHECK(test::hasDistinctSpecializationIds(k_cg_step_comp));
+  CHECK(test::hasDistinctSpecializationIds(k_jacobi_sweep_comp));
 }
 
 TEST_CASE("every system has at least one workgroup and at most kMaxPoissonWorkgroupCount") {

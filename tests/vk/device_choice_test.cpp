@@ -80,6 +80,15 @@ TEST_CASE("an old device and one without compute are refused with the reason") {
   CHECK(choice.reasons[1].find("no queue for compute") != std::string::npos);
 }
 
+TEST_CASE("llvmpipe ends long loops before Mesa 25") {
+  CHECK(llvmpipeEndsLongLoops("Mesa 22.3.6 (LLVM 15.0.6)"));
+  CHECK(llvmpipeEndsLongLoops("Mesa 24.3.4"));
+  CHECK_FALSE(llvmpipeEndsLongLoops("Mesa 25.0.7-2 (LLVM 19.1.7)"));
+  CHECK_FALSE(llvmpipeEndsLongLoops("Mesa 100.1"));
+  CHECK(llvmpipeEndsLongLoops(""));
+  CHECK(llvmpipeEndsLongLoops("Mesa git"));
+}
+
 TEST_CASE("without devices nothing is chosen") {
   const DeviceChoice choice = chooseDevice({}, {});
   CHECK_FALSE(choice.index);

@@ -108,6 +108,15 @@ TEST_CASE("an instance without validation does not disturb one with validation")
   CHECK(log->messages().empty());
 }
 
+TEST_CASE("a queue family without graphics is preferred") {
+  const auto family = [](VkQueueFlags flags) { return VkQueueFamilyProperties{flags, 1, 0, {}}; };
+  const VkQueueFamilyProperties both = family(VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT),
+                                compute = family(VK_QUEUE_COMPUTE_BIT), copies = family(VK_QUEUE_TRANSFER_BIT);
+  CHECK(chooseComputeQueueFamily(std::vector{both, copies, compute, compute}) == 2);
+  CHECK(chooseComputeQueueFamily(std::vector{copies, both, both}) == 1);
+  CHECK_FALSE(chooseComputeQueueFamily(std::vector{copies}));
+}
+
 TEST_CASE("a buffer beyond the device's limits is an error that names the limit") {
   const test::ValidatedDevice device;
   DeviceFacts small = device->facts();

@@ -87,7 +87,8 @@ VulkanJacobi::VulkanJacobi(const Device& device, const VulkanJacobiKernel& kerne
 double VulkanJacobi::advance(uint32_t iterationCount) {
   commands_.begin();
   for (uint32_t i = 0; i < iterationCount; ++i) {
-    commands_.dispatch(kernel_.sweep, bindings_[current_], bytesOf(PoissonPush{unknownCount_, 0, workgroupCount_}), workgroupCount_);
+    commands_.dispatch(kernel_.sweep, bindings_[current_], bytesOf(PoissonPush{unknownCount_, 0, workgroupCount_}),
+                       workgroupCount_);
     commands_.barrier();
     current_ = 1 - current_;
   }

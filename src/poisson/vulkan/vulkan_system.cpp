@@ -19,7 +19,7 @@ constexpr uint32_t kGpuLaneCount = 256, kGpuRowsPerLane = 4;
 constexpr uint32_t kCpuLaneCount = 32, kCpuRowsPerLane = 32;
 constexpr uint64_t kRowBlockByteCount = sizeof(PoissonRow) / kPoissonRowTexelCount;
 // The rest is a margin for loops that the compiler adds.
-constexpr uint64_t kMaxLoopIterationCount = kCpuDeviceLoopIterationCount / 10 * 9;
+constexpr uint64_t kMaxKernelIterationCount = kMaxLoopIterationCount / 10 * 9;
 
 uint32_t minRowsPerLane(const DeviceFacts& facts) {
   return facts.kind == DeviceKind::Cpu ? kCpuRowsPerLane : kGpuRowsPerLane;
@@ -62,9 +62,9 @@ void requireSystemFits(const DeviceFacts& facts, uint64_t unknownCount, uint64_t
   // The loops of a kernel: rows and their entries, partial sums, two reduction trees.
   const uint64_t iterationCount = std::max<uint64_t>(rowsPerLane, minRowsPerLane(facts)) * (longestRow + 1) +
                                   divideUp(kMaxPoissonWorkgroupCount, laneCount) + 2u * std::bit_width(laneCount);
-  if (iterationCount > kMaxLoopIterationCount)
+  if (facts.endsLongLoops && iterationCount > kMaxKernelIterationCount)
     refuse(fmt::format("{} loop iterations of a lane (rows have up to {} entries), at most {}", iterationCount,
-                       longestRow, kMaxLoopIterationCount));
+                       longestRow, kMaxKernelIterationCount));
 }
 
 ComputePipelineDescription describePoissonKernel(const DeviceFacts& facts, const std::string& name,
@@ -76,7 +76,8 @@ ComputePipelineDescription describePoissonKernel(const DeviceFacts& facts, const
           spirv,
           bindings,
           sizeof(PoissonPush),
-          {/* kLaneCount= */ poissonLaneCount(facts), /* kFetchesTexels= */ prefersTexels(facts) ? VK_TRUE : VK_FALSE}};
+          {/* kLaneCount= */ poissonLaneCount(facts), /* kFetchesTexels= */ prefersTexels(facts) ? VK_TRUE : VK_FALSE,
+           /* LOCAL_SIZE_X= */ poissonLaneCount(facts)}};
 }
 
 VulkanMatrix::VulkanMatrix(const Device& device, const ScaledSystem& system) {

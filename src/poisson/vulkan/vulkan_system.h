@@ -26,7 +26,7 @@ struct PoissonGrid {
 [[nodiscard]] PoissonGrid choosePoissonGrid(const DeviceFacts& facts, uint32_t unknownCount);
 
 /// tailCount: entries beyond the third of their row. Throws Error{EquationLimit} when an array exceeds the binding size
-/// of the device, or when a lane might exceed the number of loop iterations after which llvmpipe silently ends loops.
+/// of the device, or when a lane might exceed the loop iterations of DeviceFacts::endsLongLoops.
 void requireSystemFits(const DeviceFacts& facts, uint64_t unknownCount, uint64_t tailCount, uint64_t longestRow);
 
 /// Usage of vectors that kernels write and the host reads.

@@ -53,8 +53,10 @@ ComputePipelineDescription describe(const ConeKernelRequest& request, const Vulk
                                       /* WRITES_HITS= */ request.writesHits ? VK_TRUE : VK_FALSE,
                                       /* FETCHES_TEXELS= */ choice.fetch == BvhFetch::Texel ? VK_TRUE : VK_FALSE,
                                       /* IS_WIDE= */ choice.bvh == BvhLayout::Wide ? VK_TRUE : VK_FALSE,
-                                      /* LANE_COUNT= */ shape.lanesPerCone * shape.conesPerWorkgroup,
-                                      /* IS_CGAL= */ isCgal(request)}};
+                                      /* LOCAL_SIZE_X= */ shape.lanesPerCone *
+                                          (choice.kernel == TraceKernel::Seed ? shape.conesPerWorkgroup : 1),
+                                      /* IS_CGAL= */ isCgal(request),
+                                      /* LOCAL_SIZE_Y= */ shape.conesPerWorkgroup}};
 }
 
 ComputePipelineDescription describeBalls(const Device& device, const VulkanTraceChoice& choice) {

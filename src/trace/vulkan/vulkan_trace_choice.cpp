@@ -40,8 +40,7 @@ std::string nameIn(VariantNames<T> names, T value) {
 // One ray per lane.
 VulkanWorkgroupShape seedShape(const DeviceFacts& device) {
   VulkanWorkgroupShape shape{1, std::min({64u, device.maxWorkgroupInvocations, device.maxWorkgroupSize})};
-  if (device.kind == DeviceKind::Cpu)
-    shape.iterationLimit = kCpuDeviceLoopIterationCount / std::max(1u, device.subgroupSize);
+  if (device.endsLongLoops) shape.iterationLimit = kMaxLoopIterationCount / std::max(1u, device.subgroupSize);
   return shape;
 }
 
@@ -52,8 +51,16 @@ uint32_t roundUp(uint32_t value, uint32_t multiple) { return (value + multiple -
 VulkanTraceChoice defaultTraceChoice(const DeviceFacts& device) {
   if (device.kind == DeviceKind::Cpu)
     return {kCpuDevice.kernel, kCpuDevice.bvh, prefersTexels(device) ? BvhFetch::Texel : BvhFetch::Storage};
-  if (device.subgroupSize <= kMaxSmallSubgroup) return kSmallSubgroup;
-  return kLargeSubgroup;
+  switch (device.vendor) {  // The compilers choose the size of subgroups, which may differ from the reported one.
+    case DeviceVendor::Intel:
+      return kSmallSubgroup;  // 8 or 16 lanes; 32 are reported.
+    case DeviceVendor::Nvidia:
+    case DeviceVendor::Amd:
+      return kLargeSubgroup;  // 32 or 64 lanes.
+    case DeviceVendor::Other:
+      break;
+  }
+  return device.subgroupSize <= kMaxSmallSubgroup ? kSmallSubgroup : kLargeSubgroup;
 }
 
 VulkanTraceChoice traceChoiceFor(const DeviceFacts& device, const VulkanTraceRequest& request) {
@@ -97,6 +104,7 @@ VulkanWorkgroupShape workgroupShapeFor(const DeviceFacts& device, uint32_t rayCo
     return shape;
   }
   shape.lanesPerCone = std::min(widest, roundUp(rayCount, 8));
+  if (!device.endsLongLoops) return shape;
   // Iterations of the reduction: three loops over all rays, and one over all rays for each ray of the lane; in the
   // definition of CGAL another one of these.
   const uint32_t raysPerLane = (rayCount + shape.lanesPerCone - 1) / shape.lanesPerCone;
@@ -105,7 +113,7 @@ VulkanWorkgroupShape workgroupShapeFor(const DeviceFacts& device, uint32_t rayCo
   // The limit counts the lanes of a subgroup together. Lanes of a packet run every loop together; those of other
   // kernels may run different iterations.
   const uint32_t sharingCount = kernel == TraceKernel::Packet ? 1 : std::max(1u, device.subgroupSize);
-  shape.iterationLimit = (kCpuDeviceLoopIterationCount - reductionCount) / sharingCount;
+  shape.iterationLimit = (kMaxLoopIterationCount - reductionCount) / sharingCount;
   return shape;
 }
 
