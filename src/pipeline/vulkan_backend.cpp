@@ -11,6 +11,7 @@
 #include "asdf_vk/error.h"
 #include "core/text.h"
 #include "pipeline/backend.h"
+#include "trace/tracer_check.h"
 #include "trace/vulkan/vulkan_cone_kernel.h"
 #include "trace/vulkan/vulkan_trace_choice.h"
 #include "trace/vulkan/vulkan_tracer.h"
@@ -69,7 +70,9 @@ class VulkanBackend final : public Backend {
                                     needs.balls};
     std::unique_ptr<VulkanConeKernel>& kernel = kernels_[request];
     if (!kernel) kernel = std::make_unique<VulkanConeKernel>(*opened_.device, request);
-    return makeVulkanTracer(*kernel, scene, cone);
+    std::unique_ptr<ConeTracer> tracer = makeVulkanTracer(*kernel, scene, cone);
+    if (!isVerified_) verify(*tracer, scene, cone);
+    return tracer;
   }
 
   void requireSilentValidation() const override {
@@ -83,11 +86,22 @@ class VulkanBackend final : public Backend {
  private:
   [[nodiscard]] const DeviceFacts& facts() const { return opened_.device->facts(); }
 
+  /// Throws Error{NoUsableDevice} where the device computes wrong values.
+  void verify(ConeTracer& tracer, const TraceScene& scene, const Cone& cone) {
+    const TracerCheck check = checkTracer(tracer, scene, cone);
+    if (check.isRefuted())
+      throw Error(ErrorCode::NoUsableDevice,
+                  fmt::format("{} computes wrong values: {} of {} differ from those of the reference", deviceName(),
+                              check.differingCount, counted(check.comparedCount, "face")));
+    isVerified_ = check.isConclusive();
+  }
+
   // Destroyed in reverse: each member depends on those before it.
   VulkanTraceRequest request_;
   Instance instance_;
   OpenedDevice opened_;
   VulkanTraceChoice choice_;
+  bool isVerified_ = false;
   std::map<ConeKernelRequest, std::unique_ptr<VulkanConeKernel>> kernels_;
 };
 

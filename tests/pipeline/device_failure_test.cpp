@@ -1,12 +1,14 @@
 #include <doctest/doctest.h>
 #include <volk.h>
 
+#include <cstring>
 #include <string>
 #include <vector>
 
 #include "asdf_vk/scene.h"
 #include "asdf_vk/session.h"
 #include "generate/shapes.h"
+#include "shared/cone_layout.h"
 #include "support/bits.h"
 #include "support/require_failure.h"
 #include "support/shared_session.h"
@@ -55,6 +57,29 @@ class FullDevice {
   PFN_vkAllocateMemory allocate_;
 };
 
+/// While it exists, kernels drop all hits as false, so that no face has a value.
+class WrongDevice {
+ public:
+  WrongDevice() : push_(vkCmdPushConstants) {
+    original = push_;
+    vkCmdPushConstants = [](VkCommandBuffer commands, VkPipelineLayout layout, VkShaderStageFlags stages,
+                            uint32_t offset, uint32_t byteCount, const void* bytes) {
+      ConePush push;
+      if (byteCount != sizeof push) return original(commands, layout, stages, offset, byteCount, bytes);
+      std::memcpy(&push, bytes, sizeof push);
+      push.falseHitCosine = -2;
+      original(commands, layout, stages, offset, byteCount, &push);
+    };
+  }
+  ~WrongDevice() { vkCmdPushConstants = push_; }
+  WrongDevice(const WrongDevice&) = delete;
+  WrongDevice& operator=(const WrongDevice&) = delete;
+
+ private:
+  static inline PFN_vkCmdPushConstants original = nullptr;
+  PFN_vkCmdPushConstants push_;
+};
+
 const std::string kNextBackend = hasEmbree() ? "cpu" : "reference";
 
 void checkReplaced(Session& session, const Mesh& mesh, const Result& result, ErrorCode code) {
@@ -101,6 +126,20 @@ TEST_CASE("auto continues with the next backend when the device has no memory le
   Session session;
   const FullDevice full;
   checkReplaced(session, mesh, session.compute(mesh), ErrorCode::OutOfDeviceMemory);
+}
+
+TEST_CASE("a device with wrong values is refused at its first use") {
+  const Mesh mesh = makeTorus(1000).mesh;
+  {
+    Session session, requested({.backend = "vulkan"});
+    const WrongDevice wrong;
+    checkReplaced(session, mesh, session.compute(mesh), ErrorCode::NoUsableDevice);
+    requireFailure([&] { (void)requested.compute(mesh); }, ErrorCode::NoUsableDevice,
+                   "computes wrong values: 64 of 64");
+  }
+  Session session;
+  (void)session.compute(mesh);
+  CHECK(session.backend() == "vulkan");
 }
 
 TEST_CASE("a requested backend, device, variant or solver of the device is not replaced") {

@@ -1,0 +1,34 @@
+#include "trace/tracer_check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "asdf_vk/report.h"
+#include "trace/reference_tracer.h"
+
+namespace asdfvk {
+namespace {
+
+constexpr size_t kFaceCount = 64;
+
+}  // namespace
+
+TracerCheck checkTracer(ConeTracer& tracer, const TraceScene& scene, const Cone& cone) {
+  const std::vector<uint32_t>& traceable = scene.bvh.primitiveFaces;
+  std::vector<uint32_t> faces(std::min(kFaceCount, traceable.size()));
+  for (size_t i = 0; i < faces.size(); ++i) faces[i] = traceable[i * traceable.size() / faces.size()];
+  std::vector<double> values(faces.size()), expected(faces.size());
+  tracer.trace(faces, {values, {}}, {});
+  makeReferenceTracer(scene, cone)->trace(faces, {expected, {}}, {});
+  const double tolerance = kAgreementTolerance * scene.geometry.bounds.diagonal();
+  TracerCheck check;
+  for (size_t i = 0; i < faces.size(); ++i) {
+    if (std::isnan(values[i]) && std::isnan(expected[i])) continue;
+    ++check.comparedCount;
+    if (!(std::abs(values[i] - expected[i]) <= tolerance)) ++check.differingCount;
+  }
+  return check;
+}
+
+}  // namespace asdfvk
