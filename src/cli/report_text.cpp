@@ -181,13 +181,20 @@ std::string errorCheck(const CheckReport& check) {
                      counted(check.interpolatedCount, "interpolated face"));
 }
 
+/// A GPU gains little where most of the time is not spent on rays. Estimated, not measured.
+bool isTooSmallForGpu(const Report& report) {
+  constexpr uint64_t kFewRays = 10'000'000;
+  return report.traceVariant && !report.runsOnCpu && report.rayCount < kFewRays && isBackendBuilt("cpu");
+}
+
 }  // namespace
 
 std::string textReport(const MeshOutcome& outcome) {
   const Report& report = outcome.result.report;
   std::string text = fmt::format("{}: {}\n", outcome.mesh, meshRow(report));
-  text += row("device", fmt::format("{} on {}{}", report.backend, report.device,
-                                    report.traceVariant ? kernelText(*report.traceVariant) : ""));
+  text += row("device", fmt::format("{} on {}{}{}", report.backend, report.device,
+                                    report.traceVariant ? kernelText(*report.traceVariant) : "",
+                                    isTooSmallForGpu(report) ? "; so few rays may be faster with --backend cpu" : ""));
   text += row("seeds", seedRow(outcome));
   text += row("time", timeRow(report.stageSeconds));
   text += row("speed", fmt::format("{:.3g} Mrays/s", report.raysPerSecond / 1e6));

@@ -55,6 +55,20 @@ TEST_CASE("a count of one has a singular noun") {
     CHECK_MESSAGE(holds(text, part), text);
 }
 
+TEST_CASE("the text report of a GPU with few rays names the backend that may be faster") {
+  const CommandLine line;
+  Result result = sampleResult();
+  const auto hints = [&] { return holds(textReport({kMesh, kOutput, line, result}), "with --backend cpu"); };
+  CHECK_FALSE(hints());  // No variant: no kernel ran.
+  result.report.traceVariant = TraceVariant{"ray", "wide", "storage"};
+  CHECK(hints() == isBackendBuilt("cpu"));
+  result.report.rayCount = 10'000'000;
+  CHECK_FALSE(hints());
+  result.report.rayCount = 290910;
+  result.report.runsOnCpu = true;
+  CHECK_FALSE(hints());
+}
+
 TEST_CASE("the text report names exceptions") {
   const CommandLine line;
   Result result = sampleResult();
