@@ -146,6 +146,11 @@ TEST_CASE("the device's own iteration guard suffices for its workgroup shape") {
     const VulkanWorkgroupShape cgal = workgroupShapeFor(cpu, rayCount, TraceKernel::Ray, Definition::Cgal);
     REQUIRE(8ull * cgal.iterationLimit + reduction + uint64_t{rayCount} * raysPerLane + 2 * raysPerLane <= 65'535);
     REQUIRE(cgal.iterationLimit > 5000);
+    DeviceFacts gpu = cpu;
+    gpu.kind = DeviceKind::Discrete;
+    const VulkanWorkgroupShape onGpu = workgroupShapeFor(gpu, rayCount);
+    const uint32_t raysPerGpuLane = (rayCount + onGpu.lanesPerCone - 1) / onGpu.lanesPerCone;
+    REQUIRE(8ull * onGpu.iterationLimit + uint64_t{rayCount} * (3 + raysPerGpuLane) + 2 * raysPerGpuLane <= 65'535);
   }
 }
 

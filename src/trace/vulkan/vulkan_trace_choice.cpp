@@ -101,9 +101,9 @@ VulkanWorkgroupShape workgroupShapeFor(const DeviceFacts& device, uint32_t rayCo
   if (device.kind != DeviceKind::Cpu) {
     shape.lanesPerCone = std::min(widest, roundUp(rayCount, std::clamp(device.subgroupSize, 8u, 32u)));
     shape.conesPerWorkgroup = std::max(1u, std::min(128u, device.maxWorkgroupInvocations) / shape.lanesPerCone);
-    return shape;
+  } else {
+    shape.lanesPerCone = std::min(widest, roundUp(rayCount, 8));
   }
-  shape.lanesPerCone = std::min(widest, roundUp(rayCount, 8));
   if (!device.endsLongLoops) return shape;
   // Iterations of the reduction: three loops over all rays, and one over all rays for each ray of the lane; in the
   // definition of CGAL another one of these.
