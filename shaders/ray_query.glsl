@@ -36,8 +36,8 @@ void testTriangles(Query query, uint slot0, uint slot1, inout Hit hit) {
   keepNearest(distance1, slot1, triangle1.faceIndex, query.excludedFace, hit);
 }
 
-// Factor on the exit distance of a box: covers the rounding errors of both distances (Ize 2013), with the inverse of the
-// direction off by 2.5 units of the last place, which Vulkan allows, instead of half a unit.
+// Factor on the exit distance of a box: covers the rounding errors of both distances (Ize 2013), with the inverse of
+// the direction off by 2.5 units of the last place, which Vulkan allows, instead of half a unit.
 const float kExitMargin = 1.0 + 14.0 * 5.9604645e-8;
 
 // Distance at which the ray enters the box; kFarAway where it misses the box or enters beyond `limit`. The margin of

@@ -1,5 +1,5 @@
 // Distribution of rows to lanes and sums over a workgroup, for the Poisson kernels. Include first.
-layout(local_size_x_id = 2) in;  // kLaneCount: an id is used once only.
+layout(local_size_x_id = 2) in;                      // kLaneCount: an id is used once only.
 layout(constant_id = 0) const uint kLaneCount = 64;  // A power of two and a multiple of 8.
 
 layout(push_constant) uniform Push { PoissonPush push; };

@@ -9,8 +9,7 @@ layout(set = 0, binding = 2) readonly buffer TailCouplings { float tailCouplings
 
 PoissonRow loadRow(uint row) {
   const uint block = row * kPoissonRowTexelCount;
-  if (kFetchesTexels)
-    return decodePoissonRow(imageLoad(rowTexels, int(block)), imageLoad(rowTexels, int(block) + 1));
+  if (kFetchesTexels) return decodePoissonRow(imageLoad(rowTexels, int(block)), imageLoad(rowTexels, int(block) + 1));
   return decodePoissonRow(rowBlocks[block], rowBlocks[block + 1u]);
 }
 
