@@ -11,8 +11,6 @@ namespace {
 
 constexpr size_t kThrowsPerTask = 512;
 constexpr size_t kDisksPerTask = 32;
-// Faces of the block are in random order in memory; this many are prefetched.
-constexpr size_t kPrefetchDistance = 16;
 
 // While a block is thrown, the distance of a face of the block is replaced by its position, as a negative number, so
 // that disks find their conflicts without another table. A float holds every integer up to 2^24.
@@ -57,7 +55,8 @@ void DartBlock::read(std::span<const uint32_t> faces) {
   const std::span<float> distances = distances_.values();
   forEachPart(faces.size(), kThrowsPerTask, [&](size_t, size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {
-      if (i + kPrefetchDistance < end) distances_.prefetch(faces[i + kPrefetchDistance]);
+      if (i + SurfaceDistances::kPrefetchDistance < end)
+        distances_.prefetch(faces[i + SurfaceDistances::kPrefetchDistance]);
       float& distance = distances[faces[i]];
       throws_[i] = {distance, distance};
       distance = markOf(i);

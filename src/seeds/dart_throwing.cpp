@@ -21,9 +21,6 @@ constexpr uint32_t levelOf(float distance) { return std::bit_cast<uint32_t>(dist
 constexpr float lowestOf(uint32_t level) { return std::bit_cast<float>(level << kLevelShift); }
 static_assert(std::has_single_bit(kRadiiPerOctave) && std::numeric_limits<float>::is_iec559);
 
-// Waiting faces are in random order in memory; this many are prefetched.
-constexpr size_t kPrefetchDistance = 16;
-
 constexpr uint32_t kBottom = levelOf(kMinArcLength);
 
 // A dart of a block takes 2.2 times the time of a dart that is thrown alone (docs/experiments.md).
@@ -93,8 +90,10 @@ class Throwing {
   bool throwEach(std::span<const uint32_t> tried, uint32_t level) {
     const float radius = lowestOf(level);
     for (size_t i = 0; i < tried.size(); ++i) {
-      if (i + kPrefetchDistance < tried.size()) distances_.prefetch(tried[i + kPrefetchDistance]);
-      if (const size_t soon = i + kPrefetchDistance / 2; soon < tried.size() && distances_.at(tried[soon]) >= radius)
+      if (i + SurfaceDistances::kPrefetchDistance < tried.size())
+        distances_.prefetch(tried[i + SurfaceDistances::kPrefetchDistance]);
+      if (const size_t soon = i + SurfaceDistances::kPrefetchDistance / 2;
+          soon < tried.size() && distances_.at(tried[soon]) >= radius)
         distances_.prefetchArcs(tried[soon]);
       const uint32_t face = tried[i];
       if (const float distance = distances_.at(face); distance < radius) {

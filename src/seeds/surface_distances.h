@@ -45,6 +45,8 @@ class SurfaceDistances {
   /// 0 for a seed.
   [[nodiscard]] float at(uint32_t face) const { return distances_[face]; }
 
+  /// Recommended number of faces to prefetch before they are used, where they are in random order in memory.
+  static constexpr size_t kPrefetchDistance = 16;
   /// Prefetches the memory that at(face) and the addition of the face access first.
   void prefetch(uint32_t face) const {
     __builtin_prefetch(&distances_[face]);
