@@ -1,4 +1,4 @@
-"""Builds the extension asdf_vk._core with CMake; everything else stands in pyproject.toml."""
+"""Builds the extension asdf_vk._core with CMake; other settings are in pyproject.toml."""
 
 from __future__ import annotations
 
