@@ -30,11 +30,6 @@ Result computed(const MeshView& mesh, const CgalSegmentationOptions& segmentatio
   return test::referenceSession().compute(mesh, options);
 }
 
-const Values& normalizedOf(const Result& result) {
-  REQUIRE(result.field("normalized") != nullptr);
-  return *result.field("normalized")->reals();
-}
-
 Mesh animal() { return generateShape("animal", 1500).mesh; }
 
 /// Two cubes of quads, of 1 and of a quarter of the size, and a face of two corners.
@@ -56,7 +51,7 @@ TEST_CASE("from the values of a result, its fields with the same bits") {
       const CgalSegmentationOptions options{3, 0.1, expansion};
       const Result result = computed(mesh, options);
       const PostprocessedSdf sdf = postprocessSdf(mesh, result.sdf());
-      CHECK(sdf.normalized == normalizedOf(result));
+      CHECK(sdf.normalized == test::normalizedOf(result));
       CHECK(sdf.min == result.report.postprocess->min);
       CHECK(sdf.max == result.report.postprocess->max);
       const LabelledFaces segments = segmentSdf(mesh, sdf.normalized, options);
@@ -69,7 +64,7 @@ TEST_CASE("from the values of a result, its fields with the same bits") {
 TEST_CASE("a segment is a connected set of faces of one cluster") {
   const Mesh mesh = animal();
   const CgalSegmentationOptions options{3, 0.1};
-  const Values normalized = normalizedOf(computed(mesh, options));
+  const Values normalized = test::normalizedOf(computed(mesh, options));
   const LabelledFaces segments = segmentSdf(mesh, normalized, options);
   const LabelledFaces clusters = segmentSdf(mesh, normalized, options, CgalLabels::Clusters);
   CHECK(clusters.count == 3);
@@ -103,7 +98,7 @@ TEST_CASE("float positions give the labels of the same positions in double") {
       v[axis] = static_cast<double>(floats.back());
     }
   const MeshView view(floats, MeshView(mesh).corners());
-  const Values normalized = normalizedOf(computed(mesh, {}));
+  const Values normalized = test::normalizedOf(computed(mesh, {}));
   CHECK(segmentSdf(view, normalized).labels == segmentSdf(rounded, normalized).labels);
   CHECK(postprocessSdf(view, normalized).normalized == postprocessSdf(rounded, normalized).normalized);
 }

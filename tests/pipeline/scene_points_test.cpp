@@ -19,21 +19,13 @@
 #include "support/shared_session.h"
 
 using namespace asdfvk;
+using test::allSessions;
 using test::referenceSession;
 using test::requireFailure;
 
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-std::vector<Session*> allSessions() {
-  std::vector<Session*> sessions{&test::vulkanSession(), &referenceSession()};
-  if (isBackendBuilt("cpu")) {
-    static Session session({.backend = "cpu"});
-    sessions.push_back(&session);
-  }
-  return sessions;
-}
 
 /// Points with normals, as arrays of a caller.
 struct Points {

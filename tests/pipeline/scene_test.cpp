@@ -23,22 +23,13 @@
 
 using namespace asdfvk;
 using test::allSeeds;
+using test::allSessions;
 using test::haveSameBits;
 using test::referenceSession;
 using test::requireFailure;
 using test::vulkanSession;
 
 namespace {
-
-/// A session of each backend of this build.
-std::vector<Session*> allSessions() {
-  std::vector<Session*> sessions{&vulkanSession(), &referenceSession()};
-  if (isBackendBuilt("cpu")) {
-    static Session session({.backend = "cpu"});
-    sessions.push_back(&session);
-  }
-  return sessions;
-}
 
 void checkSameFields(const Result& a, const Result& b) {
   REQUIRE(a.fields.size() == b.fields.size());

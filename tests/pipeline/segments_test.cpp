@@ -36,13 +36,6 @@ Options segmented(uint32_t clusterCount = 5) {
   return options;
 }
 
-const std::vector<double>& normalizedOf(const Result& result) {
-  const Field* field = result.field("normalized");
-  REQUIRE(field != nullptr);
-  CHECK(field->unit.empty());
-  return std::get<std::vector<double>>(field->values);
-}
-
 /// A sphere and two of half its size.
 Mesh threeSpheres() {
   Mesh mesh = makeSphere(320).mesh;
@@ -80,7 +73,7 @@ TEST_CASE("post-processing alone gives values from 0 to 1, and the range that th
   options.postprocess = Postprocess::Cgal;
   const Mesh mesh = makeTorus(800).mesh;
   const Result result = referenceSession().compute(mesh, options);
-  const std::vector<double>& normalized = normalizedOf(result);
+  const std::vector<double>& normalized = test::normalizedOf(result);
   REQUIRE(normalized.size() == mesh.faces.size());
   CHECK(*std::min_element(normalized.begin(), normalized.end()) == 0);
   CHECK(*std::max_element(normalized.begin(), normalized.end()) == 1);
@@ -102,7 +95,7 @@ TEST_CASE("the fields are those of src/segment for the values of the result") {
     const Result result = referenceSession().compute(mesh, options);
     const FaceNeighbours neighbours = findFaceNeighbours(mesh);
     const CgalValues values = postprocessLikeCgal(neighbours, result.sdf());
-    CHECK(normalizedOf(result) == values.normalized);
+    CHECK(test::normalizedOf(result) == values.normalized);
     CHECK(result.report.postprocess->min == values.min);
     CHECK(result.report.postprocess->max == values.max);
     const CgalSegmentation expected =
@@ -121,7 +114,7 @@ TEST_CASE("interpolated and smoothed values can be segmented, too") {
   const Mesh mesh = makeTorus(1000).mesh;
   const Result result = referenceSession().compute(mesh, options);
   CHECK(test::segmentsOf(result).size() == mesh.faces.size());
-  CHECK(normalizedOf(result) == postprocessLikeCgal(findFaceNeighbours(mesh), result.sdf()).normalized);
+  CHECK(test::normalizedOf(result) == postprocessLikeCgal(findFaceNeighbours(mesh), result.sdf()).normalized);
 }
 
 TEST_CASE("components are segments of their own, on every backend the same ones") {
@@ -175,7 +168,8 @@ TEST_CASE("a face without a value is filled, and so is a component without any")
   const Result result = referenceSession().compute(mesh, segmented(2));
   CHECK(std::isnan(result.sdf().back()));
   CHECK(result.report.noValueCount == 1);
-  CHECK(std::none_of(normalizedOf(result).begin(), normalizedOf(result).end(), [](double v) { return std::isnan(v); }));
+  CHECK(std::none_of(test::normalizedOf(result).begin(), test::normalizedOf(result).end(),
+                     [](double v) { return std::isnan(v); }));
   CHECK(test::segmentsOf(result).size() == mesh.faces.size());
   CHECK(*std::max_element(test::segmentsOf(result).begin(), test::segmentsOf(result).end()) + 1 ==
         result.report.segmentation->segmentCount);
@@ -203,7 +197,7 @@ TEST_CASE("open, non-manifold and degenerate meshes have segments") {
     REQUIRE(test::segmentsOf(result).size() == mesh.faces.size());
     const uint32_t count = result.report.segmentation->segmentCount;
     CHECK(*std::max_element(test::segmentsOf(result).begin(), test::segmentsOf(result).end()) + 1 == count);
-    CHECK(std::all_of(normalizedOf(result).begin(), normalizedOf(result).end(),
+    CHECK(std::all_of(test::normalizedOf(result).begin(), test::normalizedOf(result).end(),
                       [](double v) { return 0 <= v && v <= 1; }));
   }
 }
@@ -277,8 +271,8 @@ TEST_CASE("a mesh of polygons has one normalised value and one segment per input
   const Result result = referenceSession().compute(cubes.view(), segmented(2));
   CHECK(test::segmentsOf(result) == Labels{1, 1, 1, 1, 1, 1, 0, 0, 0, 0, 0, 0, kNoSegment});
   CHECK(result.report.segmentation->segmentCount == 2);
-  REQUIRE(normalizedOf(result).size() == 13);
-  CHECK(std::isnan(normalizedOf(result).back()));
+  REQUIRE(test::normalizedOf(result).size() == 13);
+  CHECK(std::isnan(test::normalizedOf(result).back()));
   for (size_t face = 0; face < 12; ++face)
-    CHECK(normalizedOf(result)[face] == doctest::Approx(face < 6 ? 1 : 0).epsilon(0.2));
+    CHECK(test::normalizedOf(result)[face] == doctest::Approx(face < 6 ? 1 : 0).epsilon(0.2));
 }

@@ -23,6 +23,16 @@ inline Session& referenceSession() {
   return session;
 }
 
+/// A session of each backend of this build.
+inline std::vector<Session*> allSessions() {
+  std::vector<Session*> sessions{&vulkanSession(), &referenceSession()};
+  if (isBackendBuilt("cpu")) {
+    static Session session({.backend = "cpu"});
+    sessions.push_back(&session);
+  }
+  return sessions;
+}
+
 inline Options allSeeds() {
   Options options;
   options.seeds = SeedCount::all();
@@ -42,6 +52,14 @@ inline const Warning* findWarning(const Report& report, WarningCode code) {
   const auto found = std::find_if(report.warnings.begin(), report.warnings.end(),
                                   [&](const Warning& warning) { return warning.code == code; });
   return found == report.warnings.end() ? nullptr : &*found;
+}
+
+/// The field "normalized".
+inline const std::vector<double>& normalizedOf(const Result& result) {
+  const Field* field = result.field("normalized");
+  REQUIRE(field != nullptr);
+  CHECK(field->unit.empty());
+  return std::get<std::vector<double>>(field->values);
 }
 
 /// The field "segment".
