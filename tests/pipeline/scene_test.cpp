@@ -366,7 +366,8 @@ TEST_CASE("tracers are kept by their cone options, and replaced where they serve
   CHECK(released.expired());
 }
 
-TEST_CASE("hundreds of scenes leave no memory behind") {
+// Slow: sanitizers keep released memory.
+TEST_CASE("hundreds of scenes leave no memory behind" * doctest::test_suite("slow")) {
   const Mesh mesh = shapes::sphere(1);
   const std::vector<double> point{1, 0, 0};
   for (const char* backend : {"reference", "cpu"}) {
