@@ -20,6 +20,10 @@ std::vector<py::ssize_t> shapeOf(const Field& field) {
 
 }  // namespace
 
+bool isFlag(const py::handle& object) {
+  return py::isinstance<py::bool_>(object) || py::isinstance(object, py::module_::import("numpy").attr("bool_"));
+}
+
 template <typename T>
 std::span<const T> entriesOf(const py::array& array) {
   const bool isAligned = (array.flags() & py::detail::npy_api::NPY_ARRAY_ALIGNED_) != 0;

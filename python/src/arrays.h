@@ -13,6 +13,9 @@
 
 namespace asdfvk::python {
 
+/// Whether the object is a bool of Python or NumPy.
+[[nodiscard]] bool isFlag(const pybind11::handle& object);
+
 /// The entries of a C-contiguous array of T, in place. Throws Error{ArrayType} for any other array.
 template <typename T>
 [[nodiscard]] std::span<const T> entriesOf(const pybind11::array& array);

@@ -9,6 +9,7 @@
 #include <thread>
 #include <utility>
 
+#include "arrays.h"
 #include "asdf_vk/error.h"
 #include "asdf_vk/report.h"
 
@@ -39,9 +40,7 @@ class ProgressCall {
     lastFraction_ = fraction;
     lastStage_ = stage;
     const py::object answer = callback_(fraction, stage);
-    const bool isFlag =
-        py::isinstance<py::bool_>(answer) || py::isinstance(answer, py::module_::import("numpy").attr("bool_"));
-    return !isFlag || PyObject_IsTrue(answer.ptr()) == 1;
+    return !isFlag(answer) || PyObject_IsTrue(answer.ptr()) == 1;
   }
 
  private:

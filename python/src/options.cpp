@@ -6,6 +6,7 @@
 #include <limits>
 #include <string>
 
+#include "arrays.h"
 #include "asdf_vk/choices.h"
 #include "asdf_vk/error.h"
 
@@ -24,11 +25,6 @@ struct Value {
                 std::string(name) + "=" + std::string(py::repr(object)) + " is not " + wanted, {{"option", name}});
   }
 };
-
-/// bool, or NumPy's.
-bool isFlag(const py::handle& object) {
-  return py::isinstance<py::bool_>(object) || py::isinstance(object, py::module_::import("numpy").attr("bool_"));
-}
 
 /// An integer of Python or NumPy.
 bool isWhole(const py::handle& object) {
