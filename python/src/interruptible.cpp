@@ -6,12 +6,12 @@
 #include <chrono>
 #include <exception>
 #include <future>
-#include <thread>
 #include <utility>
 
 #include "arrays.h"
 #include "asdf_vk/error.h"
 #include "asdf_vk/report.h"
+#include "worker_threads.h"
 
 namespace py = pybind11;
 
@@ -63,7 +63,7 @@ void runInterruptibly(const std::function<void(const RunControl&)>& work, const 
   std::exception_ptr raised;
   {
     const py::gil_scoped_release released;
-    const std::jthread worker(std::move(task));
+    runOnWorker(std::move(task));
     while (done.wait_for(kPollInterval) != std::future_status::ready) {
       if (source.stop_requested()) continue;
       const py::gil_scoped_acquire acquired;

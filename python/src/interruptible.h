@@ -8,7 +8,7 @@
 
 namespace asdfvk::python {
 
-/// Runs `work` on a thread of its own, without the GIL, and waits for it. The calling thread polls for signals and
+/// Runs `work` on a worker thread, without the GIL, and waits for it. The calling thread polls for signals and
 /// calls `progress` (None, or a callable of a fraction from 0 to 1 and the name of a stage) every 20 ms. An exception
 /// of either requests a stop and is thrown once `work` has ended; so is Error{Cancelled} when `progress` returns False
 /// (bool or numpy.bool_). Throws what `work` throws.

@@ -20,7 +20,7 @@ import asdf_vk
 from shapes import cube, dumbbell, sphere
 
 _PREAMBLE = """
-import os, signal, sys, threading, time
+import hashlib, os, signal, sys, threading, time
 import numpy as np
 import asdf_vk
 from shapes import cube, dumbbell, sphere
@@ -43,11 +43,6 @@ def output(code: str, timeout: float = 60) -> str:
     finished = run(code, timeout)
     assert finished.returncode == 0, finished.stderr
     return finished.stdout.strip()
-
-
-def resident_bytes() -> int:
-    pages = int(Path("/proc/self/statm").read_text().split()[1])
-    return pages * os.sysconf("SC_PAGE_SIZE")
 
 
 def test_import_opens_nothing() -> None:
@@ -105,21 +100,39 @@ def test_the_interpreter_goes_on_while_rays_are_traced() -> None:
     assert turns > 50 * seconds
 
 
-def test_a_thousand_calls_keep_the_memory() -> None:
-    mesh = sphere(2)
+def test_calls_keep_the_memory() -> None:
+    # In a fresh process, because the heap of a test run with threads grows and shrinks by itself. A leak grows in every
+    # block of calls, what a library allocates once or twice does not. TBB loses memory only where processors are busy.
+    code = """
+    def resident_bytes():
+        return int(open("/proc/self/statm").read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
 
-    def calls(count: int) -> None:
+    def calls(count):
         for i in range(count):
             asdf_vk.shape_diameter(*mesh, return_info=True)
             if i % 10 == 0:
                 asdf_vk.segment(*mesh)
-                with pytest.raises(asdf_vk.UsageError):
+                try:
                     asdf_vk.shape_diameter(*mesh, rays=0)
+                except asdf_vk.UsageError:
+                    pass
 
-    calls(200)
-    before = resident_bytes()
-    calls(1000)
-    assert resident_bytes() - before < 4 << 20
+    def keep_busy():
+        while True:
+            hashlib.pbkdf2_hmac("sha256", b"", b"", 1000000)
+
+    for _ in range(2 * os.cpu_count()):
+        threading.Thread(target=keep_busy, daemon=True).start()
+    mesh = sphere(2)
+    calls(100)
+    growth = []
+    for block in range(4):
+        before = resident_bytes()
+        calls(225)
+        growth.append(resident_bytes() - before)
+    print(min(growth))
+    """
+    assert int(output(code)) <= 64 << 10
 
 
 def test_progress_and_cancellation() -> None:
