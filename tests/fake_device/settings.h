@@ -1,0 +1,42 @@
+#pragma once
+
+#include <vulkan/vulkan.h>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace asdfvk::fake {
+
+/// Properties that the layer reports instead of those of the driver; unset ones are the driver's. Read from the
+/// environment when an instance is created. Numbers are decimal, or hexadecimal after "0x". A limit is never larger
+/// than that of the driver.
+struct Settings {
+  std::string name;                                ///< ASDF_VK_FAKE_NAME: of the device
+  std::optional<VkPhysicalDeviceType> type;        ///< ASDF_VK_FAKE_TYPE: integrated, discrete, virtual or cpu
+  std::optional<uint32_t> vendor;                  ///< ASDF_VK_FAKE_VENDOR: PCI id
+  std::optional<uint32_t> subgroupSize;            ///< ASDF_VK_FAKE_SUBGROUP_SIZE: reported only
+  std::optional<uint32_t> texelCount;              ///< ASDF_VK_FAKE_TEXELS: maxTexelBufferElements
+  std::optional<uint32_t> storageBufferRange;      ///< ASDF_VK_FAKE_STORAGE_RANGE: bytes
+  std::optional<uint32_t> storageBufferCount;      ///< ASDF_VK_FAKE_STORAGE_BUFFERS: per stage
+  std::optional<uint32_t> workgroupInvocations;    ///< ASDF_VK_FAKE_WORKGROUP_INVOCATIONS
+  std::optional<uint32_t> workgroupSize;           ///< ASDF_VK_FAKE_WORKGROUP_SIZE: in x and y
+  std::optional<uint32_t> sharedMemoryByteCount;   ///< ASDF_VK_FAKE_SHARED_MEMORY
+  std::optional<uint64_t> maxAllocationByteCount;  ///< ASDF_VK_FAKE_MAX_ALLOCATION
+  /// ASDF_VK_FAKE_SEPARATE_MEMORY=1: memory that is local to the device and cannot be mapped, and memory of the host.
+  bool hasSeparateMemory = false;
+  std::optional<uint32_t> poison;  ///< ASDF_VK_FAKE_POISON: word that fills fresh memory, for example a NaN, 0x7fc00001
+};
+
+/// Throws std::invalid_argument with the name of a variable that has no valid value.
+[[nodiscard]] Settings readSettings();
+
+/// ASDF_VK_FAKE_LOST_AT=n: the submission number n of a device, counted from 1, and the first one after it, lose the
+/// device. Read at each submission.
+[[nodiscard]] bool losesDeviceAt(uint64_t submission) noexcept;
+
+/// ASDF_VK_FAKE_NO_MEMORY_AT=n, or n+: the allocation number n of a device, counted from 1, fails for want of device
+/// memory; with + each later one too. Read at each allocation.
+[[nodiscard]] bool lacksMemoryAt(uint64_t allocation) noexcept;
+
+}  // namespace asdfvk::fake
