@@ -15,7 +15,11 @@ constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
 VKAPI_ATTR VkBool32 VKAPI_CALL onValidationMessage(VkDebugUtilsMessageSeverityFlagBitsEXT,
                                                    VkDebugUtilsMessageTypeFlagsEXT,
                                                    const VkDebugUtilsMessengerCallbackDataEXT* data, void* log) {
-  static_cast<ValidationLog*>(log)->add(data->pMessage);
+  std::string message = data->pMessage;
+  // Layers since 2025 leave the identifier out of the text.
+  if (data->pMessageIdName != nullptr && message.find(data->pMessageIdName) == std::string::npos)
+    message = std::string(data->pMessageIdName) + ": " + message;
+  static_cast<ValidationLog*>(log)->add(std::move(message));
   return VK_FALSE;
 }
 
@@ -29,11 +33,39 @@ VkDebugUtilsMessengerCreateInfoEXT messengerInfo(ValidationLog* log) {
   return info;
 }
 
-bool hasExtension(const char* name) {
+// VK_EXT_layer_settings, which the headers of Debian 12 do not have.
+constexpr const char* kLayerSettings = "VK_EXT_layer_settings";
+
+struct LayerSetting {
+  const char* layerName;
+  const char* settingName;
+  int32_t type;
+  uint32_t valueCount;
+  const void* values;
+};
+
+struct LayerSettingsInfo {
+  VkStructureType sType;
+  const void* pNext;
+  uint32_t settingCount;
+  const LayerSetting* settings;
+};
+
+/// Layers since July 2024 check the accesses of shaders, which are most accesses here, on request only.
+LayerSettingsInfo shaderAccessValidation() {
+  constexpr auto kLayerSettingsCreateInfo = static_cast<VkStructureType>(1000496000);
+  constexpr int32_t kBool32 = 0;
+  static const VkBool32 isOn = VK_TRUE;
+  static const LayerSetting setting{kValidationLayer, "syncval_shader_accesses_heuristic", kBool32, 1, &isOn};
+  return {kLayerSettingsCreateInfo, nullptr, 1, &setting};
+}
+
+/// Whether the loader and the drivers have the extension, or, with its name, a layer.
+bool hasExtension(const char* name, const char* layer = nullptr) {
   uint32_t count = 0;
-  vkEnumerateInstanceExtensionProperties(nullptr, &count, nullptr);
+  if (vkEnumerateInstanceExtensionProperties(layer, &count, nullptr) != VK_SUCCESS) return false;
   std::vector<VkExtensionProperties> extensions(count);
-  vkEnumerateInstanceExtensionProperties(nullptr, &count, extensions.data());
+  vkEnumerateInstanceExtensionProperties(layer, &count, extensions.data());
   return std::any_of(extensions.begin(), extensions.end(), [&](const VkExtensionProperties& extension) {
     return std::strcmp(extension.extensionName, name) == 0;
   });
@@ -67,6 +99,7 @@ Instance::Instance(const InstanceOptions& options) {
   VkDebugUtilsMessengerCreateInfoEXT messenger{};
   const VkValidationFeatureEnableEXT enable = VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
   VkValidationFeaturesEXT features{VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT};
+  LayerSettingsInfo settings = shaderAccessValidation();
   std::vector<const char*> extensions;
   if (hasExtension(VK_KHR_PORTABILITY_ENUMERATION_EXTENSION_NAME)) {
     extensions.push_back(VK_KHR_PORTABILITY_ENUMERATION_EXTENSION_NAME);
@@ -79,6 +112,10 @@ Instance::Instance(const InstanceOptions& options) {
     features.pEnabledValidationFeatures = &enable;
     features.pNext = &messenger;
     info.pNext = &features;
+    if (hasExtension(kLayerSettings, kValidationLayer)) {
+      settings.pNext = &features;
+      info.pNext = &settings;
+    }
     info.enabledLayerCount = 1;
     info.ppEnabledLayerNames = &kValidationLayer;
     extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);

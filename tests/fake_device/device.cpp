@@ -85,8 +85,8 @@ VkResult unlessLost(const DeviceState& device, VkResult result) {
   return device.isLost ? VK_ERROR_DEVICE_LOST : result;
 }
 
-VKAPI_ATTR VkResult VKAPI_CALL waitForFences(VkDevice handle, uint32_t count, const VkFence* fences, VkBool32 waitsForAll,
-                                             uint64_t nanoseconds) {
+VKAPI_ATTR VkResult VKAPI_CALL waitForFences(VkDevice handle, uint32_t count, const VkFence* fences,
+                                             VkBool32 waitsForAll, uint64_t nanoseconds) {
   const DeviceState& device = devices().of(handle);
   if (device.isLost) return VK_ERROR_DEVICE_LOST;
   const auto wait = device.next<PFN_vkWaitForFences>("vkWaitForFences");

@@ -37,15 +37,22 @@ VKAPI_ATTR VkResult VKAPI_CALL createInstance(const VkInstanceCreateInfo* info, 
   if (result != VK_SUCCESS) return result;
   InstanceState& instance = instances().add(*handle);
   instance.handle = *handle;
-  instance.nextProcedure = next;
   instance.settings = settings;
+  instance.next.find = next;
+  const auto find = [&]<typename Function>(Function& function, const char* name) {
+    function = reinterpret_cast<Function>(next(*handle, name));
+  };
+  find(instance.next.destroy, "vkDestroyInstance");
+  find(instance.next.getProperties, "vkGetPhysicalDeviceProperties");
+  find(instance.next.getProperties2, "vkGetPhysicalDeviceProperties2");
+  find(instance.next.getMemory, "vkGetPhysicalDeviceMemoryProperties");
+  find(instance.next.getMemory2, "vkGetPhysicalDeviceMemoryProperties2");
   return VK_SUCCESS;
 }
 
 VKAPI_ATTR void VKAPI_CALL destroyInstance(VkInstance handle, const VkAllocationCallbacks* allocator) {
   if (handle == VK_NULL_HANDLE) return;
-  const std::unique_ptr<InstanceState> instance = instances().take(handle);
-  instance->next<PFN_vkDestroyInstance>("vkDestroyInstance")(handle, allocator);
+  instances().take(handle)->next.destroy(handle, allocator);
 }
 
 VKAPI_ATTR VkResult VKAPI_CALL createDevice(VkPhysicalDevice physical, const VkDeviceCreateInfo* info,
@@ -82,7 +89,7 @@ VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL getInstanceFunction(VkInstance handle, 
   if (is("vkCreateDevice")) return reinterpret_cast<PFN_vkVoidFunction>(createDevice);
   if (const PFN_vkVoidFunction own = findPhysicalDeviceFunction(name)) return own;
   if (const PFN_vkVoidFunction own = findDeviceFunction(name)) return own;
-  return handle == VK_NULL_HANDLE ? nullptr : instances().of(handle).nextProcedure(handle, name);
+  return handle == VK_NULL_HANDLE ? nullptr : instances().of(handle).next.find(handle, name);
 }
 
 }  // namespace

@@ -68,25 +68,25 @@ void change(VkPhysicalDeviceMemoryProperties& memory, const Settings& settings) 
 
 VKAPI_ATTR void VKAPI_CALL getProperties(VkPhysicalDevice device, VkPhysicalDeviceProperties* properties) {
   const InstanceState& instance = instances().of(device);
-  instance.next<PFN_vkGetPhysicalDeviceProperties>("vkGetPhysicalDeviceProperties")(device, properties);
+  instance.next.getProperties(device, properties);
   change(*properties, instance.settings);
 }
 
 VKAPI_ATTR void VKAPI_CALL getProperties2(VkPhysicalDevice device, VkPhysicalDeviceProperties2* properties) {
   const InstanceState& instance = instances().of(device);
-  instance.next<PFN_vkGetPhysicalDeviceProperties2>("vkGetPhysicalDeviceProperties2")(device, properties);
+  instance.next.getProperties2(device, properties);
   change(*properties, instance.settings);
 }
 
 VKAPI_ATTR void VKAPI_CALL getMemory(VkPhysicalDevice device, VkPhysicalDeviceMemoryProperties* memory) {
   const InstanceState& instance = instances().of(device);
-  instance.next<PFN_vkGetPhysicalDeviceMemoryProperties>("vkGetPhysicalDeviceMemoryProperties")(device, memory);
+  instance.next.getMemory(device, memory);
   change(*memory, instance.settings);
 }
 
 VKAPI_ATTR void VKAPI_CALL getMemory2(VkPhysicalDevice device, VkPhysicalDeviceMemoryProperties2* memory) {
   const InstanceState& instance = instances().of(device);
-  instance.next<PFN_vkGetPhysicalDeviceMemoryProperties2>("vkGetPhysicalDeviceMemoryProperties2")(device, memory);
+  instance.next.getMemory2(device, memory);
   change(memory->memoryProperties, instance.settings);
 }
 
@@ -96,7 +96,7 @@ uint32_t findMappableType(const InstanceState& instance, VkPhysicalDevice device
   constexpr VkMemoryPropertyFlags kMappable =
       VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
   VkPhysicalDeviceMemoryProperties memory{};
-  instance.next<PFN_vkGetPhysicalDeviceMemoryProperties>("vkGetPhysicalDeviceMemoryProperties")(device, &memory);
+  instance.next.getMemory(device, &memory);
   uint32_t type = 0;
   while (type + 1 < memory.memoryTypeCount && (memory.memoryTypes[type].propertyFlags & kMappable) != kMappable) ++type;
   return type;

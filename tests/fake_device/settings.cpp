@@ -24,8 +24,7 @@ std::optional<Number> numberOf(const char* variable, std::string_view text) {
   const bool isHexadecimal = text.starts_with("0x");
   if (isHexadecimal) text.remove_prefix(2);
   Number number = 0;
-  const auto [end, error] =
-      std::from_chars(text.data(), text.data() + text.size(), number, isHexadecimal ? 16 : 10);
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number, isHexadecimal ? 16 : 10);
   if (error != std::errc{} || end != text.data() + text.size()) refuse(variable);
   return number;
 }

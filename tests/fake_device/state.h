@@ -14,17 +14,22 @@
 
 namespace asdfvk::fake {
 
+/// Functions of the next layer or of the driver. Looked up when the instance is created: later the loader returns those
+/// of the first layer.
+struct InstanceFunctions {
+  PFN_vkGetInstanceProcAddr find = nullptr;
+  PFN_vkDestroyInstance destroy = nullptr;
+  PFN_vkGetPhysicalDeviceProperties getProperties = nullptr;
+  PFN_vkGetPhysicalDeviceProperties2 getProperties2 = nullptr;
+  PFN_vkGetPhysicalDeviceMemoryProperties getMemory = nullptr;
+  PFN_vkGetPhysicalDeviceMemoryProperties2 getMemory2 = nullptr;
+};
+
 /// An instance, for its physical devices too.
 struct InstanceState {
   VkInstance handle = VK_NULL_HANDLE;
-  PFN_vkGetInstanceProcAddr nextProcedure = nullptr;
+  InstanceFunctions next;
   Settings settings;
-
-  /// The function of the next layer or of the driver.
-  template <typename Function>
-  [[nodiscard]] Function next(const char* name) const {
-    return reinterpret_cast<Function>(nextProcedure(handle, name));
-  }
 };
 
 /// A device, for its queues too.
@@ -39,6 +44,7 @@ struct DeviceState {
   std::mutex mutex;
   std::unordered_set<VkDeviceMemory> unmappable;
 
+  /// The function of the next layer or of the driver.
   template <typename Function>
   [[nodiscard]] Function next(const char* name) const {
     return reinterpret_cast<Function>(nextProcedure(handle, name));

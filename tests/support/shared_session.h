@@ -4,22 +4,36 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <memory>
 #include <vector>
 
 #include "asdf_vk/session.h"
+#include "support/end_of_main.h"
+#include "support/requested_device.h"
 
 namespace asdfvk::test {
+
+/// A session until the end of main.
+inline Session& keptSession(const SessionOptions& options) {
+  const auto session = std::make_shared<Session>(options);
+  keepUntilEndOfMain(session);
+  return *session;
+}
 
 /// One session on the best Vulkan device for a whole test program, under the validation layers: compute() throws
 /// Error{ValidationFailed} for their messages.
 inline Session& vulkanSession() {
-  ::setenv("ASDF_VK_VALIDATION", "1", 1);
-  static Session session({.backend = "vulkan"});
+  static Session& session = []() -> Session& {
+    ::setenv("ASDF_VK_VALIDATION", "1", 1);
+    Session& opened = keptSession({.backend = "vulkan"});
+    requireRequestedDevice(opened.deviceLines().front());
+    return opened;
+  }();
   return session;
 }
 
 inline Session& referenceSession() {
-  static Session session({.backend = "reference"});
+  static Session& session = keptSession({.backend = "reference"});
   return session;
 }
 
@@ -27,7 +41,7 @@ inline Session& referenceSession() {
 inline std::vector<Session*> allSessions() {
   std::vector<Session*> sessions{&vulkanSession(), &referenceSession()};
   if (isBackendBuilt("cpu")) {
-    static Session session({.backend = "cpu"});
+    static Session& session = keptSession({.backend = "cpu"});
     sessions.push_back(&session);
   }
   return sessions;

@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "support/requested_device.h"
 #include "vk/device.h"
 #include "vk/instance.h"
 
@@ -17,6 +18,7 @@ class ValidatedDevice {
       : instance_(std::make_unique<Instance>(InstanceOptions{.validation = true})), log_(instance_->validationLog()) {
     OpenedDevice opened = openDevice(*instance_, {});
     MESSAGE(opened.reasons.front());
+    requireRequestedDevice(opened.reasons.front());
     device_ = std::move(opened.device);
   }
   ~ValidatedDevice() {

@@ -1,0 +1,140 @@
+#include "support/fake_device.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "asdf_vk/error.h"
+#include "support/require_failure.h"
+#include "vk/buffer.h"
+#include "vk/command_list.h"
+#include "vk/device.h"
+
+using namespace asdfvk;
+using test::FakeDevice;
+using test::requireFailure;
+using test::ScopedVariable;
+
+namespace {
+
+const FakeDevice::Variables kDiscrete{{"ASDF_VK_FAKE_NAME", "Toy GPU"},      {"ASDF_VK_FAKE_TYPE", "discrete"},
+                                      {"ASDF_VK_FAKE_VENDOR", "0x10de"},     {"ASDF_VK_FAKE_SUBGROUP_SIZE", "32"},
+                                      {"ASDF_VK_FAKE_SEPARATE_MEMORY", "1"}, {"ASDF_VK_FAKE_POISON", "0x7fc00001"}};
+
+constexpr VkBufferUsageFlags kUsage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
+
+std::vector<uint32_t> wordsOf(const Device& device, const Buffer& buffer) {
+  std::vector<uint32_t> words(buffer.byteCount() / 4);
+  downloadBuffer(device, buffer, std::as_writable_bytes(std::span(words)));
+  return words;
+}
+
+}  // namespace
+
+TEST_CASE("the fake device has the properties and limits that its variables request") {
+  FakeDevice::Variables variables = kDiscrete;
+  variables.insert(variables.end(), {{"ASDF_VK_FAKE_TEXELS", "65536"},
+                                     {"ASDF_VK_FAKE_STORAGE_RANGE", "1048576"},
+                                     {"ASDF_VK_FAKE_STORAGE_BUFFERS", "5"},
+                                     {"ASDF_VK_FAKE_WORKGROUP_INVOCATIONS", "128"},
+                                     {"ASDF_VK_FAKE_WORKGROUP_SIZE", "64"},
+                                     {"ASDF_VK_FAKE_MAX_ALLOCATION", "12345678"}});
+  const FakeDevice fake(variables);
+  const Instance instance;
+  const OpenedDevice opened = openDevice(instance, {});
+  const DeviceFacts& facts = opened.device->facts();
+  CHECK(facts.name == "Toy GPU");
+  CHECK(std::string(toString(facts.kind)) == "discrete GPU");
+  CHECK(facts.vendor == DeviceVendor::Nvidia);
+  CHECK(facts.subgroupSize == 32);
+  CHECK(facts.maxTexelBufferElements == 65'536);
+  CHECK(facts.maxStorageBufferRange == 1'048'576);
+  CHECK(facts.maxStorageBuffersPerStage == 5);
+  CHECK(facts.maxWorkgroupInvocations == 128);
+  CHECK(facts.maxWorkgroupSize == 64);
+  CHECK(facts.maxMemoryAllocationSize == 12'345'678);
+}
+
+TEST_CASE("memory of a fake device is separate and poisoned") {
+  const FakeDevice fake(kDiscrete);
+  const Instance instance;
+  const OpenedDevice opened = openDevice(instance, {});
+  const Device& device = *opened.device;
+  const Buffer local(device, 4096, kUsage, MemoryKind::DeviceLocal);
+  CHECK(local.mapped() == nullptr);
+  CHECK(wordsOf(device, local) == std::vector<uint32_t>(1024, 0x7fc00001));
+  const Buffer host(device, 4096, kUsage, MemoryKind::HostVisible);
+  REQUIRE(host.mapped() != nullptr);
+  CHECK(host.mappedAs<uint32_t>()[1023] == 0x7fc00001);
+}
+
+TEST_CASE("the validation layer sees the fake device") {
+  FakeDevice::Variables variables = kDiscrete;
+  variables.emplace_back("ASDF_VK_FAKE_TEXELS", "65536");
+  const FakeDevice fake(variables);
+  const auto instance = std::make_unique<Instance>(InstanceOptions{.validation = true});
+  const std::shared_ptr<ValidationLog> log = instance->validationLog();
+  OpenedDevice opened = openDevice(*instance, {});
+  DeviceFacts unlimited = opened.device->facts();
+  CHECK(log->messages().empty());
+  unlimited.maxTexelBufferElements = 1u << 20;
+  const Device device(instance->physicalDevices().front(), unlimited);
+  {
+    const Buffer buffer(device, 16 * 65'537, VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT, MemoryKind::DeviceLocal);
+    const TexelView view(device, buffer);
+  }
+  std::string all;
+  for (const std::string& message : log->messages()) all += message + "\n";
+  INFO(all);
+  CHECK(all.find("VUID-VkBufferViewCreateInfo-range") != std::string::npos);
+}
+
+TEST_CASE("a fake device is lost at the requested submission, and for ever") {
+  const FakeDevice fake(kDiscrete);
+  const Instance instance;
+  const OpenedDevice opened = openDevice(instance, {});
+  const auto submit = [&] {
+    CommandList commands(*opened.device);
+    commands.begin();
+    commands.submitAndWait();
+  };
+  {
+    const ScopedVariable loss("ASDF_VK_FAKE_LOST_AT", "3");
+    submit();
+    submit();
+    requireFailure(submit, ErrorCode::DeviceLost);
+  }
+  requireFailure(submit, ErrorCode::DeviceLost);
+}
+
+TEST_CASE("a buffer is in another type of memory where one allocation fails, and is an error where all fail") {
+  const FakeDevice fake(kDiscrete);
+  const Instance instance;
+  const OpenedDevice opened = openDevice(instance, {});
+  const Device& device = *opened.device;
+  const auto allocate = [&](MemoryKind kind) { return Buffer(device, 4096, kUsage, kind); };
+  {
+    const ScopedVariable full("ASDF_VK_FAKE_NO_MEMORY_AT", "1");
+    CHECK(allocate(MemoryKind::DeviceLocal).mapped() != nullptr);
+  }
+  {
+    const ScopedVariable full("ASDF_VK_FAKE_NO_MEMORY_AT", "4+");
+    CHECK(allocate(MemoryKind::DeviceLocal).mapped() == nullptr);
+    for (const MemoryKind kind : {MemoryKind::DeviceLocal, MemoryKind::HostVisible})
+      requireFailure([&] { (void)allocate(kind); }, ErrorCode::OutOfDeviceMemory, "out of device memory");
+  }
+  CHECK(allocate(MemoryKind::HostVisible).mapped() != nullptr);
+}
+
+TEST_CASE("a variable of the fake device without a valid value is refused") {
+  for (const auto& [name, value] : FakeDevice::Variables{{"ASDF_VK_FAKE_TYPE", "fast"},
+                                                         {"ASDF_VK_FAKE_TEXELS", "many"},
+                                                         {"ASDF_VK_FAKE_TEXELS", "0x"},
+                                                         {"ASDF_VK_FAKE_SUBGROUP_SIZE", "-1"},
+                                                         {"ASDF_VK_FAKE_SEPARATE_MEMORY", "yes"}}) {
+    const FakeDevice fake({{name, value}});
+    CHECK_THROWS_AS(Instance(), Error);
+  }
+}
