@@ -1,11 +1,13 @@
 // Nearest hit of one query in the binary hierarchy of shared/bvh_layout.h. Needs Query, enterBox() and testTriangle().
+layout(constant_id = 11) const uint kBinaryStackSize = kMaxBvhDepth;  // See kWideStackSize.
+
 DeviceBvhNode loadNode(uint index) {
   const uint t = index * kBvhNodeTexelCount;
   return decodeBvhNode(fetchNode(t), fetchNode(t + 1u), fetchNode(t + 2u), fetchNode(t + 3u));
 }
 
 Hit walkBinary(Query query, float limit, inout uint iterationCount) {
-  uint stack[kMaxBvhDepth];
+  uint stack[kBinaryStackSize];
   uint stackSize = 0u;
   uint current = 0u;
   Hit hit = Hit(limit, kNoPrimitive, true);

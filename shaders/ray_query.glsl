@@ -58,11 +58,12 @@ float enterBox(vec3 boxMin, vec3 boxMax, uint normalBounds, Query query, float l
 // three instructions on llvmpipe because of NaNs, which do not occur here. kWideBoxMargin includes the margin for
 // rounding.
 uint enterBoxes(uvec3 near, uvec3 far, vec3 perByte, vec3 start, float limit) {
-  const vec4 nearX = distancesTo(near.x, perByte.x, start.x), farX = distancesTo(far.x, perByte.x, start.x);
-  const vec4 nearY = distancesTo(near.y, perByte.y, start.y), farY = distancesTo(far.y, perByte.y, start.y);
-  const vec4 nearZ = distancesTo(near.z, perByte.z, start.z), farZ = distancesTo(far.z, perByte.z, start.z);
-  const ivec4 enter = max(max(floatBitsToInt(nearX), floatBitsToInt(nearY)), floatBitsToInt(nearZ));
-  const ivec4 inside = min(min(floatBitsToInt(farX), floatBitsToInt(farY)), floatBitsToInt(farZ));
+  const ivec4 enter = max(max(floatBitsToInt(distancesTo(near.x, perByte.x, start.x)),
+                              floatBitsToInt(distancesTo(near.y, perByte.y, start.y))),
+                          floatBitsToInt(distancesTo(near.z, perByte.z, start.z)));
+  const ivec4 inside = min(min(floatBitsToInt(distancesTo(far.x, perByte.x, start.x)),
+                               floatBitsToInt(distancesTo(far.y, perByte.y, start.y))),
+                           floatBitsToInt(distancesTo(far.z, perByte.z, start.z)));
   const ivec4 leave = min(inside, ivec4(floatBitsToInt(limit)));
   return (enter.x <= leave.x ? 0xfu : 0u) | (enter.y <= leave.y ? 0xf0u : 0u) | (enter.z <= leave.z ? 0xf00u : 0u) |
          (enter.w <= leave.w ? 0xf000u : 0u);

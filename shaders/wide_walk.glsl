@@ -2,6 +2,10 @@
 // with isNegative, enterChildren() and testTriangles().
 #extension GL_KHR_shader_subgroup_vote : require
 
+// See VulkanWalkShape in src/trace/vulkan/vulkan_trace_choice.h. The defaults suffice too.
+layout(constant_id = 10) const uint kWideStackSize = kMaxWideBvhDepth;
+layout(constant_id = 12) const bool kPostponesTriangles = true;
+
 DeviceWideNode loadWideNode(uint index) {
   const uint t = index * kWideNodeTexelCount;
   return decodeWideNode(fetchNode(t), fetchNode(t + 1u), fetchNode(t + 2u), fetchNode(t + 3u), fetchNode(t + 4u));
@@ -52,14 +56,14 @@ struct Leaves {
 
 const Leaves kNoLeaves = Leaves(0u, 0u, 0u);
 
-// Postponed triangles; an empty entry is followed by empty ones only.
+// Postponed triangles; an empty entry is followed by empty ones only. Only the first is used unless kPostponesTriangles.
 struct LeafQueue {
   Leaves first, second, third;
 };
 
 void add(inout LeafQueue queue, Leaves leaves) {
   if (leaves.bits == 0u) return;
-  if (queue.first.bits == 0u) {
+  if (!kPostponesTriangles || queue.first.bits == 0u) {
     queue.first = leaves;
   } else if (queue.second.bits == 0u) {
     queue.second = leaves;
@@ -73,7 +77,7 @@ uint takePrimitive(inout LeafQueue queue, uint otherwise) {
   const uint lowest = queue.first.bits & (~queue.first.bits + 1u);
   const uint primitive = queue.first.base + bitCount(queue.first.all & (lowest - 1u));
   queue.first.bits ^= lowest;
-  if (queue.first.bits == 0u) {
+  if (kPostponesTriangles && queue.first.bits == 0u) {
     queue.first = queue.second;
     queue.second = queue.third;
     queue.third.bits = 0u;
@@ -81,12 +85,13 @@ uint takePrimitive(inout LeafQueue queue, uint otherwise) {
   return lowest == 0u ? otherwise : primitive;
 }
 
-// Triangle tests are postponed until a lane of the subgroup has triangles of three nodes: with tests after each node,
-// most lanes would be idle while a few lanes test triangles. Two triangles are tested at a time, which hides the
-// latency of loading them.
+// With kPostponesTriangles, tests of triangles are postponed until a lane of the subgroup has triangles of three nodes:
+// with tests after each node, most lanes would be idle while a few lanes test triangles. Two triangles are tested at a
+// time, which hides the latency of loading them. Otherwise a lane with triangles waits until each lane of the subgroup
+// has some or has no node left (Aila and Laine 2009), which needs fewer registers.
 Hit walkWide(Query query, float limit, inout uint iterationCount) {
-  uint stackBases[kMaxWideBvhDepth];
-  uint stackBits[kMaxWideBvhDepth];
+  uint stackBases[kWideStackSize];
+  uint stackBits[kWideStackSize];
   uint stackSize = 0u;
   Group group = Group(0u, 8u);  // The root.
   LeafQueue queue = LeafQueue(kNoLeaves, kNoLeaves, kNoLeaves);
@@ -109,11 +114,15 @@ Hit walkWide(Query query, float limit, inout uint iterationCount) {
       }
       add(queue, Leaves(node.triangleBase, children & ~kWideInnerBits, node.childBits & ~kWideInnerBits));
       if (++iterationCount > kIterationLimit) group.bits = 0u;
-      if (subgroupAny(queue.third.bits != 0u)) break;
+      if (kPostponesTriangles ? subgroupAny(queue.third.bits != 0u) : queue.first.bits != 0u) break;
     }
     while (queue.first.bits != 0u) {
       const uint primitive = takePrimitive(queue, kNoPrimitive);
-      testTriangles(query, primitive, takePrimitive(queue, primitive), hit);
+      if (kPostponesTriangles) {
+        testTriangles(query, primitive, takePrimitive(queue, primitive), hit);
+      } else {
+        testTriangle(query, primitive, hit);
+      }
       ++iterationCount;
     }
     iterationCount += 3u;  // One iteration of this loop, and the entries of the two inner loops.

@@ -106,6 +106,44 @@ TEST_CASE("any workgroup shape gives the same bits" * doctest::test_suite("slow"
   });
 }
 
+TEST_CASE("long stacks and triangles that are not postponed give the same bits") {
+  const test::ValidatedDevice device;
+  const TracedMesh traced(generateShape("animal", 1500).mesh);
+  const VulkanWalkShape gpu{.wideStackSize = 65, .binaryStackSize = 65, .postponesTriangles = false};
+  for (const TraceKernel kernel : {TraceKernel::Ray, TraceKernel::Seed}) {
+    for (const BvhLayout bvh : {BvhLayout::Binary, BvhLayout::Wide}) {
+      CAPTURE(static_cast<int>(kernel));
+      CAPTURE(static_cast<int>(bvh));
+      const ConeKernelRequest request{30, false, VulkanTraceChoice{kernel, bvh}};
+      const VulkanWorkgroupShape shape = workgroupShapeFor(device->facts(), 30, kernel);
+      const TraceResults expected = traceWith(VulkanConeKernel(*device, request, shape, VulkanWalkShape{}), traced);
+      const TraceResults results = traceWith(VulkanConeKernel(*device, request, shape, gpu), traced);
+      CHECK(results.statistics.redoneConeCount == 0);
+      CHECK(test::haveSameBits(results.values, expected.values));
+    }
+  }
+}
+
+TEST_CASE("AMD GPUs have stacks of more than 256 bytes, and only CPU devices postpone triangles") {
+  const auto shapeOf = [](DeviceKind kind, DeviceVendor vendor) {
+    DeviceFacts facts;
+    facts.kind = kind;
+    facts.vendor = vendor;
+    return walkShapeFor(facts);
+  };
+  const VulkanWalkShape amd = shapeOf(DeviceKind::Integrated, DeviceVendor::Amd);
+  CHECK(amd.wideStackSize > 64);
+  CHECK(amd.binaryStackSize > 64);
+  CHECK_FALSE(amd.postponesTriangles);
+  for (const VulkanWalkShape& shape :
+       {shapeOf(DeviceKind::Cpu, DeviceVendor::Other), shapeOf(DeviceKind::Discrete, DeviceVendor::Nvidia)}) {
+    CHECK(shape.wideStackSize == kMaxWideBvhDepth);
+    CHECK(shape.binaryStackSize == kMaxBvhDepth);
+  }
+  CHECK(shapeOf(DeviceKind::Cpu, DeviceVendor::Other).postponesTriangles);
+  CHECK_FALSE(shapeOf(DeviceKind::Discrete, DeviceVendor::Nvidia).postponesTriangles);
+}
+
 TEST_CASE("cones beyond the iteration guard are redone by the reference and counted") {
   const test::ValidatedDevice device;
   const TracedMesh traced(generateShape("animal", 1500).mesh);

@@ -39,39 +39,6 @@ VkBool32 isCgal(const ConeKernelRequest& request) {
   return request.definition == Definition::Cgal ? VK_TRUE : VK_FALSE;
 }
 
-ComputePipelineDescription describe(const ConeKernelRequest& request, const VulkanTraceChoice& choice,
-                                    const VulkanWorkgroupShape& shape) {
-  const Shader shader = shaderOf(choice.kernel);
-  return {.name = shader.name,
-          .spirv = shader.spirv,
-          .bindings = {kTexels, kTexels, kStorage, kStorage, kTexels, kTexels, kStorage, kStorage},
-          .pushConstantByteCount = sizeof(ConePush),
-          .specializationConstants = {/* LANES_PER_CONE= */ shape.lanesPerCone,
-                                      /* CONES_PER_WORKGROUP= */ shape.conesPerWorkgroup,
-                                      /* RAY_COUNT= */ request.rayCount,
-                                      /* ITERATION_LIMIT= */ shape.iterationLimit,
-                                      /* WRITES_HITS= */ request.writesHits ? VK_TRUE : VK_FALSE,
-                                      /* FETCHES_TEXELS= */ choice.fetch == BvhFetch::Texel ? VK_TRUE : VK_FALSE,
-                                      /* IS_WIDE= */ choice.bvh == BvhLayout::Wide ? VK_TRUE : VK_FALSE,
-                                      /* LOCAL_SIZE_X= */ shape.lanesPerCone *
-                                          (choice.kernel == TraceKernel::Seed ? shape.conesPerWorkgroup : 1),
-                                      /* IS_CGAL= */ isCgal(request),
-                                      /* LOCAL_SIZE_Y= */ shape.conesPerWorkgroup}};
-}
-
-ComputePipelineDescription describeBalls(const Device& device, const VulkanTraceChoice& choice) {
-  const uint32_t iterationLimit =
-      workgroupShapeFor(device.facts(), 1, TraceKernel::Seed, Definition::Paper).iterationLimit;
-  return {.name = "shrink_ball.comp",
-          .spirv = k_shrink_ball_comp,
-          .bindings = {kTexels, kTexels, kStorage, kStorage, kTexels, kStorage, kStorage},
-          .pushConstantByteCount = sizeof(BallPush),
-          .specializationConstants = {/* LANE_COUNT= */ VulkanConeKernel::kBallLaneCount, 0, 0,
-                                      /* ITERATION_LIMIT= */ iterationLimit, 0,
-                                      /* FETCHES_TEXELS= */ choice.fetch == BvhFetch::Texel ? VK_TRUE : VK_FALSE,
-                                      /* IS_WIDE= */ choice.bvh == BvhLayout::Wide ? VK_TRUE : VK_FALSE}};
-}
-
 /// Returns the device, or throws.
 const Device& requireSubgroups(const Device& device, TraceKernel kernel) {
   const DeviceFacts& facts = device.facts();
@@ -128,6 +95,45 @@ uint64_t hitBufferByteCount(const VulkanConeKernel& kernel) {
 
 }  // namespace
 
+ComputePipelineDescription describeCones(const ConeKernelRequest& request, const VulkanTraceChoice& choice,
+                                         const VulkanWorkgroupShape& shape, const VulkanWalkShape& walk) {
+  const Shader shader = shaderOf(choice.kernel);
+  return {.name = shader.name,
+          .spirv = shader.spirv,
+          .bindings = {kTexels, kTexels, kStorage, kStorage, kTexels, kTexels, kStorage, kStorage},
+          .pushConstantByteCount = sizeof(ConePush),
+          .specializationConstants = {/* LANES_PER_CONE= */ shape.lanesPerCone,
+                                      /* CONES_PER_WORKGROUP= */ shape.conesPerWorkgroup,
+                                      /* RAY_COUNT= */ request.rayCount,
+                                      /* ITERATION_LIMIT= */ shape.iterationLimit,
+                                      /* WRITES_HITS= */ request.writesHits ? VK_TRUE : VK_FALSE,
+                                      /* FETCHES_TEXELS= */ choice.fetch == BvhFetch::Texel ? VK_TRUE : VK_FALSE,
+                                      /* IS_WIDE= */ choice.bvh == BvhLayout::Wide ? VK_TRUE : VK_FALSE,
+                                      /* LOCAL_SIZE_X= */ shape.lanesPerCone *
+                                          (choice.kernel == TraceKernel::Seed ? shape.conesPerWorkgroup : 1),
+                                      /* IS_CGAL= */ isCgal(request),
+                                      /* LOCAL_SIZE_Y= */ shape.conesPerWorkgroup,
+                                      /* WIDE_STACK_SIZE= */ walk.wideStackSize,
+                                      /* BINARY_STACK_SIZE= */ walk.binaryStackSize,
+                                      /* POSTPONES_TRIANGLES= */ walk.postponesTriangles ? VK_TRUE : VK_FALSE}};
+}
+
+ComputePipelineDescription describeBalls(const DeviceFacts& device, const VulkanTraceChoice& choice,
+                                         const VulkanWalkShape& walk) {
+  const uint32_t iterationLimit = workgroupShapeFor(device, 1, TraceKernel::Seed, Definition::Paper).iterationLimit;
+  return {.name = "shrink_ball.comp",
+          .spirv = k_shrink_ball_comp,
+          .bindings = {kTexels, kTexels, kStorage, kStorage, kTexels, kStorage, kStorage},
+          .pushConstantByteCount = sizeof(BallPush),
+          .specializationConstants = {/* LANE_COUNT= */ VulkanConeKernel::kBallLaneCount, 0, 0,
+                                      /* ITERATION_LIMIT= */ iterationLimit, 0,
+                                      /* FETCHES_TEXELS= */ choice.fetch == BvhFetch::Texel ? VK_TRUE : VK_FALSE,
+                                      /* IS_WIDE= */ choice.bvh == BvhLayout::Wide ? VK_TRUE : VK_FALSE, 0, 0, 0,
+                                      /* WIDE_STACK_SIZE= */ walk.wideStackSize,
+                                      /* BINARY_STACK_SIZE= */ walk.binaryStackSize,
+                                      /* POSTPONES_TRIANGLES= */ walk.postponesTriangles ? VK_TRUE : VK_FALSE}};
+}
+
 VulkanConeKernel::VulkanConeKernel(const Device& device, const ConeKernelRequest& request)
     : VulkanConeKernel(
           device, request,
@@ -135,11 +141,15 @@ VulkanConeKernel::VulkanConeKernel(const Device& device, const ConeKernelRequest
 
 VulkanConeKernel::VulkanConeKernel(const Device& device, const ConeKernelRequest& request,
                                    const VulkanWorkgroupShape& shape)
+    : VulkanConeKernel(device, request, shape, walkShapeFor(device.facts())) {}
+
+VulkanConeKernel::VulkanConeKernel(const Device& device, const ConeKernelRequest& request,
+                                   const VulkanWorkgroupShape& shape, const VulkanWalkShape& walk)
     : device_(requireSubgroups(device, choiceFor(device, request).kernel)),
       request_(request),
       choice_(choiceFor(device, request)),
       shape_(shape),
-      pipeline_(device, describe(request_, choice_, shape_)) {
+      pipeline_(device, describeCones(request_, choice_, shape_, walk)) {
   if (choice_.kernel == TraceKernel::Seed)
     reduction_.emplace(device, ComputePipelineDescription{.name = "trace_reduce.comp",
                                                           .spirv = k_trace_reduce_comp,
@@ -147,7 +157,7 @@ VulkanConeKernel::VulkanConeKernel(const Device& device, const ConeKernelRequest
                                                           .pushConstantByteCount = sizeof(ConePush),
                                                           .specializationConstants = {
                                                               kReductionLaneCount, request.rayCount, isCgal(request)}});
-  if (request.shrinksBalls) balls_.emplace(device, describeBalls(device, choice_));
+  if (request.shrinksBalls) balls_.emplace(device, describeBalls(device.facts(), choice_, walk));
 }
 
 uint64_t largestConeChunk(const VulkanConeKernel& kernel) {

@@ -24,12 +24,21 @@ struct ConeKernelRequest {
   auto operator<=>(const ConeKernelRequest&) const = default;
 };
 
+/// The pipelines of a kernel: of the cones, and of the balls of any kernel.
+[[nodiscard]] ComputePipelineDescription describeCones(const ConeKernelRequest& request,
+                                                       const VulkanTraceChoice& choice,
+                                                       const VulkanWorkgroupShape& shape, const VulkanWalkShape& walk);
+[[nodiscard]] ComputePipelineDescription describeBalls(const DeviceFacts& device, const VulkanTraceChoice& choice,
+                                                       const VulkanWalkShape& walk);
+
 /// The compiled shaders/trace_*.comp for one device and request; serves any number of meshes.
 class VulkanConeKernel {
  public:
   VulkanConeKernel(const Device& device, const ConeKernelRequest& request);
-  /// With a given shape instead of that of the device; for tests.
+  /// With given shapes instead of those of the device; for tests.
   VulkanConeKernel(const Device& device, const ConeKernelRequest& request, const VulkanWorkgroupShape& shape);
+  VulkanConeKernel(const Device& device, const ConeKernelRequest& request, const VulkanWorkgroupShape& shape,
+                   const VulkanWalkShape& walk);
 
   [[nodiscard]] const Device& device() const { return device_; }
   [[nodiscard]] const VulkanTraceChoice& choice() const { return choice_; }

@@ -117,4 +117,14 @@ VulkanWorkgroupShape workgroupShapeFor(const DeviceFacts& device, uint32_t rayCo
   return shape;
 }
 
+VulkanWalkShape walkShapeFor(const DeviceFacts& device) {
+  constexpr uint32_t kLongStack = 65;  // Words; more than 256 bytes.
+  static_assert(kLongStack >= kMaxWideBvhDepth && kLongStack >= kMaxBvhDepth);
+  VulkanWalkShape shape;
+  shape.postponesTriangles = device.kind == DeviceKind::Cpu;
+  if (device.kind != DeviceKind::Cpu && device.vendor == DeviceVendor::Amd)
+    shape.wideStackSize = shape.binaryStackSize = kLongStack;
+  return shape;
+}
+
 }  // namespace asdfvk

@@ -10,6 +10,7 @@
 #include "asdf_vk/report.h"
 #include "bvh/bvh.h"
 #include "bvh/device_bvh.h"
+#include "shared/bvh_layout.h"
 #include "vk/device_choice.h"
 
 namespace asdfvk {
@@ -76,5 +77,20 @@ struct VulkanWorkgroupShape {
 [[nodiscard]] VulkanWorkgroupShape workgroupShapeFor(const DeviceFacts& device, uint32_t rayCount,
                                                      TraceKernel kernel = TraceKernel::Ray,
                                                      Definition definition = Definition::Paper);
+
+/// Traversal of the hierarchies by single lanes (shaders/wide_walk.glsl, shaders/binary_walk.glsl). Values are the same
+/// with every shape, up to ties of equally near triangles.
+struct VulkanWalkShape {
+  uint32_t wideStackSize = kMaxWideBvhDepth;  ///< Entries, at least kMaxWideBvhDepth.
+  uint32_t binaryStackSize = kMaxBvhDepth;    ///< Entries, at least kMaxBvhDepth.
+  /// Triangles of up to three nodes are postponed, and two are tested at a time. Otherwise those of one node are tested
+  /// one by one once each lane has some or has no node left (Aila and Laine 2009).
+  bool postponesTriangles = true;
+};
+
+/// CPU devices postpone triangles; GPUs do not, which saves registers. Stacks of a lane exceed 256 bytes on AMD GPUs:
+/// Mesa's compiler puts such arrays into memory, shorter ones into registers. Packets, whose lanes share a stack, are
+/// not affected.
+[[nodiscard]] VulkanWalkShape walkShapeFor(const DeviceFacts& device);
 
 }  // namespace asdfvk
