@@ -22,6 +22,9 @@ Program documentedAsdfVk() {
                     "the fields of its faces, and their colours."}};
   program.environment = {
       {"ASDF_VK_VALIDATION", "1 enables the Vulkan validation layers; anything that they report is an error."},
+      {"ASDF_VK_PIPELINE_CACHE",
+       "0: compiled pipelines of a GPU are neither read from nor written to $XDG_CACHE_HOME/asdf-vk "
+       "(~/.cache/asdf-vk)."},
       {"VK_DRIVER_FILES",
        "Of the Vulkan loader: the driver manifests to use instead of the installed ones, separated "
        "by colons."}};

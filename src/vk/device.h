@@ -10,6 +10,7 @@
 
 #include "vk/device_choice.h"
 #include "vk/instance.h"
+#include "vk/pipeline_cache.h"
 
 namespace asdfvk {
 
@@ -32,6 +33,8 @@ class Device {
   [[nodiscard]] VkQueue queue() const { return queue_; }
   [[nodiscard]] VkCommandPool commandPool() const { return commandPool_; }
   [[nodiscard]] const DeviceFacts& facts() const { return facts_; }
+  /// Null where the driver could not create one.
+  [[nodiscard]] VkPipelineCache pipelineCache() const { return pipelineCache_->handle(); }
   /// The first memory type among `allowedTypes` with all of `wanted`; unset when there is none.
   [[nodiscard]] std::optional<uint32_t> findMemoryType(uint32_t allowedTypes, VkMemoryPropertyFlags wanted) const;
   [[nodiscard]] VkMemoryPropertyFlags memoryFlags(uint32_t type) const {
@@ -44,6 +47,7 @@ class Device {
   VkDevice device_ = VK_NULL_HANDLE;
   VkQueue queue_ = VK_NULL_HANDLE;
   VkCommandPool commandPool_ = VK_NULL_HANDLE;
+  std::unique_ptr<PipelineCache> pipelineCache_;
 };
 
 struct OpenedDevice {
