@@ -8,13 +8,13 @@
 #include <vector>
 
 #include "asdf_vk/error.h"
-#include "vk/command_list.h"
+#include "vk/buffer_pool.h"
 #include "vk/result.h"
+#include "vk/staging_ring.h"
 
 namespace asdfvk {
 namespace {
 
-constexpr uint64_t kStagingByteCount = 64u << 20;
 constexpr VkMemoryPropertyFlags kMappable = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
 
 /// The types that may hold a buffer of that kind, the best first.
@@ -29,6 +29,22 @@ std::vector<uint32_t> rankMemoryTypes(const Device& device, uint32_t allowed, Me
       allowed &= ~(1u << *type);
     }
   return ranked;
+}
+
+MemoryKind kindOn(const Device& device, MemoryKind kind) {
+  return kind == MemoryKind::DeviceLocal && !device.facts().mapsDeviceMemory ? MemoryKind::DeviceOnly : kind;
+}
+
+/// Allocates memory of the first type that has enough left. Returns the result of the last attempt.
+VkResult allocate(const Device& device, VkMemoryAllocateInfo& info, std::span<const uint32_t> types,
+                  VkDeviceMemory& memory) {
+  VkResult result = VK_ERROR_OUT_OF_DEVICE_MEMORY;
+  for (const uint32_t type : types) {
+    info.memoryTypeIndex = type;
+    result = vkAllocateMemory(device.handle(), &info, nullptr, &memory);
+    if (result != VK_ERROR_OUT_OF_DEVICE_MEMORY) break;
+  }
+  return result;
 }
 
 }  // namespace
@@ -47,24 +63,24 @@ Buffer::Buffer(const Device& device, uint64_t byteCount, VkBufferUsageFlags usag
 
   VkMemoryRequirements requirements{};
   vkGetBufferMemoryRequirements(guard.device_, guard.buffer_, &requirements);
-  const std::vector<uint32_t> types = rankMemoryTypes(device, requirements.memoryTypeBits, kind);
+  const std::vector<uint32_t> types = rankMemoryTypes(device, requirements.memoryTypeBits, kindOn(device, kind));
   if (types.empty())
     throw Error(ErrorCode::DeviceLimit, fmt::format("{} has no memory type for this buffer", device.facts().name));
   VkMemoryAllocateInfo allocation{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
   allocation.allocationSize = requirements.size;
-  VkResult allocated = VK_ERROR_OUT_OF_DEVICE_MEMORY;
-  for (const uint32_t type : types) {
-    allocation.memoryTypeIndex = type;
-    allocated = vkAllocateMemory(guard.device_, &allocation, nullptr, &guard.memory_);
-    if (allocated != VK_ERROR_OUT_OF_DEVICE_MEMORY) break;
+  VkResult allocated = allocate(device, allocation, types, guard.memory_);
+  if (allocated == VK_ERROR_OUT_OF_DEVICE_MEMORY && device.pool().idleByteCount() > 0) {
+    device.pool().clear();
+    allocated = allocate(device, allocation, types, guard.memory_);
   }
   requireSuccess(allocated, fmt::format("allocating {} MiB on {}", (byteCount >> 20) + 1, device.facts().name));
   const VkMemoryPropertyFlags flags = device.memoryFlags(allocation.memoryTypeIndex);
   requireSuccess(vkBindBufferMemory(guard.device_, guard.buffer_, guard.memory_, 0), "binding memory");
-  if (kind != MemoryKind::DeviceOnly && (flags & kMappable) == kMappable) {
+  if (kindOn(device, kind) != MemoryKind::DeviceOnly && (flags & kMappable) == kMappable) {
     void* pointer = nullptr;
     requireSuccess(vkMapMemory(guard.device_, guard.memory_, 0, VK_WHOLE_SIZE, 0, &pointer), "mapping memory");
     guard.mapped_ = static_cast<std::byte*>(pointer);
+    guard.isCached_ = (flags & VK_MEMORY_PROPERTY_HOST_CACHED_BIT) != 0;
   }
   *this = std::move(guard);
 }
@@ -83,7 +99,16 @@ Buffer& Buffer::operator=(Buffer&& other) noexcept {
   std::swap(memory_, other.memory_);
   std::swap(byteCount_, other.byteCount_);
   std::swap(mapped_, other.mapped_);
+  std::swap(isCached_, other.isCached_);
   return *this;
+}
+
+void requireStorageRange(const Device& device, uint64_t byteCount) {
+  const DeviceFacts& facts = device.facts();
+  if (byteCount > facts.maxStorageBufferRange)
+    throw Error(ErrorCode::DeviceLimit,
+                fmt::format("the mesh needs {} MiB in one storage buffer and {} allows {}", (byteCount >> 20) + 1,
+                            facts.name, facts.maxStorageBufferRange >> 20));
 }
 
 TexelView::TexelView(const Device& device, const Buffer& buffer) : device_(device.handle()) {
@@ -114,41 +139,19 @@ TexelView& TexelView::operator=(TexelView&& other) noexcept {
 Buffer uploadBuffer(const Device& device, std::span<const std::byte> bytes, VkBufferUsageFlags usage, MemoryKind kind) {
   Buffer buffer(device, std::max<uint64_t>(bytes.size(), 16), usage | VK_BUFFER_USAGE_TRANSFER_DST_BIT, kind);
   if (bytes.empty()) return buffer;
-  if (buffer.mapped() != nullptr) {
+  if (buffer.mapped() != nullptr)
     std::memcpy(buffer.mapped(), bytes.data(), bytes.size());
-    return buffer;
-  }
-  const Buffer staging(device, std::min<uint64_t>(bytes.size(), kStagingByteCount), VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
-                       MemoryKind::HostVisible);
-  CommandList commands(device);
-  for (uint64_t offset = 0; offset < bytes.size(); offset += kStagingByteCount) {
-    const uint64_t count = std::min<uint64_t>(kStagingByteCount, bytes.size() - offset);
-    std::memcpy(staging.mapped(), bytes.data() + offset, count);
-    commands.begin();
-    commands.copy(staging, 0, buffer, offset, count);
-    commands.barrier();
-    commands.submitAndWait();
-  }
+  else
+    device.staging().upload(bytes, buffer);
   return buffer;
 }
 
 void downloadBuffer(const Device& device, const Buffer& buffer, std::span<std::byte> bytes) {
   if (bytes.empty()) return;
-  if (buffer.mapped() != nullptr) {
+  if (buffer.mapped() != nullptr)
     std::memcpy(bytes.data(), buffer.mapped(), bytes.size());
-    return;
-  }
-  const Buffer staging(device, std::min<uint64_t>(bytes.size(), kStagingByteCount), VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                       MemoryKind::HostVisible);
-  CommandList commands(device);
-  for (uint64_t offset = 0; offset < bytes.size(); offset += kStagingByteCount) {
-    const uint64_t count = std::min<uint64_t>(kStagingByteCount, bytes.size() - offset);
-    commands.begin();
-    commands.copy(buffer, offset, staging, 0, count);
-    commands.barrier();
-    commands.submitAndWait();
-    std::memcpy(bytes.data() + offset, staging.mapped(), count);
-  }
+  else
+    device.staging().download(buffer, bytes);
 }
 
 }  // namespace asdfvk

@@ -28,6 +28,8 @@ class Buffer {
   [[nodiscard]] uint64_t byteCount() const { return byteCount_; }
   /// Null where the host cannot access the memory.
   [[nodiscard]] std::byte* mapped() const { return mapped_; }
+  /// Whether reads of mapped() are cached; others are about 100 times slower.
+  [[nodiscard]] bool isCached() const { return isCached_; }
   template <typename T>
   [[nodiscard]] std::span<T> mappedAs() const {
     return {reinterpret_cast<T*>(mapped_), static_cast<size_t>(byteCount_ / sizeof(T))};
@@ -39,7 +41,11 @@ class Buffer {
   VkDeviceMemory memory_ = VK_NULL_HANDLE;
   uint64_t byteCount_ = 0;
   std::byte* mapped_ = nullptr;
+  bool isCached_ = false;
 };
+
+/// Throws Error{DeviceLimit} where a storage buffer of that size exceeds DeviceFacts::maxStorageBufferRange.
+void requireStorageRange(const Device& device, uint64_t byteCount);
 
 /// A view of a whole buffer as rgba32ui texels (16 bytes each). The buffer must have been made with
 /// VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT and must outlive the view.
@@ -58,7 +64,7 @@ class TexelView {
   VkBufferView view_ = VK_NULL_HANDLE;
 };
 
-/// A device-local buffer filled with `bytes`, through a staging buffer where the host cannot write to it. At least 16
+/// A device-local buffer filled with `bytes`, through Device::staging() where the host cannot write to it. At least 16
 /// bytes are allocated, because an empty buffer cannot be bound.
 [[nodiscard]] Buffer uploadBuffer(const Device& device, std::span<const std::byte> bytes, VkBufferUsageFlags usage,
                                   MemoryKind kind = MemoryKind::DeviceLocal);

@@ -18,6 +18,7 @@ CommandList::CommandList(const Device& device) : device_(device) {
 }
 
 CommandList::~CommandList() {
+  finish();
   vkDestroyFence(device_.handle(), fence_, nullptr);
   vkFreeCommandBuffers(device_.handle(), device_.commandPool(), 1, &commands_);
 }
@@ -71,15 +72,28 @@ void CommandList::barrier() {
   vkCmdPipelineBarrier(commands_, work, readers, 0, 1, &memory, 0, nullptr, 0, nullptr);
 }
 
-void CommandList::submitAndWait() {
+void CommandList::submit() {
   requireSuccess(vkEndCommandBuffer(commands_), "ending a command buffer");
   VkSubmitInfo info{VK_STRUCTURE_TYPE_SUBMIT_INFO};
   info.commandBufferCount = 1;
   info.pCommandBuffers = &commands_;
   requireSuccess(vkQueueSubmit(device_.queue(), 1, &info, fence_), "submitting work to " + device_.facts().name);
+  isPending_ = true;
+}
+
+void CommandList::wait() {
+  if (!isPending_) return;
+  isPending_ = false;
   requireSuccess(vkWaitForFences(device_.handle(), 1, &fence_, VK_TRUE, UINT64_MAX),
                  "waiting for " + device_.facts().name);
   requireSuccess(vkResetFences(device_.handle(), 1, &fence_), "resetting a fence");
+}
+
+void CommandList::finish() noexcept {
+  if (!isPending_) return;
+  isPending_ = false;
+  (void)vkWaitForFences(device_.handle(), 1, &fence_, VK_TRUE, UINT64_MAX);
+  (void)vkResetFences(device_.handle(), 1, &fence_);
 }
 
 }  // namespace asdfvk

@@ -10,10 +10,12 @@
 
 namespace asdfvk {
 
-/// One command buffer, recorded and submitted repeatedly: begin(), record, submitAndWait().
+/// One command buffer, recorded and submitted repeatedly: begin(), record, submit(), wait(). Several lists may be in
+/// flight; their work may overlap on the device.
 class CommandList {
  public:
   explicit CommandList(const Device& device);
+  /// Waits as finish().
   ~CommandList();
   CommandList(const CommandList&) = delete;
   CommandList& operator=(const CommandList&) = delete;
@@ -32,9 +34,17 @@ class CommandList {
   /// Memory barrier: all earlier commands finish, and their writes are visible to later kernels, copies, indirect
   /// dispatches and host reads.
   void barrier();
-  /// Throws Error{Device} when the device is lost. There is no time limit: drivers report a GPU that hangs as lost, and
-  /// the resources of running work cannot be freed.
-  void submitAndWait();
+  /// Throws Error{Device} when the device is lost.
+  void submit();
+  /// Waits for the submitted commands, if any. Throws Error{Device} when the device is lost. There is no time limit:
+  /// drivers report a GPU that hangs as lost, and the resources of running work cannot be freed.
+  void wait();
+  /// wait() without an exception: afterwards the device does not use the resources of the commands.
+  void finish() noexcept;
+  void submitAndWait() {
+    submit();
+    wait();
+  }
 
  private:
   void bind(const ComputePipeline& pipeline, const BindingSet& bindings, std::span<const std::byte> pushConstants);
@@ -42,6 +52,7 @@ class CommandList {
   const Device& device_;
   VkCommandBuffer commands_ = VK_NULL_HANDLE;
   VkFence fence_ = VK_NULL_HANDLE;
+  bool isPending_ = false;
 };
 
 /// The bytes of a push-constant struct.

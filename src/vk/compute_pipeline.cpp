@@ -74,12 +74,7 @@ void ComputePipeline::destroy() {
 BindingSet::BindingSet(const Device& device, const ComputePipeline& pipeline, std::span<const Binding> bindings)
     : device_(device.handle()) {
   ASDFVK_CHECK_OP(bindings.size(), ==, pipeline.bindings().size());
-  const DeviceFacts& facts = device.facts();
-  for (const Binding& binding : bindings)
-    if (binding.byteCount > facts.maxStorageBufferRange)
-      throw Error(ErrorCode::DeviceLimit,
-                  fmt::format("the mesh needs {} MiB in one storage buffer and {} allows {}",
-                              (binding.byteCount >> 20) + 1, facts.name, facts.maxStorageBufferRange >> 20));
+  for (const Binding& binding : bindings) requireStorageRange(device, binding.byteCount);
   std::vector<VkDescriptorPoolSize> sizes;
   for (const VkDescriptorType type : pipeline.bindings()) sizes.push_back({type, 1});
   VkDescriptorPoolCreateInfo poolInfo{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};

@@ -8,7 +8,9 @@
 #include <utility>
 
 #include "asdf_vk/error.h"
+#include "vk/buffer_pool.h"
 #include "vk/result.h"
+#include "vk/staging_ring.h"
 
 namespace asdfvk {
 namespace {
@@ -152,9 +154,13 @@ Device::Device(VkPhysicalDevice physical, DeviceFacts facts) : facts_(std::move(
   // Mesa has a cache of its own for its CPU device, whose pipeline cache is empty.
   pipelineCache_ = std::make_unique<PipelineCache>(
       physical, device_, facts_.kind == DeviceKind::Cpu ? std::filesystem::path() : pipelineCacheFolder());
+  pool_ = std::make_unique<BufferPool>(*this);
+  staging_ = std::make_unique<StagingRing>(*this);
 }
 
 Device::~Device() {
+  staging_.reset();
+  pool_.reset();
   pipelineCache_.reset();
   vkDestroyCommandPool(device_, commandPool_, nullptr);
   vkDestroyDevice(device_, nullptr);

@@ -14,6 +14,9 @@
 
 namespace asdfvk {
 
+class BufferPool;
+class StagingRing;
+
 /// The first family with compute and without graphics, which does not delay the desktop and on some systems has a
 /// longer watchdog; else the first with compute.
 [[nodiscard]] std::optional<uint32_t> chooseComputeQueueFamily(std::span<const VkQueueFamilyProperties> families);
@@ -35,6 +38,8 @@ class Device {
   [[nodiscard]] const DeviceFacts& facts() const { return facts_; }
   /// Null where the driver could not create one.
   [[nodiscard]] VkPipelineCache pipelineCache() const { return pipelineCache_->handle(); }
+  [[nodiscard]] BufferPool& pool() const { return *pool_; }
+  [[nodiscard]] StagingRing& staging() const { return *staging_; }
   /// The first memory type among `allowedTypes` with all of `wanted`; unset when there is none.
   [[nodiscard]] std::optional<uint32_t> findMemoryType(uint32_t allowedTypes, VkMemoryPropertyFlags wanted) const;
   [[nodiscard]] VkMemoryPropertyFlags memoryFlags(uint32_t type) const {
@@ -48,6 +53,8 @@ class Device {
   VkQueue queue_ = VK_NULL_HANDLE;
   VkCommandPool commandPool_ = VK_NULL_HANDLE;
   std::unique_ptr<PipelineCache> pipelineCache_;
+  std::unique_ptr<BufferPool> pool_;
+  std::unique_ptr<StagingRing> staging_;
 };
 
 struct OpenedDevice {

@@ -31,6 +31,7 @@ struct DeviceFacts {
   uint64_t maxStorageBufferRange = 0;  ///< Bytes.
   uint64_t maxTexelBufferElements = 0;
   uint64_t maxMemoryAllocationSize = 0;  ///< Bytes.
+  bool mapsDeviceMemory = true;          ///< False: as on a device with separate memory, for tests.
   bool endsLongLoops = false;            ///< Kernels must stay below kMaxLoopIterationCount: llvmpipe before Mesa 25.
 };
 

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <span>
+
+#include "vk/buffer_pool.h"
+#include "vk/command_list.h"
+
+namespace asdfvk {
+
+/// A pooled buffer that kernels access in the memory of the device, and the host directly where it can, or else through
+/// a mapped copy.
+class SharedBuffer {
+ public:
+  enum class Host { Writes, Reads };
+
+  /// usage: of the kernels. host: the direction in which the host uses it.
+  SharedBuffer(const Device& device, uint64_t byteCount, VkBufferUsageFlags usage, Host host)
+      : device_(device),
+        buffer_(device, byteCount,
+                usage | (host == Host::Writes ? VK_BUFFER_USAGE_TRANSFER_DST_BIT : VK_BUFFER_USAGE_TRANSFER_SRC_BIT),
+                MemoryKind::DeviceLocal),
+        isDirect_(buffer_->mapped() != nullptr && (host == Host::Writes || buffer_->isCached())),
+        host_(host) {}
+
+  [[nodiscard]] const Buffer& onDevice() const { return *buffer_; }
+
+  /// The memory of the host. The mapped copy, if any, is made by the first call of this or of recordCopy().
+  template <typename T>
+  [[nodiscard]] std::span<T> onHost() {
+    return hostBuffer().mappedAs<T>();
+  }
+
+  /// Records the copy of the first bytes in the direction of the constructor, or nothing where the access is direct.
+  /// The caller records a barrier before, for what kernels wrote, and one after it.
+  void recordCopy(CommandList& commands, uint64_t byteCount) {
+    if (isDirect_) return;
+    const Buffer& host = hostBuffer();
+    if (host_ == Host::Writes)
+      commands.copy(host, 0, *buffer_, 0, byteCount);
+    else
+      commands.copy(*buffer_, 0, host, 0, byteCount);
+  }
+
+ private:
+  [[nodiscard]] const Buffer& hostBuffer() {
+    if (isDirect_) return *buffer_;
+    if (!copy_.exists())
+      copy_ = PooledBuffer(device_, buffer_->byteCount(),
+                           host_ == Host::Writes ? VK_BUFFER_USAGE_TRANSFER_SRC_BIT : VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                           MemoryKind::HostVisible);
+    return *copy_;
+  }
+
+  const Device& device_;
+  PooledBuffer buffer_, copy_;
+  bool isDirect_;
+  Host host_;
+};
+
+}  // namespace asdfvk
