@@ -24,6 +24,14 @@ struct ConeOrigin {
   uint unused1;
 };
 
+// The seed of a cone, 8 bytes, from which cone_origins.comp makes the start of the cone.
+struct ConeSeed {
+  uint triangle;   // In the order of the hierarchy; with kReversedSeedBit the face is a copy with the opposite normal.
+  float halfTurn;  // Tangent of half the angle by which the frame is turned about its axis: coneRotation().
+};
+
+const uint kReversedSeedBit = 0x80000000u;
+
 // One ray of every cone, 16 bytes and one texel, in the frame of the cone.
 struct ConeRay {
   vec3 direction;
@@ -45,6 +53,8 @@ static_assert(sizeof(ConeOrigin) == 48);
 static_assert(offsetof(ConeOrigin, origin) == 0 && offsetof(ConeOrigin, excludedFace) == 12);
 static_assert(offsetof(ConeOrigin, tangent) == 16 && offsetof(ConeOrigin, unused0) == 28);
 static_assert(offsetof(ConeOrigin, bitangent) == 32 && offsetof(ConeOrigin, unused1) == 44);
+static_assert(sizeof(ConeSeed) == 8);
+static_assert(offsetof(ConeSeed, triangle) == 0 && offsetof(ConeSeed, halfTurn) == 4);
 static_assert(sizeof(ConeRay) == 16);
 static_assert(offsetof(ConeRay, direction) == 0 && offsetof(ConeRay, weight) == 12);
 static_assert(sizeof(ConePush) == 12 && offsetof(ConePush, falseHitCosine) == 4);

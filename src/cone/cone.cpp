@@ -168,11 +168,15 @@ ConeFrame cgalConeFrame(const Vec3d& inward) {
   return {tangent, bitangent / length(bitangent), n};
 }
 
+double coneRotation(const Cone& cone, uint64_t key) {
+  if (cone.rotation == ConeRotation::Fixed) return 0;
+  return 2 * std::numbers::pi * Random(key).real();  // The first random number of a seed is a hash of the seed.
+}
+
 ConeFrame paperConeFrame(const Cone& cone, const Vec3d& normal, uint64_t key) {
   const ConeFrame frame = coneFrame(-normal);
   if (cone.rotation == ConeRotation::Fixed) return frame;
-  const double angle =
-      2 * std::numbers::pi * Random(key).real();  // The first random number of a seed is a hash of the seed.
+  const double angle = coneRotation(cone, key);
   const double cosine = std::cos(angle), sine = std::sin(angle);
   return {cosine * frame.tangent + sine * frame.bitangent, cosine * frame.bitangent - sine * frame.tangent, frame.axis};
 }

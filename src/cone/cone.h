@@ -64,6 +64,9 @@ struct ConeFrame {
 /// CGAL's frame. inward: not zero, of any length; coordinates that are exactly 0 select the tangent.
 [[nodiscard]] ConeFrame cgalConeFrame(const Vec3d& inward);
 
+/// Angle in radians, 0 to 2 pi, by which paperConeFrame() turns the frame with this key about its axis.
+[[nodiscard]] double coneRotation(const Cone& cone, uint64_t key);
+
 /// The frame of the rays at a unit normal, by Definition::Paper: coneFrame(-normal), turned about its axis by the
 /// rotation of the cone. key: hashed by ConeRotation::Hashed; for a face its index.
 [[nodiscard]] ConeFrame paperConeFrame(const Cone& cone, const Vec3d& normal, uint64_t key);

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "asdf_vk/run_control.h"
@@ -8,7 +10,7 @@
 
 namespace asdfvk {
 
-/// Size of the next submission, adapted so that each takes about kTargetSeconds: short enough for progress and
+/// Size of the next submission, adapted so that each takes about the target time: short enough for progress and
 /// cancellation, long enough to hide the cost of a submission.
 class ChunkSize {
  public:
@@ -16,18 +18,20 @@ class ChunkSize {
   static constexpr uint64_t kMin = 16;
 
   /// largest: at least 1.
-  ChunkSize(uint64_t first, uint64_t largest) : size_(std::min(first, largest)), largest_(largest) {}
+  ChunkSize(uint64_t first, uint64_t largest, double targetSeconds = kTargetSeconds)
+      : size_(std::min(first, largest)), largest_(largest), targetSeconds_(targetSeconds) {}
 
   [[nodiscard]] uint64_t current() const { return size_; }
   /// A chunk of `count` took `seconds`. The size changes at most fourfold, which bounds the effect of one outlier.
   void adapt(uint64_t count, double seconds) {
-    const double ideal = static_cast<double>(count) * kTargetSeconds / std::max(seconds, 1e-6);
+    const double ideal = static_cast<double>(count) * targetSeconds_ / std::max(seconds, 1e-6);
     const double bounded = std::clamp(ideal, static_cast<double>(size_) / 4, static_cast<double>(size_) * 4);
     size_ = std::clamp<uint64_t>(static_cast<uint64_t>(bounded), std::min(kMin, largest_), largest_);
   }
 
  private:
   uint64_t size_, largest_;
+  double targetSeconds_;
 };
 
 /// Calls work(begin, end) for consecutive ranges of [0, count), with a checkpoint before each and one at the end.
@@ -40,6 +44,40 @@ void forEachChunk(size_t count, ChunkSize size, const RunControl& control, const
     work(begin, end);
     size.adapt(end - begin, stopwatch.seconds());
     begin = end;
+  }
+  control.checkpoint(1);
+}
+
+/// The same for ranges that a device processes while the host goes on: start(slot, begin, end) submits a range,
+/// wait(slot) waits for it, and read(slot, begin, end) takes its results. Up to kSlotCount ranges are in flight, so the
+/// host reads one and prepares another while the device works. After an exception ranges may still be in flight.
+template <size_t kSlotCount, typename Start, typename Wait, typename Read>
+void forEachChunkInFlight(size_t count, ChunkSize size, const RunControl& control, const Start& start, const Wait& wait,
+                          const Read& read) {
+  struct Range {
+    size_t begin, end;
+    double startSeconds;
+  };
+  std::array<Range, kSlotCount> ranges;
+  const Stopwatch stopwatch;
+  double lastEndSeconds = 0;
+  size_t startedCount = 0, begun = 0;
+  for (size_t readCount = 0, done = 0; done < count; ++readCount) {
+    control.checkpoint(static_cast<double>(done) / static_cast<double>(count));
+    for (; begun < count && startedCount < readCount + kSlotCount; ++startedCount) {
+      const size_t end = std::min<size_t>(begun + size.current(), count);
+      ranges[startedCount % kSlotCount] = {begun, end, stopwatch.seconds()};
+      start(startedCount % kSlotCount, begun, end);
+      begun = end;
+    }
+    const size_t slot = readCount % kSlotCount;
+    const Range& range = ranges[slot];
+    wait(slot);
+    const double endSeconds = stopwatch.seconds();
+    size.adapt(range.end - range.begin, endSeconds - std::max(range.startSeconds, lastEndSeconds));
+    lastEndSeconds = endSeconds;
+    read(slot, range.begin, range.end);
+    done = range.end;
   }
   control.checkpoint(1);
 }

@@ -103,7 +103,8 @@ inline constexpr double kMinFloatFace = 0x1p-16;
 inline constexpr double kMinFloatDiameter = 0x1p-14;
 
 [[nodiscard]] inline bool isTooSmallForFloat(const TraceScene& scene, uint32_t seedFace) {
-  return std::sqrt(scene.geometry.areas[seedFace]) * scene.bvh.normalization.scale < kMinFloatFace;
+  const double scale = scene.bvh.normalization.scale;
+  return scene.geometry.areas[seedFace] * scale * scale < kMinFloatFace * kMinFloatFace;
 }
 
 /// Whether a point is in the normalised box [-1, 1]^3 or near it. The traversals require that; rays of other cones

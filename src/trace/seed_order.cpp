@@ -3,10 +3,10 @@
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
-#include "core/parallel.h"
+#include "core/radix_sort.h"
+#include "core/unset_vector.h"
 
 namespace asdfvk {
 namespace {
@@ -33,18 +33,20 @@ uint64_t mortonCode(const Vec3d& origin) {
 }  // namespace
 
 SeedOrder::SeedOrder(const TraceScene& scene)
-    : representatives_(scene.representatives), primitiveOfFace_(scene.representatives.size(), kNoFace) {
-  for (uint32_t primitive = 0; primitive < scene.bvh.primitiveFaces.size(); ++primitive)
-    primitiveOfFace_[scene.bvh.primitiveFaces[primitive]] = primitive;
-}
+    : SeedOrder(scene, [&](uint32_t primitive) { return scene.bvh.primitiveFaces[primitive]; }) {}
 
 std::vector<uint32_t> SeedOrder::of(std::span<const uint32_t> seedFaces) const {
-  std::vector<uint32_t> order(seedFaces.size());
-  std::iota(order.begin(), order.end(), 0u);
-  tbb::parallel_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
-    const uint32_t primitiveA = primitiveOf(seedFaces[a]), primitiveB = primitiveOf(seedFaces[b]);
-    return primitiveA != primitiveB ? primitiveA < primitiveB : a < b;
+  struct Seed {
+    uint32_t primitive, index;
+  };
+  const auto primitiveCount = static_cast<uint32_t>(primitiveOfFace_.size());
+  UnsetVector<Seed> seeds(seedFaces.size());
+  forEachInParallel(seeds.size(), [&](uint32_t i) {
+    seeds[i] = {std::min(primitiveOf(seedFaces[i]), primitiveCount), i};
   });
+  sortByKey(seeds, primitiveCount, [](const Seed& seed) { return seed.primitive; });
+  std::vector<uint32_t> order(seeds.size());
+  forEachInParallel(seeds.size(), [&](uint32_t i) { order[i] = seeds[i].index; });
   return order;
 }
 

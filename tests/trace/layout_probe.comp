@@ -12,6 +12,7 @@ layout(set = 0, binding = 5, rgba32ui) uniform readonly uimageBuffer wideNodes;
 layout(set = 0, binding = 2, rgba32ui) uniform readonly uimageBuffer rays;
 layout(set = 0, binding = 3, rgba32ui) uniform readonly uimageBuffer origins;
 layout(set = 0, binding = 6) readonly buffer Balls { BallStart balls[]; };
+layout(set = 0, binding = 7) readonly buffer Seeds { ConeSeed seeds[]; };
 layout(set = 0, binding = 4) writeonly buffer Words { uint words[]; };
 
 uint next = 0u;
@@ -55,4 +56,5 @@ void main() {
   put(wide.childBits), put(wide.unused), put(wide.x), put(wide.y), put(wide.z);
   const BallStart ball = balls[1];
   put(ball.origin), put(ball.excludedFace), put(ball.axis), put(floatBitsToUint(ball.diameter));
+  put(seeds[1].triangle), put(floatBitsToUint(seeds[1].halfTurn));
 }

@@ -10,6 +10,7 @@
 #include "trace/chunks.h"
 #include "trace/cone_tracer.h"
 #include "trace/seed_order.h"
+#include "vk/buffer_pool.h"
 #include "vk/command_list.h"
 
 namespace asdfvk {
@@ -23,22 +24,26 @@ uint64_t largestChunk(const Device& device) {
                    device.facts().maxStorageBufferRange / sizeof(BallStart)});
 }
 
+constexpr VkBufferUsageFlags kStorage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
+
+/// Memory and commands for one submission of balls.
+struct BallChunk {
+  BallChunk(const VulkanConeKernel& kernel, const ConeBuffers& buffers, uint64_t capacity)
+      : starts(kernel.device(), capacity * sizeof(BallStart), kStorage, MemoryKind::HostVisible),
+        results(kernel.device(), capacity * sizeof(uint32_t), kStorage, MemoryKind::HostVisible),
+        bindings(kernel.device(), *kernel.balls(), buffers.ballBindings(*starts, *results)),
+        commands(kernel.device()) {}
+
+  PooledBuffer starts, results;  // Mapped: BallStart, and a uint32_t per ball.
+  BindingSet bindings;
+  CommandList commands;
+};
+
 class VulkanBallShrinker final : public BallShrinker {
  public:
   VulkanBallShrinker(const VulkanConeKernel& kernel, const ConeBuffers& buffers, const TraceScene& scene,
                      const OpposingWalls& walls)
-      : pipeline_(*kernel.balls()),
-        scene_(scene),
-        walls_(walls),
-        order_(scene),
-        largestChunk_(largestChunk(kernel.device())),
-        childNormalStart_(buffers.childNormalStart),
-        starts_(kernel.device(), largestChunk_ * sizeof(BallStart), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
-                MemoryKind::HostVisible),
-        results_(kernel.device(), largestChunk_ * sizeof(uint32_t), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
-                 MemoryKind::HostVisible),
-        bindings_(kernel.device(), pipeline_, buffers.ballBindings(kernel, starts_, results_)),
-        commands_(kernel.device()) {}
+      : kernel_(kernel), buffers_(buffers), scene_(scene), walls_(walls), order_(scene) {}
 
   uint64_t shrink(std::span<InscribedBall> balls, const RunControl& control) override {
     if (scene_.bvh.nodes.empty()) return 0;
@@ -50,34 +55,37 @@ class VulkanBallShrinker final : public BallShrinker {
     });
     std::vector<uint32_t> redone(firstSmall, order.end());  // Indices into balls.
     order.erase(firstSmall, order.end());
-    forEachChunk(order.size(), ChunkSize(kFirstChunkInvocationCount, largestChunk_), control,
-                 [&](size_t begin, size_t end) {
-                   const std::span<const uint32_t> chunk = std::span(order).subspan(begin, end - begin);
-                   run(balls, chunk);
-                   read(balls, chunk, redone);
-                 });
+    const uint64_t largest = std::clamp<uint64_t>(order.size(), 1, largestChunk(kernel_.device()));
+    BallChunk memory(kernel_, buffers_, largest);
+    forEachChunk(order.size(), ChunkSize(kFirstChunkInvocationCount, largest), control, [&](size_t begin, size_t end) {
+      const std::span<const uint32_t> chunk = std::span(order).subspan(begin, end - begin);
+      run(balls, chunk, memory);
+      read(balls, chunk, memory.results->mappedAs<uint32_t>(), redone);
+    });
     redo(balls, redone, control);
     return redone.size();
   }
 
  private:
-  void run(std::span<const InscribedBall> balls, std::span<const uint32_t> chunk) {
-    const std::span<BallStart> starts = starts_.mappedAs<BallStart>();
+  void run(std::span<const InscribedBall> balls, std::span<const uint32_t> chunk, BallChunk& memory) const {
+    const std::span<BallStart> starts = memory.starts->mappedAs<BallStart>();
     tbb::parallel_for(size_t{0}, chunk.size(), [&](size_t i) {
       const InscribedBall& ball = balls[chunk[i]];
       starts[i] = {toGlsl(scene_.originOf(ball.face)), scene_.representatives[ball.face],
                    toGlsl(-scene_.geometry.normals[ball.face]), static_cast<float>(ball.diameter)};
     });
-    const BallPush push{static_cast<uint32_t>(chunk.size()), static_cast<float>(walls_.cosine), childNormalStart_};
-    commands_.begin();
-    commands_.dispatch(pipeline_, bindings_, bytesOf(push),
-                       (push.ballCount + VulkanConeKernel::kBallLaneCount - 1) / VulkanConeKernel::kBallLaneCount);
-    commands_.barrier();
-    commands_.submitAndWait();
+    const BallPush push{static_cast<uint32_t>(chunk.size()), static_cast<float>(walls_.cosine),
+                        buffers_.childNormalStart()};
+    memory.commands.begin();
+    memory.commands.dispatch(
+        *kernel_.balls(), memory.bindings, bytesOf(push),
+        (push.ballCount + VulkanConeKernel::kBallLaneCount - 1) / VulkanConeKernel::kBallLaneCount);
+    memory.commands.barrier();
+    memory.commands.submitAndWait();
   }
 
-  void read(std::span<InscribedBall> balls, std::span<const uint32_t> chunk, std::vector<uint32_t>& redone) const {
-    const std::span<const uint32_t> results = results_.mappedAs<uint32_t>();
+  void read(std::span<InscribedBall> balls, std::span<const uint32_t> chunk, std::span<const uint32_t> results,
+            std::vector<uint32_t>& redone) const {
     tbb::parallel_for(size_t{0}, chunk.size(), [&](size_t i) {
       if (results[i] == kNoFace || results[i] == kUnfinishedBall) return;
       InscribedBall& ball = balls[chunk[i]];
@@ -96,15 +104,11 @@ class VulkanBallShrinker final : public BallShrinker {
     for (size_t i = 0; i < indices.size(); ++i) balls[indices[i]] = copies[i];
   }
 
-  const ComputePipeline& pipeline_;
+  const VulkanConeKernel& kernel_;
+  const ConeBuffers& buffers_;
   TraceScene scene_;
   OpposingWalls walls_;
   SeedOrder order_;
-  uint64_t largestChunk_;
-  uint32_t childNormalStart_;
-  Buffer starts_, results_;  // Mapped: BallStart, and a uint32_t per ball.
-  BindingSet bindings_;
-  CommandList commands_;
 };
 
 }  // namespace

@@ -8,8 +8,10 @@
 #include "asdf_vk/error.h"
 #include "shared/ball_layout.h"
 #include "shared/cone_hit.h"
+#include "spirv/cone_origins.comp.h"
 #include "spirv/shrink_ball.comp.h"
 #include "spirv/trace_cone.comp.h"
+#include "spirv/trace_constant.comp.h"
 #include "spirv/trace_packet.comp.h"
 #include "spirv/trace_reduce.comp.h"
 #include "spirv/trace_seed.comp.h"
@@ -21,7 +23,9 @@ constexpr VkDescriptorType kTexels = VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER;
 constexpr VkDescriptorType kStorage = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
 
 VulkanTraceChoice choiceFor(const Device& device, const ConeKernelRequest& request) {
-  return request.choice.value_or(defaultTraceChoice(device.facts()));
+  VulkanTraceChoice choice = request.choice.value_or(defaultTraceChoice(device.facts()));
+  if (request.isConstant) choice.kernel = TraceKernel::Ray;  // The same bindings and workgroups.
+  return choice;
 }
 
 struct Shader {
@@ -37,6 +41,15 @@ Shader shaderOf(TraceKernel kernel) {
 
 VkBool32 isCgal(const ConeKernelRequest& request) {
   return request.definition == Definition::Cgal ? VK_TRUE : VK_FALSE;
+}
+
+ComputePipelineDescription describeOrigins(const VulkanTraceChoice& choice) {
+  return {.name = "cone_origins.comp",
+          .spirv = k_cone_origins_comp,
+          .bindings = {kTexels, kTexels, kStorage, kStorage, kStorage, kStorage},
+          .pushConstantByteCount = sizeof(ConePush),
+          .specializationConstants = {/* LANE_COUNT= */ VulkanConeKernel::kOriginLaneCount, 0, 0, 0, 0,
+                                      /* FETCHES_TEXELS= */ choice.fetch == BvhFetch::Texel ? VK_TRUE : VK_FALSE}};
 }
 
 /// Returns the device, or throws.
@@ -67,6 +80,7 @@ Buffer uploadRays(const Device& device, const Cone& cone) {
 bool fetchesTexels(const VulkanConeKernel& kernel) { return kernel.choice().fetch == BvhFetch::Texel; }
 
 Buffer uploadHierarchy(const VulkanConeKernel& kernel, std::span<const std::byte> bytes) {
+  if (!fetchesTexels(kernel)) requireStorageRange(kernel.device(), bytes.size());
   return uploadBuffer(kernel.device(), bytes, fetchesTexels(kernel) ? kTexelUsage : kStorageUsage);
 }
 
@@ -88,16 +102,12 @@ Buffer uploadChildNormals(const VulkanConeKernel& kernel, const DeviceBvh& bvh) 
 /// Per cone.
 uint64_t hitByteCount(const VulkanConeKernel& kernel) { return kernel.rayCount() * sizeof(ConeHit); }
 
-/// Without hits the size for one cone: every binding needs a buffer.
-uint64_t hitBufferByteCount(const VulkanConeKernel& kernel) {
-  return (kernel.writesHits() ? largestConeChunk(kernel) : 1) * hitByteCount(kernel);
-}
-
 }  // namespace
 
 ComputePipelineDescription describeCones(const ConeKernelRequest& request, const VulkanTraceChoice& choice,
                                          const VulkanWorkgroupShape& shape, const VulkanWalkShape& walk) {
-  const Shader shader = shaderOf(choice.kernel);
+  const Shader shader =
+      request.isConstant ? Shader{"trace_constant.comp", k_trace_constant_comp} : shaderOf(choice.kernel);
   return {.name = shader.name,
           .spirv = shader.spirv,
           .bindings = {kTexels, kTexels, kStorage, kStorage, kTexels, kTexels, kStorage, kStorage},
@@ -150,6 +160,7 @@ VulkanConeKernel::VulkanConeKernel(const Device& device, const ConeKernelRequest
       choice_(choiceFor(device, request)),
       shape_(shape),
       pipeline_(device, describeCones(request_, choice_, shape_, walk)) {
+  if (request.definition == Definition::Paper) origins_.emplace(device, describeOrigins(choice_));
   if (choice_.kernel == TraceKernel::Seed)
     reduction_.emplace(device, ComputePipelineDescription{.name = "trace_reduce.comp",
                                                           .spirv = k_trace_reduce_comp,
@@ -174,41 +185,26 @@ uint64_t largestConeChunk(const VulkanConeKernel& kernel) {
 }
 
 ConeBuffers::ConeBuffers(const VulkanConeKernel& kernel, const DeviceBvh& bvh, const Cone& cone)
-    : nodes(uploadNodes(kernel, bvh)),
-      triangles(uploadHierarchy(kernel, std::as_bytes(std::span(bvh.triangles)))),
-      rays(uploadRays(kernel.device(), cone)),
-      origins(kernel.device(), largestConeChunk(kernel) * sizeof(ConeOrigin), kTexelUsage, MemoryKind::HostVisible),
-      lengths(kernel.device(),
-              kernel.reduction() ? largestConeChunk(kernel) * kernel.rayCount() * sizeof(uint32_t) : 16, kStorageUsage,
-              MemoryKind::DeviceOnly),
-      results(kernel.device(), largestConeChunk(kernel) * sizeof(uint32_t), kStorageUsage, MemoryKind::HostVisible),
-      hits(kernel.device(), hitBufferByteCount(kernel), kStorageUsage, MemoryKind::HostVisible),
-      childNormals(uploadChildNormals(kernel, bvh)),
-      childNormalStart(static_cast<uint32_t>(bvh.nodeBytes().size() / kDeviceBlockByteCount)),
+    : fetchesTexels_(fetchesTexels(kernel)),
+      nodes_(uploadNodes(kernel, bvh)),
+      triangles_(uploadHierarchy(kernel, std::as_bytes(std::span(bvh.triangles)))),
+      rays_(uploadRays(kernel.device(), cone)),
+      childNormals_(uploadChildNormals(kernel, bvh)),
+      childNormalStart_(static_cast<uint32_t>(bvh.nodeBytes().size() / kDeviceBlockByteCount)),
       nothing_(kernel.device(), 16, kTexelUsage | kStorageUsage, MemoryKind::DeviceLocal),
-      nodeTexels_(kernel.device(), fetchesTexels(kernel) ? nodes : nothing_),
-      triangleTexels_(kernel.device(), fetchesTexels(kernel) ? triangles : nothing_),
-      rayTexels_(kernel.device(), rays),
-      originTexels_(kernel.device(), origins),
-      childNormalTexels_(kernel.device(), childNormals),
-      bindings(kernel.device(), kernel.pipeline(),
-               std::vector<Binding>{nodeTexels_, triangleTexels_, fetchesTexels(kernel) ? nothing_ : nodes,
-                                    fetchesTexels(kernel) ? nothing_ : triangles, rayTexels_, originTexels_,
-                                    kernel.reduction() ? lengths : results, hits}) {
-  if (kernel.reduction())
-    reductionBindings.emplace(kernel.device(), *kernel.reduction(), std::vector<Binding>{rayTexels_, lengths, results});
+      nodeTexels_(kernel.device(), fetchesTexels_ ? nodes_ : nothing_),
+      triangleTexels_(kernel.device(), fetchesTexels_ ? triangles_ : nothing_),
+      rayTexels_(kernel.device(), rays_),
+      childNormalTexels_(kernel.device(), childNormals_) {}
+
+std::vector<Binding> ConeBuffers::hierarchyBindings() const {
+  return {nodeTexels_, triangleTexels_, fetchesTexels_ ? nothing_ : nodes_, fetchesTexels_ ? nothing_ : triangles_};
 }
 
-std::vector<Binding> ConeBuffers::ballBindings(const VulkanConeKernel& kernel, const Buffer& starts,
-                                               const Buffer& walls) const {
-  const bool isTexel = fetchesTexels(kernel);
-  return {nodeTexels_,
-          triangleTexels_,
-          isTexel ? nothing_ : nodes,
-          isTexel ? nothing_ : triangles,
-          childNormalTexels_,
-          starts,
-          walls};
+std::vector<Binding> ConeBuffers::ballBindings(const Buffer& starts, const Buffer& walls) const {
+  std::vector<Binding> bindings = hierarchyBindings();
+  bindings.insert(bindings.end(), {childNormalTexels_, starts, walls});
+  return bindings;
 }
 
 }  // namespace asdfvk

@@ -21,6 +21,7 @@ struct ConeKernelRequest {
   std::optional<VulkanTraceChoice> choice = {};  ///< None: defaultTraceChoice().
   Definition definition = Definition::Paper;
   bool shrinksBalls = false;
+  bool isConstant = false;  ///< For benchmarks: shaders/trace_constant.comp instead of a kernel that traces.
   auto operator<=>(const ConeKernelRequest&) const = default;
 };
 
@@ -44,6 +45,9 @@ class VulkanConeKernel {
   [[nodiscard]] const VulkanTraceChoice& choice() const { return choice_; }
   /// Binds nodes and triangles (texels, then storage), rays, origins, results or lengths, hits.
   [[nodiscard]] const ComputePipeline& pipeline() const { return pipeline_; }
+  /// Makes the starts of cones from their seeds; null unless the definition is the paper's, because the frames of
+  /// CGAL's depend on corners in double precision. Binds nodes and triangles as pipeline(), seeds, starts.
+  [[nodiscard]] const ComputePipeline* origins() const { return origins_ ? &*origins_ : nullptr; }
   /// Computes results from lengths; null unless pipeline() writes lengths, one per ray and cone. Binds rays, lengths,
   /// results.
   [[nodiscard]] const ComputePipeline* reduction() const { return reduction_ ? &*reduction_ : nullptr; }
@@ -54,7 +58,7 @@ class VulkanConeKernel {
   [[nodiscard]] Definition definition() const { return request_.definition; }
   [[nodiscard]] bool writesHits() const { return request_.writesHits; }
   [[nodiscard]] const VulkanWorkgroupShape& shape() const { return shape_; }
-  static constexpr uint32_t kReductionLaneCount = 64, kBallLaneCount = 64;
+  static constexpr uint32_t kOriginLaneCount = 64, kReductionLaneCount = 64, kBallLaneCount = 64;
 
  private:
   const Device& device_;
@@ -62,36 +66,35 @@ class VulkanConeKernel {
   VulkanTraceChoice choice_;
   VulkanWorkgroupShape shape_;
   ComputePipeline pipeline_;
-  std::optional<ComputePipeline> reduction_, balls_;
+  std::optional<ComputePipeline> origins_, reduction_, balls_;
 };
 
 /// Largest number of cones of one dispatch: each buffer stays within the limits of the device and at most 32 MiB.
 [[nodiscard]] uint64_t largestConeChunk(const VulkanConeKernel& kernel);
 
-/// All buffers that a kernel binds: a scene and a cone on its device, and memory for one chunk of cones.
-struct ConeBuffers {
+/// A scene and a cone on the device of a kernel.
+class ConeBuffers {
+ public:
   /// Throws Error{DeviceLimit} when the scene exceeds the limits of the device.
   ConeBuffers(const VulkanConeKernel& kernel, const DeviceBvh& bvh, const Cone& cone);
 
-  Buffer nodes, triangles, rays;
-  Buffer origins;             ///< Mapped: a ConeOrigin per cone.
-  Buffer lengths;             ///< Bits of a float per ray and cone, if there is a reduction.
-  Buffer results;             ///< Mapped: a uint32_t per cone, see shared/cone_layout.h.
-  Buffer hits;                ///< Mapped: a ConeHit per cone and ray, if the kernel writes them.
-  Buffer childNormals;        ///< DeviceBvh::childNormals with BvhFetch::Texel.
-  uint32_t childNormalStart;  ///< Their place in `nodes` with BvhFetch::Storage, in blocks of 16 bytes.
+  /// The first bindings of every kernel that traverses the hierarchy: nodes and triangles as texels, then as storage.
+  [[nodiscard]] std::vector<Binding> hierarchyBindings() const;
+  /// Of VulkanConeKernel::balls().
+  [[nodiscard]] std::vector<Binding> ballBindings(const Buffer& starts, const Buffer& walls) const;
+  [[nodiscard]] const TexelView& rayTexels() const { return rayTexels_; }
+  /// For bindings that a kernel does not access.
+  [[nodiscard]] const Buffer& nothing() const { return nothing_; }
+  /// Place of DeviceBvh::childNormals among the nodes with BvhFetch::Storage, in blocks of 16 bytes.
+  [[nodiscard]] uint32_t childNormalStart() const { return childNormalStart_; }
 
  private:
-  Buffer nothing_;  // Placeholder for the bindings of the BvhFetch that is not selected.
-  TexelView nodeTexels_, triangleTexels_, rayTexels_, originTexels_, childNormalTexels_;
-
- public:
-  BindingSet bindings;
-  std::optional<BindingSet> reductionBindings;
-
-  /// Of VulkanConeKernel::balls().
-  [[nodiscard]] std::vector<Binding> ballBindings(const VulkanConeKernel& kernel, const Buffer& starts,
-                                                  const Buffer& walls) const;
+  bool fetchesTexels_;
+  Buffer nodes_, triangles_, rays_;
+  Buffer childNormals_;  // With BvhFetch::Texel.
+  uint32_t childNormalStart_;
+  Buffer nothing_;
+  TexelView nodeTexels_, triangleTexels_, rayTexels_, childNormalTexels_;
 };
 
 [[nodiscard]] inline glsl::vec3 toGlsl(const Vec3d& v) {

@@ -1,50 +1,76 @@
 #include "trace/vulkan/vulkan_tracer.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <cmath>
+#include <iterator>
+#include <optional>
 #include <vector>
 
 #include "core/check.h"
+#include "core/parallel.h"
+#include "core/radix_sort.h"
 #include "core/stopwatch.h"
+#include "core/unset_vector.h"
 #include "trace/chunks.h"
 #include "trace/reference_tracer.h"
 #include "trace/seed_order.h"
 #include "trace/vulkan/vulkan_balls.h"
+#include "trace/vulkan/vulkan_cone_chunk.h"
 #include "trace/vulkan/vulkan_cone_kernel.h"
-#include "vk/command_list.h"
 
 namespace asdfvk {
 namespace {
 
 constexpr uint64_t kFirstChunkRayCount = 1u << 16;
+constexpr size_t kChunksInFlight = 2;
+
+/// A cone on the device: its seed, if it is one of a face, and its index in the arrays of the caller.
+struct DeviceCone {
+  uint32_t triangle;
+  uint32_t index;
+};
 
 class VulkanTracer final : public ConeTracer {
  public:
   VulkanTracer(const VulkanConeKernel& kernel, const TraceScene& scene, const Cone& cone)
-      : kernel_(kernel),
-        scene_(scene),
-        cone_(cone),
-        seedOrder_(scene),
-        buffers_(kernel, encode(), cone),
-        commands_(kernel.device()) {
+      : kernel_(kernel), scene_(scene), cone_(cone), buffers_(kernel, encode(), cone) {
     ASDFVK_CHECK_OP(cone.directions.size(), ==, size_t{kernel.rayCount()});
     ASDFVK_CHECK(cone.definition == kernel.definition());
   }
 
   TraceStatistics trace(std::span<const uint32_t> seedFaces, const ConeResults& results,
                         const RunControl& control) override {
+    const auto startOf = [&](uint32_t i) { return coneStartOfFace(scene_, cone_, seedFaces[i]); };
+    const auto fits = [&](uint32_t i) { return isTraceable(seedFaces[i]); };
+    const auto submit = [&](ConeChunk& chunk, std::span<const DeviceCone> cones) {
+      if (kernel_.origins() == nullptr) return submitStarts(chunk, cones, startOf, results);
+      const std::span<ConeSeed> seeds = chunk.seeds();
+      forEachInParallel(cones.size(), [&](uint32_t i) {
+        const double rotation = coneRotation(cone_, seedFaces[cones[i].index]);
+        seeds[i] = {cones[i].triangle, static_cast<float>(std::tan(rotation / 2))};
+      });
+      chunk.submit(pushFor(cones.size()), ConeChunk::Input::Seeds, !results.hits.empty());
+    };
     return traceAll(
-        seedOrder_.of(seedFaces), [&](uint32_t i) { return coneStartOfFace(scene_, cone_, seedFaces[i]); },
-        [&](uint32_t i) { return !isTooSmallForFloat(scene_, seedFaces[i]); }, results, control);
+        seedFaces.size(), [&] { return sortSeeds(seedFaces); }, fits, submit, startOf, results, control);
   }
 
   TraceStatistics traceAt(std::span<const ConeStart> starts, const ConeResults& results,
                           const RunControl& control) override {
-    return traceAll(
-        spatialOrder(starts), [&](uint32_t i) -> const ConeStart& { return starts[i]; },
-        [&](uint32_t i) { return isNearBox(starts[i].origin); }, results, control);
+    const auto startOf = [&](uint32_t i) -> const ConeStart& { return starts[i]; };
+    const auto fits = [&](uint32_t i) { return isNearBox(starts[i].origin); };
+    const auto submit = [&](ConeChunk& chunk, std::span<const DeviceCone> cones) {
+      submitStarts(chunk, cones, startOf, results);
+    };
+    const auto sorted = [&] {
+      const std::vector<uint32_t> order = spatialOrder(starts);
+      UnsetVector<DeviceCone> cones(order.size());
+      forEachInParallel(order.size(), [&](uint32_t i) { cones[i] = {0, order[i]}; });
+      return cones;
+    };
+    return traceAll(starts.size(), sorted, fits, submit, startOf, results, control);
   }
 
   std::unique_ptr<BallShrinker> makeBallShrinker(const OpposingWalls& walls) override {
@@ -56,17 +82,43 @@ class VulkanTracer final : public ConeTracer {
 
  private:
   DeviceBvh encode() {
+    const Stopwatch watch;
     DeviceBvh bvh = encodeDeviceBvh(scene_.bvh, scene_.mesh, scene_.geometry, kernel_.choice().bvh);
     if (kernel_.balls() != nullptr) bvh.addNormalBounds(scene_.geometry);
-    encodeSeconds_ = watch_.seconds();
+    seedOrder_.emplace(scene_, [&](uint32_t triangle) { return bvh.triangles[triangle].faceIndex; });
+    encodeSeconds_ = watch.seconds();
     return bvh;
   }
 
-  /// order: of the cones on the device. startOf(i): the start of cone i. fitsFloat(i): whether the device can trace it.
-  template <typename StartOf, typename FitsFloat>
-  TraceStatistics traceAll(std::vector<uint32_t> order, const StartOf& startOf, const FitsFloat& fitsFloat,
-                           const ConeResults& results, const RunControl& control) {
-    const size_t coneCount = order.size();
+  /// Whether the device can trace the cone of a face.
+  [[nodiscard]] bool isTraceable(uint32_t face) const {
+    return !isTooSmallForFloat(scene_, face) && seedOrder_->primitiveOf(face) != kNoFace;
+  }
+
+  /// In the order of their triangles: neighbouring cones traverse the same nodes.
+  [[nodiscard]] UnsetVector<DeviceCone> sortSeeds(std::span<const uint32_t> seedFaces) const {
+    UnsetVector<DeviceCone> cones(seedFaces.size());
+    forEachInParallel(cones.size(), [&](uint32_t i) { cones[i] = {triangleOf(seedFaces[i]), i}; });
+    const auto triangleCount = static_cast<uint32_t>(scene_.bvh.primitiveFaces.size());
+    sortByKey(cones, triangleCount, [&](const DeviceCone& cone) {  // kNoFace comes last.
+      return std::min(cone.triangle & ~kReversedSeedBit, triangleCount);
+    });
+    return cones;
+  }
+
+  /// ConeSeed::triangle.
+  [[nodiscard]] uint32_t triangleOf(uint32_t face) const {
+    const uint32_t triangle = seedOrder_->primitiveOf(face), representative = scene_.representatives[face];
+    const std::vector<Vec3d>& normals = scene_.geometry.normals;
+    const bool isReversed = representative != face && dot(normals[face], normals[representative]) < 0;
+    return isReversed ? triangle | kReversedSeedBit : triangle;
+  }
+
+  /// sorted(): all cones, in the order of the device. fits(i): whether the device can trace cone i. submit(chunk,
+  /// cones): writes the input of these cones and submits the chunk. startOf(i): the start of cone i.
+  template <typename Sorted, typename Fits, typename Submit, typename StartOf>
+  TraceStatistics traceAll(size_t coneCount, const Sorted& sorted, const Fits& fits, const Submit& submit,
+                           const StartOf& startOf, const ConeResults& results, const RunControl& control) {
     checkSizes(results, coneCount, kernel_.rayCount());
     ASDFVK_CHECK(results.hits.empty() || kernel_.writesHits());
     const uint64_t rayCount = coneCount * cone_.directions.size();
@@ -75,71 +127,85 @@ class VulkanTracer final : public ConeTracer {
       std::fill(results.hits.begin(), results.hits.end(), kMiss);
       return {rayCount, 0};
     }
-    const auto firstUnfit = std::stable_partition(order.begin(), order.end(), fitsFloat);
-    std::vector<uint32_t> redone(firstUnfit, order.end());
-    order.erase(firstUnfit, order.end());
-    const double deviceShare = static_cast<double>(order.size()) / static_cast<double>(std::max<size_t>(1, coneCount));
-    traceOnDevice(order, startOf, results, redone, control.part(0, deviceShare));
+    UnsetVector<DeviceCone> cones = sorted();
+    std::vector<uint32_t> redone;
+    if (countInParallel(coneCount, fits) < coneCount) {
+      const auto firstUnfit =
+          std::stable_partition(cones.begin(), cones.end(), [&](const DeviceCone& cone) { return fits(cone.index); });
+      std::transform(firstUnfit, cones.end(), std::back_inserter(redone),
+                     [](const DeviceCone& cone) { return cone.index; });
+      cones.erase(firstUnfit, cones.end());
+    }
+    const double deviceShare = static_cast<double>(cones.size()) / static_cast<double>(std::max<size_t>(1, coneCount));
+    traceOnDevice(cones, submit, results, redone, control.part(0, deviceShare));
     redo(redone, startOf, results, control.part(deviceShare, 1));
     return {rayCount, redone.size()};
   }
 
-  template <typename StartOf>
-  void traceOnDevice(const std::vector<uint32_t>& order, const StartOf& startOf, const ConeResults& results,
+  template <typename Submit>
+  void traceOnDevice(std::span<const DeviceCone> cones, const Submit& submit, const ConeResults& results,
                      std::vector<uint32_t>& redone, const RunControl& control) {
-    const ChunkSize chunk(std::max<uint64_t>(1, kFirstChunkRayCount / kernel_.rayCount()), largestConeChunk(kernel_));
-    forEachChunk(order.size(), chunk, control, [&](size_t begin, size_t end) {
-      const std::span<const uint32_t> cones = std::span(order).subspan(begin, end - begin);
-      writeOrigins(cones, startOf);
-      dispatch(static_cast<uint32_t>(cones.size()));
-      readChunk(cones, results, redone);
-    });
+    const uint64_t largest = largestConeChunk(kernel_);
+    const ChunkSize size(std::max<uint64_t>(1, kFirstChunkRayCount / kernel_.rayCount()), largest,
+                         ChunkSize::kTargetSeconds / kChunksInFlight);
+    std::array<std::optional<ConeChunk>, kChunksInFlight> chunks;  // Their destructors wait.
+    const auto start = [&](size_t slot, size_t begin, size_t end) {
+      std::optional<ConeChunk>& chunk = chunks[slot];
+      if (!chunk || chunk->capacity() < end - begin) {
+        chunk.reset();
+        chunk.emplace(kernel_, buffers_, std::min<uint64_t>(std::bit_ceil(end - begin), largest));
+      }
+      submit(*chunk, cones.subspan(begin, end - begin));
+    };
+    const auto read = [&](size_t slot, size_t begin, size_t end) {
+      readChunk(*chunks[slot], cones.subspan(begin, end - begin), results, redone);
+    };
+    forEachChunkInFlight<kChunksInFlight>(
+        cones.size(), size, control, start, [&](size_t slot) { chunks[slot]->wait(); }, read);
   }
 
   template <typename StartOf>
-  void writeOrigins(std::span<const uint32_t> order, const StartOf& startOf) {
-    const std::span<ConeOrigin> origins = buffers_.origins.mappedAs<ConeOrigin>();
-    tbb::parallel_for(size_t{0}, order.size(), [&](size_t i) {
-      const ConeStart& start = startOf(order[i]);
+  void submitStarts(ConeChunk& chunk, std::span<const DeviceCone> cones, const StartOf& startOf,
+                    const ConeResults& results) const {
+    const std::span<ConeOrigin> origins = chunk.starts();
+    forEachInParallel(cones.size(), [&](uint32_t i) {
+      const ConeStart& start = startOf(cones[i].index);
       origins[i] = {
           toGlsl(start.origin), start.skippedFace, toGlsl(start.frame.tangent), 0, toGlsl(start.frame.bitangent), 0};
     });
+    chunk.submit(pushFor(cones.size()), ConeChunk::Input::Starts, !results.hits.empty());
   }
 
-  void dispatch(uint32_t coneCount) {
-    const ConePush push{coneCount, static_cast<float>(cone_.falseHitCosine),
-                        static_cast<float>(cone_.outliers.deviations)};
-    const auto groupCount = [](uint32_t count, uint32_t perGroup) { return (count + perGroup - 1) / perGroup; };
-    const VulkanWorkgroupShape& shape = kernel_.shape();
-    commands_.begin();
-    commands_.dispatch(kernel_.pipeline(), buffers_.bindings, bytesOf(push),
-                       groupCount(push.coneCount, shape.conesPerWorkgroup),
-                       kernel_.reduction() ? groupCount(kernel_.rayCount(), shape.lanesPerCone) : 1);
-    commands_.barrier();
-    if (kernel_.reduction()) {
-      commands_.dispatch(*kernel_.reduction(), *buffers_.reductionBindings, bytesOf(push),
-                         groupCount(push.coneCount, VulkanConeKernel::kReductionLaneCount));
-      commands_.barrier();
-    }
-    commands_.submitAndWait();
+  [[nodiscard]] ConePush pushFor(size_t coneCount) const {
+    return {static_cast<uint32_t>(coneCount), static_cast<float>(cone_.falseHitCosine),
+            static_cast<float>(cone_.outliers.deviations)};
   }
 
-  void readChunk(std::span<const uint32_t> order, const ConeResults& results, std::vector<uint32_t>& redone) const {
-    const std::span<const uint32_t> lengths = buffers_.results.mappedAs<uint32_t>();
-    for (size_t i = 0; i < order.size(); ++i) {
-      const double length = lengths[i] == kNoValueBits ? kNoValue : std::bit_cast<float>(lengths[i]);
-      if (lengths[i] == kIterationLimitBits || length < kMinFloatDiameter) redone.push_back(order[i]);
-      results.values[order[i]] = scene_.bvh.normalization.toMeshLength(length);
-    }
-    if (!results.hits.empty()) copyHits(order, buffers_.hits.mappedAs<ConeHit>(), results.hits);
+  void readChunk(ConeChunk& chunk, std::span<const DeviceCone> cones, const ConeResults& results,
+                 std::vector<uint32_t>& redone) const {
+    const std::span<const uint32_t> lengths = chunk.results();
+    const auto lengthOf = [&](uint32_t i) -> double {
+      return lengths[i] == kNoValueBits ? kNoValue : static_cast<double>(std::bit_cast<float>(lengths[i]));
+    };
+    const auto isRedone = [&](uint32_t i) {
+      return lengths[i] == kIterationLimitBits || lengthOf(i) < kMinFloatDiameter;
+    };
+    forEachInParallel(cones.size(), [&](uint32_t i) {
+      results.values[cones[i].index] = scene_.bvh.normalization.toMeshLength(lengthOf(i));
+    });
+    for (uint32_t i = 0; i < cones.size(); ++i)
+      if (isRedone(i)) redone.push_back(cones[i].index);
+    if (!results.hits.empty())
+      copyHits(
+          cones.size(), [&](uint32_t i) { return cones[i].index; }, chunk.hits(), results.hits);
   }
 
-  /// Copies the hits of each cone to its position in `order`.
-  void copyHits(std::span<const uint32_t> order, std::span<const ConeHit> from, std::span<ConeHit> to) const {
+  /// Copies the hits of cone i to position indexOf(i).
+  template <typename IndexOf>
+  void copyHits(size_t coneCount, const IndexOf& indexOf, std::span<const ConeHit> from, std::span<ConeHit> to) const {
     const size_t rayCount = kernel_.rayCount();
-    tbb::parallel_for(size_t{0}, order.size(), [&](size_t i) {
-      std::copy_n(from.begin() + static_cast<std::ptrdiff_t>(i * rayCount), rayCount,
-                  to.begin() + static_cast<std::ptrdiff_t>(order[i] * rayCount));
+    forEachInParallel(coneCount, [&](uint32_t i) {
+      std::ranges::copy(from.subspan(i * rayCount, rayCount), to.subspan(indexOf(i) * rayCount).begin());
     });
   }
 
@@ -162,18 +228,18 @@ class VulkanTracer final : public ConeTracer {
           starts, {values, hits},
           control.part(static_cast<double>(begin) / total, static_cast<double>(begin + block.size()) / total));
       for (size_t i = 0; i < block.size(); ++i) results.values[block[i]] = values[i];
-      if (hitCount > 0) copyHits(block, hits, results.hits);
+      if (hitCount > 0)
+        copyHits(
+            block.size(), [&](uint32_t i) { return block[i]; }, hits, results.hits);
     }
   }
 
   const VulkanConeKernel& kernel_;
   TraceScene scene_;
   const Cone& cone_;
-  Stopwatch watch_;
   double encodeSeconds_ = 0;
-  SeedOrder seedOrder_;
+  std::optional<SeedOrder> seedOrder_;  // By the triangles on the device.
   ConeBuffers buffers_;
-  CommandList commands_;
 };
 
 }  // namespace

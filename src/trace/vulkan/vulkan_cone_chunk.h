@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "shared/cone_hit.h"
+#include "shared/cone_layout.h"
+#include "trace/vulkan/vulkan_cone_kernel.h"
+#include "vk/command_list.h"
+#include "vk/shared_buffer.h"
+
+namespace asdfvk {
+
+/// Memory and commands for one submission of cones: the host writes seeds() or starts(), submits, waits, and reads
+/// results() and hits(). Its buffers come from Device::pool(); the destructor waits and gives them back.
+class ConeChunk {
+ public:
+  /// capacity: number of cones, at most largestConeChunk(). The kernel and the buffers must outlive it.
+  ConeChunk(const VulkanConeKernel& kernel, const ConeBuffers& scene, uint64_t capacity);
+  ~ConeChunk() { commands_.finish(); }
+  ConeChunk(const ConeChunk&) = delete;
+  ConeChunk& operator=(const ConeChunk&) = delete;
+
+  [[nodiscard]] uint64_t capacity() const { return capacity_; }
+  /// Of seed faces, if the kernel has origins().
+  [[nodiscard]] std::span<ConeSeed> seeds() { return seeds_->mappedAs<ConeSeed>(); }
+  /// Of cones anywhere.
+  [[nodiscard]] std::span<ConeOrigin> starts() { return origins_.onHost<ConeOrigin>(); }
+
+  enum class Input { Seeds, Starts };
+  /// readsHits: whether hits() are read.
+  void submit(const ConePush& push, Input input, bool readsHits);
+  void wait() { commands_.wait(); }
+
+  /// See shared/cone_layout.h.
+  [[nodiscard]] std::span<const uint32_t> results() { return results_.onHost<uint32_t>(); }
+  /// Those of cone i at i times the number of rays.
+  [[nodiscard]] std::span<const ConeHit> hits() { return hits_->onHost<ConeHit>(); }
+
+ private:
+  const VulkanConeKernel& kernel_;
+  uint64_t capacity_;
+  PooledBuffer seeds_;    // Mapped: kernels read each seed once.
+  SharedBuffer origins_;  // A ConeOrigin per cone.
+  PooledBuffer lengths_;  // Bits of a float per ray and cone, if there is a reduction.
+  SharedBuffer results_;
+  std::optional<SharedBuffer> hits_;  // If the kernel writes them.
+  TexelView originTexels_;
+  std::optional<BindingSet> bindings_, originBindings_, reductionBindings_;
+  CommandList commands_;  // Destroyed first: waits.
+};
+
+}  // namespace asdfvk
