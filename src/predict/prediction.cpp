@@ -15,34 +15,16 @@
 namespace asdfvk {
 namespace {
 
-// Standard deviation of the Gaussian weight of the angle between the normals of the seed and of the face.
-constexpr float kNormalDeviationRadians = 0.5f;
-
-// A seed with less than this share of the total weight is ignored: this adds 1 % to the error and saves a third of the
-// time (docs/experiments.md).
-constexpr float kMinWeightShare = 0.08f;
-
 // Cells predicted with one set of hit points; together they have 1.5 times as many contributing seeds as cells.
 constexpr size_t kBlockSize = 128;
-
-/// Input that all cells share.
-struct PredictionTask {
-  const TraceScene& scene;
-  const Cone& cone;
-  const SeedHits& hits;
-  const SeedCells& cells;
-  const NearestCells& nearest;
-  const PredictionOptions& options;
-  const Prediction& earlier;
-};
 
 /// Predicts the faces of one block of cells after another. Cells of a block are close to each other and share the hit
 /// points of their seeds.
 class CellPredictor {
  public:
-  /// The task must outlive it.
-  explicit CellPredictor(const PredictionTask& task)
-      : task_(task), points_(task.scene, task.cone, task.hits), kernel_(task.cone) {
+  /// Both must outlive it.
+  CellPredictor(const PredictionTask& task, const Prediction& earlier)
+      : task_(task), earlier_(earlier), points_(task.scene, task.cone, task.hits), kernel_(task.cone) {
     weighting_.inverseAngleVariance = 1 / (kNormalDeviationRadians * kNormalDeviationRadians);
   }
 
@@ -66,6 +48,7 @@ class CellPredictor {
   [[nodiscard]] double valueAt(const VirtualCone& at, float minWeightShare);
 
   const PredictionTask& task_;
+  const Prediction& earlier_;
   HitPoints points_;
   PredictionKernel kernel_;
   struct CachedHits {
@@ -125,14 +108,13 @@ HitRange CellPredictor::hitsOf(uint32_t seed) {
 /// Copies the values of faces that are in the same cell as before, if the contributing seeds are the same too. The
 /// others become the remaining faces.
 void CellPredictor::reuseEarlier(uint32_t cell, std::vector<double>& values) {
-  const Prediction& earlier = task_.earlier;
   const std::span<const uint32_t> faces = task_.cells.faces[cell];
   remainingFaces_.assign(faces.begin(), faces.end());
-  if (cell >= earlier.nearest.cellCount() || !std::ranges::equal(earlier.nearest.of(cell), task_.nearest.of(cell)))
+  if (cell >= earlier_.nearest.cellCount() || !std::ranges::equal(earlier_.nearest.of(cell), task_.nearest.of(cell)))
     return;
   std::erase_if(remainingFaces_, [&](uint32_t face) {
-    const bool isSame = earlier.cellOf[face] == cell;
-    if (isSame) values[face] = earlier.values[face];
+    const bool isSame = earlier_.cellOf[face] == cell;
+    if (isSame) values[face] = earlier_.values[face];
     return isSame;
   });
 }
@@ -201,25 +183,33 @@ std::vector<uint32_t> cellsInOrder(const TraceScene& scene, std::span<const uint
   return order;
 }
 
+void predictOnCpu(const PredictionTask& task, const Prediction& earlier, std::vector<double>& values) {
+  const std::span<const uint32_t> order = task.order;
+  const size_t blockCount = (order.size() + kBlockSize - 1) / kBlockSize;
+  tbb::parallel_for(tbb::blocked_range<size_t>(0, blockCount), [&](const tbb::blocked_range<size_t>& range) {
+    CellPredictor predictor(task, earlier);
+    for (size_t block = range.begin(); block < range.end(); ++block) {
+      const size_t first = block * kBlockSize;
+      predictor.run(order.subspan(first, std::min(kBlockSize, order.size() - first)), values);
+    }
+  });
+}
+
 }  // namespace
 
 Prediction predictValues(const TraceScene& scene, const DualGraph& graph, const Cone& cone, const SeedHits& hits,
-                         const PredictionOptions& options, Prediction earlier) {
+                         const PredictionOptions& options, Prediction earlier, DevicePredictor* device) {
   ASDFVK_CHECK_OP(hits.hits.size(), ==, hits.seeds.size() * cone.directions.size());
   SeedCells cells = buildSeedCells(graph, hits.seeds);
   Prediction prediction{std::vector<double>(scene.geometry.areas.size(), kNoValue),
                         {},
                         NearestCells(cells, graph, scene.geometry, hits.seeds, options.neighbourCount)};
-  const PredictionTask task{scene, cone, hits, cells, prediction.nearest, options, earlier};
   const std::vector<uint32_t> order = cellsInOrder(scene, hits.seeds, cells);
-  const size_t blockCount = (order.size() + kBlockSize - 1) / kBlockSize;
-  tbb::parallel_for(tbb::blocked_range<size_t>(0, blockCount), [&](const tbb::blocked_range<size_t>& range) {
-    CellPredictor predictor(task);
-    for (size_t block = range.begin(); block < range.end(); ++block) {
-      const size_t first = block * kBlockSize;
-      predictor.run(std::span(order).subspan(first, std::min(kBlockSize, order.size() - first)), prediction.values);
-    }
-  });
+  const PredictionTask task{scene, cone, hits, cells, prediction.nearest, options, order};
+  if (device != nullptr)
+    device->predict(task, prediction.values);
+  else
+    predictOnCpu(task, earlier, prediction.values);
   prediction.cellOf = std::move(cells.cellOf);
   return prediction;
 }

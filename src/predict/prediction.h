@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "predict/seed_cells.h"
@@ -30,9 +31,32 @@ struct Prediction {
   NearestCells nearest;          ///< The cells whose seeds contributed, per cell.
 };
 
+/// Input of the prediction of all faces. References only.
+struct PredictionTask {
+  const TraceScene& scene;
+  const Cone& cone;
+  const SeedHits& hits;
+  const SeedCells& cells;
+  const NearestCells& nearest;
+  const PredictionOptions& options;
+  std::span<const uint32_t> order;  ///< The cells that are not empty; neighbours in space are close to each other.
+};
+
+/// Predicts the faces of one scene on a device instead of on the CPU.
+class DevicePredictor {
+ public:
+  virtual ~DevicePredictor() = default;
+
+  /// Writes the values of all faces that belong to a cell. values: #F. Two calls with the same hits give the same bits.
+  /// Throws Error of kind Device, also for more neighbours than the device supports.
+  virtual void predict(const PredictionTask& task, std::span<double> values) = 0;
+};
+
 /// The result does not depend on the number of threads. earlier: empty, or a prediction of the same scene, cone and
-/// options; seeds that still exist have the same indices in `hits`. Unchanged values are copied from it.
+/// options; seeds that still exist have the same indices in `hits`. Unchanged values are copied from it. device: null
+/// to predict on the CPU; else `earlier` is not used. Throws as the device.
 [[nodiscard]] Prediction predictValues(const TraceScene& scene, const DualGraph& graph, const Cone& cone,
-                                       const SeedHits& hits, const PredictionOptions& options, Prediction earlier = {});
+                                       const SeedHits& hits, const PredictionOptions& options, Prediction earlier = {},
+                                       DevicePredictor* device = nullptr);
 
 }  // namespace asdfvk

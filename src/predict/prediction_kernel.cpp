@@ -10,22 +10,6 @@ namespace {
 // The rounding error of a cosine in float32: a cone narrower than this contains its own rays.
 constexpr double kCosineSlack = 2e-6;
 
-// A ray represents the surface around its hit, which fills another solid angle when seen from the virtual cone. Where
-// the two solid angles differ by more than this factor, the point is close to one of the origins and far from the
-// other, and the surface around it is not a disc.
-constexpr float kMaxSolidAngleChange = 4;
-
-// Where the median is searched again for the spread, the deviation does not bound it as closely.
-constexpr int kSpreadPassCount = 3;
-
-// The share of a length's weight that depends on the outlier rule for all lengths pooled; the rest depends on the rule
-// for the seed's own cone. The pooled rule is less noisy; the other has the noise of a traced cone.
-constexpr float kPooledShare = 0.75f;
-
-// The median is bisected twice between mean - deviation and mean + deviation, which contain it, to a quarter of the
-// interval each time. Within the last interval lengths are taken as evenly distributed.
-constexpr int kMedianPassCount = 2;
-
 struct FloatVec3 {
   float x, y, z;
 };
@@ -190,10 +174,10 @@ ASDFVK_ALWAYS_INLINE inline MedianBounds quarterOf(const ConePoints& points, con
 }
 
 template <typename Floats, typename KeyOf>
-ASDFVK_ALWAYS_INLINE inline float medianBetween(const ConePoints& points, MedianBounds bounds, int passCount,
+ASDFVK_ALWAYS_INLINE inline float medianBetween(const ConePoints& points, MedianBounds bounds, uint32_t passCount,
                                                 const KeyOf& keyOf) {
   const float halfMass = 0.5f * bounds.massToHigh;
-  for (int pass = 0; pass < passCount; ++pass) bounds = quarterOf<Floats>(points, bounds, halfMass, keyOf);
+  for (uint32_t pass = 0; pass < passCount; ++pass) bounds = quarterOf<Floats>(points, bounds, halfMass, keyOf);
   const float between = bounds.massToHigh - bounds.massToLow;
   const float share = between > 0 ? (halfMass - bounds.massToLow) / between : 0.5f;
   return bounds.low + share * (bounds.high - bounds.low);
@@ -259,17 +243,22 @@ ASDFVK_ALWAYS_INLINE inline void weighSeeds(const SeedGroup& seeds, const SeedWe
 
 }  // namespace
 
-PredictionKernel::PredictionKernel(const Cone& cone, InstructionSet instructionSet) : instructionSet_(instructionSet) {
+PredictionKernel::PredictionKernel(const Cone& cone, InstructionSet instructionSet)
+    : instructionSet_(instructionSet), rules_(rulesOf(cone)) {}
+
+PredictionKernel::Rules PredictionKernel::rulesOf(const Cone& cone) {
+  Rules rules;
   // In the definition of CGAL the axis ray represents the least solid angle, of nearly the sine of its mean angle.
   const double minAngle = cone.definition == Definition::Paper
                               ? 1 / *std::max_element(cone.weights.begin(), cone.weights.end())
                               : *std::min_element(cone.solidAngles.begin(), cone.solidAngles.end());
-  rules_.minCosine = static_cast<float>(std::cos(cone.halfAngleRadians) - kCosineSlack);
-  rules_.maxNormalCosine = static_cast<float>(cone.falseHitCosine);
-  rules_.minVersine = static_cast<float>(2 * std::pow(std::sin(minAngle / 2), 2));
-  rules_.outlierDeviations = static_cast<float>(cone.outliers.deviations);
-  rules_.outlierSlack = static_cast<float>(cone.outliers.slack);
-  rules_.definition = cone.definition;
+  rules.minCosine = static_cast<float>(std::cos(cone.halfAngleRadians) - kCosineSlack);
+  rules.maxNormalCosine = static_cast<float>(cone.falseHitCosine);
+  rules.minVersine = static_cast<float>(2 * std::pow(std::sin(minAngle / 2), 2));
+  rules.outlierDeviations = static_cast<float>(cone.outliers.deviations);
+  rules.outlierSlack = static_cast<float>(cone.outliers.slack);
+  rules.definition = cone.definition;
+  return rules;
 }
 
 double PredictionKernel::value(const std::vector<PointGroup>& groups, std::span<const WeightedRange> ranges,

@@ -8,6 +8,7 @@
 #include "cone/cone.h"
 #include "core/simd.h"
 #include "core/vec3.h"
+#include "shared/prediction_layout.h"
 
 namespace asdfvk {
 
@@ -54,9 +55,6 @@ struct SeedWeighting {
   float inverseAngleVariance = 0;  ///< 1 / square of the standard deviation of the angle in radians.
 };
 
-/// The lower bound of a seed's weight, so that a single seed contributes at any distance.
-inline constexpr float kMinSeedWeight = 1e-6f;
-
 /// Predicts the values of virtual cones from the hit points of seeds. Results have the same bits on every
 /// instruction set. Keeps its buffers from call to call.
 class PredictionKernel {
@@ -81,6 +79,7 @@ class PredictionKernel {
     float outlierDeviations = 0, outlierSlack = 0;
     Definition definition = Definition::Paper;
   };
+  [[nodiscard]] static Rules rulesOf(const Cone& cone);
 
  private:
   InstructionSet instructionSet_;

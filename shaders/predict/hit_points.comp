@@ -1,0 +1,94 @@
+#version 450
+// The hit points of seeds, and which of them are outliers in the cone of their seed: a workgroup per seed, a ray per
+// lane. The twin of src/predict/hit_points.cpp.
+#extension GL_GOOGLE_include_directive : require
+#include "shared/cone_hit.h"
+#include "shared/cone_layout.h"
+#include "shared/prediction_layout.h"
+
+layout(local_size_x_id = 3) in;  // kLanesPerCone: an id is used once only.
+layout(constant_id = 0) const uint kLanesPerCone = 32u;
+layout(constant_id = 1) const uint kRayCount = 30u;
+layout(constant_id = 2) const bool kIsCgal = false;     // The definition of the shape diameter; otherwise the paper's.
+layout(constant_id = 4) const uint kLengthCount = 30u;  // kRayCount.
+
+layout(set = 0, binding = 0) readonly buffer Faces { uvec4 faceBlocks[]; };
+layout(set = 0, binding = 1) readonly buffer Table { uvec4 tableBlocks[]; };  // The rays, then the seeds.
+layout(set = 0, binding = 2) readonly buffer Hits { uvec2 hits[]; };          // The bits of each ConeHit.
+layout(set = 0, binding = 3) writeonly buffer Points { uvec4 pointBlocks[]; };
+layout(push_constant) uniform Push { PointPush push; };
+
+shared float lengths[kLengthCount];
+shared float middles[2];
+
+ConeRay loadRay(uint ray) {
+  const PredictionRay decoded = decodePredictionRay(tableBlocks[ray]);
+  return ConeRay(decoded.direction, 1.0);
+}
+
+#include "cone_value.glsl"
+
+PredictionFace loadFace(uint face) {
+  const uint block = face * kPredictionFaceBlockCount;
+  return decodePredictionFace(faceBlocks[block], faceBlocks[block + 1u]);
+}
+
+PredictionSeed loadSeed(uint seed) {
+  const uint block = kRayCount + seed * kPredictionSeedBlockCount;
+  return decodePredictionSeed(tableBlocks[block], tableBlocks[block + 1u]);
+}
+
+void storePoint(uint index, PredictionPoint point) {
+  const uint block = index * kPredictionPointBlockCount;
+  pointBlocks[block] = uvec4(floatBitsToUint(point.position), point.face);
+  pointBlocks[block + 1u] = uvec4(floatBitsToUint(point.normal), floatBitsToUint(point.solidAngleRatio));
+}
+
+void main() {
+  const uint lane = gl_LocalInvocationID.x;
+  const PredictionSeed seed = loadSeed(gl_WorkGroupID.x);
+  const PredictionFace face = loadFace(seed.face);
+  const vec3 axis = -face.normal;
+  const mat3 frame = mat3(seed.tangent, cross(axis, seed.tangent), axis);
+  for (uint ray = lane; ray < kRayCount; ray += kLanesPerCone) {
+    const uvec2 hit = hits[seed.firstHit + ray];
+    float validLength = -1.0;
+    if (hit.y != kNoFace) {
+      const vec3 normal = loadFace(hit.y).normal;
+      const float cosine = dot(normal, kIsCgal ? -(frame * loadRay(ray).direction) : face.normal);
+      if (!(cosine > push.falseHitCosine)) validLength = uintBitsToFloat(hit.x);
+    }
+    lengths[ray] = validLength;
+  }
+  if (lane == 0u) {  // Without a valid ray no lane writes them.
+    middles[0] = 0.0;
+    middles[1] = 0.0;
+  }
+  barrier();
+  uint validCount;
+  float mean;
+  findMiddles(0u, 0u, lane, validCount, mean);
+  barrier();
+  const float median = medianOf(0u);
+  barrier();
+  if (kIsCgal) {
+    findMiddleDeviations(0u, 0u, lane, validCount, median);
+    barrier();
+  }
+  const float bound = outlierBound(0u, 0u, validCount, mean, median);
+  const uint firstPoint = gl_WorkGroupID.x * (kRayCount + 1u);
+  if (lane == 0u) storePoint(firstPoint, PredictionPoint(face.barycentre, seed.face, face.normal, median));
+  for (uint ray = lane; ray < kRayCount; ray += kLanesPerCone) {
+    const uvec2 hit = hits[seed.firstHit + ray];
+    PredictionPoint point = PredictionPoint(vec3(0.0), kNoFace, vec3(0.0), -1.0);
+    if (hit.y != kNoFace) {
+      const PredictionRay coneRay = decodePredictionRay(tableBlocks[ray]);
+      const float distance = uintBitsToFloat(hit.x);
+      const float ratio = distance * distance * coneRay.solidAngle;
+      const bool isInlier = lengths[ray] >= 0.0 && abs(distance - median) <= bound;
+      point = PredictionPoint(face.barycentre + distance * (frame * coneRay.direction), hit.y, loadFace(hit.y).normal,
+                              isInlier ? ratio : -ratio);
+    }
+    storePoint(firstPoint + 1u + ray, point);
+  }
+}

@@ -1,0 +1,133 @@
+// Structs shared by the kernels of the prediction and the host, and the constants of the prediction. Included by C++
+// and by GLSL. Arrays of structs are read as blocks of 16 bytes; floats are stored as their bits. Coordinates and
+// lengths are normalised, see Normalization.
+#ifndef ASDFVK_PREDICTION_LAYOUT_H
+#define ASDFVK_PREDICTION_LAYOUT_H
+
+#ifdef __cplusplus
+#include <cstddef>
+
+#include "shared/glsl_types.h"
+namespace asdfvk {
+using glsl::uint;
+using glsl::vec3;
+#endif
+
+// A ray represents the surface around its hit, which fills another solid angle when seen from the virtual cone. Where
+// the two solid angles differ by more than this factor, the point is close to one of the origins and far from the
+// other, and the surface around it is not a disc.
+const float kMaxSolidAngleChange = 4.0f;
+
+// The share of a length's weight that depends on the outlier rule for all lengths pooled; the rest depends on the rule
+// for the seed's own cone. The pooled rule is less noisy; the other has the noise of a traced cone.
+const float kPooledShare = 0.75f;
+
+// The median is bisected twice between mean - deviation and mean + deviation, which contain it, to a quarter of the
+// interval each time. Within the last interval lengths are taken as evenly distributed. Where it is searched again for
+// the spread, the deviation does not bound it as closely.
+const uint kMedianPassCount = 2u;
+const uint kSpreadPassCount = 3u;
+
+// The lower bound of a seed's weight, so that a single seed contributes at any distance.
+const float kMinSeedWeight = 1e-6f;
+
+// Standard deviation of the Gaussian weight of the angle between the normals of the seed and of the face.
+const float kNormalDeviationRadians = 0.5f;
+
+// A seed with less than this share of the total weight is ignored: this adds 1 % to the error and saves a third of the
+// time (docs/experiments.md).
+const float kMinWeightShare = 0.08f;
+
+// Seeds that a device uses for one face: that of its cell and those of neighbouring cells.
+const uint kMaxContributingSeedCount = 7u;
+
+// A face, 32 bytes.
+const uint kPredictionFaceBlockCount = 2u;
+struct PredictionFace {
+  vec3 barycentre;
+  uint representative;  // Of its coincident faces.
+  vec3 normal;          // Unit; 0 for a degenerate face.
+  uint unused;
+};
+
+// A ray of every cone in the frame of the cone, 16 bytes.
+struct PredictionRay {
+  vec3 direction;
+  float solidAngle;  // See Cone in src/cone/cone.h.
+};
+
+// A seed, 32 bytes. The axis of its cone is minus the normal of the face; the bitangent is cross(axis, tangent).
+const uint kPredictionSeedBlockCount = 2u;
+struct PredictionSeed {
+  vec3 tangent;
+  uint face;
+  uint firstHit;  // Index of the hit of its first ray.
+  uint unused0;
+  uint unused1;
+  uint unused2;
+};
+
+// The hit point of a ray, 32 bytes. A seed has as many as rays, after one that describes the seed: its barycentre, its
+// face, its normal, and the median length of its valid rays (0 if there are none).
+const uint kPredictionPointBlockCount = 2u;
+struct PredictionPoint {
+  vec3 position;
+  uint face;  // The representative that the ray hits; kNoFace for a miss.
+  vec3 normal;
+  // The area that the ray represents at the point, divided by the unit of Cone::solidAngles; negative for an outlier in
+  // the cone of its seed and for a false hit.
+  float solidAngleRatio;
+};
+
+struct PointPush {
+  float falseHitCosine;     // See Cone in src/cone/cone.h.
+  float outlierDeviations;  // Cone::outliers.
+};
+
+// Faces to be predicted and the cells that they belong to are in one array of words: a face and an index of a cell for
+// each item, then kMaxContributingSeedCount indices of seeds for each cell.
+const uint kNoSeed = 0xffffffffu;  // The index of an absent seed, and of the cell of a face without one.
+struct PredictionPush {
+  uint itemCount;
+  uint rayCount;
+  float minCosine;  // Of the angle between the axis and the direction to a point in the cone.
+  float maxNormalCosine;
+  float minVersine;  // 1 - cosine of the angle below which the weight of a point is constant.
+  float outlierDeviations;
+  float outlierSlack;
+  float distanceDeviation;  // PredictionOptions::distanceDeviation.
+};
+
+#ifdef __cplusplus
+static_assert(sizeof(PredictionFace) == 16 * kPredictionFaceBlockCount);
+static_assert(offsetof(PredictionFace, barycentre) == 0 && offsetof(PredictionFace, representative) == 12);
+static_assert(offsetof(PredictionFace, normal) == 16 && offsetof(PredictionFace, unused) == 28);
+static_assert(sizeof(PredictionRay) == 16 && offsetof(PredictionRay, solidAngle) == 12);
+static_assert(sizeof(PredictionSeed) == 16 * kPredictionSeedBlockCount);
+static_assert(offsetof(PredictionSeed, tangent) == 0 && offsetof(PredictionSeed, face) == 12);
+static_assert(offsetof(PredictionSeed, firstHit) == 16);
+static_assert(sizeof(PredictionPoint) == 16 * kPredictionPointBlockCount);
+static_assert(sizeof(PointPush) == 8 && offsetof(PointPush, outlierDeviations) == 4);
+static_assert(sizeof(PredictionPush) == 32);
+static_assert(offsetof(PredictionPush, itemCount) == 0 && offsetof(PredictionPush, rayCount) == 4);
+static_assert(offsetof(PredictionPush, minCosine) == 8 && offsetof(PredictionPush, maxNormalCosine) == 12);
+static_assert(offsetof(PredictionPush, minVersine) == 16 && offsetof(PredictionPush, outlierDeviations) == 20);
+static_assert(offsetof(PredictionPush, outlierSlack) == 24 && offsetof(PredictionPush, distanceDeviation) == 28);
+}  // namespace asdfvk
+#else
+PredictionFace decodePredictionFace(uvec4 b0, uvec4 b1) {
+  return PredictionFace(uintBitsToFloat(b0.xyz), b0.w, uintBitsToFloat(b1.xyz), b1.w);
+}
+
+PredictionRay decodePredictionRay(uvec4 b0) { return PredictionRay(uintBitsToFloat(b0.xyz), uintBitsToFloat(b0.w)); }
+
+PredictionSeed decodePredictionSeed(uvec4 b0, uvec4 b1) {
+  return PredictionSeed(uintBitsToFloat(b0.xyz), b0.w, b1.x, b1.y, b1.z, b1.w);
+}
+
+PredictionPoint decodePredictionPoint(uvec4 b0, uvec4 b1) {
+  return PredictionPoint(uintBitsToFloat(b0.xyz), b0.w, uintBitsToFloat(b1.xyz), uintBitsToFloat(b1.w));
+}
+#endif
+
+#endif

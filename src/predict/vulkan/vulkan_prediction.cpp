@@ -1,0 +1,322 @@
+#include "predict/vulkan/vulkan_prediction.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+#include <optional>
+#include <vector>
+
+#include "asdf_vk/error.h"
+#include "core/check.h"
+#include "core/parallel.h"
+#include "core/unset_vector.h"
+#include "predict/prediction_kernel.h"
+#include "shared/cone_hit.h"
+#include "shared/cone_layout.h"
+#include "shared/prediction_layout.h"
+#include "spirv/hit_points.comp.h"
+#include "spirv/predict_faces.comp.h"
+#include "vk/command_list.h"
+
+namespace asdfvk {
+namespace {
+
+constexpr uint64_t kMaxPointByteCount = 32u << 20;
+constexpr size_t kMaxBatchFaceCount = size_t{1} << 18;
+constexpr uint32_t kMinPointLaneCount = 32, kMaxPointLaneCount = 128;  // 128: every device has them.
+constexpr uint64_t kMaxKernelIterationCount = kMaxLoopIterationCount / 10 * 9;
+constexpr VkBufferUsageFlags kStorage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
+
+glsl::vec3 toGlsl(const Vec3d& v) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+}
+
+uint32_t divideUp(size_t dividend, uint32_t divisor) {
+  return static_cast<uint32_t>((dividend + divisor - 1) / divisor);
+}
+
+VkBool32 isCgal(Definition definition) { return definition == Definition::Cgal ? VK_TRUE : VK_FALSE; }
+
+/// Throws where the driver might end the loops of predict_faces.comp.
+const Device& requireLoops(const Device& device, Definition definition, uint32_t rayCount) {
+  const uint32_t passCount = 3 + kMedianPassCount + (definition == Definition::Cgal ? kSpreadPassCount : 0);
+  const uint64_t iterationCount = uint64_t{passCount} * kMaxContributingSeedCount * (rayCount + rayCount / 64 + 2);
+  if (device.facts().endsLongLoops && iterationCount > kMaxKernelIterationCount)
+    throw Error(ErrorCode::DeviceLimit, fmt::format("{} rays take {} loop iterations and {} allows {}", rayCount,
+                                                    iterationCount, device.facts().name, kMaxKernelIterationCount));
+  return device;
+}
+
+ComputePipelineDescription describePoints(Definition definition, uint32_t rayCount) {
+  const uint32_t laneCount = std::clamp(std::bit_ceil(rayCount), kMinPointLaneCount, kMaxPointLaneCount);
+  return {.name = "hit_points.comp",
+          .spirv = k_hit_points_comp,
+          .bindings = std::vector(4, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER),
+          .pushConstantByteCount = sizeof(PointPush),
+          .specializationConstants = {/* kLanesPerCone= */ laneCount, /* kRayCount= */ rayCount,
+                                      /* kIsCgal= */ isCgal(definition), /* LOCAL_SIZE_X= */ laneCount,
+                                      /* kLengthCount= */ rayCount}};
+}
+
+ComputePipelineDescription describeFaces(Definition definition) {
+  return {.name = "predict_faces.comp",
+          .spirv = k_predict_faces_comp,
+          .bindings = std::vector(4, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER),
+          .pushConstantByteCount = sizeof(PredictionPush),
+          .specializationConstants = {/* LOCAL_SIZE_X= */ VulkanPredictionKernels::kFaceLaneCount,
+                                      /* kIsCgal= */ isCgal(definition)}};
+}
+
+/// Memory that the host writes and kernels read.
+class Upload {
+ public:
+  Upload(const Device& device, uint64_t byteCount)
+      : device_(device, byteCount, kStorage | VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryKind::DeviceLocal) {
+    if (device_.mapped() == nullptr)
+      staging_ = Buffer(device, byteCount, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryKind::HostVisible);
+  }
+
+  [[nodiscard]] const Buffer& buffer() const { return device_; }
+  template <typename T>
+  [[nodiscard]] std::span<T> mappedAs() const {
+    return (device_.mapped() != nullptr ? device_ : staging_).mappedAs<T>();
+  }
+  /// Makes the first bytes available to the commands after the next barrier.
+  void record(CommandList& commands, uint64_t byteCount) const {
+    if (device_.mapped() == nullptr) commands.copy(staging_, 0, device_, 0, byteCount);
+  }
+
+ private:
+  Buffer device_, staging_;
+};
+
+Buffer uploadFaces(const Device& device, const TraceScene& scene) {
+  UnsetVector<PredictionFace> faces(scene.geometry.areas.size());
+  forEachInParallel(faces.size(), [&](uint32_t face) {
+    faces[face] = {toGlsl(scene.originOf(face)), scene.representatives[face], toGlsl(scene.geometry.normals[face]), 0};
+  });
+  return uploadBuffer(device, std::as_bytes(std::span(faces)), kStorage);
+}
+
+/// Cells whose faces are predicted together; the last one may continue in the next batch.
+struct Batch {
+  struct Part {
+    uint32_t cell, firstFace, faceCount;
+    uint32_t firstItem;
+  };
+
+  std::vector<Part> parts;
+  std::vector<uint32_t> seeds;  ///< Those that contribute.
+  size_t faceCount = 0;
+
+  void clear() {
+    parts.clear();
+    seeds.clear();
+    faceCount = 0;
+  }
+};
+
+class VulkanPredictor final : public DevicePredictor {
+ public:
+  VulkanPredictor(const VulkanPredictionKernels& kernels, const TraceScene& scene, const Cone& cone,
+                  const PredictionBatchSize& batchSize)
+      : kernels_(kernels),
+        scene_(scene),
+        cone_(cone),
+        batchSize_(batchSize),
+        rules_(PredictionKernel::rulesOf(cone)),
+        faces_(uploadFaces(kernels.device(), scene)),
+        values_(kernels.device(), std::max<uint64_t>(16, scene.geometry.areas.size() * sizeof(uint32_t)),
+                kStorage | VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryKind::DeviceLocal),
+        commands_(kernels.device()) {
+    ASDFVK_CHECK_OP(cone.directions.size(), ==, size_t{kernels.rayCount()});
+    ASDFVK_CHECK(cone.definition == kernels.definition());
+    ASDFVK_CHECK_OP(batchSize.maxSeedCount, >=, size_t{kMaxContributingSeedCount});
+    ASDFVK_CHECK_OP(batchSize.maxFaceCount, >, size_t{0});
+  }
+
+  void predict(const PredictionTask& task, std::span<double> values) override {
+    if (task.options.neighbourCount >= kMaxContributingSeedCount)
+      throw Error(ErrorCode::DeviceLimit, fmt::format("{} neighbouring seeds per face are too many; give 0 to {}",
+                                                      task.options.neighbourCount, kMaxContributingSeedCount - 1));
+    if (task.order.empty()) return;
+    reserve(task);
+    placeOf_.assign(task.hits.seeds.size(), kNoSeed);
+    forEachBatch(task, [&](const Batch& batch) {
+      writeSeeds(task, batch);
+      writeWork(task, batch);
+      dispatch(task, batch);
+    });
+    std::vector<uint32_t> lengths(values.size());
+    downloadBuffer(kernels_.device(), values_, std::as_writable_bytes(std::span(lengths)));
+    forEachInParallel(values.size(), [&](uint32_t face) {
+      if (task.cells.cellOf[face] == kNoCell) return;
+      const double length = lengths[face] == kNoValueBits ? kNoValue : std::bit_cast<float>(lengths[face]);
+      values[face] = scene_.bvh.normalization.toMeshLength(length);
+    });
+  }
+
+ private:
+  /// Memory for one batch.
+  struct Memory {
+    Memory(const VulkanPredictionKernels& kernels, const Buffer& faces, const Buffer& values, size_t seeds,
+           size_t items)
+        : seedCount(seeds),
+          faceCount(items),
+          table(kernels.device(), kernels.rayCount() * sizeof(PredictionRay) + seeds * sizeof(PredictionSeed)),
+          hits(kernels.device(), seeds * kernels.rayCount() * sizeof(ConeHit)),
+          work(kernels.device(), (2 * items + kMaxContributingSeedCount * seeds) * sizeof(uint32_t)),
+          points(kernels.device(), seeds * (kernels.rayCount() + 1) * sizeof(PredictionPoint), kStorage,
+                 MemoryKind::DeviceLocal),
+          pointBindings(kernels.device(), kernels.points(),
+                        std::array<Binding, 4>{faces, table.buffer(), hits.buffer(), points}),
+          faceBindings(kernels.device(), kernels.faces(),
+                       std::array<Binding, 4>{faces, points, work.buffer(), values}) {}
+
+    size_t seedCount, faceCount;
+    Upload table, hits, work;
+    Buffer points;
+    BindingSet pointBindings, faceBindings;
+  };
+
+  /// Small meshes need little.
+  void reserve(const PredictionTask& task) {
+    const size_t seedCount =
+        std::min(batchSize_.maxSeedCount, std::max<size_t>(kMaxContributingSeedCount, task.hits.seeds.size()));
+    const size_t faceCount = std::min(batchSize_.maxFaceCount, task.cells.cellOf.size());
+    if (memory_ && memory_->seedCount >= seedCount && memory_->faceCount >= faceCount) return;
+    memory_.reset();
+    memory_.emplace(kernels_, faces_, values_, seedCount, faceCount);
+    const std::span<PredictionRay> rays = memory_->table.mappedAs<PredictionRay>();
+    for (size_t i = 0; i < cone_.directions.size(); ++i)
+      rays[i] = {toGlsl(cone_.directions[i]), static_cast<float>(cone_.solidAngles[i])};
+  }
+
+  /// Calls visit(batch) for batches that together hold each face of each cell once. placeOf_ is set
+  /// for the seeds of the batch.
+  template <typename Visit>
+  void forEachBatch(const PredictionTask& task, const Visit& visit) {
+    Batch batch;
+    const auto finish = [&] {
+      if (batch.parts.empty()) return;
+      visit(batch);
+      for (const uint32_t seed : batch.seeds) placeOf_[seed] = kNoSeed;
+      batch.clear();
+    };
+    for (const uint32_t cell : task.order) {
+      const auto size = static_cast<uint32_t>(task.cells.faces[cell].size());
+      for (uint32_t first = 0; first < size;) {
+        if (batch.faceCount == memory_->faceCount ||
+            batch.seeds.size() + kMaxContributingSeedCount > memory_->seedCount)
+          finish();
+        for (const uint32_t seed : task.nearest.of(cell)) {
+          if (placeOf_[seed] != kNoSeed) continue;
+          placeOf_[seed] = static_cast<uint32_t>(batch.seeds.size());
+          batch.seeds.push_back(seed);
+        }
+        const auto count = static_cast<uint32_t>(std::min<size_t>(size - first, memory_->faceCount - batch.faceCount));
+        batch.parts.push_back({cell, first, count, static_cast<uint32_t>(batch.faceCount)});
+        batch.faceCount += count;
+        first += count;
+      }
+    }
+    finish();
+  }
+
+  void writeSeeds(const PredictionTask& task, const Batch& batch) const {
+    const size_t rayCount = kernels_.rayCount();
+    const std::span<std::byte> table = memory_->table.mappedAs<std::byte>().subspan(rayCount * sizeof(PredictionRay));
+    const std::span<ConeHit> hits = memory_->hits.mappedAs<ConeHit>();
+    forEachInParallel(batch.seeds.size(), [&](uint32_t i) {
+      const uint32_t face = task.hits.seeds[batch.seeds[i]];
+      const auto firstHit = static_cast<uint32_t>(i * rayCount);
+      const PredictionSeed seed{toGlsl(seedConeFrame(scene_, cone_, face).tangent), face, firstHit, 0, 0, 0};
+      std::memcpy(&table[i * sizeof seed], &seed, sizeof seed);
+      std::ranges::copy(task.hits.of(batch.seeds[i]), hits.begin() + firstHit);
+    });
+  }
+
+  void writeWork(const PredictionTask& task, const Batch& batch) const {
+    const std::span<uint32_t> work = memory_->work.mappedAs<uint32_t>();
+    forEachInParallel(batch.parts.size(), [&](uint32_t i) {
+      const Batch::Part& part = batch.parts[i];
+      uint32_t* item = &work[2 * size_t{part.firstItem}];
+      for (const uint32_t face : task.cells.faces[part.cell].subspan(part.firstFace, part.faceCount)) {
+        *item++ = face;
+        *item++ = i;
+      }
+      const auto seeds =
+          work.subspan(2 * batch.faceCount + size_t{i} * kMaxContributingSeedCount, kMaxContributingSeedCount);
+      std::fill(seeds.begin(), seeds.end(), kNoSeed);
+      std::ranges::transform(task.nearest.of(part.cell), seeds.begin(), [&](uint32_t s) { return placeOf_[s]; });
+    });
+  }
+
+  void dispatch(const PredictionTask& task, const Batch& batch) {
+    const auto seedCount = static_cast<uint32_t>(batch.seeds.size());
+    const PointPush pointPush{static_cast<float>(cone_.falseHitCosine), static_cast<float>(cone_.outliers.deviations)};
+    const PredictionPush push{static_cast<uint32_t>(batch.faceCount),
+                              kernels_.rayCount(),
+                              rules_.minCosine,
+                              rules_.maxNormalCosine,
+                              rules_.minVersine,
+                              rules_.outlierDeviations,
+                              rules_.outlierSlack,
+                              static_cast<float>(task.options.distanceDeviation)};
+    commands_.begin();
+    memory_->table.record(commands_, kernels_.rayCount() * sizeof(PredictionRay) + seedCount * sizeof(PredictionSeed));
+    memory_->hits.record(commands_, uint64_t{seedCount} * kernels_.rayCount() * sizeof(ConeHit));
+    memory_->work.record(commands_,
+                         (2 * batch.faceCount + kMaxContributingSeedCount * batch.parts.size()) * sizeof(uint32_t));
+    commands_.barrier();
+    commands_.dispatch(kernels_.points(), memory_->pointBindings, bytesOf(pointPush), seedCount);
+    commands_.barrier();
+    commands_.dispatch(kernels_.faces(), memory_->faceBindings, bytesOf(push),
+                       divideUp(batch.faceCount, VulkanPredictionKernels::kFaceLaneCount));
+    commands_.barrier();
+    commands_.submitAndWait();
+  }
+
+  const VulkanPredictionKernels& kernels_;
+  TraceScene scene_;
+  const Cone& cone_;
+  PredictionBatchSize batchSize_;
+  PredictionKernel::Rules rules_;
+  Buffer faces_;   // A PredictionFace per face.
+  Buffer values_;  // Per face, see predict_faces.comp.
+  std::optional<Memory> memory_;
+  std::vector<uint32_t> placeOf_;  // Per seed: its place in the current batch, or kNoSeed.
+  CommandList commands_;
+};
+
+}  // namespace
+
+VulkanPredictionKernels::VulkanPredictionKernels(const Device& device, Definition definition, uint32_t rayCount)
+    : device_(requireLoops(device, definition, rayCount)),
+      definition_(definition),
+      rayCount_(rayCount),
+      points_(device, describePoints(definition, rayCount)),
+      faces_(device, describeFaces(definition)) {}
+
+PredictionBatchSize predictionBatchSize(const VulkanPredictionKernels& kernels) {
+  const DeviceFacts& facts = kernels.device().facts();
+  const uint64_t seedByteCount = (kernels.rayCount() + 1) * sizeof(PredictionPoint);
+  const uint64_t seedCount = std::min<uint64_t>(
+      std::min(kMaxPointByteCount, facts.maxStorageBufferRange) / seedByteCount, facts.maxWorkgroupCount);
+  return {std::max<size_t>(kMaxContributingSeedCount, seedCount), kMaxBatchFaceCount};
+}
+
+std::unique_ptr<DevicePredictor> makeVulkanPredictor(const VulkanPredictionKernels& kernels, const TraceScene& scene,
+                                                     const Cone& cone) {
+  return makeVulkanPredictor(kernels, scene, cone, predictionBatchSize(kernels));
+}
+
+std::unique_ptr<DevicePredictor> makeVulkanPredictor(const VulkanPredictionKernels& kernels, const TraceScene& scene,
+                                                     const Cone& cone, const PredictionBatchSize& batchSize) {
+  return std::make_unique<VulkanPredictor>(kernels, scene, cone, batchSize);
+}
+
+}  // namespace asdfvk

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "cone/cone.h"
+#include "predict/prediction.h"
+#include "vk/compute_pipeline.h"
+#include "vk/device.h"
+
+namespace asdfvk {
+
+/// The compiled shaders/predict/*.comp for one device and one kind of cone; serves any number of meshes.
+class VulkanPredictionKernels {
+ public:
+  /// Throws Error of kind Device.
+  VulkanPredictionKernels(const Device& device, Definition definition, uint32_t rayCount);
+
+  [[nodiscard]] const Device& device() const { return device_; }
+  [[nodiscard]] Definition definition() const { return definition_; }
+  [[nodiscard]] uint32_t rayCount() const { return rayCount_; }
+  /// Binds faces, table, hits, points. A workgroup per seed.
+  [[nodiscard]] const ComputePipeline& points() const { return points_; }
+  /// Binds faces, points, work, values. A workgroup per kFaceLaneCount items.
+  [[nodiscard]] const ComputePipeline& faces() const { return faces_; }
+  static constexpr uint32_t kFaceLaneCount = 64;
+
+ private:
+  const Device& device_;
+  Definition definition_;
+  uint32_t rayCount_;
+  ComputePipeline points_, faces_;
+};
+
+/// Memory for the seeds of one batch; the number of seeds and faces that are predicted together. For tests.
+struct PredictionBatchSize {
+  size_t maxSeedCount = 0, maxFaceCount = 0;  ///< At least kMaxContributingSeedCount and 1.
+};
+/// At most 32 MiB of hit points, and within the limits of the device.
+[[nodiscard]] PredictionBatchSize predictionBatchSize(const VulkanPredictionKernels& kernels);
+
+/// Uploads the faces of the scene. Scene, cone and kernels must outlive it. Values differ from those of the CPU by
+/// rounding, which moves a few points across the rim of a cone or the bound of an outlier. batchSize: default
+/// predictionBatchSize(). Throws Error of kind Device, also where the mesh exceeds a limit of the device.
+[[nodiscard]] std::unique_ptr<DevicePredictor> makeVulkanPredictor(const VulkanPredictionKernels& kernels,
+                                                                   const TraceScene& scene, const Cone& cone);
+[[nodiscard]] std::unique_ptr<DevicePredictor> makeVulkanPredictor(const VulkanPredictionKernels& kernels,
+                                                                   const TraceScene& scene, const Cone& cone,
+                                                                   const PredictionBatchSize& batchSize);
+
+}  // namespace asdfvk

@@ -1,0 +1,185 @@
+#include "predict/vulkan/vulkan_prediction.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "asdf_vk/error.h"
+#include "generate/shapes.h"
+#include "predict/seeded_mesh.h"
+#include "shared/prediction_layout.h"
+#include "support/bits.h"
+#include "support/require_failure.h"
+#include "support/shapes.h"
+#include "support/test_device.h"
+
+using namespace asdfvk;
+using test::SeededMesh;
+
+namespace {
+
+VulkanPredictionKernels kernelsFor(const Device& device, const Cone& cone) {
+  return {device, cone.definition, static_cast<uint32_t>(cone.directions.size())};
+}
+
+std::vector<double> predict(const SeededMesh& seeded, const PredictionOptions& options, DevicePredictor* device) {
+  return predictValues(seeded.scene(), seeded.graph, seeded.cone, seeded.seedHits(), options, {}, device).values;
+}
+
+/// Of the device from the CPU, in units of the diagonal of the bounding box.
+struct Difference {
+  double mean = 0, worst = 0;      ///< mean: of those that are not far.
+  size_t count = 0, farCount = 0;  ///< farCount: of differences above 1e-4.
+  size_t missingCount = 0;         ///< Faces with a value from one of the two only.
+};
+
+Difference differenceOf(const SeededMesh& seeded, const std::vector<double>& values,
+                        const std::vector<double>& expected) {
+  REQUIRE(values.size() == expected.size());
+  const double diagonal = length(seeded.geometry.bounds.max - seeded.geometry.bounds.min);
+  Difference difference;
+  for (size_t face = 0; face < values.size(); ++face) {
+    difference.missingCount += std::isnan(values[face]) != std::isnan(expected[face]);
+    const double distance = std::abs(values[face] - expected[face]) / diagonal;
+    if (std::isnan(distance)) continue;
+    difference.worst = std::max(difference.worst, distance);
+    ++difference.count;
+    if (distance > 1e-4)
+      ++difference.farCount;
+    else
+      difference.mean += distance;
+  }
+  difference.mean /= static_cast<double>(std::max<size_t>(1, difference.count));
+  return difference;
+}
+
+Difference compare(const Device& device, const SeededMesh& seeded, const PredictionOptions& options = {}) {
+  const VulkanPredictionKernels kernels = kernelsFor(device, seeded.cone);
+  const auto predictor = makeVulkanPredictor(kernels, seeded.scene(), seeded.cone);
+  return differenceOf(seeded, predict(seeded, options, predictor.get()), predict(seeded, options, nullptr));
+}
+
+void checkClose(const Difference& difference) {
+  MESSAGE("mean ", difference.mean, ", worst ", difference.worst, ", above 1e-4: ", difference.farCount, " of ",
+          difference.count, ", missing: ", difference.missingCount);
+  CHECK(difference.mean < 2e-6);
+  CHECK(difference.worst < 0.02);
+  CHECK(difference.farCount <= 2 + difference.count / 1000);
+  CHECK(difference.missingCount <= 1 + difference.count / 1000);
+}
+
+/// Two spheres with duplicate faces, degenerate faces and a component without seeds.
+Mesh defectiveMesh() {
+  Mesh mesh = shapes::joined(makeSphere(720).mesh, makeSphere(180).mesh, {4, 0, 0});
+  const std::vector<Face> faces = mesh.faces;
+  for (size_t i = 0; i < 100; i += 2) mesh.faces.push_back(faces[i]);
+  mesh.faces.push_back({faces[0][0], faces[0][0], faces[0][1]});
+  return mesh;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "predictions of the device are those of the CPU but for rounding, for both definitions and any number of rays") {
+  const test::ValidatedDevice device;
+  const Mesh animal = generateShape("animal", 4000).mesh, slab = makeSlab(2000, {.width = 2, .thickness = 0.2}).mesh;
+  for (const Definition definition : {Definition::Paper, Definition::Cgal})
+    for (const uint32_t rayCount : {1u, 30u, 100u}) {
+      CAPTURE(rayCount);
+      CAPTURE(definition == Definition::Cgal);
+      const ConeOptions options{.rayCount = rayCount, .definition = definition};
+      const Difference difference = compare(*device, SeededMesh(animal, 400, options));
+      checkClose(difference);
+      CHECK(difference.count > 2000);
+      checkClose(compare(*device, SeededMesh(slab, 150, options)));
+    }
+}
+
+TEST_CASE("predictions of the device are those of the CPU for other cones and other numbers of neighbours") {
+  const test::ValidatedDevice device;
+  const Mesh mesh = makeHand(3000).mesh;
+  for (const ConeOptions& options :
+       {ConeOptions{.rayCount = 33, .openingAngleDegrees = 175}, ConeOptions{.openingAngleDegrees = 1},
+        ConeOptions{.rayCount = 40, .openingAngleDegrees = 60, .falseHitAngleDegrees = 30, .outlierDeviations = 0.7},
+        ConeOptions{.rotation = ConeRotation::Hashed}})
+    checkClose(compare(*device, SeededMesh(mesh, 200, options)));
+  // Rounding moves one of the thousands of points of a face across a bound more often, and each counts less.
+  for (const Definition definition : {Definition::Paper, Definition::Cgal})
+    CHECK(compare(*device, SeededMesh(makeSphere(180).mesh, 20, {.rayCount = 1000, .definition = definition})).worst <
+          2e-3);
+  const SeededMesh seeded(mesh, 200);
+  for (const uint32_t neighbourCount : {0u, 1u, 6u})
+    checkClose(compare(*device, seeded, {.neighbourCount = neighbourCount}));
+  const VulkanPredictionKernels kernels = kernelsFor(*device, seeded.cone);
+  const auto predictor = makeVulkanPredictor(kernels, seeded.scene(), seeded.cone);
+  test::requireFailure([&] { (void)predict(seeded, {.neighbourCount = 7}, predictor.get()); }, ErrorCode::DeviceLimit,
+                       "7 neighbouring seeds");
+}
+
+TEST_CASE("on the device, too, degenerate faces and faces of components without a seed have no prediction") {
+  const test::ValidatedDevice device;
+  SeededMesh seeded(defectiveMesh(), 100);
+  for (uint32_t& seed : seeded.seeds)
+    if (seed >= 720 && seed < 900) seed = kNoFace;  // On the second sphere.
+  const VulkanPredictionKernels kernels = kernelsFor(*device, seeded.cone);
+  const auto predictor = makeVulkanPredictor(kernels, seeded.scene(), seeded.cone);
+  const std::vector<double> values = predict(seeded, {}, predictor.get());
+  checkClose(differenceOf(seeded, values, predict(seeded, {}, nullptr)));
+  for (uint32_t face = 0; face < 720; ++face) CHECK(std::isfinite(values[face]));
+  for (uint32_t face = 720; face < 900; ++face) CHECK(std::isnan(values[face]));
+  CHECK(std::isnan(values.back()));
+}
+
+TEST_CASE("on the device, too, an open mesh, a single seed, no seeds and only seeds have the values of the CPU") {
+  const test::ValidatedDevice device;
+  Mesh open = makeAnimal(3000).mesh;
+  std::erase_if(open.faces, [&](const Face& face) { return open.vertices[face[0]].x > 0.3; });
+  checkClose(compare(*device, SeededMesh(open, 300)));
+  const SeededMesh flat({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, {{0, 1, 2}, {1, 3, 2}}, {}}, 2);
+  CHECK(compare(*device, flat).count == 0);
+  checkClose(compare(*device, SeededMesh(makeSphere(500).mesh, 1)));
+  CHECK(compare(*device, SeededMesh(makeSphere(180).mesh, 0)).count == 0);
+  checkClose(compare(*device, SeededMesh(makeSphere(180).mesh, 180)));
+}
+
+TEST_CASE(
+    "predictions of the device have the same bits in every call, with any size of batches and after other seeds") {
+  const test::ValidatedDevice device;
+  const SeededMesh seeded(makeAnimal(3000).mesh, 300);
+  SeededMesh few(makeAnimal(3000).mesh, 300);
+  for (size_t i = 0; i < few.seeds.size(); i += 3) few.seeds[i] = kNoFace;
+  const VulkanPredictionKernels kernels = kernelsFor(*device, seeded.cone);
+  const auto predictor = makeVulkanPredictor(kernels, seeded.scene(), seeded.cone);
+  const std::vector<double> expected = predict(seeded, {}, predictor.get());
+  CHECK(test::haveSameBits(predict(seeded, {}, predictor.get()), expected));
+  const auto predictorOfFew = makeVulkanPredictor(kernels, few.scene(), few.cone);
+  const std::vector<double> fewExpected = predict(few, {}, predictorOfFew.get());
+  CHECK_FALSE(test::haveSameBits(fewExpected, expected));
+  for (const PredictionBatchSize& size : {PredictionBatchSize{7, 1}, PredictionBatchSize{7, 1000},
+                                          PredictionBatchSize{50, 17}, PredictionBatchSize{1000, 100}}) {
+    CAPTURE(size.maxSeedCount);
+    const auto other = makeVulkanPredictor(kernels, seeded.scene(), seeded.cone, size);
+    CHECK(test::haveSameBits(predict(few, {}, other.get()), fewExpected));
+    CHECK(test::haveSameBits(predict(seeded, {}, other.get()), expected));
+  }
+}
+
+TEST_CASE("predictions of the device scale with the mesh") {
+  const test::ValidatedDevice device;
+  const Mesh mesh = makeAnimal(1000).mesh;
+  const auto valuesOf = [&](double scale) {
+    const SeededMesh seeded(shapes::scaledAndShifted(mesh, scale), 100);
+    const VulkanPredictionKernels kernels = kernelsFor(*device, seeded.cone);
+    const auto predictor = makeVulkanPredictor(kernels, seeded.scene(), seeded.cone);
+    std::vector<double> values = predict(seeded, {}, predictor.get());
+    for (double& value : values) value /= scale;
+    return values;
+  };
+  const std::vector<double> expected = valuesOf(1);
+  for (const double scale : {0.125, std::ldexp(1, -500), std::ldexp(1, 500)})
+    CHECK(test::haveSameBits(valuesOf(scale), expected));
+}
