@@ -65,6 +65,7 @@ enum class WarningCode {
   MissingValues,        ///< Faces without a value. Details: {"cause", "inverted"}, {"cause", "open"} where likely.
   FinishedOnCpu,        ///< The solver of the device reached the limit of float32; the CPU continued in double.
   BackendReplaced,      ///< The device failed; "auto" continued with another backend, also for later meshes.
+  PredictedOnCpu,       ///< The device failed to predict values; the CPU predicted them.
   SolvedOnCpu,          ///< The device failed to solve the equation; the CPU solved it.
   NotConverged,         ///< The solver stopped at its iteration limit.
   RangeDominated,       ///< The range is no scale for errors: few faces have most of it. Details: {"robustShare", X}.

@@ -9,6 +9,7 @@
 #include "asdf_vk/report.h"
 #include "asdf_vk/session.h"
 #include "poisson/poisson_solver.h"
+#include "predict/prediction.h"
 #include "trace/cone_tracer.h"
 
 namespace asdfvk {
@@ -42,6 +43,11 @@ class Backend {
   /// The scene and the cone must outlive the tracer.
   [[nodiscard]] virtual std::unique_ptr<ConeTracer> makeTracer(const TraceScene& scene, const Cone& cone,
                                                                const TracerNeeds& needs) = 0;
+  /// Predicts faces on the device; null without Vulkan. The scene and the cone must outlive it. Throws Error of kind
+  /// Device.
+  [[nodiscard]] virtual std::unique_ptr<DevicePredictor> makePredictor(const TraceScene&, const Cone&) {
+    return nullptr;
+  }
   /// Throws Error{ValidationFailed} with the first message if the validation layers are on and reported a problem.
   virtual void requireSilentValidation() const {}
 };

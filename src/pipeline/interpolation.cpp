@@ -66,10 +66,36 @@ void keepWithinTraced(const FaceDomain& domain, const std::vector<ComponentValue
 
 }  // namespace
 
+/// A CPU device needs more time than the CPU for the same iterations and predictions (docs/speed.md).
+const Solver& Interpolation::chosenSolver() const {
+  return isAutomatic() ? defaultSolver(!computation_.backend.runsOnCpu()) : findSolver(computation_.options.solver);
+}
+
+bool Interpolation::predictsOnDevice() const {
+  return computation_.backend.device() != nullptr && !predictorFailed_ && chosenSolver().needsDevice;
+}
+
 void Interpolation::predict(const SeedHits& hits) {
   if (hits.hits.empty()) return;
-  prediction_ =
-      predictValues(computation_.scene, computation_.domain.graph, computation_.cone, hits, {}, std::move(prediction_));
+  if (!predictsOnDevice()) return predictWith(nullptr, hits);
+  try {
+    if (!predictor_) predictor_ = computation_.backend.makePredictor(computation_.scene, computation_.cone);
+    predictWith(predictor_.get(), hits);
+  } catch (const Error& error) {
+    if (!isAutomatic() || error.kind() != ErrorKind::Device) throw;
+    predictorFailed_ = true;
+    predictor_.reset();
+    computation_.warnings.push_back(
+        {WarningCode::PredictedOnCpu,
+         fmt::format("the CPU predicted values because the device failed: {}", error.what()),
+         {}});
+    predictWith(nullptr, hits);
+  }
+}
+
+void Interpolation::predictWith(DevicePredictor* device, const SeedHits& hits) {
+  prediction_ = predictValues(computation_.scene, computation_.domain.graph, computation_.cone, hits, {},
+                              std::exchange(prediction_, {}), device);
 }
 
 Interpolated Interpolation::solve(std::span<const double> constraints, const RunControl& control) {
@@ -134,16 +160,13 @@ SolverReport Interpolation::solveWith(const std::string& name, const PoissonSyst
 SolverReport Interpolation::solveSystem(const PoissonSystem& system, std::vector<double>& values,
                                         const RunControl& control) {
   if (system.unknownCount() == 0) return {.name = "none"};
-  const std::string& choice = computation_.options.solver;
-  const bool isAutomatic = choice == kAutomaticSolver;
-  // A CPU device needs more time than the CPU for the same iterations (docs/speed.md).
-  const std::string name = isAutomatic ? defaultSolver(!computation_.backend.runsOnCpu()).name : choice;
+  const std::string name = isAutomatic() ? chosenSolver().name : computation_.options.solver;
   std::vector<double> solution(system.unknownCount());
   SolverReport report;
   try {
     report = solveWith(name, system, solution, control);
   } catch (const Error& error) {
-    if (!isAutomatic || error.kind() != ErrorKind::Device) throw;
+    if (!isAutomatic() || error.kind() != ErrorKind::Device) throw;
     computation_.warnings.push_back(
         {WarningCode::SolvedOnCpu,
          fmt::format("the CPU solved the equation because the device failed: {}", error.what()),

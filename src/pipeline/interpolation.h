@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -17,8 +18,8 @@ struct Interpolated {
 /// Interpolation on one mesh, for any sets of seeds.
 class Interpolation {
  public:
-  /// The computation must outlive it. Where the solver is "auto" and the device fails or is too small, the CPU solves
-  /// the equation and a warning contains the reason.
+  /// The computation must outlive it. With a solver of the device, the device predicts, too. Where the solver is "auto"
+  /// and the device fails or is too small, the CPU predicts or solves the equation and a warning contains the reason.
   explicit Interpolation(const Computation& computation) : computation_(computation) {}
 
   /// Predicts all faces from the hits of these seeds; without hits it does nothing. Seeds of an earlier call must be at
@@ -31,6 +32,10 @@ class Interpolation {
   [[nodiscard]] Interpolated solve(std::span<const double> constraints, const RunControl& control);
 
  private:
+  [[nodiscard]] bool isAutomatic() const { return computation_.options.solver == kAutomaticSolver; }
+  [[nodiscard]] const Solver& chosenSolver() const;
+  [[nodiscard]] bool predictsOnDevice() const;
+  void predictWith(DevicePredictor* device, const SeedHits& hits);
   [[nodiscard]] const std::vector<double>& weights();
   [[nodiscard]] std::vector<double> divergence();
   SolverReport solveWith(const std::string& solver, const PoissonSystem& system, std::span<double> solution,
@@ -40,6 +45,8 @@ class Interpolation {
   const Computation& computation_;
   std::vector<double> weights_;  ///< One per arc of the dual graph; computed lazily, so that tracing does not hold it.
   Prediction prediction_;
+  std::unique_ptr<DevicePredictor> predictor_;  ///< Created at first use.
+  bool predictorFailed_ = false;
 };
 
 }  // namespace asdfvk

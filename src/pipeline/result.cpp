@@ -244,6 +244,8 @@ const char* nameOf(WarningCode code) {
       return "finishedOnCpu";
     case WarningCode::BackendReplaced:
       return "backendReplaced";
+    case WarningCode::PredictedOnCpu:
+      return "predictedOnCpu";
     case WarningCode::SolvedOnCpu:
       return "solvedOnCpu";
     case WarningCode::NotConverged:

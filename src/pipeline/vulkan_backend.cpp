@@ -11,6 +11,7 @@
 #include "asdf_vk/error.h"
 #include "core/text.h"
 #include "pipeline/backend.h"
+#include "predict/vulkan/vulkan_prediction.h"
 #include "trace/tracer_check.h"
 #include "trace/vulkan/vulkan_cone_kernel.h"
 #include "trace/vulkan/vulkan_trace_choice.h"
@@ -75,6 +76,13 @@ class VulkanBackend final : public Backend {
     return tracer;
   }
 
+  [[nodiscard]] std::unique_ptr<DevicePredictor> makePredictor(const TraceScene& scene, const Cone& cone) override {
+    const auto rayCount = static_cast<uint32_t>(cone.directions.size());
+    std::unique_ptr<VulkanPredictionKernels>& kernels = predictionKernels_[{cone.definition, rayCount}];
+    if (!kernels) kernels = std::make_unique<VulkanPredictionKernels>(*opened_.device, cone.definition, rayCount);
+    return makeVulkanPredictor(*kernels, scene, cone);
+  }
+
   void requireSilentValidation() const override {
     if (!instance_.validationLog()) return;
     const std::vector<std::string> messages = instance_.validationLog()->messages();
@@ -103,6 +111,7 @@ class VulkanBackend final : public Backend {
   VulkanTraceChoice choice_;
   bool isVerified_ = false;
   std::map<ConeKernelRequest, std::unique_ptr<VulkanConeKernel>> kernels_;
+  std::map<std::pair<Definition, uint32_t>, std::unique_ptr<VulkanPredictionKernels>> predictionKernels_;
 };
 
 }  // namespace

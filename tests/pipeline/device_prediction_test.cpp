@@ -1,0 +1,117 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "asdf_vk/error.h"
+#include "bvh/bvh.h"
+#include "generate/shapes.h"
+#include "pipeline/rounds.h"
+#include "support/bits.h"
+#include "support/require_failure.h"
+#include "support/shared_session.h"
+
+using namespace asdfvk;
+
+namespace {
+
+/// The Vulkan backend as one on a GPU, where "auto" selects the device for predictions and for the equation.
+class GpuBackend final : public Backend {
+ public:
+  enum class Predictor { Works, IsMissing, Fails };
+
+  explicit GpuBackend(Predictor predictor) : predictor_(predictor) {
+    SessionOptions options;
+    options.backend = "vulkan";
+    vulkan_ = makeVulkanBackend(options);
+  }
+
+  [[nodiscard]] std::string deviceName() const override { return vulkan_->deviceName(); }
+  [[nodiscard]] std::vector<std::string> deviceLines() const override { return vulkan_->deviceLines(); }
+  [[nodiscard]] bool runsOnCpu() const override { return false; }
+  [[nodiscard]] const Device* device() const override { return vulkan_->device(); }
+  [[nodiscard]] std::unique_ptr<ConeTracer> makeTracer(const TraceScene& scene, const Cone& cone,
+                                                       const TracerNeeds& needs) override {
+    return vulkan_->makeTracer(scene, cone, needs);
+  }
+  [[nodiscard]] std::unique_ptr<DevicePredictor> makePredictor(const TraceScene& scene, const Cone& cone) override {
+    ++requestCount;
+    if (predictor_ == Predictor::IsMissing) throw Error(ErrorCode::DeviceLimit, "this device is too small");
+    if (predictor_ == Predictor::Fails) return std::make_unique<FailingPredictor>();
+    return vulkan_->makePredictor(scene, cone);
+  }
+
+  int requestCount = 0;
+
+ private:
+  class FailingPredictor final : public DevicePredictor {
+   public:
+    void predict(const PredictionTask&, std::span<double> values) override {
+      std::fill(values.begin(), values.end(), 1.0);
+      throw Error(ErrorCode::DeviceLost, "this device was lost");
+    }
+  };
+
+  Predictor predictor_;
+  std::unique_ptr<Backend> vulkan_;
+};
+
+struct Outcome {
+  std::vector<double> values;
+  std::vector<Warning> warnings;
+  int predictorCount = 0;
+};
+
+Outcome run(GpuBackend::Predictor predictor, const std::string& solver) {
+  Outcome outcome;
+  Options options;
+  options.solver = solver;
+  const Mesh mesh = makeAnimal(2000).mesh;
+  const PreparedMesh prepared = prepareMesh(mesh, Orientation::Keep);
+  Bvh bvh = buildBvh(mesh, prepared.geometry, prepared.representatives);
+  const TraceScene scene{mesh, prepared.geometry, prepared.representatives, bvh};
+  const Cone cone = makeCone(options.cone);
+  GpuBackend backend(predictor);
+  Solvers solvers;
+  StageSeconds seconds;
+  StageClock clock(seconds);
+  const FaceDomain domain = wholeMesh(prepared);
+  const Computation computation{options, prepared, domain, scene, cone, backend, solvers, clock, outcome.warnings};
+  SceneTracers tracers(backend, scene, 0);
+  outcome.values =
+      runRounds(computation, std::make_unique<SeedTracing>(computation, tracers, nullptr), {}).interpolated.values;
+  outcome.predictorCount = backend.requestCount;
+  return outcome;
+}
+
+}  // namespace
+
+TEST_CASE("on a GPU the device predicts; where it cannot, the CPU does, with one warning") {
+  using enum GpuBackend::Predictor;
+  const Outcome device = run(Works, "auto"), cpu = run(Works, "eigen");
+  CHECK(device.warnings.empty());
+  CHECK(device.predictorCount == 1);
+  CHECK(cpu.predictorCount == 0);
+  CHECK(test::haveSameBits(device.values, run(Works, "cg").values));
+  for (const GpuBackend::Predictor predictor : {IsMissing, Fails}) {
+    const Outcome outcome = run(predictor, "auto");
+    REQUIRE(outcome.warnings.size() == 1);
+    CHECK(outcome.warnings[0].code == WarningCode::PredictedOnCpu);
+    CHECK(outcome.predictorCount == 1);
+    CHECK_FALSE(test::haveSameBits(outcome.values, device.values));
+    REQUIRE(outcome.values.size() == device.values.size());
+    const double high = *std::max_element(cpu.values.begin(), cpu.values.end());
+    for (const std::vector<double>* other : {&device.values, &cpu.values}) {
+      double sum = 0;
+      for (size_t face = 0; face < other->size(); ++face) sum += std::abs(outcome.values[face] - (*other)[face]);
+      CHECK(sum / static_cast<double>(other->size()) < 1e-3 * high);
+    }
+  }
+}
+
+TEST_CASE("with a named solver of the device a prediction that fails there is an error") {
+  test::requireFailure([] { (void)run(GpuBackend::Predictor::Fails, "cg"); }, ErrorCode::DeviceLost, "was lost");
+}
