@@ -1,0 +1,227 @@
+// How many rays per second can the host feed to a device, and where does its time go? The tracer alone, with a device
+// that takes no time, and the whole computation with a kernel that writes a constant per cone instead of tracing.
+#include <fmt/format.h>
+#include <volk.h>
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <utility>
+
+#include "asdf_vk/files.h"
+#include "core/text.h"
+#include "generate/creatures.h"
+#include "generate/generated_shape.h"
+#include "pipeline/compute.h"
+#include "seeds/samplers.h"
+#include "support/computation.h"
+#include "support/measurement.h"
+#include "support/program.h"
+#include "trace/vulkan/vulkan_cone_kernel.h"
+#include "trace/vulkan/vulkan_tracer.h"
+#include "vk/buffer_pool.h"
+
+namespace {
+
+using namespace asdfvk;
+using namespace asdfvk::bench;
+
+struct Arguments {
+  std::vector<std::string> meshes;
+  std::string device;
+  std::vector<uint32_t> percents = {100, 10};
+  uint32_t roundCount = 5;
+  uint64_t generatedFaceCount = 1'500'000;
+};
+
+/// While it exists, the time for which the host waits for the device is added up.
+class WaitClock {
+ public:
+  WaitClock() {
+    wait_ = vkWaitForFences;
+    vkWaitForFences = [](VkDevice device, uint32_t count, const VkFence* fences, VkBool32 all, uint64_t timeout) {
+      const Stopwatch watch;
+      const VkResult result = wait_(device, count, fences, all, timeout);
+      seconds_ += watch.seconds();
+      return result;
+    };
+  }
+  ~WaitClock() { vkWaitForFences = wait_; }
+  WaitClock(const WaitClock&) = delete;
+  WaitClock& operator=(const WaitClock&) = delete;
+
+  /// Since the last call.
+  [[nodiscard]] static double takeSeconds() { return std::exchange(seconds_, 0); }
+
+ private:
+  static inline PFN_vkWaitForFences wait_ = nullptr;
+  static inline double seconds_ = 0;
+};
+
+/// While it exists, submissions end at once without running their commands. Mapped memory that is allocated meanwhile
+/// is filled with a length, so that results are valid; hits are not.
+class IdleDevice {
+ public:
+  IdleDevice() {
+    submit_ = vkQueueSubmit, allocate_ = vkAllocateMemory, map_ = vkMapMemory;
+    vkQueueSubmit = [](VkQueue queue, uint32_t, const VkSubmitInfo*, VkFence fence) {
+      return submit_(queue, 0, nullptr, fence);
+    };
+    vkAllocateMemory = [](VkDevice device, const VkMemoryAllocateInfo* info, const VkAllocationCallbacks* callbacks,
+                          VkDeviceMemory* memory) {
+      byteCount_ = info->allocationSize;
+      return allocate_(device, info, callbacks, memory);
+    };
+    vkMapMemory = [](VkDevice device, VkDeviceMemory memory, VkDeviceSize offset, VkDeviceSize size,
+                     VkMemoryMapFlags flags, void** data) {
+      const VkResult result = map_(device, memory, offset, size, flags, data);
+      if (result == VK_SUCCESS) std::fill_n(static_cast<float*>(*data), byteCount_ / sizeof(float), 0.25f);
+      return result;
+    };
+  }
+  ~IdleDevice() { vkQueueSubmit = submit_, vkAllocateMemory = allocate_, vkMapMemory = map_; }
+  IdleDevice(const IdleDevice&) = delete;
+  IdleDevice& operator=(const IdleDevice&) = delete;
+
+ private:
+  static inline PFN_vkQueueSubmit submit_ = nullptr;
+  static inline PFN_vkAllocateMemory allocate_ = nullptr;
+  static inline PFN_vkMapMemory map_ = nullptr;
+  static inline uint64_t byteCount_ = 0;  // Of the last allocation.
+};
+
+/// A Vulkan backend whose kernels trace nothing.
+class ConstantBackend final : public Backend {
+ public:
+  explicit ConstantBackend(const std::string& device) : opened_(openDevice(instance_, {.selector = device})) {}
+
+  [[nodiscard]] std::string deviceName() const override { return facts().name + ", driver " + facts().driver; }
+  [[nodiscard]] std::vector<std::string> deviceLines() const override { return opened_.reasons; }
+  [[nodiscard]] bool runsOnCpu() const override { return facts().kind == DeviceKind::Cpu; }
+  [[nodiscard]] std::optional<TraceVariant> traceVariant() const override {
+    return variantOf(defaultTraceChoice(facts()));
+  }
+  [[nodiscard]] const Device* device() const override { return opened_.device.get(); }
+
+  [[nodiscard]] std::unique_ptr<ConeTracer> makeTracer(const TraceScene& scene, const Cone& cone,
+                                                       const TracerNeeds& needs) override {
+    const ConeKernelRequest request{.rayCount = static_cast<uint32_t>(cone.directions.size()),
+                                    .writesHits = needs.hits,
+                                    .choice = traceChoiceFor(facts(), {}, scene.bvh),
+                                    .isConstant = true};
+    std::unique_ptr<VulkanConeKernel>& kernel = kernels_[request];
+    if (!kernel)
+      kernel = runsOnCpu() ? std::make_unique<VulkanConeKernel>(*opened_.device, request, kCpuShape)
+                           : std::make_unique<VulkanConeKernel>(*opened_.device, request);
+    return makeVulkanTracer(*kernel, scene, cone);
+  }
+
+ private:
+  // A cone per lane: CPU devices have a high cost per workgroup.
+  static constexpr VulkanWorkgroupShape kCpuShape{1, 64};
+
+  [[nodiscard]] const DeviceFacts& facts() const { return opened_.device->facts(); }
+
+  Instance instance_;
+  OpenedDevice opened_;
+  std::map<ConeKernelRequest, std::unique_ptr<VulkanConeKernel>> kernels_;
+};
+
+/// ConeTracer::trace() alone.
+std::string measureTracer(ConstantBackend& backend, const Mesh& source, const Arguments& arguments,
+                          const RunControl& control) {
+  const TraceableMesh mesh(source);
+  const Cone cone = makeCone({});
+  const std::vector<uint32_t>& faces = mesh.prepared.traceableFaces;
+  std::string text = fmt::format(
+      "\ntracer alone, {} rays per cone, commands are not run\n\n| seeds | hits | {:>14} | {:>14} | {:>14} |\n"
+      "|---|---|---:|---:|---:|\n",
+      cone.directions.size(), "seconds", "Mcones/s", "Grays/s");
+  for (const uint32_t percent : arguments.percents) {
+    std::vector<uint32_t> seeds = randomPermutationSeeds(faces, faces.size() * percent / 100, 1);
+    std::sort(seeds.begin(), seeds.end());
+    std::vector<double> values(seeds.size());
+    for (const bool withHits : {false, true}) {
+      std::vector<ConeHit> hits(withHits ? seeds.size() * cone.directions.size() : 0);
+      const auto tracer = backend.makeTracer(mesh.scene(), cone, {.hits = withHits});
+      backend.device()->pool().clear();
+      const IdleDevice idle;
+      std::vector<double> seconds, coneRates, rayRates;
+      for (uint32_t round = 0; round <= arguments.roundCount; ++round) {
+        const Stopwatch watch;
+        const TraceStatistics statistics = tracer->trace(seeds, {values, hits}, control);
+        if (round == 0) continue;
+        seconds.push_back(watch.seconds());
+        coneRates.push_back(static_cast<double>(seeds.size()) / seconds.back() * 1e-6);
+        rayRates.push_back(static_cast<double>(statistics.rayCount) / seconds.back() * 1e-9);
+      }
+      text += fmt::format("| {} % | {} | {:>14} | {:>14} | {:>14} |\n", percent, withHits ? "yes" : "no",
+                          toText(dispersionOf(seconds), 4), toText(dispersionOf(coneRates), 1),
+                          toText(dispersionOf(rayRates), 3));
+      backend.device()->pool().clear();
+    }
+  }
+  return text;
+}
+
+/// The whole computation in memory.
+std::string measurePipeline(SessionState& session, const Mesh& mesh, const Arguments& arguments,
+                            const RunControl& control) {
+  std::string text = "\nwhole computation, median seconds by stage\n";
+  for (const uint32_t percent : arguments.percents) {
+    const Options options = recipeOptions(Recipe::Balanced, percent);
+    std::vector<std::vector<double>> stages(kStageCount);
+    std::vector<double> totals, waits, rates;
+    for (uint32_t round = 0; round <= arguments.roundCount; ++round) {
+      (void)WaitClock::takeSeconds();
+      const Stopwatch watch;
+      Result result;
+      StageClock clock(result.report.stageSeconds);
+      const auto scene = std::make_shared<PreparedScene>(mesh, options.orientation, clock, control);
+      SceneTracers tracers(*session.named.backend, scene->view(), 0);
+      computeOn({session, scene, wholeMesh(scene->prepared), tracers, true}, options, clock, control, result);
+      if (round == 0) continue;
+      totals.push_back(watch.seconds());
+      waits.push_back(WaitClock::takeSeconds());
+      rates.push_back(result.report.raysPerSecond * 1e-9);
+      for (size_t i = 0; i < kStageCount; ++i) stages[i].push_back(result.report.stageSeconds[static_cast<Stage>(i)]);
+    }
+    text +=
+        fmt::format("\n{} %: total {}, of it waiting for the device {}, trace stage {} Grays/s\n ", percent,
+                    toText(dispersionOf(totals), 3), toText(dispersionOf(waits), 3), toText(dispersionOf(rates), 3));
+    for (size_t i = 0; i < kStageCount; ++i)
+      if (const Dispersion seconds = dispersionOf(stages[i]); seconds.max > 0)
+        text += fmt::format(" {} {:.3f}", nameOf(static_cast<Stage>(i)), seconds.median);
+    text += "\n";
+  }
+  return text;
+}
+
+void run(const Arguments& arguments, const RunControl& control) {
+  SessionState session({.backend = "reference"});
+  auto backend = std::make_unique<ConstantBackend>(arguments.device);
+  ConstantBackend& constant = *backend;
+  session.named = {"vulkan", std::move(backend), {}};
+  const WaitClock waiting;
+  const auto measure = [&](const std::string& name, const Mesh& mesh) {
+    writeOutput(fmt::format("{}: {} faces, {}, {}\n", name, groupDigits(mesh.faceCount()), constant.deviceName(),
+                            toText(thisMachine())));
+    writeOutput(measureTracer(constant, mesh, arguments, control));
+    writeOutput(measurePipeline(session, mesh, arguments, control) + "\n");
+  };
+  for (const std::string& path : arguments.meshes) measure(path, readMesh(path));
+  if (arguments.meshes.empty()) measure("generated animal", makeAnimal(arguments.generatedFaceCount).mesh);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Program program("asdfvk-bench-feed", "Measures how fast the host feeds a device that traces nothing.");
+  Arguments arguments;
+  program.addOptionalMeshes(arguments.meshes, "a generated animal");
+  program.add("--faces", arguments.generatedFaceCount, "Faces of the generated animal", {kMinFaceCount, kMaxFaceCount});
+  program.add("--rounds", arguments.roundCount, "Rounds, after one for warm-up", {1, 1000});
+  program.add("--seeds", arguments.percents, "Shares of the faces that cast rays, in percent", {1, 100});
+  program.add("--device", arguments.device, "Vulkan device: index or part of its name");
+  return program.run(argc, argv, [&](const RunControl& control) { run(arguments, control); });
+}
