@@ -26,6 +26,7 @@ ExitCode runProgram(const std::vector<std::string>& arguments) {
       printDevices(line);
       return ExitCode::Done;
     }
+    if (line.deviceReport) return printDeviceReport(line, interrupt.token());
     return runMeshes(line, interrupt.token());
   } catch (...) {
     const Failure failure = currentFailure();

@@ -222,6 +222,10 @@ void addDevice(CLI::App& app, CommandLine& line) {
       ->group(group);
   app.add_flag("--require-gpu", line.session.requireGpu, "Fail where no GPU is usable")->group(group);
   app.add_flag("--list-devices", line.listDevices, "List Vulkan devices and whether each is usable")->group(group);
+  app.add_flag("--device-report", line.deviceReport,
+               "Print a report on the device as JSON: properties, a self-test, the rate of each\n"
+               "variant of the kernels; exit code 3 where the self-test fails")
+      ->group(group);
   addValue(app, "--threads", "N", "CPU threads, 1 to 1024; default: the number of cores", [&](const std::string& text) {
     line.threadCount = static_cast<uint32_t>(parseWholeNumber(text, 1, 1024));
   })->group(group);
@@ -252,7 +256,10 @@ void requireNoPaperOption(const CLI::App& app, const CommandLine& line) {
 
 void validateOptions(const CommandLine& line) {
   const auto fail = [](const std::string& message) { throw Error(ErrorCode::OptionConflict, message); };
-  if (line.meshes.empty() && !line.listDevices) fail("no mesh was given; asdf-vk --help lists the options");
+  if (line.deviceReport && !line.meshes.empty())
+    fail("--device-report computes on a generated mesh; drop it, or the meshes");
+  if (line.meshes.empty() && !line.listDevices && !line.deviceReport)
+    fail("no mesh was given; asdf-vk --help lists the options");
   if (std::count(line.meshes.begin(), line.meshes.end(), "-") > 1)
     fail("standard input ('-') can be read only once; name it once");
   if (std::count(line.meshes.begin(), line.meshes.end(), "") > 0) fail("the name of a mesh is empty");

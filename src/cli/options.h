@@ -30,6 +30,7 @@ struct CommandLine {
   bool json = false;
   bool quiet = false;
   bool listDevices = false;
+  bool deviceReport = false;
   uint32_t threadCount = 0;           ///< 0: the number of cores.
   std::optional<std::string> answer;  ///< The text of --help or --version; if set, nothing is computed.
 };

@@ -37,6 +37,9 @@ struct MeshOutcome {
 /// One line with the keys "mesh", "error" and "code".
 [[nodiscard]] std::string jsonFailure(const std::string& mesh, const std::string& code, const std::string& message);
 
+/// Indented JSON with the keys of docs/devices.md.
+[[nodiscard]] std::string jsonDeviceReport(const struct DeviceReport& report);
+
 [[nodiscard]] std::string jsonDevices(std::span<const DeviceInfo> devices, const std::string& reason);
 
 }  // namespace asdfvk

@@ -16,4 +16,8 @@ namespace asdfvk {
 /// Prints the devices on standard output.
 void printDevices(const CommandLine& line);
 
+/// Prints the report on the device on standard output. Returns Done, or Device where its self-test failed. Throws as
+/// reportDevice().
+[[nodiscard]] ExitCode printDeviceReport(const CommandLine& line, const std::stop_token& stop);
+
 }  // namespace asdfvk

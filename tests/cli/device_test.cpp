@@ -51,6 +51,24 @@ TEST_CASE("the list of devices is empty with a reason where there is none") {
   CHECK_FALSE(nlohmann::json::parse(json.output).at("reason").get<std::string>().empty());
 }
 
+TEST_CASE("the report on a device is JSON; without a device it has the reason and the exit code is 3") {
+  const ChildOutcome none = runAsdf({"--device-report"}, kNoDriver);
+  CHECK_EQ(none.exitCode, 3);
+  const nlohmann::json missing = nlohmann::json::parse(none.output);
+  CHECK_FALSE(missing.at("passed").get<bool>());
+  CHECK(missing.at("device").is_null());
+  CHECK(none.error.find(missing.at("reason").get<std::string>()) != std::string::npos);
+  CHECK_EQ(missing.at("tracers").size(), isBackendBuilt("cpu") ? 1 : 0);
+  checkFailure(runAsdf({"--device-report", "--backend", "vulkan"}, kNoDriver), 3, "mesa-vulkan-drivers");
+
+  const ChildOutcome reference = runAsdf({"--device-report", "--backend", "reference"}, kNoDriver);
+  CHECK_EQ(reference.exitCode, 0);
+  const nlohmann::json report = nlohmann::json::parse(reference.output);
+  CHECK(report.at("passed").get<bool>());
+  CHECK_EQ(report.at("tracers").at(0).at("backend").get<std::string>(), "reference");
+  CHECK(report.at("tracers").at(0).at("raysPerSecond").get<double>() > 0);
+}
+
 TEST_CASE("lavapipe is listed, runs, and is no GPU") {
   const auto lavapipe = lavapipeOnly();
   if (!lavapipe) return;

@@ -39,7 +39,8 @@ TEST_CASE("a mesh alone gives the defaults") {
   CHECK_FALSE(line.options.checkCount.has_value());
   CHECK_FALSE(line.answer.has_value());
   CHECK(line.output.empty());
-  CHECK_FALSE((line.json || line.quiet || line.ascii || line.listDevices || line.session.requireGpu));
+  CHECK_FALSE(
+      (line.json || line.quiet || line.ascii || line.listDevices || line.deviceReport || line.session.requireGpu));
 }
 
 TEST_CASE("the options of a picture") {
@@ -190,7 +191,7 @@ TEST_CASE("every option reaches its field") {
 }
 
 TEST_CASE("the table of options above is complete") {
-  std::set<std::string> inTable{"--help", "--version"};
+  std::set<std::string> inTable{"--help", "--version", "--device-report"};
   for (const OptionCase& option : optionCases()) {
     const std::string& name = option.arguments.front();
     if (name != "-o") inTable.insert(name.substr(0, name.find('=')));
@@ -276,6 +277,8 @@ TEST_CASE("meshes: many, standard input, odd names") {
   CHECK(refusal({""}).find("empty") != std::string::npos);
   CHECK(refusal({"--quiet"}).find("no mesh") != std::string::npos);
   CHECK(parseCommandLine({"--list-devices"}).listDevices);
+  CHECK(parseCommandLine({"--device-report"}).deviceReport);
+  CHECK(refusal({"--device-report", "a.ply"}).find("--device-report") != std::string::npos);
 }
 
 TEST_CASE("each sampler, weight and guidance has its name") {

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/report.h"
+#include "pipeline/device_report.h"
 
 namespace asdfvk {
 namespace {
@@ -278,6 +279,60 @@ TEST_CASE("devices are listed with number and reason, or the reason why there ar
   const nlohmann::json json = nlohmann::json::parse(jsonDevices(devices, ""));
   CHECK_EQ(json.at("devices").at(1).at("name").get<std::string>(), "Bee");
   CHECK_FALSE(json.at("devices").at(1).at("usable").get<bool>());
+}
+
+TEST_CASE("the report on a device as JSON has its properties, the defaults and each test") {
+  DeviceReport report;
+  DeviceDescription& device = report.device.emplace();
+  device.facts.name = "some GPU";
+  device.facts.kind = DeviceKind::Discrete;
+  device.facts.vendor = DeviceVendor::Amd;
+  device.facts.apiVersion = (1u << 22) | (3u << 12) | 230;
+  device.facts.subgroupSize = 64;
+  device.facts.computeQueueFamily = 1;
+  device.vendorId = 0x1002;
+  device.limits = {{"maxStorageBufferRange", 4294967295}};
+  device.heaps = {{1000, true}};
+  device.memoryTypes = {{0, {"deviceLocal", "hostVisible"}}};
+  device.queueFamilies = {{1, {"graphics", "compute"}, 64}, {4, {"compute"}, 36}};
+  report.choice = defaultTraceChoice(device.facts);
+  report.walk = walkShapeFor(device.facts);
+  report.tracers = {{.backend = "vulkan",
+                     .variant = TraceVariant{"ray", "wide", "storage"},
+                     .isDefault = true,
+                     .comparedCount = 64,
+                     .passed = true,
+                     .raysPerSecond = 2e9},
+                    {.backend = "vulkan", .variant = TraceVariant{"ray", "wide", "texel"}, .refusal = "too few texels"},
+                    {.backend = "cpu", .differingCount = 7}};
+  report.solvers = {{.name = "cg", .failure = "the device was lost"}};
+  const nlohmann::json json = nlohmann::json::parse(jsonDeviceReport(report));
+  CHECK_FALSE(json.at("passed").get<bool>());
+  CHECK_EQ(json.at("device").at("name"), "some GPU");
+  CHECK_EQ(json.at("device").at("kind"), "discrete GPU");
+  CHECK_EQ(json.at("device").at("apiVersion"), "1.3.230");
+  CHECK_EQ(json.at("device").at("vendorId"), 0x1002);
+  CHECK_EQ(json.at("limits").at("maxStorageBufferRange"), 4294967295);
+  CHECK_EQ(json.at("subgroup").at("size"), 64);
+  CHECK_EQ(json.at("memoryHeaps"), nlohmann::json::parse(R"([{"bytes": 1000, "deviceLocal": true}])"));
+  CHECK_EQ(json.at("memoryTypes").at(0).at("flags").at(1), "hostVisible");
+  CHECK_FALSE(json.at("queueFamilies").at(0).at("chosen").get<bool>());
+  CHECK(json.at("queueFamilies").at(1).at("chosen").get<bool>());
+  CHECK_EQ(json.at("queueFamilies").at(1).at("timestampValidBits"), 36);
+  CHECK_EQ(json.at("defaults").at("kernel"), "ray");
+  CHECK_EQ(json.at("defaults").at("fetch"), "storage");
+  CHECK_EQ(json.at("defaults").at("wideStackSize"), 65);
+  CHECK(json.at("defaults").at("reason").get<std::string>().find("AMD") != std::string::npos);
+  CHECK_EQ(json.at("fastest"),
+           nlohmann::json::parse(R"({"kernel": "ray", "bvh": "wide", "fetch": "storage", "default": true})"));
+  const nlohmann::json& tracers = json.at("tracers");
+  CHECK(tracers.at(0).at("passed").get<bool>());
+  CHECK_EQ(tracers.at(0).at("raysPerSecond"), 2e9);
+  CHECK(tracers.at(1).at("passed").is_null());
+  CHECK_EQ(tracers.at(1).at("reason"), "too few texels");
+  CHECK_EQ(tracers.at(2).at("differingCount"), 7);
+  CHECK_FALSE(json.at("solvers").at(0).at("passed").get<bool>());
+  CHECK_EQ(json.at("solvers").at(0).at("reason"), "the device was lost");
 }
 
 }  // namespace

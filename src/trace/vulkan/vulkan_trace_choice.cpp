@@ -44,24 +44,38 @@ VulkanWorkgroupShape seedShape(const DeviceFacts& device) {
   return shape;
 }
 
+struct Rule {
+  VulkanTraceChoice choice;
+  const char* reason;
+};
+
+Rule ruleFor(const DeviceFacts& device) {
+  if (device.kind == DeviceKind::Cpu) {
+    if (prefersTexels(device)) return {kCpuDevice, "CPU device; measured on lavapipe"};
+    return {{kCpuDevice.kernel, kCpuDevice.bvh, BvhFetch::Storage},
+            "CPU device whose storage buffers can be larger than its texel buffers; rule, not measured"};
+  }
+  switch (device.vendor) {  // The compilers choose the size of subgroups, which may differ from the reported one.
+    case DeviceVendor::Intel:
+      return {kSmallSubgroup, "Intel GPU: subgroups of 8 or 16 lanes, whatever is reported; rule, not measured"};
+    case DeviceVendor::Nvidia:
+      return {kLargeSubgroup, "NVIDIA GPU: subgroups of 32 lanes; rule, not measured"};
+    case DeviceVendor::Amd:
+      return {kLargeSubgroup, "AMD GPU: subgroups of 32 or 64 lanes; rule, not measured"};
+    case DeviceVendor::Other:
+      break;
+  }
+  if (device.subgroupSize <= kMaxSmallSubgroup)
+    return {kSmallSubgroup, "GPU with subgroups of up to 16 lanes; rule, not measured"};
+  return {kLargeSubgroup, "GPU with subgroups of more than 16 lanes; rule, not measured"};
+}
+
 uint32_t roundUp(uint32_t value, uint32_t multiple) { return (value + multiple - 1) / multiple * multiple; }
 
 }  // namespace
 
-VulkanTraceChoice defaultTraceChoice(const DeviceFacts& device) {
-  if (device.kind == DeviceKind::Cpu)
-    return {kCpuDevice.kernel, kCpuDevice.bvh, prefersTexels(device) ? BvhFetch::Texel : BvhFetch::Storage};
-  switch (device.vendor) {  // The compilers choose the size of subgroups, which may differ from the reported one.
-    case DeviceVendor::Intel:
-      return kSmallSubgroup;  // 8 or 16 lanes; 32 are reported.
-    case DeviceVendor::Nvidia:
-    case DeviceVendor::Amd:
-      return kLargeSubgroup;  // 32 or 64 lanes.
-    case DeviceVendor::Other:
-      break;
-  }
-  return device.subgroupSize <= kMaxSmallSubgroup ? kSmallSubgroup : kLargeSubgroup;
-}
+VulkanTraceChoice defaultTraceChoice(const DeviceFacts& device) { return ruleFor(device).choice; }
+const char* defaultTraceReason(const DeviceFacts& device) { return ruleFor(device).reason; }
 
 VulkanTraceChoice traceChoiceFor(const DeviceFacts& device, const VulkanTraceRequest& request) {
   const VulkanTraceChoice best = defaultTraceChoice(device);

@@ -1,0 +1,163 @@
+#include "pipeline/device_report.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "asdf_vk/version.h"
+#include "cli/interrupt.h"
+#include "cli/report.h"
+#include "cli/run.h"
+#include "cli/terminal.h"
+
+namespace asdfvk {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+std::string versionText(uint32_t packed) {
+  return fmt::format("{}.{}.{}", (packed >> 22) & 0x7f, (packed >> 12) & 0x3ff, packed & 0xfff);
+}
+
+Json deviceOf(const DeviceDescription& device) {
+  return {{"name", device.facts.name},
+          {"kind", toString(device.facts.kind)},
+          {"driver", device.facts.driver},
+          {"driverId", device.driverId},
+          {"driverVersion", device.driverVersion},
+          {"vendorId", device.vendorId},
+          {"deviceId", device.deviceId},
+          {"apiVersion", versionText(device.facts.apiVersion)}};
+}
+
+Json limitsOf(const DeviceDescription& device) {
+  Json limits;
+  for (const auto& [name, value] : device.limits) limits[name] = value;
+  limits["timestampPeriod"] = number(device.timestampPeriod);
+  return limits;
+}
+
+void addDescription(Json& json, const DeviceDescription& device) {
+  json["device"] = deviceOf(device);
+  json["limits"] = limitsOf(device);
+  json["subgroup"] = {{"size", device.facts.subgroupSize}, {"operations", device.subgroupOperations}};
+  json["features"] = device.features;
+  json["extensions"] = device.extensions;
+  json["memoryHeaps"] = Json::array();
+  for (const DeviceDescription::Heap& heap : device.heaps)
+    json["memoryHeaps"].push_back({{"bytes", heap.byteCount}, {"deviceLocal", heap.isDeviceLocal}});
+  json["memoryTypes"] = Json::array();
+  for (const DeviceDescription::MemoryType& type : device.memoryTypes)
+    json["memoryTypes"].push_back({{"heap", type.heap}, {"flags", type.flags}});
+  json["queueFamilies"] = Json::array();
+  for (uint32_t i = 0; i < device.queueFamilies.size(); ++i) {
+    const DeviceDescription::QueueFamily& family = device.queueFamilies[i];
+    json["queueFamilies"].push_back({{"queueCount", family.queueCount},
+                                     {"flags", family.flags},
+                                     {"timestampValidBits", family.timestampValidBits},
+                                     {"chosen", device.facts.computeQueueFamily == i}});
+  }
+}
+
+Json variantJson(const TraceVariant& variant) {
+  return {{"kernel", variant.kernel}, {"bvh", variant.bvh}, {"fetch", variant.fetch}};
+}
+
+Json defaultsOf(const DeviceReport& report) {
+  Json json = variantJson(variantOf(report.choice));
+  json["reason"] = defaultTraceReason(report.device->facts);
+  json["solver"] = report.defaultSolver;
+  json["lanesPerCone"] = report.workgroups.lanesPerCone;
+  json["conesPerWorkgroup"] = report.workgroups.conesPerWorkgroup;
+  json["iterationLimit"] = report.workgroups.iterationLimit;
+  json["wideStackSize"] = report.walk.wideStackSize;
+  json["binaryStackSize"] = report.walk.binaryStackSize;
+  json["postponesTriangles"] = report.walk.postponesTriangles;
+  return json;
+}
+
+/// null: not run, because the device excludes it.
+template <typename Report>
+Json passedOf(const Report& report) {
+  return report.refusal.empty() ? Json(report.passed) : Json(nullptr);
+}
+
+template <typename Report>
+std::string reasonOf(const Report& report) {
+  return report.refusal.empty() ? report.failure : report.refusal;
+}
+
+Json tracerOf(const TracerReport& tracer) {
+  Json json{{"backend", tracer.backend}};
+  if (tracer.variant) json.update(variantJson(*tracer.variant));
+  json["default"] = tracer.isDefault;
+  json["passed"] = passedOf(tracer);
+  json["reason"] = reasonOf(tracer);
+  json["comparedCount"] = tracer.comparedCount;
+  json["differingCount"] = tracer.differingCount;
+  json["raysPerSecond"] = number(std::round(tracer.raysPerSecond));
+  return json;
+}
+
+Json solverOf(const SolverCheckReport& solver) {
+  return {{"name", solver.name},
+          {"passed", passedOf(solver)},
+          {"reason", reasonOf(solver)},
+          {"unknownCount", solver.unknownCount},
+          {"iterations", solver.iterations},
+          {"finishedOnCpu", solver.finishedOnCpu},
+          {"difference", number(solver.difference)},
+          {"seconds", number(solver.seconds)}};
+}
+
+Json fastestOf(const DeviceReport& report) {
+  const TracerReport* fastest = report.fastest();
+  if (fastest == nullptr) return nullptr;
+  Json json = variantJson(*fastest->variant);
+  json["default"] = fastest->isDefault;
+  return json;
+}
+
+}  // namespace
+
+std::string jsonDeviceReport(const DeviceReport& report) {
+  Json json;
+  json["version"] = ASDFVK_VERSION;
+  json["commit"] = ASDFVK_COMMIT;
+  json["passed"] = report.passed();
+  json["reason"] = report.reason;
+  json["devices"] = report.deviceLines;
+  if (report.device) {
+    addDescription(json, *report.device);
+    json["defaults"] = defaultsOf(report);
+  } else {
+    json["device"] = nullptr;
+  }
+  json["mesh"] = {{"faceCount", report.faceCount}, {"raysPerCone", report.rayCount}};
+  json["fastest"] = fastestOf(report);
+  json["tracers"] = Json::array();
+  for (const TracerReport& tracer : report.tracers) json["tracers"].push_back(tracerOf(tracer));
+  json["solvers"] = Json::array();
+  for (const SolverCheckReport& solver : report.solvers) json["solvers"].push_back(solverOf(solver));
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+ExitCode printDeviceReport(const CommandLine& line, const std::stop_token& stop) {
+  DeviceReport report;
+  {
+    const Interrupt::Listening listening;
+    RunControl control;
+    control.stop = stop;
+    report = reportDevice(line.session, control);
+  }
+  writeStandardOutput(jsonDeviceReport(report));
+  if (report.passed()) return ExitCode::Done;
+  printError("", report.reason.empty() ? "the self-test of the device failed; see the report" : report.reason);
+  return ExitCode::Device;
+}
+
+}  // namespace asdfvk

@@ -1,0 +1,237 @@
+#include "pipeline/device_report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <numbers>
+#include <utility>
+
+#include "asdf_vk/error.h"
+#include "core/stopwatch.h"
+#include "pipeline/backend.h"
+#include "pipeline/prepared_scene.h"
+#include "poisson/poisson_solver.h"
+#include "poisson/poisson_system.h"
+#include "trace/tracer_check.h"
+#include "trace/vulkan/vulkan_cone_kernel.h"
+#include "trace/vulkan/vulkan_tracer.h"
+#include "vk/device.h"
+#include "vk/instance.h"
+
+namespace asdfvk {
+namespace {
+
+constexpr uint32_t kMaxDifferingCount = 1;  // A ray that grazes an edge may hit either of its faces.
+constexpr int kRunCount = 3;
+
+/// A torus with bumps: closed, with values of many sizes.
+Mesh bumpyTorus(uint32_t longCount, uint32_t shortCount) {
+  Mesh mesh;
+  for (uint32_t i = 0; i < longCount; ++i) {
+    for (uint32_t j = 0; j < shortCount; ++j) {
+      const double u = 2 * std::numbers::pi * i / longCount, v = 2 * std::numbers::pi * j / shortCount;
+      const double radius = 0.35 * (1 + 0.25 * std::sin(5 * u) * std::cos(3 * v));
+      const double distance = 1 + radius * std::cos(v);
+      mesh.vertices.push_back({distance * std::cos(u), distance * std::sin(u), radius * std::sin(v)});
+      const auto at = [&](uint32_t a, uint32_t b) { return (a % longCount) * shortCount + b % shortCount; };
+      mesh.faces.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+      mesh.faces.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+    }
+  }
+  return mesh;
+}
+
+/// All that the self-test computes on.
+struct TestScene {
+  explicit TestScene(double duration) : secondsPerRun(duration) {}
+
+  double secondsPerRun;
+  Mesh mesh = bumpyTorus(200, 100);
+  StageSeconds seconds;
+  StageClock clock{seconds};
+  PreparedScene scene{mesh, Orientation::Keep, clock, {}};
+  Cone cone = makeCone({});
+};
+
+/// Runs `test` and stores why it could not run.
+template <typename Report>
+void runTest(Report& report, const std::function<void()>& test) {
+  try {
+    test();
+  } catch (const Error& error) {
+    if (error.kind() == ErrorKind::Cancelled) throw;
+    const bool isRefused = error.code() == ErrorCode::DeviceLimit || error.code() == ErrorCode::EquationLimit ||
+                           error.code() == ErrorCode::KernelUnsupported;
+    (isRefused ? report.refusal : report.failure) = error.what();
+    report.passed = false;
+  }
+}
+
+/// Faces spread over the mesh, in a number that takes some time: rates of short runs are those of the overhead.
+double measureRate(ConeTracer& tracer, const TestScene& test, const RunControl& control) {
+  constexpr size_t kFirstFaceCount = 2048;
+  const std::vector<uint32_t>& all = test.scene.prepared.traceableFaces;
+  std::vector<uint32_t> faces;
+  std::vector<double> values;
+  const auto secondsFor = [&](size_t count) {
+    faces.resize(count);
+    for (size_t i = 0; i < count; ++i) faces[i] = all[i * all.size() / count];
+    values.resize(count);
+    const Stopwatch watch;
+    tracer.trace(faces, {values, {}}, control.withoutProgress());
+    return watch.seconds();
+  };
+  size_t count = std::min(kFirstFaceCount, all.size());
+  double best = secondsFor(count);
+  while (count < all.size() && best < test.secondsPerRun) {
+    count = std::min(2 * count, all.size());
+    best = secondsFor(count);
+  }
+  for (int run = 1; run < kRunCount; ++run) best = std::min(best, secondsFor(count));
+  return static_cast<double>(count * test.cone.directions.size()) / std::max(best, 1e-9);
+}
+
+void testTracer(TracerReport& report, ConeTracer& tracer, const TestScene& test, const RunControl& control) {
+  const TracerCheck check = checkTracer(tracer, test.scene.view(), test.cone);
+  report.comparedCount = check.comparedCount;
+  report.differingCount = check.differingCount;
+  report.passed = check.isConclusive() && check.differingCount <= kMaxDifferingCount;
+  report.raysPerSecond = measureRate(tracer, test, control);
+}
+
+void testVariants(DeviceReport& report, const Device& device, const TestScene& test, const RunControl& control) {
+  for (const auto& [kernelName, kernel] : kernelNames()) {
+    for (const auto& [bvhName, bvh] : bvhNames()) {
+      for (const auto& [fetchName, fetch] : fetchNames()) {
+        control.checkpoint(0);
+        const VulkanTraceChoice choice{kernel, bvh, fetch};
+        TracerReport tracer{.backend = "vulkan", .variant = variantOf(choice), .isDefault = choice == report.choice};
+        runTest(tracer, [&] {
+          const VulkanConeKernel compiled(
+              device, {.rayCount = report.rayCount, .choice = choice, .definition = test.cone.definition});
+          testTracer(tracer, *makeVulkanTracer(compiled, test.scene.view(), test.cone), test, control);
+        });
+        report.tracers.push_back(std::move(tracer));
+      }
+    }
+  }
+}
+
+void testOther(DeviceReport& report, Backend& backend, const std::string& name, const TestScene& test,
+               const RunControl& control) {
+  TracerReport tracer{.backend = name};
+  runTest(tracer, [&] { testTracer(tracer, *backend.makeTracer(test.scene.view(), test.cone, {}), test, control); });
+  report.tracers.push_back(std::move(tracer));
+}
+
+/// A smooth function at every eighth face.
+PoissonSystem equationOn(const TestScene& test) {
+  const PreparedMesh& prepared = test.scene.prepared;
+  std::vector<double> constraints(prepared.mesh.faceCount(), kNoValue);
+  for (size_t f = 0; f < constraints.size(); f += 8) constraints[f] = 1 + prepared.geometry.barycentres[f].x / 4;
+  return buildPoissonSystem(prepared.graph, arcWeights(ArcWeights::Feature, prepared.graph, prepared.geometry),
+                            constraints, {});
+}
+
+void testSolvers(DeviceReport& report, const Device& device, const TestScene& test, const RunControl& control) {
+  const PoissonSystem system = equationOn(test);
+  const SolverOptions options{.tolerance = 1e-6};
+  std::vector<double> expected(system.unknownCount()), solution(system.unknownCount());
+  makeSolver(defaultSolver(false).name, nullptr)->solve(system, options, expected, {});
+  const auto [min, max] = std::minmax_element(expected.begin(), expected.end());
+  const double range = *max - *min;
+  for (const Solver& solver : solverTable()) {
+    if (!solver.needsDevice) continue;
+    control.checkpoint(0);
+    SolverCheckReport check{.name = solver.name, .unknownCount = system.unknownCount()};
+    runTest(check, [&] {
+      const std::unique_ptr<PoissonSolver> made = solver.make(&device);
+      for (int run = 0; run < kRunCount; ++run) {
+        const Stopwatch watch;
+        const SolverReport solved = made->solve(system, options, solution, control.withoutProgress());
+        check.seconds = run == 0 ? watch.seconds() : std::min(check.seconds, watch.seconds());
+        check.iterations = solved.iterations;
+        check.finishedOnCpu = solved.finishedOnCpu;
+        check.passed = solved.converged;
+      }
+      for (size_t i = 0; i < solution.size(); ++i)
+        check.difference = std::max(check.difference, std::abs(solution[i] - expected[i]) / range);
+      check.passed = check.passed && check.difference <= kSolverTolerance;
+    });
+    report.solvers.push_back(std::move(check));
+  }
+}
+
+/// The device that openDevice() opens for the same request.
+std::optional<DeviceDescription> describeChosen(const DeviceRequest& request) {
+  const Instance instance;
+  std::vector<DeviceFacts> facts;
+  for (const VkPhysicalDevice device : instance.physicalDevices()) facts.push_back(describeDevice(device));
+  const DeviceChoice choice = chooseDevice(facts, request);
+  if (!choice.index) return std::nullopt;
+  return describeInFull(instance, *choice.index);
+}
+
+}  // namespace
+
+const TracerReport* DeviceReport::fastest() const {
+  const TracerReport* best = nullptr;
+  for (const TracerReport& tracer : tracers)
+    if (tracer.variant && tracer.passed && (best == nullptr || tracer.raysPerSecond > best->raysPerSecond))
+      best = &tracer;
+  return best;
+}
+
+bool DeviceReport::passed() const {
+  const auto isRight = [](const auto& report) { return report.passed || !report.refusal.empty(); };
+  const bool defaultPassed = std::any_of(tracers.begin(), tracers.end(), [&](const TracerReport& tracer) {
+    return tracer.passed && (tracer.isDefault || !device);
+  });
+  return reason.empty() && defaultPassed && std::all_of(tracers.begin(), tracers.end(), isRight) &&
+         std::all_of(solvers.begin(), solvers.end(), isRight);
+}
+
+DeviceReport reportDevice(const SessionOptions& options, const RunControl& control, double secondsPerRun) {
+  const bool isAutomatic = options.backend == "auto";
+  SessionOptions requested = options;
+  requested.variant = {};
+  const TestScene test(secondsPerRun);
+  DeviceReport report;
+  report.faceCount = test.mesh.faces.size();
+  report.rayCount = static_cast<uint32_t>(test.cone.directions.size());
+
+  std::optional<NamedBackend> vulkan;
+  if (isAutomatic) requested.backend = "vulkan";
+  try {
+    NamedBackend opened = openBackend(requested);
+    report.deviceLines = opened.deviceLines;
+    if (opened.backend->device() == nullptr) {
+      testOther(report, *opened.backend, opened.name, test, control);
+    } else {
+      vulkan = std::move(opened);
+    }
+  } catch (const Error& error) {
+    if (!isAutomatic || error.kind() != ErrorKind::Device || options.requireGpu || !options.device.empty()) throw;
+    report.reason = error.what();
+  }
+  if (vulkan) {
+    const Device& device = *vulkan->backend->device();
+    report.device = describeChosen({.selector = options.device, .requireGpu = options.requireGpu});
+    report.choice = traceChoiceFor(device.facts(), {}, test.scene.bvh);
+    report.workgroups = workgroupShapeFor(device.facts(), report.rayCount, report.choice.kernel);
+    report.walk = walkShapeFor(device.facts());
+    report.defaultSolver = defaultSolver(!vulkan->backend->runsOnCpu()).name;
+    testVariants(report, device, test, control);
+    testSolvers(report, device, test, control);
+    vulkan->backend->requireSilentValidation();
+  }
+  if (isAutomatic && isBackendBuilt("cpu") && !options.requireGpu) {
+    SessionOptions embree;
+    embree.backend = "cpu";
+    testOther(report, *openBackend(embree).backend, "cpu", test, control);
+  }
+  return report;
+}
+
+}  // namespace asdfvk

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "asdf_vk/report.h"
+#include "asdf_vk/run_control.h"
+#include "asdf_vk/session.h"
+#include "trace/vulkan/vulkan_trace_choice.h"
+#include "vk/device_description.h"
+
+namespace asdfvk {
+
+/// Self-test and rate of one way to trace.
+struct TracerReport {
+  std::string backend;                  ///< As Session::backend().
+  std::optional<TraceVariant> variant;  ///< Set for "vulkan".
+  bool isDefault = false;               ///< Of the variants of the device.
+  std::string refusal;                  ///< Set where a limit or a missing feature of the device excludes it.
+  std::string failure;                  ///< Set where it ended with an error.
+  uint32_t comparedCount = 0, differingCount = 0;  ///< As TracerCheck, of 64 faces.
+  bool passed = false;                             ///< It ran and at most one face differs.
+  double raysPerSecond = 0;                        ///< The best of a few runs; 0 where it did not run.
+};
+
+/// Comparison of a solver of the device with the one on the CPU.
+struct SolverCheckReport {
+  std::string name;
+  std::string refusal, failure;  ///< As in TracerReport.
+  uint32_t unknownCount = 0;
+  uint32_t iterations = 0;
+  bool finishedOnCpu = false;  ///< As in SolverReport.
+  double difference = 0;       ///< Greatest one from the solution on the CPU, over the range of that.
+  double seconds = 0;          ///< The best of a few runs.
+  bool passed = false;         ///< It converged and the difference is at most kSolverTolerance.
+};
+inline constexpr double kSolverTolerance = 1e-3;
+
+/// What a device is, whether its kernels compute the values of the reference, and how fast.
+struct DeviceReport {
+  std::vector<std::string> deviceLines;     ///< As Session::deviceLines().
+  std::string reason;                       ///< Why there is no Vulkan device.
+  std::optional<DeviceDescription> device;  ///< Unset without a Vulkan device.
+  VulkanTraceChoice choice;                 ///< The default, and its shapes for 30 rays.
+  VulkanWorkgroupShape workgroups;
+  VulkanWalkShape walk;
+  std::string defaultSolver;
+  uint64_t faceCount = 0;  ///< Of the generated mesh.
+  uint32_t rayCount = 0;   ///< Per cone.
+  std::vector<TracerReport> tracers;
+  std::vector<SolverCheckReport> solvers;
+
+  /// The variant of the device with the greatest rate among those that passed; null where there is none.
+  [[nodiscard]] const TracerReport* fastest() const;
+  /// Nothing failed, and the device's default variant, or the requested backend, passed.
+  [[nodiscard]] bool passed() const;
+};
+
+/// Measures the Vulkan device of the options with every variant of its kernels and every solver, and Embree for
+/// comparison with the backend "auto"; with another backend that one only. SessionOptions::variant is ignored.
+/// secondsPerRun: runs that are shorter trace more faces, up to all of the mesh. Throws Error of kind Device where the
+/// options exclude every device and backend, Error{Cancelled}.
+[[nodiscard]] DeviceReport reportDevice(const SessionOptions& options, const RunControl& control,
+                                        double secondsPerRun = 0.15);
+
+}  // namespace asdfvk

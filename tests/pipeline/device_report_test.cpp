@@ -1,0 +1,162 @@
+#include "pipeline/device_report.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <set>
+#include <stop_token>
+#include <string>
+
+#include "asdf_vk/error.h"
+#include "support/require_failure.h"
+#include "vk/instance.h"
+
+using namespace asdfvk;
+
+namespace {
+
+constexpr double kShortest = 0;  // Seconds per run.
+
+/// A report in which everything passed.
+DeviceReport goodReport() {
+  DeviceReport report;
+  report.device.emplace();
+  report.tracers = {
+      {.backend = "vulkan",
+       .variant = TraceVariant{"seed", "wide", "texel"},
+       .isDefault = true,
+       .passed = true,
+       .raysPerSecond = 10},
+      {.backend = "vulkan", .variant = TraceVariant{"ray", "wide", "texel"}, .passed = true, .raysPerSecond = 20},
+      {.backend = "cpu", .passed = true, .raysPerSecond = 30}};
+  report.solvers = {{.name = "cg", .passed = true}};
+  return report;
+}
+
+}  // namespace
+
+TEST_CASE("a device report passes unless something failed or the default variant did not run") {
+  CHECK(goodReport().passed());
+  const auto passesWith = [](auto change) {
+    DeviceReport report = goodReport();
+    change(report);
+    return report.passed();
+  };
+  const auto refuse = [](TracerReport& tracer) {
+    tracer.passed = false;
+    tracer.refusal = "too few texels";
+  };
+  CHECK_FALSE(passesWith([](DeviceReport& report) { report.reason = "no driver"; }));
+  CHECK_FALSE(passesWith([](DeviceReport& report) { report.tracers[1].passed = false; }));
+  CHECK_FALSE(passesWith([](DeviceReport& report) { report.tracers[2].passed = false; }));
+  CHECK_FALSE(passesWith([](DeviceReport& report) { report.solvers[0].passed = false; }));
+  CHECK_FALSE(passesWith([&](DeviceReport& report) { refuse(report.tracers[0]); }));
+  CHECK(passesWith([&](DeviceReport& report) { refuse(report.tracers[1]); }));
+  CHECK(passesWith([](DeviceReport& report) {
+    report.solvers[0].passed = false;
+    report.solvers[0].refusal = "too few storage buffers";
+  }));
+  CHECK_FALSE(passesWith([](DeviceReport& report) { report.tracers.clear(); }));
+}
+
+TEST_CASE("the fastest variant is one of the device that passed") {
+  DeviceReport report = goodReport();
+  REQUIRE(report.fastest() == &report.tracers[1]);
+  report.tracers[1].passed = false;
+  REQUIRE(report.fastest() == &report.tracers[0]);
+  report.tracers[0].passed = false;
+  CHECK(report.fastest() == nullptr);
+}
+
+TEST_CASE("each variant and solver of the device gives the values of the CPU" * doctest::test_suite("slow")) {
+  if (listDevices().empty()) {
+    MESSAGE("skipped: no Vulkan device");
+    return;
+  }
+  const DeviceReport report = reportDevice({.backend = "vulkan"}, {}, kShortest);
+  REQUIRE(report.device);
+  CHECK(report.passed());
+  CHECK(report.reason.empty());
+  CHECK(report.deviceLines.at(0).find(report.device->facts.name) != std::string::npos);
+  std::set<std::string> variants;
+  for (const TracerReport& tracer : report.tracers) {
+    CAPTURE(tracer.failure);
+    REQUIRE(tracer.variant);
+    CAPTURE(tracer.variant->kernel);
+    CAPTURE(tracer.variant->bvh);
+    CAPTURE(tracer.variant->fetch);
+    variants.insert(tracer.variant->kernel + tracer.variant->bvh + tracer.variant->fetch);
+    CHECK(tracer.backend == "vulkan");
+    if (!tracer.refusal.empty()) continue;
+    CHECK(tracer.passed);
+    CHECK(tracer.comparedCount == 64);
+    CHECK(tracer.raysPerSecond > 0);
+  }
+  CHECK(variants.size() == 12);
+  CHECK(std::count_if(report.tracers.begin(), report.tracers.end(),
+                      [](const TracerReport& tracer) { return tracer.isDefault; }) == 1);
+  CHECK(report.fastest() != nullptr);
+  REQUIRE(report.solvers.size() == 2);
+  for (const SolverCheckReport& solver : report.solvers) {
+    CAPTURE(solver.name);
+    CAPTURE(solver.failure);
+    CAPTURE(solver.difference);
+    if (!solver.refusal.empty()) continue;
+    CHECK(solver.passed);
+    CHECK(solver.unknownCount == 35'000);
+    CHECK(solver.iterations > 0);
+    CHECK(solver.difference > 0);
+  }
+}
+
+TEST_CASE("the description of a device has the limits of its facts, its memory and its queues") {
+  if (listDevices().empty()) return;
+  const Instance instance;
+  const DeviceDescription device = describeInFull(instance, 0);
+  const auto limit = [&](const std::string& name) {
+    for (const auto& [candidate, value] : device.limits)
+      if (candidate == name) return value;
+    FAIL_CHECK(name);
+    return uint64_t{0};
+  };
+  CHECK(device.facts.name == listDevices().at(0).name);
+  CHECK(limit("maxComputeWorkGroupInvocations") == device.facts.maxWorkgroupInvocations);
+  CHECK(limit("maxComputeWorkGroupSizeX") == device.facts.maxWorkgroupSize);
+  CHECK(limit("maxComputeWorkGroupCountX") == device.facts.maxWorkgroupCount);
+  CHECK(limit("maxStorageBufferRange") == device.facts.maxStorageBufferRange);
+  CHECK(limit("maxTexelBufferElements") == device.facts.maxTexelBufferElements);
+  CHECK(limit("maxPerStageDescriptorStorageBuffers") == device.facts.maxStorageBuffersPerStage);
+  CHECK(limit("maxMemoryAllocationSize") == device.facts.maxMemoryAllocationSize);
+  const auto has = [](const std::vector<std::string>& names, const char* name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  CHECK(has(device.subgroupOperations, "vote") == device.facts.hasSubgroupVote);
+  REQUIRE(device.facts.computeQueueFamily.value() < device.queueFamilies.size());
+  CHECK(has(device.queueFamilies[*device.facts.computeQueueFamily].flags, "compute"));
+  CHECK_FALSE(device.heaps.empty());
+  bool isMappable = false;
+  for (const DeviceDescription::MemoryType& type : device.memoryTypes) {
+    CHECK(type.heap < device.heaps.size());
+    isMappable = isMappable || (has(type.flags, "hostVisible") && has(type.flags, "hostCoherent"));
+  }
+  CHECK(isMappable);
+}
+
+TEST_CASE("without Vulkan the report is of the requested backend, and a stop request ends it") {
+  const DeviceReport report = reportDevice({.backend = "reference"}, {}, kShortest);
+  CHECK_FALSE(report.device);
+  CHECK(report.passed());
+  REQUIRE(report.tracers.size() == 1);
+  CHECK(report.tracers[0].backend == "reference");
+  CHECK_FALSE(report.tracers[0].variant);
+  CHECK(report.solvers.empty());
+
+  test::requireFailure([] { return reportDevice({.backend = "vulkan", .device = "no such device"}, {}, kShortest); },
+                       ErrorCode::NoUsableDevice, "no such device");
+  std::stop_source source;
+  source.request_stop();
+  RunControl control;
+  control.stop = source.get_token();
+  test::requireFailure([&] { return reportDevice({.backend = "reference"}, control, kShortest); },
+                       ErrorCode::Cancelled);
+}
