@@ -10,6 +10,7 @@
 #include "asdf_vk/error.h"
 #include "core/parallel.h"
 #include "mesh/curvature.h"
+#include "pipeline/scene_tracers.h"
 #include "poisson/poisson_solver.h"
 #include "poisson/poisson_system.h"
 
@@ -72,25 +73,52 @@ const Solver& Interpolation::chosenSolver() const {
 }
 
 bool Interpolation::predictsOnDevice() const {
-  return computation_.backend.device() != nullptr && !predictorFailed_ && chosenSolver().needsDevice;
+  return computation_.keepsHits() && computation_.backend.device() != nullptr && !predictorFailed_ &&
+         chosenSolver().needsDevice;
+}
+
+/// Null where the CPU predicts.
+DevicePredictor* Interpolation::devicePredictor() {
+  if (!predictsOnDevice()) return nullptr;
+  try {
+    if (!predictor_) {
+      const auto scope = computation_.clock.time(setUpStage(computation_.backend));
+      predictor_ = computation_.backend.makePredictor(computation_.scene, computation_.cone);
+    }
+    return predictor_.get();
+  } catch (const Error& error) {
+    continueOnCpu(error);
+    return nullptr;
+  }
+}
+
+/// Called in the handler of the failure.
+void Interpolation::continueOnCpu(const Error& failure) {
+  if (!isAutomatic() || failure.kind() != ErrorKind::Device) throw;
+  predictorFailed_ = true;
+  computation_.warnings.push_back(
+      {WarningCode::PredictedOnCpu,
+       fmt::format("the CPU predicted values because the device failed: {}", failure.what()),
+       {}});
+}
+
+HitStore* Interpolation::hitStore() {
+  DevicePredictor* const device = devicePredictor();
+  return device != nullptr ? device->hitStore() : nullptr;
 }
 
 void Interpolation::predict(const SeedHits& hits) {
-  if (hits.hits.empty()) return;
-  if (!predictsOnDevice()) return predictWith(nullptr, hits);
-  try {
-    if (!predictor_) predictor_ = computation_.backend.makePredictor(computation_.scene, computation_.cone);
-    predictWith(predictor_.get(), hits);
-  } catch (const Error& error) {
-    if (!isAutomatic() || error.kind() != ErrorKind::Device) throw;
-    predictorFailed_ = true;
-    predictor_.reset();
-    computation_.warnings.push_back(
-        {WarningCode::PredictedOnCpu,
-         fmt::format("the CPU predicted values because the device failed: {}", error.what()),
-         {}});
-    predictWith(nullptr, hits);
+  if (!computation_.keepsHits() || hits.seeds.empty()) return;
+  if (DevicePredictor* const device = devicePredictor()) {
+    try {
+      return predictWith(device, hits);
+    } catch (const Error& error) {
+      continueOnCpu(error);
+    }
   }
+  if (!hits.hits.empty()) return predictWith(nullptr, hits);
+  const std::vector<ConeHit> stored = predictor_->hitStore()->download();
+  predictWith(nullptr, {hits.seeds, stored});
 }
 
 void Interpolation::predictWith(DevicePredictor* device, const SeedHits& hits) {

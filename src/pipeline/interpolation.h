@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "asdf_vk/error.h"
 #include "pipeline/computation.h"
 #include "predict/prediction.h"
 
@@ -22,8 +23,10 @@ class Interpolation {
   /// and the device fails or is too small, the CPU predicts or solves the equation and a warning contains the reason.
   explicit Interpolation(const Computation& computation) : computation_(computation) {}
 
-  /// Predicts all faces from the hits of these seeds; without hits it does nothing. Seeds of an earlier call must be at
-  /// the same indices of hits.seeds.
+  /// Where the device that predicts keeps the hits of seeds; null where the host must keep them.
+  [[nodiscard]] HitStore* hitStore();
+  /// Predicts all faces from the hits of these seeds, or from those in hitStore(); where hits are not kept it does
+  /// nothing. Seeds of an earlier call must be at the same indices of hits.seeds.
   void predict(const SeedHits& hits);
   /// The last one; empty without Guidance::Prediction.
   [[nodiscard]] const Prediction& prediction() const { return prediction_; }
@@ -35,6 +38,8 @@ class Interpolation {
   [[nodiscard]] bool isAutomatic() const { return computation_.options.solver == kAutomaticSolver; }
   [[nodiscard]] const Solver& chosenSolver() const;
   [[nodiscard]] bool predictsOnDevice() const;
+  DevicePredictor* devicePredictor();
+  void continueOnCpu(const Error& failure);
   void predictWith(DevicePredictor* device, const SeedHits& hits);
   [[nodiscard]] const std::vector<double>& weights();
   [[nodiscard]] std::vector<double> divergence();
@@ -45,7 +50,7 @@ class Interpolation {
   const Computation& computation_;
   std::vector<double> weights_;  ///< One per arc of the dual graph; computed lazily, so that tracing does not hold it.
   Prediction prediction_;
-  std::unique_ptr<DevicePredictor> predictor_;  ///< Created at first use.
+  std::unique_ptr<DevicePredictor> predictor_;  ///< Created at first use; kept after a failure, for its hits.
   bool predictorFailed_ = false;
 };
 

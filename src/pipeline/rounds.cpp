@@ -59,7 +59,9 @@ class Rounds {
         clock_(computation.clock),
         tracing_(std::move(tracing)),
         interpolation_(computation),
-        traced_(computation.prepared.geometry.areas.size()) {}
+        traced_(computation.prepared.geometry.areas.size()) {
+    tracing_->keepHitsIn(interpolation_.hitStore());
+  }
 
   RoundsResult run(const RunControl& control) {
     const uint64_t traceableCount = computation_.domain.traceableFaces.size();
@@ -232,6 +234,7 @@ FaceThickness Rounds::measureThickness(const RunControl& control) {
   const auto scope = clock_.time(Stage::Thickness);
   FaceThickness thickness = interpolateThickness(computation_, traced_, control.withoutProgress());
   if (verifiesThickness(computation_) && remainingCount() > 0) {
+    tracing_->keepHitsIn(nullptr);
     const std::span<const double> expected = errors_ ? std::span<const double>(errors_->expected) : std::span<double>{};
     verifyThinRegions(computation_, *tracing_, expected, thickness, control.withoutProgress());
   }

@@ -4,9 +4,12 @@
 #include <malloc.h>
 #endif
 
+#include <algorithm>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
+#include "asdf_vk/error.h"
 #include "seeds/component_seeds.h"
 #include "trace/thickness_tracer.h"
 
@@ -15,6 +18,9 @@ namespace {
 
 // Part of the progress of tracing with Measure::Thickness.
 constexpr double kTracedBeforeThickness = 0.7;
+
+// Seeds whose hits the host holds at a time where a device keeps them.
+constexpr size_t kStoredBlockSeedCount = size_t{1} << 16;
 
 /// Returns freed memory to the system: libraries free many small pieces, and later steps need large ones.
 void returnFreedMemory() {
@@ -48,17 +54,31 @@ SeedTracing::~SeedTracing() {
 }
 
 void SeedTracing::trace(std::span<const uint32_t> faces, TracedSeeds& traced, const RunControl& control) {
+  const size_t blockSize = hitStore_ != nullptr ? kStoredBlockSeedCount : faces.size();
+  size_t begin = 0;
+  do {
+    const size_t count = std::min(blockSize, faces.size() - begin);
+    const auto total = static_cast<double>(std::max<size_t>(1, faces.size()));
+    traceBlock(faces.subspan(begin, count), traced,
+               control.part(static_cast<double>(begin) / total, static_cast<double>(begin + count) / total));
+    begin += count;
+  } while (begin < faces.size());
+}
+
+void SeedTracing::traceBlock(std::span<const uint32_t> faces, TracedSeeds& traced, const RunControl& control) {
+  reserveStored(traced, faces.size());
   std::vector<double> values(faces.size());
   const size_t earlierHitCount = traced.hits.size(), hitCount = faces.size() * computation_.cone.directions.size();
-  std::vector<ConeHit> forThickness;
-  if (computation_.keepsHits())
+  const bool isKept = computation_.keepsHits() && hitStore_ == nullptr;
+  std::vector<ConeHit> passing;
+  if (isKept)
     traced.hits.resize(earlierHitCount + hitCount);
-  else if (shrinker_)
-    forThickness.resize(hitCount);
-  const std::span<ConeHit> hits =
-      computation_.keepsHits() ? std::span(traced.hits).subspan(earlierHitCount) : std::span(forThickness);
+  else if (shrinker_ || hitStore_ != nullptr)
+    passing.resize(hitCount);
+  const std::span<ConeHit> hits = isKept ? std::span(traced.hits).subspan(earlierHitCount) : std::span(passing);
   const double traceEnd = shrinker_ ? kTracedBeforeThickness : 1;
   const TraceStatistics statistics = tracer_->tracer->trace(faces, {values, hits}, control.part(0, traceEnd));
+  if (hitStore_ != nullptr) hitStore_->append(hits);
   if (shrinker_) measureThickness(faces, hits, traced, control.part(traceEnd, 1));
   traced.statistics.rayCount += statistics.rayCount;
   traced.statistics.redoneConeCount += statistics.redoneConeCount;
@@ -81,10 +101,21 @@ void SeedTracing::measureThickness(std::span<const uint32_t> faces, std::span<co
   for (size_t i = 0; i < faces.size(); ++i) traced.thickness[faces[i]] = thickness[i];
 }
 
-void SeedTracing::reserve(TracedSeeds& traced, size_t furtherCount) const {
+void SeedTracing::reserve(TracedSeeds& traced, size_t furtherCount) {
   traced.faces.reserve(traced.faces.size() + furtherCount);
-  if (computation_.keepsHits())
+  reserveStored(traced, furtherCount);
+  if (computation_.keepsHits() && hitStore_ == nullptr)
     traced.hits.reserve(traced.hits.size() + furtherCount * computation_.cone.directions.size());
+}
+
+void SeedTracing::reserveStored(TracedSeeds& traced, size_t furtherCount) {
+  if (hitStore_ == nullptr) return;
+  try {
+    hitStore_->reserve(furtherCount);
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::Device) throw;
+    traced.hits = std::exchange(hitStore_, nullptr)->download();
+  }
 }
 
 void SeedTracing::traceComponentsWithoutValue(TracedSeeds& traced, const RunControl& control) {

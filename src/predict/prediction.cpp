@@ -199,7 +199,8 @@ void predictOnCpu(const PredictionTask& task, const Prediction& earlier, std::ve
 
 Prediction predictValues(const TraceScene& scene, const DualGraph& graph, const Cone& cone, const SeedHits& hits,
                          const PredictionOptions& options, Prediction earlier, DevicePredictor* device) {
-  ASDFVK_CHECK_OP(hits.hits.size(), ==, hits.seeds.size() * cone.directions.size());
+  if (device == nullptr || !hits.hits.empty())
+    ASDFVK_CHECK_OP(hits.hits.size(), ==, hits.seeds.size() * cone.directions.size());
   SeedCells cells = buildSeedCells(graph, hits.seeds);
   Prediction prediction{std::vector<double>(scene.geometry.areas.size(), kNoValue),
                         {},

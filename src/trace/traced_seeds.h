@@ -14,6 +14,19 @@ struct ThicknessStatistics {
   uint64_t redoneBallCount = 0;  ///< See BallShrinker::shrink().
 };
 
+/// Keeps the hits of seeds in the memory of a device, so that the host needs none for them.
+class HitStore {
+ public:
+  virtual ~HitStore() = default;
+
+  /// Memory for the hits of further seeds. Throws Error of kind Device, and then is as before.
+  virtual void reserve(size_t furtherSeedCount) = 0;
+  /// Adds seeds. hits: as ConeResults::hits. Throws as reserve().
+  virtual void append(std::span<const ConeHit> hits) = 0;
+  /// Of all seeds. Throws Error of kind Device.
+  [[nodiscard]] virtual std::vector<ConeHit> download() const = 0;
+};
+
 /// Seed faces and their results.
 struct TracedSeeds {
   explicit TracedSeeds(size_t faceCount) : values(faceCount, kNoValue), isSeed(faceCount, 0) {}
@@ -21,7 +34,7 @@ struct TracedSeeds {
   std::vector<double> values;   ///< #F; NaN where no ray was cast or no hit was valid.
   std::vector<uint8_t> isSeed;  ///< #F, 1 where rays were cast.
   std::vector<uint32_t> faces;  ///< #S, in the order in which they were traced.
-  std::vector<ConeHit> hits;    ///< #S x rays, see ConeResults::hits; empty where hits are not kept.
+  std::vector<ConeHit> hits;    ///< #S x rays, see ConeResults::hits; empty where hits are not kept, or in a HitStore.
   TraceStatistics statistics;
   std::vector<double> thickness;  ///< As `values`; empty where the thickness is not measured.
   ThicknessStatistics thicknessStatistics;
@@ -30,7 +43,7 @@ struct TracedSeeds {
 /// A view of the hits of all rays of some seeds.
 struct SeedHits {
   std::span<const uint32_t> seeds;  ///< #S faces; kNoFace: this seed and its hits are ignored.
-  std::span<const ConeHit> hits;    ///< #S x rays, as ConeResults::hits.
+  std::span<const ConeHit> hits;    ///< #S x rays, as ConeResults::hits; empty where they are in a HitStore.
 
   [[nodiscard]] std::span<const ConeHit> of(uint32_t seed) const {
     const size_t rayCount = seeds.empty() ? 0 : hits.size() / seeds.size();

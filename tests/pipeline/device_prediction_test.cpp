@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "asdf_vk/error.h"
@@ -21,7 +22,7 @@ namespace {
 /// The Vulkan backend as one on a GPU, where "auto" selects the device for predictions and for the equation.
 class GpuBackend final : public Backend {
  public:
-  enum class Predictor { Works, IsMissing, Fails };
+  enum class Predictor { Works, IsMissing, Fails, FailsWithHits, HasNoMemory };
 
   explicit GpuBackend(Predictor predictor) : predictor_(predictor) {
     SessionOptions options;
@@ -40,19 +41,47 @@ class GpuBackend final : public Backend {
   [[nodiscard]] std::unique_ptr<DevicePredictor> makePredictor(const TraceScene& scene, const Cone& cone) override {
     ++requestCount;
     if (predictor_ == Predictor::IsMissing) throw Error(ErrorCode::DeviceLimit, "this device is too small");
-    if (predictor_ == Predictor::Fails) return std::make_unique<FailingPredictor>();
-    return vulkan_->makePredictor(scene, cone);
+    if (predictor_ == Predictor::Works) return vulkan_->makePredictor(scene, cone);
+    return std::make_unique<FailingPredictor>(predictor_, vulkan_->makePredictor(scene, cone));
   }
 
   int requestCount = 0;
 
  private:
+  /// Keeps few hits, so that the host receives those of the first seeds from it.
+  class SmallStore final : public HitStore {
+   public:
+    explicit SmallStore(HitStore& store) : store_(store) {}
+    void reserve(size_t furtherSeedCount) override {
+      if (furtherSeedCount < 100) throw Error(ErrorCode::OutOfDeviceMemory, "no memory is left");
+      store_.reserve(furtherSeedCount);
+    }
+    void append(std::span<const ConeHit> hits) override { store_.append(hits); }
+    [[nodiscard]] std::vector<ConeHit> download() const override { return store_.download(); }
+
+   private:
+    HitStore& store_;
+  };
+
   class FailingPredictor final : public DevicePredictor {
    public:
-    void predict(const PredictionTask&, std::span<double> values) override {
+    FailingPredictor(Predictor kind, std::unique_ptr<DevicePredictor> predictor)
+        : kind_(kind), predictor_(std::move(predictor)), smallStore_(*predictor_->hitStore()) {}
+    HitStore* hitStore() override {
+      if (kind_ == Predictor::Fails) return nullptr;
+      return kind_ == Predictor::HasNoMemory ? &smallStore_ : predictor_->hitStore();
+    }
+    void predict(const PredictionTask& task, std::span<double> values) override {
+      if (kind_ == Predictor::HasNoMemory) return predictor_->predict(task, values);
+      CHECK(task.hits.hits.empty() == (kind_ == Predictor::FailsWithHits));
       std::fill(values.begin(), values.end(), 1.0);
       throw Error(ErrorCode::DeviceLost, "this device was lost");
     }
+
+   private:
+    Predictor kind_;
+    std::unique_ptr<DevicePredictor> predictor_;
+    SmallStore smallStore_;
   };
 
   Predictor predictor_;
@@ -63,6 +92,7 @@ struct Outcome {
   std::vector<double> values;
   std::vector<Warning> warnings;
   int predictorCount = 0;
+  size_t hitCount = 0, seedCount = 0;  ///< hitCount: that the host keeps.
 };
 
 Outcome run(GpuBackend::Predictor predictor, const std::string& solver) {
@@ -81,8 +111,10 @@ Outcome run(GpuBackend::Predictor predictor, const std::string& solver) {
   const FaceDomain domain = wholeMesh(prepared);
   const Computation computation{options, prepared, domain, scene, cone, backend, solvers, clock, outcome.warnings};
   SceneTracers tracers(backend, scene, 0);
-  outcome.values =
-      runRounds(computation, std::make_unique<SeedTracing>(computation, tracers, nullptr), {}).interpolated.values;
+  const RoundsResult result = runRounds(computation, std::make_unique<SeedTracing>(computation, tracers, nullptr), {});
+  outcome.values = result.interpolated.values;
+  outcome.hitCount = result.traced.hits.size();
+  outcome.seedCount = result.traced.faces.size();
   outcome.predictorCount = backend.requestCount;
   return outcome;
 }
@@ -96,7 +128,7 @@ TEST_CASE("on a GPU the device predicts; where it cannot, the CPU does, with one
   CHECK(device.predictorCount == 1);
   CHECK(cpu.predictorCount == 0);
   CHECK(test::haveSameBits(device.values, run(Works, "cg").values));
-  for (const GpuBackend::Predictor predictor : {IsMissing, Fails}) {
+  for (const GpuBackend::Predictor predictor : {IsMissing, Fails, FailsWithHits}) {
     const Outcome outcome = run(predictor, "auto");
     REQUIRE(outcome.warnings.size() == 1);
     CHECK(outcome.warnings[0].code == WarningCode::PredictedOnCpu);
@@ -110,6 +142,16 @@ TEST_CASE("on a GPU the device predicts; where it cannot, the CPU does, with one
       CHECK(sum / static_cast<double>(other->size()) < 1e-3 * high);
     }
   }
+}
+
+TEST_CASE(
+    "where the device has no memory for further hits, the host keeps them, and the device predicts the same values") {
+  using enum GpuBackend::Predictor;
+  const Outcome outcome = run(HasNoMemory, "auto"), expected = run(Works, "auto");
+  CHECK(outcome.hitCount == 30 * outcome.seedCount);
+  CHECK(expected.hitCount == 0);
+  CHECK(outcome.warnings.empty());
+  CHECK(test::haveSameBits(outcome.values, expected.values));
 }
 
 TEST_CASE("with a named solver of the device a prediction that fails there is an error") {

@@ -183,3 +183,32 @@ TEST_CASE("predictions of the device scale with the mesh") {
   for (const double scale : {0.125, std::ldexp(1, -500), std::ldexp(1, 500)})
     CHECK(test::haveSameBits(valuesOf(scale), expected));
 }
+
+TEST_CASE("hits on the device, added in parts, give the predictions of hits on the host, and return unchanged") {
+  const test::ValidatedDevice device;
+  const SeededMesh seeded(makeAnimal(3000).mesh, 300);
+  const VulkanPredictionKernels kernels = kernelsFor(*device, seeded.cone);
+  const auto predictor = makeVulkanPredictor(kernels, seeded.scene(), seeded.cone, {50, 1000});
+  const std::vector<double> expected = predict(seeded, {}, predictor.get());
+  HitStore* const store = predictor->hitStore();
+  REQUIRE(store != nullptr);
+  CHECK(store->download().empty());
+  const size_t rayCount = seeded.cone.directions.size();
+  store->reserve(10);
+  store->append({});
+  for (size_t begin = 0, count = 1; begin < 300; begin += count, count = std::min(2 * count, 300 - begin))
+    store->append(std::span(seeded.hits).subspan(begin * rayCount, count * rayCount));
+  const std::vector<ConeHit> stored = store->download();
+  REQUIRE(stored.size() == seeded.hits.size());
+  CHECK(test::haveSameBits(stored, seeded.hits));
+  const SeedHits hits{seeded.seeds, {}};
+  const auto values = [&] {
+    return predictValues(seeded.scene(), seeded.graph, seeded.cone, hits, {}, {}, predictor.get()).values;
+  };
+  CHECK(test::haveSameBits(values(), expected));
+  CHECK(test::haveSameBits(predict(seeded, {}, predictor.get()), expected));
+  CHECK(test::haveSameBits(values(), expected));
+  test::requireFailure([&] { store->reserve(device->facts().maxStorageBufferRange); }, ErrorCode::DeviceLimit,
+                       "hits are too many");
+  CHECK(store->download().size() == seeded.hits.size());
+}

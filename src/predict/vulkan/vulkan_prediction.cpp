@@ -14,6 +14,7 @@
 #include "core/parallel.h"
 #include "core/unset_vector.h"
 #include "predict/prediction_kernel.h"
+#include "predict/vulkan/vulkan_hit_store.h"
 #include "shared/cone_hit.h"
 #include "shared/cone_layout.h"
 #include "shared/prediction_layout.h"
@@ -128,6 +129,7 @@ class VulkanPredictor final : public DevicePredictor {
         cone_(cone),
         batchSize_(batchSize),
         rules_(PredictionKernel::rulesOf(cone)),
+        store_(kernels.device(), kernels.rayCount()),
         faces_(uploadFaces(kernels.device(), scene)),
         values_(kernels.device(), std::max<uint64_t>(16, scene.geometry.areas.size() * sizeof(uint32_t)),
                 kStorage | VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryKind::DeviceLocal),
@@ -138,17 +140,26 @@ class VulkanPredictor final : public DevicePredictor {
     ASDFVK_CHECK_OP(batchSize.maxFaceCount, >, size_t{0});
   }
 
+  HitStore* hitStore() override { return &store_; }
+
   void predict(const PredictionTask& task, std::span<double> values) override {
     if (task.options.neighbourCount >= kMaxContributingSeedCount)
       throw Error(ErrorCode::DeviceLimit, fmt::format("{} neighbouring seeds per face are too many; give 0 to {}",
                                                       task.options.neighbourCount, kMaxContributingSeedCount - 1));
     if (task.order.empty()) return;
+    const bool isStored = task.hits.hits.empty();
+    if (isStored) ASDFVK_CHECK_OP(store_.seedCount(), ==, task.hits.seeds.size());
     reserve(task);
+    if (!isStored && !memory_->hits)
+      memory_->hits.emplace(kernels_.device(), memory_->seedCount * kernels_.rayCount() * sizeof(ConeHit));
+    const Buffer& hits = isStored ? store_.buffer() : memory_->hits->buffer();
+    const BindingSet pointBindings(kernels_.device(), kernels_.points(),
+                                   std::array<Binding, 4>{faces_, memory_->table.buffer(), hits, memory_->points});
     placeOf_.assign(task.hits.seeds.size(), kNoSeed);
     forEachBatch(task, [&](const Batch& batch) {
       writeSeeds(task, batch);
       writeWork(task, batch);
-      dispatch(task, batch);
+      dispatch(task, batch, pointBindings);
     });
     std::vector<uint32_t> lengths(values.size());
     downloadBuffer(kernels_.device(), values_, std::as_writable_bytes(std::span(lengths)));
@@ -167,19 +178,17 @@ class VulkanPredictor final : public DevicePredictor {
         : seedCount(seeds),
           faceCount(items),
           table(kernels.device(), kernels.rayCount() * sizeof(PredictionRay) + seeds * sizeof(PredictionSeed)),
-          hits(kernels.device(), seeds * kernels.rayCount() * sizeof(ConeHit)),
           work(kernels.device(), (2 * items + kMaxContributingSeedCount * seeds) * sizeof(uint32_t)),
           points(kernels.device(), seeds * (kernels.rayCount() + 1) * sizeof(PredictionPoint), kStorage,
                  MemoryKind::DeviceLocal),
-          pointBindings(kernels.device(), kernels.points(),
-                        std::array<Binding, 4>{faces, table.buffer(), hits.buffer(), points}),
           faceBindings(kernels.device(), kernels.faces(),
                        std::array<Binding, 4>{faces, points, work.buffer(), values}) {}
 
     size_t seedCount, faceCount;
-    Upload table, hits, work;
+    Upload table, work;
+    std::optional<Upload> hits;  // Of the seeds of the batch, where the host keeps the hits.
     Buffer points;
-    BindingSet pointBindings, faceBindings;
+    BindingSet faceBindings;
   };
 
   /// Small meshes need little.
@@ -229,13 +238,14 @@ class VulkanPredictor final : public DevicePredictor {
   void writeSeeds(const PredictionTask& task, const Batch& batch) const {
     const size_t rayCount = kernels_.rayCount();
     const std::span<std::byte> table = memory_->table.mappedAs<std::byte>().subspan(rayCount * sizeof(PredictionRay));
-    const std::span<ConeHit> hits = memory_->hits.mappedAs<ConeHit>();
+    const bool isStored = task.hits.hits.empty();
+    const std::span<ConeHit> hits = isStored ? std::span<ConeHit>{} : memory_->hits->mappedAs<ConeHit>();
     forEachInParallel(batch.seeds.size(), [&](uint32_t i) {
       const uint32_t face = task.hits.seeds[batch.seeds[i]];
-      const auto firstHit = static_cast<uint32_t>(i * rayCount);
+      const auto firstHit = static_cast<uint32_t>((isStored ? batch.seeds[i] : i) * rayCount);
       const PredictionSeed seed{toGlsl(seedConeFrame(scene_, cone_, face).tangent), face, firstHit, 0, 0, 0};
       std::memcpy(&table[i * sizeof seed], &seed, sizeof seed);
-      std::ranges::copy(task.hits.of(batch.seeds[i]), hits.begin() + firstHit);
+      if (!isStored) std::ranges::copy(task.hits.of(batch.seeds[i]), hits.begin() + firstHit);
     });
   }
 
@@ -255,7 +265,7 @@ class VulkanPredictor final : public DevicePredictor {
     });
   }
 
-  void dispatch(const PredictionTask& task, const Batch& batch) {
+  void dispatch(const PredictionTask& task, const Batch& batch, const BindingSet& pointBindings) {
     const auto seedCount = static_cast<uint32_t>(batch.seeds.size());
     const PointPush pointPush{static_cast<float>(cone_.falseHitCosine), static_cast<float>(cone_.outliers.deviations)};
     const PredictionPush push{static_cast<uint32_t>(batch.faceCount),
@@ -268,11 +278,12 @@ class VulkanPredictor final : public DevicePredictor {
                               static_cast<float>(task.options.distanceDeviation)};
     commands_.begin();
     memory_->table.record(commands_, kernels_.rayCount() * sizeof(PredictionRay) + seedCount * sizeof(PredictionSeed));
-    memory_->hits.record(commands_, uint64_t{seedCount} * kernels_.rayCount() * sizeof(ConeHit));
+    if (!task.hits.hits.empty())
+      memory_->hits->record(commands_, uint64_t{seedCount} * kernels_.rayCount() * sizeof(ConeHit));
     memory_->work.record(commands_,
                          (2 * batch.faceCount + kMaxContributingSeedCount * batch.parts.size()) * sizeof(uint32_t));
     commands_.barrier();
-    commands_.dispatch(kernels_.points(), memory_->pointBindings, bytesOf(pointPush), seedCount);
+    commands_.dispatch(kernels_.points(), pointBindings, bytesOf(pointPush), seedCount);
     commands_.barrier();
     commands_.dispatch(kernels_.faces(), memory_->faceBindings, bytesOf(push),
                        divideUp(batch.faceCount, VulkanPredictionKernels::kFaceLaneCount));
@@ -285,6 +296,7 @@ class VulkanPredictor final : public DevicePredictor {
   const Cone& cone_;
   PredictionBatchSize batchSize_;
   PredictionKernel::Rules rules_;
+  VulkanHitStore store_;
   Buffer faces_;   // A PredictionFace per face.
   Buffer values_;  // Per face, see predict_faces.comp.
   std::optional<Memory> memory_;
