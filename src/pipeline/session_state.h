@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <vector>
 
@@ -40,8 +41,8 @@ auto SessionState::compute(bool mayReplace, const RunControl& control, const Com
   RunControl watched = control;
   if (control.progress)
     watched.progress = [&](double fraction) {
-      done = fraction;
-      control.progress(fraction);
+      done = std::max(done, fraction);  // A solver that replaces one on the device begins anew.
+      control.progress(done);
     };
   while (true) {
     const double begin = done;
