@@ -10,51 +10,31 @@
 #include "generate/shapes.h"
 #include "shared/cone_layout.h"
 #include "support/bits.h"
+#include "support/fake_device.h"
 #include "support/require_failure.h"
 #include "support/shared_session.h"
 #include "trace/cone_tracer.h"
 
 using namespace asdfvk;
+using test::FakeDevice;
 using test::findWarning;
 using test::requireFailure;
+using test::ScopedVariable;
 
 namespace {
 
-/// While it exists, every submission from the nth on loses the device.
-class LostDevice {
- public:
-  explicit LostDevice(uint32_t n) : submit_(vkQueueSubmit) {
-    original = submit_;
-    remaining = n;
-    vkQueueSubmit = [](VkQueue queue, uint32_t count, const VkSubmitInfo* infos, VkFence fence) -> VkResult {
-      if (remaining <= 1) return VK_ERROR_DEVICE_LOST;
-      --remaining;
-      return original(queue, count, infos, fence);
-    };
-  }
-  ~LostDevice() { vkQueueSubmit = submit_; }
-  LostDevice(const LostDevice&) = delete;
-  LostDevice& operator=(const LostDevice&) = delete;
+/// A GPU with memory of its own: uploads are submissions, and `auto` solves on the device.
+const FakeDevice::Variables kGpu{
+    {"ASDF_VK_FAKE_TYPE", "discrete"}, {"ASDF_VK_FAKE_SEPARATE_MEMORY", "1"}, {"ASDF_VK_FAKE_STORAGE_BUFFERS", "8"}};
 
- private:
-  static inline PFN_vkQueueSubmit original = nullptr;
-  static inline uint32_t remaining = 0;
-  PFN_vkQueueSubmit submit_;
+/// While it exists, the nth submission of each device, and later ones, lose it.
+struct LostDevice : ScopedVariable {
+  explicit LostDevice(uint32_t n) : ScopedVariable("ASDF_VK_FAKE_LOST_AT", std::to_string(n)) {}
 };
 
-/// While it exists, the device has no memory left.
-class FullDevice {
- public:
-  FullDevice() : allocate_(vkAllocateMemory) {
-    vkAllocateMemory = [](VkDevice, const VkMemoryAllocateInfo*, const VkAllocationCallbacks*,
-                          VkDeviceMemory*) -> VkResult { return VK_ERROR_OUT_OF_DEVICE_MEMORY; };
-  }
-  ~FullDevice() { vkAllocateMemory = allocate_; }
-  FullDevice(const FullDevice&) = delete;
-  FullDevice& operator=(const FullDevice&) = delete;
-
- private:
-  PFN_vkAllocateMemory allocate_;
+/// While it exists, devices have no memory left from their nth allocation on.
+struct FullDevice : ScopedVariable {
+  explicit FullDevice(uint32_t n = 1) : ScopedVariable("ASDF_VK_FAKE_NO_MEMORY_AT", std::to_string(n) + "+") {}
 };
 
 /// While it exists, kernels drop all hits as false, so that no face has a value.
@@ -82,6 +62,52 @@ class WrongDevice {
 
 const std::string kNextBackend = hasEmbree() ? "cpu" : "reference";
 
+/// Two meshes with their values on the device, and on the backend that comes after it.
+struct Expected {
+  Mesh meshes[2] = {makeTorus(1000).mesh, makeSphere(500).mesh};
+  std::vector<double> onDevice[2], replaced[2];
+
+  Expected() {
+    Session device, next({.backend = kNextBackend});
+    for (const int i : {0, 1}) {
+      onDevice[i] = device.compute(meshes[i]).sdf();
+      replaced[i] = next.compute(meshes[i]).sdf();
+    }
+  }
+
+  /// Whether a new session, to which the environment may do harm, had a failure. The values are complete either way.
+  [[nodiscard]] bool check(ErrorCode code) const {
+    Session session;
+    bool hasFailed = false;
+    for (const int i : {0, 1}) {
+      double last = 0;
+      const RunControl control{{}, [&](double fraction) {
+                                 CHECK(fraction >= last);
+                                 CHECK(fraction <= 1);
+                                 last = fraction;
+                               }};
+      const Result result = session.compute(meshes[i], {}, control);
+      CHECK(last == 1);
+      const Warning* warning = findWarning(result.report, WarningCode::BackendReplaced);
+      CHECK((warning != nullptr) == (result.report.backend == kNextBackend));
+      if (warning != nullptr) {
+        REQUIRE(warning->details.size() == 2);
+        CHECK(warning->details[1].value == nameOf(code));
+        CHECK(test::haveSameBits(result.sdf(), replaced[i]));
+      } else if (result.report.warnings.empty()) {
+        CHECK(test::haveSameBits(result.sdf(), onDevice[i]));
+      } else {
+        // The CPU solved the equation.
+        for (size_t f = 0; f < onDevice[i].size(); ++f)
+          CHECK(result.sdf()[f] == doctest::Approx(onDevice[i][f]).epsilon(0.01));
+      }
+      if (code == ErrorCode::DeviceLost && hasFailed) CHECK(warning != nullptr);  // A device is lost for ever.
+      hasFailed = hasFailed || !result.report.warnings.empty();
+    }
+    return hasFailed;
+  }
+};
+
 void checkReplaced(Session& session, const Mesh& mesh, const Result& result, ErrorCode code) {
   CHECK(result.report.backend == kNextBackend);
   CHECK(session.backend() == kNextBackend);
@@ -99,33 +125,40 @@ void checkReplaced(Session& session, const Mesh& mesh, const Result& result, Err
 
 }  // namespace
 
-TEST_CASE("auto continues with the next backend when the device is lost, for the mesh and for later ones") {
-  const Mesh mesh = makeTorus(1000).mesh, other = makeSphere(500).mesh;
-  for (const uint32_t n : {1u, 2u}) {
+TEST_CASE("auto completes a mesh and later ones, whichever submission loses the device") {
+  const FakeDevice fake(kGpu);
+  const Expected expected;
+  uint32_t n = 1;
+  for (bool isLost = true; isLost; n += n < 4 ? 1 : 3) {
     CAPTURE(n);
-    Session session;
-    CHECK(findWarning(session.compute(other).report, WarningCode::BackendReplaced) == nullptr);
-    double last = 0;
-    const RunControl control{{}, [&](double fraction) {
-                               CHECK(fraction >= last);
-                               CHECK(fraction <= 1);
-                               last = fraction;
-                             }};
-    const Result result = [&] {
-      const LostDevice lost(n);
-      return session.compute(mesh, {}, control);
-    }();
-    CHECK(last == 1);
-    checkReplaced(session, mesh, result, ErrorCode::DeviceLost);
-    checkReplaced(session, other, session.compute(other), ErrorCode::DeviceLost);
+    const LostDevice lost(n);
+    isLost = expected.check(ErrorCode::DeviceLost);
+    REQUIRE(n < 300);
   }
+  CHECK(n > 5);
 }
 
-TEST_CASE("auto continues with the next backend when the device has no memory left") {
-  const Mesh mesh = makeTorus(1000).mesh;
-  Session session;
-  const FullDevice full;
-  checkReplaced(session, mesh, session.compute(mesh), ErrorCode::OutOfDeviceMemory);
+TEST_CASE("auto completes a mesh and later ones, whichever allocation finds no memory left") {
+  const FakeDevice fake(kGpu);
+  const Expected expected;
+  uint32_t n = 1;
+  for (bool isFull = true; isFull; n = 2 * n) {
+    CAPTURE(n);
+    const FullDevice full(n);
+    isFull = expected.check(ErrorCode::OutOfDeviceMemory);
+    REQUIRE(n < 2000);
+  }
+  CHECK(n > 5);
+}
+
+TEST_CASE("where one allocation fails, a buffer is in other memory and nothing else changes") {
+  const FakeDevice fake(kGpu);
+  const Expected expected;
+  for (uint32_t n = 1; n < 100; n = 2 * n + 1) {
+    CAPTURE(n);
+    const ScopedVariable full("ASDF_VK_FAKE_NO_MEMORY_AT", std::to_string(n));
+    CHECK_FALSE(expected.check(ErrorCode::OutOfDeviceMemory));
+  }
 }
 
 TEST_CASE("a device with wrong values is refused at its first use") {
@@ -143,17 +176,21 @@ TEST_CASE("a device with wrong values is refused at its first use") {
 }
 
 TEST_CASE("a requested backend, device, variant or solver of the device is not replaced") {
+  const FakeDevice fake(kGpu);
   const Mesh mesh = makeTorus(1000).mesh;
   for (const SessionOptions& options : {SessionOptions{.backend = "vulkan"}, SessionOptions{.device = "0"},
                                         SessionOptions{.variant = {.bvh = "wide"}}}) {
     Session session(options);
     {
-      const LostDevice lost(1);
+      const FullDevice full;
+      requireFailure([&] { (void)session.compute(mesh); }, ErrorCode::OutOfDeviceMemory, "out of device memory");
+    }
+    (void)session.compute(mesh);
+    for (const uint32_t n : {1, 1000}) {  // For ever, also where nothing loses the device any more.
+      const LostDevice lost(n);
       requireFailure([&] { (void)session.compute(mesh); }, ErrorCode::DeviceLost, "the device was lost");
     }
     CHECK(session.backend() == "vulkan");
-    const FullDevice full;
-    requireFailure([&] { (void)session.compute(mesh); }, ErrorCode::OutOfDeviceMemory, "out of device memory");
   }
   Session session;
   Options options;
@@ -163,6 +200,7 @@ TEST_CASE("a requested backend, device, variant or solver of the device is not r
 }
 
 TEST_CASE("a scene continues with the backend that replaces a lost device") {
+  const FakeDevice fake(kGpu);
   const Mesh mesh = makeTorus(1000).mesh;
   Session session, expectedSession({.backend = kNextBackend});
   Scene scene(session, mesh), other(session, mesh), expected(expectedSession, mesh);

@@ -10,6 +10,13 @@
 
 namespace asdfvk::test {
 
+/// Whether the device has the storage buffers that the solvers need, eight; Vulkan promises four.
+inline bool hasBuffersForSolvers(const Device& device) {
+  const uint32_t count = device.facts().maxStorageBuffersPerStage;
+  if (count < 8) MESSAGE("without solvers on the device, which has " << count << " storage buffers");
+  return count >= 8;
+}
+
 /// The best Vulkan device of this machine under core and synchronization validation. Its end is the check that the
 /// layers reported nothing; tests/vk has the control that proves that they report errors.
 class ValidatedDevice {

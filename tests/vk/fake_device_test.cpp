@@ -73,7 +73,7 @@ TEST_CASE("memory of a fake device is separate and poisoned") {
 TEST_CASE("the validation layer sees the fake device") {
   FakeDevice::Variables variables = kDiscrete;
   variables.emplace_back("ASDF_VK_FAKE_TEXELS", "65536");
-  const FakeDevice fake(variables);
+  const FakeDevice fake(variables, FakeDevice::ValidationSees::Fake);
   const auto instance = std::make_unique<Instance>(InstanceOptions{.validation = true});
   const std::shared_ptr<ValidationLog> log = instance->validationLog();
   OpenedDevice opened = openDevice(*instance, {});

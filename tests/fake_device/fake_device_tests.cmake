@@ -1,0 +1,42 @@
+# Tests on the fake devices, fake-DEVICE-FOLDER with the label `fake`: the cases below, of those that use a device. With
+# `ctest -C devices` also fake-DEVICE-FOLDER-all with the label `fake-all`: all cases, which takes minutes.
+set(casesOf_vk "*")
+set(casesOf_trace "turned cones*" "all tracers agree on cones*" "hits of cones that the reference redoes*"
+    "hits do not depend on where a chunk ends" "rays without a hit are misses*" "copies of faces*" "two runs on the device*"
+    "a trace on the device stops*" "details too small*" "balls beyond the limits*" "the kernel is chosen by*"
+    "each field of the shared structs*")
+set(casesOf_trace_lanes128 "any number of rays gives the reference's hits")
+set(casesOf_poisson "iterations*" "Jacobi sweeps*" "a distinct word*" "a torus has the solution*" "rows are read*"
+    "solvers of a device*" "the solution is that of dense algebra*")
+set(casesOf_pipeline "a tenth of the faces casts*" "two runs give the same bits" "all solvers give*"
+    "a warning reports that the CPU finished*" "the device and the reference agree*" "backends agree in the thickness*"
+    "a session computes by both definitions*" "a stop request*" "a point has the same value alone*"
+    "a region of all faces*")
+# The cases of the prediction are those of the files of its kernels.
+set(casesOf_predict "*")
+set(filesOf_predict "*vulkan*")
+
+function(asdfvk_fake_device_tests device folder)
+  set(run ${ASDFVK_FAKE_DEVICE_DIR}/${device} $<TARGET_FILE:asdfvk-test-${folder}>
+      --source-file-exclude=*real_meshes_test.cpp)
+  set(cases ${casesOf_${folder}} ${casesOf_${folder}_${device}})
+  list(JOIN cases "," cases)
+  set(files "*")
+  if(filesOf_${folder})
+    set(files ${filesOf_${folder}})
+    file(GLOB present CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/${files}_test.cpp)
+  endif()
+  add_dependencies(asdfvk-test-${folder} asdfvk-fake-device)
+  if(present OR NOT filesOf_${folder})
+    add_test(NAME fake-${device}-${folder} COMMAND ${run} --test-case=${cases} --source-file=${files})
+    set_tests_properties(fake-${device}-${folder} PROPERTIES LABELS fake FAIL_REGULAR_EXPRESSION "test cases: +0 ")
+  endif()
+  add_test(NAME fake-${device}-${folder}-all CONFIGURATIONS devices COMMAND ${run})
+  set_tests_properties(fake-${device}-${folder}-all PROPERTIES LABELS fake-all)
+endfunction()
+
+foreach(device IN LISTS ASDFVK_FAKE_DEVICES)
+  foreach(folder vk trace poisson predict pipeline)
+    asdfvk_fake_device_tests(${device} ${folder})
+  endforeach()
+endforeach()
