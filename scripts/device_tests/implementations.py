@@ -1,0 +1,246 @@
+"""The Vulkan implementations at hand, and the environments in which programs run on them."""
+
+from __future__ import annotations
+
+import ctypes
+import dataclasses
+import itertools
+import json
+import os
+import pathlib
+import subprocess
+
+from packages import PackageSources, Unavailable, is_newer, unpack
+
+LAYER = "VK_LAYER_KHRONOS_validation"
+SUITES = ("vk", "trace", "poisson", "predict", "pipeline", "cli")  # as in scripts/test-devices
+KERNEL_SUITES = ("vk", "trace", "poisson", "predict")
+QUICK_SUITES = ("vk", "poisson", "predict")
+# lavapipe has a subgroup of one lane per 32 bits of these vectors.
+_LAVAPIPE_VECTOR_BITS = (128, 256, 512)
+# Of the machine, not of an implementation.
+_UNRELATED_VARIABLES = (
+    "VK_INSTANCE_LAYERS",
+    "VK_LAYER_PATH",
+    "VK_ADD_LAYER_PATH",
+    "ASDF_VK_VALIDATION",
+    "LP_NATIVE_VECTOR_WIDTH",
+    "LP_NUM_THREADS",
+)
+
+
+@dataclasses.dataclass(frozen=True)
+class Implementation:
+    name: str
+    title: str
+    environment: dict[str, str] = dataclasses.field(default_factory=dict)
+    wrapper: tuple[str, ...] = ()  # program that runs a command on a fake device
+    suites: tuple[str, ...] = SUITES
+
+
+@dataclasses.dataclass(frozen=True)
+class ValidationLayer:
+    version: str
+    environment: dict[str, str]
+
+
+@dataclasses.dataclass(frozen=True)
+class Surroundings:
+    """Where programs and downloads are."""
+
+    build: pathlib.Path  # of CMake
+    folder: pathlib.Path  # build/devices
+
+    @property
+    def program(self) -> str:
+        return str(self.build / "src/asdf-vk")
+
+    def environment(self, *parts: dict[str, str]) -> dict[str, str]:
+        """That of this process without settings of Vulkan, and with files below `folder` only."""
+        result = dict(os.environ)
+        for name in _UNRELATED_VARIABLES:
+            result.pop(name, None)
+        for name, place in (("TMPDIR", "tmp"), ("XDG_CACHE_HOME", "cache")):
+            (self.folder / place).mkdir(parents=True, exist_ok=True)
+            result[name] = str(self.folder / place)
+        for part in parts:
+            result.update(part)
+        return result
+
+    def devices(self, environment: dict[str, str]) -> list[dict[str, object]]:
+        """Of --list-devices."""
+        command = [self.program, "--list-devices", "--json"]
+        variables = self.environment(environment)
+        done = subprocess.run(command, check=True, capture_output=True, text=True, env=variables)
+        devices: list[dict[str, object]] = json.loads(done.stdout)["devices"]
+        return devices
+
+
+def with_driver(manifest: pathlib.Path) -> dict[str, str]:
+    return {"VK_DRIVER_FILES": str(manifest), "VK_ICD_FILENAMES": str(manifest)}
+
+
+def _driver_of(surroundings: Surroundings, name: str, library: pathlib.Path) -> dict[str, str]:
+    manifest = surroundings.folder / f"{name}_icd.json"
+    icd = {"library_path": str(library), "api_version": "1.3.0"}
+    manifest.write_text(json.dumps({"file_format_version": "1.0.0", "ICD": icd}))
+    return with_driver(manifest)
+
+
+def _find(folder: pathlib.Path, name: str) -> pathlib.Path:
+    found = sorted(folder.rglob(name))
+    if not found:
+        raise Unavailable(f"{folder.name} contains no {name}")
+    return found[0]
+
+
+def _is_program(file: pathlib.Path) -> bool:
+    return file.is_file() and os.access(file, os.X_OK) and not file.suffix
+
+
+class Drivers:
+    """Finds implementations; `missing` collects the reasons of those that are not at hand."""
+
+    def __init__(self, surroundings: Surroundings) -> None:
+        self._surroundings = surroundings
+        self._sources: PackageSources | None = None
+        self._chromium: pathlib.Path | None = None
+        self.missing: list[str] = []
+        self.layer = ValidationLayer("of the system", {})
+        try:
+            self._sources = PackageSources(surroundings.folder / "apt")
+            self._chromium = self._unpack("chromium-common", "chromium")
+            self.layer = self._newest_layer(self._chromium)
+        except Unavailable as reason:
+            self.missing.append(f"SwiftShader and its validation layer: {reason}")
+
+    def all(self) -> list[Implementation]:
+        return [
+            *self._gpus(),
+            *self._lavapipe(),
+            *self._swiftshader(),
+            *self._newer_mesa(),
+            *self._fakes(),
+        ]
+
+    def _gpus(self) -> list[Implementation]:
+        devices = self._surroundings.devices({})
+        if any(device["usable"] and device["kind"] != "CPU" for device in devices):
+            return [Implementation("gpu", "GPU of this machine")]
+        self.missing.append("GPU: no usable device of this machine is one")
+        return []
+
+    def _lavapipe(self) -> list[Implementation]:
+        manifests = sorted(pathlib.Path("/usr/share/vulkan/icd.d").glob("lvp_icd*.json"))
+        if not manifests:
+            self.missing.append("lavapipe: no /usr/share/vulkan/icd.d/lvp_icd*.json")
+            return []
+        found = []
+        for bits in _LAVAPIPE_VECTOR_BITS:
+            lanes = bits // 32
+            environment = with_driver(manifests[0]) | {"LP_NATIVE_VECTOR_WIDTH": str(bits)}
+            title = f"lavapipe, subgroups of {lanes}"
+            suites = SUITES if lanes == 8 else KERNEL_SUITES
+            found.append(Implementation(f"lavapipe{lanes}", title, environment, (), suites))
+        return found
+
+    def _swiftshader(self) -> list[Implementation]:
+        if self._chromium is None:
+            return []
+        library = _find(self._chromium, "libvk_swiftshader.so")
+        title = f"SwiftShader of {self._chromium.name.replace('_', ' ')}"
+        environment = _driver_of(self._surroundings, "swiftshader", library)
+        return [Implementation("swiftshader", title, environment)]
+
+    def _newer_mesa(self) -> list[Implementation]:
+        try:
+            if self._sources is None:
+                raise Unavailable("the package sources cannot be read")
+            package = "mesa-vulkan-drivers"
+            newest = self._sources.newest(package)
+            installed = self._sources.installed_version(package)
+            if not is_newer(newest.version, installed):
+                raise Unavailable(f"the package sources have {newest.version}, which is installed")
+            required = self._sources.required(package, newest)
+            if "libc6" in required:
+                raise Unavailable(f"{newest.version} needs another libc6")
+            folder = self._surroundings.folder / f"mesa_{newest.version}"
+            for name, version in required.items():
+                unpack(self._sources.download(name, version), folder)
+            library = _find(folder, "libvulkan_lvp.so")
+        except Unavailable as reason:
+            self.missing.append(f"newer Mesa: {reason}")
+            return []
+        environment = _driver_of(self._surroundings, "newer_mesa", library)
+        environment["LD_LIBRARY_PATH"] = str(library.parent)
+        return [Implementation("newer-mesa", f"lavapipe of Mesa {newest.version}", environment)]
+
+    def _fakes(self) -> list[Implementation]:
+        """On lavapipe; ctest runs the suites on them."""
+        folder = self._surroundings.build / "tests/fake_device"
+        wrappers = sorted(file for file in folder.glob("*") if _is_program(file))
+        if not wrappers:
+            self.missing.append(f"fake devices: no programs in {folder}")
+        found = []
+        for wrapper, lavapipe in itertools.product(wrappers, self._lavapipe()):
+            if lavapipe.name != "lavapipe8":
+                continue
+            title = f"fake device {wrapper.name} on lavapipe"
+            environment, command = lavapipe.environment, (str(wrapper),)
+            found.append(Implementation(f"fake-{wrapper.name}", title, environment, command, ()))
+        return found
+
+    def _unpack(self, package: str, name: str) -> pathlib.Path:
+        assert self._sources is not None
+        version = self._sources.newest(package).version
+        folder = self._surroundings.folder / f"{name}_{version}"
+        if not folder.exists():
+            unpack(self._sources.download(package, version), folder)
+        return folder
+
+    def _newest_layer(self, folder: pathlib.Path) -> ValidationLayer:
+        """The layer of that package; the package has no manifest."""
+        library = _find(folder, "libVkLayer_khronos_validation.so")
+        version = _layer_version(library)
+        extensions = {
+            "VK_EXT_debug_utils": "2",
+            "VK_EXT_validation_features": "6",
+            "VK_EXT_layer_settings": "2",
+        }
+        layer = {
+            "name": LAYER,
+            "type": "GLOBAL",
+            "library_path": str(library),
+            "api_version": version,
+            "implementation_version": "1",
+            "description": "Khronos validation layer",
+            "instance_extensions": [
+                {"name": name, "spec_version": number} for name, number in extensions.items()
+            ],
+        }
+        manifests = self._surroundings.folder / "layers"
+        manifests.mkdir(exist_ok=True)
+        (manifests / "VkLayer_khronos_validation.json").write_text(
+            json.dumps({"file_format_version": "1.2.0", "layer": layer}))
+        return ValidationLayer(version, {"VK_LAYER_PATH": str(manifests)})
+
+
+class _LayerProperties(ctypes.Structure):
+    _fields_ = (
+        ("name", ctypes.c_char * 256),
+        ("specification", ctypes.c_uint32),
+        ("implementation", ctypes.c_uint32),
+        ("description", ctypes.c_char * 256),
+    )
+
+
+def _layer_version(library: pathlib.Path) -> str:
+    """The version of Vulkan that the layer was made for."""
+    count, properties = ctypes.c_uint32(1), _LayerProperties()
+    try:
+        enumerate_layers = ctypes.CDLL(str(library)).vkEnumerateInstanceLayerProperties
+        enumerate_layers(ctypes.byref(count), ctypes.byref(properties))
+    except (OSError, AttributeError) as error:
+        raise Unavailable(str(error)) from error
+    packed = properties.specification
+    return f"{packed >> 22 & 0x7f}.{packed >> 12 & 0x3ff}.{packed & 0xfff}"
