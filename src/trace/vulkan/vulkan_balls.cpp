@@ -24,13 +24,13 @@ uint64_t largestChunk(const Device& device) {
                    device.facts().maxStorageBufferRange / sizeof(BallStart)});
 }
 
-constexpr VkBufferUsageFlags kStorage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
+constexpr VkBufferUsageFlags kBallUsage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
 
 /// Memory and commands for one submission of balls.
 struct BallChunk {
   BallChunk(const VulkanConeKernel& kernel, const ConeBuffers& buffers, uint64_t capacity)
-      : starts(kernel.device(), capacity * sizeof(BallStart), kStorage, MemoryKind::HostVisible),
-        results(kernel.device(), capacity * sizeof(uint32_t), kStorage, MemoryKind::HostVisible),
+      : starts(kernel.device(), capacity * sizeof(BallStart), kBallUsage, MemoryKind::HostVisible),
+        results(kernel.device(), capacity * sizeof(uint32_t), kBallUsage, MemoryKind::HostVisible),
         bindings(kernel.device(), *kernel.balls(), buffers.ballBindings(*starts, *results)),
         commands(kernel.device()) {}
 

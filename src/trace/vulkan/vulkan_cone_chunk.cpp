@@ -5,8 +5,8 @@
 namespace asdfvk {
 namespace {
 
-constexpr VkBufferUsageFlags kStorage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
-constexpr VkBufferUsageFlags kOriginUsage = kStorage | VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT;
+constexpr VkBufferUsageFlags kChunkUsage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
+constexpr VkBufferUsageFlags kOriginUsage = kChunkUsage | VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT;
 
 uint32_t groupCount(uint32_t count, uint32_t perGroup) { return (count + perGroup - 1) / perGroup; }
 
@@ -21,15 +21,15 @@ ConeChunk::ConeChunk(const VulkanConeKernel& kernel, const ConeBuffers& scene, u
     : kernel_(kernel),
       capacity_(capacity),
       origins_(kernel.device(), capacity * sizeof(ConeOrigin), kOriginUsage, SharedBuffer::Host::Writes),
-      results_(kernel.device(), capacity * sizeof(uint32_t), kStorage, SharedBuffer::Host::Reads),
+      results_(kernel.device(), capacity * sizeof(uint32_t), kChunkUsage, SharedBuffer::Host::Reads),
       originTexels_(kernel.device(), origins_.onDevice()),
       commands_(kernel.device()) {
   const Device& device = kernel.device();
   const uint64_t rayCount = kernel.rayCount();
   if (kernel.writesHits())
-    hits_.emplace(device, capacity * rayCount * sizeof(ConeHit), kStorage, SharedBuffer::Host::Reads);
+    hits_.emplace(device, capacity * rayCount * sizeof(ConeHit), kChunkUsage, SharedBuffer::Host::Reads);
   if (kernel.reduction())
-    lengths_ = PooledBuffer(device, capacity * rayCount * sizeof(uint32_t), kStorage, MemoryKind::DeviceOnly);
+    lengths_ = PooledBuffer(device, capacity * rayCount * sizeof(uint32_t), kChunkUsage, MemoryKind::DeviceOnly);
   bindings_.emplace(device, kernel.pipeline(),
                     joined(scene.hierarchyBindings(),
                            {scene.rayTexels(), originTexels_, kernel.reduction() ? *lengths_ : results_.onDevice(),
@@ -38,7 +38,7 @@ ConeChunk::ConeChunk(const VulkanConeKernel& kernel, const ConeBuffers& scene, u
     reductionBindings_.emplace(device, *kernel.reduction(),
                                std::vector<Binding>{scene.rayTexels(), *lengths_, results_.onDevice()});
   if (!kernel.origins()) return;
-  seeds_ = PooledBuffer(device, capacity * sizeof(ConeSeed), kStorage, MemoryKind::HostVisible);
+  seeds_ = PooledBuffer(device, capacity * sizeof(ConeSeed), kChunkUsage, MemoryKind::HostVisible);
   originBindings_.emplace(device, *kernel.origins(), joined(scene.hierarchyBindings(), {*seeds_, origins_.onDevice()}));
 }
 
