@@ -50,13 +50,14 @@ std::vector<double> randomResidual(size_t size) {
 
 std::vector<float> copyOf(std::span<const float> vector) { return {vector.begin(), vector.end()}; }
 
-// Largest difference over the largest entry of the twin.
+// Largest difference over the largest entry of the twin; NaN where an entry is NaN.
 double difference(std::span<const float> kernel, const std::vector<double>& twin) {
   REQUIRE(kernel.size() == twin.size());
   double largest = 0, worst = 0;
   for (size_t i = 0; i < twin.size(); ++i) {
     largest = std::max(largest, std::abs(twin[i]));
-    worst = std::max(worst, std::abs(static_cast<double>(kernel[i]) - twin[i]));
+    const double each = std::abs(static_cast<double>(kernel[i]) - twin[i]);
+    if (!(each <= worst)) worst = each;
   }
   return worst / largest;
 }
