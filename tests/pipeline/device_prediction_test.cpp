@@ -88,15 +88,15 @@ class GpuBackend final : public Backend {
   std::unique_ptr<Backend> vulkan_;
 };
 
-struct Outcome {
+struct DeviceOutcome {
   std::vector<double> values;
   std::vector<Warning> warnings;
   int predictorCount = 0;
   size_t hitCount = 0, seedCount = 0;  ///< hitCount: that the host keeps.
 };
 
-Outcome run(GpuBackend::Predictor predictor, const std::string& solver) {
-  Outcome outcome;
+DeviceOutcome runWith(GpuBackend::Predictor predictor, const std::string& solver) {
+  DeviceOutcome outcome;
   Options options;
   options.solver = solver;
   const Mesh mesh = makeAnimal(2000).mesh;
@@ -123,13 +123,13 @@ Outcome run(GpuBackend::Predictor predictor, const std::string& solver) {
 
 TEST_CASE("on a GPU the device predicts; where it cannot, the CPU does, with one warning") {
   using enum GpuBackend::Predictor;
-  const Outcome device = run(Works, "auto"), cpu = run(Works, "eigen");
+  const DeviceOutcome device = runWith(Works, "auto"), cpu = runWith(Works, "eigen");
   CHECK(device.warnings.empty());
   CHECK(device.predictorCount == 1);
   CHECK(cpu.predictorCount == 0);
-  CHECK(test::haveSameBits(device.values, run(Works, "cg").values));
+  CHECK(test::haveSameBits(device.values, runWith(Works, "cg").values));
   for (const GpuBackend::Predictor predictor : {IsMissing, Fails, FailsWithHits}) {
-    const Outcome outcome = run(predictor, "auto");
+    const DeviceOutcome outcome = runWith(predictor, "auto");
     REQUIRE(outcome.warnings.size() == 1);
     CHECK(outcome.warnings[0].code == WarningCode::PredictedOnCpu);
     CHECK(outcome.predictorCount == 1);
@@ -147,7 +147,7 @@ TEST_CASE("on a GPU the device predicts; where it cannot, the CPU does, with one
 TEST_CASE(
     "where the device has no memory for further hits, the host keeps them, and the device predicts the same values") {
   using enum GpuBackend::Predictor;
-  const Outcome outcome = run(HasNoMemory, "auto"), expected = run(Works, "auto");
+  const DeviceOutcome outcome = runWith(HasNoMemory, "auto"), expected = runWith(Works, "auto");
   CHECK(outcome.hitCount == 30 * outcome.seedCount);
   CHECK(expected.hitCount == 0);
   CHECK(outcome.warnings.empty());
@@ -155,5 +155,5 @@ TEST_CASE(
 }
 
 TEST_CASE("with a named solver of the device a prediction that fails there is an error") {
-  test::requireFailure([] { (void)run(GpuBackend::Predictor::Fails, "cg"); }, ErrorCode::DeviceLost, "was lost");
+  test::requireFailure([] { (void)runWith(GpuBackend::Predictor::Fails, "cg"); }, ErrorCode::DeviceLost, "was lost");
 }

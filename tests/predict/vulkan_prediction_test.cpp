@@ -26,22 +26,22 @@ VulkanPredictionKernels kernelsFor(const Device& device, const Cone& cone) {
   return {device, cone.definition, static_cast<uint32_t>(cone.directions.size())};
 }
 
-std::vector<double> predict(const SeededMesh& seeded, const PredictionOptions& options, DevicePredictor* device) {
+std::vector<double> predictOn(const SeededMesh& seeded, const PredictionOptions& options, DevicePredictor* device) {
   return predictValues(seeded.scene(), seeded.graph, seeded.cone, seeded.seedHits(), options, {}, device).values;
 }
 
 /// Of the device from the CPU, in units of the diagonal of the bounding box.
-struct Difference {
+struct DeviceDifference {
   double mean = 0, worst = 0;      ///< mean: of those that are not far.
   size_t count = 0, farCount = 0;  ///< farCount: of differences above 1e-4.
   size_t missingCount = 0;         ///< Faces with a value from one of the two only.
 };
 
-Difference differenceOf(const SeededMesh& seeded, const std::vector<double>& values,
-                        const std::vector<double>& expected) {
+DeviceDifference differenceOf(const SeededMesh& seeded, const std::vector<double>& values,
+                              const std::vector<double>& expected) {
   REQUIRE(values.size() == expected.size());
   const double diagonal = length(seeded.geometry.bounds.max - seeded.geometry.bounds.min);
-  Difference difference;
+  DeviceDifference difference;
   for (size_t face = 0; face < values.size(); ++face) {
     difference.missingCount += std::isnan(values[face]) != std::isnan(expected[face]);
     const double distance = std::abs(values[face] - expected[face]) / diagonal;
@@ -57,13 +57,13 @@ Difference differenceOf(const SeededMesh& seeded, const std::vector<double>& val
   return difference;
 }
 
-Difference compare(const Device& device, const SeededMesh& seeded, const PredictionOptions& options = {}) {
+DeviceDifference compare(const Device& device, const SeededMesh& seeded, const PredictionOptions& options = {}) {
   const VulkanPredictionKernels kernels = kernelsFor(device, seeded.cone);
   const auto predictor = makeVulkanPredictor(kernels, seeded.scene(), seeded.cone);
-  return differenceOf(seeded, predict(seeded, options, predictor.get()), predict(seeded, options, nullptr));
+  return differenceOf(seeded, predictOn(seeded, options, predictor.get()), predictOn(seeded, options, nullptr));
 }
 
-void checkClose(const Difference& difference) {
+void checkClose(const DeviceDifference& difference) {
   MESSAGE("mean ", difference.mean, ", worst ", difference.worst, ", above 1e-4: ", difference.farCount, " of ",
           difference.count, ", missing: ", difference.missingCount);
   CHECK(difference.mean < 2e-6);
@@ -92,7 +92,7 @@ TEST_CASE(
       CAPTURE(rayCount);
       CAPTURE(definition == Definition::Cgal);
       const ConeOptions options{.rayCount = rayCount, .definition = definition};
-      const Difference difference = compare(*device, SeededMesh(animal, 400, options));
+      const DeviceDifference difference = compare(*device, SeededMesh(animal, 400, options));
       checkClose(difference);
       CHECK(difference.count > 2000);
       checkClose(compare(*device, SeededMesh(slab, 150, options)));
@@ -116,7 +116,7 @@ TEST_CASE("predictions of the device are those of the CPU for other cones and ot
     checkClose(compare(*device, seeded, {.neighbourCount = neighbourCount}));
   const VulkanPredictionKernels kernels = kernelsFor(*device, seeded.cone);
   const auto predictor = makeVulkanPredictor(kernels, seeded.scene(), seeded.cone);
-  test::requireFailure([&] { (void)predict(seeded, {.neighbourCount = 7}, predictor.get()); }, ErrorCode::DeviceLimit,
+  test::requireFailure([&] { (void)predictOn(seeded, {.neighbourCount = 7}, predictor.get()); }, ErrorCode::DeviceLimit,
                        "7 neighbouring seeds");
 }
 
@@ -127,8 +127,8 @@ TEST_CASE("on the device, too, degenerate faces and faces of components without 
     if (seed >= 720 && seed < 900) seed = kNoFace;  // On the second sphere.
   const VulkanPredictionKernels kernels = kernelsFor(*device, seeded.cone);
   const auto predictor = makeVulkanPredictor(kernels, seeded.scene(), seeded.cone);
-  const std::vector<double> values = predict(seeded, {}, predictor.get());
-  checkClose(differenceOf(seeded, values, predict(seeded, {}, nullptr)));
+  const std::vector<double> values = predictOn(seeded, {}, predictor.get());
+  checkClose(differenceOf(seeded, values, predictOn(seeded, {}, nullptr)));
   for (uint32_t face = 0; face < 720; ++face) CHECK(std::isfinite(values[face]));
   for (uint32_t face = 720; face < 900; ++face) CHECK(std::isnan(values[face]));
   CHECK(std::isnan(values.back()));
@@ -154,17 +154,17 @@ TEST_CASE(
   for (size_t i = 0; i < few.seeds.size(); i += 3) few.seeds[i] = kNoFace;
   const VulkanPredictionKernels kernels = kernelsFor(*device, seeded.cone);
   const auto predictor = makeVulkanPredictor(kernels, seeded.scene(), seeded.cone);
-  const std::vector<double> expected = predict(seeded, {}, predictor.get());
-  CHECK(test::haveSameBits(predict(seeded, {}, predictor.get()), expected));
+  const std::vector<double> expected = predictOn(seeded, {}, predictor.get());
+  CHECK(test::haveSameBits(predictOn(seeded, {}, predictor.get()), expected));
   const auto predictorOfFew = makeVulkanPredictor(kernels, few.scene(), few.cone);
-  const std::vector<double> fewExpected = predict(few, {}, predictorOfFew.get());
+  const std::vector<double> fewExpected = predictOn(few, {}, predictorOfFew.get());
   CHECK_FALSE(test::haveSameBits(fewExpected, expected));
   for (const PredictionBatchSize& size : {PredictionBatchSize{7, 1}, PredictionBatchSize{7, 1000},
                                           PredictionBatchSize{50, 17}, PredictionBatchSize{1000, 100}}) {
     CAPTURE(size.maxSeedCount);
     const auto other = makeVulkanPredictor(kernels, seeded.scene(), seeded.cone, size);
-    CHECK(test::haveSameBits(predict(few, {}, other.get()), fewExpected));
-    CHECK(test::haveSameBits(predict(seeded, {}, other.get()), expected));
+    CHECK(test::haveSameBits(predictOn(few, {}, other.get()), fewExpected));
+    CHECK(test::haveSameBits(predictOn(seeded, {}, other.get()), expected));
   }
 }
 
@@ -175,7 +175,7 @@ TEST_CASE("predictions of the device scale with the mesh") {
     const SeededMesh seeded(shapes::scaledAndShifted(mesh, scale), 100);
     const VulkanPredictionKernels kernels = kernelsFor(*device, seeded.cone);
     const auto predictor = makeVulkanPredictor(kernels, seeded.scene(), seeded.cone);
-    std::vector<double> values = predict(seeded, {}, predictor.get());
+    std::vector<double> values = predictOn(seeded, {}, predictor.get());
     for (double& value : values) value /= scale;
     return values;
   };
@@ -189,7 +189,7 @@ TEST_CASE("hits on the device, added in parts, give the predictions of hits on t
   const SeededMesh seeded(makeAnimal(3000).mesh, 300);
   const VulkanPredictionKernels kernels = kernelsFor(*device, seeded.cone);
   const auto predictor = makeVulkanPredictor(kernels, seeded.scene(), seeded.cone, {50, 1000});
-  const std::vector<double> expected = predict(seeded, {}, predictor.get());
+  const std::vector<double> expected = predictOn(seeded, {}, predictor.get());
   HitStore* const store = predictor->hitStore();
   REQUIRE(store != nullptr);
   CHECK(store->download().empty());
@@ -206,7 +206,7 @@ TEST_CASE("hits on the device, added in parts, give the predictions of hits on t
     return predictValues(seeded.scene(), seeded.graph, seeded.cone, hits, {}, {}, predictor.get()).values;
   };
   CHECK(test::haveSameBits(values(), expected));
-  CHECK(test::haveSameBits(predict(seeded, {}, predictor.get()), expected));
+  CHECK(test::haveSameBits(predictOn(seeded, {}, predictor.get()), expected));
   CHECK(test::haveSameBits(values(), expected));
   test::requireFailure([&] { store->reserve(device->facts().maxStorageBufferRange); }, ErrorCode::DeviceLimit,
                        "hits are too many");
