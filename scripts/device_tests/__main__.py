@@ -6,7 +6,6 @@ import argparse
 import json
 import os
 import pathlib
-import shutil
 import subprocess
 import sys
 import time
@@ -195,7 +194,6 @@ def main() -> int:
         rows.append(_check(surroundings, drivers.layer, one, meshes, suites))
         table = _table(rows, drivers.layer.version)
         (surroundings.folder / "table.md").write_text(table + "\n")
-    shutil.rmtree(surroundings.folder / "tmp", ignore_errors=True)
     print(table)
     return 1 if any(row.failures() for row in rows) else 0
 

@@ -36,6 +36,7 @@ std::string remedyFor(ErrorCode code, bool requiresGpu, const std::string& value
     case ErrorCode::KernelUnsupported:
       return requiresGpu ? "use another --kernel" : "use another --kernel, or --backend reference";
     case ErrorCode::DeviceLimit:
+      return orOnCpu("use --fetch auto, or a smaller mesh");
     case ErrorCode::OutOfDeviceMemory:
       return orOnCpu("use a smaller mesh");
     case ErrorCode::EquationLimit:

@@ -33,6 +33,7 @@ TEST_CASE("a failure has the name of its code, and a remedy by options where the
   CHECK(device.message.starts_with("no driver; "));
   CHECK(device.message.find("--backend") != std::string::npos);
   CHECK_EQ(failureOf(Error(ErrorCode::EquationLimit, "x")).message, "x; use --solver cpu");
+  CHECK_EQ(failureOf(Error(ErrorCode::DeviceLimit, "x"), true).message, "x; use --fetch auto, or a smaller mesh");
   CHECK_EQ(failureOf(Error(ErrorCode::TooFewValues, "x")).message, "x; give fewer --clusters, or drop --segment");
   CHECK_EQ(static_cast<int>(failureOf(Error(ErrorCode::NoValues, "x")).code), 2);
   const Failure input = failureOf(Error(ErrorCode::UnreadableInput, "line 3: no number"));
