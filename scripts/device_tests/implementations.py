@@ -10,11 +10,12 @@ import os
 import pathlib
 import subprocess
 
-from packages import PackageSources, Unavailable, is_newer, unpack
+from packages import PackageSources, Unavailable, is_newer
 
 LAYER = "VK_LAYER_KHRONOS_validation"
 SUITES = ("vk", "trace", "poisson", "predict", "pipeline", "cli")  # as in scripts/test-devices
 KERNEL_SUITES = ("vk", "trace", "poisson", "predict")
+FAKE_SUITES = (*KERNEL_SUITES, "pipeline")
 QUICK_SUITES = ("vk", "poisson", "predict")
 # lavapipe has a subgroup of one lane per 32 bits of these vectors.
 _LAVAPIPE_VECTOR_BITS = (128, 256, 512)
@@ -109,8 +110,12 @@ class Drivers:
         self.layer = ValidationLayer("of the system", {})
         try:
             self._sources = PackageSources(surroundings.folder / "apt")
-            self._chromium = self._unpack("chromium-common", "chromium")
-            self.layer = self._newest_layer(self._chromium)
+            package = "chromium-common"
+            version = self._sources.newest(package).version
+            folder = surroundings.folder / f"{package}_{version}"
+            self._sources.unpack({package: version}, folder)
+            self.layer = self._newest_layer(folder)
+            self._chromium = folder
         except Unavailable as reason:
             self.missing.append(f"SwiftShader and its validation layer: {reason}")
 
@@ -165,8 +170,7 @@ class Drivers:
             if "libc6" in required:
                 raise Unavailable(f"{newest.version} needs another libc6")
             folder = self._surroundings.folder / f"mesa_{newest.version}"
-            for name, version in required.items():
-                unpack(self._sources.download(name, version), folder)
+            self._sources.unpack(required, folder)
             library = _find(folder, "libvulkan_lvp.so")
         except Unavailable as reason:
             self.missing.append(f"newer Mesa: {reason}")
@@ -176,27 +180,20 @@ class Drivers:
         return [Implementation("newer-mesa", f"lavapipe of Mesa {newest.version}", environment)]
 
     def _fakes(self) -> list[Implementation]:
-        """On lavapipe; ctest runs the suites on them."""
+        """On lavapipe, by the programs of tests/fake_device."""
         folder = self._surroundings.build / "tests/fake_device"
         wrappers = sorted(file for file in folder.glob("*") if _is_program(file))
-        if not wrappers:
-            self.missing.append(f"fake devices: no programs in {folder}")
+        if not wrappers or not list(folder.glob("*.so")):
+            self.missing.append(f"fake devices: not built in {folder}")
+            return []
         found = []
         for wrapper, lavapipe in itertools.product(wrappers, self._lavapipe()):
             if lavapipe.name != "lavapipe8":
                 continue
             title = f"fake device {wrapper.name} on lavapipe"
             environment, command = lavapipe.environment, (str(wrapper),)
-            found.append(Implementation(f"fake-{wrapper.name}", title, environment, command, ()))
+            found.append(Implementation(f"fake-{wrapper.name}", title, environment, command, FAKE_SUITES))
         return found
-
-    def _unpack(self, package: str, name: str) -> pathlib.Path:
-        assert self._sources is not None
-        version = self._sources.newest(package).version
-        folder = self._surroundings.folder / f"{name}_{version}"
-        if not folder.exists():
-            unpack(self._sources.download(package, version), folder)
-        return folder
 
     def _newest_layer(self, folder: pathlib.Path) -> ValidationLayer:
         """The layer of that package; the package has no manifest."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pathlib
+import shutil
 import subprocess
 import time
 from typing import NamedTuple
@@ -52,8 +53,12 @@ class PackageSources:
         stamp = folder / "updated"
         if stamp.exists() and time.time() - stamp.stat().st_mtime < _LISTS_MAX_AGE_SECONDS:
             return
-        _run("apt-get", *self._options, "-qq", "update")
-        stamp.touch()
+        try:
+            _run("apt-get", *self._options, "-qq", "update")
+            stamp.touch()
+        except Unavailable:
+            if not stamp.exists():
+                raise
 
     def newest(self, package: str) -> Candidate:
         """The newest version in the sources, whatever the pinning."""
@@ -76,21 +81,29 @@ class PackageSources:
 
     def required(self, package: str, candidate: Candidate) -> dict[str, str]:
         """Versions of the packages that its installation would add or replace, itself included."""
-        output = _run("apt-get", *self._options, "install", "--simulate", "--no-install-recommends",
-                      f"--target-release={candidate.suite}", f"{package}={candidate.version}")
+        command = ["apt-get", *self._options, "install", "--simulate", "--no-install-recommends"]
+        command.append(f"--target-release={candidate.suite}")
+        output = _run(*command, f"{package}={candidate.version}")
         versions = {}
         for line in output.splitlines():
             if line.startswith("Inst "):
-                versions[line.split()[1]] = line[line.index("(") + 1:].split()[0]
+                versions[line.split()[1]] = line[line.index("(") + 1 :].split()[0]
         return versions
 
     def download(self, package: str, version: str) -> pathlib.Path:
         name = f"{package}_{version.replace(':', '%3a')}_*.deb"
         if not list(self._archives.glob(name)):
-            _run("apt-get", *self._options, "-qq", "download", f"{package}={version}",
-                 cwd=self._archives)
+            command = ["apt-get", *self._options, "-qq", "download", f"{package}={version}"]
+            _run(*command, cwd=self._archives)
         return next(self._archives.glob(name))
 
 
-def unpack(archive: pathlib.Path, folder: pathlib.Path) -> None:
-    _run("dpkg-deb", "--extract", archive, folder)
+    def unpack(self, versions: dict[str, str], folder: pathlib.Path) -> None:
+        """Does nothing where the folder exists."""
+        if folder.exists():
+            return
+        partial = folder.parent / "unpacking"
+        shutil.rmtree(partial, ignore_errors=True)
+        for package, version in versions.items():
+            _run("dpkg-deb", "--extract", self.download(package, version), partial)
+        partial.rename(folder)
