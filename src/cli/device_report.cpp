@@ -3,21 +3,17 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "asdf_vk/version.h"
 #include "cli/interrupt.h"
+#include "cli/json.h"
 #include "cli/report.h"
 #include "cli/run.h"
 #include "cli/terminal.h"
 
 namespace asdfvk {
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 std::string versionText(uint32_t packed) {
   return fmt::format("{}.{}.{}", (packed >> 22) & 0x7f, (packed >> 12) & 0x3ff, packed & 0xfff);
