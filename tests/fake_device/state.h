@@ -83,14 +83,13 @@ class States {
   std::unordered_map<void*, std::unique_ptr<State>> states_;
 };
 
-// Never destroyed: other static objects of the program may hold instances.
 inline States<InstanceState>& instances() {
-  static auto* states = new States<InstanceState>();
-  return *states;
+  static States<InstanceState> states;
+  return states;
 }
 inline States<DeviceState>& devices() {
-  static auto* states = new States<DeviceState>();
-  return *states;
+  static States<DeviceState> states;
+  return states;
 }
 
 /// The layer's functions of physical devices, and of devices; null for other names.
