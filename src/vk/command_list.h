@@ -21,6 +21,7 @@ class CommandList {
   CommandList& operator=(const CommandList&) = delete;
 
   void begin();
+  [[nodiscard]] VkCommandBuffer handle() const { return commands_; }
   /// `pushConstants` has the byte count of the pipeline's description.
   void dispatch(const ComputePipeline& pipeline, const BindingSet& bindings, std::span<const std::byte> pushConstants,
                 uint32_t workgroupCount, uint32_t workgroupCountY = 1);

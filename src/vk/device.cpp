@@ -43,12 +43,13 @@ DeviceVendor vendorOf(uint32_t pciId) {
   }
 }
 
-std::optional<uint32_t> findComputeQueueFamily(VkPhysicalDevice device) {
+void describeQueue(VkPhysicalDevice device, DeviceFacts& facts) {
   uint32_t count = 0;
   vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
   std::vector<VkQueueFamilyProperties> families(count);
   vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
-  return chooseComputeQueueFamily(families);
+  facts.computeQueueFamily = chooseComputeQueueFamily(families);
+  if (facts.computeQueueFamily) facts.timestampValidBits = families[*facts.computeQueueFamily].timestampValidBits;
 }
 
 /// A device with VK_KHR_portability_subset must be opened with it.
@@ -101,7 +102,8 @@ DeviceFacts describeDevice(VkPhysicalDevice device) {
   facts.kind = kindOf(basic.deviceType);
   facts.vendor = vendorOf(basic.vendorID);
   facts.apiVersion = basic.apiVersion;
-  facts.computeQueueFamily = findComputeQueueFamily(device);
+  describeQueue(device, facts);
+  facts.timestampPeriod = static_cast<double>(basic.limits.timestampPeriod);
   facts.maxWorkgroupInvocations = basic.limits.maxComputeWorkGroupInvocations;
   facts.maxWorkgroupSize = basic.limits.maxComputeWorkGroupSize[0];
   facts.maxStorageBuffersPerStage = basic.limits.maxPerStageDescriptorStorageBuffers;
