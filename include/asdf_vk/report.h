@@ -224,6 +224,9 @@ struct Report {
   std::optional<TraceVariant> traceVariant;  ///< Unset without Vulkan.
   StageSeconds stageSeconds;
   double raysPerSecond = 0;
+  /// Part of Stage::Trace in which the Vulkan device was busy with the rays of the seeds, by its timestamps. Unset
+  /// without Vulkan, and where the device has no timestamps.
+  std::optional<double> traceDeviceSeconds;
   SolverReport solver;
   ValueRange sdf;
   std::optional<PostprocessReport> postprocess;    ///< Set where the result has the field "normalized".

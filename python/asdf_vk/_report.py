@@ -154,6 +154,8 @@ class Info:
     runs_on_cpu: bool
     stage_seconds: dict[str, float]
     rays_per_second: float
+    trace_device_seconds: float | None
+    """Part of the stage "trace" in which the Vulkan device was busy; None without timestamps."""
     solver: SolverReport
     sdf: ValueRange
     normalized_range: tuple[float, float] | None

@@ -126,6 +126,7 @@ py::dict dictOf(const Report& report) {
   dict["runs_on_cpu"] = report.runsOnCpu;
   dict["stage_seconds"] = dictOf(report.stageSeconds);
   dict["rays_per_second"] = report.raysPerSecond;
+  dict["trace_device_seconds"] = optional(report.traceDeviceSeconds, [](double seconds) { return py::cast(seconds); });
   dict["solver"] = dictOf(report.solver);
   dict["sdf"] = dictOf(report.sdf);
   dict["normalized_range"] =

@@ -149,6 +149,7 @@ std::string jsonReport(const MeshOutcome& outcome) {
   json["traceChoice"] = variantOf(report.traceVariant);
   json["stageSeconds"] = stagesOf(report.stageSeconds);
   json["raysPerSecond"] = number(report.raysPerSecond);
+  json["traceDeviceSeconds"] = report.traceDeviceSeconds ? number(*report.traceDeviceSeconds) : Json(nullptr);
   json["solver"] = {{"name", report.solver.name},
                     {"iterations", report.solver.iterations},
                     {"relativeResidual", number(report.solver.relativeResidual)},

@@ -47,6 +47,7 @@ void describeRounds(Report& report, const RoundsResult& rounds) {
   report.redoneConeCount = rounds.traced.statistics.redoneConeCount + rounds.thickness.rays.redoneConeCount;
   const double traceSeconds = report.stageSeconds[Stage::Trace];
   report.raysPerSecond = traceSeconds > 0 ? static_cast<double>(report.rayCount) / traceSeconds : 0;
+  report.traceDeviceSeconds = rounds.traced.statistics.deviceSeconds;
   report.solver = rounds.interpolated.solver;
   report.roundCount = rounds.roundCount;
   if (rounds.errors) report.estimatedError = rounds.errors->estimate;

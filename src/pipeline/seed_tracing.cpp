@@ -82,6 +82,8 @@ void SeedTracing::traceBlock(std::span<const uint32_t> faces, TracedSeeds& trace
   if (shrinker_) measureThickness(faces, hits, traced, control.part(traceEnd, 1));
   traced.statistics.rayCount += statistics.rayCount;
   traced.statistics.redoneConeCount += statistics.redoneConeCount;
+  if (statistics.deviceSeconds)
+    traced.statistics.deviceSeconds = traced.statistics.deviceSeconds.value_or(0) + *statistics.deviceSeconds;
   traced.faces.insert(traced.faces.end(), faces.begin(), faces.end());
   for (size_t i = 0; i < faces.size(); ++i) {
     traced.values[faces[i]] = values[i];

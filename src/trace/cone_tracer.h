@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -40,6 +41,7 @@ struct TraceStatistics {
   uint64_t rayCount = 0;
   /// Cones traced by the reference instead: iteration limit of the device reached, or too small for float32.
   uint64_t redoneConeCount = 0;
+  std::optional<double> deviceSeconds = {};  ///< Time that the device was busy. Unset without timestamps or a device.
 };
 
 /// Output arrays for N cones of R rays.

@@ -17,9 +17,10 @@ std::vector<Binding> joined(std::vector<Binding> first, const std::vector<Bindin
 
 }  // namespace
 
-ConeChunk::ConeChunk(const VulkanConeKernel& kernel, const ConeBuffers& scene, uint64_t capacity)
+ConeChunk::ConeChunk(const VulkanConeKernel& kernel, const ConeBuffers& scene, uint64_t capacity, const Timing& timing)
     : kernel_(kernel),
       capacity_(capacity),
+      timing_(timing),
       origins_(kernel.device(), capacity * sizeof(ConeOrigin), kOriginUsage, SharedBuffer::Host::Writes),
       results_(kernel.device(), capacity * sizeof(uint32_t), kChunkUsage, SharedBuffer::Host::Reads),
       originTexels_(kernel.device(), origins_.onDevice()),
@@ -45,6 +46,7 @@ ConeChunk::ConeChunk(const VulkanConeKernel& kernel, const ConeBuffers& scene, u
 void ConeChunk::submit(const ConePush& push, Input input, bool readsHits) {
   const VulkanWorkgroupShape& shape = kernel_.shape();
   commands_.begin();
+  timing_.timer.begin(commands_.handle(), timing_.slot);
   if (input == Input::Seeds)
     commands_.dispatch(*kernel_.origins(), *originBindings_, bytesOf(push),
                        groupCount(push.coneCount, VulkanConeKernel::kOriginLaneCount));
@@ -62,7 +64,13 @@ void ConeChunk::submit(const ConePush& push, Input input, bool readsHits) {
   results_.recordCopy(commands_, push.coneCount * sizeof(uint32_t));
   if (readsHits) hits_->recordCopy(commands_, uint64_t{push.coneCount} * kernel_.rayCount() * sizeof(ConeHit));
   commands_.barrier();
+  timing_.timer.end(commands_.handle(), timing_.slot);
   commands_.submit();
+}
+
+void ConeChunk::wait() {
+  commands_.wait();
+  timing_.timer.add(timing_.slot);
 }
 
 }  // namespace asdfvk

@@ -8,6 +8,7 @@
 #include "shared/cone_layout.h"
 #include "trace/vulkan/vulkan_cone_kernel.h"
 #include "vk/command_list.h"
+#include "vk/device_timer.h"
 #include "vk/shared_buffer.h"
 
 namespace asdfvk {
@@ -16,8 +17,14 @@ namespace asdfvk {
 /// results() and hits(). Its buffers come from Device::pool(); the destructor waits and gives them back.
 class ConeChunk {
  public:
-  /// capacity: number of cones, at most largestConeChunk(). The kernel and the buffers must outlive it.
-  ConeChunk(const VulkanConeKernel& kernel, const ConeBuffers& scene, uint64_t capacity);
+  /// The timer of the submissions, and the slot that they have in it.
+  struct Timing {
+    DeviceTimer& timer;
+    uint32_t slot;
+  };
+
+  /// capacity: number of cones, at most largestConeChunk(). The kernel, the buffers and the timer must outlive it.
+  ConeChunk(const VulkanConeKernel& kernel, const ConeBuffers& scene, uint64_t capacity, const Timing& timing);
   ~ConeChunk() { commands_.finish(); }
   ConeChunk(const ConeChunk&) = delete;
   ConeChunk& operator=(const ConeChunk&) = delete;
@@ -31,7 +38,8 @@ class ConeChunk {
   enum class Input { Seeds, Starts };
   /// readsHits: whether hits() are read.
   void submit(const ConePush& push, Input input, bool readsHits);
-  void wait() { commands_.wait(); }
+  /// Once per submission.
+  void wait();
 
   /// See shared/cone_layout.h.
   [[nodiscard]] std::span<const uint32_t> results() { return results_.onHost<uint32_t>(); }
@@ -41,6 +49,7 @@ class ConeChunk {
  private:
   const VulkanConeKernel& kernel_;
   uint64_t capacity_;
+  Timing timing_;
   PooledBuffer seeds_;    // Mapped: kernels read each seed once.
   SharedBuffer origins_;  // A ConeOrigin per cone.
   PooledBuffer lengths_;  // Bits of a float per ray and cone, if there is a reduction.

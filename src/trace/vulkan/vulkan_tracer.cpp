@@ -21,6 +21,7 @@
 #include "trace/vulkan/vulkan_balls.h"
 #include "trace/vulkan/vulkan_cone_chunk.h"
 #include "trace/vulkan/vulkan_cone_kernel.h"
+#include "vk/device_timer.h"
 
 namespace asdfvk {
 namespace {
@@ -176,9 +177,10 @@ class VulkanTracer final : public ConeTracer {
       cones.erase(firstUnfit, cones.end());
     }
     const double deviceShare = static_cast<double>(cones.size()) / static_cast<double>(std::max<size_t>(1, coneCount));
+    timer_.emplace(kernel_.device(), uint32_t{kChunksInFlight});
     traceOnDevice(cones, submit, results, redone, control.part(0, deviceShare));
     redo(redone, startOf, results, control.part(deviceShare, 1));
-    return {rayCount, redone.size()};
+    return {rayCount, redone.size(), timer_->seconds()};
   }
 
   template <typename Submit>
@@ -192,7 +194,8 @@ class VulkanTracer final : public ConeTracer {
       std::optional<ConeChunk>& chunk = chunks[slot];
       if (!chunk || chunk->capacity() < end - begin) {
         chunk.reset();
-        chunk.emplace(kernel_, buffers_, std::min<uint64_t>(std::bit_ceil(end - begin), largest));
+        chunk.emplace(kernel_, buffers_, std::min<uint64_t>(std::bit_ceil(end - begin), largest),
+                      ConeChunk::Timing{*timer_, static_cast<uint32_t>(slot)});
       }
       submit(*chunk, cones.subspan(begin, end - begin));
     };
@@ -279,6 +282,7 @@ class VulkanTracer final : public ConeTracer {
   double encodeSeconds_ = 0;
   std::optional<SeedOrder> seedOrder_;  // By the triangles on the device.
   ConeBuffers buffers_;
+  std::optional<DeviceTimer> timer_;  // Of the last call.
 };
 
 }  // namespace
