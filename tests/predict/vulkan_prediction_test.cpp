@@ -212,3 +212,16 @@ TEST_CASE("hits on the device, added in parts, give the predictions of hits on t
                        "hits are too many");
   CHECK(store->download().size() == seeded.hits.size());
 }
+
+TEST_CASE("the device, too, ignores points on the face itself") {
+  const test::ValidatedDevice device;
+  SeededMesh seeded(makeSphere(180).mesh, 20, {.falseHitAngleDegrees = 0});  // No hit is false.
+  const uint32_t face = seeded.seeds[3];
+  for (ConeHit& hit : seeded.hits) hit.face = face;
+  const VulkanPredictionKernels kernels = kernelsFor(*device, seeded.cone);
+  const auto predictor = makeVulkanPredictor(kernels, seeded.scene(), seeded.cone);
+  const std::vector<double> values = predictOn(seeded, {}, predictor.get());
+  checkClose(differenceOf(seeded, values, predictOn(seeded, {}, nullptr)));
+  CHECK(std::isnan(values[face]));
+  CHECK(std::count_if(values.begin(), values.end(), [](double v) { return std::isnan(v); }) == 1);
+}
