@@ -191,8 +191,8 @@ class Drivers:
             if lavapipe.name != "lavapipe8":
                 continue
             title = f"fake device {wrapper.name} on lavapipe"
-            environment, command = lavapipe.environment, (str(wrapper),)
-            found.append(Implementation(f"fake-{wrapper.name}", title, environment, command, FAKE_SUITES))
+            name, command = f"fake-{wrapper.name}", (str(wrapper),)
+            found.append(Implementation(name, title, lavapipe.environment, command, FAKE_SUITES))
         return found
 
     def _newest_layer(self, folder: pathlib.Path) -> ValidationLayer:
