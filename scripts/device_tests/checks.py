@@ -17,7 +17,7 @@ from implementations import Implementation, Surroundings, ValidationLayer
 
 # Begin of the name of the case that proves that they report errors.
 CONTROL = "control: the validation layers"
-SUITE_LIMIT_SECONDS = 1200
+SUITE_LIMIT_SECONDS = 1800
 RUN_LIMIT_SECONDS = 180
 
 KERNELS = ("seed", "ray", "packet")
