@@ -56,7 +56,8 @@ struct Leaves {
 
 const Leaves kNoLeaves = Leaves(0u, 0u, 0u);
 
-// Postponed triangles; an empty entry is followed by empty ones only. Only the first is used unless kPostponesTriangles.
+// Postponed triangles; an empty entry is followed by empty ones only. Only the first is used unless
+// kPostponesTriangles.
 struct LeafQueue {
   Leaves first, second, third;
 };

@@ -2,9 +2,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "asdf_vk/error.h"
+#include "cli/json.h"
 #include "cli/option_parsing.h"
 
 namespace asdfvk {
@@ -76,7 +76,6 @@ void completeMeasure(const CLI::App& app, CommandLine& line) {
 }
 
 nlohmann::ordered_json measureOptionValues(const CommandLine& line) {
-  using Json = nlohmann::ordered_json;
   const ThicknessOptions& thickness = line.options.thickness;
   const bool isMeasured = line.options.measure == Measure::Thickness;
   const auto orNull = [](const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); };
