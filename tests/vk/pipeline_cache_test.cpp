@@ -176,7 +176,13 @@ TEST_CASE("the pipelines of a device are in its cache, which a later one loads")
     MESSAGE("the cache of one pipeline has " << size << " bytes");
     writePipelineCacheFile(file, data);
     const PipelineCache second(physical, device.handle(), folder.path());
-    CHECK(second.loadedByteCount() == data.size());
+    VkPipelineCacheHeaderVersionOne header{};
+    REQUIRE(data.size() >= sizeof(header));
+    std::memcpy(&header, data.data(), sizeof(header));
+    VkPhysicalDeviceProperties properties{};
+    vkGetPhysicalDeviceProperties(physical, &properties);
+    // A fake device has another vendor than the driver, whose caches it refuses.
+    CHECK(second.loadedByteCount() == (header.vendorID == properties.vendorID ? data.size() : 0));
     CHECK(second.handle() != VK_NULL_HANDLE);
   }
   CHECK(log->messages().empty());
