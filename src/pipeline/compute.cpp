@@ -48,6 +48,7 @@ void describeRounds(Report& report, const RoundsResult& rounds) {
   const double traceSeconds = report.stageSeconds[Stage::Trace];
   report.raysPerSecond = traceSeconds > 0 ? static_cast<double>(report.rayCount) / traceSeconds : 0;
   report.traceDeviceSeconds = rounds.traced.statistics.deviceSeconds;
+  if (report.traceDeviceSeconds) *report.traceDeviceSeconds += rounds.thickness.rays.deviceSeconds.value_or(0);
   report.solver = rounds.interpolated.solver;
   report.roundCount = rounds.roundCount;
   if (rounds.errors) report.estimatedError = rounds.errors->estimate;

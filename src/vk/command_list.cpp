@@ -83,9 +83,9 @@ void CommandList::submit() {
 
 void CommandList::wait() {
   if (!isPending_) return;
-  isPending_ = false;
-  requireSuccess(vkWaitForFences(device_.handle(), 1, &fence_, VK_TRUE, UINT64_MAX),
-                 "waiting for " + device_.facts().name);
+  const VkResult result = vkWaitForFences(device_.handle(), 1, &fence_, VK_TRUE, UINT64_MAX);
+  isPending_ = result != VK_SUCCESS && result != VK_ERROR_DEVICE_LOST;
+  requireSuccess(result, "waiting for " + device_.facts().name);
   requireSuccess(vkResetFences(device_.handle(), 1, &fence_), "resetting a fence");
 }
 

@@ -120,10 +120,11 @@ PipelineCache::PipelineCache(VkPhysicalDevice physical, VkDevice device, const s
 
 PipelineCache::~PipelineCache() {
   if (cache_ == VK_NULL_HANDLE) return;
-  if (!file_.empty()) {
-    const std::vector<std::byte> all = data();
+  try {
+    const std::vector<std::byte> all = file_.empty() ? std::vector<std::byte>() : data();
     const bool isNew = all.size() != loadedByteCount_ || hashOf(all) != loadedHash_;
     if (isNew && all.size() > sizeof(VkPipelineCacheHeaderVersionOne)) writePipelineCacheFile(file_, all);
+  } catch (const std::bad_alloc&) {  // Without memory for its bytes the cache is not written.
   }
   vkDestroyPipelineCache(device_, cache_, nullptr);
 }
