@@ -94,11 +94,12 @@ DevicePredictor* Interpolation::devicePredictor() {
 
 /// Called in the handler of the failure.
 void Interpolation::continueOnCpu(const Error& failure) {
-  if (!isAutomatic() || failure.kind() != ErrorKind::Device) throw;
+  // A limit is no failure of the device, and a named solver does not request where values are predicted.
+  if (failure.kind() != ErrorKind::Device || (!isAutomatic() && failure.code() != ErrorCode::DeviceLimit)) throw;
   predictorFailed_ = true;
   computation_.warnings.push_back(
       {WarningCode::PredictedOnCpu,
-       fmt::format("the CPU predicted values because the device failed: {}", failure.what()),
+       fmt::format("the CPU predicted values because the device could not: {}", failure.what()),
        {}});
 }
 

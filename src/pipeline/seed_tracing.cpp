@@ -19,8 +19,8 @@ namespace {
 // Part of the progress of tracing with Measure::Thickness.
 constexpr double kTracedBeforeThickness = 0.7;
 
-// Seeds whose hits the host holds at a time where a device keeps them.
-constexpr size_t kStoredBlockSeedCount = size_t{1} << 16;
+// Hits that the host holds at a time where a device keeps them.
+constexpr size_t kStoredBlockByteCount = size_t{16} << 20;
 
 /// Returns freed memory to the system: libraries free many small pieces, and later steps need large ones.
 void returnFreedMemory() {
@@ -54,7 +54,9 @@ SeedTracing::~SeedTracing() {
 }
 
 void SeedTracing::trace(std::span<const uint32_t> faces, TracedSeeds& traced, const RunControl& control) {
-  const size_t blockSize = hitStore_ != nullptr ? kStoredBlockSeedCount : faces.size();
+  const size_t byteCountPerSeed = computation_.cone.directions.size() * sizeof(ConeHit);
+  const size_t blockSize =
+      hitStore_ != nullptr ? std::max<size_t>(1, kStoredBlockByteCount / byteCountPerSeed) : faces.size();
   size_t begin = 0;
   do {
     const size_t count = std::min(blockSize, faces.size() - begin);
@@ -78,7 +80,7 @@ void SeedTracing::traceBlock(std::span<const uint32_t> faces, TracedSeeds& trace
   const std::span<ConeHit> hits = isKept ? std::span(traced.hits).subspan(earlierHitCount) : std::span(passing);
   const double traceEnd = shrinker_ ? kTracedBeforeThickness : 1;
   const TraceStatistics statistics = tracer_->tracer->trace(faces, {values, hits}, control.part(0, traceEnd));
-  if (hitStore_ != nullptr) hitStore_->append(hits);
+  if (hitStore_ != nullptr) store(hits, traced);
   if (shrinker_) measureThickness(faces, hits, traced, control.part(traceEnd, 1));
   traced.statistics.rayCount += statistics.rayCount;
   traced.statistics.redoneConeCount += statistics.redoneConeCount;
@@ -117,6 +119,16 @@ void SeedTracing::reserveStored(TracedSeeds& traced, size_t furtherCount) {
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::Device) throw;
     traced.hits = std::exchange(hitStore_, nullptr)->download();
+  }
+}
+
+void SeedTracing::store(std::span<const ConeHit> hits, TracedSeeds& traced) {
+  try {
+    hitStore_->append(hits);
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::Device) throw;
+    traced.hits = std::exchange(hitStore_, nullptr)->download();
+    traced.hits.insert(traced.hits.end(), hits.begin(), hits.end());
   }
 }
 

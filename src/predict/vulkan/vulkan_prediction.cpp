@@ -95,6 +95,7 @@ class Upload {
 };
 
 Buffer uploadFaces(const Device& device, const TraceScene& scene) {
+  requireStorageRange(device, scene.geometry.areas.size() * sizeof(PredictionFace));
   UnsetVector<PredictionFace> faces(scene.geometry.areas.size());
   forEachInParallel(faces.size(), [&](uint32_t face) {
     faces[face] = {toGlsl(scene.originOf(face)), scene.representatives[face], toGlsl(scene.geometry.normals[face]), 0};
