@@ -15,11 +15,11 @@ void main() {
   const uint cone = gl_GlobalInvocationID.x;
   if (cone >= push.coneCount) return;
   const ConeSeed seed = seeds[cone];
-  const DeviceTriangle triangle = loadTriangle(seed.triangle & ~kReversedSeedBit);
+  const DeviceTriangle triangle = loadTriangle(seed.triangle & ~(kReversedSeedBit | kFlippedFrameBit));
   const vec3 outward = decodeNormal(triangle.normalU, triangle.normalV);
   const vec3 axis = (seed.triangle & kReversedSeedBit) != 0u ? outward : -outward;
   // As coneFrame() in src/cone/cone.h.
-  const float s = axis.z < -0.7 ? -1.0 : 1.0;
+  const float s = (seed.triangle & kFlippedFrameBit) != 0u ? -1.0 : 1.0;
   const float a = -1.0 / (s + axis.z);
   const float b = axis.x * axis.y * a;
   const vec3 tangent = vec3(1.0 + s * axis.x * axis.x * a, s * b, -s * axis.x);

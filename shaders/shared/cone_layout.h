@@ -31,6 +31,8 @@ struct ConeSeed {
 };
 
 const uint kReversedSeedBit = 0x80000000u;
+// The first case of coneFrame() in src/cone/cone.h, decided by the host, so that rounding selects no other frame.
+const uint kFlippedFrameBit = 0x40000000u;
 
 // One ray of every cone, 16 bytes and one texel, in the frame of the cone.
 struct ConeRay {

@@ -141,7 +141,7 @@ Cone makeCone(const ConeOptions& options) {
 }
 
 ConeFrame coneFrame(const Vec3d& z) {
-  const double s = z.z < -0.7 ? -1.0 : 1.0;
+  const double s = isConeFrameFlipped(z) ? -1.0 : 1.0;
   const double a = -1 / (s + z.z);
   const double b = z.x * z.y * a;
   return {{1 + s * z.x * z.x * a, s * b, -s * z.x}, {b, s + z.y * z.y * a, -z.y}, z};

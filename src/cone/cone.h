@@ -57,6 +57,9 @@ struct ConeFrame {
   [[nodiscard]] Vec3d toWorld(const Vec3d& ray) const { return ray.x * tangent + ray.y * bitangent + ray.z * axis; }
 };
 
+/// Whether coneFrame() takes the first of its two cases.
+[[nodiscard]] inline bool isConeFrameFlipped(const Vec3d& axis) { return axis.z < -0.7; }
+
 /// Duff et al. 2017, "Building an Orthonormal Basis, Revisited", with the discontinuity moved to axis.z = -0.7, because
 /// normals of axis-aligned walls have z = -1, 0 or 1. axis: unit, minus the normal of the face.
 [[nodiscard]] ConeFrame coneFrame(const Vec3d& axis);

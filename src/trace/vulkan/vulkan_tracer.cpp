@@ -53,8 +53,9 @@ class VulkanTracer final : public ConeTracer {
       if (kernel_.origins() == nullptr) return submitStarts(chunk, cones, startOf, results);
       const std::span<ConeSeed> seeds = chunk.seeds();
       forEachInParallel(cones.size(), [&](uint32_t i) {
-        const double rotation = coneRotation(cone_, seedFaces[cones[i].index]);
-        seeds[i] = {cones[i].triangle, static_cast<float>(std::tan(rotation / 2))};
+        const uint32_t face = seedFaces[cones[i].index];
+        const uint32_t flip = isConeFrameFlipped(-scene_.geometry.normals[face]) ? kFlippedFrameBit : 0;
+        seeds[i] = {cones[i].triangle | flip, static_cast<float>(std::tan(coneRotation(cone_, face) / 2))};
       });
       chunk.submit(pushFor(cones.size()), ConeChunk::Input::Seeds, !results.hits.empty());
     };
