@@ -31,8 +31,8 @@ struct Settings {
 /// Throws std::invalid_argument with the name of a variable that has no valid value.
 [[nodiscard]] Settings readSettings();
 
-/// ASDF_VK_FAKE_LOST_AT=n: the submission number n of a device, counted from 1, and the first one after it, lose the
-/// device. Read at each submission.
+/// ASDF_VK_FAKE_LOST_AT=n: submission n of a device, counted from 1, and each later one fail with VK_ERROR_DEVICE_LOST.
+/// Read at each submission.
 [[nodiscard]] bool losesDeviceAt(uint64_t submission) noexcept;
 
 /// ASDF_VK_FAKE_NO_MEMORY_AT=n, or n+: the allocation number n of a device, counted from 1, fails for want of device

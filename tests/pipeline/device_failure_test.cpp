@@ -125,7 +125,7 @@ void checkReplaced(Session& session, const Mesh& mesh, const Result& result, Err
 
 }  // namespace
 
-TEST_CASE("auto completes a mesh and later ones, whichever submission loses the device") {
+TEST_CASE("auto completes a mesh and later ones, whichever submission loses the device" * doctest::test_suite("slow")) {
   const FakeDevice fake(kGpu);
   const Expected expected;
   uint32_t n = 1;

@@ -68,7 +68,8 @@ TEST_CASE("the fastest variant is one of the device that passed") {
   CHECK(report.fastest() == nullptr);
 }
 
-TEST_CASE("each variant and solver of the device gives the values of the CPU" * doctest::test_suite("slow")) {
+TEST_CASE("each variant and solver of the device gives the values of the CPU" * doctest::test_suite("slow") *
+          doctest::test_suite("slow")) {
   if (listDevices().empty()) {
     MESSAGE("skipped: no Vulkan device");
     return;

@@ -146,8 +146,8 @@ TEST_CASE("on the device, too, an open mesh, a single seed, no seeds and only se
   checkClose(compare(*device, SeededMesh(makeSphere(180).mesh, 180)));
 }
 
-TEST_CASE(
-    "predictions of the device have the same bits in every call, with any size of batches and after other seeds") {
+TEST_CASE("predictions of the device have the same bits in every call, with any size of batches and after other seeds" *
+          doctest::test_suite("slow")) {
   const test::ValidatedDevice device;
   const SeededMesh seeded(makeAnimal(3000).mesh, 300);
   SeededMesh few(makeAnimal(3000).mesh, 300);

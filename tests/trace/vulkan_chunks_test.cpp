@@ -47,7 +47,7 @@ TraceResults traceFaces(ConeTracer& tracer, std::span<const uint32_t> faces, uin
 
 }  // namespace
 
-TEST_CASE("memory that the host cannot map changes no bit") {
+TEST_CASE("memory that the host cannot map changes no bit" * doctest::test_suite("slow")) {
   const test::ValidatedDevice mapped;
   const ChangedDevice separate(useSeparateMemory);
   const TracedMesh traced(generateShape("animal", 1200).mesh);
