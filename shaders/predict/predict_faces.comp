@@ -94,7 +94,7 @@ uint firstPointOf(uint i) { return seeds[i] * (push.rayCount + 1u) + 1u; }
 // 0 for a seed that is ignored.
 uint endOf(uint i, float minWeight) { return seedWeights[i] >= minWeight ? firstPointOf(i) + push.rayCount : 0u; }
 
-// Points are added in blocks, and the sums of the blocks then: with many rays, rounding errors are smaller.
+// Each block of points has its own sum, and these sums are added: rounding errors are smaller with many rays.
 const uint kBlockSize = 64u;
 
 // Sums over the points in the cone. Differences are from the median length of the seed of the cell, which reduces

@@ -33,7 +33,7 @@ Json deviceOf(const DeviceDescription& device) {
 Json limitsOf(const DeviceDescription& device) {
   Json limits;
   for (const auto& [name, value] : device.limits) limits[name] = value;
-  limits["timestampPeriod"] = number(device.timestampPeriod);
+  limits["timestampPeriod"] = number(device.facts.timestampPeriod);
   return limits;
 }
 

@@ -128,7 +128,6 @@ DeviceDescription describeInFull(const Instance& instance, uint32_t index) {
   description.driverId = static_cast<uint32_t>(driver.driverID);
   description.driverVersion = basic.driverVersion;
   description.limits = limitsOf(basic.limits, description.facts.maxMemoryAllocationSize);
-  description.timestampPeriod = static_cast<double>(basic.limits.timestampPeriod);
   if (subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT)
     description.subgroupOperations = namesOf(kSubgroupOperations, subgroup.supportedOperations);
   description.features = featuresOf(device, floats);

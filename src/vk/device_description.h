@@ -30,7 +30,6 @@ struct DeviceDescription {
   DeviceFacts facts;
   uint32_t vendorId = 0, deviceId = 0, driverId = 0, driverVersion = 0;
   std::vector<std::pair<std::string, uint64_t>> limits;
-  double timestampPeriod = 0;                   ///< Nanoseconds.
   std::vector<std::string> subgroupOperations;  ///< In compute shaders.
   std::vector<std::string> features;            ///< Those that the device has, of a selection.
   std::vector<std::string> extensions;          ///< Likewise.

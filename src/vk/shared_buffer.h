@@ -7,7 +7,7 @@
 
 namespace asdfvk {
 
-/// A pooled buffer that kernels access in the memory of the device, and the host directly where it can, or else through
+/// A pooled buffer in the memory of the device. The host accesses it directly where that memory is mapped, else through
 /// a mapped copy.
 class SharedBuffer {
  public:

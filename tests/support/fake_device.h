@@ -1,41 +1,14 @@
 #pragma once
 
-#include <cstdlib>
 #include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "support/scoped_variable.h"
+
 namespace asdfvk::test {
-
-/// An environment variable with another value, or without one, while this exists.
-class ScopedVariable {
- public:
-  ScopedVariable(std::string name, const std::optional<std::string>& value)
-      : name_(std::move(name)), before_(valueOf(name_)) {
-    set(value);
-  }
-  ~ScopedVariable() { set(before_); }
-  ScopedVariable(const ScopedVariable&) = delete;
-  ScopedVariable& operator=(const ScopedVariable&) = delete;
-
-  [[nodiscard]] static std::optional<std::string> valueOf(const std::string& name) {
-    const char* value = std::getenv(name.c_str());
-    return value == nullptr ? std::nullopt : std::optional<std::string>(value);
-  }
-
- private:
-  void set(const std::optional<std::string>& value) {
-    if (value)
-      ::setenv(name_.c_str(), value->c_str(), 1);
-    else
-      ::unsetenv(name_.c_str());
-  }
-
-  std::string name_;
-  std::optional<std::string> before_;
-};
 
 /// While this exists, new instances have the layer of tests/fake_device, whose variables (settings.h there) have the
 /// given values; variables that are not given keep theirs. The validation layer, where it is on, sees the device of the

@@ -2,7 +2,6 @@
 #include <doctest/doctest.h>
 
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -11,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "support/scoped_variable.h"
 #include "trace/vulkan/vulkan_cone_kernel.h"
 #include "vk/instance.h"
 #include "vk/result.h"
@@ -18,30 +18,6 @@
 using namespace asdfvk;
 
 namespace {
-
-/// Sets or, with a null value, removes an environment variable until it is destroyed.
-class ScopedVariable {
- public:
-  ScopedVariable(const char* name, const char* value) : name_(name) {
-    if (const char* previous = std::getenv(name)) previous_ = previous;
-    set(value);
-  }
-  ~ScopedVariable() { set(previous_ ? previous_->c_str() : nullptr); }
-  ScopedVariable(const ScopedVariable&) = delete;
-  ScopedVariable& operator=(const ScopedVariable&) = delete;
-
- private:
-  void set(const char* value) {
-    if (value != nullptr) {
-      ::setenv(name_, value, 1);
-    } else {
-      ::unsetenv(name_);
-    }
-  }
-
-  const char* name_;
-  std::optional<std::string> previous_;
-};
 
 using Statistics = std::map<std::string, uint64_t>;
 
@@ -52,7 +28,7 @@ class RadvCompiler {
   RadvCompiler(const char* manifest, const char* family)
       : drivers_("VK_DRIVER_FILES", manifest),
         oldDrivers_("VK_ICD_FILENAMES", manifest),
-        layers_("VK_INSTANCE_LAYERS", nullptr),
+        layers_("VK_INSTANCE_LAYERS", std::nullopt),
         family_("RADV_FORCE_FAMILY", family),
         instance_(std::make_unique<Instance>()) {
     const std::vector<VkPhysicalDevice> devices = instance_->physicalDevices();
@@ -160,7 +136,7 @@ class RadvCompiler {
     return statistics;
   }
 
-  ScopedVariable drivers_, oldDrivers_, layers_, family_;
+  test::ScopedVariable drivers_, oldDrivers_, layers_, family_;
   std::unique_ptr<Instance> instance_;
   DeviceFacts facts_;
   VkDevice device_ = VK_NULL_HANDLE;

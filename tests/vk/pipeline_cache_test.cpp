@@ -10,6 +10,7 @@
 #include <string>
 
 #include "spirv/fill.comp.h"
+#include "support/scoped_variable.h"
 #include "support/test_device.h"
 #include "vk/compute_pipeline.h"
 
@@ -66,20 +67,6 @@ void write(const std::filesystem::path& file, const std::string& content) {
   std::ofstream(file, std::ios::binary) << content;
 }
 
-class Variable {
- public:
-  Variable(const char* name, const char* value) : name_(name), previous_(std::getenv(name) ? std::getenv(name) : "") {
-    ::setenv(name, value, 1);
-  }
-  ~Variable() { ::setenv(name_, previous_.c_str(), 1); }
-  Variable(const Variable&) = delete;
-  Variable& operator=(const Variable&) = delete;
-
- private:
-  const char* name_;
-  std::string previous_;
-};
-
 }  // namespace
 
 TEST_CASE("a pipeline cache is read as it was written") {
@@ -133,19 +120,19 @@ TEST_CASE("a folder that cannot be written is no error") {
 
 TEST_CASE("the folder of pipeline caches is that of the user's caches, unless it is switched off") {
   {
-    const Variable on("ASDF_VK_PIPELINE_CACHE", "");
-    const Variable home("HOME", "/home/someone");
+    const test::ScopedVariable on("ASDF_VK_PIPELINE_CACHE", "");
+    const test::ScopedVariable home("HOME", "/home/someone");
     {
-      const Variable caches("XDG_CACHE_HOME", "/var/caches");
+      const test::ScopedVariable caches("XDG_CACHE_HOME", "/var/caches");
       CHECK(pipelineCacheFolder() == "/var/caches/asdf-vk");
     }
-    const Variable caches("XDG_CACHE_HOME", "relative");
+    const test::ScopedVariable caches("XDG_CACHE_HOME", "relative");
     CHECK(pipelineCacheFolder() == "/home/someone/.cache/asdf-vk");
-    const Variable nowhere("HOME", "");
+    const test::ScopedVariable nowhere("HOME", "");
     CHECK(pipelineCacheFolder().empty());
   }
-  const Variable caches("XDG_CACHE_HOME", "/var/caches");
-  const Variable off("ASDF_VK_PIPELINE_CACHE", "0");
+  const test::ScopedVariable caches("XDG_CACHE_HOME", "/var/caches");
+  const test::ScopedVariable off("ASDF_VK_PIPELINE_CACHE", "0");
   CHECK(pipelineCacheFolder().empty());
 }
 

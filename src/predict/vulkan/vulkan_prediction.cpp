@@ -21,6 +21,7 @@
 #include "spirv/hit_points.comp.h"
 #include "spirv/predict_faces.comp.h"
 #include "vk/command_list.h"
+#include "vk/shared_buffer.h"
 
 namespace asdfvk {
 namespace {
@@ -70,29 +71,6 @@ ComputePipelineDescription describeFaces(Definition definition) {
           .specializationConstants = {/* LOCAL_SIZE_X= */ VulkanPredictionKernels::kFaceLaneCount,
                                       /* kIsCgal= */ isCgal(definition)}};
 }
-
-/// Memory that the host writes and kernels read.
-class Upload {
- public:
-  Upload(const Device& device, uint64_t byteCount)
-      : device_(device, byteCount, kStorage | VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryKind::DeviceLocal) {
-    if (device_.mapped() == nullptr)
-      staging_ = Buffer(device, byteCount, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryKind::HostVisible);
-  }
-
-  [[nodiscard]] const Buffer& buffer() const { return device_; }
-  template <typename T>
-  [[nodiscard]] std::span<T> mappedAs() const {
-    return (device_.mapped() != nullptr ? device_ : staging_).mappedAs<T>();
-  }
-  /// Makes the first bytes available to the commands after the next barrier.
-  void record(CommandList& commands, uint64_t byteCount) const {
-    if (device_.mapped() == nullptr) commands.copy(staging_, 0, device_, 0, byteCount);
-  }
-
- private:
-  Buffer device_, staging_;
-};
 
 Buffer uploadFaces(const Device& device, const TraceScene& scene) {
   requireStorageRange(device, scene.geometry.areas.size() * sizeof(PredictionFace));
@@ -152,10 +130,11 @@ class VulkanPredictor final : public DevicePredictor {
     if (isStored) ASDFVK_CHECK_OP(store_.seedCount(), ==, task.hits.seeds.size());
     reserve(task);
     if (!isStored && !memory_->hits)
-      memory_->hits.emplace(kernels_.device(), memory_->seedCount * kernels_.rayCount() * sizeof(ConeHit));
-    const Buffer& hits = isStored ? store_.buffer() : memory_->hits->buffer();
+      memory_->hits.emplace(kernels_.device(), memory_->seedCount * kernels_.rayCount() * sizeof(ConeHit), kStorage,
+                            SharedBuffer::Host::Writes);
+    const Buffer& hits = isStored ? store_.buffer() : memory_->hits->onDevice();
     const BindingSet pointBindings(kernels_.device(), kernels_.points(),
-                                   std::array<Binding, 4>{faces_, memory_->table.buffer(), hits, memory_->points});
+                                   std::array<Binding, 4>{faces_, memory_->table.onDevice(), hits, memory_->points});
     placeOf_.assign(task.hits.seeds.size(), kNoSeed);
     forEachBatch(task, [&](const Batch& batch) {
       writeSeeds(task, batch);
@@ -178,16 +157,18 @@ class VulkanPredictor final : public DevicePredictor {
            size_t items)
         : seedCount(seeds),
           faceCount(items),
-          table(kernels.device(), kernels.rayCount() * sizeof(PredictionRay) + seeds * sizeof(PredictionSeed)),
-          work(kernels.device(), (2 * items + kMaxContributingSeedCount * seeds) * sizeof(uint32_t)),
+          table(kernels.device(), kernels.rayCount() * sizeof(PredictionRay) + seeds * sizeof(PredictionSeed), kStorage,
+                SharedBuffer::Host::Writes),
+          work(kernels.device(), (2 * items + kMaxContributingSeedCount * seeds) * sizeof(uint32_t), kStorage,
+               SharedBuffer::Host::Writes),
           points(kernels.device(), seeds * (kernels.rayCount() + 1) * sizeof(PredictionPoint), kStorage,
                  MemoryKind::DeviceLocal),
           faceBindings(kernels.device(), kernels.faces(),
-                       std::array<Binding, 4>{faces, points, work.buffer(), values}) {}
+                       std::array<Binding, 4>{faces, points, work.onDevice(), values}) {}
 
     size_t seedCount, faceCount;
-    Upload table, work;
-    std::optional<Upload> hits;  // Of the seeds of the batch, where the host keeps the hits.
+    SharedBuffer table, work;
+    std::optional<SharedBuffer> hits;  // Of the seeds of the batch, where the host keeps the hits.
     Buffer points;
     BindingSet faceBindings;
   };
@@ -200,7 +181,7 @@ class VulkanPredictor final : public DevicePredictor {
     if (memory_ && memory_->seedCount >= seedCount && memory_->faceCount >= faceCount) return;
     memory_.reset();
     memory_.emplace(kernels_, faces_, values_, seedCount, faceCount);
-    const std::span<PredictionRay> rays = memory_->table.mappedAs<PredictionRay>();
+    const std::span<PredictionRay> rays = memory_->table.onHost<PredictionRay>();
     for (size_t i = 0; i < cone_.directions.size(); ++i)
       rays[i] = {toGlsl(cone_.directions[i]), static_cast<float>(cone_.solidAngles[i])};
   }
@@ -236,11 +217,11 @@ class VulkanPredictor final : public DevicePredictor {
     finish();
   }
 
-  void writeSeeds(const PredictionTask& task, const Batch& batch) const {
+  void writeSeeds(const PredictionTask& task, const Batch& batch) {
     const size_t rayCount = kernels_.rayCount();
-    const std::span<std::byte> table = memory_->table.mappedAs<std::byte>().subspan(rayCount * sizeof(PredictionRay));
+    const std::span<std::byte> table = memory_->table.onHost<std::byte>().subspan(rayCount * sizeof(PredictionRay));
     const bool isStored = task.hits.hits.empty();
-    const std::span<ConeHit> hits = isStored ? std::span<ConeHit>{} : memory_->hits->mappedAs<ConeHit>();
+    const std::span<ConeHit> hits = isStored ? std::span<ConeHit>{} : memory_->hits->onHost<ConeHit>();
     forEachInParallel(batch.seeds.size(), [&](uint32_t i) {
       const uint32_t face = task.hits.seeds[batch.seeds[i]];
       const auto firstHit = static_cast<uint32_t>((isStored ? batch.seeds[i] : i) * rayCount);
@@ -250,8 +231,8 @@ class VulkanPredictor final : public DevicePredictor {
     });
   }
 
-  void writeWork(const PredictionTask& task, const Batch& batch) const {
-    const std::span<uint32_t> work = memory_->work.mappedAs<uint32_t>();
+  void writeWork(const PredictionTask& task, const Batch& batch) {
+    const std::span<uint32_t> work = memory_->work.onHost<uint32_t>();
     forEachInParallel(batch.parts.size(), [&](uint32_t i) {
       const Batch::Part& part = batch.parts[i];
       uint32_t* item = &work[2 * size_t{part.firstItem}];
@@ -278,11 +259,12 @@ class VulkanPredictor final : public DevicePredictor {
                               rules_.outlierSlack,
                               static_cast<float>(task.options.distanceDeviation)};
     commands_.begin();
-    memory_->table.record(commands_, kernels_.rayCount() * sizeof(PredictionRay) + seedCount * sizeof(PredictionSeed));
+    memory_->table.recordCopy(commands_,
+                              kernels_.rayCount() * sizeof(PredictionRay) + seedCount * sizeof(PredictionSeed));
     if (!task.hits.hits.empty())
-      memory_->hits->record(commands_, uint64_t{seedCount} * kernels_.rayCount() * sizeof(ConeHit));
-    memory_->work.record(commands_,
-                         (2 * batch.faceCount + kMaxContributingSeedCount * batch.parts.size()) * sizeof(uint32_t));
+      memory_->hits->recordCopy(commands_, uint64_t{seedCount} * kernels_.rayCount() * sizeof(ConeHit));
+    memory_->work.recordCopy(commands_,
+                             (2 * batch.faceCount + kMaxContributingSeedCount * batch.parts.size()) * sizeof(uint32_t));
     commands_.barrier();
     commands_.dispatch(kernels_.points(), pointBindings, bytesOf(pointPush), seedCount);
     commands_.barrier();
