@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/parallel.h"
 #include "core/radix_sort.h"
 #include "core/unset_vector.h"
 
@@ -33,7 +34,10 @@ uint64_t mortonCode(const Vec3d& origin) {
 }  // namespace
 
 SeedOrder::SeedOrder(const TraceScene& scene)
-    : SeedOrder(scene, [&](uint32_t primitive) { return scene.bvh.primitiveFaces[primitive]; }) {}
+    : representatives_(scene.representatives), primitiveOfFace_(scene.representatives.size(), kNoFace) {
+  forEachInParallel(scene.bvh.primitiveFaces.size(),
+                    [&](uint32_t primitive) { primitiveOfFace_[scene.bvh.primitiveFaces[primitive]] = primitive; });
+}
 
 std::vector<uint32_t> SeedOrder::of(std::span<const uint32_t> seedFaces) const {
   struct Seed {

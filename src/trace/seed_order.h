@@ -4,7 +4,6 @@
 #include <span>
 #include <vector>
 
-#include "core/parallel.h"
 #include "trace/cone_tracer.h"
 
 namespace asdfvk {
@@ -14,12 +13,6 @@ class SeedOrder {
  public:
   /// By the primitives of the scene's hierarchy.
   explicit SeedOrder(const TraceScene& scene);
-  /// faceOf(p): the face of primitive p, for another order of the same primitives.
-  template <typename FaceOf>
-  SeedOrder(const TraceScene& scene, const FaceOf& faceOf)
-      : representatives_(scene.representatives), primitiveOfFace_(scene.representatives.size(), kNoFace) {
-    forEachInParallel(scene.bvh.primitiveFaces.size(), [&](uint32_t p) { primitiveOfFace_[faceOf(p)] = p; });
-  }
 
   /// A permutation of the indices into seedFaces; equal seeds keep their order.
   [[nodiscard]] std::vector<uint32_t> of(std::span<const uint32_t> seedFaces) const;

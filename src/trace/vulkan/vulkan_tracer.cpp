@@ -2,22 +2,20 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <bit>
 #include <cmath>
 #include <iterator>
-#include <numeric>
 #include <optional>
 #include <vector>
 
 #include "core/check.h"
 #include "core/parallel.h"
-#include "core/radix_sort.h"
 #include "core/stopwatch.h"
 #include "core/unset_vector.h"
 #include "trace/chunks.h"
 #include "trace/reference_tracer.h"
 #include "trace/seed_order.h"
+#include "trace/vulkan/device_seeds.h"
 #include "trace/vulkan/vulkan_balls.h"
 #include "trace/vulkan/vulkan_cone_chunk.h"
 #include "trace/vulkan/vulkan_cone_kernel.h"
@@ -28,14 +26,6 @@ namespace {
 
 constexpr uint64_t kFirstChunkRayCount = 1u << 16;
 constexpr size_t kChunksInFlight = 2;
-// Seeds are collected instead of sorted if they are at least 1 / kMinDenseShare of the faces.
-constexpr uint32_t kMinDenseShare = 8;
-
-/// A cone on the device: its seed, if it is one of a face, and its index in the arrays of the caller.
-struct DeviceCone {
-  uint32_t triangle;
-  uint32_t index;
-};
 
 class VulkanTracer final : public ConeTracer {
  public:
@@ -48,35 +38,34 @@ class VulkanTracer final : public ConeTracer {
   TraceStatistics trace(std::span<const uint32_t> seedFaces, const ConeResults& results,
                         const RunControl& control) override {
     const auto startOf = [&](uint32_t i) { return coneStartOfFace(scene_, cone_, seedFaces[i]); };
-    const auto fits = [&](uint32_t i) { return isTraceable(seedFaces[i]); };
     const auto submit = [&](ConeChunk& chunk, std::span<const DeviceCone> cones) {
       if (kernel_.origins() == nullptr) return submitStarts(chunk, cones, startOf, results);
       const std::span<ConeSeed> seeds = chunk.seeds();
       forEachInParallel(cones.size(), [&](uint32_t i) {
-        const uint32_t face = seedFaces[cones[i].index];
-        const uint32_t flip = isConeFrameFlipped(-scene_.geometry.normals[face]) ? kFlippedFrameBit : 0;
-        seeds[i] = {cones[i].triangle | flip, static_cast<float>(std::tan(coneRotation(cone_, face) / 2))};
+        const double rotation = coneRotation(cone_, seedFaces[cones[i].index]);
+        seeds[i] = {cones[i].seed, static_cast<float>(std::tan(rotation / 2))};
       });
       chunk.submit(pushFor(cones.size()), ConeChunk::Input::Seeds, !results.hits.empty());
     };
     return traceAll(
-        seedFaces.size(), [&] { return sortSeeds(seedFaces); }, fits, submit, startOf, results, control);
+        seedFaces.size(), [&] { return seeds_->inDeviceOrder(seedFaces); }, submit, startOf, results, control);
   }
 
   TraceStatistics traceAt(std::span<const ConeStart> starts, const ConeResults& results,
                           const RunControl& control) override {
     const auto startOf = [&](uint32_t i) -> const ConeStart& { return starts[i]; };
-    const auto fits = [&](uint32_t i) { return isNearBox(starts[i].origin); };
     const auto submit = [&](ConeChunk& chunk, std::span<const DeviceCone> cones) {
       submitStarts(chunk, cones, startOf, results);
     };
     const auto sorted = [&] {
       const std::vector<uint32_t> order = spatialOrder(starts);
       UnsetVector<DeviceCone> cones(order.size());
-      forEachInParallel(order.size(), [&](uint32_t i) { cones[i] = {0, order[i]}; });
+      forEachInParallel(order.size(), [&](uint32_t i) {
+        cones[i] = {isNearBox(starts[order[i]].origin) ? 0 : kNoFace, order[i]};
+      });
       return cones;
     };
-    return traceAll(starts.size(), sorted, fits, submit, startOf, results, control);
+    return traceAll(starts.size(), sorted, submit, startOf, results, control);
   }
 
   std::unique_ptr<BallShrinker> makeBallShrinker(const OpposingWalls& walls) override {
@@ -91,75 +80,16 @@ class VulkanTracer final : public ConeTracer {
     const Stopwatch watch;
     DeviceBvh bvh = encodeDeviceBvh(scene_.bvh, scene_.mesh, scene_.geometry, kernel_.choice().bvh);
     if (kernel_.balls() != nullptr) bvh.addNormalBounds(scene_.geometry);
-    seedOrder_.emplace(scene_, [&](uint32_t triangle) { return bvh.triangles[triangle].faceIndex; });
+    seeds_.emplace(scene_, bvh.triangles);
     encodeSeconds_ = watch.seconds();
     return bvh;
   }
 
-  /// Whether the device can trace the cone of a face.
-  [[nodiscard]] bool isTraceable(uint32_t face) const {
-    return !isTooSmallForFloat(scene_, face) && seedOrder_->primitiveOf(face) != kNoFace;
-  }
-
-  /// In the order of their triangles: neighbouring cones traverse the same nodes.
-  [[nodiscard]] UnsetVector<DeviceCone> sortSeeds(std::span<const uint32_t> seedFaces) const {
-    const auto triangleCount = static_cast<uint32_t>(scene_.bvh.primitiveFaces.size());
-    UnsetVector<DeviceCone> cones(seedFaces.size());
-    if (cones.size() >= triangleCount / kMinDenseShare && collectSeeds(seedFaces, cones)) return cones;
-    forEachInParallel(cones.size(), [&](uint32_t i) { cones[i] = {triangleOf(seedFaces[i]), i}; });
-    sortByKey(cones, triangleCount, [&](const DeviceCone& cone) {  // kNoFace comes last.
-      return std::min(cone.triangle & ~kReversedSeedBit, triangleCount);
-    });
-    return cones;
-  }
-
-  /// The same for many seeds, with one random access each instead of the four of a sort: seeds are put at their
-  /// triangles and collected from there. Returns false if seeds share a triangle or have none.
-  [[nodiscard]] bool collectSeeds(std::span<const uint32_t> seedFaces, UnsetVector<DeviceCone>& cones) const {
-    constexpr uint32_t kEmpty = 0xffffffffu;
-    if (seedFaces.size() >= kReversedSeedBit) return false;
-    const size_t triangleCount = scene_.bvh.primitiveFaces.size();
-    UnsetVector<uint32_t> seedAt(triangleCount);  // Index of the seed, with kReversedSeedBit.
-    forEachInParallel(triangleCount, [&](uint32_t triangle) { seedAt[triangle] = kEmpty; });
-    forEachInParallel(seedFaces.size(), [&](uint32_t i) {
-      const uint32_t triangle = triangleOf(seedFaces[i]);
-      if (triangle == kNoFace) return;
-      std::atomic_ref(seedAt[triangle & ~kReversedSeedBit])
-          .store(i | (triangle & kReversedSeedBit), std::memory_order_relaxed);
-    });
-    const size_t blockCount = (triangleCount + kItemsPerTask - 1) / kItemsPerTask;
-    const auto forEachSeedOf = [&](size_t block, const auto& visit) {
-      const size_t end = std::min(triangleCount, (block + 1) * kItemsPerTask);
-      for (size_t triangle = block * kItemsPerTask; triangle < end; ++triangle)
-        if (seedAt[triangle] != kEmpty) visit(static_cast<uint32_t>(triangle), seedAt[triangle]);
-    };
-    std::vector<size_t> begins(blockCount + 1);
-    forEachTask(blockCount,
-                [&](size_t block) { forEachSeedOf(block, [&](uint32_t, uint32_t) { ++begins[block + 1]; }); });
-    std::partial_sum(begins.begin(), begins.end(), begins.begin());
-    if (begins.back() != seedFaces.size()) return false;
-    forEachTask(blockCount, [&](size_t block) {
-      DeviceCone* next = cones.data() + begins[block];
-      forEachSeedOf(block, [&](uint32_t triangle, uint32_t seed) {
-        *next++ = {triangle | (seed & kReversedSeedBit), seed & ~kReversedSeedBit};
-      });
-    });
-    return true;
-  }
-
-  /// ConeSeed::triangle.
-  [[nodiscard]] uint32_t triangleOf(uint32_t face) const {
-    const uint32_t triangle = seedOrder_->primitiveOf(face), representative = scene_.representatives[face];
-    const std::vector<Vec3d>& normals = scene_.geometry.normals;
-    const bool isReversed = representative != face && dot(normals[face], normals[representative]) < 0;
-    return isReversed ? triangle | kReversedSeedBit : triangle;
-  }
-
-  /// sorted(): all cones, in the order of the device. fits(i): whether the device can trace cone i. submit(chunk,
-  /// cones): writes the input of these cones and submits the chunk. startOf(i): the start of cone i.
-  template <typename Sorted, typename Fits, typename Submit, typename StartOf>
-  TraceStatistics traceAll(size_t coneCount, const Sorted& sorted, const Fits& fits, const Submit& submit,
-                           const StartOf& startOf, const ConeResults& results, const RunControl& control) {
+  /// sorted(): all cones, in the order of the device. submit(chunk, cones): writes the input of these cones and submits
+  /// the chunk. startOf(i): the start of cone i.
+  template <typename Sorted, typename Submit, typename StartOf>
+  TraceStatistics traceAll(size_t coneCount, const Sorted& sorted, const Submit& submit, const StartOf& startOf,
+                           const ConeResults& results, const RunControl& control) {
     checkSizes(results, coneCount, kernel_.rayCount());
     ASDFVK_CHECK(results.hits.empty() || kernel_.writesHits());
     const uint64_t rayCount = coneCount * cone_.directions.size();
@@ -170,9 +100,9 @@ class VulkanTracer final : public ConeTracer {
     }
     UnsetVector<DeviceCone> cones = sorted();
     std::vector<uint32_t> redone;
-    if (countInParallel(coneCount, fits) < coneCount) {
-      const auto firstUnfit =
-          std::stable_partition(cones.begin(), cones.end(), [&](const DeviceCone& cone) { return fits(cone.index); });
+    const auto fits = [](const DeviceCone& cone) { return cone.seed != kNoFace; };
+    if (countInParallel(coneCount, [&](uint32_t i) { return fits(cones[i]); }) < coneCount) {
+      const auto firstUnfit = std::stable_partition(cones.begin(), cones.end(), fits);
       std::transform(firstUnfit, cones.end(), std::back_inserter(redone),
                      [](const DeviceCone& cone) { return cone.index; });
       cones.erase(firstUnfit, cones.end());
@@ -281,7 +211,7 @@ class VulkanTracer final : public ConeTracer {
   TraceScene scene_;
   const Cone& cone_;
   double encodeSeconds_ = 0;
-  std::optional<SeedOrder> seedOrder_;  // By the triangles on the device.
+  std::optional<DeviceSeeds> seeds_;
   ConeBuffers buffers_;
   std::optional<DeviceTimer> timer_;  // Of the last call.
 };

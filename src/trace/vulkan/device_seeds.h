@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "bvh/device_bvh.h"
+#include "core/unset_vector.h"
+#include "trace/trace_scene.h"
+
+namespace asdfvk {
+
+/// A cone on the device: the code of its seed, and its index in the arrays of the caller.
+struct DeviceCone {
+  uint32_t seed;  ///< ConeSeed::triangle, or kNoFace where the device cannot trace the cone.
+  uint32_t index;
+};
+
+/// What a device requires of each face that may cast rays, 4 bytes a face: one random access per seed instead of one
+/// each in the triangles, representatives, areas and normals of the mesh.
+class DeviceSeeds {
+ public:
+  /// triangles: of the hierarchy on the device.
+  DeviceSeeds(const TraceScene& scene, std::span<const DeviceTriangle> triangles);
+
+  /// The cones of these faces in the order of their triangles: neighbouring cones traverse the same nodes. Cones that
+  /// the device cannot trace come last, in any order.
+  [[nodiscard]] UnsetVector<DeviceCone> inDeviceOrder(std::span<const uint32_t> faces) const;
+
+ private:
+  [[nodiscard]] bool collect(std::span<const uint32_t> faces, UnsetVector<DeviceCone>& cones) const;
+
+  std::vector<uint32_t> codes_;  // #F, DeviceCone::seed
+  uint32_t triangleCount_;
+};
+
+}  // namespace asdfvk
