@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "asdf_vk/error.h"
+#include "core/parallel.h"
 #include "vk/buffer_pool.h"
 #include "vk/result.h"
 #include "vk/staging_ring.h"
@@ -45,6 +46,15 @@ VkResult allocate(const Device& device, VkMemoryAllocateInfo& info, std::span<co
     if (result != VK_ERROR_OUT_OF_DEVICE_MEMORY) break;
   }
   return result;
+}
+
+/// The first write to each page of fresh memory costs more than the copy.
+void copyInParallel(std::span<const std::byte> from, std::byte* to) {
+  constexpr size_t kBlockByteCount = size_t{4} << 20;
+  forEachTask((from.size() + kBlockByteCount - 1) / kBlockByteCount, [&](size_t block) {
+    const std::span<const std::byte> own = from.subspan(block * kBlockByteCount);
+    std::memcpy(to + block * kBlockByteCount, own.data(), std::min(own.size(), kBlockByteCount));
+  });
 }
 
 }  // namespace
@@ -140,7 +150,7 @@ Buffer uploadBuffer(const Device& device, std::span<const std::byte> bytes, VkBu
   Buffer buffer(device, std::max<uint64_t>(bytes.size(), 16), usage | VK_BUFFER_USAGE_TRANSFER_DST_BIT, kind);
   if (bytes.empty()) return buffer;
   if (buffer.mapped() != nullptr)
-    std::memcpy(buffer.mapped(), bytes.data(), bytes.size());
+    copyInParallel(bytes, static_cast<std::byte*>(buffer.mapped()));
   else
     device.staging().upload(bytes, buffer);
   return buffer;
