@@ -125,7 +125,7 @@ std::string jsonDeviceReport(const DeviceReport& report) {
   json["version"] = ASDFVK_VERSION;
   json["commit"] = ASDFVK_COMMIT;
   json["passed"] = report.passed();
-  json["reason"] = report.reason;
+  json["reason"] = report.failure ? report.failure->what() : "";
   json["devices"] = report.deviceLines;
   if (report.device) {
     addDescription(json, *report.device);
@@ -152,7 +152,8 @@ ExitCode printDeviceReport(const CommandLine& line, const std::stop_token& stop)
   }
   writeStandardOutput(jsonDeviceReport(report));
   if (report.passed()) return ExitCode::Done;
-  printError("", report.reason.empty() ? "the self-test of the device failed; see the report" : report.reason);
+  if (report.failure) throw *report.failure;
+  printError("", "the self-test of the device failed; see the report");
   return ExitCode::Device;
 }
 

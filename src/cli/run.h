@@ -17,7 +17,7 @@ namespace asdfvk {
 void printDevices(const CommandLine& line);
 
 /// Prints the report on the device on standard output. Returns Done, or Device where its self-test failed. Throws as
-/// reportDevice().
+/// reportDevice(), and DeviceReport::failure after printing.
 [[nodiscard]] ExitCode printDeviceReport(const CommandLine& line, const std::stop_token& stop);
 
 }  // namespace asdfvk

@@ -118,10 +118,15 @@ void testVariants(DeviceReport& report, const Device& device, const TestScene& t
   }
 }
 
-void testOther(DeviceReport& report, Backend& backend, const std::string& name, const TestScene& test,
-               const RunControl& control) {
+/// open(): the backend, which exists until the test ends.
+template <typename Open>
+void testOther(DeviceReport& report, const std::string& name, const TestScene& test, const RunControl& control,
+               const Open& open) {
   TracerReport tracer{.backend = name};
-  runTest(tracer, [&] { testTracer(tracer, *backend.makeTracer(test.scene.view(), test.cone, {}), test, control); });
+  runTest(tracer, [&] {
+    Backend& backend = open();
+    testTracer(tracer, *backend.makeTracer(test.scene.view(), test.cone, {}), test, control);
+  });
   report.tracers.push_back(std::move(tracer));
 }
 
@@ -188,7 +193,7 @@ bool DeviceReport::passed() const {
   const bool defaultPassed = std::any_of(tracers.begin(), tracers.end(), [&](const TracerReport& tracer) {
     return tracer.passed && (tracer.isDefault || !device);
   });
-  return reason.empty() && defaultPassed && std::all_of(tracers.begin(), tracers.end(), isRight) &&
+  return !failure && defaultPassed && std::all_of(tracers.begin(), tracers.end(), isRight) &&
          std::all_of(solvers.begin(), solvers.end(), isRight);
 }
 
@@ -207,13 +212,13 @@ DeviceReport reportDevice(const SessionOptions& options, const RunControl& contr
     NamedBackend opened = openBackend(requested);
     report.deviceLines = opened.deviceLines;
     if (opened.backend->device() == nullptr) {
-      testOther(report, *opened.backend, opened.name, test, control);
+      testOther(report, opened.name, test, control, [&]() -> Backend& { return *opened.backend; });
     } else {
       vulkan = std::move(opened);
     }
   } catch (const Error& error) {
     if (!isAutomatic || error.kind() != ErrorKind::Device || options.requireGpu || !options.device.empty()) throw;
-    report.reason = error.what();
+    report.failure = error;
   }
   if (vulkan) {
     const Device& device = *vulkan->backend->device();
@@ -224,12 +229,20 @@ DeviceReport reportDevice(const SessionOptions& options, const RunControl& contr
     report.defaultSolver = defaultSolver(!vulkan->backend->runsOnCpu()).name;
     testVariants(report, device, test, control);
     testSolvers(report, device, test, control);
-    vulkan->backend->requireSilentValidation();
+    try {
+      vulkan->backend->requireSilentValidation();
+    } catch (const Error& error) {
+      report.failure = error;
+    }
   }
   if (isAutomatic && isBackendBuilt("cpu") && !options.requireGpu) {
-    SessionOptions embree;
-    embree.backend = "cpu";
-    testOther(report, *openBackend(embree).backend, "cpu", test, control);
+    NamedBackend embree;
+    testOther(report, "cpu", test, control, [&]() -> Backend& {
+      SessionOptions embreeOptions;
+      embreeOptions.backend = "cpu";
+      embree = openBackend(embreeOptions);
+      return *embree.backend;
+    });
   }
   return report;
 }

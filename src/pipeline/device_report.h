@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "asdf_vk/error.h"
 #include "asdf_vk/report.h"
 #include "asdf_vk/run_control.h"
 #include "asdf_vk/session.h"
@@ -41,7 +42,7 @@ inline constexpr double kSolverTolerance = 1e-3;
 /// What a device is, whether its kernels compute the values of the reference, and how fast.
 struct DeviceReport {
   std::vector<std::string> deviceLines;     ///< As Session::deviceLines().
-  std::string reason;                       ///< Why there is no Vulkan device.
+  std::optional<Error> failure;             ///< Why there is no Vulkan device, or what the validation layers report.
   std::optional<DeviceDescription> device;  ///< Unset without a Vulkan device.
   VulkanTraceChoice choice;                 ///< The default, and its shapes for 30 rays.
   VulkanWorkgroupShape workgroups;
