@@ -21,12 +21,16 @@ inline bool hasBuffersForSolvers(const Device& device) {
 /// layers reported nothing; tests/vk has the control that proves that they report errors.
 class ValidatedDevice {
  public:
-  ValidatedDevice()
-      : instance_(std::make_unique<Instance>(InstanceOptions{.validation = true})), log_(instance_->validationLog()) {
-    OpenedDevice opened = openDevice(*instance_, {});
-    MESSAGE(opened.reasons.front());
-    requireRequestedDevice(opened.reasons.front());
-    device_ = std::move(opened.device);
+  ValidatedDevice() : ValidatedDevice(openBest) {}
+  /// change(facts): changes what describeDevice() found of the first device.
+  template <typename Change>
+  [[nodiscard]] static ValidatedDevice changed(const Change& change) {
+    return ValidatedDevice([&](const Instance& instance) {
+      const VkPhysicalDevice physical = instance.physicalDevices().front();
+      DeviceFacts facts = describeDevice(physical);
+      change(facts);
+      return std::make_unique<Device>(physical, facts);
+    });
   }
   ~ValidatedDevice() {
     device_.reset();
@@ -40,9 +44,25 @@ class ValidatedDevice {
   [[nodiscard]] Device* operator->() const { return device_.get(); }
 
  private:
+  template <typename Open>
+  explicit ValidatedDevice(const Open& open)
+      : instance_(std::make_unique<Instance>(InstanceOptions{.validation = true})),
+        log_(instance_->validationLog()),
+        device_(open(*instance_)) {}
+
+  static std::unique_ptr<Device> openBest(const Instance& instance) {
+    OpenedDevice opened = openDevice(instance, {});
+    MESSAGE(opened.reasons.front());
+    requireRequestedDevice(opened.reasons.front());
+    return std::move(opened.device);
+  }
+
   std::unique_ptr<Instance> instance_;
   std::shared_ptr<ValidationLog> log_;
   std::unique_ptr<Device> device_;
 };
+
+/// For ValidatedDevice::changed(): memory of the device that the host cannot map.
+inline void useSeparateMemory(DeviceFacts& facts) { facts.mapsDeviceMemory = false; }
 
 }  // namespace asdfvk::test

@@ -16,27 +16,6 @@ using namespace asdfvk;
 
 namespace {
 
-/// The first device, with facts changed by a test.
-struct ChangedDevice {
-  Instance instance{{.validation = true}};
-  Device device;
-
-  template <typename Change>
-  explicit ChangedDevice(const Change& change) : device(instance.physicalDevices().front(), facts(instance, change)) {}
-  ~ChangedDevice() {
-    for (const std::string& message : instance.validationLog()->messages()) FAIL_CHECK(message);
-  }
-
-  template <typename Change>
-  static DeviceFacts facts(const Instance& instance, const Change& change) {
-    DeviceFacts facts = describeDevice(instance.physicalDevices().front());
-    change(facts);
-    return facts;
-  }
-};
-
-void useSeparateMemory(DeviceFacts& facts) { facts.mapsDeviceMemory = false; }
-
 /// Values and hits of a batch of seeds, in which faces may occur repeatedly.
 TraceResults traceFaces(ConeTracer& tracer, std::span<const uint32_t> faces, uint32_t rayCount, Wanted wanted) {
   TraceResults results{std::vector<double>(faces.size()), {}, {}};
@@ -49,11 +28,11 @@ TraceResults traceFaces(ConeTracer& tracer, std::span<const uint32_t> faces, uin
 
 TEST_CASE("memory that the host cannot map changes no bit" * doctest::test_suite("slow")) {
   const test::ValidatedDevice mapped;
-  const ChangedDevice separate(useSeparateMemory);
+  const auto separate = test::ValidatedDevice::changed(test::useSeparateMemory);
   const TracedMesh traced(generateShape("animal", 1200).mesh);
   forEveryVariant(Fetches::All, [&](const VulkanTraceChoice& choice) {
     const ConeKernelRequest request{30, true, choice};
-    const VulkanConeKernel expected(*mapped, request), kernel(separate.device, request);
+    const VulkanConeKernel expected(*mapped, request), kernel(*separate, request);
     for (const Wanted wanted : {Wanted::Values, Wanted::ValuesAndHits}) {
       const TraceResults a = traceByKernel(expected, traced, {}, wanted), b = traceByKernel(kernel, traced, {}, wanted);
       CHECK(test::haveSameBits(a.values, b.values));
@@ -62,14 +41,15 @@ TEST_CASE("memory that the host cannot map changes no bit" * doctest::test_suite
   });
 }
 
-TEST_CASE("all numbers of rays and both definitions run on memory that the host cannot map") {
-  const ChangedDevice separate(useSeparateMemory);
+TEST_CASE("all numbers of rays and both definitions run on memory that the host cannot map" *
+          doctest::test_suite("slow")) {
+  const auto separate = test::ValidatedDevice::changed(test::useSeparateMemory);
   const TracedMesh traced(shapes::jittered(shapes::icosphere(1), 0.02, 3));
   for (const uint32_t rayCount : {1u, 33u, 1024u}) {
     for (const Definition definition : {Definition::Paper, Definition::Cgal}) {
       CAPTURE(rayCount);
       const ConeOptions options{.rayCount = rayCount, .definition = definition};
-      const VulkanConeKernel kernel(separate.device, {rayCount, true, {}, definition});
+      const VulkanConeKernel kernel(*separate, {rayCount, true, {}, definition});
       const TraceResults results = traceByKernel(kernel, traced, options, Wanted::ValuesAndHits);
       const TraceResults expected = traceByReference(traced, options, Wanted::ValuesAndHits);
       CHECK(differingCount(results.values, expected.values, traced.geometry.bounds.diagonal()) == 0);
@@ -103,15 +83,15 @@ TEST_CASE("small chunks, one seed and repeated seeds have the values of the whol
   };
   const test::ValidatedDevice whole;
   const auto useSmallChunks = [](DeviceFacts& facts) { facts.maxStorageBufferRange = 101 * 30 * sizeof(ConeHit); };
-  const ChangedDevice mapped(useSmallChunks), separate([&](DeviceFacts&facts) {
-    useSmallChunks(facts);
-    useSeparateMemory(facts);
-  });
+  const auto mapped = test::ValidatedDevice::changed(useSmallChunks),
+             separate = test::ValidatedDevice::changed([&](DeviceFacts&facts) {
+               useSmallChunks(facts);
+               test::useSeparateMemory(facts);
+             });
   for (const TraceKernel kernel : {TraceKernel::Packet, TraceKernel::Ray, TraceKernel::Seed}) {
     const ConeKernelRequest request{30, true, VulkanTraceChoice{kernel, BvhLayout::Wide, BvhFetch::Texel}};
     const TraceResults expected = traceByKernel(VulkanConeKernel(*whole, request), traced, {}, Wanted::ValuesAndHits);
-    for (const Device* device : {static_cast<const Device*>(&*whole), &mapped.device, &separate.device})
-      check(*device, request, expected);
+    for (const Device* device : {&*whole, &*mapped, &*separate}) check(*device, request, expected);
   }
 }
 
@@ -142,8 +122,9 @@ TEST_CASE("copies of faces with the opposite normal have the reference's values"
 TEST_CASE("the memory of a trace is bounded by the number of seeds and serves later meshes") {
   const TracedMesh cube(shapes::box({1, 1, 1}, 1));
   REQUIRE(cube.mesh.faces.size() == 12);
-  const ChangedDevice mapped([](DeviceFacts&) {}), separate(useSeparateMemory);
-  for (const Device* device : {&mapped.device, &separate.device}) {
+  const auto mapped = test::ValidatedDevice::changed([](DeviceFacts&) {}),
+             separate = test::ValidatedDevice::changed(test::useSeparateMemory);
+  for (const Device* device : {&*mapped, &*separate}) {
     const VulkanConeKernel kernel(*device, {30, true});
     const test::CountedMemory counted;
     (void)traceByKernel(kernel, cube, {}, Wanted::ValuesAndHits);

@@ -24,21 +24,6 @@ std::vector<uint32_t> numbers(size_t count) {
   return words;
 }
 
-/// The first device, as one whose memory the host cannot map.
-struct SeparateMemory {
-  Instance instance{{.validation = true}};
-  Device device;
-
-  SeparateMemory() : device(instance.physicalDevices().front(), facts(instance)) {}
-  ~SeparateMemory() { CHECK(instance.validationLog()->messages().empty()); }
-
-  static DeviceFacts facts(const Instance& instance) {
-    DeviceFacts facts = describeDevice(instance.physicalDevices().front());
-    facts.mapsDeviceMemory = false;
-    return facts;
-  }
-};
-
 }  // namespace
 
 TEST_CASE("a buffer of the pool serves later users with the same usage and kind, the smallest that suffices") {
@@ -99,8 +84,8 @@ TEST_CASE("idle buffers are freed before a device counts as out of memory") {
 }
 
 TEST_CASE("copies through the staging ring are exact for all sizes, and the ring keeps its memory") {
-  const SeparateMemory separate;
-  const Device& device = separate.device;
+  const auto separate = test::ValidatedDevice::changed(test::useSeparateMemory);
+  const Device& device = *separate;
   constexpr uint64_t kPiece = StagingRing::kMaxPieceByteCount;
   const std::vector<uint32_t> all = numbers((3 * kPiece + 20) / 4);
   const auto checkCopy = [&](uint64_t byteCount) {
@@ -140,6 +125,6 @@ TEST_CASE("a shared buffer transfers in its direction on devices with and withou
   };
   const test::ValidatedDevice mapped;
   check(*mapped);
-  const SeparateMemory separate;
-  check(separate.device);
+  const auto separate = test::ValidatedDevice::changed(test::useSeparateMemory);
+  check(*separate);
 }

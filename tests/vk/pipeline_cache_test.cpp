@@ -8,6 +8,7 @@
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <utility>
 
 #include "spirv/fill.comp.h"
 #include "support/scoped_variable.h"
@@ -173,4 +174,37 @@ TEST_CASE("the pipelines of a device are in its cache, which a later one loads")
     CHECK(second.handle() != VK_NULL_HANDLE);
   }
   CHECK(log->messages().empty());
+}
+
+namespace {
+
+std::vector<std::byte> givenData;  // What a driver with compiled pipelines returns; lavapipe's caches stay empty.
+
+VkResult giveData(VkDevice, VkPipelineCache, size_t* size, void* data) {
+  if (data != nullptr) std::memcpy(data, givenData.data(), givenData.size());
+  *size = givenData.size();
+  return VK_SUCCESS;
+}
+
+}  // namespace
+
+TEST_CASE("a cache with new pipelines is written at its end, and not written again without further ones") {
+  const Folder folder;
+  const Instance instance({.validation = true});
+  const VkPhysicalDevice physical = instance.physicalDevices().at(0);
+  const Device device(physical, describeDevice(physical));
+  VkPhysicalDeviceProperties properties{};
+  vkGetPhysicalDeviceProperties(physical, &properties);
+  givenData = dataOf(properties);
+  const PFN_vkGetPipelineCacheData driver = std::exchange(vkGetPipelineCacheData, giveData);
+  std::filesystem::path file;
+  { file = PipelineCache(physical, device.handle(), folder.path()).file(); }
+  CHECK(readPipelineCacheFile(file, properties) == givenData);
+  {
+    const PipelineCache later(physical, device.handle(), folder.path());
+    REQUIRE(later.loadedByteCount() == givenData.size());
+    std::filesystem::remove(file);
+  }
+  CHECK_FALSE(std::filesystem::exists(file));
+  vkGetPipelineCacheData = driver;
 }
