@@ -16,10 +16,28 @@ set(casesOf_pipeline "a tenth of the faces casts*" "two runs give the same bits"
 set(casesOf_predict "*")
 set(filesOf_predict "*vulkan*")
 
+# A pattern that no test case matches is an error: the case was renamed.
+function(asdfvk_require_cases folder)
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/*_test.cpp)
+  set(all "")
+  foreach(source IN LISTS sources)
+    file(READ ${source} text)
+    string(APPEND all "${text}")
+  endforeach()
+  foreach(pattern IN LISTS ARGN)
+    string(REGEX REPLACE "\\*$" "" begin "${pattern}")
+    string(FIND "${all}" "TEST_CASE(\"${begin}" at)
+    if(at EQUAL -1)
+      message(FATAL_ERROR "no test case of tests/${folder} begins with: ${begin}")
+    endif()
+  endforeach()
+endfunction()
+
 function(asdfvk_fake_device_tests device folder)
   set(run ${ASDFVK_FAKE_DEVICE_DIR}/${device} $<TARGET_FILE:asdfvk-test-${folder}>
       --source-file-exclude=*real_meshes_test.cpp)
   set(cases ${casesOf_${folder}} ${casesOf_${folder}_${device}})
+  asdfvk_require_cases(${folder} ${cases})
   list(JOIN cases "," cases)
   set(files "*")
   if(filesOf_${folder})
