@@ -79,7 +79,8 @@ TEST_CASE("faces whose rays all miss, and degenerate ones, have no value by CGAL
   CHECK(referenceSession().compute(mesh, paper).report.noValueCount == 0);
 }
 
-TEST_CASE("a tenth of the faces with CGAL's definition: prediction helps and the error is estimated") {
+TEST_CASE("a tenth of the faces with CGAL's definition: prediction helps and the error is estimated" *
+          doctest::test_suite("slow")) {
   for (const Mesh& mesh : {makeAnimal(8000).mesh, makeHand(8000).mesh}) {
     const std::vector<double> truth = referenceSession().compute(mesh, cgalOptions()).sdf();
     Options options = cgalOptions(0.1);

@@ -138,7 +138,8 @@ TEST_CASE("auto completes a mesh and later ones, whichever submission loses the 
   CHECK(n > 5);
 }
 
-TEST_CASE("auto completes a mesh and later ones, whichever allocation finds no memory left") {
+TEST_CASE("auto completes a mesh and later ones, whichever allocation finds no memory left" *
+          doctest::test_suite("slow")) {
   const FakeDevice fake(kGpu);
   const Expected expected;
   uint32_t n = 1;

@@ -96,7 +96,7 @@ TEST_CASE("a recipe replaces another one and changes no other option") {
   }
 }
 
-TEST_CASE("balanced errs less than paper") {
+TEST_CASE("balanced errs less than paper" * doctest::test_suite("slow")) {
   for (const std::string name : {"animal", "hand", "figure"}) {
     const Mesh mesh = generateShape(name, 10'000).mesh;
     const std::vector<double> truth = test::tracedEverywhere(mesh);
@@ -107,7 +107,7 @@ TEST_CASE("balanced errs less than paper") {
   }
 }
 
-TEST_CASE("quality is nearer to the function of many rays than balanced") {
+TEST_CASE("quality is nearer to the function of many rays than balanced" * doctest::test_suite("slow")) {
   for (const std::string name : {"animal", "hand", "figure"}) {
     const Mesh mesh = generateShape(name, 4000).mesh;
     const std::vector<double> truth = test::tracedEverywhere(mesh, {.rayCount = 300, .rotation = ConeRotation::Hashed});

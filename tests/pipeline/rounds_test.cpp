@@ -240,7 +240,8 @@ TEST_CASE("without a prediction, random seeds do not depend on the estimate") {
   CHECK(with.sdf() == without.sdf());
 }
 
-TEST_CASE("an estimate costs no accuracy: held-out faces lie where seeds lower the error") {
+TEST_CASE("an estimate costs no accuracy: held-out faces lie where seeds lower the error" *
+          doctest::test_suite("slow")) {
   double logarithms = 0;
   int runCount = 0;
   for (const std::string name : {"animal", "hand", "figure"}) {

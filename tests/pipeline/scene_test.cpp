@@ -105,7 +105,8 @@ class CountingBackend final : public Backend {
 
 }  // namespace
 
-TEST_CASE("a scene gives the bits of Session::compute for one set of options after another") {
+TEST_CASE("a scene gives the bits of Session::compute for one set of options after another" *
+          doctest::test_suite("slow")) {
   const Mesh mesh = makeTorus(1200).mesh;
   for (Session* session : allSessions()) {
     CAPTURE(session->backend());

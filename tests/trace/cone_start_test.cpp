@@ -55,7 +55,8 @@ void checkStartsOfFaces(ConeTracer& tracer, const TracedMesh& traced, const Cone
 
 }  // namespace
 
-TEST_CASE("the reference and all Vulkan variants give the cones of faces the values of the faces") {
+TEST_CASE("the reference and all Vulkan variants give the cones of faces the values of the faces" *
+          doctest::test_suite("slow")) {
   const TracedMesh traced(makeTorus(600).mesh);
   test::ValidatedDevice device;
   for (const Definition definition : {Definition::Paper, Definition::Cgal}) {

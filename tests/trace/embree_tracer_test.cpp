@@ -60,7 +60,7 @@ Mesh twoLayersOfAWall(uint32_t side) {
 
 }  // namespace
 
-TEST_CASE("Embree gives the reference's values and hits on every generated shape") {
+TEST_CASE("Embree gives the reference's values and hits on every generated shape" * doctest::test_suite("slow")) {
   if (!isEmbreeThere()) return;
   for (const std::string_view name : shapeNames()) {
     CAPTURE(name);

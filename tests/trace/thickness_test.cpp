@@ -106,7 +106,7 @@ std::vector<Mesh> variousMeshes() {
 
 }  // namespace
 
-TEST_CASE("the reference has the thickness of brute force") {
+TEST_CASE("the reference has the thickness of brute force" * doctest::test_suite("slow")) {
   int index = 0;
   for (const Mesh& mesh : variousMeshes()) checkThicknessByBruteForce(std::to_string(index++), mesh);
   checkThicknessByBruteForce("dented sphere", shapes::jittered(shapes::icosphere(3), 0.05, 1));
@@ -296,7 +296,8 @@ TEST_CASE("the kernel has the reference's thickness, in every variant" * doctest
   }
 }
 
-TEST_CASE("a hierarchy beyond the texel limit of a device is measured with storage and refused with texels") {
+TEST_CASE("a hierarchy beyond the texel limit of a device is measured with storage and refused with texels" *
+          doctest::test_suite("slow")) {
   const Instance instance;
   const VkPhysicalDevice physical = instance.physicalDevices().front();
   DeviceFacts facts = describeDevice(physical);

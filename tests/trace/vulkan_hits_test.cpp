@@ -46,7 +46,7 @@ void checkHits(const VulkanConeKernel& kernel, const ReferenceHits& reference) {
 
 }  // namespace
 
-TEST_CASE("the kernel's hits are the reference's, and give its values") {
+TEST_CASE("the kernel's hits are the reference's, and give its values" * doctest::test_suite("slow")) {
   const test::ValidatedDevice device;
   std::vector<ReferenceHits> references;
   references.emplace_back(generateShape("animal", 800).mesh);

@@ -106,7 +106,7 @@ TEST_CASE("any workgroup shape gives the same bits" * doctest::test_suite("slow"
   });
 }
 
-TEST_CASE("long stacks and triangles that are not postponed give the same bits") {
+TEST_CASE("long stacks and triangles that are not postponed give the same bits" * doctest::test_suite("slow")) {
   const test::ValidatedDevice device;
   const TracedMesh traced(generateShape("animal", 1500).mesh);
   const VulkanWalkShape gpu{.wideStackSize = 65, .binaryStackSize = 65, .postponesTriangles = false};
@@ -144,7 +144,7 @@ TEST_CASE("AMD GPUs have stacks of more than 256 bytes, and only CPU devices pos
   CHECK_FALSE(shapeOf(DeviceKind::Discrete, DeviceVendor::Nvidia).postponesTriangles);
 }
 
-TEST_CASE("cones beyond the iteration guard are redone by the reference and counted") {
+TEST_CASE("cones beyond the iteration guard are redone by the reference and counted" * doctest::test_suite("slow")) {
   const test::ValidatedDevice device;
   const TracedMesh traced(generateShape("animal", 1500).mesh);
   const std::vector<double> reference = referenceValues(traced);
