@@ -15,6 +15,7 @@
 #include "asdf_vk/version.h"
 #include "cli/exit_code.h"
 #include "cli/option_parsing.h"
+#include "cli/output_plan.h"
 #include "core/text.h"
 #include "pipeline/valid_options.h"
 #include "trace/vulkan/vulkan_trace_choice.h"
@@ -111,9 +112,10 @@ void requireExtension(const std::string& name, const std::string& extension) {
 
 void addOutput(CLI::App& app, CommandLine& line) {
   addValue(app, "-o,--output", "FILE|DIR|-",
-           fmt::format("Result: a file (.{}), a directory, or - for standard\n"
-                       "output; default NAME.asdf.ply beside the input",
-                       fmt::join(resultFormats(), " .")),
+           fmt::format("Result: a file (.{}), a directory, or - for\n"
+                       "standard output; default NAME.asdf.ply beside the input. .html: a page that shows the\n"
+                       "results of all meshes in a browser",
+                       fmt::join(outputFormats(), " .")),
            [&](const std::string& text) {
              if (text.empty()) throw Error(ErrorCode::OptionOutOfRange, "the name is empty");
              line.output = text;
@@ -121,7 +123,8 @@ void addOutput(CLI::App& app, CommandLine& line) {
       ->group(kBasicGroup);
   addValue(app, "--fields", "NAME,...",
            fmt::format("Fields to write: {};\n"
-                       "default {}, and those of --measure, --postprocess and --segment",
+                       "default {}, and those of --measure, --postprocess and --segment;\n"
+                       "in a page all of one component",
                        fmt::join(resultFieldNames(), ", "), fmt::join(line.fields, ",")),
            [&](const std::string& text) {
              line.fields = parseFields(text);
@@ -135,9 +138,11 @@ void addOutput(CLI::App& app, CommandLine& line) {
                        kDefaultCheckCount),
            [&](const std::string& text) { line.options.checkCount = parseCheckCount(text); })
       ->group(kBasicGroup);
+  app.add_flag("--open", line.opensPage, "Open the page in the browser; without -o, NAME.asdf.html")
+      ->group(kBasicGroup);
   app.add_flag("--json", line.json, "Report as JSON on standard output, one line per mesh")->group(kBasicGroup);
   const char* const group = "Output";
-  addName(app, "--format", line.format, resultFormats(), "Format where -o does not decide it; default ply")
+  addName(app, "--format", line.format, outputFormats(), "Format where -o does not decide it; default ply")
       ->group(group);
   app.add_flag("--ascii", line.ascii, "Write PLY as text")->group(group);
   addChoice(app, "--per", line.options.per, kPerElements,
@@ -265,6 +270,12 @@ void validateOptions(const CommandLine& line) {
   if (std::count(line.meshes.begin(), line.meshes.end(), "") > 0) fail("the name of a mesh is empty");
   if (line.output == "-" && line.json)
     fail("-o - and --json both write to standard output; give -o a file or drop --json");
+  if (line.opensPage && !writesPages(line)) fail("--open opens a page; give -o FILE.html, or drop --open");
+  if (line.opensPage && line.output == "-") fail("--open opens a file, which -o - does not write; give -o FILE.html");
+  if (line.opensPage && line.meshes.size() > 1 && !writesOnePage(line))
+    fail("--open opens one page; give -o FILE.html, which shows all meshes");
+  if (writesPages(line) && line.choosesFields && std::count(line.fields.begin(), line.fields.end(), "centre") > 0)
+    fail("--fields centre has three components; a page shows fields of one component");
   if (!line.picture.empty() && line.meshes.size() > 1)
     fail("--picture takes one mesh; name one mesh, or run them one by one");
   if (line.picture == "-" && (line.output == "-" || line.json))
@@ -346,7 +357,9 @@ CommandLine parseCommandLine(std::vector<std::string> arguments) {
   TraceVariant& variant = line.session.variant;
   for (std::string* name : {&variant.kernel, &variant.bvh, &variant.fetch})
     if (*name == "auto") name->clear();
-  line.options.keepsScene = !line.picture.empty();
+  line.choosesFields = app.count("--fields") > 0;
+  if (line.opensPage && line.output.empty() && line.format.empty()) line.format = kPageFormat;
+  line.options.keepsScene = !line.picture.empty() || writesPages(line);
   completeSegments(app, line);
   completeMeasure(app, line);
   requireNoPaperOption(app, line);

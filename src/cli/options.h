@@ -19,13 +19,15 @@ struct CommandLine {
   Options options;
   std::optional<double> failIfThinner;             ///< Exit code 6 for a least thickness below it; mesh unit.
   std::string output;                              ///< A file, a directory, "-"; empty: beside each input.
-  std::string format;                              ///< A name of resultFormats(); empty: by `output`, else ply.
+  std::string format;                              ///< A name of outputFormats(); empty: by `output`, else ply.
   std::vector<std::string> fields{"sdf", "seed"};  ///< Fields to write, in this order.
   std::string picture;                             ///< A .png, "-" for standard output; empty: none.
   std::string pictureOf = "sdf";                   ///< Name of the field to show.
   View pictureView;
-  std::string valueOptions;  ///< Those given that need values: --postprocess, --segment, or both with "and".
-  std::string points;        ///< A .ply for the skeleton points, "-" for standard output; empty: none.
+  std::string valueOptions;    ///< Those given that need values: --postprocess, --segment, or both with "and".
+  std::string points;          ///< A .ply for the skeleton points, "-" for standard output; empty: none.
+  bool choosesFields = false;  ///< --fields is given.
+  bool opensPage = false;      ///< Start the browser with the page.
   bool ascii = false;
   bool json = false;
   bool quiet = false;

@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "asdf_vk/error.h"
+#include "core/text.h"
 
 namespace asdfvk {
 namespace {
@@ -29,8 +30,11 @@ std::string resultName(const std::string& mesh, const std::string& format) {
   return stem + ".asdf." + (format.empty() ? "ply" : format);
 }
 
+bool isPageName(const fs::path& path) { return lowerCase(path.extension().string()) == ".html"; }
+
 /// Whether the extension of `path` names another format than `format`.
 bool contradicts(const fs::path& path, const std::string& format) {
+  if (isPageName(path)) return format != kPageFormat;
   try {
     return resultFormatOf(path) != format;
   } catch (const Error&) {
@@ -38,11 +42,14 @@ bool contradicts(const fs::path& path, const std::string& format) {
   }
 }
 
+bool isDirectory(const std::string& output) {
+  std::error_code ignored;
+  return !output.empty() && fs::is_directory(output, ignored);
+}
+
 std::string planOutput(const std::string& mesh, const CommandLine& line) {
   if (line.output == "-") return "-";
-  std::error_code ignored;
-  const bool isDirectory = !line.output.empty() && fs::is_directory(line.output, ignored);
-  if (isDirectory) return (fs::path(line.output) / resultName(mesh, line.format)).string();
+  if (isDirectory(line.output)) return (fs::path(line.output) / resultName(mesh, line.format)).string();
   if (!line.output.empty()) return line.output;
   if (mesh == "-") usageError("a mesh from standard input has no file name; give -o FILE or -o -");
   return (fs::path(mesh).parent_path() / resultName(mesh, line.format)).string();
@@ -80,25 +87,42 @@ class FileSet {
 
 }  // namespace
 
+std::vector<std::string> outputFormats() {
+  std::vector<std::string> formats = resultFormats();
+  formats.emplace_back(kPageFormat);
+  return formats;
+}
+
+bool writesPages(const CommandLine& line) {
+  if (!line.format.empty()) return line.format == kPageFormat;
+  return isPageName(line.output) && !isDirectory(line.output);
+}
+
+bool writesOnePage(const CommandLine& line) {
+  return writesPages(line) && !line.output.empty() && !isDirectory(line.output);
+}
+
 std::vector<std::string> planOutputs(const CommandLine& line) {
-  std::error_code ignored;
-  if (line.meshes.size() > 1 && line.output == "-") usageError("-o - takes the result of one mesh; name one mesh");
-  if (line.meshes.size() > 1 && !line.output.empty() && !fs::is_directory(line.output, ignored))
-    usageError(
-        fmt::format("-o {} is not a directory, which several meshes need; create it, or name one mesh", line.output));
+  const bool sharePage = writesOnePage(line);
+  if (line.meshes.size() > 1 && !sharePage) {
+    if (line.output == "-") usageError("-o - takes the result of one mesh; name one mesh");
+    if (!line.output.empty() && !isDirectory(line.output))
+      usageError(
+          fmt::format("-o {} is not a directory, which several meshes need; create it, or name one mesh", line.output));
+  }
 
   const WriteOptions options = writeOptionsOf(line);
   std::vector<std::string> outputs;
   std::unordered_map<std::string, std::string> meshOfOutput;
   for (const std::string& mesh : line.meshes) {
     const std::string output = planOutput(mesh, line);
-    const std::string format = resultFormatOf(output, options);
+    const std::string format = writesPages(line) ? kPageFormat : resultFormatOf(output, options);
     if (line.ascii && format != "ply") usageError("--ascii is for PLY only; drop it");
     if (output != "-") {
       if (contradicts(output, format))
         usageError(fmt::format("-o {} and --format {} contradict each other; drop one", output, line.format));
       const auto [other, isNew] = meshOfOutput.emplace(normalised(output), mesh);
-      if (!isNew)
+      if (!isNew && !sharePage)
         usageError(fmt::format("{} and {} would both be written to {}; run them one by one with -o", other->second,
                                mesh, output));
     }

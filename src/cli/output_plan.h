@@ -9,11 +9,25 @@
 
 namespace asdfvk {
 
+/// Name and extension of the format of pages, which src/viewer writes.
+inline constexpr const char* kPageFormat = "html";
+
+/// resultFormats() and kPageFormat.
+[[nodiscard]] std::vector<std::string> outputFormats();
+
+/// Whether the results are written as pages.
+[[nodiscard]] bool writesPages(const CommandLine& line);
+
+/// Whether all results are written to one page.
+[[nodiscard]] bool writesOnePage(const CommandLine& line);
+
 /// Path of the result of each mesh, "-" for standard output. Throws Error{OptionConflict} if two outputs (results,
-/// picture, points) have the same path, if an output is an input, or if several meshes have one output file.
+/// picture, points) have the same path, if an output is an input, or if several meshes have one output file that is no
+/// page.
 [[nodiscard]] std::vector<std::string> planOutputs(const CommandLine& line);
 
-/// The fields of --fields, and the format if --format is given or the output is standard output.
+/// For other formats than pages: the fields of --fields, and the format if --format is given or the output is standard
+/// output.
 [[nodiscard]] WriteOptions writeOptionsOf(const CommandLine& line);
 
 /// The fields of a result that the output can hold together: all, but the vertex fields only where the format has

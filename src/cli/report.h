@@ -2,6 +2,8 @@
 
 #include <span>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "asdf_vk/session.h"
 #include "cli/options.h"
@@ -16,7 +18,13 @@ struct MeshOutcome {
   const Result& result;
 };
 
-/// A few aligned lines, without warnings.
+/// Title and text; a row without a title continues the one before.
+using ReportRows = std::vector<std::pair<std::string, std::string>>;
+
+/// Mesh (first), device, computation and values; without warnings and files.
+[[nodiscard]] ReportRows reportRows(const MeshOutcome& outcome);
+
+/// Those rows and the files, as aligned lines.
 [[nodiscard]] std::string textReport(const MeshOutcome& outcome);
 
 /// "the check failed: ..." with the reason, one line.

@@ -19,8 +19,6 @@ std::string counted(uint64_t count, const char* noun) {
   return fmt::format("{} {}{}", groupDigits(count), noun, count == 1 ? "" : "s");
 }
 
-std::string row(const char* name, const std::string& text) { return fmt::format("  {:<9} {}\n", name, text); }
-
 /// 99.95 % of 1999 agreeing of 2000; never rounded up to 100.
 std::string percent(uint64_t part, uint64_t whole) {
   const double share = 100.0 * static_cast<double>(part) / static_cast<double>(whole);
@@ -92,10 +90,10 @@ std::string areaText(std::vector<double> shares) {
   return text;
 }
 
-std::string segmentRows(const SegmentationReport& segmentation, const Options& options) {
+ReportRows segmentRows(const SegmentationReport& segmentation, const Options& options) {
   if (!segmentation.parts)
-    return row("segments", fmt::format("{} from {} clusters, smoothness {:g}", groupDigits(segmentation.segmentCount),
-                                       options.cgalSegmentation.clusterCount, options.cgalSegmentation.smoothness));
+    return {{"segments", fmt::format("{} from {} clusters, smoothness {:g}", groupDigits(segmentation.segmentCount),
+                                     options.cgalSegmentation.clusterCount, options.cgalSegmentation.smoothness)}};
   const PartsReport& parts = *segmentation.parts;
   const std::string range = parts.fewestCount == parts.mostCount
                                 ? groupDigits(parts.fewestCount)
@@ -106,9 +104,10 @@ std::string segmentRows(const SegmentationReport& segmentation, const Options& o
           ? fmt::format("if the cost limit changes by {:.0f} %", 100 * (kPartStabilityFactor - 1))
           : fmt::format("at --detail {:.3g} to {:.3g}", detail / kPartStabilityFactor, detail * kPartStabilityFactor);
   const std::string agreement = parts.agreement ? fmt::format("; agreement {:.2f}", *parts.agreement) : "";
-  std::string rows =
-      row("parts", fmt::format("{}; {} {}{}", groupDigits(segmentation.segmentCount), range, when, agreement));
-  if (parts.areaShares.size() > 1) rows += row("", fmt::format("of {} % of the area", areaText(parts.areaShares)));
+  ReportRows rows{
+      {"parts", fmt::format("{}; {} {}{}", groupDigits(segmentation.segmentCount), range, when, agreement)}};
+  if (parts.areaShares.size() > 1)
+    rows.emplace_back("", fmt::format("of {} % of the area", areaText(parts.areaShares)));
   return rows;
 }
 
@@ -133,15 +132,15 @@ std::string regionRow(const ThinRegion& region) {
 }
 
 /// Percentiles, what is traced, and the largest thin regions.
-std::string thicknessRows(const Report& report) {
+ReportRows thicknessRows(const Report& report) {
   constexpr size_t kShownRegionCount = 5;
   const ThicknessReport& thickness = *report.thickness;
-  if (std::isnan(thickness.min)) return row("thickness", "none: no face has a valid ray");
+  if (std::isnan(thickness.min)) return {{"thickness", "none: no face has a valid ray"}};
   std::string text = fmt::format("min {:.6g}, by area p1 {:.6g}, p5 {:.6g}, p50 {:.6g}, p95 {:.6g}, max {:.6g}",
                                  thickness.min, thickness.percentile1, thickness.percentile5, thickness.median,
                                  thickness.percentile95, thickness.max);
   if (thickness.noValueCount > 0) text += fmt::format("; {} without a value", counted(thickness.noValueCount, "face"));
-  std::string rows = row("thickness", text);
+  ReportRows rows{{"thickness", text}};
   if (!thickness.thinnerThan) return rows;
   const std::vector<ThinRegion>& regions = thickness.thinRegions;
   text = regions.empty() ? fmt::format("no face below {:g}", *thickness.thinnerThan)
@@ -150,11 +149,11 @@ std::string thicknessRows(const Report& report) {
   if (thickness.tracedCount < report.triangleCount)
     text += fmt::format("; {} traced, other faces interpolated: smaller thin places may be missing",
                         percent(thickness.tracedCount, report.triangleCount));
-  rows += row("thin", text);
-  for (size_t i = 0; i < std::min(regions.size(), kShownRegionCount); ++i) rows += row("", regionRow(regions[i]));
+  rows.emplace_back("thin", text);
+  for (size_t i = 0; i < std::min(regions.size(), kShownRegionCount); ++i) rows.emplace_back("", regionRow(regions[i]));
   if (regions.size() > kShownRegionCount)
-    rows +=
-        row("", fmt::format("and {} smaller ones; --json has all", groupDigits(regions.size() - kShownRegionCount)));
+    rows.emplace_back(
+        "", fmt::format("and {} smaller ones; --json has all", groupDigits(regions.size() - kShownRegionCount)));
   return rows;
 }
 
@@ -189,31 +188,43 @@ bool isTooSmallForGpu(const Report& report) {
 
 }  // namespace
 
-std::string textReport(const MeshOutcome& outcome) {
+ReportRows reportRows(const MeshOutcome& outcome) {
   const Report& report = outcome.result.report;
-  std::string text = fmt::format("{}: {}\n", outcome.mesh, meshRow(report));
-  text += row("device", fmt::format("{} on {}{}{}", report.backend, report.device,
-                                    report.traceVariant ? kernelText(*report.traceVariant) : "",
-                                    isTooSmallForGpu(report) ? "; so few rays may be faster with --backend cpu" : ""));
-  text += row("seeds", seedRow(outcome));
-  text += row("time", timeRow(report.stageSeconds));
-  text += row("speed", fmt::format("{:.3g} Mrays/s", report.raysPerSecond / 1e6));
-  text += row("solver", solverRow(report.solver));
-  text += row("diameter", valueRow(report));
+  ReportRows rows;
+  const auto append = [&rows](ReportRows further) {
+    for (auto& row : further) rows.push_back(std::move(row));
+  };
+  rows.emplace_back("mesh", meshRow(report));
+  rows.emplace_back("device",
+                    fmt::format("{} on {}{}{}", report.backend, report.device,
+                                report.traceVariant ? kernelText(*report.traceVariant) : "",
+                                isTooSmallForGpu(report) ? "; so few rays may be faster with --backend cpu" : ""));
+  rows.emplace_back("seeds", seedRow(outcome));
+  rows.emplace_back("time", timeRow(report.stageSeconds));
+  rows.emplace_back("speed", fmt::format("{:.3g} Mrays/s", report.raysPerSecond / 1e6));
+  rows.emplace_back("solver", solverRow(report.solver));
+  rows.emplace_back("diameter", valueRow(report));
   if (report.postprocess)
-    text += row("smoothed", fmt::format("min {:.6g}, max {:.6g}, mapped to 0 and 1", report.postprocess->min,
-                                        report.postprocess->max));
-  if (report.segmentation) text += segmentRows(*report.segmentation, outcome.line.options);
-  if (report.estimatedError) text += row("error", estimateRow(report));
-  if (report.thickness) text += thicknessRows(report);
+    rows.emplace_back("smoothed", fmt::format("min {:.6g}, max {:.6g}, mapped to 0 and 1", report.postprocess->min,
+                                              report.postprocess->max));
+  if (report.segmentation) append(segmentRows(*report.segmentation, outcome.line.options));
+  if (report.estimatedError) rows.emplace_back("error", estimateRow(report));
+  if (report.thickness) append(thicknessRows(report));
   if (report.check) {
-    text += row("check", tracedCheck(*report.check));
-    if (report.check->interpolatedCount > 0) text += row("", errorCheck(*report.check));
+    rows.emplace_back("check", tracedCheck(*report.check));
+    if (report.check->interpolatedCount > 0) rows.emplace_back("", errorCheck(*report.check));
   }
+  return rows;
+}
+
+std::string textReport(const MeshOutcome& outcome) {
+  ReportRows rows = reportRows(outcome);
   const auto placeText = [](const std::string& place) { return place == "-" ? "standard output" : place; };
-  text += row("output", placeText(outcome.output));
-  if (!outcome.line.points.empty()) text += row("points", placeText(outcome.line.points));
-  if (!outcome.line.picture.empty()) text += row("picture", placeText(outcome.line.picture));
+  rows.emplace_back("output", placeText(outcome.output));
+  if (!outcome.line.points.empty()) rows.emplace_back("points", placeText(outcome.line.points));
+  if (!outcome.line.picture.empty()) rows.emplace_back("picture", placeText(outcome.line.picture));
+  std::string text = fmt::format("{}: {}\n", outcome.mesh, rows.front().second);
+  for (size_t i = 1; i < rows.size(); ++i) text += fmt::format("  {:<9} {}\n", rows[i].first, rows[i].second);
   return text;
 }
 

@@ -8,15 +8,16 @@
 #include <vector>
 
 #include "asdf_vk/asdf_vk.h"
+#include "cli/browser.h"
 #include "cli/interrupt.h"
 #include "cli/output_plan.h"
+#include "cli/page_output.h"
 #include "cli/report.h"
+#include "cli/result_picture.h"
 #include "cli/terminal.h"
 #include "core/stopwatch.h"
 #include "mesh/orientation.h"
-#include "render/picture.h"
 #include "render/png.h"
-#include "trace/scene_data.h"
 
 namespace asdfvk {
 namespace {
@@ -39,16 +40,6 @@ struct MeshReport {
   std::string json;
 };
 
-/// From entries per input face to entries per triangle.
-template <typename T>
-std::vector<T> onTriangles(const TriangleMesh& mesh, const std::vector<T>& ofInputFaces) {
-  if (mesh.polygons.isEmpty()) return ofInputFaces;
-  std::vector<T> result;
-  result.reserve(mesh.faces.size());
-  for (const uint32_t inputFace : mesh.polygons.inputFaceOf) result.push_back(ofInputFaces[inputFace]);
-  return result;
-}
-
 /// Renders the field of --picture-of and writes it atomically. Precondition: result.scene is set. Throws
 /// Error{OutputNotWritable}, Error{UnknownField} and Error{Cancelled}.
 void writePicture(const CommandLine& line, const Result& result, const RunControl& control) {
@@ -58,26 +49,32 @@ void writePicture(const CommandLine& line, const Result& result, const RunContro
     throw Error(ErrorCode::OptionConflict,
                 fmt::format("--picture-of: field {} has {} components; a picture shows a field of one component",
                             line.pictureOf, field->componentCount));
-  const TriangleMesh& mesh = result.scene->scene.mesh;
-  Picture picture{.scene = result.scene->scene, .title = field->label, .view = line.pictureView};
-  std::vector<double> values;
-  std::vector<uint8_t> flags;
-  std::vector<uint32_t> labels;
-  if (const std::vector<double>* reals = field->reals()) {
-    values = onTriangles(mesh, *reals);
-    picture.values = values;
-  } else if (const auto* marks = std::get_if<std::vector<uint8_t>>(&field->values)) {
-    flags = onTriangles(mesh, *marks);
-    picture.highlighted = flags;
-  } else if (const auto* indices = std::get_if<std::vector<uint32_t>>(&field->values)) {
-    labels = onTriangles(mesh, *indices);
-    picture.labels = labels;
-  }
-  writePng(line.picture, render(picture, control));
+  writePng(line.picture, pictureOf(result, *field, line.pictureView, {}, control));
 }
 
+/// Also starts the browser with --open.
+void finishPage(const std::string& output, const Page& page, const CommandLine& line) {
+  writePage(output, page);
+  if (line.opensPage) openInBrowser(output);
+}
+
+/// Writes the result, or adds it to the page that all meshes share, if there is one.
+void writeOutput(const MeshOutcome& outcome, const Mesh& mesh, Page* sharedPage, const std::stop_token& stop) {
+  const CommandLine& line = outcome.line;
+  if (!writesPages(line)) {
+    writeResult(outcome.output, mesh, writableFields(line, outcome.output, outcome.result.fields),
+                writeOptionsOf(line));
+    return;
+  }
+  Page own = emptyPage();
+  Page& page = sharedPage == nullptr ? own : *sharedPage;
+  runWithProgress(line, stop, [&](const RunControl& control) { addToPage(page, outcome, control); });
+  if (sharedPage == nullptr) finishPage(outcome.output, page, line);
+}
+
+/// sharedPage: the page that all meshes share, or null.
 MeshReport runMesh(Session& session, const std::string& name, const std::string& output, const CommandLine& line,
-                   const std::stop_token& stop) {
+                   Page* sharedPage, const std::stop_token& stop) {
   requireWritablePlace(output);
   if (!line.picture.empty()) requireWritablePlace(line.picture);
   if (!line.points.empty()) requireWritablePlace(line.points);
@@ -94,7 +91,7 @@ MeshReport runMesh(Session& session, const std::string& name, const std::string&
     StageSeconds& seconds = result.report.stageSeconds;
     const Stopwatch writeWatch;
     flipInputFaces(mesh, result.report.reversedFaces);  // The scene of the result has its own copy.
-    writeResult(output, mesh, writableFields(line, output, result.fields), writeOptionsOf(line));
+    writeOutput({name, output, line, result}, mesh, sharedPage, stop);
     if (!line.points.empty()) writePoints(line.points, result.fields);
     seconds[Stage::Write] = writeWatch.seconds();
     seconds[Stage::Read] = readSeconds;
@@ -152,6 +149,7 @@ ExitCode failWithoutSession(const CommandLine& line) {
 
 ExitCode runMeshes(const CommandLine& line, const std::stop_token& stop) {
   const std::vector<std::string> outputs = planOutputs(line);
+  if (line.opensPage) requireBrowser();
   std::optional<Session> session;
   try {
     session.emplace(line.session);
@@ -160,14 +158,18 @@ ExitCode runMeshes(const CommandLine& line, const std::stop_token& stop) {
   }
   if (!line.quiet) printDeviceLines(*session);
 
+  std::optional<Page> page;
+  if (line.meshes.size() > 1 && writesOnePage(line)) page = emptyPage();
   ExitCode first = ExitCode::Done;
   for (size_t i = 0; i < line.meshes.size(); ++i) {
     const std::string& mesh = line.meshes[i];
-    const MeshReport report = reportOf(mesh, line, [&] { return runMesh(*session, mesh, outputs[i], line, stop); });
+    const MeshReport report =
+        reportOf(mesh, line, [&] { return runMesh(*session, mesh, outputs[i], line, page ? &*page : nullptr, stop); });
     if (first == ExitCode::Done) first = report.code;
     if (line.json) writeStandardOutput(report.json);
-    if (report.code == ExitCode::Cancelled) break;
+    if (report.code == ExitCode::Cancelled) return first;
   }
+  if (page && !page->isEmpty()) finishPage(outputs.front(), *page, line);
   return first;
 }
 

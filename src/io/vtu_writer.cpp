@@ -3,66 +3,18 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 #include <limits>
 #include <string>
 #include <string_view>
 #include <type_traits>
 
 #include "core/atomic_file.h"
+#include "core/base64_stream.h"
 #include "io/formats.h"
 #include "io/stored_fields.h"
 
 namespace asdfvk {
 namespace {
-
-/// Encodes bytes as one run of base64 (RFC 4648); finish() pads it.
-class Base64Stream {
- public:
-  explicit Base64Stream(AtomicFile& file) : file_(file) {}
-
-  template <typename T>
-  void put(const T& value) {
-    if (pending_.size() - used_ < sizeof(T)) encodeWholeGroups();
-    std::memcpy(pending_.data() + used_, &value, sizeof(T));
-    used_ += sizeof(T);
-  }
-
-  void finish() {
-    encodeWholeGroups();
-    if (used_ == 0) return;
-    std::array<uint8_t, 3> last{};
-    std::memcpy(last.data(), pending_.data(), used_);
-    char* const to = file_.reserve(4);
-    encodeGroup(to, last.data());
-    for (size_t i = used_ + 1; i < 4; ++i) to[i] = '=';
-    file_.advance(4);
-    used_ = 0;
-  }
-
- private:
-  static void encodeGroup(char* to, const uint8_t* from) {
-    constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    to[0] = kDigits[from[0] >> 2];
-    to[1] = kDigits[(from[0] & 3u) << 4 | from[1] >> 4];
-    to[2] = kDigits[(from[1] & 15u) << 2 | from[2] >> 6];
-    to[3] = kDigits[from[2] & 63u];
-  }
-
-  void encodeWholeGroups() {
-    static_assert(sizeof(pending_) / 3 * 4 <= AtomicFile::kMaxReserve);
-    const size_t groups = used_ / 3;
-    char* const to = file_.reserve(4 * groups);
-    for (size_t g = 0; g < groups; ++g) encodeGroup(to + 4 * g, pending_.data() + 3 * g);
-    file_.advance(4 * groups);
-    std::memmove(pending_.data(), pending_.data() + 3 * groups, used_ - 3 * groups);
-    used_ -= 3 * groups;
-  }
-
-  AtomicFile& file_;
-  std::array<uint8_t, 3 * 4096> pending_;
-  size_t used_ = 0;
-};
 
 template <typename T>
 constexpr std::string_view vtkTypeName() {

@@ -1,0 +1,132 @@
+#include "cli/page_output.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <functional>
+
+#include "asdf_vk/choices.h"
+#include "asdf_vk/version.h"
+#include "cli/result_picture.h"
+#include "core/atomic_file.h"
+#include "core/text.h"
+#include "render/png.h"
+#include "trace/scene_data.h"
+
+namespace asdfvk {
+namespace {
+
+using FieldList = std::vector<std::reference_wrapper<const Field>>;
+
+/// The fields of --fields; without it all that a page can show, the default ones first.
+FieldList shownFields(const CommandLine& line, const Result& result) {
+  FieldList shown;
+  for (const std::string& name : line.fields) {
+    const Field* const field = result.field(name);
+    if (field == nullptr && line.choosesFields)
+      throw Error(ErrorCode::UnknownField, fmt::format("--fields: the result has no field {}", name));
+    if (field != nullptr) shown.emplace_back(*field);
+  }
+  if (line.choosesFields) return shown;
+  for (const Field& field : result.fields) {
+    const bool isShown = std::any_of(shown.begin(), shown.end(), [&](const Field& other) { return &other == &field; });
+    if (field.location == FieldLocation::PerFace && field.componentCount == 1 && !isShown) shown.emplace_back(field);
+  }
+  return shown;
+}
+
+/// The file name, with its folder where another mesh has the same one.
+std::string shownName(const std::string& mesh, const std::vector<std::string>& meshes) {
+  if (mesh == "-") return "standard input";
+  const auto fileNameOf = [](const std::string& path) { return std::filesystem::path(path).filename().string(); };
+  const std::string name = fileNameOf(mesh);
+  const auto sameCount =
+      std::count_if(meshes.begin(), meshes.end(), [&](const std::string& other) { return fileNameOf(other) == name; });
+  return sameCount > 1 ? mesh : name;
+}
+
+/// "cow.ply, balanced, seeds 10 %"
+std::string labelOf(const std::string& name, const MeshOutcome& outcome) {
+  const CommandLine& line = outcome.line;
+  const Report& report = outcome.result.report;
+  std::string label = fmt::format("{}, {}", name, nameOf(kRecipes, line.recipe));
+  if (line.options.cone.definition != Definition::Paper)
+    label += fmt::format(", definition {}", nameOf(kDefinitions, line.options.cone.definition));
+  if (report.seedCount >= report.triangleCount) return label + ", all faces";
+  return label + fmt::format(", seeds {:.2g} %",
+                             100.0 * static_cast<double>(report.seedCount) / static_cast<double>(report.triangleCount));
+}
+
+/// The rows with a capital, and continued ones joined. Thin regions are lists of the page.
+std::vector<std::pair<std::string, std::string>> summaryOf(const MeshOutcome& outcome) {
+  std::vector<std::pair<std::string, std::string>> summary;
+  bool isThinRow = false;
+  for (auto& [title, text] : reportRows(outcome)) {
+    if (!title.empty()) isThinRow = title == "thin";
+    if (title.empty()) {
+      if (!isThinRow) summary.back().second += "; " + text;
+      continue;
+    }
+    title.front() = static_cast<char>(title.front() - 'a' + 'A');
+    summary.emplace_back(std::move(title), std::move(text));
+  }
+  return summary;
+}
+
+std::string errorSentenceOf(const Result& result) {
+  const Report& report = result.report;
+  if (report.seedCount >= report.triangleCount) return "Every face cast rays, so no value is interpolated.";
+  if (!report.estimatedError)
+    return "The values between the seeds are interpolated; their error was not estimated in this computation.";
+  const ErrorEstimate& estimate = *report.estimatedError;
+  return fmt::format(
+      "The values between the seeds are interpolated. Compared with rays from every face they are expected to differ "
+      "by {:.2f} % of the range of all values on average (standard error {:.2f} %), and by at most {:.3g} % of the "
+      "value at half of the faces and {:.3g} % at 90 % of them. The estimate is from {} faces that were held out.",
+      100 * estimate.average, 100 * estimate.standardError, 100 * estimate.relativeMedian,
+      100 * estimate.relativePercentile90, groupDigits(estimate.heldOutCount));
+}
+
+std::vector<PageThinRegion> thinRegionsOf(const Result& result) {
+  std::vector<PageThinRegion> regions;
+  if (!result.report.thickness) return regions;
+  for (const ThinRegion& region : result.report.thickness->thinRegions)
+    regions.push_back({region.minFace, region.min, region.area, region.faceCount, region.place});
+  return regions;
+}
+
+std::vector<PageSegment> segmentsOf(const Result& result) {
+  const Field* const field = result.field("segment");
+  if (field == nullptr) return {};
+  const TraceScene& scene = result.scene->scene;
+  return listSegments(scene.mesh, scene.geometry.areas, scene.geometry.barycentres,
+                      std::get<std::vector<uint32_t>>(field->values), result.sdf());
+}
+
+}  // namespace
+
+Page emptyPage() { return Page(fmt::format("asdf-vk {} ({})", ASDFVK_VERSION, ASDFVK_COMMIT)); }
+
+void addToPage(Page& page, const MeshOutcome& outcome, const RunControl& control) {
+  const FieldList fields = shownFields(outcome.line, outcome.result);
+  PageTexts texts{.name = shownName(outcome.mesh, outcome.line.meshes), .summary = summaryOf(outcome)};
+  texts.label = labelOf(texts.name, outcome);
+  texts.errorSentence = errorSentenceOf(outcome.result);
+  for (const Warning& warning : outcome.result.report.warnings)
+    (warning.code == WarningCode::MeshDefect ? texts.defects : texts.warnings).push_back(textWarning(warning));
+  texts.thinRegions = thinRegionsOf(outcome.result);
+  texts.segments = segmentsOf(outcome.result);
+  constexpr PictureSize kSmall{480, 360, 1.4};
+  texts.picture = encodePng(pictureOf(outcome.result, fields.front(), outcome.line.pictureView, kSmall, control));
+  page.add(outcome.result.scene->scene.mesh, fields, std::move(texts));
+}
+
+void writePage(const std::string& path, const Page& page) {
+  AtomicFile file(path);
+  page.write(file);
+  file.commit();
+}
+
+}  // namespace asdfvk

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+
+#include "asdf_vk/run_control.h"
+#include "cli/report.h"
+#include "viewer/page.h"
+
+namespace asdfvk {
+
+/// A page without results.
+[[nodiscard]] Page emptyPage();
+
+/// Adds a result with the texts of its report and a small picture. Precondition: result.scene is set. Throws
+/// Error{UnknownField} for a field of --fields that the result does not have, and Error{Cancelled}.
+void addToPage(Page& page, const MeshOutcome& outcome, const RunControl& control);
+
+/// Writes the page atomically. Throws Error{OutputNotWritable}.
+void writePage(const std::string& path, const Page& page);
+
+}  // namespace asdfvk

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <span>
+
+#include "asdf_vk/field.h"
+#include "mesh/mesh.h"
+#include "viewer/page_streams.h"
+
+namespace asdfvk {
+
+/// Encodes the triangles of a mesh and its fields per input face, each of one component, into streams. Returns their
+/// description with the keys of docs/page.md: faceCount (triangles) to fields. Preconditions: every index of a face is
+/// below the vertex count; the fields have an entry per input face.
+[[nodiscard]] nlohmann::ordered_json encodeMesh(const TriangleMesh& mesh,
+                                                std::span<const std::reference_wrapper<const Field>> fields,
+                                                PageStreams& streams);
+
+}  // namespace asdfvk

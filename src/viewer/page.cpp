@@ -1,0 +1,108 @@
+#include "viewer/page.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "core/atomic_file.h"
+#include "core/base64_stream.h"
+#include "core/check.h"
+#include "viewer/html_text.h"
+#include "viewer/mesh_encoder.h"
+#include "viewer/page_template.h"
+
+namespace asdfvk {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+Json arrayOf(const Vec3d& v) { return {number(v.x), number(v.y), number(v.z)}; }
+
+Json describe(const PageTexts& texts) {
+  Json json{{"name", texts.name}, {"label", texts.label}};
+  json["summary"] = Json::array();
+  for (const auto& [title, value] : texts.summary) json["summary"].push_back({{"title", title}, {"value", value}});
+  json["errorSentence"] = texts.errorSentence;
+  json["warnings"] = texts.warnings;
+  json["defects"] = texts.defects;
+  json["thinRegions"] = Json::array();
+  for (const PageThinRegion& region : texts.thinRegions)
+    json["thinRegions"].push_back({{"face", region.face},
+                                   {"value", number(region.value)},
+                                   {"area", number(region.area)},
+                                   {"faceCount", region.faceCount},
+                                   {"centre", arrayOf(region.centre)}});
+  json["segments"] = Json::array();
+  for (const PageSegment& segment : texts.segments)
+    json["segments"].push_back({{"label", segment.label},
+                                {"faceCount", segment.faceCount},
+                                {"area", number(segment.area)},
+                                {"median", number(segment.median)},
+                                {"centre", arrayOf(segment.centre)}});
+  return json;
+}
+
+}  // namespace
+
+void Page::add(const TriangleMesh& mesh, std::span<const std::reference_wrapper<const Field>> fields, PageTexts texts) {
+  Json description = describe(texts);
+  description.update(encodeMesh(mesh, fields, streams_));
+  meshes_.push_back(std::move(description));
+  texts_.push_back(std::move(texts));
+}
+
+void Page::write(AtomicFile& file) const {
+  using Part = void (Page::*)(AtomicFile&) const;
+  constexpr std::pair<std::string_view, Part> kPlaces[]{
+      {"@TITLE@", &Page::writeTitle}, {"@DATA@", &Page::writeData}, {"@FALLBACK@", &Page::writeFallback}};
+  std::string_view rest = kPageTemplate;
+  for (;;) {
+    size_t at = std::string_view::npos;
+    std::pair<std::string_view, Part> place;
+    for (const auto& candidate : kPlaces)
+      if (const size_t found = rest.find(candidate.first); found < at) {
+        at = found;
+        place = candidate;
+      }
+    file.write(rest.substr(0, at));
+    if (at == std::string_view::npos) return;
+    (this->*place.second)(file);
+    rest.remove_prefix(at + place.first.size());
+  }
+}
+
+void Page::writeTitle(AtomicFile& file) const {
+  std::string title;
+  for (const PageTexts& texts : texts_) {
+    constexpr size_t kMaxTitleSize = 200;
+    if (title.size() > kMaxTitleSize) {
+      title += ", ...";
+      break;
+    }
+    title += (title.empty() ? "" : ", ") + texts.label;
+  }
+  file.write(escapedForHtml(title));
+}
+
+void Page::writeData(AtomicFile& file) const {
+  const Json json{{"generator", generator_}, {"meshes", meshes_}};
+  file.write("<script type=\"application/json\" id=\"asdf-vk-page\">");
+  file.write(escapedForScript(json.dump(-1, ' ', true, Json::error_handler_t::replace)));
+  file.write("</script>\n");
+  streams_.write(file);
+}
+
+void Page::writeFallback(AtomicFile& file) const {
+  for (const PageTexts& texts : texts_) {
+    if (texts.picture.empty()) continue;
+    const std::string label = escapedForHtml(texts.label);
+    file.write(fmt::format("<figure><img alt=\"{0}\" src=\"data:image/png;base64,", label));
+    Base64Stream base64(file);
+    base64.write({reinterpret_cast<const uint8_t*>(texts.picture.data()), texts.picture.size()});
+    base64.finish();
+    file.write(fmt::format("\"><figcaption>{}</figcaption></figure>\n", label));
+  }
+}
+
+}  // namespace asdfvk
