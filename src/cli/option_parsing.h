@@ -53,6 +53,10 @@ void addMeasure(CLI::App& app, CommandLine& line);
 [[nodiscard]] nlohmann::ordered_json measureOptionValues(const CommandLine& line);
 void completeMeasure(const CLI::App& app, CommandLine& line);
 
+/// The same for the options of a page; after completeMeasure(). Sets line.compared.
+void addPage(CLI::App& app, CommandLine& line);
+void completePage(const CLI::App& app, CommandLine& line);
+
 /// parse: reads the value and throws Error; the name of the option is put before its message.
 template <typename Parse>
 CLI::Option* addValue(CLI::App& app, const std::string& name, const std::string& placeholder, const std::string& text,

@@ -138,8 +138,7 @@ void addOutput(CLI::App& app, CommandLine& line) {
                        kDefaultCheckCount),
            [&](const std::string& text) { line.options.checkCount = parseCheckCount(text); })
       ->group(kBasicGroup);
-  app.add_flag("--open", line.opensPage, "Open the page in the browser; without -o, NAME.asdf.html")
-      ->group(kBasicGroup);
+  addPage(app, line);
   app.add_flag("--json", line.json, "Report as JSON on standard output, one line per mesh")->group(kBasicGroup);
   const char* const group = "Output";
   addName(app, "--format", line.format, outputFormats(), "Format where -o does not decide it; default ply")
@@ -270,12 +269,6 @@ void validateOptions(const CommandLine& line) {
   if (std::count(line.meshes.begin(), line.meshes.end(), "") > 0) fail("the name of a mesh is empty");
   if (line.output == "-" && line.json)
     fail("-o - and --json both write to standard output; give -o a file or drop --json");
-  if (line.opensPage && !writesPages(line)) fail("--open opens a page; give -o FILE.html, or drop --open");
-  if (line.opensPage && line.output == "-") fail("--open opens a file, which -o - does not write; give -o FILE.html");
-  if (line.opensPage && line.meshes.size() > 1 && !writesOnePage(line))
-    fail("--open opens one page; give -o FILE.html, which shows all meshes");
-  if (writesPages(line) && line.choosesFields && std::count(line.fields.begin(), line.fields.end(), "centre") > 0)
-    fail("--fields centre has three components; a page shows fields of one component");
   if (!line.picture.empty() && line.meshes.size() > 1)
     fail("--picture takes one mesh; name one mesh, or run them one by one");
   if (line.picture == "-" && (line.output == "-" || line.json))
@@ -357,11 +350,10 @@ CommandLine parseCommandLine(std::vector<std::string> arguments) {
   TraceVariant& variant = line.session.variant;
   for (std::string* name : {&variant.kernel, &variant.bvh, &variant.fetch})
     if (*name == "auto") name->clear();
-  line.choosesFields = app.count("--fields") > 0;
-  if (line.opensPage && line.output.empty() && line.format.empty()) line.format = kPageFormat;
-  line.options.keepsScene = !line.picture.empty() || writesPages(line);
+  line.options.keepsScene = !line.picture.empty();
   completeSegments(app, line);
   completeMeasure(app, line);
+  completePage(app, line);
   requireNoPaperOption(app, line);
   validateOptions(line);
   return line;

@@ -28,6 +28,7 @@ struct CommandLine {
   std::string points;          ///< A .ply for the skeleton points, "-" for standard output; empty: none.
   bool choosesFields = false;  ///< --fields is given.
   bool opensPage = false;      ///< Start the browser with the page.
+  std::string against;         ///< Of `compared`: the text of --against.
   bool ascii = false;
   bool json = false;
   bool quiet = false;
@@ -35,6 +36,8 @@ struct CommandLine {
   bool deviceReport = false;
   uint32_t threadCount = 0;           ///< 0: the number of cores.
   std::optional<std::string> answer;  ///< The text of --help or --version; if set, nothing is computed.
+  /// Empty, or the same command line with the options of the computation of --against.
+  std::vector<CommandLine> compared;
 };
 
 /// Number of faces of --check without a value.

@@ -47,10 +47,11 @@ std::string shownName(const std::string& mesh, const std::vector<std::string>& m
   return sameCount > 1 ? mesh : name;
 }
 
-/// "cow.ply, balanced, seeds 10 %"
+/// "cow.ply, balanced, seeds 10 %"; with --against "cow.ply, --recipe paper".
 std::string labelOf(const std::string& name, const MeshOutcome& outcome) {
   const CommandLine& line = outcome.line;
   const Report& report = outcome.result.report;
+  if (!line.against.empty()) return fmt::format("{}, {}", name, line.against);
   std::string label = fmt::format("{}, {}", name, nameOf(kRecipes, line.recipe));
   if (line.options.cone.definition != Definition::Paper)
     label += fmt::format(", definition {}", nameOf(kDefinitions, line.options.cone.definition));

@@ -52,29 +52,35 @@ void writePicture(const CommandLine& line, const Result& result, const RunContro
   writePng(line.picture, pictureOf(result, *field, line.pictureView, {}, control));
 }
 
+/// The page of one or several results.
+struct SharedPage {
+  Page page = emptyPage();
+  size_t awaitedCount = 0;  ///< Results that are not computed yet.
+  bool isFinished = false;
+};
+
 /// Also starts the browser with --open.
-void finishPage(const std::string& output, const Page& page, const CommandLine& line) {
-  writePage(output, page);
+void finishPage(const std::string& output, SharedPage& shared, const CommandLine& line) {
+  shared.isFinished = true;
+  writePage(output, shared.page);
   if (line.opensPage) openInBrowser(output);
 }
 
-/// Writes the result, or adds it to the page that all meshes share, if there is one.
-void writeOutput(const MeshOutcome& outcome, const Mesh& mesh, Page* sharedPage, const std::stop_token& stop) {
+/// Writes the result, or adds it to the page, which is written with its last result.
+void writeOutput(const MeshOutcome& outcome, const Mesh& mesh, SharedPage* page, const std::stop_token& stop) {
   const CommandLine& line = outcome.line;
-  if (!writesPages(line)) {
+  if (page == nullptr) {
     writeResult(outcome.output, mesh, writableFields(line, outcome.output, outcome.result.fields),
                 writeOptionsOf(line));
     return;
   }
-  Page own = emptyPage();
-  Page& page = sharedPage == nullptr ? own : *sharedPage;
-  runWithProgress(line, stop, [&](const RunControl& control) { addToPage(page, outcome, control); });
-  if (sharedPage == nullptr) finishPage(outcome.output, page, line);
+  runWithProgress(line, stop, [&](const RunControl& control) { addToPage(page->page, outcome, control); });
+  if (page->awaitedCount == 1) finishPage(outcome.output, *page, line);
 }
 
-/// sharedPage: the page that all meshes share, or null.
+/// page: null for other formats.
 MeshReport runMesh(Session& session, const std::string& name, const std::string& output, const CommandLine& line,
-                   Page* sharedPage, const std::stop_token& stop) {
+                   SharedPage* page, const std::stop_token& stop) {
   requireWritablePlace(output);
   if (!line.picture.empty()) requireWritablePlace(line.picture);
   if (!line.points.empty()) requireWritablePlace(line.points);
@@ -91,7 +97,7 @@ MeshReport runMesh(Session& session, const std::string& name, const std::string&
     StageSeconds& seconds = result.report.stageSeconds;
     const Stopwatch writeWatch;
     flipInputFaces(mesh, result.report.reversedFaces);  // The scene of the result has its own copy.
-    writeOutput({name, output, line, result}, mesh, sharedPage, stop);
+    writeOutput({name, output, line, result}, mesh, page, stop);
     if (!line.points.empty()) writePoints(line.points, result.fields);
     seconds[Stage::Write] = writeWatch.seconds();
     seconds[Stage::Read] = readSeconds;
@@ -158,18 +164,26 @@ ExitCode runMeshes(const CommandLine& line, const std::stop_token& stop) {
   }
   if (!line.quiet) printDeviceLines(*session);
 
-  std::optional<Page> page;
-  if (line.meshes.size() > 1 && writesOnePage(line)) page = emptyPage();
+  std::vector<const CommandLine*> computations{&line};
+  for (const CommandLine& compared : line.compared) computations.push_back(&compared);
+  const bool isOnePage = writesOnePage(line);
+  std::optional<SharedPage> page;
   ExitCode first = ExitCode::Done;
   for (size_t i = 0; i < line.meshes.size(); ++i) {
     const std::string& mesh = line.meshes[i];
-    const MeshReport report =
-        reportOf(mesh, line, [&] { return runMesh(*session, mesh, outputs[i], line, page ? &*page : nullptr, stop); });
-    if (first == ExitCode::Done) first = report.code;
-    if (line.json) writeStandardOutput(report.json);
-    if (report.code == ExitCode::Cancelled) return first;
+    if (writesPages(line) && (!page || !isOnePage))
+      page = SharedPage{.awaitedCount = computations.size() * (isOnePage ? line.meshes.size() : 1)};
+    for (const CommandLine* computation : computations) {
+      const MeshReport report = reportOf(mesh, *computation, [&] {
+        return runMesh(*session, mesh, outputs[i], *computation, page ? &*page : nullptr, stop);
+      });
+      if (first == ExitCode::Done) first = report.code;
+      if (line.json) writeStandardOutput(report.json);
+      if (report.code == ExitCode::Cancelled) return first;
+      if (!page || --page->awaitedCount > 0 || page->isFinished || page->page.isEmpty()) continue;
+      finishPage(outputs[i], *page, line);  // The last result failed, others did not.
+    }
   }
-  if (page && !page->isEmpty()) finishPage(outputs.front(), *page, line);
   return first;
 }
 

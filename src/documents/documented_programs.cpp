@@ -34,6 +34,7 @@ Program documentedAsdfVk() {
        "asdf-vk mesh.ply --max-error 1% --check"},
       {"Find the parts of a shape, and draw them:",
        "asdf-vk mesh.ply --segment --picture parts.png --picture-of segment"},
+      {"Show the result in a browser:", "asdf-vk mesh.ply --open"},
       {"Fail where a part is thinner than 0.8, in the unit of the mesh:", "asdf-vk part.stl --fail-if-thinner 0.8"},
       {"Read from standard input, write comma-separated values to standard output:",
        "asdf-vk-generate animal -o - | asdf-vk - -o - --format csv"}};

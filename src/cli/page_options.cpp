@@ -1,0 +1,75 @@
+// The options of a page.
+#include <algorithm>
+#include <iterator>
+#include <sstream>
+#include <utility>
+
+#include "cli/option_parsing.h"
+#include "cli/output_plan.h"
+
+namespace asdfvk {
+namespace {
+
+[[noreturn]] void fail(const std::string& message) { throw Error(ErrorCode::OptionConflict, message); }
+
+/// The command line with the options of the computation in `text`, and no others of the computation.
+CommandLine comparedLine(const CommandLine& line, const std::string& text) {
+  std::istringstream words(text);
+  std::vector<std::string> arguments{std::istream_iterator<std::string>(words), {}};
+  if (arguments.empty()) fail("--against names no option of the computation, such as \"--recipe paper\"");
+  arguments.insert(arguments.begin(), line.meshes.begin(), line.meshes.end());
+  CommandLine other;
+  try {
+    other = parseCommandLine(std::move(arguments));
+  } catch (const Error& error) {
+    throw Error(error.code(), std::string("--against: ") + error.what());
+  }
+  const CommandLine defaults;
+  const bool hasOthers = other.meshes != line.meshes || other.answer || !other.output.empty() ||
+                         !other.format.empty() || !other.picture.empty() || !other.points.empty() || other.json ||
+                         other.quiet || other.ascii || other.choosesFields || other.opensPage || other.listDevices ||
+                         other.threadCount != 0 || other.session.backend != defaults.session.backend ||
+                         !other.session.device.empty() || other.session.requireGpu || !other.compared.empty();
+  if (hasOthers) fail("--against takes options of the computation only; give those of output and device beside it");
+  CommandLine compared = line;
+  compared.options = other.options;
+  compared.recipe = other.recipe;
+  compared.failIfThinner = other.failIfThinner;
+  compared.valueOptions = other.valueOptions;
+  if (!line.choosesFields) compared.fields = other.fields;
+  compared.against = text;
+  return compared;
+}
+
+}  // namespace
+
+void addPage(CLI::App& app, CommandLine& line) {
+  app.add_flag("--open", line.opensPage, "Open the page in the browser; without -o, NAME.asdf.html")
+      ->group(kBasicGroup);
+  addValue(app, "--against", "OPTIONS",
+           "For a page: also show each mesh with these options of the computation instead of\n"
+           "the given ones, in quotes: --against \"--seeds all\"",
+           [&](const std::string& text) { line.against = text; })
+      ->group("Output");
+}
+
+void completePage(const CLI::App& app, CommandLine& line) {
+  line.choosesFields = app.count("--fields") > 0;
+  if (line.opensPage && line.output.empty() && line.format.empty()) line.format = kPageFormat;
+  const bool isPage = writesPages(line);
+  if (line.opensPage && !isPage) fail("--open opens a page; give -o FILE.html, or drop --open");
+  if (line.opensPage && line.output == "-") fail("--open opens a file, which -o - does not write; give -o FILE.html");
+  if (line.opensPage && line.meshes.size() > 1 && !writesOnePage(line))
+    fail("--open opens one page; give -o FILE.html, which shows all meshes");
+  if (isPage && line.choosesFields && std::count(line.fields.begin(), line.fields.end(), "centre") > 0)
+    fail("--fields centre has three components; a page shows fields of one component");
+  line.options.keepsScene = line.options.keepsScene || isPage;
+  if (app.count("--against") == 0) return;
+  if (!isPage) fail("--against compares in a page; give -o FILE.html");
+  if (std::count(line.meshes.begin(), line.meshes.end(), "-") > 0)
+    fail("--against reads each mesh twice, which standard input does not allow; give it a file");
+  line.compared = {comparedLine(line, std::exchange(line.against, ""))};
+  line.compared.front().options.keepsScene = true;
+}
+
+}  // namespace asdfvk

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "mesh/mesh.h"
+#include "viewer/page.h"
+
+/// Reads pages as docs/page.md describes them, and shares no code with src/viewer.
+namespace asdfvk::test {
+
+struct DecodedMesh {
+  nlohmann::ordered_json description;
+  std::vector<Vec3d> positions;  ///< In mesh units.
+  std::vector<Face> faces;
+  std::vector<uint32_t> faceIds;
+  std::map<std::string, std::vector<double>> fields;  ///< Per face; NaN = no value.
+};
+
+struct DecodedPage {
+  std::string html;
+  nlohmann::ordered_json json;
+  std::vector<std::vector<uint8_t>> streams;  ///< Inflated.
+  std::vector<DecodedMesh> meshes;
+};
+
+/// The file that the page writes.
+[[nodiscard]] std::string htmlOf(const Page& page);
+
+/// Throws where the page does not follow the format.
+[[nodiscard]] DecodedPage decodePage(const std::string& html);
+
+}  // namespace asdfvk::test

@@ -1,0 +1,112 @@
+#include "viewer/page.h"
+
+#include <doctest/doctest.h>
+
+#include "support/shapes.h"
+#include "viewer/decoded_page.h"
+#include "viewer/html_text.h"
+#include "viewer/page_template.h"
+
+namespace asdfvk {
+namespace {
+
+const std::string kAttack = "</script><img src=x onerror=alert(1)>\"'<!--&\xe2\x80\xa8\x01";
+
+size_t countOf(std::string_view text, std::string_view part) {
+  size_t count = 0;
+  for (size_t at = text.find(part); at != std::string_view::npos; at = text.find(part, at + part.size())) ++count;
+  return count;
+}
+
+TEST_CASE("names with markup stay text") {
+  Page page("test");
+  Field field{.name = "sdf", .label = kAttack, .unit = kAttack, .values = std::vector<double>(12, 1.0)};
+  PageTexts texts{.name = kAttack, .label = kAttack, .errorSentence = kAttack, .picture = {'P', 'N', 'G'}};
+  texts.summary = {{kAttack, kAttack}};
+  texts.warnings = texts.defects = {kAttack};
+  page.add(shapes::cube(), std::vector<std::reference_wrapper<const Field>>{field}, texts);
+  const test::DecodedPage decoded = test::decodePage(test::htmlOf(page));
+  const auto& mesh = decoded.json["meshes"][0];
+  CHECK_EQ(mesh["name"], kAttack);
+  CHECK_EQ(mesh["summary"][0]["title"], kAttack);
+  CHECK_EQ(mesh["warnings"][0], kAttack);
+  CHECK_EQ(mesh["fields"][0]["title"], kAttack);
+  // Nothing that a name could add to the page: as many elements as with a plain name.
+  Page plain("test");
+  for (std::string* text : {&texts.name, &texts.label, &texts.errorSentence, &texts.summary[0].first,
+                            &texts.summary[0].second, &texts.warnings[0], &texts.defects[0]})
+    *text = "plain";
+  field.label = field.unit = "plain";
+  plain.add(shapes::cube(), std::vector<std::reference_wrapper<const Field>>{field}, texts);
+  const std::string plainHtml = test::htmlOf(plain);
+  for (const char* part : {"<", ">", "onerror=alert(1)>", "<!--", "\xe2\x80\xa8"})
+    CHECK_MESSAGE(countOf(decoded.html, part) == countOf(plainHtml, part), part);
+}
+
+TEST_CASE("markup, control characters and invalid UTF-8 in HTML") {
+  CHECK_EQ(escapedForHtml("a<b>&\"'c"), "a&lt;b&gt;&amp;&quot;&#39;c");
+  CHECK_EQ(escapedForHtml("a\nb\x7f"), "a b ");
+  CHECK_EQ(escapedForHtml("\xc3\xa4 \xe2\x82\xac \xf0\x9f\x90\x8e"), "\xc3\xa4 \xe2\x82\xac \xf0\x9f\x90\x8e");
+  const std::string unknown = "\xef\xbf\xbd";
+  CHECK_EQ(escapedForHtml("\xff"
+                          "a"),
+           unknown + "a");
+  CHECK_EQ(escapedForHtml("\xc3"), unknown);
+  CHECK_EQ(escapedForHtml("\xc0\xbc"), unknown + unknown);                // An overlong '<'.
+  CHECK_EQ(escapedForHtml("\xed\xa0\x80"), unknown + unknown + unknown);  // A surrogate.
+  CHECK_EQ(escapedForScript("{\"a\":\"</script>&\"}"), "{\"a\":\"\\u003c/script\\u003e\\u0026\"}");
+}
+
+TEST_CASE("a name that is no UTF-8 does not end the program") {
+  Page page("test");
+  page.add(shapes::cube(), {}, {.name = "\xff\xfe.ply", .label = "\xff"});
+  CHECK_EQ(test::decodePage(test::htmlOf(page)).json["meshes"][0]["name"], "\xef\xbf\xbd\xef\xbf\xbd.ply");
+}
+
+TEST_CASE("a page is one file without references to others") {
+  Page page("asdf-vk 1.2 (abc)");
+  page.add(shapes::cube(), {}, {.name = "cube.ply", .label = "cube.ply, balanced"});
+  const test::DecodedPage decoded = test::decodePage(test::htmlOf(page));
+  CHECK_EQ(decoded.json["generator"], "asdf-vk 1.2 (abc)");
+  CHECK(decoded.html.find("<title>cube.ply, balanced") != std::string::npos);
+  CHECK(decoded.html.find("default-src 'none'") != std::string::npos);
+  for (const char* place : {"@TITLE@", "@CSP@", "@STYLE@", "@SCRIPT@", "@DATA@", "@FALLBACK@"})
+    CHECK(decoded.html.find(place) == std::string::npos);
+  for (const char* reference : {"src=\"http", "href=\"http", "@import", "eval(", "new Function"})
+    CHECK_MESSAGE(kPageTemplate.find(reference) == std::string_view::npos, reference);
+  CHECK_LT(kPageTemplate.size(), 60'000);
+}
+
+TEST_CASE("values that are not finite are null in lists") {
+  Page page("test");
+  PageTexts texts{.name = "a"};
+  texts.thinRegions = {{3, 0.25, kNoValue, 2, {1, 2, kNoValue}}};
+  texts.segments = {{7, 5, 1.5, kNoValue, {1, 2, 3}}};
+  page.add(shapes::cube(), {}, texts);
+  const auto mesh = test::decodePage(test::htmlOf(page)).json["meshes"][0];
+  CHECK_EQ(mesh["thinRegions"][0]["face"], 3);
+  CHECK_EQ(mesh["thinRegions"][0]["value"], 0.25);
+  CHECK(mesh["thinRegions"][0]["area"].is_null());
+  CHECK(mesh["thinRegions"][0]["centre"][2].is_null());
+  CHECK_EQ(mesh["segments"][0]["label"], 7);
+  CHECK(mesh["segments"][0]["median"].is_null());
+}
+
+TEST_CASE("segments have area, median and centre") {
+  Mesh mesh;
+  mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {5, 5, 0}};
+  mesh.faces = {{0, 1, 2}, {1, 3, 2}, {3, 4, 2}, {0, 1, 4}};
+  const std::vector<double> areas{0.5, 0.5, 2, 0}, values{1, 2, kNoValue, 4};
+  const std::vector<Vec3d> barycentres{{0, 0, 0}, {3, 0, 0}, {1, 1, 0}, {9, 9, 9}};
+  const auto segments = listSegments(mesh, areas, barycentres, std::vector<uint32_t>{4, 4, 1, 0xffffffff}, values);
+  REQUIRE_EQ(segments.size(), 2);
+  CHECK_EQ(segments[0].label, 1);
+  CHECK(std::isnan(segments[0].median));
+  CHECK_EQ(segments[1].faceCount, 2);
+  CHECK_EQ(segments[1].area, 1);
+  CHECK_EQ(segments[1].median, 2);
+  CHECK_EQ(segments[1].centre.x, 1.5);
+}
+
+}  // namespace
+}  // namespace asdfvk

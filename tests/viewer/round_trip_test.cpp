@@ -1,0 +1,232 @@
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <set>
+
+#include "generate/shapes.h"
+#include "support/shapes.h"
+#include "viewer/decoded_page.h"
+
+namespace asdfvk {
+namespace {
+
+using FieldList = std::vector<std::reference_wrapper<const Field>>;
+
+test::DecodedMesh throughPage(const Mesh& mesh, const std::vector<Field>& fields = {}) {
+  Page page("test");
+  page.add(mesh, FieldList(fields.begin(), fields.end()), {.name = "mesh"});
+  return test::decodePage(test::htmlOf(page)).meshes.at(0);
+}
+
+/// Every face of the mesh once, with its corners in their cyclic order at their places, and with vertices shared as
+/// they are in the mesh.
+void checkSameMesh(const Mesh& mesh, const test::DecodedMesh& decoded) {
+  REQUIRE_EQ(decoded.faces.size(), mesh.faces.size());
+  std::vector<uint32_t> ids = decoded.faceIds;
+  std::sort(ids.begin(), ids.end());
+  for (uint32_t i = 0; i < ids.size(); ++i)
+    REQUIRE_EQ(ids[i], mesh.polygons.isEmpty() ? i : mesh.polygons.inputFaceOf[i]);
+  if (!mesh.polygons.isEmpty()) return;  // A number does not name a triangle.
+  std::vector<uint32_t> vertexOf(decoded.positions.size(), 0xffffffff);
+  std::set<uint32_t> used;
+  for (size_t i = 0; i < decoded.faces.size(); ++i) {
+    const Face& expected = mesh.faces[decoded.faceIds[i]];
+    const bool isFiniteFace =
+        std::all_of(expected.begin(), expected.end(), [&](uint32_t vertex) { return isFinite(mesh.vertices[vertex]); });
+    if (!isFiniteFace) {
+      CHECK(decoded.faces[i][0] == decoded.faces[i][1]);
+      CHECK(decoded.faces[i][0] == decoded.faces[i][2]);
+      continue;
+    }
+    size_t turn = 0;  // The corner of the decoded face that is the first one of the mesh.
+    const auto fits = [&](size_t t) {
+      for (size_t k = 0; k < 3; ++k) {
+        const uint32_t known = vertexOf[decoded.faces[i][(k + t) % 3]];
+        if (known != 0xffffffff ? known != expected[k] : used.contains(expected[k])) return false;
+        const Vec3d difference = decoded.positions[decoded.faces[i][(k + t) % 3]] - mesh.vertices[expected[k]];
+        for (size_t axis = 0; axis < 3; ++axis)
+          if (std::abs(difference[axis]) > 0.51 * decoded.description["step"].get<double>()) return false;
+      }
+      return true;
+    };
+    while (turn < 3 && !fits(turn)) ++turn;
+    REQUIRE_MESSAGE(turn < 3, "face ", decoded.faceIds[i]);
+    for (size_t k = 0; k < 3; ++k) {
+      vertexOf[decoded.faces[i][(k + turn) % 3]] = expected[k];
+      used.insert(expected[k]);
+    }
+  }
+}
+
+TEST_CASE("every face returns from a page with its number, winding and corners") {
+  // In general position, so that places tell vertices apart.
+  const auto shaken = [](const Mesh& mesh) { return shapes::jittered(mesh, 0.01, 7); };
+  CHECK_NOTHROW(checkSameMesh(shapes::tetrahedron(), throughPage(shapes::tetrahedron())));
+  for (const Mesh& mesh :
+       {shapes::cube(), shapes::sphere(4), shapes::torus(2, 0.7, 40, 23), shapes::openBox({1, 2, 3}, 5),
+        shapes::grid(9), shapes::book(7), shapes::fan(12, true), shapes::fan(12, false), shapes::boxesWithSharedEdge(),
+        shapes::soup(50, 3), shapes::joined(shapes::cube(), shapes::sphere(2), {5, 0, 0}),
+        shapes::inverted(shapes::cube()), shapes::joined(shapes::cube(), shapes::inverted(shapes::cube()))})
+    checkSameMesh(shaken(mesh), throughPage(shaken(mesh)));
+}
+
+TEST_CASE("any triangles return: repeated vertices, duplicates, edges of many faces") {
+  for (uint64_t seed = 0; seed < 60; ++seed) {
+    const uint32_t vertexCount = 3 + static_cast<uint32_t>(seed % 20);
+    const Mesh mesh =
+        shapes::jittered(shapes::randomFaces(vertexCount, 1 + static_cast<uint32_t>(seed) * 3, seed), 0.3, seed);
+    INFO("seed ", seed);
+    checkSameMesh(mesh, throughPage(mesh));
+  }
+}
+
+TEST_CASE("a shuffled mesh returns") {
+  Mesh mesh = shapes::jittered(shapes::torus(2, 0.7, 30, 17), 0.01, 1);
+  std::mt19937 random(5);
+  for (size_t i = mesh.faces.size() - 1; i > 0; --i) std::swap(mesh.faces[i], mesh.faces[random() % (i + 1)]);
+  checkSameMesh(mesh, throughPage(mesh));
+}
+
+TEST_CASE("one face, and faces without finite corners") {
+  Mesh one;
+  one.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 2, 0}, {9, 9, 9}};
+  one.faces = {{0, 1, 2}};
+  const test::DecodedMesh decoded = throughPage(one);
+  checkSameMesh(one, decoded);
+  CHECK_EQ(decoded.positions.size(), 3);  // The fourth vertex belongs to no face.
+  CHECK_EQ(decoded.description["boxMax"][1].get<double>(), 2);
+
+  const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
+  Mesh broken = shapes::jittered(shapes::sphere(2), 0.01, 3);
+  broken.vertices[4] = {nan, 0, 0};
+  broken.vertices[9].z = inf;
+  checkSameMesh(broken, throughPage(broken));
+  for (Vec3d& vertex : broken.vertices) vertex.x = nan;
+  checkSameMesh(broken, throughPage(broken));
+  for (Vec3d& vertex : broken.vertices) vertex = {1e300, -1e300, 5};  // A box without a side.
+  CHECK_EQ(throughPage(broken).faces.size(), broken.faces.size());
+}
+
+TEST_CASE("a mesh far from the origin, small or as wide as double") {
+  const Mesh mesh = shapes::jittered(shapes::sphere(3), 0.01, 3);
+  for (const double scale : {1e-20, 1.0, 1e150})
+    for (const double shift : {0.0, 1e3 * scale}) {
+      const Mesh moved = shapes::scaledAndShifted(mesh, scale, {shift, -shift, shift});
+      checkSameMesh(moved, throughPage(moved));
+    }
+}
+
+Field numbers(std::vector<double> values) {
+  return {.name = "number", .label = "a number", .values = std::move(values)};
+}
+
+/// As "{:.3e}": four digits, of the numbers of float32.
+std::string fourDigits(double value) {
+  return std::isnan(value) ? "none" : fmt::format("{:.3e}", std::abs(value) < 1e-45 ? 0.0 : value);
+}
+
+void checkNumbers(const Mesh& mesh, const std::vector<double>& values) {
+  const test::DecodedMesh decoded = throughPage(mesh, {numbers(values)});
+  const std::vector<double>& returned = decoded.fields.at("number");
+  REQUIRE_EQ(returned.size(), values.size());
+  for (size_t i = 0; i < returned.size(); ++i)
+    REQUIRE_EQ(fourDigits(returned[i]), fourDigits(values[decoded.faceIds[i]]));
+}
+
+TEST_CASE("values return with four digits over a wide range, with zeros and without values") {
+  const Mesh mesh = shapes::torus(2, 0.7, 40, 23);
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> exponent(-12, 9);
+  std::vector<double> values(mesh.faces.size());
+  for (double& value : values) value = std::pow(10.0, exponent(random));
+  checkNumbers(mesh, values);
+  for (size_t i = 0; i < values.size(); ++i) {
+    if (i % 7 == 0) values[i] = kNoValue;
+    if (i % 5 == 0) values[i] = 0;
+    if (i % 3 == 0) values[i] = -values[i];
+  }
+  checkNumbers(mesh, values);
+  for (size_t i = 0; i < values.size(); ++i) values[i] = 9.9994 + 1e-6 * static_cast<double>(i);  // Around a decade.
+  checkNumbers(mesh, values);
+  values.assign(values.size(), 1e-44);
+  values[3] = 3e38;
+  checkNumbers(mesh, values);
+}
+
+TEST_CASE("no value at all, only zeros, infinity") {
+  const Mesh mesh = shapes::cube();
+  checkNumbers(mesh, std::vector<double>(12, kNoValue));
+  checkNumbers(mesh, std::vector<double>(12, 0.0));
+  const test::DecodedMesh none = throughPage(mesh, {numbers(std::vector<double>(12, kNoValue))});
+  CHECK(none.description["fields"][0]["range"].is_null());
+  CHECK_EQ(none.description["fields"][0]["noValueCount"], 12);
+  const test::DecodedMesh infinite =
+      throughPage(mesh, {numbers(std::vector<double>(12, std::numeric_limits<double>::infinity()))});
+  for (const double value : infinite.fields.at("number")) CHECK(std::isnan(value));
+}
+
+TEST_CASE("labels and flags return") {
+  const Mesh mesh = shapes::torus(2, 0.7, 20, 13);
+  Field label{.name = "label", .values = std::vector<uint32_t>(mesh.faces.size())};
+  Field flag{.name = "flag", .values = std::vector<uint8_t>(mesh.faces.size())};
+  auto& labels = std::get<std::vector<uint32_t>>(label.values);
+  auto& flags = std::get<std::vector<uint8_t>>(flag.values);
+  std::mt19937 random(3);
+  for (size_t i = 0; i < labels.size(); ++i) {
+    labels[i] = random() % 9 == 0 ? 0xffffffff : random() % 4 == 0 ? 0xfffffffe - random() % 3 : random() % 5;
+    flags[i] = random() % 10 == 0;
+  }
+  const test::DecodedMesh decoded = throughPage(mesh, {label, flag});
+  for (size_t i = 0; i < labels.size(); ++i) {
+    const uint32_t expected = labels[decoded.faceIds[i]];
+    const double returned = decoded.fields.at("label")[i];
+    CHECK((expected == 0xffffffff ? std::isnan(returned) : returned == expected));
+    CHECK_EQ(decoded.fields.at("flag")[i], flags[decoded.faceIds[i]]);
+  }
+  CHECK_EQ(decoded.description["fields"][0]["kind"], "label");
+  CHECK_EQ(decoded.description["fields"][0]["noValueCount"], std::count(labels.begin(), labels.end(), 0xffffffff));
+  CHECK_EQ(decoded.description["fields"][1]["kind"], "flag");
+}
+
+TEST_CASE("a field of a mesh of polygons has the value of the polygon at each of its triangles") {
+  Mesh mesh;
+  mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {2, 0, 0}, {2, 1, 0}};
+  mesh.faces = {{0, 1, 2}, {0, 2, 3}, {1, 4, 5}, {1, 5, 2}};
+  mesh.polygons = {{0, 4, 8}, {0, 1, 2, 3, 1, 4, 5, 2}, {0, 0, 1, 1}};
+  const test::DecodedMesh decoded = throughPage(mesh, {numbers({1.5, 2.5})});
+  checkSameMesh(mesh, decoded);
+  CHECK_EQ(decoded.description["inputFaceCount"], 2);
+  for (size_t i = 0; i < 4; ++i) CHECK_EQ(decoded.fields.at("number")[i], decoded.faceIds[i] == 0 ? 1.5 : 2.5);
+}
+
+TEST_CASE("the same mesh twice is stored once") {
+  const Mesh mesh = shapes::sphere(4);
+  const Field first = numbers(std::vector<double>(mesh.faces.size(), 1.0)),
+              second = numbers(std::vector<double>(mesh.faces.size(), 2.0));
+  Page page("test");
+  page.add(mesh, FieldList{first}, {.name = "a"});
+  page.add(mesh, FieldList{second}, {.name = "b"});
+  const test::DecodedPage decoded = test::decodePage(test::htmlOf(page));
+  REQUIRE_EQ(decoded.meshes.size(), 2);
+  CHECK_EQ(decoded.meshes[0].description["streams"], decoded.meshes[1].description["streams"]);
+  CHECK(decoded.meshes[0].faceIds == decoded.meshes[1].faceIds);  // So that values can be compared face by face.
+  CHECK_EQ(decoded.meshes[1].fields.at("number")[5], 2.0);
+}
+
+TEST_CASE("a smooth mesh takes few bytes") {
+  const Mesh mesh = generateShape("animal", 20000).mesh;
+  const test::DecodedMesh decoded = throughPage(mesh);
+  CHECK_EQ(decoded.faces.size(), mesh.faces.size());
+  Page page("test");
+  page.add(mesh, {}, {});
+  Page none("test");
+  const double bytes = static_cast<double>(test::htmlOf(page).size() - test::htmlOf(none).size());
+  CHECK_LT(bytes / mesh.faceCount(), 6);
+}
+
+}  // namespace
+}  // namespace asdfvk
