@@ -150,7 +150,8 @@ TEST_CASE("values return with four digits over a wide range, with zeros and with
     if (i % 3 == 0) values[i] = -values[i];
   }
   checkNumbers(mesh, values);
-  for (size_t i = 0; i < values.size(); ++i) values[i] = 9.9994 + 1e-6 * static_cast<double>(i);  // Around a decade.
+  for (size_t i = 0; i < values.size(); ++i)
+    values[i] = 9.99940003 + 1e-6 * static_cast<double>(i);  // Around a decade.
   checkNumbers(mesh, values);
   values.assign(values.size(), 1e-44);
   values[3] = 3e38;
