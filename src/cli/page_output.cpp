@@ -119,8 +119,11 @@ void addToPage(Page& page, const MeshOutcome& outcome, const RunControl& control
     (warning.code == WarningCode::MeshDefect ? texts.defects : texts.warnings).push_back(textWarning(warning));
   texts.thinRegions = thinRegionsOf(outcome.result);
   texts.segments = segmentsOf(outcome.result);
-  constexpr PictureSize kSmall{480, 360, 1.4};
-  texts.picture = encodePng(pictureOf(outcome.result, fields.front(), outcome.line.pictureView, kSmall, control));
+  // A careful picture of more faces takes longer than the rest of the page.
+  constexpr uint64_t kMaxCarefulCount = 100'000;
+  const PictureStyle style{
+      .width = 480, .height = 360, .textScale = 1.4, .isDraft = outcome.result.report.triangleCount > kMaxCarefulCount};
+  texts.picture = encodePng(pictureOf(outcome.result, fields.front(), outcome.line.pictureView, style, control));
   page.add(outcome.result.scene->scene.mesh, fields, std::move(texts));
 }
 

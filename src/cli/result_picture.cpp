@@ -20,13 +20,14 @@ std::vector<T> onTriangles(const TriangleMesh& mesh, const std::vector<T>& ofInp
 
 }  // namespace
 
-Image pictureOf(const Result& result, const Field& field, const View& view, const PictureSize& size,
+Image pictureOf(const Result& result, const Field& field, const View& view, const PictureStyle& style,
                 const RunControl& control) {
   const TriangleMesh& mesh = result.scene->scene.mesh;
   Picture picture{.scene = result.scene->scene, .title = field.label, .view = view};
-  picture.width = size.width;
-  picture.height = size.height;
-  picture.textScale = size.textScale;
+  picture.width = style.width;
+  picture.height = style.height;
+  picture.textScale = style.textScale;
+  picture.isDraft = style.isDraft;
   std::vector<double> values;
   std::vector<uint8_t> flags;
   std::vector<uint32_t> labels;

@@ -95,12 +95,12 @@ MeshReport runMesh(Session& session, const std::string& name, const std::string&
                              [&](const RunControl& control) { return session.compute(mesh, line.options, control); });
     if (stop.stop_requested()) throw Error(ErrorCode::Cancelled, "cancelled");
     StageSeconds& seconds = result.report.stageSeconds;
+    seconds[Stage::Read] = readSeconds;
     const Stopwatch writeWatch;
     flipInputFaces(mesh, result.report.reversedFaces);  // The scene of the result has its own copy.
     writeOutput({name, output, line, result}, mesh, page, stop);
     if (!line.points.empty()) writePoints(line.points, result.fields);
     seconds[Stage::Write] = writeWatch.seconds();
-    seconds[Stage::Read] = readSeconds;
     if (!line.picture.empty())
       runWithProgress(line, stop, [&](const RunControl& control) { writePicture(line, result, control); });
   }

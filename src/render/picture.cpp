@@ -6,6 +6,7 @@
 
 #include "render/camera.h"
 #include "render/colour_bar.h"
+#include "render/draft_renderer.h"
 #include "render/drawing.h"
 #include "render/label_colours.h"
 #include "render/mesh_renderer.h"
@@ -68,6 +69,11 @@ Image render(const Picture& picture, const RunControl& control) {
     drawLegend(image, picture, {inner.left, inner.top, inner.width, capHeight}, capHeight);
   }
 
+  if (picture.isDraft) {
+    const Camera camera = frameCamera(verticesOfHitFaces(picture.scene), picture.view, area);
+    renderDraft(image, picture.scene, camera, faceColoursOf(picture, range));
+    return image;
+  }
   const PictureScene scene(picture.scene);
   const Camera camera = frameCamera(scene.points(), picture.view, area);
   renderMesh(image, scene, camera, faceColoursOf(picture, range), control);

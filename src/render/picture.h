@@ -26,6 +26,7 @@ struct Picture {
   std::optional<ColourRange> range;      ///< Of the bar; unset: percentileRange() of the values.
   int width = 1200, height = 900;        ///< In pixels, kMinPictureSide to kMaxPictureSide.
   View view;
+  bool isDraft = false;  ///< Flat faces without shadows: a small share of the time for a mesh of many faces.
   double textScale = 1;  ///< Of title and labels; above 1 for pictures that are printed small.
 };
 

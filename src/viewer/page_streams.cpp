@@ -14,7 +14,8 @@
 namespace asdfvk {
 namespace {
 
-constexpr int kLevel = 6;
+/// Level 6 takes 40 % more time for 1 % fewer bytes of a mesh of 1,000,000 faces.
+constexpr int kLevel = 5;
 
 }  // namespace
 
@@ -79,6 +80,12 @@ std::vector<uint32_t> PageStreams::add(std::span<const std::function<Bytes()>> s
     streams_.push_back(std::move(stream));
   }
   return numbers;
+}
+
+std::vector<size_t> PageStreams::sizes() const {
+  std::vector<size_t> sizes;
+  for (const Bytes& stream : streams_) sizes.push_back(stream.size());
+  return sizes;
 }
 
 void PageStreams::write(AtomicFile& file) const {

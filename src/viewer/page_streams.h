@@ -28,6 +28,9 @@ class PageStreams {
   /// be the longest.
   [[nodiscard]] std::vector<uint32_t> add(std::span<const std::function<Bytes()>> sources);
 
+  /// Bytes of the streams, compressed, by number.
+  [[nodiscard]] std::vector<size_t> sizes() const;
+
   /// Writes one element of HTML per stream, with the stream as base64.
   void write(AtomicFile& file) const;
 
