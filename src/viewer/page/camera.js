@@ -1,0 +1,92 @@
+// A parallel projection around an upright axis. Azimuth and elevation 0 show the broad side of the mesh, as in pictures
+// of `--picture`.
+import { add, clamp, cross, dot, scaled, subtract } from './vectors.js';
+
+export const kViews = {
+  corner: [30, 18], front: [0, 0], right: [90, 0], back: [180, 0], left: [-90, 0], top: [0, 90], bottom: [0, -90],
+};
+
+const kRadians = Math.PI / 180;
+const axisVector = (axis, sign) => [0, 1, 2].map((i) => i === axis ? sign : 0);
+
+/** Directions of azimuth 0 and of the sides. boxSize: of the mesh. */
+export function uprightFrame(up, boxSize) {
+  const axis = 'xyz'.indexOf(up.at(-1)), upward = axisVector(axis, up.length > 1 ? -1 : 1);
+  // The front is z with y up, and -y with z up; it is the shorter of the horizontal axes.
+  const usual = axis === 2 ? 1 : 2, other = axis === 0 ? 1 : 0;
+  const isBroadside = boxSize[other] >= boxSize[usual];
+  const front = axisVector(isBroadside ? usual : other, isBroadside && axis === 2 ? -1 : 1);
+  return { up: upward, front, side: cross(upward, front) };
+}
+
+/** Orthonormal right, up and toViewer. */
+export function viewAxes(state, boxSize) {
+  const { up, front, side } = uprightFrame(state.up, boxSize);
+  const az = state.az * kRadians, el = state.el * kRadians;
+  const level = add(scaled(front, Math.cos(az)), scaled(side, Math.sin(az)));
+  const toViewer = add(scaled(level, Math.cos(el)), scaled(up, Math.sin(el)));
+  const right = subtract(scaled(side, Math.cos(az)), scaled(front, Math.sin(az)));
+  return { right, up: cross(toViewer, right), toViewer };
+}
+
+/** Azimuth and elevation from which `direction` points to the viewer. */
+export function anglesTowards(direction, upName, boxSize) {
+  const { up, front, side } = uprightFrame(upName, boxSize);
+  return {
+    az: Math.atan2(dot(direction, side), dot(direction, front)) / kRadians,
+    el: Math.asin(clamp(dot(direction, up), -1, 1)) / kRadians,
+  };
+}
+
+/** Corners of a box with the origin as its centre. */
+export function boxCorners(size) {
+  return [0, 1, 2, 3, 4, 5, 6, 7].map((i) => size.map((length, axis) => (i >> axis & 1 ? 0.5 : -0.5) * length));
+}
+
+/**
+ * Zoom with which the box fills the pane. Zoom 1: the sphere around the box touches the shorter sides of the pane.
+ */
+export function fittingZoom(axes, boxSize, width, height) {
+  const radius = Math.hypot(...boxSize) / 2 || 1, short = Math.min(width, height);
+  const extent = (axis) => 2 * Math.max(...boxCorners(boxSize).map((corner) => dot(corner, axis)));
+  const zooms = [[axes.right, width], [axes.up, height]].map(([axis, side]) => side / short * 2 * radius / extent(axis));
+  return 0.92 * clamp(Math.min(...zooms), 1, 20);
+}
+
+/** What a pane shows of a mesh within a frame {centre, radius, size}. target: relative to the frame, in radii. */
+export class PaneCamera {
+  constructor(state, axes, frame, width, height) {
+    Object.assign(this, axes);
+    this.width = width;
+    this.height = height;
+    this.target = add(frame.centre, scaled([state.x, state.y, state.z], frame.radius));
+    this.pixelSize = 2 * frame.radius / ((state.zoom ?? 1) * Math.min(width, height));
+    this.depth = 1 / (frame.radius * (2 + Math.hypot(state.x, state.y, state.z)));
+  }
+
+  /** Column-major, from positions to clip coordinates. */
+  matrix() {
+    const rows = [[this.right, 2 / (this.pixelSize * this.width)], [this.up, 2 / (this.pixelSize * this.height)],
+      [this.toViewer, -this.depth]].map(([axis, factor]) => scaled(axis, factor));
+    const columns = [0, 1, 2].flatMap((i) => [rows[0][i], rows[1][i], rows[2][i], 0]);
+    return [...columns, ...rows.map((row) => -dot(row, this.target)), 1];
+  }
+
+  /** Column-major, from directions to right, up and towards the viewer. */
+  rotation() {
+    return [0, 1, 2].flatMap((i) => [this.right[i], this.up[i], this.toViewer[i]]);
+  }
+
+  /** Pixels from the top left corner of the pane. */
+  pixelOf(point) {
+    const offset = subtract(point, this.target);
+    return [this.width / 2 + dot(offset, this.right) / this.pixelSize,
+      this.height / 2 - dot(offset, this.up) / this.pixelSize];
+  }
+
+  /** The point of the plane through the target. */
+  pointAt(x, y) {
+    const across = scaled(this.right, (x - this.width / 2) * this.pixelSize);
+    return add(this.target, add(across, scaled(this.up, (this.height / 2 - y) * this.pixelSize)));
+  }
+}

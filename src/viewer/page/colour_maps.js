@@ -1,0 +1,46 @@
+// Colour maps as evenly spaced stops, linear between them; viridis as in the pictures of `--picture`.
+
+const kStops = {
+  viridis: '440154472d7b3b528b2c728e21918c28ae805ec962addc30fde725',
+  cividis: '00224e002e6a1a386f32436d434e6c535a6d61656f6f70737d7c788c88789b9476aba072bcae6ccdbb63dec958f0d846fee838',
+  turbo: '30123b4040a2466be34294ff28bceb18ddc232f2986dfe62a4fc3ccdec34eecf3afdac34fb7e21eb500ed02f05a916017a0403',
+  grey: '141414fafafa',
+  // Of differences, blue to red; not offered for values.
+  difference: '2166ac67a9cfd1e5f0f7f7f7fddbc7ef8a62b2182b',
+};
+export const kColourMapNames = ['viridis', 'cividis', 'turbo', 'grey'];
+
+const kLabelStops = '4e79a7f28e2b59a14fe1575976b7b2edc948b07aa19c755fff9da78cd17da0cbe879706e';
+const kFlagStops = 'c9ced62b5fb0';
+
+const stopsOf = (hex) => hex.match(/.{6}/g).map(packedColour);
+
+/** The bytes R, G, B, 255 in memory, from "rrggbb". */
+export function packedColour(hex) {
+  const value = parseInt(hex, 16);
+  return (0xff000000 | (value & 255) << 16 | (value & 0xff00) | value >> 16) >>> 0;
+}
+
+export const cssColour = (packed) => `rgb(${packed & 255},${packed >> 8 & 255},${packed >> 16 & 255})`;
+
+export const kLabelColours = stopsOf(kLabelStops);
+export const kFlagColours = stopsOf(kFlagStops);
+
+/** 256 packed colours. */
+export function colourTable(name) {
+  const stops = stopsOf(kStops[name]);
+  return Uint32Array.from({ length: 256 }, (_, i) => {
+    const position = i / 255 * (stops.length - 1), below = Math.min(Math.floor(position), stops.length - 2);
+    const mixed = (shift) => {
+      const from = stops[below] >> shift & 255, to = stops[below + 1] >> shift & 255;
+      return Math.round(from + (to - from) * (position - below)) << shift;
+    };
+    return 0xff000000 | mixed(0) | mixed(8) | mixed(16);
+  });
+}
+
+/** Index in the table of a value; the middle where the range is a point. */
+export function tableIndex(value, low, high) {
+  if (!(high > low)) return 128;
+  return Math.round(Math.min(Math.max((value - low) / (high - low), 0), 1) * 255);
+}

@@ -1,0 +1,128 @@
+// The form: each element with data-state shows a part of the state and sets it.
+import { formatCount, formatShare, formatValue } from './format.js';
+import { classTitle } from './legend.js';
+import { kViews } from './camera.js';
+
+const byId = (id) => document.getElementById(id);
+
+/** An element with text; children: strings or elements. */
+export function made(tag, properties, ...children) {
+  const element = Object.assign(document.createElement(tag), properties);
+  element.append(...children);
+  return element;
+}
+
+export class Controls {
+  constructor(viewer, navigation, picture) {
+    this.viewer = viewer;
+    this.fillChoices();
+    for (const element of document.querySelectorAll('[data-state]'))
+      element.addEventListener(element.type === 'number' ? 'change' : 'input', () => this.read(element));
+    const click = (id, action) => byId(id).addEventListener('click', action);
+    for (const name of Object.keys(kViews)) click(`view-${name}`, () => navigation.view(name));
+    click('reset', () => navigation.resetView());
+    click('reset-all', () => viewer.reset());
+    click('png', () => picture.save());
+    click('range-auto', () => viewer.store.set({ low: null, high: null }));
+    click('range-full', () => this.setFullRange());
+    click('part-none', () => viewer.store.set({ part: null }));
+    byId('go-to-face').addEventListener('submit', (event) => {
+      event.preventDefault();
+      const id = Number(byId('face-number').value), index = viewer.look.panes[0]?.index ?? 0;
+      if (!viewer.visitFace(index, id, 0)) byId('picked').textContent = `There is no face ${id}.`;
+    });
+    viewer.store.listeners.push((keys) => this.show(keys));
+    this.show(null);
+  }
+
+  fillChoices() {
+    const { layers, models } = this.viewer;
+    byId('layer').append(...layers.fields.map(({ name, title }) => new Option(title, name)));
+    const labels = models.map(({ description }) => description.label || description.name);
+    const pairs = models.flatMap((_, a) => models.map((_, b) => [a, b]))
+      .filter(([a, b]) => a > b && layers.areComparable(a, b));
+    byId('show').append(new Option('all side by side', 'all'), ...labels.map((label, i) => new Option(label, i)),
+      ...pairs.map(([a, b]) => new Option(`${labels[a]} minus ${labels[b]}`, `${a}-${b}`)));
+    byId('show-row').hidden = models.length < 2;
+  }
+
+  read(element) {
+    const key = element.dataset.state, { viewer } = this;
+    const value = element.type === 'checkbox' ? element.checked : element.type === 'color' ? element.value.slice(1)
+      : ['number', 'range'].includes(element.type) ? (element.value === '' ? null : Number(element.value)) : element.value;
+    const changes = { [key]: value };
+    if (key === 'layer') Object.assign(changes, { low: null, high: null, thinAt: null });
+    if (key === 'show') Object.assign(changes, { low: null, high: null });
+    if (key === 'thinAt' && value !== null) changes.thin = true;
+    viewer.store.set(changes);
+    this.show(null);
+  }
+
+  setFullRange() {
+    const { range } = this.viewer.look;
+    if (range) this.viewer.store.set({ low: range.min, high: range.max });
+  }
+
+  /** Writes the state into the form; keys: what changed, or null for everything. */
+  show(keys) {
+    const { viewer } = this, { state } = viewer;
+    if (keys && ![...keys].some((key) => !['az', 'el', 'x', 'y', 'z', 'zoom'].includes(key))) return;
+    const { look } = viewer, isNumber = look.kind === 'number' && Boolean(look.range);
+    const shown = { ...state, none: `#${state.none}` };
+    if (isNumber) {
+      const limit = state.thinAt ?? look.low;
+      Object.assign(shown, { low: rounded(look.low), high: rounded(look.high), thinAt: rounded(limit) });
+      const slider = byId('thin-slider');
+      slider.min = look.range.min;
+      slider.max = look.range.max;
+      slider.step = (look.range.max - look.range.min) / 500 || 1;
+    }
+    for (const element of document.querySelectorAll('[data-state]')) {
+      const value = shown[element.dataset.state];
+      if (element.type === 'checkbox') element.checked = value;
+      else if (element.value !== String(value)) element.value = value ?? '';
+    }
+    for (const id of ['colours', 'threshold']) byId(id).disabled = !isNumber;
+    byId('clip-at').disabled = state.clip === 'off';
+    byId('part-none').hidden = !state.part;
+    this.showThin(look);
+    this.showPicked();
+  }
+
+  showThin(look) {
+    const { limit, layers } = this.viewer;
+    let text = '';
+    if (limit !== null) {
+      const { count, area, total } = layers.thin(look, limit);
+      text = `${formatCount(count)} faces below ${formatValue(limit)}, area ${formatValue(area)} (${formatShare(total > 0 ? area / total : 0)} of the surface)`;
+    }
+    if (byId('thin-result').textContent !== text) byId('thin-result').textContent = text;
+  }
+
+  showPicked() {
+    const { viewer } = this, selected = viewer.selected(), output = byId('picked');
+    if (this.shownFace === viewer.state.face) return;
+    this.shownFace = viewer.state.face;
+    if (!selected) {
+      output.textContent = 'Click a face, or enter its number.';
+      return;
+    }
+    byId('face-number').value = selected.id;
+    const list = made('dl', {}, made('dt', {}, 'face'), made('dd', { id: 'picked-id' }, formatCount(selected.id)));
+    viewer.models.forEach((model, index) => {
+      const face = viewer.faceIn(index, selected);
+      if (face < 0) return;
+      if (viewer.models.length > 1) list.append(made('dt', { className: 'mesh' }, 'result'), made('dd', {}, model.description.label));
+      for (const field of model.description.fields) {
+        const value = model.fields.get(field.name)[face];
+        const text = Number.isNaN(value) ? 'no value' : field.kind !== 'number' ? classTitle(field, value)
+          : `${formatValue(value)} ${field.unit}`;
+        list.append(made('dt', {}, field.title), made('dd', { id: `picked-${index}-${field.name}` }, text));
+      }
+      list.append(made('dt', {}, 'area'), made('dd', {}, formatValue(model.areas[face])));
+    });
+    output.replaceChildren(list);
+  }
+}
+
+const rounded = (value) => Number(value.toPrecision(4));

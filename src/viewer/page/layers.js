@@ -1,0 +1,118 @@
+// Fields of all meshes of the page as layers, and how a state shows one: values per mesh, range, colours, histogram.
+import { colourTable } from './colour_maps.js';
+import { facesBelow, histogramOf, rangeOf } from './statistics.js';
+
+const kHistogramBinCount = 60;
+const kMargin = 0.2;  // Of the range, beyond each end of the colours.
+
+export class Layers {
+  constructor(models) {
+    this.models = models;
+    this.cache = new Map();
+    const fields = models.flatMap((model) => model.description.fields);
+    this.fields = fields.filter((field, i) => fields.findIndex((other) => other.name === field.name) === i);
+  }
+
+  cached(key, compute) {
+    if (!this.cache.has(key)) this.cache.set(key, compute());
+    return this.cache.get(key);
+  }
+
+  fieldNamed(name) {
+    return this.fields.find((field) => field.name === name) ?? this.fields[0];
+  }
+
+  /** Are these two results of one mesh? */
+  areComparable(one, other) {
+    const [a, b] = [this.models[one], this.models[other]];
+    const size = Math.hypot(...a.boxMax.map((value, axis) => value - a.boxMin[axis]));
+    return a.faceCount === b.faceCount && ['boxMin', 'boxMax'].every((end) => a.description[end].every(
+      (value, axis) => Math.abs(value - b.description[end][axis]) <= 1e-4 * size));
+  }
+
+  /** Face of the other mesh with the same number in the file, or -1. */
+  sameFace(one, face, other) {
+    return one === other ? face : this.models[other].faceOfId(this.models[one].faceIds[face]);
+  }
+
+  /** Values of mesh `one` minus those of mesh `other`, for the faces of `one`. */
+  difference(one, other, name) {
+    return this.cached(`${one}-${other} ${name}`, () => {
+      const [a, b] = [this.models[one], this.models[other]], values = a.fields.get(name), others = b.fields.get(name);
+      if (!values || !others) return new Float32Array(a.faceCount).fill(NaN);
+      const byId = new Float32Array(a.faceIds.reduce((most, id) => Math.max(most, id), 0) + 1).fill(NaN);
+      b.faceIds.forEach((id, face) => byId[id] = others[face]);
+      return values.map((value, face) => value - byId[a.faceIds[face]]);
+    });
+  }
+
+  valuesOf(index, name) {
+    return this.models[index].fields.get(name)
+      ?? this.cached(`none ${index}`, () => new Float32Array(this.models[index].faceCount).fill(NaN));
+  }
+
+  /** panes: one per mesh shown, {index, values}; and what legend and colours need. */
+  look(state) {
+    const field = this.fieldNamed(state.layer), { name, kind } = field;
+    const pair = state.show.includes('-') && kind === 'number' ? state.show.split('-').map(Number) : null;
+    const all = this.models.map((_, index) => ({ index, values: this.valuesOf(index, name) }));
+    const panes = pair ? [{ index: pair[0], values: this.difference(...pair, name) }]
+      : /^\d+$/.test(state.show) ? [all[state.show]] : state.show === 'all' ? all : [all[state.show.split('-')[0]]];
+    const withAreas = (list) => list.map(({ index, values }) => ({ values, areas: this.models[index].areas }));
+    const look = {
+      name, kind, panes, isDifference: Boolean(pair), unit: field.unit, parts: withAreas(panes),
+      title: pair ? `difference of ${field.title}` : field.title,
+      noValueCount: panes.reduce((sum, { values }) => sum + values.reduce((count, v) => count + (v !== v), 0), 0),
+    };
+    if (kind === 'number') Object.assign(look, this.numbers(state, look, pair ? look.parts : withAreas(all)));
+    else look.classes = this.classes(look);
+    return look;
+  }
+
+  // One range for all meshes, so that their colours can be compared.
+  numbers(state, look, rangeParts) {
+    const range = this.cached(`range ${look.name} ${look.isDifference && state.show}`, () => rangeOf(rangeParts));
+    const table = this.cached(`table ${look.isDifference || state.map}`,
+      () => colourTable(look.isDifference ? 'difference' : state.map));
+    if (!range) return { table, low: 0, high: 1, range: null };
+    const most = Math.max(Math.abs(range.low), Math.abs(range.high));
+    const automatic = look.isDifference ? { low: -most, high: most } : range;
+    let low = state.low ?? automatic.low, high = state.high ?? automatic.high;
+    if (low > high) [low, high] = [high, low];
+    return { table, low, high, range, automatic };
+  }
+
+  // Labels or flags with their shares of the area, largest first.
+  classes(look) {
+    const areas = new Map();
+    let total = 0;
+    for (const { index, values } of look.panes) {
+      total += this.models[index].totalArea;
+      for (const [label, area] of this.models[index].labelAreas(values))
+        areas.set(label, (areas.get(label) ?? 0) + area);
+    }
+    const shares = [...areas].sort((a, b) => b[1] - a[1]);
+    return shares.map(([label, area]) => ({ label, share: total > 0 ? area / total : 0 }));
+  }
+
+  /** Colours of the labels of a mesh; labels of another mesh need not be the same parts. */
+  labelColours(index, name) {
+    return this.cached(`labels ${index} ${name}`, () => this.models[index].labelColours(this.valuesOf(index, name)));
+  }
+
+  /** The stretch of values that the legend shows: the colours, and a margin where there are values. */
+  axisOf({ low, high, range }) {
+    if (!range) return { low: 0, high: 1 };
+    const margin = high > low ? kMargin * (high - low) : Math.abs(low) * 0.1 || 0.5;
+    if (!(high > low)) return { low: low - margin, high: high + margin };
+    return { low: Math.min(low, Math.max(range.min, low - margin)), high: Math.max(high, Math.min(range.max, high + margin)) };
+  }
+
+  histogram(look, axis) {
+    return histogramOf(look.parts, axis.low, axis.high, kHistogramBinCount);
+  }
+
+  thin(look, limit) {
+    return facesBelow(look.parts, limit);
+  }
+}

@@ -1,0 +1,7 @@
+// Brightness of a surface with this normal (right, up, towards the viewer), the same from both sides: bright enough
+// everywhere that colours are recognised in the legend.
+float brightness(vec3 normal) {
+  vec3 n = normalize(normal + vec3(0.0, 0.0, 1e-6));
+  if (n.z < 0.0) n = -n;
+  return 0.5 + 0.34 * max(dot(n, vec3(-0.46, 0.62, 0.635)), 0.0) + 0.2 * n.z;
+}

@@ -1,0 +1,84 @@
+import { Controls } from './controls.js';
+import { decodeMesh } from './decode.js';
+import { LegendPanel } from './legend_ends.js';
+import { MeshModel } from './mesh_model.js';
+import { Navigation } from './navigation.js';
+import { Overlays } from './overlays.js';
+import { Picture } from './picture.js';
+import { Renderer } from './renderer.js';
+import { showReport } from './report.js';
+import { fragmentOf, kInitialState, stateOfFragment, Store } from './view_state.js';
+import { Viewer } from './viewer.js';
+
+const kFragmentMilliseconds = 300;
+
+function bytesOfBase64(text) {
+  if (Uint8Array.fromBase64) return Uint8Array.fromBase64(text);
+  const binary = atob(text), bytes = new Uint8Array(binary.length);
+  for (let i = 0; i < bytes.length; ++i) bytes[i] = binary.charCodeAt(i);
+  return bytes;
+}
+
+function streamBytes(id) {
+  const element = document.getElementById(id), bytes = bytesOfBase64(element.textContent);
+  element.remove();  // The text is not needed again and large.
+  return bytes;
+}
+
+function finish(state, message) {
+  document.documentElement.dataset.state = state;
+  const element = document.getElementById('message');
+  element.textContent = message;
+  element.hidden = !message;
+  document.getElementById('fallback').hidden = state === 'ready';
+  document.getElementById('stage').dataset.view = state;
+  for (const form of document.querySelectorAll('.needs-view')) form.hidden = state !== 'ready';
+}
+
+// The address follows the state, and the state an address that the user enters.
+function followFragment(viewer) {
+  let timer, written = location.hash;
+  viewer.store.listeners.push(() => {
+    clearTimeout(timer);
+    timer = setTimeout(() => {
+      written = `#${fragmentOf(viewer.state, viewer.initial)}`;
+      history.replaceState(null, '', written);
+    }, kFragmentMilliseconds);
+  });
+  addEventListener('hashchange', () => {
+    if (location.hash === written) return;
+    viewer.store.set({ ...viewer.initial, ...viewer.validated(stateOfFragment(location.hash)) });
+  });
+}
+
+async function start() {
+  const page = JSON.parse(document.getElementById('asdf-vk-page').textContent);
+  document.getElementById('title').textContent = document.title;
+  document.getElementById('generator').textContent = page.generator;
+  showReport(page, null);
+  const canvas = document.getElementById('view'), renderer = Renderer.create(canvas);
+  if (!renderer) {
+    finish('nogl', 'This browser offers no WebGL 2: here are the picture and the report without the view.');
+    return;
+  }
+  const models = [];
+  for (const mesh of page.meshes) models.push(new MeshModel(mesh, await decodeMesh(mesh, streamBytes)));
+  finish('ready', '');
+  const viewer = new Viewer(canvas, renderer, models, new Store({ ...kInitialState }));
+  showReport(page, {
+    face: (index, id, area) => viewer.visitFace(index, id, area),
+    part: (index, part) => viewer.visitPart(index, part),
+  });
+  const legendPanel = new LegendPanel(viewer, document.getElementById('legend'));
+  new Overlays(viewer, document.getElementById('overlays'));
+  const navigation = new Navigation(viewer);
+  new Controls(viewer, navigation, new Picture(viewer, legendPanel));
+  followFragment(viewer);
+  matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => viewer.requestFrame());
+  canvas.addEventListener('webglcontextlost', () => finish('lost', 'The graphics card was lost; waiting for it.'));
+  canvas.addEventListener('webglcontextrestored', () => finish('ready', ''));
+  canvas.setAttribute('aria-label', `3D view of ${models.map(({ description }) => description.label).join(' and ')}`);
+  viewer.requestFrame();
+}
+
+start().catch((error) => finish('error', `The page cannot show its mesh: ${error.message}`));

@@ -1,0 +1,224 @@
+// WebGL 2: meshes with a flat colour per face, edges, outlines.
+
+const kSampleCount = 4;
+const kPosition = 0, kColour = 1, kNormal = 2, kSmoothNormal = 3;
+
+export class Renderer {
+  /** Null without WebGL 2. */
+  static create(canvas) {
+    const gl = canvas.getContext('webgl2', { antialias: false, powerPreference: 'high-performance' });
+    return gl && new Renderer(gl);
+  }
+
+  constructor(gl) {
+    this.gl = gl;
+    this.restore();
+  }
+
+  /** Also after a lost context; meshes have to be added again. */
+  restore() {
+    const { gl } = this;
+    this.programs = new Map();
+    this.target = null;
+    const provoking = gl.getExtension('WEBGL_provoking_vertex');
+    this.isFirstProvoking = Boolean(provoking);
+    if (provoking) provoking.provokingVertexWEBGL(provoking.FIRST_VERTEX_CONVENTION_WEBGL);
+    this.outline = { vao: gl.createVertexArray(), buffer: gl.createBuffer() };
+    gl.bindVertexArray(this.outline.vao);
+    this.attribute(kPosition, this.outline.buffer, 3, gl.FLOAT, false);
+    gl.enable(gl.DEPTH_TEST);
+    gl.depthFunc(gl.LEQUAL);
+  }
+
+  attribute(location, buffer, size, type, normalized) {
+    const { gl } = this;
+    gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
+    gl.enableVertexAttribArray(location);
+    gl.vertexAttribPointer(location, size, type, normalized, 0, 0);
+  }
+
+  addMesh(model) {
+    const { gl } = this;
+    const drawn = model.drawnVertices(this.isFirstProvoking);
+    const mesh = { model, indexCount: drawn.triangles.length, sources: drawn.sources, vao: gl.createVertexArray() };
+    gl.bindVertexArray(mesh.vao);
+    const filled = (target, data) => {
+      const buffer = gl.createBuffer();
+      gl.bindBuffer(target, buffer);
+      gl.bufferData(target, data, gl.STATIC_DRAW);
+      return buffer;
+    };
+    mesh.positions = filled(gl.ARRAY_BUFFER, drawn.positions);
+    this.attribute(kPosition, mesh.positions, 3, gl.FLOAT, false);
+    // Vertices beyond the faces have no colour and no normal of their own: no triangle takes these from them.
+    mesh.colours = filled(gl.ARRAY_BUFFER, 4 * drawn.sources.length);
+    this.attribute(kColour, mesh.colours, 4, gl.UNSIGNED_BYTE, true);
+    const normals = filled(gl.ARRAY_BUFFER, 4 * drawn.sources.length);
+    gl.bufferSubData(gl.ARRAY_BUFFER, 0, model.normals);
+    this.attribute(kNormal, normals, 4, gl.BYTE, true);
+    filled(gl.ELEMENT_ARRAY_BUFFER, drawn.triangles);
+    gl.bindVertexArray(null);
+    return mesh;
+  }
+
+  setColours(mesh, colours) {
+    const { gl } = this;
+    gl.bindBuffer(gl.ARRAY_BUFFER, mesh.colours);
+    gl.bufferSubData(gl.ARRAY_BUFFER, 0, new Uint8Array(colours.buffer));
+    mesh.colouring = colours;
+    mesh.hasHidden = colours.some((colour) => colour >>> 24 === 0);
+  }
+
+  smooth(mesh) {
+    if (mesh.isSmooth) return;
+    const { gl } = this;
+    const bytes = new Int32Array(mesh.model.smoothNormals().buffer);
+    const buffer = gl.createBuffer();
+    gl.bindVertexArray(mesh.vao);
+    gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
+    gl.bufferData(gl.ARRAY_BUFFER, Int32Array.from(mesh.sources, (vertex) => bytes[vertex]), gl.STATIC_DRAW);
+    this.attribute(kSmoothNormal, buffer, 4, gl.BYTE, true);
+    mesh.isSmooth = true;
+  }
+
+  // Of the faces that are not hidden.
+  edgesOf(mesh) {
+    const { gl } = this;
+    if (mesh.edgesOfColouring === (mesh.hasHidden ? mesh.colouring : true)) return mesh.edges;
+    mesh.edgesOfColouring = mesh.hasHidden ? mesh.colouring : true;
+    if (!mesh.edges) {
+      mesh.edges = { vao: gl.createVertexArray(), positions: gl.createBuffer(), indices: gl.createBuffer() };
+      gl.bindVertexArray(mesh.edges.vao);
+      gl.bindBuffer(gl.ARRAY_BUFFER, mesh.edges.positions);
+      gl.bufferData(gl.ARRAY_BUFFER, mesh.model.positions, gl.STATIC_DRAW);
+      this.attribute(kPosition, mesh.edges.positions, 3, gl.FLOAT, false);
+    }
+    const { ends, faces } = mesh.model.edges();
+    const isSeen = (face) => face < mesh.colouring.length && mesh.colouring[face] >>> 24 !== 0;
+    const shown = mesh.hasHidden
+      ? ends.filter((_, i) => isSeen(faces[i & ~1]) || isSeen(faces[i | 1])) : ends;
+    gl.bindVertexArray(mesh.edges.vao);
+    gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, mesh.edges.indices);
+    gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, shown, gl.STATIC_DRAW);
+    mesh.edges.count = shown.length;
+    return mesh.edges;
+  }
+
+  program(name, vertexSource, fragmentSource, defines) {
+    const key = [name, ...defines].join();
+    if (this.programs.has(key)) return this.programs.get(key);
+    const { gl } = this;
+    const head = `#version 300 es\nprecision highp float;\n${defines.map((word) => `#define ${word}\n`).join('')}`;
+    const program = gl.createProgram();
+    for (const [type, source] of [[gl.VERTEX_SHADER, vertexSource], [gl.FRAGMENT_SHADER, fragmentSource]]) {
+      const shader = gl.createShader(type);
+      gl.shaderSource(shader, `${head}${lightSource}\n${source}`);
+      gl.compileShader(shader);
+      gl.attachShader(program, shader);
+    }
+    gl.linkProgram(program);
+    if (!gl.getProgramParameter(program, gl.LINK_STATUS) && !gl.isContextLost())
+      throw new Error(`shader ${name}: ${gl.getProgramInfoLog(program)}`);
+    const uniforms = {};
+    for (let i = gl.getProgramParameter(program, gl.ACTIVE_UNIFORMS) - 1; i >= 0; --i) {
+      const { name: uniform } = gl.getActiveUniform(program, i);
+      uniforms[uniform] = gl.getUniformLocation(program, uniform);
+    }
+    this.programs.set(key, { program, uniforms });
+    return this.programs.get(key);
+  }
+
+  use(program, pane) {
+    const { gl } = this;
+    gl.useProgram(program.program);
+    gl.uniformMatrix4fv(program.uniforms.toClip, false, pane.camera.matrix());
+    if (program.uniforms.toEye) gl.uniformMatrix3fv(program.uniforms.toEye, false, pane.camera.rotation());
+    if (program.uniforms.plane) gl.uniform4fv(program.uniforms.plane, pane.plane ?? [0, 0, 0, 1]);
+  }
+
+  /**
+   * frame: {width, height, background, isSampled, shading, back, edges, lineColour, panes}; a pane: {mesh, camera,
+   * plane, viewport, outline} with the viewport in pixels of the canvas from its lower left corner.
+   */
+  draw(frame) {
+    const { gl } = this;
+    const target = frame.isSampled ? this.sampledTarget(frame.width, frame.height) : null;
+    gl.bindFramebuffer(gl.FRAMEBUFFER, target);
+    gl.disable(gl.SCISSOR_TEST);
+    gl.clearColor(...frame.background, 1);
+    gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+    for (const pane of frame.panes) {
+      gl.viewport(...pane.viewport);
+      gl.scissor(...pane.viewport);
+      gl.enable(gl.SCISSOR_TEST);
+      this.drawFaces(pane, frame);
+      if (frame.edges) {
+        const edges = this.edgesOf(pane.mesh);
+        this.drawLines(pane, frame.lineColour, edges.vao, () => gl.drawElements(gl.LINES, edges.count, gl.UNSIGNED_INT, 0));
+      }
+      if (pane.outline) this.drawOutline(pane);
+    }
+    if (!target) return;
+    gl.disable(gl.SCISSOR_TEST);
+    gl.bindFramebuffer(gl.READ_FRAMEBUFFER, target);
+    gl.bindFramebuffer(gl.DRAW_FRAMEBUFFER, null);
+    const area = [0, 0, frame.width, frame.height];
+    gl.blitFramebuffer(...area, ...area, gl.COLOR_BUFFER_BIT, gl.NEAREST);
+  }
+
+  drawFaces(pane, frame) {
+    const { gl } = this;
+    const defines = frame.shading === 'smooth' ? ['SMOOTH'] : [];
+    if (pane.plane || pane.mesh.hasHidden) defines.push('CUT');
+    if (frame.shading === 'smooth') this.smooth(pane.mesh);
+    const program = this.program('mesh', meshVertexSource, meshFragmentSource, defines);
+    this.use(program, pane);
+    gl.uniform4fv(program.uniforms.backColour, [0.44, 0.44, 0.46, frame.back === 'grey' ? 1 : 0]);
+    gl.uniform1f(program.uniforms.plainness, frame.shading === 'plain' ? 1 : 0);
+    const toggle = (capability, isOn) => isOn ? gl.enable(capability) : gl.disable(capability);
+    toggle(gl.CULL_FACE, frame.back === 'hidden');
+    toggle(gl.POLYGON_OFFSET_FILL, frame.edges);
+    gl.polygonOffset(1, 1);
+    gl.bindVertexArray(pane.mesh.vao);
+    gl.drawElements(gl.TRIANGLES, pane.mesh.indexCount, gl.UNSIGNED_INT, 0);
+  }
+
+  drawLines(pane, colour, vao, call) {
+    const { gl } = this;
+    const program = this.program('line', lineVertexSource, lineFragmentSource, []);
+    this.use(program, pane);
+    gl.uniform4fv(program.uniforms.lineColour, colour);
+    gl.enable(gl.BLEND);
+    gl.blendFuncSeparate(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA, gl.ZERO, gl.ONE);  // The canvas stays opaque.
+    gl.bindVertexArray(vao);
+    call();
+    gl.disable(gl.BLEND);
+  }
+
+  // Over everything else. outline: corners of a triangle.
+  drawOutline(pane) {
+    const { gl } = this;
+    gl.bindBuffer(gl.ARRAY_BUFFER, this.outline.buffer);
+    gl.bufferData(gl.ARRAY_BUFFER, Float32Array.from(pane.outline.flat()), gl.STREAM_DRAW);
+    gl.disable(gl.DEPTH_TEST);
+    this.drawLines({ ...pane, plane: null }, [1, 0.2, 0.1, 1], this.outline.vao, () => gl.drawArrays(gl.LINE_LOOP, 0, 3));
+    gl.enable(gl.DEPTH_TEST);
+  }
+
+  sampledTarget(width, height) {
+    const { gl } = this;
+    this.target ??= { framebuffer: gl.createFramebuffer(), colour: gl.createRenderbuffer(), depth: gl.createRenderbuffer() };
+    const { target } = this;
+    if (target.width !== width || target.height !== height) {
+      Object.assign(target, { width, height });
+      gl.bindFramebuffer(gl.FRAMEBUFFER, target.framebuffer);
+      for (const [buffer, format, point] of [[target.colour, gl.RGBA8, gl.COLOR_ATTACHMENT0],
+        [target.depth, gl.DEPTH_COMPONENT24, gl.DEPTH_ATTACHMENT]]) {
+        gl.bindRenderbuffer(gl.RENDERBUFFER, buffer);
+        gl.renderbufferStorageMultisample(gl.RENDERBUFFER, kSampleCount, format, width, height);
+        gl.framebufferRenderbuffer(gl.FRAMEBUFFER, point, gl.RENDERBUFFER, buffer);
+      }
+    }
+    return target.framebuffer;
+  }
+}
