@@ -1,5 +1,5 @@
 import { Controls } from './controls.js';
-import { decodeMesh } from './decode.js';
+import { bytesOfBase64, decodeMesh } from './decode.js';
 import { LegendPanel } from './legend_ends.js';
 import { MeshModel } from './mesh_model.js';
 import { Navigation } from './navigation.js';
@@ -12,15 +12,8 @@ import { Viewer } from './viewer.js';
 
 const kFragmentMilliseconds = 300;
 
-function bytesOfBase64(text) {
-  if (Uint8Array.fromBase64) return Uint8Array.fromBase64(text);
-  const binary = atob(text), bytes = new Uint8Array(binary.length);
-  for (let i = 0; i < bytes.length; ++i) bytes[i] = binary.charCodeAt(i);
-  return bytes;
-}
-
-function streamBytes(id) {
-  const element = document.getElementById(id), bytes = bytesOfBase64(element.textContent);
+function streamBytes(number) {
+  const element = document.getElementById(`stream-${number}`), bytes = bytesOfBase64(element.textContent);
   element.remove();  // The text is not needed again and large.
   return bytes;
 }
@@ -62,7 +55,11 @@ async function start() {
     return;
   }
   const models = [];
-  for (const mesh of page.meshes) models.push(new MeshModel(mesh, await decodeMesh(mesh, streamBytes)));
+  for (const mesh of page.meshes) {
+    // Close to the mesh, where single precision resolves it.
+    const origin = mesh.boxMin.map((low, axis) => (low + mesh.boxMax[axis]) / 2);
+    models.push(new MeshModel(mesh, origin, await decodeMesh(mesh, streamBytes, origin)));
+  }
   finish('ready', '');
   const viewer = new Viewer(canvas, renderer, models, new Store({ ...kInitialState }));
   showReport(page, {

@@ -4,11 +4,11 @@ import { kLabelColours } from './colour_maps.js';
 const kNoFace = 0xffffffff;
 
 export class MeshModel {
-  constructor(description, decoded) {
+  constructor(description, origin, decoded) {
     Object.assign(this, decoded);  // positions, indices, faceIds, fields
     this.description = description;
+    this.origin = origin;  // Positions are relative to it.
     this.faceCount = this.indices.length / 3;
-    this.origin = decoded.origin ?? [0, 0, 0];
     this.boxMin = description.boxMin.map((value, axis) => value - this.origin[axis]);
     this.boxMax = description.boxMax.map((value, axis) => value - this.origin[axis]);
     this.measure();

@@ -1,0 +1,103 @@
+"""Pages that the program writes, and a browser that opens them. Environment: ASDF_VK_PROGRAM, ASDF_VK_GENERATE."""
+
+import os
+import pathlib
+import subprocess
+import sys
+
+import numpy
+import pytest
+
+sys.path.insert(0, os.path.dirname(__file__))
+from browser import Browser  # noqa: E402
+from meshes import Mesh, write_ply  # noqa: E402
+
+FIELDS = "sdf,seed,error,segment,thickness"
+INJECTION = "<img src=x onerror=document.title='injected'>.ply"
+
+
+class Files:
+    """A folder with meshes and their pages."""
+
+    def __init__(self, folder):
+        self.folder = folder
+        self.program = os.environ["ASDF_VK_PROGRAM"]
+        subprocess.run([os.environ["ASDF_VK_GENERATE"], "animal", "--faces", "20000", "-o", folder / "animal.ply"],
+                       check=True, capture_output=True)
+
+    def run(self, *arguments):
+        command = [self.program, *map(str, arguments), "--backend", "cpu", "--quiet"]
+        result = subprocess.run(command, cwd=self.folder, capture_output=True, text=True)
+        assert result.returncode == 0, f"{command}: {result.stderr}"
+
+    def address(self, name):
+        return (self.folder / name).as_uri()
+
+
+@pytest.fixture(scope="session")
+def files(tmp_path_factory):
+    return Files(tmp_path_factory.mktemp("pages"))
+
+
+@pytest.fixture(scope="session")
+def animal(files):
+    """The mesh, its values by face, and the address of its page."""
+    limit = 0.15
+    files.run("animal.ply", "-o", "animal.html", "--fields", FIELDS, "--thinner-than", limit)
+    files.run("animal.ply", "-o", "animal.npz", "--fields", FIELDS, "--thinner-than", limit)
+    mesh = Mesh(files.folder / "animal.ply")
+    mesh.fields = dict(numpy.load(files.folder / "animal.npz"))
+    mesh.address = files.address("animal.html")
+    mesh.path = files.folder / "animal.html"
+    return mesh
+
+
+@pytest.fixture(scope="session")
+def comparison(files):
+    """Two results of nearly one mesh: a point of the second one is moved."""
+    mesh = Mesh(files.folder / "animal.ply")
+    moved = mesh.vertices.copy()
+    centre = (moved.min(0) + moved.max(0)) / 2
+    moved[numpy.argmin(((moved - centre) ** 2).sum(1))] += 0.05
+    write_ply(files.folder / "moved.ply", moved, mesh.faces)
+    files.run("animal.ply", "moved.ply", "-o", "compare.html")
+    return files.address("compare.html")
+
+
+@pytest.fixture(scope="session")
+def one_face(files):
+    """A triangle that has no value, in a file whose name is markup."""
+    write_ply(files.folder / INJECTION, numpy.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], "f4"), numpy.array([[0, 1, 2]], "i4"))
+    files.run(INJECTION, "-o", "one.html")
+    return files.address("one.html")
+
+
+@pytest.fixture(scope="session")
+def browser():
+    with Browser() as running:
+        yield running
+
+
+@pytest.fixture
+def open_page(browser):
+    """Opens pages; at the end, the console was silent and no request had left the page."""
+    opened = []
+
+    def open_(address, **settings):
+        page = browser.page(size=(1100, 760), **settings)
+        opened.append(page)
+        page.open(address)
+        return page
+
+    yield open_
+    for page in opened:
+        messages, requests = page.messages(), page.requests()
+        page.call("Page.close")
+        page.socket.close()
+        assert messages == []
+        assert requests == []
+
+
+@pytest.fixture
+def page(open_page, animal):
+    return open_page(animal.address)

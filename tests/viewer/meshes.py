@@ -1,0 +1,62 @@
+"""Meshes and colours, computed apart from the page."""
+
+import numpy
+
+# As in src/io/colour_map.cpp; the other maps at their ends and in the middle, from matplotlib.
+VIRIDIS = [(68, 1, 84), (71, 45, 123), (59, 82, 139), (44, 114, 142), (33, 145, 140), (40, 174, 128), (94, 201, 98),
+           (173, 220, 48), (253, 231, 37)]
+MAPS = {"cividis": [(0, 34, 78), (124, 123, 120), (254, 232, 56)], "turbo": [(48, 18, 59), (164, 252, 60), (122, 4, 3)],
+        "grey": [(20, 20, 20), (135, 135, 135), (250, 250, 250)]}
+
+
+def viridis(value, low, high):
+    position = min(max((value - low) / (high - low), 0), 1) * (len(VIRIDIS) - 1)
+    return numpy.array([numpy.interp(position, range(len(VIRIDIS)), channel) for channel in zip(*VIRIDIS)])
+
+
+def write_ply(path, vertices, faces):
+    header = (f"ply\nformat binary_little_endian 1.0\nelement vertex {len(vertices)}\nproperty float x\nproperty float y\n"
+              f"property float z\nelement face {len(faces)}\nproperty list uchar int vertex_indices\nend_header\n")
+    rows = numpy.empty(len(faces), [("count", "u1"), ("corners", "<i4", 3)])
+    rows["count"], rows["corners"] = 3, faces
+    with open(path, "wb") as file:
+        file.write(header.encode() + vertices.astype("<f4").tobytes() + rows.tobytes())
+
+
+class Mesh:
+    """Of a binary PLY file of the generator: points and triangles."""
+
+    def __init__(self, path):
+        data = open(path, "rb").read()
+        header, body = data.split(b"end_header\n", 1)
+        counts = [int(line.split()[2]) for line in header.decode().split("\n") if line.startswith("element")]
+        number = "f8" if b"property double x" in header else "f4"
+        self.vertices = numpy.frombuffer(body, f"<{number}", 3 * counts[0]).reshape(-1, 3).astype(float)
+        start = 3 * counts[0] * int(number[1])
+        rows = numpy.frombuffer(body[start:], numpy.dtype([("count", "u1"), ("corners", "<i4", 3)]), counts[1])
+        assert (rows["count"] == 3).all()
+        self.faces = rows["corners"]
+        self.low, self.high = self.vertices.min(0), self.vertices.max(0)
+        self.radius = numpy.linalg.norm(self.high - self.low) / 2
+        corners = self.vertices[self.faces]
+        self.areas = numpy.linalg.norm(numpy.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1) / 2
+
+    def seen(self, x, y, right, up, towards):
+        """Face nearest to the viewer at (x, y) along `right` and `up` from the centre of the box; -1 without one, or where
+        the point is close to an edge."""
+        centre = (self.low + self.high) / 2
+        corners = (self.vertices - centre)[self.faces]
+        flat = numpy.stack([corners @ right, corners @ up], 2)
+        a, b, c = flat[:, 0], flat[:, 1], flat[:, 2]
+        cross = lambda p, q: p[:, 0] * q[:, 1] - p[:, 1] * q[:, 0]  # noqa: E731
+        area = cross(b - a, c - a)
+        point = numpy.array([[x, y]])
+        with numpy.errstate(all="ignore"):
+            weights = numpy.stack([cross(b - point, c - point), cross(c - point, a - point), cross(a - point, b - point)], 1)
+            weights /= area[:, None]
+        inside = (weights > 0).all(1)
+        if not inside.any():
+            return -1
+        depth = ((corners @ towards) * weights).sum(1)
+        nearest = numpy.flatnonzero(inside)[numpy.argmax(depth[inside])]
+        return int(nearest) if weights[nearest].min() > 0.15 else -1

@@ -1,0 +1,464 @@
+"""The page in a browser: first frame, colours, picking, controls, keyboard, robustness."""
+
+import re
+import time
+
+import numpy
+import pytest
+from PIL import Image, ImageChops
+
+import browser as chromium
+from meshes import MAPS, viridis
+
+# A view along -z that the tests compute themselves, without light: a pixel has the colour of its face.
+KNOWN_VIEW = "#shading=plain&az=0&el=0&zoom=1&x=0&y=0&z=0&up=y"
+
+
+def box_of(page, element):
+    box = page.js(f"(() => {{ const b = document.getElementById('{element}').getBoundingClientRect();"
+                  " return [b.left, b.top, b.width, b.height]; })()")
+    return numpy.array(box)
+
+
+def view_picture(page):
+    left, top, width, height = box_of(page, "view").astype(int)
+    return page.screenshot().crop((left, top, left + width, top + height))
+
+
+def settled_view(page):
+    page.settle()
+    return view_picture(page)
+
+
+def difference(one, other):
+    """Share of the pixels that differ visibly."""
+    pixels = numpy.asarray(ImageChops.difference(one, other)).max(2)
+    return float((pixels > 12).mean())
+
+
+def changes(page, action):
+    """Share of the pixels of the view that the action changes."""
+    before = settled_view(page)
+    action()
+    return difference(before, settled_view(page))
+
+
+def drawn_share(picture):
+    pixels = numpy.asarray(picture).astype(int)
+    return float((abs(pixels - pixels[2, 2]).max(2) > 12).mean())
+
+
+def known_faces(page, mesh, count):
+    """(x, y, face) in pixels of the view, computed from the mesh."""
+    left, top, width, height = box_of(page, "view")
+    size = mesh.high - mesh.low
+    # The broad side is in front: along x where the mesh is longer in z.
+    front = numpy.array([0, 0, 1.0]) if size[0] >= size[2] else numpy.array([1.0, 0, 0])
+    up = numpy.array([0, 1.0, 0])
+    right = numpy.cross(up, front)
+    pixel = 2 * mesh.radius / min(width, height)
+    random = numpy.random.default_rng(7)
+    found = []
+    while len(found) < count:
+        x, y = random.integers(int(width * 0.2), int(width * 0.8)), random.integers(int(height * 0.2), int(height * 0.8))
+        face = mesh.seen((x + 0.5 - width / 2) * pixel, (height / 2 - y - 0.5) * pixel, right, up, front)
+        if face >= 0 and all(face != other for _, _, other in found):
+            found.append((x, y, face))
+    return [(left + x, top + y, face) for x, y, face in found]
+
+
+def number(text):
+    return float(re.sub(r"[^\d.e+-]", "", text.split(" ")[0]))
+
+
+def state(page):
+    page.wait("true")
+    time.sleep(0.35)
+    return dict(part.split("=") for part in page.js("location.hash.slice(1)").split("&") if part)
+
+
+def test_first_frame(page, animal):
+    picture = settled_view(page)
+    assert 0.1 < drawn_share(picture) < 0.9
+    assert page.js("document.querySelector('#summary-0 tbody').rows.length") > 3
+    assert page.js("document.getElementById('fallback').hidden")
+    assert "animal.ply" in page.text("title")
+    assert page.js("document.getElementById('view').getAttribute('aria-label')").startswith("3D view of animal.ply")
+
+
+def test_size_without_mesh(animal):
+    text = animal.path.read_text()
+    without = re.sub(r'<script type="application/(json|octet-stream)".*?</script>|data:image/png;base64,[^"]*', "", text,
+                     flags=re.S)
+    assert len(without) < 60000
+
+
+def test_colours_of_known_faces(open_page, animal):
+    values = animal.fields["sdf"]
+    low, high = numpy.percentile(values, 20), numpy.percentile(values, 80)
+    page = open_page(animal.address + KNOWN_VIEW + f"&low={low}&high={high}")
+    page.settle()
+    picture = page.screenshot()
+    for x, y, face in known_faces(page, animal, 25):
+        expected = viridis(values[face], low, high)
+        assert abs(numpy.array(picture.getpixel((int(x), int(y)))) - expected).max() <= 4, f"face {face}"
+
+
+@pytest.mark.parametrize("name", MAPS)
+def test_colour_maps(page, name):
+    page.choose("map", name)
+    page.choose("shading", "plain")
+    page.settle()
+    stops = MAPS[name]
+    legend = box_of(page, "legend")
+    ends = [box_of(page, f"legend-{end}") for end in ("low", "high")]
+    x = int(legend[0] + 58 + 9)
+    rows = [box[1] + box[3] / 2 for box in ends]
+    picture = page.screenshot()
+    for share, expected in zip((0.005, 0.5, 0.995), stops):
+        y = int(rows[0] + (rows[1] - rows[0]) * share)
+        assert abs(numpy.array(picture.getpixel((x, y))) - expected).max() <= 6
+
+
+def test_picking(open_page, animal):
+    page = open_page(animal.address + KNOWN_VIEW)
+    fields = animal.fields
+    for x, y, face in known_faces(page, animal, 8):
+        page.click(x, y)
+        assert number(page.text("picked-id").replace(",", "")) == face
+        for name in ("sdf", "error", "thickness"):
+            shown, value = page.text(f"picked-0-{name}"), fields[name][face]
+            if numpy.isnan(value):
+                assert shown == "no value"
+            else:
+                assert number(shown) == pytest.approx(value, rel=2e-3, abs=1e-12)
+        assert page.text("picked-0-seed").startswith("seed" if fields["seed"][face] else "interpolated")
+        assert page.text("picked-0-segment") == f"part {fields['segment'][face]}"
+    assert not page.js("document.getElementById('ring-0').hidden")
+    left, top, *_ = box_of(page, "view")
+    page.click(left + 5, top + 5)
+    assert "Click a face" in page.text("picked")
+
+
+def test_go_to_face(page, animal):
+    face = int(numpy.nanargmax(animal.fields["sdf"]))
+    page.js("document.getElementById('face-number').focus()")
+    page.call("Input.insertText", text=str(face))
+    assert changes(page, lambda: page.key("Enter")) > 0.05
+    assert number(page.text("picked-0-sdf")) == pytest.approx(animal.fields["sdf"][face], rel=2e-3)
+    ring, (left, top, width, height) = box_of(page, "ring-0"), box_of(page, "view")
+    assert abs(ring[0] + ring[2] / 2 - left - width / 2) < 3 and abs(ring[1] + ring[3] / 2 - top - height / 2) < 3
+    page.js("document.getElementById('face-number').value = 99999999")
+    page.key("Enter")
+    assert page.text("picked") == "There is no face 99999999."
+
+
+def test_layers(page):
+    names = page.js("[...document.getElementById('layer').options].map((option) => option.value)")
+    assert names == ["sdf", "seed", "error", "segment", "thickness"]
+    pictures = []
+    for name in names:
+        page.choose("layer", name)
+        pictures.append(settled_view(page))
+        title = page.js("document.querySelector('#legend canvas').getAttribute('aria-label')")
+        assert title.startswith(page.js("document.getElementById('layer').selectedOptions[0].text"))
+    for i, one in enumerate(pictures):
+        for other in pictures[i + 1:]:
+            assert difference(one, other) > 0.02
+    page.choose("layer", "segment")
+    page.choose("shading", "plain")
+    colours = {colour for count, colour in settled_view(page).getcolors(1 << 20) if count > 200}
+    assert len(colours - {(255, 255, 255)}) >= 3
+    assert page.js("document.getElementById('colours').disabled && document.getElementById('legend-low').hidden")
+
+
+def test_range(page, animal):
+    shown = lambda end: float(page.js(f"document.getElementById('legend-{end}').getAttribute('aria-valuenow')"))  # noqa: E731
+    values = animal.fields["sdf"]
+    values = values[~numpy.isnan(values)]
+    span = values.max() - values.min()
+    assert abs(shown("low") - numpy.percentile(values, 1)) < 1e-3 * span
+    assert abs(shown("high") - numpy.percentile(values, 99)) < 1e-3 * span
+    page.choose("high", (shown("low") + shown("high")) / 2)
+    page.settle()
+    middle = shown("high")
+    # Dragging by half of the bar moves the end by half of the legend.
+    x, y = box_of(page, "legend-high")[:2] + 12
+    _, bottom = box_of(page, "legend-low")[:2] + 12
+    assert changes(page, lambda: page.drag((x, y), (x, (y + bottom) / 2))) > 0.01
+    assert shown("high") == pytest.approx((shown("low") + middle) / 2, rel=0.02)
+    page.js("document.getElementById('legend-high').focus()")
+    before = shown("high")
+    page.key("ArrowUp")
+    page.settle()
+    assert shown("high") == pytest.approx(before + 0.01 * (before - shown("low")), rel=1e-6)
+    page.key("End")
+    page.settle()
+    assert shown("high") == pytest.approx(values.max(), rel=1e-3)
+    page.js("document.getElementById('range-full').click()")
+    page.settle()
+    assert shown("low") == pytest.approx(values.min(), rel=1e-3)
+    page.js("document.getElementById('range-auto').click()")
+    page.settle()
+    assert abs(shown("low") - numpy.percentile(values, 1)) < 1e-3 * span
+
+
+def test_threshold(page, animal):
+    values, areas = animal.fields["sdf"], animal.areas
+    limit = float(numpy.percentile(values, 40))
+    page.choose("thin-at", limit)
+    page.settle()
+    assert page.js("document.getElementById('thin').checked")
+    text = page.text("thin-result")
+    below = values < limit
+    assert abs(number(text.replace(",", "")) - below.sum()) <= 0.002 * len(values)
+    assert number(text.split("area ")[1]) == pytest.approx(areas[below].sum(), rel=5e-3)
+    assert number(text.split("(")[1]) == pytest.approx(100 * areas[below].sum() / areas.sum(), rel=1e-2)
+    drawn = drawn_share(settled_view(page))
+    page.choose("rest", "hidden")
+    assert drawn_share(settled_view(page)) < 0.9 * drawn
+    assert changes(page, lambda: page.choose("edges", True)) > 0
+    assert changes(page, lambda: page.choose("thin", False)) > 0.02
+    before = page.js("document.getElementById('thin-at').value")
+    page.choose("thin-slider", float(numpy.percentile(values, 80)))
+    assert page.js("document.getElementById('thin-at').value") != before
+
+
+@pytest.mark.parametrize("element,value,share", [
+    ("shading", "smooth", 0.01), ("shading", "plain", 0.05), ("edges", True, 0.03), ("clip", "x", 0.03), ("clip", "y", 0.02),
+    ("clip", "z", 0.02), ("clip", "view", 0.01), ("up", "z", 0.03)])
+def test_surface_and_clip(page, element, value, share):
+    assert changes(page, lambda: page.choose(element, value)) > share
+    if element == "clip":
+        assert changes(page, lambda: page.choose("clip-at", 0.3)) > 0.005
+        assert changes(page, lambda: page.choose("clip-flip", True)) > 0.02
+        assert changes(page, lambda: page.choose("back", "grey")) > 0.003
+        assert changes(page, lambda: page.choose("back", "hidden")) > 0.003
+
+
+def test_mouse(page):
+    left, top, width, height = box_of(page, "view")
+    middle = numpy.array([left + width / 2, top + height / 2])
+    assert changes(page, lambda: page.drag(middle, middle + [80, 30])) > 0.05
+    turned = state(page)
+    assert float(turned["az"]) == pytest.approx(30 - 80 * 0.45, abs=3) and float(turned["el"]) > 18
+    assert changes(page, lambda: page.drag(middle, middle + [60, 0], button="right")) > 0.05
+    moved = state(page)
+    assert moved["az"] == turned["az"] and {"x", "z"} & set(moved)
+    wheel = lambda: page.mouse("mouseWheel", *middle, button="none", buttons=0, deltaX=0, deltaY=-240)  # noqa: E731
+    assert changes(page, wheel) > 0.05
+    assert float(state(page)["zoom"]) > 0
+    page.click(*middle, count=1)
+    page.click(*middle, count=2)
+    page.settle()
+
+
+def test_touch(page):
+    left, top, width, height = box_of(page, "view")
+    x, y = left + width / 2, top + height / 2
+
+    def touch(kind, *points):
+        page.call("Input.dispatchTouchEvent", type=kind, touchPoints=[{"x": a, "y": b, "id": i} for i, (a, b) in enumerate(points)])
+
+    def turn():
+        touch("touchStart", (x, y))
+        for i in range(1, 5):
+            touch("touchMove", (x + 20 * i, y))
+        touch("touchEnd")
+
+    def pinch():
+        touch("touchStart", (x - 40, y), (x + 40, y))
+        for i in range(1, 5):
+            touch("touchMove", (x - 40 - 15 * i, y), (x + 40 + 15 * i, y))
+        touch("touchEnd")
+
+    assert changes(page, turn) > 0.05
+    assert "az" in state(page)
+    before = drawn_share(settled_view(page))
+    assert changes(page, pinch) > 0.05
+    assert drawn_share(settled_view(page)) > before
+
+
+def test_keys_and_presets(page):
+    page.js("document.getElementById('view').focus()")
+    start = settled_view(page)
+    for key in ("ArrowLeft", "ArrowUp", "+", "-"):
+        assert changes(page, lambda key=key: page.key(key)) > 0.003, key
+    assert changes(page, lambda: page.key("ArrowRight", shift=True)) > 0.02
+    assert changes(page, lambda: page.key("0")) > 0.02
+    assert difference(start, settled_view(page)) < 0.002
+    page.key("Enter")
+    assert page.text("picked-id")
+    page.key("Escape")
+    assert "Click a face" in page.text("picked")
+    pictures = {}
+    for name in ("corner", "front", "right", "back", "left", "top", "bottom"):
+        page.js(f"document.getElementById('view-{name}').click()")
+        pictures[name] = settled_view(page)
+    for name, one in pictures.items():
+        for other_name, other in pictures.items():
+            assert name == other_name or difference(one, other) > 0.02, f"{name}, {other_name}"
+    page.js("document.getElementById('reset').click()")
+    assert difference(start, settled_view(page)) < 0.002
+    page.choose("map", "turbo")
+    page.js("document.getElementById('reset-all').click()")
+    assert difference(start, settled_view(page)) < 0.002
+
+
+def test_png(page, tmp_path):
+    page.call("Page.setDownloadBehavior", behavior="allow", downloadPath=str(tmp_path))
+    view = settled_view(page)
+    page.js("document.getElementById('png').click()")
+    end = time.monotonic() + 10
+    while not list(tmp_path.glob("*.png")) and time.monotonic() < end:
+        time.sleep(0.05)
+    [path] = tmp_path.glob("*.png")
+    assert path.name == "animal.png"
+    picture = Image.open(path).convert("RGB")
+    assert picture.size == (view.size[0] + 168, view.size[1])
+    assert difference(picture.crop((0, 0, *view.size)), view) < 0.01
+    assert drawn_share(picture.crop((view.size[0], 0, *picture.size))) > 0.02
+
+
+def test_address_keeps_the_state(page, open_page, animal):
+    page.choose("layer", "thickness")
+    page.choose("map", "cividis")
+    page.choose("shading", "smooth")
+    page.choose("clip", "view")
+    page.choose("clip-at", 0.4)
+    page.js("document.getElementById('view-left').click()")
+    page.js("document.getElementById('view').focus()")
+    page.key("Enter")
+    before = settled_view(page)
+    fragment = page.js("new Promise((done) => setTimeout(() => done(location.hash), 400))")
+    assert {"layer=thickness", "map=cividis", "az=-90"} <= set(fragment[1:].split("&"))
+    again = open_page(animal.address + fragment)
+    assert difference(before, settled_view(again)) < 0.002
+    assert again.text("picked-id") == page.text("picked-id")
+    # An address that the user enters, with values that do not exist.
+    again.js("location.hash = '#layer=nothing&map=red&low=x&show=7&face=9:9&zoom=-3&el=500'")
+    again.settle()
+    assert again.js("document.getElementById('map').value") == "viridis"
+    assert again.js("document.getElementById('layer').value") == "sdf"
+
+
+def test_report(page, animal):
+    assert page.js("document.querySelectorAll('[id^=thin-0-]').length") > 0
+    rows = page.js("[...document.querySelector('#thin-0-0').closest('tr').cells].map((cell) => cell.textContent)")
+    face = int(rows[0].replace(",", ""))
+    assert float(rows[1]) == pytest.approx(animal.fields["thickness"][face], rel=2e-3)
+    assert changes(page, lambda: page.js("document.getElementById('thin-0-0').click()")) > 0.05
+    assert int(page.text("picked-id").replace(",", "")) == face
+    part = page.text("part-0-1")
+    assert int(part) in animal.fields["segment"]
+    assert changes(page, lambda: page.js("document.getElementById('part-0-1').click()")) > 0.05
+    assert state(page)["part"] == f"0:{part}"
+    assert changes(page, lambda: page.js("document.getElementById('part-none').click()")) > 0.02
+
+
+def test_keyboard_reaches_everything(page):
+    wanted = page.js("""[...document.querySelectorAll('button, input, select, summary, [tabindex]')]
+        .filter((e) => e.checkVisibility() && !e.matches(':disabled')).map((e) => e.id || e.textContent)""")
+    reached, unseen = [], []
+    for _ in range(len(wanted) + 3):
+        page.key("Tab")
+        name, outline = page.js("""(() => { const e = document.activeElement, s = getComputedStyle(e);
+            return [e === document.body ? null : e.id || e.textContent, s.outlineStyle !== 'none' && parseFloat(s.outlineWidth)]; })()""")
+        if name is not None:
+            reached.append(name)
+            if not outline:
+                unseen.append(name)
+    assert set(wanted) <= set(reached)
+    assert unseen == []
+    nodes = page.call("Accessibility.getFullAXTree")["nodes"]
+    focusable = [n for n in nodes if any(p["name"] == "focusable" and p["value"]["value"] for p in n.get("properties", []))]
+    nameless = [n["role"]["value"] for n in focusable if not n.get("name", {}).get("value")
+                and n["role"]["value"] not in ("RootWebArea", "generic")]
+    assert len(focusable) >= len(wanted) and nameless == []
+    # Space and Enter on the controls.
+    page.js("document.getElementById('edges').focus()")
+    assert changes(page, lambda: page.key(" ")) > 0.02
+    page.js("document.getElementById('map').focus()")
+    assert changes(page, lambda: page.key("ArrowDown")) > 0.05
+    page.js("document.getElementById('view-top').focus()")
+    assert changes(page, lambda: page.key("Enter")) > 0.05
+
+
+def test_dark(open_page, animal):
+    page = open_page(animal.address, dark=True)
+    page.settle()
+    assert sum(page.screenshot().getpixel((4, 4))) < 120
+    page.call("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": "light"}])
+    page.settle()
+    assert sum(page.screenshot().getpixel((4, 4))) > 700
+
+
+def test_narrow_window(page):
+    page.call("Emulation.setDeviceMetricsOverride", width=420, height=800, deviceScaleFactor=1, mobile=False)
+    page.settle()
+    assert page.js("document.documentElement.scrollWidth") <= 420
+    assert 0.02 < drawn_share(view_picture(page))
+
+
+def test_lost_context(page):
+    before = settled_view(page)
+    page.js("window.lost = document.getElementById('view').getContext('webgl2').getExtension('WEBGL_lose_context')")
+    page.js("window.lost.loseContext()")
+    page.wait("document.documentElement.dataset.state === 'lost'")
+    assert not page.js("document.getElementById('message').hidden")
+    page.js("setTimeout(() => window.lost.restoreContext(), 50)")
+    page.wait("document.documentElement.dataset.state === 'ready'")
+    assert difference(before, settled_view(page)) == 0
+    page.choose("shading", "smooth")
+    page.choose("edges", True)
+    page.settle()
+
+
+def test_one_face_without_value(open_page, one_face):
+    page = open_page(one_face)
+    assert "onerror" in page.text("title") and page.js("document.querySelectorAll('main img').length") <= 1
+    assert drawn_share(settled_view(page)) > 0.01
+    assert "no face has a value" in page.js("document.querySelector('#legend canvas').getAttribute('aria-label')")
+    left, top, width, height = box_of(page, "view")
+    page.click(left + width / 2, top + height / 2 + height / 12)
+    assert page.text("picked-id") == "0" and page.text("picked-0-sdf") == "no value"
+    assert page.js("document.getElementById('threshold').disabled")
+    assert changes(page, lambda: page.choose("none", "#00ff00")) > 0.01
+
+
+def test_comparison(open_page, comparison):
+    page = open_page(comparison)
+    both = settled_view(page)
+    assert page.js("document.querySelectorAll('.pane-title').length") == 2
+    left, top, width, height = box_of(page, "view")
+    halves = lambda p: (p.crop((0, 40, int(width) // 2, int(height) - 40)), p.crop((int(width) // 2, 40, int(width) // 2 * 2, int(height) - 40)))  # noqa: E731
+    wide = width > height
+    if not wide:
+        halves = lambda p: (p.crop((0, 30, int(width), int(height) // 2 - 35)), p.crop((0, 30 + int(height) // 2, int(width), int(height) // 2 * 2 - 35)))  # noqa: E731
+    assert difference(*halves(both)) < 0.1
+    page.js("document.getElementById('view').focus()")
+    page.key("ArrowLeft")
+    assert difference(*halves(settled_view(page))) < 0.1
+    show = page.js("[...document.getElementById('show').options].map((option) => option.value)")
+    assert show == ["all", "0", "1", "1-0"]
+    assert changes(page, lambda: page.choose("show", "0")) > 0.05
+    assert changes(page, lambda: page.choose("show", "1-0")) > 0.05
+    label = page.js("document.querySelector('#legend canvas').getAttribute('aria-label')")
+    assert label.startswith("difference of ")
+    low, high = re.findall(r"-?[\d.e-]+\d", label)[-2:]
+    assert float(low) == pytest.approx(-float(high), rel=1e-3)
+    page.key("Enter")
+    assert page.text("picked-0-sdf") and page.text("picked-1-sdf")
+
+
+def test_without_webgl(animal):
+    with chromium.Browser(["--disable-3d-apis"]) as running:
+        page = running.page()
+        page.open(animal.address, state="nogl")
+        assert page.js("document.querySelector('#summary-0 tbody').rows.length") > 3
+        assert page.js("document.querySelector('#fallback img').naturalWidth") > 100
+        assert page.js("document.querySelector('#fallback').checkVisibility()")
+        assert "WebGL 2" in page.text("message")
+        assert not page.js("document.getElementById('layer').checkVisibility()")
+        assert page.js("[...document.querySelectorAll('#meshes button')].every((b) => b.textContent.startsWith('Show all'))")
+        assert page.messages() == [] and page.requests() == []
