@@ -1,9 +1,9 @@
-# Bundles the sources of the page into one C++ string:
+# Bundles the sources of the page into two C++ strings, the page and its script:
 #   cmake -DPAGE=src/viewer/page -DOUTPUT=page_template.cpp -P bundle.cmake
 # The modules of PAGE/modules.txt, in its order, become one script in a function: without their imports (one line each),
 # the word `export`, lines of comments and leading blanks. All top-level names of the modules must therefore differ.
-# NAME_OF.glsl becomes the constant nameOfSource before them. page.html has the places @CSP@, @STYLE@ and @SCRIPT@, which
-# are filled here, and those that src/viewer/page.cpp fills.
+# NAME_OF.glsl becomes the constant nameOfSource before them. page.html has the places @CSP@, @STYLE@ and @LOADER@, which
+# are filled here, and those that src/viewer/page.cpp fills; it compresses the script, which loader.js unpacks.
 cmake_minimum_required(VERSION 3.25)
 
 # Removes lines of comments, leading blanks and empty lines.
@@ -76,23 +76,27 @@ endforeach()
 set(script "(()=>{'use strict';\n${script}})();")
 asdfvk_refuse("${script}" "</[sS][cC][rR]|<!--" "the script contains </script or <!--, which end it or hide it")
 
+file(READ ${PAGE}/loader.js loader)
+asdfvk_shortened("${loader}" loader)
+asdfvk_policy_hash("${loader}" loaderHash)
 file(READ ${PAGE}/page.css style)
 asdfvk_shortened("${style}" style)
 asdfvk_policy_hash("${script}" scriptHash)
 asdfvk_policy_hash("${style}" styleHash)
-set(policy "default-src 'none'; script-src ${scriptHash}; style-src ${styleHash}; img-src data: blob:")
+set(policy "default-src 'none'; script-src ${loaderHash} ${scriptHash}; style-src ${styleHash}; img-src data: blob:")
 string(APPEND policy "; base-uri 'none'; form-action 'none'")
 
 file(READ ${PAGE}/page.html page)
 string(REGEX REPLACE "\n[ \t]+" "\n" page "${page}")
-foreach(place TITLE CSP STYLE SCRIPT DATA FALLBACK)
+foreach(place TITLE CSP STYLE SCRIPT LOADER DATA FALLBACK)
   if(NOT "${page}" MATCHES "@${place}@")
     message(FATAL_ERROR "page.html has no place @${place}@")
   endif()
 endforeach()
 string(REPLACE "@CSP@" "${policy}" page "${page}")
 string(REPLACE "@STYLE@" "${style}" page "${page}")
-string(REPLACE "@SCRIPT@" "${script}" page "${page}")
-asdfvk_refuse("${page}" "[)]asdfvk\"" "the page ends the C++ string")
+string(REPLACE "@LOADER@" "${loader}" page "${page}")
+asdfvk_refuse("${page}${script}" "[)]asdfvk\"" "the page ends the C++ string")
 file(WRITE ${OUTPUT} "// Written by src/viewer/bundle.cmake.\n#include \"viewer/page_template.h\"\n\n"
-     "namespace asdfvk {\n\nconst std::string_view kPageTemplate = R\"asdfvk(${page})asdfvk\";\n\n}  // namespace asdfvk\n")
+     "namespace asdfvk {\n\nconst std::string_view kPageTemplate = R\"asdfvk(${page})asdfvk\";\n"
+     "const std::string_view kPageScript = R\"asdfvk(${script})asdfvk\";\n\n}  // namespace asdfvk\n")

@@ -55,7 +55,8 @@ void Page::add(const TriangleMesh& mesh, std::span<const std::reference_wrapper<
 void Page::write(AtomicFile& file) const {
   using Part = void (Page::*)(AtomicFile&) const;
   constexpr std::pair<std::string_view, Part> kPlaces[]{
-      {"@TITLE@", &Page::writeTitle}, {"@DATA@", &Page::writeData}, {"@FALLBACK@", &Page::writeFallback}};
+      {"@TITLE@", &Page::writeTitle}, {"@DATA@", &Page::writeData}, {"@FALLBACK@", &Page::writeFallback},
+      {"@SCRIPT@", &Page::writeScript}};
   std::string_view rest = kPageTemplate;
   for (;;) {
     size_t at = std::string_view::npos;
@@ -103,6 +104,12 @@ void Page::writeFallback(AtomicFile& file) const {
     base64.finish();
     file.write(fmt::format("\"><figcaption>{}</figcaption></figure>\n", label));
   }
+}
+
+void Page::writeScript(AtomicFile& file) const {
+  Base64Stream base64(file);
+  base64.write(deflated(Bytes(kPageScript.begin(), kPageScript.end())));
+  base64.finish();
 }
 
 }  // namespace asdfvk

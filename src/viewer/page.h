@@ -60,6 +60,7 @@ class Page {
   void writeTitle(AtomicFile& file) const;
   void writeData(AtomicFile& file) const;
   void writeFallback(AtomicFile& file) const;
+  void writeScript(AtomicFile& file) const;
 
   std::string generator_;
   nlohmann::ordered_json meshes_ = nlohmann::ordered_json::array();

@@ -1,6 +1,7 @@
 """Headless Chromium, driven over the DevTools protocol."""
 
 import base64
+import io
 import json
 import os
 import shutil
@@ -10,6 +11,7 @@ import tempfile
 import time
 
 import websocket
+from PIL import Image
 
 FLAGS = [
     "--headless", "--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
@@ -41,9 +43,12 @@ class Browser:
         path = os.path.join(self.folder, "DevToolsActivePort")
         end = time.monotonic() + seconds
         while time.monotonic() < end and self.process.poll() is None:
-            if os.path.exists(path) and len(lines := open(path).read().split("\n")) > 1:
-                self.path = lines[1]
-                return int(lines[0])
+            if os.path.exists(path):
+                with open(path) as file:
+                    lines = file.read().split("\n")
+                if len(lines) > 1:
+                    self.path = lines[1]
+                    return int(lines[0])
             time.sleep(0.02)
         raise RuntimeError("Chromium did not start")
 
@@ -140,7 +145,7 @@ class Page(Socket):
         })""")
 
     def mouse(self, kind, x, y, button="left", buttons=None, **more):
-        self.call("Input.dispatchMouseEvent", type=kind, x=x, y=y, button=button,
+        self.call("Input.dispatchMouseEvent", type=kind, x=float(x), y=float(y), button=button,
                   buttons=(1 if button == "left" else 2) if buttons is None else buttons, **more)
 
     def click(self, x, y, count=1):
@@ -163,8 +168,6 @@ class Page(Socket):
 
     def screenshot(self, path=None):
         """The window as an image of PIL; also written to `path`."""
-        import io
-        from PIL import Image
         data = base64.b64decode(self.call("Page.captureScreenshot", format="png")["data"])
         if path:
             with open(path, "wb") as file:

@@ -1,16 +1,21 @@
 """Pages that the program writes, and a browser that opens them. Environment: ASDF_VK_PROGRAM, ASDF_VK_GENERATE."""
 
 import os
-import pathlib
 import subprocess
 import sys
 
-import numpy
 import pytest
 
 sys.path.insert(0, os.path.dirname(__file__))
-from browser import Browser  # noqa: E402
-from meshes import Mesh, write_ply  # noqa: E402
+SKIPPED = 77  # Exit code, as in tests/CMakeLists.txt.
+try:
+    import numpy
+    import browser as chromium
+    from meshes import Mesh, write_ply
+except ImportError as error:
+    pytest.exit(f"skipped: {error}; scripts/install-packages installs it", SKIPPED)
+if chromium.program() is None:
+    pytest.exit("skipped: Chromium is missing; scripts/install-packages installs it", SKIPPED)
 
 FIELDS = "sdf,seed,error,segment,thickness"
 INJECTION = "<img src=x onerror=document.title='injected'>.ply"
@@ -26,7 +31,7 @@ class Files:
                        check=True, capture_output=True)
 
     def run(self, *arguments):
-        command = [self.program, *map(str, arguments), "--backend", "cpu", "--quiet"]
+        command = [self.program, *map(str, arguments), "--quiet"]
         result = subprocess.run(command, cwd=self.folder, capture_output=True, text=True)
         assert result.returncode == 0, f"{command}: {result.stderr}"
 
@@ -74,7 +79,7 @@ def one_face(files):
 
 @pytest.fixture(scope="session")
 def browser():
-    with Browser() as running:
+    with chromium.Browser() as running:
         yield running
 
 

@@ -27,7 +27,8 @@ class Mesh:
     """Of a binary PLY file of the generator: points and triangles."""
 
     def __init__(self, path):
-        data = open(path, "rb").read()
+        with open(path, "rb") as file:
+            data = file.read()
         header, body = data.split(b"end_header\n", 1)
         counts = [int(line.split()[2]) for line in header.decode().split("\n") if line.startswith("element")]
         number = "f8" if b"property double x" in header else "f4"

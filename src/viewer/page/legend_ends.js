@@ -10,7 +10,10 @@ export class LegendPanel {
     this.canvas = folder.querySelector('canvas');
     this.ends = ['low', 'high'].map((end) => this.prepare(end, document.getElementById(`legend-${end}`)));
     viewer.afterFrame.push(() => this.update());
-    new ResizeObserver(() => this.draw()).observe(folder);
+    new ResizeObserver(() => {
+      this.drawn = null;
+      this.update();
+    }).observe(folder);
   }
 
   prepare(end, element) {
@@ -56,7 +59,8 @@ export class LegendPanel {
     const { viewer, axis } = this, { look, state, limit } = viewer;
     return {
       look, axis, limit, histogram: this.histogram, none: state.none,
-      colourOfLabel: (label) => viewer.layers.labelColours(look.panes[0].index, look.name).get(label) ?? 0,
+      colourOfLabel: (label) => look.panes
+        .map(({ index }) => viewer.layers.labelColours(index, look.name).get(label)).find((colour) => colour !== undefined),
     };
   }
 

@@ -12,11 +12,7 @@ import { Viewer } from './viewer.js';
 
 const kFragmentMilliseconds = 300;
 
-function streamBytes(number) {
-  const element = document.getElementById(`stream-${number}`), bytes = bytesOfBase64(element.textContent);
-  element.remove();  // The text is not needed again and large.
-  return bytes;
-}
+const streamBytes = (number) => bytesOfBase64(document.getElementById(`stream-${number}`).textContent);
 
 function finish(state, message) {
   document.documentElement.dataset.state = state;
@@ -60,6 +56,7 @@ async function start() {
     const origin = mesh.boxMin.map((low, axis) => (low + mesh.boxMax[axis]) / 2);
     models.push(new MeshModel(mesh, origin, await decodeMesh(mesh, streamBytes, origin)));
   }
+  for (const stream of document.querySelectorAll('[id^=stream-]')) stream.remove();  // Not needed again, and large.
   finish('ready', '');
   const viewer = new Viewer(canvas, renderer, models, new Store({ ...kInitialState }));
   showReport(page, {

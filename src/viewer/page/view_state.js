@@ -27,7 +27,7 @@ const asText = (value) => value === true ? '1' : typeof value === 'number' ? Str
 /** Without the parts that are as in `initial`. */
 export function fragmentOf(state, initial) {
   const changed = Object.keys(kParts).filter((key) => state[key] !== initial[key] && state[key] !== null);
-  return changed.map((key) => `${key}=${encodeURIComponent(state[key] === false ? '0' : asText(state[key]))}`).join('&');
+  return changed.map((key) => `${key}=${encodeURIComponent(state[key] === false ? '0' : asText(state[key])).replace('%3A', ':')}`).join('&');
 }
 
 /** Parts that the fragment has; unknown ones are ignored. */

@@ -69,7 +69,8 @@ export class Viewer {
     if (state.show && state.show !== 'all' && !state.show.split('-').every(isMesh)) delete state.show;
     if (state.show?.includes('-') && !this.layers.areComparable(...state.show.split('-').map(Number))) delete state.show;
     for (const key of ['face', 'part']) if (state[key] && !isMesh(state[key].split(':')[0])) delete state[key];
-    if (state.zoom !== undefined) state.zoom = clamp(state.zoom ?? 1, 0.05, 1e4);
+    if (state.zoom === null) delete state.zoom;
+    if (state.zoom !== undefined) state.zoom = clamp(state.zoom, 0.05, 1e4);
     if (state.el !== undefined) state.el = clamp(state.el, -90, 90);
     return state;
   }
