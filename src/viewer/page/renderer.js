@@ -177,8 +177,6 @@ export class Renderer {
     gl.uniform1f(program.uniforms.plainness, frame.shading === 'plain' ? 1 : 0);
     const toggle = (capability, isOn) => isOn ? gl.enable(capability) : gl.disable(capability);
     toggle(gl.CULL_FACE, frame.back === 'hidden');
-    toggle(gl.POLYGON_OFFSET_FILL, frame.edges);
-    gl.polygonOffset(1, 1);
     gl.bindVertexArray(pane.mesh.vao);
     gl.drawElements(gl.TRIANGLES, pane.mesh.indexCount, gl.UNSIGNED_INT, 0);
   }
@@ -188,6 +186,7 @@ export class Renderer {
     const program = this.program('line', lineVertexSource, lineFragmentSource, []);
     this.use(program, pane);
     gl.uniform4fv(program.uniforms.lineColour, colour);
+    gl.uniform1f(program.uniforms.lift, 2 * pane.camera.pixelSize * pane.camera.depth);  // Before the faces at it.
     gl.enable(gl.BLEND);
     gl.blendFuncSeparate(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA, gl.ZERO, gl.ONE);  // The canvas stays opaque.
     gl.bindVertexArray(vao);

@@ -18,7 +18,6 @@ export class Viewer {
     Object.assign(this, { canvas, renderer, models, store, afterFrame: [], scaleIndex: 0, frameMilliseconds: 25 });
     this.layers = new Layers(models);
     this.frames = framesOf(models);
-    this.movedAt = -Infinity;
     this.restore();
     this.reset();
     store.set(this.validated(stateOfFragment(location.hash)));
@@ -77,7 +76,7 @@ export class Viewer {
 
   changed(keys) {
     if (kColourKeys.some((key) => keys.has(key))) this.isStale = true;
-    if (kCameraKeys.some((key) => keys.has(key))) this.movedAt = performance.now();
+    if (kCameraKeys.some((key) => keys.has(key))) this.hasMoved = true;
     this.requestFrame();
   }
 
@@ -148,11 +147,13 @@ export class Viewer {
   frame(time) {
     if (this.isLost || !this.canvas.clientWidth) return;
     this.fly(time);
-    const rest = this.movedAt + kRestMilliseconds - performance.now();
-    this.adapt(time, rest > 0);
-    this.draw(rest <= 0);
+    const isMoving = Boolean(this.hasMoved);
+    this.hasMoved = false;
+    this.adapt(time, isMoving);
+    this.draw(!isMoving);
     clearTimeout(this.timer);
-    if (rest > 0) this.timer = setTimeout(() => this.requestFrame(), rest + 10);
+    const rest = Math.max(kRestMilliseconds, 3 * this.frameMilliseconds);
+    if (isMoving) this.timer = setTimeout(() => this.requestFrame(), rest);
     const { dataset } = document.documentElement;
     dataset.frames = Number(dataset.frames ?? 0) + 1;
   }
@@ -160,7 +161,7 @@ export class Viewer {
   // Fewer pixels while moving, where frames take long.
   adapt(time, isMoving) {
     const milliseconds = time - this.lastMotion;
-    if (isMoving && milliseconds < 500) {
+    if (isMoving && milliseconds < 3000) {
       this.frameMilliseconds += 0.3 * (milliseconds - this.frameMilliseconds);
       const step = this.frameMilliseconds > kSlowMilliseconds ? 1 : this.frameMilliseconds < kFastMilliseconds ? -1 : 0;
       const index = clamp(this.scaleIndex + step, 0, kScales.length - 1);
