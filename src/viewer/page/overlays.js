@@ -33,6 +33,10 @@ export class Overlays {
   }
 
   update(panes) {
+    // Unchanged elements are left alone: each change is painted anew.
+    const key = JSON.stringify(panes.map((pane) => [pane.index, pane.left, pane.top, scaleOf(pane.camera), ringOf(pane)]));
+    if (this.shown === key) return;
+    this.shown = key;
     const place = (element, x, y) => Object.assign(element.style, { left: `${x}px`, top: `${y}px` });
     while (this.folder.childElementCount > 3 * panes.length) this.folder.lastChild.remove();
     panes.forEach((pane, i) => {

@@ -1,12 +1,12 @@
 // WebGL 2: meshes with a flat colour per face, edges, outlines.
 
-const kSampleCount = 4;
+const kSampleCount = 4, kCoarseFaceCount = 20000;
 const kPosition = 0, kColour = 1, kNormal = 2, kSmoothNormal = 3;
 
 export class Renderer {
   /** Null without WebGL 2. */
   static create(canvas) {
-    const gl = canvas.getContext('webgl2', { antialias: false, powerPreference: 'high-performance' });
+    const gl = canvas.getContext('webgl2', { antialias: false, alpha: false, powerPreference: 'high-performance' });
     return gl && new Renderer(gl);
   }
 
@@ -22,6 +22,8 @@ export class Renderer {
     this.target = null;
     const provoking = gl.getExtension('WEBGL_provoking_vertex');
     this.isFirstProvoking = Boolean(provoking);
+    const names = gl.getExtension('WEBGL_debug_renderer_info');
+    this.isSoftware = Boolean(names) && /SwiftShader|llvmpipe|software|Basic Render/i.test(gl.getParameter(names.UNMASKED_RENDERER_WEBGL));
     if (provoking) provoking.provokingVertexWEBGL(provoking.FIRST_VERTEX_CONVENTION_WEBGL);
     this.outline = { vao: gl.createVertexArray(), buffer: gl.createBuffer() };
     gl.bindVertexArray(this.outline.vao);
@@ -81,6 +83,17 @@ export class Renderer {
     mesh.isSmooth = true;
   }
 
+  // A copy of few triangles, for slow devices while the view moves.
+  coarse(mesh) {
+    if (mesh.model.faceCount < 2 * kCoarseFaceCount) return mesh;
+    mesh.coarse ??= this.addMesh(mesh.model.reduced(kCoarseFaceCount));
+    const { coarse, colouring } = mesh;
+    if (coarse.source !== colouring)
+      this.setColours(coarse, Uint32Array.from(coarse.model.sourceFaces, (face) => colouring[face]));
+    coarse.source = colouring;
+    return coarse;
+  }
+
   // Of the faces that are not hidden.
   edgesOf(mesh) {
     const { gl } = this;
@@ -137,7 +150,7 @@ export class Renderer {
   }
 
   /**
-   * frame: {width, height, background, isSampled, shading, back, edges, lineColour, panes}; a pane: {mesh, camera,
+   * frame: {width, height, background, isSampled, isCoarse, shading, back, edges, lineColour, panes}; a pane: {mesh, camera,
    * plane, viewport, outline} with the viewport in pixels of the canvas from its lower left corner.
    */
   draw(frame) {
@@ -147,7 +160,8 @@ export class Renderer {
     gl.disable(gl.SCISSOR_TEST);
     gl.clearColor(...frame.background, 1);
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
-    for (const pane of frame.panes) {
+    for (const shown of frame.panes) {
+      const pane = frame.isCoarse ? { ...shown, mesh: this.coarse(shown.mesh) } : shown;
       gl.viewport(...pane.viewport);
       gl.scissor(...pane.viewport);
       gl.enable(gl.SCISSOR_TEST);
@@ -211,7 +225,7 @@ export class Renderer {
     if (target.width !== width || target.height !== height) {
       Object.assign(target, { width, height });
       gl.bindFramebuffer(gl.FRAMEBUFFER, target.framebuffer);
-      for (const [buffer, format, point] of [[target.colour, gl.RGBA8, gl.COLOR_ATTACHMENT0],
+      for (const [buffer, format, point] of [[target.colour, gl.RGB8, gl.COLOR_ATTACHMENT0],
         [target.depth, gl.DEPTH_COMPONENT24, gl.DEPTH_ATTACHMENT]]) {
         gl.bindRenderbuffer(gl.RENDERBUFFER, buffer);
         gl.renderbufferStorageMultisample(gl.RENDERBUFFER, kSampleCount, format, width, height);

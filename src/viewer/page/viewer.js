@@ -9,13 +9,14 @@ import { add, clamp, dot, scaled, subtract } from './vectors.js';
 const kColourKeys = ['layer', 'show', 'map', 'low', 'high', 'none', 'thin', 'thinAt', 'rest', 'part'];
 const kCameraKeys = ['up', 'az', 'el', 'zoom', 'x', 'y', 'z', 'clipAt'];
 const kRestMilliseconds = 180;  // Without motion, before a frame in full quality.
-const kSlowMilliseconds = 36, kFastMilliseconds = 18;
-const kScales = [1, 0.7, 0.5, 0.35];
+const kSlowMilliseconds = 36, kSlowCount = 3;
+// Of frames while the view moves, on ever slower devices: resolution, and whether the mesh is a coarse copy.
+const kLevels = [[1, false], [1, true], [0.7, true], [0.5, true], [0.35, true]];
 const kFlightMilliseconds = 350;
 
 export class Viewer {
   constructor(canvas, renderer, models, store) {
-    Object.assign(this, { canvas, renderer, models, store, afterFrame: [], scaleIndex: 0, frameMilliseconds: 25 });
+    Object.assign(this, { canvas, renderer, models, store, afterFrame: [], level: Number(renderer.isSoftware), slowCount: 0 });
     this.layers = new Layers(models);
     this.frames = framesOf(models);
     this.restore();
@@ -152,29 +153,28 @@ export class Viewer {
     this.adapt(time, isMoving);
     this.draw(!isMoving);
     clearTimeout(this.timer);
-    const rest = Math.max(kRestMilliseconds, 3 * this.frameMilliseconds);
+    const rest = Math.max(kRestMilliseconds, 2 * this.frameMilliseconds);
     if (isMoving) this.timer = setTimeout(() => this.requestFrame(), rest);
     const { dataset } = document.documentElement;
     dataset.frames = Number(dataset.frames ?? 0) + 1;
   }
 
-  // Fewer pixels while moving, where frames take long.
+  // Less detail while moving, where several frames took long.
   adapt(time, isMoving) {
-    const milliseconds = time - this.lastMotion;
-    if (isMoving && milliseconds < 3000) {
-      this.frameMilliseconds += 0.3 * (milliseconds - this.frameMilliseconds);
-      const step = this.frameMilliseconds > kSlowMilliseconds ? 1 : this.frameMilliseconds < kFastMilliseconds ? -1 : 0;
-      const index = clamp(this.scaleIndex + step, 0, kScales.length - 1);
-      if (index !== this.scaleIndex) this.frameMilliseconds = step > 0 ? 25 : 30;
-      this.scaleIndex = index;
-    }
-    this.lastMotion = isMoving ? time : -Infinity;
+    this.frameMilliseconds = isMoving ? time - this.lastMotion : 0;
+    this.lastMotion = isMoving ? time : Infinity;
+    if (this.frameMilliseconds > kSlowMilliseconds) ++this.slowCount;
+    else if (this.slowCount > 0) --this.slowCount;
+    if (this.slowCount < kSlowCount || this.level === kLevels.length - 1) return;
+    ++this.level;
+    this.slowCount = 0;
   }
 
   /** In full quality, or in that of motion. */
   draw(isStill) {
     const { canvas, state } = this;
-    const scale = Math.min(devicePixelRatio, 2) * (isStill ? 1 : kScales[this.scaleIndex]);
+    const [share, isCoarse] = isStill ? [1, false] : kLevels[this.level];
+    const scale = Math.min(devicePixelRatio, 2) * share;
     const width = Math.max(Math.round(canvas.clientWidth * scale), 1);
     const height = Math.max(Math.round(canvas.clientHeight * scale), 1);
     if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
@@ -187,7 +187,7 @@ export class Viewer {
     }
     const { background, isDark } = this.theme();
     this.renderer.draw({
-      width, height, background, panes, isSampled: isStill, shading: state.shading, back: state.back, edges: state.edges,
+      width, height, background, panes, isSampled: isStill, isCoarse, shading: state.shading, back: state.back, edges: state.edges,
       lineColour: isDark ? [0, 0, 0, 0.5] : [0, 0, 0, 0.4],
     });
     for (const listener of this.afterFrame) listener(panes);
