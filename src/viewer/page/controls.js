@@ -90,11 +90,13 @@ export class Controls {
   }
 
   showThin(look) {
-    const { limit, layers } = this.viewer;
+    const { limit, layers, models } = this.viewer;
     let text = '';
     if (limit !== null) {
       const { count, area, total } = layers.thin(look, limit);
-      text = `${formatCount(count)} faces below ${formatValue(limit)}, area ${formatValue(area)} (${formatShare(total > 0 ? area / total : 0)} of the surface)`;
+      const hasPolygons = models.some(({ description }) => description.inputFaceCount < description.faceCount);
+      text = `${formatCount(count)} ${hasPolygons ? 'triangles' : 'faces'} below ${formatValue(limit)}, area `
+        + `${formatValue(area)} (${formatShare(total > 0 ? area / total : 0)} of the surface)`;
     }
     if (byId('thin-result').textContent !== text) byId('thin-result').textContent = text;
   }
