@@ -3,15 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <functional>
+#include <string_view>
 
 #include "asdf_vk/choices.h"
 #include "asdf_vk/version.h"
 #include "cli/result_picture.h"
 #include "core/atomic_file.h"
 #include "core/text.h"
+#include "render/camera.h"
 #include "render/png.h"
 #include "trace/scene_data.h"
 
@@ -106,6 +109,20 @@ std::vector<PageSegment> segmentsOf(const Result& result) {
                       std::get<std::vector<uint32_t>>(field->values), result.sdf());
 }
 
+/// The upright axis of the small picture, for the first view of the page.
+std::string upOf(const TriangleMesh& mesh, const View& view) {
+  std::vector<uint8_t> isUsed(mesh.vertices.size(), 0);
+  for (const Face& face : mesh.faces)
+    for (const uint32_t vertex : face) isUsed[vertex] = 1;
+  std::vector<Vec3d> points;
+  for (size_t vertex = 0; vertex < isUsed.size(); ++vertex) {
+    const Vec3d& point = mesh.vertices[vertex];
+    if (isUsed[vertex] != 0 && std::isfinite(point.x + point.y + point.z)) points.push_back(point);
+  }
+  constexpr std::array<std::string_view, 6> kNames{"x", "y", "z", "-x", "-y", "-z"};
+  return std::string(kNames[static_cast<size_t>(view.up ? *view.up : guessUp(points))]);
+}
+
 }  // namespace
 
 Page emptyPage() { return Page(fmt::format("asdf-vk {} ({})", ASDFVK_VERSION, ASDFVK_COMMIT)); }
@@ -117,6 +134,7 @@ void addToPage(Page& page, const MeshOutcome& outcome, const RunControl& control
   texts.errorSentence = errorSentenceOf(outcome.result);
   for (const Warning& warning : outcome.result.report.warnings)
     (warning.code == WarningCode::MeshDefect ? texts.defects : texts.warnings).push_back(textWarning(warning));
+  texts.up = upOf(outcome.result.scene->scene.mesh, outcome.line.pictureView);
   texts.thinRegions = thinRegionsOf(outcome.result);
   texts.segments = segmentsOf(outcome.result);
   // A careful picture of more faces takes longer than the rest of the page.

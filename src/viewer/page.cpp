@@ -20,7 +20,7 @@ Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nul
 Json arrayOf(const Vec3d& v) { return {number(v.x), number(v.y), number(v.z)}; }
 
 Json describe(const PageTexts& texts) {
-  Json json{{"name", texts.name}, {"label", texts.label}};
+  Json json{{"name", texts.name}, {"label", texts.label}, {"up", texts.up}};
   json["summary"] = Json::array();
   for (const auto& [title, value] : texts.summary) json["summary"].push_back({{"title", title}, {"value", value}});
   json["errorSentence"] = texts.errorSentence;

@@ -38,6 +38,7 @@ struct PageTexts {
   std::string label;                                         ///< What tells this result from the others of the page.
   std::vector<std::pair<std::string, std::string>> summary;  ///< Rows of a table: title, value.
   std::string errorSentence;
+  std::string up = "y";  ///< Upright axis of the first view: x, y, z, -x, -y or -z.
   std::vector<std::string> warnings, defects;
   std::vector<PageThinRegion> thinRegions;
   std::vector<PageSegment> segments;

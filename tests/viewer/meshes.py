@@ -34,7 +34,10 @@ class Mesh:
         number = "f8" if b"property double x" in header else "f4"
         self.vertices = numpy.frombuffer(body, f"<{number}", 3 * counts[0]).reshape(-1, 3).astype(float)
         start = 3 * counts[0] * int(number[1])
-        rows = numpy.frombuffer(body[start:], numpy.dtype([("count", "u1"), ("corners", "<i4", 3)]), counts[1])
+        fields = [("count", "u1"), ("corners", "<i4", 3)]
+        words = [line.split() for line in header.decode().split("element face")[1].split("\n")[2:]]
+        fields += [(name, {"float": "<f4", "int": "<i4"}[kind]) for _, kind, name in filter(None, words)]
+        rows = numpy.frombuffer(body[start:], numpy.dtype(fields), counts[1])
         assert (rows["count"] == 3).all()
         self.faces = rows["corners"]
         self.low, self.high = self.vertices.min(0), self.vertices.max(0)
