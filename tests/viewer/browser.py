@@ -133,15 +133,15 @@ class Page(Socket):
         return int(self.js("document.documentElement.dataset.frames ?? 0"))
 
     def settle(self):
-        """Waits until no frame was drawn for a while: the view is still, in full quality."""
+        """Waits until the view is still, in full quality."""
         self.js("""new Promise((done) => {
-          let frames = -1, timer;
+          let count = 0;
           const look = () => {
-            const now = document.documentElement.dataset.frames;
-            if (now === frames) done();
-            else { frames = now; timer = setTimeout(look, 260); }
+            count = document.documentElement.dataset.still === 'true' ? count + 1 : 0;
+            if (count > 1) done();
+            else requestAnimationFrame(look);
           };
-          setTimeout(look, 30);
+          requestAnimationFrame(look);
         })""")
 
     def mouse(self, kind, x, y, button="left", buttons=None, **more):

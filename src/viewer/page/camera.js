@@ -44,16 +44,9 @@ export function boxCorners(size) {
 }
 
 /**
- * Zoom with which the box fills the pane. Zoom 1: the sphere around the box touches the shorter sides of the pane.
+ * What a pane shows of a mesh within a frame {centre, radius, size}. x, y and z of the state: relative to the frame, in
+ * radii. Zoom 1: the sphere of the frame touches the shorter sides of the pane.
  */
-export function fittingZoom(axes, boxSize, width, height) {
-  const radius = Math.hypot(...boxSize) / 2 || 1, short = Math.min(width, height);
-  const extent = (axis) => 2 * Math.max(...boxCorners(boxSize).map((corner) => dot(corner, axis)));
-  const zooms = [[axes.right, width], [axes.up, height]].map(([axis, side]) => side / short * 2 * radius / extent(axis));
-  return 0.92 * clamp(Math.min(...zooms), 1, 20);
-}
-
-/** What a pane shows of a mesh within a frame {centre, radius, size}. target: relative to the frame, in radii. */
 export class PaneCamera {
   constructor(state, axes, frame, width, height) {
     Object.assign(this, axes);

@@ -1,4 +1,4 @@
-// The form: each element with data-state shows a part of the state and sets it.
+// The form: each element with data-key shows a part of the state and sets it.
 import { formatCount, formatShare, formatValue } from './format.js';
 import { classTitle } from './legend.js';
 import { kViews } from './camera.js';
@@ -16,7 +16,7 @@ export class Controls {
   constructor(viewer, navigation, picture) {
     this.viewer = viewer;
     this.fillChoices();
-    for (const element of document.querySelectorAll('[data-state]'))
+    for (const element of document.querySelectorAll('[data-key]'))
       element.addEventListener(element.type === 'number' ? 'change' : 'input', () => this.read(element));
     const click = (id, action) => byId(id).addEventListener('click', action);
     for (const name of Object.keys(kViews)) click(`view-${name}`, () => navigation.view(name));
@@ -47,7 +47,7 @@ export class Controls {
   }
 
   read(element) {
-    const key = element.dataset.state, { viewer } = this;
+    const key = element.dataset.key, { viewer } = this;
     const value = element.type === 'checkbox' ? element.checked : element.type === 'color' ? element.value.slice(1)
       : ['number', 'range'].includes(element.type) ? (element.value === '' ? null : Number(element.value)) : element.value;
     const changes = { [key]: value };
@@ -77,8 +77,8 @@ export class Controls {
       slider.max = look.range.max;
       slider.step = (look.range.max - look.range.min) / 500 || 1;
     }
-    for (const element of document.querySelectorAll('[data-state]')) {
-      const value = shown[element.dataset.state];
+    for (const element of document.querySelectorAll('[data-key]')) {
+      const value = shown[element.dataset.key];
       if (element.type === 'checkbox') element.checked = value;
       else if (element.value !== String(value)) element.value = value ?? '';
     }

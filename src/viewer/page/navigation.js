@@ -90,7 +90,7 @@ export class Navigation {
   }
 
   release(event) {
-    if (this.pressed && event.type === 'pointerup' && event.button === 0) this.viewer.pickAt(...this.pressed);
+    if (this.pressed && event.type === 'pointerup' && event.button === 0) this.viewer.pickAt(...this.pressed.map((value) => Math.floor(value) + 0.5));
     this.pressed = null;
     this.pointers.delete(event.pointerId);
   }

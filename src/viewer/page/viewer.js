@@ -1,5 +1,5 @@
 // The view: colours and cameras of the panes from the state, frames, selection.
-import { anglesTowards, boxCorners, fittingZoom, PaneCamera, viewAxes } from './camera.js';
+import { anglesTowards, boxCorners, PaneCamera, viewAxes } from './camera.js';
 import { colourFaces } from './face_colours.js';
 import { Layers } from './layers.js';
 import { pickFace } from './picking.js';
@@ -58,8 +58,28 @@ export class Viewer {
 
   /** Zoom and target that show everything from the direction of the state. */
   fitted(state) {
-    const size = this.frames[0].size, [pane] = this.rectangles(this.models.length);
-    return { x: 0, y: 0, z: 0, zoom: fittingZoom(viewAxes(state, size), size, pane.width, pane.height) };
+    const axes = viewAxes(state, this.frames[0].size), [pane] = this.rectangles(this.models.length);
+    const shadows = [axes.right, axes.up].map((axis) => this.shadow(axis));
+    const sides = [pane.width, pane.height], short = Math.min(...sides);
+    const zooms = shadows.map(([low, high], i) => 2 * sides[i] / short / (high - low));
+    const middles = shadows.map(([low, high]) => (low + high) / 2);
+    const [x, y, z] = add(scaled(axes.right, middles[0]), scaled(axes.up, middles[1]));
+    return { x, y, z, zoom: clamp(0.9 * Math.min(...zooms), 0.5, 20) };
+  }
+
+  // Extent of all meshes along an axis, in radii of their frames; from some of the points where there are many.
+  shadow(axis) {
+    let low = Infinity, high = -Infinity;
+    this.models.forEach(({ positions }, index) => {
+      const { centre, radius } = this.frames[index], shift = dot(centre, axis);
+      const step = 3 * Math.ceil(positions.length / 600000);
+      for (let i = 0; i < positions.length; i += step) {
+        const at = (positions[i] * axis[0] + positions[i + 1] * axis[1] + positions[i + 2] * axis[2] - shift) / radius;
+        if (at < low) low = at;
+        if (at > high) high = at;
+      }
+    });
+    return low < high ? [low, high] : [-1e-3, 1e-3];
   }
 
   /** Without values that this page cannot show. */
@@ -139,6 +159,7 @@ export class Viewer {
   requestFrame() {
     if (this.isPending) return;
     this.isPending = true;
+    document.documentElement.dataset.still = 'false';
     requestAnimationFrame((time) => {
       this.isPending = false;
       this.frame(time);
@@ -157,6 +178,7 @@ export class Viewer {
     if (isMoving) this.timer = setTimeout(() => this.requestFrame(), rest);
     const { dataset } = document.documentElement;
     dataset.frames = Number(dataset.frames ?? 0) + 1;
+    if (!isMoving && !this.isPending) dataset.still = 'true';
   }
 
   // Less detail while moving, where several frames took long.
