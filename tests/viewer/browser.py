@@ -166,9 +166,10 @@ class Page(Socket):
         self.call("Input.dispatchKeyEvent", type="keyDown" if text else "rawKeyDown", **common, **({"text": text} if text else {}))
         self.call("Input.dispatchKeyEvent", type="keyUp", **common)
 
-    def screenshot(self, path=None):
-        """The window as an image of PIL; also written to `path`."""
-        data = base64.b64decode(self.call("Page.captureScreenshot", format="png")["data"])
+    def screenshot(self, path=None, area=None):
+        """The window, or an area (left, top, width, height) of it, as an image of PIL; also written to `path`."""
+        clip = {"clip": dict(zip(("x", "y", "width", "height"), map(float, area)), scale=1)} if area is not None else {}
+        data = base64.b64decode(self.call("Page.captureScreenshot", format="png", optimizeForSpeed=True, **clip)["data"])
         if path:
             with open(path, "wb") as file:
                 file.write(data)

@@ -89,7 +89,7 @@ def open_page(browser):
     opened = []
 
     def open_(address, **settings):
-        page = browser.page(size=(1100, 760), **settings)
+        page = browser.page(size=(900, 560), **settings)
         opened.append(page)
         page.open(address)
         return page

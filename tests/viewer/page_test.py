@@ -21,8 +21,7 @@ def box_of(page, element):
 
 
 def view_picture(page):
-    left, top, width, height = box_of(page, "view").astype(int)
-    return page.screenshot().crop((left, top, left + width, top + height))
+    return page.screenshot(area=box_of(page, "view").astype(int))
 
 
 def settled_view(page):
