@@ -54,9 +54,10 @@ void Page::add(const TriangleMesh& mesh, std::span<const std::reference_wrapper<
 
 void Page::write(AtomicFile& file) const {
   using Part = void (Page::*)(AtomicFile&) const;
-  constexpr std::pair<std::string_view, Part> kPlaces[]{
-      {"@TITLE@", &Page::writeTitle}, {"@DATA@", &Page::writeData}, {"@FALLBACK@", &Page::writeFallback},
-      {"@SCRIPT@", &Page::writeScript}};
+  constexpr std::pair<std::string_view, Part> kPlaces[]{{"@TITLE@", &Page::writeTitle},
+                                                        {"@DATA@", &Page::writeData},
+                                                        {"@FALLBACK@", &Page::writeFallback},
+                                                        {"@SCRIPT@", &Page::writeScript}};
   std::string_view rest = kPageTemplate;
   for (;;) {
     size_t at = std::string_view::npos;
