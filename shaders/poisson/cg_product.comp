@@ -18,11 +18,12 @@ void main() {
     float coupled = 0.0;
     ADD_COUPLED(row, p, coupled)
     const float direction = p[row];
-    const float product = direction - coupled;
+    const float residualWeight = residualWeights[row];
+    const float product = residualWeight > 0.0 ? direction - coupled : 0.0;  // See VulkanMatrix::setResidualWeights().
     const float residual = r[row];
     q[row] = product;
     partial += mat2x3(vec3(direction, product, product) * vec3(direction, direction, product),
-                      residual * vec3(product, residual, residual * residualWeights[row]));
+                      residual * vec3(product, residual, residual * residualWeight));
   }
   const mat2x3 total = workgroupSum(partial);
   if (gl_LocalInvocationID.x != 0u) return;

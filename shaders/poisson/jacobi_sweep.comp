@@ -17,9 +17,10 @@ void main() {
   for (uint row = firstRow(); row < push.unknownCount; row += rowStride()) {
     float value = b[row];
     ADD_COUPLED(row, y, value)
+    const float residualWeight = residualWeights[row];
     const float residual = value - y[row];
-    next[row] = value;
-    squared += residual * residual * residualWeights[row];
+    next[row] = residualWeight > 0.0 ? value : 0.0;  // See VulkanMatrix::setResidualWeights().
+    squared += residual * residual * residualWeight;
   }
   const float total = workgroupSum(mat2x3(squared, 0.0, 0.0, 0.0, 0.0, 0.0))[0].x;
   if (gl_LocalInvocationID.x == 0u) sums.residualSquared[gl_WorkGroupID.x] = total;

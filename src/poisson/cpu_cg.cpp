@@ -34,7 +34,7 @@ class EigenSystem : public DiagonalScaling<double> {
   static double rounding() { return 2e-16; }
 
   explicit EigenSystem(const PoissonSystem& system)
-      : DiagonalScaling(system),
+      : DiagonalScaling(system.diagonal),
         size_(static_cast<Eigen::Index>(system.unknownCount())),
         couplings_(system.entries.size()),
         matrix_(size_, size_, static_cast<Eigen::Index>(system.columns.size()),
@@ -85,7 +85,7 @@ class CpuCgSolver final : public PoissonSolver {
  public:
   SolverReport solve(const PoissonSystem& system, const SolverOptions& options, std::span<double> solution,
                      const RunControl& control) override {
-    SolverProgress progress(system, options, control);
+    SolverProgress progress(rightHandNorm(system), options, control);
     return solveByRefinement(
         system, options, solution,
         {makeCorrector<ScaledSystem>(system, progress, kMinFloatReduction), makeDoubleCorrector(system, progress)});
@@ -96,7 +96,7 @@ class EigenSolver final : public PoissonSolver {
  public:
   SolverReport solve(const PoissonSystem& system, const SolverOptions& options, std::span<double> solution,
                      const RunControl& control) override {
-    SolverProgress progress(system, options, control);
+    SolverProgress progress(rightHandNorm(system), options, control);
     return solveByRefinement(system, options, solution, {makeDoubleCorrector(system, progress)});
   }
 };

@@ -11,10 +11,10 @@ namespace {
 
 /// The first solver that needs a device is the default on a device, the first one that needs none is that on the CPU.
 constexpr std::array kSolvers{
-    Solver{.name = "cg", .needsDevice = true, .make = makeVulkanCgSolver},
-    Solver{.name = "jacobi", .needsDevice = true, .make = makeVulkanJacobiSolver},
-    Solver{.name = "cpu", .needsDevice = false, .make = makeCpuCgSolver},
-    Solver{.name = "eigen", .needsDevice = false, .make = makeEigenSolver},
+    Solver{.name = "cg", .needsDevice = true, .storageBufferCount = 8, .make = makeVulkanCgSolver},
+    Solver{.name = "jacobi", .needsDevice = true, .storageBufferCount = 8, .make = makeVulkanJacobiSolver},
+    Solver{.name = "cpu", .needsDevice = false, .storageBufferCount = 0, .make = makeCpuCgSolver},
+    Solver{.name = "eigen", .needsDevice = false, .storageBufferCount = 0, .make = makeEigenSolver},
 };
 
 }  // namespace

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <string_view>
@@ -7,6 +8,7 @@
 #include "asdf_vk/options.h"
 #include "asdf_vk/report.h"
 #include "asdf_vk/run_control.h"
+#include "poisson/graph_equation.h"
 #include "poisson/poisson_system.h"
 
 /// Solvers of the Poisson equation. A new solver requires a file with its class, the declaration of its make function
@@ -15,9 +17,26 @@ namespace asdfvk {
 
 class Device;
 
+/// A solver on one dual graph with weights, for any constraints.
+class GraphSolver {
+ public:
+  virtual ~GraphSolver() = default;
+
+  /// The interpolation of buildPoissonSystem(). Writes the values of the unknown faces only. values: #F. Report and
+  /// errors as PoissonSolver::solve().
+  virtual SolverReport solve(const GraphProblem& problem, const SolverOptions& options, std::span<double> values,
+                             const RunControl& control) = 0;
+};
+
 class PoissonSolver {
  public:
   virtual ~PoissonSolver() = default;
+
+  /// For several interpolations of most faces of a graph: a solver on a device keeps their matrix there, which is the
+  /// same for all. Null without a device. Solver, graph and weights must outlive it. Throws as solve().
+  [[nodiscard]] virtual std::unique_ptr<GraphSolver> onGraph(const DualGraph&, std::span<const double> /*weights*/) {
+    return nullptr;
+  }
 
   /// Overwrites solution (#U). The name in the report is empty. Throws Error{Cancelled}, Error{Device};
   /// Error{EquationLimit} for a system that exceeds a limit of the device.
@@ -40,6 +59,7 @@ using MakeSolver = std::unique_ptr<PoissonSolver>(const Device* device);
 struct Solver {
   const char* name;
   bool needsDevice;
+  uint32_t storageBufferCount;  ///< That its kernels bind. Vulkan promises four.
   MakeSolver* make;
 };
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 
 #include "core/check.h"
 #include "core/ordered_sum.h"
@@ -82,28 +83,6 @@ std::vector<uint8_t> searchReachableFaces(const DualGraph& graph, std::span<cons
   return isReachable;
 }
 
-/// The same from known components.
-std::vector<uint8_t> reachableFacesOf(std::span<const uint32_t> componentOf, std::span<const double> constraints) {
-  std::vector<uint8_t> isConstrained;  // Per component.
-  for (size_t face = 0; face < constraints.size(); ++face) {
-    if (componentOf[face] >= isConstrained.size()) isConstrained.resize(componentOf[face] + size_t{1}, 0);
-    if (std::isfinite(constraints[face])) isConstrained[componentOf[face]] = 1;
-  }
-  std::vector<uint8_t> isReachable(constraints.size());
-  forEachInParallel(constraints.size(), [&](size_t face) { isReachable[face] = isConstrained[componentOf[face]]; });
-  return isReachable;
-}
-
-double meanOf(std::span<const double> constraints) {
-  const auto count = static_cast<size_t>(
-      orderedSum(constraints.size(), [&](size_t i) { return std::isfinite(constraints[i]) ? 1.0 : 0.0; }));
-  if (count == 0) return 0;
-  // Division before addition: values near the largest number do not overflow.
-  return orderedSum(constraints.size(), [&](size_t i) {
-    return std::isfinite(constraints[i]) ? constraints[i] / static_cast<double>(count) : 0.0;
-  });
-}
-
 /// Fills all of `system` but faces, firstGuess and constraintMean. unknownOf: #F, kNotUnknown for the other faces.
 void assemble(const WeightedGraph& graph, std::span<const uint32_t> unknownOf, std::span<const double> constraints,
               std::span<const double> divergence, PoissonSystem& system) {
@@ -149,6 +128,43 @@ std::vector<double> arcWeights(ArcWeights kind, const DualGraph& graph, const Fa
   return weights;
 }
 
+std::vector<uint8_t> reachableFaces(std::span<const uint32_t> componentOf, std::span<const double> constraints) {
+  std::vector<uint8_t> isConstrained;  // Per component.
+  for (size_t face = 0; face < constraints.size(); ++face) {
+    if (componentOf[face] >= isConstrained.size()) isConstrained.resize(componentOf[face] + size_t{1}, 0);
+    if (std::isfinite(constraints[face])) isConstrained[componentOf[face]] = 1;
+  }
+  std::vector<uint8_t> isReachable(constraints.size());
+  forEachInParallel(constraints.size(), [&](size_t face) { isReachable[face] = isConstrained[componentOf[face]]; });
+  return isReachable;
+}
+
+double meanOfConstraints(std::span<const double> constraints) {
+  const auto count = static_cast<size_t>(
+      orderedSum(constraints.size(), [&](size_t i) { return std::isfinite(constraints[i]) ? 1.0 : 0.0; }));
+  if (count == 0) return 0;
+  // Division before addition: values near the largest number do not overflow.
+  return orderedSum(constraints.size(), [&](size_t i) {
+    return std::isfinite(constraints[i]) ? constraints[i] / static_cast<double>(count) : 0.0;
+  });
+}
+
+PoissonSystem wholePoissonSystem(const DualGraph& graph, std::span<const double> weights) {
+  ASDFVK_CHECK_OP(weights.size(), ==, graph.neighbours.size());
+  PoissonSystem system;
+  system.faces.resize(graph.faceCount());
+  std::iota(system.faces.begin(), system.faces.end(), 0u);
+  assemble({graph, weights}, system.faces, {}, {}, system);
+  const auto rowCount =
+      static_cast<double>(countInParallel(system.faces.size(), [&](size_t row) { return system.diagonal[row] > 0; }));
+  const double mean =
+      rowCount > 0 ? orderedSum(system.faces.size(), [&](size_t row) { return system.diagonal[row] / rowCount; }) : 1;
+  forEachInParallel(system.faces.size(), [&](size_t row) {
+    if (system.diagonal[row] == 0) system.diagonal[row] = mean;
+  });
+  return system;
+}
+
 PoissonSystem buildPoissonSystem(const DualGraph& graph, std::span<const double> weights,
                                  std::span<const double> constraints, std::span<const double> divergence,
                                  const PoissonOptions& options) {
@@ -160,10 +176,10 @@ PoissonSystem buildPoissonSystem(const DualGraph& graph, std::span<const double>
   if (!options.componentOf.empty()) ASDFVK_CHECK_OP(options.componentOf.size(), ==, faceCount);
 
   PoissonSystem system;
-  system.constraintMean = meanOf(constraints);
+  system.constraintMean = meanOfConstraints(constraints);
   const std::vector<uint8_t> isReachable = options.componentOf.empty()
                                                ? searchReachableFaces(graph, constraints)
-                                               : reachableFacesOf(options.componentOf, constraints);
+                                               : reachableFaces(options.componentOf, constraints);
   std::vector<uint32_t> unknownOf(faceCount, kNotUnknown);
   for (uint32_t face = 0; face < faceCount; ++face)
     if (isReachable[face] && !std::isfinite(constraints[face])) {
@@ -209,6 +225,14 @@ void computeResidual(const PoissonSystem& system, std::span<const double> soluti
 
 double residualNorm(const PoissonSystem& system, std::span<const double> residual) {
   return orderedNorm(residual.size(), [&](size_t row) { return residual[row] / system.diagonal[row]; });
+}
+
+void setFirstGuess(const PoissonSystem& system, std::span<double> solution) {
+  ASDFVK_CHECK_OP(solution.size(), ==, system.faces.size());
+  if (system.firstGuess.empty())
+    std::fill(solution.begin(), solution.end(), system.constraintMean);
+  else
+    std::copy(system.firstGuess.begin(), system.firstGuess.end(), solution.begin());
 }
 
 double relativeResidual(const PoissonSystem& system, std::span<const double> solution) {

@@ -61,6 +61,17 @@ struct PoissonOptions {
                                                std::span<const double> constraints, std::span<const double> divergence,
                                                const PoissonOptions& options = {});
 
+/// The matrix of all interpolations with these weights: every face is unknown and none is constrained. Rows and columns
+/// of an interpolation's unknowns are those of its own matrix, with the same diagonal. A face without neighbours has
+/// the mean of the other diagonal entries, or 1. There is no right-hand side.
+[[nodiscard]] PoissonSystem wholePoissonSystem(const DualGraph& graph, std::span<const double> weights);
+
+/// #F: 1 for the faces of components with a finite constraint.
+[[nodiscard]] std::vector<uint8_t> reachableFaces(std::span<const uint32_t> componentOf,
+                                                  std::span<const double> constraints);
+/// Of the finite ones; 0 if there are none.
+[[nodiscard]] double meanOfConstraints(std::span<const double> constraints);
+
 /// #F: per face the sum over its neighbours g of w_fg (field(f) - field(g)), where both are finite. weights: one per
 /// arc.
 [[nodiscard]] std::vector<double> divergenceOf(const DualGraph& graph, std::span<const double> weights,
@@ -72,6 +83,12 @@ void computeResidual(const PoissonSystem& system, std::span<const double> soluti
 /// ||D^-1 r||, D the diagonal of A: the error of each equation in the unit of the values. Unlike in ||r||, the large
 /// weights of a finely meshed patch do not hide errors elsewhere. residual: #U.
 [[nodiscard]] double residualNorm(const PoissonSystem& system, std::span<const double> residual);
+
+// For solveByRefinement().
+void setFirstGuess(const PoissonSystem& system, std::span<double> solution);
+[[nodiscard]] inline double rightHandNorm(const PoissonSystem& system) {
+  return residualNorm(system, system.rightHandSide);
+}
 
 /// ||D^-1 (b - A x)|| / ||D^-1 b|| in double; 0 for an empty system and for a residual of 0, infinite where only b is
 /// 0.

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/check.h"
 #include "core/parallel.h"
+#include "core/unset_vector.h"
+#include "poisson/graph_equation.h"
+#include "poisson/poisson_system.h"
 
 namespace asdfvk {
 namespace {
@@ -16,9 +18,6 @@ constexpr double kStagnation = 0.5;
 
 }  // namespace
 
-SolverProgress::SolverProgress(const PoissonSystem& system, const SolverOptions& options, const RunControl& control)
-    : control_(control), target_(options.tolerance * residualNorm(system, system.rightHandSide)) {}
-
 void SolverProgress::checkpoint(double residualNorm) {
   if (first_ == 0) first_ = residualNorm;
   if (residualNorm > 0 && target_ > 0 && first_ > target_) {
@@ -28,20 +27,17 @@ void SolverProgress::checkpoint(double residualNorm) {
   control_.checkpoint(fraction_);
 }
 
-SolverReport solveByRefinement(const PoissonSystem& system, const SolverOptions& options, std::span<double> solution,
+template <typename System>
+SolverReport solveByRefinement(const System& system, const SolverOptions& options, std::span<double> solution,
                                const std::vector<Corrector>& correctors) {
-  ASDFVK_CHECK_OP(solution.size(), ==, system.faces.size());
   SolverReport report;
-  if (system.firstGuess.empty())
-    std::fill(solution.begin(), solution.end(), system.constraintMean);
-  else
-    std::copy(system.firstGuess.begin(), system.firstGuess.end(), solution.begin());
-  const double rightHandNorm = residualNorm(system, system.rightHandSide);
-  if (rightHandNorm == 0) {
+  setFirstGuess(system, solution);
+  const double normOfRightHandSide = rightHandNorm(system);
+  if (normOfRightHandSide == 0) {
     std::fill(solution.begin(), solution.end(), 0.0);
     return report;
   }
-  const double target = options.tolerance * rightHandNorm;
+  const double target = options.tolerance * normOfRightHandSide;
   UnsetVector<double> residual(solution.size()), correction(solution.size());
   computeResidual(system, solution, residual);
   double norm = residualNorm(system, residual);
@@ -64,9 +60,14 @@ SolverReport solveByRefinement(const PoissonSystem& system, const SolverOptions&
     }
     if (stagnates) ++corrector;
   }
-  report.relativeResidual = norm == 0 ? 0 : norm / rightHandNorm;
+  report.relativeResidual = norm == 0 ? 0 : norm / normOfRightHandSide;
   report.converged = std::isfinite(target) && norm <= target;
   return report;
 }
+
+template SolverReport solveByRefinement(const PoissonSystem&, const SolverOptions&, std::span<double>,
+                                        const std::vector<Corrector>&);
+template SolverReport solveByRefinement(const GraphEquation&, const SolverOptions&, std::span<double>,
+                                        const std::vector<Corrector>&);
 
 }  // namespace asdfvk

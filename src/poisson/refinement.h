@@ -15,7 +15,9 @@ namespace asdfvk {
 /// factor each time, so the fraction is logarithmic between the first residual and the target. It never decreases.
 class SolverProgress {
  public:
-  SolverProgress(const PoissonSystem& system, const SolverOptions& options, const RunControl& control);
+  /// rightHandNorm: residualNorm() of the right-hand side.
+  SolverProgress(double rightHandNorm, const SolverOptions& options, const RunControl& control)
+      : control_(control), target_(options.tolerance * rightHandNorm) {}
 
   /// residualNorm: ||D^-1 (b - A x)|| as the solver computes it. Throws Error{Cancelled}.
   void checkpoint(double residualNorm);
@@ -48,8 +50,9 @@ struct Corrector {
 /// Iterative refinement (Wilkinson 1963): residuals in double, corrections by the first of the `correctors`, from the
 /// first guess until the true relative residual is within the tolerance or the iteration limit is reached. When a pass
 /// stagnates, the next corrector is used; after the last one the refinement ends. A correction that is not finite or
-/// increases the residual is discarded. solution: #U, overwritten.
-[[nodiscard]] SolverReport solveByRefinement(const PoissonSystem& system, const SolverOptions& options,
+/// increases the residual is discarded. solution: #U, overwritten. System: PoissonSystem or GraphEquation.
+template <typename System>
+[[nodiscard]] SolverReport solveByRefinement(const System& system, const SolverOptions& options,
                                              std::span<double> solution, const std::vector<Corrector>& correctors);
 
 }  // namespace asdfvk

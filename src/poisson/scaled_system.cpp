@@ -18,13 +18,12 @@ constexpr uint32_t kHeadLength = 3;  // Entries in a PoissonRow itself.
 }  // namespace
 
 template <typename Real>
-DiagonalScaling<Real>::DiagonalScaling(const PoissonSystem& system)
-    : system_(system), residualWeights_(system.faces.size()) {
-  const auto rowCount = static_cast<double>(system.faces.size());
-  meanDiagonal_ = orderedSum(system.faces.size(), [&](size_t row) { return system.diagonal[row] / rowCount; });
-  forEachInParallel(system.faces.size(), [&](size_t row) {
-    residualWeights_[row] = static_cast<Real>(meanDiagonal_ / system.diagonal[row]);
-  });
+DiagonalScaling<Real>::DiagonalScaling(std::span<const double> diagonal)
+    : diagonal_(diagonal), residualWeights_(diagonal.size()) {
+  const auto rowCount = static_cast<double>(diagonal.size());
+  meanDiagonal_ = orderedSum(diagonal.size(), [&](size_t row) { return diagonal[row] / rowCount; });
+  forEachInParallel(diagonal.size(),
+                    [&](size_t row) { residualWeights_[row] = static_cast<Real>(meanDiagonal_ / diagonal[row]); });
 }
 
 template <typename Real>
@@ -38,7 +37,7 @@ template <typename Real>
 UnsetVector<Real> DiagonalScaling<Real>::scaleResidual(std::span<const double> residual, double norm) const {
   UnsetVector<Real> scaled(residual.size());
   forEachInParallel(scaled.size(), [&](size_t row) {
-    scaled[row] = static_cast<Real>(residual[row] / norm / std::sqrt(meanDiagonal_) / std::sqrt(system_.diagonal[row]));
+    scaled[row] = static_cast<Real>(residual[row] / norm / std::sqrt(meanDiagonal_) / std::sqrt(diagonal_[row]));
   });
   return scaled;
 }
@@ -49,14 +48,14 @@ void DiagonalScaling<Real>::unscaleCorrection(std::span<const Real> y, double no
   // Two roots instead of the root of the product, which could overflow or underflow.
   const double scale = norm * std::sqrt(meanDiagonal_);
   forEachInParallel(correction.size(), [&](size_t row) {
-    correction[row] = static_cast<double>(y[row]) * (scale / std::sqrt(system_.diagonal[row]));
+    correction[row] = static_cast<double>(y[row]) * (scale / std::sqrt(diagonal_[row]));
   });
 }
 
 template class DiagonalScaling<float>;
 template class DiagonalScaling<double>;
 
-ScaledSystem::ScaledSystem(const PoissonSystem& system) : DiagonalScaling(system), rows_(system.faces.size()) {
+ScaledSystem::ScaledSystem(const PoissonSystem& system) : DiagonalScaling(system.diagonal), rows_(system.faces.size()) {
   const size_t rowCount = system.faces.size();
   const auto lengthOf = [&](size_t row) { return system.rowOffsets[row + 1] - system.rowOffsets[row]; };
   const auto tailLengthOf = [&](size_t row) { return lengthOf(row) - std::min(lengthOf(row), kHeadLength); };

@@ -11,11 +11,12 @@
 namespace asdfvk {
 
 /// Scaling of a Poisson system by its diagonal D: A e = residual becomes (I - S) y = b with S = I - D^-1/2 A D^-1/2,
-/// see shaders/shared/poisson_layout.h. The system must outlive it.
+/// see shaders/shared/poisson_layout.h.
 template <typename Real>
 class DiagonalScaling {
  public:
-  explicit DiagonalScaling(const PoissonSystem& system);
+  /// diagonal: #U, > 0; must outlive it.
+  explicit DiagonalScaling(std::span<const double> diagonal);
 
   /// #U: weights w for which sum w_i r_i^2, r = b - (I - S) y, is the square of residualNorm() of the corresponding
   /// residual of A e = residual.
@@ -31,7 +32,7 @@ class DiagonalScaling {
   [[nodiscard]] static UnsetVector<double> inverseRoots(const PoissonSystem& system);
 
  private:
-  const PoissonSystem& system_;
+  std::span<const double> diagonal_;
   double meanDiagonal_ = 0;
   UnsetVector<Real> residualWeights_;
 };

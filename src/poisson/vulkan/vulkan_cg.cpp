@@ -40,13 +40,20 @@ class VulkanCgSolver final : public PoissonSolver {
 
   SolverReport solve(const PoissonSystem& system, const SolverOptions& options, std::span<double> solution,
                      const RunControl& control) override {
-    const DeviceMethod method{.minReduction = kMinReduction,
-                              .finishesOnCpu = true,
-                              .solve = [this](const DevicePass& pass) { return iterate(pass); }};
-    return solveOnDevice(method, device_, system, options, solution, control);
+    return solveOnDevice(method(), device_, system, options, solution, control);
+  }
+
+  std::unique_ptr<GraphSolver> onGraph(const DualGraph& graph, std::span<const double> weights) override {
+    return makeDeviceGraphSolver(method(), device_, graph, weights);
   }
 
  private:
+  [[nodiscard]] DeviceMethod method() const {
+    return {.minReduction = kMinReduction, .finishesOnCpu = true, .solve = [this](const DevicePass& pass) {
+              return iterate(pass);
+            }};
+  }
+
   DevicePassResult iterate(const DevicePass& pass) const {
     VulkanCg cg(device_, kernels_, pass.matrix, pass.rightHandSide, pass.request.reduction);
     CgState state{};

@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstring>
 #include <optional>
 
 #include "asdf_vk/error.h"
 #include "poisson/cpu_cg.h"
 #include "shared/poisson_layout.h"
+#include "vk/staging_ring.h"
 
 namespace asdfvk {
 namespace {
@@ -93,9 +95,16 @@ VulkanMatrix::VulkanMatrix(const Device& device, const ScaledSystem& system) {
   residualWeights = uploadArray(device, system.residualWeights(), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
 }
 
+void VulkanMatrix::setResidualWeights(const Device& device, std::span<const float> weights) {
+  if (residualWeights.mapped() != nullptr)
+    std::memcpy(residualWeights.mapped(), weights.data(), weights.size_bytes());
+  else
+    device.staging().upload(std::as_bytes(weights), residualWeights);
+}
+
 SolverReport solveOnDevice(const DeviceMethod& method, const Device& device, const PoissonSystem& system,
                            const SolverOptions& options, std::span<double> solution, const RunControl& control) {
-  SolverProgress progress(system, options, control);
+  SolverProgress progress(rightHandNorm(system), options, control);
   const ScaledSystem scaled(system);
   std::optional<VulkanMatrix> matrix;
   std::vector<Corrector> correctors{{method.minReduction, [&](const CorrectionRequest& request) {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -43,6 +44,10 @@ struct VulkanMatrix {
   /// Throws as requireSystemFits().
   VulkanMatrix(const Device& device, const ScaledSystem& system);
 
+  /// Replaces the residual weights, of which there are as many as rows. A row whose weight is 0 is no part of the
+  /// system, nor is its column: its unknown remains 0, if its right-hand side is 0.
+  void setResidualWeights(const Device& device, std::span<const float> weights);
+
   PoissonGrid grid;
   Buffer texelRows, storageRows;  ///< One of them holds the rows.
   TexelView rowTexels;
@@ -67,6 +72,11 @@ struct DeviceMethod {
   bool finishesOnCpu;   ///< makeDoubleCorrector() continues where float32 stagnates.
   std::function<DevicePassResult(const DevicePass& pass)> solve;
 };
+
+/// VulkanMatrix of a graph for all its interpolations; see PoissonSolver::onGraph().
+[[nodiscard]] std::unique_ptr<GraphSolver> makeDeviceGraphSolver(DeviceMethod method, const Device& device,
+                                                                 const DualGraph& graph,
+                                                                 std::span<const double> weights);
 
 /// solveByRefinement() with passes on the device. The matrix is uploaded in the first pass.
 [[nodiscard]] SolverReport solveOnDevice(const DeviceMethod& method, const Device& device, const PoissonSystem& system,
