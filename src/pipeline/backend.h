@@ -66,6 +66,10 @@ struct NamedBackend {
 /// choice to "auto" without a request for Vulkan.
 [[nodiscard]] std::optional<NamedBackend> openNextBackend(const SessionOptions& options, std::string_view failed);
 
+/// For kAutomaticSolver: on the device where it has the storage buffers, but not on a CPU device, which needs more time
+/// than the CPU for the same iterations (docs/speed.md).
+[[nodiscard]] const Solver& automaticSolver(const Backend& backend);
+
 /// Throws Error of kind Device.
 [[nodiscard]] std::unique_ptr<Backend> makeVulkanBackend(const SessionOptions& options);
 

@@ -226,7 +226,7 @@ DeviceReport reportDevice(const SessionOptions& options, const RunControl& contr
     report.choice = traceChoiceFor(device.facts(), {}, test.scene.bvh);
     report.workgroups = workgroupShapeFor(device.facts(), report.rayCount, report.choice.kernel);
     report.walk = walkShapeFor(device.facts());
-    report.defaultSolver = defaultSolver(!vulkan->backend->runsOnCpu()).name;
+    report.defaultSolver = automaticSolver(*vulkan->backend).name;
     testVariants(report, device, test, control);
     testSolvers(report, device, test, control);
     try {

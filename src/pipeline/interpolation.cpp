@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "asdf_vk/error.h"
@@ -16,13 +15,6 @@
 
 namespace asdfvk {
 namespace {
-
-/// Traced values of one component. Components are separate because parts of one mesh may differ in size by any factor.
-struct ComponentValues {
-  double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
-  double mean = 0;
-  uint64_t count = 0;
-};
 
 std::vector<ComponentValues> componentValues(const FaceDomain& domain, std::span<const double> constraints) {
   std::vector<ComponentValues> values(domain.componentCount);
@@ -67,14 +59,15 @@ void keepWithinTraced(const FaceDomain& domain, const std::vector<ComponentValue
 
 }  // namespace
 
-/// A CPU device needs more time than the CPU for the same iterations and predictions (docs/speed.md).
 const Solver& Interpolation::chosenSolver() const {
-  return isAutomatic() ? defaultSolver(!computation_.backend.runsOnCpu()) : findSolver(computation_.options.solver);
+  return isAutomatic() ? automaticSolver(computation_.backend) : findSolver(computation_.options.solver);
 }
 
+/// A CPU device needs more time than the CPU for the same predictions (docs/experiments.md). Fewer storage buffers
+/// suffice than for the solvers.
 bool Interpolation::predictsOnDevice() const {
   return computation_.keepsHits() && computation_.backend.device() != nullptr && !predictorFailed_ &&
-         chosenSolver().needsDevice;
+         (isAutomatic() ? !computation_.backend.runsOnCpu() : chosenSolver().needsDevice);
 }
 
 /// Null where the CPU predicts.
@@ -108,23 +101,23 @@ HitStore* Interpolation::hitStore() {
   return device != nullptr ? device->hitStore() : nullptr;
 }
 
-void Interpolation::predict(const SeedHits& hits) {
+void Interpolation::predict(const SeedHits& hits, const RunControl& control) {
   if (!computation_.keepsHits() || hits.seeds.empty()) return;
   if (DevicePredictor* const device = devicePredictor()) {
     try {
-      return predictWith(device, hits);
+      return predictWith(device, hits, control);
     } catch (const Error& error) {
       continueOnCpu(error);
     }
   }
-  if (!hits.hits.empty()) return predictWith(nullptr, hits);
+  if (!hits.hits.empty()) return predictWith(nullptr, hits, control);
   const std::vector<ConeHit> stored = predictor_->hitStore()->download();
-  predictWith(nullptr, {hits.seeds, stored});
+  predictWith(nullptr, {hits.seeds, stored}, control);
 }
 
-void Interpolation::predictWith(DevicePredictor* device, const SeedHits& hits) {
+void Interpolation::predictWith(DevicePredictor* device, const SeedHits& hits, const RunControl& control) {
   prediction_ = predictValues(computation_.scene, computation_.domain.graph, computation_.cone, hits, {},
-                              std::exchange(prediction_, {}), device);
+                              std::exchange(prediction_, {}), device, control);
 }
 
 Interpolated Interpolation::solve(std::span<const double> constraints, const RunControl& control) {
@@ -138,13 +131,7 @@ Interpolated Interpolation::solve(std::span<const double> constraints, const Run
       needsNone || std::all_of(constraints.begin(), constraints.end(), [](double v) { return std::isfinite(v); });
   if (!hasAll) {
     const std::vector<ComponentValues> traced = componentValues(domain, constraints);
-    const auto buildSystem = [&] {  // Frees the guess before the solution.
-      const std::vector<double> guess = firstGuess(domain, traced, predicted);
-      return buildPoissonSystem(computation_.domain.graph, weights(), constraints, divergence(),
-                                {.firstGuess = guess, .componentOf = domain.componentOf});
-    };
-    const PoissonSystem system = buildSystem();
-    result.solver = solveSystem(system, result.values, control);
+    result.solver = solveEquation(traced, constraints, result.values, control);
     if (!predicted.empty()) keepWithinTraced(domain, traced, predicted, result.values);
   }
   if (const double pooling = computation_.options.interpolation.pooling; pooling > 0)
@@ -177,33 +164,66 @@ std::vector<double> Interpolation::divergence() {
   return {};
 }
 
-SolverReport Interpolation::solveWith(const std::string& name, const PoissonSystem& system, std::span<double> solution,
+PoissonSystem Interpolation::buildSystem(const std::vector<ComponentValues>& traced,
+                                         std::span<const double> constraints) {
+  const std::vector<double> guess = firstGuess(computation_.domain, traced, prediction_.values);
+  return buildPoissonSystem(computation_.domain.graph, weights(), constraints, divergence(),
+                            {.firstGuess = guess, .componentOf = computation_.domain.componentOf});
+}
+
+/// Null where the solver has none, or where the equation has few of the rows of the graph.
+GraphSolver* Interpolation::graphSolver(PoissonSolver& solver, size_t unknownCount) {
+  const DualGraph& graph = computation_.domain.graph;
+  if (2 * unknownCount < graph.faceCount()) return nullptr;
+  if (solver_ != &solver) {
+    graphSolver_.reset();
+    graphSolver_ = solver.onGraph(graph, weights());
+    solver_ = &solver;
+  }
+  return graphSolver_.get();
+}
+
+SolverReport Interpolation::solveWith(const std::string& name, const std::vector<ComponentValues>& traced,
+                                      std::span<const double> constraints, std::vector<double>& values,
                                       const RunControl& control) {
+  const FaceDomain& domain = computation_.domain;
+  const uint64_t unknownCount = countInParallel(constraints.size(), [&](uint32_t face) {
+    return !std::isfinite(constraints[face]) && traced[domain.componentOf[face]].count > 0;
+  });
+  if (unknownCount == 0) return {.name = "none"};
   std::unique_ptr<PoissonSolver>& solver = computation_.solvers[name];
   if (!solver) solver = makeSolver(name, computation_.backend.device());
-  SolverReport report = solver->solve(system, computation_.options.solverOptions, solution, control);
+  const SolverOptions& options = computation_.options.solverOptions;
+  SolverReport report;
+  if (GraphSolver* const onGraph = graphSolver(*solver, unknownCount)) {
+    const std::vector<double> guess = firstGuess(domain, traced, prediction_.values), divergence = this->divergence();
+    report = onGraph->solve({constraints, divergence, guess, domain.componentOf}, options, values, control);
+  } else {
+    const PoissonSystem system = buildSystem(traced, constraints);
+    std::vector<double> solution(system.unknownCount());
+    report = solver->solve(system, options, solution, control);
+    for (size_t i = 0; i < solution.size(); ++i) values[system.faces[i]] = solution[i];
+  }
   report.name = name;
   return report;
 }
 
-SolverReport Interpolation::solveSystem(const PoissonSystem& system, std::vector<double>& values,
-                                        const RunControl& control) {
-  if (system.unknownCount() == 0) return {.name = "none"};
-  const std::string name = isAutomatic() ? chosenSolver().name : computation_.options.solver;
-  std::vector<double> solution(system.unknownCount());
-  SolverReport report;
+/// Writes the values of the unknown faces.
+SolverReport Interpolation::solveEquation(const std::vector<ComponentValues>& traced,
+                                          std::span<const double> constraints, std::vector<double>& values,
+                                          const RunControl& control) {
   try {
-    report = solveWith(name, system, solution, control);
+    const std::string name = isAutomatic() ? chosenSolver().name : computation_.options.solver;
+    return solveWith(name, traced, constraints, values, control);
   } catch (const Error& error) {
     if (!isAutomatic() || error.kind() != ErrorKind::Device) throw;
+    solver_ = nullptr;
     computation_.warnings.push_back(
         {WarningCode::SolvedOnCpu,
          fmt::format("the CPU solved the equation because the device failed: {}", error.what()),
          {}});
-    report = solveWith(defaultSolver(false).name, system, solution, control);
+    return solveWith(defaultSolver(false).name, traced, constraints, values, control);
   }
-  for (size_t i = 0; i < solution.size(); ++i) values[system.faces[i]] = solution[i];
-  return report;
 }
 
 }  // namespace asdfvk

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "asdf_vk/error.h"
@@ -16,6 +19,13 @@ struct Interpolated {
   SolverReport solver;         ///< Its name is "none" where there was nothing to solve.
 };
 
+/// Traced values of one component. Components are separate because parts of one mesh may differ in size by any factor.
+struct ComponentValues {
+  double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
+  double mean = 0;
+  uint64_t count = 0;
+};
+
 /// Interpolation on one mesh, for any sets of seeds.
 class Interpolation {
  public:
@@ -26,8 +36,8 @@ class Interpolation {
   /// Where the device that predicts keeps the hits of seeds; null where the host must keep them.
   [[nodiscard]] HitStore* hitStore();
   /// Predicts all faces from the hits of these seeds, or from those in hitStore(); where hits are not kept it does
-  /// nothing. Seeds of an earlier call must be at the same indices of hits.seeds.
-  void predict(const SeedHits& hits);
+  /// nothing. Seeds of an earlier call must be at the same indices of hits.seeds. Throws Error{Cancelled}.
+  void predict(const SeedHits& hits, const RunControl& control);
   /// The last one; empty without Guidance::Prediction.
   [[nodiscard]] const Prediction& prediction() const { return prediction_; }
 
@@ -40,15 +50,21 @@ class Interpolation {
   [[nodiscard]] bool predictsOnDevice() const;
   DevicePredictor* devicePredictor();
   void continueOnCpu(const Error& failure);
-  void predictWith(DevicePredictor* device, const SeedHits& hits);
+  void predictWith(DevicePredictor* device, const SeedHits& hits, const RunControl& control);
   [[nodiscard]] const std::vector<double>& weights();
   [[nodiscard]] std::vector<double> divergence();
-  SolverReport solveWith(const std::string& solver, const PoissonSystem& system, std::span<double> solution,
-                         const RunControl& control);
-  SolverReport solveSystem(const PoissonSystem& system, std::vector<double>& values, const RunControl& control);
+  [[nodiscard]] PoissonSystem buildSystem(const std::vector<ComponentValues>& traced,
+                                          std::span<const double> constraints);
+  [[nodiscard]] GraphSolver* graphSolver(PoissonSolver& solver, size_t unknownCount);
+  SolverReport solveEquation(const std::vector<ComponentValues>& traced, std::span<const double> constraints,
+                             std::vector<double>& values, const RunControl& control);
+  SolverReport solveWith(const std::string& solver, const std::vector<ComponentValues>& traced,
+                         std::span<const double> constraints, std::vector<double>& values, const RunControl& control);
 
   const Computation& computation_;
   std::vector<double> weights_;  ///< One per arc of the dual graph; computed lazily, so that tracing does not hold it.
+  std::unique_ptr<GraphSolver> graphSolver_;  ///< Created at first use; of solver_.
+  const PoissonSolver* solver_ = nullptr;
   Prediction prediction_;
   std::unique_ptr<DevicePredictor> predictor_;  ///< Created at first use; kept after a failure, for its hits.
   bool predictorFailed_ = false;

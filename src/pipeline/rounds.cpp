@@ -76,7 +76,7 @@ class Rounds {
   void runRound(uint64_t count, bool isLast, const RunControl& control);
   void traceSampled(const SeedShares& shares, std::span<const double> density, const RunControl& control);
   void sortSampled();
-  [[nodiscard]] std::vector<double> indicateErrors(Stage stage);
+  [[nodiscard]] std::vector<double> indicateErrors(Stage stage, const RunControl& control);
   std::vector<uint32_t> traceByPrediction(const SeedShares& shares, std::span<const double> indicator,
                                           const RunControl& control);
   [[nodiscard]] std::vector<double> solveWithoutHeldOut(std::span<const uint32_t> extremes, const RunControl& control);
@@ -115,7 +115,7 @@ void Rounds::runRound(uint64_t count, bool isLast, const RunControl& control) {
   if (samplerOf(options_).refine && predicts && roundCount_ == 0 && count < remainingCount()) {
     const uint64_t refiningCount = shares.sampled / 2;
     traceSampled({.sampled = shares.sampled - refiningCount}, {}, control.part(0, kTracedProgress / 2));
-    const std::vector<double> density = indicateErrors(Stage::Sample);
+    const std::vector<double> density = indicateErrors(Stage::Sample, control.withoutProgress());
     traceSampled({.sampled = refiningCount}, density, control.part(kTracedProgress / 2, kTracedProgress));
   } else {
     traceSampled({.sampled = shares.sampled, .heldOut = predicts ? 0 : shares.heldOut}, {},
@@ -125,7 +125,7 @@ void Rounds::runRound(uint64_t count, bool isLast, const RunControl& control) {
   std::vector<double> indicator;
   std::vector<uint32_t> extremes;
   if (estimates && predicts) {
-    indicator = indicateErrors(Stage::Estimate);
+    indicator = indicateErrors(Stage::Estimate, control.part(kTracedProgress, kIndicatorProgress));
     control.checkpoint(kIndicatorProgress);
     extremes = traceByPrediction(shares, indicator, control.part(kIndicatorProgress, kHeldOutTracedProgress));
   }
@@ -135,7 +135,7 @@ void Rounds::runRound(uint64_t count, bool isLast, const RunControl& control) {
     withoutHeldOut = solveWithoutHeldOut(extremes, control.part(kHeldOutTracedProgress, kHeldOutSolvedProgress));
   {
     const auto scope = clock_.time(Stage::Predict);
-    interpolation_.predict({traced_.faces, traced_.hits});
+    interpolation_.predict({traced_.faces, traced_.hits}, control.part(kHeldOutSolvedProgress, kPredictedProgress));
   }
   control.checkpoint(kPredictedProgress);
   {
@@ -182,12 +182,12 @@ void Rounds::sortSampled() {
 }
 
 /// The error indicator, #F, from a prediction without the held-out faces. stage: to be charged.
-std::vector<double> Rounds::indicateErrors(Stage stage) {
+std::vector<double> Rounds::indicateErrors(Stage stage, const RunControl& control) {
   const auto scope = clock_.time(stage);
   std::vector<uint32_t> faces = traced_.faces;
   for (uint32_t& face : faces)
     if (std::binary_search(sampled_.heldOut.begin(), sampled_.heldOut.end(), face)) face = kNoFace;
-  interpolation_.predict({faces, traced_.hits});
+  interpolation_.predict({faces, traced_.hits}, control);
   return errorIndicator(interpolation_.prediction(), faces, traced_.values);
 }
 

@@ -19,8 +19,8 @@ namespace {
 // Part of the progress of tracing with Measure::Thickness.
 constexpr double kTracedBeforeThickness = 0.7;
 
-// Hits that the host holds at a time where a device keeps them.
-constexpr size_t kStoredBlockByteCount = size_t{16} << 20;
+// Hits that the host holds at a time where only the thickness needs them there.
+constexpr size_t kPassingByteCount = size_t{16} << 20;
 
 /// Returns freed memory to the system: libraries free many small pieces, and later steps need large ones.
 void returnFreedMemory() {
@@ -55,8 +55,9 @@ SeedTracing::~SeedTracing() {
 
 void SeedTracing::trace(std::span<const uint32_t> faces, TracedSeeds& traced, const RunControl& control) {
   const size_t byteCountPerSeed = computation_.cone.directions.size() * sizeof(ConeHit);
+  const bool keepsOnHost = computation_.keepsHits() && hitStore_ == nullptr;
   const size_t blockSize =
-      hitStore_ != nullptr ? std::max<size_t>(1, kStoredBlockByteCount / byteCountPerSeed) : faces.size();
+      shrinker_ && !keepsOnHost ? std::max<size_t>(1, kPassingByteCount / byteCountPerSeed) : faces.size();
   size_t begin = 0;
   do {
     const size_t count = std::min(blockSize, faces.size() - begin);
@@ -75,12 +76,12 @@ void SeedTracing::traceBlock(std::span<const uint32_t> faces, TracedSeeds& trace
   std::vector<ConeHit> passing;
   if (isKept)
     traced.hits.resize(earlierHitCount + hitCount);
-  else if (shrinker_ || hitStore_ != nullptr)
+  else if (shrinker_)
     passing.resize(hitCount);
   const std::span<ConeHit> hits = isKept ? std::span(traced.hits).subspan(earlierHitCount) : std::span(passing);
   const double traceEnd = shrinker_ ? kTracedBeforeThickness : 1;
-  const TraceStatistics statistics = tracer_->tracer->trace(faces, {values, hits}, control.part(0, traceEnd));
-  if (hitStore_ != nullptr) store(hits, traced);
+  const TraceStatistics statistics =
+      tracer_->tracer->trace(faces, {values, hits, hitStore_}, control.part(0, traceEnd));
   if (shrinker_) measureThickness(faces, hits, traced, control.part(traceEnd, 1));
   traced.statistics.rayCount += statistics.rayCount;
   traced.statistics.redoneConeCount += statistics.redoneConeCount;
@@ -118,17 +119,8 @@ void SeedTracing::reserveStored(TracedSeeds& traced, size_t furtherCount) {
     hitStore_->reserve(furtherCount);
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::Device) throw;
-    traced.hits = std::exchange(hitStore_, nullptr)->download();
-  }
-}
-
-void SeedTracing::store(std::span<const ConeHit> hits, TracedSeeds& traced) {
-  try {
-    hitStore_->append(hits);
-  } catch (const Error& error) {
-    if (error.kind() != ErrorKind::Device) throw;
-    traced.hits = std::exchange(hitStore_, nullptr)->download();
-    traced.hits.insert(traced.hits.end(), hits.begin(), hits.end());
+    traced.hits = hitStore_->download();
+    std::exchange(hitStore_, nullptr)->release();
   }
 }
 

@@ -36,7 +36,6 @@ class SeedTracing {
 
  private:
   void reserveStored(TracedSeeds& traced, size_t furtherCount);
-  void store(std::span<const ConeHit> hits, TracedSeeds& traced);
   void traceBlock(std::span<const uint32_t> faces, TracedSeeds& traced, const RunControl& control);
   void measureThickness(std::span<const uint32_t> faces, std::span<const ConeHit> hits, TracedSeeds& traced,
                         const RunControl& control);

@@ -116,6 +116,13 @@ class VulkanBackend final : public Backend {
 
 }  // namespace
 
+const Solver& automaticSolver(const Backend& backend) {
+  const Solver& onDevice = defaultSolver(true);
+  const bool usesDevice = backend.device() != nullptr && !backend.runsOnCpu() &&
+                          backend.device()->facts().maxStorageBuffersPerStage >= onDevice.storageBufferCount;
+  return usesDevice ? onDevice : defaultSolver(false);
+}
+
 std::unique_ptr<Backend> makeVulkanBackend(const SessionOptions& options) {
   const LavapipeThreads threads;
   return std::make_unique<VulkanBackend>(options);

@@ -22,9 +22,9 @@ constexpr size_t kBlockSize = 128;
 /// points of their seeds.
 class CellPredictor {
  public:
-  /// Both must outlive it.
-  CellPredictor(const PredictionTask& task, const Prediction& earlier)
-      : task_(task), earlier_(earlier), points_(task.scene, task.cone, task.hits), kernel_(task.cone) {
+  /// The task must outlive it.
+  explicit CellPredictor(const PredictionTask& task)
+      : task_(task), points_(task.scene, task.cone, task.hits), kernel_(task.cone) {
     weighting_.inverseAngleVariance = 1 / (kNormalDeviationRadians * kNormalDeviationRadians);
   }
 
@@ -48,7 +48,6 @@ class CellPredictor {
   [[nodiscard]] double valueAt(const VirtualCone& at, float minWeightShare);
 
   const PredictionTask& task_;
-  const Prediction& earlier_;
   HitPoints points_;
   PredictionKernel kernel_;
   struct CachedHits {
@@ -110,11 +109,10 @@ HitRange CellPredictor::hitsOf(uint32_t seed) {
 void CellPredictor::reuseEarlier(uint32_t cell, std::vector<double>& values) {
   const std::span<const uint32_t> faces = task_.cells.faces[cell];
   remainingFaces_.assign(faces.begin(), faces.end());
-  if (cell >= earlier_.nearest.cellCount() || !std::ranges::equal(earlier_.nearest.of(cell), task_.nearest.of(cell)))
-    return;
+  if (!task_.hasEarlierSeeds(cell)) return;
   std::erase_if(remainingFaces_, [&](uint32_t face) {
-    const bool isSame = earlier_.cellOf[face] == cell;
-    if (isSame) values[face] = earlier_.values[face];
+    const bool isSame = task_.earlier.cellOf[face] == cell;
+    if (isSame) values[face] = task_.earlier.values[face];
     return isSame;
   });
 }
@@ -183,11 +181,11 @@ std::vector<uint32_t> cellsInOrder(const TraceScene& scene, std::span<const uint
   return order;
 }
 
-void predictOnCpu(const PredictionTask& task, const Prediction& earlier, std::vector<double>& values) {
+void predictOnCpu(const PredictionTask& task, std::vector<double>& values) {
   const std::span<const uint32_t> order = task.order;
   const size_t blockCount = (order.size() + kBlockSize - 1) / kBlockSize;
   tbb::parallel_for(tbb::blocked_range<size_t>(0, blockCount), [&](const tbb::blocked_range<size_t>& range) {
-    CellPredictor predictor(task, earlier);
+    CellPredictor predictor(task);
     for (size_t block = range.begin(); block < range.end(); ++block) {
       const size_t first = block * kBlockSize;
       predictor.run(order.subspan(first, std::min(kBlockSize, order.size() - first)), values);
@@ -197,8 +195,13 @@ void predictOnCpu(const PredictionTask& task, const Prediction& earlier, std::ve
 
 }  // namespace
 
+bool PredictionTask::hasEarlierSeeds(uint32_t cell) const {
+  return cell < earlier.nearest.cellCount() && std::ranges::equal(earlier.nearest.of(cell), nearest.of(cell));
+}
+
 Prediction predictValues(const TraceScene& scene, const DualGraph& graph, const Cone& cone, const SeedHits& hits,
-                         const PredictionOptions& options, Prediction earlier, DevicePredictor* device) {
+                         const PredictionOptions& options, Prediction earlier, DevicePredictor* device,
+                         const RunControl& control) {
   if (device == nullptr || !hits.hits.empty())
     ASDFVK_CHECK_OP(hits.hits.size(), ==, hits.seeds.size() * cone.directions.size());
   SeedCells cells = buildSeedCells(graph, hits.seeds);
@@ -206,11 +209,11 @@ Prediction predictValues(const TraceScene& scene, const DualGraph& graph, const 
                         {},
                         NearestCells(cells, graph, scene.geometry, hits.seeds, options.neighbourCount)};
   const std::vector<uint32_t> order = cellsInOrder(scene, hits.seeds, cells);
-  const PredictionTask task{scene, cone, hits, cells, prediction.nearest, options, order};
+  const PredictionTask task{scene, cone, hits, cells, prediction.nearest, options, order, earlier};
   if (device != nullptr)
-    device->predict(task, prediction.values);
+    device->predict(task, prediction.values, control);
   else
-    predictOnCpu(task, earlier, prediction.values);
+    predictOnCpu(task, prediction.values);
   prediction.cellOf = std::move(cells.cellOf);
   return prediction;
 }

@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "asdf_vk/run_control.h"
 #include "predict/seed_cells.h"
 #include "trace/traced_seeds.h"
 
@@ -40,6 +41,11 @@ struct PredictionTask {
   const NearestCells& nearest;
   const PredictionOptions& options;
   std::span<const uint32_t> order;  ///< The cells that are not empty; neighbours in space are close to each other.
+  const Prediction& earlier;        ///< See predictValues().
+
+  /// Whether the same seeds as in the earlier prediction contribute to the faces of a cell. The faces that are in it
+  /// again have the same values.
+  [[nodiscard]] bool hasEarlierSeeds(uint32_t cell) const;
 };
 
 /// Predicts the faces of one scene on a device instead of on the CPU.
@@ -51,15 +57,16 @@ class DevicePredictor {
   [[nodiscard]] virtual HitStore* hitStore() { return nullptr; }
 
   /// Writes the values of all faces that belong to a cell. values: #F. Two calls with the same hits give the same bits.
-  /// Throws Error of kind Device, also for more neighbours than the device supports.
-  virtual void predict(const PredictionTask& task, std::span<double> values) = 0;
+  /// Throws Error{Cancelled} between submissions, and Error of kind Device, also for more neighbours than the device
+  /// supports.
+  virtual void predict(const PredictionTask& task, std::span<double> values, const RunControl& control) = 0;
 };
 
 /// The result does not depend on the number of threads. earlier: empty, or a prediction of the same scene, cone and
 /// options; seeds that still exist have the same indices in `hits`. Unchanged values are copied from it. device: null
-/// to predict on the CPU; else `earlier` is not used. Throws as the device.
+/// to predict on the CPU, which runs to its end. Throws as the device.
 [[nodiscard]] Prediction predictValues(const TraceScene& scene, const DualGraph& graph, const Cone& cone,
                                        const SeedHits& hits, const PredictionOptions& options, Prediction earlier = {},
-                                       DevicePredictor* device = nullptr);
+                                       DevicePredictor* device = nullptr, const RunControl& control = {});
 
 }  // namespace asdfvk

@@ -44,12 +44,17 @@ struct TraceStatistics {
   std::optional<double> deviceSeconds = {};  ///< Time that the device was busy. Unset without timestamps or a device.
 };
 
+class HitStore;  // traced_seeds.h
+
 /// Output arrays for N cones of R rays.
 struct ConeResults {
   std::span<double> values;  ///< N.
   /// The nearest hit of each ray, rejected hits included: N x R, ray r of cone i (in the order of Cone::directions) at
   /// i R + r. Empty: hits are not written.
   std::span<ConeHit> hits = {};
+  /// Null, or receives the hits of the cones as further seeds, in their order. Only for a tracer on the device of the
+  /// store. Precondition: memory for N seeds is reserved.
+  HitStore* store = nullptr;
 };
 
 inline constexpr ConeHit kMiss{std::bit_cast<float>(kMissDistanceBits), kNoFace};

@@ -14,17 +14,22 @@ struct ThicknessStatistics {
   uint64_t redoneBallCount = 0;  ///< See BallShrinker::shrink().
 };
 
-/// Keeps the hits of seeds in the memory of a device, so that the host needs none for them.
+class VulkanHitStore;
+
+/// Keeps the hits of seeds in the memory of a device, so that the host needs none for them. A tracer of that device
+/// adds them: ConeResults::store.
 class HitStore {
  public:
   virtual ~HitStore() = default;
 
   /// Memory for the hits of further seeds. Throws Error of kind Device, and then is as before.
   virtual void reserve(size_t furtherSeedCount) = 0;
-  /// Adds seeds. hits: as ConeResults::hits. Throws as reserve().
-  virtual void append(std::span<const ConeHit> hits) = 0;
   /// Of all seeds. Throws Error of kind Device.
   [[nodiscard]] virtual std::vector<ConeHit> download() const = 0;
+  /// Frees the memory; no seed is left.
+  virtual void release() = 0;
+  /// For tracers of Vulkan.
+  [[nodiscard]] virtual VulkanHitStore* onVulkan() = 0;
 };
 
 /// Seed faces and their results.

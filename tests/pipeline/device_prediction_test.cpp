@@ -56,8 +56,9 @@ class GpuBackend final : public Backend {
       if (furtherSeedCount < 100) throw Error(ErrorCode::OutOfDeviceMemory, "no memory is left");
       store_.reserve(furtherSeedCount);
     }
-    void append(std::span<const ConeHit> hits) override { store_.append(hits); }
     [[nodiscard]] std::vector<ConeHit> download() const override { return store_.download(); }
+    void release() override { store_.release(); }
+    [[nodiscard]] VulkanHitStore* onVulkan() override { return store_.onVulkan(); }
 
    private:
     HitStore& store_;
@@ -71,8 +72,11 @@ class GpuBackend final : public Backend {
       if (kind_ == Predictor::Fails) return nullptr;
       return kind_ == Predictor::HasNoMemory ? &smallStore_ : predictor_->hitStore();
     }
-    void predict(const PredictionTask& task, std::span<double> values) override {
-      if (kind_ == Predictor::HasNoMemory) return predictor_->predict(task, values);
+    void predict(const PredictionTask& task, std::span<double> values, const RunControl& control) override {
+      if (kind_ == Predictor::HasNoMemory) {
+        CHECK(predictor_->hitStore()->download().empty());  // Released.
+        return predictor_->predict(task, values, control);
+      }
       CHECK(task.hits.hits.empty() == (kind_ == Predictor::FailsWithHits));
       std::fill(values.begin(), values.end(), 1.0);
       throw Error(ErrorCode::DeviceLost, "this device was lost");

@@ -5,10 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <ranges>
+#include <stop_token>
 #include <string>
 #include <vector>
 
 #include "asdf_vk/error.h"
+#include "core/check.h"
 #include "generate/shapes.h"
 #include "predict/seeded_mesh.h"
 #include "shared/prediction_layout.h"
@@ -190,15 +193,24 @@ TEST_CASE("hits on the device, added in parts, give the predictions of hits on t
   const VulkanPredictionKernels kernels = kernelsFor(*device, seeded.cone);
   const auto predictor = makeVulkanPredictor(kernels, seeded.scene(), seeded.cone, {50, 1000});
   const std::vector<double> expected = predictOn(seeded, {}, predictor.get());
-  HitStore* const store = predictor->hitStore();
-  REQUIRE(store != nullptr);
-  CHECK(store->download().empty());
+  VulkanHitStore& store = *predictor->hitStore()->onVulkan();
+  CHECK(store.download().empty());
   const size_t rayCount = seeded.cone.directions.size();
-  store->reserve(10);
-  store->append({});
-  for (size_t begin = 0, count = 1; begin < 300; begin += count, count = std::min(2 * count, 300 - begin))
-    store->append(std::span(seeded.hits).subspan(begin * rayCount, count * rayCount));
-  const std::vector<ConeHit> stored = store->download();
+  store.write({}, {});
+  for (size_t begin = 0, count = 1; begin < 300; begin += count, count = std::min(2 * count, 300 - begin)) {
+    std::vector<uint32_t> places(count);  // In reverse order.
+    std::vector<ConeHit> hits;
+    for (size_t i = 0; i < count; ++i) {
+      places[i] = static_cast<uint32_t>(count - 1 - i);
+      const std::span<const ConeHit> own = seeded.seedHits().of(static_cast<uint32_t>(begin + places[i]));
+      hits.insert(hits.end(), own.begin(), own.end());
+    }
+    store.reserve(count);
+    store.write(places, hits);
+    store.addSeeds(count);
+  }
+  CHECK_THROWS_AS(store.addSeeds(300), CheckFailure);
+  const std::vector<ConeHit> stored = store.download();
   REQUIRE(stored.size() == seeded.hits.size());
   CHECK(test::haveSameBits(stored, seeded.hits));
   const SeedHits hits{seeded.seeds, {}};
@@ -208,9 +220,98 @@ TEST_CASE("hits on the device, added in parts, give the predictions of hits on t
   CHECK(test::haveSameBits(values(), expected));
   CHECK(test::haveSameBits(predictOn(seeded, {}, predictor.get()), expected));
   CHECK(test::haveSameBits(values(), expected));
-  test::requireFailure([&] { store->reserve(device->facts().maxStorageBufferRange); }, ErrorCode::DeviceLimit,
+  test::requireFailure([&] { store.reserve(device->facts().maxStorageBufferRange); }, ErrorCode::DeviceLimit,
                        "hits are too many");
-  CHECK(store->download().size() == seeded.hits.size());
+  CHECK(store.download().size() == seeded.hits.size());
+  CHECK(store.buffer().byteCount() >= 300 * rayCount * sizeof(ConeHit));
+  store.release();
+  CHECK(store.download().empty());
+  CHECK(store.buffer().byteCount() == 0);
+}
+
+TEST_CASE("a store of hits grows to the largest allocation of the device") {
+  const Instance instance({.validation = true});
+  DeviceFacts facts = describeDevice(instance.physicalDevices().front());
+  facts.maxMemoryAllocationSize = 1000 * 30 * sizeof(ConeHit);
+  const Device device(instance.physicalDevices().front(), facts);
+  const VulkanHitStoreKernel kernel(device);
+  VulkanHitStore store(kernel, 30);
+  store.reserve(900);
+  store.addSeeds(900);
+  store.reserve(100);  // A quarter more than 900 would be too large.
+  test::requireFailure([&] { store.reserve(101); }, ErrorCode::DeviceLimit, "30030 hits are too many");
+  CHECK(instance.validationLog()->messages().empty());
+}
+
+TEST_CASE("the device, too, copies the values of faces whose seeds are the same as before, and predicts the others") {
+  const test::ValidatedDevice device;
+  const SeededMesh seeded(makeAnimal(3000).mesh, 300);
+  const VulkanPredictionKernels kernels = kernelsFor(*device, seeded.cone);
+  std::vector<uint32_t> fewer = seeded.seeds;
+  for (size_t i = 0; i < fewer.size(); i += 20) fewer[i] = kNoFace;
+  // Cells of a few seeds are in several batches of one face.
+  for (const PredictionBatchSize& size : {PredictionBatchSize{7, 1}, PredictionBatchSize{1000, 4000}}) {
+    const auto predictor = makeVulkanPredictor(kernels, seeded.scene(), seeded.cone, size);
+    const auto predict = [&](std::span<const uint32_t> seeds, Prediction earlier) {
+      return predictValues(seeded.scene(), seeded.graph, seeded.cone, {seeds, seeded.hits}, {}, std::move(earlier),
+                           predictor.get());
+    };
+    const Prediction first = predict(fewer, {}), expected = predict(seeded.seeds, {});
+    CHECK_FALSE(test::haveSameBits(first.values, expected.values));
+    CHECK(test::haveSameBits(predict(seeded.seeds, first).values, expected.values));
+    Prediction marked = first;
+    std::ranges::fill(marked.values, 7.0);
+    const Prediction partly = predict(seeded.seeds, marked);
+    size_t keptCount = 0;
+    for (uint32_t face = 0; face < expected.values.size(); ++face) {
+      const uint32_t cell = expected.cellOf[face];
+      const bool isKept =
+          first.cellOf[face] == cell && std::ranges::equal(first.nearest.of(cell), expected.nearest.of(cell));
+      keptCount += isKept;
+      if (isKept || !std::isnan(expected.values[face]))
+        CHECK(partly.values[face] == (isKept ? 7.0 : expected.values[face]));
+      else
+        CHECK(std::isnan(partly.values[face]));
+    }
+    CHECK(keptCount > 500);
+    CHECK(keptCount < 2500);
+  }
+}
+
+TEST_CASE("a stop ends a prediction on the device between submissions") {
+  const test::ValidatedDevice device;
+  const SeededMesh seeded(makeAnimal(2000).mesh, 200);
+  const VulkanPredictionKernels kernels = kernelsFor(*device, seeded.cone);
+  const auto predictor = makeVulkanPredictor(kernels, seeded.scene(), seeded.cone, {100, 200});
+  const auto predict = [&](const RunControl& control) {
+    return predictValues(seeded.scene(), seeded.graph, seeded.cone, seeded.seedHits(), {}, {}, predictor.get(), control)
+        .values;
+  };
+  std::vector<double> fractions;
+  std::stop_source stop;
+  const auto record = [&](double fraction) { fractions.push_back(fraction); };
+  const std::vector<double> expected = predict({{}, record});
+  CHECK(fractions.size() >= 11);
+  CHECK(std::ranges::is_sorted(fractions));
+  CHECK(fractions.back() == 1);
+  fractions.clear();
+  const RunControl stopping{stop.get_token(), [&](double fraction) {
+                              record(fraction);
+                              if (fraction > 0.3) stop.request_stop();
+                            }};
+  test::requireFailure([&] { (void)predict(stopping); }, ErrorCode::Cancelled);
+  CHECK(fractions.back() < 0.6);
+  CHECK(test::haveSameBits(predict({}), expected));
+}
+
+TEST_CASE("the number of faces of one submission depends on the number of rays") {
+  const test::ValidatedDevice device;
+  for (const uint32_t rayCount : {1u, 30u, 1024u}) {
+    const PredictionBatchSize size = predictionBatchSize({*device, Definition::Paper, rayCount});
+    CHECK(size.maxFaceCount * rayCount <= (1u << 23));
+    CHECK(size.maxFaceCount >= 8192);
+    CHECK(size.maxFaceCount <= (1u << 18));
+  }
 }
 
 TEST_CASE("the device, too, ignores points on the face itself") {

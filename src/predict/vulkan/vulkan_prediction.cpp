@@ -12,14 +12,15 @@
 #include "asdf_vk/error.h"
 #include "core/check.h"
 #include "core/parallel.h"
+#include "core/stopwatch.h"
 #include "core/unset_vector.h"
 #include "predict/prediction_kernel.h"
-#include "predict/vulkan/vulkan_hit_store.h"
 #include "shared/cone_hit.h"
 #include "shared/cone_layout.h"
 #include "shared/prediction_layout.h"
 #include "spirv/hit_points.comp.h"
 #include "spirv/predict_faces.comp.h"
+#include "trace/chunks.h"
 #include "vk/command_list.h"
 #include "vk/shared_buffer.h"
 
@@ -27,9 +28,10 @@ namespace asdfvk {
 namespace {
 
 constexpr uint64_t kMaxPointByteCount = 32u << 20;
+// A face costs time in proportion to the number of rays.
+constexpr size_t kFirstBatchRayCount = size_t{1} << 18, kMaxBatchRayCount = size_t{1} << 23;
 constexpr size_t kMaxBatchFaceCount = size_t{1} << 18;
 constexpr uint32_t kMinPointLaneCount = 32, kMaxPointLaneCount = 128;  // 128: every device has them.
-constexpr uint64_t kMaxKernelIterationCount = kMaxLoopIterationCount / 10 * 9;
 constexpr VkBufferUsageFlags kStorage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
 
 glsl::vec3 toGlsl(const Vec3d& v) {
@@ -42,15 +44,12 @@ uint32_t divideUp(size_t dividend, uint32_t divisor) {
 
 VkBool32 isCgal(Definition definition) { return definition == Definition::Cgal ? VK_TRUE : VK_FALSE; }
 
-/// Throws where the driver might end the loops of predict_faces.comp.
-const Device& requireLoops(const Device& device, Definition definition, uint32_t rayCount) {
-  const uint32_t passCount = 3 + kMedianPassCount + (definition == Definition::Cgal ? kSpreadPassCount : 0);
-  const uint64_t iterationCount = uint64_t{passCount} * kMaxContributingSeedCount * (rayCount + rayCount / 64 + 2);
-  if (device.facts().endsLongLoops && iterationCount > kMaxKernelIterationCount)
-    throw Error(ErrorCode::DeviceLimit, fmt::format("{} rays take {} loop iterations and {} allows {}", rayCount,
-                                                    iterationCount, device.facts().name, kMaxKernelIterationCount));
-  return device;
+/// Loop iterations of a lane of predict_faces.comp, at most.
+constexpr uint64_t maxIterationCount(uint64_t rayCount) {
+  const uint32_t passCount = 3 + kMedianPassCount + kSpreadPassCount;
+  return passCount * kMaxContributingSeedCount * (rayCount + rayCount / 64 + 2);
 }
+static_assert(maxIterationCount(kMaxRayCount) <= kMaxLoopIterationCount / 10 * 9);  // DeviceFacts::endsLongLoops
 
 ComputePipelineDescription describePoints(Definition definition, uint32_t rayCount) {
   const uint32_t laneCount = std::clamp(std::bit_ceil(rayCount), kMinPointLaneCount, kMaxPointLaneCount);
@@ -81,24 +80,6 @@ Buffer uploadFaces(const Device& device, const TraceScene& scene) {
   return uploadBuffer(device, std::as_bytes(std::span(faces)), kStorage);
 }
 
-/// Cells whose faces are predicted together; the last one may continue in the next batch.
-struct Batch {
-  struct Part {
-    uint32_t cell, firstFace, faceCount;
-    uint32_t firstItem;
-  };
-
-  std::vector<Part> parts;
-  std::vector<uint32_t> seeds;  ///< Those that contribute.
-  size_t faceCount = 0;
-
-  void clear() {
-    parts.clear();
-    seeds.clear();
-    faceCount = 0;
-  }
-};
-
 class VulkanPredictor final : public DevicePredictor {
  public:
   VulkanPredictor(const VulkanPredictionKernels& kernels, const TraceScene& scene, const Cone& cone,
@@ -108,7 +89,7 @@ class VulkanPredictor final : public DevicePredictor {
         cone_(cone),
         batchSize_(batchSize),
         rules_(PredictionKernel::rulesOf(cone)),
-        store_(kernels.device(), kernels.rayCount()),
+        store_(kernels.store(), kernels.rayCount()),
         faces_(uploadFaces(kernels.device(), scene)),
         values_(kernels.device(), std::max<uint64_t>(16, scene.geometry.areas.size() * sizeof(uint32_t)),
                 kStorage | VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryKind::DeviceLocal),
@@ -121,32 +102,19 @@ class VulkanPredictor final : public DevicePredictor {
 
   HitStore* hitStore() override { return &store_; }
 
-  void predict(const PredictionTask& task, std::span<double> values) override {
+  void predict(const PredictionTask& task, std::span<double> values, const RunControl& control) override {
     if (task.options.neighbourCount >= kMaxContributingSeedCount)
       throw Error(ErrorCode::DeviceLimit, fmt::format("{} neighbouring seeds per face are too many; give 0 to {}",
                                                       task.options.neighbourCount, kMaxContributingSeedCount - 1));
     if (task.order.empty()) return;
-    const bool isStored = task.hits.hits.empty();
-    if (isStored) ASDFVK_CHECK_OP(store_.seedCount(), ==, task.hits.seeds.size());
-    reserve(task);
-    if (!isStored && !memory_->hits)
-      memory_->hits.emplace(kernels_.device(), memory_->seedCount * kernels_.rayCount() * sizeof(ConeHit), kStorage,
-                            SharedBuffer::Host::Writes);
-    const Buffer& hits = isStored ? store_.buffer() : memory_->hits->onDevice();
-    const BindingSet pointBindings(kernels_.device(), kernels_.points(),
-                                   std::array<Binding, 4>{faces_, memory_->table.onDevice(), hits, memory_->points});
-    placeOf_.assign(task.hits.seeds.size(), kNoSeed);
-    forEachBatch(task, [&](const Batch& batch) {
-      writeSeeds(task, batch);
-      writeWork(task, batch);
-      dispatch(task, batch, pointBindings);
-    });
+    PredictionBatches batches(task);
+    predictBatches(task, batches, control);
     std::vector<uint32_t> lengths(values.size());
     downloadBuffer(kernels_.device(), values_, std::as_writable_bytes(std::span(lengths)));
     forEachInParallel(values.size(), [&](uint32_t face) {
       if (task.cells.cellOf[face] == kNoCell) return;
       const double length = lengths[face] == kNoValueBits ? kNoValue : std::bit_cast<float>(lengths[face]);
-      values[face] = scene_.bvh.normalization.toMeshLength(length);
+      values[face] = batches.isKept(face) ? task.earlier.values[face] : scene_.bvh.normalization.toMeshLength(length);
     });
   }
 
@@ -186,71 +154,46 @@ class VulkanPredictor final : public DevicePredictor {
       rays[i] = {toGlsl(cone_.directions[i]), static_cast<float>(cone_.solidAngles[i])};
   }
 
-  /// Calls visit(batch) for batches that together hold each face of each cell once. placeOf_ is set
-  /// for the seeds of the batch.
-  template <typename Visit>
-  void forEachBatch(const PredictionTask& task, const Visit& visit) {
-    Batch batch;
-    const auto finish = [&] {
-      if (batch.parts.empty()) return;
-      visit(batch);
-      for (const uint32_t seed : batch.seeds) placeOf_[seed] = kNoSeed;
-      batch.clear();
-    };
-    for (const uint32_t cell : task.order) {
-      const auto size = static_cast<uint32_t>(task.cells.faces[cell].size());
-      for (uint32_t first = 0; first < size;) {
-        if (batch.faceCount == memory_->faceCount ||
-            batch.seeds.size() + kMaxContributingSeedCount > memory_->seedCount)
-          finish();
-        for (const uint32_t seed : task.nearest.of(cell)) {
-          if (placeOf_[seed] != kNoSeed) continue;
-          placeOf_[seed] = static_cast<uint32_t>(batch.seeds.size());
-          batch.seeds.push_back(seed);
-        }
-        const auto count = static_cast<uint32_t>(std::min<size_t>(size - first, memory_->faceCount - batch.faceCount));
-        batch.parts.push_back({cell, first, count, static_cast<uint32_t>(batch.faceCount)});
-        batch.faceCount += count;
-        first += count;
-      }
+  void predictBatches(const PredictionTask& task, PredictionBatches& batches, const RunControl& control) {
+    const bool isStored = task.hits.hits.empty();
+    if (isStored) ASDFVK_CHECK_OP(store_.seedCount(), ==, task.hits.seeds.size());
+    reserve(task);
+    if (!isStored && !memory_->hits)
+      memory_->hits.emplace(kernels_.device(), memory_->seedCount * kernels_.rayCount() * sizeof(ConeHit), kStorage,
+                            SharedBuffer::Host::Writes);
+    const Buffer& hits = isStored ? store_.buffer() : memory_->hits->onDevice();
+    const BindingSet pointBindings(kernels_.device(), kernels_.points(),
+                                   std::array<Binding, 4>{faces_, memory_->table.onDevice(), hits, memory_->points});
+    ChunkSize size(std::max<size_t>(1, kFirstBatchRayCount / kernels_.rayCount()), memory_->faceCount);
+    while (batches.next({memory_->seedCount, size.current()})) {
+      control.checkpoint(batches.progress());
+      writeSeeds(task, batches.seeds());
+      batches.write(memory_->work.onHost<uint32_t>());
+      const Stopwatch stopwatch;
+      dispatch(task, batches, pointBindings);
+      size.adapt(batches.faceCount(), stopwatch.seconds());
     }
-    finish();
+    control.checkpoint(1);
   }
 
-  void writeSeeds(const PredictionTask& task, const Batch& batch) {
+  void writeSeeds(const PredictionTask& task, std::span<const uint32_t> seeds) {
     const size_t rayCount = kernels_.rayCount();
     const std::span<std::byte> table = memory_->table.onHost<std::byte>().subspan(rayCount * sizeof(PredictionRay));
     const bool isStored = task.hits.hits.empty();
     const std::span<ConeHit> hits = isStored ? std::span<ConeHit>{} : memory_->hits->onHost<ConeHit>();
-    forEachInParallel(batch.seeds.size(), [&](uint32_t i) {
-      const uint32_t face = task.hits.seeds[batch.seeds[i]];
-      const auto firstHit = static_cast<uint32_t>((isStored ? batch.seeds[i] : i) * rayCount);
+    forEachInParallel(seeds.size(), [&](uint32_t i) {
+      const uint32_t face = task.hits.seeds[seeds[i]];
+      const auto firstHit = static_cast<uint32_t>((isStored ? seeds[i] : i) * rayCount);
       const PredictionSeed seed{toGlsl(seedConeFrame(scene_, cone_, face).tangent), face, firstHit, 0, 0, 0};
       std::memcpy(&table[i * sizeof seed], &seed, sizeof seed);
-      if (!isStored) std::ranges::copy(task.hits.of(batch.seeds[i]), hits.begin() + firstHit);
+      if (!isStored) std::ranges::copy(task.hits.of(seeds[i]), hits.begin() + firstHit);
     });
   }
 
-  void writeWork(const PredictionTask& task, const Batch& batch) {
-    const std::span<uint32_t> work = memory_->work.onHost<uint32_t>();
-    forEachInParallel(batch.parts.size(), [&](uint32_t i) {
-      const Batch::Part& part = batch.parts[i];
-      uint32_t* item = &work[2 * size_t{part.firstItem}];
-      for (const uint32_t face : task.cells.faces[part.cell].subspan(part.firstFace, part.faceCount)) {
-        *item++ = face;
-        *item++ = i;
-      }
-      const auto seeds =
-          work.subspan(2 * batch.faceCount + size_t{i} * kMaxContributingSeedCount, kMaxContributingSeedCount);
-      std::fill(seeds.begin(), seeds.end(), kNoSeed);
-      std::ranges::transform(task.nearest.of(part.cell), seeds.begin(), [&](uint32_t s) { return placeOf_[s]; });
-    });
-  }
-
-  void dispatch(const PredictionTask& task, const Batch& batch, const BindingSet& pointBindings) {
-    const auto seedCount = static_cast<uint32_t>(batch.seeds.size());
+  void dispatch(const PredictionTask& task, const PredictionBatches& batch, const BindingSet& pointBindings) {
+    const auto seedCount = static_cast<uint32_t>(batch.seeds().size());
     const PointPush pointPush{static_cast<float>(cone_.falseHitCosine), static_cast<float>(cone_.outliers.deviations)};
-    const PredictionPush push{static_cast<uint32_t>(batch.faceCount),
+    const PredictionPush push{static_cast<uint32_t>(batch.faceCount()),
                               kernels_.rayCount(),
                               rules_.minCosine,
                               rules_.maxNormalCosine,
@@ -263,13 +206,13 @@ class VulkanPredictor final : public DevicePredictor {
                               kernels_.rayCount() * sizeof(PredictionRay) + seedCount * sizeof(PredictionSeed));
     if (!task.hits.hits.empty())
       memory_->hits->recordCopy(commands_, uint64_t{seedCount} * kernels_.rayCount() * sizeof(ConeHit));
-    memory_->work.recordCopy(commands_,
-                             (2 * batch.faceCount + kMaxContributingSeedCount * batch.parts.size()) * sizeof(uint32_t));
+    memory_->work.recordCopy(
+        commands_, (2 * batch.faceCount() + kMaxContributingSeedCount * batch.cellCount()) * sizeof(uint32_t));
     commands_.barrier();
     commands_.dispatch(kernels_.points(), pointBindings, bytesOf(pointPush), seedCount);
     commands_.barrier();
     commands_.dispatch(kernels_.faces(), memory_->faceBindings, bytesOf(push),
-                       divideUp(batch.faceCount, VulkanPredictionKernels::kFaceLaneCount));
+                       divideUp(batch.faceCount(), VulkanPredictionKernels::kFaceLaneCount));
     commands_.barrier();
     commands_.submitAndWait();
   }
@@ -283,25 +226,26 @@ class VulkanPredictor final : public DevicePredictor {
   Buffer faces_;   // A PredictionFace per face.
   Buffer values_;  // Per face, see predict_faces.comp.
   std::optional<Memory> memory_;
-  std::vector<uint32_t> placeOf_;  // Per seed: its place in the current batch, or kNoSeed.
   CommandList commands_;
 };
 
 }  // namespace
 
 VulkanPredictionKernels::VulkanPredictionKernels(const Device& device, Definition definition, uint32_t rayCount)
-    : device_(requireLoops(device, definition, rayCount)),
+    : device_(device),
       definition_(definition),
       rayCount_(rayCount),
       points_(device, describePoints(definition, rayCount)),
-      faces_(device, describeFaces(definition)) {}
+      faces_(device, describeFaces(definition)),
+      store_(device) {}
 
 PredictionBatchSize predictionBatchSize(const VulkanPredictionKernels& kernels) {
   const DeviceFacts& facts = kernels.device().facts();
   const uint64_t seedByteCount = (kernels.rayCount() + 1) * sizeof(PredictionPoint);
   const uint64_t seedCount = std::min<uint64_t>(
       std::min(kMaxPointByteCount, facts.maxStorageBufferRange) / seedByteCount, facts.maxWorkgroupCount);
-  return {std::max<size_t>(kMaxContributingSeedCount, seedCount), kMaxBatchFaceCount};
+  return {std::max<size_t>(kMaxContributingSeedCount, seedCount),
+          std::min(kMaxBatchFaceCount, kMaxBatchRayCount / kernels.rayCount())};
 }
 
 std::unique_ptr<DevicePredictor> makeVulkanPredictor(const VulkanPredictionKernels& kernels, const TraceScene& scene,

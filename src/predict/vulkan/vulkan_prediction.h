@@ -5,6 +5,8 @@
 
 #include "cone/cone.h"
 #include "predict/prediction.h"
+#include "predict/vulkan/prediction_batches.h"
+#include "trace/vulkan/vulkan_hit_store.h"
 #include "vk/compute_pipeline.h"
 #include "vk/device.h"
 
@@ -24,19 +26,19 @@ class VulkanPredictionKernels {
   /// Binds faces, points, work, values. A workgroup per kFaceLaneCount items.
   [[nodiscard]] const ComputePipeline& faces() const { return faces_; }
   static constexpr uint32_t kFaceLaneCount = 64;
+  /// Of the stores of hits.
+  [[nodiscard]] const VulkanHitStoreKernel& store() const { return store_; }
 
  private:
   const Device& device_;
   Definition definition_;
   uint32_t rayCount_;
   ComputePipeline points_, faces_;
+  VulkanHitStoreKernel store_;
 };
 
-/// Memory for the seeds of one batch; the number of seeds and faces that are predicted together. For tests.
-struct PredictionBatchSize {
-  size_t maxSeedCount = 0, maxFaceCount = 0;  ///< At least kMaxContributingSeedCount and 1.
-};
-/// At most 32 MiB of hit points, and within the limits of the device.
+/// Bounded by 32 MiB of hit points, by the limits of the device, and, for the length of a submission, by the number of
+/// rays.
 [[nodiscard]] PredictionBatchSize predictionBatchSize(const VulkanPredictionKernels& kernels);
 
 /// Uploads the faces of the scene. Scene, cone and kernels must outlive it. Values differ from those of the CPU by

@@ -17,10 +17,12 @@ std::vector<Binding> joined(std::vector<Binding> first, const std::vector<Bindin
 
 }  // namespace
 
-ConeChunk::ConeChunk(const VulkanConeKernel& kernel, const ConeBuffers& scene, uint64_t capacity, const Timing& timing)
+ConeChunk::ConeChunk(const VulkanConeKernel& kernel, const ConeBuffers& scene, uint64_t capacity, const Timing& timing,
+                     const VulkanHitStore* store)
     : kernel_(kernel),
       capacity_(capacity),
       timing_(timing),
+      store_(store),
       origins_(kernel.device(), capacity * sizeof(ConeOrigin), kOriginUsage, SharedBuffer::Host::Writes),
       results_(kernel.device(), capacity * sizeof(uint32_t), kChunkUsage, SharedBuffer::Host::Reads),
       originTexels_(kernel.device(), origins_.onDevice()),
@@ -38,6 +40,10 @@ ConeChunk::ConeChunk(const VulkanConeKernel& kernel, const ConeBuffers& scene, u
   if (kernel.reduction())
     reductionBindings_.emplace(device, *kernel.reduction(),
                                std::vector<Binding>{scene.rayTexels(), *lengths_, results_.onDevice()});
+  if (store != nullptr) {
+    places_ = PooledBuffer(device, capacity * sizeof(uint32_t), kChunkUsage, MemoryKind::HostVisible);
+    storeBindings_.emplace(device, store->pipeline(), store->bindings(hits_->onDevice(), *places_));
+  }
   if (!kernel.origins()) return;
   seeds_ = PooledBuffer(device, capacity * sizeof(ConeSeed), kChunkUsage, MemoryKind::HostVisible);
   originBindings_.emplace(device, *kernel.origins(), joined(scene.hierarchyBindings(), {*seeds_, origins_.onDevice()}));
@@ -61,6 +67,7 @@ void ConeChunk::submit(const ConePush& push, Input input, bool readsHits) {
                        groupCount(push.coneCount, VulkanConeKernel::kReductionLaneCount));
     commands_.barrier();
   }
+  if (store_ != nullptr) store_->recordWrite(commands_, *storeBindings_, push.coneCount);
   results_.recordCopy(commands_, push.coneCount * sizeof(uint32_t));
   if (readsHits) hits_->recordCopy(commands_, uint64_t{push.coneCount} * kernel_.rayCount() * sizeof(ConeHit));
   commands_.barrier();

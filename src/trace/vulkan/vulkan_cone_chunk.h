@@ -7,6 +7,7 @@
 #include "shared/cone_hit.h"
 #include "shared/cone_layout.h"
 #include "trace/vulkan/vulkan_cone_kernel.h"
+#include "trace/vulkan/vulkan_hit_store.h"
 #include "vk/command_list.h"
 #include "vk/device_timer.h"
 #include "vk/shared_buffer.h"
@@ -23,8 +24,10 @@ class ConeChunk {
     uint32_t slot;
   };
 
-  /// capacity: number of cones, at most largestConeChunk(). The kernel, the buffers and the timer must outlive it.
-  ConeChunk(const VulkanConeKernel& kernel, const ConeBuffers& scene, uint64_t capacity, const Timing& timing);
+  /// capacity: number of cones, at most largestConeChunk(). store: null, or receives the hits; its memory is reserved.
+  /// All arguments must outlive it.
+  ConeChunk(const VulkanConeKernel& kernel, const ConeBuffers& scene, uint64_t capacity, const Timing& timing,
+            const VulkanHitStore* store);
   ~ConeChunk() { commands_.finish(); }
   ConeChunk(const ConeChunk&) = delete;
   ConeChunk& operator=(const ConeChunk&) = delete;
@@ -34,6 +37,8 @@ class ConeChunk {
   [[nodiscard]] std::span<ConeSeed> seeds() { return seeds_->mappedAs<ConeSeed>(); }
   /// Of cones anywhere.
   [[nodiscard]] std::span<ConeOrigin> starts() { return origins_.onHost<ConeOrigin>(); }
+  /// With a store: the place of each cone in the batch that is traced.
+  [[nodiscard]] std::span<uint32_t> places() { return places_->mappedAs<uint32_t>(); }
 
   enum class Input { Seeds, Starts };
   /// readsHits: whether hits() are read.
@@ -50,13 +55,14 @@ class ConeChunk {
   const VulkanConeKernel& kernel_;
   uint64_t capacity_;
   Timing timing_;
-  PooledBuffer seeds_;    // Mapped: kernels read each seed once.
-  SharedBuffer origins_;  // A ConeOrigin per cone.
-  PooledBuffer lengths_;  // Bits of a float per ray and cone, if there is a reduction.
+  const VulkanHitStore* store_;
+  PooledBuffer seeds_, places_;  // Mapped: kernels read each entry once.
+  SharedBuffer origins_;         // A ConeOrigin per cone.
+  PooledBuffer lengths_;         // Bits of a float per ray and cone, if there is a reduction.
   SharedBuffer results_;
   std::optional<SharedBuffer> hits_;  // If the kernel writes them.
   TexelView originTexels_;
-  std::optional<BindingSet> bindings_, originBindings_, reductionBindings_;
+  std::optional<BindingSet> bindings_, originBindings_, reductionBindings_, storeBindings_;
   CommandList commands_;  // Destroyed first: waits.
 };
 

@@ -1,0 +1,89 @@
+#include "predict/vulkan/prediction_batches.h"
+
+#include <algorithm>
+
+#include "core/parallel.h"
+#include "shared/prediction_layout.h"
+
+namespace asdfvk {
+
+PredictionBatches::PredictionBatches(const PredictionTask& task)
+    : task_(task),
+      hasEarlierSeeds_(task.hits.seeds.size(), 0),
+      faceCounts_(task.hits.seeds.size(), 0),
+      placeOf_(task.hits.seeds.size(), kNoSeed) {
+  forEachInParallel(task.order.size(), [&](size_t i) {
+    const uint32_t cell = task.order[i];
+    const std::span<const uint32_t> faces = task.cells.faces[cell];
+    hasEarlierSeeds_[cell] = task.hasEarlierSeeds(cell) ? 1 : 0;
+    faceCounts_[cell] = static_cast<uint32_t>(
+        hasEarlierSeeds_[cell] ? std::ranges::count_if(faces, [&](uint32_t face) { return !isKept(face); })
+                               : static_cast<std::ptrdiff_t>(faces.size()));
+  });
+  for (const uint32_t count : faceCounts_) faceCount_ += count;
+}
+
+bool PredictionBatches::next(const PredictionBatchSize& size) {
+  finishBatch();
+  for (; nextCell_ < task_.order.size(); ++nextCell_, nextFace_ = 0) {
+    const uint32_t cell = task_.order[nextCell_];
+    if (faceCounts_[cell] == 0) continue;
+    if (batchFaceCount_ == size.maxFaceCount || seeds_.size() + kMaxContributingSeedCount > size.maxSeedCount) break;
+    addSeeds(cell);
+    const auto count =
+        static_cast<uint32_t>(std::min<size_t>(faceCounts_[cell] - nextFace_, size.maxFaceCount - batchFaceCount_));
+    parts_.push_back({cell, nextFace_, count, static_cast<uint32_t>(batchFaceCount_)});
+    batchFaceCount_ += count;
+    nextFace_ += count;
+    if (nextFace_ < faceCounts_[cell]) break;
+  }
+  return !parts_.empty();
+}
+
+void PredictionBatches::finishBatch() {
+  doneCount_ += batchFaceCount_;
+  for (const uint32_t seed : seeds_) placeOf_[seed] = kNoSeed;
+  parts_.clear();
+  seeds_.clear();
+  batchFaceCount_ = 0;
+}
+
+void PredictionBatches::addSeeds(uint32_t cell) {
+  for (const uint32_t seed : task_.nearest.of(cell)) {
+    if (placeOf_[seed] != kNoSeed) continue;
+    placeOf_[seed] = static_cast<uint32_t>(seeds_.size());
+    seeds_.push_back(seed);
+  }
+}
+
+template <typename Visit>
+void PredictionBatches::forEachFace(const Part& part, const Visit& visit) const {
+  const std::span<const uint32_t> faces = task_.cells.faces[part.cell];
+  if (faceCounts_[part.cell] == faces.size()) {
+    std::ranges::for_each(faces.subspan(part.firstFace, part.faceCount), visit);
+    return;
+  }
+  uint32_t index = 0;
+  for (const uint32_t face : faces) {
+    if (isKept(face)) continue;
+    if (index >= part.firstFace + part.faceCount) break;
+    if (index++ >= part.firstFace) visit(face);
+  }
+}
+
+void PredictionBatches::write(std::span<uint32_t> work) const {
+  forEachInParallel(parts_.size(), [&](size_t i) {
+    const Part& part = parts_[i];
+    uint32_t* item = &work[2 * size_t{part.firstItem}];
+    forEachFace(part, [&](uint32_t face) {
+      *item++ = face;
+      *item++ = static_cast<uint32_t>(i);
+    });
+    const std::span<uint32_t> seeds =
+        work.subspan(2 * batchFaceCount_ + i * kMaxContributingSeedCount, kMaxContributingSeedCount);
+    std::ranges::fill(seeds, kNoSeed);
+    std::ranges::transform(task_.nearest.of(part.cell), seeds.begin(), [&](uint32_t seed) { return placeOf_[seed]; });
+  });
+}
+
+}  // namespace asdfvk

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "predict/prediction.h"
+
+namespace asdfvk {
+
+/// Memory of a device for one batch. For tests.
+struct PredictionBatchSize {
+  size_t maxSeedCount = 0, maxFaceCount = 0;  ///< At least kMaxContributingSeedCount and 1.
+};
+
+/// The faces of a task without those whose earlier values are kept, in batches of cells that are close in space, with
+/// the seeds that contribute to them.
+class PredictionBatches {
+ public:
+  /// The task must outlive it.
+  explicit PredictionBatches(const PredictionTask& task);
+
+  /// Whether the earlier value of a face in a cell is kept.
+  [[nodiscard]] bool isKept(uint32_t face) const {
+    const uint32_t cell = task_.cells.cellOf[face];
+    return hasEarlierSeeds_[cell] && task_.earlier.cellOf[face] == cell;
+  }
+  /// Share of the faces that were in batches.
+  [[nodiscard]] double progress() const {
+    return doneCount_ < faceCount_ ? static_cast<double>(doneCount_) / static_cast<double>(faceCount_) : 1;
+  }
+
+  /// Takes the next faces. Returns false where none are left.
+  bool next(const PredictionBatchSize& size);
+  /// Of the batch.
+  [[nodiscard]] size_t faceCount() const { return batchFaceCount_; }
+  [[nodiscard]] size_t cellCount() const { return parts_.size(); }
+  [[nodiscard]] std::span<const uint32_t> seeds() const { return seeds_; }
+  /// Writes faces and cells of the batch as described at PredictionPush.
+  void write(std::span<uint32_t> work) const;
+
+ private:
+  /// A cell, or a part of one.
+  struct Part {
+    uint32_t cell, firstFace, faceCount;  // Faces that are kept are not counted.
+    uint32_t firstItem;
+  };
+
+  void finishBatch();
+  void addSeeds(uint32_t cell);
+  template <typename Visit>
+  void forEachFace(const Part& part, const Visit& visit) const;
+
+  const PredictionTask& task_;
+  std::vector<uint8_t> hasEarlierSeeds_;  // Per cell.
+  std::vector<uint32_t> faceCounts_;      // Per cell.
+  size_t faceCount_ = 0, doneCount_ = 0;
+  size_t nextCell_ = 0;  // Index in the order of the task.
+  uint32_t nextFace_ = 0;
+
+  std::vector<Part> parts_;
+  std::vector<uint32_t> seeds_;
+  std::vector<uint32_t> placeOf_;  // Per seed: its place in the batch, or kNoSeed.
+  size_t batchFaceCount_ = 0;
+};
+
+}  // namespace asdfvk
