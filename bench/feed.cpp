@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <map>
 #include <memory>
+#include <set>
 #include <utility>
 
 #include "asdf_vk/files.h"
@@ -13,6 +14,7 @@
 #include "generate/creatures.h"
 #include "generate/generated_shape.h"
 #include "pipeline/compute.h"
+#include "predict/vulkan/vulkan_prediction.h"
 #include "seeds/samplers.h"
 #include "support/computation.h"
 #include "support/measurement.h"
@@ -31,31 +33,66 @@ struct Arguments {
   std::string device;
   std::vector<uint32_t> percents = {100, 10};
   uint32_t roundCount = 5;
+  std::string solver = kAutomaticSolver;
   uint64_t generatedFaceCount = 1'500'000;
 };
 
-/// While it exists, the time for which the host waits for the device is added up.
-class WaitClock {
+/// What passes between host and device.
+struct Traffic {
+  double waitSeconds = 0;  ///< For which the host waits for the device.
+  uint64_t waitCount = 0;
+  uint64_t upByteCount = 0, downByteCount = 0;  ///< Of copies; none where the host maps the memory of the device.
+};
+
+/// Adds up the traffic while it exists.
+class TrafficCounter {
  public:
-  WaitClock() {
-    wait_ = vkWaitForFences;
+  TrafficCounter() {
+    wait_ = vkWaitForFences, create_ = vkCreateBuffer, destroy_ = vkDestroyBuffer, copy_ = vkCmdCopyBuffer;
     vkWaitForFences = [](VkDevice device, uint32_t count, const VkFence* fences, VkBool32 all, uint64_t timeout) {
       const Stopwatch watch;
       const VkResult result = wait_(device, count, fences, all, timeout);
-      seconds_ += watch.seconds();
+      traffic_.waitSeconds += watch.seconds();
+      ++traffic_.waitCount;
       return result;
     };
+    vkCreateBuffer = [](VkDevice device, const VkBufferCreateInfo* info, const VkAllocationCallbacks* callbacks,
+                        VkBuffer* buffer) {
+      const VkResult result = create_(device, info, callbacks, buffer);
+      constexpr VkBufferUsageFlags kCopies = VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+      if (result == VK_SUCCESS && (info->usage & ~kCopies) == 0) ofHost_.insert(*buffer);  // No kernel uses it.
+      return result;
+    };
+    vkDestroyBuffer = [](VkDevice device, VkBuffer buffer, const VkAllocationCallbacks* callbacks) {
+      ofHost_.erase(buffer);
+      destroy_(device, buffer, callbacks);
+    };
+    vkCmdCopyBuffer = [](VkCommandBuffer commands, VkBuffer from, VkBuffer to, uint32_t count,
+                         const VkBufferCopy* regions) {
+      for (uint32_t i = 0; i < count; ++i)
+        if (ofHost_.contains(from))
+          traffic_.upByteCount += regions[i].size;
+        else if (ofHost_.contains(to))
+          traffic_.downByteCount += regions[i].size;
+      copy_(commands, from, to, count, regions);
+    };
   }
-  ~WaitClock() { vkWaitForFences = wait_; }
-  WaitClock(const WaitClock&) = delete;
-  WaitClock& operator=(const WaitClock&) = delete;
+  ~TrafficCounter() {
+    vkWaitForFences = wait_, vkCreateBuffer = create_, vkDestroyBuffer = destroy_, vkCmdCopyBuffer = copy_;
+  }
+  TrafficCounter(const TrafficCounter&) = delete;
+  TrafficCounter& operator=(const TrafficCounter&) = delete;
 
   /// Since the last call.
-  [[nodiscard]] static double takeSeconds() { return std::exchange(seconds_, 0); }
+  [[nodiscard]] static Traffic take() { return std::exchange(traffic_, {}); }
 
  private:
   static inline PFN_vkWaitForFences wait_ = nullptr;
-  static inline double seconds_ = 0;
+  static inline PFN_vkCreateBuffer create_ = nullptr;
+  static inline PFN_vkDestroyBuffer destroy_ = nullptr;
+  static inline PFN_vkCmdCopyBuffer copy_ = nullptr;
+  static inline Traffic traffic_;
+  static inline std::set<VkBuffer> ofHost_;
 };
 
 /// While it exists, submissions end at once without running their commands. Mapped memory that is allocated meanwhile
@@ -116,6 +153,13 @@ class ConstantBackend final : public Backend {
     return makeVulkanTracer(*kernel, scene, cone);
   }
 
+  [[nodiscard]] std::unique_ptr<DevicePredictor> makePredictor(const TraceScene& scene, const Cone& cone) override {
+    if (!predictionKernels_)
+      predictionKernels_ = std::make_unique<VulkanPredictionKernels>(*opened_.device, cone.definition,
+                                                                     static_cast<uint32_t>(cone.directions.size()));
+    return makeVulkanPredictor(*predictionKernels_, scene, cone);
+  }
+
  private:
   // A cone per lane: CPU devices have a high cost per workgroup.
   static constexpr VulkanWorkgroupShape kCpuShape{1, 64};
@@ -125,6 +169,7 @@ class ConstantBackend final : public Backend {
   Instance instance_;
   OpenedDevice opened_;
   std::map<ConeKernelRequest, std::unique_ptr<VulkanConeKernel>> kernels_;
+  std::unique_ptr<VulkanPredictionKernels> predictionKernels_;
 };
 
 /// ConeTracer::trace() alone.
@@ -169,11 +214,13 @@ std::string measurePipeline(SessionState& session, const Mesh& mesh, const Argum
                             const RunControl& control) {
   std::string text = "\nwhole computation, median seconds by stage\n";
   for (const uint32_t percent : arguments.percents) {
-    const Options options = recipeOptions(Recipe::Balanced, percent);
+    Options options = recipeOptions(Recipe::Balanced, percent);
+    options.solver = arguments.solver;
     std::vector<std::vector<double>> stages(kStageCount);
     std::vector<double> totals, waits, rates;
+    Traffic traffic;
     for (uint32_t round = 0; round <= arguments.roundCount; ++round) {
-      (void)WaitClock::takeSeconds();
+      (void)TrafficCounter::take();
       const Stopwatch watch;
       Result result;
       StageClock clock(result.report.stageSeconds);
@@ -182,7 +229,8 @@ std::string measurePipeline(SessionState& session, const Mesh& mesh, const Argum
       computeOn({session, scene, wholeMesh(scene->prepared), tracers, true}, options, clock, control, result);
       if (round == 0) continue;
       totals.push_back(watch.seconds());
-      waits.push_back(WaitClock::takeSeconds());
+      traffic = TrafficCounter::take();
+      waits.push_back(traffic.waitSeconds);
       rates.push_back(result.report.raysPerSecond * 1e-9);
       for (size_t i = 0; i < kStageCount; ++i) stages[i].push_back(result.report.stageSeconds[static_cast<Stage>(i)]);
     }
@@ -192,7 +240,9 @@ std::string measurePipeline(SessionState& session, const Mesh& mesh, const Argum
     for (size_t i = 0; i < kStageCount; ++i)
       if (const Dispersion seconds = dispersionOf(stages[i]); seconds.max > 0)
         text += fmt::format(" {} {:.3f}", nameOf(static_cast<Stage>(i)), seconds.median);
-    text += "\n";
+    text += fmt::format("\n  {} waits, {:.2f} MiB copied to the device, {:.2f} MiB from it\n", traffic.waitCount,
+                        static_cast<double>(traffic.upByteCount) / (1 << 20),
+                        static_cast<double>(traffic.downByteCount) / (1 << 20));
   }
   return text;
 }
@@ -202,7 +252,7 @@ void run(const Arguments& arguments, const RunControl& control) {
   auto backend = std::make_unique<ConstantBackend>(arguments.device);
   ConstantBackend& constant = *backend;
   session.named = {"vulkan", std::move(backend), {}};
-  const WaitClock waiting;
+  const TrafficCounter counter;
   const auto measure = [&](const std::string& name, const Mesh& mesh) {
     writeOutput(fmt::format("{}: {} faces, {}, {}\n", name, groupDigits(mesh.faceCount()), constant.deviceName(),
                             toText(thisMachine())));
@@ -222,6 +272,7 @@ int main(int argc, char** argv) {
   program.add("--faces", arguments.generatedFaceCount, "Faces of the generated animal", {kMinFaceCount, kMaxFaceCount});
   program.add("--rounds", arguments.roundCount, "Rounds, after one for warm-up", {1, 1000});
   program.add("--seeds", arguments.percents, "Shares of the faces that cast rays, in percent", {1, 100});
+  program.add("--solver", arguments.solver, "Solver; the device also predicts with one of a device");
   program.add("--device", arguments.device, "Vulkan device: index or part of its name");
   return program.run(argc, argv, [&](const RunControl& control) { run(arguments, control); });
 }
