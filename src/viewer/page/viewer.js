@@ -172,11 +172,13 @@ export class Viewer {
     const isMoving = Boolean(this.hasMoved);
     this.hasMoved = false;
     this.adapt(time, isMoving);
-    this.draw(!isMoving);
+    // The first frame is early rather than smooth.
+    const { dataset } = document.documentElement, isFirst = !dataset.frames;
+    this.draw(!isMoving, isFirst);
+    if (isFirst) this.requestFrame();
     clearTimeout(this.timer);
     const rest = Math.max(kRestMilliseconds, 2 * this.frameMilliseconds);
     if (isMoving) this.timer = setTimeout(() => this.requestFrame(), rest);
-    const { dataset } = document.documentElement;
     dataset.frames = Number(dataset.frames ?? 0) + 1;
     if (!isMoving && !this.isPending) dataset.still = 'true';
   }
@@ -193,7 +195,7 @@ export class Viewer {
   }
 
   /** In full quality, or in that of motion. */
-  draw(isStill) {
+  draw(isStill, isFirst = false) {
     const { canvas, state } = this;
     const [share, isCoarse] = isStill ? [1, false] : kLevels[this.level];
     const scale = Math.min(devicePixelRatio, 2) * share;
@@ -209,7 +211,7 @@ export class Viewer {
     }
     const { background, isDark } = this.theme();
     this.renderer.draw({
-      width, height, background, panes, isSampled: isStill, isCoarse, shading: state.shading, back: state.back, edges: state.edges,
+      width, height, background, panes, isSampled: isStill && !isFirst, isCoarse, shading: state.shading, back: state.back, edges: state.edges,
       lineColour: isDark ? [0, 0, 0, 0.5] : [0, 0, 0, 0.4],
     });
     for (const listener of this.afterFrame) listener(panes);
