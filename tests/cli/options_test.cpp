@@ -146,6 +146,9 @@ const std::vector<OptionCase>& optionCases() {
       {{"--points", "b.PLY"}, [](const Line& l) { return l.points == "b.PLY" && l.options.computesCentres; }},
       {{"--points", "-"}, [](const Line& l) { return l.points == "-"; }},
       {{"--ascii"}, [](const Line& l) { return l.ascii; }},
+      {{"--open", "-o", "b.html"}, [](const Line& l) { return l.opensPage; }},
+      {{"--against", "--rays 7", "-o", "b.html"},
+       [](const Line& l) { return l.compared.size() == 1 && l.compared[0].options.cone.rayCount == 7; }},
       {{"--json"}, [](const Line& l) { return l.json; }},
       {{"--quiet"}, [](const Line& l) { return l.quiet; }},
       {{"--picture", "b.png"}, [](const Line& l) { return l.picture == "b.png" && l.options.keepsScene; }},
@@ -368,7 +371,7 @@ TEST_CASE("--help has the most needed options, --help=all all of them in groups"
   const std::string basic = parseCommandLine({"--help"}).answer.value();
   CHECK_EQ(optionsIn(basic),
            std::set<std::string>{"--help", "--version", "--recipe", "--seeds", "--max-error", "--orient", "--output",
-                                 "--fields", "--check", "--json", "--picture", "--backend"});
+                                 "--fields", "--check", "--open", "--json", "--picture", "--backend"});
   CHECK(basic.find("--help=all lists all options") != std::string::npos);
   const std::string all = parseCommandLine({"--help=all"}).answer.value();
   size_t previous = 0;
