@@ -231,6 +231,8 @@ def page(folder):
         yield f"<h2>Figure {figure}</h2>\n<p>{CAPTIONS[figure]}</p>\n"
         images = [(row["file"], row["caption"]) for row in select(pictures, figure=figure)]
         yield images_html(images, "two" if len(images) in (1, 2, 4) else "")
+        if (folder / f"figure{figure}.html").exists():
+            yield f'<p><a href="figure{figure}.html">The meshes of figure {figure}, to turn and to pick values</a></p>\n'
         if figure == 7:
             samplers = read(folder, "figure7.csv")
             yield table_html(["sampler", "seeds", "average error: paper", "average error: balanced"],

@@ -66,8 +66,8 @@ Options samplerOptions(const std::string& sampler, Recipe recipe, uint64_t rando
 
 }  // namespace
 
-void drawMeshFigures(PictureWriter& pictures, Session& session, NamedMesh& mesh, const Evaluation& evaluation,
-                     const RunControl& control) {
+void drawMeshFigures(PictureWriter& pictures, FigurePages& pages, Session& session, NamedMesh& mesh,
+                     const Evaluation& evaluation, const RunControl& control) {
   const auto compute = [&](Recipe recipe, double percent) {
     return session.compute(mesh.mesh, recipeOptions(recipe, percent), control);
   };
@@ -75,6 +75,7 @@ void drawMeshFigures(PictureWriter& pictures, Session& session, NamedMesh& mesh,
   const FieldStyle style{kSdfTitle, percentileRange(evaluation.full.sdf())};
   const auto draw = [&](int figure, const std::string& name, const Result& result, const std::string& caption) {
     pictures.drawField(figure, name, mesh, result.sdf(), style, caption);
+    pages.add(figure, mesh, result, caption);
   };
   const auto seedCaption = [](const char* recipe, const Result& result) {
     return fmt::format("{}: {} seeds", recipe, groupDigits(result.report.seedCount));
@@ -95,8 +96,8 @@ void drawMeshFigures(PictureWriter& pictures, Session& session, NamedMesh& mesh,
   drawErrors(pictures, mesh, evaluation, paper, balanced);
 }
 
-CsvTable drawSamplers(PictureWriter& pictures, Session& session, NamedMesh& mesh, const Evaluation& evaluation,
-                      uint32_t seedSetCount, const RunControl& control) {
+CsvTable drawSamplers(PictureWriter& pictures, FigurePages& pages, Session& session, NamedMesh& mesh,
+                      const Evaluation& evaluation, uint32_t seedSetCount, const RunControl& control) {
   CsvTable table{{"sampler", "seeds", "paper_average_error", "balanced_average_error"}, {}};
   for (const std::string& sampler : samplerNames()) {
     std::vector<double> paper, balanced;
@@ -117,17 +118,19 @@ CsvTable drawSamplers(PictureWriter& pictures, Session& session, NamedMesh& mesh
     pictures.drawSeeds(
         7, fmt::format("figure7-{}", sampler), mesh, first.seed(),
         fmt::format("{}: average error {:.4f} (paper), {:.4f} (balanced)", sampler, paperError, balancedError));
+    pages.add(7, mesh, first, sampler);
   }
   return table;
 }
 
-void drawAllMeshes(PictureWriter& pictures, Session& session, std::vector<NamedMesh>& meshes,
+void drawAllMeshes(PictureWriter& pictures, FigurePages& pages, Session& session, std::vector<NamedMesh>& meshes,
                    const RunControl& control) {
   for (NamedMesh& mesh : meshes) {
     const Result result = session.compute(mesh.mesh, recipeOptions(Recipe::Balanced, kFigurePercent), control);
     pictures.drawField(8, "figure8-" + mesh.name, mesh, result.sdf(), {kSdfTitle, percentileRange(result.sdf())},
                        fmt::format("{}: {} faces, {} seeds", mesh.name, groupDigits(result.report.faceCount),
                                    groupDigits(result.report.seedCount)));
+    pages.add(8, mesh, result, mesh.name);
   }
 }
 

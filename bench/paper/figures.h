@@ -1,6 +1,7 @@
 #pragma once
 
 #include "paper/evaluation.h"
+#include "paper/figure_pages.h"
 #include "paper/pictures.h"
 
 namespace asdfvk::bench {
@@ -11,16 +12,16 @@ inline constexpr double kSparsePercent = 5;   ///< Figure 3.
 inline constexpr double kSamplerPercent = 7;  ///< Figure 7.
 
 /// Figures 1 (seeds and result), 2 (Laplacian), 3 (5 % and all faces) and 4 (errors).
-void drawMeshFigures(PictureWriter& pictures, Session& session, NamedMesh& mesh, const Evaluation& evaluation,
-                     const RunControl& control);
+void drawMeshFigures(PictureWriter& pictures, FigurePages& pages, Session& session, NamedMesh& mesh,
+                     const Evaluation& evaluation, const RunControl& control);
 
 /// Figure 7: the seeds of every sampler. Returns the columns sampler, seeds, paper_average_error and
 /// balanced_average_error: the average error with the interpolation of each recipe, as the median over the seed sets.
-[[nodiscard]] CsvTable drawSamplers(PictureWriter& pictures, Session& session, NamedMesh& mesh,
+[[nodiscard]] CsvTable drawSamplers(PictureWriter& pictures, FigurePages& pages, Session& session, NamedMesh& mesh,
                                     const Evaluation& evaluation, uint32_t seedSetCount, const RunControl& control);
 
 /// Figure 8: the balanced result of every mesh.
-void drawAllMeshes(PictureWriter& pictures, Session& session, std::vector<NamedMesh>& meshes,
+void drawAllMeshes(PictureWriter& pictures, FigurePages& pages, Session& session, std::vector<NamedMesh>& meshes,
                    const RunControl& control);
 
 }  // namespace asdfvk::bench

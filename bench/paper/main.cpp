@@ -46,11 +46,13 @@ void run(const Arguments& arguments, const RunControl& control) {
   folder.write("figure6.csv", timeTable(evaluations));
 
   PictureWriter pictures(folder, control);
-  drawMeshFigures(pictures, session, meshes.front(), evaluations.front(), control);
-  folder.write("figure7.csv", drawSamplers(pictures, session, meshes.front(), evaluations.front(),
+  FigurePages pages;
+  drawMeshFigures(pictures, pages, session, meshes.front(), evaluations.front(), control);
+  folder.write("figure7.csv", drawSamplers(pictures, pages, session, meshes.front(), evaluations.front(),
                                            arguments.evaluation.seedSetCount, control));
-  drawAllMeshes(pictures, session, meshes, control);
+  drawAllMeshes(pictures, pages, session, meshes, control);
   folder.write("pictures.csv", pictures.list());
+  pages.write(folder);
 }
 
 }  // namespace

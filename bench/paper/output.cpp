@@ -50,4 +50,10 @@ void OutputFolder::write(const std::string& name, const CsvTable& table) const {
 
 void OutputFolder::write(const std::string& name, const Image& image) const { writePng(path_ / name, image); }
 
+void OutputFolder::write(const std::string& name, const Page& page) const {
+  AtomicFile file(path_ / name);
+  page.write(file);
+  file.commit();
+}
+
 }  // namespace asdfvk::bench

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "render/image.h"
+#include "viewer/page.h"
 
 namespace asdfvk::bench {
 
@@ -27,6 +28,7 @@ class OutputFolder {
   /// RFC 4180 with line feeds; the first line holds the names of the columns.
   void write(const std::string& name, const CsvTable& table) const;
   void write(const std::string& name, const Image& image) const;
+  void write(const std::string& name, const Page& page) const;
 
  private:
   std::filesystem::path path_;
