@@ -16,7 +16,7 @@ using namespace asdfvk;
 
 namespace {
 
-constexpr uint32_t kRayCount = 30;
+constexpr uint32_t kStoredRayCount = 30;
 
 /// The hits of all seed faces of a mesh, traced in two batches.
 struct StoredHits {
@@ -26,19 +26,19 @@ struct StoredHits {
 
 /// atPoints: with traceAt() instead of trace().
 StoredHits traceIntoStore(const VulkanConeKernel& kernel, const TracedMesh& traced, bool atPoints) {
-  const Cone cone = makeCone({.rayCount = kRayCount});
+  const Cone cone = makeCone({.rayCount = kStoredRayCount});
   const auto tracer = makeVulkanTracer(kernel, traced.scene(), cone);
   const VulkanHitStoreKernel storeKernel(kernel.device());
-  VulkanHitStore store(storeKernel, kRayCount);
+  VulkanHitStore store(storeKernel, kStoredRayCount);
   const std::vector<uint32_t> seeds = traced.seedFaces();
-  StoredHits hits{std::vector<double>(seeds.size()), std::vector<ConeHit>(seeds.size() * kRayCount), {}};
+  StoredHits hits{std::vector<double>(seeds.size()), std::vector<ConeHit>(seeds.size() * kStoredRayCount), {}};
   const size_t firstCount = seeds.size() / 3;
   for (const auto& [begin, count] :
        {std::pair{size_t{0}, firstCount}, std::pair{firstCount, seeds.size() - firstCount}}) {
     store.reserve(count);
     const std::span<const uint32_t> faces = std::span(seeds).subspan(begin, count);
     ConeResults results{std::span(hits.values).subspan(begin, count), {}, &store};
-    if (begin > 0) results.hits = std::span(hits.onHost).subspan(begin * kRayCount);  // Both.
+    if (begin > 0) results.hits = std::span(hits.onHost).subspan(begin * kStoredRayCount);  // Both.
     if (atPoints) {
       std::vector<ConeStart> starts;
       for (const uint32_t face : faces) starts.push_back(coneStartOfFace(traced.scene(), cone, face));
@@ -70,8 +70,9 @@ TEST_CASE("hits that a trace stores on the device are those that the host receiv
            {VulkanWorkgroupShape{32, 1, 8000}, VulkanWorkgroupShape{32, 1, 45}, VulkanWorkgroupShape{32, 1, 1}}) {
         CAPTURE(shape.iterationLimit);
         CAPTURE(atPoints);
-        const VulkanConeKernel kernel(*device, {kRayCount, true, choice}, shape);
-        const TraceResults expected = traceByKernel(kernel, traced, {.rayCount = kRayCount}, Wanted::ValuesAndHits);
+        const VulkanConeKernel kernel(*device, {kStoredRayCount, true, choice}, shape);
+        const TraceResults expected =
+            traceByKernel(kernel, traced, {.rayCount = kStoredRayCount}, Wanted::ValuesAndHits);
         const StoredHits hits = traceIntoStore(kernel, traced, atPoints);
         if (atPoints) {  // Its starts come from the host instead of from a kernel.
           CHECK(differingCount(hits.values, expected.values, traced.geometry.bounds.diagonal()) <= 2);
@@ -79,7 +80,7 @@ TEST_CASE("hits that a trace stores on the device are those that the host receiv
           CHECK(test::haveSameBits(hits.values, expected.values));
           CHECK(test::haveSameBits(hits.stored, expected.hits));
         }
-        const size_t begin = hits.values.size() / 3 * kRayCount;
+        const size_t begin = hits.values.size() / 3 * kStoredRayCount;
         CHECK(test::haveSameBits(
             std::vector(hits.stored.begin() + static_cast<std::ptrdiff_t>(begin), hits.stored.end()),
             std::vector(hits.onHost.begin() + static_cast<std::ptrdiff_t>(begin), hits.onHost.end())));
@@ -91,10 +92,10 @@ TEST_CASE("cones in an empty scene store misses") {
   const test::ValidatedDevice device;
   const TracedMesh traced(Mesh{{{0, 0, 0}, {1, 0, 0}}, {{0, 1, 1}}, {}});
   REQUIRE(traced.bvh.nodes.empty());
-  const Cone cone = makeCone({.rayCount = kRayCount});
-  const VulkanConeKernel kernel(*device, {kRayCount, true});
+  const Cone cone = makeCone({.rayCount = kStoredRayCount});
+  const VulkanConeKernel kernel(*device, {kStoredRayCount, true});
   const VulkanHitStoreKernel storeKernel(*device);
-  VulkanHitStore store(storeKernel, kRayCount);
+  VulkanHitStore store(storeKernel, kStoredRayCount);
   store.reserve(2);
   const std::vector<ConeStart> starts(2, coneStartAt(cone, {0, 0, 0}, {0, 0, 1}));
   std::vector<double> values(2);
@@ -106,11 +107,12 @@ TEST_CASE("cones in an empty scene store misses") {
 TEST_CASE("a store is refused by a tracer elsewhere, with other cones or without its memory") {
   const test::ValidatedDevice device, other;
   const TracedMesh traced(generateShape("sphere", 80).mesh);
-  const Cone cone = makeCone({.rayCount = kRayCount});
-  const VulkanConeKernel kernel(*device, {kRayCount, true});
+  const Cone cone = makeCone({.rayCount = kStoredRayCount});
+  const VulkanConeKernel kernel(*device, {kStoredRayCount, true});
   const auto tracer = makeVulkanTracer(kernel, traced.scene(), cone);
   const VulkanHitStoreKernel storeKernel(*device), otherKernel(*other);
-  VulkanHitStore store(storeKernel, kRayCount), elsewhere(otherKernel, kRayCount), otherRays(storeKernel, 7);
+  VulkanHitStore store(storeKernel, kStoredRayCount), elsewhere(otherKernel, kStoredRayCount),
+      otherRays(storeKernel, 7);
   const std::vector<uint32_t> seeds = traced.seedFaces();
   std::vector<double> values(seeds.size());
   for (VulkanHitStore* const refused : {&elsewhere, &otherRays}) {

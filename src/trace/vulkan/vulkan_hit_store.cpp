@@ -13,7 +13,7 @@
 namespace asdfvk {
 namespace {
 
-constexpr uint32_t kLaneCount = 64;
+constexpr uint32_t kStoreLaneCount = 64;
 constexpr VkBufferUsageFlags kUsage =
     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
 
@@ -35,7 +35,7 @@ VulkanHitStoreKernel::VulkanHitStoreKernel(const Device& theDevice)
                            .spirv = k_store_hits_comp,
                            .bindings = std::vector(3, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER),
                            .pushConstantByteCount = sizeof(HitStorePush),
-                           .specializationConstants = {/* LOCAL_SIZE_X= */ kLaneCount}}) {}
+                           .specializationConstants = {/* LOCAL_SIZE_X= */ kStoreLaneCount}}) {}
 
 void VulkanHitStore::reserve(size_t furtherSeedCount) {
   const size_t needed = hitCount_ + furtherSeedCount * rayCount_;
@@ -79,7 +79,7 @@ void VulkanHitStore::release() {
 
 void VulkanHitStore::recordWrite(CommandList& commands, const BindingSet& bound, uint32_t coneCount) const {
   const HitStorePush push{coneCount * rayCount_, rayCount_, static_cast<uint32_t>(seedCount())};
-  constexpr uint32_t kPerWorkgroup = kLaneCount * kStoredHitsPerLane;
+  constexpr uint32_t kPerWorkgroup = kStoreLaneCount * kStoredHitsPerLane;
   commands.dispatch(pipeline(), bound, bytesOf(push), (push.hitCount + kPerWorkgroup - 1) / kPerWorkgroup);
 }
 
