@@ -105,7 +105,14 @@ TEST_CASE("solvers of a device have the solution of the CPU on one matrix for di
           const SolverReport report = onGraph->solve(given.problem(), options, values, {});
           CHECK(report.converged);
           CHECK(report.relativeResidual <= options.tolerance);
-          checkValues(values, valuesOnCpu(graph, setting.weights, given), 1e-3);
+          const PoissonSystem system =
+              buildPoissonSystem(graph, setting.weights, given.constraints, given.divergence, {});
+          std::vector<double> solution;
+          for (const uint32_t face : system.faces) solution.push_back(values[face]);
+          CHECK(relativeResidual(system, solution) <= 1.01 * options.tolerance);
+          // Weights of its coincident faces are a billion times larger than others: residuals do not bound errors.
+          if (setting.kind != ArcWeights::Distance || setting.problem.name != "dense random faces")
+            checkValues(values, valuesOnCpu(graph, setting.weights, given), 1e-3);
           std::vector<double> again = given.constraints;
           CHECK(onGraph->solve(given.problem(), options, again, {}).iterations == report.iterations);
           CHECK(test::haveSameBits(again, values));
