@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kSamples = 2;     ///< Per side of a pixel.
 constexpr int kBandRows = 128;  ///< Of samples. Every band reads all faces.
-constexpr double kAmbient = 0.4, kDiffuse = 0.65;
+constexpr double kDraftAmbient = 0.4, kDraftDiffuse = 0.65;
 
 /// A vertex in units of samples, x to the right, y down, depth towards the viewer.
 struct Projected {
@@ -89,7 +89,7 @@ void renderDraft(Image& image, const TraceScene& scene, const Camera& camera, st
   const Vec3d light = unitVector(camera.toViewer + camera.up * 0.5 - camera.right * 0.4, camera.toViewer);
   const auto shade = [&](uint32_t face) {
     const double facing = std::abs(dot(scene.geometry.normals[face], light));
-    return toLinear(faceColours[face]) * (kAmbient + kDiffuse * facing);
+    return toLinear(faceColours[face]) * (kDraftAmbient + kDraftDiffuse * facing);
   };
   static_assert(kBandRows % kSamples == 0);
   const int rowCount = kSamples * image.height();
