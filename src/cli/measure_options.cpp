@@ -17,8 +17,6 @@ double parseThickness(const std::string& text) {
       text, [](double x) { return x > 0; }, "is not a thickness above 0");
 }
 
-[[noreturn]] void fail(const std::string& message) { throw Error(ErrorCode::OptionConflict, message); }
-
 /// The limits imply the measure; all faces cast rays unless the number of seeds is given.
 void applyLimits(const CLI::App& app, CommandLine& line) {
   const auto isGiven = [&app](const char* option) { return app.count(option) > 0; };
@@ -26,12 +24,13 @@ void applyLimits(const CLI::App& app, CommandLine& line) {
   std::optional<double>& limit = options.thickness.thinnerThan;
   if (line.failIfThinner) {
     if (limit && *limit < *line.failIfThinner)
-      fail("--fail-if-thinner is above --thinner-than, whose regions are reported; raise --thinner-than, or drop it");
+      refuseOptions(
+          "--fail-if-thinner is above --thinner-than, whose regions are reported; raise --thinner-than, or drop it");
     if (!limit) limit = line.failIfThinner;
   }
   if (!limit) return;
   if (isGiven("--measure") && options.measure != Measure::Thickness)
-    fail("--thinner-than and --fail-if-thinner contradict --measure sdf; drop one");
+    refuseOptions("--thinner-than and --fail-if-thinner contradict --measure sdf; drop one");
   options.measure = Measure::Thickness;
   if (!isGiven("--seeds") && !options.rounds.areSet()) options.seeds = SeedCount::all();
 }
@@ -71,7 +70,7 @@ void completeMeasure(const CLI::App& app, CommandLine& line) {
     if (app.count("--picture-of") == 0) line.pictureOf = kField;
     return;
   }
-  if (app.count("--wall-angle") > 0) fail("--wall-angle needs --measure thickness");
+  if (app.count("--wall-angle") > 0) refuseOptions("--wall-angle needs --measure thickness");
   refuseField(line, kField, "--measure thickness");
 }
 

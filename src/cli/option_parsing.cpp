@@ -88,4 +88,6 @@ void refuseField(const CommandLine& line, const std::string& field, const std::s
   if (line.pictureOf == field) refuse("--picture-of");
 }
 
+void refuseOptions(const std::string& message) { throw Error(ErrorCode::OptionConflict, message); }
+
 }  // namespace asdfvk

@@ -141,4 +141,7 @@ CLI::Option* addChoice(CLI::App& app, const std::string& name, Target&& target, 
 /// In the form that parseSeedCount() reads.
 [[nodiscard]] std::string toText(const SeedCount& seeds);
 
+/// Throws Error{OptionConflict}.
+[[noreturn]] void refuseOptions(const std::string& message);
+
 }  // namespace asdfvk

@@ -259,40 +259,40 @@ void requireNoPaperOption(const CLI::App& app, const CommandLine& line) {
 }
 
 void validateOptions(const CommandLine& line) {
-  const auto fail = [](const std::string& message) { throw Error(ErrorCode::OptionConflict, message); };
   if (line.deviceReport && !line.meshes.empty())
-    fail("--device-report computes on a generated mesh; drop it, or the meshes");
+    refuseOptions("--device-report computes on a generated mesh; drop it, or the meshes");
   if (line.meshes.empty() && !line.listDevices && !line.deviceReport)
-    fail("no mesh was given; asdf-vk --help lists the options");
+    refuseOptions("no mesh was given; asdf-vk --help lists the options");
   if (std::count(line.meshes.begin(), line.meshes.end(), "-") > 1)
-    fail("standard input ('-') can be read only once; name it once");
-  if (std::count(line.meshes.begin(), line.meshes.end(), "") > 0) fail("the name of a mesh is empty");
+    refuseOptions("standard input ('-') can be read only once; name it once");
+  if (std::count(line.meshes.begin(), line.meshes.end(), "") > 0) refuseOptions("the name of a mesh is empty");
   if (line.output == "-" && line.json)
-    fail("-o - and --json both write to standard output; give -o a file or drop --json");
+    refuseOptions("-o - and --json both write to standard output; give -o a file or drop --json");
   if (!line.picture.empty() && line.meshes.size() > 1)
-    fail("--picture takes one mesh; name one mesh, or run them one by one");
+    refuseOptions("--picture takes one mesh; name one mesh, or run them one by one");
   if (line.picture == "-" && (line.output == "-" || line.json))
-    fail("--picture - writes to standard output, as do --json and -o -; give it a file, or drop them");
+    refuseOptions("--picture - writes to standard output, as do --json and -o -; give it a file, or drop them");
   if (!line.points.empty() && line.meshes.size() > 1)
-    fail("--points takes one mesh; name one mesh, or run them one by one");
+    refuseOptions("--points takes one mesh; name one mesh, or run them one by one");
   if (line.points == "-" && (line.output == "-" || line.json || line.picture == "-"))
-    fail("--points - writes to standard output, as do --json, -o - and --picture -; give it a file, or drop them");
+    refuseOptions(
+        "--points - writes to standard output, as do --json, -o - and --picture -; give it a file, or drop them");
   const bool isCpu = line.session.backend == "cpu" || line.session.backend == "reference";
   const TraceVariant& variant = line.session.variant;
   if (isCpu && line.session.requireGpu)
-    fail("--require-gpu contradicts --backend cpu and reference, which run on the CPU; drop one");
+    refuseOptions("--require-gpu contradicts --backend cpu and reference, which run on the CPU; drop one");
   if (isCpu && !line.session.device.empty())
-    fail("--device chooses a Vulkan device, which --backend cpu and reference do not use; drop one");
+    refuseOptions("--device chooses a Vulkan device, which --backend cpu and reference do not use; drop one");
   if (isCpu && !(variant.kernel.empty() && variant.bvh.empty() && variant.fetch.empty()))
-    fail("--kernel, --bvh and --fetch choose shaders, which --backend cpu and reference do not use; drop one");
+    refuseOptions("--kernel, --bvh and --fetch choose shaders, which --backend cpu and reference do not use; drop one");
   const bool estimates = (line.options.estimatesError || line.options.rounds.limitError()) &&
                          line.options.seeds.kind != SeedCount::Kind::All;
   if (line.pictureOf == "error" && !estimates)
-    fail("--picture-of error needs an estimate; drop --no-estimate, and --seeds all, which has no error");
+    refuseOptions("--picture-of error needs an estimate; drop --no-estimate, and --seeds all, which has no error");
   if (std::count(line.fields.begin(), line.fields.end(), "error") > 0 && !estimates)
-    fail("--fields error needs an estimate; drop --no-estimate, and --seeds all, which has no error");
+    refuseOptions("--fields error needs an estimate; drop --no-estimate, and --seeds all, which has no error");
   if (isCpu && solverNeedsDevice(line.options.solver))
-    fail(fmt::format(
+    refuseOptions(fmt::format(
         "--solver {} runs on a Vulkan device, which --backend cpu and reference do not use; use --solver cpu",
         line.options.solver));
 }

@@ -10,13 +10,11 @@
 namespace asdfvk {
 namespace {
 
-[[noreturn]] void fail(const std::string& message) { throw Error(ErrorCode::OptionConflict, message); }
-
 /// The command line with the options of the computation in `text`, and no others of the computation.
 CommandLine comparedLine(const CommandLine& line, const std::string& text) {
   std::istringstream words(text);
   std::vector<std::string> arguments{std::istream_iterator<std::string>(words), {}};
-  if (arguments.empty()) fail("--against names no option of the computation, such as \"--recipe paper\"");
+  if (arguments.empty()) refuseOptions("--against names no option of the computation, such as \"--recipe paper\"");
   arguments.insert(arguments.begin(), line.meshes.begin(), line.meshes.end());
   CommandLine other;
   try {
@@ -30,7 +28,8 @@ CommandLine comparedLine(const CommandLine& line, const std::string& text) {
                          other.quiet || other.ascii || other.choosesFields || other.opensPage || other.listDevices ||
                          other.threadCount != 0 || other.session.backend != defaults.session.backend ||
                          !other.session.device.empty() || other.session.requireGpu || !other.compared.empty();
-  if (hasOthers) fail("--against takes options of the computation only; give those of output and device beside it");
+  if (hasOthers)
+    refuseOptions("--against takes options of the computation only; give those of output and device beside it");
   CommandLine compared = line;
   compared.options = other.options;
   compared.recipe = other.recipe;
@@ -57,17 +56,18 @@ void completePage(const CLI::App& app, CommandLine& line) {
   line.choosesFields = app.count("--fields") > 0;
   if (line.opensPage && line.output.empty() && line.format.empty()) line.format = kPageFormat;
   const bool isPage = writesPages(line);
-  if (line.opensPage && !isPage) fail("--open opens a page; give -o FILE.html, or drop --open");
-  if (line.opensPage && line.output == "-") fail("--open opens a file, which -o - does not write; give -o FILE.html");
+  if (line.opensPage && !isPage) refuseOptions("--open opens a page; give -o FILE.html, or drop --open");
+  if (line.opensPage && line.output == "-")
+    refuseOptions("--open opens a file, which -o - does not write; give -o FILE.html");
   if (line.opensPage && line.meshes.size() > 1 && !writesOnePage(line))
-    fail("--open opens one page; give -o FILE.html, which shows all meshes");
+    refuseOptions("--open opens one page; give -o FILE.html, which shows all meshes");
   if (isPage && line.choosesFields && std::count(line.fields.begin(), line.fields.end(), "centre") > 0)
-    fail("--fields centre has three components; a page shows fields of one component");
+    refuseOptions("--fields centre has three components; a page shows fields of one component");
   line.options.keepsScene = line.options.keepsScene || isPage;
   if (app.count("--against") == 0) return;
-  if (!isPage) fail("--against compares in a page; give -o FILE.html");
+  if (!isPage) refuseOptions("--against compares in a page; give -o FILE.html");
   if (std::count(line.meshes.begin(), line.meshes.end(), "-") > 0)
-    fail("--against reads each mesh twice, which standard input does not allow; give it a file");
+    refuseOptions("--against reads each mesh twice, which standard input does not allow; give it a file");
   line.compared = {comparedLine(line, std::exchange(line.against, ""))};
   line.compared.front().options.keepsScene = true;
 }

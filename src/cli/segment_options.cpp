@@ -95,18 +95,17 @@ void expandBareSegment(std::vector<std::string>& arguments) {
 
 void completeSegments(const CLI::App& app, CommandLine& line) {
   const auto isGiven = [&app](const char* option) { return app.count(option) > 0; };
-  const auto fail = [](const std::string& message) { throw Error(ErrorCode::OptionConflict, message); };
   Options& options = line.options;
   if (options.segmentation != Segmentation::Cgal)
     for (const char* option : {"--clusters", "--smoothness", "--cgal-expansion"})
-      if (isGiven(option)) fail(fmt::format("{} needs --segment cgal", option));
+      if (isGiven(option)) refuseOptions(fmt::format("{} needs --segment cgal", option));
   if (options.segmentation != Segmentation::Parts)
     for (const char* option : {"--parts", "--detail"})
-      if (isGiven(option)) fail(fmt::format("{} needs --segment parts", option));
-  if (isGiven("--parts") && isGiven("--detail")) fail("--parts and --detail contradict each other; drop one");
+      if (isGiven(option)) refuseOptions(fmt::format("{} needs --segment parts", option));
+  if (isGiven("--parts") && isGiven("--detail")) refuseOptions("--parts and --detail contradict each other; drop one");
   if (options.segmentation == Segmentation::Cgal && isGiven("--postprocess") &&
       options.postprocess == Postprocess::None)
-    fail("--segment cgal contradicts --postprocess none; drop one");
+    refuseOptions("--segment cgal contradicts --postprocess none; drop one");
   if (isGiven("--postprocess") && options.postprocess != Postprocess::None) line.valueOptions = "--postprocess";
   if (isGiven("--segment") && options.segmentation != Segmentation::None)
     line.valueOptions += line.valueOptions.empty() ? "--segment" : " and --segment";

@@ -17,7 +17,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-Json arrayOf(const Vec3d& v) { return {number(v.x), number(v.y), number(v.z)}; }
+Json placeOf(const Vec3d& v) { return {number(v.x), number(v.y), number(v.z)}; }
 
 Json describe(const PageTexts& texts) {
   Json json{{"name", texts.name}, {"label", texts.label}, {"up", texts.up}};
@@ -32,14 +32,14 @@ Json describe(const PageTexts& texts) {
                                    {"value", number(region.value)},
                                    {"area", number(region.area)},
                                    {"faceCount", region.faceCount},
-                                   {"centre", arrayOf(region.centre)}});
+                                   {"centre", placeOf(region.centre)}});
   json["segments"] = Json::array();
   for (const PageSegment& segment : texts.segments)
     json["segments"].push_back({{"label", segment.label},
                                 {"faceCount", segment.faceCount},
                                 {"area", number(segment.area)},
                                 {"median", number(segment.median)},
-                                {"centre", arrayOf(segment.centre)}});
+                                {"centre", placeOf(segment.centre)}});
   return json;
 }
 
