@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -10,6 +11,7 @@
 #include <cstring>
 #include <filesystem>
 #include <sstream>
+#include <system_error>
 
 #include "asdf_vk/error.h"
 
@@ -22,9 +24,10 @@ constexpr const char* kOpener = "xdg-open";
 std::string findOpener() {
   const char* const variable = std::getenv("PATH");
   std::istringstream folders(variable == nullptr ? "/usr/local/bin:/usr/bin:/bin" : variable);
+  std::error_code ignored;
   for (std::string folder; std::getline(folders, folder, ':');) {
     const std::string path = (std::filesystem::path(folder.empty() ? "." : folder) / kOpener).string();
-    if (access(path.c_str(), X_OK) == 0) return path;
+    if (std::filesystem::is_regular_file(path, ignored) && access(path.c_str(), X_OK) == 0) return path;
   }
   return "";
 }
@@ -50,6 +53,7 @@ void openInBrowser(const std::string& path) {
     const int null = open("/dev/null", O_RDWR);
     for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
       if (null >= 0) dup2(null, stream);
+    signal(SIGPIPE, SIG_DFL);  // This program ignores it, and programs inherit that.
     execl(opener.c_str(), kOpener, file.c_str(), nullptr);
     _exit(127);
   }

@@ -99,7 +99,7 @@ bool writesPages(const CommandLine& line) {
 }
 
 bool writesOnePage(const CommandLine& line) {
-  return writesPages(line) && !line.output.empty() && !isDirectory(line.output);
+  return writesPages(line) && (isPageName(line.output) || line.output == "-") && !isDirectory(line.output);
 }
 
 std::vector<std::string> planOutputs(const CommandLine& line) {

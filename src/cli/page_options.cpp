@@ -37,6 +37,8 @@ CommandLine comparedLine(const CommandLine& line, const std::string& text) {
   compared.valueOptions = other.valueOptions;
   if (!line.choosesFields) compared.fields = other.fields;
   compared.against = text;
+  compared.picture.clear();  // They show the given options.
+  compared.points.clear();
   return compared;
 }
 

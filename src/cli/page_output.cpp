@@ -28,7 +28,7 @@ FieldList shownFields(const CommandLine& line, const Result& result) {
   FieldList shown;
   for (const std::string& name : line.fields) {
     const Field* const field = result.field(name);
-    if (field == nullptr && line.choosesFields)
+    if (field == nullptr && line.choosesFields && line.against.empty())  // With all seeds there is no error, say.
       throw Error(ErrorCode::UnknownField, fmt::format("--fields: the result has no field {}", name));
     if (field != nullptr) shown.emplace_back(*field);
   }
@@ -101,9 +101,10 @@ std::vector<PageThinRegion> thinRegionsOf(const Result& result) {
   return regions;
 }
 
-std::vector<PageSegment> segmentsOf(const Result& result) {
+/// None where the page does not show them.
+std::vector<PageSegment> segmentsOf(const Result& result, const FieldList& shown) {
   const Field* const field = result.field("segment");
-  if (field == nullptr) return {};
+  if (std::none_of(shown.begin(), shown.end(), [&](const Field& other) { return &other == field; })) return {};
   const TraceScene& scene = result.scene->scene;
   return listSegments(scene.mesh, scene.geometry.areas, scene.geometry.barycentres,
                       std::get<std::vector<uint32_t>>(field->values), result.sdf());
@@ -136,7 +137,7 @@ void addToPage(Page& page, const MeshOutcome& outcome, const RunControl& control
     (warning.code == WarningCode::MeshDefect ? texts.defects : texts.warnings).push_back(textWarning(warning));
   texts.up = upOf(outcome.result.scene->scene.mesh, outcome.line.pictureView);
   texts.thinRegions = thinRegionsOf(outcome.result);
-  texts.segments = segmentsOf(outcome.result);
+  texts.segments = segmentsOf(outcome.result, fields);
   // A careful picture of more faces takes longer than the rest of the page.
   constexpr uint64_t kMaxCarefulCount = 100'000;
   const PictureStyle style{

@@ -177,8 +177,12 @@ GraphSolver* Interpolation::graphSolver(PoissonSolver& solver, size_t unknownCou
   if (2 * unknownCount < graph.faceCount()) return nullptr;
   if (solver_ != &solver) {
     graphSolver_.reset();
-    graphSolver_ = solver.onGraph(graph, weights());
     solver_ = &solver;
+    try {
+      graphSolver_ = solver.onGraph(graph, weights());
+    } catch (const Error& error) {  // The unknown faces alone may fit the device.
+      if (error.code() != ErrorCode::EquationLimit) throw;
+    }
   }
   return graphSolver_.get();
 }

@@ -59,7 +59,7 @@ using MakeSolver = std::unique_ptr<PoissonSolver>(const Device* device);
 struct Solver {
   const char* name;
   bool needsDevice;
-  uint32_t storageBufferCount;  ///< That its kernels bind. Vulkan promises four.
+  uint32_t storageBufferCount;  ///< That its kernels bind. The minimum of Vulkan is four.
   MakeSolver* make;
 };
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 
 #include "core/parallel.h"
 
@@ -32,7 +31,7 @@ double powerOfTen(int e) {
 }
 
 Decimal decimalOf(double value) {
-  constexpr double kGreatest = std::numeric_limits<float>::max();
+  constexpr double kGreatest = 3.402e38;  // Rounded to four digits, the greatest float32 would be infinite.
   const double size = std::min(std::abs(value), kGreatest);
   int exponent = static_cast<int>(std::floor(std::log10(size))) - (kPageDigits - 1);
   auto digits = static_cast<int32_t>(std::lround(size * powerOfTen(-exponent)));

@@ -96,7 +96,7 @@ Bytes FieldEncoder::encode(const std::string& key) const {
   return bitsOf(flags);
 }
 
-/// A face with a mark carries on the prediction from its neighbours.
+/// A marked face stores its predicted code.
 Bytes FieldEncoder::encodeCodes() const {
   std::vector<int32_t> carried(codes_.size());
   std::vector<uint32_t> residuals(codes_.size(), 0);

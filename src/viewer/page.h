@@ -35,7 +35,7 @@ struct PageSegment {
 /// The texts and lists of a result in a page, in UTF-8; any characters are allowed.
 struct PageTexts {
   std::string name;                                          ///< Of the mesh.
-  std::string label;                                         ///< What tells this result from the others of the page.
+  std::string label;                                         ///< Distinguishes this result from the others of the page.
   std::vector<std::pair<std::string, std::string>> summary;  ///< Rows of a table: title, value.
   std::string errorSentence;
   std::string up = "y";  ///< Upright axis of the first view: x, y, z, -x, -y or -z.

@@ -10,7 +10,7 @@
 
 namespace asdfvk::test {
 
-/// Whether the device has the storage buffers that the solvers need, eight; Vulkan promises four.
+/// Whether the device has the storage buffers that the solvers need, eight; the minimum of Vulkan is four.
 inline bool hasBuffersForSolvers(const Device& device) {
   const uint32_t count = device.facts().maxStorageBuffersPerStage;
   if (count < 8) MESSAGE("without solvers on the device, which has " << count << " storage buffers");

@@ -130,10 +130,13 @@ class VulkanTracer final : public ConeTracer {
   }
 
   void storeMisses(VulkanHitStore& store, size_t coneCount) const {
-    std::vector<uint32_t> places(coneCount);
-    std::iota(places.begin(), places.end(), 0u);
-    const std::vector<ConeHit> misses(coneCount * kernel_.rayCount(), kMiss);
-    store.write(places, misses);
+    const size_t blockSize = largestConeChunk(kernel_);
+    for (size_t begin = 0; begin < coneCount; begin += blockSize) {
+      std::vector<uint32_t> places(std::min(blockSize, coneCount - begin));
+      std::iota(places.begin(), places.end(), static_cast<uint32_t>(begin));
+      const std::vector<ConeHit> misses(places.size() * kernel_.rayCount(), kMiss);
+      store.write(places, misses);
+    }
     store.addSeeds(coneCount);
   }
 

@@ -22,7 +22,7 @@ export class Layers {
     return this.fields.find((field) => field.name === name) ?? this.fields[0];
   }
 
-  /** Are these two results of one mesh? */
+  /** Whether both have the same face count and nearly the same box. */
   areComparable(one, other) {
     const [a, b] = [this.models[one], this.models[other]];
     const size = Math.hypot(...a.boxMax.map((value, axis) => value - a.boxMin[axis]));

@@ -36,6 +36,7 @@ function followFragment(viewer) {
   });
   addEventListener('hashchange', () => {
     if (location.hash === written) return;
+    viewer.flight = null;
     viewer.store.set({ ...viewer.initial, ...viewer.validated(stateOfFragment(location.hash)) });
   });
 }

@@ -27,7 +27,12 @@ export function rangeOf(parts) {
     while (bin < kBinCount - 1 && below + bins[bin] <= share * (count - 1)) below += bins[bin++];
     return scale > 0 ? min + bin / scale : min;
   };
-  return { low: percentile(0.01), high: percentile(0.99), min, max };
+  const low = percentile(0.01), high = percentile(0.99);
+  if (low < high || min === max) return { low, high, min, max };
+  // Values far apart: most are in one bin.
+  const all = Float32Array.from(parts.flatMap(({ values }) => Array.from(values)).filter((value) => value === value)).sort();
+  const at = (share) => all[Math.floor(share * (all.length - 1))];
+  return { low: at(0.01), high: at(0.99), min, max };
 }
 
 /** Areas of the faces by value in equal bins from low to high, and of those outside; total includes faces of no value. */

@@ -131,7 +131,8 @@ export class Triangles {
    */
   reduced(count) {
     const { positions, indices } = this, vertexCount = positions.length / 3;
-    const cell = Math.sqrt(2 * this.totalArea / count) || 1;
+    const farthest = positions.reduce((most, x) => Math.max(most, Math.abs(x)), 0);
+    const cell = Math.max(Math.sqrt(2 * this.totalArea / count), farthest / 65535) || 1;  // The keys have 17 bits per axis.
     const cells = new Map(), cellOf = new Uint32Array(vertexCount), firsts = [];
     const at = (i) => Math.round(positions[i] / cell);
     for (let vertex = 0, i = 0; vertex < vertexCount; ++vertex, i += 3) {

@@ -16,7 +16,7 @@ const kFlightMilliseconds = 350;
 
 export class Viewer {
   constructor(canvas, renderer, models, store) {
-    Object.assign(this, { canvas, renderer, models, store, afterFrame: [], level: Number(renderer.isSoftware), slowCount: 0 });
+    Object.assign(this, { canvas, renderer, models, store, afterFrame: [], level: Number(renderer.isSoftware), slowCount: 0, frameMilliseconds: 0 });
     this.layers = new Layers(models);
     this.frames = framesOf(models);
     this.restore();
@@ -53,6 +53,7 @@ export class Viewer {
     const first = this.layers.fields.find((field) => field.kind === 'number') ?? this.layers.fields[0];
     const up = this.models[0].description.up ?? 'y';
     this.initial = { ...kInitialState, layer: first?.name ?? null, up, ...this.fitted({ ...kInitialState, up }) };
+    this.flight = null;
     this.store.set(this.initial);
   }
 
@@ -116,7 +117,8 @@ export class Viewer {
   recolour({ index, values }) {
     const { state, layers, currentLook: look } = this;
     const [partMesh, label] = state.part ? state.part.split(':').map(Number) : [-1];
-    const part = partMesh === index ? { labels: layers.valuesOf(index, 'segment'), label } : null;
+    const hasParts = this.models[index].description.fields.some(({ name }) => name === 'segment');
+    const part = partMesh === index && hasParts ? { labels: layers.valuesOf(index, 'segment'), label } : null;
     const style = { none: state.none, limit: this.limit, part, hidesRest: state.rest === 'hidden' };
     const layer = look.kind === 'label' ? { ...look, colours: layers.labelColours(index, look.name) } : look;
     this.renderer.setColours(this.meshes[index], colourFaces(values, layer, style));
@@ -171,7 +173,8 @@ export class Viewer {
     this.fly(time);
     const isMoving = Boolean(this.hasMoved);
     this.hasMoved = false;
-    this.adapt(time, isMoving);
+    // The next frame is late where the device is slow, whatever the interval between two inputs.
+    if (isMoving) requestAnimationFrame((next) => this.adapt(next - time));
     // The first frame is early rather than smooth.
     const { dataset } = document.documentElement, isFirst = !dataset.frames;
     this.draw(!isMoving, isFirst);
@@ -184,9 +187,8 @@ export class Viewer {
   }
 
   // Less detail while moving, where several frames took long.
-  adapt(time, isMoving) {
-    this.frameMilliseconds = isMoving ? time - this.lastMotion : 0;
-    this.lastMotion = isMoving ? time : Infinity;
+  adapt(milliseconds) {
+    this.frameMilliseconds = milliseconds;
     if (this.frameMilliseconds > kSlowMilliseconds) ++this.slowCount;
     else if (this.slowCount > 0) --this.slowCount;
     if (this.slowCount < kSlowCount || this.level === kLevels.length - 1) return;
