@@ -7,10 +7,10 @@
 
 #include "asdf_vk/version.h"
 #include "cli/interrupt.h"
-#include "cli/json.h"
 #include "cli/report.h"
 #include "cli/run.h"
 #include "cli/terminal.h"
+#include "viewer/json.h"
 
 namespace asdfvk {
 namespace {

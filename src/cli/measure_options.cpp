@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "asdf_vk/error.h"
-#include "cli/json.h"
 #include "cli/option_parsing.h"
+#include "viewer/json.h"
 
 namespace asdfvk {
 namespace {

@@ -10,7 +10,7 @@
 namespace asdfvk {
 namespace {
 
-/// The command line with the options of the computation in `text`, and no others of the computation.
+/// A copy of `line` with the options of the computation from `text` instead of its own.
 CommandLine comparedLine(const CommandLine& line, const std::string& text) {
   std::istringstream words(text);
   std::vector<std::string> arguments{std::istream_iterator<std::string>(words), {}};

@@ -40,7 +40,7 @@ FieldList shownFields(const CommandLine& line, const Result& result) {
   return shown;
 }
 
-/// The file name, with its folder where another mesh has the same one.
+/// The file name, or the path where another mesh has the same file name.
 std::string shownName(const std::string& mesh, const std::vector<std::string>& meshes) {
   if (mesh == "-") return "standard input";
   const auto fileNameOf = [](const std::string& path) { return std::filesystem::path(path).filename().string(); };
@@ -110,8 +110,8 @@ std::vector<PageSegment> segmentsOf(const Result& result, const FieldList& shown
                       std::get<std::vector<uint32_t>>(field->values), result.sdf());
 }
 
-/// The upright axis of the small picture, for the first view of the page.
-std::string upOf(const TriangleMesh& mesh, const View& view) {
+/// The upright axis that the mesh seems to have.
+Up guessUpOf(const TriangleMesh& mesh) {
   std::vector<uint8_t> isUsed(mesh.vertices.size(), 0);
   for (const Face& face : mesh.faces)
     for (const uint32_t vertex : face) isUsed[vertex] = 1;
@@ -120,8 +120,12 @@ std::string upOf(const TriangleMesh& mesh, const View& view) {
     const Vec3d& point = mesh.vertices[vertex];
     if (isUsed[vertex] != 0 && std::isfinite(point.x + point.y + point.z)) points.push_back(point);
   }
+  return guessUp(points);
+}
+
+std::string axisName(Up up) {
   constexpr std::array<std::string_view, 6> kNames{"x", "y", "z", "-x", "-y", "-z"};
-  return std::string(kNames[static_cast<size_t>(view.up ? *view.up : guessUp(points))]);
+  return std::string(kNames[static_cast<size_t>(up)]);
 }
 
 }  // namespace
@@ -135,14 +139,18 @@ void addToPage(Page& page, const MeshOutcome& outcome, const RunControl& control
   texts.errorSentence = errorSentenceOf(outcome.result);
   for (const Warning& warning : outcome.result.report.warnings)
     (warning.code == WarningCode::MeshDefect ? texts.defects : texts.warnings).push_back(textWarning(warning));
-  texts.up = upOf(outcome.result.scene->scene.mesh, outcome.line.pictureView);
+  View view = outcome.line.pictureView;
+  if (!view.up) view.up = guessUpOf(outcome.result.scene->scene.mesh);
+  texts.up = axisName(*view.up);
   texts.thinRegions = thinRegionsOf(outcome.result);
   texts.segments = segmentsOf(outcome.result, fields);
-  // A careful picture of more faces takes longer than the rest of the page.
-  constexpr uint64_t kMaxCarefulCount = 100'000;
-  const PictureStyle style{
-      .width = 480, .height = 360, .textScale = 1.4, .isDraft = outcome.result.report.triangleCount > kMaxCarefulCount};
-  texts.picture = encodePng(pictureOf(outcome.result, fields.front(), outcome.line.pictureView, style, control));
+  // A ray-traced picture of more faces takes longer than the rest of the page.
+  constexpr uint64_t kMaxRayTracedFaceCount = 100'000;
+  const PictureStyle style{.width = 480,
+                           .height = 360,
+                           .textScale = 1.4,
+                           .isDraft = outcome.result.report.triangleCount > kMaxRayTracedFaceCount};
+  texts.picture = encodePng(pictureOf(outcome.result, fields.front(), view, style, control));
   page.add(outcome.result.scene->scene.mesh, fields, std::move(texts));
 }
 

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "asdf_vk/version.h"
-#include "cli/json.h"
+#include "viewer/json.h"
 
 namespace asdfvk {
 namespace {

@@ -7,11 +7,10 @@
 #include "core/parallel.h"
 #include "viewer/decimal_codes.h"
 #include "viewer/half_edges.h"
+#include "viewer/json.h"
 
 namespace asdfvk {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 Json rangeOf(double min, double max) { return min <= max ? Json{min, max} : Json(nullptr); }
 

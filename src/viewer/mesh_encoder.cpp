@@ -13,11 +13,10 @@
 #include "viewer/decimal_codes.h"
 #include "viewer/field_encoder.h"
 #include "viewer/half_edges.h"
+#include "viewer/json.h"
 
 namespace asdfvk {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// Coordinates are multiples of the longest side of the box over this.
 constexpr double kGridSize = 65535;
@@ -73,8 +72,6 @@ std::vector<uint32_t> inputFacesOf(const TriangleMesh& mesh, const Connectivity&
   forEachInParallel(inputFaces.size(), [&](uint32_t i) { inputFaces[i] = mesh.inputFaceOf(walk.faces[i]); });
   return inputFaces;
 }
-
-Json arrayOf(const Vec3d& v) { return {v.x, v.y, v.z}; }
 
 }  // namespace
 

@@ -8,16 +8,12 @@
 #include "core/base64_stream.h"
 #include "core/check.h"
 #include "viewer/html_text.h"
+#include "viewer/json.h"
 #include "viewer/mesh_encoder.h"
 #include "viewer/page_template.h"
 
 namespace asdfvk {
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-Json placeOf(const Vec3d& v) { return {number(v.x), number(v.y), number(v.z)}; }
 
 Json describe(const PageTexts& texts) {
   Json json{{"name", texts.name}, {"label", texts.label}, {"up", texts.up}};
@@ -32,14 +28,14 @@ Json describe(const PageTexts& texts) {
                                    {"value", number(region.value)},
                                    {"area", number(region.area)},
                                    {"faceCount", region.faceCount},
-                                   {"centre", placeOf(region.centre)}});
+                                   {"centre", arrayOf(region.centre)}});
   json["segments"] = Json::array();
   for (const PageSegment& segment : texts.segments)
     json["segments"].push_back({{"label", segment.label},
                                 {"faceCount", segment.faceCount},
                                 {"area", number(segment.area)},
                                 {"median", number(segment.median)},
-                                {"centre", placeOf(segment.centre)}});
+                                {"centre", arrayOf(segment.centre)}});
   return json;
 }
 

@@ -24,8 +24,8 @@ using Bytes = std::vector<uint8_t>;
 /// The numbered streams of a page, compressed. Streams with the same bytes have one number.
 class PageStreams {
  public:
-  /// Makes the bytes of new streams and compresses them, in parallel; returns their numbers. The first sources should
-  /// be the longest.
+  /// Makes the bytes of new streams and compresses them, in parallel; returns their numbers. Put the longest
+  /// sources first: they take longest.
   [[nodiscard]] std::vector<uint32_t> add(std::span<const std::function<Bytes()>> sources);
 
   /// Bytes of the streams, compressed, by number.

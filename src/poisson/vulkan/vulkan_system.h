@@ -44,8 +44,8 @@ struct VulkanMatrix {
   /// Throws as requireSystemFits().
   VulkanMatrix(const Device& device, const ScaledSystem& system);
 
-  /// Replaces the residual weights, of which there are as many as rows. A row whose weight is 0 is no part of the
-  /// system, nor is its column: its unknown remains 0, if its right-hand side is 0.
+  /// Replaces the residual weights, of which there are as many as rows. Rows of weight 0 and their
+  /// columns are excluded. Precondition: their right-hand sides are 0; their unknowns stay 0.
   void setResidualWeights(const Device& device, std::span<const float> weights);
 
   PoissonGrid grid;
