@@ -10,7 +10,8 @@ if(ASDF_VK_PROGRAM)
   find_program(ASDF_VK_GZIP gzip REQUIRED)
   mark_as_advanced(ASDF_VK_GZIP)
   set(documents ${PROJECT_BINARY_DIR}/documents)
-  set(manPages ${documents}/man/man1/asdf-vk.1 ${documents}/man/man1/asdf-vk-generate.1)
+  set(manPages ${documents}/man/man1/asdf-vk.1 ${documents}/man/man1/asdf-vk-summarize.1
+               ${documents}/man/man1/asdf-vk-generate.1)
   add_custom_command(OUTPUT ${documents}/written
                      COMMAND asdfvk-write-documents ${documents}
                      COMMAND ${ASDF_VK_GZIP} -9nf ${manPages}

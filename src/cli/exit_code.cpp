@@ -1,5 +1,6 @@
 #include "cli/exit_code.h"
 
+#include <algorithm>
 #include <cmath>
 #include <new>
 
@@ -72,6 +73,22 @@ ExitCode exitCodeOf(ErrorKind kind) {
       return ExitCode::Cancelled;
   }
   return ExitCode::Internal;
+}
+
+const char* meaningOf(ExitCode code) {
+  return std::find_if(kExitCodes.begin(), kExitCodes.end(), [&](const auto& row) { return row.first == code; })->second;
+}
+
+void SharedExitCode::add(ExitCode ofMesh) {
+  if (first_ == ExitCode::Done) first_ = ofMesh;
+  if (ofMesh == ExitCode::Cancelled) isCancelled_ = true;
+  const bool isWritten = ofMesh == ExitCode::Done || ofMesh == ExitCode::CheckFailed || ofMesh == ExitCode::TooThin;
+  (isWritten ? hasResult_ : lacksResult_) = true;
+}
+
+ExitCode SharedExitCode::code() const {
+  if (isCancelled_) return ExitCode::Cancelled;
+  return hasResult_ && lacksResult_ ? ExitCode::SomeFailed : first_;
 }
 
 ExitCode exitCodeOf(const CheckReport& check) {

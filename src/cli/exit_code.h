@@ -18,12 +18,14 @@ enum class ExitCode : int {
   Output = 4,       ///< A result or report cannot be written.
   CheckFailed = 5,  ///< --check found traced faces that disagree with the reference, or no traced face at all.
   TooThin = 6,      ///< --fail-if-thinner: a face is thinner.
+  SomeFailed = 7,   ///< Of several meshes some could not be computed; the others are done.
+  Limit = 8,        ///< A mesh exceeded --timeout or --memory-limit.
   Internal = 70,    ///< A defect of the program.
   Cancelled = 130,  ///< SIGINT, SIGTERM or SIGHUP.
 };
 
 /// Meaning of each code, for the help and the man page.
-inline constexpr std::array<std::pair<ExitCode, const char*>, 9> kExitCodes{
+inline constexpr std::array<std::pair<ExitCode, const char*>, 11> kExitCodes{
     {{ExitCode::Done, "done"},
      {ExitCode::Usage, "usage"},
      {ExitCode::Input, "input unreadable"},
@@ -31,12 +33,28 @@ inline constexpr std::array<std::pair<ExitCode, const char*>, 9> kExitCodes{
      {ExitCode::Output, "output not writable"},
      {ExitCode::CheckFailed, "a requested check failed"},
      {ExitCode::TooThin, "thinner than --fail-if-thinner"},
+     {ExitCode::SomeFailed, "some of several meshes failed, the others are done"},
+     {ExitCode::Limit, "beyond --timeout or --memory-limit"},
      {ExitCode::Internal, "internal error"},
      {ExitCode::Cancelled, "cancelled"}}};
+[[nodiscard]] const char* meaningOf(ExitCode code);
+
 inline constexpr const char* kExitCodeOfSeveralMeshes =
-    "With several meshes the others are computed and the code of the first failure is returned.";
+    "With several meshes the others are computed. If all of them fail, or only by codes 5 and 6, the code of the first "
+    "failure is returned.";
 
 [[nodiscard]] ExitCode exitCodeOf(ErrorKind kind);
+
+/// Exit code of several meshes from those of each.
+class SharedExitCode {
+ public:
+  void add(ExitCode ofMesh);
+  [[nodiscard]] ExitCode code() const;
+
+ private:
+  ExitCode first_ = ExitCode::Done;
+  bool hasResult_ = false, lacksResult_ = false, isCancelled_ = false;
+};
 /// Done or CheckFailed. A check that is not independent cannot fail.
 [[nodiscard]] ExitCode exitCodeOf(const CheckReport& check);
 

@@ -21,17 +21,17 @@ constexpr std::array kSignals{SIGINT, SIGTERM, SIGHUP};
 
 // The handler uses lock-free atomics (one behind removeUnfinishedFile()) and a pipe only. A byte in the pipe is a stop
 // request; its closing ends the waiting thread.
-std::atomic<bool> isListening{false};
+std::atomic<int> listenerCount{0};
 std::atomic<int> signalCount{0};
 std::atomic<int> pipeWriteEnd{-1};
-static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
+static_assert(std::atomic<int>::is_always_lock_free);
 
 std::array<int, 2> stopPipe{-1, -1};
 std::array<struct sigaction, kSignals.size()> previousActions;
 
 extern "C" void onSignal(int) {
   const int savedErrno = errno;
-  if (signalCount.fetch_add(1) > 0 || !isListening.load()) {
+  if (signalCount.fetch_add(1) > 0 || listenerCount.load() == 0) {
     removeUnfinishedFile();
     constexpr std::string_view kMessage = "asdf-vk: error: cancelled\n";
     [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, kMessage.data(), kMessage.size());
@@ -73,7 +73,7 @@ Interrupt::~Interrupt() {
   close(stopPipe[0]);
 }
 
-Interrupt::Listening::Listening() { isListening = true; }
-Interrupt::Listening::~Listening() { isListening = false; }
+Interrupt::Listening::Listening() { listenerCount.fetch_add(1); }
+Interrupt::Listening::~Listening() { listenerCount.fetch_sub(1); }
 
 }  // namespace asdfvk

@@ -17,7 +17,7 @@ class Interrupt {
 
   [[nodiscard]] std::stop_token token() const { return source_.get_token(); }
 
-  /// During its lifetime a computation polls token().
+  /// During its lifetime a computation polls token(). Several may exist.
   class Listening {
    public:
     Listening();

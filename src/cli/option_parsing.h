@@ -57,6 +57,10 @@ void completeMeasure(const CLI::App& app, CommandLine& line);
 void addPage(CLI::App& app, CommandLine& line);
 void completePage(const CLI::App& app, CommandLine& line);
 
+/// The same for the options of many meshes; after completePage().
+void addBatch(CLI::App& app, CommandLine& line);
+void completeBatch(const CLI::App& app, CommandLine& line);
+
 /// parse: reads the value and throws Error; the name of the option is put before its message.
 template <typename Parse>
 CLI::Option* addValue(CLI::App& app, const std::string& name, const std::string& placeholder, const std::string& text,

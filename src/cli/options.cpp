@@ -259,9 +259,9 @@ void requireNoPaperOption(const CLI::App& app, const CommandLine& line) {
 }
 
 void validateOptions(const CommandLine& line) {
-  if (line.deviceReport && !line.meshes.empty())
+  if (line.deviceReport && !(line.meshes.empty() && line.batch.list.empty()))
     refuseOptions("--device-report computes on a generated mesh; drop it, or the meshes");
-  if (line.meshes.empty() && !line.listDevices && !line.deviceReport)
+  if (line.meshes.empty() && line.batch.list.empty() && !line.listDevices && !line.deviceReport)
     refuseOptions("no mesh was given; asdf-vk --help lists the options");
   if (std::count(line.meshes.begin(), line.meshes.end(), "-") > 1)
     refuseOptions("standard input ('-') can be read only once; name it once");
@@ -320,6 +320,7 @@ void addOptions(CLI::App& app, CommandLine& line) {
   addComputation(app, line);
   addOutput(app, line);
   addPicture(app, line);
+  addBatch(app, line);
   addDevice(app, line);
 }
 
@@ -354,6 +355,7 @@ CommandLine parseCommandLine(std::vector<std::string> arguments) {
   completeSegments(app, line);
   completeMeasure(app, line);
   completePage(app, line);
+  completeBatch(app, line);
   requireNoPaperOption(app, line);
   validateOptions(line);
   return line;

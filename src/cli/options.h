@@ -7,13 +7,14 @@
 #include <vector>
 
 #include "asdf_vk/session.h"
+#include "cli/batch_options.h"
 #include "render/camera.h"
 
 namespace asdfvk {
 
 /// The parsed command line. Every option, and every combination of options, is validated.
 struct CommandLine {
-  std::vector<std::string> meshes;  ///< Paths, "-" for standard input (at most once).
+  std::vector<std::string> meshes;  ///< Paths, "-" for standard input (at most once); with -r also folders.
   SessionOptions session;
   Recipe recipe = Recipe::Balanced;  ///< Applied to `options` before other options.
   Options options;
@@ -28,7 +29,8 @@ struct CommandLine {
   std::string points;          ///< A .ply for the skeleton points, "-" for standard output; empty: none.
   bool choosesFields = false;  ///< --fields is given.
   bool opensPage = false;      ///< Start the browser with the page.
-  std::string against;         ///< Of `compared`: the text of --against.
+  BatchOptions batch;
+  std::string against;  ///< Of `compared`: the text of --against.
   bool ascii = false;
   bool json = false;
   bool quiet = false;

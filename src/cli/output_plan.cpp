@@ -42,14 +42,29 @@ bool contradicts(const fs::path& path, const std::string& format) {
   }
 }
 
-bool isDirectory(const std::string& output) {
-  std::error_code ignored;
-  return !output.empty() && fs::is_directory(output, ignored);
+bool isResultName(const fs::path& path) {
+  if (isPageName(path)) return true;
+  try {
+    return !resultFormatOf(path).empty();
+  } catch (const Error&) {
+    return false;
+  }
 }
 
-std::string planOutput(const std::string& mesh, const CommandLine& line) {
+bool isFolder(const std::string& output) {
+  std::error_code ignored;
+  return output.ends_with('/') || (!output.empty() && fs::is_directory(output, ignored));
+}
+
+/// Whether -o is the folder of several results.
+bool takesFolder(const CommandLine& line) {
+  return !line.output.empty() && (line.batch.hasTree() || isFolder(line.output));
+}
+
+std::string planOutput(const InputFile& input, const CommandLine& line) {
+  const std::string& mesh = input.path;
   if (line.output == "-") return "-";
-  if (isDirectory(line.output)) return (fs::path(line.output) / resultName(mesh, line.format)).string();
+  if (takesFolder(line)) return (fs::path(line.output) / input.folder / resultName(mesh, line.format)).string();
   if (!line.output.empty()) return line.output;
   if (mesh == "-") usageError("a mesh from standard input has no file name; give -o FILE or -o -");
   return (fs::path(mesh).parent_path() / resultName(mesh, line.format)).string();
@@ -95,27 +110,38 @@ std::vector<std::string> outputFormats() {
 
 bool writesPages(const CommandLine& line) {
   if (!line.format.empty()) return line.format == kPageFormat;
-  return isPageName(line.output) && !isDirectory(line.output);
+  return isPageName(line.output) && !isFolder(line.output);
 }
 
 bool writesOnePage(const CommandLine& line) {
-  return writesPages(line) && (isPageName(line.output) || line.output == "-") && !isDirectory(line.output);
+  return writesPages(line) && (isPageName(line.output) || line.output == "-") && !isFolder(line.output);
 }
 
 std::vector<std::string> planOutputs(const CommandLine& line) {
+  std::vector<InputFile> inputs;
+  for (const std::string& mesh : line.meshes) inputs.push_back({.path = mesh});
+  return planOutputs(line, inputs);
+}
+
+std::vector<std::string> planOutputs(const CommandLine& line, std::span<const InputFile> files) {
   const bool sharePage = writesOnePage(line);
-  if (line.meshes.size() > 1 && !sharePage) {
+  if (line.batch.hasTree() && !line.output.empty() && !isFolder(line.output)) {
+    std::error_code ignored;
+    if (fs::exists(line.output, ignored) || isResultName(line.output))
+      usageError(fmt::format("-o {} is not a folder, which -r and --files-from need", line.output));
+  } else if (files.size() > 1 && !sharePage) {
     if (line.output == "-") usageError("-o - takes the result of one mesh; name one mesh");
-    if (!line.output.empty() && !isDirectory(line.output))
-      usageError(
-          fmt::format("-o {} is not a directory, which several meshes need; create it, or name one mesh", line.output));
+    if (!line.output.empty() && !takesFolder(line))
+      usageError(fmt::format(
+          "-o {0} is not a folder, which several meshes need; write {0}/ to make it, or name one mesh", line.output));
   }
 
   const WriteOptions options = writeOptionsOf(line);
   std::vector<std::string> outputs;
   std::unordered_map<std::string, std::string> meshOfOutput;
-  for (const std::string& mesh : line.meshes) {
-    const std::string output = planOutput(mesh, line);
+  for (const InputFile& file : files) {
+    const std::string& mesh = file.path;
+    const std::string output = planOutput(file, line);
     const std::string format = writesPages(line) ? kPageFormat : resultFormatOf(output, options);
     if (line.ascii && format != "ply") usageError("--ascii is for PLY only; drop it");
     if (output != "-") {
@@ -129,8 +155,8 @@ std::vector<std::string> planOutputs(const CommandLine& line) {
     outputs.push_back(output);
   }
   FileSet inputs;
-  for (const std::string& mesh : line.meshes)
-    if (mesh != "-") inputs.insert(mesh);
+  for (const InputFile& file : files)
+    if (file.path != "-") inputs.insert(file.path);
   for (const std::string& output : outputs)
     if (output != "-" && inputs.holds(output))
       usageError(fmt::format("{} is an input and would be overwritten; choose another -o", output));
@@ -147,6 +173,8 @@ std::vector<std::string> planOutputs(const CommandLine& line) {
   };
   planFurther(line.picture, "--picture");
   planFurther(line.points, "--points");
+  if (!line.batch.log.empty() && inputs.holds(line.batch.log))
+    usageError(fmt::format("{} is an input; choose another --log", line.batch.log));
   return outputs;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "asdf_vk/files.h"
+#include "batch/input_list.h"
 #include "cli/options.h"
 
 namespace asdfvk {
@@ -25,6 +26,9 @@ inline constexpr const char* kPageFormat = "html";
 /// picture, points) have the same path, if an output is an input, or if several meshes have one output file that is no
 /// page.
 [[nodiscard]] std::vector<std::string> planOutputs(const CommandLine& line);
+
+/// The same for the inputs of a batch; their results lie in a tree below -o, whose folders need not exist.
+[[nodiscard]] std::vector<std::string> planOutputs(const CommandLine& line, std::span<const InputFile> inputs);
 
 /// For other formats than pages: the fields of --fields, and the format if --format is given or the output is standard
 /// output.

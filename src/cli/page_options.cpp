@@ -25,9 +25,10 @@ CommandLine comparedLine(const CommandLine& line, const std::string& text) {
   const CommandLine defaults;
   const bool hasOthers = other.meshes != line.meshes || other.answer || !other.output.empty() ||
                          !other.format.empty() || !other.picture.empty() || !other.points.empty() || other.json ||
-                         other.quiet || other.ascii || other.choosesFields || other.opensPage || other.listDevices ||
-                         other.threadCount != 0 || other.session.backend != defaults.session.backend ||
-                         !other.session.device.empty() || other.session.requireGpu || !other.compared.empty();
+                         other.quiet || other.ascii || other.batch.isBatch() || other.batch.jobCount != 0 ||
+                         other.choosesFields || other.opensPage || other.listDevices || other.threadCount != 0 ||
+                         other.session.backend != defaults.session.backend || !other.session.device.empty() ||
+                         other.session.requireGpu || !other.compared.empty();
   if (hasOthers)
     refuseOptions("--against takes options of the computation only; give those of output and device beside it");
   CommandLine compared = line;

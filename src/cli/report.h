@@ -36,6 +36,9 @@ using ReportRows = std::vector<std::pair<std::string, std::string>>;
 /// The message and, where there is one, the remedy by options.
 [[nodiscard]] std::string textWarning(const Warning& warning);
 
+/// The lines of the session, with a remark where the CPU runs Vulkan.
+[[nodiscard]] std::string deviceLinesOf(const Session& session);
+
 /// One line per device, or the reason why there is none.
 [[nodiscard]] std::string textDevices(std::span<const DeviceInfo> devices, const std::string& reason);
 

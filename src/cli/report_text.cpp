@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "asdf_vk/choices.h"
+#include "cli/exit_code.h"
 #include "core/text.h"
 
 namespace asdfvk {
@@ -251,6 +252,15 @@ std::string thinFailure(const ThicknessReport& thickness, double limit) {
                                          [](const ThinRegion& a, const ThinRegion& b) { return a.min < b.min; });
   return fmt::format("thinner than {:g}: thickness {:.6g} at ({:.6g}, {:.6g}, {:.6g}), face {}", limit, thinnest->min,
                      thinnest->place.x, thinnest->place.y, thinnest->place.z, thinnest->minFace);
+}
+
+std::string deviceLinesOf(const Session& session) {
+  std::vector<std::string> lines = session.deviceLines();
+  if (session.backend() == "vulkan" && session.runsOnCpu() && isBackendBuilt("cpu"))
+    lines.front() += "; a CPU device: --backend cpu (Embree) may be faster";
+  std::string text;
+  for (const std::string& line : lines) text += oneLine("asdf-vk: " + line) + "\n";
+  return text;
 }
 
 std::string textDevices(std::span<const DeviceInfo> devices, const std::string& reason) {

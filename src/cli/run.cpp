@@ -1,190 +1,140 @@
 #include "cli/run.h"
 
-#include <fmt/format.h>
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
 
+#include <filesystem>
+#include <memory>
+#include <numeric>
 #include <optional>
-#include <string>
+#include <set>
 #include <utility>
-#include <vector>
 
 #include "asdf_vk/asdf_vk.h"
+#include "batch/input_list.h"
+#include "cli/batch_monitor.h"
+#include "cli/batch_worker.h"
 #include "cli/browser.h"
 #include "cli/interrupt.h"
+#include "cli/job_plan.h"
+#include "cli/job_threads.h"
+#include "cli/mesh_run.h"
 #include "cli/output_plan.h"
-#include "cli/page_output.h"
 #include "cli/report.h"
-#include "cli/result_picture.h"
 #include "cli/terminal.h"
-#include "core/stopwatch.h"
-#include "mesh/orientation.h"
-#include "render/png.h"
+#include "core/atomic_file.h"
 
 namespace asdfvk {
 namespace {
 
-/// Runs `work`, which takes a RunControl, with a bar on a terminal.
-template <typename Work>
-auto runWithProgress(const CommandLine& line, const std::stop_token& stop, const Work& work) {
-  const Stopwatch watch;
-  std::optional<ProgressBar> bar;
-  if (!line.quiet && isStandardErrorTerminal()) bar.emplace(writeStandardError, [&watch] { return watch.seconds(); });
-  RunControl control;
-  control.stop = stop;
-  if (bar) control.progress = [&bar](double fraction) { bar->update(fraction); };
-  return work(control);
+std::vector<InputFile> inputsOf(const CommandLine& line) {
+  const BatchOptions& batch = line.batch;
+  const std::vector<InputFile> inputs = listInputs({.arguments = line.meshes,
+                                                    .recurses = batch.recurses,
+                                                    .list = batch.list,
+                                                    .isNullSeparated = batch.isNullSeparated,
+                                                    .formats = meshFormats(),
+                                                    .outputFolder = line.output});
+  if (inputs.empty())
+    throw Error(ErrorCode::UnreadableInput,
+                batch.list.empty() ? "no mesh was found in the folders of -r" : "no mesh was found in --files-from");
+  return inputs;
 }
 
-/// Exit code of a mesh and its line for --json.
-struct MeshReport {
-  ExitCode code = ExitCode::Done;
-  std::string json;
-};
-
-/// Renders the field of --picture-of and writes it atomically. Precondition: result.scene is set. Throws
-/// Error{OutputNotWritable}, Error{UnknownField} and Error{Cancelled}.
-void writePicture(const CommandLine& line, const Result& result, const RunControl& control) {
-  const Field* field = result.field(line.pictureOf);
-  if (field == nullptr) throw Error(ErrorCode::UnknownField, "--picture-of: the result has no field " + line.pictureOf);
-  if (field->componentCount != 1)
-    throw Error(ErrorCode::OptionConflict,
-                fmt::format("--picture-of: field {} has {} components; a picture shows a field of one component",
-                            line.pictureOf, field->componentCount));
-  writePng(line.picture, pictureOf(result, *field, line.pictureView, {}, control));
-}
-
-/// The page of one or several results.
-struct SharedPage {
-  Page page = emptyPage();
-  size_t awaitedCount = 0;  ///< Results that are not computed yet.
-  bool isFinished = false;
-};
-
-/// Also starts the browser with --open.
-void finishPage(const std::string& output, SharedPage& shared, const CommandLine& line) {
-  shared.isFinished = true;
-  writePage(output, shared.page);
-  if (line.opensPage) openInBrowser(output);
-}
-
-/// Writes the result, or adds it to the page, which is written with its last result.
-void writeOutput(const MeshOutcome& outcome, const Mesh& mesh, SharedPage* page, const std::stop_token& stop) {
-  const CommandLine& line = outcome.line;
-  if (page == nullptr) {
-    writeResult(outcome.output, mesh, writableFields(line, outcome.output, outcome.result.fields),
-                writeOptionsOf(line));
-    return;
+/// The outputs of all inputs are checked against each other, also those of other shards.
+std::vector<MeshTask> tasksOf(const CommandLine& line) {
+  std::vector<InputFile> inputs = inputsOf(line);
+  std::vector<std::string> outputs = planOutputs(line, inputs);
+  if (line.batch.shard) {
+    inputs = selectShard(inputs, *line.batch.shard);
+    outputs = planOutputs(line, inputs);
   }
-  runWithProgress(line, stop, [&](const RunControl& control) { addToPage(page->page, outcome, control); });
-  if (page->awaitedCount == 1) finishPage(outcome.output, *page, line);
+  std::vector<MeshTask> tasks;
+  tasks.reserve(inputs.size());
+  for (size_t i = 0; i < inputs.size(); ++i) tasks.push_back({inputs[i].path, outputs[i], inputs[i].byteCount});
+  return tasks;
 }
 
-/// page: null for other formats.
-MeshReport runMesh(Session& session, const std::string& name, const std::string& output, const CommandLine& line,
-                   SharedPage* page, const std::stop_token& stop) {
-  requireWritablePlace(output);
-  if (!line.picture.empty()) requireWritablePlace(line.picture);
-  if (!line.points.empty()) requireWritablePlace(line.points);
-  const Stopwatch readWatch;
-  Mesh mesh = readMesh(name);
-  const double readSeconds = readWatch.seconds();
-
-  Result result;
-  {
-    const Interrupt::Listening listening;
-    result = runWithProgress(line, stop,
-                             [&](const RunControl& control) { return session.compute(mesh, line.options, control); });
-    if (stop.stop_requested()) throw Error(ErrorCode::Cancelled, "cancelled");
-    StageSeconds& seconds = result.report.stageSeconds;
-    seconds[Stage::Read] = readSeconds;
-    const Stopwatch writeWatch;
-    flipInputFaces(mesh, result.report.reversedFaces);  // The scene of the result has its own copy.
-    writeOutput({name, output, line, result}, mesh, page, stop);
-    if (!line.points.empty()) writePoints(line.points, result.fields);
-    seconds[Stage::Write] = writeWatch.seconds();
-    if (!line.picture.empty())
-      runWithProgress(line, stop, [&](const RunControl& control) { writePicture(line, result, control); });
-  }
-
-  const MeshOutcome outcome{name, output, line, result};
-  if (!line.quiet) {
-    for (const Warning& warning : result.report.warnings) printWarning(name, textWarning(warning));
-    writeStandardError(textReport(outcome));
-  }
-  MeshReport report{ExitCode::Done, jsonReport(outcome)};
-  if (result.report.check) report.code = exitCodeOf(*result.report.check);
-  if (report.code != ExitCode::Done) printError(name, checkFailure(*result.report.check));
-  if (line.failIfThinner) {
-    const ThicknessReport& thickness = *result.report.thickness;
-    const ExitCode code = exitCodeOf(thickness, *line.failIfThinner);
-    if (code != ExitCode::Done) printError(name, thinFailure(thickness, *line.failIfThinner));
-    if (report.code == ExitCode::Done) report.code = code;
-  }
-  return report;
+/// A run that was killed may have left such files.
+void removeUnfinishedOutputs(const std::vector<MeshTask>& tasks) {
+  std::set<std::filesystem::path> folders;
+  for (const MeshTask& task : tasks) folders.insert(std::filesystem::path(task.output).parent_path());
+  for (const std::filesystem::path& folder : folders) removeAbandonedFiles(folder.empty() ? "." : folder);
 }
 
-/// Runs `step`, which returns a MeshReport; an exception becomes one and is printed as an error of the mesh.
-template <typename Step>
-MeshReport reportOf(const std::string& mesh, const CommandLine& line, Step step) {
-  try {
-    return step();
-  } catch (...) {
-    Failure failure = currentFailure(line.session.requireGpu, line.valueOptions);
-    const std::string prefix = mesh + ": ";  // The messages of readers begin with the file, too.
-    if (failure.message.starts_with(prefix)) failure.message.erase(0, prefix.size());
-    printError(mesh, failure.message);
-    return {failure.code, jsonFailure(mesh, failure.name, failure.message)};
-  }
+std::vector<JobPhase> phasesOf(const CommandLine& line, const std::vector<MeshTask>& tasks,
+                               std::vector<size_t> computed) {
+  const auto threadCount =
+      static_cast<uint32_t>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+  return planJobs(tasks, std::move(computed), writesOnePage(line) ? 1 : line.batch.jobCount, threadCount);
 }
 
-void printDeviceLines(const Session& session) {
-  std::vector<std::string> lines = session.deviceLines();
-  if (session.backend() == "vulkan" && session.runsOnCpu() && isBackendBuilt("cpu"))
-    lines.front() += "; a CPU device: --backend cpu (Embree) may be faster";
-  for (const std::string& line : lines) writeStandardError(oneLine("asdf-vk: " + line) + "\n");
+/// The tasks that no earlier run has finished. Adds the others to the monitor.
+std::vector<size_t> unfinishedTasks(const CommandLine& line, const MeshRunner& runner, BatchMonitor& monitor,
+                                    const std::vector<MeshTask>& tasks, const std::stop_token& stop) {
+  std::vector<size_t> unfinished(tasks.size());
+  std::iota(unfinished.begin(), unfinished.end(), size_t{0});
+  if (!line.batch.skipsExisting) return unfinished;
+  std::vector<char> isFinished(tasks.size(), 0);
+  tbb::parallel_for(size_t{0}, tasks.size(), [&](size_t task) {
+    if (stop.stop_requested()) return;
+    std::optional<MeshRun> skipped = runner.skip(tasks[task]);
+    if (!skipped) return;
+    monitor.add(task, std::move(*skipped));
+    isFinished[task] = 1;
+  });
+  std::erase_if(unfinished, [&](size_t task) { return isFinished[task] != 0; });
+  return unfinished;
 }
 
-ExitCode failWithoutSession(const CommandLine& line) {
+/// To be called while the exception is handled.
+ExitCode failWithoutSession(const CommandLine& line, const std::vector<MeshTask>& tasks,
+                            const std::vector<JobPhase>& phases) {
   const Failure failure = currentFailure(line.session.requireGpu);
   printError("", failure.message);
-  for (const std::string& mesh : line.meshes)
-    if (line.json) writeStandardOutput(jsonFailure(mesh, failure.name, failure.message));
+  if (line.json)
+    for (const JobPhase& phase : phases)
+      for (const size_t task : phase.tasks)
+        writeStandardOutput(jsonFailure(tasks[task].input, failure.name, failure.message));
   return failure.code;
+}
+
+/// The jobs of one process.
+ExitCode runHere(const CommandLine& line, MeshRunner& runner, BatchMonitor& monitor, const std::vector<MeshTask>& tasks,
+                 const std::vector<JobPhase>& phases, const std::stop_token& stop) {
+  std::unique_ptr<Session> session;
+  try {
+    session = openSession(line, phases.front().threadCount);
+  } catch (...) {
+    return failWithoutSession(line, tasks, phases);
+  }
+  if (!line.quiet) writeStandardError(deviceLinesOf(*session));
+  runOnThreads(line, runner, monitor, tasks, phases, std::move(session), stop);
+  return ExitCode::Done;
 }
 
 }  // namespace
 
-ExitCode runMeshes(const CommandLine& line, const std::stop_token& stop) {
-  const std::vector<std::string> outputs = planOutputs(line);
+ExitCode runMeshes(const CommandLine& line, const std::vector<std::string>& arguments, const std::stop_token& stop) {
+  const std::vector<MeshTask> tasks = tasksOf(line);
   if (line.opensPage) requireBrowser();
-  std::optional<Session> session;
-  try {
-    session.emplace(line.session);
-  } catch (...) {
-    return failWithoutSession(line);
+  std::optional<Interrupt::Listening> listening;  // In a batch a signal drops the meshes at hand, and the log says so.
+  if (line.batch.isBatch()) {
+    listening.emplace();
+    removeUnfinishedOutputs(tasks);
   }
-  if (!line.quiet) printDeviceLines(*session);
-
-  std::vector<const CommandLine*> computations{&line};
-  for (const CommandLine& compared : line.compared) computations.push_back(&compared);
-  const bool isOnePage = writesOnePage(line);
-  std::optional<SharedPage> page;
-  ExitCode first = ExitCode::Done;
-  for (size_t i = 0; i < line.meshes.size(); ++i) {
-    const std::string& mesh = line.meshes[i];
-    if (writesPages(line) && (!page || !isOnePage))
-      page = SharedPage{.awaitedCount = computations.size() * (isOnePage ? line.meshes.size() : 1)};
-    for (const CommandLine* computation : computations) {
-      const MeshReport report = reportOf(mesh, *computation, [&] {
-        return runMesh(*session, mesh, outputs[i], *computation, page ? &*page : nullptr, stop);
-      });
-      if (first == ExitCode::Done) first = report.code;
-      if (line.json) writeStandardOutput(report.json);
-      if (report.code == ExitCode::Cancelled) return first;
-      if (!page || --page->awaitedCount > 0 || page->isFinished || page->page.isEmpty()) continue;
-      finishPage(outputs[i], *page, line);  // The last result failed, others did not.
-    }
+  BatchMonitor monitor(line, tasks);
+  MeshRunner runner(line, tasks.size());
+  const std::vector<JobPhase> phases = phasesOf(line, tasks, unfinishedTasks(line, runner, monitor, tasks, stop));
+  ExitCode code = ExitCode::Done;
+  if (!phases.empty() && !stop.stop_requested()) {  // Else no device is opened.
+    if (tasks.size() == 1 || (!line.batch.isBatch() && phases.back().jobCount == 1)) runner.showProgressOfMeshes();
+    code = line.batch.isolates ? runIsolated(line, arguments, runner, monitor, tasks, phases, stop)
+                               : runHere(line, runner, monitor, tasks, phases, stop);
   }
-  return first;
+  const ExitCode ofMeshes = monitor.finish();
+  if (code == ExitCode::Done) code = ofMeshes;
+  return stop.stop_requested() && code == ExitCode::Done ? ExitCode::Cancelled : code;
 }
 
 void printDevices(const CommandLine& line) {

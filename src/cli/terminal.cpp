@@ -33,10 +33,10 @@ int writeAll(int stream, std::string_view text) {
   return 0;
 }
 
-void printLine(std::string_view kind, std::string_view subject, std::string_view message) {
+std::string messageLine(std::string_view kind, std::string_view subject, std::string_view message) {
   const std::string line = subject.empty() ? fmt::format("asdf-vk: {}: {}", kind, message)
                                            : fmt::format("asdf-vk: {}: {}: {}", kind, subject, message);
-  writeStandardError(oneLine(line) + "\n");
+  return oneLine(line) + "\n";
 }
 
 }  // namespace
@@ -49,8 +49,15 @@ void writeStandardOutput(std::string_view text) {
 
 void writeStandardError(std::string_view text) { writeAll(STDERR_FILENO, text); }
 
-void printError(std::string_view subject, std::string_view message) { printLine("error", subject, message); }
-void printWarning(std::string_view subject, std::string_view message) { printLine("warning", subject, message); }
+void printError(std::string_view subject, std::string_view message) { writeStandardError(errorLine(subject, message)); }
+
+std::string errorLine(std::string_view subject, std::string_view message) {
+  return messageLine("error", subject, message);
+}
+
+std::string warningLine(std::string_view subject, std::string_view message) {
+  return messageLine("warning", subject, message);
+}
 
 void secureStandardStreams() {
   std::signal(SIGPIPE, SIG_IGN);

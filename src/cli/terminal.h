@@ -14,7 +14,10 @@ void writeStandardError(std::string_view text);
 
 /// "asdf-vk: error: SUBJECT: MESSAGE" as one line on standard error; without the subject where that is empty.
 void printError(std::string_view subject, std::string_view message);
-void printWarning(std::string_view subject, std::string_view message);
+
+/// The same text, and that of a warning, with its line end.
+[[nodiscard]] std::string errorLine(std::string_view subject, std::string_view message);
+[[nodiscard]] std::string warningLine(std::string_view subject, std::string_view message);
 
 /// Ignores SIGPIPE, so that write() reports a closed pipe. Opens standard streams that the caller closed, so that no
 /// other file gets their descriptors.

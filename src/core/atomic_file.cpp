@@ -2,12 +2,15 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <atomic>
 #include <bit>
 #include <cerrno>
+#include <csignal>
+#include <cstdlib>
 #include <system_error>
 #include <utility>
 
@@ -19,6 +22,8 @@ static_assert(std::endian::native == std::endian::little, "the binary formats ar
 
 namespace {
 
+constexpr std::string_view kTemporaryPrefix = ".asdf-vk-", kTemporarySuffix = ".part";
+
 // The thread that exchanges the name for null owns it, so that a signal handler never reads a freed name.
 std::atomic<const char*> unfinished{nullptr};
 static_assert(std::atomic<const char*>::is_always_lock_free);
@@ -27,6 +32,41 @@ static_assert(std::atomic<const char*>::is_always_lock_free);
 
 void removeUnfinishedFile() noexcept {
   if (const char* name = unfinished.exchange(nullptr, std::memory_order_acquire)) ::unlink(name);
+}
+
+namespace {
+
+/// Removes those temporary files in the folder whose process `select` accepts.
+template <typename Select>
+void removeTemporaries(const std::filesystem::path& folder, const Select& select) {
+  std::error_code error;
+  std::filesystem::directory_iterator entry(folder, error);
+  for (; !error && entry != std::filesystem::directory_iterator(); entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    if (!name.starts_with(kTemporaryPrefix) || !name.ends_with(kTemporarySuffix)) continue;
+    const int process = std::atoi(name.c_str() + kTemporaryPrefix.size());
+    if (process > 0 && select(process, entry->path())) ::unlink(entry->path().c_str());
+  }
+}
+
+bool isUnlocked(const std::filesystem::path& path) {
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) return false;
+  const bool isFree = ::flock(descriptor, LOCK_EX | LOCK_NB) == 0;
+  ::close(descriptor);
+  return isFree;
+}
+
+}  // namespace
+
+void removeAbandonedFiles(const std::filesystem::path& folder) {
+  removeTemporaries(folder, [](int process, const std::filesystem::path& path) {
+    return ::kill(process, 0) != 0 && errno == ESRCH && isUnlocked(path);
+  });
+}
+
+void removeFilesOfProcess(const std::filesystem::path& folder, int process) {
+  removeTemporaries(folder, [process](int owner, const std::filesystem::path&) { return owner == process; });
 }
 
 AtomicFile::AtomicFile(const std::filesystem::path& target)
@@ -63,11 +103,14 @@ void AtomicFile::openTemporary() {
   static std::atomic<unsigned> count = 0;
   do {
     temporary_ = target_;
-    temporary_.replace_filename(fmt::format(".asdf-vk-{}-{}.part", ::getpid(), count++));
+    temporary_.replace_filename(fmt::format("{}{}-{}{}", kTemporaryPrefix, ::getpid(), count++, kTemporarySuffix));
     descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   } while (descriptor_ < 0 && errno == EEXIST);
   if (descriptor_ >= 0) {
-    announceTemporary();  // Only now: an earlier file of that name belongs to another process.
+    // For removeAbandonedFiles(). Some file systems have no locks.
+    static_cast<void>(::flock(descriptor_, LOCK_EX | LOCK_NB));
+    // Only now: an earlier file of that name belongs to another process.
+    announceTemporary();
     return;
   }
   const int reason = errno;

@@ -60,6 +60,13 @@ class AtomicFile {
   size_t used_ = 0;
 };
 
+/// Removes the temporary files that processes left in a folder when they were killed; not those of running processes,
+/// also of other machines where the file system shares flock().
+void removeAbandonedFiles(const std::filesystem::path& folder);
+
+/// Removes the temporary files of a process that has ended.
+void removeFilesOfProcess(const std::filesystem::path& folder, int process);
+
 /// Removes the temporary file of the one AtomicFile that is being written, if any, before a process is terminated.
 /// Async-signal-safe. Of several open files it removes the first one only.
 void removeUnfinishedFile() noexcept;

@@ -2,6 +2,7 @@
 #include "asdf_vk/version.h"
 #include "cli/exit_code.h"
 #include "cli/option_parsing.h"
+#include "cli/summarize.h"
 #include "documents/program.h"
 #include "generate/generator_options.h"
 
@@ -19,7 +20,8 @@ Program documentedAsdfVk() {
   program.exitNote = kExitCodeOfSeveralMeshes;
   program.files = {{"NAME.asdf.ply",
                     "The result for the mesh NAME.ply (or .off, .obj, .stl), beside it, unless -o is given: the mesh, "
-                    "the fields of its faces, and their colours."}};
+                    "the fields of its faces, and their colours."},
+                   {"NAME.asdf.ply.json", "In a batch, the record of the result, by which --skip-existing finds it."}};
   program.environment = {
       {"ASDF_VK_VALIDATION", "1 enables the Vulkan validation layers; anything that they report is an error."},
       {"ASDF_VK_PIPELINE_CACHE",
@@ -36,9 +38,11 @@ Program documentedAsdfVk() {
        "asdf-vk mesh.ply --segment --picture parts.png --picture-of segment"},
       {"Show the result in a browser:", "asdf-vk mesh.ply --open"},
       {"Fail where a part is thinner than 0.8, in the unit of the mesh:", "asdf-vk part.stl --fail-if-thinner 0.8"},
+      {"Compute all meshes below a folder, resume where the call was interrupted, and summarise the log:",
+       "asdf-vk -r meshes -o results --log log.jsonl --skip-existing; asdf-vk summarize log.jsonl"},
       {"Read from standard input, write comma-separated values to standard output:",
        "asdf-vk-generate animal -o - | asdf-vk - -o - --format csv"}};
-  program.seeAlso = {"asdf-vk-generate(1)", "vulkaninfo(1)"};
+  program.seeAlso = {"asdf-vk-summarize(1)", "asdf-vk-generate(1)", "vulkaninfo(1)"};
   return program;
 }
 
@@ -59,5 +63,21 @@ Program documentedGenerator() {
 }  // namespace
 
 std::vector<Program> documentedPrograms() { return {documentedAsdfVk(), documentedGenerator()}; }
+
+Program documentedSummarize() {
+  SummaryOptions options;
+  CLI::App app;
+  addOptions(app, options);
+  Program program = describe(app);
+  program.version = ASDFVK_VERSION;
+  program.summary = "summarise the logs of batches of asdf-vk";
+  for (const ExitCode code : {ExitCode::Done, ExitCode::Usage, ExitCode::Input, ExitCode::Output, ExitCode::Internal})
+    program.exitCodes.emplace_back(static_cast<int>(code), meaningOf(code));
+  program.examples = {
+      {"A table:", "asdf-vk summarize log.jsonl"},
+      {"A page with histograms, of all parts of a batch:", "asdf-vk summarize part*.jsonl -o batch.html"}};
+  program.seeAlso = {"asdf-vk(1)"};
+  return program;
+}
 
 }  // namespace asdfvk

@@ -23,6 +23,7 @@ int main(int argc, char** argv) {
   if (argc != 2) return 1;
   const std::filesystem::path folder = argv[1];
   try {
+    writeText(folder / "man/man1/asdf-vk-summarize.1", manPage(asdfvk::documentedSummarize()));
     for (const asdfvk::Program& program : asdfvk::documentedPrograms()) {
       const std::string& name = program.name;
       writeText(folder / "man/man1" / (name + ".1"), manPage(program));

@@ -47,6 +47,13 @@ std::string upperCase(std::string text) {
   return text;
 }
 
+/// Of the page: "asdf-vk-summarize" for "asdf-vk summarize".
+std::string titleOf(const Program& program) {
+  std::string title = program.name;
+  std::replace(title.begin(), title.end(), ' ', '-');
+  return title;
+}
+
 /// With a capital and a full stop.
 std::string sentence(std::string text) {
   if (!text.empty()) text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
@@ -113,11 +120,11 @@ std::string definitions(const std::vector<std::pair<std::string, std::string>>& 
 std::string manPage(const Program& program) {
   std::string page =
       fmt::format(".\\\" Generated from the options of {0}.\n.TH {1} 1 \"\" \"{0} {2}\" \"User Commands\"\n",
-                  program.name, upperCase(plain(program.name)), program.version);
+                  program.name, upperCase(plain(titleOf(program))), program.version);
   const auto add = [&page](const char* heading, const std::string& text) {
     if (!text.empty()) page += fmt::format(".SH {}\n{}", heading, text);
   };
-  add("NAME", fmt::format("{} \\- {}\n", plain(program.name), plain(program.summary)));
+  add("NAME", fmt::format("{} \\- {}\n", plain(titleOf(program)), plain(program.summary)));
   add("SYNOPSIS", synopsis(program));
   add("DESCRIPTION", plain(program.description) + "\n");
   add("OPTIONS", optionSections(program));

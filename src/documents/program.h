@@ -35,7 +35,7 @@ struct DocumentedOption {
 
 /// All text is plain: no markup.
 struct Program {
-  std::string name;
+  std::string name;  ///< As it is called: "asdf-vk summarize" has the man page asdf-vk-summarize.
   std::string version;
   std::string summary;  ///< For whatis and apropos: no capital, no full stop.
   std::string description;
@@ -53,6 +53,9 @@ struct Program {
 
 /// asdf-vk and asdf-vk-generate.
 [[nodiscard]] std::vector<Program> documentedPrograms();
+
+/// `asdf-vk summarize`, for a man page named asdf-vk-summarize.
+[[nodiscard]] Program documentedSummarize();
 
 /// The first sentence of the help of an option, or its part before a semicolon: completions have one line per option.
 [[nodiscard]] std::string briefText(const DocumentedOption& option);

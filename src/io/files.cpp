@@ -17,6 +17,7 @@
 #include "core/text.h"
 #include "io/formats.h"
 #include "io/input_failure.h"
+#include "io/inspected_mesh.h"
 #include "io/stored_fields.h"
 
 namespace asdfvk {
@@ -152,6 +153,13 @@ const FileFormat& findResultFormat(const std::filesystem::path& path, const std:
 
 Mesh parseMesh(std::span<const char> bytes, std::string_view extension) {
   return formatFor(bytes, extension, isMeshFormat, "meshes").parseMesh(bytes);
+}
+
+Mesh readMesh(const std::filesystem::path& path, const std::function<void(std::span<const char>)>& inspect) {
+  return readFile(path, [&](std::span<const char> bytes, const std::string& extension) {
+    inspect(bytes);
+    return parseMesh(bytes, extension);
+  });
 }
 
 Mesh readMesh(const std::filesystem::path& path) {

@@ -1,6 +1,7 @@
 #include "seeds/dart_throwing.h"
 
 #include <tbb/global_control.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <bit>
@@ -67,9 +68,9 @@ class Throwing {
     waitingAt_.back() = std::move(waiting);
     darts_.faces.reserve(static_cast<size_t>(count));
     // At an infinite radius every disk is a whole component, and most of them are searched in vain.
-    throwsBlocks_ =
-        startRadius < SurfaceDistances::kUnreached && blockSize_.isWorthwhile() &&
-        tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism) >= kMinThreadsForBlocks;
+    throwsBlocks_ = startRadius < SurfaceDistances::kUnreached && blockSize_.isWorthwhile() &&
+                    std::min(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism),
+                             static_cast<size_t>(tbb::this_task_arena::max_concurrency())) >= kMinThreadsForBlocks;
   }
 
   [[nodiscard]] ThrownDarts run() {

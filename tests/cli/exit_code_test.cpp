@@ -68,6 +68,23 @@ TEST_CASE("a mistake in the program is 70 with its place, too little memory is a
   CHECK_EQ(static_cast<int>(failureOf(std::bad_alloc()).code), 2);
 }
 
+TEST_CASE("several meshes: 7 where some have no result, else the code of the first failure") {
+  const auto codeOf = [](const std::vector<int>& ofMeshes) {
+    SharedExitCode code;
+    for (const int ofMesh : ofMeshes) code.add(static_cast<ExitCode>(ofMesh));
+    return static_cast<int>(code.code());
+  };
+  CHECK_EQ(codeOf({}), 0);
+  CHECK_EQ(codeOf({0, 0}), 0);
+  CHECK_EQ(codeOf({2}), 2);
+  CHECK_EQ(codeOf({4, 2}), 4);
+  CHECK_EQ(codeOf({0, 2, 0}), 7);
+  CHECK_EQ(codeOf({8, 0}), 7);
+  CHECK_EQ(codeOf({0, 6, 5}), 6);
+  CHECK_EQ(codeOf({6, 2}), 7);
+  CHECK_EQ(codeOf({0, 2, 130}), 130);
+}
+
 TEST_CASE("messages are one line for any content") {
   CHECK_EQ(failureOf(Error(ErrorCode::UnreadableInput, "a\nb\tc\x1b[2J")).message, "a b c [2J");
   CHECK_EQ(oneLine("caf\xc3\xa9"), "caf\xc3\xa9");

@@ -206,7 +206,7 @@ TEST_CASE("of several meshes one bad one is reported and the others are done") {
   const std::string alsoGood = folder.write("c.stl", cubeBinaryStl());
   const ChildOutcome outcome =
       runAsdf({good, bad, alsoGood, "--json", "--quiet", "--backend", "reference", "--format", "csv"});
-  checkFailure(outcome, 2, "b.ply: ");
+  checkFailure(outcome, 7, "b.ply: ");
   const std::vector<std::string> lines = linesOf(outcome.output);
   REQUIRE_EQ(lines.size(), 3);
   const std::vector<std::string> meshes{good, bad, alsoGood};

@@ -56,7 +56,7 @@ Counts runBatch(const std::vector<std::string>& meshes, const std::string& backe
   }
   CHECK_EQ(results.names().size(), counts.done);
   CHECK_EQ(linesOf(outcome.error).size(), counts.refused);
-  CHECK_EQ(outcome.exitCode, counts.refused > 0 ? 2 : 0);
+  CHECK_EQ(outcome.exitCode, counts.refused == 0 ? 0 : counts.done == 0 ? 2 : 7);
   return counts;
 }
 

@@ -129,6 +129,18 @@ const std::vector<OptionCase>& optionCases() {
        [](const Line& l) { return l.options.cgalSegmentation.smoothness == 0.5; }},
       {{"--cgal-expansion", "first", "--segment", "cgal"},
        [](const Line& l) { return l.options.cgalSegmentation.expansion == CgalExpansion::First; }},
+      {{"--recursive"}, [](const Line& l) { return l.batch.recurses; }},
+      {{"--files-from", "list"}, [](const Line& l) { return l.batch.list == "list"; }},
+      {{"--null", "--files-from", "list"}, [](const Line& l) { return l.batch.isNullSeparated; }},
+      {{"--shard", "2/7"}, [](const Line& l) { return l.batch.shard && l.batch.shard->index == 2; }},
+      {{"--log", "log"}, [](const Line& l) { return l.batch.log == "log"; }},
+      {{"--skip-existing"}, [](const Line& l) { return l.batch.skipsExisting; }},
+      {{"--timeout", "2.5s"}, [](const Line& l) { return l.batch.timeoutSeconds == 2.5; }},
+      {{"--memory-limit", "2M"}, [](const Line& l) { return l.batch.memoryBytes == 2u << 20; }},
+      {{"--isolate"}, [](const Line& l) { return l.batch.isolates; }},
+      {{"--jobs", "3"}, [](const Line& l) { return l.batch.jobCount == 3; }},
+      {{"--open"}, [](const Line& l) { return l.opensPage; }},
+      {{"--against", "--seeds 5%", "-o", "a.html"}, [](const Line& l) { return l.compared.size() == 1; }},
       {{"--solver", "jacobi"}, [](const Line& l) { return l.options.solver == "jacobi"; }},
       {{"--tolerance", "1e-3"}, [](const Line& l) { return l.options.solverOptions.tolerance == 1e-3; }},
       {{"--max-iterations", "77"}, [](const Line& l) { return l.options.solverOptions.maxIterations == 77; }},
@@ -376,7 +388,7 @@ TEST_CASE("--help has the most needed options, --help=all all of them in groups"
   const std::string all = parseCommandLine({"--help=all"}).answer.value();
   size_t previous = 0;
   for (const char* group : {"Options:", "Seeds and rays:", "Segments:", "Experiments (the defaults are best):",
-                            "Output:", "Picture:", "Device:"}) {
+                            "Output:", "Picture:", "Many meshes:", "Device:"}) {
     const size_t position = all.find("\n" + std::string(group) + "\n");
     CHECK_MESSAGE(position != std::string::npos, group);
     CHECK_MESSAGE(position > previous, group);

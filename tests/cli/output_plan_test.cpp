@@ -121,6 +121,25 @@ TEST_CASE("a device can be written to without permission for its folder") {
   CHECK_EQ(WEXITSTATUS(status), 0);
 }
 
+TEST_CASE("the results of a tree lie in the same tree, whose folders need not exist") {
+  const test::ScratchFolder folder;
+  CommandLine line = lineOf({}, folder / "new", "npy");
+  line.batch.recurses = true;
+  const std::vector<InputFile> inputs{{.path = "in/a.off"}, {.path = "in/b/c.ply", .folder = "b"}};
+  CHECK_EQ(planOutputs(line, inputs), Names{folder / "new/a.asdf.npy", folder / "new/b/c.asdf.npy"});
+  line.output.clear();
+  CHECK_EQ(planOutputs(line, inputs), Names{"in/a.asdf.npy", "in/b/c.asdf.npy"});
+  const std::vector<InputFile> colliding{{.path = "x/a.off"}, {.path = "x/a.ply"}};
+  CHECK_THROWS_AS((void)planOutputs(line, colliding), Error);
+  line.output = folder.write("file", "x");
+  CHECK_THROWS_AS((void)planOutputs(line, inputs), Error);
+  line.output = folder / "new.npy";  // The name of a result, not of a folder.
+  CHECK_THROWS_AS((void)planOutputs(line, inputs), Error);
+  line.output = folder / "new";
+  line.batch.log = "in/a.off";
+  CHECK_THROWS_AS((void)planOutputs(line, inputs), Error);
+}
+
 TEST_CASE("an impossible place for a file is an error before the work") {
   const test::ScratchFolder folder;
   CHECK_NOTHROW(requireWritablePlace(folder / "new.ply"));

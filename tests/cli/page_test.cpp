@@ -92,7 +92,7 @@ TEST_CASE("several meshes are in one page, or in one each") {
   CHECK_EQ(both.at("meshes")[1].at("name"), "b.off");
   // A mesh that fails is not in the page.
   const ChildOutcome outcome = runQuick({cube, folder / "missing.off", "-o", folder / "one.html"});
-  CHECK_EQ(outcome.exitCode, 2);
+  CHECK_EQ(outcome.exitCode, 7);
   CHECK_EQ(dataOf(folder.read("one.html")).at("meshes").size(), 1);
   CHECK_EQ(runQuick({folder / "missing.off", "-o", folder / "none.html"}).exitCode, 2);
   CHECK_EQ(runQuick({folder / "missing.off", folder / "too.off", "-o", folder / "none.html"}).exitCode, 2);

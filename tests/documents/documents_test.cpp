@@ -12,6 +12,7 @@
 #include <sstream>
 
 #include "cli/option_parsing.h"
+#include "cli/summarize.h"
 #include "documents/program.h"
 #include "generate/generator_options.h"
 
@@ -28,6 +29,7 @@ struct Subject {
   std::string help;
 };
 
+/// Programs, which have completions, too.
 std::vector<Subject> subjects() {
   std::vector<Program> programs = documentedPrograms();
   REQUIRE_EQ(programs.size(), 2);
@@ -35,6 +37,20 @@ std::vector<Subject> subjects() {
   CLI::App generator;
   addOptions(generator, options);
   return {{programs[0], parseCommandLine({"--help=all"}).answer.value()}, {programs[1], generator.help()}};
+}
+
+Subject summarizeSubject() {
+  SummaryOptions options;
+  CLI::App app;
+  addOptions(app, options);
+  return {documentedSummarize(), app.help()};
+}
+
+/// Programs and commands, which have man pages.
+std::vector<Subject> subjectsOfPages() {
+  std::vector<Subject> all = subjects();
+  all.push_back(summarizeSubject());
+  return all;
 }
 
 /// Names and placeholders: "--seeds" to "N%|N|all", "-o" and "--output" to "FILE|DIR|-".
@@ -71,8 +87,8 @@ Names allMatches(const std::string& text, const std::string& pattern) {
 /// Options of the page: a line after .TP begins with them, separated by commas.
 Names namesInManPage(const std::string& page) {
   Names names;
-  for (const std::string& line : allMatches(page, "\\.TP\n((?:\\\\fB\\\\-[a-z\\\\-]+\\\\fR(?:, )?)+)"))
-    for (const std::string& name : allMatches(line, "\\\\fB([a-z\\\\-]+)\\\\fR"))
+  for (const std::string& line : allMatches(page, "\\.TP\n((?:\\\\fB\\\\-[a-z0-9\\\\-]+\\\\fR(?:, )?)+)"))
+    for (const std::string& name : allMatches(line, "\\\\fB([a-z0-9\\\\-]+)\\\\fR"))
       names.insert(std::regex_replace(name, std::regex("\\\\-"), "-"));
   return names;
 }
@@ -80,15 +96,17 @@ Names namesInManPage(const std::string& page) {
 Names namesInBash(const std::string& text) {
   const Names lists = allMatches(text, "_words '(-h [^']*)'");
   REQUIRE_EQ(lists.size(), 1);
-  return allMatches(*lists.begin(), "(-[a-z-]+)");
+  return allMatches(*lists.begin(), "(-[a-z0-9-]+)");
 }
 
-Names namesInZsh(const std::string& text) { return allMatches(text, "\n  '(?:\\([^)]*\\))?(-[a-z-]*[a-z])[=+-]*\\["); }
+Names namesInZsh(const std::string& text) {
+  return allMatches(text, "\n  '(?:\\([^)]*\\))?(-[a-z0-9-]*[a-z0-9])[=+-]*\\[");
+}
 
 Names namesInFish(const std::string& text) {
   Names names;
-  for (const std::string& name : allMatches(text, "\ncomplete -c [a-z-]+ -s ([a-z])")) names.insert("-" + name);
-  for (const std::string& name : allMatches(text, "\ncomplete -c [a-z-]+(?: -s [a-z])? -l ([a-z-]+)"))
+  for (const std::string& name : allMatches(text, "\ncomplete -c [a-z-]+ -s ([a-z0-9])")) names.insert("-" + name);
+  for (const std::string& name : allMatches(text, "\ncomplete -c [a-z-]+(?: -s [a-z0-9])? -l ([a-z-]+)"))
     names.insert("--" + name);
   return names;
 }
@@ -103,6 +121,16 @@ TEST_CASE("the man page and each completion have the options of --help=all, and 
     CHECK(namesInZsh(zshCompletion(program)) == expected);
     CHECK(namesInFish(fishCompletion(program)) == expected);
   }
+}
+
+TEST_CASE("the man page of summarize has the options of its help, and no other") {
+  const auto [program, help] = summarizeSubject();
+  const Names expected = namesOf(optionsOf(help));
+  REQUIRE_GE(expected.size(), 6);
+  const std::string page = manPage(program);
+  CHECK(namesInManPage(page) == expected);
+  CHECK(page.find("\n.TH ASDF\\-VK\\-SUMMARIZE 1 ") != std::string::npos);
+  CHECK(page.find(".B asdf\\-vk summarize\n") != std::string::npos);
 }
 
 TEST_CASE("an option with choices completes to them in each shell") {
@@ -139,7 +167,7 @@ TEST_CASE("values are read from a placeholder") {
 }
 
 TEST_CASE("the man page has its sections, exit codes and groups") {
-  for (const auto& [program, help] : subjects()) {
+  for (const auto& [program, help] : subjectsOfPages()) {
     const std::string page = manPage(program);
     for (const char* section :
          {"NAME", "SYNOPSIS", "DESCRIPTION", "OPTIONS", "\"EXIT STATUS\"", "EXAMPLES", "\"SEE ALSO\""})
@@ -206,7 +234,7 @@ TEST_CASE("groff and the shells accept the documents") {
                                                            {"fish -n", fishCompletion}};
   for (const auto& [command, write] : checks) {
     if (!isInstalled(command.substr(0, command.find(' ')))) continue;
-    for (const Subject& subject : subjects()) {
+    for (const Subject& subject : write == &manPage ? subjectsOfPages() : subjects()) {
       const TextFile file(write(subject.program));
       const auto [output, code] = outputOf(command + " " + file.path());
       INFO(command, " ", subject.program.name);
@@ -229,7 +257,7 @@ try() {
   mapfile -t COMPREPLY < <(printf '%s\n' "${COMPREPLY[@]}" | LC_ALL=C sort)
   (IFS='|' && echo "${COMPREPLY[*]}")
 }
-try --rec
+try --reci
 try --recipe ''
 try --recipe = q
 try --recipe=q
@@ -239,7 +267,7 @@ try --picture ''
 try -o d
 try --rays ''
 try --check = a
-try -- --rec
+try -- --reci
 rm -r "$PWD"
 )bash");
   CHECK_EQ(outputOf("bash " + script.path()).first,

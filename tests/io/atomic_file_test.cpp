@@ -136,6 +136,38 @@ TEST_CASE("a FIFO is written into, not replaced") {
   CHECK(std::filesystem::is_character_file("/dev/null"));
 }
 
+TEST_CASE("temporary files of a killed process are removed, those of running processes and other files are not") {
+  const Folder folder;
+  const auto leaveTemporary = [&] {
+    const pid_t child = ::fork();
+    REQUIRE(child >= 0);
+    if (child == 0) {
+      AtomicFile file(folder / "out.ply");
+      file.write(std::string(3'000'000, 'x'));
+      ::_exit(0);
+    }
+    REQUIRE(::waitpid(child, nullptr, 0) == child);
+    return child;
+  };
+  leaveTemporary();
+  CHECK(folder.names().size() == 1);
+  putContent(folder / ".asdf-vk-1-0.part", "of process 1, which runs");
+  putContent(folder / ".asdf-vk-x.part", "of no process");
+  {
+    AtomicFile file(folder / "other.ply");
+    file.write(std::string(3'000'000, 'x'));
+    removeAbandonedFiles(folder.path());
+    CHECK(folder.names().size() == 3);
+    file.commit();
+  }
+  const pid_t killed = leaveTemporary();
+  removeFilesOfProcess(folder.path(), killed + 1);
+  CHECK(folder.names().size() == 4);
+  removeFilesOfProcess(folder.path(), killed);
+  CHECK(folder.names().size() == 3);
+  removeAbandonedFiles(folder / "missing");
+}
+
 TEST_CASE("a process that ends at once removes its unfinished file and no other") {
   const Folder folder;
   const auto endAtOnce = [](const std::function<void()>& work) {

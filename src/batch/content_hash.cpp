@@ -1,0 +1,39 @@
+#include "batch/content_hash.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+#include <xxhash.h>
+
+#include <cerrno>
+#include <memory>
+#include <vector>
+
+namespace asdfvk {
+namespace {
+
+std::string textOf(const XXH128_hash_t& hash) { return fmt::format("{:016x}{:016x}", hash.high64, hash.low64); }
+
+}  // namespace
+
+std::string contentHash(std::span<const char> bytes) { return textOf(XXH3_128bits(bytes.data(), bytes.size())); }
+
+std::optional<std::string> contentHashOf(const std::filesystem::path& path) {
+  constexpr size_t kPiece = size_t{1} << 18;
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) return std::nullopt;
+  const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state(XXH3_createState(), &XXH3_freeState);
+  XXH3_128bits_reset(state.get());
+  std::vector<char> piece(kPiece);
+  ssize_t count = 0;
+  while ((count = ::read(descriptor, piece.data(), piece.size())) != 0) {
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) break;
+    XXH3_128bits_update(state.get(), piece.data(), static_cast<size_t>(count));
+  }
+  ::close(descriptor);
+  if (count < 0) return std::nullopt;
+  return textOf(XXH3_128bits_digest(state.get()));
+}
+
+}  // namespace asdfvk

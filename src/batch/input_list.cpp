@@ -1,0 +1,132 @@
+#include "batch/input_list.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+
+#include "asdf_vk/error.h"
+#include "core/text.h"
+
+namespace asdfvk {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail(const std::string& path, const std::string& reason) {
+  throw Error(ErrorCode::UnreadableInput, fmt::format("{}: {}", path, reason));
+}
+
+uint64_t byteCountOf(const fs::path& path) {
+  std::error_code error;
+  const uintmax_t size = fs::file_size(path, error);
+  return error ? 0 : size;
+}
+
+/// "horse.asdf.ply" is a result of this program.
+bool isResult(const fs::path& name) { return name.stem().extension() == ".asdf"; }
+
+class FolderSearch {
+ public:
+  explicit FolderSearch(const InputRequest& request) : request_(request) {}
+
+  void search(const fs::path& root, std::vector<InputFile>& inputs) const {
+    std::vector<InputFile> found;
+    searchFolder(root, "", found);
+    std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.path < b.path; });
+    inputs.insert(inputs.end(), std::make_move_iterator(found.begin()), std::make_move_iterator(found.end()));
+  }
+
+ private:
+  void searchFolder(const fs::path& folder, const fs::path& below, std::vector<InputFile>& found) const {
+    std::error_code error;
+    fs::directory_iterator entry(folder, error);
+    for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
+      const fs::path name = entry->path().filename();
+      if (name.native().starts_with('.')) continue;
+      std::error_code ignored;
+      if (entry->is_directory(ignored) && !entry->is_symlink(ignored)) {
+        if (!isOutputFolder(entry->path())) searchFolder(entry->path(), below / name, found);
+      } else if (entry->is_regular_file(ignored) && isMesh(name)) {
+        found.push_back({entry->path().string(), below.string(), true, byteCountOf(entry->path())});
+      }
+    }
+    if (error) fail(folder.string(), error.message());
+  }
+
+  [[nodiscard]] bool isMesh(const fs::path& name) const {
+    const std::string extension = lowerCase(name.extension().string());
+    return extension.size() > 1 && !isResult(name) &&
+           std::count(request_.formats.begin(), request_.formats.end(), extension.substr(1)) > 0;
+  }
+
+  [[nodiscard]] bool isOutputFolder(const fs::path& folder) const {
+    std::error_code error;
+    return !request_.outputFolder.empty() && fs::equivalent(folder, request_.outputFolder, error) && !error;
+  }
+
+  const InputRequest& request_;
+};
+
+std::vector<std::string> readList(const InputRequest& request) {
+  std::ifstream file;
+  const bool isStandardInput = request.list == "-";
+  if (!isStandardInput) {
+    std::error_code ignored;
+    if (fs::is_directory(request.list, ignored)) fail(request.list, "is a folder, not a list of meshes");
+    file.open(request.list, std::ios::binary);
+    if (!file) fail(request.list, fmt::format("cannot be opened: {}", std::strerror(errno)));
+  }
+  std::istream& in = isStandardInput ? std::cin : file;
+  std::vector<std::string> paths;
+  for (std::string path; std::getline(in, path, request.isNullSeparated ? '\0' : '\n');)
+    if (!path.empty()) paths.push_back(path);
+  if (in.bad()) fail(isStandardInput ? "standard input" : request.list, "cannot be read");
+  return paths;
+}
+
+/// The leading components that both paths have.
+fs::path commonFolder(const fs::path& a, const fs::path& b) {
+  fs::path common;
+  for (auto i = a.begin(), j = b.begin(); i != a.end() && j != b.end() && *i == *j; ++i, ++j) common /= *i;
+  return common;
+}
+
+void addList(const std::vector<std::string>& paths, std::vector<InputFile>& inputs) {
+  std::vector<fs::path> folders;
+  folders.reserve(paths.size());
+  for (const std::string& path : paths) {
+    if (path == "-") fail("-", "a list of meshes holds files; give standard input as an argument");
+    folders.push_back(fs::absolute(path).lexically_normal().parent_path());
+  }
+  fs::path root = folders.empty() ? fs::path() : folders.front();
+  for (const fs::path& folder : folders) root = commonFolder(root, folder);
+  for (size_t i = 0; i < paths.size(); ++i) {
+    const fs::path below = folders[i].lexically_relative(root);
+    inputs.push_back({paths[i], below == "." ? "" : below.string(), true, byteCountOf(paths[i])});
+  }
+}
+
+}  // namespace
+
+std::vector<InputFile> listInputs(const InputRequest& request) {
+  std::vector<InputFile> inputs;
+  const FolderSearch folders(request);
+  for (const std::string& argument : request.arguments) {
+    std::error_code ignored;
+    if (request.recurses && argument != "-" && fs::is_directory(argument, ignored)) {
+      folders.search(argument, inputs);
+    } else {
+      inputs.push_back({argument, "", false, argument == "-" ? 0 : byteCountOf(argument)});
+    }
+  }
+  if (!request.list.empty()) addList(readList(request), inputs);
+  return inputs;
+}
+
+}  // namespace asdfvk

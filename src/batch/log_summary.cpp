@@ -1,0 +1,206 @@
+#include "batch/log_summary.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+#include <unordered_map>
+
+#include "core/text.h"
+
+namespace asdfvk {
+namespace {
+
+constexpr int kBinsPerDecade = 5;
+constexpr size_t kMaxBinCount = 60;
+
+bool isComputed(const MeshRecord& record) {
+  return record.status == MeshStatus::Done || record.status == MeshStatus::Skipped;
+}
+
+std::vector<std::pair<std::string, uint64_t>> descending(const std::map<std::string, uint64_t>& counts) {
+  std::vector<std::pair<std::string, uint64_t>> rows(counts.begin(), counts.end());
+  std::stable_sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
+  return rows;
+}
+
+std::string spreadText(const Spread& spread, double factor, const char* unit) {
+  return fmt::format("min {:.3g}, median {:.3g}, 90 % {:.3g}, max {:.3g}{}", factor * spread.min,
+                     factor * spread.median, factor * spread.percentile90, factor * spread.max, unit);
+}
+
+/// A cell of a table with comma-separated values.
+std::string quoted(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string cell = "\"";
+  for (const char c : text) cell += c == '"' ? "\"\"" : std::string(1, c);
+  return cell + "\"";
+}
+
+nlohmann::ordered_json jsonOf(const Spread& spread) {
+  return {{"min", spread.min}, {"median", spread.median}, {"percentile90", spread.percentile90}, {"max", spread.max}};
+}
+
+nlohmann::ordered_json jsonOf(const std::vector<std::pair<std::string, uint64_t>>& counts) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
+  for (const auto& [name, count] : counts) json[name] = count;
+  return json;
+}
+
+}  // namespace
+
+Spread spreadOf(std::vector<double> numbers) {
+  if (numbers.empty()) return {};
+  std::sort(numbers.begin(), numbers.end());
+  const auto at = [&](double share) {
+    return numbers[static_cast<size_t>(std::llround(share * static_cast<double>(numbers.size() - 1)))];
+  };
+  return {numbers.front(), at(0.5), at(0.9), numbers.back()};
+}
+
+Histogram histogramOf(const std::vector<double>& numbers) {
+  const auto binOf = [](double number) { return static_cast<int>(std::floor(kBinsPerDecade * std::log10(number))); };
+  std::map<int, uint64_t> counts;
+  for (const double number : numbers)
+    if (number > 0 && std::isfinite(number)) ++counts[binOf(number)];
+  Histogram histogram;
+  if (counts.empty()) return histogram;
+  const int first = counts.begin()->first, last = counts.rbegin()->first;
+  if (static_cast<size_t>(last - first) >= kMaxBinCount) return histogram;
+  for (int bin = first; bin <= last; ++bin)
+    histogram.bins.push_back({std::pow(10, static_cast<double>(bin) / kBinsPerDecade),
+                              std::pow(10, static_cast<double>(bin + 1) / kBinsPerDecade),
+                              counts.contains(bin) ? counts[bin] : 0});
+  return histogram;
+}
+
+LogSummary summarizeRecords(std::vector<MeshRecord> records, size_t invalidLineCount) {
+  LogSummary summary;
+  summary.recordCount = records.size();
+  summary.invalidLineCount = invalidLineCount;
+  std::unordered_map<std::string, size_t> lastOf;
+  for (size_t i = 0; i < records.size(); ++i) {
+    const auto [last, isFirst] = lastOf.emplace(records[i].input, i);
+    if (!isFirst && records[i].time >= records[last->second].time) last->second = i;
+  }
+  for (size_t i = 0; i < records.size(); ++i)
+    if (lastOf[records[i].input] == i) summary.meshes.push_back(std::move(records[i]));
+  std::sort(summary.meshes.begin(), summary.meshes.end(),
+            [](const MeshRecord& a, const MeshRecord& b) { return a.input < b.input; });
+
+  std::vector<double> seconds, errors;
+  std::map<std::string, double> stages;
+  std::map<std::string, uint64_t> warnings, devices;
+  std::map<std::pair<int, std::string>, FailureGroup> failures;
+  for (const MeshRecord& mesh : summary.meshes) {
+    ++summary.statusCounts[mesh.status];
+    summary.peakMemoryBytes = std::max(summary.peakMemoryBytes, mesh.peakMemoryBytes);
+    for (const std::string& warning : mesh.warnings) ++warnings[warning];
+    if (!mesh.device.empty()) ++devices[mesh.device];
+    if (!isComputed(mesh)) {
+      FailureGroup& group = failures[{mesh.code, mesh.error}];
+      if (group.count++ == 0) group = {mesh.code, mesh.error, 1, mesh.input, mesh.message};
+      continue;
+    }
+    summary.faceCount += mesh.faceCount.value_or(0);
+    summary.meshSeconds += mesh.totalSeconds;
+    seconds.push_back(mesh.totalSeconds);
+    for (const auto& [stage, time] : mesh.seconds) stages[stage] += time;
+    if (mesh.estimatedError.is_object() && mesh.estimatedError.contains("average") &&
+        mesh.estimatedError["average"].is_number())
+      errors.push_back(mesh.estimatedError["average"].get<double>());
+  }
+  summary.seconds = spreadOf(seconds);
+  summary.averageErrors = spreadOf(errors);
+  summary.secondsHistogram = histogramOf(seconds);
+  summary.errorHistogram = histogramOf(errors);
+  summary.stageSeconds.assign(stages.begin(), stages.end());
+  std::stable_sort(summary.stageSeconds.begin(), summary.stageSeconds.end(),
+                   [](const auto& a, const auto& b) { return a.second > b.second; });
+  for (auto& [key, group] : failures) summary.failures.push_back(std::move(group));
+  std::stable_sort(summary.failures.begin(), summary.failures.end(),
+                   [](const auto& a, const auto& b) { return a.count > b.count; });
+  summary.warnings = descending(warnings);
+  summary.devices = descending(devices);
+  return summary;
+}
+
+std::string textOf(const LogSummary& summary) {
+  std::string text;
+  const auto row = [&text](const std::string& title, const std::string& value) {
+    text += fmt::format("{:<9} {}\n", title, value);
+  };
+  std::string separator = ": ";
+  std::string counts = groupDigits(summary.meshes.size());
+  for (const auto& [status, count] : summary.statusCounts) {
+    counts += fmt::format("{}{} {}", separator, groupDigits(count), nameOf(status));
+    separator = ", ";
+  }
+  row("meshes", counts);
+  if (summary.invalidLineCount > 0)
+    row("log", fmt::format("{} cut or invalid", counted(summary.invalidLineCount, "line")));
+  row("faces", groupDigits(summary.faceCount));
+  row("time", fmt::format("{:.4g} s in all; per mesh {}", summary.meshSeconds, spreadText(summary.seconds, 1, " s")));
+  std::string stages;
+  for (const auto& [stage, seconds] : summary.stageSeconds)
+    stages += fmt::format("{}{} {:.3g}", stages.empty() ? "" : ", ", stage, seconds);
+  if (!stages.empty()) row("stages", stages + " s");
+  row("memory", fmt::format("at most {} MiB", groupDigits(summary.peakMemoryBytes >> 20)));
+  if (summary.averageErrors.max > 0)
+    row("error", "estimated average of each mesh: " + spreadText(summary.averageErrors, 100, " % of its range"));
+  for (const auto& [device, count] : summary.devices)
+    row("device", fmt::format("{}: {}", device, counted(count, "mesh", "meshes")));
+  for (const auto& [warning, count] : summary.warnings)
+    row("warning", fmt::format("{}: {}", warning, counted(count, "mesh", "meshes")));
+  for (const FailureGroup& group : summary.failures)
+    row("failed", fmt::format("code {} {}: {}; {}: {}", group.code, group.error, counted(group.count, "mesh", "meshes"),
+                              group.exampleInput, group.exampleMessage));
+  return text;
+}
+
+std::string jsonOf(const LogSummary& summary) {
+  nlohmann::ordered_json json{{"meshCount", summary.meshes.size()},
+                              {"recordCount", summary.recordCount},
+                              {"invalidLineCount", summary.invalidLineCount}};
+  for (const auto& [status, name] : kMeshStatuses) {
+    const auto found = summary.statusCounts.find(status);
+    json[std::string(name) + "Count"] = found == summary.statusCounts.end() ? 0 : found->second;
+  }
+  json["faceCount"] = summary.faceCount;
+  json["meshSeconds"] = summary.meshSeconds;
+  json["seconds"] = jsonOf(summary.seconds);
+  json["averageError"] = jsonOf(summary.averageErrors);
+  json["peakMemoryBytes"] = summary.peakMemoryBytes;
+  json["stageSeconds"] = nlohmann::ordered_json::object();
+  for (const auto& [stage, seconds] : summary.stageSeconds) json["stageSeconds"][stage] = seconds;
+  json["devices"] = jsonOf(summary.devices);
+  json["warnings"] = jsonOf(summary.warnings);
+  json["failures"] = nlohmann::ordered_json::array();
+  for (const FailureGroup& group : summary.failures)
+    json["failures"].push_back({{"code", group.code},
+                                {"error", group.error},
+                                {"count", group.count},
+                                {"exampleInput", group.exampleInput},
+                                {"exampleMessage", group.exampleMessage}});
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+std::string csvOf(const LogSummary& summary) {
+  std::string text =
+      "input,output,status,code,error,faceCount,totalSeconds,peakMemoryBytes,averageError,segmentCount,device,"
+      "message\n";
+  for (const MeshRecord& mesh : summary.meshes) {
+    const auto orEmpty = [](const auto& value) { return value ? fmt::format("{}", *value) : std::string(); };
+    const bool hasError = mesh.estimatedError.is_object() && mesh.estimatedError.contains("average") &&
+                          mesh.estimatedError["average"].is_number();
+    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n", quoted(mesh.input), quoted(orEmpty(mesh.output)),
+                        nameOf(mesh.status), mesh.code, quoted(mesh.error), orEmpty(mesh.faceCount), mesh.totalSeconds,
+                        mesh.peakMemoryBytes,
+                        hasError ? fmt::format("{}", mesh.estimatedError["average"].get<double>()) : "",
+                        orEmpty(mesh.segmentCount), quoted(mesh.device), quoted(mesh.message));
+  }
+  return text;
+}
+
+}  // namespace asdfvk

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "batch/mesh_record.h"
+
+namespace asdfvk {
+
+/// Least, middle and greatest of some numbers; all 0 without one.
+struct Spread {
+  double min = 0, median = 0, percentile90 = 0, max = 0;
+};
+[[nodiscard]] Spread spreadOf(std::vector<double> numbers);
+
+/// Bins of equal width in the logarithm.
+struct Histogram {
+  struct Bin {
+    double from = 0, to = 0;
+    uint64_t count = 0;
+  };
+  std::vector<Bin> bins;
+};
+/// Numbers that are not above 0 are ignored.
+[[nodiscard]] Histogram histogramOf(const std::vector<double>& numbers);
+
+struct FailureGroup {
+  int code = 0;
+  std::string error;
+  uint64_t count = 0;
+  std::string exampleInput, exampleMessage;
+};
+
+/// What the logs of a batch say; of several records of a mesh the one with the latest time counts, else the last one.
+struct LogSummary {
+  size_t recordCount = 0, invalidLineCount = 0;
+  std::map<MeshStatus, uint64_t> statusCounts;
+  uint64_t faceCount = 0;         ///< Of the meshes that were computed, also by earlier runs.
+  double meshSeconds = 0;         ///< Sum of their times.
+  Spread seconds, averageErrors;  ///< Of these meshes: total times; estimated average errors, shares of the range.
+  Histogram secondsHistogram, errorHistogram;
+  uint64_t peakMemoryBytes = 0;                              ///< The greatest.
+  std::vector<std::pair<std::string, double>> stageSeconds;  ///< Sums, descending.
+  std::vector<FailureGroup> failures;                        ///< By descending count.
+  std::vector<std::pair<std::string, uint64_t>> warnings;    ///< Meshes with a warning, by its code.
+  std::vector<std::pair<std::string, uint64_t>> devices;     ///< Meshes by device.
+  std::vector<MeshRecord> meshes;                            ///< The last record of each, by input.
+};
+
+[[nodiscard]] LogSummary summarizeRecords(std::vector<MeshRecord> records, size_t invalidLineCount);
+
+/// Aligned lines.
+[[nodiscard]] std::string textOf(const LogSummary& summary);
+/// One document.
+[[nodiscard]] std::string jsonOf(const LogSummary& summary);
+/// A row per mesh.
+[[nodiscard]] std::string csvOf(const LogSummary& summary);
+/// An HTML page without scripts and further files.
+[[nodiscard]] std::string pageOf(const LogSummary& summary, const std::string& title);
+
+}  // namespace asdfvk

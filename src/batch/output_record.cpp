@@ -1,0 +1,43 @@
+#include "batch/output_record.h"
+
+#include <fstream>
+#include <iterator>
+#include <system_error>
+
+#include "batch/content_hash.h"
+#include "core/atomic_file.h"
+
+namespace asdfvk {
+
+namespace fs = std::filesystem;
+
+fs::path outputRecordPath(const fs::path& output) { return output.string() + ".json"; }
+
+std::optional<MeshRecord> findFinishedOutput(const MeshRecord& expected, const fs::path& output) {
+  std::ifstream in(outputRecordPath(output), std::ios::binary);
+  if (!in) return std::nullopt;
+  std::optional<MeshRecord> record = parseRecord(std::string(std::istreambuf_iterator<char>(in), {}));
+  if (!record || record->code != 0 || record->inputHash != expected.inputHash ||
+      record->optionsHash != expected.optionsHash || record->version != expected.version ||
+      record->commit != expected.commit || record->outputHash.empty() || contentHashOf(output) != record->outputHash)
+    return std::nullopt;
+  record->input = expected.input;
+  record->output = output.string();
+  record->time = expected.time;
+  record->status = MeshStatus::Skipped;
+  return record;
+}
+
+void removeOutputRecord(const fs::path& output) {
+  std::error_code ignored;
+  fs::remove(outputRecordPath(output), ignored);
+}
+
+void writeOutputRecord(MeshRecord& record, const fs::path& output) {
+  record.outputHash = contentHashOf(output).value_or("");
+  AtomicFile file(outputRecordPath(output));
+  file.write(toJsonLine(record) + "\n");
+  file.commit();
+}
+
+}  // namespace asdfvk

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "batch/mesh_record.h"
+
+namespace asdfvk {
+
+/// Path of the record beside an output: "horse.asdf.ply.json".
+[[nodiscard]] std::filesystem::path outputRecordPath(const std::filesystem::path& output);
+
+/// The record beside the output if the output is that of `expected`: with the same input hash, options hash, version
+/// and commit, without a failure, and with bytes that have the recorded hash. Its paths and its status, Skipped, are
+/// those of this run.
+[[nodiscard]] std::optional<MeshRecord> findFinishedOutput(const MeshRecord& expected,
+                                                           const std::filesystem::path& output);
+
+/// To be called before the output is written. A process that is killed between the output and its record leaves an
+/// output without a record, never one with the record of another output.
+void removeOutputRecord(const std::filesystem::path& output);
+
+/// Writes the record atomically, with the hash of the output. Throws Error{OutputNotWritable}.
+void writeOutputRecord(MeshRecord& record, const std::filesystem::path& output);
+
+}  // namespace asdfvk

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "batch/mesh_record.h"
+
+namespace asdfvk {
+
+/// Counts of a batch that runs, by which its rate and the time left are estimated. Bytes are those of the input files.
+struct BatchProgress {
+  uint64_t meshCount = 0, byteCount = 0;  ///< Of the whole batch.
+  uint64_t doneCount = 0, skippedCount = 0, failedCount = 0, droppedCount = 0;
+  uint64_t doneBytes = 0;  ///< Of the meshes that were computed or failed.
+  uint64_t skippedBytes = 0;
+  uint64_t faceCount = 0;  ///< Of the meshes that were computed.
+
+  void count(const MeshRecord& record, uint64_t bytes);
+
+  [[nodiscard]] uint64_t finishedCount() const { return doneCount + skippedCount + failedCount + droppedCount; }
+  /// 0 to 1, by bytes and number of meshes.
+  [[nodiscard]] double share() const;
+  /// Estimated from the meshes that were computed so far, by their bytes; infinite before the first one.
+  [[nodiscard]] double secondsLeft(double elapsedSeconds) const;
+};
+
+/// "1,234 of 10,000 meshes, 56.7 meshes/s, 2 min 35 s left, 12 failed".
+[[nodiscard]] std::string progressText(const BatchProgress& progress, double elapsedSeconds);
+
+/// "9,899 done, 3 skipped, 101 failed; 123 s, 80.5 meshes/s, 0.312 million faces/s".
+[[nodiscard]] std::string summaryText(const BatchProgress& progress, double elapsedSeconds);
+
+/// "35 s", "2 min 35 s", "3 h 12 min", "2 d 4 h".
+[[nodiscard]] std::string durationText(double seconds);
+
+}  // namespace asdfvk

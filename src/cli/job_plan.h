@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "cli/mesh_run.h"
+
+namespace asdfvk {
+
+/// Meshes that are computed in the same way.
+struct JobPhase {
+  std::vector<size_t> tasks;  ///< Indices.
+  uint32_t jobCount = 1;      ///< Meshes at once.
+  uint32_t threadCount = 1;   ///< CPU threads of each.
+};
+
+/// Files up to this size are small meshes.
+inline constexpr uint64_t kSmallMeshBytes = uint64_t{16} << 20;
+/// Each job opens a device, which takes as long as some small meshes.
+inline constexpr uint64_t kMinMeshesPerJob = 4;
+/// Jobs on one GPU where --jobs is not given. Estimated, not measured.
+inline constexpr uint32_t kMaxJobsOnGpu = 4;
+
+/// computed: indices of the tasks to plan; each of them is in exactly one phase. requestedJobs: of --jobs, 0 for the
+/// choice by sizes: at least 2 kMinMeshesPerJob small meshes are computed with one thread each, as many at once as there
+/// are threads; the others before them, one after another with all threads.
+[[nodiscard]] std::vector<JobPhase> planJobs(const std::vector<MeshTask>& tasks, std::vector<size_t> computed,
+                                             uint32_t requestedJobs, uint32_t threadCount);
+
+}  // namespace asdfvk

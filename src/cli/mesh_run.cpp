@@ -1,0 +1,297 @@
+#include "cli/mesh_run.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <utility>
+
+#include "asdf_vk/asdf_vk.h"
+#include "asdf_vk/version.h"
+#include "batch/content_hash.h"
+#include "batch/mesh_timer.h"
+#include "batch/output_record.h"
+#include "batch/process_memory.h"
+#include "cli/browser.h"
+#include "cli/interrupt.h"
+#include "cli/output_plan.h"
+#include "cli/report.h"
+#include "cli/result_picture.h"
+#include "cli/terminal.h"
+#include "core/stopwatch.h"
+#include "io/inspected_mesh.h"
+#include "mesh/orientation.h"
+#include "render/png.h"
+#include "viewer/json.h"
+
+namespace asdfvk {
+
+void (*beforeMesh)(const std::string& input) = nullptr;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Runs `work`, which takes a RunControl, with a bar on a terminal.
+template <typename Work>
+auto runWithProgress(bool showsBar, const std::stop_token& stop, const Work& work) {
+  const Stopwatch watch;
+  std::optional<ProgressBar> bar;
+  if (showsBar && isStandardErrorTerminal()) bar.emplace(writeStandardError, [&watch] { return watch.seconds(); });
+  RunControl control;
+  control.stop = stop;
+  if (bar) control.progress = [&bar](double fraction) { bar->update(fraction); };
+  return work(control);
+}
+
+/// Renders the field of --picture-of and writes it atomically. Precondition: result.scene is set. Throws
+/// Error{OutputNotWritable}, Error{UnknownField} and Error{Cancelled}.
+void writePicture(const CommandLine& line, const Result& result, const RunControl& control) {
+  const Field* field = result.field(line.pictureOf);
+  if (field == nullptr) throw Error(ErrorCode::UnknownField, "--picture-of: the result has no field " + line.pictureOf);
+  if (field->componentCount != 1)
+    throw Error(ErrorCode::OptionConflict,
+                fmt::format("--picture-of: field {} has {} components; a picture shows a field of one component",
+                            line.pictureOf, field->componentCount));
+  writePng(line.picture, pictureOf(result, *field, line.pictureView, {}, control));
+}
+
+/// All options that decide the bytes of the output, or whether the mesh passes.
+Json optionsIdentity(const CommandLine& line) {
+  Json compared = Json::array();
+  for (const CommandLine& other : line.compared) compared.push_back(optionValues(other));
+  return {{"options", optionValues(line)},
+          {"fields", line.fields},
+          {"format", line.format},
+          {"ascii", line.ascii},
+          {"check", line.options.checkCount ? Json(*line.options.checkCount) : Json(nullptr)},
+          {"rngSeed", line.options.randomSeed},
+          {"estimatesError", line.options.estimatesError},
+          {"compared", compared}};
+}
+
+Json shortEstimateOf(const std::optional<ErrorEstimate>& estimate) {
+  if (!estimate) return nullptr;
+  return {{"average", number(estimate->average)},
+          {"standardError", number(estimate->standardError)},
+          {"relativeMedian", number(estimate->relativeMedian)},
+          {"relativePercentile90", number(estimate->relativePercentile90)}};
+}
+
+void fillRecord(MeshRecord& record, const Report& report) {
+  record.faceCount = report.faceCount;
+  record.device = report.device;
+  record.backend = report.backend;
+  for (size_t i = 0; i < kStageCount; ++i)
+    if (const double seconds = report.stageSeconds.seconds[i]; seconds > 0)
+      record.seconds.emplace_back(nameOf(static_cast<Stage>(i)), seconds);
+  record.estimatedError = shortEstimateOf(report.estimatedError);
+  if (report.segmentation) record.segmentCount = report.segmentation->segmentCount;
+  for (const Warning& warning : report.warnings) record.warnings.emplace_back(nameOf(warning.code));
+}
+
+void makeFolderOf(const std::string& output) {
+  const fs::path folder = fs::path(output).parent_path();
+  std::error_code error;
+  if (!folder.empty()) fs::create_directories(folder, error);
+  if (error)
+    throw Error(ErrorCode::OutputNotWritable,
+                fmt::format("{} cannot be written: {}: {}", output, folder.string(), error.message()));
+}
+
+}  // namespace
+
+LoadedMesh loadMesh(const std::string& path, bool computesHash) {
+  LoadedMesh loaded;
+  const Stopwatch watch;
+  try {
+    loaded.mesh = readMesh(path, [&](std::span<const char> bytes) {
+      if (computesHash) loaded.hash = contentHash(bytes);
+    });
+  } catch (...) {
+    loaded.failure = std::current_exception();
+  }
+  loaded.seconds = watch.seconds();
+  return loaded;
+}
+
+MeshRunner::MeshRunner(const CommandLine& line, size_t meshCount)
+    : line_(line),
+      optionsHash_(contentHash(optionsIdentity(line).dump(-1, ' ', false, Json::error_handler_t::replace))),
+      options_(optionValues(line)) {
+  if (writesOnePage(line)) onePage_ = SharedPage{.awaitedCount = meshCount * (1 + line.compared.size())};
+}
+
+MeshRecord MeshRunner::recordOf(const MeshTask& task) const {
+  MeshRecord record;
+  record.input = task.input;
+  record.time = utcTime();
+  record.optionsHash = optionsHash_;
+  record.options = options_;
+  record.version = ASDFVK_VERSION;
+  record.commit = ASDFVK_COMMIT;
+  return record;
+}
+
+std::optional<MeshRun> MeshRunner::skip(const MeshTask& task) const {
+  std::error_code ignored;
+  if (!fs::exists(outputRecordPath(task.output), ignored)) return std::nullopt;
+  MeshRecord expected = recordOf(task);
+  expected.inputHash = contentHashOf(task.input).value_or("");
+  std::optional<MeshRecord> found = findFinishedOutput(expected, task.output);
+  if (!found) return std::nullopt;
+  MeshRun run;
+  run.json = toJsonLine(*found) + "\n";
+  run.record = std::move(*found);
+  return run;
+}
+
+MeshRun MeshRunner::run(Session& session, const MeshTask& task, std::optional<LoadedMesh> loaded, bool measuresMemory,
+                        const std::stop_token& stop) {
+  MeshRun run;
+  run.record = recordOf(task);
+  const Stopwatch watch;
+  if (measuresMemory) resetPeakMemory();
+  const MeshTimer timer(line_.batch.timeoutSeconds, stop);
+  std::optional<SharedPage> ownPage;
+  SharedPage* page = onePage_ ? &*onePage_ : nullptr;
+  if (writesPages(line_) && page == nullptr)
+    page = &ownPage.emplace(SharedPage{.awaitedCount = 1 + line_.compared.size()});
+
+  std::vector<const CommandLine*> computations{&line_};
+  for (const CommandLine& compared : line_.compared) computations.push_back(&compared);
+  for (const CommandLine* computation : computations) {
+    if (run.code == ExitCode::Cancelled) break;
+    try {
+      if (beforeMesh != nullptr) beforeMesh(task.input);
+      if (!loaded) loaded = loadMesh(task.input, line_.batch.isBatch());
+      LoadedMesh mesh = std::move(*loaded);
+      loaded.reset();
+      if (!mesh.hash.empty()) run.record.inputHash = mesh.hash;
+      if (mesh.failure) std::rethrow_exception(mesh.failure);
+      compute(session, task, *computation, mesh, page, timer.token(), run);
+    } catch (...) {
+      Failure failure = currentFailure(line_.session.requireGpu, computation->valueOptions);
+      if (failure.code == ExitCode::Cancelled && timer.hasExpired())
+        failure = {ExitCode::Limit, fmt::format("took longer than --timeout {:g}", line_.batch.timeoutSeconds),
+                   "timeLimit"};
+      addFailure(task, failure, run);
+    }
+    if (page == nullptr || --page->awaitedCount > 0 || page->isFinished || page->page.isEmpty()) continue;
+    if (run.code == ExitCode::Cancelled) continue;
+    try {
+      finishPage(task.output, *page);  // The last result failed, others did not.
+    } catch (...) {
+      addFailure(task, currentFailure(), run);
+    }
+  }
+  run.record.totalSeconds = watch.seconds();
+  run.record.peakMemoryBytes = peakMemoryBytes();
+  if (run.code != ExitCode::Done || !line_.batch.isBatch() || task.output == "-") return run;
+  try {
+    writeOutputRecord(run.record, task.output);
+  } catch (...) {
+    addFailure(task, currentFailure(), run);
+  }
+  return run;
+}
+
+void MeshRunner::compute(Session& session, const MeshTask& task, const CommandLine& line, LoadedMesh& loaded,
+                         SharedPage* page, const std::stop_token& stop, MeshRun& run) const {
+  if (line.batch.hasTree() || line.output.ends_with('/')) makeFolderOf(task.output);
+  requireWritablePlace(task.output);
+  if (!line.picture.empty()) requireWritablePlace(line.picture);
+  if (!line.points.empty()) requireWritablePlace(line.points);
+  Mesh& mesh = loaded.mesh;
+  Result result;
+  {
+    const Interrupt::Listening listening;
+    result = runWithProgress(showsBar_, stop,
+                             [&](const RunControl& control) { return session.compute(mesh, line.options, control); });
+    if (stop.stop_requested()) throw Error(ErrorCode::Cancelled, "cancelled");
+    StageSeconds& seconds = result.report.stageSeconds;
+    seconds[Stage::Read] = loaded.seconds;
+    const Stopwatch writeWatch;
+    flipInputFaces(mesh, result.report.reversedFaces);  // The scene of the result has its own copy.
+    if (task.output != "-") removeOutputRecord(task.output);
+    writeOutput(task, line, result, mesh, page, stop);
+    if (!line.points.empty()) writePoints(line.points, result.fields);
+    seconds[Stage::Write] = writeWatch.seconds();
+    if (!line.picture.empty())
+      runWithProgress(showsBar_, stop, [&](const RunControl& control) { writePicture(line, result, control); });
+  }
+  describe(task, line, result, run);
+}
+
+/// Writes the result, or adds it to the page, which is written with its last result.
+void MeshRunner::writeOutput(const MeshTask& task, const CommandLine& line, const Result& result, const Mesh& mesh,
+                             SharedPage* page, const std::stop_token& stop) const {
+  if (page == nullptr) {
+    writeResult(task.output, mesh, writableFields(line, task.output, result.fields), writeOptionsOf(line));
+    return;
+  }
+  const MeshOutcome outcome{task.input, task.output, line, result};
+  runWithProgress(showsBar_, stop, [&](const RunControl& control) { addToPage(page->page, outcome, control); });
+  if (page->awaitedCount == 1) finishPage(task.output, *page);
+}
+
+/// Also starts the browser with --open.
+void MeshRunner::finishPage(const std::string& output, SharedPage& page) const {
+  page.isFinished = true;
+  writePage(output, page.page);
+  if (line_.opensPage) openInBrowser(output);
+}
+
+void MeshRunner::describe(const MeshTask& task, const CommandLine& line, const Result& result, MeshRun& run) const {
+  const Report& report = result.report;
+  const MeshOutcome outcome{task.input, task.output, line, result};
+  if (!line.quiet && !line.batch.isBatch()) {
+    for (const Warning& warning : report.warnings) run.text += warningLine(task.input, textWarning(warning));
+    run.text += textReport(outcome);
+  }
+  if (line.json) run.json += jsonReport(outcome);
+  if (line.against.empty()) fillRecord(run.record, report);
+  run.record.output = task.output;
+  ExitCode code = ExitCode::Done;
+  if (report.check) code = exitCodeOf(*report.check);
+  std::string message = code == ExitCode::Done ? "" : checkFailure(*report.check);
+  if (code != ExitCode::Done) run.text += errorLine(task.input, message);
+  if (line.failIfThinner) {
+    const ExitCode thin = exitCodeOf(*report.thickness, *line.failIfThinner);
+    if (thin != ExitCode::Done) {
+      const std::string reason = thinFailure(*report.thickness, *line.failIfThinner);
+      run.text += errorLine(task.input, reason);
+      if (code == ExitCode::Done) message = reason;
+      if (code == ExitCode::Done) code = thin;
+    }
+  }
+  if (code == ExitCode::Done || run.code != ExitCode::Done) return;
+  run.code = code;
+  run.record.status = MeshStatus::Failed;
+  run.record.code = static_cast<int>(code);
+  run.record.error = code == ExitCode::CheckFailed ? "checkFailed" : code == ExitCode::TooThin ? "tooThin" : "noValues";
+  run.record.message = oneLine(message);
+}
+
+void MeshRunner::addFailure(const MeshTask& task, const Failure& failure, MeshRun& run) const {
+  std::string message = failure.message;
+  const std::string prefix = task.input + ": ";  // The messages of readers begin with the file, too.
+  if (message.starts_with(oneLine(prefix))) message.erase(0, prefix.size());
+  run.text += errorLine(task.input, message);
+  if (line_.json) run.json += jsonFailure(task.input, failure.name, message);
+  if (failure.code == ExitCode::Cancelled) run.record.status = MeshStatus::Dropped;
+  if (run.code != ExitCode::Done && failure.code != ExitCode::Cancelled) return;
+  if (failure.code != ExitCode::Cancelled) run.record.status = MeshStatus::Failed;
+  run.code = failure.code;
+  run.record.code = static_cast<int>(failure.code);
+  run.record.error = failure.name;
+  run.record.message = message;
+}
+
+MeshRun MeshRunner::failedRun(const MeshTask& task, const Failure& failure) const {
+  MeshRun run;
+  run.record = recordOf(task);
+  addFailure(task, failure, run);
+  return run;
+}
+
+}  // namespace asdfvk

@@ -1,0 +1,89 @@
+#pragma once
+
+#include <exception>
+#include <optional>
+#include <stop_token>
+#include <string>
+
+#include "asdf_vk/mesh.h"
+#include "asdf_vk/session.h"
+#include "batch/mesh_record.h"
+#include "cli/exit_code.h"
+#include "cli/options.h"
+#include "cli/page_output.h"
+
+namespace asdfvk {
+
+/// One mesh of a call.
+struct MeshTask {
+  std::string input, output;  ///< "-" for the standard streams.
+  uint64_t byteCount = 0;     ///< Of the input; 0 where it is unknown.
+};
+
+/// What came of a mesh. The texts have one or several lines with their ends.
+struct MeshRun {
+  ExitCode code = ExitCode::Done;
+  std::string json;   ///< For --json.
+  std::string text;   ///< For standard error: errors; without --quiet warnings, and the report unless in a batch.
+  MeshRecord record;  ///< Complete in a batch only.
+};
+
+/// A mesh that was read, or the failure of that.
+struct LoadedMesh {
+  Mesh mesh;
+  std::string hash;  ///< contentHash() of the file; empty unless requested.
+  double seconds = 0;
+  std::exception_ptr failure;
+};
+
+/// Throws nothing.
+[[nodiscard]] LoadedMesh loadMesh(const std::string& path, bool computesHash);
+
+/// Reads, computes and writes meshes. Several threads may call it at once, each with a session of its own, unless all
+/// results are in one page.
+class MeshRunner {
+ public:
+  /// The command line must outlive this object.
+  MeshRunner(const CommandLine& line, size_t meshCount);
+
+  /// Shows the progress within each mesh on a terminal, unless with --quiet.
+  void showProgressOfMeshes() { showsBar_ = !line_.quiet; }
+
+  /// For --skip-existing: set where an earlier run has finished the mesh. Throws nothing.
+  [[nodiscard]] std::optional<MeshRun> skip(const MeshTask& task) const;
+
+  /// Throws nothing: a failure is a MeshRun. loaded: the mesh, where it was read ahead. A stop request ends it with
+  /// ExitCode::Cancelled. measuresMemory: no other mesh is computed in this process meanwhile.
+  [[nodiscard]] MeshRun run(Session& session, const MeshTask& task, std::optional<LoadedMesh> loaded,
+                            bool measuresMemory, const std::stop_token& stop);
+
+  /// The run of a mesh whose worker process ended without an answer.
+  [[nodiscard]] MeshRun failedRun(const MeshTask& task, const Failure& failure) const;
+
+ private:
+  struct SharedPage {
+    Page page = emptyPage();
+    size_t awaitedCount = 0;  ///< Results that are not computed yet.
+    bool isFinished = false;
+  };
+
+  [[nodiscard]] MeshRecord recordOf(const MeshTask& task) const;
+  void compute(Session& session, const MeshTask& task, const CommandLine& line, LoadedMesh& loaded, SharedPage* page,
+               const std::stop_token& stop, MeshRun& run) const;
+  void writeOutput(const MeshTask& task, const CommandLine& line, const Result& result, const Mesh& mesh,
+                   SharedPage* page, const std::stop_token& stop) const;
+  void finishPage(const std::string& output, SharedPage& page) const;
+  void describe(const MeshTask& task, const CommandLine& line, const Result& result, MeshRun& run) const;
+  void addFailure(const MeshTask& task, const Failure& failure, MeshRun& run) const;
+
+  const CommandLine& line_;
+  bool showsBar_ = false;
+  std::string optionsHash_;
+  nlohmann::ordered_json options_;
+  std::optional<SharedPage> onePage_;  ///< Of all meshes.
+};
+
+/// For tests that inject faults: called with the input before a mesh is computed. Null otherwise.
+extern void (*beforeMesh)(const std::string& input);
+
+}  // namespace asdfvk

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <span>
+
+#include "asdf_vk/mesh.h"
+
+namespace asdfvk {
+
+/// As readMesh(path), and calls `inspect` with the bytes of the file before they are parsed.
+[[nodiscard]] Mesh readMesh(const std::filesystem::path& path,
+                            const std::function<void(std::span<const char>)>& inspect);
+
+}  // namespace asdfvk

@@ -1,0 +1,76 @@
+#include "batch/input_list.h"
+
+#include <doctest/doctest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "asdf_vk/error.h"
+#include "cli/scratch_folder.h"
+
+namespace asdfvk {
+namespace {
+
+using test::ScratchFolder;
+
+InputRequest requestOf(std::vector<std::string> arguments) {
+  return {.arguments = std::move(arguments), .recurses = true, .formats = {"ply", "off"}};
+}
+
+std::vector<std::pair<std::string, std::string>> pathsOf(const std::vector<InputFile>& inputs) {
+  std::vector<std::pair<std::string, std::string>> paths;
+  for (const InputFile& input : inputs) paths.emplace_back(input.path, input.folder);
+  return paths;
+}
+
+using Paths = std::vector<std::pair<std::string, std::string>>;
+
+TEST_CASE("the meshes below a folder are inputs in order, results and hidden files are not") {
+  const ScratchFolder folder;
+  std::filesystem::create_directories(folder / "in/b/c");
+  std::filesystem::create_directories(folder / "in/.git");
+  std::filesystem::create_directories(folder / "in/out");
+  for (const char* name : {"in/z.off", "in/a.PLY", "in/b/c/d.off", "in/b/e.off", "in/b/e.asdf.ply", "in/.hidden.off",
+                           "in/.git/f.off", "in/note.txt", "in/out/g.off"})
+    folder.write(name, "12345");
+  std::filesystem::create_directory_symlink(folder / "in", folder / "in/b/loop");
+  InputRequest request = requestOf({folder / "in"});
+  request.outputFolder = folder / "in/out";
+  const std::vector<InputFile> inputs = listInputs(request);
+  CHECK_EQ(pathsOf(inputs), Paths{{folder / "in/a.PLY", ""},
+                                  {folder / "in/b/c/d.off", "b/c"},
+                                  {folder / "in/b/e.off", "b"},
+                                  {folder / "in/z.off", ""}});
+  CHECK_EQ(inputs[0].byteCount, 5);
+  CHECK(inputs[0].isInTree);
+}
+
+TEST_CASE("files are inputs as they are given, also missing ones; a folder is one only with -r") {
+  const ScratchFolder folder;
+  InputRequest request = requestOf({"missing.off", "-", folder / ""});
+  request.recurses = false;
+  CHECK_EQ(pathsOf(listInputs(request)), Paths{{"missing.off", ""}, {"-", ""}, {folder / "", ""}});
+}
+
+TEST_CASE("the outputs of a list lie below its longest common folder") {
+  const ScratchFolder folder;
+  InputRequest request;
+  request.list = folder.write("list", "/data/x/a.off\n\n/data/x/deep/b.off\n/data/x/deep/../c.off\n");
+  CHECK_EQ(pathsOf(listInputs(request)),
+           Paths{{"/data/x/a.off", ""}, {"/data/x/deep/b.off", "deep"}, {"/data/x/deep/../c.off", ""}});
+  request.list = folder.write("zero", std::string("/a/two\nlines.off\0/b/c.off", 25));
+  request.isNullSeparated = true;
+  CHECK_EQ(pathsOf(listInputs(request)), Paths{{"/a/two\nlines.off", "a"}, {"/b/c.off", "b"}});
+}
+
+TEST_CASE("a list that cannot be read is an error") {
+  const ScratchFolder folder;
+  for (const std::string& list : {folder / "missing", folder / ""}) {
+    InputRequest request;
+    request.list = list;
+    CHECK_THROWS_AS((void)listInputs(request), Error);
+  }
+}
+
+}  // namespace
+}  // namespace asdfvk

@@ -1,0 +1,104 @@
+#include "batch/log_summary.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+namespace asdfvk {
+namespace {
+
+MeshRecord recordOf(const std::string& input, MeshStatus status, double seconds, int code = 0) {
+  MeshRecord record;
+  record.input = input;
+  record.status = status;
+  record.totalSeconds = seconds;
+  record.code = code;
+  if (code != 0) {
+    record.error = "unreadableInput";
+    record.message = "<broken> & \"quoted\", with a comma";
+  }
+  record.faceCount = 100;
+  record.seconds = {{"read", seconds / 4}, {"trace", seconds / 2}};
+  record.estimatedError = {{"average", 0.01}};
+  record.device = "a device";
+  return record;
+}
+
+LogSummary sample() {
+  return summarizeRecords({recordOf("b", MeshStatus::Failed, 9, 2), recordOf("a", MeshStatus::Done, 1),
+                           recordOf("c", MeshStatus::Failed, 5, 2), recordOf("b", MeshStatus::Done, 3),
+                           recordOf("d", MeshStatus::Failed, 0, 8), recordOf("a", MeshStatus::Skipped, 1)},
+                          1);
+}
+
+TEST_CASE("of several records of a mesh the last one counts") {
+  const LogSummary summary = sample();
+  CHECK_EQ(summary.recordCount, 6);
+  CHECK_EQ(summary.invalidLineCount, 1);
+  REQUIRE_EQ(summary.meshes.size(), 4);
+  CHECK_EQ(summary.meshes[1].input, "b");
+  CHECK(summary.meshes[1].status == MeshStatus::Done);
+  CHECK_EQ(summary.statusCounts.at(MeshStatus::Done), 1);
+  CHECK_EQ(summary.statusCounts.at(MeshStatus::Skipped), 1);
+  CHECK_EQ(summary.statusCounts.at(MeshStatus::Failed), 2);
+  CHECK_EQ(summary.faceCount, 200);
+  CHECK_EQ(summary.meshSeconds, 4);
+  CHECK_EQ(summary.stageSeconds.front().first, "trace");
+  CHECK_EQ(summary.stageSeconds.front().second, 2);
+  REQUIRE_EQ(summary.failures.size(), 2);
+  CHECK_EQ(summary.failures[0].count, 1);
+}
+
+TEST_CASE("of several logs in any order the record with the latest time counts") {
+  MeshRecord early = recordOf("a", MeshStatus::Failed, 1, 2), late = recordOf("a", MeshStatus::Done, 1);
+  early.time = "2026-01-01T00:00:00.999Z";
+  late.time = "2026-01-01T00:00:01.000Z";
+  const MeshRecord unknown = recordOf("a", MeshStatus::Dropped, 1);
+  for (const LogSummary& summary : {summarizeRecords({early, late, unknown}, 0), summarizeRecords({late, early}, 0)}) {
+    REQUIRE_EQ(summary.meshes.size(), 1);
+    CHECK(summary.meshes.front().status == MeshStatus::Done);
+  }
+}
+
+TEST_CASE("a spread has ranks of the sorted numbers") {
+  const Spread spread = spreadOf({5, 1, 2, 4, 3});
+  CHECK_EQ(spread.min, 1);
+  CHECK_EQ(spread.median, 3);
+  CHECK_EQ(spread.percentile90, 5);
+  CHECK_EQ(spread.max, 5);
+  CHECK_EQ(spreadOf({}).max, 0);
+}
+
+TEST_CASE("a histogram counts every number above 0 in the bin that holds it") {
+  const Histogram histogram = histogramOf({0.011, 0.5, 1.2, 1.3, 40, 0, -1});
+  uint64_t count = 0;
+  for (const Histogram::Bin& bin : histogram.bins) count += bin.count;
+  CHECK_EQ(count, 5);
+  const auto ofOne = std::find_if(histogram.bins.begin(), histogram.bins.end(),
+                                  [](const auto& bin) { return bin.from <= 1.2 && 1.2 < bin.to; });
+  REQUIRE(ofOne != histogram.bins.end());
+  CHECK_EQ(ofOne->count, 2);
+  CHECK(histogramOf({}).bins.empty());
+}
+
+TEST_CASE("the page escapes what meshes and messages hold, the table quotes it") {
+  const LogSummary summary = sample();
+  const std::string page = pageOf(summary, "a <title>");
+  CHECK_EQ(page.find("<broken>"), std::string::npos);
+  CHECK_NE(page.find("&lt;broken&gt; &amp; &quot;quoted&quot;"), std::string::npos);
+  CHECK_NE(page.find("<h1>a &lt;title&gt;</h1>"), std::string::npos);
+  const std::string table = csvOf(summary);
+  CHECK_EQ(std::count(table.begin(), table.end(), '\n'), 5);
+  CHECK_NE(table.find("\"<broken> & \"\"quoted\"\", with a comma\""), std::string::npos);
+  CHECK_NE(textOf(summary).find("4: 1 done, 1 skipped, 2 failed"), std::string::npos);
+  CHECK_EQ(nlohmann::json::parse(jsonOf(summary)).at("failures").size(), 2);
+}
+
+TEST_CASE("an empty log has a summary") {
+  const LogSummary summary = summarizeRecords({}, 0);
+  CHECK_FALSE(textOf(summary).empty());
+  CHECK_NE(pageOf(summary, "empty").find("none"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace asdfvk

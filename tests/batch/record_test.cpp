@@ -1,0 +1,140 @@
+#include <doctest/doctest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "asdf_vk/error.h"
+#include "batch/content_hash.h"
+#include "batch/output_record.h"
+#include "batch/record_log.h"
+#include "cli/scratch_folder.h"
+
+namespace asdfvk {
+namespace {
+
+using test::ScratchFolder;
+
+MeshRecord sampleRecord() {
+  MeshRecord record;
+  record.input = "a.off";
+  record.output = "a.asdf.ply";
+  record.time = "2026-05-31T12:34:56.789Z";
+  record.inputHash = "01";
+  record.optionsHash = "02";
+  record.faceCount = 12;
+  record.version = "1";
+  record.commit = "abc";
+  record.seconds = {{"read", 0.5}, {"trace", 1.5}};
+  record.totalSeconds = 2.25;
+  record.peakMemoryBytes = 1000;
+  record.estimatedError = {{"average", 0.01}};
+  record.segmentCount = 3;
+  record.warnings = {"missingValues"};
+  record.status = MeshStatus::Failed;
+  record.code = 5;
+  record.error = "checkFailed";
+  record.message = "the check failed";
+  return record;
+}
+
+TEST_CASE("a record is one line and reads back as it was") {
+  const std::string line = toJsonLine(sampleRecord());
+  CHECK_EQ(line.find('\n'), std::string::npos);
+  const auto read = parseRecord(line);
+  REQUIRE(read.has_value());
+  CHECK_EQ(toJsonLine(*read), line);
+  CHECK_EQ(read->faceCount, 12);
+  CHECK_EQ(read->time, "2026-05-31T12:34:56.789Z");
+  CHECK(read->status == MeshStatus::Failed);
+}
+
+TEST_CASE("other programs can write records with few keys") {
+  const auto read = parseRecord(R"({"input": "a.off", "status": "failed", "code": 137, "message": "killed"})");
+  REQUIRE(read.has_value());
+  CHECK(read->status == MeshStatus::Failed);
+  CHECK_EQ(read->code, 137);
+  CHECK_FALSE(read->output.has_value());
+  CHECK_FALSE(parseRecord(R"({"input": "a.off", "status": "failed", "code": 137})").has_value());
+  CHECK_FALSE(parseRecord(R"({"input": "a.off", "status": "odd", "code": 1, "message": ""})").has_value());
+  CHECK_FALSE(parseRecord(R"({"input": "a", "status": "done", "code": 0, "message": "", "seconds": {"read": "x"}})"));
+}
+
+TEST_CASE("the order of times is that of their texts") {
+  const std::string time = utcTime();
+  CHECK_EQ(time.size(), std::string("2026-05-31T12:34:56.789Z").size());
+  CHECK_EQ(time[10], 'T');
+  CHECK_GE(time, "2026");
+  CHECK_GE(utcTime(), time);
+}
+
+TEST_CASE("every cut line is no record") {
+  const std::string line = toJsonLine(sampleRecord());
+  for (size_t size = 0; size < line.size(); ++size) CHECK_FALSE(parseRecord(line.substr(0, size)).has_value());
+  for (const char* text : {"1", "[]", "{}", "{\"input\": 3}"}) CHECK_FALSE(parseRecord(text).has_value());
+}
+
+TEST_CASE("bytes that are not UTF-8 do not stop the log") {
+  MeshRecord record = sampleRecord();
+  record.input = "caf\xe9.off";
+  CHECK(parseRecord(toJsonLine(record)).has_value());
+}
+
+TEST_CASE("the next run ends a cut line, and a reader counts it") {
+  const ScratchFolder folder;
+  const std::string path = folder.write("log.jsonl", toJsonLine(sampleRecord()) + "\n{\"input\": \"cut");
+  {
+    RecordLog log(path);
+    log.append(sampleRecord());
+  }
+  size_t invalidCount = 0;
+  CHECK_EQ(readLog(path, invalidCount).size(), 2);
+  CHECK_EQ(invalidCount, 1);
+  CHECK(folder.read("log.jsonl").ends_with("\n"));
+  CHECK_THROWS_AS(RecordLog(folder / "no/log"), Error);
+  CHECK_THROWS_AS((void)readLog(folder / "missing", invalidCount), Error);
+}
+
+TEST_CASE("the hash of a file is that of its bytes") {
+  const ScratchFolder folder;
+  const std::string bytes(1'000'000, 'x');
+  CHECK_EQ(contentHashOf(folder.write("x", bytes)), contentHash(bytes));
+  CHECK_EQ(contentHash(std::string()), "99aa06d3014798d86001c324468d497f");  // From the specification of XXH3.
+  CHECK_NE(contentHash(std::string("a")), contentHash(std::string("b")));
+  CHECK_FALSE(contentHashOf(folder / "missing").has_value());
+}
+
+TEST_CASE("an output is finished only with its own record and its own bytes") {
+  const ScratchFolder folder;
+  const std::string output = folder.write("a.asdf.ply", "values");
+  MeshRecord record = sampleRecord();
+  record.status = MeshStatus::Done;
+  record.code = 0;
+  CHECK_FALSE(findFinishedOutput(record, output).has_value());
+  writeOutputRecord(record, output);
+  const MeshRecord expected = record;
+  REQUIRE(findFinishedOutput(expected, output).has_value());
+  CHECK(findFinishedOutput(expected, output)->status == MeshStatus::Skipped);
+  for (std::string MeshRecord::*part :
+       {&MeshRecord::inputHash, &MeshRecord::optionsHash, &MeshRecord::version, &MeshRecord::commit}) {
+    MeshRecord other = expected;
+    other.*part = "other";
+    CHECK_FALSE(findFinishedOutput(other, output).has_value());
+  }
+  folder.write("a.asdf.ply", "values of another run");
+  CHECK_FALSE(findFinishedOutput(expected, output).has_value());
+  folder.write("a.asdf.ply", "values");
+  CHECK(findFinishedOutput(expected, output).has_value());
+  removeOutputRecord(output);
+  CHECK_FALSE(findFinishedOutput(expected, output).has_value());
+}
+
+TEST_CASE("a failed mesh is not finished") {
+  const ScratchFolder folder;
+  const std::string output = folder.write("a.asdf.ply", "values");
+  MeshRecord record = sampleRecord();
+  writeOutputRecord(record, output);
+  CHECK_FALSE(findFinishedOutput(record, output).has_value());
+}
+
+}  // namespace
+}  // namespace asdfvk

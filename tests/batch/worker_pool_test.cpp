@@ -1,0 +1,110 @@
+#include "batch/worker_pool.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <map>
+#include <stdexcept>
+#include <thread>
+
+#include "core/stopwatch.h"
+
+namespace asdfvk {
+namespace {
+
+/// A worker in the language of the shell: answers each line with "done LINE"; some lines make it misbehave.
+const std::vector<std::string> kWorker{"/bin/bash", "-c",
+                                       "read greeting; echo ready; while read task; do case $task in"
+                                       " crash) kill -SEGV $$;; leave) exit 3;; hang) exec sleep 1000;;"
+                                       " grow) x=x; while :; do x=$x$x; done;; slow) sleep 0.3; echo done slow;;"
+                                       " *) echo \"done $task\";; esac; done"};
+
+struct Ends {
+  std::map<size_t, TaskOutcome> outcomes;
+  size_t readyCount = 0;
+};
+
+Ends runTasks(const std::vector<std::string>& tasks, WorkerPoolOptions options = {}, const std::stop_token& stop = {},
+              const std::function<void()>& atFinish = {}) {
+  Ends ends;
+  if (options.command.empty()) options.command = kWorker;
+  options.greeting = "hello";
+  const WorkerPoolClient client{.request = [&](size_t task) { return tasks[task]; },
+                                .ready =
+                                    [&](const std::string& answer) {
+                                      CHECK_EQ(answer, "ready");
+                                      ++ends.readyCount;
+                                      return true;
+                                    },
+                                .finished =
+                                    [&](const TaskOutcome& outcome) {
+                                      CHECK(ends.outcomes.emplace(outcome.task, outcome).second);
+                                      if (atFinish) atFinish();
+                                    }};
+  runOnWorkers(tasks.size(), options, client, stop);
+  return ends;
+}
+
+TEST_CASE("each task is answered once, by as many workers as requested") {
+  std::vector<std::string> tasks;
+  for (int i = 0; i < 50; ++i) tasks.push_back(std::to_string(i));
+  for (const uint32_t workerCount : {1U, 3U}) {
+    const Ends ends = runTasks(tasks, {.workerCount = workerCount});
+    REQUIRE_EQ(ends.outcomes.size(), 50);
+    for (const auto& [task, outcome] : ends.outcomes) {
+      CHECK(outcome.end == TaskEnd::Answered);
+      CHECK_EQ(outcome.text, "done " + std::to_string(task));
+    }
+    CHECK_LE(ends.readyCount, workerCount);
+  }
+}
+
+TEST_CASE("a worker that crashes or leaves fails its task only, and is replaced") {
+  const Ends ends = runTasks({"a", "crash", "b", "leave", "c"});
+  REQUIRE_EQ(ends.outcomes.size(), 5);
+  CHECK_EQ(ends.readyCount, 3);
+  CHECK(ends.outcomes.at(1).end == TaskEnd::Crashed);
+  CHECK_EQ(ends.outcomes.at(1).text, "ended by signal 11 (Segmentation fault)");
+  CHECK_EQ(ends.outcomes.at(3).text, "ended with exit code 3");
+  for (const size_t good : {0, 2, 4}) CHECK(ends.outcomes.at(good).end == TaskEnd::Answered);
+}
+
+TEST_CASE("a worker that hangs is killed at the time limit") {
+  const Stopwatch watch;
+  const Ends ends = runTasks({"a", "hang", "b"}, {.timeoutSeconds = 2});
+  CHECK(ends.outcomes.at(1).end == TaskEnd::TimedOut);
+  CHECK_GE(ends.outcomes.at(1).seconds, 2);
+  CHECK(ends.outcomes.at(2).end == TaskEnd::Answered);
+  CHECK_LT(watch.seconds(), 60);
+}
+
+TEST_CASE("a worker that grows is killed at the memory limit") {
+  constexpr uint64_t kLimit = 64 << 20;
+  const Ends ends = runTasks({"a", "grow", "b"}, {.memoryBytes = kLimit});
+  CHECK(ends.outcomes.at(1).end == TaskEnd::MemoryExceeded);
+  CHECK_GT(ends.outcomes.at(1).peakBytes, kLimit);
+  CHECK(ends.outcomes.at(0).end == TaskEnd::Answered);
+  CHECK(ends.outcomes.at(2).end == TaskEnd::Answered);
+}
+
+TEST_CASE("after a stop request no task begins, and a worker that ignores it is killed") {
+  std::stop_source source;
+  const Ends ends =
+      runTasks({"a", "hang", "b"}, {.graceSeconds = 0.5}, source.get_token(), [&] { source.request_stop(); });
+  CHECK(ends.outcomes.at(0).end == TaskEnd::Answered);
+  if (ends.outcomes.count(1) > 0) CHECK(ends.outcomes.at(1).end == TaskEnd::Dropped);
+  CHECK_EQ(ends.outcomes.count(2), 0);
+}
+
+TEST_CASE("workers that end before they are ready end the run") {
+  CHECK_THROWS_AS(runTasks({"a"}, {.command = {"/bin/false"}}), std::runtime_error);
+}
+
+TEST_CASE("workers that hang before they are ready end the run") {
+  const Stopwatch watch;
+  CHECK_THROWS_AS(runTasks({"a"}, {.command = {"/bin/sleep", "1000"}, .startSeconds = 0.2}), std::runtime_error);
+  CHECK_LT(watch.seconds(), 60);
+}
+
+}  // namespace
+}  // namespace asdfvk

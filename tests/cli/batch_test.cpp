@@ -1,0 +1,388 @@
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <numeric>
+#include <set>
+#include <thread>
+
+#include "cli/batch_worker.h"
+#include "cli/job_plan.h"
+#include "cli/program_under_test.h"
+#include "cli/refusal.h"
+#include "cli/sample_files.h"
+#include "cli/scratch_folder.h"
+
+namespace asdfvk::test {
+namespace {
+
+using Json = nlohmann::json;
+using Names = std::vector<std::string>;
+namespace fs = std::filesystem;
+
+/// A tree of small meshes; two of them are broken.
+struct MeshTree {
+  ScratchFolder folder;
+  std::string root = folder / "in";
+  size_t meshCount = 0;
+
+  explicit MeshTree(bool hasBroken = true) {
+    fs::create_directories(folder / "in/deep/er");
+    for (int i = 0; i < 4; ++i) add("in/s" + std::to_string(i) + ".off", sphereOff(6 + i));
+    for (int i = 0; i < 4; ++i) add("in/deep/t" + std::to_string(i) + ".off", sphereOff(8 + i));
+    add("in/deep/er/cube.stl", cubeBinaryStl());
+    if (!hasBroken) return;
+    add("in/deep/bad.off", "OFF\nnonsense");
+    add("in/empty.off", "OFF\n0 0 0\n");
+  }
+  void add(const std::string& name, const std::string& bytes) {
+    folder.write(name, bytes);
+    ++meshCount;
+  }
+  [[nodiscard]] std::string operator/(const std::string& name) const { return folder / name; }
+};
+
+ChildOutcome runBatch(const Names& arguments, const std::string& program = ASDFVK_PROGRAM) {
+  Names all = arguments;
+  all.insert(all.end(), {"--backend", "reference", "--format", "npy"});
+  return runChild(program, all);
+}
+
+/// Relative paths of the results below a folder, without the records.
+std::map<std::string, std::string> resultsIn(const std::string& folder) {
+  std::map<std::string, std::string> results;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
+    if (!entry.is_regular_file() || entry.path().extension() == ".json") continue;
+    std::ifstream in(entry.path(), std::ios::binary);
+    results[fs::relative(entry.path(), folder).string()] = std::string(std::istreambuf_iterator<char>(in), {});
+  }
+  return results;
+}
+
+std::vector<Json> recordsIn(const std::string& log) {
+  std::ifstream in(log);
+  std::vector<Json> records;
+  for (std::string line; std::getline(in, line);) records.push_back(Json::parse(line));
+  return records;
+}
+
+std::map<std::string, int> statusesIn(const std::string& log) {
+  std::map<std::string, int> counts;
+  for (const Json& record : recordsIn(log)) ++counts[record.at("status").get<std::string>()];
+  return counts;
+}
+
+using StatusCounts = std::map<std::string, int>;
+
+TEST_CASE("a tree of meshes gives a tree of results, a record of each, and exit code 7 where some failed") {
+  const MeshTree tree;
+  const ChildOutcome outcome = runBatch({"-r", tree.root, "-o", tree / "out", "--log", tree / "log.jsonl"});
+  INFO(outcome.error);
+  CHECK_EQ(outcome.exitCode, 7);
+  CHECK(outcome.error.find("bad.off: ") != std::string::npos);
+  CHECK(outcome.error.find("9 done, 2 failed") != std::string::npos);
+  const auto results = resultsIn(tree / "out");
+  CHECK_EQ(results.size(), 9);
+  CHECK(results.count("deep/er/cube.asdf.npy") == 1);
+  CHECK_EQ(statusesIn(tree / "log.jsonl"), StatusCounts{{"done", 9}, {"failed", 2}});
+  std::set<std::string> inputs;
+  for (const Json& record : recordsIn(tree / "log.jsonl")) {
+    inputs.insert(record.at("input").get<std::string>());
+    CHECK_EQ(record.at("version").get<std::string>().empty(), false);
+    CHECK_EQ(record.at("optionsHash").get<std::string>().size(), 32);
+    const bool isDone = record.at("status") == "done";
+    CHECK_EQ(record.at("code").get<int>(), isDone ? 0 : 2);
+    CHECK_EQ(record.at("output").is_null(), !isDone);
+    CHECK_EQ(record.at("message").get<std::string>().empty(), isDone);
+    if (!isDone) continue;
+    CHECK_GT(record.at("faceCount").get<int>(), 0);
+    CHECK_EQ(record.at("inputHash").get<std::string>().size(), 32);
+    CHECK_GT(record.at("totalSeconds").get<double>(), 0);
+    CHECK_GT(record.at("seconds").at("trace").get<double>(), 0);
+    CHECK_GT(record.at("peakMemoryBytes").get<uint64_t>(), 1'000'000);
+    CHECK_EQ(record.at("backend").get<std::string>(), "reference");
+  }
+  CHECK_EQ(inputs.size(), tree.meshCount);
+}
+
+TEST_CASE("a list of meshes gives the same tree, also from standard input with zero bytes") {
+  const MeshTree tree(false);
+  std::string lines, zeros;
+  for (const auto& entry : fs::recursive_directory_iterator(tree.root))
+    if (entry.is_regular_file()) {
+      lines += entry.path().string() + "\n";
+      zeros += entry.path().string() + '\0';
+    }
+  const std::string list = tree.folder.write("list", lines);
+  CHECK_EQ(runBatch({"-r", tree.root, "-o", tree / "a", "--quiet"}).exitCode, 0);
+  CHECK_EQ(runBatch({"--files-from", list, "-o", tree / "b", "--quiet"}).exitCode, 0);
+  ChildOptions options;
+  options.input = zeros;
+  CHECK_EQ(runAsdf({"--files-from", "-", "-0", "-o", tree / "c", "--backend", "reference", "--format", "npy"}, options)
+               .exitCode,
+           0);
+  CHECK_EQ(resultsIn(tree / "a").size(), 9);
+  CHECK(resultsIn(tree / "a") == resultsIn(tree / "b"));
+  CHECK(resultsIn(tree / "a") == resultsIn(tree / "c"));
+}
+
+TEST_CASE("results do not depend on --jobs and --isolate") {
+  const MeshTree tree;
+  CHECK_EQ(runBatch({"-r", tree.root, "-o", tree / "one", "--jobs", "1", "--quiet"}).exitCode, 7);
+  const auto expected = resultsIn(tree / "one");
+  for (const Names& more : {Names{"--jobs", "3"}, Names{"--isolate"}, Names{"--isolate", "--jobs", "2"}}) {
+    Names arguments{"-r", tree.root, "-o", tree / "other", "--log", tree / "log"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const ChildOutcome outcome = runBatch(arguments);
+    INFO(outcome.error);
+    CHECK_EQ(outcome.exitCode, 7);
+    CHECK(resultsIn(tree / "other") == expected);
+    CHECK_EQ(statusesIn(tree / "log"), StatusCounts{{"done", 9}, {"failed", 2}});
+    fs::remove_all(tree / "other");
+    fs::remove(tree / "log");
+  }
+}
+
+TEST_CASE("with --json the reports have the order of the meshes, also with --jobs") {
+  const MeshTree tree;
+  for (const Names& more : {Names{"--jobs", "3"}, Names{"--isolate", "--jobs", "2"}}) {
+    Names arguments{"-r", tree.root, "-o", tree / "out", "--json", "--quiet"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const ChildOutcome outcome = runBatch(arguments);
+    Names meshes;
+    for (const std::string& line : linesOf(outcome.output)) meshes.push_back(Json::parse(line).at("mesh"));
+    CHECK_EQ(meshes.size(), tree.meshCount);
+    CHECK(std::is_sorted(meshes.begin(), meshes.end()));
+  }
+}
+
+TEST_CASE("--skip-existing skips what is unchanged and computes what is not") {
+  const MeshTree tree(false);
+  const auto run = [&](const Names& more) {
+    fs::remove(tree / "log");
+    Names arguments{"-r", tree.root, "-o", tree / "out", "--log", tree / "log", "--skip-existing", "--quiet"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const ChildOutcome outcome = runBatch(arguments);
+    INFO(outcome.error);
+    CHECK_EQ(outcome.exitCode, 0);
+    return statusesIn(tree / "log");
+  };
+  CHECK_EQ(run({}), StatusCounts{{"done", 9}});
+  CHECK_EQ(run({}), StatusCounts{{"skipped", 9}});
+  CHECK_EQ(run({"--isolate"}), StatusCounts{{"skipped", 9}});
+  CHECK_EQ(run({"--seeds", "20%"}), StatusCounts{{"done", 9}});  // Other options.
+  CHECK_EQ(run({"--seeds", "20%", "--no-estimate"}), StatusCounts{{"done", 9}});
+  CHECK_EQ(run({}), StatusCounts{{"done", 9}});
+  const auto expected = resultsIn(tree / "out");
+  tree.folder.write("in/s0.off", sphereOff(5));  // Another input.
+  fs::remove(tree / "out/s1.asdf.npy");          // No output.
+  tree.folder.write("out/deep/t0.asdf.npy", "other bytes");
+  fs::remove(tree / "out/deep/t1.asdf.npy.json");  // Killed before the record.
+  CHECK_EQ(run({}), StatusCounts{{"done", 4}, {"skipped", 5}});
+  const auto again = resultsIn(tree / "out");
+  CHECK(again.at("s1.asdf.npy") == expected.at("s1.asdf.npy"));
+  CHECK(again.at("deep/t0.asdf.npy") == expected.at("deep/t0.asdf.npy"));
+  CHECK(again.at("s0.asdf.npy") != expected.at("s0.asdf.npy"));
+}
+
+TEST_CASE("no device is opened where nothing is left to compute") {
+  const MeshTree tree(false);
+  const Names arguments{"-r", tree.root, "-o", tree / "out", "--skip-existing", "--format", "npy"};
+  ChildOptions options;
+  CHECK_EQ(runAsdf(arguments, options).exitCode, 0);
+  options.environment = {{"VK_DRIVER_FILES", "/missing"}};
+  for (const Names& more : {Names{}, Names{"--isolate"}}) {
+    Names all{"--backend", "vulkan"};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    all.insert(all.end(), more.begin(), more.end());
+    const ChildOutcome outcome = runAsdf(all, options);
+    CHECK_MESSAGE(outcome.exitCode == 0, outcome.error);
+    CHECK(outcome.error.find("9 skipped") != std::string::npos);
+    CHECK(outcome.error.find("device") == std::string::npos);
+  }
+}
+
+TEST_CASE("a name with a slash at the end is a folder, which is made") {
+  const ScratchFolder folder;
+  const std::string mesh = folder.write("s.off", sphereOff(6));
+  CHECK_EQ(runBatch({mesh, "-o", folder / "new/deep/", "--quiet"}).exitCode, 0);
+  CHECK(fs::exists(folder / "new/deep/s.asdf.npy"));
+  folder.write("file", "");
+  const ChildOutcome outcome = runBatch({mesh, "-o", folder / "file/", "--quiet"});
+  CHECK_EQ(outcome.exitCode, 4);
+  CHECK(outcome.error.find("cannot be written") != std::string::npos);
+}
+
+TEST_CASE("a kill -9 at any moment, then the same call: the bytes of a run without it") {
+  const MeshTree tree(false);
+  CHECK_EQ(runBatch({"-r", tree.root, "-o", tree / "whole", "--quiet"}).exitCode, 0);
+  const auto expected = resultsIn(tree / "whole");
+  for (const int isolated : {0, 1})
+    for (const int milliseconds : {5, 20, 60, 150}) {
+      fs::remove_all(tree / "out");
+      fs::remove(tree / "log");
+      Names arguments{"-r",      tree.root,   "-o",        tree / "out", "--log", tree / "log", "--skip-existing",
+                      "--quiet", "--backend", "reference", "--format",   "npy"};
+      if (isolated) arguments.emplace_back("--isolate");
+      {
+        ChildProcess child(ASDFVK_PROGRAM, arguments);
+        std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
+        child.send(SIGKILL);
+        child.finish(60);
+      }
+      const ChildOutcome outcome = runChild(ASDFVK_PROGRAM, arguments);
+      INFO(outcome.error);
+      CHECK_EQ(outcome.exitCode, 0);
+      CHECK(resultsIn(tree / "out") == expected);  // Also no temporary file.
+    }
+}
+
+TEST_CASE("the shards of a batch are the whole") {
+  const MeshTree tree(false);
+  CHECK_EQ(runBatch({"-r", tree.root, "-o", tree / "whole", "--quiet"}).exitCode, 0);
+  for (int i = 1; i <= 3; ++i)
+    CHECK_EQ(runBatch({"-r", tree.root, "-o", tree / "parts", "--quiet", "--log", tree / "log", "--shard",
+                       std::to_string(i) + "/3"})
+                 .exitCode,
+             0);
+  CHECK_EQ(statusesIn(tree / "log"), StatusCounts{{"done", 9}});
+  CHECK(resultsIn(tree / "parts") == resultsIn(tree / "whole"));
+}
+
+TEST_CASE("meshes that crash, hang or grow fail alone in worker processes") {
+  MeshTree tree(false);
+  for (const char* name : {"in/a-crash.off", "in/deep/hang.off", "in/grow.off"}) tree.add(name, sphereOff(5));
+  const ChildOutcome outcome = runBatch({"-r", tree.root, "-o", tree / "out", "--log", tree / "log", "--isolate",
+                                         "--timeout", "20", "--memory-limit", "1G"},
+                                        ASDFVK_FAULTY_PROGRAM);
+  INFO(outcome.error);
+  CHECK_EQ(outcome.exitCode, 7);
+  CHECK_EQ(statusesIn(tree / "log"), StatusCounts{{"done", 9}, {"failed", 3}});
+  CHECK_EQ(resultsIn(tree / "out").size(), 9);
+  std::map<std::string, int> codes;
+  for (const Json& record : recordsIn(tree / "log"))
+    if (record.at("status") == "failed") codes[record.at("error").get<std::string>()] = record.at("code").get<int>();
+  CHECK_EQ(codes, StatusCounts{{"crashed", 70}, {"memoryLimit", 8}, {"timeLimit", 8}});
+}
+
+TEST_CASE("--timeout without --isolate ends a mesh between its steps with 8") {
+  const ScratchFolder folder;
+  const std::string mesh = folder.write("sphere.off", sphereOff(150));
+  checkFailure(runAsdf({mesh, "--timeout", "0.5", "--seeds", "all", "--rays", "1024", "--threads", "1", "--backend",
+                        "reference", "--quiet"}),
+               8, "took longer than --timeout 0.5");
+  CHECK_EQ(folder.names(), Names{"sphere.off"});
+}
+
+TEST_CASE("SIGTERM drops the meshes at hand, and the log and the message name them") {
+  for (const bool isIsolated : {false, true}) {
+    const ScratchFolder folder;
+    fs::create_directory(folder / "in");
+    for (const char* name : {"in/a.off", "in/b.off", "in/c.off"}) folder.write(name, sphereOff(150));
+    Names arguments{"-r",      folder / "in", "-o",     folder / "out", "--log",     folder / "log",
+                    "--seeds", "all",         "--rays", "1024",         "--backend", "reference"};
+    if (isIsolated) arguments.emplace_back("--isolate");
+    ChildProcess child(ASDFVK_PROGRAM, arguments);
+    REQUIRE(child.waitForError("asdf-vk: ", 120));  // The device lines.
+    std::this_thread::sleep_for(std::chrono::seconds(1));
+    child.send(SIGTERM);
+    const ChildOutcome outcome = child.finish(120);
+    INFO(outcome.error);
+    CHECK_EQ(outcome.exitCode, 130);
+    CHECK(outcome.error.find("dropped: " + (folder / "in/a.off")) != std::string::npos);
+    CHECK(outcome.error.find("2 not begun") != std::string::npos);
+    CHECK_EQ(statusesIn(folder / "log"), StatusCounts{{"dropped", 1}});
+    CHECK(resultsIn(folder / "out").empty());
+  }
+}
+
+TEST_CASE("a worker that finds no device ends the run with 3") {
+  const MeshTree tree(false);
+  const ChildOutcome outcome =
+      runChild(ASDFVK_PROGRAM, {"-r", tree.root, "-o", tree / "out", "--isolate", "--device", "no such device"});
+  INFO(outcome.error);
+  CHECK_EQ(outcome.exitCode, 3);
+  CHECK(outcome.error.find("asdf-vk: error: ") != std::string::npos);
+}
+
+TEST_CASE("summarize counts the last record of each mesh, as text, JSON, CSV and page") {
+  const MeshTree tree;
+  CHECK_EQ(runBatch({"-r", tree.root, "-o", tree / "out", "--log", tree / "log", "--quiet"}).exitCode, 7);
+  CHECK_EQ(
+      runBatch({"-r", tree.root, "-o", tree / "out", "--log", tree / "log", "--quiet", "--skip-existing"}).exitCode, 7);
+  const ChildOutcome text = runAsdf({"summarize", tree / "log"});
+  INFO(text.output << text.error);
+  CHECK_EQ(text.exitCode, 0);
+  CHECK(text.output.find("11: 9 skipped, 2 failed") != std::string::npos);
+  CHECK(text.output.find("code 2 ") != std::string::npos);
+  const Json json = Json::parse(runAsdf({"summarize", tree / "log", "--json"}).output);
+  CHECK_EQ(json.at("meshCount").get<int>(), 11);
+  CHECK_EQ(json.at("recordCount").get<int>(), 22);
+  CHECK_EQ(json.at("failedCount").get<int>(), 2);
+  CHECK_EQ(linesOf(runAsdf({"summarize", tree / "log", "--format", "csv"}).output).size(), 12);
+  CHECK_EQ(runAsdf({"summarize", tree / "log", "-o", tree / "page.html"}).exitCode, 0);
+  const std::string page = tree.folder.read("page.html");
+  CHECK(page.starts_with("<!doctype html>"));
+  CHECK(page.find("<svg") != std::string::npos);
+  checkFailure(runAsdf({"summarize", tree / "missing"}), 2, "missing");
+  checkFailure(runAsdf({"summarize"}), 1, "summarize --help");
+}
+
+TEST_CASE("options of a batch that contradict each other are refused") {
+  CHECK_EQ(refusal({"a.ply", "-0"}), "-0 needs --files-from");
+  CHECK_NE(refusal({"-", "--files-from", "-"}), "accepted");
+  CHECK_NE(refusal({"-", "--isolate"}), "accepted");
+  CHECK_NE(refusal({"-", "--memory-limit", "1G"}), "accepted");
+  CHECK_NE(refusal({"-", "--skip-existing"}), "accepted");
+  CHECK_NE(refusal({"-r", "in", "-o", "-"}), "accepted");
+  CHECK_NE(refusal({"-r", "in", "--picture", "a.png"}), "accepted");
+  CHECK_NE(refusal({"-r", "in", "-o", "page.html"}), "accepted");
+  CHECK_EQ(refusal({"--files-from", "list", "-o", "out"}), "accepted");
+  for (const char* text : {"", "0", "-1", "x", "2X", "1e99"})
+    CHECK_EQ(refusal({"a.ply", "--memory-limit", text}),
+             "--memory-limit: '" + std::string(text) + "' is not a size such as 500M or 2G");
+  for (const char* text : {"0", "-1", "soon"}) CHECK_NE(refusal({"a.ply", "--timeout", text}), "accepted");
+  CHECK_NE(refusal({"a.ply", "--shard", "3/2"}), "accepted");
+  CHECK_NE(refusal({"a.ply", "--jobs", "0"}), "accepted");
+  CHECK_EQ(parseCommandLine({"a.ply", "--memory-limit", "1.5g"}).batch.memoryBytes, uint64_t{3} << 29);
+  CHECK(parseCommandLine({"a.ply", "--memory-limit", "1000"}).batch.isolates);
+}
+
+TEST_CASE("bytes of any kind survive as text") {
+  std::string all;
+  for (int byte = 0; byte < 256; ++byte) all += static_cast<char>(byte);
+  CHECK_EQ(bytesOfText(textOfBytes(all)), all);
+  CHECK_EQ(Json::parse(Json(textOfBytes(all)).dump()).get<std::string>(), textOfBytes(all));
+}
+
+std::vector<JobPhase> planned(const std::vector<MeshTask>& tasks, uint32_t requestedJobs, uint32_t threadCount) {
+  std::vector<size_t> all(tasks.size());
+  std::iota(all.begin(), all.end(), size_t{0});
+  return planJobs(tasks, all, requestedJobs, threadCount);
+}
+
+TEST_CASE("many small meshes are computed at once, large ones one after another before them") {
+  std::vector<MeshTask> tasks(20, MeshTask{"a", "b", 1000});
+  CHECK_EQ(planned(tasks, 0, 4).front().jobCount, 4);
+  CHECK_EQ(planned(tasks, 0, 4).front().threadCount, 1);
+  CHECK_EQ(planned(tasks, 0, 1).front().jobCount, 1);
+  CHECK_EQ(planned(tasks, 0, 64).front().jobCount, 5);  // Each opens a device.
+  CHECK_EQ(planned(tasks, 3, 8).front().jobCount, 3);
+  CHECK_EQ(planned(tasks, 3, 8).front().threadCount, 2);
+  tasks[7].byteCount = uint64_t{1} << 30;
+  const std::vector<JobPhase> phases = planned(tasks, 0, 4);
+  REQUIRE_EQ(phases.size(), 2);
+  CHECK_EQ(phases[0].tasks, std::vector<size_t>{7});
+  CHECK_EQ(phases[0].threadCount, 4);
+  CHECK_EQ(phases[1].tasks.size(), 19);
+  CHECK_EQ(phases[1].jobCount, 4);
+  CHECK(planJobs(tasks, {}, 0, 4).empty());
+  CHECK_EQ(planJobs(tasks, {3, 7}, 2, 4).front().tasks, std::vector<size_t>{3, 7});
+  tasks.resize(2);
+  CHECK_EQ(planned(tasks, 0, 4).size(), 1);
+  CHECK_EQ(planned(tasks, 0, 4).front().threadCount, 4);
+}
+
+}  // namespace
+}  // namespace asdfvk::test

@@ -1,0 +1,27 @@
+// asdf-vk with faults, which the names of meshes choose: *crash* ends by a signal, *hang* never ends, *grow* takes 10
+// GB.
+#include <csignal>
+#include <cstdlib>
+#include <thread>
+#include <vector>
+
+#include "cli/mesh_run.h"
+#include "cli/program.h"
+
+namespace {
+
+void injectFault(const std::string& input) {
+  if (input.find("crash") != std::string::npos) std::raise(SIGSEGV);
+  while (input.find("hang") != std::string::npos) std::this_thread::sleep_for(std::chrono::seconds(1));
+  if (input.find("grow") == std::string::npos) return;
+  constexpr size_t kPiece = size_t{64} << 20, kPieceCount = 160;
+  std::vector<std::vector<char>> pieces;
+  for (size_t i = 0; i < kPieceCount; ++i) pieces.emplace_back(kPiece, static_cast<char>(i + 1));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  asdfvk::beforeMesh = injectFault;
+  return static_cast<int>(asdfvk::runProgram({argv + 1, argv + argc}));
+}
