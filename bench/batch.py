@@ -2,6 +2,7 @@
 """Measures and checks batches of asdf-vk (docs/batches.md).
 
   bench/batch.py threads MESHES         time of --threads 1 over that of the default, files in and .npy out
+  bench/batch.py cgal MESHES            CPU time of CGAL's sdf_values, 25 rays, over the time of one call on the same meshes
   bench/batch.py many [--count 10000]   generated meshes, every hundredth broken, one that hangs, one that takes 10 GB
   bench/batch.py kill [--moments 50]    kill -9 at random moments, then the same call: the bytes of a run without it
   bench/batch.py shards MESHES          --shard 1/7 to 7/7: their union, and their shares of the work
@@ -161,6 +162,23 @@ def threads(options, work):
     print(f"--threads 1 over the default: {ratio:.2f} (medians of {options.runs} runs)")
 
 
+def cgal(options, work):
+    meshes = sorted(p for p in pathlib.Path(options.meshes).rglob("*") if p.suffix in (".off", ".ply", ".obj", ".stl"))
+    program = options.build / "src/asdf-vk"
+    seconds = []
+    for i in range(options.runs):
+        taken, _ = run(program, "-r", options.meshes, "-o", work / str(i), "--format", "npy", "--quiet", *options.more)
+        seconds.append(taken)
+        print(f"asdf-vk: {taken:.2f} s, {len(results(work / str(i)))} results, {load()}", flush=True)
+    table = subprocess.run([options.build / "bench/asdfvk-bench-cgal-values", "--backends", "cpu", *meshes],
+                           stdout=subprocess.PIPE, text=True, check=True).stdout
+    rows = [line.split("|") for line in table.splitlines() if "%" in line]
+    of_cgal = sum(float(row[-2].split(",")[0]) for row in rows)
+    print(f"CGAL: {of_cgal:.1f} s of CPU time for {len(rows)} meshes, {load()}")
+    check(len(rows) == len(meshes), f"{len(meshes)} meshes")
+    print(f"CGAL over asdf-vk, median of {options.runs} runs: {of_cgal / statistics.median(seconds):.1f}")
+
+
 def memory_of_tree(process):
     """Resident bytes of a process and of its children."""
     total = 0
@@ -265,8 +283,8 @@ def shards(options, work):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("what", choices=["threads", "many", "kill", "shards"])
-    parser.add_argument("meshes", nargs="?", help="folder of meshes, for threads and shards")
+    parser.add_argument("what", choices=["threads", "cgal", "many", "kill", "shards"])
+    parser.add_argument("meshes", nargs="?", help="folder of meshes, for threads, cgal and shards")
     parser.add_argument("--build", type=pathlib.Path, default=pathlib.Path(__file__).parent.parent / "build/release")
     parser.add_argument("--runs", type=int, default=3)
     parser.add_argument("--count", type=int, help="generated meshes; default 10000 for many, 60 for kill")
@@ -277,7 +295,7 @@ def main():
     options = parser.parse_args()
     options.more = options.more.split()
     options.count = options.count or (10000 if options.what == "many" else 60)
-    if options.what in ("threads", "shards") and not options.meshes:
+    if options.what in ("threads", "cgal", "shards") and not options.meshes:
         parser.error(f"{options.what} needs a folder of meshes")
     with tempfile.TemporaryDirectory(prefix="asdf-vk-batch-") as work:
         globals()[options.what](options, pathlib.Path(work))

@@ -50,8 +50,8 @@ struct MeshRecord {
 /// One line without a line end. Bytes that are not UTF-8 are replaced.
 [[nodiscard]] std::string toJsonLine(const MeshRecord& record);
 
-/// Unset where the text is not a record, for example a line that was cut. Needs the keys input, status, code and message
-/// only, so that other programs can write records. Unknown keys are ignored.
+/// Unset where the text is not a record, for example a line that was cut. Needs the keys input, status, code and
+/// message only, so that other programs can write records. Unknown keys are ignored.
 [[nodiscard]] std::optional<MeshRecord> parseRecord(std::string_view json);
 
 }  // namespace asdfvk

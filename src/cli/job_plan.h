@@ -22,8 +22,8 @@ inline constexpr uint64_t kMinMeshesPerJob = 4;
 inline constexpr uint32_t kMaxJobsOnGpu = 4;
 
 /// computed: indices of the tasks to plan; each of them is in exactly one phase. requestedJobs: of --jobs, 0 for the
-/// choice by sizes: at least 2 kMinMeshesPerJob small meshes are computed with one thread each, as many at once as there
-/// are threads; the others before them, one after another with all threads.
+/// choice by sizes: at least 2 kMinMeshesPerJob small meshes are computed with one thread each, as many at once as
+/// there are threads; the others before them, one after another with all threads.
 [[nodiscard]] std::vector<JobPhase> planJobs(const std::vector<MeshTask>& tasks, std::vector<size_t> computed,
                                              uint32_t requestedJobs, uint32_t threadCount);
 

@@ -54,8 +54,7 @@ class JobThreads {
   }
 
   [[nodiscard]] std::future<LoadedMesh> readAhead(const MeshTask& task) const {
-    if (task.input == "-" || task.byteCount == 0 || task.byteCount > kMaxBytesReadAhead)
-      return {};
+    if (task.input == "-" || task.byteCount == 0 || task.byteCount > kMaxBytesReadAhead) return {};
     return std::async(std::launch::async, [this, &task] { return loadMesh(task.input, line_.batch.isBatch()); });
   }
 
