@@ -8,10 +8,9 @@
 #include <csignal>
 #include <memory>
 #include <optional>
-#include <stdexcept>
+#include <system_error>
 
 #include "batch/process_memory.h"
-#include "batch/worker_process.h"
 #include "core/stopwatch.h"
 
 namespace asdfvk {
@@ -21,12 +20,17 @@ constexpr int kPollMilliseconds = 100;
 /// A mesh may fill 2 GB of memory per second, 20 MB in this time.
 constexpr int kMemoryPollMilliseconds = 10;
 constexpr int kMaxFailedStarts = 3;
+/// A worker that holds more than this share of the limit after a task is replaced before the next one, which would
+/// otherwise fail for the memory of others.
+constexpr double kMaxKeptShare = 0.5;
 
 struct Worker {
   std::unique_ptr<WorkerProcess> process;
-  bool isReady = false;
+  bool isReady = false, hasServed = false;
+  bool isGivenUp = false;  ///< No further process is started.
+  int failedStarts = 0;    ///< In a row.
   std::optional<size_t> task;
-  Stopwatch watch;
+  Stopwatch watch;  ///< Since the greeting, or since the task was sent.
   uint64_t peakBytes = 0;
 };
 
@@ -36,11 +40,11 @@ class WorkerPool {
              const std::stop_token& stop)
       : taskCount_(taskCount), options_(options), client_(client), stop_(stop), workers_(options.workerCount) {}
 
-  void run() {
-    while (!isEnded_) {
+  std::string run() {
+    for (;;) {
       if (stop_.stop_requested() && !stopWatch_) requestStop();
       for (Worker& worker : workers_) feed(worker);
-      if (isIdle()) return;
+      if (isIdle()) return failure_;
       wait();
       for (Worker& worker : workers_)
         if (worker.process) watchOver(worker);
@@ -50,24 +54,45 @@ class WorkerPool {
  private:
   [[nodiscard]] bool hasTasks() const { return next_ < taskCount_ && !stopWatch_; }
   [[nodiscard]] bool isIdle() const {
-    return !hasTasks() && std::none_of(workers_.begin(), workers_.end(), [](const Worker& w) { return w.task; });
+    const bool hasWorkers = std::any_of(workers_.begin(), workers_.end(), [](const Worker& w) { return !w.isGivenUp; });
+    return !(hasTasks() && hasWorkers) &&
+           std::none_of(workers_.begin(), workers_.end(), [](const Worker& w) { return w.task; });
+  }
+
+  /// The first worker, until one is ready; then as many as are allowed.
+  [[nodiscard]] bool mayStart(const Worker& worker) const {
+    if (worker.isGivenUp) return false;
+    const auto startedCount = static_cast<uint32_t>(
+        std::count_if(workers_.begin(), workers_.end(), [](const Worker& w) { return w.process != nullptr; }));
+    return startedCount < allowedCount_;
   }
 
   void start(Worker& worker) {
-    worker.process = std::make_unique<WorkerProcess>(options_.command);
-    worker.isReady = false;
+    try {
+      worker.process = std::make_unique<WorkerProcess>(options_.program, options_.arguments);
+    } catch (const std::system_error& error) {
+      countFailedStart(worker, error.what());
+      return;
+    }
+    worker.isReady = worker.hasServed = false;
     worker.watch = Stopwatch();
-    worker.process->send(options_.greeting);
+    worker.process->lines().send(options_.greeting);
   }
 
   void feed(Worker& worker) {
     if (!hasTasks() || worker.task) return;
-    if (!worker.process) return start(worker);
-    if (!worker.isReady) return;
+    if (worker.process && worker.hasServed && hasGrown(*worker.process)) worker.process.reset();
+    if (!worker.process && mayStart(worker)) start(worker);
+    if (!worker.process || !worker.isReady) return;
     worker.task = next_++;
     worker.watch = Stopwatch();
     worker.peakBytes = 0;
-    worker.process->send(client_.request(*worker.task));  // Where the worker has ended, its socket reports that.
+    worker.process->lines().send(client_.request(*worker.task));  // Where the worker has ended, its socket reports it.
+  }
+
+  [[nodiscard]] bool hasGrown(const WorkerProcess& process) const {
+    return options_.memoryBytes > 0 && static_cast<double>(residentBytesOf(process.id())) >
+                                           kMaxKeptShare * static_cast<double>(options_.memoryBytes);
   }
 
   void wait() const {
@@ -83,11 +108,16 @@ class WorkerPool {
   }
 
   void watchOver(Worker& worker) {
-    const bool isOpen = worker.process->receive();
-    while (const std::optional<std::string> line = worker.process->takeLine()) answer(worker, *line);
-    if (isEnded_) return;
+    const bool isOpen = worker.process->lines().receive();
+    while (const std::optional<std::string> line = worker.process->lines().take()) {
+      answer(worker, *line);
+      if (!worker.process) return;
+    }
     if (!isOpen) return replace(worker);
-    if (!worker.isReady && worker.watch.seconds() > options_.startSeconds) return abandonStart(worker);
+    if (!worker.isReady && worker.watch.seconds() > options_.startSeconds) {
+      worker.process.reset();
+      return countFailedStart(worker, fmt::format("not ready after {:g} s", options_.startSeconds));
+    }
     if (!worker.task) return;
     if (worker.watch.seconds() > options_.timeoutSeconds) return kill(worker, TaskEnd::TimedOut);
     if (options_.memoryBytes > 0) {
@@ -99,46 +129,60 @@ class WorkerPool {
 
   void answer(Worker& worker, const std::string& line) {
     if (!worker.isReady) {
+      const uint32_t count = client_.ready(line);
+      if (count == 0) {
+        worker.process.reset();
+        return giveUp(worker);
+      }
       worker.isReady = true;
-      failedStarts_ = 0;
-      if (!client_.ready(line)) isEnded_ = true;
+      worker.failedStarts = 0;
+      allowedCount_ = count;
+      hasStarted_ = true;
       return;
     }
-    if (worker.task) finish(worker, TaskEnd::Answered, line);
+    if (!worker.task) return;
+    const pid_t id = worker.process->id();
+    worker.hasServed = true;
+    if (!finish(worker, {.end = TaskEnd::Answered, .answer = line, .worker = id})) worker.process.reset();
   }
 
   /// The worker closed its output.
   void replace(Worker& worker) {
     const pid_t id = worker.process->id();
-    const std::string end = worker.process->waitForEnd();
-    if (!worker.isReady) countFailedStart(end);
-    if (worker.task) finish(worker, stopWatch_ ? TaskEnd::Dropped : TaskEnd::Crashed, end, id);
+    const ProcessEnd end = worker.process->waitForEnd();
     worker.process.reset();
+    if (!worker.isReady) countFailedStart(worker, textOf(end));
+    if (worker.task)
+      finish(worker, {.end = stopWatch_ ? TaskEnd::Dropped : TaskEnd::Crashed, .workerEnd = end, .worker = id});
   }
 
-  void abandonStart(Worker& worker) {
-    worker.process.reset();
-    countFailedStart(fmt::format("not ready after {:g} s", options_.startSeconds));
+  void countFailedStart(Worker& worker, const std::string& reason) {
+    if (++worker.failedStarts < kMaxFailedStarts) return;
+    failure_ = reason;
+    giveUp(worker);
   }
 
-  void countFailedStart(const std::string& reason) {
-    if (++failedStarts_ == kMaxFailedStarts)
-      throw std::runtime_error(fmt::format("worker processes end before they are ready: {}", reason));
+  /// Before any worker was ready: all of them, since the others would fail in the same way.
+  void giveUp(Worker& worker) {
+    worker.isGivenUp = true;
+    if (!hasStarted_)
+      for (Worker& other : workers_) other.isGivenUp = true;
   }
 
   void kill(Worker& worker, TaskEnd end) {
     const pid_t id = worker.process->id();
     worker.process->signal(SIGKILL);
-    const std::string text = worker.process->waitForEnd();
-    finish(worker, end, text, id);
+    const ProcessEnd processEnd = worker.process->waitForEnd();
     worker.process.reset();
+    finish(worker, {.end = end, .workerEnd = processEnd, .worker = id});
   }
 
-  void finish(Worker& worker, TaskEnd end, const std::string& text, pid_t id = 0) {
-    const TaskOutcome outcome{
-        *worker.task, end, text, worker.watch.seconds(), worker.peakBytes, id != 0 ? id : worker.process->id()};
+  bool finish(Worker& worker, TaskOutcome outcome) {
+    outcome.task = *worker.task;
+    outcome.seconds = worker.watch.seconds();
+    outcome.peakBytes = worker.peakBytes;
     worker.task.reset();
-    client_.finished(outcome);
+    return client_.finished(outcome);
   }
 
   void requestStop() {
@@ -152,16 +196,17 @@ class WorkerPool {
   const WorkerPoolClient& client_;
   const std::stop_token& stop_;
   std::vector<Worker> workers_;
+  uint32_t allowedCount_ = 1;  ///< Workers at once.
+  bool hasStarted_ = false;    ///< Whether any worker was ready.
   std::optional<Stopwatch> stopWatch_;
-  int failedStarts_ = 0;
-  bool isEnded_ = false;
+  std::string failure_;  ///< Of the last worker that could not start.
 };
 
 }  // namespace
 
-void runOnWorkers(size_t taskCount, const WorkerPoolOptions& options, const WorkerPoolClient& client,
-                  const std::stop_token& stop) {
-  WorkerPool(taskCount, options, client, stop).run();
+std::string runOnWorkers(size_t taskCount, const WorkerPoolOptions& options, const WorkerPoolClient& client,
+                         const std::stop_token& stop) {
+  return WorkerPool(taskCount, options, client, stop).run();
 }
 
 }  // namespace asdfvk

@@ -2,7 +2,6 @@
 
 #include <sys/types.h>
 
-#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -10,13 +9,16 @@
 #include <string>
 #include <vector>
 
+#include "batch/worker_process.h"
+
 namespace asdfvk {
 
 struct WorkerPoolOptions {
-  std::vector<std::string> command;  ///< Program and arguments.
-  std::string greeting;              ///< The first line to each worker, which answers with a line when it is ready.
-  uint32_t workerCount = 1;
-  double startSeconds = 300;  ///< From the greeting to its answer: opening a device may compile for minutes.
+  std::string program;
+  std::vector<std::string> arguments;  ///< The first one is the name that the process sees.
+  std::string greeting;                ///< The first line to each worker, which answers with a line when it is ready.
+  uint32_t workerCount = 1;            ///< At most.
+  double startSeconds = 300;           ///< From the greeting to its answer: opening a device may compile for minutes.
   double timeoutSeconds = std::numeric_limits<double>::infinity();  ///< Per task, from its sending to the answer.
   uint64_t memoryBytes = 0;                                         ///< Resident memory of a worker; 0: no limit.
   double graceSeconds = 10;  ///< After a stop request, for the answers to the tasks at hand.
@@ -33,25 +35,29 @@ enum class TaskEnd {
 struct TaskOutcome {
   size_t task = 0;
   TaskEnd end = TaskEnd::Answered;
-  std::string text;        ///< The answer, or how a worker that crashed ended.
+  std::string answer;
+  ProcessEnd workerEnd;    ///< Unless answered.
   double seconds = 0;      ///< Since the task was sent.
   uint64_t peakBytes = 0;  ///< Of the worker, as far as it was observed; 0 without a memory limit.
   pid_t worker = 0;
 };
 
-/// The program that calls this distributes tasks to worker processes, one at a time to each, and replaces a worker that
-/// crashes, hangs or grows beyond the limit, so that a task can only fail itself.
+/// The program that distributes tasks to worker processes, one at a time to each. A worker that crashes, hangs or grows
+/// beyond the limit is replaced, so that a task can only fail itself.
 struct WorkerPoolClient {
   /// The line that is sent for a task.
   std::function<std::string(size_t task)> request;
-  /// The answer to the greeting of each worker. Returns false to end the run.
-  std::function<bool(const std::string& answer)> ready;
-  std::function<void(const TaskOutcome& outcome)> finished;
+  /// Takes the answer of a worker to the greeting. Returns how many workers may exist; 0: this one is of no use.
+  std::function<uint32_t(const std::string& answer)> ready;
+  /// Returns whether a worker that answered takes further tasks; else it is replaced.
+  std::function<bool(const TaskOutcome& outcome)> finished;
 };
 
-/// Runs the tasks 0 .. taskCount - 1, which begin in this order. Workers are sent SIGTERM at a stop request; then no
-/// task begins. Throws std::runtime_error where workers end or hang before they are ready, three times in a row.
-void runOnWorkers(size_t taskCount, const WorkerPoolOptions& options, const WorkerPoolClient& client,
-                  const std::stop_token& stop);
+/// Runs the tasks 0 .. taskCount - 1, which begin in this order. Further workers start when one is ready. Workers that
+/// are of no use, or end or hang three times in a row before they are ready, are not replaced. Returns without having
+/// run all tasks where no worker is left, and after a stop request: then workers are sent SIGTERM, and no task begins.
+/// Returns why the last worker could not start, or nothing.
+std::string runOnWorkers(size_t taskCount, const WorkerPoolOptions& options, const WorkerPoolClient& client,
+                         const std::stop_token& stop);
 
 }  // namespace asdfvk

@@ -7,14 +7,23 @@
 #include <string_view>
 #include <vector>
 
+#include "batch/line_channel.h"
+
 namespace asdfvk {
+
+struct ProcessEnd {
+  int signal = 0;    ///< That ended the process; 0 where it returned.
+  int exitCode = 0;  ///< Where it returned.
+};
+/// "ended by signal 11 (Segmentation fault)", "ended with exit code 3".
+[[nodiscard]] std::string textOf(const ProcessEnd& end);
 
 /// A process that takes lines on its standard input and answers with lines on its standard output, both ends of one
 /// socket. It is killed by the destructor. Its standard error is that of this process.
 class WorkerProcess {
  public:
-  /// Throws std::system_error.
-  explicit WorkerProcess(const std::vector<std::string>& command);
+  /// arguments: the first one is the name that the process sees. Throws std::system_error.
+  WorkerProcess(const std::string& program, const std::vector<std::string>& arguments);
   ~WorkerProcess();
   WorkerProcess(const WorkerProcess&) = delete;
   WorkerProcess& operator=(const WorkerProcess&) = delete;
@@ -22,22 +31,15 @@ class WorkerProcess {
   [[nodiscard]] pid_t id() const { return process_; }
   /// For poll(): readable where a line arrives or the process ended.
   [[nodiscard]] int descriptor() const { return socket_; }
-
-  /// False where the process ended.
-  bool send(std::string_view line);
-  /// Reads what has arrived without waiting. False where the process closed its output.
-  bool receive();
-  /// The next complete line that was received.
-  [[nodiscard]] std::optional<std::string> takeLine();
+  [[nodiscard]] LineChannel& lines() { return lines_; }
 
   void signal(int number) const;
-  /// Waits for its end; describes it: "ended by signal 11 (Segmentation fault)", "ended with exit code 3".
-  [[nodiscard]] std::string waitForEnd();
+  ProcessEnd waitForEnd();
 
  private:
   pid_t process_ = -1;
   int socket_ = -1;
-  std::string received_;
+  LineChannel lines_;
 };
 
 }  // namespace asdfvk

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <chrono>
 #include <utility>
 
 #include "cli/terminal.h"
@@ -11,7 +12,6 @@ namespace asdfvk {
 namespace {
 
 constexpr double kTerminalSeconds = 0.2, kFirstLineSeconds = 10, kFurtherLineSeconds = 60;
-constexpr std::string_view kWipe = "\r\x1b[K";
 
 }  // namespace
 
@@ -21,11 +21,40 @@ BatchMonitor::BatchMonitor(const CommandLine& line, const std::vector<MeshTask>&
   progress_.meshCount = tasks.size();
   for (const MeshTask& task : tasks) progress_.byteCount += task.byteCount;
   nextProgressSeconds_ = isTerminal_ ? 1 : kFirstLineSeconds;
+  if (!line.batch.isBatch() || line.quiet) return;
+  ticker_ = std::jthread([this](const std::stop_token& stop) {
+    std::unique_lock lock(mutex_);
+    const auto interval = std::chrono::duration<double>(kTerminalSeconds);
+    while (!wakesTicker_.wait_for(lock, stop, interval, [&] { return stop.stop_requested(); })) showProgress();
+  });
+}
+
+BatchMonitor::~BatchMonitor() = default;
+
+void BatchMonitor::beginComputation() {
+  const std::scoped_lock lock(mutex_);
+  watch_ = Stopwatch();
+}
+
+void BatchMonitor::announce(const std::string& backend, const std::string& deviceLines) {
+  const std::scoped_lock lock(mutex_);
+  const bool isFirst = announcedBackends_.empty();
+  announcedBackends_.insert(backend);
+  if (isFirst && !line_.quiet) writeStandardError(deviceLines);
+}
+
+/// The backend of --backend auto changes where its device fails. Outside of a batch the report has a warning.
+void BatchMonitor::noteOtherBackend(MeshRun& run, const std::string& input) {
+  const MeshRecord& record = run.record;
+  if (!line_.batch.isBatch() || line_.quiet || record.backend.empty() || record.status == MeshStatus::Skipped) return;
+  if (announcedBackends_.insert(record.backend).second)
+    run.text += warningLine(input, fmt::format("computed with --backend {}, {}", record.backend, record.device));
 }
 
 void BatchMonitor::add(size_t task, MeshRun run) {
   const std::scoped_lock lock(mutex_);
   code_.add(run.code);
+  noteOtherBackend(run, tasks_[task].input);
   progress_.count(run.record, tasks_[task].byteCount);
   if (run.record.status == MeshStatus::Dropped) dropped_.push_back(tasks_[task].input);
   if (log_) log_->append(run.record);
@@ -35,6 +64,7 @@ void BatchMonitor::add(size_t task, MeshRun run) {
 }
 
 ExitCode BatchMonitor::finish() {
+  ticker_ = {};
   const std::scoped_lock lock(mutex_);
   wipeProgress();
   for (std::optional<Texts>& texts : waiting_)
@@ -45,6 +75,11 @@ ExitCode BatchMonitor::finish() {
     writeStandardError(fmt::format("asdf-vk: {}\n", summaryText(progress_, watch_.seconds())));
   }
   return code_.code();
+}
+
+bool BatchMonitor::hasUnfinished() const {
+  const std::scoped_lock lock(mutex_);
+  return !dropped_.empty() || progress_.finishedCount() < progress_.meshCount;
 }
 
 void BatchMonitor::print(const Texts& texts) {
@@ -65,7 +100,7 @@ void BatchMonitor::showProgress() {
   if (seconds < nextProgressSeconds_) return;
   const std::string text = progressText(progress_, seconds);
   if (isTerminal_) {
-    writeStandardError(fmt::format("{}{} {}", kWipe, progressText(progress_.share()), text));
+    writeStandardError(fmt::format("{}{} {}", kWipeLine, progressBarText(progress_.share()), text));
     isProgressVisible_ = true;
   } else {
     writeStandardError(fmt::format("asdf-vk: {}\n", text));
@@ -75,7 +110,7 @@ void BatchMonitor::showProgress() {
 
 void BatchMonitor::wipeProgress() {
   if (!isProgressVisible_) return;
-  writeStandardError(kWipe);
+  writeStandardError(kWipeLine);
   isProgressVisible_ = false;
 }
 

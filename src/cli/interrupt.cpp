@@ -7,6 +7,8 @@
 #include <atomic>
 #include <cerrno>
 #include <csignal>
+#include <cstdint>
+#include <ctime>
 #include <string_view>
 #include <system_error>
 
@@ -19,20 +21,35 @@ namespace {
 
 constexpr std::array kSignals{SIGINT, SIGTERM, SIGHUP};
 
-// The handler uses lock-free atomics (one behind removeUnfinishedFile()) and a pipe only. A byte in the pipe is a stop
+// The handler uses lock-free atomics (one behind removeUnfinishedFiles()) and a pipe only. A byte in the pipe is a stop
 // request; its closing ends the waiting thread.
 std::atomic<int> listenerCount{0};
 std::atomic<int> signalCount{0};
 std::atomic<int> pipeWriteEnd{-1};
-static_assert(std::atomic<int>::is_always_lock_free);
+std::atomic<int64_t> firstSignalNanoseconds{0};
+std::atomic<bool> ignoresFurther{false};
+constexpr int64_t kRepeatNanoseconds = 200'000'000;
+static_assert(std::atomic<int>::is_always_lock_free && std::atomic<int64_t>::is_always_lock_free);
 
 std::array<int, 2> stopPipe{-1, -1};
 std::array<struct sigaction, kSignals.size()> previousActions;
 
+int64_t now() {
+  timespec time{};
+  clock_gettime(CLOCK_MONOTONIC, &time);
+  return int64_t{time.tv_sec} * 1'000'000'000 + time.tv_nsec;
+}
+
 extern "C" void onSignal(int) {
   const int savedErrno = errno;
-  if (signalCount.fetch_add(1) > 0 || listenerCount.load() == 0) {
-    removeUnfinishedFile();
+  const bool isFirst = signalCount.fetch_add(1) == 0;
+  if (isFirst) firstSignalNanoseconds = now();
+  if (!isFirst && (ignoresFurther || now() - firstSignalNanoseconds < kRepeatNanoseconds)) {
+    errno = savedErrno;
+    return;
+  }
+  if (!isFirst || listenerCount.load() == 0) {
+    removeUnfinishedFiles();
     constexpr std::string_view kMessage = "asdf-vk: error: cancelled\n";
     [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, kMessage.data(), kMessage.size());
     _exit(static_cast<int>(ExitCode::Cancelled));
@@ -43,11 +60,12 @@ extern "C" void onSignal(int) {
 
 }  // namespace
 
-Interrupt::Interrupt() {
+Interrupt::Interrupt(bool ignoresRepeats) {
   ASDFVK_CHECK_OP(pipeWriteEnd.load(), ==, -1);
   if (pipe2(stopPipe.data(), O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category(), "pipe");
   pipeWriteEnd = stopPipe[1];
   signalCount = 0;
+  ignoresFurther = ignoresRepeats;
   waiter_ = std::jthread([this] {
     char byte = 0;
     ssize_t count = 0;

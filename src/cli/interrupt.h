@@ -6,11 +6,12 @@
 namespace asdfvk {
 
 /// Handles SIGINT, SIGTERM and SIGHUP, except those that were ignored, during its lifetime. The first signal requests a
-/// stop of the computation, or ends the program if no Listening exists. The second one ends the program. The program
+/// stop of the computation, or ends the program if no Listening exists. The second one, unless repeats are ignored,
+/// ends the program; one within 0.2 s belongs to the first, which a terminal or a wrapper may send twice. The program
 /// then exits with ExitCode::Cancelled and leaves no half-written file. One object at a time.
 class Interrupt {
  public:
-  Interrupt();
+  explicit Interrupt(bool ignoresRepeats = false);
   ~Interrupt();
   Interrupt(const Interrupt&) = delete;
   Interrupt& operator=(const Interrupt&) = delete;

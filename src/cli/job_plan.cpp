@@ -24,4 +24,12 @@ std::vector<JobPhase> planJobs(const std::vector<MeshTask>& tasks, std::vector<s
   return phases;
 }
 
+uint32_t jobsOn(const JobPhase& phase, bool isCpu, uint32_t requestedJobs) {
+  return isCpu || requestedJobs > 0 ? phase.jobCount : std::min(phase.jobCount, kMaxJobsOnGpu);
+}
+
+uint32_t threadsOn(const JobPhase& phase, bool isCpu, uint32_t requestedJobs) {
+  return phase.threadCount * phase.jobCount / jobsOn(phase, isCpu, requestedJobs);
+}
+
 }  // namespace asdfvk

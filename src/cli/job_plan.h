@@ -18,13 +18,17 @@ struct JobPhase {
 inline constexpr uint64_t kSmallMeshBytes = uint64_t{16} << 20;
 /// Each job opens a device, which takes as long as some small meshes.
 inline constexpr uint64_t kMinMeshesPerJob = 4;
-/// Jobs on one GPU where --jobs is not given. Estimated, not measured.
+/// Jobs on one GPU where --jobs is not given. An estimate: no GPU was available to measure it.
 inline constexpr uint32_t kMaxJobsOnGpu = 4;
 
 /// computed: indices of the tasks to plan; each of them is in exactly one phase. requestedJobs: of --jobs, 0 for the
-/// choice by sizes: at least 2 kMinMeshesPerJob small meshes are computed with one thread each, as many at once as
-/// there are threads; the others before them, one after another with all threads.
+/// choice by sizes: small meshes are computed at once, in as many jobs as there are threads, but with at least
+/// kMinMeshesPerJob meshes in each; large ones before them, one after another with all threads.
 [[nodiscard]] std::vector<JobPhase> planJobs(const std::vector<MeshTask>& tasks, std::vector<size_t> computed,
                                              uint32_t requestedJobs, uint32_t threadCount);
+
+/// Jobs of the phase on a device, and the threads of each; requestedJobs as above.
+[[nodiscard]] uint32_t jobsOn(const JobPhase& phase, bool isCpu, uint32_t requestedJobs);
+[[nodiscard]] uint32_t threadsOn(const JobPhase& phase, bool isCpu, uint32_t requestedJobs);
 
 }  // namespace asdfvk

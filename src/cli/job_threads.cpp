@@ -1,14 +1,16 @@
 #include "cli/job_threads.h"
 
+#include <fmt/format.h>
 #include <tbb/task_arena.h>
 
-#include <algorithm>
 #include <atomic>
 #include <exception>
 #include <future>
 #include <mutex>
 #include <thread>
 #include <utility>
+
+#include "cli/terminal.h"
 
 namespace asdfvk {
 namespace {
@@ -24,16 +26,13 @@ class JobThreads {
       : line_(line), runner_(runner), monitor_(monitor), tasks_(tasks), phase_(phase), stop_(stop) {}
 
   void run(std::unique_ptr<Session> session) {
-    uint32_t jobCount = phase_.jobCount;
-    if (line_.batch.jobCount == 0 && !session->runsOnCpu()) jobCount = std::min(jobCount, kMaxJobsOnGpu);
-    if (jobCount == 1) {
-      runAlone(*session);
-      return;
-    }
+    const bool isCpu = session->runsOnCpu();
+    threadCount_ = threadsOn(phase_, isCpu, line_.batch.jobCount);
+    std::vector<std::unique_ptr<Session>> sessions = openFurther(std::move(session), isCpu);
+    if (sessions.size() == 1) return runAlone(std::move(sessions.front()));
     std::vector<std::jthread> threads;
-    for (uint32_t job = 1; job < jobCount; ++job)
-      threads.emplace_back([this] { guard([this] { runJob(openSession(line_, phase_.threadCount)); }); });
-    guard([&] { runJob(std::move(session)); });
+    for (std::unique_ptr<Session>& own : sessions)
+      threads.emplace_back([this, &own] { guard([&] { runJob(std::move(own)); }); });
     threads.clear();
     if (failure_) std::rethrow_exception(failure_);
   }
@@ -41,15 +40,32 @@ class JobThreads {
  private:
   [[nodiscard]] bool isEnding() const { return isEnding_ || stop_.stop_requested(); }
 
+  /// A session per job. One after another and before the first mesh: drivers read environment variables that
+  /// ThreadLimit sets meanwhile.
+  [[nodiscard]] std::vector<std::unique_ptr<Session>> openFurther(std::unique_ptr<Session> first, bool isCpu) const {
+    std::vector<std::unique_ptr<Session>> sessions;
+    sessions.push_back(std::move(first));
+    const uint32_t jobCount = jobsOn(phase_, isCpu, line_.batch.jobCount);
+    try {
+      while (sessions.size() < jobCount && !stop_.stop_requested())
+        sessions.push_back(openSession(line_, threadCount_));
+    } catch (const Error& error) {
+      if (!line_.quiet)
+        writeStandardError(
+            warningLine("", fmt::format("{} of {} jobs run: {}", sessions.size(), jobCount, error.what())));
+    }
+    return sessions;
+  }
+
   /// One mesh after another, with reading ahead.
-  void runAlone(Session& session) {
+  void runAlone(std::unique_ptr<Session> session) {
     std::future<LoadedMesh> next;
     for (size_t i = 0; i < phase_.tasks.size() && !isEnding(); ++i) {
       const size_t task = phase_.tasks[i];
       std::optional<LoadedMesh> loaded;
       if (next.valid()) loaded = next.get();
       if (i + 1 < phase_.tasks.size()) next = readAhead(tasks_[phase_.tasks[i + 1]]);
-      monitor_.add(task, runner_.run(session, tasks_[task], std::move(loaded), true, stop_));
+      runMesh(session, task, std::move(loaded), true, i + 1 == phase_.tasks.size());
     }
   }
 
@@ -59,13 +75,21 @@ class JobThreads {
   }
 
   void runJob(std::unique_ptr<Session> session) {
-    tbb::task_arena arena(static_cast<int>(phase_.threadCount));
-    for (size_t i = nextTask_++; i < phase_.tasks.size() && !isEnding(); i = nextTask_++) {
-      const size_t task = phase_.tasks[i];
-      MeshRun run;
-      arena.execute([&] { run = runner_.run(*session, tasks_[task], std::nullopt, false, stop_); });
-      monitor_.add(task, std::move(run));
-    }
+    tbb::task_arena arena(static_cast<int>(threadCount_));
+    for (size_t i = nextTask_++; i < phase_.tasks.size() && !isEnding(); i = nextTask_++)
+      arena.execute([&] { runMesh(session, phase_.tasks[i], std::nullopt, false, nextTask_ >= phase_.tasks.size()); });
+  }
+
+  /// A device that failed is opened anew, unless this was the last mesh. isAlone: no other mesh is computed meanwhile.
+  void runMesh(std::unique_ptr<Session>& session, size_t task, std::optional<LoadedMesh> loaded, bool isAlone,
+               bool isLast) {
+    const std::string backend = session->backend();
+    MeshRun run = runner_.run(*session, tasks_[task], std::move(loaded), isAlone, stop_);
+    const bool hasFailed = run.code == ExitCode::Device || session->backend() != backend;
+    monitor_.add(task, std::move(run));
+    if (!hasFailed || isLast || isEnding()) return;
+    session.reset();
+    session = openSession(line_, threadCount_);
   }
 
   template <typename Work>
@@ -85,6 +109,7 @@ class JobThreads {
   const std::vector<MeshTask>& tasks_;
   const JobPhase& phase_;
   const std::stop_token& stop_;
+  uint32_t threadCount_ = 1;
   std::atomic<size_t> nextTask_{0};
   std::atomic<bool> isEnding_{false};
   std::mutex mutex_;

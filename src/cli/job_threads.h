@@ -9,10 +9,10 @@
 
 namespace asdfvk {
 
-/// Computes the meshes in this process, each job with a session of its own for all of its meshes. With one job, the
-/// next mesh is read while one is computed. session: for the first job of the first phase. A stop request ends the run
-/// after the meshes at hand, which are dropped. Throws what the monitor throws, and Error of kind Device where a
-/// further session cannot be opened.
+/// Computes the meshes in this process, each job with a session of its own, which is opened anew where its device
+/// fails. With one job, the next mesh is read while one is computed. session: for the first job of the first phase. A
+/// stop request ends the run after the meshes at hand, which are dropped. Throws what the monitor throws, and Error of
+/// kind Device where the device of a session that failed cannot be opened again.
 void runOnThreads(const CommandLine& line, MeshRunner& runner, BatchMonitor& monitor,
                   const std::vector<MeshTask>& tasks, const std::vector<JobPhase>& phases,
                   std::unique_ptr<Session> session, const std::stop_token& stop);

@@ -13,9 +13,9 @@
 #include "asdf_vk/asdf_vk.h"
 #include "batch/input_list.h"
 #include "cli/batch_monitor.h"
-#include "cli/batch_worker.h"
 #include "cli/browser.h"
 #include "cli/interrupt.h"
+#include "cli/isolated_jobs.h"
 #include "cli/job_plan.h"
 #include "cli/job_threads.h"
 #include "cli/mesh_run.h"
@@ -55,7 +55,7 @@ std::vector<MeshTask> tasksOf(const CommandLine& line) {
   return tasks;
 }
 
-/// A run that was killed may have left such files.
+/// Earlier runs that were killed may have left such files, and workers that were killed at the end of this one.
 void removeUnfinishedOutputs(const std::vector<MeshTask>& tasks) {
   std::set<std::filesystem::path> folders;
   for (const MeshTask& task : tasks) folders.insert(std::filesystem::path(task.output).parent_path());
@@ -108,7 +108,7 @@ ExitCode runHere(const CommandLine& line, MeshRunner& runner, BatchMonitor& moni
   } catch (...) {
     return failWithoutSession(line, tasks, phases);
   }
-  if (!line.quiet) writeStandardError(deviceLinesOf(*session));
+  monitor.announce(session->backend(), deviceLinesOf(*session));
   runOnThreads(line, runner, monitor, tasks, phases, std::move(session), stop);
   return ExitCode::Done;
 }
@@ -126,15 +126,22 @@ ExitCode runMeshes(const CommandLine& line, const std::vector<std::string>& argu
   BatchMonitor monitor(line, tasks);
   MeshRunner runner(line, tasks.size());
   const std::vector<JobPhase> phases = phasesOf(line, tasks, unfinishedTasks(line, runner, monitor, tasks, stop));
+  monitor.beginComputation();
   ExitCode code = ExitCode::Done;
   if (!phases.empty() && !stop.stop_requested()) {  // Else no device is opened.
-    if (tasks.size() == 1 || (!line.batch.isBatch() && phases.back().jobCount == 1)) runner.showProgressOfMeshes();
-    code = line.batch.isolates ? runIsolated(line, arguments, runner, monitor, tasks, phases, stop)
-                               : runHere(line, runner, monitor, tasks, phases, stop);
+    if (!line.batch.isBatch() && phases.back().jobCount == 1) runner.showProgressOfMeshes();
+    try {
+      code = line.batch.isolates ? runIsolated(line, arguments, runner, monitor, tasks, phases, stop)
+                                 : runHere(line, runner, monitor, tasks, phases, stop);
+    } catch (...) {
+      static_cast<void>(monitor.finish());
+      throw;
+    }
   }
+  if (line.batch.isBatch()) removeUnfinishedOutputs(tasks);
   const ExitCode ofMeshes = monitor.finish();
-  if (code == ExitCode::Done) code = ofMeshes;
-  return stop.stop_requested() && code == ExitCode::Done ? ExitCode::Cancelled : code;
+  if (stop.stop_requested() && monitor.hasUnfinished()) return ExitCode::Cancelled;
+  return code == ExitCode::Done ? ofMeshes : code;
 }
 
 void printDevices(const CommandLine& line) {

@@ -20,7 +20,6 @@ namespace {
 constexpr double kQuietSeconds = 1;
 constexpr double kRedrawSeconds = 0.1;
 constexpr int kCells = 40;
-constexpr std::string_view kWipeLine = "\r\x1b[K";
 
 /// 0 or the errno of the failure.
 int writeAll(int stream, std::string_view text) {
@@ -77,7 +76,7 @@ void ProgressBar::update(double fraction) {
   const double time = now_();
   if (time - start_ < kQuietSeconds) return;
   if (isVisible_ && time - lastDrawn_ < kRedrawSeconds) return;
-  write_(fmt::format("{}{}", kWipeLine, progressText(fraction)));
+  write_(fmt::format("{}{}", kWipeLine, progressBarText(fraction)));
   lastDrawn_ = time;
   isVisible_ = true;
 }
@@ -88,7 +87,7 @@ void ProgressBar::clear() {
   isVisible_ = false;
 }
 
-std::string progressText(double fraction) {
+std::string progressBarText(double fraction) {
   const double share = fraction >= 0 ? std::fmin(fraction, 1) : 0;
   const int filled = static_cast<int>(std::floor(share * kCells));
   return fmt::format("[{}{}] {:3.0f} %", std::string(static_cast<size_t>(filled), '#'),

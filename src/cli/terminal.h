@@ -19,6 +19,9 @@ void printError(std::string_view subject, std::string_view message);
 [[nodiscard]] std::string errorLine(std::string_view subject, std::string_view message);
 [[nodiscard]] std::string warningLine(std::string_view subject, std::string_view message);
 
+/// Wipes the line of the cursor on a terminal.
+inline constexpr std::string_view kWipeLine = "\r\x1b[K";
+
 /// Ignores SIGPIPE, so that write() reports a closed pipe. Opens standard streams that the caller closed, so that no
 /// other file gets their descriptors.
 void secureStandardStreams();
@@ -48,6 +51,6 @@ class ProgressBar {
 };
 
 /// "[#####               ]  25 %", 40 cells wide.
-[[nodiscard]] std::string progressText(double fraction);
+[[nodiscard]] std::string progressBarText(double fraction);
 
 }  // namespace asdfvk

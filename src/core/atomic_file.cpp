@@ -6,11 +6,14 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <array>
 #include <atomic>
 #include <bit>
 #include <cerrno>
+#include <climits>
 #include <csignal>
 #include <cstdlib>
+#include <fstream>
 #include <system_error>
 #include <utility>
 
@@ -22,31 +25,43 @@ static_assert(std::endian::native == std::endian::little, "the binary formats ar
 
 namespace {
 
-constexpr std::string_view kTemporaryPrefix = ".asdf-vk-", kTemporarySuffix = ".part";
-
-// The thread that exchanges the name for null owns it, so that a signal handler never reads a freed name.
-std::atomic<const char*> unfinished{nullptr};
+/// Names of files that are being written, for a signal handler: whoever exchanges a name for null owns it, so that the
+/// handler never reads a freed name.
+std::array<std::atomic<const char*>, 64> unfinished{};
 static_assert(std::atomic<const char*>::is_always_lock_free);
 
-}  // namespace
-
-void removeUnfinishedFile() noexcept {
-  if (const char* name = unfinished.exchange(nullptr, std::memory_order_acquire)) ::unlink(name);
+/// ".asdf-vk-HOST-": process numbers are those of a machine or a container.
+const std::string& temporaryPrefix() {
+  static const std::string prefix = [] {
+    std::array<char, HOST_NAME_MAX + 1> host{};
+    if (::gethostname(host.data(), host.size() - 1) != 0) host[0] = '\0';
+    return fmt::format(".asdf-vk-{}-", host.data());
+  }();
+  return prefix;
 }
+constexpr std::string_view kTemporarySuffix = ".part";
 
-namespace {
-
-/// Removes those temporary files in the folder whose process `select` accepts.
+/// Removes those temporary files of this host in the folder whose process `select` accepts.
 template <typename Select>
 void removeTemporaries(const std::filesystem::path& folder, const Select& select) {
   std::error_code error;
   std::filesystem::directory_iterator entry(folder, error);
   for (; !error && entry != std::filesystem::directory_iterator(); entry.increment(error)) {
     const std::string name = entry->path().filename().string();
-    if (!name.starts_with(kTemporaryPrefix) || !name.ends_with(kTemporarySuffix)) continue;
-    const int process = std::atoi(name.c_str() + kTemporaryPrefix.size());
+    if (!name.starts_with(temporaryPrefix()) || !name.ends_with(kTemporarySuffix)) continue;
+    const int process = std::atoi(name.c_str() + temporaryPrefix().size());
     if (process > 0 && select(process, entry->path())) ::unlink(entry->path().c_str());
   }
+}
+
+/// Not of a process that has ended and waits for its parent to notice.
+bool isRunning(int process) {
+  if (::kill(process, 0) != 0 && errno == ESRCH) return false;
+  std::ifstream stream(fmt::format("/proc/{}/stat", process));
+  std::string text;
+  std::getline(stream, text);
+  const size_t end = text.rfind(") ");  // Of the name, which may hold anything.
+  return end == std::string::npos || (text[end + 2] != 'Z' && text[end + 2] != 'X');
 }
 
 bool isUnlocked(const std::filesystem::path& path) {
@@ -59,10 +74,14 @@ bool isUnlocked(const std::filesystem::path& path) {
 
 }  // namespace
 
+void removeUnfinishedFiles() noexcept {
+  for (std::atomic<const char*>& slot : unfinished)
+    if (const char* name = slot.exchange(nullptr, std::memory_order_acquire)) ::unlink(name);
+}
+
 void removeAbandonedFiles(const std::filesystem::path& folder) {
-  removeTemporaries(folder, [](int process, const std::filesystem::path& path) {
-    return ::kill(process, 0) != 0 && errno == ESRCH && isUnlocked(path);
-  });
+  removeTemporaries(
+      folder, [](int process, const std::filesystem::path& path) { return !isRunning(process) && isUnlocked(path); });
 }
 
 void removeFilesOfProcess(const std::filesystem::path& folder, int process) {
@@ -103,7 +122,7 @@ void AtomicFile::openTemporary() {
   static std::atomic<unsigned> count = 0;
   do {
     temporary_ = target_;
-    temporary_.replace_filename(fmt::format("{}{}-{}{}", kTemporaryPrefix, ::getpid(), count++, kTemporarySuffix));
+    temporary_.replace_filename(fmt::format("{}{}-{}{}", temporaryPrefix(), ::getpid(), count++, kTemporarySuffix));
     descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   } while (descriptor_ < 0 && errno == EEXIST);
   if (descriptor_ >= 0) {
@@ -124,18 +143,22 @@ void AtomicFile::announceTemporary() {
   const std::string& name = temporary_.native();
   announced_ = std::make_unique<char[]>(name.size() + 1);
   std::memcpy(announced_.get(), name.c_str(), name.size() + 1);
-  const char* none = nullptr;
-  if (!unfinished.compare_exchange_strong(none, announced_.get(), std::memory_order_release)) announced_.reset();
+  for (std::atomic<const char*>& slot : unfinished) {
+    const char* none = nullptr;
+    if (slot.compare_exchange_strong(none, announced_.get(), std::memory_order_release)) return;
+  }
+  announced_.reset();
 }
 
 void AtomicFile::withdrawTemporary() noexcept {
-  const char* mine = announced_.get();
-  if (mine == nullptr) return;
-  if (unfinished.compare_exchange_strong(mine, nullptr, std::memory_order_acquire)) {
+  if (announced_ == nullptr) return;
+  for (std::atomic<const char*>& slot : unfinished) {
+    const char* mine = announced_.get();
+    if (!slot.compare_exchange_strong(mine, nullptr, std::memory_order_acquire)) continue;
     announced_.reset();
-  } else {
-    (void)announced_.release();  // A signal handler reads it, and the process ends.
+    return;
   }
+  (void)announced_.release();  // A signal handler reads it, and the process ends.
 }
 
 void AtomicFile::write(const void* bytes, size_t size) {

@@ -53,22 +53,22 @@ class AtomicFile {
   [[noreturn]] void fail(int errorNumber, const std::string& during) const;
 
   std::filesystem::path target_, temporary_;  ///< temporary_ is empty where the target is written directly.
-  std::unique_ptr<char[]> announced_;         ///< The path that removeUnfinishedFile() reads.
+  std::unique_ptr<char[]> announced_;         ///< The path that removeUnfinishedFiles() reads.
   bool isStandardOutput_ = false;
   int descriptor_ = -1;
   std::unique_ptr<char[]> buffer_;
   size_t used_ = 0;
 };
 
-/// Removes the temporary files that processes left in a folder when they were killed; not those of running processes,
-/// also of other machines where the file system shares flock().
+/// Removes the temporary files that processes of this host left in a folder when they were killed. A process with the
+/// same number in a container with the same host name is safe where the file system has flock().
 void removeAbandonedFiles(const std::filesystem::path& folder);
 
-/// Removes the temporary files of a process that has ended.
+/// Removes the temporary files of a process of this host that has ended.
 void removeFilesOfProcess(const std::filesystem::path& folder, int process);
 
-/// Removes the temporary file of the one AtomicFile that is being written, if any, before a process is terminated.
-/// Async-signal-safe. Of several open files it removes the first one only.
-void removeUnfinishedFile() noexcept;
+/// Removes the temporary files that this process is writing, at most 64 of them, before it is terminated.
+/// Async-signal-safe.
+void removeUnfinishedFiles() noexcept;
 
 }  // namespace asdfvk

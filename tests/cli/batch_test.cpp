@@ -7,73 +7,16 @@
 #include <set>
 #include <thread>
 
-#include "cli/batch_worker.h"
 #include "cli/job_plan.h"
-#include "cli/program_under_test.h"
+#include "cli/mesh_tree.h"
 #include "cli/refusal.h"
-#include "cli/sample_files.h"
-#include "cli/scratch_folder.h"
+#include "cli/worker_messages.h"
 
 namespace asdfvk::test {
 namespace {
 
 using Json = nlohmann::json;
-using Names = std::vector<std::string>;
 namespace fs = std::filesystem;
-
-/// A tree of small meshes; two of them are broken.
-struct MeshTree {
-  ScratchFolder folder;
-  std::string root = folder / "in";
-  size_t meshCount = 0;
-
-  explicit MeshTree(bool hasBroken = true) {
-    fs::create_directories(folder / "in/deep/er");
-    for (int i = 0; i < 4; ++i) add("in/s" + std::to_string(i) + ".off", sphereOff(6 + i));
-    for (int i = 0; i < 4; ++i) add("in/deep/t" + std::to_string(i) + ".off", sphereOff(8 + i));
-    add("in/deep/er/cube.stl", cubeBinaryStl());
-    if (!hasBroken) return;
-    add("in/deep/bad.off", "OFF\nnonsense");
-    add("in/empty.off", "OFF\n0 0 0\n");
-  }
-  void add(const std::string& name, const std::string& bytes) {
-    folder.write(name, bytes);
-    ++meshCount;
-  }
-  [[nodiscard]] std::string operator/(const std::string& name) const { return folder / name; }
-};
-
-ChildOutcome runBatch(const Names& arguments, const std::string& program = ASDFVK_PROGRAM) {
-  Names all = arguments;
-  all.insert(all.end(), {"--backend", "reference", "--format", "npy"});
-  return runChild(program, all);
-}
-
-/// Relative paths of the results below a folder, without the records.
-std::map<std::string, std::string> resultsIn(const std::string& folder) {
-  std::map<std::string, std::string> results;
-  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
-    if (!entry.is_regular_file() || entry.path().extension() == ".json") continue;
-    std::ifstream in(entry.path(), std::ios::binary);
-    results[fs::relative(entry.path(), folder).string()] = std::string(std::istreambuf_iterator<char>(in), {});
-  }
-  return results;
-}
-
-std::vector<Json> recordsIn(const std::string& log) {
-  std::ifstream in(log);
-  std::vector<Json> records;
-  for (std::string line; std::getline(in, line);) records.push_back(Json::parse(line));
-  return records;
-}
-
-std::map<std::string, int> statusesIn(const std::string& log) {
-  std::map<std::string, int> counts;
-  for (const Json& record : recordsIn(log)) ++counts[record.at("status").get<std::string>()];
-  return counts;
-}
-
-using StatusCounts = std::map<std::string, int>;
 
 TEST_CASE("a tree of meshes gives a tree of results, a record of each, and exit code 7 where some failed") {
   const MeshTree tree;
@@ -188,13 +131,13 @@ TEST_CASE("--skip-existing skips what is unchanged and computes what is not") {
 
 TEST_CASE("no device is opened where nothing is left to compute") {
   const MeshTree tree(false);
-  const Names arguments{"-r", tree.root, "-o", tree / "out", "--skip-existing", "--format", "npy"};
+  const Names arguments{"-r",       tree.root, "-o",        tree / "out", "--skip-existing",
+                        "--format", "npy",     "--backend", "vulkan"};
   ChildOptions options;
   CHECK_EQ(runAsdf(arguments, options).exitCode, 0);
   options.environment = {{"VK_DRIVER_FILES", "/missing"}};
   for (const Names& more : {Names{}, Names{"--isolate"}}) {
-    Names all{"--backend", "vulkan"};
-    all.insert(all.end(), arguments.begin(), arguments.end());
+    Names all = arguments;
     all.insert(all.end(), more.begin(), more.end());
     const ChildOutcome outcome = runAsdf(all, options);
     CHECK_MESSAGE(outcome.exitCode == 0, outcome.error);
@@ -214,30 +157,6 @@ TEST_CASE("a name with a slash at the end is a folder, which is made") {
   CHECK(outcome.error.find("cannot be written") != std::string::npos);
 }
 
-TEST_CASE("a kill -9 at any moment, then the same call: the bytes of a run without it") {
-  const MeshTree tree(false);
-  CHECK_EQ(runBatch({"-r", tree.root, "-o", tree / "whole", "--quiet"}).exitCode, 0);
-  const auto expected = resultsIn(tree / "whole");
-  for (const int isolated : {0, 1})
-    for (const int milliseconds : {5, 20, 60, 150}) {
-      fs::remove_all(tree / "out");
-      fs::remove(tree / "log");
-      Names arguments{"-r",      tree.root,   "-o",        tree / "out", "--log", tree / "log", "--skip-existing",
-                      "--quiet", "--backend", "reference", "--format",   "npy"};
-      if (isolated) arguments.emplace_back("--isolate");
-      {
-        ChildProcess child(ASDFVK_PROGRAM, arguments);
-        std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
-        child.send(SIGKILL);
-        child.finish(60);
-      }
-      const ChildOutcome outcome = runChild(ASDFVK_PROGRAM, arguments);
-      INFO(outcome.error);
-      CHECK_EQ(outcome.exitCode, 0);
-      CHECK(resultsIn(tree / "out") == expected);  // Also no temporary file.
-    }
-}
-
 TEST_CASE("the shards of a batch are the whole") {
   const MeshTree tree(false);
   CHECK_EQ(runBatch({"-r", tree.root, "-o", tree / "whole", "--quiet"}).exitCode, 0);
@@ -248,62 +167,6 @@ TEST_CASE("the shards of a batch are the whole") {
              0);
   CHECK_EQ(statusesIn(tree / "log"), StatusCounts{{"done", 9}});
   CHECK(resultsIn(tree / "parts") == resultsIn(tree / "whole"));
-}
-
-TEST_CASE("meshes that crash, hang or grow fail alone in worker processes") {
-  MeshTree tree(false);
-  for (const char* name : {"in/a-crash.off", "in/deep/hang.off", "in/grow.off"}) tree.add(name, sphereOff(5));
-  const ChildOutcome outcome = runBatch({"-r", tree.root, "-o", tree / "out", "--log", tree / "log", "--isolate",
-                                         "--timeout", "20", "--memory-limit", "1G"},
-                                        ASDFVK_FAULTY_PROGRAM);
-  INFO(outcome.error);
-  CHECK_EQ(outcome.exitCode, 7);
-  CHECK_EQ(statusesIn(tree / "log"), StatusCounts{{"done", 9}, {"failed", 3}});
-  CHECK_EQ(resultsIn(tree / "out").size(), 9);
-  std::map<std::string, int> codes;
-  for (const Json& record : recordsIn(tree / "log"))
-    if (record.at("status") == "failed") codes[record.at("error").get<std::string>()] = record.at("code").get<int>();
-  CHECK_EQ(codes, StatusCounts{{"crashed", 70}, {"memoryLimit", 8}, {"timeLimit", 8}});
-}
-
-TEST_CASE("--timeout without --isolate ends a mesh between its steps with 8") {
-  const ScratchFolder folder;
-  const std::string mesh = folder.write("sphere.off", sphereOff(150));
-  checkFailure(runAsdf({mesh, "--timeout", "0.5", "--seeds", "all", "--rays", "1024", "--threads", "1", "--backend",
-                        "reference", "--quiet"}),
-               8, "took longer than --timeout 0.5");
-  CHECK_EQ(folder.names(), Names{"sphere.off"});
-}
-
-TEST_CASE("SIGTERM drops the meshes at hand, and the log and the message name them") {
-  for (const bool isIsolated : {false, true}) {
-    const ScratchFolder folder;
-    fs::create_directory(folder / "in");
-    for (const char* name : {"in/a.off", "in/b.off", "in/c.off"}) folder.write(name, sphereOff(150));
-    Names arguments{"-r",      folder / "in", "-o",     folder / "out", "--log",     folder / "log",
-                    "--seeds", "all",         "--rays", "1024",         "--backend", "reference"};
-    if (isIsolated) arguments.emplace_back("--isolate");
-    ChildProcess child(ASDFVK_PROGRAM, arguments);
-    REQUIRE(child.waitForError("asdf-vk: ", 120));  // The device lines.
-    std::this_thread::sleep_for(std::chrono::seconds(1));
-    child.send(SIGTERM);
-    const ChildOutcome outcome = child.finish(120);
-    INFO(outcome.error);
-    CHECK_EQ(outcome.exitCode, 130);
-    CHECK(outcome.error.find("dropped: " + (folder / "in/a.off")) != std::string::npos);
-    CHECK(outcome.error.find("2 not begun") != std::string::npos);
-    CHECK_EQ(statusesIn(folder / "log"), StatusCounts{{"dropped", 1}});
-    CHECK(resultsIn(folder / "out").empty());
-  }
-}
-
-TEST_CASE("a worker that finds no device ends the run with 3") {
-  const MeshTree tree(false);
-  const ChildOutcome outcome =
-      runChild(ASDFVK_PROGRAM, {"-r", tree.root, "-o", tree / "out", "--isolate", "--device", "no such device"});
-  INFO(outcome.error);
-  CHECK_EQ(outcome.exitCode, 3);
-  CHECK(outcome.error.find("asdf-vk: error: ") != std::string::npos);
 }
 
 TEST_CASE("summarize counts the last record of each mesh, as text, JSON, CSV and page") {

@@ -131,7 +131,7 @@ TEST_CASE("usage errors end with 1 before any work") {
   checkFailure(runAsdf({mesh, "-o", folder / "out.xyz"}), 1, "out.xyz");
   checkFailure(runAsdf({mesh, "-o", "-", "--json"}), 1, "--json");
   checkFailure(runAsdf({mesh, other}), 1, "cube.asdf.ply");
-  checkFailure(runAsdf({mesh, other, "-o", folder / "out.ply"}), 1, "directory");
+  checkFailure(runAsdf({mesh, other, "-o", folder / "out.ply"}), 1, "is not a folder");
   checkFailure(runAsdf({"-"}), 1, "-o");
   checkFailure(runAsdf({mesh, "--check", "5"}), 1, "--check=5");
   checkFailure(runAsdf({mesh, "--backend", "reference", "--solver", "cg"}), 1, "--solver");

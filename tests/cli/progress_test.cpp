@@ -31,13 +31,13 @@ TEST_CASE("the bar waits for a second, is redrawn ten times a second, and is wip
 }
 
 TEST_CASE("the text of the bar has constant width for any number") {
-  const size_t width = progressText(0).size();
+  const size_t width = progressBarText(0).size();
   for (const double fraction : {-1.0, 0.0, 0.004, 0.5, 0.999, 1.0, 2.0, std::numeric_limits<double>::quiet_NaN()})
-    CHECK_EQ(progressText(fraction).size(), width);
-  CHECK(progressText(0.999).ends_with(" 99 %"));
-  CHECK(progressText(1).ends_with("100 %"));
-  CHECK(progressText(-1).ends_with("  0 %"));
-  CHECK_EQ(progressText(0.5).find(' '), 21);
+    CHECK_EQ(progressBarText(fraction).size(), width);
+  CHECK(progressBarText(0.999).ends_with(" 99 %"));
+  CHECK(progressBarText(1).ends_with("100 %"));
+  CHECK(progressBarText(-1).ends_with("  0 %"));
+  CHECK_EQ(progressBarText(0.5).find(' '), 21);
 }
 
 }  // namespace

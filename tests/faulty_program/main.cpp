@@ -1,10 +1,11 @@
 // asdf-vk with faults, which the names of meshes choose: *crash* ends by a signal, *hang* never ends, *grow* takes 10
-// GB.
+// GB, *terminate* receives SIGTERM, *lose* loses the device, *slow* takes 0.3 s.
 #include <csignal>
 #include <cstdlib>
 #include <thread>
 #include <vector>
 
+#include "asdf_vk/error.h"
 #include "cli/mesh_run.h"
 #include "cli/program.h"
 
@@ -13,6 +14,10 @@ namespace {
 void injectFault(const std::string& input) {
   if (input.find("crash") != std::string::npos) std::raise(SIGSEGV);
   while (input.find("hang") != std::string::npos) std::this_thread::sleep_for(std::chrono::seconds(1));
+  if (input.find("terminate") != std::string::npos) std::raise(SIGTERM);
+  if (input.find("lose") != std::string::npos)
+    throw asdfvk::Error(asdfvk::ErrorCode::DeviceLost, "the device was lost");
+  if (input.find("slow") != std::string::npos) std::this_thread::sleep_for(std::chrono::milliseconds(300));
   if (input.find("grow") == std::string::npos) return;
   constexpr size_t kPiece = size_t{64} << 20, kPieceCount = 160;
   std::vector<std::vector<char>> pieces;

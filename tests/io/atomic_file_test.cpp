@@ -150,25 +150,44 @@ TEST_CASE("temporary files of a killed process are removed, those of running pro
     return child;
   };
   leaveTemporary();
-  CHECK(folder.names().size() == 1);
-  putContent(folder / ".asdf-vk-1-0.part", "of process 1, which runs");
+  REQUIRE(folder.names().size() == 1);
+  const std::string left = folder.names().front(), host = left.substr(0, left.rfind('-', left.rfind('-') - 1) + 1);
+  putContent(folder / (host + "1-0.part"), "of process 1, which runs");
+  putContent(folder / ".asdf-vk-another.host-999999999-0.part", "of another host");
   putContent(folder / ".asdf-vk-x.part", "of no process");
   {
     AtomicFile file(folder / "other.ply");
     file.write(std::string(3'000'000, 'x'));
     removeAbandonedFiles(folder.path());
-    CHECK(folder.names().size() == 3);
+    CHECK(folder.names().size() == 4);
     file.commit();
   }
   const pid_t killed = leaveTemporary();
   removeFilesOfProcess(folder.path(), killed + 1);
-  CHECK(folder.names().size() == 4);
+  CHECK(folder.names().size() == 5);
   removeFilesOfProcess(folder.path(), killed);
-  CHECK(folder.names().size() == 3);
+  CHECK(folder.names().size() == 4);
   removeAbandonedFiles(folder / "missing");
 }
 
-TEST_CASE("a process that ends at once removes its unfinished file and no other") {
+TEST_CASE("the temporary file of a killed process is removed, also before its parent has waited for it") {
+  const Folder folder;
+  const pid_t child = ::fork();
+  REQUIRE(child >= 0);
+  if (child == 0) {
+    AtomicFile file(folder / "out.ply");
+    file.write(std::string(3'000'000, 'x'));
+    ::_exit(0);
+  }
+  siginfo_t info{};
+  REQUIRE(::waitid(P_PID, static_cast<id_t>(child), &info, WEXITED | WNOWAIT) == 0);
+  CHECK(folder.names().size() == 1);
+  removeAbandonedFiles(folder.path());
+  CHECK(folder.names().empty());
+  REQUIRE(::waitpid(child, nullptr, 0) == child);
+}
+
+TEST_CASE("a process that ends at once removes its unfinished files and no other") {
   const Folder folder;
   const auto endAtOnce = [](const std::function<void()>& work) {
     const pid_t child = ::fork();
@@ -182,21 +201,21 @@ TEST_CASE("a process that ends at once removes its unfinished file and no other"
     CHECK(WEXITSTATUS(status) == 0);
   };
   endAtOnce([&] {
-    AtomicFile file(folder / "out.ply");
+    AtomicFile file(folder / "out.ply"), further(folder / "further.ply");
     file.write(std::string(3'000'000, 'x'));
-    removeUnfinishedFile();
+    removeUnfinishedFiles();
     ::_exit(0);
   });
   CHECK(folder.names().empty());
   endAtOnce([&] {
     AtomicFile first(folder / "first.ply"), second(folder / "second.ply");
     second.commit();
-    removeUnfinishedFile();
+    removeUnfinishedFiles();
     ::_exit(0);
   });
   CHECK(folder.names() == std::vector<std::string>{"second.ply"});
   writeTo(folder / "second.ply", "whole");
   AtomicFile("/dev/null").write("directly");
-  removeUnfinishedFile();
+  removeUnfinishedFiles();
   CHECK(contentOf(folder / "second.ply") == "whole");
 }
