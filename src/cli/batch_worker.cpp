@@ -39,8 +39,7 @@ ExitCode runWorker() {
   const JobPhase phase{.jobCount = greeting.at("jobs").get<uint32_t>(),
                        .threadCount = greeting.at("threads").get<uint32_t>()};
   std::optional<ThreadLimit> threadLimit(phase.threadCount);
-  const Interrupt interrupt(true);       // The parent ends a worker that does not react.
-  const Interrupt::Listening listening;  // While idle, the end of the input ends the process.
+  const Interrupt interrupt(true);
   std::unique_ptr<Session> session;
   try {
     session = std::make_unique<Session>(line.session);
@@ -58,6 +57,7 @@ ExitCode runWorker() {
   for (bool ends = false; !ends;) {
     const std::optional<std::string> request = lines.waitForLine();
     if (!request) break;
+    const Interrupt::Listening listening;  // A signal ends an idle worker at once.
     const MeshRun run = runner.run(*session, taskOf(Json::parse(*request)), std::nullopt, true, interrupt.token());
     // Where the device failed, another worker opens it anew.
     ends = run.code == ExitCode::Device || session->backend() != backend || interrupt.token().stop_requested();

@@ -27,7 +27,7 @@ std::atomic<int> listenerCount{0};
 std::atomic<int> signalCount{0};
 std::atomic<int> pipeWriteEnd{-1};
 std::atomic<int64_t> firstSignalNanoseconds{0};
-std::atomic<bool> ignoresFurther{false};
+std::atomic<bool> isOfWorker{false};
 constexpr int64_t kRepeatNanoseconds = 200'000'000;
 static_assert(std::atomic<int>::is_always_lock_free && std::atomic<int64_t>::is_always_lock_free);
 
@@ -44,14 +44,16 @@ extern "C" void onSignal(int) {
   const int savedErrno = errno;
   const bool isFirst = signalCount.fetch_add(1) == 0;
   if (isFirst) firstSignalNanoseconds = now();
-  if (!isFirst && (ignoresFurther || now() - firstSignalNanoseconds < kRepeatNanoseconds)) {
+  if (!isFirst && (isOfWorker || now() - firstSignalNanoseconds < kRepeatNanoseconds)) {
     errno = savedErrno;
     return;
   }
   if (!isFirst || listenerCount.load() == 0) {
     removeUnfinishedFiles();
     constexpr std::string_view kMessage = "asdf-vk: error: cancelled\n";
-    [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, kMessage.data(), kMessage.size());
+    if (!isOfWorker) {
+      [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, kMessage.data(), kMessage.size());
+    }
     _exit(static_cast<int>(ExitCode::Cancelled));
   }
   [[maybe_unused]] const ssize_t written = write(pipeWriteEnd.load(), "x", 1);
@@ -60,12 +62,12 @@ extern "C" void onSignal(int) {
 
 }  // namespace
 
-Interrupt::Interrupt(bool ignoresRepeats) {
+Interrupt::Interrupt(bool isWorker) {
   ASDFVK_CHECK_OP(pipeWriteEnd.load(), ==, -1);
   if (pipe2(stopPipe.data(), O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category(), "pipe");
   pipeWriteEnd = stopPipe[1];
   signalCount = 0;
-  ignoresFurther = ignoresRepeats;
+  isOfWorker = isWorker;
   waiter_ = std::jthread([this] {
     char byte = 0;
     ssize_t count = 0;

@@ -6,12 +6,14 @@
 namespace asdfvk {
 
 /// Handles SIGINT, SIGTERM and SIGHUP, except those that were ignored, during its lifetime. The first signal requests a
-/// stop of the computation, or ends the program if no Listening exists. The second one, unless repeats are ignored,
-/// ends the program; one within 0.2 s belongs to the first, which a terminal or a wrapper may send twice. The program
-/// then exits with ExitCode::Cancelled and leaves no half-written file. One object at a time.
+/// stop of the computation, or ends the program if no Listening exists. The second one ends the program; one within
+/// 0.2 s belongs to the first, which a terminal or a wrapper may send twice. The program then exits with
+/// ExitCode::Cancelled and leaves no half-written file. One object at a time.
 class Interrupt {
  public:
-  explicit Interrupt(bool ignoresRepeats = false);
+  /// isWorker: further signals are ignored, since the main process kills a worker that does not react, and nothing is
+  /// printed.
+  explicit Interrupt(bool isWorker = false);
   ~Interrupt();
   Interrupt(const Interrupt&) = delete;
   Interrupt& operator=(const Interrupt&) = delete;
