@@ -1,7 +1,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <csignal>
+#include <thread>
 
 #include "cli/interrupt.h"
 #include "cli/program_under_test.h"
@@ -64,7 +66,9 @@ TEST_CASE("a second signal during the writing ends at once with 130 and leaves n
     AtomicFile file(folder / "out.ply");
     file.write(std::string(5'000'000, 'x'));
     std::raise(SIGTERM);
+    std::raise(SIGINT);  // Within 0.2 s: the same request.
     file.write("The first signal alone lets the writing go on.");
+    std::this_thread::sleep_for(std::chrono::milliseconds(250));
     std::raise(SIGINT);
     _exit(0);
   }
