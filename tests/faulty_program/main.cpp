@@ -14,7 +14,10 @@ namespace {
 void injectFault(const std::string& input) {
   if (input.find("crash") != std::string::npos) std::raise(SIGSEGV);
   while (input.find("hang") != std::string::npos) std::this_thread::sleep_for(std::chrono::seconds(1));
-  if (input.find("terminate") != std::string::npos) std::raise(SIGTERM);
+  if (input.find("terminate") != std::string::npos) {
+    std::raise(SIGTERM);
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));  // Another thread requests the stop.
+  }
   if (input.find("lose") != std::string::npos)
     throw asdfvk::Error(asdfvk::ErrorCode::DeviceLost, "the device was lost");
   if (input.find("slow") != std::string::npos) std::this_thread::sleep_for(std::chrono::milliseconds(300));
