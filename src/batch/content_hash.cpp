@@ -19,6 +19,8 @@ std::string textOf(const XXH128_hash_t& hash) { return fmt::format("{:016x}{:016
 std::string contentHash(std::span<const char> bytes) { return textOf(XXH3_128bits(bytes.data(), bytes.size())); }
 
 std::optional<std::string> contentHashOf(const std::filesystem::path& path) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) return std::nullopt;  // To open a FIFO would wait for a writer.
   constexpr size_t kPiece = size_t{1} << 18;
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor < 0) return std::nullopt;

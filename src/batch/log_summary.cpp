@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <tuple>
 #include <unordered_map>
 
@@ -13,10 +14,16 @@ namespace asdfvk {
 namespace {
 
 constexpr int kBinsPerDecade = 5;
-constexpr size_t kMaxBinCount = 60;
+constexpr int kMaxBinCount = 60;
 
 bool isComputed(const MeshRecord& record) {
   return record.status == MeshStatus::Done || record.status == MeshStatus::Skipped;
+}
+
+std::optional<double> averageErrorOf(const MeshRecord& record) {
+  const nlohmann::ordered_json& estimate = record.estimatedError;
+  if (!estimate.is_object() || !estimate.contains("average") || !estimate["average"].is_number()) return std::nullopt;
+  return estimate["average"].get<double>();
 }
 
 std::vector<std::pair<std::string, uint64_t>> descending(const std::map<std::string, uint64_t>& counts) {
@@ -66,12 +73,12 @@ Histogram histogramOf(const std::vector<double>& numbers) {
     if (number > 0 && std::isfinite(number)) ++counts[binOf(number)];
   Histogram histogram;
   if (counts.empty()) return histogram;
-  const int first = counts.begin()->first, last = counts.rbegin()->first;
-  if (static_cast<size_t>(last - first) >= kMaxBinCount) return histogram;
-  for (int bin = first; bin <= last; ++bin)
-    histogram.bins.push_back({std::pow(10, static_cast<double>(bin) / kBinsPerDecade),
-                              std::pow(10, static_cast<double>(bin + 1) / kBinsPerDecade),
-                              counts.contains(bin) ? counts[bin] : 0});
+  const int last = counts.rbegin()->first;
+  const int first = std::max(counts.begin()->first, last - kMaxBinCount + 1);
+  const auto edgeOf = [](int bin) { return std::pow(10, static_cast<double>(bin) / kBinsPerDecade); };
+  for (int bin = first; bin <= last; ++bin) histogram.bins.push_back({edgeOf(bin), edgeOf(bin + 1), 0});
+  for (const auto& [bin, count] : counts) histogram.bins[static_cast<size_t>(std::max(bin - first, 0))].count += count;
+  histogram.bins.front().from = edgeOf(counts.begin()->first);
   return histogram;
 }
 
@@ -92,24 +99,22 @@ LogSummary summarizeRecords(std::vector<MeshRecord> records, size_t invalidLineC
   std::vector<double> seconds, errors;
   std::map<std::string, double> stages;
   std::map<std::string, uint64_t> warnings, devices;
-  std::map<std::pair<int, std::string>, FailureGroup> failures;
+  std::map<std::tuple<MeshStatus, int, std::string>, FailureGroup> failures;
   for (const MeshRecord& mesh : summary.meshes) {
     ++summary.statusCounts[mesh.status];
     summary.peakMemoryBytes = std::max(summary.peakMemoryBytes, mesh.peakMemoryBytes);
     for (const std::string& warning : mesh.warnings) ++warnings[warning];
     if (!mesh.device.empty()) ++devices[mesh.device];
     if (!isComputed(mesh)) {
-      FailureGroup& group = failures[{mesh.code, mesh.error}];
-      if (group.count++ == 0) group = {mesh.code, mesh.error, 1, mesh.input, mesh.message};
+      FailureGroup& group = failures[{mesh.status, mesh.code, mesh.error}];
+      if (group.count++ == 0) group = {mesh.status, mesh.code, mesh.error, 1, mesh.input, mesh.message};
       continue;
     }
     summary.faceCount += mesh.faceCount.value_or(0);
     summary.meshSeconds += mesh.totalSeconds;
     seconds.push_back(mesh.totalSeconds);
     for (const auto& [stage, time] : mesh.seconds) stages[stage] += time;
-    if (mesh.estimatedError.is_object() && mesh.estimatedError.contains("average") &&
-        mesh.estimatedError["average"].is_number())
-      errors.push_back(mesh.estimatedError["average"].get<double>());
+    if (const std::optional<double> error = averageErrorOf(mesh)) errors.push_back(*error);
   }
   summary.seconds = spreadOf(seconds);
   summary.averageErrors = spreadOf(errors);
@@ -129,7 +134,7 @@ LogSummary summarizeRecords(std::vector<MeshRecord> records, size_t invalidLineC
 std::string textOf(const LogSummary& summary) {
   std::string text;
   const auto row = [&text](const std::string& title, const std::string& value) {
-    text += fmt::format("{:<9} {}\n", title, value);
+    text += oneLine(fmt::format("{:<9} {}", title, value)) + "\n";
   };
   std::string separator = ": ";
   std::string counts = groupDigits(summary.meshes.size());
@@ -154,8 +159,9 @@ std::string textOf(const LogSummary& summary) {
   for (const auto& [warning, count] : summary.warnings)
     row("warning", fmt::format("{}: {}", warning, counted(count, "mesh", "meshes")));
   for (const FailureGroup& group : summary.failures)
-    row("failed", fmt::format("code {} {}: {}; {}: {}", group.code, group.error, counted(group.count, "mesh", "meshes"),
-                              group.exampleInput, group.exampleMessage));
+    row(nameOf(group.status),
+        fmt::format("code {} {}: {}; {}: {}", group.code, group.error, counted(group.count, "mesh", "meshes"),
+                    group.exampleInput, group.exampleMessage));
   return text;
 }
 
@@ -178,7 +184,8 @@ std::string jsonOf(const LogSummary& summary) {
   json["warnings"] = jsonOf(summary.warnings);
   json["failures"] = nlohmann::ordered_json::array();
   for (const FailureGroup& group : summary.failures)
-    json["failures"].push_back({{"code", group.code},
+    json["failures"].push_back({{"status", nameOf(group.status)},
+                                {"code", group.code},
                                 {"error", group.error},
                                 {"count", group.count},
                                 {"exampleInput", group.exampleInput},
@@ -192,13 +199,10 @@ std::string csvOf(const LogSummary& summary) {
       "message\n";
   for (const MeshRecord& mesh : summary.meshes) {
     const auto orEmpty = [](const auto& value) { return value ? fmt::format("{}", *value) : std::string(); };
-    const bool hasError = mesh.estimatedError.is_object() && mesh.estimatedError.contains("average") &&
-                          mesh.estimatedError["average"].is_number();
     text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n", quoted(mesh.input), quoted(orEmpty(mesh.output)),
                         nameOf(mesh.status), mesh.code, quoted(mesh.error), orEmpty(mesh.faceCount), mesh.totalSeconds,
-                        mesh.peakMemoryBytes,
-                        hasError ? fmt::format("{}", mesh.estimatedError["average"].get<double>()) : "",
-                        orEmpty(mesh.segmentCount), quoted(mesh.device), quoted(mesh.message));
+                        mesh.peakMemoryBytes, orEmpty(averageErrorOf(mesh)), orEmpty(mesh.segmentCount),
+                        quoted(mesh.device), quoted(mesh.message));
   }
   return text;
 }

@@ -17,7 +17,8 @@ struct Spread {
 };
 [[nodiscard]] Spread spreadOf(std::vector<double> numbers);
 
-/// Bins of equal width in the logarithm.
+/// Bins of equal width in the logarithm. Where the numbers span more than 12 decades, the first bin also counts those
+/// below it.
 struct Histogram {
   struct Bin {
     double from = 0, to = 0;
@@ -28,14 +29,17 @@ struct Histogram {
 /// Numbers that are not above 0 are ignored.
 [[nodiscard]] Histogram histogramOf(const std::vector<double>& numbers);
 
+/// Meshes that failed, or were dropped, with the same code and error.
 struct FailureGroup {
+  MeshStatus status = MeshStatus::Failed;
   int code = 0;
   std::string error;
   uint64_t count = 0;
   std::string exampleInput, exampleMessage;
 };
 
-/// What the logs of a batch say; of several records of a mesh the one with the latest time counts, else the last one.
+/// Counts, times and failures from the logs of a batch. Of several records of a mesh the one with the latest time
+/// counts, else the last one.
 struct LogSummary {
   size_t recordCount = 0, invalidLineCount = 0;
   std::map<MeshStatus, uint64_t> statusCounts;

@@ -2,6 +2,8 @@
 
 #include <fmt/chrono.h>
 
+#include <algorithm>
+#include <charconv>
 #include <chrono>
 
 namespace asdfvk {
@@ -25,6 +27,24 @@ void read(const Json& json, const char* key, std::optional<T>& value) {
   if (const auto found = json.find(key); found != json.end() && !found->is_null()) value = found->get<T>();
 }
 
+/// Unset where the text holds anything but pairs of hexadecimal digits.
+std::optional<std::string> bytesOfHex(std::string_view hex) {
+  std::string bytes;
+  for (size_t i = 0; i < hex.size(); i += 2) {
+    uint8_t byte = 0;
+    const auto [end, error] = std::from_chars(hex.data() + i, hex.data() + std::min(i + 2, hex.size()), byte, 16);
+    if (error != std::errc() || end != hex.data() + i + 2) return std::nullopt;
+    bytes += static_cast<char>(byte);
+  }
+  return bytes;
+}
+
+/// Whether the text is UTF-8, which JSON can hold.
+bool survivesJson(const std::string& text) {
+  const std::string json = Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
+  return Json::parse(json).get_ref<const std::string&>() == text;
+}
+
 }  // namespace
 
 const char* nameOf(MeshStatus status) { return kMeshStatuses[static_cast<size_t>(status)].second; }
@@ -36,9 +56,14 @@ std::string utcTime() {
                      milliseconds);
 }
 
-std::string toJsonLine(const MeshRecord& record) {
+nlohmann::ordered_json toJson(const MeshRecord& record) {
   Json json;
   json["input"] = record.input;
+  if (!survivesJson(record.input)) {
+    std::string hex;
+    for (const char c : record.input) hex += fmt::format("{:02x}", static_cast<unsigned char>(c));
+    json["inputBytes"] = hex;
+  }
   json["output"] = orNull(record.output);
   json["time"] = record.time;
   json["status"] = nameOf(record.status);
@@ -61,7 +86,11 @@ std::string toJsonLine(const MeshRecord& record) {
   json["segmentCount"] = orNull(record.segmentCount);
   json["warnings"] = record.warnings;
   json["options"] = record.options;
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return json;
+}
+
+std::string toJsonLine(const MeshRecord& record) {
+  return toJson(record).dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 std::optional<MeshRecord> parseRecord(std::string_view text) {
@@ -70,6 +99,13 @@ std::optional<MeshRecord> parseRecord(std::string_view text) {
   try {
     MeshRecord record;
     record.input = json.at("input");
+    std::string inputBytes;
+    read(json, "inputBytes", inputBytes);
+    if (!inputBytes.empty()) {
+      const std::optional<std::string> bytes = bytesOfHex(inputBytes);
+      if (!bytes) return std::nullopt;
+      record.input = *bytes;
+    }
     const std::string status = json.at("status");
     bool isKnown = false;
     for (const auto& [value, name] : kMeshStatuses)

@@ -47,7 +47,10 @@ struct MeshRecord {
 /// "2026-05-31T12:34:56.789Z": the current time by ISO 8601, in an order that is that of the texts.
 [[nodiscard]] std::string utcTime();
 
-/// One line without a line end. Bytes that are not UTF-8 are replaced.
+[[nodiscard]] nlohmann::ordered_json toJson(const MeshRecord& record);
+
+/// One line without a line end. Bytes that are not UTF-8 are replaced; for an input with such bytes, the key inputBytes
+/// has all of them as hexadecimal digits.
 [[nodiscard]] std::string toJsonLine(const MeshRecord& record);
 
 /// Unset where the text is not a record, for example a line that was cut. Needs the keys input, status, code and

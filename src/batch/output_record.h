@@ -8,6 +8,8 @@
 
 namespace asdfvk {
 
+// Outputs that are no regular files, such as /dev/null, a FIFO or "-", have no records.
+
 /// Path of the record beside an output: "horse.asdf.ply.json".
 [[nodiscard]] std::filesystem::path outputRecordPath(const std::filesystem::path& output);
 

@@ -39,14 +39,14 @@ bool endsWithinLine(int descriptor) {
 RecordLog::RecordLog(const std::filesystem::path& path)
     : path_(path), descriptor_(::open(path.c_str(), O_RDWR | O_APPEND | O_CREAT | O_CLOEXEC, 0666)) {
   if (descriptor_ < 0) fail(path_, errno);
-  if (endsWithinLine(descriptor_)) writeAll(descriptor_, "\n", path_);
 }
 
 RecordLog::~RecordLog() { ::close(descriptor_); }
 
 void RecordLog::append(const MeshRecord& record) {
-  const std::string line = toJsonLine(record) + "\n";
+  std::string line = toJsonLine(record) + "\n";
   const std::scoped_lock lock(mutex_);
+  if (endsWithinLine(descriptor_)) line.insert(line.begin(), '\n');
   writeAll(descriptor_, line, path_);
 }
 
@@ -57,11 +57,15 @@ std::vector<MeshRecord> readLog(const std::filesystem::path& path, size_t& inval
   std::vector<MeshRecord> records;
   for (std::string line; std::getline(in, line);) {
     if (line.empty()) continue;
-    if (std::optional<MeshRecord> record = parseRecord(line))
+    if (std::optional<MeshRecord> record = parseRecord(line)) {
+      record->options = nullptr;  // They take more memory than the rest.
       records.push_back(std::move(*record));
-    else
+    } else {
       ++invalidCount;
+    }
   }
+  if (in.bad())
+    throw Error(ErrorCode::UnreadableInput, fmt::format("the log {} cannot be read to its end", path.string()));
   return records;
 }
 

@@ -7,8 +7,8 @@
 
 namespace asdfvk {
 
-/// A file with a record per line, to which several threads and several runs append. Each line is one write(), so that a
-/// killed process leaves at most a cut last line, which the next run ends.
+/// A file with a record per line, to which several threads and several processes append. Each line is one write(), so
+/// that a killed process leaves at most a cut line, which the next append() of any process ends.
 class RecordLog {
  public:
   /// Throws Error{OutputNotWritable}.
@@ -26,7 +26,8 @@ class RecordLog {
   std::mutex mutex_;
 };
 
-/// The records of a log; invalidCount: lines that are none, such as cut ones. Throws Error{UnreadableInput}.
+/// The records of a log without their options; invalidCount: lines that are none, such as cut ones. Throws
+/// Error{UnreadableInput}.
 [[nodiscard]] std::vector<MeshRecord> readLog(const std::filesystem::path& path, size_t& invalidCount);
 
 }  // namespace asdfvk

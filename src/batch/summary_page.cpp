@@ -76,11 +76,13 @@ std::string tableOf(const std::vector<std::pair<std::string, Number>>& rows) {
 }
 
 std::string failuresOf(const LogSummary& summary) {
-  std::string html = "<table>\n<tr><th>code</th><th>error</th><th>meshes</th><th>for example</th></tr>\n";
+  std::string html =
+      "<table>\n<tr><th>status</th><th>code</th><th>error</th><th>meshes</th><th>for example</th></tr>\n";
   for (const FailureGroup& group : summary.failures)
-    html += fmt::format("<tr><td class=\"n\">{}</td><td>{}</td><td class=\"n\">{}</td><td>{}: {}</td></tr>\n",
-                        group.code, escaped(group.error), groupDigits(group.count), escaped(group.exampleInput),
-                        escaped(group.exampleMessage));
+    html +=
+        fmt::format("<tr><td>{}</td><td class=\"n\">{}</td><td>{}</td><td class=\"n\">{}</td><td>{}: {}</td></tr>\n",
+                    nameOf(group.status), group.code, escaped(group.error), groupDigits(group.count),
+                    escaped(group.exampleInput), escaped(group.exampleMessage));
   html += "</table>\n<table>\n<tr><th>mesh</th><th>code</th><th>message</th></tr>\n";
   size_t count = 0;
   for (const MeshRecord& mesh : summary.meshes) {
@@ -106,7 +108,7 @@ std::string pageOf(const LogSummary& summary, const std::string& title) {
       "<h2>Estimated average error of each mesh, share of its range</h2>\n" + svgOf(summary.errorHistogram, 100, "%");
   html += "<h2>Seconds by stage, all meshes</h2>\n" + tableOf(summary.stageSeconds);
   if (!summary.warnings.empty()) html += "<h2>Meshes by warning</h2>\n" + tableOf(summary.warnings);
-  if (!summary.failures.empty()) html += "<h2>Failures</h2>\n" + failuresOf(summary);
+  if (!summary.failures.empty()) html += "<h2>Failed and dropped meshes</h2>\n" + failuresOf(summary);
   return html + "</body></html>\n";
 }
 

@@ -115,10 +115,4 @@ Failure currentFailure(bool requiresGpu, const std::string& valueOptions) {
   }
 }
 
-std::string oneLine(std::string text) {
-  for (char& c : text)
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
-  return text;
-}
-
 }  // namespace asdfvk

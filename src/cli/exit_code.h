@@ -6,6 +6,7 @@
 
 #include "asdf_vk/error.h"
 #include "asdf_vk/report.h"
+#include "core/text.h"  // oneLine()
 
 namespace asdfvk {
 
@@ -71,8 +72,5 @@ struct Failure {
 /// Describes the exception being handled; to be called in a catch block. requiresGpu: do not propose the CPU.
 /// valueOptions: CommandLine::valueOptions.
 [[nodiscard]] Failure currentFailure(bool requiresGpu = false, const std::string& valueOptions = "");
-
-/// The same text with every control character replaced by a space, so that a message with any file name is one line.
-[[nodiscard]] std::string oneLine(std::string text);
 
 }  // namespace asdfvk

@@ -1,5 +1,8 @@
 #include "cli/summarize.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
@@ -15,6 +18,8 @@
 namespace asdfvk {
 namespace {
 
+const std::vector<std::string> kSummaryFormats{"text", "json", "csv", "html"};
+
 /// "html" for "page.HTML".
 std::string formatOfName(const std::string& output) {
   const std::string extension = lowerCase(std::filesystem::path(output).extension().string());
@@ -28,6 +33,25 @@ std::string renderSummary(const LogSummary& summary, const std::string& format, 
   return textOf(summary);
 }
 
+/// --json and the extension of -o; refuses what would give another file than was meant.
+void completeFormat(SummaryOptions& options) {
+  if (options.isJson && !options.format.empty() && options.format != "json")
+    refuseOptions(fmt::format("--json contradicts --format {}; drop one", options.format));
+  if (options.isJson) options.format = "json";
+  if (options.output == "-") return;
+  for (const std::string& log : options.logs) {
+    std::error_code ignored;
+    if (std::filesystem::equivalent(log, options.output, ignored))
+      refuseOptions(fmt::format("-o {} is a log and would be overwritten; choose another -o", options.output));
+  }
+  if (!options.format.empty()) return;
+  options.format = formatOfName(options.output);
+  if (options.format.empty() || options.format == "txt") options.format = "text";
+  if (std::count(kSummaryFormats.begin(), kSummaryFormats.end(), options.format) == 0)
+    refuseOptions(fmt::format("-o {}: the extension names no format; give --format {}", options.output,
+                              fmt::join(kSummaryFormats, "|")));
+}
+
 }  // namespace
 
 void addOptions(CLI::App& app, SummaryOptions& options) {
@@ -37,7 +61,7 @@ void addOptions(CLI::App& app, SummaryOptions& options) {
       "the latest one counts.");
   app.set_help_flag("-h,--help", "Print this help");
   app.add_option("logs", options.logs, "Logs of --log")->option_text("LOG.jsonl...")->required();
-  addName(app, "--format", options.format, {"text", "json", "csv", "html"},
+  addName(app, "--format", options.format, kSummaryFormats,
           "csv: a row per mesh. html: a page with histograms; default text, or by -o");
   app.add_flag("--json", options.isJson, "The same as --format json");
   addValue(app, "-o,--output", "FILE|-", "Write to a file; default standard output",
@@ -57,8 +81,7 @@ ExitCode summarize(std::vector<std::string> arguments) {
   } catch (const CLI::ParseError& error) {
     throw Error(ErrorCode::OptionOutOfRange, std::string(error.what()) + "; see asdf-vk summarize --help");
   }
-  if (options.isJson) options.format = "json";
-  if (options.format.empty() && options.output != "-") options.format = formatOfName(options.output);
+  completeFormat(options);
 
   std::vector<MeshRecord> records;
   size_t invalidCount = 0;

@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "asdf_vk/error.h"
-#include "cli/exit_code.h"
+#include "core/text.h"
 
 namespace asdfvk {
 namespace {

@@ -21,6 +21,13 @@ namespace asdfvk {
   return lower;
 }
 
+/// The same text with every control character replaced by a space, so that a message with any file name is one line.
+[[nodiscard]] inline std::string oneLine(std::string text) {
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
+  return text;
+}
+
 /// "1 vertex", "2 vertices". Without a plural, an s is appended to the singular.
 [[nodiscard]] inline std::string counted(uint64_t count, std::string_view singular, std::string_view plural = {}) {
   if (count == 1) return fmt::format("1 {}", singular);

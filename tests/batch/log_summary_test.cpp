@@ -81,6 +81,33 @@ TEST_CASE("a histogram counts every number above 0 in the bin that holds it") {
   CHECK(histogramOf({}).bins.empty());
 }
 
+TEST_CASE("a histogram of more than 12 decades counts the lowest numbers in its first bin") {
+  const Histogram histogram = histogramOf({1e-300, 1e-20, 1e-13, 1, 1});
+  CHECK_EQ(histogram.bins.size(), 60);
+  CHECK_EQ(histogram.bins.front().count, 3);
+  CHECK_LE(histogram.bins.front().from, 1e-300);
+  CHECK_EQ(histogram.bins.back().count, 2);
+}
+
+TEST_CASE("dropped meshes are not listed as failed, and the table has a line per row whatever names hold") {
+  MeshRecord dropped = recordOf("a\nb", MeshStatus::Dropped, 0, 130);
+  dropped.message = "cancelled\nfailed    code 1";
+  const LogSummary summary = summarizeRecords({dropped, recordOf("c", MeshStatus::Failed, 0, 130)}, 0);
+  REQUIRE_EQ(summary.failures.size(), 2);
+  const std::string text = textOf(summary);
+  CHECK_NE(text.find("\ndropped   code 130 unreadableInput: 1 mesh; a b: cancelled failed    code 1\n"),
+           std::string::npos);
+  CHECK_NE(text.find("\nfailed    code 130 unreadableInput: 1 mesh; c: "), std::string::npos);
+  CHECK_EQ(nlohmann::json::parse(jsonOf(summary)).at("failures")[1].at("status").get<std::string>(), "dropped");
+}
+
+TEST_CASE("meshes whose names differ only in bytes that are not UTF-8 are two meshes") {
+  std::vector<MeshRecord> records;
+  for (const char* name : {"\xe8.off", "\xe9.off"})
+    records.push_back(parseRecord(toJsonLine(recordOf(name, MeshStatus::Done, 1))).value());
+  CHECK_EQ(summarizeRecords(records, 0).meshes.size(), 2);
+}
+
 TEST_CASE("the page escapes what meshes and messages hold, the table quotes it") {
   const LogSummary summary = sample();
   const std::string page = pageOf(summary, "a <title>");

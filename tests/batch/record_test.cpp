@@ -1,4 +1,5 @@
 #include <doctest/doctest.h>
+#include <sys/stat.h>
 
 #include <filesystem>
 #include <fstream>
@@ -79,6 +80,32 @@ TEST_CASE("bytes that are not UTF-8 do not stop the log") {
   CHECK(parseRecord(toJsonLine(record)).has_value());
 }
 
+TEST_CASE("names that are not UTF-8 read back as they are, others have no further key") {
+  MeshRecord record = sampleRecord();
+  for (const char* name : {"caf\xe9.off", "caf\xe8.off", "\xff\xfe", "caf\xc3\xa9.off", "a.off"}) {
+    record.input = name;
+    const auto read = parseRecord(toJsonLine(record));
+    REQUIRE(read.has_value());
+    CHECK_EQ(read->input, name);
+  }
+  CHECK_FALSE(toJson(record).contains("inputBytes"));
+  for (const char* hex : {"6", "6g", "616", "-1", " 1"})
+    CHECK_FALSE(parseRecord(R"({"input": "a", "status": "done", "code": 0, "message": "", "inputBytes": ")" +
+                            std::string(hex) + "\"}"));
+}
+
+TEST_CASE("a line that another process leaves cut is ended by the next record") {
+  const ScratchFolder folder;
+  const std::string path = folder / "log.jsonl";
+  RecordLog log(path);
+  log.append(sampleRecord());
+  std::ofstream(path, std::ios::app) << "{\"input\": \"cut";
+  log.append(sampleRecord());
+  size_t invalidCount = 0;
+  CHECK_EQ(readLog(path, invalidCount).size(), 2);
+  CHECK_EQ(invalidCount, 1);
+}
+
 TEST_CASE("the next run ends a cut line, and a reader counts it") {
   const ScratchFolder folder;
   const std::string path = folder.write("log.jsonl", toJsonLine(sampleRecord()) + "\n{\"input\": \"cut");
@@ -126,6 +153,20 @@ TEST_CASE("an output is finished only with its own record and its own bytes") {
   CHECK(findFinishedOutput(expected, output).has_value());
   removeOutputRecord(output);
   CHECK_FALSE(findFinishedOutput(expected, output).has_value());
+}
+
+TEST_CASE("an output that is no regular file has no record") {
+  const ScratchFolder folder;
+  const std::string fifo = folder / "fifo";
+  REQUIRE_EQ(mkfifo(fifo.c_str(), 0600), 0);
+  const std::string other = folder.write("fifo.json", "of another program");
+  CHECK_FALSE(contentHashOf(fifo).has_value());
+  MeshRecord record = sampleRecord();
+  writeOutputRecord(record, fifo);
+  removeOutputRecord(fifo);
+  CHECK_FALSE(findFinishedOutput(record, fifo).has_value());
+  CHECK_EQ(folder.read("fifo.json"), "of another program");
+  CHECK(record.outputHash.empty());
 }
 
 TEST_CASE("a failed mesh is not finished") {
