@@ -50,10 +50,14 @@ class FolderSearch {
       const fs::path name = entry->path().filename();
       if (name.native().starts_with('.')) continue;
       std::error_code ignored;
-      if (entry->is_directory(ignored) && !entry->is_symlink(ignored)) {
+      const fs::file_type type = entry->status(ignored).type();
+      // A dangling link, and a file whose type cannot be read, is an input that fails.
+      const bool isFile = type == fs::file_type::regular || type == fs::file_type::not_found ||
+                          type == fs::file_type::none || type == fs::file_type::unknown;
+      if (type == fs::file_type::directory && !entry->is_symlink(ignored)) {
         if (!isOutputFolder(entry->path())) searchFolder(entry->path(), below / name, found);
-      } else if (entry->is_regular_file(ignored) && isMesh(name)) {
-        found.push_back({entry->path().string(), below.string(), true, byteCountOf(entry->path())});
+      } else if (isFile && isMesh(name)) {
+        found.push_back({entry->path().string(), below.string(), byteCountOf(entry->path())});
       }
     }
     if (error) fail(folder.string(), error.message());
@@ -84,8 +88,10 @@ std::vector<std::string> readList(const InputRequest& request) {
   }
   std::istream& in = isStandardInput ? std::cin : file;
   std::vector<std::string> paths;
-  for (std::string path; std::getline(in, path, request.isNullSeparated ? '\0' : '\n');)
+  for (std::string path; std::getline(in, path, request.isNullSeparated ? '\0' : '\n');) {
+    if (!request.isNullSeparated && path.ends_with('\r')) path.pop_back();  // The list is from Windows.
     if (!path.empty()) paths.push_back(path);
+  }
   if (in.bad()) fail(isStandardInput ? "standard input" : request.list, "cannot be read");
   return paths;
 }
@@ -108,7 +114,7 @@ void addList(const std::vector<std::string>& paths, std::vector<InputFile>& inpu
   for (const fs::path& folder : folders) root = commonFolder(root, folder);
   for (size_t i = 0; i < paths.size(); ++i) {
     const fs::path below = folders[i].lexically_relative(root);
-    inputs.push_back({paths[i], below == "." ? "" : below.string(), true, byteCountOf(paths[i])});
+    inputs.push_back({paths[i], below == "." ? "" : below.string(), byteCountOf(paths[i])});
   }
 }
 
@@ -122,7 +128,7 @@ std::vector<InputFile> listInputs(const InputRequest& request) {
     if (request.recurses && argument != "-" && fs::is_directory(argument, ignored)) {
       folders.search(argument, inputs);
     } else {
-      inputs.push_back({argument, "", false, argument == "-" ? 0 : byteCountOf(argument)});
+      inputs.push_back({argument, "", argument == "-" ? 0 : byteCountOf(argument)});
     }
   }
   if (!request.list.empty()) addList(readList(request), inputs);

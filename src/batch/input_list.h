@@ -10,11 +10,10 @@ namespace asdfvk {
 struct InputFile {
   std::string path;        ///< As given, or a folder of the call and the path below it; "-" for standard input.
   std::string folder;      ///< Of its output, below the folder of the outputs; empty: that folder itself.
-  bool isInTree = false;   ///< It is from a folder or a list, so that its output lies in a tree.
   uint64_t byteCount = 0;  ///< 0 where it is unknown.
 };
 
-/// What a mesh costs beside the bytes of its file, in bytes: opening, preparation and writing. Estimated.
+/// The opening, preparation and writing of a mesh take about as long as this many bytes of its file. Estimated.
 inline constexpr uint64_t kBytesPerMesh = 16'384;
 
 struct InputRequest {
@@ -29,7 +28,8 @@ struct InputRequest {
 /// The inputs in the order of the arguments, those below a folder in ascending order of their paths, then those of the
 /// list. Below folders, results of this program (NAME.asdf.ply), hidden files and hidden folders are ignored, and links
 /// to folders are not followed. The outputs of a list lie in a tree below its longest common folder. A file that does
-/// not exist is an input, too. Throws Error{UnreadableInput} for a folder or list that cannot be read.
+/// not exist is an input, too, also a dangling link below a folder. Throws Error{UnreadableInput} for a folder or list
+/// that cannot be read.
 [[nodiscard]] std::vector<InputFile> listInputs(const InputRequest& request);
 
 }  // namespace asdfvk

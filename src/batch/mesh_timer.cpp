@@ -1,12 +1,12 @@
 #include "batch/mesh_timer.h"
 
 #include <chrono>
-#include <cmath>
 
 namespace asdfvk {
 
 MeshTimer::MeshTimer(double seconds, const std::stop_token& outer) : forward_(outer, Forward{source_}) {
-  if (!std::isfinite(seconds)) return;
+  constexpr double kMaxSeconds = 1e9;  // More overflows the clock.
+  if (!(seconds <= kMaxSeconds)) return;
   waiter_ = std::jthread([this, seconds](const std::stop_token& ending) {
     std::unique_lock<std::mutex> lock(mutex_);
     if (isEnding_.wait_for(lock, ending, std::chrono::duration<double>(seconds), [] { return false; })) return;

@@ -27,8 +27,10 @@ Shard parseShard(const std::string& text) {
   const size_t slash = text.find('/');
   const std::string_view view = text;
   if (slash == std::string::npos || !parseCount(view.substr(0, slash), shard.index) ||
-      !parseCount(view.substr(slash + 1), shard.count) || shard.index < 1 || shard.index > shard.count)
-    throw Error(ErrorCode::OptionOutOfRange, fmt::format("'{}' is not I/N with I from 1 to N, such as 2/7", text));
+      !parseCount(view.substr(slash + 1), shard.count) || shard.index < 1 || shard.index > shard.count ||
+      shard.count > kMaxShardCount)
+    throw Error(ErrorCode::OptionOutOfRange,
+                fmt::format("'{}' is not I/N with I from 1 to N, such as 2/7, and N at most {}", text, kMaxShardCount));
   return shard;
 }
 

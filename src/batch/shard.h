@@ -14,6 +14,8 @@ struct Shard {
   uint32_t count = 1;
 };
 
+inline constexpr uint32_t kMaxShardCount = 1'000'000;
+
 /// "2/7". Throws Error{OptionOutOfRange}.
 [[nodiscard]] Shard parseShard(const std::string& text);
 

@@ -40,11 +40,7 @@ void addRecords(CLI::App& app, BatchOptions& batch) {
 void addLimits(CLI::App& app, BatchOptions& batch) {
   addValue(app, "--timeout", "SECONDS",
            "Fail a mesh that takes longer, exit code 8; without --isolate between steps only",
-           [&](const std::string& text) {
-             batch.timeoutSeconds = parseNumber(
-                 text.ends_with('s') ? text.substr(0, text.size() - 1) : text, [](double x) { return x > 0; },
-                 "is not a time above 0 s");
-           })
+           [&](const std::string& text) { batch.timeoutSeconds = parseSeconds(text); })
       ->group(kBatchGroup);
   addValue(app, "--memory-limit", "SIZE",
            "Fail a mesh that takes more memory, such as 500M or 2G, exit code 8; implies\n--isolate",
@@ -86,6 +82,7 @@ void addBatch(CLI::App& app, CommandLine& line) {
 void completeBatch(const CLI::App& app, CommandLine& line) {
   BatchOptions& batch = line.batch;
   if (batch.memoryBytes > 0) batch.isolates = true;
+  for (CommandLine& compared : line.compared) compared.batch = batch;
   const bool readsInput = std::count(line.meshes.begin(), line.meshes.end(), "-") > 0;
   if (batch.isNullSeparated && batch.list.empty()) refuseOptions("-0 needs --files-from");
   if (app.count("--files-from") > 0 && batch.list.empty()) refuseOptions("--files-from: the name is empty");

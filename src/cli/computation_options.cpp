@@ -40,11 +40,6 @@ void parseMaxError(const std::string& text, RoundOptions& rounds) {
   (isRelative ? rounds.maxRelativeError : rounds.maxError) = share;
 }
 
-/// "2s" or "2".
-double parseSeconds(const std::string& text) {
-  return parseNumber(text.ends_with('s') ? text.substr(0, text.size() - 1) : text);
-}
-
 /// "off", "auto" or "2x1": rings x passes.
 SmoothingOptions parseSmoothing(const std::string& text) {
   if (text == "off") return {};
@@ -120,11 +115,7 @@ void addSeeds(CLI::App& app, Options& options) {
   addValue(app, "--time-budget", "SECONDS",
            "Add seeds until this time has passed, reading and writing excluded. The\n"
            "result is not reproducible",
-           [&](const std::string& text) {
-             options.rounds.timeBudgetSeconds = parseSeconds(text);
-             if (!(*options.rounds.timeBudgetSeconds > 0))
-               throw Error(ErrorCode::OptionOutOfRange, fmt::format("'{}' is not a time above 0 s", text));
-           })
+           [&](const std::string& text) { options.rounds.timeBudgetSeconds = parseSeconds(text); })
       ->group(group);
   app.add_flag_callback(
          "--no-estimate", [&options] { options.estimatesError = false; },

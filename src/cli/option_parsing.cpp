@@ -48,6 +48,13 @@ double parseNumber(const std::string& text, const std::function<bool(double)>& a
   return value;
 }
 
+double parseSeconds(const std::string& text) {
+  constexpr double kMaxSeconds = 1e9;  // More would overflow the clocks that count them.
+  const double seconds = parseNumber(text.ends_with('s') ? text.substr(0, text.size() - 1) : text);
+  if (!(seconds > 0 && seconds <= kMaxSeconds)) reject(text, "a time above 0 s and at most 1e9 s");
+  return seconds;
+}
+
 SeedCount parseSeedCount(const std::string& text) {
   const std::string wanted = "a share such as 10% (above 0%, at most 100%), a count of at least 1, or all";
   if (text == "all") return SeedCount::all();

@@ -136,6 +136,9 @@ CLI::Option* addChoice(CLI::App& app, const std::string& name, Target&& target, 
 [[nodiscard]] double parseNumber(const std::string& text, const std::function<bool(double)>& accepts,
                                  const char* complaint);
 
+/// "2s" or "2": above 0, at most 1e9.
+[[nodiscard]] double parseSeconds(const std::string& text);
+
 /// "10%" (above 0, at most 100), "2000" (at least 1) or "all".
 [[nodiscard]] SeedCount parseSeedCount(const std::string& text);
 

@@ -149,8 +149,10 @@ std::vector<std::string> planOutputs(const CommandLine& line, std::span<const In
         usageError(fmt::format("-o {} and --format {} contradict each other; drop one", output, line.format));
       const auto [other, isNew] = meshOfOutput.emplace(normalised(output), mesh);
       if (!isNew && !sharePage)
-        usageError(fmt::format("{} and {} would both be written to {}; run them one by one with -o", other->second,
-                               mesh, output));
+        usageError(fmt::format("{} and {} would both be written to {}; {}", other->second, mesh, output,
+                               line.batch.hasTree() ? "rename one of them, or compute it in a call of its own with "
+                                                      "another -o"
+                                                    : "run them one by one with -o"));
     }
     outputs.push_back(output);
   }
@@ -175,6 +177,10 @@ std::vector<std::string> planOutputs(const CommandLine& line, std::span<const In
   planFurther(line.points, "--points");
   if (!line.batch.log.empty() && inputs.holds(line.batch.log))
     usageError(fmt::format("{} is an input; choose another --log", line.batch.log));
+  FileSet lists;
+  if (!line.batch.list.empty() && line.batch.list != "-") lists.insert(line.batch.list);
+  if (!line.batch.log.empty() && lists.holds(line.batch.log))
+    usageError(fmt::format("{} is the list of --files-from; choose another --log", line.batch.log));
   return outputs;
 }
 

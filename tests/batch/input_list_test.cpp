@@ -1,6 +1,7 @@
 #include "batch/input_list.h"
 
 #include <doctest/doctest.h>
+#include <sys/stat.h>
 
 #include <filesystem>
 #include <fstream>
@@ -42,7 +43,6 @@ TEST_CASE("the meshes below a folder are inputs in order, results and hidden fil
                                   {folder / "in/b/e.off", "b"},
                                   {folder / "in/z.off", ""}});
   CHECK_EQ(inputs[0].byteCount, 5);
-  CHECK(inputs[0].isInTree);
 }
 
 TEST_CASE("files are inputs as they are given, also missing ones; a folder is one only with -r") {
@@ -61,6 +61,28 @@ TEST_CASE("the outputs of a list lie below its longest common folder") {
   request.list = folder.write("zero", std::string("/a/two\nlines.off\0/b/c.off", 25));
   request.isNullSeparated = true;
   CHECK_EQ(pathsOf(listInputs(request)), Paths{{"/a/two\nlines.off", "a"}, {"/b/c.off", "b"}});
+}
+
+TEST_CASE("a dangling link below a folder is an input, which fails; a FIFO and a link to a folder are none") {
+  const ScratchFolder folder;
+  std::filesystem::create_directories(folder / "in/deep");
+  std::filesystem::create_symlink(folder / "missing.off", folder / "in/dangling.off");
+  std::filesystem::create_symlink("circle.off", folder / "in/circle.off");
+  std::filesystem::create_directory_symlink(folder / "in/deep", folder / "in/folder.off");
+  std::filesystem::create_symlink(folder.write("there.off", ""), folder / "in/link.off");
+  REQUIRE_EQ(mkfifo((folder / "in/fifo.off").c_str(), 0600), 0);
+  CHECK_EQ(pathsOf(listInputs(requestOf({folder / "in"}))),
+           Paths{{folder / "in/circle.off", ""}, {folder / "in/dangling.off", ""}, {folder / "in/link.off", ""}});
+}
+
+TEST_CASE("the lines of a list may end as on Windows, names with -0 end as they do") {
+  const ScratchFolder folder;
+  InputRequest request;
+  request.list = folder.write("list", "/x/a.off\r\n\r\n/x/b.off");
+  CHECK_EQ(pathsOf(listInputs(request)), Paths{{"/x/a.off", ""}, {"/x/b.off", ""}});
+  request.list = folder.write("zero", std::string("/x/a.off\r\0", 10));
+  request.isNullSeparated = true;
+  CHECK_EQ(pathsOf(listInputs(request)), Paths{{"/x/a.off\r", ""}});
 }
 
 TEST_CASE("a list that cannot be read is an error") {

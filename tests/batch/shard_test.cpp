@@ -61,7 +61,8 @@ TEST_CASE("there may be more shards than meshes") {
 TEST_CASE("a shard is I/N") {
   CHECK_EQ(parseShard("2/7").index, 2);
   CHECK_EQ(parseShard("2/7").count, 7);
-  for (const char* text : {"", "1", "0/3", "4/3", "1/0", "-1/3", "a/3", "1/3x", "1 / 3", "/", "1/"})
+  for (const char* text :
+       {"", "1", "0/3", "4/3", "1/0", "-1/3", "a/3", "1/3x", "1 / 3", "/", "1/", "1/1000001", "1/4294967295"})
     CHECK_THROWS_AS_MESSAGE((void)parseShard(text), Error, text);
 }
 

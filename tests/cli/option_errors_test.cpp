@@ -69,7 +69,7 @@ TEST_CASE("values out of range are refused with the option's name") {
              fmt::format("--max-error: '{}' is not an error such as 1% (of the range) or 5%rel (of the value)", text));
   CHECK_EQ(refusal({"a.ply", "--max-error", "150%"}), "--max-error: '150%' is not above 0% and below 100%");
   CHECK_EQ(refusal({"a.ply", "--max-error", "150%rel"}), "--max-error: '150%rel' is not above 0% and below 100%");
-  CHECK_EQ(refusal({"a.ply", "--time-budget", "0s"}), "--time-budget: '0s' is not a time above 0 s");
+  CHECK_EQ(refusal({"a.ply", "--time-budget", "0s"}), "--time-budget: '0s' is not a time above 0 s and at most 1e9 s");
   CHECK_EQ(refusal({"a.ply", "--recipe", "best"}), "--recipe: 'best' is not one of paper|balanced|quality");
   CHECK_EQ(refusal({"a.ply", "--sampler", "spiral"}),
            "--sampler: 'spiral' is not one of random|blue-noise|farthest-point|normal-space|adaptive");

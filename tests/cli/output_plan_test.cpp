@@ -130,13 +130,21 @@ TEST_CASE("the results of a tree lie in the same tree, whose folders need not ex
   line.output.clear();
   CHECK_EQ(planOutputs(line, inputs), Names{"in/a.asdf.npy", "in/b/c.asdf.npy"});
   const std::vector<InputFile> colliding{{.path = "x/a.off"}, {.path = "x/a.ply"}};
-  CHECK_THROWS_AS((void)planOutputs(line, colliding), Error);
+  CHECK_THROWS_WITH_AS(
+      (void)planOutputs(line, colliding),
+      "x/a.off and x/a.ply would both be written to x/a.asdf.npy; rename one of them, or compute it in a "
+      "call of its own with another -o",
+      Error);
   line.output = folder.write("file", "x");
   CHECK_THROWS_AS((void)planOutputs(line, inputs), Error);
   line.output = folder / "new.npy";  // The name of a result, not of a folder.
   CHECK_THROWS_AS((void)planOutputs(line, inputs), Error);
   line.output = folder / "new";
   line.batch.log = "in/a.off";
+  CHECK_THROWS_AS((void)planOutputs(line, inputs), Error);
+  line.batch.log = "list";
+  CHECK_NOTHROW((void)planOutputs(line, inputs));
+  line.batch.list = "./list";
   CHECK_THROWS_AS((void)planOutputs(line, inputs), Error);
 }
 
