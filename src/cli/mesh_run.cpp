@@ -13,6 +13,7 @@
 #include "batch/process_memory.h"
 #include "cli/browser.h"
 #include "cli/interrupt.h"
+#include "cli/options_hash.h"
 #include "cli/output_plan.h"
 #include "cli/report.h"
 #include "cli/result_picture.h"
@@ -53,20 +54,6 @@ void writePicture(const CommandLine& line, const Result& result, const RunContro
                 fmt::format("--picture-of: field {} has {} components; a picture shows a field of one component",
                             line.pictureOf, field->componentCount));
   writePng(line.picture, pictureOf(result, *field, line.pictureView, {}, control));
-}
-
-/// All options that decide the bytes of the output, or whether the mesh passes.
-Json optionsIdentity(const CommandLine& line) {
-  Json compared = Json::array();
-  for (const CommandLine& other : line.compared) compared.push_back(optionValues(other));
-  return {{"options", optionValues(line)},
-          {"fields", line.fields},
-          {"format", line.format},
-          {"ascii", line.ascii},
-          {"check", line.options.checkCount ? Json(*line.options.checkCount) : Json(nullptr)},
-          {"rngSeed", line.options.randomSeed},
-          {"estimatesError", line.options.estimatesError},
-          {"compared", compared}};
 }
 
 Json shortEstimateOf(const std::optional<ErrorEstimate>& estimate) {
@@ -115,9 +102,7 @@ LoadedMesh loadMesh(const std::string& path, bool computesHash) {
 }
 
 MeshRunner::MeshRunner(const CommandLine& line, size_t meshCount)
-    : line_(line),
-      optionsHash_(contentHash(optionsIdentity(line).dump(-1, ' ', false, Json::error_handler_t::replace))),
-      options_(optionValues(line)) {
+    : line_(line), optionsHash_(optionsHash(line)), options_(optionValues(line)) {
   if (writesOnePage(line)) onePage_ = SharedPage{.awaitedCount = meshCount * (1 + line.compared.size())};
 }
 
@@ -140,7 +125,7 @@ std::optional<MeshRun> MeshRunner::skip(const MeshTask& task) const {
   std::optional<MeshRecord> found = findFinishedOutput(expected, task.output);
   if (!found) return std::nullopt;
   MeshRun run;
-  run.json = toJsonLine(*found) + "\n";
+  run.json = jsonSkipped(task.input, *found);
   run.record = std::move(*found);
   return run;
 }
@@ -186,7 +171,7 @@ MeshRun MeshRunner::run(Session& session, const MeshTask& task, std::optional<Lo
   }
   run.record.totalSeconds = watch.seconds();
   run.record.peakMemoryBytes = peakMemoryBytes();
-  if (run.code != ExitCode::Done || !line_.batch.isBatch() || task.output == "-") return run;
+  if (run.code != ExitCode::Done || !line_.batch.isBatch()) return run;
   try {
     writeOutputRecord(run.record, task.output);
   } catch (...) {
@@ -212,7 +197,7 @@ void MeshRunner::compute(Session& session, const MeshTask& task, const CommandLi
     seconds[Stage::Read] = loaded.seconds;
     const Stopwatch writeWatch;
     flipInputFaces(mesh, result.report.reversedFaces);  // The scene of the result has its own copy.
-    if (task.output != "-") removeOutputRecord(task.output);
+    removeOutputRecord(task.output);
     writeOutput(task, line, result, mesh, page, stop);
     if (!line.points.empty()) writePoints(line.points, result.fields);
     seconds[Stage::Write] = writeWatch.seconds();

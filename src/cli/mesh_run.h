@@ -20,7 +20,7 @@ struct MeshTask {
   uint64_t byteCount = 0;     ///< Of the input; 0 where it is unknown.
 };
 
-/// What came of a mesh. The texts have one or several lines with their ends.
+/// The outcome of a mesh. The texts have one or several lines with their ends.
 struct MeshRun {
   ExitCode code = ExitCode::Done;
   std::string json;   ///< For --json.

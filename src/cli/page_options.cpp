@@ -1,5 +1,6 @@
 // The options of a page.
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <sstream>
 #include <utility>
@@ -15,7 +16,8 @@ CommandLine comparedLine(const CommandLine& line, const std::string& text) {
   std::istringstream words(text);
   std::vector<std::string> arguments{std::istream_iterator<std::string>(words), {}};
   if (arguments.empty()) refuseOptions("--against names no option of the computation, such as \"--recipe paper\"");
-  arguments.insert(arguments.begin(), line.meshes.begin(), line.meshes.end());
+  const std::string mesh = "mesh";  // Stands for those of `line`, which may be in a list.
+  arguments.insert(arguments.begin(), mesh);
   CommandLine other;
   try {
     other = parseCommandLine(std::move(arguments));
@@ -23,12 +25,15 @@ CommandLine comparedLine(const CommandLine& line, const std::string& text) {
     throw Error(error.code(), std::string("--against: ") + error.what());
   }
   const CommandLine defaults;
-  const bool hasOthers = other.meshes != line.meshes || other.answer || !other.output.empty() ||
-                         !other.format.empty() || !other.picture.empty() || !other.points.empty() || other.json ||
-                         other.quiet || other.ascii || other.batch.isBatch() || other.batch.jobCount != 0 ||
-                         other.choosesFields || other.opensPage || other.listDevices || other.threadCount != 0 ||
-                         other.session.backend != defaults.session.backend || !other.session.device.empty() ||
-                         other.session.requireGpu || !other.compared.empty();
+  const TraceVariant& variant = other.session.variant;
+  const bool hasOthers =
+      other.meshes != std::vector<std::string>{mesh} || other.answer || !other.output.empty() ||
+      !other.format.empty() || !other.picture.empty() || !other.points.empty() || other.json || other.quiet ||
+      other.ascii || other.batch.isBatch() || other.batch.jobCount != 0 || std::isfinite(other.batch.timeoutSeconds) ||
+      other.choosesFields || other.opensPage || other.listDevices || other.threadCount != 0 ||
+      other.session.backend != defaults.session.backend || !other.session.device.empty() || other.session.requireGpu ||
+      other.deviceReport || !(variant.kernel.empty() && variant.bvh.empty() && variant.fetch.empty()) ||
+      !other.compared.empty();
   if (hasOthers)
     refuseOptions("--against takes options of the computation only; give those of output and device beside it");
   CommandLine compared = line;

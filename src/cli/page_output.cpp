@@ -41,12 +41,13 @@ FieldList shownFields(const CommandLine& line, const Result& result) {
 }
 
 /// The file name, or the path where another mesh has the same file name.
-std::string shownName(const std::string& mesh, const std::vector<std::string>& meshes) {
+std::string shownName(const std::string& mesh, const CommandLine& line) {
   if (mesh == "-") return "standard input";
   const auto fileNameOf = [](const std::string& path) { return std::filesystem::path(path).filename().string(); };
   const std::string name = fileNameOf(mesh);
-  const auto sameCount =
-      std::count_if(meshes.begin(), meshes.end(), [&](const std::string& other) { return fileNameOf(other) == name; });
+  if (line.batch.isBatch()) return name;  // The page has no other mesh.
+  const auto sameCount = std::count_if(line.meshes.begin(), line.meshes.end(),
+                                       [&](const std::string& other) { return fileNameOf(other) == name; });
   return sameCount > 1 ? mesh : name;
 }
 
@@ -63,11 +64,13 @@ std::string labelOf(const std::string& name, const MeshOutcome& outcome) {
                              100.0 * static_cast<double>(report.seedCount) / static_cast<double>(report.triangleCount));
 }
 
-/// The rows with a capital, and continued ones joined. Thin regions are lists of the page.
+/// The rows with a capital, and continued ones joined. Thin regions are lists of the page. A page of a batch has no
+/// times, so that the same mesh and options give the same bytes.
 std::vector<std::pair<std::string, std::string>> summaryOf(const MeshOutcome& outcome) {
   std::vector<std::pair<std::string, std::string>> summary;
   bool isThinRow = false;
   for (auto& [title, text] : reportRows(outcome)) {
+    if (outcome.line.batch.isBatch() && (title == "time" || title == "speed")) continue;
     if (!title.empty()) isThinRow = title == "thin";
     if (title.empty()) {
       if (!isThinRow) summary.back().second += "; " + text;
@@ -134,7 +137,7 @@ Page emptyPage() { return Page(fmt::format("asdf-vk {} ({})", ASDFVK_VERSION, AS
 
 void addToPage(Page& page, const MeshOutcome& outcome, const RunControl& control) {
   const FieldList fields = shownFields(outcome.line, outcome.result);
-  PageTexts texts{.name = shownName(outcome.mesh, outcome.line.meshes), .summary = summaryOf(outcome)};
+  PageTexts texts{.name = shownName(outcome.mesh, outcome.line), .summary = summaryOf(outcome)};
   texts.label = labelOf(texts.name, outcome);
   texts.errorSentence = errorSentenceOf(outcome.result);
   for (const Warning& warning : outcome.result.report.warnings)

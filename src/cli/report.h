@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "asdf_vk/session.h"
+#include "batch/mesh_record.h"
 #include "cli/options.h"
 
 namespace asdfvk {
@@ -47,6 +48,9 @@ using ReportRows = std::vector<std::pair<std::string, std::string>>;
 
 /// One line with the keys "mesh", "error" and "code".
 [[nodiscard]] std::string jsonFailure(const std::string& mesh, const std::string& code, const std::string& message);
+
+/// One line with the keys "mesh", "output", "status" and "record", for a mesh that --skip-existing skips.
+[[nodiscard]] std::string jsonSkipped(const std::string& mesh, const MeshRecord& record);
 
 /// Indented JSON with the keys of docs/devices.md.
 [[nodiscard]] std::string jsonDeviceReport(const struct DeviceReport& report);

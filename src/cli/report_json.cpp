@@ -191,6 +191,15 @@ std::string jsonFailure(const std::string& mesh, const std::string& code, const 
   return oneLineOf(json);
 }
 
+std::string jsonSkipped(const std::string& mesh, const MeshRecord& record) {
+  Json json;
+  json["mesh"] = mesh;
+  json["output"] = record.output ? Json(*record.output) : Json(nullptr);
+  json["status"] = nameOf(record.status);
+  json["record"] = toJson(record);
+  return oneLineOf(json);
+}
+
 std::string jsonDevices(std::span<const DeviceInfo> devices, const std::string& reason) {
   Json list = Json::array();
   for (size_t i = 0; i < devices.size(); ++i)

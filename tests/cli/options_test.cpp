@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "cli/option_parsing.h"
+#include "cli/options_hash.h"
 #include "cli/refusal.h"
 #include "cli/scratch_folder.h"
 
@@ -212,6 +213,52 @@ TEST_CASE("the table of options above is complete") {
     if (name != "-o") inTable.insert(name.substr(0, name.find('=')));
   }
   CHECK(optionsIn(parseCommandLine({"--help=all"}).answer.value()) == inTable);
+}
+
+TEST_CASE("every option changes the hash that --skip-existing compares, except those that do not change an output") {
+  const std::set<std::string> exceptions{
+      "--json",       "--quiet",   "--open",    "--list-devices",  // Not in the output.
+      "-o",           "--output",  "--points",  "--picture",      "--picture-of",  "--picture-view",
+      "--picture-up",  // Other outputs.
+      "--log",        "--shard",   "--null",    "--recursive",    "--files-from",  "--skip-existing",
+      "--jobs",       "--threads", "--isolate", "--timeout",      "--memory-limit"};
+  const auto hashOf = [](std::vector<std::string> arguments, const std::vector<std::string>& more = {}) {
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    arguments.emplace_back("a.ply");
+    return optionsHash(parseCommandLine(arguments));
+  };
+  std::set<std::string> hashes{hashOf({})};
+  for (const OptionCase& option : optionCases()) {
+    const std::string& name = option.arguments.front();
+    INFO(name);
+    if (exceptions.contains(name)) {
+      // --points implies a field, --open a format; a batch refuses both.
+      if (name != "--points" && name != "--open") CHECK_EQ(hashOf(option.arguments), hashOf({}));
+    } else if (name == "--against") {
+      CHECK_NE(hashOf(option.arguments), hashOf({}));
+    } else {
+      CHECK_MESSAGE(hashes.insert(hashOf(option.arguments)).second, "the hash of other options");
+    }
+    // The same of the compared computation.
+    if (exceptions.contains(name) || name == "--against" || name == "--detail") continue;
+    std::string text;
+    for (const std::string& word : option.arguments) text += word + " ";
+    if (refusal({"a.ply", "-o", "a.html", "--against", text}) == "accepted")
+      CHECK_NE(hashOf({"--against", text, "-o", "a.html"}), hashOf({"--against", "--recipe balanced", "-o", "a.html"}));
+  }
+}
+
+TEST_CASE("the hash of the options is of exact numbers, and of what a page shows") {
+  const auto hashOf = [](const std::vector<std::string>& arguments) {
+    return optionsHash(parseCommandLine(arguments));
+  };
+  CHECK_NE(hashOf({"a.ply", "--seeds", "1.00000001%"}), hashOf({"a.ply", "--seeds", "1%"}));
+  CHECK_NE(hashOf({"a.ply", "--format", "html", "--fields", "sdf,seed"}), hashOf({"a.ply", "--format", "html"}));
+  const auto against = [&](const std::string& text) {
+    return hashOf({"a.ply", "--format", "html", "--against", text});
+  };
+  CHECK_NE(against("--rays 30"), against("--recipe balanced"));  // The same computation with another label.
+  CHECK_NE(against("--check=3"), against("--check=4"));
 }
 
 TEST_CASE("a kernel variant of auto is the default") {

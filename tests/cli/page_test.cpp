@@ -194,7 +194,8 @@ TEST_CASE("options of a page") {
   CHECK(refusal({"a.ply", "b.ply", "--open"}).find("-o FILE.html") != std::string::npos);
   CHECK(refusal({"a.ply", "-o", "a.html", "--fields", "centre"}).find("centre") != std::string::npos);
   CHECK(refusal({"a.ply", "--against", "--seeds all"}).find("-o FILE.html") != std::string::npos);
-  for (const char* options : {"", "b.ply", "--sides 3", "-o b.html", "--json", "--backend cpu", "--help"})
+  for (const char* options : {"", "b.ply", "--sides 3", "-o b.html", "--json", "--backend cpu", "--help", "--timeout 5",
+                              "--memory-limit 1G", "--kernel packet", "--device-report"})
     CHECK_MESSAGE(refusal({"a.ply", "-o", "a.html", "--against", options}).find("--against") != std::string::npos,
                   options);
   const CommandLine compared =
@@ -203,6 +204,9 @@ TEST_CASE("options of a page") {
   CHECK(compared.compared[0].recipe == Recipe::Paper);
   CHECK_EQ(compared.compared[0].options.seeds.share, 0.1);
   CHECK_EQ(compared.options.seeds.share, 0.05);
+  CHECK_EQ(parseCommandLine({"--files-from", "list", "--format", "html", "--against", "--rays 7"}).compared.size(), 1);
+  CHECK_EQ(parseCommandLine({"a.ply", "b.ply", "-o", "a.html", "--against", "--rays 7"}).compared.size(), 1);
+  CHECK(refusal({"-o", "a.html", "--against", "--rays 7"}).starts_with("no mesh was given"));
 }
 
 }  // namespace
