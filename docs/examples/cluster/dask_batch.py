@@ -43,8 +43,14 @@ def compute(mesh: str, folder: str, log_folder: str, options: list[str]) -> dict
 
 def recorded_failure(log: pathlib.Path, mesh: str, code: int, message: str) -> dict[str, Any]:
     """Where the program has written no record."""
+    # A negative code is that of a signal. Of other codes the message says more than a name would.
+    error = "internal" if code == INTERNAL_ERROR else "crashed" if code < 0 else None
+    name = os.fsencode(mesh)
     now = datetime.datetime.now(datetime.timezone.utc).isoformat(timespec="milliseconds").replace("+00:00", "Z")
-    record = {"input": mesh, "time": now, "status": "failed", "code": code, "error": "internal", "message": message}
+    record: dict[str, Any] = {"input": name.decode(errors="replace"), "time": now, "status": "failed", "code": code,
+                              "error": error, "message": message}
+    if record["input"] != mesh:  # The name is not UTF-8.
+        record["inputBytes"] = name.hex()
     try:
         written = log.read_bytes() if log.exists() else b""
         end_of_cut_line = "" if written.endswith(b"\n") or not written else "\n"
@@ -56,11 +62,17 @@ def recorded_failure(log: pathlib.Path, mesh: str, code: int, message: str) -> d
 
 
 def main() -> int:
+    if len(sys.argv) < 4:
+        print(__doc__, file=sys.stderr)
+        return 1
     scheduler_file, list_file, results, *options = sys.argv[1:]
-    if "--threads" not in options:
+    if not any(option == "--threads" or option.startswith("--threads=") for option in options):
         options += ["--threads", "1"]
     names = pathlib.Path(list_file).read_text(errors="surrogateescape").split("\n")
-    meshes = [os.path.abspath(name) for name in names if name]
+    meshes = [os.path.abspath(name) for name in (name.removesuffix("\r") for name in names) if name]
+    if not meshes:
+        print(f"{list_file}: no mesh was found", file=sys.stderr)
+        return 2
     # Results mirror the tree below the common folder, as with --files-from.
     common = os.path.commonpath([os.path.dirname(mesh) for mesh in meshes])
     results = os.path.abspath(results)

@@ -2,7 +2,8 @@
 # Starts a part of a Dask cluster, whose hosts share a file system; stays in the foreground:
 #   dask_host.sh scheduler FILE [OPTIONS...]       on one host; writes its address to FILE
 #   dask_host.sh workers FILE COUNT [OPTIONS...]   on each host: COUNT processes, a mesh at a time each
-# Whoever reaches the scheduler's port runs code as this user: keep it in a trusted network, or use its --tls options.
+# Every program that can connect to the port of the scheduler can run code as this user: keep the port in a trusted
+# network, or use the --tls options of Dask.
 set -euo pipefail
 
 part=$1 file=$2

@@ -8,7 +8,7 @@ set -euo pipefail
 
 hosts=$1 count=$2 list=$3 results=$4
 shift 4
-case " $* " in *" --threads "*) ;; *) set -- --threads 1 "$@" ;; esac
+case " $* " in *" --threads "* | *" --threads="*) ;; *) set -- --threads 1 "$@" ;; esac
 mkdir -p "$results/log"
 # --workdir: relative paths have the same meaning on all hosts. --quote: so have spaces.
 seq "$count" | parallel --sshloginfile "$hosts" --workdir "$PWD" --joblog "$results/log/parallel.tsv" --quote \

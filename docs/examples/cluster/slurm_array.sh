@@ -14,7 +14,7 @@ set -euo pipefail
 
 count=$1 list=$2 results=$3
 shift 3
-case " $* " in *" --threads "*) ;; *) set -- --threads "${SLURM_CPUS_PER_TASK:-1}" "$@" ;; esac
+case " $* " in *" --threads "* | *" --threads="*) ;; *) set -- --threads "${SLURM_CPUS_PER_TASK:-1}" "$@" ;; esac
 mkdir -p "$results/log"
 # exec: the signal reaches the program itself.
 exec asdf-vk --files-from "$list" --shard "$SLURM_ARRAY_TASK_ID/$count" -o "$results" --skip-existing --quiet \
