@@ -62,7 +62,7 @@ std::vector<Measurement> measureErrors(const EstimateInput& input) {
   std::vector<Measurement> measured;
   for (size_t i = 0; i < input.heldOut.faces.size(); ++i) {
     const uint32_t face = input.heldOut.faces[i];
-    const Measurement measurement{face, std::abs(input.withoutHeldOut[face] - input.traced.values[face]),
+    const Measurement measurement{face, std::abs(input.withoutHeldOut[i] - input.traced.values[face]),
                                   indicatorOf(input, face), input.heldOut.weights[i], input.traced.values[face]};
     if (!std::isnan(measurement.error) && !std::isnan(input.result[face])) measured.push_back(measurement);
   }

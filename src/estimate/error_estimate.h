@@ -10,11 +10,11 @@
 
 namespace asdfvk {
 
-/// Input of the error estimate. All values are #F.
+/// Input of the error estimate. Values are #F unless stated.
 struct EstimateInput {
   const TracedSeeds& traced;  ///< All seeds, held-out faces included.
   const HeldOutFaces& heldOut;
-  std::span<const double> withoutHeldOut;  ///< Interpolated without the held-out faces.
+  std::span<const double> withoutHeldOut;  ///< #H: values of the held-out faces, interpolated without them.
   /// Error indicator, or empty for a constant one. It distributes the errors measured at held-out faces over all faces:
   /// a ratio estimate (Cochran 1977, chapter 6). If it was also the sampling density, this is the estimate of Hansen
   /// and Hurwitz 1943.

@@ -123,7 +123,6 @@ void Interpolation::predictWith(DevicePredictor* device, const SeedHits& hits, c
 Interpolated Interpolation::solve(std::span<const double> constraints, const RunControl& control) {
   const FaceDomain& domain = computation_.domain;
   Interpolated result;
-  result.values.assign(constraints.begin(), constraints.end());
   result.solver.name = "none";
   const std::span<const double> predicted = prediction_.values;
   const bool needsNone = computation_.keepsMissing() && computation_.options.seeds.kind == SeedCount::Kind::All;
@@ -133,6 +132,8 @@ Interpolated Interpolation::solve(std::span<const double> constraints, const Run
     const std::vector<ComponentValues> traced = componentValues(domain, constraints);
     result.solver = solveEquation(traced, constraints, result.values, control);
     if (!predicted.empty()) keepWithinTraced(domain, traced, predicted, result.values);
+  } else {
+    result.values.assign(constraints.begin(), constraints.end());
   }
   if (const double pooling = computation_.options.interpolation.pooling; pooling > 0)
     for (size_t face = 0; face < predicted.size(); ++face)
@@ -194,25 +195,34 @@ SolverReport Interpolation::solveWith(const std::string& name, const std::vector
   const uint64_t unknownCount = countInParallel(constraints.size(), [&](uint32_t face) {
     return !std::isfinite(constraints[face]) && traced[domain.componentOf[face]].count > 0;
   });
-  if (unknownCount == 0) return {.name = "none"};
+  if (unknownCount == 0) {
+    values.assign(constraints.begin(), constraints.end());
+    return {.name = "none"};
+  }
   std::unique_ptr<PoissonSolver>& solver = computation_.solvers[name];
   if (!solver) solver = makeSolver(name, computation_.backend.device());
   const SolverOptions& options = computation_.options.solverOptions;
   SolverReport report;
   if (GraphSolver* const onGraph = graphSolver(*solver, unknownCount)) {
     const std::vector<double> guess = firstGuess(domain, traced, prediction_.values), divergence = this->divergence();
+    values.assign(constraints.begin(), constraints.end());
     report = onGraph->solve({constraints, divergence, guess, domain.componentOf}, options, values, control);
   } else {
-    const PoissonSystem system = buildSystem(traced, constraints);
-    std::vector<double> solution(system.unknownCount());
-    report = solver->solve(system, options, solution, control);
-    for (size_t i = 0; i < solution.size(); ++i) values[system.faces[i]] = solution[i];
+    // The solve needs the most memory of a run: the solution takes the place of the first guess, and the values come
+    // after the system.
+    PoissonSystem system = buildSystem(traced, constraints);
+    report = solver->solve(system, options, system.firstGuess, control);
+    const std::vector<uint32_t> faces = std::move(system.faces);
+    const std::vector<double> solution = std::move(system.firstGuess);
+    system = {};
+    values.assign(constraints.begin(), constraints.end());
+    for (size_t i = 0; i < solution.size(); ++i) values[faces[i]] = solution[i];
   }
   report.name = name;
   return report;
 }
 
-/// Writes the values of the unknown faces.
+/// values: #F, those of the constraints and the solution; empty before.
 SolverReport Interpolation::solveEquation(const std::vector<ComponentValues>& traced,
                                           std::span<const double> constraints, std::vector<double>& values,
                                           const RunControl& control) {

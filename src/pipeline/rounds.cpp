@@ -130,7 +130,7 @@ void Rounds::runRound(uint64_t count, bool isLast, const RunControl& control) {
     extremes = traceByPrediction(shares, indicator, control.part(kIndicatorProgress, kHeldOutTracedProgress));
   }
   if (isLast && !verifiesThickness(computation_)) tracing_.reset();
-  std::vector<double> withoutHeldOut;
+  std::vector<double> withoutHeldOut;  // #H
   if (estimates)
     withoutHeldOut = solveWithoutHeldOut(extremes, control.part(kHeldOutTracedProgress, kHeldOutSolvedProgress));
   {
@@ -219,13 +219,17 @@ std::vector<uint32_t> Rounds::traceByPrediction(const SeedShares& shares, std::s
   return extremes;
 }
 
-/// Interpolates without the held-out faces and without these extreme seeds.
+/// #H: the values of the held-out faces, interpolated without them and without these extreme seeds.
 std::vector<double> Rounds::solveWithoutHeldOut(std::span<const uint32_t> extremes, const RunControl& control) {
   const auto scope = clock_.time(Stage::Estimate);
   std::vector<uint32_t> unknown = heldOut_.faces;
   unknown.insert(unknown.end(), extremes.begin(), extremes.end());
   const HiddenValues hidden(traced_.values, std::move(unknown));
-  return interpolation_.solve(traced_.values, control).values;
+  const std::vector<double> values = interpolation_.solve(traced_.values, control).values;
+  std::vector<double> ofHeldOut;
+  ofHeldOut.reserve(heldOut_.faces.size());
+  for (const uint32_t face : heldOut_.faces) ofHeldOut.push_back(values[face]);
+  return ofHeldOut;
 }
 
 /// Of all faces; verified by further rays where it is interpolated. These faces are no seeds.

@@ -38,8 +38,8 @@ class PoissonSolver {
     return nullptr;
   }
 
-  /// Overwrites solution (#U). The name in the report is empty. Throws Error{Cancelled}, Error{Device};
-  /// Error{EquationLimit} for a system that exceeds a limit of the device.
+  /// Overwrites solution (#U), which may be the memory of system.firstGuess. The name in the report is empty. Throws
+  /// Error{Cancelled}, Error{Device}; Error{EquationLimit} for a system that exceeds a limit of the device.
   virtual SolverReport solve(const PoissonSystem& system, const SolverOptions& options, std::span<double> solution,
                              const RunControl& control) = 0;
 };

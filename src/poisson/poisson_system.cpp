@@ -231,7 +231,7 @@ void setFirstGuess(const PoissonSystem& system, std::span<double> solution) {
   ASDFVK_CHECK_OP(solution.size(), ==, system.faces.size());
   if (system.firstGuess.empty())
     std::fill(solution.begin(), solution.end(), system.constraintMean);
-  else
+  else if (solution.data() != system.firstGuess.data())
     std::copy(system.firstGuess.begin(), system.firstGuess.end(), solution.begin());
 }
 

@@ -24,6 +24,13 @@ void addSeed(TracedSeeds& seeds, uint32_t face, double value) {
   seeds.isSeed[face] = 1;
 }
 
+/// #H from #F.
+std::vector<double> atHeldOut(const HeldOutFaces& heldOut, const std::vector<double>& values) {
+  std::vector<double> result;
+  for (const uint32_t face : heldOut.faces) result.push_back(values[face]);
+  return result;
+}
+
 /// Six faces: 0 and 1 are sampled seeds, 2 and 3 are held out; the interpolation without them is off by 1 and by 2.
 struct SixFaces {
   Mesh mesh;
@@ -39,7 +46,7 @@ struct SixFaces {
     addSeed(traced, 3, 6);
   }
   [[nodiscard]] EstimatedErrors estimate() const {
-    return estimateErrors(mesh, {traced, heldOut, values, indicator, result});
+    return estimateErrors(mesh, {traced, heldOut, atHeldOut(heldOut, values), indicator, result});
   }
 };
 
@@ -176,7 +183,7 @@ struct HundredFaces {
     for (uint32_t face = 2; face < 6; ++face) values[face] = 10 + face;  // 20 to 50 % off.
   }
   [[nodiscard]] ErrorEstimate estimate() const {
-    return estimateErrors(mesh, {traced, heldOut, values, {}, result}).estimate;
+    return estimateErrors(mesh, {traced, heldOut, atHeldOut(heldOut, values), {}, result}).estimate;
   }
 };
 
@@ -235,7 +242,7 @@ TEST_CASE("no more than five worst faces, by their number in the file") {
   }
   std::vector<double> values(20, 6.0), result(20, 0.0);
   std::iota(result.begin(), result.end(), 0.0);
-  const EstimatedErrors errors = estimateErrors(mesh, {traced, heldOut, values, {}, result});
+  const EstimatedErrors errors = estimateErrors(mesh, {traced, heldOut, atHeldOut(heldOut, values), {}, result});
   REQUIRE(errors.estimate.worstFaces.size() == 5);
   CHECK(errors.estimate.worstFaces[0].face == 9);  // Triangle 19.
   CHECK(errors.estimate.worstFaces[1].face == 9);
