@@ -15,7 +15,8 @@ constexpr const char* kStyle =
     "body{font:15px/1.45 system-ui,sans-serif;margin:2em auto;max-width:64em;padding:0 1em;color:#222;background:#fff}"
     "table{border-collapse:collapse;margin:.5em 0 1.5em}td,th{text-align:left;padding:.15em .9em .15em 0;"
     "border-bottom:1px solid #ddd;vertical-align:top}td.n{text-align:right;font-variant-numeric:tabular-nums}"
-    "svg{display:block;margin:.5em 0 1.5em}rect{fill:#31688e}text{font:12px system-ui,sans-serif;fill:#444}"
+    "pre{white-space:pre-wrap}svg{display:block;margin:.5em 0 1.5em}rect{fill:#31688e}"
+    "text{font:12px system-ui,sans-serif;fill:#444}"
     "@media(prefers-color-scheme:dark){body{color:#ddd;background:#1b1b1b}td,th{border-color:#444}text{fill:#bbb}"
     "rect{fill:#6ca6cd}}";
 
