@@ -20,8 +20,8 @@ constexpr int kPollMilliseconds = 100;
 /// A mesh may fill 2 GB of memory per second, 20 MB in this time.
 constexpr int kMemoryPollMilliseconds = 10;
 constexpr int kMaxFailedStarts = 3;
-/// A worker that holds more than this share of the limit after a task is replaced before the next one, which would
-/// otherwise fail for the memory of others.
+/// A worker that keeps more than this share of the memory that it may take for tasks is replaced before the next one,
+/// which would otherwise fail for the memory of others.
 constexpr double kMaxKeptShare = 0.5;
 
 struct Worker {
@@ -30,7 +30,8 @@ struct Worker {
   bool isGivenUp = false;  ///< No further process is started.
   int failedStarts = 0;    ///< In a row.
   std::optional<size_t> task;
-  Stopwatch watch;  ///< Since the greeting, or since the task was sent.
+  Stopwatch watch;          ///< Since the greeting, or since the task was sent.
+  uint64_t readyBytes = 0;  ///< Memory when it was ready.
   uint64_t peakBytes = 0;
 };
 
@@ -81,7 +82,7 @@ class WorkerPool {
 
   void feed(Worker& worker) {
     if (!hasTasks() || worker.task) return;
-    if (worker.process && worker.hasServed && hasGrown(*worker.process)) worker.process.reset();
+    if (worker.process && worker.hasServed && hasGrown(worker)) worker.process.reset();
     if (!worker.process && mayStart(worker)) start(worker);
     if (!worker.process || !worker.isReady) return;
     worker.task = next_++;
@@ -90,9 +91,11 @@ class WorkerPool {
     worker.process->lines().send(client_.request(*worker.task));  // Where the worker has ended, its socket reports it.
   }
 
-  [[nodiscard]] bool hasGrown(const WorkerProcess& process) const {
-    return options_.memoryBytes > 0 && static_cast<double>(residentBytesOf(process.id())) >
-                                           kMaxKeptShare * static_cast<double>(options_.memoryBytes);
+  [[nodiscard]] bool hasGrown(const Worker& worker) const {
+    if (options_.memoryBytes <= worker.readyBytes) return false;  // No limit, or one that no worker keeps.
+    const auto ready = static_cast<double>(worker.readyBytes);
+    const double kept = static_cast<double>(residentBytesOf(worker.process->id())) - ready;
+    return kept > kMaxKeptShare * (static_cast<double>(options_.memoryBytes) - ready);
   }
 
   void wait() const {
@@ -135,6 +138,7 @@ class WorkerPool {
         return giveUp(worker);
       }
       worker.isReady = true;
+      worker.readyBytes = residentBytesOf(worker.process->id());
       worker.failedStarts = 0;
       allowedCount_ = count;
       hasStarted_ = true;

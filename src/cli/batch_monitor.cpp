@@ -11,7 +11,7 @@
 namespace asdfvk {
 namespace {
 
-constexpr double kTerminalSeconds = 0.2, kFirstLineSeconds = 10, kFurtherLineSeconds = 60;
+constexpr double kTerminalSeconds = 0.2, kFurtherLineSeconds = 60;
 
 }  // namespace
 
@@ -20,7 +20,7 @@ BatchMonitor::BatchMonitor(const CommandLine& line, const std::vector<MeshTask>&
   if (!line.batch.log.empty()) log_.emplace(line.batch.log);
   progress_.meshCount = tasks.size();
   for (const MeshTask& task : tasks) progress_.byteCount += task.byteCount;
-  nextProgressSeconds_ = isTerminal_ ? 1 : kFirstLineSeconds;
+  nextProgressSeconds_ = firstProgressSeconds();
   if (!line.batch.isBatch() || line.quiet) return;
   ticker_ = std::jthread([this](const std::stop_token& stop) {
     std::unique_lock lock(mutex_);
@@ -34,13 +34,23 @@ BatchMonitor::~BatchMonitor() = default;
 void BatchMonitor::beginComputation() {
   const std::scoped_lock lock(mutex_);
   watch_ = Stopwatch();
+  nextProgressSeconds_ = firstProgressSeconds();
 }
 
 void BatchMonitor::announce(const std::string& backend, const std::string& deviceLines) {
   const std::scoped_lock lock(mutex_);
-  const bool isFirst = announcedBackends_.empty();
+  if (!announcedBackends_.empty()) return;
   announcedBackends_.insert(backend);
-  if (isFirst && !line_.quiet) writeStandardError(deviceLines);
+  if (line_.quiet) return;
+  wipeProgress();
+  writeStandardError(deviceLines);
+}
+
+void BatchMonitor::note(const std::string& lines) {
+  if (line_.quiet) return;
+  const std::scoped_lock lock(mutex_);
+  wipeProgress();
+  writeStandardError(lines);
 }
 
 /// The backend of --backend auto changes where its device fails. Outside of a batch the report has a warning.

@@ -31,6 +31,9 @@ class BatchMonitor {
   /// Prints the device lines of the first session that is opened.
   void announce(const std::string& backend, const std::string& deviceLines);
 
+  /// Prints lines unless with --quiet.
+  void note(const std::string& lines);
+
   /// Throws Error{OutputNotWritable} for the log and standard output.
   void add(size_t task, MeshRun run);
 
@@ -50,6 +53,7 @@ class BatchMonitor {
   void printInOrder();
   void showProgress();
   void wipeProgress();
+  [[nodiscard]] double firstProgressSeconds() const { return isTerminal_ ? 1 : 10; }
 
   const CommandLine& line_;
   const std::vector<MeshTask>& tasks_;
@@ -62,7 +66,7 @@ class BatchMonitor {
   std::vector<std::string> dropped_;
   std::set<std::string> announcedBackends_;
   Stopwatch watch_;
-  double nextProgressSeconds_;
+  double nextProgressSeconds_ = 0;
   bool isTerminal_, isProgressVisible_ = false;
   std::condition_variable_any wakesTicker_;
   std::jthread ticker_;  ///< Shows the progress also while no mesh ends. The last member: it uses the others.

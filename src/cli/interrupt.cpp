@@ -42,8 +42,9 @@ int64_t now() {
 
 extern "C" void onSignal(int) {
   const int savedErrno = errno;
+  int64_t none = 0;
+  firstSignalNanoseconds.compare_exchange_strong(none, now());
   const bool isFirst = signalCount.fetch_add(1) == 0;
-  if (isFirst) firstSignalNanoseconds = now();
   if (!isFirst && (isOfWorker || now() - firstSignalNanoseconds < kRepeatNanoseconds)) {
     errno = savedErrno;
     return;
@@ -67,6 +68,7 @@ Interrupt::Interrupt(bool isWorker) {
   if (pipe2(stopPipe.data(), O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category(), "pipe");
   pipeWriteEnd = stopPipe[1];
   signalCount = 0;
+  firstSignalNanoseconds = 0;
   isOfWorker = isWorker;
   waiter_ = std::jthread([this] {
     char byte = 0;

@@ -74,12 +74,12 @@ class IsolatedPhase {
     if (!failure_) return ExitCode::Done;
     const auto& [code, message] = *failure_;
     if (stop_.stop_requested()) return ExitCode::Done;
-    if (finishedCount_ < phase_.tasks.size()) {
-      printError("", message);
-      return code;
+    if (finishedCount_ == phase_.tasks.size()) {
+      monitor_.note(warningLine("", "fewer workers than --jobs: " + message));
+      return ExitCode::Done;
     }
-    if (!line_.quiet) writeStandardError(warningLine("", "fewer workers than --jobs: " + message));
-    return ExitCode::Done;
+    printError("", message);
+    return code;
   }
 
  private:
@@ -102,20 +102,27 @@ class IsolatedPhase {
     if (outcome.end != TaskEnd::Answered) {
       const auto folder = std::filesystem::path(task.output).parent_path();
       removeFilesOfProcess(folder.empty() ? "." : folder, outcome.worker);
-      addFailure(index, failureOf(outcome, line_.batch), outcome);
+      // A signal between two meshes ends a worker at once.
+      const bool wasSignalled = outcome.end == TaskEnd::Crashed && outcome.workerEnd.signal == 0 &&
+                                outcome.workerEnd.exitCode == static_cast<int>(ExitCode::Cancelled);
+      addFailure(index, wasSignalled ? failureBySignal() : failureOf(outcome, line_.batch), outcome);
       return false;
     }
     const Json answer = Json::parse(outcome.answer);
     MeshRun run = runOf(answer);
     if (run.code == ExitCode::Cancelled && !isStopping(stop_)) {
-      addFailure(index, {ExitCode::Internal, "another process ended the worker process by a signal", "crashed"},
-                 outcome);
+      addFailure(index, failureBySignal(), outcome);
       return false;
     }
     run.record.input = task.input;  // Not all names survive JSON.
     if (run.record.output) run.record.output = task.output;
     monitor_.add(index, std::move(run));
     return !answer.at("ends").get<bool>();
+  }
+
+  [[nodiscard]] Failure failureBySignal() const {
+    if (isStopping(stop_)) return {ExitCode::Cancelled, "cancelled", "cancelled"};
+    return {ExitCode::Internal, "another process ended the worker process by a signal", "crashed"};
   }
 
   void addFailure(size_t index, const Failure& failure, const TaskOutcome& outcome) {

@@ -7,6 +7,7 @@
 #include <exception>
 #include <future>
 #include <mutex>
+#include <shared_mutex>
 #include <thread>
 #include <utility>
 
@@ -29,6 +30,7 @@ class JobThreads {
     const bool isCpu = session->runsOnCpu();
     threadCount_ = threadsOn(phase_, isCpu, line_.batch.jobCount);
     std::vector<std::unique_ptr<Session>> sessions = openFurther(std::move(session), isCpu);
+    liveJobCount_ = static_cast<uint32_t>(sessions.size());
     if (sessions.size() == 1) return runAlone(std::move(sessions.front()));
     std::vector<std::jthread> threads;
     for (std::unique_ptr<Session>& own : sessions)
@@ -50,9 +52,7 @@ class JobThreads {
       while (sessions.size() < jobCount && !stop_.stop_requested())
         sessions.push_back(openSession(line_, threadCount_));
     } catch (const Error& error) {
-      if (!line_.quiet)
-        writeStandardError(
-            warningLine("", fmt::format("{} of {} jobs run: {}", sessions.size(), jobCount, error.what())));
+      monitor_.note(warningLine("", fmt::format("{} of {} jobs run: {}", sessions.size(), jobCount, error.what())));
     }
     return sessions;
   }
@@ -76,20 +76,30 @@ class JobThreads {
 
   void runJob(std::unique_ptr<Session> session) {
     tbb::task_arena arena(static_cast<int>(threadCount_));
-    for (size_t i = nextTask_++; i < phase_.tasks.size() && !isEnding(); i = nextTask_++)
+    for (size_t i = 0; session && !isEnding() && (i = nextTask_++) < phase_.tasks.size();)
       arena.execute([&] { runMesh(session, phase_.tasks[i], std::nullopt, false, nextTask_ >= phase_.tasks.size()); });
   }
 
-  /// A device that failed is opened anew, unless this was the last mesh. isAlone: no other mesh is computed meanwhile.
+  /// A device that failed is opened anew, unless this was the last mesh; where that fails, the session is null and the
+  /// other jobs compute the rest. isAlone: no other mesh is computed meanwhile.
   void runMesh(std::unique_ptr<Session>& session, size_t task, std::optional<LoadedMesh> loaded, bool isAlone,
                bool isLast) {
     const std::string backend = session->backend();
-    MeshRun run = runner_.run(*session, tasks_[task], std::move(loaded), isAlone, stop_);
+    MeshRun run = [&] {
+      const std::shared_lock lock(computing_);
+      return runner_.run(*session, tasks_[task], std::move(loaded), isAlone, stop_);
+    }();
     const bool hasFailed = run.code == ExitCode::Device || session->backend() != backend;
     monitor_.add(task, std::move(run));
     if (!hasFailed || isLast || isEnding()) return;
     session.reset();
-    session = openSession(line_, threadCount_);
+    const std::unique_lock lock(computing_);  // As in openFurther().
+    try {
+      session = openSession(line_, threadCount_);
+    } catch (const Error& error) {
+      if (--liveJobCount_ == 0) throw;
+      monitor_.note(warningLine("", fmt::format("{} jobs run: {}", liveJobCount_.load(), error.what())));
+    }
   }
 
   template <typename Work>
@@ -112,6 +122,8 @@ class JobThreads {
   uint32_t threadCount_ = 1;
   std::atomic<size_t> nextTask_{0};
   std::atomic<bool> isEnding_{false};
+  std::atomic<uint32_t> liveJobCount_{1};
+  std::shared_mutex computing_;  ///< Shared by meshes that are computed; no session is opened meanwhile.
   std::mutex mutex_;
   std::exception_ptr failure_;
 };

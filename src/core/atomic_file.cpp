@@ -12,7 +12,7 @@
 #include <cerrno>
 #include <climits>
 #include <csignal>
-#include <cstdlib>
+#include <cstdio>
 #include <fstream>
 #include <system_error>
 #include <utility>
@@ -41,15 +41,18 @@ const std::string& temporaryPrefix() {
 }
 constexpr std::string_view kTemporarySuffix = ".part";
 
-/// Removes those temporary files of this host in the folder whose process `select` accepts.
+/// Removes those temporary files of this host in the folder, PREFIX PROCESS-COUNT.part, whose process `select` accepts.
 template <typename Select>
 void removeTemporaries(const std::filesystem::path& folder, const Select& select) {
   std::error_code error;
   std::filesystem::directory_iterator entry(folder, error);
   for (; !error && entry != std::filesystem::directory_iterator(); entry.increment(error)) {
     const std::string name = entry->path().filename().string();
-    if (!name.starts_with(temporaryPrefix()) || !name.ends_with(kTemporarySuffix)) continue;
-    const int process = std::atoi(name.c_str() + temporaryPrefix().size());
+    if (!name.starts_with(temporaryPrefix())) continue;
+    int process = 0, end = 0;
+    unsigned count = 0;
+    const char* rest = name.c_str() + temporaryPrefix().size();
+    if (std::sscanf(rest, "%d-%u.part%n", &process, &count, &end) != 2 || end == 0 || rest[end] != '\0') continue;
     if (process > 0 && select(process, entry->path())) ::unlink(entry->path().c_str());
   }
 }
@@ -64,12 +67,13 @@ bool isRunning(int process) {
   return end == std::string::npos || (text[end + 2] != 'Z' && text[end + 2] != 'X');
 }
 
-bool isUnlocked(const std::filesystem::path& path) {
+/// By a running process. False where the file system has no locks.
+bool isLocked(const std::filesystem::path& path) {
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor < 0) return false;
-  const bool isFree = ::flock(descriptor, LOCK_EX | LOCK_NB) == 0;
+  const bool isHeld = ::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
   ::close(descriptor);
-  return isFree;
+  return isHeld;
 }
 
 }  // namespace
@@ -81,11 +85,12 @@ void removeUnfinishedFiles() noexcept {
 
 void removeAbandonedFiles(const std::filesystem::path& folder) {
   removeTemporaries(
-      folder, [](int process, const std::filesystem::path& path) { return !isRunning(process) && isUnlocked(path); });
+      folder, [](int process, const std::filesystem::path& path) { return !isRunning(process) && !isLocked(path); });
 }
 
 void removeFilesOfProcess(const std::filesystem::path& folder, int process) {
-  removeTemporaries(folder, [process](int owner, const std::filesystem::path&) { return owner == process; });
+  removeTemporaries(
+      folder, [process](int owner, const std::filesystem::path& path) { return owner == process && !isLocked(path); });
 }
 
 AtomicFile::AtomicFile(const std::filesystem::path& target)
