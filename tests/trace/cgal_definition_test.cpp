@@ -47,7 +47,7 @@ TEST_CASE("the kernels give the reference's values by CGAL's definition" * docte
 TEST_CASE("any number of rays gives the reference's values by CGAL's definition" * doctest::test_suite("slow")) {
   const test::ValidatedDevice device;
   const Mesh mesh = generateShape("torus", 200).mesh;
-  for (const uint32_t rayCount : {1u, 2u, 3u, 8u, 33u, 100u, 256u, 1000u, 1024u}) {
+  for (const uint32_t rayCount : {1u, 33u, 1000u}) {
     CAPTURE(rayCount);
     const CgalReference reference(mesh, rayCount);
     for (const TraceKernel kernel : {TraceKernel::Packet, TraceKernel::Ray, TraceKernel::Seed})
