@@ -22,6 +22,9 @@ constexpr double kTracedBeforeThickness = 0.7;
 // Hits that the host holds at a time where only the thickness needs them there.
 constexpr size_t kPassingByteCount = size_t{16} << 20;
 
+// Below this size of the hierarchy, freed memory is kept for the next mesh: new pages cost more time than it holds.
+constexpr size_t kMinReturnedByteCount = size_t{32} << 20;
+
 /// Returns freed memory to the system: libraries free many small pieces, and later steps need large ones.
 void returnFreedMemory() {
 #if defined(__GLIBC__)
@@ -49,8 +52,9 @@ SeedTracing::~SeedTracing() {
   shrinker_.reset();
   tracer_.reset();
   if (released_ == nullptr) return;
+  const bool isLarge = released_->nodes.size() * sizeof(BvhNode) >= kMinReturnedByteCount;
   released_->nodes = {};
-  returnFreedMemory();
+  if (isLarge) returnFreedMemory();
 }
 
 void SeedTracing::trace(std::span<const uint32_t> faces, TracedSeeds& traced, const RunControl& control) {
