@@ -10,24 +10,83 @@ namespace asdfvk {
 namespace {
 
 using Json = nlohmann::ordered_json;
+using SecondsByStage = std::vector<std::pair<std::string, double>>;
+
+/// Calls visit(key, value) for each key of a record except input and inputBytes, in the order of the line.
+template <typename Record, typename Visit>
+void visitKeys(Record& record, const Visit& visit) {
+  visit("output", record.output);
+  visit("time", record.time);
+  visit("status", record.status);
+  visit("code", record.code);
+  visit("error", record.error);
+  visit("message", record.message);
+  visit("inputHash", record.inputHash);
+  visit("optionsHash", record.optionsHash);
+  visit("outputHash", record.outputHash);
+  visit("faceCount", record.faceCount);
+  visit("version", record.version);
+  visit("commit", record.commit);
+  visit("device", record.device);
+  visit("backend", record.backend);
+  visit("seconds", record.seconds);
+  visit("totalSeconds", record.totalSeconds);
+  visit("peakMemoryBytes", record.peakMemoryBytes);
+  visit("estimatedError", record.estimatedError);
+  visit("segmentCount", record.segmentCount);
+  visit("warnings", record.warnings);
+  visit("options", record.options);
+}
 
 template <typename T>
-Json orNull(const std::optional<T>& value) {
+Json jsonOf(const T& value) {
+  return value;
+}
+
+template <typename T>
+Json jsonOf(const std::optional<T>& value) {
   return value ? Json(*value) : Json(nullptr);
+}
+
+Json jsonOf(MeshStatus status) { return nameOf(status); }
+
+Json jsonOf(const SecondsByStage& ofStages) {
+  Json json = Json::object();
+  for (const auto& [stage, seconds] : ofStages) json[stage] = seconds;
+  return json;
+}
+
+template <typename T>
+void read(const Json& json, T& value) {
+  json.get_to(value);
+}
+
+template <typename T>
+void read(const Json& json, std::optional<T>& value) {
+  value = json.get<T>();
+}
+
+std::optional<MeshStatus> statusNamed(std::string_view text) {
+  for (const auto& [status, name] : kMeshStatuses)
+    if (text == name) return status;
+  return std::nullopt;
+}
+
+/// Throws std::bad_optional_access for an unknown name.
+void read(const Json& json, MeshStatus& status) { status = statusNamed(json.get<std::string>()).value(); }
+
+void read(const Json& json, SecondsByStage& ofStages) {
+  if (!json.is_object()) return;
+  for (const auto& [stage, seconds] : json.items()) ofStages.emplace_back(stage, seconds.get<double>());
 }
 
 /// Leaves the value where the key is absent or null.
 template <typename T>
-void read(const Json& json, const char* key, T& value) {
-  if (const auto found = json.find(key); found != json.end() && !found->is_null()) found->get_to(value);
+void readKey(const Json& json, const char* key, T& value) {
+  if (const auto found = json.find(key); found != json.end() && !found->is_null()) read(*found, value);
 }
 
-template <typename T>
-void read(const Json& json, const char* key, std::optional<T>& value) {
-  if (const auto found = json.find(key); found != json.end() && !found->is_null()) value = found->get<T>();
-}
-
-/// Unset where the text holds anything but pairs of hexadecimal digits.
+/// Unset where the text is not a sequence of pairs of hexadecimal digits.
 std::optional<std::string> bytesOfHex(std::string_view hex) {
   std::string bytes;
   for (size_t i = 0; i < hex.size(); i += 2) {
@@ -39,7 +98,7 @@ std::optional<std::string> bytesOfHex(std::string_view hex) {
   return bytes;
 }
 
-/// Whether the text is UTF-8, which JSON can hold.
+/// Whether JSON can represent the text: whether it is UTF-8.
 bool survivesJson(const std::string& text) {
   const std::string json = Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
   return Json::parse(json).get_ref<const std::string&>() == text;
@@ -64,28 +123,8 @@ nlohmann::ordered_json toJson(const MeshRecord& record) {
     for (const char c : record.input) hex += fmt::format("{:02x}", static_cast<unsigned char>(c));
     json["inputBytes"] = hex;
   }
-  json["output"] = orNull(record.output);
-  json["time"] = record.time;
-  json["status"] = nameOf(record.status);
-  json["code"] = record.code;
-  json["error"] = record.error.empty() ? Json(nullptr) : Json(record.error);
-  json["message"] = record.message;
-  json["inputHash"] = record.inputHash;
-  json["optionsHash"] = record.optionsHash;
-  json["outputHash"] = record.outputHash;
-  json["faceCount"] = orNull(record.faceCount);
-  json["version"] = record.version;
-  json["commit"] = record.commit;
-  json["device"] = record.device;
-  json["backend"] = record.backend;
-  json["seconds"] = Json::object();
-  for (const auto& [stage, seconds] : record.seconds) json["seconds"][stage] = seconds;
-  json["totalSeconds"] = record.totalSeconds;
-  json["peakMemoryBytes"] = record.peakMemoryBytes;
-  json["estimatedError"] = record.estimatedError;
-  json["segmentCount"] = orNull(record.segmentCount);
-  json["warnings"] = record.warnings;
-  json["options"] = record.options;
+  visitKeys(record, [&](const char* key, const auto& value) { json[key] = jsonOf(value); });
+  if (record.error.empty()) json["error"] = nullptr;
   return json;
 }
 
@@ -99,46 +138,17 @@ std::optional<MeshRecord> parseRecord(std::string_view text) {
   try {
     MeshRecord record;
     record.input = json.at("input");
-    std::string inputBytes;
-    read(json, "inputBytes", inputBytes);
-    if (!inputBytes.empty()) {
-      const std::optional<std::string> bytes = bytesOfHex(inputBytes);
-      if (!bytes) return std::nullopt;
-      record.input = *bytes;
-    }
-    const std::string status = json.at("status");
-    bool isKnown = false;
-    for (const auto& [value, name] : kMeshStatuses)
-      if (status == name) {
-        record.status = value;
-        isKnown = true;
-      }
-    if (!isKnown) return std::nullopt;
-    record.code = json.at("code");
-    record.message = json.at("message");
-    read(json, "output", record.output);
-    read(json, "time", record.time);
-    read(json, "faceCount", record.faceCount);
-    read(json, "segmentCount", record.segmentCount);
-    read(json, "error", record.error);
-    read(json, "inputHash", record.inputHash);
-    read(json, "optionsHash", record.optionsHash);
-    read(json, "outputHash", record.outputHash);
-    read(json, "version", record.version);
-    read(json, "commit", record.commit);
-    read(json, "device", record.device);
-    read(json, "backend", record.backend);
-    if (const auto seconds = json.find("seconds"); seconds != json.end() && seconds->is_object())
-      for (const auto& [stage, value] : seconds->items()) record.seconds.emplace_back(stage, value.get<double>());
-    read(json, "totalSeconds", record.totalSeconds);
-    read(json, "peakMemoryBytes", record.peakMemoryBytes);
-    read(json, "estimatedError", record.estimatedError);
-    read(json, "warnings", record.warnings);
-    read(json, "options", record.options);
+    std::string hex;
+    readKey(json, "inputBytes", hex);
+    if (!hex.empty()) record.input = bytesOfHex(hex).value();
+    for (const char* required : {"status", "code", "message"})
+      if (json.at(required).is_null()) return std::nullopt;
+    visitKeys(record, [&](const char* key, auto& value) { readKey(json, key, value); });
     return record;
-  } catch (const Json::exception&) {
-    return std::nullopt;
+  } catch (const Json::exception&) {           // A required key is missing, or a value has another type.
+  } catch (const std::bad_optional_access&) {  // An unknown status, or inputBytes that are not hexadecimal.
   }
+  return std::nullopt;
 }
 
 }  // namespace asdfvk

@@ -9,6 +9,7 @@
 #include <fstream>
 
 #include "asdf_vk/error.h"
+#include "core/write_all.h"
 
 namespace asdfvk {
 namespace {
@@ -18,16 +19,7 @@ namespace {
               fmt::format("the log {} cannot be written: {}", path.string(), std::strerror(errorNumber)));
 }
 
-void writeAll(int descriptor, std::string_view text, const std::filesystem::path& path) {
-  while (!text.empty()) {
-    const ssize_t count = ::write(descriptor, text.data(), text.size());
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) fail(path, errno);
-    text.remove_prefix(static_cast<size_t>(count));
-  }
-}
-
-/// Whether the file ends within a line. Not for a FIFO or a device, which has no end.
+/// Whether the last line of the file is incomplete. False for a FIFO or a device, which has no last line.
 bool endsWithinLine(int descriptor) {
   const off_t size = ::lseek(descriptor, 0, SEEK_END);
   char last = '\n';
@@ -47,7 +39,7 @@ void RecordLog::append(const MeshRecord& record) {
   std::string line = toJsonLine(record) + "\n";
   const std::scoped_lock lock(mutex_);
   if (endsWithinLine(descriptor_)) line.insert(line.begin(), '\n');
-  writeAll(descriptor_, line, path_);
+  if (const int error = writeAll(descriptor_, line); error != 0) fail(path_, error);
 }
 
 std::vector<MeshRecord> readLog(const std::filesystem::path& path, size_t& invalidCount) {
@@ -58,7 +50,7 @@ std::vector<MeshRecord> readLog(const std::filesystem::path& path, size_t& inval
   for (std::string line; std::getline(in, line);) {
     if (line.empty()) continue;
     if (std::optional<MeshRecord> record = parseRecord(line)) {
-      record->options = nullptr;  // They take more memory than the rest.
+      record->options = nullptr;  // The options take more memory than the other keys.
       records.push_back(std::move(*record));
     } else {
       ++invalidCount;

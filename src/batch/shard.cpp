@@ -34,7 +34,7 @@ Shard parseShard(const std::string& text) {
   return shard;
 }
 
-std::vector<InputFile> selectShard(const std::vector<InputFile>& inputs, const Shard& shard) {
+std::vector<size_t> selectShard(const std::vector<InputFile>& inputs, const Shard& shard) {
   std::vector<size_t> bySize(inputs.size());
   std::iota(bySize.begin(), bySize.end(), size_t{0});
   std::sort(bySize.begin(), bySize.end(), [&](size_t a, size_t b) {
@@ -52,10 +52,7 @@ std::vector<InputFile> selectShard(const std::vector<InputFile>& inputs, const S
     if (index == shard.index) chosen.push_back(i);
   }
   std::sort(chosen.begin(), chosen.end());
-  std::vector<InputFile> result;
-  result.reserve(chosen.size());
-  for (const size_t i : chosen) result.push_back(inputs[i]);
-  return result;
+  return chosen;
 }
 
 }  // namespace asdfvk

@@ -19,9 +19,9 @@ inline constexpr uint32_t kMaxShardCount = 1'000'000;
 /// "2/7". Throws Error{OptionOutOfRange}.
 [[nodiscard]] Shard parseShard(const std::string& text);
 
-/// The inputs of the shard, in the same order. Every input is in exactly one shard, and the sizes of the shards are
-/// balanced: from the largest file to the smallest, each goes to the shard with the least bytes so far. Depends on the
-/// paths and sizes only.
-[[nodiscard]] std::vector<InputFile> selectShard(const std::vector<InputFile>& inputs, const Shard& shard);
+/// The indices of the inputs of the shard, ascending. Every input is in exactly one shard. The inputs are assigned from
+/// the largest file to the smallest, each to the shard with the fewest bytes so far, so that the shards have about the
+/// same size; kBytesPerMesh is added to each file. The result depends on the paths and sizes only.
+[[nodiscard]] std::vector<size_t> selectShard(const std::vector<InputFile>& inputs, const Shard& shard);
 
 }  // namespace asdfvk

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "cli/terminal.h"
+#include "core/text.h"
 
 namespace asdfvk {
 namespace {

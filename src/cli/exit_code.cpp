@@ -1,8 +1,12 @@
 #include "cli/exit_code.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <new>
+
+#include "core/text.h"
 
 namespace asdfvk {
 namespace {
@@ -99,6 +103,12 @@ ExitCode exitCodeOf(const ThicknessReport& thickness, double limit) {
   if (std::isnan(thickness.min)) return ExitCode::Input;
   return thickness.min < limit ? ExitCode::TooThin : ExitCode::Done;
 }
+
+Failure timeLimitFailure(double timeoutSeconds) {
+  return {ExitCode::Limit, fmt::format("took longer than --timeout {:g}", timeoutSeconds), "timeLimit"};
+}
+
+Failure cancelledFailure() { return {ExitCode::Cancelled, "cancelled", nameOf(ErrorCode::Cancelled)}; }
 
 Failure currentFailure(bool requiresGpu, const std::string& valueOptions) {
   try {

@@ -6,7 +6,6 @@
 
 #include "asdf_vk/error.h"
 #include "asdf_vk/report.h"
-#include "core/text.h"  // oneLine()
 
 namespace asdfvk {
 
@@ -41,8 +40,8 @@ inline constexpr std::array<std::pair<ExitCode, const char*>, 11> kExitCodes{
 [[nodiscard]] const char* meaningOf(ExitCode code);
 
 inline constexpr const char* kExitCodeOfSeveralMeshes =
-    "With several meshes the others are computed. If all of them fail, or only by codes 5 and 6, the code of the first "
-    "failure is returned.";
+    "With several meshes, the others are computed after a failure. The code is 7 if some meshes have a result, also "
+    "with codes 5 and 6, and others have none; else it is that of the first failure.";
 
 [[nodiscard]] ExitCode exitCodeOf(ErrorKind kind);
 
@@ -68,6 +67,11 @@ struct Failure {
   std::string message;            ///< One line: the reason, then the remedy.
   std::string name = "internal";  ///< nameOf(ErrorCode).
 };
+
+/// Of a mesh that took longer than --timeout.
+[[nodiscard]] Failure timeLimitFailure(double timeoutSeconds);
+/// Of a mesh that a stop request ended.
+[[nodiscard]] Failure cancelledFailure();
 
 /// Describes the exception being handled; to be called in a catch block. requiresGpu: do not propose the CPU.
 /// valueOptions: CommandLine::valueOptions.

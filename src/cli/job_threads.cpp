@@ -16,19 +16,17 @@
 namespace asdfvk {
 namespace {
 
-/// The next mesh is read ahead only up to this size, since both are in memory.
+/// Larger meshes are not read ahead, because two meshes are in memory then.
 constexpr uint64_t kMaxBytesReadAhead = uint64_t{256} << 20;
 
 /// One phase of the plan.
 class JobThreads {
  public:
-  JobThreads(const CommandLine& line, MeshRunner& runner, BatchMonitor& monitor, const std::vector<MeshTask>& tasks,
-             const JobPhase& phase, const std::stop_token& stop)
-      : line_(line), runner_(runner), monitor_(monitor), tasks_(tasks), phase_(phase), stop_(stop) {}
+  JobThreads(const JobContext& context, const JobPhase& phase) : context_(context), phase_(phase) {}
 
   void run(std::unique_ptr<Session> session) {
     const bool isCpu = session->runsOnCpu();
-    threadCount_ = threadsOn(phase_, isCpu, line_.batch.jobCount);
+    threadCount_ = threadsOn(phase_, isCpu, context_.line.batch.jobCount);
     std::vector<std::unique_ptr<Session>> sessions = openFurther(std::move(session), isCpu);
     liveJobCount_ = static_cast<uint32_t>(sessions.size());
     if (sessions.size() == 1) return runAlone(std::move(sessions.front()));
@@ -40,19 +38,20 @@ class JobThreads {
   }
 
  private:
-  [[nodiscard]] bool isEnding() const { return isEnding_ || stop_.stop_requested(); }
+  [[nodiscard]] bool isEnding() const { return isEnding_ || context_.stop.stop_requested(); }
 
-  /// A session per job. One after another and before the first mesh: drivers read environment variables that
-  /// ThreadLimit sets meanwhile.
+  /// A session per job. The sessions are opened one after another and before the first mesh, because drivers read
+  /// environment variables, which ThreadLimit sets while a session is opened.
   [[nodiscard]] std::vector<std::unique_ptr<Session>> openFurther(std::unique_ptr<Session> first, bool isCpu) const {
     std::vector<std::unique_ptr<Session>> sessions;
     sessions.push_back(std::move(first));
-    const uint32_t jobCount = jobsOn(phase_, isCpu, line_.batch.jobCount);
+    const uint32_t jobCount = jobsOn(phase_, isCpu, context_.line.batch.jobCount);
     try {
-      while (sessions.size() < jobCount && !stop_.stop_requested())
-        sessions.push_back(openSession(line_, threadCount_));
+      while (sessions.size() < jobCount && !context_.stop.stop_requested())
+        sessions.push_back(openSession(context_.line, threadCount_));
     } catch (const Error& error) {
-      monitor_.note(warningLine("", fmt::format("{} of {} jobs run: {}", sessions.size(), jobCount, error.what())));
+      context_.monitor.note(
+          warningLine("", fmt::format("{} of {} jobs run: {}", sessions.size(), jobCount, error.what())));
     }
     return sessions;
   }
@@ -64,14 +63,15 @@ class JobThreads {
       const size_t task = phase_.tasks[i];
       std::optional<LoadedMesh> loaded;
       if (next.valid()) loaded = next.get();
-      if (i + 1 < phase_.tasks.size()) next = readAhead(tasks_[phase_.tasks[i + 1]]);
+      if (i + 1 < phase_.tasks.size()) next = readAhead(context_.tasks[phase_.tasks[i + 1]]);
       runMesh(session, task, std::move(loaded), true, i + 1 == phase_.tasks.size());
     }
   }
 
   [[nodiscard]] std::future<LoadedMesh> readAhead(const MeshTask& task) const {
     if (task.input == "-" || task.byteCount == 0 || task.byteCount > kMaxBytesReadAhead) return {};
-    return std::async(std::launch::async, [this, &task] { return loadMesh(task.input, line_.batch.isBatch()); });
+    return std::async(std::launch::async,
+                      [this, &task] { return loadMesh(task.input, context_.line.batch.isBatch()); });
   }
 
   void runJob(std::unique_ptr<Session> session) {
@@ -80,25 +80,25 @@ class JobThreads {
       arena.execute([&] { runMesh(session, phase_.tasks[i], std::nullopt, false, nextTask_ >= phase_.tasks.size()); });
   }
 
-  /// A device that failed is opened anew, unless this was the last mesh; where that fails, the session is null and the
-  /// other jobs compute the rest. isAlone: no other mesh is computed meanwhile.
+  /// After a failure of the device, opens the session again, unless this was the last mesh. If that fails, the session
+  /// is null, and the other jobs compute the remaining meshes. isAlone: no other mesh is computed at the same time.
   void runMesh(std::unique_ptr<Session>& session, size_t task, std::optional<LoadedMesh> loaded, bool isAlone,
                bool isLast) {
     const std::string backend = session->backend();
     MeshRun run = [&] {
       const std::shared_lock lock(computing_);
-      return runner_.run(*session, tasks_[task], std::move(loaded), isAlone, stop_);
+      return context_.runner.run(*session, context_.tasks[task], std::move(loaded), isAlone, context_.stop);
     }();
     const bool hasFailed = run.code == ExitCode::Device || session->backend() != backend;
-    monitor_.add(task, std::move(run));
+    context_.monitor.add(task, std::move(run));
     if (!hasFailed || isLast || isEnding()) return;
     session.reset();
     const std::unique_lock lock(computing_);  // As in openFurther().
     try {
-      session = openSession(line_, threadCount_);
+      session = openSession(context_.line, threadCount_);
     } catch (const Error& error) {
       if (--liveJobCount_ == 0) throw;
-      monitor_.note(warningLine("", fmt::format("{} jobs run: {}", liveJobCount_.load(), error.what())));
+      context_.monitor.note(warningLine("", fmt::format("{} jobs run: {}", liveJobCount_.load(), error.what())));
     }
   }
 
@@ -113,17 +113,13 @@ class JobThreads {
     }
   }
 
-  const CommandLine& line_;
-  MeshRunner& runner_;
-  BatchMonitor& monitor_;
-  const std::vector<MeshTask>& tasks_;
+  const JobContext& context_;
   const JobPhase& phase_;
-  const std::stop_token& stop_;
   uint32_t threadCount_ = 1;
   std::atomic<size_t> nextTask_{0};
   std::atomic<bool> isEnding_{false};
   std::atomic<uint32_t> liveJobCount_{1};
-  std::shared_mutex computing_;  ///< Shared by meshes that are computed; no session is opened meanwhile.
+  std::shared_mutex computing_;  ///< Shared while a mesh is computed, exclusive while a session is opened.
   std::mutex mutex_;
   std::exception_ptr failure_;
 };
@@ -135,13 +131,11 @@ std::unique_ptr<Session> openSession(const CommandLine& line, uint32_t threadCou
   return std::make_unique<Session>(line.session);
 }
 
-void runOnThreads(const CommandLine& line, MeshRunner& runner, BatchMonitor& monitor,
-                  const std::vector<MeshTask>& tasks, const std::vector<JobPhase>& phases,
-                  std::unique_ptr<Session> session, const std::stop_token& stop) {
+void runOnThreads(const JobContext& context, const std::vector<JobPhase>& phases, std::unique_ptr<Session> session) {
   for (const JobPhase& phase : phases) {
-    if (stop.stop_requested()) return;
-    if (!session) session = openSession(line, phase.threadCount);
-    JobThreads(line, runner, monitor, tasks, phase, stop).run(std::move(session));
+    if (context.stop.stop_requested()) return;
+    if (!session) session = openSession(context.line, phase.threadCount);
+    JobThreads(context, phase).run(std::move(session));
     session.reset();
   }
 }

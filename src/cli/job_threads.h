@@ -1,21 +1,20 @@
 #pragma once
 
 #include <memory>
-#include <stop_token>
 #include <vector>
 
-#include "cli/batch_monitor.h"
+#include "cli/job_context.h"
 #include "cli/job_plan.h"
 
 namespace asdfvk {
 
-/// Computes the meshes in this process, each job with a session of its own, which is opened anew where its device
-/// fails. With one job, the next mesh is read while one is computed. session: for the first job of the first phase. A
-/// stop request ends the run after the meshes at hand, which are dropped. Throws what the monitor throws, and Error of
-/// kind Device where the device of a session that failed cannot be opened again.
-void runOnThreads(const CommandLine& line, MeshRunner& runner, BatchMonitor& monitor,
-                  const std::vector<MeshTask>& tasks, const std::vector<JobPhase>& phases,
-                  std::unique_ptr<Session> session, const std::stop_token& stop);
+/// Computes the meshes of the phases in this process. Each job has its own session, which is opened again after its
+/// device failed. With one job, the next mesh is read while a mesh is computed. session: for the first job of the first
+/// phase. A stop request drops the meshes that are being computed, and no further mesh begins.
+///
+/// Throws what the monitor throws. Throws the Error of openSession() if the first session of a phase cannot be opened,
+/// or if the device of the last job of a phase failed and cannot be opened again.
+void runOnThreads(const JobContext& context, const std::vector<JobPhase>& phases, std::unique_ptr<Session> session);
 
 /// Opens a session whose CPU device, if it has one, uses that many threads.
 [[nodiscard]] std::unique_ptr<Session> openSession(const CommandLine& line, uint32_t threadCount);

@@ -19,6 +19,7 @@
 #include "cli/result_picture.h"
 #include "cli/terminal.h"
 #include "core/stopwatch.h"
+#include "core/text.h"
 #include "io/inspected_mesh.h"
 #include "mesh/orientation.h"
 #include "render/png.h"
@@ -157,8 +158,7 @@ MeshRun MeshRunner::run(Session& session, const MeshTask& task, std::optional<Lo
     } catch (...) {
       Failure failure = currentFailure(line_.session.requireGpu, computation->valueOptions);
       if (failure.code == ExitCode::Cancelled && timer.hasExpired())
-        failure = {ExitCode::Limit, fmt::format("took longer than --timeout {:g}", line_.batch.timeoutSeconds),
-                   "timeLimit"};
+        failure = timeLimitFailure(line_.batch.timeoutSeconds);
       addFailure(task, failure, run);
     }
     if (page == nullptr || --page->awaitedCount > 0 || page->isFinished || page->page.isEmpty()) continue;

@@ -43,19 +43,16 @@ std::vector<InputFile> inputsOf(const CommandLine& line) {
 
 /// The outputs of all inputs are checked against each other, also those of other shards.
 std::vector<MeshTask> tasksOf(const CommandLine& line) {
-  std::vector<InputFile> inputs = inputsOf(line);
-  std::vector<std::string> outputs = planOutputs(line, inputs);
-  if (line.batch.shard) {
-    inputs = selectShard(inputs, *line.batch.shard);
-    outputs = planOutputs(line, inputs);
-  }
+  const std::vector<InputFile> inputs = inputsOf(line);
+  const std::vector<std::string> outputs = planOutputs(line, inputs);
   std::vector<MeshTask> tasks;
-  tasks.reserve(inputs.size());
-  for (size_t i = 0; i < inputs.size(); ++i) tasks.push_back({inputs[i].path, outputs[i], inputs[i].byteCount});
+  for (const size_t i : selectShard(inputs, line.batch.shard.value_or(Shard{})))
+    tasks.push_back({inputs[i].path, outputs[i], inputs[i].byteCount});
   return tasks;
 }
 
-/// Earlier runs that were killed may have left such files, and workers that were killed at the end of this one.
+/// Removes the temporary files of earlier runs that were killed, and of workers that were killed at the end of this
+/// run.
 void removeUnfinishedOutputs(const std::vector<MeshTask>& tasks) {
   std::set<std::filesystem::path> folders;
   for (const MeshTask& task : tasks) folders.insert(std::filesystem::path(task.output).parent_path());
@@ -70,17 +67,16 @@ std::vector<JobPhase> phasesOf(const CommandLine& line, const std::vector<MeshTa
 }
 
 /// The tasks that no earlier run has finished. Adds the others to the monitor.
-std::vector<size_t> unfinishedTasks(const CommandLine& line, const MeshRunner& runner, BatchMonitor& monitor,
-                                    const std::vector<MeshTask>& tasks, const std::stop_token& stop) {
-  std::vector<size_t> unfinished(tasks.size());
+std::vector<size_t> unfinishedTasks(const JobContext& context) {
+  std::vector<size_t> unfinished(context.tasks.size());
   std::iota(unfinished.begin(), unfinished.end(), size_t{0});
-  if (!line.batch.skipsExisting) return unfinished;
-  std::vector<char> isFinished(tasks.size(), 0);
-  tbb::parallel_for(size_t{0}, tasks.size(), [&](size_t task) {
-    if (stop.stop_requested()) return;
-    std::optional<MeshRun> skipped = runner.skip(tasks[task]);
+  if (!context.line.batch.skipsExisting) return unfinished;
+  std::vector<char> isFinished(context.tasks.size(), 0);
+  tbb::parallel_for(size_t{0}, context.tasks.size(), [&](size_t task) {
+    if (context.stop.stop_requested()) return;
+    std::optional<MeshRun> skipped = context.runner.skip(context.tasks[task]);
     if (!skipped) return;
-    monitor.add(task, std::move(*skipped));
+    context.monitor.add(task, std::move(*skipped));
     isFinished[task] = 1;
   });
   std::erase_if(unfinished, [&](size_t task) { return isFinished[task] != 0; });
@@ -88,28 +84,26 @@ std::vector<size_t> unfinishedTasks(const CommandLine& line, const MeshRunner& r
 }
 
 /// To be called while the exception is handled.
-ExitCode failWithoutSession(const CommandLine& line, const std::vector<MeshTask>& tasks,
-                            const std::vector<JobPhase>& phases) {
-  const Failure failure = currentFailure(line.session.requireGpu);
+ExitCode failWithoutSession(const JobContext& context, const std::vector<JobPhase>& phases) {
+  const Failure failure = currentFailure(context.line.session.requireGpu);
   printError("", failure.message);
-  if (line.json)
+  if (context.line.json)
     for (const JobPhase& phase : phases)
       for (const size_t task : phase.tasks)
-        writeStandardOutput(jsonFailure(tasks[task].input, failure.name, failure.message));
+        writeStandardOutput(jsonFailure(context.tasks[task].input, failure.name, failure.message));
   return failure.code;
 }
 
 /// The jobs of one process.
-ExitCode runHere(const CommandLine& line, MeshRunner& runner, BatchMonitor& monitor, const std::vector<MeshTask>& tasks,
-                 const std::vector<JobPhase>& phases, const std::stop_token& stop) {
+ExitCode runHere(const JobContext& context, const std::vector<JobPhase>& phases) {
   std::unique_ptr<Session> session;
   try {
-    session = openSession(line, phases.front().threadCount);
+    session = openSession(context.line, phases.front().threadCount);
   } catch (...) {
-    return failWithoutSession(line, tasks, phases);
+    return failWithoutSession(context, phases);
   }
-  monitor.announce(session->backend(), deviceLinesOf(*session));
-  runOnThreads(line, runner, monitor, tasks, phases, std::move(session), stop);
+  context.monitor.announce(session->backend(), deviceLinesOf(*session));
+  runOnThreads(context, phases, std::move(session));
   return ExitCode::Done;
 }
 
@@ -118,21 +112,21 @@ ExitCode runHere(const CommandLine& line, MeshRunner& runner, BatchMonitor& moni
 ExitCode runMeshes(const CommandLine& line, const std::vector<std::string>& arguments, const std::stop_token& stop) {
   const std::vector<MeshTask> tasks = tasksOf(line);
   if (line.opensPage) requireBrowser();
-  std::optional<Interrupt::Listening> listening;  // In a batch a signal drops the meshes at hand, and the log says so.
+  std::optional<Interrupt::Listening> listening;  // In a batch, a signal drops the current meshes; the log has them.
   if (line.batch.isBatch()) {
     listening.emplace();
     removeUnfinishedOutputs(tasks);
   }
   BatchMonitor monitor(line, tasks);
   MeshRunner runner(line, tasks.size());
-  const std::vector<JobPhase> phases = phasesOf(line, tasks, unfinishedTasks(line, runner, monitor, tasks, stop));
+  const JobContext context{line, tasks, runner, monitor, stop};
+  const std::vector<JobPhase> phases = phasesOf(line, tasks, unfinishedTasks(context));
   monitor.beginComputation();
   ExitCode code = ExitCode::Done;
   if (!phases.empty() && !stop.stop_requested()) {  // Else no device is opened.
     if (!line.batch.isBatch() && phases.back().jobCount == 1) runner.showProgressOfMeshes();
     try {
-      code = line.batch.isolates ? runIsolated(line, arguments, runner, monitor, tasks, phases, stop)
-                                 : runHere(line, runner, monitor, tasks, phases, stop);
+      code = line.batch.isolates ? runIsolated(context, phases, arguments) : runHere(context, phases);
     } catch (...) {
       static_cast<void>(monitor.finish());
       throw;

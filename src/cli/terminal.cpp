@@ -13,6 +13,7 @@
 
 #include "asdf_vk/error.h"
 #include "core/text.h"
+#include "core/write_all.h"
 
 namespace asdfvk {
 namespace {
@@ -20,17 +21,6 @@ namespace {
 constexpr double kQuietSeconds = 1;
 constexpr double kRedrawSeconds = 0.1;
 constexpr int kCells = 40;
-
-/// 0 or the errno of the failure.
-int writeAll(int stream, std::string_view text) {
-  while (!text.empty()) {
-    const ssize_t count = write(stream, text.data(), text.size());
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) return errno;
-    text.remove_prefix(static_cast<size_t>(count));
-  }
-  return 0;
-}
 
 std::string messageLine(std::string_view kind, std::string_view subject, std::string_view message) {
   const std::string line = subject.empty() ? fmt::format("asdf-vk: {}: {}", kind, message)
@@ -46,7 +36,7 @@ void writeStandardOutput(std::string_view text) {
                 fmt::format("standard output cannot be written: {}", std::strerror(error)));
 }
 
-void writeStandardError(std::string_view text) { writeAll(STDERR_FILENO, text); }
+void writeStandardError(std::string_view text) { static_cast<void>(writeAll(STDERR_FILENO, text)); }
 
 void printError(std::string_view subject, std::string_view message) { writeStandardError(errorLine(subject, message)); }
 

@@ -18,6 +18,7 @@
 #include <utility>
 
 #include "asdf_vk/error.h"
+#include "core/write_all.h"
 
 namespace asdfvk {
 
@@ -25,12 +26,12 @@ static_assert(std::endian::native == std::endian::little, "the binary formats ar
 
 namespace {
 
-/// Names of files that are being written, for a signal handler: whoever exchanges a name for null owns it, so that the
-/// handler never reads a freed name.
+/// Names of the files that are being written, for a signal handler. The thread or handler that replaces a name by null
+/// owns the name, so that the handler never reads a freed name.
 std::array<std::atomic<const char*>, 64> unfinished{};
 static_assert(std::atomic<const char*>::is_always_lock_free);
 
-/// ".asdf-vk-HOST-": process numbers are those of a machine or a container.
+/// ".asdf-vk-HOST-": process numbers are unique within one machine or container only.
 const std::string& temporaryPrefix() {
   static const std::string prefix = [] {
     std::array<char, HOST_NAME_MAX + 1> host{};
@@ -41,7 +42,8 @@ const std::string& temporaryPrefix() {
 }
 constexpr std::string_view kTemporarySuffix = ".part";
 
-/// Removes those temporary files of this host in the folder, PREFIX PROCESS-COUNT.part, whose process `select` accepts.
+/// Removes the temporary files of this host in a folder, named temporaryPrefix() + "PROCESS-COUNT.part", for which
+/// select(process, path) returns true.
 template <typename Select>
 void removeTemporaries(const std::filesystem::path& folder, const Select& select) {
   std::error_code error;
@@ -57,17 +59,17 @@ void removeTemporaries(const std::filesystem::path& folder, const Select& select
   }
 }
 
-/// Not of a process that has ended and waits for its parent to notice.
+/// False for a zombie too, which is a process that has ended and that its parent has not waited for.
 bool isRunning(int process) {
   if (::kill(process, 0) != 0 && errno == ESRCH) return false;
   std::ifstream stream(fmt::format("/proc/{}/stat", process));
   std::string text;
   std::getline(stream, text);
-  const size_t end = text.rfind(") ");  // Of the name, which may hold anything.
+  const size_t end = text.rfind(") ");  // The end of the name, which may contain any character.
   return end == std::string::npos || (text[end + 2] != 'Z' && text[end + 2] != 'X');
 }
 
-/// By a running process. False where the file system has no locks.
+/// Whether a running process has locked the file. False if the file system does not support locks.
 bool isLocked(const std::filesystem::path& path) {
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor < 0) return false;
@@ -163,7 +165,7 @@ void AtomicFile::withdrawTemporary() noexcept {
     announced_.reset();
     return;
   }
-  (void)announced_.release();  // A signal handler reads it, and the process ends.
+  (void)announced_.release();  // The signal handler has taken it and still reads it; the process is about to end.
 }
 
 void AtomicFile::write(const void* bytes, size_t size) {
@@ -178,13 +180,7 @@ void AtomicFile::write(const void* bytes, size_t size) {
 }
 
 void AtomicFile::flush() {
-  size_t written = 0;
-  while (written < used_) {
-    const ssize_t count = ::write(descriptor_, buffer_.get() + written, used_ - written);
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) failAndRemove(errno);
-    written += static_cast<size_t>(count);
-  }
+  if (const int error = writeAll(descriptor_, {buffer_.get(), used_}); error != 0) failAndRemove(error);
   used_ = 0;
 }
 

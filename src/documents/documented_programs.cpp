@@ -9,13 +9,20 @@
 namespace asdfvk {
 namespace {
 
-Program documentedAsdfVk() {
-  CommandLine line;
+/// Options, version and summary of a program, or of a command, whose options are parsed into an `Options`.
+template <typename Options>
+Program programWith(const char* summary) {
+  Options options;
   CLI::App app;
-  addOptions(app, line);
+  addOptions(app, options);
   Program program = describe(app);
   program.version = ASDFVK_VERSION;
-  program.summary = "compute the shape diameter function of triangle meshes";
+  program.summary = summary;
+  return program;
+}
+
+Program documentedAsdfVk() {
+  Program program = programWith<CommandLine>("compute the shape diameter function of triangle meshes");
   for (const auto& [code, meaning] : kExitCodes) program.exitCodes.emplace_back(static_cast<int>(code), meaning);
   program.exitNote = kExitCodeOfSeveralMeshes;
   program.files = {{"NAME.asdf.ply",
@@ -47,12 +54,7 @@ Program documentedAsdfVk() {
 }
 
 Program documentedGenerator() {
-  GeneratorOptions options;
-  CLI::App app;
-  addOptions(app, options);
-  Program program = describe(app);
-  program.version = ASDFVK_VERSION;
-  program.summary = "generate triangle meshes of known shape diameter";
+  Program program = programWith<GeneratorOptions>("generate triangle meshes of known shape diameter");
   program.exitCodes.assign(kGeneratorExitCodes.begin(), kGeneratorExitCodes.end());
   program.examples = {{"An animal of about 20,000 faces:", "asdf-vk-generate animal -o animal.ply"},
                       {"A sphere of radius 10:", "asdf-vk-generate sphere --scale 10 -o sphere.ply"}};
@@ -65,12 +67,7 @@ Program documentedGenerator() {
 std::vector<Program> documentedPrograms() { return {documentedAsdfVk(), documentedGenerator()}; }
 
 Program documentedSummarize() {
-  SummaryOptions options;
-  CLI::App app;
-  addOptions(app, options);
-  Program program = describe(app);
-  program.version = ASDFVK_VERSION;
-  program.summary = "summarise the logs of batches of asdf-vk";
+  Program program = programWith<SummaryOptions>("summarise the logs of batches of asdf-vk");
   for (const ExitCode code : {ExitCode::Done, ExitCode::Usage, ExitCode::Input, ExitCode::Output, ExitCode::Internal})
     program.exitCodes.emplace_back(static_cast<int>(code), meaningOf(code));
   program.examples = {

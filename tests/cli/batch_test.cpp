@@ -228,6 +228,12 @@ TEST_CASE("bytes of any kind survive as text") {
   CHECK_EQ(Json::parse(Json(textOfBytes(all)).dump()).get<std::string>(), textOfBytes(all));
 }
 
+TEST_CASE("the answer of a worker keeps the name of the input, also where it is not UTF-8") {
+  MeshRun run;
+  run.record.input = "caf\xe9.off";
+  CHECK_EQ(runOf(asdfvk::Json::parse(lineOf(answerOf(run)))).record.input, run.record.input);
+}
+
 std::vector<JobPhase> planned(const std::vector<MeshTask>& tasks, uint32_t requestedJobs, uint32_t threadCount) {
   std::vector<size_t> all(tasks.size());
   std::iota(all.begin(), all.end(), size_t{0});

@@ -5,6 +5,7 @@
 #include <new>
 
 #include "core/check.h"
+#include "core/text.h"
 
 namespace asdfvk {
 namespace {

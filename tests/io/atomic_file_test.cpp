@@ -43,6 +43,18 @@ void checkRefused(const std::filesystem::path& path, const std::string& reason) 
   CHECK(message.find('\n') == std::string::npos);
 }
 
+/// Starts a process that ends while it writes a file of the folder. Returns its id; the caller waits for it.
+pid_t leaveTemporaryIn(const Folder& folder) {
+  const pid_t child = ::fork();
+  REQUIRE(child >= 0);
+  if (child == 0) {
+    AtomicFile file(folder / "out.ply");
+    file.write(std::string(3'000'000, 'x'));
+    ::_exit(0);
+  }
+  return child;
+}
+
 }  // namespace
 
 TEST_CASE("a committed file contains the written bytes, also beyond the buffer size, and no other file is left") {
@@ -138,18 +150,8 @@ TEST_CASE("a FIFO is written into, not replaced") {
 
 TEST_CASE("temporary files of a killed process are removed, those of running processes and other files are not") {
   const Folder folder;
-  const auto leaveTemporary = [&] {
-    const pid_t child = ::fork();
-    REQUIRE(child >= 0);
-    if (child == 0) {
-      AtomicFile file(folder / "out.ply");
-      file.write(std::string(3'000'000, 'x'));
-      ::_exit(0);
-    }
-    REQUIRE(::waitpid(child, nullptr, 0) == child);
-    return child;
-  };
-  leaveTemporary();
+  const pid_t first = leaveTemporaryIn(folder);
+  REQUIRE(::waitpid(first, nullptr, 0) == first);
   REQUIRE(folder.names().size() == 1);
   const std::string left = folder.names().front(), host = left.substr(0, left.rfind('-', left.rfind('-') - 1) + 1);
   putContent(folder / (host + "1-0.part"), "of process 1, which runs");
@@ -162,7 +164,8 @@ TEST_CASE("temporary files of a killed process are removed, those of running pro
     CHECK(folder.names().size() == 4);
     file.commit();
   }
-  const pid_t killed = leaveTemporary();
+  const pid_t killed = leaveTemporaryIn(folder);
+  REQUIRE(::waitpid(killed, nullptr, 0) == killed);
   removeFilesOfProcess(folder.path(), killed + 1);
   CHECK(folder.names().size() == 5);
   removeFilesOfProcess(folder.path(), killed);
@@ -172,13 +175,7 @@ TEST_CASE("temporary files of a killed process are removed, those of running pro
 
 TEST_CASE("the temporary file of a killed process is removed, also before its parent has waited for it") {
   const Folder folder;
-  const pid_t child = ::fork();
-  REQUIRE(child >= 0);
-  if (child == 0) {
-    AtomicFile file(folder / "out.ply");
-    file.write(std::string(3'000'000, 'x'));
-    ::_exit(0);
-  }
+  const pid_t child = leaveTemporaryIn(folder);
   siginfo_t info{};
   REQUIRE(::waitid(P_PID, static_cast<id_t>(child), &info, WEXITED | WNOWAIT) == 0);
   CHECK(folder.names().size() == 1);
