@@ -20,7 +20,7 @@ std::string contentHash(std::span<const char> bytes) { return textOf(XXH3_128bit
 
 std::optional<std::string> contentHashOf(const std::filesystem::path& path) {
   std::error_code ignored;
-  if (!std::filesystem::is_regular_file(path, ignored)) return std::nullopt;  // To open a FIFO would wait for a writer.
+  if (!std::filesystem::is_regular_file(path, ignored)) return std::nullopt;  // Opening a FIFO waits for a writer.
   constexpr size_t kPiece = size_t{1} << 18;
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor < 0) return std::nullopt;

@@ -7,10 +7,12 @@
 
 namespace asdfvk {
 
-/// 32 hexadecimal digits: XXH3 with 128 bits. It detects changes, not forgery.
+/// The 128-bit XXH3 hash of the bytes as 32 hexadecimal digits. Not a cryptographic hash: it detects accidental changes
+/// only.
 [[nodiscard]] std::string contentHash(std::span<const char> bytes);
 
-/// Of the bytes of a file, read in pieces; unset where it cannot be read, or is no regular file.
+/// contentHash() of the bytes of a file, which is read in pieces. Unset where the file cannot be read or is not a
+/// regular file.
 [[nodiscard]] std::optional<std::string> contentHashOf(const std::filesystem::path& path);
 
 }  // namespace asdfvk

@@ -28,7 +28,7 @@ struct InputRequest {
 /// The inputs in the order of the arguments, those below a folder in ascending order of their paths, then those of the
 /// list. Below folders, results of this program (NAME.asdf.ply), hidden files and hidden folders are ignored, and links
 /// to folders are not followed. The outputs of a list lie in a tree below its longest common folder. A file that does
-/// not exist is an input, too, also a dangling link below a folder. Throws Error{UnreadableInput} for a folder or list
+/// not exist is an input, and so is a dangling link below a folder. Throws Error{UnreadableInput} for a folder or list
 /// that cannot be read.
 [[nodiscard]] std::vector<InputFile> listInputs(const InputRequest& request);
 

@@ -11,7 +11,7 @@
 
 namespace asdfvk {
 
-/// Least, middle and greatest of some numbers; all 0 without one.
+/// Minimum, median, 90th percentile and maximum of some numbers; all 0 if there are none.
 struct Spread {
   double min = 0, median = 0, percentile90 = 0, max = 0;
 };
@@ -38,8 +38,8 @@ struct FailureGroup {
   std::string exampleInput, exampleMessage;
 };
 
-/// Counts, times and failures from the logs of a batch. Of several records of a mesh the one with the latest time
-/// counts, else the last one.
+/// Counts, times and failures from the logs of a batch. If a mesh has several records, the one with the latest time
+/// counts; of equal times, or without times, the last one.
 struct LogSummary {
   size_t recordCount = 0, invalidLineCount = 0;
   std::map<MeshStatus, uint64_t> statusCounts;

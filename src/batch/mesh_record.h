@@ -13,9 +13,9 @@ namespace asdfvk {
 
 enum class MeshStatus {
   Done,
-  Skipped,  ///< An earlier run computed the output, and nothing has changed.
+  Skipped,  ///< The output of an earlier run is up to date, see findFinishedOutput().
   Failed,
-  Dropped,  ///< The run was cancelled while this mesh was at hand.
+  Dropped,  ///< The run was cancelled after this mesh was begun and before it was finished.
 };
 inline constexpr std::array<std::pair<MeshStatus, const char*>, 4> kMeshStatuses{{{MeshStatus::Done, "done"},
                                                                                   {MeshStatus::Skipped, "skipped"},
@@ -23,38 +23,40 @@ inline constexpr std::array<std::pair<MeshStatus, const char*>, 4> kMeshStatuses
                                                                                   {MeshStatus::Dropped, "dropped"}}};
 [[nodiscard]] const char* nameOf(MeshStatus status);
 
-/// What a batch records about one mesh: a line of the log, and the file beside the output.
+/// The record of a mesh of a batch: a line of the log, and the content of the file beside the output.
 struct MeshRecord {
   std::string input;
-  std::string time;                                ///< utcTime() when the mesh was begun; empty where unknown.
-  std::optional<std::string> output;               ///< Unset where none was written.
-  std::string inputHash, optionsHash, outputHash;  ///< contentHash(); empty where unknown.
+  /// utcTime() at the start of the mesh; at the end of its worker process if that was killed; empty where unknown.
+  std::string time;
+  std::optional<std::string> output;               ///< Unset where no output was written.
+  std::string inputHash, optionsHash, outputHash;  ///< contentHash() of each; empty where unknown.
   std::optional<uint64_t> faceCount;               ///< Input faces.
-  nlohmann::ordered_json options;                  ///< As in the JSON report.
+  nlohmann::ordered_json options;                  ///< The key "options" of the JSON report.
   std::string version, commit, device, backend;
-  std::vector<std::pair<std::string, double>> seconds;  ///< Of each stage that ran.
-  double totalSeconds = 0;                              ///< From the reading to the end of the writing.
+  std::vector<std::pair<std::string, double>> seconds;  ///< Name and time of each stage that ran.
+  double totalSeconds = 0;                              ///< From the start of reading to the end of writing.
   uint64_t peakMemoryBytes = 0;
-  nlohmann::ordered_json estimatedError;  ///< As in the JSON report, or null.
+  /// Of that of the JSON report: average, standardError, relativeMedian and relativePercentile90. Or null.
+  nlohmann::ordered_json estimatedError;
   std::optional<uint32_t> segmentCount;
-  std::vector<std::string> warnings;  ///< Their codes.
+  std::vector<std::string> warnings;  ///< The codes of the warnings.
   MeshStatus status = MeshStatus::Done;
-  int code = 0;         ///< The exit code for this mesh.
-  std::string error;    ///< Its name; empty without a failure.
-  std::string message;  ///< Empty without a failure.
+  int code = 0;         ///< The exit code of this mesh.
+  std::string error;    ///< Name of the error; empty without a failure.
+  std::string message;  ///< One line; empty without a failure.
 };
 
-/// "2026-05-31T12:34:56.789Z": the current time by ISO 8601, in an order that is that of the texts.
+/// The current time in ISO 8601, "2026-05-31T12:34:56.789Z". The alphabetical order of such texts is that of the times.
 [[nodiscard]] std::string utcTime();
 
 [[nodiscard]] nlohmann::ordered_json toJson(const MeshRecord& record);
 
-/// One line without a line end. Bytes that are not UTF-8 are replaced; for an input with such bytes, the key inputBytes
-/// has all of them as hexadecimal digits.
+/// One line without the line end. Bytes that are not UTF-8 are replaced. If the input has such bytes, the key
+/// inputBytes has all bytes of the input as hexadecimal digits.
 [[nodiscard]] std::string toJsonLine(const MeshRecord& record);
 
-/// Unset where the text is not a record, for example a line that was cut. Needs the keys input, status, code and
-/// message only, so that other programs can write records. Unknown keys are ignored.
+/// Unset where the text is not a record, for example an incomplete line. Only the keys input, status, code and message
+/// are required, so that other programs can write records. Unknown keys are ignored.
 [[nodiscard]] std::optional<MeshRecord> parseRecord(std::string_view json);
 
 }  // namespace asdfvk

@@ -11,7 +11,7 @@ namespace asdfvk {
 /// Requests a stop after a time, or when another token is stopped.
 class MeshTimer {
  public:
-  /// seconds: above 1e9, infinite too, for no limit. outer: for example that of Ctrl-C.
+  /// seconds: more than 1e9, also infinity, is no limit. outer: for example Interrupt::token().
   MeshTimer(double seconds, const std::stop_token& outer);
 
   [[nodiscard]] std::stop_token token() const { return source_.get_token(); }

@@ -14,8 +14,8 @@ namespace asdfvk {
 [[nodiscard]] std::filesystem::path outputRecordPath(const std::filesystem::path& output);
 
 /// The record beside the output if the output is that of `expected`: with the same input hash, options hash, version
-/// and commit, without a failure, and with bytes that have the recorded hash. Its paths and its status, Skipped, are
-/// those of this run.
+/// and commit, without a failure, and with bytes that have the recorded hash. Its paths and its time are those of
+/// `expected`, its status is Skipped.
 [[nodiscard]] std::optional<MeshRecord> findFinishedOutput(const MeshRecord& expected,
                                                            const std::filesystem::path& output);
 

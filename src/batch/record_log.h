@@ -7,8 +7,9 @@
 
 namespace asdfvk {
 
-/// A file with a record per line, to which several threads and several processes append. Each line is one write(), so
-/// that a killed process leaves at most a cut line, which the next append() of any process ends.
+/// A file with one record per line. Several threads and several processes may append to it. Each line is written by one
+/// write(), so that a killed process leaves at most one incomplete line. The next append() of any process ends that
+/// line.
 class RecordLog {
  public:
   /// Throws Error{OutputNotWritable}.
@@ -26,8 +27,8 @@ class RecordLog {
   std::mutex mutex_;
 };
 
-/// The records of a log without their options; invalidCount: lines that are none, such as cut ones. Throws
-/// Error{UnreadableInput}.
+/// The records of a log, without their options. Adds to invalidCount the number of lines that are not records, such as
+/// incomplete lines. Throws Error{UnreadableInput}.
 [[nodiscard]] std::vector<MeshRecord> readLog(const std::filesystem::path& path, size_t& invalidCount);
 
 }  // namespace asdfvk

@@ -20,8 +20,8 @@ constexpr int kPollMilliseconds = 100;
 /// A mesh may fill 2 GB of memory per second, 20 MB in this time.
 constexpr int kMemoryPollMilliseconds = 10;
 constexpr int kMaxFailedStarts = 3;
-/// A worker that keeps more than this share of the memory that it may take for tasks is replaced before the next one,
-/// which would otherwise fail for the memory of others.
+/// Share of the memory for tasks, which is the limit minus the memory of a ready worker. A worker that keeps more than
+/// this share after a task is replaced, so that the next task does not fail because of the memory of earlier tasks.
 constexpr double kMaxKeptShare = 0.5;
 
 struct Worker {
@@ -60,7 +60,7 @@ class WorkerPool {
            std::none_of(workers_.begin(), workers_.end(), [](const Worker& w) { return w.task; });
   }
 
-  /// The first worker, until one is ready; then as many as are allowed.
+  /// Until a worker is ready, only one starts; then as many as client_.ready() allows.
   [[nodiscard]] bool mayStart(const Worker& worker) const {
     if (worker.isGivenUp) return false;
     const auto startedCount = static_cast<uint32_t>(
@@ -88,11 +88,11 @@ class WorkerPool {
     worker.task = next_++;
     worker.watch = Stopwatch();
     worker.peakBytes = 0;
-    worker.process->lines().send(client_.request(*worker.task));  // Where the worker has ended, its socket reports it.
+    worker.process->lines().send(client_.request(*worker.task));  // If the worker has ended, watchOver() detects it.
   }
 
   [[nodiscard]] bool hasGrown(const Worker& worker) const {
-    if (options_.memoryBytes <= worker.readyBytes) return false;  // No limit, or one that no worker keeps.
+    if (options_.memoryBytes <= worker.readyBytes) return false;  // No limit, or below the memory of any ready worker.
     const auto ready = static_cast<double>(worker.readyBytes);
     const double kept = static_cast<double>(residentBytesOf(worker.process->id())) - ready;
     return kept > kMaxKeptShare * (static_cast<double>(options_.memoryBytes) - ready);
@@ -166,7 +166,7 @@ class WorkerPool {
     giveUp(worker);
   }
 
-  /// Before any worker was ready: all of them, since the others would fail in the same way.
+  /// If no worker was ready before: gives up all of them, because the others would fail in the same way.
   void giveUp(Worker& worker) {
     worker.isGivenUp = true;
     if (!hasStarted_)

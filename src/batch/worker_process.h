@@ -12,14 +12,14 @@
 namespace asdfvk {
 
 struct ProcessEnd {
-  int signal = 0;    ///< That ended the process; 0 where it returned.
-  int exitCode = 0;  ///< Where it returned.
+  int signal = 0;    ///< The signal that ended the process; 0 where it exited.
+  int exitCode = 0;  ///< Where it exited.
 };
 /// "ended by signal 11 (Segmentation fault)", "ended with exit code 3".
 [[nodiscard]] std::string textOf(const ProcessEnd& end);
 
-/// A process that takes lines on its standard input and answers with lines on its standard output, both ends of one
-/// socket. It is killed by the destructor. Its standard error is that of this process.
+/// A process that reads lines from its standard input and answers with lines on its standard output. Both are the same
+/// socket. Its standard error is that of this process. The destructor kills it.
 class WorkerProcess {
  public:
   /// arguments: the first one is the name that the process sees. Throws std::system_error.

@@ -4,10 +4,11 @@
 
 namespace asdfvk {
 
-/// The only argument of a worker process. Not an option: users have no need for it.
+/// The only argument of a worker process. Not an option, because only the main process passes it.
 inline constexpr const char* kWorkerArgument = "--batch-worker";
 
-/// The whole of a worker process: takes meshes from the socket that is its standard input until that ends.
+/// Runs a worker process: computes the meshes that arrive on its standard input, a socket, until the socket is closed,
+/// the device fails or a signal arrives.
 [[nodiscard]] ExitCode runWorker();
 
 }  // namespace asdfvk

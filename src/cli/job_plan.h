@@ -21,9 +21,10 @@ inline constexpr uint64_t kMinMeshesPerJob = 4;
 /// Jobs on one GPU where --jobs is not given. An estimate: no GPU was available to measure it.
 inline constexpr uint32_t kMaxJobsOnGpu = 4;
 
-/// computed: indices of the tasks to plan; each of them is in exactly one phase. requestedJobs: of --jobs, 0 for the
-/// choice by sizes: small meshes are computed at once, in as many jobs as there are threads, but with at least
-/// kMinMeshesPerJob meshes in each; large ones before them, one after another with all threads.
+/// computed: indices of the tasks to plan; each of them is in exactly one phase. requestedJobs: the value of --jobs, or
+/// 0 to choose by the sizes of the meshes. With 0 large meshes are computed first, one after another with all threads.
+/// Small meshes follow, in as many jobs as there are threads, but with at least kMinMeshesPerJob meshes per job. If
+/// that gives one job only, all meshes are computed one after another in their order.
 [[nodiscard]] std::vector<JobPhase> planJobs(const std::vector<MeshTask>& tasks, std::vector<size_t> computed,
                                              uint32_t requestedJobs, uint32_t threadCount);
 

@@ -20,27 +20,27 @@ struct MeshTask {
   uint64_t byteCount = 0;     ///< Of the input; 0 where it is unknown.
 };
 
-/// The outcome of a mesh. The texts have one or several lines with their ends.
+/// The result of a mesh. The texts are empty or consist of complete lines.
 struct MeshRun {
   ExitCode code = ExitCode::Done;
   std::string json;   ///< For --json.
-  std::string text;   ///< For standard error: errors; without --quiet warnings, and the report unless in a batch.
+  std::string text;   ///< For standard error: errors. Outside a batch and without --quiet also warnings and report.
   MeshRecord record;  ///< Complete in a batch only.
 };
 
-/// A mesh that was read, or the failure of that.
+/// A mesh that was read, or the exception of its reader.
 struct LoadedMesh {
   Mesh mesh;
-  std::string hash;  ///< contentHash() of the file; empty unless requested.
-  double seconds = 0;
+  std::string hash;    ///< contentHash() of the file; empty unless requested.
+  double seconds = 0;  ///< Of the reading.
   std::exception_ptr failure;
 };
 
 /// Throws nothing.
 [[nodiscard]] LoadedMesh loadMesh(const std::string& path, bool computesHash);
 
-/// Reads, computes and writes meshes. Several threads may call it at once, each with a session of its own, unless all
-/// results are in one page.
+/// Reads, computes and writes meshes. Several threads may call run() at once, each with its own session, unless all
+/// results are written to one page.
 class MeshRunner {
  public:
   /// The command line must outlive this object.
@@ -49,11 +49,12 @@ class MeshRunner {
   /// Shows the progress within each mesh on a terminal, unless with --quiet.
   void showProgressOfMeshes() { showsBar_ = !line_.quiet; }
 
-  /// For --skip-existing: set where an earlier run has finished the mesh. Throws nothing.
+  /// For --skip-existing: set where the output of an earlier run is up to date. Throws nothing.
   [[nodiscard]] std::optional<MeshRun> skip(const MeshTask& task) const;
 
-  /// Throws nothing: a failure is a MeshRun. loaded: the mesh, where it was read ahead. A stop request ends it with
-  /// ExitCode::Cancelled. measuresMemory: no other mesh is computed in this process meanwhile.
+  /// Throws nothing: a failure is part of the MeshRun. loaded: set where the mesh was read ahead. A stop request ends
+  /// the run with ExitCode::Cancelled. measuresMemory: measure the peak memory of this mesh only; no other mesh may be
+  /// computed in this process at the same time.
   [[nodiscard]] MeshRun run(Session& session, const MeshTask& task, std::optional<LoadedMesh> loaded,
                             bool measuresMemory, const std::stop_token& stop);
 

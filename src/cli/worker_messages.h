@@ -12,7 +12,7 @@ namespace asdfvk {
 /// Without the line end.
 [[nodiscard]] std::string lineOf(const Json& json);
 
-/// Bytes of any kind as UTF-8 text, a character per byte, so that JSON carries them; and back.
+/// Arbitrary bytes as UTF-8 text, one character per byte, for JSON; and the inverse.
 [[nodiscard]] std::string textOfBytes(std::string_view bytes);
 [[nodiscard]] std::string bytesOfText(std::string_view text);
 
@@ -20,7 +20,7 @@ namespace asdfvk {
 [[nodiscard]] Json requestOf(const MeshTask& task);
 [[nodiscard]] MeshTask taskOf(const Json& request);
 
-/// The result of a mesh; names in its record that are not UTF-8 are lost.
+/// The result of a mesh. Bytes of its record that are not UTF-8 are replaced, except in the input.
 [[nodiscard]] Json answerOf(const MeshRun& run);
 [[nodiscard]] MeshRun runOf(const Json& answer);
 

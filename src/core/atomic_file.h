@@ -12,7 +12,7 @@ namespace asdfvk {
 /// Atomic replacement of a file: bytes go to a temporary file beside the target, and commit() renames it to the target.
 /// Without a commit(), or on failure, the temporary file is removed and the previous file is unchanged. An existing
 /// file keeps its mode; a symbolic link is followed. Targets that are not regular files (/dev/null, a FIFO) and "-",
-/// standard output, are written directly. Every failure is an Error{Output} with the reason of the system.
+/// standard output, are written directly. Every failure throws Error{OutputNotWritable} with the reason of the system.
 class AtomicFile {
  public:
   explicit AtomicFile(const std::filesystem::path& target);
@@ -52,7 +52,7 @@ class AtomicFile {
   [[noreturn]] void failAndRemove(int errorNumber);
   [[noreturn]] void fail(int errorNumber, const std::string& during) const;
 
-  std::filesystem::path target_, temporary_;  ///< temporary_ is empty where the target is written directly.
+  std::filesystem::path target_, temporary_;  ///< temporary_ is empty if the target is written directly.
   std::unique_ptr<char[]> announced_;         ///< The path that removeUnfinishedFiles() reads.
   bool isStandardOutput_ = false;
   int descriptor_ = -1;
@@ -60,15 +60,16 @@ class AtomicFile {
   size_t used_ = 0;
 };
 
-/// Removes the temporary files that processes of this host left in a folder when they were killed. A process with the
-/// same number in a container with the same host name is safe where the file system has flock().
+/// Removes the temporary files that killed processes of this host left in a folder. Files of running processes remain.
+/// Processes of other containers with the same host name are not visible; their files remain if the file system
+/// supports flock().
 void removeAbandonedFiles(const std::filesystem::path& folder);
 
-/// Removes the temporary files of a process of this host that has ended.
+/// Removes the temporary files that a process of this host, which has ended, left in a folder.
 void removeFilesOfProcess(const std::filesystem::path& folder, int process);
 
-/// Removes the temporary files that this process is writing, at most 64 of them, before it is terminated.
-/// Async-signal-safe.
+/// Removes the temporary files that this process is writing, at most 64. For a signal handler that then ends the
+/// process: async-signal-safe.
 void removeUnfinishedFiles() noexcept;
 
 }  // namespace asdfvk
