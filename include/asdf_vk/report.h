@@ -85,7 +85,7 @@ struct Warning {
 struct SolverReport {
   std::string name;  ///< Of solverNames(), or "none" where every face is a seed.
   uint32_t iterations = 0;
-  double relativeResidual = 0;  ///< Recomputed in double from the solution.
+  double relativeResidual = 0;  ///< Recomputed from the solution: in double, or by a device in float32.
   bool converged = true;
   bool finishedOnCpu = false;  ///< Started on a device in float32 and finished in double.
 };

@@ -1,8 +1,12 @@
-// Distribution of rows to lanes and sums over a workgroup, for the Poisson kernels. Include first.
+// Distribution of rows to lanes and sums over a workgroup, for the Poisson kernels. Include first. PUSH_STRUCT: of the
+// push constants, if not PoissonPush.
+#ifndef PUSH_STRUCT
+#define PUSH_STRUCT PoissonPush
+#endif
 layout(local_size_x_id = 2) in;                      // kLaneCount: an id is used once only.
 layout(constant_id = 0) const uint kLaneCount = 64;  // A power of two and a multiple of 8.
 
-layout(push_constant) uniform Push { PoissonPush push; };
+layout(push_constant) uniform Push { PUSH_STRUCT push; };
 
 shared mat2x3 laneSums[kLaneCount];
 

@@ -149,10 +149,14 @@ const std::vector<double>& Interpolation::weights() {
   return weights_;
 }
 
+bool Interpolation::guidedByPrediction() const {
+  return computation_.options.interpolation.guidance == Guidance::Prediction && !prediction_.values.empty();
+}
+
 std::vector<double> Interpolation::divergence() {
   switch (computation_.options.interpolation.guidance) {
     case Guidance::Prediction:
-      if (prediction_.values.empty()) return {};
+      if (!guidedByPrediction()) return {};
       return divergenceOf(computation_.domain.graph, weights(), prediction_.values);
     case Guidance::Curvature: {
       std::vector<double> divergence = faceCurvature(computation_.scene.mesh);
@@ -204,9 +208,17 @@ SolverReport Interpolation::solveWith(const std::string& name, const std::vector
   const SolverOptions& options = computation_.options.solverOptions;
   SolverReport report;
   if (GraphSolver* const onGraph = graphSolver(*solver, unknownCount)) {
-    const std::vector<double> guess = firstGuess(domain, traced, prediction_.values), divergence = this->divergence();
+    const bool isGuided = guidedByPrediction();
+    const std::vector<double> divergence = isGuided ? std::vector<double>{} : this->divergence();
+    const std::vector<double> means =
+        prediction_.values.empty() ? firstGuess(domain, traced, {}) : std::vector<double>{};
     values.assign(constraints.begin(), constraints.end());
-    report = onGraph->solve({constraints, divergence, guess, domain.componentOf}, options, values, control);
+    report = onGraph->solve({.constraints = constraints,
+                             .firstGuess = means.empty() ? std::span(std::as_const(prediction_.values)) : means,
+                             .isGuided = isGuided,
+                             .divergence = divergence,
+                             .componentOf = domain.componentOf},
+                            options, values, control);
   } else {
     // The solve needs the most memory of a run: the solution takes the place of the first guess, and the values come
     // after the system.

@@ -52,6 +52,7 @@ class Interpolation {
   void continueOnCpu(const Error& failure);
   void predictWith(DevicePredictor* device, const SeedHits& hits, const RunControl& control);
   [[nodiscard]] const std::vector<double>& weights();
+  [[nodiscard]] bool guidedByPrediction() const;
   [[nodiscard]] std::vector<double> divergence();
   [[nodiscard]] PoissonSystem buildSystem(const std::vector<ComponentValues>& traced,
                                           std::span<const double> constraints);

@@ -8,7 +8,7 @@
 #include "asdf_vk/options.h"
 #include "asdf_vk/report.h"
 #include "asdf_vk/run_control.h"
-#include "poisson/graph_equation.h"
+#include "mesh/dual_graph.h"
 #include "poisson/poisson_system.h"
 
 /// Solvers of the Poisson equation. A new solver requires a file with its class, the declaration of its make function
@@ -16,6 +16,15 @@
 namespace asdfvk {
 
 class Device;
+
+/// One interpolation on a dual graph, as buildPoissonSystem() has it.
+struct GraphProblem {
+  std::span<const double> constraints;    ///< #F, NaN for a face without one.
+  std::span<const double> firstGuess;     ///< #F; non-finite entries are replaced by the mean of the constraints.
+  bool isGuided = false;                  ///< Whether the divergence includes divergenceOf(firstGuess).
+  std::span<const double> divergence;     ///< #F, or empty for none: further divergence; non-finite entries count as 0.
+  std::span<const uint32_t> componentOf;  ///< #F
+};
 
 /// A solver on one dual graph with weights, for any constraints.
 class GraphSolver {

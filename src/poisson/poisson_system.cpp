@@ -149,22 +149,6 @@ double meanOfConstraints(std::span<const double> constraints) {
   });
 }
 
-PoissonSystem wholePoissonSystem(const DualGraph& graph, std::span<const double> weights) {
-  ASDFVK_CHECK_OP(weights.size(), ==, graph.neighbours.size());
-  PoissonSystem system;
-  system.faces.resize(graph.faceCount());
-  std::iota(system.faces.begin(), system.faces.end(), 0u);
-  assemble({graph, weights}, system.faces, {}, {}, system);
-  const auto rowCount =
-      static_cast<double>(countInParallel(system.faces.size(), [&](size_t row) { return system.diagonal[row] > 0; }));
-  const double mean =
-      rowCount > 0 ? orderedSum(system.faces.size(), [&](size_t row) { return system.diagonal[row] / rowCount; }) : 1;
-  forEachInParallel(system.faces.size(), [&](size_t row) {
-    if (system.diagonal[row] == 0) system.diagonal[row] = mean;
-  });
-  return system;
-}
-
 PoissonSystem buildPoissonSystem(const DualGraph& graph, std::span<const double> weights,
                                  std::span<const double> constraints, std::span<const double> divergence,
                                  const PoissonOptions& options) {

@@ -61,11 +61,6 @@ struct PoissonOptions {
                                                std::span<const double> constraints, std::span<const double> divergence,
                                                const PoissonOptions& options = {});
 
-/// The matrix of all interpolations with these weights: every face is unknown and none is constrained. Rows and columns
-/// of an interpolation's unknowns are those of its own matrix, with the same diagonal. A face without neighbours has
-/// the mean of the other diagonal entries, or 1. There is no right-hand side.
-[[nodiscard]] PoissonSystem wholePoissonSystem(const DualGraph& graph, std::span<const double> weights);
-
 /// #F: 1 for the faces of components with a finite constraint.
 [[nodiscard]] std::vector<uint8_t> reachableFaces(std::span<const uint32_t> componentOf,
                                                   std::span<const double> constraints);

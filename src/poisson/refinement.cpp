@@ -5,7 +5,6 @@
 
 #include "core/parallel.h"
 #include "core/unset_vector.h"
-#include "poisson/graph_equation.h"
 #include "poisson/poisson_system.h"
 
 namespace asdfvk {
@@ -27,8 +26,13 @@ void SolverProgress::checkpoint(double residualNorm) {
   control_.checkpoint(fraction_);
 }
 
-template <typename System>
-SolverReport solveByRefinement(const System& system, const SolverOptions& options, std::span<double> solution,
+double passReduction(double targetNorm, double norm, double minReduction) {
+  return std::max(kSafety * targetNorm / norm, minReduction);
+}
+
+bool passStagnates(double newNorm, double norm) { return !(newNorm <= kStagnation * norm); }
+
+SolverReport solveByRefinement(const PoissonSystem& system, const SolverOptions& options, std::span<double> solution,
                                const std::vector<Corrector>& correctors) {
   SolverReport report;
   setFirstGuess(system, solution);
@@ -45,13 +49,13 @@ SolverReport solveByRefinement(const System& system, const SolverOptions& option
     if (!(norm > target) || report.iterations >= options.maxIterations) break;
     report.iterations += corrector->correct({.residual = residual,
                                              .norm = norm,
-                                             .reduction = std::max(kSafety * target / norm, corrector->minReduction),
+                                             .reduction = passReduction(target, norm, corrector->minReduction),
                                              .maxIterations = options.maxIterations - report.iterations,
                                              .correction = correction});
     forEachInParallel(solution.size(), [&](size_t row) { correction[row] += solution[row]; });
     computeResidual(system, correction, residual);
     const double newNorm = residualNorm(system, residual);  // Not finite if the correction is not.
-    const bool helps = newNorm <= norm, stagnates = !(newNorm <= kStagnation * norm);
+    const bool helps = newNorm <= norm, stagnates = passStagnates(newNorm, norm);
     if (helps) {
       std::copy(correction.begin(), correction.end(), solution.begin());
       norm = newNorm;
@@ -64,10 +68,5 @@ SolverReport solveByRefinement(const System& system, const SolverOptions& option
   report.converged = std::isfinite(target) && norm <= target;
   return report;
 }
-
-template SolverReport solveByRefinement(const PoissonSystem&, const SolverOptions&, std::span<double>,
-                                        const std::vector<Corrector>&);
-template SolverReport solveByRefinement(const GraphEquation&, const SolverOptions&, std::span<double>,
-                                        const std::vector<Corrector>&);
 
 }  // namespace asdfvk

@@ -38,6 +38,11 @@ struct CorrectionRequest {
   std::span<double> correction;  ///< #U: e, overwritten.
 };
 
+/// The share of the norm of the residual that a pass is to reach.
+[[nodiscard]] double passReduction(double targetNorm, double norm, double minReduction);
+/// Whether a pass has reached the limit of its precision.
+[[nodiscard]] bool passStagnates(double newNorm, double norm);
+
 /// Returns the number of iterations.
 using CorrectionSolver = std::function<uint32_t(const CorrectionRequest& request)>;
 
@@ -50,9 +55,8 @@ struct Corrector {
 /// Iterative refinement (Wilkinson 1963): residuals in double, corrections by the first of the `correctors`, from the
 /// first guess until the true relative residual is within the tolerance or the iteration limit is reached. When a pass
 /// stagnates, the next corrector is used; after the last one the refinement ends. A correction that is not finite or
-/// increases the residual is discarded. solution: #U, overwritten. System: PoissonSystem or GraphEquation.
-template <typename System>
-[[nodiscard]] SolverReport solveByRefinement(const System& system, const SolverOptions& options,
+/// increases the residual is discarded. solution: #U, overwritten.
+[[nodiscard]] SolverReport solveByRefinement(const PoissonSystem& system, const SolverOptions& options,
                                              std::span<double> solution, const std::vector<Corrector>& correctors);
 
 }  // namespace asdfvk

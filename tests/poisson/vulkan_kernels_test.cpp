@@ -62,6 +62,11 @@ double difference(std::span<const float> kernel, const std::vector<double>& twin
   return worst / largest;
 }
 
+template <typename Vector>
+Buffer vectorOn(const Device& device, const Vector& vector) {
+  return uploadVector(device, vector, kPoissonVectorUsage);
+}
+
 }  // namespace
 
 TEST_CASE("residuals are scaled and corrections scaled back as defined") {
@@ -108,7 +113,7 @@ TEST_CASE("iterations with one reduction give the vectors of the textbook, on th
   };
   for (uint32_t iterationCount : {1u, 2u, 5u}) {
     CAPTURE(iterationCount);
-    VulkanCg onDevice(*device, kernels, matrix, b, 0);
+    VulkanCg onDevice(*device, kernels, matrix, vectorOn(*device, b), 0);
     compare(onDevice, iterationCount);
     CpuCg onCpu(scaled, b, 0);
     compare(onCpu, iterationCount);
@@ -145,7 +150,8 @@ TEST_CASE("iterations after convergence change nothing, for any batches") {
     }
     CHECK(copyOf(atOnce.direction()) == copyOf(stepwise.direction()));
   };
-  VulkanCg atOnce(*device, kernels, matrix, b, 1e-3), stepwise(*device, kernels, matrix, b, 1e-3);
+  VulkanCg atOnce(*device, kernels, matrix, vectorOn(*device, b), 1e-3),
+      stepwise(*device, kernels, matrix, vectorOn(*device, b), 1e-3);
   CHECK(atOnce.workgroupCount() == matrix.grid.workgroupCount);
   compare(atOnce, stepwise);
   CHECK(atOnce.workgroupCount() == 0);
@@ -167,7 +173,7 @@ TEST_CASE("an exact solution ends the iteration without a division of 0 by 0") {
     CHECK(state.iterationCount == 1);
     CHECK(copyOf(cg.solution()) == std::vector<float>{1});
   };
-  VulkanCg onDevice(*device, kernels, matrix, std::vector<float>{1}, 0);
+  VulkanCg onDevice(*device, kernels, matrix, vectorOn(*device, std::vector<float>{1}), 0);
   check(onDevice);
   CpuCg onCpu(scaled, {1}, 0);
   check(onCpu);
@@ -189,7 +195,7 @@ TEST_CASE("a product that is not positive ends the iteration as a breakdown") {
     }
     CHECK(copyOf(cg.solution()) == std::vector<float>{0, 0});
   };
-  VulkanCg onDevice(*device, kernels, matrix, std::vector<float>{1, 1}, 1e-3);
+  VulkanCg onDevice(*device, kernels, matrix, vectorOn(*device, std::vector<float>{1, 1}), 1e-3);
   check(onDevice);
   CHECK(onDevice.workgroupCount() == 0);
   CpuCg onCpu(scaled, {1, 1}, 1e-3);
@@ -204,7 +210,7 @@ TEST_CASE("a right-hand side that is not a number ends the iteration as a breakd
   const VulkanCgKernels kernels(*device);
   const VulkanMatrix matrix(*device, scaled);
   const float nan = std::numeric_limits<float>::quiet_NaN();
-  VulkanCg onDevice(*device, kernels, matrix, std::vector<float>{nan, 1}, 1e-3);
+  VulkanCg onDevice(*device, kernels, matrix, vectorOn(*device, std::vector<float>{nan, 1}), 1e-3);
   CHECK(onDevice.advance(10).status == kCgBrokenDown);
   CpuCg onCpu(scaled, {nan, 1}, 1e-3);
   CHECK(onCpu.advance(10).status == kCgBrokenDown);
@@ -222,7 +228,8 @@ TEST_CASE("Jacobi sweeps give the vectors of their CPU twin") {
   const VulkanMatrix matrix(*device, scaled);
   for (uint32_t iterationCount : {1u, 2u, 7u}) {
     CAPTURE(iterationCount);
-    VulkanJacobi jacobi(*device, kernel, matrix, scaled.scaleResidual(residual, KernelTwins{system}.norm(residual)));
+    const Buffer onDevice = vectorOn(*device, scaled.scaleResidual(residual, KernelTwins{system}.norm(residual)));
+    VulkanJacobi jacobi(*device, kernel, matrix, onDevice);
     std::vector<double> y(b.size(), 0.0), before(b.size());
     for (uint32_t i = 0; i < iterationCount; ++i) {
       const std::vector<double> coupled = twins.coupled(y);
@@ -287,10 +294,11 @@ TEST_CASE("rows are read from a storage buffer where the device allows few texel
     const VulkanMatrix matrix(device, scaled);
     CHECK(matrix.storageRows.byteCount() == (prefersTexels(facts) ? 16 : 32 * uint64_t{system.unknownCount()}));
     const VulkanCgKernels cgKernels(device);
-    VulkanCg cg(device, cgKernels, matrix, b, 0);
+    const Buffer onDevice = vectorOn(device, b);
+    VulkanCg cg(device, cgKernels, matrix, onDevice, 0);
     cg.advance(5);
     const VulkanJacobiKernel jacobiKernel(device);
-    VulkanJacobi jacobi(device, jacobiKernel, matrix, b);
+    VulkanJacobi jacobi(device, jacobiKernel, matrix, onDevice);
     jacobi.advance(7);
     solutions.push_back(cg.solution());
     const std::vector<float> byJacobi = jacobi.solution();

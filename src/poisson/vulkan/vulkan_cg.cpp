@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "core/stopwatch.h"
+#include "poisson/vulkan/vulkan_equation.h"
 #include "spirv/cg_product.comp.h"
 #include "spirv/cg_step.comp.h"
 
@@ -30,13 +31,9 @@ std::array<CgState, 2> firstStates(double reduction) {
   return {state, state};
 }
 
-Buffer makeVector(const Device& device, size_t count) {
-  return {device, count * sizeof(float), kPoissonVectorUsage, MemoryKind::DeviceLocal};
-}
-
 class VulkanCgSolver final : public PoissonSolver {
  public:
-  explicit VulkanCgSolver(const Device& device) : device_(device), kernels_(device) {}
+  explicit VulkanCgSolver(const Device& device) : device_(device), kernels_(device), equationKernels_(device) {}
 
   SolverReport solve(const PoissonSystem& system, const SolverOptions& options, std::span<double> solution,
                      const RunControl& control) override {
@@ -44,7 +41,7 @@ class VulkanCgSolver final : public PoissonSolver {
   }
 
   std::unique_ptr<GraphSolver> onGraph(const DualGraph& graph, std::span<const double> weights) override {
-    return makeDeviceGraphSolver(method(), device_, graph, weights);
+    return makeDeviceGraphSolver(method(), device_, equationKernels_, graph, weights);
   }
 
  private:
@@ -55,22 +52,23 @@ class VulkanCgSolver final : public PoissonSolver {
   }
 
   DevicePassResult iterate(const DevicePass& pass) const {
-    VulkanCg cg(device_, kernels_, pass.matrix, pass.rightHandSide, pass.request.reduction);
+    VulkanCg cg(device_, kernels_, pass.matrix, pass.rightHandSide, pass.reduction);
     CgState state{};
     uint32_t batch = kFirstBatch;
-    for (uint32_t recorded = 0; state.status == kCgRunning && recorded < pass.request.maxIterations;) {
+    for (uint32_t recorded = 0; state.status == kCgRunning && recorded < pass.maxIterations;) {
       const Stopwatch stopwatch;
-      const uint32_t iterationCount = std::min(batch, pass.request.maxIterations - recorded);
+      const uint32_t iterationCount = std::min(batch, pass.maxIterations - recorded);
       state = cg.advance(iterationCount);
       recorded += iterationCount;
       if (2 * stopwatch.seconds() < kMaxBatchSeconds) batch = std::min(2 * batch, kMaxBatch);
-      pass.progress.checkpoint(pass.request.norm * std::sqrt(static_cast<double>(state.residualSquared)));
+      pass.progress.checkpoint(pass.norm * std::sqrt(static_cast<double>(state.residualSquared)));
     }
-    return {cg.solution(), state.iterationCount};
+    return {cg.takeSolution(), state.iterationCount};
   }
 
   const Device& device_;
   VulkanCgKernels kernels_;
+  VulkanEquationKernels equationKernels_;
 };
 
 }  // namespace
@@ -80,15 +78,15 @@ VulkanCgKernels::VulkanCgKernels(const Device& device)
       step(device, describePoissonKernel(device.facts(), "cg_step.comp", k_cg_step_comp, 7, false)) {}
 
 VulkanCg::VulkanCg(const Device& device, const VulkanCgKernels& kernels, const VulkanMatrix& matrix,
-                   std::span<const float> rightHandSide, double reduction)
+                   const Buffer& rightHandSide, double reduction)
     : device_(device),
       kernels_(kernels),
-      unknownCount_(static_cast<uint32_t>(rightHandSide.size())),
+      unknownCount_(matrix.rowCount),
       workgroupCount_(matrix.grid.workgroupCount),
-      solution_(makeVector(device, rightHandSide.size())),
-      residual_(uploadBuffer(device, std::as_bytes(rightHandSide), kPoissonVectorUsage)),
-      direction_(makeVector(device, rightHandSide.size())),
-      product_(makeVector(device, rightHandSide.size())),
+      solution_(makePoissonVector(device, unknownCount_)),
+      residual_(makePoissonVector(device, unknownCount_)),
+      direction_(makePoissonVector(device, unknownCount_)),
+      product_(makePoissonVector(device, unknownCount_)),
       states_(uploadBuffer(device, bytesOf(firstStates(reduction)), kPoissonVectorUsage)),
       sums_(uploadBuffer(device, bytesOf(PoissonSums{}), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT)),
       size_(uploadBuffer(device, bytesOf(DispatchSize{matrix.grid.workgroupCount, 1, 1}), kSizeUsage)),
@@ -102,7 +100,8 @@ VulkanCg::VulkanCg(const Device& device, const VulkanCgKernels& kernels, const V
       commands_(device) {
   commands_.begin();
   commands_.fillWithZeros(solution_);
-  commands_.copy(residual_, 0, direction_, 0, rightHandSide.size_bytes());
+  for (const Buffer* const vector : {&residual_, &direction_})
+    commands_.copy(rightHandSide, 0, *vector, 0, unknownCount_ * sizeof(float));
   commands_.barrier();
   commands_.submitAndWait();
 }

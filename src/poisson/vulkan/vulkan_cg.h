@@ -1,6 +1,6 @@
 #pragma once
 
-#include <span>
+#include <utility>
 #include <vector>
 
 #include "poisson/vulkan/vulkan_system.h"
@@ -23,7 +23,7 @@ class VulkanCg {
  public:
   /// rightHandSide: #U, of weighted norm 1. Converged when the norm of the residual is at or below `reduction`.
   VulkanCg(const Device& device, const VulkanCgKernels& kernels, const VulkanMatrix& matrix,
-           std::span<const float> rightHandSide, double reduction);
+           const Buffer& rightHandSide, double reduction);
 
   /// Runs up to `iterationCount` iterations in one submission; stops at convergence or breakdown. The dispatches of the
   /// remaining iterations are empty.
@@ -32,6 +32,8 @@ class VulkanCg {
   /// Workgroups of the next dispatch: 0 after convergence or breakdown.
   [[nodiscard]] uint32_t workgroupCount() const;
   [[nodiscard]] std::vector<float> solution() const { return download(solution_); }
+  /// The vector on the device; afterwards there is no other call.
+  [[nodiscard]] Buffer takeSolution() { return std::move(solution_); }
   [[nodiscard]] std::vector<float> residual() const { return download(residual_); }
   [[nodiscard]] std::vector<float> direction() const { return download(direction_); }
   [[nodiscard]] std::vector<float> product() const { return download(product_); }

@@ -1,85 +1,104 @@
-#include <optional>
+#include <cmath>
 #include <utility>
 #include <vector>
 
 #include "core/parallel.h"
-#include "poisson/cpu_cg.h"
-#include "poisson/vulkan/vulkan_system.h"
+#include "poisson/poisson_system.h"
+#include "poisson/vulkan/vulkan_equation.h"
 
 namespace asdfvk {
 namespace {
 
+// Smaller residuals consist of rounding errors of float32, and residuals in double decide.
+constexpr double kMinTolerance = 1e-6;
+
 class DeviceGraphSolver final : public GraphSolver {
  public:
-  DeviceGraphSolver(DeviceMethod method, const Device& device, const DualGraph& graph, std::span<const double> weights)
-      : method_(std::move(method)), device_(device), graph_(graph), weights_(weights) {
-    PoissonSystem whole = wholePoissonSystem(graph, weights);
-    matrix_.emplace(device, ScaledSystem(whole));
-    diagonal_ = std::move(whole.diagonal);
-    scaling_.emplace(diagonal_);
-  }
+  DeviceGraphSolver(DeviceMethod method, const Device& device, const VulkanEquationKernels& kernels,
+                    const DualGraph& graph, std::span<const double> weights)
+      : method_(std::move(method)),
+        device_(device),
+        kernels_(kernels),
+        graph_(graph),
+        weights_(weights),
+        onDevice_(device, kernels, graph, weights) {}
 
   SolverReport solve(const GraphProblem& problem, const SolverOptions& options, std::span<double> values,
                      const RunControl& control) override {
-    const GraphEquation equation(graph_, weights_, diagonal_, problem);
-    selectUnknowns(equation);
-    SolverProgress progress(equation.rightHandNorm(), options, control);
-    const Corrector onDevice{method_.minReduction, [&](const CorrectionRequest& request) {
-                               progress.checkpoint(request.norm);
-                               const auto b = scaling_->scaleResidual(request.residual, request.norm);
-                               const DevicePassResult result = method_.solve({*matrix_, b, request, progress});
-                               scaling_->unscaleCorrection(result.solution, request.norm, request.correction);
-                               return result.iterationCount;
-                             }};
-    std::vector<double> solution(equation.size());
-    SolverReport report = solveByRefinement(equation, options, solution, {onDevice});
-    if (!report.converged && method_.finishesOnCpu && report.iterations < options.maxIterations)
-      report = finishOnCpu(problem, report, options, solution, progress);
-    forEachInParallel(values.size(), [&](uint32_t face) {
-      if (equation.isUnknown(face)) values[face] = solution[face];
-    });
-    return report;
+    if (options.tolerance < kMinTolerance) return solveInDouble(problem, problem.firstGuess, options, values, control);
+    VulkanEquation equation(device_, kernels_, onDevice_, problem);
+    const SolverReport report = refine(equation, options, control);
+    equation.download(values);
+    if (report.converged || report.iterations >= options.maxIterations) return report;
+    SolverOptions remaining = options;
+    remaining.maxIterations -= report.iterations;
+    SolverReport further =
+        solveInDouble(problem, std::vector<double>(values.begin(), values.end()), remaining, values, control);
+    further.iterations += report.iterations;
+    return further;
   }
 
  private:
-  void selectUnknowns(const GraphEquation& equation) {
-    UnsetVector<float> weights(equation.size());
-    forEachInParallel(weights.size(), [&](uint32_t face) {
-      weights[face] = equation.isUnknown(face) ? scaling_->residualWeights()[face] : 0;
-    });
-    matrix_->setResidualWeights(device_, weights);
+  /// Ends also where float32 stagnates.
+  [[nodiscard]] SolverReport refine(VulkanEquation& equation, const SolverOptions& options,
+                                    const RunControl& control) const {
+    SolverReport report;
+    const double target = options.tolerance * equation.rightHandNorm();
+    if (target == 0) return report;
+    SolverProgress progress(equation.rightHandNorm(), options, control);
+    for (bool stagnates = false;
+         !stagnates && equation.residualNorm() > target && report.iterations < options.maxIterations;) {
+      const double norm = equation.residualNorm();
+      progress.checkpoint(norm);
+      const DevicePassResult result = method_.solve({.matrix = onDevice_.matrix,
+                                                     .rightHandSide = equation.scaledResidual(),
+                                                     .norm = norm,
+                                                     .reduction = passReduction(target, norm, method_.minReduction),
+                                                     .maxIterations = options.maxIterations - report.iterations,
+                                                     .progress = progress});
+      report.iterations += result.iterationCount;
+      const double newNorm = equation.tryCorrection(result.solution);
+      stagnates = passStagnates(newNorm, norm);
+      if (newNorm <= norm) equation.accept();
+    }
+    report.relativeResidual = equation.residualNorm() / equation.rightHandNorm();
+    report.converged = std::isfinite(target) && equation.residualNorm() <= target;
+    return report;
   }
 
-  /// Continues where float32 stagnates.
-  [[nodiscard]] SolverReport finishOnCpu(const GraphProblem& problem, const SolverReport& earlier,
-                                         const SolverOptions& options, std::vector<double>& values,
-                                         SolverProgress& progress) const {
-    const PoissonSystem system = buildPoissonSystem(graph_, weights_, problem.constraints, problem.divergence,
-                                                    {.firstGuess = values, .componentOf = problem.componentOf});
-    SolverOptions remaining = options;
-    remaining.maxIterations -= earlier.iterations;
-    std::vector<double> solution(system.unknownCount());
-    SolverReport report = solveByRefinement(system, remaining, solution, {makeDoubleCorrector(system, progress)});
-    report.finishedOnCpu = report.iterations > 0;
-    report.iterations += earlier.iterations;
-    for (size_t i = 0; i < solution.size(); ++i) values[system.faces[i]] = solution[i];
+  [[nodiscard]] SolverReport solveInDouble(const GraphProblem& problem, std::span<const double> firstGuess,
+                                           const SolverOptions& options, std::span<double> values,
+                                           const RunControl& control) const {
+    PoissonSystem system = buildPoissonSystem(graph_, weights_, problem.constraints, divergenceOf(problem),
+                                              {.firstGuess = firstGuess, .componentOf = problem.componentOf});
+    const SolverReport report = solveOnDevice(method_, device_, system, options, system.firstGuess, control);
+    for (size_t i = 0; i < system.faces.size(); ++i) values[system.faces[i]] = system.firstGuess[i];
     return report;
+  }
+
+  [[nodiscard]] std::vector<double> divergenceOf(const GraphProblem& problem) const {
+    std::vector<double> divergence(problem.divergence.begin(), problem.divergence.end());
+    if (!problem.isGuided) return divergence;
+    std::vector<double> ofGuess = asdfvk::divergenceOf(graph_, weights_, problem.firstGuess);
+    for (size_t face = 0; face < divergence.size(); ++face)
+      if (std::isfinite(divergence[face])) ofGuess[face] += divergence[face];
+    return ofGuess;
   }
 
   DeviceMethod method_;
   const Device& device_;
+  const VulkanEquationKernels& kernels_;
   const DualGraph& graph_;
   std::span<const double> weights_;
-  UnsetVector<double> diagonal_;
-  std::optional<DiagonalScaling<float>> scaling_;
-  std::optional<VulkanMatrix> matrix_;
+  VulkanGraph onDevice_;
 };
 
 }  // namespace
 
-std::unique_ptr<GraphSolver> makeDeviceGraphSolver(DeviceMethod method, const Device& device, const DualGraph& graph,
+std::unique_ptr<GraphSolver> makeDeviceGraphSolver(DeviceMethod method, const Device& device,
+                                                   const VulkanEquationKernels& kernels, const DualGraph& graph,
                                                    std::span<const double> weights) {
-  return std::make_unique<DeviceGraphSolver>(std::move(method), device, graph, weights);
+  return std::make_unique<DeviceGraphSolver>(std::move(method), device, kernels, graph, weights);
 }
 
 }  // namespace asdfvk

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "poisson/vulkan/vulkan_equation.h"
 #include "shared/poisson_layout.h"
 #include "spirv/jacobi_sweep.comp.h"
 
@@ -37,7 +38,7 @@ std::array<Binding, kBindingCount> bind(const VulkanMatrix& matrix, const Buffer
 
 class VulkanJacobiSolver final : public PoissonSolver {
  public:
-  explicit VulkanJacobiSolver(const Device& device) : device_(device), kernel_(device) {}
+  explicit VulkanJacobiSolver(const Device& device) : device_(device), kernel_(device), equationKernels_(device) {}
 
   SolverReport solve(const PoissonSystem& system, const SolverOptions& options, std::span<double> solution,
                      const RunControl& control) override {
@@ -45,7 +46,7 @@ class VulkanJacobiSolver final : public PoissonSolver {
   }
 
   std::unique_ptr<GraphSolver> onGraph(const DualGraph& graph, std::span<const double> weights) override {
-    return makeDeviceGraphSolver(method(), device_, graph, weights);
+    return makeDeviceGraphSolver(method(), device_, equationKernels_, graph, weights);
   }
 
  private:
@@ -58,17 +59,18 @@ class VulkanJacobiSolver final : public PoissonSolver {
   DevicePassResult iterate(const DevicePass& pass) const {
     VulkanJacobi jacobi(device_, kernel_, pass.matrix, pass.rightHandSide);
     uint32_t iterationCount = 0;
-    for (double norm = 1; norm > pass.request.reduction && iterationCount < pass.request.maxIterations;) {
-      const uint32_t batch = std::min(kBatch, pass.request.maxIterations - iterationCount);
+    for (double norm = 1; norm > pass.reduction && iterationCount < pass.maxIterations;) {
+      const uint32_t batch = std::min(kBatch, pass.maxIterations - iterationCount);
       norm = jacobi.advance(batch);
       iterationCount += batch;
-      pass.progress.checkpoint(pass.request.norm * norm);
+      pass.progress.checkpoint(pass.norm * norm);
     }
-    return {jacobi.solution(), iterationCount};
+    return {jacobi.takeSolution(), iterationCount};
   }
 
   const Device& device_;
   VulkanJacobiKernel kernel_;
+  VulkanEquationKernels equationKernels_;
 };
 
 }  // namespace
@@ -78,17 +80,16 @@ VulkanJacobiKernel::VulkanJacobiKernel(const Device& device)
             describePoissonKernel(device.facts(), "jacobi_sweep.comp", k_jacobi_sweep_comp, kBindingCount, true)) {}
 
 VulkanJacobi::VulkanJacobi(const Device& device, const VulkanJacobiKernel& kernel, const VulkanMatrix& matrix,
-                           std::span<const float> rightHandSide)
+                           const Buffer& rightHandSide)
     : device_(device),
       kernel_(kernel),
-      unknownCount_(static_cast<uint32_t>(rightHandSide.size())),
+      unknownCount_(matrix.rowCount),
       workgroupCount_(matrix.grid.workgroupCount),
-      rightHandSide_(uploadBuffer(device, std::as_bytes(rightHandSide), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT)),
-      iterates_{uploadZeros(device, rightHandSide.size()), uploadZeros(device, rightHandSide.size())},
+      iterates_{uploadZeros(device, unknownCount_), uploadZeros(device, unknownCount_)},
       sums_(uploadBuffer(device, bytesOf(PoissonSums{}), kPoissonVectorUsage)),
       sumsOnHost_(device, sizeof(PoissonSums), VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryKind::HostVisible),
-      bindings_{{device, kernel.sweep, bind(matrix, rightHandSide_, iterates_[0], iterates_[1], sums_)},
-                {device, kernel.sweep, bind(matrix, rightHandSide_, iterates_[1], iterates_[0], sums_)}},
+      bindings_{{device, kernel.sweep, bind(matrix, rightHandSide, iterates_[0], iterates_[1], sums_)},
+                {device, kernel.sweep, bind(matrix, rightHandSide, iterates_[1], iterates_[0], sums_)}},
       commands_(device) {}
 
 double VulkanJacobi::advance(uint32_t iterationCount) {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <span>
+#include <utility>
 #include <vector>
 
 #include "poisson/vulkan/vulkan_system.h"
@@ -21,13 +21,15 @@ class VulkanJacobi {
  public:
   /// rightHandSide: #U, of weighted norm 1.
   VulkanJacobi(const Device& device, const VulkanJacobiKernel& kernel, const VulkanMatrix& matrix,
-               std::span<const float> rightHandSide);
+               const Buffer& rightHandSide);
 
   /// Runs `iterationCount` > 0 iterations in one submission. Returns the weighted norm of the residual before the last
   /// one.
   double advance(uint32_t iterationCount);
 
   [[nodiscard]] std::vector<float> solution() const;
+  /// The vector on the device; afterwards there is no other call.
+  [[nodiscard]] Buffer takeSolution() { return std::move(iterates_[current_]); }
 
  private:
   const Device& device_;
@@ -35,7 +37,7 @@ class VulkanJacobi {
   uint32_t unknownCount_;
   uint32_t workgroupCount_;
   uint32_t current_ = 0;  ///< Index of the newest iterate.
-  Buffer rightHandSide_, iterates_[2], sums_, sumsOnHost_;
+  Buffer iterates_[2], sums_, sumsOnHost_;
   BindingSet bindings_[2];  ///< [i] reads iterates_[i] and writes the other.
   CommandList commands_;
 };

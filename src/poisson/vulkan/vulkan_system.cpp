@@ -4,13 +4,12 @@
 
 #include <algorithm>
 #include <bit>
-#include <cstring>
 #include <optional>
+#include <utility>
 
 #include "asdf_vk/error.h"
 #include "poisson/cpu_cg.h"
 #include "shared/poisson_layout.h"
-#include "vk/staging_ring.h"
 
 namespace asdfvk {
 namespace {
@@ -28,11 +27,6 @@ uint32_t minRowsPerLane(const DeviceFacts& facts) {
 }
 
 uint64_t divideUp(uint64_t dividend, uint64_t divisor) { return (dividend + divisor - 1) / divisor; }
-
-template <typename T>
-Buffer uploadArray(const Device& device, const UnsetVector<T>& array, VkBufferUsageFlags usage) {
-  return uploadBuffer(device, std::as_bytes(std::span(array)), usage);
-}
 
 }  // namespace
 
@@ -82,7 +76,7 @@ ComputePipelineDescription describePoissonKernel(const DeviceFacts& facts, const
            /* LOCAL_SIZE_X= */ poissonLaneCount(facts)}};
 }
 
-VulkanMatrix::VulkanMatrix(const Device& device, const ScaledSystem& system) {
+VulkanMatrix::VulkanMatrix(const Device& device, const ScaledSystem& system) : rowCount(system.unknownCount()) {
   requireSystemFits(device.facts(), system.unknownCount(), system.tailColumns().size(), system.longestRow());
   grid = choosePoissonGrid(device.facts(), system.unknownCount());
   const bool asTexels = prefersTexels(device.facts());
@@ -90,16 +84,29 @@ VulkanMatrix::VulkanMatrix(const Device& device, const ScaledSystem& system) {
   texelRows = uploadBuffer(device, asTexels ? rows : none, VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT);
   rowTexels = TexelView(device, texelRows);
   storageRows = uploadBuffer(device, asTexels ? none : rows, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
-  tailColumns = uploadArray(device, system.tailColumns(), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
-  tailCouplings = uploadArray(device, system.tailCouplings(), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
-  residualWeights = uploadArray(device, system.residualWeights(), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+  tailColumns = uploadVector(device, system.tailColumns());
+  tailCouplings = uploadVector(device, system.tailCouplings());
+  residualWeights = uploadVector(device, system.residualWeights());
 }
 
-void VulkanMatrix::setResidualWeights(const Device& device, std::span<const float> weights) {
-  if (residualWeights.mapped() != nullptr)
-    std::memcpy(residualWeights.mapped(), weights.data(), weights.size_bytes());
-  else
-    device.staging().upload(std::as_bytes(weights), residualWeights);
+VulkanMatrix::VulkanMatrix(const Device& device, uint32_t count, Buffer columns, Buffer couplings)
+    : rowCount(count),
+      grid(choosePoissonGrid(device.facts(), rowCount)),
+      tailColumns(std::move(columns)),
+      tailCouplings(std::move(couplings)),
+      residualWeights(makePoissonVector(device, rowCount)) {
+  const uint64_t byteCount = rowCount * sizeof(PoissonRow);
+  const bool asTexels = prefersTexels(device.facts());
+  const auto makeRows = [&](bool isUsed, VkBufferUsageFlags usage) {
+    return Buffer(device, isUsed ? byteCount : sizeof(PoissonRow), usage, MemoryKind::DeviceLocal);
+  };
+  texelRows = makeRows(asTexels, VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT);
+  rowTexels = TexelView(device, texelRows);
+  storageRows = makeRows(!asTexels, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+}
+
+Buffer makePoissonVector(const Device& device, uint64_t count) {
+  return {device, std::max<uint64_t>(count, 1) * sizeof(float), kPoissonVectorUsage, MemoryKind::DeviceLocal};
 }
 
 SolverReport solveOnDevice(const DeviceMethod& method, const Device& device, const PoissonSystem& system,
@@ -107,14 +114,19 @@ SolverReport solveOnDevice(const DeviceMethod& method, const Device& device, con
   SolverProgress progress(rightHandNorm(system), options, control);
   const ScaledSystem scaled(system);
   std::optional<VulkanMatrix> matrix;
-  std::vector<Corrector> correctors{{method.minReduction, [&](const CorrectionRequest& request) {
-                                       if (!matrix) matrix.emplace(device, scaled);
-                                       progress.checkpoint(request.norm);
-                                       const auto b = scaled.scaleResidual(request.residual, request.norm);
-                                       const DevicePassResult result = method.solve({*matrix, b, request, progress});
-                                       scaled.unscaleCorrection(result.solution, request.norm, request.correction);
-                                       return result.iterationCount;
-                                     }}};
+  std::vector<Corrector> correctors{
+      {method.minReduction, [&](const CorrectionRequest& request) {
+         if (!matrix) matrix.emplace(device, scaled);
+         progress.checkpoint(request.norm);
+         const Buffer b =
+             uploadVector(device, scaled.scaleResidual(request.residual, request.norm), kPoissonVectorUsage);
+         const DevicePassResult result =
+             method.solve({*matrix, b, request.norm, request.reduction, request.maxIterations, progress});
+         UnsetVector<float> y(request.correction.size());
+         downloadBuffer(device, result.solution, std::as_writable_bytes(std::span(y)));
+         scaled.unscaleCorrection(y, request.norm, request.correction);
+         return result.iterationCount;
+       }}};
   bool finishedOnCpu = false;
   if (method.finishesOnCpu) {
     const Corrector onCpu = makeDoubleCorrector(system, progress);

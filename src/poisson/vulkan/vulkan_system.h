@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "poisson/poisson_solver.h"
 #include "poisson/refinement.h"
 #include "poisson/scaled_system.h"
 #include "vk/buffer.h"
@@ -15,6 +16,8 @@
 
 /// A Poisson system on a device, for any iteration that runs there in float32.
 namespace asdfvk {
+
+struct VulkanEquationKernels;
 
 /// Size of the dispatches for one system.
 struct PoissonGrid {
@@ -33,6 +36,15 @@ void requireSystemFits(const DeviceFacts& facts, uint64_t unknownCount, uint64_t
 /// Usage of vectors that kernels write and the host reads.
 inline constexpr VkBufferUsageFlags kPoissonVectorUsage =
     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+/// Of float32, with unspecified entries.
+[[nodiscard]] Buffer makePoissonVector(const Device& device, uint64_t count);
+
+/// uploadBuffer() of a vector.
+template <typename Vector>
+[[nodiscard]] Buffer uploadVector(const Device& device, const Vector& vector,
+                                  VkBufferUsageFlags usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT) {
+  return uploadBuffer(device, std::as_bytes(std::span(vector)), usage);
+}
 
 /// The pipeline of a Poisson kernel. withMatrix: it has the bindings of shaders/poisson/matrix.glsl.
 [[nodiscard]] ComputePipelineDescription describePoissonKernel(const DeviceFacts& facts, const std::string& name,
@@ -44,26 +56,31 @@ struct VulkanMatrix {
   /// Throws as requireSystemFits().
   VulkanMatrix(const Device& device, const ScaledSystem& system);
 
-  /// Replaces the residual weights, of which there are as many as rows. Rows of weight 0 and their
-  /// columns are excluded. Precondition: their right-hand sides are 0; their unknowns stay 0.
-  void setResidualWeights(const Device& device, std::span<const float> weights);
+  /// With unspecified rows and residual weights, for kernels that write them. Precondition: requireSystemFits().
+  VulkanMatrix(const Device& device, uint32_t rowCount, Buffer tailColumns, Buffer tailCouplings);
 
+  uint32_t rowCount;
   PoissonGrid grid;
   Buffer texelRows, storageRows;  ///< One of them holds the rows.
   TexelView rowTexels;
-  Buffer tailColumns, tailCouplings, residualWeights;
+  Buffer tailColumns, tailCouplings;
+  /// Rows of weight 0 and their columns are excluded. Precondition: their right-hand sides are 0; their unknowns stay
+  /// 0.
+  Buffer residualWeights;
 };
 
 /// One pass of the refinement on the device.
 struct DevicePass {
   const VulkanMatrix& matrix;
-  std::span<const float> rightHandSide;  ///< #U, of weighted norm 1; stands for a residual of norm request.norm.
-  const CorrectionRequest& request;
+  const Buffer& rightHandSide;  ///< #U, of weighted norm 1; stands for a residual of norm `norm`.
+  double norm;
+  double reduction;  ///< As in CorrectionRequest.
+  uint32_t maxIterations;
   SolverProgress& progress;
 };
 
 struct DevicePassResult {
-  std::vector<float> solution;  ///< #U
+  Buffer solution;  ///< #U
   uint32_t iterationCount = 0;
 };
 
@@ -73,8 +90,9 @@ struct DeviceMethod {
   std::function<DevicePassResult(const DevicePass& pass)> solve;
 };
 
-/// VulkanMatrix of a graph for all its interpolations; see PoissonSolver::onGraph().
+/// VulkanGraph and its equations; see PoissonSolver::onGraph(). The kernels must outlive it.
 [[nodiscard]] std::unique_ptr<GraphSolver> makeDeviceGraphSolver(DeviceMethod method, const Device& device,
+                                                                 const VulkanEquationKernels& kernels,
                                                                  const DualGraph& graph,
                                                                  std::span<const double> weights);
 

@@ -1,0 +1,49 @@
+#version 450
+// Begins an equation: its constant terms, the residual weights (0 for a face that is not unknown), the differences at
+// the start, and the partial sums of the squared norm of the right-hand side.
+#extension GL_GOOGLE_include_directive : require
+#include "shared/equation_layout.h"
+#include "shared/poisson_layout.h"
+#define PUSH_STRUCT EquationPush
+#include "graph.glsl"
+#include "lanes.glsl"
+
+layout(set = 0, binding = 0) readonly buffer Starts { EquationStart starts[]; };
+layout(set = 0, binding = 4) buffer Sources { float sources[]; };  // Before: the further divergence.
+layout(set = 0, binding = 5) writeonly buffer ResidualWeights { float residualWeights[]; };
+layout(set = 0, binding = 6) writeonly buffer Differences { float differences[]; };
+layout(set = 0, binding = 7) buffer Sums { PoissonSums sums; };
+
+bool isMissing(float value) { return (floatBitsToUint(value) & 0x7fffffffu) > 0x7f800000u; }
+float baseOf(EquationStart start) { return isMissing(start.base) ? push.missingBase : start.base; }
+
+void main() {
+  float squared = 0.0;
+  for (uint face = firstRow(); face < push.faceCount; face += rowStride()) {
+    const EquationStart start = starts[face];
+    const bool isUnknown = isMissing(start.difference);
+    const bool hasGuide = push.isGuided != 0u && !isMissing(start.base);
+    const float base = baseOf(start);
+    float diagonal = 0.0, source = sources[face], rightHandSide = source;
+    for (uint arc = arcBegin(face); isUnknown && arc < arcEnd(face); ++arc) {
+      if (neighbours[arc] == face) continue;
+      const float weight = weights[arc];
+      const EquationStart other = starts[neighbours[arc]];
+      const float step = weight * (baseOf(other) - base);
+      diagonal += weight;
+      if (hasGuide && !isMissing(other.base))
+        rightHandSide -= step;
+      else
+        source += step;
+      if (!isMissing(other.difference)) rightHandSide += weight * (baseOf(other) + other.difference);
+    }
+    const float residualWeight = diagonal > 0.0 ? 1.0 / diagonal : 0.0;
+    sources[face] = source;
+    residualWeights[face] = residualWeight;
+    differences[face] = isUnknown ? 0.0 : start.difference;
+    rightHandSide *= residualWeight;
+    squared += rightHandSide * rightHandSide;
+  }
+  const float total = workgroupSum(mat2x3(squared, 0.0, 0.0, 0.0, 0.0, 0.0))[0].x;
+  if (gl_LocalInvocationID.x == 0u) sums.residualSquared[gl_WorkGroupID.x] = total;
+}

@@ -1,0 +1,48 @@
+#version 450
+// The rows of S for a graph (shared/poisson_layout.h): an entry per arc, the first three in the row itself, and the
+// couplings of all arcs, of which rows with more arcs use those beyond the third.
+#extension GL_GOOGLE_include_directive : require
+#include "shared/equation_layout.h"
+#include "shared/poisson_layout.h"
+#define PUSH_STRUCT EquationPush
+#include "graph.glsl"
+#include "lanes.glsl"
+
+layout(constant_id = 1) const bool kFetchesTexels = true;
+
+layout(set = 0, binding = 0, rgba32ui) uniform writeonly uimageBuffer rowTexels;
+layout(set = 0, binding = 4) readonly buffer InverseRoots { float inverseRoots[]; };
+layout(set = 0, binding = 5) writeonly buffer Rows { uvec4 rowBlocks[]; };
+layout(set = 0, binding = 6) writeonly buffer Couplings { float couplings[]; };
+
+const uint kHeadLength = 3u;
+
+// The same bits in both directions: the product of the roots comes first.
+float couplingOf(uint face, uint arc) {
+  const uint neighbour = neighbours[arc];
+  precise float roots = inverseRoots[face] * inverseRoots[neighbour];
+  precise float coupling = weights[arc] * roots;
+  return neighbour == face ? 0.0 : coupling;
+}
+
+void main() {
+  for (uint face = firstRow(); face < push.faceCount; face += rowStride()) {
+    const uint begin = arcBegin(face), end = arcEnd(face), headEnd = min(end, begin + kHeadLength);
+    uvec3 columns = uvec3(face);
+    vec3 heads = vec3(0.0);
+    for (uint arc = begin; arc < headEnd; ++arc) {
+      columns[arc - begin] = neighbours[arc];
+      heads[arc - begin] = couplingOf(face, arc);
+    }
+    for (uint arc = headEnd; arc < end; ++arc) couplings[arc] = couplingOf(face, arc);
+    const uvec4 t0 = uvec4(columns, headEnd), t1 = uvec4(floatBitsToUint(heads), end - headEnd);
+    const uint block = face * kPoissonRowTexelCount;
+    if (kFetchesTexels) {
+      imageStore(rowTexels, int(block), t0);
+      imageStore(rowTexels, int(block) + 1, t1);
+    } else {
+      rowBlocks[block] = t0;
+      rowBlocks[block + 1u] = t1;
+    }
+  }
+}

@@ -1,0 +1,257 @@
+#include "poisson/vulkan/vulkan_equation.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "core/check.h"
+#include "core/ordered_sum.h"
+#include "core/parallel.h"
+#include "poisson/poisson_system.h"
+#include "spirv/equation_begin.comp.h"
+#include "spirv/equation_correct.comp.h"
+#include "spirv/equation_diagonal.comp.h"
+#include "spirv/equation_residual.comp.h"
+#include "spirv/equation_rows.comp.h"
+
+namespace asdfvk {
+namespace {
+
+constexpr float kMissing = std::numeric_limits<float>::quiet_NaN();
+// Weights that differ by more than this from their mean are limited: no sum of them leaves the range of float32.
+constexpr double kMinScaledWeight = 1e-30, kMaxScaledWeight = 1e30;
+constexpr uint32_t kHeadLength = 3;  // Entries in a PoissonRow itself.
+
+ComputePipelineDescription describeKernel(const DeviceFacts& facts, const std::string& name,
+                                          std::span<const uint32_t> spirv, uint32_t bindingCount, bool withTexels) {
+  ComputePipelineDescription description = describePoissonKernel(facts, name, spirv, bindingCount, withTexels);
+  description.pushConstantByteCount = sizeof(EquationPush);
+  return description;
+}
+
+uint32_t longestRowOf(const DualGraph& graph) {
+  return tbb::parallel_reduce(
+      tbb::blocked_range<uint32_t>(0, graph.faceCount(), kItemsPerTask), 0u,
+      [&](const tbb::blocked_range<uint32_t>& range, uint32_t longest) {
+        for (uint32_t face = range.begin(); face < range.end(); ++face)
+          longest = std::max(longest, graph.offsets[face + 1] - graph.offsets[face]);
+        return longest;
+      },
+      [](uint32_t a, uint32_t b) { return std::max(a, b); });
+}
+
+/// 1 over the mean; 1 where that is no number.
+double scaleOfWeights(std::span<const double> weights) {
+  const auto count = static_cast<double>(weights.size());
+  const double scale = 1 / orderedSum(weights.size(), [&](size_t arc) { return weights[arc] / count; });
+  return std::isfinite(scale) && scale > 0 ? scale : 1;
+}
+
+Buffer uploadWeights(const Device& device, std::span<const double> weights, double scale) {
+  UnsetVector<float> scaled(weights.size());
+  forEachInParallel(scaled.size(), [&](size_t arc) {
+    scaled[arc] = static_cast<float>(std::clamp(weights[arc] * scale, kMinScaledWeight, kMaxScaledWeight));
+  });
+  return uploadVector(device, scaled);
+}
+
+VulkanMatrix makeMatrix(const Device& device, const DualGraph& graph) {
+  const uint32_t longestRow = longestRowOf(graph);
+  requireSystemFits(device.facts(), graph.faceCount(), graph.neighbours.size(), longestRow);
+  return {device, graph.faceCount(),
+          uploadVector(device, graph.neighbours),
+          makePoissonVector(device, longestRow > kHeadLength ? graph.neighbours.size() : 0)};
+}
+
+double largestMagnitude(std::span<const double> values) {
+  return tbb::parallel_reduce(
+      tbb::blocked_range<size_t>(0, values.size(), kItemsPerTask), 0.0,
+      [&](const tbb::blocked_range<size_t>& range, double largest) {
+        for (size_t i = range.begin(); i < range.end(); ++i)
+          if (std::isfinite(values[i])) largest = std::max(largest, std::abs(values[i]));
+        return largest;
+      },
+      [](double a, double b) { return std::max(a, b); });
+}
+
+}  // namespace
+
+VulkanEquationKernels::VulkanEquationKernels(const Device& device)
+    : diagonal(device,
+               describeKernel(device.facts(), "equation_diagonal.comp", k_equation_diagonal_comp, 4, false)),
+      rows(device, describeKernel(device.facts(), "equation_rows.comp", k_equation_rows_comp, 7, true)),
+      begin(device, describeKernel(device.facts(), "equation_begin.comp", k_equation_begin_comp, 8, false)),
+      residual(device, describeKernel(device.facts(), "equation_residual.comp", k_equation_residual_comp, 8, false)),
+      correct(device, describeKernel(device.facts(), "equation_correct.comp", k_equation_correct_comp, 4, false)) {}
+
+VulkanGraph::VulkanGraph(const Device& device, const VulkanEquationKernels& kernels, const DualGraph& graph,
+                         std::span<const double> arcWeights)
+    : faceCount(graph.faceCount()),
+      weightScale(scaleOfWeights(arcWeights)),
+      matrix(makeMatrix(device, graph)) {
+  ASDFVK_CHECK_OP(arcWeights.size(), ==, graph.neighbours.size());
+  arcOffsets =
+      uploadVector(device, graph.offsets);
+  weights = uploadWeights(device, arcWeights, weightScale);
+  const Buffer inverseRoots = makePoissonVector(device, faceCount);
+  const BindingSet diagonalBindings(device, kernels.diagonal,
+                                    std::array<Binding, 4>{inverseRoots, arcOffsets, matrix.tailColumns, weights});
+  const BindingSet rowBindings(
+      device, kernels.rows,
+      std::array<Binding, 7>{matrix.rowTexels, arcOffsets, matrix.tailColumns, weights, inverseRoots,
+                             matrix.storageRows, matrix.tailCouplings});
+  const EquationPush push{.faceCount = faceCount,
+                          .workgroupCount = matrix.grid.workgroupCount,
+                          .isGuided = 0,
+                          .missingBase = 0,
+                          .scale = 1};
+  CommandList commands(device);
+  commands.begin();
+  commands.dispatch(kernels.diagonal, diagonalBindings, bytesOf(push), push.workgroupCount);
+  commands.barrier();
+  commands.dispatch(kernels.rows, rowBindings, bytesOf(push), push.workgroupCount);
+  commands.barrier();
+  commands.submitAndWait();
+}
+
+VulkanEquation::VulkanEquation(const Device& device, const VulkanEquationKernels& kernels, const VulkanGraph& graph,
+                               const GraphProblem& problem)
+    : device_(device),
+      kernels_(kernels),
+      graph_(graph),
+      problem_(problem),
+      isReachable_(reachableFaces(problem.componentOf, problem.constraints)),
+      constraintMean_(meanOfConstraints(problem.constraints)),
+      scaledResidual_(makePoissonVector(device, graph.faceCount)),
+      sums_(uploadBuffer(device, bytesOf(PoissonSums{}), kPoissonVectorUsage)),
+      sumsOnHost_(device, sizeof(PoissonSums), VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryKind::HostVisible),
+      differences_{makePoissonVector(device, graph.faceCount), makePoissonVector(device, graph.faceCount)},
+      commands_(device) {
+  for (const size_t count : {problem.constraints.size(), problem.firstGuess.size(), problem.componentOf.size()})
+    ASDFVK_CHECK_OP(count, ==, size_t{graph.faceCount});
+  if (!problem.divergence.empty()) ASDFVK_CHECK_OP(problem.divergence.size(), ==, size_t{graph.faceCount});
+  const double largest = std::max(largestMagnitude(problem.constraints), largestMagnitude(problem.firstGuess));
+  if (std::isfinite(1 / largest)) valueScale_ = 1 / largest;
+  const Buffer starts =
+      uploadVector(device, makeStarts());
+  sources_ = problem.divergence.empty()
+                 ? makePoissonVector(device, graph.faceCount)
+                 : uploadVector(device, makeSources(), kPoissonVectorUsage);
+  const VulkanMatrix& matrix = graph.matrix;
+  const BindingSet beginBindings(device, kernels.begin,
+                                 std::array<Binding, 8>{starts, graph.arcOffsets, matrix.tailColumns, graph.weights,
+                                                        sources_, matrix.residualWeights, differences_[0], sums_});
+  for (uint32_t i = 0; i < 2; ++i)
+    residualBindings_[i].emplace(
+        device, kernels.residual,
+        std::array<Binding, 8>{sources_, graph.arcOffsets, matrix.tailColumns, graph.weights, matrix.residualWeights,
+                               differences_[i], scaledResidual_, sums_});
+  commands_.begin();
+  if (problem.divergence.empty()) {
+    commands_.fillWithZeros(sources_);
+    commands_.barrier();
+  }
+  commands_.dispatch(kernels.begin, beginBindings, bytesOf(push(1)), matrix.grid.workgroupCount);
+  commands_.barrier();
+  rightHandNorm_ = submitAndReadNorm();
+  commands_.begin();
+  recordResidual(0, 1);
+  residualNorm_ = submitAndReadNorm();
+}
+
+double VulkanEquation::guessOf(uint32_t face) const {
+  const double guess = problem_.firstGuess[face];
+  return std::isfinite(guess) ? guess : constraintMean_;
+}
+
+UnsetVector<EquationStart> VulkanEquation::makeStarts() {
+  UnsetVector<EquationStart> starts(graph_.faceCount);
+  forEachInParallel(starts.size(), [&](uint32_t face) {
+    const double constraint = problem_.constraints[face], guess = problem_.firstGuess[face];
+    float difference = isReachable_[face] ? kMissing : 0;
+    if (std::isfinite(constraint)) difference = static_cast<float>((constraint - guessOf(face)) * valueScale_);
+    starts[face] = {std::isfinite(guess) ? static_cast<float>(guess * valueScale_) : kMissing, difference};
+  });
+  return starts;
+}
+
+UnsetVector<float> VulkanEquation::makeSources() const {
+  UnsetVector<float> sources(graph_.faceCount);
+  forEachInParallel(sources.size(), [&](uint32_t face) {
+    const double divergence = problem_.divergence[face];
+    sources[face] =
+        std::isfinite(divergence) ? static_cast<float>(divergence * graph_.weightScale * valueScale_) : 0;
+  });
+  return sources;
+}
+
+EquationPush VulkanEquation::push(double scale) const {
+  return {.faceCount = graph_.faceCount,
+          .workgroupCount = graph_.matrix.grid.workgroupCount,
+          .isGuided = problem_.isGuided ? 1u : 0u,
+          .missingBase = static_cast<float>(constraintMean_ * valueScale_),
+          .scale = static_cast<float>(scale)};
+}
+
+void VulkanEquation::recordResidual(uint32_t which, double scale) {
+  commands_.dispatch(kernels_.residual, *residualBindings_[which], bytesOf(push(scale)),
+                     graph_.matrix.grid.workgroupCount);
+  commands_.barrier();
+}
+
+double VulkanEquation::submitAndReadNorm() {
+  commands_.copy(sums_, 0, sumsOnHost_, 0, sizeof(PoissonSums));
+  commands_.barrier();
+  commands_.submitAndWait();
+  PoissonSums sums;
+  std::memcpy(&sums, sumsOnHost_.mapped(), sizeof sums);
+  double squared = 0;
+  for (uint32_t i = 0; i < graph_.matrix.grid.workgroupCount; ++i)
+    squared += static_cast<double>(sums.residualSquared[i]);
+  return std::sqrt(squared);
+}
+
+const Buffer& VulkanEquation::scaledResidual() {
+  commands_.begin();
+  recordResidual(current_, 1 / residualNorm_);
+  commands_.submitAndWait();
+  return scaledResidual_;
+}
+
+double VulkanEquation::tryCorrection(const Buffer& y) {
+  const uint32_t tried = 1 - current_;
+  const BindingSet bindings(
+      device_, kernels_.correct,
+      std::array<Binding, 4>{y, graph_.matrix.residualWeights, differences_[current_], differences_[tried]});
+  commands_.begin();
+  commands_.dispatch(kernels_.correct, bindings, bytesOf(push(residualNorm_)), graph_.matrix.grid.workgroupCount);
+  commands_.barrier();
+  recordResidual(tried, 1);
+  return triedNorm_ = submitAndReadNorm();
+}
+
+void VulkanEquation::accept() {
+  current_ = 1 - current_;
+  residualNorm_ = triedNorm_;
+}
+
+void VulkanEquation::download(std::span<double> values) const {
+  const std::vector<float> solution = differences();
+  forEachInParallel(values.size(), [&](uint32_t face) {
+    if (isReachable_[face] && !std::isfinite(problem_.constraints[face]))
+      values[face] =
+          rightHandNorm_ == 0 ? 0 : guessOf(face) + static_cast<double>(solution[face]) / valueScale_;
+  });
+}
+
+std::vector<float> VulkanEquation::downloadVector(const Buffer& vector) const {
+  std::vector<float> values(graph_.faceCount);
+  downloadBuffer(device_, vector, std::as_writable_bytes(std::span(values)));
+  return values;
+}
+
+}  // namespace asdfvk

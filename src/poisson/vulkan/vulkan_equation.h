@@ -1,0 +1,85 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/unset_vector.h"
+#include "mesh/dual_graph.h"
+#include "poisson/poisson_solver.h"
+#include "poisson/vulkan/vulkan_system.h"
+#include "shared/equation_layout.h"
+#include "vk/command_list.h"
+#include "vk/compute_pipeline.h"
+
+/// The equation of buildPoissonSystem() over all faces of a graph, with its rows and its right-hand side made on the
+/// device.
+namespace asdfvk {
+
+/// Created once per device: shaders/poisson/equation_*.comp.
+struct VulkanEquationKernels {
+  explicit VulkanEquationKernels(const Device& device);
+
+  ComputePipeline diagonal, rows, begin, residual, correct;
+};
+
+/// A dual graph with weights, and the matrix of all its equations.
+struct VulkanGraph {
+  /// weights: one per arc, see arcWeights(). Throws Error{EquationLimit} as requireSystemFits().
+  VulkanGraph(const Device& device, const VulkanEquationKernels& kernels, const DualGraph& graph,
+              std::span<const double> weights);
+
+  uint32_t faceCount;
+  double weightScale;  ///< Of the weights on the device.
+  Buffer arcOffsets, weights;
+  VulkanMatrix matrix;  ///< Its tailColumns are the neighbours. Each VulkanEquation sets its residual weights.
+};
+
+/// One equation, and a solution in float32 as differences from the first guess. Norms are those of residualNorm(), in a
+/// unit of the equation. The arguments must outlive it.
+class VulkanEquation {
+ public:
+  VulkanEquation(const Device& device, const VulkanEquationKernels& kernels, const VulkanGraph& graph,
+                 const GraphProblem& problem);
+
+  [[nodiscard]] double rightHandNorm() const { return rightHandNorm_; }
+  /// Of the solution.
+  [[nodiscard]] double residualNorm() const { return residualNorm_; }
+  /// b of (I - S) y = b for the residual of the solution, of weighted norm 1. Overwritten by tryCorrection().
+  [[nodiscard]] const Buffer& scaledResidual();
+  /// Adds the correction that y represents, and returns the norm of the residual. The solution stays until accept().
+  [[nodiscard]] double tryCorrection(const Buffer& y);
+  void accept();
+
+  /// Writes the values of the unknown faces. values: #F.
+  void download(std::span<double> values) const;
+  /// Residual weights and differences, #F, for tests.
+  [[nodiscard]] std::vector<float> residualWeights() const { return downloadVector(graph_.matrix.residualWeights); }
+  [[nodiscard]] std::vector<float> differences() const { return downloadVector(differences_[current_]); }
+
+ private:
+  [[nodiscard]] UnsetVector<EquationStart> makeStarts();
+  [[nodiscard]] UnsetVector<float> makeSources() const;
+  [[nodiscard]] EquationPush push(double scale) const;
+  void recordResidual(uint32_t which, double scale);
+  [[nodiscard]] double submitAndReadNorm();
+  [[nodiscard]] double guessOf(uint32_t face) const;
+  [[nodiscard]] std::vector<float> downloadVector(const Buffer& vector) const;
+
+  const Device& device_;
+  const VulkanEquationKernels& kernels_;
+  const VulkanGraph& graph_;
+  const GraphProblem problem_;
+  std::vector<uint8_t> isReachable_;
+  double constraintMean_ = 0, valueScale_ = 1;  ///< Of the values on the device.
+  Buffer sources_, scaledResidual_, sums_, sumsOnHost_;
+  std::array<Buffer, 2> differences_;  ///< The solution and a corrected one.
+  uint32_t current_ = 0;               ///< The solution.
+  std::array<std::optional<BindingSet>, 2> residualBindings_;
+  mutable CommandList commands_;
+  double rightHandNorm_ = 0, residualNorm_ = 0, triedNorm_ = 0;
+};
+
+}  // namespace asdfvk
