@@ -1,6 +1,7 @@
 #version 450
 // Begins an equation: its constant terms, the residual weights (0 for a face that is not unknown), the differences at
-// the start, and the partial sums of the squared norm of the right-hand side.
+// the start, and the partial sums of two squared norms: of the right-hand side, as directionSquared, and of the
+// residual.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/equation_layout.h"
 #include "shared/poisson_layout.h"
@@ -18,13 +19,13 @@ bool isMissing(float value) { return (floatBitsToUint(value) & 0x7fffffffu) > 0x
 float baseOf(EquationStart start) { return isMissing(start.base) ? push.missingBase : start.base; }
 
 void main() {
-  float squared = 0.0;
+  vec2 squared = vec2(0.0);
   for (uint face = firstRow(); face < push.faceCount; face += rowStride()) {
     const EquationStart start = starts[face];
     const bool isUnknown = isMissing(start.difference);
     const bool hasGuide = push.isGuided != 0u && !isMissing(start.base);
     const float base = baseOf(start);
-    float diagonal = 0.0, source = sources[face], rightHandSide = source;
+    float diagonal = 0.0, source = sources[face], known = 0.0, rightHandSide = source;
     for (uint arc = arcBegin(face); isUnknown && arc < arcEnd(face); ++arc) {
       if (neighbours[arc] == face) continue;
       const float weight = weights[arc];
@@ -35,15 +36,19 @@ void main() {
         rightHandSide -= step;
       else
         source += step;
-      if (!isMissing(other.difference)) rightHandSide += weight * (baseOf(other) + other.difference);
+      if (isMissing(other.difference)) continue;
+      known += weight * other.difference;
+      rightHandSide += weight * (baseOf(other) + other.difference);
     }
     const float residualWeight = diagonal > 0.0 ? 1.0 / diagonal : 0.0;
     sources[face] = source;
     residualWeights[face] = residualWeight;
     differences[face] = isUnknown ? 0.0 : start.difference;
-    rightHandSide *= residualWeight;
-    squared += rightHandSide * rightHandSide;
+    const vec2 both = vec2(rightHandSide, source + known) * residualWeight;
+    squared += both * both;
   }
-  const float total = workgroupSum(mat2x3(squared, 0.0, 0.0, 0.0, 0.0, 0.0))[0].x;
-  if (gl_LocalInvocationID.x == 0u) sums.residualSquared[gl_WorkGroupID.x] = total;
+  const vec3 total = workgroupSum(mat2x3(squared, 0.0, 0.0, 0.0, 0.0))[0];
+  if (gl_LocalInvocationID.x != 0u) return;
+  sums.directionSquared[gl_WorkGroupID.x] = total.x;
+  sums.residualSquared[gl_WorkGroupID.x] = total.y;
 }

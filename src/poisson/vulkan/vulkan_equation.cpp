@@ -62,8 +62,7 @@ Buffer uploadWeights(const Device& device, std::span<const double> weights, doub
 VulkanMatrix makeMatrix(const Device& device, const DualGraph& graph) {
   const uint32_t longestRow = longestRowOf(graph);
   requireSystemFits(device.facts(), graph.faceCount(), graph.neighbours.size(), longestRow);
-  return {device, graph.faceCount(),
-          uploadVector(device, graph.neighbours),
+  return {device, graph.faceCount(), uploadVector(device, graph.neighbours),
           makePoissonVector(device, longestRow > kHeadLength ? graph.neighbours.size() : 0)};
 }
 
@@ -81,8 +80,7 @@ double largestMagnitude(std::span<const double> values) {
 }  // namespace
 
 VulkanEquationKernels::VulkanEquationKernels(const Device& device)
-    : diagonal(device,
-               describeKernel(device.facts(), "equation_diagonal.comp", k_equation_diagonal_comp, 4, false)),
+    : diagonal(device, describeKernel(device.facts(), "equation_diagonal.comp", k_equation_diagonal_comp, 4, false)),
       rows(device, describeKernel(device.facts(), "equation_rows.comp", k_equation_rows_comp, 7, true)),
       begin(device, describeKernel(device.facts(), "equation_begin.comp", k_equation_begin_comp, 8, false)),
       residual(device, describeKernel(device.facts(), "equation_residual.comp", k_equation_residual_comp, 8, false)),
@@ -90,20 +88,16 @@ VulkanEquationKernels::VulkanEquationKernels(const Device& device)
 
 VulkanGraph::VulkanGraph(const Device& device, const VulkanEquationKernels& kernels, const DualGraph& graph,
                          std::span<const double> arcWeights)
-    : faceCount(graph.faceCount()),
-      weightScale(scaleOfWeights(arcWeights)),
-      matrix(makeMatrix(device, graph)) {
+    : faceCount(graph.faceCount()), weightScale(scaleOfWeights(arcWeights)), matrix(makeMatrix(device, graph)) {
   ASDFVK_CHECK_OP(arcWeights.size(), ==, graph.neighbours.size());
-  arcOffsets =
-      uploadVector(device, graph.offsets);
+  arcOffsets = uploadVector(device, graph.offsets);
   weights = uploadWeights(device, arcWeights, weightScale);
   const Buffer inverseRoots = makePoissonVector(device, faceCount);
   const BindingSet diagonalBindings(device, kernels.diagonal,
                                     std::array<Binding, 4>{inverseRoots, arcOffsets, matrix.tailColumns, weights});
-  const BindingSet rowBindings(
-      device, kernels.rows,
-      std::array<Binding, 7>{matrix.rowTexels, arcOffsets, matrix.tailColumns, weights, inverseRoots,
-                             matrix.storageRows, matrix.tailCouplings});
+  const BindingSet rowBindings(device, kernels.rows,
+                               std::array<Binding, 7>{matrix.rowTexels, arcOffsets, matrix.tailColumns, weights,
+                                                      inverseRoots, matrix.storageRows, matrix.tailCouplings});
   const EquationPush push{.faceCount = faceCount,
                           .workgroupCount = matrix.grid.workgroupCount,
                           .isGuided = 0,
@@ -136,11 +130,9 @@ VulkanEquation::VulkanEquation(const Device& device, const VulkanEquationKernels
   if (!problem.divergence.empty()) ASDFVK_CHECK_OP(problem.divergence.size(), ==, size_t{graph.faceCount});
   const double largest = std::max(largestMagnitude(problem.constraints), largestMagnitude(problem.firstGuess));
   if (std::isfinite(1 / largest)) valueScale_ = 1 / largest;
-  const Buffer starts =
-      uploadVector(device, makeStarts());
-  sources_ = problem.divergence.empty()
-                 ? makePoissonVector(device, graph.faceCount)
-                 : uploadVector(device, makeSources(), kPoissonVectorUsage);
+  const Buffer starts = uploadVector(device, makeStarts());
+  sources_ = problem.divergence.empty() ? makePoissonVector(device, graph.faceCount)
+                                        : uploadVector(device, makeSources(), kPoissonVectorUsage);
   const VulkanMatrix& matrix = graph.matrix;
   const BindingSet beginBindings(device, kernels.begin,
                                  std::array<Binding, 8>{starts, graph.arcOffsets, matrix.tailColumns, graph.weights,
@@ -157,10 +149,9 @@ VulkanEquation::VulkanEquation(const Device& device, const VulkanEquationKernels
   }
   commands_.dispatch(kernels.begin, beginBindings, bytesOf(push(1)), matrix.grid.workgroupCount);
   commands_.barrier();
-  rightHandNorm_ = submitAndReadNorm();
-  commands_.begin();
-  recordResidual(0, 1);
-  residualNorm_ = submitAndReadNorm();
+  const PoissonSums sums = submitAndReadSums();
+  rightHandNorm_ = normOf(sums.directionSquared);
+  residualNorm_ = normOf(sums.residualSquared);
 }
 
 double VulkanEquation::guessOf(uint32_t face) const {
@@ -183,8 +174,7 @@ UnsetVector<float> VulkanEquation::makeSources() const {
   UnsetVector<float> sources(graph_.faceCount);
   forEachInParallel(sources.size(), [&](uint32_t face) {
     const double divergence = problem_.divergence[face];
-    sources[face] =
-        std::isfinite(divergence) ? static_cast<float>(divergence * graph_.weightScale * valueScale_) : 0;
+    sources[face] = std::isfinite(divergence) ? static_cast<float>(divergence * graph_.weightScale * valueScale_) : 0;
   });
   return sources;
 }
@@ -203,15 +193,19 @@ void VulkanEquation::recordResidual(uint32_t which, double scale) {
   commands_.barrier();
 }
 
-double VulkanEquation::submitAndReadNorm() {
+PoissonSums VulkanEquation::submitAndReadSums() {
   commands_.copy(sums_, 0, sumsOnHost_, 0, sizeof(PoissonSums));
   commands_.barrier();
   commands_.submitAndWait();
   PoissonSums sums;
   std::memcpy(&sums, sumsOnHost_.mapped(), sizeof sums);
+  return sums;
+}
+
+double VulkanEquation::normOf(std::span<const float> squaredOfWorkgroups) const {
   double squared = 0;
-  for (uint32_t i = 0; i < graph_.matrix.grid.workgroupCount; ++i)
-    squared += static_cast<double>(sums.residualSquared[i]);
+  for (const float each : squaredOfWorkgroups.first(graph_.matrix.grid.workgroupCount))
+    squared += static_cast<double>(each);
   return std::sqrt(squared);
 }
 
@@ -231,7 +225,8 @@ double VulkanEquation::tryCorrection(const Buffer& y) {
   commands_.dispatch(kernels_.correct, bindings, bytesOf(push(residualNorm_)), graph_.matrix.grid.workgroupCount);
   commands_.barrier();
   recordResidual(tried, 1);
-  return triedNorm_ = submitAndReadNorm();
+  triedNorm_ = normOf(submitAndReadSums().residualSquared);
+  return triedNorm_;
 }
 
 void VulkanEquation::accept() {
@@ -243,8 +238,7 @@ void VulkanEquation::download(std::span<double> values) const {
   const std::vector<float> solution = differences();
   forEachInParallel(values.size(), [&](uint32_t face) {
     if (isReachable_[face] && !std::isfinite(problem_.constraints[face]))
-      values[face] =
-          rightHandNorm_ == 0 ? 0 : guessOf(face) + static_cast<double>(solution[face]) / valueScale_;
+      values[face] = rightHandNorm_ == 0 ? 0 : guessOf(face) + static_cast<double>(solution[face]) / valueScale_;
   });
 }
 

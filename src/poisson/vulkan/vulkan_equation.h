@@ -64,7 +64,8 @@ class VulkanEquation {
   [[nodiscard]] UnsetVector<float> makeSources() const;
   [[nodiscard]] EquationPush push(double scale) const;
   void recordResidual(uint32_t which, double scale);
-  [[nodiscard]] double submitAndReadNorm();
+  [[nodiscard]] PoissonSums submitAndReadSums();
+  [[nodiscard]] double normOf(std::span<const float> squaredOfWorkgroups) const;
   [[nodiscard]] double guessOf(uint32_t face) const;
   [[nodiscard]] std::vector<float> downloadVector(const Buffer& vector) const;
 
