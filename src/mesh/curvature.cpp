@@ -40,16 +40,6 @@ double signedDihedralAngle(const FaceGeometry& geometry, uint32_t f, uint32_t g)
   return isConcave ? angle : -angle;
 }
 
-std::vector<double> signedDihedralAngles(const DualGraph& graph, const FaceGeometry& geometry) {
-  ASDFVK_CHECK_OP(geometry.normals.size(), ==, size_t{graph.faceCount()});
-  std::vector<double> angles(graph.neighbours.size());
-  forEachInParallel(graph.faceCount(), [&](uint32_t face) {
-    for (uint32_t arc = graph.offsets[face]; arc < graph.offsets[face + 1]; ++arc)
-      angles[arc] = signedDihedralAngle(geometry, face, graph.neighbours[arc]);
-  });
-  return angles;
-}
-
 std::vector<double> vertexAngleDefects(const TriangleMesh& mesh) {
   const auto takesPart = [&](uint32_t f) { return hasDistinctVertices(mesh.faces[f]) && mesh.hasFiniteCorners(f); };
   std::vector<uint8_t> isOnBoundary(mesh.vertices.size(), 0);

@@ -15,9 +15,6 @@ namespace asdfvk {
 /// degenerate. The result has the same bits if the faces are swapped.
 [[nodiscard]] double signedDihedralAngle(const FaceGeometry& geometry, uint32_t f, uint32_t g);
 
-/// For the two faces of each arc, in the order of graph.neighbours.
-[[nodiscard]] std::vector<double> signedDihedralAngles(const DualGraph& graph, const FaceGeometry& geometry);
-
 /// Discrete Gaussian curvature of each vertex: its angle defect in radians, 2 pi minus the sum of the angles of its
 /// faces, or pi minus the sum at a boundary vertex (Meyer, Desbrun, Schroeder and Barr 2003, not divided by an area).
 /// #V; 0 for a vertex without faces. Over a closed mesh the sum is 2 pi times the Euler characteristic.

@@ -123,8 +123,11 @@ void assemble(const WeightedGraph& graph, std::span<const uint32_t> unknownOf, s
 
 std::vector<double> arcWeights(ArcWeights kind, const DualGraph& graph, const FaceGeometry& geometry) {
   if (kind == ArcWeights::Distance) return distanceWeights(graph, geometry);
-  std::vector<double> weights = signedDihedralAngles(graph, geometry);
-  forEachInParallel(weights.size(), [&](size_t arc) { weights[arc] = featureWeight(weights[arc]); });
+  ASDFVK_CHECK_OP(geometry.normals.size(), ==, size_t{graph.faceCount()});
+  std::vector<double> weights(graph.neighbours.size());
+  setForEachPair(graph, std::span(weights), [&](uint32_t face, uint32_t neighbour) {
+    return featureWeight(signedDihedralAngle(geometry, face, neighbour));
+  });
   return weights;
 }
 

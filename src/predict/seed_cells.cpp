@@ -1,31 +1,57 @@
 #include "predict/seed_cells.h"
 
 #include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <atomic>
 #include <utility>
 
+#include "core/check.h"
+#include "core/parallel.h"
 #include "shared/cone_hit.h"
 
 namespace asdfvk {
 namespace {
 
+// A cell with this bit may still be replaced by a lower one at the same distance.
+constexpr uint32_t kClaimed = uint32_t{1} << 31;
+
+/// Assigns g to the cell unless it is assigned, or claimed by a lower cell. Returns whether no cell had claimed it.
+bool claim(uint32_t& cellOfFace, uint32_t cell) {
+  const std::atomic_ref<uint32_t> atomic(cellOfFace);
+  uint32_t seen = atomic.load(std::memory_order_relaxed);
+  while ((seen & kClaimed) != 0 && (cell | kClaimed) < seen)
+    if (atomic.compare_exchange_weak(seen, cell | kClaimed, std::memory_order_relaxed)) return seen == kNoCell;
+  return false;
+}
+
+/// Breadth-first, all faces at one distance from the seeds in parallel.
 std::vector<uint32_t> floodFromSeeds(const DualGraph& graph, std::span<const uint32_t> seeds) {
+  ASDFVK_CHECK_OP(seeds.size(), <, size_t{kClaimed} - 1);
   std::vector<uint32_t> cellOf(graph.faceCount(), kNoCell);
-  std::vector<uint32_t> queue;
-  queue.reserve(graph.faceCount());
+  std::vector<uint32_t> front;
   for (uint32_t cell = 0; cell < seeds.size(); ++cell) {
     if (seeds[cell] == kNoFace) continue;
     cellOf[seeds[cell]] = cell;
-    queue.push_back(seeds[cell]);
+    front.push_back(seeds[cell]);
   }
-  for (size_t next = 0; next < queue.size(); ++next)
-    for (const uint32_t neighbour : graph.neighboursOf(queue[next])) {
-      if (cellOf[neighbour] != kNoCell) continue;
-      cellOf[neighbour] = cellOf[queue[next]];
-      queue.push_back(neighbour);
+  tbb::enumerable_thread_specific<std::vector<uint32_t>> claimed;
+  while (!front.empty()) {
+    tbb::parallel_for(tbb::blocked_range<size_t>(0, front.size(), 1024), [&](const auto& range) {
+      std::vector<uint32_t>& own = claimed.local();
+      for (size_t i = range.begin(); i < range.end(); ++i)
+        for (const uint32_t neighbour : graph.neighboursOf(front[i]))
+          if (claim(cellOf[neighbour], cellOf[front[i]])) own.push_back(neighbour);
+    });
+    front.clear();
+    for (std::vector<uint32_t>& own : claimed) {
+      front.insert(front.end(), own.begin(), own.end());
+      own.clear();
     }
+    forEachInParallel(front.size(), [&](size_t i) { cellOf[front[i]] &= ~kClaimed; });
+  }
   return cellOf;
 }
 
@@ -44,6 +70,10 @@ SeedCells buildSeedCells(const DualGraph& graph, std::span<const uint32_t> seeds
 NearestCells::NearestCells(const SeedCells& cells, const DualGraph& graph, const FaceGeometry& geometry,
                            std::span<const uint32_t> seeds, size_t neighbourCount)
     : stride_(1 + neighbourCount), nearest_(seeds.size() * stride_, kNoCell) {
+  std::vector<Vec3d> centres(seeds.size());  // Close to each other in memory, unlike the barycentres.
+  forEachInParallel(seeds.size(), [&](size_t cell) {
+    if (seeds[cell] != kNoFace) centres[cell] = geometry.barycentres[seeds[cell]];
+  });
   tbb::parallel_for(tbb::blocked_range<uint32_t>(0, static_cast<uint32_t>(seeds.size()), 256), [&](const auto& range) {
     std::vector<uint32_t> touching;
     std::vector<std::pair<double, uint32_t>> byDistance;
@@ -56,9 +86,8 @@ NearestCells::NearestCells(const SeedCells& cells, const DualGraph& graph, const
       std::sort(touching.begin(), touching.end());
       touching.erase(std::unique(touching.begin(), touching.end()), touching.end());
       byDistance.clear();
-      const Vec3d& centre = geometry.barycentres[seeds[cell]];
       for (const uint32_t other : touching) {
-        const Vec3d between = geometry.barycentres[seeds[other]] - centre;
+        const Vec3d between = centres[other] - centres[cell];
         byDistance.emplace_back(dot(between, between), other);
       }
       std::sort(byDistance.begin(), byDistance.end());

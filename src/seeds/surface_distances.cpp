@@ -28,16 +28,8 @@ double lengthAcross(double signedAngleRadians) {
 std::vector<float> arcLengths(const DualGraph& graph, const FaceGeometry& geometry) {
   ASDFVK_CHECK_OP(geometry.areas.size(), ==, graph.faceCount());
   std::vector<float> lengths(graph.neighbours.size());
-  // Each length is computed once and stored for both directions, with two values where two faces share two edges.
-  forEachInParallel(graph.faceCount(), [&](uint32_t face) {
-    for (uint32_t arc = graph.offsets[face]; arc < graph.offsets[face + 1]; ++arc) {
-      const uint32_t neighbour = graph.neighbours[arc];
-      if (neighbour < face) continue;
-      lengths[arc] = limitedLength(lengthAcross(signedDihedralAngle(geometry, face, neighbour)));
-      const std::span<const uint32_t> back = graph.neighboursOf(neighbour);
-      const auto [begin, end] = std::equal_range(back.begin(), back.end(), face);
-      std::fill_n(lengths.begin() + graph.offsets[neighbour] + (begin - back.begin()), end - begin, lengths[arc]);
-    }
+  setForEachPair(graph, std::span(lengths), [&](uint32_t face, uint32_t neighbour) {
+    return limitedLength(lengthAcross(signedDihedralAngle(geometry, face, neighbour)));
   });
   return lengths;
 }

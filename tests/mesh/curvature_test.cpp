@@ -22,8 +22,14 @@ double sumOfDefects(const Mesh& mesh) {
   return std::accumulate(defects.begin(), defects.end(), 0.0);
 }
 
+/// Per arc.
 std::vector<double> anglesOf(const Mesh& mesh) {
-  return signedDihedralAngles(buildDualGraph(mesh), computeFaceGeometry(mesh));
+  const DualGraph graph = buildDualGraph(mesh);
+  const FaceGeometry geometry = computeFaceGeometry(mesh);
+  std::vector<double> angles;
+  for (uint32_t f = 0; f < graph.faceCount(); ++f)
+    for (const uint32_t g : graph.neighboursOf(f)) angles.push_back(signedDihedralAngle(geometry, f, g));
+  return angles;
 }
 
 /// Two faces at the edge along x; the second rises by `angle` from the plane of the first.
@@ -128,7 +134,7 @@ TEST_CASE("a ring is concave on its inner side only") {
   const Mesh mesh = shapes::torus(4, 1, 12, 12);
   const DualGraph graph = buildDualGraph(mesh);
   const FaceGeometry geometry = computeFaceGeometry(mesh);
-  const std::vector<double> angles = signedDihedralAngles(graph, geometry);
+  const std::vector<double> angles = anglesOf(mesh);
   size_t concaveCount = 0;
   for (uint32_t f = 0; f < graph.faceCount(); ++f)
     for (uint32_t arc = graph.offsets[f]; arc < graph.offsets[f + 1]; ++arc) {
