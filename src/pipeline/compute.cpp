@@ -49,6 +49,7 @@ void describeRounds(Report& report, const RoundsResult& rounds) {
   report.raysPerSecond = traceSeconds > 0 ? static_cast<double>(report.rayCount) / traceSeconds : 0;
   report.traceDeviceSeconds = rounds.traced.statistics.deviceSeconds;
   if (report.traceDeviceSeconds) *report.traceDeviceSeconds += rounds.thickness.rays.deviceSeconds.value_or(0);
+  report.traceVariant = rounds.traceVariant;
   report.solver = rounds.interpolated.solver;
   report.roundCount = rounds.roundCount;
   if (rounds.errors) report.estimatedError = rounds.errors->estimate;
@@ -174,9 +175,10 @@ void computeOn(const ComputationTask& task, const Options& options, StageClock& 
   const double roundsEnd = options.checkCount ? kRoundsEndBeforeCheck : 1;
   const bool keepsNodes =
       !isLast || options.checkCount || options.keepsScene || sightNeedsNodes(options, backend.isReference());
-  auto tracing = std::make_unique<SeedTracing>(computation, tracers, keepsNodes ? nullptr : &sharedScene->bvh);
-  report.traceVariant = tracing->traceVariant();
-  RoundsResult rounds = runRounds(computation, std::move(tracing), control.part(0, roundsEnd));
+  const auto makeTracing = [&] {
+    return std::make_unique<SeedTracing>(computation, tracers, keepsNodes ? nullptr : &sharedScene->bvh);
+  };
+  RoundsResult rounds = runRounds(computation, makeTracing, control.part(0, roundsEnd));
   describeRounds(report, rounds);
   if (computation.keepsMissing()) removeMissing(prepared, rounds);
   if (rounds.errors) removeErrorsOutside(prepared, domain, *rounds.errors);

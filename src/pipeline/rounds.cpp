@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/background_task.h"
 #include "estimate/error_indicator.h"
 #include "pipeline/seed_choice.h"
 
@@ -53,15 +54,13 @@ class HiddenValues {
 
 class Rounds {
  public:
-  Rounds(const Computation& computation, std::unique_ptr<SeedTracing> tracing)
+  Rounds(const Computation& computation, const MakeSeedTracing& makeTracing)
       : computation_(computation),
         options_(computation.options),
         clock_(computation.clock),
-        tracing_(std::move(tracing)),
+        makeTracing_(makeTracing),
         interpolation_(computation),
-        traced_(computation.prepared.geometry.areas.size()) {
-    tracing_->keepHitsIn(interpolation_.hitStore());
-  }
+        traced_(computation.prepared.geometry.areas.size()) {}
 
   RoundsResult run(const RunControl& control) {
     const uint64_t traceableCount = computation_.domain.traceableFaces.size();
@@ -69,12 +68,15 @@ class Rounds {
     while (const uint64_t further = furtherCount()) runRound(further, false, control.withoutProgress());
     FaceThickness thickness = measureThickness(control);
     control.checkpoint(1);
-    return {std::move(traced_), std::move(result_), std::move(errors_), roundCount_, std::move(thickness)};
+    return {std::move(traced_), std::move(result_),   std::move(errors_),
+            roundCount_,        std::move(thickness), std::move(traceVariant_)};
   }
 
  private:
   void runRound(uint64_t count, bool isLast, const RunControl& control);
-  void traceSampled(const SeedShares& shares, std::span<const double> density, const RunControl& control);
+  [[nodiscard]] SeedChoice choose(const SeedShares& shares, std::span<const double> density);
+  [[nodiscard]] SeedChoice chooseWhileOpening(const SeedShares& shares);
+  void traceChosen(SeedChoice choice, const RunControl& control);
   void sortSampled();
   [[nodiscard]] std::vector<double> indicateErrors(Stage stage, const RunControl& control);
   std::vector<uint32_t> traceByPrediction(const SeedShares& shares, std::span<const double> indicator,
@@ -91,7 +93,9 @@ class Rounds {
   const Computation& computation_;
   const Options& options_;
   StageClock& clock_;
-  std::unique_ptr<SeedTracing> tracing_;  ///< Null after the last ray.
+  const MakeSeedTracing& makeTracing_;
+  std::unique_ptr<SeedTracing> tracing_;  ///< Null before the first seeds are chosen and after the last ray.
+  std::optional<TraceVariant> traceVariant_;
   Interpolation interpolation_;
 
   SeedChoice sampled_;  ///< All seeds: those of the sampler and of extremes, and held-out faces.
@@ -111,15 +115,17 @@ void Rounds::runRound(uint64_t count, bool isLast, const RunControl& control) {
   const SeedShares shares = computation_.estimatesError() && count < remainingCount()
                                 ? shareSeeds(count, heldOut_.faces.size(), predicts)
                                 : SeedShares{.sampled = count};
+  const bool refines = samplerOf(options_).refine && predicts && roundCount_ == 0 && count < remainingCount();
+  const uint64_t refiningCount = refines ? shares.sampled / 2 : 0;
+  const SeedShares first{.sampled = shares.sampled - refiningCount, .heldOut = predicts ? 0 : shares.heldOut};
+  SeedChoice choice = roundCount_ == 0 ? chooseWhileOpening(first) : choose(first, {});
+  ++roundCount_;
   tracing_->reserve(traced_, count);
-  if (samplerOf(options_).refine && predicts && roundCount_ == 0 && count < remainingCount()) {
-    const uint64_t refiningCount = shares.sampled / 2;
-    traceSampled({.sampled = shares.sampled - refiningCount}, {}, control.part(0, kTracedProgress / 2));
+  traceChosen(std::move(choice), control.part(0, refines ? kTracedProgress / 2 : kTracedProgress));
+  if (refines) {
     const std::vector<double> density = indicateErrors(Stage::Sample, control.withoutProgress());
-    traceSampled({.sampled = refiningCount}, density, control.part(kTracedProgress / 2, kTracedProgress));
-  } else {
-    traceSampled({.sampled = shares.sampled, .heldOut = predicts ? 0 : shares.heldOut}, {},
-                 control.part(0, kTracedProgress));
+    ++roundCount_;
+    traceChosen(choose({.sampled = refiningCount}, density), control.part(kTracedProgress / 2, kTracedProgress));
   }
   const bool estimates = remainingCount() > 0 && shares.heldOut + heldOut_.faces.size() > 0;
   std::vector<double> indicator;
@@ -152,12 +158,29 @@ void Rounds::runRound(uint64_t count, bool isLast, const RunControl& control) {
 }
 
 /// density: see chooseSeeds().
-void Rounds::traceSampled(const SeedShares& shares, std::span<const double> density, const RunControl& control) {
-  ++roundCount_;
-  SeedChoice choice = [&] {
-    const auto scope = clock_.time(Stage::Sample);
-    return chooseSeeds(computation_.domain, computation_.prepared.geometry, options_, shares, sampled_, density);
-  }();
+SeedChoice Rounds::choose(const SeedShares& shares, std::span<const double> density) {
+  const auto scope = clock_.time(Stage::Sample);
+  return chooseSeeds(computation_.domain, computation_.prepared.geometry, options_, shares, sampled_, density);
+}
+
+/// One thread throws darts where there are few threads. Meanwhile the others encode the hierarchy. Stage::Sample is the
+/// rest of the time.
+SeedChoice Rounds::chooseWhileOpening(const SeedShares& shares) {
+  SeedChoice choice;
+  BackgroundTask choosing([&] {
+    choice = chooseSeeds(computation_.domain, computation_.prepared.geometry, options_, shares, sampled_, {});
+  });
+  choosing.meanwhile([&] {
+    tracing_ = makeTracing_();
+    traceVariant_ = tracing_->traceVariant();
+    tracing_->keepHitsIn(interpolation_.hitStore());
+  });
+  const auto scope = clock_.time(Stage::Sample);
+  choosing.wait();
+  return choice;
+}
+
+void Rounds::traceChosen(SeedChoice choice, const RunControl& control) {
   const auto scope = clock_.time(Stage::Trace);
   const auto sampledCount = static_cast<double>(choice.sampled.size()),
              heldOutCount = static_cast<double>(choice.heldOut.size());
@@ -293,9 +316,8 @@ uint64_t Rounds::countForTime() const {
 
 }  // namespace
 
-RoundsResult runRounds(const Computation& computation, std::unique_ptr<SeedTracing> tracing,
-                       const RunControl& control) {
-  return Rounds(computation, std::move(tracing)).run(control);
+RoundsResult runRounds(const Computation& computation, const MakeSeedTracing& makeTracing, const RunControl& control) {
+  return Rounds(computation, makeTracing).run(control);
 }
 
 }  // namespace asdfvk

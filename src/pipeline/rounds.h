@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -19,12 +20,15 @@ struct RoundsResult {
   std::optional<EstimatedErrors> errors;
   uint32_t roundCount = 0;
   FaceThickness thickness;  ///< Empty unless the thickness is measured.
+  std::optional<TraceVariant> traceVariant;
 };
 
+using MakeSeedTracing = std::function<std::unique_ptr<SeedTracing>()>;
+
 /// Chooses seeds, casts their rays, interpolates and estimates the error, in one round or several; each round keeps the
-/// traced values of the earlier ones. `tracing` is released after the last ray: before the last interpolation if no
-/// further round can follow.
-[[nodiscard]] RoundsResult runRounds(const Computation& computation, std::unique_ptr<SeedTracing> tracing,
+/// traced values of the earlier ones. makeTracing() is called once, while other threads choose the first seeds. Its
+/// result is released after the last ray: before the last interpolation if no further round can follow.
+[[nodiscard]] RoundsResult runRounds(const Computation& computation, const MakeSeedTracing& makeTracing,
                                      const RunControl& control);
 
 }  // namespace asdfvk

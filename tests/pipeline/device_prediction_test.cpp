@@ -115,7 +115,8 @@ DeviceOutcome runWith(GpuBackend::Predictor predictor, const std::string& solver
   const FaceDomain domain = wholeMesh(prepared);
   const Computation computation{options, prepared, domain, scene, cone, backend, solvers, clock, outcome.warnings};
   SceneTracers tracers(backend, scene, 0);
-  const RoundsResult result = runRounds(computation, std::make_unique<SeedTracing>(computation, tracers, nullptr), {});
+  const RoundsResult result =
+      runRounds(computation, [&] { return std::make_unique<SeedTracing>(computation, tracers, nullptr); }, {});
   outcome.values = result.interpolated.values;
   outcome.hitCount = result.traced.hits.size();
   outcome.seedCount = result.traced.faces.size();

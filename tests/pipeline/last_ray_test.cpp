@@ -98,7 +98,8 @@ Outcome run(Options options, bool keepsNodes = false) {
   const Computation computation{options, prepared, domain, scene, cone, backend, solvers, clock, warnings};
   SceneTracers tracers(backend, scene, 0);
   const RoundsResult result =
-      runRounds(computation, std::make_unique<SeedTracing>(computation, tracers, keepsNodes ? nullptr : &bvh), {});
+      runRounds(computation,
+                [&] { return std::make_unique<SeedTracing>(computation, tracers, keepsNodes ? nullptr : &bvh); }, {});
   outcome.faceCount = mesh.faces.size();
   outcome.roundCount = result.roundCount;
   outcome.seedCount = result.traced.faces.size();
