@@ -15,8 +15,6 @@ layout(set = 0, binding = 4) readonly buffer InverseRoots { float inverseRoots[]
 layout(set = 0, binding = 5) writeonly buffer Rows { uvec4 rowBlocks[]; };
 layout(set = 0, binding = 6) writeonly buffer Couplings { float couplings[]; };
 
-const uint kHeadLength = 3u;
-
 // The same bits in both directions: the product of the roots comes first.
 float couplingOf(uint face, uint arc) {
   const uint neighbour = neighbours[arc];
@@ -27,7 +25,7 @@ float couplingOf(uint face, uint arc) {
 
 void main() {
   for (uint face = firstRow(); face < push.faceCount; face += rowStride()) {
-    const uint begin = arcBegin(face), end = arcEnd(face), headEnd = min(end, begin + kHeadLength);
+    const uint begin = arcBegin(face), end = arcEnd(face), headEnd = min(end, begin + kPoissonRowHeadLength);
     uvec3 columns = uvec3(face);
     vec3 heads = vec3(0.0);
     for (uint arc = begin; arc < headEnd; ++arc) {

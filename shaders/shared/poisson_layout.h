@@ -18,6 +18,7 @@ using glsl::uint;
 // A row of S, 32 bytes, read as two rgba32ui texels: its first three entries and the location of the others. On a
 // manifold mesh a row has at most three. An absent entry has coupling 0 and the column of the row.
 const uint kPoissonRowTexelCount = 2u;
+const uint kPoissonRowHeadLength = 3u;  // Entries in the row itself.
 struct PoissonRow {
   uint column0, column1, column2;
   uint tailBegin;  // Into the arrays of further columns and couplings.

@@ -11,12 +11,6 @@
 #include "core/parallel.h"
 
 namespace asdfvk {
-namespace {
-
-constexpr uint32_t kHeadLength = 3;  // Entries in a PoissonRow itself.
-
-}  // namespace
-
 template <typename Real>
 DiagonalScaling<Real>::DiagonalScaling(std::span<const double> diagonal)
     : diagonal_(diagonal), residualWeights_(diagonal.size()) {
@@ -58,7 +52,7 @@ template class DiagonalScaling<double>;
 ScaledSystem::ScaledSystem(const PoissonSystem& system) : DiagonalScaling(system.diagonal), rows_(system.faces.size()) {
   const size_t rowCount = system.faces.size();
   const auto lengthOf = [&](size_t row) { return system.rowOffsets[row + 1] - system.rowOffsets[row]; };
-  const auto tailLengthOf = [&](size_t row) { return lengthOf(row) - std::min(lengthOf(row), kHeadLength); };
+  const auto tailLengthOf = [&](size_t row) { return lengthOf(row) - std::min(lengthOf(row), kPoissonRowHeadLength); };
   longestRow_ = tbb::parallel_reduce(
       tbb::blocked_range<size_t>(0, rowCount), 0u,
       [&](const tbb::blocked_range<size_t>& range, uint32_t longest) {
@@ -66,7 +60,7 @@ ScaledSystem::ScaledSystem(const PoissonSystem& system) : DiagonalScaling(system
         return longest;
       },
       [](uint32_t a, uint32_t b) { return std::max(a, b); });
-  const bool hasTails = longestRow_ > kHeadLength;
+  const bool hasTails = longestRow_ > kPoissonRowHeadLength;
   uint32_t tailSize = 0;
   for (size_t row = 0; hasTails && row < rowCount; ++row) {
     rows_[row].tailBegin = tailSize;
@@ -80,10 +74,10 @@ ScaledSystem::ScaledSystem(const PoissonSystem& system) : DiagonalScaling(system
       return static_cast<float>(-system.entries[i] * roots[row] * roots[system.columns[i]]);
     };
     const uint32_t begin = system.rowOffsets[row];
-    std::array<uint32_t, kHeadLength> columns;
-    std::array<float, kHeadLength> couplings{};
+    std::array<uint32_t, kPoissonRowHeadLength> columns;
+    std::array<float, kPoissonRowHeadLength> couplings{};
     columns.fill(static_cast<uint32_t>(row));
-    for (uint32_t k = 0; k < std::min(lengthOf(row), kHeadLength); ++k) {
+    for (uint32_t k = 0; k < std::min(lengthOf(row), kPoissonRowHeadLength); ++k) {
       columns[k] = system.columns[begin + k];
       couplings[k] = coupling(begin + k);
     }
@@ -91,8 +85,8 @@ ScaledSystem::ScaledSystem(const PoissonSystem& system) : DiagonalScaling(system
     entries = {columns[0],   columns[1],   columns[2],   hasTails ? entries.tailBegin : 0,
                couplings[0], couplings[1], couplings[2], tailLengthOf(row)};
     for (uint32_t k = 0; k < entries.tailCount; ++k) {
-      tailColumns_[entries.tailBegin + k] = system.columns[begin + kHeadLength + k];
-      tailCouplings_[entries.tailBegin + k] = coupling(begin + kHeadLength + k);
+      tailColumns_[entries.tailBegin + k] = system.columns[begin + kPoissonRowHeadLength + k];
+      tailCouplings_[entries.tailBegin + k] = coupling(begin + kPoissonRowHeadLength + k);
     }
   });
 }

@@ -24,7 +24,6 @@ namespace {
 constexpr float kMissing = std::numeric_limits<float>::quiet_NaN();
 // Weights that differ by more than this from their mean are limited: no sum of them leaves the range of float32.
 constexpr double kMinScaledWeight = 1e-30, kMaxScaledWeight = 1e30;
-constexpr uint32_t kHeadLength = 3;  // Entries in a PoissonRow itself.
 
 ComputePipelineDescription describeKernel(const DeviceFacts& facts, const std::string& name,
                                           std::span<const uint32_t> spirv, uint32_t bindingCount, bool withTexels) {
@@ -63,7 +62,7 @@ VulkanMatrix makeMatrix(const Device& device, const DualGraph& graph) {
   const uint32_t longestRow = longestRowOf(graph);
   requireSystemFits(device.facts(), graph.faceCount(), graph.neighbours.size(), longestRow);
   return {device, graph.faceCount(), uploadVector(device, graph.neighbours),
-          makePoissonVector(device, longestRow > kHeadLength ? graph.neighbours.size() : 0)};
+          makePoissonVector(device, longestRow > kPoissonRowHeadLength ? graph.neighbours.size() : 0)};
 }
 
 double largestMagnitude(std::span<const double> values) {
