@@ -4,7 +4,9 @@
 #include <bit>
 #include <vector>
 
+#include "shared/equation_layout.h"
 #include "shared/poisson_layout.h"
+#include "spirv/equation_layout_probe.comp.h"
 #include "spirv/poisson_layout_probe.comp.h"
 #include "support/test_device.h"
 #include "vk/command_list.h"
@@ -77,5 +79,30 @@ TEST_CASE("a distinct word through each field of the Poisson structs arrives in 
     const bool isReal = i < 8 ? i % 4 < 2 : i > 18;
     CAPTURE(i);
     REQUIRE(got[i] == (isReal ? expected[i] | 0x3f800000u : expected[i]));
+  }
+}
+
+TEST_CASE("a distinct number through each field of the structs of an equation arrives in that field of the kernel") {
+  const test::ValidatedDevice device;
+  const std::array<EquationStart, 2> starts{{{1.5f, 2.5f}, {3.5f, 4.5f}}};
+  const EquationPush push{.faceCount = 5, .workgroupCount = 6, .isGuided = 7, .missingBase = 8.5f, .scale = 9.5f};
+  const Buffer startBuffer = uploadBuffer(*device, bytesOf(starts), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+  const Buffer words(*device, 9 * sizeof(uint32_t), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, MemoryKind::HostVisible);
+  const ComputePipeline probe(*device, {"equation_layout_probe.comp",
+                                        k_equation_layout_probe_comp,
+                                        std::vector(2, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER),
+                                        sizeof(EquationPush),
+                                        {}});
+  const BindingSet bindings(*device, probe, std::array<Binding, 2>{startBuffer, words});
+  CommandList commands(*device);
+  commands.begin();
+  commands.dispatch(probe, bindings, bytesOf(push), 1);
+  commands.barrier();
+  commands.submitAndWait();
+  const std::span<const uint32_t> got = words.mappedAs<uint32_t>();
+  for (uint32_t i = 0; i < 9; ++i) {
+    CAPTURE(i);
+    const bool isReal = i < 4 || i > 6;
+    CHECK(got[i] == (isReal ? std::bit_cast<uint32_t>(static_cast<float>(i) + 1.5f) : i + 1));
   }
 }

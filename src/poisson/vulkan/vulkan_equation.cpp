@@ -60,7 +60,9 @@ Buffer uploadWeights(const Device& device, std::span<const double> weights, doub
 
 VulkanMatrix makeMatrix(const Device& device, const DualGraph& graph) {
   const uint32_t longestRow = longestRowOf(graph);
-  requireSystemFits(device.facts(), graph.faceCount(), graph.neighbours.size(), longestRow);
+  const uint64_t startSize = uint64_t{graph.faceCount()} * (sizeof(EquationStart) / sizeof(float));
+  requireSystemFits(device.facts(), graph.faceCount(), std::max<uint64_t>(graph.neighbours.size(), startSize),
+                    longestRow);
   return {device, graph.faceCount(), uploadVector(device, graph.neighbours),
           makePoissonVector(device, longestRow > kPoissonRowHeadLength ? graph.neighbours.size() : 0)};
 }
@@ -158,7 +160,7 @@ double VulkanEquation::guessOf(uint32_t face) const {
   return std::isfinite(guess) ? guess : constraintMean_;
 }
 
-UnsetVector<EquationStart> VulkanEquation::makeStarts() {
+UnsetVector<EquationStart> VulkanEquation::makeStarts() const {
   UnsetVector<EquationStart> starts(graph_.faceCount);
   forEachInParallel(starts.size(), [&](uint32_t face) {
     const double constraint = problem_.constraints[face], guess = problem_.firstGuess[face];

@@ -60,7 +60,7 @@ class VulkanEquation {
   [[nodiscard]] std::vector<float> differences() const { return downloadVector(differences_[current_]); }
 
  private:
-  [[nodiscard]] UnsetVector<EquationStart> makeStarts();
+  [[nodiscard]] UnsetVector<EquationStart> makeStarts() const;
   [[nodiscard]] UnsetVector<float> makeSources() const;
   [[nodiscard]] EquationPush push(double scale) const;
   void recordResidual(uint32_t which, double scale);
@@ -79,7 +79,7 @@ class VulkanEquation {
   std::array<Buffer, 2> differences_;  ///< The solution and a corrected one.
   uint32_t current_ = 0;               ///< The solution.
   std::array<std::optional<BindingSet>, 2> residualBindings_;
-  mutable CommandList commands_;
+  CommandList commands_;
   double rightHandNorm_ = 0, residualNorm_ = 0, triedNorm_ = 0;
 };
 
