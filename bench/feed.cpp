@@ -108,7 +108,8 @@ class TrafficCounter {
   static inline std::set<VkBuffer> ofHost_;
 };
 
-/// Time for which the host waits for the device, by stage. Needs a TrafficCounter.
+/// Time for which the host waits for the device, by stage. Waits between two stages count for the first of them. Needs
+/// a TrafficCounter.
 class StageWaits {
  public:
   void begin(Stage stage) {

@@ -19,7 +19,7 @@ void main() {
     ADD_COUPLED(row, p, coupled)
     const float direction = p[row];
     const float residualWeight = residualWeights[row];
-    const float product = residualWeight > 0.0 ? direction - coupled : 0.0;  // See VulkanMatrix::setResidualWeights().
+    const float product = residualWeight > 0.0 ? direction - coupled : 0.0;  // See VulkanMatrix::residualWeights.
     const float residual = r[row];
     q[row] = product;
     partial += mat2x3(vec3(direction, product, product) * vec3(direction, direction, product),

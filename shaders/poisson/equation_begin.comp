@@ -15,35 +15,30 @@ layout(set = 0, binding = 5) writeonly buffer ResidualWeights { float residualWe
 layout(set = 0, binding = 6) writeonly buffer Differences { float differences[]; };
 layout(set = 0, binding = 7) buffer Sums { PoissonSums sums; };
 
-bool isMissing(float value) { return (floatBitsToUint(value) & 0x7fffffffu) > 0x7f800000u; }
-float baseOf(EquationStart start) { return isMissing(start.base) ? push.missingBase : start.base; }
+bool has(EquationStart start, uint flag) { return (start.flags & flag) != 0u; }
 
 void main() {
   vec2 squared = vec2(0.0);
   for (uint face = firstRow(); face < push.faceCount; face += rowStride()) {
     const EquationStart start = starts[face];
-    const bool isUnknown = isMissing(start.difference);
-    const bool hasGuide = push.isGuided != 0u && !isMissing(start.base);
-    const float base = baseOf(start);
     float diagonal = 0.0, source = sources[face], known = 0.0, rightHandSide = source;
-    for (uint arc = arcBegin(face); isUnknown && arc < arcEnd(face); ++arc) {
+    for (uint arc = arcBegin(face); has(start, kIsUnknown) && arc < arcEnd(face); ++arc) {
       if (neighbours[arc] == face) continue;
       const float weight = weights[arc];
       const EquationStart other = starts[neighbours[arc]];
-      const float step = weight * (baseOf(other) - base);
+      const float step = weight * (other.base - start.base);
       diagonal += weight;
-      if (hasGuide && !isMissing(other.base))
+      if (has(start, kIsGuided) && has(other, kIsGuided))
         rightHandSide -= step;
       else
         source += step;
-      if (isMissing(other.difference)) continue;
       known += weight * other.difference;
-      rightHandSide += weight * (baseOf(other) + other.difference);
+      if (!has(other, kIsUnknown)) rightHandSide += weight * (other.base + other.difference);
     }
     const float residualWeight = diagonal > 0.0 ? 1.0 / diagonal : 0.0;
     sources[face] = source;
     residualWeights[face] = residualWeight;
-    differences[face] = isUnknown ? 0.0 : start.difference;
+    differences[face] = start.difference;
     const vec2 both = vec2(rightHandSide, source + known) * residualWeight;
     squared += both * both;
   }

@@ -19,7 +19,7 @@ void main() {
     ADD_COUPLED(row, y, value)
     const float residualWeight = residualWeights[row];
     const float residual = value - y[row];
-    next[row] = residualWeight > 0.0 ? value : 0.0;  // See VulkanMatrix::setResidualWeights().
+    next[row] = residualWeight > 0.0 ? value : 0.0;  // See VulkanMatrix::residualWeights.
     squared += residual * residual * residualWeight;
   }
   const float total = workgroupSum(mat2x3(squared, 0.0, 0.0, 0.0, 0.0, 0.0))[0].x;

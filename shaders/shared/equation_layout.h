@@ -15,26 +15,26 @@ namespace asdfvk {
 using glsl::uint;
 #endif
 
-// Per face, 8 bytes. A NaN by its bits: a device may assume that there are none.
+// Per face, 12 bytes.
 struct EquationStart {
-  float base;        // NaN: EquationPush.missingBase.
-  float difference;  // Of the constraint from the base; NaN for an unknown.
+  float base;
+  float difference;  // Of the constraint from the base; 0 for an unknown.
+  uint flags;
 };
+const uint kIsUnknown = 1u;
+const uint kIsGuided = 2u;  // The equation has the divergence of the bases between two such faces.
 
 struct EquationPush {
   uint faceCount;
   uint workgroupCount;  // Of the dispatch.
-  uint isGuided;        // 1: the equation has the divergence of the bases, where two neighbours have one.
-  float missingBase;
-  float scale;  // Factor of residuals and corrections.
+  float scale;          // Factor of residuals and corrections.
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(EquationStart) == 8 && offsetof(EquationStart, difference) == 4);
-static_assert(sizeof(EquationPush) == 20);
-static_assert(offsetof(EquationPush, faceCount) == 0 && offsetof(EquationPush, workgroupCount) == 4);
-static_assert(offsetof(EquationPush, isGuided) == 8 && offsetof(EquationPush, missingBase) == 12);
-static_assert(offsetof(EquationPush, scale) == 16);
+static_assert(sizeof(EquationStart) == 12 && offsetof(EquationStart, base) == 0);
+static_assert(offsetof(EquationStart, difference) == 4 && offsetof(EquationStart, flags) == 8);
+static_assert(sizeof(EquationPush) == 12 && offsetof(EquationPush, faceCount) == 0);
+static_assert(offsetof(EquationPush, workgroupCount) == 4 && offsetof(EquationPush, scale) == 8);
 }  // namespace asdfvk
 #endif
 

@@ -40,4 +40,17 @@ template <typename Holds>
       [](uint64_t a, uint64_t b) { return a + b; });
 }
 
+/// The greatest valueOf(i), i in [0, count), and of Value{}, in parallel.
+template <typename Value, typename ValueOf>
+[[nodiscard]] Value maxInParallel(size_t count, const ValueOf& valueOf) {
+  return tbb::parallel_reduce(
+      tbb::blocked_range<size_t>(0, count, kItemsPerTask), Value{},
+      [&](const tbb::blocked_range<size_t>& range, Value greatest) {
+        for (size_t i = range.begin(); i < range.end(); ++i)
+          greatest = std::max(greatest, Value{valueOf(static_cast<uint32_t>(i))});
+        return greatest;
+      },
+      [](const Value& a, const Value& b) { return std::max(a, b); });
+}
+
 }  // namespace asdfvk

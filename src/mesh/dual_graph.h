@@ -27,8 +27,8 @@ struct DualGraph {
   }
 };
 
-/// Sets perArc[arc] to valueOf(f, g) for each arc from f to g, in parallel: computed once per pair of faces, in the
-/// order f <= g, and stored for both directions.
+/// Sets perArc[arc] to valueOf(f, g) for each arc from f to g, in parallel: computed in one direction, f <= g, and
+/// stored for both.
 template <typename Value, typename ValueOf>
 void setForEachPair(const DualGraph& graph, std::span<Value> perArc, const ValueOf& valueOf) {
   forEachInParallel(graph.faceCount(), [&](uint32_t face) {

@@ -176,10 +176,12 @@ PoissonSystem Interpolation::buildSystem(const std::vector<ComponentValues>& tra
                             {.firstGuess = guess, .componentOf = computation_.domain.componentOf});
 }
 
-/// Null where the solver has none, or where the equation has few of the rows of the graph.
+/// Null where the solver has none, where the equation has few of the rows of the graph, and for a tolerance that needs
+/// residuals in double.
 GraphSolver* Interpolation::graphSolver(PoissonSolver& solver, size_t unknownCount) {
   const DualGraph& graph = computation_.domain.graph;
   if (2 * unknownCount < graph.faceCount()) return nullptr;
+  if (computation_.options.solverOptions.tolerance < kMinGraphTolerance) return nullptr;
   if (solver_ != &solver) {
     graphSolver_.reset();
     solver_ = &solver;
@@ -210,15 +212,15 @@ SolverReport Interpolation::solveWith(const std::string& name, const std::vector
   if (GraphSolver* const onGraph = graphSolver(*solver, unknownCount)) {
     const bool isGuided = guidedByPrediction();
     const std::vector<double> divergence = isGuided ? std::vector<double>{} : this->divergence();
-    const std::vector<double> means =
-        prediction_.values.empty() ? firstGuess(domain, traced, {}) : std::vector<double>{};
+    const std::vector<double> guess = firstGuess(domain, traced, prediction_.values);
     values.assign(constraints.begin(), constraints.end());
-    report = onGraph->solve({.constraints = constraints,
-                             .firstGuess = means.empty() ? std::span(std::as_const(prediction_.values)) : means,
-                             .isGuided = isGuided,
-                             .divergence = divergence,
-                             .componentOf = domain.componentOf},
-                            options, values, control);
+    report =
+        onGraph->solve({.constraints = constraints,
+                        .firstGuess = guess,
+                        .guide = isGuided ? std::span<const double>(prediction_.values) : std::span<const double>{},
+                        .divergence = divergence,
+                        .componentOf = domain.componentOf},
+                       options, values, control);
   } else {
     // The solve needs the most memory of a run: the solution takes the place of the first guess, and the values come
     // after the system.

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/background_task.h"
+#include "core/stopwatch.h"
 #include "estimate/error_indicator.h"
 #include "pipeline/seed_choice.h"
 
@@ -88,7 +89,9 @@ class Rounds {
   [[nodiscard]] uint64_t countForTarget(std::optional<double> maximum, double estimate, double standardError) const;
   [[nodiscard]] uint64_t countForTime() const;
   [[nodiscard]] uint64_t remainingCount() const;
-  [[nodiscard]] double raySeconds() const { return clock_.secondsOf(Stage::Trace) + clock_.secondsOf(Stage::Sample); }
+  [[nodiscard]] double raySeconds() const {
+    return clock_.secondsOf(Stage::Trace) + clock_.secondsOf(Stage::Sample) + hiddenSampleSeconds_;
+  }
 
   const Computation& computation_;
   const Options& options_;
@@ -103,12 +106,12 @@ class Rounds {
   HeldOutFaces heldOut_;
   Interpolated result_;
   std::optional<EstimatedErrors> errors_;
+  double hiddenSampleSeconds_ = 0;   ///< Of choosing the first seeds, as far as it is no part of Stage::Sample.
   double interpolationSeconds_ = 0;  ///< Of the last round, all but its rays.
   uint32_t roundCount_ = 0;
 };
 
 void Rounds::runRound(uint64_t count, bool isLast, const RunControl& control) {
-  const double begin = clock_.elapsed(), earlierRays = raySeconds();
   errors_.reset();
   count = std::min(count, remainingCount());
   const bool predicts = computation_.predicts();
@@ -119,6 +122,7 @@ void Rounds::runRound(uint64_t count, bool isLast, const RunControl& control) {
   const uint64_t refiningCount = refines ? shares.sampled / 2 : 0;
   const SeedShares first{.sampled = shares.sampled - refiningCount, .heldOut = predicts ? 0 : shares.heldOut};
   SeedChoice choice = roundCount_ == 0 ? chooseWhileOpening(first) : choose(first, {});
+  const double begin = clock_.elapsed(), earlierRays = raySeconds();
   ++roundCount_;
   tracing_->reserve(traced_, count);
   traceChosen(std::move(choice), control.part(0, refines ? kTracedProgress / 2 : kTracedProgress));
@@ -163,20 +167,25 @@ SeedChoice Rounds::choose(const SeedShares& shares, std::span<const double> dens
   return chooseSeeds(computation_.domain, computation_.prepared.geometry, options_, shares, sampled_, density);
 }
 
-/// One thread throws darts where there are few threads. Meanwhile the others encode the hierarchy. Stage::Sample is the
-/// rest of the time.
+/// The first seeds are chosen in the background while this thread makes the tracer. Stage::Sample is the time after
+/// that until the choice ends.
 SeedChoice Rounds::chooseWhileOpening(const SeedShares& shares) {
   SeedChoice choice;
+  double seconds = 0;
   BackgroundTask choosing([&] {
+    const Stopwatch watch;
     choice = chooseSeeds(computation_.domain, computation_.prepared.geometry, options_, shares, sampled_, {});
+    seconds = watch.seconds();
   });
   choosing.meanwhile([&] {
     tracing_ = makeTracing_();
     traceVariant_ = tracing_->traceVariant();
     tracing_->keepHitsIn(interpolation_.hitStore());
   });
+  const Stopwatch watch;
   const auto scope = clock_.time(Stage::Sample);
   choosing.wait();
+  hiddenSampleSeconds_ = std::max(0.0, seconds - watch.seconds());
   return choice;
 }
 

@@ -19,12 +19,16 @@ class Device;
 
 /// One interpolation on a dual graph, as buildPoissonSystem() has it.
 struct GraphProblem {
-  std::span<const double> constraints;    ///< #F, NaN for a face without one.
-  std::span<const double> firstGuess;     ///< #F; non-finite entries are replaced by the mean of the constraints.
-  bool isGuided = false;                  ///< Whether the divergence includes divergenceOf(firstGuess).
-  std::span<const double> divergence;     ///< #F, or empty for none: further divergence; non-finite entries count as 0.
+  std::span<const double> constraints;  ///< #F, NaN for a face without one.
+  std::span<const double> firstGuess;   ///< #F; non-finite entries are replaced by the mean of the constraints.
+  std::span<const double> guide;  ///< #F, or empty: a field, of which the equation has the divergenceOf(). A device
+                                  ///< starts from its finite entries.
+  std::span<const double> divergence;     ///< #F, or empty: further divergence; non-finite entries count as 0.
   std::span<const uint32_t> componentOf;  ///< #F
 };
+
+/// Down to this tolerance a GraphSolver needs no residuals in double.
+inline constexpr double kMinGraphTolerance = 1e-6;
 
 /// A solver on one dual graph with weights, for any constraints.
 class GraphSolver {
@@ -58,9 +62,10 @@ class PoissonSolver {
 using MakeSolver = std::unique_ptr<PoissonSolver>(const Device* device);
 
 /// Jacobi-preconditioned conjugate gradients in float32, under iterative refinement in double: on the device, and on
-/// all cores of the CPU. Where float32 stagnates, the iteration of makeEigenSolver() continues on the CPU.
+/// all cores of the CPU. Where float32 stagnates, the iteration of makeEigenSolver() continues on the CPU. As a
+/// GraphSolver, residuals in float32 down to kMinGraphTolerance.
 [[nodiscard]] MakeSolver makeVulkanCgSolver, makeCpuCgSolver;
-/// Jacobi iterations in float32 on the device, under iterative refinement in double: slow, for comparison.
+/// Jacobi iterations in float32 on the device, under the same refinement: slow, for comparison.
 [[nodiscard]] MakeSolver makeVulkanJacobiSolver;
 /// Jacobi-preconditioned conjugate gradients in double on all cores of the CPU, with an Eigen matrix.
 [[nodiscard]] MakeSolver makeEigenSolver;

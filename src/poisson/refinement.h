@@ -8,7 +8,7 @@
 #include "asdf_vk/run_control.h"
 #include "poisson/poisson_solver.h"
 
-/// Iterative refinement, the outer iteration of every solver.
+/// Iterative refinement, the outer iteration of the solvers.
 namespace asdfvk {
 
 /// Converts residuals to a fraction of the work. A Krylov or Jacobi iteration reduces the residual by about the same

@@ -1,8 +1,5 @@
 #include "poisson/scaled_system.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_reduce.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -53,13 +50,7 @@ ScaledSystem::ScaledSystem(const PoissonSystem& system) : DiagonalScaling(system
   const size_t rowCount = system.faces.size();
   const auto lengthOf = [&](size_t row) { return system.rowOffsets[row + 1] - system.rowOffsets[row]; };
   const auto tailLengthOf = [&](size_t row) { return lengthOf(row) - std::min(lengthOf(row), kPoissonRowHeadLength); };
-  longestRow_ = tbb::parallel_reduce(
-      tbb::blocked_range<size_t>(0, rowCount), 0u,
-      [&](const tbb::blocked_range<size_t>& range, uint32_t longest) {
-        for (size_t row = range.begin(); row < range.end(); ++row) longest = std::max(longest, lengthOf(row));
-        return longest;
-      },
-      [](uint32_t a, uint32_t b) { return std::max(a, b); });
+  longestRow_ = maxInParallel<uint32_t>(rowCount, lengthOf);
   const bool hasTails = longestRow_ > kPoissonRowHeadLength;
   uint32_t tailSize = 0;
   for (size_t row = 0; hasTails && row < rowCount; ++row) {

@@ -18,7 +18,7 @@ namespace {
 // A cell with this bit may still be replaced by a lower one at the same distance.
 constexpr uint32_t kClaimed = uint32_t{1} << 31;
 
-/// Assigns g to the cell unless it is assigned, or claimed by a lower cell. Returns whether no cell had claimed it.
+/// Claims a face for `cell` unless it is assigned, or claimed by a lower cell. Returns whether it was unclaimed.
 bool claim(uint32_t& cellOfFace, uint32_t cell) {
   const std::atomic_ref<uint32_t> atomic(cellOfFace);
   uint32_t seen = atomic.load(std::memory_order_relaxed);

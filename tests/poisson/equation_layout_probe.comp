@@ -11,12 +11,11 @@ layout(push_constant) uniform Push { EquationPush push; };
 void main() {
   if (gl_GlobalInvocationID.x != 0u) return;
   for (uint i = 0u; i < 2u; ++i) {
-    words[2u * i] = floatBitsToUint(starts[i].base);
-    words[2u * i + 1u] = floatBitsToUint(starts[i].difference);
+    words[3u * i] = floatBitsToUint(starts[i].base);
+    words[3u * i + 1u] = floatBitsToUint(starts[i].difference);
+    words[3u * i + 2u] = starts[i].flags;
   }
-  words[4] = push.faceCount;
-  words[5] = push.workgroupCount;
-  words[6] = push.isGuided;
-  words[7] = floatBitsToUint(push.missingBase);
+  words[6] = push.faceCount;
+  words[7] = push.workgroupCount;
   words[8] = floatBitsToUint(push.scale);
 }

@@ -22,29 +22,35 @@ namespace {
 
 /// A problem with all arrays that a GraphSolver needs.
 struct GraphCase {
-  std::vector<double> constraints, firstGuess;
-  bool isGuided = false;
-  std::vector<double> divergence;
+  std::vector<double> constraints, firstGuess, guide, divergence;
   std::vector<uint32_t> componentOf;
 
-  [[nodiscard]] GraphProblem problem() const { return {constraints, firstGuess, isGuided, divergence, componentOf}; }
+  [[nodiscard]] GraphProblem problem() const { return {constraints, firstGuess, guide, divergence, componentOf}; }
 
-  /// That of the guess included.
+  /// That of the guide included.
   [[nodiscard]] std::vector<double> wholeDivergence(const DualGraph& graph, std::span<const double> weights) const {
     std::vector<double> whole(graph.faceCount(), 0.0);
-    if (isGuided) whole = divergenceOf(graph, weights, firstGuess);
+    if (!guide.empty()) whole = divergenceOf(graph, weights, guide);
     for (size_t face = 0; face < divergence.size(); ++face)
       if (std::isfinite(divergence[face])) whole[face] += divergence[face];
     return whole;
   }
+  /// Where a device begins.
+  [[nodiscard]] std::vector<double> start() const {
+    std::vector<double> start = firstGuess;
+    for (size_t face = 0; face < guide.size(); ++face)
+      if (std::isfinite(guide[face])) start[face] = guide[face];
+    return start;
+  }
   [[nodiscard]] PoissonSystem system(const DualGraph& graph, std::span<const double> weights) const {
+    const std::vector<double> begin = start();
     return buildPoissonSystem(graph, weights, constraints, wholeDivergence(graph, weights),
-                              {.firstGuess = firstGuess, .componentOf = componentOf});
+                              {.firstGuess = begin, .componentOf = componentOf});
   }
 };
 
 struct Divergence {
-  bool ofGuess, further;
+  bool ofGuide, further;
 };
 constexpr Divergence kDivergences[] = {{false, false}, {false, true}, {true, false}, {true, true}};
 
@@ -68,15 +74,16 @@ std::vector<uint32_t> searchComponents(const DualGraph& graph) {
   return componentOf;
 }
 
-/// About one face in eight is constrained; some guesses and entries of the divergence are not finite.
+/// About one face in eight is constrained; some guesses, and some entries of the guide and of the divergence, are not
+/// finite.
 GraphCase randomCase(const DualGraph& graph, std::vector<uint32_t> componentOf, uint64_t randomSeed,
                      const Divergence& has) {
   Random random(randomSeed);
   GraphCase made;
-  made.isGuided = has.ofGuess;
   for (uint32_t face = 0; face < graph.faceCount(); ++face) {
     made.constraints.push_back(random.index(8) == 0 ? 1 + random.real() : kNoValue);
     made.firstGuess.push_back(random.index(5) == 0 ? kNoValue : 1 + random.real());
+    if (has.ofGuide) made.guide.push_back(random.index(6) == 0 ? kNoValue : 1 + random.real());
     if (has.further) made.divergence.push_back(random.index(9) == 0 ? kNoValue : 0.1 * (random.real() - 0.5));
   }
   made.componentOf = std::move(componentOf);
@@ -122,7 +129,7 @@ TEST_CASE("solvers of a device have the solution of the CPU on one matrix for di
       for (const Divergence& divergence : kDivergences)
         for (const uint64_t randomSeed : {1u, 2u, 1u}) {
           const GraphCase given = randomCase(graph, componentOf, randomSeed, divergence);
-          // Above 1e-6 the residual is that of the device, below that of the CPU in double.
+          // Below kMinGraphTolerance residuals in double decide.
           const double precise = name == "cg" ? 1e-10 : 1e-7;
           const SolverOptions options{.tolerance = randomSeed == 2 ? precise : 2e-6, .maxIterations = 100'000};
           std::vector<double> values = given.constraints;
@@ -274,6 +281,50 @@ TEST_CASE("a device makes the rows of a graph, and of any arcs, as the system ha
     }
     CHECK(worst < 2e-6);
   });
+}
+
+TEST_CASE("the relative result of a solver on a graph does not depend on the units of values and weights") {
+  const test::ValidatedDevice device;
+  if (!test::hasBuffersForSolvers(*device)) return;
+  const SampleProblem sample("torus", torus(40, 20));
+  const std::vector<double> weights = arcWeights(ArcWeights::Distance, sample.graph, sample.geometry);
+  const GraphCase given = randomCase(sample.graph, searchComponents(sample.graph), 3, {true, false});
+  const std::unique_ptr<PoissonSolver> solver = makeSolver("cg", &*device);
+  const std::vector<double> expected = valuesOnCpu(sample.graph, weights, given);
+  for (const double unitOfValues : {1e-310, 1e-290, 1e-12, 1.0, 1e290})
+    for (const double unitOfWeights : {1e-290, 1.0, 1e290}) {
+      CAPTURE(unitOfValues);
+      CAPTURE(unitOfWeights);
+      GraphCase scaled = given;
+      for (std::vector<double>* const array : {&scaled.constraints, &scaled.firstGuess, &scaled.guide})
+        for (double& value : *array) value *= unitOfValues;
+      std::vector<double> scaledWeights = weights;
+      for (double& weight : scaledWeights) weight *= unitOfWeights;
+      const std::unique_ptr<GraphSolver> onGraph = solver->onGraph(sample.graph, scaledWeights);
+      std::vector<double> values = scaled.constraints;
+      const SolverReport report = onGraph->solve(scaled.problem(), {}, values, {});
+      if (unitOfValues * unitOfWeights < 1e-300 || unitOfValues * unitOfWeights > 1e300) continue;
+      CHECK(report.converged);
+      for (double& value : values) value /= unitOfValues;
+      if (unitOfValues > 1e-300) checkValues(values, expected, 1e-2);
+    }
+}
+
+TEST_CASE("a component of small values is solved beside one of large values") {
+  const test::ValidatedDevice device;
+  if (!test::hasBuffersForSolvers(*device)) return;
+  const HandGraph hand({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {9, 0, 0}, {10, 0, 0}, {11, 0, 0}},
+                       {{0, 1}, {1, 2}, {3, 4}, {4, 5}});
+  const std::vector<double> weights = arcWeights(ArcWeights::Distance, hand.graph, hand.geometry);
+  const GraphCase given{.constraints = {1, kNoValue, 3, 0.001, kNoValue, 0.003},
+                        .firstGuess = {2, 2, 2, 0.002, 0.0021, 0.002},
+                        .guide = {1, 2, 3, kNoValue, kNoValue, kNoValue},
+                        .componentOf = {0, 0, 0, 1, 1, 1}};
+  const std::unique_ptr<PoissonSolver> solver = makeSolver("cg", &*device);
+  std::vector<double> values = given.constraints;
+  CHECK(solver->onGraph(hand.graph, weights)->solve(given.problem(), {.tolerance = 1e-6}, values, {}).converged);
+  CHECK(values[1] == doctest::Approx(2));
+  CHECK(values[4] == doctest::Approx(0.002).epsilon(1e-3));
 }
 
 TEST_CASE("solvers of the CPU keep nothing of a graph") {

@@ -132,9 +132,7 @@ uint32_t VulkanCg::workgroupCount() const {
 }
 
 std::vector<float> VulkanCg::download(const Buffer& vector) const {
-  std::vector<float> values(unknownCount_);
-  downloadBuffer(device_, vector, std::as_writable_bytes(std::span(values)));
-  return values;
+  return downloadPoissonVector(device_, vector, unknownCount_);
 }
 
 std::unique_ptr<PoissonSolver> makeVulkanCgSolver(const Device* device) {

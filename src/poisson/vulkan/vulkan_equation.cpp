@@ -1,12 +1,7 @@
 #include "poisson/vulkan/vulkan_equation.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_reduce.h>
-
 #include <algorithm>
 #include <cmath>
-#include <cstring>
-#include <limits>
 
 #include "core/check.h"
 #include "core/ordered_sum.h"
@@ -21,7 +16,6 @@
 namespace asdfvk {
 namespace {
 
-constexpr float kMissing = std::numeric_limits<float>::quiet_NaN();
 // Weights that differ by more than this from their mean are limited: no sum of them leaves the range of float32.
 constexpr double kMinScaledWeight = 1e-30, kMaxScaledWeight = 1e30;
 
@@ -30,17 +24,6 @@ ComputePipelineDescription describeKernel(const DeviceFacts& facts, const std::s
   ComputePipelineDescription description = describePoissonKernel(facts, name, spirv, bindingCount, withTexels);
   description.pushConstantByteCount = sizeof(EquationPush);
   return description;
-}
-
-uint32_t longestRowOf(const DualGraph& graph) {
-  return tbb::parallel_reduce(
-      tbb::blocked_range<uint32_t>(0, graph.faceCount(), kItemsPerTask), 0u,
-      [&](const tbb::blocked_range<uint32_t>& range, uint32_t longest) {
-        for (uint32_t face = range.begin(); face < range.end(); ++face)
-          longest = std::max(longest, graph.offsets[face + 1] - graph.offsets[face]);
-        return longest;
-      },
-      [](uint32_t a, uint32_t b) { return std::max(a, b); });
 }
 
 /// 1 over the mean; 1 where that is no number.
@@ -59,7 +42,8 @@ Buffer uploadWeights(const Device& device, std::span<const double> weights, doub
 }
 
 VulkanMatrix makeMatrix(const Device& device, const DualGraph& graph) {
-  const uint32_t longestRow = longestRowOf(graph);
+  const uint32_t longestRow = maxInParallel<uint32_t>(
+      graph.faceCount(), [&](uint32_t face) { return graph.offsets[face + 1] - graph.offsets[face]; });
   const uint64_t startSize = uint64_t{graph.faceCount()} * (sizeof(EquationStart) / sizeof(float));
   requireSystemFits(device.facts(), graph.faceCount(), std::max<uint64_t>(graph.neighbours.size(), startSize),
                     longestRow);
@@ -68,14 +52,8 @@ VulkanMatrix makeMatrix(const Device& device, const DualGraph& graph) {
 }
 
 double largestMagnitude(std::span<const double> values) {
-  return tbb::parallel_reduce(
-      tbb::blocked_range<size_t>(0, values.size(), kItemsPerTask), 0.0,
-      [&](const tbb::blocked_range<size_t>& range, double largest) {
-        for (size_t i = range.begin(); i < range.end(); ++i)
-          if (std::isfinite(values[i])) largest = std::max(largest, std::abs(values[i]));
-        return largest;
-      },
-      [](double a, double b) { return std::max(a, b); });
+  return maxInParallel<double>(values.size(),
+                               [&](size_t i) { return std::isfinite(values[i]) ? std::abs(values[i]) : 0; });
 }
 
 }  // namespace
@@ -99,11 +77,7 @@ VulkanGraph::VulkanGraph(const Device& device, const VulkanEquationKernels& kern
   const BindingSet rowBindings(device, kernels.rows,
                                std::array<Binding, 7>{matrix.rowTexels, arcOffsets, matrix.tailColumns, weights,
                                                       inverseRoots, matrix.storageRows, matrix.tailCouplings});
-  const EquationPush push{.faceCount = faceCount,
-                          .workgroupCount = matrix.grid.workgroupCount,
-                          .isGuided = 0,
-                          .missingBase = 0,
-                          .scale = 1};
+  const EquationPush push{.faceCount = faceCount, .workgroupCount = matrix.grid.workgroupCount, .scale = 1};
   CommandList commands(device);
   commands.begin();
   commands.dispatch(kernels.diagonal, diagonalBindings, bytesOf(push), push.workgroupCount);
@@ -128,6 +102,7 @@ VulkanEquation::VulkanEquation(const Device& device, const VulkanEquationKernels
       commands_(device) {
   for (const size_t count : {problem.constraints.size(), problem.firstGuess.size(), problem.componentOf.size()})
     ASDFVK_CHECK_OP(count, ==, size_t{graph.faceCount});
+  if (!problem.guide.empty()) ASDFVK_CHECK_OP(problem.guide.size(), ==, size_t{graph.faceCount});
   if (!problem.divergence.empty()) ASDFVK_CHECK_OP(problem.divergence.size(), ==, size_t{graph.faceCount});
   const double largest = std::max(largestMagnitude(problem.constraints), largestMagnitude(problem.firstGuess));
   if (std::isfinite(1 / largest)) valueScale_ = 1 / largest;
@@ -151,11 +126,16 @@ VulkanEquation::VulkanEquation(const Device& device, const VulkanEquationKernels
   commands_.dispatch(kernels.begin, beginBindings, bytesOf(push(1)), matrix.grid.workgroupCount);
   commands_.barrier();
   const PoissonSums sums = submitAndReadSums();
-  rightHandNorm_ = normOf(sums.directionSquared);
-  residualNorm_ = normOf(sums.residualSquared);
+  rightHandNorm_ = rootOfSum(sums.directionSquared, matrix.grid);
+  residualNorm_ = rootOfSum(sums.residualSquared, matrix.grid);
 }
 
-double VulkanEquation::guessOf(uint32_t face) const {
+bool VulkanEquation::isGuided(uint32_t face) const {
+  return !problem_.guide.empty() && std::isfinite(problem_.guide[face]);
+}
+
+double VulkanEquation::baseOf(uint32_t face) const {
+  if (isGuided(face)) return problem_.guide[face];
   const double guess = problem_.firstGuess[face];
   return std::isfinite(guess) ? guess : constraintMean_;
 }
@@ -163,10 +143,13 @@ double VulkanEquation::guessOf(uint32_t face) const {
 UnsetVector<EquationStart> VulkanEquation::makeStarts() const {
   UnsetVector<EquationStart> starts(graph_.faceCount);
   forEachInParallel(starts.size(), [&](uint32_t face) {
-    const double constraint = problem_.constraints[face], guess = problem_.firstGuess[face];
-    float difference = isReachable_[face] ? kMissing : 0;
-    if (std::isfinite(constraint)) difference = static_cast<float>((constraint - guessOf(face)) * valueScale_);
-    starts[face] = {std::isfinite(guess) ? static_cast<float>(guess * valueScale_) : kMissing, difference};
+    const double base = baseOf(face);
+    EquationStart& start = starts[face];
+    start = {static_cast<float>(base * valueScale_), 0, isGuided(face) ? kIsGuided : 0};
+    if (isUnknown(face))
+      start.flags |= kIsUnknown;
+    else if (isReachable_[face])
+      start.difference = static_cast<float>((problem_.constraints[face] - base) * valueScale_);
   });
   return starts;
 }
@@ -183,8 +166,6 @@ UnsetVector<float> VulkanEquation::makeSources() const {
 EquationPush VulkanEquation::push(double scale) const {
   return {.faceCount = graph_.faceCount,
           .workgroupCount = graph_.matrix.grid.workgroupCount,
-          .isGuided = problem_.isGuided ? 1u : 0u,
-          .missingBase = static_cast<float>(constraintMean_ * valueScale_),
           .scale = static_cast<float>(scale)};
 }
 
@@ -194,21 +175,7 @@ void VulkanEquation::recordResidual(uint32_t which, double scale) {
   commands_.barrier();
 }
 
-PoissonSums VulkanEquation::submitAndReadSums() {
-  commands_.copy(sums_, 0, sumsOnHost_, 0, sizeof(PoissonSums));
-  commands_.barrier();
-  commands_.submitAndWait();
-  PoissonSums sums;
-  std::memcpy(&sums, sumsOnHost_.mapped(), sizeof sums);
-  return sums;
-}
-
-double VulkanEquation::normOf(std::span<const float> squaredOfWorkgroups) const {
-  double squared = 0;
-  for (const float each : squaredOfWorkgroups.first(graph_.matrix.grid.workgroupCount))
-    squared += static_cast<double>(each);
-  return std::sqrt(squared);
-}
+PoissonSums VulkanEquation::submitAndReadSums() { return submitAndRead(commands_, sums_, sumsOnHost_); }
 
 const Buffer& VulkanEquation::scaledResidual() {
   commands_.begin();
@@ -226,7 +193,7 @@ double VulkanEquation::tryCorrection(const Buffer& y) {
   commands_.dispatch(kernels_.correct, bindings, bytesOf(push(residualNorm_)), graph_.matrix.grid.workgroupCount);
   commands_.barrier();
   recordResidual(tried, 1);
-  triedNorm_ = normOf(submitAndReadSums().residualSquared);
+  triedNorm_ = rootOfSum(submitAndReadSums().residualSquared, graph_.matrix.grid);
   return triedNorm_;
 }
 
@@ -238,15 +205,8 @@ void VulkanEquation::accept() {
 void VulkanEquation::download(std::span<double> values) const {
   const std::vector<float> solution = differences();
   forEachInParallel(values.size(), [&](uint32_t face) {
-    if (isReachable_[face] && !std::isfinite(problem_.constraints[face]))
-      values[face] = rightHandNorm_ == 0 ? 0 : guessOf(face) + static_cast<double>(solution[face]) / valueScale_;
+    if (isUnknown(face)) values[face] = baseOf(face) + static_cast<double>(solution[face]) / valueScale_;
   });
-}
-
-std::vector<float> VulkanEquation::downloadVector(const Buffer& vector) const {
-  std::vector<float> values(graph_.faceCount);
-  downloadBuffer(device_, vector, std::as_writable_bytes(std::span(values)));
-  return values;
 }
 
 }  // namespace asdfvk

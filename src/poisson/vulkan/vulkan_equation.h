@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -37,8 +38,8 @@ struct VulkanGraph {
   VulkanMatrix matrix;  ///< Its tailColumns are the neighbours. Each VulkanEquation sets its residual weights.
 };
 
-/// One equation, and a solution in float32 as differences from the first guess. Norms are those of residualNorm(), in a
-/// unit of the equation. The arguments must outlive it.
+/// One equation, and a solution in float32 as differences from a base: the guide, or the first guess without one. Norms
+/// are those of residualNorm(), in a unit of the equation. The arguments must outlive it.
 class VulkanEquation {
  public:
   VulkanEquation(const Device& device, const VulkanEquationKernels& kernels, const VulkanGraph& graph,
@@ -56,8 +57,12 @@ class VulkanEquation {
   /// Writes the values of the unknown faces. values: #F.
   void download(std::span<double> values) const;
   /// Residual weights and differences, #F, for tests.
-  [[nodiscard]] std::vector<float> residualWeights() const { return downloadVector(graph_.matrix.residualWeights); }
-  [[nodiscard]] std::vector<float> differences() const { return downloadVector(differences_[current_]); }
+  [[nodiscard]] std::vector<float> residualWeights() const {
+    return downloadPoissonVector(device_, graph_.matrix.residualWeights, graph_.faceCount);
+  }
+  [[nodiscard]] std::vector<float> differences() const {
+    return downloadPoissonVector(device_, differences_[current_], graph_.faceCount);
+  }
 
  private:
   [[nodiscard]] UnsetVector<EquationStart> makeStarts() const;
@@ -65,9 +70,11 @@ class VulkanEquation {
   [[nodiscard]] EquationPush push(double scale) const;
   void recordResidual(uint32_t which, double scale);
   [[nodiscard]] PoissonSums submitAndReadSums();
-  [[nodiscard]] double normOf(std::span<const float> squaredOfWorkgroups) const;
-  [[nodiscard]] double guessOf(uint32_t face) const;
-  [[nodiscard]] std::vector<float> downloadVector(const Buffer& vector) const;
+  [[nodiscard]] bool isUnknown(uint32_t face) const {
+    return isReachable_[face] != 0 && !std::isfinite(problem_.constraints[face]);
+  }
+  [[nodiscard]] bool isGuided(uint32_t face) const;
+  [[nodiscard]] double baseOf(uint32_t face) const;
 
   const Device& device_;
   const VulkanEquationKernels& kernels_;

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -8,9 +9,6 @@
 
 namespace asdfvk {
 namespace {
-
-// Smaller residuals consist of rounding errors of float32, and residuals in double decide.
-constexpr double kMinTolerance = 1e-6;
 
 class DeviceGraphSolver final : public GraphSolver {
  public:
@@ -25,26 +23,23 @@ class DeviceGraphSolver final : public GraphSolver {
 
   SolverReport solve(const GraphProblem& problem, const SolverOptions& options, std::span<double> values,
                      const RunControl& control) override {
-    if (options.tolerance < kMinTolerance) return solveInDouble(problem, problem.firstGuess, options, values, control);
-    VulkanEquation equation(device_, kernels_, onDevice_, problem);
-    const SolverReport report = refine(equation, options, control);
-    equation.download(values);
+    const SolverReport report = solveInFloat(problem, options, values, control);
     if (report.converged || report.iterations >= options.maxIterations) return report;
     SolverOptions remaining = options;
     remaining.maxIterations -= report.iterations;
-    SolverReport further =
-        solveInDouble(problem, std::vector<double>(values.begin(), values.end()), remaining, values, control);
+    SolverReport further = solveInDouble(problem, remaining, values, control);
     further.iterations += report.iterations;
     return further;
   }
 
  private:
-  /// Ends also where float32 stagnates.
-  [[nodiscard]] SolverReport refine(VulkanEquation& equation, const SolverOptions& options,
-                                    const RunControl& control) const {
-    SolverReport report;
-    const double target = options.tolerance * equation.rightHandNorm();
-    if (target == 0) return report;
+  /// Ends where the tolerance or kMinGraphTolerance is reached, and where float32 stagnates. Below that tolerance, and
+  /// where float32 cannot represent the right-hand side, the result has not converged.
+  [[nodiscard]] SolverReport solveInFloat(const GraphProblem& problem, const SolverOptions& options,
+                                          std::span<double> values, const RunControl& control) const {
+    VulkanEquation equation(device_, kernels_, onDevice_, problem);
+    SolverReport report{.converged = false};
+    const double target = std::max(options.tolerance, kMinGraphTolerance) * equation.rightHandNorm();
     SolverProgress progress(equation.rightHandNorm(), options, control);
     for (bool stagnates = false;
          !stagnates && equation.residualNorm() > target && report.iterations < options.maxIterations;) {
@@ -61,16 +56,18 @@ class DeviceGraphSolver final : public GraphSolver {
       stagnates = passStagnates(newNorm, norm);
       if (newNorm <= norm) equation.accept();
     }
+    equation.download(values);
     report.relativeResidual = equation.residualNorm() / equation.rightHandNorm();
-    report.converged = std::isfinite(target) && equation.residualNorm() <= target;
+    report.converged = options.tolerance >= kMinGraphTolerance && target > 0 && std::isfinite(target) &&
+                       equation.residualNorm() <= target;
     return report;
   }
 
-  [[nodiscard]] SolverReport solveInDouble(const GraphProblem& problem, std::span<const double> firstGuess,
-                                           const SolverOptions& options, std::span<double> values,
-                                           const RunControl& control) const {
+  /// Continues from the values.
+  [[nodiscard]] SolverReport solveInDouble(const GraphProblem& problem, const SolverOptions& options,
+                                           std::span<double> values, const RunControl& control) const {
     PoissonSystem system = buildPoissonSystem(graph_, weights_, problem.constraints, divergenceOf(problem),
-                                              {.firstGuess = firstGuess, .componentOf = problem.componentOf});
+                                              {.firstGuess = values, .componentOf = problem.componentOf});
     const SolverReport report = solveOnDevice(method_, device_, system, options, system.firstGuess, control);
     for (size_t i = 0; i < system.faces.size(); ++i) values[system.faces[i]] = system.firstGuess[i];
     return report;
@@ -78,11 +75,11 @@ class DeviceGraphSolver final : public GraphSolver {
 
   [[nodiscard]] std::vector<double> divergenceOf(const GraphProblem& problem) const {
     std::vector<double> divergence(problem.divergence.begin(), problem.divergence.end());
-    if (!problem.isGuided) return divergence;
-    std::vector<double> ofGuess = asdfvk::divergenceOf(graph_, weights_, problem.firstGuess);
+    if (problem.guide.empty()) return divergence;
+    std::vector<double> whole = asdfvk::divergenceOf(graph_, weights_, problem.guide);
     for (size_t face = 0; face < divergence.size(); ++face)
-      if (std::isfinite(divergence[face])) ofGuess[face] += divergence[face];
-    return ofGuess;
+      if (std::isfinite(divergence[face])) whole[face] += divergence[face];
+    return whole;
   }
 
   DeviceMethod method_;

@@ -84,7 +84,7 @@ VulkanJacobi::VulkanJacobi(const Device& device, const VulkanJacobiKernel& kerne
     : device_(device),
       kernel_(kernel),
       unknownCount_(matrix.rowCount),
-      workgroupCount_(matrix.grid.workgroupCount),
+      grid_(matrix.grid),
       iterates_{uploadZeros(device, unknownCount_), uploadZeros(device, unknownCount_)},
       sums_(uploadBuffer(device, bytesOf(PoissonSums{}), kPoissonVectorUsage)),
       sumsOnHost_(device, sizeof(PoissonSums), VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryKind::HostVisible),
@@ -95,25 +95,16 @@ VulkanJacobi::VulkanJacobi(const Device& device, const VulkanJacobiKernel& kerne
 double VulkanJacobi::advance(uint32_t iterationCount) {
   commands_.begin();
   for (uint32_t i = 0; i < iterationCount; ++i) {
-    commands_.dispatch(kernel_.sweep, bindings_[current_], bytesOf(PoissonPush{unknownCount_, 0, workgroupCount_}),
-                       workgroupCount_);
+    commands_.dispatch(kernel_.sweep, bindings_[current_], bytesOf(PoissonPush{unknownCount_, 0, grid_.workgroupCount}),
+                       grid_.workgroupCount);
     commands_.barrier();
     current_ = 1 - current_;
   }
-  commands_.copy(sums_, 0, sumsOnHost_, 0, sizeof(PoissonSums));
-  commands_.barrier();
-  commands_.submitAndWait();
-  PoissonSums sums;
-  std::memcpy(&sums, sumsOnHost_.mapped(), sizeof sums);
-  double squared = 0;
-  for (uint32_t i = 0; i < workgroupCount_; ++i) squared += static_cast<double>(sums.residualSquared[i]);
-  return std::sqrt(squared);
+  return rootOfSum(submitAndRead(commands_, sums_, sumsOnHost_).residualSquared, grid_);
 }
 
 std::vector<float> VulkanJacobi::solution() const {
-  std::vector<float> values(unknownCount_);
-  downloadBuffer(device_, iterates_[current_], std::as_writable_bytes(std::span(values)));
-  return values;
+  return downloadPoissonVector(device_, iterates_[current_], unknownCount_);
 }
 
 std::unique_ptr<PoissonSolver> makeVulkanJacobiSolver(const Device* device) {

@@ -35,7 +35,7 @@ class VulkanJacobi {
   const Device& device_;
   const VulkanJacobiKernel& kernel_;
   uint32_t unknownCount_;
-  uint32_t workgroupCount_;
+  PoissonGrid grid_;
   uint32_t current_ = 0;  ///< Index of the newest iterate.
   Buffer iterates_[2], sums_, sumsOnHost_;
   BindingSet bindings_[2];  ///< [i] reads iterates_[i] and writes the other.

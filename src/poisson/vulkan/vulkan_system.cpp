@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
+#include <cstring>
 #include <optional>
 #include <utility>
 
@@ -109,6 +111,27 @@ Buffer makePoissonVector(const Device& device, uint64_t count) {
   return {device, std::max<uint64_t>(count, 1) * sizeof(float), kPoissonVectorUsage, MemoryKind::DeviceLocal};
 }
 
+std::vector<float> downloadPoissonVector(const Device& device, const Buffer& vector, size_t count) {
+  std::vector<float> values(count);
+  downloadBuffer(device, vector, std::as_writable_bytes(std::span(values)));
+  return values;
+}
+
+PoissonSums submitAndRead(CommandList& commands, const Buffer& sums, const Buffer& onHost) {
+  commands.copy(sums, 0, onHost, 0, sizeof(PoissonSums));
+  commands.barrier();
+  commands.submitAndWait();
+  PoissonSums read;
+  std::memcpy(&read, onHost.mapped(), sizeof read);
+  return read;
+}
+
+double rootOfSum(std::span<const float> ofWorkgroups, const PoissonGrid& grid) {
+  double sum = 0;
+  for (const float each : ofWorkgroups.first(grid.workgroupCount)) sum += static_cast<double>(each);
+  return std::sqrt(sum);
+}
+
 SolverReport solveOnDevice(const DeviceMethod& method, const Device& device, const PoissonSystem& system,
                            const SolverOptions& options, std::span<double> solution, const RunControl& control) {
   SolverProgress progress(rightHandNorm(system), options, control);
@@ -122,8 +145,7 @@ SolverReport solveOnDevice(const DeviceMethod& method, const Device& device, con
              uploadVector(device, scaled.scaleResidual(request.residual, request.norm), kPoissonVectorUsage);
          const DevicePassResult result =
              method.solve({*matrix, b, request.norm, request.reduction, request.maxIterations, progress});
-         UnsetVector<float> y(request.correction.size());
-         downloadBuffer(device, result.solution, std::as_writable_bytes(std::span(y)));
+         const std::vector<float> y = downloadPoissonVector(device, result.solution, request.correction.size());
          scaled.unscaleCorrection(y, request.norm, request.correction);
          return result.iterationCount;
        }}};

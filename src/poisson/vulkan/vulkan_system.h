@@ -11,6 +11,7 @@
 #include "poisson/refinement.h"
 #include "poisson/scaled_system.h"
 #include "vk/buffer.h"
+#include "vk/command_list.h"
 #include "vk/compute_pipeline.h"
 #include "vk/device.h"
 
@@ -38,6 +39,12 @@ inline constexpr VkBufferUsageFlags kPoissonVectorUsage =
     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
 /// Of float32, with unspecified entries.
 [[nodiscard]] Buffer makePoissonVector(const Device& device, uint64_t count);
+[[nodiscard]] std::vector<float> downloadPoissonVector(const Device& device, const Buffer& vector, size_t count);
+
+/// Submits the commands, which write the sums, and waits for them. onHost: HostVisible.
+[[nodiscard]] PoissonSums submitAndRead(CommandList& commands, const Buffer& sums, const Buffer& onHost);
+/// The root of one of the PoissonSums over the workgroups.
+[[nodiscard]] double rootOfSum(std::span<const float> ofWorkgroups, const PoissonGrid& grid);
 
 /// uploadBuffer() of a vector.
 template <typename Vector>
