@@ -10,7 +10,9 @@
 #include "lanes.glsl"
 
 layout(set = 0, binding = 0) readonly buffer Starts { EquationStart starts[]; };
-layout(set = 0, binding = 4) buffer Sources { float sources[]; };  // Before: the further divergence.
+layout(set = 0, binding = 4) buffer Sources {
+  float sources[];
+};  // Input: the further divergence. Output: the constant terms.
 layout(set = 0, binding = 5) writeonly buffer ResidualWeights { float residualWeights[]; };
 layout(set = 0, binding = 6) writeonly buffer Differences { float differences[]; };
 layout(set = 0, binding = 7) buffer Sums { PoissonSums sums; };

@@ -166,7 +166,7 @@ class WorkerPool {
     giveUp(worker);
   }
 
-  /// If no worker was ready before: gives up all of them, because the others would fail in the same way.
+  /// Gives up all workers if none was ready before, because the others would fail in the same way.
   void giveUp(Worker& worker) {
     worker.isGivenUp = true;
     if (!hasStarted_)

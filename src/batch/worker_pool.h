@@ -18,10 +18,10 @@ struct WorkerPoolOptions {
   std::vector<std::string> arguments;  ///< The first one is the name that the process sees.
   std::string greeting;                ///< The first line to each worker. It answers with a line when it is ready.
   uint32_t workerCount = 1;            ///< At most.
-  double startSeconds = 300;           ///< Limit from the greeting to its answer. Opening a device can take minutes.
-  double timeoutSeconds = std::numeric_limits<double>::infinity();  ///< Limit per task, from sending it to its answer.
+  double startSeconds = 300;           ///< Time to answer the greeting. Opening a device can take minutes.
+  double timeoutSeconds = std::numeric_limits<double>::infinity();  ///< Time to answer a task.
   uint64_t memoryBytes = 0;                                         ///< Resident memory of a worker; 0: no limit.
-  double graceSeconds = 10;  ///< Limit from a stop request to the answers to the current tasks.
+  double graceSeconds = 10;  ///< Time after a stop request in which workers may answer current tasks.
 };
 
 enum class TaskEnd {

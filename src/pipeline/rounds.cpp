@@ -75,7 +75,8 @@ class Rounds {
 
  private:
   void runRound(uint64_t count, bool isLast, const RunControl& control);
-  [[nodiscard]] SeedChoice choose(const SeedShares& shares, std::span<const double> density);
+  [[nodiscard]] SeedChoice choose(const SeedShares& shares, std::span<const double> density) const;
+  [[nodiscard]] SeedChoice timedChoice(const SeedShares& shares, std::span<const double> density);
   [[nodiscard]] SeedChoice chooseWhileOpening(const SeedShares& shares);
   void traceChosen(SeedChoice choice, const RunControl& control);
   void sortSampled();
@@ -121,15 +122,13 @@ void Rounds::runRound(uint64_t count, bool isLast, const RunControl& control) {
   const bool refines = samplerOf(options_).refine && predicts && roundCount_ == 0 && count < remainingCount();
   const uint64_t refiningCount = refines ? shares.sampled / 2 : 0;
   const SeedShares first{.sampled = shares.sampled - refiningCount, .heldOut = predicts ? 0 : shares.heldOut};
-  SeedChoice choice = roundCount_ == 0 ? chooseWhileOpening(first) : choose(first, {});
+  SeedChoice choice = roundCount_ == 0 ? chooseWhileOpening(first) : timedChoice(first, {});
   const double begin = clock_.elapsed(), earlierRays = raySeconds();
-  ++roundCount_;
   tracing_->reserve(traced_, count);
   traceChosen(std::move(choice), control.part(0, refines ? kTracedProgress / 2 : kTracedProgress));
   if (refines) {
     const std::vector<double> density = indicateErrors(Stage::Sample, control.withoutProgress());
-    ++roundCount_;
-    traceChosen(choose({.sampled = refiningCount}, density), control.part(kTracedProgress / 2, kTracedProgress));
+    traceChosen(timedChoice({.sampled = refiningCount}, density), control.part(kTracedProgress / 2, kTracedProgress));
   }
   const bool estimates = remainingCount() > 0 && shares.heldOut + heldOut_.faces.size() > 0;
   std::vector<double> indicator;
@@ -162,9 +161,13 @@ void Rounds::runRound(uint64_t count, bool isLast, const RunControl& control) {
 }
 
 /// density: see chooseSeeds().
-SeedChoice Rounds::choose(const SeedShares& shares, std::span<const double> density) {
-  const auto scope = clock_.time(Stage::Sample);
+SeedChoice Rounds::choose(const SeedShares& shares, std::span<const double> density) const {
   return chooseSeeds(computation_.domain, computation_.prepared.geometry, options_, shares, sampled_, density);
+}
+
+SeedChoice Rounds::timedChoice(const SeedShares& shares, std::span<const double> density) {
+  const auto scope = clock_.time(Stage::Sample);
+  return choose(shares, density);
 }
 
 /// The first seeds are chosen in the background while this thread makes the tracer. Stage::Sample is the time after
@@ -174,7 +177,7 @@ SeedChoice Rounds::chooseWhileOpening(const SeedShares& shares) {
   double seconds = 0;
   BackgroundTask choosing([&] {
     const Stopwatch watch;
-    choice = chooseSeeds(computation_.domain, computation_.prepared.geometry, options_, shares, sampled_, {});
+    choice = choose(shares, {});
     seconds = watch.seconds();
   });
   choosing.meanwhile([&] {
@@ -190,6 +193,7 @@ SeedChoice Rounds::chooseWhileOpening(const SeedShares& shares) {
 }
 
 void Rounds::traceChosen(SeedChoice choice, const RunControl& control) {
+  ++roundCount_;
   const auto scope = clock_.time(Stage::Trace);
   const auto sampledCount = static_cast<double>(choice.sampled.size()),
              heldOutCount = static_cast<double>(choice.heldOut.size());

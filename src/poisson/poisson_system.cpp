@@ -20,20 +20,6 @@ constexpr double kMinWeight = std::numeric_limits<double>::min();  // Where the 
 // Unlike the root of a sum of squares, std::hypot neither overflows nor underflows in any unit.
 double lengthOf(const Vec3d& v) { return std::hypot(v.x, v.y, v.z); }
 
-std::vector<double> distanceWeights(const DualGraph& graph, const FaceGeometry& geometry) {
-  ASDFVK_CHECK_OP(geometry.barycentres.size(), ==, size_t{graph.faceCount()});
-  const double minDistance = std::max(kMinDistanceRatio * lengthOf(geometry.bounds.size()), kMinDistance);
-  std::vector<double> weights(graph.neighbours.size());
-  forEachInParallel(graph.faceCount(), [&](size_t face) {
-    for (uint32_t arc = graph.offsets[face]; arc < graph.offsets[face + 1]; ++arc) {
-      // The difference of the halves does not overflow.
-      const Vec3d half = geometry.barycentres[graph.neighbours[arc]] * 0.5 - geometry.barycentres[face] * 0.5;
-      weights[arc] = std::max(1 / std::max(2 * lengthOf(half), minDistance), kMinWeight);
-    }
-  });
-  return weights;
-}
-
 double featureWeight(double dihedralAngleRadians) {
   const double degrees = dihedralAngleRadians * (180 / std::numbers::pi);
   const double ratio = degrees / (degrees > 0 ? kConcaveScaleDegrees : kConvexScaleDegrees);
@@ -121,11 +107,14 @@ void assemble(const WeightedGraph& graph, std::span<const uint32_t> unknownOf, s
 }  // namespace
 
 std::vector<double> arcWeights(ArcWeights kind, const DualGraph& graph, const FaceGeometry& geometry) {
-  if (kind == ArcWeights::Distance) return distanceWeights(graph, geometry);
-  ASDFVK_CHECK_OP(geometry.normals.size(), ==, size_t{graph.faceCount()});
+  ASDFVK_CHECK_OP(geometry.barycentres.size(), ==, size_t{graph.faceCount()});
   std::vector<double> weights(graph.neighbours.size());
+  const double minDistance = std::max(kMinDistanceRatio * lengthOf(geometry.bounds.size()), kMinDistance);
   setForEachPair(graph, std::span(weights), [&](uint32_t face, uint32_t neighbour) {
-    return featureWeight(signedDihedralAngle(geometry, face, neighbour));
+    if (kind == ArcWeights::Feature) return featureWeight(signedDihedralAngle(geometry, face, neighbour));
+    // The difference of the halves does not overflow.
+    const Vec3d half = geometry.barycentres[neighbour] * 0.5 - geometry.barycentres[face] * 0.5;
+    return std::max(1 / std::max(2 * lengthOf(half), minDistance), kMinWeight);
   });
   return weights;
 }
@@ -211,14 +200,6 @@ void computeResidual(const PoissonSystem& system, std::span<const double> soluti
 
 double residualNorm(const PoissonSystem& system, std::span<const double> residual) {
   return orderedNorm(residual.size(), [&](size_t row) { return residual[row] / system.diagonal[row]; });
-}
-
-void setFirstGuess(const PoissonSystem& system, std::span<double> solution) {
-  ASDFVK_CHECK_OP(solution.size(), ==, system.faces.size());
-  if (system.firstGuess.empty())
-    std::fill(solution.begin(), solution.end(), system.constraintMean);
-  else if (solution.data() != system.firstGuess.data())
-    std::copy(system.firstGuess.begin(), system.firstGuess.end(), solution.begin());
 }
 
 double relativeResidual(const PoissonSystem& system, std::span<const double> solution) {

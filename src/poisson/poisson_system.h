@@ -79,8 +79,7 @@ void computeResidual(const PoissonSystem& system, std::span<const double> soluti
 /// weights of a finely meshed patch do not hide errors elsewhere. residual: #U.
 [[nodiscard]] double residualNorm(const PoissonSystem& system, std::span<const double> residual);
 
-// For solveByRefinement().
-void setFirstGuess(const PoissonSystem& system, std::span<double> solution);
+/// residualNorm() of the right-hand side.
 [[nodiscard]] inline double rightHandNorm(const PoissonSystem& system) {
   return residualNorm(system, system.rightHandSide);
 }

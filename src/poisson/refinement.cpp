@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/check.h"
 #include "core/parallel.h"
 #include "core/unset_vector.h"
 #include "poisson/poisson_system.h"
@@ -14,6 +15,14 @@ namespace {
 constexpr double kSafety = 0.9;
 // A pass that leaves more than this share of the residual has reached the limit of its precision.
 constexpr double kStagnation = 0.5;
+
+void setFirstGuess(const PoissonSystem& system, std::span<double> solution) {
+  ASDFVK_CHECK_OP(solution.size(), ==, system.faces.size());
+  if (system.firstGuess.empty())
+    std::fill(solution.begin(), solution.end(), system.constraintMean);
+  else if (solution.data() != system.firstGuess.data())
+    std::copy(system.firstGuess.begin(), system.firstGuess.end(), solution.begin());
+}
 
 }  // namespace
 

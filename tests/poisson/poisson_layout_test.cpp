@@ -8,6 +8,7 @@
 #include "shared/poisson_layout.h"
 #include "spirv/equation_layout_probe.comp.h"
 #include "spirv/poisson_layout_probe.comp.h"
+#include "support/probe.h"
 #include "support/test_device.h"
 #include "vk/command_list.h"
 #include "vk/compute_pipeline.h"
@@ -67,13 +68,8 @@ TEST_CASE("a distinct word through each field of the Poisson structs arrives in 
   types[3] = VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER;
   const ComputePipeline probe(
       *device, {"poisson_layout_probe.comp", k_poisson_layout_probe_comp, types, sizeof(PoissonPush), {}});
-  const BindingSet bindings(*device, probe,
-                            std::array<Binding, 5>{stateBuffer, sumBuffer, words, rowTexels, sizeBuffer});
-  CommandList commands(*device);
-  commands.begin();
-  commands.dispatch(probe, bindings, bytesOf(push), 1);
-  commands.barrier();
-  commands.submitAndWait();
+  test::runProbe(*device, probe, std::array<Binding, 5>{stateBuffer, sumBuffer, words, rowTexels, sizeBuffer},
+                 bytesOf(push));
   const std::span<const uint32_t> got = words.mappedAs<uint32_t>();
   for (size_t i = 0; i < expected.size(); ++i) {
     const bool isReal = i < 8 ? i % 4 < 2 : i > 18;
@@ -93,12 +89,7 @@ TEST_CASE("a distinct number through each field of the structs of an equation ar
                                         std::vector(2, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER),
                                         sizeof(EquationPush),
                                         {}});
-  const BindingSet bindings(*device, probe, std::array<Binding, 2>{startBuffer, words});
-  CommandList commands(*device);
-  commands.begin();
-  commands.dispatch(probe, bindings, bytesOf(push), 1);
-  commands.barrier();
-  commands.submitAndWait();
+  test::runProbe(*device, probe, std::array<Binding, 2>{startBuffer, words}, bytesOf(push));
   const std::span<const uint32_t> got = words.mappedAs<uint32_t>();
   for (uint32_t i = 0; i < 9; ++i) {
     CAPTURE(i);

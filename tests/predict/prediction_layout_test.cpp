@@ -8,6 +8,7 @@
 #include "spirv/hit_points.comp.h"
 #include "spirv/predict_faces.comp.h"
 #include "spirv/prediction_layout_probe.comp.h"
+#include "support/probe.h"
 #include "support/specialization_ids.h"
 #include "support/test_device.h"
 #include "vk/command_list.h"
@@ -41,12 +42,7 @@ TEST_CASE("each field of the structs of the prediction arrives on the device in 
                                         std::vector(2, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER),
                                         sizeof push,
                                         {}});
-  const BindingSet set(*device, probe, std::vector<Binding>{blocks, words});
-  CommandList commands(*device);
-  commands.begin();
-  commands.dispatch(probe, set, bytesOf(push), 1);
-  commands.barrier();
-  commands.submitAndWait();
+  test::runProbe(*device, probe, std::vector<Binding>{blocks, words}, bytesOf(push));
   const std::span<uint32_t> seen = words.mappedAs<uint32_t>();
   for (size_t i = 0; i < expected.size(); ++i) {
     CAPTURE(i);

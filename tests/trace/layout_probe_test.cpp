@@ -7,6 +7,7 @@
 #include "shared/bvh_layout.h"
 #include "shared/cone_layout.h"
 #include "spirv/layout_probe.comp.h"
+#include "support/probe.h"
 #include "support/test_device.h"
 #include "vk/command_list.h"
 
@@ -66,12 +67,7 @@ TEST_CASE("each field of the shared structs arrives on the device in its place")
                                         0,
                                         {}});
   const Binding bindings[] = {nodeView, triangleView, rayView, originView, words, wideView, ballBuffer, seedBuffer};
-  const BindingSet set(*device, probe, bindings);
-  CommandList commands(*device);
-  commands.begin();
-  commands.dispatch(probe, set, {}, 1);
-  commands.barrier();
-  commands.submitAndWait();
+  test::runProbe(*device, probe, bindings);
 
   std::vector<uint32_t> expected;
   appendWords(expected, nodes[1]);

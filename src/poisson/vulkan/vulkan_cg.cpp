@@ -6,7 +6,7 @@
 #include <cstring>
 
 #include "core/stopwatch.h"
-#include "poisson/vulkan/vulkan_equation.h"
+#include "poisson/vulkan/vulkan_solver.h"
 #include "spirv/cg_product.comp.h"
 #include "spirv/cg_step.comp.h"
 
@@ -31,28 +31,19 @@ std::array<CgState, 2> firstStates(double reduction) {
   return {state, state};
 }
 
-class VulkanCgSolver final : public PoissonSolver {
+class VulkanCgSolver final : public VulkanSolver {
  public:
-  explicit VulkanCgSolver(const Device& device) : device_(device), kernels_(device), equationKernels_(device) {}
-
-  SolverReport solve(const PoissonSystem& system, const SolverOptions& options, std::span<double> solution,
-                     const RunControl& control) override {
-    return solveOnDevice(method(), device_, system, options, solution, control);
-  }
-
-  std::unique_ptr<GraphSolver> onGraph(const DualGraph& graph, std::span<const double> weights) override {
-    return makeDeviceGraphSolver(method(), device_, equationKernels_, graph, weights);
-  }
+  explicit VulkanCgSolver(const Device& device) : VulkanSolver(device), kernels_(device) {}
 
  private:
-  [[nodiscard]] DeviceMethod method() const {
+  [[nodiscard]] DeviceMethod method() const override {
     return {.minReduction = kMinReduction, .finishesOnCpu = true, .solve = [this](const DevicePass& pass) {
               return iterate(pass);
             }};
   }
 
   DevicePassResult iterate(const DevicePass& pass) const {
-    VulkanCg cg(device_, kernels_, pass.matrix, pass.rightHandSide, pass.reduction);
+    VulkanCg cg(device(), kernels_, pass.matrix, pass.rightHandSide, pass.reduction);
     CgState state{};
     uint32_t batch = kFirstBatch;
     for (uint32_t recorded = 0; state.status == kCgRunning && recorded < pass.maxIterations;) {
@@ -66,9 +57,7 @@ class VulkanCgSolver final : public PoissonSolver {
     return {cg.takeSolution(), state.iterationCount};
   }
 
-  const Device& device_;
   VulkanCgKernels kernels_;
-  VulkanEquationKernels equationKernels_;
 };
 
 }  // namespace

@@ -125,7 +125,7 @@ VulkanEquation::VulkanEquation(const Device& device, const VulkanEquationKernels
   }
   commands_.dispatch(kernels.begin, beginBindings, bytesOf(push(1)), matrix.grid.workgroupCount);
   commands_.barrier();
-  const PoissonSums sums = submitAndReadSums();
+  const PoissonSums sums = submitAndRead(commands_, sums_, sumsOnHost_);
   rightHandNorm_ = rootOfSum(sums.directionSquared, matrix.grid);
   residualNorm_ = rootOfSum(sums.residualSquared, matrix.grid);
 }
@@ -175,8 +175,6 @@ void VulkanEquation::recordResidual(uint32_t which, double scale) {
   commands_.barrier();
 }
 
-PoissonSums VulkanEquation::submitAndReadSums() { return submitAndRead(commands_, sums_, sumsOnHost_); }
-
 const Buffer& VulkanEquation::scaledResidual() {
   commands_.begin();
   recordResidual(current_, 1 / residualNorm_);
@@ -193,7 +191,7 @@ double VulkanEquation::tryCorrection(const Buffer& y) {
   commands_.dispatch(kernels_.correct, bindings, bytesOf(push(residualNorm_)), graph_.matrix.grid.workgroupCount);
   commands_.barrier();
   recordResidual(tried, 1);
-  triedNorm_ = rootOfSum(submitAndReadSums().residualSquared, graph_.matrix.grid);
+  triedNorm_ = rootOfSum(submitAndRead(commands_, sums_, sumsOnHost_).residualSquared, graph_.matrix.grid);
   return triedNorm_;
 }
 

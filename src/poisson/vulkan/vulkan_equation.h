@@ -69,7 +69,6 @@ class VulkanEquation {
   [[nodiscard]] UnsetVector<float> makeSources() const;
   [[nodiscard]] EquationPush push(double scale) const;
   void recordResidual(uint32_t which, double scale);
-  [[nodiscard]] PoissonSums submitAndReadSums();
   [[nodiscard]] bool isUnknown(uint32_t face) const {
     return isReachable_[face] != 0 && !std::isfinite(problem_.constraints[face]);
   }

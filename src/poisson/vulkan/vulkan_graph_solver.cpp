@@ -3,9 +3,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/parallel.h"
 #include "poisson/poisson_system.h"
-#include "poisson/vulkan/vulkan_equation.h"
+#include "poisson/vulkan/vulkan_solver.h"
 
 namespace asdfvk {
 namespace {
@@ -92,10 +91,9 @@ class DeviceGraphSolver final : public GraphSolver {
 
 }  // namespace
 
-std::unique_ptr<GraphSolver> makeDeviceGraphSolver(DeviceMethod method, const Device& device,
-                                                   const VulkanEquationKernels& kernels, const DualGraph& graph,
-                                                   std::span<const double> weights) {
-  return std::make_unique<DeviceGraphSolver>(std::move(method), device, kernels, graph, weights);
+std::unique_ptr<GraphSolver> VulkanSolver::onGraph(const DualGraph& graph, std::span<const double> weights) {
+  if (!equationKernels_) equationKernels_.emplace(device_);
+  return std::make_unique<DeviceGraphSolver>(method(), device_, *equationKernels_, graph, weights);
 }
 
 }  // namespace asdfvk

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "poisson/vulkan/vulkan_equation.h"
+#include "poisson/vulkan/vulkan_solver.h"
 #include "shared/poisson_layout.h"
 #include "spirv/jacobi_sweep.comp.h"
 
@@ -36,28 +36,19 @@ std::array<Binding, kBindingCount> bind(const VulkanMatrix& matrix, const Buffer
           matrix.storageRows};
 }
 
-class VulkanJacobiSolver final : public PoissonSolver {
+class VulkanJacobiSolver final : public VulkanSolver {
  public:
-  explicit VulkanJacobiSolver(const Device& device) : device_(device), kernel_(device), equationKernels_(device) {}
-
-  SolverReport solve(const PoissonSystem& system, const SolverOptions& options, std::span<double> solution,
-                     const RunControl& control) override {
-    return solveOnDevice(method(), device_, system, options, solution, control);
-  }
-
-  std::unique_ptr<GraphSolver> onGraph(const DualGraph& graph, std::span<const double> weights) override {
-    return makeDeviceGraphSolver(method(), device_, equationKernels_, graph, weights);
-  }
+  explicit VulkanJacobiSolver(const Device& device) : VulkanSolver(device), kernel_(device) {}
 
  private:
-  [[nodiscard]] DeviceMethod method() const {
+  [[nodiscard]] DeviceMethod method() const override {
     return {.minReduction = kJacobiMinReduction, .finishesOnCpu = false, .solve = [this](const DevicePass& pass) {
               return iterate(pass);
             }};
   }
 
   DevicePassResult iterate(const DevicePass& pass) const {
-    VulkanJacobi jacobi(device_, kernel_, pass.matrix, pass.rightHandSide);
+    VulkanJacobi jacobi(device(), kernel_, pass.matrix, pass.rightHandSide);
     uint32_t iterationCount = 0;
     for (double norm = 1; norm > pass.reduction && iterationCount < pass.maxIterations;) {
       const uint32_t batch = std::min(kBatch, pass.maxIterations - iterationCount);
@@ -68,9 +59,7 @@ class VulkanJacobiSolver final : public PoissonSolver {
     return {jacobi.takeSolution(), iterationCount};
   }
 
-  const Device& device_;
   VulkanJacobiKernel kernel_;
-  VulkanEquationKernels equationKernels_;
 };
 
 }  // namespace

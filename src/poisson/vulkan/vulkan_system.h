@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "poisson/poisson_solver.h"
 #include "poisson/refinement.h"
 #include "poisson/scaled_system.h"
 #include "vk/buffer.h"
@@ -17,8 +16,6 @@
 
 /// A Poisson system on a device, for any iteration that runs there in float32.
 namespace asdfvk {
-
-struct VulkanEquationKernels;
 
 /// Size of the dispatches for one system.
 struct PoissonGrid {
@@ -71,8 +68,7 @@ struct VulkanMatrix {
   Buffer texelRows, storageRows;  ///< One of them holds the rows.
   TexelView rowTexels;
   Buffer tailColumns, tailCouplings;
-  /// Rows of weight 0 and their columns are excluded. Precondition: their right-hand sides are 0; their unknowns stay
-  /// 0.
+  /// Weight 0 excludes a row and its column: the unknown stays 0. Precondition: the right-hand side is 0 there.
   Buffer residualWeights;
 };
 
@@ -96,12 +92,6 @@ struct DeviceMethod {
   bool finishesOnCpu;   ///< makeDoubleCorrector() continues where float32 stagnates.
   std::function<DevicePassResult(const DevicePass& pass)> solve;
 };
-
-/// VulkanGraph and its equations; see PoissonSolver::onGraph(). The kernels must outlive it.
-[[nodiscard]] std::unique_ptr<GraphSolver> makeDeviceGraphSolver(DeviceMethod method, const Device& device,
-                                                                 const VulkanEquationKernels& kernels,
-                                                                 const DualGraph& graph,
-                                                                 std::span<const double> weights);
 
 /// solveByRefinement() with passes on the device. The matrix is uploaded in the first pass.
 [[nodiscard]] SolverReport solveOnDevice(const DeviceMethod& method, const Device& device, const PoissonSystem& system,
