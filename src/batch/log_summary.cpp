@@ -1,9 +1,10 @@
 #include "batch/log_summary.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <tuple>
 #include <unordered_map>
@@ -21,7 +22,8 @@ bool isComputed(const MeshRecord& record) {
 }
 
 std::optional<double> averageErrorOf(const MeshRecord& record) {
-  const nlohmann::ordered_json& estimate = record.estimatedError;
+  if (!record.estimatedError) return std::nullopt;
+  const nlohmann::ordered_json& estimate = *record.estimatedError;
   if (!estimate.is_object() || !estimate.contains("average") || !estimate["average"].is_number()) return std::nullopt;
   return estimate["average"].get<double>();
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <chrono>
+#include <nlohmann/json.hpp>
 
 namespace asdfvk {
 namespace {
@@ -48,6 +49,8 @@ Json jsonOf(const std::optional<T>& value) {
   return value ? Json(*value) : Json(nullptr);
 }
 
+Json jsonOf(const SharedJson& value) { return value ? *value : Json(nullptr); }
+
 Json jsonOf(MeshStatus status) { return nameOf(status); }
 
 Json jsonOf(const SecondsByStage& ofStages) {
@@ -65,6 +68,8 @@ template <typename T>
 void read(const Json& json, std::optional<T>& value) {
   value = json.get<T>();
 }
+
+void read(const Json& json, SharedJson& value) { value = std::make_shared<const Json>(json); }
 
 std::optional<MeshStatus> statusNamed(std::string_view text) {
   for (const auto& [status, name] : kMeshStatuses)

@@ -2,7 +2,8 @@
 
 #include <array>
 #include <cstdint>
-#include <nlohmann/json.hpp>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -10,6 +11,9 @@
 #include <vector>
 
 namespace asdfvk {
+
+/// A JSON value that several records share; a null pointer is JSON's null.
+using SharedJson = std::shared_ptr<const nlohmann::ordered_json>;
 
 enum class MeshStatus {
   Done,
@@ -31,13 +35,13 @@ struct MeshRecord {
   std::optional<std::string> output;               ///< Unset where no output was written.
   std::string inputHash, optionsHash, outputHash;  ///< contentHash() of each; empty where unknown.
   std::optional<uint64_t> faceCount;               ///< Input faces.
-  nlohmann::ordered_json options;                  ///< The key "options" of the JSON report.
+  SharedJson options;                              ///< The key "options" of the JSON report.
   std::string version, commit, device, backend;
   std::vector<std::pair<std::string, double>> seconds;  ///< Name and time of each stage that ran.
   double totalSeconds = 0;                              ///< From the start of reading to the end of writing.
   uint64_t peakMemoryBytes = 0;
   /// The keys average, standardError, relativeMedian and relativePercentile90 of that of the JSON report, or null.
-  nlohmann::ordered_json estimatedError;
+  SharedJson estimatedError;
   std::optional<uint32_t> segmentCount;
   std::vector<std::string> warnings;  ///< The codes of the warnings.
   MeshStatus status = MeshStatus::Done;

@@ -1,5 +1,5 @@
 // The page of `asdf-vk summarize -o PAGE.html`.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

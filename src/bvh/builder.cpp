@@ -1,5 +1,3 @@
-#include <tbb/parallel_for.h>
-#include <tbb/parallel_invoke.h>
 
 #include <algorithm>
 #include <bit>
@@ -12,6 +10,7 @@
 #include "bvh/sah.h"
 #include "bvh/small_tree.h"
 #include "core/check.h"
+#include "core/parallel.h"
 #include "core/unset_vector.h"
 
 namespace asdfvk {
@@ -49,7 +48,7 @@ UnsetVector<SplitTriangle> collectTriangles(const TriangleMesh& mesh, const Face
                                             const Normalization& normalization) {
   UnsetVector<SplitTriangle> triangles(mesh.faces.size());
   std::vector<size_t> counts((mesh.faces.size() + kBlockFaceCount - 1) / kBlockFaceCount);
-  tbb::parallel_for(size_t{0}, counts.size(), [&](size_t block) {
+  forEachTask(counts.size(), [&](size_t block) {
     const size_t begin = block * kBlockFaceCount, end = std::min(begin + kBlockFaceCount, mesh.faces.size());
     SplitTriangle* next = &triangles[begin];
     for (auto f = static_cast<uint32_t>(begin); f < end; ++f) {
@@ -166,7 +165,7 @@ std::unique_ptr<Subtree> buildSubtree(std::span<SplitTriangle> triangles, std::s
     return subtree;
   }
   const size_t leftCount = splitTriangles(triangles, level, options);
-  tbb::parallel_invoke(
+  callBoth(
       [&] {
         subtree->left = buildSubtree(triangles.first(leftCount), primitiveFaces, firstPrimitive, level + 1, options);
       },
@@ -205,7 +204,7 @@ UnsetVector<BvhNode> assemble(const Subtree& root) {
   UnsetVector<BvhNode> nodes(root.nodeCount);
   std::vector<Placement> placements;
   place(root, 0, 1, nodes, placements);
-  tbb::parallel_for(size_t{0}, placements.size(), [&](size_t p) {
+  forEachTask(placements.size(), [&](size_t p) {
     const auto& [run, index, next] = placements[p];
     for (size_t i = 0; i < run.size(); ++i) {
       BvhNode node = run[i];

@@ -1,7 +1,6 @@
 #include "bvh/device_bvh.h"
 
-#include <fmt/format.h>
-#include <tbb/parallel_for.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <bit>
@@ -11,6 +10,7 @@
 #include "bvh/normal_bounds.h"
 #include "bvh/wide_bvh.h"
 #include "core/check.h"
+#include "core/parallel.h"
 
 namespace asdfvk {
 namespace {
@@ -50,7 +50,7 @@ UnsetVector<DeviceBvhNode> encodeNodes(std::span<const BvhNode> nodes) {
     return nodes[child].isLeaf() ? leafReference(nodes[child]) : innerIndex[child];
   };
   UnsetVector<DeviceBvhNode> encoded(innerCount);
-  tbb::parallel_for(size_t{0}, nodes.size(), [&](size_t i) {
+  forEachInParallel(nodes.size(), [&](size_t i) {
     if (nodes[i].isLeaf()) return;
     const uint32_t leftIndex = nodes[i].first;
     const BvhNode &left = nodes[leftIndex], &right = nodes[leftIndex + 1];
@@ -82,7 +82,7 @@ OctahedralNormal encodeNormal(const Vec3d& n) {
 UnsetVector<DeviceTriangle> encodeTriangles(std::span<const uint32_t> primitiveFaces, const Bvh& bvh,
                                             const TriangleMesh& mesh, const FaceGeometry& geometry) {
   UnsetVector<DeviceTriangle> triangles(primitiveFaces.size());
-  tbb::parallel_for(size_t{0}, primitiveFaces.size(), [&](size_t primitive) {
+  forEachInParallel(primitiveFaces.size(), [&](size_t primitive) {
     const uint32_t face = primitiveFaces[primitive];
     if (primitive + kPrefetchDistance < primitiveFaces.size()) {
       const uint32_t later = primitiveFaces[primitive + kPrefetchDistance];

@@ -1,14 +1,12 @@
 #include "bvh/wide_bvh.h"
 
-#include <tbb/parallel_for.h>
-#include <tbb/parallel_invoke.h>
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
 
 #include "core/check.h"
+#include "core/parallel.h"
 #include "core/simd.h"
 
 namespace asdfvk {
@@ -162,7 +160,7 @@ class WideEncoder {
       depths[i] = 1 + encode(inner[i].binaryNode, inner[i].index, inner[i].next, inner[i].primitive, level + 1);
     };
     if (level < kParallelLevelCount)
-      tbb::parallel_for(0u, innerCount, descend);
+      forEachTask(innerCount, [&](size_t i) { descend(static_cast<uint32_t>(i)); });
     else
       for (uint32_t i = 0; i < innerCount; ++i) descend(i);
     return *std::max_element(depths.begin(), depths.end());
@@ -192,7 +190,7 @@ void WideCollapse::chooseFrom(uint32_t node, uint32_t level, Forests& forests) {
   const uint32_t child = nodes_[node].first;
   Forests left, right;
   if (level < kParallelSearchLevelCount) {
-    tbb::parallel_invoke([&] { chooseFrom(child, level + 1, left); }, [&] { chooseFrom(child + 1, level + 1, right); });
+    callBoth([&] { chooseFrom(child, level + 1, left); }, [&] { chooseFrom(child + 1, level + 1, right); });
   } else {
     chooseFrom(child, level + 1, left);
     chooseFrom(child + 1, level + 1, right);

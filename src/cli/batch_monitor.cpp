@@ -1,6 +1,6 @@
 #include "cli/batch_monitor.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <fmt/ranges.h>
 
 #include <chrono>

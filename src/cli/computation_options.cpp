@@ -1,5 +1,5 @@
 // The options of the computation: flags, and their values in the JSON report.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <limits>
 #include <nlohmann/json.hpp>

@@ -1,6 +1,6 @@
 #include "pipeline/device_report.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 #include <string>

@@ -1,6 +1,6 @@
 #include "cli/isolated_jobs.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <chrono>
 #include <csignal>

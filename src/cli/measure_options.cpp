@@ -1,5 +1,5 @@
 // The options of the measured quantity, and their values in the JSON report.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 #include "cli/mesh_run.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <filesystem>
 #include <utility>
@@ -57,12 +57,12 @@ void writePicture(const CommandLine& line, const Result& result, const RunContro
   writePng(line.picture, pictureOf(result, *field, line.pictureView, {}, control));
 }
 
-Json shortEstimateOf(const std::optional<ErrorEstimate>& estimate) {
+SharedJson shortEstimateOf(const std::optional<ErrorEstimate>& estimate) {
   if (!estimate) return nullptr;
-  return {{"average", number(estimate->average)},
-          {"standardError", number(estimate->standardError)},
-          {"relativeMedian", number(estimate->relativeMedian)},
-          {"relativePercentile90", number(estimate->relativePercentile90)}};
+  return std::make_shared<const Json>(Json{{"average", number(estimate->average)},
+                                           {"standardError", number(estimate->standardError)},
+                                           {"relativeMedian", number(estimate->relativeMedian)},
+                                           {"relativePercentile90", number(estimate->relativePercentile90)}});
 }
 
 void fillRecord(MeshRecord& record, const Report& report) {
@@ -103,7 +103,7 @@ LoadedMesh loadMesh(const std::string& path, bool computesHash) {
 }
 
 MeshRunner::MeshRunner(const CommandLine& line, size_t meshCount)
-    : line_(line), optionsHash_(optionsHash(line)), options_(optionValues(line)) {
+    : line_(line), optionsHash_(optionsHash(line)), options_(std::make_shared<const Json>(optionValues(line))) {
   if (writesOnePage(line)) onePage_ = SharedPage{.awaitedCount = meshCount * (1 + line.compared.size())};
 }
 

@@ -80,7 +80,7 @@ class MeshRunner {
   const CommandLine& line_;
   bool showsBar_ = false;
   std::string optionsHash_;
-  nlohmann::ordered_json options_;
+  SharedJson options_;
   std::optional<SharedPage> onePage_;  ///< Of all meshes.
 };
 

@@ -1,8 +1,5 @@
 #include "cli/run.h"
 
-#include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
-
 #include <filesystem>
 #include <memory>
 #include <numeric>
@@ -23,6 +20,7 @@
 #include "cli/report.h"
 #include "cli/terminal.h"
 #include "core/atomic_file.h"
+#include "core/parallel.h"
 
 namespace asdfvk {
 namespace {
@@ -61,8 +59,7 @@ void removeUnfinishedOutputs(const std::vector<MeshTask>& tasks) {
 
 std::vector<JobPhase> phasesOf(const CommandLine& line, const std::vector<MeshTask>& tasks,
                                std::vector<size_t> computed) {
-  const auto threadCount =
-      static_cast<uint32_t>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+  const auto threadCount = static_cast<uint32_t>(maxThreadCount());
   return planJobs(tasks, std::move(computed), writesOnePage(line) ? 1 : line.batch.jobCount, threadCount);
 }
 
@@ -72,7 +69,7 @@ std::vector<size_t> unfinishedTasks(const JobContext& context) {
   std::iota(unfinished.begin(), unfinished.end(), size_t{0});
   if (!context.line.batch.skipsExisting) return unfinished;
   std::vector<char> isFinished(context.tasks.size(), 0);
-  tbb::parallel_for(size_t{0}, context.tasks.size(), [&](size_t task) {
+  forEachTask(context.tasks.size(), [&](size_t task) {
     if (context.stop.stop_requested()) return;
     std::optional<MeshRun> skipped = context.runner.skip(context.tasks[task]);
     if (!skipped) return;

@@ -1,5 +1,5 @@
 // The options of post-processing and segmentation: flags, what they imply, and their values in the JSON report.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <filesystem>

@@ -1,9 +1,5 @@
 #pragma once
 
-#include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_sort.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -46,7 +42,7 @@ class StagedEntries {
     const size_t blockCount = (itemCount + blockSize - 1) / blockSize;
     std::vector<std::vector<uint32_t>> cursors(blockCount);
     const auto forEachBlock = [&](const auto& body) {
-      tbb::parallel_for(size_t{0}, blockCount, [&](size_t block) {
+      forEachTask(blockCount, [&](size_t block) {
         const size_t end = std::min(itemCount, (block + 1) * blockSize);
         for (size_t item = block * blockSize; item < end; ++item) body(cursors[block], static_cast<uint32_t>(item));
       });
@@ -67,7 +63,7 @@ class StagedEntries {
   /// Calls visit(bucket, entries) once for each bucket with an entry, entries ascending, in parallel.
   template <typename Visit>
   void forEachBucket(const Visit& visit) const {
-    tbb::enumerable_thread_specific<std::vector<Entry>> scratches;
+    PerThread<std::vector<Entry>> scratches;
     forEachRun(
         [&](uint32_t, uint32_t size) {
           std::vector<Entry>& scratch = scratches.local();
@@ -115,7 +111,7 @@ class StagedEntries {
     constexpr size_t kWorthParallelSort = size_t{1} << 16;
     if (entries.size() >= kWorthParallelSort) {
       // Isolated: the thread must not start another run during the sort, which would overwrite the scratch memory.
-      tbb::this_task_arena::isolate([&] { tbb::parallel_sort(entries.begin(), entries.end()); });
+      callIsolated([&] { sortInParallel(entries.begin(), entries.end()); });
     } else if (entries.size() > 1) {
       std::sort(entries.begin(), entries.end());
     }
@@ -125,8 +121,8 @@ class StagedEntries {
   /// begin: position among all entries, in the order of the buckets.
   template <typename Room, typename Visit>
   void forEachRun(const Room& room, const Visit& visit) const {
-    tbb::enumerable_thread_specific<std::vector<uint32_t>> ends;
-    tbb::parallel_for(size_t{0}, runBegins_.size() - 1, [&](size_t run) {
+    PerThread<std::vector<uint32_t>> ends;
+    forEachTask(runBegins_.size() - 1, [&](size_t run) {
       const uint32_t begin = runBegins_[run], size = runBegins_[run + 1] - begin;
       const size_t firstBucket = run << shift_;
       const size_t runBucketCount = std::min(bucketCount_, (run + 1) << shift_) - firstBucket;

@@ -1,8 +1,9 @@
 #pragma once
 
-#include <fmt/format.h>
-
+#include <cstdint>
 #include <stdexcept>
+#include <string>
+#include <type_traits>
 
 namespace asdfvk {
 
@@ -11,20 +12,43 @@ class CheckFailure : public std::logic_error {
   using std::logic_error::logic_error;
 };
 
+/// Throws CheckFailure with "FILE:LINE: text".
+[[noreturn]] void failCheck(const char* file, int line, const char* text);
+/// The same with " (LEFT against RIGHT)" appended.
+[[noreturn]] void failCheck(const char* file, int line, const char* text, const std::string& left,
+                            const std::string& right);
+
+[[nodiscard]] std::string checkedNumber(int64_t value);
+[[nodiscard]] std::string checkedNumber(uint64_t value);
+[[nodiscard]] std::string checkedNumber(double value);
+
+/// The text of a number in the message of a check.
+template <typename T>
+[[nodiscard]] std::string checkedText(T value) {
+  static_assert(std::is_arithmetic_v<T>);
+  if constexpr (std::is_floating_point_v<T>)
+    return checkedNumber(static_cast<double>(value));
+  else if constexpr (std::is_signed_v<T>)
+    return checkedNumber(static_cast<int64_t>(value));
+  else
+    return checkedNumber(static_cast<uint64_t>(value));
+}
+
 }  // namespace asdfvk
 
 /// Throws CheckFailure unless `condition` holds. Always on.
-#define ASDFVK_CHECK(condition)                                                                               \
-  do {                                                                                                        \
-    if (!(condition)) throw ::asdfvk::CheckFailure(fmt::format("{}:{}: {}", __FILE__, __LINE__, #condition)); \
+#define ASDFVK_CHECK(condition)                                            \
+  do {                                                                     \
+    if (!(condition)) ::asdfvk::failCheck(__FILE__, __LINE__, #condition); \
   } while (false)
 
-/// Throws CheckFailure unless `left op right`; the message prints both values. For example ASDFVK_CHECK_OP(a, <=, b).
-#define ASDFVK_CHECK_OP(left, op, right)                                                                          \
-  do {                                                                                                            \
-    const auto& asdfvkLeft = (left);                                                                              \
-    const auto& asdfvkRight = (right);                                                                            \
-    if (!(asdfvkLeft op asdfvkRight))                                                                             \
-      throw ::asdfvk::CheckFailure(fmt::format("{}:{}: {} {} {} ({} against {})", __FILE__, __LINE__, #left, #op, \
-                                               #right, asdfvkLeft, asdfvkRight));                                 \
+/// Throws CheckFailure unless `left op right`, two numbers; the message prints both. For example
+/// ASDFVK_CHECK_OP(a, <=, b).
+#define ASDFVK_CHECK_OP(left, op, right)                                                                   \
+  do {                                                                                                     \
+    const auto& asdfvkLeft = (left);                                                                       \
+    const auto& asdfvkRight = (right);                                                                     \
+    if (!(asdfvkLeft op asdfvkRight))                                                                      \
+      ::asdfvk::failCheck(__FILE__, __LINE__, #left " " #op " " #right, ::asdfvk::checkedText(asdfvkLeft), \
+                          ::asdfvk::checkedText(asdfvkRight));                                             \
   } while (false)

@@ -1,13 +1,12 @@
 #pragma once
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <span>
 #include <vector>
+
+#include "core/parallel.h"
 
 namespace asdfvk {
 
@@ -17,13 +16,11 @@ template <typename Term>
 [[nodiscard]] double orderedSum(size_t count, const Term& term) {
   constexpr size_t kBlock = 8192;
   std::vector<double> sums((count + kBlock - 1) / kBlock);
-  tbb::parallel_for(tbb::blocked_range<size_t>(0, sums.size()), [&](const tbb::blocked_range<size_t>& range) {
-    for (size_t block = range.begin(); block < range.end(); ++block) {
-      const size_t end = std::min(count, (block + 1) * kBlock);
-      double sum = 0;
-      for (size_t i = block * kBlock; i < end; ++i) sum += term(i);
-      sums[block] = sum;
-    }
+  forEachTask(sums.size(), [&](size_t block) {
+    const size_t end = std::min(count, (block + 1) * kBlock);
+    double sum = 0;
+    for (size_t i = block * kBlock; i < end; ++i) sum += term(i);
+    sums[block] = sum;
   });
   double total = 0;
   for (double sum : sums) total += sum;

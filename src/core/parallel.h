@@ -1,56 +1,152 @@
 #pragma once
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-#include <tbb/parallel_reduce.h>
-
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <memory>
+#include <vector>
 
+#include "core/function_ref.h"
+
+/// Parallel loops. TBB runs them, and only parallel.cpp includes it: its headers have 94,000 lines.
 namespace asdfvk {
 
 inline constexpr size_t kItemsPerTask = 4096;
+
+/// Greatest number of threads that a parallel loop may use here, and that without any limit.
+[[nodiscard]] size_t maxThreadCount();
+[[nodiscard]] size_t defaultThreadCount();
+
+/// Calls body(begin, end) for disjoint ranges whose union is [0, count), in parallel. A range of more than `grain`
+/// items may be divided.
+void forEachRange(size_t count, size_t grain, FunctionRef<void(size_t begin, size_t end)> body);
+
+/// forEachRange() again and again over the same number of items: a thread receives the same ranges each time, for its
+/// caches.
+class RepeatedLoop {
+ public:
+  RepeatedLoop();
+  ~RepeatedLoop();
+  void forEachRange(size_t count, FunctionRef<void(size_t begin, size_t end)> body);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// Calls both, in parallel.
+void callBoth(FunctionRef<void()> first, FunctionRef<void()> second);
+
+/// Calls `body` on this thread. Its parallel loops wait only for themselves: while it waits in them, the thread begins
+/// no task that was made before.
+void callIsolated(FunctionRef<void()> body);
 
 /// Calls body(i) for every i in [0, count), in parallel. If body(i) writes only data of i, the result has the same bits
 /// on any number of threads.
 template <typename Body>
 void forEachInParallel(size_t count, const Body& body) {
-  tbb::parallel_for(tbb::blocked_range<size_t>(0, count, kItemsPerTask / 4),
-                    [&](const tbb::blocked_range<size_t>& range) {
-                      for (size_t i = range.begin(); i < range.end(); ++i) body(static_cast<uint32_t>(i));
-                    });
+  forEachRange(count, kItemsPerTask / 4, [&](size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) body(static_cast<uint32_t>(i));
+  });
 }
 
 /// The same for few and long bodies: each may run on a thread of its own.
 template <typename Body>
 void forEachTask(size_t count, const Body& body) {
-  tbb::parallel_for(size_t{0}, count, [&](size_t i) { body(i); });
+  forEachRange(count, 1, [&](size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) body(i);
+  });
 }
 
 /// Number of i in [0, count) for which hold(i) is true, in parallel.
 template <typename Holds>
 [[nodiscard]] uint64_t countInParallel(size_t count, const Holds& holds) {
-  return tbb::parallel_reduce(
-      tbb::blocked_range<size_t>(0, count, kItemsPerTask), uint64_t{0},
-      [&](const tbb::blocked_range<size_t>& range, uint64_t found) {
-        for (size_t i = range.begin(); i < range.end(); ++i) found += holds(static_cast<uint32_t>(i)) ? 1 : 0;
-        return found;
-      },
-      [](uint64_t a, uint64_t b) { return a + b; });
+  std::atomic<uint64_t> found = 0;
+  forEachRange(count, kItemsPerTask, [&](size_t begin, size_t end) {
+    uint64_t foundHere = 0;
+    for (size_t i = begin; i < end; ++i) foundHere += holds(static_cast<uint32_t>(i)) ? 1 : 0;
+    found.fetch_add(foundHere, std::memory_order_relaxed);
+  });
+  return found;
+}
+
+/// fold(begin, end) of each block of kItemsPerTask items of [0, count), in parallel; then joined(a, b) of all of them
+/// and of Value{}, in order.
+template <typename Value, typename Fold, typename Joined>
+[[nodiscard]] Value foldInParallel(size_t count, const Fold& fold, const Joined& joined) {
+  std::vector<Value> values((count + kItemsPerTask - 1) / kItemsPerTask);
+  forEachTask(values.size(), [&](size_t block) {
+    values[block] = fold(block * kItemsPerTask, std::min(count, (block + 1) * kItemsPerTask));
+  });
+  Value result{};
+  for (const Value& value : values) result = joined(result, value);
+  return result;
 }
 
 /// The greatest valueOf(i), i in [0, count), and of Value{}, in parallel.
 template <typename Value, typename ValueOf>
 [[nodiscard]] Value maxInParallel(size_t count, const ValueOf& valueOf) {
-  return tbb::parallel_reduce(
-      tbb::blocked_range<size_t>(0, count, kItemsPerTask), Value{},
-      [&](const tbb::blocked_range<size_t>& range, Value greatest) {
-        for (size_t i = range.begin(); i < range.end(); ++i)
-          greatest = std::max(greatest, Value{valueOf(static_cast<uint32_t>(i))});
-        return greatest;
-      },
-      [](const Value& a, const Value& b) { return std::max(a, b); });
+  const auto greater = [](const Value& a, const Value& b) { return std::max(a, b); };
+  const auto greatestOf = [&](size_t begin, size_t end) {
+    Value greatest{};
+    for (size_t i = begin; i < end; ++i) greatest = std::max(greatest, Value{valueOf(static_cast<uint32_t>(i))});
+    return greatest;
+  };
+  return foldInParallel<Value>(count, greatestOf, greater);
 }
+
+/// Sorts [begin, end) by `less`, in parallel where it is long.
+template <typename Iterator, typename Less = std::less<>>
+void sortInParallel(Iterator begin, Iterator end, const Less& less = {}) {
+  constexpr auto kWorthDividing = 1 << 15;
+  if (end - begin <= kWorthDividing) return std::sort(begin, end, less);
+  const Iterator middle = begin + (end - begin) / 2;
+  callBoth([&] { sortInParallel(begin, middle, less); }, [&] { sortInParallel(middle, end, less); });
+  std::inplace_merge(begin, middle, end, less);
+}
+
+/// A pointer per thread that uses it, null at first.
+class PointerPerThread {
+ public:
+  PointerPerThread();
+  ~PointerPerThread();
+  [[nodiscard]] void*& local();
+  void forEach(FunctionRef<void(void*)> visit);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// A Value per thread that uses it, made by make() on first use.
+template <typename Value>
+class PerThread {
+ public:
+  explicit PerThread(std::function<Value()> make = [] { return Value(); }) : make_(std::move(make)) {}
+  ~PerThread() {
+    forEach([](Value& value) { delete &value; });
+  }
+  PerThread(const PerThread&) = delete;
+  PerThread& operator=(const PerThread&) = delete;
+
+  [[nodiscard]] Value& local() {
+    void*& pointer = pointers_.local();
+    if (pointer == nullptr) pointer = new Value(make_());
+    return *static_cast<Value*>(pointer);
+  }
+  /// Calls visit(value) for each value that was made, in no particular order, on this thread.
+  template <typename Visit>
+  void forEach(const Visit& visit) {
+    pointers_.forEach([&](void* pointer) {
+      if (pointer != nullptr) visit(*static_cast<Value*>(pointer));
+    });
+  }
+
+ private:
+  std::function<Value()> make_;
+  PointerPerThread pointers_;
+};
 
 }  // namespace asdfvk

@@ -1,5 +1,5 @@
 // The man page in the macros of groff_man(7).
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cctype>

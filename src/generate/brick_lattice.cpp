@@ -1,9 +1,5 @@
 #include "generate/brick_lattice.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-#include <tbb/parallel_reduce.h>
-
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -11,6 +7,7 @@
 #include <functional>
 
 #include "core/check.h"
+#include "core/parallel.h"
 
 namespace asdfvk {
 namespace {
@@ -49,8 +46,8 @@ uint64_t keyOf(int32_t x, int32_t y, int32_t z) {
 
 template <typename Body>
 void forEachIndex(size_t count, Body body) {
-  tbb::parallel_for(tbb::blocked_range<size_t>(0, count, 16), [&](const tbb::blocked_range<size_t>& range) {
-    for (size_t i = range.begin(); i < range.end(); ++i) body(i);
+  forEachRange(count, kBricksPerTask, [&](size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) body(i);
   });
 }
 
@@ -202,8 +199,10 @@ void BrickLattice::makeWellComposed() {
 }
 
 uint64_t BrickLattice::crossedEdgeCount() const {
-  const auto count = [&](const tbb::blocked_range<size_t>& range, uint64_t sum) {
-    for (size_t i = range.begin(); i < range.end(); ++i) {
+  std::atomic<uint64_t> total = 0;
+  forEachRange(bricks_.size(), kBricksPerTask, [&](size_t begin, size_t end) {
+    uint64_t sum = 0;
+    for (size_t i = begin; i < end; ++i) {
       const CellCorners signs = corners(bricks_[i]);
       for (int32_t z = 0; z < kBrickEdge; ++z)
         for (int32_t y = 0; y < kBrickEdge; ++y)
@@ -213,10 +212,9 @@ uint64_t BrickLattice::crossedEdgeCount() const {
                    uint64_t{here != signs.at(x, y, z + 1)};
           }
     }
-    return sum;
-  };
-  return tbb::parallel_reduce(tbb::blocked_range<size_t>(0, bricks_.size(), 16), uint64_t{0}, count,
-                              std::plus<uint64_t>());
+    total += sum;
+  });
+  return total;
 }
 
 }  // namespace asdfvk

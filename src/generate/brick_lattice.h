@@ -18,6 +18,7 @@ namespace asdfvk {
 
 /// Lattice points per brick and axis.
 inline constexpr int32_t kBrickEdge = 8;
+inline constexpr size_t kBricksPerTask = 16;
 
 /// 8^3 lattice points near the surface. Point (x, y, z) of the brick is bit x + 8 y of word z.
 struct Brick {

@@ -1,6 +1,6 @@
 #include "generate/generated_shape.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <utility>
 

@@ -1,6 +1,6 @@
 #include "generate/generator_options.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <fmt/ranges.h>
 
 #include "asdf_vk/version.h"

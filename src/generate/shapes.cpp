@@ -1,6 +1,6 @@
 #include "generate/shapes.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <fmt/ranges.h>
 
 #include <array>

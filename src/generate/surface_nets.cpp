@@ -1,8 +1,5 @@
 #include "generate/surface_nets.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -12,6 +9,7 @@
 #include <utility>
 
 #include "core/check.h"
+#include "core/parallel.h"
 #include "generate/brick_lattice.h"
 
 namespace asdfvk {
@@ -43,10 +41,9 @@ class SurfaceNets {
  private:
   template <typename Body>
   void forEachBrick(Body body) const {
-    tbb::parallel_for(tbb::blocked_range<size_t>(0, lattice_.bricks().size(), 16),
-                      [&](const tbb::blocked_range<size_t>& range) {
-                        for (size_t i = range.begin(); i < range.end(); ++i) body(i);
-                      });
+    forEachRange(lattice_.bricks().size(), kBricksPerTask, [&](size_t begin, size_t end) {
+      for (size_t i = begin; i < end; ++i) body(i);
+    });
   }
 
   /// Calls use(x, y, z) for the crossed cells of a brick in the order of their vertices.

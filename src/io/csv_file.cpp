@@ -1,6 +1,6 @@
 // Comma-separated values: a header line, then a row per face or per vertex, numbered from 0 in the first column `face`
 // or `vertex`. Numbers have the shortest text that reads back the same; all fields that are read are real.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <charconv>

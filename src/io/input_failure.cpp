@@ -1,6 +1,6 @@
 #include "io/input_failure.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "asdf_vk/error.h"
 

@@ -2,7 +2,7 @@
 // format has neither names nor locations. Also reads '<f8'.
 #include "io/npy_file.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>

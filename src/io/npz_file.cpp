@@ -2,7 +2,7 @@
 // or "vertex" as its comment. A vertex field with the name of a face field is the member vertex_FIELD.npy with the
 // comment "vertex FIELD". The members, each after its local header, then the central directory. Members without a
 // comment, as NumPy writes them, are face fields.
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <zlib.h>
 
 #include <cstring>

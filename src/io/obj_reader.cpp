@@ -1,6 +1,6 @@
 // Wavefront OBJ: the statements `v` and `f`. The reader ignores all other statements of the format, and opens no file
 // that one of them (mtllib, ...) names; `call` is an error, as is an unknown statement.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>

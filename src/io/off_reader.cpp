@@ -1,7 +1,7 @@
 // The Object File Format of Geomview in ASCII: [ST][C][N]OFF, which may be missing, counts, one vertex per line, faces.
 // The numbers after the coordinates of a vertex (texture coordinates, a colour, a normal) must agree with the prefixes
 // and are ignored, as is the colour of a face, up to four numbers.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <optional>
 

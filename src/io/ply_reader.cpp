@@ -3,9 +3,7 @@
 // list vertex_indices or vertex_index, or `tristrips`, or both; in any order. The reader of a mesh ignores all other
 // elements and properties; the reader of fields takes the numbers of vertices and faces in files of any program: uchar
 // as uint8, ushort and uint as uint32, others as real. In ASCII each row begins on a new line.
-#include <fmt/format.h>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <atomic>
@@ -15,6 +13,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "core/parallel.h"
 #include "core/text.h"
 #include "io/formats.h"
 #include "io/input_failure.h"
@@ -72,8 +71,7 @@ template <typename Decode>
 void forRows(uint64_t count, const Decode& decode) {
   constexpr uint64_t kRowsPerTask = 1 << 15;
   if (count <= kRowsPerTask) return decode(uint64_t{0}, count);
-  tbb::parallel_for(tbb::blocked_range<uint64_t>(0, count, kRowsPerTask),
-                    [&](const auto& range) { decode(range.begin(), range.end()); });
+  forEachRange(count, kRowsPerTask, decode);
 }
 
 /// Reads the rows of all elements. Allocates memory for an element only after a check of its count against the rest of

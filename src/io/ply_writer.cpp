@@ -1,7 +1,7 @@
 // Vertices with their fields, then faces: the list `uchar int vertex_indices` (`int int` above 255 corners) and their
 // fields. Fields: of the main one `float quality` and its colour `uchar red green blue alpha`, then the others by name:
 // float, uchar or uint.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <initializer_list>

@@ -1,5 +1,5 @@
 // Skeleton points as a binary PLY of the element `vertex`: x y z, float radius, and uint part where there are segments.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // STL, ASCII, or binary, recognised by the exact size that its face count implies. It has no indices, so corners at the
 // same point become one vertex; otherwise no face would have a neighbour. The reader ignores normals and attribute
 // bytes; the vertex order decides which side is outside.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <bit>

@@ -1,6 +1,6 @@
 #include "io/text_scanner.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <charconv>

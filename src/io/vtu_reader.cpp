@@ -1,5 +1,5 @@
 // The fields of the unstructured grids that writeVtu() writes: one piece, arrays as inline base64 without compression.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // Unstructured grid of VTK in XML with arrays as inline base64: PointData and CellData of Float32, UInt8 and UInt32.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>

@@ -4,6 +4,7 @@
 #include <bit>
 
 #include "core/buckets.h"
+#include "core/parallel.h"
 
 namespace asdfvk {
 namespace {

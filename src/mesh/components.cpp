@@ -134,7 +134,7 @@ void measureVolumes(const TriangleMesh& mesh, Components& result) {
   const double scale = normalizationOf(boundsOfFiniteVertices(mesh)).scale;
   const size_t blockCount = (mesh.faces.size() + kItemsPerTask - 1) / kItemsPerTask;
   std::vector<std::vector<VolumeSum>> blocks(blockCount);
-  tbb::parallel_for(size_t{0}, blockCount, [&](size_t block) {
+  forEachTask(blockCount, [&](size_t block) {
     const size_t begin = block * kItemsPerTask, end = std::min(begin + kItemsPerTask, mesh.faces.size());
     blocks[block] = sumVolumes(mesh, result, scale, static_cast<uint32_t>(begin), static_cast<uint32_t>(end));
   });

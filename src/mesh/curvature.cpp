@@ -7,6 +7,7 @@
 
 #include "core/buckets.h"
 #include "core/check.h"
+#include "core/parallel.h"
 
 namespace asdfvk {
 namespace {

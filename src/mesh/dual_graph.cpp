@@ -1,8 +1,5 @@
 #include "mesh/dual_graph.h"
 
-#include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_sort.h>
-
 #include <algorithm>
 #include <array>
 #include <utility>
@@ -41,13 +38,13 @@ class Survey {
     visitEdges();
     EdgeSurvey survey;
     std::vector<Arc> furtherArcs;
-    for (const Findings& findings : findings_) {
+    findings_.forEach([&](const Findings& findings) {
       const auto countOf = [&](EdgeKind kind) { return findings.edgeCounts[static_cast<size_t>(kind)]; };
       survey.boundaryEdgeCount += countOf(EdgeKind::Boundary);
       survey.nonManifoldEdgeCount += countOf(EdgeKind::NonManifold);
       survey.inconsistentEdgeCount += countOf(EdgeKind::Inconsistent);
       furtherArcs.insert(furtherArcs.end(), findings.furtherArcs.begin(), findings.furtherArcs.end());
-    }
+    });
     survey.isClosed =
         hasFiniteVertices_ && hasDistinctVertices_ && survey.boundaryEdgeCount == 0 && survey.nonManifoldEdgeCount == 0;
     survey.graph = survey.isClosed ? closedGraph() : anyGraph(std::move(furtherArcs));
@@ -118,7 +115,7 @@ class Survey {
   }
 
   DualGraph anyGraph(std::vector<Arc> furtherArcs) {
-    tbb::parallel_sort(furtherArcs.begin(), furtherArcs.end());
+    sortInParallel(furtherArcs.begin(), furtherArcs.end());
     DualGraph graph;
     std::vector<uint32_t>& offsets = graph.offsets;
     offsets.assign(mesh_.faces.size() + 1, 0);
@@ -156,7 +153,7 @@ class Survey {
   bool hasFiniteVertices_, hasDistinctVertices_;
   std::vector<uint32_t> across_;  ///< #F x 3: the face on the other side of each edge.
   std::vector<EdgeKind> kinds_;   ///< See EdgeSurvey::edgeKinds.
-  tbb::enumerable_thread_specific<Findings> findings_;
+  PerThread<Findings> findings_;
 };
 
 }  // namespace

@@ -51,8 +51,9 @@ FaceGeometry computeFaceGeometry(const TriangleMesh& mesh) {
   geometry.barycentres.resize(faceCount);
   geometry.normals.resize(faceCount);
   geometry.areas.resize(faceCount);
-  const auto computeRange = [&](const tbb::blocked_range<size_t>& range, Box3d bounds) {
-    for (size_t f = range.begin(); f < range.end(); ++f) {
+  const auto computeRange = [&](size_t begin, size_t end) {
+    Box3d bounds;
+    for (size_t f = begin; f < end; ++f) {
       const auto [i, j, k] = mesh.faces[f];
       const Vec3d &a = mesh.vertices[i], &b = mesh.vertices[j], &c = mesh.vertices[k];
       geometry.barycentres[f] = (a * kQuarter + (quarterOf(a, b) + quarterOf(a, c)) / 3.0) / kQuarter;
@@ -70,19 +71,18 @@ FaceGeometry computeFaceGeometry(const TriangleMesh& mesh) {
     }
     return bounds;
   };
-  geometry.bounds =
-      tbb::parallel_reduce(tbb::blocked_range<size_t>(0, faceCount, kItemsPerTask), Box3d{}, computeRange, joined);
+  geometry.bounds = foldInParallel<Box3d>(faceCount, computeRange, joined);
   return geometry;
 }
 
 Box3d boundsOfFiniteVertices(const TriangleMesh& mesh) {
-  const auto boundRange = [&](const tbb::blocked_range<size_t>& range, Box3d bounds) {
-    for (size_t i = range.begin(); i < range.end(); ++i)
+  const auto boundRange = [&](size_t begin, size_t end) {
+    Box3d bounds;
+    for (size_t i = begin; i < end; ++i)
       if (isFinite(mesh.vertices[i])) bounds.add(mesh.vertices[i]);
     return bounds;
   };
-  return tbb::parallel_reduce(tbb::blocked_range<size_t>(0, mesh.vertices.size(), kItemsPerTask), Box3d{}, boundRange,
-                              joined);
+  return foldInParallel<Box3d>(mesh.vertices.size(), boundRange, joined);
 }
 
 Normalization normalizationOf(const Box3d& bounds) {

@@ -1,8 +1,6 @@
 #include "mesh/input_faces.h"
 
-#include <fmt/format.h>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +8,7 @@
 
 #include "asdf_vk/error.h"
 #include "core/check.h"
+#include "core/parallel.h"
 #include "core/text.h"
 
 namespace asdfvk {
@@ -47,7 +46,7 @@ void triangulateAll(std::span<const Vec3d> vertices, Polygons& polygons, std::ve
     }
   };
   if (firstTriangleOfBlock.size() == 1) return cutBlock(0);
-  tbb::parallel_for(uint64_t{0}, uint64_t{firstTriangleOfBlock.size()}, cutBlock);
+  forEachTask(firstTriangleOfBlock.size(), cutBlock);
 }
 
 /// A corner whose turn has a smaller sine is straight.

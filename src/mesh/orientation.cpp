@@ -1,6 +1,6 @@
 #include "mesh/orientation.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <utility>

@@ -1,8 +1,7 @@
 #include "pipeline/backend.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <fmt/ranges.h>
-#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <array>
@@ -10,15 +9,14 @@
 #include <utility>
 
 #include "asdf_vk/error.h"
+#include "core/parallel.h"
 #include "core/text.h"
 #include "trace/cone_tracer.h"
 
 namespace asdfvk {
 namespace {
 
-std::string cpuThreads() {
-  return counted(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism), "thread");
-}
+std::string cpuThreads() { return counted(maxThreadCount(), "thread"); }
 
 class EmbreeBackend final : public Backend {
  public:

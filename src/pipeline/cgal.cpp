@@ -1,6 +1,6 @@
 #include "asdf_vk/cgal.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 #include <utility>

@@ -1,6 +1,6 @@
 #include "pipeline/face_domain.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <iterator>

@@ -1,6 +1,6 @@
 #include "asdf_vk/options.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 

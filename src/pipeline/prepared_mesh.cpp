@@ -1,6 +1,6 @@
 #include "pipeline/prepared_mesh.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <utility>

@@ -1,6 +1,6 @@
 #include "pipeline/result.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/background_task.h"
+#include "core/parallel.h"
 #include "core/stopwatch.h"
 #include "estimate/error_indicator.h"
 #include "pipeline/seed_choice.h"
@@ -180,7 +181,7 @@ SeedChoice Rounds::chooseWhileOpening(const SeedShares& shares) {
     choice = choose(shares, {});
     seconds = watch.seconds();
   });
-  choosing.meanwhile([&] {
+  callIsolated([&] {
     tracing_ = makeTracing_();
     traceVariant_ = tracing_->traceVariant();
     tracing_->keepHitsIn(interpolation_.hitStore());

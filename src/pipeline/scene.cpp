@@ -1,6 +1,6 @@
 #include "asdf_vk/scene.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

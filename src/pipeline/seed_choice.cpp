@@ -1,6 +1,6 @@
 #include "pipeline/seed_choice.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "pipeline/segments.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <memory>

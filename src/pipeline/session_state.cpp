@@ -1,6 +1,6 @@
 #include "pipeline/session_state.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <optional>
 #include <utility>

@@ -1,6 +1,4 @@
-#include <fmt/format.h>
-#include <tbb/global_control.h>
-#include <tbb/info.h>
+#include <fmt/core.h>
 
 #include <cstdlib>
 #include <map>
@@ -9,6 +7,7 @@
 #include <utility>
 
 #include "asdf_vk/error.h"
+#include "core/parallel.h"
 #include "core/text.h"
 #include "pipeline/backend.h"
 #include "predict/vulkan/vulkan_prediction.h"
@@ -26,8 +25,8 @@ namespace {
 class LavapipeThreads {
  public:
   LavapipeThreads() : lock_(mutex()) {
-    const size_t limit = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
-    isSet_ = limit < static_cast<size_t>(tbb::info::default_concurrency()) && std::getenv(kVariable) == nullptr;
+    const size_t limit = maxThreadCount();
+    isSet_ = limit < defaultThreadCount() && std::getenv(kVariable) == nullptr;
     if (isSet_) setenv(kVariable, std::to_string(limit).c_str(), 1);
   }
   ~LavapipeThreads() {

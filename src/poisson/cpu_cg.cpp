@@ -1,8 +1,5 @@
 #include "poisson/cpu_cg.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 #include <algorithm>
@@ -123,13 +120,10 @@ CpuCg<System>::CpuCg(const System& system, UnsetVector<Real> rightHandSide, doub
 template <typename System>
 template <typename Body>
 void CpuCg<System>::forEachBlock(const Body& body) {
-  tbb::parallel_for(
-      tbb::blocked_range<size_t>(0, sums_.size()),
-      [&](const tbb::blocked_range<size_t>& range) {
-        for (size_t block = range.begin(); block < range.end(); ++block)
-          body(block, block * kBlockRowCount, std::min((block + 1) * kBlockRowCount, direction_.size()));
-      },
-      partitioner_);
+  loop_.forEachRange(sums_.size(), [&](size_t first, size_t last) {
+    for (size_t block = first; block < last; ++block)
+      body(block, block * kBlockRowCount, std::min((block + 1) * kBlockRowCount, direction_.size()));
+  });
 }
 
 template <typename System>

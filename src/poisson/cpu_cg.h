@@ -1,13 +1,12 @@
 #pragma once
 
-#include <tbb/partitioner.h>
-
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "core/parallel.h"
 #include "core/unset_vector.h"
 #include "poisson/refinement.h"
 #include "poisson/scaled_system.h"
@@ -56,7 +55,7 @@ class CpuCg {
   State state_;
   UnsetVector<Real> solution_, residual_, direction_, product_;
   std::vector<BlockSums> sums_;
-  tbb::affinity_partitioner partitioner_;  ///< Assigns the same blocks to the same core in every pass, for its caches.
+  RepeatedLoop loop_;
 };
 
 /// CpuCg in double with an Eigen matrix. The arguments must outlive the corrector.

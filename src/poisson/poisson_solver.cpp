@@ -1,6 +1,6 @@
 #include "poisson/poisson_solver.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

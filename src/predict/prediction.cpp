@@ -1,14 +1,12 @@
 #include "predict/prediction.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <utility>
 
 #include "core/check.h"
+#include "core/parallel.h"
 #include "predict/hit_points.h"
 #include "predict/prediction_kernel.h"
 
@@ -184,9 +182,9 @@ std::vector<uint32_t> cellsInOrder(const TraceScene& scene, std::span<const uint
 void predictOnCpu(const PredictionTask& task, std::vector<double>& values) {
   const std::span<const uint32_t> order = task.order;
   const size_t blockCount = (order.size() + kBlockSize - 1) / kBlockSize;
-  tbb::parallel_for(tbb::blocked_range<size_t>(0, blockCount), [&](const tbb::blocked_range<size_t>& range) {
+  forEachRange(blockCount, 1, [&](size_t begin, size_t end) {
     CellPredictor predictor(task);
-    for (size_t block = range.begin(); block < range.end(); ++block) {
+    for (size_t block = begin; block < end; ++block) {
       const size_t first = block * kBlockSize;
       predictor.run(order.subspan(first, std::min(kBlockSize, order.size() - first)), values);
     }

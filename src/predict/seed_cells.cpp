@@ -1,9 +1,5 @@
 #include "predict/seed_cells.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <atomic>
 #include <utility>
@@ -37,19 +33,20 @@ std::vector<uint32_t> floodFromSeeds(const DualGraph& graph, std::span<const uin
     cellOf[seeds[cell]] = cell;
     front.push_back(seeds[cell]);
   }
-  tbb::enumerable_thread_specific<std::vector<uint32_t>> claimed;
+  PerThread<std::vector<uint32_t>> claimed;
   while (!front.empty()) {
-    tbb::parallel_for(tbb::blocked_range<size_t>(0, front.size(), 1024), [&](const auto& range) {
+    constexpr size_t kGrain = 1024;
+    forEachRange(front.size(), kGrain, [&](size_t begin, size_t end) {
       std::vector<uint32_t>& own = claimed.local();
-      for (size_t i = range.begin(); i < range.end(); ++i)
+      for (size_t i = begin; i < end; ++i)
         for (const uint32_t neighbour : graph.neighboursOf(front[i]))
           if (claim(cellOf[neighbour], cellOf[front[i]])) own.push_back(neighbour);
     });
     front.clear();
-    for (std::vector<uint32_t>& own : claimed) {
+    claimed.forEach([&](std::vector<uint32_t>& own) {
       front.insert(front.end(), own.begin(), own.end());
       own.clear();
-    }
+    });
     forEachInParallel(front.size(), [&](size_t i) { cellOf[front[i]] &= ~kClaimed; });
   }
   return cellOf;
@@ -74,10 +71,11 @@ NearestCells::NearestCells(const SeedCells& cells, const DualGraph& graph, const
   forEachInParallel(seeds.size(), [&](size_t cell) {
     if (seeds[cell] != kNoFace) centres[cell] = geometry.barycentres[seeds[cell]];
   });
-  tbb::parallel_for(tbb::blocked_range<uint32_t>(0, static_cast<uint32_t>(seeds.size()), 256), [&](const auto& range) {
+  constexpr size_t kGrain = 256;
+  forEachRange(seeds.size(), kGrain, [&](size_t begin, size_t end) {
     std::vector<uint32_t> touching;
     std::vector<std::pair<double, uint32_t>> byDistance;
-    for (uint32_t cell = range.begin(); cell < range.end(); ++cell) {
+    for (auto cell = static_cast<uint32_t>(begin); cell < end; ++cell) {
       if (seeds[cell] == kNoFace) continue;
       touching.clear();
       for (const uint32_t face : cells.faces[cell])

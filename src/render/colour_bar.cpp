@@ -1,6 +1,6 @@
 #include "render/colour_bar.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>

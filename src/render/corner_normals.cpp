@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/buckets.h"
+#include "core/parallel.h"
 #include "render/image.h"
 
 namespace asdfvk {

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,6 +9,7 @@
 
 #include "asdf_vk/run_control.h"
 #include "core/check.h"
+#include "core/parallel.h"
 #include "core/vec3.h"
 
 namespace asdfvk {
@@ -69,9 +67,9 @@ void forEachPixel(int width, int height, const RunControl& control, const Body& 
   for (int top = 0; top < height; top += kTileSide) {
     control.checkpoint(static_cast<double>(top) / height);
     const int bottom = std::min(top + kTileSide, height);
-    tbb::parallel_for(tbb::blocked_range<int>(0, width, kTileSide), [&](const tbb::blocked_range<int>& columns) {
+    forEachRange(static_cast<size_t>(width), kTileSide, [&](size_t left, size_t right) {
       for (int y = top; y < bottom; ++y)
-        for (int x = columns.begin(); x < columns.end(); ++x) body(x, y);
+        for (auto x = static_cast<int>(left); x < static_cast<int>(right); ++x) body(x, y);
     });
   }
 }

@@ -1,11 +1,10 @@
-#include <tbb/parallel_for.h>
-#include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "core/check.h"
+#include "core/parallel.h"
 #include "core/random.h"
 #include "seeds/dart_throwing.h"
 #include "seeds/samplers.h"
@@ -60,7 +59,7 @@ std::vector<uint32_t> blueNoise(const SeedDomain& domain, std::span<const float>
     distances.add(existing, startRadius);
     ThrownDarts darts = throwDarts(waiting, count, startRadius, distances);
     if (!darts.leaveGaps || startRadius == SurfaceDistances::kUnreached) {
-      tbb::parallel_sort(darts.faces.begin(), darts.faces.end());
+      sortInParallel(darts.faces.begin(), darts.faces.end());
       return std::move(darts.faces);
     }
     startRadius = growthCount < kMaxGrowthCount ? kRadiusGrowth * startRadius : SurfaceDistances::kUnreached;
@@ -84,7 +83,7 @@ void stretch(std::vector<float>& lengths, const DualGraph& graph, std::span<cons
     ASDFVK_CHECK(d > 0 && std::isfinite(d));
     mean += d / static_cast<double>(density.size());
   }
-  tbb::parallel_for(uint32_t{0}, graph.faceCount(), [&](uint32_t face) {
+  forEachInParallel(graph.faceCount(), [&](uint32_t face) {
     for (uint32_t arc = graph.offsets[face]; arc < graph.offsets[face + 1]; ++arc) {
       const uint32_t neighbour = graph.neighbours[arc];
       const double relative = 0.5 * (density[face] / mean + density[neighbour] / mean);

@@ -1,12 +1,11 @@
 #pragma once
 
-#include <tbb/enumerable_thread_specific.h>
-
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "core/parallel.h"
 #include "seeds/disk_search.h"
 #include "seeds/surface_distances.h"
 
@@ -72,7 +71,7 @@ class DartBlock {
   std::vector<uint32_t> open_;  ///< Positions, ascending.
   std::vector<Disks> disks_;
   std::vector<uint32_t> darts_;
-  tbb::enumerable_thread_specific<DiskSearch> searches_;
+  PerThread<DiskSearch> searches_;
   bool isOverfull_ = false;
 };
 

@@ -1,8 +1,5 @@
 #include "seeds/dart_throwing.h"
 
-#include <tbb/global_control.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <bit>
 #include <limits>
@@ -10,6 +7,7 @@
 #include <utility>
 
 #include "core/check.h"
+#include "core/parallel.h"
 #include "seeds/dart_block.h"
 
 namespace asdfvk {
@@ -69,8 +67,7 @@ class Throwing {
     darts_.faces.reserve(static_cast<size_t>(count));
     // At an infinite radius every disk is a whole component, and most of them are searched in vain.
     throwsBlocks_ = startRadius < SurfaceDistances::kUnreached && blockSize_.isWorthwhile() &&
-                    std::min(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism),
-                             static_cast<size_t>(tbb::this_task_arena::max_concurrency())) >= kMinThreadsForBlocks;
+                    maxThreadCount() >= kMinThreadsForBlocks;
   }
 
   [[nodiscard]] ThrownDarts run() {

@@ -1,4 +1,3 @@
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
@@ -7,6 +6,7 @@
 #include <numbers>
 
 #include "core/check.h"
+#include "core/parallel.h"
 #include "core/random.h"
 #include "seeds/samplers.h"
 
@@ -56,7 +56,7 @@ std::vector<uint32_t> normalSpaceSeeds(const SeedDomain& domain, uint64_t count,
   std::vector<uint32_t> waiting = remainingCandidates(domain, existing);
   if (count >= waiting.size()) return waiting;
   std::vector<uint16_t> binOf(domain.graph.faceCount(), kNoBin);
-  tbb::parallel_for(uint32_t{0}, domain.graph.faceCount(), [&](uint32_t face) {
+  forEachInParallel(domain.graph.faceCount(), [&](uint32_t face) {
     if (!domain.geometry.isDegenerate(face))
       binOf[face] = static_cast<uint16_t>(normalBinOf(domain.geometry.normals[face]));
   });

@@ -1,10 +1,5 @@
 #include "segment/cgal_postprocess.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
-#include <tbb/partitioner.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -116,21 +111,19 @@ std::vector<double> filterLikeCgal(const FaceNeighbours& neighbours, std::span<c
     ringWeights.push_back(std::exp(-0.5 * ratio * ratio));
   }
   std::vector<double> filtered(values.size());
-  tbb::enumerable_thread_specific<RingSearch> searches([&] { return RingSearch(values.size()); });
+  PerThread<RingSearch> searches([&] { return RingSearch(values.size()); });
   for (size_t begin = 0; begin < values.size(); begin += kFacesPerProgress) {
     control.checkpoint(static_cast<double>(begin) / static_cast<double>(values.size()));
     const size_t end = std::min(values.size(), begin + kFacesPerProgress);
-    tbb::parallel_for(
-        tbb::blocked_range<uint32_t>(static_cast<uint32_t>(begin), static_cast<uint32_t>(end), kFacesPerPoll),
-        [&](const tbb::blocked_range<uint32_t>& range) {
-          if (control.stop.stop_requested()) return;
-          RingSearch& rings = searches.local();
-          for (uint32_t face = range.begin(); face < range.end(); ++face) {
-            rings.search(neighbours, face, ringCount);
-            filtered[face] = filteredValue(rings, ringWeights, values);
-          }
-        },
-        tbb::simple_partitioner{});
+    forEachTask((end - begin + kFacesPerPoll - 1) / kFacesPerPoll, [&](size_t block) {
+      if (control.stop.stop_requested()) return;
+      RingSearch& rings = searches.local();
+      const size_t first = begin + block * kFacesPerPoll, last = std::min<size_t>(end, first + kFacesPerPoll);
+      for (auto face = static_cast<uint32_t>(first); face < last; ++face) {
+        rings.search(neighbours, face, ringCount);
+        filtered[face] = filteredValue(rings, ringWeights, values);
+      }
+    });
   }
   control.checkpoint(1);
   return filtered;

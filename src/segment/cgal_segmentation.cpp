@@ -1,6 +1,6 @@
 #include "segment/cgal_segmentation.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

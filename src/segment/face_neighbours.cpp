@@ -1,11 +1,10 @@
 #include "segment/face_neighbours.h"
 
-#include <tbb/concurrent_vector.h>
-
 #include <algorithm>
 #include <span>
 #include <utility>
 
+#include "core/parallel.h"
 #include "mesh/edges.h"
 
 namespace asdfvk {
@@ -43,18 +42,18 @@ FaceNeighbours findFaceNeighbours(const TriangleMesh& mesh) {
   };
   const EdgeTable edges(mesh,
                         [&](uint32_t f) { return hasDistinctVertices(mesh.faces[f]) && mesh.hasFiniteCorners(f); });
-  tbb::concurrent_vector<std::vector<uint32_t>> cornersOfCrowdedEdges;
+  PerThread<std::vector<std::vector<uint32_t>>> cornersOfCrowdedEdges;
   edges.forEachEdge([&](uint32_t, std::span<const EdgeEntry> entries) {
     if (entries.size() == 2) {
       if (isTraversedBothWays(mesh, entries[0].corner, entries[1].corner)) join(entries[0].corner, entries[1].corner);
     } else if (entries.size() > 2) {
       std::vector<uint32_t> corners;
       for (const EdgeEntry& entry : entries) corners.push_back(entry.corner);
-      cornersOfCrowdedEdges.push_back(std::move(corners));
+      cornersOfCrowdedEdges.local().push_back(std::move(corners));
     }
   });
   std::vector<CornerPair> joined;
-  for (const std::vector<uint32_t>& corners : cornersOfCrowdedEdges) {
+  const auto joinCrowded = [&](const std::vector<uint32_t>& corners) {
     // By the umbrellas of both ends, the one at the lower vertex first.
     std::vector<std::pair<CornerPair, uint32_t>> sorted;
     for (const uint32_t corner : corners) {
@@ -70,7 +69,10 @@ FaceNeighbours findFaceNeighbours(const TriangleMesh& mesh) {
       if (end - begin == 2 && isTraversedBothWays(mesh, sorted[begin].second, sorted[begin + 1].second))
         joined.emplace_back(sorted[begin].second, sorted[begin + 1].second);
     }
-  }
+  };
+  cornersOfCrowdedEdges.forEach([&](const std::vector<std::vector<uint32_t>>& ofThread) {
+    for (const std::vector<uint32_t>& corners : ofThread) joinCrowded(corners);
+  });
   for (const auto& [first, second] : joined) join(first, second);
   return neighbours;
 }

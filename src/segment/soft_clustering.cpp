@@ -1,7 +1,6 @@
 #include "segment/soft_clustering.h"
 
-#include <fmt/format.h>
-#include <tbb/parallel_for.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>
@@ -12,6 +11,7 @@
 
 #include "asdf_vk/error.h"
 #include "asdf_vk/options.h"
+#include "core/parallel.h"
 
 namespace asdfvk {
 namespace {
@@ -220,7 +220,7 @@ class Mixture {
   [[nodiscard]] std::array<double, N> sumOverBlocks(const Body& body) const {
     constexpr size_t kBlock = 4096;
     std::vector<std::array<double, N>> sums((values_.size() + kBlock - 1) / kBlock);
-    tbb::parallel_for(size_t{0}, sums.size(), [&](size_t block) {
+    forEachTask(sums.size(), [&](size_t block) {
       body(block * kBlock, std::min(values_.size(), (block + 1) * kBlock), block, sums[block]);
     });
     std::array<double, N> total{};

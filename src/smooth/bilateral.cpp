@@ -1,8 +1,6 @@
 #include "smooth/bilateral.h"
 
-#include <fmt/format.h>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +8,7 @@
 
 #include "asdf_vk/error.h"
 #include "core/check.h"
+#include "core/parallel.h"
 
 namespace asdfvk {
 namespace {
@@ -74,15 +73,14 @@ std::vector<double> smoothBilaterally(const DualGraph& graph, std::span<const do
   ASDFVK_CHECK_OP(values.size(), ==, size_t{graph.faceCount()});
   std::vector<double> from(values.begin(), values.end()), to(values.size());
   for (uint32_t pass = 0; pass < window.passes; ++pass) {
-    constexpr uint32_t kGrain = 1024;
-    tbb::parallel_for(tbb::blocked_range<uint32_t>(0, graph.faceCount(), kGrain),
-                      [&](const tbb::blocked_range<uint32_t>& range) {
-                        RingWindow faces;
-                        for (uint32_t face = range.begin(); face < range.end(); ++face) {
-                          faces.gather(graph, face, window.rings);
-                          to[face] = smoothedValue(faces, from);
-                        }
-                      });
+    constexpr size_t kGrain = 1024;
+    forEachRange(graph.faceCount(), kGrain, [&](size_t begin, size_t end) {
+      RingWindow faces;
+      for (auto face = static_cast<uint32_t>(begin); face < end; ++face) {
+        faces.gather(graph, face, window.rings);
+        to[face] = smoothedValue(faces, from);
+      }
+    });
     std::swap(from, to);
   }
   return from;

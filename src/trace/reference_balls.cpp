@@ -1,5 +1,3 @@
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
@@ -9,6 +7,7 @@
 #include <vector>
 
 #include "bvh/normal_bounds.h"
+#include "core/parallel.h"
 #include "trace/ball_shrinker.h"
 #include "trace/chunks.h"
 #include "trace/seed_order.h"
@@ -130,8 +129,8 @@ class ReferenceBallShrinker final : public BallShrinker {
     std::transform(balls.begin(), balls.end(), faces.begin(), [](const InscribedBall& ball) { return ball.face; });
     const std::vector<uint32_t> order = order_.of(faces);
     forEachChunk(balls.size(), ChunkSize(kFirstChunkBallCount, balls.size()), control, [&](size_t begin, size_t end) {
-      tbb::parallel_for(tbb::blocked_range<size_t>(begin, end, kGrain), [&](const tbb::blocked_range<size_t>& range) {
-        for (size_t i = range.begin(); i < range.end(); ++i)
+      forEachRange(end - begin, kGrain, [&](size_t first, size_t last) {
+        for (size_t i = begin + first; i < begin + last; ++i)
           BallWalk(scene_, normalBounds_, planes_, walls_, balls[order[i]]).run();
       });
     });

@@ -1,13 +1,11 @@
 #include "trace/reference_tracer.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "core/check.h"
+#include "core/parallel.h"
 #include "mesh/coincident_faces.h"
 #include "trace/chunks.h"
 #include "trace/nearest_hit.h"
@@ -79,8 +77,8 @@ class ReferenceTracer final : public ConeTracer {
     ASDFVK_CHECK(results.store == nullptr);
     const size_t hitCount = results.hits.empty() ? 0 : rayCount;  // per cone
     forEachChunk(cones.size(), ChunkSize(64, cones.size()), control, [&](size_t begin, size_t end) {
-      tbb::parallel_for(tbb::blocked_range<size_t>(begin, end, 8), [&](const tbb::blocked_range<size_t>& range) {
-        for (size_t i = range.begin(); i < range.end(); ++i)
+      forEachRange(end - begin, 8, [&](size_t first, size_t last) {
+        for (size_t i = begin + first; i < begin + last; ++i)
           results.values[i] = referenceCone(scene_, cone_, cones[i], results.hits.subspan(i * hitCount, hitCount));
       });
     });

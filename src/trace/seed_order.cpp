@@ -1,7 +1,5 @@
 #include "trace/seed_order.h"
 
-#include <tbb/parallel_sort.h>
-
 #include <algorithm>
 #include <utility>
 
@@ -57,7 +55,7 @@ std::vector<uint32_t> SeedOrder::of(std::span<const uint32_t> seedFaces) const {
 std::vector<uint32_t> spatialOrder(std::span<const ConeStart> starts) {
   std::vector<std::pair<uint64_t, uint32_t>> keys(starts.size());
   forEachInParallel(starts.size(), [&](uint32_t i) { keys[i] = {mortonCode(starts[i].origin), i}; });
-  tbb::parallel_sort(keys.begin(), keys.end());
+  sortInParallel(keys.begin(), keys.end());
   std::vector<uint32_t> order(starts.size());
   forEachInParallel(starts.size(), [&](uint32_t i) { order[i] = keys[i].second; });
   return order;

@@ -1,12 +1,12 @@
 #include "trace/triangle_planes.h"
 
-#include <tbb/parallel_for.h>
+#include "core/parallel.h"
 
 namespace asdfvk {
 
 std::vector<TrianglePlane> trianglePlanes(const TraceScene& scene) {
   std::vector<TrianglePlane> planes(scene.bvh.primitiveFaces.size());
-  tbb::parallel_for(size_t{0}, planes.size(), [&](size_t primitive) {
+  forEachInParallel(planes.size(), [&](size_t primitive) {
     const uint32_t face = scene.bvh.primitiveFaces[primitive];
     const Vec3d& normal = scene.geometry.normals[face];
     planes[primitive] = {normal, dot(normal, scene.bvh.normalization.toNormalized(scene.geometry.barycentres[face]))};

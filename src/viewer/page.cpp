@@ -1,6 +1,6 @@
 #include "viewer/page.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 
@@ -44,7 +44,7 @@ Json describe(const PageTexts& texts) {
 void Page::add(const TriangleMesh& mesh, std::span<const std::reference_wrapper<const Field>> fields, PageTexts texts) {
   Json description = describe(texts);
   description.update(encodeMesh(mesh, fields, streams_));
-  meshes_.push_back(std::move(description));
+  meshes_.push_back(std::make_shared<const Json>(std::move(description)));
   texts_.push_back(std::move(texts));
 }
 
@@ -84,7 +84,9 @@ void Page::writeTitle(AtomicFile& file) const {
 }
 
 void Page::writeData(AtomicFile& file) const {
-  const Json json{{"generator", generator_}, {"meshes", meshes_}};
+  Json meshes = Json::array();
+  for (const auto& mesh : meshes_) meshes.push_back(*mesh);
+  const Json json{{"generator", generator_}, {"meshes", std::move(meshes)}};
   file.write("<script type=\"application/json\" id=\"asdf-vk-page\">");
   file.write(escapedForScript(json.dump(-1, ' ', true, Json::error_handler_t::replace)));
   file.write("</script>\n");

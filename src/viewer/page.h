@@ -1,7 +1,8 @@
 #pragma once
 
 #include <functional>
-#include <nlohmann/json.hpp>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <string>
 #include <string_view>
@@ -64,7 +65,7 @@ class Page {
   void writeScript(AtomicFile& file) const;
 
   std::string generator_;
-  nlohmann::ordered_json meshes_ = nlohmann::ordered_json::array();
+  std::vector<std::shared_ptr<const nlohmann::ordered_json>> meshes_;  ///< Descriptions.
   std::vector<PageTexts> texts_;
   PageStreams streams_;
 };

@@ -1,6 +1,6 @@
 #include "viewer/page_streams.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <zlib.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "vk/buffer.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cstring>

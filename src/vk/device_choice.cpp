@@ -1,6 +1,6 @@
 #include "vk/device_choice.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cctype>

@@ -1,6 +1,6 @@
 #include "vk/pipeline_cache.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cstdlib>

@@ -1,6 +1,6 @@
 #include "vk/result.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "asdf_vk/error.h"
 

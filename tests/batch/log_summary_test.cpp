@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 
 namespace asdfvk {
@@ -19,7 +21,7 @@ MeshRecord recordOf(const std::string& input, MeshStatus status, double seconds,
   }
   record.faceCount = 100;
   record.seconds = {{"read", seconds / 4}, {"trace", seconds / 2}};
-  record.estimatedError = {{"average", 0.01}};
+  record.estimatedError = std::make_shared<nlohmann::ordered_json>(nlohmann::ordered_json{{"average", 0.01}});
   record.device = "a device";
   return record;
 }

@@ -15,7 +15,7 @@ TEST_CASE("a background task ends in wait(), on one thread and on two") {
     int fromTask = 0;
     uint64_t fromBody = 0;
     BackgroundTask task([&] { fromTask = 7; });
-    task.meanwhile([&] { fromBody = countInParallel(100'000, [](uint32_t i) { return i % 2 == 0; }); });
+    callIsolated([&] { fromBody = countInParallel(100'000, [](uint32_t i) { return i % 2 == 0; }); });
     task.wait();
     CHECK(fromTask == 7);
     CHECK(fromBody == 50'000);
@@ -28,13 +28,13 @@ TEST_CASE("wait() throws what the task throws, and an exception of the body ends
   int fromTask = 0;
   const auto run = [&] {
     BackgroundTask task([&] { fromTask = 7; });
-    task.meanwhile([] { throw std::runtime_error("of the body"); });
+    callIsolated([] { throw std::runtime_error("of the body"); });
   };
   CHECK_THROWS_WITH(run(), "of the body");
   CHECK(fromTask == 7);
   const auto runBoth = [] {
     BackgroundTask task([] { throw std::runtime_error("of the task"); });
-    task.meanwhile([] { throw std::runtime_error("of the body"); });
+    callIsolated([] { throw std::runtime_error("of the body"); });
   };
   CHECK_THROWS_WITH(runBoth(), "of the body");
 }

@@ -1,6 +1,6 @@
 #include "poisson/vulkan/vulkan_system.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <bit>

@@ -1,6 +1,6 @@
 #include "predict/vulkan/vulkan_prediction.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>

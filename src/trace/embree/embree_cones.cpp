@@ -1,13 +1,13 @@
 #include "trace/embree/embree_cones.h"
 
-#include <fmt/format.h>
-#include <tbb/parallel_for.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <limits>
 #include <new>
 
 #include "asdf_vk/error.h"
+#include "core/parallel.h"
 
 namespace asdfvk {
 namespace {
@@ -36,12 +36,11 @@ void copyTriangles(const TraceScene& scene, RTCGeometry geometry) {
   auto* triangles = static_cast<Face*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                                                sizeof(Face), primitiveFaces.size()));
   if (points == nullptr || triangles == nullptr) return;  // The error stays pending in the device.
-  tbb::parallel_for(size_t{0}, vertices.size(), [&](size_t i) {
+  forEachInParallel(vertices.size(), [&](size_t i) {
     const Vec3d p = scene.bvh.normalization.toNormalized(vertices[i]);
     points[i] = {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
   });
-  tbb::parallel_for(size_t{0}, primitiveFaces.size(),
-                    [&](size_t i) { triangles[i] = scene.mesh.faces[primitiveFaces[i]]; });
+  forEachInParallel(primitiveFaces.size(), [&](size_t i) { triangles[i] = scene.mesh.faces[primitiveFaces[i]]; });
 }
 
 }  // namespace

@@ -1,7 +1,4 @@
-#include <fmt/format.h>
-#include <tbb/blocked_range.h>
-#include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <atomic>
@@ -9,6 +6,7 @@
 
 #include "asdf_vk/error.h"
 #include "core/check.h"
+#include "core/parallel.h"
 #include "trace/chunks.h"
 #include "trace/embree/embree_cones.h"
 #include "trace/reference_tracer.h"
@@ -91,7 +89,7 @@ class EmbreeTracer final : public ConeTracer {
     const auto hitsOf = [&](uint32_t cone) { return results.hits.subspan(cone * hitCount, hitCount); };
     std::atomic<uint64_t> redoneConeCount = 0;
     const EmbreeCones cones{scene_, cone_, planes_, *embree_, rayStart};
-    tbb::enumerable_thread_specific<EmbreeConeGroup> groups([&] { return EmbreeConeGroup(cones); });
+    PerThread<EmbreeConeGroup> groups([&] { return EmbreeConeGroup(cones); });
     const size_t groupCount = (order.size() + kGroupSize - 1) / kGroupSize;
     const auto traceGroup = [&](size_t index, EmbreeConeGroup& group) {
       const size_t begin = index * kGroupSize, end = std::min(begin + kGroupSize, order.size());
@@ -108,9 +106,9 @@ class EmbreeTracer final : public ConeTracer {
     };
     const ChunkSize chunk(std::max<size_t>(1, kFirstEmbreeChunkRayCount / (kGroupSize * rayCount)), groupCount);
     forEachChunk(groupCount, chunk, control, [&](size_t begin, size_t end) {
-      tbb::parallel_for(tbb::blocked_range<size_t>(begin, end), [&](const tbb::blocked_range<size_t>& range) {
+      forEachRange(end - begin, 1, [&](size_t first, size_t last) {
         EmbreeConeGroup& group = groups.local();
-        for (size_t i = range.begin(); i < range.end(); ++i) traceGroup(i, group);
+        for (size_t i = begin + first; i < begin + last; ++i) traceGroup(i, group);
       });
     });
     return {order.size() * rayCount, redoneConeCount};

@@ -1,10 +1,9 @@
 #include "trace/vulkan/vulkan_balls.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <vector>
 
+#include "core/parallel.h"
 #include "shared/ball_layout.h"
 #include "shared/cone_hit.h"
 #include "trace/chunks.h"
@@ -69,7 +68,7 @@ class VulkanBallShrinker final : public BallShrinker {
  private:
   void run(std::span<const InscribedBall> balls, std::span<const uint32_t> chunk, BallChunk& memory) const {
     const std::span<BallStart> starts = memory.starts->mappedAs<BallStart>();
-    tbb::parallel_for(size_t{0}, chunk.size(), [&](size_t i) {
+    forEachInParallel(chunk.size(), [&](size_t i) {
       const InscribedBall& ball = balls[chunk[i]];
       starts[i] = {toGlsl(scene_.originOf(ball.face)), scene_.representatives[ball.face],
                    toGlsl(-scene_.geometry.normals[ball.face]), static_cast<float>(ball.diameter)};
@@ -86,7 +85,7 @@ class VulkanBallShrinker final : public BallShrinker {
 
   void read(std::span<InscribedBall> balls, std::span<const uint32_t> chunk, std::span<const uint32_t> results,
             std::vector<uint32_t>& redone) const {
-    tbb::parallel_for(size_t{0}, chunk.size(), [&](size_t i) {
+    forEachInParallel(chunk.size(), [&](size_t i) {
       if (results[i] == kNoFace || results[i] == kUnfinishedBall) return;
       InscribedBall& ball = balls[chunk[i]];
       const double diameter = touchingDiameter(scene_, ball.face, results[i], ball.diameter);

@@ -1,6 +1,6 @@
 #include "trace/vulkan/vulkan_cone_kernel.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <vector>

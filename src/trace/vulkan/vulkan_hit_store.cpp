@@ -1,6 +1,6 @@
 #include "trace/vulkan/vulkan_hit_store.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <utility>

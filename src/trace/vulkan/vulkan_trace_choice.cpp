@@ -1,6 +1,6 @@
 #include "trace/vulkan/vulkan_trace_choice.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

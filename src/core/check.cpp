@@ -1,0 +1,19 @@
+#include "core/check.h"
+
+#include <fmt/core.h>
+
+namespace asdfvk {
+
+void failCheck(const char* file, int line, const char* text) {
+  throw CheckFailure(fmt::format("{}:{}: {}", file, line, text));
+}
+
+void failCheck(const char* file, int line, const char* text, const std::string& left, const std::string& right) {
+  throw CheckFailure(fmt::format("{}:{}: {} ({} against {})", file, line, text, left, right));
+}
+
+std::string checkedNumber(int64_t value) { return fmt::format("{}", value); }
+std::string checkedNumber(uint64_t value) { return fmt::format("{}", value); }
+std::string checkedNumber(double value) { return fmt::format("{}", value); }
+
+}  // namespace asdfvk

@@ -1,0 +1,86 @@
+#include "core/parallel.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/global_control.h>
+#include <tbb/info.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
+#include <tbb/task_arena.h>
+#include <tbb/task_group.h>
+
+#include "asdf_vk/run_control.h"
+#include "core/background_task.h"
+
+namespace asdfvk {
+
+size_t maxThreadCount() {
+  return std::min(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism),
+                  static_cast<size_t>(tbb::this_task_arena::max_concurrency()));
+}
+
+size_t defaultThreadCount() { return static_cast<size_t>(tbb::info::default_concurrency()); }
+
+void forEachRange(size_t count, size_t grain, FunctionRef<void(size_t, size_t)> body) {
+  tbb::parallel_for(tbb::blocked_range<size_t>(0, count, grain),
+                    [&](const tbb::blocked_range<size_t>& range) { body(range.begin(), range.end()); });
+}
+
+struct RepeatedLoop::State {
+  tbb::affinity_partitioner partitioner;
+};
+
+RepeatedLoop::RepeatedLoop() : state_(std::make_unique<State>()) {}
+RepeatedLoop::~RepeatedLoop() = default;
+
+void RepeatedLoop::forEachRange(size_t count, FunctionRef<void(size_t, size_t)> body) {
+  tbb::parallel_for(
+      tbb::blocked_range<size_t>(0, count),
+      [&](const tbb::blocked_range<size_t>& range) { body(range.begin(), range.end()); }, state_->partitioner);
+}
+
+void callBoth(FunctionRef<void()> first, FunctionRef<void()> second) { tbb::parallel_invoke(first, second); }
+
+void callIsolated(FunctionRef<void()> body) { tbb::this_task_arena::isolate(body); }
+
+struct PointerPerThread::State {
+  tbb::enumerable_thread_specific<void*> pointers{nullptr};
+};
+
+PointerPerThread::PointerPerThread() : state_(std::make_unique<State>()) {}
+PointerPerThread::~PointerPerThread() = default;
+
+void*& PointerPerThread::local() { return state_->pointers.local(); }
+
+void PointerPerThread::forEach(FunctionRef<void(void*)> visit) {
+  for (void* pointer : state_->pointers) visit(pointer);
+}
+
+struct BackgroundTask::State {
+  tbb::task_group group;
+};
+
+BackgroundTask::BackgroundTask(std::function<void()> body) : state_(std::make_unique<State>()) {
+  state_->group.run(std::move(body));
+}
+
+BackgroundTask::~BackgroundTask() {
+  try {
+    wait();
+  } catch (...) {  // wait() has been called, or another exception has prevented it.
+  }
+}
+
+void BackgroundTask::wait() { state_->group.wait(); }
+
+struct ThreadLimit::State {
+  tbb::global_control control;
+};
+
+ThreadLimit::ThreadLimit(uint32_t threadCount) {
+  if (threadCount == 0) return;
+  state_.reset(new State{tbb::global_control(tbb::global_control::max_allowed_parallelism, threadCount)});
+}
+ThreadLimit::~ThreadLimit() = default;
+
+}  // namespace asdfvk
