@@ -13,9 +13,9 @@ try:
     import browser as chromium
     from meshes import Mesh, write_ply
 except ImportError as error:
-    pytest.exit(f"skipped: {error}; scripts/install-packages installs it", SKIPPED)
+    pytest.exit(f"skipped: {error}; scripts/install-packages test installs it", SKIPPED)
 if chromium.program() is None:
-    pytest.exit("skipped: Chromium is missing; scripts/install-packages installs it", SKIPPED)
+    pytest.exit("skipped: Chromium is missing; scripts/install-packages test installs it", SKIPPED)
 
 FIELDS = "sdf,seed,error,segment,thickness"
 INJECTION = "<img src=x onerror=document.title='injected'>.ply"
