@@ -34,6 +34,17 @@ namespace asdfvk {
   return plural.empty() ? fmt::format("{} {}s", count, singular) : fmt::format("{} {}", count, plural);
 }
 
+/// "sdf, seed" for the names "sdf" and "seed" with the separator ", ".
+template <typename Names>
+[[nodiscard]] std::string joined(const Names& names, std::string_view separator) {
+  std::string text;
+  for (const auto& name : names) {
+    if (!text.empty()) text += separator;
+    text += name;
+  }
+  return text;
+}
+
 /// 96966 as "96,966".
 [[nodiscard]] inline std::string groupDigits(uint64_t number) {
   std::string text = std::to_string(number);

@@ -1,9 +1,9 @@
 #include <fmt/core.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>
 
+#include "core/text.h"
 #include "documents/program.h"
 
 namespace asdfvk {
@@ -26,7 +26,7 @@ std::string patternsOf(const Values& values) {
 
 /// The commands that complete a value of `current`.
 std::string reply(const Values& values, const std::string& function) {
-  const std::string words = fmt::format("{}", fmt::join(values.words, " "));
+  const std::string words = joined(values.words, " ");
   if (values.areFiles) return fmt::format("{}_files{}", function, patternsOf(values));
   if (values.areList) return fmt::format("{}_list '{}'", function, words);
   return fmt::format("{}_words '{}'", function, words);
@@ -119,7 +119,7 @@ std::string bashCompletion(const Program& program) {
     text += caseOf(option, function);
     names.insert(names.end(), option.names.begin(), option.names.end());
   }
-  return text + fmt::format(kEnd, function, fmt::join(names, " "), reply(program.arguments.front().values, function),
+  return text + fmt::format(kEnd, function, joined(names, " "), reply(program.arguments.front().values, function),
                             program.name);
 }
 

@@ -1,8 +1,8 @@
 #include <fmt/core.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 
+#include "core/text.h"
 #include "documents/program.h"
 
 namespace asdfvk {
@@ -19,9 +19,8 @@ std::string quoted(const std::string& text) {
 
 /// The option of `complete` with the candidates, or nothing.
 std::string candidates(const Values& values, const std::string& function) {
-  const std::string words = fmt::format("{}", fmt::join(values.words, " "));
-  if (!values.extensions.empty())
-    return fmt::format(" -a '({}_files {})'", function, fmt::join(values.extensions, " "));
+  const std::string words = joined(values.words, " ");
+  if (!values.extensions.empty()) return fmt::format(" -a '({}_files {})'", function, joined(values.extensions, " "));
   if (values.areList) return fmt::format(" -a '(__fish_append , {})'", words);
   return words.empty() ? "" : fmt::format(" -a '{}'", words);
 }

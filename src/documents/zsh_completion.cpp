@@ -1,6 +1,6 @@
 #include <fmt/core.h>
-#include <fmt/ranges.h>
 
+#include "core/text.h"
 #include "documents/program.h"
 
 namespace asdfvk {
@@ -22,10 +22,10 @@ std::string escaped(const std::string& text, const std::string& special) {
 
 /// ":message:action"
 std::string valueSpec(const Values& values) {
-  const std::string words = fmt::format("{}", fmt::join(values.words, " "));
+  const std::string words = joined(values.words, " ");
   std::string action = " ";
   if (!values.extensions.empty()) {
-    action = fmt::format("_files -g \"(#i)*.({})\"", fmt::join(values.extensions, "|"));
+    action = fmt::format("_files -g \"(#i)*.({})\"", joined(values.extensions, "|"));
   } else if (values.areFiles) {
     action = "_files";
   } else if (values.areList) {
@@ -45,8 +45,7 @@ std::string optionSpecs(const DocumentedOption& option) {
   for (const std::string& name : option.names) {
     const bool isLong = name.starts_with("--");
     const char* form = option.values.count == 0 ? "" : option.values.areAttached ? "=-" : isLong ? "=" : "+";
-    const std::string others =
-        option.names.size() > 1 ? fmt::format("({})", fmt::join(option.names, " ")) : std::string();
+    const std::string others = option.names.size() > 1 ? fmt::format("({})", joined(option.names, " ")) : std::string();
     specs += fmt::format(" \\\n  '{}{}{}[{}]{}'", others, name, form, escaped(briefText(option), "[]"),
                          valueSpec(option.values));
   }
