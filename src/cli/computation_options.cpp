@@ -1,8 +1,7 @@
-// The options of the computation: flags, and their values in the JSON report.
+// The options of the computation.
 #include <fmt/core.h>
 
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <string_view>
 
 #include "asdf_vk/error.h"
@@ -51,19 +50,6 @@ SmoothingOptions parseSmoothing(const std::string& text) {
                                         static_cast<uint32_t>(parseWholeNumber(text.substr(cross + 1), 1, 100))};
   return {.isOn = true, .window = window};
 }
-
-std::string toText(const SmoothingOptions& smoothing) {
-  if (!smoothing.isOn) return "off";
-  if (!smoothing.window) return "auto";
-  return fmt::format("{}x{}", smoothing.window->rings, smoothing.window->passes);
-}
-
-template <typename T>
-nlohmann::ordered_json optional(const std::optional<T>& value) {
-  return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json(nullptr);
-}
-
-std::string nameOrAuto(const std::string& name) { return name.empty() ? "auto" : name; }
 
 void addBasics(CLI::App& app, CommandLine& line) {
   Options& options = line.options;
@@ -218,45 +204,6 @@ void addComputation(CLI::App& app, CommandLine& line) {
   addSegments(app, line.options);
   addMeasure(app, line);
   addExperiments(app, line.options);
-}
-
-nlohmann::ordered_json optionValues(const CommandLine& line) {
-  const Options& options = line.options;
-  const InterpolationOptions& interpolation = options.interpolation;
-  const bool isPaper = options.cone.definition == Definition::Paper;  // Options of another definition are null.
-  const auto ofPaper = [&](const auto& value) {
-    return isPaper ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
-  };
-  nlohmann::ordered_json values{{"recipe", nameOf(kRecipes, line.recipe)},
-                                {"definition", nameOf(kDefinitions, options.cone.definition)},
-                                {"seeds", toText(options.seeds)},
-                                {"sampler", options.sampler},
-                                {"maxError", optional(options.rounds.maxError)},
-                                {"maxRelativeError", optional(options.rounds.maxRelativeError)},
-                                {"timeBudgetSeconds", optional(options.rounds.timeBudgetSeconds)},
-                                {"rays", options.cone.rayCount},
-                                {"angleDegrees", options.cone.openingAngleDegrees},
-                                {"falseHitAngleDegrees", ofPaper(options.cone.falseHitAngleDegrees)},
-                                {"outlierDeviations", ofPaper(options.cone.outlierDeviations)},
-                                {"coneRotation", ofPaper(nameOf(kConeRotations, options.cone.rotation))},
-                                {"smooth", toText(options.smoothing)},
-                                {"orient", nameOf(kOrientations, options.orientation)},
-                                {"per", nameOf(kPerElements, options.per)},
-                                {"weights", nameOf(kWeights, interpolation.weights)},
-                                {"guidance", nameOf(kGuidances, interpolation.guidance)},
-                                {"pooling", interpolation.pooling},
-                                {"solver", options.solver},
-                                {"tolerance", options.solverOptions.tolerance},
-                                {"maxIterations", options.solverOptions.maxIterations},
-                                {"backend", line.session.backend},
-                                {"device", line.session.device},
-                                {"requireGpu", line.session.requireGpu},
-                                {"kernel", nameOrAuto(line.session.variant.kernel)},
-                                {"bvh", nameOrAuto(line.session.variant.bvh)},
-                                {"fetch", nameOrAuto(line.session.variant.fetch)}};
-  values.update(segmentOptionValues(options));
-  values.update(measureOptionValues(line));
-  return values;
 }
 
 }  // namespace asdfvk

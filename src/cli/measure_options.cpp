@@ -1,11 +1,10 @@
-// The options of the measured quantity, and their values in the JSON report.
+// The options of the measured quantity.
 #include <fmt/core.h>
 
 #include <algorithm>
 
 #include "asdf_vk/error.h"
 #include "cli/option_parsing.h"
-#include "viewer/json.h"
 
 namespace asdfvk {
 namespace {
@@ -72,16 +71,6 @@ void completeMeasure(const CLI::App& app, CommandLine& line) {
   }
   if (app.count("--wall-angle") > 0) refuseOptions("--wall-angle needs --measure thickness");
   refuseField(line, kField, "--measure thickness");
-}
-
-nlohmann::ordered_json measureOptionValues(const CommandLine& line) {
-  const ThicknessOptions& thickness = line.options.thickness;
-  const bool isMeasured = line.options.measure == Measure::Thickness;
-  const auto orNull = [](const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); };
-  return {{"measure", nameOf(kMeasures, line.options.measure)},
-          {"wallAngleDegrees", isMeasured ? Json(thickness.wallAngleDegrees) : Json(nullptr)},
-          {"thinnerThan", orNull(thickness.thinnerThan)},
-          {"failIfThinner", orNull(line.failIfThinner)}};
 }
 
 }  // namespace asdfvk

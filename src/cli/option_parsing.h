@@ -41,16 +41,12 @@ void addSegments(CLI::App& app, Options& options);
 /// has a dot or a slash, is "-", or exists; the names of kSegmentations are values, also where such a file exists.
 void expandBareSegment(std::vector<std::string>& arguments);
 
-/// The values of these options for the JSON report.
-[[nodiscard]] nlohmann::ordered_json segmentOptionValues(const Options& options);
-
 /// After parsing: validates the options of post-processing and segmentation and applies what they imply; adds their
 /// fields to line.fields unless --fields is given.
 void completeSegments(const CLI::App& app, CommandLine& line);
 
 /// The same for the options of the measured quantity.
 void addMeasure(CLI::App& app, CommandLine& line);
-[[nodiscard]] nlohmann::ordered_json measureOptionValues(const CommandLine& line);
 void completeMeasure(const CLI::App& app, CommandLine& line);
 
 /// The same for the options of a page; after completeMeasure(). Sets line.compared.

@@ -1,9 +1,8 @@
-// The options of post-processing and segmentation: flags, what they imply, and their values in the JSON report.
+// The options of post-processing and segmentation, and what they imply.
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 
 #include "asdf_vk/error.h"
 #include "cli/option_parsing.h"
@@ -116,17 +115,6 @@ void completeSegments(const CLI::App& app, CommandLine& line) {
   };
   require("normalized", options.postprocesses(), "--postprocess cgal");
   require("segment", options.segmentation != Segmentation::None, "--segment");
-}
-
-nlohmann::ordered_json segmentOptionValues(const Options& options) {
-  const PartsOptions& parts = options.parts;
-  return {{"postprocess", nameOf(kPostprocesses, options.postprocess)},
-          {"segment", nameOf(kSegmentations, options.segmentation)},
-          {"parts", parts.partCount ? nlohmann::ordered_json(*parts.partCount) : nlohmann::ordered_json(nullptr)},
-          {"detail", parts.detail},
-          {"clusters", options.cgalSegmentation.clusterCount},
-          {"smoothness", options.cgalSegmentation.smoothness},
-          {"cgalExpansion", nameOf(kCgalExpansions, options.cgalSegmentation.expansion)}};
 }
 
 }  // namespace asdfvk
