@@ -14,45 +14,48 @@ namespace {
 constexpr const char* kBatchGroup = "Many meshes";
 constexpr uint32_t kMaxJobCount = 1024;
 
-void addInputs(CLI::App& app, BatchOptions& batch) {
-  app.add_flag("-r,--recursive", batch.recurses,
+void addInputs(ArgumentParser& parser, BatchOptions& batch) {
+  parser
+      .addFlag("-r,--recursive", batch.recurses,
                "Folders are inputs: every mesh below them; results in the same tree below -o")
-      ->group(kBatchGroup);
-  addValue(app, "--files-from", "FILE|-", "Also compute the meshes of a list, a path per line; - is standard input",
+      .group(kBatchGroup);
+  addValue(parser, "--files-from", "FILE|-", "Also compute the meshes of a list, a path per line; - is standard input",
            [&](const std::string& text) { batch.list = text; })
-      ->group(kBatchGroup);
-  app.add_flag("-0,--null", batch.isNullSeparated, "--files-from: paths end with a zero byte, as find -print0 writes")
-      ->group(kBatchGroup);
-  addValue(app, "--shard", "I/N", "Compute part I of N only; the parts are of about the same size",
+      .group(kBatchGroup);
+  parser.addFlag("-0,--null", batch.isNullSeparated, "--files-from: paths end with a zero byte, as find -print0 writes")
+      .group(kBatchGroup);
+  addValue(parser, "--shard", "I/N", "Compute part I of N only; the parts are of about the same size",
            [&](const std::string& text) { batch.shard = parseShard(text); })
-      ->group(kBatchGroup);
+      .group(kBatchGroup);
 }
 
-void addRecords(CLI::App& app, BatchOptions& batch) {
-  addValue(app, "--log", "FILE.jsonl", "Append a record per mesh as JSON; asdf-vk summarize FILE.jsonl reads it",
+void addRecords(ArgumentParser& parser, BatchOptions& batch) {
+  addValue(parser, "--log", "FILE.jsonl", "Append a record per mesh as JSON; asdf-vk summarize FILE.jsonl reads it",
            [&](const std::string& text) { batch.log = text; })
-      ->group(kBatchGroup);
-  app.add_flag("--skip-existing", batch.skipsExisting,
+      .group(kBatchGroup);
+  parser
+      .addFlag("--skip-existing", batch.skipsExisting,
                "Skip meshes whose result is that of the same input, options and version")
-      ->group(kBatchGroup);
+      .group(kBatchGroup);
 }
 
-void addLimits(CLI::App& app, BatchOptions& batch) {
-  addValue(app, "--timeout", "SECONDS",
+void addLimits(ArgumentParser& parser, BatchOptions& batch) {
+  addValue(parser, "--timeout", "SECONDS",
            "Fail a mesh that takes longer, exit code 8; without --isolate between steps only",
            [&](const std::string& text) { batch.timeoutSeconds = parseSeconds(text); })
-      ->group(kBatchGroup);
-  addValue(app, "--memory-limit", "SIZE",
+      .group(kBatchGroup);
+  addValue(parser, "--memory-limit", "SIZE",
            "Fail a mesh that takes more memory, such as 500M or 2G, exit code 8; implies\n--isolate",
            [&](const std::string& text) { batch.memoryBytes = parseByteCount(text); })
-      ->group(kBatchGroup);
-  app.add_flag("--isolate", batch.isolates,
+      .group(kBatchGroup);
+  parser
+      .addFlag("--isolate", batch.isolates,
                "Compute in worker processes, so that a mesh that crashes or hangs fails alone")
-      ->group(kBatchGroup);
+      .group(kBatchGroup);
   addValue(
-      app, "--jobs", "N", "Meshes at once; default: the number of cores for many small meshes, else 1",
+      parser, "--jobs", "N", "Meshes at once; default: the number of cores for many small meshes, else 1",
       [&](const std::string& text) { batch.jobCount = static_cast<uint32_t>(parseWholeNumber(text, 1, kMaxJobCount)); })
-      ->group(kBatchGroup);
+      .group(kBatchGroup);
 }
 
 }  // namespace
@@ -73,20 +76,20 @@ uint64_t parseByteCount(const std::string& text) {
   }
 }
 
-void addBatch(CLI::App& app, CommandLine& line) {
-  addInputs(app, line.batch);
-  addRecords(app, line.batch);
-  addLimits(app, line.batch);
+void addBatch(ArgumentParser& parser, CommandLine& line) {
+  addInputs(parser, line.batch);
+  addRecords(parser, line.batch);
+  addLimits(parser, line.batch);
 }
 
-void completeBatch(const CLI::App& app, CommandLine& line) {
+void completeBatch(const ArgumentParser& parser, CommandLine& line) {
   BatchOptions& batch = line.batch;
   if (batch.memoryBytes > 0) batch.isolates = true;
   for (CommandLine& compared : line.compared) compared.batch = batch;
   const bool readsInput = std::count(line.meshes.begin(), line.meshes.end(), "-") > 0;
   if (batch.isNullSeparated && batch.list.empty()) refuseOptions("-0 needs --files-from");
-  if (app.count("--files-from") > 0 && batch.list.empty()) refuseOptions("--files-from: the name is empty");
-  if (app.count("--log") > 0 && batch.log.empty()) refuseOptions("--log: the name is empty");
+  if (parser.isGiven("--files-from") && batch.list.empty()) refuseOptions("--files-from: the name is empty");
+  if (parser.isGiven("--log") && batch.log.empty()) refuseOptions("--log: the name is empty");
   if (batch.list == "-" && readsInput)
     refuseOptions("--files-from - and the mesh - both read standard input; give one of them a file");
   if (batch.isolates && readsInput)

@@ -51,81 +51,83 @@ SmoothingOptions parseSmoothing(const std::string& text) {
   return {.isOn = true, .window = window};
 }
 
-void addBasics(CLI::App& app, CommandLine& line) {
+void addBasics(ArgumentParser& parser, CommandLine& line) {
   Options& options = line.options;
   const auto apply = [&line](const Recipe& recipe) {
     line.recipe = recipe;
     applyRecipe(recipe, line.options);
   };
   // First the recipe and the definition: their callbacks must run before those of the options that they set.
-  addChoice(app, "--recipe", apply, kRecipes,
+  addChoice(parser, "--recipe", apply, kRecipes,
             "Set of options; single options override it. paper: as the ASDF paper.\n"
             "balanced (default): half of the error of paper. quality: rays pooled over\n"
             "neighbouring seeds, least error against many rays")
-      ->group(kBasicGroup);
+      .group(kBasicGroup);
   addChoice(
-      app, "--definition", [&options](const Definition& definition) { applyDefinition(definition, options); },
+      parser, "--definition", [&options](const Definition& definition) { applyDefinition(definition, options); },
       kDefinitions,
       "Definition of the values: of the ASDF paper, or of CGAL's sdf_values without\n"
       "post-processing. cgal: --rays 25 --seeds all unless given; default paper")
-      ->group(kRayGroup);
-  addValue(app, "--seeds", "N%|N|all", "Faces that cast rays: a share, a count or all; default " + defaultSeeds(),
+      .group(kRayGroup);
+  addValue(parser, "--seeds", "N%|N|all", "Faces that cast rays: a share, a count or all; default " + defaultSeeds(),
            [&](const std::string& text) { options.seeds = parseSeedCount(text); })
-      ->group(kBasicGroup);
-  addValue(app, "--max-error", "E%[rel]",
+      .group(kBasicGroup);
+  addValue(parser, "--max-error", "E%[rel]",
            fmt::format("Add seeds until the estimated average error is below this share of the\n"
                        "range, or with rel until the median of error / value is; starts with {}%\n"
                        "or --seeds",
                        kFirstRoundShare * 100),
            [&](const std::string& text) { parseMaxError(text, options.rounds); })
-      ->group(kBasicGroup);
-  addChoice(app, "--orient", options.orientation, kOrientations,
+      .group(kBasicGroup);
+  addChoice(parser, "--orient", options.orientation, kOrientations,
             "Inverted closed components: report them, reverse them, or reverse\n"
             "all faces; default keep")
-      ->group(kBasicGroup);
+      .group(kBasicGroup);
 }
 
-void addSeeds(CLI::App& app, Options& options) {
+void addSeeds(ArgumentParser& parser, Options& options) {
   const Options defaults;
   const char* const group = kRayGroup;
-  addName(app, "--sampler", options.sampler, samplerNames(),
+  addName(parser, "--sampler", options.sampler, samplerNames(),
           fmt::format("Selection of the seed faces. adaptive: blue noise in two passes, the second\n"
                       "denser where the first predicts errors; default {}",
                       defaults.sampler))
-      ->group(group);
-  addValue(app, "--rng-seed", "N", fmt::format("Random seed; default {}", defaults.randomSeed),
+      .group(group);
+  addValue(parser, "--rng-seed", "N", fmt::format("Random seed; default {}", defaults.randomSeed),
            [&](const std::string& text) {
              options.randomSeed = parseWholeNumber(text, 0, std::numeric_limits<uint64_t>::max());
            })
-      ->group(group);
-  addValue(app, "--time-budget", "SECONDS",
+      .group(group);
+  addValue(parser, "--time-budget", "SECONDS",
            "Add seeds until this time has passed, reading and writing excluded. The\n"
            "result is not reproducible",
            [&](const std::string& text) { options.rounds.timeBudgetSeconds = parseSeconds(text); })
-      ->group(group);
-  app.add_flag_callback(
-         "--no-estimate", [&options] { options.estimatesError = false; },
-         "Do not estimate the error; saves about the time of the interpolation")
-      ->group(group);
+      .group(group);
+  parser
+      .addFlag(
+          "--no-estimate", [&options] { options.estimatesError = false; },
+          "Do not estimate the error; saves about the time of the interpolation")
+      .group(group);
 }
 
-void addRays(CLI::App& app, Options& options) {
+void addRays(ArgumentParser& parser, Options& options) {
   const Options defaults;
   const char* const group = kRayGroup;
-  addValue(app, "--rays", "N", fmt::format("Rays per cone, 1 to {}; default {}", kMaxRayCount, defaults.cone.rayCount),
+  addValue(parser, "--rays", "N",
+           fmt::format("Rays per cone, 1 to {}; default {}", kMaxRayCount, defaults.cone.rayCount),
            [&](const std::string& text) {
              options.cone.rayCount = static_cast<uint32_t>(parseWholeNumber(text, 1, kMaxRayCount));
            })
-      ->group(group);
-  addValue(app, "--angle", "DEGREES",
+      .group(group);
+  addValue(parser, "--angle", "DEGREES",
            fmt::format("Full opening angle of the cone, above 0 and below 180; default {}",
                        defaults.cone.openingAngleDegrees),
            [&](const std::string& text) {
              options.cone.openingAngleDegrees = parseNumber(
                  text, [](double x) { return x > 0 && x < 180; }, "is not above 0 and below 180");
            })
-      ->group(group);
-  addValue(app, "--false-hit-angle", "DEGREES",
+      .group(group);
+  addValue(parser, "--false-hit-angle", "DEGREES",
            fmt::format("Of paper: a hit is false where the normals of the hit face and of the seed\n"
                        "differ by less than this, 0 to 180; default {}",
                        defaults.cone.falseHitAngleDegrees),
@@ -133,8 +135,8 @@ void addRays(CLI::App& app, Options& options) {
              options.cone.falseHitAngleDegrees = parseNumber(
                  text, [](double x) { return x >= 0 && x <= 180; }, "is not from 0 to 180");
            })
-      ->group(group);
-  addValue(app, "--outlier-deviations", "S",
+      .group(group);
+  addValue(parser, "--outlier-deviations", "S",
            fmt::format("Of paper: lengths farther from the median than S standard deviations are\n"
                        "dropped, above 0; default {}",
                        defaults.cone.outlierDeviations),
@@ -142,29 +144,29 @@ void addRays(CLI::App& app, Options& options) {
              options.cone.outlierDeviations = parseNumber(
                  text, [](double x) { return x > 0; }, "is not above 0");
            })
-      ->group(group);
-  addChoice(app, "--cone-rotation", options.cone.rotation, kConeRotations,
+      .group(group);
+  addChoice(parser, "--cone-rotation", options.cone.rotation, kConeRotations,
             "Of paper: rotation of the cones: fixed (parallel rays in neighbouring cones) or\n"
             "hashed (by face index, so that errors are independent); default fixed")
-      ->group(group);
-  addValue(app, "--smooth", "off|auto|RxP",
+      .group(group);
+  addValue(parser, "--smooth", "off|auto|RxP",
            "Bilateral filter over R rings of faces, P passes; auto: by the number of\n"
            "faces. For --seeds all with --cone-rotation hashed; default off",
            [&](const std::string& text) { options.smoothing = parseSmoothing(text); })
-      ->group(group);
+      .group(group);
 }
 
-void addExperiments(CLI::App& app, Options& options) {
+void addExperiments(ArgumentParser& parser, Options& options) {
   const Options defaults;
-  addChoice(app, "--weights", options.interpolation.weights, kWeights,
+  addChoice(parser, "--weights", options.interpolation.weights, kWeights,
             "Edge weights of the dual graph: 1/distance of the barycentres, or by the\n"
             "dihedral angle; default feature")
-      ->group(kExperimentGroup);
-  addChoice(app, "--guidance", options.interpolation.guidance, kGuidances,
+      .group(kExperimentGroup);
+  addChoice(parser, "--guidance", options.interpolation.guidance, kGuidances,
             "Guidance field: none (harmonic), minus the curvature, or the gradient of\n"
             "values predicted from the hits of neighbouring seeds; default prediction")
-      ->group(kExperimentGroup);
-  addValue(app, "--pooling", "P",
+      .group(kExperimentGroup);
+  addValue(parser, "--pooling", "P",
            fmt::format("Weight of the prediction in the values, 0 (traced values are kept) to\n"
                        "1; default {}",
                        defaults.interpolation.pooling),
@@ -172,12 +174,12 @@ void addExperiments(CLI::App& app, Options& options) {
              options.interpolation.pooling = parseNumber(
                  text, [](double x) { return x >= 0 && x <= 1; }, "is not from 0 to 1");
            })
-      ->group(kExperimentGroup);
-  addName(app, "--solver", options.solver, solverNames(),
+      .group(kExperimentGroup);
+  addName(parser, "--solver", options.solver, solverNames(),
           "Conjugate gradients (cg) or Jacobi on the device, conjugate gradients on the\n"
           "CPU in float32 (cpu) or with Eigen in double; default auto")
-      ->group(kExperimentGroup);
-  addValue(app, "--tolerance", "R",
+      .group(kExperimentGroup);
+  addValue(parser, "--tolerance", "R",
            fmt::format("Relative residual at which the solver stops, above 0 and below 1;\n"
                        "default {}",
                        defaults.solverOptions.tolerance),
@@ -185,25 +187,25 @@ void addExperiments(CLI::App& app, Options& options) {
              options.solverOptions.tolerance = parseNumber(
                  text, [](double x) { return x > 0 && x < 1; }, "is not above 0 and below 1");
            })
-      ->group(kExperimentGroup);
-  addValue(app, "--max-iterations", "N",
+      .group(kExperimentGroup);
+  addValue(parser, "--max-iterations", "N",
            fmt::format("Iterations at which the solver stops; default {}", defaults.solverOptions.maxIterations),
            [&](const std::string& text) {
              options.solverOptions.maxIterations =
                  static_cast<uint32_t>(parseWholeNumber(text, 1, std::numeric_limits<uint32_t>::max()));
            })
-      ->group(kExperimentGroup);
+      .group(kExperimentGroup);
 }
 
 }  // namespace
 
-void addComputation(CLI::App& app, CommandLine& line) {
-  addBasics(app, line);
-  addSeeds(app, line.options);
-  addRays(app, line.options);
-  addSegments(app, line.options);
-  addMeasure(app, line);
-  addExperiments(app, line.options);
+void addComputation(ArgumentParser& parser, CommandLine& line) {
+  addBasics(parser, line);
+  addSeeds(parser, line.options);
+  addRays(parser, line.options);
+  addSegments(parser, line.options);
+  addMeasure(parser, line);
+  addExperiments(parser, line.options);
 }
 
 }  // namespace asdfvk

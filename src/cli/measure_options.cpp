@@ -17,8 +17,8 @@ double parseThickness(const std::string& text) {
 }
 
 /// The limits imply the measure; all faces cast rays unless the number of seeds is given.
-void applyLimits(const CLI::App& app, CommandLine& line) {
-  const auto isGiven = [&app](const char* option) { return app.count(option) > 0; };
+void applyLimits(const ArgumentParser& parser, CommandLine& line) {
+  const auto isGiven = [&parser](const char* option) { return parser.isGiven(option); };
   Options& options = line.options;
   std::optional<double>& limit = options.thickness.thinnerThan;
   if (line.failIfThinner) {
@@ -36,22 +36,22 @@ void applyLimits(const CLI::App& app, CommandLine& line) {
 
 }  // namespace
 
-void addMeasure(CLI::App& app, CommandLine& line) {
+void addMeasure(ArgumentParser& parser, CommandLine& line) {
   Options& options = line.options;
   const char* const group = "Thickness";
-  addChoice(app, "--measure", options.measure, kMeasures,
+  addChoice(parser, "--measure", options.measure, kMeasures,
             "thickness: also field thickness, the diameter of the largest ball inside that\n"
             "touches the face; it is written first. Default sdf")
-      ->group(group);
-  addValue(app, "--thinner-than", "T",
+      .group(group);
+  addValue(parser, "--thinner-than", "T",
            "List the connected regions thinner than T, in the unit of the mesh; implies\n"
            "--measure thickness, and --seeds all unless given",
            [&options](const std::string& text) { options.thickness.thinnerThan = parseThickness(text); })
-      ->group(group);
-  addValue(app, "--fail-if-thinner", "T", "The same, and exit code 6 where a face is thinner than T",
+      .group(group);
+  addValue(parser, "--fail-if-thinner", "T", "The same, and exit code 6 where a face is thinner than T",
            [&line](const std::string& text) { line.failIfThinner = parseThickness(text); })
-      ->group(group);
-  addValue(app, "--wall-angle", "DEGREES",
+      .group(group);
+  addValue(parser, "--wall-angle", "DEGREES",
            fmt::format("--measure thickness: a wall is opposing if its normal differs by this from that\n"
                        "of the face, above 90 and at most 180; default {}",
                        options.thickness.wallAngleDegrees),
@@ -59,17 +59,17 @@ void addMeasure(CLI::App& app, CommandLine& line) {
              options.thickness.wallAngleDegrees = parseNumber(
                  text, [](double x) { return x > 90 && x <= 180; }, "is not above 90 and at most 180");
            })
-      ->group(group);
+      .group(group);
 }
 
-void completeMeasure(const CLI::App& app, CommandLine& line) {
-  applyLimits(app, line);
+void completeMeasure(const ArgumentParser& parser, CommandLine& line) {
+  applyLimits(parser, line);
   if (line.options.measure == Measure::Thickness) {
-    if (app.count("--fields") == 0) line.fields.insert(line.fields.begin(), kField);
-    if (app.count("--picture-of") == 0) line.pictureOf = kField;
+    if (!parser.isGiven("--fields")) line.fields.insert(line.fields.begin(), kField);
+    if (!parser.isGiven("--picture-of")) line.pictureOf = kField;
     return;
   }
-  if (app.count("--wall-angle") > 0) refuseOptions("--wall-angle needs --measure thickness");
+  if (parser.isGiven("--wall-angle")) refuseOptions("--wall-angle needs --measure thickness");
   refuseField(line, kField, "--measure thickness");
 }
 

@@ -7,8 +7,10 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "asdf_vk/error.h"
+#include "core/text.h"
 
 namespace asdfvk {
 namespace {
@@ -26,6 +28,41 @@ std::optional<T> parseWhole(std::string_view text) {
 }
 
 }  // namespace
+
+Argument addValue(ArgumentParser& parser, std::string_view name, std::string_view placeholder, std::string_view text,
+                  std::function<void(const std::string&)> receive) {
+  const std::string_view shown = name.substr(name.find("--"));
+  return parser.addValue(name, placeholder, text,
+                         [shown = std::string(shown), receive = std::move(receive)](const std::string& value) {
+                           try {
+                             receive(value);
+                           } catch (const Error& error) {
+                             throw Error(error.code(), shown + ": " + error.what());
+                           }
+                         });
+}
+
+Argument addChoice(ArgumentParser& parser, std::string_view name, std::vector<std::string> names, std::string_view text,
+                   std::function<void(size_t)> receive) {
+  const std::string placeholder = joined(names, "|");
+  return addValue(parser, name, placeholder, text,
+                  [names = std::move(names), placeholder, receive = std::move(receive)](const std::string& choice) {
+                    const auto found = std::find(names.begin(), names.end(), choice);
+                    if (found == names.end())
+                      throw Error(ErrorCode::UnknownName, fmt::format("'{}' is not one of {}", choice, placeholder));
+                    receive(static_cast<size_t>(found - names.begin()));
+                  });
+}
+
+Argument addName(ArgumentParser& parser, std::string_view name, std::string& target, std::vector<std::string> names,
+                 std::string_view text) {
+  return addChoice(parser, name, names, text, [&target, names](size_t index) { target = names[index]; });
+}
+
+std::vector<std::string> withAuto(std::vector<std::string> names) {
+  names.insert(names.begin(), "auto");
+  return names;
+}
 
 uint64_t parseWholeNumber(const std::string& text, uint64_t minimum, uint64_t maximum) {
   const auto value = parseWhole<uint64_t>(text);

@@ -1,18 +1,14 @@
 #pragma once
 
-#include <fmt/core.h>
-#include <fmt/ranges.h>
-
-#include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <vector>
 
+#include "arguments/arguments.h"
 #include "asdf_vk/choices.h"
-#include "asdf_vk/error.h"
 #include "asdf_vk/options.h"
 #include "cli/options.h"
 
@@ -23,19 +19,17 @@ namespace asdfvk {
 inline constexpr const char* kBasicGroup = "Options";
 inline constexpr const char* kExperimentGroup = "Experiments (the defaults are best)";
 
-/// Name, description and every option of the program, which set `line`. The type name of an option, if it contains "|",
-/// lists its values for completions where the placeholder in the help is only a name for them: "sdf|seed",
-/// "FILE.ply|FILE.off".
-void addOptions(CLI::App& app, CommandLine& line);
+/// Name, description and every option of the program, which set `line`.
+void addOptions(ArgumentParser& parser, CommandLine& line);
 
 /// Adds the options of the computation, which set line.options and line.recipe.
-void addComputation(CLI::App& app, CommandLine& line);
+void addComputation(ArgumentParser& parser, CommandLine& line);
 
 /// Throws Error{OptionConflict} where --fields or --picture-of names a field that only the option `needed` computes.
 void refuseField(const CommandLine& line, const std::string& field, const std::string& needed);
 
 /// Adds the options of post-processing and segmentation.
-void addSegments(CLI::App& app, Options& options);
+void addSegments(ArgumentParser& parser, Options& options);
 
 /// --segment without a value, at the end or before an option or a file, becomes --segment=parts. A file is a name that
 /// has a dot or a slash, is "-", or exists; the names of kSegmentations are values, also where such a file exists.
@@ -43,82 +37,55 @@ void expandBareSegment(std::vector<std::string>& arguments);
 
 /// After parsing: validates the options of post-processing and segmentation and applies what they imply; adds their
 /// fields to line.fields unless --fields is given.
-void completeSegments(const CLI::App& app, CommandLine& line);
+void completeSegments(const ArgumentParser& parser, CommandLine& line);
 
 /// The same for the options of the measured quantity.
-void addMeasure(CLI::App& app, CommandLine& line);
-void completeMeasure(const CLI::App& app, CommandLine& line);
+void addMeasure(ArgumentParser& parser, CommandLine& line);
+void completeMeasure(const ArgumentParser& parser, CommandLine& line);
 
 /// The same for the options of a page; after completeMeasure(). Sets line.compared.
-void addPage(CLI::App& app, CommandLine& line);
-void completePage(const CLI::App& app, CommandLine& line);
+void addPage(ArgumentParser& parser, CommandLine& line);
+void completePage(const ArgumentParser& parser, CommandLine& line);
 
 /// The same for the options of many meshes; after completePage().
-void addBatch(CLI::App& app, CommandLine& line);
-void completeBatch(const CLI::App& app, CommandLine& line);
+void addBatch(ArgumentParser& parser, CommandLine& line);
+void completeBatch(const ArgumentParser& parser, CommandLine& line);
 
-/// parse: reads the value and throws Error; the name of the option is put before its message.
-template <typename Parse>
-CLI::Option* addValue(CLI::App& app, const std::string& name, const std::string& placeholder, const std::string& text,
-                      Parse parse) {
-  return app
-      .add_option_function<std::string>(
-          name,
-          [name, parse](const std::string& value) {
-            try {
-              parse(value);
-            } catch (const Error& error) {
-              throw Error(error.code(), name.substr(name.find("--")) + ": " + error.what());
-            }
-          },
-          text)
-      ->option_text(placeholder);
+/// receive: reads the value and throws Error; the name of the option is put before its message.
+Argument addValue(ArgumentParser& parser, std::string_view name, std::string_view placeholder, std::string_view text,
+                  std::function<void(const std::string&)> receive);
+
+/// One of several names. receive: gets the index of the name.
+Argument addChoice(ArgumentParser& parser, std::string_view name, std::vector<std::string> names, std::string_view text,
+                   std::function<void(size_t)> receive);
+
+/// The same. target: a string that outlives the parsing.
+Argument addName(ArgumentParser& parser, std::string_view name, std::string& target, std::vector<std::string> names,
+                 std::string_view text);
+
+/// The first members of a table of pairs: the names of its rows.
+template <typename Table>
+[[nodiscard]] std::vector<std::string> namesOf(const Table& table) {
+  std::vector<std::string> names;
+  for (const auto& row : table) names.emplace_back(row.first);
+  return names;
 }
 
-/// One of several names. target: a string that outlives the parsing.
-inline CLI::Option* addName(CLI::App& app, const std::string& name, std::string& target,
-                            const std::vector<std::string>& names, const std::string& text) {
-  const std::string joinedNames = fmt::format("{}", fmt::join(names, "|"));
-  return addValue(app, name, joinedNames, text, [&target, names, joinedNames](const std::string& choice) {
-    if (std::find(names.begin(), names.end(), choice) == names.end())
-      throw Error(ErrorCode::UnknownName, fmt::format("'{}' is not one of {}", choice, joinedNames));
-    target = choice;
-  });
-}
+/// "auto", then the names.
+[[nodiscard]] std::vector<std::string> withAuto(std::vector<std::string> names);
 
-/// "auto", then the names of a table: a range of strings, or of pairs of a name and a value.
-template <typename Names>
-[[nodiscard]] std::vector<std::string> withAuto(const Names& names) {
-  std::vector<std::string> result{"auto"};
-  for (const auto& entry : names) {
-    if constexpr (requires { entry.first; }) {
-      result.emplace_back(entry.first);
-    } else {
-      result.emplace_back(entry);
-    }
-  }
-  return result;
-}
-
-/// One of several named values. target: a variable that outlives the parsing, or a function that takes the value.
+/// One of several named values. target: a variable, or a function that takes the value. Variable and choices outlive
+/// the parsing.
 template <typename Target, typename T, size_t N>
-CLI::Option* addChoice(CLI::App& app, const std::string& name, Target&& target, const ChoiceNames<T, N>& choices,
-                       const std::string& text) {
-  auto set = [&] {
-    if constexpr (std::is_invocable_v<Target, const T&>) {
-      return target;
-    } else {
-      return [&target](const T& value) { target = value; };
-    }
-  }();
-  const std::string names = joined(choices);
-  return addValue(app, name, names, text, [set, choices, names](const std::string& choice) {
-    const auto found =
-        std::find_if(choices.begin(), choices.end(), [&](const auto& candidate) { return candidate.first == choice; });
-    if (found == choices.end())
-      throw Error(ErrorCode::UnknownName, fmt::format("'{}' is not one of {}", choice, names));
-    set(found->second);
-  });
+Argument addChoice(ArgumentParser& parser, std::string_view name, Target&& target, const ChoiceNames<T, N>& choices,
+                   std::string_view text) {
+  if constexpr (std::is_invocable_v<Target, const T&>) {
+    return addChoice(parser, name, namesOf(choices), text,
+                     [target, &choices](size_t index) { target(choices[index].second); });
+  } else {
+    return addChoice(parser, name, namesOf(choices), text,
+                     [&target, &choices](size_t index) { target = choices[index].second; });
+  }
 }
 
 /// A whole number within [minimum, maximum], without sign.

@@ -1,9 +1,7 @@
 #include "cli/options.h"
 
 #include <fmt/core.h>
-#include <fmt/ranges.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -85,7 +83,7 @@ void requireFieldName(const std::string& name) {
   const std::vector<std::string> known = resultFieldNames();
   if (std::find(known.begin(), known.end(), name) == known.end())
     throw Error(ErrorCode::UnknownName,
-                fmt::format("'{}' is not a field; the fields are {}", name, fmt::join(known, ", ")));
+                fmt::format("'{}' is not a field; the fields are {}", name, joined(known, ", ")));
 }
 
 /// "sdf,seed,error"
@@ -110,45 +108,45 @@ void requireExtension(const std::string& name, const std::string& extension) {
     throw Error(ErrorCode::OptionOutOfRange, fmt::format("'{}' does not end in {}", name, extension));
 }
 
-void addOutput(CLI::App& app, CommandLine& line) {
-  addValue(app, "-o,--output", "FILE|DIR|-",
+void addOutput(ArgumentParser& parser, CommandLine& line) {
+  addValue(parser, "-o,--output", "FILE|DIR|-",
            fmt::format("Result: a file (.{}), a directory, or - for\n"
                        "standard output; default NAME.asdf.ply beside the input. .html: a page that shows the\n"
                        "results of all meshes in a browser",
-                       fmt::join(outputFormats(), " .")),
+                       joined(outputFormats(), " .")),
            [&](const std::string& text) {
              if (text.empty()) throw Error(ErrorCode::OptionOutOfRange, "the name is empty");
              line.output = text;
            })
-      ->group(kBasicGroup);
-  addValue(app, "--fields", "NAME,...",
+      .group(kBasicGroup);
+  addValue(parser, "--fields", "NAME,...",
            fmt::format("Fields to write: {};\n"
                        "default {}, and those of --measure, --postprocess and --segment;\n"
                        "in a page all of one component",
-                       fmt::join(resultFieldNames(), ", "), fmt::join(line.fields, ",")),
+                       joined(resultFieldNames(), ", "), joined(line.fields, ",")),
            [&](const std::string& text) {
              line.fields = parseFields(text);
              if (std::count(line.fields.begin(), line.fields.end(), "centre") > 0) line.options.computesCentres = true;
            })
-      ->type_name(fmt::format("{}", fmt::join(resultFieldNames(), "|")))
-      ->group(kBasicGroup);
-  addValue(app, "--check", "[=N|all]",
+      .completions(joined(resultFieldNames(), "|"))
+      .group(kBasicGroup);
+  addValue(parser, "--check", "[=N|all]",
            fmt::format("Recompute N random traced faces, and N of all faces, with the reference\n"
                        "(default {}); exit code 5 where traced faces disagree",
                        kDefaultCheckCount),
            [&](const std::string& text) { line.options.checkCount = parseCheckCount(text); })
-      ->group(kBasicGroup);
-  addPage(app, line);
-  app.add_flag("--json", line.json, "Report as JSON on standard output, one line per mesh")->group(kBasicGroup);
+      .group(kBasicGroup);
+  addPage(parser, line);
+  parser.addFlag("--json", line.json, "Report as JSON on standard output, one line per mesh").group(kBasicGroup);
   const char* const group = "Output";
-  addName(app, "--format", line.format, outputFormats(), "Format where -o does not decide it; default ply")
-      ->group(group);
-  app.add_flag("--ascii", line.ascii, "Write PLY as text")->group(group);
-  addChoice(app, "--per", line.options.per, kPerElements,
+  addName(parser, "--format", line.format, outputFormats(), "Format where -o does not decide it; default ply")
+      .group(group);
+  parser.addFlag("--ascii", line.ascii, "Write PLY as text").group(group);
+  addChoice(parser, "--per", line.options.per, kPerElements,
             "vertex: also fields per vertex, means over its faces by area, with the names of\n"
             "those per face; .csv and .npy hold these only; default face")
-      ->group(group);
-  addValue(app, "--points", "FILE.ply",
+      .group(group);
+  addValue(parser, "--points", "FILE.ply",
            "Also write the skeleton points of the faces, half of the shape diameter below\n"
            "each, with radius and segment, for one mesh; - is standard output",
            [&](const std::string& text) {
@@ -156,8 +154,8 @@ void addOutput(CLI::App& app, CommandLine& line) {
              line.points = text;
              line.options.computesCentres = true;
            })
-      ->group(group);
-  app.add_flag("--quiet", line.quiet, "Print errors only")->group(group);
+      .group(group);
+  parser.addFlag("--quiet", line.quiet, "Print errors only").group(group);
 }
 
 /// "30,18"
@@ -173,18 +171,26 @@ void parseViewAngles(const std::string& text, View& view) {
     throw Error(ErrorCode::OptionOutOfRange, fmt::format("the elevation in '{}' is not from -90 to 90", text));
 }
 
-void addPicture(CLI::App& app, CommandLine& line) {
-  addValue(app, "--picture", "FILE.png", "Also render the coloured mesh, for one mesh; - is standard output",
-           [&](const std::string& text) {
-             requireExtension(text, ".png");
-             line.picture = text;
-           })
-      ->group(kBasicGroup);
-  CLI::Option* needsPicture = app.get_option("--picture");
+constexpr ChoiceNames<std::optional<Up>, 7> kUps{{{"auto", std::nullopt},
+                                                  {"x", Up::X},
+                                                  {"y", Up::Y},
+                                                  {"z", Up::Z},
+                                                  {"-x", Up::MinusX},
+                                                  {"-y", Up::MinusY},
+                                                  {"-z", Up::MinusZ}}};
+
+void addPicture(ArgumentParser& parser, CommandLine& line) {
+  const Argument picture =
+      addValue(parser, "--picture", "FILE.png", "Also render the coloured mesh, for one mesh; - is standard output",
+               [&](const std::string& text) {
+                 requireExtension(text, ".png");
+                 line.picture = text;
+               })
+          .group(kBasicGroup);
   const char* const group = "Picture";
   std::vector<std::string> shown = resultFieldNames();
   std::erase(shown, "centre");
-  addValue(app, "--picture-of", fmt::format("{}", fmt::join(shown, "|")),
+  addValue(parser, "--picture-of", joined(shown, "|"),
            fmt::format("Field to show; default {}, or thickness with --measure thickness", line.pictureOf),
            [&](const std::string& text) {
              line.pictureOf = text == "seeds" ? "seed" : text;  // "seeds": the name in version 0.1.
@@ -193,64 +199,58 @@ void addPicture(CLI::App& app, CommandLine& line) {
                throw Error(ErrorCode::OptionOutOfRange,
                            "'centre' has three components; a picture shows a field of one component");
            })
-      ->group(group)
-      ->needs(needsPicture);
+      .group(group)
+      .needs(picture);
   const View view;
-  addValue(app, "--picture-view", "AZIMUTH,ELEVATION",
+  addValue(parser, "--picture-view", "AZIMUTH,ELEVATION",
            fmt::format("View, in degrees to the right of the broad side of the mesh and up;\ndefault {},{}",
                        view.azimuthDegrees, view.elevationDegrees),
            [&](const std::string& text) { parseViewAngles(text, line.pictureView); })
-      ->group(group)
-      ->needs(needsPicture);
-  addChoice(app, "--picture-up", line.pictureView.up,
-            ChoiceNames<std::optional<Up>, 7>{{{"auto", std::nullopt},
-                                               {"x", Up::X},
-                                               {"y", Up::Y},
-                                               {"z", Up::Z},
-                                               {"-x", Up::MinusX},
-                                               {"-y", Up::MinusY},
-                                               {"-z", Up::MinusZ}}},
+      .group(group)
+      .needs(picture);
+  addChoice(parser, "--picture-up", line.pictureView.up, kUps,
             "Up axis of the picture. auto: y, unless the mesh stands more stably on\nanother axis; default auto")
-      ->group(group)
-      ->needs(needsPicture);
+      .group(group)
+      .needs(picture);
 }
 
-void addDevice(CLI::App& app, CommandLine& line) {
-  addName(app, "--backend", line.session.backend, withAuto(backendNames()),
+void addDevice(ArgumentParser& parser, CommandLine& line) {
+  addName(parser, "--backend", line.session.backend, withAuto(backendNames()),
           "A Vulkan device, Embree on the CPU, the double-precision reference, or the\n"
           "first of them that is available; default auto")
-      ->group(kBasicGroup);
+      .group(kBasicGroup);
   const char* const group = "Device";
-  addValue(app, "--device", "N|NAME", "Vulkan device: its number in --list-devices or a part of its name",
+  addValue(parser, "--device", "N|NAME", "Vulkan device: its number in --list-devices or a part of its name",
            [&](const std::string& text) { line.session.device = text; })
-      ->group(group);
-  app.add_flag("--require-gpu", line.session.requireGpu, "Fail where no GPU is usable")->group(group);
-  app.add_flag("--list-devices", line.listDevices, "List Vulkan devices and whether each is usable")->group(group);
-  app.add_flag("--device-report", line.deviceReport,
+      .group(group);
+  parser.addFlag("--require-gpu", line.session.requireGpu, "Fail where no GPU is usable").group(group);
+  parser.addFlag("--list-devices", line.listDevices, "List Vulkan devices and whether each is usable").group(group);
+  parser
+      .addFlag("--device-report", line.deviceReport,
                "Print a report on the device as JSON: properties, a self-test, the rate of each\n"
                "variant of the kernels; exit code 3 where the self-test fails")
-      ->group(group);
-  addValue(app, "--threads", "N", "CPU threads, 1 to 1024; default: the number of cores", [&](const std::string& text) {
-    line.threadCount = static_cast<uint32_t>(parseWholeNumber(text, 1, 1024));
-  })->group(group);
+      .group(group);
+  addValue(parser, "--threads", "N", "CPU threads, 1 to 1024; default: the number of cores",
+           [&](const std::string& text) { line.threadCount = static_cast<uint32_t>(parseWholeNumber(text, 1, 1024)); })
+      .group(group);
   TraceVariant& variant = line.session.variant;
-  addName(app, "--kernel", variant.kernel, withAuto(kernelNames()),
+  addName(parser, "--kernel", variant.kernel, withAuto(namesOf(kernelNames())),
           "Vulkan: neighbouring lanes trace one ray of neighbouring seeds, the rays of\n"
           "one seed, or these as a packet; default auto, by the device")
-      ->group(kExperimentGroup);
-  addName(app, "--bvh", variant.bvh, withAuto(bvhNames()),
+      .group(kExperimentGroup);
+  addName(parser, "--bvh", variant.bvh, withAuto(namesOf(bvhNames())),
           "Vulkan: hierarchy of eight children in quantised boxes, or of two in float32;\ndefault auto")
-      ->group(kExperimentGroup);
-  addName(app, "--fetch", variant.fetch, withAuto(fetchNames()),
+      .group(kExperimentGroup);
+  addName(parser, "--fetch", variant.fetch, withAuto(namesOf(fetchNames())),
           "Vulkan: the hierarchy is read from texel or storage buffers; default auto")
-      ->group(kExperimentGroup);
+      .group(kExperimentGroup);
 }
 
 /// Throws where options of the paper's definition are given with another one.
-void requireNoPaperOption(const CLI::App& app, const CommandLine& line) {
+void requireNoPaperOption(const ArgumentParser& parser, const CommandLine& line) {
   if (line.options.cone.definition == Definition::Paper) return;
   for (const char* name : {"--false-hit-angle", "--outlier-deviations", "--cone-rotation"})
-    if (app.count(name) > 0)
+    if (parser.isGiven(name))
       throw Error(ErrorCode::OptionConflict,
                   fmt::format("{} belongs to --definition paper; drop one of the two", name));
   if (line.options.cone.rotation != ConeRotation::Fixed)
@@ -297,66 +297,54 @@ void validateOptions(const CommandLine& line) {
         line.options.solver));
 }
 
-/// The help of the most needed options; all groups with `showsAll`.
-std::string helpOf(CLI::App& app, bool showsAll) {
-  if (showsAll) return app.help();
-  for (CLI::Option* option : app.get_options())
-    if (option->get_group() != kBasicGroup && !option->get_positional()) option->group("");
-  app.footer("--help=all lists all options.\n" + footer());
-  return app.help();
-}
-
 }  // namespace
 
-void addOptions(CLI::App& app, CommandLine& line) {
-  app.name("asdf-vk");
-  app.description(kDescription);
-  app.footer(footer());
-  app.set_help_flag("-h,--help", "Print the most needed options; --help=all prints all");
-  app.set_version_flag("--version", fmt::format("asdf-vk {} ({})", ASDFVK_VERSION, ASDFVK_COMMIT), "Print the version");
-  app.add_option("meshes", line.meshes, fmt::format("Meshes: .{}; - is standard input", fmt::join(meshFormats(), " .")))
-      ->option_text("MESH...")
-      ->type_name(fmt::format("FILE.{}|-", fmt::join(meshFormats(), "|FILE.")));
-  addComputation(app, line);
-  addOutput(app, line);
-  addPicture(app, line);
-  addBatch(app, line);
-  addDevice(app, line);
+void addOptions(ArgumentParser& parser, CommandLine& line) {
+  parser.setProgram("asdf-vk", kDescription);
+  parser.setFooter(footer());
+  parser.setHelp("Print the most needed options; --help=all prints all");
+  parser.addVersion(fmt::format("asdf-vk {} ({})", ASDFVK_VERSION, ASDFVK_COMMIT));
+  parser
+      .addList("meshes", "MESH...", fmt::format("Meshes: .{}; - is standard input", joined(meshFormats(), " .")),
+               line.meshes)
+      .completions(fmt::format("FILE.{}|-", joined(meshFormats(), "|FILE.")));
+  addComputation(parser, line);
+  addOutput(parser, line);
+  addPicture(parser, line);
+  addBatch(parser, line);
+  addDevice(parser, line);
 }
 
 CommandLine parseCommandLine(std::vector<std::string> arguments) {
   CommandLine line;
-  CLI::App app;
-  addOptions(app, line);
+  ArgumentParser parser;
+  addOptions(parser, line);
   expandBareCheck(arguments);
   expandBareSegment(arguments);
-  const bool showsAll = takeHelpAll(arguments);
-  std::reverse(arguments.begin(), arguments.end());  // CLI11 takes them from the back.
-  try {
-    app.parse(std::move(arguments));
-  } catch (const CLI::CallForVersion& version) {
-    line.answer = std::string(version.what()) + "\n";
-    return line;
-  } catch (const CLI::Success&) {
-    line.answer = helpOf(app, showsAll);
-    return line;
-  } catch (const CLI::ArgumentMismatch& error) {
-    const std::string message = error.what();
-    throw Error(ErrorCode::OptionOutOfRange, message.substr(0, message.find(':')) + " takes exactly one value, once");
-  } catch (const CLI::ParseError& error) {
-    throw Error(ErrorCode::OptionOutOfRange, std::string(error.what()) + "; asdf-vk --help=all lists the options");
+  if (!takeHelpAll(arguments)) {
+    parser.setHelpGroup(kBasicGroup);
+    parser.setFooter("--help=all lists all options.\n" + footer());
   }
-  if (line.options.rounds.areSet() && app.count("--seeds") == 0)
+  const ParseResult result = parser.parse(std::move(arguments));
+  if (!result.answer.empty()) {
+    line.answer = result.answer;
+    return line;
+  }
+  if (!result.miscounted.empty())
+    throw Error(ErrorCode::OptionOutOfRange, result.miscounted + " takes exactly one value, once");
+  if (!result.refusal.empty())
+    throw Error(ErrorCode::OptionOutOfRange, result.refusal + "; asdf-vk --help=all lists the options");
+  if (line.options.rounds.areSet() && !parser.isGiven("--seeds"))
     line.options.seeds = SeedCount::ofShare(kFirstRoundShare);
   TraceVariant& variant = line.session.variant;
   for (std::string* name : {&variant.kernel, &variant.bvh, &variant.fetch})
     if (*name == "auto") name->clear();
   line.options.keepsScene = !line.picture.empty();
-  completeSegments(app, line);
-  completeMeasure(app, line);
-  completePage(app, line);
-  completeBatch(app, line);
-  requireNoPaperOption(app, line);
+  completeSegments(parser, line);
+  completeMeasure(parser, line);
+  completePage(parser, line);
+  completeBatch(parser, line);
+  requireNoPaperOption(parser, line);
   validateOptions(line);
   return line;
 }

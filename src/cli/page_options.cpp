@@ -50,18 +50,18 @@ CommandLine comparedLine(const CommandLine& line, const std::string& text) {
 
 }  // namespace
 
-void addPage(CLI::App& app, CommandLine& line) {
-  app.add_flag("--open", line.opensPage, "Open the page in the browser; without -o, NAME.asdf.html")
-      ->group(kBasicGroup);
-  addValue(app, "--against", "OPTIONS",
+void addPage(ArgumentParser& parser, CommandLine& line) {
+  parser.addFlag("--open", line.opensPage, "Open the page in the browser; without -o, NAME.asdf.html")
+      .group(kBasicGroup);
+  addValue(parser, "--against", "OPTIONS",
            "For a page: also show each mesh with these options of the computation instead of\n"
            "the given ones, in quotes: --against \"--seeds all\"",
            [&](const std::string& text) { line.against = text; })
-      ->group("Output");
+      .group("Output");
 }
 
-void completePage(const CLI::App& app, CommandLine& line) {
-  line.choosesFields = app.count("--fields") > 0;
+void completePage(const ArgumentParser& parser, CommandLine& line) {
+  line.choosesFields = parser.isGiven("--fields");
   if (line.opensPage && line.output.empty() && line.format.empty()) line.format = kPageFormat;
   const bool isPage = writesPages(line);
   if (line.opensPage && !isPage) refuseOptions("--open opens a page; give -o FILE.html, or drop --open");
@@ -72,7 +72,7 @@ void completePage(const CLI::App& app, CommandLine& line) {
   if (isPage && line.choosesFields && std::count(line.fields.begin(), line.fields.end(), "centre") > 0)
     refuseOptions("--fields centre has three components; a page shows fields of one component");
   line.options.keepsScene = line.options.keepsScene || isPage;
-  if (app.count("--against") == 0) return;
+  if (!parser.isGiven("--against")) return;
   if (!isPage) refuseOptions("--against compares in a page; give -o FILE.html");
   if (std::count(line.meshes.begin(), line.meshes.end(), "-") > 0)
     refuseOptions("--against reads each mesh twice, which standard input does not allow; give it a file");

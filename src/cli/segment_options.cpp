@@ -22,14 +22,14 @@ bool looksLikeFile(const std::string& text) {
   return text == "-" || text.find_first_of("./") != std::string::npos || std::filesystem::exists(text, ignored);
 }
 
-void addParts(CLI::App& app, PartsOptions& options) {
-  addValue(app, "--parts", "N",
+void addParts(ArgumentParser& parser, PartsOptions& options) {
+  addValue(parser, "--parts", "N",
            fmt::format("--segment parts: the number of parts, 1 to {}; default: it is found", kMaxPartCount),
            [&](const std::string& text) {
              options.partCount = static_cast<uint32_t>(parseWholeNumber(text, 1, kMaxPartCount));
            })
-      ->group(kSegmentGroup);
-  addValue(app, "--detail", "X",
+      .group(kSegmentGroup);
+  addValue(parser, "--detail", "X",
            fmt::format("--segment parts: divides the cost at which merging stops, {} to {}; a larger\n"
                        "number gives more parts; default {}",
                        kMinDetail, kMaxDetail, PartsOptions{}.detail),
@@ -38,20 +38,20 @@ void addParts(CLI::App& app, PartsOptions& options) {
                  text, [](double x) { return x >= kMinDetail && x <= kMaxDetail; },
                  fmt::format("is not from {} to {}", kMinDetail, kMaxDetail).c_str());
            })
-      ->group(kSegmentGroup);
+      .group(kSegmentGroup);
 }
 
-void addCgal(CLI::App& app, CgalSegmentationOptions& options) {
+void addCgal(ArgumentParser& parser, CgalSegmentationOptions& options) {
   const CgalSegmentationOptions defaults;
-  addValue(app, "--clusters", "K",
+  addValue(parser, "--clusters", "K",
            fmt::format("--segment cgal: clusters of values, 2 to {}; not the number of segments;\n"
                        "default {}",
                        kMaxClusterCount, defaults.clusterCount),
            [&](const std::string& text) {
              options.clusterCount = static_cast<uint32_t>(parseWholeNumber(text, 2, kMaxClusterCount));
            })
-      ->group(kSegmentGroup);
-  addValue(app, "--smoothness", "L",
+      .group(kSegmentGroup);
+  addValue(parser, "--smoothness", "L",
            fmt::format("--segment cgal: weight of the boundaries, 0 to {}, usually at most 1;\n"
                        "default {}",
                        kMaxSmoothness, defaults.smoothness),
@@ -60,27 +60,27 @@ void addCgal(CLI::App& app, CgalSegmentationOptions& options) {
                  text, [](double x) { return x >= 0 && x <= kMaxSmoothness; },
                  fmt::format("is not from 0 to {}", kMaxSmoothness).c_str());
            })
-      ->group(kSegmentGroup);
-  addChoice(app, "--cgal-expansion", options.expansion, kCgalExpansions,
+      .group(kSegmentGroup);
+  addChoice(parser, "--cgal-expansion", options.expansion, kCgalExpansions,
             "--segment cgal: the graph cut expands all clusters, or the first one only, as\n"
             "CGAL 5.5.1 does; default all")
-      ->group(kSegmentGroup);
+      .group(kSegmentGroup);
 }
 
 }  // namespace
 
-void addSegments(CLI::App& app, Options& options) {
-  addChoice(app, "--postprocess", options.postprocess, kPostprocesses,
+void addSegments(ArgumentParser& parser, Options& options) {
+  addChoice(parser, "--postprocess", options.postprocess, kPostprocesses,
             "Field normalized. cgal: missing values are filled, all are smoothed and mapped\n"
             "to 0 .. 1, as CGAL does; default none")
-      ->group(kSegmentGroup);
-  addChoice(app, "--segment", options.segmentation, kSegmentations,
+      .group(kSegmentGroup);
+  addChoice(parser, "--segment", options.segmentation, kSegmentations,
             "Field segment. parts: the parts that people see, also --segment without a\n"
             "value. cgal: soft clustering and graph cut, as CGAL does; implies\n"
             "--postprocess cgal; for --seeds all. Default none")
-      ->group(kSegmentGroup);
-  addParts(app, options.parts);
-  addCgal(app, options.cgalSegmentation);
+      .group(kSegmentGroup);
+  addParts(parser, options.parts);
+  addCgal(parser, options.cgalSegmentation);
 }
 
 void expandBareSegment(std::vector<std::string>& arguments) {
@@ -92,8 +92,8 @@ void expandBareSegment(std::vector<std::string>& arguments) {
   }
 }
 
-void completeSegments(const CLI::App& app, CommandLine& line) {
-  const auto isGiven = [&app](const char* option) { return app.count(option) > 0; };
+void completeSegments(const ArgumentParser& parser, CommandLine& line) {
+  const auto isGiven = [&parser](const char* option) { return parser.isGiven(option); };
   Options& options = line.options;
   if (options.segmentation != Segmentation::Cgal)
     for (const char* option : {"--clusters", "--smoothness", "--cgal-expansion"})

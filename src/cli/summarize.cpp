@@ -1,9 +1,7 @@
 #include "cli/summarize.h"
 
 #include <fmt/core.h>
-#include <fmt/ranges.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
 
@@ -49,37 +47,35 @@ void completeFormat(SummaryOptions& options) {
   if (options.format.empty() || options.format == "txt") options.format = "text";
   if (std::count(kSummaryFormats.begin(), kSummaryFormats.end(), options.format) == 0)
     refuseOptions(fmt::format("-o {}: the extension names no format; give --format {}", options.output,
-                              fmt::join(kSummaryFormats, "|")));
+                              joined(kSummaryFormats, "|")));
 }
 
 }  // namespace
 
-void addOptions(CLI::App& app, SummaryOptions& options) {
-  app.name("asdf-vk summarize");
-  app.description(
+void addOptions(ArgumentParser& parser, SummaryOptions& options) {
+  parser.setProgram(
+      "asdf-vk summarize",
       "Summarises the logs of batches: times, estimated errors, failures by code. Of several records of a mesh\n"
       "the latest one counts.");
-  app.set_help_flag("-h,--help", "Print this help");
-  app.add_option("logs", options.logs, "Logs of --log")->option_text("LOG.jsonl...")->required();
-  addName(app, "--format", options.format, kSummaryFormats,
+  parser.setHelp("Print this help");
+  parser.addList("logs", "LOG.jsonl...", "Logs of --log", options.logs).require();
+  addName(parser, "--format", options.format, kSummaryFormats,
           "csv: a row per mesh. html: a page with histograms; default text, or by -o");
-  app.add_flag("--json", options.isJson, "The same as --format json");
-  addValue(app, "-o,--output", "FILE|-", "Write to a file; default standard output",
+  parser.addFlag("--json", options.isJson, "The same as --format json");
+  addValue(parser, "-o,--output", "FILE|-", "Write to a file; default standard output",
            [&](const std::string& text) { options.output = text; });
 }
 
 ExitCode summarize(std::vector<std::string> arguments) {
   SummaryOptions options;
-  CLI::App app;
-  addOptions(app, options);
-  std::reverse(arguments.begin(), arguments.end());  // CLI11 takes them from the back.
-  try {
-    app.parse(std::move(arguments));
-  } catch (const CLI::Success&) {
-    writeStandardOutput(app.help());
+  ArgumentParser parser;
+  addOptions(parser, options);
+  const ParseResult result = parser.parse(std::move(arguments));
+  if (!result.refusal.empty())
+    throw Error(ErrorCode::OptionOutOfRange, result.refusal + "; see asdf-vk summarize --help");
+  if (!result.answer.empty()) {
+    writeStandardOutput(result.answer);
     return ExitCode::Done;
-  } catch (const CLI::ParseError& error) {
-    throw Error(ErrorCode::OptionOutOfRange, std::string(error.what()) + "; see asdf-vk summarize --help");
   }
   completeFormat(options);
 

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 #include <vector>
 
+#include "arguments/arguments.h"
 #include "cli/exit_code.h"
 
 namespace asdfvk {
@@ -18,7 +18,7 @@ struct SummaryOptions {
 };
 
 /// Name, description and every option of the command, which set `options`.
-void addOptions(CLI::App& app, SummaryOptions& options);
+void addOptions(ArgumentParser& parser, SummaryOptions& options);
 
 /// Reads logs of batches and prints a table, JSON or CSV, or writes a page. arguments: those after the command. Throws
 /// Error.

@@ -13,9 +13,9 @@ namespace {
 template <typename Options>
 Program programWith(const char* summary) {
   Options options;
-  CLI::App app;
-  addOptions(app, options);
-  Program program = describe(app);
+  ArgumentParser parser;
+  addOptions(parser, options);
+  Program program = describe(parser);
   program.version = ASDFVK_VERSION;
   program.summary = summary;
   return program;

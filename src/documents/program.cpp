@@ -28,22 +28,21 @@ bool isLiteral(const std::string& alternative) {
                                              [](unsigned char c) { return std::islower(c) || c == '-'; });
 }
 
-DocumentedOption describeOption(const CLI::Option& option) {
+DocumentedOption documented(const ArgumentDescription& argument) {
   DocumentedOption result;
-  for (const std::string& name : option.get_snames()) result.names.push_back("-" + name);
-  for (const std::string& name : option.get_lnames()) result.names.push_back("--" + name);
-  ASDFVK_CHECK(option.get_positional() || result.names.back().starts_with("--"));
-  if (option.get_items_expected_max() > 0) {
-    const std::string types = option.get_type_name(), placeholder = option.get_option_text();
-    result.values = parseValues(types.find('|') == std::string::npos ? placeholder : types);
-    result.values.areList = placeholder.ends_with(",...");
-    result.values.placeholder = placeholder;
-    result.values.count = option.get_positional() ? 1 : static_cast<uint32_t>(option.get_items_expected_max());
+  result.names = argument.names;
+  ASDFVK_CHECK(result.names.empty() || result.names.back().starts_with("--"));
+  if (argument.valueCount > 0) {
+    const bool hasCompletions = argument.completions.find('|') != std::string::npos;
+    result.values = parseValues(hasCompletions ? argument.completions : argument.placeholder);
+    result.values.areList = argument.placeholder.ends_with(",...");
+    result.values.placeholder = argument.placeholder;
+    result.values.count = argument.valueCount;
   }
-  result.text = oneLineOf(option.get_description());
-  result.group = option.get_group();
-  for (const CLI::Option* needed : option.get_needs()) result.needs.push_back(needed->get_name());
-  result.isRequired = option.get_required();
+  result.text = oneLineOf(argument.text);
+  result.group = argument.group;
+  result.needs = argument.needs;
+  result.isRequired = argument.isRequired;
   return result;
 }
 
@@ -68,19 +67,12 @@ Values parseValues(const std::string& placeholder) {
   return values;
 }
 
-Program describe(const CLI::App& app) {
+Program describe(const ArgumentParser& parser) {
   Program program;
-  program.name = app.get_name();
-  program.description = oneLineOf(app.get_description());
-  for (const CLI::Option* option : app.get_options())
-    (option->get_positional() ? program.arguments : program.options).push_back(describeOption(*option));
-  // The order of groups is that of the help.
-  const std::vector<std::string> groups = app.get_groups();
-  const auto rank = [&](const DocumentedOption& option) {
-    return std::find(groups.begin(), groups.end(), option.group) - groups.begin();
-  };
-  std::stable_sort(program.options.begin(), program.options.end(),
-                   [&](const DocumentedOption& a, const DocumentedOption& b) { return rank(a) < rank(b); });
+  program.name = parser.name();
+  program.description = oneLineOf(parser.description());
+  for (const ArgumentDescription& argument : parser.describe())
+    (argument.names.empty() ? program.arguments : program.options).push_back(documented(argument));
   return program;
 }
 

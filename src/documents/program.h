@@ -1,12 +1,14 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
 
-/// A program as its man page and its completions show it. Everything about options is read from the CLI::App that also
-/// parses the command line.
+#include "arguments/arguments.h"
+
+/// A program as its man page and its completions show it. Everything about options is read from the
+/// ArgumentParser that also parses the command line.
 namespace asdfvk {
 
 /// Values of an option or argument.
@@ -47,9 +49,9 @@ struct Program {
   std::vector<std::string> seeAlso;                                     ///< Other man pages: "man(1)".
 };
 
-/// Name, description, arguments and options of `app`. Throws CheckFailure where an option has no name that starts with
-/// two dashes.
-[[nodiscard]] Program describe(const CLI::App& app);
+/// Name, description, arguments and options of `parser`. Throws CheckFailure where an option has no name that starts
+/// with two dashes.
+[[nodiscard]] Program describe(const ArgumentParser& parser);
 
 /// asdf-vk and asdf-vk-generate.
 [[nodiscard]] std::vector<Program> documentedPrograms();

@@ -1,10 +1,11 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <array>
 #include <cstdint>
 #include <string>
 #include <utility>
+
+#include "arguments/arguments.h"
 
 namespace asdfvk {
 
@@ -23,6 +24,6 @@ inline constexpr std::array<std::pair<int, const char*>, 3> kGeneratorExitCodes{
     {{0, "done"}, {kGeneratorUsage, "usage"}, {kGeneratorOutput, "output not writable"}}};
 
 /// Name, description and every option of the program, which set `options`.
-void addOptions(CLI::App& app, GeneratorOptions& options);
+void addOptions(ArgumentParser& parser, GeneratorOptions& options);
 
 }  // namespace asdfvk

@@ -1,7 +1,7 @@
 #include <fmt/core.h>
 
-#include <CLI/CLI.hpp>
 #include <cmath>
+#include <cstdio>
 #include <exception>
 
 #include "asdf_vk/error.h"
@@ -33,14 +33,20 @@ void run(const GeneratorOptions& options) {
 
 int main(int argc, char** argv) {
   GeneratorOptions options;
-  CLI::App app;
-  addOptions(app, options);
+  ArgumentParser parser;
+  addOptions(parser, options);
   try {
-    app.parse(argc, argv);
+    const ParseResult result = parser.parse({argv + 1, argv + argc});
+    if (!result.refusal.empty()) {
+      fmt::print(stderr, "{}\nRun with --help for more information.\n", result.refusal);
+      return kGeneratorUsage;
+    }
+    if (!result.answer.empty()) {
+      std::fputs(result.answer.c_str(), stdout);
+      return 0;
+    }
     run(options);
     return 0;
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : kGeneratorUsage;
   } catch (const Error& error) {
     fmt::print(stderr, "asdf-vk-generate: {}\n", error.what());
     return error.kind() == ErrorKind::Output ? kGeneratorOutput : kGeneratorUsage;

@@ -90,6 +90,7 @@ std::string objection(const std::string& layer, const fs::path& file, const std:
     return "Eigen belongs in poisson and segment";
   if ((target == "volk.h" || top == "vulkan" || top == "volk") && !isVulkan)
     return "Vulkan belongs in vk and the folders vulkan/";
+  if (top == "CLI" && layer != "arguments") return "CLI11 belongs in arguments";
   if (top == "embree3" && !isIn("embree", file)) return "Embree belongs in the folders embree/";
   const bool isOurs = layers().count(top) || top == "shared";
   if (!isOurs || top == layer) return {};
@@ -188,6 +189,7 @@ TEST_CASE("the table objects to includes against it") {
   CHECK_FALSE(objection("mesh", "src/mesh/off.cpp", "OpenMesh/Core/IO/MeshIO.hh").empty());
   CHECK_FALSE(objection("trace", "src/trace/a.cpp", "Eigen/Sparse").empty());
   CHECK_FALSE(objection("bvh", "src/bvh/a.cpp", "volk.h").empty());
+  CHECK_FALSE(objection("cli", "src/cli/options.cpp", "CLI/CLI.hpp").empty());
   CHECK_FALSE(objection("pipeline", "src/pipeline/a.cpp", "vulkan/vulkan.h").empty());
 
   CHECK(objection("trace", "src/trace/vulkan/tracer.cpp", "vk/buffer.h").empty());
@@ -195,6 +197,7 @@ TEST_CASE("the table objects to includes against it") {
   CHECK_FALSE(objection("trace", "src/trace/seed_order.h", "embree3/rtcore.h").empty());
   CHECK(objection("trace", "src/trace/embree/scene.h", "embree3/rtcore.h").empty());
   CHECK(objection("poisson", "src/poisson/eigen.cpp", "Eigen/Sparse").empty());
+  CHECK(objection("arguments", "src/arguments/arguments.cpp", "CLI/CLI.hpp").empty());
   CHECK(objection("mesh", "src/mesh/a.cpp", "vector").empty());
   CHECK(objection("generate", "src/generate/a.cpp", "mesh/mesh.h").empty());
 }

@@ -34,16 +34,16 @@ std::vector<Subject> subjects() {
   std::vector<Program> programs = documentedPrograms();
   REQUIRE_EQ(programs.size(), 2);
   GeneratorOptions options;
-  CLI::App generator;
+  ArgumentParser generator;
   addOptions(generator, options);
   return {{programs[0], parseCommandLine({"--help=all"}).answer.value()}, {programs[1], generator.help()}};
 }
 
 Subject summarizeSubject() {
   SummaryOptions options;
-  CLI::App app;
-  addOptions(app, options);
-  return {documentedSummarize(), app.help()};
+  ArgumentParser parser;
+  addOptions(parser, options);
+  return {documentedSummarize(), parser.help()};
 }
 
 /// Programs and commands, which have man pages.
