@@ -141,9 +141,8 @@ std::vector<ArgumentDescription> ArgumentParser::describe() const {
   const auto rank = [&](const ArgumentDescription& argument) {
     return argument.names.empty() ? -1 : std::find(groups.begin(), groups.end(), argument.group) - groups.begin();
   };
-  std::stable_sort(result.begin(), result.end(), [&](const ArgumentDescription& a, const ArgumentDescription& b) {
-    return rank(a) < rank(b);
-  });
+  std::stable_sort(result.begin(), result.end(),
+                   [&](const ArgumentDescription& a, const ArgumentDescription& b) { return rank(a) < rank(b); });
   return result;
 }
 

@@ -18,7 +18,6 @@ double parseThickness(const std::string& text) {
 
 /// The limits imply the measure; all faces cast rays unless the number of seeds is given.
 void applyLimits(const ArgumentParser& parser, CommandLine& line) {
-  const auto isGiven = [&parser](const char* option) { return parser.isGiven(option); };
   Options& options = line.options;
   std::optional<double>& limit = options.thickness.thinnerThan;
   if (line.failIfThinner) {
@@ -28,10 +27,10 @@ void applyLimits(const ArgumentParser& parser, CommandLine& line) {
     if (!limit) limit = line.failIfThinner;
   }
   if (!limit) return;
-  if (isGiven("--measure") && options.measure != Measure::Thickness)
+  if (parser.isGiven("--measure") && options.measure != Measure::Thickness)
     refuseOptions("--thinner-than and --fail-if-thinner contradict --measure sdf; drop one");
   options.measure = Measure::Thickness;
-  if (!isGiven("--seeds") && !options.rounds.areSet()) options.seeds = SeedCount::all();
+  if (!parser.isGiven("--seeds") && !options.rounds.areSet()) options.seeds = SeedCount::all();
 }
 
 }  // namespace

@@ -93,24 +93,24 @@ void expandBareSegment(std::vector<std::string>& arguments) {
 }
 
 void completeSegments(const ArgumentParser& parser, CommandLine& line) {
-  const auto isGiven = [&parser](const char* option) { return parser.isGiven(option); };
   Options& options = line.options;
   if (options.segmentation != Segmentation::Cgal)
     for (const char* option : {"--clusters", "--smoothness", "--cgal-expansion"})
-      if (isGiven(option)) refuseOptions(fmt::format("{} needs --segment cgal", option));
+      if (parser.isGiven(option)) refuseOptions(fmt::format("{} needs --segment cgal", option));
   if (options.segmentation != Segmentation::Parts)
     for (const char* option : {"--parts", "--detail"})
-      if (isGiven(option)) refuseOptions(fmt::format("{} needs --segment parts", option));
-  if (isGiven("--parts") && isGiven("--detail")) refuseOptions("--parts and --detail contradict each other; drop one");
-  if (options.segmentation == Segmentation::Cgal && isGiven("--postprocess") &&
+      if (parser.isGiven(option)) refuseOptions(fmt::format("{} needs --segment parts", option));
+  if (parser.isGiven("--parts") && parser.isGiven("--detail"))
+    refuseOptions("--parts and --detail contradict each other; drop one");
+  if (options.segmentation == Segmentation::Cgal && parser.isGiven("--postprocess") &&
       options.postprocess == Postprocess::None)
     refuseOptions("--segment cgal contradicts --postprocess none; drop one");
-  if (isGiven("--postprocess") && options.postprocess != Postprocess::None) line.valueOptions = "--postprocess";
-  if (isGiven("--segment") && options.segmentation != Segmentation::None)
+  if (parser.isGiven("--postprocess") && options.postprocess != Postprocess::None) line.valueOptions = "--postprocess";
+  if (parser.isGiven("--segment") && options.segmentation != Segmentation::None)
     line.valueOptions += line.valueOptions.empty() ? "--segment" : " and --segment";
   if (options.postprocesses()) options.postprocess = Postprocess::Cgal;
   const auto require = [&](const char* field, bool isComputed, const char* remedy) {
-    if (isComputed && !isGiven("--fields")) line.fields.emplace_back(field);
+    if (isComputed && !parser.isGiven("--fields")) line.fields.emplace_back(field);
     if (!isComputed) refuseField(line, field, remedy);
   };
   require("normalized", options.postprocesses(), "--postprocess cgal");

@@ -29,20 +29,15 @@ bool isLiteral(const std::string& alternative) {
 }
 
 DocumentedOption documented(const ArgumentDescription& argument) {
-  DocumentedOption result;
-  result.names = argument.names;
-  ASDFVK_CHECK(result.names.empty() || result.names.back().starts_with("--"));
-  if (argument.valueCount > 0) {
-    const bool hasCompletions = argument.completions.find('|') != std::string::npos;
-    result.values = parseValues(hasCompletions ? argument.completions : argument.placeholder);
-    result.values.areList = argument.placeholder.ends_with(",...");
-    result.values.placeholder = argument.placeholder;
-    result.values.count = argument.valueCount;
-  }
+  ASDFVK_CHECK(argument.names.empty() || argument.names.back().starts_with("--"));
+  DocumentedOption result{argument, {}};
   result.text = oneLineOf(argument.text);
-  result.group = argument.group;
-  result.needs = argument.needs;
-  result.isRequired = argument.isRequired;
+  if (argument.valueCount == 0) return result;
+  const bool hasCompletions = argument.completions.find('|') != std::string::npos;
+  result.values = parseValues(hasCompletions ? argument.completions : argument.placeholder);
+  result.values.areList = argument.placeholder.ends_with(",...");
+  result.values.placeholder = argument.placeholder;
+  result.values.count = argument.valueCount;
   return result;
 }
 

@@ -26,13 +26,9 @@ struct Values {
 /// FILE.ply one of that extension; ",..." at the end marks a list.
 [[nodiscard]] Values parseValues(const std::string& placeholder);
 
-struct DocumentedOption {
-  std::vector<std::string> names;  ///< "-o", "--output"; none for an argument.
+/// The text is one line.
+struct DocumentedOption : ArgumentDescription {
   Values values;
-  std::string text;   ///< The help as one line.
-  std::string group;  ///< Heading in the help.
-  std::vector<std::string> needs;
-  bool isRequired = false;
 };
 
 /// All text is plain: no markup.
