@@ -43,5 +43,5 @@ def add_licences(folder: pathlib.Path, carried: dict[str, pathlib.Path]) -> None
     lines += [f"  {name}: {package} {_version(package)}" for name, package in packages.items()]
     lines += ["Packages whose headers are compiled into the module:"]
     lines += [f"  {package} {_version(package)}" for package in HEADER_PACKAGES]
-    lines += [f"Each has a file here with its licences, which cite the texts in {_COMMON} beside it."]
+    lines += ["PACKAGE.txt has the licences of a package; texts that it cites", f"from {_COMMON} are here too."]
     (folder / "PACKAGES.txt").write_text("\n".join(lines) + "\n")
