@@ -30,6 +30,9 @@ def _build(log: pathlib.Path, folder: pathlib.Path) -> pathlib.Path:
     # setuptools adds what an earlier build left there, removed files too.
     for left in pathlib.Path("build").glob("lib.*"):
         shutil.rmtree(left)
+    # Options of an earlier CMAKE_ARGS are kept there.
+    for cache in pathlib.Path("build").glob("temp.*/CMakeCache.txt"):
+        cache.unlink()
     options = ["--no-build-isolation", "--no-deps", "--no-index", f"--wheel-dir={folder}"]
     _run(log, sys.executable, "-m", "pip", "wheel", ".", *options)
     return next(folder.glob("*.whl"))
