@@ -156,7 +156,7 @@ template <typename Code>
 /// `[&]<typename Floats>() ASDFVK_ALWAYS_INLINE { ... }`, where Floats is the vector of floats that fills a register,
 /// at most Widest (Float8 or Float16). Precondition: this machine has the instruction set.
 template <typename Widest, typename Code>
-auto dispatch(InstructionSet instructionSet, const Code& code) {
+auto dispatch([[maybe_unused]] InstructionSet instructionSet, const Code& code) {
 #ifdef __x86_64__
   if constexpr (sizeof(Widest) == sizeof(Float16))
     if (instructionSet == InstructionSet::Avx512) return runWithAvx512(code);
