@@ -1,13 +1,14 @@
 #include "baselines.h"
 
 #ifdef ASDFVK_HAS_EMBREE
-#include <embree3/rtcore.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <limits>
 #include <numeric>
 #include <vector>
+
+#include "trace/embree/embree_api.h"
 #endif
 
 namespace asdfvk::bench {
@@ -53,9 +54,6 @@ class EmbreeBaselineScene final : public EmbreeBaseline {
   double sumOfLengths(uint32_t face) const {
     const ConeFrame frame = paperConeFrame(cone_, scene_.geometry.normals[face], face);
     const Vec3f origin(scene_.bvh.normalization.toNormalized(scene_.geometry.barycentres[face]));
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
     double sum = 0;
     for (const Vec3d& d : cone_.directions) {
       const Vec3f direction(d.x * frame.tangent + d.y * frame.bitangent + d.z * frame.axis);
@@ -65,7 +63,7 @@ class EmbreeBaselineScene final : public EmbreeBaseline {
                    direction.z, 0,           std::numeric_limits<float>::infinity(),
                    ~0u,         0,           0};
       query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-      rtcIntersect1(embree_, &context, &query);
+      intersect1(embree_, query);
       if (query.hit.geomID != RTC_INVALID_GEOMETRY_ID) sum += query.ray.tfar;
     }
     return sum;

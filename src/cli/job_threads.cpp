@@ -1,7 +1,6 @@
 #include "cli/job_threads.h"
 
 #include <fmt/core.h>
-#include <tbb/task_arena.h>
 
 #include <atomic>
 #include <exception>
@@ -12,6 +11,7 @@
 #include <utility>
 
 #include "cli/terminal.h"
+#include "core/parallel.h"
 
 namespace asdfvk {
 namespace {
@@ -75,9 +75,10 @@ class JobThreads {
   }
 
   void runJob(std::unique_ptr<Session> session) {
-    tbb::task_arena arena(static_cast<int>(threadCount_));
-    for (size_t i = 0; session && !isEnding() && (i = nextTask_++) < phase_.tasks.size();)
-      arena.execute([&] { runMesh(session, phase_.tasks[i], std::nullopt, false, nextTask_ >= phase_.tasks.size()); });
+    callWithThreads(threadCount_, [&] {
+      for (size_t i = 0; session && !isEnding() && (i = nextTask_++) < phase_.tasks.size();)
+        runMesh(session, phase_.tasks[i], std::nullopt, false, nextTask_ >= phase_.tasks.size());
+    });
   }
 
   /// After a failure of the device, opens the session again, unless this was the last mesh. If that fails, the session

@@ -43,6 +43,10 @@ void callBoth(FunctionRef<void()> first, FunctionRef<void()> second) { tbb::para
 
 void callIsolated(FunctionRef<void()> body) { tbb::this_task_arena::isolate(body); }
 
+void callWithThreads(uint32_t threadCount, FunctionRef<void()> body) {
+  tbb::task_arena(static_cast<int>(threadCount)).execute(body);
+}
+
 struct PointerPerThread::State {
   tbb::enumerable_thread_specific<void*> pointers{nullptr};
 };

@@ -43,6 +43,9 @@ void callBoth(FunctionRef<void()> first, FunctionRef<void()> second);
 /// no task that was made before.
 void callIsolated(FunctionRef<void()> body);
 
+/// Calls `body` on this thread. Its parallel loops use at most `threadCount` threads, this one included.
+void callWithThreads(uint32_t threadCount, FunctionRef<void()> body);
+
 /// Calls body(i) for every i in [0, count), in parallel. If body(i) writes only data of i, the result has the same bits
 /// on any number of threads.
 template <typename Body>

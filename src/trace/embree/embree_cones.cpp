@@ -125,10 +125,7 @@ LaneHits EmbreeConeGroup::cast(const Vec3d& coneDirection) {
     packet_.hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID;
     packet_.hit.primID[lane] = kNoFace;
   }
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
-  rtcIntersect8(isActive_.data(), cones_.embree.get(), &context, &packet_);
+  intersect8(cones_.embree.get(), isActive_.data(), packet_);
   LaneHits hits;
   std::copy_n(packet_.hit.primID, kWidth, hits.primitives.begin());
   std::copy_n(packet_.ray.tfar, kWidth, hits.distances.begin());

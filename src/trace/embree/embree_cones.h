@@ -1,13 +1,12 @@
 #pragma once
 
-#include <embree3/rtcore.h>
-
 #include <array>
 #include <memory>
 #include <span>
 #include <type_traits>
 #include <vector>
 
+#include "trace/embree/embree_api.h"
 #include "trace/embree/lane_cones.h"
 
 // The Embree scene, and tracing in groups of eight cones. Lengths are in normalised units.
@@ -59,8 +58,7 @@ struct EmbreeSeed {
 };
 
 /// Traces up to eight neighbouring cones together: each packet holds the same ray of all of them. Embree traverses for
-/// each ray alone (RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT), so that hits do not depend on the other cones. Keeps its
-/// memory from call to call.
+/// each ray alone (intersect8()), so that hits do not depend on the other cones. Keeps its memory from call to call.
 class EmbreeConeGroup {
  public:
   static constexpr size_t kWidth = LaneHits::kWidth;

@@ -33,10 +33,7 @@ class EmbreeSightTracer final : public SightTracer {
     ray.tnear = static_cast<float>(kSightMargin);
     ray.tfar = static_cast<float>(1 - kSightMargin);
     ray.mask = ~0u;
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    rtcOccluded1(embree_.get(), &context, &ray);
-    return ray.tfar < 0;  // Minus infinity after a hit.
+    return isOccluded(embree_.get(), ray);
   }
 
   Normalization unit_;
