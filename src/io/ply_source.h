@@ -43,9 +43,10 @@ template <typename Out, bool kIsSwapped>
     case PlyType::Float32:
       return static_cast<Out>(loadScalar<float, kIsSwapped>(at));
     case PlyType::Float64:
-      return static_cast<Out>(loadScalar<double, kIsSwapped>(at));
+      break;
   }
-  return Out{};
+  // After the switch: a further path, for values that are no PlyType, would lead GCC 14 beyond the array of sizeOf().
+  return static_cast<Out>(loadScalar<double, kIsSwapped>(at));
 }
 
 // Two readers of the numbers after a PLY header, with the same interface. expected: the name of the number, for the
