@@ -95,7 +95,7 @@ VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL getInstanceFunction(VkInstance handle, 
 }  // namespace
 }  // namespace asdfvk::fake
 
-extern "C" VK_LAYER_EXPORT VKAPI_ATTR VkResult VKAPI_CALL
+extern "C" __attribute__((visibility("default"))) VKAPI_ATTR VkResult VKAPI_CALL
 vkNegotiateLoaderLayerInterfaceVersion(VkNegotiateLayerInterface* layer) {
   layer->loaderLayerInterfaceVersion = 2;
   layer->pfnGetInstanceProcAddr = asdfvk::fake::getInstanceFunction;
