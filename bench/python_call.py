@@ -1,6 +1,6 @@
 """Time of asdf_vk.shape_diameter() on arrays over that of Session::compute(), in turns.
 
-    PYTHONPATH=build/release/python /usr/bin/python3 bench/python_call.py build/release/bench/asdfvk-bench-call MESH
+    PYTHONPATH=build/develop/python /usr/bin/python3 bench/python_call.py build/develop/bench/asdfvk-bench-call MESH
 
 Prints the medians and the median of the ratios.
 """

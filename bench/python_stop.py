@@ -1,6 +1,6 @@
 """Delay between SIGINT and KeyboardInterrupt in calls of asdf_vk, at moments spread over each call.
 
-    PYTHONPATH=build/release/python /usr/bin/python3 bench/python_stop.py MESH
+    PYTHONPATH=build/develop/python /usr/bin/python3 bench/python_stop.py MESH
 
 Prints per call: its duration, then the median and the greatest delay.
 """

@@ -6,7 +6,7 @@
   python3 bench/batch kill [--moments 50]    kill -9 at random moments, then the same call: the bytes of a run without it
   python3 bench/batch shards MESHES          --shard 1/7 to 7/7: their union, and their shares of the work
 
-Programs are taken from --build (build/release). All files are written to a temporary folder. The exit code is 1 where
+Programs are taken from --build (build/develop). All files are written to a temporary folder. The exit code is 1 where
 a check fails.
 """
 import argparse
@@ -22,7 +22,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("what", choices=["threads", "cgal", "many", "kill", "shards"])
     parser.add_argument("meshes", nargs="?", help="folder of meshes, for threads, cgal and shards")
-    parser.add_argument("--build", type=pathlib.Path, default=pathlib.Path(__file__).resolve().parent.parent.parent / "build/release")
+    parser.add_argument("--build", type=pathlib.Path, default=pathlib.Path(__file__).resolve().parent.parent.parent / "build/develop")
     parser.add_argument("--runs", type=int, default=3)
     parser.add_argument("--count", type=int, help="generated meshes; default 10000 for many, 60 for kill")
     parser.add_argument("--moments", type=int, default=50)
