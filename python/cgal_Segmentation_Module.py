@@ -71,8 +71,9 @@ def cgal_segmentation(
             raise
         return _in_new_process(path, clusters, smoothness, {"expansion": expansion, **options})
     name = f"{path}-cgal_{clusters}_{smoothness:.2f}"
-    segments = "".join([f"{label}\n" for label in labels.tolist()])
-    numbers = "".join([f"{value:g}\n" for value in values.tolist()])
+    # ravel(): the types of NumPy 2 know a list of numbers only from an array of one dimension.
+    segments = "".join([f"{label}\n" for label in labels.ravel().tolist()])
+    numbers = "".join([f"{value:g}\n" for value in values.ravel().tolist()])
     _write_whole({f"{name}.csv": segments, f"{name}_sdf.csv": numbers})
     return DONE
 

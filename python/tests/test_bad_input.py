@@ -111,7 +111,8 @@ def wrong_options() -> Iterator[dict[str, Any]]:
     for name in TEXTUAL:
         for text in TEXTS:
             yield {name: text}
-    for seeds in (0, -1, 0.0, 1.5, float("nan"), "x%", "%", "200%", "nan%", "all ", "", 2**64, [], b"all", 1j):
+    wrong_seeds: list[Any] = [0, -1, 0.0, 1.5, float("nan"), "x%", "%", "200%", "nan%", "all ", "", 2**64, [], b"all", 1j]
+    for seeds in wrong_seeds:
         yield {"seeds": seeds}
     for smooth in ((1,), (0, 1), (1, 2, 3), (9, 1), ("a", 1), [2, 1], (2.0, 1)):
         yield {"smooth": smooth}
@@ -190,7 +191,8 @@ def test_wrong_arguments_of_the_other_functions(reference: asdf_vk.Session) -> N
 
 
 def test_wrong_files(tmp_path: Any) -> None:
-    for path in (1, None, object(), "", "\0", tmp_path, tmp_path / "none"):
+    paths: list[Any] = [1, None, object(), "", "\0", tmp_path, tmp_path / "none"]
+    for path in paths:
         assert fails(lambda: asdf_vk.read_mesh(path)), path
         assert fails(lambda: asdf_vk.read_fields(path)), path
         assert fails(lambda: asdf_vk.write(path, cube())), path

@@ -63,8 +63,8 @@ def dirty_mesh() -> Arrays:
 
 def write_off(path: Path, vertices: NDArray[np.float64], faces: NDArray[np.int32]) -> None:
     lines = ["OFF", f"{len(vertices)} {len(faces)} 0"]
-    lines += [" ".join(map(repr, point)) for point in vertices.tolist()]
-    lines += ["3 " + " ".join(map(str, face)) for face in faces.tolist()]
+    lines += [" ".join(map(repr, point.tolist())) for point in vertices]
+    lines += ["3 " + " ".join(map(str, face.tolist())) for face in faces]
     path.write_text("\n".join(lines) + "\n")
 
 
@@ -106,7 +106,7 @@ def test_segments_and_clusters(mesh: Arrays, values: NDArray[np.float64]) -> Non
         *mesh, values, number_of_clusters=3, smoothing_lambda=0.02
     )
     assert labels.dtype == np.int32
-    assert sorted(set(labels.tolist())) == list(range(count))
+    assert np.array_equal(np.unique(labels), np.arange(count))
     means = [values[labels == label].mean() for label in range(count)]
     assert means == sorted(means)
     clusters, cluster_count = cgal.segmentation_from_sdf_values(

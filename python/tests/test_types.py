@@ -9,6 +9,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import asdf_vk
@@ -20,6 +21,9 @@ _ROOT = Path(__file__).resolve().parents[2]
 def mypy(*arguments: str, folder: Path = _ROOT) -> str:
     pytest.importorskip("mypy")
     command = [sys.executable, "-m", "mypy", "--config-file", str(_ROOT / "pyproject.toml"), *arguments]
+    # The stubs of NumPy 2.1 need Python 3.10; with 3.9 every array would be Any.
+    if np.lib.NumpyVersion(np.__version__) >= "2.1.0":
+        command += ["--python-version", "3.10"]
     environment = {**os.environ, "MYPYPATH": str(_ROOT / "python")}
     finished = subprocess.run(command, capture_output=True, text=True, cwd=folder, env=environment)
     return finished.stdout + finished.stderr
@@ -29,7 +33,8 @@ def test_the_package_and_its_tests_are_typed() -> None:
     found = mypy(
         "--cache-dir=/dev/null", "python/asdf_vk", "python/tests", "python/cgal_Segmentation_Module.py"
     )
-    assert found.startswith("Success"), found
+    # mypy 1.15 warns before that Unpack is no longer incomplete; mypy 1.0 needs it enabled.
+    assert re.search(r"^Success", found, re.MULTILINE), found
 
 
 def test_a_caller_sees_types(tmp_path: Path) -> None:
@@ -42,7 +47,8 @@ def test_a_caller_sees_types(tmp_path: Path) -> None:
         "asdf_vk.shape_diameter(v, f, rays='many')\n"
     )
     found = mypy("--cache-dir=/dev/null", "caller.py", folder=tmp_path)
-    assert "numpy.floating[numpy._typing._32Bit]" in found and "Union[builtins.int, None]" in found, found
+    assert re.search(r"numpy\.floating\[numpy\._typing\.(_nbit_base\.)?_32Bit\]", found), found
+    assert "Union[builtins.int, None]" in found, found
     assert re.search(r"caller.py:6: error: No overload", found) and "Found 1 error" in found, found
 
 
