@@ -88,7 +88,7 @@ class ASDFVK_API Session {
 
  private:
   friend class Scene;
-  std::unique_ptr<struct SessionState> state_;
+  std::unique_ptr<class SessionState> state_;
 };
 
 }  // namespace asdfvk

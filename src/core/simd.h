@@ -42,8 +42,10 @@ template <typename V, typename Number>
   return vector;
 }
 
-template <typename V>
-ASDFVK_ALWAYS_INLINE inline void store(NumberOf<V>* numbers, const V& vector) {
+/// Writes kLaneCount<V> numbers, at any alignment. Clang's masks of doubles have elements of the type long long.
+template <typename V, typename Number>
+ASDFVK_ALWAYS_INLINE inline void store(Number* numbers, const V& vector) {
+  static_assert(sizeof(Number) == sizeof(NumberOf<V>));
   std::memcpy(numbers, &vector, sizeof vector);
 }
 

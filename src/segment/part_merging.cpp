@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <ranges>
 
 #include "core/check.h"
 
@@ -83,17 +82,15 @@ double PartMerging::costOf(const Border& border) const {
          std::pow(border.length / std::sqrt(area), w.borderExponent);
 }
 
-template <typename Indices>
-uint32_t PartMerging::cheapestOf(const Indices& borders) const {
-  uint32_t cheapest = kNoBorder;
-  for (const uint32_t border : borders)
-    if (borders_[border].isAlive && (cheapest == kNoBorder || borders_[border].cost < borders_[cheapest].cost))
-      cheapest = border;
-  return cheapest;
+uint32_t PartMerging::cheaperOf(uint32_t cheapest, uint32_t border) const {
+  if (!borders_[border].isAlive) return cheapest;
+  return cheapest == kNoBorder || borders_[border].cost < borders_[cheapest].cost ? border : cheapest;
 }
 
 uint32_t PartMerging::cheapestBorder() const {
-  return cheapestOf(std::views::iota(uint32_t{0}, static_cast<uint32_t>(borders_.size())));
+  uint32_t cheapest = kNoBorder;
+  for (uint32_t border = 0; border < borders_.size(); ++border) cheapest = cheaperOf(cheapest, border);
+  return cheapest;
 }
 
 std::optional<double> PartMerging::nextCost() const {
@@ -131,7 +128,7 @@ void PartMerging::merge(uint32_t border) {
     Border& moved = borders_[index];
     if (!moved.isAlive) continue;
     const uint32_t other = moved.other(b);
-    const auto found = std::find_if(kept.borders.begin(), kept.borders.end(), [&](uint32_t candidate) {
+    const auto found = std::find_if(kept.borders.begin(), kept.borders.end(), [&, a = a](uint32_t candidate) {
       return borders_[candidate].isAlive && borders_[candidate].other(a) == other;
     });
     if (found == kept.borders.end()) {
@@ -173,7 +170,8 @@ void PartMerging::mergeSmallerThan(double area) {
       const Region& region = regions_[i];
       if (!region.isAlive || region.area >= area) continue;
       if (smallest != kNoBorder && region.area >= regions_[smallest].area) continue;
-      const uint32_t border = cheapestOf(region.borders);
+      uint32_t border = kNoBorder;
+      for (const uint32_t other : region.borders) border = cheaperOf(border, other);
       if (border == kNoBorder) continue;
       smallest = i;
       cheapest = border;

@@ -88,9 +88,9 @@ class PartMerging {
   };
 
   [[nodiscard]] double costOf(const Border& border) const;
+  /// `border` if it is alive and has less cost than `cheapest`, which may be kNoBorder; otherwise `cheapest`.
+  [[nodiscard]] uint32_t cheaperOf(uint32_t cheapest, uint32_t border) const;
   /// The one of the least cost, the first of equal ones.
-  template <typename Indices>
-  [[nodiscard]] uint32_t cheapestOf(const Indices& borders) const;
   [[nodiscard]] uint32_t cheapestBorder() const;
   void merge(uint32_t border);
   [[nodiscard]] PairSums& pairSums(uint32_t i, uint32_t j) { return pairs_[size_t{i} * regions_.size() + j]; }

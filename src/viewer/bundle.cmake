@@ -98,5 +98,6 @@ string(REPLACE "@STYLE@" "${style}" page "${page}")
 string(REPLACE "@LOADER@" "${loader}" page "${page}")
 asdfvk_refuse("${page}${script}" "[)]asdfvk\"" "the page ends the C++ string")
 file(WRITE ${OUTPUT} "// Written by src/viewer/bundle.cmake.\n#include \"viewer/page_template.h\"\n\n"
+     "#pragma GCC diagnostic ignored \"-Woverlength-strings\"  // Clang warns above 65,536 characters.\n\n"
      "namespace asdfvk {\n\nconst std::string_view kPageTemplate = R\"asdfvk(${page})asdfvk\";\n"
      "const std::string_view kPageScript = R\"asdfvk(${script})asdfvk\";\n\n}  // namespace asdfvk\n")

@@ -112,9 +112,10 @@ Names namesInFish(const std::string& text) {
 }
 
 TEST_CASE("the man page and each completion have the options of --help=all, and no other") {
-  for (const auto& [program, help] : subjects()) {
+  for (const Subject& subject : subjects()) {
+    const Program& program = subject.program;
     INFO(program.name);
-    const Names expected = namesOf(optionsOf(help));
+    const Names expected = namesOf(optionsOf(subject.help));
     REQUIRE_GE(expected.size(), 8);
     CHECK(namesInManPage(manPage(program)) == expected);
     CHECK(namesInBash(bashCompletion(program)) == expected);
@@ -137,7 +138,8 @@ TEST_CASE("an option with choices completes to them in each shell") {
   size_t choiceCount = 0;
   for (const auto& [program, help] : subjects()) {
     const std::string bash = bashCompletion(program), zsh = zshCompletion(program), fish = fishCompletion(program);
-    for (const auto& [name, placeholder] : optionsOf(help)) {
+    for (const auto& [option, value] : optionsOf(help)) {
+      const std::string &name = option, &placeholder = value;
       if (!std::regex_match(placeholder, std::regex("[a-z-]+(\\|[a-z-]+)+"))) continue;
       INFO(name, " ", placeholder);
       const std::string words = std::regex_replace(placeholder, std::regex("\\|"), " ");
@@ -232,7 +234,8 @@ TEST_CASE("groff and the shells accept the documents") {
                                                            {"bash -n", bashCompletion},
                                                            {"zsh -n", zshCompletion},
                                                            {"fish -n", fishCompletion}};
-  for (const auto& [command, write] : checks) {
+  for (const auto& [checker, write] : checks) {
+    const std::string& command = checker;
     if (!isInstalled(command.substr(0, command.find(' ')))) continue;
     for (const Subject& subject : write == &manPage ? subjectsOfPages() : subjects()) {
       const TextFile file(write(subject.program));

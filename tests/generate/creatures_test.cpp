@@ -31,7 +31,8 @@ Vec3d barycentre(const Mesh& mesh, const Face& face) {
 }  // namespace
 
 TEST_CASE("every part of a creature is there, already in a hundred faces or so") {
-  for (const auto& [name, field, partCount] : creatures()) {
+  for (const auto& [creature, field, partCount] : creatures()) {
+    const std::string_view name = creature;
     CAPTURE(name);
     const GeneratedShape coarse = generateShape(name, 300), fine = generateShape(name, 20000);
     CHECK(std::set<uint32_t>(coarse.part.begin(), coarse.part.end()).size() == partCount);
@@ -42,7 +43,8 @@ TEST_CASE("every part of a creature is there, already in a hundred faces or so")
 }
 
 TEST_CASE("the vertices of a creature are on its surface and its faces are oriented outwards") {
-  for (const auto& [name, field, partCount] : creatures()) {
+  for (const auto& [creature, field, partCount] : creatures()) {
+    const std::string_view name = creature;
     CAPTURE(name);
     const Mesh mesh = generateShape(name, 100000).mesh;
     size_t offCount = 0, turnedCount = 0;
@@ -83,7 +85,8 @@ TEST_CASE("volume and area of one capsule converge to the exact ones") {
 }
 
 TEST_CASE("the field changes no faster than the distance walked, and its gradient is its derivative") {
-  for (const auto& [name, field, partCount] : creatures()) {
+  for (const auto& [creature, field, partCount] : creatures()) {
+    const std::string_view name = creature;
     CAPTURE(name);
     const Vec3d size = field.bounds().size();
     for (int i = 0; i < 2000; ++i) {

@@ -51,7 +51,8 @@ const std::map<std::string, Expected> kExpected = {
 TEST_CASE("real meshes have the faces that their files count and the defects that they are known for") {
   const auto folder = test::realMeshFolder();
   if (!folder) return;
-  for (const auto& [name, expected] : kExpected) {
+  for (const auto& [file, expected] : kExpected) {
+    const std::string& name = file;
     CAPTURE(name);
     const Mesh mesh = readMesh(*folder / name);
     CHECK(mesh.inputFaceCount() == expected.inputFaceCount);

@@ -191,8 +191,9 @@ TEST_CASE("values of points do not depend on the unit and the place of the mesh,
     struct Place {
       double scale, shift, normalLength;
     };
-    for (const auto& [scale, shift, normalLength] :
+    for (const auto& [size, shift, normalLength] :
          {Place{0x1p-100, 0, 1e-300}, Place{1e-3, 0, 1e300}, Place{1e3, 0, 1}, Place{1e30, 0, 1}, Place{1, 1e6, 1}}) {
+      const double scale = size;
       CAPTURE(scale);
       const Mesh moved = shapes::scaledAndShifted(mesh, scale, {shift, -shift, shift});
       Points movedPoints;

@@ -100,7 +100,8 @@ TEST_CASE("scaling and shifting a mesh scales its values and nothing else") {
     Vec3d shift;
   } cases[] = {{1e-3, {0, 0, 0}},  {1e3, {0, 0, 0}},      {1e-170, {0, 0, 0}}, {1e160, {0, 0, 0}},
                {1e307, {0, 0, 0}}, {1, {1e6, -2e6, 3e5}}, {1e3, {1e8, 0, 0}}};
-  for (const auto& [scale, shift] : cases) {
+  for (const auto& [size, shift] : cases) {
+    const double scale = size;
     CAPTURE(scale);
     const Mesh moved = shapes::scaledAndShifted(mesh, scale, shift);
     std::vector<double> values = vulkanSession().compute(moved, allSeeds()).sdf();

@@ -31,13 +31,14 @@ TEST_CASE("Feature weights are 1/2 at 3 degrees on a concave and at 8 on a conve
   struct Expected {
     double degrees, rise, weight;
   };
-  for (const auto& [degrees, rise, weight] : {Expected{3, 0.01, 0.5},
-                                              {6, 0.01, 0.2},
-                                              {90, 3, 1.0 / 901},
-                                              {-8, -0.01, 0.5},
-                                              {-16, -0.01, 0.2},
-                                              {-80, -3, 1.0 / 101},
-                                              {0, 0, 1}}) {
+  for (const auto& [angle, rise, weight] : {Expected{3, 0.01, 0.5},
+                                            {6, 0.01, 0.2},
+                                            {90, 3, 1.0 / 901},
+                                            {-8, -0.01, 0.5},
+                                            {-16, -0.01, 0.2},
+                                            {-80, -3, 1.0 / 101},
+                                            {0, 0, 1}}) {
+    const double degrees = angle;
     CAPTURE(degrees);
     const HandGraph hand = roof(degrees, rise);
     const std::vector<double> weights = arcWeights(ArcWeights::Feature, hand.graph, hand.geometry);

@@ -153,7 +153,8 @@ TEST_CASE("predictions scale with the mesh and do not change when it is shifted"
                {std::ldexp(1, 500), {0, 0, 0}, true},
                {1e-160, {0, 0, 0}, false},
                {10, {300, -200, 500}, false}};
-  for (const auto& [scale, shift, isExact] : cases) {
+  for (const auto& [size, shift, isExact] : cases) {
+    const double scale = size;
     CAPTURE(scale);
     std::vector<double> values = predict(SeededMesh(shapes::scaledAndShifted(mesh, scale, shift), 150));
     for (double& value : values) value /= scale;
