@@ -2,11 +2,11 @@
 
 #include <doctest/doctest.h>
 
-#include <filesystem>
 #include <optional>
 #include <string>
 
 #include "cli/child_process.h"
+#include "support/mesa_driver.h"
 
 namespace asdfvk::test {
 
@@ -19,9 +19,9 @@ inline ChildOptions withDrivers(const std::string& file) {
 /// Environment in which Mesa's CPU device is the only one. Empty, with a message, where it is not installed: the test
 /// is skipped.
 inline std::optional<ChildOptions> lavapipeOnly() {
-  const std::string driver = "/usr/share/vulkan/icd.d/lvp_icd.x86_64.json";
-  if (std::filesystem::exists(driver)) return withDrivers(driver);
-  MESSAGE("skipped: no lavapipe driver at " << driver);
+  const std::string driver = mesaDriver("lvp");
+  if (!driver.empty()) return withDrivers(driver);
+  MESSAGE("skipped: no lavapipe driver");
   return {};
 }
 

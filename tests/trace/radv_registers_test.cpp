@@ -2,7 +2,6 @@
 #include <doctest/doctest.h>
 
 #include <cstdio>
-#include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
@@ -10,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "support/mesa_driver.h"
 #include "support/scoped_variable.h"
 #include "trace/vulkan/vulkan_cone_kernel.h"
 #include "vk/instance.h"
@@ -25,7 +25,7 @@ using Statistics = std::map<std::string, uint64_t>;
 /// have.
 class RadvCompiler {
  public:
-  RadvCompiler(const char* manifest, const char* family)
+  RadvCompiler(const std::string& manifest, const std::string& family)
       : drivers_("VK_DRIVER_FILES", manifest),
         oldDrivers_("VK_ICD_FILENAMES", manifest),
         layers_("VK_INSTANCE_LAYERS", std::nullopt),
@@ -154,9 +154,9 @@ constexpr const char* kOccupancy = "Subgroups per SIMD";
 }  // namespace
 
 TEST_CASE("the stacks of a lane leave AMD GPUs their occupancy" * doctest::test_suite("slow")) {
-  const char* manifest = "/usr/share/vulkan/icd.d/radeon_icd.x86_64.json";
-  if (!std::filesystem::exists(manifest)) {
-    MESSAGE("skipped: no RADV driver at " << manifest);
+  const std::string manifest = test::mesaDriver("radeon");
+  if (manifest.empty()) {
+    MESSAGE("skipped: no RADV driver");
     return;
   }
   struct Family {
@@ -164,7 +164,7 @@ TEST_CASE("the stacks of a lane leave AMD GPUs their occupancy" * doctest::test_
     uint64_t rayCount, seedCount,
         ballCount;  // At least so many subgroups per SIMD, of kernels with the wide hierarchy.
   };
-  std::vector<Family> families{{"vega10", 3, 3, 4}, {"navi21", 10, 12, 16}};
+  std::vector<Family> families;
   {
     const RadvCompiler radv(manifest, "navi21");
     if (!radv.isUsable()) {
@@ -172,13 +172,16 @@ TEST_CASE("the stacks of a lane leave AMD GPUs their occupancy" * doctest::test_
       return;
     }
     MESSAGE(radv.facts().driver);
+    // Measured: the kernel of the balls has one wave less with Mesa 25.0.7 than with 22.3.6, and two on Navi 21.
+    const bool isMesa25 = radv.majorVersion() >= 25;
+    families = {{"vega10", 3, 3, isMesa25 ? 3u : 4u}, {"navi21", 10, 12, isMesa25 ? 14u : 16u}};
     // The name of the family Navi 31 changed between these versions.
     if (radv.majorVersion() == 22) families.push_back({"gfx1100", 16, 18, 18});
-    if (radv.majorVersion() >= 25) families.push_back({"navi31", 16, 18, 18});
+    if (isMesa25) families.push_back({"navi31", 16, 18, 18});
   }
   for (const Family& family : families) {
     CAPTURE(family.name);
-    const RadvCompiler radv(manifest, family.name.c_str());
+    const RadvCompiler radv(manifest, family.name);
     REQUIRE(radv.isUsable());
     const VulkanWalkShape walk = walkShapeFor(radv.facts());
     const VulkanTraceChoice choice = defaultTraceChoice(radv.facts());
