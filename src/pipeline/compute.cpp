@@ -175,8 +175,8 @@ void computeOn(const ComputationTask& task, const Options& options, StageClock& 
   const double roundsEnd = options.checkCount ? kRoundsEndBeforeCheck : 1;
   const bool keepsNodes =
       !isLast || options.checkCount || options.keepsScene || sightNeedsNodes(options, backend.isReference());
-  const auto makeTracing = [&, &tracers = tracers, &sharedScene = sharedScene] {
-    return std::make_unique<SeedTracing>(computation, tracers, keepsNodes ? nullptr : &sharedScene->bvh);
+  const auto makeTracing = [&] {
+    return std::make_unique<SeedTracing>(computation, task.tracers, keepsNodes ? nullptr : &task.scene->bvh);
   };
   RoundsResult rounds = runRounds(computation, makeTracing, control.part(0, roundsEnd));
   describeRounds(report, rounds);

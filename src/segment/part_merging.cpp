@@ -106,7 +106,7 @@ void PartMerging::mergeNext() {
 
 /// Region b becomes part of region a.
 void PartMerging::merge(uint32_t border) {
-  const auto [a, b] = std::pair(borders_[border].a, borders_[border].b);
+  const uint32_t a = borders_[border].a, b = borders_[border].b;
   costs_.push_back(borders_[border].cost);
   borders_[border].isAlive = false;
   Region &kept = regions_[a], &removed = regions_[b];
@@ -128,7 +128,7 @@ void PartMerging::merge(uint32_t border) {
     Border& moved = borders_[index];
     if (!moved.isAlive) continue;
     const uint32_t other = moved.other(b);
-    const auto found = std::find_if(kept.borders.begin(), kept.borders.end(), [&, a = a](uint32_t candidate) {
+    const auto found = std::find_if(kept.borders.begin(), kept.borders.end(), [&](uint32_t candidate) {
       return borders_[candidate].isAlive && borders_[candidate].other(a) == other;
     });
     if (found == kept.borders.end()) {
