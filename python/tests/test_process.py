@@ -22,6 +22,7 @@ from shapes import cube, dumbbell, sphere
 _PREAMBLE = """
 import hashlib, os, signal, sys, threading, time
 import numpy as np
+threads_of_numpy = len(os.listdir("/proc/self/task"))
 import asdf_vk
 from shapes import cube, dumbbell, sphere
 signal.signal(signal.SIGINT, signal.default_int_handler)  # Ignored in jobs in the background of a shell.
