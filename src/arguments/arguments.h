@@ -44,11 +44,11 @@ class Argument {
   CLI::Option* option_;
 };
 
-/// Result of ArgumentParser::parse(). The options are set where all are empty.
+/// Result of ArgumentParser::parse(). If all members are empty, the options are set.
 struct ParseResult {
   std::string answer;      ///< The text of --help or --version, if given.
   std::string refusal;     ///< Why the arguments do not fit the options.
-  std::string miscounted;  ///< With `refusal`, where its reason is the number of values of an option: its name.
+  std::string miscounted;  ///< Name of the option whose number of values is wrong; empty for other refusals.
 };
 
 /// The arguments of a program. Names are "--rays" or "-o,--output"; a name without dashes is that of a positional

@@ -69,7 +69,9 @@ void read(const Json& json, std::optional<T>& value) {
   value = json.get<T>();
 }
 
-void read(const Json& json, SharedJson& value) { value = std::make_shared<const Json>(json); }
+void read(const Json& json, SharedJson& value) {
+  value = json.is_null() ? nullptr : std::make_shared<const Json>(json);
+}
 
 std::optional<MeshStatus> statusNamed(std::string_view text) {
   for (const auto& [status, name] : kMeshStatuses)

@@ -59,7 +59,7 @@ void removeUnfinishedOutputs(const std::vector<MeshTask>& tasks) {
 
 std::vector<JobPhase> phasesOf(const CommandLine& line, const std::vector<MeshTask>& tasks,
                                std::vector<size_t> computed) {
-  const auto threadCount = static_cast<uint32_t>(maxThreadCount());
+  const auto threadCount = static_cast<uint32_t>(threadLimit());
   return planJobs(tasks, std::move(computed), writesOnePage(line) ? 1 : line.batch.jobCount, threadCount);
 }
 

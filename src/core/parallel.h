@@ -10,14 +10,18 @@
 
 #include "core/function_ref.h"
 
-/// Parallel loops. TBB runs them, and only parallel.cpp includes it: its headers have 94,000 lines.
+/// Parallel loops. TBB runs them, and only parallel.cpp includes it, which also has BackgroundTask and ThreadLimit: its
+/// headers have 94,000 lines.
 namespace asdfvk {
 
 inline constexpr size_t kItemsPerTask = 4096;
 
-/// Greatest number of threads that a parallel loop may use here, and that without any limit.
-[[nodiscard]] size_t maxThreadCount();
+/// Number of threads that ThreadLimit allows.
+[[nodiscard]] size_t threadLimit();
+/// Number of threads without any limit.
 [[nodiscard]] size_t defaultThreadCount();
+/// Greatest number of threads that a parallel loop may use here: threadLimit(), or less within callWithThreads().
+[[nodiscard]] size_t maxThreadCount();
 
 /// Calls body(begin, end) for disjoint ranges whose union is [0, count), in parallel. A range of more than `grain`
 /// items may be divided.
@@ -100,7 +104,8 @@ template <typename Value, typename ValueOf>
   return foldInParallel<Value>(count, greatestOf, greater);
 }
 
-/// Sorts [begin, end) by `less`, in parallel where it is long.
+/// Sorts [begin, end) by `less`, in parallel where it is long. Not stable; the same order on any number of threads. The
+/// last merge runs on one thread.
 template <typename Iterator, typename Less = std::less<>>
 void sortInParallel(Iterator begin, Iterator end, const Less& less = {}) {
   constexpr auto kWorthDividing = 1 << 15;

@@ -16,7 +16,7 @@
 namespace asdfvk {
 namespace {
 
-std::string cpuThreads() { return counted(maxThreadCount(), "thread"); }
+std::string cpuThreads() { return counted(threadLimit(), "thread"); }
 
 class EmbreeBackend final : public Backend {
  public:

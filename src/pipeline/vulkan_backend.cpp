@@ -25,7 +25,7 @@ namespace {
 class LavapipeThreads {
  public:
   LavapipeThreads() : lock_(mutex()) {
-    const size_t limit = maxThreadCount();
+    const size_t limit = threadLimit();
     isSet_ = limit < defaultThreadCount() && std::getenv(kVariable) == nullptr;
     if (isSet_) setenv(kVariable, std::to_string(limit).c_str(), 1);
   }

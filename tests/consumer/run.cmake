@@ -1,6 +1,7 @@
 # Configures, builds and runs the consumer in FOLDER, from a current directory of its own.
 #   -DMODE=installed   installs BUILD into FOLDER/prefix first
-#   -DMODE=subdirectory   adds SOURCE as a subdirectory
+#   -DMODE=configured     adds SOURCE as a subdirectory, and configures only
+#   -DMODE=subdirectory   the same, built and run
 #   -DGENERATE=FILE   asdf-vk-generate, for the mesh of the README example
 function(run)
   execute_process(COMMAND ${ARGV} WORKING_DIRECTORY ${FOLDER}/elsewhere COMMAND_ERROR_IS_FATAL ANY)
@@ -18,6 +19,9 @@ else()
        -DCMAKE_CXX_FLAGS_RELEASE=-O0)
 endif()
 run(${CMAKE_COMMAND} ${arguments})
+if(MODE STREQUAL "configured")
+  return()
+endif()
 run(${CMAKE_COMMAND} --build ${FOLDER}/build)
 run(${GENERATE} animal --faces 2000 -o mesh.ply)
 run(${FOLDER}/build/arrays)

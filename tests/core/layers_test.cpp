@@ -90,7 +90,8 @@ std::string objection(const std::string& layer, const fs::path& file, const std:
     return "Eigen belongs in poisson and segment";
   if ((target == "volk.h" || top == "vulkan" || top == "volk") && !isVulkan)
     return "Vulkan belongs in vk and the folders vulkan/";
-  if (top == "tbb" && file.filename() != "parallel.cpp") return "TBB belongs in core/parallel.cpp";
+  if (top == "tbb" && !(layer == "core" && file.filename() == "parallel.cpp"))
+    return "TBB belongs in core/parallel.cpp";
   if (top == "CLI" && layer != "arguments") return "CLI11 belongs in arguments";
   if ((top == "embree3" || top == "embree4") && !isIn("embree", file)) return "Embree belongs in the folders embree/";
   const bool isOurs = layers().count(top) || top == "shared";

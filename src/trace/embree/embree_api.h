@@ -1,7 +1,7 @@
 #pragma once
 
-// Embree 4, or Embree 3 where there is no 4. The only file that depends on the version: CMake prefers 4 too.
-#if __has_include(<embree4/rtcore.h>)
+// Embree 3 or 4, as CMake found it. The only file that depends on the version.
+#if ASDFVK_EMBREE_VERSION >= 4
 #include <embree4/rtcore.h>
 #else
 #include <embree3/rtcore.h>
@@ -13,7 +13,7 @@ namespace asdfvk {
 
 /// Nearest hit of a ray.
 inline void intersect1(RTCScene scene, RTCRayHit& query) {
-#if RTC_VERSION_MAJOR >= 4
+#if ASDFVK_EMBREE_VERSION >= 4
   RTCIntersectArguments arguments;
   rtcInitIntersectArguments(&arguments);
   arguments.flags = RTC_RAY_QUERY_FLAG_INCOHERENT;
@@ -28,7 +28,7 @@ inline void intersect1(RTCScene scene, RTCRayHit& query) {
 
 /// Nearest hits of eight rays; isActive: eight numbers, -1 or 0.
 inline void intersect8(RTCScene scene, const int* isActive, RTCRayHit8& queries) {
-#if RTC_VERSION_MAJOR >= 4
+#if ASDFVK_EMBREE_VERSION >= 4
   RTCIntersectArguments arguments;
   rtcInitIntersectArguments(&arguments);
   arguments.flags = RTC_RAY_QUERY_FLAG_INCOHERENT;
@@ -43,7 +43,7 @@ inline void intersect8(RTCScene scene, const int* isActive, RTCRayHit8& queries)
 
 /// Whether anything is between `ray.tnear` and `ray.tfar`.
 [[nodiscard]] inline bool isOccluded(RTCScene scene, RTCRay ray) {
-#if RTC_VERSION_MAJOR >= 4
+#if ASDFVK_EMBREE_VERSION >= 4
   RTCOccludedArguments arguments;
   rtcInitOccludedArguments(&arguments);
   arguments.flags = RTC_RAY_QUERY_FLAG_INCOHERENT;
