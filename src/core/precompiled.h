@@ -1,5 +1,5 @@
-// Compiled once, before the files of every layer: the standard headers that most of them include, and fmt. It replaces
-// no #include; CMAKE_DISABLE_PRECOMPILE_HEADERS builds without it.
+// Compiled once, before the files of every layer that includes core: the standard headers that most of them include,
+// and fmt. It replaces no #include; CMAKE_DISABLE_PRECOMPILE_HEADERS builds without it.
 #pragma once
 
 #include <fmt/core.h>
