@@ -32,7 +32,8 @@ class BuildWithCMake(build_ext):
         build.mkdir(parents=True, exist_ok=True)
         configure = [
             "cmake", "-S", str(SOURCE), "-B", str(build), "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_UNITY_BUILD=ON",
-            "-DCMAKE_UNITY_BUILD_BATCH_SIZE=0", "-DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON", "-DASDF_VK_PYTHON=ON", "-DASDF_VK_PROGRAM=OFF", "-DASDF_VK_TESTS=OFF",
+            "-DCMAKE_UNITY_BUILD_BATCH_SIZE=0", "-DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON", "-DASDF_VK_PYTHON=ON",
+            "-DASDF_VK_PROGRAM=OFF", "-DASDF_VK_TESTS=OFF",
             "-DASDF_VK_BENCH=OFF", "-DASDF_VK_INSTALL=OFF", "-DASDF_VK_WERROR=OFF", f"-DPython_EXECUTABLE={sys.executable}",
             f"-Dpybind11_DIR={pybind11.get_cmake_dir()}", f"-DASDF_VK_PYTHON_OUTPUT_DIR={target.parent}",
             *os.environ.get("CMAKE_ARGS", "").split(),

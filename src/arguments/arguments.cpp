@@ -123,8 +123,8 @@ bool ArgumentParser::isGiven(const std::string& name) const { return app_->count
 
 void ArgumentParser::setHelpGroup(std::string_view group) { helpGroup_ = group; }
 
-std::string ArgumentParser::help() const {
-  // Not before the parsing, because CLI11 omits the names of hidden options in messages.
+std::string ArgumentParser::help() {
+  // The options are hidden here and not before parse(): CLI11 omits the names of hidden options in its messages.
   for (CLI::Option* option : app_->get_options())
     if (!helpGroup_.empty() && option->get_group() != helpGroup_ && !option->get_positional()) option->group("");
   return app_->help();

@@ -19,8 +19,8 @@ namespace asdfvk {
 /// An option or a positional argument, as documents describe it.
 struct ArgumentDescription {
   std::vector<std::string> names;  ///< "-o", "--output"; none for a positional argument.
-  std::string placeholder;         ///< Of the value, as in the help.
-  std::string completions;         ///< Those of Argument::completions(), else of the type of the value.
+  std::string placeholder;         ///< Stands for the value in the help.
+  std::string completions;         ///< Set by Argument::completions(); otherwise the type of the value.
   uint32_t valueCount = 0;         ///< 0 for a flag; 1 for a list.
   std::string text;
   std::string group;
@@ -51,8 +51,9 @@ struct ParseResult {
   std::string miscounted;  ///< Name of the option whose number of values is wrong; empty for other refusals.
 };
 
-/// The arguments of a program. Names are "--rays" or "-o,--output"; a name without dashes is that of a positional
-/// argument. What receives a value must outlive the parsing. parse() sets values in the order of the add functions.
+/// The arguments of a program. An option has a name such as "--rays" or "-o,--output", a positional argument a name
+/// without dashes. The targets and functions that receive values must outlive parse(), which calls them in the order in
+/// which the arguments were added.
 class ArgumentParser {
  public:
   ArgumentParser();
@@ -60,7 +61,7 @@ class ArgumentParser {
 
   void setProgram(std::string_view name, std::string_view description);
   void setFooter(std::string_view footer);  ///< Below the options in the help.
-  void setHelp(std::string_view text);      ///< Text of -h,--help, which every parser has.
+  void setHelp(std::string_view text);      ///< Help text of the option -h,--help, which exists by default.
   void addVersion(std::string_view version);
 
   Argument addValue(std::string_view name, std::string_view placeholder, std::string_view text,
@@ -78,8 +79,8 @@ class ArgumentParser {
   [[nodiscard]] ParseResult parse(std::vector<std::string> arguments);
   [[nodiscard]] bool isGiven(const std::string& name) const;  ///< After parse().
 
-  void setHelpGroup(std::string_view group);  ///< The help shows the options of this group only.
-  [[nodiscard]] std::string help() const;
+  void setHelpGroup(std::string_view group);  ///< help() shows the options of this group only.
+  [[nodiscard]] std::string help();  ///< With a help group, describe() has no group of other options afterwards.
 
   [[nodiscard]] std::string name() const;
   [[nodiscard]] std::string description() const;

@@ -1,7 +1,6 @@
 #include "cli/batch_monitor.h"
 
 #include <fmt/core.h>
-#include <fmt/ranges.h>
 
 #include <chrono>
 #include <utility>
@@ -82,7 +81,7 @@ ExitCode BatchMonitor::finish() {
     if (texts) print(*std::exchange(texts, std::nullopt));
   if (line_.batch.isBatch() && !line_.quiet) {
     if (!dropped_.empty())
-      writeStandardError(oneLine(fmt::format("asdf-vk: dropped: {}", fmt::join(dropped_, ", "))) + "\n");
+      writeStandardError(oneLine(fmt::format("asdf-vk: dropped: {}", joined(dropped_, ", "))) + "\n");
     writeStandardError(fmt::format("asdf-vk: {}\n", summaryText(progress_, watch_.seconds())));
   }
   return code_.code();

@@ -34,7 +34,8 @@ std::string nameOrAuto(const std::string& name) { return name.empty() ? "auto" :
 
 void addComputation(Values& values, const Options& options) {
   const ConeOptions& cone = options.cone;
-  const bool isPaper = cone.definition == Definition::Paper;  // Options of another definition are null.
+  // The options of the paper's definition are null with another definition.
+  const bool isPaper = cone.definition == Definition::Paper;
   const auto ofPaper = [&](Json value) { return isPaper ? std::move(value) : Json(nullptr); };
   values.add("seeds", toText(options.seeds));
   values.add("sampler", options.sampler);

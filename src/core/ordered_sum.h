@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <span>
-#include <vector>
+#include <functional>
 
 #include "core/parallel.h"
 
@@ -14,17 +13,13 @@ namespace asdfvk {
 /// same bits on any number of threads.
 template <typename Term>
 [[nodiscard]] double orderedSum(size_t count, const Term& term) {
-  constexpr size_t kBlock = 8192;
-  std::vector<double> sums((count + kBlock - 1) / kBlock);
-  forEachTask(sums.size(), [&](size_t block) {
-    const size_t end = std::min(count, (block + 1) * kBlock);
+  constexpr size_t kBlockSize = 8192;
+  const auto sumOf = [&](size_t begin, size_t end) {
     double sum = 0;
-    for (size_t i = block * kBlock; i < end; ++i) sum += term(i);
-    sums[block] = sum;
-  });
-  double total = 0;
-  for (double sum : sums) total += sum;
-  return total;
+    for (size_t i = begin; i < end; ++i) sum += term(i);
+    return sum;
+  };
+  return foldInParallel<double, kBlockSize>(count, sumOf, std::plus<>());
 }
 
 inline constexpr double kMinPlainSquare = 1e-200, kMaxPlainSquare = 1e300;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -16,19 +15,19 @@ namespace asdfvk {
 
 inline constexpr size_t kItemsPerTask = 4096;
 
-/// Number of threads that ThreadLimit allows.
+/// Number of threads that the ThreadLimits allow.
 [[nodiscard]] size_t threadLimit();
 /// Number of threads without any limit.
 [[nodiscard]] size_t defaultThreadCount();
-/// Greatest number of threads that a parallel loop may use here: threadLimit(), or less within callWithThreads().
+/// Maximum number of threads of a parallel loop that starts here: threadLimit(), or less within callWithThreads().
 [[nodiscard]] size_t maxThreadCount();
 
 /// Calls body(begin, end) for disjoint ranges whose union is [0, count), in parallel. A range of more than `grain`
 /// items may be divided.
 void forEachRange(size_t count, size_t grain, FunctionRef<void(size_t begin, size_t end)> body);
 
-/// forEachRange() again and again over the same number of items: a thread receives the same ranges each time, for its
-/// caches.
+/// A loop that runs many times over the same items. Each thread gets the same ranges in each run, so that their data
+/// stay in its cache.
 class RepeatedLoop {
  public:
   RepeatedLoop();
@@ -43,8 +42,8 @@ class RepeatedLoop {
 /// Calls both, in parallel.
 void callBoth(FunctionRef<void()> first, FunctionRef<void()> second);
 
-/// Calls `body` on this thread. Its parallel loops wait only for themselves: while it waits in them, the thread begins
-/// no task that was made before.
+/// Calls `body` on this thread. While a parallel loop of `body` waits for other threads, this thread runs only tasks of
+/// that loop, and none that was created before the call.
 void callIsolated(FunctionRef<void()> body);
 
 /// Calls `body` on this thread. Its parallel loops use at most `threadCount` threads, this one included.
@@ -67,29 +66,28 @@ void forEachTask(size_t count, const Body& body) {
   });
 }
 
-/// Number of i in [0, count) for which hold(i) is true, in parallel.
-template <typename Holds>
-[[nodiscard]] uint64_t countInParallel(size_t count, const Holds& holds) {
-  std::atomic<uint64_t> found = 0;
-  forEachRange(count, kItemsPerTask, [&](size_t begin, size_t end) {
-    uint64_t foundHere = 0;
-    for (size_t i = begin; i < end; ++i) foundHere += holds(static_cast<uint32_t>(i)) ? 1 : 0;
-    found.fetch_add(foundHere, std::memory_order_relaxed);
-  });
-  return found;
-}
-
-/// fold(begin, end) of each block of kItemsPerTask items of [0, count), in parallel; then joined(a, b) of all of them
-/// and of Value{}, in order.
-template <typename Value, typename Fold, typename Joined>
+/// fold(begin, end) of each block of kBlockSize items of [0, count), in parallel; then joined(a, b) of Value{} and of
+/// all of them, in order. The same bits on any number of threads.
+template <typename Value, size_t kBlockSize = kItemsPerTask, typename Fold, typename Joined>
 [[nodiscard]] Value foldInParallel(size_t count, const Fold& fold, const Joined& joined) {
-  std::vector<Value> values((count + kItemsPerTask - 1) / kItemsPerTask);
+  std::vector<Value> values((count + kBlockSize - 1) / kBlockSize);
   forEachTask(values.size(), [&](size_t block) {
-    values[block] = fold(block * kItemsPerTask, std::min(count, (block + 1) * kItemsPerTask));
+    values[block] = fold(block * kBlockSize, std::min(count, (block + 1) * kBlockSize));
   });
   Value result{};
   for (const Value& value : values) result = joined(result, value);
   return result;
+}
+
+/// Number of i in [0, count) for which holds(i) is true, in parallel.
+template <typename Holds>
+[[nodiscard]] uint64_t countInParallel(size_t count, const Holds& holds) {
+  const auto countOf = [&](size_t begin, size_t end) {
+    uint64_t found = 0;
+    for (size_t i = begin; i < end; ++i) found += holds(static_cast<uint32_t>(i)) ? 1 : 0;
+    return found;
+  };
+  return foldInParallel<uint64_t>(count, countOf, std::plus<>());
 }
 
 /// The greatest valueOf(i), i in [0, count), and of Value{}, in parallel.
@@ -115,7 +113,7 @@ void sortInParallel(Iterator begin, Iterator end, const Less& less = {}) {
   std::inplace_merge(begin, middle, end, less);
 }
 
-/// A pointer per thread that uses it, null at first.
+/// One pointer per thread, initially null.
 class PointerPerThread {
  public:
   PointerPerThread();
@@ -128,7 +126,7 @@ class PointerPerThread {
   std::unique_ptr<State> state_;
 };
 
-/// A Value per thread that uses it, made by make() on first use.
+/// One Value per thread. make() creates it when the thread calls local() for the first time.
 template <typename Value>
 class PerThread {
  public:

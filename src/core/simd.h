@@ -42,7 +42,8 @@ template <typename V, typename Number>
   return vector;
 }
 
-/// Writes kLaneCount<V> numbers, at any alignment. Clang's masks of doubles have elements of the type long long.
+/// Writes kLaneCount<V> numbers, at any alignment. Number may be another type of the size of the elements: a mask of
+/// doubles has elements of type long with GCC and of type long long with Clang.
 template <typename V, typename Number>
 ASDFVK_ALWAYS_INLINE inline void store(Number* numbers, const V& vector) {
   static_assert(sizeof(Number) == sizeof(NumberOf<V>));

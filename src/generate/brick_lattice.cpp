@@ -199,8 +199,7 @@ void BrickLattice::makeWellComposed() {
 }
 
 uint64_t BrickLattice::crossedEdgeCount() const {
-  std::atomic<uint64_t> total = 0;
-  forEachRange(bricks_.size(), kBricksPerTask, [&](size_t begin, size_t end) {
+  const auto count = [&](size_t begin, size_t end) {
     uint64_t sum = 0;
     for (size_t i = begin; i < end; ++i) {
       const CellCorners signs = corners(bricks_[i]);
@@ -212,9 +211,9 @@ uint64_t BrickLattice::crossedEdgeCount() const {
                    uint64_t{here != signs.at(x, y, z + 1)};
           }
     }
-    total += sum;
-  });
-  return total;
+    return sum;
+  };
+  return foldInParallel<uint64_t, kBricksPerTask>(bricks_.size(), count, std::plus<>());
 }
 
 }  // namespace asdfvk

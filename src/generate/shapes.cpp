@@ -1,7 +1,6 @@
 #include "generate/shapes.h"
 
 #include <fmt/core.h>
-#include <fmt/ranges.h>
 
 #include <array>
 
@@ -44,7 +43,7 @@ GeneratedShape generateShape(std::string_view name, uint64_t faceCount) {
   for (const NamedShape& shape : kShapes)
     if (shape.name == name) return shape.make(faceCount);
   throw Error(ErrorCode::OptionOutOfRange,
-              fmt::format("unknown shape {}; the shapes are {}", name, fmt::join(shapeNames(), ", ")));
+              fmt::format("unknown shape {}; the shapes are {}", name, joined(shapeNames(), ", ")));
 }
 
 }  // namespace asdfvk

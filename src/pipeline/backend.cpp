@@ -1,7 +1,6 @@
 #include "pipeline/backend.h"
 
 #include <fmt/core.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -108,7 +107,7 @@ NamedBackend openBackend(const SessionOptions& options) {
                                   [&](const BackendRow& candidate) { return candidate.name == options.backend; });
     if (row == kBackends.end())
       throw Error(ErrorCode::UnknownName, fmt::format("no backend is called '{}'; the names are auto, {}",
-                                                      options.backend, fmt::join(backendNames(), ", ")));
+                                                      options.backend, joined(backendNames(), ", ")));
     return open(*row, options);
   }
   return openFirst(kBackends, options);

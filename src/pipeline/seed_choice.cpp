@@ -1,7 +1,6 @@
 #include "pipeline/seed_choice.h"
 
 #include <fmt/core.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +9,7 @@
 
 #include "asdf_vk/error.h"
 #include "core/check.h"
+#include "core/text.h"
 #include "estimate/held_out.h"
 
 namespace asdfvk {
@@ -31,7 +31,7 @@ std::vector<uint32_t> without(std::span<const uint32_t> faces, std::span<const u
 const Sampler& samplerOf(const Options& options) {
   if (const Sampler* sampler = findSampler(options.sampler)) return *sampler;
   throw Error(ErrorCode::UnknownName, fmt::format("no sampler is called '{}'; the names are {}", options.sampler,
-                                                  fmt::join(samplerNames(), ", ")));
+                                                  joined(samplerNames(), ", ")));
 }
 
 uint64_t resolveSeedCount(const SeedCount& request, uint64_t traceableFaceCount) {

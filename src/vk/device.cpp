@@ -1,13 +1,13 @@
 #include "vk/device.h"
 
 #include <fmt/core.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cstring>
 #include <utility>
 
 #include "asdf_vk/error.h"
+#include "core/text.h"
 #include "vk/buffer_pool.h"
 #include "vk/result.h"
 #include "vk/staging_ring.h"
@@ -87,7 +87,7 @@ OpenedDevice openDevice(const Instance& instance, const DeviceRequest& request) 
     reasons.push_back(fmt::format("{} ({}): {}", facts[i].name, toString(facts[i].kind), choice.reasons[i]));
   if (!choice.index)
     throw Error(request.requireGpu ? ErrorCode::GpuRequired : ErrorCode::NoUsableDevice,
-                fmt::format("no usable Vulkan device: {}", fmt::join(reasons, ", ")));
+                fmt::format("no usable Vulkan device: {}", joined(reasons, ", ")));
   const auto chosen = reasons.begin() + *choice.index;
   *chosen += fmt::format(", driver {}", facts[*choice.index].driver);
   std::rotate(reasons.begin(), chosen, chosen + 1);

@@ -1,59 +1,71 @@
 #pragma once
 
-// Embree 3 or 4, as CMake found it. The only file that depends on the version.
+// Embree 3 or 4, as CMake found it. No other file depends on the version.
 #if ASDFVK_EMBREE_VERSION >= 4
 #include <embree4/rtcore.h>
 #else
 #include <embree3/rtcore.h>
 #endif
 
-// Ray queries. Embree 3 takes their flags in a context, Embree 4 in arguments. The flag `incoherent` is set: Embree
-// traverses for each ray alone.
+/// Ray queries: the nearest hit of a ray, the nearest hits of eight rays (isActive: eight numbers, -1 or 0), and
+/// whether a ray is blocked. Embree 3 takes the flags of a query in a context, Embree 4 in arguments. The flag
+/// `incoherent` makes Embree traverse the hierarchy for each ray alone.
 namespace asdfvk {
 
-/// Nearest hit of a ray.
-inline void intersect1(RTCScene scene, RTCRayHit& query) {
 #if ASDFVK_EMBREE_VERSION >= 4
-  RTCIntersectArguments arguments;
-  rtcInitIntersectArguments(&arguments);
+
+template <typename Arguments>
+[[nodiscard]] Arguments incoherentArguments(void (*initialize)(Arguments*)) {
+  Arguments arguments;
+  initialize(&arguments);
   arguments.flags = RTC_RAY_QUERY_FLAG_INCOHERENT;
-  rtcIntersect1(scene, &query, &arguments);
-#else
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
-  rtcIntersect1(scene, &context, &query);
-#endif
+  return arguments;
 }
 
-/// Nearest hits of eight rays; isActive: eight numbers, -1 or 0.
+inline void intersect1(RTCScene scene, RTCRayHit& query) {
+  RTCIntersectArguments arguments = incoherentArguments(rtcInitIntersectArguments);
+  rtcIntersect1(scene, &query, &arguments);
+}
+
 inline void intersect8(RTCScene scene, const int* isActive, RTCRayHit8& queries) {
-#if ASDFVK_EMBREE_VERSION >= 4
-  RTCIntersectArguments arguments;
-  rtcInitIntersectArguments(&arguments);
-  arguments.flags = RTC_RAY_QUERY_FLAG_INCOHERENT;
+  RTCIntersectArguments arguments = incoherentArguments(rtcInitIntersectArguments);
   rtcIntersect8(isActive, scene, &queries, &arguments);
+}
+
+inline void occluded1(RTCScene scene, RTCRay& ray) {
+  RTCOccludedArguments arguments = incoherentArguments(rtcInitOccludedArguments);
+  rtcOccluded1(scene, &ray, &arguments);
+}
+
 #else
+
+[[nodiscard]] inline RTCIntersectContext incoherentContext() {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   context.flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
-  rtcIntersect8(isActive, scene, &context, &queries);
-#endif
+  return context;
 }
+
+inline void intersect1(RTCScene scene, RTCRayHit& query) {
+  RTCIntersectContext context = incoherentContext();
+  rtcIntersect1(scene, &context, &query);
+}
+
+inline void intersect8(RTCScene scene, const int* isActive, RTCRayHit8& queries) {
+  RTCIntersectContext context = incoherentContext();
+  rtcIntersect8(isActive, scene, &context, &queries);
+}
+
+inline void occluded1(RTCScene scene, RTCRay& ray) {
+  RTCIntersectContext context = incoherentContext();
+  rtcOccluded1(scene, &context, &ray);
+}
+
+#endif
 
 /// Whether anything is between `ray.tnear` and `ray.tfar`.
 [[nodiscard]] inline bool isOccluded(RTCScene scene, RTCRay ray) {
-#if ASDFVK_EMBREE_VERSION >= 4
-  RTCOccludedArguments arguments;
-  rtcInitOccludedArguments(&arguments);
-  arguments.flags = RTC_RAY_QUERY_FLAG_INCOHERENT;
-  rtcOccluded1(scene, &ray, &arguments);
-#else
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
-  rtcOccluded1(scene, &context, &ray);
-#endif
+  occluded1(scene, ray);
   return ray.tfar < 0;  // Minus infinity after a hit.
 }
 
