@@ -126,7 +126,9 @@ TEST_CASE("solvers of a device have the solution of the CPU on one matrix for di
       const std::vector<uint32_t> componentOf = searchComponents(graph);
       const std::unique_ptr<GraphSolver> onGraph = solver->onGraph(graph, setting.weights);
       REQUIRE(onGraph != nullptr);
-      for (const Divergence& divergence : kDivergences)
+      for (const Divergence& divergence : kDivergences) {
+        std::vector<double> first;
+        uint32_t firstIterations = 0;
         for (const uint64_t randomSeed : {1u, 2u, 1u}) {
           const GraphCase given = randomCase(graph, componentOf, randomSeed, divergence);
           // Below kMinGraphTolerance residuals in double decide.
@@ -145,10 +147,16 @@ TEST_CASE("solvers of a device have the solution of the CPU on one matrix for di
           const bool isBillion = setting.kind == ArcWeights::Distance && setting.problem.name == "dense random faces";
           if (setting.problem.isManifold || (options.tolerance == precise && !isBillion))
             checkValues(values, valuesOnCpu(graph, setting.weights, given), 1e-3);
-          std::vector<double> again = given.constraints;
-          CHECK(onGraph->solve(given.problem(), options, again, {}).iterations == report.iterations);
-          CHECK(test::haveSameBits(again, values));
+          if (randomSeed == 2) continue;
+          if (first.empty()) {
+            first = values;
+            firstIterations = report.iterations;
+          } else {  // Nothing is left of the case in between.
+            CHECK(report.iterations == firstIterations);
+            CHECK(test::haveSameBits(values, first));
+          }
         }
+      }
     });
   }
 }

@@ -412,12 +412,13 @@ TEST_CASE("the solution is that of dense algebra, for all weights") {
     if (kind == ArcWeights::Distance && problem.name == "dense random faces") return;
     const PoissonSystem system = buildPoissonSystem(problem.graph, weights, problem.values, {});
     const DenseTwin twin(problem.graph, weights, problem.values, {});
+    const double errorOverResidual = twin.largestErrorOverResidual();
     for (SolverUnderTest& under : solvers) {
       // Thousands of iterations if many faces share an edge.
       if (under.name == "jacobi" && !problem.isManifold) continue;
       CAPTURE(under.name);
       const auto [report, solution] = solveTightly(under, system);
-      const double bound = 1e-10 + under.minTolerance * twin.largestErrorOverResidual();
+      const double bound = 1e-10 + under.minTolerance * errorOverResidual;
       CHECK(largestDifference(solution, {twin.solution.data(), solution.size()}) < bound);
       CHECK(*std::min_element(solution.begin(), solution.end()) >= 1 - bound);
       CHECK(*std::max_element(solution.begin(), solution.end()) <= 2 + bound);
