@@ -1,5 +1,5 @@
-// Compiled once, before the files of every layer that includes core: the standard headers that most of them include,
-// and fmt. It replaces no #include; CMAKE_DISABLE_PRECOMPILE_HEADERS builds without it.
+// Compiled once, before the files of every layer that includes core: the headers that most of them include. It replaces
+// no #include; CMAKE_DISABLE_PRECOMPILE_HEADERS builds without it.
 #pragma once
 
 #include <fmt/core.h>
@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <bit>
+#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -16,7 +18,15 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <variant>
 #include <vector>
+
+#include "asdf_vk/error.h"
+#include "asdf_vk/mesh.h"
+#include "asdf_vk/run_control.h"
+#include "core/check.h"
+#include "core/vec3.h"

@@ -1,11 +1,9 @@
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "core/parallel.h"
 #include "mesh/mesh.h"
 
 namespace asdfvk {
@@ -26,23 +24,6 @@ struct DualGraph {
     return {neighbours.data() + offsets[face], neighbours.data() + offsets[face + 1]};
   }
 };
-
-/// Sets perArc[arc] to valueOf(f, g) for each arc from f to g, in parallel: computed in one direction, f <= g, and
-/// stored for both.
-template <typename Value, typename ValueOf>
-void setForEachPair(const DualGraph& graph, std::span<Value> perArc, const ValueOf& valueOf) {
-  forEachInParallel(graph.faceCount(), [&](uint32_t face) {
-    for (uint32_t arc = graph.offsets[face]; arc < graph.offsets[face + 1]; ++arc) {
-      const uint32_t neighbour = graph.neighbours[arc];
-      if (neighbour < face) continue;
-      perArc[arc] = valueOf(face, neighbour);
-      // The faces may share several edges.
-      const std::span<const uint32_t> back = graph.neighboursOf(neighbour);
-      const auto [begin, end] = std::equal_range(back.begin(), back.end(), face);
-      std::fill_n(perArc.begin() + graph.offsets[neighbour] + (begin - back.begin()), end - begin, perArc[arc]);
-    }
-  });
-}
 
 /// Class of an edge by its proper faces: those with finite corners and three distinct vertices.
 enum class EdgeKind : uint8_t {

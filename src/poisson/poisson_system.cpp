@@ -8,6 +8,7 @@
 #include "core/check.h"
 #include "core/ordered_sum.h"
 #include "core/parallel.h"
+#include "mesh/arc_values.h"
 #include "mesh/curvature.h"
 
 namespace asdfvk {

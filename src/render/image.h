@@ -1,15 +1,12 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
-#include "asdf_vk/run_control.h"
 #include "core/check.h"
-#include "core/parallel.h"
 #include "core/vec3.h"
 
 namespace asdfvk {
@@ -57,21 +54,6 @@ class Image {
 [[nodiscard]] inline Vec3d unitVector(const Vec3d& v, const Vec3d& fallback) {
   const double norm = length(v);
   return norm > 1e-150 && std::isfinite(norm) ? v / norm : fallback;
-}
-
-/// Calls body(x, y) for every pixel: in bands of rows, with a checkpoint of `control` before each band, in parallel
-/// over the tiles of a band.
-template <typename Body>
-void forEachPixel(int width, int height, const RunControl& control, const Body& body) {
-  constexpr int kTileSide = 16;
-  for (int top = 0; top < height; top += kTileSide) {
-    control.checkpoint(static_cast<double>(top) / height);
-    const int bottom = std::min(top + kTileSide, height);
-    forEachRange(static_cast<size_t>(width), kTileSide, [&](size_t left, size_t right) {
-      for (int y = top; y < bottom; ++y)
-        for (auto x = static_cast<int>(left); x < static_cast<int>(right); ++x) body(x, y);
-    });
-  }
 }
 
 }  // namespace asdfvk

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "render/image.h"
+#include "render/pixel_loop.h"
 #include "trace/nearest_hit.h"
 
 namespace asdfvk {

@@ -6,6 +6,7 @@
 
 #include "render/image.h"
 #include "render/light.h"
+#include "render/pixel_loop.h"
 
 namespace asdfvk {
 namespace {

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "core/check.h"
-#include "core/parallel.h"
+#include "mesh/arc_values.h"
 #include "mesh/curvature.h"
 
 namespace asdfvk {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/random.h"
+#include "mesh/arc_values.h"
 #include "support/shapes.h"
 
 using namespace asdfvk;
