@@ -80,7 +80,8 @@ class ArgumentParser {
   [[nodiscard]] bool isGiven(const std::string& name) const;  ///< After parse().
 
   void setHelpGroup(std::string_view group);  ///< help() shows the options of this group only.
-  [[nodiscard]] std::string help();  ///< With a help group, describe() has no group of other options afterwards.
+  /// With a help group, also removes the group of all other options from describe().
+  [[nodiscard]] std::string help();
 
   [[nodiscard]] std::string name() const;
   [[nodiscard]] std::string description() const;

@@ -9,8 +9,8 @@
 
 #include "core/function_ref.h"
 
-/// Parallel loops. TBB runs them, and only parallel.cpp includes it, which also has BackgroundTask and ThreadLimit: its
-/// headers have 94,000 lines.
+/// Parallel loops, run by TBB. Only parallel.cpp includes TBB, because its headers have 94,000 lines; it therefore
+/// defines BackgroundTask and ThreadLimit too.
 namespace asdfvk {
 
 inline constexpr size_t kItemsPerTask = 4096;
@@ -66,8 +66,9 @@ void forEachTask(size_t count, const Body& body) {
   });
 }
 
-/// fold(begin, end) of each block of kBlockSize items of [0, count), in parallel; then joined(a, b) of Value{} and of
-/// all of them, in order. The same bits on any number of threads.
+/// Reduction of [0, count): fold(begin, end) computes the value of each block of kBlockSize items, in parallel, and
+/// joined(a, b) joins Value{} and the values of the blocks in ascending order. The result has the same bits on any
+/// number of threads.
 template <typename Value, size_t kBlockSize = kItemsPerTask, typename Fold, typename Joined>
 [[nodiscard]] Value foldInParallel(size_t count, const Fold& fold, const Joined& joined) {
   std::vector<Value> values((count + kBlockSize - 1) / kBlockSize);

@@ -42,8 +42,8 @@ template <typename V, typename Number>
   return vector;
 }
 
-/// Writes kLaneCount<V> numbers, at any alignment. Number may be another type of the size of the elements: a mask of
-/// doubles has elements of type long with GCC and of type long long with Clang.
+/// Writes kLaneCount<V> numbers, at any alignment. Number may differ from the type of the elements but must have their
+/// size: the elements of a mask of doubles have the type long with GCC and long long with Clang.
 template <typename V, typename Number>
 ASDFVK_ALWAYS_INLINE inline void store(Number* numbers, const V& vector) {
   static_assert(sizeof(Number) == sizeof(NumberOf<V>));

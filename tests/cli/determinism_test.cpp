@@ -6,8 +6,7 @@
 namespace asdfvk::test {
 namespace {
 
-TEST_CASE("processes on the Vulkan device give the same bytes, whatever their number of threads" *
-          doctest::test_suite("slow")) {
+TEST_CASE("processes on the Vulkan device give the same bytes, whatever their number of threads") {
   const auto lavapipe = lavapipeOnly();
   if (!lavapipe) return;
   const ScratchFolder folder;

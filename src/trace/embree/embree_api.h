@@ -7,9 +7,9 @@
 #include <embree3/rtcore.h>
 #endif
 
-/// Ray queries: the nearest hit of a ray, the nearest hits of eight rays (isActive: eight numbers, -1 or 0), and
-/// whether a ray is blocked. Embree 3 takes the flags of a query in a context, Embree 4 in arguments. The flag
-/// `incoherent` makes Embree traverse the hierarchy for each ray alone.
+/// Ray queries. intersect1() finds the nearest hit of one ray, intersect8() those of eight rays; isActive has eight
+/// numbers, -1 for a ray to trace and 0 for the others. Embree 3 takes the flags of a query in a context, Embree 4 in
+/// arguments. With the flag `incoherent` Embree traverses the hierarchy for each ray separately.
 namespace asdfvk {
 
 #if ASDFVK_EMBREE_VERSION >= 4
