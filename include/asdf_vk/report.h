@@ -181,20 +181,25 @@ struct ThinRegion {
   double areaShare = 0;    ///< Of the area of the mesh, or of the region of Scene::compute().
   double min = 0;          ///< Least thickness.
   uint64_t minFace = 0;    ///< Input face with the least thickness.
-  Vec3d place;             ///< Barycentre of the triangle with the least thickness.
+  Vec3d place, opposite;   ///< The points of this face and of its opposing wall that have it.
 };
 
-/// Set where the result has the field "thickness". Median and percentiles are by area, over the
+/// The largest ball inside of a closed component.
+struct SectionBall {
+  double diameter = 0;
+  Vec3d centre;
+};
+
+/// Set where the thickness is measured. min: over all points of the surface; the others are by area, of the field
+/// "thickness". Median and percentiles are by area, over the
 /// triangles with a thickness.
 struct ThicknessReport {
   double min = kNoValue, median = kNoValue, max = kNoValue;
   double percentile1 = kNoValue, percentile5 = kNoValue, percentile95 = kNoValue;
   uint64_t noValueCount = 0;     ///< Input faces without a thickness.
-  uint64_t tracedCount = 0;      ///< Triangles whose thickness is from their own rays; the others are interpolated.
-  uint64_t verifiedCount = 0;    ///< Of those, not seeds: traced because their region is thin, or next to it.
-  uint64_t unrefinedCount = 0;   ///< Of those, without an opposing wall in sight: the least of their rays.
   uint64_t redoneBallCount = 0;  ///< Balls beyond the limits of the device or of float32, shrunk by the reference.
-  std::optional<double> thinnerThan;       ///< ThicknessOptions::thinnerThan.
+  std::optional<SectionBall> greatestSection;  ///< Of all closed components; unset without one.
+  std::optional<double> thinnerThan;               ///< ThicknessOptions::thinnerThan.
   std::vector<ThinRegion> thinRegions;     ///< By descending area. Empty without thinnerThan.
   double thinArea = 0, thinAreaShare = 0;  ///< Of all thin regions.
 };

@@ -69,9 +69,8 @@ py::dict dictOf(const ThicknessReport& thickness) {
   return py::dict(
       "min"_a = thickness.min, "percentile1"_a = thickness.percentile1, "percentile5"_a = thickness.percentile5,
       "median"_a = thickness.median, "percentile95"_a = thickness.percentile95, "max"_a = thickness.max,
-      "no_value_count"_a = thickness.noValueCount, "traced_count"_a = thickness.tracedCount,
-      "verified_count"_a = thickness.verifiedCount, "unrefined_count"_a = thickness.unrefinedCount,
-      "redone_ball_count"_a = thickness.redoneBallCount, "thinner_than"_a = thickness.thinnerThan,
+      "no_value_count"_a = thickness.noValueCount,
+            "redone_ball_count"_a = thickness.redoneBallCount, "thinner_than"_a = thickness.thinnerThan,
       "thin_area"_a = thickness.thinArea, "thin_area_share"_a = thickness.thinAreaShare, "thin_regions"_a = regions);
 }
 

@@ -136,7 +136,7 @@ std::string regionRow(const ThinRegion& region) {
 ReportRows thicknessRows(const Report& report) {
   constexpr size_t kShownRegionCount = 5;
   const ThicknessReport& thickness = *report.thickness;
-  if (std::isnan(thickness.min)) return {{"thickness", "none: no face has a valid ray"}};
+  if (std::isnan(thickness.min)) return {{"thickness", "none: no wall opposes another one, and no component is closed"}};
   std::string text = fmt::format("min {:.6g}, by area p1 {:.6g}, p5 {:.6g}, p50 {:.6g}, p95 {:.6g}, max {:.6g}",
                                  thickness.min, thickness.percentile1, thickness.percentile5, thickness.median,
                                  thickness.percentile95, thickness.max);
@@ -147,9 +147,6 @@ ReportRows thicknessRows(const Report& report) {
   text = regions.empty() ? fmt::format("no face below {:g}", *thickness.thinnerThan)
                          : fmt::format("{} below {:g}: area {:.4g} ({:.3g} %)", counted(regions.size(), "region"),
                                        *thickness.thinnerThan, thickness.thinArea, 100 * thickness.thinAreaShare);
-  if (thickness.tracedCount < report.triangleCount)
-    text += fmt::format("; {} traced, other faces interpolated: smaller thin places may be missing",
-                        percent(thickness.tracedCount, report.triangleCount));
   rows.emplace_back("thin", text);
   for (size_t i = 0; i < std::min(regions.size(), kShownRegionCount); ++i) rows.emplace_back("", regionRow(regions[i]));
   if (regions.size() > kShownRegionCount)

@@ -43,12 +43,11 @@ void describeMesh(Report& report, const PreparedMesh& prepared, const FaceDomain
 
 void describeRounds(Report& report, const RoundsResult& rounds) {
   report.seedCount = rounds.traced.faces.size();
-  report.rayCount = rounds.traced.statistics.rayCount + rounds.thickness.rays.rayCount;
-  report.redoneConeCount = rounds.traced.statistics.redoneConeCount + rounds.thickness.rays.redoneConeCount;
+  report.rayCount = rounds.traced.statistics.rayCount;
+  report.redoneConeCount = rounds.traced.statistics.redoneConeCount;
   const double traceSeconds = report.stageSeconds[Stage::Trace];
   report.raysPerSecond = traceSeconds > 0 ? static_cast<double>(report.rayCount) / traceSeconds : 0;
   report.traceDeviceSeconds = rounds.traced.statistics.deviceSeconds;
-  if (report.traceDeviceSeconds) *report.traceDeviceSeconds += rounds.thickness.rays.deviceSeconds.value_or(0);
   report.traceVariant = rounds.traceVariant;
   report.solver = rounds.interpolated.solver;
   report.roundCount = rounds.roundCount;
@@ -93,11 +92,16 @@ std::vector<Field> fieldsOf(const PreparedMesh& prepared, const RoundsResult& ro
                       .values = valuesOfInputFaces(prepared.mesh, segmented.normalized, areas)});
   if (!segmented.segments.empty())
     fields.push_back({.name = "segment", .label = "segments", .values = std::move(segmented.segments)});
-  if (!rounds.thickness.values.empty())
+  if (!rounds.thickness.least.empty()) {
     fields.push_back({.name = "thickness",
                       .label = "wall thickness",
                       .unit = "length",
-                      .values = thicknessOfInputFaces(prepared.mesh, rounds.thickness.values)});
+                      .values = thicknessOfInputFaces(prepared.mesh, rounds.thickness.atBarycentre)});
+    fields.push_back({.name = "least_thickness",
+                      .label = "least wall thickness",
+                      .unit = "length",
+                      .values = thicknessOfInputFaces(prepared.mesh, rounds.thickness.least)});
+  }
   return fields;
 }
 
@@ -128,11 +132,9 @@ void describeFields(Result& result, const Computation& computation, const Rounds
                     const std::vector<double>& values) {
   Report& report = result.report;
   describeValues(report, computation.prepared, computation.domain, result.sdf(), values, computation.keepsMissing());
-  const Field* field = result.field("thickness");
-  if (field == nullptr) return;
+  if (!computation.measuresThickness()) return;
   const auto scope = computation.clock.time(Stage::Thickness);
-  report.thickness = describeThickness(computation.prepared, computation.domain, rounds.thickness, *field->reals(),
-                                       computation.options.thickness.thinnerThan);
+  report.thickness = describeThickness(computation, rounds.thickness);
 }
 
 /// The scene for pictures. A scene that is not used again keeps nothing else.

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "asdf_vk/error.h"
-#include "cone/thickness.h"
+#include "cone/opposing_walls.h"
 #include "pipeline/seed_choice.h"
 #include "pipeline/valid_options.h"
 #include "poisson/poisson_solver.h"

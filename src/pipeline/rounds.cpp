@@ -68,7 +68,7 @@ class Rounds {
     const uint64_t traceableCount = computation_.domain.traceableFaces.size();
     runRound(resolveSeedCount(options_.seeds, traceableCount), !options_.rounds.areSet(), control);
     while (const uint64_t further = furtherCount()) runRound(further, false, control.withoutProgress());
-    FaceThickness thickness = measureThickness(control);
+    FaceThickness thickness = measureThickness(control.withoutProgress());
     control.checkpoint(1);
     return {std::move(traced_), std::move(result_),   std::move(errors_),
             roundCount_,        std::move(thickness), std::move(traceVariant_)};
@@ -139,7 +139,7 @@ void Rounds::runRound(uint64_t count, bool isLast, const RunControl& control) {
     control.checkpoint(kIndicatorProgress);
     extremes = traceByPrediction(shares, indicator, control.part(kIndicatorProgress, kHeldOutTracedProgress));
   }
-  if (isLast && !verifiesThickness(computation_)) tracing_.reset();
+  if (isLast && !computation_.measuresThickness()) tracing_.reset();
   std::vector<double> withoutHeldOut;  // #H
   if (estimates)
     withoutHeldOut = solveWithoutHeldOut(extremes, control.part(kHeldOutTracedProgress, kHeldOutSolvedProgress));
@@ -269,17 +269,10 @@ std::vector<double> Rounds::solveWithoutHeldOut(std::span<const uint32_t> extrem
   return ofHeldOut;
 }
 
-/// Of all faces; verified by further rays where it is interpolated. These faces are no seeds.
 FaceThickness Rounds::measureThickness(const RunControl& control) {
   if (!computation_.measuresThickness()) return {};
   const auto scope = clock_.time(Stage::Thickness);
-  FaceThickness thickness = interpolateThickness(computation_, traced_, control.withoutProgress());
-  if (verifiesThickness(computation_) && remainingCount() > 0) {
-    tracing_->keepHitsIn(nullptr);
-    const std::span<const double> expected = errors_ ? std::span<const double>(errors_->expected) : std::span<double>{};
-    verifyThinRegions(computation_, *tracing_, expected, thickness, control.withoutProgress());
-  }
-  return thickness;
+  return asdfvk::measureThickness(computation_, tracing_->shrinker(), control);
 }
 
 uint64_t Rounds::remainingCount() const {

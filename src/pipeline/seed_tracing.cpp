@@ -11,16 +11,9 @@
 
 #include "asdf_vk/error.h"
 #include "seeds/component_seeds.h"
-#include "trace/thickness_tracer.h"
 
 namespace asdfvk {
 namespace {
-
-// Part of the progress of tracing with Measure::Thickness.
-constexpr double kTracedBeforeThickness = 0.7;
-
-// Hits that the host holds at a time where only the thickness needs them there.
-constexpr size_t kPassingByteCount = size_t{16} << 20;
 
 // Below this size of the hierarchy, freed memory is kept for the next mesh: new pages cost more time than it holds.
 constexpr size_t kMinReturnedByteCount = size_t{32} << 20;
@@ -38,13 +31,12 @@ SeedTracing::SeedTracing(const Computation& computation, SceneTracers& tracers, 
     : computation_(computation),
       released_(released),
       tracer_(tracers.get(computation.options.cone,
-                          {.hits = computation.keepsHits() || computation.measuresThickness(),
+                          {.hits = computation.keepsHits(),
                            .balls = computation.measuresThickness()},
                           computation.clock)) {
   if (!computation.measuresThickness()) return;
   const auto scope = computation.clock.time(setUpStage(computation.backend));
-  walls_ = makeOpposingWalls(computation.options.thickness.wallAngleDegrees);
-  shrinker_ = tracer_->tracer->makeBallShrinker(walls_);
+  shrinker_ = tracer_->tracer->makeBallShrinker(makeOpposingWalls(computation.options.thickness.wallAngleDegrees));
 }
 
 SeedTracing::~SeedTracing() {
@@ -58,35 +50,13 @@ SeedTracing::~SeedTracing() {
 }
 
 void SeedTracing::trace(std::span<const uint32_t> faces, TracedSeeds& traced, const RunControl& control) {
-  const size_t byteCountPerSeed = computation_.cone.directions.size() * sizeof(ConeHit);
-  const bool keepsOnHost = computation_.keepsHits() && hitStore_ == nullptr;
-  const size_t blockSize =
-      shrinker_ && !keepsOnHost ? std::max<size_t>(1, kPassingByteCount / byteCountPerSeed) : faces.size();
-  size_t begin = 0;
-  do {
-    const size_t count = std::min(blockSize, faces.size() - begin);
-    const auto total = static_cast<double>(std::max<size_t>(1, faces.size()));
-    traceBlock(faces.subspan(begin, count), traced,
-               control.part(static_cast<double>(begin) / total, static_cast<double>(begin + count) / total));
-    begin += count;
-  } while (begin < faces.size());
-}
-
-void SeedTracing::traceBlock(std::span<const uint32_t> faces, TracedSeeds& traced, const RunControl& control) {
   reserveStored(traced, faces.size());
   std::vector<double> values(faces.size());
   const size_t earlierHitCount = traced.hits.size(), hitCount = faces.size() * computation_.cone.directions.size();
   const bool isKept = computation_.keepsHits() && hitStore_ == nullptr;
-  std::vector<ConeHit> passing;
-  if (isKept)
-    traced.hits.resize(earlierHitCount + hitCount);
-  else if (shrinker_)
-    passing.resize(hitCount);
-  const std::span<ConeHit> hits = isKept ? std::span(traced.hits).subspan(earlierHitCount) : std::span(passing);
-  const double traceEnd = shrinker_ ? kTracedBeforeThickness : 1;
-  const TraceStatistics statistics =
-      tracer_->tracer->trace(faces, {values, hits, hitStore_}, control.part(0, traceEnd));
-  if (shrinker_) measureThickness(faces, hits, traced, control.part(traceEnd, 1));
+  if (isKept) traced.hits.resize(earlierHitCount + hitCount);
+  const std::span<ConeHit> hits = isKept ? std::span(traced.hits).subspan(earlierHitCount) : std::span<ConeHit>{};
+  const TraceStatistics statistics = tracer_->tracer->trace(faces, {values, hits, hitStore_}, control);
   traced.statistics.rayCount += statistics.rayCount;
   traced.statistics.redoneConeCount += statistics.redoneConeCount;
   if (statistics.deviceSeconds)
@@ -96,18 +66,6 @@ void SeedTracing::traceBlock(std::span<const uint32_t> faces, TracedSeeds& trace
     traced.values[faces[i]] = values[i];
     traced.isSeed[faces[i]] = 1;
   }
-}
-
-void SeedTracing::measureThickness(std::span<const uint32_t> faces, std::span<const ConeHit> hits, TracedSeeds& traced,
-                                   const RunControl& control) {
-  const auto scope = computation_.clock.time(Stage::Thickness);
-  std::vector<double> thickness(faces.size());
-  const ThicknessStatistics statistics = asdfvk::measureThickness(computation_.scene, computation_.cone, walls_,
-                                                                  {faces, hits}, *shrinker_, thickness, control);
-  traced.thicknessStatistics.unrefinedCount += statistics.unrefinedCount;
-  traced.thicknessStatistics.redoneBallCount += statistics.redoneBallCount;
-  if (traced.thickness.empty()) traced.thickness.assign(traced.values.size(), kNoValue);
-  for (size_t i = 0; i < faces.size(); ++i) traced.thickness[faces[i]] = thickness[i];
 }
 
 void SeedTracing::reserve(TracedSeeds& traced, size_t furtherCount) {

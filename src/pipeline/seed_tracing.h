@@ -27,8 +27,10 @@ class SeedTracing {
   /// Where later calls of trace() keep hits, of one TracedSeeds only; null: in TracedSeeds::hits. Where the memory of
   /// the store does not suffice, TracedSeeds::hits receives all hits after all.
   void keepHitsIn(HitStore* store) { hitStore_ = store; }
-  /// Adds `faces`, none of which may be in `traced`. With Measure::Thickness also their thickness.
+  /// Adds `faces`, none of which may be in `traced`.
   void trace(std::span<const uint32_t> faces, TracedSeeds& traced, const RunControl& control);
+  /// Precondition: the thickness is measured.
+  [[nodiscard]] BallShrinker& shrinker() { return *shrinker_; }
   /// Reserves memory for further seeds, so that growing does not copy the hits, which are most of the memory.
   void reserve(TracedSeeds& traced, size_t furtherCount);
   /// Adds seeds to each component without a value until it has one or no face is left.
@@ -36,15 +38,11 @@ class SeedTracing {
 
  private:
   void reserveStored(TracedSeeds& traced, size_t furtherCount);
-  void traceBlock(std::span<const uint32_t> faces, TracedSeeds& traced, const RunControl& control);
-  void measureThickness(std::span<const uint32_t> faces, std::span<const ConeHit> hits, TracedSeeds& traced,
-                        const RunControl& control);
 
   const Computation& computation_;
   Bvh* released_;
   std::shared_ptr<SceneTracer> tracer_;
   HitStore* hitStore_ = nullptr;
-  OpposingWalls walls_;
   std::unique_ptr<BallShrinker> shrinker_;  ///< Null unless the thickness is measured. Destroyed before the tracer.
 };
 

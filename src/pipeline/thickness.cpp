@@ -2,103 +2,74 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
+#include <limits>
 
-#include "pipeline/interpolation.h"
-#include "pipeline/seed_tracing.h"
+#include "mesh/solids.h"
 
 namespace asdfvk {
 namespace {
 
-/// Grows a set of faces to trace, each face at most once.
-class FacesToTrace {
- public:
-  FacesToTrace(const Computation& computation, const FaceThickness& thickness)
-      : graph_(computation.domain.graph), isSettled_(thickness.isTraced) {
-    for (uint32_t face = 0; face < isSettled_.size(); ++face)
-      if (computation.prepared.geometry.isDegenerate(face)) isSettled_[face] = 1;
-  }
+constexpr double kUnlimited = std::numeric_limits<double>::infinity();
+// Faces of one call of the shrinker: their balls need 9 MiB.
+constexpr size_t kBlockFaceCount = size_t{1} << 16;
+// Part of the progress in which the greatest sections are found.
+constexpr double kSectionsProgress = 0.2;
 
-  void add(uint32_t face) {
-    if (std::exchange(isSettled_[face], uint8_t{1}) == 0) faces_.push_back(face);
+/// Per solid; no section where it is open.
+std::vector<GreatestSection> findSections(const TraceScene& scene, const Solids& solids, const RunControl& control) {
+  std::vector<GreatestSection> sections(solids.isClosed.size(), {{}, kUnlimited, kUnlimited});
+  for (uint32_t solid = 0; solid < sections.size(); ++solid) {
+    control.checkpoint(static_cast<double>(solid) / static_cast<double>(sections.size()));
+    if (solids.isClosed[solid] != 0) sections[solid] = findGreatestSection(scene, solids.solidOf, solid);
   }
-  void addNeighboursOf(uint32_t face) {
-    for (const uint32_t neighbour : graph_.neighboursOf(face)) add(neighbour);
-  }
-  /// Ascending.
-  [[nodiscard]] std::vector<uint32_t> take() {
-    std::sort(faces_.begin(), faces_.end());
-    return std::exchange(faces_, {});
-  }
+  return sections;
+}
 
- private:
-  const DualGraph& graph_;
-  std::vector<uint8_t> isSettled_;  // #F, 1: traced, to be traced, or degenerate.
-  std::vector<uint32_t> faces_;
-};
+GreatestSection toMesh(const Normalization& normalization, const GreatestSection& section) {
+  return {section.centre / normalization.scale + normalization.centre, normalization.toMeshLength(section.diameter),
+          normalization.toMeshLength(section.bound)};
+}
 
 }  // namespace
 
-bool verifiesThickness(const Computation& computation) {
-  const Options& options = computation.options;
-  return computation.measuresThickness() && options.thickness.thinnerThan && options.seeds.kind != SeedCount::Kind::All;
-}
-
-FaceThickness interpolateThickness(const Computation& computation, const TracedSeeds& traced,
-                                   const RunControl& control) {
-  FaceThickness thickness;
-  thickness.isTraced = traced.isSeed;
-  thickness.statistics = traced.thicknessStatistics;
-  thickness.values = traced.thickness;
-  if (thickness.values.empty()) thickness.values.assign(traced.values.size(), kNoValue);
-  const std::span<const uint32_t> traceable = computation.domain.traceableFaces;
-  if (std::all_of(traceable.begin(), traceable.end(), [&](uint32_t face) { return traced.isSeed[face] != 0; }))
-    return thickness;
-  Options harmonic = computation.options;
-  harmonic.interpolation.guidance = Guidance::None;
-  harmonic.interpolation.pooling = 0;
-  const Computation withoutGuidance{harmonic,
-                                    computation.prepared,
-                                    computation.domain,
-                                    computation.scene,
-                                    computation.cone,
-                                    computation.backend,
-                                    computation.solvers,
-                                    computation.clock,
-                                    computation.warnings};
-  const std::vector<double> interpolated = Interpolation(withoutGuidance).solve(thickness.values, control).values;
-  for (const uint32_t face : traceable)
-    if (traced.isSeed[face] == 0) thickness.values[face] = interpolated[face];
+FaceThickness measureThickness(const Computation& computation, BallShrinker& shrinker, const RunControl& control) {
+  const TraceScene& scene = computation.scene;
+  const Solids solids = findSolids(computation.prepared.mesh, computation.prepared.components);
+  const std::vector<GreatestSection> sections = findSections(scene, solids, control.part(0, kSectionsProgress));
+  const size_t faceCount = computation.prepared.mesh.faceCount();
+  FaceThickness thickness{std::vector<double>(faceCount, kNoValue), std::vector<double>(faceCount, kNoValue),
+                          std::vector<uint32_t>(faceCount, kNoFace), {}, 0};
+  const std::span<const uint32_t> faces = computation.domain.traceableFaces;
+  const auto lengthOf = [&](const FaceBalls& balls, const InscribedBall& ball) {
+    const double greatest = sections[solids.solidOf[balls.face]].diameter;
+    const double diameter = ball.wall == kNoFace ? greatest : ball.ball.diameter;
+    return diameter < kUnlimited ? scene.bvh.normalization.toMeshLength(diameter) : kNoValue;
+  };
+  for (size_t begin = 0; begin < faces.size(); begin += kBlockFaceCount) {
+    const size_t end = std::min(faces.size(), begin + kBlockFaceCount);
+    std::vector<FaceBalls> balls(end - begin);
+    for (size_t i = begin; i < end; ++i) {
+      balls[i - begin].face = faces[i];
+      balls[i - begin].atBarycentre.ball.diameter = sections[solids.solidOf[faces[i]]].bound;
+      balls[i - begin].least.ball.diameter = sections[solids.solidOf[faces[i]]].bound;
+    }
+    const auto progressAt = [&](size_t count) {
+      return kSectionsProgress + (1 - kSectionsProgress) * static_cast<double>(count) / static_cast<double>(faces.size());
+    };
+    thickness.redoneBallCount += shrinker.shrink(balls, control.part(progressAt(begin), progressAt(end)));
+    for (const FaceBalls& each : balls) {
+      thickness.atBarycentre[each.face] = lengthOf(each, each.atBarycentre);
+      thickness.least[each.face] = lengthOf(each, each.least);
+      thickness.leastWalls[each.face] = each.least.wall;
+    }
+  }
+  for (const GreatestSection& section : sections)
+    if (section.diameter < kUnlimited &&
+        !(thickness.greatestSection && section.diameter <= thickness.greatestSection->diameter))
+      thickness.greatestSection = section;
+  if (thickness.greatestSection)
+    thickness.greatestSection = toMesh(scene.bvh.normalization, *thickness.greatestSection);
   return thickness;
-}
-
-void verifyThinRegions(const Computation& computation, SeedTracing& tracing, std::span<const double> expectedErrors,
-                       FaceThickness& thickness, const RunControl& control) {
-  const double limit = *computation.options.thickness.thinnerThan;
-  FacesToTrace toTrace(computation, thickness);
-  for (uint32_t face = 0; face < thickness.values.size(); ++face) {
-    const double error = expectedErrors.empty() || thickness.isTraced[face] != 0 ? 0 : expectedErrors[face];
-    if (!(thickness.values[face] - (std::isfinite(error) ? error : 0) < limit)) continue;
-    toTrace.add(face);
-    toTrace.addNeighboursOf(face);
-  }
-  TracedSeeds traced(thickness.values.size());
-  for (std::vector<uint32_t> faces = toTrace.take(); !faces.empty(); faces = toTrace.take()) {
-    {
-      const auto scope = computation.clock.time(Stage::Trace);
-      tracing.trace(faces, traced, control);
-    }
-    traced.hits.clear();
-    for (const uint32_t face : faces) {
-      thickness.values[face] = traced.thickness[face];
-      thickness.isTraced[face] = 1;
-      if (thickness.values[face] < limit) toTrace.addNeighboursOf(face);
-    }
-  }
-  thickness.verifiedCount = traced.faces.size();
-  thickness.rays = traced.statistics;
-  thickness.statistics.unrefinedCount += traced.thicknessStatistics.unrefinedCount;
-  thickness.statistics.redoneBallCount += traced.thicknessStatistics.redoneBallCount;
 }
 
 std::vector<double> thicknessOfInputFaces(const TriangleMesh& mesh, std::span<const double> values) {

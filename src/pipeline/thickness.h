@@ -1,46 +1,34 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "pipeline/computation.h"
-#include "trace/traced_seeds.h"
+#include "trace/ball_shrinker.h"
+#include "trace/greatest_section.h"
 
 namespace asdfvk {
 
-class SeedTracing;
-
-/// Thickness of all triangles.
+/// Thickness of all triangles of the domain; lengths in the unit of the mesh.
 struct FaceThickness {
-  std::vector<double> values;     ///< #F, in the unit of the mesh; NaN for no value.
-  std::vector<uint8_t> isTraced;  ///< #F, 1 where the value is from the rays of the face itself.
-  uint64_t verifiedCount = 0;     ///< Faces traced by verifyThinRegions().
-  TraceStatistics rays;           ///< Of these faces.
-  ThicknessStatistics statistics;
+  std::vector<double> atBarycentre;  ///< #F; NaN for no value.
+  std::vector<double> least;         ///< #F, over all points of the face.
+  std::vector<uint32_t> leastWalls;  ///< #F, the wall that limits `least`; kNoFace where the greatest section does.
+  std::optional<GreatestSection> greatestSection;  ///< Of all closed solids.
+  uint64_t redoneBallCount = 0;                    ///< See BallShrinker::shrink().
 };
 
-/// Whether interpolated thickness must be verified: a limit is given, and not every face is a seed.
-[[nodiscard]] bool verifiesThickness(const Computation& computation);
-
-/// The thickness of the seeds, and for other faces its harmonic interpolation. Seeds without a valid hit and degenerate
-/// faces keep "no value".
-[[nodiscard]] FaceThickness interpolateThickness(const Computation& computation, const TracedSeeds& traced,
-                                                 const RunControl& control);
-
-/// Traces the faces whose thickness, minus its expected error, is below the limit, with their neighbours; then the
-/// neighbours of thin faces until each thin face and all around it are traced. expectedErrors: #F, of the shape
-/// diameter, or empty. An interpolated face that is not next to a thin face keeps its value.
-void verifyThinRegions(const Computation& computation, SeedTracing& tracing, std::span<const double> expectedErrors,
-                       FaceThickness& thickness, const RunControl& control);
+/// Of each face of the domain that is not degenerate: the least diameter over its opposing walls, at most the greatest
+/// section of its solid. No value where neither is known: nothing opposes, and the component is open.
+[[nodiscard]] FaceThickness measureThickness(const Computation& computation, BallShrinker& shrinker,
+                                             const RunControl& control);
 
 /// The field: for each input face the least value of its triangles; NaN without one. values: #F. Returns #I.
 [[nodiscard]] std::vector<double> thicknessOfInputFaces(const TriangleMesh& mesh, std::span<const double> values);
 
-/// Percentiles, and the regions below the limit if there is one, of the faces of the domain. field:
-/// thicknessOfInputFaces().
-[[nodiscard]] ThicknessReport describeThickness(const PreparedMesh& prepared, const FaceDomain& domain,
-                                                const FaceThickness& thickness, std::span<const double> field,
-                                                const std::optional<double>& limit);
+/// Percentiles, and the regions below the limit if there is one, of the faces of the domain.
+[[nodiscard]] ThicknessReport describeThickness(const Computation& computation, const FaceThickness& thickness);
 
 }  // namespace asdfvk

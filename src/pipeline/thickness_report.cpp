@@ -16,7 +16,6 @@ void describePercentiles(std::span<const double> values, std::span<const double>
     if (!std::isnan(values[face])) sample.add(values[face], areas[face]);
   if (sample.isEmpty()) return;
   sample.sort();
-  report.min = sample.min();
   report.percentile1 = sample.quantile(0.01);
   report.percentile5 = sample.quantile(0.05);
   report.median = sample.quantile(0.5);
@@ -35,14 +34,23 @@ std::vector<uint32_t> takeRegion(const DualGraph& graph, uint32_t first, std::ve
   return region;
 }
 
-ThinRegion describeRegion(const PreparedMesh& prepared, std::span<const uint32_t> faces,
-                          std::span<const double> values) {
+ThinRegion describeRegion(const Computation& computation, const FaceThickness& thickness,
+                          std::span<const uint32_t> faces) {
+  const PreparedMesh& prepared = computation.prepared;
+  const std::span<const double> values = thickness.least;
   ThinRegion region;
   const uint32_t thinnest =
       *std::min_element(faces.begin(), faces.end(), [&](uint32_t a, uint32_t b) { return values[a] < values[b]; });
   region.min = values[thinnest];
   region.minFace = prepared.mesh.inputFaceOf(thinnest);
-  region.place = prepared.geometry.barycentres[thinnest];
+  region.place = region.opposite = prepared.geometry.barycentres[thinnest];
+  if (const uint32_t wall = thickness.leastWalls[thinnest]; wall != kNoFace) {
+    const TraceScene& scene = computation.scene;
+    const TouchingBall ball = leastTouchingBall(triangleOf(scene, thinnest), triangleOf(scene, wall), kMinWallDepth);
+    const Normalization& normalization = scene.bvh.normalization;
+    region.place = ball.onFace / normalization.scale + normalization.centre;
+    region.opposite = ball.onWall / normalization.scale + normalization.centre;
+  }
   uint64_t lastInputFace = prepared.mesh.inputFaceCount();
   for (const uint32_t face : faces) {
     region.area += prepared.geometry.areas[face];
@@ -60,14 +68,16 @@ double totalArea(const PreparedMesh& prepared, const FaceDomain& domain) {
   return total;
 }
 
-void describeThinRegions(const PreparedMesh& prepared, const FaceDomain& domain, std::span<const double> values,
-                         double limit, ThicknessReport& report) {
+void describeThinRegions(const Computation& computation, const FaceThickness& thickness, double limit,
+                         ThicknessReport& report) {
+  const PreparedMesh& prepared = computation.prepared;
+  const std::span<const double> values = thickness.least;
   std::vector<uint8_t> isThin(values.size());
   for (size_t face = 0; face < values.size(); ++face) isThin[face] = values[face] < limit ? 1 : 0;
   for (uint32_t face = 0; face < values.size(); ++face)
     if (isThin[face] != 0)
-      report.thinRegions.push_back(describeRegion(prepared, takeRegion(prepared.graph, face, isThin), values));
-  const double total = totalArea(prepared, domain);
+      report.thinRegions.push_back(describeRegion(computation, thickness, takeRegion(prepared.graph, face, isThin)));
+  const double total = totalArea(prepared, computation.domain);
   for (ThinRegion& region : report.thinRegions) {
     region.areaShare = total > 0 ? region.area / total : 0;
     report.thinArea += region.area;
@@ -79,19 +89,18 @@ void describeThinRegions(const PreparedMesh& prepared, const FaceDomain& domain,
 
 }  // namespace
 
-ThicknessReport describeThickness(const PreparedMesh& prepared, const FaceDomain& domain,
-                                  const FaceThickness& thickness, std::span<const double> field,
-                                  const std::optional<double>& limit) {
+ThicknessReport describeThickness(const Computation& computation, const FaceThickness& thickness) {
+  const PreparedMesh& prepared = computation.prepared;
   ThicknessReport report;
-  describePercentiles(thickness.values, prepared.geometry.areas, report);
-  report.noValueCount = countWithoutValue(domain, field);
-  report.tracedCount =
-      static_cast<uint64_t>(std::count(thickness.isTraced.begin(), thickness.isTraced.end(), uint8_t{1}));
-  report.verifiedCount = thickness.verifiedCount;
-  report.unrefinedCount = thickness.statistics.unrefinedCount;
-  report.redoneBallCount = thickness.statistics.redoneBallCount;
-  report.thinnerThan = limit;
-  if (limit) describeThinRegions(prepared, domain, thickness.values, *limit, report);
+  describePercentiles(thickness.atBarycentre, prepared.geometry.areas, report);
+  for (const double least : thickness.least)
+    if (!(report.min <= least) && !std::isnan(least)) report.min = least;
+  report.noValueCount = countWithoutValue(computation.domain, thicknessOfInputFaces(prepared.mesh, thickness.least));
+  report.redoneBallCount = thickness.redoneBallCount;
+  if (thickness.greatestSection)
+    report.greatestSection = {thickness.greatestSection->diameter, thickness.greatestSection->centre};
+  report.thinnerThan = computation.options.thickness.thinnerThan;
+  if (report.thinnerThan) describeThinRegions(computation, thickness, *report.thinnerThan, report);
   return report;
 }
 

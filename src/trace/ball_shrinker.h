@@ -5,36 +5,47 @@
 #include <span>
 
 #include "asdf_vk/run_control.h"
-#include "cone/thickness.h"
+#include "cone/opposing_walls.h"
+#include "cone/touching_ball.h"
+#include "shared/cone_hit.h"
 #include "trace/trace_scene.h"
 
 namespace asdfvk {
 
-/// A ball that touches a face at its barycentre from inside, and an opposing wall of the face (cone/thickness.h).
+/// A ball that touches a face from inside, in normalised coordinates.
 struct InscribedBall {
-  uint32_t face = 0;
-  uint32_t wall = 0;    ///< The face that determines the diameter.
-  double diameter = 0;  ///< In normalised units.
+  TouchingBall ball;
+  uint32_t wall = kNoFace;  ///< The face that determines the diameter; kNoFace for none.
 };
 
-/// The diameter of the ball that touches both faces, in normalised units; infinity where it is not below `limit`.
-[[nodiscard]] double touchingDiameter(const TraceScene& scene, uint32_t face, uint32_t wall, double limit);
+/// The thickness of one face.
+struct FaceBalls {
+  uint32_t face = 0;
+  InscribedBall atBarycentre;  ///< The largest ball at the barycentre with no opposing wall inside.
+  InscribedBall least;         ///< The least of such balls over all points of the face.
+};
 
 /// Shrinks balls until no opposing wall of their faces is inside. The shrinking ball of Ma, Bae and Choi 2012, but in
-/// one traversal of the hierarchy instead of a query per step: all balls of a face touch it at the same point, so that
-/// each contains all smaller ones, and a wall that was outside of the ball once remains outside. The face itself and
-/// its coincident copies are no walls.
+/// one traversal of the hierarchy instead of a query per step: the balls of one diameter at all points of a face fill a
+/// convex set that contains those of smaller balls, so that a wall that was outside once remains outside. The face
+/// itself and its coincident copies are no walls, nor is what is not deeper than kMinWallDepth below the face.
 class BallShrinker {
  public:
   virtual ~BallShrinker() = default;
 
-  /// Replaces wall and diameter where a wall is inside of the ball. Precondition: no face is degenerate. Returns the
-  /// number of balls that the reference shrank: iteration limit of the device reached, or too small for float32. Throws
-  /// Error{Cancelled} between chunks, Error{Device}.
-  virtual uint64_t shrink(std::span<InscribedBall> balls, const RunControl& control) = 0;
+  /// Replaces the balls of each face by those of walls that are inside of them; an infinite diameter stands for any
+  /// wall. Precondition: no face is degenerate. Returns the number of faces whose balls the reference shrank: iteration
+  /// limit of the device reached, or too small for float32. Throws Error{Cancelled} between chunks, Error{Device}.
+  virtual uint64_t shrink(std::span<FaceBalls> faces, const RunControl& control) = 0;
 };
 
-/// Double precision, on all cores of the CPU. Diameters do not depend on the number of threads.
+/// In normalised units: what is nearer to the plane of a face is contact, or rounding of coordinates in float32.
+inline constexpr double kMinWallDepth = 0x1p-21;
+
+/// A face in normalised coordinates.
+[[nodiscard]] PlaneTriangle triangleOf(const TraceScene& scene, uint32_t face);
+
+/// Double precision, on all cores of the CPU. Balls do not depend on the number of threads.
 [[nodiscard]] std::unique_ptr<BallShrinker> makeReferenceBallShrinker(const TraceScene& scene,
                                                                       const OpposingWalls& walls);
 

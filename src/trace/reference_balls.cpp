@@ -18,35 +18,45 @@ namespace {
 /// Added to the radius for the distances to boxes, which are computed in float32: covers their rounding at coordinates
 /// up to 8 and squared radii up to 64. Diameters are computed in double.
 constexpr double kBallBoxMargin = 0x1p-19;
+/// Every box is near to larger balls.
+constexpr double kMaxBoxedDiameter = 8;
 
-constexpr size_t kFirstChunkBallCount = 1024, kGrain = 64;
+constexpr size_t kFirstChunkFaceCount = 1024, kGrain = 64;
 
-/// One traversal of the hierarchy with a shrinking ball.
+/// What the walks of all faces share.
+struct WallScene {
+  TraceScene scene;
+  OpposingWalls walls;
+  std::vector<NormalBounds> normalBounds;
+  std::vector<TrianglePlane> planes;
+};
+
+/// One traversal of the hierarchy with the balls at one point of a face, or at all of its points.
 class BallWalk {
  public:
-  BallWalk(const TraceScene& scene, std::span<const NormalBounds> normalBounds, std::span<const TrianglePlane> planes,
-           const OpposingWalls& walls, InscribedBall& ball)
+  /// points: the point, or the corners of the face.
+  BallWalk(const WallScene& scene, uint32_t face, std::span<const Vec3d> points, InscribedBall& found)
       : scene_(scene),
-        normalBounds_(normalBounds),
-        planes_(planes),
-        walls_(walls),
-        ball_(ball),
-        origin_(scene.originOf(ball.face)),
-        axis_(-scene.geometry.normals[ball.face]),
-        ownFace_(scene.representatives[ball.face]),
-        normalTest_(-axis_, walls.cosine) {
+        found_(found),
+        face_{{}, scene.scene.geometry.normals[face]},
+        pointCount_(points.size()),
+        axis_(-face_.normal),
+        ownFace_(scene.scene.representatives[face]),
+        normalTest_(face_.normal, scene.walls.cosine) {
+    std::copy(points.begin(), points.end(), face_.corners.begin());
+    for (const Vec3d& point : points) bounds_.add(point);
     update();
   }
 
   void run() {
-    const std::span<const BvhNode> nodes = scene_.bvh.nodes;
+    const std::span<const BvhNode> nodes = scene_.scene.bvh.nodes;
     if (nodes.empty()) return;
     std::array<uint32_t, kMaxBvhDepth + 1> stack;
     size_t stackSize = 0;
     stack[stackSize++] = 0;
     while (stackSize > 0) {
       const BvhNode& node = nodes[stack[--stackSize]];
-      if (!reaches(squaredDistance(node))) continue;  // The ball may have shrunk since the node was pushed.
+      if (!reaches(squaredDistance(node))) continue;  // The balls may have shrunk since the node was pushed.
       if (node.isLeaf()) {
         testLeaf(node);
         continue;
@@ -63,97 +73,112 @@ class BallWalk {
   }
 
  private:
+  /// The box of the centres of the balls, and their radius.
   void update() {
-    centre_ = Vec3f(origin_ + 0.5 * ball_.diameter * axis_);
-    const double radius = 0.5 * ball_.diameter + kBallBoxMargin;
-    squaredRadius_ = static_cast<float>(radius * radius);
+    const double diameter = std::min(found_.ball.diameter, kMaxBoxedDiameter);
+    const Vec3d shift = 0.5 * diameter * axis_;
+    low_ = Vec3f(bounds_.min + shift);
+    high_ = Vec3f(bounds_.max + shift);
+    const double radius = 0.5 * diameter + kBallBoxMargin;
+    squaredRadius_ = found_.ball.diameter < kMaxBoxedDiameter ? static_cast<float>(radius * radius)
+                                                              : std::numeric_limits<float>::max();
   }
 
   [[nodiscard]] bool reaches(float squaredDistance) const { return squaredDistance < squaredRadius_; }
 
-  /// From the centre of the ball to the box.
+  /// From the box of the centres to another box.
   [[nodiscard]] float squaredDistance(const BvhNode& box) const {
-    const auto gap = [&](float low, float high, float centre) {
-      return std::max(std::max(low - centre, centre - high), 0.0f);
+    const auto gap = [](float low, float high, float centreLow, float centreHigh) {
+      return std::max(std::max(low - centreHigh, centreLow - high), 0.0f);
     };
-    const float x = gap(box.min.x, box.max.x, centre_.x), y = gap(box.min.y, box.max.y, centre_.y),
-                z = gap(box.min.z, box.max.z, centre_.z);
+    const float x = gap(box.min.x, box.max.x, low_.x, high_.x), y = gap(box.min.y, box.max.y, low_.y, high_.y),
+                z = gap(box.min.z, box.max.z, low_.z, high_.z);
     return x * x + y * y + z * z;
   }
 
-  /// Infinity where no face below the node is an opposing wall.
+  /// Infinite where no face below the node is an opposing wall.
   [[nodiscard]] float distanceIfOpposing(uint32_t node) const {
-    return normalTest_.mayHold(normalBounds_[node]) ? squaredDistance(scene_.bvh.nodes[node])
-                                                    : std::numeric_limits<float>::infinity();
+    return normalTest_.mayHold(scene_.normalBounds[node]) ? squaredDistance(scene_.scene.bvh.nodes[node])
+                                                          : std::numeric_limits<float>::infinity();
+  }
+
+  /// Of the balls that touch the plane of a wall: those that touch the wall are at least as large.
+  [[nodiscard]] double leastByPlane(const TrianglePlane& plane) const {
+    double least = std::numeric_limits<double>::infinity();
+    bool isAbove = false, isBelow = false;
+    for (size_t k = 0; k < pointCount_; ++k) {
+      const double offset = plane.offset - dot(plane.normal, face_.corners[k]);
+      (offset < 0 ? isBelow : isAbove) = true;
+      least = std::min(least, planeDiameter(axis_, plane.normal, offset));
+    }
+    return isAbove && isBelow ? 0 : least;
   }
 
   void testLeaf(const BvhNode& leaf) {
     for (uint32_t primitive = leaf.first; primitive < leaf.first + leaf.triangleCount; ++primitive) {
-      const TrianglePlane& plane = planes_[primitive];
-      if (!walls_.contain(-axis_, plane.normal)) continue;
-      if (planeDiameter(axis_, plane.normal, plane.offset - dot(plane.normal, origin_)) >= ball_.diameter) continue;
-      const uint32_t face = scene_.bvh.primitiveFaces[primitive];
-      if (face == ownFace_) continue;
-      const double diameter = touchingDiameter(scene_, ball_.face, face, ball_.diameter);
-      if (!(diameter < ball_.diameter)) continue;
-      ball_.diameter = diameter;
-      ball_.wall = face;
+      const TrianglePlane& plane = scene_.planes[primitive];
+      if (!scene_.walls.contain(face_.normal, plane.normal)) continue;
+      if (leastByPlane(plane) >= found_.ball.diameter) continue;
+      const uint32_t wall = scene_.scene.bvh.primitiveFaces[primitive];
+      if (wall == ownFace_) continue;
+      const PlaneTriangle triangle = triangleOf(scene_.scene, wall);
+      const TouchingBall ball =
+          pointCount_ == 1
+              ? leastTouchingBall(face_.corners[0], face_.normal, triangle, kMinWallDepth, found_.ball.diameter)
+              : leastTouchingBall(face_, triangle, kMinWallDepth, found_.ball.diameter);
+      if (!(ball.diameter < found_.ball.diameter)) continue;
+      found_ = {ball, wall};
       update();
     }
   }
 
-  const TraceScene& scene_;
-  std::span<const NormalBounds> normalBounds_;
-  std::span<const TrianglePlane> planes_;
-  const OpposingWalls& walls_;
-  InscribedBall& ball_;
-  Vec3d origin_, axis_;
+  const WallScene& scene_;
+  InscribedBall& found_;
+  PlaneTriangle face_;
+  size_t pointCount_;
+  Vec3d axis_;
   uint32_t ownFace_;
   NormalBoundsTest normalTest_;
-  Vec3f centre_;
+  Box3d bounds_;
+  Vec3f low_, high_;
   float squaredRadius_ = 0;
 };
 
 class ReferenceBallShrinker final : public BallShrinker {
  public:
   ReferenceBallShrinker(const TraceScene& scene, const OpposingWalls& walls)
-      : scene_(scene),
-        walls_(walls),
-        order_(scene),
-        normalBounds_(normalBoundsOf(scene.bvh, scene.geometry)),
-        planes_(trianglePlanes(scene)) {}
+      : order_(scene), scene_{scene, walls, normalBoundsOf(scene.bvh, scene.geometry), trianglePlanes(scene)} {}
 
-  uint64_t shrink(std::span<InscribedBall> balls, const RunControl& control) override {
-    std::vector<uint32_t> faces(balls.size());
-    std::transform(balls.begin(), balls.end(), faces.begin(), [](const InscribedBall& ball) { return ball.face; });
-    const std::vector<uint32_t> order = order_.of(faces);
-    forEachChunk(balls.size(), ChunkSize(kFirstChunkBallCount, balls.size()), control, [&](size_t begin, size_t end) {
+  uint64_t shrink(std::span<FaceBalls> faces, const RunControl& control) override {
+    std::vector<uint32_t> indices(faces.size());
+    std::transform(faces.begin(), faces.end(), indices.begin(), [](const FaceBalls& balls) { return balls.face; });
+    const std::vector<uint32_t> order = order_.of(indices);
+    forEachChunk(faces.size(), ChunkSize(kFirstChunkFaceCount, faces.size()), control, [&](size_t begin, size_t end) {
       forEachRange(end - begin, kGrain, [&](size_t first, size_t last) {
-        for (size_t i = begin + first; i < begin + last; ++i)
-          BallWalk(scene_, normalBounds_, planes_, walls_, balls[order[i]]).run();
+        for (size_t i = begin + first; i < begin + last; ++i) shrinkOne(faces[order[i]]);
       });
     });
     return 0;
   }
 
  private:
-  TraceScene scene_;
-  OpposingWalls walls_;
+  void shrinkOne(FaceBalls& balls) const {
+    const Vec3d barycentre = scene_.scene.originOf(balls.face);
+    BallWalk(scene_, balls.face, {&barycentre, 1}, balls.atBarycentre).run();
+    if (balls.atBarycentre.ball.diameter < balls.least.ball.diameter) balls.least = balls.atBarycentre;
+    BallWalk(scene_, balls.face, triangleOf(scene_.scene, balls.face).corners, balls.least).run();
+  }
+
   SeedOrder order_;
-  std::vector<NormalBounds> normalBounds_;
-  std::vector<TrianglePlane> planes_;
+  WallScene scene_;
 };
 
 }  // namespace
 
-double touchingDiameter(const TraceScene& scene, uint32_t face, uint32_t wall, double limit) {
-  const Vec3d origin = scene.originOf(face);
-  const Face& corners = scene.mesh.faces[wall];
-  const auto corner = [&](size_t k) {
-    return scene.bvh.normalization.toNormalized(scene.mesh.vertices[corners[k]]) - origin;
-  };
-  return leastDiameter(-scene.geometry.normals[face], {corner(0), corner(1), corner(2), scene.geometry.normals[wall]},
-                       limit);
+PlaneTriangle triangleOf(const TraceScene& scene, uint32_t face) {
+  const Face& corners = scene.mesh.faces[face];
+  const auto corner = [&](size_t k) { return scene.bvh.normalization.toNormalized(scene.mesh.vertices[corners[k]]); };
+  return {{corner(0), corner(1), corner(2)}, scene.geometry.normals[face]};
 }
 
 std::unique_ptr<BallShrinker> makeReferenceBallShrinker(const TraceScene& scene, const OpposingWalls& walls) {

@@ -9,11 +9,6 @@
 
 namespace asdfvk {
 
-struct ThicknessStatistics {
-  uint64_t unrefinedCount = 0;   ///< Faces without an opposing wall in sight; see measureThickness().
-  uint64_t redoneBallCount = 0;  ///< See BallShrinker::shrink().
-};
-
 class VulkanHitStore;
 
 /// Keeps the hits of seeds in the memory of a device, so that the host needs none for them. A tracer of that device
@@ -41,8 +36,6 @@ struct TracedSeeds {
   std::vector<uint32_t> faces;  ///< #S, in the order in which they were traced.
   std::vector<ConeHit> hits;    ///< #S x rays, see ConeResults::hits; empty where hits are not kept, or in a HitStore.
   TraceStatistics statistics;
-  std::vector<double> thickness;  ///< As `values`; empty where the thickness is not measured.
-  ThicknessStatistics thicknessStatistics;
 };
 
 /// A view of the hits of all rays of some seeds.

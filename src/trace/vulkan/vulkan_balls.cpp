@@ -16,6 +16,10 @@ namespace asdfvk {
 namespace {
 
 constexpr uint64_t kFirstChunkInvocationCount = 4096;
+// Part of the progress of the kernel; the reference shrinks the rest.
+constexpr double kKernelProgress = 0.3;
+// In normalised units: float32 resolves no larger balls.
+constexpr double kMaxFloatDiameter = 8;
 constexpr uint64_t kMaxChunk = 1u << 17;  // 4 MiB of 32 bytes each.
 
 uint64_t largestChunk(const Device& device) {
@@ -44,34 +48,37 @@ class VulkanBallShrinker final : public BallShrinker {
                      const OpposingWalls& walls)
       : kernel_(kernel), buffers_(buffers), scene_(scene), walls_(walls), order_(scene) {}
 
-  uint64_t shrink(std::span<InscribedBall> balls, const RunControl& control) override {
+  uint64_t shrink(std::span<FaceBalls> faces, const RunControl& control) override {
     if (scene_.bvh.nodes.empty()) return 0;
-    std::vector<uint32_t> faces(balls.size());
-    std::transform(balls.begin(), balls.end(), faces.begin(), [](const InscribedBall& ball) { return ball.face; });
-    std::vector<uint32_t> order = order_.of(faces);
+    std::vector<uint32_t> indices(faces.size());
+    std::transform(faces.begin(), faces.end(), indices.begin(), [](const FaceBalls& balls) { return balls.face; });
+    std::vector<uint32_t> order = order_.of(indices);
     const auto firstSmall = std::stable_partition(order.begin(), order.end(), [&](uint32_t i) {
-      return balls[i].diameter >= kMinFloatDiameter && !isTooSmallForFloat(scene_, balls[i].face);
+      return faces[i].atBarycentre.ball.diameter >= kMinFloatDiameter && !isTooSmallForFloat(scene_, faces[i].face);
     });
-    std::vector<uint32_t> redone(firstSmall, order.end());  // Indices into balls.
+    auto redoneCount = static_cast<uint64_t>(order.end() - firstSmall);
     order.erase(firstSmall, order.end());
     const uint64_t largest = std::clamp<uint64_t>(order.size(), 1, largestChunk(kernel_.device()));
     BallChunk memory(kernel_, buffers_, largest);
-    forEachChunk(order.size(), ChunkSize(kFirstChunkInvocationCount, largest), control, [&](size_t begin, size_t end) {
-      const std::span<const uint32_t> chunk = std::span(order).subspan(begin, end - begin);
-      run(balls, chunk, memory);
-      read(balls, chunk, memory.results->mappedAs<uint32_t>(), redone);
-    });
-    redo(balls, redone, control);
-    return redone.size();
+    forEachChunk(order.size(), ChunkSize(kFirstChunkInvocationCount, largest), control.part(0, kKernelProgress),
+                 [&](size_t begin, size_t end) {
+                   const std::span<const uint32_t> chunk = std::span(order).subspan(begin, end - begin);
+                   run(faces, chunk, memory);
+                   redoneCount += read(faces, chunk, memory.results->mappedAs<uint32_t>());
+                 });
+    // The balls of the kernel are where these begin.
+    (void)makeReferenceBallShrinker(scene_, walls_)->shrink(faces, control.part(kKernelProgress, 1));
+    return redoneCount;
   }
 
  private:
-  void run(std::span<const InscribedBall> balls, std::span<const uint32_t> chunk, BallChunk& memory) const {
+  void run(std::span<const FaceBalls> faces, std::span<const uint32_t> chunk, BallChunk& memory) const {
     const std::span<BallStart> starts = memory.starts->mappedAs<BallStart>();
     forEachInParallel(chunk.size(), [&](size_t i) {
-      const InscribedBall& ball = balls[chunk[i]];
-      starts[i] = {toGlsl(scene_.originOf(ball.face)), scene_.representatives[ball.face],
-                   toGlsl(-scene_.geometry.normals[ball.face]), static_cast<float>(ball.diameter)};
+      const FaceBalls& balls = faces[chunk[i]];
+      starts[i] = {toGlsl(scene_.originOf(balls.face)), scene_.representatives[balls.face],
+                   toGlsl(-scene_.geometry.normals[balls.face]),
+                   static_cast<float>(std::min(balls.atBarycentre.ball.diameter, kMaxFloatDiameter))};
     });
     const BallPush push{static_cast<uint32_t>(chunk.size()), static_cast<float>(walls_.cosine),
                         buffers_.childNormalStart()};
@@ -83,24 +90,22 @@ class VulkanBallShrinker final : public BallShrinker {
     memory.commands.submitAndWait();
   }
 
-  void read(std::span<InscribedBall> balls, std::span<const uint32_t> chunk, std::span<const uint32_t> results,
-            std::vector<uint32_t>& redone) const {
+  /// Returns the number of balls that the reference decides: not finished, or too small for float32.
+  uint64_t read(std::span<FaceBalls> faces, std::span<const uint32_t> chunk, std::span<const uint32_t> results) const {
     forEachInParallel(chunk.size(), [&](size_t i) {
       if (results[i] == kNoFace || results[i] == kUnfinishedBall) return;
-      InscribedBall& ball = balls[chunk[i]];
-      const double diameter = touchingDiameter(scene_, ball.face, results[i], ball.diameter);
-      if (diameter < ball.diameter) ball = {ball.face, results[i], diameter};
+      FaceBalls& balls = faces[chunk[i]];
+      const TouchingBall ball =
+          leastTouchingBall(scene_.originOf(balls.face), scene_.geometry.normals[balls.face],
+                            triangleOf(scene_, results[i]), kMinWallDepth, balls.atBarycentre.ball.diameter);
+      if (ball.diameter < balls.atBarycentre.ball.diameter) balls.atBarycentre = {ball, results[i]};
     });
-    for (size_t i = 0; i < chunk.size(); ++i)
-      if (results[i] == kUnfinishedBall || balls[chunk[i]].diameter < kMinFloatDiameter) redone.push_back(chunk[i]);
-  }
-
-  void redo(std::span<InscribedBall> balls, std::span<const uint32_t> indices, const RunControl& control) const {
-    if (indices.empty()) return;
-    std::vector<InscribedBall> copies;
-    for (const uint32_t i : indices) copies.push_back(balls[i]);
-    makeReferenceBallShrinker(scene_, walls_)->shrink(copies, control.withoutProgress());
-    for (size_t i = 0; i < indices.size(); ++i) balls[indices[i]] = copies[i];
+    uint64_t redoneCount = 0;
+    for (size_t i = 0; i < chunk.size(); ++i) {
+      const bool isTooSmall = faces[chunk[i]].atBarycentre.ball.diameter < kMinFloatDiameter;
+      redoneCount += results[i] == kUnfinishedBall || isTooSmall ? 1 : 0;
+    }
+    return redoneCount;
   }
 
   const VulkanConeKernel& kernel_;

@@ -1,0 +1,256 @@
+#include "trace/greatest_section.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <queue>
+
+#include "core/box3.h"
+#include "trace/nearest_hit.h"
+
+namespace asdfvk {
+namespace {
+
+/// Feet of equal distance on several faces, up to rounding.
+constexpr double kEqualDistance = 1e-12;
+// Corners so near to a plane are in it: coordinates in float32.
+constexpr double kFlat = 0x1p-22;
+
+Vec3d nearestOnSegment(const Vec3d& a, const Vec3d& b, const Vec3d& p) {
+  const Vec3d edge = b - a;
+  return a + std::clamp(dot(p - a, edge) / dot(edge, edge), 0.0, 1.0) * edge;
+}
+
+struct Corners {
+  Vec3d a, b, c;
+
+  /// The nearest point of the triangle.
+  [[nodiscard]] Vec3d nearest(const Vec3d& p, const Vec3d& normal) const {
+    if (marginAt(p, normal) >= 0) return p - dot(p - a, normal) * normal;
+    Vec3d best = nearestOnSegment(a, b, p);
+    for (const Vec3d& candidate : {nearestOnSegment(b, c, p), nearestOnSegment(c, a, p)})
+      if (length(p - candidate) < length(p - best)) best = candidate;
+    return best;
+  }
+
+  /// Distance of the projection of p from the edges; negative outside of the triangle.
+  [[nodiscard]] double marginAt(const Vec3d& p, const Vec3d& normal) const {
+    const auto fromEdge = [&](const Vec3d& from, const Vec3d& to) {
+      return dot(cross(to - from, p - from), normal) / length(to - from);
+    };
+    return std::min({fromEdge(a, b), fromEdge(b, c), fromEdge(c, a)});
+  }
+};
+
+/// Distances from the faces of one solid.
+class SolidSurface {
+ public:
+  struct Foot {
+    double distance = std::numeric_limits<double>::infinity();
+    Vec3d point;
+    uint32_t face = kNoFace;
+    double side = 0;  ///< Cosine between the normal and the way from the foot; above 0 outside.
+  };
+
+  SolidSurface(const TraceScene& scene, std::span<const uint32_t> solidOf, uint32_t solid)
+      : scene_(scene), solidOf_(solidOf), solid_(solid) {}
+
+  [[nodiscard]] bool has(uint32_t face) const { return solidOf_[face] == solid_; }
+  [[nodiscard]] const Vec3d& normal(uint32_t face) const { return scene_.geometry.normals[face]; }
+  [[nodiscard]] Corners cornersOf(uint32_t face) const {
+    const auto& [i, j, k] = scene_.mesh.faces[face];
+    const auto at = [&](uint32_t v) { return scene_.bvh.normalization.toNormalized(scene_.mesh.vertices[v]); };
+    return {at(i), at(j), at(k)};
+  }
+
+  [[nodiscard]] Foot nearest(const Vec3d& p) const {
+    Foot best;
+    std::array<uint32_t, kMaxBvhDepth + 1> stack;
+    size_t stackSize = 0;
+    if (!scene_.bvh.nodes.empty()) stack[stackSize++] = 0;
+    while (stackSize > 0) {
+      const BvhNode& node = scene_.bvh.nodes[stack[--stackSize]];
+      if (distance(node, p) > best.distance + kEqualDistance) continue;
+      if (node.isLeaf()) {
+        for (uint32_t i = node.first; i < node.first + node.triangleCount; ++i)
+          visit(scene_.bvh.primitiveFaces[i], p, best);
+        continue;
+      }
+      const bool leftFirst = distance(scene_.bvh.nodes[node.first], p) < distance(scene_.bvh.nodes[node.first + 1], p);
+      stack[stackSize++] = node.first + (leftFirst ? 1 : 0);
+      stack[stackSize++] = node.first + (leftFirst ? 0 : 1);
+    }
+    return best;
+  }
+
+  /// Whether the surface within a distance of a point of a face is all in the plane of that face: as the solid is
+  /// closed, it then covers the disc.
+  [[nodiscard]] bool isFlatAround(const Vec3d& point, double radius, uint32_t face) const {
+    const Vec3d& plane = normal(face);
+    const double offset = dot(plane, cornersOf(face).a);
+    bool isFlat = true;
+    forEachNear(point, radius, [&](uint32_t other) {
+      const Corners corners = cornersOf(other);
+      if (length(point - corners.nearest(point, normal(other))) > radius) return true;
+      for (const Vec3d& corner : {corners.a, corners.b, corners.c})
+        isFlat = isFlat && std::abs(dot(plane, corner) - offset) <= kFlat;
+      return isFlat;
+    });
+    return isFlat;
+  }
+
+  /// The first face of the solid along the ray; kNoFace where faces of other solids are nearer. One of these, as where
+  /// two solids touch, is passed.
+  [[nodiscard]] RayHit opposite(const Vec3d& p, const Vec3d& direction) const {
+    RayHit hit = nearestHit(scene_.bvh, scene_.mesh, p, direction, kNoFace);
+    if (hit.face != kNoFace && !has(hit.face)) hit = nearestHit(scene_.bvh, scene_.mesh, p, direction, hit.face);
+    if (hit.face != kNoFace && !has(hit.face)) hit.face = kNoFace;
+    return hit;
+  }
+
+ private:
+  /// Calls visit(face) for the faces of the solid whose boxes are within a distance, until it returns false.
+  template <typename Visit>
+  void forEachNear(const Vec3d& p, double radius, const Visit& visit) const {
+    std::array<uint32_t, kMaxBvhDepth + 1> stack;
+    size_t stackSize = 0;
+    if (!scene_.bvh.nodes.empty()) stack[stackSize++] = 0;
+    while (stackSize > 0) {
+      const BvhNode& node = scene_.bvh.nodes[stack[--stackSize]];
+      if (distance(node, p) > radius) continue;
+      if (!node.isLeaf()) {
+        stack[stackSize++] = node.first;
+        stack[stackSize++] = node.first + 1;
+        continue;
+      }
+      for (uint32_t i = node.first; i < node.first + node.triangleCount; ++i) {
+        const uint32_t face = scene_.bvh.primitiveFaces[i];
+        if (has(face) && !visit(face)) return;
+      }
+    }
+  }
+
+  static double distance(const BvhNode& box, const Vec3d& p) {
+    double square = 0;
+    for (size_t axis = 0; axis < 3; ++axis) {
+      const double gap = std::max({box.min[axis] - p[axis], p[axis] - box.max[axis], 0.0});
+      square += gap * gap;
+    }
+    return std::sqrt(square);
+  }
+
+  /// Where feet coincide on an edge or a vertex, the face that the way from the foot meets most steeply has the side.
+  void visit(uint32_t face, const Vec3d& p, Foot& best) const {
+    if (!has(face)) return;
+    const Vec3d foot = cornersOf(face).nearest(p, normal(face)), way = p - foot;
+    const double distance = length(way);
+    if (distance > best.distance + kEqualDistance) return;
+    const double side = distance > 0 ? dot(way, normal(face)) / distance : 0;
+    if (distance >= best.distance - kEqualDistance && std::abs(side) <= std::abs(best.side)) return;
+    best = {std::min(distance, best.distance), foot, face, side};
+  }
+
+  const TraceScene& scene_;
+  std::span<const uint32_t> solidOf_;
+  uint32_t solid_;
+};
+
+struct Cube {
+  Vec3d centre;
+  double halfSide = 0;
+  double bound = 0;  ///< Of the radii of balls with their centres in the cube.
+  bool operator<(const Cube& other) const { return bound < other.bound; }
+};
+
+class Search {
+ public:
+  explicit Search(const SolidSurface& surface) : surface_(surface) {}
+
+  GreatestSection run(const Box3d& box, uint32_t maxCubeCount) {
+    const Vec3d size = box.size();
+    const double side = std::max({size.x, size.y, size.z}) / 16;
+    for (double x = box.min.x; x < box.max.x; x += side)
+      for (double y = box.min.y; y < box.max.y; y += side)
+        for (double z = box.min.z; z < box.max.z; z += side)
+          add(Vec3d{x, y, z} + 0.5 * Vec3d{side, side, side}, side / 2);
+    for (uint32_t count = 0; !cubes_.empty() && cubes_.top().bound > (1 + kSectionTolerance) * radius_; ++count) {
+      if (count == maxCubeCount) return {centre_, 2 * radius_, 2 * cubes_.top().bound};
+      const Cube cube = cubes_.top();
+      cubes_.pop();
+      for (uint32_t i = 0; i < 8; ++i) {
+        const double half = cube.halfSide / 2;
+        add(cube.centre + Vec3d{i & 1 ? half : -half, i & 2 ? half : -half, i & 4 ? half : -half}, half);
+      }
+    }
+    return {centre_, 2 * radius_, 2 * (1 + kSectionTolerance) * radius_};
+  }
+
+ private:
+  void add(const Vec3d& centre, double halfSide) {
+    const double reach = std::sqrt(3.0) * halfSide;
+    const SolidSurface::Foot foot = surface_.nearest(centre);
+    if (foot.face == kNoFace) return;
+    if (foot.side >= 0) {  // Outside.
+      if (reach - foot.distance > radius_) cubes_.push({centre, halfSide, reach - foot.distance});
+      return;
+    }
+    offer(centre, foot.distance);
+    double bound = foot.distance + reach;
+    if (bound > radius_ && foot.distance > 0) bound = std::min(bound, boundByWalls(centre, foot, reach));
+    if (bound > (1 + kSectionTolerance) * radius_) cubes_.push({centre, halfSide, bound});
+  }
+
+  void offer(const Vec3d& centre, double radius) {
+    if (radius <= radius_) return;
+    radius_ = radius;
+    centre_ = centre;
+  }
+
+  /// By the foot and the point of the wall opposite of it. A ball with its centre at most `reach` away contains
+  /// neither.
+  double boundByWalls(const Vec3d& centre, const SolidSurface::Foot& foot, double reach) {
+    const Vec3d away = (centre - foot.point) / foot.distance;
+    const RayHit hit = surface_.opposite(centre, away);
+    if (hit.face == kNoFace) return std::numeric_limits<double>::infinity();
+    const double half = 0.5 * (foot.distance + hit.distance);
+    improve(centre + (half - foot.distance) * away);
+    if (half - foot.distance > reach) return std::numeric_limits<double>::infinity();
+    const double byPoints = std::sqrt(half * half + reach * reach);
+    // By the planes of both walls, where these reach as far as the balls.
+    const Vec3d &n = surface_.normal(foot.face), &m = surface_.normal(hit.face);
+    const double depth = -dot(centre - surface_.cornersOf(foot.face).a, n);
+    const double other = -dot(centre - surface_.cornersOf(hit.face).a, m);
+    const double byPlanes = 0.5 * (depth + other) + 0.5 * reach * length(n + m);
+    if (byPlanes >= byPoints || !surface_.isFlatAround(centre + depth * n, reach, foot.face) ||
+        !surface_.isFlatAround(centre + other * m, reach, hit.face))
+      return byPoints;
+    return byPlanes;
+  }
+
+  void improve(const Vec3d& centre) {
+    const SolidSurface::Foot foot = surface_.nearest(centre);
+    if (foot.side < 0) offer(centre, foot.distance);
+  }
+
+  const SolidSurface& surface_;
+  std::priority_queue<Cube> cubes_;
+  double radius_ = 0;
+  Vec3d centre_;
+};
+
+}  // namespace
+
+GreatestSection findGreatestSection(const TraceScene& scene, std::span<const uint32_t> solidOf, uint32_t solid,
+                                    uint32_t maxCubeCount) {
+  const SolidSurface surface(scene, solidOf, solid);
+  Box3d box;
+  for (uint32_t face = 0; face < scene.mesh.faceCount(); ++face) {
+    if (!surface.has(face)) continue;
+    const Corners corners = surface.cornersOf(face);
+    for (const Vec3d& corner : {corners.a, corners.b, corners.c}) box.add(corner);
+  }
+  return Search(surface).run(box, maxCubeCount);
+}
+
+}  // namespace asdfvk
