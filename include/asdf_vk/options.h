@@ -123,17 +123,19 @@ inline constexpr double kMinDetail = 0.1, kMaxDetail = 10;
 /// Quantity that is measured at each face.
 enum class Measure {
   ShapeDiameter,  ///< Field "sdf".
-  Thickness,      ///< Fields "sdf" and "thickness", from the same rays (docs/thickness.md).
+  Thickness,      ///< Also the fields "thickness" and "least_thickness" (docs/thickness.md).
 };
 
-/// Wall thickness of a face: the diameter of the largest ball that touches the face at its barycentre from inside and
-/// contains no point of an opposing wall.
+/// Wall thickness: the diameter of the largest ball that touches the surface at a point from inside and contains no
+/// point of an opposing wall (docs/thickness.md). Measured at all faces, whatever `seeds` is.
 struct ThicknessOptions {
   /// Faces whose normals differ by at least this angle are opposing walls; above 90 and at most 180.
   double wallAngleDegrees = 120;
-  /// Report the connected regions below this thickness, in the unit of the mesh; above 0. Requires Measure::Thickness.
-  /// All faces of a region cast rays, whatever `seeds` is.
+  /// Report the connected parts of the surface below this thickness, in the unit of the mesh; above 0. Requires
+  /// Measure::Thickness.
   std::optional<double> thinnerThan;
+  /// Leave thin regions that contain a sharp edge or tip out of the verdict and of the minimum. Requires thinnerThan.
+  bool allowsSharpEdges = false;
 };
 
 /// Conditions under which further rounds of seeds are added. A round keeps the traced values of all earlier rounds.

@@ -174,14 +174,25 @@ struct SegmentationReport {
   std::optional<PartsReport> parts;  ///< Set with Segmentation::Parts.
 };
 
-/// Faces below ThicknessOptions::thinnerThan that are connected over shared edges. Lengths in the unit of the mesh.
+/// A connected part of the surface below ThicknessOptions::thinnerThan. Lengths in the unit of the mesh.
 struct ThinRegion {
-  uint64_t faceCount = 0;  ///< Input faces.
-  double area = 0;         ///< Of its triangles.
+  uint64_t faceCount = 0;  ///< Input faces that have a part in it.
+  double area = 0;         ///< Of the part of these faces that is thin.
   double areaShare = 0;    ///< Of the area of the mesh, or of the region of Scene::compute().
-  double min = 0;          ///< Least thickness.
+  double min = 0;          ///< Least thickness; 0 in a sharp region.
   uint64_t minFace = 0;    ///< Input face with the least thickness.
   Vec3d place, opposite;   ///< The points of this face and of its opposing wall that have it.
+  bool isSharp = false;    ///< Contains a sharp edge or tip; otherwise it is a wall.
+};
+
+/// Edges, connected over vertices, at each of which two opposing walls meet; or a vertex at which walls meet that share
+/// no edge, as at the tip of a cone. The thickness there is 0, whatever the triangulation.
+struct SharpEdge {
+  double angleDegrees = 0;  ///< Least inner angle between the walls.
+  double length = 0;        ///< Of all edges; 0 at a tip.
+  uint64_t edgeCount = 0;   ///< 0 at a tip.
+  Vec3d place;              ///< The middle of the edge with the least angle, or the tip.
+  uint64_t face = 0;        ///< Input face at this place.
 };
 
 /// The largest ball inside of a closed component.
@@ -190,17 +201,45 @@ struct SectionBall {
   Vec3d centre;
 };
 
-/// Set where the thickness is measured. min: over all points of the surface; the others are by area, of the field
-/// "thickness". Median and percentiles are by area, over the
-/// triangles with a thickness.
+/// Result of the comparison with ThicknessOptions::thinnerThan.
+enum class ThicknessVerdict {
+  Passed,     ///< No point of the surface is thinner.
+  Failed,     ///< A point is thinner, and it is not in a sharp region that is allowed.
+  NotJudged,  ///< None was found, but a part of the surface could not be judged: see UnjudgedFaces.
+};
+/// "passed", "failed", "notJudged"
+[[nodiscard]] ASDFVK_API const char* nameOf(ThicknessVerdict verdict);
+
+/// Input faces on which a limit cannot be judged, or not with certainty.
+struct UnjudgedFaces {
+  uint64_t openCount = 0;      ///< Of open components, without an opposing wall: no thickness.
+  uint64_t invertedCount = 0;  ///< Of closed components whose faces are oriented inwards, or inconsistently.
+  uint64_t degenerateCount = 0;  ///< Without a normal or with a corner that is not finite.
+  /// Faces that another face crosses. They are judged, as thinner than the union of the parts that they bound.
+  uint64_t crossedCount = 0;
+
+  /// Whether a point of the surface may be thinner than what was found.
+  [[nodiscard]] bool preventVerdict() const { return openCount > 0 || invertedCount > 0; }
+};
+
+/// Set where the thickness is measured (docs/thickness.md). Lengths in the unit of the mesh.
 struct ThicknessReport {
-  double min = kNoValue, median = kNoValue, max = kNoValue;
-  double percentile1 = kNoValue, percentile5 = kNoValue, percentile95 = kNoValue;
+  /// The least thickness over all points of the surface, without sharp regions where these are allowed.
+  double min = kNoValue;
+  uint64_t minFace = 0;       ///< Input face that has it.
+  Vec3d minPlace, minOpposite;  ///< The points of this face and of its opposing wall.
+  /// By area, of the field "thickness".
+  double median = kNoValue, max = kNoValue, percentile1 = kNoValue, percentile5 = kNoValue, percentile95 = kNoValue;
   uint64_t noValueCount = 0;     ///< Input faces without a thickness.
   uint64_t redoneBallCount = 0;  ///< Balls beyond the limits of the device or of float32, shrunk by the reference.
   std::optional<SectionBall> greatestSection;  ///< Of all closed components; unset without one.
-  std::optional<double> thinnerThan;               ///< ThicknessOptions::thinnerThan.
-  std::vector<ThinRegion> thinRegions;     ///< By descending area. Empty without thinnerThan.
+  std::vector<SharpEdge> sharpEdges;           ///< By ascending angle.
+  UnjudgedFaces unjudged;
+  std::optional<double> thinnerThan;        ///< ThicknessOptions::thinnerThan.
+  bool allowsSharpEdges = false;            ///< ThicknessOptions::allowsSharpEdges.
+  std::optional<ThicknessVerdict> verdict;  ///< Set with thinnerThan.
+  /// Walls before sharp regions, by ascending least thickness. Empty without thinnerThan.
+  std::vector<ThinRegion> thinRegions;
   double thinArea = 0, thinAreaShare = 0;  ///< Of all thin regions.
 };
 
@@ -217,6 +256,7 @@ struct Report {
   uint64_t triangleCount = 0;
   uint64_t vertexCount = 0;
   uint64_t componentCount = 0;
+  Vec3d size;              ///< Of the bounding box of the mesh, in its unit.
   uint64_t seedCount = 0;  ///< Triangles that cast rays.
   uint64_t rayCount = 0;
   uint64_t redoneConeCount = 0;  ///< Cones beyond the limits of the device or of float32, traced by the reference.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -30,16 +31,23 @@ struct SessionOptions {
 /// The entry of the field "segment" for an input face without a triangle.
 inline constexpr uint32_t kNoSegment = 0xffffffff;
 
+/// The thin parts of the surface as triangles, in the unit of the mesh: thin faces, or parts of large ones.
+struct ThinSurface {
+  std::vector<std::array<Vec3d, 3>> triangles;
+  std::vector<uint32_t> regions;  ///< One per triangle: index in ThicknessReport::thinRegions.
+};
+
 /// Result of a computation. Fields: "sdf" (the shape diameter in the unit of the mesh), "seed" (1 where rays were
 /// cast); with an estimate "error" (expected error in the unit of the mesh; 0 at seeds that keep their value); with
 /// Options::postprocess "normalized" (0 to 1); with Options::segmentation "segment" (ascending by the mean value); with
-/// Measure::Thickness "thickness" (in the unit of the mesh; of an input face that is a polygon the least of its
-/// triangles); with
-/// Options::computesCentres "centre" (x, y, z: the barycentre, moved inwards along the normal by half of the shape
-/// diameter). With PerElement::Vertices fields per vertex with the same names follow those per face.
+/// Measure::Thickness "thickness" (at the barycentre, in the unit of the mesh) and "least_thickness" (over all points of
+/// the face), of an input face that is a polygon the least of its triangles; with Options::computesCentres "centre"
+/// (x, y, z: the barycentre, moved inwards along the normal by half of the shape diameter). With PerElement::Vertices
+/// fields per vertex with the same names follow those per face.
 struct Result {
   std::vector<Field> fields;
   Report report;
+  ThinSurface thinSurface;  ///< Empty without ThicknessOptions::thinnerThan.
   /// Geometry and hierarchy of the mesh, opaque; set with Options::keepsScene.
   std::shared_ptr<const struct SceneData> scene;
 

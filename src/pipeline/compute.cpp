@@ -134,7 +134,7 @@ void describeFields(Result& result, const Computation& computation, const Rounds
   describeValues(report, computation.prepared, computation.domain, result.sdf(), values, computation.keepsMissing());
   if (!computation.measuresThickness()) return;
   const auto scope = computation.clock.time(Stage::Thickness);
-  report.thickness = describeThickness(computation, rounds.thickness);
+  report.thickness = describeThickness(computation, rounds.thickness, result.thinSurface);
 }
 
 /// The scene for pictures. A scene that is not used again keeps nothing else.

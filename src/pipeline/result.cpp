@@ -230,6 +230,11 @@ const char* nameOf(Stage stage) {
   return kNames[static_cast<size_t>(stage)];
 }
 
+const char* nameOf(ThicknessVerdict verdict) {
+  constexpr std::array<const char*, 3> kNames{"passed", "failed", "notJudged"};
+  return kNames[static_cast<size_t>(verdict)];
+}
+
 const char* nameOf(WarningCode code) {
   switch (code) {
     case WarningCode::MeshDefect:

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "asdf_vk/session.h"
 #include "pipeline/computation.h"
 #include "trace/ball_shrinker.h"
 #include "trace/greatest_section.h"
@@ -29,6 +30,7 @@ struct FaceThickness {
 [[nodiscard]] std::vector<double> thicknessOfInputFaces(const TriangleMesh& mesh, std::span<const double> values);
 
 /// Percentiles, and the regions below the limit if there is one, of the faces of the domain.
-[[nodiscard]] ThicknessReport describeThickness(const Computation& computation, const FaceThickness& thickness);
+[[nodiscard]] ThicknessReport describeThickness(const Computation& computation, const FaceThickness& thickness,
+                                                ThinSurface& surface);
 
 }  // namespace asdfvk

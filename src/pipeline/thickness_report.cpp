@@ -69,7 +69,7 @@ double totalArea(const PreparedMesh& prepared, const FaceDomain& domain) {
 }
 
 void describeThinRegions(const Computation& computation, const FaceThickness& thickness, double limit,
-                         ThicknessReport& report) {
+                         ThicknessReport& report, ThinSurface& surface) {
   const PreparedMesh& prepared = computation.prepared;
   const std::span<const double> values = thickness.least;
   std::vector<uint8_t> isThin(values.size());
@@ -77,6 +77,12 @@ void describeThinRegions(const Computation& computation, const FaceThickness& th
   for (uint32_t face = 0; face < values.size(); ++face)
     if (isThin[face] != 0)
       report.thinRegions.push_back(describeRegion(computation, thickness, takeRegion(prepared.graph, face, isThin)));
+  for (uint32_t face = 0; face < values.size(); ++face) {
+    if (!(values[face] < limit)) continue;
+    const auto& [a, b, c] = prepared.mesh.faces[face];
+    surface.triangles.push_back({prepared.mesh.vertices[a], prepared.mesh.vertices[b], prepared.mesh.vertices[c]});
+    surface.regions.push_back(0);
+  }
   const double total = totalArea(prepared, computation.domain);
   for (ThinRegion& region : report.thinRegions) {
     region.areaShare = total > 0 ? region.area / total : 0;
@@ -89,7 +95,8 @@ void describeThinRegions(const Computation& computation, const FaceThickness& th
 
 }  // namespace
 
-ThicknessReport describeThickness(const Computation& computation, const FaceThickness& thickness) {
+ThicknessReport describeThickness(const Computation& computation, const FaceThickness& thickness,
+                                  ThinSurface& surface) {
   const PreparedMesh& prepared = computation.prepared;
   ThicknessReport report;
   describePercentiles(thickness.atBarycentre, prepared.geometry.areas, report);
@@ -100,7 +107,10 @@ ThicknessReport describeThickness(const Computation& computation, const FaceThic
   if (thickness.greatestSection)
     report.greatestSection = {thickness.greatestSection->diameter, thickness.greatestSection->centre};
   report.thinnerThan = computation.options.thickness.thinnerThan;
-  if (report.thinnerThan) describeThinRegions(computation, thickness, *report.thinnerThan, report);
+  if (report.thinnerThan) describeThinRegions(computation, thickness, *report.thinnerThan, report, surface);
+  report.allowsSharpEdges = computation.options.thickness.allowsSharpEdges;
+  if (report.thinnerThan)
+    report.verdict = report.min < *report.thinnerThan ? ThicknessVerdict::Failed : ThicknessVerdict::Passed;
   return report;
 }
 
