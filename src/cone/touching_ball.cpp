@@ -19,31 +19,51 @@ double diameterThrough(const Vec3d& v, const Vec3d& axis) {
 /// roots by depth is the minimum. Precondition: both ends are deeper than 0.
 double leastOnEdge(const Vec3d& axis, const Vec3d& a, const Vec3d& edge) {
   const double depth = dot(a, axis), slope = dot(edge, axis), square = dot(edge, edge);
-  const double root = std::sqrt(square) * length(depth * edge - slope * a);
+  const Vec3d turned = depth * edge - slope * a;
+  const double root = std::sqrt(square * dot(turned, turned));
   const double t = (slope * dot(a, a) - 2 * depth * dot(a, edge)) / (depth * square + root);
   return std::isfinite(t) ? std::clamp(t, 0.0, 1.0) : 0;
 }
 
-/// The part of a triangle below a depth: up to four corners.
+/// Lower bounds above this are above `diameter`, whatever the rounding: walls in any order give the same bits.
+double withRounding(double diameter) { return diameter * (1 + 1e-9); }
+
+/// The part of a triangle below a depth: up to four corners with their depths.
 class DeepPart {
  public:
   DeepPart(const PlaneTriangle& wall, const Vec3d& origin, const Vec3d& axis, double minDepth) {
+    std::array<double, 3> depths;
+    for (size_t k = 0; k < 3; ++k) depths[k] = dot(wall.corners[k] - origin, axis);
     for (size_t k = 0; k < 3; ++k) {
-      const Vec3d &a = wall.corners[k], &b = wall.corners[(k + 1) % 3];
-      const double above = dot(a - origin, axis) - minDepth, next = dot(b - origin, axis) - minDepth;
-      if (above > 0) corners_[count_++] = a;
-      if ((above > 0) != (next > 0)) corners_[count_++] = a + above / (above - next) * (b - a);
+      const size_t next = (k + 1) % 3;
+      const double above = depths[k] - minDepth, nextAbove = depths[next] - minDepth;
+      if (above > 0) add(wall.corners[k], depths[k]);
+      if ((above > 0) != (nextAbove > 0)) {
+        const Vec3d& a = wall.corners[k];
+        add(a + above / (above - nextAbove) * (wall.corners[next] - a), minDepth);
+      }
     }
   }
 
   [[nodiscard]] std::span<const Vec3d> corners() const { return {corners_.data(), count_}; }
+  [[nodiscard]] double depth(size_t corner) const { return depths_[corner]; }
+  /// Calls visit(a, b) for the edges that have a point above a depth.
   template <typename Visit>
-  void forEachEdge(const Visit& visit) const {
-    for (size_t k = 0; k < count_; ++k) visit(corners_[k], corners_[(k + 1) % count_]);
+  void forEachEdge(double maxDepth, const Visit& visit) const {
+    for (size_t k = 0; k < count_; ++k) {
+      const size_t next = k + 1 == count_ ? 0 : k + 1;
+      if (std::min(depths_[k], depths_[next]) <= maxDepth) visit(corners_[k], corners_[next]);
+    }
   }
 
  private:
+  void add(const Vec3d& corner, double depth) {
+    corners_[count_] = corner;
+    depths_[count_++] = depth;
+  }
+
   std::array<Vec3d, 4> corners_;
+  std::array<double, 4> depths_;
   size_t count_ = 0;
 };
 
@@ -66,25 +86,35 @@ Vec3d nearestInPlane(const PlaneTriangle& triangle, const Vec3d& p) {
   return isInside ? p : nearest;
 }
 
-/// Collects the least of the cases.
+/// Collects the least of the cases. A ball is at least as large as its point of the wall is deep.
 class LeastBall {
  public:
-  LeastBall(const PlaneTriangle& wall, const Vec3d& axis, const DeepPart& part)
-      : wall_(wall), axis_(axis), part_(part) {}
+  LeastBall(const PlaneTriangle& wall, const Vec3d& axis, const DeepPart& part, double limit)
+      : wall_(wall), axis_(axis), part_(part), limit_(withRounding(limit)) {}
+
+  [[nodiscard]] bool mayImprove(double bound) const { return !(bound > limit_); }
+
+  /// The diameter of the ball at a point of the face that touches the plane of the wall, which bounds the others.
+  [[nodiscard]] double offsetOf(const Vec3d& p) const { return dot(wall_.normal, part_.corners().front() - p); }
+  [[nodiscard]] double boundAt(double offset) const { return planeDiameter(axis_, wall_.normal, offset); }
 
   void offer(const Vec3d& p, const Vec3d& q) {
     const double diameter = diameterThrough(q - p, axis_);
-    if (diameter < best_.diameter) best_ = {diameter, p, q};
+    if (!(diameter < best_.diameter)) return;
+    best_ = {diameter, p, q};
+    limit_ = std::min(limit_, withRounding(diameter));
   }
 
-  /// The ball at a point of the face against the interior and the edges of the wall.
-  void offerPoint(const Vec3d& p) {
-    const double offset = dot(wall_.normal, part_.corners().front() - p);
+  /// The ball at a point of the face. Where it touches the plane of the wall outside of the wall, it is least at an edge
+  /// that faces this place, as the diameter is a convex function of the point of the wall.
+  void offerPoint(const Vec3d& p, double offset) {
     const double side = offset < 0 ? -1 : 1, radius = std::abs(offset) / (1 + side * dot(wall_.normal, axis_));
     const Vec3d touched = p + radius * (axis_ + side * wall_.normal);
     bool isInside = std::isfinite(radius);
-    part_.forEachEdge([&](const Vec3d& a, const Vec3d& b) {
-      isInside = isInside && dot(cross(b - a, touched - a), wall_.normal) >= 0;
+    const bool hasPlace = isInside;
+    part_.forEachEdge(kInfinity, [&](const Vec3d& a, const Vec3d& b) {
+      if (hasPlace && dot(cross(b - a, touched - a), wall_.normal) >= 0) return;
+      isInside = false;
       offer(p, a + leastOnEdge(axis_, a - p, b - a) * (b - a));
     });
     if (isInside) offer(p, touched);
@@ -95,7 +125,7 @@ class LeastBall {
     const Vec3d edge = to - from;
     const double square = dot(edge, edge);
     if (square == 0) return;
-    part_.forEachEdge([&](const Vec3d& a, const Vec3d& b) {
+    part_.forEachEdge(limit_, [&](const Vec3d& a, const Vec3d& b) {
       const auto across = [&](const Vec3d& v) { return v - dot(v, edge) / square * edge; };
       const Vec3d q = a + leastOnEdge(axis_, across(a - from), across(b - a)) * (b - a);
       const double s = dot(q - from, edge) / square;
@@ -103,13 +133,14 @@ class LeastBall {
     });
   }
 
-  [[nodiscard]] TouchingBall below(double limit) const { return best_.diameter < limit ? best_ : TouchingBall{}; }
+  [[nodiscard]] const TouchingBall& ball() const { return best_; }
 
  private:
   const PlaneTriangle& wall_;
   Vec3d axis_;
   const DeepPart& part_;
   TouchingBall best_;
+  double limit_;
 };
 
 }  // namespace
@@ -117,14 +148,26 @@ class LeastBall {
 TouchingBall leastTouchingBall(const PlaneTriangle& face, const PlaneTriangle& wall, double minDepth, double limit) {
   const Vec3d axis = -face.normal;
   const DeepPart part(wall, face.corners[0], axis, minDepth);
-  if (part.corners().empty()) return {};
-  LeastBall least(wall, axis, part);
-  for (const Vec3d& q : part.corners()) least.offer(nearestInPlane(face, q - dot(q - face.corners[0], axis) * axis), q);
+  const std::span<const Vec3d> corners = part.corners();
+  if (corners.empty()) return {};
+  LeastBall least(wall, axis, part, limit);
+  std::array<double, 3> offsets, bounds;
   for (size_t k = 0; k < 3; ++k) {
-    least.offerPoint(face.corners[k]);
-    least.offerEdge(face.corners[k], face.corners[(k + 1) % 3]);
+    offsets[k] = least.offsetOf(face.corners[k]);
+    bounds[k] = least.boundAt(offsets[k]);
   }
-  return least.below(limit);
+  for (size_t k = 0; k < corners.size(); ++k)
+    if (least.mayImprove(part.depth(k)))
+      least.offer(nearestInPlane(face, corners[k] - part.depth(k) * axis), corners[k]);
+  for (size_t k = 0; k < 3; ++k)
+    if (least.mayImprove(bounds[k])) least.offerPoint(face.corners[k], offsets[k]);
+  for (size_t k = 0; k < 3; ++k) {
+    const size_t next = (k + 1) % 3;
+    const bool isCrossed = (offsets[k] < 0) != (offsets[next] < 0);
+    if (isCrossed || least.mayImprove(std::min(bounds[k], bounds[next])))
+      least.offerEdge(face.corners[k], face.corners[next]);
+  }
+  return least.ball();
 }
 
 TouchingBall leastTouchingBall(const Vec3d& point, const Vec3d& faceNormal, const PlaneTriangle& wall, double minDepth,
@@ -132,9 +175,10 @@ TouchingBall leastTouchingBall(const Vec3d& point, const Vec3d& faceNormal, cons
   const Vec3d axis = -faceNormal;
   const DeepPart part(wall, point, axis, minDepth);
   if (part.corners().empty()) return {};
-  LeastBall least(wall, axis, part);
-  least.offerPoint(point);
-  return least.below(limit);
+  LeastBall least(wall, axis, part, limit);
+  const double offset = least.offsetOf(point);
+  if (least.mayImprove(least.boundAt(offset))) least.offerPoint(point, offset);
+  return least.ball();
 }
 
 }  // namespace asdfvk

@@ -1,6 +1,7 @@
 #include "mesh/coincident_faces.h"
 
 #include <algorithm>
+#include <numeric>
 #include <bit>
 
 #include "core/buckets.h"
@@ -91,6 +92,14 @@ std::vector<uint32_t> coincidentRepresentatives(const TriangleMesh& mesh, const 
   std::vector<uint32_t> representatives(mesh.faces.size());
   forEachInParallel(representatives.size(), [&](uint32_t f) { representatives[f] = f; });
   return representatives;
+}
+
+FaceCopies::FaceCopies(std::span<const uint32_t> representatives)
+    : first_(representatives.size() + 1), faces_(representatives.size()) {
+  for (const uint32_t representative : representatives) ++first_[representative + 1];
+  std::partial_sum(first_.begin(), first_.end(), first_.begin());
+  std::vector<uint32_t> next(first_.begin(), first_.end() - 1);
+  for (uint32_t face = 0; face < faces_.size(); ++face) faces_[next[representatives[face]]++] = face;
 }
 
 }  // namespace asdfvk

@@ -3,6 +3,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/vec3.h"
@@ -29,5 +30,20 @@ namespace asdfvk {
 /// between them are rounding noise. They are treated as one face: a cone ignores hits on copies of its seed face, and
 /// every backend reports the same copy. edges: of the mesh; they often prove quickly that there are no copies.
 [[nodiscard]] std::vector<uint32_t> coincidentRepresentatives(const TriangleMesh& mesh, const EdgeSurvey& edges);
+
+/// The faces by their representatives.
+class FaceCopies {
+ public:
+  explicit FaceCopies(std::span<const uint32_t> representatives);
+
+  /// A representative and its copies, ascending.
+  [[nodiscard]] std::span<const uint32_t> of(uint32_t representative) const {
+    return std::span(faces_).subspan(first_[representative], first_[representative + 1] - first_[representative]);
+  }
+
+ private:
+  std::vector<uint32_t> first_;  // #F + 1
+  std::vector<uint32_t> faces_;  // #F
+};
 
 }  // namespace asdfvk

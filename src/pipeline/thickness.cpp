@@ -15,16 +15,6 @@ constexpr size_t kBlockFaceCount = size_t{1} << 16;
 // Part of the progress in which the greatest sections are found.
 constexpr double kSectionsProgress = 0.2;
 
-/// Per solid; no section where it is open.
-std::vector<GreatestSection> findSections(const TraceScene& scene, const Solids& solids, const RunControl& control) {
-  std::vector<GreatestSection> sections(solids.isClosed.size(), {{}, kUnlimited, kUnlimited});
-  for (uint32_t solid = 0; solid < sections.size(); ++solid) {
-    control.checkpoint(static_cast<double>(solid) / static_cast<double>(sections.size()));
-    if (solids.isClosed[solid] != 0) sections[solid] = findGreatestSection(scene, solids.solidOf, solid);
-  }
-  return sections;
-}
-
 GreatestSection toMesh(const Normalization& normalization, const GreatestSection& section) {
   return {section.centre / normalization.scale + normalization.centre, normalization.toMeshLength(section.diameter),
           normalization.toMeshLength(section.bound)};
@@ -35,7 +25,7 @@ GreatestSection toMesh(const Normalization& normalization, const GreatestSection
 FaceThickness measureThickness(const Computation& computation, BallShrinker& shrinker, const RunControl& control) {
   const TraceScene& scene = computation.scene;
   const Solids solids = findSolids(computation.prepared.mesh, computation.prepared.components);
-  const std::vector<GreatestSection> sections = findSections(scene, solids, control.part(0, kSectionsProgress));
+  const std::vector<GreatestSection> sections = findGreatestSections(scene, solids.solidOf, solids.isClosed, control.part(0, kSectionsProgress));
   const size_t faceCount = computation.prepared.mesh.faceCount();
   FaceThickness thickness{std::vector<double>(faceCount, kNoValue), std::vector<double>(faceCount, kNoValue),
                           std::vector<uint32_t>(faceCount, kNoFace), {}, 0};

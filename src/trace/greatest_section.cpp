@@ -7,6 +7,7 @@
 #include <queue>
 
 #include "core/box3.h"
+#include "mesh/coincident_faces.h"
 #include "trace/nearest_hit.h"
 
 namespace asdfvk {
@@ -14,6 +15,10 @@ namespace {
 
 /// Feet of equal distance on several faces, up to rounding.
 constexpr double kEqualDistance = 1e-12;
+/// Cubes that a search divides at most; the bound of the last one is returned.
+constexpr uint32_t kMaxCubeCount = 200'000;
+/// Along the longest side of the box of the solid.
+constexpr double kFirstCubeCount = 4;
 // Corners so near to a plane are in it: coordinates in float32.
 constexpr double kFlat = 0x1p-22;
 
@@ -27,19 +32,19 @@ struct Corners {
 
   /// The nearest point of the triangle.
   [[nodiscard]] Vec3d nearest(const Vec3d& p, const Vec3d& normal) const {
-    if (marginAt(p, normal) >= 0) return p - dot(p - a, normal) * normal;
+    if (isAbove(p, normal)) return p - dot(p - a, normal) * normal;
     Vec3d best = nearestOnSegment(a, b, p);
     for (const Vec3d& candidate : {nearestOnSegment(b, c, p), nearestOnSegment(c, a, p)})
       if (length(p - candidate) < length(p - best)) best = candidate;
     return best;
   }
 
-  /// Distance of the projection of p from the edges; negative outside of the triangle.
-  [[nodiscard]] double marginAt(const Vec3d& p, const Vec3d& normal) const {
-    const auto fromEdge = [&](const Vec3d& from, const Vec3d& to) {
-      return dot(cross(to - from, p - from), normal) / length(to - from);
+  /// Whether the projection of p is in the triangle.
+  [[nodiscard]] bool isAbove(const Vec3d& p, const Vec3d& normal) const {
+    const auto isInside = [&](const Vec3d& from, const Vec3d& to) {
+      return dot(cross(to - from, p - from), normal) >= 0;
     };
-    return std::min({fromEdge(a, b), fromEdge(b, c), fromEdge(c, a)});
+    return isInside(a, b) && isInside(b, c) && isInside(c, a);
   }
 };
 
@@ -53,10 +58,15 @@ class SolidSurface {
     double side = 0;  ///< Cosine between the normal and the way from the foot; above 0 outside.
   };
 
-  SolidSurface(const TraceScene& scene, std::span<const uint32_t> solidOf, uint32_t solid)
-      : scene_(scene), solidOf_(solidOf), solid_(solid) {}
+  SolidSurface(const TraceScene& scene, const FaceCopies& copies, std::span<const uint32_t> solidOf, uint32_t solid)
+      : scene_(scene), copies_(copies), solidOf_(solidOf), solid_(solid) {}
 
-  [[nodiscard]] bool has(uint32_t face) const { return solidOf_[face] == solid_; }
+  /// The copy of a primitive that the solid has; kNoFace for none. Where solids touch, they may share primitives.
+  [[nodiscard]] uint32_t copyOf(uint32_t primitiveFace) const {
+    for (const uint32_t face : copies_.of(primitiveFace))
+      if (solidOf_[face] == solid_) return face;
+    return kNoFace;
+  }
   [[nodiscard]] const Vec3d& normal(uint32_t face) const { return scene_.geometry.normals[face]; }
   [[nodiscard]] Corners cornersOf(uint32_t face) const {
     const auto& [i, j, k] = scene_.mesh.faces[face];
@@ -64,13 +74,15 @@ class SolidSurface {
     return {at(i), at(j), at(k)};
   }
 
-  [[nodiscard]] Foot nearest(const Vec3d& p) const {
+  /// The nearest point; any point at most `enough` away where there is one.
+  [[nodiscard]] Foot nearest(const Vec3d& p, double enough = 0) const {
     Foot best;
     std::array<uint32_t, kMaxBvhDepth + 1> stack;
     size_t stackSize = 0;
     if (!scene_.bvh.nodes.empty()) stack[stackSize++] = 0;
     while (stackSize > 0) {
       const BvhNode& node = scene_.bvh.nodes[stack[--stackSize]];
+      if (best.distance < enough) break;
       if (distance(node, p) > best.distance + kEqualDistance) continue;
       if (node.isLeaf()) {
         for (uint32_t i = node.first; i < node.first + node.triangleCount; ++i)
@@ -100,12 +112,11 @@ class SolidSurface {
     return isFlat;
   }
 
-  /// The first face of the solid along the ray; kNoFace where faces of other solids are nearer. One of these, as where
-  /// two solids touch, is passed.
+  /// The first face of the solid along the ray.
   [[nodiscard]] RayHit opposite(const Vec3d& p, const Vec3d& direction) const {
-    RayHit hit = nearestHit(scene_.bvh, scene_.mesh, p, direction, kNoFace);
-    if (hit.face != kNoFace && !has(hit.face)) hit = nearestHit(scene_.bvh, scene_.mesh, p, direction, hit.face);
-    if (hit.face != kNoFace && !has(hit.face)) hit.face = kNoFace;
+    RayHit hit = nearestHitAmong(scene_.bvh, scene_.mesh, p, direction,
+                                 [&](uint32_t face) { return copyOf(face) != kNoFace; });
+    if (hit.face != kNoFace) hit.face = copyOf(hit.face);
     return hit;
   }
 
@@ -125,8 +136,8 @@ class SolidSurface {
         continue;
       }
       for (uint32_t i = node.first; i < node.first + node.triangleCount; ++i) {
-        const uint32_t face = scene_.bvh.primitiveFaces[i];
-        if (has(face) && !visit(face)) return;
+        const uint32_t face = copyOf(scene_.bvh.primitiveFaces[i]);
+        if (face != kNoFace && !visit(face)) return;
       }
     }
   }
@@ -141,9 +152,12 @@ class SolidSurface {
   }
 
   /// Where feet coincide on an edge or a vertex, the face that the way from the foot meets most steeply has the side.
-  void visit(uint32_t face, const Vec3d& p, Foot& best) const {
-    if (!has(face)) return;
-    const Vec3d foot = cornersOf(face).nearest(p, normal(face)), way = p - foot;
+  void visit(uint32_t primitiveFace, const Vec3d& p, Foot& best) const {
+    const uint32_t face = copyOf(primitiveFace);
+    if (face == kNoFace) return;
+    const Corners corners = cornersOf(face);
+    if (std::abs(dot(p - corners.a, normal(face))) > best.distance + kEqualDistance) return;
+    const Vec3d foot = corners.nearest(p, normal(face)), way = p - foot;
     const double distance = length(way);
     if (distance > best.distance + kEqualDistance) return;
     const double side = distance > 0 ? dot(way, normal(face)) / distance : 0;
@@ -152,6 +166,7 @@ class SolidSurface {
   }
 
   const TraceScene& scene_;
+  const FaceCopies& copies_;
   std::span<const uint32_t> solidOf_;
   uint32_t solid_;
 };
@@ -169,7 +184,7 @@ class Search {
 
   GreatestSection run(const Box3d& box, uint32_t maxCubeCount) {
     const Vec3d size = box.size();
-    const double side = std::max({size.x, size.y, size.z}) / 16;
+    const double side = std::max({size.x, size.y, size.z}) / kFirstCubeCount;
     for (double x = box.min.x; x < box.max.x; x += side)
       for (double y = box.min.y; y < box.max.y; y += side)
         for (double z = box.min.z; z < box.max.z; z += side)
@@ -189,8 +204,9 @@ class Search {
  private:
   void add(const Vec3d& centre, double halfSide) {
     const double reach = std::sqrt(3.0) * halfSide;
-    const SolidSurface::Foot foot = surface_.nearest(centre);
-    if (foot.face == kNoFace) return;
+    const double enough = (1 + kSectionTolerance) * radius_ - reach;
+    const SolidSurface::Foot foot = surface_.nearest(centre, enough);
+    if (foot.face == kNoFace || foot.distance < enough) return;
     if (foot.side >= 0) {  // Outside.
       if (reach - foot.distance > radius_) cubes_.push({centre, halfSide, reach - foot.distance});
       return;
@@ -241,16 +257,20 @@ class Search {
 
 }  // namespace
 
-GreatestSection findGreatestSection(const TraceScene& scene, std::span<const uint32_t> solidOf, uint32_t solid,
-                                    uint32_t maxCubeCount) {
-  const SolidSurface surface(scene, solidOf, solid);
-  Box3d box;
-  for (uint32_t face = 0; face < scene.mesh.faceCount(); ++face) {
-    if (!surface.has(face)) continue;
-    const Corners corners = surface.cornersOf(face);
-    for (const Vec3d& corner : {corners.a, corners.b, corners.c}) box.add(corner);
+std::vector<GreatestSection> findGreatestSections(const TraceScene& scene, std::span<const uint32_t> solidOf,
+                                                  std::span<const uint8_t> isWanted, const RunControl& control) {
+  const FaceCopies copies(scene.representatives);
+  std::vector<Box3d> boxes(isWanted.size());
+  for (uint32_t face = 0; face < scene.mesh.faceCount(); ++face)
+    for (const uint32_t vertex : scene.mesh.faces[face])
+      boxes[solidOf[face]].add(scene.bvh.normalization.toNormalized(scene.mesh.vertices[vertex]));
+  std::vector<GreatestSection> sections(isWanted.size());
+  for (uint32_t solid = 0; solid < sections.size(); ++solid) {
+    control.checkpoint(static_cast<double>(solid) / static_cast<double>(sections.size()));
+    const SolidSurface surface(scene, copies, solidOf, solid);
+    if (isWanted[solid] != 0) sections[solid] = Search(surface).run(boxes[solid], kMaxCubeCount);
   }
-  return Search(surface).run(box, maxCubeCount);
+  return sections;
 }
 
 }  // namespace asdfvk

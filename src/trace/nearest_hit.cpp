@@ -47,10 +47,12 @@ struct StackEntry {
   double entry = 0;
 };
 
+/// counts(face): whether a face counts.
+template <typename Counts>
 class Walk {
  public:
-  Walk(const Bvh& bvh, const TriangleMesh& mesh, const Vec3d& origin, const Vec3d& direction, uint32_t skippedFace)
-      : bvh_(bvh), mesh_(mesh), ray_(origin, direction), slabs_(origin, direction), skippedFace_(skippedFace) {}
+  Walk(const Bvh& bvh, const TriangleMesh& mesh, const Vec3d& origin, const Vec3d& direction, const Counts& counts)
+      : bvh_(bvh), mesh_(mesh), ray_(origin, direction), slabs_(origin, direction), counts_(counts) {}
 
   RayHit run() {
     if (bvh_.nodes.empty()) return best_;
@@ -78,7 +80,7 @@ class Walk {
   void testLeaf(const BvhNode& leaf) {
     for (uint32_t primitive = leaf.first; primitive < leaf.first + leaf.triangleCount; ++primitive) {
       const uint32_t face = bvh_.primitiveFaces[primitive];
-      if (face == skippedFace_) continue;
+      if (!counts_(face)) continue;
       const double distance = rayTriangleDistance(ray_, corner(face, 0), corner(face, 1), corner(face, 2));
       const bool isLowerTie = distance == best_.distance && face < best_.face && distance < kNoHit;
       if (distance < best_.distance || isLowerTie) best_ = {distance, face};
@@ -92,7 +94,7 @@ class Walk {
   const TriangleMesh& mesh_;
   RayFrame ray_;
   SlabTest slabs_;
-  uint32_t skippedFace_;
+  const Counts& counts_;
   RayHit best_;
 };
 
@@ -146,7 +148,12 @@ bool isHitBetween(const Bvh& bvh, const TriangleMesh& mesh, const Vec3d& origin,
 
 RayHit nearestHit(const Bvh& bvh, const TriangleMesh& mesh, const Vec3d& origin, const Vec3d& direction,
                   uint32_t skippedFace) {
-  return Walk(bvh, mesh, origin, direction, skippedFace).run();
+  return Walk(bvh, mesh, origin, direction, [&](uint32_t face) { return face != skippedFace; }).run();
+}
+
+RayHit nearestHitAmong(const Bvh& bvh, const TriangleMesh& mesh, const Vec3d& origin, const Vec3d& direction,
+                       FunctionRef<bool(uint32_t face)> counts) {
+  return Walk(bvh, mesh, origin, direction, counts).run();
 }
 
 }  // namespace asdfvk

@@ -5,6 +5,7 @@
 
 #include "bvh/bvh.h"
 #include "cone/cone.h"
+#include "core/function_ref.h"
 #include "core/vec3.h"
 #include "shared/cone_hit.h"
 
@@ -51,6 +52,10 @@ struct RayHit {
 /// unit direction are in normalised coordinates; the origin lies in the root's box or near it.
 [[nodiscard]] RayHit nearestHit(const Bvh& bvh, const TriangleMesh& mesh, const Vec3d& origin, const Vec3d& direction,
                                 uint32_t skippedFace);
+
+/// The same among the faces for which counts(face) is true.
+[[nodiscard]] RayHit nearestHitAmong(const Bvh& bvh, const TriangleMesh& mesh, const Vec3d& origin,
+                                     const Vec3d& direction, FunctionRef<bool(uint32_t face)> counts);
 
 /// Whether the ray hits a triangle at a distance from `begin` to `end`. Origin and direction as in nearestHit(), but
 /// the origin may be anywhere in normalised coordinates of a length of at most 4.

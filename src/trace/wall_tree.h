@@ -1,0 +1,81 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "cone/opposing_walls.h"
+#include "cone/touching_ball.h"
+#include "shared/cone_hit.h"
+#include "trace/trace_scene.h"
+
+namespace asdfvk {
+
+/// A ball that touches a face from inside, in normalised coordinates.
+struct InscribedBall {
+  TouchingBall ball;
+  uint32_t wall = kNoFace;  ///< The face that determines the diameter; kNoFace for none.
+};
+
+/// Balls that shrink until no opposing wall is inside. Their diameters on entry are upper bounds.
+struct BallQuery {
+  PlaneTriangle triangle;       ///< A face or a part of it.
+  Vec3d point;                  ///< Of the triangle.
+  InscribedBall atPoint;        ///< The largest ball at the point.
+  InscribedBall least;          ///< The least of such balls over all points of the triangle.
+};
+
+/// In normalised units: what is nearer to the plane of a face is contact, or rounding of coordinates in float32.
+inline constexpr double kMinWallDepth = 0x1p-21;
+
+/// A face in normalised coordinates.
+[[nodiscard]] PlaneTriangle triangleOf(const TraceScene& scene, uint32_t face);
+
+/// The faces as walls, with the hierarchy in which balls find them. Neighbouring queries are answered together, one in
+/// each lane of a vector: nodes and triangles are culled in float32, and decided in double. The shrinking ball of Ma,
+/// Bae and Choi 2012, but in one traversal instead of a query per step: the balls of one diameter at all points of a
+/// face fill a convex set that contains those of smaller balls, so that a wall that was outside once remains outside.
+class WallTree {
+ public:
+  WallTree(const TraceScene& scene, const OpposingWalls& walls);
+
+  /// Shrinks the balls. Queries that follow each other should be neighbours in space. Diameters are bits that do not
+  /// depend on the order; of walls of equal diameter the lowest face is taken.
+  void shrink(std::span<BallQuery> queries) const;
+
+  [[nodiscard]] const TraceScene& scene() const { return scene_; }
+
+ private:
+  /// Bounds of the walls below a node of the hierarchy: of their corners and of their normals.
+  struct Node {
+    Vec3f min, max, normalMin, normalMax;
+    Vec3f middle;      ///< Of one of the walls.
+    /// The corners are within `radius` of the line through the middle along the axis, a mean of the normals, and from
+    /// `lowest` to `highest` along it.
+    Vec3f axis;
+    float lowest = 0, highest = 0, radius = 0;
+    uint32_t first = 0;
+    uint32_t triangleCount = 0;
+  };
+  /// A face, coincident copies included: those of touching parts have opposite normals.
+  struct Wall {
+    Vec3f normal;
+    float offset = 0;  ///< Of the plane along the normal.
+    Vec3f min, max, middle;
+    std::array<Vec3f, 3> spokes;  ///< The corners, from the middle.
+    uint32_t face = kNoFace;
+  };
+  template <typename Floats>
+  class Packet;
+
+  [[nodiscard]] Wall wallOf(uint32_t face) const;
+
+  TraceScene scene_;
+  OpposingWalls opposing_;
+  std::vector<Node> nodes_;
+  std::vector<Wall> walls_;
+  std::vector<uint32_t> wallOf_;  ///< #F
+};
+
+}  // namespace asdfvk
