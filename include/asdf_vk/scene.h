@@ -66,6 +66,18 @@ class ASDFVK_API Scene {
   [[nodiscard]] std::vector<double> valuesAt(std::span<const double> points, std::span<const double> normals,
                                              const ConeOptions& cone = {}, const RunControl& control = {});
 
+  /// Wall thickness at points of the surface: the diameter of the largest ball that touches the surface at the point
+  /// from inside and contains no point of an opposing wall, by the normals of ThicknessOptions::wallAngleDegrees
+  /// (docs/thickness.md). points, normals: as for valuesAt(). Returns #P values in the unit of the mesh; NaN where no
+  /// wall opposes the point in an open component. Ignores a limit in the options. Throws as valuesAt().
+  [[nodiscard]] std::vector<double> thicknessAt(std::span<const double> points, std::span<const double> normals,
+                                                const ThicknessOptions& thickness = {}, const RunControl& control = {});
+
+  /// The input face nearest to each point, of equally near ones the first; faces without an area count, faces with a
+  /// corner that is not finite do not. points: 3 #P numbers, x y z in the unit of the mesh. Returns #P input faces.
+  /// Throws Error{ArraySize}, Error{NonFiniteNumber} with the index, and Error{NoValues} where no face is finite.
+  [[nodiscard]] std::vector<uint32_t> nearestFaces(std::span<const double> points, const RunControl& control = {});
+
   /// Seconds of the constructor: the stages Geometry, Graph and Bvh.
   [[nodiscard]] const StageSeconds& preparationSeconds() const;
 

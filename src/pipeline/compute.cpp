@@ -36,6 +36,7 @@ void describeMesh(Report& report, const PreparedMesh& prepared, const FaceDomain
   report.triangleCount = prepared.mesh.faceCount();
   report.vertexCount = prepared.mesh.vertices.size();
   report.componentCount = prepared.components.components.size();
+  report.size = prepared.geometry.bounds.size();
   report.defects = prepared.defects;
   report.reversedFaces = prepared.reversedFaces;
   report.warnings = prepared.warnings;

@@ -91,6 +91,8 @@ void requireValid(const Options& options, bool hasDevice) {
     if (options.measure != Measure::Thickness)
       throw Error(ErrorCode::OptionConflict, "a thickness limit needs the measure thickness");
   }
+  if (options.thickness.allowsSharpEdges && !options.thickness.thinnerThan)
+    throw Error(ErrorCode::OptionConflict, "sharp edges are allowed below a thickness limit only; give a limit");
   if (const PartsOptions& parts = options.parts; options.segmentation == Segmentation::Parts) {
     if (parts.partCount && (*parts.partCount < 1 || *parts.partCount > kMaxPartCount))
       fail(fmt::format("{} parts are out of range (1 to {})", *parts.partCount, kMaxPartCount));

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -139,6 +140,16 @@ std::vector<double> Scene::valuesAt(std::span<const double> points, std::span<co
     state_->session.named.backend->requireSilentValidation();
     return values;
   });
+}
+
+std::vector<double> Scene::thicknessAt(std::span<const double> points, std::span<const double> normals,
+                                       const ThicknessOptions&, const RunControl&) {
+  requirePoints(points, normals);
+  throw std::logic_error("Scene::thicknessAt is not implemented yet");
+}
+
+std::vector<uint32_t> Scene::nearestFaces(std::span<const double>, const RunControl&) {
+  throw std::logic_error("Scene::nearestFaces is not implemented yet");
 }
 
 }  // namespace asdfvk
