@@ -73,9 +73,9 @@ class ASDFVK_API Scene {
   [[nodiscard]] std::vector<double> thicknessAt(std::span<const double> points, std::span<const double> normals,
                                                 const ThicknessOptions& thickness = {}, const RunControl& control = {});
 
-  /// The input face nearest to each point, of equally near ones the first; faces without an area count, faces with a
-  /// corner that is not finite do not. points: 3 #P numbers, x y z in the unit of the mesh. Returns #P input faces.
-  /// Throws Error{ArraySize}, Error{NonFiniteNumber} with the index, and Error{NoValues} where no face is finite.
+  /// The input face nearest to each point, of equally near ones the first; faces without an area or with a corner that
+  /// is not finite do not count. points: 3 #P numbers, x y z in the unit of the mesh. Returns #P input faces. Throws
+  /// Error{ArraySize}, Error{NonFiniteNumber} with the index, and Error{NoValues} where no face counts.
   [[nodiscard]] std::vector<uint32_t> nearestFaces(std::span<const double> points, const RunControl& control = {});
 
   /// Seconds of the constructor: the stages Geometry, Graph and Bvh.

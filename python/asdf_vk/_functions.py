@@ -78,6 +78,7 @@ def thickness(
     faces: ArrayLike | None = None,
     *,
     thinner_than: float | None = None,
+    allow_sharp_edges: bool | None = None,
     wall_angle: float | None = None,
     per: Literal["face", "vertex"] = "face",
     return_info: Literal[False] = False,
@@ -89,6 +90,7 @@ def thickness(
     faces: ArrayLike | None = None,
     *,
     thinner_than: float | None = None,
+    allow_sharp_edges: bool | None = None,
     wall_angle: float | None = None,
     per: Literal["face", "vertex"] = "face",
     return_info: Literal[True],
@@ -99,6 +101,7 @@ def thickness(
     faces: ArrayLike | None = None,
     *,
     thinner_than: float | None = None,
+    allow_sharp_edges: bool | None = None,
     wall_angle: float | None = None,
     per: Literal["face", "vertex"] = "face",
     return_info: bool = False,
@@ -106,17 +109,20 @@ def thickness(
 ) -> Any:
     """Wall thickness: diameter of the largest ball that touches a face from inside, clear of opposing walls.
 
-    vertices, faces, per, options: as for shape_diameter().
-    thinner_than: report the connected regions below this thickness (unit of the mesh) in info.thickness; their
-        faces are all traced.
+    vertices, faces, per, options: as for shape_diameter(). All faces are measured, whatever `seeds` is.
+    thinner_than: judge whether any point of the surface is thinner than this (unit of the mesh), and list the thin
+        regions: info.thickness.verdict and info.thickness.regions.
+    allow_sharp_edges: leave thin regions with a sharp edge or tip out of the verdict. Needs thinner_than.
     wall_angle: faces whose normals differ by at least this many degrees are opposing walls, above 90 to 180;
         default 120.
 
-    Returns float32 (m,) or (n,), in the unit of the mesh, NaN = no value; with return_info=True also an Info.
-    Raises and warns as shape_diameter().
+    Returns float32 (m,) or (n,), at the barycentres, in the unit of the mesh, NaN = no value; with return_info=True
+    also an Info: info.fields["least_thickness"] has the least value over all points of each face, which the verdict
+    is from. Raises and warns as shape_diameter().
     """
     target = _OneMesh(vertices, faces, options)
-    return _measures.thickness(target, thinner_than, wall_angle, per, return_info, options)
+    of_measure = _measures.thickness_options(thinner_than, allow_sharp_edges, wall_angle)
+    return _measures.thickness(target, of_measure, per, return_info, options)
 
 
 @overload

@@ -60,17 +60,18 @@ def shape_diameter(target: Target, per: str, return_info: bool, options: dict[st
     return (values, _info(computed)) if return_info else values
 
 
+def thickness_options(
+    thinner_than: float | None, allow_sharp_edges: bool | None, wall_angle: float | None
+) -> dict[str, Any]:
+    """The options of thickness() by name."""
+    return {"thinner_than": thinner_than, "allow_sharp_edges": allow_sharp_edges, "wall_angle": wall_angle}
+
+
 def thickness(
-    target: Target,
-    thinner_than: float | None,
-    wall_angle: float | None,
-    per: str,
-    return_info: bool,
-    options: dict[str, Any],
+    target: Target, of_measure: dict[str, Any], per: str, return_info: bool, options: dict[str, Any]
 ) -> Any:
     per_vertex = _per_vertex(per)
-    implied = {"measure": "thickness", "thinner_than": thinner_than, "wall_angle": wall_angle, "per": per}
-    computed = _computed(target, options, implied)
+    computed = _computed(target, options, {"measure": "thickness", **of_measure, "per": per})
     values = computed.array("thickness", per_vertex, True)
     return (values, _info(computed)) if return_info else values
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 from dataclasses import dataclass, field
-from typing import Any, cast
+from typing import Any, Literal, Tuple, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -81,35 +81,84 @@ class PartsReport:
     """Per part; sum 1."""
 
 
+Point = Tuple[float, float, float]
+
+
 @dataclass(frozen=True)
 class ThinRegion:
-    """Connected faces thinner than `thinner_than`."""
+    """A connected part of the surface thinner than `thinner_than`."""
 
-    face_count: int
-    area: float
-    area_share: float
+    is_sharp: bool
+    """Contains a sharp edge or tip; otherwise it is a wall."""
     min: float
     min_face: int
-    place: tuple[float, float, float]
+    place: Point
+    """The point of `min_face` with the least thickness; `opposite` is that of its opposing wall."""
+    opposite: Point
+    face_count: int
+    area: float
+    """Of the part of these faces that is thin."""
+    area_share: float
+
+
+@dataclass(frozen=True)
+class SharpEdge:
+    """Connected edges at which two opposing walls meet, or a tip. The thickness there is 0."""
+
+    angle_degrees: float
+    length: float
+    """0 at a tip, as `edge_count`."""
+    edge_count: int
+    place: Point
+    face: int
+
+
+@dataclass(frozen=True)
+class SectionBall:
+    """The largest ball inside of a closed component."""
+
+    diameter: float
+    centre: Point
+
+
+@dataclass(frozen=True)
+class UnjudgedFaces:
+    """Faces on which a limit cannot be judged, or not with certainty."""
+
+    open_count: int
+    inverted_count: int
+    degenerate_count: int
+    crossed_count: int
 
 
 @dataclass(frozen=True)
 class ThicknessReport:
+    """`min` is the least thickness of the surface; the percentiles are of the field "thickness", by area."""
+
     min: float
+    min_face: int | None
+    """None without a thickness, as the two points."""
+    min_place: Point | None
+    min_opposite: Point | None
     percentile1: float
     percentile5: float
     median: float
     percentile95: float
     max: float
-    no_value_count: int
-    traced_count: int
-    verified_count: int
-    unrefined_count: int
-    redone_ball_count: int
+    verdict: Literal["passed", "failed", "notJudged"] | None
+    """None without `thinner_than`. "notJudged": nothing thinner was found, but parts could not be judged."""
     thinner_than: float | None
+    allow_sharp_edges: bool
+    no_value_count: int
+    redone_ball_count: int
+    unjudged: UnjudgedFaces
+    greatest_section: SectionBall | None
+    sharp_edges: tuple[SharpEdge, ...]
+    """By ascending angle."""
     thin_area: float
     thin_area_share: float
-    thin_regions: tuple[ThinRegion, ...]
+    regions: tuple[ThinRegion, ...]
+    """Walls before sharp regions, by ascending least thickness; empty without `thinner_than`."""
 
 
 @dataclass(frozen=True)
@@ -143,6 +192,8 @@ class Info:
     triangle_count: int
     vertex_count: int
     component_count: int
+    size: Point
+    """Of the bounding box, in the unit of the mesh."""
     seed_count: int
     ray_count: int
     redone_cone_count: int
@@ -189,11 +240,18 @@ _NESTED: dict[str, type] = {
     "sdf": ValueRange,
     "parts": PartsReport,
     "thickness": ThicknessReport,
+    "unjudged": UnjudgedFaces,
+    "greatest_section": SectionBall,
     "defects": MeshDefects,
     "estimated_error": ErrorEstimate,
     "check": CheckReport,
 }
-_LISTED: dict[str, type] = {"worst_faces": WorstFace, "thin_regions": ThinRegion, "warnings": Warning}
+_LISTED: dict[str, type] = {
+    "worst_faces": WorstFace,
+    "sharp_edges": SharpEdge,
+    "regions": ThinRegion,
+    "warnings": Warning,
+}
 
 
 def _typed(name: str, value: Any) -> Any:

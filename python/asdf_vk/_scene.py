@@ -129,6 +129,7 @@ class Scene:
         *,
         faces: ArrayLike | None = None,
         thinner_than: float | None = None,
+        allow_sharp_edges: bool | None = None,
         wall_angle: float | None = None,
         per: Literal["face", "vertex"] = "face",
         return_info: Literal[False] = False,
@@ -140,6 +141,7 @@ class Scene:
         *,
         faces: ArrayLike | None = None,
         thinner_than: float | None = None,
+        allow_sharp_edges: bool | None = None,
         wall_angle: float | None = None,
         per: Literal["face", "vertex"] = "face",
         return_info: Literal[True],
@@ -150,13 +152,15 @@ class Scene:
         *,
         faces: ArrayLike | None = None,
         thinner_than: float | None = None,
+        allow_sharp_edges: bool | None = None,
         wall_angle: float | None = None,
         per: Literal["face", "vertex"] = "face",
         return_info: bool = False,
         **options: Any,
     ) -> Any:
         """As asdf_vk.thickness(), of the whole mesh or of a region (faces)."""
-        return _measures.thickness(_Region(self, faces), thinner_than, wall_angle, per, return_info, options)
+        of_measure = _measures.thickness_options(thinner_than, allow_sharp_edges, wall_angle)
+        return _measures.thickness(_Region(self, faces), of_measure, per, return_info, options)
 
     @overload
     def segment(

@@ -164,6 +164,7 @@ constexpr std::array kOptions{
     OptionRow{"measure", [](Options& o, const Value& v) { o.measure = choiceOf(v, kMeasures); }},
     OptionRow{"wall_angle", [](Options& o, const Value& v) { o.thickness.wallAngleDegrees = numberOf(v); }},
     OptionRow{"thinner_than", [](Options& o, const Value& v) { o.thickness.thinnerThan = numberOf(v); }},
+    OptionRow{"allow_sharp_edges", [](Options& o, const Value& v) { o.thickness.allowsSharpEdges = flagOf(v); }},
     OptionRow{"centres", [](Options& o, const Value& v) { o.computesCentres = flagOf(v); }},
     OptionRow{"per", [](Options& o, const Value& v) { o.per = choiceOf(v, kPerElements); }},
     OptionRow{"weights", [](Options& o, const Value& v) { o.interpolation.weights = choiceOf(v, kWeights); }},

@@ -2,6 +2,7 @@
 
 #include <pybind11/stl.h>
 
+#include <cmath>
 #include <optional>
 #include <string>
 
@@ -57,21 +58,56 @@ py::dict dictOf(const PartsReport& parts) {
                   "area_shares"_a = parts.areaShares);
 }
 
+py::tuple tupleOf(const Vec3d& point) { return py::make_tuple(point.x, point.y, point.z); }
+
 py::dict dictOf(const ThinRegion& region) {
-  return py::dict("face_count"_a = region.faceCount, "area"_a = region.area, "area_share"_a = region.areaShare,
-                  "min"_a = region.min, "min_face"_a = region.minFace,
-                  "place"_a = py::make_tuple(region.place.x, region.place.y, region.place.z));
+  return py::dict("is_sharp"_a = region.isSharp, "min"_a = region.min, "min_face"_a = region.minFace,
+                  "place"_a = tupleOf(region.place), "opposite"_a = tupleOf(region.opposite),
+                  "face_count"_a = region.faceCount, "area"_a = region.area, "area_share"_a = region.areaShare);
+}
+
+py::dict dictOf(const SharpEdge& edge) {
+  return py::dict("angle_degrees"_a = edge.angleDegrees, "length"_a = edge.length, "edge_count"_a = edge.edgeCount,
+                  "place"_a = tupleOf(edge.place), "face"_a = edge.face);
+}
+
+py::dict dictOf(const SectionBall& ball) {
+  return py::dict("diameter"_a = ball.diameter, "centre"_a = tupleOf(ball.centre));
+}
+
+py::dict dictOf(const UnjudgedFaces& unjudged) {
+  return py::dict("open_count"_a = unjudged.openCount, "inverted_count"_a = unjudged.invertedCount,
+                  "degenerate_count"_a = unjudged.degenerateCount, "crossed_count"_a = unjudged.crossedCount);
+}
+
+template <typename Item>
+py::list listOfDicts(const std::vector<Item>& items) {
+  py::list list;
+  for (const Item& item : items) list.append(dictOf(item));
+  return list;
 }
 
 py::dict dictOf(const ThicknessReport& thickness) {
-  py::list regions;
-  for (const ThinRegion& region : thickness.thinRegions) regions.append(dictOf(region));
-  return py::dict(
-      "min"_a = thickness.min, "percentile1"_a = thickness.percentile1, "percentile5"_a = thickness.percentile5,
-      "median"_a = thickness.median, "percentile95"_a = thickness.percentile95, "max"_a = thickness.max,
-      "no_value_count"_a = thickness.noValueCount,
-            "redone_ball_count"_a = thickness.redoneBallCount, "thinner_than"_a = thickness.thinnerThan,
-      "thin_area"_a = thickness.thinArea, "thin_area_share"_a = thickness.thinAreaShare, "thin_regions"_a = regions);
+  const auto ofMin = [&](const py::object& value) {
+    return std::isnan(thickness.min) ? py::object(py::none()) : value;
+  };
+  py::dict dict("min"_a = thickness.min, "min_face"_a = ofMin(py::cast(thickness.minFace)),
+                "min_place"_a = ofMin(tupleOf(thickness.minPlace)),
+                "min_opposite"_a = ofMin(tupleOf(thickness.minOpposite)), "percentile1"_a = thickness.percentile1,
+                "percentile5"_a = thickness.percentile5, "median"_a = thickness.median,
+                "percentile95"_a = thickness.percentile95, "max"_a = thickness.max);
+  dict["verdict"] = optional(thickness.verdict, [](ThicknessVerdict verdict) { return py::str(nameOf(verdict)); });
+  dict["thinner_than"] = thickness.thinnerThan;
+  dict["allow_sharp_edges"] = thickness.allowsSharpEdges;
+  dict["no_value_count"] = thickness.noValueCount;
+  dict["redone_ball_count"] = thickness.redoneBallCount;
+  dict["unjudged"] = dictOf(thickness.unjudged);
+  dict["greatest_section"] = optional(thickness.greatestSection, [](const SectionBall& ball) { return dictOf(ball); });
+  dict["sharp_edges"] = listOfDicts(thickness.sharpEdges);
+  dict["thin_area"] = thickness.thinArea;
+  dict["thin_area_share"] = thickness.thinAreaShare;
+  dict["regions"] = listOfDicts(thickness.thinRegions);
+  return dict;
 }
 
 py::dict dictOf(const MeshDefects& defects) {
@@ -116,10 +152,10 @@ py::dict dictOf(const Report& report) {
   const auto convert = [](const auto& value) { return dictOf(value); };
   py::dict dict("face_count"_a = report.faceCount, "region_face_count"_a = report.regionFaceCount,
                 "triangle_count"_a = report.triangleCount, "vertex_count"_a = report.vertexCount,
-                "component_count"_a = report.componentCount, "seed_count"_a = report.seedCount,
-                "ray_count"_a = report.rayCount, "redone_cone_count"_a = report.redoneConeCount,
-                "no_value_count"_a = report.noValueCount, "random_seed"_a = report.randomSeed,
-                "round_count"_a = report.roundCount);
+                "component_count"_a = report.componentCount, "size"_a = tupleOf(report.size),
+                "seed_count"_a = report.seedCount, "ray_count"_a = report.rayCount,
+                "redone_cone_count"_a = report.redoneConeCount, "no_value_count"_a = report.noValueCount,
+                "random_seed"_a = report.randomSeed, "round_count"_a = report.roundCount);
   dict["backend"] = report.backend;
   dict["device"] = report.device;
   dict["runs_on_cpu"] = report.runsOnCpu;

@@ -75,6 +75,27 @@ class SharedScene {
     return singles(values, "at()");
   }
 
+  /// points, normals: #P x 3 double. Returns #P double.
+  [[nodiscard]] py::array_t<double> thicknessAt(const py::array& points, const py::array& normals,
+                                                const py::dict& options, const py::object& progress) {
+    const ThicknessOptions thickness = optionsOf(options).thickness;
+    const std::span<const double> places = entriesOf<double>(points), axes = entriesOf<double>(normals);
+    std::vector<double> values;
+    session_->run(
+        [&](Session&, const RunControl& control) { values = scene_->thicknessAt(places, axes, thickness, control); },
+        progress);
+    return asArray(std::move(values));
+  }
+
+  /// points: #P x 3 double. Returns #P input faces.
+  [[nodiscard]] py::array_t<uint32_t> nearestFaces(const py::array& points, const py::object& progress) {
+    const std::span<const double> places = entriesOf<double>(points);
+    std::vector<uint32_t> faces;
+    session_->run([&](Session&, const RunControl& control) { faces = scene_->nearestFaces(places, control); },
+                  progress);
+    return asArray(std::move(faces));
+  }
+
  private:
   std::shared_ptr<SharedSession> session_;
   py::object mesh_;
@@ -122,7 +143,9 @@ void bindScenes(py::module_& module) {
   py::class_<SharedScene>(module, "Scene")
       .def(py::init<std::shared_ptr<SharedSession>, const py::object&, const py::dict&, const py::object&>())
       .def("compute", &SharedScene::compute)
-      .def("values_at", &SharedScene::valuesAt);
+      .def("values_at", &SharedScene::valuesAt)
+      .def("thickness_at", &SharedScene::thicknessAt)
+      .def("nearest_faces", &SharedScene::nearestFaces);
 }
 
 }  // namespace asdfvk::python

@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cmath>
 #include <new>
 
 #include "core/text.h"
@@ -99,9 +98,9 @@ ExitCode exitCodeOf(const CheckReport& check) {
   return check.passed || !check.isIndependent ? ExitCode::Done : ExitCode::CheckFailed;
 }
 
-ExitCode exitCodeOf(const ThicknessReport& thickness, double limit) {
-  if (std::isnan(thickness.min)) return ExitCode::Input;
-  return thickness.min < limit ? ExitCode::TooThin : ExitCode::Done;
+ExitCode exitCodeOf(const ThicknessReport& thickness) {
+  if (thickness.verdict == ThicknessVerdict::Passed) return ExitCode::Done;
+  return thickness.verdict == ThicknessVerdict::Failed ? ExitCode::TooThin : ExitCode::CheckFailed;
 }
 
 Failure timeLimitFailure(double timeoutSeconds) {

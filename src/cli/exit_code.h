@@ -16,8 +16,9 @@ enum class ExitCode : int {
   Input = 2,        ///< A mesh is unreadable, or there is nothing to compute on it.
   Device = 3,       ///< No device, or it was lost, and no fallback is allowed.
   Output = 4,       ///< A result or report cannot be written.
-  CheckFailed = 5,  ///< --check found traced faces that disagree with the reference, or no traced face at all.
-  TooThin = 6,      ///< --fail-if-thinner: a face is thinner.
+  CheckFailed = 5,  ///< --check found traced faces that disagree with the reference, or no traced face at all; or
+                    ///< --fail-if-thinner could not be judged.
+  TooThin = 6,      ///< --fail-if-thinner: a point of the surface is thinner.
   SomeFailed = 7,   ///< Of several meshes some could not be computed; the others are done.
   Limit = 8,        ///< A mesh exceeded --timeout or --memory-limit.
   Internal = 70,    ///< A defect of the program.
@@ -31,7 +32,7 @@ inline constexpr std::array<std::pair<ExitCode, const char*>, 11> kExitCodes{
      {ExitCode::Input, "input unreadable"},
      {ExitCode::Device, "no device or device lost"},
      {ExitCode::Output, "output not writable"},
-     {ExitCode::CheckFailed, "a requested check failed"},
+     {ExitCode::CheckFailed, "a requested check failed, or could not be made"},
      {ExitCode::TooThin, "thinner than --fail-if-thinner"},
      {ExitCode::SomeFailed, "some of several meshes failed, the others are done"},
      {ExitCode::Limit, "beyond --timeout or --memory-limit"},
@@ -58,8 +59,8 @@ class SharedExitCode {
 /// Done or CheckFailed. A check that is not independent cannot fail.
 [[nodiscard]] ExitCode exitCodeOf(const CheckReport& check);
 
-/// Done or TooThin; Input where no face has a thickness, because a limit that was not checked is not passed.
-[[nodiscard]] ExitCode exitCodeOf(const ThicknessReport& thickness, double limit);
+/// Done, TooThin, or CheckFailed where a limit was not judged. Precondition: there is a limit.
+[[nodiscard]] ExitCode exitCodeOf(const ThicknessReport& thickness);
 
 /// A failure as it is reported.
 struct Failure {

@@ -9,28 +9,28 @@
 namespace asdfvk {
 namespace {
 
-constexpr const char* kField = "thickness";
+const std::vector<std::string> kFields{"thickness", "least_thickness"};
 
 double parseThickness(const std::string& text) {
   return parseNumber(
       text, [](double x) { return x > 0; }, "is not a thickness above 0");
 }
 
-/// The limits imply the measure; all faces cast rays unless the number of seeds is given.
-void applyLimits(const ArgumentParser& parser, CommandLine& line) {
+/// A limit implies the measure.
+void applyLimit(const ArgumentParser& parser, CommandLine& line) {
   Options& options = line.options;
   std::optional<double>& limit = options.thickness.thinnerThan;
-  if (line.failIfThinner) {
-    if (limit && *limit < *line.failIfThinner)
-      refuseOptions(
-          "--fail-if-thinner is above --thinner-than, whose regions are reported; raise --thinner-than, or drop it");
-    if (!limit) limit = line.failIfThinner;
+  if (limit && line.failIfThinner && *limit != *line.failIfThinner)
+    refuseOptions("--thinner-than and --fail-if-thinner have different limits; give one of them");
+  if (line.failIfThinner) limit = line.failIfThinner;
+  if (!limit) {
+    if (options.thickness.allowsSharpEdges)
+      refuseOptions("--allow-sharp-edges needs --thinner-than or --fail-if-thinner");
+    return;
   }
-  if (!limit) return;
   if (parser.isGiven("--measure") && options.measure != Measure::Thickness)
     refuseOptions("--thinner-than and --fail-if-thinner contradict --measure sdf; drop one");
   options.measure = Measure::Thickness;
-  if (!parser.isGiven("--seeds") && !options.rounds.areSet()) options.seeds = SeedCount::all();
 }
 
 }  // namespace
@@ -39,16 +39,23 @@ void addMeasure(ArgumentParser& parser, CommandLine& line) {
   Options& options = line.options;
   const char* const group = "Thickness";
   addChoice(parser, "--measure", options.measure, kMeasures,
-            "thickness: also field thickness, the diameter of the largest ball inside that\n"
-            "touches the face; it is written first. Default sdf")
+            "thickness: also fields thickness, the diameter of the largest ball inside that\n"
+            "touches the face, and least_thickness; they are written first. Default sdf")
       .group(group);
   addValue(parser, "--thinner-than", "T",
-           "List the connected regions thinner than T, in the unit of the mesh; implies\n"
-           "--measure thickness, and --seeds all unless given",
+           "Whether any point of the surface is thinner than T, in the unit of the mesh, and\n"
+           "where; implies --measure thickness",
            [&options](const std::string& text) { options.thickness.thinnerThan = parseThickness(text); })
       .group(group);
-  addValue(parser, "--fail-if-thinner", "T", "The same, and exit code 6 where a face is thinner than T",
+  addValue(parser, "--fail-if-thinner", "T",
+           "The same, and exit code 6 where a point is thinner than T, 5 where parts of the\n"
+           "surface cannot be judged",
            [&line](const std::string& text) { line.failIfThinner = parseThickness(text); })
+      .group(group);
+  parser
+      .addFlag("--allow-sharp-edges", options.thickness.allowsSharpEdges,
+               "With these limits: leave sharp edges and tips, where the thickness is 0, out of the\n"
+               "verdict; they are listed")
       .group(group);
   addValue(parser, "--wall-angle", "DEGREES",
            fmt::format("--measure thickness: a wall is opposing if its normal differs by this from that\n"
@@ -62,14 +69,14 @@ void addMeasure(ArgumentParser& parser, CommandLine& line) {
 }
 
 void completeMeasure(const ArgumentParser& parser, CommandLine& line) {
-  applyLimits(parser, line);
+  applyLimit(parser, line);
   if (line.options.measure == Measure::Thickness) {
-    if (!parser.isGiven("--fields")) line.fields.insert(line.fields.begin(), kField);
-    if (!parser.isGiven("--picture-of")) line.pictureOf = kField;
+    if (!parser.isGiven("--fields")) line.fields.insert(line.fields.begin(), kFields.begin(), kFields.end());
+    if (!parser.isGiven("--picture-of")) line.pictureOf = kFields.front();
     return;
   }
   if (parser.isGiven("--wall-angle")) refuseOptions("--wall-angle needs --measure thickness");
-  refuseField(line, kField, "--measure thickness");
+  for (const std::string& field : kFields) refuseField(line, field, "--measure thickness");
 }
 
 }  // namespace asdfvk

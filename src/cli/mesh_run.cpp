@@ -77,6 +77,19 @@ void fillRecord(MeshRecord& record, const Report& report) {
   for (const Warning& warning : report.warnings) record.warnings.emplace_back(nameOf(warning.code));
 }
 
+/// The requested checks that failed or could not be made.
+std::vector<Failure> failedChecks(const CommandLine& line, const Report& report) {
+  std::vector<Failure> failures;
+  if (report.check && exitCodeOf(*report.check) != ExitCode::Done)
+    failures.push_back({ExitCode::CheckFailed, checkFailure(*report.check), "checkFailed"});
+  if (!line.failIfThinner) return failures;
+  const ExitCode code = exitCodeOf(*report.thickness);
+  if (code != ExitCode::Done)
+    failures.push_back(
+        {code, thicknessVerdict(*report.thickness), code == ExitCode::TooThin ? "tooThin" : "notJudged"});
+  return failures;
+}
+
 void makeFolderOf(const std::string& output) {
   const fs::path folder = fs::path(output).parent_path();
   std::error_code error;
@@ -236,25 +249,15 @@ void MeshRunner::describe(const MeshTask& task, const CommandLine& line, const R
   if (line.json) run.json += jsonReport(outcome);
   if (line.against.empty()) fillRecord(run.record, report);
   run.record.output = task.output;
-  ExitCode code = ExitCode::Done;
-  if (report.check) code = exitCodeOf(*report.check);
-  std::string message = code == ExitCode::Done ? "" : checkFailure(*report.check);
-  if (code != ExitCode::Done) run.text += errorLine(task.input, message);
-  if (line.failIfThinner) {
-    const ExitCode thin = exitCodeOf(*report.thickness, *line.failIfThinner);
-    if (thin != ExitCode::Done) {
-      const std::string reason = thinFailure(*report.thickness, *line.failIfThinner);
-      run.text += errorLine(task.input, reason);
-      if (code == ExitCode::Done) message = reason;
-      if (code == ExitCode::Done) code = thin;
-    }
+  for (const Failure& failure : failedChecks(line, report)) {
+    run.text += errorLine(task.input, failure.message);
+    if (run.code != ExitCode::Done) continue;
+    run.code = failure.code;
+    run.record.status = MeshStatus::Failed;
+    run.record.code = static_cast<int>(failure.code);
+    run.record.error = failure.name;
+    run.record.message = oneLine(failure.message);
   }
-  if (code == ExitCode::Done || run.code != ExitCode::Done) return;
-  run.code = code;
-  run.record.status = MeshStatus::Failed;
-  run.record.code = static_cast<int>(code);
-  run.record.error = code == ExitCode::CheckFailed ? "checkFailed" : code == ExitCode::TooThin ? "tooThin" : "noValues";
-  run.record.message = oneLine(message);
 }
 
 void MeshRunner::addFailure(const MeshTask& task, const Failure& failure, MeshRun& run) const {

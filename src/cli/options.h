@@ -18,7 +18,7 @@ struct CommandLine {
   SessionOptions session;
   Recipe recipe = Recipe::Balanced;  ///< Applied to `options` before other options.
   Options options;
-  std::optional<double> failIfThinner;             ///< Exit code 6 for a least thickness below it; mesh unit.
+  std::optional<double> failIfThinner;             ///< Also thickness.thinnerThan; exit code by its verdict.
   std::string output;                              ///< A file, a directory, "-"; empty: beside each input.
   std::string format;                              ///< A name of outputFormats(); empty: by `output`, else ply.
   std::vector<std::string> fields{"sdf", "seed"};  ///< Fields to write, in this order.

@@ -84,6 +84,7 @@ void addMeasure(Values& values, const CommandLine& line) {
   values.add("wallAngleDegrees", isMeasured ? Json(thickness.wallAngleDegrees) : Json(nullptr));
   values.add("thinnerThan", thickness.thinnerThan);
   values.add("failIfThinner", line.failIfThinner);
+  values.add("allowSharpEdges", thickness.allowsSharpEdges);
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ struct MeshOutcome {
 /// Title and text; a row without a title continues the one before.
 using ReportRows = std::vector<std::pair<std::string, std::string>>;
 
-/// Mesh (first), device, computation and values; without warnings and files.
+/// Thickness where it is measured, its verdict first; mesh, device, computation and values; without warnings and files.
 [[nodiscard]] ReportRows reportRows(const MeshOutcome& outcome);
 
 /// Those rows and the files, as aligned lines.
@@ -31,8 +31,16 @@ using ReportRows = std::vector<std::pair<std::string, std::string>>;
 /// "the check failed: ..." with the reason, one line.
 [[nodiscard]] std::string checkFailure(const CheckReport& check);
 
-/// "thinner than 1.5: ..." with the place of the least thickness, one line; or why there is none.
-[[nodiscard]] std::string thinFailure(const ThicknessReport& thickness, double limit);
+/// "FAIL: 0.3 at (0, 1, 2), face 12, is thinner than 0.8", "PASS: ..." or "NOT JUDGED: ...", one line. Without a limit
+/// the least thickness, or why there is none.
+[[nodiscard]] std::string thicknessVerdict(const ThicknessReport& thickness);
+
+/// The verdict, then unjudged faces, size, thin regions, sharp edges, greatest section, percentiles. Precondition:
+/// report.thickness.
+[[nodiscard]] ReportRows thicknessRows(const Report& report);
+
+/// "1 face", "1,234 faces".
+[[nodiscard]] std::string groupedCount(uint64_t count, const char* singular, const char* plural = nullptr);
 
 /// The message and, where there is one, the remedy by options.
 [[nodiscard]] std::string textWarning(const Warning& warning);

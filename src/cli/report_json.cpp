@@ -2,6 +2,9 @@
 
 #include <fmt/core.h>
 
+#include <cmath>
+#include <utility>
+
 #include "asdf_vk/version.h"
 #include "viewer/json.h"
 
@@ -62,19 +65,45 @@ Json partsOf(const std::optional<SegmentationReport>& segmentation) {
           {"areaShares", parts.areaShares}};
 }
 
-Json thicknessOf(const std::optional<ThicknessReport>& thickness) {
-  if (!thickness) return nullptr;
-  Json regions = nullptr;
-  if (thickness->thinnerThan) regions = Json::array();
-  for (const ThinRegion& region : thickness->thinRegions)
-    regions.push_back({{"faceCount", region.faceCount},
-                       {"area", number(region.area)},
-                       {"areaShare", number(region.areaShare)},
+Json pointOf(const Vec3d& point) { return {number(point.x), number(point.y), number(point.z)}; }
+
+Json regionsOf(const ThicknessReport& thickness) {
+  if (!thickness.thinnerThan) return nullptr;
+  Json regions = Json::array();
+  for (const ThinRegion& region : thickness.thinRegions)
+    regions.push_back({{"sharp", region.isSharp},
                        {"min", number(region.min)},
                        {"minFace", region.minFace},
-                       {"place", {number(region.place.x), number(region.place.y), number(region.place.z)}}});
-  const auto ofRegions = [&](double value) { return thickness->thinnerThan ? number(value) : Json(nullptr); };
-  return {{"min", number(thickness->min)},
+                       {"place", pointOf(region.place)},
+                       {"opposite", pointOf(region.opposite)},
+                       {"faceCount", region.faceCount},
+                       {"area", number(region.area)},
+                       {"areaShare", number(region.areaShare)}});
+  return regions;
+}
+
+Json sharpEdgesOf(const ThicknessReport& thickness) {
+  Json edges = Json::array();
+  for (const SharpEdge& edge : thickness.sharpEdges)
+    edges.push_back({{"angleDegrees", number(edge.angleDegrees)},
+                     {"length", number(edge.length)},
+                     {"edgeCount", edge.edgeCount},
+                     {"place", pointOf(edge.place)},
+                     {"face", edge.face}});
+  return edges;
+}
+
+Json thicknessOf(const std::optional<ThicknessReport>& thickness) {
+  if (!thickness) return nullptr;
+  const auto ofMin = [&](Json value) { return std::isnan(thickness->min) ? Json(nullptr) : std::move(value); };
+  const auto ofLimit = [&](Json value) { return thickness->thinnerThan ? std::move(value) : Json(nullptr); };
+  const UnjudgedFaces& unjudged = thickness->unjudged;
+  const auto& ball = thickness->greatestSection;
+  return {{"verdict", thickness->verdict ? Json(nameOf(*thickness->verdict)) : Json(nullptr)},
+          {"min", number(thickness->min)},
+          {"minFace", ofMin(thickness->minFace)},
+          {"minPlace", ofMin(pointOf(thickness->minPlace))},
+          {"minOpposite", ofMin(pointOf(thickness->minOpposite))},
           {"percentile1", number(thickness->percentile1)},
           {"percentile5", number(thickness->percentile5)},
           {"median", number(thickness->median)},
@@ -82,9 +111,17 @@ Json thicknessOf(const std::optional<ThicknessReport>& thickness) {
           {"max", number(thickness->max)},
           {"noValueCount", thickness->noValueCount},
           {"redoneBallCount", thickness->redoneBallCount},
-          {"thinArea", ofRegions(thickness->thinArea)},
-          {"thinAreaShare", ofRegions(thickness->thinAreaShare)},
-          {"thinRegions", std::move(regions)}};
+          {"unjudged",
+           {{"openCount", unjudged.openCount},
+            {"invertedCount", unjudged.invertedCount},
+            {"degenerateCount", unjudged.degenerateCount},
+            {"crossedCount", unjudged.crossedCount}}},
+          {"greatestSection",
+           ball ? Json{{"diameter", number(ball->diameter)}, {"centre", pointOf(ball->centre)}} : Json(nullptr)},
+          {"sharpEdges", sharpEdgesOf(*thickness)},
+          {"thinArea", ofLimit(number(thickness->thinArea))},
+          {"thinAreaShare", ofLimit(number(thickness->thinAreaShare))},
+          {"regions", regionsOf(*thickness)}};
 }
 
 Json stagesOf(const StageSeconds& seconds) {
@@ -136,6 +173,7 @@ std::string jsonReport(const MeshOutcome& outcome) {
   json["triangleCount"] = report.triangleCount;
   json["vertexCount"] = report.vertexCount;
   json["componentCount"] = report.componentCount;
+  json["size"] = pointOf(report.size);
   json["seedCount"] = report.seedCount;
   json["rayCount"] = report.rayCount;
   json["redoneConeCount"] = report.redoneConeCount;

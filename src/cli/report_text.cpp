@@ -16,10 +16,6 @@ namespace {
 /// Parts whose areas are listed.
 constexpr size_t kMaxListedParts = 12;
 
-std::string counted(uint64_t count, const char* noun) {
-  return fmt::format("{} {}{}", groupDigits(count), noun, count == 1 ? "" : "s");
-}
-
 /// 99.95 % of 1999 agreeing of 2000; never rounded up to 100.
 std::string percent(uint64_t part, uint64_t whole) {
   const double share = 100.0 * static_cast<double>(part) / static_cast<double>(whole);
@@ -27,21 +23,22 @@ std::string percent(uint64_t part, uint64_t whole) {
 }
 
 std::string meshRow(const Report& report) {
-  std::string text = counted(report.faceCount, "face");
-  if (report.triangleCount != report.faceCount) text += fmt::format(" ({})", counted(report.triangleCount, "triangle"));
+  std::string text = groupedCount(report.faceCount, "face");
+  if (report.triangleCount != report.faceCount)
+    text += fmt::format(" ({})", groupedCount(report.triangleCount, "triangle"));
   return text + fmt::format(", {}, {}",
                             report.vertexCount == 1 ? "1 vertex" : groupDigits(report.vertexCount) + " vertices",
-                            counted(report.componentCount, "component"));
+                            groupedCount(report.componentCount, "component"));
 }
 
 std::string seedRow(const MeshOutcome& outcome) {
   const Report& report = outcome.result.report;
   std::string text = fmt::format(
-      "{} cast{} rays ({}), {} in all, recipe {}, random seed {}", counted(report.seedCount, "face"),
+      "{} cast{} rays ({}), {} in all, recipe {}, random seed {}", groupedCount(report.seedCount, "face"),
       report.seedCount == 1 ? "s" : "", percent(report.seedCount, std::max<uint64_t>(1, report.triangleCount)),
-      counted(report.rayCount, "ray"), nameOf(kRecipes, outcome.line.recipe), report.randomSeed);
+      groupedCount(report.rayCount, "ray"), nameOf(kRecipes, outcome.line.recipe), report.randomSeed);
   if (report.redoneConeCount > 0)
-    text += fmt::format("; {} redone by the reference", counted(report.redoneConeCount, "cone"));
+    text += fmt::format("; {} redone by the reference", groupedCount(report.redoneConeCount, "cone"));
   return text;
 }
 
@@ -61,7 +58,7 @@ std::string kernelText(const TraceVariant& variant) {
 
 std::string solverRow(const SolverReport& solver) {
   if (solver.name == "none") return "none: nothing to interpolate";
-  return fmt::format("{}, {}, relative residual {:.2g}{}", solver.name, counted(solver.iterations, "iteration"),
+  return fmt::format("{}, {}, relative residual {:.2g}{}", solver.name, groupedCount(solver.iterations, "iteration"),
                      solver.relativeResidual, solver.converged ? "" : ", NOT CONVERGED");
 }
 
@@ -69,7 +66,7 @@ std::string valueRow(const Report& report) {
   std::string text = std::isfinite(report.sdf.median) ? fmt::format("min {:.6g}, median {:.6g}, max {:.6g}",
                                                                     report.sdf.min, report.sdf.median, report.sdf.max)
                                                       : std::string("none");
-  if (report.noValueCount > 0) text += fmt::format("; {} without a value", counted(report.noValueCount, "face"));
+  if (report.noValueCount > 0) text += fmt::format("; {} without a value", groupedCount(report.noValueCount, "face"));
   return text;
 }
 
@@ -126,45 +123,16 @@ std::string estimateRow(const Report& report) {
   return text + (report.roundCount > 1 ? fmt::format("; {} rounds", report.roundCount) : "");
 }
 
-std::string regionRow(const ThinRegion& region) {
-  return fmt::format("least {:.6g} at ({:.6g}, {:.6g}, {:.6g}), face {}; {}, area {:.4g} ({:.3g} %)", region.min,
-                     region.place.x, region.place.y, region.place.z, region.minFace, counted(region.faceCount, "face"),
-                     region.area, 100 * region.areaShare);
-}
-
-/// Percentiles, what is traced, and the largest thin regions.
-ReportRows thicknessRows(const Report& report) {
-  constexpr size_t kShownRegionCount = 5;
-  const ThicknessReport& thickness = *report.thickness;
-  if (std::isnan(thickness.min)) return {{"thickness", "none: no wall opposes another one, and no component is closed"}};
-  std::string text = fmt::format("min {:.6g}, by area p1 {:.6g}, p5 {:.6g}, p50 {:.6g}, p95 {:.6g}, max {:.6g}",
-                                 thickness.min, thickness.percentile1, thickness.percentile5, thickness.median,
-                                 thickness.percentile95, thickness.max);
-  if (thickness.noValueCount > 0) text += fmt::format("; {} without a value", counted(thickness.noValueCount, "face"));
-  ReportRows rows{{"thickness", text}};
-  if (!thickness.thinnerThan) return rows;
-  const std::vector<ThinRegion>& regions = thickness.thinRegions;
-  text = regions.empty() ? fmt::format("no face below {:g}", *thickness.thinnerThan)
-                         : fmt::format("{} below {:g}: area {:.4g} ({:.3g} %)", counted(regions.size(), "region"),
-                                       *thickness.thinnerThan, thickness.thinArea, 100 * thickness.thinAreaShare);
-  rows.emplace_back("thin", text);
-  for (size_t i = 0; i < std::min(regions.size(), kShownRegionCount); ++i) rows.emplace_back("", regionRow(regions[i]));
-  if (regions.size() > kShownRegionCount)
-    rows.emplace_back(
-        "", fmt::format("and {} smaller ones; --json has all", groupDigits(regions.size() - kShownRegionCount)));
-  return rows;
-}
-
 std::string tracedCheck(const CheckReport& check) {
   if (!check.isIndependent) return "the reference traced the rays: nothing to compare";
   if (check.tracedCount == 0) return "no face could be traced, so nothing was compared";
   const uint64_t withValue = check.tracedCount - check.noValueAgreeCount;
   if (withValue == 0)
     return fmt::format("{}, none with a value in either computation: nothing to compare",
-                       counted(check.tracedCount, "traced face"));
+                       groupedCount(check.tracedCount, "traced face"));
   std::string text =
       fmt::format("{} of {} within {:g} of the diagonal; median difference {:.2g}, worst {:.2g} (face {})",
-                  percent(check.agreeingCount, withValue), counted(withValue, "traced face"), kAgreementTolerance,
+                  percent(check.agreeingCount, withValue), groupedCount(withValue, "traced face"), kAgreementTolerance,
                   check.medianDifference, check.worstDifference, check.worstFace);
   if (check.noValueAgreeCount > 0)
     text += fmt::format("; {} more without a value in either computation", groupDigits(check.noValueAgreeCount));
@@ -173,9 +141,9 @@ std::string tracedCheck(const CheckReport& check) {
 
 std::string errorCheck(const CheckReport& check) {
   return fmt::format("average error {:.4f}, maximum {:.4f} of the range over {}; {:.4f} and {:.4f} over the {}",
-                     check.averageError, check.maximumError, counted(check.comparedCount, "face"),
+                     check.averageError, check.maximumError, groupedCount(check.comparedCount, "face"),
                      check.interpolatedAverageError, check.interpolatedMaximumError,
-                     counted(check.interpolatedCount, "interpolated face"));
+                     groupedCount(check.interpolatedCount, "interpolated face"));
 }
 
 /// A GPU gains little where most of the time is not spent on rays. Estimated, not measured.
@@ -186,12 +154,18 @@ bool isTooSmallForGpu(const Report& report) {
 
 }  // namespace
 
+std::string groupedCount(uint64_t count, const char* singular, const char* plural) {
+  if (count != 1 && plural != nullptr) return fmt::format("{} {}", groupDigits(count), plural);
+  return fmt::format("{} {}{}", groupDigits(count), singular, count == 1 ? "" : "s");
+}
+
 ReportRows reportRows(const MeshOutcome& outcome) {
   const Report& report = outcome.result.report;
   ReportRows rows;
   const auto append = [&rows](ReportRows further) {
     for (auto& row : further) rows.push_back(std::move(row));
   };
+  if (report.thickness) append(thicknessRows(report));
   rows.emplace_back("mesh", meshRow(report));
   rows.emplace_back("device",
                     fmt::format("{} on {}{}{}", report.backend, report.device,
@@ -207,7 +181,6 @@ ReportRows reportRows(const MeshOutcome& outcome) {
                                               report.postprocess->max));
   if (report.segmentation) append(segmentRows(*report.segmentation, outcome.line.options));
   if (report.estimatedError) rows.emplace_back("error", estimateRow(report));
-  if (report.thickness) append(thicknessRows(report));
   if (report.check) {
     rows.emplace_back("check", tracedCheck(*report.check));
     if (report.check->interpolatedCount > 0) rows.emplace_back("", errorCheck(*report.check));
@@ -242,14 +215,6 @@ std::string textWarning(const Warning& warning) {
 }
 
 std::string checkFailure(const CheckReport& check) { return fmt::format("the check failed: {}", tracedCheck(check)); }
-
-std::string thinFailure(const ThicknessReport& thickness, double limit) {
-  if (std::isnan(thickness.min)) return fmt::format("no face has a thickness, which must be at least {:g}", limit);
-  const auto thinnest = std::min_element(thickness.thinRegions.begin(), thickness.thinRegions.end(),
-                                         [](const ThinRegion& a, const ThinRegion& b) { return a.min < b.min; });
-  return fmt::format("thinner than {:g}: thickness {:.6g} at ({:.6g}, {:.6g}, {:.6g}), face {}", limit, thinnest->min,
-                     thinnest->place.x, thinnest->place.y, thinnest->place.z, thinnest->minFace);
-}
 
 std::string deviceLinesOf(const Session& session) {
   std::vector<std::string> lines = session.deviceLines();

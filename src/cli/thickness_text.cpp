@@ -1,0 +1,124 @@
+// The wall thickness in the text report.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "cli/report.h"
+#include "core/text.h"
+
+namespace asdfvk {
+namespace {
+
+constexpr size_t kListedCount = 5;
+
+std::string pointText(const Vec3d& point) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", point.x, point.y, point.z); }
+
+/// "0.3 at (1, 2, 3), face 12". Precondition: there is a thickness.
+std::string leastText(const ThicknessReport& thickness) {
+  return fmt::format("{:.6g} at {}, face {}{}", thickness.min, pointText(thickness.minPlace), thickness.minFace,
+                     thickness.min == 0 ? ", a sharp edge" : "");
+}
+
+/// Why a limit is not judged.
+std::string causeText(const UnjudgedFaces& unjudged) {
+  std::vector<std::string> causes;
+  if (unjudged.openCount > 0) causes.push_back(groupedCount(unjudged.openCount, "face") + " of open components");
+  if (unjudged.invertedCount > 0)
+    causes.push_back(groupedCount(unjudged.invertedCount, "face") + " oriented inwards or inconsistently");
+  return causes.empty() ? "no face has a thickness" : joined(causes, " and ") + " cannot be judged";
+}
+
+/// A sentence for each kind of faces that are not judged, or not with certainty.
+ReportRows unjudgedRows(const UnjudgedFaces& unjudged) {
+  ReportRows rows;
+  const auto add = [&rows](uint64_t count, const char* noun, const char* rest) {
+    if (count > 0)
+      rows.emplace_back(rows.empty() ? "unjudged" : "", fmt::format("{} {}", groupedCount(count, noun), rest));
+  };
+  add(unjudged.openCount, "face", "of open components without an opposing wall: no thickness; close the mesh");
+  add(unjudged.invertedCount, "face",
+      "of closed components oriented inwards or inconsistently; --orient auto reverses inverted components");
+  add(unjudged.degenerateCount, "degenerate face", "left out: without a normal, or with a corner that is not finite");
+  add(unjudged.crossedCount, "face", "crossed by others: the body may be thicker there than reported");
+  return rows;
+}
+
+std::string regionText(const ThinRegion& region) {
+  const std::string size = fmt::format("face {}; {}, area {:.4g} ({:.3g} %)", region.minFace,
+                                       groupedCount(region.faceCount, "face"), region.area, 100 * region.areaShare);
+  if (region.isSharp) return fmt::format("sharp edge at {}, {}", pointText(region.place), size);
+  return fmt::format("wall {:.6g} from {} to {}, {}", region.min, pointText(region.place), pointText(region.opposite),
+                     size);
+}
+
+std::string edgeText(const SharpEdge& edge) {
+  const std::string place = fmt::format("at {}, face {}", pointText(edge.place), edge.face);
+  if (edge.edgeCount == 0) return fmt::format("tip of {:.3g} degrees {}", edge.angleDegrees, place);
+  return fmt::format("edge of {:.3g} degrees, length {:.4g}, {}", edge.angleDegrees, edge.length, place);
+}
+
+/// A row with the title, then at most kListedCount items.
+template <typename Item>
+void addList(const char* title, const std::string& heading, const std::vector<Item>& items,
+             std::string (*textOf)(const Item&), ReportRows& rows) {
+  rows.emplace_back(title, heading);
+  for (size_t i = 0; i < std::min(items.size(), kListedCount); ++i) rows.emplace_back("", textOf(items[i]));
+  if (items.size() > kListedCount)
+    rows.emplace_back("", fmt::format("and {} more; --json has all", groupDigits(items.size() - kListedCount)));
+}
+
+std::string sharpHeading(const ThicknessReport& thickness) {
+  const std::string count = groupedCount(thickness.sharpEdges.size(), "sharp edge or tip", "sharp edges or tips");
+  if (!thickness.thinnerThan) return count;
+  return count + (thickness.allowsSharpEdges ? ": allowed, with all that is thin around them"
+                                             : ": thinner than any limit; --allow-sharp-edges leaves them out");
+}
+
+}  // namespace
+
+std::string thicknessVerdict(const ThicknessReport& thickness) {
+  const bool hasMin = !std::isnan(thickness.min);
+  if (!thickness.verdict) return hasMin ? "least thickness " + leastText(thickness) : causeText(thickness.unjudged);
+  const double limit = *thickness.thinnerThan;
+  const std::string least = hasMin ? "; least " + leastText(thickness) : "";
+  switch (*thickness.verdict) {
+    case ThicknessVerdict::Failed:
+      return fmt::format("FAIL: {}, is thinner than {:g}", leastText(thickness), limit);
+    case ThicknessVerdict::Passed:
+      return fmt::format("PASS: nowhere thinner than {:g}{}{}", limit,
+                         thickness.allowsSharpEdges && !thickness.sharpEdges.empty() ? " but at sharp edges" : "",
+                         least);
+    case ThicknessVerdict::NotJudged:
+      break;
+  }
+  return fmt::format("NOT JUDGED: {}; nothing else is thinner than {:g}{}", causeText(thickness.unjudged), limit,
+                     least);
+}
+
+ReportRows thicknessRows(const Report& report) {
+  const ThicknessReport& thickness = *report.thickness;
+  ReportRows rows{{"verdict", thicknessVerdict(thickness)}};
+  for (auto& row : unjudgedRows(thickness.unjudged)) rows.push_back(std::move(row));
+  rows.emplace_back("size", fmt::format("{:.6g} x {:.6g} x {:.6g}, bounding box in the unit of the mesh", report.size.x,
+                                        report.size.y, report.size.z));
+  if (!thickness.thinRegions.empty())
+    addList("thin",
+            fmt::format("{} below {:g}: area {:.4g} ({:.3g} %)", groupedCount(thickness.thinRegions.size(), "region"),
+                        *thickness.thinnerThan, thickness.thinArea, 100 * thickness.thinAreaShare),
+            thickness.thinRegions, regionText, rows);
+  if (!thickness.sharpEdges.empty()) addList("sharp", sharpHeading(thickness), thickness.sharpEdges, edgeText, rows);
+  if (const auto& ball = thickness.greatestSection)
+    rows.emplace_back("section", fmt::format("{:.6g}, the diameter of the largest ball inside, centre {}",
+                                             ball->diameter, pointText(ball->centre)));
+  if (std::isnan(thickness.median)) return rows;
+  std::string text =
+      fmt::format("by area p1 {:.6g}, p5 {:.6g}, p50 {:.6g}, p95 {:.6g}, max {:.6g}", thickness.percentile1,
+                  thickness.percentile5, thickness.median, thickness.percentile95, thickness.max);
+  if (thickness.noValueCount > 0)
+    text += fmt::format("; {} without a value", groupedCount(thickness.noValueCount, "face"));
+  rows.emplace_back("thickness", text);
+  return rows;
+}
+
+}  // namespace asdfvk
