@@ -8,7 +8,7 @@ shift
 status=0
 for mesh in "$@"; do
   # The result goes to standard output as CSV, a line per face; the second program keeps the faces below the limit.
-  asdf-vk - -o - --format csv --fields thickness --fail-if-thinner "$limit" --quiet <"$mesh" |
+  asdf-vk - -o - --format csv --fields least_thickness --fail-if-thinner "$limit" --quiet <"$mesh" |
     awk -F, -v limit="$limit" -v mesh="$mesh" \
       'NR > 1 && $2 < limit { count++ } END { printf "%s: %d faces thinner than %s\n", mesh, count, limit }' ||
     status=$?

@@ -73,8 +73,8 @@ def test_regions(scene: asdf_vk.Scene) -> None:
     everything = np.ones(len(faces), bool)
     np.testing.assert_array_equal(scene.shape_diameter(faces=everything), scene.shape_diameter())
     assert scene.shape_diameter(faces=[5], seeds="all", return_info=True)[1].seed_count == 1
-    walls = scene.thickness(faces=mask, seeds="all")
-    np.testing.assert_array_equal(walls[mask], scene.thickness(seeds="all")[mask])
+    walls = scene.thickness(faces=mask)
+    np.testing.assert_array_equal(walls[mask], scene.thickness()[mask])
     assert np.isnan(scene.skeleton_points(faces=mask)[1][~mask]).all()
 
 

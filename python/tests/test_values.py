@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import dataclasses
+import json
+import re
 import subprocess
 from pathlib import Path
 from typing import Any
@@ -32,8 +35,32 @@ def test_the_diameter_of_a_sphere() -> None:
 
 
 def test_the_thickness_of_a_sphere_and_of_a_cube() -> None:
-    np.testing.assert_allclose(asdf_vk.thickness(*sphere(4), seeds="all"), 2, rtol=0.01)
-    np.testing.assert_allclose(asdf_vk.thickness(*cube(), seeds="all"), 1, rtol=1e-6)
+    np.testing.assert_allclose(asdf_vk.thickness(*sphere(4)), 2, rtol=0.01)
+    np.testing.assert_allclose(asdf_vk.thickness(*cube()), 1, rtol=1e-6)
+
+
+def test_the_verdict_of_the_thickness() -> None:
+    vertices, faces = cube()
+    values, info = asdf_vk.thickness(vertices * [60, 1, 20], faces, thinner_than=1.5, return_info=True)
+    report = info.thickness
+    assert report is not None and report.verdict == "failed" and report.thinner_than == 1.5
+    assert info.size == (60, 1, 20) and report.min == pytest.approx(1, rel=1e-6)
+    assert report.min_face is not None and values[report.min_face] == pytest.approx(1, rel=1e-6)
+    assert report.min_place is not None and report.min_opposite is not None
+    assert abs(report.min_place[1] - report.min_opposite[1]) == pytest.approx(1, rel=1e-6)
+    assert len(report.regions) >= 1 and not report.regions[0].is_sharp and report.sharp_edges == ()
+    assert report.regions[0].min == report.min and len(report.regions[0].opposite) == 3
+    assert report.greatest_section is not None
+    assert report.greatest_section.diameter == pytest.approx(1, rel=2e-3)
+    assert report.unjudged.open_count == report.unjudged.inverted_count == 0
+    np.testing.assert_allclose(info.fields["least_thickness"].min(), report.min, rtol=1e-6)
+    # All faces are measured, whatever the seeds are; a limit changes no value.
+    for options in ({"seeds": 1}, {"seeds": "all"}):
+        np.testing.assert_array_equal(asdf_vk.thickness(vertices * [60, 1, 20], faces, **options), values)
+    sound = asdf_vk.thickness(vertices, faces, thinner_than=0.5, allow_sharp_edges=True, return_info=True)[1].thickness
+    assert sound is not None and sound.verdict == "passed" and sound.regions == () and sound.allow_sharp_edges
+    unlimited = asdf_vk.thickness(vertices, faces, return_info=True)[1].thickness
+    assert unlimited is not None and unlimited.verdict is None and unlimited.thinner_than is None
 
 
 def test_skeleton_points_of_a_cube_lie_on_its_middle_planes() -> None:
@@ -103,10 +130,33 @@ def test_options_reach_the_library() -> None:
 
 def test_names_of_options_and_of_the_report_agree_with_the_extension() -> None:
     implied = {"segmentation", "parts", "detail", "clusters", "smoothness", "expansion", "postprocess"}
-    implied |= {"measure", "wall_angle", "thinner_than", "centres", "per"}
+    implied |= {"measure", "wall_angle", "thinner_than", "allow_sharp_edges", "centres", "per"}
     assert set(_options.ComputeOptions.__annotations__) == set(_core.option_names()) - implied
     computed = asdf_vk.Session(backend="reference")._compute(_arrays.mesh_argument(*cube()), {"check": 1}, None)
     assert set(computed.report()) | {"fields", "vertex_fields"} == set(_report.field_names(_report.Info))
+
+
+@pytest.mark.parametrize("limit", [0.3, 5])
+def test_the_thickness_report_is_that_of_the_program(program: Path, tmp_path: Path, limit: float) -> None:
+    path = tmp_path / "dumbbell.ply"
+    asdf_vk.write(path, dumbbell())
+    command = [program, path, "-o", tmp_path / "result.npy", "--quiet", "--json", "--thinner-than", str(limit)]
+    document = json.loads(subprocess.run(command, check=True, capture_output=True).stdout)["thickness"]
+    ours = asdf_vk.thickness(asdf_vk.read_mesh(path), thinner_than=limit, return_info=True)[1].thickness
+    assert ours is not None and document["regions"]
+
+    def compare(found: Any, expected: Any) -> None:
+        if dataclasses.is_dataclass(found):
+            for key, value in expected.items():
+                compare(getattr(found, re.sub(r"[A-Z]", lambda letter: "_" + letter[0].lower(), key)), value)
+        elif isinstance(found, tuple):
+            assert len(found) == len(expected)
+            for one, other in zip(found, expected):
+                compare(one, other)
+        else:
+            assert found == expected
+
+    compare(ours, document)
 
 
 CALLS = [

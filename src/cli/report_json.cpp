@@ -71,7 +71,7 @@ Json regionsOf(const ThicknessReport& thickness) {
   if (!thickness.thinnerThan) return nullptr;
   Json regions = Json::array();
   for (const ThinRegion& region : thickness.thinRegions)
-    regions.push_back({{"sharp", region.isSharp},
+    regions.push_back({{"isSharp", region.isSharp},
                        {"min", number(region.min)},
                        {"minFace", region.minFace},
                        {"place", pointOf(region.place)},

@@ -111,6 +111,8 @@ const std::vector<OptionCase>& optionCases() {
       {{"--measure", "thickness"}, [](const Line& l) { return l.options.measure == Measure::Thickness; }},
       {{"--thinner-than", "0.5"}, [](const Line& l) { return l.options.thickness.thinnerThan == 0.5; }},
       {{"--fail-if-thinner", "0.25"}, [](const Line& l) { return l.failIfThinner == 0.25; }},
+      {{"--allow-sharp-edges", "--thinner-than", "0.5"},
+       [](const Line& l) { return l.options.thickness.allowsSharpEdges; }},
       {{"--wall-angle", "150", "--measure", "thickness"},
        [](const Line& l) { return l.options.thickness.wallAngleDegrees == 150; }},
       {{"--segment", "cgal"},

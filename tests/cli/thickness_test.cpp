@@ -15,27 +15,25 @@ ChildOutcome runThickness(const std::vector<std::string>& further) {
   return runAsdf(arguments);
 }
 
-TEST_CASE("a limit implies the measure and all seeds, unless seeds are given") {
+TEST_CASE("a limit implies the measure, and nothing about the seeds") {
   const CommandLine plain = parseCommandLine({"a.ply"});
   CHECK(plain.options.measure == Measure::ShapeDiameter);
   for (const char* option : {"--thinner-than", "--fail-if-thinner"}) {
     const CommandLine line = parseCommandLine({"a.ply", option, "0.5"});
     CHECK(line.options.measure == Measure::Thickness);
-    CHECK(line.options.seeds.kind == SeedCount::Kind::All);
+    CHECK(line.options.seeds.share == plain.options.seeds.share);
+    CHECK(line.options.seeds.kind == plain.options.seeds.kind);
     CHECK_EQ(line.options.thickness.thinnerThan.value(), 0.5);
-    CHECK_EQ(line.fields, std::vector<std::string>{"thickness", "sdf", "seed"});
+    CHECK_FALSE(line.options.thickness.allowsSharpEdges);
+    CHECK_EQ(line.fields, std::vector<std::string>{"thickness", "least_thickness", "sdf", "seed"});
     CHECK_EQ(line.pictureOf, "thickness");
+    CHECK(parseCommandLine({"a.ply", option, "0.5", "--allow-sharp-edges"}).options.thickness.allowsSharpEdges);
   }
-  CHECK(parseCommandLine({"a.ply", "--thinner-than", "1", "--seeds", "5%"}).options.seeds.kind ==
-        SeedCount::Kind::Share);
-  CHECK(parseCommandLine({"a.ply", "--thinner-than", "1", "--max-error", "1%"}).options.seeds.kind ==
-        SeedCount::Kind::Share);
-  CHECK(parseCommandLine({"a.ply", "--measure", "thickness"}).options.seeds.kind == SeedCount::Kind::Share);
   CHECK_EQ(parseCommandLine({"a.ply", "--measure", "thickness", "--fields", "sdf"}).fields,
            std::vector<std::string>{"sdf"});
-  const CommandLine both = parseCommandLine({"a.ply", "--thinner-than", "2", "--fail-if-thinner", "1"});
+  const CommandLine both = parseCommandLine({"a.ply", "--thinner-than", "2", "--fail-if-thinner", "2.0"});
   CHECK_EQ(both.options.thickness.thinnerThan.value(), 2);
-  CHECK_EQ(both.failIfThinner.value(), 1);
+  CHECK_EQ(both.failIfThinner.value(), 2);
 }
 
 TEST_CASE("options of the thickness are refused where they contradict others") {
@@ -45,9 +43,14 @@ TEST_CASE("options of the thickness are refused where they contradict others") {
   };
   isRefused({"a.ply", "--wall-angle", "120"}, "--wall-angle needs --measure thickness");
   isRefused({"a.ply", "--measure", "sdf", "--thinner-than", "1"}, "contradict --measure sdf");
-  isRefused({"a.ply", "--thinner-than", "1", "--fail-if-thinner", "2"}, "--fail-if-thinner is above --thinner-than");
-  isRefused({"a.ply", "--fields", "thickness"}, "--fields thickness needs --measure thickness");
-  isRefused({"a.ply", "--picture", "a.png", "--picture-of", "thickness"}, "--picture-of thickness needs");
+  isRefused({"a.ply", "--allow-sharp-edges"}, "--allow-sharp-edges needs --thinner-than");
+  isRefused({"a.ply", "--measure", "thickness", "--allow-sharp-edges"}, "--allow-sharp-edges needs --thinner-than");
+  for (const char* limit : {"0.5", "2"})
+    isRefused({"a.ply", "--thinner-than", "1", "--fail-if-thinner", limit}, "have different limits");
+  for (const std::string field : {"thickness", "least_thickness"}) {
+    isRefused({"a.ply", "--fields", field}, "--fields " + field + " needs --measure thickness");
+    isRefused({"a.ply", "--picture", "a.png", "--picture-of", field}, "--picture-of " + field + " needs");
+  }
   for (const char* wrong : {"0", "-1", "nan", "thin", "1e999"}) {
     isRefused({"a.ply", "--thinner-than", wrong}, "--thinner-than: ");
     isRefused({"a.ply", "--fail-if-thinner", wrong}, "--fail-if-thinner: ");
@@ -57,69 +60,86 @@ TEST_CASE("options of the thickness are refused where they contradict others") {
   isRefused({"a.ply", "--measure", "diameter"}, "--measure: 'diameter' is not one of sdf|thickness");
 }
 
-TEST_CASE("the document has the percentiles and the regions") {
+TEST_CASE("the document has the verdict, the percentiles and the regions") {
   const ScratchFolder folder;
   const std::string cube = folder.write("cube.off", cubeOff());
   const ChildOutcome outcome = runThickness({cube, "--json", "--thinner-than", "1.5", "-o", folder / "out.csv"});
   INFO(outcome.error);
   REQUIRE_EQ(outcome.exitCode, 0);
   const Json json = Json::parse(outcome.output), thickness = json.at("thickness");
+  CHECK_EQ(json.at("size"), Json({1, 1, 1}));
+  CHECK_EQ(thickness.at("verdict"), "failed");
   for (const char* key : {"min", "percentile1", "percentile5", "median", "percentile95", "max"})
     CHECK_EQ(thickness.at(key).get<double>(), doctest::Approx(1));
+  CHECK(thickness.at("minFace").get<int>() < 12);
+  CHECK_EQ(thickness.at("greatestSection").at("diameter").get<double>(), doctest::Approx(1).epsilon(2e-3));
   CHECK_EQ(thickness.at("noValueCount"), 0);
-  REQUIRE_EQ(thickness.at("thinRegions").size(), 1);
-  const Json& region = thickness.at("thinRegions").at(0);
+  CHECK(thickness.at("sharpEdges").empty());
+  CHECK_EQ(thickness.at("unjudged").at("openCount"), 0);
+  REQUIRE_EQ(thickness.at("regions").size(), 1);
+  const Json& region = thickness.at("regions").at(0);
   CHECK_EQ(region.at("faceCount"), 12);
   CHECK_EQ(region.at("area").get<double>(), doctest::Approx(6));
   CHECK_EQ(region.at("areaShare").get<double>(), doctest::Approx(1));
   CHECK_EQ(region.at("min").get<double>(), doctest::Approx(1));
+  CHECK_FALSE(region.at("isSharp").get<bool>());
   CHECK_EQ(region.at("place").size(), 3);
+  CHECK_EQ(region.at("opposite").size(), 3);
   CHECK_EQ(json.at("options").at("measure"), "thickness");
   CHECK_EQ(json.at("options").at("thinnerThan"), 1.5);
   CHECK(json.at("options").at("failIfThinner").is_null());
+  CHECK_EQ(json.at("options").at("allowSharpEdges"), false);
   CHECK_EQ(json.at("options").at("wallAngleDegrees"), 120);
   CHECK(json.at("stageSeconds").at("thickness").get<double>() > 0);
-  CHECK_EQ(linesOf(folder.read("out.csv")).at(0), "face,thickness,sdf,seed");
+  CHECK_EQ(linesOf(folder.read("out.csv")).at(0), "face,thickness,least_thickness,sdf,seed");
 
   const Json plain = Json::parse(runThickness({cube, "--json", "-o", folder / "out.csv"}).output);
   CHECK(plain.at("thickness").is_null());
   CHECK_EQ(plain.at("options").at("measure"), "sdf");
   CHECK(plain.at("options").at("wallAngleDegrees").is_null());
+  const Json unlimited =
+      Json::parse(runThickness({cube, "--json", "--measure", "thickness", "-o", folder / "out.csv"}).output);
+  for (const char* key : {"verdict", "regions", "thinArea", "thinAreaShare"})
+    CHECK(unlimited.at("thickness").at(key).is_null());
 }
 
-TEST_CASE("a mesh that is thinner than allowed ends with 6, after its result was written") {
+TEST_CASE("a mesh that is thinner than allowed ends with 6, one that cannot be judged with 5, both with their result") {
   const ScratchFolder folder;
   const std::string cube = folder.write("cube.off", cubeOff());
   const ChildOutcome thin = runThickness({cube, "--fail-if-thinner", "1.5", "-o", folder / "thin.csv", "--json"});
-  checkFailure(thin, 6, "thinner than 1.5: thickness 1 at (");
+  checkFailure(thin, 6, "FAIL: 1 at (");
   CHECK_FALSE(folder.read("thin.csv").empty());
-  CHECK_EQ(Json::parse(thin.output).at("thickness").at("thinRegions").size(), 1);
+  CHECK_EQ(Json::parse(thin.output).at("thickness").at("regions").size(), 1);
   CHECK_EQ(runThickness({cube, "--fail-if-thinner", "0.9", "-o", folder / "out.csv"}).exitCode, 0);
   CHECK_EQ(runThickness({cube, "--thinner-than", "1.5", "-o", folder / "out.csv"}).exitCode, 0);
+  // The seeds do not concern the verdict.
+  CHECK_EQ(runThickness({cube, "--fail-if-thinner", "1.5", "--seeds", "1", "-o", folder / "out.csv"}).exitCode, 6);
   // Several meshes: all are computed, and the code of the first failure is returned.
   const std::string sphere = folder.write("sphere.off", sphereOff(6));
   CHECK_EQ(runThickness({sphere, cube, "--fail-if-thinner", "1.5"}).exitCode, 6);
-  // A limit that could not be checked is not passed.
   const std::string open = folder.write("open.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
-  const ChildOutcome none = runThickness({open, "--fail-if-thinner", "1", "-o", folder / "out.csv"});
-  INFO(none.error);
-  CHECK_EQ(none.exitCode, 2);
-  CHECK(none.error.find("no face has a thickness") != std::string::npos);
+  const ChildOutcome none = runThickness({open, "--fail-if-thinner", "1", "-o", folder / "open.csv"});
+  checkFailure(none, 5, "NOT JUDGED: 1 face of open components");
+  CHECK_FALSE(folder.read("open.csv").empty());
 }
 
-TEST_CASE("the report lists percentiles and the largest regions") {
+TEST_CASE("the report begins with the verdict") {
   const ScratchFolder folder;
   const std::string cube = folder.write("cube.off", cubeOff());
-  const ChildOutcome outcome =
-      runAsdf({cube, "--backend", "reference", "--thinner-than", "1.5", "-o", folder / "out.csv"});
-  INFO(outcome.error);
-  CHECK_EQ(outcome.exitCode, 0);
-  for (const char* part : {"\n  thickness min 1, by area p1 1, p5 1, p50 1, p95 1, max 1\n",
-                           "\n  thin      1 region below 1.5: area 6 (100 %)\n", "12 faces, area 6"})
-    CHECK_MESSAGE(outcome.error.find(part) != std::string::npos, part);
-  const ChildOutcome none =
-      runAsdf({cube, "--backend", "reference", "--thinner-than", "0.5", "-o", folder / "out.csv"});
-  CHECK(none.error.find("\n  thin      no face below 0.5\n") != std::string::npos);
+  const auto reportBelow = [&](const char* limit) {
+    const ChildOutcome outcome =
+        runAsdf({cube, "--backend", "reference", "--thinner-than", limit, "-o", folder / "out.csv"});
+    CHECK_EQ(outcome.exitCode, 0);
+    return outcome.error;
+  };
+  const std::string thin = reportBelow("1.5"), sound = reportBelow("0.5");
+  for (const char* part :
+       {"cube.off: FAIL: 1 at (", "\n  size      1 x 1 x 1, bounding box",
+        "\n  thin      1 region below 1.5: area 6 (100 %)\n            wall 1 from (", "12 faces, area 6",
+        "\n  thickness by area p1 1, p5 1, p50 1, p95 1, max 1\n", "\n  mesh      12 faces, 8 vertices, 1 component\n"})
+    CHECK_MESSAGE(thin.find(part) != std::string::npos, thin);
+  CHECK_MESSAGE(sound.find("cube.off: PASS: nowhere thinner than 0.5; least 1 at (") != std::string::npos, sound);
+  CHECK_EQ(sound.find("\n  thin "), std::string::npos);
 }
 
 }  // namespace

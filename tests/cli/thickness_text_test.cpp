@@ -1,0 +1,155 @@
+#include <doctest/doctest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/report.h"
+
+namespace asdfvk {
+namespace {
+
+using Json = nlohmann::json;
+
+/// A part of 60 x 10 x 5 whose least thickness is 1, in the middle of face 3.
+Result soundResult(std::optional<double> limit) {
+  Result result;
+  result.report.size = {60, 10, 5};
+  ThicknessReport& thickness = result.report.thickness.emplace();
+  thickness.min = 1;
+  thickness.minFace = 3;
+  thickness.minPlace = {1, 2, 3};
+  thickness.minOpposite = {1, 2, 4};
+  thickness.percentile1 = 1.1;
+  thickness.percentile5 = thickness.median = thickness.percentile95 = 2;
+  thickness.max = 4;
+  thickness.greatestSection = SectionBall{4, {30, 5, 2.5}};
+  thickness.thinnerThan = limit;
+  if (limit) thickness.verdict = *limit > 1 ? ThicknessVerdict::Failed : ThicknessVerdict::Passed;
+  return result;
+}
+
+std::string textOf(const Result& result) {
+  const CommandLine line;
+  return textReport({"part.stl", "part.ply", line, result});
+}
+
+Json jsonOf(const Result& result) {
+  const CommandLine line;
+  return Json::parse(jsonReport({"part.stl", "part.ply", line, result})).at("thickness");
+}
+
+void checkHolds(const std::string& text, const std::string& part) {
+  CHECK_MESSAGE(text.find(part) != std::string::npos, text);
+}
+
+TEST_CASE("the first line is the verdict with the least thickness, its place and the limit") {
+  CHECK(
+      textOf(soundResult(0.8)).starts_with("part.stl: PASS: nowhere thinner than 0.8; least 1 at (1, 2, 3), face 3\n"));
+  CHECK(textOf(soundResult(1.5)).starts_with("part.stl: FAIL: 1 at (1, 2, 3), face 3, is thinner than 1.5\n"));
+  CHECK(textOf(soundResult({})).starts_with("part.stl: least thickness 1 at (1, 2, 3), face 3\n"));
+  Result sharp = soundResult(0.8);
+  ThicknessReport& thickness = *sharp.report.thickness;
+  thickness.verdict = ThicknessVerdict::Failed;
+  thickness.min = 0;
+  CHECK(textOf(sharp).starts_with("part.stl: FAIL: 0 at (1, 2, 3), face 3, a sharp edge, is thinner than 0.8\n"));
+  thickness.verdict = ThicknessVerdict::Passed;
+  thickness.min = 1;
+  thickness.allowsSharpEdges = true;
+  thickness.sharpEdges.resize(1);
+  CHECK(textOf(sharp).starts_with("part.stl: PASS: nowhere thinner than 0.8 but at sharp edges; least 1 at ("));
+}
+
+TEST_CASE("what is not judged is named, also where the verdict is another one") {
+  Result result = soundResult(0.8);
+  ThicknessReport& thickness = *result.report.thickness;
+  thickness.unjudged = {.openCount = 1200, .invertedCount = 1, .degenerateCount = 2, .crossedCount = 3};
+  const auto checkSentences = [&] {
+    const std::string text = textOf(result);
+    checkHolds(text, "\n  unjudged  1,200 faces of open components without an opposing wall: no thickness");
+    checkHolds(text, "\n            1 face of closed components oriented inwards or inconsistently; --orient auto ");
+    checkHolds(text, "\n            2 degenerate faces left out");
+    checkHolds(text, "\n            3 faces crossed by others");
+  };
+  checkSentences();
+  thickness.verdict = ThicknessVerdict::Failed;
+  checkSentences();
+  thickness.verdict = ThicknessVerdict::NotJudged;
+  checkSentences();
+  CHECK(
+      textOf(result).starts_with("part.stl: NOT JUDGED: 1,200 faces of open components and 1 face oriented inwards or "
+                                 "inconsistently cannot be judged; nothing else is thinner than 0.8; least 1 at ("));
+  thickness.min = kNoValue;
+  thickness.unjudged = {.openCount = 1};
+  CHECK(textOf(result).starts_with(
+      "part.stl: NOT JUDGED: 1 face of open components cannot be judged; nothing else is thinner than 0.8\n"));
+  thickness.unjudged = {};
+  CHECK(textOf(result).starts_with("part.stl: NOT JUDGED: no face has a thickness; "));
+}
+
+TEST_CASE("size, regions, sharp edges, greatest section and percentiles follow, five of a list") {
+  Result result = soundResult(1.5);
+  ThicknessReport& thickness = *result.report.thickness;
+  thickness.thinRegions.assign(3, {.faceCount = 2,
+                                   .area = 12.5,
+                                   .areaShare = 0.02,
+                                   .min = 1,
+                                   .minFace = 3,
+                                   .place = {1, 2, 3},
+                                   .opposite = {1, 2, 4},
+                                   .isSharp = false});
+  thickness.thinRegions.resize(
+      6, {.faceCount = 1, .area = 0.5, .areaShare = 0.001, .minFace = 7, .place = {0, 0, 5}, .isSharp = true});
+  thickness.thinArea = 39;
+  thickness.thinAreaShare = 0.063;
+  thickness.sharpEdges = {{.angleDegrees = 12.25, .place = {5, 5, 5}, .face = 4},
+                          {.angleDegrees = 30, .length = 60, .edgeCount = 2, .place = {0, 0, 5}, .face = 7}};
+  const std::string text = textOf(result);
+  checkHolds(text,
+             "\n  size      60 x 10 x 5, bounding box in the unit of the mesh\n"
+             "  thin      6 regions below 1.5: area 39 (6.3 %)\n"
+             "            wall 1 from (1, 2, 3) to (1, 2, 4), face 3; 2 faces, area 12.5 (2 %)\n");
+  checkHolds(text,
+             "            sharp edge at (0, 0, 5), face 7; 1 face, area 0.5 (0.1 %)\n"
+             "            and 1 more; --json has all\n"
+             "  sharp     2 sharp edges or tips: thinner than any limit; --allow-sharp-edges leaves them out\n"
+             "            tip of 12.2 degrees at (5, 5, 5), face 4\n"
+             "            edge of 30 degrees, length 60, at (0, 0, 5), face 7\n"
+             "  section   4, the diameter of the largest ball inside, centre (30, 5, 2.5)\n"
+             "  thickness by area p1 1.1, p5 2, p50 2, p95 2, max 4\n"
+             "  mesh      ");
+  thickness.allowsSharpEdges = true;
+  checkHolds(textOf(result), "2 sharp edges or tips: allowed, with all that is thin around them\n");
+}
+
+TEST_CASE("the document has every value of the thickness") {
+  Result result = soundResult(1.5);
+  ThicknessReport& thickness = *result.report.thickness;
+  thickness.thinRegions = {{.faceCount = 2,
+                            .area = 12.5,
+                            .areaShare = 0.5,
+                            .min = 1,
+                            .minFace = 3,
+                            .place = {1, 2, 3},
+                            .opposite = {1, 2, 4},
+                            .isSharp = true}};
+  thickness.sharpEdges = {{.angleDegrees = 30, .length = 60, .edgeCount = 2, .place = {0, 0, 5}, .face = 7}};
+  thickness.unjudged = {.openCount = 1, .invertedCount = 2, .degenerateCount = 3, .crossedCount = 4};
+  const Json json = jsonOf(result);
+  CHECK_EQ(json.at("verdict"), "failed");
+  CHECK_EQ(json.at("min"), 1);
+  CHECK_EQ(json.at("minFace"), 3);
+  CHECK_EQ(json.at("minPlace"), Json({1, 2, 3}));
+  CHECK_EQ(json.at("minOpposite"), Json({1, 2, 4}));
+  CHECK_EQ(json.at("greatestSection"), Json::parse(R"({"diameter": 4, "centre": [30, 5, 2.5]})"));
+  CHECK_EQ(json.at("regions"), Json::parse(R"([{"isSharp": true, "min": 1, "minFace": 3, "place": [1, 2, 3],
+      "opposite": [1, 2, 4], "faceCount": 2, "area": 12.5, "areaShare": 0.5}])"));
+  CHECK_EQ(json.at("sharpEdges"), Json::parse(R"([{"angleDegrees": 30, "length": 60, "edgeCount": 2,
+      "place": [0, 0, 5], "face": 7}])"));
+  CHECK_EQ(json.at("unjudged"), Json::parse(R"({"openCount": 1, "invertedCount": 2, "degenerateCount": 3,
+      "crossedCount": 4})"));
+  thickness = {};
+  for (const char* key : {"verdict", "min", "minFace", "minPlace", "minOpposite", "greatestSection", "regions"})
+    CHECK_MESSAGE(jsonOf(result).at(key).is_null(), key);
+}
+
+}  // namespace
+}  // namespace asdfvk
