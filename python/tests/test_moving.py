@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 import pytest
@@ -108,7 +108,8 @@ def test_trimesh_thickness() -> None:
     vertices, faces = sphere(3)
     mesh = trimesh.Trimesh(vertices, faces, process=False)
     points, normals = barycentres_and_normals(vertices, faces)
-    for method, tolerance in (("max_sphere", 0.02), ("ray", 1e-3)):
+    cases: list[tuple[Literal["max_sphere", "ray"], float]] = [("max_sphere", 0.02), ("ray", 1e-3)]
+    for method, tolerance in cases:
         theirs = trimesh.proximity.thickness(mesh, points, normals=normals, method=method)
         ours = asdf_vk.compat.trimesh.thickness(mesh, points, normals=normals, method=method)
         np.testing.assert_allclose(ours, theirs, rtol=tolerance)

@@ -86,5 +86,6 @@ def test_wrong_arguments(reference: asdf_vk.Session) -> None:
         {"unknown": 1},
     ]
     for arguments in wrong:
+        given: dict[str, Any] = {"mesh": mesh, "points": TOP, "session": reference, **arguments}
         with pytest.raises(asdf_vk.Error):
-            trimesh.thickness(**{"mesh": mesh, "points": TOP, "session": reference, **arguments})
+            trimesh.thickness(**given)

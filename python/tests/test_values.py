@@ -55,8 +55,8 @@ def test_the_verdict_of_the_thickness() -> None:
     assert report.unjudged.open_count == report.unjudged.inverted_count == 0
     np.testing.assert_allclose(info.fields["least_thickness"].min(), report.min, rtol=1e-6)
     # All faces are measured, whatever the seeds are; a limit changes no value.
-    for options in ({"seeds": 1}, {"seeds": "all"}):
-        np.testing.assert_array_equal(asdf_vk.thickness(vertices * [60, 1, 20], faces, **options), values)
+    for seeds in (1, "all"):
+        np.testing.assert_array_equal(asdf_vk.thickness(vertices * [60, 1, 20], faces, seeds=seeds), values)
     sound = asdf_vk.thickness(vertices, faces, thinner_than=0.5, allow_sharp_edges=True, return_info=True)[1].thickness
     assert sound is not None and sound.verdict == "passed" and sound.regions == () and sound.allow_sharp_edges
     unlimited = asdf_vk.thickness(vertices, faces, return_info=True)[1].thickness

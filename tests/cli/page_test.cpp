@@ -64,8 +64,8 @@ TEST_CASE("a page has all fields of one component, the summary and the fallback 
 TEST_CASE("a page has the fields of --fields in their order, thin regions, warnings and defects") {
   const ScratchFolder folder;
   const std::string mesh = folder.write("cube.off", cubeOff());
-  const ChildOutcome outcome =
-      runQuick({mesh, "-o", folder / "cube.html", "--thinner-than", "2", "--fields", "seed,thickness"});
+  const ChildOutcome outcome = runQuick(
+      {mesh, "-o", folder / "cube.html", "--thinner-than", "2", "--seeds", "all", "--fields", "seed,thickness"});
   INFO(outcome.error);
   REQUIRE_EQ(outcome.exitCode, 0);
   const auto data = dataOf(folder.read("cube.html")).at("meshes")[0];
