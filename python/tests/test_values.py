@@ -55,7 +55,8 @@ def test_the_verdict_of_the_thickness() -> None:
     assert report.unjudged.open_count == report.unjudged.inverted_count == 0
     np.testing.assert_allclose(info.fields["least_thickness"].min(), report.min, rtol=1e-6)
     # All faces are measured, whatever the seeds are; a limit changes no value.
-    for seeds in (1, "all"):
+    given: tuple[int | str, ...] = (1, "all")
+    for seeds in given:
         np.testing.assert_array_equal(asdf_vk.thickness(vertices * [60, 1, 20], faces, seeds=seeds), values)
     sound = asdf_vk.thickness(vertices, faces, thinner_than=0.5, allow_sharp_edges=True, return_info=True)[1].thickness
     assert sound is not None and sound.verdict == "passed" and sound.regions == () and sound.allow_sharp_edges
@@ -140,7 +141,7 @@ def test_names_of_options_and_of_the_report_agree_with_the_extension() -> None:
 def test_the_thickness_report_is_that_of_the_program(program: Path, tmp_path: Path, limit: float) -> None:
     path = tmp_path / "dumbbell.ply"
     asdf_vk.write(path, dumbbell())
-    command = [program, path, "-o", tmp_path / "result.npy", "--quiet", "--json", "--thinner-than", str(limit)]
+    command: list[Any] = [program, path, "-o", tmp_path / "result.npy", "--quiet", "--json", "--thinner-than", str(limit)]
     document = json.loads(subprocess.run(command, check=True, capture_output=True).stdout)["thickness"]
     ours = asdf_vk.thickness(asdf_vk.read_mesh(path), thinner_than=limit, return_info=True)[1].thickness
     assert ours is not None and document["regions"]
@@ -148,7 +149,7 @@ def test_the_thickness_report_is_that_of_the_program(program: Path, tmp_path: Pa
     def compare(found: Any, expected: Any) -> None:
         if dataclasses.is_dataclass(found):
             for key, value in expected.items():
-                compare(getattr(found, re.sub(r"[A-Z]", lambda letter: "_" + letter[0].lower(), key)), value)
+                compare(getattr(found, re.sub(r"(?=[A-Z])", "_", key).lower()), value)
         elif isinstance(found, tuple):
             assert len(found) == len(expected)
             for one, other in zip(found, expected):
