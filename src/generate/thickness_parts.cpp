@@ -1,0 +1,239 @@
+#include "generate/thickness_parts.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "asdf_vk/error.h"
+#include "core/text.h"
+
+// Each least thickness is that of the planar sides, which the least ball of two walls gives: their distance where they
+// are parallel; where they diverge from an edge, the distance of this edge from the other wall; and c / cos(h) where
+// they diverge symmetrically from a top of width c, each at the angle h to the middle plane.
+
+namespace asdfvk {
+namespace {
+
+constexpr double kRadiansPerDegree = std::numbers::pi / 180;
+
+bool isAlways(uint32_t, uint32_t, uint32_t) { return true; }
+
+ThicknessPart soundPart(BlockSolid solid, double leastThickness) {
+  return {.solid = std::move(solid), .leastThickness = leastThickness, .leastWall = leastThickness};
+}
+
+/// 60 long, 20 wide, with a flat bottom and ends of these heights; an end of height 0 is a sharp edge.
+ThicknessPart makeWedge(double firstHeight, double lastHeight) {
+  BlockSolid solid;
+  solid.addLattice(
+      {1, 1, 1},
+      [&](uint32_t i, uint32_t j, uint32_t k) {
+        return Vec3d{60.0 * i, 20.0 * j, k == 0 ? 0 : i == 0 ? firstHeight : lastHeight};
+      },
+      isAlways);
+  if (firstHeight > 0) return soundPart(std::move(solid), std::min(firstHeight, lastHeight));
+  return {.solid = std::move(solid),
+          .sharpAngleDegrees = std::atan(lastHeight / 60) / kRadiansPerDegree,
+          .sharpLength = 20};
+}
+
+/// A pyramid with its tip at the top.
+ThicknessPart makeSpike() {
+  BlockSolid solid;
+  solid.addLattice(
+      {1, 1, 1},
+      [](uint32_t i, uint32_t j, uint32_t k) {
+        return k == 1 ? Vec3d{0, 0, 20} : Vec3d{4.0 * i - 2, 4.0 * j - 2, 0};
+      },
+      isAlways);
+  return {.solid = std::move(solid), .sharpAngleDegrees = 2 * std::atan(2.0 / 20) / kRadiansPerDegree};
+}
+
+ThicknessPart makeThickCube() {
+  BlockSolid solid;
+  addDraftedLattice(solid, {{0}, {60}}, {{0}, {60}}, {0, 60}, isAlways);
+  return soundPart(std::move(solid), 60);
+}
+
+ThicknessPart makeSteppedPlate() {
+  BlockSolid solid;
+  addDraftedLattice(solid, {{0}, {35}, {60}}, {{0}, {30}}, {0, 1.2, 3},
+                    [](uint32_t i, uint32_t, uint32_t k) { return i == 0 || k == 0; });
+  return soundPart(std::move(solid), 1.2);
+}
+
+/// A plate of 2.5 with a boss of 8 and a rib, which is 1.5 thick at its top. slope: of both sides of the rib.
+ThicknessPart makeRibbedPlate(double slope) {
+  constexpr double kTop = 12.5;
+  BlockSolid solid;
+  addDraftedLattice(solid, {{0}, {20 - slope * kTop, slope}, {21.5 + slope * kTop, -slope}, {50}, {58}, {80}},
+                    {{0}, {26}, {34}, {60}}, {0, 2.5, kTop},
+                    [](uint32_t i, uint32_t j, uint32_t k) { return k == 0 || i == 1 || (i == 3 && j == 1); });
+  return soundPart(std::move(solid), 1.5 * std::sqrt(1 + slope * slope));
+}
+
+ThicknessPart makePocket() {
+  BlockSolid solid;
+  addDraftedLattice(solid, {{0}, {10}, {30}, {40}}, {{0}, {8}, {22}, {30}}, {0, 0.6, 10},
+                    [](uint32_t i, uint32_t j, uint32_t k) { return i != 1 || j != 1 || k == 0; });
+  return soundPart(std::move(solid), 0.6);
+}
+
+/// An open box of 40 x 30 x 25. wall: thickness at the rim, along x and y. The slopes are those of the drafted walls.
+ThicknessPart makeOpenBox(double outerSlope, double innerSlope, double wall, double floor) {
+  constexpr double kHeight = 25;
+  const auto planes = [&](double width) {
+    const double outer = width / 2, inner = outer - wall;
+    return std::vector<DraftedPlane>{{outerSlope * kHeight - outer, -outerSlope},
+                                     {innerSlope * kHeight - inner, -innerSlope},
+                                     {inner - innerSlope * kHeight, innerSlope},
+                                     {outer - outerSlope * kHeight, outerSlope}};
+  };
+  BlockSolid solid;
+  addDraftedLattice(solid, planes(40), planes(30), {0, floor, kHeight},
+                    [](uint32_t i, uint32_t j, uint32_t k) { return i != 1 || j != 1 || k == 0; });
+  return soundPart(std::move(solid), std::min(floor, wall / std::sqrt(1 + outerSlope * outerSlope)));
+}
+
+/// Solids of revolution have regular polygons as sections: `sideCount` planar sides, whose distance from the axis is
+/// this factor times that of their vertical edges.
+double apothemFactor(uint32_t sideCount) { return std::cos(std::numbers::pi / sideCount); }
+
+/// radiusAt(i, k): of the lattice of the profile.
+template <typename Radius>
+auto revolved(uint32_t sideCount, const std::vector<double>& heights, const Radius& radiusAt) {
+  return [=](uint32_t i, uint32_t j, uint32_t k) {
+    const double angle = 2 * std::numbers::pi * (j % sideCount) / sideCount, radius = radiusAt(i, k);
+    return Vec3d{radius * std::cos(angle), radius * std::sin(angle), heights[k]};
+  };
+}
+
+/// A drafted cup of 24 sides, open at the top, where its wall is 1 thick; the inside has more draft.
+ThicknessPart makeRoundCup() {
+  constexpr uint32_t kSideCount = 24;
+  constexpr double kHeight = 20, kOuterSlope = 0.02, kInnerSlope = 0.04;
+  const double factor = apothemFactor(kSideCount);
+  const std::vector<double> heights{0, 1.5, kHeight};
+  const auto radiusAt = [=](uint32_t i, uint32_t k) {
+    const double below = kHeight - heights[k];
+    return i == 0 ? 0 : i == 1 ? 12 - 1 / factor - kInnerSlope * below : 12 - kOuterSlope * below;
+  };
+  BlockSolid solid;
+  solid.addLattice({2, kSideCount, 2}, revolved(kSideCount, heights, radiusAt),
+                   [](uint32_t i, uint32_t, uint32_t k) { return i == 1 || k == 0; });
+  return soundPart(std::move(solid), 1 / std::hypot(1, factor * kOuterSlope));
+}
+
+/// Rings of trapezoidal teeth around a tube of 16 sides with a wall of 3. crest: width of their top; 0: sharp.
+ThicknessPart makeThread(double crest) {
+  constexpr uint32_t kSideCount = 16, kToothCount = 4;
+  constexpr double kBase = 1.6, kLand = 1.4, kDepth = 2, kBore = 3, kEnd = 3.2;
+  const double factor = apothemFactor(kSideCount), root = kBore + 3 / factor;
+  std::vector<double> heights{0}, radii{root};
+  const auto add = [&](double step, double radius) {
+    heights.push_back(heights.back() + step);
+    radii.push_back(radius);
+  };
+  for (uint32_t tooth = 0; tooth < kToothCount; ++tooth) {
+    add(tooth == 0 ? kEnd : kLand, root);
+    add((kBase - crest) / 2, root + kDepth);
+    if (crest > 0) add(crest, root + kDepth);
+    add((kBase - crest) / 2, root);
+  }
+  add(kEnd, root);
+  BlockSolid solid;
+  solid.addLattice({1, kSideCount, static_cast<uint32_t>(heights.size()) - 1},
+                   revolved(kSideCount, heights, [&](uint32_t i, uint32_t k) { return i == 0 ? kBore : radii[k]; }),
+                   isAlways);
+  const double slope = (kBase - crest) / 2 / (kDepth * factor);
+  if (crest > 0) return soundPart(std::move(solid), crest * std::sqrt(1 + slope * slope));
+  return {.solid = std::move(solid),
+          .leastWall = 3,
+          .sharpAngleDegrees = 2 * std::atan(slope) / kRadiansPerDegree,
+          .sharpLength = kToothCount * kSideCount * 2 * (root + kDepth) * std::sin(std::numbers::pi / kSideCount)};
+}
+
+/// Two legs of 2, and a fillet of radius 3 between them. sideCount: of the fillet, even.
+ThicknessPart makeBracket(uint32_t sideCount) {
+  constexpr double kWall = 2, kRadius = 3, kLeg = 30, kWidth = 20, kCentre = kWall + kRadius;
+  const auto position = [&](uint32_t i, uint32_t j, uint32_t k) {
+    const double share = (i - 1.0) / sideCount, angle = -std::numbers::pi / 2 * (1 + share), z = kWidth * k;
+    if (i == 0) return Vec3d{kLeg, kWall * j, z};
+    if (i == sideCount + 2) return Vec3d{kWall * j, kLeg, z};
+    if (j == 1) return Vec3d{kCentre + kRadius * std::cos(angle), kCentre + kRadius * std::sin(angle), z};
+    return Vec3d{kCentre * std::max(0.0, 1 - 2 * share), kCentre * std::max(0.0, 2 * share - 1), z};
+  };
+  BlockSolid solid;
+  solid.addLattice({sideCount + 2, 1, 1}, position, isAlways);
+  return soundPart(std::move(solid), kWall);
+}
+
+/// A plate with a hole of radius 5, near an edge. sideCount: of the hole, a multiple of 4. The ligament is between the
+/// edge and the middle of a side of the hole, or one of its corners.
+ThicknessPart makeLigament(uint32_t sideCount) {
+  constexpr double kRadius = 5, kLigament = 0.6, kThickness = 4;
+  const double nearest = kRadius * (sideCount % 8 == 0 ? 1 : apothemFactor(sideCount));
+  const std::array<Vec3d, 5> outline{{{nearest + kLigament, -9, 0},
+                                      {nearest + kLigament, 9, 0},
+                                      {-12, 9, 0},
+                                      {-12, -9, 0},
+                                      {nearest + kLigament, -9, 0}}};
+  const auto position = [&](uint32_t i, uint32_t j, uint32_t k) {
+    const uint32_t corner = j % sideCount, side = corner / (sideCount / 4);
+    const double along = 4.0 * corner / sideCount, angle = std::numbers::pi / 2 * (along - 0.5);
+    const Vec3d onOutline = outline[side] + (along - side) * (outline[side + 1] - outline[side]);
+    const Vec3d onHole{kRadius * std::cos(angle), kRadius * std::sin(angle), 0};
+    return (i == 0 ? onHole : onOutline) + Vec3d{0, 0, kThickness * k};
+  };
+  BlockSolid solid;
+  solid.addLattice({1, sideCount, 1}, position, isAlways);
+  return soundPart(std::move(solid), kLigament);
+}
+
+struct NamedPart {
+  std::string_view name;
+  ThicknessPart (*make)();
+};
+
+constexpr std::array kParts{
+    NamedPart{"wedge", [] { return makeWedge(1, 5); }},
+    NamedPart{"thin-wedge", [] { return makeWedge(2, 0.3); }},
+    NamedPart{"knife", [] { return makeWedge(0, 5); }},
+    NamedPart{"spike", makeSpike},
+    NamedPart{"thick-cube", makeThickCube},
+    NamedPart{"stepped-plate", makeSteppedPlate},
+    NamedPart{"ribbed-plate", [] { return makeRibbedPlate(0); }},
+    NamedPart{"drafted-rib", [] { return makeRibbedPlate(std::tan(kRadiansPerDegree)); }},
+    NamedPart{"pocket", makePocket},
+    NamedPart{"shelled-box", [] { return makeOpenBox(0.03, 0.03, 2 * std::hypot(1, 0.03), 2); }},
+    NamedPart{"drafted-box", [] { return makeOpenBox(0.02, 0.05, 1, 1.5); }},
+    NamedPart{"round-cup", makeRoundCup},
+    NamedPart{"bracket-4", [] { return makeBracket(4); }},
+    NamedPart{"bracket-16", [] { return makeBracket(16); }},
+    NamedPart{"ligament-12", [] { return makeLigament(12); }},
+    NamedPart{"ligament-24", [] { return makeLigament(24); }},
+    NamedPart{"ligament-36", [] { return makeLigament(36); }},
+    NamedPart{"ligament-96", [] { return makeLigament(96); }},
+    NamedPart{"flat-thread", [] { return makeThread(0.8); }},
+    NamedPart{"sharp-thread", [] { return makeThread(0); }},
+};
+
+}  // namespace
+
+std::vector<std::string_view> thicknessPartNames() {
+  std::vector<std::string_view> names;
+  for (const NamedPart& part : kParts) names.push_back(part.name);
+  return names;
+}
+
+ThicknessPart makeThicknessPart(std::string_view name) {
+  for (const NamedPart& part : kParts)
+    if (part.name == name) return part.make();
+  throw Error(ErrorCode::OptionOutOfRange,
+              fmt::format("unknown part {}; the parts are {}", name, joined(thicknessPartNames(), ", ")));
+}
+
+}  // namespace asdfvk

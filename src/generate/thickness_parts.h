@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <string_view>
+#include <vector>
+
+#include "generate/block_solid.h"
+
+namespace asdfvk {
+
+/// A part whose least wall thickness (docs/thickness.md) is known by construction, at any triangulation. Lengths in mm.
+struct ThicknessPart {
+  BlockSolid solid;
+  double leastThickness = 0;  ///< Over all points of the surface; 0 with a sharp edge or tip.
+  /// The same without the surface around sharp edges and tips: no wall is thinner. Infinite where there is no other.
+  double leastWall = std::numeric_limits<double>::infinity();
+  double sharpAngleDegrees = 0;  ///< Inner angle of its sharp edges, or of its tip; 0 without one.
+  double sharpLength = 0;        ///< Of all its sharp edges.
+};
+
+/// Wedges, plates with ribs, pockets, cups, brackets with fillets, ligaments beside holes, threads.
+[[nodiscard]] std::vector<std::string_view> thicknessPartNames();
+
+/// Throws Error{OptionOutOfRange} for an unknown name.
+[[nodiscard]] ThicknessPart makeThicknessPart(std::string_view name);
+
+/// An open box of random size, with drafted walls (1 to 3 degrees) and a floor that are at least `limit` thick.
+[[nodiscard]] ThicknessPart makeSoundBox(uint64_t seed, double limit);
+/// Such a box with one pocket or groove, in a wall or in the floor, that leaves 20 % to 98 % of `limit`.
+[[nodiscard]] ThicknessPart makeBoxWithThinPlace(uint64_t seed, double limit);
+
+}  // namespace asdfvk
