@@ -21,16 +21,16 @@ struct Walls {
 class RandomBox {
  public:
   RandomBox(uint64_t seed, double limit) : random_(seed), limit_(limit) {
-    height_ = limit * between(10, 30);
+    height_ = limit * between(8, 10);
     floor_ = limit * between(1, 2);
     const double first = draft(), second = draft();
     // The inside has more draft, so that a wall is thinnest at its rim, between the inner edge and the outer plane.
     outerSlope_ = std::min(first, second);
     innerSlope_ = std::max(first, second);
     for (Walls& walls : walls_) {
-      const double wall = limit * between(1, 2), width = limit * between(15, 40);
-      walls.outer = {width - outerSlope_ * height_, outerSlope_};
-      walls.inner = {width - wall * std::hypot(1, outerSlope_) - innerSlope_ * height_, innerSlope_};
+      const double wall = limit * between(1, 2), halfWidth = limit * between(5, 8);
+      walls.outer = {halfWidth - outerSlope_ * height_, outerSlope_};
+      walls.inner = {halfWidth - wall * std::hypot(1, outerSlope_) - innerSlope_ * height_, innerSlope_};
       least_ = std::min({least_, wall, floor_});
     }
   }
@@ -40,10 +40,10 @@ class RandomBox {
   ThicknessPart withThinPlace() {
     least_ = limit_ * between(0.2, 0.98);
     std::vector<DraftedPlane> xs = walls_[0].planes(), ys = walls_[1].planes();
-    const double from = ys[1].at(0) * between(0.1, 0.9), to = from + limit_ * between(0.3, 3);
+    const double from = ys[1].at(0) * between(0.1, 0.9), to = from + limit_ * between(0.3, 2);
     if (random_.index(3) == 0) {  // From below, into the floor.
       const double side = xs[1].at(0) * between(0.1, 0.9);
-      xs.insert(xs.begin() + 2, {{side, 0}, {side + limit_ * between(0.3, 3), 0}});
+      xs.insert(xs.begin() + 2, {{side, 0}, {side + limit_ * between(0.3, 2), 0}});
       ys.insert(ys.begin() + 2, {{from, 0}, {to, 0}});
       return make(xs, ys, {0, floor_ - least_, floor_, height_}, Cell{2, 2, 0});
     }
@@ -53,7 +53,7 @@ class RandomBox {
     ys.insert(ys.begin() + 2, {{from, 0}, {to, 0}});
     const double bottom = floor_ + (height_ - floor_) * between(0.1, 0.5);
     if (random_.index(3) == 0) return make(xs, ys, {0, floor_, bottom, height_}, Cell{3, 2, 2});
-    return make(xs, ys, {0, floor_, bottom, bottom + limit_ * between(0.3, 3), height_}, Cell{3, 2, 2});
+    return make(xs, ys, {0, floor_, bottom, bottom + limit_ * between(0.3, 2), height_}, Cell{3, 2, 2});
   }
 
  private:

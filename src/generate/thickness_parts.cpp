@@ -40,6 +40,20 @@ ThicknessPart makeWedge(double firstHeight, double lastHeight) {
           .sharpLength = 20};
 }
 
+/// The wedge with a sharp edge, and far from it a pocket with a floor of 0.7.
+ThicknessPart makeBlade() {
+  constexpr std::array<double, 4> kXs{0, 45, 55, 60}, kYs{0, 6, 14, 20};
+  const auto position = [&](uint32_t i, uint32_t j, uint32_t k) {
+    return Vec3d{kXs[i], kYs[j], k == 0 || i == 0 ? 0 : k == 1 ? 0.7 : kXs[i] / 12};
+  };
+  ThicknessPart part = makeWedge(0, 5);
+  part.solid = {};
+  part.solid.addLattice({3, 3, 2}, position,
+                        [](uint32_t i, uint32_t j, uint32_t k) { return i != 1 || j != 1 || k == 0; });
+  part.leastWall = 0.7;
+  return part;
+}
+
 /// A pyramid with its tip at the top.
 ThicknessPart makeSpike() {
   BlockSolid solid;
@@ -114,12 +128,12 @@ auto revolved(uint32_t sideCount, const std::vector<double>& heights, const Radi
 /// A drafted cup of 24 sides, open at the top, where its wall is 1 thick; the inside has more draft.
 ThicknessPart makeRoundCup() {
   constexpr uint32_t kSideCount = 24;
-  constexpr double kHeight = 20, kOuterSlope = 0.02, kInnerSlope = 0.04;
+  constexpr double kHeight = 12, kOuterSlope = 0.02, kInnerSlope = 0.04;
   const double factor = apothemFactor(kSideCount);
   const std::vector<double> heights{0, 1.5, kHeight};
   const auto radiusAt = [=](uint32_t i, uint32_t k) {
     const double below = kHeight - heights[k];
-    return i == 0 ? 0 : i == 1 ? 12 - 1 / factor - kInnerSlope * below : 12 - kOuterSlope * below;
+    return i == 0 ? 0 : i == 1 ? 8 - 1 / factor - kInnerSlope * below : 8 - kOuterSlope * below;
   };
   BlockSolid solid;
   solid.addLattice({2, kSideCount, 2}, revolved(kSideCount, heights, radiusAt),
@@ -127,38 +141,40 @@ ThicknessPart makeRoundCup() {
   return soundPart(std::move(solid), 1 / std::hypot(1, factor * kOuterSlope));
 }
 
-/// Rings of trapezoidal teeth around a tube of 16 sides with a wall of 3. crest: width of their top; 0: sharp.
+/// Rings of teeth around a tube of 12 sides with a wall of 3. crest: width of a tooth at its top, where the upper
+/// flanks are horizontal, so that they are nowhere nearer to the lower ones. 0: sharp teeth, with two inclined flanks.
 ThicknessPart makeThread(double crest) {
-  constexpr uint32_t kSideCount = 16, kToothCount = 4;
-  constexpr double kBase = 1.6, kLand = 1.4, kDepth = 2, kBore = 3, kEnd = 3.2;
-  const double factor = apothemFactor(kSideCount), root = kBore + 3 / factor;
+  constexpr uint32_t kSideCount = 12, kToothCount = 2;
+  constexpr double kBase = 1.6, kLand = 1.4, kDepth = 2, kBore = 2, kEnd = 3.2;
+  const double factor = apothemFactor(kSideCount), root = kBore + 3 / factor, crestRadius = root + kDepth;
   std::vector<double> heights{0}, radii{root};
-  const auto add = [&](double step, double radius) {
-    heights.push_back(heights.back() + step);
+  std::vector<bool> isTooth;  // Per layer.
+  const auto add = [&](double height, double radius, bool tooth) {
+    heights.push_back(heights.back() + height);
     radii.push_back(radius);
+    isTooth.push_back(tooth);
   };
   for (uint32_t tooth = 0; tooth < kToothCount; ++tooth) {
-    add(tooth == 0 ? kEnd : kLand, root);
-    add((kBase - crest) / 2, root + kDepth);
-    if (crest > 0) add(crest, root + kDepth);
-    add((kBase - crest) / 2, root);
+    add(tooth == 0 ? kEnd : kLand, root, false);
+    add(crest > 0 ? kBase - crest : kBase / 2, crestRadius, true);
+    add(crest > 0 ? crest : kBase / 2, crest > 0 ? crestRadius : root, true);
   }
-  add(kEnd, root);
+  add(kEnd, root, false);
+  const auto radiusAt = [&](uint32_t i, uint32_t k) { return i == 0 ? kBore : i == 1 ? root : radii[k]; };
   BlockSolid solid;
-  solid.addLattice({1, kSideCount, static_cast<uint32_t>(heights.size()) - 1},
-                   revolved(kSideCount, heights, [&](uint32_t i, uint32_t k) { return i == 0 ? kBore : radii[k]; }),
-                   isAlways);
-  const double slope = (kBase - crest) / 2 / (kDepth * factor);
-  if (crest > 0) return soundPart(std::move(solid), crest * std::sqrt(1 + slope * slope));
+  solid.addLattice({2, kSideCount, static_cast<uint32_t>(isTooth.size())}, revolved(kSideCount, heights, radiusAt),
+                   [&](uint32_t i, uint32_t, uint32_t k) { return i == 0 || isTooth[k]; });
+  if (crest > 0) return soundPart(std::move(solid), crest);
+  const double slope = kBase / 2 / (kDepth * factor);
   return {.solid = std::move(solid),
           .leastWall = 3,
           .sharpAngleDegrees = 2 * std::atan(slope) / kRadiansPerDegree,
-          .sharpLength = kToothCount * kSideCount * 2 * (root + kDepth) * std::sin(std::numbers::pi / kSideCount)};
+          .sharpLength = kToothCount * kSideCount * 2 * crestRadius * std::sin(std::numbers::pi / kSideCount)};
 }
 
 /// Two legs of 2, and a fillet of radius 3 between them. sideCount: of the fillet, even.
 ThicknessPart makeBracket(uint32_t sideCount) {
-  constexpr double kWall = 2, kRadius = 3, kLeg = 30, kWidth = 20, kCentre = kWall + kRadius;
+  constexpr double kWall = 2, kRadius = 3, kLeg = 16, kWidth = 10, kCentre = kWall + kRadius;
   const auto position = [&](uint32_t i, uint32_t j, uint32_t k) {
     const double share = (i - 1.0) / sideCount, angle = -std::numbers::pi / 2 * (1 + share), z = kWidth * k;
     if (i == 0) return Vec3d{kLeg, kWall * j, z};
@@ -171,8 +187,8 @@ ThicknessPart makeBracket(uint32_t sideCount) {
   return soundPart(std::move(solid), kWall);
 }
 
-/// A plate with a hole of radius 5, near an edge. sideCount: of the hole, a multiple of 4. The ligament is between the
-/// edge and the middle of a side of the hole, or one of its corners.
+/// A plate with a hole of radius 5, near an edge. sideCount: of the hole, a multiple of 4. The ligament is between
+/// the edge and the middle of a side of the hole, or one of its corners.
 ThicknessPart makeLigament(uint32_t sideCount) {
   constexpr double kRadius = 5, kLigament = 0.6, kThickness = 4;
   const double nearest = kRadius * (sideCount % 8 == 0 ? 1 : apothemFactor(sideCount));
@@ -202,6 +218,7 @@ constexpr std::array kParts{
     NamedPart{"wedge", [] { return makeWedge(1, 5); }},
     NamedPart{"thin-wedge", [] { return makeWedge(2, 0.3); }},
     NamedPart{"knife", [] { return makeWedge(0, 5); }},
+    NamedPart{"blade", makeBlade},
     NamedPart{"spike", makeSpike},
     NamedPart{"thick-cube", makeThickCube},
     NamedPart{"stepped-plate", makeSteppedPlate},
@@ -215,7 +232,6 @@ constexpr std::array kParts{
     NamedPart{"bracket-16", [] { return makeBracket(16); }},
     NamedPart{"ligament-12", [] { return makeLigament(12); }},
     NamedPart{"ligament-24", [] { return makeLigament(24); }},
-    NamedPart{"ligament-36", [] { return makeLigament(36); }},
     NamedPart{"ligament-96", [] { return makeLigament(96); }},
     NamedPart{"flat-thread", [] { return makeThread(0.8); }},
     NamedPart{"sharp-thread", [] { return makeThread(0); }},

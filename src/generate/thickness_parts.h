@@ -13,7 +13,8 @@ namespace asdfvk {
 struct ThicknessPart {
   BlockSolid solid;
   double leastThickness = 0;  ///< Over all points of the surface; 0 with a sharp edge or tip.
-  /// The same without the surface around sharp edges and tips: no wall is thinner. Infinite where there is no other.
+  /// The same without sharp regions: what is connected with a sharp edge or tip, and below this thickness. Infinite
+  /// where all of the surface is.
   double leastWall = std::numeric_limits<double>::infinity();
   double sharpAngleDegrees = 0;  ///< Inner angle of its sharp edges, or of its tip; 0 without one.
   double sharpLength = 0;        ///< Of all its sharp edges.

@@ -1,0 +1,187 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "generate/thickness_parts.h"
+#include "mesh/face_geometry.h"
+#include "support/shared_session.h"
+
+// Parts of known least thickness (generate/thickness_parts.h) through the whole library.
+
+using namespace asdfvk;
+
+namespace {
+
+Session& fastSession() { return isBackendBuilt("cpu") ? *test::allSessions().back() : test::referenceSession(); }
+
+Options limitedTo(double limit, bool allowsSharpEdges = false) {
+  Options options;
+  options.measure = Measure::Thickness;
+  options.thickness.thinnerThan = limit;
+  options.thickness.allowsSharpEdges = allowsSharpEdges;
+  return options;
+}
+
+ThicknessReport measure(const Mesh& mesh, const Options& options, Session& session = fastSession()) {
+  return session.compute(mesh, options).report.thickness.value();
+}
+
+/// Least value of a field over all faces.
+double leastOf(const Mesh& mesh, const char* field) {
+  const Result result = fastSession().compute(mesh, limitedTo(1));
+  const std::vector<double>& values = *result.field(field)->reals();
+  return *std::min_element(values.begin(), values.end(), [](double a, double b) { return a < b || std::isnan(b); });
+}
+
+/// By yaw, then by pitch, then scaled.
+Mesh placed(Mesh mesh, double yaw, double pitch, double unit) {
+  for (Vec3d& v : mesh.vertices) {
+    const double x = v.x * std::cos(yaw) - v.y * std::sin(yaw), y = v.x * std::sin(yaw) + v.y * std::cos(yaw);
+    v = unit * Vec3d{x, y * std::cos(pitch) - v.z * std::sin(pitch), y * std::sin(pitch) + v.z * std::cos(pitch)};
+  }
+  return mesh;
+}
+
+/// A part in a triangulation, a rotation and a unit.
+struct Sample {
+  Mesh mesh;
+  double unit = 1;
+};
+
+/// The coarsest triangulation and two others; each one in two rotations and in two units.
+std::vector<Sample> samplesOf(const BlockSolid& solid) {
+  constexpr std::array<std::array<double, 2>, 3> kRotations{{{0, 0}, {0.5, 1.1}, {2.3, -0.4}}};  // Yaw, pitch.
+  const double size = boundsOfFiniteVertices(solid.surface()).diagonal();
+  std::vector<Sample> samples;
+  for (uint64_t i = 0; i < 6; ++i) {
+    const double longestEdge = std::array{10 * size, size / 8, size / 20}[i % 3], unit = i < 3 ? 1 : 0.001;
+    const auto [yaw, pitch] = kRotations[(i % 3 + i / 3) % 3];
+    samples.push_back({placed(solid.surface({.longestEdge = longestEdge, .diagonalSeed = i}), yaw, pitch, unit), unit});
+  }
+  return samples;
+}
+
+/// The largest ball is found to a relative 1e-3, and it bounds the thickness of a cube.
+double toleranceOf(std::string_view part) { return part == "thick-cube" ? 1e-3 : 1e-6; }
+
+/// Random triangulation and rotation.
+Mesh randomlyTriangulated(const ThicknessPart& part, uint64_t seed) {
+  const double longestEdge = std::array{1e9, 8.0, 3.0}[seed % 3];
+  return placed(part.solid.surface({.longestEdge = longestEdge, .diagonalSeed = seed}), 0.1 * static_cast<double>(seed),
+                0.7 * static_cast<double>(seed), 1);
+}
+
+}  // namespace
+
+TEST_CASE("each part has its least thickness, whatever the triangulation, the rotation and the unit" *
+          doctest::test_suite("slow")) {
+  for (const std::string_view name : thicknessPartNames()) {
+    CAPTURE(name);
+    const ThicknessPart part = makeThicknessPart(name);
+    if (part.leastThickness == 0) continue;
+    for (const auto& [mesh, unit] : samplesOf(part.solid)) {
+      CAPTURE(mesh.faces.size());
+      CAPTURE(unit);
+      const ThicknessReport passed = measure(mesh, limitedTo(0.99 * unit * part.leastThickness));
+      CHECK(passed.min == doctest::Approx(unit * part.leastThickness).epsilon(toleranceOf(name)));
+      CHECK(passed.verdict == ThicknessVerdict::Passed);
+      CHECK(passed.thinRegions.empty());
+      CHECK(passed.sharpEdges.empty());
+    }
+    const ThicknessReport failed = measure(part.solid.surface(), limitedTo(part.leastThickness * 1.01));
+    CHECK(failed.verdict == ThicknessVerdict::Failed);
+    REQUIRE_FALSE(failed.thinRegions.empty());
+    CHECK(failed.thinRegions[0].min == failed.min);
+    CHECK_FALSE(failed.thinRegions[0].isSharp);
+    CHECK(length(failed.minPlace - failed.minOpposite) <= failed.min * (1 + toleranceOf(name)));
+  }
+}
+
+TEST_CASE("sharp edges and tips have no thickness, and are found at each triangulation") {
+  for (const char* name : {"knife", "blade", "spike", "sharp-thread"}) {
+    CAPTURE(name);
+    const ThicknessPart part = makeThicknessPart(name);
+    const double limit = std::min(1.0, 0.99 * part.leastWall);
+    for (const auto& [mesh, unit] : samplesOf(part.solid)) {
+      CAPTURE(mesh.faces.size());
+      const ThicknessReport report = measure(mesh, limitedTo(unit * limit));
+      CHECK(report.min == 0);
+      CHECK(report.verdict == ThicknessVerdict::Failed);
+      for (const ThinRegion& region : report.thinRegions) {
+        CHECK(region.isSharp);
+        CHECK(region.min == 0);
+      }
+      double sharpLength = 0;
+      for (const SharpEdge& edge : report.sharpEdges) sharpLength += edge.length;
+      CHECK(sharpLength == doctest::Approx(unit * part.sharpLength));
+      CHECK((report.sharpEdges.empty() ? 0 : report.sharpEdges[0].angleDegrees) ==
+            doctest::Approx(part.sharpAngleDegrees));
+      const ThicknessReport allowed = measure(mesh, limitedTo(unit * limit, true));
+      CHECK(allowed.verdict == ThicknessVerdict::Passed);
+      CHECK_FALSE(allowed.min < unit * limit);
+      CHECK(allowed.sharpEdges.size() == report.sharpEdges.size());
+    }
+  }
+}
+
+TEST_CASE("walls of a part with sharp edges count where these are allowed") {
+  const ThicknessPart part = makeThicknessPart("blade");
+  for (const auto& [mesh, unit] : samplesOf(part.solid)) {
+    const ThicknessReport report = measure(mesh, limitedTo(1.01 * unit * part.leastWall, true));
+    CHECK(report.min == doctest::Approx(unit * part.leastWall).epsilon(1e-6));
+    CHECK(report.verdict == ThicknessVerdict::Failed);
+  }
+}
+
+TEST_CASE("barycentres alone miss the least thickness of a coarse wedge and ligament") {
+  for (const char* name : {"wedge", "thin-wedge", "ligament-24"}) {
+    CAPTURE(name);
+    const ThicknessPart part = makeThicknessPart(name);
+    const Mesh mesh = part.solid.surface();
+    CHECK(leastOf(mesh, "least_thickness") == doctest::Approx(part.leastThickness).epsilon(1e-6));
+    CHECK(leastOf(mesh, "thickness") > 1.01 * part.leastThickness);
+  }
+}
+
+TEST_CASE("percentiles of parts with a thickness that most of them have") {
+  const auto percentiles = [](const char* name) {
+    return measure(makeThicknessPart(name).solid.surface({.longestEdge = 2}), limitedTo(0.1));
+  };
+  const ThicknessReport box = percentiles("shelled-box"), cube = percentiles("thick-cube"),
+                        plate = percentiles("ribbed-plate");
+  CHECK(box.median == doctest::Approx(2).epsilon(0.025));
+  CHECK(box.percentile5 == doctest::Approx(2).epsilon(0.07));
+  CHECK(cube.median == doctest::Approx(60).epsilon(0.0016));
+  CHECK(cube.percentile5 == doctest::Approx(60).epsilon(0.0016));
+  CHECK(plate.median == doctest::Approx(2.5).epsilon(0.04));
+  CHECK(plate.min == doctest::Approx(1.5).epsilon(0.03));
+}
+
+TEST_CASE("no alarm for 100 sound boxes, and one for each of 100 with a thin place" * doctest::test_suite("slow")) {
+  constexpr double kLimit = 0.8;
+  for (uint64_t seed = 1; seed <= 100; ++seed) {
+    CAPTURE(seed);
+    const ThicknessPart sound = makeSoundBox(seed, kLimit), thin = makeBoxWithThinPlace(seed, kLimit);
+    const ThicknessReport passed = measure(randomlyTriangulated(sound, seed), limitedTo(kLimit));
+    CHECK(passed.verdict == ThicknessVerdict::Passed);
+    CHECK(passed.min == doctest::Approx(sound.leastThickness).epsilon(1e-6));
+    CHECK(passed.thinRegions.empty());
+    const ThicknessReport failed = measure(randomlyTriangulated(thin, seed), limitedTo(kLimit));
+    CHECK(failed.verdict == ThicknessVerdict::Failed);
+    CHECK(failed.min == doctest::Approx(thin.leastThickness).epsilon(1e-6));
+    CHECK_FALSE(failed.thinRegions.empty());
+  }
+}
+
+TEST_CASE("a device finds the least thickness of each part" * doctest::test_suite("slow")) {
+  for (const std::string_view name : thicknessPartNames()) {
+    CAPTURE(name);
+    const ThicknessPart part = makeThicknessPart(name);
+    const ThicknessReport report =
+        measure(part.solid.surface({.longestEdge = 12}), limitedTo(0.1), test::vulkanSession());
+    CHECK(report.min == doctest::Approx(part.leastThickness).epsilon(toleranceOf(name)));
+  }
+}
