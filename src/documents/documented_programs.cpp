@@ -54,10 +54,12 @@ Program documentedAsdfVk() {
 }
 
 Program documentedGenerator() {
-  Program program = programWith<GeneratorOptions>("generate triangle meshes of known shape diameter");
+  Program program = programWith<GeneratorOptions>("generate triangle meshes of known shape diameter or wall thickness");
   program.exitCodes.assign(kGeneratorExitCodes.begin(), kGeneratorExitCodes.end());
-  program.examples = {{"An animal of about 20,000 faces:", "asdf-vk-generate animal -o animal.ply"},
-                      {"A sphere of radius 10:", "asdf-vk-generate sphere --scale 10 -o sphere.ply"}};
+  program.examples = {
+      {"An animal of about 20,000 faces:", "asdf-vk-generate animal -o animal.ply"},
+      {"A sphere of radius 10:", "asdf-vk-generate sphere --scale 10 -o sphere.ply"},
+      {"A wedge of 12 faces that is 0.3 thick at one end:", "asdf-vk-generate thin-wedge -o wedge.ply"}};
   program.seeAlso = {"asdf-vk(1)"};
   return program;
 }

@@ -12,7 +12,8 @@ namespace asdfvk {
 /// The command line of asdf-vk-generate.
 struct GeneratorOptions {
   std::string shape, output;
-  uint64_t faceCount = 20000;
+  uint64_t faceCount = 20000;  ///< Of shapes of known diameter.
+  double longestEdge = 0;      ///< Of parts of known least thickness; 0: as few faces as possible.
   double scale = 1;
   std::array<double, 3> translate{0, 0, 0};
   bool doubleVertices = false;

@@ -1,5 +1,6 @@
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <exception>
@@ -8,6 +9,7 @@
 #include "generate/generated_shape.h"
 #include "generate/generator_options.h"
 #include "generate/shapes.h"
+#include "generate/thickness_parts.h"
 
 namespace {
 
@@ -19,10 +21,26 @@ void place(GeneratedShape& shape, const GeneratorOptions& options) {
   for (float& diameter : shape.diameter) diameter = static_cast<float>(diameter * options.scale);
 }
 
-void run(const GeneratorOptions& options) {
+/// The diameter of the faces of a part is its least thickness.
+GeneratedShape makePart(const GeneratorOptions& options) {
+  const ThicknessPart part = makeThicknessPart(options.shape);
+  SurfaceDivision division;
+  if (options.longestEdge > 0) division.longestEdge = options.longestEdge;
+  fmt::print(stderr, "least thickness {}\n", part.leastThickness * options.scale);
+  return withUniformDiameter(part.solid.surface(division), part.leastThickness);
+}
+
+void run(const ArgumentParser& parser, const GeneratorOptions& options) {
   if (!(options.scale > 0) || !std::isfinite(options.scale))
     throw Error(ErrorCode::OptionOutOfRange, "--scale must be a positive number");
-  GeneratedShape shape = generateShape(options.shape, options.faceCount);
+  if (parser.isGiven("--longest-edge") && !(options.longestEdge > 0))
+    throw Error(ErrorCode::OptionOutOfRange, "--longest-edge must be a positive number");
+  const std::vector<std::string_view> parts = thicknessPartNames();
+  const bool isPart = std::find(parts.begin(), parts.end(), options.shape) != parts.end();
+  if (parser.isGiven(isPart ? "--faces" : "--longest-edge"))
+    throw Error(ErrorCode::OptionConflict, isPart ? "--faces is not for parts; give --longest-edge"
+                                                  : "--longest-edge is for parts only; give --faces");
+  GeneratedShape shape = isPart ? makePart(options) : generateShape(options.shape, options.faceCount);
   place(shape, options);
   writeGeneratedPly(options.output, shape, options.doubleVertices);
   fmt::print(stderr, "{}: {} with {} faces, {} vertices\n", options.output, options.shape, shape.mesh.faces.size(),
@@ -45,7 +63,7 @@ int main(int argc, char** argv) {
       std::fputs(result.answer.c_str(), stdout);
       return 0;
     }
-    run(options);
+    run(parser, options);
     return 0;
   } catch (const Error& error) {
     fmt::print(stderr, "asdf-vk-generate: {}\n", error.what());
