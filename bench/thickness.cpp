@@ -1,176 +1,223 @@
-// How long does the wall thickness of all faces take, compared with their shape diameter, and is it right? Compares the
-// backends with brute-force nearest points in double on sampled faces, and prints how far meshes of shapes with a known
-// thickness are from it, and from brute force.
+// Is the wall thickness right, and how long does the check of all faces take? Compares the backends with brute force
+// over all pairs of triangles in double, and parts with their known least thickness; measures the time of a check
+// against that of the shape diameter of all faces.
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <optional>
+#include <limits>
 
 #include "asdf_vk/files.h"
-#include "cone/thickness.h"
-#include "generate/shapes.h"
+#include "cone/opposing_walls.h"
+#include "generate/thickness_parts.h"
+#include "mesh/solids.h"
 #include "support/brute_force_thickness.h"
 #include "support/computation.h"
 #include "support/measurement.h"
 #include "support/program.h"
+#include "trace/ball_shrinker.h"
+#include "trace/greatest_section.h"
 
 namespace {
 
 using namespace asdfvk;
 using namespace asdfvk::bench;
 
+constexpr std::array kFields{"thickness", "least_thickness"};
+constexpr double kPartLimit = 0.8;
+
 struct Arguments {
-  std::vector<std::string> meshes, backends{"vulkan", "cpu", "reference"};
-  uint32_t runs = 5, faces = 200;
-  bool shapes = false;
+  std::vector<std::string> meshes, backends{"reference", "cpu", "vulkan"};
+  uint32_t runs = 5, faces = 1000;
+  bool parts = false;
+  double longestEdge = 0.5;
 };
 
-Options optionsOf(Measure measure) {
+struct NamedMesh {
+  std::string name;
+  Mesh mesh;
+};
+
+Options checkOptions(double limit, bool allowsSharpEdges = false) {
   Options options;
-  options.seeds = SeedCount::all();
-  options.measure = measure;
+  options.measure = Measure::Thickness;
+  options.thickness.thinnerThan = limit;
+  options.thickness.allowsSharpEdges = allowsSharpEdges;
   return options;
 }
 
-/// Seconds from the mesh in memory to the result, of one call.
-double secondsOf(Session& session, const Mesh& mesh, Measure measure, const RunControl& control) {
-  const Timer timer(Clock::ProcessCpu);
-  (void)session.compute(mesh, optionsOf(measure), {control.stop, {}});
-  return timer.seconds();
-}
+/// Both fields at some faces, by brute force, and the cap of each face.
+struct Truth {
+  struct Section {
+    double diameter, bound;  // The cap, and what it may be at most.
+  };
+  std::vector<uint32_t> faces;
+  std::vector<Section> sections;
+  std::array<std::vector<double>, kFields.size()> values;
+  double diagonal = 0;
 
-/// CPU seconds of the stages of all calls, in alternation after a warm-up.
-void printTimes(const std::string& name, Session& session, const Mesh& mesh, uint32_t runs, const RunControl& control) {
-  std::vector<double> diameter, thickness;
-  for (uint32_t run = 0; run <= runs; ++run) {
-    const double plain = secondsOf(session, mesh, Measure::ShapeDiameter, control);
-    const double measured = secondsOf(session, mesh, Measure::Thickness, control);
-    if (run == 0) continue;
-    diameter.push_back(plain);
-    thickness.push_back(measured);
+  Truth(const Mesh& mesh, uint32_t faceCount) {
+    const TraceableMesh traceable(mesh);
+    const TraceScene scene = traceable.scene();
+    const Normalization& normalization = scene.bvh.normalization;
+    diagonal = scene.geometry.bounds.diagonal();
+    const Solids solids = findSolids(scene.mesh, traceable.prepared.components);
+    std::vector<Section> all(solids.isClosed.size(), {kUnlimited, kUnlimited});
+    for (uint32_t solid = 0; solid < all.size(); ++solid) {
+      if (solids.isClosed[solid] == 0) continue;
+      const GreatestSection found = findGreatestSection(scene, solids.solidOf, solid);
+      all[solid] = {normalization.toMeshLength(found.diameter), normalization.toMeshLength(found.bound)};
+    }
+    const uint32_t step = std::max(1u, mesh.faces.size() <= faceCount ? 1 : scene.mesh.faceCount() / faceCount);
+    for (uint32_t face = 0; face < scene.mesh.faceCount(); face += step)
+      if (!scene.geometry.isDegenerate(face)) faces.push_back(face);
+    for (const uint32_t face : faces) sections.push_back(all[solids.solidOf[face]]);
+    const test::BruteForceThickness twin(mesh, makeOpposingWalls(ThicknessOptions{}.wallAngleDegrees).cosine,
+                                         normalization.toMeshLength(kMinWallDepth));
+    for (auto& list : values) list.resize(faces.size());
+    tbb::parallel_for(size_t{0}, faces.size(), [&](size_t i) {
+      values[0][i] = twin.at(faces[i]);
+      values[1][i] = twin.least(faces[i]);
+    });
   }
-  writeOutput(fmt::format("| {} | {} | {} | {} | {} |\n", name, session.backend(), toText(dispersionOf(diameter), 3),
-                          toText(dispersionOf(thickness), 3), toText(ratioOf(thickness, diameter), 2)));
-}
 
-/// Thickness of the triangles of a mesh.
-std::vector<double> thicknessOf(Session& session, const Mesh& mesh, const RunControl& control) {
-  return *session.compute(mesh, optionsOf(Measure::Thickness), {control.stop, {}}).field("thickness")->reals();
-}
+  /// Over the diagonal; infinite where only one has a value.
+  [[nodiscard]] double difference(size_t field, size_t i, double found) const {
+    const double expected = values[field][i];
+    double least = kUnlimited;
+    const auto offer = [&](double candidate) {
+      if (std::isinf(candidate) && std::isnan(found)) least = 0;
+      if (std::isfinite(candidate) && !std::isnan(found))
+        least = std::min(least, std::abs(candidate - found) / diagonal);
+    };
+    if (expected < sections[i].bound * (1 + 1e-9)) offer(expected);
+    if (expected > sections[i].bound * (1 - 1e-9)) offer(sections[i].diameter);
+    return least;
+  }
 
-struct Differences {
-  size_t sampled = 0, count = 0, within = 0;  // Faces; those with an opposing wall; those within 1e-4 of the diagonal.
-  double worst = 0, worstRelative = 0;
-  uint32_t worstFace = 0;
+ private:
+  static constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 };
 
-/// Of `faceCount` faces with a thickness, spread evenly. Brute force begins with the thickness times 1.5, or it finds a
-/// smaller ball; a thickness that is too small for lack of a wall shows as a larger result.
-Differences compare(const Mesh& mesh, const std::vector<double>& values, uint32_t faceCount) {
-  const test::BruteForceThickness exact(mesh, makeOpposingWalls(ThicknessOptions{}.wallAngleDegrees).cosine);
-  const double diagonal = boundsOfFiniteVertices(mesh).diagonal();
-  std::vector<uint32_t> faces;
-  const uint32_t step = std::max(1u, mesh.faceCount() / faceCount);
-  for (uint32_t face = 0; face < mesh.faceCount(); face += step)
-    if (std::isfinite(values[face])) faces.push_back(face);
-  std::vector<double> expected(faces.size());
-  tbb::parallel_for(size_t{0}, faces.size(),
-                    [&](size_t i) { expected[i] = exact.of(faces[i], 1.5 * values[faces[i]]); });
-  Differences result{.sampled = faces.size()};
-  for (size_t i = 0; i < faces.size(); ++i) {
-    // Without an opposing wall the thickness is the least ray, and the ball stays as it began.
-    if (expected[i] == 1.5 * values[faces[i]]) continue;
-    const double difference = std::abs(expected[i] - values[faces[i]]);
-    ++result.count;
-    result.within += difference <= 1e-4 * diagonal ? 1 : 0;
-    result.worstRelative = std::max(result.worstRelative, difference / expected[i]);
-    if (difference / diagonal < result.worst) continue;
-    result.worst = difference / diagonal;
-    result.worstFace = faces[i];
-  }
-  return result;
-}
-
-void printAgreement(const std::string& name, Session& session, const Mesh& mesh, uint32_t faces,
-                    const RunControl& control) {
-  const Differences d = compare(mesh, thicknessOf(session, mesh, control), faces);
-  writeOutput(fmt::format(
-      "| {} | {} | {} of {} | {:.2f} % | {:.1e} (face {}) |\n", name, session.backend(), d.count, d.sampled,
-      100 * static_cast<double>(d.within) / static_cast<double>(std::max<size_t>(1, d.count)), d.worst, d.worstFace));
-}
-
-/// Distance of shapes with a known thickness from it. height: of the barycentres that are compared, from the middle.
-void printShape(const std::string& name, Session& session, const Mesh& mesh, double diameter, double height,
-                uint32_t faces, const RunControl& control) {
-  const std::vector<double> values = thicknessOf(session, mesh, control);
-  double worst = 0;
-  for (uint32_t face = 0; face < mesh.faceCount(); ++face) {
-    double z = 0, top = 0;
-    for (const uint32_t vertex : mesh.faces[face]) {
-      z += mesh.vertices[vertex].z / 3;
-      top = std::max(top, std::abs(mesh.vertices[vertex].z));
+void printAgreement(const NamedMesh& named, Session& session, const Truth& truth, const RunControl& control) {
+  const Result result = session.compute(named.mesh, checkOptions(0.01 * truth.diagonal), {control.stop, {}});
+  for (size_t field = 0; field < kFields.size(); ++field) {
+    const std::vector<double>& found = *result.field(kFields[field])->reals();
+    size_t within6 = 0, within4 = 0;
+    double worst = 0;
+    uint32_t worstFace = 0;
+    for (size_t i = 0; i < truth.faces.size(); ++i) {
+      const double difference = truth.difference(field, i, found[truth.faces[i]]);
+      within6 += difference <= 1e-6 ? 1 : 0;
+      within4 += difference <= 1e-4 ? 1 : 0;
+      if (difference <= worst) continue;
+      worst = difference;
+      worstFace = truth.faces[i];
     }
-    if (std::abs(z) <= height && std::isfinite(values[face]))
-      worst = std::max(worst, std::abs(values[face] / diameter - 1));
+    const auto share = [&](size_t count) {
+      return 100 * static_cast<double>(count) / static_cast<double>(std::max<size_t>(1, truth.faces.size()));
+    };
+    writeOutput(fmt::format("| {} | {} | {} | {} | {:.2f} % | {:.2f} % | {:.1e} (face {}) |\n", named.name,
+                            session.backend(), kFields[field], truth.faces.size(), share(within6), share(within4),
+                            worst, worstFace));
   }
-  writeOutput(fmt::format("| {} | {} | {:.1e} | {:.1e} |\n", name, mesh.faceCount(), worst,
-                          compare(mesh, values, faces).worstRelative));
 }
 
-void printShapes(Session& session, uint32_t faces, const RunControl& control) {
-  writeOutput(
-      "| shape | faces | worst relative distance from the smooth shape | from brute force |\n|---|---|---|---|\n");
-  for (const uint64_t count : {1000, 4000, 16000}) {
-    printShape("sphere", session, makeSphere(count).mesh, 2, 2, faces, control);
-    printShape("cylinder, middle", session, makeCylinder(count).mesh, 0.5, 1, faces, control);
-    printShape("torus", session, makeTorus(count).mesh, 0.6, 2, faces, control);
+/// CPU seconds from the mesh in memory to the result, in alternation after a warm-up.
+void printTimes(const NamedMesh& named, Session& session, uint32_t runs, const RunControl& control) {
+  Options diameterOptions;
+  diameterOptions.seeds = SeedCount::all();
+  const Options thicknessOptions = checkOptions(0.01 * boundsOfFiniteVertices(named.mesh).diagonal());
+  const auto secondsOf = [&](const Options& options) {
+    const Timer timer(Clock::ProcessCpu);
+    (void)session.compute(named.mesh, options, {control.stop, {}});
+    return timer.seconds();
+  };
+  std::vector<double> diameter, thickness;
+  for (uint32_t run = 0; run <= runs; ++run) {
+    const double first = secondsOf(diameterOptions), second = secondsOf(thicknessOptions);
+    if (run == 0) continue;
+    diameter.push_back(first);
+    thickness.push_back(second);
   }
-  // Compared at the wide walls only: the thickness of the rim is the width.
-  Mesh slab = makeSlab(4000, {.width = 2, .thickness = 0.1}).mesh;
-  std::erase_if(slab.faces, [&](const Face& face) {
-    return std::any_of(face.begin(), face.end(),
-                       [&](uint32_t v) { return slab.vertices[v].z != slab.vertices[face[0]].z; });
-  });
-  printShape("slab, wide walls", session, slab, 0.1, 2, faces, control);
+  writeOutput(fmt::format("| {} | {} | {} | {} | {} | {} |\n", named.name, named.mesh.faces.size(), session.backend(),
+                          toText(dispersionOf(diameter), 3), toText(dispersionOf(thickness), 3),
+                          toText(ratioOf(thickness, diameter), 2)));
+}
+
+/// Least thickness and verdict of each part, coarse and refined.
+void printParts(Session& session, double longestEdge, const RunControl& control) {
+  writeOutput(
+      fmt::format("| part | faces | known | {} | relative difference | verdict at {} | sharp edges allowed |\n"
+                  "|---|---|---|---|---|---|---|\n",
+                  session.backend(), kPartLimit));
+  size_t wrongCount = 0;
+  for (const std::string_view name : thicknessPartNames()) {
+    const ThicknessPart part = makeThicknessPart(name);
+    for (const double edge : {SurfaceDivision{}.longestEdge, longestEdge}) {
+      const Mesh mesh = part.solid.surface({.longestEdge = edge});
+      const auto check = [&](bool allowsSharpEdges) {
+        return *session.compute(mesh, checkOptions(kPartLimit, allowsSharpEdges), {control.stop, {}}).report.thickness;
+      };
+      const ThicknessReport report = check(false), allowed = check(true);
+      const double unit = part.leastThickness > 0 ? part.leastThickness : 1;
+      const double difference = std::abs(report.min - part.leastThickness) / unit;
+      const auto verdict = [&](const ThicknessReport& found, double least) {
+        const bool isRight =
+            found.verdict == (least < kPartLimit ? ThicknessVerdict::Failed : ThicknessVerdict::Passed);
+        return fmt::format("{}{}", nameOf(*found.verdict), isRight ? "" : ", wrong");
+      };
+      const std::string verdicts = verdict(report, part.leastThickness) + " | " +
+                                   verdict(allowed, std::max(part.leastThickness, part.leastWall));
+      wrongCount += difference <= 1e-6 && verdicts.find("wrong") == std::string::npos ? 0 : 1;
+      writeOutput(fmt::format("| {} | {} | {:.6g} | {:.6g} | {:.1e} | {} |\n", name, mesh.faces.size(),
+                              part.leastThickness, report.min, difference, verdicts));
+    }
+  }
+  writeOutput(fmt::format("\n{} of {} wrong\n", wrongCount, 2 * thicknessPartNames().size()));
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   Arguments arguments;
-  Program program("asdfvk-bench-thickness", "Time and accuracy of the wall thickness of all faces.");
+  Program program("asdfvk-bench-thickness", "Accuracy and time of the wall thickness of all faces.");
   program.addOptionalMeshes(arguments.meshes, "none");
   program.add("--backends", arguments.backends, "Backends");
-  program.add("--runs", arguments.runs, "Runs per measurement; 0: no times");
-  program.add("--faces", arguments.faces, "Faces per mesh that brute force judges; 0: none",
+  program.add("--runs", arguments.runs, "Runs per measurement of time; 0: none");
+  program.add("--faces", arguments.faces, "Faces per mesh that brute force judges, at least; 0: none",
               Range<uint32_t>{0, 100000});
-  program.add("--shapes", arguments.shapes, "Also shapes with a known thickness, on the first backend");
+  program.add("--parts", arguments.parts, "Parts of known least thickness, coarse and refined");
+  program.add("--edge", arguments.longestEdge, "Longest edge of the refined parts", Range<double>{0.05, 100});
   return program.run(argc, argv, [&](const RunControl& control) {
     writeProgress(toText(thisMachine()));
     std::vector<std::unique_ptr<Session>> sessions;
     for (const std::string& name : arguments.backends)
       sessions.push_back(std::make_unique<Session>(sessionOptionsOf(name, "")));
-    const auto forEachPair = [&](const auto& print) {
-      for (const std::string& path : arguments.meshes) {
-        const Mesh mesh = readMesh(path);
-        for (const auto& session : sessions) print(std::filesystem::path(path).stem().string(), *session, mesh);
-      }
-    };
-    if (arguments.runs > 0 && !arguments.meshes.empty())
-      writeOutput("| mesh | backend | diameter, CPU s | thickness, CPU s | ratio |\n|---|---|---|---|---|\n");
-    if (arguments.runs > 0)
-      forEachPair([&](const std::string& name, Session& session, const Mesh& mesh) {
-        printTimes(name, session, mesh, arguments.runs, control);
-      });
-    if (arguments.faces > 0 && !arguments.meshes.empty())
-      writeOutput("| mesh | backend | judged faces | within 1e-4 of the diagonal | worst |\n|---|---|---|---|---|\n");
-    if (arguments.faces > 0)
-      forEachPair([&](const std::string& name, Session& session, const Mesh& mesh) {
-        printAgreement(name, session, mesh, arguments.faces, control);
-      });
-    if (arguments.shapes) printShapes(*sessions.front(), std::max(1u, arguments.faces), control);
+    std::vector<NamedMesh> meshes;
+    for (const std::string& path : arguments.meshes) {
+      meshes.push_back({std::filesystem::path(path).stem().string(), readMesh(path)});
+      meshes.back().mesh.polygons = {};  // Compared by triangle.
+    }
+    if (arguments.parts)
+      for (const auto& session : sessions) printParts(*session, arguments.longestEdge, control);
+    if (arguments.faces > 0 && !meshes.empty())
+      writeOutput(
+          "| mesh | backend | field | judged faces | within 1e-6 of the diagonal | 1e-4 | worst |\n"
+          "|---|---|---|---|---|---|---|\n");
+    for (const NamedMesh& named : meshes) {
+      if (arguments.faces == 0) break;
+      const Truth truth(named.mesh, arguments.faces);
+      for (const auto& session : sessions) printAgreement(named, *session, truth, control);
+    }
+    if (arguments.runs > 0 && !meshes.empty())
+      writeOutput(
+          "| mesh | faces | backend | diameter of all faces, CPU s | check, CPU s | ratio "
+          "|\n|---|---|---|---|---|---|\n");
+    for (const NamedMesh& named : meshes)
+      for (const auto& session : sessions)
+        if (arguments.runs > 0) printTimes(named, *session, arguments.runs, control);
   });
 }

@@ -233,7 +233,7 @@ constexpr std::array kParts{
     NamedPart{"ligament-12", [] { return makeLigament(12); }},
     NamedPart{"ligament-24", [] { return makeLigament(24); }},
     NamedPart{"ligament-96", [] { return makeLigament(96); }},
-    NamedPart{"flat-thread", [] { return makeThread(0.8); }},
+    NamedPart{"flat-thread", [] { return makeThread(0.9); }},
     NamedPart{"sharp-thread", [] { return makeThread(0); }},
 };
 
