@@ -93,7 +93,7 @@ struct Truth {
         least = std::min(least, std::abs(candidate - found) / diagonal);
     };
     if (expected < sections[i].bound * (1 + 1e-9)) offer(expected);
-    if (expected > sections[i].bound * (1 - 1e-9)) offer(sections[i].diameter);
+    if (expected >= sections[i].bound * (1 - 1e-9)) offer(sections[i].diameter);
     return least;
   }
 
