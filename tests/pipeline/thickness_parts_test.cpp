@@ -185,3 +185,23 @@ TEST_CASE("a device finds the least thickness of each part" * doctest::test_suit
     CHECK(report.min == doctest::Approx(part.leastThickness).epsilon(toleranceOf(name)));
   }
 }
+
+TEST_CASE("a thin plate between two others is thin, whatever the order of the plates") {
+  constexpr std::array<std::array<double, 2>, 3> kPlates{{{0, 2}, {2, 2.3}, {2.3, 4.3}}};  // Heights; they touch.
+  constexpr std::array<std::array<size_t, 3>, 3> kOrders{{{0, 1, 2}, {0, 2, 1}, {1, 0, 2}}};
+  for (const auto& order : kOrders) {
+    Mesh mesh;
+    for (const size_t plate : order) {
+      const auto base = static_cast<uint32_t>(mesh.vertices.size());
+      for (const double z : kPlates[plate])
+        for (const Vec3d& v : {Vec3d{0, 0, z}, Vec3d{10, 0, z}, Vec3d{10, 10, z}, Vec3d{0, 10, z}})
+          mesh.vertices.push_back(v);
+      // The faces of touching plates coincide.
+      for (const Face& f : {Face{0, 2, 1}, Face{0, 3, 2}, Face{4, 5, 6}, Face{4, 6, 7}, Face{0, 1, 5}, Face{0, 5, 4},
+                            Face{1, 2, 6}, Face{1, 6, 5}, Face{2, 3, 7}, Face{2, 7, 6}, Face{3, 0, 4}, Face{3, 4, 7}})
+        mesh.faces.push_back({base + f[0], base + f[1], base + f[2]});
+    }
+    CAPTURE(order[1]);
+    CHECK(measure(mesh, limitedTo(0.8)).min == doctest::Approx(0.3));
+  }
+}
