@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
+#include <limits>
+#include <string_view>
+#include <vector>
 
 #include "mesh/face_geometry.h"
 #include "support/brute_force_thickness.h"

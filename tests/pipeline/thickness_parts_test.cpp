@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
+#include <string_view>
+#include <vector>
 
 #include "generate/thickness_parts.h"
 #include "mesh/face_geometry.h"
@@ -12,6 +13,7 @@
 // Parts of known least thickness (generate/thickness_parts.h) through the whole library.
 
 using namespace asdfvk;
+using namespace std::string_view_literals;
 
 namespace {
 
@@ -101,7 +103,7 @@ TEST_CASE("each part has its least thickness, whatever the triangulation, the ro
 }
 
 TEST_CASE("sharp edges and tips have no thickness, and are found at each triangulation") {
-  for (const char* name : {"knife", "blade", "spike", "sharp-thread"}) {
+  for (const std::string_view name : {"knife"sv, "blade"sv, "spike"sv, "sharp-thread"sv}) {
     CAPTURE(name);
     const ThicknessPart part = makeThicknessPart(name);
     const double limit = std::min(1.0, 0.99 * part.leastWall);
@@ -137,7 +139,7 @@ TEST_CASE("walls of a part with sharp edges count where these are allowed") {
 }
 
 TEST_CASE("barycentres alone miss the least thickness of a coarse wedge and ligament") {
-  for (const char* name : {"wedge", "thin-wedge", "ligament-24"}) {
+  for (const std::string_view name : {"wedge"sv, "thin-wedge"sv, "ligament-24"sv}) {
     CAPTURE(name);
     const ThicknessPart part = makeThicknessPart(name);
     const Mesh mesh = part.solid.surface();
