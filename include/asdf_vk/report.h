@@ -231,7 +231,6 @@ struct ThicknessReport {
   /// By area, of the field "thickness".
   double median = kNoValue, max = kNoValue, percentile1 = kNoValue, percentile5 = kNoValue, percentile95 = kNoValue;
   uint64_t noValueCount = 0;     ///< Input faces without a thickness.
-  uint64_t redoneBallCount = 0;  ///< Balls beyond the limits of the device or of float32, shrunk by the reference.
   std::optional<SectionBall> greatestSection;  ///< Of all closed components; unset without one.
   std::vector<SharpEdge> sharpEdges;           ///< By ascending angle.
   UnjudgedFaces unjudged;

@@ -150,7 +150,6 @@ class ThicknessReport:
     thinner_than: float | None
     allow_sharp_edges: bool
     no_value_count: int
-    redone_ball_count: int
     unjudged: UnjudgedFaces
     greatest_section: SectionBall | None
     sharp_edges: tuple[SharpEdge, ...]

@@ -100,7 +100,6 @@ py::dict dictOf(const ThicknessReport& thickness) {
   dict["thinner_than"] = thickness.thinnerThan;
   dict["allow_sharp_edges"] = thickness.allowsSharpEdges;
   dict["no_value_count"] = thickness.noValueCount;
-  dict["redone_ball_count"] = thickness.redoneBallCount;
   dict["unjudged"] = dictOf(thickness.unjudged);
   dict["greatest_section"] = optional(thickness.greatestSection, [](const SectionBall& ball) { return dictOf(ball); });
   dict["sharp_edges"] = listOfDicts(thickness.sharpEdges);

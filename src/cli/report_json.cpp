@@ -110,7 +110,6 @@ Json thicknessOf(const std::optional<ThicknessReport>& thickness) {
           {"percentile95", number(thickness->percentile95)},
           {"max", number(thickness->max)},
           {"noValueCount", thickness->noValueCount},
-          {"redoneBallCount", thickness->redoneBallCount},
           {"unjudged",
            {{"openCount", unjudged.openCount},
             {"invertedCount", unjudged.invertedCount},

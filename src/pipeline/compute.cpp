@@ -93,17 +93,26 @@ std::vector<Field> fieldsOf(const PreparedMesh& prepared, const RoundsResult& ro
                       .values = valuesOfInputFaces(prepared.mesh, segmented.normalized, areas)});
   if (!segmented.segments.empty())
     fields.push_back({.name = "segment", .label = "segments", .values = std::move(segmented.segments)});
-  if (!rounds.thickness.least.empty()) {
-    fields.push_back({.name = "thickness",
-                      .label = "wall thickness",
-                      .unit = "length",
-                      .values = thicknessOfInputFaces(prepared.mesh, rounds.thickness.atBarycentre)});
-    fields.push_back({.name = "least_thickness",
-                      .label = "least wall thickness",
-                      .unit = "length",
-                      .values = thicknessOfInputFaces(prepared.mesh, rounds.thickness.least)});
-  }
   return fields;
+}
+
+void addThicknessFields(std::vector<Field>& fields, const PreparedMesh& prepared, const FaceThickness& thickness) {
+  fields.push_back({.name = "thickness",
+                    .label = "wall thickness",
+                    .unit = "length",
+                    .values = thicknessOfInputFaces(prepared.mesh, thickness.atBarycentre)});
+  fields.push_back({.name = "least_thickness",
+                    .label = "least wall thickness",
+                    .unit = "length",
+                    .values = thicknessOfInputFaces(prepared.mesh, thickness.least)});
+}
+
+/// Without the traced values.
+void measureThickness(Result& result, const Computation& computation, const RunControl& control) {
+  const auto scope = computation.clock.time(Stage::Thickness);
+  const FaceThickness thickness = measureThickness(computation, control);
+  addThicknessFields(result.fields, computation.prepared, thickness);
+  result.report.thickness = describeThickness(computation, thickness, result.thinSurface);
 }
 
 /// Adds the fields that derive from other fields.
@@ -126,16 +135,6 @@ std::vector<double> finalValues(const FaceDomain& domain, const std::vector<doub
   const auto scope = clock.time(Stage::Smooth);
   return smoothBilaterally(domain.graph, values,
                            smoothing.window.value_or(smoothingWindowFor(domain.graph.faceCount())));
-}
-
-/// Describes the values and the thickness that the fields of the result have.
-void describeFields(Result& result, const Computation& computation, const RoundsResult& rounds,
-                    const std::vector<double>& values) {
-  Report& report = result.report;
-  describeValues(report, computation.prepared, computation.domain, result.sdf(), values, computation.keepsMissing());
-  if (!computation.measuresThickness()) return;
-  const auto scope = computation.clock.time(Stage::Thickness);
-  report.thickness = describeThickness(computation, rounds.thickness, result.thinSurface);
 }
 
 /// The scene for pictures. A scene that is not used again keeps nothing else.
@@ -177,7 +176,8 @@ void computeOn(const ComputationTask& task, const Options& options, StageClock& 
                                 backend, session.solvers, clock,  report.warnings};
   const double roundsEnd = options.checkCount ? kRoundsEndBeforeCheck : 1;
   const bool keepsNodes =
-      !isLast || options.checkCount || options.keepsScene || sightNeedsNodes(options, backend.isReference());
+      !isLast || options.checkCount || options.keepsScene || computation.measuresThickness() ||
+      sightNeedsNodes(options, backend.isReference());
   const auto makeTracing = [&] {
     return std::make_unique<SeedTracing>(computation, task.tracers, keepsNodes ? nullptr : &task.scene->bvh);
   };
@@ -194,8 +194,9 @@ void computeOn(const ComputationTask& task, const Options& options, StageClock& 
         checkAgainstReference(scene, cone, domain.traceableFaces, {rounds.traced, values, backend.isReference()},
                               *options.checkCount, options.randomSeed, control.part(roundsEnd, 1));
   result.fields = fieldsOf(prepared, rounds, values, std::move(segmented));
+  describeValues(report, prepared, domain, result.sdf(), values, computation.keepsMissing());
+  if (computation.measuresThickness()) measureThickness(result, computation, stopOnly);
   addDerivedFields(result.fields, prepared, options);
-  describeFields(result, computation, rounds, values);
   backend.requireSilentValidation();
   if (options.keepsScene) result.scene = sceneData(sharedScene, isLast);
 }

@@ -68,10 +68,8 @@ class Rounds {
     const uint64_t traceableCount = computation_.domain.traceableFaces.size();
     runRound(resolveSeedCount(options_.seeds, traceableCount), !options_.rounds.areSet(), control);
     while (const uint64_t further = furtherCount()) runRound(further, false, control.withoutProgress());
-    FaceThickness thickness = measureThickness(control.withoutProgress());
     control.checkpoint(1);
-    return {std::move(traced_), std::move(result_),   std::move(errors_),
-            roundCount_,        std::move(thickness), std::move(traceVariant_)};
+    return {std::move(traced_), std::move(result_), std::move(errors_), roundCount_, std::move(traceVariant_)};
   }
 
  private:
@@ -85,7 +83,6 @@ class Rounds {
   std::vector<uint32_t> traceByPrediction(const SeedShares& shares, std::span<const double> indicator,
                                           const RunControl& control);
   [[nodiscard]] std::vector<double> solveWithoutHeldOut(std::span<const uint32_t> extremes, const RunControl& control);
-  [[nodiscard]] FaceThickness measureThickness(const RunControl& control);
   [[nodiscard]] uint64_t furtherCount() const;
   [[nodiscard]] uint64_t countForError() const;
   [[nodiscard]] uint64_t countForTarget(std::optional<double> maximum, double estimate, double standardError) const;
@@ -139,7 +136,7 @@ void Rounds::runRound(uint64_t count, bool isLast, const RunControl& control) {
     control.checkpoint(kIndicatorProgress);
     extremes = traceByPrediction(shares, indicator, control.part(kIndicatorProgress, kHeldOutTracedProgress));
   }
-  if (isLast && !computation_.measuresThickness()) tracing_.reset();
+  if (isLast) tracing_.reset();
   std::vector<double> withoutHeldOut;  // #H
   if (estimates)
     withoutHeldOut = solveWithoutHeldOut(extremes, control.part(kHeldOutTracedProgress, kHeldOutSolvedProgress));
@@ -267,12 +264,6 @@ std::vector<double> Rounds::solveWithoutHeldOut(std::span<const uint32_t> extrem
   ofHeldOut.reserve(heldOut_.faces.size());
   for (const uint32_t face : heldOut_.faces) ofHeldOut.push_back(values[face]);
   return ofHeldOut;
-}
-
-FaceThickness Rounds::measureThickness(const RunControl& control) {
-  if (!computation_.measuresThickness()) return {};
-  const auto scope = clock_.time(Stage::Thickness);
-  return asdfvk::measureThickness(computation_, tracing_->shrinker(), control);
 }
 
 uint64_t Rounds::remainingCount() const {

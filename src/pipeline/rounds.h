@@ -8,7 +8,6 @@
 #include "estimate/error_estimate.h"
 #include "pipeline/interpolation.h"
 #include "pipeline/seed_tracing.h"
-#include "pipeline/thickness.h"
 #include "trace/traced_seeds.h"
 
 namespace asdfvk {
@@ -19,7 +18,6 @@ struct RoundsResult {
   Interpolated interpolated;
   std::optional<EstimatedErrors> errors;
   uint32_t roundCount = 0;
-  FaceThickness thickness;  ///< Empty unless the thickness is measured.
   std::optional<TraceVariant> traceVariant;
 };
 

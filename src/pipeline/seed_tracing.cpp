@@ -31,17 +31,10 @@ SeedTracing::SeedTracing(const Computation& computation, SceneTracers& tracers, 
     : computation_(computation),
       released_(released),
       tracer_(tracers.get(computation.options.cone,
-                          {.hits = computation.keepsHits(),
-                           .balls = computation.measuresThickness()},
-                          computation.clock)) {
-  if (!computation.measuresThickness()) return;
-  const auto scope = computation.clock.time(setUpStage(computation.backend));
-  shrinker_ = tracer_->tracer->makeBallShrinker(makeOpposingWalls(computation.options.thickness.wallAngleDegrees));
-}
+                          {.hits = computation.keepsHits()}, computation.clock)) {}
 
 SeedTracing::~SeedTracing() {
   const auto scope = computation_.clock.time(setUpStage(computation_.backend));
-  shrinker_.reset();
   tracer_.reset();
   if (released_ == nullptr) return;
   const bool isLarge = released_->nodes.size() * sizeof(BvhNode) >= kMinReturnedByteCount;

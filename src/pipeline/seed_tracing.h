@@ -6,7 +6,6 @@
 #include "bvh/bvh.h"
 #include "pipeline/computation.h"
 #include "pipeline/scene_tracers.h"
-#include "trace/ball_shrinker.h"
 #include "trace/cone_tracer.h"
 #include "trace/traced_seeds.h"
 
@@ -29,8 +28,6 @@ class SeedTracing {
   void keepHitsIn(HitStore* store) { hitStore_ = store; }
   /// Adds `faces`, none of which may be in `traced`.
   void trace(std::span<const uint32_t> faces, TracedSeeds& traced, const RunControl& control);
-  /// Precondition: the thickness is measured.
-  [[nodiscard]] BallShrinker& shrinker() { return *shrinker_; }
   /// Reserves memory for further seeds, so that growing does not copy the hits, which are most of the memory.
   void reserve(TracedSeeds& traced, size_t furtherCount);
   /// Adds seeds to each component without a value until it has one or no face is left.
@@ -43,7 +40,6 @@ class SeedTracing {
   Bvh* released_;
   std::shared_ptr<SceneTracer> tracer_;
   HitStore* hitStore_ = nullptr;
-  std::unique_ptr<BallShrinker> shrinker_;  ///< Null unless the thickness is measured. Destroyed before the tracer.
 };
 
 }  // namespace asdfvk

@@ -22,13 +22,14 @@ GreatestSection toMesh(const Normalization& normalization, const GreatestSection
 
 }  // namespace
 
-FaceThickness measureThickness(const Computation& computation, BallShrinker& shrinker, const RunControl& control) {
+FaceThickness measureThickness(const Computation& computation, const RunControl& control) {
+  const WallTree tree(computation.scene, makeOpposingWalls(computation.options.thickness.wallAngleDegrees));
   const TraceScene& scene = computation.scene;
   const Solids solids = findSolids(computation.prepared.mesh, computation.prepared.components);
   const std::vector<GreatestSection> sections = findGreatestSections(scene, solids.solidOf, solids.isClosed, control.part(0, kSectionsProgress));
   const size_t faceCount = computation.prepared.mesh.faceCount();
   FaceThickness thickness{std::vector<double>(faceCount, kNoValue), std::vector<double>(faceCount, kNoValue),
-                          std::vector<uint32_t>(faceCount, kNoFace), {}, 0};
+                          std::vector<uint32_t>(faceCount, kNoFace), {}};
   const std::span<const uint32_t> faces = computation.domain.traceableFaces;
   const auto lengthOf = [&](const FaceBalls& balls, const InscribedBall& ball) {
     const double greatest = sections[solids.solidOf[balls.face]].diameter;
@@ -46,7 +47,7 @@ FaceThickness measureThickness(const Computation& computation, BallShrinker& shr
     const auto progressAt = [&](size_t count) {
       return kSectionsProgress + (1 - kSectionsProgress) * static_cast<double>(count) / static_cast<double>(faces.size());
     };
-    thickness.redoneBallCount += shrinker.shrink(balls, control.part(progressAt(begin), progressAt(end)));
+    shrinkFaceBalls(tree, balls, control.part(progressAt(begin), progressAt(end)));
     for (const FaceBalls& each : balls) {
       thickness.atBarycentre[each.face] = lengthOf(each, each.atBarycentre);
       thickness.least[each.face] = lengthOf(each, each.least);

@@ -7,7 +7,7 @@
 
 #include "asdf_vk/session.h"
 #include "pipeline/computation.h"
-#include "trace/ball_shrinker.h"
+#include "trace/face_balls.h"
 #include "trace/greatest_section.h"
 
 namespace asdfvk {
@@ -18,13 +18,11 @@ struct FaceThickness {
   std::vector<double> least;         ///< #F, over all points of the face.
   std::vector<uint32_t> leastWalls;  ///< #F, the wall that limits `least`; kNoFace where the greatest section does.
   std::optional<GreatestSection> greatestSection;  ///< Of all closed solids.
-  uint64_t redoneBallCount = 0;                    ///< See BallShrinker::shrink().
 };
 
 /// Of each face of the domain that is not degenerate: the least diameter over its opposing walls, at most the greatest
 /// section of its solid. No value where neither is known: nothing opposes, and the component is open.
-[[nodiscard]] FaceThickness measureThickness(const Computation& computation, BallShrinker& shrinker,
-                                             const RunControl& control);
+[[nodiscard]] FaceThickness measureThickness(const Computation& computation, const RunControl& control);
 
 /// The field: for each input face the least value of its triangles; NaN without one. values: #F. Returns #I.
 [[nodiscard]] std::vector<double> thicknessOfInputFaces(const TriangleMesh& mesh, std::span<const double> values);

@@ -103,7 +103,6 @@ ThicknessReport describeThickness(const Computation& computation, const FaceThic
   for (const double least : thickness.least)
     if (!(report.min <= least) && !std::isnan(least)) report.min = least;
   report.noValueCount = countWithoutValue(computation.domain, thicknessOfInputFaces(prepared.mesh, thickness.least));
-  report.redoneBallCount = thickness.redoneBallCount;
   if (thickness.greatestSection)
     report.greatestSection = {thickness.greatestSection->diameter, thickness.greatestSection->centre};
   report.thinnerThan = computation.options.thickness.thinnerThan;

@@ -12,7 +12,6 @@
 #include "cone/cone.h"
 #include "core/check.h"
 #include "shared/cone_hit.h"
-#include "trace/ball_shrinker.h"
 #include "trace/trace_scene.h"
 
 namespace asdfvk {
@@ -81,9 +80,6 @@ class ConeTracer {
   /// face, up to rounding.
   virtual TraceStatistics traceAt(std::span<const ConeStart> starts, const ConeResults& results,
                                   const RunControl& control) = 0;
-
-  /// Shrinks balls in the scene of this tracer, on the same device. The tracer must outlive it. Throws Error{Device}.
-  [[nodiscard]] virtual std::unique_ptr<BallShrinker> makeBallShrinker(const OpposingWalls& walls) = 0;
 
   /// Seconds that the constructor spent on encoding the hierarchy for a device, without the upload; 0 without a device.
   [[nodiscard]] virtual double encodeSeconds() const { return 0; }

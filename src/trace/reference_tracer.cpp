@@ -64,10 +64,6 @@ class ReferenceTracer final : public ConeTracer {
     return traceAll(starts, results, control);
   }
 
-  std::unique_ptr<BallShrinker> makeBallShrinker(const OpposingWalls& walls) override {
-    return makeReferenceBallShrinker(scene_, walls);
-  }
-
  private:
   /// cones: faces or starts.
   template <typename Cones>

@@ -56,10 +56,6 @@ class EmbreeTracer final : public ConeTracer {
     return traceAll(spatialOrder(starts), kFreeRayStart, seedOf, prefetchSeed, results, control);
   }
 
-  std::unique_ptr<BallShrinker> makeBallShrinker(const OpposingWalls& walls) override {
-    return makeReferenceBallShrinker(scene_, walls);
-  }
-
  private:
   static constexpr size_t kGroupSize = EmbreeConeGroup::kWidth;
 

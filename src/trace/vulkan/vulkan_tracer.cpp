@@ -17,7 +17,6 @@
 #include "trace/reference_tracer.h"
 #include "trace/seed_order.h"
 #include "trace/vulkan/device_seeds.h"
-#include "trace/vulkan/vulkan_balls.h"
 #include "trace/vulkan/vulkan_cone_chunk.h"
 #include "trace/vulkan/vulkan_cone_kernel.h"
 #include "trace/vulkan/vulkan_hit_store.h"
@@ -68,11 +67,6 @@ class VulkanTracer final : public ConeTracer {
       return cones;
     };
     return traceAll(starts.size(), sorted, submit, startOf, results, control);
-  }
-
-  std::unique_ptr<BallShrinker> makeBallShrinker(const OpposingWalls& walls) override {
-    ASDFVK_CHECK(kernel_.balls() != nullptr);
-    return makeVulkanBallShrinker(kernel_, buffers_, scene_, walls);
   }
 
   double encodeSeconds() const override { return encodeSeconds_; }
