@@ -18,7 +18,7 @@ bool contains(const Box3d& outer, const Box3d& inner) {
 
 Solids findSolids(const TriangleMesh& mesh, const Components& components) {
   const size_t count = components.components.size();
-  Solids solids{std::vector<uint32_t>(mesh.faceCount()), std::vector<uint8_t>(count)};
+  Solids solids{std::vector<uint32_t>(mesh.faceCount()), std::vector<uint8_t>(count), std::vector<uint8_t>(count)};
   std::vector<uint8_t> isCavity(count);
   if (count > 1) isCavity = findCavities(mesh, components);
   std::vector<Box3d> boxes(count);
@@ -27,7 +27,10 @@ Solids findSolids(const TriangleMesh& mesh, const Components& components) {
   std::vector<uint32_t> solidOfComponent(count);
   for (uint32_t c = 0; c < count; ++c) {
     const Component& component = components.components[c];
-    solids.isClosed[c] = component.isClosed && component.isConsistentlyWound && component.signedVolume > 0 ? 1 : 0;
+    const double outwards = isCavity[c] != 0 ? -component.signedVolume : component.signedVolume;
+    solids.isClosed[c] =
+        component.isClosed && component.isConsistentlyWound && outwards > 0 && isCavity[c] == 0 ? 1 : 0;
+    solids.isMisoriented[c] = component.isClosed && (!component.isConsistentlyWound || outwards < 0) ? 1 : 0;
     solidOfComponent[c] = c;
   }
   for (uint32_t c = 0; c < count; ++c) {

@@ -5,62 +5,162 @@
 #include <limits>
 
 #include "mesh/solids.h"
+#include "trace/crossed_faces.h"
 
 namespace asdfvk {
 namespace {
 
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
-// Faces of one call of the shrinker: their balls need 9 MiB.
+// Faces whose balls are shrunk at a time: they need 9 MiB.
 constexpr size_t kBlockFaceCount = size_t{1} << 16;
-// Part of the progress in which the greatest sections are found.
-constexpr double kSectionsProgress = 0.2;
+// Progress after the greatest sections, and after the balls of all faces.
+constexpr double kSectionsProgress = 0.2, kBallsProgress = 0.9;
+// Large thin faces are divided down to this share of the limit, or of normalised units.
+constexpr double kPartsPerLimit = 4, kMinPartLength = 0x1p-10;
 
-GreatestSection toMesh(const Normalization& normalization, const GreatestSection& section) {
-  return {section.centre / normalization.scale + normalization.centre, normalization.toMeshLength(section.diameter),
-          normalization.toMeshLength(section.bound)};
-}
+/// Measures the faces of one computation.
+class Measurement {
+ public:
+  explicit Measurement(const Computation& computation)
+      : computation_(computation),
+        scene_(computation.scene),
+        mesh_(computation.prepared.mesh),
+        unit_(scene_.bvh.normalization),
+        opposing_(makeOpposingWalls(computation.options.thickness.wallAngleDegrees)),
+        solids_(findSolids(mesh_, computation.prepared.components)),
+        fans_(mesh_) {}
+
+  FaceThickness run(const RunControl& control) {
+    const size_t count = mesh_.faceCount();
+    thickness_ = {std::vector<double>(count, kNoValue), std::vector<double>(count, kNoValue),
+                  std::vector<uint32_t>(count, kNoFace), std::vector<uint8_t>(count), {}, {}, {}, {}};
+    findSharp();
+    const std::vector<GreatestSection> sections =
+        findGreatestSections(scene_, solids_.solidOf, solids_.isClosed, control.part(0, kSectionsProgress));
+    keepGreatest(sections);
+    const WallTree tree(scene_, opposing_);
+    const std::vector<FaceBalls> thin =
+        measureFaces(tree, sections, control.part(kSectionsProgress, kBallsProgress));
+    countUnjudged(control.withoutProgress());
+    if (limit_)
+      thickness_.thinParts = findThinParts(tree, fans_, thickness_.sharp, thin, *limit_,
+                                           std::max(*limit_ / kPartsPerLimit, kMinPartLength), control.withoutProgress());
+    control.checkpoint(1);
+    return std::move(thickness_);
+  }
+
+ private:
+  [[nodiscard]] bool isInDomain(uint32_t face) const { return computation_.domain.contains(mesh_.inputFaceOf(face)); }
+
+  void findSharp() {
+    SharpEdges& sharp = thickness_.sharp;
+    sharp = findSharpEdges(mesh_, computation_.prepared.geometry, fans_, opposing_.cosine,
+                           unit_.toMeshLength(kMinWallDepth));
+    std::erase_if(sharp.lines, [&](const SharpLine& line) { return !isInDomain(line.face); });
+    for (uint32_t face = 0; face < mesh_.faceCount(); ++face)
+      if (!isInDomain(face)) sharp.faceBits[face] = 0;
+  }
+
+  void keepGreatest(std::span<const GreatestSection> sections) {
+    std::optional<GreatestSection>& greatest = thickness_.greatestSection;
+    for (const GreatestSection& section : sections)
+      if (section.diameter < kUnlimited && !(greatest && section.diameter <= greatest->diameter)) greatest = section;
+    if (greatest)
+      greatest = {greatest->centre / unit_.scale + unit_.centre, unit_.toMeshLength(greatest->diameter),
+                  unit_.toMeshLength(greatest->bound)};
+  }
+
+  /// Returns the balls of the faces that have a point below the limit.
+  std::vector<FaceBalls> measureFaces(const WallTree& tree, std::span<const GreatestSection> sections,
+                                      const RunControl& control) {
+    // Coordinates in float32 do not tell a wall that is thinner by less than a contact.
+    if (const std::optional<double>& limit = computation_.options.thickness.thinnerThan)
+      limit_ = std::max(*limit * unit_.scale - kMinWallDepth, kMinWallDepth);
+    const bool isFlipped = computation_.options.orientation == Orientation::Flip;
+    const std::span<const uint32_t> faces = computation_.domain.traceableFaces;
+    std::vector<FaceBalls> thin;
+    for (size_t begin = 0; begin < faces.size(); begin += kBlockFaceCount) {
+      const size_t end = std::min(faces.size(), begin + kBlockFaceCount);
+      std::vector<FaceBalls> balls(end - begin);
+      for (size_t i = begin; i < end; ++i) {
+        balls[i - begin].face = faces[i];
+        const double bound = sections[solids_.solidOf[faces[i]]].bound;
+        balls[i - begin].atBarycentre.ball.diameter = balls[i - begin].least.ball.diameter = bound;
+      }
+      const auto share = [&](size_t count) { return static_cast<double>(count) / static_cast<double>(faces.size()); };
+      shrinkFaceBalls(tree, balls, control.part(share(begin), share(end)));
+      for (FaceBalls& each : balls) {
+        const double greatest = sections[solids_.solidOf[each.face]].diameter;
+        const double least = take(each, greatest);
+        const uint32_t component = computation_.prepared.components.componentOf[each.face];
+        const bool isJudged = !std::isnan(least) && (isFlipped || solids_.isMisoriented[component] == 0);
+        thickness_.isJudged[each.face] = isJudged ? 1 : 0;
+        if (isJudged && limit_ && least * unit_.scale < *limit_) thin.push_back(each);
+      }
+    }
+    return thin;
+  }
+
+  /// Stores the values of a face; returns the least.
+  double take(FaceBalls& balls, double greatest) {
+    const auto lengthOf = [&](InscribedBall& ball) {
+      if (ball.wall == kNoFace) ball.ball.diameter = greatest;
+      return ball.ball.diameter < kUnlimited ? unit_.toMeshLength(ball.ball.diameter) : kNoValue;
+    };
+    const uint32_t face = balls.face;
+    thickness_.atBarycentre[face] = lengthOf(balls.atBarycentre);
+    thickness_.least[face] = lengthOf(balls.least);
+    thickness_.leastWalls[face] = balls.least.wall;
+    if (thickness_.sharp.faceBits[face] != 0) thickness_.least[face] = 0;
+    return thickness_.least[face];
+  }
+
+  /// Of the input faces of the domain.
+  template <typename Holds>
+  [[nodiscard]] uint64_t countInputFaces(const Holds& holds) const {
+    uint64_t count = 0, last = mesh_.inputFaceCount();
+    for (uint32_t face = 0; face < mesh_.faceCount(); ++face) {
+      const uint64_t inputFace = mesh_.inputFaceOf(face);
+      if (inputFace == last || !computation_.domain.contains(inputFace) || !holds(face)) continue;
+      last = inputFace;
+      ++count;
+    }
+    return count;
+  }
+
+  void countUnjudged(const RunControl& control) {
+    UnjudgedFaces& unjudged = thickness_.unjudged;
+    const FaceGeometry& geometry = computation_.prepared.geometry;
+    unjudged.degenerateCount = countInputFaces([&](uint32_t face) { return geometry.isDegenerate(face); });
+    if (computation_.options.orientation != Orientation::Flip) {
+      const auto isMisoriented = [&](uint32_t face) {
+        return solids_.isMisoriented[computation_.prepared.components.componentOf[face]] != 0;
+      };
+      unjudged.invertedCount = countInputFaces(isMisoriented);
+      unjudged.openCount = countInputFaces([&](uint32_t face) {
+        return !geometry.isDegenerate(face) && std::isnan(thickness_.least[face]) && !isMisoriented(face);
+      });
+    }
+    if (!limit_) return;
+    const std::vector<uint8_t> isCrossed = findCrossedFaces(scene_, kMinWallDepth, control);
+    unjudged.crossedCount = countInputFaces([&](uint32_t face) { return isCrossed[face] != 0; });
+  }
+
+  const Computation& computation_;
+  const TraceScene& scene_;
+  const TriangleMesh& mesh_;
+  const Normalization& unit_;
+  OpposingWalls opposing_;
+  Solids solids_;
+  PointFans fans_;
+  std::optional<double> limit_;  ///< Normalised.
+  FaceThickness thickness_;
+};
 
 }  // namespace
 
 FaceThickness measureThickness(const Computation& computation, const RunControl& control) {
-  const WallTree tree(computation.scene, makeOpposingWalls(computation.options.thickness.wallAngleDegrees));
-  const TraceScene& scene = computation.scene;
-  const Solids solids = findSolids(computation.prepared.mesh, computation.prepared.components);
-  const std::vector<GreatestSection> sections = findGreatestSections(scene, solids.solidOf, solids.isClosed, control.part(0, kSectionsProgress));
-  const size_t faceCount = computation.prepared.mesh.faceCount();
-  FaceThickness thickness{std::vector<double>(faceCount, kNoValue), std::vector<double>(faceCount, kNoValue),
-                          std::vector<uint32_t>(faceCount, kNoFace), {}};
-  const std::span<const uint32_t> faces = computation.domain.traceableFaces;
-  const auto lengthOf = [&](const FaceBalls& balls, const InscribedBall& ball) {
-    const double greatest = sections[solids.solidOf[balls.face]].diameter;
-    const double diameter = ball.wall == kNoFace ? greatest : ball.ball.diameter;
-    return diameter < kUnlimited ? scene.bvh.normalization.toMeshLength(diameter) : kNoValue;
-  };
-  for (size_t begin = 0; begin < faces.size(); begin += kBlockFaceCount) {
-    const size_t end = std::min(faces.size(), begin + kBlockFaceCount);
-    std::vector<FaceBalls> balls(end - begin);
-    for (size_t i = begin; i < end; ++i) {
-      balls[i - begin].face = faces[i];
-      balls[i - begin].atBarycentre.ball.diameter = sections[solids.solidOf[faces[i]]].bound;
-      balls[i - begin].least.ball.diameter = sections[solids.solidOf[faces[i]]].bound;
-    }
-    const auto progressAt = [&](size_t count) {
-      return kSectionsProgress + (1 - kSectionsProgress) * static_cast<double>(count) / static_cast<double>(faces.size());
-    };
-    shrinkFaceBalls(tree, balls, control.part(progressAt(begin), progressAt(end)));
-    for (const FaceBalls& each : balls) {
-      thickness.atBarycentre[each.face] = lengthOf(each, each.atBarycentre);
-      thickness.least[each.face] = lengthOf(each, each.least);
-      thickness.leastWalls[each.face] = each.least.wall;
-    }
-  }
-  for (const GreatestSection& section : sections)
-    if (section.diameter < kUnlimited &&
-        !(thickness.greatestSection && section.diameter <= thickness.greatestSection->diameter))
-      thickness.greatestSection = section;
-  if (thickness.greatestSection)
-    thickness.greatestSection = toMesh(scene.bvh.normalization, *thickness.greatestSection);
-  return thickness;
+  return Measurement(computation).run(control);
 }
 
 std::vector<double> thicknessOfInputFaces(const TriangleMesh& mesh, std::span<const double> values) {

@@ -6,18 +6,23 @@
 #include <vector>
 
 #include "asdf_vk/session.h"
+#include "mesh/sharp_edges.h"
 #include "pipeline/computation.h"
-#include "trace/face_balls.h"
 #include "trace/greatest_section.h"
+#include "trace/thin_parts.h"
 
 namespace asdfvk {
 
 /// Thickness of all triangles of the domain; lengths in the unit of the mesh.
 struct FaceThickness {
   std::vector<double> atBarycentre;  ///< #F; NaN for no value.
-  std::vector<double> least;         ///< #F, over all points of the face.
+  std::vector<double> least;         ///< #F, over all points of the face; 0 at sharp edges.
   std::vector<uint32_t> leastWalls;  ///< #F, the wall that limits `least`; kNoFace where the greatest section does.
+  std::vector<uint8_t> isJudged;     ///< #F, 0 where `least` does not count: no value, or a misoriented component.
+  SharpEdges sharp;                  ///< Of the domain.
   std::optional<GreatestSection> greatestSection;  ///< Of all closed solids.
+  UnjudgedFaces unjudged;
+  std::vector<ThinPart> thinParts;  ///< In normalised coordinates. Empty without a limit.
 };
 
 /// Of each face of the domain that is not degenerate: the least diameter over its opposing walls, at most the greatest
@@ -27,7 +32,7 @@ struct FaceThickness {
 /// The field: for each input face the least value of its triangles; NaN without one. values: #F. Returns #I.
 [[nodiscard]] std::vector<double> thicknessOfInputFaces(const TriangleMesh& mesh, std::span<const double> values);
 
-/// Percentiles, and the regions below the limit if there is one, of the faces of the domain.
+/// Percentiles, sharp edges and, with a limit, the verdict and the thin regions. surface: receives the thin parts.
 [[nodiscard]] ThicknessReport describeThickness(const Computation& computation, const FaceThickness& thickness,
                                                 ThinSurface& surface);
 

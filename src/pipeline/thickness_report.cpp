@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
-#include <utility>
+#include <numbers>
+#include <optional>
+#include <set>
 
 #include "core/weighted_sample.h"
 #include "pipeline/result.h"
@@ -9,108 +11,205 @@
 namespace asdfvk {
 namespace {
 
-/// By area, over the triangles with a value.
-void describePercentiles(std::span<const double> values, std::span<const double> areas, ThicknessReport& report) {
-  WeightedSample sample;
-  for (size_t face = 0; face < values.size(); ++face)
-    if (!std::isnan(values[face])) sample.add(values[face], areas[face]);
-  if (sample.isEmpty()) return;
-  sample.sort();
-  report.percentile1 = sample.quantile(0.01);
-  report.percentile5 = sample.quantile(0.05);
-  report.median = sample.quantile(0.5);
-  report.percentile95 = sample.quantile(0.95);
-  report.max = sample.max();
-}
+class Description {
+ public:
+  Description(const Computation& computation, const FaceThickness& thickness)
+      : computation_(computation),
+        thickness_(thickness),
+        prepared_(computation.prepared),
+        unit_(computation.scene.bvh.normalization) {}
 
-/// The thin faces that are connected with `first`, itself included; ascending.
-std::vector<uint32_t> takeRegion(const DualGraph& graph, uint32_t first, std::vector<uint8_t>& isThin) {
-  std::vector<uint32_t> region{first};
-  isThin[first] = 0;
-  for (size_t i = 0; i < region.size(); ++i)
-    for (const uint32_t neighbour : graph.neighboursOf(region[i]))
-      if (std::exchange(isThin[neighbour], uint8_t{0}) != 0) region.push_back(neighbour);
-  std::sort(region.begin(), region.end());
-  return region;
-}
+  ThicknessReport run(ThinSurface& surface) {
+    const ThicknessOptions& options = computation_.options.thickness;
+    describePercentiles();
+    report_.noValueCount =
+        countWithoutValue(computation_.domain, thicknessOfInputFaces(prepared_.mesh, thickness_.least));
+    if (thickness_.greatestSection)
+      report_.greatestSection = {thickness_.greatestSection->diameter, thickness_.greatestSection->centre};
+    describeSharpEdges();
+    report_.unjudged = thickness_.unjudged;
+    report_.thinnerThan = options.thinnerThan;
+    report_.allowsSharpEdges = options.allowsSharpEdges;
+    if (report_.thinnerThan) describeRegions(surface);
+    describeLeast();
+    if (report_.thinnerThan) report_.verdict = verdict();
+    return std::move(report_);
+  }
 
-ThinRegion describeRegion(const Computation& computation, const FaceThickness& thickness,
-                          std::span<const uint32_t> faces) {
-  const PreparedMesh& prepared = computation.prepared;
-  const std::span<const double> values = thickness.least;
-  ThinRegion region;
-  const uint32_t thinnest =
-      *std::min_element(faces.begin(), faces.end(), [&](uint32_t a, uint32_t b) { return values[a] < values[b]; });
-  region.min = values[thinnest];
-  region.minFace = prepared.mesh.inputFaceOf(thinnest);
-  region.place = region.opposite = prepared.geometry.barycentres[thinnest];
-  if (const uint32_t wall = thickness.leastWalls[thinnest]; wall != kNoFace) {
-    const TraceScene& scene = computation.scene;
-    const TouchingBall ball = leastTouchingBall(triangleOf(scene, thinnest), triangleOf(scene, wall), kMinWallDepth);
-    const Normalization& normalization = scene.bvh.normalization;
-    region.place = ball.onFace / normalization.scale + normalization.centre;
-    region.opposite = ball.onWall / normalization.scale + normalization.centre;
-  }
-  uint64_t lastInputFace = prepared.mesh.inputFaceCount();
-  for (const uint32_t face : faces) {
-    region.area += prepared.geometry.areas[face];
-    region.faceCount += prepared.mesh.inputFaceOf(face) == lastInputFace ? 0 : 1;
-    lastInputFace = prepared.mesh.inputFaceOf(face);
-  }
-  return region;
-}
+ private:
+  /// The points at which the least thickness of a face is measured, in the unit of the mesh.
+  struct Place {
+    Vec3d onFace, onWall;
+  };
 
-/// Of the faces of the domain.
-double totalArea(const PreparedMesh& prepared, const FaceDomain& domain) {
-  double total = 0;
-  for (uint32_t face = 0; face < prepared.mesh.faceCount(); ++face)
-    if (domain.contains(prepared.mesh.inputFaceOf(face))) total += prepared.geometry.areas[face];
-  return total;
-}
+  [[nodiscard]] Vec3d toMesh(const Vec3d& p) const { return p / unit_.scale + unit_.centre; }
 
-void describeThinRegions(const Computation& computation, const FaceThickness& thickness, double limit,
-                         ThicknessReport& report, ThinSurface& surface) {
-  const PreparedMesh& prepared = computation.prepared;
-  const std::span<const double> values = thickness.least;
-  std::vector<uint8_t> isThin(values.size());
-  for (size_t face = 0; face < values.size(); ++face) isThin[face] = values[face] < limit ? 1 : 0;
-  for (uint32_t face = 0; face < values.size(); ++face)
-    if (isThin[face] != 0)
-      report.thinRegions.push_back(describeRegion(computation, thickness, takeRegion(prepared.graph, face, isThin)));
-  for (uint32_t face = 0; face < values.size(); ++face) {
-    if (!(values[face] < limit)) continue;
-    const auto& [a, b, c] = prepared.mesh.faces[face];
-    surface.triangles.push_back({prepared.mesh.vertices[a], prepared.mesh.vertices[b], prepared.mesh.vertices[c]});
-    surface.regions.push_back(0);
+  void describePercentiles() {
+    WeightedSample sample;
+    for (size_t face = 0; face < thickness_.atBarycentre.size(); ++face)
+      if (!std::isnan(thickness_.atBarycentre[face]))
+        sample.add(thickness_.atBarycentre[face], prepared_.geometry.areas[face]);
+    if (sample.isEmpty()) return;
+    sample.sort();
+    report_.percentile1 = sample.quantile(0.01);
+    report_.percentile5 = sample.quantile(0.05);
+    report_.median = sample.quantile(0.5);
+    report_.percentile95 = sample.quantile(0.95);
+    report_.max = sample.max();
   }
-  const double total = totalArea(prepared, computation.domain);
-  for (ThinRegion& region : report.thinRegions) {
-    region.areaShare = total > 0 ? region.area / total : 0;
-    report.thinArea += region.area;
-    report.thinAreaShare += region.areaShare;
+
+  void describeSharpEdges() {
+    for (const SharpLine& line : thickness_.sharp.lines)
+      report_.sharpEdges.push_back({std::acos(std::clamp(line.cosine, -1.0, 1.0)) * 180 / std::numbers::pi, line.length,
+                                    line.edgeCount, line.place, prepared_.mesh.inputFaceOf(line.face)});
   }
-  std::stable_sort(report.thinRegions.begin(), report.thinRegions.end(),
-                   [](const ThinRegion& a, const ThinRegion& b) { return a.area > b.area; });
-}
+
+  /// Of a face or a part of it: where its least ball touches it and the wall.
+  [[nodiscard]] Place placeOf(uint32_t face, const std::array<Vec3d, 3>& corners, uint32_t wall) const {
+    const Vec3d& normal = prepared_.geometry.normals[face];
+    if (wall != kNoFace) {
+      const TouchingBall ball =
+          leastTouchingBall({corners, normal}, triangleOf(computation_.scene, wall), kMinWallDepth);
+      return {toMesh(ball.onFace), toMesh(ball.onWall)};
+    }
+    const Vec3d middle = toMesh((corners[0] + corners[1] + corners[2]) / 3.0);
+    return {middle, middle - thickness_.least[face] * normal};
+  }
+
+  /// At the sharp corner or edge of a face.
+  [[nodiscard]] Vec3d sharpPlaceOf(uint32_t face) const {
+    const auto corner = [&](size_t k) { return prepared_.mesh.vertices[prepared_.mesh.faces[face][k % 3]]; };
+    for (size_t k = 0; k < 3; ++k)
+      if (thickness_.sharp.hasEdge(face, k)) return 0.5 * (corner(k) + corner(k + 1));
+    for (size_t k = 0; k < 3; ++k)
+      if (thickness_.sharp.hasCorner(face, k)) return corner(k);
+    return prepared_.geometry.barycentres[face];
+  }
+
+  void describeRegions(ThinSurface& surface) {
+    const std::span<const ThinPart> parts = thickness_.thinParts;
+    std::vector<std::vector<uint32_t>> partsOf;
+    for (uint32_t i = 0; i < parts.size(); ++i) {
+      if (parts[i].region >= partsOf.size()) partsOf.resize(parts[i].region + 1);
+      partsOf[parts[i].region].push_back(i);
+    }
+    std::vector<ThinRegion> regions;
+    for (std::vector<uint32_t>& ofRegion : partsOf) regions.push_back(describeRegion(ofRegion));
+    std::vector<uint32_t> order(regions.size());
+    for (uint32_t i = 0; i < order.size(); ++i) order[i] = i;
+    std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
+      const ThinRegion &first = regions[a], &second = regions[b];
+      if (first.isSharp != second.isSharp) return !first.isSharp;
+      return first.isSharp || first.min == second.min ? first.area > second.area : first.min < second.min;
+    });
+    const double total = totalArea();
+    for (const uint32_t region : order) {
+      ThinRegion& described = regions[region];
+      described.areaShare = total > 0 ? described.area / total : 0;
+      report_.thinArea += described.area;
+      report_.thinAreaShare += described.areaShare;
+      for (const uint32_t i : partsOf[region]) {
+        const std::array<Vec3d, 3>& corners = parts[i].corners;
+        surface.triangles.push_back({toMesh(corners[0]), toMesh(corners[1]), toMesh(corners[2])});
+        surface.regions.push_back(static_cast<uint32_t>(report_.thinRegions.size()));
+      }
+      report_.thinRegions.push_back(described);
+    }
+  }
+
+  /// Leaves in `ofRegion` the parts that are thin at their middle: their area is that of the region. Where there is
+  /// none, the part with the least thickness.
+  [[nodiscard]] ThinRegion describeRegion(std::vector<uint32_t>& ofRegion) const {
+    const std::span<const ThinPart> parts = thickness_.thinParts;
+    ThinRegion region;
+    std::set<uint64_t> inputFaces;
+    for (const uint32_t i : ofRegion) {
+      inputFaces.insert(prepared_.mesh.inputFaceOf(parts[i].face));
+      region.isSharp = region.isSharp || parts[i].isSharp;
+    }
+    region.faceCount = inputFaces.size();
+    const auto rank = [&](uint32_t i) {
+      return std::pair(region.isSharp && parts[i].isSharp ? 0.0 : parts[i].least.ball.diameter, i);
+    };
+    const uint32_t thinnest = *std::min_element(ofRegion.begin(), ofRegion.end(),
+                                                [&](uint32_t a, uint32_t b) { return rank(a) < rank(b); });
+    const ThinPart& part = parts[thinnest];
+    region.minFace = prepared_.mesh.inputFaceOf(part.face);
+    if (region.isSharp) {
+      region.place = region.opposite = sharpPlaceOf(part.face);
+    } else {
+      region.min = unit_.toMeshLength(part.least.ball.diameter);
+      const Place place = placeOf(part.face, part.corners, part.least.wall);
+      region.place = place.onFace;
+      region.opposite = place.onWall;
+    }
+    std::erase_if(ofRegion, [&](uint32_t i) { return !parts[i].isThinAtMiddle; });
+    if (ofRegion.empty()) ofRegion.push_back(thinnest);
+    for (const uint32_t i : ofRegion) region.area += areaOf(parts[i]);
+    return region;
+  }
+
+  [[nodiscard]] double areaOf(const ThinPart& part) const {
+    const auto& [a, b, c] = part.corners;
+    return 0.5 * length(cross(b - a, c - a)) / unit_.scale / unit_.scale;
+  }
+
+  /// Of the faces of the domain.
+  [[nodiscard]] double totalArea() const {
+    double total = 0;
+    for (uint32_t face = 0; face < prepared_.mesh.faceCount(); ++face)
+      if (computation_.domain.contains(prepared_.mesh.inputFaceOf(face))) total += prepared_.geometry.areas[face];
+    return total;
+  }
+
+  /// The least thickness: of the first region that counts, or of all faces without a part in a sharp region that does
+  /// not count.
+  void describeLeast() {
+    for (const ThinRegion& region : report_.thinRegions) {
+      if (region.isSharp && report_.allowsSharpEdges) continue;
+      if (region.min < report_.min || std::isnan(report_.min)) takeLeast(region.min, region.minFace, region.place, region.opposite);
+    }
+    if (!std::isnan(report_.min)) return;
+    std::vector<uint8_t> isLeftOut(thickness_.least.size());
+    for (const ThinPart& part : thickness_.thinParts) isLeftOut[part.face] = 1;
+    std::optional<uint32_t> thinnest;
+    for (uint32_t face = 0; face < thickness_.least.size(); ++face)
+      if (thickness_.isJudged[face] != 0 && isLeftOut[face] == 0 &&
+          !(thinnest && thickness_.least[*thinnest] <= thickness_.least[face]))
+        thinnest = face;
+    if (!thinnest) return;
+    const double least = thickness_.least[*thinnest];
+    Place place = placeOf(*thinnest, triangleOf(computation_.scene, *thinnest).corners, thickness_.leastWalls[*thinnest]);
+    if (least == 0) place.onFace = place.onWall = sharpPlaceOf(*thinnest);
+    takeLeast(least, prepared_.mesh.inputFaceOf(*thinnest), place.onFace, place.onWall);
+  }
+
+  void takeLeast(double least, uint64_t face, const Vec3d& place, const Vec3d& opposite) {
+    report_.min = least;
+    report_.minFace = face;
+    report_.minPlace = place;
+    report_.minOpposite = opposite;
+  }
+
+  [[nodiscard]] ThicknessVerdict verdict() const {
+    for (const ThinRegion& region : report_.thinRegions)
+      if (!region.isSharp || !report_.allowsSharpEdges) return ThicknessVerdict::Failed;
+    const bool hasValue = std::find(thickness_.isJudged.begin(), thickness_.isJudged.end(), 1) != thickness_.isJudged.end();
+    return !hasValue || report_.unjudged.preventVerdict() ? ThicknessVerdict::NotJudged : ThicknessVerdict::Passed;
+  }
+
+  const Computation& computation_;
+  const FaceThickness& thickness_;
+  const PreparedMesh& prepared_;
+  const Normalization& unit_;
+  ThicknessReport report_;
+};
 
 }  // namespace
 
 ThicknessReport describeThickness(const Computation& computation, const FaceThickness& thickness,
                                   ThinSurface& surface) {
-  const PreparedMesh& prepared = computation.prepared;
-  ThicknessReport report;
-  describePercentiles(thickness.atBarycentre, prepared.geometry.areas, report);
-  for (const double least : thickness.least)
-    if (!(report.min <= least) && !std::isnan(least)) report.min = least;
-  report.noValueCount = countWithoutValue(computation.domain, thicknessOfInputFaces(prepared.mesh, thickness.least));
-  if (thickness.greatestSection)
-    report.greatestSection = {thickness.greatestSection->diameter, thickness.greatestSection->centre};
-  report.thinnerThan = computation.options.thickness.thinnerThan;
-  if (report.thinnerThan) describeThinRegions(computation, thickness, *report.thinnerThan, report, surface);
-  report.allowsSharpEdges = computation.options.thickness.allowsSharpEdges;
-  if (report.thinnerThan)
-    report.verdict = report.min < *report.thinnerThan ? ThicknessVerdict::Failed : ThicknessVerdict::Passed;
-  return report;
+  return Description(computation, thickness).run(surface);
 }
 
 }  // namespace asdfvk

@@ -9,12 +9,11 @@
 #include "core/box3.h"
 #include "mesh/coincident_faces.h"
 #include "trace/nearest_hit.h"
+#include "trace/nearest_point.h"
 
 namespace asdfvk {
 namespace {
 
-/// Feet of equal distance on several faces, up to rounding.
-constexpr double kEqualDistance = 1e-12;
 /// Cubes that a search divides at most; the bound of the last one is returned.
 constexpr uint32_t kMaxCubeCount = 200'000;
 /// Along the longest side of the box of the solid.
@@ -22,42 +21,9 @@ constexpr double kFirstCubeCount = 4;
 // Corners so near to a plane are in it: coordinates in float32.
 constexpr double kFlat = 0x1p-22;
 
-Vec3d nearestOnSegment(const Vec3d& a, const Vec3d& b, const Vec3d& p) {
-  const Vec3d edge = b - a;
-  return a + std::clamp(dot(p - a, edge) / dot(edge, edge), 0.0, 1.0) * edge;
-}
-
-struct Corners {
-  Vec3d a, b, c;
-
-  /// The nearest point of the triangle.
-  [[nodiscard]] Vec3d nearest(const Vec3d& p, const Vec3d& normal) const {
-    if (isAbove(p, normal)) return p - dot(p - a, normal) * normal;
-    Vec3d best = nearestOnSegment(a, b, p);
-    for (const Vec3d& candidate : {nearestOnSegment(b, c, p), nearestOnSegment(c, a, p)})
-      if (length(p - candidate) < length(p - best)) best = candidate;
-    return best;
-  }
-
-  /// Whether the projection of p is in the triangle.
-  [[nodiscard]] bool isAbove(const Vec3d& p, const Vec3d& normal) const {
-    const auto isInside = [&](const Vec3d& from, const Vec3d& to) {
-      return dot(cross(to - from, p - from), normal) >= 0;
-    };
-    return isInside(a, b) && isInside(b, c) && isInside(c, a);
-  }
-};
-
 /// Distances from the faces of one solid.
 class SolidSurface {
  public:
-  struct Foot {
-    double distance = std::numeric_limits<double>::infinity();
-    Vec3d point;
-    uint32_t face = kNoFace;
-    double side = 0;  ///< Cosine between the normal and the way from the foot; above 0 outside.
-  };
-
   SolidSurface(const TraceScene& scene, const FaceCopies& copies, std::span<const uint32_t> solidOf, uint32_t solid)
       : scene_(scene), copies_(copies), solidOf_(solidOf), solid_(solid) {}
 
@@ -68,32 +34,11 @@ class SolidSurface {
     return kNoFace;
   }
   [[nodiscard]] const Vec3d& normal(uint32_t face) const { return scene_.geometry.normals[face]; }
-  [[nodiscard]] Corners cornersOf(uint32_t face) const {
-    const auto& [i, j, k] = scene_.mesh.faces[face];
-    const auto at = [&](uint32_t v) { return scene_.bvh.normalization.toNormalized(scene_.mesh.vertices[v]); };
-    return {at(i), at(j), at(k)};
-  }
+  [[nodiscard]] TriangleCorners cornersOf(uint32_t face) const { return asdfvk::cornersOf(scene_, face); }
 
-  /// The nearest point; any point at most `enough` away where there is one.
-  [[nodiscard]] Foot nearest(const Vec3d& p, double enough = 0) const {
-    Foot best;
-    std::array<uint32_t, kMaxBvhDepth + 1> stack;
-    size_t stackSize = 0;
-    if (!scene_.bvh.nodes.empty()) stack[stackSize++] = 0;
-    while (stackSize > 0) {
-      const BvhNode& node = scene_.bvh.nodes[stack[--stackSize]];
-      if (best.distance < enough) break;
-      if (distance(node, p) > best.distance + kEqualDistance) continue;
-      if (node.isLeaf()) {
-        for (uint32_t i = node.first; i < node.first + node.triangleCount; ++i)
-          visit(scene_.bvh.primitiveFaces[i], p, best);
-        continue;
-      }
-      const bool leftFirst = distance(scene_.bvh.nodes[node.first], p) < distance(scene_.bvh.nodes[node.first + 1], p);
-      stack[stackSize++] = node.first + (leftFirst ? 1 : 0);
-      stack[stackSize++] = node.first + (leftFirst ? 0 : 1);
-    }
-    return best;
+  /// Any point less than `enough` away where there is one.
+  [[nodiscard]] SurfacePoint nearest(const Vec3d& p, double enough = 0) const {
+    return nearestSurfacePoint(scene_, p, enough, [&](uint32_t face) { return copyOf(face); });
   }
 
   /// Whether the surface within a distance of a point of a face is all in the plane of that face: as the solid is
@@ -103,7 +48,7 @@ class SolidSurface {
     const double offset = dot(plane, cornersOf(face).a);
     bool isFlat = true;
     forEachNear(point, radius, [&](uint32_t other) {
-      const Corners corners = cornersOf(other);
+      const TriangleCorners corners = cornersOf(other);
       if (length(point - corners.nearest(point, normal(other))) > radius) return true;
       for (const Vec3d& corner : {corners.a, corners.b, corners.c})
         isFlat = isFlat && std::abs(dot(plane, corner) - offset) <= kFlat;
@@ -129,7 +74,7 @@ class SolidSurface {
     if (!scene_.bvh.nodes.empty()) stack[stackSize++] = 0;
     while (stackSize > 0) {
       const BvhNode& node = scene_.bvh.nodes[stack[--stackSize]];
-      if (distance(node, p) > radius) continue;
+      if (distanceToBox(node, p) > radius) continue;
       if (!node.isLeaf()) {
         stack[stackSize++] = node.first;
         stack[stackSize++] = node.first + 1;
@@ -140,29 +85,6 @@ class SolidSurface {
         if (face != kNoFace && !visit(face)) return;
       }
     }
-  }
-
-  static double distance(const BvhNode& box, const Vec3d& p) {
-    double square = 0;
-    for (size_t axis = 0; axis < 3; ++axis) {
-      const double gap = std::max({box.min[axis] - p[axis], p[axis] - box.max[axis], 0.0});
-      square += gap * gap;
-    }
-    return std::sqrt(square);
-  }
-
-  /// Where feet coincide on an edge or a vertex, the face that the way from the foot meets most steeply has the side.
-  void visit(uint32_t primitiveFace, const Vec3d& p, Foot& best) const {
-    const uint32_t face = copyOf(primitiveFace);
-    if (face == kNoFace) return;
-    const Corners corners = cornersOf(face);
-    if (std::abs(dot(p - corners.a, normal(face))) > best.distance + kEqualDistance) return;
-    const Vec3d foot = corners.nearest(p, normal(face)), way = p - foot;
-    const double distance = length(way);
-    if (distance > best.distance + kEqualDistance) return;
-    const double side = distance > 0 ? dot(way, normal(face)) / distance : 0;
-    if (distance >= best.distance - kEqualDistance && std::abs(side) <= std::abs(best.side)) return;
-    best = {std::min(distance, best.distance), foot, face, side};
   }
 
   const TraceScene& scene_;
@@ -205,7 +127,7 @@ class Search {
   void add(const Vec3d& centre, double halfSide) {
     const double reach = std::sqrt(3.0) * halfSide;
     const double enough = (1 + kSectionTolerance) * radius_ - reach;
-    const SolidSurface::Foot foot = surface_.nearest(centre, enough);
+    const SurfacePoint foot = surface_.nearest(centre, enough);
     if (foot.face == kNoFace || foot.distance < enough) return;
     if (foot.side >= 0) {  // Outside.
       if (reach - foot.distance > radius_) cubes_.push({centre, halfSide, reach - foot.distance});
@@ -225,7 +147,7 @@ class Search {
 
   /// By the foot and the point of the wall opposite of it. A ball with its centre at most `reach` away contains
   /// neither.
-  double boundByWalls(const Vec3d& centre, const SolidSurface::Foot& foot, double reach) {
+  double boundByWalls(const Vec3d& centre, const SurfacePoint& foot, double reach) {
     const Vec3d away = (centre - foot.point) / foot.distance;
     const RayHit hit = surface_.opposite(centre, away);
     if (hit.face == kNoFace) return std::numeric_limits<double>::infinity();
@@ -245,7 +167,7 @@ class Search {
   }
 
   void improve(const Vec3d& centre) {
-    const SolidSurface::Foot foot = surface_.nearest(centre);
+    const SurfacePoint foot = surface_.nearest(centre);
     if (foot.side < 0) offer(centre, foot.distance);
   }
 

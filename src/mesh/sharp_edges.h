@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "mesh/face_geometry.h"
+#include "mesh/mesh.h"
+#include "mesh/point_fans.h"
+
+namespace asdfvk {
+
+/// Edges, connected over points, at which opposing walls meet; or one point at which they meet without an edge.
+struct SharpLine {
+  double cosine = -1;  ///< Of the least inner angle between the walls.
+  double length = 0;   ///< Of all edges; 0 at a tip.
+  uint64_t edgeCount = 0;
+  Vec3d place;  ///< The middle of the edge with the least angle, or the tip.
+  uint32_t face = 0;
+};
+
+struct SharpEdges {
+  std::vector<SharpLine> lines;  ///< By ascending angle.
+  /// #F, bits: k, the face is thin at its corner k; 3 + k, it is sharp along the edge from corner k to the next one.
+  std::vector<uint8_t> faceBits;
+
+  [[nodiscard]] bool hasCorner(uint32_t face, size_t k) const { return (faceBits[face] >> k & 1) != 0; }
+  [[nodiscard]] bool hasEdge(uint32_t face, size_t k) const { return (faceBits[face] >> (3 + k) & 1) != 0; }
+};
+
+/// Two faces that share a point meet sharply if they oppose each other, by the greatest cosine between their normals,
+/// and one is below the plane of the other by more than minDepth: as thin as one likes near the point. In fans of more
+/// than kMaxComparedFaces each face is compared with so many others and with those that share an edge with it.
+[[nodiscard]] SharpEdges findSharpEdges(const TriangleMesh& mesh, const FaceGeometry& geometry, const PointFans& fans,
+                                        double maxCosine, double minDepth);
+
+inline constexpr size_t kMaxComparedFaces = 256;
+
+}  // namespace asdfvk

@@ -1,0 +1,93 @@
+#include "trace/crossed_faces.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+
+#include "core/box3.h"
+#include "core/parallel.h"
+#include "trace/chunks.h"
+#include "trace/wall_tree.h"
+
+namespace asdfvk {
+namespace {
+
+constexpr size_t kFirstChunkSize = 16384, kGrain = 256;
+
+bool sharesPoint(const PlaneTriangle& a, const PlaneTriangle& b) {
+  for (const Vec3d& corner : a.corners)
+    if (std::find(b.corners.begin(), b.corners.end(), corner) != b.corners.end()) return true;
+  return false;
+}
+
+/// Whether an edge of the first triangle passes through the second one.
+bool crosses(const PlaneTriangle& edges, const PlaneTriangle& triangle, double minDepth) {
+  std::array<double, 3> heights;
+  for (size_t k = 0; k < 3; ++k) heights[k] = dot(edges.corners[k] - triangle.corners[0], triangle.normal);
+  for (size_t k = 0; k < 3; ++k) {
+    const size_t next = (k + 1) % 3;
+    if (std::min(heights[k], heights[next]) > -minDepth || std::max(heights[k], heights[next]) < minDepth) continue;
+    const double t = heights[k] / (heights[k] - heights[next]);
+    const Vec3d p = edges.corners[k] + t * (edges.corners[next] - edges.corners[k]);
+    bool isInside = true;
+    for (size_t i = 0; i < 3; ++i) {
+      const Vec3d &a = triangle.corners[i], edge = triangle.corners[(i + 1) % 3] - a;
+      isInside = isInside && dot(cross(edge, p - a), triangle.normal) > minDepth * length(edge);
+    }
+    if (isInside) return true;
+  }
+  return false;
+}
+
+bool overlaps(const BvhNode& node, const Box3f& box) {
+  for (size_t axis = 0; axis < 3; ++axis)
+    if (node.min[axis] > box.max[axis] || node.max[axis] < box.min[axis]) return false;
+  return true;
+}
+
+/// Calls visit(face) for the faces in leaves whose boxes overlap the box.
+template <typename Visit>
+void forEachNear(const Bvh& bvh, const Box3f& box, const Visit& visit) {
+  std::array<uint32_t, kMaxBvhDepth + 2> stack;
+  size_t stackSize = 0;
+  if (!bvh.nodes.empty()) stack[stackSize++] = 0;
+  while (stackSize > 0) {
+    const BvhNode& node = bvh.nodes[stack[--stackSize]];
+    if (!overlaps(node, box)) continue;
+    if (!node.isLeaf()) {
+      stack[stackSize++] = node.first;
+      stack[stackSize++] = node.first + 1;
+      continue;
+    }
+    for (uint32_t i = node.first; i < node.first + node.triangleCount; ++i) visit(bvh.primitiveFaces[i]);
+  }
+}
+
+}  // namespace
+
+std::vector<uint8_t> findCrossedFaces(const TraceScene& scene, double minDepth, const RunControl& control) {
+  std::vector<uint8_t> isCrossed(scene.mesh.faceCount());
+  const std::span<const uint32_t> faces = scene.bvh.primitiveFaces;
+  const auto mark = [&](uint32_t face) { std::atomic_ref(isCrossed[face]).store(1, std::memory_order_relaxed); };
+  forEachChunk(faces.size(), ChunkSize(kFirstChunkSize, faces.size()), control, [&](size_t begin, size_t end) {
+    forEachRange(end - begin, kGrain, [&](size_t first, size_t last) {
+      for (size_t i = begin + first; i < begin + last; ++i) {
+        const uint32_t face = faces[i];
+        const PlaneTriangle triangle = triangleOf(scene, face);
+        Box3f box;
+        for (const Vec3d& corner : triangle.corners) box.add(Vec3f(corner));
+        forEachNear(scene.bvh, box, [&](uint32_t other) {
+          if (other <= face) return;
+          const PlaneTriangle second = triangleOf(scene, other);
+          if (sharesPoint(triangle, second)) return;
+          if (!crosses(triangle, second, minDepth) && !crosses(second, triangle, minDepth)) return;
+          mark(face);
+          mark(other);
+        });
+      }
+    });
+  });
+  return isCrossed;
+}
+
+}  // namespace asdfvk

@@ -1,0 +1,80 @@
+#include "trace/nearest_point.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace asdfvk {
+namespace {
+
+/// Points at equal distances on several faces, up to rounding.
+constexpr double kEqualDistance = 1e-12;
+
+Vec3d nearestOnSegment(const Vec3d& a, const Vec3d& b, const Vec3d& p) {
+  const Vec3d edge = b - a;
+  return a + std::clamp(dot(p - a, edge) / dot(edge, edge), 0.0, 1.0) * edge;
+}
+
+void offer(const TraceScene& scene, uint32_t face, const Vec3d& p, SurfacePoint& best) {
+  const TriangleCorners corners = cornersOf(scene, face);
+  const Vec3d& normal = scene.geometry.normals[face];
+  if (std::abs(dot(p - corners.a, normal)) > best.distance + kEqualDistance) return;
+  const Vec3d point = corners.nearest(p, normal), way = p - point;
+  const double distance = length(way);
+  if (distance > best.distance + kEqualDistance) return;
+  const double side = distance > 0 ? dot(way, normal) / distance : 0;
+  if (distance >= best.distance - kEqualDistance && std::abs(side) <= std::abs(best.side)) return;
+  best = {std::min(distance, best.distance), point, face, side};
+}
+
+}  // namespace
+
+Vec3d TriangleCorners::nearest(const Vec3d& p, const Vec3d& normal) const {
+  const auto isInside = [&](const Vec3d& from, const Vec3d& to) {
+    return dot(cross(to - from, p - from), normal) >= 0;
+  };
+  if (isInside(a, b) && isInside(b, c) && isInside(c, a)) return p - dot(p - a, normal) * normal;
+  Vec3d best = nearestOnSegment(a, b, p);
+  for (const Vec3d& candidate : {nearestOnSegment(b, c, p), nearestOnSegment(c, a, p)})
+    if (length(p - candidate) < length(p - best)) best = candidate;
+  return best;
+}
+
+TriangleCorners cornersOf(const TraceScene& scene, uint32_t face) {
+  const auto& [i, j, k] = scene.mesh.faces[face];
+  const auto at = [&](uint32_t vertex) { return scene.bvh.normalization.toNormalized(scene.mesh.vertices[vertex]); };
+  return {at(i), at(j), at(k)};
+}
+
+double distanceToBox(const BvhNode& box, const Vec3d& p) {
+  double square = 0;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    const double gap = std::max({box.min[axis] - p[axis], p[axis] - box.max[axis], 0.0});
+    square += gap * gap;
+  }
+  return std::sqrt(square);
+}
+
+SurfacePoint nearestSurfacePoint(const TraceScene& scene, const Vec3d& p, double enough,
+                                 FunctionRef<uint32_t(uint32_t)> faceOf) {
+  SurfacePoint best;
+  const std::span<const BvhNode> nodes = scene.bvh.nodes;
+  std::array<uint32_t, kMaxBvhDepth + 1> stack;
+  size_t stackSize = 0;
+  if (!nodes.empty()) stack[stackSize++] = 0;
+  while (stackSize > 0 && !(best.distance < enough)) {
+    const BvhNode& node = nodes[stack[--stackSize]];
+    if (distanceToBox(node, p) > best.distance + kEqualDistance) continue;
+    if (node.isLeaf()) {
+      for (uint32_t i = node.first; i < node.first + node.triangleCount; ++i)
+        if (const uint32_t face = faceOf(scene.bvh.primitiveFaces[i]); face != kNoFace) offer(scene, face, p, best);
+      continue;
+    }
+    const bool leftFirst = distanceToBox(nodes[node.first], p) < distanceToBox(nodes[node.first + 1], p);
+    stack[stackSize++] = node.first + (leftFirst ? 1 : 0);
+    stack[stackSize++] = node.first + (leftFirst ? 0 : 1);
+  }
+  return best;
+}
+
+}  // namespace asdfvk
