@@ -41,7 +41,10 @@ struct Computation {
   /// they are interpolated.
   [[nodiscard]] bool keepsMissing() const { return cone.definition == Definition::Cgal; }
   [[nodiscard]] bool measuresThickness() const { return options.measure == Measure::Thickness; }
-  [[nodiscard]] bool estimatesError() const { return options.estimatesError || options.rounds.limitError(); }
+  /// A thickness has no error; that of "sdf" beside it is not estimated unless a round needs it.
+  [[nodiscard]] bool estimatesError() const {
+    return (options.estimatesError && !measuresThickness()) || options.rounds.limitError();
+  }
 };
 
 }  // namespace asdfvk

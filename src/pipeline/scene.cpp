@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -12,6 +11,7 @@
 #include "core/parallel.h"
 #include "core/vec3.h"
 #include "pipeline/compute.h"
+#include "pipeline/surface_points.h"
 
 namespace asdfvk {
 namespace {
@@ -21,6 +21,12 @@ constexpr size_t kPointChunkSize = 1u << 16;
 
 Vec3d vectorAt(std::span<const double> numbers, size_t i) {
   return {numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]};
+}
+
+std::vector<Vec3d> vectorsOf(std::span<const double> numbers) {
+  std::vector<Vec3d> vectors(numbers.size() / 3);
+  for (size_t i = 0; i < vectors.size(); ++i) vectors[i] = vectorAt(numbers, i);
+  return vectors;
 }
 
 void requirePoints(std::span<const double> points, std::span<const double> normals) {
@@ -143,13 +149,21 @@ std::vector<double> Scene::valuesAt(std::span<const double> points, std::span<co
 }
 
 std::vector<double> Scene::thicknessAt(std::span<const double> points, std::span<const double> normals,
-                                       const ThicknessOptions&, const RunControl&) {
+                                       const ThicknessOptions& thickness, const RunControl& control) {
   requirePoints(points, normals);
-  throw std::logic_error("Scene::thicknessAt is not implemented yet");
+  std::vector<Vec3d> unitNormals(normals.size() / 3);
+  for (size_t i = 0; i < unitNormals.size(); ++i) unitNormals[i] = unitVector(vectorAt(normals, i));
+  return thicknessAtPoints(*state_->scene, vectorsOf(points), unitNormals, thickness, control);
 }
 
-std::vector<uint32_t> Scene::nearestFaces(std::span<const double>, const RunControl&) {
-  throw std::logic_error("Scene::nearestFaces is not implemented yet");
+std::vector<uint32_t> Scene::nearestFaces(std::span<const double> points, const RunControl& control) {
+  requirePoints(points, std::vector<double>(points.size(), 1));
+  std::vector<uint32_t> faces = nearestTriangles(*state_->scene, vectorsOf(points), control);
+  for (uint32_t& face : faces) {
+    if (face == kNoFace) throw Error(ErrorCode::NoValues, "the mesh has no face with an area");
+    face = state_->scene->prepared.mesh.inputFaceOf(face);
+  }
+  return faces;
 }
 
 }  // namespace asdfvk

@@ -1,0 +1,93 @@
+#include "pipeline/surface_points.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "core/parallel.h"
+#include "mesh/solids.h"
+#include "trace/chunks.h"
+#include "trace/greatest_section.h"
+#include "trace/nearest_point.h"
+#include "trace/seed_order.h"
+#include "trace/wall_tree.h"
+
+namespace asdfvk {
+namespace {
+
+constexpr size_t kFirstChunkSize = 4096, kBlockSize = 256;
+// Normalised: farther points are on no surface.
+constexpr double kMaxCoordinate = 2;
+// Progress after the nearest triangles, and after the greatest sections.
+constexpr double kNearestProgress = 0.3, kSectionsProgress = 0.5;
+
+}  // namespace
+
+std::vector<uint32_t> nearestTriangles(const PreparedScene& scene, std::span<const Vec3d> points,
+                                       const RunControl& control) {
+  const TraceScene view = scene.view();
+  std::vector<uint32_t> nearest(points.size());
+  forEachChunk(points.size(), ChunkSize(kFirstChunkSize, std::max<size_t>(points.size(), 1)), control,
+               [&](size_t begin, size_t end) {
+                 forEachInParallel(end - begin, [&](uint32_t i) {
+                   const Vec3d p = scene.bvh.normalization.toNormalized(points[begin + i]);
+                   nearest[begin + i] = nearestSurfacePoint(view, p, 0, [](uint32_t face) { return face; }).face;
+                 });
+               });
+  return nearest;
+}
+
+std::vector<double> thicknessAtPoints(const PreparedScene& scene, std::span<const Vec3d> points,
+                                      std::span<const Vec3d> normals, const ThicknessOptions& options,
+                                      const RunControl& control) {
+  const TraceScene view = scene.view();
+  const Normalization& unit = scene.bvh.normalization;
+  const std::vector<uint32_t> nearest = nearestTriangles(scene, points, control.part(0, kNearestProgress));
+  const Solids solids = findSolids(view.mesh, scene.prepared.components);
+  std::vector<uint8_t> isWanted(solids.isClosed.size());
+  for (const uint32_t face : nearest)
+    if (face != kNoFace) isWanted[solids.solidOf[face]] = solids.isClosed[solids.solidOf[face]];
+  const std::vector<GreatestSection> sections =
+      findGreatestSections(view, solids.solidOf, isWanted, control.part(kNearestProgress, kSectionsProgress));
+  const WallTree tree(view, makeOpposingWalls(options.wallAngleDegrees));
+  std::vector<double> values(points.size(), std::numeric_limits<double>::quiet_NaN());
+  // Points next to each other in the hierarchy find the same walls.
+  const SeedOrder seedOrder(view);
+  std::vector<uint32_t> order;
+  for (uint32_t i = 0; i < points.size(); ++i) {
+    const Vec3d p = unit.toNormalized(points[i]);
+    if (nearest[i] != kNoFace && std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) <= kMaxCoordinate)
+      order.push_back(i);
+  }
+  std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
+    return seedOrder.primitiveOf(nearest[a]) < seedOrder.primitiveOf(nearest[b]);
+  });
+  const auto measure = [&](std::span<const uint32_t> block) {
+    std::vector<BallQuery> queries(block.size());
+    for (size_t i = 0; i < block.size(); ++i) {
+      const Vec3d p = unit.toNormalized(points[block[i]]);
+      queries[i] = {{{p, p, p}, normals[block[i]]}, p, {}, {}};
+      queries[i].atPoint.ball.diameter = sections[solids.solidOf[nearest[block[i]]]].bound;
+      queries[i].least.ball.diameter = 0;  // Not asked for.
+    }
+    tree.shrink(queries);
+    for (size_t i = 0; i < block.size(); ++i) {
+      const InscribedBall& found = queries[i].atPoint;
+      const double diameter = found.wall == kNoFace ? sections[solids.solidOf[nearest[block[i]]]].diameter
+                                                    : found.ball.diameter;
+      if (std::isfinite(diameter)) values[block[i]] = unit.toMeshLength(diameter);
+    }
+  };
+  forEachChunk(order.size(), ChunkSize(kFirstChunkSize, std::max<size_t>(order.size(), 1)),
+               control.part(kSectionsProgress, 1), [&](size_t begin, size_t end) {
+                 const std::span<const uint32_t> chunk = std::span(order).subspan(begin, end - begin);
+                 forEachTask((chunk.size() + kBlockSize - 1) / kBlockSize, [&](size_t block) {
+                   const size_t first = block * kBlockSize;
+                   measure(chunk.subspan(first, std::min(kBlockSize, chunk.size() - first)));
+                 });
+               });
+  return values;
+}
+
+}  // namespace asdfvk
