@@ -17,7 +17,7 @@
 #include "support/computation.h"
 #include "support/measurement.h"
 #include "support/program.h"
-#include "trace/ball_shrinker.h"
+#include "trace/face_balls.h"
 #include "trace/greatest_section.h"
 
 namespace {

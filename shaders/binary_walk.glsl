@@ -1,4 +1,4 @@
-// Nearest hit of one query in the binary hierarchy of shared/bvh_layout.h. Needs Query, enterBox() and testTriangle().
+// Nearest hit of one ray in the binary hierarchy of shared/bvh_layout.h.
 layout(constant_id = 11) const uint kBinaryStackSize = kMaxBvhDepth;  // See kWideStackSize.
 
 DeviceBvhNode loadNode(uint index) {
@@ -6,17 +6,17 @@ DeviceBvhNode loadNode(uint index) {
   return decodeBvhNode(fetchNode(t), fetchNode(t + 1u), fetchNode(t + 2u), fetchNode(t + 3u));
 }
 
-Hit walkBinary(Query query, float limit, inout uint iterationCount) {
+Hit walkBinary(Query query, inout uint iterationCount) {
   uint stack[kBinaryStackSize];
   uint stackSize = 0u;
   uint current = 0u;
-  Hit hit = Hit(limit, kNoPrimitive, true);
+  Hit hit = Hit(kFarAway, kNoPrimitive, true);
 
   while (current != kNoReference) {
     while (current <= kReferenceFirstMask) {
       const DeviceBvhNode node = loadNode(current);
-      const float left = enterBox(node.leftMin, node.leftMax, node.leftNormals, query, hit.distance);
-      const float right = enterBox(node.rightMin, node.rightMax, node.rightNormals, query, hit.distance);
+      const float left = enterBox(node.leftMin, node.leftMax, query, hit.distance);
+      const float right = enterBox(node.rightMin, node.rightMax, query, hit.distance);
       const bool leftIsNear = left <= right;
       const float near = min(left, right);
       const float far = max(left, right);

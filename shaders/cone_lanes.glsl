@@ -35,7 +35,7 @@ void main() {
   for (uint ray = lane; ray < kRayCount; ray += kLanesPerCone) {
     const vec3 local = loadRay(ray).direction;
     const vec3 direction = local.x * start.tangent + local.y * start.bitangent + local.z * axis;
-    const Hit hit = FIND_NEAREST_HIT(makeQuery(start.origin, direction, start.excludedFace), kFarAway, iterationCount);
+    const Hit hit = FIND_NEAREST_HIT(makeQuery(start.origin, direction, start.excludedFace), iterationCount);
     if (!hit.isComplete) atomicAdd(incompleteCounts[slot], 1u);
     lengths[base + ray] = validLength(hit, axis, direction);
     if (kWritesHits && exists) hits[cone * kRayCount + ray] = encodeHit(hit);

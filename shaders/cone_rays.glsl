@@ -17,10 +17,6 @@ ConeOrigin loadOrigin(uint cone) {
   return decodeConeOrigin(imageLoad(originTexels, t), imageLoad(originTexels, t + 1), imageLoad(originTexels, t + 2));
 }
 
-#include "walk_parts.glsl"
-
-#include "ray_query.glsl"
-
 #include "nearest_hit.glsl"
 
 // The length of a ray; kDropped where it hits nothing, or where the hit is false: by the angle between the normal of

@@ -1,21 +1,23 @@
-// The nearest hit of one query, in the hierarchy for which the kernel is compiled. The file that includes this one
-// defines Query: ray_query.glsl or ball_query.glsl.
+// The nearest hit of one ray, in the hierarchy for which the kernel is compiled.
+#include "walk_parts.glsl"
+
+#include "ray_query.glsl"
+
 #include "binary_walk.glsl"
 #include "wide_walk.glsl"
 
 layout(constant_id = 6) const bool kIsWide = false;
 
-// limit: distances from this on are no hits.
-Hit findNearestHit(Query query, float limit, inout uint iterationCount) {
-  if (kIsWide) return walkWide(query, limit, iterationCount);
-  return walkBinary(query, limit, iterationCount);
+Hit findNearestHit(Query query, inout uint iterationCount) {
+  if (kIsWide) return walkWide(query, iterationCount);
+  return walkBinary(query, iterationCount);
 }
 
 #ifdef WALKS_TOGETHER
 #include "packet_walk.glsl"
 
-Hit findNearestHitTogether(Query query, float limit, inout uint iterationCount) {
-  if (kIsWide) return walkWideTogether(query, limit, iterationCount);
-  return walkBinaryTogether(query, limit, iterationCount);
+Hit findNearestHitTogether(Query query, inout uint iterationCount) {
+  if (kIsWide) return walkWideTogether(query, iterationCount);
+  return walkBinaryTogether(query, iterationCount);
 }
 #endif

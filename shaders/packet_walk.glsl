@@ -4,11 +4,11 @@
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #extension GL_KHR_shader_subgroup_ballot : require
 
-Hit walkBinaryTogether(Query query, float limit, inout uint iterationCount) {
+Hit walkBinaryTogether(Query query, inout uint iterationCount) {
   uint stack[kMaxBvhDepth + 1u];
   uint stackSize = 1u;
   stack[0] = 0u;
-  Hit hit = Hit(limit, kNoPrimitive, true);
+  Hit hit = Hit(kFarAway, kNoPrimitive, true);
   while (stackSize > 0u && iterationCount <= kIterationLimit) {
     --stackSize;
     const uint current = stack[stackSize];
@@ -17,8 +17,8 @@ Hit walkBinaryTogether(Query query, float limit, inout uint iterationCount) {
     iterationCount += 2u + end - primitive;
     if (primitive == end) {
       const DeviceBvhNode node = loadNode(current);
-      const float left = enterBox(node.leftMin, node.leftMax, node.leftNormals, query, hit.distance);
-      const float right = enterBox(node.rightMin, node.rightMax, node.rightNormals, query, hit.distance);
+      const float left = enterBox(node.leftMin, node.leftMax, query, hit.distance);
+      const float right = enterBox(node.rightMin, node.rightMax, query, hit.distance);
       const uint entered = subgroupOr((left < kFarAway ? 1u : 0u) | (right < kFarAway ? 2u : 0u));
       const bool leftIsNear = subgroupBroadcastFirst(left <= right ? 1u : 0u) != 0u;
       if ((entered & (leftIsNear ? 2u : 1u)) != 0u) {
@@ -36,13 +36,13 @@ Hit walkBinaryTogether(Query query, float limit, inout uint iterationCount) {
   return hit;
 }
 
-Hit walkWideTogether(Query query, float limit, inout uint iterationCount) {
+Hit walkWideTogether(Query query, inout uint iterationCount) {
   const bvec3 isNegative = bvec3(subgroupBroadcastFirst(uvec3(query.isNegative)));
   uint stackBases[kMaxWideBvhDepth];
   uint stackBits[kMaxWideBvhDepth];
   uint stackSize = 0u;
   Group group = Group(0u, 8u);
-  Hit hit = Hit(limit, kNoPrimitive, true);
+  Hit hit = Hit(kFarAway, kNoPrimitive, true);
   while (group.bits != 0u && iterationCount <= kIterationLimit) {
     const uint index = takeNearest(group, isNegative);
     if (hasMore(group)) {
@@ -52,7 +52,7 @@ Hit walkWideTogether(Query query, float limit, inout uint iterationCount) {
     }
     const DeviceWideNode node = loadWideNode(index);
     // The mask bounds the references of a lane at another node, should the subgroup have diverged.
-    const uint children = subgroupOr(enterChildren(index, node, query, hit.distance)) & node.childBits;
+    const uint children = subgroupOr(enterChildren(node, query, hit.distance)) & node.childBits;
     const uint leaves = node.childBits & ~kWideInnerBits;
     uint triangles = children & leaves;
     group = groupOf(node, children, isNegative);

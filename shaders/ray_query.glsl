@@ -1,6 +1,5 @@
-// The query of the traversals for one ray: the boxes that it enters, and the triangles that it hits.
+// The boxes that a ray enters, and the triangles that it hits.
 #include "ray_frame.glsl"
-#include "wide_boxes.glsl"
 
 struct Query {
   RayFrame frame;
@@ -42,7 +41,7 @@ const float kExitMargin = 1.0 + 14.0 * 5.9604645e-8;
 
 // Distance at which the ray enters the box; kFarAway where it misses the box or enters beyond `limit`. The margin of
 // the boxes covers the error of the triangle test (kDeviceBoxMargin).
-float enterBox(vec3 boxMin, vec3 boxMax, uint normalBounds, Query query, float limit) {
+float enterBox(vec3 boxMin, vec3 boxMax, Query query, float limit) {
   const vec3 t0 = (boxMin - query.origin) * query.inverseDirection;
   const vec3 t1 = (boxMax - query.origin) * query.inverseDirection;
   const vec3 tNear = min(t0, t1);
@@ -50,6 +49,18 @@ float enterBox(vec3 boxMin, vec3 boxMax, uint normalBounds, Query query, float l
   const float enter = max(max(tNear.x, tNear.y), max(tNear.z, 0.0));
   const float leave = min(min(tFar.x, tFar.y), tFar.z) * kExitMargin;
   return enter <= min(leave, limit) ? enter : kFarAway;
+}
+
+// Distances to the planes of four boxes on one axis. Bytes 0 to 2 are masked but not shifted; the scale corrects for
+// that. Signed conversions are faster than unsigned ones.
+vec4 distancesTo(uint bytes, float perByte, float start) {
+  const vec4 planes = vec4(int(bytes & 0xffu), int(bytes & 0xff00u), int(bytes & 0xff0000u), int(bytes >> 24));
+  return planes * (perByte * vec4(1.0, 1.0 / 256.0, 1.0 / 65536.0, 1.0)) + start;
+}
+
+// Sizes of a step of the bytes of a node.
+vec3 stepsOf(DeviceWideNode node) {
+  return uintBitsToFloat(uvec3(node.exponents << 23, node.exponents << 15, node.exponents << 7) & 0x7f800000u);
 }
 
 // A nibble of ones for each of the four boxes that the ray enters before `limit`. Distances are compared as integers,
@@ -70,7 +81,7 @@ uint enterBoxes(uvec3 near, uvec3 far, vec3 perByte, vec3 start, float limit) {
 }
 
 // The nibbles of childBits of the children that the ray enters before `limit`; the other nibbles are 0.
-uint enterChildren(uint index, DeviceWideNode node, Query query, float limit) {
+uint enterChildren(DeviceWideNode node, Query query, float limit) {
   const vec3 perByte = stepsOf(node) * query.inverseDirection;
   const vec3 start = (node.origin - query.origin) * query.inverseDirection;
   const uvec4 x = query.isNegative.x ? node.x.zwxy : node.x;

@@ -28,7 +28,7 @@ void main() {
   const vec3 local = loadRay(ray).direction;
   const vec3 direction = local.x * start.tangent + local.y * start.bitangent + local.z * axis;
   uint iterationCount = 0u;
-  const Hit hit = findNearestHit(makeQuery(start.origin, direction, start.excludedFace), kFarAway, iterationCount);
+  const Hit hit = findNearestHit(makeQuery(start.origin, direction, start.excludedFace), iterationCount);
   const float length = validLength(hit, axis, direction);
   lengths[ray * push.coneCount + cone] = hit.isComplete ? floatBitsToUint(length) : kIterationLimitBits;
   if (kWritesHits) hits[cone * kRayCount + ray] = encodeHit(hit);

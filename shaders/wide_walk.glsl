@@ -1,5 +1,4 @@
-// Nearest hit of one query in the wide hierarchy of shared/bvh_layout.h (Ylitie, Karras and Laine 2017). Needs Query
-// with isNegative, enterChildren() and testTriangles().
+// Nearest hit of one ray in the wide hierarchy of shared/bvh_layout.h (Ylitie, Karras and Laine 2017).
 #extension GL_KHR_shader_subgroup_vote : require
 
 // See VulkanWalkShape in src/trace/vulkan/vulkan_trace_choice.h. The defaults suffice too.
@@ -90,13 +89,13 @@ uint takePrimitive(inout LeafQueue queue, uint otherwise) {
 // with tests after each node, most lanes would be idle while a few lanes test triangles. Two triangles are tested at a
 // time, which hides the latency of loading them. Otherwise a lane with triangles waits until each lane of the subgroup
 // has some or has no node left (Aila and Laine 2009), which needs fewer registers.
-Hit walkWide(Query query, float limit, inout uint iterationCount) {
+Hit walkWide(Query query, inout uint iterationCount) {
   uint stackBases[kWideStackSize];
   uint stackBits[kWideStackSize];
   uint stackSize = 0u;
   Group group = Group(0u, 8u);  // The root.
   LeafQueue queue = LeafQueue(kNoLeaves, kNoLeaves, kNoLeaves);
-  Hit hit = Hit(limit, kNoPrimitive, true);
+  Hit hit = Hit(kFarAway, kNoPrimitive, true);
 
   while (group.bits != 0u) {
     while (group.bits != 0u) {
@@ -107,7 +106,7 @@ Hit walkWide(Query query, float limit, inout uint iterationCount) {
         ++stackSize;
       }
       const DeviceWideNode node = loadWideNode(index);
-      const uint children = enterChildren(index, node, query, hit.distance);
+      const uint children = enterChildren(node, query, hit.distance);
       group = groupOf(node, children, query.isNegative);
       if (group.bits == 0u && stackSize > 0u) {
         --stackSize;

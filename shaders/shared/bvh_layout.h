@@ -3,15 +3,14 @@
 //
 //   node, 64 bytes                                       triangle, 48 bytes, in primitive order
 //   byte  0  leftMin.xyz   left         texel 0          byte  0  v0.xyz  faceIndex
-//   byte 16  leftMax.xyz   leftNormals  texel 1          byte 16  v1.xyz  normalU
+//   byte 16  leftMax.xyz   unused       texel 1          byte 16  v1.xyz  normalU
 //   byte 32  rightMin.xyz  right        texel 2          byte 32  v2.xyz  normalV
-//   byte 48  rightMax.xyz  rightNormals texel 3
+//   byte 48  rightMax.xyz  unused       texel 3
 //
 // A node holds the boxes of its two children and a reference to each: the node index of an inner child, or the first
 // primitive of a leaf with its triangle count (1 to kMaxLeafTriangleCount) in the bits above kReferenceCountShift.
-// Node 0 is the root. The words of normals are bounds of the normals below the children (kNormalBoundsBits); only balls
-// need them (DeviceBvh::addNormalBounds). The normal is that of the double-precision mesh, octahedrally encoded
-// (Cigolle et al. 2014): the normal of the rounded corners would be noise on small faces.
+// Node 0 is the root. The normal is that of the double-precision mesh, octahedrally encoded (Cigolle et al. 2014): the
+// normal of the rounded corners would be noise on small faces.
 //
 //   wide node, 80 bytes, of up to eight children (after Ylitie, Karras and Laine 2017)
 //   byte  0  origin.xyz  exponents                       texel 0
@@ -49,13 +48,6 @@ const uint kReferenceFirstMask = 0x0fffffffu;
 const uint kMaxLeafTriangleCount = 14u;  // With 15 a reference could equal kNoReference.
 const uint kNoReference = 0xffffffffu;
 
-// Bounds of the normals below a node: for each axis the lower and the upper bound in kNormalBoundsBits bits each, x in
-// the lowest bits. The bound b stands for the coordinate 2 b / kNormalBoundsMask - 1.
-const uint kNormalBoundsBits = 5u;
-const uint kNormalBoundsMask = 31u;
-const uint kNoNormals = 0x01f07c1fu;   // Lower bounds above upper bounds.
-const uint kAnyNormals = 0x3e0f83e0u;  // From -1 to 1.
-
 const uint kWideChildCount = 8u;
 const uint kMaxWideLeafTriangleCount = 3u;
 const uint kMaxWideBvhDepth = kMaxBvhDepth + 3u;  // A leaf of 14 triangles is split three times.
@@ -65,11 +57,11 @@ struct DeviceBvhNode {
   vec3 leftMin;
   uint left;
   vec3 leftMax;
-  uint leftNormals;
+  uint unused0;
   vec3 rightMin;
   uint right;
   vec3 rightMax;
-  uint rightNormals;
+  uint unused1;
 };
 
 struct DeviceWideNode {
@@ -96,9 +88,9 @@ struct DeviceTriangle {
 #ifdef __cplusplus
 static_assert(sizeof(DeviceBvhNode) == 16 * kBvhNodeTexelCount);
 static_assert(offsetof(DeviceBvhNode, leftMin) == 0 && offsetof(DeviceBvhNode, left) == 12);
-static_assert(offsetof(DeviceBvhNode, leftMax) == 16 && offsetof(DeviceBvhNode, leftNormals) == 28);
+static_assert(offsetof(DeviceBvhNode, leftMax) == 16 && offsetof(DeviceBvhNode, unused0) == 28);
 static_assert(offsetof(DeviceBvhNode, rightMin) == 32 && offsetof(DeviceBvhNode, right) == 44);
-static_assert(offsetof(DeviceBvhNode, rightMax) == 48 && offsetof(DeviceBvhNode, rightNormals) == 60);
+static_assert(offsetof(DeviceBvhNode, rightMax) == 48 && offsetof(DeviceBvhNode, unused1) == 60);
 static_assert(sizeof(DeviceWideNode) == 16 * kWideNodeTexelCount);
 static_assert(offsetof(DeviceWideNode, origin) == 0 && offsetof(DeviceWideNode, exponents) == 12);
 static_assert(offsetof(DeviceWideNode, childBase) == 16 && offsetof(DeviceWideNode, triangleBase) == 20);

@@ -1,5 +1,4 @@
-// Tolerances in the definitions of the shape diameter and of the thickness, the same for every backend; included by C++
-// and by GLSL.
+// Tolerances in the definition of the shape diameter, the same for every backend; included by C++ and by GLSL.
 #ifndef ASDFVK_CONE_RULES_H
 #define ASDFVK_CONE_RULES_H
 
@@ -16,10 +15,6 @@ const float kFalseHitSlack = 1e-3f;
 // A length is kept when |length - median| <= standard deviations + this * median, so that ties (two rays are always a
 // tie) do not depend on rounding.
 const float kOutlierSlack = 1e-5f;
-
-// Added to the cosine of the angle from which walls oppose each other, so that walls at exactly this angle, such as
-// those of a hexagonal prism at 120 degrees, do not depend on rounding: 0.07 degrees at 120 degrees, 2.6 at 180.
-const float kOpposingWallSlack = 1e-3f;
 
 #ifdef __cplusplus
 }  // namespace asdfvk

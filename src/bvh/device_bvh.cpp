@@ -3,11 +3,9 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include "asdf_vk/error.h"
-#include "bvh/normal_bounds.h"
 #include "bvh/wide_bvh.h"
 #include "core/check.h"
 #include "core/parallel.h"
@@ -32,11 +30,11 @@ DeviceBvhNode encodeRootLeaf(const BvhNode& root) {
   return {.leftMin = grownMin(root.min),
           .left = leafReference(root),
           .leftMax = grownMax(root.max),
-          .leftNormals = kAnyNormals,
+          .unused0 = 0,
           .rightMin = {kFarAway, kFarAway, kFarAway},
           .right = leafReference(root),
           .rightMax = {kFarAway, kFarAway, kFarAway},
-          .rightNormals = kAnyNormals};
+          .unused1 = 0};
 }
 
 UnsetVector<DeviceBvhNode> encodeNodes(std::span<const BvhNode> nodes) {
@@ -57,11 +55,11 @@ UnsetVector<DeviceBvhNode> encodeNodes(std::span<const BvhNode> nodes) {
     encoded[innerIndex[i]] = {.leftMin = grownMin(left.min),
                               .left = referenceTo(leftIndex),
                               .leftMax = grownMax(left.max),
-                              .leftNormals = kAnyNormals,
+                              .unused0 = 0,
                               .rightMin = grownMin(right.min),
                               .right = referenceTo(leftIndex + 1),
                               .rightMax = grownMax(right.max),
-                              .rightNormals = kAnyNormals};
+                              .unused1 = 0};
   });
   return encoded;
 }
@@ -98,61 +96,12 @@ UnsetVector<DeviceTriangle> encodeTriangles(std::span<const uint32_t> primitiveF
   return triangles;
 }
 
-/// The bounds of the normals of consecutive triangles.
-NormalBounds boundsOfTriangles(const DeviceBvh& bvh, const FaceGeometry& geometry, uint32_t first, uint32_t count) {
-  NormalBounds bounds;
-  for (uint32_t i = first; i < first + count; ++i) bounds.add(geometry.normals[bvh.triangles[i].faceIndex]);
-  return bounds;
-}
-
-void addToBinary(DeviceBvh& bvh, const FaceGeometry& geometry) {
-  const auto boundsOf = [&](uint32_t reference) {
-    if (reference > kReferenceFirstMask)
-      return boundsOfTriangles(bvh, geometry, reference & kReferenceFirstMask, reference >> kReferenceCountShift);
-    NormalBounds bounds{bvh.nodes[reference].leftNormals};
-    bounds.add(NormalBounds{bvh.nodes[reference].rightNormals});
-    return bounds;
-  };
-  for (size_t i = bvh.nodes.size(); i-- > 0;) {  // Backwards: children follow their parent.
-    bvh.nodes[i].leftNormals = boundsOf(bvh.nodes[i].left).bits;
-    bvh.nodes[i].rightNormals = boundsOf(bvh.nodes[i].right).bits;
-  }
-}
-
-void addToWide(DeviceBvh& bvh, const FaceGeometry& geometry) {
-  bvh.childNormals.resize(bvh.wideNodes.size());
-  for (size_t i = bvh.wideNodes.size(); i-- > 0;) {
-    const DeviceWideNode& node = bvh.wideNodes[i];
-    std::array<uint32_t, kWideChildCount>& normals = bvh.childNormals[i];
-    uint32_t child = node.childBase, triangle = node.triangleBase;
-    for (uint32_t slot = 0; slot < kWideChildCount; ++slot) {
-      const uint32_t kind = node.childBits >> 4 * slot & 15;
-      NormalBounds bounds;
-      if (kind == 8) {
-        for (const uint32_t bits : bvh.childNormals[child]) bounds.add(NormalBounds{bits});
-        ++child;
-      } else {
-        const auto count = static_cast<uint32_t>(std::popcount(kind));
-        bounds = boundsOfTriangles(bvh, geometry, triangle, count);
-        triangle += count;
-      }
-      normals[slot] = bounds.bits;
-    }
-  }
-}
-
 }  // namespace
-
-void DeviceBvh::addNormalBounds(const FaceGeometry& geometry) {
-  addToBinary(*this, geometry);
-  addToWide(*this, geometry);
-}
 
 uint64_t maxBlockCount(const Bvh& bvh, BvhLayout layout) {
   const uint64_t innerCount = bvh.nodes.size() / 2;  // Each inner node has two children.
   // Each wide node replaces an inner node.
-  const uint64_t normalBlockCount = kWideChildCount * sizeof(uint32_t) / kDeviceBlockByteCount;
-  const uint64_t perNode = layout == BvhLayout::Binary ? kBvhNodeTexelCount : kWideNodeTexelCount + normalBlockCount;
+  const uint64_t perNode = layout == BvhLayout::Binary ? kBvhNodeTexelCount : kWideNodeTexelCount;
   return std::max(std::max<uint64_t>(1, innerCount) * perNode,
                   uint64_t{bvh.primitiveFaces.size()} * kBvhTriangleTexelCount);
 }
@@ -165,7 +114,7 @@ DeviceBvh encodeDeviceBvh(const Bvh& bvh, const TriangleMesh& mesh, const FaceGe
                                                     bvh.primitiveFaces.size(), kReferenceFirstMask));
   if (layout == BvhLayout::Wide) {
     WideBvh wide = encodeWideBvh(bvh);
-    return {{}, std::move(wide.nodes), encodeTriangles(wide.primitiveFaces, bvh, mesh, geometry), {}, wide.depth};
+    return {{}, std::move(wide.nodes), encodeTriangles(wide.primitiveFaces, bvh, mesh, geometry), wide.depth};
   }
   device.nodes =
       bvh.nodes[0].isLeaf() ? UnsetVector<DeviceBvhNode>{encodeRootLeaf(bvh.nodes[0])} : encodeNodes(bvh.nodes);

@@ -1,9 +1,7 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <span>
-#include <vector>
 
 #include "bvh/bvh.h"
 #include "core/unset_vector.h"
@@ -28,12 +26,7 @@ struct DeviceBvh {
   UnsetVector<DeviceBvhNode> nodes;
   UnsetVector<DeviceWideNode> wideNodes;
   UnsetVector<DeviceTriangle> triangles;  ///< One per primitive; corners rounded to nearest.
-  /// Bounds of the normals below each slot of each wide node (NormalBounds); empty before addNormalBounds().
-  std::vector<std::array<uint32_t, kWideChildCount>> childNormals;
   uint32_t depth = 0;
-
-  /// Sets childNormals, or the bounds in binary nodes.
-  void addNormalBounds(const FaceGeometry& geometry);
 
   [[nodiscard]] std::span<const std::byte> nodeBytes() const {
     return nodes.empty() ? std::as_bytes(std::span(wideNodes)) : std::as_bytes(std::span(nodes));
@@ -42,8 +35,8 @@ struct DeviceBvh {
 
 inline constexpr size_t kDeviceBlockByteCount = 16;  ///< A texel, or a uvec4 of a storage buffer.
 
-/// Upper bound of the blocks of the largest array of encodeDeviceBvh(), bounds of normals included. Leaves have at most
-/// kMaxWideLeafTriangleCount triangles.
+/// Upper bound of the blocks of the largest array of encodeDeviceBvh(). Leaves have at most kMaxWideLeafTriangleCount
+/// triangles.
 [[nodiscard]] uint64_t maxBlockCount(const Bvh& bvh, BvhLayout layout);
 
 /// Binary: a Bvh whose root is a leaf becomes one node with that leaf as both children, the right one with a box that

@@ -18,8 +18,7 @@ class Device;
 
 /// What a tracer is used for besides the values.
 struct TracerNeeds {
-  bool hits = false;   ///< The hits of the rays.
-  bool balls = false;  ///< ConeTracer::makeBallShrinker().
+  bool hits = false;  ///< The hits of the rays.
 };
 
 /// Traces the rays and owns the solvers: a Vulkan device with its pipelines, Embree, or the reference.

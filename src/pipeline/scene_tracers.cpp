@@ -7,21 +7,18 @@ namespace asdfvk {
 
 std::shared_ptr<SceneTracer> SceneTracers::get(const ConeOptions& options, const TracerNeeds& needs,
                                                StageClock& clock) {
-  TracerNeeds allNeeds = needs;
   const auto found =
       std::find_if(kept_.begin(), kept_.end(), [&](const auto& entry) { return entry->options == options; });
   if (found != kept_.end()) {
-    const TracerNeeds& served = (*found)->needs;
-    if ((served.hits || !needs.hits) && (served.balls || !needs.balls)) {
+    if ((*found)->needs.hits || !needs.hits) {
       std::rotate(kept_.begin(), found, found + 1);
       return kept_.front();
     }
-    allNeeds = {.hits = needs.hits || served.hits, .balls = needs.balls || served.balls};
     kept_.erase(found);  // Before the new one is made: less memory at the peak.
   }
-  if (capacity_ == 0) return make(options, allNeeds, clock);
+  if (capacity_ == 0) return make(options, needs, clock);
   if (kept_.size() == capacity_) kept_.pop_back();
-  kept_.insert(kept_.begin(), make(options, allNeeds, clock));
+  kept_.insert(kept_.begin(), make(options, needs, clock));
   return kept_.front();
 }
 

@@ -66,8 +66,8 @@ class VulkanBackend final : public Backend {
   [[nodiscard]] std::unique_ptr<ConeTracer> makeTracer(const TraceScene& scene, const Cone& cone,
                                                        const TracerNeeds& needs) override {
     choice_ = traceChoiceFor(facts(), request_, scene.bvh);
-    const ConeKernelRequest request{static_cast<uint32_t>(cone.directions.size()), needs.hits, choice_, cone.definition,
-                                    needs.balls};
+    const ConeKernelRequest request{static_cast<uint32_t>(cone.directions.size()), needs.hits, choice_,
+                                    cone.definition};
     std::unique_ptr<VulkanConeKernel>& kernel = kernels_[request];
     if (!kernel) kernel = std::make_unique<VulkanConeKernel>(*opened_.device, request);
     std::unique_ptr<ConeTracer> tracer = makeVulkanTracer(*kernel, scene, cone);

@@ -385,8 +385,8 @@ WallTree::WallTree(const TraceScene& scene, const OpposingWalls& opposing)
   });
 }
 
-void WallTree::shrink(std::span<BallQuery> queries) const {
-  dispatch<Float16>(widestInstructionSet(), [&]<typename Floats>() ASDFVK_ALWAYS_INLINE {
+void WallTree::shrink(std::span<BallQuery> queries, InstructionSet instructionSet) const {
+  dispatch<Float16>(instructionSet, [&]<typename Floats>() ASDFVK_ALWAYS_INLINE {
     for (size_t begin = 0; begin < queries.size(); begin += kLaneCount<Floats>) {
       Packet<Floats> packet(*this, queries.subspan(begin, std::min(kLaneCount<Floats>, queries.size() - begin)));
       if (begin > 0) {  // The walls of the neighbour before.

@@ -7,6 +7,7 @@
 
 #include "cone/opposing_walls.h"
 #include "cone/touching_ball.h"
+#include "core/simd.h"
 #include "shared/cone_hit.h"
 #include "trace/trace_scene.h"
 
@@ -41,8 +42,8 @@ class WallTree {
   WallTree(const TraceScene& scene, const OpposingWalls& walls);
 
   /// Shrinks the balls. Queries that follow each other should be neighbours in space. Diameters are bits that do not
-  /// depend on the order; of walls of equal diameter the lowest face is taken.
-  void shrink(std::span<BallQuery> queries) const;
+  /// depend on the order or on the instruction set; of walls of equal diameter the lowest face is taken.
+  void shrink(std::span<BallQuery> queries, InstructionSet instructionSet = widestInstructionSet()) const;
 
   [[nodiscard]] const TraceScene& scene() const { return scene_; }
 

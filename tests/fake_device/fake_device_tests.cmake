@@ -3,7 +3,7 @@
 set(casesOf_vk "*")
 set(casesOf_trace "turned cones*" "all tracers agree on cones*" "hits of cones that the reference redoes*"
     "hits do not depend on where a chunk ends" "hits that a trace stores*" "rays without a hit are misses*"
-    "copies of faces*" "two runs on the device*" "a trace on the device stops*" "details too small*" "balls beyond the limits*" "the kernel is chosen by*"
+    "copies of faces*" "two runs on the device*" "a trace on the device stops*" "details too small*" "the kernel is chosen by*"
     "each field of the shared structs*")
 set(casesOf_trace_lanes128 "any number of rays gives the reference's hits")
 set(casesOf_poisson "iterations*" "Jacobi sweeps*" "a distinct word*" "a torus has the solution*" "rows are read*"

@@ -31,9 +31,6 @@ class RecordingTracer final : public ConeTracer {
                           const RunControl& control) override {
     return tracer_->traceAt(starts, results, control);
   }
-  std::unique_ptr<BallShrinker> makeBallShrinker(const OpposingWalls& walls) override {
-    return tracer_->makeBallShrinker(walls);
-  }
 
  private:
   std::unique_ptr<ConeTracer> tracer_;

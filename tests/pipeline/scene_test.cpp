@@ -352,12 +352,10 @@ TEST_CASE("tracers are kept by their cone options, and replaced where they serve
   CHECK(made({}, {}) == 1);
   CHECK(made({}, {.hits = true}) == 2);
   CHECK(made({}, {}) == 2);  // The new one serves both.
-  CHECK(made({}, {.balls = true}) == 3);
-  CHECK(made({}, {.hits = true, .balls = true}) == 3);
-  CHECK(made(narrow, {}) == 4);
+  CHECK(made(narrow, {}) == 3);
+  CHECK(made({}, {}) == 3);
+  CHECK(made(narrower, {}) == 4);  // Replaces `narrow`, the least recently used one.
   CHECK(made({}, {}) == 4);
-  CHECK(made(narrower, {}) == 5);  // Replaces `narrow`, the least recently used one.
-  CHECK(made({}, {}) == 5);
   CHECK(made(narrow, {}) == 6);
 
   SceneTracers none(backend, scene.view(), 0);

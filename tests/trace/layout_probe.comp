@@ -1,7 +1,6 @@
 #version 450
 // Copies every field of the structs shared with the host to `words`, in the order of their declaration.
 #extension GL_GOOGLE_include_directive : require
-#include "shared/ball_layout.h"
 #include "shared/bvh_layout.h"
 #include "shared/cone_layout.h"
 
@@ -11,8 +10,7 @@ layout(set = 0, binding = 1, rgba32ui) uniform readonly uimageBuffer triangles;
 layout(set = 0, binding = 5, rgba32ui) uniform readonly uimageBuffer wideNodes;
 layout(set = 0, binding = 2, rgba32ui) uniform readonly uimageBuffer rays;
 layout(set = 0, binding = 3, rgba32ui) uniform readonly uimageBuffer origins;
-layout(set = 0, binding = 6) readonly buffer Balls { BallStart balls[]; };
-layout(set = 0, binding = 7) readonly buffer Seeds { ConeSeed seeds[]; };
+layout(set = 0, binding = 6) readonly buffer Seeds { ConeSeed seeds[]; };
 layout(set = 0, binding = 4) writeonly buffer Words { uint words[]; };
 
 uint next = 0u;
@@ -34,8 +32,8 @@ void main() {
   const int n = int(kBvhNodeTexelCount);  // the second of two, so that the stride is proven too
   const DeviceBvhNode node =
       decodeBvhNode(imageLoad(nodes, n), imageLoad(nodes, n + 1), imageLoad(nodes, n + 2), imageLoad(nodes, n + 3));
-  put(node.leftMin), put(node.left), put(node.leftMax), put(node.leftNormals);
-  put(node.rightMin), put(node.right), put(node.rightMax), put(node.rightNormals);
+  put(node.leftMin), put(node.left), put(node.leftMax), put(node.unused0);
+  put(node.rightMin), put(node.right), put(node.rightMax), put(node.unused1);
   const int t = int(kBvhTriangleTexelCount);
   const DeviceTriangle triangle =
       decodeTriangle(imageLoad(triangles, t), imageLoad(triangles, t + 1), imageLoad(triangles, t + 2));
@@ -54,7 +52,5 @@ void main() {
                      imageLoad(wideNodes, w + 3), imageLoad(wideNodes, w + 4));
   put(wide.origin), put(wide.exponents), put(wide.childBase), put(wide.triangleBase);
   put(wide.childBits), put(wide.unused), put(wide.x), put(wide.y), put(wide.z);
-  const BallStart ball = balls[1];
-  put(ball.origin), put(ball.excludedFace), put(ball.axis), put(floatBitsToUint(ball.diameter));
   put(seeds[1].triangle), put(floatBitsToUint(seeds[1].halfTurn));
 }

@@ -3,7 +3,6 @@
 #include <cstring>
 #include <vector>
 
-#include "shared/ball_layout.h"
 #include "shared/bvh_layout.h"
 #include "shared/cone_layout.h"
 #include "spirv/layout_probe.comp.h"
@@ -47,26 +46,24 @@ TEST_CASE("each field of the shared structs arrives on the device in its place")
   const auto rays = distinctWords<ConeRay>(3000);
   const auto origins = distinctWords<ConeOrigin>(4000);
   const auto wideNodes = distinctWords<DeviceWideNode>(5000);
-  const auto balls = distinctWords<BallStart>(6000);
-  const auto seeds = distinctWords<ConeSeed>(7000);
+  const auto seeds = distinctWords<ConeSeed>(6000);
 
   constexpr auto kTexel = VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT;
   constexpr auto kStorage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
   const Buffer nodeBuffer = upload(*device, nodes, kTexel), triangleBuffer = upload(*device, triangles, kTexel);
   const TexelView nodeView(*device, nodeBuffer), triangleView(*device, triangleBuffer);
   const Buffer rayBuffer = upload(*device, rays, kTexel), originBuffer = upload(*device, origins, kTexel);
-  const Buffer wideBuffer = upload(*device, wideNodes, kTexel), ballBuffer = upload(*device, balls, kStorage);
-  const Buffer seedBuffer = upload(*device, seeds, kStorage);
+  const Buffer wideBuffer = upload(*device, wideNodes, kTexel), seedBuffer = upload(*device, seeds, kStorage);
   const TexelView rayView(*device, rayBuffer), originView(*device, originBuffer), wideView(*device, wideBuffer);
   const Buffer words(*device, 4096, kStorage, MemoryKind::HostVisible);
   constexpr auto kTexels = VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER;
   const ComputePipeline probe(*device, {"layout_probe.comp",
                                         k_layout_probe_comp,
                                         {kTexels, kTexels, kTexels, kTexels, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kTexels,
-                                         VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
+                                         VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
                                         0,
                                         {}});
-  const Binding bindings[] = {nodeView, triangleView, rayView, originView, words, wideView, ballBuffer, seedBuffer};
+  const Binding bindings[] = {nodeView, triangleView, rayView, originView, words, wideView, seedBuffer};
   test::runProbe(*device, probe, bindings);
 
   std::vector<uint32_t> expected;
@@ -75,10 +72,9 @@ TEST_CASE("each field of the shared structs arrives on the device in its place")
   appendWords(expected, rays[1]);
   appendWords(expected, origins[1]);
   appendWords(expected, wideNodes[1]);
-  appendWords(expected, balls[1]);
   appendWords(expected, seeds[1]);
   const std::span<uint32_t> seen = words.mappedAs<uint32_t>();
-  REQUIRE(expected.size() == 74);
+  REQUIRE(expected.size() == 66);
   for (size_t i = 0; i < expected.size(); ++i) {
     CAPTURE(i);
     CHECK(seen[i] == expected[i]);

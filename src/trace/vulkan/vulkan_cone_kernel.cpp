@@ -6,10 +6,8 @@
 #include <vector>
 
 #include "asdf_vk/error.h"
-#include "shared/ball_layout.h"
 #include "shared/cone_hit.h"
 #include "spirv/cone_origins.comp.h"
-#include "spirv/shrink_ball.comp.h"
 #include "spirv/trace_cone.comp.h"
 #include "spirv/trace_constant.comp.h"
 #include "spirv/trace_packet.comp.h"
@@ -84,21 +82,6 @@ Buffer uploadHierarchy(const VulkanConeKernel& kernel, std::span<const std::byte
   return uploadBuffer(kernel.device(), bytes, fetchesTexels(kernel) ? kTexelUsage : kStorageUsage);
 }
 
-/// With storage the bounds of normals follow the nodes in the same buffer.
-Buffer uploadNodes(const VulkanConeKernel& kernel, const DeviceBvh& bvh) {
-  if (fetchesTexels(kernel) || bvh.childNormals.empty()) return uploadHierarchy(kernel, bvh.nodeBytes());
-  const std::span<const std::byte> nodes = bvh.nodeBytes(), normals = std::as_bytes(std::span(bvh.childNormals));
-  std::vector<std::byte> both(nodes.begin(), nodes.end());
-  both.insert(both.end(), normals.begin(), normals.end());
-  return uploadHierarchy(kernel, both);
-}
-
-Buffer uploadChildNormals(const VulkanConeKernel& kernel, const DeviceBvh& bvh) {
-  std::span<const std::byte> bytes;
-  if (fetchesTexels(kernel)) bytes = std::as_bytes(std::span(bvh.childNormals));
-  return uploadBuffer(kernel.device(), bytes, kTexelUsage);
-}
-
 /// Per cone.
 uint64_t hitByteCount(const VulkanConeKernel& kernel) { return kernel.rayCount() * sizeof(ConeHit); }
 
@@ -128,22 +111,6 @@ ComputePipelineDescription describeCones(const ConeKernelRequest& request, const
                                       /* POSTPONES_TRIANGLES= */ walk.postponesTriangles ? VK_TRUE : VK_FALSE}};
 }
 
-ComputePipelineDescription describeBalls(const DeviceFacts& device, const VulkanTraceChoice& choice,
-                                         const VulkanWalkShape& walk) {
-  const uint32_t iterationLimit = workgroupShapeFor(device, 1, TraceKernel::Seed, Definition::Paper).iterationLimit;
-  return {.name = "shrink_ball.comp",
-          .spirv = k_shrink_ball_comp,
-          .bindings = {kTexels, kTexels, kStorage, kStorage, kTexels, kStorage, kStorage},
-          .pushConstantByteCount = sizeof(BallPush),
-          .specializationConstants = {/* LANE_COUNT= */ VulkanConeKernel::kBallLaneCount, 0, 0,
-                                      /* ITERATION_LIMIT= */ iterationLimit, 0,
-                                      /* FETCHES_TEXELS= */ choice.fetch == BvhFetch::Texel ? VK_TRUE : VK_FALSE,
-                                      /* IS_WIDE= */ choice.bvh == BvhLayout::Wide ? VK_TRUE : VK_FALSE, 0, 0, 0,
-                                      /* WIDE_STACK_SIZE= */ walk.wideStackSize,
-                                      /* BINARY_STACK_SIZE= */ walk.binaryStackSize,
-                                      /* POSTPONES_TRIANGLES= */ walk.postponesTriangles ? VK_TRUE : VK_FALSE}};
-}
-
 VulkanConeKernel::VulkanConeKernel(const Device& device, const ConeKernelRequest& request)
     : VulkanConeKernel(
           device, request,
@@ -168,7 +135,6 @@ VulkanConeKernel::VulkanConeKernel(const Device& device, const ConeKernelRequest
                                                           .pushConstantByteCount = sizeof(ConePush),
                                                           .specializationConstants = {
                                                               kReductionLaneCount, request.rayCount, isCgal(request)}});
-  if (request.shrinksBalls) balls_.emplace(device, describeBalls(device.facts(), choice_, walk));
 }
 
 uint64_t largestConeChunk(const VulkanConeKernel& kernel) {
@@ -186,25 +152,16 @@ uint64_t largestConeChunk(const VulkanConeKernel& kernel) {
 
 ConeBuffers::ConeBuffers(const VulkanConeKernel& kernel, const DeviceBvh& bvh, const Cone& cone)
     : fetchesTexels_(fetchesTexels(kernel)),
-      nodes_(uploadNodes(kernel, bvh)),
+      nodes_(uploadHierarchy(kernel, bvh.nodeBytes())),
       triangles_(uploadHierarchy(kernel, std::as_bytes(std::span(bvh.triangles)))),
       rays_(uploadRays(kernel.device(), cone)),
-      childNormals_(uploadChildNormals(kernel, bvh)),
-      childNormalStart_(static_cast<uint32_t>(bvh.nodeBytes().size() / kDeviceBlockByteCount)),
       nothing_(kernel.device(), 16, kTexelUsage | kStorageUsage, MemoryKind::DeviceLocal),
       nodeTexels_(kernel.device(), fetchesTexels_ ? nodes_ : nothing_),
       triangleTexels_(kernel.device(), fetchesTexels_ ? triangles_ : nothing_),
-      rayTexels_(kernel.device(), rays_),
-      childNormalTexels_(kernel.device(), childNormals_) {}
+      rayTexels_(kernel.device(), rays_) {}
 
 std::vector<Binding> ConeBuffers::hierarchyBindings() const {
   return {nodeTexels_, triangleTexels_, fetchesTexels_ ? nothing_ : nodes_, fetchesTexels_ ? nothing_ : triangles_};
-}
-
-std::vector<Binding> ConeBuffers::ballBindings(const Buffer& starts, const Buffer& walls) const {
-  std::vector<Binding> bindings = hierarchyBindings();
-  bindings.insert(bindings.end(), {childNormalTexels_, starts, walls});
-  return bindings;
 }
 
 }  // namespace asdfvk

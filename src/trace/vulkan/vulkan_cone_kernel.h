@@ -20,17 +20,14 @@ struct ConeKernelRequest {
   bool writesHits = false;
   std::optional<VulkanTraceChoice> choice = {};  ///< None: defaultTraceChoice().
   Definition definition = Definition::Paper;
-  bool shrinksBalls = false;
   bool isConstant = false;  ///< For benchmarks: shaders/trace_constant.comp instead of a kernel that traces.
   auto operator<=>(const ConeKernelRequest&) const = default;
 };
 
-/// The pipelines of a kernel: of the cones, and of the balls of any kernel.
+/// The pipeline of the cones of a kernel.
 [[nodiscard]] ComputePipelineDescription describeCones(const ConeKernelRequest& request,
                                                        const VulkanTraceChoice& choice,
                                                        const VulkanWorkgroupShape& shape, const VulkanWalkShape& walk);
-[[nodiscard]] ComputePipelineDescription describeBalls(const DeviceFacts& device, const VulkanTraceChoice& choice,
-                                                       const VulkanWalkShape& walk);
 
 /// The compiled shaders/trace_*.comp for one device and request; serves any number of meshes.
 class VulkanConeKernel {
@@ -51,14 +48,11 @@ class VulkanConeKernel {
   /// Computes results from lengths; null unless pipeline() writes lengths, one per ray and cone. Binds rays, lengths,
   /// results.
   [[nodiscard]] const ComputePipeline* reduction() const { return reduction_ ? &*reduction_ : nullptr; }
-  /// shaders/shrink_ball.comp; null unless the request has shrinksBalls. Binds nodes and triangles as pipeline(),
-  /// bounds of normals, balls, walls.
-  [[nodiscard]] const ComputePipeline* balls() const { return balls_ ? &*balls_ : nullptr; }
   [[nodiscard]] uint32_t rayCount() const { return request_.rayCount; }
   [[nodiscard]] Definition definition() const { return request_.definition; }
   [[nodiscard]] bool writesHits() const { return request_.writesHits; }
   [[nodiscard]] const VulkanWorkgroupShape& shape() const { return shape_; }
-  static constexpr uint32_t kOriginLaneCount = 64, kReductionLaneCount = 64, kBallLaneCount = 64;
+  static constexpr uint32_t kOriginLaneCount = 64, kReductionLaneCount = 64;
 
  private:
   const Device& device_;
@@ -66,7 +60,7 @@ class VulkanConeKernel {
   VulkanTraceChoice choice_;
   VulkanWorkgroupShape shape_;
   ComputePipeline pipeline_;
-  std::optional<ComputePipeline> origins_, reduction_, balls_;
+  std::optional<ComputePipeline> origins_, reduction_;
 };
 
 /// Largest number of cones of one dispatch: each buffer stays within the limits of the device and at most 32 MiB.
@@ -80,21 +74,15 @@ class ConeBuffers {
 
   /// The first bindings of every kernel that traverses the hierarchy: nodes and triangles as texels, then as storage.
   [[nodiscard]] std::vector<Binding> hierarchyBindings() const;
-  /// Of VulkanConeKernel::balls().
-  [[nodiscard]] std::vector<Binding> ballBindings(const Buffer& starts, const Buffer& walls) const;
   [[nodiscard]] const TexelView& rayTexels() const { return rayTexels_; }
   /// For bindings that a kernel does not access.
   [[nodiscard]] const Buffer& nothing() const { return nothing_; }
-  /// Place of DeviceBvh::childNormals among the nodes with BvhFetch::Storage, in blocks of 16 bytes.
-  [[nodiscard]] uint32_t childNormalStart() const { return childNormalStart_; }
 
  private:
   bool fetchesTexels_;
   Buffer nodes_, triangles_, rays_;
-  Buffer childNormals_;  // With BvhFetch::Texel.
-  uint32_t childNormalStart_;
   Buffer nothing_;
-  TexelView nodeTexels_, triangleTexels_, rayTexels_, childNormalTexels_;
+  TexelView nodeTexels_, triangleTexels_, rayTexels_;
 };
 
 [[nodiscard]] inline glsl::vec3 toGlsl(const Vec3d& v) {

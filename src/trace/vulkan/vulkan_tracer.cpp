@@ -75,7 +75,6 @@ class VulkanTracer final : public ConeTracer {
   DeviceBvh encode() {
     const Stopwatch watch;
     DeviceBvh bvh = encodeDeviceBvh(scene_.bvh, scene_.mesh, scene_.geometry, kernel_.choice().bvh);
-    if (kernel_.balls() != nullptr) bvh.addNormalBounds(scene_.geometry);
     seeds_.emplace(scene_, bvh.triangles);
     encodeSeconds_ = watch.seconds();
     return bvh;
