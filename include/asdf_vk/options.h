@@ -177,7 +177,7 @@ struct Options {
   PartsOptions parts;                        ///< Ignored unless `segmentation` is Parts.
   Measure measure = Measure::ShapeDiameter;
   ThicknessOptions thickness;
-  bool estimatesError = true;  ///< Not with Measure::Thickness, unless RoundOptions need it.
+  bool estimatesError = true;
   RoundOptions rounds;
   std::string solver = "auto";
   SolverOptions solverOptions;

@@ -41,10 +41,7 @@ struct Computation {
   /// they are interpolated.
   [[nodiscard]] bool keepsMissing() const { return cone.definition == Definition::Cgal; }
   [[nodiscard]] bool measuresThickness() const { return options.measure == Measure::Thickness; }
-  /// A thickness has no error; that of "sdf" beside it is not estimated unless a round needs it.
-  [[nodiscard]] bool estimatesError() const {
-    return (options.estimatesError && !measuresThickness()) || options.rounds.limitError();
-  }
+  [[nodiscard]] bool estimatesError() const { return options.estimatesError || options.rounds.limitError(); }
 };
 
 }  // namespace asdfvk

@@ -123,7 +123,8 @@ TEST_CASE("the least ball of a face against a wall is that of grids over both") 
     CHECK(dot(v, v) / dot(v, -face.normal) == doctest::Approx(ball.diameter).epsilon(1e-6));
     CHECK(holds(face, ball.onFace));
     CHECK(holds(wall, ball.onWall));
-    CHECK(std::isinf(leastTouchingBall(face, wall, kMinDepth, ball.diameter).diameter));
+    CHECK(leastTouchingBall(face, wall, kMinDepth, ball.diameter).diameter == ball.diameter);
+    CHECK(leastTouchingBall(face, wall, kMinDepth, 0.9 * ball.diameter).diameter >= ball.diameter);
   }
   CHECK(comparedCount > 90);
   CHECK(crossingCount > 10);

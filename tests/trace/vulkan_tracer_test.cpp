@@ -483,6 +483,24 @@ TEST_CASE("a mesh beyond the range of a storage buffer is refused") {
   test::requireFailure([&] { make(48 * traced.mesh.faces.size() - 1); }, ErrorCode::DeviceLimit, "one storage buffer");
 }
 
+TEST_CASE("a hierarchy beyond the texel limit of a device is traced with storage and refused with texels") {
+  const Instance instance;
+  const VkPhysicalDevice physical = instance.physicalDevices().front();
+  DeviceFacts facts = describeDevice(physical);
+  facts.maxTexelBufferElements = 100;
+  facts.maxStorageBuffersPerStage = 4;  // The least that Vulkan allows.
+  const Device small(physical, facts);
+  const TracedMesh traced(generateShape("torus", 1200).mesh);
+  const Cone cone = makeCone({});
+  const auto kernelFor = [&](BvhFetch fetch) {
+    return VulkanConeKernel(small, {30, false, VulkanTraceChoice{TraceKernel::Ray, BvhLayout::Wide, fetch}});
+  };
+  checkParity(kernelFor(BvhFetch::Storage), traced, {}, referenceValues(traced));
+  const VulkanConeKernel texels = kernelFor(BvhFetch::Texel);
+  test::requireFailure([&] { (void)makeVulkanTracer(texels, traced.scene(), cone); }, ErrorCode::DeviceLimit,
+                       "texels in one buffer");
+}
+
 TEST_CASE("a device with too few storage buffers for a kernel is refused before the kernel is made") {
   const Instance instance;
   const VkPhysicalDevice physical = instance.physicalDevices().front();
