@@ -74,7 +74,7 @@ class SolidSurface {
     if (!scene_.bvh.nodes.empty()) stack[stackSize++] = 0;
     while (stackSize > 0) {
       const BvhNode& node = scene_.bvh.nodes[stack[--stackSize]];
-      if (distanceToBox(node, p) > radius) continue;
+      if (squaredDistanceToBox(node, p) > radius * radius) continue;
       if (!node.isLeaf()) {
         stack[stackSize++] = node.first;
         stack[stackSize++] = node.first + 1;

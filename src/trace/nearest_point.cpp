@@ -46,13 +46,13 @@ TriangleCorners cornersOf(const TraceScene& scene, uint32_t face) {
   return {at(i), at(j), at(k)};
 }
 
-double distanceToBox(const BvhNode& box, const Vec3d& p) {
+double squaredDistanceToBox(const BvhNode& box, const Vec3d& p) {
   double square = 0;
   for (size_t axis = 0; axis < 3; ++axis) {
     const double gap = std::max({box.min[axis] - p[axis], p[axis] - box.max[axis], 0.0});
     square += gap * gap;
   }
-  return std::sqrt(square);
+  return square;
 }
 
 SurfacePoint nearestSurfacePoint(const TraceScene& scene, const Vec3d& p, double enough,
@@ -64,13 +64,14 @@ SurfacePoint nearestSurfacePoint(const TraceScene& scene, const Vec3d& p, double
   if (!nodes.empty()) stack[stackSize++] = 0;
   while (stackSize > 0 && !(best.distance < enough)) {
     const BvhNode& node = nodes[stack[--stackSize]];
-    if (distanceToBox(node, p) > best.distance + kEqualDistance) continue;
+    const double reach = best.distance + kEqualDistance;
+    if (squaredDistanceToBox(node, p) > reach * reach) continue;
     if (node.isLeaf()) {
       for (uint32_t i = node.first; i < node.first + node.triangleCount; ++i)
         if (const uint32_t face = faceOf(scene.bvh.primitiveFaces[i]); face != kNoFace) offer(scene, face, p, best);
       continue;
     }
-    const bool leftFirst = distanceToBox(nodes[node.first], p) < distanceToBox(nodes[node.first + 1], p);
+    const bool leftFirst = squaredDistanceToBox(nodes[node.first], p) < squaredDistanceToBox(nodes[node.first + 1], p);
     stack[stackSize++] = node.first + (leftFirst ? 1 : 0);
     stack[stackSize++] = node.first + (leftFirst ? 0 : 1);
   }

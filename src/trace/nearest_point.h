@@ -25,8 +25,8 @@ struct TriangleCorners {
 
 [[nodiscard]] TriangleCorners cornersOf(const TraceScene& scene, uint32_t face);
 
-/// Distance between a point and the box of a node; 0 inside.
-[[nodiscard]] double distanceToBox(const BvhNode& box, const Vec3d& p);
+/// Between a point and the box of a node; 0 inside.
+[[nodiscard]] double squaredDistanceToBox(const BvhNode& box, const Vec3d& p);
 
 /// faceOf(primitive face): the face that counts in its place, kNoFace for none. Ends at the first point less than
 /// `enough` away. Where points coincide on an edge or a vertex, the face that the way from them meets most steeply has

@@ -1,333 +1,22 @@
 #include "trace/wall_tree.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
-#include <utility>
 
 #include "core/box3.h"
 #include "core/parallel.h"
-#include "core/simd.h"
 #include "mesh/coincident_faces.h"
+#include "trace/ball_packet.h"
 
 namespace asdfvk {
 namespace {
 
-/// Added to radii: covers the rounding of distances to boxes in float32 at coordinates up to 8.
-constexpr float kBoxMargin = 0x1p-19F;
-/// Added to limits of offsets from planes, and to the cosine, for the same reason.
-constexpr float kPlaneMargin = 0x1p-20F, kCosineMargin = 0x1p-20F;
-/// Every box is near to larger balls.
-constexpr float kMaxBoxedDiameter = 8;
-constexpr float kUnlimited = 0x1p60F;
-/// Nodes of more walls have no slab: their walls are rarely in one.
-constexpr uint32_t kMaxSlabWallCount = 4096;
+/// Nodes of more walls have no disc: their walls are rarely in one.
+constexpr uint32_t kMaxDiscWallCount = 4096;
+/// Nodes of so many walls are leaves: testing the walls costs less than descending.
 constexpr uint32_t kMaxLeafWallCount = 4;
-/// Depths in float32 that are exact enough for limits.
-constexpr float kMinLimitDepth = 0x1p-17F;
-
-template <typename Floats>
-struct Vec3Lanes {
-  Floats x, y, z;
-};
-
-template <typename Floats>
-ASDFVK_ALWAYS_INLINE inline Floats dotLanes(const Vec3f& a, const Vec3Lanes<Floats>& b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
-template <typename Mask>
-ASDFVK_ALWAYS_INLINE inline bool anyLane(const Mask& mask) {
-  std::array<uint64_t, sizeof(Mask) / 8> words;
-  std::memcpy(words.data(), &mask, sizeof mask);
-  uint64_t any = 0;
-  for (const uint64_t word : words) any |= word;
-  return any != 0;
-}
-
-/// Squared distance between a box and the boxes [low, high] of the lanes.
-template <typename Floats>
-ASDFVK_ALWAYS_INLINE inline Floats squaredDistance(const Vec3f& boxMin, const Vec3f& boxMax,
-                                                   const Vec3Lanes<Floats>& low, const Vec3Lanes<Floats>& high) {
-  const auto gap = [&](float min, float max, const Floats& lowest, const Floats& highest)
-                       ASDFVK_ALWAYS_INLINE { return asdfvk::max(asdfvk::max(min - highest, lowest - max), Floats{}); };
-  const Floats x = gap(boxMin.x, boxMax.x, low.x, high.x), y = gap(boxMin.y, boxMax.y, low.y, high.y),
-               z = gap(boxMin.z, boxMax.z, low.z, high.z);
-  return x * x + y * y + z * z;
-}
-
-template <typename Box>
-float squaredDistance(const Box& box, const Vec3f& point) {
-  const auto gap = [](float min, float max, float at) { return std::max(std::max(min - at, at - max), 0.0F); };
-  const float x = gap(box.min.x, box.max.x, point.x), y = gap(box.min.y, box.max.y, point.y),
-              z = gap(box.min.z, box.max.z, point.z);
-  return x * x + y * y + z * z;
-}
 
 }  // namespace
-
-/// The balls of some queries, one in each lane. A walk through the hierarchy shrinks limits of their diameters by a point
-/// of each wall, and collects the walls whose planes are within the limits; those still within the final limits are
-/// measured.
-template <typename Floats>
-class WallTree::Packet {
- public:
-  static constexpr size_t kSize = kLaneCount<Floats>;
-
-  /// queries: 1 to kSize.
-  ASDFVK_ALWAYS_INLINE Packet(const WallTree& tree, std::span<BallQuery> queries) : tree_(tree), queries_(queries) {
-    for (size_t lane = 0; lane < kSize; ++lane) {
-      const BallQuery& query = queries[std::min(lane, queries.size() - 1)];
-      setLane(normal_, lane, query.triangle.normal);
-      Box3d box;
-      for (size_t k = 0; k < 3; ++k) {
-        setLane(corners_[k], lane, query.triangle.corners[k]);
-        box.add(query.triangle.corners[k]);
-      }
-      setLane(corners_[3], lane, query.point);
-      setLane(boxMin_, lane, box.min);
-      setLane(boxMax_, lane, box.max);
-      isUsed_[lane] = lane < queries.size() ? -1 : 0;
-      least_.limit[lane] = asFloat(query.least.ball.diameter);
-      atPoint_.limit[lane] = asFloat(query.atPoint.ball.diameter);
-    }
-    placeBalls();
-    first_ = Vec3f(queries.front().point);
-    axis_ = Vec3f(-queries.front().triangle.normal);
-  }
-
-  ASDFVK_ALWAYS_INLINE void run() {
-    std::array<uint32_t, kMaxBvhDepth + 2> stack;
-    size_t stackSize = 0;
-    if (!tree_.nodes_.empty()) stack[stackSize++] = 0;
-    while (stackSize > 0) {
-      const Node& node = tree_.nodes_[stack[--stackSize]];
-      const Mask isNear = (least_.reaches(node) | atPoint_.reaches(node)) & mayOppose(node) & isUsed_;
-      if (!anyLane(isNear) || !anyLane(reachDisc(node, isNear))) continue;
-      if (node.triangleCount > 0) {
-        for (uint32_t i = node.first; i < node.first + node.triangleCount; ++i) test(tree_.walls_[i]);
-        continue;
-      }
-      const Node &left = tree_.nodes_[node.first], &right = tree_.nodes_[node.first + 1];
-      const uint32_t leftFirst = diameterAt(left.middle) < diameterAt(right.middle) ? 1 : 0;
-      stack[stackSize++] = node.first + leftFirst;
-      stack[stackSize++] = node.first + 1 - leftFirst;
-    }
-    for (size_t lane = 0; lane < queries_.size(); ++lane) measure(lane);
-  }
-
-  /// A wall that is probably near.
-  ASDFVK_ALWAYS_INLINE void offer(const Wall& wall) {
-    const Mask opposing = lessEqual(dotLanes(wall.normal, normal_), cosineLimit(-kCosineMargin)) & isUsed_;
-    if (anyLane(opposing)) shrinkLimits(wall, middleOf(wall.middle, opposing), opposing);
-  }
-
- private:
-  using Mask = IntsOf<Floats>;
-  using Lanes = Vec3Lanes<Floats>;
-
-  /// Balls of one kind, whose centres are in boxes.
-  struct Balls {
-    Floats limit, squaredRadius;
-    Lanes low, high;
-
-    ASDFVK_ALWAYS_INLINE Mask reaches(const auto& box) const {
-      return lessEqual(squaredDistance(box.min, box.max, low, high), squaredRadius);
-    }
-    ASDFVK_ALWAYS_INLINE void place(const Lanes& min, const Lanes& max, const Lanes& normal) {
-      const Floats radius = 0.5F * asdfvk::min(limit, broadcast<Floats>(kMaxBoxedDiameter));
-      const auto shifted = [&](const Lanes& v) ASDFVK_ALWAYS_INLINE {
-        return Lanes{v.x - radius * normal.x, v.y - radius * normal.y, v.z - radius * normal.z};
-      };
-      low = shifted(min);
-      high = shifted(max);
-      const Floats reach = radius + kBoxMargin;
-      const Mask isBoxed = lessEqual(limit, broadcast<Floats>(kMaxBoxedDiameter));
-      squaredRadius = select(isBoxed, reach * reach) + select(~isBoxed, broadcast<Floats>(kUnlimited));
-    }
-  };
-  /// The balls at the points through the middle of a wall.
-  struct Middle {
-    Floats diameter;  ///< At most, in spite of rounding; unlimited where it is unknown.
-    Floats lowest;    ///< At least; 0 where it is unknown.
-    Lanes slope;      ///< Gradient of the diameter by the point of the wall.
-  };
-
-  /// A wall with the least diameters of the balls that touch its plane.
-  struct Candidate {
-    uint32_t face;
-    float least, atPoint;
-  };
-
-  static float asFloat(double diameter) { return static_cast<float>(std::min<double>(diameter, kUnlimited)); }
-  static void setLane(Lanes& lanes, size_t lane, const Vec3d& v) {
-    lanes.x[lane] = static_cast<float>(v.x);
-    lanes.y[lane] = static_cast<float>(v.y);
-    lanes.z[lane] = static_cast<float>(v.z);
-  }
-  ASDFVK_ALWAYS_INLINE void placeBalls() {
-    least_.place(boxMin_, boxMax_, normal_);
-    atPoint_.place(corners_[3], corners_[3], normal_);
-  }
-  /// Of the ball of the first query through a point; great where the point is behind.
-  [[nodiscard]] float diameterAt(const Vec3f& q) const {
-    const Vec3f v = q - first_;
-    return asdfvk::dot(v, v) / std::max(asdfvk::dot(v, axis_), kMinLimitDepth);
-  }
-  [[nodiscard]] ASDFVK_ALWAYS_INLINE Floats cosineLimit(float margin) const {
-    return broadcast<Floats>(static_cast<float>(tree_.opposing_.cosine) + margin);
-  }
-
-  /// Lanes whose faces may have an opposing wall below the node.
-  [[nodiscard]] ASDFVK_ALWAYS_INLINE Mask mayOppose(const Node& node) const {
-    const auto least = [&](float min, float max, const Floats& component)
-                           ASDFVK_ALWAYS_INLINE { return asdfvk::min(component * min, component * max); };
-    const Floats cosine = least(node.normalMin.x, node.normalMax.x, normal_.x) +
-                          least(node.normalMin.y, node.normalMax.y, normal_.y) +
-                          least(node.normalMin.z, node.normalMax.z, normal_.z);
-    return lessEqual(cosine, cosineLimit(kCosineMargin));
-  }
-
-  /// Lanes whose balls may reach the disc in which the node is.
-  [[nodiscard]] ASDFVK_ALWAYS_INLINE Mask reachDisc(const Node& node, const Mask& lanes) const {
-    const Middle middle = middleOf(node.middle, lanes);
-    const Floats along = dotLanes(node.axis, middle.slope), square = dot(middle.slope, middle.slope) - along * along;
-    const Floats across = asdfvk::max(square, broadcast<Floats>(kBoxMargin));
-    const Floats atPoint = middle.lowest + asdfvk::min(along * node.lowest, along * node.highest) -
-                           node.radius * (across * rsqrt(across)) * (1 + kCosineMargin);
-    return lanes & (lessEqual(leastBound(middle, atPoint), least_.limit) | lessEqual(atPoint, atPoint_.limit));
-  }
-
-  /// The diameter is a convex function of both points: no less than its tangent at the point and the middle.
-  /// atPoint: the least at the point. Returns the least at the triangle.
-  [[nodiscard]] ASDFVK_ALWAYS_INLINE Floats leastBound(const Middle& middle, const Floats& atPoint) const {
-    const Floats greatest = asdfvk::max(asdfvk::max(dot(corners_[0], middle.slope), dot(corners_[1], middle.slope)),
-                                        dot(corners_[2], middle.slope));
-    return atPoint + dot(corners_[3], middle.slope) - greatest;
-  }
-
-  ASDFVK_ALWAYS_INLINE void test(const Wall& wall) {
-    const Floats cosine = dotLanes(wall.normal, normal_);
-    const Mask opposing = lessEqual(cosine, cosineLimit(kCosineMargin)) & isUsed_;
-    if (!anyLane(opposing)) return;
-    // Balls that touch the wall are at least as large as those that touch its plane.
-    std::array<Floats, 4> offsets;
-    for (size_t k = 0; k < 4; ++k) offsets[k] = wall.offset - dotLanes(wall.normal, corners_[k]);
-    const Floats smallest = broadcast<Floats>(kCosineMargin);
-    const Floats below = 2 / asdfvk::max(1 - cosine, smallest), above = 2 / asdfvk::max(1 + cosine, smallest);
-    const auto boundOf = [&](const Floats& lowest, const Floats& highest) ASDFVK_ALWAYS_INLINE {
-      return asdfvk::max((lowest - kPlaneMargin) * below, (-highest - kPlaneMargin) * above);
-    };
-    const Floats atPoint = boundOf(offsets[3], offsets[3]);
-    const Floats least = boundOf(asdfvk::min(asdfvk::min(offsets[0], offsets[1]), offsets[2]),
-                                 asdfvk::max(asdfvk::max(offsets[0], offsets[1]), offsets[2]));
-    Mask isNear = opposing & (lessEqual(least, least_.limit) | lessEqual(atPoint, atPoint_.limit));
-    if (!anyLane(isNear)) return;
-    isNear &= (lessEqual(least, least_.limit) & least_.reaches(wall)) |
-              (lessEqual(atPoint, atPoint_.limit) & atPoint_.reaches(wall));
-    if (!anyLane(isNear)) return;
-    const Middle middle = middleOf(wall.middle, isNear);
-    if (anyLane(isNear & lessEqual(cosine, cosineLimit(-kCosineMargin))))
-      shrinkLimits(wall, middle, isNear & lessEqual(cosine, cosineLimit(-kCosineMargin)));
-    const Floats pointBound = middle.lowest + asdfvk::min(asdfvk::min(dotLanes(wall.spokes[0], middle.slope),
-                                                                      dotLanes(wall.spokes[1], middle.slope)),
-                                                          dotLanes(wall.spokes[2], middle.slope));
-    const Floats leastAtFace = asdfvk::max(least, leastBound(middle, pointBound));
-    const Floats leastAtPoint = asdfvk::max(atPoint, pointBound);
-    isNear &= lessEqual(leastAtFace, least_.limit) | lessEqual(leastAtPoint, atPoint_.limit);
-    for (size_t lane = 0; lane < queries_.size(); ++lane)
-      if (isNear[lane] != 0) collect(lane, {wall.face, leastAtFace[lane], leastAtPoint[lane]});
-  }
-
-  [[nodiscard]] ASDFVK_ALWAYS_INLINE static Floats dot(const Lanes& a, const Lanes& b) {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-  }
-
-  [[nodiscard]] ASDFVK_ALWAYS_INLINE Middle middleOf(const Vec3f& q, const Mask& lanes) const {
-    const Lanes v{q.x - corners_[3].x, q.y - corners_[3].y, q.z - corners_[3].z};
-    const Floats depth = -dot(v, normal_), inverse = 1 / asdfvk::max(depth, broadcast<Floats>(kMinLimitDepth));
-    const Mask isDeep = lanes & lessEqual(broadcast<Floats>(kMinLimitDepth), depth);
-    const Floats diameter = dot(v, v) * inverse, rounding = diameter * kBoxMargin * (1 + inverse);
-    const auto slope = [&](const Floats& along, const Floats& normal) ASDFVK_ALWAYS_INLINE {
-      return select(isDeep, (2 * along + diameter * normal) * inverse);
-    };
-    return {select(isDeep, diameter + rounding) + select(~isDeep, broadcast<Floats>(kUnlimited)),
-            select(isDeep, diameter - rounding),
-            {slope(v.x, normal_.x), slope(v.y, normal_.y), slope(v.z, normal_.z)}};
-  }
-
-  /// By the balls through the middle of a wall.
-  ASDFVK_ALWAYS_INLINE void shrinkLimits(const Wall& wall, const Middle& middle, const Mask& lanes) {
-    const Floats diameter = select(lanes, middle.diameter) + select(~lanes, broadcast<Floats>(kUnlimited));
-    const Floats atPoint = asdfvk::min(atPoint_.limit, diameter);
-    Floats least = asdfvk::min(least_.limit, diameter);
-    for (size_t k = 0; k < 3; ++k) {
-      const Lanes v{wall.middle.x - corners_[k].x, wall.middle.y - corners_[k].y, wall.middle.z - corners_[k].z};
-      const Floats depth = -dot(v, normal_);
-      const Mask isDeep = lanes & lessEqual(broadcast<Floats>(kMinLimitDepth), depth);
-      const Floats atCorner = dot(v, v) / depth * (1 + kBoxMargin + kBoxMargin / depth);
-      least = asdfvk::min(least, select(isDeep, atCorner) + select(~isDeep, broadcast<Floats>(kUnlimited)));
-    }
-    if (!anyLane(notEqual(least, least_.limit) | notEqual(atPoint, atPoint_.limit))) return;
-    least_.limit = least;
-    atPoint_.limit = atPoint;
-    placeBalls();
-  }
-
-  void collect(size_t lane, const Candidate& candidate) {
-    size_t& count = counts_[lane];
-    if (count == kMaxCandidateCount) {
-      const auto isNear = [&](const Candidate& other) {
-        return other.least <= least_.limit[lane] || other.atPoint <= atPoint_.limit[lane];
-      };
-      const auto end = std::partition(candidates_[lane].begin(), candidates_[lane].end(), isNear);
-      count = static_cast<size_t>(end - candidates_[lane].begin());
-      if (count > kMaxCandidateCount / 2) {
-        measure(lane);
-        least_.limit[lane] = std::min<float>(least_.limit[lane], withMargin(queries_[lane].least.ball.diameter));
-        atPoint_.limit[lane] = std::min<float>(atPoint_.limit[lane], withMargin(queries_[lane].atPoint.ball.diameter));
-      }
-    }
-    candidates_[lane][count++] = candidate;
-  }
-  static float withMargin(double diameter) { return asFloat(diameter * (1 + kBoxMargin)); }
-
-  /// Shrinks the balls of a query by its candidates, the nearest planes first.
-  void measure(size_t lane) {
-    const std::span<Candidate> found(candidates_[lane].data(), std::exchange(counts_[lane], 0));
-    BallQuery& query = queries_[lane];
-    const auto measureBy = [&](float Candidate::*bound, float limit, InscribedBall& best, const auto& ballAt) {
-      std::sort(found.begin(), found.end(), [&](const Candidate& a, const Candidate& b) { return a.*bound < b.*bound; });
-      for (const Candidate& candidate : found) {
-        if (candidate.*bound > std::min<double>(limit, best.ball.diameter)) break;
-        const uint32_t face = candidate.face;
-        if (!tree_.opposing_.contain(query.triangle.normal, tree_.scene_.geometry.normals[face])) continue;
-        const TouchingBall ball = ballAt(triangleOf(tree_.scene_, face), std::min<double>(limit, best.ball.diameter));
-        if (std::isinf(ball.diameter) || ball.diameter > best.ball.diameter) continue;
-        if (ball.diameter < best.ball.diameter || face < best.wall) best = {ball, face};
-      }
-    };
-    measureBy(&Candidate::atPoint, atPoint_.limit[lane], query.atPoint, [&](const PlaneTriangle& wall, double limit) {
-      return leastTouchingBall(query.point, query.triangle.normal, wall, kMinWallDepth, limit);
-    });
-    measureBy(&Candidate::least, least_.limit[lane], query.least, [&](const PlaneTriangle& wall, double limit) {
-      return leastTouchingBall(query.triangle, wall, kMinWallDepth, limit);
-    });
-  }
-
-  static constexpr size_t kMaxCandidateCount = 64;
-
-  const WallTree& tree_;
-  std::span<BallQuery> queries_;
-  Vec3f first_, axis_;  ///< Of the first query, whose ball decides which nodes are visited first.
-  Lanes normal_, boxMin_, boxMax_;
-  std::array<Lanes, 4> corners_;  ///< Of the triangle, and the point.
-  Balls least_, atPoint_;
-  Mask isUsed_;
-  std::array<std::array<Candidate, kMaxCandidateCount>, kSize> candidates_;
-  std::array<size_t, kSize> counts_{};
-};
 
 WallTree::WallTree(const TraceScene& scene, const OpposingWalls& opposing)
     : scene_(scene), opposing_(opposing), nodes_(scene.bvh.nodes.size()), wallOf_(scene.mesh.faceCount()) {
@@ -358,12 +47,12 @@ WallTree::WallTree(const TraceScene& scene, const OpposingWalls& opposing)
     }
     const Vec3f middle = walls_[firstWalls[i] + wallCounts[i] / 2].middle;
     const bool isLeaf = node.isLeaf() || wallCounts[i] <= kMaxLeafWallCount;
-    nodes_[i] = {node.min, node.max, normals.min, normals.max, middle, {}, 0, 0, kUnlimited,
+    nodes_[i] = {node.min, node.max, normals.min, normals.max, middle, {}, 0, 0, kUnlimited, 0,
                  isLeaf ? firstWalls[i] : node.first, isLeaf ? wallCounts[i] : 0};
   }
   forEachInParallel(nodes_.size(), [&](size_t i) {
-    if (wallCounts[i] > kMaxSlabWallCount) return;
-    Node& node = nodes_[i];
+    if (wallCounts[i] > kMaxDiscWallCount) return;
+    WallNode& node = nodes_[i];
     const std::span<const Wall> walls = std::span(walls_).subspan(firstWalls[i], wallCounts[i]);
     Vec3f sum{};
     for (const Wall& wall : walls) sum += wall.normal;
@@ -380,6 +69,7 @@ WallTree::WallTree(const TraceScene& scene, const OpposingWalls& opposing)
         square = std::max(square, dot(v, v) - along * along);
       }
     node.radius = std::sqrt(square) + kPlaneMargin;
+    node.reach = node.radius + std::max(node.highest, -node.lowest);
     node.lowest -= kPlaneMargin;
     node.highest += kPlaneMargin;
   });
@@ -388,7 +78,7 @@ WallTree::WallTree(const TraceScene& scene, const OpposingWalls& opposing)
 void WallTree::shrink(std::span<BallQuery> queries, InstructionSet instructionSet) const {
   dispatch<Float16>(instructionSet, [&]<typename Floats>() ASDFVK_ALWAYS_INLINE {
     for (size_t begin = 0; begin < queries.size(); begin += kLaneCount<Floats>) {
-      Packet<Floats> packet(*this, queries.subspan(begin, std::min(kLaneCount<Floats>, queries.size() - begin)));
+      BallPacket<Floats> packet(*this, queries.subspan(begin, std::min(kLaneCount<Floats>, queries.size() - begin)));
       if (begin > 0) {  // The walls of the neighbour before.
         for (const BallQuery& before : queries.subspan(begin - kLaneCount<Floats>, kLaneCount<Floats>))
           for (const uint32_t wall : {before.atPoint.wall, before.least.wall})
@@ -399,14 +89,17 @@ void WallTree::shrink(std::span<BallQuery> queries, InstructionSet instructionSe
   });
 }
 
-WallTree::Wall WallTree::wallOf(uint32_t face) const {
+Wall WallTree::wallOf(uint32_t face) const {
   const PlaneTriangle triangle = triangleOf(scene_, face);
   const Vec3d middle = (triangle.corners[0] + triangle.corners[1] + triangle.corners[2]) / 3.0;
   Box3f box;
   for (const Vec3d& corner : triangle.corners) box.add(Vec3f(corner));
   Wall wall{Vec3f(triangle.normal), static_cast<float>(dot(triangle.normal, triangle.corners[0])), box.min, box.max,
-            Vec3f(middle), {}, face};
-  for (size_t k = 0; k < 3; ++k) wall.spokes[k] = Vec3f(triangle.corners[k] - middle);
+            Vec3f(middle), {}, 0, face};
+  for (size_t k = 0; k < 3; ++k) {
+    wall.spokes[k] = Vec3f(triangle.corners[k] - middle);
+    wall.reach = std::max(wall.reach, length(wall.spokes[k]));
+  }
   return wall;
 }
 

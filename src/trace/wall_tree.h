@@ -33,6 +33,28 @@ inline constexpr double kMinWallDepth = 0x1p-21;
 /// A face in normalised coordinates.
 [[nodiscard]] PlaneTriangle triangleOf(const TraceScene& scene, uint32_t face);
 
+/// A face, coincident copies included: those of touching parts have opposite normals.
+struct Wall {
+  Vec3f normal;
+  float offset = 0;  ///< Of the plane along the normal.
+  Vec3f min, max, middle;
+  std::array<Vec3f, 3> spokes;  ///< The corners, from the middle.
+  float reach = 0;              ///< Length of the longest spoke.
+  uint32_t face = kNoFace;
+};
+
+/// Bounds of the walls below a node of the hierarchy.
+struct WallNode {
+  Vec3f min, max, normalMin, normalMax;
+  Vec3f middle;  ///< Of one of the walls.
+  /// The corners are within `radius` of the line through the middle along the axis, a mean of the normals, and from
+  /// `lowest` to `highest` along it; at most `reach` from the middle.
+  Vec3f axis;
+  float lowest = 0, highest = 0, radius = 0, reach = 0;
+  uint32_t first = 0;      ///< Inner: index of the left child, the right one follows it. Leaf: first wall.
+  uint32_t wallCount = 0;  ///< 0 for an inner node.
+};
+
 /// The faces as walls, with the hierarchy in which balls find them. Neighbouring queries are answered together, one in
 /// each lane of a vector: nodes and triangles are culled in float32, and decided in double. The shrinking ball of Ma,
 /// Bae and Choi 2012, but in one traversal instead of a query per step: the balls of one diameter at all points of a
@@ -47,34 +69,16 @@ class WallTree {
 
   [[nodiscard]] const TraceScene& scene() const { return scene_; }
 
- private:
-  /// Bounds of the walls below a node of the hierarchy: of their corners and of their normals.
-  struct Node {
-    Vec3f min, max, normalMin, normalMax;
-    Vec3f middle;      ///< Of one of the walls.
-    /// The corners are within `radius` of the line through the middle along the axis, a mean of the normals, and from
-    /// `lowest` to `highest` along it.
-    Vec3f axis;
-    float lowest = 0, highest = 0, radius = 0;
-    uint32_t first = 0;
-    uint32_t triangleCount = 0;
-  };
-  /// A face, coincident copies included: those of touching parts have opposite normals.
-  struct Wall {
-    Vec3f normal;
-    float offset = 0;  ///< Of the plane along the normal.
-    Vec3f min, max, middle;
-    std::array<Vec3f, 3> spokes;  ///< The corners, from the middle.
-    uint32_t face = kNoFace;
-  };
-  template <typename Floats>
-  class Packet;
+  [[nodiscard]] const OpposingWalls& opposing() const { return opposing_; }
+  [[nodiscard]] std::span<const WallNode> nodes() const { return nodes_; }
+  [[nodiscard]] std::span<const Wall> walls() const { return walls_; }
 
+ private:
   [[nodiscard]] Wall wallOf(uint32_t face) const;
 
   TraceScene scene_;
   OpposingWalls opposing_;
-  std::vector<Node> nodes_;
+  std::vector<WallNode> nodes_;
   std::vector<Wall> walls_;
   std::vector<uint32_t> wallOf_;  ///< #F
 };

@@ -1,0 +1,328 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <span>
+#include <utility>
+
+#include "core/box3.h"
+#include "core/simd.h"
+#include "trace/wall_tree.h"
+
+namespace asdfvk {
+
+
+/// Added to radii: covers the rounding of distances to boxes in float32 at coordinates up to 8. Likewise the next two,
+/// at coordinates up to 2.
+inline constexpr float kBoxMargin = 0x1p-19F;
+inline constexpr float kPlaneMargin = 0x1p-19F, kCosineMargin = 0x1p-20F;
+/// Every box is near to larger balls.
+inline constexpr float kMaxBoxedDiameter = 8;
+inline constexpr float kUnlimited = 0x1p60F;
+/// Depths in float32 that are exact enough for limits.
+inline constexpr float kMinLimitDepth = 0x1p-17F;
+
+template <typename Floats>
+struct Vec3Lanes {
+  Floats x, y, z;
+};
+
+template <typename Floats>
+ASDFVK_ALWAYS_INLINE inline Floats dotLanes(const Vec3f& a, const Vec3Lanes<Floats>& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+template <typename Mask>
+ASDFVK_ALWAYS_INLINE inline bool anyLane(const Mask& mask) {
+  std::array<uint64_t, sizeof(Mask) / 8> words;
+  std::memcpy(words.data(), &mask, sizeof mask);
+  uint64_t any = 0;
+  for (const uint64_t word : words) any |= word;
+  return any != 0;
+}
+
+/// Squared distance between a box and the boxes [low, high] of the lanes.
+template <typename Floats>
+ASDFVK_ALWAYS_INLINE inline Floats squaredDistance(const Vec3f& boxMin, const Vec3f& boxMax,
+                                                   const Vec3Lanes<Floats>& low, const Vec3Lanes<Floats>& high) {
+  const auto gap = [&](float min, float max, const Floats& lowest, const Floats& highest)
+                       ASDFVK_ALWAYS_INLINE { return asdfvk::max(asdfvk::max(min - highest, lowest - max), Floats{}); };
+  const Floats x = gap(boxMin.x, boxMax.x, low.x, high.x), y = gap(boxMin.y, boxMax.y, low.y, high.y),
+               z = gap(boxMin.z, boxMax.z, low.z, high.z);
+  return x * x + y * y + z * z;
+}
+
+/// The balls of some queries, one in each lane. A walk through the hierarchy shrinks limits of their diameters by a point
+/// of each wall, and collects the walls whose planes are within the limits; those still within the final limits are
+/// measured.
+template <typename Floats>
+class BallPacket {
+ public:
+  static constexpr size_t kSize = kLaneCount<Floats>;
+
+  /// queries: 1 to kSize.
+  ASDFVK_ALWAYS_INLINE BallPacket(const WallTree& tree, std::span<BallQuery> queries) : tree_(tree), queries_(queries) {
+    for (size_t lane = 0; lane < kSize; ++lane) {
+      const BallQuery& query = queries[std::min(lane, queries.size() - 1)];
+      setLane(normal_, lane, query.triangle.normal);
+      Box3d box;
+      for (size_t k = 0; k < 3; ++k) {
+        setLane(corners_[k], lane, query.triangle.corners[k]);
+        box.add(query.triangle.corners[k]);
+      }
+      setLane(corners_[3], lane, query.point);
+      setLane(boxMin_, lane, box.min);
+      setLane(boxMax_, lane, box.max);
+      double reach = 0;
+      for (const Vec3d& corner : query.triangle.corners) reach = std::max(reach, length(corner - query.point));
+      reach_[lane] = static_cast<float>(1 + reach);  // The dot products with the corners round, too.
+      isUsed_[lane] = lane < queries.size() ? -1 : 0;
+      least_.limit[lane] = asFloat(query.least.ball.diameter);
+      atPoint_.limit[lane] = asFloat(query.atPoint.ball.diameter);
+    }
+    placeBalls();
+    first_ = Vec3f(queries.front().point);
+    axis_ = Vec3f(-queries.front().triangle.normal);
+  }
+
+  ASDFVK_ALWAYS_INLINE void run() {
+    std::array<uint32_t, kMaxBvhDepth + 2> stack;
+    size_t stackSize = 0;
+    if (!tree_.nodes().empty()) stack[stackSize++] = 0;
+    while (stackSize > 0) {
+      const WallNode& node = tree_.nodes()[stack[--stackSize]];
+      const Mask isNear = (least_.reaches(node) | atPoint_.reaches(node)) & mayOppose(node) & isUsed_;
+      if (!anyLane(isNear) || !anyLane(reachDisc(node, isNear))) continue;
+      if (node.wallCount > 0) {
+        for (uint32_t i = node.first; i < node.first + node.wallCount; ++i) test(tree_.walls()[i]);
+        continue;
+      }
+      const WallNode &left = tree_.nodes()[node.first], &right = tree_.nodes()[node.first + 1];
+      const uint32_t leftFirst = diameterAt(left.middle) < diameterAt(right.middle) ? 1 : 0;
+      stack[stackSize++] = node.first + leftFirst;
+      stack[stackSize++] = node.first + 1 - leftFirst;
+    }
+    for (size_t lane = 0; lane < queries_.size(); ++lane) measure(lane);
+  }
+
+  /// A wall that is probably near.
+  ASDFVK_ALWAYS_INLINE void offer(const Wall& wall) {
+    const Mask opposing = lessEqual(dotLanes(wall.normal, normal_), cosineLimit(-kCosineMargin)) & isUsed_;
+    if (anyLane(opposing)) shrinkLimits(wall, middleOf(wall.middle, opposing), opposing);
+  }
+
+ private:
+  using Mask = IntsOf<Floats>;
+  using Lanes = Vec3Lanes<Floats>;
+
+  /// Balls of one kind, whose centres are in boxes.
+  struct Balls {
+    Floats limit, squaredRadius;
+    Lanes low, high;
+
+    ASDFVK_ALWAYS_INLINE Mask reaches(const auto& box) const {
+      return lessEqual(squaredDistance(box.min, box.max, low, high), squaredRadius);
+    }
+    ASDFVK_ALWAYS_INLINE void place(const Lanes& min, const Lanes& max, const Lanes& normal) {
+      const Floats radius = 0.5F * asdfvk::min(limit, broadcast<Floats>(kMaxBoxedDiameter));
+      const auto shifted = [&](const Lanes& v) ASDFVK_ALWAYS_INLINE {
+        return Lanes{v.x - radius * normal.x, v.y - radius * normal.y, v.z - radius * normal.z};
+      };
+      low = shifted(min);
+      high = shifted(max);
+      const Floats reach = radius + kBoxMargin;
+      const Mask isBoxed = lessEqual(limit, broadcast<Floats>(kMaxBoxedDiameter));
+      squaredRadius = select(isBoxed, reach * reach) + select(~isBoxed, broadcast<Floats>(kUnlimited));
+    }
+  };
+  /// The balls at the points through the middle of a wall.
+  struct Middle {
+    Floats diameter;  ///< At most, in spite of rounding; unlimited where it is unknown.
+    Floats lowest;    ///< At least; 0 where it is unknown.
+    Lanes slope;      ///< Gradient of the diameter by the point of the wall.
+    Floats doubt;     ///< Of the slope, by rounding.
+  };
+
+  /// A wall with the least diameters of the balls that touch its plane.
+  struct Candidate {
+    uint32_t face;
+    float least, atPoint;
+  };
+
+  static float asFloat(double diameter) { return static_cast<float>(std::min<double>(diameter, kUnlimited)); }
+  static void setLane(Lanes& lanes, size_t lane, const Vec3d& v) {
+    lanes.x[lane] = static_cast<float>(v.x);
+    lanes.y[lane] = static_cast<float>(v.y);
+    lanes.z[lane] = static_cast<float>(v.z);
+  }
+  ASDFVK_ALWAYS_INLINE void placeBalls() {
+    least_.place(boxMin_, boxMax_, normal_);
+    atPoint_.place(corners_[3], corners_[3], normal_);
+  }
+  /// Of the ball of the first query through a point; great where the point is behind.
+  [[nodiscard]] float diameterAt(const Vec3f& q) const {
+    const Vec3f v = q - first_;
+    return asdfvk::dot(v, v) / std::max(asdfvk::dot(v, axis_), kMinLimitDepth);
+  }
+  [[nodiscard]] ASDFVK_ALWAYS_INLINE Floats cosineLimit(float margin) const {
+    return broadcast<Floats>(static_cast<float>(tree_.opposing().cosine) + margin);
+  }
+
+  /// Lanes whose faces may have an opposing wall below the node.
+  [[nodiscard]] ASDFVK_ALWAYS_INLINE Mask mayOppose(const WallNode& node) const {
+    const auto least = [&](float min, float max, const Floats& component)
+                           ASDFVK_ALWAYS_INLINE { return asdfvk::min(component * min, component * max); };
+    const Floats cosine = least(node.normalMin.x, node.normalMax.x, normal_.x) +
+                          least(node.normalMin.y, node.normalMax.y, normal_.y) +
+                          least(node.normalMin.z, node.normalMax.z, normal_.z);
+    return lessEqual(cosine, cosineLimit(kCosineMargin));
+  }
+
+  /// Lanes whose balls may reach the disc in which the node is.
+  [[nodiscard]] ASDFVK_ALWAYS_INLINE Mask reachDisc(const WallNode& node, const Mask& lanes) const {
+    const Middle middle = middleOf(node.middle, lanes);
+    const Floats along = dotLanes(node.axis, middle.slope), square = dot(middle.slope, middle.slope) - along * along;
+    const Floats across = asdfvk::max(square, broadcast<Floats>(kBoxMargin));
+    const Floats atPoint = middle.lowest + asdfvk::min(along * node.lowest, along * node.highest) -
+                           node.radius * (across * rsqrt(across)) * (1 + kBoxMargin) - middle.doubt * node.reach;
+    return lanes & (lessEqual(leastBound(middle, atPoint), least_.limit) | lessEqual(atPoint, atPoint_.limit));
+  }
+
+  /// The diameter is a convex function of both points: no less than its tangent at the point and the middle.
+  /// atPoint: the least at the point. Returns the least at the triangle.
+  [[nodiscard]] ASDFVK_ALWAYS_INLINE Floats leastBound(const Middle& middle, const Floats& atPoint) const {
+    const Floats greatest = asdfvk::max(asdfvk::max(dot(corners_[0], middle.slope), dot(corners_[1], middle.slope)),
+                                        dot(corners_[2], middle.slope));
+    return atPoint + dot(corners_[3], middle.slope) - greatest - middle.doubt * reach_;
+  }
+
+  ASDFVK_ALWAYS_INLINE void test(const Wall& wall) {
+    const Floats cosine = dotLanes(wall.normal, normal_);
+    const Mask opposing = lessEqual(cosine, cosineLimit(kCosineMargin)) & isUsed_;
+    if (!anyLane(opposing)) return;
+    // Balls that touch the wall are at least as large as those that touch its plane.
+    std::array<Floats, 4> offsets;
+    for (size_t k = 0; k < 4; ++k) offsets[k] = wall.offset - dotLanes(wall.normal, corners_[k]);
+    const Floats smallest = broadcast<Floats>(kCosineMargin);
+    const Floats below = 2 / asdfvk::max(1 - cosine, smallest), above = 2 / asdfvk::max(1 + cosine, smallest);
+    const auto boundOf = [&](const Floats& lowest, const Floats& highest) ASDFVK_ALWAYS_INLINE {
+      return asdfvk::max((lowest - kPlaneMargin) * below, (-highest - kPlaneMargin) * above);
+    };
+    const Floats atPoint = boundOf(offsets[3], offsets[3]);
+    const Floats least = boundOf(asdfvk::min(asdfvk::min(offsets[0], offsets[1]), offsets[2]),
+                                 asdfvk::max(asdfvk::max(offsets[0], offsets[1]), offsets[2]));
+    Mask isNear = opposing & (lessEqual(least, least_.limit) | lessEqual(atPoint, atPoint_.limit));
+    if (!anyLane(isNear)) return;
+    isNear &= (lessEqual(least, least_.limit) & least_.reaches(wall)) |
+              (lessEqual(atPoint, atPoint_.limit) & atPoint_.reaches(wall));
+    if (!anyLane(isNear)) return;
+    const Middle middle = middleOf(wall.middle, isNear);
+    if (anyLane(isNear & lessEqual(cosine, cosineLimit(-kCosineMargin))))
+      shrinkLimits(wall, middle, isNear & lessEqual(cosine, cosineLimit(-kCosineMargin)));
+    const Floats pointBound = middle.lowest + asdfvk::min(asdfvk::min(dotLanes(wall.spokes[0], middle.slope),
+                                                                      dotLanes(wall.spokes[1], middle.slope)),
+                                                          dotLanes(wall.spokes[2], middle.slope)) -
+                              middle.doubt * wall.reach;
+    const Floats leastAtFace = asdfvk::max(least, leastBound(middle, pointBound));
+    const Floats leastAtPoint = asdfvk::max(atPoint, pointBound);
+    isNear &= lessEqual(leastAtFace, least_.limit) | lessEqual(leastAtPoint, atPoint_.limit);
+    for (size_t lane = 0; lane < queries_.size(); ++lane)
+      if (isNear[lane] != 0) collect(lane, {wall.face, leastAtFace[lane], leastAtPoint[lane]});
+  }
+
+  [[nodiscard]] ASDFVK_ALWAYS_INLINE static Floats dot(const Lanes& a, const Lanes& b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+  }
+
+  [[nodiscard]] ASDFVK_ALWAYS_INLINE Middle middleOf(const Vec3f& q, const Mask& lanes) const {
+    const Lanes v{q.x - corners_[3].x, q.y - corners_[3].y, q.z - corners_[3].z};
+    const Floats depth = -dot(v, normal_), inverse = 1 / asdfvk::max(depth, broadcast<Floats>(kMinLimitDepth));
+    const Mask isDeep = lanes & lessEqual(broadcast<Floats>(kMinLimitDepth), depth);
+    const Floats diameter = dot(v, v) * inverse, rounding = diameter * kBoxMargin * (1 + inverse);
+    const auto slope = [&](const Floats& along, const Floats& normal) ASDFVK_ALWAYS_INLINE {
+      return select(isDeep, (2 * along + diameter * normal) * inverse);
+    };
+    return {select(isDeep, diameter + rounding) + select(~isDeep, broadcast<Floats>(kUnlimited)),
+            select(isDeep, diameter - rounding),
+            {slope(v.x, normal_.x), slope(v.y, normal_.y), slope(v.z, normal_.z)},
+            select(isDeep, (kPlaneMargin + 2 * rounding) * inverse)};
+  }
+
+  /// By the balls through the middle of a wall.
+  ASDFVK_ALWAYS_INLINE void shrinkLimits(const Wall& wall, const Middle& middle, const Mask& lanes) {
+    const Floats diameter = select(lanes, middle.diameter) + select(~lanes, broadcast<Floats>(kUnlimited));
+    const Floats atPoint = asdfvk::min(atPoint_.limit, diameter);
+    Floats least = asdfvk::min(least_.limit, diameter);
+    for (size_t k = 0; k < 3; ++k) {
+      const Lanes v{wall.middle.x - corners_[k].x, wall.middle.y - corners_[k].y, wall.middle.z - corners_[k].z};
+      const Floats depth = -dot(v, normal_);
+      const Mask isDeep = lanes & lessEqual(broadcast<Floats>(kMinLimitDepth), depth);
+      const Floats atCorner = dot(v, v) / depth * (1 + kBoxMargin + kBoxMargin / depth);
+      least = asdfvk::min(least, select(isDeep, atCorner) + select(~isDeep, broadcast<Floats>(kUnlimited)));
+    }
+    if (!anyLane(notEqual(least, least_.limit) | notEqual(atPoint, atPoint_.limit))) return;
+    least_.limit = least;
+    atPoint_.limit = atPoint;
+    placeBalls();
+  }
+
+  void collect(size_t lane, const Candidate& candidate) {
+    size_t& count = counts_[lane];
+    if (count == kMaxCandidateCount) {
+      const auto isNear = [&](const Candidate& other) {
+        return other.least <= least_.limit[lane] || other.atPoint <= atPoint_.limit[lane];
+      };
+      const auto end = std::partition(candidates_[lane].begin(), candidates_[lane].end(), isNear);
+      count = static_cast<size_t>(end - candidates_[lane].begin());
+      if (count > kMaxCandidateCount / 2) {
+        measure(lane);
+        least_.limit[lane] = std::min<float>(least_.limit[lane], withMargin(queries_[lane].least.ball.diameter));
+        atPoint_.limit[lane] = std::min<float>(atPoint_.limit[lane], withMargin(queries_[lane].atPoint.ball.diameter));
+      }
+    }
+    candidates_[lane][count++] = candidate;
+  }
+  static float withMargin(double diameter) { return asFloat(diameter * (1 + kBoxMargin)); }
+
+  /// Shrinks the balls of a query by its candidates, the nearest planes first.
+  void measure(size_t lane) {
+    const std::span<Candidate> found(candidates_[lane].data(), std::exchange(counts_[lane], 0));
+    BallQuery& query = queries_[lane];
+    const auto measureBy = [&](float Candidate::*bound, double limit, InscribedBall& best, const auto& ballAt) {
+      std::sort(found.begin(), found.end(), [&](const Candidate& a, const Candidate& b) { return a.*bound < b.*bound; });
+      for (const Candidate& candidate : found) {
+        if (candidate.*bound > std::min(limit, best.ball.diameter)) break;
+        const uint32_t face = candidate.face;
+        if (!tree_.opposing().contain(query.triangle.normal, tree_.scene().geometry.normals[face])) continue;
+        const TouchingBall ball = ballAt(triangleOf(tree_.scene(), face), std::min(limit, best.ball.diameter));
+        if (std::isinf(ball.diameter) || ball.diameter > best.ball.diameter) continue;
+        if (ball.diameter < best.ball.diameter || face < best.wall) best = {ball, face};
+      }
+    };
+    measureBy(&Candidate::atPoint, atPoint_.limit[lane], query.atPoint, [&](const PlaneTriangle& wall, double limit) {
+      return leastTouchingBall(query.point, query.triangle.normal, wall, kMinWallDepth, limit);
+    });
+    const double leastLimit = std::min<double>(least_.limit[lane], query.atPoint.ball.diameter);
+    measureBy(&Candidate::least, leastLimit, query.least, [&](const PlaneTriangle& wall, double limit) {
+      return leastTouchingBall(query.triangle, wall, kMinWallDepth, limit);
+    });
+  }
+
+  static constexpr size_t kMaxCandidateCount = 64;
+
+  const WallTree& tree_;
+  std::span<BallQuery> queries_;
+  Vec3f first_, axis_;  ///< Of the first query, whose ball decides which nodes are visited first.
+  Lanes normal_, boxMin_, boxMax_;
+  std::array<Lanes, 4> corners_;  ///< Of the triangle, and the point.
+  Balls least_, atPoint_;
+  Floats reach_;  ///< 1 + the length from the point to the corners.
+  Mask isUsed_;
+  std::array<std::array<Candidate, kMaxCandidateCount>, kSize> candidates_;
+  std::array<size_t, kSize> counts_{};
+};
+
+}  // namespace asdfvk
