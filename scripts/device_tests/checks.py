@@ -27,8 +27,7 @@ FETCHES = ("storage", "texel")
 REFUSALS = ("deviceLimit", "kernelUnsupported")
 # Rays per cone; faces that cast rays at most, all of which are checked.
 RAY_COUNTS = {30: 1000, 1024: 32}
-FURTHER_OPTIONS = (("--solver", "cg"), ("--solver", "jacobi"), ("--measure", "thickness"),
-                   ("--measure", "thickness", "--bvh", "binary"))
+FURTHER_OPTIONS = (("--solver", "cg"), ("--solver", "jacobi"))
 
 
 class Status(enum.Enum):

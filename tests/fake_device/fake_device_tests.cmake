@@ -3,13 +3,13 @@
 set(casesOf_vk "*")
 set(casesOf_trace "turned cones*" "all tracers agree on cones*" "hits of cones that the reference redoes*"
     "hits do not depend on where a chunk ends" "hits that a trace stores*" "rays without a hit are misses*"
-    "copies of faces*" "two runs on the device*" "a trace on the device stops*" "details too small*" "the kernel is chosen by*"
-    "each field of the shared structs*")
+    "copies of faces*" "two runs on the device*" "a trace on the device stops*" "details too small*"
+    "the kernel is chosen by*" "each field of the shared structs*" "a hierarchy beyond the texel limit*")
 set(casesOf_trace_lanes128 "any number of rays gives the reference's hits")
 set(casesOf_poisson "iterations*" "Jacobi sweeps*" "a distinct word*" "a torus has the solution*" "rows are read*"
     "solvers of a device*" "the solution is that of dense algebra*")
 set(casesOf_pipeline "a tenth of the faces casts*" "two runs give the same bits" "all solvers give*"
-    "a warning reports that the CPU finished*" "the device and the reference agree*" "backends agree in the thickness*"
+    "a warning reports that the CPU finished*" "the device and the reference agree*"
     "a session computes by both definitions*" "a stop request*" "a point has the same value alone*"
     "a region of all faces*")
 # The cases of the prediction are those of the files of its kernels.
