@@ -65,11 +65,11 @@ struct Truth {
     diagonal = scene.geometry.bounds.diagonal();
     const Solids solids = findSolids(scene.mesh, traceable.prepared.components);
     std::vector<Section> all(solids.isClosed.size(), {kUnlimited, kUnlimited});
-    for (uint32_t solid = 0; solid < all.size(); ++solid) {
-      if (solids.isClosed[solid] == 0) continue;
-      const GreatestSection found = findGreatestSection(scene, solids.solidOf, solid);
-      all[solid] = {normalization.toMeshLength(found.diameter), normalization.toMeshLength(found.bound)};
-    }
+    const std::vector<GreatestSection> found = findGreatestSections(scene, solids.solidOf, solids.isClosed, {});
+    for (size_t solid = 0; solid < all.size(); ++solid)
+      if (solids.isClosed[solid] != 0)
+        all[solid] = {normalization.toMeshLength(found[solid].diameter),
+                      normalization.toMeshLength(found[solid].bound)};
     const uint32_t step = std::max(1u, mesh.faces.size() <= faceCount ? 1 : scene.mesh.faceCount() / faceCount);
     for (uint32_t face = 0; face < scene.mesh.faceCount(); face += step)
       if (!scene.geometry.isDegenerate(face)) faces.push_back(face);
