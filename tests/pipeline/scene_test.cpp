@@ -356,7 +356,7 @@ TEST_CASE("tracers are kept by their cone options, and replaced where they serve
   CHECK(made({}, {}) == 3);
   CHECK(made(narrower, {}) == 4);  // Replaces `narrow`, the least recently used one.
   CHECK(made({}, {}) == 4);
-  CHECK(made(narrow, {}) == 6);
+  CHECK(made(narrow, {}) == 5);
 
   SceneTracers none(backend, scene.view(), 0);
   const std::weak_ptr<SceneTracer> released = none.get({}, {}, clock);
