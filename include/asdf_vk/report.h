@@ -23,7 +23,7 @@ enum class Stage {
   Upload,     ///< Creation and release of kernels and buffers of the device; 0 without Vulkan.
   Sample,     ///< Selection of the seeds.
   Trace,      ///< Rays.
-  Thickness,  ///< Measure::Thickness: balls, interpolation, regions.
+  Thickness,  ///< Measure::Thickness: greatest sections, balls, regions.
   Predict,    ///< Prediction from hits.
   Solve,      ///< Poisson equation.
   Estimate,   ///< Error estimate, with the predictions and solutions it needs.
