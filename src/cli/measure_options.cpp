@@ -72,7 +72,7 @@ void completeMeasure(const ArgumentParser& parser, CommandLine& line) {
   applyLimit(parser, line);
   if (line.options.measure == Measure::Thickness) {
     if (!parser.isGiven("--fields")) line.fields.insert(line.fields.begin(), kFields.begin(), kFields.end());
-    if (!parser.isGiven("--picture-of")) line.pictureOf = kFields.front();
+    if (!parser.isGiven("--picture-of")) line.pictureOf = line.options.thickness.thinnerThan ? "" : kFields.front();
     return;
   }
   if (parser.isGiven("--wall-angle")) refuseOptions("--wall-angle needs --measure thickness");

@@ -45,16 +45,21 @@ auto runWithProgress(bool showsBar, const std::stop_token& stop, const Work& wor
   return work(control);
 }
 
-/// Renders the field of --picture-of and writes it atomically. Precondition: result.scene is set. Throws
-/// Error{OutputNotWritable}, Error{UnknownField} and Error{Cancelled}.
-void writePicture(const CommandLine& line, const Result& result, const RunControl& control) {
+/// Renders the field of --picture-of, or the thin places, and writes it atomically. Precondition: result.scene is set.
+/// Throws Error{OutputNotWritable}, Error{UnknownField} and Error{Cancelled}.
+void writePicture(const CommandLine& line, const std::string& input, const Result& result, const RunControl& control) {
+  const View view = viewOf(line, input, result);
+  if (line.pictureOf.empty()) {
+    writePng(line.picture, thinPictureOf(result, view, line.choosesView, {}, control));
+    return;
+  }
   const Field* field = result.field(line.pictureOf);
   if (field == nullptr) throw Error(ErrorCode::UnknownField, "--picture-of: the result has no field " + line.pictureOf);
   if (field->componentCount != 1)
     throw Error(ErrorCode::OptionConflict,
                 fmt::format("--picture-of: field {} has {} components; a picture shows a field of one component",
                             line.pictureOf, field->componentCount));
-  writePng(line.picture, pictureOf(result, *field, line.pictureView, {}, control));
+  writePng(line.picture, pictureOf(result, *field, view, {}, control));
 }
 
 SharedJson shortEstimateOf(const std::optional<ErrorEstimate>& estimate) {
@@ -215,7 +220,8 @@ void MeshRunner::compute(Session& session, const MeshTask& task, const CommandLi
     if (!line.points.empty()) writePoints(line.points, result.fields);
     seconds[Stage::Write] = writeWatch.seconds();
     if (!line.picture.empty())
-      runWithProgress(showsBar_, stop, [&](const RunControl& control) { writePicture(line, result, control); });
+      runWithProgress(showsBar_, stop,
+                      [&](const RunControl& control) { writePicture(line, task.input, result, control); });
   }
   describe(task, line, result, run);
 }

@@ -191,7 +191,9 @@ void addPicture(ArgumentParser& parser, CommandLine& line) {
   std::vector<std::string> shown = resultFieldNames();
   std::erase(shown, "centre");
   addValue(parser, "--picture-of", joined(shown, "|"),
-           fmt::format("Field to show; default {}, or thickness with --measure thickness", line.pictureOf),
+           fmt::format("Field to show; default {}, thickness with --measure thickness, or the\n"
+                       "places thinner than a limit",
+                       line.pictureOf),
            [&](const std::string& text) {
              line.pictureOf = text == "seeds" ? "seed" : text;  // "seeds": the name in version 0.1.
              requireFieldName(line.pictureOf);
@@ -203,13 +205,15 @@ void addPicture(ArgumentParser& parser, CommandLine& line) {
       .needs(picture);
   const View view;
   addValue(parser, "--picture-view", "AZIMUTH,ELEVATION",
-           fmt::format("View, in degrees to the right of the broad side of the mesh and up;\ndefault {},{}",
+           fmt::format("View, in degrees to the right of the broad side of the mesh and up;\n"
+                       "default {},{}, or the view that shows the thin places best",
                        view.azimuthDegrees, view.elevationDegrees),
            [&](const std::string& text) { parseViewAngles(text, line.pictureView); })
       .group(group)
       .needs(picture);
   addChoice(parser, "--picture-up", line.pictureView.up, kUps,
-            "Up axis of the picture. auto: y, unless the mesh stands more stably on\nanother axis; default auto")
+            "Up axis of the picture. auto: z of an STL file, else y, unless the mesh stands\n"
+            "more stably on another axis; default auto")
       .group(group)
       .needs(picture);
 }

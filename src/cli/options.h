@@ -23,8 +23,9 @@ struct CommandLine {
   std::string format;                              ///< A name of outputFormats(); empty: by `output`, else ply.
   std::vector<std::string> fields{"sdf", "seed"};  ///< Fields to write, in this order.
   std::string picture;                             ///< A .png, "-" for standard output; empty: none.
-  std::string pictureOf = "sdf";                   ///< Name of the field to show.
+  std::string pictureOf = "sdf";                   ///< Name of the field to show; empty: the thin places.
   View pictureView;
+  bool choosesView = false;    ///< --picture-view is given.
   std::string valueOptions;    ///< Those given that need values: --postprocess, --segment, or both with "and".
   std::string points;          ///< A .ply for the skeleton points, "-" for standard output; empty: none.
   bool choosesFields = false;  ///< --fields is given.

@@ -62,6 +62,7 @@ void addPage(ArgumentParser& parser, CommandLine& line) {
 
 void completePage(const ArgumentParser& parser, CommandLine& line) {
   line.choosesFields = parser.isGiven("--fields");
+  line.choosesView = parser.isGiven("--picture-view");
   if (line.opensPage && line.output.empty() && line.format.empty()) line.format = kPageFormat;
   const bool isPage = writesPages(line);
   if (line.opensPage && !isPage) refuseOptions("--open opens a page; give -o FILE.html, or drop --open");

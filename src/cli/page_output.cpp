@@ -113,19 +113,6 @@ std::vector<PageSegment> segmentsOf(const Result& result, const FieldList& shown
                       std::get<std::vector<uint32_t>>(field->values), result.sdf());
 }
 
-/// The upright axis that the mesh seems to have.
-Up guessUpOf(const TriangleMesh& mesh) {
-  std::vector<uint8_t> isUsed(mesh.vertices.size(), 0);
-  for (const Face& face : mesh.faces)
-    for (const uint32_t vertex : face) isUsed[vertex] = 1;
-  std::vector<Vec3d> points;
-  for (size_t vertex = 0; vertex < isUsed.size(); ++vertex) {
-    const Vec3d& point = mesh.vertices[vertex];
-    if (isUsed[vertex] != 0 && std::isfinite(point.x + point.y + point.z)) points.push_back(point);
-  }
-  return guessUp(points);
-}
-
 std::string axisName(Up up) {
   constexpr std::array<std::string_view, 6> kNames{"x", "y", "z", "-x", "-y", "-z"};
   return std::string(kNames[static_cast<size_t>(up)]);
@@ -142,8 +129,7 @@ void addToPage(Page& page, const MeshOutcome& outcome, const RunControl& control
   texts.errorSentence = errorSentenceOf(outcome.result);
   for (const Warning& warning : outcome.result.report.warnings)
     (warning.code == WarningCode::MeshDefect ? texts.defects : texts.warnings).push_back(textWarning(warning));
-  View view = outcome.line.pictureView;
-  if (!view.up) view.up = guessUpOf(outcome.result.scene->scene.mesh);
+  const View view = viewOf(outcome.line, outcome.mesh, outcome.result);
   texts.up = axisName(*view.up);
   texts.thinRegions = thinRegionsOf(outcome.result);
   texts.segments = segmentsOf(outcome.result, fields);

@@ -2,6 +2,7 @@
 
 #include "asdf_vk/run_control.h"
 #include "asdf_vk/session.h"
+#include "cli/options.h"
 #include "render/camera.h"
 #include "render/image.h"
 
@@ -13,9 +14,19 @@ struct PictureStyle {
   bool isDraft = false;            ///< See Picture::isDraft.
 };
 
-/// Renders the mesh of a result coloured by a field per input face of one component. Precondition: result.scene is
-/// set. Throws Error{Cancelled}.
+/// The view of --picture-view and --picture-up. Without an upright axis: z where the file `input` is an STL, else
+/// guessUp().
+[[nodiscard]] View viewOf(const CommandLine& line, const std::string& input, const Result& result);
+
+// Preconditions: result.scene is set. Both throw Error{Cancelled}.
+
+/// Renders the mesh of a result coloured by a field per input face of one component.
 [[nodiscard]] Image pictureOf(const Result& result, const Field& field, const View& view, const PictureStyle& style,
                               const RunControl& control);
+
+/// Renders the mesh with its thin places. choosesView: `view` is a choice of the user; otherwise its angles are
+/// replaced by those of bestViewOf(). Precondition: the thickness was measured with a limit.
+[[nodiscard]] Image thinPictureOf(const Result& result, View view, bool choosesView, const PictureStyle& style,
+                                  const RunControl& control);
 
 }  // namespace asdfvk

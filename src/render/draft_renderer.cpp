@@ -1,10 +1,9 @@
 #include "render/draft_renderer.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include "core/parallel.h"
+#include "render/sample_rows.h"
 #include "trace/nearest_hit.h"
 
 namespace asdfvk {
@@ -13,57 +12,6 @@ namespace {
 constexpr int kSamples = 2;     ///< Per side of a pixel.
 constexpr int kBandRows = 128;  ///< Of samples. Every band reads all faces.
 constexpr double kDraftAmbient = 0.4, kDraftDiffuse = 0.65;
-
-/// A vertex in units of samples, x to the right, y down, depth towards the viewer.
-struct Projected {
-  float x, y, depth;
-};
-
-/// The rows of samples from `top`, below `bottom`.
-class Band {
- public:
-  Band(int width, int top, int bottom) : width_(width), top_(top), bottom_(bottom) {
-    const auto count = static_cast<size_t>(width) * static_cast<size_t>(bottom - top);
-    depths_.assign(count, -std::numeric_limits<float>::infinity());
-    faces_.assign(count, kNoFace);
-  }
-
-  void draw(uint32_t face, const Projected& a, const Projected& b, const Projected& c) {
-    const auto [low, high] = std::minmax({a.y, b.y, c.y});
-    const int firstRow = std::max(top_, static_cast<int>(std::ceil(low - 0.5f)));
-    const int lastRow = std::min(bottom_ - 1, static_cast<int>(std::floor(high - 0.5f)));
-    if (firstRow > lastRow) return;
-    const auto [left, right] = std::minmax({a.x, b.x, c.x});
-    const int firstColumn = std::max(0, static_cast<int>(std::ceil(left - 0.5f)));
-    const int lastColumn = std::min(width_ - 1, static_cast<int>(std::floor(right - 0.5f)));
-    const float area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-    if (area == 0) return;
-    for (int row = firstRow; row <= lastRow; ++row)
-      for (int column = firstColumn; column <= lastColumn; ++column) {
-        const float x = static_cast<float>(column) + 0.5f, y = static_cast<float>(row) + 0.5f;
-        const float ofA = ((b.x - x) * (c.y - y) - (b.y - y) * (c.x - x)) / area;
-        const float ofB = ((c.x - x) * (a.y - y) - (c.y - y) * (a.x - x)) / area;
-        const float ofC = 1 - ofA - ofB;
-        if (ofA < 0 || ofB < 0 || ofC < 0) continue;
-        const float depth = ofA * a.depth + ofB * b.depth + ofC * c.depth;
-        const size_t sample = indexOf(column, row);
-        if (depth <= depths_[sample]) continue;
-        depths_[sample] = depth;
-        faces_[sample] = face;
-      }
-  }
-
-  [[nodiscard]] uint32_t faceAt(int column, int row) const { return faces_[indexOf(column, row)]; }
-
- private:
-  [[nodiscard]] size_t indexOf(int column, int row) const {
-    return static_cast<size_t>(row - top_) * static_cast<size_t>(width_) + static_cast<size_t>(column);
-  }
-
-  int width_, top_, bottom_;
-  std::vector<float> depths_;
-  std::vector<uint32_t> faces_;
-};
 
 }  // namespace
 
@@ -79,12 +27,10 @@ std::vector<Vec3d> verticesOfHitFaces(const TraceScene& scene) {
 
 void renderDraft(Image& image, const TraceScene& scene, const Camera& camera, std::span<const Rgb> faceColours) {
   const TriangleMesh& mesh = scene.mesh;
+  const SampleGrid grid{camera, kSamples};
   std::vector<Projected> projected(mesh.vertices.size());
   forEachInParallel(projected.size(), [&](uint32_t vertex) {
-    const Vec3d p = scene.bvh.normalization.toNormalized(mesh.vertices[vertex]) - camera.centre;
-    projected[vertex] = {static_cast<float>(kSamples * (camera.centreX + dot(p, camera.right) / camera.pixelSize)),
-                         static_cast<float>(kSamples * (camera.centreY - dot(p, camera.up) / camera.pixelSize)),
-                         static_cast<float>(dot(p, camera.toViewer))};
+    projected[vertex] = grid.project(scene.bvh.normalization.toNormalized(mesh.vertices[vertex]));
   });
   const Vec3d light = unitVector(camera.toViewer + camera.up * 0.5 - camera.right * 0.4, camera.toViewer);
   const auto shade = [&](uint32_t face) {
@@ -95,10 +41,10 @@ void renderDraft(Image& image, const TraceScene& scene, const Camera& camera, st
   const int rowCount = kSamples * image.height();
   forEachTask(static_cast<size_t>((rowCount + kBandRows - 1) / kBandRows), [&](size_t index) {
     const int top = static_cast<int>(index) * kBandRows, bottom = std::min(rowCount, top + kBandRows);
-    Band band(kSamples * image.width(), top, bottom);
+    SampleRows rows(kSamples * image.width(), top, bottom);
     for (const uint32_t face : scene.bvh.primitiveFaces) {
       const auto [a, b, c] = mesh.faces[face];
-      band.draw(face, projected[a], projected[b], projected[c]);
+      rows.draw(face, projected[a], projected[b], projected[c]);
     }
     for (int y = top / kSamples; y < bottom / kSamples; ++y)
       for (int x = 0; x < image.width(); ++x) {
@@ -106,9 +52,9 @@ void renderDraft(Image& image, const TraceScene& scene, const Camera& camera, st
         Vec3d sum;
         bool isEmpty = true;
         for (int i = 0; i < kSamples * kSamples; ++i) {
-          const uint32_t face = band.faceAt(kSamples * x + i % kSamples, kSamples * y + i / kSamples);
-          isEmpty = isEmpty && face == kNoFace;
-          sum += face == kNoFace ? behind : shade(face);
+          const uint32_t face = rows.indexAt(kSamples * x + i % kSamples, kSamples * y + i / kSamples);
+          isEmpty = isEmpty && face == kNoSample;
+          sum += face == kNoSample ? behind : shade(face);
         }
         if (!isEmpty) image.at(x, y) = toRgb(sum / double{kSamples * kSamples});
       }

@@ -1,6 +1,7 @@
 #include "render/picture.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -15,7 +16,7 @@
 namespace asdfvk {
 namespace {
 
-constexpr Rgb kNeutral{210, 209, 204}, kHighlight{206, 38, 30};
+constexpr Rgb kPass{24, 122, 56};
 // Divided by the height of the picture.
 constexpr double kCapHeightShare = 0.026, kMarginShare = 0.04;
 
@@ -27,17 +28,46 @@ std::vector<Rgb> faceColoursOf(const Picture& picture, const ColourRange& range)
     colours[face] = {colour[0], colour[1], colour[2]};
   }
   for (size_t face = 0; face < picture.highlighted.size(); ++face)
-    if (picture.highlighted[face] != 0) colours[face] = kHighlight;
+    if (picture.highlighted[face] != 0) colours[face] = kAlarm;
   return colours;
 }
 
-/// A square in the colour of the highlight, and the title.
+/// A square in the colour of the highlighted or thin parts, if any, the title, and the verdict at the right end.
 void drawLegend(Image& image, const Picture& picture, const PixelArea& area, double capHeight) {
-  const double swatch = picture.highlighted.empty() ? 0 : capHeight * 1.6;
-  const double cap = fittingCapHeight(picture.title, capHeight, area.width - swatch);
+  const bool hasSwatch = !picture.highlighted.empty() || (picture.thinPlaces && !picture.thinPlaces->surface.empty());
+  const double swatch = hasSwatch ? capHeight * 1.6 : 0;
+  const std::string verdict = picture.thinPlaces ? picture.thinPlaces->verdict : "";
+  const double verdictWidth = textWidth(verdict, capHeight);
+  const double gap = verdict.empty() ? 0 : verdictWidth + 2 * capHeight;
+  const double cap = fittingCapHeight(picture.title, capHeight, area.width - swatch - gap);
   const double baseline = area.top + area.height;
-  if (swatch > 0) fillRectangle(image, area.left, baseline - cap, cap, cap, kHighlight);
+  if (hasSwatch) fillRectangle(image, area.left, baseline - cap, cap, cap, kAlarm);
   drawText(image, picture.title, area.left + swatch, baseline, cap);
+  if (!verdict.empty())
+    drawText(image, verdict, area.left + area.width - verdictWidth, baseline, capHeight,
+             picture.thinPlaces->isFailure ? kAlarm : kPass);
+}
+
+/// Renders the mesh, and the thin places on it, with callouts in columns at both sides of `area`.
+void drawMesh(Image& image, const Picture& picture, PixelArea area, const ColourRange& range, double capHeight,
+              const RunControl& control) {
+  const double width = picture.thinPlaces ? calloutWidth(picture.thinPlaces->callouts, capHeight) : 0;
+  const std::array<PixelArea, 2> columns{
+      {{area.left, area.top, width, area.height}, {area.left + area.width - width, area.top, width, area.height}}};
+  area.left += width;
+  area.width -= 2 * width;
+  Camera camera;
+  if (picture.isDraft) {
+    camera = frameCamera(verticesOfHitFaces(picture.scene), picture.view, area);
+    renderDraft(image, picture.scene, camera, faceColoursOf(picture, range));
+  } else {
+    const PictureScene scene(picture.scene);
+    camera = frameCamera(scene.points(), picture.view, area);
+    renderMesh(image, scene, camera, faceColoursOf(picture, range), control);
+  }
+  if (!picture.thinPlaces) return;
+  paintThinPlaces(image, picture.scene, camera, *picture.thinPlaces);
+  drawCallouts(image, picture.scene, camera, picture.thinPlaces->callouts, columns, capHeight);
 }
 
 }  // namespace
@@ -69,14 +99,7 @@ Image render(const Picture& picture, const RunControl& control) {
     drawLegend(image, picture, {inner.left, inner.top, inner.width, capHeight}, capHeight);
   }
 
-  if (picture.isDraft) {
-    const Camera camera = frameCamera(verticesOfHitFaces(picture.scene), picture.view, area);
-    renderDraft(image, picture.scene, camera, faceColoursOf(picture, range));
-    return image;
-  }
-  const PictureScene scene(picture.scene);
-  const Camera camera = frameCamera(scene.points(), picture.view, area);
-  renderMesh(image, scene, camera, faceColoursOf(picture, range), control);
+  drawMesh(image, picture, area, range, capHeight, control);
   return image;
 }
 

@@ -9,6 +9,7 @@
 #include "io/colour_map.h"
 #include "render/camera.h"
 #include "render/image.h"
+#include "render/thin_places.h"
 #include "trace/trace_scene.h"
 
 namespace asdfvk {
@@ -22,6 +23,7 @@ struct Picture {
   std::span<const double> values;
   std::span<const uint8_t> highlighted;  ///< #F: 1 for a face in the highlight colour; or empty.
   std::span<const uint32_t> labels;      ///< #F, in the colours of labelColours(); or empty.
+  std::optional<ThinPlaces> thinPlaces;  ///< On a grey body, with the title as their legend.
   std::string title;                     ///< Above the bar; without one, above the mesh.
   std::optional<ColourRange> range;      ///< Of the bar; unset: percentileRange() of the values.
   int width = 1200, height = 900;        ///< In pixels, kMinPictureSide to kMaxPictureSide.

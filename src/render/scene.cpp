@@ -29,25 +29,11 @@ std::array<double, 3> barycentrics(const std::array<Vec3d, 3>& corners, const Ve
 
 }  // namespace
 
-PictureScene::PictureScene(const TraceScene& scene)
-    : mesh_(scene.mesh),
-      geometry_(scene.geometry),
-      bvh_(scene.bvh),
-      cornerNormals_(cornerNormals(scene.mesh, scene.geometry)) {}
-
-std::vector<Vec3d> PictureScene::points() const {
-  std::vector<Vec3d> points;
-  points.reserve(bvh_.primitiveFaces.size() * 3);
-  for (const uint32_t face : bvh_.primitiveFaces)
-    for (const uint32_t vertex : mesh_.faces[face])
-      points.push_back(bvh_.normalization.toNormalized(mesh_.vertices[vertex]));
-  return points;
-}
-
-std::optional<SurfacePoint> PictureScene::firstOnLine(const Vec3d& point, const Vec3d& direction) const {
-  if (bvh_.nodes.empty()) return std::nullopt;
+std::optional<LineHit> firstOnLine(const TraceScene& scene, const Vec3d& point, const Vec3d& direction) {
+  const Bvh& bvh = scene.bvh;
+  if (bvh.nodes.empty()) return std::nullopt;
   // nearestHit() requires an origin near the box, for its rounding bounds. Most rays of a picture miss the box.
-  const BvhNode& root = bvh_.nodes[0];
+  const BvhNode& root = bvh.nodes[0];
   double enter = -kNoHit, leave = kNoHit;
   for (size_t axis = 0; axis < 3; ++axis) {
     const double d = direction[axis];
@@ -62,19 +48,37 @@ std::optional<SurfacePoint> PictureScene::firstOnLine(const Vec3d& point, const 
   }
   if (!(enter <= leave)) return std::nullopt;
   const Vec3d origin = point + direction * enter;
-  const RayHit hit = nearestHit(bvh_, mesh_, origin, direction, kNoFace);
+  const RayHit hit = nearestHit(bvh, scene.mesh, origin, direction, kNoFace);
   if (hit.face == kNoFace) return std::nullopt;
-  return describe(hit.face, origin + direction * hit.distance, direction);
+  return LineHit{hit.face, origin + direction * hit.distance};
+}
+
+PictureScene::PictureScene(const TraceScene& scene)
+    : scene_(scene), cornerNormals_(cornerNormals(scene.mesh, scene.geometry)) {}
+
+std::vector<Vec3d> PictureScene::points() const {
+  std::vector<Vec3d> points;
+  points.reserve(scene_.bvh.primitiveFaces.size() * 3);
+  for (const uint32_t face : scene_.bvh.primitiveFaces)
+    for (const uint32_t vertex : scene_.mesh.faces[face])
+      points.push_back(scene_.bvh.normalization.toNormalized(scene_.mesh.vertices[vertex]));
+  return points;
+}
+
+std::optional<SurfacePoint> PictureScene::firstOnLine(const Vec3d& point, const Vec3d& direction) const {
+  const std::optional<LineHit> hit = asdfvk::firstOnLine(scene_, point, direction);
+  return hit ? std::optional(describe(hit->face, hit->position, direction)) : std::nullopt;
 }
 
 double PictureScene::freeDistance(const Vec3d& origin, const Vec3d& direction, uint32_t skippedFace) const {
-  return nearestHit(bvh_, mesh_, origin, direction, skippedFace).distance;
+  return nearestHit(scene_.bvh, scene_.mesh, origin, direction, skippedFace).distance;
 }
 
 SurfacePoint PictureScene::describe(uint32_t face, const Vec3d& position, const Vec3d& direction) const {
-  const Vec3d& outward = geometry_.normals[face];
+  const Vec3d& outward = scene_.geometry.normals[face];
   std::array<Vec3d, 3> corners;
-  for (size_t k = 0; k < 3; ++k) corners[k] = bvh_.normalization.toNormalized(mesh_.vertices[mesh_.faces[face][k]]);
+  for (size_t k = 0; k < 3; ++k)
+    corners[k] = scene_.bvh.normalization.toNormalized(scene_.mesh.vertices[scene_.mesh.faces[face][k]]);
   const std::array<double, 3> shares = barycentrics(corners, outward, position);
   const double side = dot(outward, direction) > 0 ? -1 : 1;
 

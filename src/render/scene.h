@@ -18,6 +18,13 @@ struct SurfacePoint {
   Vec3d normal;      ///< Interpolated between the corners, see cornerNormals().
 };
 
+/// The first hit on the infinite line through `point` along the unit `direction`, in normalised coordinates.
+struct LineHit {
+  uint32_t face = 0;
+  Vec3d position;
+};
+[[nodiscard]] std::optional<LineHit> firstOnLine(const TraceScene& scene, const Vec3d& point, const Vec3d& direction);
+
 /// A mesh prepared for picture rays. Coordinates are normalised (see Normalization).
 class PictureScene {
  public:
@@ -27,7 +34,7 @@ class PictureScene {
   /// The finite vertices of the faces that rays can hit, some of them more than once.
   [[nodiscard]] std::vector<Vec3d> points() const;
 
-  /// The first hit on the infinite line through `point` along the unit `direction`.
+  /// See asdfvk::firstOnLine().
   [[nodiscard]] std::optional<SurfacePoint> firstOnLine(const Vec3d& point, const Vec3d& direction) const;
 
   /// Distance from origin, which lies in the mesh's box or near it, to the nearest face other than `skippedFace`;
@@ -37,9 +44,7 @@ class PictureScene {
  private:
   [[nodiscard]] SurfacePoint describe(uint32_t face, const Vec3d& position, const Vec3d& direction) const;
 
-  const TriangleMesh& mesh_;
-  const FaceGeometry& geometry_;
-  const Bvh& bvh_;
+  const TraceScene& scene_;
   std::vector<std::array<Vec3d, 3>> cornerNormals_;
 };
 

@@ -1,0 +1,117 @@
+#include <algorithm>
+#include <cmath>
+
+#include "render/drawing.h"
+#include "render/scene.h"
+#include "render/thin_places.h"
+
+namespace asdfvk {
+namespace {
+
+// Divided by the height of capitals.
+constexpr double kRingRadius = 0.62, kRingWidth = 0.16, kLineWidth = 0.07, kRowHeight = 1.9, kGap = 0.5;
+constexpr double kHidden = 1e-4;  ///< A point this far behind the first face is hidden; in normalised units.
+
+struct Pixel {
+  double x = 0, y = 0;
+};
+
+double distanceToLine(const Pixel& p, const Pixel& a, const Pixel& b) {
+  const double dx = b.x - a.x, dy = b.y - a.y, squared = dx * dx + dy * dy;
+  const double along = squared > 0 ? std::clamp(((p.x - a.x) * dx + (p.y - a.y) * dy) / squared, 0.0, 1.0) : 0;
+  return std::hypot(p.x - a.x - along * dx, p.y - a.y - along * dy);
+}
+
+/// Blends `colour` where distance(pixel) is below half of `width`, within the box of the two points.
+template <typename Distance>
+void stroke(Image& image, const Pixel& low, const Pixel& high, double width, const Rgb& colour,
+            const Distance& distance) {
+  const double reach = width / 2 + 1;
+  const auto bound = [](double value, int limit) { return static_cast<int>(std::clamp(value, 0.0, double(limit))); };
+  for (int y = bound(low.y - reach, image.height()); y < bound(high.y + reach + 1, image.height()); ++y)
+    for (int x = bound(low.x - reach, image.width()); x < bound(high.x + reach + 1, image.width()); ++x) {
+      const double share = std::clamp(width / 2 - distance(Pixel{x + 0.5, y + 0.5}) + 0.5, 0.0, 1.0);
+      image.at(x, y) = blend(image.at(x, y), colour, share);
+    }
+}
+
+void drawLine(Image& image, const Pixel& a, const Pixel& b, double width, const Rgb& colour) {
+  stroke(image, {std::min(a.x, b.x), std::min(a.y, b.y)}, {std::max(a.x, b.x), std::max(a.y, b.y)}, width, colour,
+         [&](const Pixel& p) { return distanceToLine(p, a, b); });
+}
+
+void drawRing(Image& image, const Pixel& centre, double radius, double width, const Rgb& colour) {
+  stroke(image, {centre.x - radius, centre.y - radius}, {centre.x + radius, centre.y + radius}, width, colour,
+         [&](const Pixel& p) { return std::abs(std::hypot(p.x - centre.x, p.y - centre.y) - radius); });
+}
+
+/// The pixel of the place, or of the opposite one where only that is visible.
+Pixel pixelOf(const TraceScene& scene, const Camera& camera, const Callout& callout) {
+  const auto isVisible = [&](const Vec3d& point) {
+    const auto hit = firstOnLine(scene, point, -camera.toViewer);
+    return !hit || dot(hit->position - point, camera.toViewer) <= kHidden;
+  };
+  Vec3d point = scene.bvh.normalization.toNormalized(callout.place);
+  const Vec3d other = scene.bvh.normalization.toNormalized(callout.opposite);
+  if (!isVisible(point) && isVisible(other)) point = other;
+  const Vec3d offset = point - camera.centre;
+  return {camera.centreX + dot(offset, camera.right) / camera.pixelSize,
+          camera.centreY - dot(offset, camera.up) / camera.pixelSize};
+}
+
+struct Label {
+  const Callout* callout = nullptr;
+  Pixel place;
+  double y = 0;  ///< Of the middle of the text.
+};
+
+/// Sorts by place, and moves the texts apart within the column.
+void arrange(std::vector<Label>& labels, const PixelArea& column, double rowHeight) {
+  std::sort(labels.begin(), labels.end(), [](const Label& a, const Label& b) { return a.place.y < b.place.y; });
+  double least = column.top + rowHeight / 2;
+  for (Label& label : labels) {
+    label.y = std::max(label.place.y, least);
+    least = label.y + rowHeight;
+  }
+  double most = column.top + column.height - rowHeight / 2;
+  for (auto label = labels.rbegin(); label != labels.rend(); ++label) {
+    label->y = std::min(label->y, most);
+    most = label->y - rowHeight;
+  }
+}
+
+}  // namespace
+
+double calloutWidth(std::span<const Callout> callouts, double capHeight) {
+  double widest = 0;
+  for (const Callout& callout : callouts) widest = std::max(widest, textWidth(callout.text, capHeight));
+  return widest > 0 ? widest + 2 * kGap * capHeight : 0;
+}
+
+void drawCallouts(Image& image, const TraceScene& scene, const Camera& camera, std::span<const Callout> callouts,
+                  const std::array<PixelArea, 2>& columns, double capHeight) {
+  std::array<std::vector<Label>, 2> sides;
+  for (const Callout& callout : callouts) {
+    const Pixel place = pixelOf(scene, camera, callout);
+    sides[place.x < camera.centreX ? 0 : 1].push_back({&callout, place});
+  }
+  const double radius = std::max(4.0, kRingRadius * capHeight), width = std::max(1.5, kRingWidth * capHeight);
+  for (size_t side = 0; side < 2; ++side) {
+    const PixelArea& column = columns[side];
+    arrange(sides[side], column, kRowHeight * capHeight);
+    for (const auto& [callout, place, y] : sides[side]) {
+      const double text = textWidth(callout->text, capHeight);
+      const double left = side == 0 ? column.left : column.left + column.width - text;
+      const Pixel from{side == 0 ? left + text + kGap * capHeight / 2 : left - kGap * capHeight / 2, y};
+      const double distance = std::hypot(place.x - from.x, place.y - from.y);
+      const double share = distance > radius ? (distance - radius) / distance : 0;
+      const Pixel to{from.x + (place.x - from.x) * share, from.y + (place.y - from.y) * share};
+      drawLine(image, from, to, std::max(1.2, kLineWidth * capHeight), kInk);
+      drawText(image, callout->text, left, y + capHeight / 2, capHeight);
+      drawRing(image, place, radius, 2 * width, kWhite);
+      drawRing(image, place, radius, width, kInk);
+    }
+  }
+}
+
+}  // namespace asdfvk
