@@ -212,8 +212,8 @@ enum class ThicknessVerdict {
 
 /// Input faces on which a limit cannot be judged, or not with certainty.
 struct UnjudgedFaces {
-  uint64_t openCount = 0;      ///< Of open components, without an opposing wall: no thickness.
-  uint64_t invertedCount = 0;  ///< Of closed components whose faces are oriented inwards, or inconsistently.
+  uint64_t openCount = 0;        ///< Of open components, without an opposing wall: no thickness.
+  uint64_t invertedCount = 0;    ///< Of closed components whose faces are oriented inwards, or inconsistently.
   uint64_t degenerateCount = 0;  ///< Without a normal or with a corner that is not finite.
   /// Faces that another face crosses. They are judged, as thinner than the union of the parts that they bound.
   uint64_t crossedCount = 0;
@@ -226,11 +226,11 @@ struct UnjudgedFaces {
 struct ThicknessReport {
   /// The least thickness over all points of the surface, without sharp regions where these are allowed.
   double min = kNoValue;
-  uint64_t minFace = 0;       ///< Input face that has it.
+  uint64_t minFace = 0;         ///< Input face that has it.
   Vec3d minPlace, minOpposite;  ///< The points of this face and of its opposing wall.
   /// By area, of the field "thickness".
   double median = kNoValue, max = kNoValue, percentile1 = kNoValue, percentile5 = kNoValue, percentile95 = kNoValue;
-  uint64_t noValueCount = 0;     ///< Input faces without a thickness.
+  uint64_t noValueCount = 0;                   ///< Input faces without a thickness.
   std::optional<SectionBall> greatestSection;  ///< Of all closed components; unset without one.
   std::vector<SharpEdge> sharpEdges;           ///< By ascending angle.
   UnjudgedFaces unjudged;

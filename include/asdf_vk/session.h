@@ -40,8 +40,8 @@ struct ThinSurface {
 /// Result of a computation. Fields: "sdf" (the shape diameter in the unit of the mesh), "seed" (1 where rays were
 /// cast); with an estimate "error" (expected error in the unit of the mesh; 0 at seeds that keep their value); with
 /// Options::postprocess "normalized" (0 to 1); with Options::segmentation "segment" (ascending by the mean value); with
-/// Measure::Thickness "thickness" (at the barycentre, in the unit of the mesh) and "least_thickness" (over all points of
-/// the face), of an input face that is a polygon the least of its triangles; with Options::computesCentres "centre"
+/// Measure::Thickness "thickness" (at the barycentre, in the unit of the mesh) and "least_thickness" (over all points
+/// of the face), of an input face that is a polygon the least of its triangles; with Options::computesCentres "centre"
 /// (x, y, z: the barycentre, moved inwards along the normal by half of the shape diameter). With PerElement::Vertices
 /// fields per vertex with the same names follow those per face.
 struct Result {

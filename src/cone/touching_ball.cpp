@@ -105,8 +105,8 @@ class LeastBall {
     limit_ = std::min(limit_, withRounding(diameter));
   }
 
-  /// The ball at a point of the face. Where it touches the plane of the wall outside of the wall, it is least at an edge
-  /// that faces this place, as the diameter is a convex function of the point of the wall.
+  /// The ball at a point of the face. Where it touches the plane of the wall outside of the wall, it is least at an
+  /// edge that faces this place, as the diameter is a convex function of the point of the wall.
   void offerPoint(const Vec3d& p, double offset) {
     const double side = offset < 0 ? -1 : 1, radius = std::abs(offset) / (1 + side * dot(wall_.normal, axis_));
     const Vec3d touched = p + radius * (axis_ + side * wall_.normal);

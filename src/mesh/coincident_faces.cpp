@@ -1,8 +1,8 @@
 #include "mesh/coincident_faces.h"
 
 #include <algorithm>
-#include <numeric>
 #include <bit>
+#include <numeric>
 
 #include "core/buckets.h"
 #include "core/parallel.h"

@@ -175,9 +175,8 @@ void computeOn(const ComputationTask& task, const Options& options, StageClock& 
   const Computation computation{options, prepared,        domain, scene,          cone,
                                 backend, session.solvers, clock,  report.warnings};
   const double roundsEnd = options.checkCount ? kRoundsEndBeforeCheck : 1;
-  const bool keepsNodes =
-      !isLast || options.checkCount || options.keepsScene || computation.measuresThickness() ||
-      sightNeedsNodes(options, backend.isReference());
+  const bool keepsNodes = !isLast || options.checkCount || options.keepsScene || computation.measuresThickness() ||
+                          sightNeedsNodes(options, backend.isReference());
   const auto makeTracing = [&] {
     return std::make_unique<SeedTracing>(computation, task.tracers, keepsNodes ? nullptr : &task.scene->bvh);
   };

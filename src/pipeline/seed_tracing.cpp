@@ -30,8 +30,7 @@ void returnFreedMemory() {
 SeedTracing::SeedTracing(const Computation& computation, SceneTracers& tracers, Bvh* released)
     : computation_(computation),
       released_(released),
-      tracer_(tracers.get(computation.options.cone,
-                          {.hits = computation.keepsHits()}, computation.clock)) {}
+      tracer_(tracers.get(computation.options.cone, {.hits = computation.keepsHits()}, computation.clock)) {}
 
 SeedTracing::~SeedTracing() {
   const auto scope = computation_.clock.time(setUpStage(computation_.backend));

@@ -74,8 +74,8 @@ std::vector<double> thicknessAtPoints(const PreparedScene& scene, std::span<cons
     tree.shrink(queries);
     for (size_t i = 0; i < block.size(); ++i) {
       const InscribedBall& found = queries[i].atPoint;
-      const double diameter = found.wall == kNoFace ? sections[solids.solidOf[nearest[block[i]]]].diameter
-                                                    : found.ball.diameter;
+      const double diameter =
+          found.wall == kNoFace ? sections[solids.solidOf[nearest[block[i]]]].diameter : found.ball.diameter;
       if (std::isfinite(diameter)) values[block[i]] = unit.toMeshLength(diameter);
     }
   };

@@ -32,19 +32,25 @@ class Measurement {
 
   FaceThickness run(const RunControl& control) {
     const size_t count = mesh_.faceCount();
-    thickness_ = {std::vector<double>(count, kNoValue), std::vector<double>(count, kNoValue),
-                  std::vector<uint32_t>(count, kNoFace), std::vector<uint8_t>(count), {}, {}, {}, {}};
+    thickness_ = {std::vector<double>(count, kNoValue),
+                  std::vector<double>(count, kNoValue),
+                  std::vector<uint32_t>(count, kNoFace),
+                  std::vector<uint8_t>(count),
+                  {},
+                  {},
+                  {},
+                  {}};
     findSharp();
     const std::vector<GreatestSection> sections =
         findGreatestSections(scene_, solids_.solidOf, solids_.isClosed, control.part(0, kSectionsProgress));
     keepGreatest(sections);
     const WallTree tree(scene_, opposing_);
-    const std::vector<FaceBalls> thin =
-        measureFaces(tree, sections, control.part(kSectionsProgress, kBallsProgress));
+    const std::vector<FaceBalls> thin = measureFaces(tree, sections, control.part(kSectionsProgress, kBallsProgress));
     countUnjudged(control.withoutProgress());
     if (limit_)
-      thickness_.thinParts = findThinParts(tree, fans_, thickness_.sharp, thin, *limit_,
-                                           std::max(*limit_ / kPartsPerLimit, kMinPartLength), control.withoutProgress());
+      thickness_.thinParts =
+          findThinParts(tree, fans_, thickness_.sharp, thin, *limit_,
+                        std::max(*limit_ / kPartsPerLimit, kMinPartLength), control.withoutProgress());
     control.checkpoint(1);
     return std::move(thickness_);
   }

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "asdf_vk/session.h"
-#include "mesh/sharp_edges.h"
 #include "pipeline/computation.h"
 #include "trace/greatest_section.h"
+#include "trace/sharp_edges.h"
 #include "trace/thin_parts.h"
 
 namespace asdfvk {

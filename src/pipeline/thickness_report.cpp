@@ -131,8 +131,8 @@ class Description {
     const auto rank = [&](uint32_t i) {
       return std::pair(region.isSharp && parts[i].isSharp ? 0.0 : parts[i].least.ball.diameter, i);
     };
-    const uint32_t thinnest = *std::min_element(ofRegion.begin(), ofRegion.end(),
-                                                [&](uint32_t a, uint32_t b) { return rank(a) < rank(b); });
+    const uint32_t thinnest =
+        *std::min_element(ofRegion.begin(), ofRegion.end(), [&](uint32_t a, uint32_t b) { return rank(a) < rank(b); });
     const ThinPart& part = parts[thinnest];
     region.minFace = prepared_.mesh.inputFaceOf(part.face);
     if (region.isSharp) {
@@ -167,7 +167,8 @@ class Description {
   void describeLeast() {
     for (const ThinRegion& region : report_.thinRegions) {
       if (region.isSharp && report_.allowsSharpEdges) continue;
-      if (region.min < report_.min || std::isnan(report_.min)) takeLeast(region.min, region.minFace, region.place, region.opposite);
+      if (region.min < report_.min || std::isnan(report_.min))
+        takeLeast(region.min, region.minFace, region.place, region.opposite);
     }
     if (!std::isnan(report_.min)) return;
     std::vector<uint8_t> isLeftOut(thickness_.least.size());
@@ -179,7 +180,8 @@ class Description {
         thinnest = face;
     if (!thinnest) return;
     const double least = thickness_.least[*thinnest];
-    Place place = placeOf(*thinnest, triangleOf(computation_.scene, *thinnest).corners, thickness_.leastWalls[*thinnest]);
+    Place place =
+        placeOf(*thinnest, triangleOf(computation_.scene, *thinnest).corners, thickness_.leastWalls[*thinnest]);
     if (least == 0) place.onFace = place.onWall = sharpPlaceOf(*thinnest);
     takeLeast(least, prepared_.mesh.inputFaceOf(*thinnest), place.onFace, place.onWall);
   }
@@ -194,7 +196,8 @@ class Description {
   [[nodiscard]] ThicknessVerdict verdict() const {
     for (const ThinRegion& region : report_.thinRegions)
       if (!region.isSharp || !report_.allowsSharpEdges) return ThicknessVerdict::Failed;
-    const bool hasValue = std::find(thickness_.isJudged.begin(), thickness_.isJudged.end(), 1) != thickness_.isJudged.end();
+    const bool hasValue =
+        std::find(thickness_.isJudged.begin(), thickness_.isJudged.end(), 1) != thickness_.isJudged.end();
     return !hasValue || report_.unjudged.preventVerdict() ? ThicknessVerdict::NotJudged : ThicknessVerdict::Passed;
   }
 

@@ -14,7 +14,6 @@
 
 namespace asdfvk {
 
-
 /// Added to radii: covers the rounding of distances to boxes in float32 at coordinates up to 8. Likewise the next two,
 /// at coordinates up to 2.
 inline constexpr float kBoxMargin = 0x1p-19F;
@@ -55,9 +54,9 @@ ASDFVK_ALWAYS_INLINE inline Floats squaredDistance(const Vec3f& boxMin, const Ve
   return x * x + y * y + z * z;
 }
 
-/// The balls of some queries, one in each lane. A walk through the hierarchy shrinks limits of their diameters by a point
-/// of each wall, and collects the walls whose planes are within the limits; those still within the final limits are
-/// measured.
+/// The balls of some queries, one in each lane. A walk through the hierarchy shrinks limits of their diameters by a
+/// point of each wall, and collects the walls whose planes are within the limits; those still within the final limits
+/// are measured.
 template <typename Floats>
 class BallPacket {
  public:
@@ -222,10 +221,11 @@ class BallPacket {
     const Middle middle = middleOf(wall.middle, isNear);
     if (anyLane(isNear & lessEqual(cosine, cosineLimit(-kCosineMargin))))
       shrinkLimits(wall, middle, isNear & lessEqual(cosine, cosineLimit(-kCosineMargin)));
-    const Floats pointBound = middle.lowest + asdfvk::min(asdfvk::min(dotLanes(wall.spokes[0], middle.slope),
-                                                                      dotLanes(wall.spokes[1], middle.slope)),
-                                                          dotLanes(wall.spokes[2], middle.slope)) -
-                              middle.doubt * wall.reach;
+    const Floats pointBound =
+        middle.lowest +
+        asdfvk::min(asdfvk::min(dotLanes(wall.spokes[0], middle.slope), dotLanes(wall.spokes[1], middle.slope)),
+                    dotLanes(wall.spokes[2], middle.slope)) -
+        middle.doubt * wall.reach;
     const Floats leastAtFace = asdfvk::max(least, leastBound(middle, pointBound));
     const Floats leastAtPoint = asdfvk::max(atPoint, pointBound);
     isNear &= lessEqual(leastAtFace, least_.limit) | lessEqual(leastAtPoint, atPoint_.limit);
@@ -242,9 +242,8 @@ class BallPacket {
     const Floats depth = -dot(v, normal_), inverse = 1 / asdfvk::max(depth, broadcast<Floats>(kMinLimitDepth));
     const Mask isDeep = lanes & lessEqual(broadcast<Floats>(kMinLimitDepth), depth);
     const Floats diameter = dot(v, v) * inverse, rounding = diameter * kBoxMargin * (1 + inverse);
-    const auto slope = [&](const Floats& along, const Floats& normal) ASDFVK_ALWAYS_INLINE {
-      return select(isDeep, (2 * along + diameter * normal) * inverse);
-    };
+    const auto slope = [&](const Floats& along, const Floats& normal)
+                           ASDFVK_ALWAYS_INLINE { return select(isDeep, (2 * along + diameter * normal) * inverse); };
     return {select(isDeep, diameter + rounding) + select(~isDeep, broadcast<Floats>(kUnlimited)),
             select(isDeep, diameter - rounding),
             {slope(v.x, normal_.x), slope(v.y, normal_.y), slope(v.z, normal_.z)},
@@ -292,7 +291,8 @@ class BallPacket {
     const std::span<Candidate> found(candidates_[lane].data(), std::exchange(counts_[lane], 0));
     BallQuery& query = queries_[lane];
     const auto measureBy = [&](float Candidate::*bound, double limit, InscribedBall& best, const auto& ballAt) {
-      std::sort(found.begin(), found.end(), [&](const Candidate& a, const Candidate& b) { return a.*bound < b.*bound; });
+      std::sort(found.begin(), found.end(),
+                [&](const Candidate& a, const Candidate& b) { return a.*bound < b.*bound; });
       for (const Candidate& candidate : found) {
         if (candidate.*bound > std::min(limit, best.ball.diameter)) break;
         const uint32_t face = candidate.face;

@@ -15,8 +15,8 @@ struct FaceBalls {
   InscribedBall least;         ///< The least of such balls over all points of the face.
 };
 
-/// Shrinks the balls of faces until no opposing wall is inside, on all cores. Their diameters on entry are upper bounds.
-/// Precondition: no face is degenerate. Throws Error{Cancelled} between chunks.
+/// Shrinks the balls of faces until no opposing wall is inside, on all cores. Their diameters on entry are upper
+/// bounds. Precondition: no face is degenerate. Throws Error{Cancelled} between chunks.
 void shrinkFaceBalls(const WallTree& tree, std::span<FaceBalls> faces, const RunControl& control);
 
 }  // namespace asdfvk

@@ -59,8 +59,8 @@ class SolidSurface {
 
   /// The first face of the solid along the ray.
   [[nodiscard]] RayHit opposite(const Vec3d& p, const Vec3d& direction) const {
-    RayHit hit = nearestHitAmong(scene_.bvh, scene_.mesh, p, direction,
-                                 [&](uint32_t face) { return copyOf(face) != kNoFace; });
+    RayHit hit =
+        nearestHitAmong(scene_.bvh, scene_.mesh, p, direction, [&](uint32_t face) { return copyOf(face) != kNoFace; });
     if (hit.face != kNoFace) hit.face = copyOf(hit.face);
     return hit;
   }

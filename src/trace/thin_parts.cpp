@@ -20,6 +20,7 @@ constexpr uint32_t kLineLength = uint32_t{1} << 31;
 /// A part of a line between two points: an edge of the mesh, or where a piece was halved.
 struct Side {
   uint32_t line = 0, from = 0, to = 0;
+  bool isSharp = false;  ///< Of a sharp edge at which the face is thin.
 };
 
 struct Piece {
@@ -77,11 +78,10 @@ class ThinSearch {
     for (size_t k = 0; k < 3; ++k) {
       const Face& vertices = tree_.scene().mesh.faces[face];
       const uint32_t a = fans_.pointOf(vertices[k]), b = fans_.pointOf(vertices[(k + 1) % 3]);
-      const auto [at, isNew] =
-          edges_.try_emplace(std::pair(std::min(a, b), std::max(a, b)), static_cast<uint32_t>(isSharpLine_.size()));
-      if (isNew) isSharpLine_.push_back(0);
-      if (sharp_.hasEdge(face, k)) isSharpLine_[at->second] = 1;
-      piece.sides[k] = a < b ? Side{at->second, 0, kLineLength} : Side{at->second, kLineLength, 0};
+      const auto [edge, isNew] = edges_.try_emplace(std::pair(std::min(a, b), std::max(a, b)), lineCount_);
+      lineCount_ += isNew ? 1 : 0;
+      const uint32_t from = a < b ? 0 : kLineLength;
+      piece.sides[k] = {edge->second, from, kLineLength - from, sharp_.hasEdge(face, k)};
     }
     describe(piece);
     return piece;
@@ -99,7 +99,7 @@ class ThinSearch {
 
   [[nodiscard]] bool isSharp(const Piece& piece) const {
     for (const Side& side : piece.sides)
-      if (isSharpLine_[side.line] != 0) return true;
+      if (side.isSharp) return true;
     const std::array<Vec3d, 3> corners = triangleOf(tree_.scene(), piece.part.face).corners;
     for (size_t k = 0; k < 3; ++k)
       if (sharp_.hasCorner(piece.part.face, k) &&
@@ -113,8 +113,8 @@ class ThinSearch {
     return longestSide(piece.part.corners).second > maxLength_ && !isThinEverywhere(piece);
   }
 
-  /// The diameter of the ball that one wall limits is a convex function of the point: below the limit at the corners, it
-  /// is below it between them.
+  /// The diameter of the ball that one wall limits is a convex function of the point: below the limit at the corners,
+  /// it is below it between them.
   [[nodiscard]] bool isThinEverywhere(const Piece& piece) const {
     const Vec3d& normal = tree_.scene().geometry.normals[piece.part.face];
     for (const uint32_t face : {piece.part.least.wall, piece.atMiddle.wall}) {
@@ -132,14 +132,15 @@ class ThinSearch {
     const size_t k = longestSide(piece.part.corners).first, next = (k + 1) % 3, opposite = (k + 2) % 3;
     const std::array<Vec3d, 3>& corners = piece.part.corners;
     const Vec3d middle = 0.5 * (corners[k] + corners[next]);
-    const Side &side = piece.sides[k], cut{static_cast<uint32_t>(isSharpLine_.size()), 0, kLineLength};
-    isSharpLine_.push_back(0);
+    const Side &side = piece.sides[k], cut{lineCount_++, 0, kLineLength, false};
     const uint32_t halfway = side.from / 2 + side.to / 2;
     const auto add = [&](const std::array<Vec3d, 3>& half, const std::array<Side, 3>& sides) {
       halves.push_back({{piece.part.face, half, {}, false, false, 0}, {}, sides});
     };
-    add({corners[k], middle, corners[opposite]}, {Side{side.line, side.from, halfway}, cut, piece.sides[opposite]});
-    add({middle, corners[next], corners[opposite]}, {Side{side.line, halfway, side.to}, piece.sides[next], Side{cut.line, cut.to, cut.from}});
+    add({corners[k], middle, corners[opposite]},
+        {Side{side.line, side.from, halfway, side.isSharp}, cut, piece.sides[opposite]});
+    add({middle, corners[next], corners[opposite]},
+        {Side{side.line, halfway, side.to, side.isSharp}, piece.sides[next], Side{cut.line, cut.to, cut.from, false}});
   }
 
   void measure(std::span<Piece> pieces) const {
@@ -199,7 +200,7 @@ class ThinSearch {
   const SharpEdges& sharp_;
   double limit_, maxLength_;
   std::map<std::pair<uint32_t, uint32_t>, uint32_t> edges_;  ///< Lines of the edges, by their points.
-  std::vector<uint8_t> isSharpLine_;
+  uint32_t lineCount_ = 0;
   std::vector<Piece> finished_;
 };
 

@@ -7,8 +7,8 @@
 
 #include "asdf_vk/run_control.h"
 #include "mesh/point_fans.h"
-#include "mesh/sharp_edges.h"
 #include "trace/face_balls.h"
+#include "trace/sharp_edges.h"
 
 namespace asdfvk {
 
@@ -16,15 +16,15 @@ namespace asdfvk {
 struct ThinPart {
   uint32_t face = 0;
   std::array<Vec3d, 3> corners;
-  InscribedBall least;       ///< Over the part. No wall: the greatest section is the limit.
+  InscribedBall least;  ///< Over the part. No wall: the greatest section is the limit.
   bool isThinAtMiddle = false;
-  bool isSharp = false;      ///< Has a point of a sharp edge or tip of its face.
-  uint32_t region = 0;       ///< Of parts that are connected over edges; ascending by their first parts.
+  bool isSharp = false;  ///< Has a point of a sharp edge or tip of its face.
+  uint32_t region = 0;   ///< Of parts that are connected over edges; ascending by their first parts.
 };
 
 /// The parts of thin faces that have a point below the limit. Faces are halved at their longest edges down to pieces no
-/// longer than maxLength, but not where a piece is thin everywhere, as far as one wall tells. faces: with balls, at least
-/// one of them below the limit. Throws Error{Cancelled}.
+/// longer than maxLength, but not where a piece is thin everywhere, as far as one wall tells. faces: with balls, at
+/// least one of them below the limit. Throws Error{Cancelled}.
 [[nodiscard]] std::vector<ThinPart> findThinParts(const WallTree& tree, const PointFans& fans, const SharpEdges& sharp,
                                                   std::span<const FaceBalls> faces, double limit, double maxLength,
                                                   const RunControl& control);

@@ -36,8 +36,10 @@ WallTree::WallTree(const TraceScene& scene, const OpposingWalls& opposing)
   std::vector<uint32_t> firstWalls(nodes_.size()), wallCounts(nodes_.size());
   for (size_t i = nodes_.size(); i-- > 0;) {  // Children follow their parents.
     const BvhNode& node = scene.bvh.nodes[i];
-    firstWalls[i] = node.isLeaf() ? wallOfPrimitive[node.first] : std::min(firstWalls[node.first], firstWalls[node.first + 1]);
-    wallCounts[i] = node.isLeaf() ? wallOfPrimitive[node.first + node.triangleCount] - firstWalls[i] : wallCounts[node.first] + wallCounts[node.first + 1];
+    firstWalls[i] =
+        node.isLeaf() ? wallOfPrimitive[node.first] : std::min(firstWalls[node.first], firstWalls[node.first + 1]);
+    wallCounts[i] = node.isLeaf() ? wallOfPrimitive[node.first + node.triangleCount] - firstWalls[i]
+                                  : wallCounts[node.first] + wallCounts[node.first + 1];
     Box3f normals;
     if (node.isLeaf()) {
       for (uint32_t k = 0; k < wallCounts[i]; ++k) normals.add(walls_[firstWalls[i] + k].normal);
@@ -47,8 +49,18 @@ WallTree::WallTree(const TraceScene& scene, const OpposingWalls& opposing)
     }
     const Vec3f middle = walls_[firstWalls[i] + wallCounts[i] / 2].middle;
     const bool isLeaf = node.isLeaf() || wallCounts[i] <= kMaxLeafWallCount;
-    nodes_[i] = {node.min, node.max, normals.min, normals.max, middle, {}, 0, 0, kUnlimited, 0,
-                 isLeaf ? firstWalls[i] : node.first, isLeaf ? wallCounts[i] : 0};
+    nodes_[i] = {node.min,
+                 node.max,
+                 normals.min,
+                 normals.max,
+                 middle,
+                 {},
+                 0,
+                 0,
+                 kUnlimited,
+                 0,
+                 isLeaf ? firstWalls[i] : node.first,
+                 isLeaf ? wallCounts[i] : 0};
   }
   forEachInParallel(nodes_.size(), [&](size_t i) {
     if (wallCounts[i] > kMaxDiscWallCount) return;
@@ -94,8 +106,14 @@ Wall WallTree::wallOf(uint32_t face) const {
   const Vec3d middle = (triangle.corners[0] + triangle.corners[1] + triangle.corners[2]) / 3.0;
   Box3f box;
   for (const Vec3d& corner : triangle.corners) box.add(Vec3f(corner));
-  Wall wall{Vec3f(triangle.normal), static_cast<float>(dot(triangle.normal, triangle.corners[0])), box.min, box.max,
-            Vec3f(middle), {}, 0, face};
+  Wall wall{Vec3f(triangle.normal),
+            static_cast<float>(dot(triangle.normal, triangle.corners[0])),
+            box.min,
+            box.max,
+            Vec3f(middle),
+            {},
+            0,
+            face};
   for (size_t k = 0; k < 3; ++k) {
     wall.spokes[k] = Vec3f(triangle.corners[k] - middle);
     wall.reach = std::max(wall.reach, length(wall.spokes[k]));

@@ -21,10 +21,10 @@ struct InscribedBall {
 
 /// Balls that shrink until no opposing wall is inside. Their diameters on entry are upper bounds.
 struct BallQuery {
-  PlaneTriangle triangle;       ///< A face or a part of it.
-  Vec3d point;                  ///< Of the triangle.
-  InscribedBall atPoint;        ///< The largest ball at the point.
-  InscribedBall least;          ///< The least of such balls over all points of the triangle.
+  PlaneTriangle triangle;  ///< A face or a part of it.
+  Vec3d point;             ///< Of the triangle.
+  InscribedBall atPoint;   ///< The largest ball at the point.
+  InscribedBall least;     ///< The least of such balls over all points of the triangle.
 };
 
 /// In normalised units: what is nearer to the plane of a face is contact, or rounding of coordinates in float32.

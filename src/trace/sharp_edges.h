@@ -29,11 +29,12 @@ struct SharpEdges {
 };
 
 /// Two faces that share a point meet sharply if they oppose each other, by the greatest cosine between their normals,
-/// and one is below the plane of the other by more than minDepth: as thin as one likes near the point. In fans of more
-/// than kMaxComparedFaces each face is compared with so many others and with those that share an edge with it.
+/// and their least ball is as small as minDepth allows: at most kSharpDepths of it. In fans of more than
+/// kMaxComparedFaces each face is compared with so many others and with those that share an edge with it.
 [[nodiscard]] SharpEdges findSharpEdges(const TriangleMesh& mesh, const FaceGeometry& geometry, const PointFans& fans,
                                         double maxCosine, double minDepth);
 
 inline constexpr size_t kMaxComparedFaces = 256;
+inline constexpr double kSharpDepths = 2;
 
 }  // namespace asdfvk

@@ -1,4 +1,4 @@
-#include "mesh/sharp_edges.h"
+#include "trace/sharp_edges.h"
 
 #include <algorithm>
 #include <map>
@@ -6,12 +6,14 @@
 #include <tuple>
 #include <utility>
 
+#include "cone/touching_ball.h"
 #include "core/parallel.h"
 
 namespace asdfvk {
 namespace {
 
-/// What is found at the corners of the faces; each corner belongs to one point, so that points are searched in parallel.
+/// What is found at the corners of the faces; each corner belongs to one point, so that points are searched in
+/// parallel.
 enum CornerBit : uint8_t { kIsThin = 1, kNextEdge = 2, kEdgeBefore = 4 };
 
 struct Edge {
@@ -24,24 +26,26 @@ class SharpSearch {
  public:
   SharpSearch(const TriangleMesh& mesh, const FaceGeometry& geometry, const PointFans& fans, double maxCosine,
               double minDepth)
-      : mesh_(mesh), geometry_(geometry), fans_(fans), maxCosine_(maxCosine), minDepth_(minDepth),
+      : mesh_(mesh),
+        geometry_(geometry),
+        fans_(fans),
+        maxCosine_(maxCosine),
+        minDepth_(minDepth),
         cornerBits_(3 * size_t{mesh.faceCount()}) {}
 
   SharpEdges run() {
     forEachInParallel(fans_.vertexCount(), [&](uint32_t point) {
-      forEachPair(point, [&](uint32_t corner, uint32_t other) {
-        cornerBits_[corner] |= kIsThin | edgeBits(corner, other);
-        cornerBits_[other] |= edgeBits(other, corner);
-      });
+      forEachPair(point,
+                  [&](uint32_t corner, uint32_t other) { cornerBits_[corner] |= kIsThin | edgeBits(corner, other); });
     });
     SharpEdges sharp{{}, std::vector<uint8_t>(mesh_.faceCount())};
     for (size_t corner = 0; corner < cornerBits_.size(); ++corner) {
       if (cornerBits_[corner] == 0) continue;
       const size_t k = corner % 3, before = (k + 2) % 3;
       const auto bits = cornerBits_[corner];
-      sharp.faceBits[corner / 3] |= static_cast<uint8_t>(((bits & kIsThin) != 0 ? 1 << k : 0) |
-                                                         ((bits & kNextEdge) != 0 ? 8 << k : 0) |
-                                                         ((bits & kEdgeBefore) != 0 ? 8 << before : 0));
+      sharp.faceBits[corner / 3] |=
+          static_cast<uint8_t>(((bits & kIsThin) != 0 ? 1 << k : 0) | ((bits & kNextEdge) != 0 ? 8 << k : 0) |
+                               ((bits & kEdgeBefore) != 0 ? 8 << before : 0));
     }
     sharp.lines = linesOf(edgesOf(sharp));
     addTips(sharp);
@@ -67,18 +71,15 @@ class SharpSearch {
     const uint32_t face = corner / 3, wall = other / 3;
     if (geometry_.isDegenerate(face) || geometry_.isDegenerate(wall)) return false;
     if (!(dot(geometry_.normals[face], geometry_.normals[wall]) <= maxCosine_)) return false;
-    const auto depth = [&](uint32_t k) {
-      return dot(positionOf(3 * face + corner % 3) - positionOf(3 * wall + (other + k) % 3), geometry_.normals[face]);
-    };
-    return std::max(depth(1), depth(2)) > minDepth_;
+    return leastTouchingBall(triangleAt(face), triangleAt(wall), minDepth_).diameter <= kSharpDepths * minDepth_;
   }
 
-  [[nodiscard]] uint32_t pointAt(uint32_t corner) const {
-    return fans_.pointOf(mesh_.faces[corner / 3][corner % 3]);
+  [[nodiscard]] PlaneTriangle triangleAt(uint32_t face) const {
+    const auto& [a, b, c] = mesh_.faces[face];
+    return {{mesh_.vertices[a], mesh_.vertices[b], mesh_.vertices[c]}, geometry_.normals[face]};
   }
-  [[nodiscard]] const Vec3d& positionOf(uint32_t corner) const {
-    return mesh_.vertices[mesh_.faces[corner / 3][corner % 3]];
-  }
+
+  [[nodiscard]] uint32_t pointAt(uint32_t corner) const { return fans_.pointOf(mesh_.faces[corner / 3][corner % 3]); }
   static uint32_t next(uint32_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
   static uint32_t before(uint32_t corner) { return next(next(corner)); }
 
@@ -101,16 +102,16 @@ class SharpSearch {
       const uint32_t a = pointAt(corner), b = pointAt(next(corner));
       Edge edge{std::min(a, b), std::max(a, b), -1, corner / 3};
       for (const uint32_t other : fans_.cornersAt(pointAt(corner)))
-        if ((edgeBits(corner, other) & kNextEdge) != 0 && (isThin(corner, other) || isThin(other, corner)))
+        if ((edgeBits(corner, other) & kNextEdge) != 0 && isThin(corner, other))
           edge.cosine = std::max(edge.cosine, innerCosine(corner / 3, other / 3));
       edges.push_back(edge);
     }
     std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
       return std::tuple(a.a, a.b, -a.cosine, a.face) < std::tuple(b.a, b.b, -b.cosine, b.face);
     });
-    edges.erase(std::unique(edges.begin(), edges.end(),
-                            [](const Edge& a, const Edge& b) { return a.a == b.a && a.b == b.b; }),
-                edges.end());
+    edges.erase(
+        std::unique(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) { return a.a == b.a && a.b == b.b; }),
+        edges.end());
     return edges;
   }
 
@@ -148,7 +149,8 @@ class SharpSearch {
   void addTips(SharpEdges& sharp) const {
     std::vector<uint32_t> points;
     for (uint32_t corner = 0; corner < cornerBits_.size(); ++corner)
-      if ((cornerBits_[corner] & kIsThin) != 0 && !edgePoints_.contains(pointAt(corner))) points.push_back(pointAt(corner));
+      if ((cornerBits_[corner] & kIsThin) != 0 && !edgePoints_.contains(pointAt(corner)))
+        points.push_back(pointAt(corner));
     std::sort(points.begin(), points.end());
     points.erase(std::unique(points.begin(), points.end()), points.end());
     for (const uint32_t point : points) {
