@@ -26,7 +26,7 @@ TEST_CASE("a limit implies the measure, and nothing about the seeds") {
     CHECK_EQ(line.options.thickness.thinnerThan.value(), 0.5);
     CHECK_FALSE(line.options.thickness.allowsSharpEdges);
     CHECK_EQ(line.fields, std::vector<std::string>{"thickness", "least_thickness", "sdf", "seed"});
-    CHECK_EQ(line.pictureOf, "thickness");
+    CHECK(line.pictureOf.empty());  // The thin places.
     CHECK(parseCommandLine({"a.ply", option, "0.5", "--allow-sharp-edges"}).options.thickness.allowsSharpEdges);
   }
   CHECK_EQ(parseCommandLine({"a.ply", "--measure", "thickness", "--fields", "sdf"}).fields,
