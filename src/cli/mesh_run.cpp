@@ -48,9 +48,9 @@ auto runWithProgress(bool showsBar, const std::stop_token& stop, const Work& wor
 /// Renders the field of --picture-of, or the thin places, and writes it atomically. Precondition: result.scene is set.
 /// Throws Error{OutputNotWritable}, Error{UnknownField} and Error{Cancelled}.
 void writePicture(const CommandLine& line, const std::string& input, const Result& result, const RunControl& control) {
-  const View view = viewOf(line, input, result);
+  const View view = viewOf(line, input, result, line.pictureOf.empty());
   if (line.pictureOf.empty()) {
-    writePng(line.picture, thinPictureOf(result, view, line.choosesView, {}, control));
+    writePng(line.picture, thinPictureOf(result, view, {}, control));
     return;
   }
   const Field* field = result.field(line.pictureOf);

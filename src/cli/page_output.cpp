@@ -96,12 +96,12 @@ std::string errorSentenceOf(const Result& result) {
       100 * estimate.relativePercentile90, groupDigits(estimate.heldOutCount));
 }
 
-std::vector<PageThinRegion> thinRegionsOf(const Result& result) {
-  std::vector<PageThinRegion> regions;
-  if (!result.report.thickness) return regions;
-  for (const ThinRegion& region : result.report.thickness->thinRegions)
-    regions.push_back({region.minFace, region.min, region.area, region.faceCount, region.place});
-  return regions;
+/// Unset without a limit.
+std::optional<PageThinPlaces> thinPlacesOf(const Result& result) {
+  const std::optional<ThicknessReport>& thickness = result.report.thickness;
+  if (!thickness || !thickness->thinnerThan) return std::nullopt;
+  return PageThinPlaces{*thickness->thinnerThan, nameOf(*thickness->verdict), thickness->thinRegions,
+                        result.thinSurface};
 }
 
 /// None where the page does not show them.
@@ -129,9 +129,11 @@ void addToPage(Page& page, const MeshOutcome& outcome, const RunControl& control
   texts.errorSentence = errorSentenceOf(outcome.result);
   for (const Warning& warning : outcome.result.report.warnings)
     (warning.code == WarningCode::MeshDefect ? texts.defects : texts.warnings).push_back(textWarning(warning));
-  const View view = viewOf(outcome.line, outcome.mesh, outcome.result);
+  texts.thin = thinPlacesOf(outcome.result);
+  const View view = viewOf(outcome.line, outcome.mesh, outcome.result, texts.thin.has_value());
   texts.up = axisName(*view.up);
-  texts.thinRegions = thinRegionsOf(outcome.result);
+  texts.azimuthDegrees = view.azimuthDegrees;
+  texts.elevationDegrees = view.elevationDegrees;
   texts.segments = segmentsOf(outcome.result, fields);
   // A ray-traced picture of more faces takes longer than the rest of the page.
   constexpr uint64_t kMaxRayTracedFaceCount = 100'000;
@@ -139,7 +141,8 @@ void addToPage(Page& page, const MeshOutcome& outcome, const RunControl& control
                            .height = 360,
                            .textScale = 1.4,
                            .isDraft = outcome.result.report.triangleCount > kMaxRayTracedFaceCount};
-  texts.picture = encodePng(pictureOf(outcome.result, fields.front(), view, style, control));
+  texts.picture = encodePng(texts.thin ? thinPictureOf(outcome.result, view, style, control)
+                                       : pictureOf(outcome.result, fields.front(), view, style, control));
   page.add(outcome.result.scene->scene.mesh, fields, std::move(texts));
 }
 

@@ -62,12 +62,15 @@ std::vector<Callout> calloutsOf(const ThicknessReport& thickness) {
 
 }  // namespace
 
-View viewOf(const CommandLine& line, const std::string& input, const Result& result) {
+View viewOf(const CommandLine& line, const std::string& input, const Result& result, bool showsThin) {
   View view = line.pictureView;
-  if (view.up) return view;
-  const FileFormat* const format = formatOfExtension(std::filesystem::path(input).extension().string());
-  view.up = format != nullptr && format->name == "stl" ? Up::Z : guessUp(verticesOfHitFaces(result.scene->scene));
-  return view;
+  const TraceScene& scene = result.scene->scene;
+  if (!view.up) {
+    const FileFormat* const format = formatOfExtension(std::filesystem::path(input).extension().string());
+    view.up = format != nullptr && format->name == "stl" ? Up::Z : guessUp(verticesOfHitFaces(scene));
+  }
+  const ThinSurface& surface = result.thinSurface;
+  return showsThin && !line.choosesView ? bestViewOf(scene, surface.triangles, surface.regions, view) : view;
 }
 
 Image pictureOf(const Result& result, const Field& field, const View& view, const PictureStyle& style,
@@ -90,15 +93,12 @@ Image pictureOf(const Result& result, const Field& field, const View& view, cons
   return render(picture, control);
 }
 
-Image thinPictureOf(const Result& result, View view, bool choosesView, const PictureStyle& style,
-                    const RunControl& control) {
+Image thinPictureOf(const Result& result, const View& view, const PictureStyle& style, const RunControl& control) {
   const ThicknessReport& thickness = *result.report.thickness;
   ThinPlaces places{.surface = result.thinSurface.triangles,
-                    .regions = result.thinSurface.regions,
                     .callouts = calloutsOf(thickness),
                     .verdict = verdictText(*thickness.verdict),
                     .isFailure = thickness.verdict != ThicknessVerdict::Passed};
-  if (!choosesView) view = bestViewOf(result.scene->scene, places, view);
   Picture picture = pictureWith(result, legendOf(thickness), view, style);
   picture.thinPlaces = std::move(places);
   return render(picture, control);

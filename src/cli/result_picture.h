@@ -15,8 +15,9 @@ struct PictureStyle {
 };
 
 /// The view of --picture-view and --picture-up. Without an upright axis: z where the file `input` is an STL, else
-/// guessUp().
-[[nodiscard]] View viewOf(const CommandLine& line, const std::string& input, const Result& result);
+/// guessUp(). Without angles, where the picture shows the thin places: bestViewOf() them. Precondition: result.scene is
+/// set.
+[[nodiscard]] View viewOf(const CommandLine& line, const std::string& input, const Result& result, bool showsThin);
 
 // Preconditions: result.scene is set. Both throw Error{Cancelled}.
 
@@ -24,9 +25,8 @@ struct PictureStyle {
 [[nodiscard]] Image pictureOf(const Result& result, const Field& field, const View& view, const PictureStyle& style,
                               const RunControl& control);
 
-/// Renders the mesh with its thin places. choosesView: `view` is a choice of the user; otherwise its angles are
-/// replaced by those of bestViewOf(). Precondition: the thickness was measured with a limit.
-[[nodiscard]] Image thinPictureOf(const Result& result, View view, bool choosesView, const PictureStyle& style,
+/// Renders the mesh with its thin places. Precondition: the thickness was measured with a limit.
+[[nodiscard]] Image thinPictureOf(const Result& result, const View& view, const PictureStyle& style,
                                   const RunControl& control);
 
 }  // namespace asdfvk

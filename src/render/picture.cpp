@@ -66,7 +66,7 @@ void drawMesh(Image& image, const Picture& picture, PixelArea area, const Colour
     renderMesh(image, scene, camera, faceColoursOf(picture, range), control);
   }
   if (!picture.thinPlaces) return;
-  paintThinPlaces(image, picture.scene, camera, *picture.thinPlaces);
+  paintThinPlaces(image, picture.scene, camera, picture.thinPlaces->surface);
   drawCallouts(image, picture.scene, camera, picture.thinPlaces->callouts, columns, capHeight);
 }
 

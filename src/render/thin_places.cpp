@@ -16,17 +16,19 @@ constexpr float kDepthSlack = 2e-6F;   ///< In normalised units: parts of a face
 constexpr double kHiddenShare = 0.45;  ///< Of the alarm colour where the surface is behind faces.
 static_assert(kBandRows % kSamples == 0);
 
+using Surface = std::span<const std::array<Vec3d, 3>>;
+
 /// Mesh and surface on a grid of samples.
 class ProjectedPlaces {
  public:
-  ProjectedPlaces(const TraceScene& scene, const ThinPlaces& places, const SampleGrid& grid)
-      : scene_(scene), vertices_(scene.mesh.vertices.size()), surface_(places.surface.size()) {
+  ProjectedPlaces(const TraceScene& scene, Surface surface, const SampleGrid& grid)
+      : scene_(scene), vertices_(scene.mesh.vertices.size()), surface_(surface.size()) {
     const Normalization& normalization = scene.bvh.normalization;
     forEachInParallel(vertices_.size(), [&](uint32_t vertex) {
       vertices_[vertex] = grid.project(normalization.toNormalized(scene.mesh.vertices[vertex]));
     });
     forEachInParallel(surface_.size(), [&](uint32_t i) {
-      for (size_t k = 0; k < 3; ++k) surface_[i][k] = grid.project(normalization.toNormalized(places.surface[i][k]));
+      for (size_t k = 0; k < 3; ++k) surface_[i][k] = grid.project(normalization.toNormalized(surface[i][k]));
     });
   }
 
@@ -51,19 +53,19 @@ bool isVisible(const SampleRows& mesh, const SampleRows& surface, int column, in
 }
 
 /// Sum over the regions of the square root of their visible samples.
-double visibilityOf(const TraceScene& scene, const ThinPlaces& places, std::span<const Vec3d> points,
-                    const View& view) {
+double visibilityOf(const TraceScene& scene, Surface places, std::span<const uint32_t> regions,
+                    std::span<const Vec3d> points, const View& view) {
   constexpr int kWidth = 240, kHeight = 180;
   const Camera camera = frameCamera(points, view, {0, 0, kWidth, kHeight});
   const ProjectedPlaces projected(scene, places, {camera, 1});
   SampleRows mesh(kWidth, 0, kHeight), surface(kWidth, 0, kHeight);
   projected.drawMesh(mesh);
   projected.drawSurface(surface);
-  std::vector<double> counts(1 + *std::max_element(places.regions.begin(), places.regions.end()), 0);
+  std::vector<double> counts(1 + *std::max_element(regions.begin(), regions.end()), 0);
   for (int y = 0; y < kHeight; ++y)
     for (int x = 0; x < kWidth; ++x)
       if (const uint32_t index = surface.indexAt(x, y); index != kNoSample && isVisible(mesh, surface, x, y))
-        counts[places.regions[index]] += 1;
+        counts[regions[index]] += 1;
   double sum = 0;
   for (const double count : counts) sum += std::sqrt(count);
   return sum;
@@ -71,8 +73,8 @@ double visibilityOf(const TraceScene& scene, const ThinPlaces& places, std::span
 
 }  // namespace
 
-void paintThinPlaces(Image& image, const TraceScene& scene, const Camera& camera, const ThinPlaces& places) {
-  if (places.surface.empty()) return;
+void paintThinPlaces(Image& image, const TraceScene& scene, const Camera& camera, Surface places) {
+  if (places.empty()) return;
   const ProjectedPlaces projected(scene, places, {camera, kSamples});
   const Vec3d alarm = toLinear(kAlarm), neutral = toLinear(kNeutral);
   const Vec3d tint{alarm.x / neutral.x, alarm.y / neutral.y, alarm.z / neutral.z};
@@ -99,8 +101,8 @@ void paintThinPlaces(Image& image, const TraceScene& scene, const Camera& camera
   });
 }
 
-View bestViewOf(const TraceScene& scene, const ThinPlaces& places, const View& view) {
-  if (places.surface.empty()) return view;
+View bestViewOf(const TraceScene& scene, Surface places, std::span<const uint32_t> regions, const View& view) {
+  if (places.empty()) return view;
   const std::vector<Vec3d> points = verticesOfHitFaces(scene);
   View base = view;
   if (!base.up) base.up = guessUp(points);
@@ -110,7 +112,8 @@ View bestViewOf(const TraceScene& scene, const ThinPlaces& places, const View& v
     for (const double turn : {0.0, -60.0, 120.0, 180.0})
       candidates.push_back({base.up, base.azimuthDegrees + turn, elevation});
   std::vector<double> scores(candidates.size());
-  forEachTask(candidates.size(), [&](size_t i) { scores[i] = visibilityOf(scene, places, points, candidates[i]); });
+  forEachTask(candidates.size(),
+              [&](size_t i) { scores[i] = visibilityOf(scene, places, regions, points, candidates[i]); });
   constexpr double kClearlyBetter = 1.1;
   size_t best = 0;
   for (size_t i = 1; i < candidates.size(); ++i)

@@ -23,7 +23,6 @@ struct Callout {
 /// The thin places of a mesh, for a picture of a grey body. Views only.
 struct ThinPlaces {
   std::span<const std::array<Vec3d, 3>> surface;  ///< Triangles in the unit of the mesh.
-  std::span<const uint32_t> regions;              ///< Per triangle.
   std::vector<Callout> callouts;
   std::string verdict;  ///< A word at the right end of the legend.
   bool isFailure = false;
@@ -31,11 +30,14 @@ struct ThinPlaces {
 
 /// Colours the pixels of the surface on the finished image of the mesh: kAlarm in the light of the image where the
 /// surface is visible, weaker where faces of the mesh are before it.
-void paintThinPlaces(Image& image, const TraceScene& scene, const Camera& camera, const ThinPlaces& places);
+void paintThinPlaces(Image& image, const TraceScene& scene, const Camera& camera,
+                     std::span<const std::array<Vec3d, 3>> surface);
 
 /// `view` with the azimuth and the elevation, of twelve, from which the most regions are seen best: the greatest sum of
-/// the square roots of their visible areas. Unchanged where nothing is visible from any.
-[[nodiscard]] View bestViewOf(const TraceScene& scene, const ThinPlaces& places, const View& view);
+/// the square roots of their visible areas. regions: per triangle of the surface. Unchanged where nothing is visible
+/// from any.
+[[nodiscard]] View bestViewOf(const TraceScene& scene, std::span<const std::array<Vec3d, 3>> surface,
+                              std::span<const uint32_t> regions, const View& view);
 
 /// Width of the columns for the texts of the callouts at either side of a picture, 0 without callouts.
 [[nodiscard]] double calloutWidth(std::span<const Callout> callouts, double capHeight);

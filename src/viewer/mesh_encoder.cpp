@@ -21,15 +21,12 @@ namespace {
 /// Coordinates are multiples of the longest side of the box over this.
 constexpr double kGridSize = 65535;
 
-/// The box of the finite vertices of faces, and coordinates as whole numbers of steps from its lower corner.
+/// Coordinates as whole numbers of steps from the lower corner of a box.
 struct Grid {
   Box3d box;
   double step = 0;
 
-  Grid(const TriangleMesh& mesh, std::span<const uint32_t> vertices) {
-    for (const uint32_t vertex : vertices)
-      if (isFinite(mesh.vertices[vertex])) box.add(mesh.vertices[vertex]);
-    if (box.isEmpty()) box.add(Vec3d{});
+  explicit Grid(const Box3d& gridBox) : box(gridBox) {
     const Vec3d size = box.size();
     step = std::max({size.x, size.y, size.z}) / kGridSize;
   }
@@ -75,10 +72,19 @@ std::vector<uint32_t> inputFacesOf(const TriangleMesh& mesh, const Connectivity&
 
 }  // namespace
 
+Box3d boxOfFaces(const TriangleMesh& mesh) {
+  Box3d box;
+  for (const Face& face : mesh.faces)
+    for (const uint32_t vertex : face)
+      if (isFinite(mesh.vertices[vertex])) box.add(mesh.vertices[vertex]);
+  if (box.isEmpty()) box.add(Vec3d{});
+  return box;
+}
+
 Json encodeMesh(const TriangleMesh& mesh, std::span<const std::reference_wrapper<const Field>> fields,
-                PageStreams& streams) {
+                PageStreams& streams, const Box3d& box) {
   const Connectivity walk = encodeConnectivity(mesh);
-  const Grid grid(mesh, walk.vertices);
+  const Grid grid(box);
   const std::vector<uint32_t> inputFaces = inputFacesOf(mesh, walk);
 
   std::vector<FieldEncoder> encoders;

@@ -11,24 +11,33 @@
 #include "viewer/json.h"
 #include "viewer/mesh_encoder.h"
 #include "viewer/page_template.h"
+#include "viewer/thin_encoder.h"
 
 namespace asdfvk {
 namespace {
 
+Json describe(const PageThinPlaces& thin) {
+  Json json{{"limit", number(thin.limit)}, {"verdict", thin.verdict}, {"regions", Json::array()}};
+  for (const ThinRegion& region : thin.regions)
+    json["regions"].push_back({{"face", region.minFace},
+                               {"value", number(region.min)},
+                               {"area", number(region.area)},
+                               {"areaShare", number(region.areaShare)},
+                               {"faceCount", region.faceCount},
+                               {"isSharp", region.isSharp},
+                               {"place", arrayOf(region.place)},
+                               {"opposite", arrayOf(region.opposite)}});
+  return json;
+}
+
 Json describe(const PageTexts& texts) {
   Json json{{"name", texts.name}, {"label", texts.label}, {"up", texts.up}};
+  json["view"] = {texts.azimuthDegrees, texts.elevationDegrees};
   json["summary"] = Json::array();
   for (const auto& [title, value] : texts.summary) json["summary"].push_back({{"title", title}, {"value", value}});
   json["errorSentence"] = texts.errorSentence;
   json["warnings"] = texts.warnings;
   json["defects"] = texts.defects;
-  json["thinRegions"] = Json::array();
-  for (const PageThinRegion& region : texts.thinRegions)
-    json["thinRegions"].push_back({{"face", region.face},
-                                   {"value", number(region.value)},
-                                   {"area", number(region.area)},
-                                   {"faceCount", region.faceCount},
-                                   {"centre", arrayOf(region.centre)}});
   json["segments"] = Json::array();
   for (const PageSegment& segment : texts.segments)
     json["segments"].push_back({{"label", segment.label},
@@ -43,7 +52,13 @@ Json describe(const PageTexts& texts) {
 
 void Page::add(const TriangleMesh& mesh, std::span<const std::reference_wrapper<const Field>> fields, PageTexts texts) {
   Json description = describe(texts);
-  description.update(encodeMesh(mesh, fields, streams_));
+  const Box3d box = boxOfFaces(mesh);
+  description.update(encodeMesh(mesh, fields, streams_, box));
+  if (texts.thin) {
+    description["thin"] = describe(*texts.thin);
+    description["thin"]["surface"] = encodeThinSurface(texts.thin->surface, box, streams_);
+    texts.thin.reset();  // Encoded.
+  }
   meshes_.push_back(std::make_shared<const Json>(std::move(description)));
   texts_.push_back(std::move(texts));
 }

@@ -3,6 +3,7 @@
 #include <functional>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "asdf_vk/field.h"
+#include "asdf_vk/session.h"
 #include "mesh/mesh.h"
 #include "viewer/page_streams.h"
 
@@ -17,12 +19,12 @@ namespace asdfvk {
 
 class AtomicFile;
 
-/// A place of a mesh with few words: a thin region.
-struct PageThinRegion {
-  uint64_t face = 0;  ///< Input face.
-  double value = 0, area = 0;
-  uint64_t faceCount = 0;
-  Vec3d centre;
+/// The comparison of a result with a limit of the thickness.
+struct PageThinPlaces {
+  double limit = 0;
+  std::string verdict;  ///< "passed", "failed" or "notJudged".
+  std::vector<ThinRegion> regions;
+  ThinSurface surface;
 };
 
 struct PageSegment {
@@ -39,9 +41,10 @@ struct PageTexts {
   std::string label;                                         ///< Distinguishes this result from the others of the page.
   std::vector<std::pair<std::string, std::string>> summary;  ///< Rows of a table: title, value.
   std::string errorSentence;
-  std::string up = "y";  ///< Upright axis of the first view: x, y, z, -x, -y or -z.
+  std::string up = "y";                               ///< Upright axis of the first view: x, y, z, -x, -y or -z.
+  double azimuthDegrees = 30, elevationDegrees = 18;  ///< Of the first view.
   std::vector<std::string> warnings, defects;
-  std::vector<PageThinRegion> thinRegions;
+  std::optional<PageThinPlaces> thin;  ///< Unset without a limit.
   std::vector<PageSegment> segments;
   std::vector<char> picture;  ///< A PNG for browsers without WebGL2; may be empty.
 };

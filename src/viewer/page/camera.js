@@ -19,19 +19,18 @@ export function uprightFrame(up, boxSize) {
   return { up: upward, front, side: cross(upward, front) };
 }
 
-/** Orthonormal right, up and toViewer. */
+/** Orthonormal right, up and toViewer, and upright: side, up and front. state: {up, az, el}. */
 export function viewAxes(state, boxSize) {
   const { up, front, side } = uprightFrame(state.up, boxSize);
   const az = state.az * kRadians, el = state.el * kRadians;
   const level = add(scaled(front, Math.cos(az)), scaled(side, Math.sin(az)));
   const toViewer = add(scaled(level, Math.cos(el)), scaled(up, Math.sin(el)));
   const right = subtract(scaled(side, Math.cos(az)), scaled(front, Math.sin(az)));
-  return { right, up: cross(toViewer, right), toViewer };
+  return { right, up: cross(toViewer, right), toViewer, upright: [side, up, front] };
 }
 
 /** Azimuth and elevation from which `direction` points to the viewer. */
-export function anglesTowards(direction, upName, boxSize) {
-  const { up, front, side } = uprightFrame(upName, boxSize);
+export function anglesTowards(direction, { upright: [side, up, front] }) {
   return {
     az: Math.atan2(dot(direction, side), dot(direction, front)) / kRadians,
     el: Math.asin(clamp(dot(direction, up), -1, 1)) / kRadians,
@@ -44,17 +43,26 @@ export function boxCorners(size) {
 }
 
 /**
- * What a pane shows of a mesh within a frame {centre, radius, size}. x, y and z of the state: relative to the frame, in
- * radii. Zoom 1: the sphere of the frame touches the shorter sides of the pane.
+ * What a pane shows of a mesh within a frame {centre, radius, size}. x, y and z of the state: along side, up and front,
+ * relative to the frame, in radii; so meshes with different upright axes move alike. Zoom 1: the sphere of the frame touches the shorter sides of the pane.
  */
 export class PaneCamera {
   constructor(state, axes, frame, width, height) {
     Object.assign(this, axes);
     this.width = width;
     this.height = height;
-    this.target = add(frame.centre, scaled([state.x, state.y, state.z], frame.radius));
+    this.frame = frame;
+    this.target = [state.x, state.y, state.z].reduce(
+      (sum, length, i) => add(sum, scaled(axes.upright[i], length * frame.radius)), frame.centre);
     this.pixelSize = 2 * frame.radius / ((state.zoom ?? 1) * Math.min(width, height));
     this.depth = 1 / (frame.radius * (2 + Math.hypot(state.x, state.y, state.z)));
+  }
+
+  /** x, y and z of the state with which the point is the target. */
+  stateAt(point) {
+    const offset = scaled(subtract(point, this.frame.centre), 1 / this.frame.radius);
+    const [x, y, z] = this.upright.map((axis) => dot(offset, axis));
+    return { x, y, z };
   }
 
   /** Column-major, from positions to clip coordinates. */
@@ -82,4 +90,22 @@ export class PaneCamera {
     const across = scaled(this.right, (x - this.width / 2) * this.pixelSize);
     return add(this.target, add(across, scaled(this.up, (this.height / 2 - y) * this.pixelSize)));
   }
+}
+
+/** Centre, size and radius that the camera refers to: common ones where the meshes are about the same box. */
+export function framesOf(models) {
+  const frameOf = (low, high) => {
+    const size = subtract(high, low);
+    return { centre: scaled(add(low, high), 0.5), size, radius: Math.hypot(...size) / 2 || 1 };
+  };
+  const absolute = models.map(({ description }) => frameOf(description.boxMin, description.boxMax));
+  const [first] = absolute;
+  const areAlike = absolute.every((frame) => Math.hypot(...subtract(frame.centre, first.centre)) < 0.3 * first.radius
+    && frame.radius < 2 * first.radius && first.radius < 2 * frame.radius);
+  const end = (name, choose) => [0, 1, 2].map((axis) => choose(...models.map((model) => model.description[name][axis])));
+  const common = frameOf(end('boxMin', Math.min), end('boxMax', Math.max));
+  return models.map(({ origin }, i) => {
+    const frame = areAlike ? common : absolute[i];
+    return { ...frame, centre: subtract(frame.centre, origin) };
+  });
 }

@@ -23,6 +23,7 @@ export function packedColour(hex) {
 
 export const cssColour = (packed) => `rgb(${packed & 255},${packed >> 8 & 255},${packed >> 16 & 255})`;
 
+export const kAlarmColour = packedColour('d3231b'), kRestColour = packedColour('b9bcc2');
 export const kLabelColours = stopsOf(kLabelStops);
 export const kFlagColours = stopsOf(kFlagStops);
 

@@ -1,6 +1,7 @@
 // The form: each element with data-key shows a part of the state and sets it.
 import { formatCount, formatShare, formatValue } from './format.js';
 import { classTitle } from './legend.js';
+import { givenLimit } from './thin_places.js';
 import { kViews } from './camera.js';
 
 const byId = (id) => document.getElementById(id);
@@ -13,8 +14,9 @@ export function made(tag, properties, ...children) {
 }
 
 export class Controls {
-  constructor(viewer, navigation, picture) {
+  constructor(viewer, navigation, visits, picture) {
     this.viewer = viewer;
+    this.given = givenLimit(viewer.models);
     this.fillChoices();
     for (const element of document.querySelectorAll('[data-key]'))
       element.addEventListener(element.type === 'number' ? 'change' : 'input', () => this.read(element));
@@ -26,10 +28,11 @@ export class Controls {
     click('range-auto', () => viewer.store.set({ low: null, high: null }));
     click('range-full', () => this.setFullRange());
     click('part-none', () => viewer.store.set({ part: null }));
+    click('thin-given', () => viewer.store.set({ thin: true, thinAt: null }));
     byId('go-to-face').addEventListener('submit', (event) => {
       event.preventDefault();
       const id = Number(byId('face-number').value), index = viewer.look.panes[0]?.index ?? 0;
-      if (!viewer.visitFace(index, id, 0)) byId('picked').textContent = `There is no face ${id}.`;
+      if (!visits.face(index, id, 0)) byId('picked').textContent = `There is no face ${id}.`;
     });
     viewer.store.listeners.push((keys) => this.show(keys));
     this.show(null);
@@ -51,9 +54,12 @@ export class Controls {
     const value = element.type === 'checkbox' ? element.checked : element.type === 'color' ? element.value.slice(1)
       : ['number', 'range'].includes(element.type) ? (element.value === '' ? null : Number(element.value)) : element.value;
     const changes = { [key]: value };
-    if (key === 'layer') Object.assign(changes, { low: null, high: null, thinAt: null });
-    if (key === 'show') Object.assign(changes, { low: null, high: null });
+    if (key === 'layer' || key === 'show') Object.assign(changes, { low: null, high: null });
+    if (key === 'layer') changes.thinAt = null;
+    // The thin places with a given limit have no colours of a layer or of a difference.
+    if (this.given !== null && (key === 'layer' || String(changes.show).includes('-'))) changes.thin = false;
     if (key === 'thinAt' && value !== null) changes.thin = true;
+    if (key === 'up' || key === 'show') Object.assign(changes, viewer.fitted({ ...viewer.state, ...changes }));
     viewer.store.set(changes);
     this.show(null);
   }
@@ -69,31 +75,41 @@ export class Controls {
     if (keys && ![...keys].some((key) => !['az', 'el', 'x', 'y', 'z', 'zoom'].includes(key))) return;
     const { look } = viewer, isNumber = look.kind === 'number' && Boolean(look.range);
     const shown = { ...state, none: `#${state.none}` };
-    if (isNumber) {
-      const limit = state.thinAt ?? look.low;
-      Object.assign(shown, { low: rounded(look.low), high: rounded(look.high), thinAt: rounded(limit) });
+    if (isNumber) Object.assign(shown, { low: rounded(look.low), high: rounded(look.high) });
+    const limited = this.limitedRange(look);
+    if (limited) {
+      shown.thinAt = rounded(state.thinAt ?? this.given ?? look.low);
       const slider = byId('thin-slider');
-      slider.min = look.range.min;
-      slider.max = look.range.max;
-      slider.step = (look.range.max - look.range.min) / 500 || 1;
+      slider.min = limited.min;
+      slider.max = limited.max;
+      slider.step = (limited.max - limited.min) / 500 || 1;
     }
     for (const element of document.querySelectorAll('[data-key]')) {
       const value = shown[element.dataset.key];
       if (element.type === 'checkbox') element.checked = value;
       else if (element.value !== String(value)) element.value = value ?? '';
     }
-    for (const id of ['colours', 'threshold']) byId(id).disabled = !isNumber;
+    byId('colours').disabled = !isNumber || Boolean(viewer.thin);
+    byId('threshold').disabled = !limited && this.given === null;
+    byId('thin-given').hidden = this.given === null || Boolean(viewer.thin?.isGiven);
     byId('clip-at').disabled = state.clip === 'off';
     byId('part-none').hidden = !state.part;
     this.showThin(look);
     this.showPicked();
   }
 
+  /** Of the values that the limit refers to; null without any. */
+  limitedRange(look) {
+    const { layers } = this.viewer;
+    if (this.given !== null && layers.has('least_thickness')) return layers.rangeOf('least_thickness');
+    return look.kind === 'number' ? look.range : null;
+  }
+
   showThin(look) {
-    const { limit, layers, models } = this.viewer;
+    const { thin, layers, models } = this.viewer;
     let text = '';
-    if (limit !== null) {
-      const { count, area, total } = layers.thin(look, limit);
+    if (thin && !thin.isGiven) {
+      const { limit, name } = thin, { count, area, total } = layers.below(look, name, limit);
       const hasPolygons = models.some(({ description }) => description.inputFaceCount < description.faceCount);
       text = `${formatCount(count)} ${hasPolygons ? 'triangles' : 'faces'} below ${formatValue(limit)}, area `
         + `${formatValue(area)} (${formatShare(total > 0 ? area / total : 0)} of the surface)`;

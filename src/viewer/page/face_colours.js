@@ -1,24 +1,22 @@
-// Packed colours of the faces of a mesh; alpha 0 hides a face.
-import { kFlagColours, packedColour, tableIndex } from './colour_maps.js';
-
-const kRest = packedColour('b9bcc2');
+// Packed colours of the faces of a mesh; alpha 0 is the rest, beside the faces that are highlighted.
+import { kAlarmColour, kFlagColours, packedColour, tableIndex } from './colour_maps.js';
 
 /**
- * layer: {kind, low, high, table} or {kind, colours} by label; style: {none, limit, part, hidesRest}. Faces that are not
- * below `limit`, or not of the part (labels of `part.labels`), are grey or hidden.
+ * layer: {kind, low, high, table} or {kind, colours} by label; style: {none, below, part}. With `below` {values, limit},
+ * faces whose value is less have the alarm colour; other faces are the rest. With `part` {labels, label}, faces with
+ * other labels are the rest.
  */
 export function colourFaces(values, layer, style) {
-  const none = packedColour(style.none), rest = style.hidesRest ? 0 : kRest;
-  const colours = new Uint32Array(values.length);
-  const limit = style.limit ?? Infinity;
-  if (layer.kind === 'number') {
+  const none = packedColour(style.none), colours = new Uint32Array(values.length);
+  if (style.below) {
+    const { values: limited, limit } = style.below;
+    for (let i = 0; i < colours.length; ++i) colours[i] = limited[i] < limit ? kAlarmColour : 0;
+  } else if (layer.kind === 'number') {
     const { low, high, table } = layer;
     const scale = high > low ? 255 / (high - low) : 0, offset = scale > 0 ? 0.5 : tableIndex(0, 0, 0);
     for (let i = 0; i < values.length; ++i) {
       const value = values[i];
-      if (value >= limit) colours[i] = rest;
-      else if (value === value) colours[i] = table[Math.min(Math.max((value - low) * scale + offset, 0), 255) | 0];
-      else colours[i] = style.limit === null ? none : rest;
+      colours[i] = value === value ? table[Math.min(Math.max((value - low) * scale + offset, 0), 255) | 0] : none;
     }
   } else {
     for (let i = 0; i < values.length; ++i)
@@ -26,7 +24,7 @@ export function colourFaces(values, layer, style) {
   }
   if (style.part) {
     const { labels, label } = style.part;
-    for (let i = 0; i < colours.length; ++i) if (labels[i] !== label) colours[i] = rest;
+    for (let i = 0; i < colours.length; ++i) if (labels[i] !== label) colours[i] = 0;
   }
   return colours;
 }

@@ -22,6 +22,24 @@ export class Layers {
     return this.fields.find((field) => field.name === name) ?? this.fields[0];
   }
 
+  has(name) {
+    return this.fields.some((field) => field.name === name);
+  }
+
+  /** {low, high, min, max} of a field over all meshes, or null. */
+  rangeOf(name) {
+    return this.cached(`range ${name} false`, () => rangeOf(this.models.map((_, index) => this.part(index, this.valuesOf(index, name)))));
+  }
+
+  part(index, values) {
+    return { values, areas: this.models[index].areas };
+  }
+
+  /** Indices of the meshes that a state shows. */
+  shown({ show }) {
+    return show === 'all' ? this.models.map((_, index) => index) : [Number(show.split('-')[0])];
+  }
+
   /** Whether both have the same face count and nearly the same box. */
   areComparable(one, other) {
     const [a, b] = [this.models[one], this.models[other]];
@@ -55,23 +73,20 @@ export class Layers {
   look(state) {
     const field = this.fieldNamed(state.layer), { name, kind } = field;
     const pair = state.show.includes('-') && kind === 'number' ? state.show.split('-').map(Number) : null;
-    const all = this.models.map((_, index) => ({ index, values: this.valuesOf(index, name) }));
-    const panes = pair ? [{ index: pair[0], values: this.difference(...pair, name) }]
-      : /^\d+$/.test(state.show) ? [all[state.show]] : state.show === 'all' ? all : [all[state.show.split('-')[0]]];
-    const withAreas = (list) => list.map(({ index, values }) => ({ values, areas: this.models[index].areas }));
+    const panes = this.shown(state).map((index) => ({ index, values: pair ? this.difference(...pair, name) : this.valuesOf(index, name) }));
     const look = {
-      name, kind, panes, isDifference: Boolean(pair), unit: field.unit, parts: withAreas(panes),
+      name, kind, panes, isDifference: Boolean(pair), unit: field.unit, parts: panes.map(({ index, values }) => this.part(index, values)),
       title: pair ? `difference of ${field.title}` : field.title,
       noValueCount: panes.reduce((sum, { values }) => sum + values.reduce((count, v) => count + (v !== v), 0), 0),
     };
-    if (kind === 'number') Object.assign(look, this.numbers(state, look, pair ? look.parts : withAreas(all)));
+    if (kind === 'number') Object.assign(look, this.numbers(state, look));
     else look.classes = this.classes(look);
     return look;
   }
 
   // One range for all meshes, so that their colours can be compared.
-  numbers(state, look, rangeParts) {
-    const range = this.cached(`range ${look.name} ${look.isDifference && state.show}`, () => rangeOf(rangeParts));
+  numbers(state, look) {
+    const range = look.isDifference ? this.cached(`range ${look.name} ${state.show}`, () => rangeOf(look.parts)) : this.rangeOf(look.name);
     const table = this.cached(`table ${look.isDifference || state.map}`,
       () => colourTable(look.isDifference ? 'difference' : state.map));
     if (!range) return { table, low: 0, high: 1, range: null };
@@ -116,7 +131,8 @@ export class Layers {
     return histogramOf(look.parts, axis.low, axis.high, kHistogramBinCount);
   }
 
-  thin(look, limit) {
-    return facesBelow(look.parts, limit);
+  /** Faces of the panes below a limit, by the values of another field where `name` is not that of the look. */
+  below(look, name, limit) {
+    return facesBelow(name === look.name ? look.parts : look.panes.map(({ index }) => this.part(index, this.valuesOf(index, name))), limit);
   }
 }

@@ -1,9 +1,10 @@
 // The legend, drawn on a canvas of the page or of a saved picture.
-import { cssColour, kFlagColours, packedColour, tableIndex } from './colour_maps.js';
+import { cssColour, kAlarmColour, kFlagColours, kRestColour, packedColour, tableIndex } from './colour_maps.js';
 import { formatShare, formatValue, ticksWithin } from './format.js';
 
-export const kLegendWidth = 168;
-const kBarLeft = 58, kBarWidth = 18, kTop = 76, kBottom = 40, kLine = 16;
+const kBarWidth = 18, kTop = 76, kBottom = 40, kLine = 16;
+/** Beside a wide view, and beside a narrow one, without the histogram. */
+export const kWideLegend = { width: 168, barLeft: 58 }, kNarrowLegend = { width: 92, barLeft: 8 };
 const kFont = '13px system-ui, sans-serif';
 
 const textLines = (context, text, width) => {
@@ -16,11 +17,11 @@ const textLines = (context, text, width) => {
   return lines;
 };
 
-/** Bar of a legend of this height: pixels of values. */
-export function barOf(axis, height) {
+/** Bar of a legend of this size: pixels of values. */
+export function barOf(axis, height, { barLeft }) {
   const length = Math.max(height - kTop - kBottom, 40);
   return {
-    left: kBarLeft, width: kBarWidth, top: kTop, length,
+    left: barLeft, width: kBarWidth, top: kTop, length,
     yOf: (value) => kTop + length * (1 - (value - axis.low) / (axis.high - axis.low)),
     valueAt: (y) => axis.low + (axis.high - axis.low) * (1 - (y - kTop) / length),
   };
@@ -30,30 +31,39 @@ export const classTitle = (look, label) =>
   look.name === 'seed' ? ['interpolated', 'seed: rays were cast'][label]
     : look.kind === 'flag' ? `${look.title}: ${label ? 'yes' : 'no'}` : `part ${label}`;
 
-/** legend: {look, axis, histogram, limit, none, colourOfLabel}; ink: colour of text. */
-export function drawLegend(context, legend, height, ink) {
-  const { look } = legend;
+/** legend: {look, axis, histogram, thin, none, colourOfLabel}; size: wide or narrow; ink: colour of text. */
+export function drawLegend(context, legend, height, size, ink) {
+  const { look, thin } = legend;
   context.font = `600 ${kFont}`;
   context.fillStyle = ink;
   context.textBaseline = 'middle';
   context.textAlign = 'left';
-  const title = textLines(context, look.title, kLegendWidth - 12).slice(0, 2);
+  const title = textLines(context, thin ? thinTitle(thin) : look.title, size.width - 12).slice(0, 3);
   title.forEach((line, i) => context.fillText(line, 8, 14 + i * kLine));
   context.font = kFont;
-  if (look.unit) context.fillText(`[${look.unit}]`, 8, 14 + title.length * kLine);
-  if (look.kind === 'number' && look.range) drawNumbers(context, legend, height, ink);
-  if (look.kind !== 'number') drawClasses(context, legend, height, ink);
-  if (look.noValueCount) drawSwatch(context, cssColour(packedColour(legend.none)), 'no value', height - 14, ink);
+  if (thin) return drawThin(context, thin, 14 + title.length * kLine, size, ink);
+  if (look.unit) context.fillText(`[${look.unit}]`, 8, 14 + title.length * kLine, size.width - 8);
+  if (look.kind === 'number' && look.range) drawNumbers(context, legend, height, size, ink);
+  if (look.kind !== 'number') drawClasses(context, legend, height, size, ink);
+  if (look.noValueCount) drawSwatch(context, cssColour(packedColour(legend.none)), 'no value', height - 14, size, ink);
 }
 
-function drawNumbers(context, { look, axis, histogram, limit }, height, ink) {
-  const bar = barOf(axis, height);
+const thinTitle = (thin) => `${thin.share > 0 ? 'thinner' : 'nowhere thinner'} than ${formatValue(thin.limit)}`;
+
+// Both colours with their shares of the area.
+function drawThin(context, { share }, top, size, ink) {
+  if (share > 0) drawSwatch(context, cssColour(kAlarmColour), `thin, ${formatShare(share)}`, top + 10, size, ink);
+  drawSwatch(context, cssColour(kRestColour), 'other', top + (share > 0 ? 32 : 10), size, ink);
+}
+
+function drawNumbers(context, { look, axis, histogram }, height, size, ink) {
+  const bar = barOf(axis, height, size), { barLeft } = size;
   const most = Math.max(...histogram.bins) || 1, binHeight = bar.length / histogram.bins.length;
-  for (let i = 0; i < histogram.bins.length; ++i) {
+  for (let i = 0; i < histogram.bins.length && barLeft > 12; ++i) {
     const value = axis.low + (i + 0.5) / histogram.bins.length * (axis.high - axis.low);
-    const width = (kBarLeft - 12) * histogram.bins[i] / most;
+    const width = (barLeft - 12) * histogram.bins[i] / most;
     context.fillStyle = cssColour(look.table[tableIndex(value, look.low, look.high)]);
-    context.fillRect(kBarLeft - 6 - width, bar.yOf(value) - binHeight / 2, width, binHeight + 0.5);
+    context.fillRect(barLeft - 6 - width, bar.yOf(value) - binHeight / 2, width, binHeight + 0.5);
   }
   for (let row = 0; row < bar.length; ++row) {
     const value = bar.valueAt(bar.top + row + 0.5);
@@ -68,35 +78,34 @@ function drawNumbers(context, { look, axis, histogram, limit }, height, ink) {
     context.fillRect(bar.left + bar.width, y - 0.5, 5, 1);
     context.fillText(tick.label, bar.left + bar.width + 20, y);
   }
-  if (limit !== null && limit >= axis.low && limit <= axis.high)
-    context.fillRect(8, bar.yOf(limit) - 1, bar.left + bar.width - 8, 2);
   const outside = (area, name) => area > 0 ? [`${formatShare(area / histogram.total)} ${name}`] : [];
   if (histogram.total > 0) {
-    outside(histogram.above, 'above').forEach((text) => context.fillText(text, 8, kTop - 14));
-    outside(histogram.below, 'below').forEach((text) => context.fillText(text, 8, height - kBottom + 12));
+    outside(histogram.above, 'above').forEach((text) => context.fillText(text, 8, kTop - 14, size.width - 8));
+    outside(histogram.below, 'below').forEach((text) => context.fillText(text, 8, height - kBottom + 12, size.width - 8));
   }
 }
 
-function drawSwatch(context, colour, text, y, ink) {
+function drawSwatch(context, colour, text, y, size, ink) {
   context.fillStyle = colour;
   context.fillRect(8, y - 7, 14, 14);
   context.fillStyle = ink;
-  context.fillText(text, 28, y, kLegendWidth - 32);
+  context.fillText(text, 28, y, size.width - 32);
 }
 
-function drawClasses(context, { look, colourOfLabel }, height, ink) {
+function drawClasses(context, { look, colourOfLabel }, height, size, ink) {
   const rowCount = Math.max(1, Math.floor((height - kTop - kBottom) / 20));
   const rows = look.classes.slice(0, look.classes.length > rowCount ? rowCount - 1 : rowCount);
   rows.forEach(({ label, share }, i) => {
     const colour = look.kind === 'flag' ? kFlagColours[label] : colourOfLabel(label);
-    drawSwatch(context, cssColour(colour), `${classTitle(look, label)} · ${formatShare(share)}`, kTop + 20 * i, ink);
+    drawSwatch(context, cssColour(colour), `${classTitle(look, label)} · ${formatShare(share)}`, kTop + 20 * i, size, ink);
   });
   if (rows.length < look.classes.length)
     context.fillText(`and ${look.classes.length - rows.length} more`, 28, kTop + 20 * rows.length);
 }
 
 /** The same in words. */
-export function legendSentence(look) {
+export function legendSentence(look, thin) {
+  if (thin) return `${thinTitle(thin)}, ${formatShare(thin.share)} of the area`;
   const unit = look.unit ? ` ${look.unit}` : '';
   if (look.kind !== 'number') return `${look.title}: ${look.classes.length} classes`;
   if (!look.range) return `${look.title}: no face has a value`;

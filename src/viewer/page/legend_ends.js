@@ -1,6 +1,7 @@
 // The legend of the page and the two ends of its colours, which mouse, touch and keys move.
 import { formatValue } from './format.js';
-import { barOf, drawLegend, kLegendWidth, legendSentence } from './legend.js';
+import { barOf, drawLegend, kNarrowLegend, kWideLegend, legendSentence } from './legend.js';
+import { thinShare } from './thin_places.js';
 import { clamp } from './vectors.js';
 
 export class LegendPanel {
@@ -56,9 +57,9 @@ export class LegendPanel {
 
   /** What drawLegend() draws. */
   legend() {
-    const { viewer, axis } = this, { look, state, limit } = viewer;
+    const { viewer, axis } = this, { look, state, thin } = viewer;
     return {
-      look, axis, limit, histogram: this.histogram, none: state.none,
+      look, axis, thin: thin && { ...thin, share: thinShare(viewer) }, histogram: this.histogram, none: state.none,
       colourOfLabel: (label) => look.panes
         .map(({ index }) => viewer.layers.labelColours(index, look.name).get(label)).find((colour) => colour !== undefined),
     };
@@ -66,7 +67,7 @@ export class LegendPanel {
 
   update() {
     const { viewer } = this, { look } = viewer;
-    const key = JSON.stringify([look.name, viewer.state.show, viewer.state.map, look.low, look.high, viewer.limit,
+    const key = JSON.stringify([look.name, viewer.state.show, viewer.state.map, look.low, look.high, viewer.thin,
       viewer.state.none, viewer.theme().ink]);
     if (this.drawn === key) return;
     this.drawn = key;
@@ -78,18 +79,19 @@ export class LegendPanel {
   }
 
   draw() {
-    const { viewer, canvas, axis } = this, { look } = viewer, height = this.folder.clientHeight;
+    const { viewer, canvas, axis } = this, { look, thin } = viewer, height = this.folder.clientHeight;
+    const size = this.folder.clientWidth < kWideLegend.width ? kNarrowLegend : kWideLegend, legend = this.legend();
     const ratio = Math.min(devicePixelRatio, 2);
-    Object.assign(canvas, { width: kLegendWidth * ratio, height: Math.max(height * ratio, 1) });
+    Object.assign(canvas, { width: size.width * ratio, height: Math.max(height * ratio, 1) });
     const context = canvas.getContext('2d');
     context.scale(ratio, ratio);
-    const hasEnds = look.kind === 'number' && Boolean(look.range);
+    const hasEnds = !thin && look.kind === 'number' && Boolean(look.range);
     for (const { element } of this.ends) element.hidden = !hasEnds;
     if (look.kind === 'none') return;
-    drawLegend(context, this.legend(), height, viewer.theme().ink);
-    canvas.setAttribute('aria-label', legendSentence(look));
+    drawLegend(context, legend, height, size, viewer.theme().ink);
+    canvas.setAttribute('aria-label', legendSentence(look, legend.thin));
     if (!hasEnds) return;
-    this.bar = barOf(axis, height);
+    this.bar = barOf(axis, height, size);
     for (const { end, element } of this.ends) {
       const value = look[end];
       element.style.top = `${this.bar.yOf(value)}px`;

@@ -9,6 +9,7 @@ import { Renderer } from './renderer.js';
 import { showReport } from './report.js';
 import { fragmentOf, kInitialState, stateOfFragment, Store } from './view_state.js';
 import { Viewer } from './viewer.js';
+import { Visits } from './visits.js';
 
 const kFragmentMilliseconds = 300;
 
@@ -55,19 +56,18 @@ async function start() {
   for (const mesh of page.meshes) {
     // Close to the mesh, where single precision resolves it.
     const origin = mesh.boxMin.map((low, axis) => (low + mesh.boxMax[axis]) / 2);
-    models.push(new MeshModel(mesh, origin, await decodeMesh(mesh, streamBytes, origin)));
+    const thinSurface = mesh.thin ? await decodeMesh(mesh.thin.surface, streamBytes, origin) : null;
+    models.push(new MeshModel(mesh, origin, await decodeMesh(mesh, streamBytes, origin), thinSurface));
   }
   for (const stream of document.querySelectorAll('[id^=stream-]')) stream.remove();  // Not needed again, and large.
   finish('ready', '');
   const viewer = new Viewer(canvas, renderer, models, new Store({ ...kInitialState }));
-  showReport(page, {
-    face: (index, id, area) => viewer.visitFace(index, id, area),
-    part: (index, part) => viewer.visitPart(index, part),
-  });
+  const visits = new Visits(viewer);
+  showReport(page, visits);
   const legendPanel = new LegendPanel(viewer, document.getElementById('legend'));
   new Overlays(viewer, document.getElementById('overlays'));
   const navigation = new Navigation(viewer);
-  new Controls(viewer, navigation, new Picture(viewer, legendPanel));
+  new Controls(viewer, navigation, visits, new Picture(viewer, legendPanel));
   followFragment(viewer);
   matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => viewer.requestFrame());
   canvas.addEventListener('webglcontextlost', () => finish('lost', 'The graphics card was lost; waiting for it.'));

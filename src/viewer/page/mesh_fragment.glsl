@@ -11,8 +11,8 @@ void main() {
   if (height < 0.0 || faceColour.a == 0.0) discard;
 #endif
 #ifdef SMOOTH
-  pixel = vec4(faceColour.rgb * brightness(eyeNormal), 1.0);
+  pixel = vec4(faceColour.rgb * brightness(eyeNormal), faceColour.a);
 #else
-  pixel = vec4(faceColour.rgb, 1.0);
+  pixel = faceColour;
 #endif
 }

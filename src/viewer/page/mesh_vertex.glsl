@@ -7,6 +7,7 @@ uniform mat3 toEye;
 uniform vec4 plane;
 uniform vec4 backColour;
 uniform float plainness;
+uniform vec4 restColour;
 flat out vec4 faceColour;
 #ifdef SMOOTH
 out vec3 eyeNormal;
@@ -17,7 +18,12 @@ out float height;
 void main() {
   gl_Position = toClip * vec4(position, 1.0);
   vec3 faceNormal = toEye * normal;
-  faceColour = vec4(faceNormal.z < 0.0 ? mix(colour.rgb, backColour.rgb, backColour.a) : colour.rgb, colour.a);
+#ifdef REST
+  vec4 own = restColour;
+#else
+  vec4 own = colour;
+#endif
+  faceColour = vec4(faceNormal.z < 0.0 ? mix(own.rgb, backColour.rgb, backColour.a) : own.rgb, own.a);
 #ifdef SMOOTH
   eyeNormal = toEye * smoothNormal;
 #else

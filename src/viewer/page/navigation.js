@@ -20,19 +20,13 @@ export class Navigation {
     }, { passive: false });
     canvas.addEventListener('dblclick', (event) => {
       const hit = viewer.hit(event.offsetX, event.offsetY);
-      if (hit) viewer.flyTo(this.targetAt(hit.pane.index, hit.point));
+      if (hit) viewer.flyTo(hit.pane.camera.stateAt(hit.point));
     });
     canvas.addEventListener('keydown', (event) => this.key(event));
   }
 
   get state() {
     return this.viewer.state;
-  }
-
-  targetAt(index, point) {
-    const frame = this.viewer.frames[index];
-    const [x, y, z] = scaled(subtract(point, frame.centre), 1 / frame.radius);
-    return { x, y, z };
   }
 
   set(changes) {
@@ -45,8 +39,8 @@ export class Navigation {
   }
 
   pan(dx, dy) {
-    const [{ camera, index }] = this.viewer.panes(), { width, height } = camera;
-    this.set(this.targetAt(index, camera.pointAt(width / 2 - dx, height / 2 - dy)));
+    const [{ camera }] = this.viewer.panes(), { width, height } = camera;
+    this.set(camera.stateAt(camera.pointAt(width / 2 - dx, height / 2 - dy)));
   }
 
   /** About a point of the canvas, or the centre of the view. */
@@ -57,7 +51,7 @@ export class Navigation {
     if (x !== undefined) {
       const { camera } = pane, fixed = camera.pointAt(x - pane.left, y - pane.top);
       const target = add(fixed, scaled(subtract(camera.target, fixed), this.state.zoom / zoom));
-      Object.assign(change, this.targetAt(pane.index, target));
+      Object.assign(change, camera.stateAt(target));
     }
     this.set({ zoom, ...change });
   }
@@ -101,7 +95,7 @@ export class Navigation {
   }
 
   resetView() {
-    const { state, viewer } = this, [az, el] = kViews.corner;
+    const { state, viewer } = this, { az, el } = viewer.initial;
     viewer.flyTo({ az, el, ...viewer.fitted({ ...state, az, el }) });
   }
 

@@ -1,5 +1,9 @@
-// What lies over the view: names of the panes, a ring at the selected face, a scale.
+// What lies over the view: names of the panes, rings at thin places and at the selected face, a scale.
 import { formatValue } from './format.js';
+import { markedRegions, regionValue } from './thin_places.js';
+import { subtract } from './vectors.js';
+
+const kTextWidth = 60, kTextHeight = 17;  // Of the text at a marker, at most, in pixels.
 
 /** The longest round length that takes at most a third of the pane: {value, pixels}. */
 export function scaleOf(camera) {
@@ -8,48 +12,62 @@ export function scaleOf(camera) {
   return { value, pixels: value / camera.pixelSize, label: formatValue(value) };
 }
 
-/** Pixel of the canvas at which the selected face of a pane is, or null. */
-export function ringOf(pane) {
-  if (!pane.outline) return null;
-  const [a, b, c] = pane.outline;
-  const [x, y] = pane.camera.pixelOf(a.map((value, axis) => (value + b[axis] + c[axis]) / 3));
+/** Pixel of the canvas at which a point of a pane is, or null outside. */
+function canvasPixel(pane, point) {
+  const [x, y] = pane.camera.pixelOf(point);
   const isInside = x >= 0 && y >= 0 && x <= pane.width && y <= pane.height;
   return isInside ? [pane.left + x, pane.top + y] : null;
 }
 
+/** Pixel of the canvas at which the selected face of a pane is, or null. */
+export function ringOf(pane) {
+  if (!pane.outline) return null;
+  const [a, b, c] = pane.outline;
+  return canvasPixel(pane, a.map((value, axis) => (value + b[axis] + c[axis]) / 3));
+}
+
+/** The least places of the regions that a pane shows: {x, y, text, isLeft}; without the text where it would cover another. */
+export function markersOf(pane, viewer) {
+  if (!viewer.thin?.isGiven) return [];
+  const model = viewer.models[pane.index], markers = [];
+  for (const region of markedRegions(model)) {
+    const at = canvasPixel(pane, subtract(region.place, model.origin));
+    if (!at) continue;
+    const [x, y] = at.map(Math.round);
+    const isFree = markers.every((other) => Math.abs(other.y - y) > kTextHeight || Math.abs(other.x - x) > kTextWidth);
+    markers.push({ x, y, text: isFree ? regionValue(region) : '', isLeft: x > pane.left + pane.width - kTextWidth });
+  }
+  return markers;
+}
+
 export class Overlays {
   constructor(viewer, folder) {
-    this.folder = folder;
-    this.viewer = viewer;
+    Object.assign(this, { viewer, folder });
     viewer.afterFrame.push((panes) => this.update(panes));
   }
 
-  element(i, kind, tag = 'div') {
-    const id = `${kind}-${i}`, found = document.getElementById(id);
-    if (found) return found;
-    const made = Object.assign(document.createElement(tag), { id, className: kind });
-    this.folder.append(made);
-    return made;
+  add(id, className, x, y, text = '') {
+    const element = Object.assign(document.createElement('div'), { id, className, textContent: text });
+    Object.assign(element.style, { left: `${x}px`, top: `${y}px` });
+    this.folder.append(element);
+    return element;
   }
 
   update(panes) {
-    // Unchanged elements are left alone: each change is painted anew.
-    const key = JSON.stringify(panes.map((pane) => [pane.index, pane.left, pane.top, scaleOf(pane.camera), ringOf(pane)]));
+    // Made anew only where something differs: each change is painted.
+    const all = panes.map((pane) => ({
+      pane, scale: scaleOf(pane.camera), ring: ringOf(pane), markers: markersOf(pane, this.viewer),
+    }));
+    const key = JSON.stringify(all.map(({ pane, ...rest }) => [pane.index, pane.left, pane.top, pane.height, rest]));
     if (this.shown === key) return;
     this.shown = key;
-    const place = (element, x, y) => Object.assign(element.style, { left: `${x}px`, top: `${y}px` });
-    while (this.folder.childElementCount > 3 * panes.length) this.folder.lastChild.remove();
-    panes.forEach((pane, i) => {
-      const title = this.element(i, 'pane-title');
-      title.textContent = this.viewer.models.length > 1 ? this.viewer.models[pane.index].description.label : '';
-      place(title, pane.left + 8, pane.top + 6);
-      const scale = this.element(i, 'scale'), { pixels, label } = scaleOf(pane.camera);
-      scale.textContent = label;
-      scale.style.width = `${pixels}px`;
-      place(scale, pane.left + 10, pane.top + pane.height - 28);
-      const ring = this.element(i, 'ring'), at = ringOf(pane);
-      ring.hidden = !at;
-      if (at) place(ring, at[0] - 9, at[1] - 9);
+    this.folder.replaceChildren();
+    all.forEach(({ pane, scale, ring, markers }, i) => {
+      const { models } = this.viewer;
+      if (models.length > 1) this.add(`pane-title-${i}`, 'pane-title', pane.left + 8, pane.top + 6, models[pane.index].description.label);
+      this.add(`scale-${i}`, 'scale', pane.left + 10, pane.top + pane.height - 28, scale.label).style.width = `${scale.pixels}px`;
+      markers.forEach(({ x, y, text, isLeft }, k) => this.add(`marker-${i}-${k}`, isLeft ? 'marker left' : 'marker', x - 9, y - 9, text));
+      if (ring) this.add(`ring-${i}`, 'ring', ring[0] - 9, ring[1] - 9);
     });
   }
 }

@@ -1,6 +1,6 @@
 // The view with legend, names and scale as a PNG file.
-import { drawLegend, kLegendWidth } from './legend.js';
-import { scaleOf } from './overlays.js';
+import { drawLegend, kWideLegend } from './legend.js';
+import { markersOf, scaleOf } from './overlays.js';
 
 export class Picture {
   constructor(viewer, legendPanel) {
@@ -11,7 +11,7 @@ export class Picture {
     const { viewer } = this, { canvas, models } = viewer;
     const ratio = Math.min(devicePixelRatio, 2), width = canvas.clientWidth, height = canvas.clientHeight;
     const picture = document.createElement('canvas');
-    Object.assign(picture, { width: (width + kLegendWidth) * ratio, height: height * ratio });
+    Object.assign(picture, { width: (width + kWideLegend.width) * ratio, height: height * ratio });
     const context = picture.getContext('2d'), { ink } = viewer.theme();
     // The picture of the view exists only until the end of this task.
     viewer.draw(true);
@@ -26,9 +26,15 @@ export class Picture {
       const { pixels, label } = scaleOf(pane.camera), bottom = pane.top + pane.height;
       context.fillRect(pane.left + 10, bottom - 10, pixels, 2);
       context.fillText(label, pane.left + 10, bottom - 16);
+      for (const { x, y, text, isLeft } of markersOf(pane, viewer)) {
+        context.beginPath();
+        context.arc(x, y, 8, 0, 2 * Math.PI);
+        context.stroke();
+        context.fillText(text, isLeft ? x - 12 - context.measureText(text).width : x + 12, y + 4);
+      }
     }
     context.translate(width, 0);
-    drawLegend(context, this.legendPanel.legend(), height, ink);
+    drawLegend(context, this.legendPanel.legend(), height, kWideLegend, ink);
     picture.toBlob((blob) => {
       const address = URL.createObjectURL(blob), link = document.createElement('a');
       Object.assign(link, { href: address, download: `${models[0].description.name.replace(/\.\w+$/, '')}.png` });

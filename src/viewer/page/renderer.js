@@ -1,6 +1,8 @@
-// WebGL 2: meshes with a flat colour per face, edges, outlines.
+// WebGL 2: meshes with a flat colour per face, a surface or faces highlighted in a grey or translucent mesh, edges, outlines.
 
 const kSampleCount = 4, kCoarseFaceCount = 20000;
+const kRestGrey = [0.725, 0.737, 0.76];
+const kRestOpacities = { glass: 0.45, grey: 1, hidden: 0 };
 const kPosition = 0, kColour = 1, kNormal = 2, kSmoothNormal = 3;
 
 export class Renderer {
@@ -68,7 +70,8 @@ export class Renderer {
     gl.bindBuffer(gl.ARRAY_BUFFER, mesh.colours);
     gl.bufferSubData(gl.ARRAY_BUFFER, 0, new Uint8Array(colours.buffer));
     mesh.colouring = colours;
-    mesh.hasHidden = colours.some((colour) => colour >>> 24 === 0);
+    mesh.hasRest = colours.some((colour) => colour >>> 24 === 0);
+    mesh.isAllRest = mesh.hasRest && colours.every((colour) => colour >>> 24 === 0);
   }
 
   smooth(mesh) {
@@ -94,11 +97,11 @@ export class Renderer {
     return coarse;
   }
 
-  // Of the faces that are not hidden.
-  edgesOf(mesh) {
-    const { gl } = this;
-    if (mesh.edgesOfColouring === (mesh.hasHidden ? mesh.colouring : true)) return mesh.edges;
-    mesh.edgesOfColouring = mesh.hasHidden ? mesh.colouring : true;
+  // Of all faces, or without those that are the rest.
+  edgesOf(mesh, hidesRest) {
+    const { gl } = this, hasHidden = hidesRest && mesh.hasRest;
+    if (mesh.edgesOfColouring === (hasHidden ? mesh.colouring : true)) return mesh.edges;
+    mesh.edgesOfColouring = hasHidden ? mesh.colouring : true;
     if (!mesh.edges) {
       mesh.edges = { vao: gl.createVertexArray(), positions: gl.createBuffer(), indices: gl.createBuffer() };
       gl.bindVertexArray(mesh.edges.vao);
@@ -108,7 +111,7 @@ export class Renderer {
     }
     const { ends, faces } = mesh.model.edges();
     const isSeen = (face) => face < mesh.colouring.length && mesh.colouring[face] >>> 24 !== 0;
-    const shown = mesh.hasHidden
+    const shown = hasHidden
       ? ends.filter((_, i) => isSeen(faces[i & ~1]) || isSeen(faces[i | 1])) : ends;
     gl.bindVertexArray(mesh.edges.vao);
     gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, mesh.edges.indices);
@@ -150,8 +153,9 @@ export class Renderer {
   }
 
   /**
-   * frame: {width, height, background, isSampled, isCoarse, shading, back, edges, lineColour, panes}; a pane: {mesh, camera,
-   * plane, viewport, outline} with the viewport in pixels of the canvas from its lower left corner.
+   * frame: {width, height, background, isSampled, isCoarse, shading, back, edges, rest, lineColour, panes}; a pane: {mesh,
+   * surface, camera, plane, viewport, outline} with the viewport in pixels of the canvas from its lower left corner. A
+   * surface, or null, is highlighted instead of faces of the mesh.
    */
   draw(frame) {
     const { gl } = this;
@@ -161,13 +165,16 @@ export class Renderer {
     gl.clearColor(...frame.background, 1);
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
     for (const shown of frame.panes) {
-      const pane = frame.isCoarse ? { ...shown, mesh: this.coarse(shown.mesh) } : shown;
+      const mesh = frame.isCoarse ? this.coarse(shown.mesh) : shown.mesh;
+      // A surface does not fit the coarse copy.
+      const pane = { ...shown, mesh, surface: mesh === shown.mesh ? shown.surface : null };
       gl.viewport(...pane.viewport);
       gl.scissor(...pane.viewport);
       gl.enable(gl.SCISSOR_TEST);
-      this.drawFaces(pane, frame);
+      if (pane.surface || mesh.hasRest) this.drawHighlighted(pane, frame);
+      else this.drawFaces(mesh, pane, frame);
       if (frame.edges) {
-        const edges = this.edgesOf(pane.mesh);
+        const edges = this.edgesOf(mesh, frame.rest === 'hidden');
         this.drawLines(pane, frame.lineColour, edges.vao, () => gl.drawElements(gl.LINES, edges.count, gl.UNSIGNED_INT, 0));
       }
       if (pane.outline) this.drawOutline(pane);
@@ -180,19 +187,48 @@ export class Renderer {
     gl.blitFramebuffer(...area, ...area, gl.COLOR_BUFFER_BIT, gl.NEAREST);
   }
 
-  drawFaces(pane, frame) {
-    const { gl } = this;
-    const defines = frame.shading === 'smooth' ? ['SMOOTH'] : [];
-    if (pane.plane || pane.mesh.hasHidden) defines.push('CUT');
-    if (frame.shading === 'smooth') this.smooth(pane.mesh);
+  /**
+   * The highlighted faces, which shine through the rest where they are hidden. Only the nearest face of the rest covers
+   * them, so that no order of the faces matters.
+   */
+  drawHighlighted(pane, frame) {
+    const { gl } = this, highlighted = pane.surface ?? (pane.mesh.isAllRest ? null : pane.mesh);
+    const opacity = highlighted ? kRestOpacities[frame.rest] : 1;
+    if (opacity > 0) {
+      if (opacity < 1) this.drawFaces(highlighted, pane, { ...frame, shading: 'plain' });
+      gl.clear(gl.DEPTH_BUFFER_BIT);
+      gl.colorMask(false, false, false, false);
+      this.drawFaces(pane.mesh, pane, frame, 1);
+      gl.colorMask(true, true, true, true);
+      gl.enable(gl.BLEND);
+      gl.blendFuncSeparate(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA, gl.ZERO, gl.ONE);
+      this.drawFaces(pane.mesh, pane, frame, opacity);
+      gl.disable(gl.BLEND);
+    }
+    if (!highlighted) return;
+    // Before the faces at it; positions are rounded to the grid of the page.
+    gl.enable(gl.POLYGON_OFFSET_FILL);
+    gl.polygonOffset(-1, -64);
+    this.drawFaces(highlighted, pane, frame);
+    gl.disable(gl.POLYGON_OFFSET_FILL);
+  }
+
+  /** opacity: of the whole mesh in the colour of the rest; unset: the faces that are not the rest, in their colours. */
+  drawFaces(mesh, pane, frame, opacity = null) {
+    const { gl } = this, isSmooth = frame.shading === 'smooth';
+    const defines = isSmooth ? ['SMOOTH'] : [];
+    if (opacity !== null) defines.push('REST');
+    if (pane.plane || (opacity === null && mesh.hasRest)) defines.push('CUT');
+    if (isSmooth) this.smooth(mesh);
     const program = this.program('mesh', meshVertexSource, meshFragmentSource, defines);
     this.use(program, pane);
     gl.uniform4fv(program.uniforms.backColour, [0.44, 0.44, 0.46, frame.back === 'grey' ? 1 : 0]);
+    if (opacity !== null) gl.uniform4fv(program.uniforms.restColour, [...kRestGrey, opacity]);
     gl.uniform1f(program.uniforms.plainness, frame.shading === 'plain' ? 1 : 0);
     const toggle = (capability, isOn) => isOn ? gl.enable(capability) : gl.disable(capability);
     toggle(gl.CULL_FACE, frame.back === 'hidden');
-    gl.bindVertexArray(pane.mesh.vao);
-    gl.drawElements(gl.TRIANGLES, pane.mesh.indexCount, gl.UNSIGNED_INT, 0);
+    gl.bindVertexArray(mesh.vao);
+    gl.drawElements(gl.TRIANGLES, mesh.indexCount, gl.UNSIGNED_INT, 0);
   }
 
   drawLines(pane, colour, vao, call) {

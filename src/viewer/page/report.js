@@ -1,6 +1,6 @@
-// Summary, warnings, thin regions and parts as tables and lists. Needs no WebGL; a viewer makes rows fly there.
+// Thin regions, summary, warnings and parts as tables and lists. Needs no WebGL; a viewer makes rows fly there.
 import { made } from './controls.js';
-import { formatCount, formatValue } from './format.js';
+import { formatCount, formatShare, formatValue } from './format.js';
 
 const kFirstRowCount = 20;
 
@@ -25,31 +25,54 @@ function table(caption, heads, rows) {
   return [element, more];
 }
 
-/** actions: {face(index, id, area), part(index, part)}, or null without a view. */
-function meshReport(mesh, index, isOpen, actions) {
-  const link = (text, id, action) => {
-    if (!actions) return text;
-    const button = made('button', { type: 'button', id }, text);
-    button.addEventListener('click', action);
-    return button;
+/** A button where there is a view, else the text. */
+function link(text, id, action) {
+  if (!action) return text;
+  const button = made('button', { type: 'button', id }, text);
+  button.addEventListener('click', action);
+  return button;
+}
+
+const kVerdicts = { passed: 'PASS', failed: 'FAIL', notJudged: 'NOT JUDGED' };
+
+/** The verdict and the regions of a result: walls, then sharp ones. */
+function thinReport(mesh, index, hasOthers, visits) {
+  const { limit, verdict, regions } = mesh.thin, than = `thinner than ${formatValue(limit)}`;
+  const sentence = regions.length ? `${formatCount(regions.length)} ${regions.length > 1 ? 'places' : 'place'} ${than}`
+    : `nowhere ${than}${verdict === 'notJudged' ? ' where it could be judged' : ''}`;
+  const row = (region, i) => [
+    link(region.isSharp ? '0, sharp' : formatValue(region.value), `thin-${index}-${i}`, visits && (() => visits.region(index, i))),
+    `${formatValue(region.area)} (${formatShare(region.areaShare)})`, formatCount(region.faceCount)];
+  const rows = regions.map((region, i) => [region.isSharp, row(region, i)]);
+  const list = (caption, isSharp) => {
+    const some = rows.filter(([sharp]) => sharp === isSharp).map(([, cells]) => cells);
+    return some.length ? table(caption, ['thickness', 'thin area', 'faces'], some) : [];
   };
-  const thin = (mesh.thinRegions ?? []).map((region, i) => [
-    link(formatCount(region.face), `thin-${index}-${i}`, () => actions.face(index, region.face, region.area)),
-    formatValue(region.value), formatCount(region.faceCount), formatValue(region.area)]);
+  return [
+    ...(hasOthers ? [made('h3', {}, mesh.label || mesh.name)] : []),
+    made('p', { className: `verdict ${verdict}`, id: `verdict-${index}` }, made('strong', {}, kVerdicts[verdict]), ` ${sentence}`),
+    ...list('Thin walls, thinnest first', false), ...list('Sharp edges and tips', true)];
+}
+
+function meshReport(mesh, index, isOpen, visits) {
   const parts = (mesh.segments ?? []).map((part, i) => [
-    link(String(part.label), `part-${index}-${i}`, () => actions.part(index, part)),
+    link(String(part.label), `part-${index}-${i}`, visits && (() => visits.part(index, part))),
     formatValue(part.median), formatCount(part.faceCount), formatValue(part.area)]);
   const summary = made('table', { id: `summary-${index}` }, made('caption', {}, 'Summary'), made('tbody', {},
     ...mesh.summary.map(({ title, value }) => made('tr', {}, made('th', { scope: 'row' }, title), made('td', {}, value)))));
   return made('details', { open: isOpen }, made('summary', {}, made('h3', {}, mesh.label || mesh.name)),
     ...list('Warnings', mesh.warnings, 'warnings'), summary,
     ...(mesh.errorSentence ? [made('p', {}, mesh.errorSentence)] : []),
-    ...(thin.length ? table('Thin regions, thinnest first', ['thinnest face', 'thickness', 'faces', 'area'], thin) : []),
     ...(parts.length ? table('Parts', ['part', 'median', 'faces', 'area'], parts) : []),
     ...list('Defects of the mesh', mesh.defects));
 }
 
-export function showReport(page, actions) {
-  const reports = page.meshes.map((mesh, index) => meshReport(mesh, index, page.meshes.length < 3, actions));
+/** visits: the flights of a view, or null without one. */
+export function showReport(page, visits) {
+  const reports = page.meshes.map((mesh, index) => meshReport(mesh, index, page.meshes.length < 3, visits));
   document.getElementById('meshes').replaceChildren(...reports);
+  const thin = page.meshes.flatMap((mesh, index) => mesh.thin ? thinReport(mesh, index, page.meshes.length > 1, visits) : []);
+  const section = document.getElementById('thin-places');
+  section.hidden = !thin.length;
+  section.replaceChildren(...thin);
 }

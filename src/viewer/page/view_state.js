@@ -12,11 +12,12 @@ const kParts = {
   map: choice(...kColourMapNames),
   low: number(null), high: number(null),     // Of the colours; null: percentiles.
   none: text('d48fb8', /^[0-9a-f]{6}$/),     // Colour of faces without a value.
-  thin: flag, thinAt: number(null), rest: choice('grey', 'hidden'),
+  thin: flag, thinAt: number(null),          // Null: the given limit, or the lower end of the colours.
+  rest: choice('glass', 'grey', 'hidden'),   // Faces that are not thin, or not of the part.
   shading: choice('flat', 'smooth', 'plain'), edges: flag, back: choice('same', 'grey', 'hidden'),
   clip: choice('off', 'x', 'y', 'z', 'view'), clipAt: number(0.5), clipFlip: flag,
   face: text(null, /^\d+:\d+$/), part: text(null, /^\d+:\d+$/),  // Mesh of the page and number within it.
-  up: choice('y', 'z', 'x', '-y', '-z', '-x'),
+  up: choice('auto', 'y', 'z', 'x', '-y', '-z', '-x'),  // auto: of each mesh its own.
   az: number(30), el: number(18), zoom: number(null), x: number(0), y: number(0), z: number(0),
 };
 

@@ -1,12 +1,14 @@
 // The view: colours and cameras of the panes from the state, frames, selection.
-import { anglesTowards, boxCorners, PaneCamera, viewAxes } from './camera.js';
+import { boxCorners, framesOf, kViews, PaneCamera, viewAxes } from './camera.js';
+import { kAlarmColour } from './colour_maps.js';
 import { colourFaces } from './face_colours.js';
 import { Layers } from './layers.js';
 import { pickFace } from './picking.js';
+import { givenLimit, thinShown } from './thin_places.js';
 import { kInitialState, stateOfFragment } from './view_state.js';
-import { add, clamp, dot, scaled, subtract } from './vectors.js';
+import { add, clamp, dot, scaled } from './vectors.js';
 
-const kColourKeys = ['layer', 'show', 'map', 'low', 'high', 'none', 'thin', 'thinAt', 'rest', 'part'];
+const kColourKeys = ['layer', 'show', 'map', 'low', 'high', 'none', 'thin', 'thinAt', 'part'];
 const kCameraKeys = ['up', 'az', 'el', 'zoom', 'x', 'y', 'z', 'clipAt'];
 const kRestMilliseconds = 180;  // Without motion, before a frame in full quality.
 const kSlowMilliseconds = 36, kSlowCount = 3;
@@ -46,32 +48,48 @@ export class Viewer {
 
   restore() {
     this.meshes = this.models.map((model) => this.renderer.addMesh(model));
+    this.surfaces = this.models.map(({ thin }) => {
+      if (!thin?.surface.faceCount) return null;
+      const surface = this.renderer.addMesh(thin.surface);
+      this.renderer.setColours(surface, new Uint32Array(thin.surface.faceCount).fill(kAlarmColour));
+      return surface;
+    });
   }
 
-  /** Camera and everything else as at the start. */
+  /** Camera and everything else as at the start: with a limit on the thin places. */
   reset() {
     const first = this.layers.fields.find((field) => field.kind === 'number') ?? this.layers.fields[0];
-    const up = this.models[0].description.up ?? 'y';
-    this.initial = { ...kInitialState, layer: first?.name ?? null, up, ...this.fitted({ ...kInitialState, up }) };
+    const thin = givenLimit(this.models) !== null;
+    const layer = thin && this.layers.has('least_thickness') ? 'least_thickness' : first?.name ?? null;
+    const [az, el] = this.models[0].description.view ?? kViews.corner, view = { ...kInitialState, az, el };
+    this.initial = { ...view, layer, thin, ...this.fitted(view) };
     this.flight = null;
     this.store.set(this.initial);
   }
 
-  /** Zoom and target that show everything from the direction of the state. */
+  /** Axes of the view of a mesh, with its own upright axis unless the state names one. */
+  axesOf(index, state) {
+    const up = state.up === 'auto' ? this.models[index].description.up ?? 'y' : state.up;
+    return viewAxes({ ...state, up }, this.frames[index].size);
+  }
+
+  /** Zoom and target that show all meshes of the state from its direction. */
   fitted(state) {
-    const axes = viewAxes(state, this.frames[0].size), [pane] = this.rectangles(this.models.length);
-    const shadows = [axes.right, axes.up].map((axis) => this.shadow(axis));
+    const indices = this.layers.shown(state), [pane] = this.rectangles(indices.length);
+    const shadows = ['right', 'up'].map((axis) => this.shadow(indices, axis, state));
     const sides = [pane.width, pane.height], short = Math.min(...sides);
     const zooms = shadows.map(([low, high], i) => 2 * sides[i] / short / (high - low));
     const middles = shadows.map(([low, high]) => (low + high) / 2);
-    const [x, y, z] = add(scaled(axes.right, middles[0]), scaled(axes.up, middles[1]));
+    const axes = this.axesOf(indices[0], state), middle = add(scaled(axes.right, middles[0]), scaled(axes.up, middles[1]));
+    const [x, y, z] = axes.upright.map((axis) => dot(middle, axis));
     return { x, y, z, zoom: clamp(0.9 * Math.min(...zooms), 0.5, 20) };
   }
 
-  // Extent of all meshes along an axis, in radii of their frames; from some of the points where there are many.
-  shadow(axis) {
+  // Extent of meshes along right or up, in radii of their frames; from some of the points where there are many.
+  shadow(indices, name, state) {
     let low = Infinity, high = -Infinity;
-    this.models.forEach(({ positions }, index) => {
+    indices.forEach((index) => {
+      const { positions } = this.models[index], axis = this.axesOf(index, state)[name];
       const { centre, radius } = this.frames[index], shift = dot(centre, axis);
       const step = 3 * Math.ceil(positions.length / 600000);
       for (let i = 0; i < positions.length; i += step) {
@@ -108,18 +126,19 @@ export class Viewer {
       const { state, layers } = this;
       this.isStale = false;
       this.currentLook = layers.fields.length ? layers.look(state) : { kind: 'none', panes: [] };
-      this.limit = state.thin && this.currentLook.kind === 'number' ? state.thinAt ?? this.currentLook.low : null;
+      this.thin = thinShown(state, this.currentLook, layers);
       for (const pane of this.currentLook.panes) this.recolour(pane);
     }
     return this.currentLook;
   }
 
   recolour({ index, values }) {
-    const { state, layers, currentLook: look } = this;
+    const { state, layers, currentLook: look, thin } = this;
     const [partMesh, label] = state.part ? state.part.split(':').map(Number) : [-1];
     const hasParts = this.models[index].description.fields.some(({ name }) => name === 'segment');
     const part = partMesh === index && hasParts ? { labels: layers.valuesOf(index, 'segment'), label } : null;
-    const style = { none: state.none, limit: this.limit, part, hidesRest: state.rest === 'hidden' };
+    const below = thin && { limit: thin.limit, values: thin.name === look.name ? values : layers.valuesOf(index, thin.name) };
+    const style = { none: state.none, below, part };
     const layer = look.kind === 'label' ? { ...look, colours: layers.labelColours(index, look.name) } : look;
     this.renderer.setColours(this.meshes[index], colourFaces(values, layer, style));
   }
@@ -144,8 +163,9 @@ export class Viewer {
     const { panes } = this.look, rectangles = this.rectangles(panes.length);
     return panes.map(({ index, values }, i) => {
       const frame = this.frames[index], rectangle = rectangles[i];
-      const camera = new PaneCamera(this.state, viewAxes(this.state, this.frames[0].size), frame, rectangle.width, rectangle.height);
-      return { ...rectangle, index, values, camera, plane: this.clipPlane(frame, camera), mesh: this.meshes[index] };
+      const camera = new PaneCamera(this.state, this.axesOf(index, this.state), frame, rectangle.width, rectangle.height);
+      const surface = this.thin?.isGiven ? this.surfaces[index] : null;
+      return { ...rectangle, index, values, camera, plane: this.clipPlane(frame, camera), mesh: this.meshes[index], surface };
     });
   }
 
@@ -213,7 +233,7 @@ export class Viewer {
     }
     const { background, isDark } = this.theme();
     this.renderer.draw({
-      width, height, background, panes, isSampled: isStill && !isFirst, isCoarse, shading: state.shading, back: state.back, edges: state.edges,
+      width, height, background, panes, isSampled: isStill && !isFirst, isCoarse, shading: state.shading, back: state.back, edges: state.edges, rest: state.rest,
       lineColour: isDark ? [0, 0, 0, 0.5] : [0, 0, 0, 0.4],
     });
     for (const listener of this.afterFrame) listener(panes);
@@ -243,8 +263,8 @@ export class Viewer {
     const pane = this.panes().find((p) => x >= p.left && y >= p.top && x < p.left + p.width && y < p.top + p.height);
     if (!pane) return null;
     const point = pane.camera.pointAt(x - pane.left, y - pane.top);
-    const found = pickFace(this.models[pane.index], pane.mesh.colouring, point, pane.camera.toViewer, pane.plane,
-      this.state.back === 'hidden');
+    const colours = this.state.rest === 'hidden' ? pane.mesh.colouring : null;
+    const found = pickFace(this.models[pane.index], colours, point, pane.camera.toViewer, pane.plane, this.state.back === 'hidden');
     return found && { pane, ...found };
   }
 
@@ -272,52 +292,4 @@ export class Viewer {
     if (share >= 1) this.flight = null;
     else this.requestFrame();
   }
-
-  /** Flies to a point of mesh `index` with a neighbourhood of this area; direction: to the viewer, or null. */
-  visit(index, point, area, direction) {
-    const frame = this.frames[index], relative = scaled(subtract(point, frame.centre), 1 / frame.radius);
-    const angles = direction ? anglesTowards(direction, this.state.up, this.frames[0].size) : {};
-    const zoom = clamp(0.35 * frame.radius / Math.sqrt(area + 1e-30), this.initial.zoom, 12);
-    this.flyTo({ x: relative[0], y: relative[1], z: relative[2], zoom, ...angles });
-  }
-
-  visitFace(index, id, area) {
-    const model = this.models[index], face = model.faceOfId(id);
-    if (face < 0) return false;
-    const normal = Array.from(model.normals.subarray(4 * face, 4 * face + 3), (byte) => byte / 127);
-    this.visit(index, model.centreOf(face), Math.max(area, 40 * model.areas[face]), dot(normal, normal) > 0 ? normal : null);
-    this.store.set({ face: `${index}:${id}`, show: this.showing(index) });
-    return true;
-  }
-
-  visitPart(index, part) {
-    const model = this.models[index], { centre } = this.frames[index];
-    const point = subtract(part.centre, model.origin), outwards = subtract(point, centre);
-    const length = Math.hypot(...outwards);
-    this.visit(index, point, part.area, length > 0 ? scaled(outwards, 1 / length) : null);
-    this.store.set({ part: `${index}:${part.label}`, show: this.showing(index) });
-  }
-
-  // The state `show` with which the mesh is visible.
-  showing(index) {
-    return this.look.panes.some((pane) => pane.index === index) ? this.state.show : String(index);
-  }
-}
-
-/** Centre, size and radius that the camera refers to: common ones where the meshes are about the same box. */
-function framesOf(models) {
-  const frameOf = (low, high) => {
-    const size = subtract(high, low);
-    return { centre: scaled(add(low, high), 0.5), size, radius: Math.hypot(...size) / 2 || 1 };
-  };
-  const absolute = models.map(({ description }) => frameOf(description.boxMin, description.boxMax));
-  const [first] = absolute;
-  const areAlike = absolute.every((frame) => Math.hypot(...subtract(frame.centre, first.centre)) < 0.3 * first.radius
-    && frame.radius < 2 * first.radius && first.radius < 2 * frame.radius);
-  const end = (name, choose) => [0, 1, 2].map((axis) => choose(...models.map((model) => model.description[name][axis])));
-  const common = frameOf(end('boxMin', Math.min), end('boxMax', Math.max));
-  return models.map(({ origin }, i) => {
-    const frame = areAlike ? common : absolute[i];
-    return { ...frame, centre: subtract(frame.centre, origin) };
-  });
 }
