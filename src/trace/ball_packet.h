@@ -16,11 +16,11 @@ namespace asdfvk {
 
 /// Added to radii: covers the rounding of distances to boxes in float32 at coordinates up to 8. Likewise the next two,
 /// at coordinates up to 2.
-inline constexpr float kBoxMargin = 0x1p-19F;
-inline constexpr float kPlaneMargin = 0x1p-19F, kCosineMargin = 0x1p-20F;
+inline constexpr float kWallBoxMargin = 0x1p-19F;
+inline constexpr float kWallPlaneMargin = 0x1p-19F, kWallCosineMargin = 0x1p-20F;
 /// Every box is near to larger balls.
 inline constexpr float kMaxBoxedDiameter = 8;
-inline constexpr float kUnlimited = 0x1p60F;
+inline constexpr float kUnlimitedDiameter = 0x1p60F;
 /// Depths in float32 that are exact enough for limits.
 inline constexpr float kMinLimitDepth = 0x1p-17F;
 
@@ -109,7 +109,7 @@ class BallPacket {
 
   /// A wall that is probably near.
   ASDFVK_ALWAYS_INLINE void offer(const Wall& wall) {
-    const Mask opposing = lessEqual(dotLanes(wall.normal, normal_), cosineLimit(-kCosineMargin)) & isUsed_;
+    const Mask opposing = lessEqual(dotLanes(wall.normal, normal_), cosineLimit(-kWallCosineMargin)) & isUsed_;
     if (anyLane(opposing)) shrinkLimits(wall, middleOf(wall.middle, opposing), opposing);
   }
 
@@ -132,9 +132,9 @@ class BallPacket {
       };
       low = shifted(min);
       high = shifted(max);
-      const Floats reach = radius + kBoxMargin;
+      const Floats reach = radius + kWallBoxMargin;
       const Mask isBoxed = lessEqual(limit, broadcast<Floats>(kMaxBoxedDiameter));
-      squaredRadius = select(isBoxed, reach * reach) + select(~isBoxed, broadcast<Floats>(kUnlimited));
+      squaredRadius = select(isBoxed, reach * reach) + select(~isBoxed, broadcast<Floats>(kUnlimitedDiameter));
     }
   };
   /// The balls at the points through the middle of a wall.
@@ -151,7 +151,7 @@ class BallPacket {
     float least, atPoint;
   };
 
-  static float asFloat(double diameter) { return static_cast<float>(std::min<double>(diameter, kUnlimited)); }
+  static float asFloat(double diameter) { return static_cast<float>(std::min<double>(diameter, kUnlimitedDiameter)); }
   static void setLane(Lanes& lanes, size_t lane, const Vec3d& v) {
     lanes.x[lane] = static_cast<float>(v.x);
     lanes.y[lane] = static_cast<float>(v.y);
@@ -177,16 +177,16 @@ class BallPacket {
     const Floats cosine = least(node.normalMin.x, node.normalMax.x, normal_.x) +
                           least(node.normalMin.y, node.normalMax.y, normal_.y) +
                           least(node.normalMin.z, node.normalMax.z, normal_.z);
-    return lessEqual(cosine, cosineLimit(kCosineMargin));
+    return lessEqual(cosine, cosineLimit(kWallCosineMargin));
   }
 
   /// Lanes whose balls may reach the disc in which the node is.
   [[nodiscard]] ASDFVK_ALWAYS_INLINE Mask reachDisc(const WallNode& node, const Mask& lanes) const {
     const Middle middle = middleOf(node.middle, lanes);
     const Floats along = dotLanes(node.axis, middle.slope), square = dot(middle.slope, middle.slope) - along * along;
-    const Floats across = asdfvk::max(square, broadcast<Floats>(kBoxMargin));
+    const Floats across = asdfvk::max(square, broadcast<Floats>(kWallBoxMargin));
     const Floats atPoint = middle.lowest + asdfvk::min(along * node.lowest, along * node.highest) -
-                           node.radius * (across * rsqrt(across)) * (1 + kBoxMargin) - middle.doubt * node.reach;
+                           node.radius * (across * rsqrt(across)) * (1 + kWallBoxMargin) - middle.doubt * node.reach;
     return lanes & (lessEqual(leastBound(middle, atPoint), least_.limit) | lessEqual(atPoint, atPoint_.limit));
   }
 
@@ -200,15 +200,15 @@ class BallPacket {
 
   ASDFVK_ALWAYS_INLINE void test(const Wall& wall) {
     const Floats cosine = dotLanes(wall.normal, normal_);
-    const Mask opposing = lessEqual(cosine, cosineLimit(kCosineMargin)) & isUsed_;
+    const Mask opposing = lessEqual(cosine, cosineLimit(kWallCosineMargin)) & isUsed_;
     if (!anyLane(opposing)) return;
     // Balls that touch the wall are at least as large as those that touch its plane.
     std::array<Floats, 4> offsets;
     for (size_t k = 0; k < 4; ++k) offsets[k] = wall.offset - dotLanes(wall.normal, corners_[k]);
-    const Floats smallest = broadcast<Floats>(kCosineMargin);
+    const Floats smallest = broadcast<Floats>(kWallCosineMargin);
     const Floats below = 2 / asdfvk::max(1 - cosine, smallest), above = 2 / asdfvk::max(1 + cosine, smallest);
     const auto boundOf = [&](const Floats& lowest, const Floats& highest) ASDFVK_ALWAYS_INLINE {
-      return asdfvk::max((lowest - kPlaneMargin) * below, (-highest - kPlaneMargin) * above);
+      return asdfvk::max((lowest - kWallPlaneMargin) * below, (-highest - kWallPlaneMargin) * above);
     };
     const Floats atPoint = boundOf(offsets[3], offsets[3]);
     const Floats least = boundOf(asdfvk::min(asdfvk::min(offsets[0], offsets[1]), offsets[2]),
@@ -219,8 +219,8 @@ class BallPacket {
               (lessEqual(atPoint, atPoint_.limit) & atPoint_.reaches(wall));
     if (!anyLane(isNear)) return;
     const Middle middle = middleOf(wall.middle, isNear);
-    if (anyLane(isNear & lessEqual(cosine, cosineLimit(-kCosineMargin))))
-      shrinkLimits(wall, middle, isNear & lessEqual(cosine, cosineLimit(-kCosineMargin)));
+    if (anyLane(isNear & lessEqual(cosine, cosineLimit(-kWallCosineMargin))))
+      shrinkLimits(wall, middle, isNear & lessEqual(cosine, cosineLimit(-kWallCosineMargin)));
     const Floats pointBound =
         middle.lowest +
         asdfvk::min(asdfvk::min(dotLanes(wall.spokes[0], middle.slope), dotLanes(wall.spokes[1], middle.slope)),
@@ -241,26 +241,26 @@ class BallPacket {
     const Lanes v{q.x - corners_[3].x, q.y - corners_[3].y, q.z - corners_[3].z};
     const Floats depth = -dot(v, normal_), inverse = 1 / asdfvk::max(depth, broadcast<Floats>(kMinLimitDepth));
     const Mask isDeep = lanes & lessEqual(broadcast<Floats>(kMinLimitDepth), depth);
-    const Floats diameter = dot(v, v) * inverse, rounding = diameter * kBoxMargin * (1 + inverse);
+    const Floats diameter = dot(v, v) * inverse, rounding = diameter * kWallBoxMargin * (1 + inverse);
     const auto slope = [&](const Floats& along, const Floats& normal)
                            ASDFVK_ALWAYS_INLINE { return select(isDeep, (2 * along + diameter * normal) * inverse); };
-    return {select(isDeep, diameter + rounding) + select(~isDeep, broadcast<Floats>(kUnlimited)),
+    return {select(isDeep, diameter + rounding) + select(~isDeep, broadcast<Floats>(kUnlimitedDiameter)),
             select(isDeep, diameter - rounding),
             {slope(v.x, normal_.x), slope(v.y, normal_.y), slope(v.z, normal_.z)},
-            select(isDeep, (kPlaneMargin + 2 * rounding) * inverse)};
+            select(isDeep, (kWallPlaneMargin + 2 * rounding) * inverse)};
   }
 
   /// By the balls through the middle of a wall.
   ASDFVK_ALWAYS_INLINE void shrinkLimits(const Wall& wall, const Middle& middle, const Mask& lanes) {
-    const Floats diameter = select(lanes, middle.diameter) + select(~lanes, broadcast<Floats>(kUnlimited));
+    const Floats diameter = select(lanes, middle.diameter) + select(~lanes, broadcast<Floats>(kUnlimitedDiameter));
     const Floats atPoint = asdfvk::min(atPoint_.limit, diameter);
     Floats least = asdfvk::min(least_.limit, diameter);
     for (size_t k = 0; k < 3; ++k) {
       const Lanes v{wall.middle.x - corners_[k].x, wall.middle.y - corners_[k].y, wall.middle.z - corners_[k].z};
       const Floats depth = -dot(v, normal_);
       const Mask isDeep = lanes & lessEqual(broadcast<Floats>(kMinLimitDepth), depth);
-      const Floats atCorner = dot(v, v) / depth * (1 + kBoxMargin + kBoxMargin / depth);
-      least = asdfvk::min(least, select(isDeep, atCorner) + select(~isDeep, broadcast<Floats>(kUnlimited)));
+      const Floats atCorner = dot(v, v) / depth * (1 + kWallBoxMargin + kWallBoxMargin / depth);
+      least = asdfvk::min(least, select(isDeep, atCorner) + select(~isDeep, broadcast<Floats>(kUnlimitedDiameter)));
     }
     if (!anyLane(notEqual(least, least_.limit) | notEqual(atPoint, atPoint_.limit))) return;
     least_.limit = least;
@@ -284,7 +284,7 @@ class BallPacket {
     }
     candidates_[lane][count++] = candidate;
   }
-  static float withMargin(double diameter) { return asFloat(diameter * (1 + kBoxMargin)); }
+  static float withMargin(double diameter) { return asFloat(diameter * (1 + kWallBoxMargin)); }
 
   /// Shrinks the balls of a query by its candidates, the nearest planes first.
   void measure(size_t lane) {

@@ -57,7 +57,7 @@ WallTree::WallTree(const TraceScene& scene, const OpposingWalls& opposing)
                  {},
                  0,
                  0,
-                 kUnlimited,
+                 kUnlimitedDiameter,
                  0,
                  isLeaf ? firstWalls[i] : node.first,
                  isLeaf ? wallCounts[i] : 0};
@@ -80,10 +80,10 @@ WallTree::WallTree(const TraceScene& scene, const OpposingWalls& opposing)
         node.highest = std::max(node.highest, along);
         square = std::max(square, dot(v, v) - along * along);
       }
-    node.radius = std::sqrt(square) + kPlaneMargin;
+    node.radius = std::sqrt(square) + kWallPlaneMargin;
     node.reach = node.radius + std::max(node.highest, -node.lowest);
-    node.lowest -= kPlaneMargin;
-    node.highest += kPlaneMargin;
+    node.lowest -= kWallPlaneMargin;
+    node.highest += kWallPlaneMargin;
   });
 }
 

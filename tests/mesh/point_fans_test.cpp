@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/random.h"
-#include "separated_faces.h"
+#include "support/separated_faces.h"
 #include "support/shapes.h"
 
 using namespace asdfvk;

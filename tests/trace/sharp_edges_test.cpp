@@ -1,4 +1,4 @@
-#include "mesh/sharp_edges.h"
+#include "trace/sharp_edges.h"
 
 #include <doctest/doctest.h>
 
@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "generate/thickness_parts.h"
-#include "separated_faces.h"
+#include "support/separated_faces.h"
 #include "support/shapes.h"
 
 using namespace asdfvk;
