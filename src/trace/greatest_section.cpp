@@ -41,20 +41,21 @@ class SolidSurface {
     return nearestSurfacePoint(scene_, p, enough, [&](uint32_t face) { return copyOf(face); });
   }
 
-  /// Whether the surface within a distance of a point of a face is all in the plane of that face: as the solid is
+  /// Whether there is surface within a distance of a point, and all of it is in the plane of that face: as the solid is
   /// closed, it then covers the disc.
   [[nodiscard]] bool isFlatAround(const Vec3d& point, double radius, uint32_t face) const {
     const Vec3d& plane = normal(face);
     const double offset = dot(plane, cornersOf(face).a);
-    bool isFlat = true;
+    bool isFlat = true, isFound = false;
     forEachNear(point, radius, [&](uint32_t other) {
       const TriangleCorners corners = cornersOf(other);
       if (length(point - corners.nearest(point, normal(other))) > radius) return true;
+      isFound = true;
       for (const Vec3d& corner : {corners.a, corners.b, corners.c})
         isFlat = isFlat && std::abs(dot(plane, corner) - offset) <= kFlat;
       return isFlat;
     });
-    return isFlat;
+    return isFlat && isFound;
   }
 
   /// The first face of the solid along the ray.
