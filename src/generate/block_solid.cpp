@@ -12,7 +12,7 @@ namespace asdfvk {
 namespace {
 
 /// Corners of the sides of a block, counter-clockwise from outside.
-constexpr std::array<std::array<uint32_t, 4>, 6> kSides{
+constexpr std::array<std::array<uint32_t, 4>, 6> kBlockSides{
     {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}};
 
 uint32_t axisBetween(uint32_t corner, uint32_t other) { return (corner ^ other) >> 1; }  // 1, 2, 4 to 0, 1, 2.
@@ -167,11 +167,11 @@ Mesh BlockSolid::surface(const SurfaceDivision& division) const {
   const auto keyOf = [](const std::array<uint32_t, 4>& quad) { return std::set<uint32_t>(quad.begin(), quad.end()); };
   std::map<std::set<uint32_t>, uint32_t> blockCounts;
   for (const Block& block : blocks_)
-    for (const auto& side : kSides) ++blockCounts[keyOf(cornersOf(block, side))];
+    for (const auto& side : kBlockSides) ++blockCounts[keyOf(cornersOf(block, side))];
   const std::vector<std::array<uint32_t, 3>> counts = divide(division.longestEdge);
   QuadDivider divider(corners_, division.diagonalSeed);
   for (size_t i = 0; i < blocks_.size(); ++i)
-    for (const auto& side : kSides) {
+    for (const auto& side : kBlockSides) {
       const std::array<uint32_t, 4> quad = cornersOf(blocks_[i], side);
       const std::set<uint32_t> key = keyOf(quad);
       if (blockCounts[key] == 1 && key.size() > 2)  // Not collapsed.

@@ -20,7 +20,7 @@ constexpr size_t kFirstChunkSize = 4096, kBlockSize = 256;
 // Normalised: farther points are on no surface.
 constexpr double kMaxCoordinate = 2;
 // Progress after the nearest triangles, and after the greatest sections.
-constexpr double kNearestProgress = 0.3, kSectionsProgress = 0.5;
+constexpr double kNearestDone = 0.3, kSectionsDone = 0.5;
 
 }  // namespace
 
@@ -43,13 +43,13 @@ std::vector<double> thicknessAtPoints(const PreparedScene& scene, std::span<cons
                                       const RunControl& control) {
   const TraceScene view = scene.view();
   const Normalization& unit = scene.bvh.normalization;
-  const std::vector<uint32_t> nearest = nearestTriangles(scene, points, control.part(0, kNearestProgress));
+  const std::vector<uint32_t> nearest = nearestTriangles(scene, points, control.part(0, kNearestDone));
   const Solids solids = findSolids(view.mesh, scene.prepared.components);
   std::vector<uint8_t> isWanted(solids.isClosed.size());
   for (const uint32_t face : nearest)
     if (face != kNoFace) isWanted[solids.solidOf[face]] = solids.isClosed[solids.solidOf[face]];
   const std::vector<GreatestSection> sections =
-      findGreatestSections(view, solids.solidOf, isWanted, control.part(kNearestProgress, kSectionsProgress));
+      findGreatestSections(view, solids.solidOf, isWanted, control.part(kNearestDone, kSectionsDone));
   const WallTree tree(view, makeOpposingWalls(options.wallAngleDegrees));
   std::vector<double> values(points.size(), std::numeric_limits<double>::quiet_NaN());
   // Points next to each other in the hierarchy find the same walls.
@@ -80,7 +80,7 @@ std::vector<double> thicknessAtPoints(const PreparedScene& scene, std::span<cons
     }
   };
   forEachChunk(order.size(), ChunkSize(kFirstChunkSize, std::max<size_t>(order.size(), 1)),
-               control.part(kSectionsProgress, 1), [&](size_t begin, size_t end) {
+               control.part(kSectionsDone, 1), [&](size_t begin, size_t end) {
                  const std::span<const uint32_t> chunk = std::span(order).subspan(begin, end - begin);
                  forEachTask((chunk.size() + kBlockSize - 1) / kBlockSize, [&](size_t block) {
                    const size_t first = block * kBlockSize;

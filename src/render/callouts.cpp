@@ -9,7 +9,7 @@ namespace asdfvk {
 namespace {
 
 // Divided by the height of capitals.
-constexpr double kRingRadius = 0.62, kRingWidth = 0.16, kLineWidth = 0.07, kRowHeight = 1.9, kGap = 0.5;
+constexpr double kRingRadius = 0.62, kRingWidth = 0.16, kLineWidth = 0.07, kRowHeight = 1.9, kCalloutGap = 0.5;
 constexpr double kHidden = 1e-4;  ///< A point this far behind the first face is hidden; in normalised units.
 
 struct Pixel {
@@ -85,7 +85,7 @@ void arrange(std::vector<Label>& labels, const PixelArea& column, double rowHeig
 double calloutWidth(std::span<const Callout> callouts, double capHeight) {
   double widest = 0;
   for (const Callout& callout : callouts) widest = std::max(widest, textWidth(callout.text, capHeight));
-  return widest > 0 ? widest + 2 * kGap * capHeight : 0;
+  return widest > 0 ? widest + 2 * kCalloutGap * capHeight : 0;
 }
 
 void drawCallouts(Image& image, const TraceScene& scene, const Camera& camera, std::span<const Callout> callouts,
@@ -102,7 +102,7 @@ void drawCallouts(Image& image, const TraceScene& scene, const Camera& camera, s
     for (const auto& [callout, place, y] : sides[side]) {
       const double text = textWidth(callout->text, capHeight);
       const double left = side == 0 ? column.left : column.left + column.width - text;
-      const Pixel from{side == 0 ? left + text + kGap * capHeight / 2 : left - kGap * capHeight / 2, y};
+      const Pixel from{side == 0 ? left + text + kCalloutGap * capHeight / 2 : left - kCalloutGap * capHeight / 2, y};
       const double distance = std::hypot(place.x - from.x, place.y - from.y);
       const double share = distance > radius ? (distance - radius) / distance : 0;
       const Pixel to{from.x + (place.x - from.x) * share, from.y + (place.y - from.y) * share};

@@ -10,11 +10,11 @@
 namespace asdfvk {
 namespace {
 
-constexpr int kSamples = 3;            ///< Per side of a pixel.
-constexpr int kBandRows = 96;          ///< Of samples.
+constexpr int kThinSamples = 3;        ///< Per side of a pixel.
+constexpr int kThinBandRows = 96;      ///< Of samples.
 constexpr float kDepthSlack = 2e-6F;   ///< In normalised units: parts of a face are at its depth, up to rounding.
 constexpr double kHiddenShare = 0.45;  ///< Of the alarm colour where the surface is behind faces.
-static_assert(kBandRows % kSamples == 0);
+static_assert(kThinBandRows % kThinSamples == 0);
 
 using Surface = std::span<const std::array<Vec3d, 3>>;
 
@@ -75,22 +75,22 @@ double visibilityOf(const TraceScene& scene, Surface places, std::span<const uin
 
 void paintThinPlaces(Image& image, const TraceScene& scene, const Camera& camera, Surface places) {
   if (places.empty()) return;
-  const ProjectedPlaces projected(scene, places, {camera, kSamples});
+  const ProjectedPlaces projected(scene, places, {camera, kThinSamples});
   const Vec3d alarm = toLinear(kAlarm), neutral = toLinear(kNeutral);
   const Vec3d tint{alarm.x / neutral.x, alarm.y / neutral.y, alarm.z / neutral.z};
-  const int rowCount = kSamples * image.height();
-  forEachTask(static_cast<size_t>((rowCount + kBandRows - 1) / kBandRows), [&](size_t index) {
-    const int top = static_cast<int>(index) * kBandRows, bottom = std::min(rowCount, top + kBandRows);
-    SampleRows mesh(kSamples * image.width(), top, bottom), surface(kSamples * image.width(), top, bottom);
+  const int rowCount = kThinSamples * image.height();
+  forEachTask(static_cast<size_t>((rowCount + kThinBandRows - 1) / kThinBandRows), [&](size_t index) {
+    const int top = static_cast<int>(index) * kThinBandRows, bottom = std::min(rowCount, top + kThinBandRows);
+    SampleRows mesh(kThinSamples * image.width(), top, bottom), surface(kThinSamples * image.width(), top, bottom);
     projected.drawMesh(mesh);
     projected.drawSurface(surface);
-    for (int y = top / kSamples; y < bottom / kSamples; ++y)
+    for (int y = top / kThinSamples; y < bottom / kThinSamples; ++y)
       for (int x = 0; x < image.width(); ++x) {
         double visible = 0, hidden = 0;
-        for (int i = 0; i < kSamples * kSamples; ++i) {
-          const int column = kSamples * x + i % kSamples, row = kSamples * y + i / kSamples;
+        for (int i = 0; i < kThinSamples * kThinSamples; ++i) {
+          const int column = kThinSamples * x + i % kThinSamples, row = kThinSamples * y + i / kThinSamples;
           if (surface.indexAt(column, row) == kNoSample) continue;
-          (isVisible(mesh, surface, column, row) ? visible : hidden) += 1.0 / (kSamples * kSamples);
+          (isVisible(mesh, surface, column, row) ? visible : hidden) += 1.0 / (kThinSamples * kThinSamples);
         }
         if (visible + hidden == 0) continue;
         const Vec3d body = toLinear(image.at(x, y));

@@ -56,7 +56,8 @@ void Page::add(const TriangleMesh& mesh, std::span<const std::reference_wrapper<
   description.update(encodeMesh(mesh, fields, streams_, box));
   if (texts.thin) {
     description["thin"] = describe(*texts.thin);
-    description["thin"]["surface"] = encodeThinSurface(texts.thin->surface, box, streams_);
+    if (!texts.thin->surface.triangles.empty())
+      description["thin"]["surface"] = encodeThinSurface(texts.thin->surface, box, streams_);
     texts.thin.reset();  // Encoded.
   }
   meshes_.push_back(std::make_shared<const Json>(std::move(description)));

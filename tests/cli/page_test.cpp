@@ -70,9 +70,13 @@ TEST_CASE("a page has the fields of --fields in their order, thin regions, warni
   REQUIRE_EQ(outcome.exitCode, 0);
   const auto data = dataOf(folder.read("cube.html")).at("meshes")[0];
   CHECK(fieldsOf(data) == std::vector<std::string>{"seed", "thickness"});
-  REQUIRE_EQ(data.at("thinRegions").size(), 1);
-  CHECK_EQ(data.at("thinRegions")[0].at("faceCount"), 12);
-  CHECK_EQ(data.at("thinRegions")[0].at("value").get<double>(), doctest::Approx(1));
+  const auto& thin = data.at("thin");
+  CHECK_EQ(thin.at("limit"), 2);
+  CHECK_EQ(thin.at("verdict"), "failed");
+  REQUIRE_EQ(thin.at("regions").size(), 1);
+  CHECK_EQ(thin.at("regions")[0].at("faceCount"), 12);
+  CHECK_EQ(thin.at("regions")[0].at("value").get<double>(), doctest::Approx(1));
+  CHECK_EQ(thin.at("surface").at("faceCount"), 12);
   CHECK(data.at("errorSentence").get<std::string>().starts_with("Every face cast rays"));
 
   const std::string open = folder.write("open.off", "OFF\n4 2 0\n0 0 0\n1 0 0\n0 1 0\n1 1 1\n3 0 1 2\n3 1 1 3\n");
@@ -81,6 +85,18 @@ TEST_CASE("a page has the fields of --fields in their order, thin regions, warni
   CHECK_FALSE(broken.at("defects").empty());
   CHECK_FALSE(broken.at("warnings").empty());
   CHECK(broken.at("fields")[0].at("range").is_null());
+}
+
+TEST_CASE("a page without a limit has no thin places, and an STL stands with z up") {
+  const ScratchFolder folder;
+  const std::string mesh = folder.write("a.stl",
+                                        "solid a\nfacet normal 0 0 0\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 "
+                                        "1 0\nendloop\nendfacet\nendsolid a\n");
+  REQUIRE_EQ(runQuick({mesh, "-o", folder / "a.html"}).exitCode, 0);
+  const auto data = dataOf(folder.read("a.html")).at("meshes")[0];
+  CHECK_FALSE(data.contains("thin"));
+  CHECK_EQ(data.at("up"), "z");
+  CHECK(data.at("view") == nlohmann::json{30, 18});
 }
 
 TEST_CASE("several meshes are in one page, or in one each") {

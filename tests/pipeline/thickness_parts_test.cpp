@@ -17,7 +17,7 @@ using namespace std::string_view_literals;
 
 namespace {
 
-Session& fastSession() { return isBackendBuilt("cpu") ? *test::allSessions().back() : test::referenceSession(); }
+Session& partSession() { return isBackendBuilt("cpu") ? *test::allSessions().back() : test::referenceSession(); }
 
 Options limitedTo(double limit, bool allowsSharpEdges = false) {
   Options options;
@@ -27,13 +27,13 @@ Options limitedTo(double limit, bool allowsSharpEdges = false) {
   return options;
 }
 
-ThicknessReport measure(const Mesh& mesh, const Options& options, Session& session = fastSession()) {
+ThicknessReport measure(const Mesh& mesh, const Options& options, Session& session = partSession()) {
   return session.compute(mesh, options).report.thickness.value();
 }
 
 /// Least value of a field over all faces.
 double leastOf(const Mesh& mesh, const char* field) {
-  const Result result = fastSession().compute(mesh, limitedTo(1));
+  const Result result = partSession().compute(mesh, limitedTo(1));
   const std::vector<double>& values = *result.field(field)->reals();
   return *std::min_element(values.begin(), values.end(), [](double a, double b) { return a < b || std::isnan(b); });
 }
@@ -48,16 +48,16 @@ Mesh placed(Mesh mesh, double yaw, double pitch, double unit) {
 }
 
 /// A part in a triangulation, a rotation and a unit.
-struct Sample {
+struct PartSample {
   Mesh mesh;
   double unit = 1;
 };
 
 /// The coarsest triangulation and two others; each one in two rotations and in two units.
-std::vector<Sample> samplesOf(const BlockSolid& solid) {
+std::vector<PartSample> samplesOf(const BlockSolid& solid) {
   constexpr std::array<std::array<double, 2>, 3> kRotations{{{0, 0}, {0.5, 1.1}, {2.3, -0.4}}};  // Yaw, pitch.
   const double size = boundsOfFiniteVertices(solid.surface()).diagonal();
-  std::vector<Sample> samples;
+  std::vector<PartSample> samples;
   for (uint64_t i = 0; i < 6; ++i) {
     const double longestEdge = std::array{10 * size, size / 8, size / 20}[i % 3], unit = i < 3 ? 1 : 0.001;
     const auto [yaw, pitch] = kRotations[(i % 3 + i / 3) % 3];

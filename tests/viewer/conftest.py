@@ -11,7 +11,7 @@ SKIPPED = 77  # Exit code, as in tests/CMakeLists.txt.
 try:
     import numpy
     import browser as chromium
-    from meshes import Mesh, write_ply
+    from meshes import Mesh, write_ply, write_stl
 except ImportError as error:
     pytest.exit(f"skipped: {error}; scripts/install-packages test installs it", SKIPPED)
 if chromium.program() is None:
@@ -47,7 +47,7 @@ def files(tmp_path_factory):
 @pytest.fixture(scope="session")
 def animal(files):
     """The mesh, its values by face, and the address of its page."""
-    options = ("--fields", FIELDS, "--seeds", "10%", "--thinner-than", 0.15, "--segment")
+    options = ("--fields", FIELDS, "--seeds", "10%", "--measure", "thickness", "--segment")
     files.run("animal.ply", "-o", "animal.html", *options)
     files.run("animal.ply", "-o", "animal.npz", *options)
     mesh = Mesh(files.folder / "animal.ply")
@@ -67,6 +67,18 @@ def comparison(files):
     write_ply(files.folder / "moved.ply", moved, mesh.faces)
     files.run("animal.ply", "moved.ply", "-o", "compare.html")
     return files.address("compare.html")
+
+
+@pytest.fixture(scope="session")
+def cavities(files):
+    """A box of 40 x 30 x 20 with two cavities inside, 0.5 apart: no thin place is visible from outside."""
+    write_stl(files.folder / "cavities.stl", [((0, 0, 0), (40, 30, 20)), ((10, 8, 3), (14, 12, 15)), ((14.5, 8, 3), (20, 12, 15))])
+    files.run("cavities.stl", "-o", "cavities.html", "--thinner-than", 0.8)
+    files.run("cavities.stl", "-o", "thick.html", "--thinner-than", 0.4)
+    write_ply(files.folder / "plate.ply", numpy.array([[0, 0, 0], [9, 0, 0], [9, 9, 0], [0, 9, 0], [4, 4, 0.5]], "f4"),
+              numpy.array([[0, 3, 2], [0, 2, 1], [0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]], "i4"))
+    files.run("cavities.stl", "plate.ply", "-o", "two.html", "--thinner-than", 0.8)
+    return {name: files.address(f"{name}.html") for name in ("cavities", "thick", "two")}
 
 
 @pytest.fixture(scope="session")

@@ -293,6 +293,8 @@ DecodedMesh decodeMesh(const Json& description, const std::vector<Stream>& strea
   for (size_t i = 0; i < faceCount; ++i)
     mesh.faceIds.push_back(static_cast<uint32_t>((i == 0 ? 0 : mesh.faceIds[walk.inFront[i][0]]) + differences[i]));
   for (const Json& field : description["fields"]) mesh.fields[field["name"]] = decodeField(field, walk, streams);
+  if (description.contains("thin") && description["thin"].contains("surface"))
+    mesh.thinSurface.push_back(decodeMesh(description["thin"]["surface"], streams));
   return mesh;
 }
 

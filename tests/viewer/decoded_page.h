@@ -18,6 +18,7 @@ struct DecodedMesh {
   std::vector<Face> faces;
   std::vector<uint32_t> faceIds;
   std::map<std::string, std::vector<double>> fields;  ///< Per face; NaN = no value.
+  std::vector<DecodedMesh> thinSurface;               ///< One where something is thinner than a limit.
 };
 
 struct DecodedPage {

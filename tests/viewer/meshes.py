@@ -23,6 +23,20 @@ def write_ply(path, vertices, faces):
         file.write(header.encode() + vertices.astype("<f4").tobytes() + rows.tobytes())
 
 
+def write_stl(path, boxes):
+    """A solid box (low, high), and cavities in it, as an ASCII STL."""
+    lines = ["solid boxes"]
+    for inverted, (low, high) in enumerate(boxes):
+        corner = lambda i: [(low, high)[i >> axis & 1][axis] for axis in range(3)]  # noqa: B023, E731
+        for a, b, c, d in ((0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)):
+            for face in ((a, b, c), (a, c, d)):
+                lines.append("facet normal 0 0 0\nouter loop")
+                lines += ["vertex %g %g %g" % tuple(corner(i)) for i in (face[::-1] if inverted else face)]
+                lines.append("endloop\nendfacet")
+    with open(path, "w") as file:
+        file.write("\n".join([*lines, "endsolid boxes\n"]))
+
+
 class Mesh:
     """Of a binary PLY file of the generator: points and triangles."""
 

@@ -82,16 +82,54 @@ TEST_CASE("a page is one file without references to others") {
 TEST_CASE("values that are not finite are null in lists") {
   Page page("test");
   PageTexts texts{.name = "a"};
-  texts.thinRegions = {{3, 0.25, kNoValue, 2, {1, 2, kNoValue}}};
+  texts.thin = PageThinPlaces{.limit = 0.5, .verdict = "failed", .regions = {ThinRegion{}}, .surface = {}};
+  texts.thin->regions[0].min = texts.thin->regions[0].place.z = kNoValue;
   texts.segments = {{7, 5, 1.5, kNoValue, {1, 2, 3}}};
   page.add(shapes::cube(), {}, texts);
   const auto mesh = test::decodePage(test::htmlOf(page)).json["meshes"][0];
-  CHECK_EQ(mesh["thinRegions"][0]["face"], 3);
-  CHECK_EQ(mesh["thinRegions"][0]["value"], 0.25);
-  CHECK(mesh["thinRegions"][0]["area"].is_null());
-  CHECK(mesh["thinRegions"][0]["centre"][2].is_null());
+  CHECK_EQ(mesh["thin"]["regions"][0]["face"], 0);
+  CHECK(mesh["thin"]["regions"][0]["value"].is_null());
+  CHECK(mesh["thin"]["regions"][0]["place"][2].is_null());
   CHECK_EQ(mesh["segments"][0]["label"], 7);
   CHECK(mesh["segments"][0]["median"].is_null());
+}
+
+TEST_CASE("the thin surface is a mesh in the grid of the mesh, with regions") {
+  const Mesh cube = shapes::cube();
+  PageTexts texts{.name = "a"};
+  texts.thin =
+      PageThinPlaces{.limit = 0.5, .verdict = "failed", .regions = {ThinRegion{}, ThinRegion{}}, .surface = {}};
+  texts.thin->regions[1].minFace = 7;
+  texts.thin->regions[1].isSharp = true;
+  // A whole face, and a part of another one that shares two corners with it.
+  const auto& [a, b, c] = cube.faces[0];
+  const Vec3d p = cube.vertices[a], q = cube.vertices[b], r = cube.vertices[c];
+  ThinSurface& surface = texts.thin->surface;
+  surface.triangles = {{p, q, r}, {q, p, (p + q) * 0.5 + (r - p) * 0.25}};
+  surface.regions = {1, 0};
+  Page page("test");
+  page.add(cube, {}, std::move(texts));
+  const test::DecodedPage decoded = test::decodePage(test::htmlOf(page));
+  const auto& mesh = decoded.json["meshes"][0];
+  CHECK_EQ(mesh["thin"]["limit"], 0.5);
+  CHECK_EQ(mesh["thin"]["verdict"], "failed");
+  CHECK_EQ(mesh["thin"]["regions"][1]["face"], 7);
+  CHECK_EQ(mesh["thin"]["regions"][1]["isSharp"], true);
+  const test::DecodedMesh& thin = decoded.meshes[0].thinSurface.at(0);
+  CHECK_EQ(thin.positions.size(), 4);
+  CHECK_EQ(thin.description["boxMin"], mesh["boxMin"]);
+  CHECK_EQ(thin.description["step"], mesh["step"]);
+  REQUIRE_EQ(thin.faces.size(), 2);
+  for (size_t i = 0; i < 2; ++i) {
+    const uint32_t triangle = thin.faceIds[i];
+    CHECK_EQ(thin.fields.at("region")[i], triangle == 0 ? 1 : 0);
+    Vec3d wanted, found;
+    for (size_t k = 0; k < 3; ++k) {
+      found += thin.positions[thin.faces[i][k]];
+      wanted += triangle == 0 ? std::array{p, q, r}[k] : std::array{q, p, (p + q) * 0.5 + (r - p) * 0.25}[k];
+    }
+    CHECK(length(found - wanted) < 1e-4);
+  }
 }
 
 TEST_CASE("segments have area, median and centre") {

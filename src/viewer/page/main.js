@@ -56,7 +56,7 @@ async function start() {
   for (const mesh of page.meshes) {
     // Close to the mesh, where single precision resolves it.
     const origin = mesh.boxMin.map((low, axis) => (low + mesh.boxMax[axis]) / 2);
-    const thinSurface = mesh.thin ? await decodeMesh(mesh.thin.surface, streamBytes, origin) : null;
+    const thinSurface = mesh.thin?.surface ? await decodeMesh(mesh.thin.surface, streamBytes, origin) : null;
     models.push(new MeshModel(mesh, origin, await decodeMesh(mesh, streamBytes, origin), thinSurface));
   }
   for (const stream of document.querySelectorAll('[id^=stream-]')) stream.remove();  // Not needed again, and large.

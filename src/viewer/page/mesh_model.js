@@ -3,18 +3,16 @@ import { kLabelColours } from './colour_maps.js';
 import { Triangles } from './triangles.js';
 
 export class MeshModel extends Triangles {
-  /** thinSurface: the decoded surface that is thinner than a limit, or null. */
+  /** thinSurface: the decoded surface that is thinner than the limit, or null where there is none. */
   constructor(description, origin, decoded, thinSurface) {
     super(decoded.positions, decoded.indices);
     Object.assign(this, { description, origin, faceIds: decoded.faceIds, fields: decoded.fields });
     // Relative to the origin, as the positions are.
     this.boxMin = description.boxMin.map((value, axis) => value - origin[axis]);
     this.boxMax = description.boxMax.map((value, axis) => value - origin[axis]);
-    if (!thinSurface) return;
-    this.thin = {
-      ...description.thin, surface: new Triangles(thinSurface.positions, thinSurface.indices),
-      regionOfTriangle: thinSurface.fields.get('region'),
-    };
+    if (!description.thin) return;
+    const { positions = [], indices = [], fields } = thinSurface ?? {};
+    this.thin = { ...description.thin, surface: new Triangles(positions, indices), regionOfTriangle: fields?.get('region') };
   }
 
   faceOfId(id) {
