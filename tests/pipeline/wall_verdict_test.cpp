@@ -1,0 +1,175 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "asdf_vk/scene.h"
+#include "generate/thickness_parts.h"
+#include "mesh/face_geometry.h"
+#include "support/shapes.h"
+#include "support/shared_session.h"
+
+// The verdict of the wall check, and the faces that it does not judge.
+
+using namespace asdfvk;
+using test::referenceSession;
+
+namespace {
+
+Options limitedTo(std::optional<double> limit, Orientation orientation = Orientation::Keep) {
+  Options options;
+  options.measure = Measure::Thickness;
+  options.thickness.thinnerThan = limit;
+  options.orientation = orientation;
+  return options;
+}
+
+ThicknessReport check(const Mesh& mesh, std::optional<double> limit, Orientation orientation = Orientation::Keep) {
+  return referenceSession().compute(mesh, limitedTo(limit, orientation)).report.thickness.value();
+}
+
+/// Coordinates as STL files have them.
+Mesh inFloat32(Mesh mesh) {
+  for (Vec3d& v : mesh.vertices) v = Vec3d(Vec3f(v));
+  return mesh;
+}
+
+Mesh part(const char* name, double longestEdge = 1e9) {
+  return makeThicknessPart(name).solid.surface({.longestEdge = longestEdge});
+}
+
+}  // namespace
+
+TEST_CASE("an open mesh is not judged where it has no thickness, and fails where it is thin") {
+  const Mesh box = shapes::openBox({4, 3, 5}, 2);
+  const ThicknessReport open = check(box, 1);
+  CHECK(open.verdict == ThicknessVerdict::NotJudged);
+  CHECK(open.unjudged.openCount == 8);  // The bottom.
+  CHECK(open.noValueCount == 8);
+  CHECK(open.unjudged.invertedCount == 0);
+  CHECK(open.min == doctest::Approx(3));
+  CHECK(check(box, 3.5).verdict == ThicknessVerdict::Failed);
+  CHECK(check(shapes::cube(), 1).verdict == ThicknessVerdict::Passed);
+  CHECK_FALSE(check(box, {}).verdict.has_value());
+}
+
+TEST_CASE("an inverted component is not judged; beside it a thin one fails") {
+  const Mesh cube = shapes::cube(), thin = shapes::box({3, 3, 0.2});
+  const ThicknessReport alone = check(shapes::inverted(cube), 0.1);
+  CHECK(alone.verdict == ThicknessVerdict::NotJudged);
+  CHECK(alone.unjudged.invertedCount == 12);
+  CHECK(alone.unjudged.openCount == 0);
+  CHECK(std::isnan(alone.min));
+  const ThicknessReport beside = check(shapes::joined(cube, shapes::inverted(thin), {9, 0, 0}), 1);
+  CHECK(beside.verdict == ThicknessVerdict::NotJudged);
+  CHECK(beside.unjudged.invertedCount == 12);
+  CHECK(beside.min == doctest::Approx(2).epsilon(1e-3));
+  CHECK(beside.thinRegions.empty());
+  CHECK(check(shapes::joined(thin, shapes::inverted(cube), {9, 0, 0}), 1).verdict == ThicknessVerdict::Failed);
+}
+
+TEST_CASE("a mesh that the caller flips is not misoriented") {
+  const Mesh thin = shapes::inverted(shapes::box({3, 3, 0.2})), thick = shapes::inverted(shapes::cube());
+  for (const Orientation orientation : {Orientation::Flip, Orientation::Auto}) {
+    const ThicknessReport failed = check(thin, 1, orientation), passed = check(thick, 1, orientation);
+    CHECK(failed.unjudged.invertedCount == 0);
+    CHECK(failed.verdict == ThicknessVerdict::Failed);
+    CHECK(failed.min == doctest::Approx(0.2));
+    CHECK(passed.verdict == ThicknessVerdict::Passed);
+    CHECK(passed.unjudged.invertedCount == 0);
+  }
+}
+
+TEST_CASE("degenerate faces are counted and prevent no verdict, but alone they have none") {
+  Mesh mesh = shapes::cube();
+  mesh.faces.push_back({0, 0, 1});
+  const ThicknessReport one = check(mesh, 1);
+  CHECK(one.unjudged.degenerateCount == 1);
+  CHECK(one.verdict == ThicknessVerdict::Passed);
+  const Mesh line{{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, {{0, 1, 2}, {0, 0, 1}}, {}};
+  const ThicknessReport none = check(line, 1);
+  CHECK(none.verdict == ThicknessVerdict::NotJudged);
+  CHECK(none.unjudged.degenerateCount == 2);
+  CHECK(std::isnan(none.min));
+}
+
+TEST_CASE("faces that cross each other are counted with a limit, and judged") {
+  const Mesh box = shapes::box({2, 2, 2}), crossing = shapes::joined(box, box, {1.1, 0.3, 0.2});
+  const ThicknessReport report = check(crossing, 0.5);
+  CHECK(report.unjudged.crossedCount > 0);
+  CHECK(report.unjudged.crossedCount <= 24);
+  CHECK(report.verdict == ThicknessVerdict::Passed);
+  CHECK(check(crossing, {}).unjudged.crossedCount == 0);
+  CHECK(check(crossing, 1).verdict == ThicknessVerdict::Failed);  // They overlap by 0.9, between walls of both.
+  const ThicknessReport touching = check(shapes::joined(box, box, {2, 0, 0}), 1);
+  CHECK(touching.unjudged.crossedCount == 0);
+  CHECK(touching.verdict == ThicknessVerdict::Passed);
+}
+
+TEST_CASE("a wall as thick as the limit passes, in coordinates of float32, at any place") {
+  for (const double shift : {0.0, 0.1, 7.3, -20.7}) {
+    CAPTURE(shift);
+    const Mesh plate =
+        inFloat32(shapes::scaledAndShifted(shapes::box({40, 30, 0.8}, 2), 1, {shift, -shift, shift / 3}));
+    CHECK(check(plate, 0.8).verdict == ThicknessVerdict::Passed);
+    CHECK(check(plate, 0.8).thinRegions.empty());
+    CHECK(check(plate, 0.8001).verdict == ThicknessVerdict::Failed);
+    CHECK(check(plate, 0.7999).verdict == ThicknessVerdict::Passed);
+  }
+  for (const char* name : {"pocket", "stepped-plate"}) {
+    const double wall = makeThicknessPart(name).leastThickness;
+    CHECK(check(inFloat32(part(name)), wall).verdict == ThicknessVerdict::Passed);
+    CHECK(check(inFloat32(part(name)), wall * 1.0001).verdict == ThicknessVerdict::Failed);
+  }
+}
+
+TEST_CASE("the report has the size of the bounding box") {
+  const Mesh mesh = shapes::scaledAndShifted(shapes::box({4, 3, 0.5}, 2), 1, {100, -3, 0.25});
+  const Vec3d size = referenceSession().compute(mesh, limitedTo(1)).report.size;
+  CHECK(size.x == doctest::Approx(4));
+  CHECK(size.y == doctest::Approx(3));
+  CHECK(size.z == doctest::Approx(0.5));
+}
+
+TEST_CASE("session and scene give one verdict, and a region of faces that of the faces inside") {
+  const Mesh mesh = part("blade", 5);
+  const FaceGeometry geometry = computeFaceGeometry(mesh);
+  Scene scene(referenceSession(), mesh);
+  Options options = limitedTo(0.8);
+  options.thickness.allowsSharpEdges = true;
+  const ThicknessReport whole = referenceSession().compute(mesh, options).report.thickness.value();
+  CHECK(whole.verdict == ThicknessVerdict::Failed);
+  CHECK(whole.min == doctest::Approx(0.7));
+  REQUIRE(whole.thinRegions.size() == 3);
+  const auto checkRegion = [&](auto isInside) {
+    std::vector<uint8_t> region(mesh.faces.size());
+    for (size_t face = 0; face < region.size(); ++face) region[face] = isInside(geometry.barycentres[face]) ? 1 : 0;
+    return scene.compute(options, region).report.thickness.value();
+  };
+  const auto isSameRegion = [](const ThinRegion& a, const ThinRegion& b) {
+    return a.min == b.min && a.area == b.area && a.minFace == b.minFace && a.faceCount == b.faceCount &&
+           a.isSharp == b.isSharp;
+  };
+  const ThicknessReport all = checkRegion([](const Vec3d&) { return true; });
+  const ThicknessReport pocket = checkRegion([](const Vec3d& p) { return p.x > 35; });
+  const ThicknessReport blade = checkRegion([](const Vec3d& p) { return p.x < 35; });
+  const ThicknessReport middle = checkRegion([](const Vec3d& p) { return 15 < p.x && p.x < 35; });
+  CHECK(all.verdict == whole.verdict);
+  REQUIRE(all.thinRegions.size() == 3);
+  for (size_t i = 0; i < 3; ++i) CHECK(isSameRegion(all.thinRegions[i], whole.thinRegions[i]));
+  // The walls of the pocket come first.
+  CHECK(pocket.verdict == ThicknessVerdict::Failed);
+  CHECK(pocket.min == whole.min);
+  CHECK(pocket.sharpEdges.empty());
+  REQUIRE(pocket.thinRegions.size() == 2);
+  for (size_t i = 0; i < 2; ++i) CHECK(isSameRegion(pocket.thinRegions[i], whole.thinRegions[i]));
+  CHECK(blade.verdict == ThicknessVerdict::Passed);
+  REQUIRE(blade.thinRegions.size() == 1);
+  CHECK(blade.thinRegions[0].isSharp);
+  CHECK(blade.sharpEdges.size() == 1);
+  CHECK(middle.verdict == ThicknessVerdict::Passed);
+  CHECK(middle.thinRegions.empty());
+  CHECK(middle.min >= 0.8);
+}
