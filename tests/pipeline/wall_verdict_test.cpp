@@ -80,6 +80,22 @@ TEST_CASE("a mesh that the caller flips is not misoriented") {
     CHECK(passed.verdict == ThicknessVerdict::Passed);
     CHECK(passed.unjudged.invertedCount == 0);
   }
+  // One that was oriented outwards has no thickness then, as its inside is outside.
+  const ThicknessReport outside = check(shapes::cube(), 1, Orientation::Flip);
+  CHECK(outside.unjudged.invertedCount == 0);
+  CHECK(outside.unjudged.openCount == 0);
+  CHECK(outside.noValueCount == 12);
+  CHECK(outside.verdict == ThicknessVerdict::NotJudged);
+}
+
+TEST_CASE("the gap between two bodies is that of the flipped mesh") {
+  const Mesh two = shapes::joined(shapes::box({3, 3, 1}), shapes::box({3, 3, 1}), {0, 0, 1.25});
+  for (const double limit : {0.2, 0.3}) {
+    const ThicknessReport gap = check(two, limit, Orientation::Flip);
+    CHECK(gap.min == doctest::Approx(0.25));
+    CHECK(gap.verdict == (limit < 0.25 ? ThicknessVerdict::Passed : ThicknessVerdict::Failed));
+  }
+  CHECK(check(two, 0.3).verdict == ThicknessVerdict::Passed);
 }
 
 TEST_CASE("degenerate faces are counted and prevent no verdict, but alone they have none") {

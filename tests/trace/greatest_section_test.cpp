@@ -133,6 +133,17 @@ TEST_CASE("solids that touch in coincident faces have sections of their own, in 
   }
 }
 
+TEST_CASE("the faces of other solids do not limit a section, also where solids go through each other") {
+  const TracedMesh traced(shapes::joined(shapes::box({2, 2, 2}), shapes::box({2, 3, 1.5}), {0.9, 0.2, 0.1}));
+  std::vector<uint32_t> solidOf(12, 0);
+  solidOf.resize(24, 1);
+  const auto sections = findGreatestSections(traced.scene(), solidOf, std::vector<uint8_t>{1, 1}, {});
+  REQUIRE(sections.size() == 2);
+  for (size_t i = 0; i < 2; ++i)
+    CHECK(traced.bvh.normalization.toMeshLength(sections[i].diameter) ==
+          doctest::Approx(i == 0 ? 2 : 1.5).epsilon(kSectionTolerance));
+}
+
 TEST_CASE("solids that are not wanted have no section") {
   const TracedMesh traced(shapes::joined(shapes::grid(2), shapes::cube(), {9, 0, 0}));
   std::vector<uint32_t> solidOf(traced.mesh.faceCount(), 1);

@@ -190,6 +190,23 @@ TEST_CASE("two pockets over one face are separate regions, a groove between them
   }
 }
 
+TEST_CASE("a face that is thin everywhere connects thin places of a face at a right angle to it") {
+  const auto upright = [](Mesh mesh) {
+    for (Vec3d& v : mesh.vertices) v = {v.x, -v.z, v.y};
+    return mesh;
+  };
+  for (const bool hasStrip : {false, true}) {
+    CAPTURE(hasStrip);
+    // A wall with two pockets behind it, and a strip along its lower edge.
+    Mesh mesh = shapes::joined(upright(rectangle(0, 40, 0, 10, 0, false)), rectangle(0, 40, -1, 0, 0, false));
+    mesh = shapes::joined(std::move(mesh), upright(rectangle(5, 10, 0, 4, 0.5, true)));
+    mesh = shapes::joined(std::move(mesh), upright(rectangle(30, 35, 0, 4, 0.5, true)));
+    if (hasStrip) mesh = shapes::joined(std::move(mesh), rectangle(0, 40, -1, 0, 0.5, true));
+    const ThinMesh thin(mesh, 0.6, 0.2);
+    CHECK(regionsOfFaces(thin, 0, 4).size() == (hasStrip ? 1 : 2));
+  }
+}
+
 TEST_CASE("pockets of a plate are regions on both of its sides") {
   BlockSolid solid;
   addDraftedLattice(solid, {{0}, {5}, {10}, {25}, {30}, {40}}, {{0}, {5}, {10}, {15}}, {0, 0.5, 4},
