@@ -26,9 +26,9 @@ using test::requireFailure;
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kUnboundedThickness = std::numeric_limits<double>::infinity();
 
-struct Points {
+struct SurfacePoints {
   std::vector<double> points, normals;
 
   void add(const Vec3d& point, const Vec3d& normal) {
@@ -38,8 +38,8 @@ struct Points {
 };
 
 /// The barycentres, with normals of other lengths than 1.
-Points barycentresOf(const Mesh& mesh) {
-  Points result;
+SurfacePoints surfaceBarycentresOf(const Mesh& mesh) {
+  SurfacePoints result;
   for (const auto [a, b, c] : mesh.faces) {
     const Vec3d &p = mesh.vertices[a], &q = mesh.vertices[b], &r = mesh.vertices[c];
     result.add((p + q + r) / 3.0, cross(q - p, r - p));
@@ -65,13 +65,13 @@ size_t differingCount(const std::vector<double>& a, const std::vector<double>& b
   return count;
 }
 
-Mesh part(const char* name) { return makeThicknessPart(name).solid.surface(); }
+Mesh partMesh(const char* name) { return makeThicknessPart(name).solid.surface(); }
 
 /// With a cavity.
 Mesh hollowBox() { return shapes::joined(shapes::box({3, 4, 5}, 3), shapes::inverted(shapes::box({2, 2, 2}, 2))); }
 
 double valueAt(Scene& scene, const Vec3d& point, const Vec3d& normal) {
-  Points one;
+  SurfacePoints one;
   one.add(point, normal);
   return scene.thicknessAt(one.points, one.normals).front();
 }
@@ -79,7 +79,7 @@ double valueAt(Scene& scene, const Vec3d& point, const Vec3d& normal) {
 }  // namespace
 
 TEST_CASE("at barycentres the thickness of points is that of the faces") {
-  for (const Mesh& mesh : {makeHand(800).mesh, part("blade"), part("pocket"), part("thick-cube"),
+  for (const Mesh& mesh : {makeHand(800).mesh, partMesh("blade"), partMesh("pocket"), partMesh("thick-cube"),
                            shapes::jittered(shapes::openBox({1, 1, 2}, 4), 0.02, 3), hollowBox(),
                            shapes::joined(shapes::cube(), shapes::grid(3), {0, 0, 4})})
     for (const double wallAngle : {120.0, 150.0}) {
@@ -88,14 +88,14 @@ TEST_CASE("at barycentres the thickness of points is that of the faces") {
       Scene scene(referenceSession(), mesh);
       const Options options = thicknessOptions(wallAngle);
       const std::vector<double> expected = fieldOf(scene.compute(options));
-      const Points points = barycentresOf(mesh);
+      const SurfacePoints points = surfaceBarycentresOf(mesh);
       CHECK(differingCount(expected, scene.thicknessAt(points.points, points.normals, options.thickness)) == 0);
     }
 }
 
 TEST_CASE("on the thin wedge the thickness of points is that of the planes, on each wall and between barycentres") {
   // 60 long, 20 wide, 2 to 0.3 high.
-  const Mesh mesh = part("thin-wedge");
+  const Mesh mesh = partMesh("thin-wedge");
   Scene scene(referenceSession(), mesh);
   const double slope = 1.7 / 60;
   for (const double x : {5.0, 20.0, 45.0, 59.0}) {
@@ -113,7 +113,7 @@ TEST_CASE("in an open component a point that no wall opposes has no thickness, i
   CHECK(valueAt(box, {1, 0.2, 0.1}, {1, 0, 0}) == doctest::Approx(2));
   const Mesh closed = shapes::cube();
   Scene cube(referenceSession(), closed);
-  Points oblique;  // No wall is at 150 degrees to this normal.
+  SurfacePoints oblique;  // No wall is at 150 degrees to this normal.
   oblique.add({1, 0.3, 0.2}, {0.6, 0.6, 0.5});
   const double greatest = cube.compute(thicknessOptions()).report.thickness->greatestSection->diameter;
   CHECK(cube.thicknessAt(oblique.points, oblique.normals, {.wallAngleDegrees = 150}).front() == greatest);
@@ -129,10 +129,10 @@ TEST_CASE("points far from the mesh have no thickness") {
 }
 
 TEST_CASE("a flipped scene has the thickness of the mesh that it flips to") {
-  for (const Mesh& mesh : {part("blade"), makeHand(800).mesh, hollowBox()}) {
+  for (const Mesh& mesh : {partMesh("blade"), makeHand(800).mesh, hollowBox()}) {
     const Mesh inverted = shapes::inverted(mesh);
     Scene scene(referenceSession(), mesh), flipped(referenceSession(), inverted, Orientation::Flip);
-    const Points points = barycentresOf(mesh);
+    const SurfacePoints points = surfaceBarycentresOf(mesh);
     const std::vector<double> expected = scene.thicknessAt(points.points, points.normals);
     CHECK(differingCount(expected, flipped.thicknessAt(points.points, points.normals)) == 0);
     CHECK(std::none_of(expected.begin(), expected.end(), [](double value) { return std::isnan(value); }));
@@ -145,9 +145,9 @@ TEST_CASE("a flipped scene has the thickness of the mesh that it flips to") {
 TEST_CASE("a point has the same thickness alone, among others, and in another order") {
   const Mesh mesh = makeHand(800).mesh;
   Scene scene(referenceSession(), mesh);
-  const Points points = barycentresOf(mesh);
+  const SurfacePoints points = surfaceBarycentresOf(mesh);
   const std::vector<double> together = scene.thicknessAt(points.points, points.normals);
-  Points reversed;
+  SurfacePoints reversed;
   const auto at = [](const std::vector<double>& numbers, size_t i) {
     return Vec3d{numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]};
   };
@@ -170,7 +170,7 @@ TEST_CASE("the nearest faces are input faces, also of polygons, the first of equ
   // Each barycentre of a mesh is nearest to its own face.
   const Mesh torus = makeTorus(1500).mesh;
   Scene scene(referenceSession(), torus);
-  const std::vector<uint32_t> own = scene.nearestFaces(barycentresOf(torus).points);
+  const std::vector<uint32_t> own = scene.nearestFaces(surfaceBarycentresOf(torus).points);
   for (uint32_t face = 0; face < own.size(); ++face) CHECK(own[face] == face);
   // Of a degenerate face and one that coincides with another only the first counts.
   const Mesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 0, 1}, {0, 1, 2}, {2, 1, 0}}, {}};
@@ -182,7 +182,7 @@ TEST_CASE("invalid points, normals and angles throw") {
   const Mesh mesh = shapes::sphere(2);
   Scene scene(referenceSession(), mesh);
   const std::vector<double> good(9, 0.5);
-  for (const double bad : {std::nan(""), kInfinity}) {
+  for (const double bad : {std::nan(""), kUnboundedThickness}) {
     std::vector<double> wrong = good;
     wrong[7] = bad;
     requireFailure([&] { (void)scene.thicknessAt(wrong, good); }, ErrorCode::NonFiniteNumber, "point 2 has");

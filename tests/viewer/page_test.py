@@ -424,3 +424,4 @@ def test_without_webgl(animal):
         assert not page.js("document.getElementById('layer').checkVisibility()")
         assert page.js("[...document.querySelectorAll('#meshes button')].every((b) => b.textContent.startsWith('Show all'))")
         assert page.messages() == [] and page.requests() == []
+        page.socket.close()

@@ -33,13 +33,13 @@ export class Visits {
   /** Flies to a region of the given limit and looks at its least thickness, through other walls where they hide it. */
   region(index, number) {
     const model = this.viewer.models[index], { radius } = this.viewer.frames[index], { regions, surface, regionOfTriangle } = model.thin;
-    const { face: id, place, opposite } = regions[number], ends = [place, opposite].map((end) => subtract(end, model.origin));
+    const { face: id, area, place, opposite } = regions[number], ends = [place, opposite].map((end) => subtract(end, model.origin));
     const span = subtract(ends[0], ends[1]), thickness = Math.hypot(...span), face = model.faceOfId(id);
     const normal = face < 0 ? [0, 0, 1] : Array.from(model.normals.subarray(4 * face, 4 * face + 3));
     const outward = thickness > 1e-6 * radius ? scaled(span, 1 / thickness) : unit(normal, [0, 0, 1]);
     const { toViewer } = this.viewer.axesOf(index, this.viewer.state), point = scaled(add(...ends), 0.5);
     const direction = directionOfLeastCover(model, ends, outward, toViewer, 1e-4 * radius);
-    const extent = regionRadius(surface, regionOfTriangle, number, point);
+    const extent = regionRadius(surface, regionOfTriangle, number, point) || Math.sqrt(area);
     const seen = Math.max(1.3 * Math.min(extent, radius / 2), 8 * thickness, radius / 40);
     this.fly(index, point, Math.max(radius / seen, this.viewer.initial.zoom), direction);
     this.viewer.store.set({
