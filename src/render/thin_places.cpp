@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kThinSamples = 3;        ///< Per side of a pixel.
 constexpr int kThinBandRows = 96;      ///< Of samples.
-constexpr float kDepthSlack = 2e-6F;   ///< In normalised units: parts of a face are at its depth, up to rounding.
+constexpr float kDepthSlack = 1e-5F;   ///< In normalised units: parts of a face are at its depth, up to rounding.
 constexpr double kHiddenShare = 0.45;  ///< Of the alarm colour where the surface is behind faces.
 static_assert(kThinBandRows % kThinSamples == 0);
 

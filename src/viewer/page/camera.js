@@ -44,7 +44,8 @@ export function boxCorners(size) {
 
 /**
  * What a pane shows of a mesh within a frame {centre, radius, size}. x, y and z of the state: along side, up and front,
- * relative to the frame, in radii; so meshes with different upright axes move alike. Zoom 1: the sphere of the frame touches the shorter sides of the pane.
+ * relative to the frame, in radii; so meshes with different upright axes move alike. Zoom 1: the sphere of the frame
+ * touches the shorter sides of the pane.
  */
 export class PaneCamera {
   constructor(state, axes, frame, width, height) {

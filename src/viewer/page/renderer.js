@@ -206,9 +206,9 @@ export class Renderer {
       gl.disable(gl.BLEND);
     }
     if (!highlighted) return;
-    // Before the faces at it; positions are rounded to the grid of the page.
+    // Before the faces at it: both are rounded to the grid of the page, and parts of a face do not lie in it exactly.
     gl.enable(gl.POLYGON_OFFSET_FILL);
-    gl.polygonOffset(-1, -64);
+    gl.polygonOffset(-1, -1024);
     this.drawFaces(highlighted, pane, frame);
     gl.disable(gl.POLYGON_OFFSET_FILL);
   }
