@@ -101,7 +101,9 @@ class Measurement {
         const uint32_t component = computation_.prepared.components.componentOf[each.face];
         const bool isJudged = !std::isnan(least) && (isFlipped || solids_.isMisoriented[component] == 0);
         thickness_.isJudged[each.face] = isJudged ? 1 : 0;
-        if (isJudged && limit_ && least * unit_.scale < *limit_) thin.push_back(each);
+        // The greatest section is only known to its tolerance.
+        const double surelyBelow = least * unit_.scale * (each.least.wall == kNoFace ? 1 + kSectionTolerance : 1);
+        if (isJudged && limit_ && surelyBelow < *limit_) thin.push_back(each);
       }
     }
     return thin;

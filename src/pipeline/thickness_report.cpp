@@ -44,6 +44,11 @@ class Description {
 
   [[nodiscard]] Vec3d toMesh(const Vec3d& p) const { return p / unit_.scale + unit_.centre; }
 
+  /// The greatest section is only known to its tolerance: a wall of the same thickness comes first.
+  static double surelyBelow(double least, uint32_t wall) {
+    return wall == kNoFace ? least * (1 + kSectionTolerance) : least;
+  }
+
   void describePercentiles() {
     WeightedSample sample;
     for (size_t face = 0; face < thickness_.atBarycentre.size(); ++face)
@@ -129,7 +134,8 @@ class Description {
     }
     region.faceCount = inputFaces.size();
     const auto rank = [&](uint32_t i) {
-      return std::pair(region.isSharp && parts[i].isSharp ? 0.0 : parts[i].least.ball.diameter, i);
+      const InscribedBall& least = parts[i].least;
+      return std::pair(region.isSharp && parts[i].isSharp ? 0.0 : surelyBelow(least.ball.diameter, least.wall), i);
     };
     const uint32_t thinnest =
         *std::min_element(ofRegion.begin(), ofRegion.end(), [&](uint32_t a, uint32_t b) { return rank(a) < rank(b); });
@@ -174,9 +180,9 @@ class Description {
     std::vector<uint8_t> isLeftOut(thickness_.least.size());
     for (const ThinPart& part : thickness_.thinParts) isLeftOut[part.face] = 1;
     std::optional<uint32_t> thinnest;
+    const auto rank = [&](uint32_t face) { return surelyBelow(thickness_.least[face], thickness_.leastWalls[face]); };
     for (uint32_t face = 0; face < thickness_.least.size(); ++face)
-      if (thickness_.isJudged[face] != 0 && isLeftOut[face] == 0 &&
-          !(thinnest && thickness_.least[*thinnest] <= thickness_.least[face]))
+      if (thickness_.isJudged[face] != 0 && isLeftOut[face] == 0 && !(thinnest && rank(*thinnest) <= rank(face)))
         thinnest = face;
     if (!thinnest) return;
     const double least = thickness_.least[*thinnest];

@@ -84,7 +84,9 @@ TEST_CASE("each part has its least thickness, whatever the triangulation, the ro
     CAPTURE(name);
     const ThicknessPart part = makeThicknessPart(name);
     if (part.leastThickness == 0) continue;
-    for (const auto& [mesh, unit] : samplesOf(part.solid)) {
+    for (const PartSample& sample : samplesOf(part.solid)) {
+      const Mesh& mesh = sample.mesh;
+      const double unit = sample.unit;
       CAPTURE(mesh.faces.size());
       CAPTURE(unit);
       const ThicknessReport passed = measure(mesh, limitedTo(0.99 * unit * part.leastThickness));
@@ -107,7 +109,9 @@ TEST_CASE("sharp edges and tips have no thickness, and are found at each triangu
     CAPTURE(name);
     const ThicknessPart part = makeThicknessPart(name);
     const double limit = std::min(1.0, 0.99 * part.leastWall);
-    for (const auto& [mesh, unit] : samplesOf(part.solid)) {
+    for (const PartSample& sample : samplesOf(part.solid)) {
+      const Mesh& mesh = sample.mesh;
+      const double unit = sample.unit;
       CAPTURE(mesh.faces.size());
       const ThicknessReport report = measure(mesh, limitedTo(unit * limit));
       CHECK(report.min == 0);
@@ -131,7 +135,9 @@ TEST_CASE("sharp edges and tips have no thickness, and are found at each triangu
 
 TEST_CASE("walls of a part with sharp edges count where these are allowed") {
   const ThicknessPart part = makeThicknessPart("blade");
-  for (const auto& [mesh, unit] : samplesOf(part.solid)) {
+  for (const PartSample& sample : samplesOf(part.solid)) {
+    const Mesh& mesh = sample.mesh;
+    const double unit = sample.unit;
     const ThicknessReport report = measure(mesh, limitedTo(1.01 * unit * part.leastWall, true));
     CHECK(report.min == doctest::Approx(unit * part.leastWall).epsilon(1e-6));
     CHECK(report.verdict == ThicknessVerdict::Failed);
