@@ -17,7 +17,7 @@ namespace {
 /// Cubes that a search divides at most; the bound of the last one is returned.
 constexpr uint32_t kMaxCubeCount = 200'000;
 /// Along the longest side of the box of the solid.
-constexpr double kFirstCubeCount = 4;
+constexpr int kFirstCubeCount = 4;
 // Corners so near to a plane are in it: coordinates in float32.
 constexpr double kFlat = 0x1p-22;
 
@@ -105,14 +105,18 @@ class Search {
  public:
   explicit Search(const SolidSurface& surface) : surface_(surface) {}
 
-  GreatestSection run(const Box3d& box, uint32_t maxCubeCount) {
+  /// stopOnly: asked for cancellation.
+  GreatestSection run(const Box3d& box, uint32_t maxCubeCount, const RunControl& stopOnly) {
     const Vec3d size = box.size();
     const double side = std::max({size.x, size.y, size.z}) / kFirstCubeCount;
-    for (double x = box.min.x; x < box.max.x; x += side)
-      for (double y = box.min.y; y < box.max.y; y += side)
-        for (double z = box.min.z; z < box.max.z; z += side)
-          add(Vec3d{x, y, z} + 0.5 * Vec3d{side, side, side}, side / 2);
+    for (int i = 0; i < kFirstCubeCount * kFirstCubeCount * kFirstCubeCount; ++i) {
+      const Vec3d corner{double(i % kFirstCubeCount), double(i / kFirstCubeCount % kFirstCubeCount),
+                         double(i / (kFirstCubeCount * kFirstCubeCount))};
+      if (corner.x * side < size.x && corner.y * side < size.y && corner.z * side < size.z)
+        add(box.min + side * (corner + Vec3d{0.5, 0.5, 0.5}), side / 2);
+    }
     for (uint32_t count = 0; !cubes_.empty() && cubes_.top().bound > (1 + kSectionTolerance) * radius_; ++count) {
+      if (count % 256 == 0) stopOnly.checkpoint(0);
       if (count == maxCubeCount) return {centre_, 2 * radius_, 2 * cubes_.top().bound};
       const Cube cube = cubes_.top();
       cubes_.pop();
@@ -191,7 +195,8 @@ std::vector<GreatestSection> findGreatestSections(const TraceScene& scene, std::
   for (uint32_t solid = 0; solid < sections.size(); ++solid) {
     control.checkpoint(static_cast<double>(solid) / static_cast<double>(sections.size()));
     const SolidSurface surface(scene, copies, solidOf, solid);
-    if (isWanted[solid] != 0) sections[solid] = Search(surface).run(boxes[solid], kMaxCubeCount);
+    if (isWanted[solid] != 0)
+      sections[solid] = Search(surface).run(boxes[solid], kMaxCubeCount, control.withoutProgress());
   }
   return sections;
 }

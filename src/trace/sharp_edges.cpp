@@ -60,11 +60,25 @@ class SharpSearch {
   void forEachPair(uint32_t point, const Visit& visit) const {
     const std::span<const uint32_t> corners = fans_.cornersAt(point);
     const size_t step = (corners.size() + kMaxComparedFaces - 1) / kMaxComparedFaces;
-    for (size_t i = 0; i < corners.size(); ++i)
-      for (size_t j = 0; j < corners.size(); ++j) {
-        if (step > 1 && j % step != 0 && edgeBits(corners[i], corners[j]) == 0) continue;
-        if (isThin(corners[i], corners[j])) visit(corners[i], corners[j]);
-      }
+    for (const uint32_t corner : corners)
+      for (size_t j = 0; j < corners.size(); j += step)
+        if (isThin(corner, corners[j])) visit(corner, corners[j]);
+    if (step > 1) forEachPairOverEdges(corners, visit);
+  }
+
+  /// The pairs of a large fan that share an edge.
+  template <typename Visit>
+  void forEachPairOverEdges(std::span<const uint32_t> corners, const Visit& visit) const {
+    std::vector<std::pair<uint32_t, uint32_t>> byPoint;  // Of the other end of an edge.
+    for (const uint32_t corner : corners)
+      for (const uint32_t end : {next(corner), before(corner)}) byPoint.emplace_back(pointAt(end), corner);
+    std::sort(byPoint.begin(), byPoint.end());
+    for (size_t begin = 0, end = 0; begin < byPoint.size(); begin = end) {
+      while (end < byPoint.size() && byPoint[end].first == byPoint[begin].first) ++end;
+      for (size_t i = begin; i < end; ++i)
+        for (size_t j = begin; j < end; ++j)
+          if (isThin(byPoint[i].second, byPoint[j].second)) visit(byPoint[i].second, byPoint[j].second);
+    }
   }
 
   [[nodiscard]] bool isThin(uint32_t corner, uint32_t other) const {

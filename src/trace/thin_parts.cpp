@@ -11,7 +11,7 @@
 namespace asdfvk {
 namespace {
 
-/// No piece is halved once there are so many: a limit on memory, 350 bytes each.
+/// No piece is halved where there would be so many: a limit on memory, 350 bytes each. Whole faces are not counted.
 constexpr size_t kMaxPieceCount = size_t{1} << 20;
 constexpr size_t kBlockSize = 256;
 /// The length of a line in steps: exact after as many halvings as are possible.
@@ -57,9 +57,10 @@ class ThinSearch {
       for (const Piece& piece : divided) halve(piece, halves);
       measure(halves);
       divided.clear();
+      const bool mayDivide = finished_.size() + 2 * halves.size() < kMaxPieceCount;
       for (Piece& piece : halves) {
         if (!isThin(piece)) continue;
-        (mustDivide(piece) ? divided : finished_).push_back(std::move(piece));
+        (mayDivide && mustDivide(piece) ? divided : finished_).push_back(std::move(piece));
       }
     }
     std::stable_sort(finished_.begin(), finished_.end(),
@@ -109,7 +110,7 @@ class ThinSearch {
   }
 
   [[nodiscard]] bool mustDivide(const Piece& piece) const {
-    if (piece.part.least.wall == kNoFace || finished_.size() >= kMaxPieceCount) return false;
+    if (piece.part.least.wall == kNoFace) return false;
     return longestSide(piece.part.corners).second > maxLength_ && !isThinEverywhere(piece);
   }
 
