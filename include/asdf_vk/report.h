@@ -212,14 +212,15 @@ enum class ThicknessVerdict {
 
 /// Input faces on which a limit cannot be judged, or not with certainty.
 struct UnjudgedFaces {
-  uint64_t openCount = 0;        ///< Of open components, without an opposing wall: no thickness.
+  uint64_t openCount = 0;        ///< Of open components: what would close them may be a thin wall.
   uint64_t invertedCount = 0;    ///< Of closed components whose faces are oriented inwards, or inconsistently.
   uint64_t degenerateCount = 0;  ///< Without a normal or with a corner that is not finite.
-  /// Faces that another face crosses. They are judged, as thinner than the union of the parts that they bound.
+  /// Faces that a face of another solid crosses. They are judged, as at most as thick as the union of the solids.
   uint64_t crossedCount = 0;
+  uint64_t selfCrossedCount = 0;  ///< Faces that a face of the same solid crosses: inside and outside are mixed up.
 
   /// Whether a point of the surface may be thinner than what was found.
-  [[nodiscard]] bool preventVerdict() const { return openCount > 0 || invertedCount > 0; }
+  [[nodiscard]] bool preventVerdict() const { return openCount > 0 || invertedCount > 0 || selfCrossedCount > 0; }
 };
 
 /// Set where the thickness is measured (docs/thickness.md). Lengths in the unit of the mesh.

@@ -129,6 +129,7 @@ class UnjudgedFaces:
     inverted_count: int
     degenerate_count: int
     crossed_count: int
+    self_crossed_count: int
 
 
 @dataclass(frozen=True)

@@ -77,7 +77,8 @@ py::dict dictOf(const SectionBall& ball) {
 
 py::dict dictOf(const UnjudgedFaces& unjudged) {
   return py::dict("open_count"_a = unjudged.openCount, "inverted_count"_a = unjudged.invertedCount,
-                  "degenerate_count"_a = unjudged.degenerateCount, "crossed_count"_a = unjudged.crossedCount);
+                  "degenerate_count"_a = unjudged.degenerateCount, "crossed_count"_a = unjudged.crossedCount,
+                  "self_crossed_count"_a = unjudged.selfCrossedCount);
 }
 
 template <typename Item>

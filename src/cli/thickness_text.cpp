@@ -26,6 +26,8 @@ std::string causeText(const UnjudgedFaces& unjudged) {
   if (unjudged.openCount > 0) causes.push_back(groupedCount(unjudged.openCount, "face") + " of open components");
   if (unjudged.invertedCount > 0)
     causes.push_back(groupedCount(unjudged.invertedCount, "face") + " oriented inwards or inconsistently");
+  if (unjudged.selfCrossedCount > 0)
+    causes.push_back(groupedCount(unjudged.selfCrossedCount, "face") + " crossed by the same part");
   return causes.empty() ? "no face has a thickness" : joined(causes, " and ") + " cannot be judged";
 }
 
@@ -36,11 +38,12 @@ ReportRows unjudgedRows(const UnjudgedFaces& unjudged) {
     if (count > 0)
       rows.emplace_back(rows.empty() ? "unjudged" : "", fmt::format("{} {}", groupedCount(count, noun), rest));
   };
-  add(unjudged.openCount, "face", "of open components without an opposing wall: no thickness; close the mesh");
+  add(unjudged.openCount, "face", "of open components: what closes them may be thin; close the mesh");
   add(unjudged.invertedCount, "face",
       "of closed components oriented inwards or inconsistently; --orient auto reverses inverted components");
   add(unjudged.degenerateCount, "degenerate face", "left out: without a normal, or with a corner that is not finite");
-  add(unjudged.crossedCount, "face", "crossed by others: the body may be thicker there than reported");
+  add(unjudged.selfCrossedCount, "face", "crossed by the same part: inside and outside are mixed up there");
+  add(unjudged.crossedCount, "face", "crossed by another part: both together may be thicker than reported");
   return rows;
 }
 

@@ -101,8 +101,8 @@ class Measurement {
         const uint32_t component = computation_.prepared.components.componentOf[each.face];
         const bool isJudged = !std::isnan(least) && (isFlipped || solids_.isMisoriented[component] == 0);
         thickness_.isJudged[each.face] = isJudged ? 1 : 0;
-        // The greatest section is only known to its tolerance.
-        const double surelyBelow = least * unit_.scale * (each.least.wall == kNoFace ? 1 + kSectionTolerance : 1);
+        const double surelyBelow =
+            each.least.wall == kNoFace && least > 0 ? sections[solids_.solidOf[each.face]].bound : least * unit_.scale;
         if (isJudged && limit_ && surelyBelow < *limit_) thin.push_back(each);
       }
     }
@@ -145,13 +145,15 @@ class Measurement {
         return solids_.isMisoriented[computation_.prepared.components.componentOf[face]] != 0;
       };
       unjudged.invertedCount = countInputFaces(isMisoriented);
+      const Components& components = computation_.prepared.components;
       unjudged.openCount = countInputFaces([&](uint32_t face) {
-        return !geometry.isDegenerate(face) && std::isnan(thickness_.least[face]) && !isMisoriented(face);
+        return !geometry.isDegenerate(face) && !components.components[components.componentOf[face]].isClosed;
       });
     }
     if (!limit_) return;
-    const std::vector<uint8_t> isCrossed = findCrossedFaces(scene_, kMinWallDepth, control);
-    unjudged.crossedCount = countInputFaces([&](uint32_t face) { return isCrossed[face] != 0; });
+    const std::vector<uint8_t> crossed = findCrossedFaces(scene_, solids_.solidOf, kMinWallDepth, control);
+    unjudged.crossedCount = countInputFaces([&](uint32_t face) { return (crossed[face] & kCrossedByOther) != 0; });
+    unjudged.selfCrossedCount = countInputFaces([&](uint32_t face) { return (crossed[face] & kCrossedBySame) != 0; });
   }
 
   const Computation& computation_;

@@ -65,10 +65,13 @@ void forEachNear(const Bvh& bvh, const Box3f& box, const Visit& visit) {
 
 }  // namespace
 
-std::vector<uint8_t> findCrossedFaces(const TraceScene& scene, double minDepth, const RunControl& control) {
+std::vector<uint8_t> findCrossedFaces(const TraceScene& scene, std::span<const uint32_t> solidOf, double minDepth,
+                                      const RunControl& control) {
   std::vector<uint8_t> isCrossed(scene.mesh.faceCount());
   const std::span<const uint32_t> faces = scene.bvh.primitiveFaces;
-  const auto mark = [&](uint32_t face) { std::atomic_ref(isCrossed[face]).store(1, std::memory_order_relaxed); };
+  const auto mark = [&](uint32_t face, uint8_t bit) {
+    std::atomic_ref(isCrossed[face]).fetch_or(bit, std::memory_order_relaxed);
+  };
   forEachChunk(faces.size(), ChunkSize(kFirstChunkSize, faces.size()), control, [&](size_t begin, size_t end) {
     forEachRange(end - begin, kGrain, [&](size_t first, size_t last) {
       for (size_t i = begin + first; i < begin + last; ++i) {
@@ -81,8 +84,9 @@ std::vector<uint8_t> findCrossedFaces(const TraceScene& scene, double minDepth, 
           const PlaneTriangle second = triangleOf(scene, other);
           if (sharesPoint(triangle, second)) return;
           if (!crosses(triangle, second, minDepth) && !crosses(second, triangle, minDepth)) return;
-          mark(face);
-          mark(other);
+          const uint8_t bit = solidOf[face] == solidOf[other] ? kCrossedBySame : kCrossedByOther;
+          mark(face, bit);
+          mark(other, bit);
         });
       }
     });

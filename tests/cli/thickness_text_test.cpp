@@ -64,10 +64,10 @@ TEST_CASE("what is not judged is named, also where the verdict is another one") 
   thickness.unjudged = {.openCount = 1200, .invertedCount = 1, .degenerateCount = 2, .crossedCount = 3};
   const auto checkSentences = [&] {
     const std::string text = textOf(result);
-    checkHolds(text, "\n  unjudged  1,200 faces of open components without an opposing wall: no thickness");
+    checkHolds(text, "\n  unjudged  1,200 faces of open components: what closes them may be thin");
     checkHolds(text, "\n            1 face of closed components oriented inwards or inconsistently; --orient auto ");
     checkHolds(text, "\n            2 degenerate faces left out");
-    checkHolds(text, "\n            3 faces crossed by others");
+    checkHolds(text, "\n            3 faces crossed by another part");
   };
   checkSentences();
   thickness.verdict = ThicknessVerdict::Failed;
@@ -145,7 +145,7 @@ TEST_CASE("the document has every value of the thickness") {
   CHECK_EQ(json.at("sharpEdges"), Json::parse(R"([{"angleDegrees": 30, "length": 60, "edgeCount": 2,
       "place": [0, 0, 5], "face": 7}])"));
   CHECK_EQ(json.at("unjudged"), Json::parse(R"({"openCount": 1, "invertedCount": 2, "degenerateCount": 3,
-      "crossedCount": 4})"));
+      "crossedCount": 4, "selfCrossedCount": 0})"));
   thickness = {};
   for (const char* key : {"verdict", "min", "minFace", "minPlace", "minOpposite", "greatestSection", "regions"})
     CHECK_MESSAGE(jsonOf(result).at(key).is_null(), key);

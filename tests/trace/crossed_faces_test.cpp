@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <numeric>
 #include <stop_token>
 #include <vector>
 
@@ -16,7 +17,9 @@ using namespace asdfvk;
 namespace {
 
 std::vector<uint8_t> crossedFaces(const TracedMesh& traced) {
-  return findCrossedFaces(traced.scene(), kMinWallDepth, {});
+  std::vector<uint32_t> solidOf(traced.mesh.faceCount());  // Each face is a solid of its own.
+  std::iota(solidOf.begin(), solidOf.end(), 0u);
+  return findCrossedFaces(traced.scene(), solidOf, kMinWallDepth, {});
 }
 
 std::ptrdiff_t crossedCount(const Mesh& mesh) {
@@ -102,13 +105,28 @@ TEST_CASE("faces that share a point do not cross, whether they share the vertex 
     CHECK(crossedCount(mesh) == 0);
 }
 
+TEST_CASE("crossings within a solid and between solids are told apart") {
+  const Mesh plate = shapes::box({4, 4, 1}), pin = shapes::box({1, 1, 5});
+  const TracedMesh traced(shapes::joined(plate, pin, {0.05, 0.1, 0.03}));
+  std::vector<uint32_t> solidOf(traced.mesh.faceCount());
+  const auto bitsOf = [&] {
+    uint8_t bits = 0;
+    for (const uint8_t each : findCrossedFaces(traced.scene(), solidOf, kMinWallDepth, {})) bits |= each;
+    return bits;
+  };
+  CHECK(bitsOf() == kCrossedBySame);
+  std::fill(solidOf.begin() + static_cast<std::ptrdiff_t>(plate.faces.size()), solidOf.end(), 1u);
+  CHECK(bitsOf() == kCrossedByOther);
+}
+
 TEST_CASE("a stop request ends the search") {
   const TracedMesh traced(shapes::soup(50, 1));
   std::stop_source stop;
   stop.request_stop();
   test::requireFailure(
       [&] {
-        (void)findCrossedFaces(traced.scene(), kMinWallDepth, {stop.get_token(), {}});
+        (void)findCrossedFaces(traced.scene(), std::vector<uint32_t>(traced.mesh.faceCount()), kMinWallDepth,
+                               {stop.get_token(), {}});
       },
       ErrorCode::Cancelled);
 }
