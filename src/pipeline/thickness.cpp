@@ -28,7 +28,11 @@ class Measurement {
         unit_(scene_.bvh.normalization),
         opposing_(makeOpposingWalls(computation.options.thickness.wallAngleDegrees)),
         solids_(findSolids(mesh_, computation.prepared.components)),
-        fans_(mesh_) {}
+        fans_(mesh_) {
+    // Coordinates in float32 do not tell a wall that is thinner by less than a contact.
+    if (const std::optional<double>& limit = computation.options.thickness.thinnerThan)
+      limit_ = std::max(*limit * unit_.scale - kMinWallDepth, kMinWallDepth);
+  }
 
   FaceThickness run(const RunControl& control) {
     const size_t count = mesh_.faceCount();
@@ -79,11 +83,11 @@ class Measurement {
   /// Returns the balls of the faces that have a point below the limit.
   std::vector<FaceBalls> measureFaces(const WallTree& tree, std::span<const GreatestSection> sections,
                                       const RunControl& control) {
-    // Coordinates in float32 do not tell a wall that is thinner by less than a contact.
-    if (const std::optional<double>& limit = computation_.options.thickness.thinnerThan)
-      limit_ = std::max(*limit * unit_.scale - kMinWallDepth, kMinWallDepth);
     const bool isFlipped = computation_.options.orientation == Orientation::Flip;
-    const std::span<const uint32_t> faces = computation_.domain.traceableFaces;
+    std::vector<uint32_t> faces;
+    faces.reserve(computation_.domain.traceableFaces.size());
+    for (const Wall& wall : tree.walls())
+      if (isInDomain(wall.face)) faces.push_back(wall.face);
     std::vector<FaceBalls> thin;
     for (size_t begin = 0; begin < faces.size(); begin += kBlockFaceCount) {
       const size_t end = std::min(faces.size(), begin + kBlockFaceCount);

@@ -16,7 +16,8 @@ struct FaceBalls {
 };
 
 /// Shrinks the balls of faces until no opposing wall is inside, on all cores. Their diameters on entry are upper
-/// bounds. Precondition: no face is degenerate. Throws Error{Cancelled} between chunks.
+/// bounds. Faces that follow each other should be neighbours, as in WallTree::walls(). Precondition: no face is
+/// degenerate. Throws Error{Cancelled} between chunks.
 void shrinkFaceBalls(const WallTree& tree, std::span<FaceBalls> faces, const RunControl& control);
 
 }  // namespace asdfvk

@@ -71,6 +71,7 @@ class WallTree {
 
   [[nodiscard]] const OpposingWalls& opposing() const { return opposing_; }
   [[nodiscard]] std::span<const WallNode> nodes() const { return nodes_; }
+  /// In the order of the hierarchy: walls that follow each other are neighbours in space.
   [[nodiscard]] std::span<const Wall> walls() const { return walls_; }
 
  private:
