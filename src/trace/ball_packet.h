@@ -14,7 +14,7 @@
 
 namespace asdfvk {
 
-/// Added to radii: covers the rounding of distances to boxes in float32 at coordinates up to 8. Likewise the next two,
+/// Cover the rounding in float32: of distances to boxes at coordinates up to 8, of distances to planes and of cosines
 /// at coordinates up to 2.
 inline constexpr float kWallBoxMargin = 0x1p-19F;
 inline constexpr float kWallPlaneMargin = 0x1p-19F, kWallCosineMargin = 0x1p-20F;
@@ -79,8 +79,8 @@ class BallPacket {
       for (const Vec3d& corner : query.triangle.corners) reach = std::max(reach, length(corner - query.point));
       reach_[lane] = static_cast<float>(1 + reach);  // The dot products with the corners round, too.
       isUsed_[lane] = lane < queries.size() ? -1 : 0;
-      least_.limit[lane] = asFloat(query.least.ball.diameter);
-      atPoint_.limit[lane] = asFloat(query.atPoint.ball.diameter);
+      leastLimit_[lane] = asFloat(query.least.ball.diameter);
+      atPointLimit_[lane] = asFloat(query.atPoint.ball.diameter);
     }
     placeBalls();
     first_ = Vec3f(queries.front().point);
@@ -93,7 +93,7 @@ class BallPacket {
     if (!tree_.nodes().empty()) stack[stackSize++] = 0;
     while (stackSize > 0) {
       const WallNode& node = tree_.nodes()[stack[--stackSize]];
-      const Mask isNear = (least_.reaches(node) | atPoint_.reaches(node)) & mayOppose(node) & isUsed_;
+      const Mask isNear = reach(node) & mayOppose(node) & isUsed_;
       if (!anyLane(isNear) || !anyLane(reachDisc(node, isNear))) continue;
       if (node.wallCount > 0) {
         for (uint32_t i = node.first; i < node.first + node.wallCount; ++i) test(tree_.walls()[i]);
@@ -117,26 +117,6 @@ class BallPacket {
   using Mask = IntsOf<Floats>;
   using Lanes = Vec3Lanes<Floats>;
 
-  /// Balls of one kind, whose centres are in boxes.
-  struct Balls {
-    Floats limit, squaredRadius;
-    Lanes low, high;
-
-    ASDFVK_ALWAYS_INLINE Mask reaches(const auto& box) const {
-      return lessEqual(squaredDistance(box.min, box.max, low, high), squaredRadius);
-    }
-    ASDFVK_ALWAYS_INLINE void place(const Lanes& min, const Lanes& max, const Lanes& normal) {
-      const Floats radius = 0.5F * asdfvk::min(limit, broadcast<Floats>(kMaxBoxedDiameter));
-      const auto shifted = [&](const Lanes& v) ASDFVK_ALWAYS_INLINE {
-        return Lanes{v.x - radius * normal.x, v.y - radius * normal.y, v.z - radius * normal.z};
-      };
-      low = shifted(min);
-      high = shifted(max);
-      const Floats reach = radius + kWallBoxMargin;
-      const Mask isBoxed = lessEqual(limit, broadcast<Floats>(kMaxBoxedDiameter));
-      squaredRadius = select(isBoxed, reach * reach) + select(~isBoxed, broadcast<Floats>(kUnlimitedDiameter));
-    }
-  };
   /// The balls at the points through the middle of a wall.
   struct Middle {
     Floats diameter;  ///< At most, in spite of rounding; unlimited where it is unknown.
@@ -151,15 +131,30 @@ class BallPacket {
     float least, atPoint;
   };
 
+  ASDFVK_ALWAYS_INLINE static Floats orUnlimited(const Mask& mask, const Floats& diameter) {
+    return select(mask, diameter) + select(~mask, broadcast<Floats>(kUnlimitedDiameter));
+  }
   static float asFloat(double diameter) { return static_cast<float>(std::min<double>(diameter, kUnlimitedDiameter)); }
   static void setLane(Lanes& lanes, size_t lane, const Vec3d& v) {
     lanes.x[lane] = static_cast<float>(v.x);
     lanes.y[lane] = static_cast<float>(v.y);
     lanes.z[lane] = static_cast<float>(v.z);
   }
+  /// Bounds of both kinds of balls: those of the greater diameter contain the others at each point of the triangle.
   ASDFVK_ALWAYS_INLINE void placeBalls() {
-    least_.place(boxMin_, boxMax_, normal_);
-    atPoint_.place(corners_[3], corners_[3], normal_);
+    const Floats limit = asdfvk::max(leastLimit_, atPointLimit_);
+    const Floats radius = 0.5F * asdfvk::min(limit, broadcast<Floats>(kMaxBoxedDiameter));
+    const auto shifted = [&](const Lanes& v) ASDFVK_ALWAYS_INLINE {
+      return Lanes{v.x - radius * normal_.x, v.y - radius * normal_.y, v.z - radius * normal_.z};
+    };
+    low_ = shifted(boxMin_);
+    high_ = shifted(boxMax_);
+    const Floats reach = radius + kWallBoxMargin;
+    const Mask isBoxed = lessEqual(limit, broadcast<Floats>(kMaxBoxedDiameter));
+    squaredRadius_ = orUnlimited(isBoxed, reach * reach);
+  }
+  ASDFVK_ALWAYS_INLINE Mask reach(const auto& box) const {
+    return lessEqual(squaredDistance(box.min, box.max, low_, high_), squaredRadius_);
   }
   /// Of the ball of the first query through a point; great where the point is behind.
   [[nodiscard]] float diameterAt(const Vec3f& q) const {
@@ -183,11 +178,17 @@ class BallPacket {
   /// Lanes whose balls may reach the disc in which the node is.
   [[nodiscard]] ASDFVK_ALWAYS_INLINE Mask reachDisc(const WallNode& node, const Mask& lanes) const {
     const Middle middle = middleOf(node.middle, lanes);
-    const Floats along = dotLanes(node.axis, middle.slope), square = dot(middle.slope, middle.slope) - along * along;
-    const Floats across = asdfvk::max(square, broadcast<Floats>(kWallBoxMargin));
-    const Floats atPoint = middle.lowest + asdfvk::min(along * node.lowest, along * node.highest) -
-                           node.radius * (across * rsqrt(across)) * (1 + kWallBoxMargin) - middle.doubt * node.reach;
-    return lanes & (lessEqual(leastBound(middle, atPoint), least_.limit) | lessEqual(atPoint, atPoint_.limit));
+    const Floats along = dotLanes(node.axis, middle.slope), square = dot(middle.slope, middle.slope);
+    const Floats across = asdfvk::max(square - along * along, Floats{}) + kWallBoxMargin * (1 + square);
+    // Without the radius; the square root of `across` is compared by its square.
+    const Floats atPoint =
+        middle.lowest + asdfvk::min(along * node.lowest, along * node.highest) - middle.doubt * node.reach;
+    const Floats change = across * (node.radius * node.radius * (1 + kWallBoxMargin));
+    const auto reaches = [&](const Floats& bound, const Floats& limit) ASDFVK_ALWAYS_INLINE {
+      const Floats above = asdfvk::max(bound - limit, Floats{});
+      return lessEqual(above * above, change);
+    };
+    return lanes & (reaches(leastBound(middle, atPoint), leastLimit_) | reaches(atPoint, atPointLimit_));
   }
 
   /// The diameter is a convex function of both points: no less than its tangent at the point and the middle.
@@ -213,14 +214,13 @@ class BallPacket {
     const Floats atPoint = boundOf(offsets[3], offsets[3]);
     const Floats least = boundOf(asdfvk::min(asdfvk::min(offsets[0], offsets[1]), offsets[2]),
                                  asdfvk::max(asdfvk::max(offsets[0], offsets[1]), offsets[2]));
-    Mask isNear = opposing & (lessEqual(least, least_.limit) | lessEqual(atPoint, atPoint_.limit));
+    Mask isNear = opposing & (lessEqual(least, leastLimit_) | lessEqual(atPoint, atPointLimit_));
     if (!anyLane(isNear)) return;
-    isNear &= (lessEqual(least, least_.limit) & least_.reaches(wall)) |
-              (lessEqual(atPoint, atPoint_.limit) & atPoint_.reaches(wall));
+    isNear &= reach(wall);
     if (!anyLane(isNear)) return;
     const Middle middle = middleOf(wall.middle, isNear);
-    if (anyLane(isNear & lessEqual(cosine, cosineLimit(-kWallCosineMargin))))
-      shrinkLimits(wall, middle, isNear & lessEqual(cosine, cosineLimit(-kWallCosineMargin)));
+    const Mask isSure = isNear & lessEqual(cosine, cosineLimit(-kWallCosineMargin));
+    if (anyLane(isSure)) shrinkLimits(wall, middle, isSure);
     const Floats pointBound =
         middle.lowest +
         asdfvk::min(asdfvk::min(dotLanes(wall.spokes[0], middle.slope), dotLanes(wall.spokes[1], middle.slope)),
@@ -228,7 +228,7 @@ class BallPacket {
         middle.doubt * wall.reach;
     const Floats leastAtFace = asdfvk::max(least, leastBound(middle, pointBound));
     const Floats leastAtPoint = asdfvk::max(atPoint, pointBound);
-    isNear &= lessEqual(leastAtFace, least_.limit) | lessEqual(leastAtPoint, atPoint_.limit);
+    isNear &= lessEqual(leastAtFace, leastLimit_) | lessEqual(leastAtPoint, atPointLimit_);
     for (size_t lane = 0; lane < queries_.size(); ++lane)
       if (isNear[lane] != 0) collect(lane, {wall.face, leastAtFace[lane], leastAtPoint[lane]});
   }
@@ -244,7 +244,7 @@ class BallPacket {
     const Floats diameter = dot(v, v) * inverse, rounding = diameter * kWallBoxMargin * (1 + inverse);
     const auto slope = [&](const Floats& along, const Floats& normal)
                            ASDFVK_ALWAYS_INLINE { return select(isDeep, (2 * along + diameter * normal) * inverse); };
-    return {select(isDeep, diameter + rounding) + select(~isDeep, broadcast<Floats>(kUnlimitedDiameter)),
+    return {orUnlimited(isDeep, diameter + rounding),
             select(isDeep, diameter - rounding),
             {slope(v.x, normal_.x), slope(v.y, normal_.y), slope(v.z, normal_.z)},
             select(isDeep, (kWallPlaneMargin + 2 * rounding) * inverse)};
@@ -252,19 +252,19 @@ class BallPacket {
 
   /// By the balls through the middle of a wall.
   ASDFVK_ALWAYS_INLINE void shrinkLimits(const Wall& wall, const Middle& middle, const Mask& lanes) {
-    const Floats diameter = select(lanes, middle.diameter) + select(~lanes, broadcast<Floats>(kUnlimitedDiameter));
-    const Floats atPoint = asdfvk::min(atPoint_.limit, diameter);
-    Floats least = asdfvk::min(least_.limit, diameter);
+    const Floats diameter = orUnlimited(lanes, middle.diameter);
+    const Floats atPoint = asdfvk::min(atPointLimit_, diameter);
+    Floats least = asdfvk::min(leastLimit_, diameter);
     for (size_t k = 0; k < 3; ++k) {
       const Lanes v{wall.middle.x - corners_[k].x, wall.middle.y - corners_[k].y, wall.middle.z - corners_[k].z};
       const Floats depth = -dot(v, normal_);
       const Mask isDeep = lanes & lessEqual(broadcast<Floats>(kMinLimitDepth), depth);
       const Floats atCorner = dot(v, v) / depth * (1 + kWallBoxMargin + kWallBoxMargin / depth);
-      least = asdfvk::min(least, select(isDeep, atCorner) + select(~isDeep, broadcast<Floats>(kUnlimitedDiameter)));
+      least = asdfvk::min(least, orUnlimited(isDeep, atCorner));
     }
-    if (!anyLane(notEqual(least, least_.limit) | notEqual(atPoint, atPoint_.limit))) return;
-    least_.limit = least;
-    atPoint_.limit = atPoint;
+    if (!anyLane(notEqual(least, leastLimit_) | notEqual(atPoint, atPointLimit_))) return;
+    leastLimit_ = least;
+    atPointLimit_ = atPoint;
     placeBalls();
   }
 
@@ -272,14 +272,14 @@ class BallPacket {
     size_t& count = counts_[lane];
     if (count == kMaxCandidateCount) {
       const auto isNear = [&](const Candidate& other) {
-        return other.least <= least_.limit[lane] || other.atPoint <= atPoint_.limit[lane];
+        return other.least <= leastLimit_[lane] || other.atPoint <= atPointLimit_[lane];
       };
       const auto end = std::partition(candidates_[lane].begin(), candidates_[lane].end(), isNear);
       count = static_cast<size_t>(end - candidates_[lane].begin());
       if (count > kMaxCandidateCount / 2) {
         measure(lane);
-        least_.limit[lane] = std::min<float>(least_.limit[lane], withMargin(queries_[lane].least.ball.diameter));
-        atPoint_.limit[lane] = std::min<float>(atPoint_.limit[lane], withMargin(queries_[lane].atPoint.ball.diameter));
+        leastLimit_[lane] = std::min<float>(leastLimit_[lane], withMargin(queries_[lane].least.ball.diameter));
+        atPointLimit_[lane] = std::min<float>(atPointLimit_[lane], withMargin(queries_[lane].atPoint.ball.diameter));
       }
     }
     candidates_[lane][count++] = candidate;
@@ -302,10 +302,10 @@ class BallPacket {
         if (ball.diameter < best.ball.diameter || face < best.wall) best = {ball, face};
       }
     };
-    measureBy(&Candidate::atPoint, atPoint_.limit[lane], query.atPoint, [&](const PlaneTriangle& wall, double limit) {
+    measureBy(&Candidate::atPoint, atPointLimit_[lane], query.atPoint, [&](const PlaneTriangle& wall, double limit) {
       return leastTouchingBall(query.point, query.triangle.normal, wall, kMinWallDepth, limit);
     });
-    const double leastLimit = std::min<double>(least_.limit[lane], query.atPoint.ball.diameter);
+    const double leastLimit = std::min<double>(leastLimit_[lane], query.atPoint.ball.diameter);
     measureBy(&Candidate::least, leastLimit, query.least, [&](const PlaneTriangle& wall, double limit) {
       return leastTouchingBall(query.triangle, wall, kMinWallDepth, limit);
     });
@@ -317,8 +317,10 @@ class BallPacket {
   std::span<BallQuery> queries_;
   Vec3f first_, axis_;  ///< Of the first query, whose ball decides which nodes are visited first.
   Lanes normal_, boxMin_, boxMax_;
-  std::array<Lanes, 4> corners_;  ///< Of the triangle, and the point.
-  Balls least_, atPoint_;
+  std::array<Lanes, 4> corners_;      ///< Of the triangle, and the point.
+  Floats leastLimit_, atPointLimit_;  ///< Of the diameters.
+  Lanes low_, high_;                  ///< Box of the centres of the greater balls.
+  Floats squaredRadius_;
   Floats reach_;  ///< 1 + the length from the point to the corners.
   Mask isUsed_;
   std::array<std::array<Candidate, kMaxCandidateCount>, kSize> candidates_;
