@@ -4,20 +4,20 @@
 #include <array>
 #include <atomic>
 
+#include "bvh/leaf_faces.h"
 #include "core/box3.h"
 #include "core/parallel.h"
 #include "trace/chunks.h"
-#include "trace/wall_tree.h"
 
 namespace asdfvk {
 namespace {
 
 constexpr size_t kFirstChunkSize = 16384, kGrain = 256;
 
-bool sharesPoint(const PlaneTriangle& a, const PlaneTriangle& b) {
-  for (const Vec3d& corner : a.corners)
-    if (std::find(b.corners.begin(), b.corners.end(), corner) != b.corners.end()) return true;
-  return false;
+bool shareEdge(const PlaneTriangle& a, const PlaneTriangle& b) {
+  return std::count_if(a.corners.begin(), a.corners.end(), [&](const Vec3d& corner) {
+           return std::find(b.corners.begin(), b.corners.end(), corner) != b.corners.end();
+         }) > 1;
 }
 
 /// Whether an edge of the first triangle passes through the second one.
@@ -45,32 +45,14 @@ bool overlaps(const BvhNode& node, const Box3f& box) {
   return true;
 }
 
-/// Calls visit(face) for the faces in leaves whose boxes overlap the box.
-template <typename Visit>
-void forEachNear(const Bvh& bvh, const Box3f& box, const Visit& visit) {
-  std::array<uint32_t, kMaxBvhDepth + 2> stack;
-  size_t stackSize = 0;
-  if (!bvh.nodes.empty()) stack[stackSize++] = 0;
-  while (stackSize > 0) {
-    const BvhNode& node = bvh.nodes[stack[--stackSize]];
-    if (!overlaps(node, box)) continue;
-    if (!node.isLeaf()) {
-      stack[stackSize++] = node.first;
-      stack[stackSize++] = node.first + 1;
-      continue;
-    }
-    for (uint32_t i = node.first; i < node.first + node.triangleCount; ++i) visit(bvh.primitiveFaces[i]);
-  }
-}
-
 }  // namespace
 
 std::vector<uint8_t> findCrossedFaces(const TraceScene& scene, std::span<const uint32_t> solidOf, double minDepth,
                                       const RunControl& control) {
-  std::vector<uint8_t> isCrossed(scene.mesh.faceCount());
+  std::vector<uint8_t> crossed(scene.mesh.faceCount());
   const std::span<const uint32_t> faces = scene.bvh.primitiveFaces;
   const auto mark = [&](uint32_t face, uint8_t bit) {
-    std::atomic_ref(isCrossed[face]).fetch_or(bit, std::memory_order_relaxed);
+    std::atomic_ref(crossed[face]).fetch_or(bit, std::memory_order_relaxed);
   };
   forEachChunk(faces.size(), ChunkSize(kFirstChunkSize, faces.size()), control, [&](size_t begin, size_t end) {
     forEachRange(end - begin, kGrain, [&](size_t first, size_t last) {
@@ -79,19 +61,21 @@ std::vector<uint8_t> findCrossedFaces(const TraceScene& scene, std::span<const u
         const PlaneTriangle triangle = triangleOf(scene, face);
         Box3f box;
         for (const Vec3d& corner : triangle.corners) box.add(Vec3f(corner));
-        forEachNear(scene.bvh, box, [&](uint32_t other) {
-          if (other <= face) return;
+        const auto reaches = [&](const BvhNode& node) { return overlaps(node, box); };
+        forEachLeafFace(scene.bvh, reaches, [&](uint32_t other) {
+          if (other <= face) return true;
           const PlaneTriangle second = triangleOf(scene, other);
-          if (sharesPoint(triangle, second)) return;
-          if (!crosses(triangle, second, minDepth) && !crosses(second, triangle, minDepth)) return;
+          if (shareEdge(triangle, second)) return true;
+          if (!crosses(triangle, second, minDepth) && !crosses(second, triangle, minDepth)) return true;
           const uint8_t bit = solidOf[face] == solidOf[other] ? kCrossedBySame : kCrossedByOther;
           mark(face, bit);
           mark(other, bit);
+          return true;
         });
       }
     });
   });
-  return isCrossed;
+  return crossed;
 }
 
 }  // namespace asdfvk

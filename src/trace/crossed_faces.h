@@ -13,9 +13,9 @@ namespace asdfvk {
 inline constexpr uint8_t kCrossedByOther = 1, kCrossedBySame = 2;
 
 /// #F, kCrossedByOther where an edge of a face of another solid crosses the face, or one of its edges crosses such a
-/// face; kCrossedBySame likewise for faces of the same solid. solidOf: #F. Faces that share a
-/// point do not cross, nor do faces that touch: the ends of the edge are farther than minDepth, normalised, from the
-/// plane on both sides. Throws Error{Cancelled}.
+/// face; kCrossedBySame likewise for faces of the same solid. solidOf: #F. An edge that crosses ends on both sides of
+/// the plane, more than minDepth (normalised) from it: faces that touch do not cross, nor do those that share an edge.
+/// Throws Error{Cancelled}.
 [[nodiscard]] std::vector<uint8_t> findCrossedFaces(const TraceScene& scene, std::span<const uint32_t> solidOf,
                                                     double minDepth, const RunControl& control);
 

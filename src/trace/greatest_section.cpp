@@ -6,6 +6,7 @@
 #include <limits>
 #include <queue>
 
+#include "bvh/leaf_faces.h"
 #include "core/box3.h"
 #include "mesh/coincident_faces.h"
 #include "trace/nearest_hit.h"
@@ -34,7 +35,7 @@ class SolidSurface {
     return kNoFace;
   }
   [[nodiscard]] const Vec3d& normal(uint32_t face) const { return scene_.geometry.normals[face]; }
-  [[nodiscard]] TriangleCorners cornersOf(uint32_t face) const { return asdfvk::cornersOf(scene_, face); }
+  [[nodiscard]] PlaneTriangle triangle(uint32_t face) const { return triangleOf(scene_, face); }
 
   /// Any point less than `enough` away where there is one.
   [[nodiscard]] SurfacePoint nearest(const Vec3d& p, double enough = 0) const {
@@ -45,14 +46,16 @@ class SolidSurface {
   /// closed, it then covers the disc.
   [[nodiscard]] bool isFlatAround(const Vec3d& point, double radius, uint32_t face) const {
     const Vec3d& plane = normal(face);
-    const double offset = dot(plane, cornersOf(face).a);
+    const double offset = dot(plane, triangle(face).corners[0]);
     bool isFlat = true, isFound = false;
-    forEachNear(point, radius, [&](uint32_t other) {
-      const TriangleCorners corners = cornersOf(other);
-      if (length(point - corners.nearest(point, normal(other))) > radius) return true;
+    const auto reaches = [&](const BvhNode& node) { return squaredDistanceToBox(node, point) <= radius * radius; };
+    forEachLeafFace(scene_.bvh, reaches, [&](uint32_t primitiveFace) {
+      const uint32_t other = copyOf(primitiveFace);
+      if (other == kNoFace) return true;
+      const PlaneTriangle near = triangle(other);
+      if (length(point - nearestPoint(near, point)) > radius) return true;
       isFound = true;
-      for (const Vec3d& corner : {corners.a, corners.b, corners.c})
-        isFlat = isFlat && std::abs(dot(plane, corner) - offset) <= kFlat;
+      for (const Vec3d& corner : near.corners) isFlat = isFlat && std::abs(dot(plane, corner) - offset) <= kFlat;
       return isFlat;
     });
     return isFlat && isFound;
@@ -67,27 +70,6 @@ class SolidSurface {
   }
 
  private:
-  /// Calls visit(face) for the faces of the solid whose boxes are within a distance, until it returns false.
-  template <typename Visit>
-  void forEachNear(const Vec3d& p, double radius, const Visit& visit) const {
-    std::array<uint32_t, kMaxBvhDepth + 1> stack;
-    size_t stackSize = 0;
-    if (!scene_.bvh.nodes.empty()) stack[stackSize++] = 0;
-    while (stackSize > 0) {
-      const BvhNode& node = scene_.bvh.nodes[stack[--stackSize]];
-      if (squaredDistanceToBox(node, p) > radius * radius) continue;
-      if (!node.isLeaf()) {
-        stack[stackSize++] = node.first;
-        stack[stackSize++] = node.first + 1;
-        continue;
-      }
-      for (uint32_t i = node.first; i < node.first + node.triangleCount; ++i) {
-        const uint32_t face = copyOf(scene_.bvh.primitiveFaces[i]);
-        if (face != kNoFace && !visit(face)) return;
-      }
-    }
-  }
-
   const TraceScene& scene_;
   const FaceCopies& copies_;
   std::span<const uint32_t> solidOf_;
@@ -162,8 +144,8 @@ class Search {
     const double byPoints = std::sqrt(half * half + reach * reach);
     // By the planes of both walls, where these reach as far as the balls.
     const Vec3d &n = surface_.normal(foot.face), &m = surface_.normal(hit.face);
-    const double depth = -dot(centre - surface_.cornersOf(foot.face).a, n);
-    const double other = -dot(centre - surface_.cornersOf(hit.face).a, m);
+    const double depth = -dot(centre - surface_.triangle(foot.face).corners[0], n);
+    const double other = -dot(centre - surface_.triangle(hit.face).corners[0], m);
     const double byPlanes = 0.5 * (depth + other) + 0.5 * reach * length(n + m);
     if (byPlanes >= byPoints || !surface_.isFlatAround(centre + depth * n, reach, foot.face) ||
         !surface_.isFlatAround(centre + other * m, reach, hit.face))

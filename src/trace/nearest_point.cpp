@@ -16,10 +16,10 @@ Vec3d nearestOnSegment(const Vec3d& a, const Vec3d& b, const Vec3d& p) {
 }
 
 void offer(const TraceScene& scene, uint32_t face, const Vec3d& p, SurfacePoint& best) {
-  const TriangleCorners corners = cornersOf(scene, face);
-  const Vec3d& normal = scene.geometry.normals[face];
-  if (std::abs(dot(p - corners.a, normal)) > best.distance + kEqualDistance) return;
-  const Vec3d point = corners.nearest(p, normal), way = p - point;
+  const PlaneTriangle triangle = triangleOf(scene, face);
+  const Vec3d& normal = triangle.normal;
+  if (std::abs(dot(p - triangle.corners[0], normal)) > best.distance + kEqualDistance) return;
+  const Vec3d point = nearestPoint(triangle, p), way = p - point;
   const double distance = length(way);
   if (distance > best.distance + kEqualDistance) return;
   const double side = distance > 0 ? dot(way, normal) / distance : 0;
@@ -29,7 +29,9 @@ void offer(const TraceScene& scene, uint32_t face, const Vec3d& p, SurfacePoint&
 
 }  // namespace
 
-Vec3d TriangleCorners::nearest(const Vec3d& p, const Vec3d& normal) const {
+Vec3d nearestPoint(const PlaneTriangle& triangle, const Vec3d& p) {
+  const auto& [a, b, c] = triangle.corners;
+  const Vec3d& normal = triangle.normal;
   const auto isInside = [&](const Vec3d& from, const Vec3d& to) {
     return dot(cross(to - from, p - from), normal) >= 0;
   };
@@ -38,12 +40,6 @@ Vec3d TriangleCorners::nearest(const Vec3d& p, const Vec3d& normal) const {
   for (const Vec3d& candidate : {nearestOnSegment(b, c, p), nearestOnSegment(c, a, p)})
     if (length(p - candidate) < length(p - best)) best = candidate;
   return best;
-}
-
-TriangleCorners cornersOf(const TraceScene& scene, uint32_t face) {
-  const auto& [i, j, k] = scene.mesh.faces[face];
-  const auto at = [&](uint32_t vertex) { return scene.bvh.normalization.toNormalized(scene.mesh.vertices[vertex]); };
-  return {at(i), at(j), at(k)};
 }
 
 double squaredDistanceToBox(const BvhNode& box, const Vec3d& p) {

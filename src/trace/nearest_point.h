@@ -17,13 +17,7 @@ struct SurfacePoint {
   double side = 0;  ///< Cosine between the normal and the way from the surface; above 0 outside.
 };
 
-struct TriangleCorners {
-  Vec3d a, b, c;
-  /// The nearest point of the triangle. normal: its unit normal.
-  [[nodiscard]] Vec3d nearest(const Vec3d& p, const Vec3d& normal) const;
-};
-
-[[nodiscard]] TriangleCorners cornersOf(const TraceScene& scene, uint32_t face);
+[[nodiscard]] Vec3d nearestPoint(const PlaneTriangle& triangle, const Vec3d& p);
 
 /// Between a point and the box of a node; 0 inside.
 [[nodiscard]] double squaredDistanceToBox(const BvhNode& box, const Vec3d& p);

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "bvh/bvh.h"
+#include "cone/touching_ball.h"
 #include "mesh/face_geometry.h"
 #include "mesh/mesh.h"
 
@@ -21,5 +22,12 @@ struct TraceScene {
     return bvh.normalization.toNormalized(geometry.barycentres[face]);
   }
 };
+
+/// A face in normalised coordinates.
+[[nodiscard]] inline PlaneTriangle triangleOf(const TraceScene& scene, uint32_t face) {
+  const Face& corners = scene.mesh.faces[face];
+  const auto corner = [&](size_t k) { return scene.bvh.normalization.toNormalized(scene.mesh.vertices[corners[k]]); };
+  return {{corner(0), corner(1), corner(2)}, scene.geometry.normals[face]};
+}
 
 }  // namespace asdfvk

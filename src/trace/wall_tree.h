@@ -30,9 +30,6 @@ struct BallQuery {
 /// In normalised units: what is nearer to the plane of a face is contact, or rounding of coordinates in float32.
 inline constexpr double kMinWallDepth = 0x1p-21;
 
-/// A face in normalised coordinates.
-[[nodiscard]] PlaneTriangle triangleOf(const TraceScene& scene, uint32_t face);
-
 /// A face, coincident copies included: those of touching parts have opposite normals.
 struct Wall {
   Vec3f normal;

@@ -23,8 +23,8 @@ std::vector<uint8_t> crossedFaces(const TracedMesh& traced) {
 }
 
 std::ptrdiff_t crossedCount(const Mesh& mesh) {
-  const std::vector<uint8_t> isCrossed = crossedFaces(TracedMesh(mesh));
-  return std::count(isCrossed.begin(), isCrossed.end(), 1);
+  const std::vector<uint8_t> crossed = crossedFaces(TracedMesh(mesh));
+  return std::count(crossed.begin(), crossed.end(), 1);
 }
 
 /// Whether the segment passes through the triangle, by the signs of volumes.
@@ -68,11 +68,11 @@ TEST_CASE("a pin through a plate: both sides of the plate and all sides of the p
   const Mesh plate = shapes::box({4, 4, 1}), pin = shapes::box({1, 1, 5});
   const Mesh mesh = shapes::joined(plate, pin, {0.05, 0.1, 0.03});
   const TracedMesh traced(mesh);
-  const std::vector<uint8_t> isCrossed = crossedFaces(traced);
-  for (uint32_t face = 0; face < isCrossed.size(); ++face) {
+  const std::vector<uint8_t> crossed = crossedFaces(traced);
+  for (uint32_t face = 0; face < crossed.size(); ++face) {
     CAPTURE(face);
     const bool isHorizontal = std::abs(traced.geometry.normals[face].z) > 0.5, isOfPlate = face < plate.faces.size();
-    CHECK(isCrossed[face] == (isHorizontal == isOfPlate ? 1 : 0));
+    CHECK(crossed[face] == (isHorizontal == isOfPlate ? 1 : 0));
   }
   const Mesh apart = shapes::joined(plate, pin, {4, 0, 0});
   CHECK(crossedCount(apart) == 0);
@@ -90,17 +90,21 @@ TEST_CASE("parts that touch, and parts that sink into each other by less than a 
   CHECK(crossedCount(shapes::joined(table, cube, {0.3, 0.2, 1 - 1e-4})) > 0);
 }
 
-TEST_CASE("faces that share a point do not cross, whether they share the vertex or its position") {
+TEST_CASE("faces that share a point may cross, faces that share an edge do not, by vertices or by positions") {
   // The second face passes through the first one, on both sides of the common tip.
   const std::vector<Vec3d> vertices{{0, 0, 0}, {2, -1, 0}, {2, 1, 0}, {1, 0, 1}, {1, 0, -1}};
   const Mesh shared{vertices, {{0, 1, 2}, {0, 3, 4}}, {}};
-  CHECK(crossedCount(shared) == 0);
+  CHECK(crossedCount(shared) == 2);
   Mesh apart = shared;
   apart.vertices.push_back({0, 0, 0});
   apart.faces[1][0] = 5;
-  CHECK(crossedCount(apart) == 0);
-  apart.vertices[5].x = 0.1;
   CHECK(crossedCount(apart) == 2);
+  const Mesh folded{vertices, {{0, 1, 2}, {0, 1, 3}, {1, 0, 4}}, {}};
+  CHECK(crossedCount(folded) == 0);
+  Mesh foldedApart = folded;
+  foldedApart.vertices.push_back({0, 0, 0});
+  foldedApart.faces[1][0] = 5;
+  CHECK(crossedCount(foldedApart) == 0);
   for (const Mesh& mesh : {shapes::cube(), shapes::sphere(3), shapes::fan(50, true), shapes::book(9), shapes::grid(4)})
     CHECK(crossedCount(mesh) == 0);
 }

@@ -35,8 +35,7 @@ double distanceFrom(const std::array<Vec3d, 3>& corners, const Vec3d& p) {
 }
 
 double distanceFrom(const TracedMesh& traced, uint32_t face, const Vec3d& p) {
-  const TriangleCorners corners = cornersOf(traced.scene(), face);
-  return distanceFrom({corners.a, corners.b, corners.c}, p);
+  return distanceFrom(triangleOf(traced.scene(), face).corners, p);
 }
 
 class RandomPoints {

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "bvh/bvh.h"
+
+namespace asdfvk {
+
+/// Calls visit(primitive face) for the faces in the leaves for which, as for all nodes above, reaches(node) is true;
+/// until it returns false.
+template <typename Reaches, typename Visit>
+void forEachLeafFace(const Bvh& bvh, const Reaches& reaches, const Visit& visit) {
+  std::array<uint32_t, kMaxBvhDepth + 1> stack;
+  size_t stackSize = 0;
+  if (!bvh.nodes.empty()) stack[stackSize++] = 0;
+  while (stackSize > 0) {
+    const BvhNode& node = bvh.nodes[stack[--stackSize]];
+    if (!reaches(node)) continue;
+    if (!node.isLeaf()) {
+      stack[stackSize++] = node.first;
+      stack[stackSize++] = node.first + 1;
+      continue;
+    }
+    for (uint32_t i = node.first; i < node.first + node.triangleCount; ++i)
+      if (!visit(bvh.primitiveFaces[i])) return;
+  }
+}
+
+}  // namespace asdfvk
