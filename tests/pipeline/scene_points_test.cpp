@@ -17,39 +17,21 @@
 #include "support/require_failure.h"
 #include "support/shapes.h"
 #include "support/shared_session.h"
+#include "support/surface_points.h"
 
 using namespace asdfvk;
 using test::allSessions;
+using test::barycentresOf;
 using test::referenceSession;
 using test::requireFailure;
+using test::SurfacePoints;
 
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Points with normals, as arrays of a caller.
-struct Points {
-  std::vector<double> points, normals;
-
-  void add(const Vec3d& point, const Vec3d& normal) {
-    points.insert(points.end(), {point.x, point.y, point.z});
-    normals.insert(normals.end(), {normal.x, normal.y, normal.z});
-  }
-  [[nodiscard]] Vec3d point(size_t i) const { return {points[3 * i], points[3 * i + 1], points[3 * i + 2]}; }
-  [[nodiscard]] Vec3d normal(size_t i) const { return {normals[3 * i], normals[3 * i + 1], normals[3 * i + 2]}; }
-  [[nodiscard]] size_t size() const { return points.size() / 3; }
-  [[nodiscard]] std::vector<double> values(Scene& scene, const ConeOptions& cone = {}) const {
-    return scene.valuesAt(points, normals, cone);
-  }
-};
-
-Points barycentresOf(const Mesh& mesh) {
-  Points result;
-  for (const auto [a, b, c] : mesh.faces) {
-    const Vec3d &p = mesh.vertices[a], &q = mesh.vertices[b], &r = mesh.vertices[c];
-    result.add((p + q + r) / 3.0, cross(q - p, r - p));
-  }
-  return result;
+std::vector<double> valuesAt(Scene& scene, const SurfacePoints& points, const ConeOptions& cone = {}) {
+  return scene.valuesAt(points.points, points.normals, cone);
 }
 
 Vec3d unit(const Vec3d& v) { return v / length(v); }
@@ -100,7 +82,7 @@ TEST_CASE("points of a box have the value of the distances to its sides, with an
   const Mesh mesh = shapes::box(size, 3);
   Random random(1);
   const auto within = [&](double limit) { return limit * (2 * random.real() - 1); };
-  Points points;
+  SurfacePoints points;
   for (int i = 0; i < 200; ++i) {  // On the sides, with normals up to 25 degrees from theirs.
     Vec3d p{within(0.48 * size.x), within(0.48 * size.y), within(0.48 * size.z)}, n;
     const size_t axis = random.index(3);
@@ -122,7 +104,8 @@ TEST_CASE("points of a box have the value of the distances to its sides, with an
       CAPTURE(session->backend());
       Scene scene(*session, mesh);
       // Rounding may change which rays are outliers, and which hits are false.
-      CHECK(differingCount(points.values(scene, options), expected, 1e-5) <= (session == &referenceSession() ? 0 : 3));
+      CHECK(differingCount(valuesAt(scene, points, options), expected, 1e-5) <=
+            (session == &referenceSession() ? 0 : 3));
     }
   }
 }
@@ -131,12 +114,12 @@ TEST_CASE("on a slab the value is the published one of the thickness below the o
   constexpr double kUnitSlabValue = 1.2531787496312747;  // tests/trace/analytic_test.cpp.
   const Vec3d size{9, 9, 1};
   const Mesh mesh = shapes::box(size, 2);
-  Points points;
+  SurfacePoints points;
   for (const double x : {-0.5, 0.0, 0.3})
     for (const double side : {-1.0, 1.0}) points.add({x, 0.1, 0.5 * side}, {0, 0, side});
   for (Session* session : allSessions()) {
     Scene scene(*session, mesh);
-    for (const double value : points.values(scene))
+    for (const double value : valuesAt(scene, points))
       CHECK(value == doctest::Approx((1 - kPointOffset * length(size)) * kUnitSlabValue).epsilon(1e-6));
   }
 }
@@ -145,7 +128,7 @@ TEST_CASE("on a sphere the values of points approach the exact one") {
   constexpr ConeOptions kNarrowCone = {30, 80};
   constexpr double kUnitSphereInNarrowCone = 1.781859515259041;  // tests/trace/analytic_test.cpp.
   const Mesh mesh = shapes::icosphere(5, 3);
-  Points points;
+  SurfacePoints points;
   for (size_t f = 0; f < mesh.faces.size(); f += 97) {  // Off the barycentres; radial normals.
     const auto [a, b, c] = mesh.faces[f];
     const Vec3d p = 0.6 * mesh.vertices[a] + 0.3 * mesh.vertices[b] + 0.1 * mesh.vertices[c];
@@ -155,7 +138,7 @@ TEST_CASE("on a sphere the values of points approach the exact one") {
   for (Session* session : allSessions()) {
     CAPTURE(session->backend());
     Scene scene(*session, mesh);
-    for (const double value : points.values(scene, kNarrowCone))
+    for (const double value : valuesAt(scene, points, kNarrowCone))
       CHECK(value / 3 == doctest::Approx(kUnitSphereInNarrowCone).epsilon(0.01));
   }
 }
@@ -163,7 +146,7 @@ TEST_CASE("on a sphere the values of points approach the exact one") {
 TEST_CASE("at barycentres with face normals the values are those of the faces") {
   for (const Mesh& mesh : {makeTorus(3000).mesh, shapes::jittered(shapes::box({1, 2, 3}, 6), 0.02, 3),
                            shapes::shell(1, 0.8), shapes::openBox({1, 1, 2}, 5)}) {
-    const Points points = barycentresOf(mesh);
+    const SurfacePoints points = barycentresOf(mesh);
     const double diagonal = computeFaceGeometry(mesh).bounds.diagonal();
     for (Session* session : allSessions()) {
       Scene scene(*session, mesh);
@@ -175,7 +158,7 @@ TEST_CASE("at barycentres with face normals the values are those of the faces") 
         CAPTURE(static_cast<int>(cone.definition));
         CAPTURE(mesh.faces.size());
         // A ray that passes close to an edge may hit its other side; that changes few values.
-        CHECK(differingCount(points.values(scene, cone), ofFaces, 1e-4 * diagonal) <= mesh.faces.size() / 100);
+        CHECK(differingCount(valuesAt(scene, points, cone), ofFaces, 1e-4 * diagonal) <= mesh.faces.size() / 100);
       }
     }
   }
@@ -183,11 +166,11 @@ TEST_CASE("at barycentres with face normals the values are those of the faces") 
 
 TEST_CASE("values of points do not depend on the unit and the place of the mesh, nor on the length of the normals") {
   const Mesh mesh = makeTorus(800).mesh;
-  const Points points = barycentresOf(mesh);
+  const SurfacePoints points = barycentresOf(mesh);
   for (Session* session : allSessions()) {
     CAPTURE(session->backend());
     Scene scene(*session, mesh);
-    const std::vector<double> values = points.values(scene);
+    const std::vector<double> values = valuesAt(scene, points);
     struct Place {
       double scale, shift, normalLength;
     };
@@ -196,11 +179,11 @@ TEST_CASE("values of points do not depend on the unit and the place of the mesh,
       const double scale = size;
       CAPTURE(scale);
       const Mesh moved = shapes::scaledAndShifted(mesh, scale, {shift, -shift, shift});
-      Points movedPoints;
+      SurfacePoints movedPoints;
       for (size_t i = 0; i < points.size(); ++i)
         movedPoints.add(scale * points.point(i) + Vec3d{shift, -shift, shift}, normalLength * unit(points.normal(i)));
       Scene movedScene(*session, moved);
-      std::vector<double> relative = movedPoints.values(movedScene);
+      std::vector<double> relative = valuesAt(movedScene, movedPoints);
       for (double& value : relative) value /= scale;
       CHECK(differingCount(relative, values, 1e-5) <= 4);
     }
@@ -212,7 +195,7 @@ TEST_CASE("a small part of a large scene is resolved") {
   const double radius = 1e-4;
   const Mesh small = shapes::scaledAndShifted(shapes::icosphere(3), radius);
   const Mesh mesh = shapes::joined(small, shapes::icosphere(3), {2, 0, 0});
-  Points points;
+  SurfacePoints points;
   for (size_t f = 0; f < small.faces.size(); f += 7) {
     const auto [a, b, c] = small.faces[f];
     const Vec3d p = (small.vertices[a] + small.vertices[b] + small.vertices[c]) / 3.0;
@@ -221,7 +204,7 @@ TEST_CASE("a small part of a large scene is resolved") {
   for (Session* session : allSessions()) {
     CAPTURE(session->backend());
     Scene scene(*session, mesh);
-    for (const double value : points.values(scene, {30, 40}))
+    for (const double value : valuesAt(scene, points, {30, 40}))
       CHECK(value == doctest::Approx(1.9 * radius).epsilon(0.3));  // The offset is 0.35 of the radius.
   }
 }
@@ -270,37 +253,37 @@ TEST_CASE("a mesh that rays cannot hit gives no value at points") {
 
 TEST_CASE("a point has the same value alone, among others, and in another order") {
   const Mesh mesh = makeTorus(800).mesh;
-  const Points points = barycentresOf(mesh);
+  const SurfacePoints points = barycentresOf(mesh);
   ConeOptions hashed;
   hashed.rotation = ConeRotation::Hashed;
   for (Session* session : allSessions()) {
     CAPTURE(session->backend());
     Scene scene(*session, mesh);
     for (const ConeOptions& cone : {ConeOptions{}, hashed}) {
-      const std::vector<double> together = points.values(scene, cone);
-      Points reversed;
+      const std::vector<double> together = valuesAt(scene, points, cone);
+      SurfacePoints reversed;
       for (size_t i = points.size(); i-- > 0;) reversed.add(points.point(i), points.normal(i));
-      std::vector<double> values = reversed.values(scene, cone);
+      std::vector<double> values = valuesAt(scene, reversed, cone);
       std::reverse(values.begin(), values.end());
       CHECK(test::haveSameBits(values, together));
-      Points one;
+      SurfacePoints one;
       one.add(points.point(5), points.normal(5));
-      CHECK(one.values(scene, cone).front() == together[5]);
+      CHECK(valuesAt(scene, one, cone).front() == together[5]);
     }
   }
   Scene scene(referenceSession(), mesh);
-  CHECK(Points{}.values(scene).empty());
+  CHECK(valuesAt(scene, SurfacePoints{}).empty());
 }
 
 TEST_CASE("points between computations change no bit of them") {
   const Mesh mesh = makeTorus(1000).mesh;
-  const Points points = barycentresOf(mesh);
+  const SurfacePoints points = barycentresOf(mesh);
   for (Session* session : allSessions()) {
     Scene scene(*session, mesh);
-    const std::vector<double> before = points.values(scene);
+    const std::vector<double> before = valuesAt(scene, points);
     const std::vector<double> computed = scene.compute().sdf();
     CHECK(computed == session->compute(mesh).sdf());
-    CHECK(test::haveSameBits(points.values(scene), before));  // By a tracer that also writes hits.
+    CHECK(test::haveSameBits(valuesAt(scene, points), before));  // By a tracer that also writes hits.
   }
 }
 

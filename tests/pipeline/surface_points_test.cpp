@@ -17,35 +17,19 @@
 #include "support/require_failure.h"
 #include "support/shapes.h"
 #include "support/shared_session.h"
+#include "support/surface_points.h"
 
 // Thickness and faces at points, through Scene.
 
 using namespace asdfvk;
+using test::barycentresOf;
 using test::referenceSession;
 using test::requireFailure;
+using test::SurfacePoints;
 
 namespace {
 
 constexpr double kUnboundedThickness = std::numeric_limits<double>::infinity();
-
-struct SurfacePoints {
-  std::vector<double> points, normals;
-
-  void add(const Vec3d& point, const Vec3d& normal) {
-    points.insert(points.end(), {point.x, point.y, point.z});
-    normals.insert(normals.end(), {normal.x, normal.y, normal.z});
-  }
-};
-
-/// The barycentres, with normals of other lengths than 1.
-SurfacePoints surfaceBarycentresOf(const Mesh& mesh) {
-  SurfacePoints result;
-  for (const auto [a, b, c] : mesh.faces) {
-    const Vec3d &p = mesh.vertices[a], &q = mesh.vertices[b], &r = mesh.vertices[c];
-    result.add((p + q + r) / 3.0, cross(q - p, r - p));
-  }
-  return result;
-}
 
 Options thicknessOptions(double wallAngle = 120) {
   Options options;
@@ -88,7 +72,7 @@ TEST_CASE("at barycentres the thickness of points is that of the faces") {
       Scene scene(referenceSession(), mesh);
       const Options options = thicknessOptions(wallAngle);
       const std::vector<double> expected = fieldOf(scene.compute(options));
-      const SurfacePoints points = surfaceBarycentresOf(mesh);
+      const SurfacePoints points = barycentresOf(mesh);
       CHECK(differingCount(expected, scene.thicknessAt(points.points, points.normals, options.thickness)) == 0);
     }
 }
@@ -132,7 +116,7 @@ TEST_CASE("a flipped scene has the thickness of the mesh that it flips to") {
   for (const Mesh& mesh : {partMesh("blade"), makeHand(800).mesh, hollowBox()}) {
     const Mesh inverted = shapes::inverted(mesh);
     Scene scene(referenceSession(), mesh), flipped(referenceSession(), inverted, Orientation::Flip);
-    const SurfacePoints points = surfaceBarycentresOf(mesh);
+    const SurfacePoints points = barycentresOf(mesh);
     const std::vector<double> expected = scene.thicknessAt(points.points, points.normals);
     CHECK(differingCount(expected, flipped.thicknessAt(points.points, points.normals)) == 0);
     CHECK(std::none_of(expected.begin(), expected.end(), [](double value) { return std::isnan(value); }));
@@ -145,7 +129,7 @@ TEST_CASE("a flipped scene has the thickness of the mesh that it flips to") {
 TEST_CASE("a point has the same thickness alone, among others, and in another order") {
   const Mesh mesh = makeHand(800).mesh;
   Scene scene(referenceSession(), mesh);
-  const SurfacePoints points = surfaceBarycentresOf(mesh);
+  const SurfacePoints points = barycentresOf(mesh);
   const std::vector<double> together = scene.thicknessAt(points.points, points.normals);
   SurfacePoints reversed;
   const auto at = [](const std::vector<double>& numbers, size_t i) {
@@ -170,7 +154,7 @@ TEST_CASE("the nearest faces are input faces, also of polygons, the first of equ
   // Each barycentre of a mesh is nearest to its own face.
   const Mesh torus = makeTorus(1500).mesh;
   Scene scene(referenceSession(), torus);
-  const std::vector<uint32_t> own = scene.nearestFaces(surfaceBarycentresOf(torus).points);
+  const std::vector<uint32_t> own = scene.nearestFaces(barycentresOf(torus).points);
   for (uint32_t face = 0; face < own.size(); ++face) CHECK(own[face] == face);
   // Of a degenerate face and one that coincides with another only the first counts.
   const Mesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 0, 1}, {0, 1, 2}, {2, 1, 0}}, {}};
