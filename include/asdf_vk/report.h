@@ -204,7 +204,7 @@ struct SectionBall {
 /// Result of the comparison with ThicknessOptions::thinnerThan.
 enum class ThicknessVerdict {
   Passed,     ///< No point of the surface is thinner.
-  Failed,     ///< A point is thinner, and it is not in a sharp region that is allowed.
+  Failed,     ///< A point is thinner; with allowsSharpEdges, one outside of sharp regions.
   NotJudged,  ///< None was found, but a part of the surface could not be judged: see UnjudgedFaces.
 };
 /// "passed", "failed", "notJudged"

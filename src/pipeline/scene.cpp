@@ -29,19 +29,28 @@ std::vector<Vec3d> vectorsOf(std::span<const double> numbers) {
   return vectors;
 }
 
+[[noreturn]] void failAt(size_t point, ErrorCode code, const char* reason) {
+  throw Error(code, fmt::format("point {} {}", point, reason), {{"index", std::to_string(point)}});
+}
+
+void requirePoints(std::span<const double> points) {
+  if (points.size() % 3 != 0)
+    throw Error(ErrorCode::ArraySize,
+                fmt::format("there are {} coordinates of points; give three per point", points.size()));
+  for (size_t i = 0; i < points.size() / 3; ++i)
+    if (!isFinite(vectorAt(points, i))) failAt(i, ErrorCode::NonFiniteNumber, "has a coordinate that is not finite");
+}
+
 void requirePoints(std::span<const double> points, std::span<const double> normals) {
-  if (points.size() % 3 != 0 || normals.size() != points.size())
+  if (normals.size() != points.size())
     throw Error(ErrorCode::ArraySize,
                 fmt::format("there are {} coordinates of points and {} of normals; give three of each per point",
                             points.size(), normals.size()));
-  const auto fail = [](ErrorCode code, size_t i, const char* reason) {
-    throw Error(code, fmt::format("point {} {}", i, reason), {{"index", std::to_string(i)}});
-  };
-  for (size_t i = 0; i < points.size() / 3; ++i) {
+  requirePoints(points);
+  for (size_t i = 0; i < normals.size() / 3; ++i) {
     const Vec3d normal = vectorAt(normals, i);
-    if (!isFinite(vectorAt(points, i))) fail(ErrorCode::NonFiniteNumber, i, "has a coordinate that is not finite");
-    if (!isFinite(normal)) fail(ErrorCode::NonFiniteNumber, i, "has a normal with a number that is not finite");
-    if (normal == Vec3d{}) fail(ErrorCode::OptionOutOfRange, i, "has a normal of length 0; give a direction");
+    if (!isFinite(normal)) failAt(i, ErrorCode::NonFiniteNumber, "has a normal with a number that is not finite");
+    if (normal == Vec3d{}) failAt(i, ErrorCode::OptionOutOfRange, "has a normal of length 0; give a direction");
   }
 }
 
@@ -157,7 +166,7 @@ std::vector<double> Scene::thicknessAt(std::span<const double> points, std::span
 }
 
 std::vector<uint32_t> Scene::nearestFaces(std::span<const double> points, const RunControl& control) {
-  requirePoints(points, std::vector<double>(points.size(), 1));
+  requirePoints(points);
   std::vector<uint32_t> faces = nearestTriangles(*state_->scene, vectorsOf(points), control);
   for (uint32_t& face : faces) {
     if (face == kNoFace) throw Error(ErrorCode::NoValues, "the mesh has no face with an area");

@@ -49,18 +49,14 @@ WallTree::WallTree(const TraceScene& scene, const OpposingWalls& opposing)
     }
     const Vec3f middle = walls_[firstWalls[i] + wallCounts[i] / 2].middle;
     const bool isLeaf = node.isLeaf() || wallCounts[i] <= kMaxLeafWallCount;
-    nodes_[i] = {node.min,
-                 node.max,
-                 normals.min,
-                 normals.max,
-                 middle,
-                 {},
-                 0,
-                 0,
-                 kUnlimitedDiameter,
-                 0,
-                 isLeaf ? firstWalls[i] : node.first,
-                 isLeaf ? wallCounts[i] : 0};
+    nodes_[i] = {.min = node.min,
+                 .max = node.max,
+                 .normalMin = normals.min,
+                 .normalMax = normals.max,
+                 .middle = middle,
+                 .radius = kUnlimitedDiameter,
+                 .first = isLeaf ? firstWalls[i] : node.first,
+                 .wallCount = isLeaf ? wallCounts[i] : 0};
   }
   forEachInParallel(nodes_.size(), [&](size_t i) {
     if (wallCounts[i] > kMaxDiscWallCount) return;
@@ -106,14 +102,12 @@ Wall WallTree::wallOf(uint32_t face) const {
   const Vec3d middle = (triangle.corners[0] + triangle.corners[1] + triangle.corners[2]) / 3.0;
   Box3f box;
   for (const Vec3d& corner : triangle.corners) box.add(Vec3f(corner));
-  Wall wall{Vec3f(triangle.normal),
-            static_cast<float>(dot(triangle.normal, triangle.corners[0])),
-            box.min,
-            box.max,
-            Vec3f(middle),
-            {},
-            0,
-            face};
+  Wall wall{.normal = Vec3f(triangle.normal),
+            .offset = static_cast<float>(dot(triangle.normal, triangle.corners[0])),
+            .min = box.min,
+            .max = box.max,
+            .middle = Vec3f(middle),
+            .face = face};
   for (size_t k = 0; k < 3; ++k) {
     wall.spokes[k] = Vec3f(triangle.corners[k] - middle);
     wall.reach = std::max(wall.reach, length(wall.spokes[k]));

@@ -35,7 +35,7 @@ struct Wall {
   Vec3f normal;
   float offset = 0;  ///< Of the plane along the normal.
   Vec3f min, max, middle;
-  std::array<Vec3f, 3> spokes;  ///< The corners, from the middle.
+  std::array<Vec3f, 3> spokes{};  ///< The corners, from the middle.
   float reach = 0;              ///< Length of the longest spoke.
   uint32_t face = kNoFace;
 };
@@ -46,7 +46,7 @@ struct WallNode {
   Vec3f middle;  ///< Of one of the walls.
   /// The corners are within `radius` of the line through the middle along the axis, a mean of the normals, and from
   /// `lowest` to `highest` along it; at most `reach` from the middle.
-  Vec3f axis;
+  Vec3f axis{};
   float lowest = 0, highest = 0, radius = 0, reach = 0;
   uint32_t first = 0;      ///< Inner: index of the left child, the right one follows it. Leaf: first wall.
   uint32_t wallCount = 0;  ///< 0 for an inner node.

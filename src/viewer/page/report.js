@@ -1,4 +1,4 @@
-// Thin regions, summary, warnings and parts as tables and lists. Needs no WebGL; a viewer makes rows fly there.
+// Thin regions, summary, warnings and parts as tables and lists. Needs no WebGL; with a viewer, a click on a row flies to its place.
 import { made } from './controls.js';
 import { formatCount, formatShare, formatValue } from './format.js';
 
