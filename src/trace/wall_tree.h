@@ -36,7 +36,7 @@ struct Wall {
   float offset = 0;  ///< Of the plane along the normal.
   Vec3f min, max, middle;
   std::array<Vec3f, 3> spokes{};  ///< The corners, from the middle.
-  float reach = 0;              ///< Length of the longest spoke.
+  float reach = 0;                ///< Length of the longest spoke.
   uint32_t face = kNoFace;
 };
 
