@@ -55,7 +55,8 @@ class EdgeSets {
 /// that neighbouring quads have the same one.
 class QuadDivider {
  public:
-  QuadDivider(const std::vector<Vec3d>& corners, uint64_t seed) : corners_(corners), random_(seed) {}
+  QuadDivider(const std::vector<Vec3d>& corners, const SurfaceDivision& division)
+      : corners_(corners), random_(division.diagonalSeed), shift_(division.otherDiagonals ? 1 : 0) {}
 
   /// nu: parts of the edge from the first to the second corner; nv: of that from the first to the last one.
   void divide(const std::array<uint32_t, 4>& quad, uint64_t nu, uint64_t nv) {
@@ -65,7 +66,7 @@ class QuadDivider {
     for (uint64_t u = 0; u < nu; ++u)
       for (uint64_t v = 0; v < nv; ++v) {
         const std::array<uint32_t, 4> q{vertex(u, v), vertex(u + 1, v), vertex(u + 1, v + 1), vertex(u, v + 1)};
-        const uint32_t first = random_.index(2);
+        const uint32_t first = random_.index(2) ^ shift_;
         addFace({q[first], q[first + 1], q[first + 2]});
         addFace({q[first], q[first + 2], q[(first + 3) % 4]});
       }
@@ -100,6 +101,7 @@ class QuadDivider {
 
   const std::vector<Vec3d>& corners_;
   Random random_;
+  uint32_t shift_;
   std::map<Weights, uint32_t> vertices_;
   Mesh mesh_;
 };
@@ -169,7 +171,7 @@ Mesh BlockSolid::surface(const SurfaceDivision& division) const {
   for (const Block& block : blocks_)
     for (const auto& side : kBlockSides) ++blockCounts[keyOf(cornersOf(block, side))];
   const std::vector<std::array<uint32_t, 3>> counts = divide(division.longestEdge);
-  QuadDivider divider(corners_, division.diagonalSeed);
+  QuadDivider divider(corners_, division);
   for (size_t i = 0; i < blocks_.size(); ++i)
     for (const auto& side : kBlockSides) {
       const std::array<uint32_t, 4> quad = cornersOf(blocks_[i], side);

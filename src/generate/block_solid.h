@@ -16,7 +16,8 @@ struct SurfaceDivision {
   /// Blocks are divided until their edges are at most this long; the diagonals of the quads may be longer. Infinite:
   /// each block remains whole, which gives the coarsest mesh.
   double longestEdge = std::numeric_limits<double>::infinity();
-  uint64_t diagonalSeed = 1;  ///< Each quad is cut at one of its two diagonals, by chance.
+  uint64_t diagonalSeed = 1;    ///< Each quad is cut at one of its two diagonals, by chance.
+  bool otherDiagonals = false;  ///< Each quad is cut at the other diagonal than without.
 };
 
 /// A solid of hexahedra ("blocks") that meet at whole sides. A side that belongs to one block only is part of the

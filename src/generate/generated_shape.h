@@ -11,8 +11,9 @@ namespace asdfvk {
 /// A closed, manifold triangle mesh, oriented outwards, with the part and diameter of each face.
 struct GeneratedShape {
   Mesh mesh;
-  std::vector<uint32_t> part;   ///< #F, part of the face; 0 where a shape has one part only.
-  std::vector<float> diameter;  ///< #F, true local diameter of the shape at the face, in the unit of the mesh.
+  std::vector<uint32_t> part;  ///< #F, part of the face; 0 where a shape has one part only.
+  std::vector<float>
+      diameter;  ///< #F, true local diameter of the shape at the face, in the unit of the mesh; 0: unknown.
 };
 
 /// Range of face counts. The result is within about 15 % of the requested count; below some hundred faces it is the

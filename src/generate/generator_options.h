@@ -14,6 +14,9 @@ struct GeneratorOptions {
   std::string shape, output;
   uint64_t faceCount = 20000;  ///< Of shapes of known diameter.
   double longestEdge = 0;      ///< Of parts of known least thickness; 0: as few faces as possible.
+  uint64_t seed = 1;           ///< Of assemblies and doubled solids.
+  double apart = 0;            ///< Of the parts of an assembly, where the option is given.
+  bool interpenetrates = false;
   double scale = 1;
   std::array<double, 3> translate{0, 0, 0};
   bool doubleVertices = false;
