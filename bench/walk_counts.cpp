@@ -46,7 +46,7 @@ class Walk {
     const DeviceTriangle& t = bvh_.triangles[primitive];
     if (t.faceIndex == excludedFace_) return;
     const auto point = [](const vec3& v) { return Vec3d{v.x, v.y, v.z}; };
-    distance_ = std::min(distance_, rayTriangleDistance(frame_, point(t.v0), point(t.v1), point(t.v2)));
+    distance_ = std::min(distance_, hitTriangle(frame_, point(t.v0), point(t.v1), point(t.v2)).distance);
   }
 
   void enterBinary(uint32_t index) {

@@ -38,7 +38,7 @@ void main() {
     const Hit hit = FIND_NEAREST_HIT(makeQuery(start.origin, direction, start.excludedFace), iterationCount);
     if (!hit.isComplete) atomicAdd(incompleteCounts[slot], 1u);
     lengths[base + ray] = validLength(hit, axis, direction);
-    if (kWritesHits && exists) hits[cone * kRayCount + ray] = encodeHit(hit);
+    if (kWritesHits && exists) hits[cone * kRayCount + ray] = encodeHit(hit, direction);
   }
   barrier();
   uint validCount;

@@ -15,9 +15,8 @@ void main() {
   const uint cone = gl_GlobalInvocationID.x;
   if (cone >= push.coneCount) return;
   const ConeSeed seed = seeds[cone];
-  const DeviceTriangle triangle = loadTriangle(seed.triangle & ~(kReversedSeedBit | kFlippedFrameBit));
-  const vec3 outward = decodeNormal(triangle.normalU, triangle.normalV);
-  const vec3 axis = (seed.triangle & kReversedSeedBit) != 0u ? outward : -outward;
+  const DeviceTriangle triangle = loadTriangle(seed.triangle & ~kFlippedFrameBit);
+  const vec3 axis = -decodeNormal(triangle.normalU, triangle.normalV);
   // As coneFrame() in src/cone/cone.h.
   const float s = (seed.triangle & kFlippedFrameBit) != 0u ? -1.0 : 1.0;
   const float a = -1.0 / (s + axis.z);

@@ -19,16 +19,23 @@ ConeOrigin loadOrigin(uint cone) {
 
 #include "nearest_hit.glsl"
 
+// Without what intersectTriangle() adds on the outer side.
+float distanceOf(Hit hit, vec3 normal, vec3 direction) {
+  return dot(normal, direction) < 0.0 ? hit.distance - kOuterSideFactor * push.contactDistance : hit.distance;
+}
+
 // The length of a ray; kDropped where it hits nothing, or where the hit is false: by the angle between the normal of
 // the face and that of the seed (minus the axis), or between the normal of the face and the ray.
 float validLength(Hit hit, vec3 axis, vec3 direction) {
   if (hit.primitive == kNoPrimitive) return kDropped;
   const DeviceTriangle triangle = loadTriangle(hit.primitive);
   const vec3 normal = decodeNormal(triangle.normalU, triangle.normalV);
-  return -dot(normal, kIsCgal ? direction : axis) > push.falseHitCosine ? kDropped : hit.distance;
+  return -dot(normal, kIsCgal ? direction : axis) > push.falseHitCosine ? kDropped : distanceOf(hit, normal, direction);
 }
 
-uvec2 encodeHit(Hit hit) {
+uvec2 encodeHit(Hit hit, vec3 direction) {
   if (hit.primitive == kNoPrimitive) return uvec2(kMissDistanceBits, kNoFace);
-  return uvec2(floatBitsToUint(hit.distance), loadTriangle(hit.primitive).faceIndex);
+  const DeviceTriangle triangle = loadTriangle(hit.primitive);
+  const vec3 normal = decodeNormal(triangle.normalU, triangle.normalV);
+  return uvec2(floatBitsToUint(distanceOf(hit, normal, direction)), triangle.faceIndex);
 }

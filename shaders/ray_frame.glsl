@@ -1,3 +1,5 @@
+#include "shared/cone_rules.h"
+
 // An orthonormal frame around a ray, in which its hits are computed (the twin of src/trace/nearest_hit.h).
 struct RayFrame {
   vec3 u, w, direction;
@@ -21,9 +23,10 @@ vec3 toRayFrame(RayFrame frame, vec3 v) {
   return p;
 }
 
-// The distance along the ray to the triangle a, b, c (relative to the origin of the ray), or a negative number. Rays
+// The distance along the ray to the triangle (relative to the origin of the ray), or a negative number where the ray
+// misses it or touches it within the contact distance (Cone in src/cone/cone.h), which is added on the outer side. Rays
 // hit both sides and the edges of the triangle.
-float intersectTriangle(RayFrame frame, vec3 v0, vec3 v1, vec3 v2) {
+float intersectTriangle(RayFrame frame, vec3 v0, vec3 v1, vec3 v2, float contactDistance) {
   const vec3 a = toRayFrame(frame, v0);
   const vec3 b = toRayFrame(frame, v1);
   const vec3 c = toRayFrame(frame, v2);
@@ -34,5 +37,6 @@ float intersectTriangle(RayFrame frame, vec3 v0, vec3 v1, vec3 v2) {
   // Inside if each of the three is 0 or has the sign of their sum.
   const uvec3 turned = floatBitsToUint(vec3(edgeA, edgeB, edgeC)) ^ (floatBitsToUint(det) & 0x80000000u);
   const bool inside = all(greaterThanEqual(uintBitsToFloat(turned), vec3(0.0))) && det != 0.0;
-  return inside ? (edgeA * a.z + edgeB * b.z + edgeC * c.z) / det : -1.0;
+  const float t = (edgeA * a.z + edgeB * b.z + edgeC * c.z) / det;
+  return inside && t >= contactDistance ? t + (det > 0.0 ? kOuterSideFactor * contactDistance : 0.0) : -1.0;
 }

@@ -31,5 +31,5 @@ void main() {
   const Hit hit = findNearestHit(makeQuery(start.origin, direction, start.excludedFace), iterationCount);
   const float length = validLength(hit, axis, direction);
   lengths[ray * push.coneCount + cone] = hit.isComplete ? floatBitsToUint(length) : kIterationLimitBits;
-  if (kWritesHits) hits[cone * kRayCount + ray] = encodeHit(hit);
+  if (kWritesHits) hits[cone * kRayCount + ray] = encodeHit(hit, direction);
 }

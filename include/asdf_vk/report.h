@@ -48,7 +48,7 @@ struct StageSeconds {
 /// and three distinct vertices; rays ignore all other triangles.
 struct MeshDefects {
   uint64_t zeroAreaFaceCount = 0;
-  uint64_t duplicateFaceCount = 0;  ///< Faces with the same three positions as an earlier face.
+  uint64_t duplicateFaceCount = 0;  ///< Faces at the positions of an earlier face, in the same winding.
   uint64_t nonFiniteVertexCount = 0;
   uint64_t nonFiniteFaceCount = 0;  ///< Faces with a non-finite corner.
   uint64_t boundaryEdgeCount = 0;

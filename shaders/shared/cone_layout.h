@@ -26,11 +26,10 @@ struct ConeOrigin {
 
 // The seed of a cone, 8 bytes, from which cone_origins.comp makes the start of the cone.
 struct ConeSeed {
-  uint triangle;   // In the order of the hierarchy; with kReversedSeedBit the face is a copy with the opposite normal.
+  uint triangle;   // In the order of the hierarchy.
   float halfTurn;  // Tangent of half the angle by which the frame is turned about its axis: coneRotation().
 };
 
-const uint kReversedSeedBit = 0x80000000u;
 // The first case of coneFrame() in src/cone/cone.h, decided by the host, so that rounding selects no other frame.
 const uint kFlippedFrameBit = 0x40000000u;
 
@@ -44,6 +43,7 @@ struct ConePush {
   uint coneCount;
   float falseHitCosine;     // See Cone in src/cone/cone.h.
   float outlierDeviations;  // Cone::outliers.
+  float contactDistance;    // See Cone.
 };
 
 // A result is the bits of a length in normalised units, or one of these.
@@ -59,8 +59,8 @@ static_assert(sizeof(ConeSeed) == 8);
 static_assert(offsetof(ConeSeed, triangle) == 0 && offsetof(ConeSeed, halfTurn) == 4);
 static_assert(sizeof(ConeRay) == 16);
 static_assert(offsetof(ConeRay, direction) == 0 && offsetof(ConeRay, weight) == 12);
-static_assert(sizeof(ConePush) == 12 && offsetof(ConePush, falseHitCosine) == 4);
-static_assert(offsetof(ConePush, outlierDeviations) == 8);
+static_assert(sizeof(ConePush) == 16 && offsetof(ConePush, falseHitCosine) == 4);
+static_assert(offsetof(ConePush, outlierDeviations) == 8 && offsetof(ConePush, contactDistance) == 12);
 }  // namespace asdfvk
 #else
 ConeOrigin decodeConeOrigin(uvec4 t0, uvec4 t1, uvec4 t2) {

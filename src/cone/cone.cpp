@@ -114,6 +114,10 @@ std::vector<Ray> cgalRays(uint32_t count, double halfAngle) {
 
 }  // namespace
 
+/// Distance in float32 of a point on a face from the plane of that face: rays at the rim of the cone cross it last.
+constexpr double kFloatPlaneError = 0x1p-22;
+constexpr double kMaxContactDistance = 0x1p-16;
+
 Cone makeCone(const ConeOptions& options) {
   const bool isCgal = options.definition == Definition::Cgal;
   requireInRange(options);
@@ -123,6 +127,8 @@ Cone makeCone(const ConeOptions& options) {
   cone.falseHitCosine = std::cos(options.falseHitAngleDegrees * std::numbers::pi / 180) + kFalseHitSlack;
   cone.outliers.deviations = options.outlierDeviations;
   cone.halfAngleRadians = options.openingAngleDegrees * std::numbers::pi / 360;
+  cone.contactDistance =
+      std::clamp(kFloatPlaneError / std::cos(cone.halfAngleRadians), kContactDistance, kMaxContactDistance);
   cone.rotation = options.rotation;
   if (isCgal) {
     // The greatest number below 0 that is normal in float32: an angle of 90 degrees is not acute.

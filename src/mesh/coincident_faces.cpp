@@ -41,20 +41,20 @@ std::vector<uint32_t> coincidentVertices(const TriangleMesh& mesh) {
   return lowest;
 }
 
-/// A face without its lowest vertex, which is its bucket.
+/// A face without its lowest vertex, which is its bucket. The others are in the order of the winding.
 struct FaceKey {
   uint64_t otherVertices = 0;
   uint32_t face = 0;
   auto operator<=>(const FaceKey&) const = default;
 };
 
-/// The face between the lowest vertices at its corners, ascending. A face that this collapses has no area and keeps its
-/// own vertices: no ray depends on its identity.
+/// The face between the lowest vertices at its corners, in the least of its three rotations. A face that this collapses
+/// has no area and keeps its own vertices: no ray depends on its identity.
 Face placeOf(const Face& face, const std::vector<uint32_t>& lowestVertices) {
   Face place{lowestVertices[face[0]], lowestVertices[face[1]], lowestVertices[face[2]]};
   if (!hasDistinctVertices(place)) place = face;
-  std::sort(place.begin(), place.end());
-  return place;
+  const auto& [a, b, c] = place;
+  return std::min({place, Face{b, c, a}, Face{c, a, b}});
 }
 
 std::vector<uint32_t> lowestAmong(const TriangleMesh& mesh, const std::vector<uint32_t>& lowestVertices) {

@@ -24,11 +24,11 @@ namespace asdfvk {
   return h;
 }
 
-/// #F: the representative of each face, the face of lowest index with its corners at the same three points. Winding and
-/// vertex indices may differ. Points are the same where their coordinates are equal and finite; -0 equals 0. Faces with
-/// two corners at one point are compared by vertex indices. The distance between coincident faces is 0, so that hits
-/// between them are rounding noise. They are treated as one face: a cone ignores hits on copies of its seed face, and
-/// every backend reports the same copy. edges: of the mesh; they often prove quickly that there are no copies.
+/// #F: the representative of each face, the face of lowest index with its corners at the same three points in the same
+/// winding. Vertex indices may differ. Points are the same where their coordinates are equal and finite; -0 equals 0.
+/// Faces with two corners at one point are compared by vertex indices. Copies are treated as one face, so that every
+/// backend reports the same one. Faces at the same points in the other winding, as where parts touch, are other faces.
+/// edges: of the mesh; they often prove quickly that there are no copies.
 [[nodiscard]] std::vector<uint32_t> coincidentRepresentatives(const TriangleMesh& mesh, const EdgeSurvey& edges);
 
 /// The faces by their representatives.

@@ -47,12 +47,18 @@ struct StackEntry {
   double entry = 0;
 };
 
-/// counts(face): whether a face counts.
+/// counts(face): whether a face counts. contactDistance: see Cone.
 template <typename Counts>
 class Walk {
  public:
-  Walk(const Bvh& bvh, const TriangleMesh& mesh, const Vec3d& origin, const Vec3d& direction, const Counts& counts)
-      : bvh_(bvh), mesh_(mesh), ray_(origin, direction), slabs_(origin, direction), counts_(counts) {}
+  Walk(const Bvh& bvh, const TriangleMesh& mesh, const Vec3d& origin, const Vec3d& direction, double contactDistance,
+       const Counts& counts)
+      : bvh_(bvh),
+        mesh_(mesh),
+        ray_(origin, direction),
+        slabs_(origin, direction),
+        contactDistance_(contactDistance),
+        counts_(counts) {}
 
   RayHit run() {
     if (bvh_.nodes.empty()) return best_;
@@ -61,14 +67,14 @@ class Walk {
     if (const double entry = slabs_.entry(bvh_.nodes[0], kNoHit); entry < kNoHit) stack[stackSize++] = {0, entry};
     while (stackSize > 0) {
       const StackEntry top = stack[--stackSize];
-      if (top.entry > best_.distance) continue;
+      if (top.entry > limit_) continue;
       const BvhNode& node = bvh_.nodes[top.node];
       if (node.isLeaf()) {
         testLeaf(node);
         continue;
       }
-      StackEntry nearer{node.first, slabs_.entry(bvh_.nodes[node.first], best_.distance)};
-      StackEntry farther{node.first + 1, slabs_.entry(bvh_.nodes[node.first + 1], best_.distance)};
+      StackEntry nearer{node.first, slabs_.entry(bvh_.nodes[node.first], limit_)};
+      StackEntry farther{node.first + 1, slabs_.entry(bvh_.nodes[node.first + 1], limit_)};
       if (farther.entry < nearer.entry) std::swap(nearer, farther);
       if (farther.entry < kNoHit) stack[stackSize++] = farther;
       if (nearer.entry < kNoHit) stack[stackSize++] = nearer;
@@ -81,9 +87,12 @@ class Walk {
     for (uint32_t primitive = leaf.first; primitive < leaf.first + leaf.triangleCount; ++primitive) {
       const uint32_t face = bvh_.primitiveFaces[primitive];
       if (!counts_(face)) continue;
-      const double distance = rayTriangleDistance(ray_, corner(face, 0), corner(face, 1), corner(face, 2));
-      const bool isLowerTie = distance == best_.distance && face < best_.face && distance < kNoHit;
-      if (distance < best_.distance || isLowerTie) best_ = {distance, face};
+      const TriangleHit hit = hitTriangle(ray_, corner(face, 0), corner(face, 1), corner(face, 2));
+      if (hit.distance == kNoHit || hit.distance < contactDistance_) continue;
+      const double limit = hit.isOuterSide ? hit.distance + double{kOuterSideFactor} * contactDistance_ : hit.distance;
+      if (limit > limit_ || (limit == limit_ && face > best_.face)) continue;
+      limit_ = limit;
+      best_ = {hit.distance, face};
     }
   }
   [[nodiscard]] Vec3d corner(uint32_t face, size_t k) const {
@@ -94,8 +103,10 @@ class Walk {
   const TriangleMesh& mesh_;
   RayFrame ray_;
   SlabTest slabs_;
+  double contactDistance_;
   const Counts& counts_;
   RayHit best_;
+  double limit_ = kNoHit;  // The distance of the best hit, by which it is compared.
 };
 
 /// Visits in any order, up to the first hit between two distances.
@@ -126,7 +137,7 @@ class AnyHitWalk {
   [[nodiscard]] bool isHit(const BvhNode& leaf, double begin, double end) const {
     for (uint32_t primitive = leaf.first; primitive < leaf.first + leaf.triangleCount; ++primitive) {
       const Face& face = mesh_.faces[bvh_.primitiveFaces[primitive]];
-      const double distance = rayTriangleDistance(ray_, corner(face[0]), corner(face[1]), corner(face[2]));
+      const double distance = hitTriangle(ray_, corner(face[0]), corner(face[1]), corner(face[2])).distance;
       if (begin <= distance && distance <= end) return true;
     }
     return false;
@@ -147,13 +158,14 @@ bool isHitBetween(const Bvh& bvh, const TriangleMesh& mesh, const Vec3d& origin,
 }
 
 RayHit nearestHit(const Bvh& bvh, const TriangleMesh& mesh, const Vec3d& origin, const Vec3d& direction,
-                  uint32_t skippedFace) {
-  return Walk(bvh, mesh, origin, direction, [&](uint32_t face) { return face != skippedFace; }).run();
+                  uint32_t skippedFace, double contactDistance) {
+  const auto counts = [&](uint32_t face) { return face != skippedFace; };
+  return Walk(bvh, mesh, origin, direction, contactDistance, counts).run();
 }
 
 RayHit nearestHitAmong(const Bvh& bvh, const TriangleMesh& mesh, const Vec3d& origin, const Vec3d& direction,
                        FunctionRef<bool(uint32_t face)> counts) {
-  return Walk(bvh, mesh, origin, direction, counts).run();
+  return Walk(bvh, mesh, origin, direction, 0, counts).run();
 }
 
 }  // namespace asdfvk

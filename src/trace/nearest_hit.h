@@ -27,20 +27,24 @@ struct RayFrame {
   }
 };
 
-/// Distance along the ray to either side of the triangle, or kNoHit. Watertight, after Woop, Benthin and Wald 2013,
-/// with a rotation instead of their shear. Rounding is monotone: it can change a number to zero but not invert its
-/// sign. Zero counts as inside, so that a ray between two triangles hits at least one of them.
-[[nodiscard]] inline double rayTriangleDistance(const RayFrame& ray, const Vec3d& v0, const Vec3d& v1,
-                                                const Vec3d& v2) {
+struct TriangleHit {
+  double distance = kNoHit;  ///< Along the ray.
+  bool isOuterSide = false;  ///< The side from which the corners are counterclockwise.
+};
+
+/// The hit on either side of the triangle. Watertight, after Woop, Benthin and Wald 2013, with a rotation instead of
+/// their shear. Rounding is monotone: it can change a number to zero but not invert its sign. Zero counts as inside, so
+/// that a ray between two triangles hits at least one of them.
+[[nodiscard]] inline TriangleHit hitTriangle(const RayFrame& ray, const Vec3d& v0, const Vec3d& v1, const Vec3d& v2) {
   const Vec3d a = ray.toRay(v0), b = ray.toRay(v1), c = ray.toRay(v2);
   const double u = c.x * b.y - c.y * b.x;
   const double v = a.x * c.y - a.y * c.x;
   const double w = b.x * a.y - b.y * a.x;
-  if ((u < 0 || v < 0 || w < 0) && (u > 0 || v > 0 || w > 0)) return kNoHit;
+  if ((u < 0 || v < 0 || w < 0) && (u > 0 || v > 0 || w > 0)) return {};
   const double det = u + v + w;
-  if (det == 0) return kNoHit;
+  if (det == 0) return {};
   const double t = (u * a.z + v * b.z + w * c.z) / det;
-  return t >= 0 ? t : kNoHit;
+  return {t >= 0 ? t : kNoHit, det > 0};
 }
 
 struct RayHit {
@@ -48,12 +52,13 @@ struct RayHit {
   uint32_t face = kNoFace;   ///< kNoFace for a miss.
 };
 
-/// The nearest triangle hit by the ray, except `skippedFace`; of equally near ones the lowest face index. Origin and
-/// unit direction are in normalised coordinates; the origin lies in the root's box or near it.
+/// The nearest triangle hit by the ray, except `skippedFace` and what is within contactDistance (see
+/// Cone::contactDistance); of equally near ones the lowest face index. Origin and unit direction are in normalised
+/// coordinates; the origin lies in the root's box or near it.
 [[nodiscard]] RayHit nearestHit(const Bvh& bvh, const TriangleMesh& mesh, const Vec3d& origin, const Vec3d& direction,
-                                uint32_t skippedFace);
+                                uint32_t skippedFace, double contactDistance = 0);
 
-/// The same among the faces for which counts(face) is true.
+/// The nearest triangle among the faces for which counts(face) is true.
 [[nodiscard]] RayHit nearestHitAmong(const Bvh& bvh, const TriangleMesh& mesh, const Vec3d& origin,
                                      const Vec3d& direction, FunctionRef<bool(uint32_t face)> counts);
 

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "core/check.h"
@@ -23,8 +24,8 @@ class ReferenceSightTracer final : public SightTracer {
     const Vec3d from = unit.toNormalized(segment.from), between = unit.toNormalized(segment.to) - from;
     const double distance = length(between);
     if (!(distance > 0) || !std::isfinite(distance)) return false;
-    return isHitBetween(scene_.bvh, scene_.mesh, from, between / distance, kSightMargin * distance,
-                        (1 - kSightMargin) * distance);
+    const double margin = std::max(kSightMargin * distance, kContactDistance);
+    return isHitBetween(scene_.bvh, scene_.mesh, from, between / distance, margin, distance - margin);
   }
 
   TraceScene scene_;

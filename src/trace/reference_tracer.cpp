@@ -34,13 +34,14 @@ double entryIntoBox(const Vec3d& origin, const Vec3d& direction) {
 }
 
 /// nearestHit() from any origin.
-RayHit hitOf(const TraceScene& scene, const Vec3d& origin, const Vec3d& direction, uint32_t skippedFace) {
-  if (isNearBox(origin)) return nearestHit(scene.bvh, scene.mesh, origin, direction, skippedFace);
+RayHit hitOf(const TraceScene& scene, const Cone& cone, const Vec3d& origin, const Vec3d& direction,
+             uint32_t skippedFace) {
+  if (isNearBox(origin)) return nearestHit(scene.bvh, scene.mesh, origin, direction, skippedFace, cone.contactDistance);
   if (!(std::max({std::abs(origin.x), std::abs(origin.y), std::abs(origin.z)}) <= kFarthestOrigin)) return {};
   const double entry = entryIntoBox(origin, direction);
   const Vec3d entered = origin + entry * direction;
   if (!isNearBox(entered)) return {};  // It misses the box.
-  RayHit hit = nearestHit(scene.bvh, scene.mesh, entered, direction, skippedFace);
+  RayHit hit = nearestHit(scene.bvh, scene.mesh, entered, direction, skippedFace, cone.contactDistance);
   hit.distance += entry;
   return hit;
 }
@@ -110,7 +111,7 @@ std::unique_ptr<ConeTracer> makeReferenceTracer(const TraceScene& scene, const C
 
 double referenceRayLength(const TraceScene& scene, const Cone& cone, const Vec3d& direction, uint32_t seedFace) {
   const Vec3d origin = scene.originOf(seedFace);
-  const RayHit hit = hitOf(scene, origin, direction, scene.representatives[seedFace]);
+  const RayHit hit = hitOf(scene, cone, origin, direction, scene.representatives[seedFace]);
   return isValid(scene, cone, direction, scene.geometry.normals[seedFace], hit)
              ? scene.bvh.normalization.toMeshLength(hit.distance)
              : kNoValue;
@@ -121,7 +122,7 @@ double referenceCone(const TraceScene& scene, const Cone& cone, const ConeStart&
   size_t validCount = 0;
   for (size_t i = 0; i < cone.directions.size(); ++i) {
     const Vec3d direction = start.frame.toWorld(cone.directions[i]);
-    const RayHit hit = hitOf(scene, start.origin, direction, start.skippedFace);
+    const RayHit hit = hitOf(scene, cone, start.origin, direction, start.skippedFace);
     if (!hits.empty()) hits[i] = {static_cast<float>(hit.distance), hit.face};
     if (!isValid(scene, cone, direction, start.normal, hit)) continue;
     distances[validCount] = hit.distance;

@@ -16,8 +16,8 @@ class SightTracer {
   virtual ~SightTracer() = default;
 
   /// Sets isClear[i] to 1 where no face lies between the ends of segments[i], else to 0. Segments are in the unit of
-  /// the mesh; kSightMargin of their length at both ends is not tested. A segment with a non-finite end, and one of no
-  /// length, is clear. Independent of the number of threads.
+  /// the mesh; kSightMargin of their length at both ends, at least kContactDistance, is not tested. A segment with a
+  /// non-finite end, and one of no length, is clear. Independent of the number of threads.
   virtual void trace(std::span<const LineSegment> segments, std::span<uint8_t> isClear) const = 0;
 };
 inline constexpr double kSightMargin = 1e-4;

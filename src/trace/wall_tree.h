@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "cone/cone.h"
 #include "cone/opposing_walls.h"
 #include "cone/touching_ball.h"
 #include "core/simd.h"
@@ -28,7 +29,7 @@ struct BallQuery {
 };
 
 /// In normalised units: what is nearer to the plane of a face is contact, or rounding of coordinates in float32.
-inline constexpr double kMinWallDepth = 0x1p-21;
+inline constexpr double kMinWallDepth = kContactDistance;
 
 /// A face, coincident copies included: those of touching parts have opposite normals.
 struct Wall {

@@ -54,7 +54,7 @@ TEST_CASE("faces of zero area are counted, with and without a repeated vertex") 
 TEST_CASE("duplicate faces are counted beyond the first") {
   Mesh mesh = shapes::cube();
   mesh.faces.push_back({3, 0, 2});
-  mesh.faces.push_back({0, 3, 2});
+  mesh.faces.push_back({2, 3, 0});
   const MeshDefects defects = defectsOf(mesh);
   CHECK(defects.duplicateFaceCount == 2);
   CHECK(defects.nonManifoldEdgeCount == 3);
@@ -125,7 +125,7 @@ TEST_CASE("a second layer with vertices of its own is a layer of duplicates") {
 }
 
 TEST_CASE("on a mesh of polygons the sentences count triangles and name them") {
-  Mesh mesh{{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}, {0, 2, 3}, {3, 2, 0}}, {}};
+  Mesh mesh{{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}, {0, 2, 3}, {2, 3, 0}}, {}};
   mesh.polygons = {{0, 4, 8}, {0, 1, 2, 3, 0, 2, 3, 0}, {0, 0, 1, 1}};
   const std::vector<std::string> sentences = sentencesOf(mesh);
   REQUIRE(sentences.size() >= 2);

@@ -160,7 +160,7 @@ TEST_CASE("a sphere twice in the file, each with vertices of its own, has the pl
     } else {
       CHECK(std::equal(expected.begin(), expected.end(), result.sdf().begin() + count));
     }
-    CHECK(result.report.defects.duplicateFaceCount == sphere.faces.size());
+    CHECK(result.report.defects.duplicateFaceCount == (isCopyInverted ? 0 : sphere.faces.size()));
   }
 }
 

@@ -80,7 +80,7 @@ TEST_CASE("a pin through a plate: both sides of the plate and all sides of the p
 
 TEST_CASE("parts that touch, and parts that sink into each other by less than a contact, do not cross") {
   const Mesh table = shapes::box({6, 6, 1}), cube = shapes::box({1, 1, 1}), wide = shapes::box({6, 6, 1}, 3);
-  for (const double gap : {0.0, 0x1p-21, -0x1p-21}) {  // The contact is 2^-21 of half the size of 6.
+  for (const double gap : {0.0, 0x1p-21, -0x1p-21}) {  // The contact is 2^-20 of half the size of 6.
     CAPTURE(gap);
     CHECK(crossedCount(shapes::joined(table, cube, {0.3, 0.2, 1 + gap})) == 0);  // On it.
     CHECK(crossedCount(shapes::joined(table, cube, {3.5 + gap, 0.2, 0})) == 0);  // Beside it.

@@ -140,19 +140,6 @@ TEST_CASE("details too small for float32 are the reference's to the bit, and cou
   CHECK(differingCount(thin.values, traceByReference(flattened, {}, Wanted::Values).values, 1e-9) == 0);
 }
 
-TEST_CASE("a wall nearer than rays begin is not passed through: the reference traces those cones") {
-  if (!isEmbreeThere()) return;
-  // A box with a slightly smaller, inverted one inside: a shell far thinner than the resolution of float32.
-  const Mesh outer = shapes::box({2, 2, 2}, 4);
-  const TracedMesh traced(shapes::joined(outer, shapes::inverted(shapes::scaledAndShifted(outer, 1 - 2e-7, {}))));
-  const TraceResults results = traceByEmbree(traced, {}, Wanted::ValuesAndHits);
-  const TraceResults reference = traceByReference(traced, {}, Wanted::ValuesAndHits);
-  CHECK(results.statistics.redoneConeCount == results.values.size());
-  CHECK(test::haveSameBits(results.values, reference.values));
-  CHECK(test::haveSameBits(results.hits, reference.hits));
-  CHECK(*std::max_element(results.values.begin(), results.values.end()) < 1e-6);
-}
-
 TEST_CASE("Embree leaks no ray along the sides of boxes, nor through vertices and edges") {
   if (!isEmbreeThere()) return;
   for (const uint32_t side : {1u, 3u, 10u}) {
@@ -183,18 +170,6 @@ TEST_CASE("open surfaces and such as cross are Embree's all the same, though ray
     CHECK(missCount(results.hits) > 0);
     CHECK(results.statistics.redoneConeCount <= 1);
   }
-}
-
-TEST_CASE("boxes that touch are traced by the reference where they do") {
-  if (!isEmbreeThere()) return;
-  const Mesh box = shapes::box({2, 2, 2}, 4);
-  const TracedMesh traced(shapes::joined(box, shapes::scaledAndShifted(shapes::box({2, 2, 2}, 3), 1, {2, 0, 0})));
-  const TraceResults results = traceByEmbree(traced);
-  const std::vector<double> reference = traceByReference(traced, {}, Wanted::Values).values;
-  CHECK(results.statistics.redoneConeCount == 2 * (4 * 4 + 3 * 3));
-  for (uint32_t face = 0; face < traced.mesh.faceCount(); ++face)
-    if (std::abs(traced.geometry.barycentres[face].x - 1) < 1e-9)
-      CHECK(test::haveSameBits(std::vector{results.values[face]}, std::vector{reference[face]}));
 }
 
 TEST_CASE("copies of faces, and degenerate ones beside them, change no value of Embree's") {

@@ -47,9 +47,9 @@ struct TracedMesh {
     std::map<Face, uint32_t> lowest;
     std::vector<uint32_t> representatives;
     for (uint32_t f = 0; f < mesh.faceCount(); ++f) {
-      Face sorted = mesh.faces[f];
-      std::sort(sorted.begin(), sorted.end());
-      representatives.push_back(lowest.try_emplace(sorted, f).first->second);
+      Face wound = mesh.faces[f];
+      std::rotate(wound.begin(), std::min_element(wound.begin(), wound.end()), wound.end());
+      representatives.push_back(lowest.try_emplace(wound, f).first->second);
     }
     return representatives;
   }

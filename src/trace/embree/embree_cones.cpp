@@ -64,7 +64,7 @@ EmbreeScene::EmbreeScene(const TraceScene& scene, EmbreeMode mode) : mode_(mode)
 EmbreeConeGroup::EmbreeConeGroup(const EmbreeCones& cones)
     : cones_(cones), lanes_(cones.cone, cones.planes), hits_(cones.cone.directions.size()) {
   for (size_t lane = 0; lane < kWidth; ++lane) {
-    packet_.ray.tnear[lane] = static_cast<float>(cones.rayStart);
+    packet_.ray.tnear[lane] = static_cast<float>(cones.cone.contactDistance);
     packet_.ray.mask[lane] = ~0u;
     packet_.hit.primID[lane] = kNoFace;
   }
@@ -74,9 +74,8 @@ void EmbreeConeGroup::add(const EmbreeSeed& seed) {
   const size_t lane = size_++;
   const Vec3d& origin = seed.start.origin;
   seeds_[lane] = seed;
-  points_[lane] = {origin, seed.primitive};
   frames_.set(lane, seed.start.frame, origin, seed.start.normal);
-  isActive_[lane] = -1;
+  isActive_[lane] = seed.fitsFloat ? -1 : 0;
   packet_.ray.org_x[lane] = static_cast<float>(origin.x);
   packet_.ray.org_y[lane] = static_cast<float>(origin.y);
   packet_.ray.org_z[lane] = static_cast<float>(origin.z);
@@ -88,7 +87,6 @@ void EmbreeConeGroup::clear() {
 }
 
 void EmbreeConeGroup::trace() {
-  skipUnfit();
   for (size_t ray = 0; ray < hits_.size(); ++ray) {
     hits_[ray] = cast(cones_.cone.directions[ray]);
     for (const uint32_t primitive : hits_[ray].primitives)
@@ -97,18 +95,9 @@ void EmbreeConeGroup::trace() {
   lanes_.measure(frames_, hits_);
   values_ = lanes_.values();
   for (size_t lane = 0; lane < size_; ++lane) {
-    isDoubtful_[lane] = isUncast_[lane] || leavesSurface(lane) || values_[lane] < kMinFloatDiameter || hitsItself(lane);
+    isDoubtful_[lane] = !seeds_[lane].fitsFloat || leavesSurface(lane) || values_[lane] < kMinFloatDiameter ||
+                        hitsItself(lane) || hitsContact(lane);
     if (!seeds_[lane].hits.empty()) writeHits(lane);
-  }
-}
-
-/// Deactivates cones that are too small for float32, or that have another face within the start of their rays.
-void EmbreeConeGroup::skipUnfit() {
-  const std::array<bool, kWidth> hasNeighbour =
-      haveNeighboursWithin(cones_.scene, cones_.planes, {points_.data(), size_}, cones_.rayStart);
-  for (size_t lane = 0; lane < size_; ++lane) {
-    isUncast_[lane] = hasNeighbour[lane] || !seeds_[lane].fitsFloat;
-    if (isUncast_[lane]) isActive_[lane] = 0;
   }
 }
 
@@ -133,7 +122,7 @@ LaneHits EmbreeConeGroup::cast(const Vec3d& coneDirection) {
 }
 
 bool EmbreeConeGroup::leavesSurface(size_t lane) const {
-  return !isUncast_[lane] && cones_.embree.mode() != EmbreeMode::Robust && lanes_.leavesSurface(lane);
+  return seeds_[lane].fitsFloat && cones_.embree.mode() != EmbreeMode::Robust && lanes_.leavesSurface(lane);
 }
 
 bool EmbreeConeGroup::hitsItself(size_t lane) const {
@@ -141,6 +130,19 @@ bool EmbreeConeGroup::hitsItself(size_t lane) const {
   bool result = false;
   for (const LaneHits& hits : hits_) result |= hits.primitives[lane] == seeds_[lane].primitive;
   return result;
+}
+
+/// Whether a ray hit the outer side of a face that touches another one, which the ray should have hit instead.
+bool EmbreeConeGroup::hitsContact(size_t lane) const {
+  if (!lanes_.leavesSurface(lane)) return false;
+  const ConeFrame& frame = seeds_[lane].start.frame;
+  for (size_t ray = 0; ray < hits_.size(); ++ray) {
+    const uint32_t primitive = hits_[ray].primitives[lane];
+    if (primitive != kNoFace && dot(cones_.planes[primitive].normal, frame.toWorld(cones_.cone.directions[ray])) < 0 &&
+        cones_.contacts.contain(primitive))
+      return true;
+  }
+  return false;
 }
 
 void EmbreeConeGroup::writeHits(size_t lane) const {

@@ -6,6 +6,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "trace/contact_faces.h"
 #include "trace/embree/embree_api.h"
 #include "trace/embree/lane_cones.h"
 
@@ -46,7 +47,7 @@ struct EmbreeCones {
   const Cone& cone;
   std::span<const TrianglePlane> planes;
   const EmbreeScene& embree;
-  double rayStart = 0;  ///< Minimum distance of a hit.
+  ContactFaces& contacts;
 };
 
 /// A cone to trace, and the output array of its hits.
@@ -77,8 +78,8 @@ class EmbreeConeGroup {
   /// In normalised units, or kNoValue. Meaningless when isDoubtful().
   [[nodiscard]] double value(size_t lane) const { return values_[lane]; }
   /// Whether float32 may be too coarse for the cone, so that the reference must trace it. True without
-  /// EmbreeSeed::fitsFloat, if the value is too small, if another face is nearer than the start of the rays, if a ray
-  /// hit its own face, or if leavesSurface().
+  /// EmbreeSeed::fitsFloat, if the value is too small, if a ray hit its own face, or the
+  /// outer side of a face in contact, or if leavesSurface().
   [[nodiscard]] bool isDoubtful(size_t lane) const { return isDoubtful_[lane]; }
   /// Whether a ray had no hit or hit the outer side of a face. In a closed surface this means that the ray passed
   /// between two triangles. False in robust mode and for cones that were not cast. Not detected: such a ray inside a
@@ -93,15 +94,13 @@ class EmbreeConeGroup {
   alignas(32) std::array<int, kWidth> isActive_{};  // -1 or 0, as Embree expects.
   size_t size_ = 0;
   std::array<EmbreeSeed, kWidth> seeds_;
-  std::array<PrimitivePoint, kWidth> points_;
   std::array<double, kWidth> values_{};
-  std::array<bool, kWidth> isUncast_{};
   std::array<bool, kWidth> isDoubtful_{};
   std::vector<LaneHits> hits_;  // Per ray.
 
-  void skipUnfit();
   [[nodiscard]] LaneHits cast(const Vec3d& coneDirection);
   [[nodiscard]] bool hitsItself(size_t lane) const;
+  [[nodiscard]] bool hitsContact(size_t lane) const;
   void writeHits(size_t lane) const;
 };
 

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -30,8 +31,10 @@ class EmbreeSightTracer final : public SightTracer {
     ray.dir_x = static_cast<float>(between.x);
     ray.dir_y = static_cast<float>(between.y);
     ray.dir_z = static_cast<float>(between.z);
-    ray.tnear = static_cast<float>(kSightMargin);
-    ray.tfar = static_cast<float>(1 - kSightMargin);
+    const double margin = std::max(kSightMargin, kContactDistance / length(between));
+    if (margin >= 0.5) return false;
+    ray.tnear = static_cast<float>(margin);
+    ray.tfar = static_cast<float>(1 - margin);
     ray.mask = ~0u;
     return isOccluded(embree_.get(), ray);
   }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 
 #include "asdf_vk/error.h"
 #include "core/check.h"
@@ -17,25 +16,15 @@ namespace {
 
 constexpr size_t kFirstEmbreeChunkRayCount = 1u << 16;  // 0.01 to 0.03 s on two cores.
 
-/// Distance from the barycentre at which rays start, so that rounding to float32 cannot make them hit the seed face:
-/// its plane is off by at most 2^-22, and rays at the rim of the cone cross it last. At most the width of the smallest
-/// face that is traced in float32. (A filter function that skips the face costs 6 % of the time.)
-double rayStart(const Cone& cone) {
-  return std::min(0x1p-22 / std::max(std::cos(cone.halfAngleRadians), 1e-9), kMinFloatFace);
-}
-
-/// The same for rays that start at no face: the rounding of the origin and of the faces, which no angle enlarges.
-constexpr double kFreeRayStart = 0x1p-22;
-
 class EmbreeTracer final : public ConeTracer {
  public:
   EmbreeTracer(const TraceScene& scene, const Cone& cone)
       : scene_(scene),
         cone_(cone),
-        rayStart_(rayStart(cone)),
         seedOrder_(scene),
         planes_(trianglePlanes(scene)),
-        embree_(std::make_unique<EmbreeScene>(scene, EmbreeMode::Fastest)) {
+        embree_(std::make_unique<EmbreeScene>(scene, EmbreeMode::Fastest)),
+        contacts_(scene, cone.contactDistance) {
     if (!needsRobustMode()) return;
     embree_.reset();  // Before the second one is built: less memory at the peak.
     embree_ = std::make_unique<EmbreeScene>(scene, EmbreeMode::Robust);
@@ -45,7 +34,7 @@ class EmbreeTracer final : public ConeTracer {
                         const RunControl& control) override {
     const auto seedOf = [&](uint32_t i) { return seedAt(seedFaces[i]); };
     const auto prefetchSeed = [&](uint32_t i) { prefetch(seedFaces[i]); };
-    return traceAll(seedOrder_.of(seedFaces), rayStart_, seedOf, prefetchSeed, results, control);
+    return traceAll(seedOrder_.of(seedFaces), seedOf, prefetchSeed, results, control);
   }
 
   TraceStatistics traceAt(std::span<const ConeStart> starts, const ConeResults& results,
@@ -53,7 +42,7 @@ class EmbreeTracer final : public ConeTracer {
     if (planes_.empty()) return makeReferenceTracer(scene_, cone_)->traceAt(starts, results, control);
     const auto seedOf = [&](uint32_t i) { return EmbreeSeed{starts[i], kNoFace, isNearBox(starts[i].origin), {}}; };
     const auto prefetchSeed = [&](uint32_t i) { __builtin_prefetch(&starts[i]); };
-    return traceAll(spatialOrder(starts), kFreeRayStart, seedOf, prefetchSeed, results, control);
+    return traceAll(spatialOrder(starts), seedOf, prefetchSeed, results, control);
   }
 
  private:
@@ -76,15 +65,15 @@ class EmbreeTracer final : public ConeTracer {
 
   /// seedOf(i): cone i without its output array; prefetchSeed(i): the memory that seedOf(i) reads.
   template <typename SeedOf, typename PrefetchSeed>
-  TraceStatistics traceAll(const std::vector<uint32_t>& order, double rayStart, const SeedOf& seedOf,
-                           const PrefetchSeed& prefetchSeed, const ConeResults& results, const RunControl& control) {
+  TraceStatistics traceAll(const std::vector<uint32_t>& order, const SeedOf& seedOf, const PrefetchSeed& prefetchSeed,
+                           const ConeResults& results, const RunControl& control) {
     const size_t rayCount = cone_.directions.size();
     checkSizes(results, order.size(), rayCount);
     ASDFVK_CHECK(results.store == nullptr);
     const size_t hitCount = results.hits.empty() ? 0 : rayCount;  // Per cone.
     const auto hitsOf = [&](uint32_t cone) { return results.hits.subspan(cone * hitCount, hitCount); };
     std::atomic<uint64_t> redoneConeCount = 0;
-    const EmbreeCones cones{scene_, cone_, planes_, *embree_, rayStart};
+    const EmbreeCones cones{scene_, cone_, planes_, *embree_, contacts_};
     PerThread<EmbreeConeGroup> groups([&] { return EmbreeConeGroup(cones); });
     const size_t groupCount = (order.size() + kGroupSize - 1) / kGroupSize;
     const auto traceGroup = [&](size_t index, EmbreeConeGroup& group) {
@@ -128,9 +117,9 @@ class EmbreeTracer final : public ConeTracer {
 
   /// Whether many cones of a sample leave the surface, as on an open or self-intersecting mesh, so that tracing them
   /// again with the reference would take longer than robust mode.
-  [[nodiscard]] bool needsRobustMode() const {
+  [[nodiscard]] bool needsRobustMode() {
     constexpr size_t kSampleSize = 64, kMaxLeavingCount = 1;
-    EmbreeConeGroup group({scene_, cone_, planes_, *embree_, rayStart_});
+    EmbreeConeGroup group({scene_, cone_, planes_, *embree_, contacts_});
     const std::vector<uint32_t>& faces = scene_.bvh.primitiveFaces;
     const size_t count = std::min(kSampleSize, faces.size());
     size_t leavingCount = 0;
@@ -148,10 +137,10 @@ class EmbreeTracer final : public ConeTracer {
 
   TraceScene scene_;
   const Cone& cone_;
-  double rayStart_;  // In normalised units, as all lengths here.
   SeedOrder seedOrder_;
   std::vector<TrianglePlane> planes_;
   std::unique_ptr<EmbreeScene> embree_;
+  ContactFaces contacts_;
 };
 
 }  // namespace

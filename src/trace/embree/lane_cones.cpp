@@ -46,91 +46,6 @@ std::vector<std::pair<uint16_t, uint16_t>> sortingNetwork(size_t count) {
   return exchanges;
 }
 
-/// One traversal of the hierarchy for all points: points close together mostly visit the same nodes.
-class NeighbourWalk {
- public:
-  ASDFVK_ALWAYS_INLINE NeighbourWalk(const TraceScene& scene, std::span<const TrianglePlane> planes,
-                                     std::span<const PrimitivePoint> points, double radius)
-      : scene_(scene), planes_(planes), points_(points), radius_(radius) {
-    ASDFVK_CHECK_OP(points.size(), <=, kLaneCount<Float8>);
-    // Covers the rounding to float32; the boxes of nodes contain the triangles in double too.
-    const double reach = radius + 0x1p-23;
-    for (size_t axis = 0; axis < 3; ++axis)
-      for (size_t lane = 0; lane < kLaneCount<Float8>; ++lane) {
-        const double centre = lane < points.size() ? points[lane].point[axis] : 4;  // Outside of every box.
-        low_[axis][lane] = static_cast<float>(centre - reach);
-        high_[axis][lane] = static_cast<float>(centre + reach);
-      }
-  }
-
-  ASDFVK_ALWAYS_INLINE std::array<bool, kLaneCount<Float8>> run() {
-    const std::span<const BvhNode> nodes = scene_.bvh.nodes;
-    std::array<uint32_t, kMaxBvhDepth + 1> stack;
-    size_t stackSize = 0;
-    if (!nodes.empty()) stack[stackSize++] = 0;
-    while (stackSize > 0) {
-      const BvhNode& node = nodes[stack[--stackSize]];
-      if (node.isLeaf()) {
-        testLeaf(node);
-        continue;
-      }
-      for (const uint32_t child : {node.first, node.first + 1})
-        if (overlapsAny(nodes[child])) {
-          stack[stackSize++] = child;
-          if (!nodes[child].isLeaf()) {
-            __builtin_prefetch(&nodes[nodes[child].first]);
-            __builtin_prefetch(&nodes[nodes[child].first + 1]);
-          } else {
-            __builtin_prefetch(&planes_[nodes[child].first]);
-          }
-        }
-    }
-    return isFound_;
-  }
-
- private:
-  /// Lanes whose boxes overlap that of the node.
-  [[nodiscard]] ASDFVK_ALWAYS_INLINE IntsOf<Float8> overlaps(const BvhNode& node) const {
-    return (low_[0] <= node.max.x) & (low_[1] <= node.max.y) & (low_[2] <= node.max.z) & (high_[0] >= node.min.x) &
-           (high_[1] >= node.min.y) & (high_[2] >= node.min.z);
-  }
-
-  [[nodiscard]] ASDFVK_ALWAYS_INLINE bool overlapsAny(const BvhNode& node) const {
-    const auto words = std::bit_cast<std::array<uint64_t, 4>>(overlaps(node));
-    return (words[0] | words[1] | words[2] | words[3]) != 0;
-  }
-
-  ASDFVK_ALWAYS_INLINE void testLeaf(const BvhNode& leaf) {
-    const IntsOf<Float8> isIn = overlaps(leaf);
-    for (size_t lane = 0; lane < points_.size(); ++lane) {
-      if (isIn[lane] == 0 || isFound_[lane]) continue;
-      for (uint32_t primitive = leaf.first; primitive < leaf.first + leaf.triangleCount; ++primitive)
-        if (primitive != points_[lane].primitive && isNear(points_[lane].point, primitive)) isFound_[lane] = true;
-    }
-  }
-
-  /// Tests the plane and the three lines of the edges, each moved outwards by the radius; beyond an acute corner the
-  /// tested region extends farther.
-  [[nodiscard]] bool isNear(const Vec3d& point, uint32_t primitive) const {
-    const TrianglePlane& plane = planes_[primitive];
-    if (std::abs(dot(plane.normal, point) - plane.offset) > radius_) return false;
-    const Face& face = scene_.mesh.faces[scene_.bvh.primitiveFaces[primitive]];
-    const auto corner = [&](size_t k) { return scene_.bvh.normalization.toNormalized(scene_.mesh.vertices[face[k]]); };
-    for (size_t k = 0; k < 3; ++k) {
-      const Vec3d edge = corner((k + 1) % 3) - corner(k);
-      if (dot(cross(plane.normal, edge), point - corner(k)) < -radius_ * length(edge)) return false;
-    }
-    return true;
-  }
-
-  const TraceScene& scene_;
-  std::span<const TrianglePlane> planes_;
-  std::span<const PrimitivePoint> points_;
-  double radius_;
-  std::array<Float8, 3> low_{}, high_{};  // The boxes around the points.
-  std::array<bool, kLaneCount<Float8>> isFound_{};
-};
-
 }  // namespace
 
 void LaneFrames::set(size_t lane, const ConeFrame& frame, const Vec3d& origin, const Vec3d& normal) {
@@ -276,14 +191,6 @@ std::array<double, LaneCones::kWidth> LaneCones::values() {
   std::array<double, kWidth> values;
   dispatch<Float8>(instructionSet_, [&]<typename>() ASDFVK_ALWAYS_INLINE { computeValues(values); });
   return values;
-}
-
-std::array<bool, 8> haveNeighboursWithin(const TraceScene& scene, std::span<const TrianglePlane> planes,
-                                         std::span<const PrimitivePoint> points, double radius,
-                                         InstructionSet instructionSet) {
-  return dispatch<Float8>(instructionSet, [&]<typename>() ASDFVK_ALWAYS_INLINE {
-    return NeighbourWalk(scene, planes, points, radius).run();
-  });
 }
 
 }  // namespace asdfvk

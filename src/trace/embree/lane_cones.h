@@ -11,8 +11,8 @@
 #include "trace/cone_tracer.h"
 #include "trace/triangle_planes.h"
 
-// Eight cones, one per lane, in double and independent of Embree: computes their values from the hits of their rays,
-// and detects other triangles near their origins. Coordinates are normalised.
+// Eight cones, one per lane, in double and independent of Embree: computes their values from the hits of their rays.
+// Coordinates are normalised.
 namespace asdfvk {
 
 /// Hits of the same ray of eight cones.
@@ -66,17 +66,5 @@ class LaneCones {
   std::vector<std::pair<uint16_t, uint16_t>> exchanges_;      // Of the sorting network.
   std::array<int64_t, kWidth> leavesSurface_{};
 };
-
-/// A point on a primitive of the hierarchy.
-struct PrimitivePoint {
-  Vec3d point;
-  uint32_t primitive = 0;
-};
-
-/// Whether a triangle other than the point's own is within `radius`, for each of up to eight points. Fastest if the
-/// points are close together. Conservative: also true for some triangles slightly farther away.
-[[nodiscard]] std::array<bool, 8> haveNeighboursWithin(const TraceScene& scene, std::span<const TrianglePlane> planes,
-                                                       std::span<const PrimitivePoint> points, double radius,
-                                                       InstructionSet instructionSet = widestInstructionSet());
 
 }  // namespace asdfvk

@@ -15,14 +15,10 @@ namespace {
 
 // Seeds are collected instead of sorted if they are at least 1 / kMinDenseShare of the faces.
 constexpr uint32_t kMinDenseShare = 8;
-constexpr uint32_t kSeedBits = kReversedSeedBit | kFlippedFrameBit;
 
 uint32_t codeOf(const TraceScene& scene, uint32_t face, uint32_t triangle) {
   if (triangle == kNoFace || isTooSmallForFloat(scene, face)) return kNoFace;
-  const std::vector<Vec3d>& normals = scene.geometry.normals;
-  const uint32_t representative = scene.representatives[face];
-  if (representative != face && dot(normals[face], normals[representative]) < 0) triangle |= kReversedSeedBit;
-  return isConeFrameFlipped(-normals[face]) ? triangle | kFlippedFrameBit : triangle;
+  return isConeFrameFlipped(-scene.geometry.normals[face]) ? triangle | kFlippedFrameBit : triangle;
 }
 
 }  // namespace
@@ -44,23 +40,23 @@ UnsetVector<DeviceCone> DeviceSeeds::inDeviceOrder(std::span<const uint32_t> fac
   UnsetVector<DeviceCone> cones(faces.size());
   if (cones.size() >= triangleCount_ / kMinDenseShare && collect(faces, cones)) return cones;
   forEachInParallel(cones.size(), [&](uint32_t i) { cones[i] = {codes_[faces[i]], i}; });
-  sortByKey(cones, triangleCount_,
-            [&](const DeviceCone& cone) { return cone.seed == kNoFace ? triangleCount_ : cone.seed & ~kSeedBits; });
+  sortByKey(cones, triangleCount_, [&](const DeviceCone& cone) {
+    return cone.seed == kNoFace ? triangleCount_ : cone.seed & ~kFlippedFrameBit;
+  });
   return cones;
 }
 
 /// The same for many seeds, with one random access each instead of the four of a sort: seeds are put at their
 /// triangles and collected from there. Returns false if seeds share a triangle or the device cannot trace one.
 bool DeviceSeeds::collect(std::span<const uint32_t> faces, UnsetVector<DeviceCone>& cones) const {
-  static_assert(kFlippedFrameBit < kReversedSeedBit);
   if (faces.size() >= kFlippedFrameBit) return false;
   constexpr uint32_t kEmpty = kNoFace;
-  UnsetVector<uint32_t> seedAt(triangleCount_);  // Index of the seed, with kSeedBits.
+  UnsetVector<uint32_t> seedAt(triangleCount_);  // Index of the seed, with kFlippedFrameBit.
   forEachInParallel(triangleCount_, [&](uint32_t triangle) { seedAt[triangle] = kEmpty; });
   forEachInParallel(faces.size(), [&](uint32_t i) {
     const uint32_t code = codes_[faces[i]];
     if (code == kNoFace) return;
-    std::atomic_ref(seedAt[code & ~kSeedBits]).store(i | (code & kSeedBits), std::memory_order_relaxed);
+    std::atomic_ref(seedAt[code & ~kFlippedFrameBit]).store(i | (code & kFlippedFrameBit), std::memory_order_relaxed);
   });
   const size_t blockCount = (triangleCount_ + kItemsPerTask - 1) / kItemsPerTask;
   const auto forEachSeedOf = [&](size_t block, const auto& visit) {
@@ -76,7 +72,7 @@ bool DeviceSeeds::collect(std::span<const uint32_t> faces, UnsetVector<DeviceCon
   forEachTask(blockCount, [&](size_t block) {
     DeviceCone* next = cones.data() + begins[block];
     forEachSeedOf(block, [&](uint32_t triangle, uint32_t seed) {
-      *next++ = {triangle | (seed & kSeedBits), seed & ~kSeedBits};
+      *next++ = {triangle | (seed & kFlippedFrameBit), seed & ~kFlippedFrameBit};
     });
   });
   return true;

@@ -174,7 +174,7 @@ class VulkanTracer final : public ConeTracer {
 
   [[nodiscard]] ConePush pushFor(size_t coneCount) const {
     return {static_cast<uint32_t>(coneCount), static_cast<float>(cone_.falseHitCosine),
-            static_cast<float>(cone_.outliers.deviations)};
+            static_cast<float>(cone_.outliers.deviations), static_cast<float>(cone_.contactDistance)};
   }
 
   void readChunk(ConeChunk& chunk, std::span<const DeviceCone> cones, const ConeResults& results,
