@@ -53,7 +53,7 @@ void openInBrowser(const std::string& path) {
     const int null = open("/dev/null", O_RDWR);
     for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
       if (null >= 0) dup2(null, stream);
-    signal(SIGPIPE, SIG_DFL);  // This program ignores it, and programs inherit that.
+    for (const int ignored : {SIGPIPE, SIGXFSZ}) signal(ignored, SIG_DFL);  // Programs inherit what this one ignores.
     execl(opener.c_str(), kOpener, file.c_str(), nullptr);
     _exit(127);
   }

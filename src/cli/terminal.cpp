@@ -49,7 +49,7 @@ std::string warningLine(std::string_view subject, std::string_view message) {
 }
 
 void secureStandardStreams() {
-  std::signal(SIGPIPE, SIG_IGN);
+  for (const int signal : {SIGPIPE, SIGXFSZ}) std::signal(signal, SIG_IGN);
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (fcntl(stream, F_GETFD) != -1 || errno != EBADF) continue;
     // The lowest free number is the one that is missing. Read-only, so that writing to it still fails.

@@ -22,8 +22,8 @@ void printError(std::string_view subject, std::string_view message);
 /// Wipes the line of the cursor on a terminal.
 inline constexpr std::string_view kWipeLine = "\r\x1b[K";
 
-/// Ignores SIGPIPE, so that write() reports a closed pipe. Opens standard streams that the caller closed, so that no
-/// other file gets their descriptors.
+/// Ignores SIGPIPE and SIGXFSZ, so that write() reports a closed pipe and a limit on the size of files. Opens standard
+/// streams that the caller closed, so that no other file gets their descriptors.
 void secureStandardStreams();
 
 [[nodiscard]] bool isStandardErrorTerminal();

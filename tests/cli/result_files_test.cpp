@@ -1,0 +1,38 @@
+// Results that cannot be written, are out of date, or have no record.
+#include <filesystem>
+
+#include "cli/mesh_tree.h"
+
+namespace asdfvk::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Below a limit of the shell, such as "-n 4".
+ChildOutcome runLimited(const std::string& limit, const Names& arguments) {
+  Names all{"-c", "ulimit " + limit + " && exec \"$0\" \"$@\"", ASDFVK_PROGRAM};
+  all.insert(all.end(), arguments.begin(), arguments.end());
+  all.insert(all.end(), {"--backend", "reference", "--quiet"});
+  return runChild("/bin/sh", all);
+}
+
+TEST_CASE("a file beyond the limit on sizes ends with 4 and leaves nothing, and a batch goes on") {
+  const ScratchFolder folder;
+  fs::create_directory(folder / "in");
+  const std::string large = folder.write("in/a.off", sphereOff(30));
+  folder.write("in/b.off", cubeOff());
+  checkFailure(runLimited("-f 10", {large, "-o", folder / "x.ply"}), 4, "no partial file remains");
+  CHECK_EQ(folder.names(), Names{"in"});
+  for (const Names& more : {Names{}, Names{"--isolate"}}) {
+    Names arguments{"-r", folder / "in", "-o", folder / "out", "--log", folder / "log"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    checkFailure(runLimited("-f 10", arguments), 7, "a.off: ");
+    CHECK_EQ(statusesIn(folder / "log"), StatusCounts{{"done", 1}, {"failed", 1}});
+    fs::remove(folder / "log");
+    CHECK_EQ(resultsIn(folder / "out").size(), 1);
+    fs::remove_all(folder / "out");
+  }
+}
+
+}  // namespace
+}  // namespace asdfvk::test
