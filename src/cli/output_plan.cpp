@@ -15,6 +15,8 @@
 #include <utility>
 
 #include "asdf_vk/error.h"
+#include "batch/output_record.h"
+#include "core/atomic_file.h"
 #include "core/text.h"
 
 namespace asdfvk {
@@ -72,7 +74,7 @@ std::string planOutput(const InputFile& input, const CommandLine& line) {
 
 std::string normalised(const fs::path& path) {
   std::error_code ignored;
-  return fs::absolute(path, ignored).lexically_normal().string();
+  return fs::absolute(followLinks(path), ignored).lexically_normal().string();
 }
 
 /// Set of files, compared by device and inode, which follows links, and by normalised path for files that do not exist.
@@ -202,7 +204,7 @@ std::span<const Field> writableFields(const CommandLine& line, const std::string
 
 void requireWritablePlace(const std::string& output) {
   if (output == "-") return;
-  const fs::path path(output);
+  const fs::path path = followLinks(output);
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
   const auto fail = [&](const std::string& reason) {
     throw Error(ErrorCode::OutputNotWritable, fmt::format("{} cannot be written: {}", output, reason));

@@ -80,6 +80,14 @@ bool isLocked(const std::filesystem::path& path) {
 
 }  // namespace
 
+std::filesystem::path followLinks(std::filesystem::path path) {
+  constexpr int kMaxLinks = 40;  // As in Linux.
+  std::error_code error;
+  for (int i = 0; i < kMaxLinks && std::filesystem::is_symlink(path, error); ++i)
+    path = path.parent_path() / std::filesystem::read_symlink(path, error);
+  return path;
+}
+
 void removeUnfinishedFiles() noexcept {
   for (std::atomic<const char*>& slot : unfinished)
     if (const char* name = slot.exchange(nullptr, std::memory_order_acquire)) ::unlink(name);
@@ -106,6 +114,7 @@ AtomicFile::AtomicFile(const std::filesystem::path& target)
   if (::stat(target_.c_str(), &status) != 0) {
     if (errno != ENOENT) fail(errno, "");
     if (target_.filename().empty()) fail(EISDIR, "");
+    target_ = followLinks(target_);
     openTemporary();
     return;
   }

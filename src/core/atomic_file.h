@@ -11,8 +11,9 @@ namespace asdfvk {
 
 /// Atomic replacement of a file: bytes go to a temporary file beside the target, and commit() renames it to the target.
 /// Without a commit(), or on failure, the temporary file is removed and the previous file is unchanged. An existing
-/// file keeps its mode; a symbolic link is followed. Targets that are not regular files (/dev/null, a FIFO) and "-",
-/// standard output, are written directly. Every failure throws Error{OutputNotWritable} with the reason of the system.
+/// file keeps its mode; a symbolic link is followed, also if its target does not exist. Targets that are not regular
+/// files (/dev/null, a FIFO) and "-", standard output, are written directly. Every failure throws
+/// Error{OutputNotWritable} with the reason of the system.
 class AtomicFile {
  public:
   explicit AtomicFile(const std::filesystem::path& target);
@@ -59,6 +60,9 @@ class AtomicFile {
   std::unique_ptr<char[]> buffer_;
   size_t used_ = 0;
 };
+
+/// The path without symbolic links at its end; the file itself need not exist.
+[[nodiscard]] std::filesystem::path followLinks(std::filesystem::path path);
 
 /// Removes the temporary files that killed processes of this host left in a folder. Files of running processes remain.
 /// Processes of other containers with the same host name are not visible; their files remain if the file system

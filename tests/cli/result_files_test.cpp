@@ -34,5 +34,26 @@ TEST_CASE("a file beyond the limit on sizes ends with 4 and leaves nothing, and 
   }
 }
 
+TEST_CASE("the target of a dangling link is created, and the link remains") {
+  const ScratchFolder folder;
+  const std::string mesh = folder.write("cube.off", cubeOff());
+  fs::create_directory(folder / "deep");
+  fs::create_symlink("deep/second.ply", folder / "link.ply");
+  fs::create_symlink("../target.ply", folder / "deep/second.ply");
+  const auto run = [&](const std::string& output) {
+    return runAsdf({mesh, "-o", folder / output, "--backend", "reference", "--quiet"});
+  };
+  for (int i = 0; i < 2; ++i) {  // The second time the target exists.
+    const ChildOutcome outcome = run("link.ply");
+    CHECK_MESSAGE(outcome.exitCode == 0, outcome.error);
+    CHECK(fs::is_symlink(folder / "link.ply"));
+    CHECK(fs::is_symlink(folder / "deep/second.ply"));
+    CHECK(fs::is_regular_file(fs::symlink_status(folder / "target.ply")));
+  }
+  fs::create_symlink("nowhere/target.ply", folder / "lost.ply");
+  checkFailure(run("lost.ply"), 4, "nowhere is not a directory; create it first");
+  CHECK_EQ(folder.names(), Names{"cube.off", "deep", "link.ply", "lost.ply", "target.ply"});
+}
+
 }  // namespace
 }  // namespace asdfvk::test
