@@ -102,6 +102,20 @@ class FileSet {
   std::set<Identity> identities_;
 };
 
+void checkLog(const CommandLine& line, const FileSet& inputs, const FileSet& lists,
+              const std::vector<std::string>& outputs) {
+  const std::string& path = line.batch.log;
+  if (inputs.holds(path)) usageError(fmt::format("{} is an input; choose another --log", path));
+  if (lists.holds(path)) usageError(fmt::format("{} is the list of --files-from; choose another --log", path));
+  FileSet log;
+  log.insert(path);
+  for (const std::string& output : outputs) {
+    if (log.holds(output)) usageError(fmt::format("{} is the path of two outputs; choose another --log", path));
+    if (log.holds(outputRecordPath(output).string()))
+      usageError(fmt::format("{} is the record of {}; choose another --log", path, output));
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> outputFormats() {
@@ -177,12 +191,16 @@ std::vector<std::string> planOutputs(const CommandLine& line, std::span<const In
   };
   planFurther(line.picture, "--picture");
   planFurther(line.points, "--points");
-  if (!line.batch.log.empty() && inputs.holds(line.batch.log))
-    usageError(fmt::format("{} is an input; choose another --log", line.batch.log));
   FileSet lists;
   if (!line.batch.list.empty() && line.batch.list != "-") lists.insert(line.batch.list);
-  if (!line.batch.log.empty() && lists.holds(line.batch.log))
-    usageError(fmt::format("{} is the list of --files-from; choose another --log", line.batch.log));
+  if (line.batch.isBatch())
+    for (const std::string& output : outputs) {  // Not "-", which a batch refuses.
+      const std::string record = outputRecordPath(output).string();
+      if (inputs.holds(record) || lists.holds(record))
+        usageError(fmt::format("{} is an input and would be overwritten by the record of {}; choose another -o", record,
+                               output));
+    }
+  if (!line.batch.log.empty()) checkLog(line, inputs, lists, outputs);
   return outputs;
 }
 

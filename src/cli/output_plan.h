@@ -23,8 +23,8 @@ inline constexpr const char* kPageFormat = "html";
 [[nodiscard]] bool writesOnePage(const CommandLine& line);
 
 /// Path of the result of each mesh, "-" for standard output. Throws Error{OptionConflict} if two outputs (results,
-/// picture, points) have the same path, if an output is an input, or if several meshes have one output file that is no
-/// page.
+/// their records, log, picture, points) have the same path, if an output is an input, or if several meshes have one
+/// output file that is no page.
 [[nodiscard]] std::vector<std::string> planOutputs(const CommandLine& line);
 
 /// The same for the inputs of a batch; their results lie in a tree below -o, whose folders need not exist.

@@ -142,6 +142,10 @@ TEST_CASE("the results of a tree lie in the same tree, whose folders need not ex
   line.output = folder / "new";
   line.batch.log = "in/a.off";
   CHECK_THROWS_AS((void)planOutputs(line, inputs), Error);
+  for (const char* log : {"new/b/c.asdf.npy", "new/x/../a.asdf.npy", "new/a.asdf.npy.json"}) {
+    line.batch.log = folder / log;
+    CHECK_THROWS_AS((void)planOutputs(line, inputs), Error);
+  }
   line.batch.log = "list";
   CHECK_NOTHROW((void)planOutputs(line, inputs));
   line.batch.list = "./list";
