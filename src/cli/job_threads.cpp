@@ -71,7 +71,7 @@ class JobThreads {
   [[nodiscard]] std::future<LoadedMesh> readAhead(const MeshTask& task) const {
     if (task.input == "-" || task.byteCount == 0 || task.byteCount > kMaxBytesReadAhead) return {};
     return std::async(std::launch::async,
-                      [this, &task] { return loadMesh(task.input, context_.line.batch.isBatch()); });
+                      [this, &task] { return loadMesh(task.input, context_.line.batch.isBatch(), context_.stop); });
   }
 
   void runJob(std::unique_ptr<Session> session) {

@@ -1,8 +1,14 @@
 #include "cli/mesh_run.h"
 
+#include <fcntl.h>
 #include <fmt/core.h>
+#include <unistd.h>
 
+#include <cerrno>
+#include <chrono>
 #include <filesystem>
+#include <future>
+#include <thread>
 #include <utility>
 
 #include "asdf_vk/asdf_vk.h"
@@ -62,6 +68,30 @@ void writePicture(const CommandLine& line, const std::string& input, const Resul
   writePng(line.picture, pictureOf(result, *field, view, {}, control));
 }
 
+constexpr auto kStopPollTime = std::chrono::milliseconds(20);
+
+/// Waits until an output that is a FIFO has a reader, and keeps it open: the next opening does not wait. Throws
+/// Error{Cancelled}.
+class AwaitedReader {
+ public:
+  AwaitedReader(const std::string& output, const std::stop_token& stop) {
+    std::error_code ignored;
+    if (!fs::is_fifo(output, ignored)) return;
+    while ((descriptor_ = ::open(output.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC)) < 0 && errno == ENXIO) {
+      if (stop.stop_requested()) throw Error(ErrorCode::Cancelled, "cancelled");
+      std::this_thread::sleep_for(kStopPollTime);
+    }
+  }
+  ~AwaitedReader() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+  }
+  AwaitedReader(const AwaitedReader&) = delete;
+  AwaitedReader& operator=(const AwaitedReader&) = delete;
+
+ private:
+  int descriptor_ = -1;
+};
+
 SharedJson shortEstimateOf(const std::optional<ErrorEstimate>& estimate) {
   if (!estimate) return nullptr;
   return std::make_shared<const Json>(Json{{"average", number(estimate->average)},
@@ -106,7 +136,9 @@ void makeFolderOf(const std::string& output) {
 
 }  // namespace
 
-LoadedMesh loadMesh(const std::string& path, bool computesHash) {
+namespace {
+
+LoadedMesh loadNow(const std::string& path, bool computesHash) {
   LoadedMesh loaded;
   const Stopwatch watch;
   try {
@@ -118,6 +150,25 @@ LoadedMesh loadMesh(const std::string& path, bool computesHash) {
   }
   loaded.seconds = watch.seconds();
   return loaded;
+}
+
+/// Whether its opening or reading may wait for another process.
+bool mayWait(const std::string& path) {
+  std::error_code ignored;
+  const fs::file_status status = fs::status(path, ignored);
+  return path == "-" || (fs::exists(status) && !fs::is_regular_file(status));
+}
+
+}  // namespace
+
+LoadedMesh loadMesh(const std::string& path, bool computesHash, const std::stop_token& stop) {
+  if (!mayWait(path)) return loadNow(path, computesHash);
+  std::packaged_task<LoadedMesh()> task([path, computesHash] { return loadNow(path, computesHash); });
+  std::future<LoadedMesh> loaded = task.get_future();
+  std::thread(std::move(task)).detach();  // The call of the system cannot be ended before the process.
+  while (loaded.wait_for(kStopPollTime) != std::future_status::ready)
+    if (stop.stop_requested()) return {.failure = std::make_exception_ptr(Error(ErrorCode::Cancelled, "cancelled"))};
+  return loaded.get();
 }
 
 MeshRunner::MeshRunner(const CommandLine& line, size_t meshCount)
@@ -167,7 +218,7 @@ MeshRun MeshRunner::run(Session& session, const MeshTask& task, std::optional<Lo
     if (run.code == ExitCode::Cancelled) break;
     try {
       if (beforeMesh != nullptr) beforeMesh(task.input);
-      if (!loaded) loaded = loadMesh(task.input, line_.batch.isBatch());
+      if (!loaded) loaded = loadMesh(task.input, line_.batch.isBatch(), timer.token());
       LoadedMesh mesh = std::move(*loaded);
       loaded.reset();
       if (!mesh.hash.empty()) run.record.inputHash = mesh.hash;
@@ -217,7 +268,10 @@ void MeshRunner::compute(Session& session, const MeshTask& task, const CommandLi
     flipInputFaces(mesh, result.report.reversedFaces);  // The scene of the result has its own copy.
     removeOutputRecord(task.output);
     writeOutput(task, line, result, mesh, page, stop);
-    if (!line.points.empty()) writePoints(line.points, result.fields);
+    if (!line.points.empty()) {
+      const AwaitedReader reader(line.points, stop);
+      writePoints(line.points, result.fields);
+    }
     seconds[Stage::Write] = writeWatch.seconds();
     if (!line.picture.empty())
       runWithProgress(showsBar_, stop,
@@ -230,12 +284,15 @@ void MeshRunner::compute(Session& session, const MeshTask& task, const CommandLi
 void MeshRunner::writeOutput(const MeshTask& task, const CommandLine& line, const Result& result, const Mesh& mesh,
                              SharedPage* page, const std::stop_token& stop) const {
   if (page == nullptr) {
+    const AwaitedReader reader(task.output, stop);
     writeResult(task.output, mesh, writableFields(line, task.output, result.fields), writeOptionsOf(line));
     return;
   }
   const MeshOutcome outcome{task.input, task.output, line, result};
   runWithProgress(showsBar_, stop, [&](const RunControl& control) { addToPage(page->page, outcome, control); });
-  if (page->awaitedCount == 1) finishPage(task.output, *page);
+  if (page->awaitedCount > 1) return;
+  const AwaitedReader reader(task.output, stop);
+  finishPage(task.output, *page);
 }
 
 /// Also starts the browser with --open.

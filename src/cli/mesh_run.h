@@ -36,8 +36,9 @@ struct LoadedMesh {
   std::exception_ptr failure;
 };
 
-/// Throws nothing.
-[[nodiscard]] LoadedMesh loadMesh(const std::string& path, bool computesHash);
+/// A stop request ends the waiting for a FIFO or for standard input; the failure is then Error{Cancelled}. Throws
+/// std::system_error where the waiting needs a thread and the system allows none.
+[[nodiscard]] LoadedMesh loadMesh(const std::string& path, bool computesHash, const std::stop_token& stop);
 
 /// Reads, computes and writes meshes. Several threads may call run() at once, each with its own session, unless all
 /// results are written to one page.

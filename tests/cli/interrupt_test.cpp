@@ -1,3 +1,4 @@
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -6,9 +7,7 @@
 #include <thread>
 
 #include "cli/interrupt.h"
-#include "cli/program_under_test.h"
-#include "cli/sample_files.h"
-#include "cli/scratch_folder.h"
+#include "cli/mesh_tree.h"
 #include "core/atomic_file.h"
 
 namespace asdfvk::test {
@@ -54,6 +53,29 @@ TEST_CASE("a signal while the mesh is awaited on standard input ends at once wit
   CHECK_EQ(outcome.exitCode, 130);
   CHECK(outcome.error.find("asdf-vk: error: cancelled") != std::string::npos);
   CHECK(folder.names().empty());
+}
+
+TEST_CASE("one signal while a FIFO or standard input is awaited ends with 130") {
+  const ScratchFolder folder;
+  const std::string mesh = folder.write("cube.off", cubeOff()), fifo = folder / "fifo.ply";
+  REQUIRE_EQ(mkfifo(fifo.c_str(), 0600), 0);
+  ChildOptions options;
+  options.keepInputOpen = true;
+  for (const Names& arguments :
+       {Names{fifo, "-o", folder / "out.ply", "--log", folder / "log"},
+        Names{fifo, "-o", folder / "out.ply", "--log", folder / "log", "--isolate"},
+        Names{"-", "-o", folder / "out.ply", "--log", folder / "log"}, Names{mesh, "-o", fifo},
+        Names{mesh, "-o", fifo, "--log", folder / "log"}, Names{mesh, "-o", folder / "out.ply", "--points", fifo}}) {
+    Names all = arguments;
+    all.insert(all.end(), {"--backend", "reference"});
+    ChildProcess child(ASDFVK_PROGRAM, all, options);
+    REQUIRE(child.waitForError("asdf-vk: ", kPatienceSeconds));  // The device lines.
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    child.send(SIGTERM);
+    const ChildOutcome outcome = child.finish(10);
+    INFO(arguments[0] << " " << arguments[2] << ": " << outcome.error);
+    CHECK_EQ(outcome.exitCode, 130);
+  }
 }
 
 TEST_CASE("a second signal during the writing ends at once with 130 and leaves no half-written file") {
