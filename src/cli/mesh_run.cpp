@@ -51,21 +51,25 @@ auto runWithProgress(bool showsBar, const std::stop_token& stop, const Work& wor
   return work(control);
 }
 
-/// Renders the field of --picture-of, or the thin places, and writes it atomically. Precondition: result.scene is set.
-/// Throws Error{OutputNotWritable}, Error{UnknownField} and Error{Cancelled}.
-void writePicture(const CommandLine& line, const std::string& input, const Result& result, const RunControl& control) {
-  const View view = viewOf(line, input, result, line.pictureOf.empty());
-  if (line.pictureOf.empty()) {
-    writePng(line.picture, thinPictureOf(result, view, {}, control));
-    return;
-  }
-  const Field* field = result.field(line.pictureOf);
+/// The field of --picture-of, null for the thin places. Throws Error{UnknownField} and Error{OptionConflict}.
+const Field* pictureFieldOf(const CommandLine& line, const Result& result) {
+  if (line.pictureOf.empty()) return nullptr;
+  const Field* const field = result.field(line.pictureOf);
   if (field == nullptr) throw Error(ErrorCode::UnknownField, "--picture-of: the result has no field " + line.pictureOf);
   if (field->componentCount != 1)
     throw Error(ErrorCode::OptionConflict,
                 fmt::format("--picture-of: field {} has {} components; a picture shows a field of one component",
                             line.pictureOf, field->componentCount));
-  writePng(line.picture, pictureOf(result, *field, view, {}, control));
+  return field;
+}
+
+/// Renders the field, or the thin places without one, and writes it atomically. Precondition: result.scene is set.
+/// Throws Error{OutputNotWritable} and Error{Cancelled}.
+void writePicture(const CommandLine& line, const std::string& input, const Result& result, const Field* field,
+                  const RunControl& control) {
+  const View view = viewOf(line, input, result, field == nullptr);
+  writePng(line.picture,
+           field == nullptr ? thinPictureOf(result, view, {}, control) : pictureOf(result, *field, view, {}, control));
 }
 
 constexpr auto kStopPollTime = std::chrono::milliseconds(20);
@@ -264,6 +268,7 @@ void MeshRunner::compute(Session& session, const MeshTask& task, const CommandLi
     if (stop.stop_requested()) throw Error(ErrorCode::Cancelled, "cancelled");
     StageSeconds& seconds = result.report.stageSeconds;
     seconds[Stage::Read] = loaded.seconds;
+    const Field* const pictureField = line.picture.empty() ? nullptr : pictureFieldOf(line, result);
     const Stopwatch writeWatch;
     flipInputFaces(mesh, result.report.reversedFaces);  // The scene of the result has its own copy.
     removeOutputRecord(task.output);
@@ -273,9 +278,12 @@ void MeshRunner::compute(Session& session, const MeshTask& task, const CommandLi
       writePoints(line.points, result.fields);
     }
     seconds[Stage::Write] = writeWatch.seconds();
-    if (!line.picture.empty())
-      runWithProgress(showsBar_, stop,
-                      [&](const RunControl& control) { writePicture(line, task.input, result, control); });
+    if (!line.picture.empty()) {
+      const AwaitedReader reader(line.picture, stop);
+      runWithProgress(showsBar_, stop, [&](const RunControl& control) {
+        writePicture(line, task.input, result, pictureField, control);
+      });
+    }
   }
   describe(task, line, result, run);
 }

@@ -34,6 +34,15 @@ TEST_CASE("a file beyond the limit on sizes ends with 4 and leaves nothing, and 
   }
 }
 
+TEST_CASE("a picture of a field that the result lacks ends with 1 and writes nothing") {
+  const ScratchFolder folder;
+  const std::string mesh = folder.write("sphere.off", sphereOff(12));
+  checkFailure(runAsdf({mesh, "--backend", "reference", "--quiet", "--seeds", "1", "-o", folder / "out.ply", "--points",
+                        folder / "points.ply", "--picture", folder / "error.png", "--picture-of", "error"}),
+               1, "give more --seeds");
+  CHECK_EQ(folder.names(), Names{"sphere.off"});
+}
+
 TEST_CASE("the target of a dangling link is created, and the link remains") {
   const ScratchFolder folder;
   const std::string mesh = folder.write("cube.off", cubeOff());
