@@ -1,5 +1,7 @@
 #include "batch/output_record.h"
 
+#include <unistd.h>
+
 #include <fstream>
 #include <iterator>
 #include <system_error>
@@ -13,25 +15,37 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Whether records lie beside the output: not beside a device, a FIFO or standard output.
-bool hasRecord(const fs::path& output) {
+bool haveSameOrigin(const MeshRecord& a, const MeshRecord& b) {
+  return a.inputHash == b.inputHash && a.optionsHash == b.optionsHash && a.version == b.version && a.commit == b.commit;
+}
+
+bool isSamePath(const fs::path& a, const fs::path& b) {
+  std::error_code ignored;
+  return fs::absolute(a, ignored).lexically_normal() == fs::absolute(b, ignored).lexically_normal();
+}
+
+}  // namespace
+
+bool hasOutputRecord(const fs::path& output) {
   std::error_code ignored;
   const fs::file_status status = fs::status(output, ignored);
   return output != "-" && (fs::is_regular_file(status) || !fs::exists(status));
 }
 
-}  // namespace
-
 fs::path outputRecordPath(const fs::path& output) { return output.string() + ".json"; }
 
+std::optional<MeshRecord> readOutputRecord(const fs::path& output) {
+  const fs::path path = outputRecordPath(output);
+  std::error_code ignored;
+  if (!hasOutputRecord(output) || !fs::is_regular_file(path, ignored)) return std::nullopt;
+  std::ifstream in(path, std::ios::binary);
+  return parseRecord(std::string(std::istreambuf_iterator<char>(in), {}));
+}
+
 std::optional<MeshRecord> findFinishedOutput(const MeshRecord& expected, const fs::path& output) {
-  if (!hasRecord(output)) return std::nullopt;
-  std::ifstream in(outputRecordPath(output), std::ios::binary);
-  if (!in) return std::nullopt;
-  std::optional<MeshRecord> record = parseRecord(std::string(std::istreambuf_iterator<char>(in), {}));
-  if (!record || record->code != 0 || record->inputHash != expected.inputHash ||
-      record->optionsHash != expected.optionsHash || record->version != expected.version ||
-      record->commit != expected.commit || record->outputHash.empty() || contentHashOf(output) != record->outputHash)
+  std::optional<MeshRecord> record = readOutputRecord(output);
+  if (!record || record->code != 0 || !haveSameOrigin(*record, expected) || record->outputHash.empty() ||
+      contentHashOf(output) != record->outputHash)
     return std::nullopt;
   record->input = expected.input;
   record->output = output.string();
@@ -41,13 +55,23 @@ std::optional<MeshRecord> findFinishedOutput(const MeshRecord& expected, const f
 }
 
 void removeOutputRecord(const fs::path& output) {
-  if (!hasRecord(output)) return;
+  if (hasOutputRecord(output)) ::unlink(outputRecordPath(output).c_str());  // Never a folder.
+}
+
+void removeOutput(const MeshRecord& record, const fs::path& output) {
   std::error_code ignored;
-  fs::remove(outputRecordPath(output), ignored);
+  if (record.outputHash.empty() || contentHashOf(output) != record.outputHash) return;
+  removeOutputRecord(output);
+  fs::remove(fs::canonical(output, ignored), ignored);
+}
+
+void removeOutdatedOutput(const MeshRecord& old, const MeshRecord& failed, const fs::path& output) {
+  if (failed.inputHash.empty() || haveSameOrigin(old, failed) || !isSamePath(old.input, failed.input)) return;
+  removeOutput(old, output);
 }
 
 void writeOutputRecord(MeshRecord& record, const fs::path& output) {
-  if (!hasRecord(output)) return;
+  if (!hasOutputRecord(output)) return;
   record.outputHash = contentHashOf(output).value_or("");
   AtomicFile file(outputRecordPath(output));
   file.write(toJsonLine(record) + "\n");

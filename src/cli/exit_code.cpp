@@ -82,11 +82,14 @@ const char* meaningOf(ExitCode code) {
   return std::find_if(kExitCodes.begin(), kExitCodes.end(), [&](const auto& row) { return row.first == code; })->second;
 }
 
+bool hasResult(ExitCode ofMesh) {
+  return ofMesh == ExitCode::Done || ofMesh == ExitCode::CheckFailed || ofMesh == ExitCode::TooThin;
+}
+
 void SharedExitCode::add(ExitCode ofMesh) {
   if (first_ == ExitCode::Done) first_ = ofMesh;
   if (ofMesh == ExitCode::Cancelled) isCancelled_ = true;
-  const bool isWritten = ofMesh == ExitCode::Done || ofMesh == ExitCode::CheckFailed || ofMesh == ExitCode::TooThin;
-  (isWritten ? hasResult_ : lacksResult_) = true;
+  (hasResult(ofMesh) ? hasResult_ : lacksResult_) = true;
 }
 
 ExitCode SharedExitCode::code() const {

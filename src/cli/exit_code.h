@@ -46,6 +46,9 @@ inline constexpr const char* kExitCodeOfSeveralMeshes =
 
 [[nodiscard]] ExitCode exitCodeOf(ErrorKind kind);
 
+/// Whether a mesh with this code has a result.
+[[nodiscard]] bool hasResult(ExitCode ofMesh);
+
 /// Exit code of several meshes from those of each.
 class SharedExitCode {
  public:

@@ -208,6 +208,7 @@ MeshRun MeshRunner::run(Session& session, const MeshTask& task, std::optional<Lo
                         const std::stop_token& stop) {
   MeshRun run;
   run.record = recordOf(task);
+  const std::optional<MeshRecord> old = line_.batch.isBatch() ? readOutputRecord(task.output) : std::nullopt;
   const Stopwatch watch;
   if (measuresMemory) resetPeakMemory();
   const MeshTimer timer(line_.batch.timeoutSeconds, stop);
@@ -244,19 +245,29 @@ MeshRun MeshRunner::run(Session& session, const MeshTask& task, std::optional<Lo
   }
   run.record.totalSeconds = watch.seconds();
   run.record.peakMemoryBytes = peakMemoryBytes();
-  if (run.code != ExitCode::Done || !line_.batch.isBatch()) return run;
+  if (run.code == ExitCode::Done && line_.batch.isBatch()) writeRecord(task, run);
+  if (old && !hasResult(run.code) && run.code != ExitCode::Cancelled)
+    removeOutdatedOutput(*old, run.record, task.output);
+  return run;
+}
+
+void MeshRunner::writeRecord(const MeshTask& task, MeshRun& run) const {
   try {
     writeOutputRecord(run.record, task.output);
   } catch (...) {
     addFailure(task, currentFailure(), run);
+    removeOutput(run.record, task.output);
+    run.record.output.reset();
+    run.record.outputHash.clear();
   }
-  return run;
 }
 
 void MeshRunner::compute(Session& session, const MeshTask& task, const CommandLine& line, LoadedMesh& loaded,
                          SharedPage* page, const std::stop_token& stop, MeshRun& run) const {
   if (line.batch.hasTree() || line.output.ends_with('/')) makeFolderOf(task.output);
   requireWritablePlace(task.output);
+  if (line.batch.isBatch() && hasOutputRecord(task.output))
+    requireWritablePlace(outputRecordPath(task.output).string());
   if (!line.picture.empty()) requireWritablePlace(line.picture);
   if (!line.points.empty()) requireWritablePlace(line.points);
   Mesh& mesh = loaded.mesh;
@@ -350,6 +361,10 @@ MeshRun MeshRunner::failedRun(const MeshTask& task, const Failure& failure) cons
   MeshRun run;
   run.record = recordOf(task);
   addFailure(task, failure, run);
+  const std::optional<MeshRecord> old = readOutputRecord(task.output);
+  if (!old || run.code == ExitCode::Cancelled) return run;
+  run.record.inputHash = contentHashOf(task.input).value_or("");
+  removeOutdatedOutput(*old, run.record, task.output);
   return run;
 }
 

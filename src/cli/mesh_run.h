@@ -74,6 +74,8 @@ class MeshRunner {
                const std::stop_token& stop, MeshRun& run) const;
   void writeOutput(const MeshTask& task, const CommandLine& line, const Result& result, const Mesh& mesh,
                    SharedPage* page, const std::stop_token& stop) const;
+  /// Where the record cannot be written, the mesh fails and has no result.
+  void writeRecord(const MeshTask& task, MeshRun& run) const;
   void finishPage(const std::string& output, SharedPage& page) const;
   void describe(const MeshTask& task, const CommandLine& line, const Result& result, MeshRun& run) const;
   void addFailure(const MeshTask& task, const Failure& failure, MeshRun& run) const;

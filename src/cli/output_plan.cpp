@@ -228,13 +228,15 @@ void requireWritablePlace(const std::string& output) {
     throw Error(ErrorCode::OutputNotWritable, fmt::format("{} cannot be written: {}", output, reason));
   };
   std::error_code error;
+  const fs::file_status status = fs::status(output, error);
   // A device or a FIFO is written directly: no file is created in its folder.
-  if (const fs::file_status status = fs::status(path, error);
-      fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status))
-    return;
+  if (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status)) return;
+  const std::error_code reason = fs::status_known(status) ? std::error_code() : error;
   if (!fs::is_directory(folder, error)) fail(fmt::format("{} is not a directory; create it first", folder.string()));
   if (access(folder.c_str(), W_OK) != 0) fail(fmt::format("{}: {}", folder.string(), std::strerror(errno)));
-  if (fs::is_directory(path, error)) fail("it is a directory; choose another name");
+  if (fs::is_directory(status)) fail("it is a directory; choose another name");
+  if (reason == std::errc::filename_too_long) fail("its name is too long; choose a shorter one");
+  if (reason) fail(reason.message());
 }
 
 }  // namespace asdfvk

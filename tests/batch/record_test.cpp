@@ -157,6 +157,32 @@ TEST_CASE("an output is finished only with its own record and its own bytes") {
   CHECK_FALSE(findFinishedOutput(expected, output).has_value());
 }
 
+TEST_CASE("an old output is removed only where it is known to be out of date") {
+  const ScratchFolder folder;
+  const std::string output = folder.write("a.asdf.ply", "values");
+  MeshRecord old = sampleRecord();
+  old.input = folder / "a.off";
+  writeOutputRecord(old, output);
+  const std::vector<std::string> all = folder.names();
+  MeshRecord failed = old;
+  removeOutdatedOutput(old, failed, output);
+  CHECK_EQ(folder.names(), all);  // Nothing has changed.
+  failed.inputHash.clear();
+  removeOutdatedOutput(old, failed, output);
+  CHECK_EQ(folder.names(), all);  // The input was not read.
+  failed.inputHash = "other";
+  failed.input = folder / "a.ply";
+  removeOutdatedOutput(old, failed, output);
+  CHECK_EQ(folder.names(), all);  // Another mesh.
+  failed.input = folder / "x/../a.off";
+  folder.write("a.asdf.ply", "values of another run");
+  removeOutdatedOutput(old, failed, output);
+  CHECK_EQ(folder.names(), all);  // Not the output of the record.
+  folder.write("a.asdf.ply", "values");
+  removeOutdatedOutput(old, failed, output);
+  CHECK(folder.names().empty());
+}
+
 TEST_CASE("an output that is no regular file has no record") {
   const ScratchFolder folder;
   const std::string fifo = folder / "fifo";
