@@ -73,6 +73,7 @@ class WorkerPool {
       worker.process = std::make_unique<WorkerProcess>(options_.program, options_.arguments);
     } catch (const std::system_error& error) {
       countFailedStart(worker, error.what());
+      if (worker.isGivenUp && !hasStarted_) throw;
       return;
     }
     worker.isReady = worker.hasServed = false;

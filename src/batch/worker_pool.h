@@ -62,7 +62,7 @@ struct WorkerPoolClient {
 ///
 /// After a stop request no task begins, and workers with a task are sent SIGTERM. Returns when all tasks have ended,
 /// when all workers are given up, or, after a stop request, when the current tasks have ended. Returns the reason why
-/// the last worker could not start, or an empty text.
+/// the last worker could not start, or an empty text. Throws std::system_error where the system starts no worker.
 std::string runOnWorkers(size_t taskCount, const WorkerPoolOptions& options, const WorkerPoolClient& client,
                          const std::stop_token& stop);
 

@@ -39,9 +39,10 @@ ExitCode runWorker() {
   const JobPhase phase{.jobCount = greeting.at("jobs").get<uint32_t>(),
                        .threadCount = greeting.at("threads").get<uint32_t>()};
   std::optional<ThreadLimit> threadLimit(phase.threadCount);
-  const Interrupt interrupt(true);
+  std::optional<Interrupt> interrupt;
   std::unique_ptr<Session> session;
   try {
+    interrupt.emplace(true);
     session = std::make_unique<Session>(line.session);
   } catch (...) {
     const Failure failure = currentFailure(line.session.requireGpu);
@@ -58,9 +59,9 @@ ExitCode runWorker() {
     const std::optional<std::string> request = lines.waitForLine();
     if (!request) break;
     const Interrupt::Listening listening;  // A signal ends an idle worker at once.
-    const MeshRun run = runner.run(*session, taskOf(Json::parse(*request)), std::nullopt, true, interrupt.token());
+    const MeshRun run = runner.run(*session, taskOf(Json::parse(*request)), std::nullopt, true, interrupt->token());
     // Where the device failed, another worker opens it anew.
-    ends = run.code == ExitCode::Device || session->backend() != backend || interrupt.token().stop_requested();
+    ends = run.code == ExitCode::Device || session->backend() != backend || interrupt->token().stop_requested();
     Json answer = answerOf(run);
     answer["ends"] = ends;
     if (!lines.send(lineOf(answer))) break;

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <new>
+#include <string_view>
+#include <system_error>
 
 #include "core/text.h"
 
@@ -58,6 +60,22 @@ std::string remedyFor(ErrorCode code, bool requiresGpu, const std::string& value
 std::string messageOf(const Error& error, bool requiresGpu, const std::string& valueOptions) {
   const std::string remedy = remedyFor(error.code(), requiresGpu, valueOptions);
   return remedy.empty() ? error.what() : std::string(error.what()) + "; " + remedy;
+}
+
+Failure limitFailure(const std::string& message) { return {ExitCode::Limit, message, "systemLimit"}; }
+
+Failure fileLimitFailure() {
+  return limitFailure("the system allows no further open file; raise its limit (ulimit -n), or give fewer --jobs");
+}
+
+Failure threadLimitFailure() {
+  return limitFailure(
+      "the system allows no further thread or process; raise its limit (ulimit -u, or that of the container), or give "
+      "fewer --threads and --jobs");
+}
+
+Failure internalFailure(const char* reason) {
+  return {ExitCode::Internal, oneLine(fmt::format("internal error: {}; please report it", reason))};
 }
 
 }  // namespace
@@ -120,10 +138,17 @@ Failure currentFailure(bool requiresGpu, const std::string& valueOptions) {
   } catch (const std::bad_alloc&) {
     return {ExitCode::Input, "not enough memory for this mesh; use a machine with more memory or a coarser mesh",
             nameOf(ErrorCode::InputTooLarge)};
+  } catch (const std::system_error& error) {
+    const std::error_code& code = error.code();
+    if (code == std::errc::too_many_files_open || code == std::errc::too_many_files_open_in_system)
+      return fileLimitFailure();
+    return code == std::errc::resource_unavailable_try_again ? threadLimitFailure() : internalFailure(error.what());
   } catch (const std::exception& error) {
-    return {ExitCode::Internal, oneLine(std::string("internal error: ") + error.what() + "; please report it")};
+    // TBB throws a std::runtime_error where it cannot start a thread.
+    return std::string_view(error.what()).starts_with("pthread_create ") ? threadLimitFailure()
+                                                                         : internalFailure(error.what());
   } catch (...) {
-    return {ExitCode::Internal, "internal error: unknown; please report it"};
+    return internalFailure("unknown");
   }
 }
 

@@ -20,7 +20,7 @@ enum class ExitCode : int {
                     ///< --fail-if-thinner could not be judged.
   TooThin = 6,      ///< --fail-if-thinner: a point of the surface is thinner.
   SomeFailed = 7,   ///< Of several meshes some could not be computed; the others are done.
-  Limit = 8,        ///< A mesh exceeded --timeout or --memory-limit.
+  Limit = 8,        ///< A mesh exceeded --timeout or --memory-limit, or the system allows no further file or thread.
   Internal = 70,    ///< A defect of the program.
   Cancelled = 130,  ///< SIGINT, SIGTERM or SIGHUP.
 };
@@ -35,7 +35,7 @@ inline constexpr std::array<std::pair<ExitCode, const char*>, 11> kExitCodes{
      {ExitCode::CheckFailed, "a requested check failed, or could not be made"},
      {ExitCode::TooThin, "thinner than --fail-if-thinner"},
      {ExitCode::SomeFailed, "some of several meshes failed, the others are done"},
-     {ExitCode::Limit, "beyond --timeout or --memory-limit"},
+     {ExitCode::Limit, "beyond --timeout, --memory-limit, or a limit of the system on open files or threads"},
      {ExitCode::Internal, "internal error"},
      {ExitCode::Cancelled, "cancelled"}}};
 [[nodiscard]] const char* meaningOf(ExitCode code);

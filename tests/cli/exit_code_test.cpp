@@ -3,6 +3,8 @@
 #include <doctest/doctest.h>
 
 #include <new>
+#include <stdexcept>
+#include <system_error>
 
 #include "core/check.h"
 #include "core/text.h"
@@ -78,6 +80,22 @@ TEST_CASE("a mistake in the program is 70 with its place, too little memory is a
   CHECK(broken.message.find("a.cpp:1: x") != std::string::npos);
   CHECK_EQ(static_cast<int>(failureOf(42).code), 70);
   CHECK_EQ(static_cast<int>(failureOf(std::bad_alloc()).code), 2);
+}
+
+TEST_CASE("a limit of the system on files or threads is 8 with its remedy") {
+  for (const std::errc reason : {std::errc::too_many_files_open, std::errc::too_many_files_open_in_system}) {
+    const Failure failure = failureOf(std::system_error(std::make_error_code(reason), "pipe"));
+    CHECK_EQ(static_cast<int>(failure.code), 8);
+    CHECK_EQ(failure.name, "systemLimit");
+    CHECK(failure.message.find("ulimit -n") != std::string::npos);
+  }
+  const auto checkThreads = [](const Failure& failure) {
+    CHECK_EQ(static_cast<int>(failure.code), 8);
+    CHECK(failure.message.find("ulimit -u") != std::string::npos);
+  };
+  checkThreads(failureOf(std::system_error(std::make_error_code(std::errc::resource_unavailable_try_again))));
+  checkThreads(failureOf(std::runtime_error("pthread_create has failed: Resource temporarily unavailable")));
+  CHECK_EQ(static_cast<int>(failureOf(std::system_error(std::make_error_code(std::errc::io_error))).code), 70);
 }
 
 TEST_CASE("several meshes: 7 where some have no result, else the code of the first failure") {

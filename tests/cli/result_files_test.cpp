@@ -36,6 +36,15 @@ TEST_CASE("a file beyond the limit on sizes ends with 4 and leaves nothing, and 
   }
 }
 
+TEST_CASE("a limit on open files ends with 8 and its remedy") {
+  const ScratchFolder folder;
+  const std::string mesh = folder.write("cube.off", cubeOff());
+  const std::string remedy = "the system allows no further open file; raise its limit (ulimit -n)";
+  checkFailure(runLimited("-n 4", {mesh, "-o", folder / "out.ply"}), 8, remedy);
+  checkFailure(runLimited("-n 6", {mesh, "-o", folder / "out.ply", "--isolate"}), 8, remedy);
+  CHECK_EQ(folder.names(), Names{"cube.off"});
+}
+
 TEST_CASE("the old result of a mesh that fails in a batch is removed where it is out of date") {
   const ScratchFolder folder;
   fs::create_directory(folder / "in");
