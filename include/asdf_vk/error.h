@@ -33,6 +33,7 @@ enum class ErrorCode {
   NonFiniteNumber,  ///< A NaN or an infinite number where only finite ones are allowed.
   IndexOutOfRange,  ///< A face refers to a vertex that does not exist.
   MeshTooLarge,     ///< More vertices, faces or connections than 32 bits can index.
+  FarFromOrigin,    ///< Double precision does not resolve the mesh at its coordinates.
   InputTooLarge,    ///< Does not fit into memory.
   NoValues,         ///< No face has a value.
   TooFewValues,     ///< Fewer different values than clusters.

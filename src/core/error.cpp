@@ -26,6 +26,7 @@ constexpr std::array kErrors{
     ErrorRow{ErrorCode::NonFiniteNumber, ErrorKind::Input, "nonFiniteNumber"},
     ErrorRow{ErrorCode::IndexOutOfRange, ErrorKind::Input, "indexOutOfRange"},
     ErrorRow{ErrorCode::MeshTooLarge, ErrorKind::Input, "meshTooLarge"},
+    ErrorRow{ErrorCode::FarFromOrigin, ErrorKind::Input, "farFromOrigin"},
     ErrorRow{ErrorCode::InputTooLarge, ErrorKind::Input, "inputTooLarge"},
     ErrorRow{ErrorCode::NoValues, ErrorKind::Input, "noValues"},
     ErrorRow{ErrorCode::TooFewValues, ErrorKind::Input, "tooFewValues"},

@@ -3,9 +3,11 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "asdf_vk/error.h"
+#include "asdf_vk/report.h"
 #include "mesh/coincident_faces.h"
 #include "mesh/input_faces.h"
 #include "mesh/orientation.h"
@@ -57,6 +59,10 @@ TriangleMesh trianglesOf(const MeshView& view, Mesh& storage) {
 
 namespace {
 
+// Of doubles at the greatest coordinate, in bounding-box diagonals: barycentres are rounded by about as much, and the
+// backends agree within ten times as much.
+constexpr double kMaxSpacing = kAgreementTolerance / 10;
+
 /// Copies arrays of the caller, so that faces can be reversed.
 void ownArrays(PreparedMesh& prepared) {
   const TriangleMesh mesh = prepared.mesh;
@@ -103,6 +109,19 @@ void orient(PreparedMesh& prepared, Orientation orientation) {
   }
 }
 
+/// Far from the origin, neighbouring doubles are so far apart that barycentres and normals are wrong.
+void requireResolved(const Box3d& bounds) {
+  double largest = 0;
+  for (size_t axis = 0; axis < 3; ++axis)
+    largest = std::max({largest, std::abs(bounds.min[axis]), std::abs(bounds.max[axis])});
+  const double spacing = largest - std::nextafter(largest, 0.0), diagonal = bounds.diagonal();
+  if (spacing <= kMaxSpacing * diagonal) return;
+  throw Error(ErrorCode::FarFromOrigin,
+              fmt::format("the mesh is too far from the origin: double precision resolves its coordinates of up to "
+                          "{:.3g} to {:.2g}, and its bounding box has a diagonal of {:.3g}; move it to the origin",
+                          largest, spacing, diagonal));
+}
+
 }  // namespace
 
 PreparedMesh prepareMesh(const MeshView& view, Orientation orientation, StageClock& clock) {
@@ -125,6 +144,7 @@ PreparedMesh prepareMesh(const MeshView& view, Orientation orientation, StageClo
   prepared.traceableFaces.reserve(mesh.faces.size());
   for (uint32_t face = 0; face < mesh.faceCount(); ++face)
     if (!prepared.geometry.isDegenerate(face)) prepared.traceableFaces.push_back(face);
+  if (!prepared.traceableFaces.empty()) requireResolved(prepared.geometry.bounds);
   return prepared;
 }
 

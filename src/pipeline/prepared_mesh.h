@@ -33,7 +33,7 @@ struct PreparedMesh {
 [[nodiscard]] TriangleMesh trianglesOf(const MeshView& view, Mesh& storage);
 
 /// The arrays of the caller must outlive the result. Faces are reversed according to `orientation`, in arrays of the
-/// result. Throws as trianglesOf().
+/// result. Throws as trianglesOf(), and Error{FarFromOrigin}.
 [[nodiscard]] PreparedMesh prepareMesh(const MeshView& mesh, Orientation orientation, StageClock& clock);
 
 /// The same without a clock.

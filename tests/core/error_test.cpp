@@ -29,6 +29,7 @@ const std::vector<Row> kRows{
     {ErrorCode::NonFiniteNumber, ErrorKind::Input, "nonFiniteNumber"},
     {ErrorCode::IndexOutOfRange, ErrorKind::Input, "indexOutOfRange"},
     {ErrorCode::MeshTooLarge, ErrorKind::Input, "meshTooLarge"},
+    {ErrorCode::FarFromOrigin, ErrorKind::Input, "farFromOrigin"},
     {ErrorCode::InputTooLarge, ErrorKind::Input, "inputTooLarge"},
     {ErrorCode::NoValues, ErrorKind::Input, "noValues"},
     {ErrorCode::TooFewValues, ErrorKind::Input, "tooFewValues"},

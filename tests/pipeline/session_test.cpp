@@ -431,3 +431,19 @@ TEST_CASE("a few faces with most of the range are a warning where errors over th
   options.checkCount = 10;
   CHECK(findWarning(referenceSession().compute(mesh, options).report, WarningCode::RangeDominated) != nullptr);
 }
+
+TEST_CASE("a mesh that double precision does not resolve at its place is refused on every backend") {
+  const auto at = [](double shift) { return shapes::scaledAndShifted(shapes::sphere(2), 1, {shift, 2 * shift, 0}); };
+  for (Session* const session : test::allSessions()) {
+    CAPTURE(session->backend());
+    for (const double shift : {1e13, -1e15})
+      requireFailure([&] { (void)session->compute(at(shift)); }, ErrorCode::FarFromOrigin, "too far from the origin");
+    const std::vector<double> here = session->compute(at(0), allSeeds()).sdf(),
+                              far = session->compute(at(1e8), allSeeds()).sdf();
+    for (size_t face = 0; face < here.size(); ++face) CHECK(far[face] == doctest::Approx(here[face]).epsilon(1e-4));
+  }
+  // Faces without area have no place.
+  Mesh point = shapes::tetrahedron();
+  for (Vec3d& vertex : point.vertices) vertex = {1e13, 0, 0};
+  CHECK(std::isnan(referenceSession().compute(point).sdf()[0]));
+}
