@@ -4,13 +4,12 @@
 #include <cmath>
 #include <functional>
 #include <memory>
-#include <numbers>
 #include <utility>
 
 #include "asdf_vk/error.h"
 #include "core/stopwatch.h"
 #include "pipeline/backend.h"
-#include "pipeline/prepared_scene.h"
+#include "pipeline/generated_scene.h"
 #include "poisson/poisson_solver.h"
 #include "poisson/poisson_system.h"
 #include "trace/tracer_check.h"
@@ -25,32 +24,11 @@ namespace {
 constexpr uint32_t kMaxDifferingCount = 1;  // A ray that grazes an edge may hit either of its faces.
 constexpr int kRunCount = 3;
 
-/// A torus with bumps: closed, with values of many sizes.
-Mesh bumpyTorus(uint32_t longCount, uint32_t shortCount) {
-  Mesh mesh;
-  for (uint32_t i = 0; i < longCount; ++i) {
-    for (uint32_t j = 0; j < shortCount; ++j) {
-      const double u = 2 * std::numbers::pi * i / longCount, v = 2 * std::numbers::pi * j / shortCount;
-      const double radius = 0.35 * (1 + 0.25 * std::sin(5 * u) * std::cos(3 * v));
-      const double distance = 1 + radius * std::cos(v);
-      mesh.vertices.push_back({distance * std::cos(u), distance * std::sin(u), radius * std::sin(v)});
-      const auto at = [&](uint32_t a, uint32_t b) { return (a % longCount) * shortCount + b % shortCount; };
-      mesh.faces.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
-      mesh.faces.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
-    }
-  }
-  return mesh;
-}
-
 /// All that the self-test computes on.
-struct TestScene {
-  explicit TestScene(double duration) : secondsPerRun(duration) {}
+struct TestScene : GeneratedScene {
+  explicit TestScene(double duration) : GeneratedScene(bumpyTorus(200, 100)), secondsPerRun(duration) {}
 
   double secondsPerRun;
-  Mesh mesh = bumpyTorus(200, 100);
-  StageSeconds seconds;
-  StageClock clock{seconds};
-  PreparedScene scene{mesh, Orientation::Keep, clock, {}};
   Cone cone = makeCone({});
 };
 

@@ -10,8 +10,8 @@
 #include "core/parallel.h"
 #include "core/text.h"
 #include "pipeline/backend.h"
+#include "pipeline/kernel_check.h"
 #include "predict/vulkan/vulkan_prediction.h"
-#include "trace/tracer_check.h"
 #include "trace/vulkan/vulkan_cone_kernel.h"
 #include "trace/vulkan/vulkan_trace_choice.h"
 #include "trace/vulkan/vulkan_tracer.h"
@@ -69,16 +69,22 @@ class VulkanBackend final : public Backend {
     const ConeKernelRequest request{static_cast<uint32_t>(cone.directions.size()), needs.hits, choice_,
                                     cone.definition};
     std::unique_ptr<VulkanConeKernel>& kernel = kernels_[request];
-    if (!kernel) kernel = std::make_unique<VulkanConeKernel>(*opened_.device, request);
-    std::unique_ptr<ConeTracer> tracer = makeVulkanTracer(*kernel, scene, cone);
-    if (!isVerified_) verify(*tracer, scene, cone);
-    return tracer;
+    if (!kernel) {
+      auto compiled = std::make_unique<VulkanConeKernel>(*opened_.device, request);
+      requireRight(checkKernel(*compiled), "values");
+      kernel = std::move(compiled);
+    }
+    return makeVulkanTracer(*kernel, scene, cone);
   }
 
   [[nodiscard]] std::unique_ptr<DevicePredictor> makePredictor(const TraceScene& scene, const Cone& cone) override {
     const auto rayCount = static_cast<uint32_t>(cone.directions.size());
     std::unique_ptr<VulkanPredictionKernels>& kernels = predictionKernels_[{cone.definition, rayCount}];
-    if (!kernels) kernels = std::make_unique<VulkanPredictionKernels>(*opened_.device, cone.definition, rayCount);
+    if (!kernels) {
+      auto compiled = std::make_unique<VulkanPredictionKernels>(*opened_.device, cone.definition, rayCount);
+      requireRight(checkKernels(*compiled), "predictions");
+      kernels = std::move(compiled);
+    }
     return makeVulkanPredictor(*kernels, scene, cone);
   }
 
@@ -93,14 +99,12 @@ class VulkanBackend final : public Backend {
  private:
   [[nodiscard]] const DeviceFacts& facts() const { return opened_.device->facts(); }
 
-  /// Throws Error{NoUsableDevice} where the device computes wrong values.
-  void verify(ConeTracer& tracer, const TraceScene& scene, const Cone& cone) {
-    const TracerCheck check = checkTracer(tracer, scene, cone);
-    if (check.isRefuted())
-      throw Error(ErrorCode::NoUsableDevice,
-                  fmt::format("{} computes wrong values: {} of {} differ from those of the reference", deviceName(),
-                              check.differingCount, counted(check.comparedCount, "face")));
-    isVerified_ = check.isConclusive();
+  /// computed: the word for what was compared. Throws Error{NoUsableDevice} where it is wrong.
+  void requireRight(const TracerCheck& check, const char* computed) const {
+    if (!check.isRefuted()) return;
+    throw Error(ErrorCode::NoUsableDevice,
+                fmt::format("{} computes wrong {}: {} of {} of a generated mesh differ from those of the CPU",
+                            deviceName(), computed, check.differingCount, counted(check.comparedCount, "face")));
   }
 
   // Destroyed in reverse: each member depends on those before it.
@@ -108,7 +112,6 @@ class VulkanBackend final : public Backend {
   Instance instance_;
   OpenedDevice opened_;
   VulkanTraceChoice choice_;
-  bool isVerified_ = false;
   std::map<ConeKernelRequest, std::unique_ptr<VulkanConeKernel>> kernels_;
   std::map<std::pair<Definition, uint32_t>, std::unique_ptr<VulkanPredictionKernels>> predictionKernels_;
 };

@@ -9,9 +9,11 @@
 #include "asdf_vk/session.h"
 #include "generate/shapes.h"
 #include "shared/cone_layout.h"
+#include "shared/prediction_layout.h"
 #include "support/bits.h"
 #include "support/fake_device.h"
 #include "support/require_failure.h"
+#include "support/shapes.h"
 #include "support/shared_session.h"
 #include "trace/cone_tracer.h"
 
@@ -37,27 +39,42 @@ struct FullDevice : ScopedVariable {
   explicit FullDevice(uint32_t n = 1) : ScopedVariable("ASDF_VK_FAKE_NO_MEMORY_AT", std::to_string(n) + "+") {}
 };
 
-/// While it exists, kernels drop all hits as false, so that no face has a value.
-class WrongDevice {
+/// While it exists, `change` changes the push constants of this type, in fact all of its size.
+template <typename Push>
+class ChangedPush {
  public:
-  WrongDevice() : push_(vkCmdPushConstants) {
+  using Change = void (*)(Push&);
+
+  explicit ChangedPush(Change change) : push_(vkCmdPushConstants) {
     original = push_;
+    changePush = change;
     vkCmdPushConstants = [](VkCommandBuffer commands, VkPipelineLayout layout, VkShaderStageFlags stages,
                             uint32_t offset, uint32_t byteCount, const void* bytes) {
-      ConePush push;
+      Push push;
       if (byteCount != sizeof push) return original(commands, layout, stages, offset, byteCount, bytes);
       std::memcpy(&push, bytes, sizeof push);
-      push.falseHitCosine = -2;
+      changePush(push);
       original(commands, layout, stages, offset, byteCount, &push);
     };
   }
-  ~WrongDevice() { vkCmdPushConstants = push_; }
-  WrongDevice(const WrongDevice&) = delete;
-  WrongDevice& operator=(const WrongDevice&) = delete;
+  ~ChangedPush() { vkCmdPushConstants = push_; }
+  ChangedPush(const ChangedPush&) = delete;
+  ChangedPush& operator=(const ChangedPush&) = delete;
 
  private:
   static inline PFN_vkCmdPushConstants original = nullptr;
+  static inline Change changePush = nullptr;
   PFN_vkCmdPushConstants push_;
+};
+
+/// While it exists, kernels drop all hits as false, so that no face has a value.
+struct WrongDevice : ChangedPush<ConePush> {
+  WrongDevice() : ChangedPush([](ConePush& push) { push.falseHitCosine = -2; }) {}
+};
+
+/// While it exists, the device predicts from no hit.
+struct WrongPredictions : ChangedPush<PredictionPush> {
+  WrongPredictions() : ChangedPush([](PredictionPush& push) { push.maxNormalCosine = -2; }) {}
 };
 
 const std::string kNextBackend = hasEmbree() ? "cpu" : "reference";
@@ -169,11 +186,46 @@ TEST_CASE("a device with wrong values is refused at its first use") {
     const WrongDevice wrong;
     checkReplaced(session, mesh, session.compute(mesh), ErrorCode::NoUsableDevice);
     requireFailure([&] { (void)requested.compute(mesh); }, ErrorCode::NoUsableDevice,
-                   "computes wrong values: 64 of 64");
+                   "computes wrong values: 64 of 64 faces of a generated mesh");
   }
   Session session;
   (void)session.compute(mesh);
   CHECK(session.backend() == "vulkan");
+}
+
+TEST_CASE("each kernel is checked at its first use, whatever the mesh") {
+  const Mesh cube = shapes::cube(), sheet = shapes::grid(4);  // The sheet has no values that could be wrong.
+  Session session({.backend = "vulkan"});
+  (void)session.compute(cube);
+  const WrongDevice wrong;
+  Options options;
+  options.cone.rayCount = 31;
+  options.seeds = SeedCount::all();
+  for (const Mesh& mesh : {sheet, cube})
+    requireFailure([&] { (void)session.compute(mesh, options); }, ErrorCode::NoUsableDevice, "of a generated mesh");
+}
+
+TEST_CASE("a device is not wrong because of the first mesh") {
+  const Mesh cube = shapes::doubledCube();  // Rays begin in a face, and hit two at once.
+  Session first({.backend = "vulkan"}), second({.backend = "vulkan"});
+  const Result alone = first.compute(cube, test::allSeeds());
+  (void)second.compute(makeTorus(1000).mesh, test::allSeeds());
+  CHECK(test::haveSameBits(second.compute(cube, test::allSeeds()).sdf(), alone.sdf()));
+}
+
+TEST_CASE("the CPU predicts where the device predicts wrong values") {
+  const FakeDevice fake(kGpu);
+  const Mesh mesh = makeTorus(1000).mesh;
+  Session session;
+  const WrongPredictions wrong;
+  Options options;
+  const Result result = session.compute(mesh, options);
+  CHECK(session.backend() == "vulkan");
+  const Warning* warning = findWarning(result.report, WarningCode::PredictedOnCpu);
+  REQUIRE(warning != nullptr);
+  CHECK(warning->message.find("computes wrong predictions: 768 of 768 faces of a generated mesh") != std::string::npos);
+  options.solver = "cg";
+  requireFailure([&] { (void)session.compute(mesh, options); }, ErrorCode::NoUsableDevice, "wrong predictions");
 }
 
 TEST_CASE("a requested backend, device, variant or solver of the device is not replaced") {

@@ -117,6 +117,16 @@ Mesh cube() {
   return mesh;
 }
 
+Mesh doubledCube() {
+  Mesh mesh = cube();
+  for (size_t side = 0; side < 6; ++side) {
+    const auto [a, b, c] = mesh.faces[2 * side];
+    const uint32_t d = mesh.faces[2 * side + 1][2];
+    mesh.faces.insert(mesh.faces.end(), {{a, b, d}, {b, c, d}});
+  }
+  return mesh;
+}
+
 Mesh box(const Vec3d& size, uint32_t side) { return boxWithSides(size, side, true); }
 
 Mesh openBox(const Vec3d& size, uint32_t side) { return boxWithSides(size, side, false); }

@@ -10,6 +10,8 @@ namespace asdfvk::shapes {
 Mesh tetrahedron();
 /// The cube [-1, 1]^3 of 12 faces.
 Mesh cube();
+/// The cube with both diagonals of each side: two faces upon two others.
+Mesh doubledCube();
 /// A refined octahedron with its vertices on the unit sphere: 8 * 4^levels faces.
 Mesh sphere(uint32_t levels);
 /// A refined icosahedron with its vertices on the sphere: 20 * 4^levels faces.

@@ -1,0 +1,51 @@
+#include "pipeline/kernel_check.h"
+
+#include <cmath>
+#include <vector>
+
+#include "asdf_vk/report.h"
+#include "pipeline/generated_scene.h"
+#include "predict/prediction.h"
+#include "trace/reference_tracer.h"
+#include "trace/vulkan/vulkan_tracer.h"
+
+namespace asdfvk {
+namespace {
+
+constexpr uint32_t kFacesPerSeed = 12;
+
+}  // namespace
+
+TracerCheck checkKernel(const VulkanConeKernel& kernel) {
+  const GeneratedScene generated(halfSquareRing());
+  const TraceScene scene = generated.scene.view();
+  const Cone cone = makeCone({.rayCount = kernel.rayCount(), .definition = kernel.definition()});
+  return checkTracer(*makeVulkanTracer(kernel, scene, cone), scene, cone);
+}
+
+TracerCheck checkKernels(const VulkanPredictionKernels& kernels) {
+  const GeneratedScene generated(halfSquareRing());
+  const TraceScene scene = generated.scene.view();
+  const DualGraph& graph = generated.scene.prepared.graph;
+  const Cone cone = makeCone({.rayCount = kernels.rayCount(), .definition = kernels.definition()});
+  std::vector<uint32_t> seeds;
+  for (uint32_t face = 0; face < scene.mesh.faceCount(); face += kFacesPerSeed) seeds.push_back(face);
+  std::vector<double> values(seeds.size());
+  std::vector<ConeHit> hits(seeds.size() * kernels.rayCount());
+  makeReferenceTracer(scene, cone)->trace(seeds, {values, hits}, {});
+
+  const SeedHits input{seeds, hits};
+  const std::unique_ptr<DevicePredictor> predictor = makeVulkanPredictor(kernels, scene, cone);
+  const std::vector<double> expected = predictValues(scene, graph, cone, input, {}).values,
+                            predicted = predictValues(scene, graph, cone, input, {}, {}, predictor.get()).values;
+  const double tolerance = kAgreementTolerance * scene.geometry.bounds.diagonal();
+  TracerCheck check;
+  for (size_t face = 0; face < expected.size(); ++face) {
+    if (std::isnan(predicted[face]) && std::isnan(expected[face])) continue;
+    ++check.comparedCount;
+    if (!(std::abs(predicted[face] - expected[face]) <= tolerance)) ++check.differingCount;
+  }
+  return check;
+}
+
+}  // namespace asdfvk

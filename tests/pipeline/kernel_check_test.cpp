@@ -1,0 +1,29 @@
+#include "pipeline/kernel_check.h"
+
+#include <doctest/doctest.h>
+
+#include "pipeline/generated_scene.h"
+#include "support/test_device.h"
+
+using namespace asdfvk;
+
+TEST_CASE("kernels of a healthy device agree with the reference on the mesh of the first use") {
+  const test::ValidatedDevice device;
+  const GeneratedScene generated(halfSquareRing());
+  const TraceScene scene = generated.scene.view();
+  CHECK(scene.mesh.faceCount() == 768);
+  CHECK(generated.scene.prepared.warnings.empty());
+  CHECK(scene.bvh.depth >= 7);  // Of the wide hierarchy at least three levels.
+  for (const Definition definition : {Definition::Paper, Definition::Cgal}) {
+    for (const uint32_t rayCount : {1u, 30u}) {
+      CAPTURE(rayCount);
+      const VulkanConeKernel kernel(*device, {.rayCount = rayCount, .writesHits = true, .definition = definition});
+      const TracerCheck check = checkKernel(kernel);
+      CHECK(check.comparedCount > 50);   // Of 64: a face has no value where all of its hits are false.
+      CHECK(check.differingCount <= 1);  // A ray may graze an edge.
+      const TracerCheck predictions = checkKernels(VulkanPredictionKernels(*device, definition, rayCount));
+      CHECK(predictions.comparedCount > 700);
+      CHECK(predictions.differingCount < 10);
+    }
+  }
+}
