@@ -64,7 +64,7 @@ enum class WarningCode {
   ComponentsReversed,   ///< Inverted components were reversed (Orientation::Auto).
   MissingValues,        ///< Faces without a value. Details: {"cause", "inverted"}, {"cause", "open"} where likely.
   FinishedOnCpu,        ///< The solver of the device reached the limit of float32; the CPU continued in double.
-  BackendReplaced,      ///< The device failed; "auto" continued with another backend, also for later meshes.
+  BackendReplaced,      ///< The device failed; "auto" continued with another backend; see SessionOptions::backend.
   PredictedOnCpu,       ///< The device failed to predict values; the CPU predicted them.
   SolvedOnCpu,          ///< The device failed to solve the equation; the CPU solved it.
   NotConverged,         ///< The solver stopped at its iteration limit.

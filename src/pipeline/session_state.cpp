@@ -28,9 +28,16 @@ bool SessionState::replaceBackend(const Error& failure) {
        {{"failed", named.name}, {"code", nameOf(failure.code())}}});
   next->deviceLines.push_back(fmt::format("{}: failed: {}", named.name, failure.what()));
   solvers.clear();
-  replaced_.push_back(std::move(named.backend));
-  named = std::move(*next);
+  replaced_.push_back(std::exchange(named, std::move(*next)));
+  lacksMemory_ = failure.code() == ErrorCode::OutOfDeviceMemory;
   return true;
+}
+
+void SessionState::returnToDevice() {
+  if (!std::exchange(lacksMemory_, false)) return;
+  std::swap(named, replaced_.back());
+  solvers.clear();
+  warnings_.pop_back();
 }
 
 }  // namespace asdfvk

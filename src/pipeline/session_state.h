@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <memory>
 #include <vector>
 
 #include "pipeline/backend.h"
@@ -14,13 +13,13 @@ class SessionState {
  public:
   explicit SessionState(const SessionOptions& options) : named(openBackend(options)), options_(options) {}
 
-  /// Calls compute(control). Where the device fails, is lost or is out of memory, and another backend may be used, the
-  /// session continues with that one, and compute() is called again; the progress never decreases. mayReplace: whether
-  /// the computation needs no device.
+  /// Calls compute(control). Where the device fails, is lost or is out of memory, and another backend may be used,
+  /// compute() is called again with that one; the progress never decreases. The session continues with it, unless this
+  /// mesh needed more memory than the device has. mayReplace: whether the computation needs no device.
   template <typename Compute>
   auto compute(bool mayReplace, const RunControl& control, const Compute& compute);
 
-  /// For each computation after a backend was replaced.
+  /// For each computation on a backend that replaces another one.
   [[nodiscard]] const std::vector<Warning>& warnings() const { return warnings_; }
 
   NamedBackend named;
@@ -29,14 +28,23 @@ class SessionState {
  private:
   /// Opens the next backend of "auto". Returns false where there is none, or where the options request this one.
   bool replaceBackend(const Error& failure);
+  /// Ends a replacement for one mesh.
+  void returnToDevice();
+
+  struct Return {
+    SessionState& state;
+    ~Return() { state.returnToDevice(); }
+  };
 
   SessionOptions options_;
   std::vector<Warning> warnings_;
-  std::vector<std::unique_ptr<Backend>> replaced_;  // Kept: tracers of scenes may refer to them.
+  std::vector<NamedBackend> replaced_;  // Kept: tracers of scenes may refer to them.
+  bool lacksMemory_ = false;            // The last of them did, for this mesh.
 };
 
 template <typename Compute>
 auto SessionState::compute(bool mayReplace, const RunControl& control, const Compute& compute) {
+  const Return returning{*this};
   double done = 0;
   RunControl watched = control;
   if (control.progress)

@@ -169,6 +169,29 @@ TEST_CASE("auto completes a mesh and later ones, whichever allocation finds no m
   CHECK(n > 5);
 }
 
+TEST_CASE("a mesh that exceeds the memory of the device leaves the device to later meshes") {
+  const FakeDevice fake(kGpu);
+  const Expected expected;
+  Session session;
+  Scene scene(session, expected.meshes[0]);
+  const auto check = [&](const Result& result, bool isReplaced, const std::vector<double>& values) {
+    CHECK(result.report.backend == (isReplaced ? kNextBackend : "vulkan"));
+    CHECK((findWarning(result.report, WarningCode::BackendReplaced) != nullptr) == isReplaced);
+    CHECK(test::haveSameBits(result.sdf(), values));
+    CHECK(session.backend() == "vulkan");
+  };
+  for (int i = 0; i < 2; ++i) {
+    {
+      const FullDevice full;
+      check(scene.compute(), true, expected.replaced[0]);
+    }
+    Options options;
+    options.solver = "cg";
+    check(session.compute(expected.meshes[1], options), false, expected.onDevice[1]);
+    check(scene.compute(), false, expected.onDevice[0]);
+  }
+}
+
 TEST_CASE("where one allocation fails, a buffer is in other memory and nothing else changes") {
   const FakeDevice fake(kGpu);
   const Expected expected;
