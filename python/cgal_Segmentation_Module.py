@@ -39,7 +39,7 @@ def cgal_segmentation(
     clusters: int,
     smoothness: float,
     *,
-    expansion: Literal["all", "first"] = "all",
+    expansion: Literal["all", "first"] | None = "all",
     **options: Unpack[BackendOptions],
 ) -> int:
     """Computes values and segments of the mesh PATH.off and writes them beside it.
@@ -67,7 +67,7 @@ def cgal_segmentation(
             mesh, None, clusters, smoothness, expansion=expansion, **options
         )
     except asdf_vk.DeviceError as error:
-        if error.code != "forkedProcess" or "session" in options:
+        if error.code != "forkedProcess" or options.get("session") is not None:
             raise
         return _in_new_process(path, clusters, smoothness, {"expansion": expansion, **options})
     name = f"{path}-cgal_{clusters}_{smoothness:.2f}"
@@ -84,7 +84,7 @@ def cgal_segmentation_arrays(
     clusters: int,
     smoothness: float,
     *,
-    expansion: Literal["all", "first"] = "all",
+    expansion: Literal["all", "first"] | None = "all",
     **options: Unpack[BackendOptions],
 ) -> tuple[NDArray[np.int32], NDArray[np.float64]]:
     """The same in memory, without files and codes.

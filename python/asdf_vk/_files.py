@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _core
 from ._arrays import field_array, mesh_argument
 from ._errors import error_of
+from ._session import flag_of
 
 Mesh = _core.Mesh
 
@@ -42,8 +43,8 @@ def write(
     fields: Mapping[str, ArrayLike] | None = None,
     *,
     vertex_fields: Mapping[str, ArrayLike] | None = None,
-    format: str = "",
-    ascii: bool = False,
+    format: str | None = "",
+    ascii: bool | None = False,
 ) -> None:
     """Writes fields, and in .ply and .vtu also the mesh. The file is replaced atomically.
 
@@ -54,10 +55,11 @@ def write(
 
     Raises OutputError, InputError, UsageError.
     """
-    if not isinstance(format, str) or not isinstance(ascii, bool):
-        raise error_of("optionOutOfRange", f"format={format!r} and ascii={ascii!r} are not a string and True or False")
+    format = "" if format is None else format
+    if not isinstance(format, str):
+        raise error_of("optionOutOfRange", f"format={format!r} is not a string")
     argument = mesh_argument(*mesh) if isinstance(mesh, tuple) and len(mesh) == 2 else mesh_argument(mesh)
-    _core.write(_path(path), argument, _arrays_of(fields), _arrays_of(vertex_fields), format, ascii)
+    _core.write(_path(path), argument, _arrays_of(fields), _arrays_of(vertex_fields), format, flag_of(ascii, "ascii"))
 
 
 def _arrays_of(fields: Mapping[str, ArrayLike] | None) -> dict[str, NDArray[Any]]:

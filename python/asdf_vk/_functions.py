@@ -33,8 +33,8 @@ def shape_diameter(
     vertices: Any,
     faces: ArrayLike | None = None,
     *,
-    per: Literal["face", "vertex"] = "face",
-    return_info: Literal[False] = False,
+    per: Literal["face", "vertex"] | None = "face",
+    return_info: Literal[False] | None = False,
     **options: Unpack[FunctionOptions],
 ) -> NDArray[np.float32]: ...
 @overload
@@ -42,7 +42,7 @@ def shape_diameter(
     vertices: Any,
     faces: ArrayLike | None = None,
     *,
-    per: Literal["face", "vertex"] = "face",
+    per: Literal["face", "vertex"] | None = "face",
     return_info: Literal[True],
     **options: Unpack[FunctionOptions],
 ) -> tuple[NDArray[np.float32], Info]: ...
@@ -50,8 +50,8 @@ def shape_diameter(
     vertices: Any,
     faces: ArrayLike | None = None,
     *,
-    per: Literal["face", "vertex"] = "face",
-    return_info: bool = False,
+    per: Literal["face", "vertex"] | None = "face",
+    return_info: bool | None = False,
     **options: Any,
 ) -> Any:
     """Shape diameter function: how thick the shape is behind each face.
@@ -80,8 +80,8 @@ def thickness(
     thinner_than: float | None = None,
     allow_sharp_edges: bool | None = None,
     wall_angle: float | None = None,
-    per: Literal["face", "vertex"] = "face",
-    return_info: Literal[False] = False,
+    per: Literal["face", "vertex"] | None = "face",
+    return_info: Literal[False] | None = False,
     **options: Unpack[FunctionOptions],
 ) -> NDArray[np.float32]: ...
 @overload
@@ -92,7 +92,7 @@ def thickness(
     thinner_than: float | None = None,
     allow_sharp_edges: bool | None = None,
     wall_angle: float | None = None,
-    per: Literal["face", "vertex"] = "face",
+    per: Literal["face", "vertex"] | None = "face",
     return_info: Literal[True],
     **options: Unpack[FunctionOptions],
 ) -> tuple[NDArray[np.float32], Info]: ...
@@ -103,8 +103,8 @@ def thickness(
     thinner_than: float | None = None,
     allow_sharp_edges: bool | None = None,
     wall_angle: float | None = None,
-    per: Literal["face", "vertex"] = "face",
-    return_info: bool = False,
+    per: Literal["face", "vertex"] | None = "face",
+    return_info: bool | None = False,
     **options: Any,
 ) -> Any:
     """Wall thickness: diameter of the largest ball that touches a face from inside, clear of opposing walls.
@@ -130,13 +130,13 @@ def segment(
     vertices: Any,
     faces: ArrayLike | None = None,
     *,
-    method: Literal["parts", "cgal"] = "parts",
+    method: Literal["parts", "cgal"] | None = "parts",
     parts: int | None = None,
     detail: float | None = None,
     clusters: int | None = None,
     smoothness: float | None = None,
     expansion: Literal["all", "first"] | None = None,
-    return_info: Literal[False] = False,
+    return_info: Literal[False] | None = False,
     **options: Unpack[FunctionOptions],
 ) -> NDArray[np.int32]: ...
 @overload
@@ -144,7 +144,7 @@ def segment(
     vertices: Any,
     faces: ArrayLike | None = None,
     *,
-    method: Literal["parts", "cgal"] = "parts",
+    method: Literal["parts", "cgal"] | None = "parts",
     parts: int | None = None,
     detail: float | None = None,
     clusters: int | None = None,
@@ -157,13 +157,13 @@ def segment(
     vertices: Any,
     faces: ArrayLike | None = None,
     *,
-    method: Literal["parts", "cgal"] = "parts",
+    method: Literal["parts", "cgal"] | None = "parts",
     parts: int | None = None,
     detail: float | None = None,
     clusters: int | None = None,
     smoothness: float | None = None,
     expansion: Literal["all", "first"] | None = None,
-    return_info: bool = False,
+    return_info: bool | None = False,
     **options: Any,
 ) -> Any:
     """Segments of the surface: parts by shape diameter and line of sight, or CGAL's segmentation.
@@ -186,7 +186,7 @@ def skeleton_points(
     vertices: Any,
     faces: ArrayLike | None = None,
     *,
-    return_info: Literal[False] = False,
+    return_info: Literal[False] | None = False,
     **options: Unpack[FunctionOptions],
 ) -> tuple[NDArray[np.float64], NDArray[np.float32]]: ...
 @overload
@@ -198,7 +198,7 @@ def skeleton_points(
     **options: Unpack[FunctionOptions],
 ) -> tuple[NDArray[np.float64], NDArray[np.float32], Info]: ...
 def skeleton_points(
-    vertices: Any, faces: ArrayLike | None = None, *, return_info: bool = False, **options: Any
+    vertices: Any, faces: ArrayLike | None = None, *, return_info: bool | None = False, **options: Any
 ) -> Any:
     """Points half-way through the shape: each barycentre moved inwards by half of the shape diameter.
 

@@ -47,13 +47,15 @@ def _computed(target: Target, options: dict[str, Any], implied: dict[str, Any]) 
     return computed
 
 
-def _per_vertex(per: str) -> bool:
+def _per_vertex(per: str | None) -> bool:
+    if per is None:
+        return False
     if not isinstance(per, str) or per not in ("face", "vertex"):
         raise error_of("unknownName", f"per={per!r} is unknown; the names are face, vertex")
     return per == "vertex"
 
 
-def shape_diameter(target: Target, per: str, return_info: bool, options: dict[str, Any]) -> Any:
+def shape_diameter(target: Target, per: str | None, return_info: bool | None, options: dict[str, Any]) -> Any:
     per_vertex = _per_vertex(per)
     computed = _computed(target, options, {"per": per})
     values = computed.array("sdf", per_vertex, True)
@@ -68,7 +70,11 @@ def thickness_options(
 
 
 def thickness(
-    target: Target, of_measure: dict[str, Any], per: str, return_info: bool, options: dict[str, Any]
+    target: Target,
+    of_measure: dict[str, Any],
+    per: str | None,
+    return_info: bool | None,
+    options: dict[str, Any],
 ) -> Any:
     per_vertex = _per_vertex(per)
     computed = _computed(target, options, {"measure": "thickness", **of_measure, "per": per})
@@ -97,8 +103,13 @@ def method_options(
 
 
 def segment(
-    target: Target, method: str, of_method: dict[str, Any], return_info: bool, options: dict[str, Any]
+    target: Target,
+    method: str | None,
+    of_method: dict[str, Any],
+    return_info: bool | None,
+    options: dict[str, Any],
 ) -> Any:
+    method = "parts" if method is None else method
     if not isinstance(method, str) or method not in ("parts", "cgal"):
         raise error_of("unknownName", f"method={method!r} is unknown; the names are parts, cgal")
     for name, value in of_method.items():
@@ -109,7 +120,7 @@ def segment(
     return (labels, _info(computed)) if return_info else labels
 
 
-def skeleton_points(target: Target, return_info: bool, options: dict[str, Any]) -> Any:
+def skeleton_points(target: Target, return_info: bool | None, options: dict[str, Any]) -> Any:
     computed = _computed(target, options, {"centres": True})
     points = computed.array("centre", False, True)
     radii = computed.array("sdf", False, True) / np.float32(2)

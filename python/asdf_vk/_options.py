@@ -84,14 +84,14 @@ class SceneOptions(ComputeOptions, CallOptions, total=False):
 
 
 class BackendOptions(TypedDict, total=False):
-    """The backend of a call: a session, or that of the free functions for these options."""
+    """The backend of a call: a session, or that of the free functions for these options. None is the default."""
 
     session: Session | None
-    backend: Literal["auto", "vulkan", "cpu", "reference"]
-    device: str
+    backend: Literal["auto", "vulkan", "cpu", "reference"] | None
+    device: str | int | None
     """Vulkan device: an index or a part of a name."""
-    require_gpu: bool
-    threads: int
+    require_gpu: bool | None
+    threads: int | None
     """CPU threads; 0: the number of cores. Results do not depend on it."""
 
 

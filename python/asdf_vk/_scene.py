@@ -46,7 +46,7 @@ class Scene:
         vertices: Any,
         faces: ArrayLike | None = None,
         *,
-        orient: Literal["keep", "auto", "flip"] = "keep",
+        orient: Literal["keep", "auto", "flip"] | None = "keep",
         progress: Progress | None = None,
         **options: Unpack[BackendOptions],
     ) -> None:
@@ -99,8 +99,8 @@ class Scene:
         self,
         *,
         faces: ArrayLike | None = None,
-        per: Literal["face", "vertex"] = "face",
-        return_info: Literal[False] = False,
+        per: Literal["face", "vertex"] | None = "face",
+        return_info: Literal[False] | None = False,
         **options: Unpack[SceneOptions],
     ) -> NDArray[np.float32]: ...
     @overload
@@ -108,7 +108,7 @@ class Scene:
         self,
         *,
         faces: ArrayLike | None = None,
-        per: Literal["face", "vertex"] = "face",
+        per: Literal["face", "vertex"] | None = "face",
         return_info: Literal[True],
         **options: Unpack[SceneOptions],
     ) -> tuple[NDArray[np.float32], Info]: ...
@@ -116,8 +116,8 @@ class Scene:
         self,
         *,
         faces: ArrayLike | None = None,
-        per: Literal["face", "vertex"] = "face",
-        return_info: bool = False,
+        per: Literal["face", "vertex"] | None = "face",
+        return_info: bool | None = False,
         **options: Any,
     ) -> Any:
         """As asdf_vk.shape_diameter(), of the whole mesh or of a region (faces)."""
@@ -131,8 +131,8 @@ class Scene:
         thinner_than: float | None = None,
         allow_sharp_edges: bool | None = None,
         wall_angle: float | None = None,
-        per: Literal["face", "vertex"] = "face",
-        return_info: Literal[False] = False,
+        per: Literal["face", "vertex"] | None = "face",
+        return_info: Literal[False] | None = False,
         **options: Unpack[SceneOptions],
     ) -> NDArray[np.float32]: ...
     @overload
@@ -143,7 +143,7 @@ class Scene:
         thinner_than: float | None = None,
         allow_sharp_edges: bool | None = None,
         wall_angle: float | None = None,
-        per: Literal["face", "vertex"] = "face",
+        per: Literal["face", "vertex"] | None = "face",
         return_info: Literal[True],
         **options: Unpack[SceneOptions],
     ) -> tuple[NDArray[np.float32], Info]: ...
@@ -154,8 +154,8 @@ class Scene:
         thinner_than: float | None = None,
         allow_sharp_edges: bool | None = None,
         wall_angle: float | None = None,
-        per: Literal["face", "vertex"] = "face",
-        return_info: bool = False,
+        per: Literal["face", "vertex"] | None = "face",
+        return_info: bool | None = False,
         **options: Any,
     ) -> Any:
         """As asdf_vk.thickness(), of the whole mesh or of a region (faces)."""
@@ -166,20 +166,20 @@ class Scene:
     def segment(
         self,
         *,
-        method: Literal["parts", "cgal"] = "parts",
+        method: Literal["parts", "cgal"] | None = "parts",
         parts: int | None = None,
         detail: float | None = None,
         clusters: int | None = None,
         smoothness: float | None = None,
         expansion: Literal["all", "first"] | None = None,
-        return_info: Literal[False] = False,
+        return_info: Literal[False] | None = False,
         **options: Unpack[SceneOptions],
     ) -> NDArray[np.int32]: ...
     @overload
     def segment(
         self,
         *,
-        method: Literal["parts", "cgal"] = "parts",
+        method: Literal["parts", "cgal"] | None = "parts",
         parts: int | None = None,
         detail: float | None = None,
         clusters: int | None = None,
@@ -191,13 +191,13 @@ class Scene:
     def segment(
         self,
         *,
-        method: Literal["parts", "cgal"] = "parts",
+        method: Literal["parts", "cgal"] | None = "parts",
         parts: int | None = None,
         detail: float | None = None,
         clusters: int | None = None,
         smoothness: float | None = None,
         expansion: Literal["all", "first"] | None = None,
-        return_info: bool = False,
+        return_info: bool | None = False,
         **options: Any,
     ) -> Any:
         """As asdf_vk.segment(), of the whole mesh."""
@@ -209,7 +209,7 @@ class Scene:
         self,
         *,
         faces: ArrayLike | None = None,
-        return_info: Literal[False] = False,
+        return_info: Literal[False] | None = False,
         **options: Unpack[SceneOptions],
     ) -> tuple[NDArray[np.float64], NDArray[np.float32]]: ...
     @overload
@@ -217,7 +217,7 @@ class Scene:
         self, *, faces: ArrayLike | None = None, return_info: Literal[True], **options: Unpack[SceneOptions]
     ) -> tuple[NDArray[np.float64], NDArray[np.float32], Info]: ...
     def skeleton_points(
-        self, *, faces: ArrayLike | None = None, return_info: bool = False, **options: Any
+        self, *, faces: ArrayLike | None = None, return_info: bool | None = False, **options: Any
     ) -> Any:
         """As asdf_vk.skeleton_points(), of the whole mesh or of a region (faces)."""
         return _measures.skeleton_points(_Region(self, faces), return_info, options)

@@ -41,12 +41,18 @@ class Session:
     device: Vulkan device, an index or a part of a name; empty: the highest rank.
     require_gpu: fail where the CPU would trace.
     threads: CPU threads; 0: the number of cores. Results do not depend on it.
+    None is the default of each.
 
     Any number of threads may use it; one computation runs at a time. Raises DeviceError.
     """
 
     def __init__(
-        self, *, backend: str = "auto", device: str | int = "", require_gpu: bool = False, threads: int = 0
+        self,
+        *,
+        backend: str | None = "auto",
+        device: str | int | None = "",
+        require_gpu: bool | None = False,
+        threads: int | None = 0,
     ) -> None:
         self._open: _core.Session | None = _core.Session(*_session_key(backend, device, require_gpu, threads))
 
@@ -93,19 +99,26 @@ class Session:
 
 
 def _session_key(backend: Any, device: Any, require_gpu: Any, threads: Any) -> tuple[str, str, bool, int]:
+    backend = "auto" if backend is None else backend
+    device = "" if device is None else device
     if not isinstance(device, str):
         device = str(_index(device, "device", 0, 2**31, "an index or a part of a name"))
     for name, text in (("backend", backend), ("device", device)):
         if not isinstance(text, str) or not text.isprintable():
             raise error_of("optionOutOfRange", f"{name}={text!r} is not a name")
-    if not isinstance(require_gpu, (bool, np.bool_)):
-        raise error_of("optionOutOfRange", f"require_gpu={require_gpu!r} is not True or False")
-    return backend, device, bool(require_gpu), thread_count(threads)
+    return backend, device, flag_of(require_gpu, "require_gpu"), thread_count(threads)
+
+
+def flag_of(value: Any, name: str) -> bool:
+    """Checks a flag; None: False."""
+    if value is not None and not isinstance(value, (bool, np.bool_)):
+        raise error_of("optionOutOfRange", f"{name}={value!r} is not True or False")
+    return bool(value)
 
 
 def thread_count(threads: Any) -> int:
-    """Checks a number of CPU threads; 0: the number of cores."""
-    return _index(threads, "threads", 0, 1024, "a whole number from 0 to 1024")
+    """Checks a number of CPU threads; 0, as well as None: the number of cores."""
+    return _index(0 if threads is None else threads, "threads", 0, 1024, "a whole number from 0 to 1024")
 
 
 def _index(value: Any, name: str, least: int, most: int, wanted: str) -> int:
@@ -132,9 +145,7 @@ def _renew_lock() -> None:
 os.register_at_fork(after_in_child=_renew_lock)
 
 
-def default_session(
-    backend: str = "auto", device: str | int = "", require_gpu: bool = False, threads: int = 0
-) -> Session:
+def default_session(backend: Any = None, device: Any = None, require_gpu: Any = None, threads: Any = None) -> Session:
     """The session of the free functions for these options, opened at first use and kept."""
     key = _session_key(backend, device, require_gpu, threads)
     with _default_sessions_lock:
@@ -158,7 +169,8 @@ _BACKEND_OPTIONS = ("backend", "device", "require_gpu", "threads")
 def session_of(options: dict[str, Any]) -> Session:
     """The session that `options` name or describe; removes these options."""
     session = options.pop("session", None)
-    described = {name: options.pop(name) for name in _BACKEND_OPTIONS if name in options}
+    given = {name: options.pop(name) for name in _BACKEND_OPTIONS if name in options}
+    described = {name: value for name, value in given.items() if value is not None}
     if session is None:
         return default_session(**described)
     if described:

@@ -15,6 +15,7 @@ CGAL 5.5.1 and contain none of its code. What differs:
   readers also reverse faces of such meshes.
 - Fewer different values than clusters, and a mesh without any value, are errors (InputError, codes
   "tooFewValues" and "noValues"); CGAL does not end, or crashes.
+- None is the default of each keyword.
 - number_of_clusters is 2 to 100, smoothing_lambda 0 to 1000, number_of_rays 1 to 1024.
 """
 
@@ -46,10 +47,10 @@ def sdf_values(
     vertices: Any,
     faces: ArrayLike | None = None,
     *,
-    cone_angle: float = 2 / 3 * math.pi,
-    number_of_rays: int = 25,
-    postprocess: bool = True,
-    seeds: int | float | str = "all",
+    cone_angle: float | None = 2 / 3 * math.pi,
+    number_of_rays: int | None = 25,
+    postprocess: bool | None = True,
+    seeds: int | float | str | None = "all",
     progress: Progress | None = None,
     **options: Unpack[BackendOptions],
 ) -> tuple[NDArray[np.float64], tuple[float, float]]:
@@ -73,13 +74,13 @@ def sdf_values(
     try:
         if isinstance(cone_angle, (bool, np.bool_)):
             raise TypeError("a flag")
-        degrees = round(math.degrees(cone_angle), _ANGLE_DIGITS)
+        degrees = None if cone_angle is None else round(math.degrees(cone_angle), _ANGLE_DIGITS)
     except (TypeError, ValueError, OverflowError) as error:
         message = f"cone_angle={cone_angle!r} is not an angle in radians"
         raise error_of("optionOutOfRange", message) from error
-    if number_of_rays is None:
-        raise error_of("optionOutOfRange", "number_of_rays=None is not a number")
-    described = {"cone_angle": degrees, "rays": number_of_rays, "seeds": seeds}
+    seeds = "all" if seeds is None else seeds
+    postprocess = True if postprocess is None else postprocess
+    described: dict[str, Any] = {"cone_angle": degrees, "rays": number_of_rays, "seeds": seeds}
     if postprocess:
         described["postprocess"] = "cgal"
     computed = _computed(vertices, faces, described, {**options}, progress)
@@ -100,7 +101,7 @@ def sdf_values_postprocessing(
     faces: ArrayLike | None,
     sdf_values: ArrayLike,
     *,
-    threads: int = 0,
+    threads: int | None = 0,
     progress: Progress | None = None,
 ) -> tuple[NDArray[np.float64], tuple[float, float]]:
     """CGAL's sdf_values_postprocessing(): fills missing values, smooths, and maps to [0, 1].
@@ -126,11 +127,11 @@ def segmentation_from_sdf_values(
     faces: ArrayLike | None,
     sdf_values: ArrayLike,
     *,
-    number_of_clusters: int = 5,
-    smoothing_lambda: float = 0.26,
-    output_cluster_ids: bool = False,
-    expansion: Literal["all", "first"] = "all",
-    threads: int = 0,
+    number_of_clusters: int | None = 5,
+    smoothing_lambda: float | None = 0.26,
+    output_cluster_ids: bool | None = False,
+    expansion: Literal["all", "first"] | None = "all",
+    threads: int | None = 0,
     progress: Progress | None = None,
 ) -> tuple[NDArray[np.int32], int]:
     """CGAL's segmentation_from_sdf_values(): clusters of values, and a graph cut into segments.
@@ -150,8 +151,6 @@ def segmentation_from_sdf_values(
     """
     mesh = mesh_argument(vertices, faces)
     values = values_array(sdf_values, "sdf_values", _face_count(mesh))
-    if number_of_clusters is None or smoothing_lambda is None:
-        raise error_of("optionOutOfRange", "number_of_clusters and smoothing_lambda are numbers, not None")
     options = {
         "clusters": number_of_clusters,
         "smoothness": smoothing_lambda,

@@ -35,9 +35,9 @@ __all__ = ["thickness"]
 def thickness(
     mesh: Any,
     points: ArrayLike,
-    exterior: bool = False,
+    exterior: bool | None = False,
     normals: ArrayLike | None = None,
-    method: Literal["max_sphere", "ray"] = "max_sphere",
+    method: Literal["max_sphere", "ray"] | None = "max_sphere",
     **options: Unpack[BackendOptions],
 ) -> NDArray[np.float64]:
     """Thickness of a mesh at points of its surface.
@@ -52,7 +52,8 @@ def thickness(
 
     Returns float64 (k,), in the unit of the mesh. Raises InputError, UsageError, DeviceError.
     """
-    if method not in ("max_sphere", "ray"):
+    method = "max_sphere" if method is None else method
+    if not isinstance(method, str) or method not in ("max_sphere", "ray"):
         raise error_of("unknownName", f"method={method!r} is unknown; the names are max_sphere, ray")
     places = points_array(points, "points").astype(np.float64)
     # Triangles also of a Mesh with polygons: normals are those of triangles.
