@@ -36,8 +36,7 @@ def mesh_argument(mesh: Any, faces: Any = None) -> MeshArgument:
 
 def points_array(value: Any, name: str) -> NDArray[Any]:
     """(n, 3) float32 or float64, C-contiguous; other real numbers become float64. Not checked for NaN."""
-    array = _as_array(value, name, "fiu", "real numbers")
-    _require_shape(array, name)
+    array = _rows(_as_array(value, name, "fiu", "real numbers"), name)
     return _native(array, np.float32 if array.dtype in (np.float32, np.float16) else np.float64, name)
 
 
@@ -60,7 +59,7 @@ def values_array(value: Any, name: str, count: int) -> NDArray[np.float64]:
 def mask_array(value: Any, count: int) -> NDArray[np.uint8]:
     """A mask of faces: (count,) bool, or indices of faces."""
     array = _as_array(value, "faces", "bfiu", "a mask (bool) or indices of faces")
-    if array.size == 0:  # [] is an array of float64.
+    if array.size == 0:
         array = np.zeros(0, np.int64)
     if array.dtype.kind == "f":
         raise error_of("arrayType", f"faces has the type {array.dtype}, not a mask (bool) or indices of faces")
@@ -110,15 +109,21 @@ def _as_array(value: Any, name: str, kinds: str, wanted: str) -> NDArray[Any]:
     if np.ma.isMaskedArray(value) and np.ma.getmaskarray(value).any():
         raise error_of("arrayType", f"{name} is a masked array with masked entries; fill or remove them")
     if array.dtype.kind not in kinds:
+        if array.size == 0:  # Of any type: [] is an array of float64.
+            return np.zeros(array.shape, np.uint8)
         raise error_of("arrayType", f"{name} has the type {array.dtype}, not {wanted}")
     return array
 
 
-def _require_shape(array: NDArray[Any], name: str) -> None:
+def _rows(array: NDArray[Any], name: str) -> NDArray[Any]:
+    """(n, 3); (0, 3) also for []."""
+    if array.shape == (0,):
+        return array.reshape(0, 3)
     if array.ndim != 2 or array.shape[1] != 3:
         raise error_of("arraySize", f"{name} has the shape {array.shape}, not (n, 3)")
     if len(array) > _MAX_ROW_COUNT:
         raise error_of("meshTooLarge", f"{name} has {len(array)} rows, more than {_MAX_ROW_COUNT}")
+    return array
 
 
 def _native(array: NDArray[Any], dtype: Any, name: str) -> NDArray[Any]:
@@ -131,8 +136,7 @@ def _native(array: NDArray[Any], dtype: Any, name: str) -> NDArray[Any]:
 
 
 def _indices(value: Any, vertex_count: int) -> NDArray[np.uint32]:
-    array = _as_array(value, "faces", "iu", "integers")
-    _require_shape(array, "faces")
+    array = _rows(_as_array(value, "faces", "iu", "integers"), "faces")
     if array.size:
         least, greatest = int(array.min()), int(array.max())
         if least < 0 or greatest >= vertex_count:

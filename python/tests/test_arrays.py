@@ -117,3 +117,24 @@ def test_extreme_units(dtype: Any) -> None:
     expected = asdf_vk.shape_diameter(vertices, faces)
     for scale in (dtype(2.0**-60), dtype(2.0**60)):
         np.testing.assert_allclose(asdf_vk.shape_diameter(vertices * scale, faces) / scale, expected, rtol=1e-6)
+
+
+@pytest.mark.parametrize("empty", [[], (), np.zeros(0), np.zeros((0, 3)), np.zeros((0, 3), int), np.zeros(0, object)])
+def test_empty_faces_are_named(empty: Any, reference: asdf_vk.Session) -> None:
+    with pytest.raises(asdf_vk.InputError, match="no faces") as caught:
+        asdf_vk.shape_diameter(cube()[0], empty, session=reference)
+    assert caught.value.code == "emptyMesh"
+
+
+def test_other_empty_arrays(reference: asdf_vk.Session) -> None:
+    vertices, faces = cube()
+    with pytest.raises(asdf_vk.InputError, match="no vertices"):
+        asdf_vk.shape_diameter([], faces, session=reference)
+    with pytest.raises(asdf_vk.InputError, match="no faces"):
+        asdf_vk.shape_diameter([], [], session=reference)
+    with pytest.raises(asdf_vk.InputError, match=r"faces has the shape \(1, 0\), not \(n, 3\)"):
+        asdf_vk.shape_diameter(vertices, [[]], session=reference)
+    scene = asdf_vk.Scene(vertices, faces, session=reference)
+    assert scene.at([], []).shape == (0,)
+    with pytest.raises(asdf_vk.InputError, match="no face"):
+        scene.shape_diameter(faces=[])
