@@ -12,6 +12,7 @@
 #include "arrays.h"
 #include "asdf_vk/error.h"
 #include "asdf_vk/files.h"
+#include "gil.h"
 #include "interruptible.h"
 #include "report.h"
 
@@ -22,7 +23,7 @@ namespace {
 
 Mesh readWithoutGil(const std::filesystem::path& path) {
   requireSameProcess();
-  const py::gil_scoped_release released;
+  const GilRelease released;
   return readMesh(path);
 }
 
@@ -75,7 +76,7 @@ void write(const std::filesystem::path& path, const py::object& mesh, const py::
   requireSameProcess();
   const std::vector<Field> fields = fieldsOf(perFace, perVertex);
   const MeshView view = viewOf(mesh);
-  const py::gil_scoped_release released;
+  const GilRelease released;
   writeResult(path, view, fields, {.format = format, .fields = {}, .ascii = ascii});
 }
 
@@ -83,7 +84,7 @@ void write(const std::filesystem::path& path, const py::object& mesh, const py::
 py::tuple readFieldsOf(const std::filesystem::path& path) {
   requireSameProcess();
   const std::vector<Field> fields = [&] {
-    const py::gil_scoped_release released;
+    const GilRelease released;
     return readFields(path);
   }();
   py::dict perFace, perVertex;

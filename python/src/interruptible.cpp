@@ -11,6 +11,7 @@
 #include "arrays.h"
 #include "asdf_vk/error.h"
 #include "asdf_vk/report.h"
+#include "gil.h"
 #include "worker_threads.h"
 
 namespace py = pybind11;
@@ -39,7 +40,7 @@ class ProgressCall {
     if (callback_.is_none() || (fraction == lastFraction_ && stage == lastStage_)) return true;
     lastFraction_ = fraction;
     lastStage_ = stage;
-    const py::object answer = callback_(fraction, stage);
+    const py::object answer = callPython(callback_, py::make_tuple(fraction, stage));
     return !isFlag(answer) || PyObject_IsTrue(answer.ptr()) == 1;
   }
 
@@ -50,36 +51,49 @@ class ProgressCall {
   const char* lastStage_ = nullptr;
 };
 
+/// Its stop is requested at the end of the process.
+std::stop_source& endOfProcess() {
+  static auto* source = new std::stop_source;
+  return *source;
+}
+
 }  // namespace
 
 void runInterruptibly(const std::function<void(const RunControl&)>& work, const py::object& progress) {
   Progress state;
   ProgressCall call(state, progress);
   std::stop_source source;
+  const std::stop_callback stopAtEnd(endOfProcess().get_token(), [&] { source.request_stop(); });
   const RunControl control{source.get_token(), [&](double fraction) { state.fraction = fraction; },
                            [&](Stage stage) { state.stage = nameOf(stage); }};
   std::packaged_task<void()> task([&] { work(control); });
   std::future<void> done = task.get_future();
   std::exception_ptr raised;
-  {
-    const py::gil_scoped_release released;
-    runOnWorker(std::move(task));
-    while (done.wait_for(kPollInterval) != std::future_status::ready) {
-      if (source.stop_requested()) continue;
-      const py::gil_scoped_acquire acquired;
-      try {
-        if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-        if (!call()) source.request_stop();
-      } catch (...) {
-        raised = std::current_exception();
-        source.request_stop();
-      }
+  runOnWorker(std::move(task));
+  const auto isDone = [&] {
+    const GilRelease released;
+    return done.wait_for(kPollInterval) == std::future_status::ready;
+  };
+  while (!isDone()) {
+    if (source.stop_requested()) continue;
+    try {
+      if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+      if (!call()) source.request_stop();
+    } catch (...) {
+      raised = std::current_exception();
+      source.request_stop();
     }
   }
   if (raised) std::rethrow_exception(raised);
   done.get();
   state.fraction = 1;
   call();
+}
+
+void stopAtExit() {
+  if (isForkedProcess()) return;
+  endOfProcess().request_stop();
+  waitForWorkers();
 }
 
 bool isForkedProcess() {

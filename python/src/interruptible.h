@@ -14,6 +14,10 @@ namespace asdfvk::python {
 /// (bool or numpy.bool_). Throws what `work` throws.
 void runInterruptibly(const std::function<void(const RunControl&)>& work, const pybind11::object& progress);
 
+/// At the end of the process, when no thread can return to Python: stops all `work`, which daemon threads have left
+/// behind, and waits for its end. Destructors of libraries at the exit would take away what it uses.
+void stopAtExit();
+
 /// Throws Error{ForkedProcess} in a process that was forked after the first call: it has no threads
 /// or devices of its parent.
 void requireSameProcess();

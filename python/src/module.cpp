@@ -6,6 +6,7 @@
 #include "asdf_vk/asdf_vk.h"
 #include "cgal.h"
 #include "files.h"
+#include "gil.h"
 #include "interruptible.h"
 #include "options.h"
 #include "report.h"
@@ -20,7 +21,8 @@ namespace {
 /// Raises the class of asdf_vk._errors for the kind of the error.
 void raise(const Error& error) {
   const py::object make = py::module_::import("asdf_vk._errors").attr("error_of");
-  const py::object exception = make(nameOf(error.code()), textOf(error.what()), dictOf(error.details()));
+  const py::object exception =
+      callPython(make, py::make_tuple(nameOf(error.code()), textOf(error.what()), dictOf(error.details())));
   PyErr_SetObject(reinterpret_cast<PyObject*>(Py_TYPE(exception.ptr())), exception.ptr());
 }
 
@@ -62,10 +64,8 @@ py::list devices() {
   requireSameProcess();
   py::list list;
   std::string reason;
-  const std::vector<DeviceInfo> infos = [&] {
-    const py::gil_scoped_release released;
-    return listDevices(&reason);
-  }();
+  std::vector<DeviceInfo> infos;
+  runInterruptibly([&](const RunControl&) { infos = listDevices(&reason); }, py::none());
   for (const DeviceInfo& device : infos)
     list.append(py::dict("name"_a = device.name, "driver"_a = device.driver, "kind"_a = device.kind,
                          "usable"_a = device.usable, "reason"_a = device.reason));
@@ -87,4 +87,5 @@ PYBIND11_MODULE(_core, module) {
   bindFiles(module);
   bindScenes(module);
   bindCgal(module);
+  Py_AtExit(stopAtExit);
 }

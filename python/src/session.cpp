@@ -16,9 +16,12 @@ constexpr auto kLockInterval = std::chrono::milliseconds(20);
 
 SharedSession::SharedSession(const SessionOptions& options, uint32_t threadCount) : threadCount_(threadCount) {
   requireSameProcess();
-  const py::gil_scoped_release released;
-  const ThreadLimit limit(threadCount);
-  session_ = std::make_unique<Session>(options);
+  runInterruptibly(
+      [&](const RunControl&) {
+        const ThreadLimit limit(threadCount_);
+        session_ = std::make_unique<Session>(options);
+      },
+      py::none());
 }
 
 SharedSession::~SharedSession() {

@@ -9,4 +9,7 @@ namespace asdfvk::python {
 /// processors were busy, and then ended. `task` may be destroyed later than its future is ready.
 void runOnWorker(std::packaged_task<void()> task);
 
+/// Waits until no task is running or waits for a worker.
+void waitForWorkers();
+
 }  // namespace asdfvk::python

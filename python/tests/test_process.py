@@ -194,6 +194,40 @@ def test_an_interrupt_ends_the_wait_for_another_thread() -> None:
     assert output(code).split() == ["interrupted", "cancelled"]
 
 
+@pytest.mark.parametrize("backend", ["vulkan", "cpu", "reference"])
+def test_daemon_threads_end_with_the_script(backend: str) -> None:
+    try:
+        asdf_vk.Session(backend=backend)
+    except asdf_vk.DeviceError as error:
+        pytest.skip(str(error))
+    # A thread that computes, one that is in its callback, one that raises, and one that opens sessions.
+    code = f"""
+    def fail():
+        try:
+            asdf_vk.shape_diameter(*cube(), rays=0)
+        except asdf_vk.UsageError:
+            pass
+
+    def repeat(call):
+        while True:
+            call()
+
+    mesh = sphere(5)
+    options = {{"seeds": "all", "rays": 300, "backend": "{backend}"}}
+    calls = [
+        lambda: asdf_vk.shape_diameter(*mesh, **options),
+        lambda: asdf_vk.shape_diameter(*cube(), **options, progress=lambda *_: time.sleep(0.001)),
+        fail,
+        lambda: asdf_vk.Session(backend="{backend}"),
+    ]
+    for call in calls:
+        threading.Thread(target=repeat, args=(call,), daemon=True).start()
+    time.sleep(0.2)
+    """
+    finished = run(code)
+    assert (finished.returncode, finished.stderr) == (0, "")
+
+
 def test_a_fork_before_the_first_use() -> None:
     code = """
     children = []

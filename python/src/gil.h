@@ -1,0 +1,26 @@
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+/// Before Python 3.14, a finalising interpreter ends daemon threads that take the GIL by pthread_exit(), which unwinds
+/// the stack. Functions that are noexcept or catch everything then end the process, and destructors release Python
+/// objects without the GIL. Such a thread stops in the functions below instead, until the process ends, as in 3.14.
+namespace asdfvk::python {
+
+/// Releases the GIL for its lifetime, like pybind11's gil_scoped_release.
+class GilRelease {
+ public:
+  GilRelease();
+  /// Throws nothing. With noexcept, the compiler may omit the destructor that stops the unwinding.
+  ~GilRelease() noexcept(false);
+  GilRelease(const GilRelease&) = delete;
+  GilRelease& operator=(const GilRelease&) = delete;
+
+ private:
+  PyThreadState* state_;
+};
+
+/// callable(*arguments). For functions in Python, which release the GIL at any time. Throws error_already_set.
+[[nodiscard]] pybind11::object callPython(const pybind11::handle& callable, const pybind11::tuple& arguments);
+
+}  // namespace asdfvk::python
