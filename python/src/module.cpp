@@ -75,6 +75,8 @@ py::list devices() {
 }  // namespace
 }  // namespace asdfvk::python
 
+// Called below, by PyInit__core().
+#define PyInit__core asdfvkInitialiseCore
 PYBIND11_MODULE(_core, module) {
   using namespace asdfvk;
   using namespace asdfvk::python;
@@ -88,4 +90,13 @@ PYBIND11_MODULE(_core, module) {
   bindScenes(module);
   bindCgal(module);
   Py_AtExit(stopAtExit);
+}
+#undef PyInit__core
+
+extern "C" PYBIND11_EXPORT PyObject* PyInit__core() {
+  // pybind11 2 waits for ever for the GIL where a sub-interpreter is the first to use it.
+  if (PyInterpreterState_Get() == PyInterpreterState_Main()) return asdfvkInitialiseCore();
+  PyErr_SetString(PyExc_ImportError,
+                  "asdf_vk can be imported by the main interpreter of a process only, not by sub-interpreters");
+  return nullptr;
 }

@@ -29,10 +29,10 @@ signal.signal(signal.SIGINT, signal.default_int_handler)  # Ignored in jobs in t
 """
 
 
-def run(code: str, timeout: float = 60) -> subprocess.CompletedProcess[str]:
+def run(code: str, timeout: float = 60, preamble: str = _PREAMBLE) -> subprocess.CompletedProcess[str]:
     """Runs code in a fresh interpreter."""
     return subprocess.run(
-        [sys.executable, "-W", "error", "-c", _PREAMBLE + textwrap.dedent(code)],
+        [sys.executable, "-W", "error", "-c", preamble + textwrap.dedent(code)],
         env={**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))},
         capture_output=True,
         text=True,
@@ -226,6 +226,19 @@ def test_daemon_threads_end_with_the_script(backend: str) -> None:
     """
     finished = run(code)
     assert (finished.returncode, finished.stderr) == (0, "")
+
+
+def test_the_import_by_a_sub_interpreter_is_a_clear_error() -> None:
+    code = """
+    try:
+        import _interpreters as interpreters
+    except ImportError:
+        import _xxsubinterpreters as interpreters
+    code = "try:\\n import asdf_vk\\nexcept ImportError as error:\\n print(error, flush=True)"
+    interpreters.run_string(interpreters.create(), code)
+    """
+    finished = run(code, preamble="")
+    assert finished.returncode == 0 and "interpreters" in finished.stdout, finished
 
 
 def test_a_fork_before_the_first_use() -> None:
