@@ -47,9 +47,10 @@ struct LabelledFaces {
   uint32_t count = 0;            ///< Of segments; CgalSegmentationOptions::clusterCount for clusters.
 };
 
-/// Clusters the values and divides the mesh by a graph cut. values: #I, 0 to 1, as postprocessSdf() returns them;
-/// ignored at input faces without a triangle. Polled between the expansions of the graph cut. Throws
-/// Error{OptionOutOfRange}, and Error{TooFewValues} where there are fewer different values than clusters.
+/// Clusters the values and divides the mesh by a graph cut. values: #I, 0 to 1, as postprocessSdf() returns them, or
+/// NaN for no value, which is filled as postprocessSdf() does; ignored at input faces without a triangle. Polled
+/// between the expansions of the graph cut. Throws Error{OptionOutOfRange}, Error{NoValues} where no face has a value,
+/// and Error{TooFewValues} where there are fewer different values than clusters.
 [[nodiscard]] ASDFVK_API LabelledFaces segmentSdf(const MeshView& mesh, std::span<const double> values,
                                                   const CgalSegmentationOptions& options = {},
                                                   CgalLabels labels = CgalLabels::Segments,

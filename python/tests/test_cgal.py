@@ -138,6 +138,10 @@ def test_minus_one_and_nan_are_missing(mesh: Arrays, values: NDArray[np.float64]
     assert np.array_equal(expected[0], result[0]) and expected[1] == result[1]
     assert not np.array_equal(expected[0], cgal.sdf_values_postprocessing(*mesh, values)[0])
     assert not np.isnan(expected[0]).any()
+    labels, count = cgal.segmentation_from_sdf_values(*mesh, with_nan)
+    assert labels.min() == 0 and labels.max() == count - 1
+    assert np.array_equal(labels, cgal.segmentation_from_sdf_values(*mesh, with_mark)[0])
+    assert (labels == cgal.segmentation_from_sdf_values(*mesh, values)[0]).mean() > 0.99
 
 
 def test_objects_with_vertices_and_faces(mesh: Arrays, values: NDArray[np.float64]) -> None:
@@ -169,8 +173,7 @@ def test_wrong_values(mesh: Arrays, values: NDArray[np.float64], change: Any, co
 @pytest.mark.parametrize(
     ("value", "options", "code"),
     [
-        (np.nan, {}, "valueOutOfRange"),
-        (-1, {}, "valueOutOfRange"),
+        (-0.5, {}, "valueOutOfRange"),
         (1.5, {}, "valueOutOfRange"),
         (0.5, {"number_of_clusters": 1}, "optionOutOfRange"),
         (0.5, {"number_of_clusters": 2.5}, "optionOutOfRange"),

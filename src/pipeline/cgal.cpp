@@ -57,12 +57,13 @@ LabelledFaces segmentSdf(const MeshView& view, std::span<const double> values, c
   Mesh storage;
   const TriangleMesh mesh = trianglesOf(view, storage);
   const std::vector<double> ofTriangles =
-      valuesOfTriangles(mesh, values, "0 to 1", [](double value) { return value >= 0 && value <= 1; });
+      valuesOfTriangles(mesh, values, "0 to 1, or NaN for no value",
+                        [](double value) { return std::isnan(value) || (value >= 0 && value <= 1); });
   const FaceGeometry geometry = computeFaceGeometry(mesh);
   const FaceNeighbours neighbours = findFaceNeighbours(mesh);
   control.checkpoint(0);
-  const CgalSegmentation segmentation =
-      segmentLikeCgal(geometry, mesh, neighbours, ofTriangles, options, control.withoutProgress());
+  const CgalSegmentation segmentation = segmentLikeCgal(
+      geometry, mesh, neighbours, fillMissingValues(neighbours, ofTriangles), options, control.withoutProgress());
   control.checkpoint(1);
   if (labels == CgalLabels::Clusters)
     return {labelsOfInputFaces(mesh, segmentation.clusters, geometry.areas), options.clusterCount};

@@ -154,6 +154,18 @@ TEST_CASE("a missing value is the mean of its neighbours before the filter; equa
   CHECK(sdf.max == 3);
 }
 
+TEST_CASE("a missing value is the mean of its neighbours before the clustering") {
+  const Mesh mesh = makeSphere(320).mesh;
+  const auto height = [&](const Face& face) { return mesh.vertices[face[0]][2]; };
+  Values values;
+  for (const Face& face : mesh.faces) values.push_back(height(face) < 0 ? 0.25 : 0.75);
+  const Labels expected = segmentSdf(mesh, values, {.clusterCount = 2}).labels;
+  const auto highest = std::max_element(mesh.faces.begin(), mesh.faces.end(),
+                                        [&](const Face& a, const Face& b) { return height(a) < height(b); });
+  values[static_cast<size_t>(highest - mesh.faces.begin())] = kNoValue;
+  CHECK(segmentSdf(mesh, values, {.clusterCount = 2}).labels == expected);
+}
+
 TEST_CASE("a power of two as the unit of the values changes no bit") {
   const Mesh mesh = animal();
   const Values sdf = computed(mesh, {}).sdf();
@@ -182,9 +194,9 @@ TEST_CASE("wrong values and meshes are errors with a code and the face") {
     requireFailure([&] { (void)postprocessSdf(mesh, withValue(value)); }, ErrorCode::ValueOutOfRange, "of face 7");
     requireFailure([&] { (void)segmentSdf(mesh, withValue(value)); }, ErrorCode::ValueOutOfRange, "of face 7");
   }
-  for (const double value : {kNoValue, 1 + 1e-15})
-    requireFailure([&] { (void)segmentSdf(mesh, withValue(value)); }, ErrorCode::ValueOutOfRange, "(0 to 1)");
+  requireFailure([&] { (void)segmentSdf(mesh, withValue(1 + 1e-15)); }, ErrorCode::ValueOutOfRange, "(0 to 1, or NaN");
   requireFailure([&] { (void)postprocessSdf(mesh, Values(12, kNoValue)); }, ErrorCode::NoValues);
+  requireFailure([&] { (void)segmentSdf(mesh, Values(12, kNoValue)); }, ErrorCode::NoValues);
   requireFailure([&] { (void)segmentSdf(mesh, withValue(1), {.clusterCount = 3}); }, ErrorCode::TooFewValues);
   for (const uint32_t count : {0u, 1u, 101u})
     requireFailure([&] { (void)segmentSdf(mesh, withValue(1), {count}); }, ErrorCode::OptionOutOfRange);

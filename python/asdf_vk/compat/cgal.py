@@ -115,9 +115,7 @@ def sdf_values_postprocessing(
     Raises InputError, CancelledError.
     """
     mesh = mesh_argument(vertices, faces)
-    values = values_array(sdf_values, "sdf_values", _face_count(mesh))
-    if (values == _MISSING).any():
-        values = np.where(values == _MISSING, np.nan, values)
+    values = _values_of(sdf_values, mesh)
     normalized, low, high = _core.postprocess_sdf(mesh, values, thread_count(threads), checked_progress(progress))
     return normalized, (low, high)
 
@@ -137,7 +135,8 @@ def segmentation_from_sdf_values(
     """CGAL's segmentation_from_sdf_values(): clusters of values, and a graph cut into segments.
 
     vertices, faces: as for sdf_values_postprocessing().
-    sdf_values: (m,), post-processed: 0 to 1, no NaN. Not changed.
+    sdf_values: (m,), post-processed: 0 to 1. NaN and -1 are missing values, which are filled as by
+        sdf_values_postprocessing(). Not changed.
     number_of_clusters: 2 to 100. A cluster has any number of segments.
     smoothing_lambda: weight of the boundaries, 0 to 1000; CGAL's manual has 0 to 1.
     output_cluster_ids: return the clusters instead of the segments.
@@ -150,7 +149,7 @@ def segmentation_from_sdf_values(
     Raises InputError, UsageError, CancelledError.
     """
     mesh = mesh_argument(vertices, faces)
-    values = values_array(sdf_values, "sdf_values", _face_count(mesh))
+    values = _values_of(sdf_values, mesh)
     options = {
         "clusters": number_of_clusters,
         "smoothness": smoothing_lambda,
@@ -184,5 +183,8 @@ def _computed(
     return session._compute(mesh_argument(vertices, faces), {**implied, **described}, checked_progress(progress))
 
 
-def _face_count(mesh: MeshArgument) -> int:
-    return mesh.face_count if isinstance(mesh, _core.Mesh) else len(mesh[1])
+def _values_of(sdf_values: ArrayLike, mesh: MeshArgument) -> NDArray[np.float64]:
+    """(m,), with NaN for missing values."""
+    count = mesh.face_count if isinstance(mesh, _core.Mesh) else len(mesh[1])
+    values = values_array(sdf_values, "sdf_values", count)
+    return np.where(values == _MISSING, np.nan, values) if (values == _MISSING).any() else values
