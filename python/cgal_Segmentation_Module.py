@@ -19,6 +19,7 @@ import threading
 from typing import TYPE_CHECKING, Any, Literal
 
 import asdf_vk
+from asdf_vk._errors import error_of
 from asdf_vk.compat.cgal import values_and_segments
 
 if TYPE_CHECKING:
@@ -94,6 +95,9 @@ def cgal_segmentation_arrays(
     Returns the segments, int32 (m,), and the values from 0 to 1, float64 (m,).
     Raises asdf_vk.Error.
     """
+    for name, value in (("clusters", clusters), ("smoothness", smoothness)):
+        if value is None:
+            raise error_of("optionOutOfRange", f"{name}=None is not a number")
     segmentation = {"clusters": clusters, "smoothness": smoothness, "expansion": expansion}
     values, labels = values_and_segments(vertices, faces, segmentation, {**options})
     return labels, values
@@ -104,7 +108,7 @@ def _read_triangles(path: str) -> asdf_vk.Mesh | int:
     try:
         with open(path, "rb") as file:
             start = file.read(_COUNTS_LIMIT)
-    except OSError:
+    except (OSError, ValueError):  # ValueError: no path can have this name.
         return CANNOT_OPEN
     words = b"\n".join(line.split(b"#")[0] for line in start.splitlines()).split()
     if not words or not words[0].endswith(b"OFF"):

@@ -58,11 +58,11 @@ def values_array(value: Any, name: str, count: int) -> NDArray[np.float64]:
 
 def mask_array(value: Any, count: int) -> NDArray[np.uint8]:
     """A mask of faces: (count,) bool, or indices of faces."""
-    array = _as_array(value, "faces", "bfiu", "a mask (bool) or indices of faces")
+    array = _as_array(value, "faces", "bfiu", "bool (a mask) or indices of faces")
     if array.size == 0:
         array = np.zeros(0, np.int64)
     if array.dtype.kind == "f":
-        raise error_of("arrayType", f"faces has the type {array.dtype}, not a mask (bool) or indices of faces")
+        raise error_of("arrayType", f"faces has the type {array.dtype}, not bool (a mask) or indices of faces")
     if array.dtype.kind == "b":
         if array.shape != (count,):
             raise error_of("arraySize", f"the mask of faces has the shape {array.shape}, not ({count},)")
@@ -111,6 +111,8 @@ def _as_array(value: Any, name: str, kinds: str, wanted: str) -> NDArray[Any]:
     if array.dtype.kind not in kinds:
         if array.size == 0:  # Of any type: [] is an array of float64.
             return np.zeros(array.shape, np.uint8)
+        if array.ndim == 0 and array.dtype == object:
+            raise error_of("arrayType", f"{name} is an object of type {type(value).__name__}, not an array of {wanted}")
         raise error_of("arrayType", f"{name} has the type {array.dtype}, not {wanted}")
     return array
 

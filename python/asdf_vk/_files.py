@@ -82,6 +82,12 @@ def _path(path: str | os.PathLike[str]) -> str:
         raise error_of("optionOutOfRange", f"{path!r} is not a path") from error
     if not isinstance(text, str):
         text = os.fsdecode(text)
-    if "\0" in text:
+    try:
+        os.fsencode(text)
+    except UnicodeEncodeError:
+        is_path = False
+    else:
+        is_path = "\0" not in text
+    if not is_path:
         raise error_of("optionOutOfRange", f"{text!r} is not a path")
     return text

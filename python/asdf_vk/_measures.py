@@ -12,6 +12,7 @@ from . import _core
 from ._errors import MeshWarning, error_of
 from ._options import ComputeOptions, Progress, checked_progress
 from ._report import Info, info_of
+from ._session import flag_of
 
 _STACK_LEVEL = 4  # The caller of the public function.
 
@@ -57,9 +58,10 @@ def _per_vertex(per: str | None) -> bool:
 
 def shape_diameter(target: Target, per: str | None, return_info: bool | None, options: dict[str, Any]) -> Any:
     per_vertex = _per_vertex(per)
+    returns_info = flag_of(return_info, "return_info")
     computed = _computed(target, options, {"per": per})
     values = computed.array("sdf", per_vertex, True)
-    return (values, _info(computed)) if return_info else values
+    return (values, _info(computed)) if returns_info else values
 
 
 def thickness_options(
@@ -77,9 +79,10 @@ def thickness(
     options: dict[str, Any],
 ) -> Any:
     per_vertex = _per_vertex(per)
+    returns_info = flag_of(return_info, "return_info")
     computed = _computed(target, options, {"measure": "thickness", **of_measure, "per": per})
     values = computed.array("thickness", per_vertex, True)
-    return (values, _info(computed)) if return_info else values
+    return (values, _info(computed)) if returns_info else values
 
 
 _METHOD_OF = {"parts": "parts", "detail": "parts", "clusters": "cgal", "smoothness": "cgal", "expansion": "cgal"}
@@ -110,6 +113,7 @@ def segment(
     options: dict[str, Any],
 ) -> Any:
     method = "parts" if method is None else method
+    returns_info = flag_of(return_info, "return_info")
     if not isinstance(method, str) or method not in ("parts", "cgal"):
         raise error_of("unknownName", f"method={method!r} is unknown; the names are parts, cgal")
     for name, value in of_method.items():
@@ -117,11 +121,12 @@ def segment(
             raise error_of("optionConflict", f"{name} belongs to method={_METHOD_OF[name]!r}, not {method!r}")
     computed = _computed(target, options, {"segmentation": method, **of_method})
     labels = computed.array("segment", False, True)
-    return (labels, _info(computed)) if return_info else labels
+    return (labels, _info(computed)) if returns_info else labels
 
 
 def skeleton_points(target: Target, return_info: bool | None, options: dict[str, Any]) -> Any:
+    returns_info = flag_of(return_info, "return_info")
     computed = _computed(target, options, {"centres": True})
     points = computed.array("centre", False, True)
     radii = computed.array("sdf", False, True) / np.float32(2)
-    return (points, radii, _info(computed)) if return_info else (points, radii)
+    return (points, radii, _info(computed)) if returns_info else (points, radii)

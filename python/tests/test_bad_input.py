@@ -9,8 +9,9 @@ import numpy as np
 import pytest
 
 import asdf_vk
+import cgal_Segmentation_Module
 from asdf_vk import _core
-from asdf_vk.compat import cgal
+from asdf_vk.compat import cgal, trimesh
 from shapes import cube
 
 VERTICES, FACES = cube()
@@ -133,6 +134,8 @@ def wrong_options() -> Iterator[dict[str, Any]]:
     yield {"threads": np.True_}
     yield {"per": np.array(["face"])}
     yield {"require_gpu": 1}
+    yield {"return_info": "no"}
+    yield {"return_info": np.zeros(2)}
     yield {"session": 1}
     yield {"session": None, "per": "edge"}
     yield {"definition": "cgal", "false_hit_angle": 10}
@@ -190,7 +193,7 @@ def test_wrong_arguments_of_the_other_functions(reference: asdf_vk.Session) -> N
 
 
 def test_wrong_files(tmp_path: Any) -> None:
-    paths: list[Any] = [1, None, object(), "", "\0", tmp_path, tmp_path / "none"]
+    paths: list[Any] = [1, None, object(), "", "\0", "\ud800.ply", tmp_path, tmp_path / "none"]
     for path in paths:
         assert fails(lambda: asdf_vk.read_mesh(path)), path
         assert fails(lambda: asdf_vk.read_fields(path)), path
@@ -235,8 +238,35 @@ def test_wrong_arguments_of_the_functions_of_cgal() -> None:
         assert fails(segment(number_of_clusters=number)), number
         assert fails(lambda: cgal.sdf_values(VERTICES, FACES, cone_angle=number)), number
         assert fails(lambda: cgal.sdf_values(VERTICES, FACES, number_of_rays=number)), number
-    assert fails(segment(expansion="x")) and fails(segment(threads=-1))
+    assert fails(segment(expansion="x")) and fails(segment(threads=-1)) and fails(segment(output_cluster_ids="no"))
+    assert fails(lambda: cgal.sdf_values(VERTICES, FACES, postprocess=np.zeros(2)))  # type: ignore[arg-type]
     assert fails(segment(progress=1)) and fails(lambda: cgal.sdf_values(VERTICES, FACES, foo=1))  # type: ignore[call-arg]
+
+
+def test_wrong_arguments_of_the_function_of_trimesh(reference: asdf_vk.Session) -> None:
+    def thickness(**given: Any) -> Callable[[], Any]:
+        mesh = SimpleNamespace(vertices=VERTICES, faces=FACES, **given.pop("mesh", {}))
+        arguments: dict[str, Any] = {"points": [[0.3, 0.4, 1]], "session": reference, **given}
+        return lambda: trimesh.thickness(mesh, **arguments)
+
+    for normals in ("x", np.zeros((3, 3)), np.zeros(12), np.zeros((12, 2))):
+        assert fails(thickness(mesh={"face_normals": normals})), normals
+    assert fails(thickness(exterior="no")) and fails(thickness(exterior=np.zeros(2))) and fails(thickness(method=["ray"]))
+    assert fails(thickness(points=[0.3, 0.4, 1])) and fails(thickness(points=iter([[0.3, 0.4, 1]])))
+
+
+def test_wrong_arguments_of_the_module_of_neuron_pipelines() -> None:
+    arrays: Any = cgal_Segmentation_Module.cgal_segmentation_arrays
+    assert fails(lambda: arrays(VERTICES, FACES, None, 0.2)) and fails(lambda: arrays(VERTICES, FACES, 3, None))
+    assert cgal_Segmentation_Module.cgal_segmentation("a\0b", 3, 0.2) == cgal_Segmentation_Module.CANNOT_OPEN
+
+
+def test_the_type_of_what_is_no_array_is_in_the_message() -> None:
+    with pytest.raises(asdf_vk.ArrayTypeError, match="faces is an object of type generator, not an array of integers"):
+        asdf_vk.shape_diameter(VERTICES, (face for face in FACES))  # type: ignore[call-overload]
+    mesh = SimpleNamespace(vertices=VERTICES, faces=FACES)
+    with pytest.raises(asdf_vk.ArrayTypeError, match="vertices is an object of type SimpleNamespace"):
+        asdf_vk.shape_diameter(mesh, FACES)
 
 
 def test_a_wrong_mesh_has_the_position_in_its_message() -> None:

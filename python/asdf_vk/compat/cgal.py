@@ -32,7 +32,7 @@ from .. import _core
 from .._arrays import MeshArgument, mesh_argument, values_array
 from .._errors import MeshWarning, error_of
 from .._options import BackendOptions, Progress, checked_progress
-from .._session import session_of, thread_count
+from .._session import flag_of, session_of, thread_count
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -79,7 +79,7 @@ def sdf_values(
         message = f"cone_angle={cone_angle!r} is not an angle in radians"
         raise error_of("optionOutOfRange", message) from error
     seeds = "all" if seeds is None else seeds
-    postprocess = True if postprocess is None else postprocess
+    postprocess = True if postprocess is None else flag_of(postprocess, "postprocess")
     described: dict[str, Any] = {"cone_angle": degrees, "rays": number_of_rays, "seeds": seeds}
     if postprocess:
         described["postprocess"] = "cgal"
@@ -155,7 +155,7 @@ def segmentation_from_sdf_values(
         "smoothness": smoothing_lambda,
         "expansion": expansion,
     }
-    returns_clusters = bool(output_cluster_ids)
+    returns_clusters = flag_of(output_cluster_ids, "output_cluster_ids")
     return _core.segment_sdf(
         mesh, values, options, returns_clusters, thread_count(threads), checked_progress(progress)
     )

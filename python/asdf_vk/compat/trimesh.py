@@ -25,6 +25,7 @@ from .._arrays import pairs_array, points_array
 from .._errors import error_of
 from .._options import BackendOptions
 from .._scene import Scene
+from .._session import flag_of
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -55,12 +56,16 @@ def thickness(
     method = "max_sphere" if method is None else method
     if not isinstance(method, str) or method not in ("max_sphere", "ray"):
         raise error_of("unknownName", f"method={method!r} is unknown; the names are max_sphere, ray")
+    exterior = flag_of(exterior, "exterior")
     places = points_array(points, "points").astype(np.float64)
     # Triangles also of a Mesh with polygons: normals are those of triangles.
     triangles = getattr(mesh, "vertices", mesh), getattr(mesh, "faces", None)
     with Scene(*triangles, orient="flip" if exterior else "keep", **options) as scene:
         if normals is None:
-            normals = _face_normals(mesh)[scene._opened.nearest_faces(places, None)]
+            of_faces = _face_normals(mesh)
+            if len(of_faces) != scene.face_count:
+                raise error_of("arraySize", f"there are {len(of_faces)} normals and {scene.face_count} faces")
+            normals = of_faces[scene._opened.nearest_faces(places, None)]
         places, axes = pairs_array(places, normals)
         if exterior:
             axes = -axes
@@ -74,7 +79,7 @@ def thickness(
 def _face_normals(mesh: Any) -> NDArray[np.float64]:
     """Outwards, of any length; those of degenerate faces may be 0."""
     if hasattr(mesh, "face_normals"):
-        return np.asarray(mesh.face_normals, np.float64)
+        return points_array(mesh.face_normals, "face_normals").astype(np.float64)
     a, b, c = np.asarray(mesh.vertices, np.float64)[np.asarray(mesh.faces)].transpose(1, 0, 2)
     normals: NDArray[np.float64] = np.cross(b - a, c - a)
     return normals
