@@ -74,7 +74,8 @@ _CLASS_OF_KIND: dict[str, type[Error]] = {
 
 
 def error_of(code: str, message: str, details: dict[str, str] | None = None) -> Error:
-    """The exception for an error code of the library."""
+    """The exception for an error code of the library, with a message of one line: a repr() in it may have more."""
+    message = " ".join(line.strip() for line in message.splitlines())
     if code == "arrayType":
         return ArrayTypeError(message, code, details)
     return _CLASS_OF_KIND[_core.error_kinds[code]](message, code, details)

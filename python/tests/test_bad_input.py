@@ -134,6 +134,8 @@ def wrong_options() -> Iterator[dict[str, Any]]:
     yield {"threads": np.True_}
     yield {"per": np.array(["face"])}
     yield {"require_gpu": 1}
+    for name in ("cone_angle", "seeds", "threads", "backend", "progress", "check", "smooth"):
+        yield {name: np.zeros((3, 3))}  # Its repr() has three lines.
     yield {"return_info": "no"}
     yield {"return_info": np.zeros(2)}
     yield {"session": 1}
@@ -193,7 +195,7 @@ def test_wrong_arguments_of_the_other_functions(reference: asdf_vk.Session) -> N
 
 
 def test_wrong_files(tmp_path: Any) -> None:
-    paths: list[Any] = [1, None, object(), "", "\0", "\ud800.ply", tmp_path, tmp_path / "none"]
+    paths: list[Any] = [1, None, object(), np.zeros((3, 3)), "", "\0", tmp_path / "a\nb" / "c", "\ud800.ply", tmp_path, tmp_path / "none"]
     for path in paths:
         assert fails(lambda: asdf_vk.read_mesh(path)), path
         assert fails(lambda: asdf_vk.read_fields(path)), path
