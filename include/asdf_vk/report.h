@@ -261,6 +261,7 @@ struct Report {
   uint64_t rayCount = 0;
   uint64_t redoneConeCount = 0;  ///< Cones beyond the limits of the device or of float32, traced by the reference.
   uint64_t noValueCount = 0;     ///< Input faces; of the region where there is one.
+  uint64_t clampedCount = 0;     ///< Interpolated triangles limited to the values of the seeds of their component.
   uint64_t randomSeed = 0;
   uint32_t roundCount = 1;                   ///< Rounds of seeds.
   std::string backend;                       ///< "vulkan", "cpu" or "reference".

@@ -198,6 +198,8 @@ class Info:
     ray_count: int
     redone_cone_count: int
     no_value_count: int
+    clamped_count: int
+    """Interpolated triangles limited to the values of the seeds of their component."""
     random_seed: int
     round_count: int
     backend: str

@@ -155,7 +155,8 @@ py::dict dictOf(const Report& report) {
                 "component_count"_a = report.componentCount, "size"_a = tupleOf(report.size),
                 "seed_count"_a = report.seedCount, "ray_count"_a = report.rayCount,
                 "redone_cone_count"_a = report.redoneConeCount, "no_value_count"_a = report.noValueCount,
-                "random_seed"_a = report.randomSeed, "round_count"_a = report.roundCount);
+                "clamped_count"_a = report.clampedCount, "random_seed"_a = report.randomSeed,
+                "round_count"_a = report.roundCount);
   dict["backend"] = report.backend;
   dict["device"] = report.device;
   dict["runs_on_cpu"] = report.runsOnCpu;

@@ -178,6 +178,7 @@ std::string jsonReport(const MeshOutcome& outcome) {
   json["rayCount"] = report.rayCount;
   json["redoneConeCount"] = report.redoneConeCount;
   json["noValueCount"] = report.noValueCount;
+  json["clampedCount"] = report.clampedCount;
   json["randomSeed"] = report.randomSeed;
   json["backend"] = report.backend;
   json["device"] = report.device;

@@ -67,6 +67,8 @@ std::string valueRow(const Report& report) {
                                                                     report.sdf.min, report.sdf.median, report.sdf.max)
                                                       : std::string("none");
   if (report.noValueCount > 0) text += fmt::format("; {} without a value", groupedCount(report.noValueCount, "face"));
+  if (report.clampedCount > 0)
+    text += fmt::format("; {} limited to the values of the seeds", groupedCount(report.clampedCount, "face"));
   return text;
 }
 

@@ -51,6 +51,7 @@ void describeRounds(Report& report, const RoundsResult& rounds) {
   report.traceDeviceSeconds = rounds.traced.statistics.deviceSeconds;
   report.traceVariant = rounds.traceVariant;
   report.solver = rounds.interpolated.solver;
+  report.clampedCount = rounds.interpolated.clampedCount;
   report.roundCount = rounds.roundCount;
   if (rounds.errors) report.estimatedError = rounds.errors->estimate;
 }

@@ -43,17 +43,19 @@ std::vector<double> firstGuess(const FaceDomain& domain, const std::vector<Compo
   return guess;
 }
 
-/// Limits values of a component, which guidance moves beyond those of the seeds: below to the smaller of the lowest
-/// seed value and the prediction of the face, above to the highest seed value, since the faces with the greatest
-/// predictions are seeds (extremeSeeds()).
-void keepWithinTraced(const FaceDomain& domain, const std::vector<ComponentValues>& traced,
-                      std::span<const double> predicted, std::vector<double>& values) {
-  forEachInParallel(values.size(), [&](size_t face) {
+/// Limits values of a component, which guidance, and rounding of the solvers, move beyond those of the seeds: below to
+/// the smaller of the lowest seed value and the prediction of the face, if any, above to the highest seed value, since
+/// the faces with the greatest predictions are seeds (extremeSeeds()). Returns the number of limited faces. predicted:
+/// #F, or empty.
+uint64_t keepWithinTraced(const FaceDomain& domain, const std::vector<ComponentValues>& traced,
+                          std::span<const double> predicted, std::vector<double>& values) {
+  return countInParallel(values.size(), [&](uint32_t face) {
     const ComponentValues& component = traced[domain.componentOf[face]];
-    if (component.count == 0 || !std::isfinite(values[face])) return;
-    const double prediction = predicted[face];
+    if (component.count == 0 || !std::isfinite(values[face])) return false;
+    const double prediction = predicted.empty() ? kNoValue : predicted[face];
     const double low = std::isfinite(prediction) ? std::min(component.low, prediction) : component.low;
-    values[face] = std::clamp(values[face], low, std::max(low, component.high));
+    const double value = std::clamp(values[face], low, component.high);
+    return std::exchange(values[face], value) != value;
   });
 }
 
@@ -131,7 +133,7 @@ Interpolated Interpolation::solve(std::span<const double> constraints, const Run
   if (!hasAll) {
     const std::vector<ComponentValues> traced = componentValues(domain, constraints);
     result.solver = solveEquation(traced, constraints, result.values, control);
-    if (!predicted.empty()) keepWithinTraced(domain, traced, predicted, result.values);
+    result.clampedCount = keepWithinTraced(domain, traced, predicted, result.values);
   } else {
     result.values.assign(constraints.begin(), constraints.end());
   }

@@ -17,6 +17,7 @@ namespace asdfvk {
 struct Interpolated {
   std::vector<double> values;  ///< #F; NaN outside of the domain and in components without any value.
   SolverReport solver;         ///< Its name is "none" where there was nothing to solve.
+  uint64_t clampedCount = 0;   ///< Faces whose solution was limited to the values of the seeds.
 };
 
 /// Traced values of one component. Components are separate because parts of one mesh may differ in size by any factor.

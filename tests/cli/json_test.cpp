@@ -29,6 +29,7 @@ TEST_CASE("--json is exactly one document with every documented key and its type
   CHECK_EQ(json.at("rayCount").get<uint64_t>(), 96 * 30);
   CHECK_EQ(json.at("noValueCount").get<uint64_t>(), 0);
   CHECK_EQ(json.at("redoneConeCount").get<uint64_t>(), 0);
+  CHECK(json.at("clampedCount").is_number_unsigned());
   CHECK_EQ(json.at("randomSeed").get<uint64_t>(), 7);
   CHECK_EQ(json.at("backend").get<std::string>(), "reference");
   CHECK(json.at("device").is_string());

@@ -77,9 +77,11 @@ TEST_CASE("the text report names exceptions") {
   report.triangleCount = 100000;
   report.redoneConeCount = 1;
   report.noValueCount = 2;
+  report.clampedCount = 1234;
   report.solver.converged = false;
   const std::string text = textReport({kMesh, kOutput, line, result});
-  for (const char* part : {"(100,000 triangles)", "1 cone redone", "2 faces without a value", "NOT CONVERGED"})
+  for (const char* part : {"(100,000 triangles)", "1 cone redone",
+                           "2 faces without a value; 1,234 faces limited to the values of the seeds", "NOT CONVERGED"})
     CHECK_MESSAGE(holds(text, part), text);
 }
 

@@ -2,14 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
+#include <utility>
 
 #include "generate/shapes.h"
 #include "mesh/dual_graph.h"
 #include "pipeline/average_error.h"
+#include "pipeline/backend.h"
 #include "smooth/bilateral.h"
 #include "support/require_failure.h"
 #include "support/shapes.h"
+#include "support/test_device.h"
 
 using namespace asdfvk;
 using test::averageError;
@@ -103,6 +107,44 @@ TEST_CASE("guidance by prediction has a smaller error than none") {
 TEST_CASE("guidance by curvature changes the values") {
   const Mesh mesh = makeTorus(1000).mesh;
   CHECK(compute(mesh, with(Guidance::Curvature)).sdf() != compute(mesh, with(Guidance::None)).sdf());
+}
+
+TEST_CASE("values are within those of the seeds of their component, whatever the guidance and the solver") {
+  const Mesh first = makeHand(1200).mesh, second = makeSphere(500, {.radius = 20}).mesh;
+  const Mesh mesh = shapes::joined(first, second, {50, 0, 0});
+  const auto checkWithin = [&](Session& session, const char* solver, Guidance guidance) {
+    CAPTURE(solver);
+    CAPTURE(static_cast<int>(guidance));
+    Options options = with(guidance);
+    options.interpolation.weights = ArcWeights::Distance;
+    options.sampler = "random";
+    options.seeds = SeedCount::ofShare(0.02);
+    options.solver = solver;
+    const Result result = session.compute(mesh, options);
+    size_t outsideCount = 0, limitedCount = 0;
+    const std::pair<size_t, size_t> components[]{{0, first.faces.size()}, {first.faces.size(), mesh.faces.size()}};
+    for (const auto& [begin, end] : components) {
+      double low = std::numeric_limits<double>::max(), high = 0;
+      for (size_t face = begin; face < end; ++face) {
+        if (!result.seed()[face]) continue;
+        low = std::min(low, result.sdf()[face]);
+        high = std::max(high, result.sdf()[face]);
+      }
+      for (size_t face = begin; face < end; ++face) {
+        const double value = result.sdf()[face];
+        outsideCount += !(low <= value && value <= high);
+        limitedCount += !result.seed()[face] && (value == low || value == high);
+      }
+    }
+    CHECK(outsideCount == 0);
+    CHECK(result.report.clampedCount == limitedCount);
+    if (guidance == Guidance::Curvature) CHECK(limitedCount > 10);
+  };
+  const bool hasSolvers = test::hasBuffersForSolvers(*openBackend({.backend = "vulkan"}).backend->device());
+  for (const Guidance guidance : {Guidance::None, Guidance::Curvature}) {
+    for (const char* solver : {"cpu", "eigen"}) checkWithin(referenceSession(), solver, guidance);
+    if (hasSolvers) checkWithin(test::vulkanSession(), "cg", guidance);
+  }
 }
 
 TEST_CASE("components without a seed of their own get one, whatever the guidance") {
