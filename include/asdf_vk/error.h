@@ -37,7 +37,8 @@ enum class ErrorCode {
   InputTooLarge,    ///< Does not fit into memory.
   NoValues,         ///< No face has a value.
   TooFewValues,     ///< Fewer different values than clusters.
-  ValueOutOfRange,  ///< A value per face that the caller passed is negative, infinite, missing or too large.
+  ValueOutOfRange,  ///< A value per face that the caller passed is negative, infinite, missing or too large; or a
+                    ///< value of a result does not fit into float32.
   // Device
   NoVulkanLoader,  ///< libvulkan.so.1 is not installed.
   NoVulkanDriver,  ///< No driver, or none that the loader can start.

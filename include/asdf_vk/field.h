@@ -54,4 +54,8 @@ struct FieldSummary {
 };
 [[nodiscard]] ASDFVK_API FieldSummary summarize(const Field& field);
 
+/// Throws Error{ValueOutOfRange} for a finite number beyond the range of float32, and where the numbers are so small
+/// that all of them would be 0. name: of the numbers, for the message.
+ASDFVK_API void requireSingles(std::span<const double> numbers, std::string_view name);
+
 }  // namespace asdfvk

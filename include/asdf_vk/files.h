@@ -47,6 +47,7 @@ struct WriteOptions {
 /// vertex_NAME. CSV: one row per face with the first column `face`; if no field is per face, one row per vertex with
 /// the first column `vertex`. PLY and CSV split three components into NAME_x, NAME_y and NAME_z. A missing value is NaN
 /// in .npy, .npz and .csv, 0 in .ply and .vtu. Throws Error{OutputNotWritable}; Error{UnknownFormat};
+/// Error{ValueOutOfRange} for real numbers that do not fit into float32 (requireSingles()), but in .csv;
 /// Error{UnknownField} for a name that no field has; Error{OptionConflict} for a field whose size does not fit the
 /// mesh, an invalid or repeated name, and fields that the format cannot hold; Error{ArraySize}, Error{IndexOutOfRange}
 /// for an invalid mesh.
@@ -57,7 +58,7 @@ ASDFVK_API void writeResult(const std::filesystem::path& path, const MeshView& m
 /// `x y z`, double where float is too coarse for the place of the mesh, `float radius`, half of the shape diameter, and
 /// `uint part` where there is the face field "segment". Faces without a value have no point. The file is replaced
 /// atomically; "-" is standard output. Throws Error{UnknownField} without these fields; Error{OptionConflict} where
-/// their sizes do not fit each other; Error{OutputNotWritable}.
+/// their sizes do not fit each other; Error{ValueOutOfRange}, see requireSingles(); Error{OutputNotWritable}.
 ASDFVK_API void writePoints(const std::filesystem::path& path, std::span<const Field> fields);
 
 /// Reads the fields of a file in any format of writeResult(), in the order of the file. Real values are double; in CSV

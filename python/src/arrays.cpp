@@ -1,8 +1,6 @@
 #include "arrays.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <string>
 
 #include "asdf_vk/error.h"
@@ -49,17 +47,10 @@ MeshView viewOf(const py::object& mesh) {
 }
 
 py::array_t<float> singles(std::span<const double> numbers, const std::string& name) {
+  requireSingles(numbers, name);
   py::array_t<float> array(static_cast<py::ssize_t>(numbers.size()));
-  float* single = array.mutable_data();
-  for (const double number : numbers) {
-    const double size = std::abs(number);
-    if ((size > std::numeric_limits<float>::max() && std::isfinite(number)) ||
-        (size != 0 && size < std::numeric_limits<float>::denorm_min()))
-      throw Error(ErrorCode::ValueOutOfRange, "a value of " + name +
-                                                  " in the unit of the mesh does not fit into float32: " +
-                                                  std::string(py::repr(py::float_(number))) + "; scale the mesh");
-    *single++ = static_cast<float>(number);
-  }
+  std::transform(numbers.begin(), numbers.end(), array.mutable_data(),
+                 [](double number) { return static_cast<float>(number); });
   return array;
 }
 

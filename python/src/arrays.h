@@ -33,8 +33,7 @@ template <typename T>
   return array;
 }
 
-/// As float32. Throws Error{ValueOutOfRange} for a finite number beyond its range, or so small that it would be 0.
-/// name: of the numbers, for the message.
+/// As float32. Errors: see requireSingles().
 [[nodiscard]] pybind11::array_t<float> singles(std::span<const double> numbers, const std::string& name);
 
 /// The array of a field, (items,) or (items, components), with memory of its own. Real numbers become float32 where

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
@@ -108,6 +109,16 @@ def test_values_beyond_float32() -> None:
         with pytest.raises(asdf_vk.InputError, match="float32") as caught:
             asdf_vk.shape_diameter(vertices * scale, faces)
         assert caught.value.code == "valueOutOfRange"
+
+
+def test_fields_beyond_float32(tmp_path: Path) -> None:
+    mesh = cube()
+    for name in ("x.ply", "x.npy"):
+        with pytest.raises(asdf_vk.InputError, match="'height'.*float32") as caught:
+            asdf_vk.write(tmp_path / name, mesh, {"height": np.full(len(mesh[1]), 1e39)})
+        assert caught.value.code == "valueOutOfRange"
+        assert not (tmp_path / name).exists()
+    asdf_vk.write(tmp_path / "x.csv", mesh, {"height": np.full(len(mesh[1]), 1e39)})
 
 
 @pytest.mark.parametrize("dtype", [np.float32, np.float64])

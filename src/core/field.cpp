@@ -1,9 +1,12 @@
 #include "asdf_vk/field.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "asdf_vk/error.h"
 #include "core/median.h"
 
 namespace asdfvk {
@@ -31,6 +34,17 @@ FieldSummary summarize(const Field& field) {
   FieldSummary summary{*low, kNone, *high, missingCount};
   summary.median = upperMedian(present);
   return summary;
+}
+
+void requireSingles(std::span<const double> numbers, std::string_view name) {
+  using Limits = std::numeric_limits<float>;
+  double largest = 0;
+  for (const double number : numbers)
+    if (std::isfinite(number)) largest = std::max(largest, std::abs(number));
+  if (largest <= Limits::max() && (largest == 0 || largest >= Limits::denorm_min())) return;
+  throw Error(ErrorCode::ValueOutOfRange,
+              fmt::format("a value of {} in the unit of the mesh does not fit into float32: {:g}; scale the mesh", name,
+                          largest));
 }
 
 }  // namespace asdfvk

@@ -131,7 +131,11 @@ std::vector<Field> parseCsvFields(std::span<const char> bytes) {
 
 }  // namespace
 
-extern const FileFormat kCsvFormat{
-    .name = "csv", .extensions = {"csv"}, .detect = detectCsv, .parseFields = parseCsvFields, .write = writeCsv};
+extern const FileFormat kCsvFormat{.name = "csv",
+                                   .extensions = {"csv"},
+                                   .detect = detectCsv,
+                                   .parseFields = parseCsvFields,
+                                   .write = writeCsv,
+                                   .writesDoubles = true};
 
 }  // namespace asdfvk

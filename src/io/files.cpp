@@ -178,6 +178,9 @@ void writeResult(const std::filesystem::path& path, const MeshView& mesh, std::s
                  const WriteOptions& options) {
   const FileFormat& format = findResultFormat(path, options.format);
   const ResultView result(mesh, fields, options.fields, options.ascii);
+  if (!format.writesDoubles)
+    for (const Field& field : result.fields())
+      if (field.reals() != nullptr) requireSingles(*field.reals(), "'" + field.name + "'");
   AtomicFile file(path);
   format.write(file, result);
   file.commit();

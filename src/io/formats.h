@@ -36,6 +36,7 @@ struct FileFormat {
 
   /// Writes a result by the rules of writeResult() (asdf_vk/files.h). The caller commits the file.
   void (*write)(AtomicFile& file, const ResultView& result) = nullptr;
+  bool writesDoubles = false;  ///< Real numbers of fields are double in the file, not float32.
 };
 
 /// The table of formats, in the order of detection.

@@ -40,6 +40,7 @@ struct Points {
     };
     if (!fits(sdf, 1) || !fits(centre, 3) || (segment != nullptr && !fits(*segment, 1)))
       throw Error(ErrorCode::OptionConflict, "the sizes of the fields centre, sdf and segment do not fit each other");
+    if (sdf.reals() != nullptr) requireSingles(*sdf.reals(), "'sdf'");
     for (size_t face = 0; face < faceCount; ++face) {
       const Vec3d point{centre.at(3 * face), centre.at(3 * face + 1), centre.at(3 * face + 2)};
       if (!std::isfinite(sdf.at(face)) || !isFinite(point)) continue;

@@ -23,6 +23,7 @@ FieldEncoder::FieldEncoder(const Field& field, std::span<const uint32_t> inputFa
                   {"title", field.label.empty() ? field.name : field.label},
                   {"unit", field.unit == "length" ? "mesh units" : field.unit}};
   if (const std::vector<double>* reals = field.reals()) {
+    requireSingles(*reals, "'" + field.name + "'");
     prepareNumbers(*reals);
   } else if (const auto* labels = std::get_if<std::vector<uint32_t>>(&field.values)) {
     prepareLabels(*labels);

@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -145,6 +146,29 @@ TEST_CASE("an input is never overwritten") {
   checkFailure(runAsdf({mesh, "-o", mesh}), 1, "overwritten");
   checkFailure(runAsdf({mesh, "-o", folder / "link.ply"}), 1, "overwritten");
   CHECK_EQ(folder.read("cube.ply"), cubeAsciiPly());
+}
+
+TEST_CASE("values that do not fit into float32 end with 2 and without a result, except in CSV") {
+  const ScratchFolder folder;
+  const auto write = [&](const char* name, const char* size) {
+    return folder.write(name, fmt::format("OFF\n4 4 0\n0 0 0\n{0} 0 0\n0 {0} 0\n0 0 {0}\n3 0 2 1\n3 0 1 3\n3 0 3 2\n"
+                                          "3 1 2 3\n",
+                                          size));
+  };
+  const std::string large = write("large.off", "1e40"), small = write("small.off", "1e-50");
+  const std::vector<std::string> common{"--backend", "reference", "--quiet", "-o"};
+  const auto run = [&](const std::string& mesh, const std::string& output) {
+    std::vector<std::string> arguments{mesh};
+    arguments.insert(arguments.end(), common.begin(), common.end());
+    arguments.push_back(folder / output);
+    return runAsdf(arguments);
+  };
+  for (const char* output : {"out.ply", "out.vtu", "out.npy", "out.npz", "out.html"})
+    for (const std::string& mesh : {large, small})
+      checkFailure(run(mesh, output), 2, "a value of 'sdf' in the unit of the mesh does not fit into float32: ");
+  CHECK_EQ(folder.names(), Names{"large.off", "small.off"});
+  CHECK_EQ(run(large, "out.csv").exitCode, 0);
+  CHECK_EQ(folder.read("out.csv").find("inf"), std::string::npos);
 }
 
 TEST_CASE("an unreadable mesh ends with 2 and its name") {

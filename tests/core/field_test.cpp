@@ -4,7 +4,11 @@
 
 #include <cmath>
 #include <limits>
+#include <string>
+#include <utility>
 #include <vector>
+
+#include "asdf_vk/error.h"
 
 using namespace asdfvk;
 
@@ -86,4 +90,20 @@ TEST_CASE("a summary does not change its field") {
   const Field field = realField({3, 1, 2});
   (void)summarize(field);
   CHECK(*field.reals() == std::vector<double>{3, 1, 2});
+}
+
+TEST_CASE("numbers fit into float32 unless one is beyond its range, or all would be 0") {
+  const double greatest = std::numeric_limits<float>::max(), least = std::numeric_limits<float>::denorm_min();
+  for (const auto& numbers :
+       {std::vector<double>{}, {0, -0.0}, {kNaN, kInfinity, -kInfinity}, {greatest, -greatest}, {least, 0}, {1, 1e-60}})
+    CHECK_NOTHROW(requireSingles(numbers, "'a'"));
+  for (const auto& [numbers, text] : {std::pair{std::vector<double>{1, kNaN, -1e39}, "1e+39"}, {{0, 1e-50}, "1e-50"}})
+    try {
+      requireSingles(numbers, "'a'");
+      FAIL("accepted");
+    } catch (const Error& error) {
+      CHECK(error.code() == ErrorCode::ValueOutOfRange);
+      CHECK(std::string(error.what()) == "a value of 'a' in the unit of the mesh does not fit into float32: " +
+                                             std::string(text) + "; scale the mesh");
+    }
 }

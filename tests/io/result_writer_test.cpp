@@ -35,6 +35,22 @@ void requireRejected(const std::vector<Field>& fields) {
 
 }  // namespace
 
+TEST_CASE("numbers that do not fit into float32 are refused, except by CSV") {
+  for (const std::string& format : resultFormats()) {
+    CAPTURE(format);
+    const Folder folder;
+    const auto write = [&] {
+      writeResult(folder / ("out." + format), tetrahedron(), sdfAndSeed({1, 2, 1e39, 4}, {1, 0, 0, 1}));
+    };
+    if (format == "csv") {
+      CHECK_NOTHROW(write());
+    } else {
+      CHECK(codeOf(write) == ErrorCode::ValueOutOfRange);
+      CHECK(folder.names().empty());
+    }
+  }
+}
+
 TEST_CASE("the options decide the format, then the extension in any case") {
   CHECK(resultFormats() == std::vector<std::string>{"ply", "vtu", "npy", "npz", "csv"});
   CHECK(resultFormatOf("a.ply") == "ply");
