@@ -138,7 +138,8 @@ struct ThicknessOptions {
   bool allowsSharpEdges = false;
 };
 
-/// Conditions under which further rounds of seeds are added. A round keeps the traced values of all earlier rounds.
+/// Conditions under which further rounds of seeds are added. A round keeps the traced values of all earlier rounds. Any
+/// of them excludes SeedCount::all(); a maximum error requires Options::estimatesError.
 struct RoundOptions {
   std::optional<double> maxError;           ///< Until the estimated average error is at most this share of the range.
   std::optional<double> maxRelativeError;   ///< Until the estimated median of error / value is at most this.

@@ -67,8 +67,9 @@ struct DeviceInfo {
   bool usable = false;
   std::string reason;  ///< "chosen" by default, or the reason why it is ranked lower or rejected.
 };
-/// Every Vulkan device of this machine. If the list is empty for lack of a Vulkan loader, `reason` is set.
-[[nodiscard]] ASDFVK_API std::vector<DeviceInfo> listDevices(std::string* reason = nullptr);
+/// Every Vulkan device of this machine. If the list is empty for lack of a Vulkan loader, `reason` is set. requireGpu:
+/// CPU devices are not usable, as with SessionOptions::requireGpu.
+[[nodiscard]] ASDFVK_API std::vector<DeviceInfo> listDevices(std::string* reason = nullptr, bool requireGpu = false);
 
 [[nodiscard]] ASDFVK_API std::vector<std::string> backendNames();
 /// Whether this build has the backend: Embree is optional.

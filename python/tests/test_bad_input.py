@@ -118,6 +118,8 @@ def wrong_options() -> Iterator[dict[str, Any]]:
     for smooth in ((1,), (0, 1), (1, 2, 3), (9, 1), ("a", 1), [2, 1], (2.0, 1)):
         yield {"smooth": smooth}
     yield {"estimate": 1}
+    yield {"estimate": False, "max_error": 0.1}
+    yield {"seeds": "all", "time_budget": 1}
     yield {"progress": 1}
     yield {"unknown": 1}
     yield {"measure": "thickness"}

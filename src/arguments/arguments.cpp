@@ -121,6 +121,13 @@ ParseResult ArgumentParser::parse(std::vector<std::string> arguments) {
 
 bool ArgumentParser::isGiven(const std::string& name) const { return app_->count(name) > 0; }
 
+std::vector<std::string> ArgumentParser::givenNames() const {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : std::as_const(*app_).get_options())
+    if (option->count() > 0) names.push_back(option->get_name());
+  return names;
+}
+
 void ArgumentParser::setHelpGroup(std::string_view group) { helpGroup_ = group; }
 
 std::string ArgumentParser::help() {

@@ -78,6 +78,8 @@ class ArgumentParser {
   /// arguments: those after the name of the program. Throws what the functions that receive values throw.
   [[nodiscard]] ParseResult parse(std::vector<std::string> arguments);
   [[nodiscard]] bool isGiven(const std::string& name) const;  ///< After parse().
+  /// After parse(): the names of the given options and positional arguments, the long name where there are two.
+  [[nodiscard]] std::vector<std::string> givenNames() const;
 
   void setHelpGroup(std::string_view group);  ///< help() shows the options of this group only.
   /// With a help group, also removes the group of all other options from describe().

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <set>
 #include <sstream>
 #include <utility>
 
@@ -262,9 +263,30 @@ void requireNoPaperOption(const ArgumentParser& parser, const CommandLine& line)
                 "--recipe quality rotates the cones, which belongs to --definition paper; use another recipe");
 }
 
+/// Throws where options are given that --list-devices or --device-report ignores.
+void requireNoIgnoredOption(const ArgumentParser& parser, const CommandLine& line) {
+  if (!line.listDevices && !line.deviceReport) return;
+  const std::string name = line.listDevices ? "--list-devices" : "--device-report";
+  std::set<std::string> used{name, "--quiet", "--threads", "--json", "--require-gpu"};
+  if (!line.listDevices) used.insert({"--backend", "--device"});
+  for (const std::string& given : parser.givenNames())
+    if (!used.contains(given))
+      refuseOptions(fmt::format("{} is about devices only: {} has no effect; drop one of the two", name,
+                                given == "meshes" ? "a mesh" : given));
+}
+
+/// Throws where rounds of seeds cannot have an effect.
+void requireRounds(const CommandLine& line) {
+  const Options& options = line.options;
+  const bool limitsError = options.rounds.limitError();
+  if (limitsError && !options.estimatesError)
+    refuseOptions("--max-error needs the estimate of the error; drop it, or --no-estimate");
+  if (options.rounds.areSet() && options.seeds.kind == SeedCount::Kind::All)
+    refuseOptions(fmt::format("{} adds seeds, but with --seeds all every face is one; drop one of the two",
+                              limitsError ? "--max-error" : "--time-budget"));
+}
+
 void validateOptions(const CommandLine& line) {
-  if (line.deviceReport && !(line.meshes.empty() && line.batch.list.empty()))
-    refuseOptions("--device-report computes on a generated mesh; drop it, or the meshes");
   if (line.meshes.empty() && line.batch.list.empty() && !line.listDevices && !line.deviceReport)
     refuseOptions("no mesh was given; asdf-vk --help lists the options");
   if (std::count(line.meshes.begin(), line.meshes.end(), "-") > 1)
@@ -289,8 +311,7 @@ void validateOptions(const CommandLine& line) {
     refuseOptions("--device chooses a Vulkan device, which --backend cpu and reference do not use; drop one");
   if (isCpu && !(variant.kernel.empty() && variant.bvh.empty() && variant.fetch.empty()))
     refuseOptions("--kernel, --bvh and --fetch choose shaders, which --backend cpu and reference do not use; drop one");
-  const bool estimates = (line.options.estimatesError || line.options.rounds.limitError()) &&
-                         line.options.seeds.kind != SeedCount::Kind::All;
+  const bool estimates = line.options.estimatesError && line.options.seeds.kind != SeedCount::Kind::All;
   if (line.pictureOf == "error" && !estimates)
     refuseOptions("--picture-of error needs an estimate; drop --no-estimate, and --seeds all, which has no error");
   if (std::count(line.fields.begin(), line.fields.end(), "error") > 0 && !estimates)
@@ -299,6 +320,12 @@ void validateOptions(const CommandLine& line) {
     refuseOptions(fmt::format(
         "--solver {} runs on a Vulkan device, which --backend cpu and reference do not use; use --solver cpu",
         line.options.solver));
+  requireRounds(line);
+  if (line.options.interpolation.pooling > 0 && line.options.interpolation.guidance != Guidance::Prediction)
+    refuseOptions(
+        "--pooling moves values to the prediction, which --recipe paper and --guidance none or curvature do not have; "
+        "drop one of the two");
+  requireValid(line.options, true);
 }
 
 }  // namespace
@@ -343,6 +370,7 @@ CommandLine parseCommandLine(std::vector<std::string> arguments) {
   TraceVariant& variant = line.session.variant;
   for (std::string* name : {&variant.kernel, &variant.bvh, &variant.fetch})
     if (*name == "auto") name->clear();
+  requireNoIgnoredOption(parser, line);
   line.options.keepsScene = !line.picture.empty();
   completeSegments(parser, line);
   completeMeasure(parser, line);

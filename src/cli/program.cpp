@@ -35,10 +35,7 @@ ExitCode runCommand(const std::vector<std::string>& arguments) {
   }
   const ThreadLimit threadLimit(line.threadCount);
   const Interrupt interrupt;
-  if (line.listDevices) {
-    printDevices(line);
-    return ExitCode::Done;
-  }
+  if (line.listDevices) return printDevices(line);
   if (line.deviceReport) return printDeviceReport(line, interrupt.token());
   return runMeshes(line, arguments, interrupt.token());
 }

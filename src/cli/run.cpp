@@ -1,5 +1,6 @@
 #include "cli/run.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <numeric>
@@ -135,10 +136,15 @@ ExitCode runMeshes(const CommandLine& line, const std::vector<std::string>& argu
   return code == ExitCode::Done ? ofMeshes : code;
 }
 
-void printDevices(const CommandLine& line) {
+ExitCode printDevices(const CommandLine& line) {
   std::string reason;
-  const std::vector<DeviceInfo> devices = listDevices(&reason);
+  const std::vector<DeviceInfo> devices = listDevices(&reason, line.session.requireGpu);
   writeStandardOutput(line.json ? jsonDevices(devices, reason) : textDevices(devices, reason));
+  const bool hasUsable =
+      std::any_of(devices.begin(), devices.end(), [](const DeviceInfo& device) { return device.usable; });
+  if (!line.session.requireGpu || hasUsable) return ExitCode::Done;
+  printError("", "no GPU is usable; install the driver of the GPU, or drop --require-gpu");
+  return ExitCode::Device;
 }
 
 }  // namespace asdfvk

@@ -17,8 +17,8 @@ namespace asdfvk {
 [[nodiscard]] ExitCode runMeshes(const CommandLine& line, const std::vector<std::string>& arguments,
                                  const std::stop_token& stop);
 
-/// Prints the devices on standard output.
-void printDevices(const CommandLine& line);
+/// Prints the devices on standard output. Returns Done, or Device where a GPU is required and none is usable.
+[[nodiscard]] ExitCode printDevices(const CommandLine& line);
 
 /// Prints the report on the device on standard output. Returns Done, or Device where its self-test failed. Throws as
 /// reportDevice(), and DeviceReport::failure after printing.

@@ -41,7 +41,6 @@ struct Computation {
   /// they are interpolated.
   [[nodiscard]] bool keepsMissing() const { return cone.definition == Definition::Cgal; }
   [[nodiscard]] bool measuresThickness() const { return options.measure == Measure::Thickness; }
-  [[nodiscard]] bool estimatesError() const { return options.estimatesError || options.rounds.limitError(); }
 };
 
 }  // namespace asdfvk

@@ -104,6 +104,12 @@ void requireValid(const Options& options, bool hasDevice) {
   for (const std::optional<double>& maxError : {options.rounds.maxError, options.rounds.maxRelativeError})
     if (maxError && !(*maxError > 0 && *maxError < 1))
       fail(fmt::format("a maximum error of {} is out of range (above 0, below 1)", *maxError));
+  if (options.rounds.limitError() && !options.estimatesError)
+    throw Error(ErrorCode::OptionConflict, "a maximum error needs the error estimate; drop one of the two");
+  if (options.rounds.areSet() && options.seeds.kind == SeedCount::Kind::All)
+    throw Error(
+        ErrorCode::OptionConflict,
+        "a maximum error or time budget adds seeds, but all faces are seeds; choose a share or number of seeds");
   if (options.rounds.timeBudgetSeconds && !(*options.rounds.timeBudgetSeconds > 0))
     fail(fmt::format("a time budget of {} s is out of range; give more than 0", *options.rounds.timeBudgetSeconds));
 }

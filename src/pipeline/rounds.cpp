@@ -114,7 +114,7 @@ void Rounds::runRound(uint64_t count, bool isLast, const RunControl& control) {
   errors_.reset();
   count = std::min(count, remainingCount());
   const bool predicts = computation_.predicts();
-  const SeedShares shares = computation_.estimatesError() && count < remainingCount()
+  const SeedShares shares = options_.estimatesError && count < remainingCount()
                                 ? shareSeeds(count, heldOut_.faces.size(), predicts)
                                 : SeedShares{.sampled = count};
   const bool refines = samplerOf(options_).refine && predicts && roundCount_ == 0 && count < remainingCount();

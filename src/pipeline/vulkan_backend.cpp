@@ -130,15 +130,16 @@ std::unique_ptr<Backend> makeVulkanBackend(const SessionOptions& options) {
   return std::make_unique<VulkanBackend>(options);
 }
 
-std::vector<DeviceInfo> listDevices(std::string* reason) {
+std::vector<DeviceInfo> listDevices(std::string* reason, bool requireGpu) {
   std::vector<DeviceInfo> devices;
   try {
     const Instance instance;
     std::vector<DeviceFacts> facts;
     for (const VkPhysicalDevice device : instance.physicalDevices()) facts.push_back(describeDevice(device));
-    const DeviceChoice choice = chooseDevice(facts, {});
+    const DeviceRequest request{.requireGpu = requireGpu};
+    const DeviceChoice choice = chooseDevice(facts, request);
     for (size_t i = 0; i < facts.size(); ++i) {
-      const bool usable = chooseDevice(std::span(&facts[i], 1), {}).index.has_value();
+      const bool usable = chooseDevice(std::span(&facts[i], 1), request).index.has_value();
       devices.push_back(
           {facts[i].name, facts[i].driver, std::string(toString(facts[i].kind)), usable, choice.reasons[i]});
     }

@@ -49,6 +49,9 @@ TEST_CASE("the list of devices is empty with a reason where there is none") {
   const ChildOutcome json = runAsdf({"--list-devices", "--json"}, kNoDriver);
   CHECK(nlohmann::json::parse(json.output).at("devices").empty());
   CHECK_FALSE(nlohmann::json::parse(json.output).at("reason").get<std::string>().empty());
+  const ChildOutcome required = runAsdf({"--list-devices", "--require-gpu"}, kNoDriver);
+  CHECK_EQ(required.output, text.output);
+  checkFailure(required, 3, "no GPU is usable");
 }
 
 TEST_CASE("the report on a device is JSON; without a device it has the reason and the exit code is 3") {
@@ -77,6 +80,12 @@ TEST_CASE("lavapipe is listed, runs, and is no GPU") {
   REQUIRE_EQ(devices.size(), 1);
   CHECK(devices[0].at("usable").get<bool>());
   CHECK(devices[0].at("name").get<std::string>().find("llvmpipe") != std::string::npos);
+  CHECK_EQ(devices[0].at("reason").get<std::string>(), "chosen");
+  const ChildOutcome required = runAsdf({"--list-devices", "--json", "--require-gpu"}, *lavapipe);
+  checkFailure(required, 3, "no GPU is usable");
+  const nlohmann::json refused = nlohmann::json::parse(required.output).at("devices").at(0);
+  CHECK_FALSE(refused.at("usable").get<bool>());
+  CHECK_EQ(refused.at("reason").get<std::string>(), "is a CPU device and a GPU was required");
 
   const ScratchFolder folder;
   const std::string mesh = folder.write("cube.off", cubeOff());

@@ -184,8 +184,45 @@ TEST_CASE("a picture or field of the error needs an estimate") {
     CHECK_EQ(with({}), "accepted");
     CHECK(with({"--no-estimate"}).find("--no-estimate") != std::string::npos);
     CHECK(with({"--seeds", "all"}).find("--seeds all") != std::string::npos);
-    CHECK_EQ(with({"--no-estimate", "--max-error", "1%"}), "accepted");
   }
+}
+
+TEST_CASE("options that would have no effect are refused") {
+  const std::string withListing = "--list-devices is about devices only: ",
+                    withReport = "--device-report is about devices only: ";
+  const std::string end = " has no effect; drop one of the two";
+  CHECK_EQ(refusal({"--list-devices", "a.ply"}), withListing + "a mesh" + end);
+  CHECK_EQ(refusal({"--list-devices", "-o", "b.ply"}), withListing + "--output" + end);
+  CHECK_EQ(refusal({"--list-devices", "--picture", "b.png"}), withListing + "--picture" + end);
+  CHECK_EQ(refusal({"--list-devices", "--device-report"}), withListing + "--device-report" + end);
+  CHECK_EQ(refusal({"--list-devices", "--device", "0"}), withListing + "--device" + end);
+  CHECK_EQ(refusal({"--list-devices", "--files-from", "list"}), withListing + "--files-from" + end);
+  CHECK_EQ(refusal({"--list-devices", "--require-gpu", "--json", "--quiet", "--threads", "1"}), "accepted");
+  CHECK_EQ(refusal({"--device-report", "a.ply"}), withReport + "a mesh" + end);
+  CHECK_EQ(refusal({"--device-report", "--kernel", "ray"}), withReport + "--kernel" + end);
+  CHECK_EQ(refusal({"--device-report", "--backend", "vulkan", "--device", "0", "--require-gpu"}), "accepted");
+
+  CHECK_EQ(refusal({"a.ply", "--no-estimate", "--max-error", "1%"}),
+           "--max-error needs the estimate of the error; drop it, or --no-estimate");
+  CHECK_EQ(refusal({"a.ply", "--no-estimate", "--time-budget", "1"}), "accepted");
+  for (const auto& [option, value] :
+       {std::pair{"--max-error", "1%"}, {"--max-error", "5%rel"}, {"--time-budget", "1"}}) {
+    CHECK_EQ(refusal({"a.ply", option, value, "--seeds", "all"}),
+             fmt::format("{} adds seeds, but with --seeds all every face is one; drop one of the two", option));
+    CHECK_EQ(refusal({"a.ply", option, value, "--seeds", "20%"}), "accepted");
+    CHECK_EQ(refusal({"a.ply", option, value, "--definition", "cgal"}), "accepted");
+  }
+}
+
+TEST_CASE("pooling without a prediction is refused, also of the compared options") {
+  const std::string message =
+      "--pooling moves values to the prediction, which --recipe paper and --guidance none or curvature do not have; "
+      "drop one of the two";
+  CHECK_EQ(refusal({"a.ply", "b.ply", "--pooling", "0.5", "--recipe", "paper"}), message);
+  CHECK_EQ(refusal({"a.ply", "--recipe", "quality", "--guidance", "none"}), message);
+  CHECK_EQ(refusal({"a.ply", "--recipe", "paper", "--pooling", "0"}), "accepted");
+  CHECK_EQ(refusal({"a.ply", "--recipe", "paper", "--pooling", "0.5", "--guidance", "prediction"}), "accepted");
+  CHECK_EQ(refusal({"a.ply", "-o", "a.html", "--against", "--recipe paper --pooling 0.5"}), "--against: " + message);
 }
 
 }  // namespace

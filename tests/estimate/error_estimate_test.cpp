@@ -368,11 +368,3 @@ TEST_CASE("there is no estimate without a request, where every face is a seed an
     CHECK(result.report.noValueCount == 0);
   }
 }
-
-TEST_CASE("a maximum error requests the estimate") {
-  const Mesh mesh = makeTorus(1000).mesh;
-  Options options;
-  options.estimatesError = false;
-  options.rounds.maxError = 0.5;
-  CHECK(referenceSession().compute(mesh, options).report.estimatedError.has_value());
-}

@@ -202,6 +202,19 @@ TEST_CASE("options of the interpolation and of rounds out of range are errors of
         o.interpolation.guidance = Guidance::None;
       },
       ErrorCode::OptionConflict, "guidance by prediction");
+  requireFailure(
+      [](Options& o) {
+        o.estimatesError = false;
+        o.rounds.maxRelativeError = 0.1;
+      },
+      ErrorCode::OptionConflict, "needs the error estimate");
+  for (const bool limitsError : {false, true})
+    requireFailure(
+        [&](Options& o) {
+          o.seeds = SeedCount::all();
+          (limitsError ? o.rounds.maxError : o.rounds.timeBudgetSeconds) = 0.5;
+        },
+        ErrorCode::OptionConflict, "all faces are seeds");
   requireFailure([](Options& o) { o.sampler = "spiral"; }, ErrorCode::UnknownName,
                  "'spiral'; the names are random, blue-noise, farthest-point, normal-space, adaptive");
   requireFailure([](Options& o) { o.solver = "gauss"; }, ErrorCode::UnknownName, "'gauss'");
