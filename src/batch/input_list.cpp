@@ -9,6 +9,8 @@
 #include <fstream>
 #include <iostream>
 #include <iterator>
+#include <string_view>
+#include <utility>
 
 #include "asdf_vk/error.h"
 #include "core/text.h"
@@ -87,9 +89,14 @@ std::vector<std::string> readList(const InputRequest& request) {
     if (!file) fail(request.list, fmt::format("cannot be opened: {}", std::strerror(errno)));
   }
   std::istream& in = isStandardInput ? std::cin : file;
+  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
   std::vector<std::string> paths;
+  bool isFirst = true;
   for (std::string path; std::getline(in, path, request.isNullSeparated ? '\0' : '\n');) {
-    if (!request.isNullSeparated && path.ends_with('\r')) path.pop_back();  // The list is from Windows.
+    if (!request.isNullSeparated) {  // The list may be from Windows.
+      if (std::exchange(isFirst, false) && path.starts_with(kByteOrderMark)) path.erase(0, kByteOrderMark.size());
+      if (path.ends_with('\r')) path.pop_back();
+    }
     if (!path.empty()) paths.push_back(path);
   }
   if (in.bad()) fail(isStandardInput ? "standard input" : request.list, "cannot be read");

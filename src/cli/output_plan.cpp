@@ -34,6 +34,17 @@ std::string resultName(const std::string& mesh, const std::string& format) {
 
 bool isPageName(const fs::path& path) { return lowerCase(path.extension().string()) == ".html"; }
 
+/// That of the result; as resultFormatOf(), but the error names the formats of this program.
+std::string plannedFormat(const std::string& output, const WriteOptions& options) {
+  try {
+    return resultFormatOf(output, options);
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::UnknownFormat) throw;
+    throw Error(ErrorCode::UnknownFormat, fmt::format("the extension of {} does not name a format; the formats are {}",
+                                                      output, joined(outputFormats(), ", ")));
+  }
+}
+
 /// Whether the extension of `path` names another format than `format`.
 bool contradicts(const fs::path& path, const std::string& format) {
   if (isPageName(path)) return format != kPageFormat;
@@ -158,12 +169,14 @@ std::vector<std::string> planOutputs(const CommandLine& line, std::span<const In
   for (const InputFile& file : files) {
     const std::string& mesh = file.path;
     const std::string output = planOutput(file, line);
-    const std::string format = writesPages(line) ? kPageFormat : resultFormatOf(output, options);
+    const std::string format = writesPages(line) ? kPageFormat : plannedFormat(output, options);
     if (line.ascii && format != "ply") usageError("--ascii is for PLY only; drop it");
     if (output != "-") {
       if (contradicts(output, format))
         usageError(fmt::format("-o {} and --format {} contradict each other; drop one", output, line.format));
       const auto [other, isNew] = meshOfOutput.emplace(normalised(output), mesh);
+      if (!isNew && !sharePage && normalised(other->second) == normalised(mesh))
+        usageError(fmt::format("{} is named twice; name it once", mesh));
       if (!isNew && !sharePage)
         usageError(fmt::format("{} and {} would both be written to {}; {}", other->second, mesh, output,
                                line.batch.hasTree() ? "rename one of them, or compute it in a call of its own with "

@@ -63,6 +63,16 @@ TEST_CASE("the outputs of a list lie below its longest common folder") {
   CHECK_EQ(pathsOf(listInputs(request)), Paths{{"/a/two\nlines.off", "a"}, {"/b/c.off", "b"}});
 }
 
+TEST_CASE("a list may have a byte order mark and the line ends of Windows, but not with zero bytes") {
+  const ScratchFolder folder;
+  InputRequest request;
+  request.list = folder.write("list", "\xef\xbb\xbf/d/a.off\r\n/d/\xef\xbb\xbfb.off\r\n");
+  CHECK_EQ(pathsOf(listInputs(request)), Paths{{"/d/a.off", ""}, {"/d/\xef\xbb\xbfb.off", ""}});
+  request.isNullSeparated = true;
+  request.list = folder.write("zero", "\xef\xbb\xbf/a.off");
+  CHECK_EQ(listInputs(request).at(0).path, "\xef\xbb\xbf/a.off");
+}
+
 TEST_CASE("a dangling link below a folder is an input, which fails; a FIFO and a link to a folder are none") {
   const ScratchFolder folder;
   std::filesystem::create_directories(folder / "in/deep");

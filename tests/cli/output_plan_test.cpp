@@ -135,6 +135,8 @@ TEST_CASE("the results of a tree lie in the same tree, whose folders need not ex
       "x/a.off and x/a.ply would both be written to x/a.asdf.npy; rename one of them, or compute it in a "
       "call of its own with another -o",
       Error);
+  const std::vector<InputFile> twice{{.path = "x/a.off"}, {.path = "x/../x/a.off"}};
+  CHECK_THROWS_WITH_AS((void)planOutputs(line, twice), "x/../x/a.off is named twice; name it once", Error);
   line.output = folder.write("file", "x");
   CHECK_THROWS_AS((void)planOutputs(line, inputs), Error);
   line.output = folder / "new.npy";  // The name of a result, not of a folder.
