@@ -5,6 +5,7 @@
 #include "cli/program_under_test.h"
 #include "cli/sample_files.h"
 #include "cli/scratch_folder.h"
+#include "support/fake_device.h"
 
 namespace asdfvk::test {
 namespace {
@@ -182,6 +183,26 @@ TEST_CASE("each rejected device has its line with the reason") {
   CHECK(chosen.at(0).find("chosen, driver") != std::string::npos);
   CHECK(chosen.at(1).find("is not the requested device '1'") != std::string::npos);
   CHECK(firstLines({mesh, "--backend", "vulkan", "--quiet"}).empty());
+}
+
+TEST_CASE("auto opens a device that failed again for the next mesh") {
+  const auto lavapipe = lavapipeOnly();
+  if (!lavapipe) return;
+  const ScratchFolder folder;
+  const std::string cube = folder.write("cube.off", cubeOff());
+  // Its only face casts no ray, so that the device has nothing to do.
+  const std::string line = folder.write("line.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n2 0 0\n3 0 1 2\n");
+  const FakeDevice device(FakeDevice::Variables{{"ASDF_VK_FAKE_LOST_AT", "1"}});
+  const ChildOutcome outcome = runAsdf({cube, line, "--json", "--quiet", "-o", folder / "out/"}, *lavapipe);
+  INFO(outcome.error);
+  REQUIRE_EQ(outcome.exitCode, 0);
+  const std::vector<std::string> lines = linesOf(outcome.output);
+  REQUIRE_EQ(lines.size(), 2);
+  const nlohmann::json first = nlohmann::json::parse(lines[0]), second = nlohmann::json::parse(lines[1]);
+  CHECK_NE(first.at("backend").get<std::string>(), "vulkan");
+  CHECK_EQ(first.at("warningCodes").at(0).get<std::string>(), "backendReplaced");
+  CHECK_EQ(second.at("backend").get<std::string>(), "vulkan");
+  CHECK_EQ(second.at("warningCodes").dump().find("backendReplaced"), std::string::npos);
 }
 
 }  // namespace
