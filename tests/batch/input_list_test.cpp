@@ -66,8 +66,13 @@ TEST_CASE("the outputs of a list lie below its longest common folder") {
 TEST_CASE("a list may have a byte order mark and the line ends of Windows, but not with zero bytes") {
   const ScratchFolder folder;
   InputRequest request;
-  request.list = folder.write("list", "\xef\xbb\xbf/d/a.off\r\n/d/\xef\xbb\xbfb.off\r\n");
-  CHECK_EQ(pathsOf(listInputs(request)), Paths{{"/d/a.off", ""}, {"/d/\xef\xbb\xbfb.off", ""}});
+  request.list = folder.write("list",
+                              "\xef\xbb\xbf/d/a.off\r\n/d/\xef\xbb\xbf"
+                              "b.off\r\n");
+  CHECK_EQ(pathsOf(listInputs(request)), Paths{{"/d/a.off", ""},
+                                               {"/d/\xef\xbb\xbf"
+                                                "b.off",
+                                                ""}});
   request.isNullSeparated = true;
   request.list = folder.write("zero", "\xef\xbb\xbf/a.off");
   CHECK_EQ(listInputs(request).at(0).path, "\xef\xbb\xbf/a.off");
