@@ -26,8 +26,8 @@ const std::array<std::vector<std::string>, 5> kFurtherOptions{
     {{"--segment", "parts"}, {"--measure", "thickness", "--thinner-than", "0.5", "--seeds", "20%"}, {}, {}, {}}};
 
 /// Runs the program on all of `meshes`: each must have its line, and its result exactly when the line has no error.
-Counts runBatch(const std::vector<std::string>& meshes, const std::string& backend,
-                const std::vector<std::string>& further, const ChildOptions& options) {
+Counts runMutated(const std::vector<std::string>& meshes, const std::string& backend,
+                  const std::vector<std::string>& further, const ChildOptions& options) {
   const ScratchFolder results;
   std::vector<std::string> arguments = meshes;
   arguments.insert(arguments.end(), further.begin(), further.end());
@@ -80,7 +80,7 @@ Counts runMutated(int meshCount, const std::string& backend, const ChildOptions&
       const Sample& sample = samples[static_cast<size_t>(i) % samples.size()];
       meshes.push_back(folder.write(fmt::format("mesh{:04}.{}", i, sample.extension), mutate(sample.bytes, random)));
     }
-    const Counts counts = runBatch(meshes, backend, kFurtherOptions[batch % kFurtherOptions.size()], options);
+    const Counts counts = runMutated(meshes, backend, kFurtherOptions[batch % kFurtherOptions.size()], options);
     total.done += counts.done;
     total.refused += counts.refused;
   }
