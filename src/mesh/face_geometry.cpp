@@ -88,11 +88,12 @@ Box3d boundsOfFiniteVertices(const TriangleMesh& mesh) {
 Normalization normalizationOf(const Box3d& bounds) {
   const Vec3d halfSize = bounds.halfSize();
   const double halfExtent = std::max({halfSize.x, halfSize.y, halfSize.z});
-  Normalization normalization{bounds.centre(), 1};
+  Normalization normalization{.centre = bounds.centre()};
   if (!(halfExtent > 0) || !std::isfinite(halfExtent)) return normalization;
   int exponent = 0;
   std::frexp(halfExtent, &exponent);  // halfExtent = m * 2^exponent with m in [0.5, 1)
   normalization.scale = std::ldexp(1.0, std::clamp(-exponent, -1024, 1023));
+  normalization.extent = halfExtent * normalization.scale;
   return normalization;
 }
 

@@ -34,7 +34,8 @@ struct FaceGeometry {
 /// float32 does not depend on the unit of the mesh and its distance from the origin.
 struct Normalization {
   Vec3d centre;
-  double scale = 1;  ///< Normalised units per mesh unit; a power of two, so that scaling is exact.
+  double scale = 1;   ///< Normalised units per mesh unit; a power of two, so that scaling is exact.
+  double extent = 1;  ///< Half of the longest side of the box, in normalised units: above 0.5, at most 1.
 
   [[nodiscard]] Vec3d toNormalized(const Vec3d& p) const { return (p - centre) * scale; }
   /// Clamped to the largest double; only meshes as wide as the range of double need that.

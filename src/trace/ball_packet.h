@@ -303,11 +303,11 @@ class BallPacket {
       }
     };
     measureBy(&Candidate::atPoint, atPointLimit_[lane], query.atPoint, [&](const PlaneTriangle& wall, double limit) {
-      return leastTouchingBall(query.point, query.triangle.normal, wall, kMinWallDepth, limit);
+      return leastTouchingBall(query.point, query.triangle.normal, wall, tree_.scene().minWallDepth(), limit);
     });
     const double leastLimit = std::min<double>(leastLimit_[lane], query.atPoint.ball.diameter);
     measureBy(&Candidate::least, leastLimit, query.least, [&](const PlaneTriangle& wall, double limit) {
-      return leastTouchingBall(query.triangle, wall, kMinWallDepth, limit);
+      return leastTouchingBall(query.triangle, wall, tree_.scene().minWallDepth(), limit);
     });
   }
 

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "bvh/bvh.h"
+#include "cone/cone.h"
 #include "cone/touching_ball.h"
 #include "mesh/face_geometry.h"
 #include "mesh/mesh.h"
@@ -21,6 +22,8 @@ struct TraceScene {
   [[nodiscard]] Vec3d originOf(uint32_t face) const {
     return bvh.normalization.toNormalized(geometry.barycentres[face]);
   }
+  /// Walls that are less deep below the plane of a face, in normalised units, are in contact with it.
+  [[nodiscard]] double minWallDepth() const { return kContactDistance * bvh.normalization.extent; }
 };
 
 /// A face in normalised coordinates.

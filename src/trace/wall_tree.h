@@ -5,7 +5,6 @@
 #include <span>
 #include <vector>
 
-#include "cone/cone.h"
 #include "cone/opposing_walls.h"
 #include "cone/touching_ball.h"
 #include "core/simd.h"
@@ -27,9 +26,6 @@ struct BallQuery {
   InscribedBall atPoint;   ///< The largest ball at the point.
   InscribedBall least;     ///< The least of such balls over all points of the triangle.
 };
-
-/// In normalised units: what is nearer to the plane of a face is contact, or rounding of coordinates in float32.
-inline constexpr double kMinWallDepth = kContactDistance;
 
 /// A face, coincident copies included: those of touching parts have opposite normals.
 struct Wall {
