@@ -215,7 +215,7 @@ struct UnjudgedFaces {
   uint64_t openCount = 0;        ///< Of open components: what would close them may be a thin wall.
   uint64_t invertedCount = 0;    ///< Of closed components whose faces are oriented inwards, or inconsistently.
   uint64_t degenerateCount = 0;  ///< Without a normal or with a corner that is not finite.
-  /// Faces that a face of another solid crosses. They are judged, as at most as thick as the union of the solids.
+  /// Faces that a face of another solid crosses. Each solid is judged on its own: the union is at least as thick.
   uint64_t crossedCount = 0;
   uint64_t selfCrossedCount = 0;  ///< Faces that a face of the same solid crosses: inside and outside are mixed up.
 

@@ -9,6 +9,7 @@
 
 #include "asdf_vk/error.h"
 #include "core/random.h"
+#include "mesh/face_geometry.h"
 #include "shared/cone_rules.h"
 
 namespace asdfvk {

@@ -11,10 +11,6 @@
 
 namespace asdfvk {
 
-/// In normalised units: what is nearer is contact. Coordinates in float32 do not tell it from no distance, also where
-/// parts that touch are turned.
-inline constexpr double kContactDistance = 0x1p-20;
-
 /// Lengths farther from the median than a multiple of their spread are outliers.
 struct OutlierRule {
   enum class Spread {
@@ -39,8 +35,8 @@ struct Cone {
   double falseHitCosine = 0;                  ///< See isFalseHit(); includes the slack of shared/cone_rules.h.
   OutlierRule outliers;
   double halfAngleRadians = 0;  ///< Angle between the axis and the rim.
-  /// What is nearer to the origin of a ray is no hit: kContactDistance, more for rays that graze the face. See also
-  /// kOuterSideFactor.
+  /// What is nearer to the origin of a ray is no hit: kContactDistance, more for cones whose rays graze the face. See
+  /// also kOuterSideFactor.
   double contactDistance = 0;
   ConeRotation rotation = ConeRotation::Fixed;
 };

@@ -54,4 +54,12 @@ struct Box3 {
 using Box3d = Box3<double>;
 using Box3f = Box3<float>;
 
+/// Whether the inner box is more than a margin away from each side of the outer one; where that is negative, it may be
+/// outside by as much.
+[[nodiscard]] inline bool containsBy(double margin, const Box3d& outer, const Box3d& inner) {
+  for (size_t axis = 0; axis < 3; ++axis)
+    if (!(inner.min[axis] - outer.min[axis] > margin && outer.max[axis] - inner.max[axis] > margin)) return false;
+  return true;
+}
+
 }  // namespace asdfvk

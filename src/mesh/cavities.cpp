@@ -149,12 +149,6 @@ ClosedComponents gatherClosed(const TriangleMesh& mesh, const Components& compon
   return closed;
 }
 
-bool containsStrictly(const Box3d& outer, const Box3d& inner) {
-  for (size_t axis = 0; axis < 3; ++axis)
-    if (!(outer.min[axis] < inner.min[axis] && inner.max[axis] < outer.max[axis])) return false;
-  return true;
-}
-
 // The side of p relative to an edge, computed from the lower vertex to the upper one, so that both faces of an edge
 // have the same value: a ray that hits an edge crosses exactly one of them, independent of rounding.
 double sideOfEdge(const Face& face, const std::array<Vec3d, 3>& corners, size_t i, const Vec3d& p) {
@@ -185,7 +179,7 @@ bool rayCrosses(const Face& face, const std::array<Vec3d, 3>& corners, const Vec
 // For each test ray 1 where it crosses an odd number of faces of the components whose boxes contain the box of its own
 // component. That is the parity of the number of components that contain the ray origin.
 std::vector<uint8_t> parities(const TriangleMesh& mesh, const Components& components, const ProjectionFrame& frame,
-                              const ClosedComponents& closed) {
+                              const ClosedComponents& closed, double contact) {
   std::vector<Point2> points;
   points.reserve(closed.rays.size());
   for (const TestRay& ray : closed.rays) points.push_back({ray.point.x, ray.point.y});
@@ -203,7 +197,7 @@ std::vector<uint8_t> parities(const TriangleMesh& mesh, const Components& compon
     }
     tree.forEachNear(triangle, [&](uint32_t index) {
       const TestRay& ray = closed.rays[index];
-      if (containsStrictly(box, closed.boxes[ray.component]) && rayCrosses(face, corners, ray.point))
+      if (containsBy(contact, box, closed.boxes[ray.component]) && rayCrosses(face, corners, ray.point))
         std::atomic_ref<uint8_t>(result[index]).fetch_xor(1, std::memory_order_relaxed);
     });
   });
@@ -218,10 +212,20 @@ std::vector<uint8_t> findCavities(const TriangleMesh& mesh, const Components& co
   if (std::count_if(components.components.begin(), components.components.end(), isClosed) < 2) return isCavity;
   const ProjectionFrame frame{normalizationOf(boundsOfFiniteVertices(mesh))};
   const ClosedComponents closed = gatherClosed(mesh, components, frame);
-  const std::vector<uint8_t> isOdd = parities(mesh, components, frame, closed);
+  const double contact = frame.normalization.contactLength();
+  const std::vector<uint8_t> isOdd = parities(mesh, components, frame, closed, contact);
   for (const TestRay& ray : closed.rays) isCavity[ray.component] = 1;
   for (size_t i = 0; i < isOdd.size(); ++i)
     if (!isOdd[i]) isCavity[closed.rays[i].component] = 0;
+  // A body that touches the cavity in which it is may be inside of it.
+  for (size_t inner = 0; inner < isCavity.size(); ++inner) {
+    if (isCavity[inner] == 0 || !(components.components[inner].signedVolume > 0)) continue;
+    const Box3d& box = closed.boxes[inner];
+    const auto mayContain = [&](const Box3d& outer) {
+      return &outer != &box && !outer.isEmpty() && containsBy(-contact, outer, box) && !containsBy(contact, outer, box);
+    };
+    if (std::any_of(closed.boxes.begin(), closed.boxes.end(), mayContain)) isCavity[inner] = 0;
+  }
   return isCavity;
 }
 

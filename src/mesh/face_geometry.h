@@ -30,6 +30,10 @@ struct FaceGeometry {
 /// The box of the vertices with finite coordinates, whether faces use them or not.
 [[nodiscard]] Box3d boundsOfFiniteVertices(const TriangleMesh& mesh);
 
+/// In units of half of the longest side of the mesh: what is nearer touches. Coordinates in float32 do not tell it from
+/// no distance, also where parts that touch are turned.
+inline constexpr double kContactDistance = 0x1p-20;
+
 /// Maps the box of the mesh into [-1, 1]^3 around its centre, scaled by a power of two, so that the resolution of
 /// float32 does not depend on the unit of the mesh and its distance from the origin.
 struct Normalization {
@@ -42,6 +46,8 @@ struct Normalization {
   [[nodiscard]] double toMeshLength(double normalizedLength) const {
     return std::min(normalizedLength / scale, std::numeric_limits<double>::max());
   }
+  /// kContactDistance in the unit of the mesh.
+  [[nodiscard]] double contactLength() const { return toMeshLength(kContactDistance * extent); }
 };
 
 [[nodiscard]] Normalization normalizationOf(const Box3d& bounds);

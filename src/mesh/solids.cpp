@@ -4,27 +4,20 @@
 
 #include "core/box3.h"
 #include "mesh/cavities.h"
+#include "mesh/face_geometry.h"
 
 namespace asdfvk {
-namespace {
-
-bool contains(const Box3d& outer, const Box3d& inner) {
-  for (size_t axis = 0; axis < 3; ++axis)
-    if (outer.min[axis] > inner.min[axis] || outer.max[axis] < inner.max[axis]) return false;
-  return true;
-}
-
-}  // namespace
 
 Solids findSolids(const TriangleMesh& mesh, const Components& components) {
   const size_t count = components.components.size();
-  Solids solids{std::vector<uint32_t>(mesh.faceCount()), std::vector<uint8_t>(count), std::vector<uint8_t>(count)};
+  Solids solids{std::vector<uint32_t>(mesh.faceCount()), std::vector<uint8_t>(count), std::vector<uint8_t>(count), {}};
   std::vector<uint8_t> isCavity(count);
   if (count > 1) isCavity = findCavities(mesh, components);
+  const double contact = normalizationOf(boundsOfFiniteVertices(mesh)).contactLength();
   std::vector<Box3d> boxes(count);
   for (uint32_t face = 0; face < mesh.faceCount(); ++face)
     for (const uint32_t vertex : mesh.faces[face]) boxes[components.componentOf[face]].add(mesh.vertices[vertex]);
-  std::vector<uint32_t> solidOfComponent(count);
+  std::vector<uint32_t> solidOfComponent(count), bodyOfComponent(count, kNoBody);
   for (uint32_t c = 0; c < count; ++c) {
     const Component& component = components.components[c];
     const double outwards = isCavity[c] != 0 ? -component.signedVolume : component.signedVolume;
@@ -32,19 +25,27 @@ Solids findSolids(const TriangleMesh& mesh, const Components& components) {
         component.isClosed && component.isConsistentlyWound && outwards > 0 && isCavity[c] == 0 ? 1 : 0;
     solids.isMisoriented[c] = component.isClosed && (!component.isConsistentlyWound || outwards < 0) ? 1 : 0;
     solidOfComponent[c] = c;
+    if (solids.isClosed[c] != 0) bodyOfComponent[c] = c;
   }
   for (uint32_t c = 0; c < count; ++c) {
     if (isCavity[c] == 0) continue;
     double least = std::numeric_limits<double>::infinity();
+    uint32_t candidateCount = 0;
     for (uint32_t outer = 0; outer < count; ++outer) {
-      if (isCavity[outer] != 0 || solids.isClosed[outer] == 0 || !contains(boxes[outer], boxes[c])) continue;
+      if (solids.isClosed[outer] == 0 || !containsBy(contact, boxes[outer], boxes[c])) continue;
+      ++candidateCount;
       if (boxes[outer].diagonal() >= least) continue;
       least = boxes[outer].diagonal();
       solidOfComponent[c] = outer;
     }
+    if (candidateCount == 1) bodyOfComponent[c] = solidOfComponent[c];
   }
-  for (uint32_t face = 0; face < mesh.faceCount(); ++face)
-    solids.solidOf[face] = solidOfComponent[components.componentOf[face]];
+  solids.bodyOf.resize(mesh.faceCount());
+  for (uint32_t face = 0; face < mesh.faceCount(); ++face) {
+    const uint32_t component = components.componentOf[face];
+    solids.solidOf[face] = solidOfComponent[component];
+    solids.bodyOf[face] = bodyOfComponent[component];
+  }
   return solids;
 }
 

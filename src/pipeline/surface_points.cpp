@@ -50,7 +50,7 @@ std::vector<double> thicknessAtPoints(const PreparedScene& scene, std::span<cons
     if (face != kNoFace) isWanted[solids.solidOf[face]] = solids.isClosed[solids.solidOf[face]];
   const std::vector<GreatestSection> sections =
       findGreatestSections(view, solids.solidOf, isWanted, control.part(kNearestDone, kSectionsDone));
-  const WallTree tree(view, makeOpposingWalls(options.wallAngleDegrees));
+  const WallTree tree(view, makeOpposingWalls(options.wallAngleDegrees), solids.bodyOf);
   std::vector<double> values(points.size(), std::numeric_limits<double>::quiet_NaN());
   // Points next to each other in the hierarchy find the same walls.
   const SeedOrder seedOrder(view);
@@ -67,7 +67,7 @@ std::vector<double> thicknessAtPoints(const PreparedScene& scene, std::span<cons
     std::vector<BallQuery> queries(block.size());
     for (size_t i = 0; i < block.size(); ++i) {
       const Vec3d p = unit.toNormalized(points[block[i]]);
-      queries[i] = {{{p, p, p}, normals[block[i]]}, p, {}, {}};
+      queries[i] = {{{p, p, p}, normals[block[i]]}, p, {}, {}, solids.bodyOf[nearest[block[i]]]};
       queries[i].atPoint.ball.diameter = sections[solids.solidOf[nearest[block[i]]]].bound;
       queries[i].least.ball.diameter = 0;  // Not asked for.
     }

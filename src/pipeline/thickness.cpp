@@ -48,7 +48,7 @@ class Measurement {
     const std::vector<GreatestSection> sections =
         findGreatestSections(scene_, solids_.solidOf, solids_.isClosed, control.part(0, kSectionsProgress));
     keepGreatest(sections);
-    const WallTree tree(scene_, opposing_);
+    const WallTree tree(scene_, opposing_, solids_.bodyOf);
     const std::vector<FaceBalls> thin = measureFaces(tree, sections, control.part(kSectionsProgress, kBallsProgress));
     countUnjudged(control.withoutProgress());
     if (limit_)
@@ -65,7 +65,7 @@ class Measurement {
   void findSharp() {
     SharpEdges& sharp = thickness_.sharp;
     sharp = findSharpEdges(mesh_, computation_.prepared.geometry, fans_, opposing_.cosine,
-                           unit_.toMeshLength(scene_.minWallDepth()));
+                           unit_.toMeshLength(scene_.minWallDepth()), solids_.bodyOf);
     std::erase_if(sharp.lines, [&](const SharpLine& line) { return !isInDomain(line.face); });
     for (uint32_t face = 0; face < mesh_.faceCount(); ++face)
       if (!isInDomain(face)) sharp.faceBits[face] = 0;

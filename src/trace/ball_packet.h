@@ -79,6 +79,7 @@ class BallPacket {
       for (const Vec3d& corner : query.triangle.corners) reach = std::max(reach, length(corner - query.point));
       reach_[lane] = static_cast<float>(1 + reach);  // The dot products with the corners round, too.
       isUsed_[lane] = lane < queries.size() ? -1 : 0;
+      bodies_[lane] = static_cast<int32_t>(query.body);
       leastLimit_[lane] = asFloat(query.least.ball.diameter);
       atPointLimit_[lane] = asFloat(query.atPoint.ball.diameter);
     }
@@ -109,7 +110,8 @@ class BallPacket {
 
   /// A wall that is probably near.
   ASDFVK_ALWAYS_INLINE void offer(const Wall& wall) {
-    const Mask opposing = lessEqual(dotLanes(wall.normal, normal_), cosineLimit(-kWallCosineMargin)) & isUsed_;
+    const Mask opposing =
+        lessEqual(dotLanes(wall.normal, normal_), cosineLimit(-kWallCosineMargin)) & isUsed_ & mayBound(wall);
     if (anyLane(opposing)) shrinkLimits(wall, middleOf(wall.middle, opposing), opposing);
   }
 
@@ -165,6 +167,15 @@ class BallPacket {
     return broadcast<Floats>(static_cast<float>(tree_.opposing().cosine) + margin);
   }
 
+  /// Lanes with mayBeOfOneBody().
+  [[nodiscard]] ASDFVK_ALWAYS_INLINE Mask mayBound(const Wall& wall) const {
+    if (wall.body == kNoBody) return ~Mask{};
+    const auto differs = [&](uint32_t body) ASDFVK_ALWAYS_INLINE {
+      return notEqual(bodies_, broadcast<Mask>(static_cast<int32_t>(body)));
+    };
+    return ~(differs(wall.body) & differs(kNoBody));
+  }
+
   /// Lanes whose faces may have an opposing wall below the node.
   [[nodiscard]] ASDFVK_ALWAYS_INLINE Mask mayOppose(const WallNode& node) const {
     const auto least = [&](float min, float max, const Floats& component)
@@ -201,7 +212,7 @@ class BallPacket {
 
   ASDFVK_ALWAYS_INLINE void test(const Wall& wall) {
     const Floats cosine = dotLanes(wall.normal, normal_);
-    const Mask opposing = lessEqual(cosine, cosineLimit(kWallCosineMargin)) & isUsed_;
+    const Mask opposing = lessEqual(cosine, cosineLimit(kWallCosineMargin)) & isUsed_ & mayBound(wall);
     if (!anyLane(opposing)) return;
     // Balls that touch the wall are at least as large as those that touch its plane.
     std::array<Floats, 4> offsets;
@@ -322,7 +333,7 @@ class BallPacket {
   Lanes low_, high_;                  ///< Box of the centres of the greater balls.
   Floats squaredRadius_;
   Floats reach_;  ///< 1 + the length from the point to the corners.
-  Mask isUsed_;
+  Mask isUsed_, bodies_;
   std::array<std::array<Candidate, kMaxCandidateCount>, kSize> candidates_;
   std::array<size_t, kSize> counts_{};
 };

@@ -17,7 +17,7 @@ void shrinkBlock(const WallTree& tree, std::span<FaceBalls> faces) {
   std::vector<BallQuery> queries(faces.size());
   for (size_t i = 0; i < faces.size(); ++i)
     queries[i] = {triangleOf(tree.scene(), faces[i].face), tree.scene().originOf(faces[i].face), faces[i].atBarycentre,
-                  faces[i].least};
+                  faces[i].least, tree.bodyOf(faces[i].face)};
   tree.shrink(queries);
   for (size_t i = 0; i < faces.size(); ++i) {
     faces[i].atBarycentre = queries[i].atPoint;

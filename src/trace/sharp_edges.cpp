@@ -8,6 +8,7 @@
 
 #include "cone/touching_ball.h"
 #include "core/parallel.h"
+#include "mesh/solids.h"
 
 namespace asdfvk {
 namespace {
@@ -25,12 +26,13 @@ struct Edge {
 class SharpSearch {
  public:
   SharpSearch(const TriangleMesh& mesh, const FaceGeometry& geometry, const PointFans& fans, double maxCosine,
-              double minDepth)
+              double minDepth, std::span<const uint32_t> bodyOf)
       : mesh_(mesh),
         geometry_(geometry),
         fans_(fans),
         maxCosine_(maxCosine),
         minDepth_(minDepth),
+        bodyOf_(bodyOf),
         cornerBits_(3 * size_t{mesh.faceCount()}) {}
 
   SharpEdges run() {
@@ -84,6 +86,7 @@ class SharpSearch {
   [[nodiscard]] bool isThin(uint32_t corner, uint32_t other) const {
     const uint32_t face = corner / 3, wall = other / 3;
     if (geometry_.isDegenerate(face) || geometry_.isDegenerate(wall)) return false;
+    if (!bodyOf_.empty() && !mayBeOfOneBody(bodyOf_[face], bodyOf_[wall])) return false;
     if (!(dot(geometry_.normals[face], geometry_.normals[wall]) <= maxCosine_)) return false;
     return leastTouchingBall(triangleAt(face), triangleAt(wall), minDepth_).diameter <= kSharpDepths * minDepth_;
   }
@@ -183,6 +186,7 @@ class SharpSearch {
   const FaceGeometry& geometry_;
   const PointFans& fans_;
   double maxCosine_, minDepth_;
+  std::span<const uint32_t> bodyOf_;
   std::vector<uint8_t> cornerBits_;  // 3 #F
   std::set<uint32_t> edgePoints_;
 };
@@ -190,8 +194,8 @@ class SharpSearch {
 }  // namespace
 
 SharpEdges findSharpEdges(const TriangleMesh& mesh, const FaceGeometry& geometry, const PointFans& fans,
-                          double maxCosine, double minDepth) {
-  return SharpSearch(mesh, geometry, fans, maxCosine, minDepth).run();
+                          double maxCosine, double minDepth, std::span<const uint32_t> bodyOf) {
+  return SharpSearch(mesh, geometry, fans, maxCosine, minDepth, bodyOf).run();
 }
 
 }  // namespace asdfvk

@@ -151,7 +151,11 @@ class ThinSearch {
       std::vector<BallQuery> queries(own.size());
       for (size_t i = 0; i < own.size(); ++i) {
         const ThinPart& part = own[i].part;
-        queries[i] = {{part.corners, tree_.scene().geometry.normals[part.face]}, middleOf(part.corners), {}, {}};
+        queries[i] = {{part.corners, tree_.scene().geometry.normals[part.face]},
+                      middleOf(part.corners),
+                      {},
+                      {},
+                      tree_.bodyOf(part.face)};
         queries[i].atPoint.ball.diameter = queries[i].least.ball.diameter = limit_;
       }
       tree_.shrink(queries);

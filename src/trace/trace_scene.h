@@ -4,7 +4,6 @@
 #include <span>
 
 #include "bvh/bvh.h"
-#include "cone/cone.h"
 #include "cone/touching_ball.h"
 #include "mesh/face_geometry.h"
 #include "mesh/mesh.h"

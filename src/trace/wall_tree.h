@@ -8,6 +8,7 @@
 #include "cone/opposing_walls.h"
 #include "cone/touching_ball.h"
 #include "core/simd.h"
+#include "mesh/solids.h"
 #include "shared/cone_hit.h"
 #include "trace/trace_scene.h"
 
@@ -21,10 +22,11 @@ struct InscribedBall {
 
 /// Balls that shrink until no opposing wall is inside. Their diameters on entry are upper bounds.
 struct BallQuery {
-  PlaneTriangle triangle;  ///< A face or a part of it.
-  Vec3d point;             ///< Of the triangle.
-  InscribedBall atPoint;   ///< The largest ball at the point.
-  InscribedBall least;     ///< The least of such balls over all points of the triangle.
+  PlaneTriangle triangle;   ///< A face or a part of it.
+  Vec3d point;              ///< Of the triangle.
+  InscribedBall atPoint;    ///< The largest ball at the point.
+  InscribedBall least;      ///< The least of such balls over all points of the triangle.
+  uint32_t body = kNoBody;  ///< Of the triangle, see Solids::bodyOf.
 };
 
 /// A face, coincident copies included: those of touching parts have opposite normals.
@@ -34,7 +36,7 @@ struct Wall {
   Vec3f min, max, middle;
   std::array<Vec3f, 3> spokes{};  ///< The corners, from the middle.
   float reach = 0;                ///< Length of the longest spoke.
-  uint32_t face = kNoFace;
+  uint32_t face = kNoFace, body = kNoBody;
 };
 
 /// Bounds of the walls below a node of the hierarchy.
@@ -55,14 +57,15 @@ struct WallNode {
 /// face fill a convex set that contains those of smaller balls, so that a wall that was outside once remains outside.
 class WallTree {
  public:
-  WallTree(const TraceScene& scene, const OpposingWalls& walls);
+  /// bodyOf: Solids::bodyOf, or empty.
+  WallTree(const TraceScene& scene, const OpposingWalls& walls, std::span<const uint32_t> bodyOf = {});
 
   /// Shrinks the balls. Queries that follow each other should be neighbours in space. Diameters are bits that do not
   /// depend on the order or on the instruction set; of walls of equal diameter the lowest face is taken.
   void shrink(std::span<BallQuery> queries, InstructionSet instructionSet = widestInstructionSet()) const;
 
   [[nodiscard]] const TraceScene& scene() const { return scene_; }
-
+  [[nodiscard]] uint32_t bodyOf(uint32_t face) const { return walls_[wallOf_[face]].body; }
   [[nodiscard]] const OpposingWalls& opposing() const { return opposing_; }
   [[nodiscard]] std::span<const WallNode> nodes() const { return nodes_; }
   /// In the order of the hierarchy: walls that follow each other are neighbours in space.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "asdf_vk/scene.h"
+#include "generate/assembly.h"
 #include "generate/thickness_parts.h"
 #include "mesh/face_geometry.h"
 #include "support/shapes.h"
@@ -118,7 +119,8 @@ TEST_CASE("faces that cross each other are counted with a limit, and judged") {
   CHECK(report.unjudged.crossedCount <= 24);
   CHECK(report.verdict == ThicknessVerdict::Passed);
   CHECK(check(crossing, {}).unjudged.crossedCount == 0);
-  CHECK(check(crossing, 1).verdict == ThicknessVerdict::Failed);  // They overlap by 0.9, between walls of both.
+  CHECK(check(crossing, 1.9).verdict == ThicknessVerdict::Passed);  // Each alone, though they overlap by 0.9.
+  CHECK(check(crossing, 2.1).verdict == ThicknessVerdict::Failed);
   const ThicknessReport touching = check(shapes::joined(box, box, {2, 0, 0}), 1);
   CHECK(touching.unjudged.crossedCount == 0);
   CHECK(touching.verdict == ThicknessVerdict::Passed);
@@ -188,4 +190,20 @@ TEST_CASE("session and scene give one verdict, and a region of faces that of the
   CHECK(middle.verdict == ThicknessVerdict::Passed);
   CHECK(middle.thinRegions.empty());
   CHECK(middle.min >= 0.8);
+}
+
+TEST_CASE("parts that touch have the thickness of the same parts apart") {
+  for (const uint64_t seed : {2, 3, 4, 5, 6, 7}) {
+    CAPTURE(seed);
+    std::vector<std::vector<double>> values;
+    for (const std::optional<double> apart : {std::optional<double>(), std::optional(1.0)}) {
+      const Mesh mesh = makeAssembly({.seed = seed, .apart = apart}).mesh;
+      values.push_back(*referenceSession().compute(mesh, limitedTo({})).field("least_thickness")->reals());
+    }
+    REQUIRE(values[0].size() == values[1].size());
+    for (size_t i = 0; i < values[0].size(); ++i) {
+      CAPTURE(i);
+      CHECK(values[0][i] == doctest::Approx(values[1][i]).epsilon(1e-4));
+    }
+  }
 }
