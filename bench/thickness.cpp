@@ -75,7 +75,7 @@ struct Truth {
       if (!scene.geometry.isDegenerate(face)) faces.push_back(face);
     for (const uint32_t face : faces) sections.push_back(all[solids.solidOf[face]]);
     const test::BruteForceThickness twin(mesh, makeOpposingWalls(ThicknessOptions{}.wallAngleDegrees).cosine,
-                                         normalization.toMeshLength(scene.minWallDepth()));
+                                         normalization.contactLength());
     for (auto& list : values) list.resize(faces.size());
     tbb::parallel_for(size_t{0}, faces.size(), [&](size_t i) {
       values[0][i] = twin.at(faces[i]);

@@ -90,10 +90,7 @@ Normalization normalizationOf(const Box3d& bounds) {
   const double halfExtent = std::max({halfSize.x, halfSize.y, halfSize.z});
   Normalization normalization{.centre = bounds.centre()};
   if (!(halfExtent > 0) || !std::isfinite(halfExtent)) return normalization;
-  int exponent = 0;
-  std::frexp(halfExtent, &exponent);  // halfExtent = m * 2^exponent with m in [0.5, 1)
-  normalization.scale = std::ldexp(1.0, std::clamp(-exponent, -1024, 1023));
-  normalization.extent = halfExtent * normalization.scale;
+  normalization.scale = std::min(1 / halfExtent, std::numeric_limits<double>::max());
   return normalization;
 }
 

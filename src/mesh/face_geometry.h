@@ -34,12 +34,11 @@ struct FaceGeometry {
 /// no distance, also where parts that touch are turned.
 inline constexpr double kContactDistance = 0x1p-20;
 
-/// Maps the box of the mesh into [-1, 1]^3 around its centre, scaled by a power of two, so that the resolution of
-/// float32 does not depend on the unit of the mesh and its distance from the origin.
+/// Maps the box of the mesh to [-1, 1] along its longest side, around its centre. Coordinates in float32 are the same
+/// in every unit of the mesh, up to rounding in double, and so is what is computed from them.
 struct Normalization {
   Vec3d centre;
-  double scale = 1;   ///< Normalised units per mesh unit; a power of two, so that scaling is exact.
-  double extent = 1;  ///< Half of the longest side of the box, in normalised units: above 0.5, at most 1.
+  double scale = 1;  ///< Normalised units per mesh unit.
 
   [[nodiscard]] Vec3d toNormalized(const Vec3d& p) const { return (p - centre) * scale; }
   /// Clamped to the largest double; only meshes as wide as the range of double need that.
@@ -47,7 +46,7 @@ struct Normalization {
     return std::min(normalizedLength / scale, std::numeric_limits<double>::max());
   }
   /// kContactDistance in the unit of the mesh.
-  [[nodiscard]] double contactLength() const { return toMeshLength(kContactDistance * extent); }
+  [[nodiscard]] double contactLength() const { return toMeshLength(kContactDistance); }
 };
 
 [[nodiscard]] Normalization normalizationOf(const Box3d& bounds);

@@ -31,7 +31,7 @@ class Measurement {
         fans_(mesh_) {
     // Coordinates in float32 do not tell a wall that is thinner by less than a contact.
     if (const std::optional<double>& limit = computation.options.thickness.thinnerThan)
-      limit_ = std::max(*limit * unit_.scale - scene_.minWallDepth(), scene_.minWallDepth());
+      limit_ = std::max(*limit * unit_.scale - kContactDistance, kContactDistance);
   }
 
   FaceThickness run(const RunControl& control) {
@@ -65,7 +65,7 @@ class Measurement {
   void findSharp() {
     SharpEdges& sharp = thickness_.sharp;
     sharp = findSharpEdges(mesh_, computation_.prepared.geometry, fans_, opposing_.cosine,
-                           unit_.toMeshLength(scene_.minWallDepth()), solids_.bodyOf);
+                           unit_.contactLength(), solids_.bodyOf);
     std::erase_if(sharp.lines, [&](const SharpLine& line) { return !isInDomain(line.face); });
     for (uint32_t face = 0; face < mesh_.faceCount(); ++face)
       if (!isInDomain(face)) sharp.faceBits[face] = 0;
@@ -155,7 +155,7 @@ class Measurement {
       });
     }
     if (!limit_) return;
-    const std::vector<uint8_t> crossed = findCrossedFaces(scene_, solids_.solidOf, scene_.minWallDepth(), control);
+    const std::vector<uint8_t> crossed = findCrossedFaces(scene_, solids_.solidOf, kContactDistance, control);
     unjudged.crossedCount = countInputFaces([&](uint32_t face) { return (crossed[face] & kCrossedByOther) != 0; });
     unjudged.selfCrossedCount = countInputFaces([&](uint32_t face) { return (crossed[face] & kCrossedBySame) != 0; });
   }

@@ -74,7 +74,7 @@ class Description {
     const Vec3d& normal = prepared_.geometry.normals[face];
     if (wall != kNoFace) {
       const TouchingBall ball =
-          leastTouchingBall({corners, normal}, triangleOf(computation_.scene, wall), computation_.scene.minWallDepth());
+          leastTouchingBall({corners, normal}, triangleOf(computation_.scene, wall), kContactDistance);
       return {toMesh(ball.onFace), toMesh(ball.onWall)};
     }
     const Vec3d middle = toMesh((corners[0] + corners[1] + corners[2]) / 3.0);

@@ -314,11 +314,11 @@ class BallPacket {
       }
     };
     measureBy(&Candidate::atPoint, atPointLimit_[lane], query.atPoint, [&](const PlaneTriangle& wall, double limit) {
-      return leastTouchingBall(query.point, query.triangle.normal, wall, tree_.scene().minWallDepth(), limit);
+      return leastTouchingBall(query.point, query.triangle.normal, wall, kContactDistance, limit);
     });
     const double leastLimit = std::min<double>(leastLimit_[lane], query.atPoint.ball.diameter);
     measureBy(&Candidate::least, leastLimit, query.least, [&](const PlaneTriangle& wall, double limit) {
-      return leastTouchingBall(query.triangle, wall, tree_.scene().minWallDepth(), limit);
+      return leastTouchingBall(query.triangle, wall, kContactDistance, limit);
     });
   }
 

@@ -122,7 +122,7 @@ class ThinSearch {
       if (face == kNoFace) continue;
       const PlaneTriangle wall = triangleOf(tree_.scene(), face);
       const auto isThinAt = [&](const Vec3d& corner) {
-        return leastTouchingBall(corner, normal, wall, tree_.scene().minWallDepth(), limit_).diameter < limit_;
+        return leastTouchingBall(corner, normal, wall, kContactDistance, limit_).diameter < limit_;
       };
       if (std::all_of(piece.part.corners.begin(), piece.part.corners.end(), isThinAt)) return true;
     }

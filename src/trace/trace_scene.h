@@ -21,8 +21,6 @@ struct TraceScene {
   [[nodiscard]] Vec3d originOf(uint32_t face) const {
     return bvh.normalization.toNormalized(geometry.barycentres[face]);
   }
-  /// Walls that are less deep below the plane of a face, in normalised units, are in contact with it.
-  [[nodiscard]] double minWallDepth() const { return kContactDistance * bvh.normalization.extent; }
 };
 
 /// A face in normalised coordinates.

@@ -11,8 +11,10 @@ namespace fs = std::filesystem;
 const std::string kNoMesh = "OFF\nnonsense";
 
 /// Below a limit of the shell, such as "-n 4".
+/// With the standard streams open only.
 ChildOutcome runLimited(const std::string& limit, const Names& arguments) {
-  Names all{"-c", "ulimit " + limit + " && exec \"$0\" \"$@\"", ASDFVK_PROGRAM};
+  Names all{"-c", "exec 3>&- 4>&- 5>&- 6>&- 7>&- 8>&- 9>&-; ulimit " + limit + " && exec \"$0\" \"$@\"",
+            ASDFVK_PROGRAM};
   all.insert(all.end(), arguments.begin(), arguments.end());
   all.insert(all.end(), {"--backend", "reference", "--quiet"});
   return runChild("/bin/sh", all);

@@ -19,7 +19,7 @@ namespace {
 std::vector<uint8_t> crossedFaces(const TracedMesh& traced) {
   std::vector<uint32_t> solidOf(traced.mesh.faceCount());  // Each face is a solid of its own.
   std::iota(solidOf.begin(), solidOf.end(), 0u);
-  return findCrossedFaces(traced.scene(), solidOf, traced.scene().minWallDepth(), {});
+  return findCrossedFaces(traced.scene(), solidOf, kContactDistance, {});
 }
 
 std::ptrdiff_t crossedCount(const Mesh& mesh) {
@@ -115,8 +115,7 @@ TEST_CASE("crossings within a solid and between solids are told apart") {
   std::vector<uint32_t> solidOf(traced.mesh.faceCount());
   const auto bitsOf = [&] {
     uint8_t bits = 0;
-    for (const uint8_t each : findCrossedFaces(traced.scene(), solidOf, traced.scene().minWallDepth(), {}))
-      bits |= each;
+    for (const uint8_t each : findCrossedFaces(traced.scene(), solidOf, kContactDistance, {})) bits |= each;
     return bits;
   };
   CHECK(bitsOf() == kCrossedBySame);
@@ -130,8 +129,8 @@ TEST_CASE("a stop request ends the search") {
   stop.request_stop();
   test::requireFailure(
       [&] {
-        (void)findCrossedFaces(traced.scene(), std::vector<uint32_t>(traced.mesh.faceCount()),
-                               traced.scene().minWallDepth(), {stop.get_token(), {}});
+        (void)findCrossedFaces(traced.scene(), std::vector<uint32_t>(traced.mesh.faceCount()), kContactDistance,
+                               {stop.get_token(), {}});
       },
       ErrorCode::Cancelled);
 }

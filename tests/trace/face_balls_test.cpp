@@ -73,7 +73,7 @@ void checkThicknessByBruteForce(const std::string& name, const Mesh& mesh, doubl
   const TracedMesh traced(mesh);
   const Thickness found = measure(traced, wallAngle);
   const test::BruteForceThickness twin(mesh, makeOpposingWalls(wallAngle).cosine,
-                                       traced.scene().bvh.normalization.toMeshLength(traced.scene().minWallDepth()));
+                                       traced.bvh.normalization.contactLength());
   const uint32_t step = std::max(1u, mesh.faceCount() / 150);
   const double tolerance = 1e-6 * traced.geometry.bounds.diagonal();
   int differentCount = 0, valueCount = 0;

@@ -30,8 +30,8 @@ struct ThinMesh {
     const TraceScene scene = traced.scene();
     const WallTree tree(scene, makeOpposingWalls(120));
     const PointFans fans(traced.mesh);
-    const SharpEdges sharp = findSharpEdges(traced.mesh, traced.geometry, fans, tree.opposing().cosine,
-                                            traced.scene().minWallDepth() / unit);
+    const SharpEdges sharp =
+        findSharpEdges(traced.mesh, traced.geometry, fans, tree.opposing().cosine, kContactDistance / unit);
     std::vector<FaceBalls> balls, thin;
     for (const uint32_t face : traced.seedFaces()) balls.push_back({face, {}, {}});
     shrinkFaceBalls(tree, balls, {});
