@@ -64,8 +64,8 @@ class Measurement {
 
   void findSharp() {
     SharpEdges& sharp = thickness_.sharp;
-    sharp = findSharpEdges(mesh_, computation_.prepared.geometry, fans_, opposing_.cosine,
-                           unit_.contactLength(), solids_.bodyOf);
+    sharp = findSharpEdges(mesh_, computation_.prepared.geometry, fans_, opposing_.cosine, unit_.contactLength(),
+                           solids_.bodyOf);
     std::erase_if(sharp.lines, [&](const SharpLine& line) { return !isInDomain(line.face); });
     for (uint32_t face = 0; face < mesh_.faceCount(); ++face)
       if (!isInDomain(face)) sharp.faceBits[face] = 0;
