@@ -198,7 +198,7 @@ TEST_CASE("parts that touch have the thickness of the same parts apart") {
     std::vector<std::vector<double>> values;
     for (const std::optional<double> apart : {std::optional<double>(), std::optional(1.0)}) {
       const Mesh mesh = makeAssembly({.seed = seed, .apart = apart}).mesh;
-      values.push_back(*referenceSession().compute(mesh, limitedTo({})).field("least_thickness")->reals());
+      values.push_back(*referenceSession().compute(mesh, limitedTo(std::nullopt)).field("least_thickness")->reals());
     }
     REQUIRE(values[0].size() == values[1].size());
     for (size_t i = 0; i < values[0].size(); ++i) {
