@@ -1,9 +1,7 @@
 #include "pipeline/kernel_check.h"
 
-#include <cmath>
 #include <vector>
 
-#include "asdf_vk/report.h"
 #include "pipeline/generated_scene.h"
 #include "predict/prediction.h"
 #include "trace/reference_tracer.h"
@@ -38,14 +36,7 @@ TracerCheck checkKernels(const VulkanPredictionKernels& kernels) {
   const std::unique_ptr<DevicePredictor> predictor = makeVulkanPredictor(kernels, scene, cone);
   const std::vector<double> expected = predictValues(scene, graph, cone, input, {}).values,
                             predicted = predictValues(scene, graph, cone, input, {}, {}, predictor.get()).values;
-  const double tolerance = kAgreementTolerance * scene.geometry.bounds.diagonal();
-  TracerCheck check;
-  for (size_t face = 0; face < expected.size(); ++face) {
-    if (std::isnan(predicted[face]) && std::isnan(expected[face])) continue;
-    ++check.comparedCount;
-    if (!(std::abs(predicted[face] - expected[face]) <= tolerance)) ++check.differingCount;
-  }
-  return check;
+  return compareValues(predicted, expected, scene.geometry.bounds.diagonal());
 }
 
 }  // namespace asdfvk

@@ -21,12 +21,15 @@ TracerCheck checkTracer(ConeTracer& tracer, const TraceScene& scene, const Cone&
   std::vector<double> values(faces.size()), expected(faces.size());
   tracer.trace(faces, {values, {}}, {});
   makeReferenceTracer(scene, cone)->trace(faces, {expected, {}}, {});
-  const double tolerance = kAgreementTolerance * scene.geometry.bounds.diagonal();
+  return compareValues(values, expected, scene.geometry.bounds.diagonal());
+}
+
+TracerCheck compareValues(std::span<const double> values, std::span<const double> expected, double diagonal) {
   TracerCheck check;
-  for (size_t i = 0; i < faces.size(); ++i) {
+  for (size_t i = 0; i < values.size(); ++i) {
     if (std::isnan(values[i]) && std::isnan(expected[i])) continue;
     ++check.comparedCount;
-    if (!(std::abs(values[i] - expected[i]) <= tolerance)) ++check.differingCount;
+    if (!(std::abs(values[i] - expected[i]) <= kAgreementTolerance * diagonal)) ++check.differingCount;
   }
   return check;
 }

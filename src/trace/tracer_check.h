@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "cone/cone.h"
 #include "trace/cone_tracer.h"
@@ -20,5 +21,10 @@ struct TracerCheck {
 };
 
 [[nodiscard]] TracerCheck checkTracer(ConeTracer& tracer, const TraceScene& scene, const Cone& cone);
+
+/// Counts values, of equal arrays, that differ by more than kAgreementTolerance of the diagonal; those missing on both
+/// sides are not compared.
+[[nodiscard]] TracerCheck compareValues(std::span<const double> values, std::span<const double> expected,
+                                        double diagonal);
 
 }  // namespace asdfvk
