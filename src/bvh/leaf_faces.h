@@ -7,6 +7,14 @@
 
 namespace asdfvk {
 
+/// Whether the box of a node is within a distance of another box on each axis.
+template <typename Box>
+[[nodiscard]] bool overlaps(const BvhNode& node, const Box& box, double distance = 0) {
+  for (size_t axis = 0; axis < 3; ++axis)
+    if (node.min[axis] > box.max[axis] + distance || node.max[axis] < box.min[axis] - distance) return false;
+  return true;
+}
+
 /// Calls visit(primitive face) for the faces in the leaves for which, as for all nodes above, reaches(node) is true;
 /// until it returns false.
 template <typename Reaches, typename Visit>

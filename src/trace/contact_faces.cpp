@@ -34,13 +34,7 @@ bool ContactFaces::isInContact(uint32_t primitive) const {
   const PlaneTriangle triangle = triangleOf(scene_, scene_.bvh.primitiveFaces[primitive]);
   Box3d box;
   for (const Vec3d& corner : triangle.corners) box.add(corner);
-  const auto reaches = [&](const BvhNode& node) {
-    bool overlaps = true;
-    for (size_t axis = 0; axis < 3; ++axis)
-      overlaps = overlaps && node.min[axis] <= box.max[axis] + contactDistance_ &&
-                 node.max[axis] >= box.min[axis] - contactDistance_;
-    return overlaps;
-  };
+  const auto reaches = [&](const BvhNode& node) { return overlaps(node, box, contactDistance_); };
   bool isFound = false;
   forEachLeafFace(scene_.bvh, reaches, [&](uint32_t face) {
     if (dot(scene_.geometry.normals[face], triangle.normal) > kOppositeCosine) return true;

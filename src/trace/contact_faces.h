@@ -15,8 +15,8 @@ class ContactFaces {
   /// contactDistance: see Cone. The scene must outlive it.
   ContactFaces(const TraceScene& scene, double contactDistance);
 
-  /// Whether the planes of the primitive and of one with about the opposite normal, whose box is as near, are within
-  /// the contact distance of each other. Called by any thread.
+  /// Whether another face with about the opposite normal lies in the plane of the primitive, near its box. Any thread
+  /// may call it.
   [[nodiscard]] bool contain(uint32_t primitive);
 
  private:

@@ -39,12 +39,6 @@ bool crosses(const PlaneTriangle& edges, const PlaneTriangle& triangle, double m
   return false;
 }
 
-bool overlaps(const BvhNode& node, const Box3f& box) {
-  for (size_t axis = 0; axis < 3; ++axis)
-    if (node.min[axis] > box.max[axis] || node.max[axis] < box.min[axis]) return false;
-  return true;
-}
-
 }  // namespace
 
 std::vector<uint8_t> findCrossedFaces(const TraceScene& scene, std::span<const uint32_t> solidOf, double minDepth,

@@ -78,8 +78,8 @@ class EmbreeConeGroup {
   /// In normalised units, or kNoValue. Meaningless when isDoubtful().
   [[nodiscard]] double value(size_t lane) const { return values_[lane]; }
   /// Whether float32 may be too coarse for the cone, so that the reference must trace it. True without
-  /// EmbreeSeed::fitsFloat, if the value is too small, if a ray hit its own face, or the
-  /// outer side of a face in contact, or if leavesSurface().
+  /// EmbreeSeed::fitsFloat, if the value is too small, if a ray hit its own face or the outer side of
+  /// a face in contact, or if leavesSurface().
   [[nodiscard]] bool isDoubtful(size_t lane) const { return isDoubtful_[lane]; }
   /// Whether a ray had no hit or hit the outer side of a face. In a closed surface this means that the ray passed
   /// between two triangles. False in robust mode and for cones that were not cast. Not detected: such a ray inside a
