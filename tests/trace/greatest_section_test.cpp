@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <stop_token>
@@ -119,29 +120,34 @@ TEST_CASE("sections are those of a dense grid") {
   }
 }
 
+namespace {
+
+/// The diameters of two solids of 12 faces each, in the unit of the mesh.
+std::array<double, 2> sectionsOfTwo(const TracedMesh& traced) {
+  std::vector<uint32_t> solidOf(12, 0);
+  solidOf.resize(24, 1);
+  const auto sections = findGreatestSections(traced.scene(), solidOf, std::vector<uint8_t>{1, 1}, {});
+  REQUIRE(sections.size() == 2);
+  const Normalization& unit = traced.bvh.normalization;
+  return {unit.toMeshLength(sections[0].diameter), unit.toMeshLength(sections[1].diameter)};
+}
+
+}  // namespace
+
 TEST_CASE("solids that touch in coincident faces have sections of their own, in any order") {
   for (const bool upperFirst : {false, true}) {
     const TracedMesh traced(stackedBoxes({0, 0.5, 1.7}, upperFirst));
     CHECK(traced.bvh.primitiveFaces.size() == 24);
-    std::vector<uint32_t> solidOf(12, 0);
-    solidOf.resize(24, 1);
-    const auto sections = findGreatestSections(traced.scene(), solidOf, std::vector<uint8_t>{1, 1}, {});
-    REQUIRE(sections.size() == 2);
+    const std::array<double, 2> diameters = sectionsOfTwo(traced);
     for (size_t i = 0; i < 2; ++i)
-      CHECK(traced.bvh.normalization.toMeshLength(sections[i].diameter) ==
-            doctest::Approx((i == 1) == upperFirst ? 0.5 : 1.2).epsilon(kSectionTolerance));
+      CHECK(diameters[i] == doctest::Approx((i == 1) == upperFirst ? 0.5 : 1.2).epsilon(kSectionTolerance));
   }
 }
 
 TEST_CASE("the faces of other solids do not limit a section, also where solids go through each other") {
   const TracedMesh traced(shapes::joined(shapes::box({2, 2, 2}), shapes::box({2, 3, 1.5}), {0.9, 0.2, 0.1}));
-  std::vector<uint32_t> solidOf(12, 0);
-  solidOf.resize(24, 1);
-  const auto sections = findGreatestSections(traced.scene(), solidOf, std::vector<uint8_t>{1, 1}, {});
-  REQUIRE(sections.size() == 2);
-  for (size_t i = 0; i < 2; ++i)
-    CHECK(traced.bvh.normalization.toMeshLength(sections[i].diameter) ==
-          doctest::Approx(i == 0 ? 2 : 1.5).epsilon(kSectionTolerance));
+  const std::array<double, 2> diameters = sectionsOfTwo(traced);
+  for (size_t i = 0; i < 2; ++i) CHECK(diameters[i] == doctest::Approx(i == 0 ? 2 : 1.5).epsilon(kSectionTolerance));
 }
 
 TEST_CASE("solids that are not wanted have no section") {
