@@ -31,8 +31,14 @@ std::string plainStem(const std::string& path) {
   return stem;
 }
 
-ShareResult mediansOf(const std::vector<ShareResult>& samples) {
+/// Medians over the seed sets, and the range of the average error.
+ShareResult summaryOf(const std::vector<ShareResult>& samples) {
   ShareResult result = samples.front();
+  const auto [least, greatest] =
+      std::minmax_element(samples.begin(), samples.end(),
+                          [](const ShareResult& a, const ShareResult& b) { return a.averageError < b.averageError; });
+  result.leastAverageError = least->averageError;
+  result.greatestAverageError = greatest->averageError;
   for (double ShareResult::*field :
        {&ShareResult::averageError, &ShareResult::maximumError, &ShareResult::truthAverageError,
         &ShareResult::truthMaximumError, &ShareResult::estimatedError, &ShareResult::sampleSeconds,
@@ -119,7 +125,7 @@ Evaluation evaluate(Session& session, NamedMesh& mesh, const EvaluationOptions& 
   }
   evaluation.fullTraceSeconds = dispersionOf(fullTraceSeconds).median;
   for (size_t j = 0; j < kRecipes.size(); ++j)
-    for (size_t i = 0; i < kPercents.size(); ++i) evaluation.recipes[j][i] = mediansOf(samples[j][i]);
+    for (size_t i = 0; i < kPercents.size(); ++i) evaluation.recipes[j][i] = summaryOf(samples[j][i]);
   return evaluation;
 }
 

@@ -30,7 +30,7 @@ struct NamedMesh {
 [[nodiscard]] std::vector<NamedMesh> generateMeshes(uint64_t faceCount);
 
 struct EvaluationOptions {
-  uint32_t seedSetCount = 3;     ///< Random seed sets; every number is the median over them.
+  uint32_t seedSetCount = 3;     ///< Random seed sets; numbers are medians over them unless stated.
   uint32_t truthRayCount = 600;  ///< Rays per face of the truth.
 };
 
@@ -38,9 +38,10 @@ struct EvaluationOptions {
 struct ShareResult {
   double percent = 0;
   uint64_t seedCount = 0;
-  double averageError = 0, maximumError = 0;            ///< Against the full function.
-  double truthAverageError = 0, truthMaximumError = 0;  ///< Against the truth.
-  double estimatedError = kNoValue;                     ///< The result's own estimate of averageError; NaN for none.
+  double averageError = 0, maximumError = 0;               ///< Against the full function.
+  double leastAverageError = 0, greatestAverageError = 0;  ///< The range of averageError over the seed sets.
+  double truthAverageError = 0, truthMaximumError = 0;     ///< Against the truth.
+  double estimatedError = kNoValue;                        ///< The result's own estimate of averageError; NaN for none.
   double sampleSeconds = 0, traceSeconds = 0, predictSeconds = 0, solveSeconds = 0;
   double timeRatio = 0;  ///< Sum of these seconds over the time of the full trace in the same round.
 };

@@ -33,6 +33,8 @@ CsvTable meshTable(const std::vector<Evaluation>& evaluations) {
 
 CsvTable errorTable(const std::vector<Evaluation>& evaluations) {
   return shareTable(evaluations, {{"average_error", &ShareResult::averageError},
+                                  {"least_average_error", &ShareResult::leastAverageError},
+                                  {"greatest_average_error", &ShareResult::greatestAverageError},
                                   {"maximum_error", &ShareResult::maximumError},
                                   {"truth_average_error", &ShareResult::truthAverageError},
                                   {"truth_maximum_error", &ShareResult::truthMaximumError},

@@ -13,7 +13,8 @@ namespace asdfvk::bench {
 //
 // run.csv       name, value: version, device, options.
 // meshes.csv    mesh, faces, sdf_min, sdf_max, full_trace_seconds: the full function.
-// table1.csv    mesh, recipe, percent, seeds, average_error, maximum_error (against the full function),
+// table1.csv    mesh, recipe, percent, seeds, average_error, least_average_error, greatest_average_error (over the
+//               random seeds), maximum_error (against the full function),
 //               truth_average_error, truth_maximum_error (against the truth), estimated_error: Table 1 and Figure 5.
 // figure6.csv   mesh, recipe, percent, seeds, sample_seconds, trace_seconds, predict_seconds, solve_seconds, time_ratio
 //               (their sum over the time of the full trace).
