@@ -14,22 +14,22 @@ RayFrame makeRayFrame(vec3 direction) {
                   vec3(b, s + direction.y * direction.y * a, -direction.y), direction);
 }
 
-// A vertex in the frame of the ray depends on the vertex and the ray only. `precise` makes it, and the edge functions
-// computed from it, bit-identical in both triangles of an edge, so that no ray passes between them.
-vec3 toRayFrame(RayFrame frame, vec3 v) {
-  precise vec3 p =
-      vec3(frame.u.x * v.x + frame.u.y * v.y + frame.u.z * v.z, frame.w.x * v.x + frame.w.y * v.y + frame.w.z * v.z,
-           frame.direction.x * v.x + frame.direction.y * v.y + frame.direction.z * v.z);
+// Coordinates across the ray. They depend on the vertex and the ray only; `precise` makes them, and the edge functions
+// computed from them, bit-identical in both triangles of an edge, so that no ray passes between them.
+vec2 acrossRay(RayFrame frame, vec3 v) {
+  precise vec2 p =
+      vec2(frame.u.x * v.x + frame.u.y * v.y + frame.u.z * v.z, frame.w.x * v.x + frame.w.y * v.y + frame.w.z * v.z);
   return p;
 }
 
 // The distance along the ray to the triangle (relative to the origin of the ray), or a negative number where the ray
 // misses it or touches it within the contact distance (Cone in src/cone/cone.h), which is added on the outer side. Rays
-// hit both sides and the edges of the triangle.
-float intersectTriangle(RayFrame frame, vec3 v0, vec3 v1, vec3 v2, float contactDistance) {
-  const vec3 a = toRayFrame(frame, v0);
-  const vec3 b = toRayFrame(frame, v1);
-  const vec3 c = toRayFrame(frame, v2);
+// hit both sides and the edges of the triangle. The distance is that to the plane of the face, from its normal of any
+// length: weights of the corners by the edge functions would be inexact in a triangle that is long and narrow.
+float intersectTriangle(RayFrame frame, vec3 v0, vec3 v1, vec3 v2, vec3 normal, float contactDistance) {
+  const vec2 a = acrossRay(frame, v0);
+  const vec2 b = acrossRay(frame, v1);
+  const vec2 c = acrossRay(frame, v2);
   precise const float edgeA = c.x * b.y - c.y * b.x;
   precise const float edgeB = a.x * c.y - a.y * c.x;
   precise const float edgeC = b.x * a.y - b.y * a.x;
@@ -37,6 +37,7 @@ float intersectTriangle(RayFrame frame, vec3 v0, vec3 v1, vec3 v2, float contact
   // Inside if each of the three is 0 or has the sign of their sum.
   const uvec3 turned = floatBitsToUint(vec3(edgeA, edgeB, edgeC)) ^ (floatBitsToUint(det) & 0x80000000u);
   const bool inside = all(greaterThanEqual(uintBitsToFloat(turned), vec3(0.0))) && det != 0.0;
-  const float t = (edgeA * a.z + edgeB * b.z + edgeC * c.z) / det;
-  return inside && t >= contactDistance ? t + (det > 0.0 ? kOuterSideFactor * contactDistance : 0.0) : -1.0;
+  const float slope = dot(normal, frame.direction);
+  const float t = dot(normal, v0) / slope;
+  return inside && t >= contactDistance ? t + (slope < 0.0 ? kOuterSideFactor * contactDistance : 0.0) : -1.0;
 }

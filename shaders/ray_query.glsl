@@ -20,7 +20,7 @@ Query makeQuery(vec3 origin, vec3 direction, uint excludedFace) {
 float distanceTo(DeviceTriangle triangle, Query query) {
   const vec3 origin = query.origin;
   return intersectTriangle(query.frame, triangle.v0 - origin, triangle.v1 - origin, triangle.v2 - origin,
-                           push.contactDistance);
+                           octahedralDirection(triangle.normalU, triangle.normalV), push.contactDistance);
 }
 
 void testTriangle(Query query, uint primitive, inout Hit hit) {

@@ -117,11 +117,14 @@ DeviceTriangle decodeTriangle(uvec4 t0, uvec4 t1, uvec4 t2) {
                         uintBitsToFloat(t2.xyz), uintBitsToFloat(t2.w));
 }
 
-vec3 decodeNormal(float u, float v) {
+// The normal, in a length between 1 / sqrt(3) and 1.
+vec3 octahedralDirection(float u, float v) {
   const float z = 1.0 - abs(u) - abs(v);
   const float fold = max(-z, 0.0);
-  return normalize(vec3(u - (u < 0.0 ? -fold : fold), v - (v < 0.0 ? -fold : fold), z));
+  return vec3(u - (u < 0.0 ? -fold : fold), v - (v < 0.0 ? -fold : fold), z);
 }
+
+vec3 decodeNormal(float u, float v) { return normalize(octahedralDirection(u, v)); }
 #endif
 
 #endif
