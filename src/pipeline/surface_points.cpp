@@ -6,11 +6,11 @@
 #include <numeric>
 
 #include "core/parallel.h"
-#include "mesh/solids.h"
 #include "trace/chunks.h"
 #include "trace/greatest_section.h"
 #include "trace/nearest_point.h"
 #include "trace/seed_order.h"
+#include "trace/solids.h"
 #include "trace/wall_tree.h"
 
 namespace asdfvk {
@@ -44,13 +44,13 @@ std::vector<double> thicknessAtPoints(const PreparedScene& scene, std::span<cons
   const TraceScene view = scene.view();
   const Normalization& unit = scene.bvh.normalization;
   const std::vector<uint32_t> nearest = nearestTriangles(scene, points, control.part(0, kNearestDone));
-  const Solids solids = findSolids(view.mesh, scene.prepared.components);
+  const Solids solids = findSolids(view, scene.prepared.components);
   std::vector<uint8_t> isWanted(solids.isClosed.size());
   for (const uint32_t face : nearest)
     if (face != kNoFace) isWanted[solids.solidOf[face]] = solids.isClosed[solids.solidOf[face]];
   const std::vector<GreatestSection> sections =
       findGreatestSections(view, solids.solidOf, isWanted, control.part(kNearestDone, kSectionsDone));
-  const WallTree tree(view, makeOpposingWalls(options.wallAngleDegrees), solids.bodyOf);
+  const WallTree tree(view, makeOpposingWalls(options.wallAngleDegrees), &solids);
   std::vector<double> values(points.size(), std::numeric_limits<double>::quiet_NaN());
   // Points next to each other in the hierarchy find the same walls.
   const SeedOrder seedOrder(view);
@@ -67,7 +67,7 @@ std::vector<double> thicknessAtPoints(const PreparedScene& scene, std::span<cons
     std::vector<BallQuery> queries(block.size());
     for (size_t i = 0; i < block.size(); ++i) {
       const Vec3d p = unit.toNormalized(points[block[i]]);
-      queries[i] = {{{p, p, p}, normals[block[i]]}, p, {}, {}, solids.bodyOf[nearest[block[i]]]};
+      queries[i] = {{{p, p, p}, normals[block[i]]}, p, {}, {}, solids.bodyOf(nearest[block[i]])};
       queries[i].atPoint.ball.diameter = sections[solids.solidOf[nearest[block[i]]]].bound;
       queries[i].least.ball.diameter = 0;  // Not asked for.
     }

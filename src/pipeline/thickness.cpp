@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "mesh/solids.h"
 #include "trace/crossed_faces.h"
+#include "trace/solids.h"
 
 namespace asdfvk {
 namespace {
@@ -27,7 +27,7 @@ class Measurement {
         mesh_(computation.prepared.mesh),
         unit_(scene_.bvh.normalization),
         opposing_(makeOpposingWalls(computation.options.thickness.wallAngleDegrees)),
-        solids_(findSolids(mesh_, computation.prepared.components)),
+        solids_(findSolids(scene_, computation.prepared.components)),
         fans_(mesh_) {
     // Coordinates in float32 do not tell a wall that is thinner by less than a contact.
     if (const std::optional<double>& limit = computation.options.thickness.thinnerThan)
@@ -48,7 +48,7 @@ class Measurement {
     const std::vector<GreatestSection> sections =
         findGreatestSections(scene_, solids_.solidOf, solids_.isClosed, control.part(0, kSectionsProgress));
     keepGreatest(sections);
-    const WallTree tree(scene_, opposing_, solids_.bodyOf);
+    const WallTree tree(scene_, opposing_, &solids_);
     const std::vector<FaceBalls> thin = measureFaces(tree, sections, control.part(kSectionsProgress, kBallsProgress));
     countUnjudged(control.withoutProgress());
     if (limit_)
@@ -64,8 +64,8 @@ class Measurement {
 
   void findSharp() {
     SharpEdges& sharp = thickness_.sharp;
-    sharp = findSharpEdges(mesh_, computation_.prepared.geometry, fans_, opposing_.cosine, unit_.contactLength(),
-                           solids_.bodyOf);
+    sharp =
+        findSharpEdges(mesh_, computation_.prepared.geometry, fans_, opposing_.cosine, unit_.contactLength(), &solids_);
     std::erase_if(sharp.lines, [&](const SharpLine& line) { return !isInDomain(line.face); });
     for (uint32_t face = 0; face < mesh_.faceCount(); ++face)
       if (!isInDomain(face)) sharp.faceBits[face] = 0;

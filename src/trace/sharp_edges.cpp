@@ -8,7 +8,6 @@
 
 #include "cone/touching_ball.h"
 #include "core/parallel.h"
-#include "mesh/solids.h"
 
 namespace asdfvk {
 namespace {
@@ -26,13 +25,13 @@ struct Edge {
 class SharpSearch {
  public:
   SharpSearch(const TriangleMesh& mesh, const FaceGeometry& geometry, const PointFans& fans, double maxCosine,
-              double minDepth, std::span<const uint32_t> bodyOf)
+              double minDepth, const Solids* solids)
       : mesh_(mesh),
         geometry_(geometry),
         fans_(fans),
         maxCosine_(maxCosine),
         minDepth_(minDepth),
-        bodyOf_(bodyOf),
+        solids_(solids),
         cornerBits_(3 * size_t{mesh.faceCount()}) {}
 
   SharpEdges run() {
@@ -86,7 +85,7 @@ class SharpSearch {
   [[nodiscard]] bool isThin(uint32_t corner, uint32_t other) const {
     const uint32_t face = corner / 3, wall = other / 3;
     if (geometry_.isDegenerate(face) || geometry_.isDegenerate(wall)) return false;
-    if (!bodyOf_.empty() && !mayBeOfOneBody(bodyOf_[face], bodyOf_[wall])) return false;
+    if (solids_ != nullptr && !solids_->mayBoundOneBody(face, wall)) return false;
     if (!(dot(geometry_.normals[face], geometry_.normals[wall]) <= maxCosine_)) return false;
     return leastTouchingBall(triangleAt(face), triangleAt(wall), minDepth_).diameter <= kSharpDepths * minDepth_;
   }
@@ -186,7 +185,7 @@ class SharpSearch {
   const FaceGeometry& geometry_;
   const PointFans& fans_;
   double maxCosine_, minDepth_;
-  std::span<const uint32_t> bodyOf_;
+  const Solids* solids_;
   std::vector<uint8_t> cornerBits_;  // 3 #F
   std::set<uint32_t> edgePoints_;
 };
@@ -194,8 +193,8 @@ class SharpSearch {
 }  // namespace
 
 SharpEdges findSharpEdges(const TriangleMesh& mesh, const FaceGeometry& geometry, const PointFans& fans,
-                          double maxCosine, double minDepth, std::span<const uint32_t> bodyOf) {
-  return SharpSearch(mesh, geometry, fans, maxCosine, minDepth, bodyOf).run();
+                          double maxCosine, double minDepth, const Solids* solids) {
+  return SharpSearch(mesh, geometry, fans, maxCosine, minDepth, solids).run();
 }
 
 }  // namespace asdfvk

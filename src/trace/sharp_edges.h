@@ -1,12 +1,12 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "mesh/face_geometry.h"
 #include "mesh/mesh.h"
 #include "mesh/point_fans.h"
+#include "trace/solids.h"
 
 namespace asdfvk {
 
@@ -28,12 +28,12 @@ struct SharpEdges {
   [[nodiscard]] bool hasEdge(uint32_t face, size_t k) const { return (faceBits[face] >> (3 + k) & 1) != 0; }
 };
 
-/// Two faces that share a point, of one body (Solids::bodyOf, or empty: of any), meet sharply if they oppose each
+/// Two faces that share a point, of one body (by the solids; null: of any), meet sharply if they oppose each
 /// other, by the greatest cosine between their normals, and their least ball is as small as minDepth allows: at most
 /// kSharpDepths of it. In fans of more than kMaxComparedFaces each face is compared with so many others and with those
 /// that share an edge with it.
 [[nodiscard]] SharpEdges findSharpEdges(const TriangleMesh& mesh, const FaceGeometry& geometry, const PointFans& fans,
-                                        double maxCosine, double minDepth, std::span<const uint32_t> bodyOf = {});
+                                        double maxCosine, double minDepth, const Solids* solids = nullptr);
 
 inline constexpr size_t kMaxComparedFaces = 256;
 inline constexpr double kSharpDepths = 2;

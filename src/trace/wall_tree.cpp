@@ -18,7 +18,7 @@ constexpr uint32_t kMaxLeafWallCount = 4;
 
 }  // namespace
 
-WallTree::WallTree(const TraceScene& scene, const OpposingWalls& opposing, std::span<const uint32_t> bodyOf)
+WallTree::WallTree(const TraceScene& scene, const OpposingWalls& opposing, const Solids* solids)
     : scene_(scene), opposing_(opposing), nodes_(scene.bvh.nodes.size()), wallOf_(scene.mesh.faceCount()) {
   const FaceCopies copies(scene.representatives);
   const std::vector<uint32_t>& primitives = scene.bvh.primitiveFaces;
@@ -31,7 +31,7 @@ WallTree::WallTree(const TraceScene& scene, const OpposingWalls& opposing, std::
     for (size_t k = 0; k < faces.size(); ++k) {
       wallOf_[faces[k]] = wallOfPrimitive[i] + static_cast<uint32_t>(k);
       walls_[wallOf_[faces[k]]] = wallOf(faces[k]);
-      if (!bodyOf.empty()) walls_[wallOf_[faces[k]]].body = bodyOf[faces[k]];
+      if (solids != nullptr) walls_[wallOf_[faces[k]]].body = solids->bodyOf(faces[k]);
     }
   });
   std::vector<uint32_t> firstWalls(nodes_.size()), wallCounts(nodes_.size());

@@ -8,8 +8,8 @@
 #include "cone/opposing_walls.h"
 #include "cone/touching_ball.h"
 #include "core/simd.h"
-#include "mesh/solids.h"
 #include "shared/cone_hit.h"
+#include "trace/solids.h"
 #include "trace/trace_scene.h"
 
 namespace asdfvk {
@@ -57,8 +57,8 @@ struct WallNode {
 /// face fill a convex set that contains those of smaller balls, so that a wall that was outside once remains outside.
 class WallTree {
  public:
-  /// bodyOf: Solids::bodyOf, or empty.
-  WallTree(const TraceScene& scene, const OpposingWalls& walls, std::span<const uint32_t> bodyOf = {});
+  /// solids: of the scene. Null: all faces may bound one body.
+  WallTree(const TraceScene& scene, const OpposingWalls& walls, const Solids* solids = nullptr);
 
   /// Shrinks the balls. Queries that follow each other should be neighbours in space. Diameters are bits that do not
   /// depend on the order or on the instruction set; of walls of equal diameter the lowest face is taken.

@@ -76,26 +76,6 @@ def has_contacts(mesh: Mesh) -> bool:
     return mesh.what.startswith(("assembly", "doubled"))
 
 
-def has_cavities(mesh: Mesh) -> bool:
-    """Whether a connected part of a closed mesh is turned inside out."""
-    parents = list(range(len(mesh.vertices)))
-
-    def root(vertex: int) -> int:
-        while parents[vertex] != vertex:
-            parents[vertex] = vertex = parents[parents[vertex]]
-        return vertex
-
-    for face in mesh.faces:
-        for vertex in face[1:]:
-            parents[root(vertex)] = root(face[0])
-    volumes: dict[int, float] = {}
-    for face in mesh.faces:
-        (a, b, c), (d, e, f), (g, h, i) = (mesh.vertices[vertex] for vertex in face)
-        volume = a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g)
-        volumes[root(face[0])] = volumes.get(root(face[0]), 0.0) + volume
-    return min(volumes.values()) < 0
-
-
 def in_general_position(mesh: Mesh, rng: random.Random) -> Mesh:
     """On symmetric shapes rays hit edges and lengths are equal, so that rounding decides, rightly.
     Parts that touch and doubled faces stay as they are."""

@@ -107,8 +107,7 @@ def assembly(case: Case) -> None:
         touching, apart = shapes.scaled(touching, factor), shapes.scaled(apart, factor)
     names = (case.write(touching, "touching.off"), case.write(apart, "apart.off"))
     backend = rng.choice(BACKENDS)
-    # A cavity that may belong to several parts is a wall of each.
-    measures = rng.random() < 0.4 and not shapes.has_cavities(touching)
+    measures = rng.random() < 0.4
     chosen = ["--backend", backend, "--seeds", "all", "--no-estimate"]
     chosen += ["--measure", "thickness"] if measures else []
     both = [case.values(name, name.replace(".off", ".npz"), *chosen) for name in names]

@@ -1,4 +1,4 @@
-#include "mesh/solids.h"
+#include "trace/solids.h"
 
 #include <doctest/doctest.h>
 
@@ -6,12 +6,15 @@
 #include <vector>
 
 #include "support/shapes.h"
+#include "traced_mesh.h"
 
 using namespace asdfvk;
 
 namespace {
 
-Solids solidsOf(const Mesh& mesh) { return findSolids(mesh, findComponents(mesh, surveyEdges(mesh))); }
+Solids solidsOf(const Mesh& mesh) {
+  return findSolids(TracedMesh(mesh).scene(), findComponents(mesh, surveyEdges(mesh)));
+}
 
 /// The solid of each component; all faces of a component have the same one.
 std::vector<uint32_t> solidOfComponents(const Mesh& mesh) {
@@ -93,4 +96,36 @@ TEST_CASE("open components are neither closed nor misoriented, and have no cavit
     CHECK(solids.isMisoriented == Flags{0, 0});
     CHECK(solidOfComponents(mesh) == Indices{0, 1});
   }
+}
+
+TEST_CASE("a cavity belongs to the body around it, not to a smaller one whose box is around it") {
+  const Mesh bar = shapes::box({1, 1, 20}), ring = shapes::torus(2, 0.5, 24, 12);
+  const Mesh mesh = shapes::joined(shapes::joined(ring, shapes::inverted(shapes::box({0.2, 0.3, 0.4}))), bar);
+  CHECK(solidOfComponents(mesh) == Indices{0, 2, 2});
+  CHECK(solidsOf(mesh).isClosed == Flags{1, 0, 1});
+}
+
+TEST_CASE("a cavity belongs to its body beside other cavities, and where it is filled") {
+  Mesh mesh = shapes::box({10, 10, 10});
+  for (const double x : {-3.0, -1.0, 1.0, 3.0})
+    for (const double y : {-3.0, -1.0, 1.0, 3.0})
+      for (const double z : {-3.0, -1.0, 1.0, 3.0})
+        mesh = shapes::joined(std::move(mesh), shapes::inverted(shapes::box({1.9, 1.9, 1.9})), {x, y, z});
+  CHECK(solidOfComponents(mesh) == Indices(65, 0));
+  mesh = shapes::joined(std::move(mesh), shapes::box({1.9, 1.9, 1.9}, 2), {1, -1, 1});
+  Indices expected(66, 0);
+  expected.back() = 65;
+  CHECK(solidOfComponents(mesh) == expected);
+}
+
+TEST_CASE("only faces of closed solids are of a body") {
+  const Solids solids = solidsOf(shapes::joined(shapes::joined(ball(2), cavity(1)), shapes::grid(3), {5, 0, 0}));
+  const uint32_t outer = 0, inner = 80, sheet = 160;
+  CHECK(solids.bodyOf(outer) == 0);
+  CHECK(solids.bodyOf(inner) == 0);
+  CHECK(solids.bodyOf(sheet) == kNoBody);
+  CHECK(solids.mayBoundOneBody(inner, outer));
+  CHECK(solids.mayBoundOneBody(inner, sheet));
+  const Solids apart = solidsOf(shapes::joined(ball(1), ball(1), {3, 0, 0}));
+  CHECK_FALSE(apart.mayBoundOneBody(0, 80));
 }

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "mesh/components.h"
+#include "trace/trace_scene.h"
+
+namespace asdfvk {
+
+inline constexpr uint32_t kNoBody = 0xffffffff;
+
+/// Components that bound one body: the outer surface and its cavities. A solid has the index of its outer component;
+/// a component that bounds no body is a solid of its own.
+struct Solids {
+  std::vector<uint32_t> solidOf;       ///< #F
+  std::vector<uint8_t> isClosed;       ///< Per component: an outer surface, closed, wound consistently and outwards.
+  std::vector<uint8_t> isMisoriented;  ///< Per component: closed, but wound inconsistently, or to the wrong side.
+
+  /// The solid of the face where it is closed, else kNoBody.
+  [[nodiscard]] uint32_t bodyOf(uint32_t face) const { return isClosed[solidOf[face]] != 0 ? solidOf[face] : kNoBody; }
+
+  /// Whether faces may bound the same body. Parts that touch, or are sunk into each other, are not walls of each other.
+  [[nodiscard]] bool mayBoundOneBody(uint32_t face, uint32_t other) const {
+    const uint32_t body = bodyOf(face), otherBody = bodyOf(other);
+    return body == otherBody || body == kNoBody || otherBody == kNoBody;
+  }
+};
+
+/// A cavity belongs to the closed component through which a ray from it leaves the material, other cavities aside.
+[[nodiscard]] Solids findSolids(const TraceScene& scene, const Components& components);
+
+}  // namespace asdfvk
