@@ -8,6 +8,7 @@ import sys
 import time
 
 import options
+from batch_orders import run_orders
 from program import Program
 from runner import KINDS, run_case, run_until
 
@@ -27,6 +28,7 @@ def main() -> int:
         "--only", metavar="KIND,...", default=",".join(KINDS), help="some of: " + kinds_text
     )
     parser.add_argument("--case", metavar="KIND:SEED", help="one case again, whose files are kept")
+    parser.add_argument("--batch", metavar="FOLDER", type=pathlib.Path, help="its meshes in ten orders")
     parser.add_argument("--program", type=pathlib.Path, required=True)
     parser.add_argument("--generate", type=pathlib.Path, required=True)
     parser.add_argument(
@@ -44,12 +46,17 @@ def main() -> int:
         print("\n".join(findings) or "no finding", f"\nfiles: {folder / f'{kind}-{text}'}")
         return 1 if findings else 0
 
+    seed = arguments.seed if arguments.seed is not None else int(time.time()) * 1000
+    if arguments.batch:
+        findings = run_orders(program, arguments.batch, seed, folder / f"batch-{seed}")
+        print("\n".join(findings) or "no finding")
+        return 1 if findings else 0
+
     kinds = arguments.only.split(",")
     if unknown := set(kinds) - KINDS.keys():
         parser.error(f"--only: unknown {', '.join(sorted(unknown))}; the kinds are {kinds_text}")
     if difference := options.missing_in_tables(program.help()):
         parser.error(f"options.py and --help=all differ by {', '.join(sorted(difference))}")
-    seed = arguments.seed if arguments.seed is not None else int(time.time()) * 1000
     print(f"fuzz-runs: {arguments.seconds:g} s from seed {seed}", flush=True)
     summary = run_until(time.monotonic() + arguments.seconds, program, kinds, seed, folder)
     summary.print()

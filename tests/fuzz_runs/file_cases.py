@@ -23,10 +23,7 @@ def _results(case: Case, folder: str, suffix: str) -> dict[str, bytes]:
 
 
 def _compare(case: Case, expected: dict[str, bytes], found: dict[str, bytes], what: str) -> None:
-    if expected.keys() != found.keys():
-        case.note([f"{what}: other results: {sorted(expected.keys() ^ found.keys())}"])
-    for name in expected.keys() & found.keys():
-        case.note([f"{what}: {w}: {name}" for w in oracles.same_bytes(expected[name], found[name])])
+    case.note([f"{what}: {w}" for w in oracles.same_results(expected, found)])
 
 
 def order_of_batch(case: Case) -> None:

@@ -87,6 +87,16 @@ def same_bytes(first: bytes, second: bytes) -> list[str]:
     return [f"bytes differ: {len(first)} and {len(second)} bytes, first at {at}"]
 
 
+def same_results(first: dict[str, bytes], second: dict[str, bytes]) -> list[str]:
+    """Files by name."""
+    wrong = []
+    if first.keys() != second.keys():
+        wrong.append(f"other results: {sorted(first.keys() ^ second.keys())}")
+    for name in first.keys() & second.keys():
+        wrong += [f"{w}: {name}" for w in same_bytes(first[name], second[name])]
+    return wrong
+
+
 def old_or_new(result: bytes | None, old: bytes | None, new: bytes) -> list[str]:
     if result in (old, new):
         return []

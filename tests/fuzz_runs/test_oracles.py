@@ -96,6 +96,10 @@ class Files(unittest.TestCase):
         self.assertEqual(oracles.same_bytes(b"same", b"same"), [])
         self.assertTrue(oracles.same_bytes(b"same", b"sane"))
         self.assertTrue(oracles.same_bytes(b"same", b"same."))
+        two = {"a": b"1", "b": b"2"}
+        self.assertEqual(oracles.same_results(two, dict(two)), [])
+        self.assertTrue(oracles.same_results(two, {"a": b"1"}))
+        self.assertTrue(oracles.same_results(two, {"a": b"1", "b": b"3"}))
 
     def test_partial_files_are_left_by_sigkill_only(self) -> None:
         self.assertEqual(oracles.no_partial_files(self.folder, RIGHT), [])
