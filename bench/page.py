@@ -12,7 +12,7 @@ import pathlib
 import sys
 import time
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tests" / "viewer"))
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tests" / "page"))
 from PIL import Image
 from browser import Browser  # noqa: E402
 

@@ -4,9 +4,9 @@
 #include <string>
 
 #include "asdf_vk/session.h"
+#include "page/page.h"
 #include "paper/evaluation.h"
 #include "paper/output.h"
-#include "viewer/page.h"
 
 namespace asdfvk::bench {
 

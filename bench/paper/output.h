@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "page/page.h"
 #include "render/image.h"
-#include "viewer/page.h"
 
 namespace asdfvk::bench {
 

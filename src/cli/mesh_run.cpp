@@ -28,8 +28,8 @@
 #include "core/text.h"
 #include "io/inspected_mesh.h"
 #include "mesh/orientation.h"
+#include "page/json.h"
 #include "render/png.h"
-#include "viewer/json.h"
 
 namespace asdfvk {
 

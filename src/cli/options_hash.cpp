@@ -1,7 +1,7 @@
 #include "cli/options_hash.h"
 
 #include "batch/content_hash.h"
-#include "viewer/json.h"
+#include "page/json.h"
 
 namespace asdfvk {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "asdf_vk/choices.h"
 #include "cli/option_parsing.h"
-#include "viewer/json.h"
+#include "page/json.h"
 
 namespace asdfvk {
 namespace {

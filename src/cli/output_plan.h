@@ -10,7 +10,7 @@
 
 namespace asdfvk {
 
-/// Name and extension of the format of pages, which src/viewer writes.
+/// Name and extension of the format of pages, which src/page writes.
 inline constexpr const char* kPageFormat = "html";
 
 /// resultFormats() and kPageFormat.

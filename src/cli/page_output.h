@@ -4,7 +4,7 @@
 
 #include "asdf_vk/run_control.h"
 #include "cli/report.h"
-#include "viewer/page.h"
+#include "page/page.h"
 
 namespace asdfvk {
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "asdf_vk/version.h"
-#include "viewer/json.h"
+#include "page/json.h"
 
 namespace asdfvk {
 namespace {

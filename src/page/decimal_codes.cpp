@@ -1,4 +1,4 @@
-#include "viewer/decimal_codes.h"
+#include "page/decimal_codes.h"
 
 #include <algorithm>
 #include <array>

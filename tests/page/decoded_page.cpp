@@ -1,4 +1,4 @@
-#include "viewer/decoded_page.h"
+#include "page/decoded_page.h"
 
 #include <zlib.h>
 

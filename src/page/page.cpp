@@ -1,4 +1,4 @@
-#include "viewer/page.h"
+#include "page/page.h"
 
 #include <fmt/core.h>
 
@@ -7,11 +7,11 @@
 #include "core/atomic_file.h"
 #include "core/base64_stream.h"
 #include "core/check.h"
-#include "viewer/html_text.h"
-#include "viewer/json.h"
-#include "viewer/mesh_encoder.h"
-#include "viewer/page_template.h"
-#include "viewer/thin_encoder.h"
+#include "page/html_text.h"
+#include "page/json.h"
+#include "page/mesh_encoder.h"
+#include "page/page_template.h"
+#include "page/thin_encoder.h"
 
 namespace asdfvk {
 namespace {

@@ -1,9 +1,9 @@
 # Bundles the sources of the page into two C++ strings, the page and its script:
-#   cmake -DPAGE=src/viewer/page -DOUTPUT=page_template.cpp -P bundle.cmake
+#   cmake -DPAGE=src/page/browser -DOUTPUT=page_template.cpp -P bundle.cmake
 # The modules of PAGE/modules.txt, in its order, become one script in a function: without their imports (one line each),
 # the word `export`, lines of comments and leading blanks. All top-level names of the modules must therefore differ.
 # NAME_OF.glsl becomes the constant nameOfSource before them. page.html has the places @CSP@, @STYLE@ and @LOADER@, which
-# are filled here, and those that src/viewer/page.cpp fills; it compresses the script, which loader.js unpacks.
+# are filled here, and those that src/page/page.cpp fills; it compresses the script, which loader.js unpacks.
 cmake_minimum_required(VERSION 3.25)
 
 # Removes lines of comments, leading blanks and empty lines.
@@ -97,7 +97,7 @@ string(REPLACE "@CSP@" "${policy}" page "${page}")
 string(REPLACE "@STYLE@" "${style}" page "${page}")
 string(REPLACE "@LOADER@" "${loader}" page "${page}")
 asdfvk_refuse("${page}${script}" "[)]asdfvk\"" "the page ends the C++ string")
-file(WRITE ${OUTPUT} "// Written by src/viewer/bundle.cmake.\n#include \"viewer/page_template.h\"\n\n"
+file(WRITE ${OUTPUT} "// Written by src/page/bundle.cmake.\n#include \"page/page_template.h\"\n\n"
      "#pragma GCC diagnostic ignored \"-Woverlength-strings\"  // Clang warns above 65,536 characters.\n\n"
      "namespace asdfvk {\n\nconst std::string_view kPageTemplate = R\"asdfvk(${page})asdfvk\";\n"
      "const std::string_view kPageScript = R\"asdfvk(${script})asdfvk\";\n\n}  // namespace asdfvk\n")

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "mesh/mesh.h"
-#include "viewer/page.h"
+#include "page/page.h"
 
-/// Reads pages as docs/page.md describes them, and shares no code with src/viewer.
+/// Reads pages as docs/page.md describes them, and shares no code with src/page.
 namespace asdfvk::test {
 
 struct DecodedMesh {

@@ -4,8 +4,8 @@
 
 #include "core/check.h"
 #include "core/median.h"
-#include "viewer/field_encoder.h"
-#include "viewer/page.h"
+#include "page/field_encoder.h"
+#include "page/page.h"
 
 namespace asdfvk {
 

@@ -1,11 +1,11 @@
-#include "viewer/page.h"
+#include "page/page.h"
 
 #include <doctest/doctest.h>
 
+#include "page/decoded_page.h"
+#include "page/html_text.h"
+#include "page/page_template.h"
 #include "support/shapes.h"
-#include "viewer/decoded_page.h"
-#include "viewer/html_text.h"
-#include "viewer/page_template.h"
 
 namespace asdfvk {
 namespace {

@@ -1,13 +1,13 @@
-#include "viewer/field_encoder.h"
+#include "page/field_encoder.h"
 
 #include <algorithm>
 #include <limits>
 
 #include "core/check.h"
 #include "core/parallel.h"
-#include "viewer/decimal_codes.h"
-#include "viewer/half_edges.h"
-#include "viewer/json.h"
+#include "page/decimal_codes.h"
+#include "page/half_edges.h"
+#include "page/json.h"
 
 namespace asdfvk {
 namespace {

@@ -1,4 +1,4 @@
-#include "viewer/mesh_encoder.h"
+#include "page/mesh_encoder.h"
 
 #include <algorithm>
 #include <array>
@@ -9,11 +9,11 @@
 #include "core/check.h"
 #include "core/parallel.h"
 #include "mesh/face_geometry.h"
-#include "viewer/connectivity.h"
-#include "viewer/decimal_codes.h"
-#include "viewer/field_encoder.h"
-#include "viewer/half_edges.h"
-#include "viewer/json.h"
+#include "page/connectivity.h"
+#include "page/decimal_codes.h"
+#include "page/field_encoder.h"
+#include "page/half_edges.h"
+#include "page/json.h"
 
 namespace asdfvk {
 namespace {

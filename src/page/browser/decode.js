@@ -1,4 +1,4 @@
-// Decodes the streams of a mesh. docs/page.md describes them; src/viewer writes them.
+// Decodes the streams of a mesh. docs/page.md describes them; src/page writes them.
 
 const noGate = 0xffffffff;
 const symbolNew = 0, symbolNext = 1, symbolPrevious = 2, symbolBoth = 3, symbolGate = 4, symbolOld = 5,

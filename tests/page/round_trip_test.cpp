@@ -8,8 +8,8 @@
 #include <set>
 
 #include "generate/shapes.h"
+#include "page/decoded_page.h"
 #include "support/shapes.h"
-#include "viewer/decoded_page.h"
 
 namespace asdfvk {
 namespace {

@@ -1,4 +1,4 @@
-#include "viewer/page_streams.h"
+#include "page/page_streams.h"
 
 #include <fmt/core.h>
 #include <zlib.h>

@@ -1,4 +1,4 @@
-#include "viewer/html_text.h"
+#include "page/html_text.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,7 +1,7 @@
-#include "viewer/connectivity.h"
+#include "page/connectivity.h"
 
 #include "core/check.h"
-#include "viewer/half_edges.h"
+#include "page/half_edges.h"
 
 namespace asdfvk {
 namespace {

@@ -1,4 +1,4 @@
-#include "viewer/thin_encoder.h"
+#include "page/thin_encoder.h"
 
 #include <bit>
 #include <functional>
@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/check.h"
-#include "viewer/json.h"
-#include "viewer/mesh_encoder.h"
+#include "page/json.h"
+#include "page/mesh_encoder.h"
 
 namespace asdfvk {
 namespace {

@@ -1,4 +1,4 @@
-#include "viewer/half_edges.h"
+#include "page/half_edges.h"
 
 #include <compare>
 #include <span>

@@ -13,7 +13,7 @@
 #include "asdf_vk/field.h"
 #include "asdf_vk/session.h"
 #include "mesh/mesh.h"
-#include "viewer/page_streams.h"
+#include "page/page_streams.h"
 
 namespace asdfvk {
 

@@ -6,7 +6,7 @@
 #include "asdf_vk/field.h"
 #include "core/box3.h"
 #include "mesh/mesh.h"
-#include "viewer/page_streams.h"
+#include "page/page_streams.h"
 
 namespace asdfvk {
 

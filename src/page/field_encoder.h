@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "asdf_vk/field.h"
-#include "viewer/connectivity.h"
-#include "viewer/page_streams.h"
+#include "page/connectivity.h"
+#include "page/page_streams.h"
 
 namespace asdfvk {
 

@@ -4,7 +4,7 @@
 
 #include "asdf_vk/session.h"
 #include "core/box3.h"
-#include "viewer/page_streams.h"
+#include "page/page_streams.h"
 
 namespace asdfvk {
 
