@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "batch/log_summary.h"
+#include "core/html_text.h"
 #include "core/text.h"
 
 namespace asdfvk {
@@ -19,27 +20,6 @@ constexpr const char* kStyle =
     "text{font:12px system-ui,sans-serif;fill:#444}"
     "@media(prefers-color-scheme:dark){body{color:#ddd;background:#1b1b1b}td,th{border-color:#444}text{fill:#bbb}"
     "rect{fill:#6ca6cd}}";
-
-std::string escaped(const std::string& text) {
-  std::string html;
-  for (const char c : text) switch (c) {
-      case '&':
-        html += "&amp;";
-        break;
-      case '<':
-        html += "&lt;";
-        break;
-      case '>':
-        html += "&gt;";
-        break;
-      case '"':
-        html += "&quot;";
-        break;
-      default:
-        html += c;
-    }
-  return html;
-}
 
 /// Bars with the range of each as a tooltip; the axis is logarithmic.
 std::string svgOf(const Histogram& histogram, double factor, const std::string& unit) {
@@ -72,7 +52,8 @@ template <typename Number>
 std::string tableOf(const std::vector<std::pair<std::string, Number>>& rows) {
   std::string html = "<table>\n";
   for (const auto& [name, value] : rows)
-    html += fmt::format("<tr><td>{}</td><td class=\"n\">{:.6g}</td></tr>\n", escaped(name), static_cast<double>(value));
+    html += fmt::format("<tr><td>{}</td><td class=\"n\">{:.6g}</td></tr>\n", escapedForHtml(name),
+                        static_cast<double>(value));
   return html + "</table>\n";
 }
 
@@ -82,14 +63,14 @@ std::string failuresOf(const LogSummary& summary) {
   for (const FailureGroup& group : summary.failures)
     html +=
         fmt::format("<tr><td>{}</td><td class=\"n\">{}</td><td>{}</td><td class=\"n\">{}</td><td>{}: {}</td></tr>\n",
-                    nameOf(group.status), group.code, escaped(group.error), groupDigits(group.count),
-                    escaped(group.exampleInput), escaped(group.exampleMessage));
+                    nameOf(group.status), group.code, escapedForHtml(group.error), groupDigits(group.count),
+                    escapedForHtml(group.exampleInput), escapedForHtml(group.exampleMessage));
   html += "</table>\n<table>\n<tr><th>mesh</th><th>code</th><th>message</th></tr>\n";
   size_t count = 0;
   for (const MeshRecord& mesh : summary.meshes) {
     if (mesh.status == MeshStatus::Done || mesh.status == MeshStatus::Skipped || ++count > kListedMeshes) continue;
-    html += fmt::format("<tr><td>{}</td><td class=\"n\">{}</td><td>{}</td></tr>\n", escaped(mesh.input), mesh.code,
-                        escaped(mesh.message));
+    html += fmt::format("<tr><td>{}</td><td class=\"n\">{}</td><td>{}</td></tr>\n", escapedForHtml(mesh.input),
+                        mesh.code, escapedForHtml(mesh.message));
   }
   html += "</table>\n";
   if (count > kListedMeshes) html += fmt::format("<p>and {} more</p>\n", groupDigits(count - kListedMeshes));
@@ -102,8 +83,8 @@ std::string pageOf(const LogSummary& summary, const std::string& title) {
   std::string html = fmt::format(
       "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
       "content=\"width=device-width\"><title>{0}</title><style>{1}</style></head><body>\n<h1>{0}</h1>\n<pre>",
-      escaped(title), kStyle);
-  html += escaped(textOf(summary)) + "</pre>\n";
+      escapedForHtml(title), kStyle);
+  html += escapedForHtml(textOf(summary)) + "</pre>\n";
   html += "<h2>Time of each mesh</h2>\n" + svgOf(summary.secondsHistogram, 1, "s");
   html +=
       "<h2>Estimated average error of each mesh, share of its range</h2>\n" + svgOf(summary.errorHistogram, 100, "%");

@@ -10,7 +10,7 @@
 #include "cli/report.h"
 #include "cli/run.h"
 #include "cli/terminal.h"
-#include "page/json.h"
+#include "core/json.h"
 
 namespace asdfvk {
 namespace {

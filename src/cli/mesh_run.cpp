@@ -24,11 +24,11 @@
 #include "cli/report.h"
 #include "cli/result_picture.h"
 #include "cli/terminal.h"
+#include "core/json.h"
 #include "core/stopwatch.h"
 #include "core/text.h"
 #include "io/inspected_mesh.h"
 #include "mesh/orientation.h"
-#include "page/json.h"
 #include "render/png.h"
 
 namespace asdfvk {

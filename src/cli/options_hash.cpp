@@ -1,7 +1,7 @@
 #include "cli/options_hash.h"
 
 #include "batch/content_hash.h"
-#include "page/json.h"
+#include "core/json.h"
 
 namespace asdfvk {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "asdf_vk/choices.h"
 #include "cli/option_parsing.h"
-#include "page/json.h"
+#include "core/json.h"
 
 namespace asdfvk {
 namespace {

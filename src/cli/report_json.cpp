@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "asdf_vk/version.h"
-#include "page/json.h"
+#include "core/json.h"
 
 namespace asdfvk {
 namespace {

@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "cli/mesh_run.h"
-#include "page/json.h"
+#include "core/json.h"
 
 /// What the main process and its worker processes send each other: lines of JSON.
 namespace asdfvk {

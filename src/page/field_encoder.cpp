@@ -4,10 +4,10 @@
 #include <limits>
 
 #include "core/check.h"
+#include "core/json.h"
 #include "core/parallel.h"
 #include "page/decimal_codes.h"
 #include "page/half_edges.h"
-#include "page/json.h"
 
 namespace asdfvk {
 namespace {

@@ -7,13 +7,13 @@
 #include <utility>
 
 #include "core/check.h"
+#include "core/json.h"
 #include "core/parallel.h"
 #include "mesh/face_geometry.h"
 #include "page/connectivity.h"
 #include "page/decimal_codes.h"
 #include "page/field_encoder.h"
 #include "page/half_edges.h"
-#include "page/json.h"
 
 namespace asdfvk {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/check.h"
-#include "page/json.h"
+#include "core/json.h"
 #include "page/mesh_encoder.h"
 
 namespace asdfvk {

@@ -116,6 +116,7 @@ TEST_CASE("the page escapes what meshes and messages hold, the table quotes it")
   CHECK_EQ(page.find("<broken>"), std::string::npos);
   CHECK_NE(page.find("&lt;broken&gt; &amp; &quot;quoted&quot;"), std::string::npos);
   CHECK_NE(page.find("<h1>a &lt;title&gt;</h1>"), std::string::npos);
+  CHECK_NE(pageOf(summary, "\xe8.off").find("<h1>\xef\xbf\xbd.off</h1>"), std::string::npos);
   const std::string table = csvOf(summary);
   CHECK_EQ(std::count(table.begin(), table.end(), '\n'), 5);
   CHECK_NE(table.find("\"<broken> & \"\"quoted\"\", with a comma\""), std::string::npos);

@@ -3,7 +3,6 @@
 #include <doctest/doctest.h>
 
 #include "page/decoded_page.h"
-#include "page/html_text.h"
 #include "page/page_template.h"
 #include "support/shapes.h"
 
@@ -43,20 +42,6 @@ TEST_CASE("names with markup stay text") {
   const std::string plainHtml = test::htmlOf(plain);
   for (const char* part : {"<", ">", "onerror=alert(1)>", "<!--"})
     CHECK_MESSAGE(countOf(decoded.html, part) == countOf(plainHtml, part), part);
-}
-
-TEST_CASE("markup, control characters and invalid UTF-8 in HTML") {
-  CHECK_EQ(escapedForHtml("a<b>&\"'c"), "a&lt;b&gt;&amp;&quot;&#39;c");
-  CHECK_EQ(escapedForHtml("a\nb\x7f"), "a b ");
-  CHECK_EQ(escapedForHtml("\xc3\xa4 \xe2\x82\xac \xf0\x9f\x90\x8e"), "\xc3\xa4 \xe2\x82\xac \xf0\x9f\x90\x8e");
-  const std::string unknown = "\xef\xbf\xbd";
-  CHECK_EQ(escapedForHtml("\xff"
-                          "a"),
-           unknown + "a");
-  CHECK_EQ(escapedForHtml("\xc3"), unknown);
-  CHECK_EQ(escapedForHtml("\xc0\xbc"), unknown + unknown);                // An overlong '<'.
-  CHECK_EQ(escapedForHtml("\xed\xa0\x80"), unknown + unknown + unknown);  // A surrogate.
-  CHECK_EQ(escapedForScript("{\"a\":\"</script>&\"}"), "{\"a\":\"\\u003c/script\\u003e\\u0026\"}");
 }
 
 TEST_CASE("a name that is no UTF-8 does not end the program") {

@@ -1,4 +1,4 @@
-#include "page/html_text.h"
+#include "core/html_text.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -47,7 +47,7 @@ std::string escapedForHtml(std::string_view text) {
     } else if (c == '\'') {
       result += "&#39;";
     } else {
-      result += static_cast<uint8_t>(c) < 0x20 || c == 0x7f ? ' ' : c;
+      result += (static_cast<uint8_t>(c) < 0x20 && c != '\n') || c == 0x7f ? ' ' : c;
     }
     text.remove_prefix(size == 0 ? 1 : size);
   }

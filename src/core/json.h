@@ -7,6 +7,7 @@
 
 namespace asdfvk {
 
+/// Only layers that link nlohmann_json (src/layers.txt) may include this header.
 using Json = nlohmann::ordered_json;
 
 /// Null where the value is not finite.
