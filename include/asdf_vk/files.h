@@ -61,9 +61,9 @@ ASDFVK_API void writeResult(const std::filesystem::path& path, const MeshView& m
 /// their sizes do not fit each other; Error{ValueOutOfRange}, see requireSingles(); Error{OutputNotWritable}.
 ASDFVK_API void writePoints(const std::filesystem::path& path, std::span<const Field> fields);
 
-/// Reads the fields of a file in any format of writeResult(), in the order of the file. Real values are double; in CSV
-/// all values are. No format stores units and labels. NPY has one field, named `values`. From a PLY file of another
-/// program, all numeric properties of vertices and faces are read. Throws Error{UnreadableInput}.
+/// Reads the fields of a PLY file, in the order of the file: those of writeResult(), without units and labels, and from
+/// a file of another program all numeric properties of vertices and faces. Real values are double. NumPy, pandas, VTK
+/// and meshio read the other formats. Throws Error{UnreadableInput}.
 [[nodiscard]] ASDFVK_API std::vector<Field> readFields(const std::filesystem::path& path);
 
 }  // namespace asdfvk

@@ -33,7 +33,10 @@ def read_mesh(path: str | os.PathLike[str]) -> Mesh:
 
 
 def read_fields(path: str | os.PathLike[str]) -> Fields:
-    """Reads the fields of a result file of any format of write(). Raises InputError."""
+    """Reads the fields of a .ply. Raises InputError.
+
+    numpy.load() reads .npy and .npz, pandas .csv, VTK and meshio .vtu.
+    """
     return Fields(*_core.read_fields(_path(path)))
 
 

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import base64
 import copy
 import pickle
+import xml.etree.ElementTree
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -24,21 +27,62 @@ def test_a_mesh_survives_a_file(tmp_path: Path) -> None:
         assert not mesh.vertices.flags.writeable
 
 
+def _vtu_fields(path: Path, element: str) -> dict[str, Any]:
+    """The arrays of <CellData> or <PointData>, whose binary data begin with their size in bytes."""
+    types = {"Float32": np.float32, "UInt8": np.uint8, "UInt32": np.uint32}
+    fields = {}
+    for array in xml.etree.ElementTree.parse(path).findall(f".//{element}/DataArray"):
+        data = base64.b64decode(array.text or "")
+        assert int.from_bytes(data[:4], "little") == len(data) - 4
+        entries = np.frombuffer(data[4:], types[array.attrib["type"]])
+        components = int(array.attrib.get("NumberOfComponents", 1))
+        fields[array.attrib["Name"]] = entries if components == 1 else entries.reshape(-1, components)
+    return fields
+
+
+def _fields_of(path: Path) -> tuple[dict[str, Any], dict[str, Any]]:
+    if path.suffix == ".ply":
+        return asdf_vk.read_fields(path)
+    if path.suffix == ".vtu":
+        return _vtu_fields(path, "CellData"), _vtu_fields(path, "PointData")
+    arrays = dict(np.load(path))
+    names = {name for name in arrays if name.startswith("vertex_")}
+    return ({name: arrays[name] for name in arrays.keys() - names},
+            {name.removeprefix("vertex_"): arrays[name] for name in names})
+
+
 @pytest.mark.parametrize("name", ["result.ply", "result.vtu", "result.npz"])
 def test_fields_survive_a_file(tmp_path: Path, name: str) -> None:
     vertices, faces = sphere(3)
     info = asdf_vk.segment(vertices, faces, return_info=True)[1]
-    own = {"area": np.arange(len(faces)), "flag": np.arange(len(faces)) % 2 == 0}
-    per_vertex = {"height": vertices[:, 2].astype(np.float32)}
+    count = len(faces)
+    own: dict[str, Any] = {"area": np.arange(count), "flag": np.arange(count) % 2 == 0}
+    own |= {"word": np.arange(count, dtype=np.uint32) + 2**31, "axis": vertices[faces[:, 0]].astype(np.float32)}
+    per_vertex = {"area": vertices[:, 2].astype(np.float32), "word": np.arange(len(vertices), dtype=np.uint32)}
     asdf_vk.write(tmp_path / name, (vertices, faces), {**info.fields, **own}, vertex_fields=per_vertex)
-    fields, vertex_fields = asdf_vk.read_fields(tmp_path / name)
-    np.testing.assert_array_equal(fields["segment"], info.fields["segment"])
-    np.testing.assert_array_equal(fields["area"], own["area"])
-    np.testing.assert_array_equal(fields["flag"], own["flag"])
-    np.testing.assert_array_equal(fields["sdf" if "sdf" in fields else "quality"], info.fields["sdf"])
-    heights = {**fields, **{f"vertex_{key}": value for key, value in vertex_fields.items()}}
-    height = heights["vertex_height" if "vertex_height" in heights else "vertex_quality"]
-    np.testing.assert_array_equal(height, per_vertex["height"])
+    fields, vertex_fields = _fields_of(tmp_path / name)
+    for expected, read in ((own | {key: info.fields[key] for key in ("segment", "sdf")}, fields), (per_vertex, vertex_fields)):
+        for key, values in expected.items():
+            np.testing.assert_array_equal(read[key], values)
+    assert set(fields) == set(info.fields) | set(own) and set(vertex_fields) == set(per_vertex)
+
+
+def test_arrays_and_tables_hold_every_type(tmp_path: Path) -> None:
+    vertices, faces = sphere(1)
+    real = np.linspace(-1, 1, len(faces))
+    real[1] = np.nan
+    fields: dict[str, Any] = {"real": real, "byte": np.arange(len(faces), dtype=np.uint8), "word": np.arange(len(faces), dtype=np.uint32) + 2**31, "axis": vertices[faces[:, 0]]}
+    for name, values in fields.items():
+        asdf_vk.write(tmp_path / "x.npy", (vertices, faces), {name: values})
+        read = np.load(tmp_path / "x.npy")
+        assert read.dtype == (np.float32 if values.dtype == np.float64 else values.dtype)
+        np.testing.assert_array_equal(read, values.astype(read.dtype))
+    asdf_vk.write(tmp_path / "x.csv", (vertices, faces), fields)
+    rows = np.genfromtxt(tmp_path / "x.csv", delimiter=",", names=True)
+    np.testing.assert_array_equal(rows["face"], np.arange(len(faces)))
+    for name in ("real", "byte", "word"):
+        np.testing.assert_array_equal(rows[name], fields[name])
+    np.testing.assert_array_equal(np.stack([rows[f"axis_{c}"] for c in "xyz"], axis=1), fields["axis"])
 
 
 def test_polygons_have_a_value_each(tmp_path: Path) -> None:

@@ -31,6 +31,7 @@ const FileFormat* formatOfExtension(std::string_view extension) {
 const FileFormat* detectFormat(std::span<const char> bytes, std::string_view extension) {
   const FileFormat* possible = nullptr;
   for (const FileFormat* const format : kFormats) {
+    if (format->detect == nullptr) continue;
     const Match match = format->detect(bytes);
     if (match == Match::Certain) return format;
     if (match == Match::Possible && possible == nullptr) possible = format;

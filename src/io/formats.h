@@ -22,7 +22,8 @@ enum class Match { None, Possible, Certain };
 struct FileFormat {
   std::string_view name;                       ///< Lower case.
   std::array<std::string_view, 4> extensions;  ///< Lower case, without the dot; unused entries are empty.
-  Match (*detect)(std::span<const char> bytes);
+  /// Null for a format that is only written.
+  Match (*detect)(std::span<const char> bytes) = nullptr;
 
   /// Reads a mesh. Text may have LF, CRLF or CR line ends and a UTF-8 byte order mark. Throws Error{UnreadableInput}
   /// for a file that is truncated, has further bytes after its end, has an index out of range, or has no face with
@@ -30,8 +31,9 @@ struct FileFormat {
   /// triangles are triangulated and stored in Mesh::polygons (mesh/input_faces.h).
   Mesh (*parseMesh)(std::span<const char> bytes) = nullptr;
 
-  /// Reads the fields of a result. Throws Error{UnreadableInput} for a file that is truncated or contradicts itself,
-  /// and for fields with invalid or equal names.
+  /// Reads the fields of a result. Only PLY has it: NumPy, pandas and VTK read the others. Throws
+  /// Error{UnreadableInput} for a file that is truncated or contradicts itself, and for fields with invalid or equal
+  /// names.
   std::vector<Field> (*parseFields)(std::span<const char> bytes) = nullptr;
 
   /// Writes a result by the rules of writeResult() (asdf_vk/files.h). The caller commits the file.

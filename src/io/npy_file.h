@@ -17,8 +17,4 @@ namespace asdfvk {
 /// Calls put with successive parts of the entries.
 void putNpyEntries(const Field& field, const std::function<void(std::span<const char>)>& put);
 
-/// Parses a complete .npy; the field has an empty name. byte: the position of the .npy in its file. Throws
-/// Error{UnreadableInput}.
-[[nodiscard]] Field parseNpy(std::span<const char> bytes, uint64_t byte = 0);
-
 }  // namespace asdfvk

@@ -1,13 +1,11 @@
 #pragma once
 
 #include <cstdint>
-#include <cstring>
 #include <functional>
 #include <initializer_list>
 #include <span>
 #include <string>
 #include <string_view>
-#include <type_traits>
 #include <variant>
 #include <vector>
 
@@ -52,19 +50,6 @@ void requireReadableNames(std::span<const Field> fields);
 [[nodiscard]] inline float withoutNan(double value) { return value == value ? static_cast<float>(value) : 0.0f; }
 [[nodiscard]] inline uint8_t withoutNan(uint8_t value) { return value; }
 [[nodiscard]] inline uint32_t withoutNan(uint32_t value) { return value; }
-
-/// Converts bytes to the entries of a field: numbers of type T, unaligned and in the byte order of the host. float
-/// becomes double. An incomplete number at the end is ignored.
-template <typename T>
-[[nodiscard]] Field::Values storedEntries(std::span<const char> bytes) {
-  std::vector<std::conditional_t<std::is_floating_point_v<T>, double, T>> entries(bytes.size() / sizeof(T));
-  for (size_t i = 0; i < entries.size(); ++i) {
-    T number;
-    std::memcpy(&number, bytes.data() + i * sizeof(T), sizeof(T));
-    entries[i] = number;
-  }
-  return entries;
-}
 
 /// The arguments of a writer: a mesh of input faces and the fields on it.
 class ResultView {

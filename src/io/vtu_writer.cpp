@@ -128,6 +128,9 @@ class VtuWriter {
 
 }  // namespace
 
-void writeVtu(AtomicFile& file, const ResultView& result) { VtuWriter(file, result).write(); }
+extern const FileFormat kVtuFormat{
+    .name = "vtu", .extensions = {"vtu"}, .write = [](AtomicFile& file, const ResultView& result) {
+      VtuWriter(file, result).write();
+    }};
 
 }  // namespace asdfvk

@@ -104,19 +104,27 @@ TEST_CASE("--per vertex adds fields per vertex, and .csv holds these only") {
                                           "vertex", "--fields", "sdf,centre"});
     INFO(outcome.error);
     REQUIRE_EQ(outcome.exitCode, 0);
-    return readFields(folder / output);
+    return folder.read(output);
   };
-  for (const char* output : {"out.ply", "out.vtu", "out.npz"}) {
-    const std::vector<Field> fields = run(output);
-    REQUIRE_EQ(fields.size(), 4);
-    for (const FieldLocation location : {FieldLocation::PerFace, FieldLocation::PerVertex})
-      for (const char* name : {"sdf", "centre"}) CHECK(findField(fields, name, location) != nullptr);
-    CHECK_EQ(findField(fields, "centre", FieldLocation::PerVertex)->componentCount, 3);
-    CHECK_EQ(findField(fields, "sdf", FieldLocation::PerVertex)->size(), readMesh(mesh).vertices.size());
-  }
-  CHECK_EQ(run("out.csv").at(0).location, FieldLocation::PerVertex);
-  CHECK_EQ(linesOf(folder.read("out.csv")).at(0), "vertex,sdf,centre_x,centre_y,centre_z");
-  CHECK_EQ(run("out.npy").at(0).size(), readMesh(mesh).vertices.size());
+  const size_t vertexCount = readMesh(mesh).vertices.size();
+  run("out.ply");
+  const std::vector<Field> fields = readFields(folder / "out.ply");
+  REQUIRE_EQ(fields.size(), 4);
+  for (const FieldLocation location : {FieldLocation::PerFace, FieldLocation::PerVertex})
+    for (const char* name : {"sdf", "centre"}) CHECK(findField(fields, name, location) != nullptr);
+  CHECK_EQ(findField(fields, "centre", FieldLocation::PerVertex)->componentCount, 3);
+  CHECK_EQ(findField(fields, "sdf", FieldLocation::PerVertex)->size(), vertexCount);
+  const std::string vtu = run("out.vtu");
+  for (const char* start : {"<PointData", "<CellData"})
+    for (const char* name : {"Name=\"sdf\" format", "Name=\"centre\" NumberOfComponents=\"3\" format"})
+      CHECK(vtu.find(name, vtu.find(start)) != std::string::npos);
+  const std::string npz = run("out.npz");
+  for (const char* name : {"sdf.npyface", "vertex_sdf.npyvertex sdf", "centre.npyface", "vertex_centre.npyvertex"})
+    CHECK(npz.find(name) != std::string::npos);
+  const std::vector<std::string> lines = linesOf(run("out.csv"));
+  CHECK_EQ(lines.at(0), "vertex,sdf,centre_x,centre_y,centre_z");
+  CHECK_EQ(lines.size(), vertexCount + 1);
+  CHECK(run("out.npy").find("'shape': (" + std::to_string(vertexCount) + ",)") != std::string::npos);
 }
 
 TEST_CASE("--points writes the skeleton points beside the result") {
