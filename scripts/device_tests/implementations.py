@@ -13,9 +13,9 @@ import subprocess
 from packages import PackageSources, Unavailable, is_newer
 
 LAYER = "VK_LAYER_KHRONOS_validation"
-SUITES = ("vk", "trace", "poisson", "predict", "pipeline", "cli")  # as in scripts/test-devices
+SUITES = ("vk", "trace", "poisson", "predict", "pipeline", "diagnose", "cli")  # as in scripts/test-devices
 KERNEL_SUITES = ("vk", "trace", "poisson", "predict")
-FAKE_SUITES = (*KERNEL_SUITES, "pipeline")
+FAKE_SUITES = (*KERNEL_SUITES, "pipeline", "diagnose")
 QUICK_SUITES = ("vk", "poisson", "predict")
 # lavapipe has a subgroup of one lane per 32 bits of these vectors.
 _LAVAPIPE_VECTOR_BITS = (128, 256, 512)

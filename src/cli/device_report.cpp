@@ -1,4 +1,4 @@
-#include "pipeline/device_report.h"
+#include "diagnose/device_report.h"
 
 #include <fmt/core.h>
 
@@ -19,44 +19,12 @@ std::string versionText(uint32_t packed) {
   return fmt::format("{}.{}.{}", (packed >> 22) & 0x7f, (packed >> 12) & 0x3ff, packed & 0xfff);
 }
 
-Json deviceOf(const DeviceDescription& device) {
-  return {{"name", device.facts.name},
-          {"kind", toString(device.facts.kind)},
-          {"driver", device.facts.driver},
-          {"driverId", device.driverId},
-          {"driverVersion", device.driverVersion},
-          {"vendorId", device.vendorId},
-          {"deviceId", device.deviceId},
-          {"apiVersion", versionText(device.facts.apiVersion)}};
-}
-
-Json limitsOf(const DeviceDescription& device) {
-  Json limits;
-  for (const auto& [name, value] : device.limits) limits[name] = value;
-  limits["timestampPeriod"] = number(device.facts.timestampPeriod);
-  return limits;
-}
-
-void addDescription(Json& json, const DeviceDescription& device) {
-  json["device"] = deviceOf(device);
-  json["limits"] = limitsOf(device);
-  json["subgroup"] = {{"size", device.facts.subgroupSize}, {"operations", device.subgroupOperations}};
-  json["features"] = device.features;
-  json["extensions"] = device.extensions;
-  json["memoryHeaps"] = Json::array();
-  for (const DeviceDescription::Heap& heap : device.heaps)
-    json["memoryHeaps"].push_back({{"bytes", heap.byteCount}, {"deviceLocal", heap.isDeviceLocal}});
-  json["memoryTypes"] = Json::array();
-  for (const DeviceDescription::MemoryType& type : device.memoryTypes)
-    json["memoryTypes"].push_back({{"heap", type.heap}, {"flags", type.flags}});
-  json["queueFamilies"] = Json::array();
-  for (uint32_t i = 0; i < device.queueFamilies.size(); ++i) {
-    const DeviceDescription::QueueFamily& family = device.queueFamilies[i];
-    json["queueFamilies"].push_back({{"queueCount", family.queueCount},
-                                     {"flags", family.flags},
-                                     {"timestampValidBits", family.timestampValidBits},
-                                     {"chosen", device.facts.computeQueueFamily == i}});
-  }
+Json deviceOf(const DeviceFacts& device) {
+  return {{"name", device.name},
+          {"kind", toString(device.kind)},
+          {"driver", device.driver},
+          {"apiVersion", versionText(device.apiVersion)},
+          {"subgroupSize", device.subgroupSize}};
 }
 
 Json variantJson(const TraceVariant& variant) {
@@ -65,7 +33,7 @@ Json variantJson(const TraceVariant& variant) {
 
 Json defaultsOf(const DeviceReport& report) {
   Json json = variantJson(variantOf(report.choice));
-  json["reason"] = defaultTraceReason(report.device->facts);
+  json["reason"] = defaultTraceReason(*report.device);
   json["solver"] = report.defaultSolver;
   json["lanesPerCone"] = report.workgroups.lanesPerCone;
   json["conesPerWorkgroup"] = report.workgroups.conesPerWorkgroup;
@@ -128,7 +96,7 @@ std::string jsonDeviceReport(const DeviceReport& report) {
   json["reason"] = report.failure ? report.failure->what() : "";
   json["devices"] = report.deviceLines;
   if (report.device) {
-    addDescription(json, *report.device);
+    json["device"] = deviceOf(*report.device);
     json["defaults"] = defaultsOf(report);
   } else {
     json["device"] = nullptr;

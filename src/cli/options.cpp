@@ -232,8 +232,8 @@ void addDevice(ArgumentParser& parser, CommandLine& line) {
   parser.addFlag("--list-devices", line.listDevices, "List Vulkan devices and whether each is usable").group(group);
   parser
       .addFlag("--device-report", line.deviceReport,
-               "Print a report on the device as JSON: properties, a self-test, the rate of each\n"
-               "variant of the kernels; exit code 3 where the self-test fails")
+               "Print a report on the device as JSON: a self-test, the rate of each variant of the\n"
+               "kernels; exit code 3 where the self-test fails")
       .group(group);
   addValue(parser, "--threads", "N", "CPU threads, 1 to 1024; default: the number of cores",
            [&](const std::string& text) { line.threadCount = static_cast<uint32_t>(parseWholeNumber(text, 1, 1024)); })

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/report.h"
-#include "pipeline/device_report.h"
+#include "diagnose/device_report.h"
 
 namespace asdfvk {
 namespace {
@@ -283,22 +283,16 @@ TEST_CASE("devices are listed with number and reason, or the reason why there ar
   CHECK_FALSE(json.at("devices").at(1).at("usable").get<bool>());
 }
 
-TEST_CASE("the report on a device as JSON has its properties, the defaults and each test") {
+TEST_CASE("the report on a device as JSON has the device, the defaults and each test") {
   DeviceReport report;
-  DeviceDescription& device = report.device.emplace();
-  device.facts.name = "some GPU";
-  device.facts.kind = DeviceKind::Discrete;
-  device.facts.vendor = DeviceVendor::Amd;
-  device.facts.apiVersion = (1u << 22) | (3u << 12) | 230;
-  device.facts.subgroupSize = 64;
-  device.facts.computeQueueFamily = 1;
-  device.vendorId = 0x1002;
-  device.limits = {{"maxStorageBufferRange", 4294967295}};
-  device.heaps = {{1000, true}};
-  device.memoryTypes = {{0, {"deviceLocal", "hostVisible"}}};
-  device.queueFamilies = {{1, {"graphics", "compute"}, 64}, {4, {"compute"}, 36}};
-  report.choice = defaultTraceChoice(device.facts);
-  report.walk = walkShapeFor(device.facts);
+  DeviceFacts& device = report.device.emplace();
+  device.name = "some GPU";
+  device.kind = DeviceKind::Discrete;
+  device.vendor = DeviceVendor::Amd;
+  device.apiVersion = (1u << 22) | (3u << 12) | 230;
+  device.subgroupSize = 64;
+  report.choice = defaultTraceChoice(device);
+  report.walk = walkShapeFor(device);
   report.tracers = {{.backend = "vulkan",
                      .variant = TraceVariant{"ray", "wide", "storage"},
                      .isDefault = true,
@@ -313,14 +307,7 @@ TEST_CASE("the report on a device as JSON has its properties, the defaults and e
   CHECK_EQ(json.at("device").at("name"), "some GPU");
   CHECK_EQ(json.at("device").at("kind"), "discrete GPU");
   CHECK_EQ(json.at("device").at("apiVersion"), "1.3.230");
-  CHECK_EQ(json.at("device").at("vendorId"), 0x1002);
-  CHECK_EQ(json.at("limits").at("maxStorageBufferRange"), 4294967295);
-  CHECK_EQ(json.at("subgroup").at("size"), 64);
-  CHECK_EQ(json.at("memoryHeaps"), nlohmann::json::parse(R"([{"bytes": 1000, "deviceLocal": true}])"));
-  CHECK_EQ(json.at("memoryTypes").at(0).at("flags").at(1), "hostVisible");
-  CHECK_FALSE(json.at("queueFamilies").at(0).at("chosen").get<bool>());
-  CHECK(json.at("queueFamilies").at(1).at("chosen").get<bool>());
-  CHECK_EQ(json.at("queueFamilies").at(1).at("timestampValidBits"), 36);
+  CHECK_EQ(json.at("device").at("subgroupSize"), 64);
   CHECK_EQ(json.at("defaults").at("kernel"), "ray");
   CHECK_EQ(json.at("defaults").at("fetch"), "storage");
   CHECK_EQ(json.at("defaults").at("wideStackSize"), 65);

@@ -1,4 +1,4 @@
-#include "pipeline/device_report.h"
+#include "diagnose/device_report.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,6 @@
 #include "trace/vulkan/vulkan_cone_kernel.h"
 #include "trace/vulkan/vulkan_tracer.h"
 #include "vk/device.h"
-#include "vk/instance.h"
 
 namespace asdfvk {
 namespace {
@@ -25,8 +24,8 @@ constexpr uint32_t kMaxDifferingCount = 1;  // A ray that grazes an edge may hit
 constexpr int kRunCount = 3;
 
 /// All that the self-test computes on.
-struct TestScene : GeneratedScene {
-  explicit TestScene(double duration) : GeneratedScene(bumpyTorus(200, 100)), secondsPerRun(duration) {}
+struct TestTorus : GeneratedScene {
+  explicit TestTorus(double duration) : GeneratedScene(bumpyTorus(200, 100)), secondsPerRun(duration) {}
 
   double secondsPerRun;
   Cone cone = makeCone({});
@@ -47,7 +46,7 @@ void runTest(Report& report, const std::function<void()>& test) {
 }
 
 /// Faces spread over the mesh, in a number that takes some time: rates of short runs are those of the overhead.
-double measureRate(ConeTracer& tracer, const TestScene& test, const RunControl& control) {
+double measureRate(ConeTracer& tracer, const TestTorus& test, const RunControl& control) {
   constexpr size_t kFirstFaceCount = 2048;
   const std::vector<uint32_t>& all = test.scene.prepared.traceableFaces;
   std::vector<uint32_t> faces;
@@ -70,7 +69,7 @@ double measureRate(ConeTracer& tracer, const TestScene& test, const RunControl& 
   return static_cast<double>(count * test.cone.directions.size()) / std::max(best, 1e-9);
 }
 
-void testTracer(TracerReport& report, ConeTracer& tracer, const TestScene& test, const RunControl& control) {
+void testTracer(TracerReport& report, ConeTracer& tracer, const TestTorus& test, const RunControl& control) {
   const TracerCheck check = checkTracer(tracer, test.scene.view(), test.cone);
   report.comparedCount = check.comparedCount;
   report.differingCount = check.differingCount;
@@ -78,7 +77,7 @@ void testTracer(TracerReport& report, ConeTracer& tracer, const TestScene& test,
   report.raysPerSecond = measureRate(tracer, test, control);
 }
 
-void testVariants(DeviceReport& report, const Device& device, const TestScene& test, const RunControl& control) {
+void testVariants(DeviceReport& report, const Device& device, const TestTorus& test, const RunControl& control) {
   for (const auto& [kernelName, kernel] : kernelNames()) {
     for (const auto& [bvhName, bvh] : bvhNames()) {
       for (const auto& [fetchName, fetch] : fetchNames()) {
@@ -98,7 +97,7 @@ void testVariants(DeviceReport& report, const Device& device, const TestScene& t
 
 /// open(): the backend, which exists until the test ends.
 template <typename Open>
-void testOther(DeviceReport& report, const std::string& name, const TestScene& test, const RunControl& control,
+void testOther(DeviceReport& report, const std::string& name, const TestTorus& test, const RunControl& control,
                const Open& open) {
   TracerReport tracer{.backend = name};
   runTest(tracer, [&] {
@@ -109,7 +108,7 @@ void testOther(DeviceReport& report, const std::string& name, const TestScene& t
 }
 
 /// A smooth function at every eighth face.
-PoissonSystem equationOn(const TestScene& test) {
+PoissonSystem equationOn(const TestTorus& test) {
   const PreparedMesh& prepared = test.scene.prepared;
   std::vector<double> constraints(prepared.mesh.faceCount(), kNoValue);
   for (size_t f = 0; f < constraints.size(); f += 8) constraints[f] = 1 + prepared.geometry.barycentres[f].x / 4;
@@ -117,7 +116,7 @@ PoissonSystem equationOn(const TestScene& test) {
                             constraints, {});
 }
 
-void testSolvers(DeviceReport& report, const Device& device, const TestScene& test, const RunControl& control) {
+void testSolvers(DeviceReport& report, const Device& device, const TestTorus& test, const RunControl& control) {
   const PoissonSystem system = equationOn(test);
   const SolverOptions options{.tolerance = 1e-6};
   std::vector<double> expected(system.unknownCount()), solution(system.unknownCount());
@@ -146,16 +145,6 @@ void testSolvers(DeviceReport& report, const Device& device, const TestScene& te
   }
 }
 
-/// The device that openDevice() opens for the same request.
-std::optional<DeviceDescription> describeChosen(const DeviceRequest& request) {
-  const Instance instance;
-  std::vector<DeviceFacts> facts;
-  for (const VkPhysicalDevice device : instance.physicalDevices()) facts.push_back(describeDevice(device));
-  const DeviceChoice choice = chooseDevice(facts, request);
-  if (!choice.index) return std::nullopt;
-  return describeInFull(instance, *choice.index);
-}
-
 }  // namespace
 
 const TracerReport* DeviceReport::fastest() const {
@@ -179,7 +168,7 @@ DeviceReport reportDevice(const SessionOptions& options, const RunControl& contr
   const bool isAutomatic = options.backend == "auto";
   SessionOptions requested = options;
   requested.variant = {};
-  const TestScene test(secondsPerRun);
+  const TestTorus test(secondsPerRun);
   DeviceReport report;
   report.faceCount = test.mesh.faces.size();
   report.rayCount = static_cast<uint32_t>(test.cone.directions.size());
@@ -200,7 +189,7 @@ DeviceReport reportDevice(const SessionOptions& options, const RunControl& contr
   }
   if (vulkan) {
     const Device& device = *vulkan->backend->device();
-    report.device = describeChosen({.selector = options.device, .requireGpu = options.requireGpu});
+    report.device = device.facts();
     report.choice = traceChoiceFor(device.facts(), {}, test.scene.bvh);
     report.workgroups = workgroupShapeFor(device.facts(), report.rayCount, report.choice.kernel);
     report.walk = walkShapeFor(device.facts());

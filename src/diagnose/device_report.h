@@ -10,18 +10,18 @@
 #include "asdf_vk/run_control.h"
 #include "asdf_vk/session.h"
 #include "trace/vulkan/vulkan_trace_choice.h"
-#include "vk/device_description.h"
+#include "vk/device_choice.h"
 
 namespace asdfvk {
 
 /// Self-test and rate of one way to trace.
 struct TracerReport {
-  std::string backend;                  ///< As Session::backend().
+  std::string backend;                  ///< A name as Session::backend() has it.
   std::optional<TraceVariant> variant;  ///< Set for "vulkan".
-  bool isDefault = false;               ///< Of the variants of the device.
+  bool isDefault = false;               ///< Whether the device takes this variant by itself.
   std::string refusal;                  ///< Set where a limit or a missing feature of the device excludes it.
   std::string failure;                  ///< Set where it ended with an error.
-  uint32_t comparedCount = 0, differingCount = 0;  ///< As TracerCheck, of 64 faces.
+  uint32_t comparedCount = 0, differingCount = 0;  ///< See TracerCheck; 64 faces.
   bool passed = false;                             ///< It ran and at most one face differs.
   double raysPerSecond = 0;                        ///< The best of a few runs; 0 where it did not run.
 };
@@ -29,10 +29,10 @@ struct TracerReport {
 /// Comparison of a solver of the device with the one on the CPU.
 struct SolverCheckReport {
   std::string name;
-  std::string refusal, failure;  ///< As in TracerReport.
+  std::string refusal, failure;  ///< See TracerReport.
   uint32_t unknownCount = 0;
   uint32_t iterations = 0;
-  bool finishedOnCpu = false;  ///< As in SolverReport.
+  bool finishedOnCpu = false;  ///< See SolverReport.
   double difference = 0;       ///< Greatest one from the solution on the CPU, over the range of that.
   double seconds = 0;          ///< The best of a few runs.
   bool passed = false;         ///< It converged and the difference is at most kSolverTolerance.
@@ -41,15 +41,15 @@ inline constexpr double kSolverTolerance = 1e-3;
 
 /// What a device is, whether its kernels compute the values of the reference, and how fast.
 struct DeviceReport {
-  std::vector<std::string> deviceLines;     ///< As Session::deviceLines().
-  std::optional<Error> failure;             ///< Why there is no Vulkan device, or what the validation layers report.
-  std::optional<DeviceDescription> device;  ///< Unset without a Vulkan device.
-  VulkanTraceChoice choice;                 ///< The default, and its shapes for 30 rays.
+  std::vector<std::string> deviceLines;  ///< See Session::deviceLines().
+  std::optional<Error> failure;          ///< Why there is no Vulkan device, or what the validation layers report.
+  std::optional<DeviceFacts> device;     ///< Unset without a Vulkan device.
+  VulkanTraceChoice choice;              ///< The default, and its shapes for 30 rays.
   VulkanWorkgroupShape workgroups;
   VulkanWalkShape walk;
   std::string defaultSolver;
-  uint64_t faceCount = 0;  ///< Of the generated mesh.
-  uint32_t rayCount = 0;   ///< Per cone.
+  uint64_t faceCount = 0;  ///< Faces of the generated mesh.
+  uint32_t rayCount = 0;   ///< Rays per cone.
   std::vector<TracerReport> tracers;
   std::vector<SolverCheckReport> solvers;
 
