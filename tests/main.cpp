@@ -1,7 +1,6 @@
 #define DOCTEST_CONFIG_IMPLEMENT
 #include <doctest/doctest.h>
 
-#include <cstdlib>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -20,8 +19,6 @@ std::vector<std::shared_ptr<void>>& keptObjects() {
 void asdfvk::test::keepUntilEndOfMain(std::shared_ptr<void> object) { keptObjects().push_back(std::move(object)); }
 
 int main(int argc, char** argv) {
-  // No test, and no program that a test starts, writes compiled pipelines into the folder of the user.
-  ::setenv("ASDF_VK_PIPELINE_CACHE", "0", 1);
   const int result = doctest::Context(argc, argv).run();
   while (!keptObjects().empty()) keptObjects().pop_back();
   return result;

@@ -10,9 +10,6 @@ import pytest
 
 import asdf_vk
 
-# No test writes compiled pipelines into the folder of the user.
-os.environ["ASDF_VK_PIPELINE_CACHE"] = "0"
-
 
 def _path_of(variable: str) -> Path:
     value = os.environ.get(variable)

@@ -31,12 +31,8 @@ Program documentedAsdfVk() {
                    {"NAME.asdf.ply.json", "In a batch, the record of the result, by which --skip-existing finds it."}};
   program.environment = {
       {"ASDF_VK_VALIDATION", "1 enables the Vulkan validation layers; anything that they report is an error."},
-      {"ASDF_VK_PIPELINE_CACHE",
-       "0: compiled pipelines of a GPU are neither read from nor written to $XDG_CACHE_HOME/asdf-vk "
-       "(~/.cache/asdf-vk)."},
       {"VK_DRIVER_FILES",
-       "Of the Vulkan loader: the driver manifests to use instead of the installed ones, separated "
-       "by colons."}};
+       "The driver manifests that the Vulkan loader uses instead of the installed ones, separated by colons."}};
   program.examples = {
       {"Write the values of the faces to mesh.asdf.ply:", "asdf-vk mesh.ply"},
       {"Choose the number of seeds by the error, and check the values with the reference:",

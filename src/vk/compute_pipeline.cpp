@@ -53,7 +53,7 @@ ComputePipeline::ComputePipeline(const Device& device, const ComputePipelineDesc
     info.stage.pName = "main";
     info.stage.pSpecializationInfo = &specialization;
     info.layout = layout_;
-    requireSuccess(vkCreateComputePipelines(device_, device.pipelineCache(), 1, &info, nullptr, &pipeline_),
+    requireSuccess(vkCreateComputePipelines(device_, VK_NULL_HANDLE, 1, &info, nullptr, &pipeline_),
                    "compiling " + description.name);
   } catch (...) {
     vkDestroyShaderModule(device_, module, nullptr);

@@ -153,9 +153,6 @@ Device::Device(VkPhysicalDevice physical, DeviceFacts facts) : facts_(std::move(
     vkDestroyDevice(device_, nullptr);
     requireSuccess(result, "creating a command pool");
   }
-  // Mesa has a cache of its own for its CPU device, whose pipeline cache is empty.
-  pipelineCache_ = std::make_unique<PipelineCache>(
-      physical, device_, facts_.kind == DeviceKind::Cpu ? std::filesystem::path() : pipelineCacheFolder());
   pool_ = std::make_unique<BufferPool>(*this);
   staging_ = std::make_unique<StagingRing>(*this);
 }
@@ -163,7 +160,6 @@ Device::Device(VkPhysicalDevice physical, DeviceFacts facts) : facts_(std::move(
 Device::~Device() {
   staging_.reset();
   pool_.reset();
-  pipelineCache_.reset();
   vkDestroyCommandPool(device_, commandPool_, nullptr);
   vkDestroyDevice(device_, nullptr);
 }

@@ -10,7 +10,6 @@
 
 #include "vk/device_choice.h"
 #include "vk/instance.h"
-#include "vk/pipeline_cache.h"
 
 namespace asdfvk {
 
@@ -36,8 +35,6 @@ class Device {
   [[nodiscard]] VkQueue queue() const { return queue_; }
   [[nodiscard]] VkCommandPool commandPool() const { return commandPool_; }
   [[nodiscard]] const DeviceFacts& facts() const { return facts_; }
-  /// Null where the driver could not create one.
-  [[nodiscard]] VkPipelineCache pipelineCache() const { return pipelineCache_->handle(); }
   [[nodiscard]] BufferPool& pool() const { return *pool_; }
   [[nodiscard]] StagingRing& staging() const { return *staging_; }
   /// The first memory type among `allowedTypes` with all of `wanted`; unset when there is none.
@@ -52,7 +49,6 @@ class Device {
   VkDevice device_ = VK_NULL_HANDLE;
   VkQueue queue_ = VK_NULL_HANDLE;
   VkCommandPool commandPool_ = VK_NULL_HANDLE;
-  std::unique_ptr<PipelineCache> pipelineCache_;
   std::unique_ptr<BufferPool> pool_;
   std::unique_ptr<StagingRing> staging_;
 };

@@ -7,7 +7,6 @@ function(run)
   execute_process(COMMAND ${ARGV} WORKING_DIRECTORY ${FOLDER}/elsewhere COMMAND_ERROR_IS_FATAL ANY)
 endfunction()
 
-set(ENV{ASDF_VK_PIPELINE_CACHE} 0)  # Nothing is written into the folder of the user.
 file(REMOVE_RECURSE ${FOLDER})
 file(MAKE_DIRECTORY ${FOLDER}/elsewhere)
 set(arguments -G Ninja -S ${SOURCE}/tests/consumer -B ${FOLDER}/build -DCMAKE_BUILD_TYPE=Release)
