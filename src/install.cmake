@@ -18,8 +18,7 @@ if(ASDF_VK_PROGRAM)
                      COMMAND ${CMAKE_COMMAND} -E touch ${documents}/written
                      COMMENT "Writing man pages and completions" VERBATIM)
   add_custom_target(asdfvk-documents-files ALL DEPENDS ${documents}/written)
-  install(DIRECTORY ${documents}/man ${documents}/bash-completion ${documents}/zsh ${documents}/fish
-          DESTINATION ${CMAKE_INSTALL_DATADIR} COMPONENT program)
+  install(DIRECTORY ${documents}/man ${documents}/bash-completion DESTINATION ${CMAKE_INSTALL_DATADIR} COMPONENT program)
 endif()
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/asdf_vk ${PROJECT_BINARY_DIR}/include/asdf_vk
         DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development FILES_MATCHING PATTERN "*.h")

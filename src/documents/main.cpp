@@ -28,8 +28,6 @@ int main(int argc, char** argv) {
       const std::string& name = program.name;
       writeText(folder / "man/man1" / (name + ".1"), manPage(program));
       writeText(folder / "bash-completion/completions" / name, bashCompletion(program));
-      writeText(folder / "zsh/vendor-completions" / ("_" + name), zshCompletion(program));
-      writeText(folder / "fish/vendor_completions.d" / (name + ".fish"), fishCompletion(program));
     }
     return 0;
   } catch (const std::exception& error) {

@@ -71,9 +71,4 @@ Program describe(const ArgumentParser& parser) {
   return program;
 }
 
-std::string briefText(const DocumentedOption& option) {
-  const std::string& text = option.text;
-  return text.substr(0, std::min({text.find(". "), text.find(';'), text.size()}));
-}
-
 }  // namespace asdfvk

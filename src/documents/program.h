@@ -7,19 +7,19 @@
 
 #include "arguments/arguments.h"
 
-/// A program as its man page and its completions show it. Everything about options is read from the
+/// A program as its man page and its completions for bash show it. Everything about options is read from the
 /// ArgumentParser that also parses the command line.
 namespace asdfvk {
 
 /// Values of an option or argument.
 struct Values {
-  std::string placeholder;              ///< As in the help: "N%|N|all", "FILE.ply", "[=N|all]"; empty for a flag.
-  uint32_t count = 0;                   ///< 0 for a flag.
-  bool areAttached = false;             ///< Optional, and given as --name=value only.
-  bool areList = false;                 ///< Words separated by commas.
-  bool areFiles = false;                ///< A file is among the values.
+  std::string placeholder;   ///< The same text as in the help: "N%|N|all", "FILE.ply", "[=N|all]"; empty for a flag.
+  uint32_t count = 0;        ///< 0 for a flag.
+  bool areAttached = false;  ///< Optional, and given as --name=value only.
+  bool areList = false;      ///< Words separated by commas.
+  bool areFiles = false;     ///< A file is among the values.
   std::vector<std::string> words;       ///< Literal values: "paper", "balanced".
-  std::vector<std::string> extensions;  ///< Of the files, without the dot; empty: any.
+  std::vector<std::string> extensions;  ///< Extensions of the files, without the dot; empty: any.
 };
 
 /// Values from a placeholder. An alternative (between bars) in lower case is a literal value; FILE is any file,
@@ -33,7 +33,7 @@ struct DocumentedOption : ArgumentDescription {
 
 /// All text is plain: no markup.
 struct Program {
-  std::string name;  ///< As it is called: "asdf-vk summarize" has the man page asdf-vk-summarize.
+  std::string name;  ///< The words that call it: "asdf-vk summarize" has the man page asdf-vk-summarize.
   std::string version;
   std::string summary;  ///< For whatis and apropos: no capital, no full stop.
   std::string description;
@@ -55,12 +55,7 @@ struct Program {
 /// `asdf-vk summarize`, for a man page named asdf-vk-summarize.
 [[nodiscard]] Program documentedSummarize();
 
-/// The first sentence of the help of an option, or its part before a semicolon: completions have one line per option.
-[[nodiscard]] std::string briefText(const DocumentedOption& option);
-
 [[nodiscard]] std::string manPage(const Program& program);
 [[nodiscard]] std::string bashCompletion(const Program& program);
-[[nodiscard]] std::string zshCompletion(const Program& program);
-[[nodiscard]] std::string fishCompletion(const Program& program);
 
 }  // namespace asdfvk
