@@ -2,24 +2,26 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <string>
-#include <utility>
 
 #include "core/check.h"
 #include "core/json.h"
-#include "core/parallel.h"
+#include "mesh/dual_graph.h"
 #include "mesh/face_geometry.h"
-#include "page/connectivity.h"
-#include "page/decimal_codes.h"
-#include "page/field_encoder.h"
-#include "page/half_edges.h"
 
 namespace asdfvk {
 namespace {
 
+constexpr uint32_t kNone = 0xffffffff;
+
 /// Coordinates are multiples of the longest side of the box over this.
 constexpr double kGridSize = 65535;
+
+/// The lowest bits of a float32 that a page does not keep: values have 15 significant bits, a relative error of at most
+/// 2^-15, so that the four digits that the page shows are those of the result but for rounding.
+constexpr int kDroppedBits = 9;
 
 /// Coordinates as whole numbers of steps from the lower corner of a box.
 struct Grid {
@@ -39,35 +41,96 @@ struct Grid {
   }
 };
 
-Bytes encodeCoordinates(const TriangleMesh& mesh, const Connectivity& walk, const Grid& grid, size_t axis) {
-  const size_t count = walk.vertices.size();
-  std::vector<int32_t> steps(count);
-  std::vector<uint32_t> residuals(count);
-  for (size_t i = 0; i < count; ++i)
-    steps[i] = static_cast<int32_t>(grid.stepsOf(mesh.vertices[walk.vertices[i]][axis], axis));
+/// All faces in the order of a depth-first walk over shared edges. Neighbours are close to each other in it, whatever
+/// the order of the file is, so that the differences in the arrays of the page are small.
+std::vector<uint32_t> walkedFaces(const TriangleMesh& mesh) {
+  const DualGraph graph = buildDualGraph(mesh);
+  std::vector<uint32_t> faces, stack;
+  faces.reserve(mesh.faces.size());
+  std::vector<uint8_t> isWalked(mesh.faces.size(), 0);
+  for (uint32_t first = 0; first < mesh.faceCount(); ++first) {
+    stack.push_back(first);
+    while (!stack.empty()) {
+      const uint32_t face = stack.back();
+      stack.pop_back();
+      if (isWalked[face] != 0) continue;
+      isWalked[face] = 1;
+      faces.push_back(face);
+      for (const uint32_t neighbour : graph.neighboursOf(face))
+        if (isWalked[neighbour] == 0) stack.push_back(neighbour);
+    }
+  }
+  return faces;
+}
+
+/// Faces and vertices by their places in the page.
+struct Layout {
+  std::vector<uint32_t> faces;
+  std::vector<uint32_t> vertices;  ///< Those of faces, in the order of their first corners.
+  /// Place of the vertex of each corner minus the number of vertices before: 0 for a new vertex, else negative. In each
+  /// face the newest vertex is last.
+  std::vector<int32_t> corners;
+
+  explicit Layout(const TriangleMesh& mesh) : faces(walkedFaces(mesh)) {
+    std::vector<uint32_t> placeOf(mesh.vertices.size(), kNone);
+    corners.reserve(3 * faces.size());
+    for (const uint32_t face : faces) {
+      Face vertexOf = mesh.faces[face];
+      if (!mesh.hasFiniteCorners(face)) vertexOf = {vertexOf[0], vertexOf[0], vertexOf[0]};
+      const auto isOlder = [&](uint32_t a, uint32_t b) { return placeOf[a] < placeOf[b]; };
+      std::rotate(vertexOf.begin(), std::max_element(vertexOf.begin(), vertexOf.end(), isOlder) + 1, vertexOf.end());
+      for (const uint32_t vertex : vertexOf) {
+        const auto count = static_cast<uint32_t>(vertices.size());
+        if (placeOf[vertex] == kNone) {
+          placeOf[vertex] = count;
+          vertices.push_back(vertex);
+        }
+        corners.push_back(static_cast<int32_t>(placeOf[vertex] - count));
+      }
+    }
+  }
+};
+
+/// Each number minus the one before, the first minus 0, modulo 2^32.
+template <typename NumberAt>
+std::vector<int32_t> differencesOf(size_t count, const NumberAt& numberAt) {
+  std::vector<int32_t> differences(count);
+  uint32_t last = 0;
   for (size_t i = 0; i < count; ++i) {
-    const auto [start, end, opposite] = walk.frontOf[i];
-    int32_t predicted = i == 0 ? 0 : steps[i - 1];
-    if (start != kNone) predicted = steps[start] + steps[end] - steps[opposite];
-    residuals[i] = zigzag(static_cast<int16_t>(steps[i] - predicted)) & 0xffff;
+    const uint32_t number = numberAt(i);
+    differences[i] = static_cast<int32_t>(number - last);
+    last = number;
   }
-  return bytePlanesOf(residuals);
+  return differences;
 }
 
-Bytes encodeFaceIds(std::span<const uint32_t> inputFaces, const Connectivity& walk) {
-  std::vector<uint32_t> residuals(inputFaces.size());
-  for (size_t i = 0; i < inputFaces.size(); ++i) {
-    const uint32_t neighbour = walk.neighboursOf[i][0];
-    const uint32_t predicted = neighbour == kNone ? 0 : inputFaces[neighbour];
-    residuals[i] = zigzag(static_cast<int32_t>(inputFaces[i] - predicted));
-  }
-  return bytePlanesOf(residuals);
+/// The upper bits of a float32, rounded; those of NaN where the value is not finite.
+uint32_t upperBitsOf(double value) {
+  constexpr uint32_t kNanBits = 0x7fc00000, kExponentBits = 0x7f800000;
+  if (!std::isfinite(value)) return kNanBits >> kDroppedBits;
+  const auto bits = std::bit_cast<uint32_t>(static_cast<float>(value));
+  const uint32_t rounded = bits + (1u << (kDroppedBits - 1));
+  // The greatest numbers are not rounded, or they would be infinite.
+  return ((rounded & kExponentBits) == kExponentBits ? bits : rounded) >> kDroppedBits;
 }
 
-std::vector<uint32_t> inputFacesOf(const TriangleMesh& mesh, const Connectivity& walk) {
-  std::vector<uint32_t> inputFaces(walk.faces.size());
-  forEachInParallel(inputFaces.size(), [&](uint32_t i) { inputFaces[i] = mesh.inputFaceOf(walk.faces[i]); });
-  return inputFaces;
+struct FieldNumbers {
+  const char* kind;
+  std::vector<uint32_t> ofInputFaces;
+};
+
+FieldNumbers numbersOf(const Field& field) {
+  ASDFVK_CHECK(field.componentCount == 1);
+  if (const std::vector<double>* reals = field.reals()) {
+    requireSingles(*reals, "'" + field.name + "'");
+    FieldNumbers numbers{"number", std::vector<uint32_t>(reals->size())};
+    std::transform(reals->begin(), reals->end(), numbers.ofInputFaces.begin(), upperBitsOf);
+    return numbers;
+  }
+  if (const auto* labels = std::get_if<std::vector<uint32_t>>(&field.values)) return {"label", *labels};
+  const auto& bytes = std::get<std::vector<uint8_t>>(field.values);
+  const bool isFlag = std::all_of(bytes.begin(), bytes.end(), [](uint8_t byte) { return byte <= 1; });
+  return {isFlag ? "flag" : "label", std::vector<uint32_t>(bytes.begin(), bytes.end())};
 }
 
 }  // namespace
@@ -82,41 +145,47 @@ Box3d boxOfFaces(const TriangleMesh& mesh) {
 }
 
 Json encodeMesh(const TriangleMesh& mesh, std::span<const std::reference_wrapper<const Field>> fields,
-                PageStreams& streams, const Box3d& box) {
-  const Connectivity walk = encodeConnectivity(mesh);
+                PageArrays& arrays, const Box3d& box) {
+  const Layout layout(mesh);
   const Grid grid(box);
-  const std::vector<uint32_t> inputFaces = inputFacesOf(mesh, walk);
-
-  std::vector<FieldEncoder> encoders;
-  encoders.reserve(fields.size());  // The sources refer to them.
-  for (const Field& field : fields) encoders.emplace_back(field, inputFaces, walk);
-  std::vector<std::function<Bytes()>> sources;
-  std::vector<std::pair<FieldEncoder*, std::string>> fieldOf;  // Of the first sources: the field and the key.
-  for (FieldEncoder& encoder : encoders)
-    for (const std::string& key : encoder.streamKeys()) {
-      sources.push_back([&encoder, key] { return encoder.encode(key); });
-      fieldOf.emplace_back(&encoder, key);
-    }
-  const std::array<const char*, 6> keys{"faces", "x", "y", "z", "symbols", "references"};
-  sources.push_back([&] { return encodeFaceIds(inputFaces, walk); });
+  const size_t faceCount = layout.faces.size(), vertexCount = layout.vertices.size();
+  const std::array<const char*, 5> keys{"corners", "faces", "x", "y", "z"};
+  std::vector<PageArrays::Source> sources;
+  sources.push_back([&] { return layout.corners; });
+  sources.push_back(
+      [&] { return differencesOf(faceCount, [&](size_t i) { return mesh.inputFaceOf(layout.faces[i]); }); });
   for (size_t axis = 0; axis < 3; ++axis)
-    sources.push_back([&, axis] { return encodeCoordinates(mesh, walk, grid, axis); });
-  sources.push_back([&] { return walk.symbols; });
-  sources.push_back([&] { return walk.references; });
+    sources.push_back([&, axis] {
+      return differencesOf(vertexCount,
+                           [&](size_t i) { return grid.stepsOf(mesh.vertices[layout.vertices[i]][axis], axis); });
+    });
+  std::vector<FieldNumbers> numbers;
+  numbers.reserve(fields.size());  // The sources refer to them.
+  for (const Field& field : fields) {
+    const FieldNumbers& added = numbers.emplace_back(numbersOf(field));
+    sources.push_back([&] {
+      return differencesOf(faceCount, [&](size_t i) { return added.ofInputFaces[mesh.inputFaceOf(layout.faces[i])]; });
+    });
+  }
 
-  const std::vector<uint32_t> numbers = streams.add(sources);
-  for (size_t i = 0; i < fieldOf.size(); ++i) fieldOf[i].first->setStream(fieldOf[i].second, numbers[i]);
+  const std::vector<uint32_t> arrayNumbers = arrays.add(sources);
   Json description;
-  description["faceCount"] = walk.faces.size();
-  description["vertexCount"] = walk.vertices.size();
+  description["faceCount"] = faceCount;
+  description["vertexCount"] = vertexCount;
   description["inputFaceCount"] = mesh.inputFaceCount();
   description["boxMin"] = arrayOf(grid.box.min);
   description["boxMax"] = arrayOf(grid.box.max);
   description["step"] = grid.step;
-  description["gateCount"] = walk.gateCount;
-  for (size_t i = 0; i < keys.size(); ++i) description["streams"][keys[i]] = numbers[fieldOf.size() + i];
+  for (size_t i = 0; i < keys.size(); ++i) description["arrays"][keys[i]] = arrayNumbers[i];
   description["fields"] = Json::array();
-  for (const FieldEncoder& encoder : encoders) description["fields"].push_back(encoder.description());
+  for (size_t i = 0; i < fields.size(); ++i) {
+    const Field& field = fields[i];
+    description["fields"].push_back({{"name", field.name},
+                                     {"title", field.label.empty() ? field.name : field.label},
+                                     {"unit", field.unit == "length" ? "mesh units" : field.unit},
+                                     {"kind", numbers[i].kind},
+                                     {"array", arrayNumbers[keys.size() + i]}});
+  }
   return description;
 }
 

@@ -53,11 +53,11 @@ Json describe(const PageTexts& texts) {
 void Page::add(const TriangleMesh& mesh, std::span<const std::reference_wrapper<const Field>> fields, PageTexts texts) {
   Json description = describe(texts);
   const Box3d box = boxOfFaces(mesh);
-  description.update(encodeMesh(mesh, fields, streams_, box));
+  description.update(encodeMesh(mesh, fields, arrays_, box));
   if (texts.thin) {
     description["thin"] = describe(*texts.thin);
     if (!texts.thin->surface.triangles.empty())
-      description["thin"]["surface"] = encodeThinSurface(texts.thin->surface, box, streams_);
+      description["thin"]["surface"] = encodeThinSurface(texts.thin->surface, box, arrays_);
     texts.thin.reset();  // Encoded.
   }
   meshes_.push_back(std::make_shared<const Json>(std::move(description)));
@@ -106,7 +106,7 @@ void Page::writeData(AtomicFile& file) const {
   file.write("<script type=\"application/json\" id=\"asdf-vk-page\">");
   file.write(escapedForScript(json.dump(-1, ' ', true, Json::error_handler_t::replace)));
   file.write("</script>\n");
-  streams_.write(file);
+  arrays_.write(file);
 }
 
 void Page::writeFallback(AtomicFile& file) const {

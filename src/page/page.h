@@ -13,7 +13,7 @@
 #include "asdf_vk/field.h"
 #include "asdf_vk/session.h"
 #include "mesh/mesh.h"
-#include "page/page_streams.h"
+#include "page/page_arrays.h"
 
 namespace asdfvk {
 
@@ -70,11 +70,11 @@ class Page {
   std::string generator_;
   std::vector<std::shared_ptr<const nlohmann::ordered_json>> meshes_;  ///< Descriptions.
   std::vector<PageTexts> texts_;
-  PageStreams streams_;
+  PageArrays arrays_;
 };
 
 /// The segments in the order of their labels, with the labels and values per input face. Where an entry of `labels` is
-/// kNoLabel, the face belongs to none. areas, barycentres: per triangle.
+/// kNoSegment, the face belongs to none. areas, barycentres: per triangle.
 [[nodiscard]] std::vector<PageSegment> listSegments(const TriangleMesh& mesh, std::span<const double> areas,
                                                     std::span<const Vec3d> barycentres,
                                                     std::span<const uint32_t> labels, std::span<const double> values);

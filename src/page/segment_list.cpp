@@ -4,7 +4,6 @@
 
 #include "core/check.h"
 #include "core/median.h"
-#include "page/field_encoder.h"
 #include "page/page.h"
 
 namespace asdfvk {
@@ -20,7 +19,7 @@ std::vector<PageSegment> listSegments(const TriangleMesh& mesh, std::span<const 
   std::map<uint32_t, Members> members;
   for (uint32_t face = 0; face < mesh.faceCount(); ++face) {
     const uint32_t inputFace = mesh.inputFaceOf(face), label = labels[inputFace];
-    if (label == kNoLabel) continue;
+    if (label == kNoSegment) continue;
     auto& [segment, ofSegment] = members[label];
     ++segment.faceCount;
     if (std::isfinite(values[inputFace])) ofSegment.push_back(values[inputFace]);

@@ -23,7 +23,7 @@ struct PositionHash {
 
 }  // namespace
 
-Json encodeThinSurface(const ThinSurface& surface, const Box3d& box, PageStreams& streams) {
+Json encodeThinSurface(const ThinSurface& surface, const Box3d& box, PageArrays& arrays) {
   ASDFVK_CHECK(surface.regions.size() == surface.triangles.size());
   Mesh mesh;
   std::unordered_map<Vec3d, uint32_t, PositionHash> vertexAt;
@@ -38,7 +38,7 @@ Json encodeThinSurface(const ThinSurface& surface, const Box3d& box, PageStreams
     mesh.faces.push_back(face);
   }
   const Field region{.name = "region", .label = "region", .values = surface.regions};
-  return encodeMesh(mesh, std::vector<std::reference_wrapper<const Field>>{region}, streams, box);
+  return encodeMesh(mesh, std::vector<std::reference_wrapper<const Field>>{region}, arrays, box);
 }
 
 }  // namespace asdfvk

@@ -4,7 +4,7 @@
 
 #include "asdf_vk/session.h"
 #include "core/box3.h"
-#include "page/page_streams.h"
+#include "page/page_arrays.h"
 
 namespace asdfvk {
 
@@ -12,6 +12,6 @@ namespace asdfvk {
 /// mesh: a thin face and the face of the mesh have the same coordinates. Equal corners become one vertex. Returns the
 /// description, as encodeMesh(). Precondition: there is a triangle.
 [[nodiscard]] nlohmann::ordered_json encodeThinSurface(const ThinSurface& surface, const Box3d& box,
-                                                       PageStreams& streams);
+                                                       PageArrays& arrays);
 
 }  // namespace asdfvk

@@ -130,7 +130,7 @@ TEST_CASE("--against shows each mesh a second time with other options of the com
   REQUIRE_EQ(meshes.size(), 2);
   CHECK_EQ(meshes[0].at("label"), "a.off, balanced, seeds 20 %");
   CHECK_EQ(meshes[1].at("label"), "a.off, --recipe paper --seeds all");
-  CHECK_EQ(meshes[0].at("streams"), meshes[1].at("streams"));
+  CHECK_EQ(meshes[0].at("arrays"), meshes[1].at("arrays"));
   const std::vector<std::string> lines = linesOf(outcome.output);
   REQUIRE_EQ(lines.size(), 2);
   CHECK_EQ(nlohmann::json::parse(lines[1]).at("options").at("recipe"), "paper");

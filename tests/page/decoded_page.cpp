@@ -3,13 +3,12 @@
 #include <zlib.h>
 
 #include <array>
-#include <cmath>
+#include <bit>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <limits>
-#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -19,7 +18,7 @@ namespace asdfvk::test {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using Stream = std::vector<uint8_t>;
+using Bytes = std::vector<uint8_t>;
 
 [[noreturn]] void fail(const std::string& what) { throw std::runtime_error("page: " + what); }
 
@@ -32,10 +31,10 @@ std::string elementText(const std::string& html, const std::string& openingTag) 
   return html.substr(begin + openingTag.size(), end - begin - openingTag.size());
 }
 
-Stream fromBase64(const std::string& text) {
+Bytes fromBase64(const std::string& text) {
   const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   if (text.size() % 4 != 0) fail("base64 without padding");
-  Stream bytes;
+  Bytes bytes;
   for (size_t i = 0; i < text.size(); i += 4) {
     uint32_t group = 0;
     size_t count = 3;
@@ -55,12 +54,12 @@ Stream fromBase64(const std::string& text) {
   return bytes;
 }
 
-Stream inflated(const Stream& compressed) {
+Bytes inflated(const Bytes& compressed) {
   z_stream stream{};
   if (inflateInit(&stream) != Z_OK) fail("zlib");
   stream.next_in = const_cast<Bytef*>(compressed.data());
   stream.avail_in = static_cast<uInt>(compressed.size());
-  Stream bytes;
+  Bytes bytes;
   std::array<uint8_t, 65536> part{};
   int status = Z_OK;
   while (status == Z_OK) {
@@ -70,231 +69,71 @@ Stream inflated(const Stream& compressed) {
     bytes.insert(bytes.end(), part.data(), part.data() + (part.size() - stream.avail_out));
   }
   inflateEnd(&stream);
-  if (status != Z_STREAM_END || stream.avail_in != 0) fail("damaged stream");
+  if (status != Z_STREAM_END || stream.avail_in != 0) fail("damaged array");
   return bytes;
 }
 
-/// The differences of a stream of `count` numbers.
-std::vector<int64_t> differencesOf(const Stream& planes, size_t count) {
-  if (count == 0 || planes.size() % count != 0 || planes.size() / count > 4) fail("planes");
-  std::vector<int64_t> differences(count);
+/// Array `number` of the page.
+std::vector<int64_t> numbersOf(const Json& number, size_t count, const std::vector<Bytes>& arrays) {
+  const Bytes& planes = arrays.at(number.get<size_t>());
+  if (planes.size() % count != 0 || planes.size() / count > 4) fail("planes");
+  std::vector<int64_t> numbers(count);
   for (size_t i = 0; i < count; ++i) {
-    uint64_t number = 0;
+    uint64_t stored = 0;
     for (size_t plane = 0; plane < planes.size() / count; ++plane)
-      number |= uint64_t{planes[plane * count + i]} << 8 * plane;
-    differences[i] = number % 2 == 0 ? static_cast<int64_t>(number / 2) : -static_cast<int64_t>(number / 2) - 1;
+      stored |= uint64_t{planes[plane * count + i]} << 8 * plane;
+    numbers[i] = stored % 2 == 0 ? static_cast<int64_t>(stored / 2) : -static_cast<int64_t>(stored / 2) - 1;
   }
-  return differences;
+  return numbers;
 }
 
-bool bitOf(const Stream& bits, size_t i) { return (bits.at(i / 8) >> i % 8 & 1) != 0; }
+std::vector<uint32_t> sumsOf(const Json& number, size_t count, const std::vector<Bytes>& arrays) {
+  std::vector<uint32_t> sums;
+  int64_t sum = 0;
+  for (const int64_t difference : numbersOf(number, count, arrays))
+    sums.push_back(static_cast<uint32_t>(sum += difference));
+  return sums;
+}
 
-struct Gate {
-  size_t face, start, end, opposite, previous, next;
-  bool isOpen = true;
-};
-
-class Walk {
- public:
-  std::vector<Face> faces;
-  std::vector<std::array<size_t, 2>> inFront;         ///< Per face; the face itself for the first.
-  std::vector<std::array<size_t, 3>> parallelograms;  ///< Per vertex; three times the same for none.
-
-  Walk(const Stream& symbols, const Stream& references, size_t faceCount) : references_(references) {
-    for (size_t at = 0; faces.size() < faceCount; ++at) {
-      const int symbol = symbols.at(at / 2) >> (at % 2 * 4) & 15;
-      if (isActive_) {
-        step(symbol);
-      } else {
-        begin(symbol);
-      }
-    }
-  }
-  [[nodiscard]] size_t gateCount() const { return gates_.size(); }
-  [[nodiscard]] bool areReferencesUsed() const { return referenceAt_ == references_.size(); }
-
- private:
-  size_t reference() {
-    size_t number = 0;
-    for (int shift = 0;; shift += 7) {
-      const uint8_t byte = references_.at(referenceAt_++);
-      number |= size_t{byte & 0x7fu} << shift;
-      if (byte < 0x80) return number;
-    }
-  }
-  size_t newVertex(size_t s, size_t e, size_t o) {
-    parallelograms.push_back({s, e, o});
-    return parallelograms.size() - 1;
-  }
-  size_t addFace(size_t a, size_t b, size_t c, size_t first, size_t second) {
-    faces.push_back({static_cast<uint32_t>(a), static_cast<uint32_t>(b), static_cast<uint32_t>(c)});
-    inFront.push_back({first, second});
-    return faces.size() - 1;
-  }
-  size_t addGate(size_t face, size_t start, size_t end, size_t opposite) {
-    gates_.push_back({face, start, end, opposite, 0, 0});
-    return gates_.size() - 1;
-  }
-  void join(size_t gate, size_t next) {
-    if (gates_.at(gate).end != gates_.at(next).start) fail("a ring is broken");
-    gates_[gate].next = next;
-    gates_[next].previous = gate;
-  }
-  void activate(size_t gate) {
-    active_ = gate;
-    isActive_ = true;
-  }
-  void pop() {
-    isActive_ = false;
-    while (!isActive_ && !stack_.empty()) {
-      if (gates_[stack_.back()].isOpen) activate(stack_.back());
-      stack_.pop_back();
-    }
-  }
-
-  void begin(int symbol) {
-    if (symbol != 7 && symbol != 8) fail("a symbol without an active gate");
-    std::array<size_t, 3> v{};
-    for (size_t& vertex : v) {
-      const size_t back = reference();
-      vertex = back == 0 ? newVertex(0, 0, 0) : parallelograms.size() - back;
-    }
-    const size_t before = faces.empty() ? 0 : faces.size() - 1;
-    const size_t face = addFace(v[0], v[1], v[2], before, before);
-    if (symbol == 8) return;
-    const size_t ab = addGate(face, v[0], v[1], v[2]), bc = addGate(face, v[1], v[2], v[0]),
-                 ca = addGate(face, v[2], v[0], v[1]);
-    join(ab, bc);
-    join(bc, ca);
-    join(ca, ab);
-    stack_ = {ca, bc};
-    activate(ab);
-  }
-
-  void step(int symbol) {
-    Gate& active = gates_.at(active_);
-    active.isOpen = false;
-    const Gate gate = active;
-    const size_t s = gate.start, e = gate.end;
-    const Gate previous = gates_.at(gate.previous), next = gates_.at(gate.next);
-    if (symbol == 6) return pop();
-    if (symbol == 1) {
-      const size_t face = addFace(e, s, next.end, gate.face, next.face);
-      gates_[gate.next].isOpen = false;
-      const size_t made = addGate(face, s, next.end, e);
-      join(gate.previous, made);
-      join(made, next.next);
-      return activate(made);
-    }
-    if (symbol == 2) {
-      const size_t face = addFace(e, s, previous.start, gate.face, previous.face);
-      gates_[gate.previous].isOpen = false;
-      const size_t made = addGate(face, previous.start, e, s);
-      join(previous.previous, made);
-      join(made, gate.next);
-      return activate(made);
-    }
-    if (symbol == 3) {
-      if (previous.start != next.end) fail("both");
-      addFace(e, s, next.end, gate.face, next.face);
-      gates_[gate.previous].isOpen = gates_[gate.next].isOpen = false;
-      join(previous.previous, next.next);
-      return pop();
-    }
-    size_t v = 0, there = 0;
-    if (symbol == 0) {
-      v = newVertex(s, e, gate.opposite);
-    } else if (symbol == 4) {
-      there = gates_.size() - reference();
-      v = gates_.at(there).start;
-    } else if (symbol == 5) {
-      v = parallelograms.size() - reference();
+std::vector<double> valuesOf(const Json& field, const std::vector<uint32_t>& numbers) {
+  std::vector<double> values;
+  for (const uint32_t number : numbers) {
+    if (field["kind"] == "number") {
+      values.push_back(std::bit_cast<float>(number * 512));
     } else {
-      fail("an unknown symbol");
+      values.push_back(number == 0xffffffff ? std::numeric_limits<double>::quiet_NaN() : number);
     }
-    const size_t face = addFace(e, s, v, gate.face, gate.face);
-    const size_t sv = addGate(face, s, v, e), ve = addGate(face, v, e, s);
-    if (symbol == 4) {
-      join(gates_[there].previous, ve);
-      join(sv, there);
-    } else {
-      join(sv, ve);
-    }
-    join(gate.previous, sv);
-    join(ve, gate.next);
-    stack_.push_back(sv);
-    activate(ve);
-  }
-
-  const Stream& references_;
-  size_t referenceAt_ = 0;
-  std::vector<Gate> gates_;
-  std::vector<size_t> stack_;
-  size_t active_ = 0;
-  bool isActive_ = false;
-};
-
-std::vector<double> decodeField(const Json& field, const Walk& walk, const std::vector<Stream>& streams) {
-  const Stream& stream = streams.at(field["stream"]);
-  const size_t count = walk.faces.size();
-  std::vector<double> values(count);
-  if (field["kind"] == "flag") {
-    for (size_t i = 0; i < count; ++i) values[i] = bitOf(stream, i) ? 1 : 0;
-    return values;
-  }
-  const std::vector<int64_t> differences = differencesOf(stream, count);
-  std::vector<int64_t> codes(count);
-  for (size_t i = 0; i < count; ++i) {
-    const auto [first, second] = walk.inFront[i];
-    if (field["kind"] == "label") {
-      codes[i] = static_cast<uint32_t>((i == 0 ? 0 : codes[first]) + differences[i]);
-      values[i] = static_cast<double>(codes[i]);
-      continue;
-    }
-    const double mean = i == 0 ? 0 : static_cast<double>(codes[first] + codes[second]) / 2;
-    codes[i] = static_cast<int64_t>(std::floor(mean)) + differences[i];
-    const int64_t c = std::abs(codes[i]) - 1;
-    if (c < 0) continue;
-    const int64_t decade = c / 9000, digits = 1000 + c - 9000 * decade;
-    const int exponent = field["lowestExponent"].get<int>() + static_cast<int>(decade);
-    const double value = std::strtod((std::to_string(digits) + "e" + std::to_string(exponent)).c_str(), nullptr);
-    values[i] = codes[i] < 0 ? -value : value;
-  }
-  for (size_t i = 0; i < count; ++i) {
-    if (field.contains("zero") && bitOf(streams.at(field["zero"]), i)) values[i] = 0;
-    if (field.contains("missing") && bitOf(streams.at(field["missing"]), i))
-      values[i] = std::numeric_limits<double>::quiet_NaN();
   }
   return values;
 }
 
-DecodedMesh decodeMesh(const Json& description, const std::vector<Stream>& streams) {
-  const auto streamOf = [&](const char* key) -> const Stream& { return streams.at(description["streams"][key]); };
-  const Walk walk(streamOf("symbols"), streamOf("references"), description["faceCount"]);
-  if (!walk.areReferencesUsed()) fail("references are left");
-  if (walk.gateCount() != description["gateCount"]) fail("gateCount");
-  if (walk.parallelograms.size() != description["vertexCount"]) fail("vertexCount");
-  DecodedMesh mesh{.description = description, .faces = walk.faces};
-  const size_t vertexCount = walk.parallelograms.size(), faceCount = walk.faces.size();
+DecodedMesh decodeMesh(const Json& description, const std::vector<Bytes>& arrays) {
+  DecodedMesh mesh{.description = description};
+  const Json& numbers = description["arrays"];
+  const size_t faceCount = description["faceCount"], vertexCount = description["vertexCount"];
+  std::vector<uint32_t> corners;
+  int64_t count = 0;
+  for (const int64_t corner : numbersOf(numbers["corners"], 3 * faceCount, arrays)) {
+    if (corner > 0 || corner < -count) fail("corners");
+    corners.push_back(static_cast<uint32_t>(count + corner));
+    if (corner == 0) ++count;
+  }
+  if (count != static_cast<int64_t>(vertexCount)) fail("vertexCount");
+  for (size_t i = 0; i < corners.size(); i += 3) mesh.faces.push_back({corners[i], corners[i + 1], corners[i + 2]});
   mesh.positions.resize(vertexCount);
   for (size_t axis = 0; axis < 3; ++axis) {
-    constexpr const char* kAxes[]{"x", "y", "z"};
-    const std::vector<int64_t> differences = differencesOf(streamOf(kAxes[axis]), vertexCount);
-    std::vector<int64_t> steps(vertexCount);
+    const std::vector<uint32_t> steps = sumsOf(numbers[std::string(1, "xyz"[axis])], vertexCount, arrays);
     for (size_t i = 0; i < vertexCount; ++i) {
-      const auto [s, e, o] = walk.parallelograms[i];
-      const int64_t predicted = s != e ? steps[s] + steps[e] - steps[o] : i == 0 ? 0 : steps[i - 1];
-      steps[i] = (predicted + differences[i]) & 0xffff;
+      if (steps[i] > 65535) fail("step");
       mesh.positions[i][axis] =
-          description["boxMin"][axis].get<double>() + static_cast<double>(steps[i]) * description["step"].get<double>();
+          description["boxMin"][axis].get<double>() + steps[i] * description["step"].get<double>();
     }
   }
-  const std::vector<int64_t> differences = differencesOf(streamOf("faces"), faceCount);
-  for (size_t i = 0; i < faceCount; ++i)
-    mesh.faceIds.push_back(static_cast<uint32_t>((i == 0 ? 0 : mesh.faceIds[walk.inFront[i][0]]) + differences[i]));
-  for (const Json& field : description["fields"]) mesh.fields[field["name"]] = decodeField(field, walk, streams);
+  mesh.faceIds = sumsOf(numbers["faces"], faceCount, arrays);
+  for (const Json& field : description["fields"])
+    mesh.fields[field["name"]] = valuesOf(field, sumsOf(field["array"], faceCount, arrays));
   if (description.contains("thin") && description["thin"].contains("surface"))
-    mesh.thinSurface.push_back(decodeMesh(description["thin"]["surface"], streams));
+    mesh.thinSurface.push_back(decodeMesh(description["thin"]["surface"], arrays));
   return mesh;
 }
 
@@ -317,11 +156,11 @@ DecodedPage decodePage(const std::string& html) {
   DecodedPage page{.html = html};
   page.json = Json::parse(elementText(html, "<script type=\"application/json\" id=\"asdf-vk-page\">"));
   for (size_t i = 0;; ++i) {
-    const std::string tag = "<script type=\"application/octet-stream\" id=\"stream-" + std::to_string(i) + "\">";
+    const std::string tag = "<script type=\"application/octet-stream\" id=\"array-" + std::to_string(i) + "\">";
     if (html.find(tag) == std::string::npos) break;
-    page.streams.push_back(inflated(fromBase64(elementText(html, tag))));
+    page.arrays.push_back(inflated(fromBase64(elementText(html, tag))));
   }
-  for (const Json& mesh : page.json["meshes"]) page.meshes.push_back(decodeMesh(mesh, page.streams));
+  for (const Json& mesh : page.json["meshes"]) page.meshes.push_back(decodeMesh(mesh, page.arrays));
   return page;
 }
 

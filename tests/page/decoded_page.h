@@ -9,7 +9,7 @@
 #include "mesh/mesh.h"
 #include "page/page.h"
 
-/// Reads pages as docs/page.md describes them, and shares no code with src/page.
+/// Reads pages as docs/page-format.md describes them, and shares no code with src/page.
 namespace asdfvk::test {
 
 struct DecodedMesh {
@@ -24,7 +24,7 @@ struct DecodedMesh {
 struct DecodedPage {
   std::string html;
   nlohmann::ordered_json json;
-  std::vector<std::vector<uint8_t>> streams;  ///< Inflated.
+  std::vector<std::vector<uint8_t>> arrays;  ///< Inflated.
   std::vector<DecodedMesh> meshes;
 };
 

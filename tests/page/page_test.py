@@ -1,5 +1,6 @@
 """The page in a browser: first frame, colours, picking, controls, keyboard, robustness."""
 
+import pathlib
 import re
 import time
 
@@ -48,6 +49,21 @@ def test_size_without_mesh(animal):
     without = re.sub(r'<script type="application/(json|octet-stream)".*?</script>|data:image/png;base64,[^"]*', "", text,
                      flags=re.S)
     assert len(without) < 60000
+
+
+def test_format(animal):
+    """The reader in docs/page-format.md returns the mesh and its values."""
+    text = (pathlib.Path(__file__).resolve().parents[2] / "docs" / "page-format.md").read_text()
+    read = {}
+    exec(re.search("```python\n(.*?)```", text, re.S)[1].replace('"mesh.html"', repr(str(animal.path))), read)
+    faces, vertices, files_faces = read["faces"], read["vertices"], read["face_in_file"]
+    assert sorted(files_faces) == list(range(len(animal.faces)))
+    found, expected = vertices[faces], animal.vertices[animal.faces[files_faces]]
+    turns = [abs(numpy.roll(found, turn, 1) - expected).max((1, 2)) for turn in range(3)]
+    assert numpy.min(turns, 0).max() <= 0.51 * read["mesh"]["step"]
+    assert read["sdf"] == pytest.approx(animal.fields["sdf"][files_faces], rel=2 ** -15, nan_ok=True)
+    assert (read["values"]["segment"] == animal.fields["segment"][files_faces]).all()
+    assert (read["values"]["seed"] == animal.fields["seed"][files_faces]).all()
 
 
 def test_colours_of_known_faces(open_page, animal):

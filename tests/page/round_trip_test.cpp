@@ -1,5 +1,4 @@
 #include <doctest/doctest.h>
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -124,20 +123,20 @@ Field numbers(std::vector<double> values) {
   return {.name = "number", .label = "a number", .values = std::move(values)};
 }
 
-/// As "{:.3e}": four digits, of the numbers of float32.
-std::string fourDigits(double value) {
-  return std::isnan(value) ? "none" : fmt::format("{:.3e}", std::abs(value) < 1e-45 ? 0.0 : value);
-}
-
 void checkNumbers(const Mesh& mesh, const std::vector<double>& values) {
   const test::DecodedMesh decoded = throughPage(mesh, {numbers(values)});
   const std::vector<double>& returned = decoded.fields.at("number");
   REQUIRE_EQ(returned.size(), values.size());
-  for (size_t i = 0; i < returned.size(); ++i)
-    REQUIRE_EQ(fourDigits(returned[i]), fourDigits(values[decoded.faceIds[i]]));
+  constexpr double kRelativeError = 1.0 / 32768, kLeast = 1.2e-38;  // The least float32 with all its digits.
+  for (size_t i = 0; i < returned.size(); ++i) {
+    const double value = values[decoded.faceIds[i]], error = std::abs(returned[i] - value);
+    REQUIRE_EQ(std::isnan(returned[i]), std::isnan(value));
+    if (!std::isnan(value)) REQUIRE_LE(error, kRelativeError * std::max(std::abs(value), kLeast));
+    if (value == 0) REQUIRE_EQ(returned[i], 0);
+  }
 }
 
-TEST_CASE("values return with four digits over a wide range, with zeros and without values") {
+TEST_CASE("values return with 15 significant bits over a wide range, with zeros and without values") {
   const Mesh mesh = shapes::torus(2, 0.7, 40, 23);
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> exponent(-12, 9);
@@ -150,11 +149,8 @@ TEST_CASE("values return with four digits over a wide range, with zeros and with
     if (i % 3 == 0) values[i] = -values[i];
   }
   checkNumbers(mesh, values);
-  for (size_t i = 0; i < values.size(); ++i)
-    values[i] = 9.99940003 + 1e-6 * static_cast<double>(i);  // Around a decade.
-  checkNumbers(mesh, values);
   values.assign(values.size(), 1e-44);
-  values[3] = 3e38;
+  values[3] = std::numeric_limits<float>::max();
   checkNumbers(mesh, values);
 }
 
@@ -162,9 +158,6 @@ TEST_CASE("no value at all, only zeros, infinity") {
   const Mesh mesh = shapes::cube();
   checkNumbers(mesh, std::vector<double>(12, kNoValue));
   checkNumbers(mesh, std::vector<double>(12, 0.0));
-  const test::DecodedMesh none = throughPage(mesh, {numbers(std::vector<double>(12, kNoValue))});
-  CHECK(none.description["fields"][0]["range"].is_null());
-  CHECK_EQ(none.description["fields"][0]["noValueCount"], 12);
   const test::DecodedMesh infinite =
       throughPage(mesh, {numbers(std::vector<double>(12, std::numeric_limits<double>::infinity()))});
   for (const double value : infinite.fields.at("number")) CHECK(std::isnan(value));
@@ -189,7 +182,6 @@ TEST_CASE("labels and flags return") {
     CHECK_EQ(decoded.fields.at("flag")[i], flags[decoded.faceIds[i]]);
   }
   CHECK_EQ(decoded.description["fields"][0]["kind"], "label");
-  CHECK_EQ(decoded.description["fields"][0]["noValueCount"], std::count(labels.begin(), labels.end(), 0xffffffff));
   CHECK_EQ(decoded.description["fields"][1]["kind"], "flag");
 }
 
@@ -213,7 +205,7 @@ TEST_CASE("the same mesh twice is stored once") {
   page.add(mesh, FieldList{second}, {.name = "b"});
   const test::DecodedPage decoded = test::decodePage(test::htmlOf(page));
   REQUIRE_EQ(decoded.meshes.size(), 2);
-  CHECK_EQ(decoded.meshes[0].description["streams"], decoded.meshes[1].description["streams"]);
+  CHECK_EQ(decoded.meshes[0].description["arrays"], decoded.meshes[1].description["arrays"]);
   CHECK(decoded.meshes[0].faceIds == decoded.meshes[1].faceIds);  // So that values can be compared face by face.
   CHECK_EQ(decoded.meshes[1].fields.at("number")[5], 2.0);
 }

@@ -13,7 +13,7 @@ import { Visits } from './visits.js';
 
 const kFragmentMilliseconds = 300;
 
-const streamBytes = (number) => bytesOfBase64(document.getElementById(`stream-${number}`).textContent);
+const arrayBytes = (number) => bytesOfBase64(document.getElementById(`array-${number}`).textContent);
 
 function finish(state, message) {
   document.documentElement.dataset.state = state;
@@ -42,8 +42,29 @@ function followFragment(viewer) {
   });
 }
 
+/** The result of read(), which takes data from the page. */
+async function reading(read) {
+  try {
+    return await read();
+  } catch (error) {
+    throw new Error(`its data are damaged (${error.message}); write the page again with asdf-vk.`);
+  }
+}
+
+async function modelsOf(page) {
+  const models = [];
+  for (const mesh of page.meshes) {
+    // Close to the mesh, where single precision resolves it.
+    const origin = mesh.boxMin.map((low, axis) => (low + mesh.boxMax[axis]) / 2);
+    const thinSurface = mesh.thin?.surface ? await decodeMesh(mesh.thin.surface, arrayBytes, origin) : null;
+    models.push(new MeshModel(mesh, origin, await decodeMesh(mesh, arrayBytes, origin), thinSurface));
+  }
+  for (const array of document.querySelectorAll('[id^=array-]')) array.remove();  // Not needed again, and large.
+  return models;
+}
+
 async function start() {
-  const page = JSON.parse(document.getElementById('asdf-vk-page').textContent);
+  const page = await reading(() => JSON.parse(document.getElementById('asdf-vk-page').textContent));
   document.getElementById('title').textContent = document.title;
   document.getElementById('generator').textContent = page.generator;
   showReport(page, null);
@@ -52,14 +73,7 @@ async function start() {
     finish('nogl', 'This browser offers no WebGL 2: here are the picture and the report without the view.');
     return;
   }
-  const models = [];
-  for (const mesh of page.meshes) {
-    // Close to the mesh, where single precision resolves it.
-    const origin = mesh.boxMin.map((low, axis) => (low + mesh.boxMax[axis]) / 2);
-    const thinSurface = mesh.thin?.surface ? await decodeMesh(mesh.thin.surface, streamBytes, origin) : null;
-    models.push(new MeshModel(mesh, origin, await decodeMesh(mesh, streamBytes, origin), thinSurface));
-  }
-  for (const stream of document.querySelectorAll('[id^=stream-]')) stream.remove();  // Not needed again, and large.
+  const models = await reading(() => modelsOf(page));
   finish('ready', '');
   const viewer = new Viewer(canvas, renderer, models, new Store({ ...kInitialState }));
   const visits = new Visits(viewer);
