@@ -66,6 +66,28 @@ def test_format(animal):
     assert (read["values"]["seed"] == animal.fields["seed"][files_faces]).all()
 
 
+@pytest.mark.parametrize("part,damage", [
+    ('id="array-0">', lambda text: text[:1000]),                        # Deflate ends early.
+    ('id="array-1">', lambda text: text[:600] + "!" + text[601:]),      # Not base64.
+    ('id="asdf-vk-page">', lambda text: text.replace(',"vertexCount":', '0,"vertexCount":')),
+    ('id="asdf-vk-page">', lambda text: text.replace('"vertexCount":', '"vertexCount":1', 1)),
+    ('id="asdf-vk-page">', lambda text: text.replace('"corners":', '"corners":9', 1)),
+    ('id="asdf-vk-page">', lambda text: text[:-9]),
+    ('id="script">', lambda text: text[:5000])])
+def test_damaged_data(browser, animal, tmp_path, part, damage):
+    text = animal.path.read_text()
+    begin = text.index(part) + len(part)
+    end = text.index("</script>", begin)
+    (tmp_path / "damaged.html").write_text(text[:begin] + damage(text[begin:end]) + text[end:])
+    page = browser.page()
+    page.open((tmp_path / "damaged.html").as_uri(), state="error")
+    message = page.text("message")
+    assert "damaged" in message and "write" in message and message.count("\n") == 0
+    assert page.messages() == []
+    assert page.js("document.querySelector('#fallback img').checkVisibility()")
+    page.socket.close()
+
+
 def test_colours_of_known_faces(open_page, animal):
     values = animal.fields["sdf"]
     low, high = numpy.percentile(values, 20), numpy.percentile(values, 80)

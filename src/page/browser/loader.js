@@ -7,5 +7,7 @@
   document.head.append(script);
 })().catch(() => {
   document.documentElement.dataset.state = 'error';
-  document.getElementById('message').textContent = 'This browser is too old for this page: it has no DecompressionStream.';
+  document.getElementById('message').textContent = 'DecompressionStream' in self
+    ? 'This page is damaged: write it again with asdf-vk.'
+    : 'This browser is too old for this page: it has no DecompressionStream.';
 });
