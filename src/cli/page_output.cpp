@@ -135,12 +135,7 @@ void addToPage(Page& page, const MeshOutcome& outcome, const RunControl& control
   texts.azimuthDegrees = view.azimuthDegrees;
   texts.elevationDegrees = view.elevationDegrees;
   texts.segments = segmentsOf(outcome.result, fields);
-  // A ray-traced picture of more faces takes longer than the rest of the page.
-  constexpr uint64_t kMaxRayTracedFaceCount = 100'000;
-  const PictureStyle style{.width = 480,
-                           .height = 360,
-                           .textScale = 1.4,
-                           .isDraft = outcome.result.report.triangleCount > kMaxRayTracedFaceCount};
+  const PictureStyle style{.width = 480, .height = 360, .textScale = 1.4};
   texts.picture = encodePng(texts.thin ? thinPictureOf(outcome.result, view, style, control)
                                        : pictureOf(outcome.result, fields.front(), view, style, control));
   page.add(outcome.result.scene->scene.mesh, fields, std::move(texts));

@@ -9,7 +9,6 @@
 
 #include "core/text.h"
 #include "io/formats.h"
-#include "render/draft_renderer.h"
 #include "render/picture.h"
 #include "trace/scene_data.h"
 
@@ -31,7 +30,6 @@ Picture pictureWith(const Result& result, std::string title, const View& view, c
   picture.width = style.width;
   picture.height = style.height;
   picture.textScale = style.textScale;
-  picture.isDraft = style.isDraft;
   return picture;
 }
 

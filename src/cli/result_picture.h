@@ -11,7 +11,6 @@ namespace asdfvk {
 struct PictureStyle {
   int width = 1200, height = 900;  ///< In pixels.
   double textScale = 1;            ///< See Picture::textScale.
-  bool isDraft = false;            ///< See Picture::isDraft.
 };
 
 /// The view of --picture-view and --picture-up. Without an upright axis: z where the file `input` is an STL, else

@@ -2,8 +2,8 @@
 #include <cmath>
 
 #include "render/drawing.h"
-#include "render/scene.h"
 #include "render/thin_places.h"
+#include "trace/nearest_hit.h"
 
 namespace asdfvk {
 namespace {
@@ -48,8 +48,8 @@ void drawRing(Image& image, const Pixel& centre, double radius, double width, co
 /// The pixel of the place, or of the opposite one where only that is visible.
 Pixel pixelOf(const TraceScene& scene, const Camera& camera, const Callout& callout) {
   const auto isVisible = [&](const Vec3d& point) {
-    const auto hit = firstOnLine(scene, point, -camera.toViewer);
-    return !hit || dot(hit->position - point, camera.toViewer) <= kHidden;
+    constexpr double kBeyond = 4;  // The length of the normalised box is 2 sqrt(3) at most.
+    return !isHitBetween(scene.bvh, scene.mesh, point, camera.toViewer, kHidden, kBeyond);
   };
   Vec3d point = scene.bvh.normalization.toNormalized(callout.place);
   const Vec3d other = scene.bvh.normalization.toNormalized(callout.opposite);

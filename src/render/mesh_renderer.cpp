@@ -1,110 +1,129 @@
 #include "render/mesh_renderer.h"
 
 #include <algorithm>
-#include <cmath>
-#include <cstdlib>
+#include <optional>
+#include <vector>
 
-#include "render/image.h"
-#include "render/light.h"
-#include "render/pixel_loop.h"
+#include "core/parallel.h"
+#include "render/corner_normals.h"
+#include "render/sample_rows.h"
+#include "render/sky_light.h"
 
 namespace asdfvk {
 namespace {
 
-/// A difference above this between the channels of neighbouring pixels is an edge.
-constexpr int kVisibleStep = 6;
-/// Additional samples of an edge pixel, on a rotated grid with one sample per row and column.
-constexpr int kLookCount = 16;
+constexpr int kSamples = 4;             ///< Per side of a pixel.
+constexpr int kBandRows = 256;          ///< Of samples. Every band reads all faces.
+constexpr size_t kBandsAtOnce = 4;      ///< Between two checkpoints.
+constexpr double kThroughShare = 0.45;  ///< Of the alarm colour where it is behind faces.
+static_assert(kBandRows % kSamples == 0);
 
 class MeshRenderer {
  public:
-  MeshRenderer(Image& image, const PictureScene& scene, const Camera& camera, std::span<const Rgb> faceColours)
-      : image_(image), scene_(scene), camera_(camera), rig_(camera), faceColours_(faceColours) {}
+  MeshRenderer(Image& image, const TraceScene& scene, const Camera& camera, std::span<const Rgb> faceColours,
+               Surface alarming, const RunControl& control)
+      : image_(image),
+        scene_(scene),
+        grid_{camera, kSamples},
+        faceColours_(faceColours),
+        normals_(cornerNormals(scene.mesh, scene.geometry)),
+        light_(scene, camera, std::max(image.width(), image.height()), control),
+        faces_(scene, grid_),
+        alarming_(projectSurface(scene, grid_, alarming)) {}
 
-  void run(const RunControl& control) {
-    seen_ = {image_.width(), image_.height(), camera_.pixelSize, {}};
-    seen_.points.resize(image_.pixels().size());
-    forEachPixel(seen_.width, seen_.height, control.part(0, 0.7), [&](int x, int y) { look(x, y); });
-    filterLight(seen_, control.part(0.7, 0.8));
-    const Image behind = image_;
-    forEachPixel(seen_.width, seen_.height, control.part(0.8, 0.81), [&](int x, int y) {
-      const SeenPoint& point = seen_.at(x, y);
-      if (point.face != kNoFace) image_.at(x, y) = toRgb(shade(point, point.light));
-    });
-    const Image rough = image_;
-    forEachPixel(seen_.width, seen_.height, control.part(0.81, 1), [&](int x, int y) {
-      if (hasStep(rough, x, y)) image_.at(x, y) = toRgb(closerLook(x, y, toLinear(behind.at(x, y))));
-    });
-    control.checkpoint(1);
+  void drawBand(size_t index) const {
+    const int top = static_cast<int>(index) * kBandRows, bottom = std::min(rowCount(), top + kBandRows);
+    const int width = kSamples * image_.width();
+    SampleRows mesh(width, top, bottom, kSamples);
+    faces_.drawOn(mesh);
+    std::optional<SampleRows> alarming;
+    if (!alarming_.empty()) drawSurface(alarming.emplace(width, top, bottom, kSamples), alarming_);
+    for (int y = top / kSamples; y < bottom / kSamples; ++y)
+      for (int x = 0; x < image_.width(); ++x) drawPixel(x, y, mesh, alarming);
   }
+  [[nodiscard]] int rowCount() const { return kSamples * image_.height(); }
 
  private:
-  [[nodiscard]] std::optional<SurfacePoint> trace(double x, double y) const {
-    return scene_.firstOnLine(camera_.pointAt(x, y), -camera_.toViewer);
-  }
-  [[nodiscard]] static SeenPoint toSeen(const SurfacePoint& point) {
-    return {point.face, Vec3f(point.position), Vec3f(point.normal), {}};
-  }
-  [[nodiscard]] Vec3d shade(const SeenPoint& point, const Light& light) const {
-    return rig_.shade(toLinear(faceColours_[point.face]), Vec3d(point.normal), light);
-  }
+  /// A point of a pixel for which the light was computed.
+  struct LitPoint {
+    Vec3d position, normal;
+    double light = 0;
+  };
 
-  void look(int x, int y) {
-    const auto point = trace(x + 0.5, y + 0.5);
-    if (!point) return;
-    constexpr int kSide = LightRig::kPatternSide;
-    // 7 is coprime to the number of patterns: neighbours get distant rays.
-    const auto pattern = static_cast<uint32_t>(7 * (x % kSide + kSide * (y % kSide))) % LightRig::kPatternCount;
-    SeenPoint seen = toSeen(*point);
-    seen.light = rig_.sample(scene_, *point, pattern);
-    seen_.at(x, y) = seen;
-  }
-
-  [[nodiscard]] bool hasStep(const Image& image, int x, int y) const {
-    const bool isBackground = seen_.at(x, y).face == kNoFace;
-    const Rgb& own = image.at(x, y);
-    for (int v = y - 1; v <= y + 1; ++v)
-      for (int u = x - 1; u <= x + 1; ++u) {
-        if (!image.holds(u, v)) continue;
-        if ((seen_.at(u, v).face == kNoFace) != isBackground) return true;
-        if (isBackground) continue;
-        const Rgb& other = image.at(u, v);
-        for (size_t channel = 0; channel < 3; ++channel)
-          if (std::abs(int{own[channel]} - int{other[channel]}) > kVisibleStep) return true;
-      }
-    return false;
-  }
-
-  /// The mean over the pixel, in linear light.
-  [[nodiscard]] Vec3d closerLook(int x, int y, const Vec3d& behind) const {
+  void drawPixel(int x, int y, const SampleRows& mesh, const std::optional<SampleRows>& alarming) const {
+    const Vec3d behind = toLinear(image_.at(x, y)), alarm = toLinear(kAlarm);
+    std::array<LitPoint, kSamples * kSamples> points;
+    size_t pointCount = 0;
+    bool isEmpty = true;
     Vec3d sum;
-    for (int i = 0; i < kLookCount; ++i) {
-      const double row = (i + 0.5) / kLookCount, column = ((i * 5) % kLookCount + 0.5) / kLookCount;
-      const auto point = trace(x + column, y + row);
-      if (!point) {
-        sum += behind;
-        continue;
+    for (int row = kSamples * y; row < kSamples * (y + 1); ++row)
+      for (int column = kSamples * x; column < kSamples * (x + 1); ++column) {
+        const uint32_t face = mesh.indexAt(column, row);
+        if (face == kNoSample) {
+          sum += behind;
+          continue;
+        }
+        isEmpty = false;
+        const bool isAlarming = alarming && alarming->indexAt(column, row) != kNoSample;
+        const bool isVisible = isAlarming && isAtSurface(mesh, *alarming, column, row);
+        const Vec3d colour = (isVisible ? alarm : toLinear(faceColours_[face])) *
+                             lightOf(pointAt(face, mesh.placeOf(column, row)), points, pointCount);
+        sum += isAlarming && !isVisible ? colour * (1 - kThroughShare) + alarm * kThroughShare : colour;
       }
-      const SeenPoint seen = toSeen(*point);
-      const NearbyLight nearby = lightNearby(seen_, x, y, 1, seen);
-      sum += shade(seen, nearby.weight > 0.05 ? nearby.light : rig_.gather(scene_, *point));
+    if (!isEmpty) image_.at(x, y) = toRgb(sum / double{kSamples * kSamples});
+  }
+
+  [[nodiscard]] LitPoint pointAt(uint32_t face, const SamplePlace& place) const {
+    const std::array<Projected, 3> corners = faces_.cornersOf(face);
+    const std::array<double, 3> shares = cornerShares(corners, place);
+    const Vec3d& toViewer = grid_.camera.toViewer;
+    const Vec3d& outward = scene_.geometry.normals[face];
+    Vec3d normal;
+    double depth = 0;
+    for (size_t k = 0; k < 3; ++k) {
+      normal += normals_[face][k] * shares[k];
+      depth += corners[k].depth * shares[k];
     }
-    return sum / double(kLookCount);
+    normal = unitVector(normal, outward) * (dot(outward, toViewer) < 0 ? -1.0 : 1.0);
+    return {grid_.camera.pointAt(place.x / kSamples, place.y / kSamples) + toViewer * depth, normal};
+  }
+
+  /// Samples that are near each other on one smooth surface have the light of the first of them.
+  [[nodiscard]] double lightOf(LitPoint point, std::array<LitPoint, kSamples * kSamples>& points,
+                               size_t& pointCount) const {
+    constexpr double kMinCosine = 0.995, kMaxDistance = 3;  // In pixels.
+    for (size_t i = 0; i < pointCount; ++i)
+      if (dot(points[i].normal, point.normal) > kMinCosine &&
+          length(points[i].position - point.position) < kMaxDistance * grid_.camera.pixelSize)
+        return points[i].light;
+    point.light = light_.at(point.position, point.normal);
+    points[pointCount++] = point;
+    return point.light;
   }
 
   Image& image_;
-  const PictureScene& scene_;
-  const Camera& camera_;
-  LightRig rig_;
+  const TraceScene& scene_;
+  SampleGrid grid_;
   std::span<const Rgb> faceColours_;
-  SeenPoints seen_;
+  std::vector<std::array<Vec3d, 3>> normals_;
+  SkyLight light_;
+  ProjectedFaces faces_;
+  ProjectedSurface alarming_;
 };
 
 }  // namespace
 
-void renderMesh(Image& image, const PictureScene& scene, const Camera& camera, std::span<const Rgb> faceColours,
-                const RunControl& control) {
-  MeshRenderer(image, scene, camera, faceColours).run(control);
+void renderMesh(Image& image, const TraceScene& scene, const Camera& camera, std::span<const Rgb> faceColours,
+                Surface alarming, const RunControl& control) {
+  if (!scene.bvh.nodes.empty()) {
+    const MeshRenderer renderer(image, scene, camera, faceColours, alarming, control.part(0, 0.5));
+    const auto bandCount = static_cast<size_t>((renderer.rowCount() + kBandRows - 1) / kBandRows);
+    for (size_t begin = 0; begin < bandCount; begin += kBandsAtOnce) {
+      control.checkpoint(0.5 + 0.5 * static_cast<double>(begin) / static_cast<double>(bandCount));
+      forEachTask(std::min(kBandsAtOnce, bandCount - begin), [&](size_t i) { renderer.drawBand(begin + i); });
+    }
+  }
+  control.checkpoint(1);
 }
 
 }  // namespace asdfvk

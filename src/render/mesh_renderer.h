@@ -5,13 +5,17 @@
 #include "asdf_vk/run_control.h"
 #include "render/camera.h"
 #include "render/image.h"
-#include "render/scene.h"
+#include "render/sample_rows.h"
 
 namespace asdfvk {
 
-/// Draws the mesh onto the image, shaded and antialiased: pixels that differ from a neighbour get more samples.
-/// faceColours: #F. The same bits for any number of threads.
-void renderMesh(Image& image, const PictureScene& scene, const Camera& camera, std::span<const Rgb> faceColours,
-                const RunControl& control);
+inline constexpr Rgb kAlarm{206, 38, 30};
+
+/// Draws the mesh onto the image with a depth buffer of 4 x 4 samples per pixel: smooth normals, and soft shadows of
+/// SkyLight. faceColours: #F. alarming: triangles on the surface or within the body, in the unit of the mesh: kAlarm
+/// where they are visible, and through the faces before them. The same bits for any number of threads. Throws
+/// Error{Cancelled}.
+void renderMesh(Image& image, const TraceScene& scene, const Camera& camera, std::span<const Rgb> faceColours,
+                Surface alarming, const RunControl& control);
 
 }  // namespace asdfvk

@@ -7,11 +7,9 @@
 
 #include "render/camera.h"
 #include "render/colour_bar.h"
-#include "render/draft_renderer.h"
 #include "render/drawing.h"
 #include "render/label_colours.h"
 #include "render/mesh_renderer.h"
-#include "render/scene.h"
 
 namespace asdfvk {
 namespace {
@@ -56,17 +54,10 @@ void drawMesh(Image& image, const Picture& picture, PixelArea area, const Colour
       {{area.left, area.top, width, area.height}, {area.left + area.width - width, area.top, width, area.height}}};
   area.left += width;
   area.width -= 2 * width;
-  Camera camera;
-  if (picture.isDraft) {
-    camera = frameCamera(verticesOfHitFaces(picture.scene), picture.view, area);
-    renderDraft(image, picture.scene, camera, faceColoursOf(picture, range));
-  } else {
-    const PictureScene scene(picture.scene);
-    camera = frameCamera(scene.points(), picture.view, area);
-    renderMesh(image, scene, camera, faceColoursOf(picture, range), control);
-  }
+  const Camera camera = frameCamera(verticesOfHitFaces(picture.scene), picture.view, area);
+  renderMesh(image, picture.scene, camera, faceColoursOf(picture, range),
+             picture.thinPlaces ? picture.thinPlaces->surface : Surface{}, control);
   if (!picture.thinPlaces) return;
-  paintThinPlaces(image, picture.scene, camera, picture.thinPlaces->surface);
   drawCallouts(image, picture.scene, camera, picture.thinPlaces->callouts, columns, capHeight);
 }
 

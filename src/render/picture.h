@@ -28,13 +28,12 @@ struct Picture {
   std::optional<ColourRange> range;      ///< Of the bar; unset: percentileRange() of the values.
   int width = 1200, height = 900;        ///< In pixels, kMinPictureSide to kMaxPictureSide.
   View view;
-  bool isDraft = false;  ///< Flat faces without shadows: a small share of the time for a mesh of many faces.
   double textScale = 1;  ///< Of title and labels; above 1 for pictures that are printed small.
 };
 
-/// Renders with rays on the CPU: parallel projection, white background, soft light. The same bits for any number of
-/// threads. A mesh that rays cannot hit (no face, none with an area) leaves the background. Precondition: every index
-/// of a face is below the vertex count. Throws Error{Cancelled}.
+/// Renders on the CPU with depth buffers: parallel projection, white background, soft light. The same bits for any
+/// number of threads. A mesh that rays cannot hit (no face, none with an area) leaves the background. Precondition:
+/// every index of a face is below the vertex count. Throws Error{Cancelled}.
 [[nodiscard]] Image render(const Picture& picture, const RunControl& control = {});
 
 }  // namespace asdfvk

@@ -1,9 +1,13 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "render/camera.h"
+#include "trace/trace_scene.h"
 
 namespace asdfvk {
 
@@ -14,7 +18,7 @@ struct Projected {
 
 /// A grid of samples, `perSide` by `perSide` in each pixel of the camera.
 struct SampleGrid {
-  const Camera& camera;
+  Camera camera;
   int perSide = 1;
 
   [[nodiscard]] Projected project(const Vec3d& point) const {
@@ -24,28 +28,92 @@ struct SampleGrid {
   }
 };
 
+/// Where a sample is, in units of samples.
+struct SamplePlace {
+  double x = 0, y = 0;
+};
+
+/// Shares of the corners in the point of a projected triangle at `place`. They add up to 1, and are negative outside.
+/// Precondition: the triangle has an area.
+[[nodiscard]] inline std::array<double, 3> cornerShares(const std::array<Projected, 3>& corners,
+                                                        const SamplePlace& place) {
+  const auto& [a, b, c] = corners;
+  const auto& [x, y] = place;
+  const double scale = 1 / ((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x));
+  const double ofA = ((b.x - x) * (c.y - y) - (b.y - y) * (c.x - x)) * scale;
+  const double ofB = ((c.x - x) * (a.y - y) - (c.y - y) * (a.x - x)) * scale;
+  return {ofA, ofB, 1 - ofA - ofB};
+}
+
 inline constexpr uint32_t kNoSample = 0xffffffff;
 
-/// The rows of samples from `top`, below `bottom`: at each the nearest of the triangles drawn, and its depth.
+/// The rows of samples from `top`, below `bottom`: at each the nearest of the triangles drawn, and its depth. Samples
+/// are at the centres of their squares or, with several per side of a pixel, on a rotated grid within each pixel, so
+/// that all of them differ in x and in y, for the edges that are nearly upright or level.
 class SampleRows {
  public:
-  SampleRows(int width, int top, int bottom);
+  SampleRows(int width, int top, int bottom, int perSide = 1);
 
-  void draw(uint32_t index, const Projected& a, const Projected& b, const Projected& c);
+  [[nodiscard]] SamplePlace placeOf(int column, int row) const {
+    const double middle = (perSide_ - 1) / 2.0;
+    return {column + 0.5 + (row % perSide_ - middle) / perSide_, row + 0.5 - (column % perSide_ - middle) / perSide_};
+  }
+
+  void draw(uint32_t index, const std::array<Projected, 3>& corners);
 
   /// The index of the triangle, or kNoSample.
-  [[nodiscard]] uint32_t indexAt(int column, int row) const { return indices_[placeOf(column, row)]; }
+  [[nodiscard]] uint32_t indexAt(int column, int row) const { return indices_[indexOf(column, row)]; }
   /// Minus infinity without a triangle.
-  [[nodiscard]] float depthAt(int column, int row) const { return depths_[placeOf(column, row)]; }
+  [[nodiscard]] float depthAt(int column, int row) const { return depths_[indexOf(column, row)]; }
+  /// Of all samples, row by row.
+  [[nodiscard]] std::vector<float> takeDepths() && { return std::move(depths_); }
 
  private:
-  [[nodiscard]] size_t placeOf(int column, int row) const {
+  [[nodiscard]] size_t indexOf(int column, int row) const {
     return static_cast<size_t>(row - top_) * static_cast<size_t>(width_) + static_cast<size_t>(column);
   }
 
-  int width_, top_, bottom_;
+  int width_, top_, bottom_, perSide_;
   std::vector<float> depths_;
   std::vector<uint32_t> indices_;
+};
+
+/// Parts of a triangle are at its depth, up to rounding: whether the sample of `surface` is at the depth of `mesh` or
+/// nearer to the viewer. Where there is no sample of `surface`, it is not.
+[[nodiscard]] inline bool isAtSurface(const SampleRows& mesh, const SampleRows& surface, int column, int row) {
+  constexpr float kSlack = 1e-5F;  // In normalised units.
+  return surface.indexAt(column, row) != kNoSample &&
+         surface.depthAt(column, row) >= mesh.depthAt(column, row) - kSlack;
+}
+
+/// Triangles in the unit of the mesh.
+using Surface = std::span<const std::array<Vec3d, 3>>;
+using ProjectedSurface = std::vector<std::array<Projected, 3>>;
+[[nodiscard]] ProjectedSurface projectSurface(const TraceScene& scene, const SampleGrid& grid, Surface surface);
+/// With the indices of its triangles.
+void drawSurface(SampleRows& rows, const ProjectedSurface& surface);
+
+/// The vertices of the faces that rays can hit, once each, in normalised coordinates.
+[[nodiscard]] std::vector<Vec3d> verticesOfHitFaces(const TraceScene& scene);
+
+/// The faces of a scene that rays can hit, on a grid of samples.
+class ProjectedFaces {
+ public:
+  /// The scene must outlive this object.
+  ProjectedFaces(const TraceScene& scene, const SampleGrid& grid);
+
+  [[nodiscard]] std::array<Projected, 3> cornersOf(uint32_t face) const {
+    const auto& [a, b, c] = scene_.mesh.faces[face];
+    return {vertices_[a], vertices_[b], vertices_[c]};
+  }
+  /// With the indices of the faces.
+  void drawOn(SampleRows& rows) const {
+    for (const uint32_t face : scene_.bvh.primitiveFaces) rows.draw(face, cornersOf(face));
+  }
+
+ private:
+  const TraceScene& scene_;
+  std::vector<Projected> vertices_;
 };
 
 }  // namespace asdfvk

@@ -8,11 +8,9 @@
 
 #include "render/camera.h"
 #include "render/image.h"
-#include "trace/trace_scene.h"
+#include "render/sample_rows.h"
 
 namespace asdfvk {
-
-inline constexpr Rgb kAlarm{206, 38, 30};
 
 /// A place that a ring and a text mark, in the unit of the mesh.
 struct Callout {
@@ -22,22 +20,17 @@ struct Callout {
 
 /// The thin places of a mesh, for a picture of a grey body. Views only.
 struct ThinPlaces {
-  std::span<const std::array<Vec3d, 3>> surface;  ///< Triangles in the unit of the mesh.
+  Surface surface;
   std::vector<Callout> callouts;
   std::string verdict;  ///< A word at the right end of the legend.
   bool isFailure = false;
 };
 
-/// Colours the pixels of the surface on the finished image of the mesh: kAlarm in the light of the image where the
-/// surface is visible, weaker where faces of the mesh are before it.
-void paintThinPlaces(Image& image, const TraceScene& scene, const Camera& camera,
-                     std::span<const std::array<Vec3d, 3>> surface);
-
 /// `view` with the azimuth and the elevation, of twelve, from which the most regions are seen best: the greatest sum of
 /// the square roots of their visible areas. regions: per triangle of the surface. Unchanged where nothing is visible
 /// from any.
-[[nodiscard]] View bestViewOf(const TraceScene& scene, std::span<const std::array<Vec3d, 3>> surface,
-                              std::span<const uint32_t> regions, const View& view);
+[[nodiscard]] View bestViewOf(const TraceScene& scene, Surface surface, std::span<const uint32_t> regions,
+                              const View& view);
 
 /// Width of the columns for the texts of the callouts at either side of a picture, 0 without callouts.
 [[nodiscard]] double calloutWidth(std::span<const Callout> callouts, double capHeight);

@@ -294,26 +294,5 @@ TEST_CASE("a stop request ends the rendering, progress goes from 0 to 1") {
   CHECK_THROWS_AS((void)render(picture, control), Error);
 }
 
-TEST_CASE("a draft covers the same pixels in about the same colours") {
-  const Mesh mesh = generateShape("animal", 5000).mesh;
-  const DrawnMesh drawn(mesh);
-  std::vector<double> values(mesh.faceCount());
-  for (size_t face = 0; face < values.size(); ++face) values[face] = drawn.geometry.barycentres[face].x;
-  Picture picture{.scene = drawn.scene, .values = values, .width = kWidth, .height = kHeight};
-  const Image careful = render(picture);
-  picture.isDraft = true;
-  const Image draft = render(picture);
-  int differentCount = 0, farCount = 0;
-  for (int y = 0; y < kHeight; ++y)
-    for (int x = 0; x < kWidth; ++x) {
-      differentCount += (draft.at(x, y) == kWhite) != (careful.at(x, y) == kWhite);
-      farCount += std::abs(brightness(draft.at(x, y)) - brightness(careful.at(x, y))) > 150;
-    }
-  CHECK_LT(differentCount, kWidth * kHeight / 200);
-  CHECK_LT(farCount, kWidth * kHeight / 50);
-  const tbb::global_control oneThread(tbb::global_control::max_allowed_parallelism, 1);
-  CHECK(render(picture) == draft);
-}
-
 }  // namespace
 }  // namespace asdfvk

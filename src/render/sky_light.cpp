@@ -1,0 +1,104 @@
+#include "render/sky_light.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "cone/cone.h"
+#include "core/parallel.h"
+#include "render/image.h"
+#include "trace/nearest_hit.h"
+
+namespace asdfvk {
+namespace {
+
+constexpr double kLampRadius = 0.22;  ///< Of its disk, at distance 1.
+constexpr double kSky = 0.58, kLamp = 0.55, kFill = 0.08;
+constexpr double kGroundShare = 0.66;  ///< Radiance of the lowest direction, divided by that of the highest.
+constexpr double kSkyReach = 0.9;      ///< Farther surfaces cast no shadow of the sky; normalised unit.
+/// Directions of light: fewer of them for very many faces, which take their time in every depth map.
+constexpr int kMinSkyCount = 16, kMaxSkyCount = 96, kSkyPerLamp = 4;
+constexpr size_t kFacesPerTexel = 48'000;  ///< Of the side of a map: faces that all maps of the sky draw.
+constexpr int kMaxMapSide = 512;           ///< Texels of a depth map.
+/// Distance in texels by which points are lifted from their surface: above the greatest distance of a point from the
+/// texels that it is compared with, sqrt(2), so that no plane shades itself.
+constexpr double kLift = 1.6;
+
+const double kGoldenAngle = std::numbers::pi * (3 - std::sqrt(5.0));
+
+/// Point i of `count` on a Vogel spiral: evenly distributed if squaredRadius is uniform over a disk.
+Vec3d spiralPoint(int i, double radius, double height) {
+  return {radius * std::cos(i * kGoldenAngle), radius * std::sin(i * kGoldenAngle), height};
+}
+
+}  // namespace
+
+SkyLight::SkyLight(const TraceScene& scene, const Camera& camera, int pictureSide, const RunControl& control)
+    : toViewer_(camera.toViewer), mapSide_(std::clamp(pictureSide / 2, 32, kMaxMapSide)) {
+  const BvhNode& root = scene.bvh.nodes[0];
+  const Box3d box{Vec3d(root.min), Vec3d(root.max)};
+  texelSize_ = box.diagonal() / (mapSide_ - 6);
+  const auto addSource = [&](const Vec3d& direction, double radiance, double reach) {
+    const ConeFrame frame = coneFrame(direction);
+    const Camera view{.right = frame.tangent,
+                      .up = frame.bitangent,
+                      .toViewer = direction,
+                      .centre = box.centre(),
+                      .centreX = mapSide_ / 2.0,
+                      .centreY = mapSide_ / 2.0,
+                      .pixelSize = texelSize_};
+    sources_.push_back({{view, 1}, radiance, reach, {}});
+  };
+  const size_t affordable = kFacesPerTexel * static_cast<size_t>(mapSide_) / scene.bvh.primitiveFaces.size();
+  const int skyCount = static_cast<int>(std::clamp<size_t>(affordable, kMinSkyCount, kMaxSkyCount));
+  const int lampCount = skyCount / kSkyPerLamp;
+  for (int i = 0; i < skyCount; ++i) {
+    const double height = 1 - 2 * (i + 0.5) / skyCount;
+    const Vec3d d = spiralPoint(i, std::sqrt(1 - height * height), height);
+    // A white surface in a sky of radiance 1 has the light 1: the mean of its cosine over the sphere is a quarter.
+    addSource(camera.right * d.x + camera.toViewer * d.y + camera.up * d.z,
+              kSky * 4 / skyCount * (kGroundShare + (1 - kGroundShare) * (0.5 + 0.5 * height)), kSkyReach);
+  }
+  const ConeFrame lamp =
+      coneFrame(unitVector(camera.toViewer * 0.75 + camera.up * 0.75 - camera.right * 0.55, camera.toViewer));
+  for (int i = 0; i < lampCount; ++i) {
+    const Vec3d d = lamp.toWorld(spiralPoint(i, kLampRadius * std::sqrt((i + 0.5) / lampCount), 1));
+    addSource(d / length(d), kLamp / lampCount, kNoHit);
+  }
+
+  constexpr size_t kMapsAtOnce = 8;  // Between two checkpoints.
+  for (size_t begin = 0; begin < sources_.size(); begin += kMapsAtOnce) {
+    control.checkpoint(static_cast<double>(begin) / static_cast<double>(sources_.size()));
+    forEachTask(std::min(kMapsAtOnce, sources_.size() - begin), [&](size_t i) {
+      Source& source = sources_[begin + i];
+      SampleRows map(mapSide_, 0, mapSide_);
+      ProjectedFaces(scene, source.grid).drawOn(map);
+      source.depths = std::move(map).takeDepths();
+    });
+  }
+}
+
+double SkyLight::litShare(const Source& source, const Vec3d& point) const {
+  const Projected p = source.grid.project(point);
+  const double left = std::floor(p.x - 0.5), top = std::floor(p.y - 0.5);
+  const auto column = static_cast<size_t>(left), row = static_cast<size_t>(top);
+  const auto shareAt = [&](size_t x, size_t y) {
+    const double before = double(source.depths[y * static_cast<size_t>(mapSide_) + x]) - p.depth;
+    return before <= 0 ? 1.0 : std::min(1.0, before / source.reach);
+  };
+  const double x = p.x - 0.5 - left, y = p.y - 0.5 - top;
+  return (1 - y) * ((1 - x) * shareAt(column, row) + x * shareAt(column + 1, row)) +
+         y * ((1 - x) * shareAt(column, row + 1) + x * shareAt(column + 1, row + 1));
+}
+
+double SkyLight::at(const Vec3d& point, const Vec3d& normal) const {
+  const Vec3d lifted = point + normal * (kLift * texelSize_);
+  double light = kFill * std::max(0.0, dot(normal, toViewer_));
+  for (const Source& source : sources_) {
+    const double cosine = dot(normal, source.grid.camera.toViewer);
+    if (cosine > 0) light += source.radiance * cosine * litShare(source, lifted);
+  }
+  return light;
+}
+
+}  // namespace asdfvk
