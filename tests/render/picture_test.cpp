@@ -119,6 +119,18 @@ TEST_CASE("a body in the key light's way casts a shadow") {
   CHECK_GT(darkest, floor * 30 / 100);
 }
 
+TEST_CASE("a plane does not shade itself, at any angle to the light") {
+  Mesh mesh;
+  mesh.vertices = {{-1, 0, 1}, {1, 0, 1}, {1, 0, -1}, {-1, 0, -1}};
+  mesh.faces = {{0, 1, 2}, {0, 2, 3}};
+  for (const double elevation : {8.0, 35.0, 90.0}) {
+    CAPTURE(elevation);
+    const Image image = renderSmall(mesh, {}, {}, "", {Up::Y, 20, elevation});
+    for (int x = kWidth * 2 / 5; x < kWidth * 3 / 5; ++x)
+      CHECK_EQ(brightness(image.at(x, kHeight / 2)), brightness(image.at(kWidth / 2, kHeight / 2)));
+  }
+}
+
 TEST_CASE("a round body of flat faces is shaded evenly") {
   // Coarse: without interpolated normals neighbours would differ by ten times as much.
   const Mesh mesh = generateShape("sphere", 320).mesh;
