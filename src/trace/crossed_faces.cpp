@@ -13,6 +13,19 @@ namespace asdfvk {
 namespace {
 
 constexpr size_t kFirstChunkSize = 16384, kGrain = 256;
+// Neighbours for which the hierarchy is walked once.
+constexpr size_t kWalkFaceCount = 16;
+
+struct BoxedFace {
+  uint32_t face = 0;
+  Box3f box;
+};
+
+bool overlap(const Box3f& a, const Box3f& b) {
+  // Branch-free: the axis that tells two boxes apart is unpredictable.
+  return ((a.min.x <= b.max.x) & (a.min.y <= b.max.y) & (a.min.z <= b.max.z) & (b.min.x <= a.max.x) &
+          (b.min.y <= a.max.y) & (b.min.z <= a.max.z)) != 0;
+}
 
 bool shareEdge(const PlaneTriangle& a, const PlaneTriangle& b) {
   return std::count_if(a.corners.begin(), a.corners.end(), [&](const Vec3d& corner) {
@@ -48,24 +61,36 @@ std::vector<uint8_t> findCrossedFaces(const TraceScene& scene, std::span<const u
   const auto mark = [&](uint32_t face, uint8_t bit) {
     std::atomic_ref(crossed[face]).fetch_or(bit, std::memory_order_relaxed);
   };
+  const auto markIfCrossed = [&](uint32_t face, uint32_t other) {
+    const PlaneTriangle triangle = triangleOf(scene, face), second = triangleOf(scene, other);
+    if (shareEdge(triangle, second)) return;
+    if (!crosses(triangle, second, minDepth) && !crosses(second, triangle, minDepth)) return;
+    const uint8_t bit = solidOf[face] == solidOf[other] ? kCrossedBySame : kCrossedByOther;
+    mark(face, bit);
+    mark(other, bit);
+  };
+  const auto boxed = [&](uint32_t face) {
+    BoxedFace result{.face = face};
+    for (const Vec3d& corner : triangleOf(scene, face).corners) result.box.add(Vec3f(corner));
+    return result;
+  };
   forEachChunk(faces.size(), ChunkSize(kFirstChunkSize, faces.size()), control, [&](size_t begin, size_t end) {
     forEachRange(end - begin, kGrain, [&](size_t first, size_t last) {
-      for (size_t i = begin + first; i < begin + last; ++i) {
-        const uint32_t face = faces[i];
-        const PlaneTriangle triangle = triangleOf(scene, face);
+      std::vector<BoxedFace> block, near;
+      for (size_t i = begin + first; i < begin + last; i += kWalkFaceCount) {
+        block.clear();
+        near.clear();
         Box3f box;
-        for (const Vec3d& corner : triangle.corners) box.add(Vec3f(corner));
+        for (const uint32_t face : faces.subspan(i, std::min(kWalkFaceCount, begin + last - i)))
+          box.add(block.emplace_back(boxed(face)).box);
         const auto reaches = [&](const BvhNode& node) { return overlaps(node, box); };
-        forEachLeafFace(scene.bvh, reaches, [&](uint32_t other) {
-          if (other <= face) return true;
-          const PlaneTriangle second = triangleOf(scene, other);
-          if (shareEdge(triangle, second)) return true;
-          if (!crosses(triangle, second, minDepth) && !crosses(second, triangle, minDepth)) return true;
-          const uint8_t bit = solidOf[face] == solidOf[other] ? kCrossedBySame : kCrossedByOther;
-          mark(face, bit);
-          mark(other, bit);
+        forEachLeafFace(scene.bvh, reaches, [&](uint32_t face) {
+          near.push_back(boxed(face));
           return true;
         });
+        for (const BoxedFace& one : block)
+          for (const BoxedFace& other : near)
+            if (other.face > one.face && overlap(one.box, other.box)) markIfCrossed(one.face, other.face);
       }
     });
   });
