@@ -302,11 +302,12 @@ class BallPacket {
     const std::span<Candidate> found(candidates_[lane].data(), std::exchange(counts_[lane], 0));
     BallQuery& query = queries_[lane];
     const auto measureBy = [&](float Candidate::*bound, double limit, InscribedBall& best, const auto& ballAt) {
-      std::sort(found.begin(), found.end(),
-                [&](const Candidate& a, const Candidate& b) { return a.*bound < b.*bound; });
-      for (const Candidate& candidate : found) {
-        if (candidate.*bound > std::min(limit, best.ball.diameter)) break;
-        const uint32_t face = candidate.face;
+      for (std::span<Candidate> rest = found; !rest.empty(); rest = rest.subspan(1)) {
+        const auto nearest = std::min_element(
+            rest.begin(), rest.end(), [&](const Candidate& a, const Candidate& b) { return a.*bound < b.*bound; });
+        if ((*nearest).*bound > std::min(limit, best.ball.diameter)) break;
+        std::swap(rest.front(), *nearest);
+        const uint32_t face = rest.front().face;
         if (!tree_.opposing().contain(query.triangle.normal, tree_.scene().geometry.normals[face])) continue;
         const TouchingBall ball = ballAt(triangleOf(tree_.scene(), face), std::min(limit, best.ball.diameter));
         if (std::isinf(ball.diameter) || ball.diameter > best.ball.diameter) continue;
