@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <limits>
 #include <span>
+#include <type_traits>
 #include <utility>
 
 #include "core/box3.h"
@@ -34,13 +36,33 @@ ASDFVK_ALWAYS_INLINE inline Floats dotLanes(const Vec3f& a, const Vec3Lanes<Floa
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
+/// The bitwise or of all lanes; that of the odd ones is in the upper half.
+template <typename Ints>
+ASDFVK_ALWAYS_INLINE inline uint64_t orLanes(const Ints& lanes) {
+  if constexpr (sizeof(Ints) > 16) {
+    using Half = std::conditional_t<sizeof(Ints) == 64, IntsOf<Float8>, IntsOf<Float4>>;
+    std::array<Half, 2> halves;
+    std::memcpy(halves.data(), &lanes, sizeof lanes);
+    return orLanes<Half>(halves[0] | halves[1]);
+  } else {
+    std::array<uint64_t, 2> words;
+    std::memcpy(words.data(), &lanes, sizeof lanes);
+    return words[0] | words[1];
+  }
+}
+
 template <typename Mask>
 ASDFVK_ALWAYS_INLINE inline bool anyLane(const Mask& mask) {
-  std::array<uint64_t, sizeof(Mask) / 8> words;
-  std::memcpy(words.data(), &mask, sizeof mask);
-  uint64_t any = 0;
-  for (const uint64_t word : words) any |= word;
-  return any != 0;
+  return orLanes(mask) != 0;
+}
+
+/// A bit for each lane.
+template <typename Mask>
+ASDFVK_ALWAYS_INLINE inline uint32_t bitsOf(const Mask& mask) {
+  Mask bits;
+  for (size_t lane = 0; lane < kLaneCount<Mask>; ++lane) bits[lane] = 1 << lane;
+  const uint64_t both = orLanes<Mask>(mask & bits);
+  return static_cast<uint32_t>(both | both >> 32);
 }
 
 /// Squared distance between a box and the boxes [low, high] of the lanes.
@@ -240,8 +262,10 @@ class BallPacket {
     const Floats leastAtFace = asdfvk::max(least, leastBound(middle, pointBound));
     const Floats leastAtPoint = asdfvk::max(atPoint, pointBound);
     isNear &= lessEqual(leastAtFace, leastLimit_) | lessEqual(leastAtPoint, atPointLimit_);
-    for (size_t lane = 0; lane < queries_.size(); ++lane)
-      if (isNear[lane] != 0) collect(lane, {wall.face, leastAtFace[lane], leastAtPoint[lane]});
+    for (uint32_t lanes = bitsOf(isNear); lanes != 0; lanes &= lanes - 1) {
+      const auto lane = static_cast<size_t>(std::countr_zero(lanes));
+      collect(lane, {wall.face, leastAtFace[lane], leastAtPoint[lane]});
+    }
   }
 
   [[nodiscard]] ASDFVK_ALWAYS_INLINE static Floats dot(const Lanes& a, const Lanes& b) {
