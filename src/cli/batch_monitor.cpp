@@ -21,7 +21,7 @@ BatchMonitor::BatchMonitor(const CommandLine& line, const std::vector<MeshTask>&
   progress_.meshCount = tasks.size();
   for (const MeshTask& task : tasks) progress_.byteCount += task.byteCount;
   nextProgressSeconds_ = firstProgressSeconds();
-  if (!line.batch.isBatch() || line.quiet) return;
+  if (!line.batch.isBatch() || line.outputs.quiet) return;
   ticker_ = std::jthread([this](const std::stop_token& stop) {
     std::unique_lock lock(mutex_);
     const auto interval = std::chrono::duration<double>(kTerminalSeconds);
@@ -41,13 +41,13 @@ void BatchMonitor::announce(const std::string& backend, const std::string& devic
   const std::scoped_lock lock(mutex_);
   if (!announcedBackends_.empty()) return;
   announcedBackends_.insert(backend);
-  if (line_.quiet) return;
+  if (line_.outputs.quiet) return;
   wipeProgress();
   writeStandardError(deviceLines);
 }
 
 void BatchMonitor::note(const std::string& lines) {
-  if (line_.quiet) return;
+  if (line_.outputs.quiet) return;
   const std::scoped_lock lock(mutex_);
   wipeProgress();
   writeStandardError(lines);
@@ -56,7 +56,8 @@ void BatchMonitor::note(const std::string& lines) {
 /// The backend of --backend auto changes where its device fails. Outside of a batch the report has a warning.
 void BatchMonitor::noteOtherBackend(MeshRun& run, const std::string& input) {
   const MeshRecord& record = run.record;
-  if (!line_.batch.isBatch() || line_.quiet || record.backend.empty() || record.status == MeshStatus::Skipped) return;
+  if (!line_.batch.isBatch() || line_.outputs.quiet || record.backend.empty() || record.status == MeshStatus::Skipped)
+    return;
   if (announcedBackends_.insert(record.backend).second)
     run.text += warningLine(input, fmt::format("computed with --backend {}, {}", record.backend, record.device));
 }
@@ -68,7 +69,7 @@ void BatchMonitor::add(size_t task, MeshRun run) {
   progress_.count(run.record, tasks_[task].byteCount);
   if (run.record.status == MeshStatus::Dropped) dropped_.push_back(tasks_[task].input);
   if (log_) log_->append(run.record);
-  waiting_[task] = {line_.json ? std::move(run.json) : std::string(), std::move(run.text)};
+  waiting_[task] = {line_.outputs.json ? std::move(run.json) : std::string(), std::move(run.text)};
   printInOrder();
   showProgress();
 }
@@ -79,7 +80,7 @@ ExitCode BatchMonitor::finish() {
   wipeProgress();
   for (std::optional<Texts>& texts : waiting_)
     if (texts) print(*std::exchange(texts, std::nullopt));
-  if (line_.batch.isBatch() && !line_.quiet) {
+  if (line_.batch.isBatch() && !line_.outputs.quiet) {
     if (!dropped_.empty())
       writeStandardError(oneLine(fmt::format("asdf-vk: dropped: {}", joined(dropped_, ", "))) + "\n");
     writeStandardError(fmt::format("asdf-vk: {}\n", summaryText(progress_, watch_.seconds())));
@@ -105,7 +106,7 @@ void BatchMonitor::printInOrder() {
 }
 
 void BatchMonitor::showProgress() {
-  if (!line_.batch.isBatch() || line_.quiet || progress_.finishedCount() == progress_.meshCount) return;
+  if (!line_.batch.isBatch() || line_.outputs.quiet || progress_.finishedCount() == progress_.meshCount) return;
   const double seconds = watch_.seconds();
   if (seconds < nextProgressSeconds_) return;
   const std::string text = progressText(progress_, seconds);

@@ -85,7 +85,6 @@ void addBatch(ArgumentParser& parser, CommandLine& line) {
 void completeBatch(const ArgumentParser& parser, CommandLine& line) {
   BatchOptions& batch = line.batch;
   if (batch.memoryBytes > 0) batch.isolates = true;
-  for (CommandLine& compared : line.compared) compared.batch = batch;
   const bool readsInput = std::count(line.meshes.begin(), line.meshes.end(), "-") > 0;
   if (batch.isNullSeparated && batch.list.empty()) refuseOptions("-0 needs --files-from");
   if (parser.isGiven("--files-from") && batch.list.empty()) refuseOptions("--files-from: the name is empty");
@@ -97,15 +96,16 @@ void completeBatch(const ArgumentParser& parser, CommandLine& line) {
         "--isolate and --memory-limit compute in other processes, which cannot read the mesh -; give it a file");
   if (batch.skipsExisting && readsInput) refuseOptions("--skip-existing does not apply to the mesh -; give it a file");
   if (!batch.isBatch()) {
-    if (batch.jobCount > 1 && writesOnePage(line)) refuseOptions("one page takes one mesh after another; drop --jobs");
+    if (batch.jobCount > 1 && writesOnePage(line.outputs))
+      refuseOptions("one page takes one mesh after another; drop --jobs");
     return;
   }
-  if (line.output == "-") refuseOptions("-o - takes the result of one mesh; give -o a folder");
-  if (!line.picture.empty() || !line.points.empty())
+  if (line.outputs.path == "-") refuseOptions("-o - takes the result of one mesh; give -o a folder");
+  if (!line.outputs.picture.empty() || !line.outputs.points.empty())
     refuseOptions(
         "--picture and --points take one mesh; drop them, or -r, --files-from, --log, --skip-existing, --shard and "
         "--isolate");
-  if (writesOnePage(line) || line.opensPage)
+  if (writesOnePage(line.outputs) || line.outputs.opensPage)
     refuseOptions("a batch writes a page per mesh: give -o a folder, with --format html, and drop --open");
 }
 

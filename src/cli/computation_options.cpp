@@ -52,10 +52,10 @@ SmoothingOptions parseSmoothing(const std::string& text) {
 }
 
 void addBasics(ArgumentParser& parser, CommandLine& line) {
-  Options& options = line.options;
+  Options& options = line.computation.options;
   const auto apply = [&line](const Recipe& recipe) {
-    line.recipe = recipe;
-    applyRecipe(recipe, line.options);
+    line.computation.recipe = recipe;
+    applyRecipe(recipe, line.computation.options);
   };
   // First the recipe and the definition: their callbacks must run before those of the options that they set.
   addChoice(parser, "--recipe", apply, kRecipes,
@@ -201,11 +201,11 @@ void addExperiments(ArgumentParser& parser, Options& options) {
 
 void addComputation(ArgumentParser& parser, CommandLine& line) {
   addBasics(parser, line);
-  addSeeds(parser, line.options);
-  addRays(parser, line.options);
-  addSegments(parser, line.options);
+  addSeeds(parser, line.computation.options);
+  addRays(parser, line.computation.options);
+  addSegments(parser, line.computation.options);
   addMeasure(parser, line);
-  addExperiments(parser, line.options);
+  addExperiments(parser, line.computation.options);
 }
 
 }  // namespace asdfvk

@@ -18,11 +18,11 @@ double parseThickness(const std::string& text) {
 
 /// A limit implies the measure.
 void applyLimit(const ArgumentParser& parser, CommandLine& line) {
-  Options& options = line.options;
+  Options& options = line.computation.options;
   std::optional<double>& limit = options.thickness.thinnerThan;
-  if (limit && line.failIfThinner && *limit != *line.failIfThinner)
+  if (limit && line.computation.failIfThinner && *limit != *line.computation.failIfThinner)
     refuseOptions("--thinner-than and --fail-if-thinner have different limits; give one of them");
-  if (line.failIfThinner) limit = line.failIfThinner;
+  if (line.computation.failIfThinner) limit = line.computation.failIfThinner;
   if (!limit) {
     if (options.thickness.allowsSharpEdges)
       refuseOptions("--allow-sharp-edges needs --thinner-than or --fail-if-thinner");
@@ -36,7 +36,7 @@ void applyLimit(const ArgumentParser& parser, CommandLine& line) {
 }  // namespace
 
 void addMeasure(ArgumentParser& parser, CommandLine& line) {
-  Options& options = line.options;
+  Options& options = line.computation.options;
   const char* const group = "Thickness";
   addChoice(parser, "--measure", options.measure, kMeasures,
             "thickness: also fields thickness, the diameter of the largest ball inside that\n"
@@ -50,7 +50,7 @@ void addMeasure(ArgumentParser& parser, CommandLine& line) {
   addValue(parser, "--fail-if-thinner", "T",
            "The same, and exit code 6 where a point is thinner than T, 5 where parts of the\n"
            "surface cannot be judged",
-           [&line](const std::string& text) { line.failIfThinner = parseThickness(text); })
+           [&line](const std::string& text) { line.computation.failIfThinner = parseThickness(text); })
       .group(group);
   parser
       .addFlag("--allow-sharp-edges", options.thickness.allowsSharpEdges,
@@ -70,9 +70,9 @@ void addMeasure(ArgumentParser& parser, CommandLine& line) {
 
 void completeMeasure(const ArgumentParser& parser, CommandLine& line) {
   applyLimit(parser, line);
-  if (line.options.measure == Measure::Thickness) {
-    if (!parser.isGiven("--fields")) line.fields.insert(line.fields.begin(), kFields.begin(), kFields.end());
-    if (!parser.isGiven("--picture-of")) line.pictureOf = line.options.thickness.thinnerThan ? "" : kFields.front();
+  if (line.computation.options.measure == Measure::Thickness) {
+    if (!parser.isGiven("--picture-of"))
+      line.outputs.pictureOf = line.computation.options.thickness.thinnerThan ? "" : kFields.front();
     return;
   }
   if (parser.isGiven("--wall-angle")) refuseOptions("--wall-angle needs --measure thickness");

@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <filesystem>
@@ -52,23 +53,24 @@ auto runWithProgress(bool showsBar, const std::stop_token& stop, const Work& wor
 }
 
 /// The field of --picture-of, null for the thin places. Throws Error{UnknownField} and Error{OptionConflict}.
-const Field* pictureFieldOf(const CommandLine& line, const Result& result) {
-  if (line.pictureOf.empty()) return nullptr;
-  const Field* const field = result.field(line.pictureOf);
-  if (field == nullptr) throw Error(ErrorCode::UnknownField, "--picture-of: the result has no field " + line.pictureOf);
+const Field* pictureFieldOf(const Outputs& outputs, const Result& result) {
+  if (outputs.pictureOf.empty()) return nullptr;
+  const Field* const field = result.field(outputs.pictureOf);
+  if (field == nullptr)
+    throw Error(ErrorCode::UnknownField, "--picture-of: the result has no field " + outputs.pictureOf);
   if (field->componentCount != 1)
     throw Error(ErrorCode::OptionConflict,
                 fmt::format("--picture-of: field {} has {} components; a picture shows a field of one component",
-                            line.pictureOf, field->componentCount));
+                            outputs.pictureOf, field->componentCount));
   return field;
 }
 
 /// Renders the field, or the thin places without one, and writes it atomically. Precondition: result.scene is set.
 /// Throws Error{OutputNotWritable} and Error{Cancelled}.
-void writePicture(const CommandLine& line, const std::string& input, const Result& result, const Field* field,
+void writePicture(const Outputs& outputs, const std::string& input, const Result& result, const Field* field,
                   const RunControl& control) {
-  const View view = viewOf(line, input, result, field == nullptr);
-  writePng(line.picture,
+  const View view = viewOf(outputs, input, result, field == nullptr);
+  writePng(outputs.picture,
            field == nullptr ? thinPictureOf(result, view, {}, control) : pictureOf(result, *field, view, {}, control));
 }
 
@@ -117,16 +119,27 @@ void fillRecord(MeshRecord& record, const Report& report) {
 }
 
 /// The requested checks that failed or could not be made.
-std::vector<Failure> failedChecks(const CommandLine& line, const Report& report) {
+std::vector<Failure> failedChecks(const Computation& computation, const Report& report) {
   std::vector<Failure> failures;
   if (report.check && exitCodeOf(*report.check) != ExitCode::Done)
     failures.push_back({ExitCode::CheckFailed, checkFailure(*report.check), "checkFailed"});
-  if (!line.failIfThinner) return failures;
+  if (!computation.failIfThinner) return failures;
   const ExitCode code = exitCodeOf(*report.thickness);
   if (code != ExitCode::Done)
     failures.push_back(
         {code, thicknessVerdict(*report.thickness), code == ExitCode::TooThin ? "tooThin" : "notJudged"});
   return failures;
+}
+
+/// The file name, or the path where another mesh of the page has the same file name.
+std::string shownName(const std::string& mesh, const CommandLine& line) {
+  if (mesh == "-") return "standard input";
+  const auto fileNameOf = [](const std::string& path) { return fs::path(path).filename().string(); };
+  const std::string name = fileNameOf(mesh);
+  if (line.batch.isBatch()) return name;  // The page has no other mesh.
+  const auto sameCount = std::count_if(line.meshes.begin(), line.meshes.end(),
+                                       [&](const std::string& other) { return fileNameOf(other) == name; });
+  return sameCount > 1 ? mesh : name;
 }
 
 void makeFolderOf(const std::string& output) {
@@ -176,8 +189,10 @@ LoadedMesh loadMesh(const std::string& path, bool computesHash, const std::stop_
 }
 
 MeshRunner::MeshRunner(const CommandLine& line, size_t meshCount)
-    : line_(line), optionsHash_(optionsHash(line)), options_(std::make_shared<const Json>(optionValues(line))) {
-  if (writesOnePage(line)) onePage_ = SharedPage{.awaitedCount = meshCount * (1 + line.compared.size())};
+    : line_(line),
+      optionsHash_(optionsHash(line.computation, line.compared, line.session, line.outputs)),
+      options_(std::make_shared<const Json>(optionValues(line.computation, line.session))) {
+  if (writesOnePage(line.outputs)) onePage_ = SharedPage{.awaitedCount = meshCount * (1 + (line.compared ? 1 : 0))};
 }
 
 MeshRecord MeshRunner::recordOf(const MeshTask& task) const {
@@ -214,12 +229,12 @@ MeshRun MeshRunner::run(Session& session, const MeshTask& task, std::optional<Lo
   const MeshTimer timer(line_.batch.timeoutSeconds, stop);
   std::optional<SharedPage> ownPage;
   SharedPage* page = onePage_ ? &*onePage_ : nullptr;
-  if (writesPages(line_) && page == nullptr)
-    page = &ownPage.emplace(SharedPage{.awaitedCount = 1 + line_.compared.size()});
+  if (writesPages(line_.outputs) && page == nullptr)
+    page = &ownPage.emplace(SharedPage{.awaitedCount = 1 + (line_.compared ? 1 : 0)});
 
-  std::vector<const CommandLine*> computations{&line_};
-  for (const CommandLine& compared : line_.compared) computations.push_back(&compared);
-  for (const CommandLine* computation : computations) {
+  std::vector<const Computation*> computations{&line_.computation};
+  if (line_.compared) computations.push_back(&*line_.compared);
+  for (const Computation* computation : computations) {
     if (run.code == ExitCode::Cancelled) break;
     try {
       if (beforeMesh != nullptr) beforeMesh(task.input);
@@ -262,76 +277,82 @@ void MeshRunner::writeRecord(const MeshTask& task, MeshRun& run) const {
   }
 }
 
-void MeshRunner::compute(Session& session, const MeshTask& task, const CommandLine& line, LoadedMesh& loaded,
+void MeshRunner::compute(Session& session, const MeshTask& task, const Computation& computation, LoadedMesh& loaded,
                          SharedPage* page, const std::stop_token& stop, MeshRun& run) const {
-  if (line.batch.hasTree() || line.output.ends_with('/')) makeFolderOf(task.output);
+  const Outputs& outputs = line_.outputs;
+  const bool isFirst = &computation == &line_.computation;  // Picture and points show this one.
+  if (line_.batch.hasTree() || outputs.path.ends_with('/')) makeFolderOf(task.output);
   requireWritablePlace(task.output);
-  if (line.batch.isBatch() && hasOutputRecord(task.output))
+  if (line_.batch.isBatch() && hasOutputRecord(task.output))
     requireWritablePlace(outputRecordPath(task.output).string());
-  if (!line.picture.empty()) requireWritablePlace(line.picture);
-  if (!line.points.empty()) requireWritablePlace(line.points);
+  if (!outputs.picture.empty()) requireWritablePlace(outputs.picture);
+  if (!outputs.points.empty()) requireWritablePlace(outputs.points);
   Mesh& mesh = loaded.mesh;
   Result result;
   {
     const Interrupt::Listening listening;
-    result = runWithProgress(showsBar_, stop,
-                             [&](const RunControl& control) { return session.compute(mesh, line.options, control); });
+    result = runWithProgress(showsBar_, stop, [&](const RunControl& control) {
+      return session.compute(mesh, computation.options, control);
+    });
     if (stop.stop_requested()) throw Error(ErrorCode::Cancelled, "cancelled");
     StageSeconds& seconds = result.report.stageSeconds;
     seconds[Stage::Read] = loaded.seconds;
-    const Field* const pictureField = line.picture.empty() ? nullptr : pictureFieldOf(line, result);
+    const bool hasPicture = isFirst && !outputs.picture.empty();
+    const Field* const pictureField = hasPicture ? pictureFieldOf(outputs, result) : nullptr;
     const Stopwatch writeWatch;
     flipInputFaces(mesh, result.report.reversedFaces);  // The scene of the result has its own copy.
     removeOutputRecord(task.output);
-    writeOutput(task, line, result, mesh, page, stop);
-    if (!line.points.empty()) {
-      const AwaitedReader reader(line.points, stop);
-      writePoints(line.points, result.fields);
+    writeOutput({task.input, task.output, computation, line_.session, outputs, result}, mesh, page, stop);
+    if (isFirst && !outputs.points.empty()) {
+      const AwaitedReader reader(outputs.points, stop);
+      writePoints(outputs.points, result.fields);
     }
     seconds[Stage::Write] = writeWatch.seconds();
-    if (!line.picture.empty()) {
-      const AwaitedReader reader(line.picture, stop);
+    if (hasPicture) {
+      const AwaitedReader reader(outputs.picture, stop);
       runWithProgress(showsBar_, stop, [&](const RunControl& control) {
-        writePicture(line, task.input, result, pictureField, control);
+        writePicture(outputs, task.input, result, pictureField, control);
       });
     }
   }
-  describe(task, line, result, run);
+  describe(task, {task.input, task.output, computation, line_.session, outputs, result}, run);
 }
 
 /// Writes the result, or adds it to the page, which is written with its last result.
-void MeshRunner::writeOutput(const MeshTask& task, const CommandLine& line, const Result& result, const Mesh& mesh,
-                             SharedPage* page, const std::stop_token& stop) const {
+void MeshRunner::writeOutput(const MeshOutcome& outcome, const Mesh& mesh, SharedPage* page,
+                             const std::stop_token& stop) const {
   if (page == nullptr) {
-    const AwaitedReader reader(task.output, stop);
-    writeResult(task.output, mesh, writableFields(line, task.output, result.fields), writeOptionsOf(line));
+    const AwaitedReader reader(outcome.output, stop);
+    const WriteOptions options = writeOptionsOf(outcome.outputs, outcome.computation.options);
+    writeResult(outcome.output, mesh,
+                writableFields(options, outcome.computation.options.per, outcome.output, outcome.result.fields),
+                options);
     return;
   }
-  const MeshOutcome outcome{task.input, task.output, line, result};
-  runWithProgress(showsBar_, stop, [&](const RunControl& control) { addToPage(page->page, outcome, control); });
+  const PageMesh shown{shownName(outcome.mesh, line_), !line_.batch.isBatch()};
+  runWithProgress(showsBar_, stop, [&](const RunControl& control) { addToPage(page->page, outcome, shown, control); });
   if (page->awaitedCount > 1) return;
-  const AwaitedReader reader(task.output, stop);
-  finishPage(task.output, *page);
+  const AwaitedReader reader(outcome.output, stop);
+  finishPage(outcome.output, *page);
 }
 
 /// Also starts the browser with --open.
 void MeshRunner::finishPage(const std::string& output, SharedPage& page) const {
   page.isFinished = true;
   writePage(output, page.page);
-  if (line_.opensPage) openInBrowser(output);
+  if (line_.outputs.opensPage) openInBrowser(output);
 }
 
-void MeshRunner::describe(const MeshTask& task, const CommandLine& line, const Result& result, MeshRun& run) const {
-  const Report& report = result.report;
-  const MeshOutcome outcome{task.input, task.output, line, result};
-  if (!line.quiet && !line.batch.isBatch()) {
+void MeshRunner::describe(const MeshTask& task, const MeshOutcome& outcome, MeshRun& run) const {
+  const Report& report = outcome.result.report;
+  if (!outcome.outputs.quiet && !line_.batch.isBatch()) {
     for (const Warning& warning : report.warnings) run.text += warningLine(task.input, textWarning(warning));
     run.text += textReport(outcome);
   }
-  if (line.json) run.json += jsonReport(outcome);
-  if (line.against.empty()) fillRecord(run.record, report);
+  if (outcome.outputs.json) run.json += jsonReport(outcome);
+  if (outcome.computation.against.empty()) fillRecord(run.record, report);
   run.record.output = task.output;
-  for (const Failure& failure : failedChecks(line, report)) {
+  for (const Failure& failure : failedChecks(outcome.computation, report)) {
     run.text += errorLine(task.input, failure.message);
     if (run.code != ExitCode::Done) continue;
     run.code = failure.code;
@@ -347,7 +368,7 @@ void MeshRunner::addFailure(const MeshTask& task, const Failure& failure, MeshRu
   const std::string prefix = task.input + ": ";  // The messages of readers begin with the file, too.
   if (message.starts_with(oneLine(prefix))) message.erase(0, prefix.size());
   run.text += errorLine(task.input, message);
-  if (line_.json) run.json += jsonFailure(task.input, failure.name, message);
+  if (line_.outputs.json) run.json += jsonFailure(task.input, failure.name, message);
   if (failure.code == ExitCode::Cancelled) run.record.status = MeshStatus::Dropped;
   if (run.code != ExitCode::Done && failure.code != ExitCode::Cancelled) return;
   if (failure.code != ExitCode::Cancelled) run.record.status = MeshStatus::Failed;

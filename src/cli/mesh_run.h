@@ -48,7 +48,7 @@ class MeshRunner {
   MeshRunner(const CommandLine& line, size_t meshCount);
 
   /// Shows the progress within each mesh on a terminal, unless with --quiet.
-  void showProgressOfMeshes() { showsBar_ = !line_.quiet; }
+  void showProgressOfMeshes() { showsBar_ = !line_.outputs.quiet; }
 
   /// For --skip-existing: set where the output of an earlier run is up to date. Throws nothing.
   [[nodiscard]] std::optional<MeshRun> skip(const MeshTask& task) const;
@@ -70,14 +70,13 @@ class MeshRunner {
   };
 
   [[nodiscard]] MeshRecord recordOf(const MeshTask& task) const;
-  void compute(Session& session, const MeshTask& task, const CommandLine& line, LoadedMesh& loaded, SharedPage* page,
-               const std::stop_token& stop, MeshRun& run) const;
-  void writeOutput(const MeshTask& task, const CommandLine& line, const Result& result, const Mesh& mesh,
-                   SharedPage* page, const std::stop_token& stop) const;
+  void compute(Session& session, const MeshTask& task, const Computation& computation, LoadedMesh& loaded,
+               SharedPage* page, const std::stop_token& stop, MeshRun& run) const;
+  void writeOutput(const MeshOutcome& outcome, const Mesh& mesh, SharedPage* page, const std::stop_token& stop) const;
   /// Where the record cannot be written, the mesh fails and has no result.
   void writeRecord(const MeshTask& task, MeshRun& run) const;
   void finishPage(const std::string& output, SharedPage& page) const;
-  void describe(const MeshTask& task, const CommandLine& line, const Result& result, MeshRun& run) const;
+  void describe(const MeshTask& task, const MeshOutcome& outcome, MeshRun& run) const;
   void addFailure(const MeshTask& task, const Failure& failure, MeshRun& run) const;
 
   const CommandLine& line_;

@@ -128,8 +128,8 @@ void refuseField(const CommandLine& line, const std::string& field, const std::s
   const auto refuse = [&](const char* option) {
     throw Error(ErrorCode::OptionConflict, fmt::format("{} {} needs {}", option, field, needed));
   };
-  if (std::count(line.fields.begin(), line.fields.end(), field) > 0) refuse("--fields");
-  if (line.pictureOf == field) refuse("--picture-of");
+  if (std::count(line.outputs.fields.begin(), line.outputs.fields.end(), field) > 0) refuse("--fields");
+  if (line.outputs.pictureOf == field) refuse("--picture-of");
 }
 
 void refuseOptions(const std::string& message) { throw Error(ErrorCode::OptionConflict, message); }

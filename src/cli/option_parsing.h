@@ -22,7 +22,7 @@ inline constexpr const char* kExperimentGroup = "Experiments (the defaults are b
 /// Name, description and every option of the program, which set `line`.
 void addOptions(ArgumentParser& parser, CommandLine& line);
 
-/// Adds the options of the computation, which set line.options and line.recipe.
+/// Adds the options of the computation, which set line.computation.options and line.computation.recipe.
 void addComputation(ArgumentParser& parser, CommandLine& line);
 
 /// Throws Error{OptionConflict} where --fields or --picture-of names a field that only the option `needed` computes.
@@ -35,15 +35,15 @@ void addSegments(ArgumentParser& parser, Options& options);
 /// has a dot or a slash, is "-", or exists; the names of kSegmentations are values, also where such a file exists.
 void expandBareSegment(std::vector<std::string>& arguments);
 
-/// After parsing: validates the options of post-processing and segmentation and applies what they imply; adds their
-/// fields to line.fields unless --fields is given.
+/// After parsing: validates the options of post-processing and segmentation and applies what they imply; refuses their
+/// fields where they are not computed.
 void completeSegments(const ArgumentParser& parser, CommandLine& line);
 
 /// The same for the options of the measured quantity.
 void addMeasure(ArgumentParser& parser, CommandLine& line);
 void completeMeasure(const ArgumentParser& parser, CommandLine& line);
 
-/// The same for the options of a page; after completeMeasure(). Sets line.compared.
+/// The same for the options of a page; after completeMeasure().
 void addPage(ArgumentParser& parser, CommandLine& line);
 void completePage(const ArgumentParser& parser, CommandLine& line);
 

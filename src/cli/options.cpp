@@ -117,17 +117,18 @@ void addOutput(ArgumentParser& parser, CommandLine& line) {
                        joined(outputFormats(), " .")),
            [&](const std::string& text) {
              if (text.empty()) throw Error(ErrorCode::OptionOutOfRange, "the name is empty");
-             line.output = text;
+             line.outputs.path = text;
            })
       .group(kBasicGroup);
   addValue(parser, "--fields", "NAME,...",
            fmt::format("Fields to write: {};\n"
                        "default {}, and those of --measure, --postprocess and --segment;\n"
                        "in a page all of one component",
-                       joined(resultFieldNames(), ", "), joined(line.fields, ",")),
+                       joined(resultFieldNames(), ", "), joined(fieldNames({}, {}), ",")),
            [&](const std::string& text) {
-             line.fields = parseFields(text);
-             if (std::count(line.fields.begin(), line.fields.end(), "centre") > 0) line.options.computesCentres = true;
+             line.outputs.fields = parseFields(text);
+             if (std::count(line.outputs.fields.begin(), line.outputs.fields.end(), "centre") > 0)
+               line.computation.options.computesCentres = true;
            })
       .completions(joined(resultFieldNames(), "|"))
       .group(kBasicGroup);
@@ -135,15 +136,16 @@ void addOutput(ArgumentParser& parser, CommandLine& line) {
            fmt::format("Recompute N random traced faces, and N of all faces, with the reference\n"
                        "(default {}); exit code 5 where traced faces disagree",
                        kDefaultCheckCount),
-           [&](const std::string& text) { line.options.checkCount = parseCheckCount(text); })
+           [&](const std::string& text) { line.computation.options.checkCount = parseCheckCount(text); })
       .group(kBasicGroup);
   addPage(parser, line);
-  parser.addFlag("--json", line.json, "Report as JSON on standard output, one line per mesh").group(kBasicGroup);
+  parser.addFlag("--json", line.outputs.json, "Report as JSON on standard output, one line per mesh")
+      .group(kBasicGroup);
   const char* const group = "Output";
-  addName(parser, "--format", line.format, outputFormats(), "Format where -o does not decide it; default ply")
+  addName(parser, "--format", line.outputs.format, outputFormats(), "Format where -o does not decide it; default ply")
       .group(group);
-  parser.addFlag("--ascii", line.ascii, "Write PLY as text").group(group);
-  addChoice(parser, "--per", line.options.per, kPerElements,
+  parser.addFlag("--ascii", line.outputs.ascii, "Write PLY as text").group(group);
+  addChoice(parser, "--per", line.computation.options.per, kPerElements,
             "vertex: also fields per vertex, means over its faces by area, with the names of\n"
             "those per face; .csv and .npy hold these only; default face")
       .group(group);
@@ -152,11 +154,11 @@ void addOutput(ArgumentParser& parser, CommandLine& line) {
            "each, with radius and segment, for one mesh; - is standard output",
            [&](const std::string& text) {
              requireExtension(text, ".ply");
-             line.points = text;
-             line.options.computesCentres = true;
+             line.outputs.points = text;
+             line.computation.options.computesCentres = true;
            })
       .group(group);
-  parser.addFlag("--quiet", line.quiet, "Print errors only").group(group);
+  parser.addFlag("--quiet", line.outputs.quiet, "Print errors only").group(group);
 }
 
 /// "30,18"
@@ -185,7 +187,7 @@ void addPicture(ArgumentParser& parser, CommandLine& line) {
       addValue(parser, "--picture", "FILE.png", "Also render the coloured mesh, for one mesh; - is standard output",
                [&](const std::string& text) {
                  requireExtension(text, ".png");
-                 line.picture = text;
+                 line.outputs.picture = text;
                })
           .group(kBasicGroup);
   const char* const group = "Picture";
@@ -194,11 +196,11 @@ void addPicture(ArgumentParser& parser, CommandLine& line) {
   addValue(parser, "--picture-of", joined(shown, "|"),
            fmt::format("Field to show; default {}, thickness with --measure thickness, or the\n"
                        "places thinner than a limit",
-                       line.pictureOf),
+                       line.outputs.pictureOf),
            [&](const std::string& text) {
-             line.pictureOf = text == "seeds" ? "seed" : text;  // "seeds": the name in version 0.1.
-             requireFieldName(line.pictureOf);
-             if (line.pictureOf == "centre")
+             line.outputs.pictureOf = text == "seeds" ? "seed" : text;  // "seeds": the name in version 0.1.
+             requireFieldName(line.outputs.pictureOf);
+             if (line.outputs.pictureOf == "centre")
                throw Error(ErrorCode::OptionOutOfRange,
                            "'centre' has three components; a picture shows a field of one component");
            })
@@ -209,10 +211,10 @@ void addPicture(ArgumentParser& parser, CommandLine& line) {
            fmt::format("View, in degrees to the right of the broad side of the mesh and up;\n"
                        "default {},{}, or the view that shows the thin places best",
                        view.azimuthDegrees, view.elevationDegrees),
-           [&](const std::string& text) { parseViewAngles(text, line.pictureView); })
+           [&](const std::string& text) { parseViewAngles(text, line.outputs.pictureView); })
       .group(group)
       .needs(picture);
-  addChoice(parser, "--picture-up", line.pictureView.up, kUps,
+  addChoice(parser, "--picture-up", line.outputs.pictureView.up, kUps,
             "Up axis of the picture. auto: z of an STL file, else y, unless the mesh stands\n"
             "more stably on another axis; default auto")
       .group(group)
@@ -253,12 +255,12 @@ void addDevice(ArgumentParser& parser, CommandLine& line) {
 
 /// Throws where options of the paper's definition are given with another one.
 void requireNoPaperOption(const ArgumentParser& parser, const CommandLine& line) {
-  if (line.options.cone.definition == Definition::Paper) return;
+  if (line.computation.options.cone.definition == Definition::Paper) return;
   for (const char* name : {"--false-hit-angle", "--outlier-deviations", "--cone-rotation"})
     if (parser.isGiven(name))
       throw Error(ErrorCode::OptionConflict,
                   fmt::format("{} belongs to --definition paper; drop one of the two", name));
-  if (line.options.cone.rotation != ConeRotation::Fixed)
+  if (line.computation.options.cone.rotation != ConeRotation::Fixed)
     throw Error(ErrorCode::OptionConflict,
                 "--recipe quality rotates the cones, which belongs to --definition paper; use another recipe");
 }
@@ -277,7 +279,7 @@ void requireNoIgnoredOption(const ArgumentParser& parser, const CommandLine& lin
 
 /// Throws where rounds of seeds cannot have an effect.
 void requireRounds(const CommandLine& line) {
-  const Options& options = line.options;
+  const Options& options = line.computation.options;
   const bool limitsError = options.rounds.limitError();
   if (limitsError && !options.estimatesError)
     refuseOptions("--max-error needs the estimate of the error; drop it, or --no-estimate");
@@ -292,15 +294,15 @@ void validateOptions(const CommandLine& line) {
   if (std::count(line.meshes.begin(), line.meshes.end(), "-") > 1)
     refuseOptions("standard input ('-') can be read only once; name it once");
   if (std::count(line.meshes.begin(), line.meshes.end(), "") > 0) refuseOptions("the name of a mesh is empty");
-  if (line.output == "-" && line.json)
+  if (line.outputs.path == "-" && line.outputs.json)
     refuseOptions("-o - and --json both write to standard output; give -o a file or drop --json");
-  if (!line.picture.empty() && line.meshes.size() > 1)
+  if (!line.outputs.picture.empty() && line.meshes.size() > 1)
     refuseOptions("--picture takes one mesh; name one mesh, or run them one by one");
-  if (line.picture == "-" && (line.output == "-" || line.json))
+  if (line.outputs.picture == "-" && (line.outputs.path == "-" || line.outputs.json))
     refuseOptions("--picture - writes to standard output, as do --json and -o -; give it a file, or drop them");
-  if (!line.points.empty() && line.meshes.size() > 1)
+  if (!line.outputs.points.empty() && line.meshes.size() > 1)
     refuseOptions("--points takes one mesh; name one mesh, or run them one by one");
-  if (line.points == "-" && (line.output == "-" || line.json || line.picture == "-"))
+  if (line.outputs.points == "-" && (line.outputs.path == "-" || line.outputs.json || line.outputs.picture == "-"))
     refuseOptions(
         "--points - writes to standard output, as do --json, -o - and --picture -; give it a file, or drop them");
   const bool isCpu = line.session.backend == "cpu" || line.session.backend == "reference";
@@ -311,21 +313,23 @@ void validateOptions(const CommandLine& line) {
     refuseOptions("--device chooses a Vulkan device, which --backend cpu and reference do not use; drop one");
   if (isCpu && !(variant.kernel.empty() && variant.bvh.empty() && variant.fetch.empty()))
     refuseOptions("--kernel, --bvh and --fetch choose shaders, which --backend cpu and reference do not use; drop one");
-  const bool estimates = line.options.estimatesError && line.options.seeds.kind != SeedCount::Kind::All;
-  if (line.pictureOf == "error" && !estimates)
+  const bool estimates =
+      line.computation.options.estimatesError && line.computation.options.seeds.kind != SeedCount::Kind::All;
+  if (line.outputs.pictureOf == "error" && !estimates)
     refuseOptions("--picture-of error needs an estimate; drop --no-estimate, and --seeds all, which has no error");
-  if (std::count(line.fields.begin(), line.fields.end(), "error") > 0 && !estimates)
+  if (std::count(line.outputs.fields.begin(), line.outputs.fields.end(), "error") > 0 && !estimates)
     refuseOptions("--fields error needs an estimate; drop --no-estimate, and --seeds all, which has no error");
-  if (isCpu && solverNeedsDevice(line.options.solver))
+  if (isCpu && solverNeedsDevice(line.computation.options.solver))
     refuseOptions(fmt::format(
         "--solver {} runs on a Vulkan device, which --backend cpu and reference do not use; use --solver cpu",
-        line.options.solver));
+        line.computation.options.solver));
   requireRounds(line);
-  if (line.options.interpolation.pooling > 0 && line.options.interpolation.guidance != Guidance::Prediction)
+  if (line.computation.options.interpolation.pooling > 0 &&
+      line.computation.options.interpolation.guidance != Guidance::Prediction)
     refuseOptions(
         "--pooling moves values to the prediction, which --recipe paper and --guidance none or curvature do not have; "
         "drop one of the two");
-  requireValid(line.options, true);
+  requireValid(line.computation.options, true);
 }
 
 }  // namespace
@@ -365,13 +369,13 @@ CommandLine parseCommandLine(std::vector<std::string> arguments) {
     throw Error(ErrorCode::OptionOutOfRange, result.miscounted + " takes exactly one value, once");
   if (!result.refusal.empty())
     throw Error(ErrorCode::OptionOutOfRange, result.refusal + "; asdf-vk --help=all lists the options");
-  if (line.options.rounds.areSet() && !parser.isGiven("--seeds"))
-    line.options.seeds = SeedCount::ofShare(kFirstRoundShare);
+  if (line.computation.options.rounds.areSet() && !parser.isGiven("--seeds"))
+    line.computation.options.seeds = SeedCount::ofShare(kFirstRoundShare);
   TraceVariant& variant = line.session.variant;
   for (std::string* name : {&variant.kernel, &variant.bvh, &variant.fetch})
     if (*name == "auto") name->clear();
   requireNoIgnoredOption(parser, line);
-  line.options.keepsScene = !line.picture.empty();
+  line.computation.options.keepsScene = !line.outputs.picture.empty();
   completeSegments(parser, line);
   completeMeasure(parser, line);
   completePage(parser, line);

@@ -77,26 +77,26 @@ void addSegments(Values& values, const Options& options) {
   values.add("cgalExpansion", nameOf(kCgalExpansions, options.cgalSegmentation.expansion));
 }
 
-void addMeasure(Values& values, const CommandLine& line) {
-  const ThicknessOptions& thickness = line.options.thickness;
-  const bool isMeasured = line.options.measure == Measure::Thickness;
-  values.add("measure", nameOf(kMeasures, line.options.measure));
+void addMeasure(Values& values, const Computation& computation) {
+  const ThicknessOptions& thickness = computation.options.thickness;
+  const bool isMeasured = computation.options.measure == Measure::Thickness;
+  values.add("measure", nameOf(kMeasures, computation.options.measure));
   values.add("wallAngleDegrees", isMeasured ? Json(thickness.wallAngleDegrees) : Json(nullptr));
   values.add("thinnerThan", thickness.thinnerThan);
-  values.add("failIfThinner", line.failIfThinner);
+  values.add("failIfThinner", computation.failIfThinner);
   values.add("allowSharpEdges", thickness.allowsSharpEdges);
 }
 
 }  // namespace
 
-Json optionValues(const CommandLine& line) {
+Json optionValues(const Computation& computation, const SessionOptions& session) {
   Values values;
-  values.add("recipe", nameOf(kRecipes, line.recipe));
-  values.add("definition", nameOf(kDefinitions, line.options.cone.definition));
-  addComputation(values, line.options);
-  addSession(values, line.session);
-  addSegments(values, line.options);
-  addMeasure(values, line);
+  values.add("recipe", nameOf(kRecipes, computation.recipe));
+  values.add("definition", nameOf(kDefinitions, computation.options.cone.definition));
+  addComputation(values, computation.options);
+  addSession(values, session);
+  addSegments(values, computation.options);
+  addMeasure(values, computation);
   return values.take();
 }
 

@@ -71,16 +71,17 @@ bool isFolder(const std::string& output) {
 
 /// Whether -o is the folder of several results.
 bool takesFolder(const CommandLine& line) {
-  return !line.output.empty() && (line.batch.hasTree() || isFolder(line.output));
+  return !line.outputs.path.empty() && (line.batch.hasTree() || isFolder(line.outputs.path));
 }
 
 std::string planOutput(const InputFile& input, const CommandLine& line) {
   const std::string& mesh = input.path;
-  if (line.output == "-") return "-";
-  if (takesFolder(line)) return (fs::path(line.output) / input.folder / resultName(mesh, line.format)).string();
-  if (!line.output.empty()) return line.output;
+  if (line.outputs.path == "-") return "-";
+  if (takesFolder(line))
+    return (fs::path(line.outputs.path) / input.folder / resultName(mesh, line.outputs.format)).string();
+  if (!line.outputs.path.empty()) return line.outputs.path;
   if (mesh == "-") usageError("a mesh from standard input has no file name; give -o FILE or -o -");
-  return (fs::path(mesh).parent_path() / resultName(mesh, line.format)).string();
+  return (fs::path(mesh).parent_path() / resultName(mesh, line.outputs.format)).string();
 }
 
 std::string normalised(const fs::path& path) {
@@ -129,19 +130,28 @@ void checkLog(const CommandLine& line, const FileSet& inputs, const FileSet& lis
 
 }  // namespace
 
+std::vector<std::string> fieldNames(const Outputs& outputs, const Options& options) {
+  if (!outputs.fields.empty()) return outputs.fields;
+  std::vector<std::string> names{"sdf", "seed"};
+  if (options.measure == Measure::Thickness) names.insert(names.begin(), {"thickness", "least_thickness"});
+  if (options.postprocesses()) names.emplace_back("normalized");
+  if (options.segmentation != Segmentation::None) names.emplace_back("segment");
+  return names;
+}
+
 std::vector<std::string> outputFormats() {
   std::vector<std::string> formats = resultFormats();
   formats.emplace_back(kPageFormat);
   return formats;
 }
 
-bool writesPages(const CommandLine& line) {
-  if (!line.format.empty()) return line.format == kPageFormat;
-  return isPageName(line.output) && !isFolder(line.output);
+bool writesPages(const Outputs& outputs) {
+  if (!outputs.format.empty()) return outputs.format == kPageFormat;
+  return isPageName(outputs.path) && !isFolder(outputs.path);
 }
 
-bool writesOnePage(const CommandLine& line) {
-  return writesPages(line) && (isPageName(line.output) || line.output == "-") && !isFolder(line.output);
+bool writesOnePage(const Outputs& outputs) {
+  return writesPages(outputs) && (isPageName(outputs.path) || outputs.path == "-") && !isFolder(outputs.path);
 }
 
 std::vector<std::string> planOutputs(const CommandLine& line) {
@@ -151,29 +161,30 @@ std::vector<std::string> planOutputs(const CommandLine& line) {
 }
 
 std::vector<std::string> planOutputs(const CommandLine& line, std::span<const InputFile> files) {
-  const bool sharePage = writesOnePage(line);
-  if (line.batch.hasTree() && !line.output.empty() && !isFolder(line.output)) {
+  const bool sharePage = writesOnePage(line.outputs);
+  if (line.batch.hasTree() && !line.outputs.path.empty() && !isFolder(line.outputs.path)) {
     std::error_code ignored;
-    if (fs::exists(line.output, ignored) || isResultName(line.output))
-      usageError(fmt::format("-o {} is not a folder, which -r and --files-from need", line.output));
+    if (fs::exists(line.outputs.path, ignored) || isResultName(line.outputs.path))
+      usageError(fmt::format("-o {} is not a folder, which -r and --files-from need", line.outputs.path));
   } else if (files.size() > 1 && !sharePage) {
-    if (line.output == "-") usageError("-o - takes the result of one mesh; name one mesh");
-    if (!line.output.empty() && !takesFolder(line))
-      usageError(fmt::format(
-          "-o {0} is not a folder, which several meshes need; write {0}/ to make it, or name one mesh", line.output));
+    if (line.outputs.path == "-") usageError("-o - takes the result of one mesh; name one mesh");
+    if (!line.outputs.path.empty() && !takesFolder(line))
+      usageError(
+          fmt::format("-o {0} is not a folder, which several meshes need; write {0}/ to make it, or name one mesh",
+                      line.outputs.path));
   }
 
-  const WriteOptions options = writeOptionsOf(line);
+  const WriteOptions options = writeOptionsOf(line.outputs, line.computation.options);
   std::vector<std::string> outputs;
   std::unordered_map<std::string, std::string> meshOfOutput;
   for (const InputFile& file : files) {
     const std::string& mesh = file.path;
     const std::string output = planOutput(file, line);
-    const std::string format = writesPages(line) ? kPageFormat : plannedFormat(output, options);
-    if (line.ascii && format != "ply") usageError("--ascii is for PLY only; drop it");
+    const std::string format = writesPages(line.outputs) ? kPageFormat : plannedFormat(output, options);
+    if (line.outputs.ascii && format != "ply") usageError("--ascii is for PLY only; drop it");
     if (output != "-") {
       if (contradicts(output, format))
-        usageError(fmt::format("-o {} and --format {} contradict each other; drop one", output, line.format));
+        usageError(fmt::format("-o {} and --format {} contradict each other; drop one", output, line.outputs.format));
       const auto [other, isNew] = meshOfOutput.emplace(normalised(output), mesh);
       if (!isNew && !sharePage && normalised(other->second) == normalised(mesh))
         usageError(fmt::format("{} is named twice; name it once", mesh));
@@ -192,7 +203,7 @@ std::vector<std::string> planOutputs(const CommandLine& line, std::span<const In
     if (output != "-" && inputs.holds(output))
       usageError(fmt::format("{} is an input and would be overwritten; choose another -o", output));
   FileSet planned;
-  if (!line.picture.empty() || !line.points.empty())
+  if (!line.outputs.picture.empty() || !line.outputs.points.empty())
     for (const std::string& output : outputs)
       if (output != "-") planned.insert(output);
   const auto planFurther = [&](const std::string& path, const char* option) {
@@ -202,8 +213,8 @@ std::vector<std::string> planOutputs(const CommandLine& line, std::span<const In
     if (planned.holds(path)) usageError(fmt::format("{} is the path of two outputs; choose another {}", path, option));
     planned.insert(path);
   };
-  planFurther(line.picture, "--picture");
-  planFurther(line.points, "--points");
+  planFurther(line.outputs.picture, "--picture");
+  planFurther(line.outputs.points, "--points");
   FileSet lists;
   if (!line.batch.list.empty() && line.batch.list != "-") lists.insert(line.batch.list);
   if (line.batch.isBatch())
@@ -217,16 +228,16 @@ std::vector<std::string> planOutputs(const CommandLine& line, std::span<const In
   return outputs;
 }
 
-WriteOptions writeOptionsOf(const CommandLine& line) {
-  return {.format = line.output == "-" && line.format.empty() ? "ply" : line.format,
-          .fields = line.fields,
-          .ascii = line.ascii};
+WriteOptions writeOptionsOf(const Outputs& outputs, const Options& options) {
+  return {.format = outputs.path == "-" && outputs.format.empty() ? "ply" : outputs.format,
+          .fields = fieldNames(outputs, options),
+          .ascii = outputs.ascii};
 }
 
-std::span<const Field> writableFields(const CommandLine& line, const std::string& output,
+std::span<const Field> writableFields(const WriteOptions& options, PerElement per, const std::string& output,
                                       std::span<const Field> fields) {
-  if (line.options.per == PerElement::Faces) return fields;
-  const std::string format = resultFormatOf(output, writeOptionsOf(line));
+  if (per == PerElement::Faces) return fields;
+  const std::string format = resultFormatOf(output, options);
   if (format != "csv" && format != "npy") return fields;
   const auto first = std::find_if(fields.begin(), fields.end(),
                                   [](const Field& field) { return field.location == FieldLocation::PerVertex; });

@@ -17,10 +17,10 @@ inline constexpr const char* kPageFormat = "html";
 [[nodiscard]] std::vector<std::string> outputFormats();
 
 /// Whether the results are written as pages.
-[[nodiscard]] bool writesPages(const CommandLine& line);
+[[nodiscard]] bool writesPages(const Outputs& outputs);
 
 /// Whether all results are written to one page.
-[[nodiscard]] bool writesOnePage(const CommandLine& line);
+[[nodiscard]] bool writesOnePage(const Outputs& outputs);
 
 /// Path of the result of each mesh, "-" for standard output. Throws Error{OptionConflict} if two outputs (results,
 /// their records, log, picture, points) have the same path, if an output is an input, or if several meshes have one
@@ -32,12 +32,12 @@ inline constexpr const char* kPageFormat = "html";
 
 /// For other formats than pages: the fields of --fields, and the format if --format is given or the output is standard
 /// output.
-[[nodiscard]] WriteOptions writeOptionsOf(const CommandLine& line);
+[[nodiscard]] WriteOptions writeOptionsOf(const Outputs& outputs, const Options& options);
 
 /// The fields of a result that the output can hold together: all, but the vertex fields only where the format has
 /// either rows per face or rows per vertex. Precondition: vertex fields follow face fields.
-[[nodiscard]] std::span<const Field> writableFields(const CommandLine& line, const std::string& output,
-                                                    std::span<const Field> fields);
+[[nodiscard]] std::span<const Field> writableFields(const WriteOptions& options, PerElement per,
+                                                    const std::string& output, std::span<const Field> fields);
 
 /// Throws Error{OutputNotWritable} where no file can be written: a check before the work begins.
 void requireWritablePlace(const std::string& output);

@@ -24,15 +24,17 @@ namespace {
 using FieldList = std::vector<std::reference_wrapper<const Field>>;
 
 /// The fields of --fields; without it all that a page can show, the default ones first.
-FieldList shownFields(const CommandLine& line, const Result& result) {
+FieldList shownFields(const MeshOutcome& outcome) {
+  const Result& result = outcome.result;
   FieldList shown;
-  for (const std::string& name : line.fields) {
+  for (const std::string& name : fieldNames(outcome.outputs, outcome.computation.options)) {
     const Field* const field = result.field(name);
-    if (field == nullptr && line.choosesFields && line.against.empty())  // With all seeds there is no error, say.
+    if (field == nullptr && !outcome.outputs.fields.empty() &&
+        outcome.computation.against.empty())  // With all seeds there is no error, say.
       throw Error(ErrorCode::UnknownField, fmt::format("--fields: the result has no field {}", name));
     if (field != nullptr) shown.emplace_back(*field);
   }
-  if (line.choosesFields) return shown;
+  if (!outcome.outputs.fields.empty()) return shown;
   for (const Field& field : result.fields) {
     const bool isShown = std::any_of(shown.begin(), shown.end(), [&](const Field& other) { return &other == &field; });
     if (field.location == FieldLocation::PerFace && field.componentCount == 1 && !isShown) shown.emplace_back(field);
@@ -40,37 +42,26 @@ FieldList shownFields(const CommandLine& line, const Result& result) {
   return shown;
 }
 
-/// The file name, or the path where another mesh has the same file name.
-std::string shownName(const std::string& mesh, const CommandLine& line) {
-  if (mesh == "-") return "standard input";
-  const auto fileNameOf = [](const std::string& path) { return std::filesystem::path(path).filename().string(); };
-  const std::string name = fileNameOf(mesh);
-  if (line.batch.isBatch()) return name;  // The page has no other mesh.
-  const auto sameCount = std::count_if(line.meshes.begin(), line.meshes.end(),
-                                       [&](const std::string& other) { return fileNameOf(other) == name; });
-  return sameCount > 1 ? mesh : name;
-}
-
 /// "cow.ply, balanced, seeds 10 %"; with --against "cow.ply, --recipe paper".
 std::string labelOf(const std::string& name, const MeshOutcome& outcome) {
-  const CommandLine& line = outcome.line;
+  const Computation& computation = outcome.computation;
   const Report& report = outcome.result.report;
-  if (!line.against.empty()) return fmt::format("{}, {}", name, line.against);
-  std::string label = fmt::format("{}, {}", name, nameOf(kRecipes, line.recipe));
-  if (line.options.cone.definition != Definition::Paper)
-    label += fmt::format(", definition {}", nameOf(kDefinitions, line.options.cone.definition));
+  if (!computation.against.empty()) return fmt::format("{}, {}", name, computation.against);
+  std::string label = fmt::format("{}, {}", name, nameOf(kRecipes, computation.recipe));
+  if (computation.options.cone.definition != Definition::Paper)
+    label += fmt::format(", definition {}", nameOf(kDefinitions, computation.options.cone.definition));
   if (report.seedCount >= report.triangleCount) return label + ", all faces";
   return label + fmt::format(", seeds {:.2g} %",
                              100.0 * static_cast<double>(report.seedCount) / static_cast<double>(report.triangleCount));
 }
 
-/// The rows with a capital, and continued ones joined. Thin regions are lists of the page. A page of a batch has no
-/// times, so that the same mesh and options give the same bytes.
-std::vector<std::pair<std::string, std::string>> summaryOf(const MeshOutcome& outcome) {
+/// The rows with a capital, and continued ones joined. Thin regions are lists of the page. Without times the same mesh
+/// and options give the same bytes.
+std::vector<std::pair<std::string, std::string>> summaryOf(const MeshOutcome& outcome, bool showsTimes) {
   std::vector<std::pair<std::string, std::string>> summary;
   bool isThinRow = false;
   for (auto& [title, text] : reportRows(outcome)) {
-    if (outcome.line.batch.isBatch() && (title == "time" || title == "speed")) continue;
+    if (!showsTimes && (title == "time" || title == "speed")) continue;
     if (!title.empty()) isThinRow = title == "thin";
     if (title.empty()) {
       if (!isThinRow) summary.back().second += "; " + text;
@@ -122,15 +113,15 @@ std::string axisName(Up up) {
 
 Page emptyPage() { return Page(fmt::format("asdf-vk {} ({})", ASDFVK_VERSION, ASDFVK_COMMIT)); }
 
-void addToPage(Page& page, const MeshOutcome& outcome, const RunControl& control) {
-  const FieldList fields = shownFields(outcome.line, outcome.result);
-  PageTexts texts{.name = shownName(outcome.mesh, outcome.line), .summary = summaryOf(outcome)};
+void addToPage(Page& page, const MeshOutcome& outcome, const PageMesh& mesh, const RunControl& control) {
+  const FieldList fields = shownFields(outcome);
+  PageTexts texts{.name = mesh.name, .summary = summaryOf(outcome, mesh.showsTimes)};
   texts.label = labelOf(texts.name, outcome);
   texts.errorSentence = errorSentenceOf(outcome.result);
   for (const Warning& warning : outcome.result.report.warnings)
     (warning.code == WarningCode::MeshDefect ? texts.defects : texts.warnings).push_back(textWarning(warning));
   texts.thin = thinPlacesOf(outcome.result);
-  const View view = viewOf(outcome.line, outcome.mesh, outcome.result, texts.thin.has_value());
+  const View view = viewOf(outcome.outputs, outcome.mesh, outcome.result, texts.thin.has_value());
   texts.up = axisName(*view.up);
   texts.azimuthDegrees = view.azimuthDegrees;
   texts.elevationDegrees = view.elevationDegrees;

@@ -11,9 +11,15 @@ namespace asdfvk {
 /// A page without results.
 [[nodiscard]] Page emptyPage();
 
+/// How a page shows a mesh.
+struct PageMesh {
+  std::string name;
+  bool showsTimes = true;
+};
+
 /// Adds a result with the texts of its report and a small picture. Precondition: result.scene is set. Throws
 /// Error{UnknownField} for a field of --fields that the result does not have, and Error{Cancelled}.
-void addToPage(Page& page, const MeshOutcome& outcome, const RunControl& control);
+void addToPage(Page& page, const MeshOutcome& outcome, const PageMesh& mesh, const RunControl& control);
 
 /// Writes the page atomically. Throws Error{OutputNotWritable}.
 void writePage(const std::string& path, const Page& page);

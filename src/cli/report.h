@@ -15,7 +15,9 @@ namespace asdfvk {
 struct MeshOutcome {
   const std::string& mesh;    ///< As on the command line.
   const std::string& output;  ///< Path of the result; "-" for standard output.
-  const CommandLine& line;
+  const Computation& computation;
+  const SessionOptions& session;
+  const Outputs& outputs;
   const Result& result;
 };
 

@@ -167,8 +167,8 @@ std::string jsonReport(const MeshOutcome& outcome) {
   Json json;
   json["mesh"] = outcome.mesh;
   json["output"] = outcome.output;
-  json["picture"] = outcome.line.picture.empty() ? Json(nullptr) : Json(outcome.line.picture);
-  json["points"] = outcome.line.points.empty() ? Json(nullptr) : Json(outcome.line.points);
+  json["picture"] = outcome.outputs.picture.empty() ? Json(nullptr) : Json(outcome.outputs.picture);
+  json["points"] = outcome.outputs.points.empty() ? Json(nullptr) : Json(outcome.outputs.points);
   json["faceCount"] = report.faceCount;
   json["triangleCount"] = report.triangleCount;
   json["vertexCount"] = report.vertexCount;
@@ -215,7 +215,7 @@ std::string jsonReport(const MeshOutcome& outcome) {
   for (const Field& field : outcome.result.fields) json["fields"].push_back(fieldOf(field));
   json["version"] = ASDFVK_VERSION;
   json["commit"] = ASDFVK_COMMIT;
-  json["options"] = optionValues(outcome.line);
+  json["options"] = optionValues(outcome.computation, outcome.session);
   return oneLineOf(json);
 }
 

@@ -36,7 +36,7 @@ std::string seedRow(const MeshOutcome& outcome) {
   std::string text = fmt::format(
       "{} cast{} rays ({}), {} in all, recipe {}, random seed {}", groupedCount(report.seedCount, "face"),
       report.seedCount == 1 ? "s" : "", percent(report.seedCount, std::max<uint64_t>(1, report.triangleCount)),
-      groupedCount(report.rayCount, "ray"), nameOf(kRecipes, outcome.line.recipe), report.randomSeed);
+      groupedCount(report.rayCount, "ray"), nameOf(kRecipes, outcome.computation.recipe), report.randomSeed);
   if (report.redoneConeCount > 0)
     text += fmt::format("; {} redone by the reference", groupedCount(report.redoneConeCount, "cone"));
   return text;
@@ -181,7 +181,7 @@ ReportRows reportRows(const MeshOutcome& outcome) {
   if (report.postprocess)
     rows.emplace_back("smoothed", fmt::format("min {:.6g}, max {:.6g}, mapped to 0 and 1", report.postprocess->min,
                                               report.postprocess->max));
-  if (report.segmentation) append(segmentRows(*report.segmentation, outcome.line.options));
+  if (report.segmentation) append(segmentRows(*report.segmentation, outcome.computation.options));
   if (report.estimatedError) rows.emplace_back("error", estimateRow(report));
   if (report.check) {
     rows.emplace_back("check", tracedCheck(*report.check));
@@ -194,8 +194,8 @@ std::string textReport(const MeshOutcome& outcome) {
   ReportRows rows = reportRows(outcome);
   const auto placeText = [](const std::string& place) { return place == "-" ? "standard output" : place; };
   rows.emplace_back("output", placeText(outcome.output));
-  if (!outcome.line.points.empty()) rows.emplace_back("points", placeText(outcome.line.points));
-  if (!outcome.line.picture.empty()) rows.emplace_back("picture", placeText(outcome.line.picture));
+  if (!outcome.outputs.points.empty()) rows.emplace_back("points", placeText(outcome.outputs.points));
+  if (!outcome.outputs.picture.empty()) rows.emplace_back("picture", placeText(outcome.outputs.picture));
   std::string text = fmt::format("{}: {}\n", outcome.mesh, rows.front().second);
   for (size_t i = 1; i < rows.size(); ++i) text += fmt::format("  {:<9} {}\n", rows[i].first, rows[i].second);
   return text;

@@ -60,15 +60,15 @@ std::vector<Callout> calloutsOf(const ThicknessReport& thickness) {
 
 }  // namespace
 
-View viewOf(const CommandLine& line, const std::string& input, const Result& result, bool showsThin) {
-  View view = line.pictureView;
+View viewOf(const Outputs& outputs, const std::string& input, const Result& result, bool showsThin) {
+  View view = outputs.pictureView;
   const TraceScene& scene = result.scene->scene;
   if (!view.up) {
     const FileFormat* const format = formatOfExtension(std::filesystem::path(input).extension().string());
     view.up = format != nullptr && format->name == "stl" ? Up::Z : guessUp(verticesOfHitFaces(scene));
   }
   const ThinSurface& surface = result.thinSurface;
-  return showsThin && !line.choosesView ? bestViewOf(scene, surface.triangles, surface.regions, view) : view;
+  return showsThin && !outputs.choosesView ? bestViewOf(scene, surface.triangles, surface.regions, view) : view;
 }
 
 Image pictureOf(const Result& result, const Field& field, const View& view, const PictureStyle& style,

@@ -2,7 +2,7 @@
 
 #include "asdf_vk/run_control.h"
 #include "asdf_vk/session.h"
-#include "cli/options.h"
+#include "cli/outputs.h"
 #include "render/camera.h"
 #include "render/image.h"
 
@@ -16,7 +16,7 @@ struct PictureStyle {
 /// The view of --picture-view and --picture-up. Without an upright axis: z where the file `input` is an STL, else
 /// guessUp(). Without angles, where the picture shows the thin places: bestViewOf() them. Precondition: result.scene is
 /// set.
-[[nodiscard]] View viewOf(const CommandLine& line, const std::string& input, const Result& result, bool showsThin);
+[[nodiscard]] View viewOf(const Outputs& outputs, const std::string& input, const Result& result, bool showsThin);
 
 // Preconditions: result.scene is set. Both throw Error{Cancelled}.
 

@@ -33,7 +33,7 @@ std::vector<InputFile> inputsOf(const CommandLine& line) {
                                                     .list = batch.list,
                                                     .isNullSeparated = batch.isNullSeparated,
                                                     .formats = meshFormats(),
-                                                    .outputFolder = line.output});
+                                                    .outputFolder = line.outputs.path});
   if (inputs.empty())
     throw Error(ErrorCode::UnreadableInput,
                 batch.list.empty() ? "no mesh was found in the folders of -r" : "no mesh was found in --files-from");
@@ -61,7 +61,7 @@ void removeUnfinishedOutputs(const std::vector<MeshTask>& tasks) {
 std::vector<JobPhase> phasesOf(const CommandLine& line, const std::vector<MeshTask>& tasks,
                                std::vector<size_t> computed) {
   const auto threadCount = static_cast<uint32_t>(threadLimit());
-  return planJobs(tasks, std::move(computed), writesOnePage(line) ? 1 : line.batch.jobCount, threadCount);
+  return planJobs(tasks, std::move(computed), writesOnePage(line.outputs) ? 1 : line.batch.jobCount, threadCount);
 }
 
 /// The tasks that no earlier run has finished. Adds the others to the monitor.
@@ -85,7 +85,7 @@ std::vector<size_t> unfinishedTasks(const JobContext& context) {
 ExitCode failWithoutSession(const JobContext& context, const std::vector<JobPhase>& phases) {
   const Failure failure = currentFailure(context.line.session.requireGpu);
   printError("", failure.message);
-  if (context.line.json)
+  if (context.line.outputs.json)
     for (const JobPhase& phase : phases)
       for (const size_t task : phase.tasks)
         writeStandardOutput(jsonFailure(context.tasks[task].input, failure.name, failure.message));
@@ -109,7 +109,7 @@ ExitCode runHere(const JobContext& context, const std::vector<JobPhase>& phases)
 
 ExitCode runMeshes(const CommandLine& line, const std::vector<std::string>& arguments, const std::stop_token& stop) {
   const std::vector<MeshTask> tasks = tasksOf(line);
-  if (line.opensPage) requireBrowser();
+  if (line.outputs.opensPage) requireBrowser();
   std::optional<Interrupt::Listening> listening;  // In a batch, a signal drops the current meshes; the log has them.
   if (line.batch.isBatch()) {
     listening.emplace();
@@ -139,7 +139,7 @@ ExitCode runMeshes(const CommandLine& line, const std::vector<std::string>& argu
 ExitCode printDevices(const CommandLine& line) {
   std::string reason;
   const std::vector<DeviceInfo> devices = listDevices(&reason, line.session.requireGpu);
-  writeStandardOutput(line.json ? jsonDevices(devices, reason) : textDevices(devices, reason));
+  writeStandardOutput(line.outputs.json ? jsonDevices(devices, reason) : textDevices(devices, reason));
   const bool hasUsable =
       std::any_of(devices.begin(), devices.end(), [](const DeviceInfo& device) { return device.usable; });
   if (!line.session.requireGpu || hasUsable) return ExitCode::Done;

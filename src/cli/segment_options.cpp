@@ -93,7 +93,7 @@ void expandBareSegment(std::vector<std::string>& arguments) {
 }
 
 void completeSegments(const ArgumentParser& parser, CommandLine& line) {
-  Options& options = line.options;
+  Options& options = line.computation.options;
   if (options.segmentation != Segmentation::Cgal)
     for (const char* option : {"--clusters", "--smoothness", "--cgal-expansion"})
       if (parser.isGiven(option)) refuseOptions(fmt::format("{} needs --segment cgal", option));
@@ -105,12 +105,12 @@ void completeSegments(const ArgumentParser& parser, CommandLine& line) {
   if (options.segmentation == Segmentation::Cgal && parser.isGiven("--postprocess") &&
       options.postprocess == Postprocess::None)
     refuseOptions("--segment cgal contradicts --postprocess none; drop one");
-  if (parser.isGiven("--postprocess") && options.postprocess != Postprocess::None) line.valueOptions = "--postprocess";
+  if (parser.isGiven("--postprocess") && options.postprocess != Postprocess::None)
+    line.computation.valueOptions = "--postprocess";
   if (parser.isGiven("--segment") && options.segmentation != Segmentation::None)
-    line.valueOptions += line.valueOptions.empty() ? "--segment" : " and --segment";
+    line.computation.valueOptions += line.computation.valueOptions.empty() ? "--segment" : " and --segment";
   if (options.postprocesses()) options.postprocess = Postprocess::Cgal;
   const auto require = [&](const char* field, bool isComputed, const char* remedy) {
-    if (isComputed && !parser.isGiven("--fields")) line.fields.emplace_back(field);
     if (!isComputed) refuseField(line, field, remedy);
   };
   require("normalized", options.postprocesses(), "--postprocess cgal");

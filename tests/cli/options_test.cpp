@@ -19,48 +19,58 @@ namespace {
 TEST_CASE("a mesh alone gives the defaults") {
   const CommandLine line = parseCommandLine({"a.ply"});
   CHECK_EQ(line.meshes, std::vector<std::string>{"a.ply"});
-  CHECK(line.options.seeds.kind == SeedCount::Kind::Share);
-  CHECK_EQ(line.options.seeds.share, 0.1);
-  CHECK_EQ(line.options.cone.rayCount, 30);
-  CHECK_EQ(line.options.cone.openingAngleDegrees, 120);
-  CHECK(line.recipe == Recipe::Balanced);
-  CHECK_EQ(line.options.sampler, "blue-noise");
-  CHECK(line.options.interpolation.weights == ArcWeights::Feature);
-  CHECK(line.options.interpolation.guidance == Guidance::Prediction);
-  CHECK_EQ(line.options.interpolation.pooling, 0);
-  CHECK(line.options.cone.rotation == ConeRotation::Fixed);
-  CHECK(line.options.estimatesError);
-  CHECK_FALSE(line.options.rounds.areSet());
-  CHECK(line.options.orientation == Orientation::Keep);
-  CHECK_EQ(line.options.solver, "auto");
+  CHECK(line.computation.options.seeds.kind == SeedCount::Kind::Share);
+  CHECK_EQ(line.computation.options.seeds.share, 0.1);
+  CHECK_EQ(line.computation.options.cone.rayCount, 30);
+  CHECK_EQ(line.computation.options.cone.openingAngleDegrees, 120);
+  CHECK(line.computation.recipe == Recipe::Balanced);
+  CHECK_EQ(line.computation.options.sampler, "blue-noise");
+  CHECK(line.computation.options.interpolation.weights == ArcWeights::Feature);
+  CHECK(line.computation.options.interpolation.guidance == Guidance::Prediction);
+  CHECK_EQ(line.computation.options.interpolation.pooling, 0);
+  CHECK(line.computation.options.cone.rotation == ConeRotation::Fixed);
+  CHECK(line.computation.options.estimatesError);
+  CHECK_FALSE(line.computation.options.rounds.areSet());
+  CHECK(line.computation.options.orientation == Orientation::Keep);
+  CHECK_EQ(line.computation.options.solver, "auto");
   CHECK_EQ(line.session.backend, "auto");
   const TraceVariant& variant = line.session.variant;
   CHECK((variant.kernel.empty() && variant.bvh.empty() && variant.fetch.empty()));
-  CHECK_EQ(line.fields, std::vector<std::string>{"sdf", "seed"});
-  CHECK_FALSE(line.options.checkCount.has_value());
+  CHECK_EQ(fieldNames(line.outputs, line.computation.options), std::vector<std::string>{"sdf", "seed"});
+  CHECK_FALSE(line.computation.options.checkCount.has_value());
   CHECK_FALSE(line.answer.has_value());
-  CHECK(line.output.empty());
-  CHECK_FALSE(
-      (line.json || line.quiet || line.ascii || line.listDevices || line.deviceReport || line.session.requireGpu));
+  CHECK(line.outputs.path.empty());
+  CHECK_FALSE((line.outputs.json || line.outputs.quiet || line.outputs.ascii || line.listDevices || line.deviceReport ||
+               line.session.requireGpu));
 }
 
 TEST_CASE("the options of a picture") {
-  CHECK(parseCommandLine({"a.ply"}).picture.empty());
+  CHECK(parseCommandLine({"a.ply"}).outputs.picture.empty());
   const CommandLine line = parseCommandLine(
       {"a.ply", "--picture", "b.PNG", "--picture-of", "seed", "--picture-view", "-20,7.5", "--picture-up", "-x"});
-  CHECK_EQ(line.picture, "b.PNG");
-  CHECK_EQ(parseCommandLine({"a.ply", "--picture", "b.png", "--picture-of", "seeds"}).pictureOf, "seed");
-  CHECK(line.pictureOf == "seed");
-  CHECK_EQ(line.pictureView.azimuthDegrees, -20);
-  CHECK_EQ(line.pictureView.elevationDegrees, 7.5);
-  CHECK(line.pictureView.up == Up::MinusX);
-  CHECK_FALSE(parseCommandLine({"a.ply", "--picture", "b.png", "--picture-up", "auto"}).pictureView.up.has_value());
+  CHECK_EQ(line.outputs.picture, "b.PNG");
+  CHECK_EQ(parseCommandLine({"a.ply", "--picture", "b.png", "--picture-of", "seeds"}).outputs.pictureOf, "seed");
+  CHECK(line.outputs.pictureOf == "seed");
+  CHECK_EQ(line.outputs.pictureView.azimuthDegrees, -20);
+  CHECK_EQ(line.outputs.pictureView.elevationDegrees, 7.5);
+  CHECK(line.outputs.pictureView.up == Up::MinusX);
+  CHECK_FALSE(
+      parseCommandLine({"a.ply", "--picture", "b.png", "--picture-up", "auto"}).outputs.pictureView.up.has_value());
   for (const char* view : {"30", "30,91", "30,-91", "361,0", "a,b", "1,2,3", ","})
     CHECK_MESSAGE(refusal({"a.ply", "--picture", "b.png", "--picture-view", view}) != "accepted", view);
   CHECK(refusal({"a.ply", "--picture", "b.jpg"}).find(".png") != std::string::npos);
   CHECK(refusal({"a.ply", "--picture-of", "seeds"}).find("--picture") != std::string::npos);
   CHECK(refusal({"a.ply", "b.ply", "--picture", "c.png"}).find("one mesh") != std::string::npos);
   CHECK(refusal({"a.ply", "-o", "-", "--picture", "-"}).find("standard output") != std::string::npos);
+}
+
+std::string hashOfOptions(const CommandLine& line) {
+  return optionsHash(line.computation, line.compared, line.session, line.outputs);
+}
+
+/// The fields that are written.
+std::vector<std::string> fieldsIn(const CommandLine& line) {
+  return fieldNames(line.outputs, line.computation.options);
 }
 
 /// An option with a value that is not the default, and whether the value is in its field.
@@ -72,66 +82,75 @@ struct OptionCase {
 const std::vector<OptionCase>& optionCases() {
   using Line = CommandLine;
   static const std::vector<OptionCase> cases{
-      {{"--seeds", "25%"}, [](const Line& l) { return l.options.seeds.share == 0.25; }},
+      {{"--seeds", "25%"}, [](const Line& l) { return l.computation.options.seeds.share == 0.25; }},
       {{"--rng-seed", "18446744073709551615"},
-       [](const Line& l) { return l.options.randomSeed == std::numeric_limits<uint64_t>::max(); }},
-      {{"--rays", "64"}, [](const Line& l) { return l.options.cone.rayCount == 64; }},
-      {{"--angle", "90.5"}, [](const Line& l) { return l.options.cone.openingAngleDegrees == 90.5; }},
-      {{"--false-hit-angle", "45"}, [](const Line& l) { return l.options.cone.falseHitAngleDegrees == 45; }},
-      {{"--outlier-deviations", "1.5"}, [](const Line& l) { return l.options.cone.outlierDeviations == 1.5; }},
-      {{"--cone-rotation", "hashed"}, [](const Line& l) { return l.options.cone.rotation == ConeRotation::Hashed; }},
+       [](const Line& l) { return l.computation.options.randomSeed == std::numeric_limits<uint64_t>::max(); }},
+      {{"--rays", "64"}, [](const Line& l) { return l.computation.options.cone.rayCount == 64; }},
+      {{"--angle", "90.5"}, [](const Line& l) { return l.computation.options.cone.openingAngleDegrees == 90.5; }},
+      {{"--false-hit-angle", "45"},
+       [](const Line& l) { return l.computation.options.cone.falseHitAngleDegrees == 45; }},
+      {{"--outlier-deviations", "1.5"},
+       [](const Line& l) { return l.computation.options.cone.outlierDeviations == 1.5; }},
+      {{"--cone-rotation", "hashed"},
+       [](const Line& l) { return l.computation.options.cone.rotation == ConeRotation::Hashed; }},
       {{"--definition", "cgal"},
        [](const Line& l) {
-         return l.options.cone.definition == Definition::Cgal && l.options.cone.rayCount == 25 &&
-                l.options.seeds.kind == SeedCount::Kind::All;
+         return l.computation.options.cone.definition == Definition::Cgal &&
+                l.computation.options.cone.rayCount == 25 && l.computation.options.seeds.kind == SeedCount::Kind::All;
        }},
-      {{"--recipe", "quality"}, [](const Line& l) { return l.recipe == Recipe::Quality; }},
-      {{"--sampler", "farthest-point"}, [](const Line& l) { return l.options.sampler == "farthest-point"; }},
-      {{"--max-error", "1.5%"}, [](const Line& l) { return l.options.rounds.maxError == 0.015; }},
+      {{"--recipe", "quality"}, [](const Line& l) { return l.computation.recipe == Recipe::Quality; }},
+      {{"--sampler", "farthest-point"},
+       [](const Line& l) { return l.computation.options.sampler == "farthest-point"; }},
+      {{"--max-error", "1.5%"}, [](const Line& l) { return l.computation.options.rounds.maxError == 0.015; }},
       {{"--max-error", "5%rel"},
        [](const Line& l) {
-         return l.options.rounds.maxRelativeError == 0.05 && !l.options.rounds.maxError.has_value();
+         return l.computation.options.rounds.maxRelativeError == 0.05 &&
+                !l.computation.options.rounds.maxError.has_value();
        }},
-      {{"--time-budget", "2.5s"}, [](const Line& l) { return l.options.rounds.timeBudgetSeconds == 2.5; }},
-      {{"--no-estimate"}, [](const Line& l) { return !l.options.estimatesError; }},
+      {{"--time-budget", "2.5s"}, [](const Line& l) { return l.computation.options.rounds.timeBudgetSeconds == 2.5; }},
+      {{"--no-estimate"}, [](const Line& l) { return !l.computation.options.estimatesError; }},
       {{"--weights", "distance"},
-       [](const Line& l) { return l.options.interpolation.weights == ArcWeights::Distance; }},
+       [](const Line& l) { return l.computation.options.interpolation.weights == ArcWeights::Distance; }},
       {{"--guidance", "curvature"},
-       [](const Line& l) { return l.options.interpolation.guidance == Guidance::Curvature; }},
-      {{"--pooling", "0.3"}, [](const Line& l) { return l.options.interpolation.pooling == 0.3; }},
+       [](const Line& l) { return l.computation.options.interpolation.guidance == Guidance::Curvature; }},
+      {{"--pooling", "0.3"}, [](const Line& l) { return l.computation.options.interpolation.pooling == 0.3; }},
       {{"--smooth", "3x2"},
        [](const Line& l) {
-         const SmoothingOptions& smoothing = l.options.smoothing;
+         const SmoothingOptions& smoothing = l.computation.options.smoothing;
          return smoothing.isOn && smoothing.window == SmoothingOptions::Window{.rings = 3, .passes = 2};
        }},
       {{"--postprocess", "cgal"},
        [](const Line& l) {
-         return l.options.postprocess == Postprocess::Cgal && l.options.segmentation == Segmentation::None;
+         return l.computation.options.postprocess == Postprocess::Cgal &&
+                l.computation.options.segmentation == Segmentation::None;
        }},
-      {{"--measure", "thickness"}, [](const Line& l) { return l.options.measure == Measure::Thickness; }},
-      {{"--thinner-than", "0.5"}, [](const Line& l) { return l.options.thickness.thinnerThan == 0.5; }},
-      {{"--fail-if-thinner", "0.25"}, [](const Line& l) { return l.failIfThinner == 0.25; }},
+      {{"--measure", "thickness"}, [](const Line& l) { return l.computation.options.measure == Measure::Thickness; }},
+      {{"--thinner-than", "0.5"}, [](const Line& l) { return l.computation.options.thickness.thinnerThan == 0.5; }},
+      {{"--fail-if-thinner", "0.25"}, [](const Line& l) { return l.computation.failIfThinner == 0.25; }},
       {{"--allow-sharp-edges", "--thinner-than", "0.5"},
-       [](const Line& l) { return l.options.thickness.allowsSharpEdges; }},
+       [](const Line& l) { return l.computation.options.thickness.allowsSharpEdges; }},
       {{"--wall-angle", "150", "--measure", "thickness"},
-       [](const Line& l) { return l.options.thickness.wallAngleDegrees == 150; }},
+       [](const Line& l) { return l.computation.options.thickness.wallAngleDegrees == 150; }},
       {{"--segment", "cgal"},
        [](const Line& l) {
-         return l.options.segmentation == Segmentation::Cgal && l.options.postprocess == Postprocess::Cgal;
+         return l.computation.options.segmentation == Segmentation::Cgal &&
+                l.computation.options.postprocess == Postprocess::Cgal;
        }},
       {{"--parts", "7", "--segment", "parts"},
        [](const Line& l) {
-         return l.options.segmentation == Segmentation::Parts && l.options.parts.partCount == 7u &&
-                l.options.postprocess == Postprocess::None;
+         return l.computation.options.segmentation == Segmentation::Parts &&
+                l.computation.options.parts.partCount == 7u && l.computation.options.postprocess == Postprocess::None;
        }},
       {{"--detail", "2.5", "--segment"},
-       [](const Line& l) { return l.options.parts.detail == 2.5 && !l.options.parts.partCount; }},
+       [](const Line& l) {
+         return l.computation.options.parts.detail == 2.5 && !l.computation.options.parts.partCount;
+       }},
       {{"--clusters", "3", "--segment", "cgal"},
-       [](const Line& l) { return l.options.cgalSegmentation.clusterCount == 3; }},
+       [](const Line& l) { return l.computation.options.cgalSegmentation.clusterCount == 3; }},
       {{"--smoothness", "0.5", "--segment", "cgal"},
-       [](const Line& l) { return l.options.cgalSegmentation.smoothness == 0.5; }},
+       [](const Line& l) { return l.computation.options.cgalSegmentation.smoothness == 0.5; }},
       {{"--cgal-expansion", "first", "--segment", "cgal"},
-       [](const Line& l) { return l.options.cgalSegmentation.expansion == CgalExpansion::First; }},
+       [](const Line& l) { return l.computation.options.cgalSegmentation.expansion == CgalExpansion::First; }},
       {{"--recursive"}, [](const Line& l) { return l.batch.recurses; }},
       {{"--files-from", "list"}, [](const Line& l) { return l.batch.list == "list"; }},
       {{"--null", "--files-from", "list"}, [](const Line& l) { return l.batch.isNullSeparated; }},
@@ -142,35 +161,42 @@ const std::vector<OptionCase>& optionCases() {
       {{"--memory-limit", "2M"}, [](const Line& l) { return l.batch.memoryBytes == 2u << 20; }},
       {{"--isolate"}, [](const Line& l) { return l.batch.isolates; }},
       {{"--jobs", "3"}, [](const Line& l) { return l.batch.jobCount == 3; }},
-      {{"--open"}, [](const Line& l) { return l.opensPage; }},
-      {{"--against", "--seeds 5%", "-o", "a.html"}, [](const Line& l) { return l.compared.size() == 1; }},
-      {{"--solver", "jacobi"}, [](const Line& l) { return l.options.solver == "jacobi"; }},
-      {{"--tolerance", "1e-3"}, [](const Line& l) { return l.options.solverOptions.tolerance == 1e-3; }},
-      {{"--max-iterations", "77"}, [](const Line& l) { return l.options.solverOptions.maxIterations == 77; }},
-      {{"--orient", "flip"}, [](const Line& l) { return l.options.orientation == Orientation::Flip; }},
-      {{"--check=all"}, [](const Line& l) { return l.options.checkCount == std::numeric_limits<uint64_t>::max(); }},
-      {{"--output", "b.ply"}, [](const Line& l) { return l.output == "b.ply"; }},
-      {{"-o", "b.ply"}, [](const Line& l) { return l.output == "b.ply"; }},
-      {{"--format", "vtu"}, [](const Line& l) { return l.format == "vtu"; }},
+      {{"--open"}, [](const Line& l) { return l.outputs.opensPage; }},
+      {{"--against", "--seeds 5%", "-o", "a.html"}, [](const Line& l) { return l.compared.has_value(); }},
+      {{"--solver", "jacobi"}, [](const Line& l) { return l.computation.options.solver == "jacobi"; }},
+      {{"--tolerance", "1e-3"}, [](const Line& l) { return l.computation.options.solverOptions.tolerance == 1e-3; }},
+      {{"--max-iterations", "77"},
+       [](const Line& l) { return l.computation.options.solverOptions.maxIterations == 77; }},
+      {{"--orient", "flip"}, [](const Line& l) { return l.computation.options.orientation == Orientation::Flip; }},
+      {{"--check=all"},
+       [](const Line& l) { return l.computation.options.checkCount == std::numeric_limits<uint64_t>::max(); }},
+      {{"--output", "b.ply"}, [](const Line& l) { return l.outputs.path == "b.ply"; }},
+      {{"-o", "b.ply"}, [](const Line& l) { return l.outputs.path == "b.ply"; }},
+      {{"--format", "vtu"}, [](const Line& l) { return l.outputs.format == "vtu"; }},
       {{"--fields", "error,sdf"},
        [](const Line& l) {
-         return l.fields == std::vector<std::string>{"error", "sdf"};
+         return l.outputs.fields == std::vector<std::string>{"error", "sdf"};
        }},
-      {{"--fields", "centre"}, [](const Line& l) { return l.options.computesCentres; }},
-      {{"--per", "vertex"}, [](const Line& l) { return l.options.per == PerElement::Vertices; }},
-      {{"--points", "b.PLY"}, [](const Line& l) { return l.points == "b.PLY" && l.options.computesCentres; }},
-      {{"--points", "-"}, [](const Line& l) { return l.points == "-"; }},
-      {{"--ascii"}, [](const Line& l) { return l.ascii; }},
-      {{"--open", "-o", "b.html"}, [](const Line& l) { return l.opensPage; }},
+      {{"--fields", "centre"}, [](const Line& l) { return l.computation.options.computesCentres; }},
+      {{"--per", "vertex"}, [](const Line& l) { return l.computation.options.per == PerElement::Vertices; }},
+      {{"--points", "b.PLY"},
+       [](const Line& l) { return l.outputs.points == "b.PLY" && l.computation.options.computesCentres; }},
+      {{"--points", "-"}, [](const Line& l) { return l.outputs.points == "-"; }},
+      {{"--ascii"}, [](const Line& l) { return l.outputs.ascii; }},
+      {{"--open", "-o", "b.html"}, [](const Line& l) { return l.outputs.opensPage; }},
       {{"--against", "--rays 7", "-o", "b.html"},
-       [](const Line& l) { return l.compared.size() == 1 && l.compared[0].options.cone.rayCount == 7; }},
-      {{"--json"}, [](const Line& l) { return l.json; }},
-      {{"--quiet"}, [](const Line& l) { return l.quiet; }},
-      {{"--picture", "b.png"}, [](const Line& l) { return l.picture == "b.png" && l.options.keepsScene; }},
-      {{"--picture-of", "error", "--picture", "b.png"}, [](const Line& l) { return l.pictureOf == "error"; }},
+       [](const Line& l) { return l.compared && l.compared->options.cone.rayCount == 7; }},
+      {{"--json"}, [](const Line& l) { return l.outputs.json; }},
+      {{"--quiet"}, [](const Line& l) { return l.outputs.quiet; }},
+      {{"--picture", "b.png"},
+       [](const Line& l) { return l.outputs.picture == "b.png" && l.computation.options.keepsScene; }},
+      {{"--picture-of", "error", "--picture", "b.png"}, [](const Line& l) { return l.outputs.pictureOf == "error"; }},
       {{"--picture-view", "5,7.5", "--picture", "b.png"},
-       [](const Line& l) { return l.pictureView.azimuthDegrees == 5 && l.pictureView.elevationDegrees == 7.5; }},
-      {{"--picture-up", "-x", "--picture", "b.png"}, [](const Line& l) { return l.pictureView.up == Up::MinusX; }},
+       [](const Line& l) {
+         return l.outputs.pictureView.azimuthDegrees == 5 && l.outputs.pictureView.elevationDegrees == 7.5;
+       }},
+      {{"--picture-up", "-x", "--picture", "b.png"},
+       [](const Line& l) { return l.outputs.pictureView.up == Up::MinusX; }},
       {{"--backend", "reference"}, [](const Line& l) { return l.session.backend == "reference"; }},
       {{"--device", "llvmpipe"}, [](const Line& l) { return l.session.device == "llvmpipe"; }},
       {{"--require-gpu"}, [](const Line& l) { return l.session.requireGpu; }},
@@ -226,7 +252,7 @@ TEST_CASE("every option changes the hash that --skip-existing compares, except t
   const auto hashOf = [](std::vector<std::string> arguments, const std::vector<std::string>& more = {}) {
     arguments.insert(arguments.end(), more.begin(), more.end());
     arguments.emplace_back("a.ply");
-    return optionsHash(parseCommandLine(arguments));
+    return hashOfOptions(parseCommandLine(arguments));
   };
   std::set<std::string> hashes{hashOf({})};
   for (const OptionCase& option : optionCases()) {
@@ -251,7 +277,7 @@ TEST_CASE("every option changes the hash that --skip-existing compares, except t
 
 TEST_CASE("the hash of the options is of exact numbers, and of what a page shows") {
   const auto hashOf = [](const std::vector<std::string>& arguments) {
-    return optionsHash(parseCommandLine(arguments));
+    return hashOfOptions(parseCommandLine(arguments));
   };
   CHECK_NE(hashOf({"a.ply", "--seeds", "1.00000001%"}), hashOf({"a.ply", "--seeds", "1%"}));
   CHECK_NE(hashOf({"a.ply", "--format", "html", "--fields", "sdf,seed"}), hashOf({"a.ply", "--format", "html"}));
@@ -269,7 +295,7 @@ TEST_CASE("a kernel variant of auto is the default") {
 }
 
 TEST_CASE("--fields keeps the order of the names") {
-  const auto fieldsOf = [](const char* text) { return parseCommandLine({"a.ply", "--fields", text}).fields; };
+  const auto fieldsOf = [](const char* text) { return parseCommandLine({"a.ply", "--fields", text}).outputs.fields; };
   CHECK_EQ(fieldsOf("seed"), std::vector<std::string>{"seed"});
   CHECK_EQ(fieldsOf("error,seed,sdf"), std::vector<std::string>{"error", "seed", "sdf"});
   CHECK_EQ(refusal({"a.ply", "--fields", "sdf,sdf"}), "--fields: 'sdf,sdf' names sdf twice");
@@ -290,10 +316,10 @@ TEST_CASE("--segment without a value is --segment parts, wherever it stands") {
                                      {"--segment", "parts", "a.ply"},
                                      {"--segment", "--", "a.ply"}}) {
     const CommandLine line = parseCommandLine(arguments);
-    CHECK(line.options.segmentation == Segmentation::Parts);
+    CHECK(line.computation.options.segmentation == Segmentation::Parts);
     CHECK_EQ(line.meshes.size(), 1);
   }
-  CHECK(parseCommandLine({"a.ply", "--segment", "none"}).options.segmentation == Segmentation::None);
+  CHECK(parseCommandLine({"a.ply", "--segment", "none"}).computation.options.segmentation == Segmentation::None);
   CHECK_EQ(parseCommandLine({"a.ply", "--", "--segment"}).meshes, Arguments{"a.ply", "--segment"});
 }
 
@@ -305,15 +331,15 @@ TEST_CASE("the value of --segment is no file, also where a file or folder has it
   std::vector<CommandLine> lines;
   for (const char* name : {"parts", "cgal"}) lines.push_back(parseCommandLine({"a.ply", "--segment", name}));
   std::filesystem::current_path(before);
-  CHECK(lines[0].options.segmentation == Segmentation::Parts);
-  CHECK(lines[1].options.segmentation == Segmentation::Cgal);
+  CHECK(lines[0].computation.options.segmentation == Segmentation::Parts);
+  CHECK(lines[1].computation.options.segmentation == Segmentation::Cgal);
   for (const CommandLine& line : lines) CHECK_EQ(line.meshes, std::vector<std::string>{"a.ply"});
 }
 
 TEST_CASE("the fields of --postprocess and --segment are written without --fields") {
   const auto fieldsOf = [](std::vector<std::string> arguments) {
     arguments.emplace_back("a.ply");
-    return parseCommandLine(arguments).fields;
+    return fieldsIn(parseCommandLine(arguments));
   };
   CHECK_EQ(fieldsOf({"--postprocess", "cgal"}), std::vector<std::string>{"sdf", "seed", "normalized"});
   CHECK_EQ(fieldsOf({"--segment", "cgal"}), std::vector<std::string>{"sdf", "seed", "normalized", "segment"});
@@ -326,9 +352,9 @@ TEST_CASE("--check without a number does not parse the next mesh name as one") {
   for (const auto& arguments : {std::vector<std::string>{"--check", "a.ply"}, {"a.ply", "--check"}}) {
     const CommandLine line = parseCommandLine(arguments);
     CHECK_EQ(line.meshes, std::vector<std::string>{"a.ply"});
-    CHECK_EQ(line.options.checkCount.value(), kDefaultCheckCount);
+    CHECK_EQ(line.computation.options.checkCount.value(), kDefaultCheckCount);
   }
-  CHECK_EQ(parseCommandLine({"--check=5", "a.ply"}).options.checkCount.value(), 5);
+  CHECK_EQ(parseCommandLine({"--check=5", "a.ply"}).computation.options.checkCount.value(), 5);
   CHECK_EQ(parseCommandLine({"--", "--check"}).meshes, std::vector<std::string>{"--check"});
 }
 
@@ -346,7 +372,7 @@ TEST_CASE("meshes: many, standard input, odd names") {
 
 TEST_CASE("each sampler, weight and guidance has its name") {
   const auto optionsWith = [](const char* option, const char* name) {
-    return parseCommandLine({"a.ply", option, name}).options;
+    return parseCommandLine({"a.ply", option, name}).computation.options;
   };
   for (const std::string& name : samplerNames()) CHECK_EQ(optionsWith("--sampler", name.c_str()).sampler, name);
   CHECK(optionsWith("--weights", "distance").interpolation.weights == ArcWeights::Distance);
@@ -359,57 +385,61 @@ TEST_CASE("single options override the recipe, in any order") {
   for (const auto& arguments : {std::vector<std::string>{"a.ply", "--recipe", "paper", "--weights", "feature"},
                                 {"a.ply", "--weights", "feature", "--recipe", "paper"}}) {
     const CommandLine line = parseCommandLine(arguments);
-    CHECK(line.recipe == Recipe::Paper);
-    CHECK(line.options.interpolation.weights == ArcWeights::Feature);
-    CHECK(line.options.interpolation.guidance == Guidance::Curvature);
-    CHECK_EQ(line.options.sampler, "random");
+    CHECK(line.computation.recipe == Recipe::Paper);
+    CHECK(line.computation.options.interpolation.weights == ArcWeights::Feature);
+    CHECK(line.computation.options.interpolation.guidance == Guidance::Curvature);
+    CHECK_EQ(line.computation.options.sampler, "random");
   }
   const CommandLine line = parseCommandLine({"a.ply", "--sampler", "adaptive", "--pooling", "0", "--cone-rotation",
                                              "fixed", "--guidance", "none", "--recipe", "quality"});
-  CHECK_EQ(line.options.sampler, "adaptive");
-  CHECK(line.options.cone.rotation == ConeRotation::Fixed);
-  CHECK(line.options.interpolation.guidance == Guidance::None);
-  CHECK_EQ(line.options.interpolation.pooling, 0);
-  CHECK(line.options.interpolation.weights == ArcWeights::Feature);
-  CHECK_EQ(parseCommandLine({"a.ply", "--seeds", "3", "--recipe", "paper"}).options.seeds.count, 3);
+  CHECK_EQ(line.computation.options.sampler, "adaptive");
+  CHECK(line.computation.options.cone.rotation == ConeRotation::Fixed);
+  CHECK(line.computation.options.interpolation.guidance == Guidance::None);
+  CHECK_EQ(line.computation.options.interpolation.pooling, 0);
+  CHECK(line.computation.options.interpolation.weights == ArcWeights::Feature);
+  CHECK_EQ(parseCommandLine({"a.ply", "--seeds", "3", "--recipe", "paper"}).computation.options.seeds.count, 3);
 }
 
 TEST_CASE("--definition cgal has 25 rays and all faces unless they are given, in any order") {
   const auto coneOf = [](const std::vector<std::string>& arguments) {
-    return parseCommandLine(arguments).options.cone;
+    return parseCommandLine(arguments).computation.options.cone;
   };
   for (const auto& arguments :
        {std::vector<std::string>{"a.ply", "--definition", "cgal", "--rays", "12", "--seeds", "10%", "--angle", "90"},
         {"a.ply", "--angle", "90", "--seeds", "10%", "--rays", "12", "--definition", "cgal"}}) {
     const CommandLine line = parseCommandLine(arguments);
-    CHECK(line.options.cone.definition == Definition::Cgal);
-    CHECK_EQ(line.options.cone.rayCount, 12);
-    CHECK_EQ(line.options.cone.openingAngleDegrees, 90);
-    CHECK_EQ(line.options.seeds.share, 0.1);
+    CHECK(line.computation.options.cone.definition == Definition::Cgal);
+    CHECK_EQ(line.computation.options.cone.rayCount, 12);
+    CHECK_EQ(line.computation.options.cone.openingAngleDegrees, 90);
+    CHECK_EQ(line.computation.options.seeds.share, 0.1);
   }
-  CHECK_EQ(parseCommandLine({"a.ply", "--definition", "cgal", "--max-error", "1%"}).options.seeds.share, 0.02);
-  CHECK_EQ(parseCommandLine({"a.ply", "--recipe", "paper", "--definition", "cgal"}).options.sampler, "random");
+  CHECK_EQ(parseCommandLine({"a.ply", "--definition", "cgal", "--max-error", "1%"}).computation.options.seeds.share,
+           0.02);
+  CHECK_EQ(parseCommandLine({"a.ply", "--recipe", "paper", "--definition", "cgal"}).computation.options.sampler,
+           "random");
   CHECK_EQ(coneOf({"a.ply", "--definition", "paper"}).rayCount, 30);
-  CHECK_EQ(parseCommandLine({"a.ply", "--definition", "paper"}).options.seeds.share, 0.1);
+  CHECK_EQ(parseCommandLine({"a.ply", "--definition", "paper"}).computation.options.seeds.share, 0.1);
 }
 
 TEST_CASE("errors and times are read with their unit or without") {
   for (const char* text : {"1%", "0.01", "1.0%", "1e-2"})
-    CHECK_EQ(parseCommandLine({"a.ply", "--max-error", text}).options.rounds.maxError.value(), doctest::Approx(0.01));
+    CHECK_EQ(parseCommandLine({"a.ply", "--max-error", text}).computation.options.rounds.maxError.value(),
+             doctest::Approx(0.01));
   for (const char* text : {"1%rel", "0.01rel"}) {
-    const RoundOptions rounds = parseCommandLine({"a.ply", "--max-error", text}).options.rounds;
+    const RoundOptions rounds = parseCommandLine({"a.ply", "--max-error", text}).computation.options.rounds;
     CHECK_EQ(rounds.maxRelativeError.value(), doctest::Approx(0.01));
     CHECK_FALSE(rounds.maxError.has_value());
   }
   for (const char* text : {"2s", "2", "2.0s", "2e0"})
-    CHECK_EQ(parseCommandLine({"a.ply", "--time-budget", text}).options.rounds.timeBudgetSeconds.value(), 2);
+    CHECK_EQ(parseCommandLine({"a.ply", "--time-budget", text}).computation.options.rounds.timeBudgetSeconds.value(),
+             2);
 }
 
 TEST_CASE("smoothing is off, by the number of faces, or by a given window") {
   const auto smoothing = [](const char* text) {
-    return parseCommandLine({"a.ply", "--smooth", text}).options.smoothing;
+    return parseCommandLine({"a.ply", "--smooth", text}).computation.options.smoothing;
   };
-  CHECK_FALSE(parseCommandLine({"a.ply"}).options.smoothing.isOn);
+  CHECK_FALSE(parseCommandLine({"a.ply"}).computation.options.smoothing.isOn);
   CHECK_FALSE(smoothing("off").isOn);
   CHECK(smoothing("auto").isOn);
   CHECK_FALSE(smoothing("auto").window.has_value());
@@ -419,12 +449,12 @@ TEST_CASE("smoothing is off, by the number of faces, or by a given window") {
 }
 
 TEST_CASE("rounds begin with few seeds unless --seeds is given") {
-  CHECK_EQ(parseCommandLine({"a.ply", "--max-error", "1%"}).options.seeds.share, 0.02);
-  CHECK_EQ(parseCommandLine({"a.ply", "--max-error", "5%rel"}).options.seeds.share, 0.02);
-  CHECK_EQ(parseCommandLine({"a.ply", "--time-budget", "1s"}).options.seeds.share, 0.02);
-  CHECK_EQ(parseCommandLine({"a.ply", "--seeds", "5%", "--max-error", "1%"}).options.seeds.share, 0.05);
-  CHECK_EQ(parseCommandLine({"a.ply", "--max-error", "1%", "--seeds", "10%"}).options.seeds.share, 0.1);
-  CHECK_EQ(parseCommandLine({"a.ply", "--recipe", "paper"}).options.seeds.share, 0.1);
+  CHECK_EQ(parseCommandLine({"a.ply", "--max-error", "1%"}).computation.options.seeds.share, 0.02);
+  CHECK_EQ(parseCommandLine({"a.ply", "--max-error", "5%rel"}).computation.options.seeds.share, 0.02);
+  CHECK_EQ(parseCommandLine({"a.ply", "--time-budget", "1s"}).computation.options.seeds.share, 0.02);
+  CHECK_EQ(parseCommandLine({"a.ply", "--seeds", "5%", "--max-error", "1%"}).computation.options.seeds.share, 0.05);
+  CHECK_EQ(parseCommandLine({"a.ply", "--max-error", "1%", "--seeds", "10%"}).computation.options.seeds.share, 0.1);
+  CHECK_EQ(parseCommandLine({"a.ply", "--recipe", "paper"}).computation.options.seeds.share, 0.1);
 }
 
 TEST_CASE("--help has the most needed options, --help=all all of them in groups") {

@@ -16,8 +16,8 @@ namespace {
 CommandLine lineOf(std::vector<std::string> meshes, const std::string& output = "", const std::string& format = "") {
   CommandLine line;
   line.meshes = std::move(meshes);
-  line.output = output;
-  line.format = format;
+  line.outputs.path = output;
+  line.outputs.format = format;
   return line;
 }
 
@@ -59,7 +59,7 @@ TEST_CASE("outputs that contradict each other are usage errors") {
   CHECK(isRefused(lineOf({"a.ply"}, "x/../a.ply")));
   CHECK(isRefused(lineOf({"a.ply", "a.asdf.ply"})));
   const auto withPicture = [](CommandLine line, const std::string& picture) {
-    line.picture = picture;
+    line.outputs.picture = picture;
     return line;
   };
   CHECK(isRefused(withPicture(lineOf({"a.png"}, "out.ply"), "x/../a.png")));
@@ -67,7 +67,7 @@ TEST_CASE("outputs that contradict each other are usage errors") {
   CHECK_FALSE(isRefused(withPicture(lineOf({"a.ply"}, "out.ply"), "out.png")));
   CHECK_FALSE(isRefused(withPicture(lineOf({"a.ply"}, "out.ply"), "-")));
   const auto withPoints = [](CommandLine line, const std::string& points) {
-    line.points = points;
+    line.outputs.points = points;
     return line;
   };
   CHECK(isRefused(withPoints(lineOf({"a.ply"}, "out.ply"), "x/../out.ply")));
@@ -77,19 +77,18 @@ TEST_CASE("outputs that contradict each other are usage errors") {
   CHECK_FALSE(isRefused(withPoints(lineOf({"a.ply"}, "out.ply"), "-")));
   CHECK(isRefused(withPoints(withPicture(lineOf({"a.ply"}), "b"), "b")));
   CommandLine ascii = lineOf({"a.ply"}, "out.csv");
-  ascii.ascii = true;
+  ascii.outputs.ascii = true;
   CHECK(isRefused(ascii));
 }
 
 TEST_CASE("a format of rows per face or per vertex holds the vertex fields where there are any") {
   const std::vector<Field> fields{{.name = "a"}, {.name = "b"}, {.name = "a", .location = FieldLocation::PerVertex}};
-  CommandLine line = lineOf({"a.ply"}, "out");
-  CHECK_EQ(writableFields(line, "out.csv", fields).size(), 3);
-  line.options.per = PerElement::Vertices;
-  for (const char* whole : {"out.ply", "out.vtu", "out.npz"}) CHECK_EQ(writableFields(line, whole, fields).size(), 3);
+  const auto writable = [&](const char* output, PerElement per) { return writableFields({}, per, output, fields); };
+  CHECK_EQ(writable("out.csv", PerElement::Faces).size(), 3);
+  for (const char* whole : {"out.ply", "out.vtu", "out.npz"}) CHECK_EQ(writable(whole, PerElement::Vertices).size(), 3);
   for (const char* one : {"out.csv", "out.npy"}) {
-    REQUIRE_EQ(writableFields(line, one, fields).size(), 1);
-    CHECK_EQ(&writableFields(line, one, fields)[0], &fields[2]);
+    REQUIRE_EQ(writable(one, PerElement::Vertices).size(), 1);
+    CHECK_EQ(&writable(one, PerElement::Vertices)[0], &fields[2]);
   }
 }
 
@@ -127,7 +126,7 @@ TEST_CASE("the results of a tree lie in the same tree, whose folders need not ex
   line.batch.recurses = true;
   const std::vector<InputFile> inputs{{.path = "in/a.off"}, {.path = "in/b/c.ply", .folder = "b"}};
   CHECK_EQ(planOutputs(line, inputs), Names{folder / "new/a.asdf.npy", folder / "new/b/c.asdf.npy"});
-  line.output.clear();
+  line.outputs.path.clear();
   CHECK_EQ(planOutputs(line, inputs), Names{"in/a.asdf.npy", "in/b/c.asdf.npy"});
   const std::vector<InputFile> colliding{{.path = "x/a.off"}, {.path = "x/a.ply"}};
   CHECK_THROWS_WITH_AS(
@@ -137,11 +136,11 @@ TEST_CASE("the results of a tree lie in the same tree, whose folders need not ex
       Error);
   const std::vector<InputFile> twice{{.path = "x/a.off"}, {.path = "x/../x/a.off"}};
   CHECK_THROWS_WITH_AS((void)planOutputs(line, twice), "x/../x/a.off is named twice; name it once", Error);
-  line.output = folder.write("file", "x");
+  line.outputs.path = folder.write("file", "x");
   CHECK_THROWS_AS((void)planOutputs(line, inputs), Error);
-  line.output = folder / "new.npy";  // The name of a result, not of a folder.
+  line.outputs.path = folder / "new.npy";  // The name of a result, not of a folder.
   CHECK_THROWS_AS((void)planOutputs(line, inputs), Error);
-  line.output = folder / "new";
+  line.outputs.path = folder / "new";
   line.batch.log = "in/a.off";
   CHECK_THROWS_AS((void)planOutputs(line, inputs), Error);
   for (const char* log : {"new/b/c.asdf.npy", "new/x/../a.asdf.npy", "new/a.asdf.npy.json"}) {

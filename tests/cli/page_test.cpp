@@ -180,17 +180,17 @@ TEST_CASE("--open starts xdg-open with the page and does not wait for it") {
 
 TEST_CASE("options of a page") {
   const CommandLine line = parseCommandLine({"a.ply", "-o", "A.HTML"});
-  CHECK(writesPages(line));
-  CHECK(writesOnePage(line));
-  CHECK(line.options.keepsScene);
+  CHECK(writesPages(line.outputs));
+  CHECK(writesOnePage(line.outputs));
+  CHECK(line.computation.options.keepsScene);
   CHECK_EQ(planOutputs(line), std::vector<std::string>{"A.HTML"});
   CHECK_EQ(planOutputs(parseCommandLine({"a.ply", "b.ply", "-o", "c.html"})),
            std::vector<std::string>{"c.html", "c.html"});
   CHECK_EQ(planOutputs(parseCommandLine({"a.ply", "--open"})), std::vector<std::string>{"a.asdf.html"});
   CHECK_EQ(planOutputs(parseCommandLine({"a.ply", "b.ply", "--format", "html"})),
            std::vector<std::string>{"a.asdf.html", "b.asdf.html"});
-  CHECK_FALSE(writesPages(parseCommandLine({"a.ply", "-o", "a.vtu"})));
-  CHECK_FALSE(parseCommandLine({"a.ply", "-o", "a.vtu"}).options.keepsScene);
+  CHECK_FALSE(writesPages(parseCommandLine({"a.ply", "-o", "a.vtu"}).outputs));
+  CHECK_FALSE(parseCommandLine({"a.ply", "-o", "a.vtu"}).computation.options.keepsScene);
   const auto isRefused = [](const std::vector<std::string>& arguments) {
     try {
       (void)planOutputs(parseCommandLine(arguments));
@@ -216,12 +216,12 @@ TEST_CASE("options of a page") {
                   options);
   const CommandLine compared =
       parseCommandLine({"a.ply", "-o", "a.html", "--seeds", "5%", "--against", "--recipe paper"});
-  REQUIRE_EQ(compared.compared.size(), 1);
-  CHECK(compared.compared[0].recipe == Recipe::Paper);
-  CHECK_EQ(compared.compared[0].options.seeds.share, 0.1);
-  CHECK_EQ(compared.options.seeds.share, 0.05);
-  CHECK_EQ(parseCommandLine({"--files-from", "list", "--format", "html", "--against", "--rays 7"}).compared.size(), 1);
-  CHECK_EQ(parseCommandLine({"a.ply", "b.ply", "-o", "a.html", "--against", "--rays 7"}).compared.size(), 1);
+  REQUIRE(compared.compared.has_value());
+  CHECK(compared.compared->recipe == Recipe::Paper);
+  CHECK_EQ(compared.compared->options.seeds.share, 0.1);
+  CHECK_EQ(compared.computation.options.seeds.share, 0.05);
+  CHECK(parseCommandLine({"--files-from", "list", "--format", "html", "--against", "--rays 7"}).compared.has_value());
+  CHECK(parseCommandLine({"a.ply", "b.ply", "-o", "a.html", "--against", "--rays 7"}).compared.has_value());
   CHECK(refusal({"-o", "a.html", "--against", "--rays 7"}).starts_with("no mesh was given"));
 }
 

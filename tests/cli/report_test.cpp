@@ -29,12 +29,16 @@ Result sampleResult() {
   return result;
 }
 
+MeshOutcome outcomeOf(const CommandLine& line, const Result& result) {
+  return {kMesh, kOutput, line.computation, line.session, line.outputs, result};
+}
+
 bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 TEST_CASE("the text report has mesh, device, seeds, speed, solver and values") {
   const CommandLine line;
   const Result result = sampleResult();
-  const std::string text = textReport({kMesh, kOutput, line, result});
+  const std::string text = textReport(outcomeOf(line, result));
   for (const char* part : {"horse.ply: 96,966 faces, 48,485 vertices, 1 component\n", "vulkan on some device",
                            "9,697 faces cast rays (10 %)", "290,910 rays", "1.25 Mrays/s", "cg, 73 iterations",
                            "min 0.5, median 1.5, max 2.5", "horse.asdf.ply"})
@@ -50,7 +54,7 @@ TEST_CASE("a count of one has a singular noun") {
   Report& report = result.report;
   report.faceCount = report.triangleCount = report.vertexCount = report.seedCount = report.rayCount = 1;
   report.solver.iterations = 1;
-  const std::string text = textReport({kMesh, kOutput, line, result});
+  const std::string text = textReport(outcomeOf(line, result));
   for (const char* part :
        {": 1 face, 1 vertex, 1 component\n", " 1 face casts rays (", " 1 ray in all", " 1 iteration,"})
     CHECK_MESSAGE(holds(text, part), text);
@@ -59,7 +63,7 @@ TEST_CASE("a count of one has a singular noun") {
 TEST_CASE("the text report of a GPU with few rays names the backend that may be faster") {
   const CommandLine line;
   Result result = sampleResult();
-  const auto hints = [&] { return holds(textReport({kMesh, kOutput, line, result}), "with --backend cpu"); };
+  const auto hints = [&] { return holds(textReport(outcomeOf(line, result)), "with --backend cpu"); };
   CHECK_FALSE(hints());  // No variant: no kernel ran.
   result.report.traceVariant = TraceVariant{"ray", "wide", "storage"};
   CHECK(hints() == isBackendBuilt("cpu"));
@@ -79,7 +83,7 @@ TEST_CASE("the text report names exceptions") {
   report.noValueCount = 2;
   report.clampedCount = 1234;
   report.solver.converged = false;
-  const std::string text = textReport({kMesh, kOutput, line, result});
+  const std::string text = textReport(outcomeOf(line, result));
   for (const char* part : {"(100,000 triangles)", "1 cone redone",
                            "2 faces without a value; 1,234 faces limited to the values of the seeds", "NOT CONVERGED"})
     CHECK_MESSAGE(holds(text, part), text);
@@ -89,9 +93,9 @@ TEST_CASE("the text report has the recipe, and the estimated error where there i
   CommandLine line;
   Result result = sampleResult();
   Report& report = result.report;
-  CHECK(holds(textReport({kMesh, kOutput, line, result}), "recipe balanced"));
-  CHECK_FALSE(holds(textReport({kMesh, kOutput, line, result}), "  error "));
-  line.recipe = Recipe::Paper;
+  CHECK(holds(textReport(outcomeOf(line, result)), "recipe balanced"));
+  CHECK_FALSE(holds(textReport(outcomeOf(line, result)), "  error "));
+  line.computation.recipe = Recipe::Paper;
   report.estimatedError = ErrorEstimate{.average = 0.01234,
                                         .standardError = 0.00056,
                                         .relativeMedian = 0.0234,
@@ -99,7 +103,7 @@ TEST_CASE("the text report has the recipe, and the estimated error where there i
                                         .relativeMedianStandardError = 0.0012,
                                         .heldOutCount = 1234,
                                         .worstFaces = {{77, 0.456}, {3, 0.4}}};
-  const std::string text = textReport({kMesh, kOutput, line, result});
+  const std::string text = textReport(outcomeOf(line, result));
   CHECK(holds(text, "recipe paper"));
   CHECK_MESSAGE(
       holds(text,
@@ -107,20 +111,20 @@ TEST_CASE("the text report has the recipe, and the estimated error where there i
             "the 90th percentile; from 1,234 held-out faces; 46 % of the range at face 77\n"),
       text);
   report.roundCount = 3;
-  CHECK(holds(textReport({kMesh, kOutput, line, result}), "; 46 % of the range at face 77; 3 rounds\n"));
+  CHECK(holds(textReport(outcomeOf(line, result)), "; 46 % of the range at face 77; 3 rounds\n"));
 }
 
 TEST_CASE("the reports have the smoothed range and the number of segments, where there are any") {
   CommandLine line;
-  line.options.cgalSegmentation.clusterCount = 3;
+  line.computation.options.cgalSegmentation.clusterCount = 3;
   Result result = sampleResult();
-  CHECK_FALSE(holds(textReport({kMesh, kOutput, line, result}), "segments"));
+  CHECK_FALSE(holds(textReport(outcomeOf(line, result)), "segments"));
   result.report.postprocess = PostprocessReport{0.25, 2.5};
   result.report.segmentation = SegmentationReport{1234, {}};
-  const std::string text = textReport({kMesh, kOutput, line, result});
+  const std::string text = textReport(outcomeOf(line, result));
   CHECK_MESSAGE(holds(text, "\n  smoothed  min 0.25, max 2.5, mapped to 0 and 1\n"), text);
   CHECK_MESSAGE(holds(text, "\n  segments  1,234 from 3 clusters, smoothness 0.26\n"), text);
-  const nlohmann::json json = nlohmann::json::parse(jsonReport({kMesh, kOutput, line, result}));
+  const nlohmann::json json = nlohmann::json::parse(jsonReport(outcomeOf(line, result)));
   CHECK_EQ(json.at("postprocess"), nlohmann::json({{"min", 0.25}, {"max", 2.5}}));
   CHECK_EQ(json.at("segmentCount"), 1234);
 }
@@ -129,17 +133,17 @@ TEST_CASE("the reports have the parts, how stable their number is, and their are
   CommandLine line;
   Result result = sampleResult();
   result.report.segmentation = SegmentationReport{3, PartsReport{3, 5, 0.956, false, {0.085, 0.7149, 0.2}}};
-  const std::string text = textReport({kMesh, kOutput, line, result});
+  const std::string text = textReport(outcomeOf(line, result));
   CHECK_MESSAGE(holds(text, "\n  parts     3; 3 to 5 at --detail 0.8 to 1.25; agreement 0.96\n"), text);
   CHECK_MESSAGE(holds(text, "\n            of 71, 20 and 8.5 % of the area\n"), text);
   CHECK_FALSE(holds(text, "clusters"));
-  line.options.parts.partCount = 3;
+  line.computation.options.parts.partCount = 3;
   result.report.segmentation->parts->areaShares.assign(15, 0.0625);
-  CHECK(holds(textReport({kMesh, kOutput, line, result}), "; 3 to 5 if the cost limit changes by 25 %; "));
-  CHECK(holds(textReport({kMesh, kOutput, line, result}), "6.2 and 3 more % of the area\n"));
+  CHECK(holds(textReport(outcomeOf(line, result)), "; 3 to 5 if the cost limit changes by 25 %; "));
+  CHECK(holds(textReport(outcomeOf(line, result)), "6.2 and 3 more % of the area\n"));
   result.report.segmentation->parts->areaShares = {0.996, 0.004};
-  CHECK(holds(textReport({kMesh, kOutput, line, result}), "\n            of 100 and 0.4 % of the area\n"));
-  const nlohmann::json json = nlohmann::json::parse(jsonReport({kMesh, kOutput, line, result}));
+  CHECK(holds(textReport(outcomeOf(line, result)), "\n            of 100 and 0.4 % of the area\n"));
+  const nlohmann::json json = nlohmann::json::parse(jsonReport(outcomeOf(line, result)));
   CHECK_EQ(json.at("segmentCount"), 3);
   const nlohmann::json& parts = json.at("parts");
   CHECK_FALSE(parts.contains("count"));
@@ -148,14 +152,14 @@ TEST_CASE("the reports have the parts, how stable their number is, and their are
   CHECK_EQ(parts.at("agreement"), 0.956);
   CHECK_EQ(parts.at("thinShell"), false);
   CHECK_EQ(parts.at("areaShares").size(), 2);
-  line.options.parts.partCount.reset();
+  line.computation.options.parts.partCount.reset();
   result.report.segmentation = SegmentationReport{2000, PartsReport{2000, 2000, {}, false, {}}};
-  CHECK(holds(textReport({kMesh, kOutput, line, result}), "\n  parts     2,000; 2,000 at --detail 0.8 to 1.25\n"));
-  CHECK(nlohmann::json::parse(jsonReport({kMesh, kOutput, line, result})).at("parts").at("agreement").is_null());
+  CHECK(holds(textReport(outcomeOf(line, result)), "\n  parts     2,000; 2,000 at --detail 0.8 to 1.25\n"));
+  CHECK(nlohmann::json::parse(jsonReport(outcomeOf(line, result))).at("parts").at("agreement").is_null());
   result.report.segmentation = SegmentationReport{1, PartsReport{1, 1, 1, false, {1}}};
-  CHECK_FALSE(holds(textReport({kMesh, kOutput, line, result}), "of the area"));
+  CHECK_FALSE(holds(textReport(outcomeOf(line, result)), "of the area"));
   result.report.segmentation->parts.reset();
-  CHECK(nlohmann::json::parse(jsonReport({kMesh, kOutput, line, result})).at("parts").is_null());
+  CHECK(nlohmann::json::parse(jsonReport(outcomeOf(line, result))).at("parts").is_null());
 }
 
 TEST_CASE("stages that ran are named in their order, the others are not") {
@@ -165,14 +169,14 @@ TEST_CASE("stages that ran are named in their order, the others are not") {
   report.stageSeconds[Stage::Sample] = 0.25;
   report.stageSeconds[Stage::Predict] = 0.5;
   report.stageSeconds[Stage::Estimate] = 0.125;
-  CHECK(holds(textReport({kMesh, kOutput, line, result}), "sample 0.250 s, predict 0.500, estimate 0.125\n"));
+  CHECK(holds(textReport(outcomeOf(line, result)), "sample 0.250 s, predict 0.500, estimate 0.125\n"));
 }
 
 TEST_CASE("JSON has the estimate, or null") {
   const CommandLine line;
   Result result = sampleResult();
   Report& report = result.report;
-  CHECK(nlohmann::json::parse(jsonReport({kMesh, kOutput, line, result})).at("estimatedError").is_null());
+  CHECK(nlohmann::json::parse(jsonReport(outcomeOf(line, result))).at("estimatedError").is_null());
   report.estimatedError = ErrorEstimate{.average = 0.01,
                                         .standardError = 0.002,
                                         .relativeMedian = 0.02,
@@ -180,7 +184,7 @@ TEST_CASE("JSON has the estimate, or null") {
                                         .heldOutCount = 400,
                                         .worstFaces = {{77, 0.5}, {3, 0.25}}};
   report.roundCount = 4;
-  const nlohmann::json json = nlohmann::json::parse(jsonReport({kMesh, kOutput, line, result}));
+  const nlohmann::json json = nlohmann::json::parse(jsonReport(outcomeOf(line, result)));
   const nlohmann::json& estimate = json.at("estimatedError");
   CHECK_EQ(estimate.at("average").get<double>(), 0.01);
   CHECK_EQ(estimate.at("standardError").get<double>(), 0.002);
@@ -199,9 +203,9 @@ TEST_CASE("a share of agreeing faces is never rounded up to all of them") {
   report.check.emplace();
   report.check->tracedCount = 1000000;
   report.check->agreeingCount = 999999;
-  CHECK(holds(textReport({kMesh, kOutput, line, result}), "99.99 % of 1,000,000 traced faces"));
+  CHECK(holds(textReport(outcomeOf(line, result)), "99.99 % of 1,000,000 traced faces"));
   report.check->agreeingCount = 1000000;
-  CHECK(holds(textReport({kMesh, kOutput, line, result}), "100 % of"));
+  CHECK(holds(textReport(outcomeOf(line, result)), "100 % of"));
 }
 
 TEST_CASE("faces without a value in either computation are counted separately from those that agree") {
@@ -212,11 +216,11 @@ TEST_CASE("faces without a value in either computation are counted separately fr
   report.check->tracedCount = 103;
   report.check->agreeingCount = 99;
   report.check->noValueAgreeCount = 3;
-  const std::string text = textReport({kMesh, kOutput, line, result});
+  const std::string text = textReport(outcomeOf(line, result));
   CHECK(holds(text, "99 % of 100 traced faces"));
   CHECK(holds(text, "; 3 more without a value in either computation"));
   report.check->tracedCount = report.check->noValueAgreeCount = 1;
-  CHECK(holds(textReport({kMesh, kOutput, line, result}), "1 traced face, none with a value in either computation"));
+  CHECK(holds(textReport(outcomeOf(line, result)), "1 traced face, none with a value in either computation"));
 }
 
 TEST_CASE("a check that compared nothing is reported as such and not as passed") {
@@ -225,8 +229,8 @@ TEST_CASE("a check that compared nothing is reported as such and not as passed")
   Report& report = result.report;
   report.check.emplace();
   CHECK(holds(checkFailure(*report.check), "nothing was compared"));
-  CHECK(holds(textReport({kMesh, kOutput, line, result}), "nothing was compared"));
-  const nlohmann::json json = nlohmann::json::parse(jsonReport({kMesh, kOutput, line, result}));
+  CHECK(holds(textReport(outcomeOf(line, result)), "nothing was compared"));
+  const nlohmann::json json = nlohmann::json::parse(jsonReport(outcomeOf(line, result)));
   CHECK_FALSE(json.at("check").at("passed").get<bool>());
 }
 
@@ -239,7 +243,7 @@ TEST_CASE("JSON has null for numbers that are not finite and is one line") {
   report.check->worstDifference = std::numeric_limits<double>::infinity();
   report.warnings = {{WarningCode::MeshDefect, "two\nlines", {}}};
   result.fields = {{.name = "sdf", .values = std::vector<double>{kNoValue, kNoValue}}};
-  const std::string text = jsonReport({kMesh, kOutput, line, result});
+  const std::string text = jsonReport(outcomeOf(line, result));
   CHECK_EQ(text.find('\n'), text.size() - 1);
   const nlohmann::json json = nlohmann::json::parse(text);
   for (const char* key : {"min", "median", "max"}) CHECK(json.at("sdf").at(key).is_null());
@@ -259,7 +263,7 @@ TEST_CASE("a warning ends with the options that help, in both reports with its c
   const CommandLine line;
   Result result = sampleResult();
   result.report.warnings = {{WarningCode::NotConverged, "x", {}}, {WarningCode::InvertedComponents, "y", {}}};
-  const nlohmann::json json = nlohmann::json::parse(jsonReport({kMesh, kOutput, line, result}));
+  const nlohmann::json json = nlohmann::json::parse(jsonReport(outcomeOf(line, result)));
   CHECK_EQ(json.at("warningCodes"), nlohmann::json({"notConverged", "invertedComponents"}));
   CHECK_EQ(json.at("warnings").at(1).get<std::string>(), textWarning(result.report.warnings[1]));
 }

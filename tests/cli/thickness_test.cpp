@@ -17,23 +17,25 @@ ChildOutcome runThickness(const std::vector<std::string>& further) {
 
 TEST_CASE("a limit implies the measure, and nothing about the seeds") {
   const CommandLine plain = parseCommandLine({"a.ply"});
-  CHECK(plain.options.measure == Measure::ShapeDiameter);
+  CHECK(plain.computation.options.measure == Measure::ShapeDiameter);
   for (const char* option : {"--thinner-than", "--fail-if-thinner"}) {
     const CommandLine line = parseCommandLine({"a.ply", option, "0.5"});
-    CHECK(line.options.measure == Measure::Thickness);
-    CHECK(line.options.seeds.share == plain.options.seeds.share);
-    CHECK(line.options.seeds.kind == plain.options.seeds.kind);
-    CHECK_EQ(line.options.thickness.thinnerThan.value(), 0.5);
-    CHECK_FALSE(line.options.thickness.allowsSharpEdges);
-    CHECK_EQ(line.fields, std::vector<std::string>{"thickness", "least_thickness", "sdf", "seed"});
-    CHECK(line.pictureOf.empty());  // The thin places.
-    CHECK(parseCommandLine({"a.ply", option, "0.5", "--allow-sharp-edges"}).options.thickness.allowsSharpEdges);
+    CHECK(line.computation.options.measure == Measure::Thickness);
+    CHECK(line.computation.options.seeds.share == plain.computation.options.seeds.share);
+    CHECK(line.computation.options.seeds.kind == plain.computation.options.seeds.kind);
+    CHECK_EQ(line.computation.options.thickness.thinnerThan.value(), 0.5);
+    CHECK_FALSE(line.computation.options.thickness.allowsSharpEdges);
+    CHECK_EQ(fieldNames(line.outputs, line.computation.options),
+             std::vector<std::string>{"thickness", "least_thickness", "sdf", "seed"});
+    CHECK(line.outputs.pictureOf.empty());  // The thin places.
+    CHECK(parseCommandLine({"a.ply", option, "0.5", "--allow-sharp-edges"})
+              .computation.options.thickness.allowsSharpEdges);
   }
-  CHECK_EQ(parseCommandLine({"a.ply", "--measure", "thickness", "--fields", "sdf"}).fields,
+  CHECK_EQ(parseCommandLine({"a.ply", "--measure", "thickness", "--fields", "sdf"}).outputs.fields,
            std::vector<std::string>{"sdf"});
   const CommandLine both = parseCommandLine({"a.ply", "--thinner-than", "2", "--fail-if-thinner", "2.0"});
-  CHECK_EQ(both.options.thickness.thinnerThan.value(), 2);
-  CHECK_EQ(both.failIfThinner.value(), 2);
+  CHECK_EQ(both.computation.options.thickness.thinnerThan.value(), 2);
+  CHECK_EQ(both.computation.failIfThinner.value(), 2);
 }
 
 TEST_CASE("options of the thickness are refused where they contradict others") {

@@ -27,15 +27,16 @@ Result soundResult(std::optional<double> limit) {
   return result;
 }
 
-std::string textOf(const Result& result) {
-  const CommandLine line;
-  return textReport({"part.stl", "part.ply", line, result});
+const std::string kPart = "part.stl", kPartOutput = "part.ply";
+const CommandLine kDefaults;
+
+MeshOutcome outcomeOf(const Result& result) {
+  return {kPart, kPartOutput, kDefaults.computation, kDefaults.session, kDefaults.outputs, result};
 }
 
-Json jsonOf(const Result& result) {
-  const CommandLine line;
-  return Json::parse(jsonReport({"part.stl", "part.ply", line, result})).at("thickness");
-}
+std::string textOf(const Result& result) { return textReport(outcomeOf(result)); }
+
+Json jsonOf(const Result& result) { return Json::parse(jsonReport(outcomeOf(result))).at("thickness"); }
 
 void checkHolds(const std::string& text, const std::string& part) {
   CHECK_MESSAGE(text.find(part) != std::string::npos, text);
