@@ -139,8 +139,9 @@ std::string toJsonLine(const MeshRecord& record) {
   return toJson(record).dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-std::optional<MeshRecord> parseRecord(std::string_view text) {
-  const Json json = Json::parse(text, nullptr, false);
+std::optional<MeshRecord> parseRecord(std::string_view text) { return recordOf(Json::parse(text, nullptr, false)); }
+
+std::optional<MeshRecord> recordOf(const Json& json) {
   if (!json.is_object()) return std::nullopt;
   try {
     MeshRecord record;

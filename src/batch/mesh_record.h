@@ -62,5 +62,7 @@ struct MeshRecord {
 /// Unset where the text is not a record, for example an incomplete line. Only the keys input, status, code and message
 /// are required, so that other programs can write records. Unknown keys are ignored.
 [[nodiscard]] std::optional<MeshRecord> parseRecord(std::string_view json);
+/// The inverse of toJson(); unset where the value is not a record.
+[[nodiscard]] std::optional<MeshRecord> recordOf(const nlohmann::ordered_json& json);
 
 }  // namespace asdfvk

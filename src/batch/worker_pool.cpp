@@ -20,8 +20,8 @@ constexpr int kPollMilliseconds = 100;
 /// A mesh may fill 2 GB of memory per second, 20 MB in this time.
 constexpr int kMemoryPollMilliseconds = 10;
 constexpr int kMaxFailedStarts = 3;
-/// Share of the memory for tasks, which is the limit minus the memory of a ready worker. A worker that keeps more than
-/// this share after a task is replaced, so that the next task does not fail because of the memory of earlier tasks.
+/// Share of the memory for jobs, which is the limit minus the memory of a ready worker. A worker that keeps more than
+/// this share after a job is replaced, so that the next job does not fail because of the memory of earlier jobs.
 constexpr double kMaxKeptShare = 0.5;
 
 struct Worker {
@@ -29,17 +29,17 @@ struct Worker {
   bool isReady = false, hasServed = false;
   bool isGivenUp = false;  ///< No further process is started.
   int failedStarts = 0;    ///< In a row.
-  std::optional<size_t> task;
-  Stopwatch watch;          ///< Since the greeting, or since the task was sent.
+  std::optional<size_t> job;
+  Stopwatch watch;          ///< Since the greeting, or since the job was sent.
   uint64_t readyBytes = 0;  ///< Memory when it was ready.
   uint64_t peakBytes = 0;
 };
 
 class WorkerPool {
  public:
-  WorkerPool(size_t taskCount, const WorkerPoolOptions& options, const WorkerPoolClient& client,
+  WorkerPool(size_t jobCount, const WorkerPoolOptions& options, const WorkerPoolClient& client,
              const std::stop_token& stop)
-      : taskCount_(taskCount), options_(options), client_(client), stop_(stop), workers_(options.workerCount) {}
+      : jobCount_(jobCount), options_(options), client_(client), stop_(stop), workers_(options.workerCount) {}
 
   std::string run() {
     for (;;) {
@@ -53,11 +53,11 @@ class WorkerPool {
   }
 
  private:
-  [[nodiscard]] bool hasTasks() const { return next_ < taskCount_ && !stopWatch_; }
+  [[nodiscard]] bool hasJobs() const { return next_ < jobCount_ && !stopWatch_; }
   [[nodiscard]] bool isIdle() const {
     const bool hasWorkers = std::any_of(workers_.begin(), workers_.end(), [](const Worker& w) { return !w.isGivenUp; });
-    return !(hasTasks() && hasWorkers) &&
-           std::none_of(workers_.begin(), workers_.end(), [](const Worker& w) { return w.task; });
+    return !(hasJobs() && hasWorkers) &&
+           std::none_of(workers_.begin(), workers_.end(), [](const Worker& w) { return w.job; });
   }
 
   /// Until a worker is ready, only one starts; then as many as client_.ready() allows.
@@ -78,18 +78,18 @@ class WorkerPool {
     }
     worker.isReady = worker.hasServed = false;
     worker.watch = Stopwatch();
-    worker.process->lines().send(options_.greeting);
+    worker.process->messages().send(options_.greeting);
   }
 
   void feed(Worker& worker) {
-    if (!hasTasks() || worker.task) return;
+    if (!hasJobs() || worker.job) return;
     if (worker.process && worker.hasServed && hasGrown(worker)) worker.process.reset();
     if (!worker.process && mayStart(worker)) start(worker);
     if (!worker.process || !worker.isReady) return;
-    worker.task = next_++;
+    worker.job = next_++;
     worker.watch = Stopwatch();
     worker.peakBytes = 0;
-    worker.process->lines().send(client_.request(*worker.task));  // If the worker has ended, watchOver() detects it.
+    worker.process->messages().send(client_.request(*worker.job));  // If the worker has ended, watchOver() detects it.
   }
 
   [[nodiscard]] bool hasGrown(const Worker& worker) const {
@@ -106,15 +106,15 @@ class WorkerPool {
     double milliseconds = options_.memoryBytes > 0 ? kMemoryPollMilliseconds : kPollMilliseconds;
     if (std::isfinite(options_.timeoutSeconds))
       for (const Worker& worker : workers_)
-        if (worker.task)
+        if (worker.job)
           milliseconds = std::min(milliseconds, 1000 * (options_.timeoutSeconds - worker.watch.seconds()) + 1);
     ::poll(polled.data(), polled.size(), static_cast<int>(std::max(0.0, milliseconds)));
   }
 
   void watchOver(Worker& worker) {
-    const bool isOpen = worker.process->lines().receive();
-    while (const std::optional<std::string> line = worker.process->lines().take()) {
-      answer(worker, *line);
+    const bool isOpen = worker.process->messages().receive();
+    while (const std::optional<std::string> message = worker.process->messages().take()) {
+      answer(worker, *message);
       if (!worker.process) return;
     }
     if (!isOpen) return replace(worker);
@@ -122,18 +122,18 @@ class WorkerPool {
       worker.process.reset();
       return countFailedStart(worker, fmt::format("not ready after {:g} s", options_.startSeconds));
     }
-    if (!worker.task) return;
-    if (worker.watch.seconds() > options_.timeoutSeconds) return kill(worker, TaskEnd::TimedOut);
+    if (!worker.job) return;
+    if (worker.watch.seconds() > options_.timeoutSeconds) return kill(worker, JobEnd::TimedOut);
     if (options_.memoryBytes > 0) {
       worker.peakBytes = std::max(worker.peakBytes, residentBytesOf(worker.process->id()));
-      if (worker.peakBytes > options_.memoryBytes) return kill(worker, TaskEnd::MemoryExceeded);
+      if (worker.peakBytes > options_.memoryBytes) return kill(worker, JobEnd::MemoryExceeded);
     }
-    if (stopWatch_ && stopWatch_->seconds() > options_.graceSeconds) kill(worker, TaskEnd::Dropped);
+    if (stopWatch_ && stopWatch_->seconds() > options_.graceSeconds) kill(worker, JobEnd::Dropped);
   }
 
-  void answer(Worker& worker, const std::string& line) {
+  void answer(Worker& worker, const std::string& message) {
     if (!worker.isReady) {
-      const uint32_t count = client_.ready(line);
+      const uint32_t count = client_.ready(message);
       if (count == 0) {
         worker.process.reset();
         return giveUp(worker);
@@ -145,10 +145,10 @@ class WorkerPool {
       hasStarted_ = true;
       return;
     }
-    if (!worker.task) return;
+    if (!worker.job) return;
     const pid_t id = worker.process->id();
     worker.hasServed = true;
-    if (!finish(worker, {.end = TaskEnd::Answered, .answer = line, .worker = id})) worker.process.reset();
+    if (!finish(worker, {.end = JobEnd::Answered, .answer = message, .worker = id})) worker.process.reset();
   }
 
   /// The worker closed its output.
@@ -157,8 +157,8 @@ class WorkerPool {
     const ProcessEnd end = worker.process->waitForEnd();
     worker.process.reset();
     if (!worker.isReady) countFailedStart(worker, textOf(end));
-    if (worker.task)
-      finish(worker, {.end = stopWatch_ ? TaskEnd::Dropped : TaskEnd::Crashed, .workerEnd = end, .worker = id});
+    if (worker.job)
+      finish(worker, {.end = stopWatch_ ? JobEnd::Dropped : JobEnd::Crashed, .workerEnd = end, .worker = id});
   }
 
   void countFailedStart(Worker& worker, const std::string& reason) {
@@ -174,7 +174,7 @@ class WorkerPool {
       for (Worker& other : workers_) other.isGivenUp = true;
   }
 
-  void kill(Worker& worker, TaskEnd end) {
+  void kill(Worker& worker, JobEnd end) {
     const pid_t id = worker.process->id();
     worker.process->signal(SIGKILL);
     const ProcessEnd processEnd = worker.process->waitForEnd();
@@ -182,21 +182,21 @@ class WorkerPool {
     finish(worker, {.end = end, .workerEnd = processEnd, .worker = id});
   }
 
-  bool finish(Worker& worker, TaskOutcome outcome) {
-    outcome.task = *worker.task;
+  bool finish(Worker& worker, JobOutcome outcome) {
+    outcome.job = *worker.job;
     outcome.seconds = worker.watch.seconds();
     outcome.peakBytes = worker.peakBytes;
-    worker.task.reset();
+    worker.job.reset();
     return client_.finished(outcome);
   }
 
   void requestStop() {
     stopWatch_.emplace();
     for (const Worker& worker : workers_)
-      if (worker.process && worker.task) worker.process->signal(SIGTERM);
+      if (worker.process && worker.job) worker.process->signal(SIGTERM);
   }
 
-  size_t taskCount_, next_ = 0;
+  size_t jobCount_, next_ = 0;
   const WorkerPoolOptions& options_;
   const WorkerPoolClient& client_;
   const std::stop_token& stop_;
@@ -209,9 +209,9 @@ class WorkerPool {
 
 }  // namespace
 
-std::string runOnWorkers(size_t taskCount, const WorkerPoolOptions& options, const WorkerPoolClient& client,
+std::string runOnWorkers(size_t jobCount, const WorkerPoolOptions& options, const WorkerPoolClient& client,
                          const std::stop_token& stop) {
-  return WorkerPool(taskCount, options, client, stop).run();
+  return WorkerPool(jobCount, options, client, stop).run();
 }
 
 }  // namespace asdfvk

@@ -28,7 +28,7 @@ WorkerProcess::WorkerProcess(const std::string& program, const std::vector<std::
   std::array<int, 2> ends{};
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) fail(errno, "socketpair");
   socket_ = ends[0];
-  lines_ = LineChannel(socket_);
+  messages_ = MessageChannel(socket_);
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_adddup2(&actions, ends[1], STDIN_FILENO);

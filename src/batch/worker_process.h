@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "batch/line_channel.h"
+#include "batch/message_channel.h"
 
 namespace asdfvk {
 
@@ -18,8 +18,8 @@ struct ProcessEnd {
 /// "ended by signal 11 (Segmentation fault)", "ended with exit code 3".
 [[nodiscard]] std::string textOf(const ProcessEnd& end);
 
-/// A process that reads lines from its standard input and answers with lines on its standard output. Both are the same
-/// socket. Its standard error is that of this process. The destructor kills it.
+/// A process that reads messages from its standard input and answers with messages on its standard output. Both are the
+/// same socket. Its standard error is that of this process. The destructor kills it.
 class WorkerProcess {
  public:
   /// arguments: the first one is the name that the process sees. Throws std::system_error.
@@ -29,9 +29,9 @@ class WorkerProcess {
   WorkerProcess& operator=(const WorkerProcess&) = delete;
 
   [[nodiscard]] pid_t id() const { return process_; }
-  /// For poll(): readable where a line arrives or the process ended.
+  /// For poll(): readable where a message arrives or the process ended.
   [[nodiscard]] int descriptor() const { return socket_; }
-  [[nodiscard]] LineChannel& lines() { return lines_; }
+  [[nodiscard]] MessageChannel& messages() { return messages_; }
 
   void signal(int number) const;
   ProcessEnd waitForEnd();
@@ -39,7 +39,7 @@ class WorkerProcess {
  private:
   pid_t process_ = -1;
   int socket_ = -1;
-  LineChannel lines_;
+  MessageChannel messages_;
 };
 
 }  // namespace asdfvk

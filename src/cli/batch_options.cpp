@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "cli/option_parsing.h"
-#include "cli/output_plan.h"
+#include "cli/outputs.h"
 #include "core/text.h"
 
 namespace asdfvk {

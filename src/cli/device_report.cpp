@@ -6,11 +6,10 @@
 #include <string>
 
 #include "asdf_vk/version.h"
-#include "cli/interrupt.h"
 #include "cli/report.h"
-#include "cli/run.h"
-#include "cli/terminal.h"
 #include "core/json.h"
+#include "process/interrupt.h"
+#include "process/terminal.h"
 
 namespace asdfvk {
 namespace {
@@ -110,13 +109,13 @@ std::string jsonDeviceReport(const DeviceReport& report) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-ExitCode printDeviceReport(const CommandLine& line, const std::stop_token& stop) {
+ExitCode printDeviceReport(const SessionOptions& session, const std::stop_token& stop) {
   DeviceReport report;
   {
     const Interrupt::Listening listening;
     RunControl control;
     control.stop = stop;
-    report = reportDevice(line.session, control);
+    report = reportDevice(session, control);
   }
   writeStandardOutput(jsonDeviceReport(report));
   if (report.passed()) return ExitCode::Done;

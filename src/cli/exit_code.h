@@ -6,6 +6,7 @@
 
 #include "asdf_vk/error.h"
 #include "asdf_vk/report.h"
+#include "process/interrupt.h"
 
 namespace asdfvk {
 
@@ -22,7 +23,7 @@ enum class ExitCode : int {
   SomeFailed = 7,   ///< Of several meshes some could not be computed; the others are done.
   Limit = 8,        ///< A mesh exceeded --timeout or --memory-limit, or the system allows no further file or thread.
   Internal = 70,    ///< A defect of the program.
-  Cancelled = 130,  ///< SIGINT, SIGTERM or SIGHUP.
+  Cancelled = kCancelledCode,  ///< SIGINT, SIGTERM or SIGHUP.
 };
 
 /// Meaning of each code, for the help and the man page.

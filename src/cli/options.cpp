@@ -14,7 +14,7 @@
 #include "asdf_vk/version.h"
 #include "cli/exit_code.h"
 #include "cli/option_parsing.h"
-#include "cli/output_plan.h"
+#include "cli/outputs.h"
 #include "core/text.h"
 #include "pipeline/valid_options.h"
 #include "trace/vulkan/vulkan_trace_choice.h"

@@ -1,9 +1,13 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
+#include "asdf_vk/files.h"
 #include "asdf_vk/options.h"
+#include "batch/input_list.h"
+#include "cli/batch_options.h"
 #include "render/camera.h"
 
 namespace asdfvk {
@@ -26,5 +30,38 @@ struct Outputs {
 
 /// The fields to write: those of `outputs`, or by default those that the options compute.
 [[nodiscard]] std::vector<std::string> fieldNames(const Outputs& outputs, const Options& options);
+
+/// Name and extension of the format of pages, which src/viewer writes.
+inline constexpr const char* kPageFormat = "html";
+
+/// resultFormats() and kPageFormat.
+[[nodiscard]] std::vector<std::string> outputFormats();
+
+/// Whether the results are written as pages.
+[[nodiscard]] bool writesPages(const Outputs& outputs);
+
+/// Whether all results are written to one page.
+[[nodiscard]] bool writesOnePage(const Outputs& outputs);
+
+/// Path of the result of each input, "-" for standard output. With a tree, the results lie in a tree below -o, whose
+/// folders need not exist. Throws Error{OptionConflict} if two outputs (results, their records, log, picture, points)
+/// have the same path, if an output is an input, or if several meshes have one output file that is no page.
+[[nodiscard]] std::vector<std::string> planOutputs(const Outputs& outputs, const BatchOptions& batch,
+                                                   std::span<const InputFile> inputs);
+
+/// For other formats than pages: the fields of --fields, and the format if --format is given or the output is standard
+/// output.
+[[nodiscard]] WriteOptions writeOptionsOf(const Outputs& outputs, const Options& options);
+
+/// The fields of a result that the output can hold together: all, but the vertex fields only where the format has
+/// either rows per face or rows per vertex. Precondition: vertex fields follow face fields.
+[[nodiscard]] std::span<const Field> writableFields(const WriteOptions& options, PerElement per,
+                                                    const std::string& output, std::span<const Field> fields);
+
+/// Makes the folder of a file. Throws Error{OutputNotWritable}.
+void makeFolderOf(const std::string& output);
+
+/// Throws Error{OutputNotWritable} where no file can be written: a check before the work begins.
+void requireWritablePlace(const std::string& output);
 
 }  // namespace asdfvk

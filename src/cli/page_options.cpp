@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "cli/option_parsing.h"
-#include "cli/output_plan.h"
+#include "cli/outputs.h"
 
 namespace asdfvk {
 namespace {

@@ -11,11 +11,11 @@
 
 #include "asdf_vk/choices.h"
 #include "asdf_vk/version.h"
-#include "cli/result_picture.h"
 #include "core/atomic_file.h"
 #include "core/text.h"
 #include "render/camera.h"
 #include "render/png.h"
+#include "render/result_picture.h"
 #include "trace/scene_data.h"
 
 namespace asdfvk {
@@ -111,6 +111,10 @@ std::string axisName(Up up) {
 
 }  // namespace
 
+std::string nameInPage(const std::string& mesh) {
+  return mesh == "-" ? "standard input" : std::filesystem::path(mesh).filename().string();
+}
+
 Page emptyPage() { return Page(fmt::format("asdf-vk {} ({})", ASDFVK_VERSION, ASDFVK_COMMIT)); }
 
 void addToPage(Page& page, const MeshOutcome& outcome, const PageMesh& mesh, const RunControl& control) {
@@ -121,7 +125,8 @@ void addToPage(Page& page, const MeshOutcome& outcome, const PageMesh& mesh, con
   for (const Warning& warning : outcome.result.report.warnings)
     (warning.code == WarningCode::MeshDefect ? texts.defects : texts.warnings).push_back(textWarning(warning));
   texts.thin = thinPlacesOf(outcome.result);
-  const View view = viewOf(outcome.outputs, outcome.mesh, outcome.result, texts.thin.has_value());
+  const View view =
+      viewOf(outcome.outputs.pictureView, outcome.mesh, outcome.result, texts.thin && !outcome.outputs.choosesView);
   texts.up = axisName(*view.up);
   texts.azimuthDegrees = view.azimuthDegrees;
   texts.elevationDegrees = view.elevationDegrees;

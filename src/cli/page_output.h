@@ -11,6 +11,9 @@ namespace asdfvk {
 /// A page without results.
 [[nodiscard]] Page emptyPage();
 
+/// The name of a mesh in a page, if no other mesh of the page has it.
+[[nodiscard]] std::string nameInPage(const std::string& mesh);
+
 /// How a page shows a mesh.
 struct PageMesh {
   std::string name;

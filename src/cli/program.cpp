@@ -2,13 +2,16 @@
 
 #include <malloc.h>
 
+#include <algorithm>
+
 #include "asdf_vk/run_control.h"
-#include "cli/batch_worker.h"
-#include "cli/interrupt.h"
+#include "cli/batch_run.h"
+#include "cli/one_mesh.h"
 #include "cli/options.h"
-#include "cli/run.h"
+#include "cli/report.h"
 #include "cli/summarize.h"
-#include "cli/terminal.h"
+#include "process/interrupt.h"
+#include "process/terminal.h"
 
 namespace asdfvk {
 namespace {
@@ -21,12 +24,37 @@ void keepFreedMemory() {
   ::mallopt(M_TRIM_THRESHOLD, 4 * kKeptBytes);
 }
 
+/// Prints the devices. Returns Done, or Device where a GPU is required and none is usable.
+ExitCode printDevices(bool requireGpu, bool asJson) {
+  std::string reason;
+  const std::vector<DeviceInfo> devices = listDevices(&reason, requireGpu);
+  writeStandardOutput(asJson ? jsonDevices(devices, reason) : textDevices(devices, reason));
+  const bool hasUsable =
+      std::any_of(devices.begin(), devices.end(), [](const DeviceInfo& device) { return device.usable; });
+  if (!requireGpu || hasUsable) return ExitCode::Done;
+  printError("", "no GPU is usable; install the driver of the GPU, or drop --require-gpu");
+  return ExitCode::Device;
+}
+
+MeshSettings settingsOf(const CommandLine& line) {
+  return {.session = line.session,
+          .computation = line.computation,
+          .compared = line.compared,
+          .outputs = line.outputs,
+          .timeoutSeconds = line.batch.timeoutSeconds,
+          .makesFolders = line.batch.hasTree() || line.outputs.path.ends_with('/'),
+          .isOfBatch = line.batch.isBatch()};
+}
+
 ExitCode runCommand(const std::vector<std::string>& arguments) {
   if (arguments.empty()) {
     writeStandardError(shortUsage());
     return ExitCode::Usage;
   }
-  if (arguments.front() == kWorkerArgument) return runWorker();
+  if (arguments.front() == kWorkerArgument) {
+    runWorker();
+    return ExitCode::Done;
+  }
   if (arguments.front() == kSummarizeCommand) return summarize({arguments.begin() + 1, arguments.end()});
   const CommandLine line = parseCommandLine(arguments);
   if (line.answer) {
@@ -35,9 +63,11 @@ ExitCode runCommand(const std::vector<std::string>& arguments) {
   }
   const ThreadLimit threadLimit(line.threadCount);
   const Interrupt interrupt;
-  if (line.listDevices) return printDevices(line);
-  if (line.deviceReport) return printDeviceReport(line, interrupt.token());
-  return runMeshes(line, arguments, interrupt.token());
+  if (line.listDevices) return printDevices(line.session.requireGpu, line.outputs.json);
+  if (line.deviceReport) return printDeviceReport(line.session, interrupt.token());
+  if (line.meshes.size() == 1 && !line.batch.isBatch())
+    return computeOneMesh(line.meshes.front(), settingsOf(line), interrupt.token());
+  return computeBatch(line.meshes, settingsOf(line), line.batch, interrupt.token());
 }
 
 }  // namespace

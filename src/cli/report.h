@@ -1,12 +1,14 @@
 #pragma once
 
 #include <span>
+#include <stop_token>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "asdf_vk/session.h"
 #include "batch/mesh_record.h"
+#include "cli/exit_code.h"
 #include "cli/options.h"
 
 namespace asdfvk {
@@ -61,6 +63,10 @@ using ReportRows = std::vector<std::pair<std::string, std::string>>;
 
 /// One line with the keys "mesh", "output", "status" and "record", for a mesh that --skip-existing skips.
 [[nodiscard]] std::string jsonSkipped(const std::string& mesh, const MeshRecord& record);
+
+/// Prints the report on the device on standard output. Returns Done, or Device where its self-test failed. Throws as
+/// reportDevice(), and DeviceReport::failure after printing.
+[[nodiscard]] ExitCode printDeviceReport(const SessionOptions& session, const std::stop_token& stop);
 
 /// Indented JSON with the keys of docs/devices.md.
 [[nodiscard]] std::string jsonDeviceReport(const struct DeviceReport& report);

@@ -9,9 +9,9 @@
 #include "batch/log_summary.h"
 #include "batch/record_log.h"
 #include "cli/option_parsing.h"
-#include "cli/terminal.h"
 #include "core/atomic_file.h"
 #include "core/text.h"
+#include "process/terminal.h"
 
 namespace asdfvk {
 namespace {

@@ -3,14 +3,11 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
-#include <numeric>
 #include <set>
 #include <thread>
 
-#include "cli/job_plan.h"
 #include "cli/mesh_tree.h"
 #include "cli/refusal.h"
-#include "cli/worker_messages.h"
 
 namespace asdfvk::test {
 namespace {
@@ -219,47 +216,6 @@ TEST_CASE("options of a batch that contradict each other are refused") {
   CHECK_NE(refusal({"a.ply", "--jobs", "0"}), "accepted");
   CHECK_EQ(parseCommandLine({"a.ply", "--memory-limit", "1.5g"}).batch.memoryBytes, uint64_t{3} << 29);
   CHECK(parseCommandLine({"a.ply", "--memory-limit", "1000"}).batch.isolates);
-}
-
-TEST_CASE("bytes of any kind survive as text") {
-  std::string all;
-  for (int byte = 0; byte < 256; ++byte) all += static_cast<char>(byte);
-  CHECK_EQ(bytesOfText(textOfBytes(all)), all);
-  CHECK_EQ(Json::parse(Json(textOfBytes(all)).dump()).get<std::string>(), textOfBytes(all));
-}
-
-TEST_CASE("the answer of a worker keeps the name of the input, also where it is not UTF-8") {
-  MeshRun run;
-  run.record.input = "caf\xe9.off";
-  CHECK_EQ(runOf(asdfvk::Json::parse(lineOf(answerOf(run)))).record.input, run.record.input);
-}
-
-std::vector<JobPhase> planned(const std::vector<MeshTask>& tasks, uint32_t requestedJobs, uint32_t threadCount) {
-  std::vector<size_t> all(tasks.size());
-  std::iota(all.begin(), all.end(), size_t{0});
-  return planJobs(tasks, all, requestedJobs, threadCount);
-}
-
-TEST_CASE("many small meshes are computed at once, large ones one after another before them") {
-  std::vector<MeshTask> tasks(20, MeshTask{"a", "b", 1000});
-  CHECK_EQ(planned(tasks, 0, 4).front().jobCount, 4);
-  CHECK_EQ(planned(tasks, 0, 4).front().threadCount, 1);
-  CHECK_EQ(planned(tasks, 0, 1).front().jobCount, 1);
-  CHECK_EQ(planned(tasks, 0, 64).front().jobCount, 5);  // Each opens a device.
-  CHECK_EQ(planned(tasks, 3, 8).front().jobCount, 3);
-  CHECK_EQ(planned(tasks, 3, 8).front().threadCount, 2);
-  tasks[7].byteCount = uint64_t{1} << 30;
-  const std::vector<JobPhase> phases = planned(tasks, 0, 4);
-  REQUIRE_EQ(phases.size(), 2);
-  CHECK_EQ(phases[0].tasks, std::vector<size_t>{7});
-  CHECK_EQ(phases[0].threadCount, 4);
-  CHECK_EQ(phases[1].tasks.size(), 19);
-  CHECK_EQ(phases[1].jobCount, 4);
-  CHECK(planJobs(tasks, {}, 0, 4).empty());
-  CHECK_EQ(planJobs(tasks, {3, 7}, 2, 4).front().tasks, std::vector<size_t>{3, 7});
-  tasks.resize(2);
-  CHECK_EQ(planned(tasks, 0, 4).size(), 1);
-  CHECK_EQ(planned(tasks, 0, 4).front().threadCount, 4);
 }
 
 }  // namespace

@@ -6,9 +6,9 @@
 #include <csignal>
 #include <thread>
 
-#include "cli/interrupt.h"
 #include "cli/mesh_tree.h"
 #include "core/atomic_file.h"
+#include "process/interrupt.h"
 
 namespace asdfvk::test {
 namespace {

@@ -8,10 +8,12 @@
 #include <set>
 #include <sstream>
 
+#include "batch/messages.h"
 #include "cli/option_parsing.h"
 #include "cli/options_hash.h"
 #include "cli/refusal.h"
 #include "cli/scratch_folder.h"
+#include "cli/settings_json.h"
 
 namespace asdfvk {
 namespace {
@@ -272,6 +274,27 @@ TEST_CASE("every option changes the hash that --skip-existing compares, except t
     for (const std::string& word : option.arguments) text += word + " ";
     if (refusal({"a.ply", "-o", "a.html", "--against", text}) == "accepted")
       CHECK_NE(hashOf({"--against", text, "-o", "a.html"}), hashOf({"--against", "--recipe balanced", "-o", "a.html"}));
+  }
+}
+
+TEST_CASE("a worker gets all settings") {
+  const auto settingsFor = [](std::vector<std::string> arguments) {
+    arguments.emplace_back("caf\xe9.ply");
+    const CommandLine line = parseCommandLine(arguments);
+    return MeshSettings{line.session, line.computation, line.compared, line.outputs, line.batch.timeoutSeconds, true};
+  };
+  std::vector<std::vector<std::string>> calls{{"-o", "caf\xe9"}};
+  for (const OptionCase& option : optionCases()) calls.push_back(option.arguments);
+  for (const std::vector<std::string>& arguments : calls) {
+    INFO(arguments.front());
+    const MeshSettings sent = settingsFor(arguments);
+    const MeshSettings received = settingsOf(decode(encode(toJson(sent))));
+    CHECK_EQ(toJson(received), toJson(sent));
+    CHECK_EQ(optionsHash(received.computation, received.compared, received.session, received.outputs),
+             optionsHash(sent.computation, sent.compared, sent.session, sent.outputs));
+    CHECK_EQ(received.outputs.path, sent.outputs.path);
+    CHECK_EQ(received.timeoutSeconds, sent.timeoutSeconds);
+    CHECK(received.makesFolders);
   }
 }
 

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <thread>
 
-#include "cli/output_plan.h"
+#include "cli/outputs.h"
 #include "cli/page_output.h"
 #include "cli/program_under_test.h"
 #include "cli/refusal.h"
@@ -178,22 +178,28 @@ TEST_CASE("--open starts xdg-open with the page and does not wait for it") {
   CHECK_FALSE(std::filesystem::exists(folder / "b.html"));
 }
 
+std::vector<std::string> plannedPages(const CommandLine& line) {
+  std::vector<InputFile> inputs;
+  for (const std::string& mesh : line.meshes) inputs.push_back({.path = mesh});
+  return planOutputs(line.outputs, line.batch, inputs);
+}
+
 TEST_CASE("options of a page") {
   const CommandLine line = parseCommandLine({"a.ply", "-o", "A.HTML"});
   CHECK(writesPages(line.outputs));
   CHECK(writesOnePage(line.outputs));
   CHECK(line.computation.options.keepsScene);
-  CHECK_EQ(planOutputs(line), std::vector<std::string>{"A.HTML"});
-  CHECK_EQ(planOutputs(parseCommandLine({"a.ply", "b.ply", "-o", "c.html"})),
+  CHECK_EQ(plannedPages(line), std::vector<std::string>{"A.HTML"});
+  CHECK_EQ(plannedPages(parseCommandLine({"a.ply", "b.ply", "-o", "c.html"})),
            std::vector<std::string>{"c.html", "c.html"});
-  CHECK_EQ(planOutputs(parseCommandLine({"a.ply", "--open"})), std::vector<std::string>{"a.asdf.html"});
-  CHECK_EQ(planOutputs(parseCommandLine({"a.ply", "b.ply", "--format", "html"})),
+  CHECK_EQ(plannedPages(parseCommandLine({"a.ply", "--open"})), std::vector<std::string>{"a.asdf.html"});
+  CHECK_EQ(plannedPages(parseCommandLine({"a.ply", "b.ply", "--format", "html"})),
            std::vector<std::string>{"a.asdf.html", "b.asdf.html"});
   CHECK_FALSE(writesPages(parseCommandLine({"a.ply", "-o", "a.vtu"}).outputs));
   CHECK_FALSE(parseCommandLine({"a.ply", "-o", "a.vtu"}).computation.options.keepsScene);
   const auto isRefused = [](const std::vector<std::string>& arguments) {
     try {
-      (void)planOutputs(parseCommandLine(arguments));
+      (void)plannedPages(parseCommandLine(arguments));
     } catch (const Error& error) {
       CHECK(error.kind() == ErrorKind::Usage);
       return true;

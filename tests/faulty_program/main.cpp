@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "asdf_vk/error.h"
-#include "cli/mesh_run.h"
+#include "cli/one_mesh.h"
 #include "cli/program.h"
 
 namespace {

@@ -1,0 +1,155 @@
+#include "batch/engine.h"
+
+#include <fmt/core.h>
+
+#include <chrono>
+#include <filesystem>
+#include <numeric>
+#include <thread>
+#include <utility>
+
+#include "batch/job_plan.h"
+#include "batch/messages.h"
+#include "core/atomic_file.h"
+#include "core/parallel.h"
+#include "process/interrupt.h"
+
+namespace asdfvk {
+namespace {
+
+constexpr int kInternalCode = 70;
+
+/// Whether a stop is requested. Waits up to 0.5 s for it, because a signal to the process group may reach a worker
+/// first.
+bool isStopping(const std::stop_token& stop) {
+  constexpr int kAttempts = 50;
+  for (int i = 0; i < kAttempts && !stop.stop_requested(); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  return stop.stop_requested();
+}
+
+class Engine {
+ public:
+  Engine(const std::vector<Job>& jobs, const EngineOptions& options, const EngineClient& client, Monitor& monitor,
+         const std::stop_token& stop)
+      : jobs_(jobs), options_(options), client_(client), monitor_(monitor), stop_(stop) {}
+
+  void run() {
+    std::vector<size_t> pending = addFinished();
+    monitor_.beginComputation();
+    for (const JobPhase& phase : planJobs(jobs_, std::move(pending), options_.requestedAtOnce, options_.threadCount)) {
+      if (stop_.stop_requested()) return;
+      if (phase.atOnce > 1 || options_.isolates) {
+        runOnWorkers(phase);
+      } else {
+        runHere(phase);
+      }
+    }
+  }
+
+ private:
+  /// Returns the indices of the other jobs.
+  [[nodiscard]] std::vector<size_t> addFinished() {
+    std::vector<size_t> pending(jobs_.size());
+    std::iota(pending.begin(), pending.end(), size_t{0});
+    if (!client_.findFinished) return pending;
+    std::vector<char> isFinished(jobs_.size(), 0);
+    forEachTask(jobs_.size(), [&](size_t i) {
+      if (stop_.stop_requested()) return;
+      std::optional<JobResult> result = client_.findFinished(jobs_[i]);
+      if (!result) return;
+      monitor_.add(i, std::move(*result));
+      isFinished[i] = 1;
+    });
+    std::erase_if(pending, [&](size_t i) { return isFinished[i] != 0; });
+    return pending;
+  }
+
+  void runHere(const JobPhase& phase) {
+    std::unique_ptr<JobComputer> computer;
+    for (size_t i = 0; i < phase.jobs.size() && !stop_.stop_requested(); ++i) {
+      if (!computer) {
+        computer = client_.open();
+        monitor_.announce(computer->describe());
+      }
+      const Job* const next = i + 1 < phase.jobs.size() ? &jobs_[phase.jobs[i + 1]] : nullptr;
+      monitor_.add(phase.jobs[i], computer->compute(jobs_[phase.jobs[i]], next));
+      if (computer->isSpent()) computer.reset();
+    }
+  }
+
+  void runOnWorkers(const JobPhase& phase) {
+    const bool isRequested = options_.requestedAtOnce > 0;
+    const uint32_t onGpu = isRequested ? phase.atOnce : std::min(phase.atOnce, kMaxWorkersOnGpu);
+    const Greeting greeting{client_.workerSettings, phase.threadCount, phase.threadCount * phase.atOnce / onGpu};
+    const WorkerPoolOptions pool{.program = "/proc/self/exe",  // The running program, also if its file was replaced.
+                                 .arguments = client_.workerArguments,
+                                 .greeting = encode(toJson(greeting)),
+                                 .workerCount = phase.atOnce,
+                                 .timeoutSeconds = options_.timeoutSeconds,
+                                 .memoryBytes = options_.memoryBytes};
+    std::optional<OpenFailure> failure;  // That of the last worker that could not start.
+    size_t endedCount = 0;
+    const WorkerPoolClient client{.request = [&](size_t i) { return encode(toJson(jobs_[phase.jobs[i]])); },
+                                  .ready = [&](const std::string& answer) -> uint32_t {
+                                    try {
+                                      const ComputerDescription description = descriptionOf(decode(answer));
+                                      monitor_.announce(description);
+                                      return description.isCpu ? phase.atOnce : onGpu;
+                                    } catch (const OpenFailure& reason) {
+                                      failure = reason;
+                                      return 0;
+                                    }
+                                  },
+                                  .finished =
+                                      [&](const JobOutcome& outcome) {
+                                        ++endedCount;
+                                        return takeOutcome(phase.jobs[outcome.job], outcome);
+                                      }};
+    const std::string reason = asdfvk::runOnWorkers(phase.jobs.size(), pool, client, stop_);
+    if (!reason.empty()) failure = OpenFailure(kInternalCode, "internal", "a worker process cannot start: " + reason);
+    if (!failure || stop_.stop_requested()) return;
+    if (endedCount < phase.jobs.size()) throw OpenFailure(*failure);
+    monitor_.note(fmt::format("not all workers have started: {}", failure->what()));
+  }
+
+  /// Returns whether the worker gets further jobs.
+  bool takeOutcome(size_t index, JobOutcome outcome) {
+    const Job& job = jobs_[index];
+    bool isDropped =
+        outcome.end == JobEnd::Crashed && outcome.workerEnd.signal == 0 && outcome.workerEnd.exitCode == kCancelledCode;
+    if (outcome.end == JobEnd::Answered) {
+      const Json answer = decode(outcome.answer);
+      JobResult result = resultOf(answer.at("result"));
+      isDropped = result.record.status == MeshStatus::Dropped;
+      if (!isDropped || isStopping(stop_)) {
+        monitor_.add(index, std::move(result));
+        return !answer.at("isSpent").get<bool>();
+      }
+    } else {
+      const auto folder = std::filesystem::path(job.output).parent_path();
+      removeFilesOfProcess(folder.empty() ? "." : folder, outcome.worker);
+    }
+    if (isDropped) outcome.end = isStopping(stop_) ? JobEnd::Dropped : JobEnd::Terminated;
+    JobResult result = client_.fail(job, outcome);
+    result.record.totalSeconds = outcome.seconds;
+    result.record.peakMemoryBytes = outcome.peakBytes;
+    monitor_.add(index, std::move(result));
+    return false;
+  }
+
+  const std::vector<Job>& jobs_;
+  const EngineOptions& options_;
+  const EngineClient& client_;
+  Monitor& monitor_;
+  const std::stop_token& stop_;
+};
+
+}  // namespace
+
+void runJobs(const std::vector<Job>& jobs, const EngineOptions& options, const EngineClient& client, Monitor& monitor,
+             const std::stop_token& stop) {
+  Engine(jobs, options, client, monitor, stop).run();
+}
+
+}  // namespace asdfvk

@@ -1,0 +1,142 @@
+#include "batch/monitor.h"
+
+#include <fmt/core.h>
+
+#include <chrono>
+#include <utility>
+
+#include "core/text.h"
+#include "process/terminal.h"
+
+namespace asdfvk {
+namespace {
+
+constexpr double kTerminalSeconds = 0.2, kFurtherLineSeconds = 60;
+
+}  // namespace
+
+Monitor::Monitor(const MonitorOptions& options, const std::vector<Job>& jobs)
+    : options_(options),
+      jobs_(jobs),
+      waiting_(jobs.size()),
+      isAdded_(jobs.size(), 0),
+      isTerminal_(isStandardErrorTerminal()) {
+  if (!options.log.empty()) log_.emplace(options.log);
+  progress_.meshCount = jobs.size();
+  for (const Job& job : jobs) progress_.byteCount += job.byteCount;
+  nextProgressSeconds_ = firstProgressSeconds();
+  if (!options_.showsProgress || options_.isQuiet) return;
+  ticker_ = std::jthread([this](const std::stop_token& stop) {
+    std::unique_lock lock(mutex_);
+    const auto interval = std::chrono::duration<double>(kTerminalSeconds);
+    while (!wakesTicker_.wait_for(lock, stop, interval, [&] { return stop.stop_requested(); })) showProgress();
+  });
+}
+
+Monitor::~Monitor() = default;
+
+void Monitor::beginComputation() {
+  const std::scoped_lock lock(mutex_);
+  watch_ = Stopwatch();
+  nextProgressSeconds_ = firstProgressSeconds();
+}
+
+void Monitor::announce(const ComputerDescription& computer) {
+  const std::scoped_lock lock(mutex_);
+  if (!announcedBackends_.empty()) return;
+  announcedBackends_.insert(computer.backend);
+  if (options_.isQuiet) return;
+  wipeProgress();
+  writeStandardError(computer.deviceLines);
+}
+
+void Monitor::note(const std::string& message) {
+  if (options_.isQuiet) return;
+  const std::scoped_lock lock(mutex_);
+  wipeProgress();
+  writeStandardError(warningLine("", message));
+}
+
+/// The backend may change where its device fails. Without a progress, the report of the mesh has a warning.
+void Monitor::noteOtherBackend(JobResult& result) {
+  const MeshRecord& record = result.record;
+  if (!options_.showsProgress || options_.isQuiet || record.backend.empty() || record.status == MeshStatus::Skipped)
+    return;
+  if (announcedBackends_.insert(record.backend).second)
+    result.messages +=
+        warningLine(record.input, fmt::format("computed on the backend {}, {}", record.backend, record.device));
+}
+
+void Monitor::add(size_t job, JobResult result) {
+  const std::scoped_lock lock(mutex_);
+  const MeshRecord& record = result.record;
+  codes_.push_back(record.code);
+  noteOtherBackend(result);
+  progress_.count(record, jobs_[job].byteCount);
+  if (record.status == MeshStatus::Dropped) dropped_.push_back(record.input);
+  if (log_) log_->append(record);
+  isAdded_[job] = 1;
+  waiting_[job] = {options_.printsReports ? std::move(result.report) : std::string(), std::move(result.messages)};
+  printInOrder();
+  showProgress();
+}
+
+void Monitor::finish() {
+  ticker_ = {};
+  const std::scoped_lock lock(mutex_);
+  wipeProgress();
+  for (std::optional<Texts>& texts : waiting_)
+    if (texts) print(*std::exchange(texts, std::nullopt));
+  if (options_.showsProgress && !options_.isQuiet) {
+    if (!dropped_.empty())
+      writeStandardError(oneLine(fmt::format("asdf-vk: dropped: {}", joined(dropped_, ", "))) + "\n");
+    writeStandardError(fmt::format("asdf-vk: {}\n", summaryText(progress_, watch_.seconds())));
+  }
+}
+
+std::vector<size_t> Monitor::unfinishedJobs() const {
+  const std::scoped_lock lock(mutex_);
+  std::vector<size_t> jobs;
+  for (size_t i = 0; i < isAdded_.size(); ++i)
+    if (!isAdded_[i]) jobs.push_back(i);
+  return jobs;
+}
+
+bool Monitor::hasUnfinished() const {
+  const std::scoped_lock lock(mutex_);
+  return !dropped_.empty() || progress_.finishedCount() < progress_.meshCount;
+}
+
+void Monitor::print(const Texts& texts) {
+  if (!texts.messages.empty()) writeStandardError(texts.messages);
+  if (!texts.report.empty()) writeStandardOutput(texts.report);
+}
+
+void Monitor::printInOrder() {
+  for (; nextPrinted_ < waiting_.size() && waiting_[nextPrinted_]; ++nextPrinted_) {
+    if (!waiting_[nextPrinted_]->messages.empty()) wipeProgress();
+    print(*std::exchange(waiting_[nextPrinted_], std::nullopt));
+  }
+}
+
+void Monitor::showProgress() {
+  if (!options_.showsProgress || options_.isQuiet || progress_.finishedCount() == progress_.meshCount) return;
+  const double seconds = watch_.seconds();
+  if (seconds < nextProgressSeconds_) return;
+  const std::string text = progressText(progress_, seconds);
+  if (isTerminal_) {
+    writeStandardError(fmt::format("{}{} {}", kWipeLine, progressBarText(progress_.share()), text));
+    isProgressVisible_ = true;
+  } else {
+    writeStandardError(fmt::format("asdf-vk: {}\n", text));
+  }
+  nextProgressSeconds_ = seconds + (isTerminal_ ? kTerminalSeconds : kFurtherLineSeconds);
+}
+
+void Monitor::wipeProgress() {
+  if (!isProgressVisible_) return;
+  writeStandardError(kWipeLine);
+  isProgressVisible_ = false;
+}
+
+}  // namespace asdfvk

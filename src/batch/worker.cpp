@@ -1,0 +1,40 @@
+#include "batch/worker.h"
+
+#include <fcntl.h>
+#include <sys/prctl.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <optional>
+#include <string>
+
+#include "batch/message_channel.h"
+
+namespace asdfvk {
+
+void serveJobs(const std::function<std::unique_ptr<JobComputer>(const Greeting&)>& open) {
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  const int socket = ::fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 3);
+  ::dup2(STDERR_FILENO, STDOUT_FILENO);
+  const int none = ::open("/dev/null", O_RDONLY | O_CLOEXEC);
+  ::dup2(none, STDIN_FILENO);
+
+  MessageChannel messages(socket);
+  const std::optional<std::string> greeting = messages.wait();
+  if (!greeting) return;
+  std::unique_ptr<JobComputer> computer;
+  try {
+    computer = open(greetingOf(decode(*greeting)));
+  } catch (const OpenFailure& failure) {
+    messages.send(encode(toJson(failure)));
+    return;
+  }
+  messages.send(encode(toJson(computer->describe())));
+  while (const std::optional<std::string> request = messages.wait()) {
+    const JobResult result = computer->compute(jobOf(decode(*request)), nullptr);
+    const bool isSpent = computer->isSpent();  // Another worker opens the device anew.
+    if (!messages.send(encode({{"result", toJson(result)}, {"isSpent", isSpent}})) || isSpent) return;
+  }
+}
+
+}  // namespace asdfvk

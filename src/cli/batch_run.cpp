@@ -1,0 +1,194 @@
+#include "cli/batch_run.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <csignal>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "asdf_vk/asdf_vk.h"
+#include "batch/engine.h"
+#include "batch/input_list.h"
+#include "batch/worker.h"
+#include "cli/mesh_jobs.h"
+#include "cli/outputs.h"
+#include "cli/page_output.h"
+#include "cli/report.h"
+#include "cli/settings_json.h"
+#include "core/atomic_file.h"
+#include "core/parallel.h"
+#include "process/browser.h"
+#include "process/interrupt.h"
+#include "process/terminal.h"
+
+namespace asdfvk {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The failure of a job whose worker was killed or crashed.
+Failure failureOf(const JobOutcome& outcome, const BatchOptions& batch) {
+  switch (outcome.end) {
+    case JobEnd::TimedOut:
+      return timeLimitFailure(batch.timeoutSeconds);
+    case JobEnd::MemoryExceeded:
+      return {ExitCode::Limit, fmt::format("took {} MiB of memory, more than --memory-limit", outcome.peakBytes >> 20),
+              "memoryLimit"};
+    case JobEnd::Dropped:
+      return cancelledFailure();
+    case JobEnd::Terminated:
+      return {ExitCode::Internal, "another process ended the worker process by a signal", "crashed"};
+    default:
+      break;
+  }
+  if (outcome.workerEnd.signal == SIGKILL)
+    return {ExitCode::Internal,
+            "the worker process was killed (signal 9), probably because memory ran out; give --memory-limit, or fewer "
+            "--jobs",
+            "crashed"};
+  return {ExitCode::Internal,
+          fmt::format("internal error: the worker process {}; please report it", textOf(outcome.workerEnd)), "crashed"};
+}
+
+std::vector<InputFile> inputsOf(const std::vector<std::string>& meshes, const std::string& outputFolder,
+                                const BatchOptions& batch) {
+  const std::vector<InputFile> inputs = listInputs({.arguments = meshes,
+                                                    .recurses = batch.recurses,
+                                                    .list = batch.list,
+                                                    .isNullSeparated = batch.isNullSeparated,
+                                                    .formats = meshFormats(),
+                                                    .outputFolder = outputFolder});
+  if (inputs.empty())
+    throw Error(ErrorCode::UnreadableInput,
+                batch.list.empty() ? "no mesh was found in the folders of -r" : "no mesh was found in --files-from");
+  return inputs;
+}
+
+/// The outputs of all inputs are checked against each other, also those of other shards.
+std::vector<Job> jobsOf(const std::vector<InputFile>& inputs, const Outputs& outputs, const BatchOptions& batch) {
+  const std::vector<std::string> paths = planOutputs(outputs, batch, inputs);
+  std::vector<Job> jobs;
+  for (const size_t i : selectShard(inputs, batch.shard.value_or(Shard{}))) {
+    std::error_code ignored;
+    const fs::file_status status = fs::status(inputs[i].path, ignored);
+    const bool isStream = inputs[i].path == "-" || (fs::exists(status) && !fs::is_regular_file(status));
+    jobs.push_back({inputs[i].path, paths[i], inputs[i].byteCount, isStream});
+  }
+  return jobs;
+}
+
+/// Removes the temporary files of earlier runs that were killed, and of workers that were killed at the end of this
+/// run.
+void removeUnfinishedOutputs(const std::vector<Job>& jobs) {
+  std::set<fs::path> folders;
+  for (const Job& job : jobs) folders.insert(fs::path(job.output).parent_path());
+  for (const fs::path& folder : folders) removeAbandonedFiles(folder.empty() ? "." : folder);
+}
+
+/// Throws what the engine throws, except OpenFailure, whose code it returns after reporting it for all jobs without a
+/// result.
+ExitCode runAndReport(const std::vector<Job>& jobs, const EngineOptions& options, const EngineClient& client,
+                      Monitor& monitor, bool hasJson, const std::stop_token& stop) {
+  try {
+    runJobs(jobs, options, client, monitor, stop);
+  } catch (const OpenFailure& failure) {
+    printError("", failure.what());
+    if (hasJson)
+      for (const size_t i : monitor.unfinishedJobs())
+        writeStandardOutput(jsonFailure(jobs[i].input, failure.name, failure.what()));
+    return static_cast<ExitCode>(failure.code);
+  } catch (...) {
+    monitor.finish();
+    throw;
+  }
+  return ExitCode::Done;
+}
+
+/// Computes the jobs of a worker process. Signals drop a job, or end the idle process.
+class WorkerComputer : public JobComputer {
+ public:
+  explicit WorkerComputer(const Greeting& greeting) : settings_(settingsOf(greeting.settings)), records_(settings_) {
+    {
+      const ThreadLimit limit(greeting.threadCount);  // A CPU device keeps it.
+      computer_.emplace(settings_, records_, interrupt_.token());
+    }
+    limit_.emplace(computer_->describe().isCpu ? greeting.threadCount : greeting.threadCountOnGpu);
+  }
+
+  [[nodiscard]] ComputerDescription describe() const override { return computer_->describe(); }
+  [[nodiscard]] JobResult compute(const Job& job, const Job* next) override {
+    const Interrupt::Listening listening;
+    return computer_->compute(job, next);
+  }
+  [[nodiscard]] bool isSpent() const override { return computer_->isSpent(); }
+
+ private:
+  const Interrupt interrupt_{true};
+  const MeshSettings settings_;
+  const JobRecords records_;
+  std::optional<MeshComputer> computer_;
+  std::optional<ThreadLimit> limit_;
+};
+
+}  // namespace
+
+void runWorker() {
+  serveJobs([](const Greeting& greeting) -> std::unique_ptr<JobComputer> {
+    try {
+      return std::make_unique<WorkerComputer>(greeting);
+    } catch (const OpenFailure&) {
+      throw;
+    } catch (...) {
+      throwOpenFailure(currentFailure());
+    }
+  });
+}
+
+ExitCode computeBatch(const std::vector<std::string>& meshes, const MeshSettings& settings, const BatchOptions& batch,
+                      const std::stop_token& stop) {
+  const Outputs& outputs = settings.outputs;
+  const std::vector<Job> jobs = jobsOf(inputsOf(meshes, outputs.path, batch), outputs, batch);
+  std::optional<Page> page;
+  if (writesOnePage(outputs)) page = emptyPage();
+  if (outputs.opensPage) requireBrowser();
+  std::optional<Interrupt::Listening> listening;  // In a batch, a signal drops the current meshes; the log has them.
+  if (batch.isBatch()) {
+    listening.emplace();
+    removeUnfinishedOutputs(jobs);
+  }
+  Monitor monitor(
+      {.log = batch.log, .printsReports = outputs.json, .showsProgress = batch.isBatch(), .isQuiet = outputs.quiet},
+      jobs);
+  const JobRecords records(settings);
+  const EngineOptions options{.requestedAtOnce = page ? 1 : batch.jobCount,
+                              .threadCount = static_cast<uint32_t>(threadLimit()),
+                              .isolates = batch.isolates,
+                              .timeoutSeconds = batch.timeoutSeconds,
+                              .memoryBytes = batch.memoryBytes};
+  EngineClient client{
+      .open =
+          [&] {
+            auto computer = std::make_unique<MeshComputer>(settings, records, stop, !batch.isBatch() && !outputs.quiet);
+            if (page) computer->collectIn(*page, jobs);
+            return computer;
+          },
+      .fail = [&](const Job& job, const JobOutcome& outcome) { return records.fail(job, failureOf(outcome, batch)); },
+      .workerArguments = {"asdf-vk", kWorkerArgument},
+      .workerSettings = toJson(settings)};
+  if (batch.skipsExisting) client.findFinished = [&](const Job& job) { return records.findFinished(job); };
+  const ExitCode ofDevice = runAndReport(jobs, options, client, monitor, outputs.json, stop);
+  if (batch.isBatch()) removeUnfinishedOutputs(jobs);
+  monitor.finish();
+  if (stop.stop_requested() && monitor.hasUnfinished()) return ExitCode::Cancelled;
+  if (ofDevice != ExitCode::Done) return ofDevice;
+  if (page && !page->isEmpty()) finishPage(*page, jobs.front().output, outputs.opensPage, stop);
+  SharedExitCode code;
+  for (const int ofMesh : monitor.codes()) code.add(static_cast<ExitCode>(ofMesh));
+  return code.code();
+}
+
+}  // namespace asdfvk

@@ -1,0 +1,172 @@
+#include "cli/mesh_jobs.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include "asdf_vk/asdf_vk.h"
+#include "asdf_vk/version.h"
+#include "batch/content_hash.h"
+#include "batch/output_record.h"
+#include "batch/process_memory.h"
+#include "cli/options_hash.h"
+#include "cli/page_output.h"
+#include "cli/report.h"
+#include "core/json.h"
+#include "core/stopwatch.h"
+
+namespace asdfvk {
+namespace {
+
+SharedJson shortEstimateOf(const std::optional<ErrorEstimate>& estimate) {
+  if (!estimate) return nullptr;
+  return std::make_shared<const Json>(Json{{"average", number(estimate->average)},
+                                           {"standardError", number(estimate->standardError)},
+                                           {"relativeMedian", number(estimate->relativeMedian)},
+                                           {"relativePercentile90", number(estimate->relativePercentile90)}});
+}
+
+void fillRecord(MeshRecord& record, const Report& report) {
+  record.faceCount = report.faceCount;
+  record.device = report.device;
+  record.backend = report.backend;
+  for (size_t i = 0; i < kStageCount; ++i)
+    if (const double seconds = report.stageSeconds.seconds[i]; seconds > 0)
+      record.seconds.emplace_back(nameOf(static_cast<Stage>(i)), seconds);
+  record.estimatedError = shortEstimateOf(report.estimatedError);
+  if (report.segmentation) record.segmentCount = report.segmentation->segmentCount;
+  for (const Warning& warning : report.warnings) record.warnings.emplace_back(nameOf(warning.code));
+}
+
+void fillRecord(MeshRecord& record, const Failure& failure) {
+  record.status = failure.code == ExitCode::Cancelled ? MeshStatus::Dropped : MeshStatus::Failed;
+  record.code = static_cast<int>(failure.code);
+  record.error = failure.name;
+  record.message = failure.message;
+}
+
+/// Throws OpenFailure.
+std::unique_ptr<Session> openSession(const SessionOptions& options) {
+  try {
+    return std::make_unique<Session>(options);
+  } catch (...) {
+    throwOpenFailure(currentFailure(options.requireGpu));
+  }
+}
+
+/// Larger meshes are not read ahead, because two meshes are in memory then.
+bool isReadAhead(const Job& job) {
+  constexpr uint64_t kMaxBytes = uint64_t{256} << 20;
+  return !job.isStream && job.byteCount > 0 && job.byteCount <= kMaxBytes;
+}
+
+}  // namespace
+
+JobRecords::JobRecords(const MeshSettings& settings)
+    : settings_(settings),
+      optionsHash_(optionsHash(settings.computation, settings.compared, settings.session, settings.outputs)),
+      options_(std::make_shared<const Json>(optionValues(settings.computation, settings.session))) {}
+
+MeshRecord JobRecords::begin(const Job& job) const {
+  MeshRecord record;
+  record.input = job.input;
+  record.time = utcTime();
+  record.optionsHash = optionsHash_;
+  record.options = options_;
+  record.version = ASDFVK_VERSION;
+  record.commit = ASDFVK_COMMIT;
+  return record;
+}
+
+JobResult JobRecords::finish(const Job& job, MeshRecord record, MeshRun run,
+                             const std::optional<MeshRecord>& old) const {
+  if (run.report) fillRecord(record, *run.report);
+  if (run.hasResult) record.output = job.output;
+  if (run.failure) fillRecord(record, *run.failure);
+  if (!run.failure && settings_.isOfBatch) {
+    try {
+      writeOutputRecord(record, job.output);
+    } catch (...) {
+      run.add(currentFailure(), job.input, settings_.outputs.json);
+      fillRecord(record, *run.failure);
+      removeOutput(record, job.output);
+      record.output.reset();
+      record.outputHash.clear();
+    }
+  }
+  if (old && record.status == MeshStatus::Failed && !hasResult(run.failure->code))
+    removeOutdatedOutput(*old, record, job.output);
+  return {std::move(record), std::move(run.json), std::move(run.text)};
+}
+
+std::optional<JobResult> JobRecords::findFinished(const Job& job) const {
+  std::error_code ignored;
+  if (!std::filesystem::exists(outputRecordPath(job.output), ignored)) return std::nullopt;
+  MeshRecord expected = begin(job);
+  expected.inputHash = contentHashOf(job.input).value_or("");
+  std::optional<MeshRecord> found = findFinishedOutput(expected, job.output);
+  if (!found) return std::nullopt;
+  std::string report = jsonSkipped(job.input, *found);
+  return JobResult{std::move(*found), std::move(report), ""};
+}
+
+JobResult JobRecords::fail(const Job& job, const Failure& failure) const {
+  MeshRecord record = begin(job);
+  MeshRun run;
+  run.add(failure, job.input, settings_.outputs.json);
+  const std::optional<MeshRecord> old = readOutputRecord(job.output);
+  if (old) record.inputHash = contentHashOf(job.input).value_or("");
+  return finish(job, std::move(record), std::move(run), old);
+}
+
+void throwOpenFailure(const Failure& failure) {
+  throw OpenFailure(static_cast<int>(failure.code), failure.name, failure.message);
+}
+
+MeshComputer::MeshComputer(const MeshSettings& settings, const JobRecords& records, std::stop_token stop, bool showsBar)
+    : settings_(settings),
+      records_(records),
+      stop_(std::move(stop)),
+      showsBar_(showsBar),
+      session_(openSession(settings.session)),
+      backend_(session_->backend()) {}
+
+void MeshComputer::collectIn(Page& page, const std::vector<Job>& jobs) {
+  page_ = &page;
+  jobsOfPage_ = &jobs;
+}
+
+ComputerDescription MeshComputer::describe() const {
+  return {session_->backend(), deviceLinesOf(*session_), session_->runsOnCpu()};
+}
+
+JobResult MeshComputer::compute(const Job& job, const Job* next) {
+  MeshRecord record = records_.begin(job);
+  const std::optional<MeshRecord> old = settings_.isOfBatch ? readOutputRecord(job.output) : std::nullopt;
+  const Stopwatch watch;
+  resetPeakMemory();
+  const Deadline deadline(settings_.timeoutSeconds, stop_);
+  LoadedMesh loaded = ahead_.valid() ? ahead_.get() : loadMesh(job.input, settings_.isOfBatch, deadline.token());
+  if (next != nullptr && isReadAhead(*next))
+    ahead_ = std::async(std::launch::async, [this, next] { return loadMesh(next->input, settings_.isOfBatch, stop_); });
+  record.inputHash = loaded.hash;
+  std::optional<SharedPage> page;
+  if (page_ != nullptr) page.emplace(SharedPage{*page_, nameInSharedPage(job)});
+  MeshRun run = computeMesh(*session_, job.input, job.output, std::move(loaded), settings_, deadline, showsBar_,
+                            page ? &*page : nullptr);
+  isSpent_ = session_->backend() != backend_ || stop_.stop_requested() ||
+             (run.failure && run.failure->code == ExitCode::Device);
+  record.totalSeconds = watch.seconds();
+  record.peakMemoryBytes = peakMemoryBytes();
+  return records_.finish(job, std::move(record), std::move(run), old);
+}
+
+/// The file name, or the path where another mesh has the same file name.
+std::string MeshComputer::nameInSharedPage(const Job& job) const {
+  const std::string name = nameInPage(job.input);
+  const auto sameCount = std::count_if(jobsOfPage_->begin(), jobsOfPage_->end(),
+                                       [&](const Job& other) { return nameInPage(other.input) == name; });
+  return sameCount > 1 ? job.input : name;
+}
+
+}  // namespace asdfvk

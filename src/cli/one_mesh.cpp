@@ -1,0 +1,302 @@
+#include "cli/one_mesh.h"
+
+#include <fcntl.h>
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <filesystem>
+#include <future>
+#include <thread>
+#include <utility>
+
+#include "asdf_vk/asdf_vk.h"
+#include "batch/content_hash.h"
+#include "batch/output_record.h"
+#include "cli/outputs.h"
+#include "cli/page_output.h"
+#include "cli/report.h"
+#include "core/stopwatch.h"
+#include "core/text.h"
+#include "io/inspected_mesh.h"
+#include "mesh/orientation.h"
+#include "process/browser.h"
+#include "process/interrupt.h"
+#include "process/terminal.h"
+#include "render/png.h"
+#include "render/result_picture.h"
+
+namespace asdfvk {
+
+void (*beforeMesh)(const std::string& input) = nullptr;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The field of --picture-of, null for the thin places. Throws Error{UnknownField} and Error{OptionConflict}.
+const Field* pictureFieldOf(const Outputs& outputs, const Result& result) {
+  if (outputs.pictureOf.empty()) return nullptr;
+  const Field* const field = result.field(outputs.pictureOf);
+  if (field == nullptr)
+    throw Error(ErrorCode::UnknownField, "--picture-of: the result has no field " + outputs.pictureOf);
+  if (field->componentCount != 1)
+    throw Error(ErrorCode::OptionConflict,
+                fmt::format("--picture-of: field {} has {} components; a picture shows a field of one component",
+                            outputs.pictureOf, field->componentCount));
+  return field;
+}
+
+constexpr auto kStopPollTime = std::chrono::milliseconds(20);
+
+/// Waits until an output that is a FIFO has a reader, and keeps it open: the next opening does not wait. Throws
+/// Error{Cancelled}.
+class AwaitedReader {
+ public:
+  AwaitedReader(const std::string& output, const std::stop_token& stop) {
+    std::error_code ignored;
+    if (!fs::is_fifo(output, ignored)) return;
+    while ((descriptor_ = ::open(output.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC)) < 0 && errno == ENXIO) {
+      if (stop.stop_requested()) throw Error(ErrorCode::Cancelled, "cancelled");
+      std::this_thread::sleep_for(kStopPollTime);
+    }
+  }
+  ~AwaitedReader() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+  }
+  AwaitedReader(const AwaitedReader&) = delete;
+  AwaitedReader& operator=(const AwaitedReader&) = delete;
+
+ private:
+  int descriptor_ = -1;
+};
+
+/// The requested checks that failed or could not be made.
+std::vector<Failure> failedChecks(const Computation& computation, const Report& report) {
+  std::vector<Failure> failures;
+  if (report.check && exitCodeOf(*report.check) != ExitCode::Done)
+    failures.push_back({ExitCode::CheckFailed, checkFailure(*report.check), "checkFailed"});
+  if (!computation.failIfThinner) return failures;
+  const ExitCode code = exitCodeOf(*report.thickness);
+  if (code != ExitCode::Done)
+    failures.push_back(
+        {code, thicknessVerdict(*report.thickness), code == ExitCode::TooThin ? "tooThin" : "notJudged"});
+  return failures;
+}
+
+LoadedMesh loadNow(const std::string& path, bool computesHash) {
+  LoadedMesh loaded;
+  const Stopwatch watch;
+  try {
+    loaded.mesh = readMesh(path, [&](std::span<const char> bytes) {
+      if (computesHash) loaded.hash = contentHash(bytes);
+    });
+  } catch (...) {
+    loaded.failure = std::current_exception();
+  }
+  loaded.seconds = watch.seconds();
+  return loaded;
+}
+
+/// Whether its opening or reading may wait for another process.
+bool mayWait(const std::string& path) {
+  std::error_code ignored;
+  const fs::file_status status = fs::status(path, ignored);
+  return path == "-" || (fs::exists(status) && !fs::is_regular_file(status));
+}
+
+/// The files of a mesh, and what is written to them.
+class MeshFiles {
+ public:
+  MeshFiles(const std::string& input, const std::string& output, const MeshSettings& settings, bool showsBar,
+            const std::stop_token& stop)
+      : input_(input), output_(output), settings_(settings), showsBar_(showsBar), stop_(stop) {}
+
+  void requireWritable() const {
+    if (settings_.makesFolders) makeFolderOf(output_);
+    requireWritablePlace(output_);
+    if (settings_.isOfBatch && hasOutputRecord(output_)) requireWritablePlace(outputRecordPath(output_).string());
+    for (const std::string& further : {settings_.outputs.picture, settings_.outputs.points})
+      if (!further.empty()) requireWritablePlace(further);
+  }
+
+  /// Calls work(RunControl) with a progress bar.
+  template <typename Work>
+  auto withProgress(const Work& work) const {
+    const Stopwatch watch;
+    std::optional<ProgressBar> bar;
+    if (showsBar_ && isStandardErrorTerminal()) bar.emplace(writeStandardError, [&watch] { return watch.seconds(); });
+    RunControl control;
+    control.stop = stop_;
+    if (bar) control.progress = [&bar](double fraction) { bar->update(fraction); };
+    return work(control);
+  }
+
+  /// Precondition: the output is no page.
+  void writeResult(Mesh& mesh, const Options& options, const Result& result) const {
+    const WriteOptions writing = writeOptionsOf(settings_.outputs, options);
+    flipInputFaces(mesh, result.report.reversedFaces);  // The scene of the result has its own copy.
+    const AwaitedReader reader(output_, stop_);
+    asdfvk::writeResult(output_, mesh, writableFields(writing, options.per, output_, result.fields), writing);
+  }
+
+  void writePoints(const Result& result) const {
+    if (settings_.outputs.points.empty()) return;
+    const AwaitedReader reader(settings_.outputs.points, stop_);
+    asdfvk::writePoints(settings_.outputs.points, result.fields);
+  }
+
+  /// Renders the field, or the thin places without one, and writes it atomically. Precondition: result.scene is set.
+  void writePicture(const Result& result, const Field* field) const {
+    const Outputs& outputs = settings_.outputs;
+    const AwaitedReader reader(outputs.picture, stop_);
+    const View view = viewOf(outputs.pictureView, input_, result, field == nullptr && !outputs.choosesView);
+    withProgress([&](const RunControl& control) {
+      writePng(outputs.picture, field == nullptr ? thinPictureOf(result, view, {}, control)
+                                                 : pictureOf(result, *field, view, {}, control));
+    });
+  }
+
+ private:
+  const std::string& input_;
+  const std::string& output_;
+  const MeshSettings& settings_;
+  bool showsBar_;
+  const std::stop_token stop_;
+};
+
+/// Adds warnings, reports and failed checks of a result that is written.
+void addReport(const MeshOutcome& outcome, bool isOfBatch, MeshRun& run) {
+  const Report& report = outcome.result.report;
+  run.hasResult = true;
+  if (!outcome.outputs.quiet && !isOfBatch) {
+    for (const Warning& warning : report.warnings) run.text += warningLine(outcome.mesh, textWarning(warning));
+    run.text += textReport(outcome);
+  }
+  if (outcome.outputs.json) run.json += jsonReport(outcome);
+  if (outcome.computation.against.empty()) run.report = report;
+  for (Failure& failure : failedChecks(outcome.computation, report)) {
+    run.text += errorLine(outcome.mesh, failure.message);
+    if (!run.failure) run.failure = std::move(failure);
+  }
+}
+
+}  // namespace
+
+LoadedMesh loadMesh(const std::string& path, bool computesHash, const std::stop_token& stop) {
+  if (!mayWait(path)) return loadNow(path, computesHash);
+  try {
+    std::packaged_task<LoadedMesh()> task([path, computesHash] { return loadNow(path, computesHash); });
+    std::future<LoadedMesh> loaded = task.get_future();
+    std::thread(std::move(task)).detach();  // The call of the system cannot be ended before the process.
+    while (loaded.wait_for(kStopPollTime) != std::future_status::ready)
+      if (stop.stop_requested()) throw Error(ErrorCode::Cancelled, "cancelled");
+    return loaded.get();
+  } catch (...) {
+    return {.failure = std::current_exception()};
+  }
+}
+
+void MeshRun::add(Failure failed, const std::string& input, bool hasJson) {
+  const std::string prefix = oneLine(input + ": ");  // The messages of readers begin with the file, too.
+  if (failed.message.starts_with(prefix)) failed.message.erase(0, prefix.size());
+  text += errorLine(input, failed.message);
+  if (hasJson) json += jsonFailure(input, failed.name, failed.message);
+  if (!failure || failed.code == ExitCode::Cancelled) failure = std::move(failed);
+}
+
+MeshRun computeMesh(Session& session, const std::string& input, const std::string& output, LoadedMesh loaded,
+                    const MeshSettings& settings, const Deadline& deadline, bool showsBar,
+                    const SharedPage* sharedPage) {
+  MeshRun run;
+  const MeshFiles files(input, output, settings, showsBar, deadline.token());
+  std::optional<Page> ownPage;
+  if (sharedPage == nullptr && writesPages(settings.outputs)) ownPage = emptyPage();
+  Page* const page = sharedPage != nullptr ? &sharedPage->page : ownPage ? &*ownPage : nullptr;
+  const PageMesh shown{sharedPage != nullptr ? sharedPage->name : nameInPage(input), !settings.isOfBatch};
+  const bool hasPicture = !settings.outputs.picture.empty();
+  bool isPageBegun = false;
+  const auto writeOwnPage = [&] {
+    isPageBegun = true;
+    run.hasResult = false;
+    finishPage(*ownPage, output, settings.outputs.opensPage, deadline.token());
+    run.hasResult = true;
+  };
+  const auto attempt = [&](const Computation& computation, const auto& work) {
+    try {
+      work();
+    } catch (...) {
+      Failure failure = currentFailure(settings.session.requireGpu, computation.valueOptions);
+      if (failure.code == ExitCode::Cancelled && deadline.hasExpired())
+        failure = timeLimitFailure(settings.timeoutSeconds);
+      run.add(std::move(failure), input, settings.outputs.json);
+    }
+  };
+  const auto compute = [&](const Computation& computation, bool isLast) {
+    Result result = files.withProgress(
+        [&](const RunControl& control) { return session.compute(loaded.mesh, computation.options, control); });
+    if (deadline.token().stop_requested()) throw Error(ErrorCode::Cancelled, "cancelled");
+    StageSeconds& seconds = result.report.stageSeconds;
+    seconds[Stage::Read] = loaded.seconds;
+    const bool isFirst = &computation == &settings.computation;
+    const Field* const pictureField = isFirst && hasPicture ? pictureFieldOf(settings.outputs, result) : nullptr;
+    const MeshOutcome outcome{input, output, computation, settings.session, settings.outputs, result};
+    const Stopwatch watch;
+    removeOutputRecord(output);
+    if (page == nullptr) {
+      files.writeResult(loaded.mesh, computation.options, result);
+    } else {
+      files.withProgress([&](const RunControl& control) { addToPage(*page, outcome, shown, control); });
+      if (ownPage && isLast) writeOwnPage();
+    }
+    if (isFirst) files.writePoints(result);
+    seconds[Stage::Write] = watch.seconds();
+    if (isFirst && hasPicture) files.writePicture(result, pictureField);
+    addReport(outcome, settings.isOfBatch, run);
+  };
+
+  const Interrupt::Listening listening;
+  attempt(settings.computation, [&] {
+    if (beforeMesh != nullptr) beforeMesh(input);
+    if (loaded.failure) std::rethrow_exception(loaded.failure);
+    files.requireWritable();
+  });
+  if (run.failure) return run;
+  attempt(settings.computation, [&] { compute(settings.computation, !settings.compared); });
+  const auto isCancelled = [&] { return run.failure && run.failure->code == ExitCode::Cancelled; };
+  if (settings.compared && !isCancelled()) attempt(*settings.compared, [&] { compute(*settings.compared, true); });
+  // The last computation failed, the other one did not.
+  if (ownPage && !isPageBegun && !ownPage->isEmpty() && !isCancelled()) attempt(settings.computation, writeOwnPage);
+  return run;
+}
+
+void finishPage(const Page& page, const std::string& output, bool opensBrowser, const std::stop_token& stop) {
+  const AwaitedReader reader(output, stop);
+  writePage(output, page);
+  if (opensBrowser) openInBrowser(output);
+}
+
+ExitCode computeOneMesh(const std::string& input, const MeshSettings& settings, const std::stop_token& stop) {
+  const InputFile file{.path = input};
+  const std::string output = planOutputs(settings.outputs, {}, {&file, 1}).front();
+  if (settings.outputs.opensPage) requireBrowser();
+  std::optional<Session> session;
+  try {
+    session.emplace(settings.session);
+  } catch (...) {
+    const Failure failure = currentFailure(settings.session.requireGpu);
+    printError("", failure.message);
+    if (settings.outputs.json) writeStandardOutput(jsonFailure(input, failure.name, failure.message));
+    return failure.code;
+  }
+  if (!settings.outputs.quiet) writeStandardError(deviceLinesOf(*session));
+  const Deadline deadline(settings.timeoutSeconds, stop);
+  const MeshRun run = computeMesh(*session, input, output, loadMesh(input, false, deadline.token()), settings, deadline,
+                                  !settings.outputs.quiet);
+  writeStandardError(run.text);
+  writeStandardOutput(run.json);
+  return run.failure ? run.failure->code : ExitCode::Done;
+}
+
+}  // namespace asdfvk

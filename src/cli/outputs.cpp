@@ -1,0 +1,268 @@
+#include "cli/outputs.h"
+
+#include <fmt/core.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <optional>
+#include <set>
+#include <unordered_map>
+#include <unordered_set>
+#include <utility>
+
+#include "asdf_vk/error.h"
+#include "batch/output_record.h"
+#include "core/atomic_file.h"
+#include "core/text.h"
+
+namespace asdfvk {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void usageError(const std::string& message) { throw Error(ErrorCode::OptionConflict, message); }
+
+/// "dir/horse.ply" to "horse.asdf.vtu".
+std::string resultName(const std::string& mesh, const std::string& format) {
+  const std::string stem = mesh == "-" ? "stdin" : fs::path(mesh).stem().string();
+  return stem + ".asdf." + (format.empty() ? "ply" : format);
+}
+
+bool isPageName(const fs::path& path) { return lowerCase(path.extension().string()) == ".html"; }
+
+/// That of the result; as resultFormatOf(), but the error names the formats of this program.
+std::string plannedFormat(const std::string& output, const WriteOptions& options) {
+  try {
+    return resultFormatOf(output, options);
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::UnknownFormat) throw;
+    throw Error(ErrorCode::UnknownFormat, fmt::format("the extension of {} does not name a format; the formats are {}",
+                                                      output, joined(outputFormats(), ", ")));
+  }
+}
+
+/// Whether the extension of `path` names another format than `format`.
+bool contradicts(const fs::path& path, const std::string& format) {
+  if (isPageName(path)) return format != kPageFormat;
+  try {
+    return resultFormatOf(path) != format;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+bool isResultName(const fs::path& path) {
+  if (isPageName(path)) return true;
+  try {
+    return !resultFormatOf(path).empty();
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+bool isFolder(const std::string& output) {
+  std::error_code ignored;
+  return output.ends_with('/') || (!output.empty() && fs::is_directory(output, ignored));
+}
+
+/// Whether -o is the folder of several results.
+bool takesFolder(const Outputs& outputs, const BatchOptions& batch) {
+  return !outputs.path.empty() && (batch.hasTree() || isFolder(outputs.path));
+}
+
+std::string planOutput(const InputFile& input, const Outputs& outputs, const BatchOptions& batch) {
+  const std::string& mesh = input.path;
+  if (outputs.path == "-") return "-";
+  if (takesFolder(outputs, batch))
+    return (fs::path(outputs.path) / input.folder / resultName(mesh, outputs.format)).string();
+  if (!outputs.path.empty()) return outputs.path;
+  if (mesh == "-") usageError("a mesh from standard input has no file name; give -o FILE or -o -");
+  return (fs::path(mesh).parent_path() / resultName(mesh, outputs.format)).string();
+}
+
+std::string normalised(const fs::path& path) {
+  std::error_code ignored;
+  return fs::absolute(followLinks(path), ignored).lexically_normal().string();
+}
+
+/// Set of files, compared by device and inode, which follows links, and by normalised path for files that do not exist.
+class FileSet {
+ public:
+  void insert(const std::string& path) {
+    names_.insert(normalised(path));
+    if (const auto identity = identityOf(path)) identities_.insert(*identity);
+  }
+  [[nodiscard]] bool holds(const std::string& path) const {
+    if (names_.contains(normalised(path))) return true;
+    const auto identity = identityOf(path);
+    return identity && identities_.contains(*identity);
+  }
+
+ private:
+  using Identity = std::pair<dev_t, ino_t>;
+  static std::optional<Identity> identityOf(const std::string& path) {
+    struct stat status {};
+    if (::stat(path.c_str(), &status) != 0) return std::nullopt;
+    return Identity{status.st_dev, status.st_ino};
+  }
+
+  std::unordered_set<std::string> names_;
+  std::set<Identity> identities_;
+};
+
+void checkLog(const std::string& path, const FileSet& inputs, const FileSet& lists,
+              const std::vector<std::string>& outputs) {
+  if (inputs.holds(path)) usageError(fmt::format("{} is an input; choose another --log", path));
+  if (lists.holds(path)) usageError(fmt::format("{} is the list of --files-from; choose another --log", path));
+  FileSet log;
+  log.insert(path);
+  for (const std::string& output : outputs) {
+    if (log.holds(output)) usageError(fmt::format("{} is the path of two outputs; choose another --log", path));
+    if (log.holds(outputRecordPath(output).string()))
+      usageError(fmt::format("{} is the record of {}; choose another --log", path, output));
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> fieldNames(const Outputs& outputs, const Options& options) {
+  if (!outputs.fields.empty()) return outputs.fields;
+  std::vector<std::string> names{"sdf", "seed"};
+  if (options.measure == Measure::Thickness) names.insert(names.begin(), {"thickness", "least_thickness"});
+  if (options.postprocesses()) names.emplace_back("normalized");
+  if (options.segmentation != Segmentation::None) names.emplace_back("segment");
+  return names;
+}
+
+std::vector<std::string> outputFormats() {
+  std::vector<std::string> formats = resultFormats();
+  formats.emplace_back(kPageFormat);
+  return formats;
+}
+
+bool writesPages(const Outputs& outputs) {
+  if (!outputs.format.empty()) return outputs.format == kPageFormat;
+  return isPageName(outputs.path) && !isFolder(outputs.path);
+}
+
+bool writesOnePage(const Outputs& outputs) {
+  return writesPages(outputs) && (isPageName(outputs.path) || outputs.path == "-") && !isFolder(outputs.path);
+}
+
+std::vector<std::string> planOutputs(const Outputs& outputs, const BatchOptions& batch,
+                                     std::span<const InputFile> files) {
+  const bool sharePage = writesOnePage(outputs);
+  if (batch.hasTree() && !outputs.path.empty() && !isFolder(outputs.path)) {
+    std::error_code ignored;
+    if (fs::exists(outputs.path, ignored) || isResultName(outputs.path))
+      usageError(fmt::format("-o {} is not a folder, which -r and --files-from need", outputs.path));
+  } else if (files.size() > 1 && !sharePage) {
+    if (outputs.path == "-") usageError("-o - takes the result of one mesh; name one mesh");
+    if (!outputs.path.empty() && !takesFolder(outputs, batch))
+      usageError(fmt::format(
+          "-o {0} is not a folder, which several meshes need; write {0}/ to make it, or name one mesh", outputs.path));
+  }
+
+  const WriteOptions options = writeOptionsOf(outputs, {});
+  std::vector<std::string> paths;
+  std::unordered_map<std::string, std::string> meshOfOutput;
+  for (const InputFile& file : files) {
+    const std::string& mesh = file.path;
+    const std::string output = planOutput(file, outputs, batch);
+    const std::string format = writesPages(outputs) ? kPageFormat : plannedFormat(output, options);
+    if (outputs.ascii && format != "ply") usageError("--ascii is for PLY only; drop it");
+    if (output != "-") {
+      if (contradicts(output, format))
+        usageError(fmt::format("-o {} and --format {} contradict each other; drop one", output, outputs.format));
+      const auto [other, isNew] = meshOfOutput.emplace(normalised(output), mesh);
+      if (!isNew && !sharePage && normalised(other->second) == normalised(mesh))
+        usageError(fmt::format("{} is named twice; name it once", mesh));
+      if (!isNew && !sharePage)
+        usageError(fmt::format("{} and {} would both be written to {}; {}", other->second, mesh, output,
+                               batch.hasTree() ? "rename one of them, or compute it in a call of its own with "
+                                                 "another -o"
+                                               : "run them one by one with -o"));
+    }
+    paths.push_back(output);
+  }
+  FileSet inputs;
+  for (const InputFile& file : files)
+    if (file.path != "-") inputs.insert(file.path);
+  for (const std::string& output : paths)
+    if (output != "-" && inputs.holds(output))
+      usageError(fmt::format("{} is an input and would be overwritten; choose another -o", output));
+  FileSet planned;
+  if (!outputs.picture.empty() || !outputs.points.empty())
+    for (const std::string& output : paths)
+      if (output != "-") planned.insert(output);
+  const auto planFurther = [&](const std::string& path, const char* option) {
+    if (path.empty() || path == "-") return;
+    if (inputs.holds(path))
+      usageError(fmt::format("{} is an input and would be overwritten; choose another {}", path, option));
+    if (planned.holds(path)) usageError(fmt::format("{} is the path of two outputs; choose another {}", path, option));
+    planned.insert(path);
+  };
+  planFurther(outputs.picture, "--picture");
+  planFurther(outputs.points, "--points");
+  FileSet lists;
+  if (!batch.list.empty() && batch.list != "-") lists.insert(batch.list);
+  if (batch.isBatch())
+    for (const std::string& output : paths) {  // Not "-", which a batch refuses.
+      const std::string record = outputRecordPath(output).string();
+      if (inputs.holds(record) || lists.holds(record))
+        usageError(fmt::format("{} is an input and would be overwritten by the record of {}; choose another -o", record,
+                               output));
+    }
+  if (!batch.log.empty()) checkLog(batch.log, inputs, lists, paths);
+  return paths;
+}
+
+WriteOptions writeOptionsOf(const Outputs& outputs, const Options& options) {
+  return {.format = outputs.path == "-" && outputs.format.empty() ? "ply" : outputs.format,
+          .fields = fieldNames(outputs, options),
+          .ascii = outputs.ascii};
+}
+
+std::span<const Field> writableFields(const WriteOptions& options, PerElement per, const std::string& output,
+                                      std::span<const Field> fields) {
+  if (per == PerElement::Faces) return fields;
+  const std::string format = resultFormatOf(output, options);
+  if (format != "csv" && format != "npy") return fields;
+  const auto first = std::find_if(fields.begin(), fields.end(),
+                                  [](const Field& field) { return field.location == FieldLocation::PerVertex; });
+  return {first, fields.end()};
+}
+
+void makeFolderOf(const std::string& output) {
+  const fs::path folder = fs::path(output).parent_path();
+  std::error_code error;
+  if (!folder.empty()) fs::create_directories(folder, error);
+  if (error)
+    throw Error(ErrorCode::OutputNotWritable,
+                fmt::format("{} cannot be written: {}: {}", output, folder.string(), error.message()));
+}
+
+void requireWritablePlace(const std::string& output) {
+  if (output == "-") return;
+  const fs::path path = followLinks(output);
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  const auto fail = [&](const std::string& reason) {
+    throw Error(ErrorCode::OutputNotWritable, fmt::format("{} cannot be written: {}", output, reason));
+  };
+  std::error_code error;
+  const fs::file_status status = fs::status(output, error);
+  // A device or a FIFO is written directly: no file is created in its folder.
+  if (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status)) return;
+  const std::error_code reason = fs::status_known(status) ? std::error_code() : error;
+  if (!fs::is_directory(folder, error)) fail(fmt::format("{} is not a directory; create it first", folder.string()));
+  if (access(folder.c_str(), W_OK) != 0) fail(fmt::format("{}: {}", folder.string(), std::strerror(errno)));
+  if (fs::is_directory(status)) fail("it is a directory; choose another name");
+  if (reason == std::errc::filename_too_long) fail("its name is too long; choose a shorter one");
+  if (reason) fail(reason.message());
+}
+
+}  // namespace asdfvk

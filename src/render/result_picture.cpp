@@ -1,0 +1,105 @@
+#include "render/result_picture.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <vector>
+
+#include "core/text.h"
+#include "io/formats.h"
+#include "render/picture.h"
+#include "trace/scene_data.h"
+
+namespace asdfvk {
+namespace {
+
+/// From entries per input face to entries per triangle.
+template <typename T>
+std::vector<T> onTriangles(const TriangleMesh& mesh, const std::vector<T>& ofInputFaces) {
+  if (mesh.polygons.isEmpty()) return ofInputFaces;
+  std::vector<T> result;
+  result.reserve(mesh.faces.size());
+  for (const uint32_t inputFace : mesh.polygons.inputFaceOf) result.push_back(ofInputFaces[inputFace]);
+  return result;
+}
+
+Picture pictureWith(const Result& result, std::string title, const View& view, const PictureStyle& style) {
+  Picture picture{.scene = result.scene->scene, .title = std::move(title), .view = view};
+  picture.width = style.width;
+  picture.height = style.height;
+  picture.textScale = style.textScale;
+  return picture;
+}
+
+/// "thinner than 0.8: 2 places, least 0.3"
+std::string legendOf(const ThicknessReport& thickness) {
+  const std::string limit = fmt::format("thinner than {:g}", *thickness.thinnerThan);
+  if (thickness.thinRegions.empty())
+    return thickness.verdict == ThicknessVerdict::NotJudged ? "where judged, nowhere " + limit : "nowhere " + limit;
+  const ThinRegion& first = thickness.thinRegions.front();
+  return fmt::format("{}: {}{}", limit, counted(thickness.thinRegions.size(), "place"),
+                     first.isSharp ? "" : fmt::format(", least {:.4g}", first.min));
+}
+
+std::string verdictText(ThicknessVerdict verdict) {
+  return verdict == ThicknessVerdict::Passed ? "PASS" : verdict == ThicknessVerdict::Failed ? "FAIL" : "NOT JUDGED";
+}
+
+/// Of the first regions: walls before sharp ones.
+std::vector<Callout> calloutsOf(const ThicknessReport& thickness) {
+  constexpr size_t kMaxCount = 8;
+  std::vector<Callout> callouts;
+  for (const ThinRegion& region : thickness.thinRegions) {
+    if (callouts.size() == kMaxCount) break;
+    callouts.push_back({region.place, region.opposite, region.isSharp ? "sharp" : fmt::format("{:.3g}", region.min)});
+  }
+  return callouts;
+}
+
+}  // namespace
+
+View viewOf(const View& requested, const std::string& input, const Result& result, bool findsThin) {
+  View view = requested;
+  const TraceScene& scene = result.scene->scene;
+  if (!view.up) {
+    const FileFormat* const format = formatOfExtension(std::filesystem::path(input).extension().string());
+    view.up = format != nullptr && format->name == "stl" ? Up::Z : guessUp(verticesOfHitFaces(scene));
+  }
+  const ThinSurface& surface = result.thinSurface;
+  return findsThin ? bestViewOf(scene, surface.triangles, surface.regions, view) : view;
+}
+
+Image pictureOf(const Result& result, const Field& field, const View& view, const PictureStyle& style,
+                const RunControl& control) {
+  const TriangleMesh& mesh = result.scene->scene.mesh;
+  Picture picture = pictureWith(result, field.label, view, style);
+  std::vector<double> values;
+  std::vector<uint8_t> flags;
+  std::vector<uint32_t> labels;
+  if (const std::vector<double>* reals = field.reals()) {
+    values = onTriangles(mesh, *reals);
+    picture.values = values;
+  } else if (const auto* marks = std::get_if<std::vector<uint8_t>>(&field.values)) {
+    flags = onTriangles(mesh, *marks);
+    picture.highlighted = flags;
+  } else if (const auto* indices = std::get_if<std::vector<uint32_t>>(&field.values)) {
+    labels = onTriangles(mesh, *indices);
+    picture.labels = labels;
+  }
+  return render(picture, control);
+}
+
+Image thinPictureOf(const Result& result, const View& view, const PictureStyle& style, const RunControl& control) {
+  const ThicknessReport& thickness = *result.report.thickness;
+  ThinPlaces places{.surface = result.thinSurface.triangles,
+                    .callouts = calloutsOf(thickness),
+                    .verdict = verdictText(*thickness.verdict),
+                    .isFailure = thickness.verdict != ThicknessVerdict::Passed};
+  Picture picture = pictureWith(result, legendOf(thickness), view, style);
+  picture.thinPlaces = std::move(places);
+  return render(picture, control);
+}
+
+}  // namespace asdfvk

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+
+#include "asdf_vk/run_control.h"
+#include "asdf_vk/session.h"
+#include "render/camera.h"
+#include "render/image.h"
+
+namespace asdfvk {
+
+struct PictureStyle {
+  int width = 1200, height = 900;  ///< In pixels.
+  double textScale = 1;            ///< See Picture::textScale.
+};
+
+/// The requested view with an upright axis: without one, z where the file `input` is an STL, else guessUp().
+/// findsThin: its angles are those of bestViewOf() the thin places. Precondition: result.scene is set.
+[[nodiscard]] View viewOf(const View& requested, const std::string& input, const Result& result, bool findsThin);
+
+// Preconditions: result.scene is set. Both throw Error{Cancelled}.
+
+/// Renders the mesh of a result coloured by a field per input face of one component.
+[[nodiscard]] Image pictureOf(const Result& result, const Field& field, const View& view, const PictureStyle& style,
+                              const RunControl& control);
+
+/// Renders the mesh with its thin places. Precondition: the thickness was measured with a limit.
+[[nodiscard]] Image thinPictureOf(const Result& result, const View& view, const PictureStyle& style,
+                                  const RunControl& control);
+
+}  // namespace asdfvk
