@@ -135,14 +135,14 @@ void compareOnSystem(const PoissonSystem& system, const Arguments& arguments, co
   using IncompleteCholesky = Eigen::IncompleteCholesky<double, Eigen::Lower, Eigen::NaturalOrdering<int>>;
   const EigenMatrix matrix = toEigen(system);
   const double tolerance = arguments.tolerance;
-  const auto ours = [&](const char* name) {
-    return [&, name](std::span<double> solution) {
-      return makeSolver(name, nullptr)->solve(system, {.tolerance = tolerance}, solution, control).iterations;
+  const auto ours = [&](SolveSystem& solve) {
+    return [&](std::span<double> solution) {
+      return solve(system, {.tolerance = tolerance}, solution, control).iterations;
     };
   };
   std::vector<SystemRow> rows{
-      {"eigen", ours("eigen")},
-      {"cpu", ours("cpu")},
+      {"eigen", ours(solveByEigen)},
+      {"cpu", ours(solveByCpuCg)},
       {"Eigen CG, Jacobi",
        [&](auto solution) {
          return solveWithEigenCg<Eigen::DiagonalPreconditioner<double>>(matrix, system, tolerance, solution);

@@ -107,38 +107,57 @@ void testOther(DeviceReport& report, const std::string& name, const TestTorus& t
   report.tracers.push_back(std::move(tracer));
 }
 
-/// A smooth function at every eighth face.
-PoissonSystem equationOn(const TestTorus& test) {
-  const PreparedMesh& prepared = test.scene.prepared;
-  std::vector<double> constraints(prepared.mesh.faceCount(), kNoValue);
-  for (size_t f = 0; f < constraints.size(); f += 8) constraints[f] = 1 + prepared.geometry.barycentres[f].x / 4;
-  return buildPoissonSystem(prepared.graph, arcWeights(ArcWeights::Feature, prepared.graph, prepared.geometry),
-                            constraints, {});
-}
+/// An equation with a smooth function at every eighth face, and its solution.
+struct TestEquation {
+  explicit TestEquation(const TestTorus& test)
+      : graph(test.scene.prepared.graph),
+        weights(arcWeights(ArcWeights::Feature, graph, test.scene.prepared.geometry)),
+        constraints(graph.faceCount(), kNoValue),
+        componentOf(graph.faceCount(), 0) {
+    for (size_t f = 0; f < constraints.size(); f += 8)
+      constraints[f] = 1 + test.scene.prepared.geometry.barycentres[f].x / 4;
+  }
+
+  SolverReport solveWith(GraphSolver& solver, std::vector<double>& values, const RunControl& control) const {
+    GraphProblem problem{.constraints = constraints,
+                         .firstGuess = std::vector<double>(constraints.size(), kNoValue),
+                         .guide = {},
+                         .divergence = {},
+                         .componentOf = componentOf};
+    return solver.solve(std::move(problem), {.tolerance = 1e-6}, values, control);
+  }
+
+  const DualGraph& graph;
+  std::vector<double> weights, constraints;
+  std::vector<uint32_t> componentOf;
+};
 
 void testSolvers(DeviceReport& report, const Device& device, const TestTorus& test, const RunControl& control) {
-  const PoissonSystem system = equationOn(test);
-  const SolverOptions options{.tolerance = 1e-6};
-  std::vector<double> expected(system.unknownCount()), solution(system.unknownCount());
-  makeSolver(defaultSolver(false).name, nullptr)->solve(system, options, expected, {});
+  const TestEquation equation(test);
+  const auto unknownCount = static_cast<uint32_t>(std::count_if(
+      equation.constraints.begin(), equation.constraints.end(), [](double value) { return std::isnan(value); }));
+  std::vector<double> expected, values;
+  const std::unique_ptr<PoissonSolver> onCpu = makeSolver(defaultSolver(false).name, nullptr);
+  equation.solveWith(*onCpu->onGraph(equation.graph, equation.weights), expected, {});
   const auto [min, max] = std::minmax_element(expected.begin(), expected.end());
   const double range = *max - *min;
   for (const Solver& solver : solverTable()) {
     if (!solver.needsDevice) continue;
     control.checkpoint(0);
-    SolverCheckReport check{.name = solver.name, .unknownCount = system.unknownCount()};
+    SolverCheckReport check{.name = solver.name, .unknownCount = unknownCount};
     runTest(check, [&] {
       const std::unique_ptr<PoissonSolver> made = solver.make(&device);
+      const std::unique_ptr<GraphSolver> onGraph = made->onGraph(equation.graph, equation.weights);
       for (int run = 0; run < kRunCount; ++run) {
         const Stopwatch watch;
-        const SolverReport solved = made->solve(system, options, solution, control.withoutProgress());
+        const SolverReport solved = equation.solveWith(*onGraph, values, control.withoutProgress());
         check.seconds = run == 0 ? watch.seconds() : std::min(check.seconds, watch.seconds());
         check.iterations = solved.iterations;
         check.finishedOnCpu = solved.finishedOnCpu;
         check.passed = solved.converged;
       }
-      for (size_t i = 0; i < solution.size(); ++i)
-        check.difference = std::max(check.difference, std::abs(solution[i] - expected[i]) / range);
+      for (size_t i = 0; i < values.size(); ++i)
+        check.difference = std::max(check.difference, std::abs(values[i] - expected[i]) / range);
       check.passed = check.passed && check.difference <= kSolverTolerance;
     });
     report.solvers.push_back(std::move(check));

@@ -1,24 +1,18 @@
 #pragma once
 
-#include <map>
-#include <memory>
-#include <string>
 #include <vector>
 
 #include "asdf_vk/options.h"
 #include "asdf_vk/report.h"
 #include "cone/cone.h"
 #include "pipeline/backend.h"
+#include "pipeline/equation_solver.h"
 #include "pipeline/face_domain.h"
 #include "pipeline/prepared_mesh.h"
 #include "pipeline/stage_clock.h"
-#include "poisson/poisson_solver.h"
 #include "trace/cone_tracer.h"
 
 namespace asdfvk {
-
-/// The solvers of a session by name, created at first use.
-using Solvers = std::map<std::string, std::unique_ptr<PoissonSolver>>;
 
 /// Data shared by all steps of one computation. References only: computeOn() and its caller own everything.
 struct Computation {

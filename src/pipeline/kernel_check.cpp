@@ -32,7 +32,7 @@ TracerCheck checkKernels(const VulkanPredictionKernels& kernels) {
   std::vector<ConeHit> hits(seeds.size() * kernels.rayCount());
   makeReferenceTracer(scene, cone)->trace(seeds, {values, hits}, {});
 
-  const SeedHits input{seeds, hits};
+  const SeedHitsView input{seeds, hits};
   const std::unique_ptr<DevicePredictor> predictor = makeVulkanPredictor(kernels, scene, cone);
   const std::vector<double> expected = predictValues(scene, graph, cone, input, {}).values,
                             predicted = predictValues(scene, graph, cone, input, {}, {}, predictor.get()).values;

@@ -61,7 +61,10 @@ class Rounds {
         options_(computation.options),
         clock_(computation.clock),
         makeTracing_(makeTracing),
-        interpolation_(computation),
+        prediction_(computation),
+        solver_(computation.options, computation.backend, computation.solvers, computation.warnings),
+        interpolation_(computation.domain, computation.prepared, computation.options, solver_),
+        hits_(computation.keepsHits() ? computation.cone.directions.size() : 0),
         traced_(computation.prepared.geometry.areas.size()) {}
 
   RoundsResult run(const RunControl& control) {
@@ -98,9 +101,12 @@ class Rounds {
   const MakeSeedTracing& makeTracing_;
   std::unique_ptr<SeedTracing> tracing_;  ///< Null before the first seeds are chosen and after the last ray.
   std::optional<TraceVariant> traceVariant_;
+  SeedPrediction prediction_;
+  EquationSolver solver_;
   Interpolation interpolation_;
 
   SeedChoice sampled_;  ///< All seeds: those of the sampler and of extremes, and held-out faces.
+  SeedHits hits_;       ///< In the order of traced_.faces.
   TracedSeeds traced_;
   HeldOutFaces heldOut_;
   Interpolated result_;
@@ -122,7 +128,8 @@ void Rounds::runRound(uint64_t count, bool isLast, const RunControl& control) {
   const SeedShares first{.sampled = shares.sampled - refiningCount, .heldOut = predicts ? 0 : shares.heldOut};
   SeedChoice choice = roundCount_ == 0 ? chooseWhileOpening(first) : timedChoice(first, {});
   const double begin = clock_.elapsed(), earlierRays = raySeconds();
-  tracing_->reserve(traced_, count);
+  traced_.faces.reserve(traced_.faces.size() + count);
+  hits_.reserve(count);
   traceChosen(std::move(choice), control.part(0, refines ? kTracedProgress / 2 : kTracedProgress));
   if (refines) {
     const std::vector<double> density = indicateErrors(Stage::Sample, control.withoutProgress());
@@ -142,12 +149,12 @@ void Rounds::runRound(uint64_t count, bool isLast, const RunControl& control) {
     withoutHeldOut = solveWithoutHeldOut(extremes, control.part(kHeldOutTracedProgress, kHeldOutSolvedProgress));
   {
     const auto scope = clock_.time(Stage::Predict);
-    interpolation_.predict({traced_.faces, traced_.hits}, control.part(kHeldOutSolvedProgress, kPredictedProgress));
+    prediction_.predict(traced_.faces, hits_, control.part(kHeldOutSolvedProgress, kPredictedProgress));
   }
   control.checkpoint(kPredictedProgress);
   {
     const auto scope = clock_.time(Stage::Solve);
-    result_ = interpolation_.solve(traced_.values, control.part(kPredictedProgress, 1));
+    result_ = interpolation_.solve(traced_.values, prediction_.last().values, control.part(kPredictedProgress, 1));
   }
   if (estimates) {
     const auto scope = clock_.time(Stage::Estimate);
@@ -181,7 +188,7 @@ SeedChoice Rounds::chooseWhileOpening(const SeedShares& shares) {
   callIsolated([&] {
     tracing_ = makeTracing_();
     traceVariant_ = tracing_->traceVariant();
-    tracing_->keepHitsIn(interpolation_.hitStore());
+    hits_.keepIn(prediction_.hitStore());
   });
   const Stopwatch watch;
   const auto scope = clock_.time(Stage::Sample);
@@ -196,13 +203,13 @@ void Rounds::traceChosen(SeedChoice choice, const RunControl& control) {
   const auto sampledCount = static_cast<double>(choice.sampled.size()),
              heldOutCount = static_cast<double>(choice.heldOut.size());
   const double sampledShare = sampledCount / std::max(1.0, sampledCount + heldOutCount);
-  tracing_->trace(choice.sampled, traced_, control.part(0, sampledShare));
-  tracing_->trace(choice.heldOut, traced_, control.part(sampledShare, 1));
+  tracing_->trace(choice.sampled, traced_, hits_, control.part(0, sampledShare));
+  tracing_->trace(choice.heldOut, traced_, hits_, control.part(sampledShare, 1));
   std::vector<double> equalWeights(choice.heldOut.size(), 1.0);
   heldOut_.append({std::move(choice.heldOut), std::move(equalWeights)});
   {  // The interpolation without held-out faces needs a value in each component, too.
     const HiddenValues hidden(traced_.values, heldOut_.faces);
-    tracing_->traceComponentsWithoutValue(traced_, control);
+    tracing_->traceComponentsWithoutValue(traced_, hits_, control);
   }
   sortSampled();
 }
@@ -221,8 +228,8 @@ std::vector<double> Rounds::indicateErrors(Stage stage, const RunControl& contro
   std::vector<uint32_t> faces = traced_.faces;
   for (uint32_t& face : faces)
     if (std::binary_search(sampled_.heldOut.begin(), sampled_.heldOut.end(), face)) face = kNoFace;
-  interpolation_.predict({faces, traced_.hits}, control);
-  return errorIndicator(interpolation_.prediction(), faces, traced_.values);
+  prediction_.predict(faces, hits_, control);
+  return errorIndicator(prediction_.last(), faces, traced_.values);
 }
 
 /// Traces the faces with the greatest predictions, which are returned, and held-out faces sampled by the indicator.
@@ -233,7 +240,7 @@ std::vector<uint32_t> Rounds::traceByPrediction(const SeedShares& shares, std::s
   {
     const auto scope = clock_.time(Stage::Sample);
     const std::span<const uint32_t> traceable = computation_.domain.traceableFaces;
-    extremes = extremeSeeds(traceable, interpolation_.prediction().values, traced_.isSeed, shares.extreme);
+    extremes = extremeSeeds(traceable, prediction_.last().values, traced_.isSeed, shares.extreme);
     std::vector<uint32_t> candidates;
     auto extreme = extremes.begin();
     for (const uint32_t face : traceable)
@@ -247,7 +254,7 @@ std::vector<uint32_t> Rounds::traceByPrediction(const SeedShares& shares, std::s
     faces.insert(faces.end(), heldOut.faces.begin(), heldOut.faces.end());
   }
   const auto scope = clock_.time(Stage::Trace);
-  tracing_->trace(sorted(std::move(faces)), traced_, control);
+  tracing_->trace(sorted(std::move(faces)), traced_, hits_, control);
   heldOut_.append(heldOut);
   sortSampled();
   return extremes;
@@ -259,7 +266,7 @@ std::vector<double> Rounds::solveWithoutHeldOut(std::span<const uint32_t> extrem
   std::vector<uint32_t> unknown = heldOut_.faces;
   unknown.insert(unknown.end(), extremes.begin(), extremes.end());
   const HiddenValues hidden(traced_.values, std::move(unknown));
-  const std::vector<double> values = interpolation_.solve(traced_.values, control).values;
+  const std::vector<double> values = interpolation_.solve(traced_.values, prediction_.last().values, control).values;
   std::vector<double> ofHeldOut;
   ofHeldOut.reserve(heldOut_.faces.size());
   for (const uint32_t face : heldOut_.faces) ofHeldOut.push_back(values[face]);

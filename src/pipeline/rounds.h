@@ -7,6 +7,7 @@
 
 #include "estimate/error_estimate.h"
 #include "pipeline/interpolation.h"
+#include "pipeline/seed_prediction.h"
 #include "pipeline/seed_tracing.h"
 #include "trace/traced_seeds.h"
 

@@ -6,10 +6,8 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
-#include "asdf_vk/error.h"
 #include "seeds/component_seeds.h"
 
 namespace asdfvk {
@@ -41,14 +39,10 @@ SeedTracing::~SeedTracing() {
   if (isLarge) returnFreedMemory();
 }
 
-void SeedTracing::trace(std::span<const uint32_t> faces, TracedSeeds& traced, const RunControl& control) {
-  reserveStored(traced, faces.size());
+void SeedTracing::trace(std::span<const uint32_t> faces, TracedSeeds& traced, SeedHits& hits,
+                        const RunControl& control) {
   std::vector<double> values(faces.size());
-  const size_t earlierHitCount = traced.hits.size(), hitCount = faces.size() * computation_.cone.directions.size();
-  const bool isKept = computation_.keepsHits() && hitStore_ == nullptr;
-  if (isKept) traced.hits.resize(earlierHitCount + hitCount);
-  const std::span<ConeHit> hits = isKept ? std::span(traced.hits).subspan(earlierHitCount) : std::span<ConeHit>{};
-  const TraceStatistics statistics = tracer_->tracer->trace(faces, {values, hits, hitStore_}, control);
+  const TraceStatistics statistics = tracer_->tracer->trace(faces, hits.resultsFor(values), control);
   traced.statistics.rayCount += statistics.rayCount;
   traced.statistics.redoneConeCount += statistics.redoneConeCount;
   if (statistics.deviceSeconds)
@@ -60,32 +54,14 @@ void SeedTracing::trace(std::span<const uint32_t> faces, TracedSeeds& traced, co
   }
 }
 
-void SeedTracing::reserve(TracedSeeds& traced, size_t furtherCount) {
-  traced.faces.reserve(traced.faces.size() + furtherCount);
-  reserveStored(traced, furtherCount);
-  if (computation_.keepsHits() && hitStore_ == nullptr)
-    traced.hits.reserve(traced.hits.size() + furtherCount * computation_.cone.directions.size());
-}
-
-void SeedTracing::reserveStored(TracedSeeds& traced, size_t furtherCount) {
-  if (hitStore_ == nullptr) return;
-  try {
-    hitStore_->reserve(furtherCount);
-  } catch (const Error& error) {
-    if (error.kind() != ErrorKind::Device) throw;
-    traced.hits = hitStore_->download();
-    std::exchange(hitStore_, nullptr)->release();
-  }
-}
-
-void SeedTracing::traceComponentsWithoutValue(TracedSeeds& traced, const RunControl& control) {
+void SeedTracing::traceComponentsWithoutValue(TracedSeeds& traced, SeedHits& hits, const RunControl& control) {
   std::vector<uint32_t> untried;
   for (const uint32_t face : computation_.domain.traceableFaces)
     if (!traced.isSeed[face]) untried.push_back(face);
   if (untried.empty()) return;
   ComponentSeeds further(computation_.domain.componentOf, traced.values, untried, computation_.options.randomSeed);
   for (auto batch = further.next(traced.values); !batch.empty(); batch = further.next(traced.values))
-    trace(batch, traced, control.withoutProgress());
+    trace(batch, traced, hits, control.withoutProgress());
 }
 
 }  // namespace asdfvk

@@ -78,25 +78,9 @@ Corrector makeCorrector(const PoissonSystem& system, SolverProgress& progress, d
           }};
 }
 
-class CpuCgSolver final : public PoissonSolver {
- public:
-  SolverReport solve(const PoissonSystem& system, const SolverOptions& options, std::span<double> solution,
-                     const RunControl& control) override {
-    SolverProgress progress(rightHandNorm(system), options, control);
-    return solveByRefinement(
-        system, options, solution,
-        {makeCorrector<ScaledSystem>(system, progress, kMinFloatReduction), makeDoubleCorrector(system, progress)});
-  }
-};
-
-class EigenSolver final : public PoissonSolver {
- public:
-  SolverReport solve(const PoissonSystem& system, const SolverOptions& options, std::span<double> solution,
-                     const RunControl& control) override {
-    SolverProgress progress(rightHandNorm(system), options, control);
-    return solveByRefinement(system, options, solution, {makeDoubleCorrector(system, progress)});
-  }
-};
+Corrector makeDoubleCorrector(const PoissonSystem& system, SolverProgress& progress) {
+  return makeCorrector<EigenSystem>(system, progress, kMinDoubleReduction);
+}
 
 }  // namespace
 
@@ -200,12 +184,18 @@ typename CpuCg<System>::State CpuCg<System>::advance(uint32_t iterationCount) {
 
 template class CpuCg<ScaledSystem>;
 
-Corrector makeDoubleCorrector(const PoissonSystem& system, SolverProgress& progress) {
-  return makeCorrector<EigenSystem>(system, progress, kMinDoubleReduction);
+SolverReport solveByCpuCg(const PoissonSystem& system, const SolverOptions& options, std::span<double> solution,
+                          const RunControl& control) {
+  SolverProgress progress(rightHandNorm(system), options, control);
+  return solveByRefinement(
+      system, options, solution,
+      {makeCorrector<ScaledSystem>(system, progress, kMinFloatReduction), makeDoubleCorrector(system, progress)});
 }
 
-std::unique_ptr<PoissonSolver> makeCpuCgSolver(const Device*) { return std::make_unique<CpuCgSolver>(); }
-
-std::unique_ptr<PoissonSolver> makeEigenSolver(const Device*) { return std::make_unique<EigenSolver>(); }
+SolverReport solveByEigen(const PoissonSystem& system, const SolverOptions& options, std::span<double> solution,
+                          const RunControl& control) {
+  SolverProgress progress(rightHandNorm(system), options, control);
+  return solveByRefinement(system, options, solution, {makeDoubleCorrector(system, progress)});
+}
 
 }  // namespace asdfvk

@@ -58,7 +58,4 @@ class CpuCg {
   RepeatedLoop loop_;
 };
 
-/// CpuCg in double with an Eigen matrix. The arguments must outlive the corrector.
-[[nodiscard]] Corrector makeDoubleCorrector(const PoissonSystem& system, SolverProgress& progress);
-
 }  // namespace asdfvk

@@ -4,6 +4,7 @@
 #include <memory>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "asdf_vk/options.h"
 #include "asdf_vk/report.h"
@@ -17,27 +18,30 @@ namespace asdfvk {
 
 class Device;
 
-/// One interpolation on a dual graph, as buildPoissonSystem() has it.
+/// One interpolation on a dual graph, as buildPoissonSystem() has it. The vectors are the solver's to release.
 struct GraphProblem {
   std::span<const double> constraints;  ///< #F, NaN for a face without one.
-  std::span<const double> firstGuess;   ///< #F; non-finite entries are replaced by the mean of the constraints.
-  std::span<const double> guide;  ///< #F, or empty: a field, of which the equation has the divergenceOf(). A device
-                                  ///< starts from its finite entries.
-  std::span<const double> divergence;     ///< #F, or empty: further divergence; non-finite entries count as 0.
+  std::vector<double> firstGuess;       ///< #F; non-finite entries are replaced by the mean of the constraints.
+  std::span<const double> guide;   ///< #F, or empty: a field, of which the equation has the divergenceOf(). A device
+                                   ///< starts from its finite entries.
+  std::vector<double> divergence;  ///< #F, or empty: further divergence; non-finite entries count as 0.
   std::span<const uint32_t> componentOf;  ///< #F
 };
 
-/// Down to this tolerance a GraphSolver needs no residuals in double.
-inline constexpr double kMinGraphTolerance = 1e-6;
+/// The system of the unknown faces.
+[[nodiscard]] PoissonSystem systemOf(const DualGraph& graph, std::span<const double> weights, GraphProblem problem);
+
+/// Down to this tolerance a device needs no residuals in double.
+inline constexpr double kMinDeviceTolerance = 1e-6;
 
 /// A solver on one dual graph with weights, for any constraints.
 class GraphSolver {
  public:
   virtual ~GraphSolver() = default;
 
-  /// The interpolation of buildPoissonSystem(). Writes the values of the unknown faces only. values: #F. Report and
-  /// errors as PoissonSolver::solve().
-  virtual SolverReport solve(const GraphProblem& problem, const SolverOptions& options, std::span<double> values,
+  /// values: #F, overwritten with the constraints and the solution; empty before, because a solver of the CPU has the
+  /// most memory of a run at this time. The name in the report is empty. Throws Error{Cancelled}, Error{Device}.
+  virtual SolverReport solve(GraphProblem problem, const SolverOptions& options, std::vector<double>& values,
                              const RunControl& control) = 0;
 };
 
@@ -45,35 +49,40 @@ class PoissonSolver {
  public:
   virtual ~PoissonSolver() = default;
 
-  /// For several interpolations of most faces of a graph: a solver on a device keeps their matrix there, which is the
-  /// same for all. Null without a device. Solver, graph and weights must outlive it. Throws as solve().
-  [[nodiscard]] virtual std::unique_ptr<GraphSolver> onGraph(const DualGraph&, std::span<const double> /*weights*/) {
-    return nullptr;
-  }
-
-  /// Overwrites solution (#U), which may be the memory of system.firstGuess. The name in the report is empty. Throws
-  /// Error{Cancelled}, Error{Device}; Error{EquationLimit} for a system that exceeds a limit of the device.
-  virtual SolverReport solve(const PoissonSystem& system, const SolverOptions& options, std::span<double> solution,
-                             const RunControl& control) = 0;
+  /// For several interpolations on a graph: a device keeps their matrix, which is the same for all. Solver, graph and
+  /// weights must outlive the result. Throws Error{Device}; Error{EquationLimit} for a graph that exceeds a limit of
+  /// the device.
+  [[nodiscard]] virtual std::unique_ptr<GraphSolver> onGraph(const DualGraph& graph,
+                                                             std::span<const double> weights) = 0;
 };
+
+/// Solves a system on the CPU. Overwrites solution (#U), which may be the memory of system.firstGuess. The name in the
+/// report is empty. Throws Error{Cancelled}.
+using SolveSystem = SolverReport(const PoissonSystem& system, const SolverOptions& options, std::span<double> solution,
+                                 const RunControl& control);
+
+/// Jacobi-preconditioned conjugate gradients in float32 under iterative refinement in double, on all cores. Where
+/// float32 stagnates, solveByEigen() continues.
+[[nodiscard]] SolveSystem solveByCpuCg;
+/// Jacobi-preconditioned conjugate gradients in double on all cores, with an Eigen matrix.
+[[nodiscard]] SolveSystem solveByEigen;
 
 /// device: where the solver runs, null for a solver that needs none; must outlive the solver. Solvers on a device
 /// create their kernels here, once for many systems.
 using MakeSolver = std::unique_ptr<PoissonSolver>(const Device* device);
 
-/// Jacobi-preconditioned conjugate gradients in float32, under iterative refinement in double: on the device, and on
-/// all cores of the CPU. Where float32 stagnates, the iteration of makeEigenSolver() continues on the CPU. As a
-/// GraphSolver, residuals in float32 down to kMinGraphTolerance.
-[[nodiscard]] MakeSolver makeVulkanCgSolver, makeCpuCgSolver;
-/// Jacobi iterations in float32 on the device, under the same refinement: slow, for comparison.
+/// Jacobi-preconditioned conjugate gradients in float32 on the device. Below kMinDeviceTolerance, and where float32
+/// stagnates, solveByEigen() continues on the CPU.
+[[nodiscard]] MakeSolver makeVulkanCgSolver;
+/// Jacobi iterations in the same place: slow, for comparison.
 [[nodiscard]] MakeSolver makeVulkanJacobiSolver;
-/// Jacobi-preconditioned conjugate gradients in double on all cores of the CPU, with an Eigen matrix.
-[[nodiscard]] MakeSolver makeEigenSolver;
+/// Solvers that build the system and call solveByCpuCg() or solveByEigen().
+[[nodiscard]] MakeSolver makeCpuCgSolver, makeEigenSolver;
 
 struct Solver {
   const char* name;
   bool needsDevice;
-  uint32_t storageBufferCount;  ///< That its kernels bind. The minimum of Vulkan is four.
+  uint32_t storageBufferCount;  ///< Storage buffers that a kernel binds. The minimum of Vulkan is four.
   MakeSolver* make;
 };
 

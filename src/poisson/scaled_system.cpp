@@ -50,8 +50,8 @@ ScaledSystem::ScaledSystem(const PoissonSystem& system) : DiagonalScaling(system
   const size_t rowCount = system.faces.size();
   const auto lengthOf = [&](size_t row) { return system.rowOffsets[row + 1] - system.rowOffsets[row]; };
   const auto tailLengthOf = [&](size_t row) { return lengthOf(row) - std::min(lengthOf(row), kPoissonRowHeadLength); };
-  longestRow_ = maxInParallel<uint32_t>(rowCount, lengthOf);
-  const bool hasTails = longestRow_ > kPoissonRowHeadLength;
+  const auto longestRow = maxInParallel<uint32_t>(rowCount, lengthOf);
+  const bool hasTails = longestRow > kPoissonRowHeadLength;
   uint32_t tailSize = 0;
   for (size_t row = 0; hasTails && row < rowCount; ++row) {
     rows_[row].tailBegin = tailSize;

@@ -37,8 +37,8 @@ class DiagonalScaling {
   UnsetVector<Real> residualWeights_;
 };
 
-/// A Poisson system in scaled form and float32, for devices and CpuCg. Rows correspond to those of the system, which
-/// must outlive this object.
+/// A Poisson system in scaled form and float32, for CpuCg and the twins of the kernels. Rows correspond to those of the
+/// system, which must outlive this object.
 class ScaledSystem : public DiagonalScaling<float> {
  public:
   using Real = float;
@@ -50,13 +50,11 @@ class ScaledSystem : public DiagonalScaling<float> {
   [[nodiscard]] const UnsetVector<PoissonRow>& rows() const { return rows_; }  ///< #U, the matrix S.
   [[nodiscard]] const UnsetVector<uint32_t>& tailColumns() const { return tailColumns_; }
   [[nodiscard]] const UnsetVector<float>& tailCouplings() const { return tailCouplings_; }
-  [[nodiscard]] uint32_t longestRow() const { return longestRow_; }
 
   /// product = (I - S) p for the rows [begin, end). p: #U.
   void multiplyRows(const float* p, float* product, size_t begin, size_t end) const;
 
  private:
-  uint32_t longestRow_ = 0;
   UnsetVector<PoissonRow> rows_;
   UnsetVector<uint32_t> tailColumns_;
   UnsetVector<float> tailCouplings_;

@@ -38,7 +38,7 @@ void put(PointGroup& group, size_t lane, const GroupPoint& point) {
 
 }  // namespace
 
-HitPoints::HitPoints(const TraceScene& scene, const Cone& cone, const SeedHits& hits)
+HitPoints::HitPoints(const TraceScene& scene, const Cone& cone, const SeedHitsView& hits)
     : scene_(scene), cone_(cone), hits_(hits) {}
 
 void HitPoints::clear() { groups_.clear(); }

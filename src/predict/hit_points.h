@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "predict/prediction_kernel.h"
-#include "trace/traced_seeds.h"
+#include "trace/seed_hits.h"
 
 namespace asdfvk {
 
@@ -13,7 +13,7 @@ namespace asdfvk {
 class HitPoints {
  public:
   /// Scene, cone and arrays must outlive it.
-  HitPoints(const TraceScene& scene, const Cone& cone, const SeedHits& hits);
+  HitPoints(const TraceScene& scene, const Cone& cone, const SeedHitsView& hits);
 
   void clear();
 
@@ -29,7 +29,7 @@ class HitPoints {
 
   const TraceScene& scene_;
   const Cone& cone_;
-  SeedHits hits_;
+  SeedHitsView hits_;
   std::vector<PointGroup> groups_;
 };
 

@@ -197,7 +197,7 @@ bool PredictionTask::hasEarlierSeeds(uint32_t cell) const {
   return cell < earlier.nearest.cellCount() && std::ranges::equal(earlier.nearest.of(cell), nearest.of(cell));
 }
 
-Prediction predictValues(const TraceScene& scene, const DualGraph& graph, const Cone& cone, const SeedHits& hits,
+Prediction predictValues(const TraceScene& scene, const DualGraph& graph, const Cone& cone, const SeedHitsView& hits,
                          const PredictionOptions& options, Prediction earlier, DevicePredictor* device,
                          const RunControl& control) {
   if (device == nullptr || !hits.hits.empty())

@@ -5,7 +5,7 @@
 
 #include "asdf_vk/run_control.h"
 #include "predict/seed_cells.h"
-#include "trace/traced_seeds.h"
+#include "trace/seed_hits.h"
 
 /// Prediction of the shape diameter of faces that cast no rays, from the hits of the seeds around them. The hit points
 /// are on the opposite side of the shape, and most of them are visible from the face too: from its barycentre each has
@@ -36,7 +36,7 @@ struct Prediction {
 struct PredictionTask {
   const TraceScene& scene;
   const Cone& cone;
-  const SeedHits& hits;
+  const SeedHitsView& hits;
   const SeedCells& cells;
   const NearestCells& nearest;
   const PredictionOptions& options;
@@ -53,7 +53,7 @@ class DevicePredictor {
  public:
   virtual ~DevicePredictor() = default;
 
-  /// Where the hits of the seeds can be kept, in the order of SeedHits::seeds; null where the host must keep them.
+  /// Where the hits of the seeds can be kept, in the order of SeedHitsView::seeds; null where the host must keep them.
   [[nodiscard]] virtual HitStore* hitStore() { return nullptr; }
 
   /// Writes the values of all faces that belong to a cell. values: #F. Two calls with the same hits give the same bits.
@@ -66,7 +66,8 @@ class DevicePredictor {
 /// options; seeds that still exist have the same indices in `hits`. Unchanged values are copied from it. device: null
 /// to predict on the CPU, which runs to its end. Throws as the device.
 [[nodiscard]] Prediction predictValues(const TraceScene& scene, const DualGraph& graph, const Cone& cone,
-                                       const SeedHits& hits, const PredictionOptions& options, Prediction earlier = {},
-                                       DevicePredictor* device = nullptr, const RunControl& control = {});
+                                       const SeedHitsView& hits, const PredictionOptions& options,
+                                       Prediction earlier = {}, DevicePredictor* device = nullptr,
+                                       const RunControl& control = {});
 
 }  // namespace asdfvk

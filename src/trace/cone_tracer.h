@@ -43,7 +43,7 @@ struct TraceStatistics {
   std::optional<double> deviceSeconds = {};  ///< Time that the device was busy. Unset without timestamps or a device.
 };
 
-class HitStore;  // traced_seeds.h
+class HitStore;  // seed_hits.h
 
 /// Output arrays for N cones of R rays.
 struct ConeResults {

@@ -41,11 +41,11 @@ class GpuBackend final : public Backend {
   [[nodiscard]] std::unique_ptr<DevicePredictor> makePredictor(const TraceScene& scene, const Cone& cone) override {
     ++requestCount;
     if (predictor_ == Predictor::IsMissing) throw Error(ErrorCode::DeviceLimit, "this device is too small");
-    if (predictor_ == Predictor::Works) return vulkan_->makePredictor(scene, cone);
-    return std::make_unique<FailingPredictor>(predictor_, vulkan_->makePredictor(scene, cone));
+    return std::make_unique<WatchedPredictor>(predictor_, vulkan_->makePredictor(scene, cone), hitCount);
   }
 
   int requestCount = 0;
+  size_t hitCount = 0;  ///< Hits that the last prediction of the device received from the host.
 
  private:
   /// Keeps few hits, so that the host receives those of the first seeds from it.
@@ -64,19 +64,19 @@ class GpuBackend final : public Backend {
     HitStore& store_;
   };
 
-  class FailingPredictor final : public DevicePredictor {
+  class WatchedPredictor final : public DevicePredictor {
    public:
-    FailingPredictor(Predictor kind, std::unique_ptr<DevicePredictor> predictor)
-        : kind_(kind), predictor_(std::move(predictor)), smallStore_(*predictor_->hitStore()) {}
+    WatchedPredictor(Predictor kind, std::unique_ptr<DevicePredictor> predictor, size_t& hitCount)
+        : kind_(kind), predictor_(std::move(predictor)), smallStore_(*predictor_->hitStore()), hitCount_(hitCount) {}
     HitStore* hitStore() override {
       if (kind_ == Predictor::Fails) return nullptr;
       return kind_ == Predictor::HasNoMemory ? &smallStore_ : predictor_->hitStore();
     }
     void predict(const PredictionTask& task, std::span<double> values, const RunControl& control) override {
-      if (kind_ == Predictor::HasNoMemory) {
-        CHECK(predictor_->hitStore()->download().empty());  // Released.
+      hitCount_ = task.hits.hits.size();
+      if (kind_ == Predictor::HasNoMemory) CHECK(predictor_->hitStore()->download().empty());  // Released.
+      if (kind_ == Predictor::HasNoMemory || kind_ == Predictor::Works)
         return predictor_->predict(task, values, control);
-      }
       CHECK(task.hits.hits.empty() == (kind_ == Predictor::FailsWithHits));
       std::fill(values.begin(), values.end(), 1.0);
       throw Error(ErrorCode::DeviceLost, "this device was lost");
@@ -86,6 +86,7 @@ class GpuBackend final : public Backend {
     Predictor kind_;
     std::unique_ptr<DevicePredictor> predictor_;
     SmallStore smallStore_;
+    size_t& hitCount_;
   };
 
   Predictor predictor_;
@@ -96,7 +97,7 @@ struct DeviceOutcome {
   std::vector<double> values;
   std::vector<Warning> warnings;
   int predictorCount = 0;
-  size_t hitCount = 0, seedCount = 0;  ///< hitCount: that the host keeps.
+  size_t hitCount = 0, seedCount = 0;  ///< hitCount: see GpuBackend.
 };
 
 DeviceOutcome runWith(GpuBackend::Predictor predictor, const std::string& solver) {
@@ -118,7 +119,7 @@ DeviceOutcome runWith(GpuBackend::Predictor predictor, const std::string& solver
   const RoundsResult result =
       runRounds(computation, [&] { return std::make_unique<SeedTracing>(computation, tracers, nullptr); }, {});
   outcome.values = result.interpolated.values;
-  outcome.hitCount = result.traced.hits.size();
+  outcome.hitCount = backend.hitCount;
   outcome.seedCount = result.traced.faces.size();
   outcome.predictorCount = backend.requestCount;
   return outcome;

@@ -41,13 +41,25 @@ class RecordingSolver final : public PoissonSolver {
  public:
   explicit RecordingSolver(Events& events) : solver_(makeCpuCgSolver(nullptr)), events_(events) {}
 
-  SolverReport solve(const PoissonSystem& system, const SolverOptions& options, std::span<double> solution,
-                     const RunControl& control) override {
-    events_.push_back(Event::Solve);
-    return solver_->solve(system, options, solution, control);
+  std::unique_ptr<GraphSolver> onGraph(const DualGraph& graph, std::span<const double> weights) override {
+    return std::make_unique<OnGraph>(solver_->onGraph(graph, weights), events_);
   }
 
  private:
+  class OnGraph final : public GraphSolver {
+   public:
+    OnGraph(std::unique_ptr<GraphSolver> solver, Events& events) : solver_(std::move(solver)), events_(events) {}
+    SolverReport solve(GraphProblem problem, const SolverOptions& options, std::vector<double>& values,
+                       const RunControl& control) override {
+      events_.push_back(Event::Solve);
+      return solver_->solve(std::move(problem), options, values, control);
+    }
+
+   private:
+    std::unique_ptr<GraphSolver> solver_;
+    Events& events_;
+  };
+
   std::unique_ptr<PoissonSolver> solver_;
   Events& events_;
 };

@@ -12,6 +12,7 @@
 #include "mesh/dual_graph.h"
 #include "mesh/face_geometry.h"
 #include "mesh/mesh.h"
+#include "poisson/poisson_solver.h"
 #include "poisson/poisson_system.h"
 
 namespace asdfvk {
@@ -65,8 +66,58 @@ inline PoissonSystem distanceSystem(const DualGraph& graph, const FaceGeometry& 
   return buildPoissonSystem(graph, arcWeights(ArcWeights::Distance, graph, geometry), values, divergence);
 }
 
+/// The component of each face.
+inline std::vector<uint32_t> searchComponents(const DualGraph& graph) {
+  std::vector<uint32_t> componentOf(graph.faceCount(), UINT32_MAX);
+  for (uint32_t face = 0, count = 0; face < graph.faceCount(); ++face) {
+    if (componentOf[face] != UINT32_MAX) continue;
+    std::vector<uint32_t> stack{face};
+    componentOf[face] = count;
+    while (!stack.empty()) {
+      const uint32_t next = stack.back();
+      stack.pop_back();
+      for (const uint32_t neighbour : graph.neighboursOf(next))
+        if (componentOf[neighbour] == UINT32_MAX) {
+          componentOf[neighbour] = count;
+          stack.push_back(neighbour);
+        }
+    }
+    ++count;
+  }
+  return componentOf;
+}
+
+/// An interpolation, and its system by which solutions are judged.
+struct Equation {
+  DualGraph graph;
+  std::vector<double> weights, constraints, divergence, firstGuess;
+  std::vector<uint32_t> componentOf;
+  PoissonSystem system;
+
+  /// firstGuess: empty for the mean of the constraints.
+  Equation(DualGraph theGraph, std::vector<double> theWeights, std::vector<double> theConstraints,
+           std::vector<double> theDivergence = {}, std::vector<double> theFirstGuess = {})
+      : graph(std::move(theGraph)),
+        weights(std::move(theWeights)),
+        constraints(std::move(theConstraints)),
+        divergence(std::move(theDivergence)),
+        firstGuess(std::move(theFirstGuess)),
+        componentOf(searchComponents(graph)),
+        system(buildPoissonSystem(graph, weights, constraints, divergence, {.firstGuess = firstGuess})) {
+    if (firstGuess.empty()) firstGuess.assign(constraints.size(), kNoValue);
+  }
+
+  [[nodiscard]] GraphProblem problem() const { return {constraints, firstGuess, {}, divergence, componentOf}; }
+};
+
+/// The paper's equation: weights 1 / distance.
+inline Equation distanceEquation(const DualGraph& graph, const FaceGeometry& geometry, std::vector<double> values,
+                                 std::vector<double> divergence = {}) {
+  return {graph, arcWeights(ArcWeights::Distance, graph, geometry), std::move(values), std::move(divergence)};
+}
+
 /// A row of faces at unit distances with constraints at the first and the last.
-inline PoissonSystem chain(size_t faceCount, double first, double last) {
+inline Equation chainEquation(size_t faceCount, double first, double last) {
   std::vector<Vec3d> barycentres;
   std::vector<std::pair<uint32_t, uint32_t>> edges;
   for (uint32_t i = 0; i < faceCount; ++i) {
@@ -77,17 +128,23 @@ inline PoissonSystem chain(size_t faceCount, double first, double last) {
   values.front() = first;
   values.back() = last;
   const HandGraph hand(barycentres, edges);
-  return distanceSystem(hand.graph, hand.geometry, values);
+  return distanceEquation(hand.graph, hand.geometry, values);
+}
+
+inline PoissonSystem chain(size_t faceCount, double first, double last) {
+  return chainEquation(faceCount, first, last).system;
 }
 
 /// A torus with constraints, uniform in [1, 2), on about one face in ten.
-inline PoissonSystem torusSystem(uint32_t rings, uint32_t sides, double unit = 1) {
+inline Equation torusEquation(uint32_t rings, uint32_t sides, double unit = 1) {
   const Mesh mesh = torus(rings, sides);
   Random random(5);
   std::vector<double> values(mesh.faces.size(), kNoValue);
   for (double& value : values)
     if (random.index(10) == 0) value = unit * (1 + random.real());
-  return distanceSystem(buildDualGraph(mesh), computeFaceGeometry(mesh), values);
+  return distanceEquation(buildDualGraph(mesh), computeFaceGeometry(mesh), values);
 }
+
+inline PoissonSystem torusSystem(uint32_t rings, uint32_t sides) { return torusEquation(rings, sides).system; }
 
 }  // namespace asdfvk

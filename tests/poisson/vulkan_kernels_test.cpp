@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "asdf_vk/error.h"
+#include "device_matrix.h"
 #include "fixtures.h"
 #include "kernel_twins.h"
 #include "poisson/cpu_cg.h"
@@ -91,11 +92,11 @@ TEST_CASE("iterations with one reduction give the vectors of the textbook, on th
   if (!test::hasBuffersForSolvers(*device)) return;
   const PoissonSystem system = unevenSystem();
   const ScaledSystem scaled(system);
-  REQUIRE(scaled.longestRow() > 4);
+  REQUIRE_FALSE(scaled.tailColumns().empty());
   const std::vector<double> residual = randomResidual(system.unknownCount());
   const UnsetVector<float> b = scaled.scaleResidual(residual, KernelTwins{system}.norm(residual));
   const VulkanCgKernels kernels(*device);
-  const VulkanMatrix matrix(*device, scaled);
+  const VulkanMatrix matrix = matrixOn(*device, scaled);
   REQUIRE(system.unknownCount() % (matrix.grid.laneCount * matrix.grid.workgroupCount) != 0);
   REQUIRE(system.unknownCount() > matrix.grid.laneCount * matrix.grid.workgroupCount);
   const auto compare = [&](auto& cg, uint32_t iterationCount) {
@@ -128,7 +129,7 @@ TEST_CASE("iterations after convergence change nothing, for any batches") {
   const std::vector<double> residual = randomResidual(system.unknownCount());
   const UnsetVector<float> b = scaled.scaleResidual(residual, KernelTwins{system}.norm(residual));
   const VulkanCgKernels kernels(*device);
-  const VulkanMatrix matrix(*device, scaled);
+  const VulkanMatrix matrix = matrixOn(*device, scaled);
   const auto compare = [](auto& atOnce, auto& stepwise) {
     const auto state = atOnce.advance(301);
     CHECK(state.status == kCgConverged);
@@ -166,7 +167,7 @@ TEST_CASE("an exact solution ends the iteration without a division of 0 by 0") {
   const PoissonSystem system = chain(3, 1, 3);
   const ScaledSystem scaled(system);
   const VulkanCgKernels kernels(*device);
-  const VulkanMatrix matrix(*device, scaled);
+  const VulkanMatrix matrix = matrixOn(*device, scaled);
   const auto check = [](auto& cg) {
     const auto state = cg.advance(10);
     CHECK(state.status == kCgConverged);
@@ -186,7 +187,7 @@ TEST_CASE("a product that is not positive ends the iteration as a breakdown") {
   std::fill(system.entries.begin(), system.entries.end(), -10.0);  // indefinite
   const ScaledSystem scaled(system);
   const VulkanCgKernels kernels(*device);
-  const VulkanMatrix matrix(*device, scaled);
+  const VulkanMatrix matrix = matrixOn(*device, scaled);
   const auto check = [](auto& cg) {
     for (uint32_t iterationCount : {10u, 1u, 2u}) {
       const auto state = cg.advance(iterationCount);
@@ -208,7 +209,7 @@ TEST_CASE("a right-hand side that is not a number ends the iteration as a breakd
   const PoissonSystem system = chain(4, 1, 3);
   const ScaledSystem scaled(system);
   const VulkanCgKernels kernels(*device);
-  const VulkanMatrix matrix(*device, scaled);
+  const VulkanMatrix matrix = matrixOn(*device, scaled);
   const float nan = std::numeric_limits<float>::quiet_NaN();
   VulkanCg onDevice(*device, kernels, matrix, vectorOn(*device, std::vector<float>{nan, 1}), 1e-3);
   CHECK(onDevice.advance(10).status == kCgBrokenDown);
@@ -225,7 +226,7 @@ TEST_CASE("Jacobi sweeps give the vectors of their CPU twin") {
   const std::vector<double> residual = randomResidual(system.unknownCount());
   const std::vector<double> b = twins.scaled(residual);
   const VulkanJacobiKernel kernel(*device);
-  const VulkanMatrix matrix(*device, scaled);
+  const VulkanMatrix matrix = matrixOn(*device, scaled);
   for (uint32_t iterationCount : {1u, 2u, 7u}) {
     CAPTURE(iterationCount);
     const Buffer onDevice = vectorOn(*device, scaled.scaleResidual(residual, KernelTwins{system}.norm(residual)));
@@ -291,7 +292,7 @@ TEST_CASE("rows are read from a storage buffer where the device allows few texel
     DeviceFacts facts = describeDevice(physical);
     facts.maxTexelBufferElements = texelCount;
     const Device device(physical, facts);
-    const VulkanMatrix matrix(device, scaled);
+    const VulkanMatrix matrix = matrixOn(device, scaled);
     CHECK(matrix.storageRows.byteCount() == (prefersTexels(facts) ? 16 : 32 * uint64_t{system.unknownCount()}));
     const VulkanCgKernels cgKernels(device);
     const Buffer onDevice = vectorOn(device, b);

@@ -8,7 +8,7 @@
 #include "mesh/dual_graph.h"
 #include "predict/seed_cells.h"
 #include "trace/reference_tracer.h"
-#include "trace/traced_seeds.h"
+#include "trace/seed_hits.h"
 
 namespace asdfvk::test {
 
@@ -43,7 +43,7 @@ struct SeededMesh {
   SeededMesh& operator=(const SeededMesh&) = delete;
 
   [[nodiscard]] TraceScene scene() const { return {mesh, geometry, representatives, bvh}; }
-  [[nodiscard]] SeedHits seedHits() const { return {seeds, hits}; }
+  [[nodiscard]] SeedHitsView seedHits() const { return {seeds, hits}; }
   [[nodiscard]] SeedCells cells() const { return buildSeedCells(graph, seeds); }
   /// The value from the face's own rays, in the unit of the mesh.
   [[nodiscard]] double tracedValue(uint32_t face) const { return referenceCone(scene(), cone, face); }

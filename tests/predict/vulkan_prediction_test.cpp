@@ -213,7 +213,7 @@ TEST_CASE("hits on the device, added in parts, give the predictions of hits on t
   const std::vector<ConeHit> stored = store.download();
   REQUIRE(stored.size() == seeded.hits.size());
   CHECK(test::haveSameBits(stored, seeded.hits));
-  const SeedHits hits{seeded.seeds, {}};
+  const SeedHitsView hits{seeded.seeds, {}};
   const auto values = [&] {
     return predictValues(seeded.scene(), seeded.graph, seeded.cone, hits, {}, {}, predictor.get()).values;
   };

@@ -35,14 +35,8 @@ class VulkanCgSolver final : public VulkanSolver {
  public:
   explicit VulkanCgSolver(const Device& device) : VulkanSolver(device), kernels_(device) {}
 
- private:
-  [[nodiscard]] DeviceMethod method() const override {
-    return {.minReduction = kMinReduction, .finishesOnCpu = true, .solve = [this](const DevicePass& pass) {
-              return iterate(pass);
-            }};
-  }
-
-  DevicePassResult iterate(const DevicePass& pass) const {
+  [[nodiscard]] double minReduction() const override { return kMinReduction; }
+  [[nodiscard]] DevicePassResult solve(const DevicePass& pass) const override {
     VulkanCg cg(device(), kernels_, pass.matrix, pass.rightHandSide, pass.reduction);
     CgState state{};
     uint32_t batch = kFirstBatch;
@@ -57,6 +51,7 @@ class VulkanCgSolver final : public VulkanSolver {
     return {cg.takeSolution(), state.iterationCount};
   }
 
+ private:
   VulkanCgKernels kernels_;
 };
 

@@ -78,7 +78,7 @@ class VulkanEquation {
   const Device& device_;
   const VulkanEquationKernels& kernels_;
   const VulkanGraph& graph_;
-  const GraphProblem problem_;
+  const GraphProblem& problem_;
   std::vector<uint8_t> isReachable_;
   double constraintMean_ = 0, valueScale_ = 1;  ///< Of the values on the device.
   Buffer sources_, scaledResidual_, sums_, sumsOnHost_;

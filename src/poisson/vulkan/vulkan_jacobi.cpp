@@ -40,14 +40,8 @@ class VulkanJacobiSolver final : public VulkanSolver {
  public:
   explicit VulkanJacobiSolver(const Device& device) : VulkanSolver(device), kernel_(device) {}
 
- private:
-  [[nodiscard]] DeviceMethod method() const override {
-    return {.minReduction = kJacobiMinReduction, .finishesOnCpu = false, .solve = [this](const DevicePass& pass) {
-              return iterate(pass);
-            }};
-  }
-
-  DevicePassResult iterate(const DevicePass& pass) const {
+  [[nodiscard]] double minReduction() const override { return kJacobiMinReduction; }
+  [[nodiscard]] DevicePassResult solve(const DevicePass& pass) const override {
     VulkanJacobi jacobi(device(), kernel_, pass.matrix, pass.rightHandSide);
     uint32_t iterationCount = 0;
     for (double norm = 1; norm > pass.reduction && iterationCount < pass.maxIterations;) {
@@ -59,6 +53,7 @@ class VulkanJacobiSolver final : public VulkanSolver {
     return {jacobi.takeSolution(), iterationCount};
   }
 
+ private:
   VulkanJacobiKernel kernel_;
 };
 

@@ -15,16 +15,12 @@ class VulkanSolver : public PoissonSolver {
   /// The device must outlive it.
   explicit VulkanSolver(const Device& device) : device_(device) {}
 
-  SolverReport solve(const PoissonSystem& system, const SolverOptions& options, std::span<double> solution,
-                     const RunControl& control) final {
-    return solveOnDevice(method(), device_, system, options, solution, control);
-  }
   std::unique_ptr<GraphSolver> onGraph(const DualGraph& graph, std::span<const double> weights) final;
 
- protected:
   [[nodiscard]] const Device& device() const { return device_; }
-  /// Must not outlive this object.
-  [[nodiscard]] virtual DeviceMethod method() const = 0;
+  /// Smallest reduction that one pass reaches in float32.
+  [[nodiscard]] virtual double minReduction() const = 0;
+  [[nodiscard]] virtual DevicePassResult solve(const DevicePass& pass) const = 0;
 
  private:
   const Device& device_;

@@ -6,11 +6,9 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
-#include <optional>
 #include <utility>
 
 #include "asdf_vk/error.h"
-#include "poisson/cpu_cg.h"
 #include "shared/poisson_layout.h"
 
 namespace asdfvk {
@@ -78,19 +76,6 @@ ComputePipelineDescription describePoissonKernel(const DeviceFacts& facts, const
            /* LOCAL_SIZE_X= */ poissonLaneCount(facts)}};
 }
 
-VulkanMatrix::VulkanMatrix(const Device& device, const ScaledSystem& system) : rowCount(system.unknownCount()) {
-  requireSystemFits(device.facts(), system.unknownCount(), system.tailColumns().size(), system.longestRow());
-  grid = choosePoissonGrid(device.facts(), system.unknownCount());
-  const bool asTexels = prefersTexels(device.facts());
-  const std::span<const std::byte> rows = std::as_bytes(std::span(system.rows())), none;
-  texelRows = uploadBuffer(device, asTexels ? rows : none, VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT);
-  rowTexels = TexelView(device, texelRows);
-  storageRows = uploadBuffer(device, asTexels ? none : rows, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
-  tailColumns = uploadVector(device, system.tailColumns());
-  tailCouplings = uploadVector(device, system.tailCouplings());
-  residualWeights = uploadVector(device, system.residualWeights());
-}
-
 VulkanMatrix::VulkanMatrix(const Device& device, uint32_t count, Buffer columns, Buffer couplings)
     : rowCount(count),
       grid(choosePoissonGrid(device.facts(), rowCount)),
@@ -130,36 +115,6 @@ double rootOfSum(std::span<const float> ofWorkgroups, const PoissonGrid& grid) {
   double sum = 0;
   for (const float each : ofWorkgroups.first(grid.workgroupCount)) sum += static_cast<double>(each);
   return std::sqrt(sum);
-}
-
-SolverReport solveOnDevice(const DeviceMethod& method, const Device& device, const PoissonSystem& system,
-                           const SolverOptions& options, std::span<double> solution, const RunControl& control) {
-  SolverProgress progress(rightHandNorm(system), options, control);
-  const ScaledSystem scaled(system);
-  std::optional<VulkanMatrix> matrix;
-  std::vector<Corrector> correctors{
-      {method.minReduction, [&](const CorrectionRequest& request) {
-         if (!matrix) matrix.emplace(device, scaled);
-         progress.checkpoint(request.norm);
-         const Buffer b =
-             uploadVector(device, scaled.scaleResidual(request.residual, request.norm), kPoissonVectorUsage);
-         const DevicePassResult result =
-             method.solve({*matrix, b, request.norm, request.reduction, request.maxIterations, progress});
-         const std::vector<float> y = downloadPoissonVector(device, result.solution, request.correction.size());
-         scaled.unscaleCorrection(y, request.norm, request.correction);
-         return result.iterationCount;
-       }}};
-  bool finishedOnCpu = false;
-  if (method.finishesOnCpu) {
-    const Corrector onCpu = makeDoubleCorrector(system, progress);
-    correctors.push_back({onCpu.minReduction, [&finishedOnCpu, onCpu](const CorrectionRequest& request) {
-                            finishedOnCpu = true;
-                            return onCpu.correct(request);
-                          }});
-  }
-  SolverReport report = solveByRefinement(system, options, solution, correctors);
-  report.finishedOnCpu = finishedOnCpu;
-  return report;
 }
 
 }  // namespace asdfvk

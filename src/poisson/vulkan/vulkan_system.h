@@ -1,20 +1,19 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "poisson/refinement.h"
-#include "poisson/scaled_system.h"
+#include "shared/poisson_layout.h"
 #include "vk/buffer.h"
 #include "vk/command_list.h"
 #include "vk/compute_pipeline.h"
 #include "vk/device.h"
 
-/// A Poisson system on a device, for any iteration that runs there in float32.
+/// A scaled Poisson matrix on a device, for any iteration that runs there in float32.
 namespace asdfvk {
 
 /// Size of the dispatches for one system.
@@ -34,7 +33,7 @@ void requireSystemFits(const DeviceFacts& facts, uint64_t unknownCount, uint64_t
 /// Usage of vectors that kernels write and the host reads.
 inline constexpr VkBufferUsageFlags kPoissonVectorUsage =
     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
-/// Of float32, with unspecified entries.
+/// A buffer of float32 with unspecified entries.
 [[nodiscard]] Buffer makePoissonVector(const Device& device, uint64_t count);
 [[nodiscard]] std::vector<float> downloadPoissonVector(const Device& device, const Buffer& vector, size_t count);
 
@@ -57,9 +56,6 @@ template <typename Vector>
 
 /// The matrix on the device, bindings 0 to 2 and 8 of shaders/poisson/matrix.glsl, and the residual weights.
 struct VulkanMatrix {
-  /// Throws as requireSystemFits().
-  VulkanMatrix(const Device& device, const ScaledSystem& system);
-
   /// With unspecified rows and residual weights, for kernels that write them. Precondition: requireSystemFits().
   VulkanMatrix(const Device& device, uint32_t rowCount, Buffer tailColumns, Buffer tailCouplings);
 
@@ -72,12 +68,12 @@ struct VulkanMatrix {
   Buffer residualWeights;
 };
 
-/// One pass of the refinement on the device.
+/// A reduction of the residual by an iteration in float32.
 struct DevicePass {
   const VulkanMatrix& matrix;
   const Buffer& rightHandSide;  ///< #U, of weighted norm 1; stands for a residual of norm `norm`.
   double norm;
-  double reduction;  ///< As in CorrectionRequest.
+  double reduction;  ///< The pass may end when the norm is at or below this share of `norm`.
   uint32_t maxIterations;
   SolverProgress& progress;
 };
@@ -86,16 +82,5 @@ struct DevicePassResult {
   Buffer solution;  ///< #U
   uint32_t iterationCount = 0;
 };
-
-struct DeviceMethod {
-  double minReduction;  ///< See Corrector.
-  bool finishesOnCpu;   ///< makeDoubleCorrector() continues where float32 stagnates.
-  std::function<DevicePassResult(const DevicePass& pass)> solve;
-};
-
-/// solveByRefinement() with passes on the device. The matrix is uploaded in the first pass.
-[[nodiscard]] SolverReport solveOnDevice(const DeviceMethod& method, const Device& device, const PoissonSystem& system,
-                                         const SolverOptions& options, std::span<double> solution,
-                                         const RunControl& control);
 
 }  // namespace asdfvk

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "asdf_vk/options.h"
+#include "asdf_vk/report.h"
+#include "pipeline/backend.h"
+#include "poisson/poisson_solver.h"
+
+namespace asdfvk {
+
+/// The solvers of a session by name, created at first use.
+using Solvers = std::map<std::string, std::unique_ptr<PoissonSolver>>;
+
+/// The solver of one computation: that of the options or, with kAutomaticSolver, automaticSolver() until the device
+/// fails, then that of the CPU, with a warning that contains the reason.
+class EquationSolver {
+ public:
+  /// The arguments must outlive it.
+  EquationSolver(const Options& options, const Backend& backend, Solvers& solvers, std::vector<Warning>& warnings);
+
+  /// Like GraphSolver::solve(), always on one graph with one set of weights, which must outlive this object.
+  SolverReport solve(const DualGraph& graph, std::span<const double> weights, GraphProblem problem,
+                     std::vector<double>& values, const RunControl& control);
+
+ private:
+  SolverReport solveWithChosen(const DualGraph& graph, std::span<const double> weights, GraphProblem problem,
+                               std::vector<double>& values, const RunControl& control);
+
+  const SolverOptions& options_;
+  const Backend& backend_;
+  Solvers& solvers_;
+  std::vector<Warning>& warnings_;
+  bool isReplaceable_;
+  std::string name_;
+  std::unique_ptr<GraphSolver> onGraph_;  ///< Created at first use.
+};
+
+}  // namespace asdfvk

@@ -1,0 +1,71 @@
+#include "pipeline/seed_prediction.h"
+
+#include <fmt/core.h>
+
+#include <utility>
+
+#include "pipeline/scene_tracers.h"
+
+namespace asdfvk {
+
+/// A CPU device needs more time than the CPU for the same predictions (docs/experiments.md). Fewer storage buffers
+/// suffice than for the solvers.
+bool SeedPrediction::predictsOnDevice() const {
+  const std::string& solver = computation_.options.solver;
+  return computation_.keepsHits() && computation_.backend.device() != nullptr && !hasFailed_ &&
+         (solver == kAutomaticSolver ? !computation_.backend.runsOnCpu() : findSolver(solver).needsDevice);
+}
+
+/// Null where the CPU predicts.
+DevicePredictor* SeedPrediction::devicePredictor() {
+  if (!predictsOnDevice()) return nullptr;
+  try {
+    if (!predictor_) {
+      const auto scope = computation_.clock.time(setUpStage(computation_.backend));
+      predictor_ = computation_.backend.makePredictor(computation_.scene, computation_.cone);
+    }
+    return predictor_.get();
+  } catch (const Error& error) {
+    continueOnCpu(error);
+    return nullptr;
+  }
+}
+
+/// Called in the handler of the failure.
+void SeedPrediction::continueOnCpu(const Error& failure) {
+  // A limit is no failure of the device, and a named solver does not request where values are predicted.
+  if (failure.kind() != ErrorKind::Device ||
+      (computation_.options.solver != kAutomaticSolver && failure.code() != ErrorCode::DeviceLimit))
+    throw;
+  hasFailed_ = true;
+  computation_.warnings.push_back(
+      {WarningCode::PredictedOnCpu,
+       fmt::format("the CPU predicted values because the device could not: {}", failure.what()),
+       {}});
+}
+
+HitStore* SeedPrediction::hitStore() {
+  DevicePredictor* const device = devicePredictor();
+  return device != nullptr ? device->hitStore() : nullptr;
+}
+
+void SeedPrediction::predict(std::span<const uint32_t> seeds, SeedHits& hits, const RunControl& control) {
+  if (!hits.areKept() || seeds.empty()) return;
+  if (DevicePredictor* const device = devicePredictor()) {
+    try {
+      return predictWith(device, {seeds, hits.onHost()}, control);
+    } catch (const Error& error) {
+      continueOnCpu(error);
+    }
+    hits.moveToHost();
+    predictor_.reset();
+  }
+  predictWith(nullptr, {seeds, hits.onHost()}, control);
+}
+
+void SeedPrediction::predictWith(DevicePredictor* device, const SeedHitsView& hits, const RunControl& control) {
+  last_ = predictValues(computation_.scene, computation_.domain.graph, computation_.cone, hits, {},
+                        std::exchange(last_, {}), device, control);
+}
+
+}  // namespace asdfvk

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "asdf_vk/error.h"
+#include "pipeline/computation.h"
+#include "predict/prediction.h"
+
+namespace asdfvk {
+
+/// Predictions of one computation, from the hits of any of its seeds. With a solver of the device, the device predicts,
+/// too. Where the solver is "auto" and the device fails or is too small, the CPU predicts and a warning contains the
+/// reason.
+class SeedPrediction {
+ public:
+  /// The computation must outlive it.
+  explicit SeedPrediction(const Computation& computation) : computation_(computation) {}
+
+  /// Where the device that predicts keeps the hits of seeds; null where the host must keep them.
+  [[nodiscard]] HitStore* hitStore();
+  /// Predicts all faces from the hits of these seeds; where hits are not kept it does nothing. Hits of a device that
+  /// fails move to the host. Seeds of an earlier call must be at the same indices; kNoFace: the hits are ignored.
+  /// Throws Error{Cancelled}.
+  void predict(std::span<const uint32_t> seeds, SeedHits& hits, const RunControl& control);
+  /// The last prediction; empty without Guidance::Prediction.
+  [[nodiscard]] const Prediction& last() const { return last_; }
+
+ private:
+  [[nodiscard]] bool predictsOnDevice() const;
+  DevicePredictor* devicePredictor();
+  void continueOnCpu(const Error& failure);
+  void predictWith(DevicePredictor* device, const SeedHitsView& hits, const RunControl& control);
+
+  const Computation& computation_;
+  Prediction last_;
+  std::unique_ptr<DevicePredictor> predictor_;  ///< Created at first use.
+  bool hasFailed_ = false;
+};
+
+}  // namespace asdfvk

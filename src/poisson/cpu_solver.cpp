@@ -1,0 +1,64 @@
+#include <cmath>
+#include <utility>
+
+#include "poisson/poisson_solver.h"
+
+namespace asdfvk {
+namespace {
+
+class CpuGraphSolver final : public GraphSolver {
+ public:
+  CpuGraphSolver(SolveSystem& solve, const DualGraph& graph, std::span<const double> weights)
+      : solve_(solve), graph_(graph), weights_(weights) {}
+
+  SolverReport solve(GraphProblem problem, const SolverOptions& options, std::vector<double>& values,
+                     const RunControl& control) override {
+    const std::span<const double> constraints = problem.constraints;
+    // The solution takes the place of the first guess, and the values come after the system.
+    PoissonSystem system = systemOf(graph_, weights_, std::move(problem));
+    const SolverReport report = solve_(system, options, system.firstGuess, control);
+    const std::vector<uint32_t> faces = std::move(system.faces);
+    const std::vector<double> solution = std::move(system.firstGuess);
+    system = {};
+    values.assign(constraints.begin(), constraints.end());
+    for (size_t i = 0; i < solution.size(); ++i) values[faces[i]] = solution[i];
+    return report;
+  }
+
+ private:
+  SolveSystem& solve_;
+  const DualGraph& graph_;
+  std::span<const double> weights_;
+};
+
+class CpuSolver final : public PoissonSolver {
+ public:
+  explicit CpuSolver(SolveSystem& solve) : solve_(solve) {}
+
+  std::unique_ptr<GraphSolver> onGraph(const DualGraph& graph, std::span<const double> weights) override {
+    return std::make_unique<CpuGraphSolver>(solve_, graph, weights);
+  }
+
+ private:
+  SolveSystem& solve_;
+};
+
+}  // namespace
+
+PoissonSystem systemOf(const DualGraph& graph, std::span<const double> weights, GraphProblem problem) {
+  std::vector<double> divergence = std::move(problem.divergence);
+  if (!problem.guide.empty()) {
+    std::vector<double> whole = divergenceOf(graph, weights, problem.guide);
+    for (size_t face = 0; face < divergence.size(); ++face)
+      if (std::isfinite(divergence[face])) whole[face] += divergence[face];
+    divergence = std::move(whole);
+  }
+  return buildPoissonSystem(graph, weights, problem.constraints, divergence,
+                            {.firstGuess = problem.firstGuess, .componentOf = problem.componentOf});
+}
+
+std::unique_ptr<PoissonSolver> makeCpuCgSolver(const Device*) { return std::make_unique<CpuSolver>(solveByCpuCg); }
+
+std::unique_ptr<PoissonSolver> makeEigenSolver(const Device*) { return std::make_unique<CpuSolver>(solveByEigen); }
+
+}  // namespace asdfvk
