@@ -1,5 +1,4 @@
-// How fast is each variant of the cone kernels on a device? All variants run in turns. asdfvk-bench-hierarchies counts
-// the nodes and triangles that their rays visit.
+// How fast is each variant of the cone kernels on a device? All variants run in turns.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -7,7 +7,6 @@
 
 using namespace asdfvk;
 
-// bench/cgal_comparison.cpp has the long list.
 TEST_CASE("real meshes, open and closed: values and segments of CGAL") {
   const auto folder = test::realMeshFolder();
   if (!folder) return;
