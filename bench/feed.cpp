@@ -257,7 +257,7 @@ std::string measurePipeline(SessionState& session, const Mesh& mesh, const Argum
       StageWaits stageWaits;
       StageClock clock(result.report.stageSeconds, [&](Stage stage) { stageWaits.begin(stage); });
       const auto scene = std::make_shared<PreparedScene>(mesh, options.orientation, clock, control);
-      SceneTracers tracers(*session.named.backend, scene->view(), 0);
+      KeptTracers tracers(*session.named.backend, scene->view(), 0);
       computeOn({session, scene, wholeMesh(scene->prepared), tracers, true}, options, clock, control, result);
       stageWaits.begin(Stage::Geometry);
       if (round == 0) continue;

@@ -9,7 +9,7 @@
 #include "asdf_vk/error.h"
 #include "core/stopwatch.h"
 #include "pipeline/backend.h"
-#include "pipeline/generated_scene.h"
+#include "pipeline/generated_mesh.h"
 #include "poisson/poisson_solver.h"
 #include "poisson/poisson_system.h"
 #include "trace/tracer_check.h"
@@ -24,8 +24,8 @@ constexpr uint32_t kMaxDifferingCount = 1;  // A ray that grazes an edge may hit
 constexpr int kRunCount = 3;
 
 /// All that the self-test computes on.
-struct TestTorus : GeneratedScene {
-  explicit TestTorus(double duration) : GeneratedScene(bumpyTorus(200, 100)), secondsPerRun(duration) {}
+struct TestTorus : GeneratedMesh {
+  explicit TestTorus(double duration) : GeneratedMesh(bumpyTorus(200, 100)), secondsPerRun(duration) {}
 
   double secondsPerRun;
   Cone cone = makeCone({});

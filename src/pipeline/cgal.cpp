@@ -7,8 +7,8 @@
 
 #include "asdf_vk/error.h"
 #include "mesh/face_geometry.h"
+#include "pipeline/input_face_values.h"
 #include "pipeline/prepared_mesh.h"
-#include "pipeline/result.h"
 #include "pipeline/valid_options.h"
 #include "segment/cgal_postprocess.h"
 #include "segment/cgal_segmentation.h"

@@ -6,12 +6,14 @@
 
 #include "core/parallel.h"
 #include "estimate/reference_check.h"
-#include "pipeline/result.h"
+#include "pipeline/input_face_values.h"
 #include "pipeline/rounds.h"
 #include "pipeline/seed_tracing.h"
 #include "pipeline/segments.h"
+#include "pipeline/skeleton_points.h"
 #include "pipeline/thickness.h"
 #include "pipeline/valid_options.h"
+#include "pipeline/value_report.h"
 #include "pipeline/vertex_fields.h"
 #include "smooth/bilateral.h"
 #include "trace/scene_data.h"
@@ -156,14 +158,10 @@ Cone requireComputable(const SessionState& session, const Options& options) {
   return makeCone(options.cone);
 }
 
-bool needsDevice(const Options& options) {
-  return options.solver != kAutomaticSolver && findSolver(options.solver).needsDevice;
-}
-
-void computeOn(const ComputationTask& task, const Options& options, StageClock& clock, const RunControl& control,
+void computeOn(const ComputationInput& input, const Options& options, StageClock& clock, const RunControl& control,
                Result& result) {
   Report& report = result.report;
-  const auto& [session, sharedScene, domain, tracers, isLast] = task;
+  const auto& [session, sharedScene, domain, tracers, isLast] = input;
   Backend& backend = *session.named.backend;
   const PreparedMesh& prepared = sharedScene->prepared;
   const Cone cone = requireComputable(session, options);
@@ -179,7 +177,7 @@ void computeOn(const ComputationTask& task, const Options& options, StageClock& 
   const bool keepsNodes = !isLast || options.checkCount || options.keepsScene || computation.measuresThickness() ||
                           sightNeedsNodes(options, backend.isReference());
   const auto makeTracing = [&] {
-    return std::make_unique<SeedTracing>(computation, task.tracers, keepsNodes ? nullptr : &task.scene->bvh);
+    return std::make_unique<SeedTracing>(computation, input.tracers, keepsNodes ? nullptr : &input.scene->bvh);
   };
   RoundsResult rounds = runRounds(computation, makeTracing, control.part(0, roundsEnd));
   describeRounds(report, rounds);

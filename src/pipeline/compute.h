@@ -5,30 +5,27 @@
 #include "asdf_vk/session.h"
 #include "cone/cone.h"
 #include "pipeline/face_domain.h"
+#include "pipeline/kept_tracers.h"
 #include "pipeline/prepared_scene.h"
-#include "pipeline/scene_tracers.h"
 #include "pipeline/session_state.h"
 
 namespace asdfvk {
 
 /// Where a computation takes place.
-struct ComputationTask {
+struct ComputationInput {
   SessionState& session;
   const std::shared_ptr<PreparedScene>& scene;
   const FaceDomain& domain;  ///< Of the scene.
-  SceneTracers& tracers;     ///< Of the scene.
+  KeptTracers& tracers;      ///< Of the scene.
   bool isLast;               ///< The scene is not used again: the computation releases what it does not need any more.
 };
 
 /// The computation behind Session::compute() and Scene::compute(): from the seeds to the report. The clock refers to
 /// result.report.stageSeconds. Throws as Session::compute().
-void computeOn(const ComputationTask& task, const Options& options, StageClock& clock, const RunControl& control,
+void computeOn(const ComputationInput& input, const Options& options, StageClock& clock, const RunControl& control,
                Result& result);
 
 /// The cone of the options. Throws where they are invalid on this session.
 [[nodiscard]] Cone requireComputable(const SessionState& session, const Options& options);
-
-/// Whether the options request a solver that runs on a device. Precondition: requireComputable().
-[[nodiscard]] bool needsDevice(const Options& options);
 
 }  // namespace asdfvk

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "pipeline/generated_scene.h"
+#include "pipeline/generated_mesh.h"
 #include "predict/prediction.h"
 #include "trace/reference_tracer.h"
 #include "trace/vulkan/vulkan_tracer.h"
@@ -15,14 +15,14 @@ constexpr uint32_t kFacesPerSeed = 12;
 }  // namespace
 
 TracerCheck checkKernel(const VulkanConeKernel& kernel) {
-  const GeneratedScene generated(halfSquareRing());
+  const GeneratedMesh generated(halfSquareRing());
   const TraceScene scene = generated.scene.view();
   const Cone cone = makeCone({.rayCount = kernel.rayCount(), .definition = kernel.definition()});
   return checkTracer(*makeVulkanTracer(kernel, scene, cone), scene, cone);
 }
 
 TracerCheck checkKernels(const VulkanPredictionKernels& kernels) {
-  const GeneratedScene generated(halfSquareRing());
+  const GeneratedMesh generated(halfSquareRing());
   const TraceScene scene = generated.scene.view();
   const DualGraph& graph = generated.scene.prepared.graph;
   const Cone cone = makeCone({.rayCount = kernels.rayCount(), .definition = kernels.definition()});

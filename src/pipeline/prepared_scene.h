@@ -1,5 +1,6 @@
 #pragma once
 
+#include "asdf_vk/run_control.h"
 #include "bvh/bvh.h"
 #include "pipeline/prepared_mesh.h"
 #include "trace/trace_scene.h"

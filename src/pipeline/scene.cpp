@@ -12,6 +12,7 @@
 #include "core/vec3.h"
 #include "pipeline/compute.h"
 #include "pipeline/surface_points.h"
+#include "pipeline/valid_options.h"
 
 namespace asdfvk {
 namespace {
@@ -71,7 +72,7 @@ void requireNoConflict(const Options& options, Orientation orientation, bool has
     throw Error(ErrorCode::OptionConflict, "a region is not post-processed; post-process the whole mesh");
 }
 
-std::vector<double> valuesWith(const SceneTracer& tracer, const PreparedScene& scene, std::span<const double> points,
+std::vector<double> valuesWith(const KeptTracer& tracer, const PreparedScene& scene, std::span<const double> points,
                                std::span<const double> normals, const RunControl& control) {
   const Box3d& bounds = scene.prepared.geometry.bounds;
   const Normalization& unit = scene.bvh.normalization;
@@ -104,9 +105,9 @@ struct Scene::State {
   }
 
   /// Of the backend that the session has now.
-  SceneTracers& tracers() {
+  KeptTracers& tracers() {
     if (!tracers_ || &tracers_->backend() != session.named.backend.get())
-      tracers_ = std::make_unique<SceneTracers>(*session.named.backend, scene->view(), kPreparedConeCount);
+      tracers_ = std::make_unique<KeptTracers>(*session.named.backend, scene->view(), kPreparedConeCount);
     return *tracers_;
   }
 
@@ -116,7 +117,7 @@ struct Scene::State {
   std::shared_ptr<PreparedScene> scene;
 
  private:
-  std::unique_ptr<SceneTracers> tracers_;  // Destroyed before the scene.
+  std::unique_ptr<KeptTracers> tracers_;  // Destroyed before the scene.
 };
 
 Scene::Scene(Session& session, const MeshView& mesh, Orientation orientation, const RunControl& control)
@@ -129,7 +130,7 @@ Result Scene::compute(const Options& options, std::span<const uint8_t> region, c
   requireNoConflict(options, state_->orientation, !region.empty());
   (void)requireComputable(state_->session, options);
   control.checkpoint(0);
-  return state_->session.compute(!needsDevice(options), control, [&](const RunControl& rest) {
+  return state_->session.compute(!solverNeedsDevice(options.solver), control, [&](const RunControl& rest) {
     Result result;
     StageClock clock(result.report.stageSeconds, rest.stageBegan);
     const PreparedMesh& prepared = state_->scene->prepared;
@@ -150,7 +151,7 @@ std::vector<double> Scene::valuesAt(std::span<const double> points, std::span<co
   return state_->session.compute(true, control, [&](const RunControl& rest) {
     StageSeconds seconds;
     StageClock clock(seconds, rest.stageBegan);
-    const std::shared_ptr<SceneTracer> tracer = state_->tracers().get(cone, {}, clock);
+    const std::shared_ptr<KeptTracer> tracer = state_->tracers().get(cone, {}, clock);
     std::vector<double> values = valuesWith(*tracer, *state_->scene, points, normals, rest);
     state_->session.named.backend->requireSilentValidation();
     return values;

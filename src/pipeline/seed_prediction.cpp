@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "pipeline/scene_tracers.h"
+#include "pipeline/kept_tracers.h"
 
 namespace asdfvk {
 

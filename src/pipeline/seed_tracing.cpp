@@ -25,7 +25,7 @@ void returnFreedMemory() {
 
 }  // namespace
 
-SeedTracing::SeedTracing(const Computation& computation, SceneTracers& tracers, Bvh* released)
+SeedTracing::SeedTracing(const Computation& computation, KeptTracers& tracers, Bvh* released)
     : computation_(computation),
       released_(released),
       tracer_(tracers.get(computation.options.cone, {.hits = computation.keepsHits()}, computation.clock)) {}

@@ -5,7 +5,7 @@
 
 #include "bvh/bvh.h"
 #include "pipeline/computation.h"
-#include "pipeline/scene_tracers.h"
+#include "pipeline/kept_tracers.h"
 #include "trace/cone_tracer.h"
 #include "trace/seed_hits.h"
 #include "trace/traced_seeds.h"
@@ -17,7 +17,7 @@ namespace asdfvk {
 class SeedTracing {
  public:
   /// The computation must outlive it. released: the hierarchy whose nodes the destructor releases; null: none.
-  SeedTracing(const Computation& computation, SceneTracers& tracers, Bvh* released);
+  SeedTracing(const Computation& computation, KeptTracers& tracers, Bvh* released);
   ~SeedTracing();
   SeedTracing(const SeedTracing&) = delete;
   SeedTracing& operator=(const SeedTracing&) = delete;
@@ -32,7 +32,7 @@ class SeedTracing {
  private:
   const Computation& computation_;
   Bvh* released_;
-  std::shared_ptr<SceneTracer> tracer_;
+  std::shared_ptr<KeptTracer> tracer_;
 };
 
 }  // namespace asdfvk

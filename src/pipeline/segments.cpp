@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "core/text.h"
-#include "pipeline/result.h"
+#include "pipeline/input_face_values.h"
 #include "segment/cgal_postprocess.h"
 #include "segment/cgal_segmentation.h"
 #include "trace/sight_tracer.h"

@@ -1,6 +1,7 @@
 #include "asdf_vk/session.h"
 
 #include "pipeline/compute.h"
+#include "pipeline/valid_options.h"
 
 namespace asdfvk {
 
@@ -17,11 +18,11 @@ bool Session::runsOnCpu() const { return state_->named.backend->runsOnCpu(); }
 
 Result Session::compute(const MeshView& mesh, const Options& options, const RunControl& control) {
   (void)requireComputable(*state_, options);  // Before the mesh is prepared.
-  return state_->compute(!needsDevice(options), control, [&](const RunControl& rest) {
+  return state_->compute(!solverNeedsDevice(options.solver), control, [&](const RunControl& rest) {
     Result result;
     StageClock clock(result.report.stageSeconds, rest.stageBegan);
     const auto scene = std::make_shared<PreparedScene>(mesh, options.orientation, clock, rest);
-    SceneTracers tracers(*state_->named.backend, scene->view(), 0);
+    KeptTracers tracers(*state_->named.backend, scene->view(), 0);
     computeOn({*state_, scene, wholeMesh(scene->prepared), tracers, true}, options, clock, rest, result);
     return result;
   });

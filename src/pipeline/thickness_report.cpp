@@ -5,8 +5,8 @@
 #include <set>
 
 #include "core/weighted_sample.h"
-#include "pipeline/result.h"
 #include "pipeline/thickness.h"
+#include "pipeline/value_report.h"
 
 namespace asdfvk {
 namespace {

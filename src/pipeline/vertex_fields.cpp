@@ -7,7 +7,7 @@
 #include "core/buckets.h"
 #include "core/check.h"
 #include "core/parallel.h"
-#include "pipeline/result.h"
+#include "pipeline/input_face_values.h"
 
 namespace asdfvk {
 namespace {

@@ -20,16 +20,16 @@ constexpr size_t kBlockSize = 128;
 /// points of their seeds.
 class CellPredictor {
  public:
-  /// The task must outlive it.
-  explicit CellPredictor(const PredictionTask& task)
-      : task_(task), points_(task.scene, task.cone, task.hits), kernel_(task.cone) {
+  /// The input must outlive it.
+  explicit CellPredictor(const PredictionInput& input)
+      : input_(input), points_(input.scene, input.cone, input.hits), kernel_(input.cone) {
     weighting_.inverseAngleVariance = 1 / (kNormalDeviationRadians * kNormalDeviationRadians);
   }
 
   /// values: #F; those of the cells' faces are written.
   void run(std::span<const uint32_t> cells, std::vector<double>& values) {
     points_.clear();
-    cached_.assign(std::bit_ceil(2 * cells.size() * (1 + task_.options.neighbourCount)), {});
+    cached_.assign(std::bit_ceil(2 * cells.size() * (1 + input_.options.neighbourCount)), {});
     for (size_t i = 0; i < cells.size(); ++i) {
       if (i + 1 < cells.size()) prefetchFaces(cells[i + 1]);
       runCell(cells[i], values);
@@ -45,7 +45,7 @@ class CellPredictor {
   void weighNeighbours(const VirtualCone& at);
   [[nodiscard]] double valueAt(const VirtualCone& at, float minWeightShare);
 
-  const PredictionTask& task_;
+  const PredictionInput& input_;
   HitPoints points_;
   PredictionKernel kernel_;
   struct CachedHits {
@@ -64,10 +64,10 @@ class CellPredictor {
 };
 
 void CellPredictor::runCell(uint32_t cell, std::vector<double>& values) {
-  const TraceScene& scene = task_.scene;
+  const TraceScene& scene = input_.scene;
   reuseEarlier(cell, values);
   if (remainingFaces_.empty()) return;
-  gatherNeighbours(task_.nearest.of(cell));
+  gatherNeighbours(input_.nearest.of(cell));
   for (const uint32_t face : remainingFaces_) {
     const Vec3d& normal = scene.geometry.normals[face];
     if (normal.x == 0 && normal.y == 0 && normal.z == 0) continue;  // Degenerate.
@@ -82,11 +82,11 @@ void CellPredictor::runCell(uint32_t cell, std::vector<double>& values) {
 
 /// The faces of a cell are neighbours on the surface but not in memory.
 void CellPredictor::prefetchFaces(uint32_t cell) const {
-  const FaceGeometry& geometry = task_.scene.geometry;
-  for (const uint32_t face : task_.cells.faces[cell]) {
+  const FaceGeometry& geometry = input_.scene.geometry;
+  for (const uint32_t face : input_.cells.faces[cell]) {
     __builtin_prefetch(&geometry.barycentres[face]);
     __builtin_prefetch(&geometry.normals[face]);
-    __builtin_prefetch(&task_.scene.representatives[face]);
+    __builtin_prefetch(&input_.scene.representatives[face]);
   }
 }
 
@@ -105,25 +105,25 @@ HitRange CellPredictor::hitsOf(uint32_t seed) {
 /// Copies the values of faces that are in the same cell as before, if the contributing seeds are the same too. The
 /// others become the remaining faces.
 void CellPredictor::reuseEarlier(uint32_t cell, std::vector<double>& values) {
-  const std::span<const uint32_t> faces = task_.cells.faces[cell];
+  const std::span<const uint32_t> faces = input_.cells.faces[cell];
   remainingFaces_.assign(faces.begin(), faces.end());
-  if (!task_.hasEarlierSeeds(cell)) return;
+  if (!input_.hasEarlierSeeds(cell)) return;
   std::erase_if(remainingFaces_, [&](uint32_t face) {
-    const bool isSame = task_.earlier.cellOf[face] == cell;
-    if (isSame) values[face] = task_.earlier.values[face];
+    const bool isSame = input_.earlier.cellOf[face] == cell;
+    if (isSame) values[face] = input_.earlier.values[face];
     return isSame;
   });
 }
 
 void CellPredictor::gatherNeighbours(std::span<const uint32_t> neighbourSeeds) {
-  const TraceScene& scene = task_.scene;
+  const TraceScene& scene = input_.scene;
   neighbourHits_.clear();
   neighbourSeeds_.assign((neighbourSeeds.size() + kPointGroupSize - 1) / kPointGroupSize, {});
   Vec3d centre;
   double sum = 0;
   for (size_t i = 0; i < neighbourSeeds.size(); ++i) {
     neighbourHits_.push_back(hitsOf(neighbourSeeds[i]));
-    const uint32_t face = task_.hits.seeds[neighbourSeeds[i]];
+    const uint32_t face = input_.hits.seeds[neighbourSeeds[i]];
     const Vec3d origin = scene.bvh.normalization.toNormalized(scene.geometry.barycentres[face]);
     const Vec3d& normal = scene.geometry.normals[face];
     SeedGroup& group = neighbourSeeds_[i / kPointGroupSize];
@@ -138,7 +138,7 @@ void CellPredictor::gatherNeighbours(std::span<const uint32_t> neighbourSeeds) {
     sum += length(origin - centre);
   }
   const double halfMeanDistance = sum / static_cast<double>(2 * std::max<size_t>(1, neighbourSeeds.size() - 1));
-  const double deviation = task_.options.distanceDeviation * halfMeanDistance;
+  const double deviation = input_.options.distanceDeviation * halfMeanDistance;
   weighting_.inverseVariance = deviation > 0 ? static_cast<float>(1 / (deviation * deviation)) : 0.0f;
 }
 
@@ -179,11 +179,11 @@ std::vector<uint32_t> cellsInOrder(const TraceScene& scene, std::span<const uint
   return order;
 }
 
-void predictOnCpu(const PredictionTask& task, std::vector<double>& values) {
-  const std::span<const uint32_t> order = task.order;
+void predictOnCpu(const PredictionInput& input, std::vector<double>& values) {
+  const std::span<const uint32_t> order = input.order;
   const size_t blockCount = (order.size() + kBlockSize - 1) / kBlockSize;
   forEachRange(blockCount, 1, [&](size_t begin, size_t end) {
-    CellPredictor predictor(task);
+    CellPredictor predictor(input);
     for (size_t block = begin; block < end; ++block) {
       const size_t first = block * kBlockSize;
       predictor.run(order.subspan(first, std::min(kBlockSize, order.size() - first)), values);
@@ -193,7 +193,7 @@ void predictOnCpu(const PredictionTask& task, std::vector<double>& values) {
 
 }  // namespace
 
-bool PredictionTask::hasEarlierSeeds(uint32_t cell) const {
+bool PredictionInput::hasEarlierSeeds(uint32_t cell) const {
   return cell < earlier.nearest.cellCount() && std::ranges::equal(earlier.nearest.of(cell), nearest.of(cell));
 }
 
@@ -207,11 +207,11 @@ Prediction predictValues(const TraceScene& scene, const DualGraph& graph, const 
                         {},
                         NearestCells(cells, graph, scene.geometry, hits.seeds, options.neighbourCount)};
   const std::vector<uint32_t> order = cellsInOrder(scene, hits.seeds, cells);
-  const PredictionTask task{scene, cone, hits, cells, prediction.nearest, options, order, earlier};
+  const PredictionInput input{scene, cone, hits, cells, prediction.nearest, options, order, earlier};
   if (device != nullptr)
-    device->predict(task, prediction.values, control);
+    device->predict(input, prediction.values, control);
   else
-    predictOnCpu(task, prediction.values);
+    predictOnCpu(input, prediction.values);
   prediction.cellOf = std::move(cells.cellOf);
   return prediction;
 }

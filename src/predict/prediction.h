@@ -33,7 +33,7 @@ struct Prediction {
 };
 
 /// Input of the prediction of all faces. References only.
-struct PredictionTask {
+struct PredictionInput {
   const TraceScene& scene;
   const Cone& cone;
   const SeedHitsView& hits;
@@ -59,7 +59,7 @@ class DevicePredictor {
   /// Writes the values of all faces that belong to a cell. values: #F. Two calls with the same hits give the same bits.
   /// Throws Error{Cancelled} between submissions, and Error of kind Device, also for more neighbours than the device
   /// supports.
-  virtual void predict(const PredictionTask& task, std::span<double> values, const RunControl& control) = 0;
+  virtual void predict(const PredictionInput& input, std::span<double> values, const RunControl& control) = 0;
 };
 
 /// The result does not depend on the number of threads. earlier: empty, or a prediction of the same scene, cone and

@@ -11,7 +11,7 @@
 #include "core/vec3.h"
 #include "generate/shapes.h"
 #include "mesh/face_geometry.h"
-#include "pipeline/result.h"
+#include "pipeline/skeleton_points.h"
 #include "pipeline/vertex_fields.h"
 #include "support/shared_session.h"
 

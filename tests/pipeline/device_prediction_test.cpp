@@ -72,12 +72,12 @@ class GpuBackend final : public Backend {
       if (kind_ == Predictor::Fails) return nullptr;
       return kind_ == Predictor::HasNoMemory ? &smallStore_ : predictor_->hitStore();
     }
-    void predict(const PredictionTask& task, std::span<double> values, const RunControl& control) override {
-      hitCount_ = task.hits.hits.size();
+    void predict(const PredictionInput& input, std::span<double> values, const RunControl& control) override {
+      hitCount_ = input.hits.hits.size();
       if (kind_ == Predictor::HasNoMemory) CHECK(predictor_->hitStore()->download().empty());  // Released.
       if (kind_ == Predictor::HasNoMemory || kind_ == Predictor::Works)
-        return predictor_->predict(task, values, control);
-      CHECK(task.hits.hits.empty() == (kind_ == Predictor::FailsWithHits));
+        return predictor_->predict(input, values, control);
+      CHECK(input.hits.hits.empty() == (kind_ == Predictor::FailsWithHits));
       std::fill(values.begin(), values.end(), 1.0);
       throw Error(ErrorCode::DeviceLost, "this device was lost");
     }
@@ -115,7 +115,7 @@ DeviceOutcome runWith(GpuBackend::Predictor predictor, const std::string& solver
   StageClock clock(seconds);
   const FaceDomain domain = wholeMesh(prepared);
   const Computation computation{options, prepared, domain, scene, cone, backend, solvers, clock, outcome.warnings};
-  SceneTracers tracers(backend, scene, 0);
+  KeptTracers tracers(backend, scene, 0);
   const RoundsResult result =
       runRounds(computation, [&] { return std::make_unique<SeedTracing>(computation, tracers, nullptr); }, {});
   outcome.values = result.interpolated.values;

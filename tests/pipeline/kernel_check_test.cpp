@@ -2,14 +2,14 @@
 
 #include <doctest/doctest.h>
 
-#include "pipeline/generated_scene.h"
+#include "pipeline/generated_mesh.h"
 #include "support/test_device.h"
 
 using namespace asdfvk;
 
 TEST_CASE("kernels of a healthy device agree with the reference on the mesh of the first use") {
   const test::ValidatedDevice device;
-  const GeneratedScene generated(halfSquareRing());
+  const GeneratedMesh generated(halfSquareRing());
   const TraceScene scene = generated.scene.view();
   CHECK(scene.mesh.faceCount() == 768);
   CHECK(generated.scene.prepared.warnings.empty());

@@ -105,7 +105,7 @@ Outcome run(Options options, bool keepsNodes = false) {
   std::vector<Warning> warnings;
   const FaceDomain domain = wholeMesh(prepared);
   const Computation computation{options, prepared, domain, scene, cone, backend, solvers, clock, warnings};
-  SceneTracers tracers(backend, scene, 0);
+  KeptTracers tracers(backend, scene, 0);
   const RoundsResult result =
       runRounds(computation,
                 [&] { return std::make_unique<SeedTracing>(computation, tracers, keepsNodes ? nullptr : &bvh); }, {});

@@ -12,8 +12,8 @@
 
 #include "asdf_vk/error.h"
 #include "generate/shapes.h"
+#include "pipeline/kept_tracers.h"
 #include "pipeline/prepared_scene.h"
-#include "pipeline/scene_tracers.h"
 #include "support/bits.h"
 #include "support/quad_cubes.h"
 #include "support/require_failure.h"
@@ -340,7 +340,7 @@ TEST_CASE("tracers are kept by their cone options, and replaced where they serve
   StageClock clock(seconds);
   const PreparedScene scene(mesh, Orientation::Keep, clock, {});
   CountingBackend backend;
-  SceneTracers tracers(backend, scene.view(), 2);
+  KeptTracers tracers(backend, scene.view(), 2);
   ConeOptions narrow, narrower;
   narrow.openingAngleDegrees = 60;
   narrower.openingAngleDegrees = 30;
@@ -358,8 +358,8 @@ TEST_CASE("tracers are kept by their cone options, and replaced where they serve
   CHECK(made({}, {}) == 4);
   CHECK(made(narrow, {}) == 5);
 
-  SceneTracers none(backend, scene.view(), 0);
-  const std::weak_ptr<SceneTracer> released = none.get({}, {}, clock);
+  KeptTracers none(backend, scene.view(), 0);
+  const std::weak_ptr<KeptTracer> released = none.get({}, {}, clock);
   CHECK(released.expired());
 }
 

@@ -10,7 +10,7 @@
 #include "asdf_vk/error.h"
 #include "asdf_vk/session.h"
 #include "generate/shapes.h"
-#include "pipeline/result.h"
+#include "pipeline/input_face_values.h"
 #include "segment/cgal_postprocess.h"
 #include "segment/cgal_segmentation.h"
 #include "support/quad_cubes.h"

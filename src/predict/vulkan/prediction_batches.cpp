@@ -7,15 +7,15 @@
 
 namespace asdfvk {
 
-PredictionBatches::PredictionBatches(const PredictionTask& task)
-    : task_(task),
-      hasEarlierSeeds_(task.hits.seeds.size(), 0),
-      faceCounts_(task.hits.seeds.size(), 0),
-      placeOf_(task.hits.seeds.size(), kNoSeed) {
-  forEachInParallel(task.order.size(), [&](size_t i) {
-    const uint32_t cell = task.order[i];
-    const std::span<const uint32_t> faces = task.cells.faces[cell];
-    hasEarlierSeeds_[cell] = task.hasEarlierSeeds(cell) ? 1 : 0;
+PredictionBatches::PredictionBatches(const PredictionInput& input)
+    : input_(input),
+      hasEarlierSeeds_(input.hits.seeds.size(), 0),
+      faceCounts_(input.hits.seeds.size(), 0),
+      placeOf_(input.hits.seeds.size(), kNoSeed) {
+  forEachInParallel(input.order.size(), [&](size_t i) {
+    const uint32_t cell = input.order[i];
+    const std::span<const uint32_t> faces = input.cells.faces[cell];
+    hasEarlierSeeds_[cell] = input.hasEarlierSeeds(cell) ? 1 : 0;
     faceCounts_[cell] = static_cast<uint32_t>(
         hasEarlierSeeds_[cell] ? std::ranges::count_if(faces, [&](uint32_t face) { return !isKept(face); })
                                : static_cast<std::ptrdiff_t>(faces.size()));
@@ -25,8 +25,8 @@ PredictionBatches::PredictionBatches(const PredictionTask& task)
 
 bool PredictionBatches::next(const PredictionBatchSize& size) {
   finishBatch();
-  for (; nextCell_ < task_.order.size(); ++nextCell_, nextFace_ = 0) {
-    const uint32_t cell = task_.order[nextCell_];
+  for (; nextCell_ < input_.order.size(); ++nextCell_, nextFace_ = 0) {
+    const uint32_t cell = input_.order[nextCell_];
     if (faceCounts_[cell] == 0) continue;
     if (batchFaceCount_ == size.maxFaceCount || seeds_.size() + kMaxContributingSeedCount > size.maxSeedCount) break;
     addSeeds(cell);
@@ -49,7 +49,7 @@ void PredictionBatches::finishBatch() {
 }
 
 void PredictionBatches::addSeeds(uint32_t cell) {
-  for (const uint32_t seed : task_.nearest.of(cell)) {
+  for (const uint32_t seed : input_.nearest.of(cell)) {
     if (placeOf_[seed] != kNoSeed) continue;
     placeOf_[seed] = static_cast<uint32_t>(seeds_.size());
     seeds_.push_back(seed);
@@ -58,7 +58,7 @@ void PredictionBatches::addSeeds(uint32_t cell) {
 
 template <typename Visit>
 void PredictionBatches::forEachFace(const Part& part, const Visit& visit) const {
-  const std::span<const uint32_t> faces = task_.cells.faces[part.cell];
+  const std::span<const uint32_t> faces = input_.cells.faces[part.cell];
   if (faceCounts_[part.cell] == faces.size()) {
     std::ranges::for_each(faces.subspan(part.firstFace, part.faceCount), visit);
     return;
@@ -82,7 +82,7 @@ void PredictionBatches::write(std::span<uint32_t> work) const {
     const std::span<uint32_t> seeds =
         work.subspan(2 * batchFaceCount_ + i * kMaxContributingSeedCount, kMaxContributingSeedCount);
     std::ranges::fill(seeds, kNoSeed);
-    std::ranges::transform(task_.nearest.of(part.cell), seeds.begin(), [&](uint32_t seed) { return placeOf_[seed]; });
+    std::ranges::transform(input_.nearest.of(part.cell), seeds.begin(), [&](uint32_t seed) { return placeOf_[seed]; });
   });
 }
 

@@ -14,17 +14,17 @@ struct PredictionBatchSize {
   size_t maxSeedCount = 0, maxFaceCount = 0;  ///< At least kMaxContributingSeedCount and 1.
 };
 
-/// The faces of a task without those whose earlier values are kept, in batches of cells that are close in space, with
+/// The faces of an input without those whose earlier values are kept, in batches of cells that are close in space, with
 /// the seeds that contribute to them.
 class PredictionBatches {
  public:
-  /// The task must outlive it.
-  explicit PredictionBatches(const PredictionTask& task);
+  /// The input must outlive it.
+  explicit PredictionBatches(const PredictionInput& input);
 
   /// Whether the earlier value of a face in a cell is kept.
   [[nodiscard]] bool isKept(uint32_t face) const {
-    const uint32_t cell = task_.cells.cellOf[face];
-    return hasEarlierSeeds_[cell] && task_.earlier.cellOf[face] == cell;
+    const uint32_t cell = input_.cells.cellOf[face];
+    return hasEarlierSeeds_[cell] && input_.earlier.cellOf[face] == cell;
   }
   /// Share of the faces that were in batches.
   [[nodiscard]] double progress() const {
@@ -52,11 +52,11 @@ class PredictionBatches {
   template <typename Visit>
   void forEachFace(const Part& part, const Visit& visit) const;
 
-  const PredictionTask& task_;
+  const PredictionInput& input_;
   std::vector<uint8_t> hasEarlierSeeds_;  // Per cell.
   std::vector<uint32_t> faceCounts_;      // Per cell.
   size_t faceCount_ = 0, doneCount_ = 0;
-  size_t nextCell_ = 0;  // Index in the order of the task.
+  size_t nextCell_ = 0;  // Index in the order of the input.
   uint32_t nextFace_ = 0;
 
   std::vector<Part> parts_;

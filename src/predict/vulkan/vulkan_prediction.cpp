@@ -102,19 +102,19 @@ class VulkanPredictor final : public DevicePredictor {
 
   HitStore* hitStore() override { return &store_; }
 
-  void predict(const PredictionTask& task, std::span<double> values, const RunControl& control) override {
-    if (task.options.neighbourCount >= kMaxContributingSeedCount)
+  void predict(const PredictionInput& input, std::span<double> values, const RunControl& control) override {
+    if (input.options.neighbourCount >= kMaxContributingSeedCount)
       throw Error(ErrorCode::DeviceLimit, fmt::format("{} neighbouring seeds per face are too many; give 0 to {}",
-                                                      task.options.neighbourCount, kMaxContributingSeedCount - 1));
-    if (task.order.empty()) return;
-    PredictionBatches batches(task);
-    predictBatches(task, batches, control);
+                                                      input.options.neighbourCount, kMaxContributingSeedCount - 1));
+    if (input.order.empty()) return;
+    PredictionBatches batches(input);
+    predictBatches(input, batches, control);
     std::vector<uint32_t> lengths(values.size());
     downloadBuffer(kernels_.device(), values_, std::as_writable_bytes(std::span(lengths)));
     forEachInParallel(values.size(), [&](uint32_t face) {
-      if (task.cells.cellOf[face] == kNoCell) return;
+      if (input.cells.cellOf[face] == kNoCell) return;
       const double length = lengths[face] == kNoValueBits ? kNoValue : std::bit_cast<float>(lengths[face]);
-      values[face] = batches.isKept(face) ? task.earlier.values[face] : scene_.bvh.normalization.toMeshLength(length);
+      values[face] = batches.isKept(face) ? input.earlier.values[face] : scene_.bvh.normalization.toMeshLength(length);
     });
   }
 
@@ -142,10 +142,10 @@ class VulkanPredictor final : public DevicePredictor {
   };
 
   /// Small meshes need little.
-  void reserve(const PredictionTask& task) {
+  void reserve(const PredictionInput& input) {
     const size_t seedCount =
-        std::min(batchSize_.maxSeedCount, std::max<size_t>(kMaxContributingSeedCount, task.hits.seeds.size()));
-    const size_t faceCount = std::min(batchSize_.maxFaceCount, task.cells.cellOf.size());
+        std::min(batchSize_.maxSeedCount, std::max<size_t>(kMaxContributingSeedCount, input.hits.seeds.size()));
+    const size_t faceCount = std::min(batchSize_.maxFaceCount, input.cells.cellOf.size());
     if (memory_ && memory_->seedCount >= seedCount && memory_->faceCount >= faceCount) return;
     memory_.reset();
     memory_.emplace(kernels_, faces_, values_, seedCount, faceCount);
@@ -154,10 +154,10 @@ class VulkanPredictor final : public DevicePredictor {
       rays[i] = {toGlsl(cone_.directions[i]), static_cast<float>(cone_.solidAngles[i])};
   }
 
-  void predictBatches(const PredictionTask& task, PredictionBatches& batches, const RunControl& control) {
-    const bool isStored = task.hits.hits.empty();
-    if (isStored) ASDFVK_CHECK_OP(store_.seedCount(), ==, task.hits.seeds.size());
-    reserve(task);
+  void predictBatches(const PredictionInput& input, PredictionBatches& batches, const RunControl& control) {
+    const bool isStored = input.hits.hits.empty();
+    if (isStored) ASDFVK_CHECK_OP(store_.seedCount(), ==, input.hits.seeds.size());
+    reserve(input);
     if (!isStored && !memory_->hits)
       memory_->hits.emplace(kernels_.device(), memory_->seedCount * kernels_.rayCount() * sizeof(ConeHit), kStorage,
                             SharedBuffer::Host::Writes);
@@ -167,30 +167,30 @@ class VulkanPredictor final : public DevicePredictor {
     ChunkSize size(std::max<size_t>(1, kFirstBatchRayCount / kernels_.rayCount()), memory_->faceCount);
     while (batches.next({memory_->seedCount, size.current()})) {
       control.checkpoint(batches.progress());
-      writeSeeds(task, batches.seeds());
+      writeSeeds(input, batches.seeds());
       batches.write(memory_->work.onHost<uint32_t>());
       const Stopwatch stopwatch;
-      dispatch(task, batches, pointBindings);
+      dispatch(input, batches, pointBindings);
       size.adapt(batches.faceCount(), stopwatch.seconds());
     }
     control.checkpoint(1);
   }
 
-  void writeSeeds(const PredictionTask& task, std::span<const uint32_t> seeds) {
+  void writeSeeds(const PredictionInput& input, std::span<const uint32_t> seeds) {
     const size_t rayCount = kernels_.rayCount();
     const std::span<std::byte> table = memory_->table.onHost<std::byte>().subspan(rayCount * sizeof(PredictionRay));
-    const bool isStored = task.hits.hits.empty();
+    const bool isStored = input.hits.hits.empty();
     const std::span<ConeHit> hits = isStored ? std::span<ConeHit>{} : memory_->hits->onHost<ConeHit>();
     forEachInParallel(seeds.size(), [&](uint32_t i) {
-      const uint32_t face = task.hits.seeds[seeds[i]];
+      const uint32_t face = input.hits.seeds[seeds[i]];
       const auto firstHit = static_cast<uint32_t>((isStored ? seeds[i] : i) * rayCount);
       const PredictionSeed seed{toGlsl(seedConeFrame(scene_, cone_, face).tangent), face, firstHit, 0, 0, 0};
       std::memcpy(&table[i * sizeof seed], &seed, sizeof seed);
-      if (!isStored) std::ranges::copy(task.hits.of(seeds[i]), hits.begin() + firstHit);
+      if (!isStored) std::ranges::copy(input.hits.of(seeds[i]), hits.begin() + firstHit);
     });
   }
 
-  void dispatch(const PredictionTask& task, const PredictionBatches& batch, const BindingSet& pointBindings) {
+  void dispatch(const PredictionInput& input, const PredictionBatches& batch, const BindingSet& pointBindings) {
     const auto seedCount = static_cast<uint32_t>(batch.seeds().size());
     const PointPush pointPush{static_cast<float>(cone_.falseHitCosine), static_cast<float>(cone_.outliers.deviations)};
     const PredictionPush push{static_cast<uint32_t>(batch.faceCount()),
@@ -200,11 +200,11 @@ class VulkanPredictor final : public DevicePredictor {
                               rules_.minVersine,
                               rules_.outlierDeviations,
                               rules_.outlierSlack,
-                              static_cast<float>(task.options.distanceDeviation)};
+                              static_cast<float>(input.options.distanceDeviation)};
     commands_.begin();
     memory_->table.recordCopy(commands_,
                               kernels_.rayCount() * sizeof(PredictionRay) + seedCount * sizeof(PredictionSeed));
-    if (!task.hits.hits.empty())
+    if (!input.hits.hits.empty())
       memory_->hits->recordCopy(commands_, uint64_t{seedCount} * kernels_.rayCount() * sizeof(ConeHit));
     memory_->work.recordCopy(
         commands_, (2 * batch.faceCount() + kMaxContributingSeedCount * batch.cellCount()) * sizeof(uint32_t));

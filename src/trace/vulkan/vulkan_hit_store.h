@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "trace/traced_seeds.h"
+#include "trace/seed_hits.h"
 #include "vk/command_list.h"
 #include "vk/compute_pipeline.h"
 #include "vk/device.h"

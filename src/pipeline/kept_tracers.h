@@ -13,7 +13,7 @@
 namespace asdfvk {
 
 /// A tracer with the cone that it refers to.
-struct SceneTracer {
+struct KeptTracer {
   ConeOptions options;
   Cone cone;
   TracerNeeds needs;
@@ -22,26 +22,26 @@ struct SceneTracer {
 };
 
 /// The tracers of one scene. The last ones used are kept, because making one encodes and uploads the hierarchy.
-class SceneTracers {
+class KeptTracers {
  public:
   /// Backend and scene must outlive it and all tracers. capacity: number of tracers to keep.
-  SceneTracers(Backend& backend, const TraceScene& scene, size_t capacity)
+  KeptTracers(Backend& backend, const TraceScene& scene, size_t capacity)
       : backend_(backend), scene_(scene), capacity_(capacity) {}
 
   [[nodiscard]] const Backend& backend() const { return backend_; }
   /// A tracer for these cones: a kept one that serves the needs, or a new one. Creation is charged to the clock. Throws
   /// as makeCone(), and Error{Device}.
-  [[nodiscard]] std::shared_ptr<SceneTracer> get(const ConeOptions& options, const TracerNeeds& needs,
-                                                 StageClock& clock);
+  [[nodiscard]] std::shared_ptr<KeptTracer> get(const ConeOptions& options, const TracerNeeds& needs,
+                                                StageClock& clock);
 
  private:
-  [[nodiscard]] std::shared_ptr<SceneTracer> make(const ConeOptions& options, const TracerNeeds& needs,
-                                                  StageClock& clock) const;
+  [[nodiscard]] std::shared_ptr<KeptTracer> make(const ConeOptions& options, const TracerNeeds& needs,
+                                                 StageClock& clock) const;
 
   Backend& backend_;
   TraceScene scene_;
   size_t capacity_;
-  std::vector<std::shared_ptr<SceneTracer>> kept_;  // The last used first; each has other options.
+  std::vector<std::shared_ptr<KeptTracer>> kept_;  // The last used first; each has other options.
 };
 
 /// Stage of creating and releasing a tracer: without Vulkan nothing is uploaded.

@@ -1,12 +1,11 @@
-#include "pipeline/scene_tracers.h"
+#include "pipeline/kept_tracers.h"
 
 #include <algorithm>
 #include <utility>
 
 namespace asdfvk {
 
-std::shared_ptr<SceneTracer> SceneTracers::get(const ConeOptions& options, const TracerNeeds& needs,
-                                               StageClock& clock) {
+std::shared_ptr<KeptTracer> KeptTracers::get(const ConeOptions& options, const TracerNeeds& needs, StageClock& clock) {
   const auto found =
       std::find_if(kept_.begin(), kept_.end(), [&](const auto& entry) { return entry->options == options; });
   if (found != kept_.end()) {
@@ -22,9 +21,9 @@ std::shared_ptr<SceneTracer> SceneTracers::get(const ConeOptions& options, const
   return kept_.front();
 }
 
-std::shared_ptr<SceneTracer> SceneTracers::make(const ConeOptions& options, const TracerNeeds& needs,
-                                                StageClock& clock) const {
-  auto made = std::make_shared<SceneTracer>(SceneTracer{options, makeCone(options), needs, nullptr});
+std::shared_ptr<KeptTracer> KeptTracers::make(const ConeOptions& options, const TracerNeeds& needs,
+                                              StageClock& clock) const {
+  auto made = std::make_shared<KeptTracer>(KeptTracer{options, makeCone(options), needs, nullptr});
   const Stage stage = setUpStage(backend_);
   {
     const auto scope = clock.time(stage);

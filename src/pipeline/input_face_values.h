@@ -1,13 +1,12 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
-#include <string>
 #include <utility>
 #include <vector>
 
 #include "asdf_vk/session.h"
 #include "mesh/mesh.h"
-#include "pipeline/face_domain.h"
 
 namespace asdfvk {
 
@@ -28,25 +27,11 @@ namespace asdfvk {
 [[nodiscard]] std::vector<uint32_t> labelsOfInputFaces(const TriangleMesh& mesh, std::span<const uint32_t> labels,
                                                        std::span<const double> areas);
 
-/// The same for segments: numbers that no input face has are removed, and the others keep their order.
+/// labelsOfInputFaces() of segments: numbers that no input face has are removed, and the others keep their order.
 [[nodiscard]] std::vector<uint32_t> segmentsOfInputFaces(const TriangleMesh& mesh, std::span<const uint32_t> segments,
                                                          std::span<const double> areas);
 
-/// Of the numbers other than kNoSegment, which begin at 0.
+/// The number of segments, which are numbered from 0; kNoSegment is none.
 [[nodiscard]] uint32_t countSegments(std::span<const uint32_t> segments);
-
-/// Skeleton points of input faces: c - n sdf / 2, the middle of the shape below the face. c and n are the barycentre
-/// and the normal of a triangle; of a polygon, the means over its triangles weighted by area, n scaled to length 1.
-/// sdf: #I. Returns 3 #I: x, y, z; NaN where there is no value or no normal (all triangles of zero area).
-[[nodiscard]] std::vector<double> centresOfInputFaces(const TriangleMesh& mesh, const FaceGeometry& geometry,
-                                                      std::span<const double> sdf);
-
-/// Number of input faces of the domain without a value. field: #I.
-[[nodiscard]] uint64_t countWithoutValue(const FaceDomain& domain, std::span<const double> field);
-
-/// Adds to the report: the range of the values, the number of missing values of the domain, warnings about values and
-/// solver. sdf: #I. values: #F. keepsMissing: see Computation.
-void describeValues(Report& report, const PreparedMesh& prepared, const FaceDomain& domain,
-                    const std::vector<double>& sdf, std::span<const double> values, bool keepsMissing);
 
 }  // namespace asdfvk

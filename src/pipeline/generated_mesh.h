@@ -18,8 +18,8 @@ namespace asdfvk {
 
 /// A generated mesh, prepared for tracers: tests of a device on it have the same outcome whatever the meshes of the
 /// user are.
-struct GeneratedScene {
-  explicit GeneratedScene(Mesh generated) : mesh(std::move(generated)) {}
+struct GeneratedMesh {
+  explicit GeneratedMesh(Mesh generated) : mesh(std::move(generated)) {}
 
   Mesh mesh;
   StageSeconds seconds;

@@ -1,4 +1,4 @@
-#include "pipeline/generated_scene.h"
+#include "pipeline/generated_mesh.h"
 
 #include <algorithm>
 #include <cmath>
