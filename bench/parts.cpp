@@ -70,7 +70,7 @@ std::vector<uint32_t> idsIn(const fs::path& folder) {
 
 struct Score {
   double error = 0, seconds = 0;
-  SegmentationReport report;
+  Report report;
 };
 
 Score scoreOf(Session& session, const Model& model, const std::string& seeds, const Arguments& arguments,
@@ -82,7 +82,7 @@ Score scoreOf(Session& session, const Model& model, const std::string& seeds, co
   options.parts.detail = arguments.detail;
   const Result result = session.compute(model.mesh, options, control);
   const auto& labels = std::get<std::vector<uint32_t>>(result.field("segment")->values);
-  Score score{0, result.report.stageSeconds[Stage::Segment], *result.report.segmentation};
+  Score score{0, result.report.stageSeconds[Stage::Segment], result.report};
   for (const std::vector<uint32_t>& human : model.humans) score.error += 1 - randIndex(labels, human);
   score.error /= static_cast<double>(model.humans.size());
   return score;
@@ -111,8 +111,8 @@ struct Mean {
 void printModel(uint32_t id, const std::string& seeds, const Score& score) {
   const PartsReport& parts = *score.report.parts;
   writeOutput(fmt::format("{:>4} {:>4}  error {:.4f}  parts {:>3} ({} to {})  agreement {:.3f}  thin {}  {:.3f} s\n",
-                          id, seeds, score.error, score.report.segmentCount, parts.fewestCount, parts.mostCount,
-                          parts.agreement.value_or(kNoValue), parts.isThinShell ? 1 : 0, score.seconds));
+                          id, seeds, score.error, *score.report.segmentCount, parts.fewestCount, parts.mostCount,
+                          parts.agreement.value_or(kNoValue), parts.thinShell ? 1 : 0, score.seconds));
 }
 
 void run(const Arguments& arguments, const RunControl& control) {

@@ -43,8 +43,8 @@ class ASDFVK_API Scene {
   /// region: #I, nonzero = inside; empty: the whole mesh. Seeds are chosen inside, and a share of seeds is a share of
   /// these faces; rays hit the whole mesh; the Poisson equation has the faces inside and the edges between them. Real
   /// fields are NaN outside, flags 0. The report counts the faces inside (seeds, missing values, ranges, thin regions
-  /// and their areas), except that faceCount, triangleCount, vertexCount, componentCount, defects, reversedFaces and
-  /// the warnings about defects and orientation are of the whole mesh. A region of all faces gives the same bits as
+  /// and their areas), except that faceCount, triangleCount, vertexCount, componentCount, defects, reversedFaceCount
+  /// and the warnings about defects and orientation are of the whole mesh. A region of all faces gives the same bits as
   /// none. Throws Error{ArraySize} for another size than #I, Error{EmptyMesh} for a region without a face,
   /// Error{OptionConflict} with post-processing or segmentation, which need the whole mesh.
   [[nodiscard]] Result compute(const Options& options = {}, std::span<const uint8_t> region = {},

@@ -34,7 +34,7 @@ inline constexpr uint32_t kNoSegment = 0xffffffff;
 /// The thin parts of the surface as triangles, in the unit of the mesh: thin faces, or parts of large ones.
 struct ThinSurface {
   std::vector<std::array<Vec3d, 3>> triangles;
-  std::vector<uint32_t> regions;  ///< One per triangle: index in ThicknessReport::thinRegions.
+  std::vector<uint32_t> regions;  ///< One per triangle: index in ThicknessReport::regions.
 };
 
 /// Result of a computation. Fields: "sdf" (the shape diameter in the unit of the mesh), "seed" (1 where rays were
@@ -47,7 +47,8 @@ struct ThinSurface {
 struct Result {
   std::vector<Field> fields;
   Report report;
-  ThinSurface thinSurface;  ///< Empty without ThicknessOptions::thinnerThan.
+  std::vector<uint64_t> reversedFaces;  ///< Input faces that Options::orientation reversed, ascending.
+  ThinSurface thinSurface;              ///< Empty without ThicknessOptions::thinnerThan.
   /// Geometry and hierarchy of the mesh, opaque; set with Options::keepsScene.
   std::shared_ptr<const struct SceneData> scene;
 

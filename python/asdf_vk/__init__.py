@@ -22,7 +22,7 @@ from ._errors import (
 )
 from ._files import Fields, Mesh, read_fields, read_mesh, write
 from ._functions import segment, shape_diameter, skeleton_points, thickness
-from ._report import Info
+from ._info import Info
 from ._scene import Scene
 from ._session import Device, Session, close_default_sessions, devices
 

@@ -9,8 +9,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _core, _measures
 from ._arrays import mesh_argument
+from ._info import Info
 from ._options import FunctionOptions, Progress
-from ._report import Info
 from ._session import session_of
 
 if TYPE_CHECKING:

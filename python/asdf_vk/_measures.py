@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from . import _core
 from ._errors import MeshWarning, error_of
+from ._info import info_of
 from ._options import ComputeOptions, Progress, checked_progress
-from ._report import Info, info_of
 from ._session import flag_of
 
 _STACK_LEVEL = 4  # The caller of the public function.
@@ -21,13 +21,6 @@ class Target(Protocol):
     """A mesh on a session."""
 
     def compute(self, options: dict[str, Any], progress: Progress | None) -> _core.ComputedFields: ...
-
-
-def _info(computed: _core.ComputedFields) -> Info:
-    def arrays(per_vertex: bool) -> dict[str, NDArray[Any]]:
-        return {name: computed.array(name, per_vertex, True) for name in computed.names(per_vertex)}
-
-    return info_of(computed.report(), arrays(False), arrays(True))
 
 
 def split_progress(options: dict[str, Any], allowed: Collection[str]) -> Progress | None:
@@ -44,7 +37,7 @@ def _computed(target: Target, options: dict[str, Any], implied: dict[str, Any]) 
     progress = split_progress(options, ComputeOptions.__annotations__)
     computed = target.compute({**options, **implied}, progress)
     for warning in computed.warnings():
-        warnings.warn(MeshWarning(warning["message"], warning["code"]), stacklevel=_STACK_LEVEL)
+        warnings.warn(MeshWarning(warning.message, warning.code), stacklevel=_STACK_LEVEL)
     return computed
 
 
@@ -61,7 +54,7 @@ def shape_diameter(target: Target, per: str | None, return_info: bool | None, op
     returns_info = flag_of(return_info, "return_info")
     computed = _computed(target, options, {"per": per})
     values = computed.array("sdf", per_vertex, True)
-    return (values, _info(computed)) if returns_info else values
+    return (values, info_of(computed)) if returns_info else values
 
 
 def thickness_options(
@@ -82,7 +75,7 @@ def thickness(
     returns_info = flag_of(return_info, "return_info")
     computed = _computed(target, options, {"measure": "thickness", **of_measure, "per": per})
     values = computed.array("thickness", per_vertex, True)
-    return (values, _info(computed)) if returns_info else values
+    return (values, info_of(computed)) if returns_info else values
 
 
 _METHOD_OF = {"parts": "parts", "detail": "parts", "clusters": "cgal", "smoothness": "cgal", "expansion": "cgal"}
@@ -121,7 +114,7 @@ def segment(
             raise error_of("optionConflict", f"{name} belongs to method={_METHOD_OF[name]!r}, not {method!r}")
     computed = _computed(target, options, {"segmentation": method, **of_method})
     labels = computed.array("segment", False, True)
-    return (labels, _info(computed)) if returns_info else labels
+    return (labels, info_of(computed)) if returns_info else labels
 
 
 def skeleton_points(target: Target, return_info: bool | None, options: dict[str, Any]) -> Any:
@@ -129,4 +122,4 @@ def skeleton_points(target: Target, return_info: bool | None, options: dict[str,
     computed = _computed(target, options, {"centres": True})
     points = computed.array("centre", False, True)
     radii = computed.array("sdf", False, True) / np.float32(2)
-    return (points, radii, _info(computed)) if returns_info else (points, radii)
+    return (points, radii, info_of(computed)) if returns_info else (points, radii)

@@ -10,8 +10,8 @@ from numpy.typing import ArrayLike, NDArray
 from . import _core, _measures
 from ._arrays import mask_array, mesh_argument, pairs_array
 from ._errors import error_of
+from ._info import Info
 from ._options import BackendOptions, ConeOptions, PointOptions, Progress, SceneOptions, checked_progress
-from ._report import Info
 from ._session import session_of
 
 if TYPE_CHECKING:

@@ -13,12 +13,12 @@ namespace asdfvk::python {
 /// Bytes that are not UTF-8, as in names of files, become surrogates, as by os.fsdecode().
 [[nodiscard]] pybind11::str textOf(const std::string& text);
 
-/// The report as a dictionary with the fields of asdf_vk.Report, nested ones as dictionaries. Unset ones are None.
-[[nodiscard]] pybind11::dict dictOf(const Report& report);
-
-/// Dictionaries with code, message and details.
-[[nodiscard]] pybind11::list listOf(const std::vector<Warning>& warnings);
-
 [[nodiscard]] pybind11::dict dictOf(const std::vector<ErrorDetail>& details);
+
+/// The report as asdf_vk._report.Report.
+[[nodiscard]] pybind11::object reportOf(const Report& report);
+
+/// A tuple of asdf_vk._report.Warning.
+[[nodiscard]] pybind11::object warningsOf(const Report& report);
 
 }  // namespace asdfvk::python

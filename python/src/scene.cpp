@@ -113,15 +113,21 @@ void bindScenes(py::module_& module) {
                if ((field.location == FieldLocation::PerVertex) == perVertex) names.push_back(field.name);
              return names;
            })
-      .def("array",
-           [](const ComputedFields& self, const std::string& name, bool perVertex, bool single) {
-             const Field* field =
-                 findField(self.fields(), name, perVertex ? FieldLocation::PerVertex : FieldLocation::PerFace);
-             if (field == nullptr) throw Error(ErrorCode::UnknownField, "the result has no field '" + name + "'");
-             return arrayOf(*field, single);
-           })
-      .def("warnings", [](const ComputedFields& self) { return listOf(self.report().warnings); })
-      .def("report", [](const ComputedFields& self) { return dictOf(self.report()); });
+      .def(
+          "array",
+          [](const ComputedFields& self, const std::string& name, bool perVertex, bool single) {
+            const Field* field =
+                findField(self.fields(), name, perVertex ? FieldLocation::PerVertex : FieldLocation::PerFace);
+            if (field == nullptr) throw Error(ErrorCode::UnknownField, "the result has no field '" + name + "'");
+            return arrayOf(*field, single);
+          },
+          py::arg("name"), py::arg("per_vertex") = false, py::arg("single") = true)
+      .def("warnings", [](const ComputedFields& self) { return warningsOf(self.report()); })
+      .def("report", [](const ComputedFields& self) { return reportOf(self.report()); })
+      .def("reversed_faces", [](const ComputedFields& self) {
+        const std::vector<uint64_t>& faces = self.reversedFaces();
+        return asArray(std::vector<int64_t>(faces.begin(), faces.end()));
+      });
 
   py::class_<SharedSession, std::shared_ptr<SharedSession>>(module, "Session")
       .def(py::init([](const std::string& backend, const std::string& device, bool requireGpu, uint32_t threadCount) {

@@ -20,6 +20,7 @@ class ComputedFields {
 
   [[nodiscard]] const std::vector<Field>& fields() const { return result_.fields; }
   [[nodiscard]] const Report& report() const { return result_.report; }
+  [[nodiscard]] const std::vector<uint64_t>& reversedFaces() const { return result_.reversedFaces; }
 
  private:
   Result result_;

@@ -14,7 +14,7 @@ import pytest
 from numpy.typing import NDArray
 
 import asdf_vk
-from asdf_vk import _arrays, _core, _options, _report
+from asdf_vk import _core, _options, _report
 from shapes import cube, dumbbell, joined, sphere
 
 
@@ -59,7 +59,7 @@ def test_the_verdict_of_the_thickness() -> None:
     for seeds in given:
         np.testing.assert_array_equal(asdf_vk.thickness(vertices * [60, 1, 20], faces, seeds=seeds), values)
     sound = asdf_vk.thickness(vertices, faces, thinner_than=0.5, allow_sharp_edges=True, return_info=True)[1].thickness
-    assert sound is not None and sound.verdict == "passed" and sound.regions == () and sound.allow_sharp_edges
+    assert sound is not None and sound.verdict == "passed" and sound.regions == () and sound.allows_sharp_edges
     unlimited = asdf_vk.thickness(vertices, faces, return_info=True)[1].thickness
     assert unlimited is not None and unlimited.verdict is None and unlimited.thinner_than is None
 
@@ -129,12 +129,10 @@ def test_options_reach_the_library() -> None:
     assert asdf_vk.shape_diameter(*mesh, random_seed=None, return_info=True)[1].random_seed == 1
 
 
-def test_names_of_options_and_of_the_report_agree_with_the_extension() -> None:
+def test_names_of_options_agree_with_the_extension() -> None:
     implied = {"segmentation", "parts", "detail", "clusters", "smoothness", "expansion", "postprocess"}
     implied |= {"measure", "wall_angle", "thinner_than", "allow_sharp_edges", "centres", "per"}
     assert set(_options.ComputeOptions.__annotations__) == set(_core.option_names()) - implied
-    computed = asdf_vk.Session(backend="reference")._compute(_arrays.mesh_argument(*cube()), {"check": 1}, None)
-    assert set(computed.report()) | {"fields", "vertex_fields"} == set(_report.field_names(_report.Info))
 
 
 @pytest.mark.parametrize("limit", [0.3, 5])
@@ -142,7 +140,11 @@ def test_the_thickness_report_is_that_of_the_program(program: Path, tmp_path: Pa
     path = tmp_path / "dumbbell.ply"
     asdf_vk.write(path, dumbbell())
     command: list[Any] = [program, path, "-o", tmp_path / "result.npy", "--quiet", "--json", "--thinner-than", str(limit)]
-    document = json.loads(subprocess.run(command, check=True, capture_output=True).stdout)["thickness"]
+    printed = json.loads(subprocess.run(command, check=True, capture_output=True).stdout)
+    of_program = {"mesh", "output", "picture", "points", "fields", "version", "commit", "options"}
+    snake = {re.sub(r"(?=[A-Z])", "_", key).lower() for key in printed.keys() - of_program}
+    assert snake == {field.name for field in dataclasses.fields(_report.Report)}
+    document = printed["thickness"]
     ours = asdf_vk.thickness(asdf_vk.read_mesh(path), thinner_than=limit, return_info=True)[1].thickness
     assert ours is not None and document["regions"]
 

@@ -40,8 +40,7 @@ struct MeshRecord {
   std::vector<std::pair<std::string, double>> seconds;  ///< Name and time of each stage that ran.
   double totalSeconds = 0;                              ///< From the start of reading to the end of writing.
   uint64_t peakMemoryBytes = 0;
-  /// The keys average, standardError, relativeMedian and relativePercentile90 of that of the JSON report, or null.
-  SharedJson estimatedError;
+  SharedJson estimatedError;  ///< The key of the JSON report.
   std::optional<uint32_t> segmentCount;
   std::vector<std::string> warnings;  ///< The codes of the warnings.
   MeshStatus status = MeshStatus::Done;

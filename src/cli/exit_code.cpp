@@ -115,9 +115,7 @@ ExitCode SharedExitCode::code() const {
   return hasResult_ && lacksResult_ ? ExitCode::SomeFailed : first_;
 }
 
-ExitCode exitCodeOf(const CheckReport& check) {
-  return check.passed || !check.isIndependent ? ExitCode::Done : ExitCode::CheckFailed;
-}
+ExitCode exitCodeOf(const CheckReport& check) { return check.passed == false ? ExitCode::CheckFailed : ExitCode::Done; }
 
 ExitCode exitCodeOf(const ThicknessReport& thickness) {
   if (thickness.verdict == ThicknessVerdict::Passed) return ExitCode::Done;

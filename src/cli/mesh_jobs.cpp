@@ -18,14 +18,6 @@
 namespace asdfvk {
 namespace {
 
-SharedJson shortEstimateOf(const std::optional<ErrorEstimate>& estimate) {
-  if (!estimate) return nullptr;
-  return std::make_shared<const Json>(Json{{"average", number(estimate->average)},
-                                           {"standardError", number(estimate->standardError)},
-                                           {"relativeMedian", number(estimate->relativeMedian)},
-                                           {"relativePercentile90", number(estimate->relativePercentile90)}});
-}
-
 void fillRecord(MeshRecord& record, const Report& report) {
   record.faceCount = report.faceCount;
   record.device = report.device;
@@ -33,8 +25,8 @@ void fillRecord(MeshRecord& record, const Report& report) {
   for (size_t i = 0; i < kStageCount; ++i)
     if (const double seconds = report.stageSeconds.seconds[i]; seconds > 0)
       record.seconds.emplace_back(nameOf(static_cast<Stage>(i)), seconds);
-  record.estimatedError = shortEstimateOf(report.estimatedError);
-  if (report.segmentation) record.segmentCount = report.segmentation->segmentCount;
+  if (report.estimatedError) record.estimatedError = std::make_shared<const Json>(toJson(*report.estimatedError));
+  record.segmentCount = report.segmentCount;
   for (const Warning& warning : report.warnings) record.warnings.emplace_back(nameOf(warning.code));
 }
 

@@ -136,7 +136,7 @@ class MeshFiles {
   /// Precondition: the output is no page.
   void writeResult(Mesh& mesh, const Options& options, const Result& result) const {
     const WriteOptions writing = writeOptionsOf(settings_.outputs, options);
-    flipInputFaces(mesh, result.report.reversedFaces);  // The scene of the result has its own copy.
+    flipInputFaces(mesh, result.reversedFaces);  // The scene of the result has its own copy.
     const AwaitedReader reader(output_, stop_);
     asdfvk::writeResult(output_, mesh, writableFields(writing, options.per, output_, result.fields), writing);
   }

@@ -91,8 +91,7 @@ std::string errorSentenceOf(const Result& result) {
 std::optional<PageThinPlaces> thinPlacesOf(const Result& result) {
   const std::optional<ThicknessReport>& thickness = result.report.thickness;
   if (!thickness || !thickness->thinnerThan) return std::nullopt;
-  return PageThinPlaces{*thickness->thinnerThan, nameOf(*thickness->verdict), thickness->thinRegions,
-                        result.thinSurface};
+  return PageThinPlaces{*thickness->thinnerThan, nameOf(*thickness->verdict), thickness->regions, result.thinSurface};
 }
 
 /// None where the page does not show them.

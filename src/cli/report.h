@@ -58,6 +58,9 @@ using ReportRows = std::vector<std::pair<std::string, std::string>>;
 /// One line of JSON with the keys of docs/formats.md.
 [[nodiscard]] std::string jsonReport(const MeshOutcome& outcome);
 
+/// As the key "estimatedError" of the report.
+[[nodiscard]] nlohmann::ordered_json toJson(const ErrorEstimate& estimate);
+
 /// One line with the keys "mesh", "error" and "code".
 [[nodiscard]] std::string jsonFailure(const std::string& mesh, const std::string& code, const std::string& message);
 

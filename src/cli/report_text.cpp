@@ -90,11 +90,12 @@ std::string areaText(std::vector<double> shares) {
   return text;
 }
 
-ReportRows segmentRows(const SegmentationReport& segmentation, const Options& options) {
-  if (!segmentation.parts)
-    return {{"segments", fmt::format("{} from {} clusters, smoothness {:g}", groupDigits(segmentation.segmentCount),
+ReportRows segmentRows(const Report& report, const Options& options) {
+  const std::string count = groupDigits(*report.segmentCount);
+  if (!report.parts)
+    return {{"segments", fmt::format("{} from {} clusters, smoothness {:g}", count,
                                      options.cgalSegmentation.clusterCount, options.cgalSegmentation.smoothness)}};
-  const PartsReport& parts = *segmentation.parts;
+  const PartsReport& parts = *report.parts;
   const std::string range = parts.fewestCount == parts.mostCount
                                 ? groupDigits(parts.fewestCount)
                                 : groupDigits(parts.fewestCount) + " to " + groupDigits(parts.mostCount);
@@ -104,8 +105,7 @@ ReportRows segmentRows(const SegmentationReport& segmentation, const Options& op
           ? fmt::format("if the cost limit changes by {:.0f} %", 100 * (kPartStabilityFactor - 1))
           : fmt::format("at --detail {:.3g} to {:.3g}", detail / kPartStabilityFactor, detail * kPartStabilityFactor);
   const std::string agreement = parts.agreement ? fmt::format("; agreement {:.2f}", *parts.agreement) : "";
-  ReportRows rows{
-      {"parts", fmt::format("{}; {} {}{}", groupDigits(segmentation.segmentCount), range, when, agreement)}};
+  ReportRows rows{{"parts", fmt::format("{}; {} {}{}", count, range, when, agreement)}};
   if (parts.areaShares.size() > 1)
     rows.emplace_back("", fmt::format("of {} % of the area", areaText(parts.areaShares)));
   return rows;
@@ -126,7 +126,7 @@ std::string estimateRow(const Report& report) {
 }
 
 std::string tracedCheck(const CheckReport& check) {
-  if (!check.isIndependent) return "the reference traced the rays: nothing to compare";
+  if (!check.independent) return "the reference traced the rays: nothing to compare";
   if (check.tracedCount == 0) return "no face could be traced, so nothing was compared";
   const uint64_t withValue = check.tracedCount - check.noValueAgreeCount;
   if (withValue == 0)
@@ -151,7 +151,7 @@ std::string errorCheck(const CheckReport& check) {
 /// A GPU gains little where most of the time is not spent on rays. Estimated, not measured.
 bool isTooSmallForGpu(const Report& report) {
   constexpr uint64_t kFewRays = 10'000'000;
-  return report.traceVariant && !report.runsOnCpu && report.rayCount < kFewRays && isBackendBuilt("cpu");
+  return report.traceChoice && !report.runsOnCpu && report.rayCount < kFewRays && isBackendBuilt("cpu");
 }
 
 }  // namespace
@@ -171,7 +171,7 @@ ReportRows reportRows(const MeshOutcome& outcome) {
   rows.emplace_back("mesh", meshRow(report));
   rows.emplace_back("device",
                     fmt::format("{} on {}{}{}", report.backend, report.device,
-                                report.traceVariant ? kernelText(*report.traceVariant) : "",
+                                report.traceChoice ? kernelText(*report.traceChoice) : "",
                                 isTooSmallForGpu(report) ? "; so few rays may be faster with --backend cpu" : ""));
   rows.emplace_back("seeds", seedRow(outcome));
   rows.emplace_back("time", timeRow(report.stageSeconds));
@@ -181,7 +181,7 @@ ReportRows reportRows(const MeshOutcome& outcome) {
   if (report.postprocess)
     rows.emplace_back("smoothed", fmt::format("min {:.6g}, max {:.6g}, mapped to 0 and 1", report.postprocess->min,
                                               report.postprocess->max));
-  if (report.segmentation) append(segmentRows(*report.segmentation, outcome.computation.options));
+  if (report.segmentCount) append(segmentRows(report, outcome.computation.options));
   if (report.estimatedError) rows.emplace_back("error", estimateRow(report));
   if (report.check) {
     rows.emplace_back("check", tracedCheck(*report.check));
@@ -204,8 +204,9 @@ std::string textReport(const MeshOutcome& outcome) {
 std::string textWarning(const Warning& warning) {
   std::string text = warning.message;
   for (const ErrorDetail& detail : warning.details) {
-    if (detail.value == "inverted") text += "; --orient auto reverses inverted components";
-    if (detail.value == "open") text += "; --orient flip reverses all faces";
+    if (detail.name != "cause") continue;
+    if (detail.value.starts_with("inverted")) text += "; --orient auto reverses inverted components";
+    if (detail.value.ends_with("open")) text += "; --orient flip reverses all faces";
   }
   if (warning.code == WarningCode::InvertedComponents) text += "; --orient auto reverses inverted components";
   if (warning.code == WarningCode::ThinShell) text += "; fewer parts: --detail 0.5, more: --detail 2";

@@ -16,7 +16,7 @@ std::string pointText(const Vec3d& point) { return fmt::format("({:.6g}, {:.6g},
 
 /// "0.3 at (1, 2, 3), face 12". Precondition: there is a thickness.
 std::string leastText(const ThicknessReport& thickness) {
-  return fmt::format("{:.6g} at {}, face {}{}", thickness.min, pointText(thickness.minPlace), thickness.minFace,
+  return fmt::format("{:.6g} at {}, face {}{}", thickness.min, pointText(*thickness.minPlace), *thickness.minFace,
                      thickness.min == 0 ? ", a sharp edge" : "");
 }
 
@@ -105,11 +105,11 @@ ReportRows thicknessRows(const Report& report) {
   for (auto& row : unjudgedRows(thickness.unjudged)) rows.push_back(std::move(row));
   rows.emplace_back("size", fmt::format("{:.6g} x {:.6g} x {:.6g}, bounding box in the unit of the mesh", report.size.x,
                                         report.size.y, report.size.z));
-  if (!thickness.thinRegions.empty())
+  if (!thickness.regions.empty())
     addList("thin",
-            fmt::format("{} below {:g}: area {:.4g} ({:.3g} %)", groupedCount(thickness.thinRegions.size(), "region"),
+            fmt::format("{} below {:g}: area {:.4g} ({:.3g} %)", groupedCount(thickness.regions.size(), "region"),
                         *thickness.thinnerThan, thickness.thinArea, 100 * thickness.thinAreaShare),
-            thickness.thinRegions, regionText, rows);
+            thickness.regions, regionText, rows);
   if (!thickness.sharpEdges.empty()) addList("sharp", sharpHeading(thickness), thickness.sharpEdges, edgeText, rows);
   if (const auto& ball = thickness.greatestSection)
     rows.emplace_back("section", fmt::format("{:.6g}, the diameter of the largest ball inside, centre {}",

@@ -69,14 +69,13 @@ std::vector<Measurement> measureErrors(const EstimateInput& input) {
   return measured;
 }
 
-std::vector<ErrorEstimate::WorstFace> worstOf(const TriangleMesh& mesh, std::vector<Measurement> measured,
-                                              double range) {
+std::vector<WorstFace> worstOf(const TriangleMesh& mesh, std::vector<Measurement> measured, double range) {
   const size_t count = std::min(kWorstFaceCount, measured.size());
   std::partial_sort(measured.begin(), measured.begin() + static_cast<std::ptrdiff_t>(count), measured.end(),
                     [](const Measurement& a, const Measurement& b) {
                       return a.error != b.error ? a.error > b.error : a.face < b.face;
                     });
-  std::vector<ErrorEstimate::WorstFace> worst;
+  std::vector<WorstFace> worst;
   for (size_t i = 0; i < count; ++i) worst.push_back({mesh.inputFaceOf(measured[i].face), measured[i].error / range});
   return worst;
 }

@@ -109,13 +109,14 @@ CheckReport checkAgainstReference(const TraceScene& scene, const Cone& cone, std
                                   const ComputedValues& computed, uint64_t count, uint64_t randomSeed,
                                   const RunControl& control) {
   CheckReport report;
-  report.isIndependent = !computed.tracedByReference;
+  report.independent = !computed.tracedByReference;
   std::vector<uint32_t> tracedFaces;
-  if (report.isIndependent)
+  if (report.independent)
     tracedFaces = randomPermutationSeeds(seedsOf(computed.traced, traceableFaces), count, randomSeed ^ kTracedStream);
   const std::vector<uint32_t> faces = randomPermutationSeeds(traceableFaces, count, randomSeed ^ kErrorStream);
   const References references(unionOf(tracedFaces, faces), scene, cone, control);
-  compareTraced(report, tracedFaces, computed.traced, references, scene.geometry.bounds.diagonal(), scene.mesh);
+  if (report.independent)
+    compareTraced(report, tracedFaces, computed.traced, references, scene.geometry.bounds.diagonal(), scene.mesh);
   measureErrors(report, faces, computed, references);
   return report;
 }

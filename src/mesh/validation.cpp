@@ -134,34 +134,4 @@ MeshDefects findDefects(const TriangleMesh& mesh, const FaceGeometry& geometry,
   return defects;
 }
 
-std::vector<std::string> sentencesOf(const MeshDefects& defects, bool isOfPolygons) {
-  std::vector<std::string> result;
-  const auto add = [&](uint64_t count, const char* one, const char* many) {
-    if (count == 1) result.push_back(fmt::format("1 {}", one));
-    if (count > 1) result.push_back(fmt::format("{} {}", count, many));
-  };
-  const auto addFaces = [&](uint64_t count, const char* one, const char* many) {
-    if (count == 1) result.push_back(fmt::format("1 {} {}", isOfPolygons ? "triangle" : "face", one));
-    if (count > 1) result.push_back(fmt::format("{} {} {}", count, isOfPolygons ? "triangles" : "faces", many));
-  };
-  add(defects.nonFiniteVertexCount, "vertex has a coordinate that is not a finite number",
-      "vertices have coordinates that are not finite numbers");
-  addFaces(defects.nonFiniteFaceCount, "has a corner that is not finite: it is ignored and gets no value",
-           "have corners that are not finite: they are ignored and get no value");
-  add(defects.shortPolygonCount, "input face has fewer than three corners: it gets no value",
-      "input faces have fewer than three corners: they get no value");
-  addFaces(defects.zeroAreaFaceCount, "has zero area: it casts no rays", "have zero area: they cast no rays");
-  addFaces(defects.duplicateFaceCount, "duplicates an earlier one: rays pass through its own copies",
-           "duplicate earlier ones: rays pass through their own copies");
-  add(defects.nonManifoldEdgeCount, "edge has more than two faces: values are interpolated across all of them",
-      "edges have more than two faces: values are interpolated across all of them");
-  add(defects.inconsistentEdgeCount, "edge has two faces of opposite winding: on one side of it rays leave the solid",
-      "edges have two faces of opposite winding: on one side of them rays leave the solid");
-  add(defects.boundaryEdgeCount, "edge has only one face: the surface is open there and rays can escape",
-      "edges have only one face: the surface is open there and rays can escape");
-  add(defects.unreferencedVertexCount, "vertex belongs to no triangle: it is ignored",
-      "vertices belong to no triangle: they are ignored");
-  return result;
-}
-
 }  // namespace asdfvk

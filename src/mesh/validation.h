@@ -12,10 +12,6 @@
 
 namespace asdfvk {
 
-/// One sentence per defect found, each with its count; empty for a clean mesh. isOfPolygons: the triangles were cut
-/// from polygons, and the sentences call them triangles instead of faces.
-[[nodiscard]] std::vector<std::string> sentencesOf(const MeshDefects& defects, bool isOfPolygons);
-
 /// Throws Error{ArraySize} for arrays of a wrong size and offsets that do not ascend, Error{MeshTooLarge} beyond
 /// kMaxIndexCount and kMaxTriangleCount, Error{IndexOutOfRange} for faces with an index at or above the vertex count.
 void requireValidArrays(const MeshView& view);

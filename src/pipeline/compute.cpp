@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/parallel.h"
+#include "describe/fields.h"
 #include "estimate/reference_check.h"
 #include "pipeline/input_face_values.h"
 #include "pipeline/rounds.h"
@@ -40,7 +41,7 @@ void describeMesh(Report& report, const PreparedMesh& prepared, const FaceDomain
   report.componentCount = prepared.components.components.size();
   report.size = prepared.geometry.bounds.size();
   report.defects = prepared.defects;
-  report.reversedFaces = prepared.reversedFaces;
+  report.reversedFaceCount = prepared.reversedFaces.size();
   report.warnings = prepared.warnings;
 }
 
@@ -51,7 +52,7 @@ void describeRounds(Report& report, const RoundsResult& rounds) {
   const double traceSeconds = report.stageSeconds[Stage::Trace];
   report.raysPerSecond = traceSeconds > 0 ? static_cast<double>(report.rayCount) / traceSeconds : 0;
   report.traceDeviceSeconds = rounds.traced.statistics.deviceSeconds;
-  report.traceVariant = rounds.traceVariant;
+  report.traceChoice = rounds.traceVariant;
   report.solver = rounds.interpolated.solver;
   report.clampedCount = rounds.interpolated.clampedCount;
   report.roundCount = rounds.roundCount;
@@ -79,53 +80,31 @@ std::vector<Field> fieldsOf(const PreparedMesh& prepared, const RoundsResult& ro
                             SegmentedValues&& segmented) {
   const std::vector<double>& areas = prepared.geometry.areas;
   std::vector<Field> fields;
-  fields.push_back({.name = "sdf",
-                    .label = "shape diameter",
-                    .unit = "length",
-                    .values = valuesOfInputFaces(prepared.mesh, values, areas)});
-  fields.push_back(
-      {.name = "seed", .label = "seeds", .values = seedsOfInputFaces(prepared.mesh, rounds.traced.isSeed)});
+  fields.push_back(makeField("sdf", valuesOfInputFaces(prepared.mesh, values, areas)));
+  fields.push_back(makeField("seed", seedsOfInputFaces(prepared.mesh, rounds.traced.isSeed)));
   if (rounds.errors)
-    fields.push_back({.name = "error",
-                      .label = "expected error",
-                      .unit = "length",
-                      .values = valuesOfInputFaces(prepared.mesh, rounds.errors->expected, areas)});
+    fields.push_back(makeField("error", valuesOfInputFaces(prepared.mesh, rounds.errors->expected, areas)));
   if (!segmented.normalized.empty())
-    fields.push_back({.name = "normalized",
-                      .label = "normalised diameter",
-                      .values = valuesOfInputFaces(prepared.mesh, segmented.normalized, areas)});
-  if (!segmented.segments.empty())
-    fields.push_back({.name = "segment", .label = "segments", .values = std::move(segmented.segments)});
+    fields.push_back(makeField("normalized", valuesOfInputFaces(prepared.mesh, segmented.normalized, areas)));
+  if (!segmented.segments.empty()) fields.push_back(makeField("segment", std::move(segmented.segments)));
   return fields;
-}
-
-void addThicknessFields(std::vector<Field>& fields, const PreparedMesh& prepared, const FaceThickness& thickness) {
-  fields.push_back({.name = "thickness",
-                    .label = "wall thickness",
-                    .unit = "length",
-                    .values = thicknessOfInputFaces(prepared.mesh, thickness.atBarycentre)});
-  fields.push_back({.name = "least_thickness",
-                    .label = "least wall thickness",
-                    .unit = "length",
-                    .values = thicknessOfInputFaces(prepared.mesh, thickness.least)});
 }
 
 /// Without the traced values.
 void measureThickness(Result& result, const Computation& computation, const RunControl& control) {
   const auto scope = computation.clock.time(Stage::Thickness);
   const FaceThickness thickness = measureThickness(computation, control);
-  addThicknessFields(result.fields, computation.prepared, thickness);
+  const TriangleMesh& mesh = computation.prepared.mesh;
+  result.fields.push_back(makeField("thickness", thicknessOfInputFaces(mesh, thickness.atBarycentre)));
+  result.fields.push_back(makeField("least_thickness", thicknessOfInputFaces(mesh, thickness.least)));
   result.report.thickness = describeThickness(computation, thickness, result.thinSurface);
 }
 
 /// Adds the fields that derive from other fields.
 void addDerivedFields(std::vector<Field>& fields, const PreparedMesh& prepared, const Options& options) {
   if (options.computesCentres)
-    fields.push_back({.name = "centre",
-                      .label = "skeleton point",
-                      .unit = "length",
-                      .componentCount = 3,
-                      .values = centresOfInputFaces(prepared.mesh, prepared.geometry, *fields.front().reals())});
+    fields.push_back(
+        makeField("centre", centresOfInputFaces(prepared.mesh, prepared.geometry, *fields.front().reals())));
   if (options.per != PerElement::Vertices) return;
   std::vector<Field> further = vertexFieldsOf(prepared.mesh, prepared.geometry.areas, fields);
   fields.insert(fields.end(), std::make_move_iterator(further.begin()), std::make_move_iterator(further.end()));
@@ -168,6 +147,7 @@ void computeOn(const ComputationInput& input, const Options& options, StageClock
   describeBackend(report, session.named);
   report.randomSeed = options.randomSeed;
   describeMesh(report, prepared, domain);
+  result.reversedFaces = prepared.reversedFaces;
   report.warnings.insert(report.warnings.end(), session.warnings().begin(), session.warnings().end());
 
   const TraceScene scene = sharedScene->view();

@@ -1,10 +1,9 @@
 #include "pipeline/equation_solver.h"
 
-#include <fmt/core.h>
-
 #include <utility>
 
 #include "asdf_vk/error.h"
+#include "describe/warnings.h"
 
 namespace asdfvk {
 
@@ -26,9 +25,7 @@ SolverReport EquationSolver::solve(const DualGraph& graph, std::span<const doubl
     return solveWithChosen(graph, weights, problem, values, control);
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::Device) throw;
-    warnings_.push_back({WarningCode::SolvedOnCpu,
-                         fmt::format("the CPU solved the equation because the device failed: {}", error.what()),
-                         {}});
+    warnings_.push_back(solvedOnCpu(error));
   }
   onGraph_.reset();
   name_ = defaultSolver(false).name;

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "asdf_vk/error.h"
-#include "asdf_vk/report.h"
+#include "describe/warnings.h"
 #include "mesh/coincident_faces.h"
 #include "mesh/input_faces.h"
 #include "mesh/orientation.h"
@@ -99,12 +99,11 @@ void orient(PreparedMesh& prepared, Orientation orientation) {
   if (count == 0) return;
   if (orientation == Orientation::Auto) {
     reverseFaces(prepared, [&] { orientOutward(prepared.storage, prepared.geometry, prepared.components, report); });
-    prepared.warnings.push_back({WarningCode::ComponentsReversed,
-                                 fmt::format("{} inverted component{} reversed", count, count == 1 ? " was" : "s were"),
-                                 {}});
+    prepared.warnings.push_back(componentsReversed(count));
   } else {
-    prepared.warnings.push_back(
-        {WarningCode::InvertedComponents, report.sentence(prepared.mesh, prepared.components), {}});
+    prepared.warnings.push_back({WarningCode::InvertedComponents,
+                                 report.sentence(prepared.mesh, prepared.components),
+                                 {{"count", std::to_string(count)}}});
     prepared.invertedComponents = std::move(report.invertedComponents);
   }
 }
@@ -138,8 +137,7 @@ PreparedMesh prepareMesh(const MeshView& view, Orientation orientation, StageClo
   prepared.components = findComponents(mesh, edges);
   prepared.defects = findDefects(mesh, prepared.geometry, prepared.representatives, edges);
   prepared.graph = std::move(edges.graph);
-  for (std::string& sentence : sentencesOf(prepared.defects, !mesh.polygons.isEmpty()))
-    prepared.warnings.push_back({WarningCode::MeshDefect, std::move(sentence), {}});
+  prepared.warnings = warningsOf(prepared.defects, !mesh.polygons.isEmpty());
   orient(prepared, orientation);
   prepared.traceableFaces.reserve(mesh.faces.size());
   for (uint32_t face = 0; face < mesh.faceCount(); ++face)

@@ -1,7 +1,5 @@
 #include "pipeline/seed_prediction.h"
 
-#include <fmt/core.h>
-
 #include <utility>
 
 #include "pipeline/kept_tracers.h"
@@ -38,10 +36,7 @@ void SeedPrediction::continueOnCpu(const Error& failure) {
       (computation_.options.solver != kAutomaticSolver && failure.code() != ErrorCode::DeviceLimit))
     throw;
   hasFailed_ = true;
-  computation_.warnings.push_back(
-      {WarningCode::PredictedOnCpu,
-       fmt::format("the CPU predicted values because the device could not: {}", failure.what()),
-       {}});
+  computation_.warnings.push_back(predictedOnCpu(failure));
 }
 
 HitStore* SeedPrediction::hitStore() {

@@ -1,12 +1,10 @@
 #include "pipeline/segments.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <memory>
 #include <utility>
 
-#include "core/text.h"
+#include "describe/warnings.h"
 #include "pipeline/input_face_values.h"
 #include "segment/cgal_postprocess.h"
 #include "segment/cgal_segmentation.h"
@@ -29,28 +27,11 @@ std::vector<double> areaSharesOf(const TriangleMesh& mesh, std::span<const doubl
 }
 
 void warnAboutParts(const Parts& parts, const Options& options, Report& report) {
-  if (parts.isThinShell)
-    report.warnings.push_back(
-        {WarningCode::ThinShell,
-         fmt::format("the shape is a thin wall around a cavity: {:.0f} % of the pairs of its patches have a clear "
-                     "line of sight; its parts are less certain than those of solid shapes",
-                     100 * parts.meanSight),
-         {}});
-  const uint32_t count = report.segmentation->segmentCount;
-  if (!parts.agreement)
-    report.warnings.push_back(
-        {WarningCode::OnlySmallComponents,
-         fmt::format("no component has {:g} % of the area, so each of the {} components is a part", 100 * kMinPartArea,
-                     groupDigits(parts.partCount)),
-         {}});
-  if (const auto requested = options.parts.partCount; requested && *requested != count)
-    report.warnings.push_back(
-        {WarningCode::PartCountDiffers,
-         *requested < count
-             ? fmt::format("{} requested; the mesh has {} because a part does not extend over several components",
-                           counted(*requested, "part"), count)
-             : fmt::format("{} requested; the mesh can be divided into {} only", counted(*requested, "part"), count),
-         {}});
+  if (parts.isThinShell) report.warnings.push_back(thinShell(parts.meanSight));
+  if (!parts.agreement) report.warnings.push_back(onlySmallComponents(kMinPartArea, parts.partCount));
+  const auto requested = options.parts.partCount;
+  if (requested && *requested != report.segmentCount)
+    report.warnings.push_back(partCountDiffers(*requested, *report.segmentCount));
 }
 
 void segmentByParts(const PreparedMesh& prepared, std::span<const double> values, const Options& options,
@@ -59,9 +40,9 @@ void segmentByParts(const PreparedMesh& prepared, std::span<const double> values
                                        options.parts, sight, control);
   result.segments = segmentsOfInputFaces(prepared.mesh, parts.partOf, parts.areas);
   const uint32_t count = countSegments(result.segments);
-  report.segmentation =
-      SegmentationReport{count, PartsReport{parts.fewest, parts.most, parts.agreement, parts.isThinShell,
-                                            areaSharesOf(prepared.mesh, parts.areas, result.segments, count)}};
+  report.segmentCount = count;
+  report.parts = PartsReport{parts.fewest, parts.most, parts.agreement, parts.isThinShell,
+                             areaSharesOf(prepared.mesh, parts.areas, result.segments, count)};
   warnAboutParts(parts, options, report);
 }
 
@@ -89,7 +70,7 @@ SegmentedValues segmentValues(const PreparedMesh& prepared, std::span<const doub
   const CgalSegmentation segmentation = segmentLikeCgal(prepared.geometry, prepared.mesh, neighbours, result.normalized,
                                                         options.cgalSegmentation, control);
   result.segments = segmentsOfInputFaces(prepared.mesh, segmentation.segments, prepared.geometry.areas);
-  report.segmentation = SegmentationReport{countSegments(result.segments), {}};
+  report.segmentCount = countSegments(result.segments);
   return result;
 }
 

@@ -5,10 +5,6 @@
 
 namespace asdfvk {
 
-std::vector<std::string> resultFieldNames() {
-  return {"sdf", "seed", "error", "normalized", "segment", "thickness", "least_thickness", "centre"};
-}
-
 Session::Session(const SessionOptions& options) : state_(std::make_unique<SessionState>(options)) {}
 Session::~Session() = default;
 

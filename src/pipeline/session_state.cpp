@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "asdf_vk/error.h"
+#include "describe/warnings.h"
 
 namespace asdfvk {
 namespace {
@@ -22,10 +23,7 @@ bool SessionState::replaceBackend(const Error& failure) {
   if (!isFailureOfDevice(failure.code())) return false;
   std::optional<NamedBackend> next = openNextBackend(options_, named.name);
   if (!next) return false;
-  warnings_.push_back(
-      {WarningCode::BackendReplaced,
-       fmt::format("the backend {} replaces {}, which failed: {}", next->name, named.name, failure.what()),
-       {{"failed", named.name}, {"code", nameOf(failure.code())}}});
+  warnings_.push_back(backendReplaced(named.name, next->name, failure));
   next->deviceLines.push_back(fmt::format("{}: failed: {}", named.name, failure.what()));
   solvers.clear();
   replaced_.push_back(std::exchange(named, std::move(*next)));

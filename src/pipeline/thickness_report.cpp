@@ -108,6 +108,7 @@ class Description {
       return first.isSharp || first.min == second.min ? first.area > second.area : first.min < second.min;
     });
     const double total = totalArea();
+    report_.thinArea = report_.thinAreaShare = 0;
     for (const uint32_t region : order) {
       ThinRegion& described = regions[region];
       described.areaShare = total > 0 ? described.area / total : 0;
@@ -116,9 +117,9 @@ class Description {
       for (const uint32_t i : partsOf[region]) {
         const std::array<Vec3d, 3>& corners = parts[i].corners;
         surface.triangles.push_back({toMesh(corners[0]), toMesh(corners[1]), toMesh(corners[2])});
-        surface.regions.push_back(static_cast<uint32_t>(report_.thinRegions.size()));
+        surface.regions.push_back(static_cast<uint32_t>(report_.regions.size()));
       }
-      report_.thinRegions.push_back(described);
+      report_.regions.push_back(described);
     }
   }
 
@@ -171,7 +172,7 @@ class Description {
   /// The least thickness: of the first region that counts, or of all faces without a part in a sharp region that does
   /// not count.
   void describeLeast() {
-    for (const ThinRegion& region : report_.thinRegions) {
+    for (const ThinRegion& region : report_.regions) {
       if (region.isSharp && report_.allowsSharpEdges) continue;
       if (region.min < report_.min || std::isnan(report_.min))
         takeLeast(region.min, region.minFace, region.place, region.opposite);
@@ -200,7 +201,7 @@ class Description {
   }
 
   [[nodiscard]] ThicknessVerdict verdict() const {
-    for (const ThinRegion& region : report_.thinRegions)
+    for (const ThinRegion& region : report_.regions)
       if (!region.isSharp || !report_.allowsSharpEdges) return ThicknessVerdict::Failed;
     const bool hasValue =
         std::find(thickness_.isJudged.begin(), thickness_.isJudged.end(), 1) != thickness_.isJudged.end();

@@ -1,16 +1,13 @@
 #include "pipeline/value_report.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <optional>
-#include <string>
 #include <utility>
 
 #include "core/median.h"
-#include "core/text.h"
+#include "describe/warnings.h"
 
 namespace asdfvk {
 namespace {
@@ -19,41 +16,22 @@ namespace {
 // is large and far above the average error over the range. No clean mesh is near (docs/accuracy.md).
 constexpr double kMinRobustShare = 0.1, kLargeRelativeError = 0.1, kMaxRelativeOverAverage = 5;
 
-/// Likely reasons of missing values.
-struct MissingCauses {
-  bool isInverted = false;  ///< A face without a value belongs to an inverted component.
-  bool isOpen = false;      ///< A face without a value belongs to an open component.
-};
-
-MissingCauses causesOf(const PreparedMesh& prepared, const FaceDomain& domain, std::span<const double> values) {
+/// The warning about faces without a value, with its likely causes. values: #F.
+Warning describeMissing(const Report& report, const PreparedMesh& prepared, const FaceDomain& domain,
+                        std::span<const double> values, bool keepsMissing) {
   std::vector<uint8_t> isInverted(prepared.components.components.size(), 0);
   for (const uint32_t index : prepared.invertedComponents) isInverted[index] = 1;
-  MissingCauses causes;
+  MissingValues missing{
+      .count = report.noValueCount, .faceCount = report.regionFaceCount, .keepsMissing = keepsMissing};
   for (uint32_t f = 0; f < prepared.mesh.faceCount(); ++f) {
     if (!std::isnan(values[f]) || prepared.geometry.isDegenerate(f) || !domain.contains(prepared.mesh.inputFaceOf(f)))
       continue;
     const uint32_t component = prepared.components.componentOf[f];
-    causes.isInverted = causes.isInverted || isInverted[component];
-    causes.isOpen = causes.isOpen || !prepared.components.components[component].isClosed;
+    missing.isInverted = missing.isInverted || isInverted[component];
+    missing.isOpen = missing.isOpen || !prepared.components.components[component].isClosed;
   }
-  causes.isOpen = causes.isOpen && prepared.defects.boundaryEdgeCount > 0;
-  return causes;
-}
-
-Warning missingValues(const Report& report, const MissingCauses& causes, bool keepsMissing) {
-  Warning warning{WarningCode::MissingValues,
-                  fmt::format("{} of {} without a value: no ray from these faces{} hit the opposite side of the shape",
-                              report.noValueCount, counted(report.regionFaceCount, "face"),
-                              keepsMissing ? "" : ", or from faces connected to them,"),
-                  {}};
-  const std::string inverted = "their component is inverted";
-  const std::string open = "the surface is open, so that rays escape, or its faces are oriented inwards";
-  if (causes.isInverted) warning.details.push_back({"cause", "inverted"});
-  if (causes.isOpen) warning.details.push_back({"cause", "open"});
-  if (causes.isInverted || causes.isOpen)
-    warning.message += ", most likely because " + (causes.isInverted ? inverted : std::string()) +
-                       (causes.isInverted && causes.isOpen ? ", or " : "") + (causes.isOpen ? open : std::string());
-  return warning;
+  missing.isOpen = missing.isOpen && prepared.defects.boundaryEdgeCount > 0;
+  return missingValues(missing);
 }
 
 ValueRange rangeOf(const std::vector<double>& values) {
@@ -69,24 +47,14 @@ ValueRange rangeOf(const std::vector<double>& values) {
 }
 
 /// The warning where errors over the range are reported and look small only because of the range.
-std::optional<Warning> rangeDominated(const Report& report) {
+std::optional<Warning> warningOfRange(const Report& report) {
   if (!report.estimatedError && !report.check) return std::nullopt;
   const double robustShare = report.sdf.robustRange() / (report.sdf.max - report.sdf.min);
   const ErrorEstimate estimate = report.estimatedError.value_or(ErrorEstimate{});
   const bool isLarge = estimate.relativeMedian > kLargeRelativeError &&
                        estimate.relativeMedian > kMaxRelativeOverAverage * estimate.average;
   if (!isLarge && !(robustShare < kMinRobustShare)) return std::nullopt;
-  Warning warning{WarningCode::RangeDominated,
-                  fmt::format("a few faces have most of the range of the values (98 % of the faces are within {:.2g} % "
-                              "of it), so that errors over the range look small",
-                              100 * robustShare),
-                  {{"robustShare", fmt::format("{:.6g}", robustShare)}}};
-  if (isLarge)
-    warning.message = fmt::format(
-        "most values are small against their range, so that errors over the range look small: {:.2g} % of the range on "
-        "average, but {:.0f} % of the value in the median",
-        100 * estimate.average, 100 * estimate.relativeMedian);
-  return warning;
+  return isLarge ? rangeDominated(robustShare, estimate) : rangeDominated(robustShare);
 }
 
 }  // namespace
@@ -102,20 +70,10 @@ void describeValues(Report& report, const PreparedMesh& prepared, const FaceDoma
   report.sdf = rangeOf(sdf);
   report.noValueCount = countWithoutValue(domain, sdf);
   if (report.noValueCount > 0)
-    report.warnings.push_back(missingValues(report, causesOf(prepared, domain, values), keepsMissing));
-  if (std::optional<Warning> warning = rangeDominated(report)) report.warnings.push_back(std::move(*warning));
-  if (report.solver.finishedOnCpu)
-    report.warnings.push_back(
-        {WarningCode::FinishedOnCpu,
-         fmt::format("the {} solver reached the limit of float32 on the device; the CPU continued in double precision",
-                     report.solver.name),
-         {}});
-  if (!report.solver.converged)
-    report.warnings.push_back(
-        {WarningCode::NotConverged,
-         fmt::format("the {} solver stopped after {} at a relative residual of {:.1e}", report.solver.name,
-                     counted(report.solver.iterations, "iteration"), report.solver.relativeResidual),
-         {}});
+    report.warnings.push_back(describeMissing(report, prepared, domain, values, keepsMissing));
+  if (std::optional<Warning> warning = warningOfRange(report)) report.warnings.push_back(std::move(*warning));
+  if (report.solver.finishedOnCpu) report.warnings.push_back(finishedOnCpu(report.solver));
+  if (!report.solver.converged) report.warnings.push_back(notConverged(report.solver));
 }
 
 }  // namespace asdfvk

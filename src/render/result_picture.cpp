@@ -36,10 +36,10 @@ Picture pictureWith(const Result& result, std::string title, const View& view, c
 /// "thinner than 0.8: 2 places, least 0.3"
 std::string legendOf(const ThicknessReport& thickness) {
   const std::string limit = fmt::format("thinner than {:g}", *thickness.thinnerThan);
-  if (thickness.thinRegions.empty())
+  if (thickness.regions.empty())
     return thickness.verdict == ThicknessVerdict::NotJudged ? "where judged, nowhere " + limit : "nowhere " + limit;
-  const ThinRegion& first = thickness.thinRegions.front();
-  return fmt::format("{}: {}{}", limit, counted(thickness.thinRegions.size(), "place"),
+  const ThinRegion& first = thickness.regions.front();
+  return fmt::format("{}: {}{}", limit, counted(thickness.regions.size(), "place"),
                      first.isSharp ? "" : fmt::format(", least {:.4g}", first.min));
 }
 
@@ -51,7 +51,7 @@ std::string verdictText(ThicknessVerdict verdict) {
 std::vector<Callout> calloutsOf(const ThicknessReport& thickness) {
   constexpr size_t kMaxCount = 8;
   std::vector<Callout> callouts;
-  for (const ThinRegion& region : thickness.thinRegions) {
+  for (const ThinRegion& region : thickness.regions) {
     if (callouts.size() == kMaxCount) break;
     callouts.push_back({region.place, region.opposite, region.isSharp ? "sharp" : fmt::format("{:.3g}", region.min)});
   }

@@ -200,9 +200,9 @@ TEST_CASE("auto opens a device that failed again for the next mesh") {
   REQUIRE_EQ(lines.size(), 2);
   const nlohmann::json first = nlohmann::json::parse(lines[0]), second = nlohmann::json::parse(lines[1]);
   CHECK_NE(first.at("backend").get<std::string>(), "vulkan");
-  CHECK_EQ(first.at("warningCodes").at(0).get<std::string>(), "backendReplaced");
+  CHECK_EQ(first.at("warnings").at(0).at("code").get<std::string>(), "backendReplaced");
   CHECK_EQ(second.at("backend").get<std::string>(), "vulkan");
-  CHECK_EQ(second.at("warningCodes").dump().find("backendReplaced"), std::string::npos);
+  CHECK_EQ(second.at("warnings").dump().find("backendReplaced"), std::string::npos);
 }
 
 }  // namespace

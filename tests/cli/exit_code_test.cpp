@@ -57,10 +57,11 @@ TEST_CASE("no remedy contradicts --require-gpu") {
 TEST_CASE("a check that failed is 5, one that could not fail is 0") {
   CheckReport check;
   check.tracedCount = 2000;
+  check.passed = false;
   CHECK_EQ(static_cast<int>(exitCodeOf(check)), 5);
   check.passed = true;
   CHECK_EQ(static_cast<int>(exitCodeOf(check)), 0);
-  CHECK_EQ(static_cast<int>(exitCodeOf(CheckReport{.isIndependent = false})), 0);
+  CHECK_EQ(static_cast<int>(exitCodeOf(CheckReport{.independent = false})), 0);
 }
 
 TEST_CASE("a thickness limit is passed, failed with 6, or not judged with 5") {

@@ -73,12 +73,13 @@ TEST_CASE("the faces that --orient reverses are reversed in the file, in the ord
 
   const nlohmann::json kept = runOrient(inverted, "keep", folder / "kept.ply");
   CHECK_EQ(kept.at("reversedFaceCount").get<int>(), 0);
-  CHECK_EQ(kept.at("warningCodes").at(0).get<std::string>(), "invertedComponents");
+  CHECK_EQ(kept.at("warnings").at(0).at("code").get<std::string>(), "invertedComponents");
   CHECK(readMesh(folder / "kept.ply").faces == reversed(faces));
 
   const nlohmann::json corrected = runOrient(inverted, "auto", folder / "corrected.ply");
   CHECK_EQ(corrected.at("reversedFaceCount").get<int>(), 12);
-  CHECK_EQ(corrected.at("warningCodes"), nlohmann::json::array({"componentsReversed"}));
+  REQUIRE_EQ(corrected.at("warnings").size(), 1);
+  CHECK_EQ(corrected.at("warnings").at(0).at("code"), "componentsReversed");
   CHECK(readMesh(folder / "corrected.ply").faces == faces);
 
   CHECK_EQ(runOrient(mesh, "auto", folder / "same.ply").at("reversedFaceCount").get<int>(), 0);

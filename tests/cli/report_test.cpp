@@ -25,7 +25,7 @@ Result sampleResult() {
   report.device = "some device";
   report.raysPerSecond = 1.25e6;
   report.solver = {"cg", 73, 9e-6, true};
-  report.sdf = {0.5, 1.5, 2.5};
+  report.sdf = {.min = 0.5, .median = 1.5, .max = 2.5};
   return result;
 }
 
@@ -65,7 +65,7 @@ TEST_CASE("the text report of a GPU with few rays names the backend that may be 
   Result result = sampleResult();
   const auto hints = [&] { return holds(textReport(outcomeOf(line, result)), "with --backend cpu"); };
   CHECK_FALSE(hints());  // No variant: no kernel ran.
-  result.report.traceVariant = TraceVariant{"ray", "wide", "storage"};
+  result.report.traceChoice = TraceVariant{"ray", "wide", "storage"};
   CHECK(hints() == isBackendBuilt("cpu"));
   result.report.rayCount = 10'000'000;
   CHECK_FALSE(hints());
@@ -120,7 +120,7 @@ TEST_CASE("the reports have the smoothed range and the number of segments, where
   Result result = sampleResult();
   CHECK_FALSE(holds(textReport(outcomeOf(line, result)), "segments"));
   result.report.postprocess = PostprocessReport{0.25, 2.5};
-  result.report.segmentation = SegmentationReport{1234, {}};
+  result.report.segmentCount = 1234;
   const std::string text = textReport(outcomeOf(line, result));
   CHECK_MESSAGE(holds(text, "\n  smoothed  min 0.25, max 2.5, mapped to 0 and 1\n"), text);
   CHECK_MESSAGE(holds(text, "\n  segments  1,234 from 3 clusters, smoothness 0.26\n"), text);
@@ -132,16 +132,17 @@ TEST_CASE("the reports have the smoothed range and the number of segments, where
 TEST_CASE("the reports have the parts, how stable their number is, and their areas") {
   CommandLine line;
   Result result = sampleResult();
-  result.report.segmentation = SegmentationReport{3, PartsReport{3, 5, 0.956, false, {0.085, 0.7149, 0.2}}};
+  result.report.segmentCount = 3;
+  result.report.parts = PartsReport{3, 5, 0.956, false, {0.085, 0.7149, 0.2}};
   const std::string text = textReport(outcomeOf(line, result));
   CHECK_MESSAGE(holds(text, "\n  parts     3; 3 to 5 at --detail 0.8 to 1.25; agreement 0.96\n"), text);
   CHECK_MESSAGE(holds(text, "\n            of 71, 20 and 8.5 % of the area\n"), text);
   CHECK_FALSE(holds(text, "clusters"));
   line.computation.options.parts.partCount = 3;
-  result.report.segmentation->parts->areaShares.assign(15, 0.0625);
+  result.report.parts->areaShares.assign(15, 0.0625);
   CHECK(holds(textReport(outcomeOf(line, result)), "; 3 to 5 if the cost limit changes by 25 %; "));
   CHECK(holds(textReport(outcomeOf(line, result)), "6.2 and 3 more % of the area\n"));
-  result.report.segmentation->parts->areaShares = {0.996, 0.004};
+  result.report.parts->areaShares = {0.996, 0.004};
   CHECK(holds(textReport(outcomeOf(line, result)), "\n            of 100 and 0.4 % of the area\n"));
   const nlohmann::json json = nlohmann::json::parse(jsonReport(outcomeOf(line, result)));
   CHECK_EQ(json.at("segmentCount"), 3);
@@ -153,12 +154,14 @@ TEST_CASE("the reports have the parts, how stable their number is, and their are
   CHECK_EQ(parts.at("thinShell"), false);
   CHECK_EQ(parts.at("areaShares").size(), 2);
   line.computation.options.parts.partCount.reset();
-  result.report.segmentation = SegmentationReport{2000, PartsReport{2000, 2000, {}, false, {}}};
+  result.report.segmentCount = 2000;
+  result.report.parts = PartsReport{2000, 2000, {}, false, {}};
   CHECK(holds(textReport(outcomeOf(line, result)), "\n  parts     2,000; 2,000 at --detail 0.8 to 1.25\n"));
   CHECK(nlohmann::json::parse(jsonReport(outcomeOf(line, result))).at("parts").at("agreement").is_null());
-  result.report.segmentation = SegmentationReport{1, PartsReport{1, 1, 1, false, {1}}};
+  result.report.segmentCount = 1;
+  result.report.parts = PartsReport{1, 1, 1, false, {1}};
   CHECK_FALSE(holds(textReport(outcomeOf(line, result)), "of the area"));
-  result.report.segmentation->parts.reset();
+  result.report.parts.reset();
   CHECK(nlohmann::json::parse(jsonReport(outcomeOf(line, result))).at("parts").is_null());
 }
 
@@ -224,10 +227,10 @@ TEST_CASE("faces without a value in either computation are counted separately fr
 }
 
 TEST_CASE("a check that compared nothing is reported as such and not as passed") {
-  const CommandLine line;
+  CommandLine line;
   Result result = sampleResult();
   Report& report = result.report;
-  report.check.emplace();
+  report.check.emplace().passed = false;
   CHECK(holds(checkFailure(*report.check), "nothing was compared"));
   CHECK(holds(textReport(outcomeOf(line, result)), "nothing was compared"));
   const nlohmann::json json = nlohmann::json::parse(jsonReport(outcomeOf(line, result)));
@@ -260,12 +263,16 @@ TEST_CASE("a warning ends with the options that help, in both reports with its c
   CHECK_EQ(textWarning({WarningCode::MissingValues, "x", {}}), "x");
   CHECK(holds(textWarning({WarningCode::MissingValues, "x", {{"cause", "inverted"}}}), "--orient auto"));
   CHECK(holds(textWarning({WarningCode::MissingValues, "x", {{"cause", "open"}}}), "--orient flip"));
+  const std::string both = textWarning({WarningCode::MissingValues, "x", {{"cause", "inverted or open"}}});
+  CHECK((holds(both, "--orient auto") && holds(both, "--orient flip")));
   const CommandLine line;
   Result result = sampleResult();
   result.report.warnings = {{WarningCode::NotConverged, "x", {}}, {WarningCode::InvertedComponents, "y", {}}};
   const nlohmann::json json = nlohmann::json::parse(jsonReport(outcomeOf(line, result)));
-  CHECK_EQ(json.at("warningCodes"), nlohmann::json({"notConverged", "invertedComponents"}));
-  CHECK_EQ(json.at("warnings").at(1).get<std::string>(), textWarning(result.report.warnings[1]));
+  CHECK_EQ(json.at("warnings").at(0).at("code"), "notConverged");
+  CHECK_EQ(json.at("warnings").at(1).at("code"), "invertedComponents");
+  CHECK_EQ(json.at("warnings").at(1).at("message"), textWarning(result.report.warnings[1]));
+  CHECK(json.at("warnings").at(1).at("details").empty());
 }
 
 TEST_CASE("a failure as JSON has mesh, error and code") {

@@ -89,16 +89,15 @@ TEST_CASE("what is not judged is named, also where the verdict is another one") 
 TEST_CASE("size, regions, sharp edges, greatest section and percentiles follow, five of a list") {
   Result result = soundResult(1.5);
   ThicknessReport& thickness = *result.report.thickness;
-  thickness.thinRegions.assign(3, {.faceCount = 2,
-                                   .area = 12.5,
-                                   .areaShare = 0.02,
-                                   .min = 1,
-                                   .minFace = 3,
-                                   .place = {1, 2, 3},
-                                   .opposite = {1, 2, 4},
-                                   .isSharp = false});
-  thickness.thinRegions.resize(
-      6, {.faceCount = 1, .area = 0.5, .areaShare = 0.001, .minFace = 7, .place = {0, 0, 5}, .isSharp = true});
+  thickness.regions.assign(3, {.min = 1,
+                               .minFace = 3,
+                               .place = {1, 2, 3},
+                               .opposite = {1, 2, 4},
+                               .faceCount = 2,
+                               .area = 12.5,
+                               .areaShare = 0.02});
+  thickness.regions.resize(
+      6, {.isSharp = true, .minFace = 7, .place = {0, 0, 5}, .faceCount = 1, .area = 0.5, .areaShare = 0.001});
   thickness.thinArea = 39;
   thickness.thinAreaShare = 0.063;
   thickness.sharpEdges = {{.angleDegrees = 12.25, .place = {5, 5, 5}, .face = 4},
@@ -124,14 +123,14 @@ TEST_CASE("size, regions, sharp edges, greatest section and percentiles follow, 
 TEST_CASE("the document has every value of the thickness") {
   Result result = soundResult(1.5);
   ThicknessReport& thickness = *result.report.thickness;
-  thickness.thinRegions = {{.faceCount = 2,
-                            .area = 12.5,
-                            .areaShare = 0.5,
-                            .min = 1,
-                            .minFace = 3,
-                            .place = {1, 2, 3},
-                            .opposite = {1, 2, 4},
-                            .isSharp = true}};
+  thickness.regions = {{.isSharp = true,
+                        .min = 1,
+                        .minFace = 3,
+                        .place = {1, 2, 3},
+                        .opposite = {1, 2, 4},
+                        .faceCount = 2,
+                        .area = 12.5,
+                        .areaShare = 0.5}};
   thickness.sharpEdges = {{.angleDegrees = 30, .length = 60, .edgeCount = 2, .place = {0, 0, 5}, .face = 7}};
   thickness.unjudged = {.openCount = 1, .invertedCount = 2, .degenerateCount = 3, .crossedCount = 4};
   const Json json = jsonOf(result);
@@ -148,8 +147,9 @@ TEST_CASE("the document has every value of the thickness") {
   CHECK_EQ(json.at("unjudged"), Json::parse(R"({"openCount": 1, "invertedCount": 2, "degenerateCount": 3,
       "crossedCount": 4, "selfCrossedCount": 0})"));
   thickness = {};
-  for (const char* key : {"verdict", "min", "minFace", "minPlace", "minOpposite", "greatestSection", "regions"})
+  for (const char* key : {"verdict", "min", "minFace", "minPlace", "minOpposite", "greatestSection", "thinArea"})
     CHECK_MESSAGE(jsonOf(result).at(key).is_null(), key);
+  CHECK(jsonOf(result).at("regions").empty());
 }
 
 }  // namespace

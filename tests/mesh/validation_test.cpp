@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "describe/warnings.h"
 #include "mesh/coincident_faces.h"
 #include "support/shapes.h"
 
@@ -16,6 +17,12 @@ namespace {
 MeshDefects defectsOf(const Mesh& mesh) {
   const EdgeSurvey edges = surveyEdges(mesh);
   return findDefects(mesh, computeFaceGeometry(mesh), coincidentRepresentatives(mesh, edges), edges);
+}
+
+std::vector<std::string> sentencesOf(const MeshDefects& defects, bool isOfPolygons) {
+  std::vector<std::string> sentences;
+  for (const Warning& warning : warningsOf(defects, isOfPolygons)) sentences.push_back(warning.message);
+  return sentences;
 }
 
 std::vector<std::string> sentencesOf(const Mesh& mesh) {

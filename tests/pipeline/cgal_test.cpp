@@ -56,7 +56,7 @@ TEST_CASE("from the values of a result, its fields with the same bits") {
       CHECK(sdf.max == result.report.postprocess->max);
       const LabelledFaces segments = segmentSdf(mesh, sdf.normalized, options);
       CHECK(segments.labels == test::segmentsOf(result));
-      CHECK(segments.count == result.report.segmentation->segmentCount);
+      CHECK(segments.count == result.report.segmentCount);
     }
   }
 }

@@ -129,7 +129,7 @@ void checkReplaced(Session& session, const Mesh& mesh, const Result& result, Err
   CHECK(result.report.backend == kNextBackend);
   CHECK(session.backend() == kNextBackend);
   CHECK(session.runsOnCpu());
-  CHECK_FALSE(result.report.traceVariant);
+  CHECK_FALSE(result.report.traceChoice);
   const Warning* warning = findWarning(result.report, WarningCode::BackendReplaced);
   REQUIRE(warning != nullptr);
   REQUIRE(warning->details.size() == 2);

@@ -235,20 +235,20 @@ TEST_CASE("faces are reversed in a copy: the arrays of the caller do not change,
   std::iota(allFaces.begin(), allFaces.end(), 0);
 
   const Result kept = referenceSession().compute(arrays.triangles(), with(Orientation::Keep));
-  CHECK(kept.report.reversedFaces.empty());
+  CHECK(kept.reversedFaces.empty());
   CHECK(test::findWarning(kept.report, WarningCode::InvertedComponents) != nullptr);
   const Result reversed = referenceSession().compute(arrays.triangles(), with(Orientation::Auto));
-  CHECK(reversed.report.reversedFaces == sphereFaces);
+  CHECK(reversed.reversedFaces == sphereFaces);
   CHECK(test::findWarning(reversed.report, WarningCode::ComponentsReversed) != nullptr);
   CHECK(test::findWarning(reversed.report, WarningCode::InvertedComponents) == nullptr);
   requireSameResult(reversed, referenceSession().compute(correct));
   const Result flipped = referenceSession().compute(arrays.triangles(), with(Orientation::Flip));
-  CHECK(flipped.report.reversedFaces == allFaces);
+  CHECK(flipped.reversedFaces == allFaces);
   CHECK(arrays.positions == before.positions);
   CHECK(arrays.corners == before.corners);
 
   const std::vector<float> floats = arrays.floats();
-  CHECK(referenceSession().compute(MeshView(floats, arrays.corners), with(Orientation::Auto)).report.reversedFaces ==
+  CHECK(referenceSession().compute(MeshView(floats, arrays.corners), with(Orientation::Auto)).reversedFaces ==
         sphereFaces);
 }
 
@@ -261,7 +261,7 @@ TEST_CASE("reversed polygons are reported by input face, once for all of their t
   for (const Orientation orientation : {Orientation::Auto, Orientation::Flip}) {
     options.orientation = orientation;
     const Result result = referenceSession().compute(cube.polygons(), options);
-    CHECK(result.report.reversedFaces == std::vector<uint64_t>{0, 1, 2, 3, 4, 5});
+    CHECK(result.reversedFaces == std::vector<uint64_t>{0, 1, 2, 3, 4, 5});
     CHECK(result.report.noValueCount == 0);
     CHECK(cube.corners == before.corners);
     CHECK(cube.firstCorner == before.firstCorner);

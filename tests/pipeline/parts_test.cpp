@@ -39,8 +39,8 @@ Session& fastSession() {
 
 void checkReport(const Result& result) {
   const Labels& labels = test::segmentsOf(result);
-  REQUIRE(result.report.segmentation.has_value());
-  const SegmentationReport& report = *result.report.segmentation;
+  REQUIRE(result.report.segmentCount.has_value());
+  const Report& report = result.report;
   REQUIRE(report.parts.has_value());
   CHECK(*std::max_element(labels.begin(), labels.end()) + 1 == report.segmentCount);
   CHECK(report.parts->areaShares.size() == report.segmentCount);
@@ -73,7 +73,7 @@ TEST_CASE("parts are a field, a report and a stage, and no normalised values") {
   CHECK(result.report.stageSeconds[Stage::Postprocess] == 0);
   CHECK(findWarning(result.report, WarningCode::ThinShell) == nullptr);
   CHECK(findWarning(result.report, WarningCode::PartCountDiffers) == nullptr);
-  const SegmentationReport& report = *result.report.segmentation;
+  const Report& report = result.report;
   CHECK(report.parts->fewestCount <= report.segmentCount);
   CHECK(report.parts->mostCount >= report.segmentCount);
 }
@@ -109,12 +109,12 @@ TEST_CASE("a number of parts that components do not allow is a warning") {
     options.parts.partCount = count;
     const Result result = fastSession().compute(mesh, options);
     checkReport(result);
-    CHECK(result.report.segmentation->segmentCount == std::max(2u, count));
+    CHECK(result.report.segmentCount == std::max(2u, count));
     CHECK((findWarning(result.report, WarningCode::PartCountDiffers) != nullptr) == (count == 1));
   }
   options.parts.partCount = 100;
   const Result cube = fastSession().compute(makeCube(12).mesh, options);
-  CHECK(cube.report.segmentation->segmentCount == 12);
+  CHECK(cube.report.segmentCount == 12);
   CHECK(findWarning(cube.report, WarningCode::PartCountDiffers) != nullptr);
 }
 
@@ -132,13 +132,13 @@ TEST_CASE("a mesh of small components only is a warning") {
   const Warning* warning = findWarning(result.report, WarningCode::OnlySmallComponents);
   REQUIRE(warning != nullptr);
   CHECK(warning->message == "no component has 1 % of the area, so each of the 1,100 components is a part");
-  CHECK_FALSE(result.report.segmentation->parts->agreement.has_value());
+  CHECK_FALSE(result.report.parts->agreement.has_value());
 }
 
 TEST_CASE("a thin shell is a warning") {
   const Result result = fastSession().compute(bowl(), withParts());
   checkReport(result);
-  CHECK(result.report.segmentation->parts->isThinShell);
+  CHECK(result.report.parts->thinShell);
   CHECK(findWarning(result.report, WarningCode::ThinShell) != nullptr);
 }
 
@@ -149,7 +149,7 @@ TEST_CASE("shares of the area do not depend on the scale") {
     for (Vec3d& v : mesh.vertices) v = v * scale;
     const Result result = fastSession().compute(mesh, withParts());
     checkReport(result);
-    return result.report.segmentation->parts->areaShares;
+    return result.report.parts->areaShares;
   };
   const std::vector<double> expected = sharesAt(1);
   REQUIRE(expected.size() > 1);
@@ -167,10 +167,10 @@ TEST_CASE("parts of polygons are labels of input faces") {
   const Labels& labels = test::segmentsOf(result);
   REQUIRE(labels.size() == 13);
   CHECK(labels[12] == kNoSegment);
-  CHECK(result.report.segmentation->segmentCount == 2);
+  CHECK(result.report.segmentCount == 2);
   CHECK(labels[0] != labels[6]);
   for (size_t face = 0; face < 12; ++face) CHECK(labels[face] == labels[face < 6 ? 0 : 6]);
-  CHECK(result.report.segmentation->parts->areaShares[0] == doctest::Approx(0.5));
+  CHECK(result.report.parts->areaShares[0] == doctest::Approx(0.5));
 }
 
 TEST_CASE("open, non-manifold and degenerate meshes have parts; one triangle has no value") {

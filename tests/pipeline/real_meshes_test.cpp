@@ -48,7 +48,7 @@ void checkParity(const fs::path& path, Session& session) {
   const CheckReport& check = *result.report.check;
   MESSAGE(path.filename().string(), ": the worst of ", check.tracedCount, " faces is ", check.worstFace, ", off by ",
           check.worstDifference, " of the diagonal; ", check.tracedCount - check.agreeingCount, " do not agree");
-  CHECK(check.passed);
+  CHECK(check.passed == true);
 }
 
 }  // namespace

@@ -92,15 +92,15 @@ TEST_CASE("each part has its least thickness, whatever the triangulation, the ro
       const ThicknessReport passed = measure(mesh, limitedTo(0.99 * unit * part.leastThickness));
       CHECK(passed.min == doctest::Approx(unit * part.leastThickness).epsilon(toleranceOf(name)));
       CHECK(passed.verdict == ThicknessVerdict::Passed);
-      CHECK(passed.thinRegions.empty());
+      CHECK(passed.regions.empty());
       CHECK(passed.sharpEdges.empty());
     }
     const ThicknessReport failed = measure(part.solid.surface(), limitedTo(part.leastThickness * 1.01));
     CHECK(failed.verdict == ThicknessVerdict::Failed);
-    REQUIRE_FALSE(failed.thinRegions.empty());
-    CHECK(failed.thinRegions[0].min == failed.min);
-    CHECK_FALSE(failed.thinRegions[0].isSharp);
-    CHECK(length(failed.minPlace - failed.minOpposite) <= failed.min * (1 + toleranceOf(name)));
+    REQUIRE_FALSE(failed.regions.empty());
+    CHECK(failed.regions[0].min == failed.min);
+    CHECK_FALSE(failed.regions[0].isSharp);
+    CHECK(length(*failed.minPlace - *failed.minOpposite) <= failed.min * (1 + toleranceOf(name)));
   }
 }
 
@@ -116,7 +116,7 @@ TEST_CASE("sharp edges and tips have no thickness, and are found at each triangu
       const ThicknessReport report = measure(mesh, limitedTo(unit * limit));
       CHECK(report.min == 0);
       CHECK(report.verdict == ThicknessVerdict::Failed);
-      for (const ThinRegion& region : report.thinRegions) {
+      for (const ThinRegion& region : report.regions) {
         CHECK(region.isSharp);
         CHECK(region.min == 0);
       }
@@ -176,11 +176,11 @@ TEST_CASE("no alarm for 100 sound boxes, and one for each of 100 with a thin pla
     const ThicknessReport passed = measure(randomlyTriangulated(sound, seed), limitedTo(kLimit));
     CHECK(passed.verdict == ThicknessVerdict::Passed);
     CHECK(passed.min == doctest::Approx(sound.leastThickness).epsilon(1e-6));
-    CHECK(passed.thinRegions.empty());
+    CHECK(passed.regions.empty());
     const ThicknessReport failed = measure(randomlyTriangulated(thin, seed), limitedTo(kLimit));
     CHECK(failed.verdict == ThicknessVerdict::Failed);
     CHECK(failed.min == doctest::Approx(thin.leastThickness).epsilon(1e-6));
-    CHECK_FALSE(failed.thinRegions.empty());
+    CHECK_FALSE(failed.regions.empty());
   }
 }
 

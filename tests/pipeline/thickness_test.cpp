@@ -83,10 +83,10 @@ TEST_CASE("the regions of a slab with a thin place are the dent and the face abo
   for (Session* session : {&referenceSession(), &vulkanSession()}) {
     const Result result = session->compute(mesh, thickness(0.2));
     const ThicknessReport& report = result.report.thickness.value();
-    REQUIRE(report.thinRegions.size() == 2);
+    REQUIRE(report.regions.size() == 2);
     double area = 0;
     uint64_t faceCount = 0;
-    for (const ThinRegion& region : report.thinRegions) {
+    for (const ThinRegion& region : report.regions) {
       CHECK(region.min == doctest::Approx(kThin).epsilon(1e-6));
       CHECK(std::max(std::abs(region.place.x), std::abs(region.place.y)) < 0.45);
       CHECK(thicknessOf(result, "least_thickness")[region.minFace] == region.min);
@@ -97,7 +97,7 @@ TEST_CASE("the regions of a slab with a thin place are the dent and the face abo
       area += region.area;
       faceCount += region.faceCount;
     }
-    CHECK(report.thinRegions[0].area >= report.thinRegions[1].area);
+    CHECK(report.regions[0].area >= report.regions[1].area);
     CHECK(report.thinArea == doctest::Approx(area));
     const auto& values = thicknessOf(result, "least_thickness");
     CHECK(std::count_if(values.begin(), values.end(), [](double v) { return v < 0.2; }) ==
@@ -106,7 +106,7 @@ TEST_CASE("the regions of a slab with a thin place are the dent and the face abo
     CHECK(report.median == doctest::Approx(kThick).epsilon(1e-6));
   }
   const Result none = referenceSession().compute(mesh, thickness(0.05));
-  CHECK(none.report.thickness->thinRegions.empty());
+  CHECK(none.report.thickness->regions.empty());
   CHECK(none.report.thickness->thinArea == 0);
 }
 
@@ -142,8 +142,8 @@ TEST_CASE("a polygon has the least thickness of its triangles, which is reported
   CHECK(thicknessOf(result)[0] < 0.7);  // 4 / 3 from the thin end: about 0.65.
   CHECK(thicknessOf(result)[0] > 0.6);
   const ThicknessReport& report = result.report.thickness.value();
-  REQUIRE(report.thinRegions.size() == 2);
-  for (const ThinRegion& region : report.thinRegions) {
+  REQUIRE(report.regions.size() == 2);
+  for (const ThinRegion& region : report.regions) {
     CHECK(region.faceCount == 1);
     CHECK(values[region.minFace] == region.min);
   }
@@ -156,12 +156,12 @@ TEST_CASE("degenerate faces and faces without a valid ray have no thickness") {
     const Result result = referenceSession().compute(mesh, thickness(0.1, seeds));
     CHECK(std::isnan(thicknessOf(result).back()));
     CHECK(result.report.thickness->noValueCount == 1);
-    CHECK(result.report.thickness->thinRegions.empty());
+    CHECK(result.report.thickness->regions.empty());
   }
   const Mesh open{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}, {}};
   const Result none = referenceSession().compute(open, thickness(1));
   CHECK(std::isnan(none.report.thickness->min));
-  CHECK(none.report.thickness->thinRegions.empty());
+  CHECK(none.report.thickness->regions.empty());
 }
 
 TEST_CASE("options out of range are refused") {

@@ -67,7 +67,7 @@ TEST_CASE("an inverted component is not judged; beside it a thin one fails") {
   CHECK(beside.verdict == ThicknessVerdict::NotJudged);
   CHECK(beside.unjudged.invertedCount == 12);
   CHECK(beside.min == doctest::Approx(2).epsilon(1e-3));
-  CHECK(beside.thinRegions.empty());
+  CHECK(beside.regions.empty());
   CHECK(check(shapes::joined(thin, shapes::inverted(cube), {9, 0, 0}), 1).verdict == ThicknessVerdict::Failed);
 }
 
@@ -132,7 +132,7 @@ TEST_CASE("a wall as thick as the limit passes, in coordinates of float32, at an
     const Mesh plate =
         inFloat32(shapes::scaledAndShifted(shapes::box({40, 30, 0.8}, 2), 1, {shift, -shift, shift / 3}));
     CHECK(check(plate, 0.8).verdict == ThicknessVerdict::Passed);
-    CHECK(check(plate, 0.8).thinRegions.empty());
+    CHECK(check(plate, 0.8).regions.empty());
     CHECK(check(plate, 0.8001).verdict == ThicknessVerdict::Failed);
     CHECK(check(plate, 0.7999).verdict == ThicknessVerdict::Passed);
   }
@@ -160,7 +160,7 @@ TEST_CASE("session and scene give one verdict, and a region of faces that of the
   const ThicknessReport whole = referenceSession().compute(mesh, options).report.thickness.value();
   CHECK(whole.verdict == ThicknessVerdict::Failed);
   CHECK(whole.min == doctest::Approx(0.7));
-  REQUIRE(whole.thinRegions.size() == 3);
+  REQUIRE(whole.regions.size() == 3);
   const auto checkRegion = [&](auto isInside) {
     std::vector<uint8_t> region(mesh.faces.size());
     for (size_t face = 0; face < region.size(); ++face) region[face] = isInside(geometry.barycentres[face]) ? 1 : 0;
@@ -175,20 +175,20 @@ TEST_CASE("session and scene give one verdict, and a region of faces that of the
   const ThicknessReport blade = checkRegion([](const Vec3d& p) { return p.x < 35; });
   const ThicknessReport middle = checkRegion([](const Vec3d& p) { return 15 < p.x && p.x < 35; });
   CHECK(all.verdict == whole.verdict);
-  REQUIRE(all.thinRegions.size() == 3);
-  for (size_t i = 0; i < 3; ++i) CHECK(isSameRegion(all.thinRegions[i], whole.thinRegions[i]));
+  REQUIRE(all.regions.size() == 3);
+  for (size_t i = 0; i < 3; ++i) CHECK(isSameRegion(all.regions[i], whole.regions[i]));
   // The walls of the pocket come first.
   CHECK(pocket.verdict == ThicknessVerdict::Failed);
   CHECK(pocket.min == whole.min);
   CHECK(pocket.sharpEdges.empty());
-  REQUIRE(pocket.thinRegions.size() == 2);
-  for (size_t i = 0; i < 2; ++i) CHECK(isSameRegion(pocket.thinRegions[i], whole.thinRegions[i]));
+  REQUIRE(pocket.regions.size() == 2);
+  for (size_t i = 0; i < 2; ++i) CHECK(isSameRegion(pocket.regions[i], whole.regions[i]));
   CHECK(blade.verdict == ThicknessVerdict::Passed);
-  REQUIRE(blade.thinRegions.size() == 1);
-  CHECK(blade.thinRegions[0].isSharp);
+  REQUIRE(blade.regions.size() == 1);
+  CHECK(blade.regions[0].isSharp);
   CHECK(blade.sharpEdges.size() == 1);
   CHECK(middle.verdict == ThicknessVerdict::Passed);
-  CHECK(middle.thinRegions.empty());
+  CHECK(middle.regions.empty());
   CHECK(middle.min >= 0.8);
 }
 

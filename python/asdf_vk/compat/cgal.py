@@ -85,11 +85,12 @@ def sdf_values(
         described["postprocess"] = "cgal"
     computed = _computed(vertices, faces, described, {**options}, progress)
     for warning in computed.warnings():
-        warnings.warn(MeshWarning(warning["message"], warning["code"]), stacklevel=2)
+        warnings.warn(MeshWarning(warning.message, warning.code), stacklevel=2)
     if postprocess:
-        limits: tuple[float, float] = computed.report()["normalized_range"]
-        return computed.array("normalized", False, False), limits
-    values: NDArray[np.float64] = computed.array("sdf", False, False)
+        smoothed = computed.report().postprocess
+        assert smoothed is not None
+        return computed.array("normalized", single=False), (smoothed.min, smoothed.max)
+    values: NDArray[np.float64] = computed.array("sdf", single=False)
     present = values[~np.isnan(values)]
     if present.size == 0:
         return values, (math.nan, math.nan)
@@ -166,7 +167,7 @@ def values_and_segments(
 ) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
     """Post-processed values and segments, without warnings; options: of the backend."""
     computed = _computed(vertices, faces, {"segmentation": "cgal", **segmentation}, options, None)
-    return computed.array("normalized", False, False), computed.array("segment", False, False)
+    return computed.array("normalized", single=False), computed.array("segment")
 
 
 def _computed(

@@ -1,0 +1,48 @@
+"""The result of a computation."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _core
+from ._report import Report
+
+
+@dataclass(frozen=True, eq=False)
+class Info(Report):
+    """Report of a computation, and its fields."""
+
+    fields: dict[str, NDArray[Any]] = field(repr=False)
+    """Per face: "sdf" float32, "seed" uint8 (1 where rays were cast), "error" float32 (expected error), ..."""
+    vertex_fields: dict[str, NDArray[Any]] = field(repr=False)
+    """Per vertex, with per="vertex"."""
+    reversed_faces: NDArray[np.int64] = field(repr=False)
+    """Faces whose orientation was reversed, ascending."""
+
+    @property
+    def seed(self) -> NDArray[np.uint8]:
+        """(m,), 1 where rays were cast."""
+        return self.fields["seed"]
+
+    @property
+    def error(self) -> NDArray[np.float32] | None:
+        """(m,), expected error in the unit of the mesh; None without an estimate."""
+        return self.fields.get("error")
+
+
+def info_of(computed: _core.ComputedFields) -> Info:
+    """Makes all arrays."""
+
+    def arrays(per_vertex: bool) -> dict[str, NDArray[Any]]:
+        return {name: computed.array(name, per_vertex) for name in computed.names(per_vertex)}
+
+    return Info(
+        **vars(computed.report()),
+        fields=arrays(False),
+        vertex_fields=arrays(True),
+        reversed_faces=computed.reversed_faces(),
+    )

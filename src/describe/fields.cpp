@@ -1,0 +1,73 @@
+#include "describe/fields.h"
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <utility>
+
+#include "asdf_vk/session.h"
+#include "core/check.h"
+
+namespace asdfvk {
+namespace {
+
+// scripts/write-report-keys copies these rows to docs/formats.md.
+constexpr std::array kFields{
+    FieldRow{.name = "sdf", .label = "shape diameter", .unit = "length", .meaning = "the shape diameter"},
+    FieldRow{.name = "seed", .label = "seeds", .type = FieldType::Flag, .meaning = "1 where the face cast rays"},
+    FieldRow{.name = "error",
+             .label = "expected error",
+             .unit = "length",
+             .meaning = "expected error; 0 at seeds that keep their value; only with an estimate of the error"},
+    FieldRow{.name = "normalized",
+             .label = "normalised diameter",
+             .needs = "postprocess cgal",
+             .meaning = "values from 0 to 1 ([segmentation.md](segmentation.md))"},
+    FieldRow{.name = "segment",
+             .label = "segments",
+             .type = FieldType::Label,
+             .needs = "segment",
+             .meaning = "number of the segment, from 0, ascending by its mean value; 4294967295 for a face with fewer "
+                        "than three corners"},
+    FieldRow{.name = "thickness",
+             .label = "wall thickness",
+             .unit = "length",
+             .needs = "measure thickness",
+             .meaning = "wall thickness at the barycentre, of a polygon the least of its triangles "
+                        "([thickness.md](thickness.md))"},
+    FieldRow{.name = "least_thickness",
+             .label = "least wall thickness",
+             .unit = "length",
+             .needs = "measure thickness",
+             .meaning = "least wall thickness over all points of the face"},
+    FieldRow{.name = "centre",
+             .label = "skeleton point",
+             .unit = "length",
+             .componentCount = 3,
+             .needs = "fields centre",
+             .meaning = "skeleton point: the barycentre of the face, moved inwards along its normal by half of the "
+                        "shape diameter. For a polygon, the means of both over its triangles, weighted by area. No "
+                        "value without a value, or without a normal (zero area)"},
+};
+
+}  // namespace
+
+std::span<const FieldRow> fieldRows() { return kFields; }
+
+Field makeField(std::string_view name, Field::Values values) {
+  const auto row = std::find_if(kFields.begin(), kFields.end(), [&](const FieldRow& r) { return r.name == name; });
+  ASDFVK_CHECK(row != kFields.end() && static_cast<size_t>(row->type) == values.index());
+  return {.name = row->name,
+          .label = row->label,
+          .unit = row->unit,
+          .componentCount = row->componentCount,
+          .values = std::move(values)};
+}
+
+std::vector<std::string> resultFieldNames() {
+  std::vector<std::string> names;
+  for (const FieldRow& row : kFields) names.emplace_back(row.name);
+  return names;
+}
+
+}  // namespace asdfvk

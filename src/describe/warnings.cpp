@@ -1,0 +1,155 @@
+#include "describe/warnings.h"
+
+#include <fmt/core.h>
+
+#include <utility>
+
+#include "core/text.h"
+
+namespace asdfvk {
+namespace {
+
+std::string numberText(double number) { return fmt::format("{:.6g}", number); }
+
+std::vector<ErrorDetail> detailsOf(const Error& failure) {
+  return {{"code", nameOf(failure.code())}, {"failure", failure.what()}};
+}
+
+std::vector<ErrorDetail> detailsOf(const SolverReport& solver) {
+  return {{"solver", solver.name},
+          {"iterations", std::to_string(solver.iterations)},
+          {"relativeResidual", numberText(solver.relativeResidual)}};
+}
+
+}  // namespace
+
+std::vector<Warning> warningsOf(const MeshDefects& defects, bool isOfPolygons) {
+  std::vector<Warning> warnings;
+  const auto add = [&](const char* key, uint64_t count, const std::string& one, const std::string& many) {
+    if (count > 0)
+      warnings.push_back({WarningCode::MeshDefect,
+                          fmt::format("{} {}", count, count == 1 ? one : many),
+                          {{"defect", key}, {"count", std::to_string(count)}}});
+  };
+  const std::string face = isOfPolygons ? "triangle " : "face ", faces = isOfPolygons ? "triangles " : "faces ";
+  add("nonFiniteVertexCount", defects.nonFiniteVertexCount, "vertex has a coordinate that is not a finite number",
+      "vertices have coordinates that are not finite numbers");
+  add("nonFiniteFaceCount", defects.nonFiniteFaceCount,
+      face + "has a corner that is not finite: it is ignored and gets no value",
+      faces + "have corners that are not finite: they are ignored and get no value");
+  add("shortPolygonCount", defects.shortPolygonCount, "input face has fewer than three corners: it gets no value",
+      "input faces have fewer than three corners: they get no value");
+  add("zeroAreaFaceCount", defects.zeroAreaFaceCount, face + "has zero area: it casts no rays",
+      faces + "have zero area: they cast no rays");
+  add("duplicateFaceCount", defects.duplicateFaceCount,
+      face + "duplicates an earlier one: rays pass through its own copies",
+      faces + "duplicate earlier ones: rays pass through their own copies");
+  add("nonManifoldEdgeCount", defects.nonManifoldEdgeCount,
+      "edge has more than two faces: values are interpolated across all of them",
+      "edges have more than two faces: values are interpolated across all of them");
+  add("inconsistentEdgeCount", defects.inconsistentEdgeCount,
+      "edge has two faces of opposite winding: on one side of it rays leave the solid",
+      "edges have two faces of opposite winding: on one side of them rays leave the solid");
+  add("boundaryEdgeCount", defects.boundaryEdgeCount,
+      "edge has only one face: the surface is open there and rays can escape",
+      "edges have only one face: the surface is open there and rays can escape");
+  add("unreferencedVertexCount", defects.unreferencedVertexCount, "vertex belongs to no triangle: it is ignored",
+      "vertices belong to no triangle: they are ignored");
+  return warnings;
+}
+
+Warning componentsReversed(uint64_t count) {
+  return {WarningCode::ComponentsReversed,
+          fmt::format("{} inverted component{} reversed", count, count == 1 ? " was" : "s were"),
+          {{"count", std::to_string(count)}}};
+}
+
+Warning missingValues(const MissingValues& missing) {
+  Warning warning{WarningCode::MissingValues,
+                  fmt::format("{} of {} without a value: no ray from these faces{} hit the opposite side of the shape",
+                              missing.count, counted(missing.faceCount, "face"),
+                              missing.keepsMissing ? "" : ", or from faces connected to them,"),
+                  {{"count", std::to_string(missing.count)}}};
+  if (!missing.isInverted && !missing.isOpen) return warning;
+  const char* const both = missing.isInverted && missing.isOpen ? ", or " : "";
+  warning.message +=
+      fmt::format(", most likely because {}{}{}", missing.isInverted ? "their component is inverted" : "", both,
+                  missing.isOpen ? "the surface is open, so that rays escape, or its faces are oriented inwards" : "");
+  warning.details.push_back({"cause", fmt::format("{}{}{}", missing.isInverted ? "inverted" : "",
+                                                  *both != 0 ? " or " : "", missing.isOpen ? "open" : "")});
+  return warning;
+}
+
+Warning rangeDominated(double robustShare) {
+  return {WarningCode::RangeDominated,
+          fmt::format("a few faces have most of the range of the values (98 % of the faces are within {:.2g} % of it), "
+                      "so that errors over the range look small",
+                      100 * robustShare),
+          {{"robustShare", numberText(robustShare)}}};
+}
+
+Warning rangeDominated(double robustShare, const ErrorEstimate& estimate) {
+  return {
+      WarningCode::RangeDominated,
+      fmt::format("most values are small against their range, so that errors over the range look small: {:.2g} % of "
+                  "the range on average, but {:.0f} % of the value in the median",
+                  100 * estimate.average, 100 * estimate.relativeMedian),
+      {{"robustShare", numberText(robustShare)}}};
+}
+
+Warning finishedOnCpu(const SolverReport& solver) {
+  return {WarningCode::FinishedOnCpu,
+          fmt::format("the {} solver reached the limit of float32 on the device; the CPU continued in double precision",
+                      solver.name),
+          detailsOf(solver)};
+}
+
+Warning notConverged(const SolverReport& solver) {
+  return {WarningCode::NotConverged,
+          fmt::format("the {} solver stopped after {} at a relative residual of {:.1e}", solver.name,
+                      counted(solver.iterations, "iteration"), solver.relativeResidual),
+          detailsOf(solver)};
+}
+
+Warning backendReplaced(const std::string& failed, const std::string& next, const Error& failure) {
+  return {WarningCode::BackendReplaced,
+          fmt::format("the backend {} replaces {}, which failed: {}", next, failed, failure.what()),
+          {{"failed", failed}, {"code", nameOf(failure.code())}}};
+}
+
+Warning predictedOnCpu(const Error& failure) {
+  return {WarningCode::PredictedOnCpu,
+          fmt::format("the CPU predicted values because the device could not: {}", failure.what()), detailsOf(failure)};
+}
+
+Warning solvedOnCpu(const Error& failure) {
+  return {WarningCode::SolvedOnCpu,
+          fmt::format("the CPU solved the equation because the device failed: {}", failure.what()), detailsOf(failure)};
+}
+
+Warning thinShell(double clearShare) {
+  return {
+      WarningCode::ThinShell,
+      fmt::format("the shape is a thin wall around a cavity: {:.0f} % of the pairs of its patches have a clear line "
+                  "of sight; its parts are less certain than those of solid shapes",
+                  100 * clearShare),
+      {{"clearShare", numberText(clearShare)}}};
+}
+
+Warning partCountDiffers(uint32_t requested, uint32_t found) {
+  const std::string text =
+      requested < found ? fmt::format("the mesh has {} because a part does not extend over several components", found)
+                        : fmt::format("the mesh can be divided into {} only", found);
+  return {WarningCode::PartCountDiffers,
+          fmt::format("{} requested; {}", counted(requested, "part"), text),
+          {{"requested", std::to_string(requested)}, {"found", std::to_string(found)}}};
+}
+
+Warning onlySmallComponents(double minShare, uint64_t partCount) {
+  return {WarningCode::OnlySmallComponents,
+          fmt::format("no component has {:g} % of the area, so each of the {} components is a part", 100 * minShare,
+                      groupDigits(partCount)),
+          {{"partCount", std::to_string(partCount)}}};
+}
+
+}  // namespace asdfvk
