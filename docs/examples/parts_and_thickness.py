@@ -29,22 +29,23 @@ print(f"{path.name}: {len(vertices)} vertices, {len(faces)} faces")
 
 # %% One scene for all queries: geometry and hierarchy are kept.
 scene = asdf_vk.Scene(vertices, faces)
-values, info = scene.shape_diameter(return_info=True)
+info = scene.compute()
+values = info.fields["sdf"]
 print(f"shape diameter: median {np.nanmedian(values):.4g}, device: {info.device}")
 if info.estimated_error is not None:
     print(f"expected error: {100 * info.estimated_error.relative_median:.1f} % of the value in the median")
 
 # %% Parts: their number is found.
-labels, info = scene.segment(return_info=True)
-print(f"{info.segment_count} parts")
+labels = scene.segment()
+print(f"{labels.max() + 1} parts")
 for part in range(labels.max() + 1):
     inside = labels == part
     print(f"  part {part}: {inside.sum()} faces, median diameter {np.nanmedian(values[inside]):.4g}")
 
 # %% Wall thickness, and the regions where the surface is thinner than the 5th percentile.
-walls, info = scene.thickness(return_info=True)
+walls = scene.thickness()
 limit = float(np.nanpercentile(walls, 5))
-walls, info = scene.thickness(thinner_than=limit, return_info=True)
+info = scene.compute(measure="thickness", thinner_than=limit)
 assert info.thickness is not None
 print(f"{len(info.thickness.regions)} regions thinner than {limit:.4g}, the least {info.thickness.min:.4g}")
 

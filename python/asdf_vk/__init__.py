@@ -21,7 +21,7 @@ from ._errors import (
     UsageError,
 )
 from ._files import Fields, Mesh, read_fields, read_mesh, write
-from ._functions import segment, shape_diameter, skeleton_points, thickness
+from ._functions import compute, segment, shape_diameter, skeleton_points, thickness
 from ._info import Info
 from ._scene import Scene
 from ._session import Device, Session, close_default_sessions, devices
@@ -43,6 +43,7 @@ __all__ = [
     "UsageError",
     "__version__",
     "close_default_sessions",
+    "compute",
     "devices",
     "read_fields",
     "read_mesh",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from typing import Any, Union
 
 import numpy as np
@@ -21,6 +22,9 @@ def mesh_argument(mesh: Any, faces: Any = None) -> MeshArgument:
     if faces is None:
         if isinstance(mesh, _core.Mesh):
             return mesh
+        if isinstance(mesh, (str, os.PathLike)):
+            path = os.fspath(mesh)
+            raise error_of("arrayType", f"{path!r} is a path, not a mesh; pass asdf_vk.read_mesh({path!r})")
         if not (hasattr(mesh, "vertices") and hasattr(mesh, "faces")):
             raise error_of(
                 "arrayType",

@@ -43,6 +43,24 @@ class ComputeOptions(TypedDict, total=False):
     false_hit_angle: float | None
     outlier_deviations: float | None
     cone_rotation: Literal["fixed", "hashed"] | None
+    per: Literal["face", "vertex"] | None
+    """"vertex": fields per vertex, too, which the functions then return."""
+    measure: Literal["sdf", "thickness"] | None
+    """"thickness": the fields "thickness" and "least_thickness"."""
+    thinner_than: float | None
+    allow_sharp_edges: bool | None
+    wall_angle: float | None
+    segment: Literal["none", "parts", "cgal"] | None
+    """The field "segment"."""
+    parts: int | None
+    detail: float | None
+    clusters: int | None
+    smoothness: float | None
+    expansion: Literal["all", "first"] | None
+    postprocess: Literal["none", "cgal"] | None
+    """"cgal": the field "normalized"."""
+    centres: bool | None
+    """The field "centre", skeleton points."""
     orient: Literal["keep", "auto", "flip"] | None
     """Inverted closed components: report them, reverse them, or reverse all faces."""
     smooth: Union[str, tuple[int, int], None]

@@ -2,31 +2,21 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Literal, overload
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _core, _measures
+from . import _core
 from ._arrays import mask_array, mesh_argument, pairs_array
+from ._compute import computed, method_of, skeleton_of, split_progress, values_of
 from ._errors import error_of
-from ._info import Info
+from ._info import Info, info_of
 from ._options import BackendOptions, ConeOptions, PointOptions, Progress, SceneOptions, checked_progress
 from ._session import session_of
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
-
-
-class _Region:
-    """The scene, or the faces of it that a mask names."""
-
-    def __init__(self, scene: Scene, faces: ArrayLike | None) -> None:
-        self._scene = scene._opened
-        self._mask = None if faces is None else mask_array(faces, scene.face_count)
-
-    def compute(self, options: dict[str, Any], progress: Progress | None) -> _core.ComputedFields:
-        return self._scene.compute(options, self._mask, progress)
 
 
 class Scene:
@@ -52,7 +42,7 @@ class Scene:
     ) -> None:
         settings: dict[str, Any] = dict(options)
         session = session_of(settings)
-        _measures.split_progress(settings, ())
+        split_progress(settings, ())
         mesh = mesh_argument(vertices, faces)
         if isinstance(mesh, tuple):  # The scene outlives the call, in which the caller may change the arrays.
             mesh = mesh[0].copy(), mesh[1].copy()
@@ -91,133 +81,40 @@ class Scene:
         bounding box inside, so that it does not hit the surface that it lies on.
         """
         settings: dict[str, Any] = dict(options)
-        progress = _measures.split_progress(settings, ConeOptions.__annotations__)
+        progress = split_progress(settings, ConeOptions.__annotations__)
         return self._opened.values_at(*pairs_array(points, normals), settings, progress)
 
-    @overload
+    def _computed(self, faces: ArrayLike | None, options: dict[str, Any], **implied: Any) -> _core.ComputedFields:
+        scene = self._opened
+        mask = None if faces is None else mask_array(faces, self.face_count)
+        return computed(lambda own, progress: scene.compute(own, mask, progress), options, implied)
+
+    def compute(self, *, faces: ArrayLike | None = None, **options: Unpack[SceneOptions]) -> Info:
+        """As asdf_vk.compute(), of the whole mesh or of a region (faces)."""
+        return info_of(self._computed(faces, dict(options)))
+
     def shape_diameter(
-        self,
-        *,
-        faces: ArrayLike | None = None,
-        per: Literal["face", "vertex"] | None = "face",
-        return_info: Literal[False] | None = False,
-        **options: Unpack[SceneOptions],
-    ) -> NDArray[np.float32]: ...
-    @overload
-    def shape_diameter(
-        self,
-        *,
-        faces: ArrayLike | None = None,
-        per: Literal["face", "vertex"] | None = "face",
-        return_info: Literal[True],
-        **options: Unpack[SceneOptions],
-    ) -> tuple[NDArray[np.float32], Info]: ...
-    def shape_diameter(
-        self,
-        *,
-        faces: ArrayLike | None = None,
-        per: Literal["face", "vertex"] | None = "face",
-        return_info: bool | None = False,
-        **options: Any,
-    ) -> Any:
+        self, *, faces: ArrayLike | None = None, **options: Unpack[SceneOptions]
+    ) -> NDArray[np.float32]:
         """As asdf_vk.shape_diameter(), of the whole mesh or of a region (faces)."""
-        return _measures.shape_diameter(_Region(self, faces), per, return_info, options)
+        given = dict(options)
+        return values_of(self._computed(faces, given), "sdf", given)
 
-    @overload
-    def thickness(
-        self,
-        *,
-        faces: ArrayLike | None = None,
-        thinner_than: float | None = None,
-        allow_sharp_edges: bool | None = None,
-        wall_angle: float | None = None,
-        per: Literal["face", "vertex"] | None = "face",
-        return_info: Literal[False] | None = False,
-        **options: Unpack[SceneOptions],
-    ) -> NDArray[np.float32]: ...
-    @overload
-    def thickness(
-        self,
-        *,
-        faces: ArrayLike | None = None,
-        thinner_than: float | None = None,
-        allow_sharp_edges: bool | None = None,
-        wall_angle: float | None = None,
-        per: Literal["face", "vertex"] | None = "face",
-        return_info: Literal[True],
-        **options: Unpack[SceneOptions],
-    ) -> tuple[NDArray[np.float32], Info]: ...
-    def thickness(
-        self,
-        *,
-        faces: ArrayLike | None = None,
-        thinner_than: float | None = None,
-        allow_sharp_edges: bool | None = None,
-        wall_angle: float | None = None,
-        per: Literal["face", "vertex"] | None = "face",
-        return_info: bool | None = False,
-        **options: Any,
-    ) -> Any:
+    def thickness(self, *, faces: ArrayLike | None = None, **options: Unpack[SceneOptions]) -> NDArray[np.float32]:
         """As asdf_vk.thickness(), of the whole mesh or of a region (faces)."""
-        of_measure = _measures.thickness_options(thinner_than, allow_sharp_edges, wall_angle)
-        return _measures.thickness(_Region(self, faces), of_measure, per, return_info, options)
+        given = dict(options)
+        return values_of(self._computed(faces, given, measure="thickness"), "thickness", given)
 
-    @overload
     def segment(
-        self,
-        *,
-        method: Literal["parts", "cgal"] | None = "parts",
-        parts: int | None = None,
-        detail: float | None = None,
-        clusters: int | None = None,
-        smoothness: float | None = None,
-        expansion: Literal["all", "first"] | None = None,
-        return_info: Literal[False] | None = False,
-        **options: Unpack[SceneOptions],
-    ) -> NDArray[np.int32]: ...
-    @overload
-    def segment(
-        self,
-        *,
-        method: Literal["parts", "cgal"] | None = "parts",
-        parts: int | None = None,
-        detail: float | None = None,
-        clusters: int | None = None,
-        smoothness: float | None = None,
-        expansion: Literal["all", "first"] | None = None,
-        return_info: Literal[True],
-        **options: Unpack[SceneOptions],
-    ) -> tuple[NDArray[np.int32], Info]: ...
-    def segment(
-        self,
-        *,
-        method: Literal["parts", "cgal"] | None = "parts",
-        parts: int | None = None,
-        detail: float | None = None,
-        clusters: int | None = None,
-        smoothness: float | None = None,
-        expansion: Literal["all", "first"] | None = None,
-        return_info: bool | None = False,
-        **options: Any,
-    ) -> Any:
+        self, *, method: Literal["parts", "cgal"] | None = "parts", **options: Unpack[SceneOptions]
+    ) -> NDArray[np.int32]:
         """As asdf_vk.segment(), of the whole mesh."""
-        of_method = _measures.method_options(parts, detail, clusters, smoothness, expansion)
-        return _measures.segment(_Region(self, None), method, of_method, return_info, options)
+        given = dict(options)
+        return values_of(self._computed(None, given, segment=method_of(method)), "segment", given)
 
-    @overload
     def skeleton_points(
-        self,
-        *,
-        faces: ArrayLike | None = None,
-        return_info: Literal[False] | None = False,
-        **options: Unpack[SceneOptions],
-    ) -> tuple[NDArray[np.float64], NDArray[np.float32]]: ...
-    @overload
-    def skeleton_points(
-        self, *, faces: ArrayLike | None = None, return_info: Literal[True], **options: Unpack[SceneOptions]
-    ) -> tuple[NDArray[np.float64], NDArray[np.float32], Info]: ...
-    def skeleton_points(
-        self, *, faces: ArrayLike | None = None, return_info: bool | None = False, **options: Any
-    ) -> Any:
+        self, *, faces: ArrayLike | None = None, **options: Unpack[SceneOptions]
+    ) -> tuple[NDArray[np.float64], NDArray[np.float32]]:
         """As asdf_vk.skeleton_points(), of the whole mesh or of a region (faces)."""
-        return _measures.skeleton_points(_Region(self, faces), return_info, options)
+        given = dict(options)
+        return skeleton_of(self._computed(faces, given, centres=True), given)

@@ -12,9 +12,7 @@ from typing import Any
 import numpy as np
 
 from . import _core
-from ._arrays import MeshArgument
 from ._errors import error_of
-from ._options import Progress
 
 
 @dataclass(frozen=True)
@@ -91,11 +89,6 @@ class Session:
         if self._open is None:
             raise error_of("optionConflict", "the session is closed")
         return self._open
-
-    def _compute(
-        self, mesh: MeshArgument, options: dict[str, Any], progress: Progress | None
-    ) -> _core.ComputedFields:
-        return self._opened.compute(mesh, options, progress)
 
 
 def _session_key(backend: Any, device: Any, require_gpu: Any, threads: Any) -> tuple[str, str, bool, int]:

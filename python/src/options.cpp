@@ -151,7 +151,7 @@ constexpr std::array kOptions{
     OptionRow{"orient", [](Options& o, const Value& v) { o.orientation = choiceOf(v, kOrientations); }},
     OptionRow{"smooth", [](Options& o, const Value& v) { o.smoothing = smoothingOf(v); }},
     OptionRow{"postprocess", [](Options& o, const Value& v) { o.postprocess = choiceOf(v, kPostprocesses); }},
-    OptionRow{"segmentation", [](Options& o, const Value& v) { o.segmentation = choiceOf(v, kSegmentations); }},
+    OptionRow{"segment", [](Options& o, const Value& v) { o.segmentation = choiceOf(v, kSegmentations); }},
     OptionRow{"parts", [](Options& o, const Value& v) { o.parts.partCount = wholeOf<uint32_t>(v, 1, kMaxPartCount); }},
     OptionRow{"detail", [](Options& o, const Value& v) { o.parts.detail = numberOf(v); }},
     OptionRow{"clusters",

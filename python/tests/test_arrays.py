@@ -84,17 +84,17 @@ def test_vertices_of_no_face_may_be_nan(reference: asdf_vk.Session) -> None:
     vertices, faces = cube()
     with_nan = np.concatenate([vertices, [[np.nan, 0, 0]]])
     with pytest.warns(asdf_vk.MeshWarning) as caught:
-        values, info = asdf_vk.shape_diameter(with_nan, faces, seeds="all", session=reference, return_info=True)
+        info = asdf_vk.compute(with_nan, faces, seeds="all", session=reference)
     warned = [str(warning.message) for warning in caught]
     assert len(warned) == 2, warned
     assert any("1 vertex has a coordinate that is not a finite number" in message for message in warned), warned
     assert any("1 vertex belongs to no triangle" in message for message in warned), warned
-    assert np.isfinite(values).all() and info.defects.unreferenced_vertex_count == 1
+    assert np.isfinite(info.fields["sdf"]).all() and info.defects.unreferenced_vertex_count == 1
 
 
 def test_arrays_outlive_what_they_came_from() -> None:
     vertices, faces = sphere(2)
-    info = asdf_vk.shape_diameter(vertices, faces, return_info=True)[1]
+    info = asdf_vk.compute(vertices, faces)
     seed = info.seed
     count = int(seed.sum())
     del info, vertices, faces

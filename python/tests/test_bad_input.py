@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from types import SimpleNamespace
 from typing import Any, Callable, Iterator
 
@@ -122,7 +123,7 @@ def wrong_options() -> Iterator[dict[str, Any]]:
     yield {"seeds": "all", "time_budget": 1}
     yield {"progress": 1}
     yield {"unknown": 1}
-    yield {"measure": "thickness"}
+    yield {"measure": "length"}
     yield {"threads": -1}
     yield {"threads": 1.5}
     yield {"threads": 10**9}
@@ -138,8 +139,11 @@ def wrong_options() -> Iterator[dict[str, Any]]:
     yield {"require_gpu": 1}
     for name in ("cone_angle", "seeds", "threads", "backend", "progress", "check", "smooth"):
         yield {name: np.zeros((3, 3))}  # Its repr() has three lines.
-    yield {"return_info": "no"}
-    yield {"return_info": np.zeros(2)}
+    yield {"return_info": True}
+    yield {"parts": 3}
+    yield {"detail": 2, "segment": "cgal"}
+    yield {"wall_angle": 100}
+    yield {"centres": "no"}
     yield {"session": 1}
     yield {"session": None, "per": "edge"}
     yield {"definition": "cgal", "false_hit_angle": 10}
@@ -190,7 +194,7 @@ def test_wrong_arguments_of_the_other_functions(reference: asdf_vk.Session) -> N
     assert fails(segment(clusters=3)) and fails(segment(method="cgal", parts=3))
     assert fails(segment(method="cgal", clusters=1)) and fails(segment(method="cgal", smoothness=-1))
     assert fails(segment(method="cgal", smoothness=float("nan"))) and fails(segment(method="cgal", expansion="x"))
-    assert fails(segment(postprocess="cgal")) and fails(segment(seeds=-1))
+    assert fails(segment(postprocess="x")) and fails(segment(seeds=-1))
     assert fails(thickness(thinner_than=0)) and fails(thickness(thinner_than=float("nan")))
     assert fails(thickness(wall_angle=90)) and fails(thickness(wall_angle=181)) and fails(thickness(per="x"))
     assert fails(thickness(allow_sharp_edges=True)) and fails(thickness(thinner_than=1, allow_sharp_edges=1))
@@ -220,10 +224,10 @@ def test_wrong_files(tmp_path: Any) -> None:
 def test_numpy_scalars_are_numbers_and_flags(reference: asdf_vk.Session) -> None:
     numbers: dict[str, Any] = {"seeds": np.int64(5), "rays": np.int32(7), "cone_angle": np.float32(90)}
     numbers |= {"estimate": np.False_, "random_seed": np.uint64(3)}
-    info = asdf_vk.shape_diameter(*cube(), session=reference, return_info=True, **numbers)[1]
+    info = asdf_vk.compute(*cube(), session=reference, **numbers)
     assert info.seed_count == 5 and info.ray_count == 35 and info.random_seed == 3
     half: Any = np.float32(0.5)
-    assert asdf_vk.shape_diameter(*cube(), seeds=half, return_info=True)[1].seed_count == 6
+    assert asdf_vk.compute(*cube(), seeds=half).seed_count == 6
     asdf_vk.Session(backend="reference", threads=np.int64(1), require_gpu=np.False_)  # type: ignore[arg-type]
 
 
@@ -267,7 +271,10 @@ def test_wrong_arguments_of_the_module_of_neuron_pipelines() -> None:
 
 def test_the_type_of_what_is_no_array_is_in_the_message() -> None:
     with pytest.raises(asdf_vk.ArrayTypeError, match="faces is an object of type generator, not an array of integers"):
-        asdf_vk.shape_diameter(VERTICES, (face for face in FACES))  # type: ignore[call-overload]
+        asdf_vk.shape_diameter(VERTICES, (face for face in FACES))  # type: ignore[arg-type]
+    for path in ("mesh.off", Path("mesh.off")):
+        with pytest.raises(asdf_vk.ArrayTypeError, match=r"a path, not a mesh; pass asdf_vk.read_mesh\('mesh.off'\)"):
+            asdf_vk.shape_diameter(path)
     mesh = SimpleNamespace(vertices=VERTICES, faces=FACES)
     with pytest.raises(asdf_vk.ArrayTypeError, match="vertices is an object of type SimpleNamespace"):
         asdf_vk.shape_diameter(mesh, FACES)

@@ -54,7 +54,7 @@ def _fields_of(path: Path) -> tuple[dict[str, Any], dict[str, Any]]:
 @pytest.mark.parametrize("name", ["result.ply", "result.vtu", "result.npz"])
 def test_fields_survive_a_file(tmp_path: Path, name: str) -> None:
     vertices, faces = sphere(3)
-    info = asdf_vk.segment(vertices, faces, return_info=True)[1]
+    info = asdf_vk.compute(vertices, faces, segment="parts")
     count = len(faces)
     own: dict[str, Any] = {"area": np.arange(count), "flag": np.arange(count) % 2 == 0}
     own |= {"word": np.arange(count, dtype=np.uint32) + 2**31, "axis": vertices[faces[:, 0]].astype(np.float32)}

@@ -23,10 +23,8 @@ def keywords(function: Callable[..., Any]) -> list[str]:
     """The keywords of a function, with those of its **options."""
     names: list[str] = []
     for name, parameter in inspect.signature(function).parameters.items():
-        if parameter.kind == parameter.VAR_KEYWORD:  # Any where overloads have the type.
-            is_method = inspect.ismethod(function)
-            untyped = _options.SceneOptions if is_method else _options.FunctionOptions
-            names += getattr(_options, parameter.annotation[len("Unpack[") : -1], untyped).__annotations__
+        if parameter.kind == parameter.VAR_KEYWORD:
+            names += getattr(_options, parameter.annotation[len("Unpack[") : -1]).__annotations__
         elif parameter.default is not parameter.empty and name != "faces":
             names.append(name)
     return names
@@ -35,6 +33,8 @@ def keywords(function: Callable[..., Any]) -> list[str]:
 def value_of(result: Any) -> Any:
     if isinstance(result, asdf_vk.Session):
         return result.backend
+    if isinstance(result, asdf_vk.Info):
+        return result.fields
     return result.shape_diameter() if isinstance(result, asdf_vk.Scene) else result
 
 
@@ -45,6 +45,7 @@ def test_none_is_the_default(tmp_path: Path) -> None:
     off.write_text("\n".join(lines))
     scene = asdf_vk.Scene(*MESH)
     calls: list[tuple[Callable[..., Any], tuple[Any, ...]]] = [
+        (asdf_vk.compute, MESH),
         (asdf_vk.shape_diameter, MESH),
         (asdf_vk.thickness, MESH),
         (asdf_vk.segment, MESH),
@@ -53,6 +54,7 @@ def test_none_is_the_default(tmp_path: Path) -> None:
         (asdf_vk.Session, ()),
         (asdf_vk.Scene, MESH),
         (scene.at, (TOP, TOP)),
+        (scene.compute, ()),
         (scene.shape_diameter, ()),
         (scene.thickness, ()),
         (scene.segment, ()),

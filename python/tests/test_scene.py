@@ -65,14 +65,15 @@ def test_regions(scene: asdf_vk.Scene) -> None:
     faces = dumbbell()[1]
     mask = np.arange(len(faces)) % 4 == 0
     whole = scene.shape_diameter(seeds="all")
-    values, info = scene.shape_diameter(faces=mask, seeds="all", return_info=True)
+    values = scene.shape_diameter(faces=mask, seeds="all")
+    info = scene.compute(faces=mask, seeds="all")
     np.testing.assert_array_equal(values[mask], whole[mask])
     assert np.isnan(values[~mask]).all()
     assert info.region_face_count == info.seed_count == mask.sum() and info.face_count == len(faces)
     np.testing.assert_array_equal(scene.shape_diameter(faces=np.flatnonzero(mask), seeds="all"), values)
     everything = np.ones(len(faces), bool)
     np.testing.assert_array_equal(scene.shape_diameter(faces=everything), scene.shape_diameter())
-    assert scene.shape_diameter(faces=[5], seeds="all", return_info=True)[1].seed_count == 1
+    assert scene.compute(faces=[5], seeds="all").seed_count == 1
     walls = scene.thickness(faces=mask)
     np.testing.assert_array_equal(walls[mask], scene.thickness()[mask])
     assert np.isnan(scene.skeleton_points(faces=mask)[1][~mask]).all()
@@ -102,7 +103,7 @@ def test_wrong_arguments() -> None:
         lambda: scene.shape_diameter(faces=[]),
         lambda: scene.shape_diameter(faces="all"),
         lambda: asdf_vk.Scene(*cube(), progress=3),  # type: ignore[arg-type]
-        lambda: scene.shape_diameter(backend="cpu"),  # type: ignore[call-overload]
+        lambda: scene.shape_diameter(backend="cpu"),  # type: ignore[call-arg]
         lambda: scene.shape_diameter(orient="flip"),
         lambda: asdf_vk.Scene(*cube(), orient="x"),  # type: ignore[arg-type]
         lambda: asdf_vk.Scene(*cube(), seeds=1),  # type: ignore[call-arg]

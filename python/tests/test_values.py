@@ -41,7 +41,8 @@ def test_the_thickness_of_a_sphere_and_of_a_cube() -> None:
 
 def test_the_verdict_of_the_thickness() -> None:
     vertices, faces = cube()
-    values, info = asdf_vk.thickness(vertices * [60, 1, 20], faces, thinner_than=1.5, return_info=True)
+    info = asdf_vk.compute(vertices * [60, 1, 20], faces, measure="thickness", thinner_than=1.5)
+    values = info.fields["thickness"]
     report = info.thickness
     assert report is not None and report.verdict == "failed" and report.thinner_than == 1.5
     assert info.size == (60, 1, 20) and report.min == pytest.approx(1, rel=1e-6)
@@ -58,14 +59,17 @@ def test_the_verdict_of_the_thickness() -> None:
     given: tuple[int | str, ...] = (1, "all")
     for seeds in given:
         np.testing.assert_array_equal(asdf_vk.thickness(vertices * [60, 1, 20], faces, seeds=seeds), values)
-    sound = asdf_vk.thickness(vertices, faces, thinner_than=0.5, allow_sharp_edges=True, return_info=True)[1].thickness
+    sound = asdf_vk.compute(
+        vertices, faces, measure="thickness", thinner_than=0.5, allow_sharp_edges=True
+    ).thickness
     assert sound is not None and sound.verdict == "passed" and sound.regions == () and sound.allows_sharp_edges
-    unlimited = asdf_vk.thickness(vertices, faces, return_info=True)[1].thickness
+    unlimited = asdf_vk.compute(vertices, faces, measure="thickness").thickness
     assert unlimited is not None and unlimited.verdict is None and unlimited.thinner_than is None
 
 
 def test_skeleton_points_of_a_cube_lie_on_its_middle_planes() -> None:
-    points, radii, info = asdf_vk.skeleton_points(*cube(), seeds="all", return_info=True)
+    points, radii = asdf_vk.skeleton_points(*cube(), seeds="all")
+    info = asdf_vk.compute(*cube(), seeds="all", centres=True)
     assert points.dtype == np.float64 and points.shape == (12, 3)
     vertices, faces = cube()
     centres = vertices[faces].mean(axis=1)
@@ -75,17 +79,21 @@ def test_skeleton_points_of_a_cube_lie_on_its_middle_planes() -> None:
 
 def test_parts_and_clusters() -> None:
     mesh = joined(sphere(3), (sphere(2)[0] * 0.4 + [3, 0, 0], sphere(2)[1]))
-    labels, info = asdf_vk.segment(*mesh, return_info=True)
+    labels = asdf_vk.segment(*mesh)
+    info = asdf_vk.compute(*mesh, segment="parts")
+    np.testing.assert_array_equal(info.fields["segment"], labels)
     assert labels.dtype == np.int32 and info.segment_count == labels.max() + 1 == 2
     assert info.parts is not None and sum(info.parts.area_shares) == pytest.approx(1)
     assert len(set(labels[:1280])) == len(set(labels[1280:])) == 1
-    clusters, info = asdf_vk.segment(*dumbbell(), method="cgal", clusters=2, return_info=True)
+    info = asdf_vk.compute(*dumbbell(), segment="cgal", clusters=2)
+    clusters = info.fields["segment"]
     assert info.parts is None and info.segment_count == clusters.max() + 1 >= 2
 
 
 def test_fields_and_report() -> None:
     vertices, faces = sphere(4)
-    values, info = asdf_vk.shape_diameter(vertices, faces, seeds=0.2, return_info=True)
+    values = asdf_vk.shape_diameter(vertices, faces, seeds=0.2)
+    info = asdf_vk.compute(vertices, faces, seeds=0.2)
     assert info.seed_count == info.seed.sum() == round(0.2 * len(faces))
     assert info.face_count == len(faces) and info.vertex_count == len(vertices)
     np.testing.assert_array_equal(info.fields["sdf"], values)
@@ -94,13 +102,14 @@ def test_fields_and_report() -> None:
     assert info.sdf.min == pytest.approx(values.min())
     assert info.stage_seconds["trace"] > 0 and info.warnings == ()
     assert info.check is None
-    info = asdf_vk.shape_diameter(vertices, faces, seeds="all", check="all", return_info=True)[1]
+    info = asdf_vk.compute(vertices, faces, seeds="all", check="all")
     assert info.check is not None and info.check.passed and info.estimated_error is None
 
 
 def test_per_vertex() -> None:
     vertices, faces = dumbbell()
-    values, info = asdf_vk.shape_diameter(vertices, faces, per="vertex", return_info=True)
+    values = asdf_vk.shape_diameter(vertices, faces, per="vertex")
+    info = asdf_vk.compute(vertices, faces, per="vertex")
     assert values.shape == (len(vertices),)
     vertex = int(faces[100, 0])
     around = info.fields["sdf"][(faces == vertex).any(axis=1)]
@@ -120,19 +129,17 @@ def test_options_reach_the_library() -> None:
     mesh = dumbbell()
     paper = asdf_vk.shape_diameter(*mesh, recipe="paper")
     assert (paper != asdf_vk.shape_diameter(*mesh)).any()
-    assert asdf_vk.shape_diameter(*mesh, seeds=50, return_info=True)[1].seed_count == 50
-    assert asdf_vk.shape_diameter(*mesh, seeds="5 %", return_info=True)[1].seed_count == 256
-    assert asdf_vk.shape_diameter(*mesh, definition="cgal", return_info=True)[1].seed_count == 5120
-    assert asdf_vk.shape_diameter(*mesh, rays=7, seeds=100, return_info=True)[1].ray_count == 700
-    first = asdf_vk.shape_diameter(*mesh, max_error=0.5, return_info=True)[1]
+    assert asdf_vk.compute(*mesh, seeds=50).seed_count == 50
+    assert asdf_vk.compute(*mesh, seeds="5 %").seed_count == 256
+    assert asdf_vk.compute(*mesh, definition="cgal").seed_count == 5120
+    assert asdf_vk.compute(*mesh, rays=7, seeds=100).ray_count == 700
+    first = asdf_vk.compute(*mesh, max_error=0.5)
     assert first.seed_count == 102  # 2 %, as the program
-    assert asdf_vk.shape_diameter(*mesh, random_seed=None, return_info=True)[1].random_seed == 1
+    assert asdf_vk.compute(*mesh, random_seed=None).random_seed == 1
 
 
 def test_names_of_options_agree_with_the_extension() -> None:
-    implied = {"segmentation", "parts", "detail", "clusters", "smoothness", "expansion", "postprocess"}
-    implied |= {"measure", "wall_angle", "thinner_than", "allow_sharp_edges", "centres", "per"}
-    assert set(_options.ComputeOptions.__annotations__) == set(_core.option_names()) - implied
+    assert set(_options.ComputeOptions.__annotations__) == set(_core.option_names())
 
 
 @pytest.mark.parametrize("limit", [0.3, 5])
@@ -141,12 +148,12 @@ def test_the_thickness_report_is_that_of_the_program(program: Path, tmp_path: Pa
     asdf_vk.write(path, dumbbell())
     command: list[Any] = [program, path, "-o", tmp_path / "result.npy", "--quiet", "--json", "--thinner-than", str(limit)]
     printed = json.loads(subprocess.run(command, check=True, capture_output=True).stdout)
+    info = asdf_vk.compute(asdf_vk.read_mesh(path), measure="thickness", thinner_than=limit)
+    document, ours = printed["thickness"], info.thickness
+    assert ours is not None and document["regions"]
     of_program = {"mesh", "output", "picture", "points", "fields", "version", "commit", "options"}
     snake = {re.sub(r"(?=[A-Z])", "_", key).lower() for key in printed.keys() - of_program}
     assert snake == {field.name for field in dataclasses.fields(_report.Report)}
-    document = printed["thickness"]
-    ours = asdf_vk.thickness(asdf_vk.read_mesh(path), thinner_than=limit, return_info=True)[1].thickness
-    assert ours is not None and document["regions"]
 
     def compare(found: Any, expected: Any) -> None:
         if dataclasses.is_dataclass(found):

@@ -166,7 +166,7 @@ def values_and_segments(
     vertices: Any, faces: ArrayLike | None, segmentation: dict[str, Any], options: dict[str, Any]
 ) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
     """Post-processed values and segments, without warnings; options: of the backend."""
-    computed = _computed(vertices, faces, {"segmentation": "cgal", **segmentation}, options, None)
+    computed = _computed(vertices, faces, {"segment": "cgal", **segmentation}, options, None)
     return computed.array("normalized", single=False), computed.array("segment")
 
 
@@ -181,7 +181,8 @@ def _computed(
     if options:
         raise error_of("unknownName", f"there is no option '{next(iter(options))}' here")
     implied = {"definition": "cgal", "estimate": False}
-    return session._compute(mesh_argument(vertices, faces), {**implied, **described}, checked_progress(progress))
+    mesh = mesh_argument(vertices, faces)
+    return session._opened.compute(mesh, {**implied, **described}, checked_progress(progress))
 
 
 def _values_of(sdf_values: ArrayLike, mesh: MeshArgument) -> NDArray[np.float64]:

@@ -1,0 +1,79 @@
+"""One computation, for the free functions and for Scene."""
+
+from __future__ import annotations
+
+import warnings
+from typing import Any, Callable, Collection
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _core
+from ._errors import MeshWarning, error_of
+from ._options import ComputeOptions, Progress, checked_progress
+
+_STACK_LEVEL = 4  # The caller of the public function.
+
+# Options that have no effect without another one.
+_NEEDS = {
+    "parts": ("segment", "parts"),
+    "detail": ("segment", "parts"),
+    "clusters": ("segment", "cgal"),
+    "smoothness": ("segment", "cgal"),
+    "expansion": ("segment", "cgal"),
+    "thinner_than": ("measure", "thickness"),
+    "allow_sharp_edges": ("measure", "thickness"),
+    "wall_angle": ("measure", "thickness"),
+}
+
+
+def split_progress(options: dict[str, Any], allowed: Collection[str]) -> Progress | None:
+    """Removes `progress` from the options and returns it. Only the names of `allowed` may be left."""
+    progress = checked_progress(options.pop("progress", None))
+    for name in options:
+        if name not in allowed:
+            raise error_of("unknownName", f"there is no option '{name}'", {"option": name})
+    return progress
+
+
+def method_of(method: Any) -> str:
+    """The value of the option `segment`."""
+    if method is not None and (not isinstance(method, str) or method not in ("parts", "cgal")):
+        raise error_of("unknownName", f"method={method!r} is unknown; the names are parts, cgal")
+    return method or "parts"
+
+
+def _merged(options: dict[str, Any], implied: dict[str, Any]) -> dict[str, Any]:
+    for name, value in implied.items():
+        if options.get(name) is not None and not (isinstance(options[name], type(value)) and options[name] == value):
+            raise error_of("optionConflict", f"{name}={options[name]!r} contradicts this function: use compute()")
+    merged = {**options, **implied}
+    for name, (needed, value) in _NEEDS.items():
+        given = merged.get(needed)
+        if merged.get(name) is not None and not (isinstance(given, str) and given == value):
+            raise error_of("optionConflict", f"{name} needs {needed}={value!r}, not {given!r}")
+    return merged
+
+
+def computed(
+    compute: Callable[[dict[str, Any], Progress | None], _core.ComputedFields],
+    options: dict[str, Any],
+    implied: dict[str, Any],
+) -> _core.ComputedFields:
+    """Calls `compute` with the options of the caller and those that the function implies; issues the warnings."""
+    progress = split_progress(options, ComputeOptions.__annotations__)
+    result = compute(_merged(options, implied), progress)
+    for warning in result.warnings():
+        warnings.warn(MeshWarning(warning.message, warning.code), stacklevel=_STACK_LEVEL)
+    return result
+
+
+def values_of(result: _core.ComputedFields, name: str, options: dict[str, Any]) -> NDArray[Any]:
+    """The field per face, or with per="vertex" per vertex."""
+    return result.array(name, options.get("per") == "vertex")
+
+
+def skeleton_of(
+    result: _core.ComputedFields, options: dict[str, Any]
+) -> tuple[NDArray[np.float64], NDArray[np.float32]]:
+    return values_of(result, "centre", options), values_of(result, "sdf", options) / np.float32(2)
