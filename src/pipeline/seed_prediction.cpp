@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "describe/warnings.h"
 #include "pipeline/kept_tracers.h"
 
 namespace asdfvk {
