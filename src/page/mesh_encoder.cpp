@@ -67,8 +67,7 @@ std::vector<uint32_t> walkedFaces(const TriangleMesh& mesh) {
 struct Layout {
   std::vector<uint32_t> faces;
   std::vector<uint32_t> vertices;  ///< Those of faces, in the order of their first corners.
-  /// Place of the vertex of each corner minus the number of vertices before: 0 for a new vertex, else negative. In each
-  /// face the newest vertex is last.
+  /// Place of the vertex of each corner minus the number of vertices before: 0 for a new vertex, else negative.
   std::vector<int32_t> corners;
 
   explicit Layout(const TriangleMesh& mesh) : faces(walkedFaces(mesh)) {
@@ -77,8 +76,6 @@ struct Layout {
     for (const uint32_t face : faces) {
       Face vertexOf = mesh.faces[face];
       if (!mesh.hasFiniteCorners(face)) vertexOf = {vertexOf[0], vertexOf[0], vertexOf[0]};
-      const auto isOlder = [&](uint32_t a, uint32_t b) { return placeOf[a] < placeOf[b]; };
-      std::rotate(vertexOf.begin(), std::max_element(vertexOf.begin(), vertexOf.end(), isOlder) + 1, vertexOf.end());
       for (const uint32_t vertex : vertexOf) {
         const auto count = static_cast<uint32_t>(vertices.size());
         if (placeOf[vertex] == kNone) {

@@ -35,42 +35,32 @@ Bytes fromBase64(const std::string& text) {
   const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   if (text.size() % 4 != 0) fail("base64 without padding");
   Bytes bytes;
-  for (size_t i = 0; i < text.size(); i += 4) {
-    uint32_t group = 0;
-    size_t count = 3;
-    for (size_t k = 0; k < 4; ++k) {
-      const char c = text[i + k];
-      if (c == '=' && i + 4 == text.size() && k >= 2) {
-        count = std::min(count, k - 1);
-        group <<= 6;
-        continue;
-      }
-      const size_t digit = digits.find(c);
-      if (digit == std::string::npos) fail("no base64");
-      group = group << 6 | static_cast<uint32_t>(digit);
-    }
-    for (size_t k = 0; k < count; ++k) bytes.push_back(static_cast<uint8_t>(group >> (16 - 8 * k)));
+  uint32_t bits = 0;
+  int bitCount = 0;
+  for (const char c : text.substr(0, text.find('='))) {
+    const size_t digit = digits.find(c);
+    if (digit == std::string::npos) fail("no base64");
+    bits = bits << 6 | static_cast<uint32_t>(digit);
+    bitCount += 6;
+    if (bitCount < 8) continue;
+    bitCount -= 8;
+    bytes.push_back(static_cast<uint8_t>(bits >> bitCount));
   }
   return bytes;
 }
 
 Bytes inflated(const Bytes& compressed) {
-  z_stream stream{};
-  if (inflateInit(&stream) != Z_OK) fail("zlib");
-  stream.next_in = const_cast<Bytef*>(compressed.data());
-  stream.avail_in = static_cast<uInt>(compressed.size());
   Bytes bytes;
-  std::array<uint8_t, 65536> part{};
-  int status = Z_OK;
-  while (status == Z_OK) {
-    stream.next_out = part.data();
-    stream.avail_out = static_cast<uInt>(part.size());
-    status = inflate(&stream, Z_NO_FLUSH);
-    bytes.insert(bytes.end(), part.data(), part.data() + (part.size() - stream.avail_out));
+  constexpr uLongf kMaxSize = 1 << 28;
+  for (uLongf size = 4096; size < kMaxSize; size *= 4) {
+    bytes.resize(size);
+    uLongf written = size;
+    const int status = uncompress(bytes.data(), &written, compressed.data(), static_cast<uLong>(compressed.size()));
+    bytes.resize(written);
+    if (status == Z_OK) return bytes;
+    if (status != Z_BUF_ERROR) break;
   }
-  inflateEnd(&stream);
-  if (status != Z_STREAM_END || stream.avail_in != 0) fail("damaged array");
-  return bytes;
+  fail("damaged array");
 }
 
 /// Array `number` of the page.

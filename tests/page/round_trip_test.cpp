@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <random>
-#include <set>
 
 #include "generate/shapes.h"
 #include "page/decoded_page.h"
@@ -21,8 +21,8 @@ test::DecodedMesh throughPage(const Mesh& mesh, const std::vector<Field>& fields
   return test::decodePage(test::htmlOf(page)).meshes.at(0);
 }
 
-/// Every face of the mesh once, with its corners in their cyclic order at their places, and with vertices shared as
-/// they are in the mesh.
+/// Every face of the mesh once, with its corners in their order at their places, and with vertices shared as they are
+/// in the mesh.
 void checkSameMesh(const Mesh& mesh, const test::DecodedMesh& decoded) {
   REQUIRE_EQ(decoded.faces.size(), mesh.faces.size());
   std::vector<uint32_t> ids = decoded.faceIds;
@@ -30,61 +30,45 @@ void checkSameMesh(const Mesh& mesh, const test::DecodedMesh& decoded) {
   for (uint32_t i = 0; i < ids.size(); ++i)
     REQUIRE_EQ(ids[i], mesh.polygons.isEmpty() ? i : mesh.polygons.inputFaceOf[i]);
   if (!mesh.polygons.isEmpty()) return;  // A number does not name a triangle.
-  std::vector<uint32_t> vertexOf(decoded.positions.size(), 0xffffffff);
-  std::set<uint32_t> used;
+  std::map<uint32_t, uint32_t> vertexOf, placeOf;
   for (size_t i = 0; i < decoded.faces.size(); ++i) {
     const Face& expected = mesh.faces[decoded.faceIds[i]];
-    const bool isFiniteFace =
-        std::all_of(expected.begin(), expected.end(), [&](uint32_t vertex) { return isFinite(mesh.vertices[vertex]); });
-    if (!isFiniteFace) {
-      CHECK(decoded.faces[i][0] == decoded.faces[i][1]);
-      CHECK(decoded.faces[i][0] == decoded.faces[i][2]);
+    const Face& found = decoded.faces[i];
+    if (!TriangleMesh(mesh).hasFiniteCorners(decoded.faceIds[i])) {
+      CHECK((found[0] == found[1] && found[0] == found[2]));
       continue;
     }
-    size_t turn = 0;  // The corner of the decoded face that is the first one of the mesh.
-    const auto fits = [&](size_t t) {
-      for (size_t k = 0; k < 3; ++k) {
-        const uint32_t known = vertexOf[decoded.faces[i][(k + t) % 3]];
-        if (known != 0xffffffff ? known != expected[k] : used.contains(expected[k])) return false;
-        const Vec3d difference = decoded.positions[decoded.faces[i][(k + t) % 3]] - mesh.vertices[expected[k]];
-        for (size_t axis = 0; axis < 3; ++axis)
-          if (std::abs(difference[axis]) > 0.51 * decoded.description["step"].get<double>()) return false;
-      }
-      return true;
-    };
-    while (turn < 3 && !fits(turn)) ++turn;
-    REQUIRE_MESSAGE(turn < 3, "face ", decoded.faceIds[i]);
     for (size_t k = 0; k < 3; ++k) {
-      vertexOf[decoded.faces[i][(k + turn) % 3]] = expected[k];
-      used.insert(expected[k]);
+      REQUIRE_EQ(vertexOf.try_emplace(found[k], expected[k]).first->second, expected[k]);
+      REQUIRE_EQ(placeOf.try_emplace(expected[k], found[k]).first->second, found[k]);
+      const Vec3d difference = decoded.positions[found[k]] - mesh.vertices[expected[k]];
+      for (size_t axis = 0; axis < 3; ++axis)
+        REQUIRE_LE(std::abs(difference[axis]), 0.51 * decoded.description["step"].get<double>());
     }
   }
 }
 
 TEST_CASE("every face returns from a page with its number, winding and corners") {
-  // In general position, so that places tell vertices apart.
-  const auto shaken = [](const Mesh& mesh) { return shapes::jittered(mesh, 0.01, 7); };
-  CHECK_NOTHROW(checkSameMesh(shapes::tetrahedron(), throughPage(shapes::tetrahedron())));
   for (const Mesh& mesh :
-       {shapes::cube(), shapes::sphere(4), shapes::torus(2, 0.7, 40, 23), shapes::openBox({1, 2, 3}, 5),
-        shapes::grid(9), shapes::book(7), shapes::fan(12, true), shapes::fan(12, false), shapes::boxesWithSharedEdge(),
-        shapes::soup(50, 3), shapes::joined(shapes::cube(), shapes::sphere(2), {5, 0, 0}),
-        shapes::inverted(shapes::cube()), shapes::joined(shapes::cube(), shapes::inverted(shapes::cube()))})
-    checkSameMesh(shaken(mesh), throughPage(shaken(mesh)));
+       {shapes::tetrahedron(), shapes::cube(), shapes::sphere(4), shapes::torus(2, 0.7, 40, 23),
+        shapes::openBox({1, 2, 3}, 5), shapes::grid(9), shapes::book(7), shapes::fan(12, true), shapes::fan(12, false),
+        shapes::boxesWithSharedEdge(), shapes::soup(50, 3),
+        shapes::joined(shapes::cube(), shapes::sphere(2), {5, 0, 0}), shapes::inverted(shapes::cube()),
+        shapes::joined(shapes::cube(), shapes::inverted(shapes::cube()))})
+    checkSameMesh(mesh, throughPage(mesh));
 }
 
 TEST_CASE("any triangles return: repeated vertices, duplicates, edges of many faces") {
-  for (uint64_t seed = 0; seed < 60; ++seed) {
+  for (uint64_t seed = 0; seed < 20; ++seed) {
     const uint32_t vertexCount = 3 + static_cast<uint32_t>(seed % 20);
-    const Mesh mesh =
-        shapes::jittered(shapes::randomFaces(vertexCount, 1 + static_cast<uint32_t>(seed) * 3, seed), 0.3, seed);
+    const Mesh mesh = shapes::randomFaces(vertexCount, 1 + static_cast<uint32_t>(seed) * 3, seed);
     INFO("seed ", seed);
     checkSameMesh(mesh, throughPage(mesh));
   }
 }
 
 TEST_CASE("a shuffled mesh returns") {
-  Mesh mesh = shapes::jittered(shapes::torus(2, 0.7, 30, 17), 0.01, 1);
+  Mesh mesh = shapes::torus(2, 0.7, 30, 17);
   std::mt19937 random(5);
   for (size_t i = mesh.faces.size() - 1; i > 0; --i) std::swap(mesh.faces[i], mesh.faces[random() % (i + 1)]);
   checkSameMesh(mesh, throughPage(mesh));
@@ -100,7 +84,7 @@ TEST_CASE("one face, and faces without finite corners") {
   CHECK_EQ(decoded.description["boxMax"][1].get<double>(), 2);
 
   const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
-  Mesh broken = shapes::jittered(shapes::sphere(2), 0.01, 3);
+  Mesh broken = shapes::sphere(2);
   broken.vertices[4] = {nan, 0, 0};
   broken.vertices[9].z = inf;
   checkSameMesh(broken, throughPage(broken));
@@ -111,7 +95,7 @@ TEST_CASE("one face, and faces without finite corners") {
 }
 
 TEST_CASE("a mesh far from the origin, small or as wide as double") {
-  const Mesh mesh = shapes::jittered(shapes::sphere(3), 0.01, 3);
+  const Mesh mesh = shapes::sphere(3);
   for (const double scale : {1e-20, 1.0, 1e150})
     for (const double shift : {0.0, 1e3 * scale}) {
       const Mesh moved = shapes::scaledAndShifted(mesh, scale, {shift, -shift, shift});
