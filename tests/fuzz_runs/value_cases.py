@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import pathlib
+from collections.abc import Callable
 
 import options
 import oracles
@@ -119,6 +120,18 @@ def assembly(case: Case) -> None:
         case.note([f"touching and apart, {field}, {backend}: {w}" for w in wrong])
 
 
+def _hangs_on_rounding(
+    case: Case, mesh: shapes.Mesh, chosen: list[str], compare: Callable[[dict], list[str]]
+) -> bool:
+    """Whether the results of units that differ in the last digits only differ, too."""
+    for k in range(1, 6):
+        name = case.write(shapes.scaled(mesh, 1 + k * 1e-13), f"near{k}.off")
+        near = case.values(name, f"near{k}.npz", *chosen)
+        if near is not None and compare(near):
+            return True
+    return False
+
+
 def units(case: Case) -> None:
     """Another unit: the same values times the unit, the same labels."""
     rng = case.rng
@@ -144,9 +157,17 @@ def units(case: Case) -> None:
         agrees = agrees and not wrong
         if field == "sdf" and wrong:  # Rounding may decide which hits predict a value.
             seeds = [i for i, seed in enumerate(first["seed"]) if seed]
-            wrong = oracles.same_values([first[field][i] for i in seeds], [back[i] for i in seeds], least)
+            traced = [[values[i] for i in seeds] for values in (first[field], back)]
+            if _hangs_on_rounding(
+                case, mesh, chosen, lambda near: oracles.same_values(first["sdf"], near["sdf"], least)
+            ):
+                wrong = oracles.same_values(*traced, least)
         case.note([f"unit {factor:g}, {field}, {backend}: {w}" for w in wrong])
     wrong = oracles.same_labels(first["segment"], second["segment"]) if agrees else []
+    if wrong and _hangs_on_rounding(
+        case, mesh, chosen, lambda near: oracles.same_labels(first["segment"], near["segment"])
+    ):
+        return  # Equal costs, as of equal parts.
     case.note([f"unit {factor:g}, {backend}: {w}" for w in wrong])
 
 
