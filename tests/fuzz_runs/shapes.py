@@ -79,7 +79,7 @@ def has_contacts(mesh: Mesh) -> bool:
 def in_general_position(mesh: Mesh, rng: random.Random) -> Mesh:
     """On symmetric shapes rays hit edges and lengths are equal, so that rounding decides, rightly.
     Parts that touch and doubled faces stay as they are."""
-    return mesh if has_contacts(mesh) else _moved(mesh, rng, 2e-3)
+    return mesh if has_contacts(mesh) else moved(mesh, rng, 2e-3)
 
 
 def scaled(mesh: Mesh, factor: float) -> Mesh:
@@ -124,10 +124,10 @@ def collapsed(mesh: Mesh, rng: random.Random) -> Mesh:
 
 
 def noisy(mesh: Mesh, rng: random.Random) -> Mesh:
-    return _moved(mesh, rng, rng.choice((1e-9, 1e-5, 1e-2, 0.2)))
+    return moved(mesh, rng, rng.choice((1e-9, 1e-5, 1e-2, 0.2)))
 
 
-def _moved(mesh: Mesh, rng: random.Random, diagonals: float) -> Mesh:
+def moved(mesh: Mesh, rng: random.Random, diagonals: float) -> Mesh:
     d = diagonals * mesh.diagonal()
     uniform = rng.uniform
     vertices = [
