@@ -16,6 +16,10 @@ namespace asdfvk {
 namespace {
 
 constexpr uint32_t kLeafSize = 6;
+/// Of the origins of rays, in contact distances: a face that touches another component lies on either side of it.
+constexpr double kOriginDepth = 2;
+/// Place of the origins between a corner, which is sharp, and the barycentre.
+constexpr double kOriginShare = 0.25;
 
 /// A k-d tree of points in the plane; finds the points that a triangle may contain.
 class PlanePoints {
@@ -120,31 +124,45 @@ struct ClosedComponents {
   std::vector<TestRay> rays;  // Grouped by component, ascending.
 };
 
+/// Inside of the component, next to the corner of a face; at the corner where the inside is uncertain.
+Vec3d originAt(const TriangleMesh& mesh, size_t corner, const Component& component, double depth) {
+  const Face& face = mesh.faces[corner / 3];
+  const Vec3d &a = mesh.vertices[face[0]], &b = mesh.vertices[face[1]], &c = mesh.vertices[face[2]];
+  const Vec3d& p = mesh.vertices[face[corner % 3]];
+  const Vec3d normal = cross(b - a, c - a);
+  const double norm = length(normal);
+  if (!component.isConsistentlyWound || component.signedVolume == 0 || !(norm > 0) || !std::isfinite(norm)) return p;
+  return p + kOriginShare * ((a + b + c) / 3.0 - p) - std::copysign(depth, component.signedVolume) * (normal / norm);
+}
+
 ClosedComponents gatherClosed(const TriangleMesh& mesh, const Components& components, const ProjectionFrame& frame) {
   const size_t count = components.components.size();
   ClosedComponents closed{std::vector<Box3d>(count), {}};
-  std::vector<std::array<uint32_t, 6>> extremes(count);  // Vertices: lowest, highest along x, y, z.
+  std::vector<std::array<size_t, 6>> extremes(count);  // Corners: lowest, highest along x, y, z.
+  const auto pointAt = [&](size_t corner) { return mesh.vertices[mesh.faces[corner / 3][corner % 3]]; };
   for (uint32_t f = 0; f < mesh.faceCount(); ++f) {
     const uint32_t component = components.componentOf[f];
     if (!components.components[component].isClosed) continue;
-    std::array<uint32_t, 6>& extreme = extremes[component];
-    if (closed.boxes[component].isEmpty()) extreme.fill(mesh.faces[f][0]);
-    for (uint32_t vertex : mesh.faces[f]) {
-      const Vec3d& p = mesh.vertices[vertex];
+    std::array<size_t, 6>& extreme = extremes[component];
+    if (closed.boxes[component].isEmpty()) extreme.fill(size_t{3} * f);
+    for (size_t corner = size_t{3} * f; corner < size_t{3} * f + 3; ++corner) {
+      const Vec3d p = pointAt(corner);
       closed.boxes[component].add(p);
       for (size_t axis = 0; axis < 3; ++axis) {
-        if (p[axis] < mesh.vertices[extreme[2 * axis]][axis]) extreme[2 * axis] = vertex;
-        if (p[axis] > mesh.vertices[extreme[2 * axis + 1]][axis]) extreme[2 * axis + 1] = vertex;
+        if (p[axis] < pointAt(extreme[2 * axis])[axis]) extreme[2 * axis] = corner;
+        if (p[axis] > pointAt(extreme[2 * axis + 1])[axis]) extreme[2 * axis + 1] = corner;
       }
     }
   }
   for (uint32_t component = 0; component < count; ++component) {
     if (closed.boxes[component].isEmpty()) continue;
-    std::array<uint32_t, 6>& extreme = extremes[component];
+    std::array<size_t, 6>& extreme = extremes[component];
     std::sort(extreme.begin(), extreme.end());
     const auto end = std::unique(extreme.begin(), extreme.end());
-    for (auto vertex = extreme.begin(); vertex != end; ++vertex)
-      closed.rays.push_back({component, frame.toFrame(mesh.vertices[*vertex])});
+    const double depth = kOriginDepth * frame.normalization.contactLength();
+    for (auto corner = extreme.begin(); corner != end; ++corner)
+      closed.rays.push_back(
+          {component, frame.toFrame(originAt(mesh, *corner, components.components[component], depth))});
   }
   return closed;
 }
