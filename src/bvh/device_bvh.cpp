@@ -68,11 +68,11 @@ struct OctahedralNormal {
   float u, v;
 };
 
-// Branch-free: the side of the sphere is unpredictable.
+// Branch-free: the side of the sphere is unpredictable. -0 has the code of 0, as normals of reversed faces have.
 OctahedralNormal encodeNormal(const Vec3d& n) {
   const double scale = 1 / (std::abs(n.x) + std::abs(n.y) + std::abs(n.z));
   const double u = n.x * scale, v = n.y * scale;
-  const double foldedU = std::copysign(1 - std::abs(v), n.x), foldedV = std::copysign(1 - std::abs(u), n.y);
+  const double foldedU = std::copysign(1 - std::abs(v), n.x + 0.0), foldedV = std::copysign(1 - std::abs(u), n.y + 0.0);
   const bool isUp = n.z >= 0;
   return {static_cast<float>(isUp ? u : foldedU), static_cast<float>(isUp ? v : foldedV)};
 }
