@@ -23,7 +23,7 @@ struct CgalReference {
 
   void check(const VulkanConeKernel& kernel) const {
     const std::vector<double> found = traceByKernel(kernel, traced, options, Wanted::Values).values;
-    CHECK(differingCount(found, values, traced.geometry.bounds.diagonal()) <= 1 + values.size() / 1000);
+    CHECK(differingCount(found, values, traced.geometry.bounds.diagonal()) == 0);
   }
 };
 
