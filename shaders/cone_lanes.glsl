@@ -6,7 +6,7 @@ layout(local_size_x_id = 7, local_size_y_id = 9) in;  // kLanesPerCone, kConesPe
 layout(constant_id = 0) const uint kLanesPerCone = 32;
 layout(constant_id = 1) const uint kConesPerWorkgroup = 1;
 layout(constant_id = 2) const uint kRayCount = 30;
-layout(constant_id = 3) const uint kIterationLimit = 8000;  // Of one lane, over all its rays.
+layout(constant_id = 3) const uint kIterationLimit = 8000;  // For one lane, over all its rays.
 layout(constant_id = 4) const bool kWritesHits = false;
 
 layout(set = 0, binding = 6) writeonly buffer Results { uint results[]; };

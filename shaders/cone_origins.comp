@@ -17,7 +17,7 @@ void main() {
   const ConeSeed seed = seeds[cone];
   const DeviceTriangle triangle = loadTriangle(seed.triangle & ~kFlippedFrameBit);
   const vec3 axis = -decodeNormal(triangle.normalU, triangle.normalV);
-  // As coneFrame() in src/cone/cone.h.
+  // See coneFrame() in src/cone/cone.h.
   const float s = (seed.triangle & kFlippedFrameBit) != 0u ? -1.0 : 1.0;
   const float a = -1.0 / (s + axis.z);
   const float b = axis.x * axis.y * a;

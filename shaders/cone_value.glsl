@@ -31,7 +31,7 @@ void findMiddles(uint base, uint slot, uint lane, out uint validCount, out float
 
 float medianOf(uint slot) { return 0.5 * (middles[2u * slot] + middles[2u * slot + 1u]); }
 
-// As findMiddles(), of the absolute differences from the median.
+// Like findMiddles(), for the absolute differences from the median.
 void findMiddleDeviations(uint base, uint slot, uint lane, uint validCount, float median) {
   for (uint ray = lane; ray < kRayCount; ray += kLanesPerCone) {
     if (lengthAt(base, ray) < 0.0) continue;

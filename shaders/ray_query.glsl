@@ -4,7 +4,7 @@
 struct Query {
   RayFrame frame;
   vec3 origin, inverseDirection;
-  bvec3 isNegative;  // Of the direction.
+  bvec3 isNegative;  // Whether a component of the direction is.
   uint excludedFace;
 };
 

@@ -5,7 +5,7 @@
 
 layout(local_size_x_id = 0) in;
 layout(set = 0, binding = 0) readonly buffer Hits { uvec2 hits[]; };
-layout(set = 0, binding = 1) readonly buffer Places { uint places[]; };  // Of each cone in the batch.
+layout(set = 0, binding = 1) readonly buffer Places { uint places[]; };  // Place of each cone in the batch.
 layout(set = 0, binding = 2) writeonly buffer Stored { uvec2 stored[]; };
 layout(push_constant) uniform Push { HitStorePush push; };
 

@@ -7,7 +7,7 @@
 
 layout(local_size_x_id = 0) in;
 layout(constant_id = 1) const uint kRayCount = 30;
-layout(constant_id = 2) const bool kIsCgal = false;  // As in cone_rays.glsl.
+layout(constant_id = 2) const bool kIsCgal = false;  // See cone_rays.glsl.
 
 layout(set = 0, binding = 0, rgba32ui) uniform readonly uimageBuffer rayTexels;
 layout(set = 0, binding = 1) readonly buffer Lengths { uint lengths[]; };  // Written by trace_seed.comp.

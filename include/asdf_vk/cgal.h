@@ -28,7 +28,7 @@ namespace asdfvk {
 
 struct PostprocessedSdf {
   std::vector<double> normalized;  ///< #I, 0 to 1; NaN for an input face without a triangle.
-  double min = 0, max = 0;         ///< Of the smoothed values, which 0 and 1 stand for, in the unit of the input.
+  double min = 0, max = 0;         ///< Range of the smoothed values, which 0 and 1 stand for, in the unit of the input.
 };
 
 /// Fills missing values, smooths all by a bilateral filter and maps them to [0, 1]. Where all smoothed values are
@@ -44,7 +44,7 @@ enum class CgalLabels {
 
 struct LabelledFaces {
   std::vector<uint32_t> labels;  ///< #I, below `count`; kNoSegment for an input face without a triangle.
-  uint32_t count = 0;            ///< Of segments; CgalSegmentationOptions::clusterCount for clusters.
+  uint32_t count = 0;            ///< Number of segments; CgalSegmentationOptions::clusterCount for clusters.
 };
 
 /// Clusters the values and divides the mesh by a graph cut. values: #I, 0 to 1, as postprocessSdf() returns them, or

@@ -18,7 +18,7 @@ namespace asdfvk {
 /// Error{MeshTooLarge}, Error{InputTooLarge}.
 [[nodiscard]] ASDFVK_API Mesh readMesh(const std::filesystem::path& path);
 
-/// The same from memory. extension: "ply", ".OBJ", or empty; used where the content is ambiguous.
+/// readMesh() from memory. extension: "ply", ".OBJ", or empty; used where the content is ambiguous.
 [[nodiscard]] ASDFVK_API Mesh parseMesh(std::span<const char> bytes, std::string_view extension = {});
 
 /// Names of the formats that readMesh() reads.

@@ -16,8 +16,8 @@
 ///   double value = OpenMesh::getProperty<OpenMesh::FaceHandle, double>(halfEdgeMesh, "sdf")[faceHandle];
 namespace asdfvk {
 
-/// The same vertices and faces, by handle index. Throws Error{OptionConflict} for faces that are marked as deleted
-/// (call garbage_collection() before, which renumbers the handles) and for faces that are not triangles.
+/// A mesh of the same vertices and faces, by handle index. Throws Error{OptionConflict} for faces that are marked as
+/// deleted (call garbage_collection() before, which renumbers the handles) and for faces that are not triangles.
 template <typename HalfEdgeMesh>
 [[nodiscard]] Mesh fromOpenMesh(const HalfEdgeMesh& source) {
   Mesh mesh;

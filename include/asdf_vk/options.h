@@ -39,7 +39,7 @@ inline constexpr uint32_t kMaxRayCount = 1024;
 /// Number of seed faces, the faces that cast rays.
 struct SeedCount {
   enum class Kind { All, Share, Count } kind = Kind::Share;
-  double share = 0.1;  ///< Of the faces that can cast rays, above 0 and at most 1.
+  double share = 0.1;  ///< Share of the faces that can cast rays, above 0 and at most 1.
   uint64_t count = 0;  ///< At least 1.
 
   [[nodiscard]] static SeedCount all() { return {Kind::All, 1, 0}; }
@@ -77,7 +77,7 @@ struct SolverOptions {
 struct SmoothingOptions {
   bool isOn = false;
   struct Window {
-    uint32_t rings = 2;   ///< Of the dual graph, 1 to 4.
+    uint32_t rings = 2;   ///< Rings of the dual graph, 1 to 4.
     uint32_t passes = 1;  ///< 0 changes nothing.
     bool operator==(const Window&) const = default;
   };
@@ -87,13 +87,13 @@ struct SmoothingOptions {
 /// Treatment of the finished values, for the field "normalized".
 enum class Postprocess {
   None,
-  Cgal,  ///< As CGAL's sdf_values_postprocessing(): missing values filled, bilateral filter, mapped to [0, 1].
+  Cgal,  ///< That of CGAL's sdf_values_postprocessing(): missing values filled, bilateral filter, mapped to [0, 1].
 };
 
 /// Division of the mesh by its values, for the field "segment".
 enum class Segmentation {
   None,
-  Cgal,   ///< As CGAL's segmentation_from_sdf_values(); implies Postprocess::Cgal.
+  Cgal,   ///< That of CGAL's segmentation_from_sdf_values(); implies Postprocess::Cgal.
   Parts,  ///< The parts that people see: from values, creases and lines of sight, without a number of parts.
 };
 
@@ -103,7 +103,7 @@ enum class CgalExpansion {
 };
 
 struct CgalSegmentationOptions {
-  uint32_t clusterCount = 5;  ///< Of values, 2 to kMaxClusterCount. A cluster may have several segments, or none.
+  uint32_t clusterCount = 5;  ///< 2 to kMaxClusterCount. A cluster of values may have several segments, or none.
   double smoothness = 0.26;   ///< Weight of the edge costs, 0 to kMaxSmoothness. CGAL's manual has 0 to 1.
   CgalExpansion expansion = CgalExpansion::All;
 };
@@ -123,7 +123,7 @@ inline constexpr double kMinDetail = 0.1, kMaxDetail = 10;
 /// Quantity that is measured at each face.
 enum class Measure {
   ShapeDiameter,  ///< Field "sdf".
-  Thickness,      ///< Also the fields "thickness" and "least_thickness" (docs/thickness.md).
+  Thickness,      ///< The values, and the fields "thickness" and "least_thickness" (docs/thickness.md).
 };
 
 /// Wall thickness: the diameter of the largest ball that touches the surface at a point from inside and contains no

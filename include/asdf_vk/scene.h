@@ -36,7 +36,7 @@ class ASDFVK_API Scene {
   Scene(const Scene&) = delete;
   Scene& operator=(const Scene&) = delete;
 
-  /// As Session::compute(), with the same bits, but without preparing the mesh: Report::stageSeconds has 0 for the
+  /// Session::compute() with the same bits, but without preparing the mesh: Report::stageSeconds has 0 for the
   /// stages Geometry, Graph and Bvh, and the creation of a new tracer only for Encode and Upload. Options::orientation
   /// must be Keep or that of the scene; else it throws Error{OptionConflict}.
   ///

@@ -57,7 +57,7 @@ def test_fields_survive_a_file(tmp_path: Path, name: str) -> None:
     info = asdf_vk.compute(vertices, faces, segment="parts")
     count = len(faces)
     own: dict[str, Any] = {"area": np.arange(count), "flag": np.arange(count) % 2 == 0}
-    own |= {"word": np.arange(count, dtype=np.uint32) + 2**31, "axis": vertices[faces[:, 0]].astype(np.float32)}
+    own |= {"word": np.arange(count, dtype=np.uint32) + 2**30, "axis": vertices[faces[:, 0]].astype(np.float32)}
     per_vertex = {"area": vertices[:, 2].astype(np.float32), "word": np.arange(len(vertices), dtype=np.uint32)}
     asdf_vk.write(tmp_path / name, (vertices, faces), {**info.fields, **own}, vertex_fields=per_vertex)
     fields, vertex_fields = _fields_of(tmp_path / name)

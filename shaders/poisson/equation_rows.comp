@@ -15,7 +15,7 @@ layout(set = 0, binding = 4) readonly buffer InverseRoots { float inverseRoots[]
 layout(set = 0, binding = 5) writeonly buffer Rows { uvec4 rowBlocks[]; };
 layout(set = 0, binding = 6) writeonly buffer Couplings { float couplings[]; };
 
-// The same bits in both directions: the product of the roots comes first.
+// Bits are the same in both directions: the product of the roots comes first.
 float couplingOf(uint face, uint arc) {
   const uint neighbour = neighbours[arc];
   precise float roots = inverseRoots[face] * inverseRoots[neighbour];

@@ -101,7 +101,7 @@ const uint kBlockSize = 64u;
 // rounding errors.
 struct ConeSums {
   float mass, difference, square;
-  float weight, weightedLength;  // Of the inliers.
+  float weight, weightedLength;  // Sums over the inliers.
 };
 
 ConeSums plus(ConeSums a, ConeSums b) {

@@ -16,7 +16,7 @@ const uint kMissDistanceBits = 0x7f800000u;  // The distance of a ray without a 
 // Operands of store_hits.comp.
 const uint kStoredHitsPerLane = 4u;  // Keeps the number of workgroups of a chunk below 65,535, which every device has.
 struct HitStorePush {
-  uint hitCount;  // Of the chunk.
+  uint hitCount;  // Hits of the chunk.
   uint rayCount;
   uint seedCount;  // Seeds before those of the batch.
 };

@@ -18,7 +18,7 @@ using glsl::uint;
 // Per face, 12 bytes.
 struct EquationStart {
   float base;
-  float difference;  // Of the constraint from the base; 0 for an unknown.
+  float difference;  // Difference of the constraint from the base; 0 for an unknown.
   uint flags;
 };
 const uint kIsUnknown = 1u;
@@ -26,7 +26,7 @@ const uint kIsGuided = 2u;  // The equation has the divergence of the bases betw
 
 struct EquationPush {
   uint faceCount;
-  uint workgroupCount;  // Of the dispatch.
+  uint workgroupCount;  // Workgroups of the dispatch.
   float scale;          // Factor of residuals and corrections.
 };
 

@@ -57,8 +57,8 @@ struct PoissonSums {
 struct PoissonPush {
   uint unknownCount;
   uint stateIndex;  // The CgState that this iteration reads; it writes the other one.
-  // Of a dispatch that is not empty. gl_NumWorkGroups is no substitute: some drivers load it while the kernel runs,
-  // from the DispatchSize that cg_step.comp overwrites.
+  // Workgroups of a dispatch that is not empty. gl_NumWorkGroups is no substitute: some drivers load it while the
+  // kernel runs, from the DispatchSize that cg_step.comp overwrites.
   uint workgroupCount;
 };
 

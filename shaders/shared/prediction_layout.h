@@ -45,7 +45,7 @@ const uint kMaxContributingSeedCount = 7u;
 const uint kPredictionFaceBlockCount = 2u;
 struct PredictionFace {
   vec3 barycentre;
-  uint representative;  // Of its coincident faces.
+  uint representative;  // One of the coincident faces.
   vec3 normal;          // Unit; 0 for a degenerate face.
   uint unused;
 };
@@ -90,7 +90,7 @@ const uint kNoSeed = 0xffffffffu;  // The index of an absent seed, and of the ce
 struct PredictionPush {
   uint itemCount;
   uint rayCount;
-  float minCosine;  // Of the angle between the axis and the direction to a point in the cone.
+  float minCosine;  // Cosine of the greatest angle between the axis and the direction to a point in the cone.
   float maxNormalCosine;
   float minVersine;  // 1 - cosine of the angle below which the weight of a point is constant.
   float outlierDeviations;

@@ -15,7 +15,7 @@ using Nearest = std::array<int32_t, kMaxSmallTreeCount>;
 struct Clusters {
   uint32_t count = 0;
   std::array<uint8_t, kMaxSmallTreeCount> nodes;
-  std::array<std::array<float, kMaxSmallTreeCount>, 6> bounds{};  // As in SplitBox.
+  std::array<std::array<float, kMaxSmallTreeCount>, 6> bounds{};  // Laid out like SplitBox.
 
   void add(uint32_t node, const SplitBox& box) {
     nodes[count] = static_cast<uint8_t>(node);

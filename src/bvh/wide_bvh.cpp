@@ -63,7 +63,8 @@ int exponentFor(double extent) {
 
 constexpr float kNone = -1e30f;
 
-// Of eight numbers. The index replaces the last three bits of each number, which are below the required precision.
+// Index of the greatest of eight numbers. It replaces the last three bits of each number, which are below the required
+// precision.
 uint32_t indexOfMax(const Float4& low, const Float4& high) {
   using Ints = IntsOf<Float4>;
   const Ints indices = {0, 1, 2, 3};

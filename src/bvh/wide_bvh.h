@@ -94,7 +94,7 @@ inline constexpr float kWideBoxMargin = 0x1p-18f;
 /// first child; all nodes below the second child; and so on.
 struct WideBvh {
   UnsetVector<DeviceWideNode> nodes;
-  UnsetVector<uint32_t> primitiveFaces;  ///< As in Bvh; the range of primitives of a subtree is the same.
+  UnsetVector<uint32_t> primitiveFaces;  ///< See Bvh; the range of primitives of a subtree is the same.
   uint32_t depth = 0;                    ///< Levels below the root; the size of a traversal stack.
 };
 

@@ -14,7 +14,7 @@ namespace asdfvk {
 /// Lengths farther from the median than a multiple of their spread are outliers.
 struct OutlierRule {
   enum class Spread {
-    StandardDeviation,  ///< Of the population, about the mean.
+    StandardDeviation,  ///< Deviation of the population, about the mean.
     MedianDeviation,    ///< Median of the absolute differences from the median.
   };
 

@@ -36,7 +36,7 @@ struct PlaneTriangle {
 [[nodiscard]] TouchingBall leastTouchingBall(const PlaneTriangle& face, const PlaneTriangle& wall, double minDepth,
                                              double limit = std::numeric_limits<double>::infinity());
 
-/// The same for one point p of the face.
+/// The ball at one point p of the face.
 [[nodiscard]] TouchingBall leastTouchingBall(const Vec3d& point, const Vec3d& faceNormal, const PlaneTriangle& wall,
                                              double minDepth, double limit);
 

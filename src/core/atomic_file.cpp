@@ -81,7 +81,7 @@ bool isLocked(const std::filesystem::path& path) {
 }  // namespace
 
 std::filesystem::path followLinks(std::filesystem::path path) {
-  constexpr int kMaxLinks = 40;  // As in Linux.
+  constexpr int kMaxLinks = 40;  // The limit of Linux.
   std::error_code error;
   for (int i = 0; i < kMaxLinks && std::filesystem::is_symlink(path, error); ++i)
     path = path.parent_path() / std::filesystem::read_symlink(path, error);

@@ -14,7 +14,7 @@ class CheckFailure : public std::logic_error {
 
 /// Throws CheckFailure with "FILE:LINE: text".
 [[noreturn]] void failCheck(const char* file, int line, const char* text);
-/// The same with " (LEFT against RIGHT)" appended.
+/// failCheck() with " (LEFT against RIGHT)" appended.
 [[noreturn]] void failCheck(const char* file, int line, const char* text, const std::string& left,
                             const std::string& right);
 

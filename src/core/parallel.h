@@ -58,7 +58,7 @@ void forEachInParallel(size_t count, const Body& body) {
   });
 }
 
-/// The same for few and long bodies: each may run on a thread of its own.
+/// forEachInParallel() for few and long bodies: each may run on a thread of its own.
 template <typename Body>
 void forEachTask(size_t count, const Body& body) {
   forEachRange(count, 1, [&](size_t begin, size_t end) {

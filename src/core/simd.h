@@ -50,7 +50,7 @@ ASDFVK_ALWAYS_INLINE inline void store(Number* numbers, const V& vector) {
   std::memcpy(numbers, &vector, sizeof vector);
 }
 
-/// The same number in every lane.
+/// One number in every lane.
 template <typename V>
 [[nodiscard]] ASDFVK_ALWAYS_INLINE inline V broadcast(NumberOf<V> number) {
   return number - V{};

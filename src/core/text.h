@@ -21,7 +21,7 @@ namespace asdfvk {
   return lower;
 }
 
-/// The same text with every control character replaced by a space, so that a message with any file name is one line.
+/// The text with every control character replaced by a space, so that a message with any file name is one line.
 [[nodiscard]] inline std::string oneLine(std::string text) {
   for (char& c : text)
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';

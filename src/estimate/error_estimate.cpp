@@ -17,7 +17,7 @@ constexpr size_t kWorstFaceCount = 5;
 // powers differ between meshes by as much again (docs/experiments.md).
 constexpr double kGainExponent = 0.12, kGainExponentWithoutPrediction = 0.5;
 
-/// Of the traced values. The range of the function is wider where its extremes were not traced.
+/// Range of the traced values. That of the function is wider where its extremes were not traced.
 double tracedRange(const EstimateInput& input) {
   double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
   for (const uint32_t face : input.traced.faces)
@@ -57,7 +57,7 @@ struct Measurement {
   double error = 0, indicator = 0, weight = 0, value = 0;
 };
 
-/// Of the held-out faces with a value.
+/// Errors at the held-out faces with a value.
 std::vector<Measurement> measureErrors(const EstimateInput& input) {
   std::vector<Measurement> measured;
   for (size_t i = 0; i < input.heldOut.faces.size(); ++i) {
@@ -108,7 +108,7 @@ void estimateRelativeErrors(const EstimateInput& input, const std::vector<Measur
   estimate.relativePercentile90 = errors.quantile(0.9);
   // Woodruff 1952: the standard error of the share of faces below the median, mapped through the quantiles.
   const double interpolatedShare = static_cast<double>(interpolatedCount) / static_cast<double>(count);
-  const double medianShare = std::clamp(1 - 0.5 / interpolatedShare, 0.0, 1.0);  // Of the interpolated faces.
+  const double medianShare = std::clamp(1 - 0.5 / interpolatedShare, 0.0, 1.0);  // Share of the interpolated faces.
   const double deviation = interpolatedShare * std::sqrt(medianShare * (1 - medianShare) * squareSum) / weightSum;
   const double spread = (errors.quantile(std::min(1.0, 0.5 + deviation)) - errors.quantile(0.5 - deviation)) / 2;
   estimate.relativeMedianStandardError = std::hypot(spread, (1 - gain) / gain * estimate.relativeMedian);

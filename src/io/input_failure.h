@@ -13,7 +13,7 @@ namespace asdfvk {
 
 /// Text of the file for a message: at most 60 characters; bytes other than printable ASCII are replaced by '?'.
 [[nodiscard]] std::string printable(std::string_view token);
-/// The same in quotes.
+/// printable() in quotes.
 [[nodiscard]] std::string quoted(std::string_view token);
 
 }  // namespace asdfvk

@@ -35,7 +35,7 @@ struct ZipMember {
   std::string kind;  ///< "face", "vertex" or "vertex FIELD", the comment of the member.
   uint32_t checksum = 0;
   uint32_t size = 0;
-  uint32_t offset = 0;  ///< Of the local header.
+  uint32_t offset = 0;  ///< Position of the local header.
 };
 
 /// The part that the local header and the central directory share.

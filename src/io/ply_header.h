@@ -29,8 +29,8 @@ enum class PlyType : uint8_t { Int8, UInt8, Int16, UInt16, Int32, UInt32, Float3
 
 struct PlyProperty {
   std::string_view name;
-  PlyType type{};               ///< Of the number, or of the items of the list.
-  std::optional<PlyType> list;  ///< Of the length of the list; unset for a number.
+  PlyType type{};               ///< Type of the number, or of the items of the list.
+  std::optional<PlyType> list;  ///< Type of the length of the list; unset for a number.
 };
 
 enum class PlyRole { Other, Vertices, Faces, Strips };

@@ -171,7 +171,7 @@ class PlyBody {
     return true;
   }
 
-  /// Of a property in its row. Precondition: no list precedes it.
+  /// Byte of a property in the row of its element. Precondition: no list precedes it.
   [[nodiscard]] static uint64_t offsetOf(const PlyElement& element, size_t property) {
     uint64_t offset = 0;
     for (size_t i = 0; i < property; ++i) offset += sizeOf(element.properties[i].type);

@@ -70,7 +70,8 @@ class ElementFields {
   }
 
   void writeProperties(AtomicFile& file) const {
-    constexpr std::array<std::string_view, 3> kPlyTypes{"float", "uchar", "uint"};  // Of the alternatives of Values.
+    // One for each alternative of Values.
+    constexpr std::array<std::string_view, 3> kPlyTypes{"float", "uchar", "uint"};
     if (main_ != nullptr)
       file.write(
           "property float quality\n"

@@ -65,7 +65,7 @@ class ResultView {
 
   [[nodiscard]] uint64_t vertexCount() const { return mesh_.vertexCount(); }
   [[nodiscard]] uint64_t faceCount() const { return mesh_.inputFaceCount(); }
-  [[nodiscard]] uint64_t cornerCount() const { return mesh_.corners().size(); }  ///< Of all faces.
+  [[nodiscard]] uint64_t cornerCount() const { return mesh_.corners().size(); }  ///< Sum over all faces.
   [[nodiscard]] std::span<const uint32_t> cornersOf(uint64_t face) const {
     if (mesh_.firstCorner().empty()) return mesh_.corners().subspan(3 * face, 3);
     const uint64_t first = mesh_.firstCorner()[face];

@@ -29,7 +29,7 @@ std::vector<uint32_t> coincidentVertices(const TriangleMesh& mesh) {
     put(static_cast<uint32_t>(hash & (bucketCount - 1)), Fingerprint{static_cast<uint32_t>(hash >> 32), vertex});
   });
   points.forEachBucket([&](uint32_t, std::span<const Fingerprint> bucket) {
-    size_t first = 0;  // Of the entries with the same hash.
+    size_t first = 0;  // First of the entries with the same hash.
     for (size_t i = 1; i < bucket.size(); ++i) {
       if (bucket[i].hash != bucket[first].hash) first = i;
       // Nearly always the first; different points may have the same hash.

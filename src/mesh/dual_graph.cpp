@@ -61,7 +61,7 @@ class Survey {
     });
   }
 
-  /// Of a face that has edges.
+  /// Precondition: the face has edges.
   [[nodiscard]] bool isProper(uint32_t face) const {
     return hasDistinctVertices_ || hasDistinctVertices(mesh_.faces[face]);
   }

@@ -29,9 +29,9 @@ struct OrientationReport {
 /// Reverses the winding of the triangles f with isFlipped[f] != 0 (#F), and the corners of each input face that has one
 /// of them. The first corner stays the first.
 void flipFaces(Mesh& mesh, std::span<const uint8_t> isFlipped);
-/// The same with the normals.
+/// Reverses the normals of these triangles, too.
 void flipFaces(Mesh& mesh, FaceGeometry& geometry, std::span<const uint8_t> isFlipped);
-/// The same for all triangles of these input faces, which ascend.
+/// Reverses all triangles of these input faces, which ascend.
 void flipInputFaces(Mesh& mesh, std::span<const uint64_t> inputFaces);
 
 /// Reverses every face.

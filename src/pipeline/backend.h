@@ -34,7 +34,7 @@ class Backend {
   [[nodiscard]] virtual bool runsOnCpu() const { return true; }
   /// Whether this backend is the reference itself.
   [[nodiscard]] virtual bool isReference() const { return false; }
-  /// Of the last tracer; before the first one the default. Unset without Vulkan.
+  /// Variant of the last tracer; before the first one the default. Unset without Vulkan.
   [[nodiscard]] virtual std::optional<TraceVariant> traceVariant() const { return std::nullopt; }
   /// For solvers that need one; null without Vulkan.
   [[nodiscard]] virtual const Device* device() const { return nullptr; }

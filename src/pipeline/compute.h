@@ -15,8 +15,8 @@ namespace asdfvk {
 struct ComputationInput {
   SessionState& session;
   const std::shared_ptr<PreparedScene>& scene;
-  const FaceDomain& domain;  ///< Of the scene.
-  KeptTracers& tracers;      ///< Of the scene.
+  const FaceDomain& domain;  ///< A domain of the scene.
+  KeptTracers& tracers;      ///< Tracers of the scene.
   bool isLast;               ///< The scene is not used again: the computation releases what it does not need any more.
 };
 

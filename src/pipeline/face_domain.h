@@ -19,7 +19,7 @@ struct FaceDomain {
   std::span<const uint32_t> traceableFaces;  ///< Faces of the domain that can cast rays, ascending.
   std::span<const uint8_t> inputFaces;       ///< #I, nonzero = in the domain; empty: all are.
 
-  /// Of the index of an input face.
+  /// Whether the input face of that index is in the domain.
   [[nodiscard]] bool contains(uint64_t inputFace) const { return inputFaces.empty() || inputFaces[inputFace] != 0; }
 };
 

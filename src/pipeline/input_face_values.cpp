@@ -63,7 +63,7 @@ std::vector<uint32_t> labelsOfInputFaces(const TriangleMesh& mesh, std::span<con
                                          std::span<const double> areas) {
   if (mesh.polygons.isEmpty()) return {labels.begin(), labels.end()};
   std::vector<uint32_t> ofInputFaces(mesh.inputFaceCount(), kNoSegment);
-  std::vector<std::pair<uint32_t, double>> areaOf;  // Of the labels of a polygon.
+  std::vector<std::pair<uint32_t, double>> areaOf;  // Area of each label of a polygon.
   for (uint32_t begin = 0, end = 0; begin < mesh.faceCount(); begin = end) {
     const uint32_t inputFace = mesh.inputFaceOf(begin);
     areaOf.clear();

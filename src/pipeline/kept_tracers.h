@@ -18,7 +18,7 @@ struct KeptTracer {
   Cone cone;
   TracerNeeds needs;
   std::unique_ptr<ConeTracer> tracer;
-  std::optional<TraceVariant> variant = {};  ///< Of the kernels; unset without Vulkan.
+  std::optional<TraceVariant> variant = {};  ///< The variant of the kernels; unset without Vulkan.
 };
 
 /// The tracers of one scene. The last ones used are kept, because making one encodes and uploads the hierarchy.

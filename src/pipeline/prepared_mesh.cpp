@@ -59,8 +59,8 @@ TriangleMesh trianglesOf(const MeshView& view, Mesh& storage) {
 
 namespace {
 
-// Of doubles at the greatest coordinate, in bounding-box diagonals: barycentres are rounded by about as much, and the
-// backends agree within ten times as much.
+// Resolution of doubles at the greatest coordinate, in bounding-box diagonals: barycentres are rounded by about as
+// much, and the backends agree within ten times as much.
 constexpr double kMaxSpacing = kAgreementTolerance / 10;
 
 /// Copies arrays of the caller, so that faces can be reversed.

@@ -16,7 +16,7 @@ namespace asdfvk {
 /// Data of a mesh that is independent of rays, seeds and devices.
 struct PreparedMesh {
   Mesh storage;       ///< Arrays of `mesh` that differ from those of the caller: converted, triangulated or reversed.
-  TriangleMesh mesh;  ///< Of `storage` and of the arrays of the caller.
+  TriangleMesh mesh;  ///< Views of `storage` and of the arrays of the caller.
   FaceGeometry geometry;
   std::vector<uint32_t> representatives;  ///< #F, see coincidentRepresentatives().
   DualGraph graph;
@@ -36,7 +36,7 @@ struct PreparedMesh {
 /// result. Throws as trianglesOf(), and Error{FarFromOrigin}.
 [[nodiscard]] PreparedMesh prepareMesh(const MeshView& mesh, Orientation orientation, StageClock& clock);
 
-/// The same without a clock.
+/// Does not measure times.
 [[nodiscard]] PreparedMesh prepareMesh(const MeshView& mesh, Orientation orientation);
 
 }  // namespace asdfvk

@@ -111,8 +111,8 @@ class Rounds {
   HeldOutFaces heldOut_;
   Interpolated result_;
   std::optional<EstimatedErrors> errors_;
-  double hiddenSampleSeconds_ = 0;   ///< Of choosing the first seeds, as far as it is no part of Stage::Sample.
-  double interpolationSeconds_ = 0;  ///< Of the last round, all but its rays.
+  double hiddenSampleSeconds_ = 0;   ///< Time of choosing the first seeds, as far as it is no part of Stage::Sample.
+  double interpolationSeconds_ = 0;  ///< Time of the last round, all but its rays.
   uint32_t roundCount_ = 0;
 };
 

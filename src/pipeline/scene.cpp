@@ -104,7 +104,7 @@ struct Scene::State {
     scene = std::make_shared<PreparedScene>(mesh, orientation, clock, control);
   }
 
-  /// Of the backend that the session has now.
+  /// Tracers of the backend that the session has now.
   KeptTracers& tracers() {
     if (!tracers_ || &tracers_->backend() != session.named.backend.get())
       tracers_ = std::make_unique<KeptTracers>(*session.named.backend, scene->view(), kPreparedConeCount);

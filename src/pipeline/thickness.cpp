@@ -127,7 +127,7 @@ class Measurement {
     return thickness_.least[face];
   }
 
-  /// Of the input faces of the domain.
+  /// Counts input faces of the domain.
   template <typename Holds>
   [[nodiscard]] uint64_t countInputFaces(const Holds& holds) const {
     uint64_t count = 0, last = mesh_.inputFaceCount();

@@ -19,13 +19,13 @@ struct FaceThickness {
   std::vector<double> least;         ///< #F, over all points of the face; 0 at sharp edges.
   std::vector<uint32_t> leastWalls;  ///< #F, the wall that limits `least`; kNoFace where the greatest section does.
   std::vector<uint8_t> isJudged;     ///< #F, 0 where `least` does not count: no value, or a misoriented component.
-  SharpEdges sharp;                  ///< Of the domain.
-  std::optional<GreatestSection> greatestSection;  ///< Of all closed solids.
+  SharpEdges sharp;                  ///< Sharp edges of the domain.
+  std::optional<GreatestSection> greatestSection;  ///< The greatest one of all closed solids.
   UnjudgedFaces unjudged;
   std::vector<ThinPart> thinParts;  ///< In normalised coordinates. Empty without a limit.
 };
 
-/// Of each face of the domain that is not degenerate: the least diameter over its opposing walls, at most the greatest
+/// For each face of the domain that is not degenerate, the least diameter over its opposing walls, at most the greatest
 /// section of its solid. No value where neither is known: nothing opposes, and the component is open.
 [[nodiscard]] FaceThickness measureThickness(const Computation& computation, const RunControl& control);
 

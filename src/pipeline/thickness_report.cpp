@@ -69,7 +69,7 @@ class Description {
                                     line.edgeCount, line.place, prepared_.mesh.inputFaceOf(line.face)});
   }
 
-  /// Of a face or a part of it: where its least ball touches it and the wall.
+  /// For a face or a part of it: where its least ball touches it and the wall.
   [[nodiscard]] Place placeOf(uint32_t face, const std::array<Vec3d, 3>& corners, uint32_t wall) const {
     const Vec3d& normal = prepared_.geometry.normals[face];
     if (wall != kNoFace) {
@@ -161,7 +161,7 @@ class Description {
     return 0.5 * length(cross(b - a, c - a)) / unit_.scale / unit_.scale;
   }
 
-  /// Of the faces of the domain.
+  /// Area of the faces of the domain.
   [[nodiscard]] double totalArea() const {
     double total = 0;
     for (uint32_t face = 0; face < prepared_.mesh.faceCount(); ++face)

@@ -14,7 +14,7 @@ namespace asdfvk {
 ///   have zero area, the value of the last one.
 /// - uint32 labels: the label with the largest area, the lowest of equal ones. kNoSegment without a labelled face.
 /// - uint8 flags: 1 where a face at the vertex has one.
-/// The same bits on any number of threads. Throws Error{MeshTooLarge} beyond 2^32 - 1 corners.
+/// Bits do not depend on the number of threads. Throws Error{MeshTooLarge} beyond 2^32 - 1 corners.
 [[nodiscard]] std::vector<Field> vertexFieldsOf(const TriangleMesh& mesh, std::span<const double> areas,
                                                 std::span<const Field> faceFields);
 

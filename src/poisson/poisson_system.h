@@ -64,7 +64,7 @@ struct PoissonOptions {
 /// #F: 1 for the faces of components with a finite constraint.
 [[nodiscard]] std::vector<uint8_t> reachableFaces(std::span<const uint32_t> componentOf,
                                                   std::span<const double> constraints);
-/// Of the finite ones; 0 if there are none.
+/// Mean of the finite constraints; 0 if there are none.
 [[nodiscard]] double meanOfConstraints(std::span<const double> constraints);
 
 /// #F: per face the sum over its neighbours g of w_fg (field(f) - field(g)), where both are finite. weights: one per

@@ -54,7 +54,7 @@ class CellPredictor {
   };
   std::vector<CachedHits> cached_;  // By seed: a hash table with open addressing; its size is a power of two.
 
-  // Of the current cell:
+  // For the current cell:
   std::vector<uint32_t> remainingFaces_;
   std::vector<HitRange> neighbourHits_;
   std::vector<SeedGroup> neighbourSeeds_;

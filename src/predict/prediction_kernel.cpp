@@ -60,7 +60,7 @@ struct KernelInput {
 template <typename Floats>
 struct ConeSums {
   GroupSum<Floats> mass, difference, square;  ///< difference: mass times (length - median length); square: of that.
-  GroupSum<Floats> weight, weightedLength;    ///< Of the inliers.
+  GroupSum<Floats> weight, weightedLength;    ///< Sums over the inliers.
 };
 
 /// The hit points, `count` entries in each array; 0 where a point is not in the virtual cone.

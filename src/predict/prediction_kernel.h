@@ -28,7 +28,7 @@ struct alignas(64) PointGroup {
 /// The hit points of one seed: a range of groups.
 struct HitRange {
   uint32_t firstGroup = 0, groupCount = 0;
-  float medianLength = 0;  ///< Of the valid rays; 0 if there are none.
+  float medianLength = 0;  ///< Median over the valid rays; 0 if there are none.
 };
 
 /// A seed that contributes to a prediction.

@@ -32,7 +32,7 @@ class ComponentSeeds {
   };
 
   std::vector<uint32_t> order_;
-  std::vector<Queue> queues_;  ///< Of the components without a value and with untried faces, by component.
+  std::vector<Queue> queues_;  ///< One for each of the components without a value and with untried faces, by component.
   size_t batchSize_ = 1;
 };
 

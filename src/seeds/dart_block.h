@@ -31,7 +31,7 @@ class DartBlock {
   /// SurfaceDistances::add(). No face occurs twice.
   void throwAt(std::span<const uint32_t> faces, float radius, uint64_t maxDarts);
 
-  /// Of the last throw. Distance of faces[position] to all darts before it.
+  /// Distance in the last throw of faces[position] to all darts before it.
   [[nodiscard]] float distanceAt(size_t position) const { return throws_[position].whenThrown; }
   /// The positions of the accepted faces, ascending.
   [[nodiscard]] const std::vector<uint32_t>& darts() const { return darts_; }

@@ -23,7 +23,7 @@ inline constexpr int kMaxQueueRounds = 64;
 /// A face that is to be visited.
 struct PendingFace {
   float distance = 0;
-  uint32_t node = 0;    ///< As returned by Labels::lower().
+  uint32_t node = 0;    ///< Number that Labels::lower() returns.
   uint32_t parent = 0;  ///< The face before it on the path, or itself.
 };
 

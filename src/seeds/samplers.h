@@ -39,7 +39,7 @@ using SampleSeedsByDensity = std::vector<uint32_t>(const SeedDomain& domain, std
 /// ASDF paper, section 4.2: every n-th face of a random permutation of the candidates. In the paper n is an integer;
 /// here seed i is entry floor(i * size / count) of the permutation, so that every count is possible.
 [[nodiscard]] SampleSeeds randomSeeds;
-/// The same for any set of faces, each listed once.
+/// A random permutation of any set of faces, each listed once.
 [[nodiscard]] std::vector<uint32_t> randomPermutationSeeds(std::span<const uint32_t> candidates, uint64_t count,
                                                            uint64_t randomSeed);
 

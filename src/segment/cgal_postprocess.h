@@ -13,7 +13,7 @@ namespace asdfvk {
 
 struct CgalValues {
   std::vector<double> normalized;  ///< #F, in [0, 1]; the smoothed values where all of them are equal.
-  double min = 0, max = 0;         ///< Of the smoothed values, in the unit of the input.
+  double min = 0, max = 0;         ///< Range of the smoothed values, in the unit of the input.
 };
 
 /// values: #F, finite, or NaN for no value. Within 1e-12 of CGAL's result on manifold meshes. A power of two as the

@@ -15,7 +15,7 @@
 namespace asdfvk {
 namespace {
 
-constexpr double kMinArgument = 5e-6;  ///< Of the logarithms of the costs.
+constexpr double kMinArgument = 5e-6;  ///< Least argument of the logarithms of the costs.
 constexpr double kConvexFactor = 0.08, kSmoothnessUnit = 100;
 
 double costOf(double argument) { return -std::log(std::max(kMinArgument, argument)); }

@@ -18,7 +18,7 @@ struct CgalSegmentation {
   std::vector<uint32_t> clusters;  ///< #F, ascending by their mean value.
   std::vector<uint32_t> segments;  ///< #F: the connected faces of one cluster, numbered by ascending mean value.
   uint32_t segmentCount = 0;
-  double energy = 0;  ///< Of the clusters, see LabelProblem.
+  double energy = 0;  ///< Energy of the clusters, see LabelProblem.
 };
 
 /// values: #F, finite, not negative, normalised by postprocessLikeCgal(). The same labels as CGAL's from equal values

@@ -55,7 +55,7 @@ class MaxFlow {
   /// Arc 2 e is edge e from a to b, arc 2 e + 1 its reverse.
   struct Arc {
     uint32_t to;
-    uint32_t next;  ///< Of the same node.
+    uint32_t next;  ///< Next arc of the same node.
     double residual;
   };
 

@@ -11,10 +11,10 @@ namespace asdfvk {
 
 /// Weights of the cost of merging two regions (docs/segmentation.md has the formula).
 struct MergeWeights {
-  double localSight, sight;      ///< Of the share of blocked lines of sight, near and in all.
-  double step, borderStep;       ///< Of differences of the log value, between the means and across the border.
-  double concave, bend, convex;  ///< Of the angles at the border: of edges, of patches where concave, where convex.
-  double neck;                   ///< Of smaller values at the border than in both regions.
+  double localSight, sight;      ///< Weights of the share of blocked lines of sight, near and in all.
+  double step, borderStep;       ///< Weights of differences of the log value, between the means and across the border.
+  double concave, bend, convex;  ///< Weights of angles at the border: of edges, of concave and of convex patches.
+  double neck;                   ///< Weight of smaller values at the border than in both regions.
   double stepLimit, angleLimit;  ///< Upper limits of the differences, and of the angles in radians.
   double areaExponent, borderExponent;
   double threshold;  ///< Merging stops before the first cost above it.

@@ -105,7 +105,7 @@ PartSurface makePartSurface(const TriangleMesh& mesh, const FaceGeometry& geomet
   surface.edgeLengths.resize(arcCount);
   surface.angles.resize(arcCount);
   forEachInParallel(faceCount, [&](uint32_t face) {
-    uint32_t number = 0;  // Of the arcs to the same neighbour.
+    uint32_t number = 0;  // Counts the arcs to the same neighbour.
     for (uint32_t arc = graph.offsets[face]; arc < graph.offsets[face + 1]; ++arc) {
       const uint32_t other = graph.neighbours[arc];
       number = arc > graph.offsets[face] && graph.neighbours[arc - 1] == other ? number + 1 : 0;

@@ -31,7 +31,7 @@ struct PatchData {
     double area = 0;
     double logValue = 0;      ///< Mean by area.
     Vec3d centre;             ///< Mean by area.
-    Vec3d normal;             ///< Of unit length, or 0.
+    Vec3d normal;             ///< A unit vector, or 0.
     uint32_t centreFace = 0;  ///< The face of the patch nearest to its centre.
   };
   /// Two adjacent patches a < b, and sums over the edges between them.

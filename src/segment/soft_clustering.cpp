@@ -18,7 +18,7 @@ namespace {
 
 constexpr uint32_t kMaxMoveCount = 10, kMaxMaximizationCount = 10;
 constexpr double kMinProduct = 1e-200;
-constexpr double kConvergedChange = 1e-3;  ///< Of the likelihood, relative.
+constexpr double kConvergedChange = 1e-3;  ///< Relative change of the likelihood.
 
 /// The generator rand48 of POSIX with CGAL's seed.
 class Rand48 {
@@ -145,7 +145,7 @@ class Mixture {
   /// Sets the probabilities of the clusters; returns the logarithm of the likelihood, without constants.
   double expect() {
     return sumOverBlocks<1>([&](size_t begin, size_t end, size_t, std::array<double, 1>& sum) {
-      double product = 1;  // Of likelihoods: a logarithm takes long.
+      double product = 1;  // Product of likelihoods: a logarithm takes long.
       for (size_t i = begin; i < end; ++i) {
         double* row = &probabilities_[i * gaussians_.size()];
         double total = 0;
@@ -207,7 +207,7 @@ class Mixture {
   }
 
  private:
-  /// Of the means: for a value at which all densities underflow.
+  /// Index of the nearest mean, for a value at which all densities underflow.
   [[nodiscard]] size_t nearest(double value) const {
     const auto isNearer = [&](const Gaussian& a, const Gaussian& b) {
       return std::abs(value - a.mean) < std::abs(value - b.mean);

@@ -146,7 +146,7 @@ class BallPacket {
     Floats diameter;  ///< At most, in spite of rounding; unlimited where it is unknown.
     Floats lowest;    ///< At least; 0 where it is unknown.
     Lanes slope;      ///< Gradient of the diameter by the point of the wall.
-    Floats doubt;     ///< Of the slope, by rounding.
+    Floats doubt;     ///< Error of the slope by rounding.
   };
 
   /// A wall with the least diameters of the balls that touch its plane.
@@ -180,7 +180,7 @@ class BallPacket {
   ASDFVK_ALWAYS_INLINE Mask reach(const auto& box) const {
     return lessEqual(squaredDistance(box.min, box.max, low_, high_), squaredRadius_);
   }
-  /// Of the ball of the first query through a point; great where the point is behind.
+  /// Diameter of the ball of the first query through a point; great where the point is behind.
   [[nodiscard]] float diameterAt(const Vec3f& q) const {
     const Vec3f v = q - first_;
     return asdfvk::dot(v, v) / std::max(asdfvk::dot(v, axis_), kMinLimitDepth);
@@ -351,10 +351,10 @@ class BallPacket {
 
   const WallTree& tree_;
   std::span<BallQuery> queries_;
-  Vec3f first_, axis_;  ///< Of the first query, whose ball decides which nodes are visited first.
+  Vec3f first_, axis_;  ///< Point and axis of the first query, whose ball decides which nodes are visited first.
   Lanes normal_, boxMin_, boxMax_;
-  std::array<Lanes, 4> corners_;      ///< Of the triangle, and the point.
-  Floats leastLimit_, atPointLimit_;  ///< Of the diameters.
+  std::array<Lanes, 4> corners_;      ///< Corners of the triangle, and the point.
+  Floats leastLimit_, atPointLimit_;  ///< Limits of the diameters.
   Lanes low_, high_;                  ///< Box of the centres of the greater balls.
   Floats squaredRadius_;
   Floats reach_;  ///< 1 + the length from the point to the corners.

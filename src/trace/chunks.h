@@ -48,7 +48,7 @@ void forEachChunk(size_t count, ChunkSize size, const RunControl& control, const
   control.checkpoint(1);
 }
 
-/// The same for ranges that a device processes while the host goes on: start(slot, begin, end) submits a range,
+/// forEachChunk() for ranges that a device processes while the host goes on: start(slot, begin, end) submits a range,
 /// wait(slot) waits for it, and read(slot, begin, end) takes its results. Up to kSlotCount ranges are in flight, so the
 /// host reads one and prepares another while the device works. After an exception ranges may still be in flight.
 template <size_t kSlotCount, typename Start, typename Wait, typename Read>

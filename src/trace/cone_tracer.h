@@ -76,7 +76,7 @@ class ConeTracer {
   virtual TraceStatistics trace(std::span<const uint32_t> seedFaces, const ConeResults& results,
                                 const RunControl& control) = 0;
 
-  /// The same for cones anywhere; origins are finite. A cone of coneStartOfFace() has the value that trace() gives its
+  /// trace() for cones anywhere; origins are finite. A cone of coneStartOfFace() has the value that trace() gives its
   /// face, up to rounding.
   virtual TraceStatistics traceAt(std::span<const ConeStart> starts, const ConeResults& results,
                                   const RunControl& control) = 0;

@@ -79,7 +79,7 @@ class SolidSurface {
 struct Cube {
   Vec3d centre;
   double halfSide = 0;
-  double bound = 0;  ///< Of the radii of balls with their centres in the cube.
+  double bound = 0;  ///< Bound of the radii of balls with their centres in the cube.
   bool operator<(const Cube& other) const { return bound < other.bound; }
 };
 

@@ -11,7 +11,7 @@ namespace asdfvk {
 
 /// The value of one cone, bit-identical with that of makeReferenceTracer(). Thread-safe. hits: empty, or one per ray.
 double referenceCone(const TraceScene& scene, const Cone& cone, const ConeStart& start, std::span<ConeHit> hits = {});
-/// The same for the cone of a face. Precondition: the face is not degenerate.
+/// The cone of a face. Precondition: the face is not degenerate.
 double referenceCone(const TraceScene& scene, const Cone& cone, uint32_t seedFace, std::span<ConeHit> hits = {});
 
 }  // namespace asdfvk

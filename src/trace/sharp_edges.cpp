@@ -70,7 +70,7 @@ class SharpSearch {
   /// The pairs of a large fan that share an edge.
   template <typename Visit>
   void forEachPairOverEdges(std::span<const uint32_t> corners, const Visit& visit) const {
-    std::vector<std::pair<uint32_t, uint32_t>> byPoint;  // Of the other end of an edge.
+    std::vector<std::pair<uint32_t, uint32_t>> byPoint;  // The other end of an edge, and a corner of it.
     for (const uint32_t corner : corners)
       for (const uint32_t end : {next(corner), before(corner)}) byPoint.emplace_back(pointAt(end), corner);
     std::sort(byPoint.begin(), byPoint.end());

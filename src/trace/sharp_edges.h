@@ -12,8 +12,8 @@ namespace asdfvk {
 
 /// Edges, connected over points, at which opposing walls meet; or one point at which they meet without an edge.
 struct SharpLine {
-  double cosine = -1;  ///< Of the least inner angle between the walls.
-  double length = 0;   ///< Of all edges; 0 at a tip.
+  double cosine = -1;  ///< Cosine of the least inner angle between the walls.
+  double length = 0;   ///< Sum over all edges; 0 at a tip.
   uint64_t edgeCount = 0;
   Vec3d place;  ///< The middle of the edge with the least angle, or the tip.
   uint32_t face = 0;

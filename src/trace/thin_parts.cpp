@@ -20,7 +20,7 @@ constexpr uint32_t kLineLength = uint32_t{1} << 31;
 /// A part of a line between two points: an edge of the mesh, or where a piece was halved.
 struct Side {
   uint32_t line = 0, from = 0, to = 0;
-  bool isSharp = false;  ///< Of a sharp edge at which the face is thin.
+  bool isSharp = false;  ///< Whether the face is thin at a sharp edge.
 };
 
 struct Piece {

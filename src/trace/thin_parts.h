@@ -19,7 +19,7 @@ struct ThinPart {
   InscribedBall least;  ///< Over the part. No wall: the greatest section is the limit.
   bool isThinAtMiddle = false;
   bool isSharp = false;  ///< Has a point of a sharp edge or tip of its face.
-  uint32_t region = 0;   ///< Of parts that are connected over edges; ascending by their first parts.
+  uint32_t region = 0;   ///< One number for parts that are connected over edges; ascending by their first parts.
 };
 
 /// The parts of thin faces that have a point below the limit. Faces are halved at their longest edges down to pieces no

@@ -12,7 +12,7 @@ namespace asdfvk {
 /// Comparison of a tracer with the reference on up to 64 faces of a scene.
 struct TracerCheck {
   uint32_t comparedCount = 0;   ///< Faces with a value in one or both computations.
-  uint32_t differingCount = 0;  ///< Of those, by more than kAgreementTolerance bounding-box diagonals.
+  uint32_t differingCount = 0;  ///< Compared faces that differ by more than kAgreementTolerance bounding-box diagonals.
 
   /// Whether so many faces differ that the tracer is wrong: rays that graze edges make few of them differ.
   [[nodiscard]] bool isRefuted() const { return differingCount > 4 && 4 * differingCount > comparedCount; }

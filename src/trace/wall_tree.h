@@ -23,16 +23,16 @@ struct InscribedBall {
 /// Balls that shrink until no opposing wall is inside. Their diameters on entry are upper bounds.
 struct BallQuery {
   PlaneTriangle triangle;   ///< A face or a part of it.
-  Vec3d point;              ///< Of the triangle.
+  Vec3d point;              ///< A point of the triangle.
   InscribedBall atPoint;    ///< The largest ball at the point.
   InscribedBall least;      ///< The least of such balls over all points of the triangle.
-  uint32_t body = kNoBody;  ///< Of the triangle, see Solids::bodyOf.
+  uint32_t body = kNoBody;  ///< Body of the triangle, see Solids::bodyOf.
 };
 
 /// A face, coincident copies included: those of touching parts have opposite normals.
 struct Wall {
   Vec3f normal;
-  float offset = 0;  ///< Of the plane along the normal.
+  float offset = 0;  ///< Offset of the plane along the normal.
   Vec3f min, max, middle;
   std::array<Vec3f, 3> spokes{};  ///< The corners, from the middle.
   float reach = 0;                ///< Length of the longest spoke.
@@ -42,7 +42,7 @@ struct Wall {
 /// Bounds of the walls below a node of the hierarchy.
 struct WallNode {
   Vec3f min, max, normalMin, normalMax;
-  Vec3f middle;  ///< Of one of the walls.
+  Vec3f middle;  ///< Middle of one of the walls.
   /// The corners are within `radius` of the line through the middle along the axis, a mean of the normals, and from
   /// `lowest` to `highest` along it; at most `reach` from the middle.
   Vec3f axis{};

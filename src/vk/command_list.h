@@ -25,7 +25,7 @@ class CommandList {
   /// `pushConstants` has the byte count of the pipeline's description.
   void dispatch(const ComputePipeline& pipeline, const BindingSet& bindings, std::span<const std::byte> pushConstants,
                 uint32_t workgroupCount, uint32_t workgroupCountY = 1);
-  /// The same with the workgroup counts of the VkDispatchIndirectCommand in `size`, read when the dispatch starts.
+  /// dispatch() with the workgroup counts of the VkDispatchIndirectCommand in `size`, read when the dispatch starts.
   /// size: created with VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT.
   void dispatchIndirect(const ComputePipeline& pipeline, const BindingSet& bindings,
                         std::span<const std::byte> pushConstants, const Buffer& size);

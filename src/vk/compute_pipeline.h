@@ -13,7 +13,7 @@ namespace asdfvk {
 
 /// Description of a compute pipeline.
 struct ComputePipelineDescription {
-  std::string name;  ///< Of the shader, for messages.
+  std::string name;  ///< Name of the shader, for messages.
   std::span<const uint32_t> spirv;
   std::vector<VkDescriptorType> bindings;  ///< Binding i of set 0 has type bindings[i].
   uint32_t pushConstantByteCount = 0;

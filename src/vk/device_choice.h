@@ -19,7 +19,7 @@ struct DeviceFacts {
   std::string driver;
   DeviceKind kind = DeviceKind::Other;
   DeviceVendor vendor = DeviceVendor::Other;
-  uint32_t apiVersion = 0;  ///< As VK_MAKE_API_VERSION packs it.
+  uint32_t apiVersion = 0;  ///< Packed like VK_MAKE_API_VERSION.
   std::optional<uint32_t> computeQueueFamily;
   uint32_t subgroupSize = 1;
   bool hasSubgroupVote = true;  ///< In compute shaders; true on all known devices with Vulkan 1.2.
@@ -32,7 +32,7 @@ struct DeviceFacts {
   uint64_t maxTexelBufferElements = 0;
   uint64_t maxMemoryAllocationSize = 0;  ///< Bytes.
   bool mapsDeviceMemory = true;          ///< False: as on a device with separate memory, for tests.
-  uint32_t timestampValidBits = 0;       ///< Of the compute queue family; 0: it has no timestamps.
+  uint32_t timestampValidBits = 0;       ///< Property of the compute queue family; 0: it has no timestamps.
   double timestampPeriod = 0;            ///< Nanoseconds.
   bool endsLongLoops = false;            ///< Kernels must stay below kMaxLoopIterationCount: llvmpipe before Mesa 25.
 };

@@ -41,7 +41,7 @@ class Instance {
  private:
   VkInstance instance_ = VK_NULL_HANDLE;
   VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
-  /// Of this instance: Volk's function is null after the creation of an instance without the extension.
+  /// The function of this instance: that of Volk is null after the creation of an instance without the extension.
   PFN_vkDestroyDebugUtilsMessengerEXT destroyMessenger_ = nullptr;
   std::shared_ptr<ValidationLog> log_;
 };

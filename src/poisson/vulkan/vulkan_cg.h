@@ -47,7 +47,7 @@ class VulkanCg {
   uint32_t workgroupCount_;
   uint32_t stateIndex_ = 0;
   Buffer solution_, residual_, direction_, product_, states_, sums_;
-  Buffer size_;  ///< Of the following dispatches. The device sets it to 0 at the end.
+  Buffer size_;  ///< Workgroups of the following dispatches. The device sets it to 0 at the end.
   Buffer statesOnHost_;
   BindingSet productBindings_, stepBindings_;
   CommandList commands_;

@@ -33,7 +33,7 @@ struct VulkanGraph {
               std::span<const double> weights);
 
   uint32_t faceCount;
-  double weightScale;  ///< Of the weights on the device.
+  double weightScale;  ///< Factor of the weights on the device.
   Buffer arcOffsets, weights;
   VulkanMatrix matrix;  ///< Its tailColumns are the neighbours. Each VulkanEquation sets its residual weights.
 };
@@ -46,7 +46,7 @@ class VulkanEquation {
                  const GraphProblem& problem);
 
   [[nodiscard]] double rightHandNorm() const { return rightHandNorm_; }
-  /// Of the solution.
+  /// Norm of the residual of the solution.
   [[nodiscard]] double residualNorm() const { return residualNorm_; }
   /// b of (I - S) y = b for the residual of the solution, of weighted norm 1. Overwritten by tryCorrection().
   [[nodiscard]] const Buffer& scaledResidual();
@@ -80,7 +80,7 @@ class VulkanEquation {
   const VulkanGraph& graph_;
   const GraphProblem& problem_;
   std::vector<uint8_t> isReachable_;
-  double constraintMean_ = 0, valueScale_ = 1;  ///< Of the values on the device.
+  double constraintMean_ = 0, valueScale_ = 1;  ///< valueScale_: factor of the values on the device.
   Buffer sources_, scaledResidual_, sums_, sumsOnHost_;
   std::array<Buffer, 2> differences_;  ///< The solution and a corrected one.
   uint32_t current_ = 0;               ///< The solution.

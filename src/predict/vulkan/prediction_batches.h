@@ -33,7 +33,7 @@ class PredictionBatches {
 
   /// Takes the next faces. Returns false where none are left.
   bool next(const PredictionBatchSize& size);
-  /// Of the batch.
+  /// Counts and seeds of the batch.
   [[nodiscard]] size_t faceCount() const { return batchFaceCount_; }
   [[nodiscard]] size_t cellCount() const { return parts_.size(); }
   [[nodiscard]] std::span<const uint32_t> seeds() const { return seeds_; }

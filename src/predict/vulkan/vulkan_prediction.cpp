@@ -136,7 +136,7 @@ class VulkanPredictor final : public DevicePredictor {
 
     size_t seedCount, faceCount;
     SharedBuffer table, work;
-    std::optional<SharedBuffer> hits;  // Of the seeds of the batch, where the host keeps the hits.
+    std::optional<SharedBuffer> hits;  // Hits of the seeds of the batch, where the host keeps the hits.
     Buffer points;
     BindingSet faceBindings;
   };

@@ -26,7 +26,7 @@ class VulkanPredictionKernels {
   /// Binds faces, points, work, values. A workgroup per kFaceLaneCount items.
   [[nodiscard]] const ComputePipeline& faces() const { return faces_; }
   static constexpr uint32_t kFaceLaneCount = 64;
-  /// Of the stores of hits.
+  /// The kernel of the stores of hits.
   [[nodiscard]] const VulkanHitStoreKernel& store() const { return store_; }
 
  private:

@@ -53,7 +53,7 @@ struct EmbreeCones {
 /// A cone to trace, and the output array of its hits.
 struct EmbreeSeed {
   ConeStart start;
-  uint32_t primitive = kNoFace;  ///< Of the face that the origin lies on; kNoFace: of none.
+  uint32_t primitive = kNoFace;  ///< The face that the origin lies on; kNoFace: none.
   bool fitsFloat = true;         ///< Otherwise the cone is not cast, and isDoubtful().
   std::span<ConeHit> hits;       ///< One per ray, or empty.
 };

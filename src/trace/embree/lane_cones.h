@@ -63,7 +63,7 @@ class LaneCones {
   std::span<const TrianglePlane> planes_;
   InstructionSet instructionSet_;
   std::vector<std::array<double, kWidth>> lengths_, sorted_;  // Per ray.
-  std::vector<std::pair<uint16_t, uint16_t>> exchanges_;      // Of the sorting network.
+  std::vector<std::pair<uint16_t, uint16_t>> exchanges_;      // The sorting network.
   std::array<int64_t, kWidth> leavesSurface_{};
 };
 

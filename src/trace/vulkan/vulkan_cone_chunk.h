@@ -33,9 +33,9 @@ class ConeChunk {
   ConeChunk& operator=(const ConeChunk&) = delete;
 
   [[nodiscard]] uint64_t capacity() const { return capacity_; }
-  /// Of seed faces, if the kernel has origins().
+  /// Starts of seed faces, if the kernel has origins().
   [[nodiscard]] std::span<ConeSeed> seeds() { return seeds_->mappedAs<ConeSeed>(); }
-  /// Of cones anywhere.
+  /// Starts of cones anywhere.
   [[nodiscard]] std::span<ConeOrigin> starts() { return origins_.onHost<ConeOrigin>(); }
   /// With a store: the place of each cone in the batch that is traced.
   [[nodiscard]] std::span<uint32_t> places() { return places_->mappedAs<uint32_t>(); }
@@ -48,7 +48,7 @@ class ConeChunk {
 
   /// See shared/cone_layout.h.
   [[nodiscard]] std::span<const uint32_t> results() { return results_.onHost<uint32_t>(); }
-  /// Those of cone i at i times the number of rays.
+  /// Hits of cone i are at i times the number of rays.
   [[nodiscard]] std::span<const ConeHit> hits() { return hits_->onHost<ConeHit>(); }
 
  private:

@@ -22,7 +22,7 @@ constexpr VkDescriptorType kStorage = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
 
 VulkanTraceChoice choiceFor(const Device& device, const ConeKernelRequest& request) {
   VulkanTraceChoice choice = request.choice.value_or(defaultTraceChoice(device.facts()));
-  if (request.isConstant) choice.kernel = TraceKernel::Ray;  // The same bindings and workgroups.
+  if (request.isConstant) choice.kernel = TraceKernel::Ray;  // It has the same bindings and workgroups.
   return choice;
 }
 

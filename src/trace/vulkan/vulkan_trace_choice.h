@@ -51,7 +51,7 @@ struct VulkanTraceRequest {
 [[nodiscard]] const char* defaultTraceReason(const DeviceFacts& device);
 /// The default with the requested members replaced.
 [[nodiscard]] VulkanTraceChoice traceChoiceFor(const DeviceFacts& device, const VulkanTraceRequest& request);
-/// The same for one hierarchy: where the default fetch was not requested and the hierarchy may exceed its limit, the
+/// The variant for one hierarchy: where the default fetch was not requested and the hierarchy may exceed its limit, the
 /// other fetch if the hierarchy fits that one.
 [[nodiscard]] VulkanTraceChoice traceChoiceFor(const DeviceFacts& device, const VulkanTraceRequest& request,
                                                const Bvh& bvh);

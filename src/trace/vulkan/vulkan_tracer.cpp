@@ -238,7 +238,7 @@ class VulkanTracer final : public ConeTracer {
   double encodeSeconds_ = 0;
   std::optional<DeviceSeeds> seeds_;
   ConeBuffers buffers_;
-  std::optional<DeviceTimer> timer_;  // Of the last call.
+  std::optional<DeviceTimer> timer_;  // Measures the last call.
 };
 
 }  // namespace
