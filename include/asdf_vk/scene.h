@@ -54,11 +54,12 @@ class ASDFVK_API Scene {
   /// points: 3 #P numbers, x y z in the unit of the mesh. normals: 3 #P numbers, outwards, of any length above 0.
   /// Returns #P values in the unit of the mesh; NaN where no ray hits the opposite side, as at most points outside.
   ///
-  /// Definition as for faces (docs/method.md), with the given normal in place of that of the face; no face is ignored.
-  /// At the barycentre of a face, with its normal, the value is that of the face less about kPointOffset times the
-  /// diagonal; walls thinner than that are not resolved. ConeRotation::Hashed turns each cone by a hash of its point,
-  /// so that its values differ from those of faces by the noise of the rays. Points farther from the bounding box than
-  /// 1/128 of its longest side are traced in double precision, more slowly; at 2^31 times that side there is no value.
+  /// The definition is that of faces (docs/method.md), with the given normal in place of that of the face; no face is
+  /// ignored. At the barycentre of a face, with its normal, the value is that of the face less about kPointOffset times
+  /// the diagonal; walls thinner than that are not resolved. ConeRotation::Hashed turns each cone by a hash of its
+  /// point, so that its values differ from those of faces by the noise of the rays. Points farther from the bounding
+  /// box than 1/128 of its longest side are traced in double precision, more slowly; at 2^31 times that side there is
+  /// no value.
   ///
   /// The tracer is kept: further calls with the same cone options cost only their rays. Throws Error{ArraySize} where a
   /// size is not a multiple of 3 or the sizes differ, Error{NonFiniteNumber} with the index for a number that is not
