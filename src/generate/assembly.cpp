@@ -135,7 +135,7 @@ class AssemblyStack {
     return {sideCount, between(0, 1), std::move(heights), std::move(radii)};
   }
 
-  /// Of the part of a sphere between two parallel planes, or of a prism.
+  /// Profile of the part of a sphere between two parallel planes, or of a prism.
   Profile roundProfile(double bottom) {
     if (random_.index(2) == 0) return randomProfile({bottom, top_});
     constexpr uint32_t kRingCount = 5;

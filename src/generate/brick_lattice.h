@@ -22,7 +22,7 @@ inline constexpr size_t kBricksPerTask = 16;
 
 /// 8^3 lattice points near the surface. Point (x, y, z) of the brick is bit x + 8 y of word z.
 struct Brick {
-  std::array<int32_t, 3> coordinates{};   ///< Of its lowest point, divided by kBrickEdge.
+  std::array<int32_t, 3> coordinates{};   ///< Coordinates of its lowest point, divided by kBrickEdge.
   CapsuleUnion::Selection selection = 0;  ///< The capsules that affect this brick.
   std::array<uint64_t, 8> inside{};
 };

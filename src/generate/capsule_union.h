@@ -40,7 +40,7 @@ class CapsuleUnion {
 
   struct Dominating {
     uint32_t part = 0;
-    double diameter = 0;  ///< Of the ball nearest to p.
+    double diameter = 0;  ///< Diameter of the ball nearest to p.
   };
   /// Part and diameter of the capsule nearest to p; of equally near ones the first.
   [[nodiscard]] Dominating dominating(const Vec3d& p, Selection selection = kAll) const;
@@ -55,7 +55,7 @@ class CapsuleUnion {
   struct Axis {
     Vec3d origin, direction;  ///< Unit direction from a to b.
     double length = 0;
-    double radius = 0;       ///< At the origin.
+    double radius = 0;       ///< Radius at the origin.
     double radiusSlope = 0;  ///< Change of the radius per length; above -1 and below 1.
     double lean = 0;  ///< Along the axis: (centre of the nearest ball - projection of p) / distance of p from the axis.
     double blend = 0;
@@ -63,7 +63,7 @@ class CapsuleUnion {
   };
   struct Nearest {
     double distance = 0;  ///< To the surface of the nearest ball; negative inside.
-    double radius = 0;    ///< Of that ball.
+    double radius = 0;    ///< Radius of that ball.
     Vec3d fromCentre;     ///< From its centre to p.
     double fromCentreLength = 0;
   };

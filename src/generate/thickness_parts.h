@@ -12,12 +12,12 @@ namespace asdfvk {
 /// A part whose least wall thickness (docs/thickness.md) is known by construction, at any triangulation. Lengths in mm.
 struct ThicknessPart {
   BlockSolid solid;
-  double leastThickness = 0;  ///< Over all points of the surface; 0 with a sharp edge or tip.
-  /// The same without sharp regions: what is connected with a sharp edge or tip, and below this thickness. Infinite
-  /// where all of the surface is.
+  double leastThickness = 0;  ///< Minimum over all points of the surface; 0 with a sharp edge or tip.
+  /// Minimum without sharp regions, which are connected with a sharp edge or tip and below this thickness. Infinite
+  /// where the whole surface is a sharp region.
   double leastWall = std::numeric_limits<double>::infinity();
   double sharpAngleDegrees = 0;  ///< Inner angle of its sharp edges, or of its tip; 0 without one.
-  double sharpLength = 0;        ///< Of all its sharp edges.
+  double sharpLength = 0;        ///< Sum over all its sharp edges.
 };
 
 /// Wedges, plates with ribs, pockets, cups, brackets with fillets, ligaments beside holes, threads.
@@ -28,7 +28,7 @@ struct ThicknessPart {
 
 /// An open box of random size, with drafted walls (1 to 3 degrees) and a floor that are at least `limit` thick.
 [[nodiscard]] ThicknessPart makeSoundBox(uint64_t seed, double limit);
-/// Such a box with one pocket or groove, in a wall or in the floor, that leaves 20 % to 98 % of `limit`.
+/// A box of that kind with one pocket or groove, in a wall or in the floor, that leaves 20 % to 98 % of `limit`.
 [[nodiscard]] ThicknessPart makeBoxWithThinPlace(uint64_t seed, double limit);
 
 }  // namespace asdfvk

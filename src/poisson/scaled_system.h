@@ -15,7 +15,7 @@ namespace asdfvk {
 template <typename Real>
 class DiagonalScaling {
  public:
-  /// diagonal: #U, > 0; must outlive it.
+  /// diagonal: #U, above 0, must outlive this object.
   explicit DiagonalScaling(std::span<const double> diagonal);
 
   /// #U: weights w for which sum w_i r_i^2, r = b - (I - S) y, is the square of residualNorm() of the corresponding

@@ -49,7 +49,7 @@ class MaxFlow {
     uint32_t distance : 29 = 0;  ///< Arcs to the terminal, as far as known.
     Tree tree : 2 = Tree::Free;
     bool isActive : 1 = false;  ///< In the queue.
-    double terminal = 0;        ///< Residual capacity from the source, or minus that to the sink.
+    double terminal = 0;        ///< Positive: residual capacity from the source. Negative: minus that to the sink.
   };
 
   /// Arc 2 e is edge e from a to b, arc 2 e + 1 its reverse.

@@ -20,9 +20,9 @@ struct MergeWeights {
   double threshold;  ///< Merging stops before the first cost above it.
 };
 
-/// With lines of sight.
+/// Weights with lines of sight.
 inline constexpr MergeWeights kSightWeights{0.3, 0.15, 0.5, 0.15, 3, 0.9, 0.18, 0.4, 2, 0.55, 0.375, -1.85, 0.0335};
-/// Without.
+/// Weights without lines of sight.
 inline constexpr MergeWeights kShapeWeights{0, 0, 0.5, 0.2, 4.25, 0.67, 0.15, 0.18, 2.3, 1, 0.38, -1.2, 0.0363};
 
 /// Visibility of pairs of patches: a symmetric matrix of numbers from 0 to 1, at first 1.
@@ -45,7 +45,7 @@ class SightMatrix {
 /// continues on its own. Deterministic.
 class PartMerging {
  public:
-  /// sight: between the patches of `data`.
+  /// sight(i, j): whether patches i and j of `data` see each other.
   PartMerging(const PatchData& data, const SightMatrix& sight, const MergeWeights& weights);
 
   [[nodiscard]] uint32_t regionCount() const { return regionCount_; }

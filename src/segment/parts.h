@@ -41,7 +41,7 @@ struct Parts {
   /// boundaries cut. Unset where no component has kMinPartArea: nothing is compared.
   std::optional<double> agreement;
   bool isThinShell = false;  ///< A closed thin wall around a cavity; lines of sight were not used.
-  double meanSight = 1;      ///< Over pairs of patches of a component, weighted by the product of their areas.
+  double meanSight = 1;      ///< Mean over pairs of patches of a component, weighted by the product of their areas.
 };
 
 /// Share of the area below which a component is not divided, and a part is merged.

@@ -14,7 +14,7 @@ namespace asdfvk {
 [[nodiscard]] double randIndex(std::span<const uint32_t> a, std::span<const uint32_t> b,
                                std::span<const float> weights);
 
-/// Over pairs of different items, all of equal weight.
+/// Rand index over pairs of different items, all of equal weight.
 [[nodiscard]] double randIndex(std::span<const uint32_t> a, std::span<const uint32_t> b);
 
 }  // namespace asdfvk

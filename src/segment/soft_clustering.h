@@ -26,7 +26,7 @@ struct SoftClustering {
 /// Careful Seeding, SODA 2007).
 struct HardClustering {
   std::vector<double> centres;      ///< In the order of the seeds.
-  std::vector<uint32_t> clusterOf;  ///< #values, of the nearest centre.
+  std::vector<uint32_t> clusterOf;  ///< #values: the cluster of the nearest centre.
 };
 
 /// Throws as clusterSoftly().

@@ -143,8 +143,8 @@ class BallPacket {
 
   /// The balls at the points through the middle of a wall.
   struct Middle {
-    Floats diameter;  ///< At most, in spite of rounding; unlimited where it is unknown.
-    Floats lowest;    ///< At least; 0 where it is unknown.
+    Floats diameter;  ///< Upper bound that covers rounding; unlimited where it is unknown.
+    Floats lowest;    ///< Lower bound; 0 where it is unknown.
     Lanes slope;      ///< Gradient of the diameter by the point of the wall.
     Floats doubt;     ///< Error of the slope by rounding.
   };
@@ -285,7 +285,7 @@ class BallPacket {
             select(isDeep, (kWallPlaneMargin + 2 * rounding) * inverse)};
   }
 
-  /// By the balls through the middle of a wall.
+  /// Lowers the limits to the balls through the middle of a wall.
   ASDFVK_ALWAYS_INLINE void shrinkLimits(const Wall& wall, const Middle& middle, const Mask& lanes) {
     const Floats diameter = orUnlimited(lanes, middle.diameter);
     const Floats atPoint = asdfvk::min(atPointLimit_, diameter);

@@ -27,7 +27,7 @@ class CavityRays {
   CavityRays(const TraceScene& scene, const Components& components, std::span<const uint8_t> isCavity)
       : scene_(scene), components_(components), isCavity_(isCavity) {}
 
-  /// Of each cavity the component through whose inner side the ray leaves the material; kNoComponent for none.
+  /// For each cavity, the component through whose inner side the ray leaves the material; kNoComponent for none.
   [[nodiscard]] std::vector<uint32_t> firstLeft(const Vec3d& direction) const {
     std::vector<Vec3d> origins(isCavity_.size());
     std::vector<double> farthest(isCavity_.size(), -std::numeric_limits<double>::infinity());

@@ -16,7 +16,7 @@ namespace asdfvk {
 struct ThinPart {
   uint32_t face = 0;
   std::array<Vec3d, 3> corners;
-  InscribedBall least;  ///< Over the part. No wall: the greatest section is the limit.
+  InscribedBall least;  ///< The least ball over the part. It has no wall where the greatest section is the limit.
   bool isThinAtMiddle = false;
   bool isSharp = false;  ///< Has a point of a sharp edge or tip of its face.
   uint32_t region = 0;   ///< One number for parts that are connected over edges; ascending by their first parts.

@@ -57,7 +57,7 @@ struct WallNode {
 /// face fill a convex set that contains those of smaller balls, so that a wall that was outside once remains outside.
 class WallTree {
  public:
-  /// solids: of the scene. Null: all faces may bound one body.
+  /// solids: those of the scene, or null if all faces may bound one body.
   WallTree(const TraceScene& scene, const OpposingWalls& walls, const Solids* solids = nullptr);
 
   /// Shrinks the balls. Queries that follow each other should be neighbours in space. Diameters are bits that do not

@@ -11,7 +11,7 @@
 #include "trace/cone_tracer.h"
 #include "trace/triangle_planes.h"
 
-// Eight cones, one per lane, in double and independent of Embree: computes their values from the hits of their rays.
+// Computes the values of eight cones, one per lane, from the hits of their rays, in double and without Embree.
 // Coordinates are normalised.
 namespace asdfvk {
 

@@ -43,7 +43,7 @@ class ConeChunk {
   enum class Input { Seeds, Starts };
   /// readsHits: whether hits() are read.
   void submit(const ConePush& push, Input input, bool readsHits);
-  /// Once per submission.
+  /// Call it once per submission.
   void wait();
 
   /// See shared/cone_layout.h.

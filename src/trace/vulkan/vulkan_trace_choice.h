@@ -63,7 +63,7 @@ using VariantNames = std::span<const std::pair<const char*, T>>;
 [[nodiscard]] VariantNames<BvhLayout> bvhNames();
 [[nodiscard]] VariantNames<BvhFetch> fetchNames();
 
-/// By names; an empty name and "auto" leave a member unset. Throws Error{UnknownName}.
+/// Parses names; an empty name and "auto" leave a member unset. Throws Error{UnknownName}.
 [[nodiscard]] VulkanTraceRequest traceRequestOf(const TraceVariant& variant);
 [[nodiscard]] TraceVariant variantOf(const VulkanTraceChoice& choice);
 
