@@ -18,12 +18,13 @@
 /// triangles the results have the bits of the fields "normalized" and "segment" of Session::compute().
 ///
 /// Neighbours are the faces across an edge of exactly two faces that traverse it in opposite directions. An edge of
-/// more faces is first divided as CGAL's readers do by splitting vertices: those of its faces belong together that are
-/// connected by neighbours around both ends. An edge between faces of opposite winding is a border; CGAL's readers
-/// reverse faces of such meshes where they can. Vertices are compared by index.
+/// more faces is first divided as CGAL's readers do by splitting vertices: its faces stay together where neighbours
+/// connect them around both ends. An edge between faces of opposite winding is a border; CGAL's readers reverse faces
+/// of such meshes where they can. Vertices are compared by index.
 ///
 /// All functions throw Error{EmptyMesh}, Error{ArraySize} for arrays of a wrong size, Error{IndexOutOfRange},
-/// Error{MeshTooLarge}, Error{ValueOutOfRange}, Error{Cancelled}. The same bits on any number of threads.
+/// Error{MeshTooLarge}, Error{ValueOutOfRange}, Error{Cancelled}. The result has the same bits on any number of
+/// threads.
 namespace asdfvk {
 
 struct PostprocessedSdf {

@@ -141,9 +141,9 @@ struct ThicknessOptions {
 /// Conditions under which further rounds of seeds are added. A round keeps the traced values of all earlier rounds. Any
 /// of them excludes SeedCount::all(); a maximum error requires Options::estimatesError.
 struct RoundOptions {
-  std::optional<double> maxError;           ///< Until the estimated average error is at most this share of the range.
-  std::optional<double> maxRelativeError;   ///< Until the estimated median of error / value is at most this.
-  std::optional<double> timeBudgetSeconds;  ///< While time is left, counted from the start of compute().
+  std::optional<double> maxError;  ///< Last round: the estimated average error is at most this share of the range.
+  std::optional<double> maxRelativeError;   ///< Last round: the estimated median of error / value is at most this.
+  std::optional<double> timeBudgetSeconds;  ///< Last round: this time since the start of compute() is over.
 
   [[nodiscard]] bool limitError() const { return maxError || maxRelativeError; }
   [[nodiscard]] bool areSet() const { return limitError() || timeBudgetSeconds; }
@@ -161,7 +161,7 @@ enum class Orientation {
 /// Elements of the mesh that the fields of a result describe.
 enum class PerElement {
   Faces,     ///< Input faces.
-  Vertices,  ///< Input faces, and further fields with the same names per vertex: means over its faces by area.
+  Vertices,  ///< Input faces; and vertices, in fields with the same names: means over the faces of a vertex by area.
 };
 
 /// Options of one computation. Sampler and solver are names, listed by samplerNames() and solverNames().
