@@ -27,7 +27,7 @@ class SmallTree {
 
   struct Node {
     SplitBox box;
-    float cost = 0;  ///< By the surface-area heuristic, times the half area of the box.
+    float cost = 0;  ///< Cost by the surface-area heuristic, times the half area of the box.
     uint8_t left = 0, right = 0;
     uint8_t triangleCount = 1, depth = 0;
     bool isLeaf = true;

@@ -28,7 +28,8 @@ struct PlaneTriangle {
 /// The least ball at any point of the face, as far as a wall limits it: with a point p of the face, a point q of the
 /// wall and v = q - p the diameter is |v|^2 / (v . m), m the inward normal -face.normal; the result has the least
 /// diameter over all p and q. Points of the wall whose depth v . m is not above `minDepth` > 0 do not count. Where the
-/// least diameter is above `limit`, a larger one or an infinite one; its bits do not depend on a limit above it.
+/// least diameter is above `limit`, the result is a larger one or infinite. The bits of the diameter do not depend on a
+/// limit above it.
 ///
 /// The balls of diameter T that touch the face fill the face, shifted by T/2 along m, extended by T/2: a convex set. A
 /// wall of which that set has one point is touched at a corner, or at a point of an edge or of the interior by the ball

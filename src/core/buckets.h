@@ -26,8 +26,8 @@ struct Buckets {
 
 /// Entries grouped by bucket number, for callers that read each bucket once and do not keep it. A radix sort in two
 /// steps; the second step works on runs of buckets that fit into a cache. It needs no atomic operations, each of which
-/// would wait for memory. Time: linear for small buckets, n log n in the worst case. The same result on any number of
-/// threads. Entry: ordered; its default constructor should leave it uninitialised.
+/// would wait for memory. Time: linear for small buckets, n log n in the worst case. The result does not depend on the
+/// number of threads. Entry: ordered; its default constructor should leave it uninitialised.
 template <typename Entry>
 class StagedEntries {
  public:

@@ -22,7 +22,7 @@ using Float8 = float __attribute__((vector_size(32)));
 using Float16 = float __attribute__((vector_size(64)));
 using Double4 = double __attribute__((vector_size(32)));
 
-/// The vector of as many signed integers of the same size. As a mask: -1 for true, 0 for false.
+/// The vector with the same number of signed integers of the same size. As a mask: -1 for true, 0 for false.
 template <typename V>
 using IntsOf = decltype(V{} == V{});
 

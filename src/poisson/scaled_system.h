@@ -24,7 +24,7 @@ class DiagonalScaling {
 
   /// b for A e = residual, of weighted norm 1. norm: residualNorm() of the residual.
   [[nodiscard]] UnsetVector<Real> scaleResidual(std::span<const double> residual, double norm) const;
-  /// e from y. norm: that of scaleResidual().
+  /// Makes e from y. norm: the result of scaleResidual().
   void unscaleCorrection(std::span<const Real> y, double norm, std::span<double> correction) const;
 
  protected:

@@ -79,8 +79,8 @@ inline constexpr uint32_t kNormalBinCount = 6 * kBinsPerSide * kBinsPerSide;
 struct Sampler {
   const char* name;
   SampleSeeds* sample;
-  /// Adaptive samplers only, else null: `sample` selects half of the seeds, and this the other half, denser where the
-  /// prediction from the first half has a large error indicator.
+  /// Null but for adaptive samplers: there `sample` selects half of the seeds, and `refine` the other half, which is
+  /// denser where the prediction from the first half has a large error indicator.
   SampleSeedsByDensity* refine = nullptr;
   /// All sets of candidates are equally likely, so that any of the seeds can be held out without bias.
   bool isUniform = false;

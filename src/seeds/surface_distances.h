@@ -70,7 +70,7 @@ class SurfaceDistances {
   const DualGraph& graph_;
   std::span<const float> arcLengths_;
   std::vector<float> distances_;      ///< #F
-  std::vector<PendingFace> pending_;  ///< Empty between calls; a member to reuse its memory.
+  std::vector<PendingFace> pending_;  ///< Empty between calls; it is a member so that its memory is reused.
 };
 
 /// The faces around a face by ascending distance (Dijkstra's algorithm), for one centre after another; the memory is
@@ -80,7 +80,7 @@ class SurfaceBall {
   /// arcLengths: aligned with graph.neighbours, positive.
   SurfaceBall(const DualGraph& graph, std::span<const float> arcLengths);
 
-  using Member = FaceDistance;  ///< With the distance from the centre.
+  using Member = FaceDistance;  ///< A face and its distance from the centre.
 
   /// Starts again around `centre`, which is the first member.
   void startAt(uint32_t centre);

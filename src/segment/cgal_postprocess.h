@@ -17,8 +17,8 @@ struct CgalValues {
 };
 
 /// values: #F, finite, or NaN for no value. Within 1e-12 of CGAL's result on manifold meshes. A power of two as the
-/// unit of the values changes no bit. The same bits on any number of threads. Throws Error{NoValues} where no face has
-/// a value, and Error{Cancelled}.
+/// unit of the values changes no bit. The result has the same bits on any number of threads. Throws Error{NoValues}
+/// where no face has a value, and Error{Cancelled}.
 [[nodiscard]] CgalValues postprocessLikeCgal(const FaceNeighbours& neighbours, std::span<const double> values,
                                              const RunControl& control = {});
 

@@ -21,20 +21,21 @@ struct CgalSegmentation {
   double energy = 0;  ///< Energy of the clusters, see LabelProblem.
 };
 
-/// values: #F, finite, not negative, normalised by postprocessLikeCgal(). The same labels as CGAL's from equal values
-/// on manifold meshes. The same result on any number of threads. One cluster and a smoothness below 0, which is 0, are
-/// allowed here. Throws Error{NoValues} without faces,
-/// Error{OptionOutOfRange} and Error{TooFewValues} where there are fewer different values than clusters. Noise of 1e-3
-/// of the range may change many labels: the clustering is not stable. Throws Error{Cancelled} between expansions.
+/// values: #F, finite, not negative, normalised by postprocessLikeCgal(). From equal values on manifold meshes the
+/// labels are those of CGAL. The result does not depend on the number of threads. One cluster is allowed here, and so
+/// is a smoothness below 0, which counts as 0. Throws Error{NoValues} without faces, Error{OptionOutOfRange}, and
+/// Error{TooFewValues} where there are fewer different values than clusters. Noise of 1e-3 of the range may change many
+/// labels: the clustering is not stable. Throws Error{Cancelled} between expansions.
 [[nodiscard]] CgalSegmentation segmentLikeCgal(const FaceGeometry& geometry, const TriangleMesh& mesh,
                                                const FaceNeighbours& neighbours, std::span<const double> values,
                                                const CgalSegmentationOptions& options, const RunControl& control = {});
 
 /// An edge per pair of neighbouring faces and common edge, ascending by face f < g. Its cost is
-///   100 max(0, smoothness) * -log(max(5e-6, s angle / pi)), angle: between the normals; s: 0.08 on a convex edge,
-///   else 1.
-/// Where g has no area, s angle / pi is 0 if all components of the normal of f are positive, else 0.08, as CGAL
-/// computes it; where f has none, 0 if all components of the normal of g are negative, else 0.08.
+///   100 max(0, smoothness) * -log(max(5e-6, s angle / pi)),
+/// with the angle between the normals and s = 0.08 on a convex edge and 1 elsewhere. CGAL has two special cases,
+/// which are the same here. Where g has no area, s angle / pi is 0 if all components of the normal of f are positive,
+/// and 0.08 otherwise. Where f has no area, it is 0 if all components of the normal of g are negative, and 0.08
+/// otherwise.
 [[nodiscard]] std::vector<LabelEdge> cgalEdgeCosts(const FaceGeometry& geometry, const TriangleMesh& mesh,
                                                    const FaceNeighbours& neighbours, double smoothness);
 

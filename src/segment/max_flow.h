@@ -68,7 +68,7 @@ class MaxFlow {
   void adoptOrphans();
   void adopt(uint32_t orphan);
   void makeOrphan(uint32_t node);
-  /// Arcs from the node to its terminal, kNone when it hangs on an orphan.
+  /// Number of arcs from the node to its terminal; kNone when an orphan is on that path.
   uint32_t distanceToTerminal(uint32_t node);
   /// The residual capacity that a node of this tree has through `arc` to its child; for the sink: from its child.
   [[nodiscard]] double residualToChild(Tree tree, uint32_t arc) const {

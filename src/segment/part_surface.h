@@ -37,8 +37,9 @@ struct PartSurface {
 inline constexpr double kCreaseLength = 0.00704;
 
 /// graph: of the mesh; it must outlive the result. values: #F, not negative, NaN for no value. A missing value becomes
-/// that of the face with the fewest edges between; in a component without values, the mean logarithm of all. Values
-/// below 1e-4 of the largest are raised to that. Throws Error{NoValues} where no face has a value.
+/// the value of the face that is nearest by the number of edges between; in a component without values it becomes the
+/// mean logarithm of all values. Values below 1e-4 of the largest are raised to that. Throws Error{NoValues} where no
+/// face has a value.
 [[nodiscard]] PartSurface makePartSurface(const TriangleMesh& mesh, const FaceGeometry& geometry,
                                           const DualGraph& graph, std::span<const double> values);
 

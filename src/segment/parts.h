@@ -51,8 +51,8 @@ inline constexpr double kMinPartArea = 0.01;
 /// If they have more, each is a part, except those below kMinPartArea times the largest component, which take the
 /// nearest part; if no component has kMinPartArea, each is a part. Other parts never extend over several components.
 /// With options.partCount there are that many parts: more where there are more components, fewer where there are fewer
-/// faces; none of them is merged for its size. The same result on any number of threads. Throws Error{NoValues} where
-/// no face has a value, what `sight` throws, and Error{Cancelled} between steps.
+/// faces; none of them is merged for its size. The result does not depend on the number of threads. Throws
+/// Error{NoValues} where no face has a value, what `sight` throws, and Error{Cancelled} between steps.
 [[nodiscard]] Parts segmentIntoParts(const PartsInput& input, const PartsOptions& options, const LineOfSight& sight,
                                      const RunControl& control = {});
 

@@ -11,15 +11,15 @@ namespace asdfvk {
 /// Clusters ascend by mean.
 struct SoftClustering {
   std::vector<double> means, deviations, weights;  ///< Per cluster. A deviation may be 0; weights sum to 1.
-  std::vector<double> probabilities;  ///< #values x #clusters, by value: that of the cluster given the value.
+  std::vector<double> probabilities;  ///< #values x #clusters: a row per value, with the probability of each cluster.
 
   [[nodiscard]] uint32_t clusterCount() const { return static_cast<uint32_t>(means.size()); }
 };
 
 /// Expectation and maximization (A. Dempster, N. Laird, D. Rubin: Maximum Likelihood from Incomplete Data via the EM
-/// Algorithm, 1977), at most 10 steps, from those of clusterByMeans(). values: finite. The same bits on any number
-/// of threads. Throws Error{OptionOutOfRange} for a number of clusters outside 1 .. kMaxClusterCount, and
-/// Error{TooFewValues} where there are fewer different values than clusters.
+/// Algorithm, 1977), at most 10 steps, from the clusters of clusterByMeans(). values: finite. The result has the same
+/// bits on any number of threads. Throws Error{OptionOutOfRange} for a number of clusters outside 1 ..
+/// kMaxClusterCount, and Error{TooFewValues} where there are fewer different values than clusters.
 [[nodiscard]] SoftClustering clusterSoftly(std::span<const double> values, uint32_t clusterCount);
 
 /// k-means (at most 10 steps) from the seeds of k-means++ (D. Arthur, S. Vassilvitskii: k-means++: The Advantages of

@@ -27,8 +27,8 @@ inline constexpr uint32_t kMaxBilateralWindow = 4;  ///< Rings.
 /// cones the errors of neighbours are correlated, and interpolated values are smooth already.
 [[nodiscard]] SmoothingOptions::Window smoothingWindowFor(uint64_t faceCount);
 
-/// values: #F, finite, or NaN for no value. A face without a value keeps none and has no influence. The same bits on
-/// any number of threads. Throws as requireValid().
+/// values: #F, finite, or NaN for no value. A face without a value keeps none and has no influence. The result has the
+/// same bits on any number of threads. Throws as requireValid().
 [[nodiscard]] std::vector<double> smoothBilaterally(const DualGraph& graph, std::span<const double> values,
                                                     const SmoothingOptions::Window& window);
 

@@ -19,12 +19,12 @@ struct SurfacePoint {
 
 [[nodiscard]] Vec3d nearestPoint(const PlaneTriangle& triangle, const Vec3d& p);
 
-/// Between a point and the box of a node; 0 inside.
+/// Squared distance between a point and the box of a node; 0 inside.
 [[nodiscard]] double squaredDistanceToBox(const BvhNode& box, const Vec3d& p);
 
-/// faceOf(primitive face): the face that counts in its place, kNoFace for none. Ends at the first point less than
-/// `enough` away. Where points coincide on an edge or a vertex, the face that the way from them meets most steeply has
-/// the side; of equal ones the first in the hierarchy.
+/// faceOf(primitive face): the face that counts in its place, kNoFace for none. The search ends at the first point less
+/// than `enough` away. Where the point lies on an edge or a vertex, the face is the one with the greatest abs(side); of
+/// equal ones it is the first in the hierarchy.
 [[nodiscard]] SurfacePoint nearestSurfacePoint(const TraceScene& scene, const Vec3d& p, double enough,
                                                FunctionRef<uint32_t(uint32_t)> faceOf);
 

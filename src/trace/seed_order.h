@@ -11,7 +11,7 @@ namespace asdfvk {
 /// Order of the seeds by their triangles in the hierarchy: neighbouring cones traverse the same nodes.
 class SeedOrder {
  public:
-  /// By the primitives of the scene's hierarchy.
+  /// Orders by the primitives of the hierarchy of the scene.
   explicit SeedOrder(const TraceScene& scene);
 
   /// A permutation of the indices into seedFaces; equal seeds keep their order.

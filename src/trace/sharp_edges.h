@@ -28,10 +28,10 @@ struct SharpEdges {
   [[nodiscard]] bool hasEdge(uint32_t face, size_t k) const { return (faceBits[face] >> (3 + k) & 1) != 0; }
 };
 
-/// Two faces that share a point, of one body (by the solids; null: of any), meet sharply if they oppose each
-/// other, by the greatest cosine between their normals, and their least ball is as small as minDepth allows: at most
-/// kSharpDepths of it. In fans of more than kMaxComparedFaces each face is compared with so many others and with those
-/// that share an edge with it.
+/// Two faces of one body that share a point meet sharply under two conditions: the cosine between their normals is at
+/// most maxCosine, and their least ball is as small as minDepth allows, at most kSharpDepths of it. solids: the bodies,
+/// or null if all faces may bound one body. In fans of more than kMaxComparedFaces each face is compared with so many
+/// others and with those that share an edge with it.
 [[nodiscard]] SharpEdges findSharpEdges(const TriangleMesh& mesh, const FaceGeometry& geometry, const PointFans& fans,
                                         double maxCosine, double minDepth, const Solids* solids = nullptr);
 

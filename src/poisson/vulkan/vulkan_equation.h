@@ -48,7 +48,8 @@ class VulkanEquation {
   [[nodiscard]] double rightHandNorm() const { return rightHandNorm_; }
   /// Norm of the residual of the solution.
   [[nodiscard]] double residualNorm() const { return residualNorm_; }
-  /// b of (I - S) y = b for the residual of the solution, of weighted norm 1. Overwritten by tryCorrection().
+  /// The vector b of (I - S) y = b, made from the residual of the solution and scaled to the weighted norm 1.
+  /// Overwritten by tryCorrection().
   [[nodiscard]] const Buffer& scaledResidual();
   /// Adds the correction that y represents, and returns the norm of the residual. The solution stays until accept().
   [[nodiscard]] double tryCorrection(const Buffer& y);

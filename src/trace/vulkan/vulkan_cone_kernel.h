@@ -33,7 +33,7 @@ struct ConeKernelRequest {
 class VulkanConeKernel {
  public:
   VulkanConeKernel(const Device& device, const ConeKernelRequest& request);
-  /// With given shapes instead of those of the device; for tests.
+  /// Takes shapes instead of those of the device; for tests.
   VulkanConeKernel(const Device& device, const ConeKernelRequest& request, const VulkanWorkgroupShape& shape);
   VulkanConeKernel(const Device& device, const ConeKernelRequest& request, const VulkanWorkgroupShape& shape,
                    const VulkanWalkShape& walk);

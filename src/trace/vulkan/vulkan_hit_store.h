@@ -41,8 +41,8 @@ class VulkanHitStore final : public HitStore {
 
   // The hits of a batch of seeds are written in any order before addSeeds() adds all of them.
 
-  /// shaders/store_hits.comp and its buffers. hits: those of cone i from i times the number of rays on; places: of cone
-  /// i in the batch.
+  /// shaders/store_hits.comp and its buffers. hits: those of cone i start at i times the number of rays. places: the
+  /// place of each cone in the batch.
   [[nodiscard]] const ComputePipeline& pipeline() const { return kernel_.pipeline; }
   [[nodiscard]] std::array<Binding, 3> bindings(const Buffer& hits, const Buffer& places) const {
     return {hits, places, hits_};
