@@ -42,11 +42,11 @@ struct WriteOptions {
 /// Writes the fields, and in .ply and .vtu also the mesh. The file is replaced atomically; "-" is standard output.
 /// Vertices are float if every coordinate is exactly representable as float, else double.
 /// PLY: the first real-valued face field with one component is the property `quality` of the faces and determines their
-/// colour, likewise for the vertices; the other fields are properties with their own names.
-/// VTU: all fields. NPY: the first field. NPZ: all fields; a vertex field with the name of a face field is stored as
-/// vertex_NAME. CSV: one row per face with the first column `face`; if no field is per face, one row per vertex with
-/// the first column `vertex`. PLY and CSV split three components into NAME_x, NAME_y and NAME_z. A missing value is NaN
-/// in .npy, .npz and .csv, 0 in .ply and .vtu. Throws Error{OutputNotWritable}; Error{UnknownFormat};
+/// colour; the first such vertex field does so for the vertices. The other fields are properties with their own names.
+/// VTU and NPZ have all fields; in NPZ a vertex field with the name of a face field is stored as vertex_NAME. NPY has
+/// the first field. CSV has one row per face with the first column `face`, or, if no field is per face, one row per
+/// vertex with the first column `vertex`. PLY and CSV split three components into NAME_x, NAME_y and NAME_z. A missing
+/// value is NaN in .npy, .npz and .csv, 0 in .ply and .vtu. Throws Error{OutputNotWritable}; Error{UnknownFormat};
 /// Error{ValueOutOfRange} for real numbers that do not fit into float32 (requireSingles()), but in .csv;
 /// Error{UnknownField} for a name that no field has; Error{OptionConflict} for a field whose size does not fit the
 /// mesh, an invalid or repeated name, and fields that the format cannot hold; Error{ArraySize}, Error{IndexOutOfRange}
@@ -54,11 +54,12 @@ struct WriteOptions {
 ASDFVK_API void writeResult(const std::filesystem::path& path, const MeshView& mesh, std::span<const Field> fields,
                             const WriteOptions& options = {});
 
-/// Writes the points of the face fields "centre" and "sdf" (Options::computesCentres) as a point cloud in binary PLY:
-/// `x y z`, double where float is too coarse for the place of the mesh, `float radius`, half of the shape diameter, and
-/// `uint part` where there is the face field "segment". Faces without a value have no point. The file is replaced
-/// atomically; "-" is standard output. Throws Error{UnknownField} without these fields; Error{OptionConflict} where
-/// their sizes do not fit each other; Error{ValueOutOfRange}, see requireSingles(); Error{OutputNotWritable}.
+/// Writes the points of the face fields "centre" and "sdf" (Options::computesCentres) as a point cloud in binary PLY. A
+/// point has `x y z`, which are double where float is too coarse for the place of the mesh, `float radius`, which is
+/// half of the shape diameter, and `uint part` where there is the face field "segment". Faces without a value have no
+/// point. The file is replaced atomically; "-" is standard output. Throws Error{UnknownField} without these fields;
+/// Error{OptionConflict} where their sizes do not fit each other; Error{ValueOutOfRange}, see requireSingles();
+/// Error{OutputNotWritable}.
 ASDFVK_API void writePoints(const std::filesystem::path& path, std::span<const Field> fields);
 
 /// Reads the fields of a PLY file, in the order of the file: those of writeResult(), without units and labels, and from

@@ -16,16 +16,17 @@
 namespace asdfvk {
 
 /// Scene::valuesAt() moves points inwards by this share of the diagonal of the bounding box. Rays in float32 then start
-/// at least 80 times as far below the surface as coordinates are rounded, 2^-23 of the box; and points that were
-/// rounded to float32 or to six digits are inside, unless the mesh is far from the origin.
+/// below the surface by at least 80 times the rounding error of coordinates, which is 2^-23 of the box. Points that
+/// were rounded to float32 or to six digits are inside, unless the mesh is far from the origin.
 inline constexpr double kPointOffset = 1e-5;
 
 /// A mesh prepared once for any number of computations on one session: geometry, dual graph, hierarchy, and the tracers
 /// of the last kPreparedConeCount sets of cone options (for Vulkan the hierarchy on the device). Not thread-safe, like
 /// its session, with which any number of scenes may exist at a time.
 ///
-/// Memory beside the arrays of the caller: about 150 bytes per face of a closed mesh, and 110 per face for each tracer,
-/// with Vulkan on the device. A Vulkan tracer has up to 55 MB of buffers for its rays besides, whatever the mesh.
+/// Beside the arrays of the caller it takes about 150 bytes per face of a closed mesh, and 110 per face for each
+/// tracer; these are on the device with Vulkan. A Vulkan tracer also has up to 55 MB of buffers for its rays, whatever
+/// the mesh.
 class ASDFVK_API Scene {
  public:
   /// The session and the arrays of the mesh must outlive the scene. Does not change the mesh. Throws Error of kind
@@ -52,7 +53,8 @@ class ASDFVK_API Scene {
 
   /// Shape diameter at points: a cone of rays around minus the normal, from the point moved inwards by kPointOffset.
   /// points: 3 #P numbers, x y z in the unit of the mesh. normals: 3 #P numbers, outwards, of any length above 0.
-  /// Returns #P values in the unit of the mesh; NaN where no ray hits the opposite side, as at most points outside.
+  /// Returns #P values in the unit of the mesh; NaN where no ray hits the opposite side, which is the usual case
+  /// outside of the shape.
   ///
   /// The definition is that of faces (docs/method.md), with the given normal in place of that of the face; no face is
   /// ignored. At the barycentre of a face, with its normal, the value is that of the face less about kPointOffset times
@@ -74,9 +76,9 @@ class ASDFVK_API Scene {
   [[nodiscard]] std::vector<double> thicknessAt(std::span<const double> points, std::span<const double> normals,
                                                 const ThicknessOptions& thickness = {}, const RunControl& control = {});
 
-  /// The input face nearest to each point, of equally near ones the first; faces without an area or with a corner that
-  /// is not finite do not count. points: 3 #P numbers, x y z in the unit of the mesh. Returns #P input faces. Throws
-  /// Error{ArraySize}, Error{NonFiniteNumber} with the index, and Error{NoValues} where no face counts.
+  /// The input face nearest to each point; of equally near faces the first one. Faces without an area or with a corner
+  /// that is not finite do not count. points: 3 #P numbers, x y z in the unit of the mesh. Returns #P input faces.
+  /// Throws Error{ArraySize}, Error{NonFiniteNumber} with the index, and Error{NoValues} where no face counts.
   [[nodiscard]] std::vector<uint32_t> nearestFaces(std::span<const double> points, const RunControl& control = {});
 
   /// Seconds of the constructor: the stages Geometry, Graph and Bvh.

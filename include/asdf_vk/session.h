@@ -19,8 +19,8 @@ namespace asdfvk {
 /// The backend that traces the rays. Backends and kernel variants are names, listed by backendNames().
 struct SessionOptions {
   /// "auto": a Vulkan device (GPUs first, CPU devices such as lavapipe included), else Embree, else the reference.
-  /// Where the device of "auto" is lost, computes wrong values or is out of memory, the next of them computes the mesh,
-  /// and, unless memory was short, all later ones, with WarningCode::BackendReplaced.
+  /// If the device of "auto" is lost, computes wrong values or is out of memory, the next backend computes the mesh.
+  /// Unless memory was short, it also computes all later meshes. Each has WarningCode::BackendReplaced.
   /// "vulkan", "cpu" (Embree) and "reference" (double precision) fail with Error{Device} where they are not available.
   std::string backend = "auto";
   std::string device;       ///< Vulkan device: an index in listDevices() or a part of a name; empty: the highest rank.
