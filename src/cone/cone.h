@@ -87,9 +87,9 @@ struct LengthWindow {
 /// kMaxRayCount lengths.
 [[nodiscard]] LengthWindow keptWindow(std::span<const double> lengths, const OutlierRule& rule);
 
-/// The shape diameter from the lengths of the valid rays of a cone: the weighted mean of those in keptWindow().
-/// kNoValue without valid rays, and if no length is in the window, which requires less than 1 deviation. lengths and
-/// weights have one entry per valid ray, in the order of the cone.
+/// The shape diameter from the lengths of the valid rays of a cone: the weighted mean of those in keptWindow(). It is
+/// kNoValue without valid rays, and if no length is in the window, which is possible only for less than 1 deviation.
+/// lengths and weights have one entry per valid ray, in the order of the cone.
 [[nodiscard]] double coneValue(std::span<const double> lengths, std::span<const double> weights,
                                const OutlierRule& rule = {});
 

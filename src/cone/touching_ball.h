@@ -19,8 +19,8 @@ struct PlaneTriangle {
   Vec3d normal;
 };
 
-/// The diameter of the ball that touches a face and a plane; NaN or infinite where there is none. offset: of the plane
-/// along its unit normal, from the point of the face. It is linear in the offset on either side of 0.
+/// The diameter of the ball that touches a face and a plane; NaN or infinite where there is none. offset: distance of
+/// the plane from the point of the face, along its unit normal. It is linear in the offset on either side of 0.
 [[nodiscard]] inline double planeDiameter(const Vec3d& axis, const Vec3d& normal, double offset) {
   return offset < 0 ? -2 * offset / (1 - dot(normal, axis)) : 2 * offset / (1 + dot(normal, axis));
 }
@@ -31,9 +31,10 @@ struct PlaneTriangle {
 /// least diameter is above `limit`, the result is a larger one or infinite. The bits of the diameter do not depend on a
 /// limit above it.
 ///
-/// The balls of diameter T that touch the face fill the face, shifted by T/2 along m, extended by T/2: a convex set. A
-/// wall of which that set has one point is touched at a corner, or at a point of an edge or of the interior by the ball
-/// at a corner or on an edge of the face. Each of these cases has a closed form; the least of all is exact.
+/// The balls of diameter T that touch the face fill the face, shifted by T/2 along m, extended by T/2: a convex set. If
+/// a wall has one point in common with that set, a ball touches the wall at a corner, or, from a corner or an edge of
+/// the face, at a point of an edge or of the interior. Each of these cases has a closed form; the least of all is
+/// exact.
 [[nodiscard]] TouchingBall leastTouchingBall(const PlaneTriangle& face, const PlaneTriangle& wall, double minDepth,
                                              double limit = std::numeric_limits<double>::infinity());
 

@@ -5,8 +5,8 @@
 
 namespace asdfvk {
 
-/// For an element or an attribute in quotes: markup becomes character references, control characters other than
-/// line ends become spaces, and bytes that are no UTF-8 become U+FFFD.
+/// The text for an element or for an attribute in quotes: markup becomes character references, control characters other
+/// than line ends become spaces, and bytes that are no UTF-8 become U+FFFD.
 [[nodiscard]] std::string escapedForHtml(std::string_view text);
 
 /// JSON for a script element: <, > and & become \uXXXX. The JSON must be in ASCII.

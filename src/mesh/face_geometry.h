@@ -30,8 +30,8 @@ struct FaceGeometry {
 /// The box of the vertices with finite coordinates, whether faces use them or not.
 [[nodiscard]] Box3d boundsOfFiniteVertices(const TriangleMesh& mesh);
 
-/// In units of half of the longest side of the mesh: what is nearer touches. Coordinates in float32 do not tell it from
-/// no distance, also where parts that touch are turned.
+/// Faces that are nearer to each other are in contact; in units of half of the longest side of the mesh. Coordinates in
+/// float32 cannot resolve such a distance, also where parts that touch are turned.
 inline constexpr double kContactDistance = 0x1p-20;
 
 /// Maps the box of the mesh to [-1, 1] along its longest side, around its centre. Coordinates in float32 are the same

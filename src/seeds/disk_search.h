@@ -9,8 +9,8 @@
 
 namespace asdfvk {
 
-/// The disks of one face after another: the faces that are nearer to it than to all darts so far, as
-/// SurfaceDistances::add() would find them, but stored in a hash table of the size of the disk.
+/// Finds the disk of one face after another: the faces that are nearer to it than to all darts so far.
+/// SurfaceDistances::add() would find the same faces; here they are stored in a hash table of the size of the disk.
 class DiskSearch {
  public:
   /// Finds the disk of `centre`, up to `radius`. before: #F, the distances to the darts so far; one below 0 counts as

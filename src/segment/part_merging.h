@@ -41,8 +41,8 @@ class SightMatrix {
   std::vector<float> entries_;
 };
 
-/// Regions of patches, merged pair by pair, the cheapest first: a hierarchy, of which each state is a level. A copy
-/// continues on its own. Deterministic.
+/// Regions of patches, which are merged pair by pair, the cheapest pair first. Each state is a level of a hierarchy. A
+/// copy continues on its own. Deterministic.
 class PartMerging {
  public:
   /// sight(i, j): whether patches i and j of `data` see each other.

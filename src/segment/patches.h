@@ -18,10 +18,10 @@ struct Patches {
 };
 
 /// Patches around the farthest points of the surface, improved by two rounds of Lloyd's method: the new seed of a patch
-/// is its face farthest from its border. Distances are those over PartSurface::creasedArcs.
-/// firstSeeds: at least one, a face of each component that is divided; no two of a component. counts: ascending; the
-/// result has the patches for each. A result has fewer patches where there are fewer faces, and one per first seed at
-/// least. Deterministic, parallel over the counts; the farthest points of a count begin with those of a smaller one.
+/// is its face farthest from its border. Distances are those over PartSurface::creasedArcs. firstSeeds: one face of
+/// each component that is divided, at least one in all. counts: ascending; the result has the patches for each count.
+/// There are fewer patches where there are fewer faces, and at least one per first seed. Deterministic, parallel over
+/// the counts; the farthest points of a count begin with those of a smaller one.
 [[nodiscard]] std::vector<Patches> makePatches(const PartSurface& surface, std::span<const uint32_t> firstSeeds,
                                                std::span<const uint32_t> counts);
 

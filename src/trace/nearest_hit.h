@@ -52,9 +52,9 @@ struct RayHit {
   uint32_t face = kNoFace;   ///< kNoFace for a miss.
 };
 
-/// The nearest triangle hit by the ray, except `skippedFace` and what is within contactDistance (see
-/// Cone::contactDistance); of equally near ones the lowest face index. Origin and unit direction are in normalised
-/// coordinates; the origin lies in the root's box or near it.
+/// The nearest triangle hit by the ray, except `skippedFace` and triangles within contactDistance (see
+/// Cone::contactDistance). Of equally near triangles it is the one with the lowest face index. Origin and unit
+/// direction are in normalised coordinates; the origin lies in the root's box or near it.
 [[nodiscard]] RayHit nearestHit(const Bvh& bvh, const TriangleMesh& mesh, const Vec3d& origin, const Vec3d& direction,
                                 uint32_t skippedFace, double contactDistance = 0);
 

@@ -23,8 +23,8 @@ struct ThinPart {
 };
 
 /// The parts of thin faces that have a point below the limit. Faces are halved at their longest edges down to pieces no
-/// longer than maxLength, but not where a piece is thin everywhere, as far as one wall tells. faces: with balls, at
-/// least one of them below the limit. Throws Error{Cancelled}.
+/// longer than maxLength, but not where one wall shows that a piece is thin everywhere. faces: with their balls, of
+/// which at least one is below the limit. Throws Error{Cancelled}.
 [[nodiscard]] std::vector<ThinPart> findThinParts(const WallTree& tree, const PointFans& fans, const SharpEdges& sharp,
                                                   std::span<const FaceBalls> faces, double limit, double maxLength,
                                                   const RunControl& control);
