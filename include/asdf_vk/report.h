@@ -112,8 +112,8 @@ struct ErrorEstimate {
   /// Mean error divided by the robust range of the values, from their 1st to their 99th percentile. To be preferred to
   /// the average where few faces have the extreme values (warning rangeDominated). Not finite without such a range.
   double robustAverage = 0;
-  /// Median and 90th percentile of error / value over all faces, seeds included: half, and 90 %, of the faces have at
-  /// most this. 0 where that many faces are seeds. Infinite where the value of such a face is 0.
+  /// Median and 90th percentile of error / value over all faces, seeds included. They are 0 where as many faces are
+  /// seeds, and infinite where the value of such a face is 0.
   double relativeMedian = 0, relativePercentile90 = 0;
   double relativeMedianStandardError = 0;  ///< Standard error of the relative median.
   uint64_t heldOutCount = 0;               ///< Held-out faces.
