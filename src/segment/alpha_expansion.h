@@ -42,18 +42,18 @@ struct LabelProblem {
   }
 };
 
-/// labels: #F, below problem.labelCount. Infinite where a label is forbidden.
+/// labels: #F, below problem.labelCount. The energy is infinite where a label is forbidden.
 [[nodiscard]] double labelEnergy(const LabelProblem& problem, std::span<const uint32_t> labels);
 
 /// Alpha expansion: Y. Boykov, O. Veksler, R. Zabih: Fast Approximate Energy Minimization via Graph Cuts, PAMI 2001.
-/// Expanding a label gives it to the set of faces that lowers the energy most, of equal sets the one with the fewest
-/// faces. The graph has a node per face that can change, and no auxiliary nodes: V. Kolmogorov, R. Zabih: What Energy
-/// Functions Can Be Minimized via Graph Cuts?, PAMI 2004. Faces to which the label is forbidden have no node, so the
-/// work is that of the others, beside one pass over faces and edges. Deterministic. An object reuses its memory.
+/// Expanding a label gives it to the set of faces that lowers the energy most; of several such sets to the one with the
+/// fewest faces. The graph has a node per face that can change, and no auxiliary nodes: V. Kolmogorov, R. Zabih: What
+/// Energy Functions Can Be Minimized via Graph Cuts?, PAMI 2004. Faces to which the label is forbidden have no node:
+/// beyond one pass over faces and edges, only the other faces take time. Deterministic. An object reuses its memory.
 class AlphaExpansion {
  public:
   struct Limits {
-    uint32_t expandedLabelCount = std::numeric_limits<uint32_t>::max();  ///< Only labels below are expanded.
+    uint32_t expandedLabelCount = std::numeric_limits<uint32_t>::max();  ///< Only lower labels are expanded.
     uint32_t maxRoundCount = std::numeric_limits<uint32_t>::max();
   };
 

@@ -61,7 +61,7 @@ struct VulkanMatrix {
 
   uint32_t rowCount;
   PoissonGrid grid;
-  Buffer texelRows, storageRows;  ///< One of them holds the rows.
+  Buffer texelRows, storageRows;  ///< The rows are in one of the two.
   TexelView rowTexels;
   Buffer tailColumns, tailCouplings;
   /// Weight 0 excludes a row and its column: the unknown stays 0. Precondition: the right-hand side is 0 there.
