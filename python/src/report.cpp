@@ -24,7 +24,7 @@ std::string snakeCase(const char* key) {
   return text;
 }
 
-py::object objectOf(const std::string& text) { return textOf(text); }
+py::object objectOf(const std::string& text) { return python::textOf(text); }
 py::object objectOf(const Vec3d& point) { return py::make_tuple(point.x, point.y, point.z); }
 py::object objectOf(WarningCode code) { return py::str(nameOf(code)); }
 py::object objectOf(ThicknessVerdict verdict) { return py::str(nameOf(verdict)); }
