@@ -129,7 +129,8 @@ void MeshComputer::collectIn(Page& page, const std::vector<Job>& jobs) {
 }
 
 ComputerDescription MeshComputer::describe() const {
-  return {session_->backend(), deviceLinesOf(*session_), session_->runsOnCpu()};
+  return {session_->backend(), deviceLinesOf(*session_, settings_.session, settings_.outputs.verbose),
+          session_->runsOnCpu()};
 }
 
 JobResult MeshComputer::compute(const Job& job, const Job* next) {

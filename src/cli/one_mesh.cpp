@@ -290,7 +290,7 @@ ExitCode computeOneMesh(const std::string& input, const MeshSettings& settings, 
     if (settings.outputs.json) writeStandardOutput(jsonFailure(input, failure.name, failure.message));
     return failure.code;
   }
-  if (!settings.outputs.quiet) writeStandardError(deviceLinesOf(*session));
+  if (!settings.outputs.quiet) writeStandardError(deviceLinesOf(*session, settings.session, settings.outputs.verbose));
   const Deadline deadline(settings.timeoutSeconds, stop);
   const MeshRun run = computeMesh(*session, input, output, loadMesh(input, false, deadline.token()), settings, deadline,
                                   !settings.outputs.quiet);

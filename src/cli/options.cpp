@@ -159,6 +159,8 @@ void addOutput(ArgumentParser& parser, CommandLine& line) {
            })
       .group(group);
   parser.addFlag("--quiet", line.outputs.quiet, "Print errors only").group(group);
+  parser.addFlag("--verbose", line.outputs.verbose, "Print the full report: device, seeds, times, solver, places")
+      .group(group);
 }
 
 /// "30,18"
@@ -329,6 +331,8 @@ void validateOptions(const CommandLine& line) {
     refuseOptions(
         "--pooling moves values to the prediction, which --recipe paper and --guidance none or curvature do not have; "
         "drop one of the two");
+  if (line.outputs.quiet && line.outputs.verbose)
+    refuseOptions("--quiet and --verbose contradict each other; drop one");
   requireValid(line.computation.options, true);
 }
 

@@ -26,6 +26,7 @@ struct Outputs {
   bool opensPage = false;    ///< Start the browser with the page.
   bool json = false;
   bool quiet = false;
+  bool verbose = false;  ///< The full report, and the lines of the device.
 };
 
 /// The fields to write: those of `outputs`, or by default those that the options compute.

@@ -24,9 +24,9 @@ Computation comparedComputation(const std::string& text) {
   const bool hasOthers =
       other.meshes != std::vector<std::string>{mesh} || other.answer || !other.outputs.path.empty() ||
       !other.outputs.format.empty() || !other.outputs.picture.empty() || !other.outputs.points.empty() ||
-      other.outputs.json || other.outputs.quiet || other.outputs.ascii || other.batch.isBatch() ||
-      other.batch.jobCount != 0 || std::isfinite(other.batch.timeoutSeconds) || !other.outputs.fields.empty() ||
-      other.outputs.opensPage || other.listDevices || other.threadCount != 0 ||
+      other.outputs.json || other.outputs.quiet || other.outputs.verbose || other.outputs.ascii ||
+      other.batch.isBatch() || other.batch.jobCount != 0 || std::isfinite(other.batch.timeoutSeconds) ||
+      !other.outputs.fields.empty() || other.outputs.opensPage || other.listDevices || other.threadCount != 0 ||
       other.session.backend != defaults.session.backend || !other.session.device.empty() || other.session.requireGpu ||
       other.deviceReport || !(variant.kernel.empty() && variant.bvh.empty() && variant.fetch.empty()) || other.compared;
   if (hasOthers)

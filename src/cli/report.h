@@ -29,7 +29,8 @@ using ReportRows = std::vector<std::pair<std::string, std::string>>;
 /// Thickness where it is measured, its verdict first; mesh, device, computation and values; without warnings and files.
 [[nodiscard]] ReportRows reportRows(const MeshOutcome& outcome);
 
-/// Those rows and the files, as aligned lines.
+/// A title with the mesh or the verdict, rows and files, as aligned lines. Without --verbose at most six lines of at
+/// most 100 columns, longer names of files apart; else all of reportRows().
 [[nodiscard]] std::string textReport(const MeshOutcome& outcome);
 
 /// "the check failed: ..." with the reason, one line.
@@ -43,14 +44,18 @@ using ReportRows = std::vector<std::pair<std::string, std::string>>;
 /// report.thickness.
 [[nodiscard]] ReportRows thicknessRows(const Report& report);
 
+/// Verdict, thin regions, unjudged faces: at most three rows. The first one is the verdict.
+[[nodiscard]] ReportRows shortThicknessRows(const ThicknessReport& thickness);
+
 /// "1 face", "1,234 faces".
 [[nodiscard]] std::string groupedCount(uint64_t count, const char* singular, const char* plural = nullptr);
 
 /// The message and, where there is one, the remedy by options.
 [[nodiscard]] std::string textWarning(const Warning& warning);
 
-/// The lines of the session, with a remark where the CPU runs Vulkan.
-[[nodiscard]] std::string deviceLinesOf(const Session& session);
+/// The lines of the session, with a remark where the CPU runs Vulkan. Unless `isVerbose`, empty where the device is the
+/// expected one: neither a replacement of Vulkan, nor a CPU device beside another device.
+[[nodiscard]] std::string deviceLinesOf(const Session& session, const SessionOptions& options, bool isVerbose);
 
 /// One line per device, or the reason why there is none.
 [[nodiscard]] std::string textDevices(std::span<const DeviceInfo> devices, const std::string& reason);

@@ -14,7 +14,7 @@ namespace asdfvk {
 namespace {
 
 /// Parts whose areas are listed.
-constexpr size_t kMaxListedParts = 12;
+constexpr size_t kMaxListedParts = 12, kMaxShortParts = 3;
 
 /// 99.95 % of 1999 agreeing of 2000; never rounded up to 100.
 std::string percent(uint64_t part, uint64_t whole) {
@@ -72,12 +72,20 @@ std::string valueRow(const Report& report) {
   return text;
 }
 
+std::string shortValueRow(const Report& report) {
+  std::string text = std::isfinite(report.sdf.median) ? fmt::format("{:.4g} to {:.4g}, median {:.4g}", report.sdf.min,
+                                                                    report.sdf.max, report.sdf.median)
+                                                      : std::string("none");
+  if (report.noValueCount > 0) text += fmt::format("; {} without a value", groupedCount(report.noValueCount, "face"));
+  return text;
+}
+
 /// A share in percent: two digits, or all before the point.
 std::string twoDigits(double share) {
   return std::abs(share) < 0.1 ? fmt::format("{:.2g}", 100 * share) : fmt::format("{:.0f}", 100 * share);
 }
 
-/// "41, 12 and 8.5 %", the largest first; at most kMaxListedParts.
+/// "41, 12 and 8.5", the largest first; at most kMaxListedParts.
 std::string areaText(std::vector<double> shares) {
   std::sort(shares.begin(), shares.end(), std::greater<>());
   const size_t count = std::min(shares.size(), kMaxListedParts);
@@ -148,6 +156,55 @@ std::string errorCheck(const CheckReport& check) {
                      groupedCount(check.interpolatedCount, "interpolated face"));
 }
 
+std::string shortErrorRow(const Report& report) {
+  if (report.check) {
+    const CheckReport& check = *report.check;
+    if (check.tracedCount == 0 && check.independent) return tracedCheck(check);
+    return fmt::format("{:.2g} % of the range on average, by the reference; {}", 100 * check.averageError,
+                       check.independent
+                           ? fmt::format("{} of {} agree", groupDigits(check.tracedCount - check.missCount()),
+                                         groupedCount(check.tracedCount, "traced face"))
+                           : "nothing to compare: it traced the rays");
+  }
+  const ErrorEstimate& estimate = *report.estimatedError;
+  return fmt::format("about {:.2g} % of the range on average, {} % of the value in the median", 100 * estimate.average,
+                     twoDigits(estimate.relativeMedian));
+}
+
+/// "7 (5 to 9 at nearby detail); the largest 53, 16 and 7.1 % of the area"
+std::string shortSegmentRow(const Report& report) {
+  std::string text = groupDigits(*report.segmentCount);
+  if (!report.parts) return text;
+  const PartsReport& parts = *report.parts;
+  if (parts.fewestCount != parts.mostCount)
+    text += fmt::format(" ({} to {} at nearby detail)", groupDigits(parts.fewestCount), groupDigits(parts.mostCount));
+  std::vector<double> shares = parts.areaShares;
+  if (shares.size() < 2) return text;
+  std::sort(shares.begin(), shares.end(), std::greater<>());
+  const bool isLonger = shares.size() > kMaxShortParts;
+  shares.resize(std::min(shares.size(), kMaxShortParts));
+  return text + fmt::format("; {}{} % of the area", isLonger ? "the largest " : "", areaText(std::move(shares)));
+}
+
+/// At most four rows: with title and files, six lines.
+ReportRows shortRows(const Report& report) {
+  ReportRows rows;
+  if (report.thickness) {
+    rows = shortThicknessRows(*report.thickness);
+    rows.emplace_back("mesh",
+                      fmt::format("{}, bounding box {:.4g} x {:.4g} x {:.4g}", groupedCount(report.faceCount, "face"),
+                                  report.size.x, report.size.y, report.size.z));
+  } else {
+    rows = {{"mesh", meshRow(report)}, {"diameter", shortValueRow(report)}};
+  }
+  if (report.segmentCount) rows.emplace_back(report.parts ? "parts" : "segments", shortSegmentRow(report));
+  // The error of the diameter matters less than the thickness, and a failed check is an error message of its own.
+  constexpr size_t kMaxRows = 5;
+  if ((report.estimatedError && !report.thickness) || (report.check && rows.size() < kMaxRows))
+    rows.emplace_back("error", shortErrorRow(report));
+  return rows;
+}
+
 /// A GPU gains little where most of the time is not spent on rays. Estimated, not measured.
 bool isTooSmallForGpu(const Report& report) {
   constexpr uint64_t kFewRays = 10'000'000;
@@ -191,11 +248,12 @@ ReportRows reportRows(const MeshOutcome& outcome) {
 }
 
 std::string textReport(const MeshOutcome& outcome) {
-  ReportRows rows = reportRows(outcome);
+  ReportRows rows = outcome.outputs.verbose ? reportRows(outcome) : shortRows(outcome.result.report);
   const auto placeText = [](const std::string& place) { return place == "-" ? "standard output" : place; };
-  rows.emplace_back("output", placeText(outcome.output));
-  if (!outcome.outputs.points.empty()) rows.emplace_back("points", placeText(outcome.outputs.points));
-  if (!outcome.outputs.picture.empty()) rows.emplace_back("picture", placeText(outcome.outputs.picture));
+  std::string files = placeText(outcome.output);
+  if (!outcome.outputs.points.empty()) files += ", points " + placeText(outcome.outputs.points);
+  if (!outcome.outputs.picture.empty()) files += ", picture " + placeText(outcome.outputs.picture);
+  rows.emplace_back("output", files);
   std::string text = fmt::format("{}: {}\n", outcome.mesh, rows.front().second);
   for (size_t i = 1; i < rows.size(); ++i) text += fmt::format("  {:<9} {}\n", rows[i].first, rows[i].second);
   return text;
@@ -219,8 +277,11 @@ std::string textWarning(const Warning& warning) {
 
 std::string checkFailure(const CheckReport& check) { return fmt::format("the check failed: {}", tracedCheck(check)); }
 
-std::string deviceLinesOf(const Session& session) {
+std::string deviceLinesOf(const Session& session, const SessionOptions& options, bool isVerbose) {
   std::vector<std::string> lines = session.deviceLines();
+  const bool isReplaced = options.backend == "auto" && session.backend() != "vulkan";
+  const bool isOtherPossible = options.device.empty() && session.runsOnCpu() && lines.size() > 1;
+  if (!isVerbose && !isReplaced && !isOtherPossible) return {};
   if (session.backend() == "vulkan" && session.runsOnCpu() && isBackendBuilt("cpu"))
     lines.front() += "; a CPU device: --backend cpu (Embree) may be faster";
   std::string text;

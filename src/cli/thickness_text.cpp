@@ -20,6 +20,10 @@ std::string leastText(const ThicknessReport& thickness) {
                      thickness.min == 0 ? ", a sharp edge" : "");
 }
 
+const char* sharpException(const ThicknessReport& thickness) {
+  return thickness.allowsSharpEdges && !thickness.sharpEdges.empty() ? " but at sharp edges" : "";
+}
+
 /// Why a limit is not judged.
 std::string causeText(const UnjudgedFaces& unjudged) {
   std::vector<std::string> causes;
@@ -78,7 +82,41 @@ std::string sharpHeading(const ThicknessReport& thickness) {
                                              : ": thinner than any limit; --allow-sharp-edges leaves them out");
 }
 
+/// "FAIL: thinner than 0.8: 0.3 at (1, 2, 3), face 12".
+std::string shortVerdict(const ThicknessReport& thickness) {
+  if (!thickness.verdict) return std::isnan(thickness.min) ? "no thickness" : "least thickness " + leastText(thickness);
+  switch (*thickness.verdict) {
+    case ThicknessVerdict::Failed:
+      return fmt::format("FAIL: thinner than {:g}: {}", *thickness.thinnerThan, leastText(thickness));
+    case ThicknessVerdict::Passed:
+      return fmt::format("PASS: nowhere thinner than {:g}{}", *thickness.thinnerThan, sharpException(thickness));
+    case ThicknessVerdict::NotJudged:
+      break;
+  }
+  return fmt::format("NOT JUDGED: none of the judged faces is thinner than {:g}", *thickness.thinnerThan);
+}
+
 }  // namespace
+
+ReportRows shortThicknessRows(const ThicknessReport& thickness) {
+  ReportRows rows{{"verdict", shortVerdict(thickness)}};
+  const bool hasValues = !std::isnan(thickness.median);
+  const UnjudgedFaces& unjudged = thickness.unjudged;
+  if (!hasValues || unjudged.preventVerdict())
+    rows.emplace_back("unjudged", fmt::format("faces: {} of open components, {} inverted, {} crossed by their own part",
+                                              groupDigits(unjudged.openCount), groupDigits(unjudged.invertedCount),
+                                              groupDigits(unjudged.selfCrossedCount)));
+  if (!hasValues) return rows;
+  std::string text = fmt::format("median {:.4g}, greatest {:.4g}", thickness.median, thickness.max);
+  if (!thickness.regions.empty()) {
+    text += fmt::format("; {}, {:.3g} % of the area (--verbose)", groupedCount(thickness.regions.size(), "thin region"),
+                        100 * thickness.thinAreaShare);
+  } else if (thickness.verdict) {
+    text = fmt::format("least {:.4g}, ", thickness.min) + text;
+  }
+  rows.emplace_back("thickness", text);
+  return rows;
+}
 
 std::string thicknessVerdict(const ThicknessReport& thickness) {
   const bool hasMin = !std::isnan(thickness.min);
@@ -89,9 +127,7 @@ std::string thicknessVerdict(const ThicknessReport& thickness) {
     case ThicknessVerdict::Failed:
       return fmt::format("FAIL: {}, is thinner than {:g}", leastText(thickness), limit);
     case ThicknessVerdict::Passed:
-      return fmt::format("PASS: nowhere thinner than {:g}{}{}", limit,
-                         thickness.allowsSharpEdges && !thickness.sharpEdges.empty() ? " but at sharp edges" : "",
-                         least);
+      return fmt::format("PASS: nowhere thinner than {:g}{}{}", limit, sharpException(thickness), least);
     case ThicknessVerdict::NotJudged:
       break;
   }

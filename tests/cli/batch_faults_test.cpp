@@ -108,6 +108,7 @@ TEST_CASE("SIGTERM drops the meshes at hand, and the log and the message name th
     for (const char* name : {"in/a.off", "in/b.off", "in/c.off"}) folder.write(name, sphereOff(150));
     Names arguments{"-r",      folder / "in", "-o",     folder / "out", "--log",     folder / "log",
                     "--seeds", "all",         "--rays", "1024",         "--backend", "reference"};
+    arguments.emplace_back("--verbose");
     if (isIsolated) arguments.emplace_back("--isolate");
     ChildProcess child(ASDFVK_PROGRAM, arguments);
     REQUIRE(child.waitForError("asdf-vk: ", 120));  // The device lines.

@@ -131,7 +131,7 @@ TEST_CASE("auto selects Vulkan also on a CPU device, and mentions Embree if it i
   if (!lavapipe) return;
   const ScratchFolder folder;
   const std::string mesh = folder.write("cube.off", cubeOff());
-  const ChildOutcome outcome = runAsdf({mesh, "--json"}, *lavapipe);
+  const ChildOutcome outcome = runAsdf({mesh, "--json", "--verbose"}, *lavapipe);
   CHECK_EQ(outcome.exitCode, 0);
   CHECK_EQ(nlohmann::json::parse(outcome.output).at("backend").get<std::string>(), "vulkan");
   const std::string first = linesOf(outcome.error).at(0);
@@ -179,10 +179,13 @@ TEST_CASE("each rejected device has its line with the reason") {
   const std::vector<std::string> best = firstLines({mesh, "--backend", "vulkan"});
   CHECK(best.at(0).find("chosen, driver") != std::string::npos);
   CHECK(best.at(1).find("usable but ranks behind device 0") != std::string::npos);
-  const std::vector<std::string> chosen = firstLines({mesh, "--backend", "vulkan", "--device", "1"});
+  const std::vector<std::string> chosen = firstLines({mesh, "--backend", "vulkan", "--device", "1", "--verbose"});
   CHECK(chosen.at(0).find("chosen, driver") != std::string::npos);
   CHECK(chosen.at(1).find("is not the requested device '1'") != std::string::npos);
   CHECK(firstLines({mesh, "--backend", "vulkan", "--quiet"}).empty());
+  // A device that the user names, and the only one, need no line.
+  CHECK(firstLines({mesh, "--device", "1"}).at(0).starts_with(mesh));
+  CHECK(linesOf(runAsdf({mesh}, *lavapipe).error).at(0).starts_with(mesh));
 }
 
 TEST_CASE("auto opens a device that failed again for the next mesh") {

@@ -216,7 +216,8 @@ TEST_CASE("a check that passes ends with 0, one without any traced face with 5")
   const ScratchFolder folder;
   const std::string mesh = folder.write("sphere.off", sphereOff(16));
   for (const char* check : {"--check", "--check=50", "--check=all"}) {
-    const ChildOutcome outcome = runAsdf({check, mesh, "--seeds", "50%", "--backend", "vulkan"}, *lavapipe);
+    const ChildOutcome outcome =
+        runAsdf({check, mesh, "--seeds", "50%", "--backend", "vulkan", "--verbose"}, *lavapipe);
     INFO(outcome.error);
     CHECK_EQ(outcome.exitCode, 0);
     CHECK(outcome.error.find("100 % of") != std::string::npos);
@@ -232,12 +233,16 @@ TEST_CASE("a check that passes ends with 0, one without any traced face with 5")
 TEST_CASE("a check of the reference by itself compares nothing, reports that, and ends with 0") {
   const ScratchFolder folder;
   const std::string mesh = folder.write("sphere.off", sphereOff(16));
-  const ChildOutcome outcome = runAsdf({mesh, "--check", "--backend", "reference"});
-  INFO(outcome.error);
-  CHECK_EQ(outcome.exitCode, 0);
-  CHECK(outcome.error.find("nothing to compare") != std::string::npos);
-  CHECK(outcome.error.find("average error") != std::string::npos);
-  CHECK(outcome.error.find("100 %") == std::string::npos);
+  for (const bool isVerbose : {false, true}) {
+    Names arguments{mesh, "--check", "--backend", "reference"};
+    if (isVerbose) arguments.emplace_back("--verbose");
+    const ChildOutcome outcome = runAsdf(arguments);
+    INFO(outcome.error);
+    CHECK_EQ(outcome.exitCode, 0);
+    CHECK(outcome.error.find("nothing to compare") != std::string::npos);
+    CHECK(outcome.error.find(" average") != std::string::npos);
+    CHECK(outcome.error.find("100 %") == std::string::npos);
+  }
 }
 
 TEST_CASE("--quiet prints nothing without an error") {

@@ -17,7 +17,7 @@ constexpr double kPatienceSeconds = 120;
 
 /// Minutes of work on one thread.
 std::vector<std::string> longWork(const std::string& mesh) {
-  return {mesh, "--seeds", "all", "--rays", "1024", "--threads", "1", "--backend", "reference"};
+  return {mesh, "--seeds", "all", "--rays", "1024", "--threads", "1", "--backend", "reference", "--verbose"};
 }
 
 TEST_CASE("a signal between chunks cancels with 130 and leaves no file") {
@@ -46,7 +46,7 @@ TEST_CASE("a signal while the mesh is awaited on standard input ends at once wit
   const ScratchFolder folder;
   ChildOptions options;
   options.keepInputOpen = true;
-  ChildProcess child(ASDFVK_PROGRAM, {"-", "-o", folder / "out.ply", "--backend", "reference"}, options);
+  ChildProcess child(ASDFVK_PROGRAM, {"-", "-o", folder / "out.ply", "--backend", "reference", "--verbose"}, options);
   REQUIRE(child.waitForError("asdf-vk: ", kPatienceSeconds));
   child.send(SIGINT);
   const ChildOutcome outcome = child.finish(kPatienceSeconds);
@@ -67,7 +67,7 @@ TEST_CASE("one signal while a FIFO or standard input is awaited ends with 130") 
         Names{"-", "-o", folder / "out.ply", "--log", folder / "log"}, Names{mesh, "-o", fifo},
         Names{mesh, "-o", fifo, "--log", folder / "log"}, Names{mesh, "-o", folder / "out.ply", "--points", fifo}}) {
     Names all = arguments;
-    all.insert(all.end(), {"--backend", "reference"});
+    all.insert(all.end(), {"--backend", "reference", "--verbose"});
     ChildProcess child(ASDFVK_PROGRAM, all, options);
     REQUIRE(child.waitForError("asdf-vk: ", kPatienceSeconds));  // The device lines.
     std::this_thread::sleep_for(std::chrono::milliseconds(50));

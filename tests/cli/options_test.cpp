@@ -190,6 +190,7 @@ const std::vector<OptionCase>& optionCases() {
        [](const Line& l) { return l.compared && l.compared->options.cone.rayCount == 7; }},
       {{"--json"}, [](const Line& l) { return l.outputs.json; }},
       {{"--quiet"}, [](const Line& l) { return l.outputs.quiet; }},
+      {{"--verbose"}, [](const Line& l) { return l.outputs.verbose; }},
       {{"--picture", "b.png"},
        [](const Line& l) { return l.outputs.picture == "b.png" && l.computation.options.keepsScene; }},
       {{"--picture-of", "error", "--picture", "b.png"}, [](const Line& l) { return l.outputs.pictureOf == "error"; }},
@@ -246,7 +247,7 @@ TEST_CASE("the table of options above is complete") {
 
 TEST_CASE("every option changes the hash that --skip-existing compares, except those that do not change an output") {
   const std::set<std::string> exceptions{
-      "--json",       "--quiet",   "--open",  // Not in the output.
+      "--json",       "--quiet",   "--verbose", "--open",  // Not in the output.
       "-o",           "--output",  "--points",  "--picture",   "--picture-of",  "--picture-view",
       "--picture-up",  // Other outputs.
       "--log",        "--shard",   "--null",    "--recursive", "--files-from",  "--skip-existing",

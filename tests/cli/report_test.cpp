@@ -33,10 +33,16 @@ MeshOutcome outcomeOf(const CommandLine& line, const Result& result) {
   return {kMesh, kOutput, line.computation, line.session, line.outputs, result};
 }
 
+CommandLine fullReport() {
+  CommandLine line;
+  line.outputs.verbose = true;
+  return line;
+}
+
 bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 TEST_CASE("the text report has mesh, device, seeds, speed, solver and values") {
-  const CommandLine line;
+  const CommandLine line = fullReport();
   const Result result = sampleResult();
   const std::string text = textReport(outcomeOf(line, result));
   for (const char* part : {"horse.ply: 96,966 faces, 48,485 vertices, 1 component\n", "vulkan on some device",
@@ -48,8 +54,69 @@ TEST_CASE("the text report has mesh, device, seeds, speed, solver and values") {
   CHECK_FALSE(holds(text, "check"));
 }
 
+TEST_CASE("the short report has at most six lines of 100 columns, and no device, seeds, times or solver") {
+  CommandLine line;
+  line.outputs.points = "points.ply";
+  line.outputs.picture = "picture.png";
+  Result result = sampleResult();
+  Report& report = result.report;
+  report.sdf = {.min = 1.23456e-12, .median = 1.23456e-10, .max = 1.23456e-11};
+  report.noValueCount = 12'345'678;
+  report.estimatedError = ErrorEstimate{.average = 0.01234, .relativeMedian = 0.0234};
+  report.segmentCount = 123;
+  report.parts = PartsReport{98, 1234, 0.956, false, std::vector<double>(123, 1 / 123.0)};
+  const auto lines = [&] {
+    const std::string text = textReport(outcomeOf(line, result));
+    std::vector<std::string> found;
+    for (size_t begin = 0; begin < text.size(); begin = text.find('\n', begin) + 1)
+      found.push_back(text.substr(begin, text.find('\n', begin) - begin));
+    CHECK(found.size() <= 6);
+    for (const std::string& one : found) CHECK_MESSAGE(one.size() <= 100, one);
+    return found;
+  };
+  std::vector<std::string> found = lines();
+  REQUIRE(found.size() == 5);
+  CHECK_EQ(found[0], "horse.ply: 96,966 faces, 48,485 vertices, 1 component");
+  CHECK_EQ(found[1], "  diameter  1.235e-12 to 1.235e-11, median 1.235e-10; 12,345,678 faces without a value");
+  CHECK_EQ(found[2], "  parts     123 (98 to 1,234 at nearby detail); the largest 0.81, 0.81 and 0.81 % of the area");
+  CHECK_EQ(found[3], "  error     about 1.2 % of the range on average, 2.3 % of the value in the median");
+  CHECK_EQ(found[4], "  output    horse.asdf.ply, points points.ply, picture picture.png");
+
+  report.check = CheckReport{.passed = true, .tracedCount = 2000, .agreeingCount = 1999, .comparedCount = 2000};
+  report.check->averageError = 0.0123;
+  CHECK_EQ(lines()[3],
+           "  error     1.2 % of the range on average, by the reference; 1,999 of 2,000 traced faces agree");
+
+  ThicknessReport& thickness = report.thickness.emplace();
+  report.size = {1.23456e-5, 2, 3};
+  thickness.verdict = ThicknessVerdict::NotJudged;
+  thickness.thinnerThan = 0.812345;
+  thickness.min = 1.23456e-10;
+  thickness.minFace = 1'234'567;
+  thickness.minPlace = thickness.minOpposite = Vec3d{-123.456, -23.4567, -123.456};
+  thickness.median = thickness.max = 1.23456e-10;
+  thickness.unjudged = {.openCount = 12345, .invertedCount = 12345};
+  thickness.regions.assign(1234, {});
+  thickness.thinAreaShare = 0.123;
+  found = lines();
+  REQUIRE(found.size() == 6);
+  CHECK_EQ(found[0], "horse.ply: NOT JUDGED: none of the judged faces is thinner than 0.812345");
+  CHECK_EQ(found[1], "  unjudged  faces: 12,345 of open components, 12,345 inverted, 0 crossed by their own part");
+  CHECK_EQ(found[2],
+           "  thickness median 1.235e-10, greatest 1.235e-10; 1,234 thin regions, 12.3 % of the area (--verbose)");
+  CHECK_EQ(found[3], "  mesh      96,966 faces, bounding box 1.235e-05 x 2 x 3");
+  thickness.verdict = ThicknessVerdict::Failed;
+  thickness.unjudged = {};
+  found = lines();
+  CHECK_EQ(found[0].substr(0, 54), "horse.ply: FAIL: thinner than 0.812345: 1.23456e-10 at");
+  CHECK_EQ(found[1].substr(0, 12), "  thickness ");
+  thickness.verdict = ThicknessVerdict::Passed;
+  thickness.regions.clear();
+  CHECK_EQ(lines()[1], "  thickness least 1.235e-10, median 1.235e-10, greatest 1.235e-10");
+}
+
 TEST_CASE("a count of one has a singular noun") {
-  const CommandLine line;
+  const CommandLine line = fullReport();
   Result result = sampleResult();
   Report& report = result.report;
   report.faceCount = report.triangleCount = report.vertexCount = report.seedCount = report.rayCount = 1;
@@ -61,7 +128,7 @@ TEST_CASE("a count of one has a singular noun") {
 }
 
 TEST_CASE("the text report of a GPU with few rays names the backend that may be faster") {
-  const CommandLine line;
+  const CommandLine line = fullReport();
   Result result = sampleResult();
   const auto hints = [&] { return holds(textReport(outcomeOf(line, result)), "with --backend cpu"); };
   CHECK_FALSE(hints());  // No variant: no kernel ran.
@@ -75,7 +142,7 @@ TEST_CASE("the text report of a GPU with few rays names the backend that may be 
 }
 
 TEST_CASE("the text report names exceptions") {
-  const CommandLine line;
+  const CommandLine line = fullReport();
   Result result = sampleResult();
   Report& report = result.report;
   report.triangleCount = 100000;
@@ -90,7 +157,7 @@ TEST_CASE("the text report names exceptions") {
 }
 
 TEST_CASE("the text report has the recipe, and the estimated error where there is one") {
-  CommandLine line;
+  CommandLine line = fullReport();
   Result result = sampleResult();
   Report& report = result.report;
   CHECK(holds(textReport(outcomeOf(line, result)), "recipe balanced"));
@@ -115,7 +182,7 @@ TEST_CASE("the text report has the recipe, and the estimated error where there i
 }
 
 TEST_CASE("the reports have the smoothed range and the number of segments, where there are any") {
-  CommandLine line;
+  CommandLine line = fullReport();
   line.computation.options.cgalSegmentation.clusterCount = 3;
   Result result = sampleResult();
   CHECK_FALSE(holds(textReport(outcomeOf(line, result)), "segments"));
@@ -130,7 +197,7 @@ TEST_CASE("the reports have the smoothed range and the number of segments, where
 }
 
 TEST_CASE("the reports have the parts, how stable their number is, and their areas") {
-  CommandLine line;
+  CommandLine line = fullReport();
   Result result = sampleResult();
   result.report.segmentCount = 3;
   result.report.parts = PartsReport{3, 5, 0.956, false, {0.085, 0.7149, 0.2}};
@@ -166,7 +233,7 @@ TEST_CASE("the reports have the parts, how stable their number is, and their are
 }
 
 TEST_CASE("stages that ran are named in their order, the others are not") {
-  const CommandLine line;
+  const CommandLine line = fullReport();
   Result result = sampleResult();
   Report& report = result.report;
   report.stageSeconds[Stage::Sample] = 0.25;
@@ -176,7 +243,7 @@ TEST_CASE("stages that ran are named in their order, the others are not") {
 }
 
 TEST_CASE("JSON has the estimate, or null") {
-  const CommandLine line;
+  const CommandLine line = fullReport();
   Result result = sampleResult();
   Report& report = result.report;
   CHECK(nlohmann::json::parse(jsonReport(outcomeOf(line, result))).at("estimatedError").is_null());
@@ -200,7 +267,7 @@ TEST_CASE("JSON has the estimate, or null") {
 }
 
 TEST_CASE("a share of agreeing faces is never rounded up to all of them") {
-  const CommandLine line;
+  const CommandLine line = fullReport();
   Result result = sampleResult();
   Report& report = result.report;
   report.check.emplace();
@@ -212,7 +279,7 @@ TEST_CASE("a share of agreeing faces is never rounded up to all of them") {
 }
 
 TEST_CASE("faces without a value in either computation are counted separately from those that agree") {
-  const CommandLine line;
+  const CommandLine line = fullReport();
   Result result = sampleResult();
   Report& report = result.report;
   report.check.emplace();
@@ -227,18 +294,21 @@ TEST_CASE("faces without a value in either computation are counted separately fr
 }
 
 TEST_CASE("a check that compared nothing is reported as such and not as passed") {
-  CommandLine line;
+  CommandLine line = fullReport();
   Result result = sampleResult();
   Report& report = result.report;
   report.check.emplace().passed = false;
   CHECK(holds(checkFailure(*report.check), "nothing was compared"));
-  CHECK(holds(textReport(outcomeOf(line, result)), "nothing was compared"));
+  for (const bool isVerbose : {false, true}) {
+    line.outputs.verbose = isVerbose;
+    CHECK(holds(textReport(outcomeOf(line, result)), "nothing was compared"));
+  }
   const nlohmann::json json = nlohmann::json::parse(jsonReport(outcomeOf(line, result)));
   CHECK_FALSE(json.at("check").at("passed").get<bool>());
 }
 
 TEST_CASE("JSON has null for numbers that are not finite and is one line") {
-  const CommandLine line;
+  const CommandLine line = fullReport();
   Result result = sampleResult();
   Report& report = result.report;
   report.sdf = {};
@@ -265,7 +335,7 @@ TEST_CASE("a warning ends with the options that help, in both reports with its c
   CHECK(holds(textWarning({WarningCode::MissingValues, "x", {{"cause", "open"}}}), "--orient flip"));
   const std::string both = textWarning({WarningCode::MissingValues, "x", {{"cause", "inverted or open"}}});
   CHECK((holds(both, "--orient auto") && holds(both, "--orient flip")));
-  const CommandLine line;
+  const CommandLine line = fullReport();
   Result result = sampleResult();
   result.report.warnings = {{WarningCode::NotConverged, "x", {}}, {WarningCode::InvertedComponents, "y", {}}};
   const nlohmann::json json = nlohmann::json::parse(jsonReport(outcomeOf(line, result)));

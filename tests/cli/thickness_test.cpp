@@ -130,7 +130,7 @@ TEST_CASE("the report begins with the verdict") {
   const std::string cube = folder.write("cube.off", cubeOff());
   const auto reportBelow = [&](const char* limit) {
     const ChildOutcome outcome =
-        runAsdf({cube, "--backend", "reference", "--thinner-than", limit, "-o", folder / "out.csv"});
+        runAsdf({cube, "--backend", "reference", "--thinner-than", limit, "-o", folder / "out.csv", "--verbose"});
     CHECK_EQ(outcome.exitCode, 0);
     return outcome.error;
   };

@@ -30,13 +30,19 @@ Result soundResult(std::optional<double> limit) {
 const std::string kPart = "part.stl", kPartOutput = "part.ply";
 const CommandLine kDefaults;
 
-MeshOutcome outcomeOf(const Result& result) {
-  return {kPart, kPartOutput, kDefaults.computation, kDefaults.session, kDefaults.outputs, result};
+MeshOutcome outcomeOf(const Result& result, const Outputs& outputs) {
+  return {kPart, kPartOutput, kDefaults.computation, kDefaults.session, outputs, result};
 }
 
-std::string textOf(const Result& result) { return textReport(outcomeOf(result)); }
+std::string textOf(const Result& result) {
+  Outputs outputs;
+  outputs.verbose = true;
+  return textReport(outcomeOf(result, outputs));
+}
 
-Json jsonOf(const Result& result) { return Json::parse(jsonReport(outcomeOf(result))).at("thickness"); }
+Json jsonOf(const Result& result) {
+  return Json::parse(jsonReport(outcomeOf(result, kDefaults.outputs))).at("thickness");
+}
 
 void checkHolds(const std::string& text, const std::string& part) {
   CHECK_MESSAGE(text.find(part) != std::string::npos, text);

@@ -102,6 +102,7 @@ NEUTRAL = (
     Option("--threads", ("1", "2", "3", "8"), ("0", "1025", *_ILLEGAL_NUMBERS)),
     Option("--jobs", ("1", "2", "5"), ("0", *_ILLEGAL_NUMBERS)),
     _flag("--quiet"),
+    _flag("--verbose"),
     _flag("--json"),
     Option("--check", ("", "1", "10", "all"), ("0", "-1", "x", "1.5"), joined=True),
     _flag("--isolate"),
