@@ -79,7 +79,7 @@ struct Failure {
 [[nodiscard]] Failure cancelledFailure();
 
 /// Describes the exception being handled; to be called in a catch block. requiresGpu: do not propose the CPU.
-/// valueOptions: CommandLine::valueOptions.
+/// valueOptions: Computation::valueOptions.
 [[nodiscard]] Failure currentFailure(bool requiresGpu = false, const std::string& valueOptions = "");
 
 }  // namespace asdfvk

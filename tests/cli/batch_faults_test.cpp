@@ -124,13 +124,20 @@ TEST_CASE("SIGTERM drops the meshes at hand, and the log and the message name th
   }
 }
 
-TEST_CASE("a worker that finds no device ends the run with 3") {
+TEST_CASE("a run that finds no device ends with 3, and --json has the reason for each mesh") {
   const MeshTree tree(false);
-  const ChildOutcome outcome =
-      runChild(ASDFVK_PROGRAM, {"-r", tree.root, "-o", tree / "out", "--isolate", "--device", "no such device"});
-  INFO(outcome.error);
-  CHECK_EQ(outcome.exitCode, 3);
-  CHECK(outcome.error.find("asdf-vk: error: ") != std::string::npos);
+  for (const Names& more : {Names{"--isolate"}, Names{"--jobs", "2"}, Names{"--jobs", "1"}}) {
+    Names arguments{"-r", tree.root, "-o", tree / "out", "--json", "--device", "no such device"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const ChildOutcome outcome = runAsdf(arguments);
+    INFO(outcome.error);
+    CHECK_EQ(outcome.exitCode, 3);
+    CHECK(outcome.error.find("asdf-vk: error: ") != std::string::npos);
+    const Names lines = linesOf(outcome.output);
+    CHECK_EQ(lines.size(), tree.meshCount);
+    for (const std::string& line : lines)
+      CHECK_EQ(nlohmann::json::parse(line).at("code").get<std::string>(), "noUsableDevice");
+  }
 }
 
 }  // namespace
