@@ -121,6 +121,7 @@ class Engine {
     if (outcome.end == JobEnd::Answered) {
       const Json answer = decode(outcome.answer);
       JobResult result = resultOf(answer.at("result"));
+      result.record.options = client_.recordOptions;
       isDropped = result.record.status == MeshStatus::Dropped;
       if (!isDropped || isStopping(stop_)) {
         monitor_.add(index, std::move(result));

@@ -35,6 +35,7 @@ struct EngineClient {
   /// Arguments with which this program is a worker, see serveJobs(), and the settings that it gets.
   std::vector<std::string> workerArguments;
   nlohmann::ordered_json workerSettings;
+  SharedJson recordOptions;  ///< MeshRecord::options of all jobs.
 };
 
 /// Computes the jobs in the order of planJobs(): one after another in this process, several at once in workers. Adds

@@ -31,7 +31,8 @@ void serveJobs(const std::function<std::unique_ptr<JobComputer>(const Greeting&)
   }
   messages.send(encode(toJson(computer->describe())));
   while (const std::optional<std::string> request = messages.wait()) {
-    const JobResult result = computer->compute(jobOf(decode(*request)), nullptr);
+    JobResult result = computer->compute(jobOf(decode(*request)), nullptr);
+    result.record.options = nullptr;           // The main process has them.
     const bool isSpent = computer->isSpent();  // Another worker opens the device anew.
     if (!messages.send(encode({{"result", toJson(result)}, {"isSpent", isSpent}})) || isSpent) return;
   }

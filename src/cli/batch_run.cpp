@@ -178,7 +178,8 @@ ExitCode computeBatch(const std::vector<std::string>& meshes, const MeshSettings
           },
       .fail = [&](const Job& job, const JobOutcome& outcome) { return records.fail(job, failureOf(outcome, batch)); },
       .workerArguments = {"asdf-vk", kWorkerArgument},
-      .workerSettings = toJson(settings)};
+      .workerSettings = toJson(settings),
+      .recordOptions = records.options()};
   if (batch.skipsExisting) client.findFinished = [&](const Job& job) { return records.findFinished(job); };
   const ExitCode ofDevice = runAndReport(jobs, options, client, monitor, outputs.json, stop);
   if (batch.isBatch()) removeUnfinishedOutputs(jobs);

@@ -18,6 +18,8 @@ class JobRecords {
   /// The settings must outlive this object.
   explicit JobRecords(const MeshSettings& settings);
 
+  [[nodiscard]] const SharedJson& options() const { return options_; }
+
   /// That of a job whose computation begins.
   [[nodiscard]] MeshRecord begin(const Job& job) const;
 
