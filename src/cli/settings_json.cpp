@@ -1,6 +1,7 @@
 #include "cli/settings_json.h"
 
 #include <type_traits>
+#include <utility>
 
 #include "core/json.h"
 
@@ -84,7 +85,10 @@ void read(const Json& json, T& value) {
   } else if constexpr (std::is_enum_v<T>) {
     value = static_cast<T>(json.get<int>());
   } else if constexpr (ElementOf<T>::value) {
-    if (!json.is_null()) read(json.at(0), value.emplace());
+    if (json.is_null()) return;
+    typename ElementOf<T>::Type element;
+    read(json.at(0), element);
+    value = std::move(element);
   } else {
     size_t i = 0;
     visitMembers<T>(value, [&](auto& member) { read(json.at(i++), member); });
