@@ -25,9 +25,10 @@ void visitMembers(Object& object, const Visit& visit) {
     auto& [recipe, options, failIfThinner, valueOptions, against] = object;
     visitAll(recipe, options, failIfThinner, valueOptions, against);
   } else if constexpr (std::is_same_v<Struct, Outputs>) {
-    auto& [path, format, fields, ascii, picture, pictureOf, pictureView, choosesView, points, opensPage, json, quiet] =
-        object;
-    visitAll(path, format, fields, ascii, picture, pictureOf, pictureView, choosesView, points, opensPage, json, quiet);
+    auto& [path, format, fields, ascii, picture, pictureOf, pictureView, choosesView, points, opensPage, json, quiet,
+           verbose] = object;
+    visitAll(path, format, fields, ascii, picture, pictureOf, pictureView, choosesView, points, opensPage, json, quiet,
+             verbose);
   } else if constexpr (std::is_same_v<Struct, View>) {
     auto& [up, azimuthDegrees, elevationDegrees] = object;
     visitAll(up, azimuthDegrees, elevationDegrees);
