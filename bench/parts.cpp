@@ -132,7 +132,7 @@ void run(const Arguments& arguments, const RunControl& control) {
       const Score score = scoreOf(session, model, arguments.seeds[i], arguments, {control.stop, {}});
       errors[category][i].add(score.error);
       all[i].add(score.error);
-      counts[i].add(score.report.segmentCount);
+      counts[i].add(*score.report.segmentCount);
       seconds[i].add(score.seconds);
       if (arguments.listsModels) printModel(id, arguments.seeds[i], score);
     }

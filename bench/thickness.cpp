@@ -12,13 +12,13 @@
 #include "asdf_vk/files.h"
 #include "cone/opposing_walls.h"
 #include "generate/thickness_parts.h"
-#include "mesh/solids.h"
 #include "support/brute_force_thickness.h"
 #include "support/computation.h"
 #include "support/measurement.h"
 #include "support/program.h"
 #include "trace/face_balls.h"
 #include "trace/greatest_section.h"
+#include "trace/solids.h"
 
 namespace {
 
@@ -63,7 +63,7 @@ struct Truth {
     const TraceScene scene = traceable.scene();
     const Normalization& normalization = scene.bvh.normalization;
     diagonal = scene.geometry.bounds.diagonal();
-    const Solids solids = findSolids(scene.mesh, traceable.prepared.components);
+    const Solids solids = findSolids(scene, traceable.prepared.components);
     std::vector<Section> all(solids.isClosed.size(), {kUnlimited, kUnlimited});
     const std::vector<GreatestSection> found = findGreatestSections(scene, solids.solidOf, solids.isClosed, {});
     for (size_t solid = 0; solid < all.size(); ++solid)

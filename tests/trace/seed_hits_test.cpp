@@ -10,7 +10,7 @@ using namespace asdfvk;
 
 namespace {
 
-constexpr size_t kRayCount = 2;
+constexpr size_t kHitsPerSeed = 2;
 
 /// Has memory for three seeds; the hits of seed i are at distance i.
 class SmallStore final : public HitStore {
@@ -19,8 +19,8 @@ class SmallStore final : public HitStore {
     if (seedCount + furtherSeedCount > 3) throw Error(ErrorCode::OutOfDeviceMemory, "no memory is left");
   }
   [[nodiscard]] std::vector<ConeHit> download() const override {
-    std::vector<ConeHit> hits(seedCount * kRayCount);
-    for (size_t i = 0; i < hits.size(); ++i) hits[i] = {static_cast<float>(i / kRayCount), 0};
+    std::vector<ConeHit> hits(seedCount * kHitsPerSeed);
+    for (size_t i = 0; i < hits.size(); ++i) hits[i] = {static_cast<float>(i / kHitsPerSeed), 0};
     return hits;
   }
   void release() override { seedCount = 0; }
@@ -32,7 +32,7 @@ class SmallStore final : public HitStore {
 }  // namespace
 
 TEST_CASE("hits of seeds are kept on the host in the order of the seeds, or nowhere") {
-  SeedHits hits(kRayCount), none(0);
+  SeedHits hits(kHitsPerSeed), none(0);
   CHECK(hits.areKept());
   CHECK_FALSE(none.areKept());
   std::vector<double> values(2);
@@ -49,7 +49,7 @@ TEST_CASE("hits of seeds are kept on the host in the order of the seeds, or nowh
 
 TEST_CASE("hits move from a store without memory to the host, where further ones follow") {
   SmallStore store;
-  SeedHits hits(kRayCount);
+  SeedHits hits(kHitsPerSeed);
   hits.keepIn(&store);
   std::vector<double> values(3);
   const ConeResults first = hits.resultsFor(values);
@@ -59,8 +59,8 @@ TEST_CASE("hits move from a store without memory to the host, where further ones
   store.seedCount = 3;  // A tracer adds them.
   const ConeResults further = hits.resultsFor(std::span(values).first(1));
   CHECK(further.store == nullptr);
-  CHECK(further.hits.size() == kRayCount);
+  CHECK(further.hits.size() == kHitsPerSeed);
   CHECK(store.seedCount == 0);
-  REQUIRE(hits.onHost().size() == 4 * kRayCount);
-  CHECK(hits.onHost()[2 * kRayCount].distance == 2);
+  REQUIRE(hits.onHost().size() == 4 * kHitsPerSeed);
+  CHECK(hits.onHost()[2 * kHitsPerSeed].distance == 2);
 }
