@@ -219,8 +219,8 @@ class ErrorEstimate:
     """
     relative_median: float
     relative_percentile90: float
-    """Median and 90th percentile of error / value over all faces, seeds included: half, and 90 %, of the faces have at
-    most this. 0 where that many faces are seeds. Infinite where the value of such a face is 0.
+    """Median and 90th percentile of error / value over all faces, seeds included. They are 0 where as many faces are
+    seeds, and infinite where the value of such a face is 0.
     """
     relative_median_standard_error: float
     """Standard error of the relative median."""

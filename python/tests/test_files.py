@@ -61,7 +61,8 @@ def test_fields_survive_a_file(tmp_path: Path, name: str) -> None:
     per_vertex = {"area": vertices[:, 2].astype(np.float32), "word": np.arange(len(vertices), dtype=np.uint32)}
     asdf_vk.write(tmp_path / name, (vertices, faces), {**info.fields, **own}, vertex_fields=per_vertex)
     fields, vertex_fields = _fields_of(tmp_path / name)
-    for expected, read in ((own | {key: info.fields[key] for key in ("segment", "sdf")}, fields), (per_vertex, vertex_fields)):
+    computed = {key: info.fields[key] for key in ("segment", "sdf")}
+    for expected, read in ((own | computed, fields), (per_vertex, vertex_fields)):
         for key, values in expected.items():
             np.testing.assert_array_equal(read[key], values)
     assert set(fields) == set(info.fields) | set(own) and set(vertex_fields) == set(per_vertex)
@@ -71,14 +72,15 @@ def test_arrays_and_tables_hold_every_type(tmp_path: Path) -> None:
     vertices, faces = sphere(1)
     real = np.linspace(-1, 1, len(faces))
     real[1] = np.nan
-    fields: dict[str, Any] = {"real": real, "byte": np.arange(len(faces), dtype=np.uint8), "word": np.arange(len(faces), dtype=np.uint32) + 2**31, "axis": vertices[faces[:, 0]]}
+    fields: dict[str, Any] = {"real": real, "byte": np.arange(len(faces), dtype=np.uint8)}
+    fields |= {"word": np.arange(len(faces), dtype=np.uint32) + 2**31, "axis": vertices[faces[:, 0]]}
     for name, values in fields.items():
         asdf_vk.write(tmp_path / "x.npy", (vertices, faces), {name: values})
         read = np.load(tmp_path / "x.npy")
         assert read.dtype == (np.float32 if values.dtype == np.float64 else values.dtype)
         np.testing.assert_array_equal(read, values.astype(read.dtype))
     asdf_vk.write(tmp_path / "x.csv", (vertices, faces), fields)
-    rows = np.genfromtxt(tmp_path / "x.csv", delimiter=",", names=True)
+    rows: Any = np.genfromtxt(tmp_path / "x.csv", delimiter=",", names=True)
     np.testing.assert_array_equal(rows["face"], np.arange(len(faces)))
     for name in ("real", "byte", "word"):
         np.testing.assert_array_equal(rows[name], fields[name])
