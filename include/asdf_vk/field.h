@@ -45,6 +45,9 @@ struct Field {
 /// The field of that name and location, or null.
 [[nodiscard]] ASDFVK_API const Field* findField(std::span<const Field> fields, std::string_view name,
                                                 FieldLocation location);
+/// Throws Error{UnknownField} where there is none.
+[[nodiscard]] ASDFVK_API const Field& requireField(std::span<const Field> fields, std::string_view name,
+                                                   FieldLocation location = FieldLocation::PerFace);
 
 /// Smallest and largest finite entry, the upper median, and the number of entries without a value. Without any value
 /// the three numbers are NaN.

@@ -122,8 +122,9 @@ inline constexpr double kMinDetail = 0.1, kMaxDetail = 10;
 
 /// Quantity that is measured at each face.
 enum class Measure {
-  ShapeDiameter,  ///< Field "sdf".
-  Thickness,      ///< The values, and the fields "thickness" and "least_thickness" (docs/thickness.md).
+  ShapeDiameter,  ///< Fields "sdf" and "seed".
+  Thickness,      ///< Fields "thickness" and "least_thickness" (docs/thickness.md); no rays are traced.
+  Both,
 };
 
 /// Wall thickness: the diameter of the largest ball that touches the surface at a point from inside and contains no
@@ -132,7 +133,7 @@ struct ThicknessOptions {
   /// Faces whose normals differ by at least this angle are opposing walls; above 90 and at most 180.
   double wallAngleDegrees = 120;
   /// Report the connected parts of the surface below this thickness, in the unit of the mesh; above 0. Requires
-  /// Measure::Thickness.
+  /// Measure::Thickness or Both.
   std::optional<double> thinnerThan;
   /// Leave thin regions that contain a sharp edge or tip out of the verdict and of the minimum. Requires thinnerThan.
   bool allowsSharpEdges = false;
@@ -194,6 +195,12 @@ struct Options {
 
   [[nodiscard]] bool postprocesses() const {
     return postprocess == Postprocess::Cgal || segmentation == Segmentation::Cgal;
+  }
+  [[nodiscard]] bool measuresThickness() const { return measure != Measure::ShapeDiameter; }
+  /// Also where segments, skeleton points, a check or a maximum error need the shape diameter.
+  [[nodiscard]] bool measuresDiameter() const {
+    return measure != Measure::Thickness || postprocesses() || segmentation != Segmentation::None || computesCentres ||
+           checkCount || rounds.areSet();
   }
 };
 

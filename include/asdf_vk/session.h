@@ -37,13 +37,14 @@ struct ThinSurface {
   std::vector<uint32_t> regions;  ///< One per triangle: index in ThicknessReport::regions.
 };
 
-/// Result of a computation. Fields: "sdf" (the shape diameter in the unit of the mesh), "seed" (1 where rays were
-/// cast); with an estimate "error" (expected error in the unit of the mesh; 0 at seeds that keep their value); with
-/// Options::postprocess "normalized" (0 to 1); with Options::segmentation "segment" (ascending by the mean value); with
-/// Measure::Thickness "thickness" (at the barycentre, in the unit of the mesh) and "least_thickness" (over all points
-/// of the face), of an input face that is a polygon the least of its triangles; with Options::computesCentres "centre"
-/// (x, y, z: the barycentre, moved inwards along the normal by half of the shape diameter). With PerElement::Vertices
-/// fields per vertex with the same names follow those per face.
+/// Result of a computation. Fields: unless only the thickness is measured (Options::measuresDiameter()), "sdf" (the
+/// shape diameter in the unit of the mesh) and "seed" (1 where rays were cast); with an estimate "error" (expected
+/// error in the unit of the mesh; 0 at seeds that keep their value); with Options::postprocess "normalized" (0 to 1);
+/// with Options::segmentation "segment" (ascending by the mean value); with Options::measuresThickness() "thickness"
+/// (at the barycentre, in the unit of the mesh) and "least_thickness" (over all points of the face), of an input face
+/// that is a polygon the least of its triangles; with Options::computesCentres "centre" (x, y, z: the barycentre, moved
+/// inwards along the normal by half of the shape diameter). With PerElement::Vertices fields per vertex with the same
+/// names follow those per face.
 struct Result {
   std::vector<Field> fields;
   Report report;
@@ -52,10 +53,14 @@ struct Result {
   /// Geometry and hierarchy of the mesh, opaque; set with Options::keepsScene.
   std::shared_ptr<const struct SceneData> scene;
 
-  /// #I, NaN = no value.
-  [[nodiscard]] const std::vector<double>& sdf() const { return std::get<std::vector<double>>(fields.at(0).values); }
-  /// #I, 1 where rays were cast.
-  [[nodiscard]] const std::vector<uint8_t>& seed() const { return std::get<std::vector<uint8_t>>(fields.at(1).values); }
+  /// #I, NaN = no value. Throws Error{UnknownField} without Options::measuresDiameter().
+  [[nodiscard]] const std::vector<double>& sdf() const {
+    return std::get<std::vector<double>>(requireField(fields, "sdf").values);
+  }
+  /// #I, 1 where rays were cast. Throws as sdf() does.
+  [[nodiscard]] const std::vector<uint8_t>& seed() const {
+    return std::get<std::vector<uint8_t>>(requireField(fields, "seed").values);
+  }
   /// The field per face. Null where the result has no such field.
   [[nodiscard]] const Field* field(std::string_view name) const { return findField(fields, name); }
 };

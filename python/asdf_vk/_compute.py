@@ -14,16 +14,16 @@ from ._options import ComputeOptions, Progress, checked_progress
 
 _STACK_LEVEL = 4  # The caller of the public function.
 
-# Options that have no effect without another one.
+# Options that have no effect without another one: its name and values.
 _NEEDS = {
-    "parts": ("segment", "parts"),
-    "detail": ("segment", "parts"),
-    "clusters": ("segment", "cgal"),
-    "smoothness": ("segment", "cgal"),
-    "expansion": ("segment", "cgal"),
-    "thinner_than": ("measure", "thickness"),
-    "allow_sharp_edges": ("measure", "thickness"),
-    "wall_angle": ("measure", "thickness"),
+    "parts": ("segment", ("parts",)),
+    "detail": ("segment", ("parts",)),
+    "clusters": ("segment", ("cgal",)),
+    "smoothness": ("segment", ("cgal",)),
+    "expansion": ("segment", ("cgal",)),
+    "thinner_than": ("measure", ("thickness", "both")),
+    "allow_sharp_edges": ("measure", ("thickness", "both")),
+    "wall_angle": ("measure", ("thickness", "both")),
 }
 
 
@@ -48,10 +48,10 @@ def _merged(options: dict[str, Any], implied: dict[str, Any]) -> dict[str, Any]:
         if options.get(name) is not None and not (isinstance(options[name], type(value)) and options[name] == value):
             raise error_of("optionConflict", f"{name}={options[name]!r} contradicts this function: use compute()")
     merged = {**options, **implied}
-    for name, (needed, value) in _NEEDS.items():
+    for name, (needed, values) in _NEEDS.items():
         given = merged.get(needed)
-        if merged.get(name) is not None and not (isinstance(given, str) and given == value):
-            raise error_of("optionConflict", f"{name} needs {needed}={value!r}, not {given!r}")
+        if merged.get(name) is not None and not (isinstance(given, str) and given in values):
+            raise error_of("optionConflict", f"{name} needs {needed}={values[0]!r}, not {given!r}")
     return merged
 
 
@@ -71,6 +71,11 @@ def computed(
 def values_of(result: _core.ComputedFields, name: str, options: dict[str, Any]) -> NDArray[Any]:
     """The field per face, or with per="vertex" per vertex."""
     return result.array(name, options.get("per") == "vertex")
+
+
+def with_diameter(options: dict[str, Any]) -> dict[str, Any]:
+    """The options, which measure the shape diameter too."""
+    return {**options, "measure": "both"} if options.get("measure") == "thickness" else options
 
 
 def skeleton_of(

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _core
 from ._arrays import mesh_argument
-from ._compute import computed, method_of, skeleton_of, values_of
+from ._compute import computed, method_of, skeleton_of, values_of, with_diameter
 from ._info import Info, info_of
 from ._options import FunctionOptions
 from ._session import session_of
@@ -31,7 +31,7 @@ def compute(vertices: Any, faces: ArrayLike | None = None, **options: Unpack[Fun
     vertices: (n, 3) float32 or float64, or an object with `vertices` and `faces` (Mesh, trimesh.Trimesh).
     faces: (m, 3) int32, uint32 or int64 indices, counter-clockwise seen from outside. Other integer types are
         converted. float64 and 32-bit integers are used in place.
-    options: measure="thickness", segment="parts" or "cgal", centres=True and per="vertex" add fields;
+    options: measure="thickness" or "both", segment="parts" or "cgal", centres=True and per="vertex" add fields;
         docs/python.md explains all.
 
     Returns the report with all fields by name: info.fields["sdf"]. Raises InputError, UsageError, DeviceError,
@@ -52,7 +52,7 @@ def shape_diameter(
     Returns float32 (m,) or (n,), in the unit of the mesh, NaN = no value. Raises and warns as compute().
     """
     given = dict(options)
-    return values_of(_computed(vertices, faces, given), "sdf", given)
+    return values_of(_computed(vertices, faces, with_diameter(given)), "sdf", given)
 
 
 def thickness(

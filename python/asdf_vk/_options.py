@@ -45,7 +45,7 @@ class ComputeOptions(TypedDict, total=False):
     cone_rotation: Literal["fixed", "hashed"] | None
     per: Literal["face", "vertex"] | None
     """"vertex": fields per vertex, too, which the functions then return."""
-    measure: Literal["sdf", "thickness"] | None
+    measure: Literal["sdf", "thickness", "both"] | None
     """"thickness": the fields "thickness" and "least_thickness"."""
     thinner_than: float | None
     allow_sharp_edges: bool | None

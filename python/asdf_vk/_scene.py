@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _core
 from ._arrays import mask_array, mesh_argument, pairs_array
-from ._compute import computed, method_of, skeleton_of, split_progress, values_of
+from ._compute import computed, method_of, skeleton_of, split_progress, values_of, with_diameter
 from ._errors import error_of
 from ._info import Info, info_of
 from ._options import BackendOptions, ConeOptions, PointOptions, Progress, SceneOptions, checked_progress
@@ -98,7 +98,7 @@ class Scene:
     ) -> NDArray[np.float32]:
         """As asdf_vk.shape_diameter(), of the whole mesh or of a region (faces)."""
         given = dict(options)
-        return values_of(self._computed(faces, given), "sdf", given)
+        return values_of(self._computed(faces, with_diameter(given)), "sdf", given)
 
     def thickness(self, *, faces: ArrayLike | None = None, **options: Unpack[SceneOptions]) -> NDArray[np.float32]:
         """As asdf_vk.thickness(), of the whole mesh or of a region (faces)."""

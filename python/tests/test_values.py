@@ -63,6 +63,12 @@ def test_the_verdict_of_the_thickness() -> None:
         vertices, faces, measure="thickness", thinner_than=0.5, allow_sharp_edges=True
     ).thickness
     assert sound is not None and sound.verdict == "passed" and sound.regions == () and sound.allows_sharp_edges
+    assert "sdf" not in info.fields and info.ray_count == 0
+    both = asdf_vk.compute(vertices, faces, measure="both", thinner_than=0.5)
+    np.testing.assert_array_equal(both.fields["sdf"], asdf_vk.shape_diameter(vertices, faces))
+    np.testing.assert_array_equal(
+        asdf_vk.shape_diameter(vertices, faces, measure="thickness", thinner_than=0.5), both.fields["sdf"]
+    )
     unlimited = asdf_vk.compute(vertices, faces, measure="thickness").thickness
     assert unlimited is not None and unlimited.verdict is None and unlimited.thinner_than is None
 

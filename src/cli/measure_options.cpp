@@ -10,6 +10,7 @@ namespace asdfvk {
 namespace {
 
 const std::vector<std::string> kFields{"thickness", "least_thickness"};
+const std::vector<std::string> kDiameterFields{"sdf", "seed", "error"};
 
 double parseThickness(const std::string& text) {
   return parseNumber(
@@ -28,9 +29,14 @@ void applyLimit(const ArgumentParser& parser, CommandLine& line) {
       refuseOptions("--allow-sharp-edges needs --thinner-than or --fail-if-thinner");
     return;
   }
-  if (parser.isGiven("--measure") && options.measure != Measure::Thickness)
+  if (!parser.isGiven("--measure")) options.measure = Measure::Thickness;
+  if (!options.measuresThickness())
     refuseOptions("--thinner-than and --fail-if-thinner contradict --measure sdf; drop one");
-  options.measure = Measure::Thickness;
+}
+
+bool showsDiameter(const Outputs& outputs, bool choosesPicture) {
+  const auto isOfDiameter = [](const std::string& name) { return std::ranges::count(kDiameterFields, name) > 0; };
+  return std::ranges::any_of(outputs.fields, isOfDiameter) || (choosesPicture && isOfDiameter(outputs.pictureOf));
 }
 
 }  // namespace
@@ -39,8 +45,9 @@ void addMeasure(ArgumentParser& parser, CommandLine& line) {
   Options& options = line.computation.options;
   const char* const group = "Thickness";
   addChoice(parser, "--measure", options.measure, kMeasures,
-            "thickness: also fields thickness, the diameter of the largest ball inside that\n"
-            "touches the face, and least_thickness; they are written first. Default sdf")
+            "thickness: the fields thickness, the diameter of the largest ball inside that\n"
+            "touches the face, and least_thickness instead of sdf and seed; both: these\n"
+            "four. Default sdf")
       .group(group);
   addValue(parser, "--thinner-than", "T",
            "Whether any point of the surface is thinner than T, in the unit of the mesh, and\n"
@@ -70,9 +77,11 @@ void addMeasure(ArgumentParser& parser, CommandLine& line) {
 
 void completeMeasure(const ArgumentParser& parser, CommandLine& line) {
   applyLimit(parser, line);
-  if (line.computation.options.measure == Measure::Thickness) {
-    if (!parser.isGiven("--picture-of"))
-      line.outputs.pictureOf = line.computation.options.thickness.thinnerThan ? "" : kFields.front();
+  Options& options = line.computation.options;
+  if (options.measuresThickness()) {
+    const bool choosesPicture = parser.isGiven("--picture-of");
+    if (showsDiameter(line.outputs, choosesPicture)) options.measure = Measure::Both;
+    if (!choosesPicture) line.outputs.pictureOf = options.thickness.thinnerThan ? "" : kFields.front();
     return;
   }
   if (parser.isGiven("--wall-angle")) refuseOptions("--wall-angle needs --measure thickness");

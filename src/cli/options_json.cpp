@@ -79,7 +79,7 @@ void addSegments(Values& values, const Options& options) {
 
 void addMeasure(Values& values, const Computation& computation) {
   const ThicknessOptions& thickness = computation.options.thickness;
-  const bool isMeasured = computation.options.measure == Measure::Thickness;
+  const bool isMeasured = computation.options.measuresThickness();
   values.add("measure", nameOf(kMeasures, computation.options.measure));
   values.add("wallAngleDegrees", isMeasured ? Json(thickness.wallAngleDegrees) : Json(nullptr));
   values.add("thinnerThan", thickness.thinnerThan);

@@ -131,8 +131,9 @@ void checkLog(const std::string& path, const FileSet& inputs, const FileSet& lis
 
 std::vector<std::string> fieldNames(const Outputs& outputs, const Options& options) {
   if (!outputs.fields.empty()) return outputs.fields;
-  std::vector<std::string> names{"sdf", "seed"};
-  if (options.measure == Measure::Thickness) names.insert(names.begin(), {"thickness", "least_thickness"});
+  std::vector<std::string> names;
+  if (options.measuresThickness()) names.insert(names.end(), {"thickness", "least_thickness"});
+  if (options.measuresDiameter()) names.insert(names.end(), {"sdf", "seed"});
   if (options.postprocesses()) names.emplace_back("normalized");
   if (options.segmentation != Segmentation::None) names.emplace_back("segment");
   return names;

@@ -50,6 +50,7 @@ std::string labelOf(const std::string& name, const MeshOutcome& outcome) {
   std::string label = fmt::format("{}, {}", name, nameOf(kRecipes, computation.recipe));
   if (computation.options.cone.definition != Definition::Paper)
     label += fmt::format(", definition {}", nameOf(kDefinitions, computation.options.cone.definition));
+  if (!computation.options.measuresDiameter()) return name;
   if (report.seedCount >= report.triangleCount) return label + ", all faces";
   return label + fmt::format(", seeds {:.2g} %",
                              100.0 * static_cast<double>(report.seedCount) / static_cast<double>(report.triangleCount));
@@ -75,6 +76,7 @@ std::vector<std::pair<std::string, std::string>> summaryOf(const MeshOutcome& ou
 
 std::string errorSentenceOf(const Result& result) {
   const Report& report = result.report;
+  if (result.field("sdf") == nullptr) return "The thickness is measured at every face, so no value is interpolated.";
   if (report.seedCount >= report.triangleCount) return "Every face cast rays, so no value is interpolated.";
   if (!report.estimatedError)
     return "The values between the seeds are interpolated; their error was not estimated in this computation.";

@@ -226,6 +226,10 @@ ReportRows reportRows(const MeshOutcome& outcome) {
   };
   if (report.thickness) append(thicknessRows(report));
   rows.emplace_back("mesh", meshRow(report));
+  if (!outcome.computation.options.measuresDiameter()) {
+    rows.emplace_back("time", timeRow(report.stageSeconds));
+    return rows;
+  }
   rows.emplace_back("device",
                     fmt::format("{} on {}{}{}", report.backend, report.device,
                                 report.traceChoice ? kernelText(*report.traceChoice) : "",

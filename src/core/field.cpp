@@ -22,6 +22,11 @@ const Field* findField(std::span<const Field> fields, std::string_view name, Fie
   return found == fields.end() ? nullptr : &*found;
 }
 
+const Field& requireField(std::span<const Field> fields, std::string_view name, FieldLocation location) {
+  if (const Field* const field = findField(fields, name, location)) return *field;
+  throw Error(ErrorCode::UnknownField, fmt::format("the result has no field {}", name));
+}
+
 FieldSummary summarize(const Field& field) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   std::vector<double> present;

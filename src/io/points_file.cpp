@@ -18,12 +18,6 @@ namespace {
 // Points are float where this is their resolution at least, relative to the diagonal of their box, else double.
 constexpr double kFloatResolution = 1e-6;
 
-const Field& requireFaceField(std::span<const Field> fields, const char* name) {
-  const Field* const field = findField(fields, name, FieldLocation::PerFace);
-  if (field == nullptr) throw Error(ErrorCode::UnknownField, fmt::format("the result has no field {}", name));
-  return *field;
-}
-
 /// Centres, values and parts of the faces with a value.
 struct Points {
   std::vector<Vec3d> centres;
@@ -32,7 +26,7 @@ struct Points {
   bool hasParts = false;
 
   explicit Points(std::span<const Field> fields) {
-    const Field &centre = requireFaceField(fields, "centre"), &sdf = requireFaceField(fields, "sdf");
+    const Field &centre = requireField(fields, "centre"), &sdf = requireField(fields, "sdf");
     const Field* const segment = findField(fields, "segment", FieldLocation::PerFace);
     const size_t faceCount = sdf.size();
     const auto fits = [faceCount](const Field& field, uint32_t componentCount) {

@@ -34,7 +34,6 @@ struct Computation {
   /// Whether faces that cannot be traced, and traced faces without a valid ray, have no value in the result. Otherwise
   /// they are interpolated.
   [[nodiscard]] bool keepsMissing() const { return cone.definition == Definition::Cgal; }
-  [[nodiscard]] bool measuresThickness() const { return options.measure == Measure::Thickness; }
 };
 
 }  // namespace asdfvk

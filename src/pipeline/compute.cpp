@@ -90,7 +90,6 @@ std::vector<Field> fieldsOf(const PreparedMesh& prepared, const RoundsResult& ro
   return fields;
 }
 
-/// Without the traced values.
 void measureThickness(Result& result, const Computation& computation, const RunControl& control) {
   const auto scope = computation.clock.time(Stage::Thickness);
   const FaceThickness thickness = measureThickness(computation, control);
@@ -103,8 +102,8 @@ void measureThickness(Result& result, const Computation& computation, const RunC
 /// Adds the fields that derive from other fields.
 void addDerivedFields(std::vector<Field>& fields, const PreparedMesh& prepared, const Options& options) {
   if (options.computesCentres)
-    fields.push_back(
-        makeField("centre", centresOfInputFaces(prepared.mesh, prepared.geometry, *fields.front().reals())));
+    fields.push_back(makeField(
+        "centre", centresOfInputFaces(prepared.mesh, prepared.geometry, *requireField(fields, "sdf").reals())));
   if (options.per != PerElement::Vertices) return;
   std::vector<Field> further = vertexFieldsOf(prepared.mesh, prepared.geometry.areas, fields);
   fields.insert(fields.end(), std::make_move_iterator(further.begin()), std::make_move_iterator(further.end()));
@@ -117,6 +116,29 @@ std::vector<double> finalValues(const FaceDomain& domain, const std::vector<doub
   const auto scope = clock.time(Stage::Smooth);
   return smoothBilaterally(domain.graph, values,
                            smoothing.window.value_or(smoothingWindowFor(domain.graph.faceCount())));
+}
+
+/// releasedBvh: as for SeedTracing.
+void measureDiameter(Result& result, const Computation& computation, KeptTracers& tracers, Bvh* releasedBvh,
+                     const RunControl& control) {
+  const auto& [options, prepared, domain, scene, cone, backend, solvers, clock, warnings] = computation;
+  Report& report = result.report;
+  const double roundsEnd = options.checkCount ? kRoundsEndBeforeCheck : 1;
+  const auto makeTracing = [&] { return std::make_unique<SeedTracing>(computation, tracers, releasedBvh); };
+  RoundsResult rounds = runRounds(computation, makeTracing, control.part(0, roundsEnd));
+  describeRounds(report, rounds);
+  if (computation.keepsMissing()) removeMissing(prepared, rounds);
+  if (rounds.errors) removeErrorsOutside(prepared, domain, *rounds.errors);
+  const std::vector<double> values = finalValues(domain, rounds.interpolated.values, options.smoothing, clock);
+  const RunControl stopOnly = control.withoutProgress();
+  SegmentedValues segmented = segmentValues(
+      prepared, values, options, makeLineOfSight(scene, backend.isReference(), stopOnly), clock, report, stopOnly);
+  if (options.checkCount)
+    report.check =
+        checkAgainstReference(scene, cone, domain.traceableFaces, {rounds.traced, values, backend.isReference()},
+                              *options.checkCount, options.randomSeed, control.part(roundsEnd, 1));
+  result.fields = fieldsOf(prepared, rounds, values, std::move(segmented));
+  describeValues(report, prepared, domain, result.sdf(), values, computation.keepsMissing());
 }
 
 /// The scene for pictures. A scene that is not used again keeps nothing else.
@@ -153,27 +175,12 @@ void computeOn(const ComputationInput& input, const Options& options, StageClock
   const TraceScene scene = sharedScene->view();
   const Computation computation{options, prepared,        domain, scene,          cone,
                                 backend, session.solvers, clock,  report.warnings};
-  const double roundsEnd = options.checkCount ? kRoundsEndBeforeCheck : 1;
-  const bool keepsNodes = !isLast || options.checkCount || options.keepsScene || computation.measuresThickness() ||
+  const bool keepsNodes = !isLast || options.checkCount || options.keepsScene || options.measuresThickness() ||
                           sightNeedsNodes(options, backend.isReference());
-  const auto makeTracing = [&] {
-    return std::make_unique<SeedTracing>(computation, input.tracers, keepsNodes ? nullptr : &input.scene->bvh);
-  };
-  RoundsResult rounds = runRounds(computation, makeTracing, control.part(0, roundsEnd));
-  describeRounds(report, rounds);
-  if (computation.keepsMissing()) removeMissing(prepared, rounds);
-  if (rounds.errors) removeErrorsOutside(prepared, domain, *rounds.errors);
-  const std::vector<double> values = finalValues(domain, rounds.interpolated.values, options.smoothing, clock);
-  const RunControl stopOnly = control.withoutProgress();
-  SegmentedValues segmented = segmentValues(
-      prepared, values, options, makeLineOfSight(scene, backend.isReference(), stopOnly), clock, report, stopOnly);
-  if (options.checkCount)
-    report.check =
-        checkAgainstReference(scene, cone, domain.traceableFaces, {rounds.traced, values, backend.isReference()},
-                              *options.checkCount, options.randomSeed, control.part(roundsEnd, 1));
-  result.fields = fieldsOf(prepared, rounds, values, std::move(segmented));
-  describeValues(report, prepared, domain, result.sdf(), values, computation.keepsMissing());
-  if (computation.measuresThickness()) measureThickness(result, computation, stopOnly);
+  if (options.measuresDiameter())
+    measureDiameter(result, computation, input.tracers, keepsNodes ? nullptr : &input.scene->bvh, control);
+  if (options.measuresThickness())
+    measureThickness(result, computation, options.measuresDiameter() ? control.withoutProgress() : control);
   addDerivedFields(result.fields, prepared, options);
   backend.requireSilentValidation();
   if (options.keepsScene) result.scene = sceneData(sharedScene, isLast);

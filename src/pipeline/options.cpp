@@ -84,11 +84,11 @@ void requireValid(const Options& options, bool hasDevice) {
   if (options.checkCount == 0) fail("a check of 0 faces is out of range; give 1 or more");
   if (options.smoothing.window) requireValid(*options.smoothing.window);
   if (options.segmentation == Segmentation::Cgal) requireValid(options.cgalSegmentation);
-  if (options.measure == Measure::Thickness) (void)makeOpposingWalls(options.thickness.wallAngleDegrees);
+  if (options.measuresThickness()) (void)makeOpposingWalls(options.thickness.wallAngleDegrees);
   if (const std::optional<double>& limit = options.thickness.thinnerThan; limit) {
     if (!(*limit > 0 && std::isfinite(*limit)))
       fail(fmt::format("a thickness limit of {} is out of range; give more than 0", *limit));
-    if (options.measure != Measure::Thickness)
+    if (!options.measuresThickness())
       throw Error(ErrorCode::OptionConflict, "a thickness limit needs the measure thickness");
   }
   if (options.thickness.allowsSharpEdges && !options.thickness.thinnerThan)

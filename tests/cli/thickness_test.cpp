@@ -26,13 +26,21 @@ TEST_CASE("a limit implies the measure, and nothing about the seeds") {
     CHECK_EQ(line.computation.options.thickness.thinnerThan.value(), 0.5);
     CHECK_FALSE(line.computation.options.thickness.allowsSharpEdges);
     CHECK_EQ(fieldNames(line.outputs, line.computation.options),
-             std::vector<std::string>{"thickness", "least_thickness", "sdf", "seed"});
+             std::vector<std::string>{"thickness", "least_thickness"});
+    CHECK_FALSE(line.computation.options.measuresDiameter());
     CHECK(line.outputs.pictureOf.empty());  // The thin places.
     CHECK(parseCommandLine({"a.ply", option, "0.5", "--allow-sharp-edges"})
               .computation.options.thickness.allowsSharpEdges);
   }
-  CHECK_EQ(parseCommandLine({"a.ply", "--measure", "thickness", "--fields", "sdf"}).outputs.fields,
-           std::vector<std::string>{"sdf"});
+  const CommandLine ofFields = parseCommandLine({"a.ply", "--measure", "thickness", "--fields", "sdf"});
+  CHECK_EQ(ofFields.outputs.fields, std::vector<std::string>{"sdf"});
+  CHECK(ofFields.computation.options.measure == Measure::Both);
+  const CommandLine ofBoth = parseCommandLine({"a.ply", "--measure", "both", "--thinner-than", "1"});
+  CHECK_EQ(fieldNames(ofBoth.outputs, ofBoth.computation.options),
+           std::vector<std::string>{"thickness", "least_thickness", "sdf", "seed"});
+  CHECK(parseCommandLine({"a.ply", "--thinner-than", "1", "--picture", "a.png", "--picture-of", "sdf"})
+            .computation.options.measuresDiameter());
+  CHECK(parseCommandLine({"a.ply", "--thinner-than", "1", "--segment"}).computation.options.measuresDiameter());
   const CommandLine both = parseCommandLine({"a.ply", "--thinner-than", "2", "--fail-if-thinner", "2.0"});
   CHECK_EQ(both.computation.options.thickness.thinnerThan.value(), 2);
   CHECK_EQ(both.computation.failIfThinner.value(), 2);
@@ -59,7 +67,7 @@ TEST_CASE("options of the thickness are refused where they contradict others") {
   }
   for (const char* wrong : {"90", "181", "wide"})
     isRefused({"a.ply", "--measure", "thickness", "--wall-angle", wrong}, "--wall-angle: ");
-  isRefused({"a.ply", "--measure", "diameter"}, "--measure: 'diameter' is not one of sdf|thickness");
+  isRefused({"a.ply", "--measure", "diameter"}, "--measure: 'diameter' is not one of sdf|thickness|both");
 }
 
 TEST_CASE("the document has the verdict, the percentiles and the regions") {
@@ -93,7 +101,7 @@ TEST_CASE("the document has the verdict, the percentiles and the regions") {
   CHECK_EQ(json.at("options").at("allowSharpEdges"), false);
   CHECK_EQ(json.at("options").at("wallAngleDegrees"), 120);
   CHECK(json.at("stageSeconds").at("thickness").get<double>() > 0);
-  CHECK_EQ(linesOf(folder.read("out.csv")).at(0), "face,thickness,least_thickness,sdf,seed");
+  CHECK_EQ(linesOf(folder.read("out.csv")).at(0), "face,thickness,least_thickness");
 
   const Json plain = Json::parse(runThickness({cube, "--json", "-o", folder / "out.csv"}).output);
   CHECK(plain.at("thickness").is_null());

@@ -78,7 +78,7 @@ COMPUTATION = (
     Option("--clusters", ("2", "5", "100"), ("1", "101", *_ILLEGAL_NUMBERS)),
     Option("--smoothness", ("0", "0.26", "1000"), ("1001", *_ILLEGAL_NUMBERS)),
     _choice("--cgal-expansion", "all", "first"),
-    _choice("--measure", "sdf", "thickness"),
+    _choice("--measure", "sdf", "thickness", "both"),
     Option("--thinner-than", ("1e-30", "0.1", "1", "1e30"), ("0", *_ILLEGAL_NUMBERS)),
     Option("--fail-if-thinner", ("1e-30", "0.1", "1", "1e30"), ("0", *_ILLEGAL_NUMBERS)),
     _flag("--allow-sharp-edges"),

@@ -120,7 +120,7 @@ def assembly(case: Case) -> None:
     backend = rng.choice(BACKENDS)
     measures = rng.random() < 0.4
     chosen = ["--backend", backend, "--seeds", "all", "--no-estimate"]
-    chosen += ["--measure", "thickness"] if measures else []
+    chosen += ["--measure", "both"] if measures else []
     both = [case.values(name, name.replace(".off", ".npz"), *chosen) for name in names]
     if both[0] is None or both[1] is None:
         return

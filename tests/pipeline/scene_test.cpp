@@ -55,7 +55,7 @@ void checkSameFields(const Result& a, const Result& b) {
 
 Options thicknessBelow(double limit) {
   Options options;
-  options.measure = Measure::Thickness;
+  options.measure = Measure::Both;
   options.thickness.thinnerThan = limit;
   return options;
 }

@@ -53,7 +53,7 @@ TEST_CASE("the shape diameter and the seeds have the same bits with and without 
         applyDefinition(definition, plain);
         plain.seeds = seeds;
         Options measured = plain;
-        measured.measure = Measure::Thickness;
+        measured.measure = Measure::Both;
         measured.thickness.thinnerThan = 0.3;
         const Result expected = session->compute(mesh, plain), found = session->compute(mesh, measured);
         CHECK(found.sdf() == expected.sdf());
@@ -61,6 +61,45 @@ TEST_CASE("the shape diameter and the seeds have the same bits with and without 
         CHECK(expected.field("thickness") == nullptr);
         CHECK_FALSE(expected.report.thickness.has_value());
       }
+}
+
+TEST_CASE("the thickness alone casts no ray, and has the bits of the thickness beside the diameter") {
+  const Mesh mesh = makeHand(4000).mesh;
+  Options alone = thickness(0.3), both = thickness(0.3);
+  both.measure = Measure::Both;
+  for (Session* session : {&referenceSession(), &vulkanSession()}) {
+    CAPTURE(session->backend());
+    const Result found = session->compute(mesh, alone), expected = session->compute(mesh, both);
+    for (const char* name : {"thickness", "least_thickness"})
+      CHECK(thicknessOf(found, name) == thicknessOf(expected, name));
+    CHECK(found.fields.size() == 2);
+    CHECK(found.report.thickness->regions.size() == expected.report.thickness->regions.size());
+    CHECK(found.report.rayCount == 0);
+    CHECK(found.report.stageSeconds[Stage::Trace] == 0);
+    CHECK(expected.report.rayCount > 0);
+    for (const auto& read :
+         {+[](const Result& result) { (void)result.sdf(); }, +[](const Result& result) { (void)result.seed(); }})
+      requireFailure([&] { read(found); }, ErrorCode::UnknownField);
+  }
+}
+
+TEST_CASE("what needs the diameter measures it beside the thickness") {
+  const Mesh mesh = makeHand(2000).mesh;
+  const auto isMeasured = [&](const auto& change) {
+    Options options = thickness();
+    change(options);
+    const Result result = referenceSession().compute(mesh, options);
+    return result.field("sdf") != nullptr && result.field("thickness") != nullptr;
+  };
+  CHECK(isMeasured([](Options& o) { o.segmentation = Segmentation::Parts; }));
+  CHECK(isMeasured([](Options& o) { o.postprocess = Postprocess::Cgal; }));
+  CHECK(isMeasured([](Options& o) { o.computesCentres = true; }));
+  CHECK(isMeasured([](Options& o) { o.checkCount = 5; }));
+  CHECK(isMeasured([](Options& o) {
+    o.seeds = SeedCount::ofShare(0.02);
+    o.rounds.maxError = 0.1;
+  }));
+  CHECK_FALSE(isMeasured([](Options&) {}));
 }
 
 TEST_CASE("backends agree in the thickness, by both definitions of the rays") {
