@@ -75,9 +75,9 @@ def test_other_limits_work_by_face(page):
 
 
 def test_a_layer_replaces_the_thin_places(page):
-    assert changes(page, lambda: page.choose("layer", "sdf")) > 0.1
+    assert changes(page, lambda: page.choose("layer", "thickness")) > 0.1
     assert not page.js("document.getElementById('thin').checked")
-    assert page.js("document.querySelector('#legend canvas').getAttribute('aria-label')").startswith("shape diameter")
+    assert page.js("document.querySelector('#legend canvas').getAttribute('aria-label')").startswith("wall thickness")
     page.choose("thin", True)
     assert alarm_share(settled_view(page)) > 0.005
 
