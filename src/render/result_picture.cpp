@@ -33,14 +33,16 @@ Picture pictureWith(const Result& result, std::string title, const View& view, c
   return picture;
 }
 
-/// "thinner than 0.8: 2 places, least 0.3"
+/// "thinner than 0.8 (pale: behind a wall): 2 places, least 0.3"
 std::string legendOf(const ThicknessReport& thickness) {
   const std::string limit = fmt::format("thinner than {:g}", *thickness.thinnerThan);
   if (thickness.regions.empty())
     return thickness.verdict == ThicknessVerdict::NotJudged ? "where judged, nowhere " + limit : "nowhere " + limit;
-  const ThinRegion& first = thickness.regions.front();
-  return fmt::format("{}: {}{}", limit, counted(thickness.regions.size(), "place"),
-                     first.isSharp ? "" : fmt::format(", least {:.4g}", first.min));
+  // Walls come before sharp edges and tips.
+  const ThinRegion &first = thickness.regions.front(), &last = thickness.regions.back();
+  const std::string least = first.isSharp ? "0 at a sharp edge" : fmt::format("{:.4g}", first.min);
+  return fmt::format("{} (pale: behind a wall): {}, least {}{}", limit, counted(thickness.regions.size(), "place"),
+                     least, last.isSharp && !first.isSharp ? ", and sharp edges" : "");
 }
 
 std::string verdictText(ThicknessVerdict verdict) {

@@ -252,8 +252,6 @@ class BallPacket {
     isNear &= reach(wall);
     if (!anyLane(isNear)) return;
     const Middle middle = middleOf(wall.middle, isNear);
-    const Mask isSure = isNear & lessEqual(cosine, cosineLimit(-kWallCosineMargin));
-    if (anyLane(isSure)) shrinkLimits(wall, middle, isSure);
     const Floats pointBound =
         middle.lowest +
         asdfvk::min(asdfvk::min(dotLanes(wall.spokes[0], middle.slope), dotLanes(wall.spokes[1], middle.slope)),
@@ -261,7 +259,13 @@ class BallPacket {
         middle.doubt * wall.reach;
     const Floats leastAtFace = asdfvk::max(least, leastBound(middle, pointBound));
     const Floats leastAtPoint = asdfvk::max(atPoint, pointBound);
-    isNear &= lessEqual(leastAtFace, leastLimit_) | lessEqual(leastAtPoint, atPointLimit_);
+    const auto isWithinLimits = [&]() ASDFVK_ALWAYS_INLINE {
+      return lessEqual(leastAtFace, leastLimit_) | lessEqual(leastAtPoint, atPointLimit_);
+    };
+    isNear &= isWithinLimits();
+    if (!anyLane(isNear)) return;
+    const Mask isSure = isNear & lessEqual(cosine, cosineLimit(-kWallCosineMargin));
+    if (anyLane(isSure) && shrinkLimits(wall, middle, isSure)) isNear &= isWithinLimits();
     for (uint32_t lanes = bitsOf(isNear); lanes != 0; lanes &= lanes - 1) {
       const auto lane = static_cast<size_t>(std::countr_zero(lanes));
       collect(lane, {wall.face, leastAtFace[lane], leastAtPoint[lane]});
@@ -285,8 +289,8 @@ class BallPacket {
             select(isDeep, (kWallPlaneMargin + 2 * rounding) * inverse)};
   }
 
-  /// Lowers the limits to the balls through the middle of a wall.
-  ASDFVK_ALWAYS_INLINE void shrinkLimits(const Wall& wall, const Middle& middle, const Mask& lanes) {
+  /// Lowers the limits to the balls through the middle of a wall; returns whether one is lower.
+  ASDFVK_ALWAYS_INLINE bool shrinkLimits(const Wall& wall, const Middle& middle, const Mask& lanes) {
     const Floats diameter = orUnlimited(lanes, middle.diameter);
     const Floats atPoint = asdfvk::min(atPointLimit_, diameter);
     Floats least = asdfvk::min(leastLimit_, diameter);
@@ -297,10 +301,11 @@ class BallPacket {
       const Floats atCorner = dot(v, v) / depth * (1 + kWallBoxMargin + kWallBoxMargin / depth);
       least = asdfvk::min(least, orUnlimited(isDeep, atCorner));
     }
-    if (!anyLane(notEqual(least, leastLimit_) | notEqual(atPoint, atPointLimit_))) return;
+    if (!anyLane(notEqual(least, leastLimit_) | notEqual(atPoint, atPointLimit_))) return false;
     leastLimit_ = least;
     atPointLimit_ = atPoint;
     placeBalls();
+    return true;
   }
 
   void collect(size_t lane, const Candidate& candidate) {

@@ -54,8 +54,7 @@ inline std::map<std::string, std::string> resultsIn(const std::string& folder) {
   for (const std::filesystem::directory_entry& entry : std::filesystem::recursive_directory_iterator(folder)) {
     if (!entry.is_regular_file() || entry.path().extension() == ".json") continue;
     std::ifstream in(entry.path(), std::ios::binary);
-    results[entry.path().lexically_relative(folder).string()] =
-        std::string(std::istreambuf_iterator<char>(in), {});
+    results[entry.path().lexically_relative(folder).string()] = std::string(std::istreambuf_iterator<char>(in), {});
   }
   return results;
 }

@@ -19,7 +19,7 @@ def page(open_page, cavities):
 
 def test_first_view_shows_the_hidden_place(page):
     assert alarm_share(settled_view(page)) > 0.005
-    assert page.text("verdict-0") == "FAIL 2 places thinner than 0.8"
+    assert page.text("verdict-0") == "FAIL least 0.5: 2 places thinner than 0.8"
     assert page.js("document.getElementById('thin').checked && document.getElementById('thin-at').value") == "0.8"
     assert page.js("document.querySelector('#legend canvas').getAttribute('aria-label')").startswith("thinner than 0.8, ")
     # The list is above the controls, the walls in it are links; rings with the values are in the view.

@@ -38,7 +38,9 @@ const kVerdicts = { passed: 'PASS', failed: 'FAIL', notJudged: 'NOT JUDGED' };
 /** The verdict and the regions of a result: walls, then sharp ones. */
 function thinReport(mesh, index, hasOthers, visits) {
   const { limit, verdict, regions } = mesh.thin, than = `thinner than ${formatValue(limit)}`;
-  const sentence = regions.length ? `${formatCount(regions.length)} ${regions.length > 1 ? 'places' : 'place'} ${than}`
+  const least = Math.min(...regions.map((region) => region.isSharp ? 0 : region.value));
+  const sentence = regions.length
+    ? `least ${formatValue(least)}: ${formatCount(regions.length)} ${regions.length > 1 ? 'places' : 'place'} ${than}`
     : `nowhere ${than}${verdict === 'notJudged' ? ' where it could be judged' : ''}`;
   const row = (region, i) => [
     link(region.isSharp ? '0, sharp' : formatValue(region.value), `thin-${index}-${i}`, visits && (() => visits.region(index, i))),
