@@ -38,14 +38,19 @@ inline constexpr uint32_t kMaxRayCount = 1024;
 
 /// Number of seed faces, the faces that cast rays.
 struct SeedCount {
-  enum class Kind { All, Share, Count } kind = Kind::Share;
-  double share = 0.1;  ///< Share of the faces that can cast rays, above 0 and at most 1.
+  /// Automatic: kAutomaticSeedShare of the faces. With Guidance::Prediction at least kMinAutomaticSeedCount, all faces
+  /// of a smaller mesh: fewer rays save little time there and cost accuracy.
+  enum class Kind { Automatic, All, Share, Count } kind = Kind::Automatic;
+  double share = 0;    ///< Share of the faces that can cast rays, above 0 and at most 1.
   uint64_t count = 0;  ///< At least 1.
 
+  [[nodiscard]] static SeedCount automatic() { return {}; }
   [[nodiscard]] static SeedCount all() { return {Kind::All, 1, 0}; }
   [[nodiscard]] static SeedCount ofShare(double share) { return {Kind::Share, share, 0}; }
   [[nodiscard]] static SeedCount ofCount(uint64_t count) { return {Kind::Count, 0, count}; }
 };
+inline constexpr double kAutomaticSeedShare = 0.1;
+inline constexpr uint64_t kMinAutomaticSeedCount = 3000;
 
 /// Weights of the edges of the dual graph in the Poisson equation.
 enum class ArcWeights {
@@ -214,8 +219,8 @@ enum class Recipe {
 /// Sets the options of a recipe: sampler, weights, guidance, pooling, cone rotation. The others are unchanged.
 ASDFVK_API void applyRecipe(Recipe recipe, Options& options);
 
-/// Sets the definition with its number of rays and its share of seeds. Paper: 30 rays, 10 % of the faces. Cgal: 25
-/// rays, all faces. The others are unchanged.
+/// Sets the definition with its number of rays and of seeds. Paper: 30 rays, SeedCount::automatic(). Cgal: 25 rays, all
+/// faces. The others are unchanged.
 ASDFVK_API void applyDefinition(Definition definition, Options& options);
 
 [[nodiscard]] ASDFVK_API std::vector<std::string> samplerNames();

@@ -46,7 +46,7 @@ def shape_diameter(
     """Shape diameter function: how thick the shape is behind each face.
 
     vertices, faces: as for compute(), which also returns the report.
-    options: seeds (faces that cast rays: 0.1, 5000, "10%" or "all"), rays, cone_angle, recipe, max_error, orient,
+    options: seeds (faces that cast rays: 0.1, 5000, "10%", "all" or "auto"), rays, cone_angle, recipe, max_error, orient,
         backend, threads, progress, ... (docs/python.md). per="vertex": the means over the faces of each vertex.
 
     Returns float32 (m,) or (n,), in the unit of the mesh, NaN = no value. Raises and warns as compute().

@@ -25,7 +25,7 @@ class ComputeOptions(TypedDict, total=False):
     recipe: Literal["paper", "balanced", "quality"] | None
     definition: Literal["paper", "cgal"] | None
     seeds: Union[int, float, str, None]
-    """Faces that cast rays: a share (float, above 0, at most 1; or "10%"), a count (int) or "all"."""
+    """Faces that cast rays: a share (float, above 0, at most 1; or "10%"), a count (int), "all" or "auto"."""
     sampler: str | None
     random_seed: int | None
     max_error: float | None

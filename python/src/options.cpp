@@ -85,18 +85,19 @@ T choiceOf(const Value& value, const ChoiceNames<T, N>& names) {
               {{"option", value.name}});
 }
 
-/// A share as a float, a count as an int, "all", or "10%".
+/// A share as a float, a count as an int, "auto", "all", or "10%".
 SeedCount seedCountOf(const Value& value) {
   if (py::isinstance<py::str>(value.object)) {
     const std::string text = textOf(value);
     if (text == "all") return SeedCount::all();
-    if (!text.ends_with('%')) value.fail("'all', a share such as 0.1 or '10%', or a count");
+    if (text == "auto") return SeedCount::automatic();
+    if (!text.ends_with('%')) value.fail("'auto', 'all', a share such as 0.1 or '10%', or a count");
     const py::object percent =
         py::module_::import("builtins").attr("str")(text.substr(0, text.size() - 1)).attr("strip")();
     const auto number = py::reinterpret_steal<py::object>(PyFloat_FromString(percent.ptr()));
     if (!number) {
       PyErr_Clear();
-      value.fail("'all', a share such as 0.1 or '10%', or a count");
+      value.fail("'auto', 'all', a share such as 0.1 or '10%', or a count");
     }
     return SeedCount::ofShare(number.cast<double>() / 100);
   }

@@ -136,6 +136,7 @@ def test_options_reach_the_library() -> None:
     paper = asdf_vk.shape_diameter(*mesh, recipe="paper")
     assert (paper != asdf_vk.shape_diameter(*mesh)).any()
     assert asdf_vk.compute(*mesh, seeds=50).seed_count == 50
+    assert asdf_vk.compute(*mesh).seed_count == asdf_vk.compute(*mesh, seeds="auto").seed_count == 3000
     assert asdf_vk.compute(*mesh, seeds="5 %").seed_count == 256
     assert asdf_vk.compute(*mesh, definition="cgal").seed_count == 5120
     assert asdf_vk.compute(*mesh, rays=7, seeds=100).ray_count == 700

@@ -12,8 +12,12 @@ namespace {
 
 constexpr const char* kRayGroup = "Seeds and rays";
 
-/// "10%", as --seeds takes it.
-std::string defaultSeeds() { return fmt::format("{}%", Options{}.seeds.share * 100); }
+std::string seedHelp() {
+  return fmt::format(
+      "Faces that cast rays: a share, a count or all; default auto: {}% but at least\n"
+      "{} (without this minimum if the guidance is not by prediction)",
+      kAutomaticSeedShare * 100, kMinAutomaticSeedCount);
+}
 
 /// "1%" or "0.01".
 double parseShare(const std::string& text) {
@@ -69,9 +73,9 @@ void addBasics(ArgumentParser& parser, CommandLine& line) {
       "Definition of the values: of the ASDF paper, or of CGAL's sdf_values without\n"
       "post-processing. cgal: --rays 25 --seeds all unless given; default paper")
       .group(kRayGroup);
-  addValue(parser, "--seeds", "N%|N|all", "Faces that cast rays: a share, a count or all; default " + defaultSeeds(),
-           [&](const std::string& text) { options.seeds = parseSeedCount(text); })
-      .group(kBasicGroup);
+  addValue(parser, "--seeds", "N%|N|all|auto", seedHelp(), [&](const std::string& text) {
+    options.seeds = parseSeedCount(text);
+  }).group(kBasicGroup);
   addValue(parser, "--max-error", "E%[rel]",
            fmt::format("Add seeds until the estimated average error is below this share of the\n"
                        "range, or with rel until the median of error / value is; starts with {}%\n"

@@ -19,7 +19,7 @@ std::string remedyFor(ErrorCode code, bool requiresGpu, const std::string& value
   };
   switch (code) {
     case ErrorCode::UnknownField:
-      return "so few seeds allow no estimate; give more --seeds";
+      return "an estimate needs enough seeds, and faces that are none; give a share such as --seeds 10%";
     case ErrorCode::NoValues:
       return "try --orient auto or flip" + (valueOptions.empty() ? "" : ", or drop " + valueOptions);
     case ErrorCode::TooFewValues:

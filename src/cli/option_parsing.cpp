@@ -93,8 +93,9 @@ double parseSeconds(const std::string& text) {
 }
 
 SeedCount parseSeedCount(const std::string& text) {
-  const std::string wanted = "a share such as 10% (above 0%, at most 100%), a count of at least 1, or all";
+  const std::string wanted = "a share such as 10% (above 0%, at most 100%), a count of at least 1, all, or auto";
   if (text == "all") return SeedCount::all();
+  if (text == "auto") return SeedCount::automatic();
   if (text.ends_with('%')) {
     const auto percent = parseWhole<double>(std::string_view(text).substr(0, text.size() - 1));
     if (!percent || !(*percent > 0 && *percent <= 100)) reject(text, wanted);
@@ -114,6 +115,8 @@ uint64_t parseCheckCount(const std::string& text) {
 
 std::string toText(const SeedCount& seeds) {
   switch (seeds.kind) {
+    case SeedCount::Kind::Automatic:
+      return "auto";
     case SeedCount::Kind::All:
       return "all";
     case SeedCount::Kind::Count:

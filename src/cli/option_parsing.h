@@ -102,7 +102,7 @@ Argument addChoice(ArgumentParser& parser, std::string_view name, Target&& targe
 /// "2s" or "2": above 0, at most 1e9.
 [[nodiscard]] double parseSeconds(const std::string& text);
 
-/// "10%" (above 0, at most 100), "2000" (at least 1) or "all".
+/// "10%" (above 0, at most 100), "2000" (at least 1), "all" or "auto".
 [[nodiscard]] SeedCount parseSeedCount(const std::string& text);
 
 /// "2000" (at least 1) or "all" (parsed as the largest number).

@@ -9,6 +9,7 @@
 #include "estimate/reference_check.h"
 #include "pipeline/input_face_values.h"
 #include "pipeline/rounds.h"
+#include "pipeline/seed_choice.h"
 #include "pipeline/seed_tracing.h"
 #include "pipeline/segments.h"
 #include "pipeline/skeleton_points.h"
@@ -152,6 +153,13 @@ std::shared_ptr<const SceneData> sceneData(const std::shared_ptr<PreparedScene>&
   return std::make_shared<SceneData>(SceneData{scene, scene->view()});
 }
 
+/// Where every face becomes a seed nothing is interpolated, and no hit has to be kept.
+Options withAllSeeds(Options options, const FaceDomain& domain) {
+  const uint64_t faceCount = domain.traceableFaces.size();
+  if (faceCount > 0 && resolveSeedCount(options, faceCount) == faceCount) options.seeds = SeedCount::all();
+  return options;
+}
+
 }  // namespace
 
 Cone requireComputable(const SessionState& session, const Options& options) {
@@ -159,13 +167,14 @@ Cone requireComputable(const SessionState& session, const Options& options) {
   return makeCone(options.cone);
 }
 
-void computeOn(const ComputationInput& input, const Options& options, StageClock& clock, const RunControl& control,
+void computeOn(const ComputationInput& input, const Options& requested, StageClock& clock, const RunControl& control,
                Result& result) {
   Report& report = result.report;
   const auto& [session, sharedScene, domain, tracers, isLast] = input;
   Backend& backend = *session.named.backend;
   const PreparedMesh& prepared = sharedScene->prepared;
-  const Cone cone = requireComputable(session, options);
+  const Cone cone = requireComputable(session, requested);
+  const Options options = withAllSeeds(requested, domain);
   describeBackend(report, session.named);
   report.randomSeed = options.randomSeed;
   describeMesh(report, prepared, domain);

@@ -76,7 +76,7 @@ void requireValid(const Options& options, bool hasDevice) {
   if (interpolation.pooling > 0 && interpolation.guidance != Guidance::Prediction)
     throw Error(ErrorCode::OptionConflict, "pooling needs the prediction; choose guidance by prediction");
   (void)samplerOf(options);
-  (void)resolveSeedCount(options.seeds, 1);
+  (void)resolveSeedCount(options, 1);
   if (options.solver != kAutomaticSolver) requireUsable(findSolver(options.solver), hasDevice);
   if (const double tolerance = options.solverOptions.tolerance; !(tolerance > 0 && tolerance < 1))
     fail(fmt::format("a tolerance of {} is out of range (above 0, below 1)", tolerance));

@@ -69,7 +69,7 @@ class Rounds {
 
   RoundsResult run(const RunControl& control) {
     const uint64_t traceableCount = computation_.domain.traceableFaces.size();
-    runRound(resolveSeedCount(options_.seeds, traceableCount), !options_.rounds.areSet(), control);
+    runRound(resolveSeedCount(options_, traceableCount), !options_.rounds.areSet(), control);
     while (const uint64_t further = furtherCount()) runRound(further, false, control.withoutProgress());
     control.checkpoint(1);
     return {std::move(traced_), std::move(result_), std::move(errors_), roundCount_, std::move(traceVariant_)};

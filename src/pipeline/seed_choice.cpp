@@ -34,17 +34,21 @@ const Sampler& samplerOf(const Options& options) {
                                                   joined(samplerNames(), ", ")));
 }
 
-uint64_t resolveSeedCount(const SeedCount& request, uint64_t traceableFaceCount) {
+uint64_t resolveSeedCount(const Options& options, uint64_t traceableFaceCount) {
+  const SeedCount& request = options.seeds;
   if (traceableFaceCount == 0 || request.kind == SeedCount::Kind::All) return traceableFaceCount;
   if (request.kind == SeedCount::Kind::Count) {
     if (request.count == 0) throw Error(ErrorCode::OptionOutOfRange, "a seed count of 0 is out of range (1 or more)");
     return std::min(request.count, traceableFaceCount);
   }
-  if (!(request.share > 0 && request.share <= 1))
+  const bool isAutomatic = request.kind == SeedCount::Kind::Automatic;
+  const double share = isAutomatic ? kAutomaticSeedShare : request.share;
+  if (!(share > 0 && share <= 1))
     throw Error(ErrorCode::OptionOutOfRange,
-                fmt::format("a seed share of {} % is out of range (more than 0, at most 100 %)", 100 * request.share));
-  const double count = std::round(request.share * static_cast<double>(traceableFaceCount));
-  return std::clamp<uint64_t>(static_cast<uint64_t>(count), 1, traceableFaceCount);
+                fmt::format("a seed share of {} % is out of range (more than 0, at most 100 %)", 100 * share));
+  const auto count = static_cast<uint64_t>(std::round(share * static_cast<double>(traceableFaceCount)));
+  const bool hasMinimum = isAutomatic && options.interpolation.guidance == Guidance::Prediction;
+  return std::min(std::max(count, hasMinimum ? kMinAutomaticSeedCount : 1), traceableFaceCount);
 }
 
 SeedShares shareSeeds(uint64_t count, uint64_t earlierHeldOutCount, bool predicts) {

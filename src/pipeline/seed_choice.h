@@ -10,8 +10,9 @@
 
 namespace asdfvk {
 
-/// Number of seeds among the faces that can cast rays; at least one where there is any. Throws Error{OptionOutOfRange}.
-[[nodiscard]] uint64_t resolveSeedCount(const SeedCount& request, uint64_t traceableFaceCount);
+/// Number of seeds of the (first) round among the faces that can cast rays; at least one where there is any. Throws
+/// Error{OptionOutOfRange}.
+[[nodiscard]] uint64_t resolveSeedCount(const Options& options, uint64_t traceableFaceCount);
 
 /// Two kinds of seeds: those of the sampler, and held-out faces. Held-out faces are sampled at random among the other
 /// faces; the error of an interpolation without them is measured there without bias.

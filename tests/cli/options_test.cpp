@@ -21,8 +21,7 @@ namespace {
 TEST_CASE("a mesh alone gives the defaults") {
   const CommandLine line = parseCommandLine({"a.ply"});
   CHECK_EQ(line.meshes, std::vector<std::string>{"a.ply"});
-  CHECK(line.computation.options.seeds.kind == SeedCount::Kind::Share);
-  CHECK_EQ(line.computation.options.seeds.share, 0.1);
+  CHECK(line.computation.options.seeds.kind == SeedCount::Kind::Automatic);
   CHECK_EQ(line.computation.options.cone.rayCount, 30);
   CHECK_EQ(line.computation.options.cone.openingAngleDegrees, 120);
   CHECK(line.computation.recipe == Recipe::Balanced);
@@ -442,7 +441,8 @@ TEST_CASE("--definition cgal has 25 rays and all faces unless they are given, in
   CHECK_EQ(parseCommandLine({"a.ply", "--recipe", "paper", "--definition", "cgal"}).computation.options.sampler,
            "random");
   CHECK_EQ(coneOf({"a.ply", "--definition", "paper"}).rayCount, 30);
-  CHECK_EQ(parseCommandLine({"a.ply", "--definition", "paper"}).computation.options.seeds.share, 0.1);
+  CHECK(parseCommandLine({"a.ply", "--definition", "paper"}).computation.options.seeds.kind ==
+        SeedCount::Kind::Automatic);
 }
 
 TEST_CASE("errors and times are read with their unit or without") {
@@ -478,7 +478,8 @@ TEST_CASE("rounds begin with few seeds unless --seeds is given") {
   CHECK_EQ(parseCommandLine({"a.ply", "--time-budget", "1s"}).computation.options.seeds.share, 0.02);
   CHECK_EQ(parseCommandLine({"a.ply", "--seeds", "5%", "--max-error", "1%"}).computation.options.seeds.share, 0.05);
   CHECK_EQ(parseCommandLine({"a.ply", "--max-error", "1%", "--seeds", "10%"}).computation.options.seeds.share, 0.1);
-  CHECK_EQ(parseCommandLine({"a.ply", "--recipe", "paper"}).computation.options.seeds.share, 0.1);
+  CHECK(parseCommandLine({"a.ply", "--max-error", "1%", "--seeds", "auto"}).computation.options.seeds.kind ==
+        SeedCount::Kind::Automatic);
 }
 
 TEST_CASE("--help has the most needed options, --help=all all of them in groups") {
@@ -523,7 +524,7 @@ TEST_CASE("--help has the most needed options, --help=all all of them in groups"
 }
 
 TEST_CASE("the text of a seed count is the one it was read from") {
-  for (const char* text : {"all", "10%", "12.5%", "100%", "0.001%", "1", "12345678901"})
+  for (const char* text : {"all", "auto", "10%", "12.5%", "100%", "0.001%", "1", "12345678901"})
     CHECK_EQ(toText(parseSeedCount(text)), text);
 }
 

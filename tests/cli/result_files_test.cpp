@@ -116,7 +116,7 @@ TEST_CASE("a picture of a field that the result lacks ends with 1 and writes not
   const std::string mesh = folder.write("sphere.off", sphereOff(12));
   checkFailure(runAsdf({mesh, "--backend", "reference", "--quiet", "--seeds", "1", "-o", folder / "out.ply", "--points",
                         folder / "points.ply", "--picture", folder / "error.png", "--picture-of", "error"}),
-               1, "give more --seeds");
+               1, "give a share such as --seeds 10%");
   CHECK_EQ(folder.names(), Names{"sphere.off"});
 }
 

@@ -261,6 +261,7 @@ struct Accuracy {
 };
 
 Accuracy accuracyOf(const std::string& shape, Options options) {
+  options.seeds = SeedCount::ofShare(0.1);
   const Mesh mesh = generateShape(shape, 3000).mesh;
   const std::vector<double> truth = test::tracedEverywhere(mesh, options.cone);
   std::vector<double> sorted = truth;
@@ -321,7 +322,7 @@ TEST_CASE("the estimate is right on average, and its standard error is that of i
 
 TEST_CASE("seeds have an expected error of 0, and the mean of the expected errors is the estimate") {
   const Mesh mesh = makeAnimal(3000).mesh;
-  const Result result = referenceSession().compute(mesh, {});
+  const Result result = referenceSession().compute(mesh, test::tenthOfFaces());
   REQUIRE(result.report.estimatedError);
   const std::vector<double>& expected = test::expectedErrors(result);
   REQUIRE(expected.size() == result.sdf().size());
@@ -331,7 +332,7 @@ TEST_CASE("seeds have an expected error of 0, and the mean of the expected error
     if (result.seed()[face]) low = std::min(low, result.sdf()[face]), high = std::max(high, result.sdf()[face]);
   CHECK(meanOf(expected) / (high - low) == doctest::Approx(result.report.estimatedError->average).epsilon(1e-9));
 
-  Options pooled;
+  Options pooled = test::tenthOfFaces();
   applyRecipe(Recipe::Quality, pooled);
   const Result moved = referenceSession().compute(mesh, pooled);
   size_t movedSeedCount = 0;
@@ -343,7 +344,7 @@ TEST_CASE("seeds have an expected error of 0, and the mean of the expected error
 TEST_CASE("expected errors are large where errors are large") {
   const Mesh mesh = makeAnimal(3000).mesh;
   const std::vector<double> truth = test::tracedEverywhere(mesh);
-  const Result result = referenceSession().compute(mesh, {});
+  const Result result = referenceSession().compute(mesh, test::tenthOfFaces());
   const std::vector<double>& expected = test::expectedErrors(result);
   std::vector<size_t> faces;
   for (size_t face = 0; face < truth.size(); ++face)

@@ -40,7 +40,7 @@ struct TracedSphere {
 
 TEST_CASE("a traced result agrees with the reference and its interpolation error is small") {
   const Mesh mesh = makeTorus(4000).mesh;
-  Options options;
+  Options options = test::tenthOfFaces();
   options.checkCount = 1000;
   const Result result = test::vulkanSession().compute(mesh, options);
   REQUIRE(result.report.check);
@@ -62,7 +62,7 @@ TEST_CASE("a traced result agrees with the reference and its interpolation error
 
 TEST_CASE("few seeds among many faces are all checked, whatever the requested number") {
   const Mesh mesh = makeTorus(4000).mesh;
-  Options options;
+  Options options = test::tenthOfFaces();
   options.seeds = SeedCount::ofCount(1);
   options.checkCount = 5;
   const CheckReport check = test::vulkanSession().compute(mesh, options).report.check.value();
@@ -73,7 +73,7 @@ TEST_CASE("few seeds among many faces are all checked, whatever the requested nu
 
 TEST_CASE("values that the reference traced are not compared with the reference") {
   const Mesh mesh = makeTorus(2000).mesh;
-  Options options;
+  Options options = test::tenthOfFaces();
   options.checkCount = 500;
   const CheckReport check = test::referenceSession().compute(mesh, options).report.check.value();
   CHECK_FALSE(check.independent);
@@ -120,7 +120,7 @@ TEST_CASE("faces without a value on both sides are counted separately") {
   const auto first = static_cast<uint32_t>(mesh.vertices.size());
   for (const Vec3d& corner : {Vec3d{50, 0, 0}, Vec3d{51, 0, 0}, Vec3d{50, 1, 0}}) mesh.vertices.push_back(corner);
   mesh.faces.push_back({first, first + 1, first + 2});
-  Options options;
+  Options options = test::tenthOfFaces();
   options.seeds = SeedCount::all();
   options.checkCount = kAll;
   const CheckReport check = test::vulkanSession().compute(mesh, options).report.check.value();
@@ -139,7 +139,7 @@ TEST_CASE("without a traced face a check has not passed") {
 
 TEST_CASE("a check has its own part of the progress and ends it") {
   const Mesh mesh = makeTorus(4000).mesh;
-  Options options;
+  Options options = test::tenthOfFaces();
   options.seeds = SeedCount::all();
   options.checkCount = kAll;
   std::vector<double> fractions;

@@ -46,7 +46,7 @@ Mesh halfCoveredSheet() {
 
 }  // namespace
 
-TEST_CASE("CGAL's definition casts 25 rays from every face, and the paper's 30 from a tenth") {
+TEST_CASE("CGAL's definition casts 25 rays from every face, and the paper's 30 from an automatic number") {
   Options options = cgalOptions();
   CHECK(options.cone.rayCount == 25);
   CHECK(options.seeds.kind == SeedCount::Kind::All);
@@ -56,7 +56,7 @@ TEST_CASE("CGAL's definition casts 25 rays from every face, and the paper's 30 f
   applyDefinition(Definition::Paper, options);
   CHECK(options.cone.definition == Definition::Paper);
   CHECK(options.cone.rayCount == 30);
-  CHECK(options.seeds.share == 0.1);
+  CHECK(options.seeds.kind == SeedCount::Kind::Automatic);
 }
 
 TEST_CASE("faces whose rays all miss, and degenerate ones, have no value by CGAL's definition") {
@@ -111,11 +111,11 @@ TEST_CASE("options of the paper's definition are refused with CGAL's") {
 
 TEST_CASE("a session computes by both definitions in turn") {
   const Mesh mesh = makeAnimal(1500).mesh;
-  const std::vector<double> paper = vulkanSession().compute(mesh, {}).sdf();
+  const std::vector<double> paper = vulkanSession().compute(mesh, test::tenthOfFaces()).sdf();
   Options options = cgalOptions();
   options.cone.rayCount = 30;  // The same number of rays: the kernels differ by the definition only.
   options.checkCount = 500;
   const Result cgal = vulkanSession().compute(mesh, options);
   CHECK(cgal.report.check.value().missCount() <= 1);
-  CHECK(vulkanSession().compute(mesh, {}).sdf() == paper);
+  CHECK(vulkanSession().compute(mesh, test::tenthOfFaces()).sdf() == paper);
 }

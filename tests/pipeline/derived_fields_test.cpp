@@ -129,7 +129,7 @@ TEST_CASE("triangles of a polygon have its value and their own areas") {
 
 TEST_CASE("fields per vertex follow those per face and have their names") {
   const Mesh mesh = makeAnimal(1000).mesh;
-  Options options;
+  Options options = test::tenthOfFaces();
   options.computesCentres = true;
   const Result plain = referenceSession().compute(mesh, options);
   options.per = PerElement::Vertices;

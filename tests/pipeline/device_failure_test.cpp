@@ -87,8 +87,8 @@ struct Expected {
   Expected() {
     Session device, next({.backend = kNextBackend});
     for (const int i : {0, 1}) {
-      onDevice[i] = device.compute(meshes[i]).sdf();
-      replaced[i] = next.compute(meshes[i]).sdf();
+      onDevice[i] = device.compute(meshes[i], test::tenthOfFaces()).sdf();
+      replaced[i] = next.compute(meshes[i], test::tenthOfFaces()).sdf();
     }
   }
 
@@ -103,7 +103,7 @@ struct Expected {
                                  CHECK(fraction <= 1);
                                  last = fraction;
                                }};
-      const Result result = session.compute(meshes[i], {}, control);
+      const Result result = session.compute(meshes[i], test::tenthOfFaces(), control);
       CHECK(last == 1);
       const Warning* warning = findWarning(result.report, WarningCode::BackendReplaced);
       CHECK((warning != nullptr) == (result.report.backend == kNextBackend));
@@ -137,7 +137,7 @@ void checkReplaced(Session& session, const Mesh& mesh, const Result& result, Err
   CHECK(warning->details[1].value == nameOf(code));
   CHECK(session.deviceLines().back().starts_with("vulkan: failed: "));
   Session expected({.backend = kNextBackend});
-  CHECK(test::haveSameBits(result.sdf(), expected.compute(mesh).sdf()));
+  CHECK(test::haveSameBits(result.sdf(), expected.compute(mesh, test::tenthOfFaces()).sdf()));
 }
 
 }  // namespace
@@ -183,12 +183,12 @@ TEST_CASE("a mesh that exceeds the memory of the device leaves the device to lat
   for (int i = 0; i < 2; ++i) {
     {
       const FullDevice full;
-      check(scene.compute(), true, expected.replaced[0]);
+      check(scene.compute(test::tenthOfFaces()), true, expected.replaced[0]);
     }
-    Options options;
+    Options options = test::tenthOfFaces();
     options.solver = "cg";
     check(session.compute(expected.meshes[1], options), false, expected.onDevice[1]);
-    check(scene.compute(), false, expected.onDevice[0]);
+    check(scene.compute(test::tenthOfFaces()), false, expected.onDevice[0]);
   }
 }
 
@@ -207,12 +207,12 @@ TEST_CASE("a device with wrong values is refused at its first use") {
   {
     Session session, requested({.backend = "vulkan"});
     const WrongDevice wrong;
-    checkReplaced(session, mesh, session.compute(mesh), ErrorCode::NoUsableDevice);
-    requireFailure([&] { (void)requested.compute(mesh); }, ErrorCode::NoUsableDevice,
+    checkReplaced(session, mesh, session.compute(mesh, test::tenthOfFaces()), ErrorCode::NoUsableDevice);
+    requireFailure([&] { (void)requested.compute(mesh, test::tenthOfFaces()); }, ErrorCode::NoUsableDevice,
                    "computes wrong values: 64 of 64 faces of a generated mesh");
   }
   Session session;
-  (void)session.compute(mesh);
+  (void)session.compute(mesh, test::tenthOfFaces());
   CHECK(session.backend() == "vulkan");
 }
 
@@ -221,7 +221,7 @@ TEST_CASE("each kernel is checked at its first use, whatever the mesh") {
   Session session({.backend = "vulkan"});
   (void)session.compute(cube);
   const WrongDevice wrong;
-  Options options;
+  Options options = test::tenthOfFaces();
   options.cone.rayCount = 31;
   options.seeds = SeedCount::all();
   for (const Mesh& mesh : {sheet, cube})
@@ -241,7 +241,7 @@ TEST_CASE("the CPU predicts where the device predicts wrong values") {
   const Mesh mesh = makeTorus(1000).mesh;
   Session session;
   const WrongPredictions wrong;
-  Options options;
+  Options options = test::tenthOfFaces();
   const Result result = session.compute(mesh, options);
   CHECK(session.backend() == "vulkan");
   const Warning* warning = findWarning(result.report, WarningCode::PredictedOnCpu);
@@ -259,17 +259,19 @@ TEST_CASE("a requested backend, device, variant or solver of the device is not r
     Session session(options);
     {
       const FullDevice full;
-      requireFailure([&] { (void)session.compute(mesh); }, ErrorCode::OutOfDeviceMemory, "out of device memory");
+      requireFailure([&] { (void)session.compute(mesh, test::tenthOfFaces()); }, ErrorCode::OutOfDeviceMemory,
+                     "out of device memory");
     }
-    (void)session.compute(mesh);
+    (void)session.compute(mesh, test::tenthOfFaces());
     for (const uint32_t n : {1, 1000}) {  // For ever, also where nothing loses the device any more.
       const LostDevice lost(n);
-      requireFailure([&] { (void)session.compute(mesh); }, ErrorCode::DeviceLost, "the device was lost");
+      requireFailure([&] { (void)session.compute(mesh, test::tenthOfFaces()); }, ErrorCode::DeviceLost,
+                     "the device was lost");
     }
     CHECK(session.backend() == "vulkan");
   }
   Session session;
-  Options options;
+  Options options = test::tenthOfFaces();
   options.solver = "cg";
   const LostDevice lost(1);
   requireFailure([&] { (void)session.compute(mesh, options); }, ErrorCode::DeviceLost);
@@ -280,8 +282,8 @@ TEST_CASE("a scene continues with the backend that replaces a lost device") {
   const Mesh mesh = makeTorus(1000).mesh;
   Session session, expectedSession({.backend = kNextBackend});
   Scene scene(session, mesh), other(session, mesh), expected(expectedSession, mesh);
-  (void)scene.compute();
-  (void)other.compute();
+  (void)scene.compute(test::tenthOfFaces());
+  (void)other.compute(test::tenthOfFaces());
   const std::vector<double> points{0.5, 0.5, 0.5}, normals{0, 0, 1};
   {
     const LostDevice lost(1);
@@ -289,8 +291,8 @@ TEST_CASE("a scene continues with the backend that replaces a lost device") {
   }
   CHECK(session.backend() == kNextBackend);
   for (Scene* each : {&scene, &other}) {
-    const Result result = each->compute();
+    const Result result = each->compute(test::tenthOfFaces());
     CHECK(findWarning(result.report, WarningCode::BackendReplaced) != nullptr);
-    CHECK(test::haveSameBits(result.sdf(), expected.compute().sdf()));
+    CHECK(test::haveSameBits(result.sdf(), expected.compute(test::tenthOfFaces()).sdf()));
   }
 }

@@ -102,7 +102,7 @@ struct DeviceOutcome {
 
 DeviceOutcome runWith(GpuBackend::Predictor predictor, const std::string& solver) {
   DeviceOutcome outcome;
-  Options options;
+  Options options = test::tenthOfFaces();
   options.solver = solver;
   const Mesh mesh = makeAnimal(2000).mesh;
   const PreparedMesh prepared = prepareMesh(mesh, Orientation::Keep);

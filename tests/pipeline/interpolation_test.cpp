@@ -24,7 +24,7 @@ namespace {
 Result compute(const Mesh& mesh, const Options& options) { return referenceSession().compute(mesh, options); }
 
 Options with(Guidance guidance) {
-  Options options;
+  Options options = test::tenthOfFaces();
   options.interpolation.guidance = guidance;
   return options;
 }
@@ -70,7 +70,7 @@ TEST_CASE("pooling moves values in proportion") {
   const Mesh mesh = makeTorus(1000).mesh;
   std::vector<double> at[3];
   for (int i = 0; i < 3; ++i) {
-    Options options;
+    Options options = test::tenthOfFaces();
     options.interpolation.pooling = 0.5 * i;
     at[i] = compute(mesh, options).sdf();
   }
@@ -81,8 +81,8 @@ TEST_CASE("pooling moves values in proportion") {
 TEST_CASE("smoothing is the last step, on the finished values") {
   const Mesh mesh = makeAnimal(2000).mesh;
   const DualGraph graph = buildDualGraph(mesh);
-  const std::vector<double> rough = compute(mesh, {}).sdf();
-  Options options;
+  const std::vector<double> rough = compute(mesh, test::tenthOfFaces()).sdf();
+  Options options = test::tenthOfFaces();
   options.smoothing = {.isOn = true, .window = SmoothingOptions::Window{.rings = 2, .passes = 1}};
   const Result smooth = compute(mesh, options);
   CHECK(smooth.sdf() == smoothBilaterally(graph, rough, *options.smoothing.window));
@@ -175,7 +175,7 @@ TEST_CASE("values of an open mesh and of one with defects are finite or NaN, and
   for (const Mesh& mesh : {open, broken})
     for (const Recipe recipe : {Recipe::Paper, Recipe::Balanced, Recipe::Quality}) {
       CAPTURE(static_cast<int>(recipe));
-      Options options;
+      Options options = test::tenthOfFaces();
       applyRecipe(recipe, options);
       const Result result = compute(mesh, options);
       CHECK(result.sdf().size() == mesh.faces.size());
@@ -189,7 +189,7 @@ TEST_CASE("values of an open mesh and of one with defects are finite or NaN, and
 
 TEST_CASE("options of the interpolation and of rounds out of range are errors of usage") {
   const auto requireFailure = [](const auto& change, ErrorCode code, const std::string& part) {
-    Options options;
+    Options options = test::tenthOfFaces();
     change(options);
     test::requireFailure([&] { (void)compute(makeSphere(80).mesh, options); }, code, part);
     CHECK(kindOf(code) == ErrorKind::Usage);
@@ -231,7 +231,7 @@ TEST_CASE("the device and the reference agree under every recipe") {
   const Mesh mesh = makeTorus(1500).mesh;
   for (const Recipe recipe : {Recipe::Paper, Recipe::Balanced, Recipe::Quality}) {
     CAPTURE(static_cast<int>(recipe));
-    Options options;
+    Options options = test::tenthOfFaces();
     applyRecipe(recipe, options);
     options.solverOptions.tolerance = 1e-6;
     const Result device = test::vulkanSession().compute(mesh, options), reference = compute(mesh, options);
@@ -256,7 +256,7 @@ TEST_CASE("a part a hundred thousand times smaller than the other is interpolate
   };
   const double greatest = *std::max_element(traced.begin() + static_cast<std::ptrdiff_t>(faceCount), traced.end());
   for (const Recipe recipe : {Recipe::Paper, Recipe::Balanced}) {
-    Options options;
+    Options options = test::tenthOfFaces();
     applyRecipe(recipe, options);
     const std::vector<double> values = small(compute(mesh, options).sdf());
     CHECK(averageError(values, small(traced)) < 0.1);

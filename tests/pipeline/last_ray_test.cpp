@@ -122,6 +122,7 @@ TEST_CASE("the tracer is released once, after the last ray and before all soluti
   for (const bool isAdaptive : {false, true}) {
     CAPTURE(isAdaptive);
     Options options;
+    options.seeds = SeedCount::ofShare(0.1);
     if (isAdaptive) options.sampler = "adaptive";
     const Outcome outcome = run(options);
     CHECK(outcome.roundCount == (isAdaptive ? 2u : 1u));
@@ -137,7 +138,7 @@ TEST_CASE("the tracer is released once, after the last ray and before all soluti
 TEST_CASE("the tracer is kept while further rounds may follow") {
   Options options;
   options.rounds.maxError = 0.004;
-  options.seeds.share = 0.02;
+  options.seeds = SeedCount::ofShare(0.02);
   const Outcome outcome = run(options);
   CHECK(outcome.roundCount > 1);
   CHECK(outcome.count(Event::Release) == 1);

@@ -54,7 +54,7 @@ void requireSameResult(const Result& a, const Result& b) {
 }
 
 Options with(Orientation orientation) {
-  Options options;
+  Options options = test::tenthOfFaces();
   options.orientation = orientation;
   return options;
 }
@@ -64,7 +64,8 @@ Options with(Orientation orientation) {
 TEST_CASE("arrays of double positions and triangles give the same bits as a Mesh") {
   const Mesh mesh = makeAnimal(2000).mesh;
   const Arrays arrays(mesh);
-  requireSameResult(referenceSession().compute(arrays.triangles()), referenceSession().compute(mesh));
+  requireSameResult(referenceSession().compute(arrays.triangles(), test::tenthOfFaces()),
+                    referenceSession().compute(mesh, test::tenthOfFaces()));
 }
 
 TEST_CASE("double positions and triangles are used in place") {
@@ -89,7 +90,8 @@ TEST_CASE("float positions give the same bits as a Mesh of the same numbers in d
   REQUIRE(rounded.positions != arrays.positions);
   const MeshView view(floats, arrays.corners);
   CHECK(view.vertexCount() == arrays.positions.size() / 3);
-  requireSameResult(referenceSession().compute(view), referenceSession().compute(rounded.triangles()));
+  requireSameResult(referenceSession().compute(view, test::tenthOfFaces()),
+                    referenceSession().compute(rounded.triangles(), test::tenthOfFaces()));
 }
 
 TEST_CASE("polygons as arrays have one value per input face, in double and in float") {
@@ -123,7 +125,8 @@ TEST_CASE("polygons as arrays have one value per input face, in double and in fl
 TEST_CASE("triangles as polygons of three corners give the same bits as triangles") {
   Arrays arrays(makeTorus(1000).mesh);
   for (uint64_t i = 0; i <= arrays.corners.size() / 3; ++i) arrays.firstCorner.push_back(3 * i);
-  requireSameResult(referenceSession().compute(arrays.polygons()), referenceSession().compute(arrays.triangles()));
+  requireSameResult(referenceSession().compute(arrays.polygons(), test::tenthOfFaces()),
+                    referenceSession().compute(arrays.triangles(), test::tenthOfFaces()));
 }
 
 TEST_CASE("input faces of fewer than three corners have no value and keep the order of the others") {
@@ -241,7 +244,7 @@ TEST_CASE("faces are reversed in a copy: the arrays of the caller do not change,
   CHECK(reversed.reversedFaces == sphereFaces);
   CHECK(test::findWarning(reversed.report, WarningCode::ComponentsReversed) != nullptr);
   CHECK(test::findWarning(reversed.report, WarningCode::InvertedComponents) == nullptr);
-  requireSameResult(reversed, referenceSession().compute(correct));
+  requireSameResult(reversed, referenceSession().compute(correct, test::tenthOfFaces()));
   const Result flipped = referenceSession().compute(arrays.triangles(), with(Orientation::Flip));
   CHECK(flipped.reversedFaces == allFaces);
   CHECK(arrays.positions == before.positions);

@@ -24,6 +24,7 @@ double errorBy(Recipe recipe, const Mesh& mesh, const std::vector<double>& truth
   double sum = 0;
   for (uint64_t run = 1; run <= kRunCount; ++run) {
     Options options = optionsOf(recipe);
+    options.seeds = SeedCount::ofShare(0.1);
     options.randomSeed = run;
     sum += averageError(referenceSession().compute(mesh, options).sdf(), truth);
   }
@@ -65,7 +66,7 @@ TEST_CASE("quality is balanced with hashed cones and pooled values") {
 TEST_CASE("a recipe replaces another one and changes no other option") {
   for (const Recipe recipe : {Recipe::Paper, Recipe::Balanced, Recipe::Quality}) {
     Options options;
-    options.seeds.share = 0.3;
+    options.seeds = SeedCount::ofShare(0.3);
     options.randomSeed = 77;
     options.cone.rayCount = 12;
     options.cone.openingAngleDegrees = 100;

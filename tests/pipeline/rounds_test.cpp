@@ -20,15 +20,15 @@ Result computeRounds(const Mesh& mesh, const Options& options) { return referenc
 
 /// Begins with two percent, as the command line does.
 Options roundsUntil(double maxError) {
-  Options options;
-  options.seeds.share = 0.02;
+  Options options = test::tenthOfFaces();
+  options.seeds = SeedCount::ofShare(0.02);
   options.rounds.maxError = maxError;
   return options;
 }
 
 Options roundsFor(double seconds) {
-  Options options;
-  options.seeds.share = 0.02;
+  Options options = test::tenthOfFaces();
+  options.seeds = SeedCount::ofShare(0.02);
   options.rounds.timeBudgetSeconds = seconds;
   return options;
 }
@@ -147,7 +147,7 @@ TEST_CASE("seeds that a round gave to components without one are not chosen agai
     CAPTURE(sampler);
     for (const double maxError : {0.005, 1e-9}) {
       Options options = roundsUntil(maxError);
-      options.seeds.share = 0.005;
+      options.seeds = SeedCount::ofShare(0.005);
       options.sampler = sampler;
       const Result result = computeRounds(mesh, options);
       CHECK(result.report.roundCount > 1);
@@ -155,7 +155,7 @@ TEST_CASE("seeds that a round gave to components without one are not chosen agai
       CHECK(result.report.noValueCount == 0);
     }
     Options once;
-    once.seeds.share = 0.02;
+    once.seeds = SeedCount::ofShare(0.02);
     once.sampler = sampler;
     const Result result = computeRounds(mesh, once);
     CHECK(result.report.seedCount == markedCount(result));
@@ -187,9 +187,9 @@ TEST_CASE("rounds end at the time budget or at the maximum error, at the first t
 TEST_CASE("the adaptive sampler casts as many rays in two rounds, and its error is not larger") {
   const Mesh mesh = makeHand(4000).mesh;
   const std::vector<double> truth = test::tracedEverywhere(mesh);
-  Options adaptive;
+  Options adaptive = test::tenthOfFaces();
   adaptive.sampler = "adaptive";
-  const Result blueNoise = computeRounds(mesh, {}), twoPasses = computeRounds(mesh, adaptive);
+  const Result blueNoise = computeRounds(mesh, test::tenthOfFaces()), twoPasses = computeRounds(mesh, adaptive);
   CHECK(twoPasses.report.roundCount == 2);
   CHECK(twoPasses.report.seedCount == blueNoise.report.seedCount);
   CHECK(twoPasses.seed() != blueNoise.seed());
@@ -201,7 +201,7 @@ TEST_CASE("the adaptive sampler casts as many rays in two rounds, and its error 
 
 TEST_CASE("adaptive seeds are as many as requested where no estimate is requested") {
   const Mesh mesh = makeAnimal(2500).mesh;
-  Options options;
+  Options options = test::tenthOfFaces();
   options.estimatesError = false;
   const uint64_t requested = computeRounds(mesh, options).report.seedCount;
   options.sampler = "adaptive";
@@ -214,7 +214,7 @@ TEST_CASE("adaptive seeds are as many as requested where no estimate is requeste
 
 TEST_CASE("seeds too few to hold any out give no estimate, and those that are enough do") {
   const Mesh mesh = makeAnimal(2500).mesh;
-  Options options;
+  Options options = test::tenthOfFaces();
   for (const std::string sampler : {"blue-noise", "adaptive"})
     for (const uint64_t count : {1, 2, 3, 9, 40}) {
       CAPTURE(sampler);
@@ -231,7 +231,7 @@ TEST_CASE("seeds too few to hold any out give no estimate, and those that are en
 
 TEST_CASE("without a prediction, random seeds do not depend on the estimate") {
   const Mesh mesh = makeAnimal(2500).mesh;
-  Options options;
+  Options options = test::tenthOfFaces();
   applyRecipe(Recipe::Paper, options);
   const Result with = computeRounds(mesh, options);
   options.estimatesError = false;
@@ -248,7 +248,7 @@ TEST_CASE("an estimate costs no accuracy: held-out faces lie where seeds lower t
     const Mesh mesh = generateShape(name, 4000).mesh;
     const std::vector<double> truth = test::tracedEverywhere(mesh);
     for (const uint64_t randomSeed : {1u, 2u, 3u, 4u}) {
-      Options options;
+      Options options = test::tenthOfFaces();
       options.randomSeed = randomSeed;
       const double with = averageError(computeRounds(mesh, options).sdf(), truth);
       options.estimatesError = false;

@@ -54,20 +54,20 @@ void checkSameFields(const Result& a, const Result& b) {
 }
 
 Options thicknessBelow(double limit) {
-  Options options;
+  Options options = test::tenthOfFaces();
   options.measure = Measure::Both;
   options.thickness.thinnerThan = limit;
   return options;
 }
 
 Options cgal() {
-  Options options;
+  Options options = test::tenthOfFaces();
   applyDefinition(Definition::Cgal, options);
   return options;
 }
 
 Options partsPerVertex() {
-  Options options;
+  Options options = test::tenthOfFaces();
   options.segmentation = Segmentation::Parts;
   options.per = PerElement::Vertices;
   options.computesCentres = true;
@@ -111,7 +111,8 @@ TEST_CASE("a scene gives the bits of Session::compute for one set of options aft
   for (Session* session : allSessions()) {
     CAPTURE(session->backend());
     Scene scene(*session, mesh);
-    for (const Options& options : {Options{}, cgal(), thicknessBelow(0.4), partsPerVertex(), allSeeds(), Options{}})
+    for (const Options& options :
+         {test::tenthOfFaces(), cgal(), thicknessBelow(0.4), partsPerVertex(), allSeeds(), test::tenthOfFaces()})
       checkSameFields(scene.compute(options), session->compute(mesh, options));
   }
 }
@@ -119,12 +120,12 @@ TEST_CASE("a scene gives the bits of Session::compute for one set of options aft
 TEST_CASE("the orientation is that of the scene") {
   const Mesh mesh = shapes::inverted(shapes::sphere(3));
   Scene scene(referenceSession(), mesh, Orientation::Auto);
-  Options options;
+  Options options = test::tenthOfFaces();
   options.orientation = Orientation::Auto;
   const Result expected = referenceSession().compute(mesh, options);
-  checkSameFields(scene.compute(), expected);
+  checkSameFields(scene.compute(test::tenthOfFaces()), expected);
   checkSameFields(scene.compute(options), expected);
-  CHECK(scene.compute().reversedFaces == expected.reversedFaces);
+  CHECK(scene.compute(test::tenthOfFaces()).reversedFaces == expected.reversedFaces);
   options.orientation = Orientation::Flip;
   requireFailure([&] { (void)scene.compute(options); }, ErrorCode::OptionConflict, "orientation");
 }
@@ -133,7 +134,7 @@ TEST_CASE("a scene measures its preparation apart from its computations") {
   const Mesh mesh = shapes::sphere(4);
   Scene scene(referenceSession(), mesh);
   const StageSeconds& preparation = scene.preparationSeconds();
-  const Report report = scene.compute().report;
+  const Report report = scene.compute(test::tenthOfFaces()).report;
   for (const Stage stage : {Stage::Geometry, Stage::Graph, Stage::Bvh}) {
     CHECK(preparation[stage] > 0);
     CHECK(report.stageSeconds[stage] == 0);
@@ -144,7 +145,7 @@ TEST_CASE("a scene measures its preparation apart from its computations") {
 
 TEST_CASE("the scene of a picture outlives the Scene that it came from") {
   const Mesh mesh = shapes::sphere(2);
-  Options options;
+  Options options = test::tenthOfFaces();
   options.keepsScene = true;
   Result result;
   {
@@ -161,7 +162,7 @@ TEST_CASE("invalid meshes and options throw as in Session::compute, and the scen
   requireFailure([&] { Scene scene(referenceSession(), Mesh{}); }, ErrorCode::EmptyMesh);
   const Mesh mesh = shapes::sphere(2);
   Scene scene(referenceSession(), mesh);
-  Options options;
+  Options options = test::tenthOfFaces();
   options.cone.rayCount = 0;
   requireFailure([&] { (void)scene.compute(options); }, ErrorCode::OptionOutOfRange, "0 rays");
   std::stop_source source;
@@ -172,7 +173,7 @@ TEST_CASE("invalid meshes and options throw as in Session::compute, and the scen
         Scene(referenceSession(), mesh, Orientation::Keep, {source.get_token(), {}});
       },
       ErrorCode::Cancelled);
-  checkSameFields(scene.compute(), referenceSession().compute(mesh));
+  checkSameFields(scene.compute(test::tenthOfFaces()), referenceSession().compute(mesh, test::tenthOfFaces()));
 }
 
 TEST_CASE("a region of all faces gives the bits of the whole mesh") {
@@ -181,7 +182,7 @@ TEST_CASE("a region of all faces gives the bits of the whole mesh") {
   Scene scene(vulkanSession(), mesh);
   Options smooth = allSeeds();
   smooth.smoothing.isOn = true;
-  for (const Options& options : {Options{}, cgal(), thicknessBelow(0.4), smooth})
+  for (const Options& options : {test::tenthOfFaces(), cgal(), thicknessBelow(0.4), smooth})
     checkSameFields(scene.compute(options, all), scene.compute(options));
 }
 
@@ -224,7 +225,7 @@ TEST_CASE("a share of a region is seeds in it, and the rest of it is interpolate
   const std::vector<double> exact = scene.compute(allSeeds()).sdf();
   for (const std::string& sampler : samplerNames()) {
     CAPTURE(sampler);
-    Options options;
+    Options options = test::tenthOfFaces();
     options.sampler = sampler;
     const Result result = scene.compute(options, region);
     CHECK(result.report.seedCount >= (inside + 5) / 10);
@@ -247,7 +248,7 @@ TEST_CASE("a component of a region is computed apart from the surface around it"
   std::vector<uint8_t> region(mesh.faces.size(), 0);
   for (size_t f = 0; f < region.size(); f += 100) region[f] = 1;  // Single faces: each is a component.
   Scene scene(referenceSession(), mesh);
-  Options options;
+  Options options = test::tenthOfFaces();
   options.seeds = SeedCount::ofCount(1);
   const Result result = scene.compute(options, region);
   const auto inside = static_cast<uint64_t>(std::count(region.begin(), region.end(), 1));
@@ -305,7 +306,7 @@ TEST_CASE("a region of polygons has all triangles of its polygons") {
 
 TEST_CASE("a check of a region compares its faces") {
   const Mesh mesh = makeTorus(2000).mesh;
-  Options options;
+  Options options = test::tenthOfFaces();
   options.checkCount = 5000;
   Scene scene(vulkanSession(), mesh);
   const std::vector<uint8_t> region = facesBeyond(mesh, 0.3);
@@ -324,11 +325,11 @@ TEST_CASE("regions of a wrong size or without a face, and options that need the 
   requireFailure([&] { (void)scene.compute({}, region); }, ErrorCode::EmptyMesh, "no face");
   region[0] = 1;
   for (const Segmentation segmentation : {Segmentation::Parts, Segmentation::Cgal}) {
-    Options options;
+    Options options = test::tenthOfFaces();
     options.segmentation = segmentation;
     requireFailure([&] { (void)scene.compute(options, region); }, ErrorCode::OptionConflict, "segments");
   }
-  Options options;
+  Options options = test::tenthOfFaces();
   options.postprocess = Postprocess::Cgal;
   requireFailure([&] { (void)scene.compute(options, region); }, ErrorCode::OptionConflict, "post-process");
   CHECK(scene.compute({}, region).report.seedCount == 1);
@@ -373,7 +374,7 @@ TEST_CASE("hundreds of scenes leave no memory behind" * doctest::test_suite("slo
     const auto runScenes = [&](int count) {
       for (int i = 0; i < count; ++i) {
         Scene scene(session, mesh);
-        (void)scene.compute();
+        (void)scene.compute(test::tenthOfFaces());
         (void)scene.valuesAt(point, point);
       }
     };

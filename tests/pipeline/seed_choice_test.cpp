@@ -44,12 +44,19 @@ SeedChoice choose(const PreparedMesh& mesh, const Options& options, const SeedSh
   return chooseSeeds(wholeMesh(mesh), mesh.geometry, options, shares, earlier, density);
 }
 
+uint64_t seedCountOf(const SeedCount& request, uint64_t faceCount, Recipe recipe = Recipe::Balanced) {
+  Options options;
+  applyRecipe(recipe, options);
+  options.seeds = request;
+  return resolveSeedCount(options, faceCount);
+}
+
 std::vector<uint32_t> allOf(const SeedChoice& choice) { return joined(choice.sampled, choice.heldOut); }
 
 }  // namespace
 
 TEST_CASE("a share is of the faces that can cast rays, one at least; a count is no more than there are") {
-  const auto share = [](double of, uint64_t faceCount) { return resolveSeedCount(SeedCount::ofShare(of), faceCount); };
+  const auto share = [](double of, uint64_t faceCount) { return seedCountOf(SeedCount::ofShare(of), faceCount); };
   CHECK(share(0.1, 1000) == 100);
   CHECK(share(0.1, 1004) == 100);
   CHECK(share(0.1, 1006) == 101);
@@ -57,10 +64,24 @@ TEST_CASE("a share is of the faces that can cast rays, one at least; a count is 
   CHECK(share(1, 1000) == 1000);
   CHECK(share(0.1, 0) == 0);
   for (const double bad : {0.0, -0.1, 1.01}) CHECK_THROWS_AS((void)share(bad, 10), Error);
-  CHECK(resolveSeedCount(SeedCount::ofCount(7), 1000) == 7);
-  CHECK(resolveSeedCount(SeedCount::ofCount(7000), 1000) == 1000);
-  CHECK_THROWS_AS((void)resolveSeedCount(SeedCount::ofCount(0), 10), Error);
-  CHECK(resolveSeedCount(SeedCount::all(), 1000) == 1000);
+  CHECK(seedCountOf(SeedCount::ofCount(7), 1000) == 7);
+  CHECK(seedCountOf(SeedCount::ofCount(7000), 1000) == 1000);
+  CHECK_THROWS_AS((void)seedCountOf(SeedCount::ofCount(0), 10), Error);
+  CHECK(seedCountOf(SeedCount::all(), 1000) == 1000);
+}
+
+TEST_CASE("an automatic number of seeds is a tenth of the faces, but no less than a fixed number or all faces") {
+  const auto automatic = [](uint64_t faceCount) { return seedCountOf(SeedCount::automatic(), faceCount); };
+  const uint64_t least = kMinAutomaticSeedCount;
+  CHECK(automatic(0) == 0);
+  CHECK(automatic(12) == 12);
+  CHECK(automatic(least) == least);
+  CHECK(automatic(least + 1) == least);
+  CHECK(automatic(10 * least) == least);
+  CHECK(automatic(10 * least + 20) == least + 2);
+  CHECK(automatic(1'000'000) == 100'000);
+  CHECK(seedCountOf(SeedCount::automatic(), 2000, Recipe::Quality) == 2000);
+  CHECK(seedCountOf(SeedCount::automatic(), 2000, Recipe::Paper) == 200);
 }
 
 TEST_CASE("seeds are divided without a rest: at most a quarter is held out, a tenth are extreme seeds") {

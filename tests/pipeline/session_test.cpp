@@ -51,7 +51,7 @@ double largestRelativeDifference(const std::vector<double>& a, const std::vector
 
 TEST_CASE("a tenth of the faces casts rays and every face gets a value") {
   const Mesh mesh = makeSphere(2000).mesh;
-  const Result result = vulkanSession().compute(mesh, {});
+  const Result result = vulkanSession().compute(mesh, test::tenthOfFaces());
   CHECK(result.sdf().size() == mesh.faces.size());
   CHECK(result.report.seedCount == 200);
   CHECK(result.report.rayCount == 6000);
@@ -66,7 +66,7 @@ TEST_CASE("a tenth of the faces casts rays and every face gets a value") {
 
 TEST_CASE("without guidance interpolated values stay within the range of the seeds") {
   const Mesh mesh = makeTorus(3000).mesh;
-  Options options;
+  Options options = test::tenthOfFaces();
   options.interpolation.guidance = Guidance::None;
   const Result result = vulkanSession().compute(mesh, options);
   double low = 1e30, high = -1e30;
@@ -79,7 +79,7 @@ TEST_CASE("without guidance interpolated values stay within the range of the see
 TEST_CASE("two runs give the same bits") {
   const Mesh mesh = makeTorus(2000).mesh;
   for (const std::string solver : {"eigen", hasDeviceSolvers() ? "cg" : "cpu"}) {
-    Options options;
+    Options options = test::tenthOfFaces();
     options.solver = solver;
     CHECK(vulkanSession().compute(mesh, options).sdf() == vulkanSession().compute(mesh, options).sdf());
   }
@@ -89,7 +89,7 @@ TEST_CASE("another random seed chooses other faces") {
   const Mesh mesh = makeTorus(2000).mesh;
   Options other;
   other.randomSeed = 2;
-  CHECK(vulkanSession().compute(mesh, {}).seed() != vulkanSession().compute(mesh, other).seed());
+  CHECK(vulkanSession().compute(mesh, test::tenthOfFaces()).seed() != vulkanSession().compute(mesh, other).seed());
 }
 
 TEST_CASE("scaling and shifting a mesh scales its values and nothing else") {
@@ -115,7 +115,7 @@ TEST_CASE("scaling and shifting a mesh scales its values and nothing else") {
 
 TEST_CASE("a component without a seed gets one") {
   const Mesh mesh = twoSpheres(5000, 20);
-  Options options;
+  Options options = test::tenthOfFaces();
   options.seeds = SeedCount::ofCount(3);
   const Result result = vulkanSession().compute(mesh, options);
   CHECK(result.report.componentCount == 2);
@@ -128,7 +128,7 @@ TEST_CASE("a component without any valid ray has no value, and a warning has the
   mesh.vertices.insert(mesh.vertices.end(), {{5, 0, 0}, {6, 0, 0}, {5, 1, 0}});
   const auto v = static_cast<uint32_t>(mesh.vertices.size());
   mesh.faces.push_back({v - 3, v - 2, v - 1});
-  const Result result = vulkanSession().compute(mesh, {});
+  const Result result = vulkanSession().compute(mesh, test::tenthOfFaces());
   CHECK(std::isnan(result.sdf().back()));
   CHECK(result.report.noValueCount == 1);
   const Warning* warning = findWarning(result.report, WarningCode::MissingValues);
@@ -228,14 +228,14 @@ TEST_CASE("a warning names an inverted sphere, which is reversed on request; the
   Mesh mesh = sphere;
   for (Face& face : mesh.faces) std::swap(face[1], face[2]);
   const Mesh inverted = mesh;
-  const Result kept = vulkanSession().compute(mesh);
+  const Result kept = vulkanSession().compute(mesh, test::tenthOfFaces());
   CHECK(kept.report.noValueCount == 500);
   CHECK(kept.reversedFaces.empty());
   CHECK(findWarning(kept.report, WarningCode::InvertedComponents) != nullptr);
   CHECK(findWarning(kept.report, WarningCode::ComponentsReversed) == nullptr);
-  const std::vector<double> expected = vulkanSession().compute(sphere).sdf();
+  const std::vector<double> expected = vulkanSession().compute(sphere, test::tenthOfFaces()).sdf();
   for (const Orientation orientation : {Orientation::Auto, Orientation::Flip}) {
-    Options options;
+    Options options = test::tenthOfFaces();
     options.orientation = orientation;
     const Result reversed = vulkanSession().compute(mesh, options);
     CHECK(reversed.report.noValueCount == 0);
@@ -261,7 +261,7 @@ TEST_CASE("a mesh that is all degenerate has no values and is no error") {
   Mesh line;
   line.vertices = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
   line.faces = {{0, 1, 2}, {2, 1, 0}};
-  const Result result = vulkanSession().compute(line, {});
+  const Result result = vulkanSession().compute(line, test::tenthOfFaces());
   CHECK(result.report.noValueCount == 2);
   CHECK(result.report.seedCount == 0);
 }
@@ -269,7 +269,7 @@ TEST_CASE("a mesh that is all degenerate has no values and is no error") {
 TEST_CASE("options out of range are errors, also where nothing uses them") {
   const Mesh mesh = makeSphere(80).mesh;
   const auto requireRefusal = [&](const char* part, const auto& set) {
-    Options options;
+    Options options = test::tenthOfFaces();
     options.seeds = SeedCount::all();
     set(options);
     requireFailure([&] { (void)referenceSession().compute(mesh, options); }, ErrorCode::OptionOutOfRange, part);
@@ -282,7 +282,7 @@ TEST_CASE("options out of range are errors, also where nothing uses them") {
   requireRefusal("0 iterations", [](Options& options) { options.solverOptions.maxIterations = 0; });
   requireRefusal("check of 0", [](Options& options) { options.checkCount = 0; });
   requireRefusal("maximum error of 1", [](Options& options) { options.rounds.maxError = 1; });
-  Options options;
+  Options options = test::tenthOfFaces();
   options.seeds = SeedCount::all();
   options.solver = "gauss";
   requireFailure([&] { (void)referenceSession().compute(mesh, options); }, ErrorCode::UnknownName, "gauss");
@@ -290,7 +290,7 @@ TEST_CASE("options out of range are errors, also where nothing uses them") {
 
 TEST_CASE("the reference has no solver on a device") {
   const Mesh mesh = makeSphere(80).mesh;
-  Options options;
+  Options options = test::tenthOfFaces();
   options.solver = "cg";
   requireFailure([&] { (void)referenceSession().compute(mesh, options); }, ErrorCode::NoDeviceForKernel,
                  "the solver cg runs on a Vulkan device");
@@ -299,7 +299,7 @@ TEST_CASE("the reference has no solver on a device") {
 TEST_CASE("all solvers give the same values") {
   if (!hasDeviceSolvers()) return;
   const Mesh mesh = makeTorus(3000).mesh;
-  Options options;
+  Options options = test::tenthOfFaces();
   options.solverOptions.tolerance = 1e-6;
   options.solver = "eigen";
   const std::vector<double> eigen = vulkanSession().compute(mesh, options).sdf();
@@ -312,7 +312,7 @@ TEST_CASE("all solvers give the same values") {
 TEST_CASE("a warning reports that the CPU finished where float32 of the device does not reach the tolerance") {
   if (!hasDeviceSolvers()) return;
   const Mesh mesh = makeTorus(1000).mesh;
-  Options options;
+  Options options = test::tenthOfFaces();
   options.solver = "cg";
   const auto finishedOnCpu = [&] {
     const Report report = vulkanSession().compute(mesh, options).report;
@@ -349,7 +349,7 @@ TEST_CASE("progress goes from 0 to 1 and never back") {
                        monotonic = monotonic && fraction >= last && fraction <= 1;
                        last = fraction;
                      }};
-  (void)vulkanSession().compute(mesh, {}, control);
+  (void)vulkanSession().compute(mesh, test::tenthOfFaces(), control);
   CHECK(monotonic);
   CHECK(last > 0.5);
 }
@@ -361,7 +361,7 @@ TEST_CASE("stages that ran have a time, others have 0, and no time is counted tw
   const Mesh mesh = makeTorus(3000).mesh;
   for (Session* session : sessions) {
     const Stopwatch watch;
-    const Report report = session->compute(mesh, {}).report;
+    const Report report = session->compute(mesh, test::tenthOfFaces()).report;
     const double total = watch.seconds();
     CAPTURE(report.backend);
     const StageSeconds& seconds = report.stageSeconds;
@@ -403,7 +403,7 @@ TEST_CASE("Embree gives the values of the reference, and the check treats it as 
 
 TEST_CASE("a few faces with most of the range are a warning where errors over the range are reported") {
   Mesh mesh = makeAnimal(3000).mesh;
-  Options options;
+  Options options = test::tenthOfFaces();
   CHECK(findWarning(referenceSession().compute(mesh, options).report, WarningCode::RangeDominated) == nullptr);
   const Mesh large = shapes::scaledAndShifted(makeSphere(20).mesh, 50, {200, 0, 0});
   const auto offset = static_cast<uint32_t>(mesh.vertices.size());

@@ -53,6 +53,13 @@ inline Options allSeeds() {
   return options;
 }
 
+/// A tenth of the faces, however small the mesh is.
+inline Options tenthOfFaces() {
+  Options options;
+  options.seeds = SeedCount::ofShare(0.1);
+  return options;
+}
+
 /// The field "error" of a result that must have one.
 inline const std::vector<double>& expectedErrors(const Result& result) {
   const Field* field = result.field("error");
