@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/parallel.h"
+#include "estimate/local_interpolation.h"
 #include "mesh/curvature.h"
 #include "poisson/poisson_system.h"
 
@@ -38,18 +39,22 @@ std::vector<double> firstGuess(const FaceDomain& domain, const std::vector<Compo
   return guess;
 }
 
-/// Limits values of a component, which guidance, and rounding of the solvers, move beyond those of the seeds: below to
+/// Limits a value of a component, which guidance, and rounding of the solvers, move beyond those of the seeds: below to
 /// the smaller of the lowest seed value and the prediction of the face, if any, above to the highest seed value, since
-/// the faces with the greatest predictions are seeds (extremeSeeds()). Returns the number of limited faces. predicted:
-/// #F, or empty.
+/// the faces with the greatest predictions are seeds (extremeSeeds()).
+double limited(const ComponentValues& component, double prediction, double value) {
+  if (component.count == 0 || !std::isfinite(value)) return value;
+  const double low = std::isfinite(prediction) ? std::min(component.low, prediction) : component.low;
+  return std::clamp(value, low, component.high);
+}
+
+/// Returns the number of limited faces. predicted: #F, or empty.
 uint64_t keepWithinTraced(const FaceDomain& domain, const std::vector<ComponentValues>& traced,
                           std::span<const double> predicted, std::vector<double>& values) {
   return countInParallel(values.size(), [&](uint32_t face) {
-    const ComponentValues& component = traced[domain.componentOf[face]];
-    if (component.count == 0 || !std::isfinite(values[face])) return false;
+    if (!std::isfinite(values[face])) return false;
     const double prediction = predicted.empty() ? kNoValue : predicted[face];
-    const double low = std::isfinite(prediction) ? std::min(component.low, prediction) : component.low;
-    const double value = std::clamp(values[face], low, component.high);
+    const double value = limited(traced[domain.componentOf[face]], prediction, values[face]);
     return std::exchange(values[face], value) != value;
   });
 }
@@ -71,11 +76,46 @@ Interpolated Interpolation::solve(std::span<const double> constraints, std::span
   } else {
     result.values.assign(constraints.begin(), constraints.end());
   }
-  if (const double pooling = options_.interpolation.pooling; pooling > 0)
-    for (size_t face = 0; face < predicted.size(); ++face)
-      if (std::isfinite(predicted[face]) && std::isfinite(result.values[face]))
-        result.values[face] += pooling * (predicted[face] - result.values[face]);
   return result;
+}
+
+double Interpolation::pooled(double value, double prediction) const {
+  return std::isfinite(prediction) && std::isfinite(value)
+             ? value + options_.interpolation.pooling * (prediction - value)
+             : value;
+}
+
+void Interpolation::pool(std::span<const double> predicted, std::vector<double>& values) const {
+  if (options_.interpolation.pooling > 0)
+    for (size_t face = 0; face < predicted.size(); ++face) values[face] = pooled(values[face], predicted[face]);
+}
+
+std::vector<double> Interpolation::valuesAt(std::span<const uint32_t> faces, std::span<const double> constraints,
+                                            std::span<const double> predicted, std::span<const double> solved) {
+  const std::vector<ComponentValues> traced = componentValues(domain_, constraints);
+  const bool isGuided = options_.interpolation.guidance == Guidance::Prediction;
+  const std::vector<double> divergence = this->divergence();
+  std::vector<double> values = interpolateLocally(
+      {domain_.graph, weights(), constraints, isGuided ? predicted : std::span<const double>(), divergence, solved},
+      faces);
+  for (size_t i = 0; i < faces.size(); ++i) {
+    const double prediction = predicted.empty() ? kNoValue : predicted[faces[i]];
+    values[i] = pooled(limited(traced[domain_.componentOf[faces[i]]], prediction, values[i]), prediction);
+  }
+  return values;
+}
+
+std::span<const double> Interpolation::weights() {
+  if (weights_.empty()) weights_ = arcWeights(options_.interpolation.weights, domain_.graph, prepared_.geometry);
+  return weights_;
+}
+
+/// #F, or empty.
+std::vector<double> Interpolation::divergence() const {
+  if (options_.interpolation.guidance != Guidance::Curvature) return {};
+  std::vector<double> divergence = faceCurvature(prepared_.mesh);
+  for (double& entry : divergence) entry = -entry;
+  return divergence;
 }
 
 GraphProblem Interpolation::problemOf(std::span<const double> constraints, std::span<const double> predicted,
@@ -83,13 +123,9 @@ GraphProblem Interpolation::problemOf(std::span<const double> constraints, std::
   GraphProblem problem{.constraints = constraints,
                        .firstGuess = firstGuess(domain_, traced, predicted),
                        .guide = {},
-                       .divergence = {},
+                       .divergence = divergence(),
                        .componentOf = domain_.componentOf};
   if (options_.interpolation.guidance == Guidance::Prediction) problem.guide = predicted;
-  if (options_.interpolation.guidance == Guidance::Curvature) {
-    problem.divergence = faceCurvature(prepared_.mesh);
-    for (double& entry : problem.divergence) entry = -entry;
-  }
   return problem;
 }
 
@@ -104,8 +140,7 @@ SolverReport Interpolation::solveEquation(std::span<const double> constraints, s
     values.assign(constraints.begin(), constraints.end());
     return {.name = "none"};
   }
-  if (weights_.empty()) weights_ = arcWeights(options_.interpolation.weights, domain_.graph, prepared_.geometry);
-  return solver_.solve(domain_.graph, weights_, problemOf(constraints, predicted, traced), values, control);
+  return solver_.solve(domain_.graph, weights(), problemOf(constraints, predicted, traced), values, control);
 }
 
 }  // namespace asdfvk

@@ -34,11 +34,20 @@ class Interpolation {
       : domain_(domain), prepared_(prepared), options_(options), solver_(solver) {}
 
   /// constraints: #F, NaN where a value is unknown. predicted: #F, or empty: the prediction that guides the solution
-  /// with Guidance::Prediction.
+  /// with Guidance::Prediction. The values are not pooled yet.
   [[nodiscard]] Interpolated solve(std::span<const double> constraints, std::span<const double> predicted,
                                    const RunControl& control);
+  /// The pooled values of `faces` by these constraints and this prediction; see interpolateLocally(). solved: the
+  /// result of solve() with more constraints. Returns #faces.
+  [[nodiscard]] std::vector<double> valuesAt(std::span<const uint32_t> faces, std::span<const double> constraints,
+                                             std::span<const double> predicted, std::span<const double> solved);
+  /// Moves values of solve() to the prediction by InterpolationOptions::pooling.
+  void pool(std::span<const double> predicted, std::vector<double>& values) const;
 
  private:
+  [[nodiscard]] std::span<const double> weights();
+  [[nodiscard]] double pooled(double value, double prediction) const;
+  [[nodiscard]] std::vector<double> divergence() const;
   [[nodiscard]] GraphProblem problemOf(std::span<const double> constraints, std::span<const double> predicted,
                                        const std::vector<ComponentValues>& traced) const;
   SolverReport solveEquation(std::span<const double> constraints, std::span<const double> predicted,

@@ -28,8 +28,8 @@ constexpr double kPlannedShare = 0.8;
 constexpr double kMaxSeedCount = 1e18;
 
 // Parts of the progress of a round.
-constexpr double kTracedProgress = 0.7, kIndicatorProgress = 0.73, kHeldOutTracedProgress = 0.83,
-                 kHeldOutSolvedProgress = 0.87, kPredictedProgress = 0.93;
+constexpr double kTracedProgress = 0.7, kIndicatorProgress = 0.75, kHeldOutTracedProgress = 0.85,
+                 kPredictedProgress = 0.87;
 
 std::vector<uint32_t> sorted(std::vector<uint32_t> faces) {
   std::sort(faces.begin(), faces.end());
@@ -82,10 +82,13 @@ class Rounds {
   [[nodiscard]] SeedChoice chooseWhileOpening(const SeedShares& shares);
   void traceChosen(SeedChoice choice, const RunControl& control);
   void sortSampled();
-  [[nodiscard]] std::vector<double> indicateErrors(Stage stage, const RunControl& control);
+  std::vector<uint32_t> predictWithoutHeldOut(Stage stage, const RunControl& control);
+  [[nodiscard]] std::vector<double> indicateErrors(Stage stage, std::span<const uint32_t> predictedFrom);
   std::vector<uint32_t> traceByPrediction(const SeedShares& shares, std::span<const double> indicator,
                                           const RunControl& control);
-  [[nodiscard]] std::vector<double> solveWithoutHeldOut(std::span<const uint32_t> extremes, const RunControl& control);
+  void interpolate(std::span<const uint32_t> extremes, std::span<const double> indicator, bool estimates,
+                   const RunControl& control);
+  [[nodiscard]] std::vector<double> solveWithoutHeldOut(std::span<const uint32_t> extremes);
   [[nodiscard]] uint64_t furtherCount() const;
   [[nodiscard]] uint64_t countForError() const;
   [[nodiscard]] uint64_t countForTarget(std::optional<double> maximum, double estimate, double standardError) const;
@@ -132,37 +135,56 @@ void Rounds::runRound(uint64_t count, bool isLast, const RunControl& control) {
   hits_.reserve(count);
   traceChosen(std::move(choice), control.part(0, refines ? kTracedProgress / 2 : kTracedProgress));
   if (refines) {
-    const std::vector<double> density = indicateErrors(Stage::Sample, control.withoutProgress());
+    const std::vector<double> density =
+        indicateErrors(Stage::Sample, predictWithoutHeldOut(Stage::Sample, control.withoutProgress()));
     traceChosen(timedChoice({.sampled = refiningCount}, density), control.part(kTracedProgress / 2, kTracedProgress));
   }
   const bool estimates = remainingCount() > 0 && shares.heldOut + heldOut_.faces.size() > 0;
   std::vector<double> indicator;
   std::vector<uint32_t> extremes;
   if (estimates && predicts) {
-    indicator = indicateErrors(Stage::Estimate, control.part(kTracedProgress, kIndicatorProgress));
+    indicator = indicateErrors(
+        Stage::Estimate, predictWithoutHeldOut(Stage::Predict, control.part(kTracedProgress, kIndicatorProgress)));
     control.checkpoint(kIndicatorProgress);
     extremes = traceByPrediction(shares, indicator, control.part(kIndicatorProgress, kHeldOutTracedProgress));
   }
   if (isLast) tracing_.reset();
-  std::vector<double> withoutHeldOut;  // #H
-  if (estimates)
-    withoutHeldOut = solveWithoutHeldOut(extremes, control.part(kHeldOutTracedProgress, kHeldOutSolvedProgress));
+  interpolate(extremes, indicator, estimates, control.part(kHeldOutTracedProgress, 1));
+  interpolationSeconds_ = clock_.elapsed() - begin - (raySeconds() - earlierRays);
+}
+
+/// The result, and its errors where they are estimated. extremes: of this round.
+void Rounds::interpolate(std::span<const uint32_t> extremes, std::span<const double> indicator, bool estimates,
+                         const RunControl& control) {
+  const bool hasPrediction = estimates && computation_.predicts();  // Without the held-out faces.
+  std::vector<ReplacedValue> replaced;
   {
-    const auto scope = clock_.time(Stage::Predict);
-    prediction_.predict(traced_.faces, hits_, control.part(kHeldOutSolvedProgress, kPredictedProgress));
+    const auto scope = clock_.time(hasPrediction ? Stage::Estimate : Stage::Predict);
+    const RunControl predicting = control.part(0, kPredictedProgress);
+    if (hasPrediction)
+      replaced = prediction_.addSeeds(traced_.faces, hits_, predicting);
+    else
+      prediction_.predict(traced_.faces, hits_, predicting);
   }
   control.checkpoint(kPredictedProgress);
   {
     const auto scope = clock_.time(Stage::Solve);
     result_ = interpolation_.solve(traced_.values, prediction_.last().values, control.part(kPredictedProgress, 1));
   }
+  std::vector<double> withoutHeldOut;  // #H
   if (estimates) {
     const auto scope = clock_.time(Stage::Estimate);
-    EstimatedErrors errors = estimateErrors(computation_.scene.mesh,
-                                            {traced_, heldOut_, withoutHeldOut, indicator, result_.values, predicts});
+    prediction_.exchange(replaced);
+    withoutHeldOut = solveWithoutHeldOut(extremes);
+    prediction_.exchange(replaced);
+  }
+  interpolation_.pool(prediction_.last().values, result_.values);
+  if (estimates) {
+    const auto scope = clock_.time(Stage::Estimate);
+    EstimatedErrors errors = estimateErrors(computation_.scene.mesh, {traced_, heldOut_, withoutHeldOut, indicator,
+                                                                      result_.values, computation_.predicts()});
     if (errors.estimate.heldOutCount > 0) errors_ = std::move(errors);
   }
-  interpolationSeconds_ = clock_.elapsed() - begin - (raySeconds() - earlierRays);
 }
 
 /// density: see chooseSeeds().
@@ -222,14 +244,20 @@ void Rounds::sortSampled() {
                       std::back_inserter(sampled_.sampled));
 }
 
-/// The error indicator, #F, from a prediction without the held-out faces. stage: to be charged.
-std::vector<double> Rounds::indicateErrors(Stage stage, const RunControl& control) {
+/// Returns the seeds that contributed, #S as traced, kNoFace for held-out faces.
+std::vector<uint32_t> Rounds::predictWithoutHeldOut(Stage stage, const RunControl& control) {
   const auto scope = clock_.time(stage);
   std::vector<uint32_t> faces = traced_.faces;
   for (uint32_t& face : faces)
     if (std::binary_search(sampled_.heldOut.begin(), sampled_.heldOut.end(), face)) face = kNoFace;
   prediction_.predict(faces, hits_, control);
-  return errorIndicator(prediction_.last(), faces, traced_.values);
+  return faces;
+}
+
+/// The error indicator, #F, from the last prediction. stage: to be charged.
+std::vector<double> Rounds::indicateErrors(Stage stage, std::span<const uint32_t> predictedFrom) {
+  const auto scope = clock_.time(stage);
+  return errorIndicator(prediction_.last(), predictedFrom, traced_.values);
 }
 
 /// Traces the faces with the greatest predictions, which are returned, and held-out faces sampled by the indicator.
@@ -261,16 +289,11 @@ std::vector<uint32_t> Rounds::traceByPrediction(const SeedShares& shares, std::s
 }
 
 /// #H: the values of the held-out faces, interpolated without them and without these extreme seeds.
-std::vector<double> Rounds::solveWithoutHeldOut(std::span<const uint32_t> extremes, const RunControl& control) {
-  const auto scope = clock_.time(Stage::Estimate);
+std::vector<double> Rounds::solveWithoutHeldOut(std::span<const uint32_t> extremes) {
   std::vector<uint32_t> unknown = heldOut_.faces;
   unknown.insert(unknown.end(), extremes.begin(), extremes.end());
   const HiddenValues hidden(traced_.values, std::move(unknown));
-  const std::vector<double> values = interpolation_.solve(traced_.values, prediction_.last().values, control).values;
-  std::vector<double> ofHeldOut;
-  ofHeldOut.reserve(heldOut_.faces.size());
-  for (const uint32_t face : heldOut_.faces) ofHeldOut.push_back(values[face]);
-  return ofHeldOut;
+  return interpolation_.valuesAt(heldOut_.faces, traced_.values, prediction_.last().values, result_.values);
 }
 
 uint64_t Rounds::remainingCount() const {

@@ -45,23 +45,41 @@ HitStore* SeedPrediction::hitStore() {
   return device != nullptr ? device->hitStore() : nullptr;
 }
 
-void SeedPrediction::predict(std::span<const uint32_t> seeds, SeedHits& hits, const RunControl& control) {
-  if (!hits.areKept() || seeds.empty()) return;
+template <typename Run>
+void SeedPrediction::runWithDevice(std::span<const uint32_t> seeds, SeedHits& hits, const Run& run) {
   if (DevicePredictor* const device = devicePredictor()) {
     try {
-      return predictWith(device, {seeds, hits.onHost()}, control);
+      return run(device, SeedHitsView{seeds, hits.onHost()});
     } catch (const Error& error) {
       continueOnCpu(error);
     }
     hits.moveToHost();
     predictor_.reset();
   }
-  predictWith(nullptr, {seeds, hits.onHost()}, control);
+  run(nullptr, SeedHitsView{seeds, hits.onHost()});
 }
 
-void SeedPrediction::predictWith(DevicePredictor* device, const SeedHitsView& hits, const RunControl& control) {
-  last_ = predictValues(computation_.scene, computation_.domain.graph, computation_.cone, hits, {},
-                        std::exchange(last_, {}), device, control);
+void SeedPrediction::predict(std::span<const uint32_t> seeds, SeedHits& hits, const RunControl& control) {
+  if (!hits.areKept() || seeds.empty()) return;
+  runWithDevice(seeds, hits, [&](DevicePredictor* device, const SeedHitsView& view) {
+    last_ = predictValues(computation_.scene, computation_.domain.graph, computation_.cone, view, {},
+                          std::exchange(last_, {}), device, control);
+  });
+}
+
+std::vector<ReplacedValue> SeedPrediction::addSeeds(std::span<const uint32_t> seeds, SeedHits& hits,
+                                                    const RunControl& control) {
+  std::vector<ReplacedValue> replaced;
+  if (!hits.areKept() || seeds.empty()) return replaced;
+  runWithDevice(seeds, hits, [&](DevicePredictor* device, const SeedHitsView& view) {
+    replaced = asdfvk::addSeeds(computation_.scene, computation_.domain.graph, computation_.cone, view, {}, last_,
+                                device, control);
+  });
+  return replaced;
+}
+
+void SeedPrediction::exchange(std::vector<ReplacedValue>& replaced) {
+  for (auto& [face, value] : replaced) std::swap(value, last_.values[face]);
 }
 
 }  // namespace asdfvk

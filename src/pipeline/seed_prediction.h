@@ -24,6 +24,12 @@ class SeedPrediction {
   /// fails move to the host. Seeds of an earlier call must be at the same indices; kNoFace: the hits are ignored.
   /// Throws Error{Cancelled}.
   void predict(std::span<const uint32_t> seeds, SeedHits& hits, const RunControl& control);
+  /// Adds the seeds that have no cell yet to the last prediction. Returns its earlier values; see asdfvk::addSeeds().
+  /// Throws as predict().
+  [[nodiscard]] std::vector<ReplacedValue> addSeeds(std::span<const uint32_t> seeds, SeedHits& hits,
+                                                    const RunControl& control);
+  /// Exchanges these values of the last prediction with those in it.
+  void exchange(std::vector<ReplacedValue>& replaced);
   /// The last prediction; empty without Guidance::Prediction.
   [[nodiscard]] const Prediction& last() const { return last_; }
 
@@ -31,7 +37,9 @@ class SeedPrediction {
   [[nodiscard]] bool predictsOnDevice() const;
   DevicePredictor* devicePredictor();
   void continueOnCpu(const Error& failure);
-  void predictWith(DevicePredictor* device, const SeedHitsView& hits, const RunControl& control);
+  /// Calls run(device, hits), on the CPU where the device fails.
+  template <typename Run>
+  void runWithDevice(std::span<const uint32_t> seeds, SeedHits& hits, const Run& run);
 
   const Computation& computation_;
   Prediction last_;

@@ -191,6 +191,33 @@ void predictOnCpu(const PredictionInput& input, std::vector<double>& values) {
   });
 }
 
+/// Gives each new cell the faces around its seed that are nearer to it than to the seed of their cell. Returns these
+/// faces, ascending.
+std::vector<uint32_t> claimFaces(const DualGraph& graph, const FaceGeometry& geometry, std::span<const uint32_t> seeds,
+                                 std::span<const uint32_t> newCells, std::vector<uint32_t>& cellOf) {
+  const auto squaredDistance = [&](uint32_t face, uint32_t cell) {
+    const Vec3d between = geometry.barycentres[face] - geometry.barycentres[seeds[cell]];
+    return dot(between, between);
+  };
+  for (const uint32_t cell : newCells) cellOf[seeds[cell]] = cell;
+  std::vector<uint32_t> claimed, queue;
+  for (const uint32_t cell : newCells) {
+    queue.assign(1, seeds[cell]);
+    for (size_t next = 0; next < queue.size(); ++next)
+      for (const uint32_t neighbour : graph.neighboursOf(queue[next])) {
+        const uint32_t other = cellOf[neighbour];
+        if (other == cell || (other != kNoCell && seeds[other] == neighbour)) continue;
+        if (other != kNoCell && !(squaredDistance(neighbour, cell) < squaredDistance(neighbour, other))) continue;
+        cellOf[neighbour] = cell;
+        queue.push_back(neighbour);
+      }
+    claimed.insert(claimed.end(), queue.begin(), queue.end());
+  }
+  std::sort(claimed.begin(), claimed.end());
+  claimed.erase(std::unique(claimed.begin(), claimed.end()), claimed.end());
+  return claimed;
+}
+
 }  // namespace
 
 bool PredictionInput::hasEarlierSeeds(uint32_t cell) const {
@@ -214,6 +241,42 @@ Prediction predictValues(const TraceScene& scene, const DualGraph& graph, const 
     predictOnCpu(input, prediction.values);
   prediction.cellOf = std::move(cells.cellOf);
   return prediction;
+}
+
+std::vector<ReplacedValue> addSeeds(const TraceScene& scene, const DualGraph& graph, const Cone& cone,
+                                    const SeedHitsView& hits, const PredictionOptions& options, Prediction& prediction,
+                                    DevicePredictor* device, const RunControl& control) {
+  std::vector<uint32_t> newCells;
+  for (uint32_t cell = 0; cell < hits.seeds.size(); ++cell)
+    if (const uint32_t seed = hits.seeds[cell]; seed != kNoFace && prediction.cellOf[seed] != cell)
+      newCells.push_back(cell);
+  std::vector<uint32_t> cellOf = prediction.cellOf;  // A failure of the device leaves the prediction unchanged.
+  const std::vector<uint32_t> claimed = claimFaces(graph, scene.geometry, hits.seeds, newCells, cellOf);
+  SeedCells cells{std::vector<uint32_t>(graph.faceCount(), kNoCell),
+                  sortIntoBuckets<uint32_t>(hits.seeds.size(), claimed.size(),
+                                            [&](uint32_t i, const auto& put) { put(cellOf[claimed[i]], claimed[i]); })};
+  std::vector<ReplacedValue> replaced;
+  replaced.reserve(claimed.size());
+  for (const uint32_t face : claimed) {
+    cells.cellOf[face] = cellOf[face];
+    replaced.push_back({face, std::exchange(prediction.values[face], kNoValue)});
+  }
+  NearestCells nearest = prediction.nearest;
+  nearest.update(newCells, cells.faces, cellOf, graph, scene.geometry, hits.seeds);
+  const Prediction none;
+  const PredictionInput input{scene, cone, hits, cells, nearest, options, newCells, none};
+  try {
+    if (device != nullptr)
+      device->predict(input, prediction.values, control);
+    else
+      predictOnCpu(input, prediction.values);
+  } catch (...) {
+    for (const auto& [face, value] : replaced) prediction.values[face] = value;
+    throw;
+  }
+  prediction.cellOf = std::move(cellOf);
+  prediction.nearest = std::move(nearest);
+  return replaced;
 }
 
 }  // namespace asdfvk

@@ -37,7 +37,7 @@ struct PredictionInput {
   const TraceScene& scene;
   const Cone& cone;
   const SeedHitsView& hits;
-  const SeedCells& cells;
+  const SeedCells& cells;  ///< Of the faces that are to be predicted.
   const NearestCells& nearest;
   const PredictionOptions& options;
   std::span<const uint32_t> order;  ///< The cells that are not empty; neighbours in space are close to each other.
@@ -69,5 +69,20 @@ class DevicePredictor {
                                        const SeedHitsView& hits, const PredictionOptions& options,
                                        Prediction earlier = {}, DevicePredictor* device = nullptr,
                                        const RunControl& control = {});
+
+/// A value of a prediction before it was replaced.
+struct ReplacedValue {
+  uint32_t face;
+  double value;
+};
+
+/// Adds seeds to a prediction: those in `hits` that have no cell in it yet. The cell of such a seed is made of the
+/// faces around it that are nearer to it than to the seed of their cell, and only these are predicted again. The other
+/// faces keep their values, although a new seed may be near. Arguments and errors as of predictValues(). Returns the
+/// earlier values, by ascending faces.
+[[nodiscard]] std::vector<ReplacedValue> addSeeds(const TraceScene& scene, const DualGraph& graph, const Cone& cone,
+                                                  const SeedHitsView& hits, const PredictionOptions& options,
+                                                  Prediction& prediction, DevicePredictor* device = nullptr,
+                                                  const RunControl& control = {});
 
 }  // namespace asdfvk

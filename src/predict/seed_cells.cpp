@@ -64,6 +64,41 @@ SeedCells buildSeedCells(const DualGraph& graph, std::span<const uint32_t> seeds
   return cells;
 }
 
+/// Finds the row of one cell after another.
+class NearestCells::RowBuilder {
+ public:
+  RowBuilder(const DualGraph& graph, std::span<const uint32_t> cellOf, size_t stride)
+      : graph_(graph), cellOf_(cellOf), stride_(stride) {}
+
+  /// centreOf: the barycentre of the seed of a cell. row: stride_ entries, all kNoCell.
+  template <typename CentreOf>
+  void build(uint32_t cell, std::span<const uint32_t> faces, const CentreOf& centreOf, uint32_t* row) {
+    touching_.clear();
+    for (const uint32_t face : faces)
+      for (const uint32_t neighbour : graph_.neighboursOf(face))
+        if (cellOf_[neighbour] != cell) touching_.push_back(cellOf_[neighbour]);
+    std::sort(touching_.begin(), touching_.end());
+    touching_.erase(std::unique(touching_.begin(), touching_.end()), touching_.end());
+    byDistance_.clear();
+    const Vec3d centre = centreOf(cell);
+    for (const uint32_t other : touching_) {
+      const Vec3d between = centreOf(other) - centre;
+      byDistance_.emplace_back(dot(between, between), other);
+    }
+    std::sort(byDistance_.begin(), byDistance_.end());
+    if (byDistance_.size() > stride_ - 1) byDistance_.resize(stride_ - 1);
+    *row++ = cell;
+    for (const auto& [distance, other] : byDistance_) *row++ = other;
+  }
+
+ private:
+  const DualGraph& graph_;
+  std::span<const uint32_t> cellOf_;
+  size_t stride_;
+  std::vector<uint32_t> touching_;
+  std::vector<std::pair<double, uint32_t>> byDistance_;
+};
+
 NearestCells::NearestCells(const SeedCells& cells, const DualGraph& graph, const FaceGeometry& geometry,
                            std::span<const uint32_t> seeds, size_t neighbourCount)
     : stride_(1 + neighbourCount), nearest_(seeds.size() * stride_, kNoCell) {
@@ -73,26 +108,27 @@ NearestCells::NearestCells(const SeedCells& cells, const DualGraph& graph, const
   });
   constexpr size_t kGrain = 256;
   forEachRange(seeds.size(), kGrain, [&](size_t begin, size_t end) {
-    std::vector<uint32_t> touching;
-    std::vector<std::pair<double, uint32_t>> byDistance;
-    for (auto cell = static_cast<uint32_t>(begin); cell < end; ++cell) {
-      if (seeds[cell] == kNoFace) continue;
-      touching.clear();
-      for (const uint32_t face : cells.faces[cell])
-        for (const uint32_t neighbour : graph.neighboursOf(face))
-          if (cells.cellOf[neighbour] != cell) touching.push_back(cells.cellOf[neighbour]);
-      std::sort(touching.begin(), touching.end());
-      touching.erase(std::unique(touching.begin(), touching.end()), touching.end());
-      byDistance.clear();
-      for (const uint32_t other : touching) {
-        const Vec3d between = centres[other] - centres[cell];
-        byDistance.emplace_back(dot(between, between), other);
-      }
-      std::sort(byDistance.begin(), byDistance.end());
-      if (byDistance.size() > stride_ - 1) byDistance.resize(stride_ - 1);
-      auto nearest = nearest_.begin() + static_cast<std::ptrdiff_t>(cell * stride_);
-      *nearest++ = cell;
-      for (const auto& [distance, other] : byDistance) *nearest++ = other;
+    RowBuilder rows(graph, cells.cellOf, stride_);
+    for (auto cell = static_cast<uint32_t>(begin); cell < end; ++cell)
+      if (seeds[cell] != kNoFace)
+        rows.build(
+            cell, cells.faces[cell], [&](uint32_t other) { return centres[other]; }, &nearest_[cell * stride_]);
+  });
+}
+
+void NearestCells::update(std::span<const uint32_t> changed, const Buckets<uint32_t>& cells,
+                          std::span<const uint32_t> cellOf, const DualGraph& graph, const FaceGeometry& geometry,
+                          std::span<const uint32_t> seeds) {
+  nearest_.resize(seeds.size() * stride_, kNoCell);
+  constexpr size_t kGrain = 64;
+  forEachRange(changed.size(), kGrain, [&](size_t begin, size_t end) {
+    RowBuilder rows(graph, cellOf, stride_);
+    for (size_t i = begin; i < end; ++i) {
+      const uint32_t cell = changed[i];
+      const std::span<uint32_t> row = std::span(nearest_).subspan(cell * stride_, stride_);
+      std::ranges::fill(row, kNoCell);
+      rows.build(
+          cell, cells[cell], [&](uint32_t other) { return geometry.barycentres[seeds[other]]; }, row.data());
     }
   });
 }

@@ -32,10 +32,16 @@ class NearestCells {
   NearestCells(const SeedCells& cells, const DualGraph& graph, const FaceGeometry& geometry,
                std::span<const uint32_t> seeds, size_t neighbourCount);
 
+  /// Adds or replaces the rows of some cells. cells: the faces of these cells. cellOf: #F, of all cells.
+  void update(std::span<const uint32_t> changed, const Buckets<uint32_t>& cells, std::span<const uint32_t> cellOf,
+              const DualGraph& graph, const FaceGeometry& geometry, std::span<const uint32_t> seeds);
+
   [[nodiscard]] std::span<const uint32_t> of(uint32_t cell) const;
   [[nodiscard]] size_t cellCount() const { return nearest_.size() / stride_; }
 
  private:
+  class RowBuilder;
+
   size_t stride_ = 1;
   std::vector<uint32_t> nearest_;  // #S x stride, padded with kNoCell.
 };

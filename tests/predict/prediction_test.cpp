@@ -303,3 +303,72 @@ TEST_CASE(
     CHECK(test::haveSameBits(predictFrom(seeded.seeds, few).values, all.values));
   }
 }
+
+TEST_CASE("added seeds have cells of the faces that are nearer to them, and other values do not change") {
+  const SeededMesh seeded(makeAnimal(3000).mesh, 300);
+  std::vector<uint32_t> fewer = seeded.seeds;
+  for (size_t i = 0; i < fewer.size(); i += 10) fewer[i] = kNoFace;
+  fewer.resize(290);
+  const std::span<const ConeHit> fewerHits = std::span(seeded.hits).first(fewer.size() * seeded.cone.directions.size());
+  const Prediction before =
+      predictValues(seeded.scene(), seeded.graph, seeded.cone, {fewer, fewerHits}, PredictionOptions());
+  Prediction after = before;
+  const std::vector<ReplacedValue> replaced =
+      addSeeds(seeded.scene(), seeded.graph, seeded.cone, seeded.seedHits(), {}, after);
+  CHECK(after.nearest.cellCount() == 300);
+  std::vector<double> restored = after.values;
+  uint32_t last = 0;
+  for (const auto& [face, value] : replaced) {
+    CHECK(face >= last);
+    last = face;
+    restored[face] = value;
+  }
+  CHECK(test::haveSameBits(restored, before.values));
+  const auto squaredDistance = [&](uint32_t face, uint32_t cell) {
+    const Vec3d between = seeded.geometry.barycentres[face] - seeded.geometry.barycentres[seeded.seeds[cell]];
+    return dot(between, between);
+  };
+  const auto isNew = [&](uint32_t cell) { return cell % 10 == 0 || cell >= 290; };
+  size_t changedCount = 0;
+  for (uint32_t face = 0; face < seeded.mesh.faces.size(); ++face) {
+    const uint32_t cell = after.cellOf[face];
+    if (cell == before.cellOf[face]) continue;
+    ++changedCount;
+    CHECK(isNew(cell));
+    if (face != seeded.seeds[cell]) CHECK(squaredDistance(face, cell) < squaredDistance(face, before.cellOf[face]));
+  }
+  CHECK(changedCount == replaced.size());
+  for (uint32_t cell = 0; cell < 300; ++cell) {
+    CHECK(after.cellOf[seeded.seeds[cell]] == cell);
+    CHECK(after.nearest.of(cell)[0] == cell);
+  }
+  // The values are those of a prediction whose cells are these.
+  double error = 0, earlierError = 0;
+  for (const auto& [face, value] : replaced) {
+    const double traced = seeded.tracedValue(face);
+    if (std::isnan(traced) || std::isnan(value) || std::isnan(after.values[face])) continue;
+    error += std::abs(after.values[face] - traced);
+    earlierError += std::abs(value - traced);
+  }
+  CHECK(error < 0.95 * earlierError);
+}
+
+TEST_CASE("a failure of the device leaves a prediction unchanged when seeds are added") {
+  class FailingPredictor final : public DevicePredictor {
+   public:
+    void predict(const PredictionInput&, std::span<double>, const RunControl&) override {
+      throw Error(ErrorCode::DeviceLost, "lost");
+    }
+  };
+  const SeededMesh seeded(makeAnimal(1000).mesh, 100);
+  std::vector<uint32_t> fewer = seeded.seeds;
+  fewer[7] = kNoFace;
+  const Prediction before = predictValues(seeded.scene(), seeded.graph, seeded.cone, {fewer, seeded.hits}, {});
+  Prediction after = before;
+  FailingPredictor failing;
+  CHECK_THROWS_AS((void)addSeeds(seeded.scene(), seeded.graph, seeded.cone, seeded.seedHits(), {}, after, &failing),
+                  Error);
+  CHECK(test::haveSameBits(after.values, before.values));
+  CHECK(after.cellOf == before.cellOf);
+  CHECK(addSeeds(seeded.scene(), seeded.graph, seeded.cone, seeded.seedHits(), {}, after).size() > 1);
+}

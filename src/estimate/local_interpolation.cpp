@@ -1,0 +1,203 @@
+#include "estimate/local_interpolation.h"
+
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "core/parallel.h"
+#include "mesh/mesh.h"
+#include "shared/cone_hit.h"
+
+namespace asdfvk {
+namespace {
+
+// The residual at the end, relative to that of the start. The start differs from the solution as much as the error that
+// is measured, so that this is the precision of the error.
+constexpr double kLocalReduction = 3e-3;
+constexpr uint32_t kMaxLocalIterations = 1000;
+constexpr uint32_t kConstrainedRow = std::numeric_limits<uint32_t>::max();
+
+/// Rows of a few faces: a hash table with open addressing.
+class PatchRows {
+ public:
+  void clear() {
+    entries_.assign(entries_.size(), {});
+    count_ = 0;
+  }
+  /// False where the face has a row already, which it keeps.
+  bool add(uint32_t face, uint32_t row) {
+    if (2 * (count_ + 1) > entries_.size()) grow();
+    Entry& entry = entryOf(face);
+    if (entry.face == face) return false;
+    entry = {face, row};
+    ++count_;
+    return true;
+  }
+  /// Precondition: the face has one.
+  [[nodiscard]] uint32_t of(uint32_t face) { return entryOf(face).row; }
+
+ private:
+  struct Entry {
+    uint32_t face = kNoFace, row = 0;
+  };
+
+  Entry& entryOf(uint32_t face) {
+    for (size_t place = face * 0x9e37'79b1u;; ++place) {  // Knuth's multiplicative hash.
+      Entry& entry = entries_[place & (entries_.size() - 1)];
+      if (entry.face == face || entry.face == kNoFace) return entry;
+    }
+  }
+  void grow() {
+    std::vector<Entry> earlier(2 * entries_.size());
+    earlier.swap(entries_);
+    for (const Entry& entry : earlier)
+      if (entry.face != kNoFace) entryOf(entry.face) = entry;
+  }
+
+  std::vector<Entry> entries_ = std::vector<Entry>(256);  // Their number is a power of two.
+  size_t count_ = 0;
+};
+
+/// The equation around one face after another.
+class Patch {
+ public:
+  explicit Patch(const SolvedInterpolation& solved) : solved_(solved) {}
+
+  [[nodiscard]] double valueAt(uint32_t face) {
+    collect(face);
+    assemble();
+    return isDetermined_ ? solve() : kNoValue;
+  }
+
+ private:
+  struct Column {
+    uint32_t row;
+    double weight;
+  };
+
+  void collect(uint32_t centre);
+  void assemble();
+  void addRow(uint32_t face);
+  [[nodiscard]] double solve();
+  void multiply();
+
+  const SolvedInterpolation& solved_;
+  PatchRows rows_;
+  std::vector<uint32_t> faces_;  // The unknowns, the centre first, and then faces at the boundary.
+  size_t unknownCount_ = 0;
+  std::vector<uint32_t> offsets_;
+  std::vector<Column> columns_;
+  std::vector<double> diagonal_, residual_, solution_, direction_, product_;  // The residual of the start first.
+  bool isDetermined_ = false;                                                  // Whether a boundary value was found.
+};
+
+/// Breadth-first between the constraints, until there are enough of them.
+void Patch::collect(uint32_t centre) {
+  faces_.assign(1, centre);
+  rows_.clear();
+  (void)rows_.add(centre, 0);
+  uint32_t constraintCount = 0;
+  unknownCount_ = 0;
+  for (; unknownCount_ < faces_.size() && constraintCount < kLocalConstraintCount; ++unknownCount_)
+    for (const uint32_t neighbour : solved_.graph.neighboursOf(faces_[unknownCount_])) {
+      const bool isConstrained = std::isfinite(solved_.constraints[neighbour]);
+      if (!rows_.add(neighbour, isConstrained ? kConstrainedRow : static_cast<uint32_t>(faces_.size()))) continue;
+      if (isConstrained)
+        ++constraintCount;
+      else
+        faces_.push_back(neighbour);
+    }
+}
+
+void Patch::assemble() {
+  for (std::vector<double>* values : {&diagonal_, &residual_, &solution_}) values->clear();
+  offsets_.assign(1, 0);
+  columns_.clear();
+  isDetermined_ = false;
+  for (size_t row = 0; row < unknownCount_; ++row) addRow(faces_[row]);
+  direction_.resize(unknownCount_);
+  product_.resize(unknownCount_);
+}
+
+void Patch::addRow(uint32_t face) {
+  const DualGraph& graph = solved_.graph;
+  const double own = std::isfinite(solved_.solution[face]) ? solved_.solution[face] : 0;
+  double diagonal = 0, residual = 0;
+  if (!solved_.divergence.empty() && std::isfinite(solved_.divergence[face])) residual += solved_.divergence[face];
+  for (uint32_t arc = graph.offsets[face]; arc < graph.offsets[face + 1]; ++arc) {
+    const uint32_t neighbour = graph.neighbours[arc];
+    if (neighbour == face) continue;
+    const double weight = solved_.weights[arc];
+    const uint32_t row = rows_.of(neighbour);
+    const bool isUnknown = row < unknownCount_;
+    double value = row == kConstrainedRow ? solved_.constraints[neighbour] : solved_.solution[neighbour];
+    if (!std::isfinite(value)) {
+      if (!isUnknown) continue;
+      value = 0;
+    }
+    diagonal += weight;
+    residual += weight * (value - own);
+    if (!solved_.guide.empty())
+      if (const double difference = solved_.guide[face] - solved_.guide[neighbour]; std::isfinite(difference))
+        residual += weight * difference;
+    if (isUnknown)
+      columns_.push_back({row, weight});
+    else
+      isDetermined_ = true;
+  }
+  offsets_.push_back(static_cast<uint32_t>(columns_.size()));
+  diagonal_.push_back(diagonal);
+  residual_.push_back(residual);
+  solution_.push_back(own);
+}
+
+void Patch::multiply() {
+  for (size_t row = 0; row < unknownCount_; ++row) {
+    double sum = diagonal_[row] * direction_[row];
+    for (uint32_t i = offsets_[row]; i < offsets_[row + 1]; ++i)
+      sum -= columns_[i].weight * direction_[columns_[i].row];
+    product_[row] = sum;
+  }
+}
+
+/// The value at the centre: conjugate gradients with the diagonal as preconditioner.
+double Patch::solve() {
+  const auto preconditioned = [&](size_t row) { return residual_[row] / diagonal_[row]; };
+  const auto squaredNorm = [&] {
+    double sum = 0;
+    for (size_t row = 0; row < unknownCount_; ++row) sum += residual_[row] * preconditioned(row);
+    return sum;
+  };
+  double squared = squaredNorm();
+  const double target = kLocalReduction * kLocalReduction * squared;
+  for (size_t row = 0; row < unknownCount_; ++row) direction_[row] = preconditioned(row);
+  for (uint32_t i = 0; i < kMaxLocalIterations && squared > target; ++i) {
+    multiply();
+    double curvature = 0;
+    for (size_t row = 0; row < unknownCount_; ++row) curvature += direction_[row] * product_[row];
+    if (!(curvature > 0)) break;
+    const double step = squared / curvature;
+    for (size_t row = 0; row < unknownCount_; ++row) {
+      solution_[row] += step * direction_[row];
+      residual_[row] -= step * product_[row];
+    }
+    const double next = squaredNorm(), beta = next / squared;
+    for (size_t row = 0; row < unknownCount_; ++row) direction_[row] = preconditioned(row) + beta * direction_[row];
+    squared = next;
+  }
+  return solution_.front();
+}
+
+}  // namespace
+
+std::vector<double> interpolateLocally(const SolvedInterpolation& solved, std::span<const uint32_t> faces) {
+  std::vector<double> values(faces.size(), kNoValue);
+  constexpr size_t kGrain = 16;
+  forEachRange(faces.size(), kGrain, [&](size_t begin, size_t end) {
+    Patch patch(solved);
+    for (size_t i = begin; i < end; ++i) values[i] = patch.valueAt(faces[i]);
+  });
+  return values;
+}
+
+}  // namespace asdfvk

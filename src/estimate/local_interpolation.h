@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "mesh/dual_graph.h"
+
+namespace asdfvk {
+
+/// An interpolation on a dual graph and its solution, as poisson/poisson_system.h has it. References only; values are
+/// #F.
+struct SolvedInterpolation {
+  const DualGraph& graph;
+  std::span<const double> weights;      ///< One per arc.
+  std::span<const double> constraints;  ///< NaN for a face without one.
+  std::span<const double> guide;        ///< Or empty: the field whose divergenceOf() the equation has.
+  std::span<const double> divergence;   ///< Or empty: further divergence.
+  std::span<const double> solution;     ///< With more constraints than `constraints`.
+};
+
+/// The values that the interpolation has at `faces` with `constraints` only. The effect of a constraint decays within a
+/// few cells of the others. The equation is therefore solved around each of the faces alone, up to the nearest
+/// kLocalConstraintCount constraints; farther away the values are those of `solution`. Returns #faces, NaN where no
+/// constraint and no solution is near. The result does not depend on the number of threads.
+[[nodiscard]] std::vector<double> interpolateLocally(const SolvedInterpolation& solved,
+                                                     std::span<const uint32_t> faces);
+
+inline constexpr uint32_t kLocalConstraintCount = 5;
+
+}  // namespace asdfvk
