@@ -67,6 +67,13 @@ std::optional<Dispersion> StageMeasurement::referenceOverVulkan(const StageRow& 
   return ratioOf(samplesOf(*reference, seconds), samplesOf(row, seconds));
 }
 
+std::optional<Dispersion> StageMeasurement::speedUp(const StageRow& row) const {
+  const StageRow* full = find("all", row.backend);
+  if (full == nullptr || full == &row) return {};
+  const auto seconds = [&](const FileRun& run) { return row.runsOnCpu ? run.cpuSeconds : run.totalSeconds; };
+  return ratioOf(samplesOf(*full, seconds), samplesOf(row, seconds));
+}
+
 std::optional<Dispersion> StageMeasurement::overFullTrace(const StageRow& row) const {
   const StageRow* full = find("all", row.backend);
   if (full == nullptr || full == &row) return {};

@@ -51,6 +51,10 @@ struct StageMeasurement {
   /// the reference with the same seeds.
   [[nodiscard]] std::optional<Dispersion> referenceOverVulkan(const StageRow& row, TimeSpan span) const;
 
+  /// Time of all faces over that of `row` by the same backend, from file to file, by round: CPU seconds on a CPU,
+  /// seconds elsewhere. None without a row of all faces.
+  [[nodiscard]] std::optional<Dispersion> speedUp(const StageRow& row) const;
+
   /// TimeSpan::Interpolation over the time of the trace of all faces by the same backend, by round. None without a row
   /// of all faces.
   [[nodiscard]] std::optional<Dispersion> overFullTrace(const StageRow& row) const;

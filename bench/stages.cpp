@@ -66,12 +66,22 @@ std::string ratiosText(const StageMeasurement& measurement) {
   return text.empty() ? text : "\n" + text;
 }
 
+/// The headline: what the interpolation saves.
+std::string speedUpsText(const StageMeasurement& measurement) {
+  std::string text;
+  for (const StageRow& row : measurement.rows)
+    if (const auto ratio = measurement.speedUp(row))
+      text += fmt::format("{} of the faces on {}: {} times as fast as all faces, file to file, by {}\n", row.seeds,
+                          row.backend, toText(*ratio, 2), row.runsOnCpu ? "CPU time" : "time");
+  return text.empty() ? text : text + "\n";
+}
+
 /// A heading, a Markdown table with one line per row, and ratios.
 std::string toTable(const StageMeasurement& measurement, const Machine& machine) {
   std::vector<std::string> titles{"seeds", "backend"};
   for (const Stage stage : allStages()) titles.emplace_back(nameOf(stage));
   titles.insert(titles.end(), {"total", "Mrays/s", "per core", "cold", "peak MiB"});
-  std::string text = heading(measurement, machine) + line(titles) + "|-------|-----------|";
+  std::string text = heading(measurement, machine) + speedUpsText(measurement) + line(titles) + "|-------|-----------|";
   for (size_t i = 2; i < titles.size(); ++i) text += "-------------:|";
   text += "\n";
   for (const StageRow& row : measurement.rows) {
@@ -108,6 +118,7 @@ Json toJson(const StageMeasurement& measurement, const StageRow& row, const Mach
           {"totalSeconds", bench::toJson(row.total())},
           {"raysPerSecond", bench::toJson(row.raysPerSecond())},
           {"raysPerSecondAndCore", row.runsOnCpu ? Json(row.raysPerSecond().median / machine.threads) : Json(nullptr)},
+          {"speedUpOverAllFaces", bench::toJson(measurement.speedUp(row))},
           {"coldSeconds", row.cold.seconds},
           {"peakBytes", row.cold.peakBytes},
           {"solver", {{"name", report.solver.name}, {"iterations", report.solver.iterations}}},

@@ -88,7 +88,7 @@ class Patch {
   std::vector<uint32_t> offsets_;
   std::vector<Column> columns_;
   std::vector<double> diagonal_, residual_, solution_, direction_, product_;  // The residual of the start first.
-  bool isDetermined_ = false;                                                  // Whether a boundary value was found.
+  bool isDetermined_ = false;                                                 // Whether a boundary value was found.
 };
 
 /// Breadth-first between the constraints, until there are enough of them.

@@ -38,7 +38,8 @@ struct SampleProblem {
     }
   }
 
-  [[nodiscard]] std::vector<double> solve(const std::vector<double>& values, const std::vector<double>& divergence) const {
+  [[nodiscard]] std::vector<double> solve(const std::vector<double>& values,
+                                          const std::vector<double>& divergence) const {
     const std::vector<uint32_t> componentOf(values.size(), 0);
     std::vector<double> solution;
     const auto solver = makeEigenSolver(nullptr)->onGraph(graph, weights);
