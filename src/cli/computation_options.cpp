@@ -110,7 +110,7 @@ void addSeeds(ArgumentParser& parser, Options& options) {
   parser
       .addFlag(
           "--no-estimate", [&options] { options.estimatesError = false; },
-          "Do not estimate the error; saves about the time of the interpolation")
+          "Do not estimate the error; saves about 5 % of the time")
       .group(group);
 }
 
