@@ -122,7 +122,7 @@ template <typename Floats>
 /// ones.
 enum class InstructionSet {
   Baseline,  ///< The instruction set for which the program is compiled.
-  Avx2,
+  Avx2,      ///< With fused multiply-add, which only __builtin_fma() uses.
   Avx512,
 };
 
@@ -130,7 +130,8 @@ enum class InstructionSet {
 [[nodiscard]] inline bool hasInstructionSet(InstructionSet instructionSet) {
   if (instructionSet == InstructionSet::Baseline) return true;
 #ifdef __x86_64__
-  static const bool hasAvx2 = __builtin_cpu_supports("avx2"), hasAvx512 = __builtin_cpu_supports("avx512f");
+  static const bool hasAvx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"),
+                    hasAvx512 = __builtin_cpu_supports("avx512f");
   return hasAvx2 && (instructionSet == InstructionSet::Avx2 || hasAvx512);
 #else
   return false;
@@ -146,11 +147,11 @@ enum class InstructionSet {
 
 #ifdef __x86_64__
 template <typename Code>
-[[gnu::target("avx2")]] auto runWithAvx2(const Code& code) {
+[[gnu::target("avx2,fma")]] auto runWithAvx2(const Code& code) {
   return code.template operator()<Float8>();
 }
 template <typename Code>
-[[gnu::target("avx512f")]] auto runWithAvx512(const Code& code) {
+[[gnu::target("avx512f,fma")]] auto runWithAvx512(const Code& code) {
   return code.template operator()<Float16>();
 }
 #endif

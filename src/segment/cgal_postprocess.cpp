@@ -1,67 +1,116 @@
 #include "segment/cgal_postprocess.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
 #include "asdf_vk/error.h"
 #include "core/check.h"
+#include "core/lane_exp.h"
 #include "core/parallel.h"
+#include "segment/face_windows.h"
 
 namespace asdfvk {
 namespace {
 
-constexpr size_t kFacesPerProgress = size_t{1} << 14, kFacesPerPoll = 256;
+constexpr size_t kFacesPerBlock = 256, kBlocksPerProgress = 64;
+constexpr size_t kLanes = kLaneCount<Double4>;
+/// In windows of fewer faces, (v_g - v_f)^2 / (2 sigma_f^2) is below 512.
+constexpr uint32_t kLargeWindow = 2300;
 
-/// The faces around a face by breadth-first search.
-class RingSearch {
+/// The filtered values of kLanes faces at a time, a lane each. All sums have the order of the window.
+class WindowFilter {
  public:
-  explicit RingSearch(size_t faceCount) : visitedFor_(faceCount, kNoNeighbour) {}
+  WindowFilter(const FaceNeighbours& neighbours, std::span<const double> values, std::span<const double> ringWeights)
+      : values_(values), ringWeights_(ringWeights), windows_(neighbours), ringEnds_(kLanes * ringWeights.size()) {}
 
-  void search(const FaceNeighbours& neighbours, uint32_t centre, uint32_t ringCount) {
-    faces_.assign(1, centre);
-    ringEnds_.assign(1, 1);
-    visitedFor_[centre] = centre;
-    for (size_t parent = 0; ringEnds_.size() <= ringCount;) {
-      for (const size_t end = faces_.size(); parent < end; ++parent)
-        for (const uint32_t face : neighbours[faces_[parent]])
-          if (face != kNoNeighbour && visitedFor_[face] != centre) {
-            visitedFor_[face] = centre;
-            faces_.push_back(face);
-          }
-      ringEnds_.push_back(faces_.size());
+  void filter(std::span<const uint32_t> block, InstructionSet instructionSet, std::span<double> filtered) {
+    windows_.setBlock(block, static_cast<uint32_t>(ringWeights_.size() - 1));
+    const size_t stride = windows_.faces().size() + 1;
+    faces_.resize(kLanes * stride);
+    others_.resize(kLanes * stride);
+    valuesAround_.resize(windows_.faces().size());
+    for (size_t i = 1; i < valuesAround_.size(); ++i) valuesAround_[i] = values_[windows_.faces()[i]];
+    for (size_t first = 0; first < block.size(); first += kLanes) {
+      search(static_cast<uint32_t>(first), static_cast<uint32_t>(block.size()), stride);
+      double results[kLanes];
+      dispatch<Float8>(instructionSet,
+                       [&]<typename Floats>() ASDFVK_ALWAYS_INLINE { store(results, filteredValues<Floats>()); });
+      for (size_t lane = 0; lane < std::min(kLanes, block.size() - first); ++lane)
+        filtered[block[first + lane]] = results[lane];
     }
   }
-
-  [[nodiscard]] std::span<const uint32_t> faces() const { return faces_; }
-  [[nodiscard]] std::span<const size_t> ringEnds() const { return ringEnds_; }  ///< In faces(), from ring 0 on.
 
  private:
-  std::vector<uint32_t> visitedFor_;  ///< #F, the centre of the last search that found the face.
-  std::vector<uint32_t> faces_;
-  std::vector<size_t> ringEnds_;
-};
-
-double filteredValue(const RingSearch& rings, std::span<const double> ringWeights, std::span<const double> values) {
-  const double value = values[rings.faces().front()];
-  double squares = 0;
-  for (const uint32_t face : rings.faces()) {
-    const double difference = values[face] - value;
-    squares += difference * difference;
-  }
-  const double deviation = 1.5 * std::sqrt(squares / static_cast<double>(rings.faces().size()));
-  if (deviation == 0) return value;
-  double weights = 0, sum = 0;
-  size_t i = 0;
-  for (size_t ring = 0; ring < rings.ringEnds().size(); ++ring)
-    for (; i < rings.ringEnds()[ring]; ++i) {
-      const double other = values[rings.faces()[i]], ratio = (other - value) / deviation;
-      const double weight = ringWeights[ring] * std::exp(-0.5 * ratio * ratio);
-      weights += weight;
-      sum += weight * other;
+  /// Sets others_ to the values of the windows, with the value of the face itself behind the end of a shorter window.
+  void search(uint32_t first, uint32_t blockSize, size_t stride) {
+    longest_ = 0;
+    for (size_t lane = 0; lane < kLanes; ++lane) {
+      const std::span<uint32_t> ends = std::span(ringEnds_).subspan(lane * ringWeights_.size(), ringWeights_.size());
+      windows_.search(std::min(first + static_cast<uint32_t>(lane), blockSize - 1),
+                      std::span(faces_).subspan(lane * stride, stride), ends);
+      counts_[lane] = ends.back();
+      longest_ = std::max(longest_, counts_[lane]);
     }
-  return sum / weights;
-}
+    for (size_t lane = 0; lane < kLanes; ++lane) {
+      const uint32_t* const faces = &faces_[lane * stride];
+      for (uint32_t i = 0; i < counts_[lane]; ++i) others_[i * kLanes + lane] = valuesAround_[faces[i]];
+      for (uint32_t i = counts_[lane]; i < longest_; ++i) others_[i * kLanes + lane] = others_[lane];
+    }
+  }
+
+  template <typename Floats>
+  [[nodiscard]] ASDFVK_ALWAYS_INLINE inline Double4 filteredValues() const {
+    const double* const others = others_.data();
+    const Double4 value = load<Double4>(others);
+    Double4 squares{}, deviation;
+    for (uint32_t i = 0; i < longest_; ++i) {
+      const Double4 difference = load<Double4>(&others[i * kLanes]) - value;
+      squares += difference * difference;
+    }
+    for (size_t lane = 0; lane < kLanes; ++lane) deviation[lane] = 1.5 * std::sqrt(squares[lane] / counts_[lane]);
+    Double4 weights{}, sum{}, ringWeight{};
+    uint32_t rings[kLanes] = {};
+    for (uint32_t i = 0; i < longest_;) {
+      uint32_t end = longest_;
+      for (size_t lane = 0; lane < kLanes; ++lane) {
+        const uint32_t* const ends = &ringEnds_[lane * ringWeights_.size()];
+        while (rings[lane] < ringWeights_.size() && ends[rings[lane]] <= i) ++rings[lane];
+        const bool isWithin = rings[lane] < ringWeights_.size();
+        ringWeight[lane] = isWithin ? ringWeights_[rings[lane]] : 0;
+        if (isWithin) end = std::min(end, ends[rings[lane]]);
+      }
+      for (; i < end; ++i) {
+        const Double4 other = load<Double4>(&others[i * kLanes]), ratio = (other - value) / deviation;
+        const Double4 weight = ringWeight * rangeWeight<Floats>(-0.5 * ratio * ratio);
+        weights += weight;
+        sum += weight * other;
+      }
+    }
+    Double4 result = sum / weights;
+    for (size_t lane = 0; lane < kLanes; ++lane) result[lane] = deviation[lane] == 0 ? value[lane] : result[lane];
+    return result;
+  }
+
+  template <typename Floats>
+  [[nodiscard]] ASDFVK_ALWAYS_INLINE inline Double4 rangeWeight(const Double4& exponent) const {
+    if constexpr (hasFusedMultiplyAdd<Floats>())
+      if (longest_ < kLargeWindow) return expOfNegative(exponent);
+    Double4 weight;
+    for (size_t lane = 0; lane < kLanes; ++lane) weight[lane] = std::exp(exponent[lane]);
+    return weight;
+  }
+
+  std::span<const double> values_, ringWeights_;
+  FaceWindows windows_;
+  std::vector<uint32_t> ringEnds_;    ///< Those of the rings of each lane in turn.
+  std::vector<uint32_t> faces_;       ///< The window of each lane in turn.
+  std::vector<double> valuesAround_;  ///< Of windows_.faces().
+  std::vector<double> others_;        ///< The values of the windows, the lanes side by side.
+  std::array<uint32_t, kLanes> counts_{};
+  uint32_t longest_ = 0;
+};
 
 /// A power of two that brings the greatest magnitude into [0.5, 1), so that no square overflows or underflows; 1 where
 /// all values are 0 or missing.
@@ -102,7 +151,7 @@ std::vector<double> fillMissingValues(const FaceNeighbours& neighbours, std::spa
 }
 
 std::vector<double> filterLikeCgal(const FaceNeighbours& neighbours, std::span<const double> values,
-                                   const RunControl& control) {
+                                   const RunControl& control, InstructionSet instructionSet) {
   ASDFVK_CHECK_OP(values.size(), ==, neighbours.size());
   const auto ringCount = static_cast<uint32_t>(std::sqrt(static_cast<double>(values.size()) / 2000)) + 1;
   std::vector<double> ringWeights;
@@ -111,18 +160,17 @@ std::vector<double> filterLikeCgal(const FaceNeighbours& neighbours, std::span<c
     ringWeights.push_back(std::exp(-0.5 * ratio * ratio));
   }
   std::vector<double> filtered(values.size());
-  PerThread<RingSearch> searches([&] { return RingSearch(values.size()); });
-  for (size_t begin = 0; begin < values.size(); begin += kFacesPerProgress) {
-    control.checkpoint(static_cast<double>(begin) / static_cast<double>(values.size()));
-    const size_t end = std::min(values.size(), begin + kFacesPerProgress);
-    forEachTask((end - begin + kFacesPerPoll - 1) / kFacesPerPoll, [&](size_t block) {
+  const std::vector<uint32_t> order = orderByBlocks(neighbours, kFacesPerBlock);
+  PerThread<WindowFilter> filters([&] { return WindowFilter(neighbours, values, ringWeights); });
+  constexpr size_t kFacesPerProgress = kFacesPerBlock * kBlocksPerProgress;
+  for (size_t begin = 0; begin < order.size(); begin += kFacesPerProgress) {
+    control.checkpoint(static_cast<double>(begin) / static_cast<double>(order.size()));
+    const auto faces = std::span(order).subspan(begin, std::min(kFacesPerProgress, order.size() - begin));
+    forEachTask((faces.size() + kFacesPerBlock - 1) / kFacesPerBlock, [&](size_t block) {
       if (control.stop.stop_requested()) return;
-      RingSearch& rings = searches.local();
-      const size_t first = begin + block * kFacesPerPoll, last = std::min<size_t>(end, first + kFacesPerPoll);
-      for (auto face = static_cast<uint32_t>(first); face < last; ++face) {
-        rings.search(neighbours, face, ringCount);
-        filtered[face] = filteredValue(rings, ringWeights, values);
-      }
+      const size_t first = block * kFacesPerBlock;
+      filters.local().filter(faces.subspan(first, std::min(kFacesPerBlock, faces.size() - first)), instructionSet,
+                             filtered);
     });
   }
   control.checkpoint(1);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "asdf_vk/run_control.h"
+#include "core/simd.h"
 #include "segment/face_neighbours.h"
 
 /// The post-processing of CGAL's sdf_values_postprocessing(), from its manual and from its outputs (version 5.5.1; no
@@ -30,8 +31,11 @@ struct CgalValues {
 /// included, with the weights
 ///   exp(-(ring / (R / 2))^2 / 2) exp(-((v_g - v_f) / sigma_f)^2 / 2),
 /// R = 1 + floor(sqrt(#F / 2000)), sigma_f: 1.5 times the root mean square of v_g - v_f. All values finite,
-/// with finite squares. Polled every 256 faces. Throws Error{Cancelled}.
+/// with finite squares. Polled every 256 faces. Throws Error{Cancelled}. Sums have the order of a breadth-first search,
+/// so that the result has the same bits on any number of threads, and with any instruction set where exp() has the bits
+/// of core/lane_exp.h.
 [[nodiscard]] std::vector<double> filterLikeCgal(const FaceNeighbours& neighbours, std::span<const double> values,
-                                                 const RunControl& control = {});
+                                                 const RunControl& control = {},
+                                                 InstructionSet instructionSet = widestInstructionSet());
 
 }  // namespace asdfvk

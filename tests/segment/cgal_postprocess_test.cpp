@@ -126,3 +126,44 @@ TEST_CASE("post-processed values have the same bits on any number of threads") {
   const Values alone = test::onThreads(1, values);
   for (const size_t count : {2u, 4u}) CHECK(test::onThreads(count, values) == alone);
 }
+
+TEST_CASE("filtered values have the same bits with every instruction set and in every order of the faces") {
+  const test::SampleMesh sample = test::sampleMesh("hand", 20'000);
+  const Values values = filterLikeCgal(sample.neighbours, sample.values, {}, InstructionSet::Baseline);
+  // Within a rounding error where the C library has another exp().
+  for (const InstructionSet instructionSet : {InstructionSet::Avx2, InstructionSet::Avx512})
+    if (hasInstructionSet(instructionSet)) {
+      const Values wide = filterLikeCgal(sample.neighbours, sample.values, {}, instructionSet);
+#ifdef __GLIBC__
+      CHECK(wide == values);
+#endif
+      for (size_t face = 0; face < values.size(); ++face)
+        REQUIRE(wide[face] == doctest::Approx(values[face]).epsilon(1e-14));
+    }
+  const auto faceCount = static_cast<uint32_t>(values.size());
+  FaceNeighbours reversed(faceCount);
+  Values reversedValues(faceCount);
+  for (uint32_t face = 0; face < faceCount; ++face) {
+    reversedValues[faceCount - 1 - face] = sample.values[face];
+    for (uint32_t i = 0; i < 3; ++i) {
+      const uint32_t neighbour = sample.neighbours[face][i];
+      reversed[faceCount - 1 - face][i] = neighbour == kNoNeighbour ? kNoNeighbour : faceCount - 1 - neighbour;
+    }
+  }
+  Values filtered = filterLikeCgal(reversed, reversedValues);
+  std::reverse(filtered.begin(), filtered.end());
+  CHECK(filtered == filterLikeCgal(sample.neighbours, sample.values));
+}
+
+TEST_CASE("an outlier in a large window, whose weight is below exp(-512), is filtered by the definition") {
+  constexpr uint32_t kFaceCount = 200'000, kRingCount = 11;
+  FaceNeighbours tree(kFaceCount);  // Binary, so that the window of face 0 has 4095 faces.
+  for (uint32_t face = 0; face < kFaceCount; ++face) {
+    tree[face][0] = face == 0 ? kNoNeighbour : (face - 1) / 2;
+    for (uint32_t i = 1; i < 3; ++i) tree[face][i] = 2 * face + i < kFaceCount ? 2 * face + i : kNoNeighbour;
+  }
+  Values values(kFaceCount, 0.25);
+  values[1] = 1;
+  values[2] = 0.26;
+  CHECK(filterLikeCgal(tree, values)[0] == doctest::Approx(definedValue(tree, values, 0, kRingCount)).epsilon(1e-14));
+}
