@@ -54,7 +54,7 @@ template <typename Floats>
 
 template <typename Doubles>
 [[nodiscard]] ASDFVK_ALWAYS_INLINE inline Doubles fusedMultiplyAdd(const Doubles& a, const Doubles& b,
-                                                                  const Doubles& c) {
+                                                                   const Doubles& c) {
   Doubles sum;
   for (size_t lane = 0; lane < kLaneCount<Doubles>; ++lane) sum[lane] = __builtin_fma(a[lane], b[lane], c[lane]);
   return sum;

@@ -10,6 +10,7 @@
 #include "asdf_vk/error.h"
 #include "core/check.h"
 #include "core/parallel.h"
+#include "segment/face_windows.h"
 #include "segment/soft_clustering.h"
 
 namespace asdfvk {
@@ -17,6 +18,7 @@ namespace {
 
 constexpr double kMinArgument = 5e-6;  ///< Least argument of the logarithms of the costs.
 constexpr double kConvexFactor = 0.08, kSmoothnessUnit = 100;
+constexpr size_t kFacesPerBlock = 4096;
 
 double costOf(double argument) { return -std::log(std::max(kMinArgument, argument)); }
 
@@ -45,6 +47,19 @@ double edgeArgument(const FaceGeometry& geometry, const TriangleMesh& mesh, uint
   return angle / std::numbers::pi * (isConvex ? kConvexFactor : 1);
 }
 
+/// The edges between the places of their faces in the order, sorted by the lower place.
+std::vector<LabelEdge> reordered(const std::vector<LabelEdge>& edges, std::span<const uint32_t> order) {
+  std::vector<uint32_t> placeOf(order.size()), firstEdge(order.size() + 1);
+  for (uint32_t i = 0; i < order.size(); ++i) placeOf[order[i]] = i;
+  const auto lowerPlace = [&](const LabelEdge& edge) { return std::min(placeOf[edge.f], placeOf[edge.g]); };
+  for (const LabelEdge& edge : edges) ++firstEdge[lowerPlace(edge) + 1];
+  std::partial_sum(firstEdge.begin(), firstEdge.end(), firstEdge.begin());
+  std::vector<LabelEdge> result(edges.size());
+  for (const LabelEdge& edge : edges)
+    result[firstEdge[lowerPlace(edge)]++] = {placeOf[edge.f], placeOf[edge.g], edge.cost};
+  return result;
+}
+
 void requireValid(const CgalSegmentationOptions& options) {
   if (!std::isfinite(options.smoothness))
     throw Error(ErrorCode::OptionOutOfRange, fmt::format("a smoothness of {} is no number", options.smoothness));
@@ -67,15 +82,21 @@ CgalSegmentation segmentLikeCgal(const FaceGeometry& geometry, const TriangleMes
   std::vector<double>& costs = clustering.probabilities;
   CgalSegmentation result;
   result.clusters.resize(values.size());
-  forEachInParallel(values.size(), [&](uint32_t face) {
-    const auto row = std::span(costs).subspan(size_t{face} * clusterCount, clusterCount);
-    result.clusters[face] = static_cast<uint32_t>(std::max_element(row.begin(), row.end()) - row.begin());
-    for (double& cost : row) cost = costOf(cost);
+  // In an order in which faces close to each other have near numbers: the cut takes two thirds of the time or less.
+  const std::vector<uint32_t> order = orderByBlocks(neighbours, kFacesPerBlock);
+  std::vector<double> orderedCosts(costs.size());
+  std::vector<uint32_t> labels(values.size());
+  forEachInParallel(values.size(), [&](uint32_t i) {
+    const auto row = std::span(costs).subspan(size_t{order[i]} * clusterCount, clusterCount);
+    labels[i] = static_cast<uint32_t>(std::max_element(row.begin(), row.end()) - row.begin());
+    for (uint32_t c = 0; c < clusterCount; ++c) orderedCosts[size_t{i} * clusterCount + c] = costOf(row[c]);
   });
-  const std::vector<LabelEdge> edges = cgalEdgeCosts(geometry, mesh, neighbours, options.smoothness);
+  costs = {};
+  const std::vector<LabelEdge> edges = reordered(cgalEdgeCosts(geometry, mesh, neighbours, options.smoothness), order);
   const bool isFirstOnly = options.expansion == CgalExpansion::First;
-  result.energy = AlphaExpansion().minimize({clusterCount, costs, edges}, result.clusters,
+  result.energy = AlphaExpansion().minimize({clusterCount, orderedCosts, edges}, labels,
                                             {.expandedLabelCount = isFirstOnly ? 1 : clusterCount}, control);
+  for (size_t i = 0; i < order.size(); ++i) result.clusters[order[i]] = labels[i];
   LabelComponents components = findLabelComponents(neighbours, result.clusters, values);
   result.segments = std::move(components.componentOf);
   result.segmentCount = components.componentCount;

@@ -34,7 +34,8 @@ std::vector<uint32_t> orderByBlocks(const FaceNeighbours& neighbours, size_t blo
           queuedIn[neighbour] = blockCount;
           queue.push_back(neighbour);
         }
-      if (order.size() == end) frontier.insert(frontier.end(), queue.begin() + static_cast<ptrdiff_t>(i) + 1, queue.end());
+      if (order.size() == end)
+        frontier.insert(frontier.end(), queue.begin() + static_cast<ptrdiff_t>(i) + 1, queue.end());
     }
   }
   return order;

@@ -36,7 +36,7 @@ class FaceWindows {
   static constexpr uint32_t kOutside = kNoNeighbour;
 
   const FaceNeighbours& neighbours_;
-  std::vector<uint32_t> localOf_;   ///< #F, index into faces_.
+  std::vector<uint32_t> localOf_;  ///< #F, index into faces_.
   std::vector<uint32_t> faces_;
   std::vector<uint32_t> rows_;       ///< Three neighbours of each face within fewer than all rings of the block.
   std::vector<uint32_t> visitedBy_;  ///< The last search that visited the face.

@@ -4,16 +4,20 @@
 #include <cmath>
 
 #include "core/check.h"
+#include "core/parallel.h"
 
 namespace asdfvk {
+namespace {
+
+/// Nodes of the smallest ranges, and ranges of a level in a range of the next one.
+constexpr size_t kNodesPerRange = 8192, kRangesPerRange = 8;
+
+}  // namespace
 
 void MaxFlow::reset(uint32_t nodeCount) {
   nodes_.assign(nodeCount, Node());
   arcs_.clear();
-  orphans_.clear();
   queue_.resize(nodeCount);
-  queueBegin_ = queueSize_ = 0;
-  time_ = 0;
   flow_ = 0;
 }
 
@@ -27,10 +31,78 @@ void MaxFlow::addEdge(uint32_t a, uint32_t b, double capacity, double reverseCap
   nodes_[b].firstArc = arc + 1;
 }
 
+/// The search within a range of nodes, without the edges that leave it.
+class MaxFlow::Search {
+ public:
+  Search(MaxFlow& graph, uint32_t begin, uint32_t end)
+      : nodes_(graph.nodes_.data()),
+        arcs_(graph.arcs_.data()),
+        queue_(&graph.queue_[begin]),
+        begin_(begin),
+        count_(end - begin) {}
+
+  /// Routes flow along the trees of a forest, from the leaves to the roots, before the search: most of it ends nearby.
+  void routeAlongForest();
+  /// Makes every node with a terminal the root of a tree.
+  void plant();
+  /// Joins ranges of this size, which have been solved.
+  void join(size_t partSize);
+  /// Until the trees cannot grow.
+  void run();
+
+  [[nodiscard]] double flow() const { return flow_; }
+
+ private:
+  [[nodiscard]] bool contains(uint32_t node) const { return node - begin_ < count_; }
+  void activate(uint32_t node);
+  /// Grows the tree at an active node. Returns an arc from the source's tree to the sink's tree, or kNone.
+  uint32_t grow(uint32_t node);
+  void augment(uint32_t bridge);
+  void adoptOrphans();
+  void adopt(uint32_t orphan);
+  void makeOrphan(uint32_t node);
+  /// Number of arcs from the node to its terminal; kNone when an orphan is on that path.
+  uint32_t distanceToTerminal(uint32_t node);
+  /// The residual capacity that a node of this tree has through `arc` to its child; for the sink: from its child.
+  [[nodiscard]] double residualToChild(Tree tree, uint32_t arc) const {
+    return arcs_[tree == Tree::Source ? arc : arc ^ 1].residual;
+  }
+
+  Node* nodes_;
+  Arc* arcs_;
+  uint32_t* queue_;  ///< Ring of active nodes, with a place for each node of the range.
+  uint32_t begin_, count_;
+  uint32_t queueBegin_ = 0, queueSize_ = 0;
+  std::vector<uint32_t> orphans_;
+  uint32_t time_ = 0;
+  double flow_ = 0;
+};
+
 double MaxFlow::solve() {
   ASDFVK_CHECK_OP(arcs_.size(), <, size_t{kOrphan});
-  routeAlongForest();
-  for (uint32_t node = 0; node < nodeCount(); ++node) {
+  size_t partSize = 0;
+  for (size_t size = kNodesPerRange;; partSize = size, size *= kRangesPerRange) {
+    const size_t rangeCount = (nodes_.size() + size - 1) / size;
+    std::vector<double> flows(rangeCount);
+    forEachTask(rangeCount, [&](size_t range) {
+      const size_t begin = range * size, end = std::min(nodes_.size(), begin + size);
+      Search search(*this, static_cast<uint32_t>(begin), static_cast<uint32_t>(end));
+      if (partSize == 0) {
+        search.routeAlongForest();
+        search.plant();
+      } else {
+        search.join(partSize);
+      }
+      search.run();
+      flows[range] = search.flow();
+    });
+    for (const double flow : flows) flow_ += flow;
+    if (rangeCount <= 1) return flow_;
+  }
+}
+
+void MaxFlow::Search::plant() {
+  for (uint32_t node = begin_; node < begin_ + count_; ++node) {
     Node& n = nodes_[node];
     if (n.terminal == 0) continue;
     n.tree = n.terminal > 0 ? Tree::Source : Tree::Sink;
@@ -38,12 +110,29 @@ double MaxFlow::solve() {
     n.distance = 1;
     activate(node);
   }
+}
+
+void MaxFlow::Search::join(size_t partSize) {
+  for (uint32_t node = begin_; node < begin_ + count_; ++node) {
+    Node& n = nodes_[node];
+    time_ = std::max(time_, n.checkedAt);
+    if (n.tree == Tree::Free) continue;
+    for (uint32_t arc = n.firstArc; arc != kNone; arc = arcs_[arc].next) {
+      const uint32_t other = arcs_[arc].to;
+      if (other / partSize == node / partSize || !contains(other)) continue;
+      activate(node);
+      break;
+    }
+  }
+}
+
+void MaxFlow::Search::run() {
   while (queueSize_ > 0) {
     const uint32_t node = queue_[queueBegin_];
     const uint32_t bridge = nodes_[node].tree == Tree::Free ? kNone : grow(node);
     if (bridge == kNone) {
       nodes_[node].isActive = false;
-      if (++queueBegin_ == queue_.size()) queueBegin_ = 0;
+      if (++queueBegin_ == count_) queueBegin_ = 0;
       --queueSize_;
     } else {
       ++time_;
@@ -51,15 +140,14 @@ double MaxFlow::solve() {
       adoptOrphans();
     }
   }
-  return flow_;
 }
 
 // Moves what a node has from the source, or to the sink, to its parent in the tree as far as the edge carries it. That
 // changes the value of no cut but by what cancels out.
-void MaxFlow::routeAlongForest() {
+void MaxFlow::Search::routeAlongForest() {
   constexpr size_t kMaxTreeSize = 512;  // 64 to 8,000 are as fast within the noise.
   size_t begin = 0, end = 0;
-  for (uint32_t root = 0; root < nodeCount(); ++root) {
+  for (uint32_t root = begin_; root < begin_ + count_; ++root) {
     if (nodes_[root].parent != kNone) continue;
     const size_t first = end;
     nodes_[root].parent = kTerminal;
@@ -67,6 +155,7 @@ void MaxFlow::routeAlongForest() {
     for (; begin < end; ++begin)
       for (uint32_t arc = nodes_[queue_[begin]].firstArc; arc != kNone && end - first < kMaxTreeSize;
            arc = arcs_[arc].next) {
+        if (!contains(arcs_[arc].to)) continue;
         Node& child = nodes_[arcs_[arc].to];
         if (child.parent != kNone) continue;
         child.parent = arc ^ 1;
@@ -90,18 +179,18 @@ void MaxFlow::routeAlongForest() {
   }
 }
 
-void MaxFlow::activate(uint32_t node) {
+void MaxFlow::Search::activate(uint32_t node) {
   if (nodes_[node].isActive) return;
   nodes_[node].isActive = true;
-  const size_t end = queueBegin_ + queueSize_++;
-  queue_[end < queue_.size() ? end : end - queue_.size()] = node;
+  const uint32_t end = queueBegin_ + queueSize_++;
+  queue_[end < count_ ? end : end - count_] = node;
 }
 
-uint32_t MaxFlow::grow(uint32_t node) {
+uint32_t MaxFlow::Search::grow(uint32_t node) {
   const Node& n = nodes_[node];
   for (uint32_t arc = n.firstArc; arc != kNone; arc = arcs_[arc].next) {
-    if (!(residualToChild(n.tree, arc) > 0)) continue;
     const uint32_t other = arcs_[arc].to;
+    if (!contains(other) || !(residualToChild(n.tree, arc) > 0)) continue;
     Node& o = nodes_[other];
     if (o.tree == Tree::Free) {
       o.tree = n.tree;
@@ -121,12 +210,12 @@ uint32_t MaxFlow::grow(uint32_t node) {
   return kNone;
 }
 
-void MaxFlow::makeOrphan(uint32_t node) {
+void MaxFlow::Search::makeOrphan(uint32_t node) {
   nodes_[node].parent = kOrphan;
   orphans_.push_back(node);
 }
 
-void MaxFlow::augment(uint32_t bridge) {
+void MaxFlow::Search::augment(uint32_t bridge) {
   const uint32_t ends[] = {arcs_[bridge ^ 1].to, arcs_[bridge].to};
   double amount = arcs_[bridge].residual;
   for (const uint32_t end : ends) {
@@ -154,12 +243,12 @@ void MaxFlow::augment(uint32_t bridge) {
   flow_ += amount;
 }
 
-void MaxFlow::adoptOrphans() {
+void MaxFlow::Search::adoptOrphans() {
   for (size_t i = 0; i < orphans_.size(); ++i) adopt(orphans_[i]);
   orphans_.clear();
 }
 
-uint32_t MaxFlow::distanceToTerminal(uint32_t node) {
+uint32_t MaxFlow::Search::distanceToTerminal(uint32_t node) {
   uint32_t distance = 0, n = node;
   for (;; n = arcs_[nodes_[n].parent].to) {
     if (nodes_[n].checkedAt == time_) {
@@ -182,12 +271,12 @@ uint32_t MaxFlow::distanceToTerminal(uint32_t node) {
   return distance;
 }
 
-void MaxFlow::adopt(uint32_t orphan) {
+void MaxFlow::Search::adopt(uint32_t orphan) {
   Node& n = nodes_[orphan];
   uint32_t best = kNone, bestDistance = kNone;
   for (uint32_t arc = n.firstArc; arc != kNone; arc = arcs_[arc].next) {
     const uint32_t other = arcs_[arc].to;
-    if (nodes_[other].tree != n.tree || !(residualToChild(n.tree, arc ^ 1) > 0)) continue;
+    if (!contains(other) || nodes_[other].tree != n.tree || !(residualToChild(n.tree, arc ^ 1) > 0)) continue;
     const uint32_t distance = distanceToTerminal(other);
     if (distance < bestDistance) {
       bestDistance = distance;
@@ -202,7 +291,7 @@ void MaxFlow::adopt(uint32_t orphan) {
   }
   for (uint32_t arc = n.firstArc; arc != kNone; arc = arcs_[arc].next) {
     const uint32_t other = arcs_[arc].to;
-    if (nodes_[other].tree != n.tree) continue;
+    if (!contains(other) || nodes_[other].tree != n.tree) continue;
     if (residualToChild(n.tree, arc ^ 1) > 0) activate(other);
     if (nodes_[other].parent == (arc ^ 1)) makeOrphan(other);
   }

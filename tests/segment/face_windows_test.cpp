@@ -73,8 +73,9 @@ TEST_CASE("blocks have all faces once") {
 }
 
 TEST_CASE("a block is a breadth-first search") {
-  CHECK(orderByBlocks({{2, 3, kNoNeighbour}, {3, kNoNeighbour, kNoNeighbour}, {0, kNoNeighbour, 4}, {0, 1, 4}, {2, 3, 4}},
-                      5) == Faces{0, 2, 3, 4, 1});
+  CHECK(orderByBlocks(
+            {{2, 3, kNoNeighbour}, {3, kNoNeighbour, kNoNeighbour}, {0, kNoNeighbour, 4}, {0, 1, 4}, {2, 3, 4}}, 5) ==
+        Faces{0, 2, 3, 4, 1});
 }
 
 TEST_CASE("windows have the order of a breadth-first search from their face") {

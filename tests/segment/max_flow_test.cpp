@@ -7,6 +7,7 @@
 
 #include "core/random.h"
 #include "plain_max_flow.h"
+#include "sample_problems.h"
 
 using namespace asdfvk;
 
@@ -147,4 +148,30 @@ TEST_CASE("a grid with fractional capacities has the flow of Dinic's algorithm u
     }
   }
   CHECK(flow.solve() == doctest::Approx(plain.solve()).epsilon(1e-12));
+}
+
+TEST_CASE("graphs of several ranges have the flow and the cut of Dinic's algorithm, on any number of threads") {
+  // Two and three levels of ranges; edges to near nodes, to far nodes, and to nodes of the next range.
+  for (const uint32_t nodeCount : {20'000u, 70'000u}) {
+    CAPTURE(nodeCount);
+    Random random(nodeCount);
+    Network network;
+    for (uint32_t node = 0; node < nodeCount; ++node)
+      network.terminals.push_back(static_cast<double>(random.index(21)) - 10);
+    for (uint32_t node = 0; node + 1 < nodeCount; ++node)
+      for (const uint32_t step : {1u, 150u, 1 + random.index(nodeCount - 1)}) {
+        if (node + step >= nodeCount || (step > 150 && node % 50 != 0)) continue;
+        network.edges.push_back({node, node + step, double(random.index(12)), double(random.index(12))});
+      }
+    test::PlainMaxFlow plain(nodeCount);
+    for (uint32_t node = 0; node < nodeCount; ++node)
+      plain.addTerminal(node, std::max(0.0, network.terminals[node]), std::max(0.0, -network.terminals[node]));
+    for (const Edge& edge : network.edges) plain.addEdge(edge.a, edge.b, edge.capacity, edge.reverse);
+    const double value = plain.solve();
+    for (const size_t threadCount : {1u, 4u}) {
+      MaxFlow flow;
+      REQUIRE(test::onThreads(threadCount, [&] { return solve(flow, network); }) == value);
+      for (uint32_t node = 0; node < nodeCount; ++node) REQUIRE(flow.isSource(node) == plain.isSource(node));
+    }
+  }
 }
