@@ -111,7 +111,7 @@ class MeshComparison {
   std::vector<uint32_t> chooseSeeds(const std::string& count) const {
     const std::vector<uint32_t>& candidates = mesh_.prepared.traceableFaces;
     const std::vector<uint32_t> chosen = randomPermutationSeeds(
-        candidates, resolveSeedCount(parseSeedCount(count), candidates.size()), Options{}.randomSeed);
+        candidates, resolveSeedCount({.seeds = parseSeedCount(count)}, candidates.size()), Options{}.randomSeed);
     std::vector<uint32_t> seeds;
     for (const uint32_t i : SeedOrder(mesh_.scene()).of(chosen)) seeds.push_back(chosen[i]);
     return seeds;
