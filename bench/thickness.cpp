@@ -74,8 +74,7 @@ struct Truth {
     for (uint32_t face = 0; face < scene.mesh.faceCount(); face += step)
       if (!scene.geometry.isDegenerate(face)) faces.push_back(face);
     for (const uint32_t face : faces) sections.push_back(all[solids.solidOf[face]]);
-    const test::BruteForceThickness twin(mesh, makeOpposingWalls(ThicknessOptions{}.wallAngleDegrees).cosine,
-                                         normalization.contactLength());
+    const test::BruteForceThickness twin(mesh, makeOpposingWalls({}).cosine, normalization.contactLength());
     for (auto& list : values) list.resize(faces.size());
     tbb::parallel_for(size_t{0}, faces.size(), [&](size_t i) {
       values[0][i] = twin.at(faces[i]);

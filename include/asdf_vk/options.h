@@ -43,11 +43,13 @@ struct SeedCount {
   enum class Kind { Automatic, All, Share, Count } kind = Kind::Automatic;
   double share = 0;    ///< Share of the faces that can cast rays, above 0 and at most 1.
   uint64_t count = 0;  ///< At least 1.
+  /// False: the default, which rounds replace by kFirstRoundShare; Automatic is not chosen.
+  bool isChosen = false;
 
   [[nodiscard]] static SeedCount automatic() { return {}; }
-  [[nodiscard]] static SeedCount all() { return {Kind::All, 1, 0}; }
-  [[nodiscard]] static SeedCount ofShare(double share) { return {Kind::Share, share, 0}; }
-  [[nodiscard]] static SeedCount ofCount(uint64_t count) { return {Kind::Count, 0, count}; }
+  [[nodiscard]] static SeedCount all() { return {Kind::All, 1, 0, true}; }
+  [[nodiscard]] static SeedCount ofShare(double share) { return {Kind::Share, share, 0, true}; }
+  [[nodiscard]] static SeedCount ofCount(uint64_t count) { return {Kind::Count, 0, count, true}; }
 };
 inline constexpr double kAutomaticSeedShare = 0.1;
 inline constexpr uint64_t kMinAutomaticSeedCount = 3000;
@@ -137,15 +139,16 @@ enum class Measure {
 struct ThicknessOptions {
   /// Faces whose normals differ by at least this angle are opposing walls; above 90 and at most 180.
   double wallAngleDegrees = 120;
-  /// Report the connected parts of the surface below this thickness, in the unit of the mesh; above 0. Requires
-  /// Measure::Thickness or Both.
+  /// Report the connected parts of the surface below this thickness, in the unit of the mesh; above 0. Implies
+  /// Measure::Thickness.
   std::optional<double> thinnerThan;
   /// Leave thin regions that contain a sharp edge or tip out of the verdict and of the minimum. Requires thinnerThan.
   bool allowsSharpEdges = false;
 };
 
-/// Conditions under which further rounds of seeds are added. A round keeps the traced values of all earlier rounds. Any
-/// of them excludes SeedCount::all(); a maximum error requires Options::estimatesError.
+/// Conditions under which further rounds of seeds are added. A round keeps the traced values of all earlier rounds.
+/// Without a choice of seeds the first round has kFirstRoundShare. Any of them excludes SeedCount::all(); a maximum
+/// error requires Options::estimatesError.
 struct RoundOptions {
   std::optional<double> maxError;  ///< Last round: the estimated average error is at most this share of the range.
   std::optional<double> maxRelativeError;   ///< Last round: the estimated median of error / value is at most this.
@@ -154,7 +157,7 @@ struct RoundOptions {
   [[nodiscard]] bool limitError() const { return maxError || maxRelativeError; }
   [[nodiscard]] bool areSet() const { return limitError() || timeBudgetSeconds; }
 };
-/// Share of seeds of the first round where rounds are set and no seeds: of the command line and of the Python module.
+/// Share of seeds of the first round where no seeds are chosen.
 inline constexpr double kFirstRoundShare = 0.02;
 
 /// Treatment of inverted components: closed components whose faces are oriented inwards.
@@ -170,7 +173,9 @@ enum class PerElement {
   Vertices,  ///< Input faces; and vertices, in fields with the same names: means over the faces of a vertex by area.
 };
 
-/// Options of one computation. Sampler and solver are names, listed by samplerNames() and solverNames().
+/// Options of one computation. A member out of its range, and one without effect or against another that differs from
+/// its default, is Error{OptionOutOfRange} or Error{OptionConflict}, as on the command line. Sampler and solver are
+/// names, listed by samplerNames() and solverNames().
 struct Options {
   ConeOptions cone;
   SeedCount seeds;
@@ -180,8 +185,8 @@ struct Options {
   SmoothingOptions smoothing;
   Postprocess postprocess = Postprocess::None;
   Segmentation segmentation = Segmentation::None;
-  CgalSegmentationOptions cgalSegmentation;  ///< Ignored unless `segmentation` is Cgal.
-  PartsOptions parts;                        ///< Ignored unless `segmentation` is Parts.
+  CgalSegmentationOptions cgalSegmentation;  ///< Requires Segmentation::Cgal.
+  PartsOptions parts;                        ///< Requires Segmentation::Parts.
   Measure measure = Measure::ShapeDiameter;
   ThicknessOptions thickness;
   bool estimatesError = true;

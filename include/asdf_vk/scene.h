@@ -70,7 +70,7 @@ class ASDFVK_API Scene {
                                              const ConeOptions& cone = {}, const RunControl& control = {});
 
   /// Wall thickness at points of the surface: the diameter of the largest ball that touches the surface at the point
-  /// from inside and contains no point of an opposing wall, by the normals of ThicknessOptions::wallAngleDegrees
+  /// from inside and contains no point of an opposing wall, by the normals of ThicknessOptions
   /// (docs/thickness.md). points, normals: as for valuesAt(). Returns #P values in the unit of the mesh; NaN where no
   /// wall opposes the point in an open component. Ignores a limit in the options. Throws as valuesAt().
   [[nodiscard]] std::vector<double> thicknessAt(std::span<const double> points, std::span<const double> normals,

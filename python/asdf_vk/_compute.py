@@ -10,21 +10,9 @@ from numpy.typing import NDArray
 
 from . import _core
 from ._errors import MeshWarning, error_of
-from ._options import ComputeOptions, Progress, checked_progress
+from ._options import Progress, checked_progress
 
 _STACK_LEVEL = 4  # The caller of the public function.
-
-# Options that have no effect without another one: its name and values.
-_NEEDS = {
-    "parts": ("segment", ("parts",)),
-    "detail": ("segment", ("parts",)),
-    "clusters": ("segment", ("cgal",)),
-    "smoothness": ("segment", ("cgal",)),
-    "expansion": ("segment", ("cgal",)),
-    "thinner_than": ("measure", ("thickness", "both")),
-    "allow_sharp_edges": ("measure", ("thickness", "both")),
-    "wall_angle": ("measure", ("thickness", "both")),
-}
 
 
 def split_progress(options: dict[str, Any], allowed: Collection[str]) -> Progress | None:
@@ -47,12 +35,7 @@ def _merged(options: dict[str, Any], implied: dict[str, Any]) -> dict[str, Any]:
     for name, value in implied.items():
         if options.get(name) is not None and not (isinstance(options[name], type(value)) and options[name] == value):
             raise error_of("optionConflict", f"{name}={options[name]!r} contradicts this function: use compute()")
-    merged = {**options, **implied}
-    for name, (needed, values) in _NEEDS.items():
-        given = merged.get(needed)
-        if merged.get(name) is not None and not (isinstance(given, str) and given in values):
-            raise error_of("optionConflict", f"{name} needs {needed}={values[0]!r}, not {given!r}")
-    return merged
+    return {**options, **implied}
 
 
 def computed(
@@ -61,7 +44,7 @@ def computed(
     implied: dict[str, Any],
 ) -> _core.ComputedFields:
     """Calls `compute` with the options of the caller and those that the function implies; issues the warnings."""
-    progress = split_progress(options, ComputeOptions.__annotations__)
+    progress = split_progress(options, _core.option_names())
     result = compute(_merged(options, implied), progress)
     for warning in result.warnings():
         warnings.warn(MeshWarning(warning.message, warning.code), stacklevel=_STACK_LEVEL)
@@ -75,7 +58,10 @@ def values_of(result: _core.ComputedFields, name: str, options: dict[str, Any]) 
 
 def with_diameter(options: dict[str, Any]) -> dict[str, Any]:
     """The options, which measure the shape diameter too."""
-    return {**options, "measure": "both"} if options.get("measure") == "thickness" else options
+    measure = options.get("measure")
+    has_limit = measure is None and options.get("thinner_than") is not None
+    is_thickness = isinstance(measure, str) and measure == "thickness"
+    return {**options, "measure": "both"} if has_limit or is_thickness else options
 
 
 def skeleton_of(

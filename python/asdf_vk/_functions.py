@@ -64,8 +64,6 @@ def thickness(
     thinner_than: judge whether any point of the surface is thinner than this (unit of the mesh), and list the thin
         regions; compute(..., measure="thickness", thinner_than=X).thickness has the verdict and the regions.
     allow_sharp_edges: leave thin regions with a sharp edge or tip out of the verdict. Needs thinner_than.
-    wall_angle: faces whose normals differ by at least this many degrees are opposing walls, above 90 to 180;
-        default 120.
 
     Returns float32 (m,) or (n,), at the barycentres, in the unit of the mesh, NaN = no value. Raises and warns as
     compute().

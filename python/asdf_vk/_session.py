@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import atexit
-import operator
 import os
 import threading
 from dataclasses import dataclass
@@ -52,7 +51,9 @@ class Session:
         require_gpu: bool | None = False,
         threads: int | None = 0,
     ) -> None:
-        self._open: _core.Session | None = _core.Session(*_session_key(backend, device, require_gpu, threads))
+        self._open: _core.Session | None = _core.Session(
+            {"backend": backend, "device": device, "require_gpu": require_gpu, "threads": threads}
+        )
 
     @property
     def backend(self) -> str:
@@ -91,17 +92,6 @@ class Session:
         return self._open
 
 
-def _session_key(backend: Any, device: Any, require_gpu: Any, threads: Any) -> tuple[str, str, bool, int]:
-    backend = "auto" if backend is None else backend
-    device = "" if device is None else device
-    if not isinstance(device, str):
-        device = str(_index(device, "device", 0, 2**31, "an index or a part of a name"))
-    for name, text in (("backend", backend), ("device", device)):
-        if not isinstance(text, str) or not text.isprintable():
-            raise error_of("optionOutOfRange", f"{name}={text!r} is not a name")
-    return backend, device, flag_of(require_gpu, "require_gpu"), thread_count(threads)
-
-
 def flag_of(value: Any, name: str) -> bool:
     """Checks a flag; None: False."""
     if value is not None and not isinstance(value, (bool, np.bool_)):
@@ -111,18 +101,7 @@ def flag_of(value: Any, name: str) -> bool:
 
 def thread_count(threads: Any) -> int:
     """Checks a number of CPU threads; 0, as well as None: the number of cores."""
-    return _index(0 if threads is None else threads, "threads", 0, 1024, "a whole number from 0 to 1024")
-
-
-def _index(value: Any, name: str, least: int, most: int, wanted: str) -> int:
-    if not isinstance(value, (bool, np.bool_)):
-        try:
-            index = operator.index(value)
-        except TypeError:
-            index = -1
-        if least <= index <= most:
-            return index
-    raise error_of("optionOutOfRange", f"{name}={value!r} is not {wanted}")
+    return _core.session_key({"threads": threads})[3]
 
 
 _default_sessions: dict[tuple[str, str, bool, int], Session] = {}
@@ -138,13 +117,13 @@ def _renew_lock() -> None:
 os.register_at_fork(after_in_child=_renew_lock)
 
 
-def default_session(backend: Any = None, device: Any = None, require_gpu: Any = None, threads: Any = None) -> Session:
+def default_session(**options: Any) -> Session:
     """The session of the free functions for these options, opened at first use and kept."""
-    key = _session_key(backend, device, require_gpu, threads)
+    key = _core.session_key(options)
     with _default_sessions_lock:
         session = _default_sessions.get(key)
         if session is None:
-            session = Session(backend=backend, device=device, require_gpu=require_gpu, threads=threads)
+            session = Session(**options)
             _default_sessions[key] = session
         return session
 

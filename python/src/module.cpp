@@ -85,6 +85,10 @@ PYBIND11_MODULE(_core, module) {
   module.attr("error_kinds") = errorKinds();
   py::register_local_exception_translator(translate);
   module.def("option_names", optionNames);
+  module.def("session_key", [](const py::dict& values) {
+    const SessionSettings session = sessionOf(values);
+    return py::make_tuple(session.backend, session.device, session.requireGpu, session.threadCount);
+  });
   module.def("devices", devices);
   bindFiles(module);
   bindScenes(module);

@@ -5,13 +5,15 @@
 #include <string>
 #include <vector>
 
-#include "asdf_vk/options.h"
+#include "describe/computation_options.h"
 
 namespace asdfvk::python {
 
-/// Options by their names in Python. Throws Error{UnknownName} for an unknown key or choice, Error{OptionOutOfRange}
-/// for a value of the wrong type or outside of its range.
+/// Options by their names in Python, with what they imply. None is the default. Throws Error{UnknownName} for an
+/// unknown key or choice, Error{OptionOutOfRange} for a value of the wrong type or outside of its range,
+/// Error{OptionConflict} for options that contradict each other.
 [[nodiscard]] Options optionsOf(const pybind11::dict& values);
+[[nodiscard]] SessionSettings sessionOf(const pybind11::dict& values);
 
 /// The keys of optionsOf().
 [[nodiscard]] std::vector<std::string> optionNames();

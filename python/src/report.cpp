@@ -15,11 +15,11 @@ namespace asdfvk::python {
 namespace {
 
 /// "faceCount" -> "face_count"
-std::string snakeCase(const char* key) {
+std::string snakeCase(const std::string& key) {
   std::string text;
-  for (; *key != 0; ++key) {
-    if (std::isupper(static_cast<unsigned char>(*key)) != 0) text += '_';
-    text += static_cast<char>(std::tolower(static_cast<unsigned char>(*key)));
+  for (const unsigned char c : key) {
+    if (std::isupper(c) != 0) text += '_';
+    text += static_cast<char>(std::tolower(c));
   }
   return text;
 }
@@ -58,7 +58,8 @@ py::object objectOf(const T& value) {
     return py::cast(value);
   } else {
     py::dict members;
-    visitKeys(value, [&](const char* key, const auto& member) { members[snakeCase(key).c_str()] = objectOf(member); });
+    visitKeys(value,
+              [&](const std::string& key, const auto& member) { members[snakeCase(key).c_str()] = objectOf(member); });
     return py::module_::import("asdf_vk._report").attr(structureName(value))(**members);
   }
 }

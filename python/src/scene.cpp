@@ -130,10 +130,7 @@ void bindScenes(py::module_& module) {
       });
 
   py::class_<SharedSession, std::shared_ptr<SharedSession>>(module, "Session")
-      .def(py::init([](const std::string& backend, const std::string& device, bool requireGpu, uint32_t threadCount) {
-        return std::make_shared<SharedSession>(
-            SessionOptions{.backend = backend, .device = device, .requireGpu = requireGpu, .variant = {}}, threadCount);
-      }))
+      .def(py::init([](const py::dict& options) { return std::make_shared<SharedSession>(sessionOf(options)); }))
       .def_property_readonly("backend", [](const SharedSession& self) { return self.session().backend(); })
       .def_property_readonly("device_lines", [](const SharedSession& self) { return self.session().deviceLines(); })
       .def_property_readonly("runs_on_cpu", [](const SharedSession& self) { return self.session().runsOnCpu(); })

@@ -14,12 +14,12 @@ constexpr auto kLockInterval = std::chrono::milliseconds(20);
 
 }  // namespace
 
-SharedSession::SharedSession(const SessionOptions& options, uint32_t threadCount) : threadCount_(threadCount) {
+SharedSession::SharedSession(const SessionSettings& settings) : threadCount_(settings.threadCount) {
   requireSameProcess();
   runInterruptibly(
       [&](const RunControl&) {
         const ThreadLimit limit(threadCount_);
-        session_ = std::make_unique<Session>(options);
+        session_ = std::make_unique<Session>(settings);
       },
       py::none());
 }

@@ -10,6 +10,7 @@
 
 #include "asdf_vk/scene.h"
 #include "asdf_vk/session.h"
+#include "describe/computation_options.h"
 
 namespace asdfvk::python {
 
@@ -29,8 +30,8 @@ class ComputedFields {
 /// Session for Python: any number of threads may call it, one computation at a time.
 class SharedSession {
  public:
-  /// threadCount: see ThreadLimit. Throws Error{ForkedProcess} and as Session().
-  SharedSession(const SessionOptions& options, uint32_t threadCount);
+  /// Throws Error{ForkedProcess} and as Session().
+  explicit SharedSession(const SessionSettings& settings);
   /// In a forked process nothing is released: the threads of the device do not exist there.
   ~SharedSession();
   SharedSession(const SharedSession&) = delete;

@@ -16,6 +16,7 @@ import asdf_vk
 from asdf_vk import _core
 
 _ROOT = Path(__file__).resolve().parents[2]
+_PACKAGE = Path(asdf_vk.__file__).parent  # With the classes that the build writes.
 
 
 def mypy(*arguments: str, folder: Path = _ROOT) -> str:
@@ -24,14 +25,14 @@ def mypy(*arguments: str, folder: Path = _ROOT) -> str:
     # The stubs of NumPy 2.1 need Python 3.10; with 3.9 every array would be Any.
     if np.lib.NumpyVersion(np.__version__) >= "2.1.0":
         command += ["--python-version", "3.10"]
-    environment = {**os.environ, "MYPYPATH": str(_ROOT / "python")}
+    environment = {**os.environ, "MYPYPATH": str(_PACKAGE.parent)}
     finished = subprocess.run(command, capture_output=True, text=True, cwd=folder, env=environment)
     return finished.stdout + finished.stderr
 
 
 def test_the_package_and_its_tests_are_typed() -> None:
     found = mypy(
-        "--cache-dir=/dev/null", "python/asdf_vk", "python/tests", "python/cgal_Segmentation_Module.py"
+        "--cache-dir=/dev/null", str(_PACKAGE), "python/tests", "python/cgal_Segmentation_Module.py"
     )
     # mypy 1.15 warns before that Unpack is no longer incomplete; mypy 1.0 needs it enabled.
     assert re.search(r"^Success", found, re.MULTILINE), found

@@ -14,7 +14,7 @@ import pytest
 from numpy.typing import NDArray
 
 import asdf_vk
-from asdf_vk import _core, _options, _report
+from asdf_vk import _core, _keywords, _report
 from shapes import cube, dumbbell, joined, sphere
 
 
@@ -137,7 +137,7 @@ def test_options_reach_the_library() -> None:
     assert (paper != asdf_vk.shape_diameter(*mesh)).any()
     assert asdf_vk.compute(*mesh, seeds=50).seed_count == 50
     assert asdf_vk.compute(*mesh).seed_count == asdf_vk.compute(*mesh, seeds="auto").seed_count == 3000
-    assert asdf_vk.compute(*mesh, seeds="5 %").seed_count == 256
+    assert asdf_vk.compute(*mesh, seeds="5%").seed_count == 256
     assert asdf_vk.compute(*mesh, definition="cgal").seed_count == 5120
     assert asdf_vk.compute(*mesh, rays=7, seeds=100).ray_count == 700
     first = asdf_vk.compute(*mesh, max_error=0.5)
@@ -146,7 +146,7 @@ def test_options_reach_the_library() -> None:
 
 
 def test_names_of_options_agree_with_the_extension() -> None:
-    assert set(_options.ComputeOptions.__annotations__) == set(_core.option_names())
+    assert set(_keywords.ComputeOptions.__annotations__) == set(_core.option_names())
 
 
 @pytest.mark.parametrize("limit", [0.3, 5])

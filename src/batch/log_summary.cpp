@@ -14,9 +14,6 @@
 namespace asdfvk {
 namespace {
 
-constexpr int kBinsPerDecade = 5;
-constexpr int kMaxBinCount = 60;
-
 bool isComputed(const MeshRecord& record) {
   return record.status == MeshStatus::Done || record.status == MeshStatus::Skipped;
 }
@@ -68,22 +65,6 @@ Spread spreadOf(std::vector<double> numbers) {
   return {numbers.front(), at(0.5), at(0.9), numbers.back()};
 }
 
-Histogram histogramOf(const std::vector<double>& numbers) {
-  const auto binOf = [](double number) { return static_cast<int>(std::floor(kBinsPerDecade * std::log10(number))); };
-  std::map<int, uint64_t> counts;
-  for (const double number : numbers)
-    if (number > 0 && std::isfinite(number)) ++counts[binOf(number)];
-  Histogram histogram;
-  if (counts.empty()) return histogram;
-  const int last = counts.rbegin()->first;
-  const int first = std::max(counts.begin()->first, last - kMaxBinCount + 1);
-  const auto edgeOf = [](int bin) { return std::pow(10, static_cast<double>(bin) / kBinsPerDecade); };
-  for (int bin = first; bin <= last; ++bin) histogram.bins.push_back({edgeOf(bin), edgeOf(bin + 1), 0});
-  for (const auto& [bin, count] : counts) histogram.bins[static_cast<size_t>(std::max(bin - first, 0))].count += count;
-  histogram.bins.front().from = edgeOf(counts.begin()->first);
-  return histogram;
-}
-
 LogSummary summarizeRecords(std::vector<MeshRecord> records, size_t invalidLineCount) {
   LogSummary summary;
   summary.recordCount = records.size();
@@ -120,8 +101,6 @@ LogSummary summarizeRecords(std::vector<MeshRecord> records, size_t invalidLineC
   }
   summary.seconds = spreadOf(seconds);
   summary.averageErrors = spreadOf(errors);
-  summary.secondsHistogram = histogramOf(seconds);
-  summary.errorHistogram = histogramOf(errors);
   summary.stageSeconds.assign(stages.begin(), stages.end());
   std::stable_sort(summary.stageSeconds.begin(), summary.stageSeconds.end(),
                    [](const auto& a, const auto& b) { return a.second > b.second; });

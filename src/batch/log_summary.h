@@ -17,18 +17,6 @@ struct Spread {
 };
 [[nodiscard]] Spread spreadOf(std::vector<double> numbers);
 
-/// Bins of equal width in the logarithm. Where the numbers span more than 12 decades, the first bin also counts those
-/// below it.
-struct Histogram {
-  struct Bin {
-    double from = 0, to = 0;
-    uint64_t count = 0;
-  };
-  std::vector<Bin> bins;
-};
-/// Numbers that are not above 0 are ignored.
-[[nodiscard]] Histogram histogramOf(const std::vector<double>& numbers);
-
 /// Meshes that failed, or were dropped, with the same code and error.
 struct FailureGroup {
   MeshStatus status = MeshStatus::Failed;
@@ -46,8 +34,7 @@ struct LogSummary {
   uint64_t faceCount = 0;         ///< Of the meshes that were computed, also by earlier runs.
   double meshSeconds = 0;         ///< Sum of their times.
   Spread seconds, averageErrors;  ///< Of these meshes: total times; estimated average errors, shares of the range.
-  Histogram secondsHistogram, errorHistogram;
-  uint64_t peakMemoryBytes = 0;                              ///< The greatest.
+  uint64_t peakMemoryBytes = 0;   ///< The greatest.
   std::vector<std::pair<std::string, double>> stageSeconds;  ///< Sums, descending.
   std::vector<FailureGroup> failures;                        ///< By descending count.
   std::vector<std::pair<std::string, uint64_t>> warnings;    ///< Meshes with a warning, by its code.
@@ -63,7 +50,5 @@ struct LogSummary {
 [[nodiscard]] std::string jsonOf(const LogSummary& summary);
 /// A row per mesh.
 [[nodiscard]] std::string csvOf(const LogSummary& summary);
-/// An HTML page without scripts and further files.
-[[nodiscard]] std::string pageOf(const LogSummary& summary, const std::string& title);
 
 }  // namespace asdfvk

@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "cli/batch_options.h"
 #include "cli/exit_code.h"
 #include "cli/one_mesh.h"
 

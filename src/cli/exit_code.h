@@ -79,7 +79,7 @@ struct Failure {
 [[nodiscard]] Failure cancelledFailure();
 
 /// Describes the exception being handled; to be called in a catch block. requiresGpu: do not propose the CPU.
-/// valueOptions: Computation::valueOptions.
+/// valueOptions: options that need values, such as --segment.
 [[nodiscard]] Failure currentFailure(bool requiresGpu = false, const std::string& valueOptions = "");
 
 }  // namespace asdfvk

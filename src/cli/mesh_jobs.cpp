@@ -9,8 +9,6 @@
 #include "batch/content_hash.h"
 #include "batch/output_record.h"
 #include "batch/process_memory.h"
-#include "cli/options_hash.h"
-#include "cli/page_output.h"
 #include "cli/report.h"
 #include "core/json.h"
 #include "core/stopwatch.h"
@@ -56,7 +54,7 @@ bool isReadAhead(const Job& job) {
 
 JobRecords::JobRecords(const MeshSettings& settings)
     : settings_(settings),
-      optionsHash_(optionsHash(settings.computation, settings.compared, settings.session, settings.outputs)),
+      optionsHash_(optionsHash(settings.computation, settings.session, settings.outputs)),
       options_(std::make_shared<const Json>(optionValues(settings.computation, settings.session))) {}
 
 MeshRecord JobRecords::begin(const Job& job) const {

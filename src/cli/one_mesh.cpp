@@ -15,7 +15,6 @@
 #include "batch/content_hash.h"
 #include "batch/output_record.h"
 #include "cli/outputs.h"
-#include "cli/page_output.h"
 #include "cli/report.h"
 #include "core/stopwatch.h"
 #include "core/text.h"
@@ -73,7 +72,7 @@ class AwaitedReader {
 };
 
 /// The requested checks that failed or could not be made.
-std::vector<Failure> failedChecks(const Computation& computation, const Report& report) {
+std::vector<Failure> failedChecks(const ComputationSettings& computation, const Report& report) {
   std::vector<Failure> failures;
   if (report.check && exitCodeOf(*report.check) != ExitCode::Done)
     failures.push_back({ExitCode::CheckFailed, checkFailure(*report.check), "checkFailed"});
@@ -83,6 +82,14 @@ std::vector<Failure> failedChecks(const Computation& computation, const Report& 
     failures.push_back(
         {code, thicknessVerdict(*report.thickness), code == ExitCode::TooThin ? "tooThin" : "notJudged"});
   return failures;
+}
+
+/// The options that need values, for the remedy where there are none.
+std::string valueOptionsOf(const Options& options) {
+  const bool isSegmented = options.segmentation != Segmentation::None;
+  if (options.postprocess == Postprocess::None || options.segmentation == Segmentation::Cgal)
+    return isSegmented ? "--segment" : "";
+  return isSegmented ? "--postprocess and --segment" : "--postprocess";
 }
 
 LoadedMesh loadNow(const std::string& path, bool computesHash) {
@@ -175,7 +182,7 @@ void addReport(const MeshOutcome& outcome, bool isOfBatch, MeshRun& run) {
     run.text += textReport(outcome);
   }
   if (outcome.outputs.json) run.json += jsonReport(outcome);
-  if (outcome.computation.against.empty()) run.report = report;
+  run.report = report;
   for (Failure& failure : failedChecks(outcome.computation, report)) {
     run.text += errorLine(outcome.mesh, failure.message);
     if (!run.failure) run.failure = std::move(failure);
@@ -216,58 +223,40 @@ MeshRun computeMesh(Session& session, const std::string& input, const std::strin
   Page* const page = sharedPage != nullptr ? &sharedPage->page : ownPage ? &*ownPage : nullptr;
   const PageMesh shown{sharedPage != nullptr ? sharedPage->name : nameInPage(input), !settings.isOfBatch};
   const bool hasPicture = !settings.outputs.picture.empty();
-  bool isPageBegun = false;
-  const auto writeOwnPage = [&] {
-    isPageBegun = true;
-    run.hasResult = false;
-    finishPage(*ownPage, output, settings.outputs.opensPage, deadline.token());
-    run.hasResult = true;
-  };
-  const auto attempt = [&](const Computation& computation, const auto& work) {
-    try {
-      work();
-    } catch (...) {
-      Failure failure = currentFailure(settings.session.requireGpu, computation.valueOptions);
-      if (failure.code == ExitCode::Cancelled && deadline.hasExpired())
-        failure = timeLimitFailure(settings.timeoutSeconds);
-      run.add(std::move(failure), input, settings.outputs.json);
-    }
-  };
-  const auto compute = [&](const Computation& computation, bool isLast) {
+  const auto compute = [&] {
     Result result = files.withProgress(
-        [&](const RunControl& control) { return session.compute(loaded.mesh, computation.options, control); });
+        [&](const RunControl& control) { return session.compute(loaded.mesh, settings.computation.options, control); });
     if (deadline.token().stop_requested()) throw Error(ErrorCode::Cancelled, "cancelled");
     StageSeconds& seconds = result.report.stageSeconds;
     seconds[Stage::Read] = loaded.seconds;
-    const bool isFirst = &computation == &settings.computation;
-    const Field* const pictureField = isFirst && hasPicture ? pictureFieldOf(settings.outputs, result) : nullptr;
-    const MeshOutcome outcome{input, output, computation, settings.session, settings.outputs, result};
+    const Field* const pictureField = hasPicture ? pictureFieldOf(settings.outputs, result) : nullptr;
+    const MeshOutcome outcome{input, output, settings.computation, settings.session, settings.outputs, result};
     const Stopwatch watch;
     removeOutputRecord(output);
     if (page == nullptr) {
-      files.writeResult(loaded.mesh, computation.options, result);
+      files.writeResult(loaded.mesh, settings.computation.options, result);
     } else {
       files.withProgress([&](const RunControl& control) { addToPage(*page, outcome, shown, control); });
-      if (ownPage && isLast) writeOwnPage();
+      if (ownPage) finishPage(*ownPage, output, settings.outputs.opensPage, deadline.token());
     }
-    if (isFirst) files.writePoints(result);
+    files.writePoints(result);
     seconds[Stage::Write] = watch.seconds();
-    if (isFirst && hasPicture) files.writePicture(result, pictureField);
+    if (hasPicture) files.writePicture(result, pictureField);
     addReport(outcome, settings.isOfBatch, run);
   };
 
   const Interrupt::Listening listening;
-  attempt(settings.computation, [&] {
+  try {
     if (beforeMesh != nullptr) beforeMesh(input);
     if (loaded.failure) std::rethrow_exception(loaded.failure);
     files.requireWritable();
-  });
-  if (run.failure) return run;
-  attempt(settings.computation, [&] { compute(settings.computation, !settings.compared); });
-  const auto isCancelled = [&] { return run.failure && run.failure->code == ExitCode::Cancelled; };
-  if (settings.compared && !isCancelled()) attempt(*settings.compared, [&] { compute(*settings.compared, true); });
-  // The last computation failed, the other one did not.
-  if (ownPage && !isPageBegun && !ownPage->isEmpty() && !isCancelled()) attempt(settings.computation, writeOwnPage);
+    compute();
+  } catch (...) {
+    Failure failure = currentFailure(settings.session.requireGpu, valueOptionsOf(settings.computation.options));
+    if (failure.code == ExitCode::Cancelled && deadline.hasExpired())
+      failure = timeLimitFailure(settings.timeoutSeconds);
+    run.add(std::move(failure), input, settings.outputs.json);
+  }
   return run;
 }
 

@@ -17,14 +17,17 @@ namespace asdfvk {
 
 /// What is done with a mesh.
 struct MeshSettings {
-  SessionOptions session;
-  Computation computation;
-  std::optional<Computation> compared;  ///< For a page: a second computation.
+  SessionSettings session;
+  ComputationSettings computation;
   Outputs outputs;
   double timeoutSeconds = std::numeric_limits<double>::infinity();
   bool makesFolders = false;  ///< The folder of the result is made where it does not exist.
   bool isOfBatch = false;     ///< There is a record beside the result, but no report, and pages have no times.
 };
+
+/// The settings for a worker of the same program. Strings may have any bytes.
+[[nodiscard]] nlohmann::ordered_json toJson(const MeshSettings& settings);
+[[nodiscard]] MeshSettings settingsOf(const nlohmann::ordered_json& json);
 
 /// Computes a mesh from file to file and prints its report. A failure is printed. Returns the exit code. Throws
 /// Error{OptionConflict} where outputs contradict each other.

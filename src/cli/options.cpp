@@ -13,11 +13,10 @@
 #include "asdf_vk/files.h"
 #include "asdf_vk/version.h"
 #include "cli/exit_code.h"
-#include "cli/option_parsing.h"
 #include "cli/outputs.h"
 #include "core/text.h"
+#include "describe/fields.h"
 #include "pipeline/valid_options.h"
-#include "trace/vulkan/vulkan_trace_choice.h"
 
 namespace asdfvk {
 namespace {
@@ -26,14 +25,14 @@ constexpr const char* kDescription =
     "Computes the shape diameter function of triangle meshes (how thick the shape is, seen from each face): rays\n"
     "from seed faces on a Vulkan device, interpolation for the other faces.";
 
-/// Lines of at most 110 characters.
-std::string wrapped(const std::string& text) {
-  constexpr size_t kWidth = 110;
+constexpr size_t kHelpWidth = 80, kFooterWidth = 110;
+
+std::string wrapped(const std::string& text, size_t lineWidth) {
   std::string lines;
   size_t width = 0;
   std::istringstream words(text);
   for (std::string word; words >> word; width += word.size() + 1) {
-    if (width + word.size() > kWidth) width = 0;
+    if (width + word.size() > lineWidth) width = 0;
     if (!lines.empty()) lines += width == 0 ? '\n' : ' ';
     lines += word;
   }
@@ -44,7 +43,7 @@ std::string footer() {
   std::string codes;
   for (const auto& [code, meaning] : kExitCodes)
     codes += fmt::format("{}{} {}", codes.empty() ? "" : ", ", static_cast<int>(code), meaning);
-  return wrapped(fmt::format("Exit codes: {}. {}", codes, kExitCodeOfSeveralMeshes));
+  return wrapped(fmt::format("Exit codes: {}. {}", codes, kExitCodeOfSeveralMeshes), kFooterWidth);
 }
 
 bool isCheckCount(const std::string& text) {
@@ -80,214 +79,104 @@ bool takeHelpAll(std::vector<std::string>& arguments) {
   return showsAll;
 }
 
-void requireFieldName(const std::string& name) {
-  const std::vector<std::string> known = resultFieldNames();
-  if (std::find(known.begin(), known.end(), name) == known.end())
-    throw Error(ErrorCode::UnknownName,
-                fmt::format("'{}' is not a field; the fields are {}", name, joined(known, ", ")));
-}
-
-/// "sdf,seed,error"
-std::vector<std::string> parseFields(const std::string& text) {
-  std::vector<std::string> names;
-  for (size_t begin = 0; begin <= text.size();) {
-    const size_t end = std::min(text.find(',', begin), text.size());
-    names.push_back(text.substr(begin, end - begin));
-    if (names.back().empty())
-      throw Error(ErrorCode::OptionOutOfRange, fmt::format("'{}' is not a list of names such as sdf,seed,error", text));
-    if (std::count(names.begin(), names.end(), names.back()) > 1)
-      throw Error(ErrorCode::OptionOutOfRange, fmt::format("'{}' names {} twice", text, names.back()));
-    requireFieldName(names.back());
-    begin = end + 1;
+/// --segment without a value, at the end or before an option or a file, becomes --segment=parts. A file is a name that
+/// has a dot or a slash, is "-", or exists; the names of kSegmentations are values, also where such a file exists.
+void expandBareSegment(std::vector<std::string>& arguments) {
+  const auto looksLikeFile = [](const std::string& text) {
+    std::error_code ignored;
+    return text == "-" || text.find_first_of("./") != std::string::npos || std::filesystem::exists(text, ignored);
+  };
+  for (size_t i = 0; i < arguments.size() && arguments[i] != "--"; ++i) {
+    if (arguments[i] != "--segment") continue;
+    const bool isLast = i + 1 == arguments.size();
+    if (!isLast && findChoice(kSegmentations, arguments[i + 1]) != nullptr) continue;
+    if (isLast || arguments[i + 1].starts_with("-") || looksLikeFile(arguments[i + 1])) arguments[i] += "=parts";
   }
-  return names;
-}
-
-/// Throws unless the name of a file has the extension or is "-".
-void requireExtension(const std::string& name, const std::string& extension) {
-  if (name != "-" && lowerCase(std::filesystem::path(name).extension().string()) != extension)
-    throw Error(ErrorCode::OptionOutOfRange, fmt::format("'{}' does not end in {}", name, extension));
-}
-
-void addOutput(ArgumentParser& parser, CommandLine& line) {
-  addValue(parser, "-o,--output", "FILE|DIR|-",
-           fmt::format("Result: a file (.{}), a directory, or - for\n"
-                       "standard output; default NAME.asdf.ply beside the input. .html: a page that shows the\n"
-                       "results of all meshes in a browser",
-                       joined(outputFormats(), " .")),
-           [&](const std::string& text) {
-             if (text.empty()) throw Error(ErrorCode::OptionOutOfRange, "the name is empty");
-             line.outputs.path = text;
-           })
-      .group(kBasicGroup);
-  addValue(parser, "--fields", "NAME,...",
-           fmt::format("Fields to write: {};\n"
-                       "default {}, and those of --measure, --postprocess and --segment;\n"
-                       "in a page all of one component",
-                       joined(resultFieldNames(), ", "), joined(fieldNames({}, {}), ",")),
-           [&](const std::string& text) {
-             line.outputs.fields = parseFields(text);
-             if (std::count(line.outputs.fields.begin(), line.outputs.fields.end(), "centre") > 0)
-               line.computation.options.computesCentres = true;
-           })
-      .completions(joined(resultFieldNames(), "|"))
-      .group(kBasicGroup);
-  addValue(parser, "--check", "[=N|all]",
-           fmt::format("Recompute N random traced faces, and N of all faces, with the reference\n"
-                       "(default {}); exit code 5 where traced faces disagree",
-                       kDefaultCheckCount),
-           [&](const std::string& text) { line.computation.options.checkCount = parseCheckCount(text); })
-      .group(kBasicGroup);
-  addPage(parser, line);
-  parser.addFlag("--json", line.outputs.json, "Report as JSON on standard output, one line per mesh")
-      .group(kBasicGroup);
-  const char* const group = "Output";
-  addName(parser, "--format", line.outputs.format, outputFormats(), "Format where -o does not decide it; default ply")
-      .group(group);
-  parser.addFlag("--ascii", line.outputs.ascii, "Write PLY as text").group(group);
-  addChoice(parser, "--per", line.computation.options.per, kPerElements,
-            "vertex: also fields per vertex, means over its faces by area, with the names of\n"
-            "those per face; .csv and .npy hold these only; default face")
-      .group(group);
-  addValue(parser, "--points", "FILE.ply",
-           "Also write the skeleton points of the faces, half of the shape diameter below\n"
-           "each, with radius and segment, for one mesh; - is standard output",
-           [&](const std::string& text) {
-             requireExtension(text, ".ply");
-             line.outputs.points = text;
-             line.computation.options.computesCentres = true;
-           })
-      .group(group);
-  parser.addFlag("--quiet", line.outputs.quiet, "Print errors only").group(group);
-  parser.addFlag("--verbose", line.outputs.verbose, "Print the full report: device, seeds, times, solver, places")
-      .group(group);
-}
-
-/// "30,18"
-void parseViewAngles(const std::string& text, View& view) {
-  const size_t comma = text.find(',');
-  if (comma == std::string::npos)
-    throw Error(ErrorCode::OptionOutOfRange, fmt::format("'{}' is not two numbers with a comma between them", text));
-  view.azimuthDegrees = parseNumber(text.substr(0, comma));
-  view.elevationDegrees = parseNumber(text.substr(comma + 1));
-  if (std::abs(view.azimuthDegrees) > 360)
-    throw Error(ErrorCode::OptionOutOfRange, fmt::format("the azimuth in '{}' is not from -360 to 360", text));
-  if (std::abs(view.elevationDegrees) > 90)
-    throw Error(ErrorCode::OptionOutOfRange, fmt::format("the elevation in '{}' is not from -90 to 90", text));
-}
-
-constexpr ChoiceNames<std::optional<Up>, 7> kUps{{{"auto", std::nullopt},
-                                                  {"x", Up::X},
-                                                  {"y", Up::Y},
-                                                  {"z", Up::Z},
-                                                  {"-x", Up::MinusX},
-                                                  {"-y", Up::MinusY},
-                                                  {"-z", Up::MinusZ}}};
-
-void addPicture(ArgumentParser& parser, CommandLine& line) {
-  const Argument picture =
-      addValue(parser, "--picture", "FILE.png", "Also render the coloured mesh, for one mesh; - is standard output",
-               [&](const std::string& text) {
-                 requireExtension(text, ".png");
-                 line.outputs.picture = text;
-               })
-          .group(kBasicGroup);
-  const char* const group = "Picture";
-  std::vector<std::string> shown = resultFieldNames();
-  std::erase(shown, "centre");
-  addValue(parser, "--picture-of", joined(shown, "|"),
-           fmt::format("Field to show; default {}, thickness with --measure thickness, or the\n"
-                       "places thinner than a limit",
-                       line.outputs.pictureOf),
-           [&](const std::string& text) {
-             line.outputs.pictureOf = text == "seeds" ? "seed" : text;  // "seeds": the name in version 0.1.
-             requireFieldName(line.outputs.pictureOf);
-             if (line.outputs.pictureOf == "centre")
-               throw Error(ErrorCode::OptionOutOfRange,
-                           "'centre' has three components; a picture shows a field of one component");
-           })
-      .group(group)
-      .needs(picture);
-  const View view;
-  addValue(parser, "--picture-view", "AZIMUTH,ELEVATION",
-           fmt::format("View, in degrees to the right of the broad side of the mesh and up;\n"
-                       "default {},{}, or the view that shows the thin places best",
-                       view.azimuthDegrees, view.elevationDegrees),
-           [&](const std::string& text) { parseViewAngles(text, line.outputs.pictureView); })
-      .group(group)
-      .needs(picture);
-  addChoice(parser, "--picture-up", line.outputs.pictureView.up, kUps,
-            "Up axis of the picture. auto: z of an STL file, else y, unless the mesh stands\n"
-            "more stably on another axis; default auto")
-      .group(group)
-      .needs(picture);
-}
-
-void addDevice(ArgumentParser& parser, CommandLine& line) {
-  addName(parser, "--backend", line.session.backend, withAuto(backendNames()),
-          "A Vulkan device, Embree on the CPU, the double-precision reference, or the\n"
-          "first of them that is available; default auto")
-      .group(kBasicGroup);
-  const char* const group = "Device";
-  addValue(parser, "--device", "N|NAME", "Vulkan device: its number in --list-devices or a part of its name",
-           [&](const std::string& text) { line.session.device = text; })
-      .group(group);
-  parser.addFlag("--require-gpu", line.session.requireGpu, "Fail where no GPU is usable").group(group);
-  parser.addFlag("--list-devices", line.listDevices, "List Vulkan devices and whether each is usable").group(group);
-  parser
-      .addFlag("--device-report", line.deviceReport,
-               "Print a report on the device as JSON: a self-test, the rate of each variant of the\n"
-               "kernels; exit code 3 where the self-test fails")
-      .group(group);
-  addValue(parser, "--threads", "N", "CPU threads, 1 to 1024; default: the number of cores",
-           [&](const std::string& text) { line.threadCount = static_cast<uint32_t>(parseWholeNumber(text, 1, 1024)); })
-      .group(group);
-  TraceVariant& variant = line.session.variant;
-  addName(parser, "--kernel", variant.kernel, withAuto(namesOf(kernelNames())),
-          "Vulkan: neighbouring lanes trace one ray of neighbouring seeds, the rays of\n"
-          "one seed, or these as a packet; default auto, by the device")
-      .group(kExperimentGroup);
-  addName(parser, "--bvh", variant.bvh, withAuto(namesOf(bvhNames())),
-          "Vulkan: hierarchy of eight children in quantised boxes, or of two in float32;\ndefault auto")
-      .group(kExperimentGroup);
-  addName(parser, "--fetch", variant.fetch, withAuto(namesOf(fetchNames())),
-          "Vulkan: the hierarchy is read from texel or storage buffers; default auto")
-      .group(kExperimentGroup);
-}
-
-/// Throws where options of the paper's definition are given with another one.
-void requireNoPaperOption(const ArgumentParser& parser, const CommandLine& line) {
-  if (line.computation.options.cone.definition == Definition::Paper) return;
-  for (const char* name : {"--false-hit-angle", "--outlier-deviations", "--cone-rotation"})
-    if (parser.isGiven(name))
-      throw Error(ErrorCode::OptionConflict,
-                  fmt::format("{} belongs to --definition paper; drop one of the two", name));
-  if (line.computation.options.cone.rotation != ConeRotation::Fixed)
-    throw Error(ErrorCode::OptionConflict,
-                "--recipe quality rotates the cones, which belongs to --definition paper; use another recipe");
 }
 
 /// Throws where options are given that --list-devices or --device-report ignores.
-void requireNoIgnoredOption(const ArgumentParser& parser, const CommandLine& line) {
+void requireNoIgnoredOption(const std::vector<std::string>& given, const CommandLine& line) {
   if (!line.listDevices && !line.deviceReport) return;
   const std::string name = line.listDevices ? "--list-devices" : "--device-report";
   std::set<std::string> used{name, "--quiet", "--threads", "--json", "--require-gpu"};
   if (!line.listDevices) used.insert({"--backend", "--device"});
-  for (const std::string& given : parser.givenNames())
-    if (!used.contains(given))
+  for (const std::string& option : given)
+    if (!used.contains(option))
       refuseOptions(fmt::format("{} is about devices only: {} has no effect; drop one of the two", name,
-                                given == "meshes" ? "a mesh" : given));
+                                option == "meshes" ? "a mesh" : option));
 }
 
-/// Throws where rounds of seeds cannot have an effect.
-void requireRounds(const CommandLine& line) {
-  const Options& options = line.computation.options;
-  const bool limitsError = options.rounds.limitError();
-  if (limitsError && !options.estimatesError)
-    refuseOptions("--max-error needs the estimate of the error; drop it, or --no-estimate");
-  if (options.rounds.areSet() && options.seeds.kind == SeedCount::Kind::All)
-    refuseOptions(fmt::format("{} adds seeds, but with --seeds all every face is one; drop one of the two",
-                              limitsError ? "--max-error" : "--time-budget"));
+bool estimates(const Options& options) {
+  return options.estimatesError && options.seeds.kind != SeedCount::Kind::All && options.measuresDiameter();
+}
+
+/// Fields of the diameter are measured where they are requested; other fields need their options.
+void completeFields(CommandLine& line, bool choosesPicture) {
+  Options& options = line.computation.options;
+  Outputs& outputs = line.outputs;
+  std::vector<std::pair<const char*, std::string>> shown;
+  for (const std::string& name : outputs.fields) shown.emplace_back("--fields", name);
+  if (choosesPicture) shown.emplace_back("--picture-of", outputs.pictureOf);
+  const auto shows = [&](std::string_view name) {
+    return std::any_of(shown.begin(), shown.end(), [&](const auto& field) { return field.second == name; });
+  };
+  if (shows("centre") || !outputs.points.empty()) options.computesCentres = true;
+  if (options.measuresThickness()) {
+    if (shows("sdf") || shows("seed") || shows("error")) options.measure = Measure::Both;
+    if (!choosesPicture) outputs.pictureOf = options.thickness.thinnerThan ? "" : "thickness";
+  }
+  for (const auto& [option, name] : shown) {
+    const auto row =
+        std::find_if(fieldRows().begin(), fieldRows().end(), [&](const auto& r) { return r.name == name; });
+    const bool isComputed = name == "normalized"          ? options.postprocesses()
+                            : name == "segment"           ? options.segmentation != Segmentation::None
+                            : name.ends_with("thickness") ? options.measuresThickness()
+                                                          : true;
+    if (!isComputed) refuseOptions(fmt::format("{} {} needs --{}", option, name, row->needs));
+    if (name == "error" && !estimates(options))
+      refuseOptions(
+          fmt::format("{} error needs an estimate; drop --no-estimate, and --seeds all, which has no error", option));
+  }
+}
+
+void completePage(CommandLine& line) {
+  Outputs& outputs = line.outputs;
+  if (outputs.opensPage && outputs.path.empty() && outputs.format.empty()) outputs.format = kPageFormat;
+  const bool isPage = writesPages(outputs);
+  if (outputs.opensPage && !isPage) refuseOptions("--open opens a page; give -o FILE.html, or drop --open");
+  if (outputs.opensPage && outputs.path == "-")
+    refuseOptions("--open opens a file, which -o - does not write; give -o FILE.html");
+  if (outputs.opensPage && line.meshes.size() > 1 && !writesOnePage(outputs))
+    refuseOptions("--open opens one page; give -o FILE.html, which shows all meshes");
+  if (isPage && std::count(outputs.fields.begin(), outputs.fields.end(), "centre") > 0)
+    refuseOptions("--fields centre has three components; a page shows fields of one component");
+  line.computation.options.keepsScene = isPage || !outputs.picture.empty();
+}
+
+void completeBatch(CommandLine& line, const GivenOptions& given) {
+  BatchOptions& batch = line.batch;
+  if (batch.memoryBytes > 0) batch.isolates = true;
+  const bool readsInput = std::count(line.meshes.begin(), line.meshes.end(), "-") > 0;
+  if (given.has("files-from") && batch.list.empty()) refuseOptions("--files-from: the name is empty");
+  if (given.has("log") && batch.log.empty()) refuseOptions("--log: the name is empty");
+  if (batch.list == "-" && readsInput)
+    refuseOptions("--files-from - and the mesh - both read standard input; give one of them a file");
+  if (batch.isolates && readsInput)
+    refuseOptions(
+        "--isolate and --memory-limit compute in other processes, which cannot read the mesh -; give it a file");
+  if (batch.skipsExisting && readsInput) refuseOptions("--skip-existing does not apply to the mesh -; give it a file");
+  if (!batch.isBatch()) {
+    if (batch.jobCount > 1 && writesOnePage(line.outputs))
+      refuseOptions("one page takes one mesh after another; drop --jobs");
+    return;
+  }
+  if (line.outputs.path == "-") refuseOptions("-o - takes the result of one mesh; give -o a folder");
+  if (!line.outputs.picture.empty() || !line.outputs.points.empty())
+    refuseOptions(
+        "--picture and --points take one mesh; drop them, or -r, --files-from, --log, --skip-existing, --shard and "
+        "--isolate");
+  if (writesOnePage(line.outputs) || line.outputs.opensPage)
+    refuseOptions("a batch writes a page per mesh: give -o a folder, with --format html, and drop --open");
 }
 
 void validateOptions(const CommandLine& line) {
@@ -307,33 +196,13 @@ void validateOptions(const CommandLine& line) {
   if (line.outputs.points == "-" && (line.outputs.path == "-" || line.outputs.json || line.outputs.picture == "-"))
     refuseOptions(
         "--points - writes to standard output, as do --json, -o - and --picture -; give it a file, or drop them");
-  const bool isCpu = line.session.backend == "cpu" || line.session.backend == "reference";
-  const TraceVariant& variant = line.session.variant;
-  if (isCpu && line.session.requireGpu)
-    refuseOptions("--require-gpu contradicts --backend cpu and reference, which run on the CPU; drop one");
-  if (isCpu && !line.session.device.empty())
-    refuseOptions("--device chooses a Vulkan device, which --backend cpu and reference do not use; drop one");
-  if (isCpu && !(variant.kernel.empty() && variant.bvh.empty() && variant.fetch.empty()))
-    refuseOptions("--kernel, --bvh and --fetch choose shaders, which --backend cpu and reference do not use; drop one");
-  const bool estimates =
-      line.computation.options.estimatesError && line.computation.options.seeds.kind != SeedCount::Kind::All;
-  if (line.outputs.pictureOf == "error" && !estimates)
-    refuseOptions("--picture-of error needs an estimate; drop --no-estimate, and --seeds all, which has no error");
-  if (std::count(line.outputs.fields.begin(), line.outputs.fields.end(), "error") > 0 && !estimates)
-    refuseOptions("--fields error needs an estimate; drop --no-estimate, and --seeds all, which has no error");
-  if (isCpu && solverNeedsDevice(line.computation.options.solver))
+  const std::string& backend = line.session.backend;
+  if ((backend == "cpu" || backend == "reference") && solverNeedsDevice(line.computation.options.solver))
     refuseOptions(fmt::format(
         "--solver {} runs on a Vulkan device, which --backend cpu and reference do not use; use --solver cpu",
         line.computation.options.solver));
-  requireRounds(line);
-  if (line.computation.options.interpolation.pooling > 0 &&
-      line.computation.options.interpolation.guidance != Guidance::Prediction)
-    refuseOptions(
-        "--pooling moves values to the prediction, which --recipe paper and --guidance none or curvature do not have; "
-        "drop one of the two");
   if (line.outputs.quiet && line.outputs.verbose)
     refuseOptions("--quiet and --verbose contradict each other; drop one");
-  requireValid(line.computation.options, true);
 }
 
 }  // namespace
@@ -347,11 +216,7 @@ void addOptions(ArgumentParser& parser, CommandLine& line) {
       .addList("meshes", "MESH...", fmt::format("Meshes: .{}; - is standard input", joined(meshFormats(), " .")),
                line.meshes)
       .completions(fmt::format("FILE.{}|-", joined(meshFormats(), "|FILE.")));
-  addComputation(parser, line);
-  addOutput(parser, line);
-  addPicture(parser, line);
-  addBatch(parser, line);
-  addDevice(parser, line);
+  for (const OptionTable& table : optionTables(line)) addRows(parser, table);
 }
 
 CommandLine parseCommandLine(std::vector<std::string> arguments) {
@@ -373,20 +238,49 @@ CommandLine parseCommandLine(std::vector<std::string> arguments) {
     throw Error(ErrorCode::OptionOutOfRange, result.miscounted + " takes exactly one value, once");
   if (!result.refusal.empty())
     throw Error(ErrorCode::OptionOutOfRange, result.refusal + "; asdf-vk --help=all lists the options");
-  if (line.computation.options.rounds.areSet() && !parser.isGiven("--seeds"))
-    line.computation.options.seeds = SeedCount::ofShare(kFirstRoundShare);
-  TraceVariant& variant = line.session.variant;
-  for (std::string* name : {&variant.kernel, &variant.bvh, &variant.fetch})
-    if (*name == "auto") name->clear();
-  requireNoIgnoredOption(parser, line);
-  line.computation.options.keepsScene = !line.outputs.picture.empty();
-  completeSegments(parser, line);
-  completeMeasure(parser, line);
-  completePage(parser, line);
-  completeBatch(parser, line);
-  requireNoPaperOption(parser, line);
+  requireNoIgnoredOption(parser.givenNames(), line);
+  GivenOptions given{.names = {}, .spelling = OptionSpelling::Flag};
+  for (const OptionTable& table : optionTables(line))
+    for (const OptionRow& row : table.rows)
+      if (const std::string flag = spelled(row, OptionSpelling::Flag); !flag.empty() && parser.isGiven(flag))
+        given.names.insert(row.name);
+  complete(line.computation, given);
+  requireValid(line.session, given.spelling);
+  for (const OptionTable& table : optionTables(line)) requireNeeds(table.rows, table.target, given);
+  completeFields(line, given.has("picture-of"));
+  completePage(line);
+  completeBatch(line, given);
   validateOptions(line);
   return line;
+}
+
+void refuseOptions(const std::string& message) { throw Error(ErrorCode::OptionConflict, message); }
+
+std::string helpText(const OptionRow& row, const OptionTable& table) {
+  std::string text = row.text;
+  if (const std::string range = rangeText(row); !range.empty()) text += "; " + range;
+  if (*row.needs != 0) text += "; needs " + neededText(row, table.rows, OptionSpelling::Flag);
+  if (isFlag(row)) return text;
+  const std::string value = defaultText(row, table.target);
+  return value == "-" ? text : text + "; default " + value;
+}
+
+void addRows(ArgumentParser& parser, const OptionTable& table) {
+  for (const OptionRow& row : table.rows) {
+    const std::string flag = spelled(row, OptionSpelling::Flag);
+    if (flag.empty()) continue;
+    const std::string names = row.flags != nullptr ? row.flags : flag, text = wrapped(helpText(row, table), kHelpWidth);
+    void* const target = table.target;
+    const auto setFlag = [&row, target, value = !flag.starts_with("--no-")] {
+      setOption(row, target, value, "", OptionSpelling::Flag);
+    };
+    const auto setValue = [&row, target](const std::string& value) { setOptionText(row, target, value); };
+    const Argument argument =
+        isFlag(row) ? parser.addFlag(names, setFlag, text) : parser.addValue(names, placeholderOf(row), text, setValue);
+    (void)argument.group(row.isBasic ? kBasicGroup : row.group);
+    if (const std::vector<std::string> all = namesOf(row); *row.placeholder != 0 && !all.empty())
+      (void)argument.completions(joined(all, "|"));
+  }
 }
 
 std::string shortUsage() {

@@ -6,34 +6,45 @@
 #include <string>
 #include <vector>
 
-#include "asdf_vk/session.h"
-#include "cli/batch_options.h"
+#include "arguments/arguments.h"
 #include "cli/outputs.h"
+#include "describe/computation_options.h"
 
 namespace asdfvk {
-
-/// What is computed on a mesh.
-struct Computation {
-  Recipe recipe = Recipe::Balanced;  ///< Applied to `options` before other options.
-  Options options;
-  std::optional<double> failIfThinner;  ///< Also thickness.thinnerThan; exit code by its verdict.
-  std::string valueOptions;             ///< Those given that need values: --postprocess, --segment, or both with "and".
-  std::string against;                  ///< The text of --against, if these are its options.
-};
 
 /// The parsed command line. Every option, and every combination of options, is validated.
 struct CommandLine {
   std::vector<std::string> meshes;  ///< Paths, "-" for standard input (at most once); with -r also folders.
-  SessionOptions session;
-  Computation computation;
-  std::optional<Computation> compared;  ///< That of --against.
+  SessionSettings session;
+  ComputationSettings computation;
   Outputs outputs;
   BatchOptions batch;
   bool listDevices = false;
   bool deviceReport = false;
-  uint32_t threadCount = 0;           ///< 0: the number of cores.
   std::optional<std::string> answer;  ///< The text of --help or --version; if set, nothing is computed.
 };
+
+/// Rows with the struct that they set.
+struct OptionTable {
+  OptionRows rows;
+  void* target;
+};
+
+/// All options of the program, in the order of the help.
+[[nodiscard]] std::vector<OptionTable> optionTables(CommandLine& line);
+[[nodiscard]] OptionRows outputRows();
+
+/// Heading of the options of --help; --help=all has the other ones under OptionRow::group.
+inline constexpr const char* kBasicGroup = "Options";
+
+/// Name, description and every option of the program, which set `line`.
+void addOptions(ArgumentParser& parser, CommandLine& line);
+
+/// Adds an argument per row with a flag, which sets its member in the target. The target outlives the parsing.
+void addRows(ArgumentParser& parser, const OptionTable& table);
+
+/// "Rays per cone, from 1 to 1024; default 30".
+[[nodiscard]] std::string helpText(const OptionRow& row, const OptionTable& table);
 
 /// Number of faces of --check without a value.
 inline constexpr uint64_t kDefaultCheckCount = 2000;
@@ -42,8 +53,16 @@ inline constexpr uint64_t kDefaultCheckCount = 2000;
 /// option.
 [[nodiscard]] CommandLine parseCommandLine(std::vector<std::string> arguments);
 
+/// Throws Error{OptionConflict}.
+[[noreturn]] void refuseOptions(const std::string& message);
+
 /// The values of the options that affect the result: the key "options" of the JSON report.
-[[nodiscard]] nlohmann::ordered_json optionValues(const Computation& computation, const SessionOptions& session);
+[[nodiscard]] nlohmann::ordered_json optionValues(const ComputationSettings& computation,
+                                                  const SessionSettings& session);
+
+/// Hash of all that determines the output of a mesh, for --skip-existing.
+[[nodiscard]] std::string optionsHash(const ComputationSettings& computation, const SessionSettings& session,
+                                      const Outputs& outputs);
 
 /// Three lines, for a call without arguments.
 [[nodiscard]] std::string shortUsage();

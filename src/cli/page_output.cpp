@@ -1,4 +1,4 @@
-#include "cli/page_output.h"
+#include "cli/report.h"
 
 #include <fmt/core.h>
 
@@ -29,8 +29,7 @@ FieldList shownFields(const MeshOutcome& outcome) {
   FieldList shown;
   for (const std::string& name : fieldNames(outcome.outputs, outcome.computation.options)) {
     const Field* const field = result.field(name);
-    if (field == nullptr && !outcome.outputs.fields.empty() &&
-        outcome.computation.against.empty())  // With all seeds there is no error, say.
+    if (field == nullptr && !outcome.outputs.fields.empty())
       throw Error(ErrorCode::UnknownField, fmt::format("--fields: the result has no field {}", name));
     if (field != nullptr) shown.emplace_back(*field);
   }
@@ -42,11 +41,10 @@ FieldList shownFields(const MeshOutcome& outcome) {
   return shown;
 }
 
-/// "cow.ply, balanced, seeds 10 %"; with --against "cow.ply, --recipe paper".
+/// "cow.ply, balanced, seeds 10 %"
 std::string labelOf(const std::string& name, const MeshOutcome& outcome) {
-  const Computation& computation = outcome.computation;
+  const ComputationSettings& computation = outcome.computation;
   const Report& report = outcome.result.report;
-  if (!computation.against.empty()) return fmt::format("{}, {}", name, computation.against);
   std::string label = fmt::format("{}, {}", name, nameOf(kRecipes, computation.recipe));
   if (computation.options.cone.definition != Definition::Paper)
     label += fmt::format(", definition {}", nameOf(kDefinitions, computation.options.cone.definition));

@@ -39,7 +39,6 @@ ExitCode printDevices(bool requireGpu, bool asJson) {
 MeshSettings settingsOf(const CommandLine& line) {
   return {.session = line.session,
           .computation = line.computation,
-          .compared = line.compared,
           .outputs = line.outputs,
           .timeoutSeconds = line.batch.timeoutSeconds,
           .makesFolders = line.batch.hasTree() || line.outputs.path.ends_with('/'),
@@ -61,7 +60,7 @@ ExitCode runCommand(const std::vector<std::string>& arguments) {
     writeStandardOutput(*line.answer);
     return ExitCode::Done;
   }
-  const ThreadLimit threadLimit(line.threadCount);
+  const ThreadLimit threadLimit(line.session.threadCount);
   const Interrupt interrupt;
   if (line.listDevices) return printDevices(line.session.requireGpu, line.outputs.json);
   if (line.deviceReport) return printDeviceReport(line.session, interrupt.token());

@@ -10,6 +10,7 @@
 #include "batch/mesh_record.h"
 #include "cli/exit_code.h"
 #include "cli/options.h"
+#include "page/page.h"
 
 namespace asdfvk {
 
@@ -17,8 +18,8 @@ namespace asdfvk {
 struct MeshOutcome {
   const std::string& mesh;    ///< As on the command line.
   const std::string& output;  ///< Path of the result; "-" for standard output.
-  const Computation& computation;
-  const SessionOptions& session;
+  const ComputationSettings& computation;
+  const SessionSettings& session;
   const Outputs& outputs;
   const Result& result;
 };
@@ -80,5 +81,24 @@ using ReportRows = std::vector<std::pair<std::string, std::string>>;
 [[nodiscard]] std::string jsonDeviceReport(const struct DeviceReport& report);
 
 [[nodiscard]] std::string jsonDevices(std::span<const DeviceInfo> devices, const std::string& reason);
+
+/// A page without results.
+[[nodiscard]] Page emptyPage();
+
+/// The name of a mesh in a page, if no other mesh of the page has it.
+[[nodiscard]] std::string nameInPage(const std::string& mesh);
+
+/// How a page shows a mesh.
+struct PageMesh {
+  std::string name;
+  bool showsTimes = true;
+};
+
+/// Adds a result with the texts of its report and a small picture. Precondition: result.scene is set. Throws
+/// Error{UnknownField} for a field of --fields that the result does not have, and Error{Cancelled}.
+void addToPage(Page& page, const MeshOutcome& outcome, const PageMesh& mesh, const RunControl& control);
+
+/// Writes the page atomically. Throws Error{OutputNotWritable}.
+void writePage(const std::string& path, const Page& page);
 
 }  // namespace asdfvk

@@ -3,12 +3,13 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 
 #include "asdf_vk/error.h"
 #include "batch/log_summary.h"
 #include "batch/record_log.h"
-#include "cli/option_parsing.h"
+#include "cli/options.h"
 #include "core/atomic_file.h"
 #include "core/text.h"
 #include "process/terminal.h"
@@ -16,18 +17,17 @@
 namespace asdfvk {
 namespace {
 
-const std::vector<std::string> kSummaryFormats{"text", "json", "csv", "html"};
+const std::vector<std::string> kSummaryFormats{"text", "json", "csv"};
 
-/// "html" for "page.HTML".
+/// "csv" for "table.CSV".
 std::string formatOfName(const std::string& output) {
   const std::string extension = lowerCase(std::filesystem::path(output).extension().string());
   return extension.empty() ? "" : extension.substr(1);
 }
 
-std::string renderSummary(const LogSummary& summary, const std::string& format, const std::string& title) {
+std::string renderSummary(const LogSummary& summary, const std::string& format) {
   if (format == "json") return jsonOf(summary);
   if (format == "csv") return csvOf(summary);
-  if (format == "html") return pageOf(summary, title);
   return textOf(summary);
 }
 
@@ -50,6 +50,26 @@ void completeFormat(SummaryOptions& options) {
                               joined(kSummaryFormats, "|")));
 }
 
+const std::array kSummaryRows{
+    OptionRow{.name = "format",
+              .group = kBasicGroup,
+              .access = ASDFVK_MEMBER(SummaryOptions, format),
+              .text = "csv: a row per mesh",
+              .defaultText = "text, or by -o",
+              .valueNames = "text|json|csv"},
+    OptionRow{.name = "json",
+              .group = kBasicGroup,
+              .access = ASDFVK_MEMBER(SummaryOptions, isJson),
+              .text = "The same as --format json"},
+    OptionRow{.name = "output",
+              .group = kBasicGroup,
+              .access = ASDFVK_MEMBER(SummaryOptions, output),
+              .text = "Write to a file",
+              .placeholder = "FILE|-",
+              .defaultText = "standard output",
+              .flags = "-o,--output"},
+};
+
 }  // namespace
 
 void addOptions(ArgumentParser& parser, SummaryOptions& options) {
@@ -59,11 +79,7 @@ void addOptions(ArgumentParser& parser, SummaryOptions& options) {
       "the latest one counts.");
   parser.setHelp("Print this help");
   parser.addList("logs", "LOG.jsonl...", "Logs of --log", options.logs).require();
-  addName(parser, "--format", options.format, kSummaryFormats,
-          "csv: a row per mesh. html: a page with histograms; default text, or by -o");
-  parser.addFlag("--json", options.isJson, "The same as --format json");
-  addValue(parser, "-o,--output", "FILE|-", "Write to a file; default standard output",
-           [&](const std::string& text) { options.output = text; });
+  addRows(parser, {kSummaryRows, &options});
 }
 
 ExitCode summarize(std::vector<std::string> arguments) {
@@ -85,7 +101,7 @@ ExitCode summarize(std::vector<std::string> arguments) {
     for (MeshRecord& record : readLog(log, invalidCount)) records.push_back(std::move(record));
   const LogSummary summary = summarizeRecords(std::move(records), invalidCount);
   AtomicFile file(options.output);
-  file.write(renderSummary(summary, options.format, "Batch of " + counted(summary.meshes.size(), "mesh", "meshes")));
+  file.write(renderSummary(summary, options.format));
   file.commit();
   return ExitCode::Done;
 }

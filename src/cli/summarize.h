@@ -20,7 +20,7 @@ struct SummaryOptions {
 /// Name, description and every option of the command, which set `options`.
 void addOptions(ArgumentParser& parser, SummaryOptions& options);
 
-/// Reads logs of batches and prints a table, JSON or CSV, or writes a page. arguments: those after the command. Throws
+/// Reads logs of batches and prints a table, JSON or CSV. arguments: those after the command. Throws
 /// Error.
 [[nodiscard]] ExitCode summarize(std::vector<std::string> arguments);
 

@@ -1,13 +1,11 @@
 #include "cone/cone.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
-#include "asdf_vk/error.h"
+#include "core/check.h"
 #include "core/random.h"
 #include "mesh/face_geometry.h"
 #include "shared/cone_rules.h"
@@ -42,38 +40,6 @@ void sortIntoCompactRuns(std::vector<Ray>& rays, double halfAngle) {
     const auto last = rays.begin() + static_cast<std::ptrdiff_t>(std::min(begin + sectorRayCount, rays.size()));
     std::sort(first, last, [](const Ray& a, const Ray& b) { return a.angle < b.angle; });
   }
-}
-
-void requireInRange(const ConeOptions& options) {
-  if (options.rayCount < 1 || options.rayCount > kMaxRayCount)
-    throw Error(ErrorCode::OptionOutOfRange,
-                fmt::format("a cone of {} rays is out of range; give 1 to {}", options.rayCount, kMaxRayCount));
-  if (!(options.openingAngleDegrees > 0 && options.openingAngleDegrees < 180))
-    throw Error(ErrorCode::OptionOutOfRange,
-                fmt::format("a cone angle of {} degrees is out of range; give more than 0 and less "
-                            "than 180",
-                            options.openingAngleDegrees));
-  if (!(options.falseHitAngleDegrees >= 0 && options.falseHitAngleDegrees <= 180))
-    throw Error(
-        ErrorCode::OptionOutOfRange,
-        fmt::format("a false-hit angle of {} degrees is out of range; give 0 to 180", options.falseHitAngleDegrees));
-  if (!(options.outlierDeviations > 0))
-    throw Error(ErrorCode::OptionOutOfRange,
-                fmt::format("an outlier limit of {} standard deviations is out of range; give more than 0",
-                            options.outlierDeviations));
-}
-
-/// Throws where an option of the paper's definition is set.
-void requireNoPaperOption(const ConeOptions& options) {
-  const ConeOptions defaults;
-  const auto require = [](bool isDefault, const char* name) {
-    if (!isDefault)
-      throw Error(ErrorCode::OptionConflict,
-                  fmt::format("{} belongs to the definition 'paper'; drop it, or the definition 'cgal'", name));
-  };
-  require(options.falseHitAngleDegrees == defaults.falseHitAngleDegrees, "a false-hit angle");
-  require(options.outlierDeviations == defaults.outlierDeviations, "an outlier limit");
-  require(options.rotation == defaults.rotation, "a rotation of the cones, which the recipe 'quality' sets,");
 }
 
 // Vogel 1979. Stores the versine 1 - cos t instead of the cosine, so that narrow cones lose no digits.
@@ -121,8 +87,8 @@ constexpr double kMaxContactDistance = 0x1p-16;
 
 Cone makeCone(const ConeOptions& options) {
   const bool isCgal = options.definition == Definition::Cgal;
-  requireInRange(options);
-  if (isCgal) requireNoPaperOption(options);
+  ASDFVK_CHECK(options.rayCount >= 1 && options.rayCount <= kMaxRayCount);
+  ASDFVK_CHECK(options.openingAngleDegrees > 0 && options.openingAngleDegrees < 180);
   Cone cone;
   cone.definition = options.definition;
   cone.falseHitCosine = std::cos(options.falseHitAngleDegrees * std::numbers::pi / 180) + kFalseHitSlack;

@@ -42,7 +42,7 @@ struct Cone {
 };
 
 /// Paper: a golden-angle (Vogel) spiral, uniform in solid angle. Cgal: the spiral of CGAL's disk, uniform in the
-/// tangent of the angle to the axis. Throws Error{Usage} for options out of range and options of another definition.
+/// tangent of the angle to the axis. Precondition: a number of rays within its range.
 [[nodiscard]] Cone makeCone(const ConeOptions& options);
 
 /// Whether a hit is false. Paper: the normal of the hit face is within the false-hit angle of the normal of the seed

@@ -1,11 +1,9 @@
 #include "cone/opposing_walls.h"
 
-#include <fmt/core.h>
-
 #include <cmath>
 #include <numbers>
 
-#include "asdf_vk/error.h"
+#include "core/check.h"
 
 namespace asdfvk {
 namespace {
@@ -16,12 +14,9 @@ constexpr double kOpposingWallSlack = 1e-3;
 
 }  // namespace
 
-OpposingWalls makeOpposingWalls(double angleDegrees) {
-  if (!(angleDegrees > 90 && angleDegrees <= 180))
-    throw Error(ErrorCode::OptionOutOfRange,
-                fmt::format("an angle of {} degrees between opposing walls is out of range; give more than 90 and at "
-                            "most 180",
-                            angleDegrees));
+OpposingWalls makeOpposingWalls(const ThicknessOptions& options) {
+  const double angleDegrees = options.wallAngleDegrees;
+  ASDFVK_CHECK(angleDegrees > 90 && angleDegrees <= 180);
   return {std::cos(angleDegrees * std::numbers::pi / 180) + kOpposingWallSlack};
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "asdf_vk/options.h"
 #include "core/vec3.h"
 
 namespace asdfvk {
@@ -14,7 +15,7 @@ struct OpposingWalls {
   }
 };
 
-/// angleDegrees: between the normals, above 90 and at most 180. Throws Error{OptionOutOfRange}.
-[[nodiscard]] OpposingWalls makeOpposingWalls(double angleDegrees);
+/// Precondition: an angle in its range.
+[[nodiscard]] OpposingWalls makeOpposingWalls(const ThicknessOptions& options);
 
 }  // namespace asdfvk

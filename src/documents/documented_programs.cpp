@@ -1,7 +1,7 @@
 // What the man pages have beyond the options.
 #include "asdf_vk/version.h"
 #include "cli/exit_code.h"
-#include "cli/option_parsing.h"
+#include "cli/options.h"
 #include "cli/summarize.h"
 #include "documents/program.h"
 #include "generate/generator_options.h"
@@ -68,9 +68,8 @@ Program documentedSummarize() {
   Program program = programWith<SummaryOptions>("summarise the logs of batches of asdf-vk");
   for (const ExitCode code : {ExitCode::Done, ExitCode::Usage, ExitCode::Input, ExitCode::Output, ExitCode::Internal})
     program.exitCodes.emplace_back(static_cast<int>(code), meaningOf(code));
-  program.examples = {
-      {"A table:", "asdf-vk summarize log.jsonl"},
-      {"A page with histograms, of all parts of a batch:", "asdf-vk summarize part*.jsonl -o batch.html"}};
+  program.examples = {{"A table:", "asdf-vk summarize log.jsonl"},
+                      {"A row per mesh, of all parts of a batch:", "asdf-vk summarize part*.jsonl -o batch.csv"}};
   program.seeAlso = {"asdf-vk(1)"};
   return program;
 }

@@ -55,6 +55,11 @@ struct Program {
 /// `asdf-vk summarize`, for a man page named asdf-vk-summarize.
 [[nodiscard]] Program documentedSummarize();
 
+/// docs/options.md with the rows of the options between "<!-- options of GROUP -->" and "<!-- end -->".
+[[nodiscard]] std::string optionPage(std::string page);
+/// python/asdf_vk/_keywords.py
+[[nodiscard]] std::string keywordModule();
+
 [[nodiscard]] std::string manPage(const Program& program);
 [[nodiscard]] std::string bashCompletion(const Program& program);
 

@@ -6,10 +6,10 @@
 #include <utility>
 
 #include "asdf_vk/error.h"
+#include "describe/computation_options.h"
 #include "mesh/face_geometry.h"
 #include "pipeline/input_face_values.h"
 #include "pipeline/prepared_mesh.h"
-#include "pipeline/valid_options.h"
 #include "segment/cgal_postprocess.h"
 #include "segment/cgal_segmentation.h"
 
@@ -52,7 +52,7 @@ PostprocessedSdf postprocessSdf(const MeshView& view, std::span<const double> va
 
 LabelledFaces segmentSdf(const MeshView& view, std::span<const double> values, const CgalSegmentationOptions& options,
                          CgalLabels labels, const RunControl& control) {
-  requireValid(options);
+  (void)completed({.segmentation = Segmentation::Cgal, .cgalSegmentation = options});
   control.checkpoint(0);
   Mesh storage;
   const TriangleMesh mesh = trianglesOf(view, storage);

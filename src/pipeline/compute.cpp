@@ -162,9 +162,8 @@ Options withAllSeeds(Options options, const FaceDomain& domain) {
 
 }  // namespace
 
-Cone requireComputable(const SessionState& session, const Options& options) {
-  requireValid(options, session.named.backend->device() != nullptr);
-  return makeCone(options.cone);
+Options completed(const SessionState& session, const Options& options) {
+  return completed(options, session.named.backend->device() != nullptr);
 }
 
 void computeOn(const ComputationInput& input, const Options& requested, StageClock& clock, const RunControl& control,
@@ -173,8 +172,9 @@ void computeOn(const ComputationInput& input, const Options& requested, StageClo
   const auto& [session, sharedScene, domain, tracers, isLast] = input;
   Backend& backend = *session.named.backend;
   const PreparedMesh& prepared = sharedScene->prepared;
-  const Cone cone = requireComputable(session, requested);
+  if (session.named.backend->device() == nullptr) (void)completed(session, requested);  // Another backend than before.
   const Options options = withAllSeeds(requested, domain);
+  const Cone cone = makeCone(options.cone);
   describeBackend(report, session.named);
   report.randomSeed = options.randomSeed;
   describeMesh(report, prepared, domain);

@@ -20,12 +20,12 @@ struct ComputationInput {
   bool isLast;               ///< The scene is not used again: the computation releases what it does not need any more.
 };
 
-/// The computation behind Session::compute() and Scene::compute(): from the seeds to the report. The clock refers to
-/// result.report.stageSeconds. Throws as Session::compute().
+/// The computation with completed options behind Session::compute() and Scene::compute(): from the seeds to the report.
+/// The clock refers to result.report.stageSeconds. Throws as Session::compute().
 void computeOn(const ComputationInput& input, const Options& options, StageClock& clock, const RunControl& control,
                Result& result);
 
-/// The cone of the options. Throws where they are invalid on this session.
-[[nodiscard]] Cone requireComputable(const SessionState& session, const Options& options);
+/// The options with what they imply. Throws where they are invalid on this session.
+[[nodiscard]] Options completed(const SessionState& session, const Options& options);
 
 }  // namespace asdfvk

@@ -10,6 +10,7 @@
 #include "asdf_vk/error.h"
 #include "core/parallel.h"
 #include "core/vec3.h"
+#include "describe/computation_options.h"
 #include "pipeline/compute.h"
 #include "pipeline/surface_points.h"
 #include "pipeline/valid_options.h"
@@ -126,9 +127,9 @@ Scene::~Scene() = default;
 
 const StageSeconds& Scene::preparationSeconds() const { return state_->preparation; }
 
-Result Scene::compute(const Options& options, std::span<const uint8_t> region, const RunControl& control) {
-  requireNoConflict(options, state_->orientation, !region.empty());
-  (void)requireComputable(state_->session, options);
+Result Scene::compute(const Options& given, std::span<const uint8_t> region, const RunControl& control) {
+  requireNoConflict(given, state_->orientation, !region.empty());
+  const Options options = completed(state_->session, given);
   control.checkpoint(0);
   return state_->session.compute(!solverNeedsDevice(options.solver), control, [&](const RunControl& rest) {
     Result result;
@@ -146,6 +147,7 @@ Result Scene::compute(const Options& options, std::span<const uint8_t> region, c
 
 std::vector<double> Scene::valuesAt(std::span<const double> points, std::span<const double> normals,
                                     const ConeOptions& cone, const RunControl& control) {
+  (void)completed({.cone = cone});
   requirePoints(points, normals);
   control.checkpoint(0);
   return state_->session.compute(true, control, [&](const RunControl& rest) {
@@ -160,6 +162,7 @@ std::vector<double> Scene::valuesAt(std::span<const double> points, std::span<co
 
 std::vector<double> Scene::thicknessAt(std::span<const double> points, std::span<const double> normals,
                                        const ThicknessOptions& thickness, const RunControl& control) {
+  (void)completed({.measure = Measure::Thickness, .thickness = thickness});
   requirePoints(points, normals);
   std::vector<Vec3d> unitNormals(normals.size() / 3);
   for (size_t i = 0; i < unitNormals.size(); ++i) unitNormals[i] = unitVector(vectorAt(normals, i));

@@ -1,19 +1,23 @@
 #include "asdf_vk/session.h"
 
+#include "describe/computation_options.h"
 #include "pipeline/compute.h"
 #include "pipeline/valid_options.h"
 
 namespace asdfvk {
 
-Session::Session(const SessionOptions& options) : state_(std::make_unique<SessionState>(options)) {}
+Session::Session(const SessionOptions& options) {
+  requireValid(SessionSettings{options}, OptionSpelling::CamelCase);
+  state_ = std::make_unique<SessionState>(options);
+}
 Session::~Session() = default;
 
 const std::vector<std::string>& Session::deviceLines() const { return state_->named.deviceLines; }
 const std::string& Session::backend() const { return state_->named.name; }
 bool Session::runsOnCpu() const { return state_->named.backend->runsOnCpu(); }
 
-Result Session::compute(const MeshView& mesh, const Options& options, const RunControl& control) {
-  (void)requireComputable(*state_, options);  // Before the mesh is prepared.
+Result Session::compute(const MeshView& mesh, const Options& given, const RunControl& control) {
+  const Options options = completed(*state_, given);  // Before the mesh is prepared.
   return state_->compute(!solverNeedsDevice(options.solver), control, [&](const RunControl& rest) {
     Result result;
     StageClock clock(result.report.stageSeconds, rest.stageBegan);

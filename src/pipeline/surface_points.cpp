@@ -50,7 +50,7 @@ std::vector<double> thicknessAtPoints(const PreparedScene& scene, std::span<cons
     if (face != kNoFace) isWanted[solids.solidOf[face]] = solids.isClosed[solids.solidOf[face]];
   const std::vector<GreatestSection> sections =
       findGreatestSections(view, solids.solidOf, isWanted, control.part(kNearestDone, kSectionsDone));
-  const WallTree tree(view, makeOpposingWalls(options.wallAngleDegrees), &solids);
+  const WallTree tree(view, makeOpposingWalls(options), &solids);
   std::vector<double> values(points.size(), std::numeric_limits<double>::quiet_NaN());
   // Points next to each other in the hierarchy find the same walls.
   const SeedOrder seedOrder(view);

@@ -26,7 +26,7 @@ class Measurement {
         scene_(computation.scene),
         mesh_(computation.prepared.mesh),
         unit_(scene_.bvh.normalization),
-        opposing_(makeOpposingWalls(computation.options.thickness.wallAngleDegrees)),
+        opposing_(makeOpposingWalls(computation.options.thickness)),
         solids_(findSolids(scene_, computation.prepared.components)),
         fans_(mesh_) {
     // Coordinates in float32 do not tell a wall that is thinner by less than a contact.

@@ -6,12 +6,9 @@
 
 namespace asdfvk {
 
-/// Throws Error{OptionOutOfRange}, Error{OptionConflict}, Error{UnknownName}; Error{NoDeviceForKernel} for a solver
-/// that needs a device without one. makeCone() validates the cone.
-void requireValid(const Options& options, bool hasDevice);
-
-/// Throws Error{OptionOutOfRange}.
-void requireValid(const CgalSegmentationOptions& options);
+/// The options with what they imply (describe/computation_options.h). Throws Error{OptionOutOfRange},
+/// Error{OptionConflict}, Error{UnknownName}; Error{NoDeviceForKernel} for a solver that needs a device without one.
+[[nodiscard]] Options completed(const Options& options, bool hasDevice);
 
 /// Whether a solver of solverNames() needs a Vulkan device; false for "auto". Throws Error{UnknownName}.
 [[nodiscard]] bool solverNeedsDevice(const std::string& name);

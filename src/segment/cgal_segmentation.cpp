@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kMinArgument = 5e-6;  ///< Least argument of the logarithms of the costs.
 constexpr double kConvexFactor = 0.08, kSmoothnessUnit = 100;
-constexpr size_t kAverageBlock = 4096;
+constexpr size_t kFacesPerCutBlock = 4096;
 
 double costOf(double argument) { return -std::log(std::max(kMinArgument, argument)); }
 
@@ -83,7 +83,7 @@ CgalSegmentation segmentLikeCgal(const FaceGeometry& geometry, const TriangleMes
   CgalSegmentation result;
   result.clusters.resize(values.size());
   // In an order in which faces close to each other have near numbers: the cut takes two thirds of the time or less.
-  const std::vector<uint32_t> order = orderByBlocks(neighbours, kAverageBlock);
+  const std::vector<uint32_t> order = orderByBlocks(neighbours, kFacesPerCutBlock);
   std::vector<double> orderedCosts(costs.size());
   std::vector<uint32_t> labels(values.size());
   forEachInParallel(values.size(), [&](uint32_t i) {

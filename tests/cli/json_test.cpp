@@ -85,12 +85,15 @@ TEST_CASE("--json is exactly one document with every documented key and its type
       {"recipe", "balanced"}, {"sampler", "blue-noise"},  {"coneRotation", "fixed"},
       {"weights", "feature"}, {"guidance", "prediction"}, {"orient", "keep"},
       {"smooth", "off"},      {"solver", "auto"},         {"postprocess", "none"},
-      {"segment", "none"},    {"cgalExpansion", "all"},   {"kernel", "auto"},
+      {"segment", "none"},    {"measure", "sdf"},         {"kernel", "auto"},
       {"bvh", "auto"},        {"fetch", "auto"},          {"backend", "reference"},
       {"per", "face"}};
   for (const auto& [key, name] : names) CHECK_EQ(options.at(key).get<std::string>(), name);
-  CHECK_EQ(options.at("detail").get<double>(), 1);
-  for (const char* key : {"maxError", "maxRelativeError", "timeBudgetSeconds", "parts"})
+  CHECK_EQ(options.at("rngSeed").get<uint64_t>(), 7);
+  CHECK_EQ(options.at("check").get<std::string>(), "all");
+  CHECK_EQ(options.at("estimate").get<bool>(), true);
+  for (const char* key :
+       {"maxError", "maxRelativeError", "timeBudgetSeconds", "parts", "detail", "clusters", "cgalExpansion"})
     CHECK(options.at(key).is_null());
   CHECK_EQ(options.at("pooling").get<double>(), 0);
   CHECK_EQ(options.at("definition").get<std::string>(), "paper");

@@ -9,11 +9,10 @@
 #include <sstream>
 
 #include "batch/messages.h"
-#include "cli/option_parsing.h"
-#include "cli/options_hash.h"
+#include "cli/one_mesh.h"
 #include "cli/refusal.h"
 #include "cli/scratch_folder.h"
-#include "cli/settings_json.h"
+#include "trace/vulkan/vulkan_trace_choice.h"
 
 namespace asdfvk {
 namespace {
@@ -65,9 +64,7 @@ TEST_CASE("the options of a picture") {
   CHECK(refusal({"a.ply", "-o", "-", "--picture", "-"}).find("standard output") != std::string::npos);
 }
 
-std::string hashOfOptions(const CommandLine& line) {
-  return optionsHash(line.computation, line.compared, line.session, line.outputs);
-}
+std::string hashOfOptions(const CommandLine& line) { return optionsHash(line.computation, line.session, line.outputs); }
 
 /// The fields that are written.
 std::vector<std::string> fieldsIn(const CommandLine& line) {
@@ -163,7 +160,6 @@ const std::vector<OptionCase>& optionCases() {
       {{"--isolate"}, [](const Line& l) { return l.batch.isolates; }},
       {{"--jobs", "3"}, [](const Line& l) { return l.batch.jobCount == 3; }},
       {{"--open"}, [](const Line& l) { return l.outputs.opensPage; }},
-      {{"--against", "--seeds 5%", "-o", "a.html"}, [](const Line& l) { return l.compared.has_value(); }},
       {{"--solver", "jacobi"}, [](const Line& l) { return l.computation.options.solver == "jacobi"; }},
       {{"--tolerance", "1e-3"}, [](const Line& l) { return l.computation.options.solverOptions.tolerance == 1e-3; }},
       {{"--max-iterations", "77"},
@@ -185,8 +181,6 @@ const std::vector<OptionCase>& optionCases() {
       {{"--points", "-"}, [](const Line& l) { return l.outputs.points == "-"; }},
       {{"--ascii"}, [](const Line& l) { return l.outputs.ascii; }},
       {{"--open", "-o", "b.html"}, [](const Line& l) { return l.outputs.opensPage; }},
-      {{"--against", "--rays 7", "-o", "b.html"},
-       [](const Line& l) { return l.compared && l.compared->options.cone.rayCount == 7; }},
       {{"--json"}, [](const Line& l) { return l.outputs.json; }},
       {{"--quiet"}, [](const Line& l) { return l.outputs.quiet; }},
       {{"--verbose"}, [](const Line& l) { return l.outputs.verbose; }},
@@ -202,7 +196,7 @@ const std::vector<OptionCase>& optionCases() {
       {{"--backend", "reference"}, [](const Line& l) { return l.session.backend == "reference"; }},
       {{"--device", "llvmpipe"}, [](const Line& l) { return l.session.device == "llvmpipe"; }},
       {{"--require-gpu"}, [](const Line& l) { return l.session.requireGpu; }},
-      {{"--threads", "3"}, [](const Line& l) { return l.threadCount == 3; }},
+      {{"--threads", "3"}, [](const Line& l) { return l.session.threadCount == 3; }},
       {{"--kernel", "packet"}, [](const Line& l) { return l.session.variant.kernel == "packet"; }},
       {{"--bvh", "binary"}, [](const Line& l) { return l.session.variant.bvh == "binary"; }},
       {{"--fetch", "storage"}, [](const Line& l) { return l.session.variant.fetch == "storage"; }},
@@ -263,17 +257,9 @@ TEST_CASE("every option changes the hash that --skip-existing compares, except t
     if (exceptions.contains(name)) {
       // --points implies a field, --open a format; a batch refuses both.
       if (name != "--points" && name != "--open") CHECK_EQ(hashOf(option.arguments), hashOf({}));
-    } else if (name == "--against") {
-      CHECK_NE(hashOf(option.arguments), hashOf({}));
     } else {
       CHECK_MESSAGE(hashes.insert(hashOf(option.arguments)).second, "the hash of other options");
     }
-    // The same of the compared computation.
-    if (exceptions.contains(name) || name == "--against" || name == "--detail") continue;
-    std::string text;
-    for (const std::string& word : option.arguments) text += word + " ";
-    if (refusal({"a.ply", "-o", "a.html", "--against", text}) == "accepted")
-      CHECK_NE(hashOf({"--against", text, "-o", "a.html"}), hashOf({"--against", "--recipe balanced", "-o", "a.html"}));
   }
 }
 
@@ -281,7 +267,7 @@ TEST_CASE("a worker gets all settings") {
   const auto settingsFor = [](std::vector<std::string> arguments) {
     arguments.emplace_back("caf\xe9.ply");
     const CommandLine line = parseCommandLine(arguments);
-    return MeshSettings{line.session, line.computation, line.compared, line.outputs, line.batch.timeoutSeconds, true};
+    return MeshSettings{line.session, line.computation, line.outputs, line.batch.timeoutSeconds, true};
   };
   std::vector<std::vector<std::string>> calls{{"-o", "caf\xe9"}};
   for (const OptionCase& option : optionCases()) calls.push_back(option.arguments);
@@ -290,8 +276,8 @@ TEST_CASE("a worker gets all settings") {
     const MeshSettings sent = settingsFor(arguments);
     const MeshSettings received = settingsOf(decode(encode(toJson(sent))));
     CHECK_EQ(toJson(received), toJson(sent));
-    CHECK_EQ(optionsHash(received.computation, received.compared, received.session, received.outputs),
-             optionsHash(sent.computation, sent.compared, sent.session, sent.outputs));
+    CHECK_EQ(optionsHash(received.computation, received.session, received.outputs),
+             optionsHash(sent.computation, sent.session, sent.outputs));
     CHECK_EQ(received.outputs.path, sent.outputs.path);
     CHECK_EQ(received.timeoutSeconds, sent.timeoutSeconds);
     CHECK(received.makesFolders);
@@ -304,11 +290,29 @@ TEST_CASE("the hash of the options is of exact numbers, and of what a page shows
   };
   CHECK_NE(hashOf({"a.ply", "--seeds", "1.00000001%"}), hashOf({"a.ply", "--seeds", "1%"}));
   CHECK_NE(hashOf({"a.ply", "--format", "html", "--fields", "sdf,seed"}), hashOf({"a.ply", "--format", "html"}));
-  const auto against = [&](const std::string& text) {
-    return hashOf({"a.ply", "--format", "html", "--against", text});
+}
+
+TEST_CASE("the rows have the names of samplers, solvers, backends and kernel variants") {
+  const auto withAuto = [](std::vector<std::string> names) {
+    names.insert(names.begin(), "auto");
+    return std::set<std::string>(names.begin(), names.end());
   };
-  CHECK_NE(against("--rays 30"), against("--recipe balanced"));  // The same computation with another label.
-  CHECK_NE(against("--check=3"), against("--check=4"));
+  const auto namesIn = [&](const auto& table) {
+    std::vector<std::string> names;
+    for (const auto& row : table) names.emplace_back(row.first);
+    return withAuto(names);
+  };
+  const auto ofRow = [](OptionRows rows, const char* name) {
+    const std::vector<std::string> names = namesOf(*findOption(rows, name));
+    return std::set<std::string>(names.begin(), names.end());
+  };
+  const std::vector<std::string> samplers = samplerNames();
+  CHECK(ofRow(computationRows(), "sampler") == std::set<std::string>(samplers.begin(), samplers.end()));
+  CHECK(ofRow(computationRows(), "solver") == withAuto(solverNames()));
+  CHECK(ofRow(sessionRows(), "backend") == withAuto(backendNames()));
+  CHECK(ofRow(sessionRows(), "kernel") == namesIn(kernelNames()));
+  CHECK(ofRow(sessionRows(), "bvh") == namesIn(bvhNames()));
+  CHECK(ofRow(sessionRows(), "fetch") == namesIn(fetchNames()));
 }
 
 TEST_CASE("a kernel variant of auto is the default") {
@@ -478,8 +482,7 @@ TEST_CASE("rounds begin with few seeds unless --seeds is given") {
   CHECK_EQ(parseCommandLine({"a.ply", "--time-budget", "1s"}).computation.options.seeds.share, 0.02);
   CHECK_EQ(parseCommandLine({"a.ply", "--seeds", "5%", "--max-error", "1%"}).computation.options.seeds.share, 0.05);
   CHECK_EQ(parseCommandLine({"a.ply", "--max-error", "1%", "--seeds", "10%"}).computation.options.seeds.share, 0.1);
-  CHECK(parseCommandLine({"a.ply", "--max-error", "1%", "--seeds", "auto"}).computation.options.seeds.kind ==
-        SeedCount::Kind::Automatic);
+  CHECK_EQ(parseCommandLine({"a.ply", "--max-error", "1%", "--seeds", "auto"}).computation.options.seeds.share, 0.02);
 }
 
 TEST_CASE("--help has the most needed options, --help=all all of them in groups") {
@@ -518,14 +521,22 @@ TEST_CASE("--help has the most needed options, --help=all all of them in groups"
                            "MESH...",
                            ".stl .ply .off .obj",
                            "--fields NAME,...",
-                           "balanced (default)"})
+                           "default balanced"})
     CHECK_MESSAGE(all.find(part) != std::string::npos, part);
   CHECK_EQ(parseCommandLine({"--", "--help=all"}).meshes, std::vector<std::string>{"--help=all"});
 }
 
-TEST_CASE("the text of a seed count is the one it was read from") {
-  for (const char* text : {"all", "auto", "10%", "12.5%", "100%", "0.001%", "1", "12345678901"})
-    CHECK_EQ(toText(parseSeedCount(text)), text);
+TEST_CASE("the text of a seed count is the one it was read from, and reads as the same count") {
+  const OptionRow& row = *findOption(computationRows(), "seeds");
+  for (const char* text : {"all", "auto", "10%", "12.5%", "100%", "0.001%", "1", "12345678901", "7.0000000000001%"}) {
+    ComputationSettings computation, again;
+    setOptionText(row, &computation, text);
+    const std::string written = toText(computation.options.seeds);
+    if (std::string_view(text).size() < 12) CHECK_EQ(written, text);
+    setOptionText(row, &again, written);
+    CHECK_EQ(again.options.seeds.share, computation.options.seeds.share);
+    CHECK_EQ(again.options.seeds.count, computation.options.seeds.count);
+  }
 }
 
 }  // namespace

@@ -6,9 +6,9 @@
 #include <thread>
 
 #include "cli/outputs.h"
-#include "cli/page_output.h"
 #include "cli/program_under_test.h"
 #include "cli/refusal.h"
+#include "cli/report.h"
 #include "cli/sample_files.h"
 #include "cli/scratch_folder.h"
 
@@ -118,23 +118,6 @@ TEST_CASE("several meshes are in one page, or in one each") {
   CHECK(std::filesystem::exists(folder / "pages/b.asdf.html"));
 }
 
-TEST_CASE("--against shows each mesh a second time with other options of the computation") {
-  const ScratchFolder folder;
-  const std::string mesh = folder.write("a.off", sphereOff(8));
-  const ChildOutcome outcome =
-      runQuick({mesh, "-o", folder / "a.html", "--seeds", "20%", "--against", "--recipe paper --seeds all", "--json"});
-  INFO(outcome.error);
-  REQUIRE_EQ(outcome.exitCode, 0);
-  const auto meshes = dataOf(folder.read("a.html")).at("meshes");
-  REQUIRE_EQ(meshes.size(), 2);
-  CHECK_EQ(meshes[0].at("label"), "a.off, balanced, seeds 20 %");
-  CHECK_EQ(meshes[1].at("label"), "a.off, --recipe paper --seeds all");
-  CHECK_EQ(meshes[0].at("arrays"), meshes[1].at("arrays"));
-  const std::vector<std::string> lines = linesOf(outcome.output);
-  REQUIRE_EQ(lines.size(), 2);
-  CHECK_EQ(nlohmann::json::parse(lines[1]).at("options").at("recipe"), "paper");
-}
-
 TEST_CASE("a page goes to standard output, and a page that cannot be written is an error") {
   const ScratchFolder folder;
   const std::string mesh = folder.write("a.off", cubeOff());
@@ -214,20 +197,6 @@ TEST_CASE("options of a page") {
   CHECK(refusal({"a.ply", "-o", "-", "--format", "html", "--open"}).find("-o -") != std::string::npos);
   CHECK(refusal({"a.ply", "b.ply", "--open"}).find("-o FILE.html") != std::string::npos);
   CHECK(refusal({"a.ply", "-o", "a.html", "--fields", "centre"}).find("centre") != std::string::npos);
-  CHECK(refusal({"a.ply", "--against", "--seeds all"}).find("-o FILE.html") != std::string::npos);
-  for (const char* options : {"", "b.ply", "--sides 3", "-o b.html", "--json", "--backend cpu", "--help", "--timeout 5",
-                              "--memory-limit 1G", "--kernel packet", "--device-report"})
-    CHECK_MESSAGE(refusal({"a.ply", "-o", "a.html", "--against", options}).find("--against") != std::string::npos,
-                  options);
-  const CommandLine compared =
-      parseCommandLine({"a.ply", "-o", "a.html", "--seeds", "5%", "--against", "--recipe paper"});
-  REQUIRE(compared.compared.has_value());
-  CHECK(compared.compared->recipe == Recipe::Paper);
-  CHECK(compared.compared->options.seeds.kind == SeedCount::Kind::Automatic);
-  CHECK_EQ(compared.computation.options.seeds.share, 0.05);
-  CHECK(parseCommandLine({"--files-from", "list", "--format", "html", "--against", "--rays 7"}).compared.has_value());
-  CHECK(parseCommandLine({"a.ply", "b.ply", "-o", "a.html", "--against", "--rays 7"}).compared.has_value());
-  CHECK(refusal({"-o", "a.html", "--against", "--rays 7"}).starts_with("no mesh was given"));
 }
 
 }  // namespace

@@ -52,7 +52,7 @@ TEST_CASE("options of the thickness are refused where they contradict others") {
     CHECK_MESSAGE(message.find(part) != std::string::npos, message);
   };
   isRefused({"a.ply", "--wall-angle", "120"}, "--wall-angle needs --measure thickness");
-  isRefused({"a.ply", "--measure", "sdf", "--thinner-than", "1"}, "contradict --measure sdf");
+  isRefused({"a.ply", "--measure", "sdf", "--thinner-than", "1"}, "contradicts --measure sdf");
   isRefused({"a.ply", "--allow-sharp-edges"}, "--allow-sharp-edges needs --thinner-than");
   isRefused({"a.ply", "--measure", "thickness", "--allow-sharp-edges"}, "--allow-sharp-edges needs --thinner-than");
   for (const char* limit : {"0.5", "2"})

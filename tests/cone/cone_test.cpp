@@ -21,16 +21,6 @@ Vec3d vogelDirection(uint32_t i, uint32_t count, double halfAngle) {
   return {sine * std::cos(phi), sine * std::sin(phi), cosine};
 }
 
-ErrorKind kindThrownBy(const ConeOptions& options) {
-  try {
-    (void)makeCone(options);
-  } catch (const Error& error) {
-    return error.kind();
-  }
-  FAIL("nothing was thrown");
-  return ErrorKind::Input;
-}
-
 }  // namespace
 
 TEST_CASE("a cone holds exactly the rays of the golden-angle spiral, each once") {
@@ -80,14 +70,6 @@ TEST_CASE("the solid angles of CGAL's rays are as their spiral fills the cone") 
   }
   CHECK(inner / sum == doctest::Approx((1 - std::cos(0.5)) / (1 - std::cos(std::numbers::pi / 3))).epsilon(0.02));
   CHECK(*std::min_element(cone.solidAngles.begin(), cone.solidAngles.end()) > 0);
-}
-
-TEST_CASE("options of the paper's definition are usage errors in another one") {
-  const Definition cgal = Definition::Cgal;
-  CHECK(kindThrownBy({.falseHitAngleDegrees = 80, .definition = cgal}) == ErrorKind::Usage);
-  CHECK(kindThrownBy({.outlierDeviations = 2, .definition = cgal}) == ErrorKind::Usage);
-  CHECK(kindThrownBy({.rotation = ConeRotation::Hashed, .definition = cgal}) == ErrorKind::Usage);
-  CHECK_NOTHROW((void)makeCone({.rayCount = 25, .openingAngleDegrees = 60, .definition = cgal}));
 }
 
 TEST_CASE("a hit is false by the normals of both faces, or by the ray and the normal of the face hit") {
@@ -153,12 +135,4 @@ TEST_CASE("runs of eight rays are compact patches of the cone") {
 TEST_CASE("the first ray of the spiral has a finite weight even in the narrowest cone") {
   const Cone cone = makeCone({1, 1e-6});
   CHECK(cone.weights[0] * std::sqrt(0.5) * 0.5e-6 * std::numbers::pi / 180 == doctest::Approx(1));
-}
-
-TEST_CASE("options out of range are usage errors") {
-  CHECK(kindThrownBy({0, 120}) == ErrorKind::Usage);
-  CHECK(kindThrownBy({kMaxRayCount + 1, 120}) == ErrorKind::Usage);
-  for (const double degrees :
-       {0.0, -5.0, 180.0, 360.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
-    CHECK(kindThrownBy({30, degrees}) == ErrorKind::Usage);
 }

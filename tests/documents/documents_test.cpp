@@ -11,7 +11,7 @@
 #include <set>
 #include <sstream>
 
-#include "cli/option_parsing.h"
+#include "cli/options.h"
 #include "cli/summarize.h"
 #include "documents/program.h"
 #include "generate/generator_options.h"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import pathlib
 import random
 import re
 
@@ -21,141 +22,107 @@ class Option:
     joined: bool = False  # The value only after an equals sign.
 
 
-def _choice(name: str, *legal: str) -> Option:
-    return Option(name, legal, ("", "x", legal[0] + "x", legal[0].upper()))
-
-
-def _flag(name: str) -> Option:
-    return Option(name, (), ())
-
-
-# Options of the computation, by which values may change.
-COMPUTATION = (
-    _choice("--recipe", "paper", "balanced", "quality"),
-    _choice("--definition", "paper", "cgal"),
-    Option(
-        "--seeds",
+# --output is given by each case; --open starts a browser; --device-report takes long.
+LEFT_OUT = frozenset({"--output", "--open", "--device-report", "--help"})
+# Values of options whose kind the tables do not tell, and those that keep runs short.
+_VALUES: dict[str, tuple[Values, Values]] = {
+    "--seeds": (
         ("1", "7", "1000000", "0.5%", "2%", "33.3%", "100%", "all"),
         ("0", "0%", "101%", "%", *_ILLEGAL_NUMBERS),
     ),
-    Option(
-        "--max-error",
-        ("1%", "20%", "5%rel", "0.01%"),
-        ("0%", "100%", "5", "%rel", *_ILLEGAL_NUMBERS),
-    ),
-    _choice("--orient", "keep", "auto", "flip"),
-    _choice("--sampler", "random", "blue-noise", "farthest-point", "normal-space", "adaptive"),
-    Option("--rng-seed", ("0", "1", "12345", "18446744073709551615")),
-    _flag("--no-estimate"),
-    Option(
-        "--rays",
-        ("1", "2", "7", "30", "31", "64", "300", "1024"),
-        ("0", "1025", *_ILLEGAL_NUMBERS),
-    ),
-    Option("--angle", ("0.001", "1", "60", "120", "179.9"), ("0", "180", *_ILLEGAL_NUMBERS)),
-    Option("--false-hit-angle", ("0", "45", "90", "180"), ("180.1", *_ILLEGAL_NUMBERS)),
-    Option("--outlier-deviations", ("0.01", "1", "3", "1e9"), ("0", *_ILLEGAL_NUMBERS)),
-    _choice("--cone-rotation", "fixed", "hashed"),
-    Option(
-        "--smooth",
-        ("off", "auto", "1x1", "2x3", "4x100"),
-        ("0x1", "5x1", "1x101", "1x", *_ILLEGAL_NUMBERS),
-    ),
-    _choice("--weights", "distance", "feature"),
-    _choice("--guidance", "none", "curvature", "prediction"),
-    Option("--pooling", ("0", "0.5", "1"), ("1.01", *_ILLEGAL_NUMBERS)),
-    _choice("--solver", "auto", "cg", "jacobi", "cpu", "eigen"),
-    Option("--tolerance", ("1e-1", "1e-4", "1e-12", "0.99"), ("0", "1", *_ILLEGAL_NUMBERS)),
-    Option(
-        "--max-iterations",
-        ("1", "10", "20000", "4294967295"),
-        ("0", "4294967296", *_ILLEGAL_NUMBERS),
-    ),
-    _choice("--postprocess", "none", "cgal"),
-    Option("--segment", ("none", "parts", "cgal"), ("", "x", "Parts")),
-    Option("--parts", ("1", "2", "5", "100"), ("0", "101", *_ILLEGAL_NUMBERS)),
-    Option("--detail", ("0.1", "1", "10"), ("0", "10.1", *_ILLEGAL_NUMBERS)),
-    Option("--clusters", ("2", "5", "100"), ("1", "101", *_ILLEGAL_NUMBERS)),
-    Option("--smoothness", ("0", "0.26", "1000"), ("1001", *_ILLEGAL_NUMBERS)),
-    _choice("--cgal-expansion", "all", "first"),
-    _choice("--measure", "sdf", "thickness", "both"),
-    Option("--thinner-than", ("1e-30", "0.1", "1", "1e30"), ("0", *_ILLEGAL_NUMBERS)),
-    Option("--fail-if-thinner", ("1e-30", "0.1", "1", "1e30"), ("0", *_ILLEGAL_NUMBERS)),
-    _flag("--allow-sharp-edges"),
-    Option("--wall-angle", ("90.1", "120", "180"), ("90", "181", *_ILLEGAL_NUMBERS)),
-    _choice("--per", "face", "vertex"),
-    Option(
-        "--fields",
+    "--max-error": (("1%", "20%", "5%rel", "0.01%"), ("0%", "100%", "5", "%rel", *_ILLEGAL_NUMBERS)),
+    "--smooth": (("off", "auto", "1x1", "2x3", "4x100"), ("0x1", "5x1", "1x101", "1x", *_ILLEGAL_NUMBERS)),
+    "--fields": (
         (
             "sdf", "seed", "sdf,seed", "error", "centre,sdf", "segment", "normalized,sdf",
             "thickness", "least_thickness,sdf,centre",
         ),
         ("", "x", "sdf,sdf", "sdf,", ","),
     ),
-    _choice("--kernel", "auto", "seed", "ray", "packet"),
-    _choice("--bvh", "auto", "wide", "binary"),
-    _choice("--fetch", "auto", "texel", "storage"),
-    _choice("--backend", "auto", "vulkan", "cpu", "reference"),
+    "--threads": (("0", "1", "2", "8"), ("1025", *_ILLEGAL_NUMBERS)),
+    "--jobs": (("1", "2", "5"), ("0", *_ILLEGAL_NUMBERS)),
+    "--check": (("", "1", "10", "all"), ("0", "-1", "x", "1.5")),
+    "--log": (("log.jsonl", "absent/log.jsonl"), ("", ".")),
+    "--timeout": (("0.01", "100"), ("0", *_ILLEGAL_NUMBERS)),
+    "--time-budget": (("0.001", "0.1"), ("0", *_ILLEGAL_NUMBERS)),
+    "--memory-limit": (("10M", "4G"), ("0", "4X", *_ILLEGAL_NUMBERS)),
+    "--shard": (("1/1", "1/2", "2/2"), ("0/1", "3/2", "1/0", "1", *_ILLEGAL_NUMBERS)),
+    "--picture": (("picture.png", "-"), ("", "picture.jpg", "absent/picture.png")),
+    "--picture-view": (("0,0", "30,18", "-360,90"), ("361,0", "0,91", "1", *_ILLEGAL_NUMBERS)),
+    "--points": (("points.ply", "-"), ("", "absent/points.ply")),
+    "--device": (("0", "llvmpipe", "7", "absent"), ("", "-1")),
+    "--files-from": (("list.txt", "absent.txt", "-"), ("",)),
+}
+_ROW = re.compile(
+    r"^\| `(?:-\w`, `)?(--[a-z-]+)(.*?)` \| .*? \| (-|from .*?|above .*?) \| (.*) \|$"
+)
+
+
+def _values_in(range_text: str, is_whole: bool) -> tuple[Values, Values]:
+    """Values at the bounds and far inside; values beyond them."""
+    least = re.search(r"(from|above) ([\d.]+)", range_text)
+    most = re.search(r"(to|at most|below) ([\d.]+)", range_text)
+    assert least
+    if not most and not is_whole:
+        return ("1e-3", "0.1", "1", "1e9"), (least[2], *_ILLEGAL_NUMBERS)
+    low, high = float(least[2]), float(most[2]) if most else 1e9
+    step = 1.0 if is_whole else (high - low) * 1e-3
+    legal = [low if least[1] == "from" else low + step, low + 2 * step, (low + high) / 2]
+    illegal = [low if least[1] == "above" else low - step]
+    if most:
+        legal.append(high - step if most[1] == "below" else high)
+        illegal.append(high if most[1] == "below" else high + step)
+    form = (lambda x: str(int(x))) if is_whole else (lambda x: f"{x:.12g}")
+    return tuple(map(form, legal)), (*map(form, illegal), *_ILLEGAL_NUMBERS)
+
+
+def _option(name: str, placeholder: str, range_text: str) -> Option:
+    alternatives = tuple(placeholder.strip().replace("\\", "").split("|"))
+    if name in _VALUES:
+        return Option(name, *_VALUES[name], joined=placeholder.startswith("["))
+    if not placeholder:
+        return Option(name, (), ())
+    if range_text != "-":
+        return Option(name, *_values_in(range_text, placeholder.strip() in ("N", "K")))
+    assert len(alternatives) > 1, name
+    return Option(name, alternatives, ("", "x", alternatives[0] + "x", alternatives[0].upper()))
+
+
+def _options_by_section() -> dict[str, list[tuple[Option, str]]]:
+    """The rows of docs/options.md, which a test compares with the program: options, and what they need."""
+    sections: dict[str, list[tuple[Option, str]]] = {}
+    section = ""
+    for line in (pathlib.Path(__file__).parents[2] / "docs/options.md").read_text().splitlines():
+        if line.startswith("<!-- options of "):
+            section = line.removeprefix("<!-- options of ").removesuffix(" -->")
+        elif line.startswith("<!-- end"):
+            section = ""
+        elif section and (row := _ROW.match(line)) and row[1] not in LEFT_OUT:
+            needs = re.search(r"Needs `(.*?)`", row[4])
+            sections.setdefault(section, []).append((_option(row[1], row[2], row[3]), needs[1] if needs else ""))
+    return sections
+
+
+_ROWS = _options_by_section()
+_SECTIONS_OF_VALUES = ("Seeds and rays", "Segments", "Thickness", "Experiments")
+_OF_VALUES = {"--per", "--fields", "--orient", "--backend"}
+_WHOLE = {"--thinner-than": "--thinner-than=1", "--picture": "--picture=picture.png", "--files-from": "--files-from=list.txt"}
+# What other options need, without which a call is mostly refused.
+_NEEDS = {
+    option.name: _WHOLE.get(needs, needs.replace(" ", "=")) for rows in _ROWS.values() for option, needs in rows if needs
+} | {"--pooling": "--guidance=prediction"}
+# Options of the computation, by which values may change.
+COMPUTATION = tuple(
+    option
+    for section, rows in _ROWS.items()
+    for option, _ in rows
+    if (section in _SECTIONS_OF_VALUES or option.name in _OF_VALUES) and option.name != "--time-budget"
 )
 # Options that change neither values nor fields.
 NEUTRAL = (
-    Option("--threads", ("1", "2", "3", "8"), ("0", "1025", *_ILLEGAL_NUMBERS)),
-    Option("--jobs", ("1", "2", "5"), ("0", *_ILLEGAL_NUMBERS)),
-    _flag("--quiet"),
-    _flag("--verbose"),
-    _flag("--json"),
-    Option("--check", ("", "1", "10", "all"), ("0", "-1", "x", "1.5"), joined=True),
-    _flag("--isolate"),
-    Option("--log", ("log.jsonl", "absent/log.jsonl"), ("", ".")),
-    _flag("--skip-existing"),
-    Option("--timeout", ("0.01", "100"), ("0", *_ILLEGAL_NUMBERS)),
-    Option("--memory-limit", ("10M", "4G"), ("0", "4X", *_ILLEGAL_NUMBERS)),
-    Option("--shard", ("1/1", "1/2", "2/2"), ("0/1", "3/2", "1/0", "1", *_ILLEGAL_NUMBERS)),
-    Option("--picture", ("picture.png", "-"), ("", "picture.jpg", "absent/picture.png")),
-    _choice(
-        "--picture-of",
-        "sdf", "seed", "error", "normalized", "segment", "thickness", "least_thickness",
-    ),
-    Option(
-        "--picture-view",
-        ("0,0", "30,18", "-360,90"),
-        ("361,0", "0,91", "1", *_ILLEGAL_NUMBERS),
-    ),
-    _choice("--picture-up", "auto", "x", "y", "z", "-x", "-y", "-z"),
-    Option("--points", ("points.ply", "-"), ("", "absent/points.ply")),
-    _flag("--ascii"),
-    Option(
-        "--against",
-        ("--seeds all", "--recipe paper --seeds 3", "--seeds", "-o x.ply", ""),
-        ("--x",),
-    ),
-    _choice("--format", "ply", "vtu", "npy", "npz", "csv", "html"),
-    Option("--device", ("0", "llvmpipe", "7", "absent"), ("", "-1")),
-    _flag("--require-gpu"),
-    _flag("--list-devices"),
-    Option("--files-from", ("list.txt", "absent.txt", "-"), ("",)),
-    _flag("--null"),
-    _flag("--recursive"),
-    _flag("--version"),
-    Option("--time-budget", ("0.001", "0.1"), ("0", *_ILLEGAL_NUMBERS)),
+    *(option for rows in _ROWS.values() for option, _ in rows if option not in COMPUTATION),
+    Option("--version", (), ()),
 )
-# --output is given by each case; --open starts a browser; --device-report takes long.
-LEFT_OUT = frozenset({"--output", "--open", "--device-report", "--help"})
-# What other options need, without which a call is mostly refused.
-_NEEDS = {
-    "--parts": "--segment=parts",
-    "--detail": "--segment=parts",
-    "--clusters": "--segment=cgal",
-    "--smoothness": "--segment=cgal",
-    "--cgal-expansion": "--segment=cgal",
-    "--wall-angle": "--measure=thickness",
-    "--allow-sharp-edges": "--thinner-than=1",
-    "--picture-of": "--picture=picture.png",
-    "--picture-view": "--picture=picture.png",
-    "--picture-up": "--picture=picture.png",
-    "--pooling": "--guidance=prediction",
-    "--null": "--files-from=list.txt",
-}
 _NEEDS_SHARE = 0.9
 # They end the program before the computation.
 ANSWERS = frozenset({"--version", "--list-devices"})

@@ -55,7 +55,7 @@ def _needs_no_result(chosen: list[str]) -> bool:
 def _check_report(case: Case, ended: Ended, path: pathlib.Path, chosen: list[str]) -> None:
     text = " ".join(chosen)
     # Something else is on standard output, too.
-    mixed = any(word in f" {text} " for word in ("=- ", " - ", *options.ANSWERS, "--against"))
+    mixed = any(word in f" {text} " for word in ("=- ", " - ", *options.ANSWERS))
     reads_values = path.suffix in (".npz", ".csv") and path.is_file() and "vertex" not in text
     if ended.code not in RESULT_CODES or not reads_values:
         return

@@ -201,29 +201,32 @@ TEST_CASE("options of the interpolation and of rounds out of range are errors of
         o.interpolation.pooling = 0.5;
         o.interpolation.guidance = Guidance::None;
       },
-      ErrorCode::OptionConflict, "guidance by prediction");
+      ErrorCode::OptionConflict, "pooling moves values to the prediction");
   requireFailure(
       [](Options& o) {
         o.estimatesError = false;
         o.rounds.maxRelativeError = 0.1;
       },
-      ErrorCode::OptionConflict, "needs the error estimate");
+      ErrorCode::OptionConflict, "maxRelativeError needs the estimate of the error; drop it, or estimate=false");
   for (const bool limitsError : {false, true})
     requireFailure(
         [&](Options& o) {
           o.seeds = SeedCount::all();
           (limitsError ? o.rounds.maxError : o.rounds.timeBudgetSeconds) = 0.5;
         },
-        ErrorCode::OptionConflict, "all faces are seeds");
+        ErrorCode::OptionConflict, "with seeds=all every face is one");
   requireFailure([](Options& o) { o.sampler = "spiral"; }, ErrorCode::UnknownName,
-                 "'spiral'; the names are random, blue-noise, farthest-point, normal-space, adaptive");
+                 "sampler: 'spiral' is not one of random|blue-noise|farthest-point|normal-space|adaptive");
   requireFailure([](Options& o) { o.solver = "gauss"; }, ErrorCode::UnknownName, "'gauss'");
-  requireFailure([](Options& o) { o.smoothing.window = SmoothingOptions::Window{.rings = 5, .passes = 1}; },
-                 ErrorCode::OptionOutOfRange, "");
+  requireFailure(
+      [](Options& o) { o.smoothing = {.isOn = true, .window = SmoothingOptions::Window{.rings = 5, .passes = 1}}; },
+      ErrorCode::OptionOutOfRange, "");
   for (const double bad : {-1.0, 0.0, std::nan("")}) {
-    requireFailure([&](Options& o) { o.rounds.maxError = bad; }, ErrorCode::OptionOutOfRange, "error");
-    requireFailure([&](Options& o) { o.rounds.maxRelativeError = bad; }, ErrorCode::OptionOutOfRange, "error");
-    requireFailure([&](Options& o) { o.rounds.timeBudgetSeconds = bad; }, ErrorCode::OptionOutOfRange, "time budget");
+    requireFailure([&](Options& o) { o.rounds.maxError = bad; }, ErrorCode::OptionOutOfRange, "maxError: ");
+    requireFailure([&](Options& o) { o.rounds.maxRelativeError = bad; }, ErrorCode::OptionOutOfRange,
+                   "maxRelativeError: ");
+    requireFailure([&](Options& o) { o.rounds.timeBudgetSeconds = bad; }, ErrorCode::OptionOutOfRange,
+                   "timeBudgetSeconds: ");
   }
 }
 

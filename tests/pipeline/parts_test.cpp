@@ -220,17 +220,18 @@ TEST_CASE("options of parts out of range are errors of usage") {
     Options options = withParts();
     options.parts.partCount = count;
     requireFailure([&] { (void)fastSession().compute(mesh, options); }, ErrorCode::OptionOutOfRange,
-                   "parts are out of range (1 to 100)");
+                   "is not a whole number from 1 to 100");
   }
   for (const double detail : {0.0, 0.09, 10.5, kNoValue}) {
     Options options = withParts();
     options.parts.detail = detail;
     requireFailure([&] { (void)fastSession().compute(mesh, options); }, ErrorCode::OptionOutOfRange,
-                   "out of range (0.1 to 10)");
+                   "is not a number from 0.1 to 10");
   }
   Options both = withParts();
   both.parts = {.partCount = 3, .detail = 2};
   requireFailure([&] { (void)fastSession().compute(mesh, both); }, ErrorCode::OptionConflict);
   both.segmentation = Segmentation::None;
-  CHECK(fastSession().compute(mesh, both).field("segment") == nullptr);
+  requireFailure([&] { (void)fastSession().compute(mesh, both); }, ErrorCode::OptionConflict,
+                 "parts needs segment=parts");
 }

@@ -171,7 +171,7 @@ TEST_CASE("a budget that is spent at once makes one round, a large one takes eve
   const Result rich = computeRounds(mesh, roundsFor(1000));
   CHECK(rich.report.roundCount == 2);
   CHECK(rich.report.seedCount == mesh.faces.size());
-  CHECK(computeRounds(mesh, roundsFor(1e300)).report.seedCount == mesh.faces.size());
+  CHECK(computeRounds(mesh, roundsFor(1e9)).report.seedCount == mesh.faces.size());
 }
 
 TEST_CASE("rounds end at the time budget or at the maximum error, at the first that is reached") {

@@ -227,20 +227,21 @@ TEST_CASE("equal values stay lengths, as CGAL leaves them") {
   CHECK(result.report.postprocess->max == 3);
 }
 
-TEST_CASE("numbers out of range are errors of usage, if there is a segmentation") {
+TEST_CASE("numbers out of range are errors of usage, and so are numbers without a segmentation") {
   const Mesh mesh = makeSphere(80).mesh;
   for (const uint32_t count : {0u, 1u, 101u})
     requireFailure([&] { (void)referenceSession().compute(mesh, segmented(count)); }, ErrorCode::OptionOutOfRange,
-                   "clusters are out of range (2 to 100)");
+                   "is not a whole number from 2 to 100");
   for (const double smoothness : {-0.1, 1000.5, double(INFINITY), kNoValue}) {
     Options options = segmented();
     options.cgalSegmentation.smoothness = smoothness;
     requireFailure([&] { (void)referenceSession().compute(mesh, options); }, ErrorCode::OptionOutOfRange,
-                   "out of range (0 to 1000)");
+                   "is not a number from 0 to 1000");
   }
   Options unused = allSeeds();
-  unused.cgalSegmentation.clusterCount = 0;
-  CHECK(referenceSession().compute(mesh, unused).field("segment") == nullptr);
+  unused.cgalSegmentation.clusterCount = 7;
+  requireFailure([&] { (void)referenceSession().compute(mesh, unused); }, ErrorCode::OptionConflict,
+                 "clusters needs segment=cgal");
 }
 
 TEST_CASE("the greatest smoothness leaves one segment per component, 0 follows the clusters") {

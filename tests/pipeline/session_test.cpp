@@ -274,14 +274,16 @@ TEST_CASE("options out of range are errors, also where nothing uses them") {
     set(options);
     requireFailure([&] { (void)referenceSession().compute(mesh, options); }, ErrorCode::OptionOutOfRange, part);
   };
-  requireRefusal("seed share of 0", [](Options& options) { options.seeds = SeedCount::ofShare(0); });
-  requireRefusal("seed count of 0", [](Options& options) { options.seeds = SeedCount::ofCount(0); });
-  requireRefusal("1025", [](Options& options) { options.cone.rayCount = 1025; });
-  requireRefusal("tolerance of 0", [](Options& options) { options.solverOptions.tolerance = 0; });
-  requireRefusal("tolerance of 1", [](Options& options) { options.solverOptions.tolerance = 1; });
-  requireRefusal("0 iterations", [](Options& options) { options.solverOptions.maxIterations = 0; });
-  requireRefusal("check of 0", [](Options& options) { options.checkCount = 0; });
-  requireRefusal("maximum error of 1", [](Options& options) { options.rounds.maxError = 1; });
+  requireRefusal("seeds: 0% is not a share", [](Options& options) { options.seeds = SeedCount::ofShare(0); });
+  requireRefusal("seeds: 0 is not a share", [](Options& options) { options.seeds = SeedCount::ofCount(0); });
+  requireRefusal("rays: 1025 is not a whole number from 1 to 1024",
+                 [](Options& options) { options.cone.rayCount = 1025; });
+  requireRefusal("tolerance: 0 is not a number above 0 and below 1",
+                 [](Options& options) { options.solverOptions.tolerance = 0; });
+  requireRefusal("tolerance: 1 is not", [](Options& options) { options.solverOptions.tolerance = 1; });
+  requireRefusal("maxIterations: 0 is not", [](Options& options) { options.solverOptions.maxIterations = 0; });
+  requireRefusal("check: 0 is not a count", [](Options& options) { options.checkCount = 0; });
+  requireRefusal("maxError: 1 is not an error", [](Options& options) { options.rounds.maxError = 1; });
   Options options = test::tenthOfFaces();
   options.seeds = SeedCount::all();
   options.solver = "gauss";

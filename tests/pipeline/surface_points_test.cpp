@@ -180,7 +180,7 @@ TEST_CASE("invalid points, normals and angles throw") {
   requireFailure([&] { (void)scene.nearestFaces(std::span(good).first(4)); }, ErrorCode::ArraySize);
   for (const double angle : {90.0, 181.0})
     requireFailure([&] { (void)scene.thicknessAt(good, good, {.wallAngleDegrees = angle}); },
-                   ErrorCode::OptionOutOfRange, "opposing");
+                   ErrorCode::OptionOutOfRange, "is not a number above 90");
   std::stop_source stop;
   stop.request_stop();
   requireFailure([&] { (void)scene.thicknessAt(good, good, {}, {stop.get_token(), {}}); }, ErrorCode::Cancelled);

@@ -34,7 +34,7 @@ std::vector<FaceBalls> ballsOf(const std::vector<uint32_t>& faces) {
 }
 
 Thickness measure(const TracedMesh& traced, double wallAngle = 120) {
-  const WallTree tree(traced.scene(), makeOpposingWalls(wallAngle));
+  const WallTree tree(traced.scene(), makeOpposingWalls({wallAngle}));
   std::vector<FaceBalls> balls = ballsOf(traced.seedFaces());
   shrinkFaceBalls(tree, balls, {});
   const std::vector<double> none(traced.mesh.faceCount(), kNoValue);
@@ -72,7 +72,7 @@ void checkThicknessByBruteForce(const std::string& name, const Mesh& mesh, doubl
   CAPTURE(name);
   const TracedMesh traced(mesh);
   const Thickness found = measure(traced, wallAngle);
-  const test::BruteForceThickness twin(mesh, makeOpposingWalls(wallAngle).cosine,
+  const test::BruteForceThickness twin(mesh, makeOpposingWalls({wallAngle}).cosine,
                                        traced.bvh.normalization.contactLength());
   const uint32_t step = std::max(1u, mesh.faceCount() / 150);
   const double tolerance = 1e-6 * traced.geometry.bounds.diagonal();
@@ -207,12 +207,12 @@ TEST_CASE("scaling by a power of two changes no bit, shifts and other scales onl
 
 TEST_CASE("any number of threads gives the same bits") {
   for (const TracedMesh& traced : variousTracedMeshes()) {
-    const WallTree tree(traced.scene(), makeOpposingWalls(120));
+    const WallTree tree(traced.scene(), makeOpposingWalls({120}));
     std::vector<FaceBalls> expected = ballsOf(traced.seedFaces());
     shrinkFaceBalls(tree, expected, {});
     for (const size_t threads : {1u, 2u, 5u}) {
       const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-      const WallTree own(traced.scene(), makeOpposingWalls(120));
+      const WallTree own(traced.scene(), makeOpposingWalls({120}));
       std::vector<FaceBalls> balls = ballsOf(traced.seedFaces());
       shrinkFaceBalls(own, balls, {});
       CHECK(std::equal(balls.begin(), balls.end(), expected.begin(), expected.end(), areSameBalls));
@@ -223,7 +223,7 @@ TEST_CASE("any number of threads gives the same bits") {
 TEST_CASE("any order of any of the faces gives the same bits") {
   Random random(5);
   for (const TracedMesh& traced : variousTracedMeshes()) {
-    const WallTree tree(traced.scene(), makeOpposingWalls(120));
+    const WallTree tree(traced.scene(), makeOpposingWalls({120}));
     std::vector<uint32_t> faces = traced.seedFaces();
     std::vector<FaceBalls> expected(traced.mesh.faceCount());
     std::vector<FaceBalls> all = ballsOf(faces);
@@ -244,7 +244,7 @@ TEST_CASE("any order of any of the faces gives the same bits") {
 TEST_CASE("each width of the lanes, and queries in any order, give the same bits") {
   Random random(7);
   for (const TracedMesh& traced : variousTracedMeshes()) {
-    const WallTree tree(traced.scene(), makeOpposingWalls(120));
+    const WallTree tree(traced.scene(), makeOpposingWalls({120}));
     std::vector<uint32_t> order = traced.seedFaces();
     std::vector<BallQuery> expected(traced.mesh.faceCount());
     for (const bool isShuffled : {false, true}) {
@@ -278,7 +278,7 @@ TEST_CASE("each width of the lanes, and queries in any order, give the same bits
 
 TEST_CASE("a bound above a diameter changes no bit of the ball, and below it there is no wall") {
   for (const TracedMesh& traced : variousTracedMeshes()) {
-    const WallTree tree(traced.scene(), makeOpposingWalls(120));
+    const WallTree tree(traced.scene(), makeOpposingWalls({120}));
     std::vector<FaceBalls> expected = ballsOf(traced.seedFaces());
     shrinkFaceBalls(tree, expected, {});
     for (const double factor : {1.5, 1 + 1e-6, 1 - 1e-6}) {
@@ -304,7 +304,7 @@ TEST_CASE("a bound above a diameter changes no bit of the ball, and below it the
 
 TEST_CASE("progress increases from 0 to 1, and a stop request ends the work between chunks") {
   const TracedMesh traced(shapeNamed("torus", 20'000));
-  const WallTree tree(traced.scene(), makeOpposingWalls(120));
+  const WallTree tree(traced.scene(), makeOpposingWalls({120}));
   std::vector<FaceBalls> balls = ballsOf(traced.seedFaces());
   std::vector<double> fractions;
   std::stop_source stop;

@@ -28,7 +28,7 @@ struct ThinMesh {
   ThinMesh(Mesh mesh, double limit, double maxLength, const RunControl& control = {})
       : traced(std::move(mesh)), unit(traced.bvh.normalization.scale) {
     const TraceScene scene = traced.scene();
-    const WallTree tree(scene, makeOpposingWalls(120));
+    const WallTree tree(scene, makeOpposingWalls({}));
     const PointFans fans(traced.mesh);
     const SharpEdges sharp =
         findSharpEdges(traced.mesh, traced.geometry, fans, tree.opposing().cosine, kContactDistance / unit);

@@ -152,6 +152,7 @@ def segmentation_from_sdf_values(
     mesh = mesh_argument(vertices, faces)
     values = _values_of(sdf_values, mesh)
     options = {
+        "segment": "cgal",
         "clusters": number_of_clusters,
         "smoothness": smoothing_lambda,
         "expansion": expansion,

@@ -1,0 +1,52 @@
+"""The cases of tests/describe/option_cases.json: the sentences are those of the command line."""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import asdf_vk
+from asdf_vk import _core
+from shapes import cube
+
+_CASES = json.loads((Path(__file__).resolve().parents[2] / "tests/describe/option_cases.json").read_text())
+_KEYWORDS = {"rng-seed": "random_seed", "angle": "cone_angle", "cgal-expansion": "expansion"}
+
+
+def keyword(name: str) -> str:
+    return _KEYWORDS.get(name, name.replace("-", "_"))
+
+
+def without_spelling(text: str) -> str:
+    """One word per name: "--wall-angle 90" and "wall_angle='90'" are "wallangle 90"."""
+    text = text.replace("--no-estimate", "estimate off").replace("estimate=False", "estimate off")
+    for name, other in _KEYWORDS.items():
+        text = re.sub(rf"--{name}\b(?!-)", other, text)
+    return re.sub(r"[-_']", "", text.replace("=", " "))
+
+
+@pytest.mark.parametrize("case", _CASES, ids=lambda case: json.dumps(case["options"]))
+def test_sentences_are_those_of_the_command_line(case: dict[str, Any], reference: asdf_vk.Session) -> None:
+    options = {keyword(name): value for name, value in case["options"].items()}
+    if "fail_if_thinner" in options:
+        pytest.skip("an option of the program")
+    with pytest.raises(asdf_vk.UsageError) as error:
+        asdf_vk.compute(*cube(), session=reference, **options)
+    assert without_spelling(str(error.value)) == without_spelling(case["refusal"])
+    assert error.value.details["option"] in options or len(options) == 2
+
+
+def test_every_option_has_a_case() -> None:
+    cased = {keyword(name) for case in _CASES for name in case["options"]}
+    assert set(_core.option_names()) - cased == {"centres", "max_relative_error"}
+
+
+def test_what_options_imply(reference: asdf_vk.Session) -> None:
+    assert asdf_vk.compute(*cube(), session=reference, thinner_than=0.5).thickness is not None
+    assert asdf_vk.shape_diameter(*cube(), session=reference, thinner_than=0.5).shape == (12,)
+    segmented = asdf_vk.compute(*cube(), session=reference, segment="cgal", seeds="all", clusters=2)
+    assert "normalized" in segmented.fields

@@ -1,0 +1,319 @@
+// One row per option of the outputs, of many meshes and of the devices; those of a computation and of a session are in
+// describe/computation_options.cpp.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+
+#include "asdf_vk/error.h"
+#include "cli/options.h"
+#include "core/text.h"
+
+namespace asdfvk {
+namespace {
+
+constexpr const char* kOutputGroup = "Output";
+constexpr const char* kPictureGroup = "Picture";
+constexpr const char* kBatchGroup = "Many meshes";
+constexpr const char* kDeviceGroup = "Device";
+constexpr double kMaxSeconds = 1e9, kMaxJobCount = 1024;
+
+[[noreturn]] void reject(const std::string& message) { throw Error(ErrorCode::OptionOutOfRange, message); }
+
+/// Texts only come from the command line.
+const std::string& textOf(const OptionValue& value) { return std::get<std::string>(value); }
+
+std::optional<double> numberIn(std::string_view text) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+void requireFieldName(const std::string& name) {
+  const std::vector<std::string> known = resultFieldNames();
+  if (std::find(known.begin(), known.end(), name) == known.end())
+    throw Error(ErrorCode::UnknownName,
+                fmt::format("'{}' is not a field; the fields are {}", name, joined(known, ", ")));
+}
+
+/// "sdf,seed,error"
+bool readFields(void* target, const OptionValue& value) {
+  const std::string& text = textOf(value);
+  std::vector<std::string> names;
+  for (size_t begin = 0; begin <= text.size();) {
+    const size_t end = std::min(text.find(',', begin), text.size());
+    names.push_back(text.substr(begin, end - begin));
+    if (names.back().empty()) return false;
+    if (std::count(names.begin(), names.end(), names.back()) > 1)
+      reject(fmt::format("'{}' names {} twice", text, names.back()));
+    requireFieldName(names.back());
+    begin = end + 1;
+  }
+  static_cast<Outputs*>(target)->fields = std::move(names);
+  return true;
+}
+
+/// "30,18"
+bool readView(void* target, const OptionValue& value) {
+  const std::string& text = textOf(value);
+  const size_t comma = std::min(text.find(','), text.size());
+  const auto azimuth = numberIn(text.substr(0, comma)),
+             elevation = numberIn(text.substr(std::min(comma + 1, text.size())));
+  if (!azimuth || !elevation) return false;
+  if (std::abs(*azimuth) > 360) reject(fmt::format("the azimuth in '{}' is not from -360 to 360", text));
+  if (std::abs(*elevation) > 90) reject(fmt::format("the elevation in '{}' is not from -90 to 90", text));
+  auto& outputs = *static_cast<Outputs*>(target);
+  outputs.pictureView.azimuthDegrees = *azimuth;
+  outputs.pictureView.elevationDegrees = *elevation;
+  outputs.choosesView = true;
+  return true;
+}
+
+bool readPictureOf(void* target, const OptionValue& value) {
+  const std::string name = textOf(value) == "seeds" ? "seed" : textOf(value);  // "seeds": the name in version 0.1.
+  requireFieldName(name);
+  if (name == "centre") reject("'centre' has three components; a picture shows a field of one component");
+  static_cast<Outputs*>(target)->pictureOf = name;
+  return true;
+}
+
+/// The name of a file that has the extension, or "-".
+bool hasExtension(const std::string& name, const char* extension) {
+  return name == "-" || lowerCase(std::filesystem::path(name).extension().string()) == extension;
+}
+
+std::vector<std::string> pictureFields() {
+  std::vector<std::string> names = resultFieldNames();
+  std::erase(names, "centre");
+  return names;
+}
+
+bool readMemory(void* target, const OptionValue& value) {
+  const std::optional<uint64_t> bytes = parseByteCount(textOf(value));
+  if (bytes) static_cast<BatchOptions*>(target)->memoryBytes = *bytes;
+  return bytes.has_value();
+}
+
+OptionValue noValue(const void*) { return {}; }
+OptionValue nameOrNone(const std::string& name) { return name.empty() ? OptionValue() : OptionValue(name); }
+
+constexpr ChoiceNames<std::optional<Up>, 7> kUps{{{"auto", std::nullopt},
+                                                  {"x", Up::X},
+                                                  {"y", Up::Y},
+                                                  {"z", Up::Z},
+                                                  {"-x", Up::MinusX},
+                                                  {"-y", Up::MinusY},
+                                                  {"-z", Up::MinusZ}}};
+
+template <std::string Outputs::*kMember>
+bool readName(void* target, const OptionValue& value) {
+  static_cast<Outputs*>(target)->*kMember = textOf(value);
+  return !textOf(value).empty();
+}
+
+const std::array kOutputRows{
+    OptionRow{.name = "output",
+              .group = kOutputGroup,
+              .text = "Result: a file, a directory, or - for standard output. .html: a page that shows the results of "
+                      "all meshes in a browser",
+              .more = "[page.md](page.md) and [formats.md](formats.md) have the formats.",
+              .placeholder = "FILE|DIR|-",
+              .defaultText = "NAME.asdf.ply beside the input",
+              .isBasic = true,
+              .flags = "-o,--output",
+              .wanted = "a name",
+              .read = readName<&Outputs::path>,
+              .write = [](const void* t) { return nameOrNone(static_cast<const Outputs*>(t)->path); }},
+    OptionRow{.name = "fields",
+              .group = kOutputGroup,
+              .text =
+                  "Fields to write: sdf, seed, error, normalized, segment, thickness, least_thickness, centre; in a "
+                  "page all of one component",
+              .more = "The first one is the `quality` and the colour of `.ply`, and the only one of `.npy` "
+                      "([formats.md](formats.md)).",
+              .placeholder = "NAME,...",
+              .defaultText = "sdf,seed, and those of --measure, --postprocess and --segment",
+              .isBasic = true,
+              .moreNames = resultFieldNames,
+              .wanted = "a list of names such as sdf,seed,error",
+              .read = readFields,
+              .write = [](const void* t) { return nameOrNone(joined(static_cast<const Outputs*>(t)->fields, ",")); }},
+    OptionRow{.name = "open",
+              .group = kOutputGroup,
+              .access = ASDFVK_MEMBER(Outputs, opensPage),
+              .text = "Open the page in the browser; without -o, NAME.asdf.html",
+              .isBasic = true},
+    OptionRow{.name = "json",
+              .group = kOutputGroup,
+              .access = ASDFVK_MEMBER(Outputs, json),
+              .text = "Report as JSON on standard output, one line per mesh",
+              .isBasic = true},
+    OptionRow{.name = "format",
+              .group = kOutputGroup,
+              .access = ASDFVK_MEMBER(Outputs, format),
+              .text = "Format where -o does not decide it",
+              .defaultText = "ply",
+              .moreNames = outputFormats},
+    OptionRow{
+        .name = "ascii", .group = kOutputGroup, .access = ASDFVK_MEMBER(Outputs, ascii), .text = "Write PLY as text"},
+    OptionRow{.name = "points",
+              .group = kOutputGroup,
+              .text = "Also write the skeleton points of the faces, half of the shape diameter below each, with radius "
+                      "and segment, for one mesh; - is standard output",
+              .placeholder = "FILE.ply",
+              .wanted = "a file that ends in .ply",
+              .read =
+                  [](void* t, const OptionValue& value) {
+                    return hasExtension(textOf(value), ".ply") && readName<&Outputs::points>(t, value);
+                  },
+              .write = [](const void* t) { return nameOrNone(static_cast<const Outputs*>(t)->points); }},
+    OptionRow{
+        .name = "quiet", .group = kOutputGroup, .access = ASDFVK_MEMBER(Outputs, quiet), .text = "Print errors only"},
+    OptionRow{.name = "verbose",
+              .group = kOutputGroup,
+              .access = ASDFVK_MEMBER(Outputs, verbose),
+              .text = "Print the full report: device, seeds, times, solver, places"},
+    OptionRow{.name = "picture",
+              .group = kPictureGroup,
+              .text = "Also render the coloured mesh, for one mesh; - is standard output",
+              .more = "1200 x 900 pixels, with a colour bar over the 1st to 99th percentile.",
+              .placeholder = "FILE.png",
+              .isBasic = true,
+              .wanted = "a file that ends in .png",
+              .read =
+                  [](void* t, const OptionValue& value) {
+                    return hasExtension(textOf(value), ".png") && readName<&Outputs::picture>(t, value);
+                  },
+              .write = [](const void* t) { return nameOrNone(static_cast<const Outputs*>(t)->picture); }},
+    OptionRow{.name = "picture-of",
+              .group = kPictureGroup,
+              .text = "Field to show",
+              .needs = "picture",
+              .defaultText = "sdf, thickness with --measure thickness, or the places thinner than a limit",
+              .moreNames = pictureFields,
+              .read = readPictureOf,
+              .write = noValue},
+    OptionRow{.name = "picture-view",
+              .group = kPictureGroup,
+              .text = "View, in degrees to the right of the broad side of the mesh (-360 to 360) and up (-90 to 90)",
+              .placeholder = "AZIMUTH,ELEVATION",
+              .needs = "picture",
+              .defaultText = "30,18, or the view that shows the thin places best",
+              .wanted = "two numbers with a comma between them",
+              .read = readView,
+              .write = noValue},
+    OptionRow{.name = "picture-up",
+              .group = kPictureGroup,
+              .access = ASDFVK_CHOICE(Outputs, pictureView.up, kUps),
+              .text = "Up axis of the picture. auto: z of an STL file, else y, unless the mesh stands more stably on "
+                      "another axis",
+              .needs = "picture"},
+};
+
+const std::array kBatchRows{
+    OptionRow{.name = "recursive",
+              .group = kBatchGroup,
+              .access = ASDFVK_MEMBER(BatchOptions, recurses),
+              .text = "Folders are inputs: every mesh below them; results in the same tree below -o",
+              .flags = "-r,--recursive"},
+    OptionRow{.name = "files-from",
+              .group = kBatchGroup,
+              .access = ASDFVK_MEMBER(BatchOptions, list),
+              .text = "Also compute the meshes of a list, a path per line; - is standard input",
+              .placeholder = "FILE|-"},
+    OptionRow{.name = "null",
+              .group = kBatchGroup,
+              .access = ASDFVK_MEMBER(BatchOptions, isNullSeparated),
+              .text = "Paths of the list end with a zero byte, as find -print0 writes",
+              .needs = "files-from",
+              .flags = "-0,--null"},
+    OptionRow{.name = "shard",
+              .group = kBatchGroup,
+              .text = "Compute part I of N only; the parts are of about the same size",
+              .placeholder = "I/N",
+              .read =
+                  [](void* t, const OptionValue& value) {
+                    static_cast<BatchOptions*>(t)->shard = parseShard(textOf(value));
+                    return true;
+                  },
+              .write = noValue},
+    OptionRow{.name = "log",
+              .group = kBatchGroup,
+              .access = ASDFVK_MEMBER(BatchOptions, log),
+              .text = "Append a record per mesh as JSON; asdf-vk summarize FILE.jsonl reads it",
+              .placeholder = "FILE.jsonl"},
+    OptionRow{.name = "skip-existing",
+              .group = kBatchGroup,
+              .access = ASDFVK_MEMBER(BatchOptions, skipsExisting),
+              .text = "Skip meshes whose result is that of the same input, options and version"},
+    OptionRow{.name = "timeout",
+              .group = kBatchGroup,
+              .access = ASDFVK_MEMBER(BatchOptions, timeoutSeconds),
+              .range = aboveUpTo(0, kMaxSeconds),
+              .text = "Fail a mesh that takes longer, exit code 8; without --isolate between steps only",
+              .placeholder = "SECONDS",
+              .defaultText = "-"},
+    OptionRow{.name = "memory-limit",
+              .group = kBatchGroup,
+              .text = "Fail a mesh that takes more memory, such as 500M or 2G, exit code 8; implies --isolate",
+              .placeholder = "SIZE",
+              .wanted = "a size such as 500M or 2G",
+              .read = readMemory,
+              .write = noValue},
+    OptionRow{.name = "isolate",
+              .group = kBatchGroup,
+              .access = ASDFVK_MEMBER(BatchOptions, isolates),
+              .text = "Compute in worker processes, so that a mesh that crashes or hangs fails alone"},
+    OptionRow{.name = "jobs",
+              .group = kBatchGroup,
+              .access = ASDFVK_MEMBER(BatchOptions, jobCount),
+              .range = fromTo(1, kMaxJobCount),
+              .text = "Meshes at once",
+              .placeholder = "N",
+              .defaultText = "the number of cores for many small meshes, else 1"},
+};
+
+const std::array kDeviceRows{
+    OptionRow{.name = "list-devices",
+              .group = kDeviceGroup,
+              .access = ASDFVK_MEMBER(CommandLine, listDevices),
+              .text = "List Vulkan devices and whether each is usable",
+              .more =
+                  "Also takes `--require-gpu` (exit code 3 where no GPU is usable) and `--json`, and excludes meshes "
+                  "and all other options."},
+    OptionRow{.name = "device-report",
+              .group = kDeviceGroup,
+              .access = ASDFVK_MEMBER(CommandLine, deviceReport),
+              .text =
+                  "Print a report on the device as JSON: a self-test, the rate of each variant of the kernels; exit "
+                  "code 3 where the self-test fails",
+              .more = "Takes `--backend`, `--device` and `--require-gpu` ([devices.md](devices.md))."},
+};
+
+}  // namespace
+
+OptionRows outputRows() { return kOutputRows; }
+
+std::vector<OptionTable> optionTables(CommandLine& line) {
+  return {{computationRows(), &line.computation},
+          {kOutputRows, &line.outputs},
+          {kBatchRows, &line.batch},
+          {sessionRows(), &line.session},
+          {kDeviceRows, &line}};
+}
+
+std::optional<uint64_t> parseByteCount(const std::string& text) {
+  constexpr std::string_view kUnits = "kmgt";
+  const size_t unit = text.empty() ? std::string_view::npos : kUnits.find(lowerCase(text).back());
+  const bool hasUnit = unit != std::string_view::npos;
+  const auto number = numberIn(std::string_view(text).substr(0, text.size() - (hasUnit ? 1 : 0)));
+  if (!number) return std::nullopt;
+  const double bytes = hasUnit ? std::ldexp(*number, 10 * (static_cast<int>(unit) + 1)) : *number;
+  return bytes >= 1 && bytes < 0x1p63 ? std::optional(static_cast<uint64_t>(bytes)) : std::nullopt;
+}
+
+}  // namespace asdfvk

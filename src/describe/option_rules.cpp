@@ -1,0 +1,122 @@
+// What options imply and what they exclude, for every front end.
+#include "asdf_vk/error.h"
+#include "describe/computation_options.h"
+
+namespace asdfvk {
+namespace {
+
+constexpr uint32_t kCgalRayCount = 25;  // The default of CGAL's sdf_values().
+
+[[noreturn]] void refuseOption(std::string_view message, OptionSpelling spelling) {
+  refuse(computationRows(), message, spelling);
+}
+
+/// A limit implies the measure.
+void applyLimit(ComputationSettings& computation, const GivenOptions& given) {
+  Options& options = computation.options;
+  std::optional<double>& limit = options.thickness.thinnerThan;
+  if (computation.failIfThinner) {
+    if (limit && *limit != *computation.failIfThinner)
+      refuseOption("{thinner-than} and {fail-if-thinner} have different limits; give one of them", given.spelling);
+    limit = computation.failIfThinner;
+  }
+  if (!limit || options.measuresThickness()) return;
+  if (given.has("measure"))
+    refuseOption("{thinner-than} contradicts {measure=sdf}; drop one of the two", given.spelling);
+  options.measure = Measure::Thickness;
+}
+
+void applySegmentation(Options& options, const GivenOptions& given) {
+  if (options.segmentation == Segmentation::Cgal && given.has("postprocess") &&
+      options.postprocess == Postprocess::None)
+    refuseOption("{segment=cgal} contradicts {postprocess=none}; drop one of the two", given.spelling);
+  if (options.postprocesses()) options.postprocess = Postprocess::Cgal;
+}
+
+void refuseContradictions(const Options& options, const GivenOptions& given) {
+  const RoundOptions& rounds = options.rounds;
+  const bool isRelative = !rounds.maxError && given.spelling != OptionSpelling::Flag;  // --max-error 5%rel
+  const std::string maxError = isRelative ? "{max-relative-error}" : "{max-error}";
+  if (rounds.limitError() && !options.estimatesError)
+    refuseOption(maxError + " needs the estimate of the error; drop it, or {estimate=off}", given.spelling);
+  if (rounds.areSet() && options.seeds.kind == SeedCount::Kind::All)
+    refuseOption((rounds.limitError() ? maxError : "{time-budget}") +
+                     " adds seeds, but with {seeds=all} every face is one; drop one of the two",
+                 given.spelling);
+  if (options.interpolation.pooling > 0 && options.interpolation.guidance != Guidance::Prediction)
+    refuseOption(
+        "{pooling} moves values to the prediction, which {recipe=paper} and {guidance=none} or curvature do not have; "
+        "drop one of the two",
+        given.spelling);
+  if (options.parts.partCount && (given.has("detail") || options.parts.detail != 1))
+    refuseOption("{parts} and {detail} contradict each other; drop one", given.spelling);
+  if (options.cone.definition != Definition::Paper && options.cone.rotation != ConeRotation::Fixed)
+    refuseOption("{recipe=quality} rotates the cones, which belongs to {definition=paper}; use another recipe",
+                 given.spelling);
+}
+
+}  // namespace
+
+void applyRecipe(Recipe recipe, Options& options) {
+  const Options balanced;
+  options.cone.rotation = balanced.cone.rotation;
+  options.sampler = balanced.sampler;
+  options.interpolation = balanced.interpolation;
+  switch (recipe) {
+    case Recipe::Paper:
+      options.sampler = "random";
+      options.interpolation.weights = ArcWeights::Distance;
+      options.interpolation.guidance = Guidance::Curvature;
+      break;
+    case Recipe::Balanced:
+      break;
+    case Recipe::Quality:
+      options.cone.rotation = ConeRotation::Hashed;
+      options.interpolation.pooling = 0.75;
+      break;
+  }
+}
+
+void applyDefinition(Definition definition, Options& options) {
+  const Options paper;
+  options.cone.definition = definition;
+  options.cone.rayCount = definition == Definition::Cgal ? kCgalRayCount : paper.cone.rayCount;
+  options.seeds = definition == Definition::Cgal ? SeedCount::all() : paper.seeds;
+  options.seeds.isChosen = false;
+}
+
+void complete(ComputationSettings& computation, const GivenOptions& given) {
+  Options& options = computation.options;
+  applyLimit(computation, given);
+  applySegmentation(options, given);
+  if (options.rounds.areSet() && !options.seeds.isChosen) options.seeds = SeedCount::ofShare(kFirstRoundShare);
+  ComputationSettings copy = computation;
+  requireInRange(computationRows(), &copy, given.spelling);
+  requireNeeds(computationRows(), &computation, given);
+  refuseContradictions(options, given);
+}
+
+Options completed(const Options& options) {
+  const ComputationSettings defaults;
+  ComputationSettings computation{.recipe = Recipe::Balanced, .options = options, .failIfThinner = {}};
+  GivenOptions given;
+  for (const OptionRow& row : computationRows())
+    if (valueOf(row, &computation) != valueOf(row, &defaults)) given.names.insert(row.name);
+  complete(computation, given);
+  return computation.options;
+}
+
+void requireValid(SessionSettings session, OptionSpelling spelling) {
+  requireInRange(sessionRows(), &session, spelling);
+  if (session.backend != "cpu" && session.backend != "reference") return;
+  const auto refuseOnCpu = [&](const char* message) { refuse(sessionRows(), message, spelling); };
+  if (session.requireGpu)
+    refuseOnCpu("{require-gpu} contradicts {backend=cpu} and reference, which run on the CPU; drop one");
+  if (!session.device.empty())
+    refuseOnCpu("{device} chooses a Vulkan device, which {backend=cpu} and reference do not use; drop one");
+  const TraceVariant& variant = session.variant;
+  if (!(variant.kernel.empty() && variant.bvh.empty() && variant.fetch.empty()))
+    refuseOnCpu("{kernel}, {bvh} and {fetch} choose shaders, which {backend=cpu} and reference do not use; drop one");
+}
+
+}  // namespace asdfvk

@@ -1,0 +1,163 @@
+// The cases of tests/describe/option_cases.json on the command line and in C++; python/tests/test_options.py has them
+// in Python. The messages are the same but for the spelling of names and values.
+#include <doctest/doctest.h>
+
+#include <fstream>
+#include <set>
+
+#include "cli/options.h"
+#include "cli/refusal.h"
+#include "core/json.h"
+
+namespace asdfvk {
+namespace {
+
+/// One word per name: "--wall-angle 90", "wallAngleDegrees=90" and "wall_angle='90'" are "wallangle 90".
+std::string withoutSpelling(std::string text) {
+  const auto replaceAll = [&](const std::string& from, const std::string& to) {
+    for (size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
+      text.replace(at, from.size(), to);
+  };
+  replaceAll("--no-estimate", "estimate off");
+  replaceAll("estimate=false", "estimate off");
+  replaceAll("Degrees", "");
+  replaceAll("Seconds", "");
+  replaceAll("=", " ");
+  std::string words;
+  for (const char c : text)
+    if (c != '-' && c != '\'') words += static_cast<char>('A' <= c && c <= 'Z' ? c - 'A' + 'a' : c);
+  return words;
+}
+
+std::string textOf(const Json& value) { return value.is_string() ? value.get<std::string>() : value.dump(); }
+
+std::vector<std::string> argumentsOf(const Json& options) {
+  std::vector<std::string> arguments{"a.ply"};
+  for (const auto& [name, value] : options.items()) {
+    const std::string flag = spelled(*findOption(computationRows(), name), OptionSpelling::Flag);
+    arguments.push_back(value.is_boolean() ? flag : flag + "=" + textOf(value));
+  }
+  return arguments;
+}
+
+/// Sets a member as a caller of the library does: out of its range, too. False where its type has no such value.
+bool setMember(const OptionRow& row, ComputationSettings& computation, const Json& value) {
+  if (row.access.member == nullptr || row.access.kind == OptionKind::Choice) {
+    try {
+      setOptionText(row, &computation, textOf(value));
+    } catch (const Error&) {
+      return false;
+    }
+    return true;
+  }
+  if (value.is_number() && value.get<double>() < 0) return false;
+  const auto set = [&](auto member) {
+    using T = decltype(member);
+    if constexpr (std::is_same_v<T, std::optional<double>*>) {
+      *member = value.get<double>();
+    } else if constexpr (std::is_same_v<T, std::optional<uint32_t>*>) {
+      *member = value.get<uint32_t>();
+    } else if constexpr (!std::is_same_v<T, ChoiceMember>) {
+      *member = value.get<std::remove_pointer_t<T>>();
+    }
+    return true;
+  };
+  return std::visit(set, row.access.member(&computation));
+}
+
+std::string refusalOfLibrary(const ComputationSettings& computation) {
+  try {
+    (void)completed(computation.options);
+  } catch (const Error& error) {
+    CHECK(error.kind() == ErrorKind::Usage);
+    CHECK_FALSE(error.details().empty());
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST_CASE("the command line and the library refuse the same options with the same sentence") {
+  std::ifstream in(ASDFVK_TEST_DIR "/describe/option_cases.json");
+  std::set<std::string> names;
+  // A caller of the library can neither name a default nor a limit of the program, and the recipe is no member.
+  const std::set<std::string> ofNames{"postprocess", "recipe", "fail-if-thinner"};
+  size_t comparedCount = 0;
+  for (const Json& example : Json::parse(in)) {
+    const Json& options = example.at("options");
+    CAPTURE(options.dump());
+    CHECK_EQ(refusal(argumentsOf(options)), example.at("refusal").get<std::string>());
+    ComputationSettings computation;
+    bool isSet = options.value("measure", "") != "sdf";
+    for (const OptionRow& row : computationRows()) {
+      if (!options.contains(row.name)) continue;
+      names.insert(row.name);
+      isSet = isSet && !ofNames.contains(row.name) && setMember(row, computation, options.at(row.name));
+      if (isSet && row.apply != nullptr) row.apply(&computation);
+    }
+    if (!isSet) continue;
+    CHECK_EQ(withoutSpelling(refusalOfLibrary(computation)), withoutSpelling(example.at("refusal").get<std::string>()));
+    ++comparedCount;
+  }
+  CHECK(comparedCount >= 30);
+  for (const OptionRow& row : computationRows())
+    if (row.access.kind != OptionKind::Flag && std::string_view(row.name) != "max-relative-error")
+      CHECK_MESSAGE(names.contains(row.name), row.name);
+}
+
+TEST_CASE("the library implies what the command line implies") {
+  const auto lineOf = [](std::vector<std::string> arguments) {
+    arguments.emplace_back("a.ply");
+    return parseCommandLine(arguments).computation;
+  };
+  const auto isSame = [](const Options& options, const ComputationSettings& line) {
+    const ComputationSettings own{.recipe = line.recipe, .options = completed(options), .failIfThinner = {}};
+    for (const auto& [key, value] : reportedOptions(own, {}))
+      for (const auto& [other, ofLine] : reportedOptions(line, {}))
+        if (key == other) CHECK_MESSAGE(value == ofLine, key);
+  };
+  isSame({.thickness = {.thinnerThan = 1}}, lineOf({"--thinner-than", "1"}));
+  isSame({.rounds = {.maxError = 0.05}}, lineOf({"--max-error", "5%"}));
+  isSame({.rounds = {.maxRelativeError = 0.05}}, lineOf({"--max-error", "5%rel"}));
+  isSame({.seeds = SeedCount::ofShare(0.1), .rounds = {.maxError = 0.05}},
+         lineOf({"--max-error", "5%", "--seeds", "10%"}));
+  isSame({.segmentation = Segmentation::Cgal}, lineOf({"--segment", "cgal"}));
+  Options ofCgal;
+  applyDefinition(Definition::Cgal, ofCgal);
+  isSame(ofCgal, lineOf({"--definition", "cgal"}));
+  ofCgal.rounds.timeBudgetSeconds = 1;
+  isSame(ofCgal, lineOf({"--definition", "cgal", "--time-budget", "1"}));
+  CHECK_EQ(completed(ofCgal).seeds.share, kFirstRoundShare);
+}
+
+TEST_CASE("the options of a report repeat the run") {
+  const std::vector<std::vector<std::string>> calls{
+      {"--recipe", "quality", "--seeds", "7.3%", "--rays", "31", "--angle", "100.25", "--rng-seed",
+       "12345678901234567890"},
+      {"--recipe", "paper", "--max-error", "3%rel", "--sampler", "adaptive", "--check=all"},
+      {"--definition", "cgal", "--segment", "cgal", "--clusters", "7", "--per", "vertex"},
+      {"--thinner-than", "0.1", "--allow-sharp-edges", "--wall-angle", "130", "--orient", "auto"},
+      {"--no-estimate", "--seeds", "50", "--smooth", "2x1", "--tolerance", "1e-5", "--fields", "centre"}};
+  for (std::vector<std::string> arguments : calls) {
+    CAPTURE(arguments.front());
+    arguments.emplace_back("a.ply");
+    const CommandLine line = parseCommandLine(arguments);
+    const Json reported = optionValues(line.computation, line.session);
+    ComputationSettings again;
+    GivenOptions given;
+    for (const OptionRow& row : computationRows()) {
+      const Json& value = reported.at(spelled(row, OptionSpelling::CamelCase));
+      if (value.is_null()) continue;
+      given.names.insert(row.name);
+      if (value.is_boolean())
+        setOption(row, &again, value.get<bool>(), "", OptionSpelling::CamelCase);
+      else
+        setOptionText(row, &again, textOf(value));
+    }
+    if (!again.options.thickness.thinnerThan) given.names.erase("allow-sharp-edges");
+    complete(again, given);
+    CHECK_EQ(optionValues(again, line.session), reported);
+  }
+}
+
+}  // namespace
+}  // namespace asdfvk
