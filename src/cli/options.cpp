@@ -125,7 +125,9 @@ void completeFields(CommandLine& line, bool choosesPicture) {
     if (shows("sdf") || shows("seed") || shows("error")) options.measure = Measure::Both;
     if (!choosesPicture) outputs.pictureOf = options.thickness.thinnerThan ? "" : "thickness";
   }
-  for (const auto& [option, name] : shown) {
+  for (const auto& field : shown) {
+    const char* option = field.first;
+    const std::string& name = field.second;
     const auto row =
         std::find_if(fieldRows().begin(), fieldRows().end(), [&](const auto& r) { return r.name == name; });
     const bool isComputed = name == "normalized"          ? options.postprocesses()
