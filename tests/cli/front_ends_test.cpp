@@ -111,9 +111,9 @@ TEST_CASE("the library implies what the command line implies") {
   };
   const auto isSame = [](const Options& options, const ComputationSettings& line) {
     const ComputationSettings own{.recipe = line.recipe, .options = completed(options), .failIfThinner = {}};
-    for (const auto& [key, value] : reportedOptions(own, {}))
-      for (const auto& [other, ofLine] : reportedOptions(line, {}))
-        if (key == other) CHECK_MESSAGE(value == ofLine, key);
+    for (const auto& ofLibrary : reportedOptions(own, {}))
+      for (const auto& ofLine : reportedOptions(line, {}))
+        if (ofLibrary.first == ofLine.first) CHECK_MESSAGE(ofLibrary.second == ofLine.second, ofLibrary.first);
   };
   isSame({.thickness = {.thinnerThan = 1}}, lineOf({"--thinner-than", "1"}));
   isSame({.rounds = {.maxError = 0.05}}, lineOf({"--max-error", "5%"}));
