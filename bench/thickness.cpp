@@ -63,7 +63,7 @@ struct Truth {
     const TraceScene scene = traceable.scene();
     const Normalization& normalization = scene.bvh.normalization;
     diagonal = scene.geometry.bounds.diagonal();
-    const Solids solids = findSolids(scene, traceable.prepared.components);
+    const Solids solids = findSolids(scene.mesh, traceable.prepared.components);
     std::vector<Section> all(solids.isClosed.size(), {kUnlimited, kUnlimited});
     const std::vector<GreatestSection> found = findGreatestSections(scene, solids.solidOf, solids.isClosed, {});
     for (size_t solid = 0; solid < all.size(); ++solid)

@@ -8,11 +8,17 @@
 
 namespace asdfvk {
 
-/// For each component 1 if it is closed and inside an odd number of other closed components, else 0. #components.
-/// Determined by the parity of the faces crossed by rays from inside of its outermost corners along each axis; a
-/// component that is only partly inside another one counts as outside, as does one that touches its box. One that is
-/// wound as a body and touches the box of a component that may contain it is no cavity. Time: about n log c for n faces
-/// and c components; more where many components are nested, or many long faces cross many components.
-[[nodiscard]] std::vector<uint8_t> findCavities(const TriangleMesh& mesh, const Components& components);
+/// How closed components lie in each other.
+struct Nesting {
+  std::vector<uint8_t> isCavity;  ///< #components
+  std::vector<uint32_t> bodyOf;   ///< #components: of a cavity the innermost body around it, of others themselves.
+};
+
+/// A closed component is a cavity if the innermost other one that it is in is a body. It is in another one if all of
+/// its samples are (component_samples.h): a component that touches or crosses another one is not in it. Where a
+/// component touches or crosses others and is in a further one, its winding decides: inwards is a cavity. The parity of
+/// the faces that a ray crosses, in double, decides what a sample is in. Time: about n log c for n faces and c
+/// components; more where many components are nested, or many long faces cross many components.
+[[nodiscard]] Nesting findCavities(const TriangleMesh& mesh, const Components& components);
 
 }  // namespace asdfvk

@@ -66,7 +66,7 @@ std::string OrientationReport::sentence(const TriangleMesh& mesh, const Componen
 
 OrientationReport analyseOrientation(const TriangleMesh& mesh, const Components& components) {
   OrientationReport report;
-  report.isCavity = findCavities(mesh, components);
+  report.isCavity = findCavities(mesh, components).isCavity;
   for (uint32_t i = 0; i < components.components.size(); ++i) {
     const Component& component = components.components[i];
     if (!component.isClosed || !component.isConsistentlyWound) continue;

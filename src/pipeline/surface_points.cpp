@@ -44,7 +44,7 @@ std::vector<double> thicknessAtPoints(const PreparedScene& scene, std::span<cons
   const TraceScene view = scene.view();
   const Normalization& unit = scene.bvh.normalization;
   const std::vector<uint32_t> nearest = nearestTriangles(scene, points, control.part(0, kNearestDone));
-  const Solids solids = findSolids(view, scene.prepared.components);
+  const Solids solids = findSolids(view.mesh, scene.prepared.components);
   std::vector<uint8_t> isWanted(solids.isClosed.size());
   for (const uint32_t face : nearest)
     if (face != kNoFace) isWanted[solids.solidOf[face]] = solids.isClosed[solids.solidOf[face]];

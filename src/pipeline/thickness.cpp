@@ -27,7 +27,7 @@ class Measurement {
         mesh_(computation.prepared.mesh),
         unit_(scene_.bvh.normalization),
         opposing_(makeOpposingWalls(computation.options.thickness)),
-        solids_(findSolids(scene_, computation.prepared.components)),
+        solids_(findSolids(scene_.mesh, computation.prepared.components)),
         fans_(mesh_) {
     // Coordinates in float32 do not tell a wall that is thinner by less than a contact.
     if (const std::optional<double>& limit = computation.options.thickness.thinnerThan)

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "mesh/components.h"
-#include "trace/trace_scene.h"
+#include "mesh/mesh.h"
 
 namespace asdfvk {
 
@@ -27,7 +27,7 @@ struct Solids {
   }
 };
 
-/// A cavity belongs to the closed component through which a ray from it leaves the material, other cavities aside.
-[[nodiscard]] Solids findSolids(const TraceScene& scene, const Components& components);
+/// A cavity belongs to the innermost body around it (findCavities()), where that is closed and wound outwards.
+[[nodiscard]] Solids findSolids(const TriangleMesh& mesh, const Components& components);
 
 }  // namespace asdfvk

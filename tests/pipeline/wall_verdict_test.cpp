@@ -7,6 +7,7 @@
 
 #include "asdf_vk/scene.h"
 #include "generate/assembly.h"
+#include "generate/block_solid.h"
 #include "generate/thickness_parts.h"
 #include "mesh/face_geometry.h"
 #include "support/shapes.h"
@@ -205,5 +206,30 @@ TEST_CASE("parts that touch have the thickness of the same parts apart") {
       CAPTURE(i);
       CHECK(values[0][i] == doctest::Approx(values[1][i]).epsilon(1e-4));
     }
+  }
+}
+
+TEST_CASE("a body has the thickness that it has apart where a part around its cavity crosses it") {
+  const std::vector<double> xs{-3, -2.5, 2.5, 3}, zs{-3, -2.5, 8};
+  BlockSolid cup;
+  cup.addLattice(
+      {3, 3, 2},
+      [&](uint32_t i, uint32_t j, uint32_t k) {
+        return Vec3d{xs[i], xs[j], zs[k]};
+      },
+      [](uint32_t i, uint32_t j, uint32_t k) { return i != 1 || j != 1 || k == 0; });
+  const Mesh hollow = shapes::joined(shapes::box({10, 10, 10}), shapes::inverted(shapes::box({4, 4, 4})));
+  std::vector<std::vector<double>> values;
+  for (const double distance : {0.0, 40.0}) {
+    const Mesh mesh = shapes::joined(hollow, cup.surface(), {distance, 0, 0});
+    const Result result = referenceSession().compute(mesh, limitedTo(0.4));
+    CHECK(result.report.thickness->verdict == ThicknessVerdict::Passed);
+    CHECK(result.report.thickness->unjudged.invertedCount == 0);
+    values.push_back(*result.field("least_thickness")->reals());
+  }
+  REQUIRE(values[0].size() == values[1].size());
+  for (size_t i = 0; i < values[0].size(); ++i) {
+    CAPTURE(i);
+    CHECK(values[0][i] == doctest::Approx(values[1][i]).epsilon(1e-6));
   }
 }

@@ -6,15 +6,12 @@
 #include <vector>
 
 #include "support/shapes.h"
-#include "traced_mesh.h"
 
 using namespace asdfvk;
 
 namespace {
 
-Solids solidsOf(const Mesh& mesh) {
-  return findSolids(TracedMesh(mesh).scene(), findComponents(mesh, surveyEdges(mesh)));
-}
+Solids solidsOf(const Mesh& mesh) { return findSolids(mesh, findComponents(mesh, surveyEdges(mesh))); }
 
 /// The solid of each component; all faces of a component have the same one.
 std::vector<uint32_t> solidOfComponents(const Mesh& mesh) {
