@@ -1,11 +1,12 @@
 #!/usr/bin/python3
-"""Draws a chart of seconds and errors: CGAL, a bare loop of Embree, and asdf-vk with all, 10 % and 1 % of the faces.
+"""Draws the chart of README.md: seconds and errors of CGAL, of a bare loop of Embree, and of asdf-vk.
 
-    bench/comparison_chart.py BUILD MESH -o chart.png     # BUILD: a folder such as build/develop
+    scripts/install-packages bench && cmake --preset develop && cmake --build --preset develop
+    bench/comparison_chart.py [MESH] [-o CHART.png]
 
-Seconds are medians of asdfvk-bench-compare: of CGAL and asdf-vk from file to file or from mesh to values, of Embree the
-loop of rays alone. An error is the average over the faces, over the range, against the function of 300 rays per face by
-the same definition. Needs python3-matplotlib and a build with CGAL and Embree.
+The mesh is a generated animal of 100,000 faces unless one is named. Seconds are medians of asdfvk-bench-compare, which
+runs all in turns: CGAL's sdf_values and Embree's rays from the mesh in memory, asdf-vk as a process from file to file. An
+error is the average over the faces, over the range of the values, against the same definition with 300 rays per face.
 """
 import argparse
 import json
@@ -19,8 +20,9 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
+ROOT = pathlib.Path(__file__).resolve().parents[1]
 SHARES = {"all": "all faces", "10%": "10 % of the faces", "1%": "1 % of the faces"}
-OTHERS, OURS = "#9a9a9a", "#0072B2"  # Okabe and Ito 2008, Color Universal Design.
+OTHERS, OURS = "#8c8c8c", "#0072B2"  # Okabe and Ito 2008, Color Universal Design.
 
 
 def values(program: pathlib.Path, mesh: str, *options: str) -> np.ndarray:
@@ -35,56 +37,74 @@ def error(found: np.ndarray, truth: np.ndarray) -> float:
     return float(np.nanmean(np.abs(found - truth)) / (np.nanmax(truth) - np.nanmin(truth)))
 
 
-def rows(build: pathlib.Path, mesh: str, run_count: int) -> list[tuple[str, float, float, str]]:
-    """Name, seconds, error and colour of each bar."""
+def measure(build: pathlib.Path, mesh: str, run_count: int) -> dict:
     line = subprocess.run([build / "bench/asdfvk-bench-compare", mesh, "--json", "--runs", str(run_count), "--seeds",
                            *SHARES], check=True, stdout=subprocess.PIPE, text=True).stdout
-    times = json.loads(line)
+    return json.loads(line)
+
+
+def rows(times: dict, program: pathlib.Path, mesh: str) -> list[tuple[str, float, float, str]]:
+    """Name, seconds, error and colour of each bar."""
     by_share = {entry["seeds"]: entry for entry in times["seeds"]}
     if times["cgalSeconds"] is None or "Embree, fast" not in by_share["all"]["tracers"]:
         raise SystemExit("comparison_chart: the build has no CGAL or no Embree; scripts/install-packages bench")
-    program = build / "src/asdf-vk"
     truth = values(program, mesh, "--seeds", "all", "--rays", "300", "--cone-rotation", "hashed")
-    cgal = [values(program, mesh, "--definition", "cgal", "--rays", rays) for rays in ("25", "300")]
+    cgal = [values(program, mesh, "--definition", "cgal", "--rays", rays) for rays in ("30", "300")]
     full = error(values(program, mesh, "--seeds", "all"), truth)
-    bars = [("CGAL sdf_values, all faces", times["cgalSeconds"]["median"], error(*cgal), OTHERS),
-            ("Embree, a bare loop of rays, all faces",
-             by_share["all"]["tracers"]["Embree, fast"]["traceSeconds"]["median"], full, OTHERS)]
+    bars = [("CGAL, all faces", times["cgalSeconds"]["median"], error(*cgal), OTHERS),
+            ("bare loop of Embree, all faces", by_share["all"]["tracers"]["Embree, fast"]["traceSeconds"]["median"],
+             full, OTHERS)]
     for share, name in SHARES.items():
         [seconds] = [whole["seconds"]["median"] for whole in by_share[share]["whole"]
                      if whole["backend"] == "cpu" and whole["what"] == "process, file to file"]
-        bars.append((f"asdf-vk, file to file, {name}", seconds, error(values(program, mesh, "--seeds", share), truth),
-                     OURS))
+        bars.append((f"asdf-vk, {name}", seconds, error(values(program, mesh, "--seeds", share), truth), OURS))
     return bars
 
 
-def draw(bars: list[tuple[str, float, float, str]], title: str, output: str) -> None:
-    figure, axes = plt.subplots(figsize=(8, 2.6), dpi=110)
+def draw(bars: list[tuple[str, float, float, str]], title: str, output: pathlib.Path) -> None:
+    plt.rcParams.update({"font.family": "DejaVu Sans", "font.size": 9})
+    figure, (left, right) = plt.subplots(1, 2, figsize=(8.2, 2.5), dpi=130, sharey=True,
+                                         gridspec_kw={"width_ratios": (3, 2)})
     names, seconds, errors, colours = zip(*bars)
-    axes.barh(names, seconds, color=colours, height=0.7)
-    axes.invert_yaxis()
-    axes.set_xscale("log")
-    axes.set_xlim(min(seconds) / 2, max(seconds) * 12)
-    for row, (time, average) in enumerate(zip(seconds, errors)):
-        axes.text(time * 1.1, row, f"{time:.2g} s, error {average:.1%}", va="center", fontsize=9)
-    axes.set_title(title, fontsize=10, loc="left")
-    axes.set_xlabel("seconds, logarithmic", fontsize=9)
-    axes.spines[["top", "right"]].set_visible(False)
+    left.barh(names, seconds, color=colours, height=0.66)
+    left.invert_yaxis()
+    left.set_xscale("log")
+    left.set_xlim(min(seconds) / 2.5, max(seconds) * 4)
+    left.set_title("seconds, logarithmic", fontsize=9, loc="left")
+    right.barh(names, [100 * value for value in errors], color=colours, height=0.66)
+    right.set_xlim(0, 100 * max(errors) * 1.3)
+    right.set_title("average error, % of the range", fontsize=9, loc="left")
+    for row, (time, value) in enumerate(zip(seconds, errors)):
+        left.text(time * 1.12, row, f"{time:.2g} s", va="center")
+        right.text(100 * (value + 0.02 * max(errors)), row, f"{100 * value:.2g}", va="center")
+    for axes in (left, right):
+        axes.tick_params(axis="y", length=0)
+        axes.tick_params(axis="x", labelsize=8)
+        axes.spines[["top", "right", "left"]].set_visible(False)
+    figure.suptitle(title, fontsize=9.5, x=0.01, ha="left", fontweight="bold")
     figure.tight_layout()
     figure.savefig(output)
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("build", type=pathlib.Path)
-    parser.add_argument("mesh")
-    parser.add_argument("-o", "--output", required=True)
+    parser.add_argument("mesh", nargs="?")
+    parser.add_argument("-o", "--output", type=pathlib.Path, default=ROOT / "docs/pictures/comparison.png")
+    parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build/develop")
     parser.add_argument("--runs", type=int, default=5)
     arguments = parser.parse_args()
-    bars = rows(arguments.build, arguments.mesh, arguments.runs)
+    with tempfile.TemporaryDirectory() as folder:
+        mesh = arguments.mesh
+        if mesh is None:
+            mesh = f"{folder}/animal.ply"
+            subprocess.run([arguments.build / "src/asdf-vk-generate", "animal", "--faces", "100000", "-o", mesh],
+                           check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        times = measure(arguments.build, mesh, arguments.runs)
+        bars = rows(times, arguments.build / "src/asdf-vk", mesh)
+    print(f"{times['processor']}, {times['threads']} threads, load average {times['loadAverage']}")
     for name, seconds, average, _ in bars:
-        print(f"{name}: {seconds:.3g} s, error {average:.2%}")
-    draw(bars, f"{pathlib.Path(arguments.mesh).stem}: seconds on a CPU, and average error over the range",
+        print(f"{name}: {seconds:.3g} s, error {average:.2%}, CGAL takes {bars[0][1] / seconds:.3g} times as long")
+    draw(bars, f"{pathlib.Path(mesh).stem}, {times['faceCount']:,} faces, {times['threads']} CPU threads",
          arguments.output)
 
 
