@@ -207,7 +207,7 @@ struct Options {
     return postprocess == Postprocess::Cgal || segmentation == Segmentation::Cgal;
   }
   [[nodiscard]] bool measuresThickness() const { return measure != Measure::ShapeDiameter; }
-  /// Also where segments, skeleton points, a check or a maximum error need the shape diameter.
+  /// True also where segments, skeleton points, a check or a maximum error need the shape diameter.
   [[nodiscard]] bool measuresDiameter() const {
     return measure != Measure::Thickness || postprocesses() || segmentation != Segmentation::None || computesCentres ||
            checkCount || rounds.areSet();

@@ -131,8 +131,8 @@ struct CheckReport {
   uint64_t tracedCount = 0;        ///< Traced faces that were recomputed.
   uint64_t agreeingCount = 0;      ///< Traced faces that differ by at most 1e-4 of the bounding-box diagonal.
   uint64_t noValueAgreeCount = 0;  ///< Traced faces without a value in both computations.
-  double medianDifference = 0;     ///< In diagonals, over traced faces with a value in one or both computations.
-  double worstDifference = 0;      ///< In diagonals; infinite if only one computation has a value.
+  double medianDifference = 0;     ///< Median in diagonals, over traced faces with a value in either computation.
+  double worstDifference = 0;      ///< Greatest one in diagonals; infinite if only one computation has a value.
   uint64_t worstFace = 0;          ///< Input face of the worst difference.
 
   uint64_t comparedCount = 0;           ///< Random faces, seeds included, with a value in both computations.
@@ -144,8 +144,8 @@ struct CheckReport {
 
   [[nodiscard]] uint64_t missCount() const { return tracedCount - agreeingCount - noValueAgreeCount; }
 };
-inline constexpr double kAgreementTolerance = 1e-4;  ///< Of CheckReport::agreeingCount, in diagonals.
-inline constexpr double kAllowedMissShare = 0.001;   ///< Of CheckReport::passed.
+inline constexpr double kAgreementTolerance = 1e-4;  ///< Faces with a smaller difference agree; in diagonals.
+inline constexpr double kAllowedMissShare = 0.001;   ///< A check passes up to this share of disagreeing faces.
 
 /// The values of the faces that have one, each counted once whatever its area; NaN when there is none.
 struct ValueRange {
@@ -155,9 +155,9 @@ struct ValueRange {
   [[nodiscard]] double robustRange() const { return percentile99 - percentile1; }
 };
 
-/// The smoothed values that are 0 and 1 of the field "normalized", in the unit of the mesh.
+/// Range of the smoothed values, in the unit of the mesh. The field "normalized" maps it to 0 .. 1.
 struct PostprocessReport {
-  double min = 0, max = 0;  ///< The value that is 0, and the one that is 1.
+  double min = 0, max = 0;  ///< The values that become 0 and 1.
 };
 
 inline constexpr double kPartStabilityFactor = 1.25;
@@ -260,14 +260,14 @@ struct Report {
   uint64_t triangleCount = 0;      ///< Triangles; polygons are cut into them.
   uint64_t vertexCount = 0;        ///< Vertices of the input.
   uint64_t componentCount = 0;     ///< Connected components.
-  Vec3d size;                      ///< Of the bounding box of the mesh, in its unit: x, y, z.
+  Vec3d size;                      ///< Sides of the bounding box along x, y, z, in the unit of the mesh.
   uint64_t seedCount = 0;          ///< Triangles that cast rays.
   uint64_t rayCount = 0;           ///< Rays of all seeds.
   uint64_t redoneConeCount = 0;    ///< Cones beyond the limits of the device or of float32, traced by the reference.
   uint64_t noValueCount = 0;       ///< Input faces without a value; of the region where there is one.
   uint64_t clampedCount = 0;       ///< Interpolated triangles limited to the values of the seeds of their component.
   uint64_t reversedFaceCount = 0;  ///< Input faces whose orientation was reversed.
-  uint64_t randomSeed = 0;         ///< Of all random numbers.
+  uint64_t randomSeed = 0;         ///< Start of all random numbers.
   uint32_t roundCount = 1;         ///< Rounds of seeds.
   std::string backend;             ///< "vulkan", "cpu" or "reference".
   std::string device;              ///< Device and driver, or the CPU.

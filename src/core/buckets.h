@@ -145,7 +145,7 @@ class StagedEntries {
   size_t bucketCount_ = 0;
   uint32_t shift_ = 0;                ///< Buckets whose numbers differ only in this many low bits form a run.
   std::vector<uint32_t> runBegins_;   ///< #runs+1
-  std::unique_ptr<Staged[]> staged_;  ///< By run.
+  std::unique_ptr<Staged[]> staged_;  ///< The staged items of each run.
 };
 
 /// Sorts entries into buckets by StagedEntries and stores them.

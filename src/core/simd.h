@@ -122,7 +122,7 @@ template <typename Floats>
 /// ones.
 enum class InstructionSet {
   Baseline,  ///< The instruction set for which the program is compiled.
-  Avx2,      ///< With fused multiply-add, which only __builtin_fma() uses.
+  Avx2,      ///< AVX2 with fused multiply-add, which only __builtin_fma() uses.
   Avx512,
 };
 

@@ -17,7 +17,7 @@ struct FieldRow {
   FieldType type = FieldType::Real;
   uint32_t componentCount = 1;
   const char* needs = nullptr;  ///< The option that computes the field; null: none.
-  const char* meaning;          ///< Of an entry per face.
+  const char* meaning;          ///< The meaning of an entry per face.
 };
 
 /// All fields, in the order in which a result has them.

@@ -96,16 +96,16 @@ struct OptionRow {
   const char* more = "";         ///< Further sentences for man page and docs/options.md.
   const char* placeholder = "";  ///< Stands for the value; not of flags, nor of options with names.
   const char* needs = "";        ///< Without it the option has no effect: "measure=thickness|both", "thinner-than".
-  const char* defaultText = nullptr;                  ///< Replaces that of the default value.
-  bool isBasic = false;                               ///< --help shows it.
-  const char* flags = nullptr;                        ///< "-o,--output"; null: -- and the name; empty: no flag.
-  const char* keyword = nullptr;                      ///< In Python; null: the name; empty: none.
-  const char* keywordType = nullptr;                  ///< In Python, where the kind of the member does not give it.
-  const char* valueNames = nullptr;                   ///< Names of a string: "auto|seed|ray".
-  bool emptyIsAuto = false;                           ///< The member of the name "auto" is empty.
-  std::vector<std::string> (*moreNames)() = nullptr;  ///< Further names of a string.
-  const char* completions = nullptr;                  ///< See Argument::completions().
-  const char* wanted = nullptr;                       ///< What is not read: "an error such as 1%".
+  const char* defaultText = nullptr;  ///< Replaces that of the default value.
+  bool isBasic = false;               ///< --help shows it.
+  const char* flags = nullptr;        ///< "-o,--output"; null: -- and the name; empty: no flag.
+  const char* keyword = nullptr;      ///< The keyword of Python; null: the name of the option; empty: there is none.
+  const char* keywordType = nullptr;  ///< Its type in Python; null: that of the member.
+  const char* valueNames = nullptr;   ///< Names of a string: "auto|seed|ray".
+  bool emptyIsAuto = false;           ///< The member of the name "auto" is empty.
+  std::vector<std::string> (*moreNames)() = nullptr;               ///< Further names of a string.
+  const char* completions = nullptr;                               ///< See Argument::completions().
+  const char* wanted = nullptr;                                    ///< What is not read: "an error such as 1%".
   bool (*read)(void* target, const OptionValue& value) = nullptr;  ///< False, or throws, for a wrong value.
   OptionValue (*write)(const void* target) = nullptr;
   void (*apply)(void* target) = nullptr;  ///< Called after the member is set.
@@ -117,7 +117,7 @@ using OptionRows = std::span<const OptionRow>;
 [[nodiscard]] ASDFVK_API const OptionRow* findOption(OptionRows rows, std::string_view name);
 
 [[nodiscard]] ASDFVK_API std::string spelled(const OptionRow& row, OptionSpelling spelling);
-/// With a value: --segment cgal, segment=cgal, segment="cgal".
+/// The option with a value: --segment cgal, segment=cgal, segment="cgal".
 [[nodiscard]] std::string spelled(const OptionRow& row, std::string_view value, OptionSpelling spelling);
 
 [[nodiscard]] ASDFVK_API bool isFlag(const OptionRow& row);
@@ -133,7 +133,7 @@ using OptionRows = std::span<const OptionRow>;
 /// Sets an option. The string of a command line is converted. Throws Error{OptionOutOfRange} and Error{UnknownName}
 /// with the detail "option": "--rays: '0' is not a whole number from 1 to 1024".
 void setOptionText(const OptionRow& row, void* target, const std::string& text);
-/// The same for a value with a type. shown: the value in the message.
+/// Sets a value that has a type. shown: the value in the message.
 ASDFVK_API void setOption(const OptionRow& row, void* target, const OptionValue& value, const std::string& shown,
                           OptionSpelling spelling);
 

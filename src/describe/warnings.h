@@ -24,9 +24,9 @@ struct MissingValues {
 };
 [[nodiscard]] Warning missingValues(const MissingValues& missing);
 
-/// robustShare: of the range within which 98 % of the values are.
+/// robustShare: length of the range that holds 98 % of the values, over the length of the range of all values.
 [[nodiscard]] Warning rangeDominated(double robustShare);
-/// The same where the relative error is large against the error over the range.
+/// The warning where the relative error is large against the error over the range.
 [[nodiscard]] Warning rangeDominated(double robustShare, const ErrorEstimate& estimate);
 
 [[nodiscard]] Warning finishedOnCpu(const SolverReport& solver);

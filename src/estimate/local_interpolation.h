@@ -14,9 +14,9 @@ struct SolvedInterpolation {
   const DualGraph& graph;
   std::span<const double> weights;      ///< One per arc.
   std::span<const double> constraints;  ///< NaN for a face without one.
-  std::span<const double> guide;        ///< Or empty: the field whose divergenceOf() the equation has.
-  std::span<const double> divergence;   ///< Or empty: further divergence.
-  std::span<const double> solution;     ///< With more constraints than `constraints`.
+  std::span<const double> guide;        ///< The field whose divergenceOf() the equation has; may be empty.
+  std::span<const double> divergence;   ///< Further divergence; may be empty.
+  std::span<const double> solution;     ///< The solution with more constraints than `constraints`.
 };
 
 /// The values that the interpolation has at `faces` with `constraints` only. The effect of a constraint decays within a

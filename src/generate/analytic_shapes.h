@@ -44,7 +44,7 @@ struct CylinderParameters {
 [[nodiscard]] GeneratedShape makeCylinder(uint64_t faceCount, const CylinderParameters& parameters = {});
 
 struct TorusParameters {
-  double ringRadius = 1;    ///< From the axis z to the centre of the tube.
+  double ringRadius = 1;    ///< Distance of the centre of the tube from the axis z.
   double tubeRadius = 0.3;  ///< Half the diameter.
 };
 [[nodiscard]] GeneratedShape makeTorus(uint64_t faceCount, const TorusParameters& parameters = {});

@@ -71,7 +71,7 @@ class BrickLattice {
   CapsuleUnion field_;
   double spacing_;
   Vec3d origin_;
-  std::array<int32_t, 3> size_{};  ///< In bricks.
+  std::array<int32_t, 3> size_{};  ///< Number of bricks along each axis.
   std::vector<Brick> bricks_;
   std::unordered_map<uint64_t, uint32_t> brickAt_;
 };

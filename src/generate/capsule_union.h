@@ -62,9 +62,9 @@ class CapsuleUnion {
     uint32_t part = 0;
   };
   struct Nearest {
-    double distance = 0;  ///< To the surface of the nearest ball; negative inside.
+    double distance = 0;  ///< Distance to the surface of the nearest ball; negative inside.
     double radius = 0;    ///< Radius of that ball.
-    Vec3d fromCentre;     ///< From its centre to p.
+    Vec3d fromCentre;     ///< Vector from the centre of this ball to p.
     double fromCentreLength = 0;
   };
   [[nodiscard]] static Nearest nearest(const Axis& axis, const Vec3d& p);

@@ -14,13 +14,13 @@ struct Component {
   uint32_t faceCount = 0;
   bool isClosed = false;             ///< Each edge has exactly two faces; triangles with a repeated vertex are ignored.
   bool isConsistentlyWound = false;  ///< The two faces of each such edge traverse it in opposite directions.
-  double signedVolume = 0;  ///< In mesh units cubed; negative where faces point inwards, 0 where the sign is uncertain
-                            ///< because of rounding. Valid for closed, consistently wound components only.
+  double signedVolume = 0;  ///< Volume in mesh units cubed; negative where faces point inwards, 0 where the sign is
+                            ///< uncertain because of rounding. Valid for closed, consistently wound components only.
 };
 
 struct Components {
   std::vector<uint32_t> componentOf;  ///< #F
-  std::vector<Component> components;  ///< By lowest face.
+  std::vector<Component> components;  ///< Sorted by their lowest face.
 };
 
 /// `edges`: of the mesh. Precondition: every index of a face is below the vertex count. A face with a non-finite corner

@@ -31,7 +31,7 @@ class InputFaces {
   void beginPolygons();
 
   std::vector<Face> triangles_;  ///< Until the first face that is not a triangle.
-  Polygons polygons_;            ///< From then on.
+  Polygons polygons_;            ///< All faces, from the first one that is not a triangle on.
 };
 
 /// Concave polygons with more corners are cut into a fan, which may overlap itself, because the time of ear clipping is

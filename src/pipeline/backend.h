@@ -54,7 +54,7 @@ class Backend {
 struct NamedBackend {
   std::string name;
   std::unique_ptr<Backend> backend;
-  std::vector<std::string> deviceLines;  ///< With the reasons why "auto" rejected other backends.
+  std::vector<std::string> deviceLines;  ///< A line per device and the reasons why "auto" rejected other backends.
 };
 
 /// The backend of that name, or the first that is available for "auto". Throws Error{UnknownName} and Error of kind

@@ -10,9 +10,9 @@ namespace asdfvk {
 // generated mesh and with a cone of their own, so that the outcome depends on
 // nothing but the kernel.
 
-/// With the reference.
+/// Compares a tracer with the reference.
 [[nodiscard]] TracerCheck checkKernel(const VulkanConeKernel& kernel);
-/// With the prediction on the CPU, from hits of the reference.
+/// Compares a predictor with the prediction on the CPU, from hits of the reference.
 [[nodiscard]] TracerCheck checkKernels(const VulkanPredictionKernels& kernels);
 
 }  // namespace asdfvk

@@ -30,7 +30,7 @@ struct SegmentedValues {
 /// false, else by the reference. A tracer is made at the first call.
 [[nodiscard]] LineOfSight makeLineOfSight(const TraceScene& scene, bool usesReference, const RunControl& control);
 
-/// Whether that needs the nodes of the hierarchy.
+/// Whether makeLineOfSight() needs the nodes of the hierarchy.
 [[nodiscard]] bool sightNeedsNodes(const Options& options, bool usesReference);
 
 }  // namespace asdfvk

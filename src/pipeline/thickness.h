@@ -22,7 +22,7 @@ struct FaceThickness {
   SharpEdges sharp;                  ///< Sharp edges of the domain.
   std::optional<GreatestSection> greatestSection;  ///< The greatest one of all closed solids.
   UnjudgedFaces unjudged;
-  std::vector<ThinPart> thinParts;  ///< In normalised coordinates. Empty without a limit.
+  std::vector<ThinPart> thinParts;  ///< Thin parts of faces, in normalised coordinates. Empty without a limit.
 };
 
 /// For each face of the domain that is not degenerate, the least diameter over its opposing walls, at most the greatest

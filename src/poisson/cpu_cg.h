@@ -42,7 +42,7 @@ class CpuCg {
 
  private:
   using Rules = CgRules<Real>;
-  using BlockSums = std::array<double, 6>;  ///< In the order of CgSums.
+  using BlockSums = std::array<double, 6>;  ///< The sums in the order of CgSums.
 
   typename Rules::CgSums multiply();
   void step(Real alpha, Real beta);

@@ -37,7 +37,7 @@ struct PredictionInput {
   const TraceScene& scene;
   const Cone& cone;
   const SeedHitsView& hits;
-  const SeedCells& cells;  ///< Of the faces that are to be predicted.
+  const SeedCells& cells;  ///< The cells of the faces that are to be predicted.
   const NearestCells& nearest;
   const PredictionOptions& options;
   std::span<const uint32_t> order;  ///< The cells that are not empty; neighbours in space are close to each other.

@@ -73,7 +73,7 @@ class PredictionKernel {
 
   /// The rules of the cone, in float32.
   struct Rules {
-    float minCosine = 0;        ///< Between the axis and the direction to a point in the cone.
+    float minCosine = 0;        ///< Least cosine of the angle between the axis and a point in the cone.
     float maxNormalCosine = 0;  ///< Cone::falseHitCosine.
     float minVersine = 0;       ///< 1 - cosine of the angle below which the weight of a point is constant.
     float outlierDeviations = 0, outlierSlack = 0;

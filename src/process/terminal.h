@@ -15,7 +15,7 @@ void writeStandardError(std::string_view text);
 /// "asdf-vk: error: SUBJECT: MESSAGE" as one line on standard error; without the subject where that is empty.
 void printError(std::string_view subject, std::string_view message);
 
-/// The same text, and that of a warning, with its line end.
+/// The line that printError() writes, with its line end; and that of a warning.
 [[nodiscard]] std::string errorLine(std::string_view subject, std::string_view message);
 [[nodiscard]] std::string warningLine(std::string_view subject, std::string_view message);
 

@@ -65,7 +65,7 @@ class SampleRows {
   [[nodiscard]] uint32_t indexAt(int column, int row) const { return indices_[indexOf(column, row)]; }
   /// Minus infinity without a triangle.
   [[nodiscard]] float depthAt(int column, int row) const { return depths_[indexOf(column, row)]; }
-  /// Of all samples, row by row.
+  /// The depths of all samples, row by row.
   [[nodiscard]] std::vector<float> takeDepths() && { return std::move(depths_); }
 
  private:

@@ -67,7 +67,7 @@ class DartBlock {
   void write(std::span<const uint32_t> faces);
 
   SurfaceDistances& distances_;
-  std::vector<Throw> throws_;   ///< By position in the block.
+  std::vector<Throw> throws_;   ///< One per position in the block.
   std::vector<uint32_t> open_;  ///< Positions, ascending.
   std::vector<Disks> disks_;
   std::vector<uint32_t> darts_;

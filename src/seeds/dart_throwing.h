@@ -12,7 +12,7 @@ namespace asdfvk {
 inline constexpr uint32_t kRadiiPerOctave = 64;
 
 struct ThrownDarts {
-  std::vector<uint32_t> faces;  ///< In the order of selection.
+  std::vector<uint32_t> faces;  ///< The seeds, in the order of their selection.
   /// All darts were found at the start radius and more would fit: part of the surface may be without darts.
   bool leaveGaps = false;
 };

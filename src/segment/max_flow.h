@@ -54,7 +54,7 @@ class MaxFlow {
     uint32_t checkedAt = 0;      ///< Time at which `distance` was valid.
     uint32_t distance : 29 = 0;  ///< Arcs to the terminal, as far as known.
     Tree tree : 2 = Tree::Free;
-    bool isActive : 1 = false;  ///< In the queue.
+    bool isActive : 1 = false;  ///< Whether the node is in the queue.
     double terminal = 0;        ///< Positive: residual capacity from the source. Negative: minus that to the sink.
   };
 

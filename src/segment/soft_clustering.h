@@ -25,7 +25,7 @@ struct SoftClustering {
 /// k-means (at most 10 steps) from the seeds of k-means++ (D. Arthur, S. Vassilvitskii: k-means++: The Advantages of
 /// Careful Seeding, SODA 2007).
 struct HardClustering {
-  std::vector<double> centres;      ///< In the order of the seeds.
+  std::vector<double> centres;      ///< Centres of the clusters, in the order of their seeds.
   std::vector<uint32_t> clusterOf;  ///< #values: the cluster of the nearest centre.
 };
 

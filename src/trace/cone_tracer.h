@@ -21,7 +21,7 @@ namespace asdfvk {
 
 /// Place and frame of the rays of one cone.
 struct ConeStart {
-  Vec3d origin;                    ///< In normalised coordinates.
+  Vec3d origin;                    ///< Start of the rays, in normalised coordinates.
   Vec3d normal;                    ///< Unit, outwards; the false hits of Definition::Paper refer to it.
   ConeFrame frame;                 ///< Its axis is minus the normal.
   uint32_t skippedFace = kNoFace;  ///< Hits on this representative are ignored.

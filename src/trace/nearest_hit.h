@@ -48,7 +48,7 @@ struct TriangleHit {
 }
 
 struct RayHit {
-  double distance = kNoHit;  ///< In normalised units.
+  double distance = kNoHit;  ///< Distance along the ray, in normalised units.
   uint32_t face = kNoFace;   ///< kNoFace for a miss.
 };
 

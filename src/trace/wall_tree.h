@@ -68,7 +68,7 @@ class WallTree {
   [[nodiscard]] uint32_t bodyOf(uint32_t face) const { return walls_[wallOf_[face]].body; }
   [[nodiscard]] const OpposingWalls& opposing() const { return opposing_; }
   [[nodiscard]] std::span<const WallNode> nodes() const { return nodes_; }
-  /// In the order of the hierarchy: walls that follow each other are neighbours in space.
+  /// The walls in the order of the hierarchy, so that consecutive walls are neighbours in space.
   [[nodiscard]] std::span<const Wall> walls() const { return walls_; }
 
  private:

@@ -22,12 +22,12 @@ struct DeviceFacts {
   uint32_t apiVersion = 0;  ///< Packed like VK_MAKE_API_VERSION.
   std::optional<uint32_t> computeQueueFamily;
   uint32_t subgroupSize = 1;
-  bool hasSubgroupVote = true;  ///< In compute shaders; true on all known devices with Vulkan 1.2.
+  bool hasSubgroupVote = true;  ///< Votes in compute shaders; true on all known devices with Vulkan 1.2.
   bool hasSubgroupArithmetic = true;
   uint32_t maxWorkgroupInvocations = 0;
-  uint32_t maxWorkgroupSize = 0;  ///< In x.
+  uint32_t maxWorkgroupSize = 0;  ///< Greatest size of a workgroup in x.
   uint32_t maxStorageBuffersPerStage = 0;
-  uint32_t maxWorkgroupCount = 0;      ///< In x.
+  uint32_t maxWorkgroupCount = 0;      ///< Greatest number of workgroups in x.
   uint64_t maxStorageBufferRange = 0;  ///< Bytes.
   uint64_t maxTexelBufferElements = 0;
   uint64_t maxMemoryAllocationSize = 0;  ///< Bytes.

@@ -15,7 +15,8 @@ class BusyTicks {
   /// validBits: 1 to 64.
   explicit BusyTicks(uint32_t validBits) : mask_(validBits >= 64 ? ~uint64_t{0} : (uint64_t{1} << validBits) - 1) {}
 
-  /// In the order of submission; each lasts less than half of the range of the counter.
+  /// Adds an interval. Intervals come in the order of submission; each lasts less than half of the range of the
+  /// counter.
   void add(uint64_t begin, uint64_t end);
   [[nodiscard]] uint64_t total() const { return total_; }
 

@@ -24,7 +24,7 @@ class StagingRing {
   explicit StagingRing(const Device& device);
   ~StagingRing();
 
-  /// To the first bytes of `to` (VK_BUFFER_USAGE_TRANSFER_DST_BIT); later submissions see them.
+  /// Copies to the first bytes of `to` (VK_BUFFER_USAGE_TRANSFER_DST_BIT); later submissions see them.
   void upload(std::span<const std::byte> bytes, const Buffer& to);
   /// The first bytes of `from` (VK_BUFFER_USAGE_TRANSFER_SRC_BIT).
   void download(const Buffer& from, std::span<std::byte> bytes);

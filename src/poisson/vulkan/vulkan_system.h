@@ -56,7 +56,8 @@ template <typename Vector>
 
 /// The matrix on the device, bindings 0 to 2 and 8 of shaders/poisson/matrix.glsl, and the residual weights.
 struct VulkanMatrix {
-  /// With unspecified rows and residual weights, for kernels that write them. Precondition: requireSystemFits().
+  /// A matrix with unspecified rows and residual weights, for kernels that write them. Precondition:
+  /// requireSystemFits().
   VulkanMatrix(const Device& device, uint32_t rowCount, Buffer tailColumns, Buffer tailCouplings);
 
   uint32_t rowCount;

@@ -75,7 +75,7 @@ class EmbreeConeGroup {
   void trace();
   void clear();
 
-  /// In normalised units, or kNoValue. Meaningless when isDoubtful().
+  /// The value in normalised units, or kNoValue. Meaningless when isDoubtful().
   [[nodiscard]] double value(size_t lane) const { return values_[lane]; }
   /// Whether float32 may be too coarse for the cone, so that the reference must trace it. True without
   /// EmbreeSeed::fitsFloat, if the value is too small, if a ray hit its own face or the outer side of

@@ -37,7 +37,7 @@ class ConeChunk {
   [[nodiscard]] std::span<ConeSeed> seeds() { return seeds_->mappedAs<ConeSeed>(); }
   /// Starts of cones anywhere.
   [[nodiscard]] std::span<ConeOrigin> starts() { return origins_.onHost<ConeOrigin>(); }
-  /// With a store: the place of each cone in the batch that is traced.
+  /// With a store only: the place of each cone in the batch that is traced.
   [[nodiscard]] std::span<uint32_t> places() { return places_->mappedAs<uint32_t>(); }
 
   enum class Input { Seeds, Starts };
