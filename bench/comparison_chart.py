@@ -19,6 +19,7 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.ticker import FuncFormatter, MaxNLocator, NullLocator
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 SHARES = {"all": "all faces", "10%": "10 % of the faces", "1%": "1 % of the faces"}
@@ -38,9 +39,9 @@ def error(found: np.ndarray, truth: np.ndarray) -> float:
 
 
 def measure(build: pathlib.Path, mesh: str, run_count: int) -> dict:
-    line = subprocess.run([build / "bench/asdfvk-bench-compare", mesh, "--json", "--runs", str(run_count), "--seeds",
-                           *SHARES], check=True, stdout=subprocess.PIPE, text=True).stdout
-    return json.loads(line)
+    command = [build / "bench/asdfvk-bench-compare", mesh, "--json", "--runs", str(run_count), "--seeds",
+               ",".join(SHARES)]
+    return json.loads(subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True).stdout)
 
 
 def rows(times: dict, program: pathlib.Path, mesh: str) -> list[tuple[str, float, float, str]]:
@@ -70,9 +71,12 @@ def draw(bars: list[tuple[str, float, float, str]], title: str, output: pathlib.
     left.invert_yaxis()
     left.set_xscale("log")
     left.set_xlim(min(seconds) / 2.5, max(seconds) * 4)
+    left.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    left.xaxis.set_minor_locator(NullLocator())
     left.set_title("seconds, logarithmic", fontsize=9, loc="left")
     right.barh(names, [100 * value for value in errors], color=colours, height=0.66)
     right.set_xlim(0, 100 * max(errors) * 1.3)
+    right.xaxis.set_major_locator(MaxNLocator(4))
     right.set_title("average error, % of the range", fontsize=9, loc="left")
     for row, (time, value) in enumerate(zip(seconds, errors)):
         left.text(time * 1.12, row, f"{time:.2g} s", va="center")
@@ -104,8 +108,8 @@ def main() -> None:
     print(f"{times['processor']}, {times['threads']} threads, load average {times['loadAverage']}")
     for name, seconds, average, _ in bars:
         print(f"{name}: {seconds:.3g} s, error {average:.2%}, CGAL takes {bars[0][1] / seconds:.3g} times as long")
-    draw(bars, f"{pathlib.Path(mesh).stem}, {times['faceCount']:,} faces, {times['threads']} CPU threads",
-         arguments.output)
+    name = pathlib.Path(arguments.mesh).stem if arguments.mesh else "generated animal"
+    draw(bars, f"{name}, {times['faceCount']:,} faces, {times['threads']} CPU threads", arguments.output)
 
 
 if __name__ == "__main__":

@@ -4,7 +4,8 @@ A block that is marked `console` has commands, `$ COMMAND`, and below each what 
 one new folder, in their order; so does one that the reader does not see: <!-- $ COMMAND -->. A word `...` of a page stands
 for any text, and for any lines where it is alone. Text and counts are equal. Other numbers may differ by one unit of
 their last digit or by a thousandth, since devices round differently; times are not compared.
-The commands of all blocks have options that the programs know.
+The commands of all blocks have options that the programs know. The first rows of each table of bench/known_shapes.py are
+in docs/accuracy.md. Functions and types that docs/architecture.md and CONTRIBUTING.md name exist.
 
     ASDF_VK_PROGRAM=... ASDF_VK_GENERATE=... python3 -m unittest printed_output_test      # in this folder
 """
@@ -15,6 +16,7 @@ import difflib
 import os
 import re
 import subprocess
+import sys
 import tempfile
 import unittest
 from pathlib import Path
@@ -113,6 +115,36 @@ class PagesTest(unittest.TestCase):
             for line in re.findall(r"^(?:    |\$ )?(asdf-vk(?:-generate)? [^|&;#\n]*)", page.read_text(), re.MULTILINE):
                 unknown = set(re.findall(r"(?<!\S)--[a-z][a-z-]*", line)) - known
                 self.assertFalse(unknown, f"{page.name}: {line}")
+
+
+    def test_tables_of_known_shapes_have_the_rows_of_their_script(self) -> None:
+        try:
+            import numpy  # noqa: F401
+        except ImportError:
+            self.skipTest("no NumPy")
+        script = [sys.executable, "-B", ROOT / "bench/known_shapes.py", "--faces", "1300", "--backend", "reference"]
+        printed = subprocess.run(script, check=True, stdout=subprocess.PIPE, text=True).stdout
+        page = (ROOT / "docs/accuracy.md").read_text().splitlines()
+        begin = 0
+        for line in filter(None, printed.splitlines()):  # In the same order as on the page.
+            found = [at for at in range(begin, len(page)) if is_line(page[at], line)]
+            self.assertTrue(found, f"docs/accuracy.md lacks, after line {begin}: {line}")
+            begin = found[0] + 1
+
+
+    def test_names_of_the_code_exist(self) -> None:
+        folders = ("src", "include", "shaders", "tests", "python")
+        files = [path for folder in folders for path in (ROOT / folder).rglob("*")]
+        words = set()
+        for path in files:
+            if path.suffix in (".cpp", ".h", ".comp", ".glsl", ".txt", ".py", ".js"):
+                words.update(re.findall(r"\w+", path.read_text(errors="replace")))
+        missing = []
+        for page in ("docs/architecture.md", "CONTRIBUTING.md"):
+            for name in re.findall(r"`([A-Za-z]+(?:::\w+)*(?:\(\))?)`", (ROOT / page).read_text()):
+                if re.search(r"[a-z][A-Z]|::|\(\)", name) and name[-4:] != "Case" and not set(name.rstrip("()").split("::")) <= words:
+                    missing.append(f"{page}: {name}")
+        self.assertEqual(missing, [])
 
 
 class ComparisonTest(unittest.TestCase):
