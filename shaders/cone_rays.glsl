@@ -17,7 +17,12 @@ ConeOrigin loadOrigin(uint cone) {
   return decodeConeOrigin(imageLoad(originTexels, t), imageLoad(originTexels, t + 1), imageLoad(originTexels, t + 2));
 }
 
-#include "nearest_hit.glsl"
+#include "ray_query.glsl"
+
+#include "wide_walk.glsl"
+#ifdef WALKS_TOGETHER
+#include "packet_walk.glsl"
+#endif
 
 // Without what intersectTriangle() adds on the outer side.
 float distanceOf(Hit hit, vec3 normal, vec3 direction) {

@@ -1,45 +1,12 @@
-// Nearest hits of all rays of a subgroup, in either hierarchy. The lanes share the stack and the node. A node is
-// entered if a ray of any lane enters it. Children are entered in the order of distance of the first lane. All loops
-// are uniform over the subgroup.
+// Nearest hits of all rays of a subgroup. The lanes share the stack and the node. A node is entered if a ray of any lane
+// enters it. Children are entered in the order of distance of the first lane. All loops are uniform over the subgroup.
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #extension GL_KHR_shader_subgroup_ballot : require
 
-Hit walkBinaryTogether(Query query, inout uint iterationCount) {
-  uint stack[kMaxBvhDepth + 1u];
-  uint stackSize = 1u;
-  stack[0] = 0u;
-  Hit hit = Hit(kFarAway, kNoPrimitive, true);
-  while (stackSize > 0u && iterationCount <= kIterationLimit) {
-    --stackSize;
-    const uint current = stack[stackSize];
-    uint primitive = current & kReferenceFirstMask;
-    const uint end = primitive + (current >> kReferenceCountShift);
-    iterationCount += 2u + end - primitive;
-    if (primitive == end) {
-      const DeviceBvhNode node = loadNode(current);
-      const float left = enterBox(node.leftMin, node.leftMax, query, hit.distance);
-      const float right = enterBox(node.rightMin, node.rightMax, query, hit.distance);
-      const uint entered = subgroupOr((left < kFarAway ? 1u : 0u) | (right < kFarAway ? 2u : 0u));
-      const bool leftIsNear = subgroupBroadcastFirst(left <= right ? 1u : 0u) != 0u;
-      if ((entered & (leftIsNear ? 2u : 1u)) != 0u) {
-        stack[stackSize] = leftIsNear ? node.right : node.left;
-        ++stackSize;
-      }
-      if ((entered & (leftIsNear ? 1u : 2u)) != 0u) {
-        stack[stackSize] = leftIsNear ? node.left : node.right;
-        ++stackSize;
-      }
-    }
-    for (; primitive < end; ++primitive) testTriangle(query, primitive, hit);
-  }
-  hit.isComplete = iterationCount <= kIterationLimit;
-  return hit;
-}
-
-Hit walkWideTogether(Query query, inout uint iterationCount) {
+Hit findNearestHitTogether(Query query, inout uint iterationCount) {
   const bvec3 isNegative = bvec3(subgroupBroadcastFirst(uvec3(query.isNegative)));
-  uint stackBases[kMaxWideBvhDepth];
-  uint stackBits[kMaxWideBvhDepth];
+  uint stackBases[kMaxBvhDepth];
+  uint stackBits[kMaxBvhDepth];
   uint stackSize = 0u;
   Group group = Group(0u, 8u);
   Hit hit = Hit(kFarAway, kNoPrimitive, true);

@@ -1,5 +1,24 @@
 // The boxes that a ray enters, and the triangles that it hits.
+#include "bvh_fetch.glsl"
 #include "ray_frame.glsl"
+
+const uint kNoPrimitive = 0xffffffffu;
+const float kFarAway = 1e30;  // Greater than any distance in normalised coordinates.
+
+struct Hit {
+  float distance;
+  uint primitive;   // kNoPrimitive: no hit.
+  bool isComplete;  // False: the iteration limit ended the traversal.
+};
+
+// Replaces `hit` by the triangle in `primitive` if that is nearer. distance: negative where the ray misses the
+// triangle.
+void keepNearest(float distance, uint primitive, uint faceIndex, uint excludedFace, inout Hit hit) {
+  if (distance >= 0.0 && distance < hit.distance && faceIndex != excludedFace) {
+    hit.distance = distance;
+    hit.primitive = primitive;
+  }
+}
 
 struct Query {
   RayFrame frame;
@@ -34,22 +53,6 @@ void testTriangles(Query query, uint slot0, uint slot1, inout Hit hit) {
   const float distance0 = distanceTo(triangle0, query), distance1 = distanceTo(triangle1, query);
   keepNearest(distance0, slot0, triangle0.faceIndex, query.excludedFace, hit);
   keepNearest(distance1, slot1, triangle1.faceIndex, query.excludedFace, hit);
-}
-
-// Factor on the exit distance of a box: covers the rounding errors of both distances (Ize 2013), with the inverse of
-// the direction off by 2.5 units of the last place, which Vulkan allows, instead of half a unit.
-const float kExitMargin = 1.0 + 14.0 * 5.9604645e-8;
-
-// Distance at which the ray enters the box; kFarAway where it misses the box or enters beyond `limit`. The margin of
-// the boxes covers the error of the triangle test (kDeviceBoxMargin).
-float enterBox(vec3 boxMin, vec3 boxMax, Query query, float limit) {
-  const vec3 t0 = (boxMin - query.origin) * query.inverseDirection;
-  const vec3 t1 = (boxMax - query.origin) * query.inverseDirection;
-  const vec3 tNear = min(t0, t1);
-  const vec3 tFar = max(t0, t1);
-  const float enter = max(max(tNear.x, tNear.y), max(tNear.z, 0.0));
-  const float leave = min(min(tFar.x, tFar.y), tFar.z) * kExitMargin;
-  return enter <= min(leave, limit) ? enter : kFarAway;
 }
 
 // Distances to the planes of four boxes on one axis. Bytes 0 to 2 are masked but not shifted; the scale corrects for

@@ -249,7 +249,6 @@ struct ThicknessReport {
 /// Names of the variant of the Vulkan kernels.
 struct TraceVariant {
   std::string kernel;  ///< "seed", "ray" or "packet"
-  std::string bvh;     ///< "wide" or "binary"
   std::string fetch;   ///< "texel" or "storage"
 };
 

@@ -21,7 +21,6 @@ SUITE_LIMIT_SECONDS = 1800
 RUN_LIMIT_SECONDS = 180
 
 KERNELS = ("seed", "ray", "packet")
-HIERARCHIES = ("wide", "binary")
 FETCHES = ("storage", "texel")
 # Errors by which a device refuses a variant that was named on the command line.
 REFUSALS = ("deviceLimit", "kernelUnsupported")
@@ -138,8 +137,8 @@ class Checks:
 
 def _variants() -> list[tuple[str, ...]]:
     return [
-        ("--kernel", kernel, "--bvh", bvh, "--fetch", fetch)
-        for kernel, bvh, fetch in itertools.product(KERNELS, HIERARCHIES, FETCHES)
+        ("--kernel", kernel, "--fetch", fetch)
+        for kernel, fetch in itertools.product(KERNELS, FETCHES)
     ]
 
 
@@ -153,7 +152,7 @@ def _judge(ended: _Ended, options: tuple[str, ...]) -> tuple[Status, str]:
         if not all(check.get(name) for name in ("passed", "independent", "tracedCount")):
             return Status.FAILED, "exit code 0 without a check that passed"
         choice = report["traceChoice"]
-        for name, option in (("kernel", "--kernel"), ("bvh", "--bvh"), ("fetch", "--fetch")):
+        for name, option in (("kernel", "--kernel"), ("fetch", "--fetch")):
             if option in options and choice[name] != options[options.index(option) + 1]:
                 return Status.FAILED, f"another variant ran: {choice}"
         return Status.PASSED, ""

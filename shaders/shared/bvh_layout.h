@@ -1,28 +1,25 @@
 // Layout of the bounding volume hierarchy on a device; included by C++ and by GLSL. Both arrays consist of 16-byte
 // texels (format rgba32ui); floats are stored as their bits. Coordinates are normalised, see Normalization.
 //
-//   node, 64 bytes                                       triangle, 48 bytes, in primitive order
-//   byte  0  leftMin.xyz   left         texel 0          byte  0  v0.xyz  faceIndex
-//   byte 16  leftMax.xyz   unused       texel 1          byte 16  v1.xyz  normalU
-//   byte 32  rightMin.xyz  right        texel 2          byte 32  v2.xyz  normalV
-//   byte 48  rightMax.xyz  unused       texel 3
-//
-// A node holds the boxes of its two children and a reference to each: the node index of an inner child, or the first
-// primitive of a leaf with its triangle count (1 to kMaxLeafTriangleCount) in the bits above kReferenceCountShift.
-// Node 0 is the root. The normal is that of the double-precision mesh, octahedrally encoded (Cigolle et al. 2014): the
-// normal of the rounded corners would be noise on small faces.
-//
-//   wide node, 80 bytes, of up to eight children (after Ylitie, Karras and Laine 2017)
+//   node, 80 bytes, of up to eight children (after Ylitie, Karras and Laine 2017)
 //   byte  0  origin.xyz  exponents                       texel 0
 //   byte 16  childBase  triangleBase  childBits  unused  texel 1
 //   byte 32  x: lower of slots 0-3, 4-7, upper likewise  texel 2, texels 3 and 4 for y and z
 //
-// The box of the child in slot s spans origin + lower[s] * scale to origin + upper[s] * scale on each axis, with the
-// bytes lower[s] and upper[s] and the power of two `scale` whose biased exponent is byte 0, 1 or 2 of `exponents`.
-// Nibble s of childBits is the kind of the child: 8 an inner child; 1, 3 or 7 a leaf with as many triangles as the
-// nibble has bits; 0 no child. The nodes of inner children are consecutive from childBase on, the triangles of leaves
-// from triangleBase on, both in the order of the slots. Slots are assigned so that a ray whose direction has the sign
-// bits q (x in bit 0) hits the children approximately in the order of slot ^ q.
+// Node 0 is the root. The box of the child in slot s spans origin + lower[s] * scale to origin + upper[s] * scale on
+// each axis, with the bytes lower[s] and upper[s] and the power of two `scale` whose biased exponent is byte 0, 1 or 2
+// of `exponents`. Nibble s of childBits is the kind of the child: 8 an inner child; 1, 3 or 7 a leaf with as many
+// triangles as the nibble has bits; 0 no child. The nodes of inner children are consecutive from childBase on, the
+// triangles of leaves from triangleBase on, both in the order of the slots. Slots are assigned so that a ray whose
+// direction has the sign bits q (x in bit 0) hits the children approximately in the order of slot ^ q.
+//
+//   triangle, 48 bytes, in primitive order
+//   byte  0  v0.xyz  faceIndex                           texel 0
+//   byte 16  v1.xyz  normalU                             texel 1
+//   byte 32  v2.xyz  normalV                             texel 2
+//
+// The normal is that of the double-precision mesh, octahedrally encoded (Cigolle et al. 2014): the normal of the
+// rounded corners would be noise on small faces.
 #ifndef ASDFVK_BVH_LAYOUT_H
 #define ASDFVK_BVH_LAYOUT_H
 
@@ -36,33 +33,15 @@ using glsl::uvec4;
 using glsl::vec3;
 #endif
 
-const uint kBvhNodeTexelCount = 4u;
 const uint kWideNodeTexelCount = 5u;
 const uint kBvhTriangleTexelCount = 3u;
 
 // Capacity of a traversal stack, in levels; the builder splits at the median where SAH splits would exceed it.
 const uint kMaxBvhDepth = 48u;
 
-const uint kReferenceCountShift = 28u;
-const uint kReferenceFirstMask = 0x0fffffffu;
-const uint kMaxLeafTriangleCount = 14u;  // With 15 a reference could equal kNoReference.
-const uint kNoReference = 0xffffffffu;
-
 const uint kWideChildCount = 8u;
 const uint kMaxWideLeafTriangleCount = 3u;
-const uint kMaxWideBvhDepth = kMaxBvhDepth + 3u;  // A leaf of 14 triangles is split three times.
 const uint kWideInnerBits = 0x88888888u;
-
-struct DeviceBvhNode {
-  vec3 leftMin;
-  uint left;
-  vec3 leftMax;
-  uint unused0;
-  vec3 rightMin;
-  uint right;
-  vec3 rightMax;
-  uint unused1;
-};
 
 struct DeviceWideNode {
   vec3 origin;
@@ -86,11 +65,6 @@ struct DeviceTriangle {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(DeviceBvhNode) == 16 * kBvhNodeTexelCount);
-static_assert(offsetof(DeviceBvhNode, leftMin) == 0 && offsetof(DeviceBvhNode, left) == 12);
-static_assert(offsetof(DeviceBvhNode, leftMax) == 16 && offsetof(DeviceBvhNode, unused0) == 28);
-static_assert(offsetof(DeviceBvhNode, rightMin) == 32 && offsetof(DeviceBvhNode, right) == 44);
-static_assert(offsetof(DeviceBvhNode, rightMax) == 48 && offsetof(DeviceBvhNode, unused1) == 60);
 static_assert(sizeof(DeviceWideNode) == 16 * kWideNodeTexelCount);
 static_assert(offsetof(DeviceWideNode, origin) == 0 && offsetof(DeviceWideNode, exponents) == 12);
 static_assert(offsetof(DeviceWideNode, childBase) == 16 && offsetof(DeviceWideNode, triangleBase) == 20);
@@ -103,11 +77,6 @@ static_assert(offsetof(DeviceTriangle, v1) == 16 && offsetof(DeviceTriangle, nor
 static_assert(offsetof(DeviceTriangle, v2) == 32 && offsetof(DeviceTriangle, normalV) == 44);
 }  // namespace asdfvk
 #else
-DeviceBvhNode decodeBvhNode(uvec4 t0, uvec4 t1, uvec4 t2, uvec4 t3) {
-  return DeviceBvhNode(uintBitsToFloat(t0.xyz), t0.w, uintBitsToFloat(t1.xyz), t1.w, uintBitsToFloat(t2.xyz), t2.w,
-                       uintBitsToFloat(t3.xyz), t3.w);
-}
-
 DeviceWideNode decodeWideNode(uvec4 t0, uvec4 t1, uvec4 t2, uvec4 t3, uvec4 t4) {
   return DeviceWideNode(uintBitsToFloat(t0.xyz), t0.w, t1.x, t1.y, t1.z, t1.w, t2, t3, t4);
 }

@@ -220,6 +220,7 @@ Bvh buildBvh(const TriangleMesh& mesh, const FaceGeometry& geometry, std::span<c
              const BvhOptions& options) {
   ASDFVK_CHECK_OP(representatives.size(), ==, mesh.faces.size());
   ASDFVK_CHECK_OP(options.maxLeafTriangleCount, >, 0u);
+  ASDFVK_CHECK_OP(options.maxLeafTriangleCount, <=, kMaxWideLeafTriangleCount);
   Bvh bvh;
   bvh.normalization = normalizationOf(geometry.bounds);
   UnsetVector<SplitTriangle> triangles = collectTriangles(mesh, geometry, representatives, bvh.normalization);

@@ -36,8 +36,7 @@ inline constexpr float kNodeCost = 1.0f;
 inline constexpr float kTriangleCost = 1.0f;
 
 struct BvhOptions {
-  /// Upper limit; values above 8 act as 8. The default is the capacity of a leaf of the wide layout, which halves
-  /// larger leaves regardless of their cost.
+  /// Upper limit: 1 to the capacity of a leaf of the wide layout.
   uint32_t maxLeafTriangleCount = kMaxWideLeafTriangleCount;
   uint32_t binCount = 16;  ///< Per axis, 2 to 32; fewer where there are few triangles.
 };

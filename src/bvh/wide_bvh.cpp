@@ -87,19 +87,6 @@ constexpr uint32_t kParallelLevelCount = 4;
 
 Box3f boxOf(const BvhNode& node) { return {node.min, node.max}; }
 
-// Halves leaves until none is too large; the halves are appended to the nodes.
-UnsetVector<BvhNode> withSmallLeaves(UnsetVector<BvhNode> nodes) {
-  for (size_t i = 0; i < nodes.size(); ++i) {
-    const BvhNode leaf = nodes[i];
-    if (leaf.triangleCount <= kMaxWideLeafTriangleCount) continue;
-    const uint32_t half = leaf.triangleCount / 2;
-    nodes[i] = {leaf.min, static_cast<uint32_t>(nodes.size()), leaf.max, 0};
-    nodes.push_back({leaf.min, leaf.first, leaf.max, half});
-    nodes.push_back({leaf.min, leaf.first + half, leaf.max, leaf.triangleCount - half});
-  }
-  return nodes;
-}
-
 // Writes the wide nodes; a parent determines the indices of its children.
 class WideEncoder {
  public:
@@ -305,12 +292,8 @@ DeviceWideNode quantizeBoxes(std::span<const Box3f> children, const std::array<u
 }
 
 WideBvh encodeWideBvh(const Bvh& bvh) {
-  const bool hasLargeLeaves = std::any_of(bvh.nodes.begin(), bvh.nodes.end(), [](const BvhNode& node) {
-    return node.triangleCount > kMaxWideLeafTriangleCount;
-  });
-  WideBvh wide = hasLargeLeaves ? WideEncoder(withSmallLeaves(bvh.nodes), bvh.primitiveFaces).take()
-                                : WideEncoder(bvh.nodes, bvh.primitiveFaces).take();
-  ASDFVK_CHECK_OP(wide.depth, <=, kMaxWideBvhDepth);
+  WideBvh wide = WideEncoder(bvh.nodes, bvh.primitiveFaces).take();
+  ASDFVK_CHECK_OP(wide.depth, <=, kMaxBvhDepth);
   return wide;
 }
 

@@ -77,9 +77,10 @@ class WideCollapse {
   UnsetVector<Choice> choices_;  // Per binary node; unset for leaves.
 };
 
-/// Margin of the boxes of a wide hierarchy on a device, in normalised units. It is the sum of three errors: of the
-/// triangle test (kDeviceBoxMargin); of decoding a box in float32, up to 6 units of 2^-24; and of the distance to a
-/// plane (shaders/wide_walk.glsl), with three roundings that each shift the plane by up to 3.5 units of 2^-24.
+/// Margin of the boxes of a wide hierarchy on a device, in normalised units: a ray must enter each box that contains a
+/// triangle that it hits. It is the sum of three errors: of the triangle test in float32, a few units of 2^-24 times
+/// coordinates up to 3.5; of decoding a box in float32, up to 6 units of 2^-24; and of the distance to a plane
+/// (shaders/ray_query.glsl), with three roundings that each shift the plane by up to 3.5 units of 2^-24.
 inline constexpr float kWideBoxMargin = 0x1p-18f;
 
 /// Assigns a different slot s to each of at most eight children, so that a ray whose direction has the sign bits q hits
@@ -95,11 +96,10 @@ inline constexpr float kWideBoxMargin = 0x1p-18f;
 struct WideBvh {
   UnsetVector<DeviceWideNode> nodes;
   UnsetVector<uint32_t> primitiveFaces;  ///< See Bvh; the range of primitives of a subtree is the same.
-  uint32_t depth = 0;                    ///< Levels below the root; the size of a traversal stack.
+  uint32_t depth = 0;                    ///< Levels below the root, at most kMaxBvhDepth.
 };
 
-/// Collapses `bvh`, which has at least one node, by WideCollapse. Leaves of more than kMaxWideLeafTriangleCount are
-/// halved, and the halves keep their box. Parallel, with the same result for any thread count.
+/// Collapses `bvh`, which has at least one node, by WideCollapse. Parallel, with the same result for any thread count.
 [[nodiscard]] WideBvh encodeWideBvh(const Bvh& bvh);
 
 }  // namespace asdfvk

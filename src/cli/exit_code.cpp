@@ -38,7 +38,7 @@ std::string remedyFor(ErrorCode code, bool requiresGpu, const std::string& value
     case ErrorCode::EmbreeFailed:
       return "use --backend reference";
     case ErrorCode::NoDeviceForKernel:
-      return "use --backend vulkan, or drop --solver, --kernel, --bvh and --fetch";
+      return "use --backend vulkan, or drop --solver, --kernel and --fetch";
     case ErrorCode::KernelUnsupported:
       return requiresGpu ? "use another --kernel" : "use another --kernel, or --backend reference";
     case ErrorCode::DeviceLimit:

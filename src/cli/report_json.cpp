@@ -92,20 +92,12 @@ Json deviceOf(const DeviceFacts& device) {
           {"subgroupSize", device.subgroupSize}};
 }
 
-Json variantJson(const TraceVariant& variant) {
-  return {{"kernel", variant.kernel}, {"bvh", variant.bvh}, {"fetch", variant.fetch}};
-}
+Json variantJson(const TraceVariant& variant) { return {{"kernel", variant.kernel}, {"fetch", variant.fetch}}; }
 
 Json defaultsOf(const DeviceReport& report) {
   Json json = variantJson(variantOf(report.choice));
   json["reason"] = defaultTraceReason(*report.device);
   json["solver"] = report.defaultSolver;
-  json["lanesPerCone"] = report.workgroups.lanesPerCone;
-  json["conesPerWorkgroup"] = report.workgroups.conesPerWorkgroup;
-  json["iterationLimit"] = report.workgroups.iterationLimit;
-  json["wideStackSize"] = report.walk.wideStackSize;
-  json["binaryStackSize"] = report.walk.binaryStackSize;
-  json["postponesTriangles"] = report.walk.postponesTriangles;
   return json;
 }
 

@@ -53,7 +53,7 @@ std::string timeRow(const StageSeconds& seconds) {
 }
 
 std::string kernelText(const TraceVariant& variant) {
-  return fmt::format(", kernel {} {} {}", variant.kernel, variant.bvh, variant.fetch);
+  return fmt::format(", kernel {} {}", variant.kernel, variant.fetch);
 }
 
 std::string solverRow(const SolverReport& solver) {

@@ -421,17 +421,10 @@ const std::array kSessionRows{
               .access = ASDFVK_MEMBER(SessionSettings, variant.kernel),
               .text = "Vulkan: neighbouring lanes trace one ray of neighbouring seeds, the rays of one seed, or these "
                       "as a packet",
-              .more = "`auto` of this and the next two: by the class of the device and the size of the mesh "
+              .more = "`auto` of this and the next one: by the class of the device and the size of the mesh "
                       "([devices.md](devices.md)).",
               .keyword = "",
               .valueNames = "auto|seed|ray|packet",
-              .emptyIsAuto = true},
-    OptionRow{.name = "bvh",
-              .group = kExperimentGroup,
-              .access = ASDFVK_MEMBER(SessionSettings, variant.bvh),
-              .text = "Vulkan: hierarchy of eight children in quantised boxes, or of two in float32",
-              .keyword = "",
-              .valueNames = "auto|wide|binary",
               .emptyIsAuto = true},
     OptionRow{.name = "fetch",
               .group = kExperimentGroup,

@@ -115,8 +115,8 @@ void requireValid(SessionSettings session, OptionSpelling spelling) {
   if (!session.device.empty())
     refuseOnCpu("{device} chooses a Vulkan device, which {backend=cpu} and reference do not use; drop one");
   const TraceVariant& variant = session.variant;
-  if (!(variant.kernel.empty() && variant.bvh.empty() && variant.fetch.empty()))
-    refuseOnCpu("{kernel}, {bvh} and {fetch} choose shaders, which {backend=cpu} and reference do not use; drop one");
+  if (!(variant.kernel.empty() && variant.fetch.empty()))
+    refuseOnCpu("{kernel} and {fetch} choose shaders, which {backend=cpu} and reference do not use; drop one");
 }
 
 }  // namespace asdfvk

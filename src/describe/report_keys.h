@@ -37,7 +37,7 @@ void visitNamed(std::string_view names, const Visit& visit, const Members&... me
     const auto& [__VA_ARGS__] = asdfvkValue;                                 \
     visitNamed(#__VA_ARGS__, asdfvkVisit, __VA_ARGS__);                      \
   }
-ASDFVK_KEYS(TraceVariant, kernel, bvh, fetch)
+ASDFVK_KEYS(TraceVariant, kernel, fetch)
 ASDFVK_KEYS(SolverReport, name, iterations, relativeResidual, converged, finishedOnCpu)
 ASDFVK_KEYS(ValueRange, min, percentile1, median, percentile99, max)
 ASDFVK_KEYS(PostprocessReport, min, max)

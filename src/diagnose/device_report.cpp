@@ -79,18 +79,16 @@ void testTracer(TracerReport& report, ConeTracer& tracer, const TestTorus& test,
 
 void testVariants(DeviceReport& report, const Device& device, const TestTorus& test, const RunControl& control) {
   for (const auto& [kernelName, kernel] : kernelNames()) {
-    for (const auto& [bvhName, bvh] : bvhNames()) {
-      for (const auto& [fetchName, fetch] : fetchNames()) {
-        control.checkpoint(0);
-        const VulkanTraceChoice choice{kernel, bvh, fetch};
-        TracerReport tracer{.backend = "vulkan", .variant = variantOf(choice), .isDefault = choice == report.choice};
-        runTest(tracer, [&] {
-          const VulkanConeKernel compiled(
-              device, {.rayCount = report.rayCount, .choice = choice, .definition = test.cone.definition});
-          testTracer(tracer, *makeVulkanTracer(compiled, test.scene.view(), test.cone), test, control);
-        });
-        report.tracers.push_back(std::move(tracer));
-      }
+    for (const auto& [fetchName, fetch] : fetchNames()) {
+      control.checkpoint(0);
+      const VulkanTraceChoice choice{kernel, fetch};
+      TracerReport tracer{.backend = "vulkan", .variant = variantOf(choice), .isDefault = choice == report.choice};
+      runTest(tracer, [&] {
+        const VulkanConeKernel compiled(
+            device, {.rayCount = report.rayCount, .choice = choice, .definition = test.cone.definition});
+        testTracer(tracer, *makeVulkanTracer(compiled, test.scene.view(), test.cone), test, control);
+      });
+      report.tracers.push_back(std::move(tracer));
     }
   }
 }
@@ -210,8 +208,6 @@ DeviceReport reportDevice(const SessionOptions& options, const RunControl& contr
     const Device& device = *vulkan->backend->device();
     report.device = device.facts();
     report.choice = traceChoiceFor(device.facts(), {}, test.scene.bvh);
-    report.workgroups = workgroupShapeFor(device.facts(), report.rayCount, report.choice.kernel);
-    report.walk = walkShapeFor(device.facts());
     report.defaultSolver = automaticSolver(*vulkan->backend).name;
     testVariants(report, device, test, control);
     testSolvers(report, device, test, control);

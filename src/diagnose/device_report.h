@@ -44,9 +44,7 @@ struct DeviceReport {
   std::vector<std::string> deviceLines;  ///< See Session::deviceLines().
   std::optional<Error> failure;          ///< Why there is no Vulkan device, or what the validation layers report.
   std::optional<DeviceFacts> device;     ///< Unset without a Vulkan device.
-  VulkanTraceChoice choice;              ///< The default, and its shapes for 30 rays.
-  VulkanWorkgroupShape workgroups;
-  VulkanWalkShape walk;
+  VulkanTraceChoice choice;              ///< The default.
   std::string defaultSolver;
   uint64_t faceCount = 0;  ///< Faces of the generated mesh.
   uint32_t rayCount = 0;   ///< Rays per cone.

@@ -69,8 +69,7 @@ constexpr std::string_view kAutomaticBackend = "auto";
 
 bool requestsVulkan(const SessionOptions& options) {
   const TraceVariant& variant = options.variant;
-  return options.requireGpu || !options.device.empty() || !variant.kernel.empty() || !variant.bvh.empty() ||
-         !variant.fetch.empty();
+  return options.requireGpu || !options.device.empty() || !variant.kernel.empty() || !variant.fetch.empty();
 }
 
 NamedBackend open(const BackendRow& row, const SessionOptions& options) {

@@ -17,7 +17,7 @@ using namespace asdfvk;
 namespace {
 
 DeviceBvh encodeWide(const Mesh& mesh, const BvhOptions& options = {}) {
-  return encodeDeviceBvh(buildOver(mesh, options), mesh, computeFaceGeometry(mesh), BvhLayout::Wide);
+  return encodeDeviceBvh(buildOver(mesh, options), mesh, computeFaceGeometry(mesh));
 }
 
 struct Walked {
@@ -51,10 +51,10 @@ struct Entered {
 
 // path: the slots entered on the way from the root.
 void walk(const DeviceBvh& bvh, uint32_t index, std::vector<Entered>& path, Walked& walked) {
-  REQUIRE(index < bvh.wideNodes.size());
+  REQUIRE(index < bvh.nodes.size());
   REQUIRE(++walked.nodeVisits[index] == 1);
   walked.depth = std::max(walked.depth, static_cast<uint32_t>(path.size()));
-  const DeviceWideNode& node = bvh.wideNodes[index];
+  const DeviceWideNode& node = bvh.nodes[index];
   uint32_t child = node.childBase, triangle = node.triangleBase;
   for (uint32_t slot = 0; slot < 8; ++slot) {
     const uint32_t bits = node.childBits >> 4 * slot & 15;
@@ -69,7 +69,7 @@ void walk(const DeviceBvh& bvh, uint32_t index, std::vector<Entered>& path, Walk
         const DeviceTriangle& t = bvh.triangles[triangle];
         for (const vec3& corner : {t.v0, t.v1, t.v2})
           for (const Entered& entered : path)
-            walked.cornersOutside += distanceOutside(bvh.wideNodes[entered.node], entered.slot, corner) > -0x1p-20;
+            walked.cornersOutside += distanceOutside(bvh.nodes[entered.node], entered.slot, corner) > -0x1p-20;
       }
     } else {
       for (size_t axis = 0; axis < 3; ++axis) REQUIRE(plane(node, axis, slot, 0) > plane(node, axis, slot, 1));
@@ -80,13 +80,11 @@ void walk(const DeviceBvh& bvh, uint32_t index, std::vector<Entered>& path, Walk
 
 void checkWide(const Mesh& mesh, const BvhOptions& options = {}) {
   const DeviceBvh bvh = encodeWide(mesh, options);
-  REQUIRE(bvh.nodes.empty());
-  Walked walked{std::vector<int>(bvh.wideNodes.size()), std::vector<int>(bvh.triangles.size()), 0, 0};
+  Walked walked{std::vector<int>(bvh.nodes.size()), std::vector<int>(bvh.triangles.size()), 0, 0};
   std::vector<Entered> path;
   walk(bvh, 0, path, walked);
   CHECK(walked.cornersOutside == 0);
-  CHECK(walked.depth == bvh.depth);
-  CHECK(bvh.depth <= kMaxWideBvhDepth);
+  CHECK(walked.depth <= kMaxBvhDepth);
   CHECK(std::all_of(walked.nodeVisits.begin(), walked.nodeVisits.end(), [](int n) { return n == 1; }));
   CHECK(std::all_of(walked.triangleVisits.begin(), walked.triangleVisits.end(), [](int n) { return n == 1; }));
   std::vector<uint32_t> faces;
@@ -135,12 +133,11 @@ TEST_CASE("a wide hierarchy holds each triangle once, inside the boxes on its wa
     checkWide(soup(count, count));
   }
   checkWide(soup(3, 3, 100));  // a root that is a leaf
-  checkWide(soup(4, 3, 100));  // and one that is too large
   checkWide(sheet(90));
 }
 
-TEST_CASE("a wide hierarchy splits leaves that are too large for it") {
-  for (const uint32_t leaf : {1u, 2u, 3u, 8u, 14u}) checkWide(sheet(20), BvhOptions{leaf, 16});
+TEST_CASE("a wide hierarchy may have leaves of any size") {
+  for (const uint32_t leaf : {1u, 2u, 3u}) checkWide(sheet(20), BvhOptions{leaf, 16});
 }
 
 TEST_CASE("a wide hierarchy of far, flat, huge, tiny and equal triangles keeps its invariants") {
@@ -161,8 +158,8 @@ TEST_CASE("a wide hierarchy of far, flat, huge, tiny and equal triangles keeps i
 }
 
 TEST_CASE("the wide layout of an empty hierarchy is empty") {
-  const DeviceBvh bvh = encodeDeviceBvh(Bvh{}, Mesh{}, FaceGeometry{}, BvhLayout::Wide);
-  CHECK(bvh.nodeBytes().empty());
+  const DeviceBvh bvh = encodeDeviceBvh(Bvh{}, Mesh{}, FaceGeometry{});
+  CHECK(bvh.nodes.empty());
   CHECK(bvh.triangles.empty());
 }
 
@@ -172,8 +169,8 @@ TEST_CASE("the bits of a wide hierarchy do not depend on the number of threads")
   for (const size_t threadCount : {1, 2, 3}) {
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threadCount);
     const DeviceBvh bvh = encodeWide(mesh);
-    REQUIRE(bvh.nodeBytes().size() == expected.nodeBytes().size());
-    CHECK(std::memcmp(bvh.wideNodes.data(), expected.wideNodes.data(), bvh.nodeBytes().size()) == 0);
+    REQUIRE(bvh.nodes.size() == expected.nodes.size());
+    CHECK(std::memcmp(bvh.nodes.data(), expected.nodes.data(), sizeof(DeviceWideNode) * bvh.nodes.size()) == 0);
     REQUIRE(bvh.triangles.size() == expected.triangles.size());
     CHECK(std::memcmp(bvh.triangles.data(), expected.triangles.data(), 48 * bvh.triangles.size()) == 0);
   }

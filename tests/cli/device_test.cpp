@@ -25,7 +25,7 @@ TEST_CASE("without a Vulkan device auto selects Embree, or the reference if Embr
   CHECK(lines.at(1).starts_with("asdf-vk: vulkan: not available: "));
   CHECK_EQ(lines.at(2).starts_with("asdf-vk: cpu: not available: "), !isBackendBuilt("cpu"));
   // The default of a kernel option does not require Vulkan.
-  CHECK_EQ(runAsdf({mesh, "--quiet", "--kernel", "auto", "--bvh", "auto", "--fetch", "auto"}, kNoDriver).exitCode, 0);
+  CHECK_EQ(runAsdf({mesh, "--quiet", "--kernel", "auto", "--fetch", "auto"}, kNoDriver).exitCode, 0);
 }
 
 TEST_CASE("a required Vulkan device, kernel or GPU that is missing gives 3 and no result") {
@@ -117,13 +117,11 @@ TEST_CASE("a requested kernel variant runs, on Vulkan, and is in the report") {
     CHECK(report.at("traceDeviceSeconds").get<double>() > 0);
     CHECK(report.at("traceDeviceSeconds").get<double>() <= report.at("stageSeconds").at("trace").get<double>());
     const nlohmann::json choice = report.at("traceChoice");
-    return choice.at("kernel").get<std::string>() + " " + choice.at("bvh").get<std::string>() + " " +
-           choice.at("fetch").get<std::string>();
+    return choice.at("kernel").get<std::string>() + " " + choice.at("fetch").get<std::string>();
   };
-  CHECK_EQ(choiceWith({"--kernel", "packet"}), "packet wide texel");
-  CHECK_EQ(choiceWith({"--bvh", "binary"}), "seed binary texel");
-  CHECK_EQ(choiceWith({"--kernel", "ray", "--fetch", "storage"}), "ray wide storage");
-  CHECK_EQ(choiceWith({"--backend", "vulkan"}), "seed wide texel");
+  CHECK_EQ(choiceWith({"--kernel", "packet"}), "packet texel");
+  CHECK_EQ(choiceWith({"--kernel", "ray", "--fetch", "storage"}), "ray storage");
+  CHECK_EQ(choiceWith({"--backend", "vulkan"}), "seed texel");
 }
 
 TEST_CASE("auto selects Vulkan also on a CPU device, and mentions Embree if it is built in") {

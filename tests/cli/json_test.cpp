@@ -86,8 +86,7 @@ TEST_CASE("--json is exactly one document with every documented key and its type
       {"weights", "feature"}, {"guidance", "prediction"}, {"orient", "keep"},
       {"smooth", "off"},      {"solver", "auto"},         {"postprocess", "none"},
       {"segment", "none"},    {"measure", "sdf"},         {"kernel", "auto"},
-      {"bvh", "auto"},        {"fetch", "auto"},          {"backend", "reference"},
-      {"per", "face"}};
+      {"fetch", "auto"},      {"backend", "reference"},   {"per", "face"}};
   for (const auto& [key, name] : names) CHECK_EQ(options.at(key).get<std::string>(), name);
   CHECK_EQ(options.at("rngSeed").get<uint64_t>(), 7);
   CHECK_EQ(options.at("check").get<std::string>(), "all");

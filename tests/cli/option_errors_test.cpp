@@ -98,7 +98,7 @@ TEST_CASE("options that contradict each other are refused") {
   for (const char* backend : {"cpu", "reference"}) {
     CHECK(refusal({"a.ply", "--backend", backend, "--require-gpu"}).find("--require-gpu") != std::string::npos);
     CHECK(refusal({"a.ply", "--backend", backend, "--device", "0"}).find("--device") != std::string::npos);
-    for (const auto& [option, value] : {std::pair{"--kernel", "seed"}, {"--bvh", "wide"}, {"--fetch", "texel"}}) {
+    for (const auto& [option, value] : {std::pair{"--kernel", "seed"}, {"--fetch", "texel"}}) {
       CHECK(refusal({"a.ply", "--backend", backend, option, value}).find(option) != std::string::npos);
       CHECK_EQ(refusal({"a.ply", "--backend", backend, option, "auto"}), "accepted");
     }

@@ -35,7 +35,7 @@ TEST_CASE("a mesh alone gives the defaults") {
   CHECK_EQ(line.computation.options.solver, "auto");
   CHECK_EQ(line.session.backend, "auto");
   const TraceVariant& variant = line.session.variant;
-  CHECK((variant.kernel.empty() && variant.bvh.empty() && variant.fetch.empty()));
+  CHECK((variant.kernel.empty() && variant.fetch.empty()));
   CHECK_EQ(fieldNames(line.outputs, line.computation.options), std::vector<std::string>{"sdf", "seed"});
   CHECK_FALSE(line.computation.options.checkCount.has_value());
   CHECK_FALSE(line.answer.has_value());
@@ -198,7 +198,6 @@ const std::vector<OptionCase>& optionCases() {
       {{"--require-gpu"}, [](const Line& l) { return l.session.requireGpu; }},
       {{"--threads", "3"}, [](const Line& l) { return l.session.threadCount == 3; }},
       {{"--kernel", "packet"}, [](const Line& l) { return l.session.variant.kernel == "packet"; }},
-      {{"--bvh", "binary"}, [](const Line& l) { return l.session.variant.bvh == "binary"; }},
       {{"--fetch", "storage"}, [](const Line& l) { return l.session.variant.fetch == "storage"; }},
   };
   return cases;
@@ -311,14 +310,12 @@ TEST_CASE("the rows have the names of samplers, solvers, backends and kernel var
   CHECK(ofRow(computationRows(), "solver") == withAuto(solverNames()));
   CHECK(ofRow(sessionRows(), "backend") == withAuto(backendNames()));
   CHECK(ofRow(sessionRows(), "kernel") == namesIn(kernelNames()));
-  CHECK(ofRow(sessionRows(), "bvh") == namesIn(bvhNames()));
   CHECK(ofRow(sessionRows(), "fetch") == namesIn(fetchNames()));
 }
 
 TEST_CASE("a kernel variant of auto is the default") {
-  const TraceVariant variant =
-      parseCommandLine({"a.ply", "--kernel", "auto", "--bvh", "auto", "--fetch", "auto"}).session.variant;
-  CHECK((variant.kernel.empty() && variant.bvh.empty() && variant.fetch.empty()));
+  const TraceVariant variant = parseCommandLine({"a.ply", "--kernel", "auto", "--fetch", "auto"}).session.variant;
+  CHECK((variant.kernel.empty() && variant.fetch.empty()));
 }
 
 TEST_CASE("--fields keeps the order of the names") {
@@ -516,7 +513,6 @@ TEST_CASE("--help has the most needed options, --help=all all of them in groups"
                            "--picture-of sdf|seed|error|normalized|segment",
                            "--segment none|parts|cgal",
                            "--kernel auto|seed|ray|packet",
-                           "--bvh auto|wide|binary",
                            "--fetch auto|texel|storage",
                            "MESH...",
                            ".stl .ply .off .obj",

@@ -132,7 +132,7 @@ TEST_CASE("the text report of a GPU with few rays names the backend that may be 
   Result result = sampleResult();
   const auto hints = [&] { return holds(textReport(outcomeOf(line, result)), "with --backend cpu"); };
   CHECK_FALSE(hints());  // No variant: no kernel ran.
-  result.report.traceChoice = TraceVariant{"ray", "wide", "storage"};
+  result.report.traceChoice = TraceVariant{"ray", "storage"};
   CHECK(hints() == isBackendBuilt("cpu"));
   result.report.rayCount = 10'000'000;
   CHECK_FALSE(hints());
@@ -373,14 +373,13 @@ TEST_CASE("the report on a device as JSON has the device, the defaults and each 
   device.apiVersion = (1u << 22) | (3u << 12) | 230;
   device.subgroupSize = 64;
   report.choice = defaultTraceChoice(device);
-  report.walk = walkShapeFor(device);
   report.tracers = {{.backend = "vulkan",
-                     .variant = TraceVariant{"ray", "wide", "storage"},
+                     .variant = TraceVariant{"ray", "storage"},
                      .isDefault = true,
                      .comparedCount = 64,
                      .passed = true,
                      .raysPerSecond = 2e9},
-                    {.backend = "vulkan", .variant = TraceVariant{"ray", "wide", "texel"}, .refusal = "too few texels"},
+                    {.backend = "vulkan", .variant = TraceVariant{"ray", "texel"}, .refusal = "too few texels"},
                     {.backend = "cpu", .differingCount = 7}};
   report.solvers = {{.name = "cg", .failure = "the device was lost"}};
   const nlohmann::json json = nlohmann::json::parse(jsonDeviceReport(report));
@@ -391,10 +390,8 @@ TEST_CASE("the report on a device as JSON has the device, the defaults and each 
   CHECK_EQ(json.at("device").at("subgroupSize"), 64);
   CHECK_EQ(json.at("defaults").at("kernel"), "ray");
   CHECK_EQ(json.at("defaults").at("fetch"), "storage");
-  CHECK_EQ(json.at("defaults").at("wideStackSize"), 65);
   CHECK(json.at("defaults").at("reason").get<std::string>().find("AMD") != std::string::npos);
-  CHECK_EQ(json.at("fastest"),
-           nlohmann::json::parse(R"({"kernel": "ray", "bvh": "wide", "fetch": "storage", "default": true})"));
+  CHECK_EQ(json.at("fastest"), nlohmann::json::parse(R"({"kernel": "ray", "fetch": "storage", "default": true})"));
   const nlohmann::json& tracers = json.at("tracers");
   CHECK(tracers.at(0).at("passed").get<bool>());
   CHECK_EQ(tracers.at(0).at("raysPerSecond"), 2e9);

@@ -46,8 +46,6 @@ TEST_CASE("a required GPU, a device and a kernel variant exclude the backends wi
     requireOpenFailure({.backend = backend, .device = "0"}, ErrorCode::NoDeviceForKernel, "a Vulkan device");
     requireOpenFailure({.backend = backend, .variant = {.kernel = "ray"}}, ErrorCode::NoDeviceForKernel,
                        "kernel variant");
-    requireOpenFailure({.backend = backend, .variant = {.bvh = "wide"}}, ErrorCode::NoDeviceForKernel,
-                       "kernel variant");
     requireOpenFailure({.backend = backend, .variant = {.fetch = "texel"}}, ErrorCode::NoDeviceForKernel,
                        "kernel variant");
   }
@@ -56,7 +54,6 @@ TEST_CASE("a required GPU, a device and a kernel variant exclude the backends wi
 TEST_CASE("a name that no kernel variant has is an error, also with auto") {
   for (const std::string backend : {"vulkan", "auto"}) {
     requireOpenFailure({.backend = backend, .variant = {.kernel = "warp"}}, ErrorCode::UnknownName, "warp");
-    requireOpenFailure({.backend = backend, .variant = {.bvh = "octree"}}, ErrorCode::UnknownName, "octree");
     requireOpenFailure({.backend = backend, .variant = {.fetch = "image"}}, ErrorCode::UnknownName, "image");
   }
 }
@@ -98,9 +95,8 @@ TEST_CASE("the reference has no device, no variant and agrees with itself by con
 
 TEST_CASE("a requested kernel variant is the one that the backend has") {
   if (!hasDevice([](const DeviceInfo& device) { return device.usable; })) return;
-  const NamedBackend named = openBackend({.variant = {.kernel = "ray", .bvh = "binary", .fetch = "storage"}});
+  const NamedBackend named = openBackend({.variant = {.kernel = "ray", .fetch = "storage"}});
   const TraceVariant variant = named.backend->traceVariant().value();
   CHECK(variant.kernel == "ray");
-  CHECK(variant.bvh == "binary");
   CHECK(variant.fetch == "storage");
 }

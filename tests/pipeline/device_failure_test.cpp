@@ -255,7 +255,7 @@ TEST_CASE("a requested backend, device, variant or solver of the device is not r
   const FakeDevice fake(kGpu);
   const Mesh mesh = makeTorus(1000).mesh;
   for (const SessionOptions& options : {SessionOptions{.backend = "vulkan"}, SessionOptions{.device = "0"},
-                                        SessionOptions{.variant = {.bvh = "wide"}}}) {
+                                        SessionOptions{.variant = {.kernel = "ray"}}}) {
     Session session(options);
     {
       const FullDevice full;

@@ -51,8 +51,7 @@ TEST_CASE("any number of rays gives the reference's values by CGAL's definition"
     CAPTURE(rayCount);
     const CgalReference reference(mesh, rayCount);
     for (const TraceKernel kernel : {TraceKernel::Packet, TraceKernel::Ray, TraceKernel::Seed})
-      reference.check(
-          VulkanConeKernel(*device, {rayCount, false, VulkanTraceChoice{kernel, BvhLayout::Wide}, Definition::Cgal}));
+      reference.check(VulkanConeKernel(*device, {rayCount, false, VulkanTraceChoice{kernel}, Definition::Cgal}));
   }
 }
 

@@ -12,7 +12,7 @@ TEST_CASE("a kernel whose subgroup operations the device lacks is refused with t
   DeviceFacts facts = describeDevice(physical);
   const auto make = [&](TraceKernel kernel) {
     const Device device(physical, facts);
-    (void)VulkanConeKernel(device, {30, false, VulkanTraceChoice{kernel, BvhLayout::Wide, BvhFetch::Storage}});
+    (void)VulkanConeKernel(device, {30, false, VulkanTraceChoice{kernel, BvhFetch::Storage}});
   };
   facts.hasSubgroupArithmetic = false;
   CHECK_NOTHROW(make(TraceKernel::Seed));

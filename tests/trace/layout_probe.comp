@@ -7,10 +7,9 @@
 layout(local_size_x = 8) in;
 layout(set = 0, binding = 0, rgba32ui) uniform readonly uimageBuffer nodes;
 layout(set = 0, binding = 1, rgba32ui) uniform readonly uimageBuffer triangles;
-layout(set = 0, binding = 5, rgba32ui) uniform readonly uimageBuffer wideNodes;
 layout(set = 0, binding = 2, rgba32ui) uniform readonly uimageBuffer rays;
 layout(set = 0, binding = 3, rgba32ui) uniform readonly uimageBuffer origins;
-layout(set = 0, binding = 6) readonly buffer Seeds { ConeSeed seeds[]; };
+layout(set = 0, binding = 5) readonly buffer Seeds { ConeSeed seeds[]; };
 layout(set = 0, binding = 4) writeonly buffer Words { uint words[]; };
 
 uint next = 0u;
@@ -29,11 +28,11 @@ void put(vec3 v) {
 
 void main() {
   if (gl_GlobalInvocationID.x != 0u) return;
-  const int n = int(kBvhNodeTexelCount);  // the second of two, so that the stride is proven too
-  const DeviceBvhNode node =
-      decodeBvhNode(imageLoad(nodes, n), imageLoad(nodes, n + 1), imageLoad(nodes, n + 2), imageLoad(nodes, n + 3));
-  put(node.leftMin), put(node.left), put(node.leftMax), put(node.unused0);
-  put(node.rightMin), put(node.right), put(node.rightMax), put(node.unused1);
+  const int n = int(kWideNodeTexelCount);  // the second of two, so that the stride is proven too
+  const DeviceWideNode node = decodeWideNode(imageLoad(nodes, n), imageLoad(nodes, n + 1), imageLoad(nodes, n + 2),
+                                             imageLoad(nodes, n + 3), imageLoad(nodes, n + 4));
+  put(node.origin), put(node.exponents), put(node.childBase), put(node.triangleBase);
+  put(node.childBits), put(node.unused), put(node.x), put(node.y), put(node.z);
   const int t = int(kBvhTriangleTexelCount);
   const DeviceTriangle triangle =
       decodeTriangle(imageLoad(triangles, t), imageLoad(triangles, t + 1), imageLoad(triangles, t + 2));
@@ -46,11 +45,5 @@ void main() {
       decodeConeOrigin(imageLoad(origins, o), imageLoad(origins, o + 1), imageLoad(origins, o + 2));
   put(origin.origin), put(origin.excludedFace), put(origin.tangent), put(origin.unused0);
   put(origin.bitangent), put(origin.unused1);
-  const int w = int(kWideNodeTexelCount);
-  const DeviceWideNode wide =
-      decodeWideNode(imageLoad(wideNodes, w), imageLoad(wideNodes, w + 1), imageLoad(wideNodes, w + 2),
-                     imageLoad(wideNodes, w + 3), imageLoad(wideNodes, w + 4));
-  put(wide.origin), put(wide.exponents), put(wide.childBase), put(wide.triangleBase);
-  put(wide.childBits), put(wide.unused), put(wide.x), put(wide.y), put(wide.z);
   put(seeds[1].triangle), put(floatBitsToUint(seeds[1].halfTurn));
 }

@@ -161,7 +161,7 @@ TEST_CASE("the stacks of a lane leave AMD GPUs their occupancy" * doctest::test_
   }
   struct Family {
     std::string name;
-    uint64_t rayCount, seedCount;  // At least so many subgroups per SIMD, of kernels with the wide hierarchy.
+    uint64_t rayCount, seedCount;  // At least so many subgroups per SIMD.
   };
   std::vector<Family> families;
   {
@@ -181,7 +181,6 @@ TEST_CASE("the stacks of a lane leave AMD GPUs their occupancy" * doctest::test_
     const RadvCompiler radv(manifest, family.name);
     REQUIRE(radv.isUsable());
     const VulkanWalkShape walk = walkShapeFor(radv.facts());
-    CHECK(defaultTraceChoice(radv.facts()).bvh == BvhLayout::Wide);
     Statistics ray = radv.compile(conesOn(radv.facts(), TraceKernel::Ray, walk)),
                seed = radv.compile(conesOn(radv.facts(), TraceKernel::Seed, walk));
     MESSAGE(family.name << ": ray " << ray[kOccupancy] << ", seed " << seed[kOccupancy]);

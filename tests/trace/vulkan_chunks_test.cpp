@@ -89,7 +89,7 @@ TEST_CASE("small chunks, one seed and repeated seeds have the values of the whol
                test::useSeparateMemory(facts);
              });
   for (const TraceKernel kernel : {TraceKernel::Packet, TraceKernel::Ray, TraceKernel::Seed}) {
-    const ConeKernelRequest request{30, true, VulkanTraceChoice{kernel, BvhLayout::Wide, BvhFetch::Texel}};
+    const ConeKernelRequest request{30, true, VulkanTraceChoice{kernel, BvhFetch::Texel}};
     const TraceResults expected = traceByKernel(VulkanConeKernel(*whole, request), traced, {}, Wanted::ValuesAndHits);
     for (const Device* device : {&*whole, &*mapped, &*separate}) check(*device, request, expected);
   }

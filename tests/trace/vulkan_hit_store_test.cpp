@@ -59,7 +59,7 @@ TEST_CASE("hits that a trace stores on the device are those that the host receiv
   const VkPhysicalDevice physical = instance.physicalDevices().front();
   const DeviceFacts facts = describeDevice(physical);
   const TracedMesh traced(generateShape("animal", 1500).mesh);
-  const VulkanTraceChoice choice{.kernel = TraceKernel::Seed, .bvh = BvhLayout::Wide, .fetch = BvhFetch::Texel};
+  const VulkanTraceChoice choice{.kernel = TraceKernel::Seed, .fetch = BvhFetch::Texel};
   const Device whole(physical, facts);
   DeviceFacts separate = facts, small = facts;
   separate.mapsDeviceMemory = small.mapsDeviceMemory = false;

@@ -82,7 +82,7 @@ TEST_CASE("any number of rays gives the reference's hits" * doctest::test_suite(
     CAPTURE(rayCount);
     const ReferenceHits reference(mesh, {.rayCount = rayCount});
     for (const TraceKernel kernel : {TraceKernel::Packet, TraceKernel::Ray, TraceKernel::Seed})
-      checkHits(VulkanConeKernel(*device, {rayCount, true, VulkanTraceChoice{kernel, BvhLayout::Wide}}), reference);
+      checkHits(VulkanConeKernel(*device, {rayCount, true, VulkanTraceChoice{kernel}}), reference);
   }
 }
 

@@ -86,7 +86,7 @@ TEST_CASE("any number of rays from 1 to 1024 gives the reference's values" * doc
     CAPTURE(rayCount);
     const std::vector<double> reference = referenceValues(traced, {.rayCount = rayCount});
     for (const TraceKernel kernel : {TraceKernel::Packet, TraceKernel::Ray, TraceKernel::Seed})
-      checkParity(VulkanConeKernel(*device, {rayCount, false, VulkanTraceChoice{kernel, BvhLayout::Wide}}), traced,
+      checkParity(VulkanConeKernel(*device, {rayCount, false, VulkanTraceChoice{kernel}}), traced,
                   {.rayCount = rayCount}, reference);
   }
 }
@@ -108,18 +108,15 @@ TEST_CASE("any workgroup shape gives the same bits" * doctest::test_suite("slow"
 TEST_CASE("long stacks and triangles that are not postponed give the same bits" * doctest::test_suite("slow")) {
   const test::ValidatedDevice device;
   const TracedMesh traced(generateShape("animal", 1500).mesh);
-  const VulkanWalkShape gpu{.wideStackSize = 65, .binaryStackSize = 65, .postponesTriangles = false};
+  const VulkanWalkShape gpu{.stackSize = 65, .postponesTriangles = false};
   for (const TraceKernel kernel : {TraceKernel::Ray, TraceKernel::Seed}) {
-    for (const BvhLayout bvh : {BvhLayout::Binary, BvhLayout::Wide}) {
-      CAPTURE(static_cast<int>(kernel));
-      CAPTURE(static_cast<int>(bvh));
-      const ConeKernelRequest request{30, false, VulkanTraceChoice{kernel, bvh}};
-      const VulkanWorkgroupShape shape = workgroupShapeFor(device->facts(), 30, kernel);
-      const TraceResults expected = traceWith(VulkanConeKernel(*device, request, shape, VulkanWalkShape{}), traced);
-      const TraceResults results = traceWith(VulkanConeKernel(*device, request, shape, gpu), traced);
-      CHECK(results.statistics.redoneConeCount == 0);
-      CHECK(test::haveSameBits(results.values, expected.values));
-    }
+    CAPTURE(static_cast<int>(kernel));
+    const ConeKernelRequest request{30, false, VulkanTraceChoice{kernel}};
+    const VulkanWorkgroupShape shape = workgroupShapeFor(device->facts(), 30, kernel);
+    const TraceResults expected = traceWith(VulkanConeKernel(*device, request, shape, VulkanWalkShape{}), traced);
+    const TraceResults results = traceWith(VulkanConeKernel(*device, request, shape, gpu), traced);
+    CHECK(results.statistics.redoneConeCount == 0);
+    CHECK(test::haveSameBits(results.values, expected.values));
   }
 }
 
@@ -131,13 +128,11 @@ TEST_CASE("AMD GPUs have stacks of more than 256 bytes, and only CPU devices pos
     return walkShapeFor(facts);
   };
   const VulkanWalkShape amd = shapeOf(DeviceKind::Integrated, DeviceVendor::Amd);
-  CHECK(amd.wideStackSize > 64);
-  CHECK(amd.binaryStackSize > 64);
+  CHECK(amd.stackSize > 64);
   CHECK_FALSE(amd.postponesTriangles);
   for (const VulkanWalkShape& shape :
        {shapeOf(DeviceKind::Cpu, DeviceVendor::Other), shapeOf(DeviceKind::Discrete, DeviceVendor::Nvidia)}) {
-    CHECK(shape.wideStackSize == kMaxWideBvhDepth);
-    CHECK(shape.binaryStackSize == kMaxBvhDepth);
+    CHECK(shape.stackSize == kMaxBvhDepth);
   }
   CHECK(shapeOf(DeviceKind::Cpu, DeviceVendor::Other).postponesTriangles);
   CHECK_FALSE(shapeOf(DeviceKind::Discrete, DeviceVendor::Nvidia).postponesTriangles);
@@ -152,8 +147,7 @@ TEST_CASE("cones beyond the iteration guard are redone by the reference and coun
     const TraceResults all = traceWith(VulkanConeKernel(*device, request, {32, 1, 1}), traced);
     CHECK(all.statistics.redoneConeCount == reference.size());
     CHECK(test::haveSameBits(all.values, reference));
-    const TraceResults some =
-        traceWith(VulkanConeKernel(*device, request, {32, 1, choice.bvh == BvhLayout::Wide ? 45u : 60u}), traced);
+    const TraceResults some = traceWith(VulkanConeKernel(*device, request, {32, 1, 45}), traced);
     CHECK(some.statistics.redoneConeCount > 0);
     CHECK(some.statistics.redoneConeCount < reference.size());
     CHECK(differingCount(some.values, reference, traced.geometry.bounds.diagonal()) <= reference.size() / 1000);
@@ -296,7 +290,6 @@ TEST_CASE("the kernel is chosen by the class of the device, or as requested") {
   facts.subgroupSize = 8;
   facts.kind = DeviceKind::Cpu;
   CHECK(defaultTraceChoice(facts).kernel == TraceKernel::Seed);
-  CHECK(defaultTraceChoice(facts).bvh == BvhLayout::Wide);
   facts.maxTexelBufferElements = 1u << 27;
   facts.maxStorageBufferRange = 1u << 27;
   CHECK(defaultTraceChoice(facts).fetch == BvhFetch::Texel);
@@ -307,16 +300,14 @@ TEST_CASE("the kernel is chosen by the class of the device, or as requested") {
   for (const uint32_t size : {8u, 32u, 64u}) {
     facts.subgroupSize = size;
     CHECK(defaultTraceChoice(facts).fetch == BvhFetch::Storage);
-    CHECK(defaultTraceChoice(facts).bvh == BvhLayout::Wide);
     const VulkanTraceChoice best = defaultTraceChoice(facts);
     CHECK(traceChoiceFor(facts, {}) == best);
-    CHECK(traceChoiceFor(facts, {.fetch = BvhFetch::Storage}) ==
-          VulkanTraceChoice{best.kernel, best.bvh, BvhFetch::Storage});
+    CHECK(traceChoiceFor(facts, {.fetch = BvhFetch::Storage}) == VulkanTraceChoice{best.kernel, BvhFetch::Storage});
     CHECK(traceChoiceFor(facts, {.fetch = BvhFetch::Texel}).fetch == BvhFetch::Texel);
   }
   const test::ValidatedDevice device;
   CHECK(VulkanConeKernel(*device, {30}).choice() == defaultTraceChoice(device->facts()));
-  const VulkanTraceChoice packet{TraceKernel::Packet, BvhLayout::Wide, BvhFetch::Storage};
+  const VulkanTraceChoice packet{TraceKernel::Packet, BvhFetch::Storage};
   CHECK(VulkanConeKernel(*device, {30, false, packet}).choice() == packet);
 }
 
@@ -353,29 +344,27 @@ TEST_CASE("a device that does not end long loops has no iteration guard of its o
 
 TEST_CASE("a hierarchy that exceeds the limit of one fetch is read by the other, unless a fetch is requested") {
   const TracedMesh traced(generateShape("torus", 2000).mesh);
-  for (const BvhLayout layout : {BvhLayout::Binary, BvhLayout::Wide}) {
-    const uint64_t blockCount = maxBlockCount(traced.scene().bvh, layout);
-    const DeviceBvh encoded = encodeDeviceBvh(traced.scene().bvh, traced.mesh, traced.geometry, layout);
-    CHECK(encoded.nodeBytes().size() <= 16 * blockCount);
-    CHECK(encoded.triangles.size() * sizeof(DeviceTriangle) <= 16 * blockCount);
-    CHECK(blockCount <= 6 * encoded.triangles.size());
+  const uint64_t blockCount = maxBlockCount(traced.scene().bvh);
+  const DeviceBvh encoded = encodeDeviceBvh(traced.scene().bvh, traced.mesh, traced.geometry);
+  CHECK(encoded.nodes.size() * sizeof(DeviceWideNode) <= 16 * blockCount);
+  CHECK(encoded.triangles.size() * sizeof(DeviceTriangle) <= 16 * blockCount);
+  CHECK(blockCount <= 6 * encoded.triangles.size());
 
-    DeviceFacts facts;
-    const auto fetchWith = [&](uint64_t texelCount, uint64_t storageByteCount, std::optional<BvhFetch> requested) {
-      facts.maxTexelBufferElements = texelCount;
-      facts.maxStorageBufferRange = storageByteCount;
-      return traceChoiceFor(facts, {.bvh = layout, .fetch = requested}, traced.scene().bvh).fetch;
-    };
-    facts.kind = DeviceKind::Discrete;
-    CHECK(fetchWith(blockCount, 16 * blockCount, {}) == BvhFetch::Storage);
-    CHECK(fetchWith(blockCount, 16 * blockCount - 1, {}) == BvhFetch::Texel);
-    CHECK(fetchWith(blockCount - 1, 16 * blockCount - 1, {}) == BvhFetch::Storage);
-    CHECK(fetchWith(blockCount, 100, BvhFetch::Storage) == BvhFetch::Storage);
-    facts.kind = DeviceKind::Cpu;
-    CHECK(fetchWith(blockCount, 16 * blockCount, {}) == BvhFetch::Texel);
-    CHECK(fetchWith(blockCount - 1, 16 * blockCount, {}) == BvhFetch::Storage);
-    CHECK(fetchWith(100, 16 * blockCount, BvhFetch::Texel) == BvhFetch::Texel);
-  }
+  DeviceFacts facts;
+  const auto fetchWith = [&](uint64_t texelCount, uint64_t storageByteCount, std::optional<BvhFetch> requested) {
+    facts.maxTexelBufferElements = texelCount;
+    facts.maxStorageBufferRange = storageByteCount;
+    return traceChoiceFor(facts, {.fetch = requested}, traced.scene().bvh).fetch;
+  };
+  facts.kind = DeviceKind::Discrete;
+  CHECK(fetchWith(blockCount, 16 * blockCount, {}) == BvhFetch::Storage);
+  CHECK(fetchWith(blockCount, 16 * blockCount - 1, {}) == BvhFetch::Texel);
+  CHECK(fetchWith(blockCount - 1, 16 * blockCount - 1, {}) == BvhFetch::Storage);
+  CHECK(fetchWith(blockCount, 100, BvhFetch::Storage) == BvhFetch::Storage);
+  facts.kind = DeviceKind::Cpu;
+  CHECK(fetchWith(blockCount, 16 * blockCount, {}) == BvhFetch::Texel);
+  CHECK(fetchWith(blockCount - 1, 16 * blockCount, {}) == BvhFetch::Storage);
+  CHECK(fetchWith(100, 16 * blockCount, BvhFetch::Texel) == BvhFetch::Texel);
 }
 
 TEST_CASE("a device without the subgroup operations of a kernel is refused with a remedy") {
@@ -384,7 +373,7 @@ TEST_CASE("a device without the subgroup operations of a kernel is refused with 
   DeviceFacts facts = describeDevice(physical);
   facts.hasSubgroupArithmetic = false;
   const Device noArithmetic(physical, facts);
-  const VulkanTraceChoice packet{TraceKernel::Packet, BvhLayout::Binary, BvhFetch::Texel};
+  const VulkanTraceChoice packet{TraceKernel::Packet, BvhFetch::Texel};
   CHECK_THROWS_WITH_AS(VulkanConeKernel(noArithmetic, {30, false, packet}), doctest::Contains("subgroup arithmetic"),
                        Error);
   CHECK_NOTHROW(VulkanConeKernel(noArithmetic, {30}));
@@ -475,8 +464,7 @@ TEST_CASE("a mesh beyond the range of a storage buffer is refused") {
   const auto make = [&](uint64_t range) {
     facts.maxStorageBufferRange = range;
     const Device device(physical, facts);
-    const VulkanConeKernel kernel(
-        device, {30, false, VulkanTraceChoice{TraceKernel::Seed, BvhLayout::Wide, BvhFetch::Storage}});
+    const VulkanConeKernel kernel(device, {30, false, VulkanTraceChoice{TraceKernel::Seed, BvhFetch::Storage}});
     (void)makeVulkanTracer(kernel, traced.scene(), cone);
   };
   CHECK_NOTHROW(make(48 * traced.mesh.faces.size()));
@@ -493,7 +481,7 @@ TEST_CASE("a hierarchy beyond the texel limit of a device is traced with storage
   const TracedMesh traced(generateShape("torus", 1200).mesh);
   const Cone cone = makeCone({});
   const auto kernelFor = [&](BvhFetch fetch) {
-    return VulkanConeKernel(small, {30, false, VulkanTraceChoice{TraceKernel::Ray, BvhLayout::Wide, fetch}});
+    return VulkanConeKernel(small, {30, false, VulkanTraceChoice{TraceKernel::Ray, fetch}});
   };
   checkParity(kernelFor(BvhFetch::Storage), traced, {}, referenceValues(traced));
   const VulkanConeKernel texels = kernelFor(BvhFetch::Texel);

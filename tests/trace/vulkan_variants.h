@@ -12,14 +12,11 @@ enum class Fetches { All, TexelOnly };
 template <typename Body>
 void forEveryVariant(Fetches fetches, const Body& body) {
   for (const TraceKernel kernel : {TraceKernel::Packet, TraceKernel::Ray, TraceKernel::Seed}) {
-    for (const BvhLayout bvh : {BvhLayout::Binary, BvhLayout::Wide}) {
-      for (const BvhFetch fetch : {BvhFetch::Storage, BvhFetch::Texel}) {
-        if (fetches == Fetches::TexelOnly && fetch != BvhFetch::Texel) continue;
-        CAPTURE(static_cast<int>(kernel));
-        CAPTURE(static_cast<int>(bvh));
-        CAPTURE(static_cast<int>(fetch));
-        body(VulkanTraceChoice{kernel, bvh, fetch});
-      }
+    for (const BvhFetch fetch : {BvhFetch::Storage, BvhFetch::Texel}) {
+      if (fetches == Fetches::TexelOnly && fetch != BvhFetch::Texel) continue;
+      CAPTURE(static_cast<int>(kernel));
+      CAPTURE(static_cast<int>(fetch));
+      body(VulkanTraceChoice{kernel, fetch});
     }
   }
 }

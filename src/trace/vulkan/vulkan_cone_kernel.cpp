@@ -101,13 +101,11 @@ ComputePipelineDescription describeCones(const ConeKernelRequest& request, const
                                       /* ITERATION_LIMIT= */ shape.iterationLimit,
                                       /* WRITES_HITS= */ request.writesHits ? VK_TRUE : VK_FALSE,
                                       /* FETCHES_TEXELS= */ choice.fetch == BvhFetch::Texel ? VK_TRUE : VK_FALSE,
-                                      /* IS_WIDE= */ choice.bvh == BvhLayout::Wide ? VK_TRUE : VK_FALSE,
+                                      /* STACK_SIZE= */ walk.stackSize,
                                       /* LOCAL_SIZE_X= */ shape.lanesPerCone *
                                           (choice.kernel == TraceKernel::Seed ? shape.conesPerWorkgroup : 1),
                                       /* IS_CGAL= */ isCgal(request),
                                       /* LOCAL_SIZE_Y= */ shape.conesPerWorkgroup,
-                                      /* WIDE_STACK_SIZE= */ walk.wideStackSize,
-                                      /* BINARY_STACK_SIZE= */ walk.binaryStackSize,
                                       /* POSTPONES_TRIANGLES= */ walk.postponesTriangles ? VK_TRUE : VK_FALSE}};
 }
 
@@ -152,7 +150,7 @@ uint64_t largestConeChunk(const VulkanConeKernel& kernel) {
 
 ConeBuffers::ConeBuffers(const VulkanConeKernel& kernel, const DeviceBvh& bvh, const Cone& cone)
     : fetchesTexels_(fetchesTexels(kernel)),
-      nodes_(uploadHierarchy(kernel, bvh.nodeBytes())),
+      nodes_(uploadHierarchy(kernel, std::as_bytes(std::span(bvh.nodes)))),
       triangles_(uploadHierarchy(kernel, std::as_bytes(std::span(bvh.triangles)))),
       rays_(uploadRays(kernel.device(), cone)),
       nothing_(kernel.device(), 16, kTexelUsage | kStorageUsage, MemoryKind::DeviceLocal),

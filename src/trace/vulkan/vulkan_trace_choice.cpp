@@ -5,21 +5,21 @@
 #include <algorithm>
 
 #include "asdf_vk/error.h"
+#include "bvh/device_bvh.h"
 
 namespace asdfvk {
 namespace {
 
 // The fastest variant by class of device, independent of the share of seeds and the number of rays.
-constexpr VulkanTraceChoice kCpuDevice{TraceKernel::Seed, BvhLayout::Wide, BvhFetch::Texel};  // measured
+constexpr VulkanTraceChoice kCpuDevice{TraceKernel::Seed, BvhFetch::Texel};  // measured
 // Not measured yet.
-constexpr VulkanTraceChoice kSmallSubgroup{TraceKernel::Seed, BvhLayout::Wide, BvhFetch::Storage};
-constexpr VulkanTraceChoice kLargeSubgroup{TraceKernel::Ray, BvhLayout::Wide, BvhFetch::Storage};
+constexpr VulkanTraceChoice kSmallSubgroup{TraceKernel::Seed, BvhFetch::Storage};
+constexpr VulkanTraceChoice kLargeSubgroup{TraceKernel::Ray, BvhFetch::Storage};
 
 constexpr uint32_t kMaxSmallSubgroup = 16;
 
 constexpr std::pair<const char*, TraceKernel> kKernels[]{
     {"seed", TraceKernel::Seed}, {"ray", TraceKernel::Ray}, {"packet", TraceKernel::Packet}};
-constexpr std::pair<const char*, BvhLayout> kLayouts[]{{"wide", BvhLayout::Wide}, {"binary", BvhLayout::Binary}};
 constexpr std::pair<const char*, BvhFetch> kFetches[]{{"texel", BvhFetch::Texel}, {"storage", BvhFetch::Storage}};
 
 template <typename T>
@@ -52,7 +52,7 @@ struct Rule {
 Rule ruleFor(const DeviceFacts& device) {
   if (device.kind == DeviceKind::Cpu) {
     if (prefersTexels(device)) return {kCpuDevice, "CPU device; measured on lavapipe"};
-    return {{kCpuDevice.kernel, kCpuDevice.bvh, BvhFetch::Storage},
+    return {{kCpuDevice.kernel, BvhFetch::Storage},
             "CPU device whose storage buffers can be larger than its texel buffers; rule, not measured"};
   }
   switch (device.vendor) {  // The compilers choose the size of subgroups, which may differ from the reported one.
@@ -79,12 +79,12 @@ const char* defaultTraceReason(const DeviceFacts& device) { return ruleFor(devic
 
 VulkanTraceChoice traceChoiceFor(const DeviceFacts& device, const VulkanTraceRequest& request) {
   const VulkanTraceChoice best = defaultTraceChoice(device);
-  return {request.kernel.value_or(best.kernel), request.bvh.value_or(best.bvh), request.fetch.value_or(best.fetch)};
+  return {request.kernel.value_or(best.kernel), request.fetch.value_or(best.fetch)};
 }
 
 VulkanTraceChoice traceChoiceFor(const DeviceFacts& device, const VulkanTraceRequest& request, const Bvh& bvh) {
   VulkanTraceChoice choice = traceChoiceFor(device, request);
-  const uint64_t blockCount = maxBlockCount(bvh, choice.bvh);
+  const uint64_t blockCount = maxBlockCount(bvh);
   const auto fits = [&](BvhFetch fetch) {
     return fetch == BvhFetch::Texel ? blockCount <= device.maxTexelBufferElements
                                     : blockCount <= device.maxStorageBufferRange / kDeviceBlockByteCount;
@@ -95,16 +95,14 @@ VulkanTraceChoice traceChoiceFor(const DeviceFacts& device, const VulkanTraceReq
 }
 
 VariantNames<TraceKernel> kernelNames() { return kKernels; }
-VariantNames<BvhLayout> bvhNames() { return kLayouts; }
 VariantNames<BvhFetch> fetchNames() { return kFetches; }
 
 VulkanTraceRequest traceRequestOf(const TraceVariant& variant) {
-  return {valueNamed(variant.kernel, kernelNames()), valueNamed(variant.bvh, bvhNames()),
-          valueNamed(variant.fetch, fetchNames())};
+  return {valueNamed(variant.kernel, kernelNames()), valueNamed(variant.fetch, fetchNames())};
 }
 
 TraceVariant variantOf(const VulkanTraceChoice& choice) {
-  return {nameIn(kernelNames(), choice.kernel), nameIn(bvhNames(), choice.bvh), nameIn(fetchNames(), choice.fetch)};
+  return {nameIn(kernelNames(), choice.kernel), nameIn(fetchNames(), choice.fetch)};
 }
 
 VulkanWorkgroupShape workgroupShapeFor(const DeviceFacts& device, uint32_t rayCount, TraceKernel kernel,
@@ -133,11 +131,10 @@ VulkanWorkgroupShape workgroupShapeFor(const DeviceFacts& device, uint32_t rayCo
 
 VulkanWalkShape walkShapeFor(const DeviceFacts& device) {
   constexpr uint32_t kLongStack = 65;  // Words; more than 256 bytes.
-  static_assert(kLongStack >= kMaxWideBvhDepth && kLongStack >= kMaxBvhDepth);
+  static_assert(kLongStack >= kMaxBvhDepth);
   VulkanWalkShape shape;
   shape.postponesTriangles = device.kind == DeviceKind::Cpu;
-  if (device.kind != DeviceKind::Cpu && device.vendor == DeviceVendor::Amd)
-    shape.wideStackSize = shape.binaryStackSize = kLongStack;
+  if (device.kind != DeviceKind::Cpu && device.vendor == DeviceVendor::Amd) shape.stackSize = kLongStack;
   return shape;
 }
 

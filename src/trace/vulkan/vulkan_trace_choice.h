@@ -9,7 +9,6 @@
 #include "asdf_vk/options.h"
 #include "asdf_vk/report.h"
 #include "bvh/bvh.h"
-#include "bvh/device_bvh.h"
 #include "shared/bvh_layout.h"
 #include "vk/device_choice.h"
 
@@ -31,7 +30,6 @@ enum class BvhFetch {
 /// Variant of the kernels; all variants compute the same values.
 struct VulkanTraceChoice {
   TraceKernel kernel = TraceKernel::Ray;
-  BvhLayout bvh = BvhLayout::Binary;
   BvhFetch fetch = BvhFetch::Texel;
   auto operator<=>(const VulkanTraceChoice&) const = default;
 };
@@ -39,10 +37,9 @@ struct VulkanTraceChoice {
 /// Requested variant; unset members take the default of the device.
 struct VulkanTraceRequest {
   std::optional<TraceKernel> kernel;
-  std::optional<BvhLayout> bvh;
   std::optional<BvhFetch> fetch;
 
-  [[nodiscard]] bool isEmpty() const { return !kernel && !bvh && !fetch; }
+  [[nodiscard]] bool isEmpty() const { return !kernel && !fetch; }
 };
 
 /// The fastest variant for the class of the device (docs/speed.md).
@@ -60,7 +57,6 @@ struct VulkanTraceRequest {
 template <typename T>
 using VariantNames = std::span<const std::pair<const char*, T>>;
 [[nodiscard]] VariantNames<TraceKernel> kernelNames();
-[[nodiscard]] VariantNames<BvhLayout> bvhNames();
 [[nodiscard]] VariantNames<BvhFetch> fetchNames();
 
 /// Parses names; an empty name and "auto" leave a member unset. Throws Error{UnknownName}.
@@ -80,11 +76,10 @@ struct VulkanWorkgroupShape {
                                                      TraceKernel kernel = TraceKernel::Ray,
                                                      Definition definition = Definition::Paper);
 
-/// Traversal of the hierarchies by single lanes (shaders/wide_walk.glsl, shaders/binary_walk.glsl). Values are the same
-/// with every shape, up to ties of equally near triangles.
+/// Traversal of the hierarchy by single lanes (shaders/wide_walk.glsl). Values are the same with every shape, up to
+/// ties of equally near triangles.
 struct VulkanWalkShape {
-  uint32_t wideStackSize = kMaxWideBvhDepth;  ///< Entries, at least kMaxWideBvhDepth.
-  uint32_t binaryStackSize = kMaxBvhDepth;    ///< Entries, at least kMaxBvhDepth.
+  uint32_t stackSize = kMaxBvhDepth;  ///< Entries, at least kMaxBvhDepth.
   /// Triangles of up to three nodes are postponed, and two are tested at a time. Otherwise those of one node are tested
   /// one by one once each lane has some or has no node left (Aila and Laine 2009).
   bool postponesTriangles = true;

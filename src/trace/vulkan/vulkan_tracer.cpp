@@ -74,7 +74,7 @@ class VulkanTracer final : public ConeTracer {
  private:
   DeviceBvh encode() {
     const Stopwatch watch;
-    DeviceBvh bvh = encodeDeviceBvh(scene_.bvh, scene_.mesh, scene_.geometry, kernel_.choice().bvh);
+    DeviceBvh bvh = encodeDeviceBvh(scene_.bvh, scene_.mesh, scene_.geometry);
     seeds_.emplace(scene_, bvh.triangles);
     encodeSeconds_ = watch.seconds();
     return bvh;
