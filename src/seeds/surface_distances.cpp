@@ -23,6 +23,11 @@ double lengthAcross(double signedAngleRadians) {
   return std::sqrt(1 + bend * bend);
 }
 
+constexpr auto kNearestOnTop = [](const auto& a, const auto& b) { return a.distance > b.distance; };
+
+/// Number of arcs from the seeds after which SurfaceDistances::add() changes from a queue to a heap.
+constexpr int kMaxQueueRounds = 64;
+
 }  // namespace
 
 std::vector<float> arcLengths(const DualGraph& graph, const FaceGeometry& geometry) {
@@ -39,27 +44,43 @@ SurfaceDistances::SurfaceDistances(const DualGraph& graph, std::span<const float
   ASDFVK_CHECK_OP(arcLengths.size(), ==, graph.neighbours.size());
 }
 
+template <typename Put>
+void SurfaceDistances::visit(const Pending& from, float limit, const Put& put) {
+  if (from.distance > distances_[from.face]) return;
+  for (uint32_t arc = graph_.offsets[from.face]; arc < graph_.offsets[from.face + 1]; ++arc) {
+    const uint32_t face = graph_.neighbours[arc];
+    const float distance = from.distance + arcLengths_[arc];
+    if (face == from.parent || distance >= limit || distance >= distances_[face]) continue;
+    distances_[face] = distance;
+    prefetchArcs(face);
+    put(Pending{distance, face, from.face});
+  }
+}
+
+// The order of the visits does not change the distances: addition in float is monotonic, so that each one becomes the
+// least sum over all paths. The faces are therefore visited in the order of a queue (Moore, "The shortest path through
+// a maze", 1959), which is faster than a heap while paths have few arcs. Farther faces are visited in the order of a
+// heap (Dijkstra 1959), which bounds the time for any arc lengths.
 void SurfaceDistances::add(std::span<const uint32_t> seeds, float limit) {
-  struct Labels {
-    const DualGraph& graph;
-    std::span<const float> arcLengths;
-    std::span<float> distances;
-    [[nodiscard]] float at(uint32_t face) const { return distances[face]; }
-    [[nodiscard]] static uint32_t faceOf(uint32_t node) { return node; }
-    bool lower(uint32_t face, float distance, uint32_t& node) const {
-      if (distance >= distances[face]) return false;
-      node = face;
-      distances[face] = distance;
-      __builtin_prefetch(graph.neighbours.data() + graph.offsets[face]);
-      __builtin_prefetch(arcLengths.data() + graph.offsets[face]);
-      return true;
-    }
-  };
   for (uint32_t seed : seeds) {
     distances_[seed] = 0;
     pending_.push_back({0, seed, seed});
   }
-  correctLabels(graph_, arcLengths_, limit, pending_, Labels{graph_, arcLengths_, distances_});
+  size_t next = 0;
+  for (int round = 0; round < kMaxQueueRounds && next < pending_.size(); ++round)
+    for (const size_t end = pending_.size(); next < end; ++next)
+      visit(Pending(pending_[next]), limit, [&](const Pending& to) { pending_.push_back(to); });
+  pending_.erase(pending_.begin(), pending_.begin() + static_cast<std::ptrdiff_t>(next));
+  std::make_heap(pending_.begin(), pending_.end(), kNearestOnTop);
+  while (!pending_.empty()) {
+    std::pop_heap(pending_.begin(), pending_.end(), kNearestOnTop);
+    const Pending nearest = pending_.back();
+    pending_.pop_back();
+    visit(nearest, limit, [&](const Pending& to) {
+      pending_.push_back(to);
+      std::push_heap(pending_.begin(), pending_.end(), kNearestOnTop);
+    });
+  }
 }
 
 void SurfaceDistances::clear() { std::fill(distances_.begin(), distances_.end(), kUnreached); }

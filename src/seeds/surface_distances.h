@@ -8,7 +8,6 @@
 
 #include "mesh/dual_graph.h"
 #include "mesh/face_geometry.h"
-#include "seeds/label_correcting.h"
 
 /// Distances between faces along the arcs of the dual graph.
 namespace asdfvk {
@@ -61,16 +60,21 @@ class SurfaceDistances {
   /// Removes all seeds.
   void clear();
 
-  [[nodiscard]] const DualGraph& graph() const { return graph_; }
-  [[nodiscard]] std::span<const float> arcLengths() const { return arcLengths_; }
-  /// The distances in place, for a caller that adds several seeds at once.
-  [[nodiscard]] std::span<float> values() { return distances_; }
-
  private:
+  struct Pending {
+    float distance = 0;
+    uint32_t face = 0;
+    uint32_t parent = 0;  ///< The face before it on the path, or itself.
+  };
+
+  /// Calls put(Pending) for the neighbours whose distance the path over this face lowers to less than `limit`.
+  template <typename Put>
+  void visit(const Pending& from, float limit, const Put& put);
+
   const DualGraph& graph_;
   std::span<const float> arcLengths_;
-  std::vector<float> distances_;      ///< #F
-  std::vector<PendingFace> pending_;  ///< Empty between calls; it is a member so that its memory is reused.
+  std::vector<float> distances_;  ///< #F
+  std::vector<Pending> pending_;  ///< Empty between calls; it is a member so that its memory is reused.
 };
 
 /// The faces around a face by ascending distance (Dijkstra's algorithm), for one centre after another; the memory is
@@ -80,7 +84,10 @@ class SurfaceBall {
   /// arcLengths: aligned with graph.neighbours, positive.
   SurfaceBall(const DualGraph& graph, std::span<const float> arcLengths);
 
-  using Member = FaceDistance;  ///< A face and its distance from the centre.
+  struct Member {
+    float distance = 0;  ///< From the centre.
+    uint32_t face = 0;
+  };
 
   /// Starts again around `centre`, which is the first member.
   void startAt(uint32_t centre);
