@@ -62,9 +62,4 @@ ASDFVK_API void writeResult(const std::filesystem::path& path, const MeshView& m
 /// Error{OutputNotWritable}.
 ASDFVK_API void writePoints(const std::filesystem::path& path, std::span<const Field> fields);
 
-/// Reads the fields of a PLY file, in the order of the file: those of writeResult(), without units and labels, and from
-/// a file of another program all numeric properties of vertices and faces. Real values are double. NumPy, pandas, VTK
-/// and meshio read the other formats. Throws Error{UnreadableInput}.
-[[nodiscard]] ASDFVK_API std::vector<Field> readFields(const std::filesystem::path& path);
-
 }  // namespace asdfvk

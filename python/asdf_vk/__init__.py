@@ -20,7 +20,7 @@ from ._errors import (
     OutputError,
     UsageError,
 )
-from ._files import Fields, Mesh, read_fields, read_mesh, write
+from ._files import Mesh, read_mesh, write
 from ._functions import compute, segment, shape_diameter, skeleton_points, thickness
 from ._info import Info
 from ._scene import Scene
@@ -32,7 +32,6 @@ __all__ = [
     "Device",
     "DeviceError",
     "Error",
-    "Fields",
     "Info",
     "InputError",
     "Mesh",
@@ -45,7 +44,6 @@ __all__ = [
     "close_default_sessions",
     "compute",
     "devices",
-    "read_fields",
     "read_mesh",
     "segment",
     "shape_diameter",

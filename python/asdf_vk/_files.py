@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from typing import Any, Mapping, NamedTuple
+from typing import Any, Mapping
 
 from numpy.typing import ArrayLike, NDArray
 
@@ -15,13 +15,6 @@ from ._session import flag_of
 Mesh = _core.Mesh
 
 
-class Fields(NamedTuple):
-    """Fields of a file by name: per face and per vertex."""
-
-    fields: dict[str, NDArray[Any]]
-    vertex_fields: dict[str, NDArray[Any]]
-
-
 def read_mesh(path: str | os.PathLike[str]) -> Mesh:
     """Reads PLY, OFF, OBJ or STL. All faces, in file order.
 
@@ -30,14 +23,6 @@ def read_mesh(path: str | os.PathLike[str]) -> Mesh:
     and functions return a value per face of the file (`face_count`). Raises InputError.
     """
     return _core.read_mesh(_path(path))
-
-
-def read_fields(path: str | os.PathLike[str]) -> Fields:
-    """Reads the fields of a .ply. Raises InputError.
-
-    numpy.load() reads .npy and .npz, pandas .csv, VTK and meshio .vtu.
-    """
-    return Fields(*_core.read_fields(_path(path)))
 
 
 def write(

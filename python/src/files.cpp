@@ -80,19 +80,6 @@ void write(const std::filesystem::path& path, const py::object& mesh, const py::
   writeResult(path, view, fields, {.format = format, .fields = {}, .ascii = ascii});
 }
 
-/// Fields per face and fields per vertex of a file, by name.
-py::tuple readFieldsOf(const std::filesystem::path& path) {
-  requireSameProcess();
-  const std::vector<Field> fields = [&] {
-    const GilRelease released;
-    return readFields(path);
-  }();
-  py::dict perFace, perVertex;
-  for (const Field& field : fields)
-    (field.location == FieldLocation::PerFace ? perFace : perVertex)[textOf(field.name)] = arrayOf(field, false);
-  return py::make_tuple(perFace, perVertex);
-}
-
 /// The arrays of a mesh, for pickle.
 py::tuple stateOf(const Mesh& mesh) {
   const auto bytesOf = [](const auto& entries) {
@@ -139,7 +126,6 @@ void bindFiles(py::module_& module) {
       .def(py::pickle([](const Mesh& mesh) { return stateOf(mesh); },
                       [](const py::tuple& state) { return meshOf(state); }));
   module.def("read_mesh", readWithoutGil);
-  module.def("read_fields", readFieldsOf);
   module.def("write", write);
 }
 

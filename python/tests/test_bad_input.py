@@ -204,7 +204,6 @@ def test_wrong_files(tmp_path: Any) -> None:
     paths: list[Any] = [1, None, object(), np.zeros((3, 3)), "", "\0", tmp_path / "a\nb" / "c", "\ud800.ply", tmp_path, tmp_path / "none"]
     for path in paths:
         assert fails(lambda: asdf_vk.read_mesh(path)), path
-        assert fails(lambda: asdf_vk.read_fields(path)), path
         assert fails(lambda: asdf_vk.write(path, cube())), path
     assert fails(lambda: asdf_vk.read_mesh(b"/tmp/\xff.ply"))  # type: ignore[arg-type]
     assert fails(lambda: asdf_vk.write(tmp_path / "x.ply", cube(), format=1))  # type: ignore[arg-type]

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 import asdf_vk
+from ply import fields_of_ply
 from shapes import cube, dumbbell
 
 _ROOT = Path(__file__).resolve().parents[2]
@@ -30,7 +31,7 @@ def test_parts_and_thickness(tmp_path: Path) -> None:
     count = re.search(r"^(\d+) parts$", finished.stdout, re.MULTILINE)
     assert count is not None and int(count.group(1)) >= 2
     assert (tmp_path / "parts.png").read_bytes().startswith(b"\x89PNG")
-    fields = asdf_vk.read_fields(tmp_path / "parts.ply").fields
+    fields, _ = fields_of_ply(tmp_path / "parts.ply")
     np.testing.assert_array_equal(fields["part"], asdf_vk.segment(*dumbbell()))
 
 

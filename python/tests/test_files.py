@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 
 import asdf_vk
+from ply import fields_of_ply
 from shapes import cube, sphere
 
 
@@ -42,7 +43,7 @@ def _vtu_fields(path: Path, element: str) -> dict[str, Any]:
 
 def _fields_of(path: Path) -> tuple[dict[str, Any], dict[str, Any]]:
     if path.suffix == ".ply":
-        return asdf_vk.read_fields(path)
+        return fields_of_ply(path)
     if path.suffix == ".vtu":
         return _vtu_fields(path, "CellData"), _vtu_fields(path, "PointData")
     arrays = dict(np.load(path))

@@ -7,14 +7,13 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstdlib>
 #include <cstring>
-#include <memory>
 #include <new>
 
 #include "asdf_vk/error.h"
 #include "core/atomic_file.h"
 #include "core/text.h"
+#include "core/unset_vector.h"
 #include "io/formats.h"
 #include "io/input_failure.h"
 #include "io/inspected_mesh.h"
@@ -40,47 +39,9 @@ class Descriptor {
   int value_;
 };
 
-/// A whole file in memory. Not mapped: a file that shrinks while it is mapped ends the process.
-class FileBytes {
- public:
-  /// "-" is standard input. Pipes are read to their end. Throws Error{UnreadableInput} with the reason of the system.
-  [[nodiscard]] static FileBytes read(const std::filesystem::path& path);
-
-  [[nodiscard]] std::span<const char> bytes() const { return {data_.get(), size_}; }
-
- private:
-  struct Free {
-    void operator()(char* data) const { std::free(data); }
-  };
-
-  void grow(size_t capacity);
-  void readAll(int descriptor);
-
-  std::unique_ptr<char, Free> data_;  ///< From malloc: realloc grows it in place where possible, and does not clear it.
-  size_t size_ = 0;
-  size_t capacity_ = 0;
-};
-
-void FileBytes::grow(size_t capacity) {
-  auto* data = static_cast<char*>(std::realloc(data_.get(), capacity));
-  if (data == nullptr) throw std::bad_alloc();
-  static_cast<void>(data_.release());
-  data_.reset(data);
-  capacity_ = capacity;
-}
-
-void FileBytes::readAll(int descriptor) {
-  constexpr size_t kMaxRead = size_t{1} << 30;  // Linux reads at most 2 GiB at once.
-  for (;;) {
-    if (size_ == capacity_) grow(2 * capacity_);
-    const ssize_t count = ::read(descriptor, data_.get() + size_, std::min(capacity_ - size_, kMaxRead));
-    if (count == 0) return;
-    if (count < 0 && errno != EINTR) failInput(fmt::format("cannot be read: {}", std::strerror(errno)));
-    if (count > 0) size_ += static_cast<size_t>(count);
-  }
-}
-
-FileBytes FileBytes::read(const std::filesystem::path& path) {
+/// A whole file. Not mapped: a file that shrinks while it is mapped ends the process. "-" is standard input. Pipes are
+/// read to their end. Throws Error{UnreadableInput} with the reason of the system.
+UnsetVector<char> bytesOf(const std::filesystem::path& path) {
   const Descriptor descriptor(path);
   struct stat status {};
   if (::fstat(descriptor.value(), &status) != 0) failInput(fmt::format("cannot be read: {}", std::strerror(errno)));
@@ -88,30 +49,22 @@ FileBytes FileBytes::read(const std::filesystem::path& path) {
   // A device such as /dev/zero has no end.
   if (S_ISBLK(status.st_mode) || (S_ISCHR(status.st_mode) && ::isatty(descriptor.value()) == 0))
     failInput("is a device, not a file");
-  FileBytes file;
+  constexpr size_t kMaxRead = size_t{1} << 30, kFirstOfPipe = size_t{1} << 16;  // Linux reads at most 2 GiB at once.
   // One byte more than the size of the file: the read that finds its end needs no larger buffer.
-  file.grow(S_ISREG(status.st_mode) ? static_cast<size_t>(status.st_size) + 1 : size_t{1} << 16);
-  file.readAll(descriptor.value());
-  return file;
-}
-
-/// The result of parse(bytes, extension); errors start with the name of the file.
-template <typename Parse>
-auto readFile(const std::filesystem::path& path, Parse parse) {
-  const std::string name = path == "-" ? "standard input" : path.string();
-  try {
-    const FileBytes file = FileBytes::read(path);
-    return parse(file.bytes(), path.extension().string());
-  } catch (const Error& error) {
-    throw Error(error.code(), fmt::format("{}: {}", name, error.what()));
-  } catch (const std::bad_alloc&) {
-    throw Error(ErrorCode::InputTooLarge, fmt::format("{}: does not fit into memory", name));
+  UnsetVector<char> bytes(S_ISREG(status.st_mode) ? static_cast<size_t>(status.st_size) + 1 : kFirstOfPipe);
+  for (size_t size = 0;;) {
+    if (size == bytes.size()) bytes.resize(2 * size);
+    const ssize_t count = ::read(descriptor.value(), bytes.data() + size, std::min(bytes.size() - size, kMaxRead));
+    if (count < 0 && errno != EINTR) failInput(fmt::format("cannot be read: {}", std::strerror(errno)));
+    if (count > 0) size += static_cast<size_t>(count);
+    if (count != 0) continue;
+    bytes.resize(size);
+    return bytes;
   }
 }
 
 using HasOperation = bool (*)(const FileFormat& format);
 bool isMeshFormat(const FileFormat& format) { return format.parseMesh != nullptr; }
-bool isFieldFormat(const FileFormat& format) { return format.parseFields != nullptr; }
 bool isResultFormat(const FileFormat& format) { return format.write != nullptr; }
 
 std::vector<std::string> namesOf(HasOperation hasOperation) {
@@ -129,17 +82,6 @@ std::string listOf(HasOperation hasOperation) {
   return text;
 }
 
-const FileFormat& formatFor(std::span<const char> bytes, std::string_view extension, HasOperation hasOperation,
-                            std::string_view contents) {
-  if (bytes.empty()) failInput("is empty");
-  const FileFormat* const format = detectFormat(bytes, extension);
-  if (format == nullptr || !hasOperation(*format))
-    failInput(fmt::format("has {}; {} are read from {}",
-                          format == nullptr ? "an unknown format" : fmt::format("the format {}", format->name),
-                          contents, listOf(hasOperation)));
-  return *format;
-}
-
 const FileFormat& findResultFormat(const std::filesystem::path& path, const std::string& name) {
   const FileFormat* const format = formatOfExtension(name.empty() ? path.extension().string() : name);
   if (format != nullptr && isResultFormat(*format)) return *format;
@@ -152,19 +94,30 @@ const FileFormat& findResultFormat(const std::filesystem::path& path, const std:
 }  // namespace
 
 Mesh parseMesh(std::span<const char> bytes, std::string_view extension) {
-  return formatFor(bytes, extension, isMeshFormat, "meshes").parseMesh(bytes);
+  if (bytes.empty()) failInput("is empty");
+  const FileFormat* const format = detectFormat(bytes, extension);
+  if (format == nullptr || !isMeshFormat(*format))
+    failInput(fmt::format("has {}; meshes are read from {}",
+                          format == nullptr ? "an unknown format" : fmt::format("the format {}", format->name),
+                          listOf(isMeshFormat)));
+  return format->parseMesh(bytes);
 }
 
 Mesh readMesh(const std::filesystem::path& path, const std::function<void(std::span<const char>)>& inspect) {
-  return readFile(path, [&](std::span<const char> bytes, const std::string& extension) {
+  const std::string name = path == "-" ? "standard input" : path.string();
+  try {
+    const UnsetVector<char> bytes = bytesOf(path);
     inspect(bytes);
-    return parseMesh(bytes, extension);
-  });
+    return parseMesh(bytes, path.extension().string());
+  } catch (const Error& error) {
+    throw Error(error.code(), fmt::format("{}: {}", name, error.what()));
+  } catch (const std::bad_alloc&) {
+    throw Error(ErrorCode::InputTooLarge, fmt::format("{}: does not fit into memory", name));
+  }
 }
 
 Mesh readMesh(const std::filesystem::path& path) {
-  return readFile(
-      path, [](std::span<const char> bytes, const std::string& extension) { return parseMesh(bytes, extension); });
+  return readMesh(path, [](std::span<const char>) {});
 }
 
 std::vector<std::string> meshFormats() { return namesOf(isMeshFormat); }
@@ -184,12 +137,6 @@ void writeResult(const std::filesystem::path& path, const MeshView& mesh, std::s
   AtomicFile file(path);
   format.write(file, result);
   file.commit();
-}
-
-std::vector<Field> readFields(const std::filesystem::path& path) {
-  return readFile(path, [](std::span<const char> bytes, const std::string& extension) {
-    return formatFor(bytes, extension, isFieldFormat, "fields").parseFields(bytes);
-  });
 }
 
 }  // namespace asdfvk

@@ -31,11 +31,6 @@ struct FileFormat {
   /// triangles are triangulated and stored in Mesh::polygons (mesh/input_faces.h).
   Mesh (*parseMesh)(std::span<const char> bytes) = nullptr;
 
-  /// Reads the fields of a result. Only PLY has it: NumPy, pandas and VTK read the others. Throws
-  /// Error{UnreadableInput} for a file that is truncated or contradicts itself, and for fields with invalid or equal
-  /// names.
-  std::vector<Field> (*parseFields)(std::span<const char> bytes) = nullptr;
-
   /// Writes a result by the rules of writeResult() (asdf_vk/files.h). The caller commits the file.
   void (*write)(AtomicFile& file, const ResultView& result) = nullptr;
   bool writesDoubles = false;  ///< Real numbers of fields are double in the file, not float32.

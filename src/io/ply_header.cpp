@@ -123,7 +123,8 @@ class HeaderParser {
     } else if (keyword == "property") {
       parseProperty();
     } else if (keyword == "comment" || keyword == "obj_info") {
-      parseComment();
+      while (!text_.wordOnLine().empty()) {
+      }
     } else {
       failAtLine(text_.line(), fmt::format("{} is not a PLY header keyword", quoted(keyword)));
     }
@@ -173,15 +174,6 @@ class HeaderParser {
     }
     property.type = typeOf(type, text_.line());
     property.name = wordOnLine("the name of the property");
-  }
-
-  void parseComment() {
-    if (text_.atLineEnd()) return;
-    const char* const begin = text_.position();
-    const char* end = begin;
-    for (std::string_view word = text_.wordOnLine(); !word.empty(); word = text_.wordOnLine())
-      end = word.data() + word.size();
-    header_.comments.emplace_back(begin, static_cast<size_t>(end - begin));
   }
 
   void finish() {

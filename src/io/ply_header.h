@@ -12,11 +12,6 @@ namespace asdfvk {
 class AtomicFile;
 class ResultView;
 
-/// Start of the comment that names the field written as the property `quality` of the faces or of the vertices, as in
-/// "NAME (LABEL), ..." or "NAME, ...".
-inline constexpr std::string_view kPlyQualityComment = "asdf-vk: quality is ",
-                                  kPlyVertexQualityComment = "asdf-vk: quality of vertices is ";
-
 enum class PlyEncoding { Ascii, BinaryLittleEndian, BinaryBigEndian };
 enum class PlyType : uint8_t { Int8, UInt8, Int16, UInt16, Int32, UInt32, Float32, Float64 };
 
@@ -52,10 +47,9 @@ struct PlyElement {
 struct PlyHeader {
   PlyEncoding encoding = PlyEncoding::Ascii;
   std::vector<PlyElement> elements;  ///< In file order: one with the role Vertices, at least one of Faces or Strips.
-  std::vector<std::string_view> comments;
-  uint64_t bodyOffset = 0;   ///< Byte of the first row.
-  uint64_t bodyLine = 1;     ///< Line of the first row, in an ASCII file.
-  uint64_t vertexCount = 0;  ///< Fits 32-bit indices.
+  uint64_t bodyOffset = 0;           ///< Byte of the first row.
+  uint64_t bodyLine = 1;             ///< Line of the first row, in an ASCII file.
+  uint64_t vertexCount = 0;          ///< Fits 32-bit indices.
 };
 
 /// Reads and checks the header. Throws Error{UnreadableInput} with the line. Names are views into `bytes`.

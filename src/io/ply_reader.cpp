@@ -1,16 +1,12 @@
 // PLY 1.0 (Turk 1994): a header (ply_header.h), then the rows of its elements, ASCII or binary of either byte order
 // (ply_source.h). A mesh needs the element `vertex` with x, y, z of any numeric type, and the element `face` with the
-// list vertex_indices or vertex_index, or `tristrips`, or both; in any order. The reader of a mesh ignores all other
-// elements and properties; the reader of fields takes the numbers of vertices and faces in files of any program: uchar
-// as uint8, ushort and uint as uint32, others as real. In ASCII each row begins on a new line.
+// list vertex_indices or vertex_index, or `tristrips`, or both; in any order. The reader ignores all other
+// elements and properties. In ASCII each row begins on a new line.
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <atomic>
 #include <bit>
-#include <cmath>
-#include <limits>
-#include <type_traits>
 #include <utility>
 
 #include "core/parallel.h"
@@ -19,7 +15,6 @@
 #include "io/input_failure.h"
 #include "io/ply_header.h"
 #include "io/ply_source.h"
-#include "io/stored_fields.h"
 #include "mesh/input_faces.h"
 
 namespace asdfvk {
@@ -52,20 +47,6 @@ class TriangleStrip {
   uint32_t first_ = 0, second_ = 0;  ///< The last two indices.
 };
 
-/// A property that is read into a field.
-struct PlyColumn {
-  const PlyElement* element = nullptr;
-  size_t property = 0;
-  Field field;
-};
-
-/// The rows of a file. A caller that needs fields sets their columns, without values.
-struct PlyContents {
-  std::vector<Vec3d> vertices;
-  InputFaces faces;
-  std::vector<PlyColumn> columns;
-};
-
 /// Calls decode(first, end) for parts of [0, count), in parallel where there are several.
 template <typename Decode>
 void forRows(uint64_t count, const Decode& decode) {
@@ -79,12 +60,13 @@ void forRows(uint64_t count, const Decode& decode) {
 template <typename Source>
 class PlyBody {
  public:
-  PlyBody(std::span<const char> bytes, const PlyHeader& header, PlyContents& contents)
-      : header_(header), source_(bytes, header), contents_(contents) {}
+  PlyBody(std::span<const char> bytes, const PlyHeader& header) : header_(header), source_(bytes, header) {}
 
-  void read() {
+  Mesh read() {
     for (const PlyElement& element : header_.elements) readElement(element);
     source_.requireEnd();
+    faces_.moveTo(mesh_);
+    return std::move(mesh_);
   }
 
  private:
@@ -96,25 +78,11 @@ class PlyBody {
           fmt::format("{} of element {} do not fit into the remaining {}; the file is truncated or the count "
                       "is wrong",
                       counted(element.count, "row"), quoted(element.name), counted(source_.remaining(), "byte")));
-    if (element.role == PlyRole::Vertices) contents_.vertices.resize(element.count);
-    const bool hasColumns = findColumns(element);
+    if (element.role == PlyRole::Vertices) mesh_.vertices.resize(element.count);
     if constexpr (Source::kIsBinary)
-      if (!hasColumns && readUniformRows(element, minRowSize)) return;
-    if (element.role == PlyRole::Faces) contents_.faces.reserve(element.count);
+      if (readUniformRows(element, minRowSize)) return;
+    if (element.role == PlyRole::Faces) faces_.reserve(element.count);
     for (uint64_t row = 0; row < element.count; ++row) readRow(element, row);
-  }
-
-  /// Sets columnOf_; returns whether the element has columns.
-  bool findColumns(const PlyElement& element) {
-    columnOf_.assign(element.properties.size(), nullptr);
-    bool hasColumns = false;
-    for (PlyColumn& column : contents_.columns) {
-      if (column.element != &element) continue;
-      columnOf_[column.property] = &column.field;
-      hasColumns = true;
-      std::visit([&](auto& entries) { entries.reserve(element.count); }, column.field.values);
-    }
-    return hasColumns;
   }
 
   /// Reads the rows of a binary element in parallel where all have one size: without lists, or faces that are all
@@ -139,7 +107,7 @@ class PlyBody {
     forRows(element.count, [&](uint64_t first, uint64_t end) {
       for (uint64_t row = first; row < end; ++row)
         for (size_t axis = 0; axis < 3; ++axis)
-          contents_.vertices[row][axis] = source_.template load<double>(row * rowSize + offsets[axis], types[axis]);
+          mesh_.vertices[row][axis] = source_.template load<double>(row * rowSize + offsets[axis], types[axis]);
     });
   }
 
@@ -166,7 +134,7 @@ class PlyBody {
       }
     });
     if (!isValid) return false;
-    contents_.faces.addTriangles(std::move(faces));
+    faces_.addTriangles(std::move(faces));
     source_.skipBytes(element.count * rowSize);
     return true;
   }
@@ -187,22 +155,9 @@ class PlyBody {
       }
       const double value = source_.number(property.type, property.name);
       for (size_t axis = 0; axis < 3; ++axis)
-        if (i == element.coordinates[axis]) contents_.vertices[row][axis] = value;
-      if (columnOf_[i] != nullptr)  // Text has the shortest decimal number that rounds to the float.
-        append(*columnOf_[i], property.type == PlyType::Float32 ? static_cast<float>(value) : value);
+        if (i == element.coordinates[axis]) mesh_.vertices[row][axis] = value;
     }
     source_.endRow(element, row);
-  }
-
-  void append(Field& column, double value) {
-    std::visit(
-        [&]<typename T>(std::vector<T>& entries) {
-          if constexpr (std::is_integral_v<T>)
-            if (!(value >= 0 && value <= std::numeric_limits<T>::max() && value == std::floor(value)))
-              source_.fail(fmt::format("{} is not an integer from 0 to {}", value, std::numeric_limits<T>::max()));
-          entries.push_back(static_cast<T>(value));
-        },
-        column.values);
   }
 
   void readList(const PlyElement& element, size_t propertyIndex) {
@@ -219,9 +174,9 @@ class PlyBody {
     } else if (element.role == PlyRole::Faces) {
       corners_.clear();
       for (uint64_t i = 0; i < length; ++i) corners_.push_back(readIndex(property.type, false));
-      contents_.faces.add(corners_);
+      faces_.add(corners_);
     } else {
-      TriangleStrip strip(contents_.faces);
+      TriangleStrip strip(faces_);
       for (uint64_t i = 0; i < length; ++i) {
         const uint32_t index = readIndex(property.type, true);
         index == kRestart ? strip.restart() : strip.add(index);
@@ -243,95 +198,25 @@ class PlyBody {
 
   const PlyHeader& header_;
   Source source_;
-  PlyContents& contents_;
-  std::vector<Field*> columnOf_;  ///< Per property of the current element; null for none.
+  Mesh mesh_;
+  InputFaces faces_;
   std::vector<uint32_t> corners_;
 };
-
-void readBody(std::span<const char> bytes, const PlyHeader& header, PlyContents& contents) {
-  constexpr bool kIsHostLittle = std::endian::native == std::endian::little;
-  if (header.encoding == PlyEncoding::Ascii) return PlyBody<PlyAsciiSource>(bytes, header, contents).read();
-  if ((header.encoding == PlyEncoding::BinaryLittleEndian) == kIsHostLittle)
-    return PlyBody<PlyBinarySource<false>>(bytes, header, contents).read();
-  PlyBody<PlyBinarySource<true>>(bytes, header, contents).read();
-}
-
-/// The name of the field that writePly() stored as `quality` of faces or vertices; empty where it stored none, and
-/// where the file is from another program.
-std::string_view mainFieldOf(const PlyHeader& header, PlyRole role) {
-  const std::string_view beginning = role == PlyRole::Faces ? kPlyQualityComment : kPlyVertexQualityComment;
-  for (const std::string_view comment : header.comments)
-    if (comment.starts_with(beginning)) {
-      const std::string_view rest = comment.substr(beginning.size());
-      return rest.substr(0, rest.find_first_of(", "));
-    }
-  return {};
-}
-
-/// The alternative for the property: integers that uint8_t or uint32_t hold keep their type.
-Field::Values emptyValuesOf(PlyType type) {
-  if (type == PlyType::UInt8) return std::vector<uint8_t>();
-  if (type == PlyType::UInt16 || type == PlyType::UInt32) return std::vector<uint32_t>();
-  return std::vector<double>();
-}
-
-/// The numbers of vertices and faces, without coordinates and without the colour of the main field.
-std::vector<PlyColumn> columnsOfHeader(const PlyHeader& header) {
-  constexpr std::array<std::string_view, 4> kColours{"red", "green", "blue", "alpha"};
-  std::vector<PlyColumn> columns;
-  for (const PlyElement& element : header.elements) {
-    if (element.role != PlyRole::Vertices && element.role != PlyRole::Faces) continue;
-    const std::string_view mainField = mainFieldOf(header, element.role);
-    const bool hasMainField = !mainField.empty();
-    for (size_t i = 0; i < element.properties.size(); ++i) {
-      const PlyProperty& property = element.properties[i];
-      const bool isColour = std::find(kColours.begin(), kColours.end(), property.name) != kColours.end();
-      const bool isCoordinate =
-          std::find(element.coordinates.begin(), element.coordinates.end(), i) != element.coordinates.end();
-      if (property.list || isCoordinate || (hasMainField && isColour)) continue;
-      PlyColumn& column = columns.emplace_back();
-      column.element = &element;
-      column.property = i;
-      column.field.name = hasMainField && property.name == "quality" ? mainField : property.name;
-      column.field.location = element.role == PlyRole::Faces ? FieldLocation::PerFace : FieldLocation::PerVertex;
-      column.field.values = emptyValuesOf(property.type);
-    }
-  }
-  return columns;
-}
 
 Match detectPly(std::span<const char> bytes) { return firstWord(bytes) == "ply" ? Match::Certain : Match::None; }
 
 Mesh parsePly(std::span<const char> bytes) {
+  constexpr bool kIsHostLittle = std::endian::native == std::endian::little;
   const PlyHeader header = parsePlyHeader(bytes);
-  PlyContents contents;
-  readBody(bytes, header, contents);
-  Mesh mesh;
-  mesh.vertices = std::move(contents.vertices);
-  contents.faces.moveTo(mesh);
-  return mesh;
-}
-
-std::vector<Field> parsePlyFields(std::span<const char> bytes) {
-  const PlyHeader header = parsePlyHeader(bytes);
-  if (header.encoding == PlyEncoding::Ascii && bytes.back() != '\n' && bytes.back() != '\r')
-    failInput("the last line has no line break; the file is truncated");  // Maybe within a number.
-  PlyContents contents;
-  contents.columns = columnsOfHeader(header);
-  readBody(bytes, header, contents);
-  std::vector<Field> fields;
-  for (PlyColumn& column : contents.columns) fields.push_back(std::move(column.field));
-  requireReadableNames(fields);
-  return joinColumns(std::move(fields));
+  if (header.encoding == PlyEncoding::Ascii) return PlyBody<PlyAsciiSource>(bytes, header).read();
+  if ((header.encoding == PlyEncoding::BinaryLittleEndian) == kIsHostLittle)
+    return PlyBody<PlyBinarySource<false>>(bytes, header).read();
+  return PlyBody<PlyBinarySource<true>>(bytes, header).read();
 }
 
 }  // namespace
 
-extern const FileFormat kPlyFormat{.name = "ply",
-                                   .extensions = {"ply"},
-                                   .detect = detectPly,
-                                   .parseMesh = parsePly,
-                                   .parseFields = parsePlyFields,
-                                   .write = writePly};
+extern const FileFormat kPlyFormat{
+    .name = "ply", .extensions = {"ply"}, .detect = detectPly, .parseMesh = parsePly, .write = writePly};
 
 }  // namespace asdfvk

@@ -63,10 +63,10 @@ class ElementFields {
   }
 
   /// No line without a main field.
-  void writeComment(AtomicFile& file, std::string_view beginning) const {
+  void writeComment(AtomicFile& file, std::string_view quality) const {
     if (main_ != nullptr)
-      file.write(fmt::format("comment {}{}{}, 0 (and grey) where there is no value\n", beginning, main_->name,
-                             main_->label.empty() ? "" : fmt::format(" ({})", printable(main_->label))));
+      file.write(fmt::format("comment asdf-vk: {} is {}{}, 0 (and grey) where there is no value\n", quality,
+                             main_->name, main_->label.empty() ? "" : fmt::format(" ({})", printable(main_->label))));
   }
 
   void writeProperties(AtomicFile& file) const {
@@ -120,8 +120,8 @@ class PlyWriter {
  private:
   void writeHeader(std::string_view scalar) {
     file_.write(fmt::format("ply\nformat {} 1.0\n", result_.isAscii() ? "ascii" : "binary_little_endian"));
-    faceFields_.writeComment(file_, kPlyQualityComment);
-    vertexFields_.writeComment(file_, kPlyVertexQualityComment);
+    faceFields_.writeComment(file_, "quality");
+    vertexFields_.writeComment(file_, "quality of vertices");
     file_.write(fmt::format("element vertex {}\n", result_.vertexCount()));
     for (const char axis : {'x', 'y', 'z'}) file_.write(fmt::format("property {} {}\n", scalar, axis));
     vertexFields_.writeProperties(file_);

@@ -15,9 +15,6 @@
 // Representation of fields in files: names, columns of single components, numbers; and the arguments of a writer.
 namespace asdfvk {
 
-/// At least one character; letters of ASCII, digits and '_' only.
-[[nodiscard]] bool isFieldName(std::string_view name);
-
 /// Fields selected for a writer.
 using FieldReferences = std::span<const std::reference_wrapper<const Field>>;
 
@@ -38,13 +35,6 @@ struct FieldColumn {
 /// Error{OptionConflict} for two columns of one name, and for a reserved name.
 [[nodiscard]] std::vector<FieldColumn> columnsOf(FieldReferences fields, FieldLocation location, const Field* omitted,
                                                  std::initializer_list<std::string_view> reservedNames);
-
-/// Inverse of columnsOf(): joins three successive fields of one location and type, named NAME_x, NAME_y and NAME_z, to
-/// NAME.
-[[nodiscard]] std::vector<Field> joinColumns(std::vector<Field> columns);
-
-/// Throws Error{UnreadableInput} for an invalid name and for two fields of one name and location.
-void requireReadableNames(std::span<const Field> fields);
 
 /// An entry of a field in a format of float32 numbers without NaN: 0 for no value.
 [[nodiscard]] inline float withoutNan(double value) { return value == value ? static_cast<float>(value) : 0.0f; }

@@ -34,6 +34,12 @@ constexpr std::string_view kOff = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
 
 }  // namespace
 
+TEST_CASE("a file of results without a mesh that is read is an error that names its format") {
+  const Folder folder;
+  writeResult(folder / "out.vtu", tetrahedron(), {});
+  CHECK(holds(errorOfReading(folder / "out.vtu"), "out.vtu: has the format vtu; meshes are read from stl, ply"));
+}
+
 TEST_CASE("the content decides the format, then the extension, then a possible keyword") {
   CHECK(detected("ply\n", "obj") == "ply");
   CHECK(detected("# c\nSTCNOFF\n", ".stl") == "off");

@@ -124,6 +124,16 @@ TEST_CASE("the options choose the fields to write and their order") {
   CHECK(folder.names().empty());
 }
 
+TEST_CASE("a name chooses the fields of both locations") {
+  std::vector<Field> fields;
+  for (const FieldLocation location : {FieldLocation::PerFace, FieldLocation::PerVertex})
+    for (const char* name : {"a", "b"}) fields.push_back(makeField(name, std::vector<uint8_t>(4, 1), location));
+  const std::string ply = written(".ply", tetrahedron(), fields, {.format = {}, .fields = {"b"}});
+  for (const char* end : {"element face", "end_header"})
+    CHECK(ply.find(std::string("property uchar b\n") + end) != std::string::npos);
+  CHECK(ply.find("property uchar a\n") == std::string::npos);
+}
+
 TEST_CASE("names that a format uses itself, or two columns of one name, are rejected by this format only") {
   const auto write = [](const std::string& extension, const std::vector<Field>& fields) {
     return codeOf([&] { (void)written(extension, tetrahedron(), fields); });

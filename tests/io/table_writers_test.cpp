@@ -107,3 +107,11 @@ TEST_CASE("NPZ is a stored zip archive with a .npy per field") {
   CHECK(npz == written(".npz", tetrahedron(), fields));
   CHECK(written(".npz", tetrahedron(), {}).size() == 22);
 }
+
+TEST_CASE("NPZ renames a vertex field with the name of a face field, unless another field has that name") {
+  std::vector<Field> fields{makeField("a", std::vector<double>(4)),
+                            makeField("a", std::vector<double>(4), FieldLocation::PerVertex)};
+  CHECK(written(".npz", tetrahedron(), fields).find("vertex_a.npyvertex a") != std::string::npos);
+  fields.push_back(makeField("vertex_a", std::vector<double>(4)));
+  CHECK_THROWS_AS((void)written(".npz", tetrahedron(), fields), Error);
+}
