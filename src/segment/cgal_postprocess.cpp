@@ -16,8 +16,8 @@ namespace {
 
 constexpr size_t kFacesPerBlock = 256, kBlocksPerProgress = 64;
 constexpr size_t kLanes = kLaneCount<Double4>;
-/// In windows of fewer faces, (v_g - v_f)^2 / (2 sigma_f^2) is below 512.
-constexpr uint32_t kLargeWindow = 2300;
+/// Exponents of smaller magnitude are for expOfNegative().
+constexpr double kMaxLaneExponent = 511;
 
 /// The filtered values of kLanes faces at a time, a lane each. All sums have the order of the window.
 class WindowFilter {
@@ -64,12 +64,34 @@ class WindowFilter {
   [[nodiscard]] ASDFVK_ALWAYS_INLINE inline Double4 filteredValues() const {
     const double* const others = others_.data();
     const Double4 value = load<Double4>(others);
-    Double4 squares{}, deviation;
+    Double4 squares{}, greatest{}, deviation;
     for (uint32_t i = 0; i < longest_; ++i) {
-      const Double4 difference = load<Double4>(&others[i * kLanes]) - value;
-      squares += difference * difference;
+      const Double4 difference = load<Double4>(&others[i * kLanes]) - value, square = difference * difference;
+      squares += square;
+      greatest = max(greatest, square);
     }
-    for (size_t lane = 0; lane < kLanes; ++lane) deviation[lane] = 1.5 * std::sqrt(squares[lane] / counts_[lane]);
+    bool isInRange = hasFusedMultiplyAdd<Floats>();
+    for (size_t lane = 0; lane < kLanes; ++lane) {
+      deviation[lane] = 1.5 * std::sqrt(squares[lane] / counts_[lane]);
+      isInRange &= greatest[lane] <= 2 * kMaxLaneExponent * deviation[lane] * deviation[lane];
+    }
+    return isInRange ? weightedMeans(value, deviation, [](const Double4& exponent) ASDFVK_ALWAYS_INLINE {
+      return expOfNegative(exponent);
+    })
+                     : weightedMeans(value, deviation, expOfLibrary);
+  }
+
+  static Double4 expOfLibrary(const Double4& exponent) {
+    Double4 power;
+    for (size_t lane = 0; lane < kLanes; ++lane) power[lane] = std::exp(exponent[lane]);
+    return power;
+  }
+
+  /// exp: of the lanes.
+  template <typename Exp>
+  [[nodiscard]] ASDFVK_ALWAYS_INLINE inline Double4 weightedMeans(const Double4& value, const Double4& deviation,
+                                                                  const Exp& exp) const {
+    const double* const others = others_.data();
     Double4 weights{}, sum{}, ringWeight{};
     uint32_t rings[kLanes] = {};
     for (uint32_t i = 0; i < longest_;) {
@@ -83,7 +105,7 @@ class WindowFilter {
       }
       for (; i < end; ++i) {
         const Double4 other = load<Double4>(&others[i * kLanes]), ratio = (other - value) / deviation;
-        const Double4 weight = ringWeight * rangeWeight<Floats>(-0.5 * ratio * ratio);
+        const Double4 weight = ringWeight * exp(-0.5 * ratio * ratio);
         weights += weight;
         sum += weight * other;
       }
@@ -91,15 +113,6 @@ class WindowFilter {
     Double4 result = sum / weights;
     for (size_t lane = 0; lane < kLanes; ++lane) result[lane] = deviation[lane] == 0 ? value[lane] : result[lane];
     return result;
-  }
-
-  template <typename Floats>
-  [[nodiscard]] ASDFVK_ALWAYS_INLINE inline Double4 rangeWeight(const Double4& exponent) const {
-    if constexpr (hasFusedMultiplyAdd<Floats>())
-      if (longest_ < kLargeWindow) return expOfNegative(exponent);
-    Double4 weight;
-    for (size_t lane = 0; lane < kLanes; ++lane) weight[lane] = std::exp(exponent[lane]);
-    return weight;
   }
 
   std::span<const double> values_, ringWeights_;
