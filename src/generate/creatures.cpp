@@ -28,6 +28,20 @@ void addBothSides(std::vector<Capsule>& capsules, const std::vector<Capsule>& le
   }
 }
 
+/// A branch and, above it, two of 0.8 of its length and 2^(-1/3) of its radius (Murray's law), `levelCount` levels in
+/// all. `forward` and `side` are orthogonal unit vectors; the two branches lie in their plane, the next ones across it.
+void addBranches(const Vec3d& foot, const Vec3d& forward, const Vec3d& side, double length, double radius,
+                 uint32_t levelCount, std::vector<Capsule>& capsules) {
+  if (levelCount == 0) return;
+  const Vec3d fork = foot + forward * length;
+  const double taper = std::cbrt(0.5);
+  capsules.push_back({foot, fork, radius, radius * taper, static_cast<uint32_t>(capsules.size()), 0.6 * radius});
+  for (const double angle : {0.6, -0.75}) {
+    const Vec3d turned = forward * std::cos(angle) + side * std::sin(angle);
+    addBranches(fork, turned, cross(forward, side), 0.8 * length, radius * taper, levelCount - 1, capsules);
+  }
+}
+
 }  // namespace
 
 CapsuleUnion animalField(const CreatureParameters& parameters) {
@@ -94,6 +108,12 @@ CapsuleUnion figureField(const CreatureParameters& parameters) {
   return thickened(std::move(capsules), parameters);
 }
 
+CapsuleUnion treeField(const CreatureParameters& parameters) {
+  std::vector<Capsule> capsules;
+  addBranches({0, 0, 0}, {0, 0, 1}, {1, 0, 0}, 0.6, 0.12, 5, capsules);
+  return thickened(std::move(capsules), parameters);
+}
+
 GeneratedShape makeAnimal(uint64_t faceCount, const CreatureParameters& parameters) {
   return polygonise(animalField(parameters), faceCount);
 }
@@ -102,6 +122,9 @@ GeneratedShape makeHand(uint64_t faceCount, const CreatureParameters& parameters
 }
 GeneratedShape makeFigure(uint64_t faceCount, const CreatureParameters& parameters) {
   return polygonise(figureField(parameters), faceCount);
+}
+GeneratedShape makeTree(uint64_t faceCount, const CreatureParameters& parameters) {
+  return polygonise(treeField(parameters), faceCount);
 }
 
 }  // namespace asdfvk

@@ -22,9 +22,13 @@ struct CreatureParameters {
 /// A jointed human figure. Parts: 0 torso, 1 neck, 2 head, then left and right: 3, 4 upper arm, 5, 6 forearm,
 /// 7, 8 hand, 9, 10 thigh, 11, 12 shin, 13, 14 foot.
 [[nodiscard]] CapsuleUnion figureField(const CreatureParameters& parameters = {});
+/// A tree of tubes, like vessels or a neuron: 31 branches in five levels, a part each, in the order of a walk from the
+/// root, the first branch of each fork before the second.
+[[nodiscard]] CapsuleUnion treeField(const CreatureParameters& parameters = {});
 
 [[nodiscard]] GeneratedShape makeAnimal(uint64_t faceCount, const CreatureParameters& parameters = {});
 [[nodiscard]] GeneratedShape makeHand(uint64_t faceCount, const CreatureParameters& parameters = {});
 [[nodiscard]] GeneratedShape makeFigure(uint64_t faceCount, const CreatureParameters& parameters = {});
+[[nodiscard]] GeneratedShape makeTree(uint64_t faceCount, const CreatureParameters& parameters = {});
 
 }  // namespace asdfvk

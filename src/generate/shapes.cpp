@@ -21,6 +21,7 @@ constexpr std::array kShapes{
     NamedShape{"animal", [](uint64_t n) { return makeAnimal(n); }},
     NamedShape{"hand", [](uint64_t n) { return makeHand(n); }},
     NamedShape{"figure", [](uint64_t n) { return makeFigure(n); }},
+    NamedShape{"tree", [](uint64_t n) { return makeTree(n); }},
     NamedShape{"sphere", [](uint64_t n) { return makeSphere(n); }},
     NamedShape{"icosphere", [](uint64_t n) { return makeIcosphere(n); }},
     NamedShape{"slab", [](uint64_t n) { return makeSlab(n); }},

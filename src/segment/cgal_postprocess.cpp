@@ -75,10 +75,10 @@ class WindowFilter {
       deviation[lane] = 1.5 * std::sqrt(squares[lane] / counts_[lane]);
       isInRange &= greatest[lane] <= 2 * kMaxLaneExponent * deviation[lane] * deviation[lane];
     }
-    return isInRange ? weightedMeans(value, deviation, [](const Double4& exponent) ASDFVK_ALWAYS_INLINE {
-      return expOfNegative(exponent);
-    })
-                     : weightedMeans(value, deviation, expOfLibrary);
+    return isInRange
+               ? weightedMeans(value, deviation,
+                               [](const Double4& exponent) ASDFVK_ALWAYS_INLINE { return expOfNegative(exponent); })
+               : weightedMeans(value, deviation, expOfLibrary);
   }
 
   static Double4 expOfLibrary(const Double4& exponent) {

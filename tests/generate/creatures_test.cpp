@@ -21,7 +21,10 @@ struct Creature {
   size_t partCount;
 };
 std::vector<Creature> creatures() {
-  return {{"animal", animalField(), 10}, {"hand", handField(), 7}, {"figure", figureField(), 15}};
+  return {{"animal", animalField(), 10},
+          {"hand", handField(), 7},
+          {"figure", figureField(), 15},
+          {"tree", treeField(), 31}};
 }
 
 Vec3d barycentre(const Mesh& mesh, const Face& face) {
@@ -106,7 +109,7 @@ TEST_CASE("the field changes no faster than the distance walked, and its gradien
 }
 
 TEST_CASE("the same bits come on one thread and on two") {
-  for (const std::string_view name : {"animal", "hand", "figure", "icosphere"}) {
+  for (const std::string_view name : {"animal", "hand", "figure", "tree", "icosphere"}) {
     CAPTURE(name);
     const auto makeOn = [&](size_t threads) {
       const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
