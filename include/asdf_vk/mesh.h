@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace asdfvk {
@@ -47,6 +48,10 @@ struct Mesh {
   std::vector<Vec3d> vertices;  ///< #V, in the unit of the file; may hold non-finite numbers (Report::defects).
   std::vector<Face> faces;      ///< #F triangles.
   Polygons polygons;            ///< Empty unless an input face was not a triangle.
+  /// Unit of length that the file states (3MF, glTF): "um", "mm", "cm", "m", "in" or "ft"; empty for the others.
+  std::string unit = {};
+  /// What the file has beside the surface, and was left out: "12 points".
+  std::vector<std::string> skipped = {};
 
   [[nodiscard]] uint32_t faceCount() const { return static_cast<uint32_t>(faces.size()); }
   /// #I, the number of faces of the file.

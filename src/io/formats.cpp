@@ -6,13 +6,14 @@
 
 namespace asdfvk {
 // A format is defined in the file of its name.
-extern const FileFormat kStlFormat, kPlyFormat, kOffFormat, kObjFormat, kVtuFormat, kNpyFormat, kNpzFormat, kCsvFormat;
+extern const FileFormat kStlFormat, kPlyFormat, kOffFormat, kObjFormat, kGlbFormat, k3mfFormat, kVtuFormat, kNpyFormat,
+    kNpzFormat, kCsvFormat;
 
 namespace {
 
 // STL first: the exact size of a binary STL is stronger evidence than the first word of the other formats.
-constexpr std::array<const FileFormat*, 8> kFormats{&kStlFormat, &kPlyFormat, &kOffFormat, &kObjFormat,
-                                                    &kVtuFormat, &kNpyFormat, &kNpzFormat, &kCsvFormat};
+constexpr std::array<const FileFormat*, 10> kFormats{&kStlFormat, &kPlyFormat, &kOffFormat, &kObjFormat, &kGlbFormat,
+                                                     &k3mfFormat, &kVtuFormat, &kNpyFormat, &kNpzFormat, &kCsvFormat};
 
 }  // namespace
 

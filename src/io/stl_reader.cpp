@@ -6,15 +6,13 @@
 #include <algorithm>
 #include <bit>
 #include <cctype>
-#include <cmath>
 #include <cstring>
-#include <limits>
 
 #include "core/text.h"
+#include "io/corner_welder.h"
 #include "io/formats.h"
 #include "io/input_failure.h"
 #include "io/text_scanner.h"
-#include "mesh/coincident_faces.h"
 #include "mesh/input_faces.h"
 
 namespace asdfvk {
@@ -24,60 +22,6 @@ static_assert(std::endian::native == std::endian::little, "binary STL is read by
 
 constexpr uint64_t kHeaderSize = 84;  // 80 arbitrary bytes, then the face count.
 constexpr uint64_t kFaceSize = 50;    // Normal and corners in float32, then two attribute bytes.
-
-/// Assigns one index to equal points, in order of first appearance. Equal points have the same three numbers, -0 being
-/// 0; a point with a NaN equals no point.
-class CornerWelder {
- public:
-  /// expectedPointCount, of distinct points: the initial capacity.
-  explicit CornerWelder(uint64_t expectedPointCount);
-
-  [[nodiscard]] uint32_t indexOf(Vec3d point);
-  [[nodiscard]] std::vector<Vec3d>& points() { return points_; }
-
- private:
-  static constexpr uint32_t kEmptySlot = std::numeric_limits<uint32_t>::max();
-
-  void resizeTable(uint64_t slotCount);
-  [[nodiscard]] uint64_t slotOf(const Vec3d& point) const;
-
-  std::vector<Vec3d> points_;
-  std::vector<uint32_t> table_;  ///< Open addressing with linear probing; at most two thirds full.
-};
-
-CornerWelder::CornerWelder(uint64_t expectedPointCount) {
-  resizeTable(std::bit_ceil(expectedPointCount + expectedPointCount / 2 + 16));
-}
-
-uint64_t CornerWelder::slotOf(const Vec3d& point) const {
-  const uint64_t mask = table_.size() - 1;
-  uint64_t slot = hashOf(point) & mask;
-  while (table_[slot] != kEmptySlot && !(points_[table_[slot]] == point)) slot = (slot + 1) & mask;
-  return slot;
-}
-
-uint32_t CornerWelder::indexOf(Vec3d point) {
-  point = point + Vec3d{};  // -0 becomes 0.
-  const bool isNan = std::isnan(point.x) || std::isnan(point.y) || std::isnan(point.z);
-  const uint64_t slot = isNan ? 0 : slotOf(point);
-  if (!isNan && table_[slot] != kEmptySlot) return table_[slot];
-  const auto index = static_cast<uint32_t>(points_.size());
-  points_.push_back(point);
-  requireAtMost(kMaxIndexCount, points_.size(), "vertices");
-  if (!isNan) {
-    table_[slot] = index;
-    if (points_.size() * 3 > table_.size() * 2) resizeTable(table_.size() * 2);
-  }
-  return index;
-}
-
-void CornerWelder::resizeTable(uint64_t slotCount) {
-  table_.assign(slotCount, kEmptySlot);
-  for (uint32_t i = 0; i < points_.size(); ++i) {
-    const Vec3d& p = points_[i];
-    if (!std::isnan(p.x) && !std::isnan(p.y) && !std::isnan(p.z)) table_[slotOf(p)] = i;
-  }
-}
 
 /// Precondition: at least kHeaderSize bytes.
 uint64_t binaryFaceCount(std::span<const char> bytes) {

@@ -1,5 +1,6 @@
 // The harness of the reader of ASDFVK_FORMAT. It requires that the reader either throws Error of kind Input with one
-// line, or returns a mesh whose arrays fit together; and that its memory never exceeds 64 times the input plus 256 KiB.
+// line, or returns a mesh whose arrays fit together; and that its memory never exceeds 64 times the input plus 256 KiB,
+// or 128 MiB more for formats with instances. A model of 3MF may also be given without its archive.
 #include <sanitizer/allocator_interface.h>
 
 #include <algorithm>
@@ -10,12 +11,14 @@
 
 #include "asdf_vk/error.h"
 #include "io/formats.h"
+#include "stored_archive.h"
 
 namespace asdfvk {
 namespace {
 
 constexpr int64_t kMaxBytesPerInputByte = 64;
 constexpr int64_t kAllowance = 256 << 10;
+constexpr int64_t kInstanceAllowance = 128 << 20;
 
 std::atomic<bool> isCounting = false;
 std::atomic<int64_t> liveBytes = 0;
@@ -81,7 +84,9 @@ int readOnce(const FileFormat& format, const uint8_t* data, size_t size) {
     require(std::all_of(message.begin(), message.end(), [](char c) { return c >= ' ' && c <= '~'; }),
             "a message that is not one printable line");
   }
-  require(peakBytes <= kMaxBytesPerInputByte * static_cast<int64_t>(size) + kAllowance,
+  const bool hasInstances = format.name == "glb" || format.name == "3mf";
+  require(peakBytes <=
+              kMaxBytesPerInputByte * static_cast<int64_t>(size) + kAllowance + (hasInstances ? kInstanceAllowance : 0),
           "more memory than 64 times the input");
   return 0;
 }
@@ -91,5 +96,10 @@ int readOnce(const FileFormat& format, const uint8_t* data, size_t size) {
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   static const asdfvk::FileFormat& format = *asdfvk::formatOfExtension(ASDFVK_FORMAT);
+  const std::string_view text(reinterpret_cast<const char*>(data), size);
+  if (format.name == "3mf" && !text.starts_with("PK")) {
+    const std::string archive = asdfvk::storedArchive(text);
+    return asdfvk::readOnce(format, reinterpret_cast<const uint8_t*>(archive.data()), archive.size());
+  }
   return asdfvk::readOnce(format, data, size);
 }

@@ -95,8 +95,8 @@ TEST_CASE("errors name the file and the reason") {
   std::ofstream(folder / "empty.off").flush();
   CHECK(holds(errorOfReading(folder / "empty.off"), "empty.off: is empty"));
   std::ofstream(folder / "letter.txt") << "Dear reader,\n";
-  CHECK(
-      holds(errorOfReading(folder / "letter.txt"), "has an unknown format; meshes are read from stl, ply, off or obj"));
+  CHECK(holds(errorOfReading(folder / "letter.txt"),
+              "has an unknown format; meshes are read from stl, ply, off, obj, glb or 3mf"));
   std::ofstream(folder / "bad.obj") << "v 0 0 0\nf 1 2 3\n";
   CHECK(holds(errorOfReading(folder / "bad.obj"), "bad.obj: line 2: vertex index 3"));
 }

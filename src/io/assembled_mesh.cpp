@@ -1,0 +1,59 @@
+#include "io/assembled_mesh.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "asdf_vk/error.h"
+#include "core/text.h"
+#include "mesh/input_faces.h"
+#include "mesh/mesh.h"
+
+namespace asdfvk {
+
+bool Placement::isFinite() const {
+  return asdfvk::isFinite(columns[0]) && asdfvk::isFinite(columns[1]) && asdfvk::isFinite(columns[2]) &&
+         asdfvk::isFinite(translation);
+}
+
+Placement Placement::after(const Placement& inner) const {
+  return {{direction(inner.columns[0]), direction(inner.columns[1]), direction(inner.columns[2])},
+          point(inner.translation)};
+}
+
+AssembledMesh::AssembledMesh(uint64_t vertexCount, uint64_t faceCount, uint64_t fileSize) {
+  // The numbers are divided, because counts of a hostile file overflow when they are multiplied.
+  constexpr uint64_t kMaxBytesPerByte = 64;
+  const uint64_t limit = std::max(kMaxInstanceBytes, kMaxBytesPerByte * fileSize);
+  if (faceCount / 2 > limit / sizeof(Face) || vertexCount / 2 > limit / sizeof(Vec3d) ||
+      vertexCount * sizeof(Vec3d) + faceCount * sizeof(Face) > limit)
+    throw Error(ErrorCode::InputTooLarge,
+                fmt::format("its instances have {} in all, more than {} MiB of memory hold; export fewer of them",
+                            counted(faceCount, "face"), limit >> 20));
+  requireAtMost(kMaxTriangleCount, faceCount, "faces");
+  requireAtMost(kMaxIndexCount, vertexCount, "vertices");
+  vertices_.reserve(vertexCount);
+  faces_.reserve(faceCount);
+}
+
+void AssembledMesh::add(const PartMesh& part, const Placement& placement) {
+  const auto first = static_cast<uint32_t>(vertices_.size());
+  for (const Vec3d& p : part.vertices) vertices_.push_back(placement.point(p));
+  const bool mirrors = placement.mirrors();
+  for (const Face& face : part.faces) {
+    faces_.push_back({first + face[0], first + face[1], first + face[2]});
+    if (mirrors) std::swap(faces_.back()[1], faces_.back()[2]);
+  }
+}
+
+Mesh AssembledMesh::finish() {
+  Mesh mesh;
+  mesh.vertices = std::move(vertices_);
+  InputFaces faces;
+  faces.addTriangles(std::move(faces_));
+  faces.moveTo(mesh);
+  return mesh;
+}
+
+}  // namespace asdfvk

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "asdf_vk/mesh.h"
+#include "core/vec3.h"
+
+namespace asdfvk {
+
+/// An affine map: the point p becomes columns[0] p.x + columns[1] p.y + columns[2] p.z + translation.
+struct Placement {
+  std::array<Vec3d, 3> columns{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  Vec3d translation;
+
+  [[nodiscard]] Vec3d direction(const Vec3d& p) const { return columns[0] * p.x + columns[1] * p.y + columns[2] * p.z; }
+  [[nodiscard]] Vec3d point(const Vec3d& p) const { return direction(p) + translation; }
+  /// Whether it turns the outside of a surface inside.
+  [[nodiscard]] bool mirrors() const { return dot(cross(columns[0], columns[1]), columns[2]) < 0; }
+  [[nodiscard]] bool isFinite() const;
+  /// `inner` first.
+  [[nodiscard]] Placement after(const Placement& inner) const;
+};
+
+/// The triangles of a part of a file, in its own coordinates.
+struct PartMesh {
+  std::vector<Vec3d> vertices;
+  std::vector<Face> faces;
+};
+
+/// Bytes that instances may take where they are more than 64 times the size of the file.
+inline constexpr uint64_t kMaxInstanceBytes = uint64_t{1} << 30;
+
+/// One mesh of the placed parts of a file. Parts share no vertices, so that each is a component of its own.
+class AssembledMesh {
+ public:
+  /// vertexCount: at least the number that add() will receive. Throws Error{MeshTooLarge} where 32 bits do not number
+  /// them, Error{InputTooLarge} where instances take more than kMaxInstanceBytes and more than 64 times the file.
+  AssembledMesh(uint64_t vertexCount, uint64_t faceCount, uint64_t fileSize);
+
+  /// Faces of a mirrored part are reversed: they stay outside.
+  void add(const PartMesh& part, const Placement& placement);
+  /// Throws Error{UnreadableInput} without a face.
+  [[nodiscard]] Mesh finish();
+
+ private:
+  std::vector<Vec3d> vertices_;
+  std::vector<Face> faces_;
+};
+
+}  // namespace asdfvk

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/vec3.h"
+
+namespace asdfvk {
+
+/// Assigns one index to equal points, in order of first appearance. Equal points have the same three numbers, -0 being
+/// 0; a point with a NaN equals no point. For formats without indices, or whose indices split points.
+class CornerWelder {
+ public:
+  /// expectedPointCount, of distinct points: the initial capacity.
+  explicit CornerWelder(uint64_t expectedPointCount);
+
+  /// Throws Error{MeshTooLarge} for more than kMaxIndexCount points.
+  [[nodiscard]] uint32_t indexOf(Vec3d point);
+  [[nodiscard]] std::vector<Vec3d>& points() { return points_; }
+
+ private:
+  void resizeTable(uint64_t slotCount);
+  [[nodiscard]] uint64_t slotOf(const Vec3d& point) const;
+
+  std::vector<Vec3d> points_;
+  std::vector<uint32_t> table_;  ///< Open addressing with linear probing; at most two thirds full.
+};
+
+}  // namespace asdfvk

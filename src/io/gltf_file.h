@@ -1,0 +1,92 @@
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/vec3.h"
+
+/// Access to a glTF 2.0 document, as .glb or as .gltf with its data in it. Everything is held against the sizes of the
+/// file. All functions throw Error{UnreadableInput}; `where` begins the message: "node 3".
+namespace asdfvk {
+
+using GltfJson = nlohmann::json;
+
+/// The member; null where there is none. Throws where `object` is no object.
+[[nodiscard]] const GltfJson* gltfMember(const GltfJson& object, const char* key, std::string_view where);
+/// A whole number from 0 on; `fallback` where there is none. Throws without both.
+[[nodiscard]] uint64_t gltfWhole(const GltfJson& object, const char* key, std::optional<uint64_t> fallback,
+                                 std::string_view where);
+/// An array; null where there is none.
+[[nodiscard]] const GltfJson* gltfArray(const GltfJson& object, const char* key, std::string_view where);
+/// The name of a value; empty where there is none.
+[[nodiscard]] std::string gltfText(const GltfJson& object, const char* key, std::string_view where);
+/// `count` finite numbers into `numbers`; false where there is no such member.
+[[nodiscard]] bool gltfNumbers(const GltfJson& object, const char* key, std::span<double> numbers,
+                               std::string_view where);
+
+/// The numbers of an accessor.
+class GltfAccessor {
+ public:
+  [[nodiscard]] uint64_t count() const { return count_; }
+  /// Preconditions: i < count(), and the type that the accessor was opened with.
+  [[nodiscard]] Vec3d vectorAt(uint64_t i) const;
+  [[nodiscard]] uint32_t indexAt(uint64_t i) const;
+
+ private:
+  friend class GltfFile;
+  /// Elements at a distance in a buffer.
+  struct Elements {
+    const char* data = nullptr;
+    uint64_t stride = 0;
+    uint32_t componentType = 0;
+  };
+  [[nodiscard]] static uint32_t wholeAt(const Elements& elements, uint64_t i);
+  /// In the sparse part, where that replaces it.
+  [[nodiscard]] const char* elementAt(uint64_t i) const;
+
+  uint64_t count_ = 0;
+  Elements base_, sparseIndices_, sparseValues_;
+  uint64_t sparseCount_ = 0;
+  bool isNormalized_ = false;
+};
+
+class GltfFile {
+ public:
+  /// The bytes must outlive the file.
+  explicit GltfFile(std::span<const char> bytes);
+
+  [[nodiscard]] const GltfJson& document() const { return document_; }
+  [[nodiscard]] uint64_t size() const { return size_; }
+  [[nodiscard]] uint64_t countOf(const char* array) const;
+  /// Item `index` of an array of the document: nodes, meshes, ...
+  [[nodiscard]] const GltfJson& item(const char* array, uint64_t index, std::string_view where) const;
+
+  /// The accessor of vectors of three numbers, or of indices.
+  [[nodiscard]] GltfAccessor vectors(uint64_t accessor) const;
+  [[nodiscard]] GltfAccessor indices(uint64_t accessor) const;
+
+ private:
+  void readBinary(std::span<const char> bytes);
+  void parseDocument(std::span<const char> text);
+  void requireKnownExtensions() const;
+  void readBuffers();
+  [[nodiscard]] std::span<const char> viewOf(uint64_t index, uint64_t& stride, std::string_view where) const;
+  [[nodiscard]] GltfAccessor::Elements elementsOf(const GltfJson& holder, uint64_t count, uint32_t componentType,
+                                                  uint32_t componentCount, bool hasStride,
+                                                  std::string_view where) const;
+  [[nodiscard]] GltfAccessor open(uint64_t accessor, const char* type, uint32_t componentCount, bool isIndex) const;
+
+  uint64_t size_;
+  GltfJson document_;
+  std::span<const char> binary_;  ///< The chunk BIN; empty without.
+  bool hasBinary_ = false;
+  std::vector<std::vector<char>> decoded_;  ///< Of data URIs.
+  std::vector<std::span<const char>> buffers_;
+};
+
+}  // namespace asdfvk

@@ -1,0 +1,295 @@
+// glTF 2.0 (Khronos), as .glb or as .gltf with its data in it: the meshes of the default scene, placed by its nodes.
+// The mesh of a node is a part; its vertices at the same point become one, because glTF splits them where normals or
+// texture coordinates differ. Positions in any of the types of KHR_mesh_quantization. The reader ignores materials,
+// textures, cameras and animations; what else it leaves out is in Mesh::skipped. No other file is opened.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "core/text.h"
+#include "io/assembled_mesh.h"
+#include "io/corner_welder.h"
+#include "io/formats.h"
+#include "io/gltf_file.h"
+#include "io/input_failure.h"
+#include "io/text_scanner.h"
+
+namespace asdfvk {
+namespace {
+
+enum GltfMode : uint64_t { kPoints = 0, kLines, kLineStrip = 3, kTriangles, kTriangleStrip, kTriangleFan };
+
+/// A primitive: its vertices, and the order in which they are used.
+struct GltfPrimitive {
+  uint64_t mode = kTriangles;
+  GltfAccessor positions;
+  std::optional<GltfAccessor> indices;
+
+  [[nodiscard]] uint64_t cornerCount() const { return indices ? indices->count() : positions.count(); }
+  [[nodiscard]] bool hasFaces() const { return mode >= kTriangles; }
+  [[nodiscard]] uint64_t faceCount() const {
+    if (!hasFaces()) return 0;
+    return mode == kTriangles ? cornerCount() / 3 : std::max<uint64_t>(cornerCount(), 2) - 2;
+  }
+};
+
+/// A node on the way from the root of the scene.
+struct GltfVisit {
+  uint64_t node = 0;
+  uint64_t nextChild = 0;
+  Placement placement;
+};
+
+class GltfReader {
+ public:
+  explicit GltfReader(std::span<const char> bytes) : file_(bytes) {}
+
+  Mesh read() {
+    const uint64_t meshCount = file_.countOf("meshes");
+    std::vector<uint64_t> useCounts(meshCount, 0);
+    forEachInstance([&](uint64_t mesh, const Placement&) { ++useCounts[mesh]; });
+    uint64_t vertexCount = 0, faceCount = 0;
+    for (uint64_t mesh = 0; mesh < meshCount; ++mesh) {
+      if (useCounts[mesh] == 0) continue;
+      uint64_t vertices = 0, faces = 0;
+      for (const GltfPrimitive& primitive : primitivesOf(mesh)) {
+        count(primitive, useCounts[mesh]);
+        faces += primitive.faceCount();
+        vertices += std::min(primitive.hasFaces() ? primitive.positions.count() : 0, 3 * primitive.faceCount());
+      }
+      vertexCount = std::min(vertexCount + product(vertices, useCounts[mesh]), kTooMany);
+      faceCount = std::min(faceCount + product(faces, useCounts[mesh]), kTooMany);
+    }
+    if (faceCount == 0) failWithoutFaces(meshCount);
+    AssembledMesh assembled(vertexCount, faceCount, file_.size());
+    std::vector<std::optional<PartMesh>> parts(meshCount);  // Those that are used again.
+    forEachInstance([&](uint64_t mesh, const Placement& placement) {
+      if (!parts[mesh]) parts[mesh] = partOf(mesh);
+      assembled.add(*parts[mesh], placement);
+      if (--useCounts[mesh] == 0) parts[mesh].reset();
+    });
+    Mesh mesh = assembled.finish();
+    mesh.unit = "m";
+    mesh.skipped = skipped();
+    return mesh;
+  }
+
+ private:
+  /// Far above any limit: counts stay there.
+  static constexpr uint64_t kTooMany = uint64_t{1} << 50;
+  static uint64_t product(uint64_t a, uint64_t b) { return b != 0 && a > kTooMany / b ? kTooMany : a * b; }
+
+  [[noreturn]] void failWithoutFaces(uint64_t meshCount) const {
+    std::string found = joined(skipped(), " and ");
+    if (found.empty()) found = meshCount == 0 ? "no mesh" : "no mesh in its scene";
+    failInput(fmt::format("has {} and no triangle: nothing to compute on", found));
+  }
+
+  /// Calls work(mesh, placement) for each node with a mesh, depth first, children in the order of the file.
+  template <typename Work>
+  void forEachInstance(const Work& work) {
+    std::vector<uint8_t> isVisited(file_.countOf("nodes"), 0);
+    for (const uint64_t root : rootsOf()) {
+      std::vector<GltfVisit> path;
+      enter(path, root, {}, isVisited, work);
+      while (!path.empty()) {
+        GltfVisit& visit = path.back();
+        const std::string where = fmt::format("node {}", visit.node);
+        const GltfJson* const children = gltfArray(file_.item("nodes", visit.node, where), "children", where);
+        if (children == nullptr || visit.nextChild == children->size()) {
+          path.pop_back();
+          continue;
+        }
+        const uint64_t child = indexIn(*children, visit.nextChild++, where);
+        enter(path, child, visit.placement, isVisited, work);
+      }
+    }
+    isFirstPass_ = false;
+  }
+
+  template <typename Work>
+  void enter(std::vector<GltfVisit>& path, uint64_t index, const Placement& outer, std::vector<uint8_t>& isVisited,
+             const Work& work) {
+    const std::string where = fmt::format("node {}", index);
+    const GltfJson& node = file_.item("nodes", index, "scene");
+    if (isVisited[index]++ != 0) failInput(fmt::format("{} has two parents; nodes are trees", where));
+    Placement placement = outer.after(placementOf(node, where));
+    if (!placement.isFinite()) failInput(fmt::format("{}: its place is beyond all numbers", where));
+    if (const GltfJson* const extensions = gltfMember(node, "extensions", where))
+      if (gltfMember(*extensions, "EXT_mesh_gpu_instancing", where) != nullptr)
+        failInput(fmt::format("{} has instances by EXT_mesh_gpu_instancing, which is not supported; export without it",
+                              where));
+    if (gltfMember(node, "mesh", where) != nullptr) {
+      const uint64_t mesh = gltfWhole(node, "mesh", std::nullopt, where);
+      (void)file_.item("meshes", mesh, where);
+      // The joints place a mesh with a skin, not its node.
+      const bool hasSkin = gltfMember(node, "skin", where) != nullptr;
+      skinCount_ += isFirstPass_ && hasSkin ? 1 : 0;
+      morphCount_ += isFirstPass_ && (hasWeights(node) || hasWeights(file_.item("meshes", mesh, where))) ? 1 : 0;
+      work(mesh, hasSkin ? Placement{} : placement);
+    }
+    path.push_back({index, 0, placement});
+  }
+
+  /// Whether morph targets change the shape: by default they do not.
+  static bool hasWeights(const GltfJson& json) {
+    const GltfJson* const weights = gltfArray(json, "weights", "weights");
+    return weights != nullptr &&
+           std::any_of(weights->begin(), weights->end(), [](const GltfJson& w) { return w != 0; });
+  }
+
+  static uint64_t indexIn(const GltfJson& array, uint64_t i, std::string_view where) {
+    if (!array[i].is_number_unsigned()) failInput(fmt::format("{}: an entry is not an index", where));
+    return array[i].get<uint64_t>();
+  }
+
+  /// The roots of the default scene; without scenes, the nodes that are no child.
+  std::vector<uint64_t> rootsOf() const {
+    std::vector<uint64_t> roots;
+    if (file_.countOf("scenes") > 0) {
+      const uint64_t scene = gltfWhole(file_.document(), "scene", 0, "glTF");
+      const GltfJson* const nodes = gltfArray(file_.item("scenes", scene, "glTF"), "nodes", "scene");
+      for (uint64_t i = 0; nodes != nullptr && i < nodes->size(); ++i) roots.push_back(indexIn(*nodes, i, "scene"));
+      return roots;
+    }
+    std::vector<uint8_t> isChild(file_.countOf("nodes"), 0);
+    for (uint64_t node = 0; node < isChild.size(); ++node) {
+      const std::string where = fmt::format("node {}", node);
+      const GltfJson* const children = gltfArray(file_.item("nodes", node, where), "children", where);
+      for (uint64_t i = 0; children != nullptr && i < children->size(); ++i)
+        if (const uint64_t child = indexIn(*children, i, where); child < isChild.size()) isChild[child] = 1;
+    }
+    for (uint64_t node = 0; node < isChild.size(); ++node)
+      if (isChild[node] == 0) roots.push_back(node);
+    if (roots.empty() && !isChild.empty()) failInput("every node is a child of another; nodes are trees");
+    return roots;
+  }
+
+  static Placement placementOf(const GltfJson& node, std::string_view where) {
+    Placement placement;
+    std::array<double, 16> matrix{};
+    if (gltfNumbers(node, "matrix", matrix, where)) {
+      for (size_t column = 0; column < 3; ++column)
+        placement.columns[column] = {matrix[4 * column], matrix[4 * column + 1], matrix[4 * column + 2]};
+      placement.translation = {matrix[12], matrix[13], matrix[14]};
+      if (matrix[3] != 0 || matrix[7] != 0 || matrix[11] != 0 || matrix[15] != 1)
+        failInput(fmt::format("{}: the last row of its matrix is not 0 0 0 1", where));
+      return placement;
+    }
+    std::array<double, 3> translation{}, scale{1, 1, 1};
+    std::array<double, 4> q{0, 0, 0, 1};
+    (void)gltfNumbers(node, "translation", translation, where);
+    (void)gltfNumbers(node, "scale", scale, where);
+    (void)gltfNumbers(node, "rotation", q, where);
+    const double norm = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
+    if (!(norm > 0) || !std::isfinite(norm)) failInput(fmt::format("{}: its rotation is no rotation", where));
+    const auto [x, y, z, w] = q;
+    const double s = 2 / norm;
+    placement.columns = {Vec3d{1 - s * (y * y + z * z), s * (x * y + z * w), s * (x * z - y * w)} * scale[0],
+                         Vec3d{s * (x * y - z * w), 1 - s * (x * x + z * z), s * (y * z + x * w)} * scale[1],
+                         Vec3d{s * (x * z + y * w), s * (y * z - x * w), 1 - s * (x * x + y * y)} * scale[2]};
+    placement.translation = {translation[0], translation[1], translation[2]};
+    return placement;
+  }
+
+  std::vector<GltfPrimitive> primitivesOf(uint64_t index) const {
+    const std::string where = fmt::format("mesh {}", index);
+    const GltfJson& mesh = file_.item("meshes", index, where);
+    const GltfJson* const primitives = gltfArray(mesh, "primitives", where);
+    if (primitives == nullptr) failInput(fmt::format("{} has no primitives", where));
+    std::vector<GltfPrimitive> found;
+    found.reserve(primitives->size());
+    for (uint64_t i = 0; i < primitives->size(); ++i)
+      found.push_back(primitiveOf((*primitives)[i], fmt::format("mesh {}, primitive {}", index, i)));
+    return found;
+  }
+
+  GltfPrimitive primitiveOf(const GltfJson& json, const std::string& where) const {
+    GltfPrimitive primitive{.mode = gltfWhole(json, "mode", kTriangles, where)};
+    if (primitive.mode > kTriangleFan) failInput(fmt::format("{}: mode {} is unknown", where, primitive.mode));
+    const GltfJson* const attributes = gltfMember(json, "attributes", where);
+    if (attributes == nullptr || gltfMember(*attributes, "POSITION", where) == nullptr)
+      failInput(fmt::format("{} has no positions", where));
+    primitive.positions = file_.vectors(gltfWhole(*attributes, "POSITION", std::nullopt, where));
+    if (gltfMember(json, "indices", where) != nullptr)
+      primitive.indices = file_.indices(gltfWhole(json, "indices", std::nullopt, where));
+    if (primitive.mode == kTriangles && primitive.cornerCount() % 3 != 0)
+      failInput(fmt::format("{}: {} corners do not make triangles", where, primitive.cornerCount()));
+    return primitive;
+  }
+
+  void count(const GltfPrimitive& primitive, uint64_t uses) {
+    const uint64_t corners = primitive.cornerCount();
+    if (primitive.mode == kPoints) pointCount_ += product(corners, uses);
+    if (primitive.mode == kLines) lineCount_ += product(corners / 2, uses);
+    if (primitive.mode > kLines && primitive.mode <= kLineStrip) lineCount_ += product(corners, uses);
+  }
+
+  PartMesh partOf(uint64_t mesh) const {
+    PartMesh part;
+    CornerWelder welder(0);
+    for (const GltfPrimitive& primitive : primitivesOf(mesh)) {
+      if (!primitive.hasFaces()) continue;
+      const uint64_t vertexCount = primitive.positions.count();
+      const auto vertexAt = [&](uint64_t corner) {
+        const uint64_t vertex = primitive.indices ? primitive.indices->indexAt(corner) : corner;
+        if (vertex >= vertexCount)
+          failInput(fmt::format("mesh {}: index {} is out of range; the primitive has {}", mesh, vertex,
+                                counted(vertexCount, "vertex", "vertices")));
+        return vertex;
+      };
+      const uint64_t faceCount = primitive.faceCount();
+      for (uint64_t i = 0; i < faceCount; ++i) {
+        const uint64_t a = primitive.mode == kTriangles ? 3 * i : primitive.mode == kTriangleFan ? 0 : i;
+        const uint64_t b = primitive.mode == kTriangles ? a + 1 : i + 1;
+        const bool isOdd = primitive.mode == kTriangleStrip && i % 2 == 1;
+        const std::array vertices{vertexAt(a), vertexAt(isOdd ? b + 1 : b), vertexAt(isOdd ? b : b + 1)};
+        // Triangles with two equal indices connect strips and are no faces.
+        if (primitive.mode == kTriangleStrip &&
+            (vertices[0] == vertices[1] || vertices[1] == vertices[2] || vertices[2] == vertices[0]))
+          continue;
+        Face face;
+        for (size_t c = 0; c < 3; ++c) face[c] = welder.indexOf(primitive.positions.vectorAt(vertices[c]));
+        part.faces.push_back(face);
+      }
+    }
+    part.vertices = std::move(welder.points());
+    return part;
+  }
+
+  std::vector<std::string> skipped() const {
+    std::vector<std::string> texts;
+    if (pointCount_ > 0) texts.push_back(counted(pointCount_, "point"));
+    if (lineCount_ > 0) texts.push_back(counted(lineCount_, "line"));
+    if (skinCount_ > 0) texts.push_back(counted(skinCount_, "pose of a skin", "poses of skins"));
+    if (morphCount_ > 0) texts.push_back(counted(morphCount_, "blend of morph targets", "blends of morph targets"));
+    if (const uint64_t scenes = file_.countOf("scenes"); scenes > 1)
+      texts.push_back(counted(scenes - 1, "further scene"));
+    return texts;
+  }
+
+  GltfFile file_;
+  bool isFirstPass_ = true;
+  uint64_t pointCount_ = 0, lineCount_ = 0, skinCount_ = 0, morphCount_ = 0;
+};
+
+Match detectGltf(std::span<const char> bytes) {
+  const std::string_view text(bytes.data(), bytes.size());
+  if (text.starts_with("glTF")) return Match::Certain;
+  return firstWord(bytes).starts_with('{') ? Match::Possible : Match::None;
+}
+
+Mesh parseGltf(std::span<const char> bytes) { return GltfReader(bytes).read(); }
+
+}  // namespace
+
+void writeGlb(AtomicFile& file, const ResultView& result);
+
+extern const FileFormat kGlbFormat{
+    .name = "glb", .extensions = {"glb", "gltf"}, .detect = detectGltf, .parseMesh = parseGltf};
+
+}  // namespace asdfvk

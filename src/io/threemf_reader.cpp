@@ -1,0 +1,441 @@
+// 3MF (core specification 1.3, production extension 1.1): the objects of the build items, with their components and
+// transforms, in the unit of the file. An item, and each component of it, is a part of its own. Colours, materials and
+// metadata are ignored; supports and beam lattices are left out, which Mesh::skipped says. Files within the archive
+// are read; no other file is opened.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "asdf_vk/error.h"
+#include "core/text.h"
+#include "io/assembled_mesh.h"
+#include "io/corner_welder.h"
+#include "io/formats.h"
+#include "io/input_failure.h"
+#include "io/xml_scanner.h"
+#include "io/zip_archive.h"
+
+namespace asdfvk {
+namespace {
+
+constexpr std::string_view kCoreNamespace = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02";
+constexpr std::string_view kModelRelationship = "http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel";
+constexpr uint32_t kMaxNesting = 64;  // Of components.
+
+struct UnitRow {
+  std::string_view name;  // In the file.
+  std::string_view unit;
+  double metres;
+};
+constexpr std::array<UnitRow, 6> kModelUnits{{{"millimeter", "mm", 1e-3},
+                                              {"micron", "um", 1e-6},
+                                              {"centimeter", "cm", 1e-2},
+                                              {"meter", "m", 1},
+                                              {"inch", "in", 0.0254},
+                                              {"foot", "ft", 0.3048}}};
+
+/// An object that is placed: by a build item, or as a component of another object.
+struct ObjectUse {
+  size_t model = 0;
+  uint64_t object = 0;
+  Placement placement;
+};
+
+struct ModelObject {
+  PartMesh mesh;
+  std::vector<ObjectUse> components;
+  bool isSupport = false;
+};
+
+/// A model file of the archive.
+struct ModelFile {
+  std::string path;
+  const UnitRow* unit = kModelUnits.data();
+  std::map<uint64_t, ModelObject> objects;
+  std::vector<ObjectUse> items;
+};
+
+/// What all instances of an object have.
+struct ObjectCounts {
+  uint64_t vertices = 0, faces = 0;
+};
+
+class ModelReader;
+
+class ThreeMfReader {
+ public:
+  explicit ThreeMfReader(std::span<const char> bytes) : archive_(bytes) {}
+
+  Mesh read();
+
+  /// The model of a path within the archive, which is read later.
+  size_t modelAt(std::string_view path);
+  [[nodiscard]] ModelFile& model(size_t index) { return models_[index]; }
+  /// Charges memory against the limit of instances.
+  void charge(uint64_t bytes);
+  void countLattice() { ++latticeCount_; }
+
+ private:
+  std::string rootPath();
+  void readModel(size_t index);
+  [[nodiscard]] const ModelObject& objectOf(const ObjectUse& use) const;
+  ObjectCounts countsOf(const ObjectUse& use, uint32_t depth);
+  void place(const ObjectUse& use, const Placement& outer, double scale, AssembledMesh& assembled);
+  [[nodiscard]] std::string nameOf(const ObjectUse& use) const {
+    return fmt::format("object {} of {}", use.object, printable(models_[use.model].path));
+  }
+
+  ZipArchive archive_;
+  std::vector<ModelFile> models_;
+  std::map<std::string, size_t, std::less<>> modelOf_;  ///< By path.
+  std::map<std::pair<size_t, uint64_t>, ObjectCounts> counts_;
+  uint64_t chargedBytes_ = 0, latticeCount_ = 0, supportCount_ = 0;
+};
+
+/// Reads one model file.
+class ModelReader {
+ public:
+  ModelReader(ThreeMfReader& archive, size_t index, XmlScanner& xml) : archive_(archive), index_(index), xml_(xml) {}
+
+  void read() {
+    if (xml_.next() != XmlScanner::Event::Start) xml_.fail("has no model");
+    readNamespaces();
+    if (core("model") != xml_.name())
+      xml_.fail(fmt::format("expected a model of 3MF, found {}", asdfvk::quoted(xml_.name())));
+    readUnit();
+    requireExtensions();
+    forEachChild([&] {
+      if (xml_.name() == core("resources"))
+        forEachChild([&] { xml_.name() == core("object") ? readObject() : xml_.skipElement(); });
+      else if (xml_.name() == core("build"))
+        forEachChild([&] { xml_.name() == core("item") ? readItem() : xml_.skipElement(); });
+      else
+        xml_.skipElement();
+    });
+    if (xml_.next() != XmlScanner::Event::Finished) xml_.fail("continues after the model");
+  }
+
+ private:
+  ModelFile& model() { return archive_.model(index_); }
+  /// The name of an element of the core specification in this file.
+  [[nodiscard]] std::string core(std::string_view name) const { return corePrefix_ + std::string(name); }
+
+  /// Calls work() at the start of each child; it reads the child to its end.
+  template <typename Work>
+  void forEachChild(const Work& work) {
+    while (xml_.next() == XmlScanner::Event::Start) work();
+  }
+
+  void readNamespaces() {
+    bool hasCore = false;
+    for (const auto& [name, value] : xml_.attributes()) {
+      if (name == "xmlns" && value == kCoreNamespace) hasCore = true;
+      if (!name.starts_with("xmlns:")) continue;
+      const std::string prefix(name.substr(6));
+      namespaces_[prefix] = value;
+      if (value == kCoreNamespace && !hasCore) {
+        corePrefix_ = prefix + ":";
+        hasCore = true;
+      }
+      if (value.find("/production/") != std::string_view::npos) pathAttribute_ = prefix + ":path";
+    }
+    if (!hasCore) xml_.fail("is not a model of 3MF: it does not name the core namespace");
+  }
+
+  void readUnit() {
+    const std::string_view unit = xml_.attribute("unit").value_or(kModelUnits[0].name);
+    const auto row =
+        std::find_if(kModelUnits.begin(), kModelUnits.end(), [&](const UnitRow& r) { return r.name == unit; });
+    if (row == kModelUnits.end()) xml_.fail(fmt::format("{} is not a unit of 3MF", asdfvk::quoted(unit)));
+    model().unit = &*row;
+  }
+
+  void requireExtensions() {
+    std::string_view names = xml_.attribute("requiredextensions").value_or("");
+    while (!names.empty()) {
+      const size_t end = std::min(names.find(' '), names.size());
+      const std::string prefix(names.substr(0, end));
+      names.remove_prefix(std::min(end + 1, names.size()));
+      if (prefix.empty()) continue;
+      const std::string& space = namespaces_[prefix];
+      const auto is = [&](std::string_view part) { return space.find(part) != std::string::npos; };
+      if (!is("/production/") && !is("/material/") && !is("/trianglesets/"))
+        xml_.fail(fmt::format("requires the extension {} {}, which is not supported; export without it",
+                              asdfvk::quoted(prefix), asdfvk::quoted(space)));
+    }
+  }
+
+  std::string_view requiredAttribute(std::string_view name) {
+    const auto value = xml_.attribute(name);
+    if (!value) xml_.fail(fmt::format("{} has no {}", asdfvk::quoted(xml_.name()), name));
+    return *value;
+  }
+
+  uint64_t whole(std::string_view name) {
+    const std::string_view text = requiredAttribute(name);
+    uint32_t number = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error != std::errc() || end != text.data() + text.size())
+      xml_.fail(fmt::format("{} {} is not a whole number", name, asdfvk::quoted(text)));
+    return number;
+  }
+
+  double real(std::string_view text, std::string_view what) {
+    double number = 0;
+    std::string_view digits = text;
+    if (digits.starts_with('+')) digits.remove_prefix(1);
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
+    if (error != std::errc() || end != digits.data() + digits.size() || !std::isfinite(number))
+      xml_.fail(fmt::format("{} {} is not a number", what, asdfvk::quoted(text)));
+    return number;
+  }
+
+  /// Twelve numbers: the images of the axes, then the translation.
+  Placement placement() {
+    Placement read;
+    const auto text = xml_.attribute("transform");
+    if (!text) return read;
+    std::array<double, 12> numbers{};
+    std::string_view rest = *text;
+    size_t count = 0;
+    for (;;) {
+      while (rest.starts_with(' ')) rest.remove_prefix(1);
+      if (rest.empty()) break;
+      const size_t end = std::min(rest.find(' '), rest.size());
+      if (count == numbers.size()) xml_.fail("a transform has more than 12 numbers");
+      numbers[count++] = real(rest.substr(0, end), "a number of a transform");
+      rest.remove_prefix(end);
+    }
+    if (count != numbers.size()) xml_.fail(fmt::format("a transform has {} instead of 12", counted(count, "number")));
+    for (size_t i = 0; i < 4; ++i)
+      (i < 3 ? read.columns[i] : read.translation) = {numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]};
+    return read;
+  }
+
+  ObjectUse use() {
+    ObjectUse read{index_, whole("objectid"), placement()};
+    if (const auto path = pathAttribute_.empty() ? std::nullopt : xml_.attribute(pathAttribute_)) {
+      const std::optional<std::string> decoded = xmlDecoded(*path);
+      if (!decoded) xml_.fail(fmt::format("path {} has an unknown entity", asdfvk::quoted(*path)));
+      read.model = archive_.modelAt(*decoded);
+    }
+    archive_.charge(sizeof(ObjectUse));
+    return read;
+  }
+
+  void readItem() {
+    const ObjectUse item = use();
+    model().items.push_back(item);
+    xml_.skipElement();
+  }
+
+  void readObject() {
+    const uint64_t id = whole("id");
+    const std::string type(xml_.attribute("type").value_or("model"));
+    ModelObject object;
+    object.isSupport = type == "support" || type == "solidsupport";
+    archive_.charge(sizeof(ModelObject) + 64);
+    forEachChild([&] {
+      if (xml_.name() == core("mesh"))
+        readMesh(object.mesh);
+      else if (xml_.name() == core("components"))
+        forEachChild([&] {
+          if (xml_.name() == core("component")) object.components.push_back(use());
+          xml_.skipElement();
+        });
+      else
+        xml_.skipElement();
+    });
+    weldSeparateCorners(object.mesh);
+    if (!model().objects.emplace(id, std::move(object)).second) xml_.fail(fmt::format("object {} is there twice", id));
+  }
+
+  void readMesh(PartMesh& mesh) {
+    if (!mesh.vertices.empty()) xml_.fail("an object has two meshes");
+    forEachChild([&] {
+      if (xml_.name() == core("vertices")) {
+        const std::string vertex = core("vertex");
+        forEachChild([&] { xml_.name() == vertex ? readVertex(mesh) : xml_.skipElement(); });
+      } else if (xml_.name() == core("triangles")) {
+        const std::string triangle = core("triangle");
+        forEachChild([&] { xml_.name() == triangle ? readTriangle(mesh) : xml_.skipElement(); });
+      } else {
+        if (xml_.name().ends_with("beamlattice")) archive_.countLattice();
+        xml_.skipElement();
+      }
+    });
+  }
+
+  void readVertex(PartMesh& mesh) {
+    archive_.charge(sizeof(Vec3d));
+    Vec3d p;
+    p.x = real(requiredAttribute("x"), "x");
+    p.y = real(requiredAttribute("y"), "y");
+    p.z = real(requiredAttribute("z"), "z");
+    mesh.vertices.push_back(p);
+    xml_.skipElement();
+  }
+
+  void readTriangle(PartMesh& mesh) {
+    archive_.charge(sizeof(Face));
+    Face face;
+    constexpr std::array<std::string_view, 3> kNames{"v1", "v2", "v3"};
+    for (size_t c = 0; c < 3; ++c) {
+      const uint64_t vertex = whole(kNames[c]);
+      if (vertex >= mesh.vertices.size())
+        xml_.fail(fmt::format("{} {} is out of range; the mesh has {}", kNames[c], vertex,
+                              counted(mesh.vertices.size(), "vertex", "vertices")));
+      face[c] = static_cast<uint32_t>(vertex);
+    }
+    mesh.faces.push_back(face);
+    xml_.skipElement();
+  }
+
+  /// Some writers give each triangle corners of its own, as STL does; then no face would have a neighbour.
+  static void weldSeparateCorners(PartMesh& mesh) {
+    if (mesh.vertices.size() != 3 * mesh.faces.size()) return;
+    std::vector<bool> isUsed(mesh.vertices.size(), false);
+    for (const Face& face : mesh.faces)
+      for (const uint32_t corner : face) {
+        if (isUsed[corner]) return;
+        isUsed[corner] = true;
+      }
+    CornerWelder welder(mesh.vertices.size() / 6);
+    for (Face& face : mesh.faces)
+      for (uint32_t& corner : face) corner = welder.indexOf(mesh.vertices[corner]);
+    mesh.vertices = std::move(welder.points());
+  }
+
+  ThreeMfReader& archive_;
+  size_t index_;
+  XmlScanner& xml_;
+  std::string corePrefix_, pathAttribute_;
+  std::map<std::string, std::string> namespaces_;
+};
+
+void ThreeMfReader::charge(uint64_t bytes) {
+  chargedBytes_ += bytes;
+  constexpr uint64_t kMaxBytesPerByte = 20;  // Arrays grow: for a moment they take three times as much.
+  if (chargedBytes_ > std::max(kMaxInstanceBytes, kMaxBytesPerByte * archive_.bytes().size()))
+    throw Error(ErrorCode::InputTooLarge,
+                fmt::format("its mesh needs more than {} MiB of memory", kMaxInstanceBytes >> 20));
+}
+
+size_t ThreeMfReader::modelAt(std::string_view path) {
+  if (path.starts_with('/')) path.remove_prefix(1);
+  const auto [known, isNew] = modelOf_.emplace(path, models_.size());
+  if (!isNew) return known->second;
+  constexpr size_t kMaxModels = 4096;
+  if (models_.size() == kMaxModels) failInput(fmt::format("more than {} model files", kMaxModels));
+  charge(sizeof(ModelFile) + 128 + path.size());
+  models_.push_back({.path = std::string(path)});
+  return models_.size() - 1;
+}
+
+std::string ThreeMfReader::rootPath() {
+  constexpr std::string_view kRelationships = "_rels/.rels";
+  const ZipEntry* const entry = archive_.find(kRelationships);
+  if (entry == nullptr) failInput("is a ZIP archive but not 3MF: it has no _rels/.rels");
+  ZipStream stream(archive_, *entry);
+  XmlScanner xml([&](char* to, size_t size) { return stream.read(to, size); }, std::string(kRelationships));
+  std::optional<std::string> path;
+  for (XmlScanner::Event event = xml.next(); event != XmlScanner::Event::Finished; event = xml.next()) {
+    if (event != XmlScanner::Event::Start || xml.attribute("Type") != kModelRelationship) continue;
+    if (path) xml.fail("names two models");
+    path = xmlDecoded(xml.attribute("Target").value_or(""));
+    if (!path) xml.fail("the target of a relationship has an unknown entity");
+  }
+  if (!path) failInput("is a ZIP archive but not 3MF: _rels/.rels names no model");
+  return *path;
+}
+
+void ThreeMfReader::readModel(size_t index) {
+  const std::string path = models_[index].path;
+  const ZipEntry* const entry = archive_.find(path);
+  if (entry == nullptr) failInput(fmt::format("the archive has no {}", asdfvk::quoted(path)));
+  ZipStream stream(archive_, *entry);
+  XmlScanner xml([&](char* to, size_t size) { return stream.read(to, size); }, path);
+  ModelReader(*this, index, xml).read();
+}
+
+const ModelObject& ThreeMfReader::objectOf(const ObjectUse& use) const {
+  const auto& objects = models_[use.model].objects;
+  const auto found = objects.find(use.object);
+  if (found == objects.end()) failInput(fmt::format("there is no {}", nameOf(use)));
+  return found->second;
+}
+
+ObjectCounts ThreeMfReader::countsOf(const ObjectUse& use, uint32_t depth) {
+  if (depth == kMaxNesting)
+    failInput(fmt::format("{} is nested more than {} levels deep, or in itself", nameOf(use), kMaxNesting));
+  if (const auto known = counts_.find({use.model, use.object}); known != counts_.end()) return known->second;
+  constexpr uint64_t kTooMany = uint64_t{1} << 50;
+  const ModelObject& object = objectOf(use);
+  ObjectCounts counts;
+  if (object.isSupport) {
+    ++supportCount_;
+  } else {
+    counts = {object.mesh.vertices.size(), object.mesh.faces.size()};
+    for (const ObjectUse& component : object.components) {
+      const ObjectCounts inner = countsOf(component, depth + 1);
+      counts.vertices = std::min(counts.vertices + inner.vertices, kTooMany);
+      counts.faces = std::min(counts.faces + inner.faces, kTooMany);
+    }
+  }
+  counts_[{use.model, use.object}] = counts;
+  return counts;
+}
+
+void ThreeMfReader::place(const ObjectUse& use, const Placement& outer, double scale, AssembledMesh& assembled) {
+  if (counts_[{use.model, use.object}].faces == 0) return;
+  const ModelObject& object = objectOf(use);
+  Placement placement = outer.after(use.placement);
+  if (!placement.isFinite()) failInput(fmt::format("the place of {} is beyond all numbers", nameOf(use)));
+  const double unit = models_[use.model].unit->metres;
+  if (unit != scale) {  // Of another file of the archive.
+    for (Vec3d& column : placement.columns) column = column * (unit / scale);
+  }
+  assembled.add(object.mesh, placement);
+  for (const ObjectUse& component : object.components) place(component, placement, unit, assembled);
+}
+
+Mesh ThreeMfReader::read() {
+  const size_t root = modelAt(rootPath());
+  for (size_t i = 0; i < models_.size(); ++i) readModel(i);  // Models name further ones.
+  ObjectCounts all;
+  for (const ObjectUse& item : models_[root].items) {
+    const ObjectCounts counts = countsOf(item, 0);
+    all = {all.vertices + counts.vertices, all.faces + counts.faces};
+  }
+  std::vector<std::string> skipped;
+  if (supportCount_ > 0) skipped.push_back(counted(supportCount_, "support"));
+  if (latticeCount_ > 0) skipped.push_back(counted(latticeCount_, "beam lattice"));
+  if (all.faces == 0)
+    failInput(models_[root].items.empty() ? "builds nothing: it has no build item"
+                                          : fmt::format("has {} and no triangle: nothing to compute on",
+                                                        skipped.empty() ? "build items" : joined(skipped, " and ")));
+  AssembledMesh assembled(all.vertices, all.faces, archive_.bytes().size());
+  for (const ObjectUse& item : models_[root].items) place(item, {}, models_[root].unit->metres, assembled);
+  Mesh mesh = assembled.finish();
+  mesh.unit = models_[root].unit->unit;
+  mesh.skipped = std::move(skipped);
+  return mesh;
+}
+
+Match detect3mf(std::span<const char> bytes) {
+  return std::string_view(bytes.data(), bytes.size()).starts_with("PK\x03\x04") ? Match::Possible : Match::None;
+}
+
+Mesh parse3mf(std::span<const char> bytes) { return ThreeMfReader(bytes).read(); }
+
+}  // namespace
+
+extern const FileFormat k3mfFormat{.name = "3mf", .extensions = {"3mf"}, .detect = detect3mf, .parseMesh = parse3mf};
+
+}  // namespace asdfvk

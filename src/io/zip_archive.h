@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace asdfvk {
+
+/// A file in a ZIP archive.
+struct ZipEntry {
+  std::string_view name;
+  uint64_t headerOffset = 0;
+  uint64_t storedSize = 0;  ///< In the archive.
+  uint64_t size = 0;
+  uint32_t checksum = 0;
+  uint16_t method = 0;
+};
+
+/// The directory of a ZIP archive (PKWARE APPNOTE 6.3, with ZIP64; stored and deflated files). Throws
+/// Error{UnreadableInput}.
+class ZipArchive {
+ public:
+  /// The bytes must outlive the archive.
+  explicit ZipArchive(std::span<const char> bytes);
+
+  [[nodiscard]] std::span<const ZipEntry> entries() const { return entries_; }
+  /// By its name, ASCII letters in any case; null where there is none.
+  [[nodiscard]] const ZipEntry* find(std::string_view name) const;
+  [[nodiscard]] std::span<const char> bytes() const { return bytes_; }
+
+ private:
+  std::span<const char> bytes_;
+  std::vector<ZipEntry> entries_;
+};
+
+/// Reads a file of an archive piece by piece. Verifies its size and checksum at its end.
+class ZipStream {
+ public:
+  /// The entry must outlive the stream. Throws Error{UnreadableInput} for an encrypted or unknown method.
+  ZipStream(const ZipArchive& archive, const ZipEntry& entry);
+  ~ZipStream();
+  ZipStream(const ZipStream&) = delete;
+  ZipStream& operator=(const ZipStream&) = delete;
+
+  /// Up to `size` bytes; fewer only at the end of the file. Throws Error{UnreadableInput} for damaged data.
+  [[nodiscard]] size_t read(char* to, size_t size);
+
+ private:
+  struct Inflater;
+  void finish();
+
+  const ZipEntry& entry_;
+  std::span<const char> stored_;
+  std::unique_ptr<Inflater> inflater_;  ///< Null for a stored file.
+  uint64_t doneSize_ = 0;
+  uint32_t checksum_ = 0;
+  bool isFinished_ = false;
+};
+
+}  // namespace asdfvk
