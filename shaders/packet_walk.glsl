@@ -1,5 +1,6 @@
-// Nearest hits of all rays of a subgroup. The lanes share the stack and the node. A node is entered if a ray of any lane
-// enters it. Children are entered in the order of distance of the first lane. All loops are uniform over the subgroup.
+// Nearest hits of all rays of a subgroup. The lanes share the stack and the node. A node is entered if a ray of any
+// lane enters it. Children are entered in the order of distance of the first lane. All loops are uniform over the
+// subgroup.
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #extension GL_KHR_shader_subgroup_ballot : require
 

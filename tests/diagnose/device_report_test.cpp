@@ -20,14 +20,13 @@ constexpr double kShortest = 0;  // Seconds per run.
 DeviceReport goodReport() {
   DeviceReport report;
   report.device.emplace();
-  report.tracers = {
-      {.backend = "vulkan",
-       .variant = TraceVariant{"seed", "wide", "texel"},
-       .isDefault = true,
-       .passed = true,
-       .raysPerSecond = 10},
-      {.backend = "vulkan", .variant = TraceVariant{"ray", "wide", "texel"}, .passed = true, .raysPerSecond = 20},
-      {.backend = "cpu", .passed = true, .raysPerSecond = 30}};
+  report.tracers = {{.backend = "vulkan",
+                     .variant = TraceVariant{"seed", "texel"},
+                     .isDefault = true,
+                     .passed = true,
+                     .raysPerSecond = 10},
+                    {.backend = "vulkan", .variant = TraceVariant{"ray", "texel"}, .passed = true, .raysPerSecond = 20},
+                    {.backend = "cpu", .passed = true, .raysPerSecond = 30}};
   report.solvers = {{.name = "cg", .passed = true}};
   return report;
 }
@@ -82,16 +81,15 @@ TEST_CASE("each variant and solver of the device gives the values of the CPU" * 
     CAPTURE(tracer.failure);
     REQUIRE(tracer.variant);
     CAPTURE(tracer.variant->kernel);
-    CAPTURE(tracer.variant->bvh);
     CAPTURE(tracer.variant->fetch);
-    variants.insert(tracer.variant->kernel + tracer.variant->bvh + tracer.variant->fetch);
+    variants.insert(tracer.variant->kernel + tracer.variant->fetch);
     CHECK(tracer.backend == "vulkan");
     if (!tracer.refusal.empty()) continue;
     CHECK(tracer.passed);
     CHECK(tracer.comparedCount == 64);
     CHECK(tracer.raysPerSecond > 0);
   }
-  CHECK(variants.size() == 12);
+  CHECK(variants.size() == 6);
   CHECK(std::count_if(report.tracers.begin(), report.tracers.end(),
                       [](const TracerReport& tracer) { return tracer.isDefault; }) == 1);
   CHECK(report.fastest() != nullptr);

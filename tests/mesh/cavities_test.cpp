@@ -22,12 +22,12 @@ namespace {
 using Indices = std::vector<uint32_t>;
 using IsFilled = std::function<bool(uint32_t, uint32_t, uint32_t)>;
 
-struct Expected {
+struct ExpectedCavity {
   std::vector<uint8_t> isCavity;
   Indices bodyOf;
 };
 
-Mesh box(const Vec3d& size, const Vec3d& centre) { return joined(Mesh{}, shapes::box(size), centre); }
+Mesh bodyAt(const Vec3d& size, const Vec3d& centre) { return joined(Mesh{}, shapes::box(size), centre); }
 
 /// Of the cells between planes.
 Mesh cells(const std::vector<double>& xs, const std::vector<double>& ys, const std::vector<double>& zs,
@@ -52,7 +52,7 @@ Mesh turned(Mesh mesh, double yaw, double pitch) {
   return mesh;
 }
 
-void check(const Mesh& mesh, const Expected& expected) {
+void check(const Mesh& mesh, const ExpectedCavity& expected) {
   constexpr std::array<std::array<double, 2>, 4> kRotations{{{0, 0}, {0.5, 1.1}, {2.3, -0.4}, {0.785, 0.615}}};
   for (const auto& rotation : kRotations) {
     CAPTURE(rotation[0]);
@@ -103,13 +103,15 @@ TEST_CASE("a cavity wound as a body is a cavity beside a profile in whose box it
 }
 
 TEST_CASE("a cavity where two bodies cross is of one of them") {
-  const Mesh bodies = joined(shapes::box({10, 4, 4}), box({4, 4.5, 12}, {1, 0.5, 0}));
+  const Mesh bodies = joined(shapes::box({10, 4, 4}), bodyAt({4, 4.5, 12}, {1, 0.5, 0}));
   check(joined(bodies, inverted(shapes::box({1, 1, 1})), {1, 0, 0}), {{0, 0, 1}, {0, 1, 0}});
 }
 
 TEST_CASE("a body that fills its cavity, rests in it or is pressed into it is a body") {
-  const auto inCavity = [](const Vec3d& size, const Vec3d& centre) { return joined(hollowBlock(), box(size, centre)); };
-  const Expected expected{{0, 1, 0}, {0, 0, 2}};
+  const auto inCavity = [](const Vec3d& size, const Vec3d& centre) {
+    return joined(hollowBlock(), bodyAt(size, centre));
+  };
+  const ExpectedCavity expected{{0, 1, 0}, {0, 0, 2}};
   check(inCavity({4, 4, 4}, {}), expected);
   check(joined(hollowBlock(), shapes::box({4, 4, 4}, 3)), expected);
   check(inCavity({2, 2, 1}, {0, 0, -1.5}), expected);
