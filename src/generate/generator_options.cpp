@@ -4,7 +4,6 @@
 
 #include "asdf_vk/version.h"
 #include "core/text.h"
-#include "generate/assembly.h"
 #include "generate/shapes.h"
 #include "generate/thickness_parts.h"
 
@@ -13,16 +12,13 @@ namespace asdfvk {
 void addOptions(ArgumentParser& parser, GeneratorOptions& options) {
   parser.setProgram("asdf-vk-generate",
                     "Generates closed triangle meshes as binary PLY: shapes whose parts and local diameters are "
-                    "known, mechanical parts whose least wall thickness is known, and random assemblies of parts "
-                    "that touch.");
+                    "known, and mechanical parts whose least wall thickness is known.");
   parser.addVersion(fmt::format("asdf-vk-generate {} ({})", ASDFVK_VERSION, ASDFVK_COMMIT));
   parser
       .addValue("shape", "SHAPE",
-                fmt::format("One of {}; a part: {}; or at random: {}", joined(shapeNames(), ", "),
-                            joined(thicknessPartNames(), ", "), joined(kRandomSolids, ", ")),
+                fmt::format("One of {}; or a part: {}", joined(shapeNames(), ", "), joined(thicknessPartNames(), ", ")),
                 [&](const std::string& text) { options.shape = text; })
-      .completions(joined(shapeNames(), "|") + "|" + joined(thicknessPartNames(), "|") + "|" +
-                   joined(kRandomSolids, "|"))
+      .completions(joined(shapeNames(), "|") + "|" + joined(thicknessPartNames(), "|"))
       .require();
   parser
       .addValue("-o,--output", "FILE.ply|-", "The PLY file to write; - is standard output",
@@ -36,12 +32,6 @@ void addOptions(ArgumentParser& parser, GeneratorOptions& options) {
                    "Divide the edges of a part until they are at most this long, before the scaling; default: as few "
                    "faces as possible",
                    options.longestEdge);
-  parser.addNumber("--rng-seed", "N", fmt::format("Another assembly or doubled solid; default {}", options.seed),
-                   options.seed);
-  parser.addNumber("--apart", "DISTANCE",
-                   "Move the parts of an assembly apart, before the scaling: the same parts without contacts",
-                   options.apart);
-  parser.addFlag("--interpenetrate", options.interpenetrates, "Let parts of an assembly overlap instead of touch");
   parser.addNumber("--scale", "S", fmt::format("Factor on all lengths; default {}", options.scale), options.scale);
   parser.addNumbers("--translate", "X Y Z", "Shift, after the scaling", options.translate);
   parser.addFlag("--double", options.doubleVertices, "Write vertices as double instead of float");

@@ -14,9 +14,6 @@ struct GeneratorOptions {
   std::string shape, output;
   uint64_t faceCount = 20000;  ///< Used by shapes of known diameter.
   double longestEdge = 0;      ///< Used by parts of known least thickness; 0: as few faces as possible.
-  uint64_t seed = 1;           ///< Used by assemblies and doubled solids.
-  double apart = 0;            ///< Distance between the parts of an assembly, where the option is given.
-  bool interpenetrates = false;
   double scale = 1;
   std::array<double, 3> translate{0, 0, 0};
   bool doubleVertices = false;

@@ -6,7 +6,6 @@
 #include <exception>
 
 #include "asdf_vk/error.h"
-#include "generate/assembly.h"
 #include "generate/generated_shape.h"
 #include "generate/generator_options.h"
 #include "generate/shapes.h"
@@ -31,44 +30,14 @@ GeneratedShape makePart(const GeneratorOptions& options) {
   return withUniformDiameter(part.solid.surface(division), part.leastThickness);
 }
 
-enum class Kind { Shape, Part, Assembly, Doubled };
-
-Kind kindOf(std::string_view shape) {
-  const std::vector<std::string_view> parts = thicknessPartNames();
-  if (std::find(parts.begin(), parts.end(), shape) != parts.end()) return Kind::Part;
-  return shape == kRandomSolids[0] ? Kind::Assembly : shape == kRandomSolids[1] ? Kind::Doubled : Kind::Shape;
-}
-
-void refuseOptionsOfOthers(const ArgumentParser& parser, Kind kind) {
-  const auto refuse = [&](const char* name, bool isAllowed, const char* reason) {
-    if (parser.isGiven(name) && !isAllowed) throw Error(ErrorCode::OptionConflict, reason);
-  };
-  refuse("--faces", kind == Kind::Shape,
-         kind == Kind::Part ? "--faces is not for parts; give --longest-edge"
-                            : "--faces is not for assemblies and doubled solids, whose count follows from --rng-seed");
-  refuse("--longest-edge", kind == Kind::Part, "--longest-edge is for parts only; give --faces");
-  refuse("--rng-seed", kind == Kind::Assembly || kind == Kind::Doubled,
-         "--rng-seed is for assembly and doubled only; nothing else is random");
-  refuse("--apart", kind == Kind::Assembly, "--apart is for assembly only");
-  refuse("--interpenetrate", kind == Kind::Assembly, "--interpenetrate is for assembly only");
-}
-
 GeneratedShape make(const ArgumentParser& parser, const GeneratorOptions& options) {
-  const Kind kind = kindOf(options.shape);
-  refuseOptionsOfOthers(parser, kind);
-  switch (kind) {
-    case Kind::Part:
-      return makePart(options);
-    case Kind::Doubled:
-      return makeDoubledSolid(options.seed);
-    case Kind::Assembly: {
-      AssemblyParameters parameters{.seed = options.seed, .interpenetrates = options.interpenetrates, .apart = {}};
-      if (parser.isGiven("--apart")) parameters.apart = options.apart;
-      return makeAssembly(parameters);
-    }
-    default:
-      return generateShape(options.shape, options.faceCount);
-  }
+  const std::vector<std::string_view> parts = thicknessPartNames();
+  const bool isPart = std::find(parts.begin(), parts.end(), options.shape) != parts.end();
+  if (isPart && parser.isGiven("--faces"))
+    throw Error(ErrorCode::OptionConflict, "--faces is not for parts; give --longest-edge");
+  if (!isPart && parser.isGiven("--longest-edge"))
+    throw Error(ErrorCode::OptionConflict, "--longest-edge is for parts only; give --faces");
+  return isPart ? makePart(options) : generateShape(options.shape, options.faceCount);
 }
 
 void run(const ArgumentParser& parser, const GeneratorOptions& options) {
@@ -76,8 +45,6 @@ void run(const ArgumentParser& parser, const GeneratorOptions& options) {
     throw Error(ErrorCode::OptionOutOfRange, "--scale must be a positive number");
   if (parser.isGiven("--longest-edge") && !(options.longestEdge > 0))
     throw Error(ErrorCode::OptionOutOfRange, "--longest-edge must be a positive number");
-  if (parser.isGiven("--apart") && !(options.apart > 0 && std::isfinite(options.apart)))
-    throw Error(ErrorCode::OptionOutOfRange, "--apart must be a positive number");
   GeneratedShape shape = make(parser, options);
   place(shape, options);
   writeGeneratedPly(options.output, shape, options.doubleVertices);

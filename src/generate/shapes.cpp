@@ -6,7 +6,6 @@
 
 #include "asdf_vk/error.h"
 #include "core/text.h"
-#include "generate/assembly.h"
 #include "generate/thickness_parts.h"
 
 namespace asdfvk {
@@ -45,9 +44,8 @@ GeneratedShape generateShape(std::string_view name, uint64_t faceCount) {
                             groupDigits(kMaxFaceCount)));
   for (const NamedShape& shape : kShapes)
     if (shape.name == name) return shape.make(faceCount);
-  throw Error(ErrorCode::OptionOutOfRange,
-              fmt::format("unknown shape {}; the shapes are {}; the parts are {}; at random: {}", name,
-                          joined(shapeNames(), ", "), joined(thicknessPartNames(), ", "), joined(kRandomSolids, ", ")));
+  throw Error(ErrorCode::OptionOutOfRange, fmt::format("unknown shape {}; the shapes are {}; the parts are {}", name,
+                                                       joined(shapeNames(), ", "), joined(thicknessPartNames(), ", ")));
 }
 
 }  // namespace asdfvk

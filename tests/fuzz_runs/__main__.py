@@ -31,11 +31,14 @@ def main() -> int:
     parser.add_argument("--batch", metavar="FOLDER", type=pathlib.Path, help="its meshes in ten orders")
     parser.add_argument("--program", type=pathlib.Path, required=True)
     parser.add_argument("--generate", type=pathlib.Path, required=True)
+    parser.add_argument("--random-solid", type=pathlib.Path, required=True)
     parser.add_argument(
         "--folder", type=pathlib.Path, required=True, help="for the files of findings"
     )
     arguments = parser.parse_args()
-    program = Program(arguments.program.resolve(), arguments.generate.resolve())
+    program = Program(
+        arguments.program.resolve(), arguments.generate.resolve(), arguments.random_solid.resolve()
+    )
     folder = arguments.folder.resolve()
 
     if arguments.case:

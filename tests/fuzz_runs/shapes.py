@@ -1,4 +1,4 @@
-"""Meshes at random: shapes of asdf-vk-generate, and what can be done to them."""
+"""Meshes at random: shapes of asdf-vk-generate, random solids, and what can be done to them."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import pathlib
 import random
 import struct
 
-from program import Program
+from program import RANDOM_SOLIDS, Program
 
 Vertex = tuple[float, float, float]
 
@@ -16,7 +16,7 @@ SHAPES = (
     *("animal", "hand", "figure", "sphere", "icosphere", "slab", "cylinder", "torus", "cube"),
     *("wedge", "blade", "spike", "stepped-plate", "drafted-rib", "pocket", "drafted-box"),
     *("round-cup", "bracket-4", "ligament-12", "flat-thread"),
-    *("assembly", "doubled"),
+    *RANDOM_SOLIDS,
 )
 SHAPES_WITH_FACES = frozenset(SHAPES[:9])
 
@@ -39,7 +39,7 @@ def generated(program: Program, rng: random.Random, folder: pathlib.Path, most_f
     arguments = [shape]
     if shape in SHAPES_WITH_FACES:
         arguments += ["--faces", str(round(math.exp(rng.uniform(3, math.log(most_faces)))))]
-    if shape in ("assembly", "doubled"):
+    if shape in RANDOM_SOLIDS:
         arguments += ["--rng-seed", str(rng.randrange(10**6))]
     if shape == "assembly" and rng.random() < 0.2:
         arguments.append("--interpenetrate")
@@ -73,7 +73,7 @@ def write(mesh: Mesh, path: pathlib.Path) -> pathlib.Path:
 
 def has_contacts(mesh: Mesh) -> bool:
     """Whether faces of other triangles lie upon one another."""
-    return mesh.what.startswith(("assembly", "doubled"))
+    return mesh.what.startswith(RANDOM_SOLIDS)
 
 
 def in_general_position(mesh: Mesh, rng: random.Random) -> Mesh:

@@ -166,7 +166,7 @@ class Options(unittest.TestCase):
     @unittest.skipUnless("ASDF_VK_PROGRAM" in os.environ, "ASDF_VK_PROGRAM is not set")
     def test_the_tables_have_all_options(self) -> None:
         path = pathlib.Path(os.environ.get("ASDF_VK_PROGRAM", ""))
-        self.assertEqual(options.missing_in_tables(Program(path, path).help()), set())
+        self.assertEqual(options.missing_in_tables(Program(path, path, path).help()), set())
 
     def test_findings_that_differ_in_numbers_only_are_one(self) -> None:
         first = class_of("units", "", "values differ: at 3 of 5 faces  [asdf-vk a -o b]")
@@ -196,7 +196,7 @@ class WholeCases(unittest.TestCase):
             generate = script(folder / "generate", f'for out; do :; done; cp "{mesh}" "$out"')
             for text, (kind, expected) in self.SCRIPTS.items():
                 with self.subTest(script=text):
-                    program = Program(script(folder / "program", text), generate)
+                    program = Program(script(folder / "program", text), generate, generate)
                     findings: list[str] = []
                     for seed in range(6):
                         findings += run_case(program, kind, seed, folder / "case").findings

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "mesh/face_geometry.h"
+#include "random_solids/random_boxes.h"
 #include "support/brute_force_thickness.h"
 #include "topology.h"
 

@@ -8,6 +8,7 @@
 
 #include "generate/thickness_parts.h"
 #include "mesh/face_geometry.h"
+#include "random_solids/random_boxes.h"
 #include "support/shared_session.h"
 
 // Parts of known least thickness (generate/thickness_parts.h) through the whole library.

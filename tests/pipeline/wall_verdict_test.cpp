@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "asdf_vk/scene.h"
-#include "generate/assembly.h"
 #include "generate/block_solid.h"
 #include "generate/thickness_parts.h"
 #include "mesh/face_geometry.h"
+#include "random_solids/assembly.h"
 #include "support/shapes.h"
 #include "support/shared_session.h"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "generate/assembly.h"
+#include "random_solids/assembly.h"
 #include "support/shapes.h"
 #include "support/test_device.h"
 #include "trace/contact_faces.h"

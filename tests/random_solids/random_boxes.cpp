@@ -1,10 +1,11 @@
+#include "random_solids/random_boxes.h"
+
 #include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
 
 #include "core/random.h"
-#include "generate/thickness_parts.h"
 
 namespace asdfvk {
 namespace {

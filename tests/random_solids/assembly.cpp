@@ -1,4 +1,4 @@
-#include "generate/assembly.h"
+#include "random_solids/assembly.h"
 
 #include <algorithm>
 #include <array>

@@ -1,16 +1,11 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
-#include <string_view>
 
 #include "generate/generated_shape.h"
 
 namespace asdfvk {
-
-/// Names of what is made at random on the command line.
-inline constexpr std::array<std::string_view, 2> kRandomSolids{"assembly", "doubled"};
 
 struct AssemblyParameters {
   uint64_t seed = 1;
