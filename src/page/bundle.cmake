@@ -2,7 +2,7 @@
 #   cmake -DPAGE=src/page/browser -DOUTPUT=page_template.cpp -P bundle.cmake
 # The modules of PAGE/modules.txt, in its order, become one script in a function: without their imports (one line each),
 # the word `export`, lines of comments and leading blanks. All top-level names of the modules must therefore differ.
-# NAME_OF.glsl becomes the constant nameOfSource before them. page.html has the places @CSP@, @STYLE@ and @LOADER@, which
+# The shaders, NAME.glsl, are `shaders.NAME` before them. page.html has the places @CSP@, @STYLE@ and @LOADER@, which
 # are filled here, and those that src/page/page.cpp fills; it compresses the script, which loader.js unpacks.
 cmake_minimum_required(VERSION 3.25)
 
@@ -41,26 +41,16 @@ function(asdfvk_refuse text pattern reason)
   endif()
 endfunction()
 
-set(script "")
+set(script "const shaders = {\n")
 file(GLOB shaders ${PAGE}/*.glsl)
 foreach(shader IN LISTS shaders)
   file(READ ${shader} text)
   asdfvk_refuse("${text}" "[`\\$]" "${shader}: a shader may have no backquote, backslash or dollar sign")
   asdfvk_shortened("${text}" text)
-  get_filename_component(words ${shader} NAME_WE)
-  string(REPLACE "_" ";" words "${words}")
-  set(name "")
-  foreach(word IN LISTS words)
-    if(NOT name STREQUAL "")
-      string(SUBSTRING ${word} 0 1 first)
-      string(SUBSTRING ${word} 1 -1 rest)
-      string(TOUPPER ${first} first)
-      set(word ${first}${rest})
-    endif()
-    string(APPEND name ${word})
-  endforeach()
-  string(APPEND script "const ${name}Source = `${text}`;\n")
+  get_filename_component(name ${shader} NAME_WE)
+  string(APPEND script "${name}: `${text}`,\n")
 endforeach()
+string(APPEND script "};\n")
 
 file(STRINGS ${PAGE}/modules.txt modules REGEX "^[a-z]")
 foreach(module IN LISTS modules)

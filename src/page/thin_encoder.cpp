@@ -1,32 +1,20 @@
 #include "page/thin_encoder.h"
 
-#include <bit>
 #include <functional>
 #include <unordered_map>
 #include <vector>
 
 #include "core/check.h"
 #include "core/json.h"
+#include "mesh/coincident_faces.h"
 #include "page/mesh_encoder.h"
 
 namespace asdfvk {
-namespace {
-
-struct PositionHash {
-  size_t operator()(const Vec3d& p) const {
-    uint64_t hash = 0;
-    for (const double x : {p.x, p.y, p.z})
-      hash = (hash ^ std::bit_cast<uint64_t>(x)) * 0x9e3779b97f4a7c15ULL + (hash >> 29);
-    return hash ^ (hash >> 32);
-  }
-};
-
-}  // namespace
-
 Json encodeThinSurface(const ThinSurface& surface, const Box3d& box, PageArrays& arrays) {
   ASDFVK_CHECK(surface.regions.size() == surface.triangles.size());
   Mesh mesh;
-  std::unordered_map<Vec3d, uint32_t, PositionHash> vertexAt;
+  const auto hash = [](const Vec3d& p) { return hashOf(p); };
+  std::unordered_map<Vec3d, uint32_t, decltype(hash)> vertexAt;
   mesh.faces.reserve(surface.triangles.size());
   for (const auto& corners : surface.triangles) {
     Face face{};

@@ -3,7 +3,7 @@
 const kSampleCount = 4, kCoarseFaceCount = 20000;
 const kRestGrey = [0.725, 0.737, 0.76];
 const kRestOpacities = { glass: 0.45, grey: 1, hidden: 0 };
-const kPosition = 0, kColour = 1, kNormal = 2, kSmoothNormal = 3;
+const kPosition = 0, kColour = 1, kNormal = 2;
 
 export class Renderer {
   /** Null without WebGL 2. */
@@ -14,12 +14,6 @@ export class Renderer {
 
   constructor(gl) {
     this.gl = gl;
-    this.restore();
-  }
-
-  /** Also after a lost context; meshes have to be added again. */
-  restore() {
-    const { gl } = this;
     this.programs = new Map();
     this.target = null;
     const provoking = gl.getExtension('WEBGL_provoking_vertex');
@@ -44,7 +38,7 @@ export class Renderer {
   addMesh(model) {
     const { gl } = this;
     const drawn = model.drawnVertices(this.isFirstProvoking);
-    const mesh = { model, indexCount: drawn.triangles.length, sources: drawn.sources, vao: gl.createVertexArray() };
+    const mesh = { model, indexCount: drawn.triangles.length, vao: gl.createVertexArray() };
     gl.bindVertexArray(mesh.vao);
     const filled = (target, data) => {
       const buffer = gl.createBuffer();
@@ -55,9 +49,9 @@ export class Renderer {
     mesh.positions = filled(gl.ARRAY_BUFFER, drawn.positions);
     this.attribute(kPosition, mesh.positions, 3, gl.FLOAT, false);
     // Vertices beyond the faces have no colour and no normal of their own: no triangle takes these from them.
-    mesh.colours = filled(gl.ARRAY_BUFFER, 4 * drawn.sources.length);
+    mesh.colours = filled(gl.ARRAY_BUFFER, 4 * drawn.positions.length / 3);
     this.attribute(kColour, mesh.colours, 4, gl.UNSIGNED_BYTE, true);
-    const normals = filled(gl.ARRAY_BUFFER, 4 * drawn.sources.length);
+    const normals = filled(gl.ARRAY_BUFFER, 4 * drawn.positions.length / 3);
     gl.bufferSubData(gl.ARRAY_BUFFER, 0, model.normals);
     this.attribute(kNormal, normals, 4, gl.BYTE, true);
     filled(gl.ELEMENT_ARRAY_BUFFER, drawn.triangles);
@@ -72,18 +66,6 @@ export class Renderer {
     mesh.colouring = colours;
     mesh.hasRest = colours.some((colour) => colour >>> 24 === 0);
     mesh.isAllRest = mesh.hasRest && colours.every((colour) => colour >>> 24 === 0);
-  }
-
-  smooth(mesh) {
-    if (mesh.isSmooth) return;
-    const { gl } = this;
-    const bytes = new Int32Array(mesh.model.smoothNormals().buffer);
-    const buffer = gl.createBuffer();
-    gl.bindVertexArray(mesh.vao);
-    gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
-    gl.bufferData(gl.ARRAY_BUFFER, Int32Array.from(mesh.sources, (vertex) => bytes[vertex]), gl.STATIC_DRAW);
-    this.attribute(kSmoothNormal, buffer, 4, gl.BYTE, true);
-    mesh.isSmooth = true;
   }
 
   // A copy of few triangles, for slow devices while the view moves.
@@ -120,15 +102,15 @@ export class Renderer {
     return mesh.edges;
   }
 
-  program(name, vertexSource, fragmentSource, defines) {
+  program(name, defines) {
     const key = [name, ...defines].join();
     if (this.programs.has(key)) return this.programs.get(key);
     const { gl } = this;
     const head = `#version 300 es\nprecision highp float;\n${defines.map((word) => `#define ${word}\n`).join('')}`;
     const program = gl.createProgram();
-    for (const [type, source] of [[gl.VERTEX_SHADER, vertexSource], [gl.FRAGMENT_SHADER, fragmentSource]]) {
+    for (const [type, stage] of [[gl.VERTEX_SHADER, 'vertex'], [gl.FRAGMENT_SHADER, 'fragment']]) {
       const shader = gl.createShader(type);
-      gl.shaderSource(shader, `${head}${lightSource}\n${source}`);
+      gl.shaderSource(shader, `${head}${shaders.light}\n${shaders[`${name}_${stage}`]}`);
       gl.compileShader(shader);
       gl.attachShader(program, shader);
     }
@@ -215,12 +197,9 @@ export class Renderer {
 
   /** opacity: of the whole mesh in the colour of the rest; unset: the faces that are not the rest, in their colours. */
   drawFaces(mesh, pane, frame, opacity = null) {
-    const { gl } = this, isSmooth = frame.shading === 'smooth';
-    const defines = isSmooth ? ['SMOOTH'] : [];
-    if (opacity !== null) defines.push('REST');
+    const { gl } = this, defines = opacity !== null ? ['REST'] : [];
     if (pane.plane || (opacity === null && mesh.hasRest)) defines.push('CUT');
-    if (isSmooth) this.smooth(mesh);
-    const program = this.program('mesh', meshVertexSource, meshFragmentSource, defines);
+    const program = this.program('mesh', defines);
     this.use(program, pane);
     gl.uniform4fv(program.uniforms.backColour, [0.44, 0.44, 0.46, frame.back === 'grey' ? 1 : 0]);
     if (opacity !== null) gl.uniform4fv(program.uniforms.restColour, [...kRestGrey, opacity]);
@@ -233,7 +212,7 @@ export class Renderer {
 
   drawLines(pane, colour, vao, call) {
     const { gl } = this;
-    const program = this.program('line', lineVertexSource, lineFragmentSource, []);
+    const program = this.program('line', []);
     this.use(program, pane);
     gl.uniform4fv(program.uniforms.lineColour, colour);
     gl.uniform1f(program.uniforms.lift, 2 * pane.camera.pixelSize * pane.camera.depth);  // Before the faces at it.

@@ -21,24 +21,12 @@ export class Viewer {
     Object.assign(this, { canvas, renderer, models, store, afterFrame: [], level: Number(renderer.isSoftware), slowCount: 0, frameMilliseconds: 0 });
     this.layers = new Layers(models);
     this.frames = framesOf(models);
-    this.restore();
+    this.addMeshes();
     this.reset();
     store.set(this.validated(stateOfFragment(location.hash)));
     this.isStale = true;
     store.listeners.push((keys) => this.changed(keys));
-    canvas.addEventListener('webglcontextlost', (event) => {
-      event.preventDefault();
-      this.isLost = true;
-      document.documentElement.dataset.state = 'lost';
-    });
-    canvas.addEventListener('webglcontextrestored', () => {
-      renderer.restore();
-      this.restore();
-      this.isLost = false;
-      this.isStale = true;
-      document.documentElement.dataset.state = 'ready';
-      this.requestFrame();
-    });
+    canvas.addEventListener('webglcontextlost', () => this.isLost = true);
     new ResizeObserver(() => this.requestFrame()).observe(canvas);
   }
 
@@ -46,7 +34,7 @@ export class Viewer {
     return this.store.state;
   }
 
-  restore() {
+  addMeshes() {
     this.meshes = this.models.map((model) => this.renderer.addMesh(model));
     this.surfaces = this.models.map(({ thin }) => {
       if (!thin?.surface.faceCount) return null;
