@@ -55,11 +55,10 @@ ASDFVK_API void writeResult(const std::filesystem::path& path, const MeshView& m
                             const WriteOptions& options = {});
 
 /// Writes the points of the face fields "centre" and "sdf" (Options::computesCentres) as a point cloud in binary PLY. A
-/// point has `x y z`, which are double where float is too coarse for the place of the mesh, `float radius`, which is
-/// half of the shape diameter, and `uint part` where there is the face field "segment". Faces without a value have no
-/// point. The file is replaced atomically; "-" is standard output. Throws Error{UnknownField} without these fields;
-/// Error{OptionConflict} where their sizes do not fit each other; Error{ValueOutOfRange}, see requireSingles();
-/// Error{OutputNotWritable}.
+/// point has `double x y z`, `float radius`, which is half of the shape diameter, and `uint part` where there is the
+/// face field "segment". Faces without a value have no point. The file is replaced atomically; "-" is standard output.
+/// Throws Error{UnknownField} without these fields; Error{OptionConflict} where their sizes do not fit each other;
+/// Error{ValueOutOfRange}, see requireSingles(); Error{OutputNotWritable}.
 ASDFVK_API void writePoints(const std::filesystem::path& path, std::span<const Field> fields);
 
 }  // namespace asdfvk

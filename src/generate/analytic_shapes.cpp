@@ -10,10 +10,10 @@ namespace {
 /// Rings of 6 ringCount vertices along z, closed by two discs whose k-th ring has 6 k vertices.
 class CylinderGrid {
  public:
-  CylinderGrid(const CylinderParameters& parameters, uint32_t ringCount, uint32_t layerCount)
-      : parameters_(parameters), ringCount_(ringCount), around_(6 * ringCount), layerCount_(layerCount) {
+  CylinderGrid(double radius, double length, uint32_t ringCount, uint32_t layerCount)
+      : radius_(radius), ringCount_(ringCount), around_(6 * ringCount), layerCount_(layerCount) {
     for (uint32_t layer = 0; layer <= layerCount_; ++layer)
-      addRing(ringCount_, parameters_.length * (double(layer) / layerCount_ - 0.5));
+      addRing(ringCount_, length * (double(layer) / layerCount_ - 0.5));
     for (uint32_t layer = 0; layer < layerCount_; ++layer) {
       for (uint32_t q = 0; q < around_; ++q) {
         const uint32_t a = layer * around_ + q, b = layer * around_ + (q + 1) % around_;
@@ -21,8 +21,8 @@ class CylinderGrid {
         mesh_.faces.push_back({a, b + around_, a + around_});
       }
     }
-    addDisc(0, -0.5 * parameters_.length, true);
-    addDisc(layerCount_ * around_, 0.5 * parameters_.length, false);
+    addDisc(0, -0.5 * length, true);
+    addDisc(layerCount_ * around_, 0.5 * length, false);
   }
 
   Mesh take() { return std::move(mesh_); }
@@ -30,7 +30,7 @@ class CylinderGrid {
  private:
   // Ring 0 is the centre alone.
   void addRing(uint32_t ring, double z) {
-    const double radius = parameters_.radius * (double(ring) / ringCount_);
+    const double radius = radius_ * (double(ring) / ringCount_);
     for (uint32_t q = 0; q < std::max(1u, 6 * ring); ++q) {
       const double angle = 2 * std::numbers::pi * q / std::max(1u, 6 * ring);
       mesh_.vertices.push_back({radius * std::cos(angle), radius * std::sin(angle), z});
@@ -62,25 +62,25 @@ class CylinderGrid {
     }
   }
 
-  CylinderParameters parameters_;
+  double radius_;
   uint32_t ringCount_, around_, layerCount_;
   Mesh mesh_;
 };
 
 }  // namespace
 
-GeneratedShape makeCylinder(uint64_t faceCount, const CylinderParameters& parameters) {
+GeneratedShape makeCylinder(uint64_t faceCount, double radius, double length) {
   // The discs have 12 r^2 faces, the mantle 12 r per layer. r gives edges of equal length, the layers give the count.
-  const double layersPerRing = parameters.length / parameters.radius * (3 / std::numbers::pi);
+  const double layersPerRing = length / radius * (3 / std::numbers::pi);
   const double wished = std::max(1.0, std::round(std::sqrt(double(faceCount) / (12 * (1 + layersPerRing)))));
   const double layers = std::max(1.0, std::round((double(faceCount) - 12 * wished * wished) / (12 * wished)));
-  CylinderGrid grid(parameters, static_cast<uint32_t>(wished), static_cast<uint32_t>(layers));
-  return withUniformDiameter(grid.take(), 2 * parameters.radius);
+  CylinderGrid grid(radius, length, static_cast<uint32_t>(wished), static_cast<uint32_t>(layers));
+  return withUniformDiameter(grid.take(), 2 * radius);
 }
 
-GeneratedShape makeTorus(uint64_t faceCount, const TorusParameters& parameters) {
+GeneratedShape makeTorus(uint64_t faceCount, double ringRadius, double tubeRadius) {
   const double quads = double(faceCount) / 2;
-  const double tube = std::max(3.0, std::round(std::sqrt(quads * parameters.tubeRadius / parameters.ringRadius)));
+  const double tube = std::max(3.0, std::round(std::sqrt(quads * tubeRadius / ringRadius)));
   const auto tubeCount = static_cast<uint32_t>(tube);
   const auto ringCount = static_cast<uint32_t>(std::max(3.0, std::round(quads / tube)));
   Mesh mesh;
@@ -88,8 +88,8 @@ GeneratedShape makeTorus(uint64_t faceCount, const TorusParameters& parameters) 
     const double u = 2 * std::numbers::pi * i / ringCount;
     for (uint32_t j = 0; j < tubeCount; ++j) {
       const double v = 2 * std::numbers::pi * j / tubeCount;
-      const double fromAxis = parameters.ringRadius + parameters.tubeRadius * std::cos(v);
-      mesh.vertices.push_back({fromAxis * std::cos(u), fromAxis * std::sin(u), parameters.tubeRadius * std::sin(v)});
+      const double fromAxis = ringRadius + tubeRadius * std::cos(v);
+      mesh.vertices.push_back({fromAxis * std::cos(u), fromAxis * std::sin(u), tubeRadius * std::sin(v)});
     }
   }
   for (uint32_t i = 0; i < ringCount; ++i) {
@@ -100,7 +100,7 @@ GeneratedShape makeTorus(uint64_t faceCount, const TorusParameters& parameters) 
       mesh.faces.push_back({row + j, nextRow + next, row + next});
     }
   }
-  return withUniformDiameter(std::move(mesh), 2 * parameters.tubeRadius);
+  return withUniformDiameter(std::move(mesh), 2 * tubeRadius);
 }
 
 }  // namespace asdfvk

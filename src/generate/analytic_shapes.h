@@ -10,43 +10,21 @@ namespace asdfvk {
 // Shapes whose diameters are known in closed form, centred at the origin, triangulated evenly. faceCount is
 // approximate.
 
-struct SphereParameters {
-  double radius = 1;
-};
 /// A geodesic sphere of 20 n^2 faces: each side of an icosahedron divided into n^2 triangles, projected. Diameter 2
 /// radius.
-[[nodiscard]] GeneratedShape makeSphere(uint64_t faceCount, const SphereParameters& parameters = {});
+[[nodiscard]] GeneratedShape makeSphere(uint64_t faceCount, double radius = 1);
 /// An icosahedron under OpenMesh's Loop subdivision, projected after each step: 20 * 4^n faces, with the n for which 20
-/// * 4^n / faceCount is closest to 1. Diameter 2 radius.
-[[nodiscard]] GeneratedShape makeIcosphere(uint64_t faceCount, const SphereParameters& parameters = {});
-
-struct BoxParameters {
-  Vec3d size{1, 1, 1};
-};
+/// * 4^n / faceCount is closest to 1. Radius 1, diameter 2.
+[[nodiscard]] GeneratedShape makeIcosphere(uint64_t faceCount);
 /// Diameter: the smallest of the three sizes.
-[[nodiscard]] GeneratedShape makeBox(uint64_t faceCount, const BoxParameters& parameters = {});
-
-struct SlabParameters {
-  double width = 2;        ///< Along x and y.
-  double thickness = 0.1;  ///< Along z; the diameter.
-};
-[[nodiscard]] GeneratedShape makeSlab(uint64_t faceCount, const SlabParameters& parameters = {});
-
-struct CubeParameters {
-  double edge = 1;  ///< The diameter.
-};
-[[nodiscard]] GeneratedShape makeCube(uint64_t faceCount, const CubeParameters& parameters = {});
-
-struct CylinderParameters {
-  double radius = 0.25;  ///< Half the diameter.
-  double length = 5;     ///< Along z, between flat caps.
-};
-[[nodiscard]] GeneratedShape makeCylinder(uint64_t faceCount, const CylinderParameters& parameters = {});
-
-struct TorusParameters {
-  double ringRadius = 1;    ///< Distance of the centre of the tube from the axis z.
-  double tubeRadius = 0.3;  ///< Half the diameter.
-};
-[[nodiscard]] GeneratedShape makeTorus(uint64_t faceCount, const TorusParameters& parameters = {});
+[[nodiscard]] GeneratedShape makeBox(uint64_t faceCount, const Vec3d& size);
+/// width: along x and y. thickness: along z, the diameter.
+[[nodiscard]] GeneratedShape makeSlab(uint64_t faceCount, double width = 2, double thickness = 0.1);
+/// Diameter: the edge.
+[[nodiscard]] GeneratedShape makeCube(uint64_t faceCount, double edge = 1);
+/// Along z, with flat caps. Diameter 2 radius.
+[[nodiscard]] GeneratedShape makeCylinder(uint64_t faceCount, double radius = 0.25, double length = 5);
+/// ringRadius: from the axis z to the centre of the tube. Diameter 2 tubeRadius.
+[[nodiscard]] GeneratedShape makeTorus(uint64_t faceCount, double ringRadius = 1, double tubeRadius = 0.3);
 
 }  // namespace asdfvk

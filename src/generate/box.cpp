@@ -85,8 +85,7 @@ class BoxGrid {
 
 }  // namespace
 
-GeneratedShape makeBox(uint64_t faceCount, const BoxParameters& parameters) {
-  const Vec3d& size = parameters.size;
+GeneratedShape makeBox(uint64_t faceCount, const Vec3d& size) {
   // Two triangles per square cell, and at least one cell per direction.
   const double cellArea = 4 * (size.x * size.y + size.y * size.z + size.z * size.x) / double(faceCount);
   const double edge = std::sqrt(cellArea);
@@ -95,12 +94,10 @@ GeneratedShape makeBox(uint64_t faceCount, const BoxParameters& parameters) {
                              std::min({size.x, size.y, size.z}));
 }
 
-GeneratedShape makeSlab(uint64_t faceCount, const SlabParameters& parameters) {
-  return makeBox(faceCount, {{parameters.width, parameters.width, parameters.thickness}});
+GeneratedShape makeSlab(uint64_t faceCount, double width, double thickness) {
+  return makeBox(faceCount, {width, width, thickness});
 }
 
-GeneratedShape makeCube(uint64_t faceCount, const CubeParameters& parameters) {
-  return makeBox(faceCount, {{parameters.edge, parameters.edge, parameters.edge}});
-}
+GeneratedShape makeCube(uint64_t faceCount, double edge) { return makeBox(faceCount, {edge, edge, edge}); }
 
 }  // namespace asdfvk

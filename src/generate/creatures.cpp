@@ -9,14 +9,6 @@
 namespace asdfvk {
 namespace {
 
-CapsuleUnion thickened(std::vector<Capsule> capsules, const CreatureParameters& parameters) {
-  for (Capsule& capsule : capsules) {
-    capsule.radiusA *= parameters.thickness;
-    capsule.radiusB *= parameters.thickness;
-  }
-  return CapsuleUnion(std::move(capsules));
-}
-
 /// The capsules given for the left side (y > 0) and their mirror images; `part` of the right side is one more.
 void addBothSides(std::vector<Capsule>& capsules, const std::vector<Capsule>& left) {
   for (Capsule capsule : left) {
@@ -44,7 +36,7 @@ void addBranches(const Vec3d& foot, const Vec3d& forward, const Vec3d& side, dou
 
 }  // namespace
 
-CapsuleUnion animalField(const CreatureParameters& parameters) {
+CapsuleUnion animalField() {
   std::vector<Capsule> capsules{
       {{-0.55, 0, 0.95}, {0.50, 0, 1.00}, 0.30, 0.28, 0, 0},
       {{0.60, 0, 1.08}, {0.95, 0, 1.52}, 0.18, 0.13, 1, 0.15},
@@ -56,10 +48,10 @@ CapsuleUnion animalField(const CreatureParameters& parameters) {
                           {{-0.52, 0.19, 0.85}, {-0.58, 0.20, 0.45}, 0.14, 0.09, 6, 0.10},
                           {{-0.58, 0.20, 0.45}, {-0.50, 0.20, 0.06}, 0.09, 0.06, 6, 0.03},
                           {{0.92, 0.08, 1.69}, {0.87, 0.15, 1.87}, 0.045, 0.025, 8, 0.04}});
-  return thickened(std::move(capsules), parameters);
+  return CapsuleUnion(std::move(capsules));
 }
 
-CapsuleUnion handField(const CreatureParameters& parameters) {
+CapsuleUnion handField() {
   std::vector<Capsule> capsules{{{0, 0, -0.75}, {0, 0, 0}, 0.17, 0.16, 6, 0}};
   struct Finger {
     double knuckle, angle, length, radius;
@@ -88,10 +80,10 @@ CapsuleUnion handField(const CreatureParameters& parameters) {
   capsules.push_back({{0.02, 0.20, 0.22}, {0.10, 0.55, 0.50}, 0.13, 0.11, 1, 0.06});
   capsules.push_back({{0.10, 0.55, 0.50}, {0.14, 0.72, 0.72}, 0.11, 0.09, 1, 0.02});
   capsules.push_back({{0.14, 0.72, 0.72}, {0.15, 0.80, 0.90}, 0.09, 0.07, 1, 0.02});
-  return thickened(std::move(capsules), parameters);
+  return CapsuleUnion(std::move(capsules));
 }
 
-CapsuleUnion figureField(const CreatureParameters& parameters) {
+CapsuleUnion figureField() {
   std::vector<Capsule> capsules{
       {{0, 0, 1.05}, {0, 0, 1.40}, 0.14, 0.16, 0, 0},
       {{0, -0.14, 1.47}, {0, 0.14, 1.47}, 0.085, 0.085, 0, 0.08},
@@ -105,26 +97,18 @@ CapsuleUnion figureField(const CreatureParameters& parameters) {
                           {{0, 0.11, 0.93}, {0.03, 0.16, 0.52}, 0.090, 0.062, 9, 0.05},
                           {{0.03, 0.16, 0.52}, {-0.01, 0.18, 0.10}, 0.062, 0.042, 11, 0.02},
                           {{-0.02, 0.18, 0.06}, {0.16, 0.20, 0.04}, 0.050, 0.038, 13, 0.02}});
-  return thickened(std::move(capsules), parameters);
+  return CapsuleUnion(std::move(capsules));
 }
 
-CapsuleUnion treeField(const CreatureParameters& parameters) {
+CapsuleUnion treeField() {
   std::vector<Capsule> capsules;
   addBranches({0, 0, 0}, {0, 0, 1}, {1, 0, 0}, 0.6, 0.12, 5, capsules);
-  return thickened(std::move(capsules), parameters);
+  return CapsuleUnion(std::move(capsules));
 }
 
-GeneratedShape makeAnimal(uint64_t faceCount, const CreatureParameters& parameters) {
-  return polygonise(animalField(parameters), faceCount);
-}
-GeneratedShape makeHand(uint64_t faceCount, const CreatureParameters& parameters) {
-  return polygonise(handField(parameters), faceCount);
-}
-GeneratedShape makeFigure(uint64_t faceCount, const CreatureParameters& parameters) {
-  return polygonise(figureField(parameters), faceCount);
-}
-GeneratedShape makeTree(uint64_t faceCount, const CreatureParameters& parameters) {
-  return polygonise(treeField(parameters), faceCount);
-}
+GeneratedShape makeAnimal(uint64_t faceCount) { return polygonise(animalField(), faceCount); }
+GeneratedShape makeHand(uint64_t faceCount) { return polygonise(handField(), faceCount); }
+GeneratedShape makeFigure(uint64_t faceCount) { return polygonise(figureField(), faceCount); }
+GeneratedShape makeTree(uint64_t faceCount) { return polygonise(treeField(), faceCount); }
 
 }  // namespace asdfvk

@@ -10,25 +10,21 @@ namespace asdfvk {
 // Smooth unions of capsules with the part and the local diameter of each face. Heights are about 2, z is up. With at
 // least about 2000 faces they are topological spheres; on coarser lattices neighbouring limbs may touch.
 
-struct CreatureParameters {
-  double thickness = 1;  ///< Factor on all radii; large factors merge limbs.
-};
-
 /// Four legs. Parts: 0 torso, 1 neck, 2 head, 3 tail, 4 and 5 front legs, 6 and 7 hind legs (left, right), 8 and 9
 /// ears.
-[[nodiscard]] CapsuleUnion animalField(const CreatureParameters& parameters = {});
+[[nodiscard]] CapsuleUnion animalField();
 /// Parts: 0 palm, 1 thumb, 2 to 5 fingers from the index on, 6 forearm.
-[[nodiscard]] CapsuleUnion handField(const CreatureParameters& parameters = {});
+[[nodiscard]] CapsuleUnion handField();
 /// A jointed human figure. Parts: 0 torso, 1 neck, 2 head, then left and right: 3, 4 upper arm, 5, 6 forearm,
 /// 7, 8 hand, 9, 10 thigh, 11, 12 shin, 13, 14 foot.
-[[nodiscard]] CapsuleUnion figureField(const CreatureParameters& parameters = {});
+[[nodiscard]] CapsuleUnion figureField();
 /// A tree of tubes, like vessels or a neuron: 31 branches in five levels, a part each, in the order of a walk from the
 /// root, the first branch of each fork before the second.
-[[nodiscard]] CapsuleUnion treeField(const CreatureParameters& parameters = {});
+[[nodiscard]] CapsuleUnion treeField();
 
-[[nodiscard]] GeneratedShape makeAnimal(uint64_t faceCount, const CreatureParameters& parameters = {});
-[[nodiscard]] GeneratedShape makeHand(uint64_t faceCount, const CreatureParameters& parameters = {});
-[[nodiscard]] GeneratedShape makeFigure(uint64_t faceCount, const CreatureParameters& parameters = {});
-[[nodiscard]] GeneratedShape makeTree(uint64_t faceCount, const CreatureParameters& parameters = {});
+[[nodiscard]] GeneratedShape makeAnimal(uint64_t faceCount);
+[[nodiscard]] GeneratedShape makeHand(uint64_t faceCount);
+[[nodiscard]] GeneratedShape makeFigure(uint64_t faceCount);
+[[nodiscard]] GeneratedShape makeTree(uint64_t faceCount);
 
 }  // namespace asdfvk

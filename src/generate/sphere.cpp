@@ -142,12 +142,12 @@ Mesh plainArrays(const HalfEdgeMesh& halfEdges) {
 
 }  // namespace
 
-GeneratedShape makeSphere(uint64_t faceCount, const SphereParameters& parameters) {
+GeneratedShape makeSphere(uint64_t faceCount, double radius) {
   const auto n = static_cast<uint32_t>(std::max(1.0, std::round(std::sqrt(double(faceCount) / 20))));
-  return withUniformDiameter(GeodesicGrid(n, parameters.radius).take(), 2 * parameters.radius);
+  return withUniformDiameter(GeodesicGrid(n, radius).take(), 2 * radius);
 }
 
-GeneratedShape makeIcosphere(uint64_t faceCount, const SphereParameters& parameters) {
+GeneratedShape makeIcosphere(uint64_t faceCount) {
   const double steps = std::log2(double(faceCount) / 20) / 2;
   const int stepCount = static_cast<int>(std::max(0.0, std::round(steps)));
   HalfEdgeMesh halfEdges = halfEdgeIcosahedron();
@@ -161,9 +161,7 @@ GeneratedShape makeIcosphere(uint64_t faceCount, const SphereParameters& paramet
     }
   }
   loop.detach();
-  Mesh mesh = plainArrays(halfEdges);
-  for (Vec3d& p : mesh.vertices) p = p * parameters.radius;
-  return withUniformDiameter(std::move(mesh), 2 * parameters.radius);
+  return withUniformDiameter(plainArrays(halfEdges), 2);
 }
 
 }  // namespace asdfvk

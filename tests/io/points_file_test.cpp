@@ -10,9 +10,9 @@ using namespace asdfvk;
 namespace {
 
 /// Three faces: two with values and the parts 7 and 9, and one without.
-std::vector<Field> pointFields(double shift = 0) {
+std::vector<Field> pointFields() {
   return {makeField("sdf", std::vector<double>{1, kNoValue, 3}),
-          makeField("centre", std::vector<double>{shift + 0.5, 1, 2, kNoValue, kNoValue, kNoValue, shift + 3, -4, 5},
+          makeField("centre", std::vector<double>{0.5, 1, 2, kNoValue, kNoValue, kNoValue, 3, -4, 5},
                     FieldLocation::PerFace, 3)};
 }
 
@@ -51,12 +51,14 @@ ErrorCode codeOf(const std::vector<Field>& fields, const std::string& path = "/d
 TEST_CASE("points have a place and a radius, and only faces with a value have a point") {
   const std::string ply = pointsOf(pointFields());
   CHECK(ply.starts_with("ply\nformat binary_little_endian 1.0\ncomment "));
-  CHECK(ply.find("element vertex 2\nproperty float x\nproperty float y\nproperty float z\nproperty float radius\n"
+  CHECK(ply.find("element vertex 2\nproperty double x\nproperty double y\nproperty double z\nproperty float radius\n"
                  "end_header\n") != std::string::npos);
   const std::string body = bodyOf(ply);
-  REQUIRE(body.size() == 2 * 16);
-  const std::vector<float> expected{0.5, 1, 2, 0.5, 3, -4, 5, 1.5};
-  for (size_t i = 0; i < expected.size(); ++i) CHECK(numberAt<float>(body, 4 * i) == expected[i]);
+  REQUIRE(body.size() == 2 * 28);
+  const std::vector<double> expected{0.5, 1, 2, 3, -4, 5};
+  for (size_t i = 0; i < expected.size(); ++i) CHECK(numberAt<double>(body, 28 * (i / 3) + 8 * (i % 3)) == expected[i]);
+  CHECK(numberAt<float>(body, 24) == 0.5f);
+  CHECK(numberAt<float>(body, 52) == 1.5f);
 }
 
 TEST_CASE("points of a segmented mesh have their part") {
@@ -65,31 +67,15 @@ TEST_CASE("points of a segmented mesh have their part") {
   const std::string ply = pointsOf(fields);
   CHECK(ply.find("property float radius\nproperty uint part\nend_header\n") != std::string::npos);
   const std::string body = bodyOf(ply);
-  REQUIRE(body.size() == 2 * 20);
-  CHECK(numberAt<uint32_t>(body, 16) == 7);
-  CHECK(numberAt<uint32_t>(body, 36) == 9);
+  REQUIRE(body.size() == 2 * 32);
+  CHECK(numberAt<uint32_t>(body, 28) == 7);
+  CHECK(numberAt<uint32_t>(body, 60) == 9);
 }
 
-TEST_CASE("points far from the origin are double, fields per vertex are ignored") {
-  std::vector<Field> fields = pointFields(1e7);
+TEST_CASE("fields per vertex are ignored") {
+  std::vector<Field> fields = pointFields();
   fields.push_back(makeField("segment", std::vector<uint32_t>{1}, FieldLocation::PerVertex));
-  const std::string ply = pointsOf(fields);
-  CHECK(ply.find("property double x\nproperty double y\nproperty double z\nproperty float radius\nend_header\n") !=
-        std::string::npos);
-  const std::string body = bodyOf(ply);
-  REQUIRE(body.size() == 2 * 28);
-  CHECK(numberAt<double>(body, 0) == 1e7 + 0.5);
-  CHECK(numberAt<float>(body, 24) == 0.5f);
-  CHECK(numberAt<double>(body, 28) == 1e7 + 3);
-}
-
-TEST_CASE("points too close or too far for float are double") {
-  for (const double scale : {1e-60, 1e60}) {
-    std::vector<double> centres{scale, 0, 0, 0, scale, 0};
-    const std::string ply = pointsOf(
-        {makeField("sdf", std::vector<double>{1, 1}), makeField("centre", centres, FieldLocation::PerFace, 3)});
-    CHECK(numberAt<double>(bodyOf(ply), 0) == scale);
-  }
+  CHECK(pointsOf(fields) == pointsOf(pointFields()));
 }
 
 TEST_CASE("no point at all is a file of none") {

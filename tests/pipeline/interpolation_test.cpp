@@ -110,7 +110,7 @@ TEST_CASE("guidance by curvature changes the values") {
 }
 
 TEST_CASE("values are within those of the seeds of their component, whatever the guidance and the solver") {
-  const Mesh first = makeHand(1200).mesh, second = makeSphere(500, {.radius = 20}).mesh;
+  const Mesh first = makeHand(1200).mesh, second = makeSphere(500, 20).mesh;
   const Mesh mesh = shapes::joined(first, second, {50, 0, 0});
   const auto checkWithin = [&](Session& session, const char* solver, Guidance guidance) {
     CAPTURE(solver);

@@ -46,8 +46,7 @@ bool isWithin(const std::vector<uint8_t>& few, const std::vector<uint8_t>& many)
 /// Spheres in a row, more than there are seeds in the first round.
 Mesh manySpheres() {
   Mesh mesh = makeAnimal(1500).mesh;
-  for (int i = 0; i < 30; ++i)
-    mesh = shapes::joined(mesh, makeSphere(80, {.radius = 0.1 + 0.01 * i}).mesh, {3.0 + i, 0, 0});
+  for (int i = 0; i < 30; ++i) mesh = shapes::joined(mesh, makeSphere(80, 0.1 + 0.01 * i).mesh, {3.0 + i, 0, 0});
   return mesh;
 }
 

@@ -36,7 +36,7 @@ constexpr double kThick = 0.4, kThin = 0.1;
 
 /// A slab of width 2 and thickness 0.4, 0.1 thick above a dent in its bottom: |x|, |y| < 0.4.
 Mesh dentedSlab(uint64_t faceCount = 3000) {
-  Mesh mesh = makeSlab(faceCount, {.width = 2, .thickness = kThick}).mesh;
+  Mesh mesh = makeSlab(faceCount, 2, kThick).mesh;
   for (Vec3d& v : mesh.vertices)
     if (v.z < 0 && std::max(std::abs(v.x), std::abs(v.y)) < 0.4) v.z = kThick / 2 - kThin;
   return mesh;
@@ -152,7 +152,7 @@ TEST_CASE("the regions of a slab with a thin place are the dent and the face abo
 TEST_CASE("percentiles are by area") {
   // Of the area of a wedge that is 0.2 to 0.4 thick, half is beyond its middle; its ends count up to its section.
   const Mesh wedge = [] {
-    Mesh mesh = makeSlab(20000, {.width = 2, .thickness = 0.4}).mesh;
+    Mesh mesh = makeSlab(20000, 2, 0.4).mesh;
     for (Vec3d& v : mesh.vertices) v.z *= 0.75 + 0.25 * v.x;
     return mesh;
   }();

@@ -79,7 +79,7 @@ TEST_CASE("on a sphere predictions are close to the value of its chords") {
 }
 
 TEST_CASE("between two walls, away from the rim, predictions are close to the exact value") {
-  const SeededMesh seeded(makeSlab(3000, {.width = 2, .thickness = 0.2}).mesh, 300);
+  const SeededMesh seeded(makeSlab(3000, 2, 0.2).mesh, 300);
   const double exact = coneValueOf(seeded.cone, [](const Vec3d& d) { return Chord{0.2 / d.z, -1}; });
   const auto isInside = [&](uint32_t face) {
     const Vec3d& centre = seeded.geometry.barycentres[face];
@@ -94,7 +94,7 @@ TEST_CASE("between two walls, away from the rim, predictions are close to the ex
 }
 
 TEST_CASE("on a long cylinder, away from the caps, predictions are close to the value of its chords") {
-  const SeededMesh seeded(makeCylinder(4000, {.radius = 0.25, .length = 5}).mesh, 400);
+  const SeededMesh seeded(makeCylinder(4000).mesh, 400);
   // Which rays are along the axis of the cylinder depends on the tangent of the frame, so on the face.
   const auto exact = [&](uint32_t face) {
     const Vec3d& normal = seeded.geometry.normals[face];

@@ -89,7 +89,7 @@ Mesh defectiveMesh() {
 TEST_CASE(
     "predictions of the device are those of the CPU but for rounding, for both definitions and any number of rays") {
   const test::ValidatedDevice device;
-  const Mesh animal = generateShape("animal", 4000).mesh, slab = makeSlab(2000, {.width = 2, .thickness = 0.2}).mesh;
+  const Mesh animal = generateShape("animal", 4000).mesh, slab = makeSlab(2000, 2, 0.2).mesh;
   for (const Definition definition : {Definition::Paper, Definition::Cgal})
     for (const uint32_t rayCount : {1u, 30u, 100u}) {
       CAPTURE(rayCount);

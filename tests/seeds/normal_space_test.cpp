@@ -67,7 +67,7 @@ TEST_CASE("each axis and its neighbourhood are in one bin of their own") {
 }
 
 TEST_CASE("each side of a long box gets the same number of seeds") {
-  const Surface box(makeBox(20'000, {{1, 1, 10}}).mesh);
+  const Surface box(makeBox(20'000, {1, 1, 10}).mesh);
   std::set<uint64_t> perSide;
   for (uint64_t count : countsOf(box, normalSpaceSeeds(box.domain(), 600, {}, 1)))
     if (count > 0) perSide.insert(count);
@@ -87,7 +87,7 @@ TEST_CASE("the bins with enough faces have equal numbers of seeds, except for on
 }
 
 TEST_CASE("existing seeds count in their bin") {
-  const Surface box(makeBox(6000, {{1, 1, 1}}).mesh);
+  const Surface box(makeBox(6000, {1, 1, 1}).mesh);
   std::vector<uint32_t> existing;  // 100 on one side, 50 on another.
   const auto sideOf = [&](uint32_t face) { return normalBinOf(box.geometry.normals[face]); };
   const auto take = [&](const Vec3d& normal, size_t count) {

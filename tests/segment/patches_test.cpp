@@ -26,7 +26,7 @@ struct Surface {
 }  // namespace
 
 TEST_CASE("the surface has the area 1, lengths without a unit, and the angles of its edges") {
-  const Surface cube(makeCube(12, {.edge = 10}).mesh, 5);
+  const Surface cube(makeCube(12, 10).mesh, 5);
   double area = 0;
   for (const float a : cube.surface.areas) area += double{a};
   CHECK(area == doctest::Approx(1));
