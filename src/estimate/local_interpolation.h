@@ -16,7 +16,7 @@ struct SolvedInterpolation {
   std::span<const double> constraints;  ///< NaN for a face without one.
   std::span<const double> guide;        ///< The field whose divergenceOf() the equation has; may be empty.
   std::span<const double> divergence;   ///< Further divergence; may be empty.
-  std::span<const double> solution;     ///< The solution with more constraints than `constraints`.
+  std::span<const double> solution;     ///< The solution with all seeds; `constraints` has fewer.
 };
 
 /// The values that the interpolation has at `faces` with `constraints` only. The effect of a constraint decays within a
