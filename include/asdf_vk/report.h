@@ -263,7 +263,7 @@ struct Report {
   uint64_t seedCount = 0;          ///< Triangles that cast rays.
   uint64_t rayCount = 0;           ///< Rays of all seeds.
   uint64_t redoneConeCount = 0;    ///< Cones beyond the limits of the device or of float32, traced by the reference.
-  uint64_t noValueCount = 0;       ///< Input faces without a value; of the region where there is one.
+  uint64_t noValueCount = 0;       ///< Input faces without a value; with a region only its faces.
   uint64_t clampedCount = 0;       ///< Interpolated triangles limited to the values of the seeds of their component.
   uint64_t reversedFaceCount = 0;  ///< Input faces whose orientation was reversed.
   uint64_t randomSeed = 0;         ///< Start of all random numbers.

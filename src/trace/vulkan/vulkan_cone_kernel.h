@@ -75,7 +75,7 @@ class ConeBuffers {
   /// The first bindings of every kernel that traverses the hierarchy: nodes and triangles as texels, then as storage.
   [[nodiscard]] std::vector<Binding> hierarchyBindings() const;
   [[nodiscard]] const TexelView& rayTexels() const { return rayTexels_; }
-  /// For bindings that a kernel does not access.
+  /// A buffer for bindings that a kernel does not access.
   [[nodiscard]] const Buffer& nothing() const { return nothing_; }
 
  private:
