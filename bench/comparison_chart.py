@@ -109,7 +109,8 @@ def main() -> None:
     for name, seconds, average, _ in bars:
         print(f"{name}: {seconds:.3g} s, error {average:.2%}, CGAL takes {bars[0][1] / seconds:.3g} times as long")
     name = pathlib.Path(arguments.mesh).stem if arguments.mesh else "generated animal"
-    draw(bars, f"{name}, {times['faceCount']:,} faces, {times['threads']} CPU threads", arguments.output)
+    busy = ", on a busy machine" if times["loadAverage"] > 2 * times["threads"] else ""
+    draw(bars, f"{name}, {times['faceCount']:,} faces, {times['threads']} CPU threads{busy}", arguments.output)
 
 
 if __name__ == "__main__":
