@@ -7,6 +7,7 @@ import re
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -50,10 +51,23 @@ def test_thin_walls(tmp_path: Path, program: Path) -> None:
     assert re.search(r"thin.ply: [1-9]\d* faces thinner than 0.5$", thin)
 
 
-def test_the_python_of_the_readme() -> None:
-    blocks = re.findall(r"```python\n(.*?)```", (_ROOT / "README.md").read_text(), re.DOTALL)
-    assert len(blocks) == 1
-    names = dict(zip(("vertices", "faces"), dumbbell()))
-    exec(blocks[0], names)
-    values = names["values"]
-    assert isinstance(values, np.ndarray) and values.shape == (5120,)
+@pytest.mark.parametrize("page", ["README.md", "docs/python.md", "docs/cgal.md"])
+def test_the_python_of_the_pages(page: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    vertices, faces = dumbbell()
+    (tmp_path / "neuron.off").write_text(
+        "\n".join(["OFF", f"{len(vertices)} {len(faces)} 0", *(f"{x} {y} {z}" for x, y, z in vertices),
+                   *(f"3 {a} {b} {c}" for a, b, c in faces)])
+    )  # fmt: skip
+    monkeypatch.chdir(tmp_path)
+    mesh = asdf_vk.read_mesh("neuron.off")
+    points, normals = np.array([[0.0, 0, 0]]), np.array([[0.0, 0, 1]])
+    names: dict[str, Any] = {"asdf_vk": asdf_vk, "vertices": vertices, "faces": faces, "mesh": mesh}
+    blocks = re.findall(r"```python\n(.*?)```", (_ROOT / page).read_text(), re.DOTALL)
+    assert blocks
+    for block in blocks:
+        names.update(points=points, normals=normals, n=normals, mask=np.arange(len(faces)) < 100)
+        exec(block, names)
+    if "record_of" in names:
+        assert names["record_of"]("neuron.off")["median"] > 0
+        assert names["record_of"]("missing.off")["code"]
+    assert names["code"] == 1 if page.endswith("cgal.md") else isinstance(names["values"], np.ndarray)

@@ -5,7 +5,8 @@ one new folder, in their order; so does one that the reader does not see: <!-- $
 for any text, and for any lines where it is alone. Text and counts are equal. Other numbers may differ by one unit of
 their last digit or by a thousandth, since devices round differently; times are not compared.
 The commands of all blocks have options that the programs know. The first rows of each table of bench/known_shapes.py are
-in docs/accuracy.md. Functions and types that docs/architecture.md and CONTRIBUTING.md name exist.
+in docs/accuracy.md. Functions and types that docs/architecture.md and CONTRIBUTING.md name exist, and so do the files
+and headings that links name.
 
     ASDF_VK_PROGRAM=... ASDF_VK_GENERATE=... python3 -m unittest printed_output_test      # in this folder
 """
@@ -145,6 +146,24 @@ class PagesTest(unittest.TestCase):
                 if re.search(r"[a-z][A-Z]|::|\(\)", name) and name[-4:] != "Case" and not set(name.rstrip("()").split("::")) <= words:
                     missing.append(f"{page}: {name}")
         self.assertEqual(missing, [])
+
+
+    def test_links_lead_to_files_and_headings(self) -> None:
+        def slugs(page: Path) -> set[str]:
+            text = re.sub(r"^```.*?^```", "", page.read_text(), flags=re.MULTILINE | re.DOTALL)
+            heads = re.findall(r"^#+ (.*)$", text, re.MULTILINE)
+            return {re.sub(r"[^\w\- ]", "", head.lower()).replace(" ", "-") for head in heads}
+
+        wrong = []
+        for page in [*PAGES, ROOT / "CONTRIBUTING.md", ROOT / "CHANGELOG.md"]:
+            for target in re.findall(r"\]\(([^)\s]+)\)", page.read_text()):
+                if target.startswith("http"):
+                    continue
+                name, _, heading = target.partition("#")
+                file = (page.parent / name) if name else page
+                if not file.exists() or (heading and heading not in slugs(file)):
+                    wrong.append(f"{page.name}: {target}")
+        self.assertEqual(wrong, [])
 
 
 class ComparisonTest(unittest.TestCase):
