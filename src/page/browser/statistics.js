@@ -1,38 +1,15 @@
 // Ranges, histograms and shares of values per face, NaN where there is none, over one or more meshes: each part is
 // {values, areas}.
 
-const kBinCount = 65536;
-
 /** {low, high, min, max}: 1st and 99th percentile of the faces, and the ends; null without any value. */
 export function rangeOf(parts) {
-  let min = Infinity, max = -Infinity, count = 0;
-  for (const { values } of parts) {
-    for (let i = 0; i < values.length; ++i) {
-      const value = values[i];
-      if (value < min) min = value;
-      if (value > max) max = value;
-    }
-  }
-  if (min > max) return null;
-  const bins = new Uint32Array(kBinCount), scale = max > min ? (kBinCount - 1) / (max - min) : 0;
-  for (const { values } of parts) {
-    for (let i = 0; i < values.length; ++i) {
-      if (values[i] !== values[i]) continue;
-      ++bins[Math.round((values[i] - min) * scale)];
-      ++count;
-    }
-  }
-  const percentile = (share) => {
-    let below = 0, bin = 0;
-    while (bin < kBinCount - 1 && below + bins[bin] <= share * (count - 1)) below += bins[bin++];
-    return scale > 0 ? min + bin / scale : min;
-  };
-  const low = percentile(0.01), high = percentile(0.99);
-  if (low < high || min === max) return { low, high, min, max };
-  // Values far apart: most are in one bin.
-  const all = Float32Array.from(parts.flatMap(({ values }) => Array.from(values)).filter((value) => value === value)).sort();
-  const at = (share) => all[Math.floor(share * (all.length - 1))];
-  return { low: at(0.01), high: at(0.99), min, max };
+  const all = new Float32Array(parts.reduce((sum, { values }) => sum + values.length, 0));
+  let count = 0;
+  for (const { values } of parts)
+    for (let i = 0; i < values.length; ++i) if (values[i] === values[i]) all[count++] = values[i];
+  if (!count) return null;
+  const sorted = all.subarray(0, count).sort(), at = (share) => sorted[Math.floor(share * (count - 1))];
+  return { low: at(0.01), high: at(0.99), min: at(0), max: at(1) };
 }
 
 /** Areas of the faces by value in equal bins from low to high, and of those outside; total includes faces of no value. */
