@@ -101,12 +101,12 @@ def test_colours_of_known_faces(open_page, animal):
 def test_colour_maps(page, name):
     page.choose("map", name)
     page.choose("shading", "plain")
-    page.js("document.getElementById('range-full').click()")  # All of the bar has colours.
     page.settle()
     stops = MAPS[name]
-    left, top, _, height = box_of(page, "legend")
-    x = int(left + 58 + 9)
-    rows = [top + height - 40, top + 76]
+    legend = box_of(page, "legend")
+    ends = [box_of(page, f"legend-{end}") for end in ("low", "high")]
+    x = int(legend[0] + 58 + 9)
+    rows = [box[1] + box[3] / 2 for box in ends]
     picture = page.screenshot()
     for share, expected in zip((0.005, 0.5, 0.995), stops):
         y = int(rows[0] + (rows[1] - rows[0]) * share)
@@ -162,17 +162,32 @@ def test_layers(page):
     page.choose("shading", "plain")
     colours = {colour for count, colour in settled_view(page).getcolors(1 << 20) if count > 200}
     assert len(colours - {(255, 255, 255)}) >= 3
-    assert page.js("document.getElementById('colours').disabled")
+    assert page.js("document.getElementById('colours').disabled && document.getElementById('legend-low').hidden")
 
 
 def test_range(page, animal):
-    shown = lambda end: float(page.js(f"document.getElementById('{end}').value"))  # noqa: E731
+    shown = lambda end: float(page.js(f"document.getElementById('legend-{end}').getAttribute('aria-valuenow')"))  # noqa: E731
     values = animal.fields["sdf"]
     values = values[~numpy.isnan(values)]
     span = values.max() - values.min()
     assert abs(shown("low") - numpy.percentile(values, 1)) < 1e-3 * span
     assert abs(shown("high") - numpy.percentile(values, 99)) < 1e-3 * span
-    assert changes(page, lambda: page.choose("high", (shown("low") + shown("high")) / 2)) > 0.01
+    page.choose("high", (shown("low") + shown("high")) / 2)
+    page.settle()
+    middle = shown("high")
+    # Dragging by half of the bar moves the end by half of the legend.
+    x, y = box_of(page, "legend-high")[:2] + 12
+    _, bottom = box_of(page, "legend-low")[:2] + 12
+    assert changes(page, lambda: page.drag((x, y), (x, (y + bottom) / 2))) > 0.01
+    assert shown("high") == pytest.approx((shown("low") + middle) / 2, rel=0.02)
+    page.js("document.getElementById('legend-high').focus()")
+    before = shown("high")
+    page.key("ArrowUp")
+    page.settle()
+    assert shown("high") == pytest.approx(before + 0.01 * (before - shown("low")), rel=1e-6)
+    page.key("End")
+    page.settle()
+    assert shown("high") == pytest.approx(values.max(), rel=1e-3)
     page.js("document.getElementById('range-full').click()")
     page.settle()
     assert shown("low") == pytest.approx(values.min(), rel=1e-3)
@@ -204,10 +219,10 @@ def test_threshold(page, animal):
 
 
 @pytest.mark.parametrize("element,value,share", [
-    ("shading", "plain", 0.02), ("edges", True, 0.02), ("clip", "x", 0.02), ("clip", "y", 0.01),
+    ("shading", "smooth", 0.01), ("shading", "plain", 0.02), ("edges", True, 0.02), ("clip", "x", 0.02), ("clip", "y", 0.01),
     ("clip", "z", 0.01), ("clip", "view", 0.01), ("up", "x", 0.02)])
 def test_surface_and_clip(page, element, value, share):
-    assert changes(page, lambda: page.choose(element, value)) > share
+    assert changes(page, lambda: page.choose(element, value), 2 if value == "smooth" else 12) > share
     if element == "clip":
         assert changes(page, lambda: page.choose("clip-at", 0.4)) > 0.005
         backs = [settled_view(page)]
@@ -310,7 +325,7 @@ def test_png(page, tmp_path):
 def test_address_keeps_the_state(page, open_page, animal):
     page.choose("layer", "thickness")
     page.choose("map", "cividis")
-    page.choose("shading", "plain")
+    page.choose("shading", "smooth")
     page.choose("clip", "view")
     page.choose("clip-at", 0.4)
     page.js("document.getElementById('view-left').click()")
@@ -384,10 +399,17 @@ def test_narrow_window(page):
 
 
 def test_lost_context(page):
-    settled_view(page)
-    page.js("document.getElementById('view').getContext('webgl2').getExtension('WEBGL_lose_context').loseContext()")
+    before = settled_view(page)
+    page.js("window.lost = document.getElementById('view').getContext('webgl2').getExtension('WEBGL_lose_context')")
+    page.js("window.lost.loseContext()")
     page.wait("document.documentElement.dataset.state === 'lost'")
-    assert "reload" in page.text("message")
+    assert not page.js("document.getElementById('message').hidden")
+    page.js("setTimeout(() => window.lost.restoreContext(), 50)")
+    page.wait("document.documentElement.dataset.state === 'ready'")
+    assert difference(before, settled_view(page)) == 0
+    page.choose("shading", "smooth")
+    page.choose("edges", True)
+    page.settle()
 
 
 def test_one_face_without_value(open_page, one_face):

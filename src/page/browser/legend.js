@@ -18,7 +18,7 @@ const textLines = (context, text, width) => {
 };
 
 /** Bar of a legend of this size: pixels of values. */
-function barOf(axis, height, { barLeft }) {
+export function barOf(axis, height, { barLeft }) {
   const length = Math.max(height - kTop - kBottom, 40);
   return {
     left: barLeft, width: kBarWidth, top: kTop, length,

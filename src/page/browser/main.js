@@ -1,6 +1,6 @@
 import { Controls } from './controls.js';
 import { bytesOfBase64, decodeMesh } from './decode.js';
-import { LegendPanel } from './legend_panel.js';
+import { LegendPanel } from './legend_ends.js';
 import { MeshModel } from './mesh_model.js';
 import { Navigation } from './navigation.js';
 import { Overlays } from './overlays.js';
@@ -84,7 +84,8 @@ async function start() {
   new Controls(viewer, navigation, visits, new Picture(viewer, legendPanel));
   followFragment(viewer);
   matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => viewer.requestFrame());
-  canvas.addEventListener('webglcontextlost', () => finish('lost', 'The graphics card was lost: reload the page.'));
+  canvas.addEventListener('webglcontextlost', () => finish('lost', 'The graphics card was lost; waiting for it.'));
+  canvas.addEventListener('webglcontextrestored', () => finish('ready', ''));
   canvas.setAttribute('aria-label', `3D view of ${models.map(({ description }) => description.label).join(' and ')}`);
   viewer.requestFrame();
 }

@@ -3,7 +3,7 @@
 const kSampleCount = 4, kCoarseFaceCount = 20000;
 const kRestGrey = [0.725, 0.737, 0.76];
 const kRestOpacities = { glass: 0.45, grey: 1, hidden: 0 };
-const kPosition = 0, kColour = 1, kNormal = 2;
+const kPosition = 0, kColour = 1, kNormal = 2, kSmoothNormal = 3;
 
 export class Renderer {
   /** Null without WebGL 2. */
@@ -14,6 +14,12 @@ export class Renderer {
 
   constructor(gl) {
     this.gl = gl;
+    this.restore();
+  }
+
+  /** Also after a lost context; meshes have to be added again. */
+  restore() {
+    const { gl } = this;
     this.programs = new Map();
     this.target = null;
     const provoking = gl.getExtension('WEBGL_provoking_vertex');
@@ -38,7 +44,7 @@ export class Renderer {
   addMesh(model) {
     const { gl } = this;
     const drawn = model.drawnVertices(this.isFirstProvoking);
-    const mesh = { model, indexCount: drawn.triangles.length, vao: gl.createVertexArray() };
+    const mesh = { model, indexCount: drawn.triangles.length, sources: drawn.sources, vao: gl.createVertexArray() };
     gl.bindVertexArray(mesh.vao);
     const filled = (target, data) => {
       const buffer = gl.createBuffer();
@@ -49,9 +55,9 @@ export class Renderer {
     mesh.positions = filled(gl.ARRAY_BUFFER, drawn.positions);
     this.attribute(kPosition, mesh.positions, 3, gl.FLOAT, false);
     // Vertices beyond the faces have no colour and no normal of their own: no triangle takes these from them.
-    mesh.colours = filled(gl.ARRAY_BUFFER, 4 * drawn.positions.length / 3);
+    mesh.colours = filled(gl.ARRAY_BUFFER, 4 * drawn.sources.length);
     this.attribute(kColour, mesh.colours, 4, gl.UNSIGNED_BYTE, true);
-    const normals = filled(gl.ARRAY_BUFFER, 4 * drawn.positions.length / 3);
+    const normals = filled(gl.ARRAY_BUFFER, 4 * drawn.sources.length);
     gl.bufferSubData(gl.ARRAY_BUFFER, 0, model.normals);
     this.attribute(kNormal, normals, 4, gl.BYTE, true);
     filled(gl.ELEMENT_ARRAY_BUFFER, drawn.triangles);
@@ -66,6 +72,18 @@ export class Renderer {
     mesh.colouring = colours;
     mesh.hasRest = colours.some((colour) => colour >>> 24 === 0);
     mesh.isAllRest = mesh.hasRest && colours.every((colour) => colour >>> 24 === 0);
+  }
+
+  smooth(mesh) {
+    if (mesh.isSmooth) return;
+    const { gl } = this;
+    const bytes = new Int32Array(mesh.model.smoothNormals().buffer);
+    const buffer = gl.createBuffer();
+    gl.bindVertexArray(mesh.vao);
+    gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
+    gl.bufferData(gl.ARRAY_BUFFER, Int32Array.from(mesh.sources, (vertex) => bytes[vertex]), gl.STATIC_DRAW);
+    this.attribute(kSmoothNormal, buffer, 4, gl.BYTE, true);
+    mesh.isSmooth = true;
   }
 
   // A copy of few triangles, for slow devices while the view moves.
@@ -197,8 +215,11 @@ export class Renderer {
 
   /** opacity: of the whole mesh in the colour of the rest; unset: the faces that are not the rest, in their colours. */
   drawFaces(mesh, pane, frame, opacity = null) {
-    const { gl } = this, defines = opacity !== null ? ['REST'] : [];
+    const { gl } = this, isSmooth = frame.shading === 'smooth';
+    const defines = isSmooth ? ['SMOOTH'] : [];
+    if (opacity !== null) defines.push('REST');
     if (pane.plane || (opacity === null && mesh.hasRest)) defines.push('CUT');
+    if (isSmooth) this.smooth(mesh);
     const program = this.program('mesh', defines);
     this.use(program, pane);
     gl.uniform4fv(program.uniforms.backColour, [0.44, 0.44, 0.46, frame.back === 'grey' ? 1 : 0]);

@@ -42,7 +42,7 @@ export class Triangles {
 
   /**
    * Vertices of which vertex k is a corner of face k, so that flat attributes of face k are attributes of vertex k, and
-   * the triangles; k is their first corner or their last.
+   * the triangles; k is their first corner or their last. sources: the vertex of the mesh that each is a copy of.
    */
   drawnVertices(isFirst) {
     const { positions, indices, faceCount } = this;
@@ -78,7 +78,23 @@ export class Triangles {
       places[to++] = positions[from++];
       places[to++] = positions[from];
     }
-    return { positions: places, triangles };
+    return { sources: all, positions: places, triangles };
+  }
+
+  /** Normals of vertices, weighted by area, as signed bytes. */
+  smoothNormals() {
+    const { positions, indices, faceCount, normals, areas } = this;
+    const sums = new Float32Array(positions.length);
+    for (let face = 0; face < faceCount; ++face)
+      for (let corner = 0; corner < 3; ++corner)
+        for (let axis = 0; axis < 3; ++axis)
+          sums[3 * indices[3 * face + corner] + axis] += normals[4 * face + axis] * areas[face];
+    const bytes = new Int8Array(positions.length / 3 * 4);
+    for (let from = 0, to = 0; from < sums.length; from += 3, to += 4) {
+      const scale = 127 / (Math.hypot(sums[from], sums[from + 1], sums[from + 2]) || 1);
+      for (let axis = 0; axis < 3; ++axis) bytes[to + axis] = sums[from + axis] * scale;
+    }
+    return bytes;
   }
 
   /** Pairs of vertices, each edge once, and the first two faces at each (kNoFace: none). */

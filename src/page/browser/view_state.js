@@ -14,7 +14,7 @@ const kParts = {
   none: text('d48fb8', /^[0-9a-f]{6}$/),     // Colour of faces without a value.
   thin: flag, thinAt: number(null),          // Null: the given limit, or the lower end of the colours.
   rest: choice('glass', 'grey', 'hidden'),   // Faces that are not thin, or not of the part.
-  shading: choice('flat', 'plain'), edges: flag, back: choice('same', 'grey', 'hidden'),
+  shading: choice('flat', 'smooth', 'plain'), edges: flag, back: choice('same', 'grey', 'hidden'),
   clip: choice('off', 'x', 'y', 'z', 'view'), clipAt: number(0.5), clipFlip: flag,
   face: text(null, /^\d+:\d+$/), part: text(null, /^\d+:\d+$/),  // Mesh of the page and number within it.
   up: choice('auto', 'y', 'z', 'x', '-y', '-z', '-x'),  // auto: of each mesh its own.

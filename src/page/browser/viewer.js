@@ -21,12 +21,24 @@ export class Viewer {
     Object.assign(this, { canvas, renderer, models, store, afterFrame: [], level: Number(renderer.isSoftware), slowCount: 0, frameMilliseconds: 0 });
     this.layers = new Layers(models);
     this.frames = framesOf(models);
-    this.addMeshes();
+    this.restore();
     this.reset();
     store.set(this.validated(stateOfFragment(location.hash)));
     this.isStale = true;
     store.listeners.push((keys) => this.changed(keys));
-    canvas.addEventListener('webglcontextlost', () => this.isLost = true);
+    canvas.addEventListener('webglcontextlost', (event) => {
+      event.preventDefault();
+      this.isLost = true;
+      document.documentElement.dataset.state = 'lost';
+    });
+    canvas.addEventListener('webglcontextrestored', () => {
+      renderer.restore();
+      this.restore();
+      this.isLost = false;
+      this.isStale = true;
+      document.documentElement.dataset.state = 'ready';
+      this.requestFrame();
+    });
     new ResizeObserver(() => this.requestFrame()).observe(canvas);
   }
 
@@ -34,7 +46,7 @@ export class Viewer {
     return this.store.state;
   }
 
-  addMeshes() {
+  restore() {
     this.meshes = this.models.map((model) => this.renderer.addMesh(model));
     this.surfaces = this.models.map(({ thin }) => {
       if (!thin?.surface.faceCount) return null;
