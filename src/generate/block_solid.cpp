@@ -75,7 +75,7 @@ class QuadDivider {
   Mesh take() { return std::move(mesh_); }
 
  private:
-  using Weights = std::vector<std::pair<uint32_t, uint64_t>>;  // By corner.
+  using Weights = std::vector<std::pair<uint32_t, uint64_t>>;  // Pairs of corner and weight, by corner.
 
   uint32_t vertexOf(const std::array<uint32_t, 4>& quad, const std::array<uint64_t, 4>& weights) {
     std::map<uint32_t, uint64_t> sums;

@@ -16,7 +16,7 @@
 namespace asdfvk {
 namespace {
 
-constexpr std::string_view kMagic("\x93NUMPY\x01\x00", 8);  // With version 1.0.
+constexpr std::string_view kMagic("\x93NUMPY\x01\x00", 8);  // Ends with version 1.0.
 constexpr size_t kPrefixSize = 10;                          // The magic and the size of the rest of the header.
 // One for each alternative of Field::Values.
 constexpr std::array<std::string_view, 3> kTypes{"<f4", "|u1", "<u4"};

@@ -20,7 +20,7 @@ void writePoints(const std::filesystem::path& path, std::span<const Field> field
   if (!fits(sdf, 1) || !fits(centre, 3) || (segment != nullptr && !fits(*segment, 1)))
     throw Error(ErrorCode::OptionConflict, "the sizes of the fields centre, sdf and segment do not fit each other");
   if (sdf.reals() != nullptr) requireSingles(*sdf.reals(), "'sdf'");
-  std::vector<size_t> faces;  // With a point.
+  std::vector<size_t> faces;  // Faces with a point.
   for (size_t face = 0; face < sdf.size(); ++face)
     if (std::isfinite(sdf.at(face)) && std::isfinite(centre.at(3 * face)) && std::isfinite(centre.at(3 * face + 1)) &&
         std::isfinite(centre.at(3 * face + 2)))

@@ -66,7 +66,7 @@ std::vector<uint32_t> walkedFaces(const TriangleMesh& mesh) {
 /// Faces and vertices by their places in the page.
 struct Layout {
   std::vector<uint32_t> faces;
-  std::vector<uint32_t> vertices;  ///< Those of faces, in the order of their first corners.
+  std::vector<uint32_t> vertices;  ///< Vertices of faces, in the order of their first corners.
   /// Place of the vertex of each corner minus the number of vertices before: 0 for a new vertex, else negative.
   std::vector<int32_t> corners;
 

@@ -10,7 +10,7 @@
 
 namespace asdfvk {
 
-/// Of the finite vertices of faces; a point where there is none.
+/// The box of the finite vertices of faces; a point where there is none.
 [[nodiscard]] Box3d boxOfFaces(const TriangleMesh& mesh);
 
 /// Encodes the triangles of a mesh and its fields per input face, each of one component, into arrays. Returns their

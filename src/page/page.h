@@ -31,18 +31,18 @@ struct PageSegment {
   uint32_t label = 0;
   uint64_t faceCount = 0;  ///< Triangles.
   double area = 0;
-  double median = kNoValue;  ///< Of the values of its triangles; NaN where none has one.
+  double median = kNoValue;  ///< Median of the values of its triangles; NaN where none has one.
   Vec3d centre;              ///< Mean of the barycentres, weighted by area.
 };
 
 /// The texts and lists of a result in a page, in UTF-8; any characters are allowed.
 struct PageTexts {
-  std::string name;                                          ///< Of the mesh.
+  std::string name;                                          ///< Name of the mesh.
   std::string label;                                         ///< Distinguishes this result from the others of the page.
   std::vector<std::pair<std::string, std::string>> summary;  ///< Rows of a table: title, value.
   std::string errorSentence;
   std::string up = "y";                               ///< Upright axis of the first view: x, y, z, -x, -y or -z.
-  double azimuthDegrees = 30, elevationDegrees = 18;  ///< Of the first view.
+  double azimuthDegrees = 30, elevationDegrees = 18;  ///< Direction of the first view.
   std::vector<std::string> warnings, defects;
   std::optional<PageThinPlaces> thin;  ///< Unset without a limit.
   std::vector<PageSegment> segments;

@@ -62,7 +62,7 @@ Pixel pixelOf(const TraceScene& scene, const Camera& camera, const Callout& call
 struct Label {
   const Callout* callout = nullptr;
   Pixel place;
-  double y = 0;  ///< Of the middle of the text.
+  double y = 0;  ///< Middle of the text.
 };
 
 /// Sorts by place, and moves the texts apart within the column.

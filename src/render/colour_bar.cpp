@@ -67,7 +67,7 @@ double labelWidth(const ColourBar& bar) {
   return widest;
 }
 
-/// Of bar, ticks and labels.
+/// Width of bar, ticks and labels.
 double bodyWidth(const ColourBar& bar) {
   return (kBarWidth + kTickLength + kLabelGap) * bar.capHeight + labelWidth(bar);
 }

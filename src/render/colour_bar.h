@@ -23,10 +23,10 @@ struct Tick {
 struct ColourBar {
   ColourRange range;
   std::string title;     ///< Above the bar; scaled down where it is wider than a third of the picture.
-  double capHeight = 0;  ///< Of the text, in pixels.
+  double capHeight = 0;  ///< Size of the text, in pixels.
 };
 
-/// In pixels.
+/// Width of the column, in pixels.
 [[nodiscard]] double columnWidth(const ColourBar& bar, double pictureWidth);
 
 /// Draws it centred within `column`.

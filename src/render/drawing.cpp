@@ -147,7 +147,7 @@ Glyph parseGlyph(const GlyphText& text) {
   return glyph;
 }
 
-constexpr double kStrokeShare = 0.13;  ///< Of the height of capitals.
+constexpr double kStrokeShare = 0.13;  ///< Width of a stroke, divided by the height of capitals.
 
 double squared(double x) { return x * x; }
 

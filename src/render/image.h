@@ -14,7 +14,7 @@ namespace asdfvk {
 /// Red, green and blue in sRGB.
 using Rgb = std::array<uint8_t, 3>;
 inline constexpr Rgb kWhite{255, 255, 255}, kInk{34, 34, 34};
-/// Of a body without values.
+/// Colour of a body without values.
 inline constexpr Rgb kNeutral{210, 209, 204};
 
 /// Rows from the top, each from the left.

@@ -13,9 +13,9 @@ namespace asdfvk {
 namespace {
 
 constexpr int kSamples = 4;             ///< Per side of a pixel.
-constexpr int kBandRows = 256;          ///< Of samples. Every band reads all faces.
+constexpr int kBandRows = 256;          ///< Rows of samples. Every band reads all faces.
 constexpr size_t kBandsAtOnce = 4;      ///< Between two checkpoints.
-constexpr double kThroughShare = 0.45;  ///< Of the alarm colour where it is behind faces.
+constexpr double kThroughShare = 0.45;  ///< Share of the alarm colour where it is behind faces.
 static_assert(kBandRows % kSamples == 0);
 
 class MeshRenderer {

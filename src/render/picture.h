@@ -25,10 +25,10 @@ struct Picture {
   std::span<const uint32_t> labels;      ///< #F, in the colours of labelColours(); or empty.
   std::optional<ThinPlaces> thinPlaces;  ///< On a grey body, with the title as their legend.
   std::string title;                     ///< Above the bar; without one, above the mesh.
-  std::optional<ColourRange> range;      ///< Of the bar; unset: percentileRange() of the values.
+  std::optional<ColourRange> range;      ///< Range of the bar; unset: percentileRange() of the values.
   int width = 1200, height = 900;        ///< In pixels, kMinPictureSide to kMaxPictureSide.
   View view;
-  double textScale = 1;  ///< Of title and labels; above 1 for pictures that are printed small.
+  double textScale = 1;  ///< Factor on title and labels; above 1 for pictures that are printed small.
 };
 
 /// Renders on the CPU with depth buffers: parallel projection, white background, soft light. The same bits for any

@@ -15,7 +15,7 @@
 namespace asdfvk {
 namespace {
 
-/// From entries per input face to entries per triangle.
+/// Entries per triangle from entries per input face.
 template <typename T>
 std::vector<T> onTriangles(const TriangleMesh& mesh, const std::vector<T>& ofInputFaces) {
   if (mesh.polygons.isEmpty()) return ofInputFaces;
@@ -49,7 +49,7 @@ std::string verdictText(ThicknessVerdict verdict) {
   return verdict == ThicknessVerdict::Passed ? "PASS" : verdict == ThicknessVerdict::Failed ? "FAIL" : "NOT JUDGED";
 }
 
-/// Of the first regions: walls before sharp ones.
+/// Callouts of the first regions: walls before sharp ones.
 std::vector<Callout> calloutsOf(const ThicknessReport& thickness) {
   constexpr size_t kMaxCount = 8;
   std::vector<Callout> callouts;

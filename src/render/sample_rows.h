@@ -90,7 +90,7 @@ class SampleRows {
 using Surface = std::span<const std::array<Vec3d, 3>>;
 using ProjectedSurface = std::vector<std::array<Projected, 3>>;
 [[nodiscard]] ProjectedSurface projectSurface(const TraceScene& scene, const SampleGrid& grid, Surface surface);
-/// With the indices of its triangles.
+/// Draws the triangles with their indices.
 void drawSurface(SampleRows& rows, const ProjectedSurface& surface);
 
 /// The vertices of the faces that rays can hit, once each, in normalised coordinates.
@@ -106,7 +106,7 @@ class ProjectedFaces {
     const auto& [a, b, c] = scene_.mesh.faces[face];
     return {vertices_[a], vertices_[b], vertices_[c]};
   }
-  /// With the indices of the faces.
+  /// Draws the faces with their indices.
   void drawOn(SampleRows& rows) const {
     for (const uint32_t face : scene_.bvh.primitiveFaces) rows.draw(face, cornersOf(face));
   }

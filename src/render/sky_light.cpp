@@ -12,13 +12,13 @@
 namespace asdfvk {
 namespace {
 
-constexpr double kLampRadius = 0.22;  ///< Of its disk, at distance 1.
+constexpr double kLampRadius = 0.22;  ///< Radius of the disk of the lamp, at distance 1.
 constexpr double kSky = 0.58, kLamp = 0.55, kFill = 0.08;
 constexpr double kGroundShare = 0.66;  ///< Radiance of the lowest direction, divided by that of the highest.
 constexpr double kSkyReach = 0.9;      ///< Farther surfaces cast no shadow of the sky; normalised unit.
 /// Directions of light: fewer of them for very many faces, which take their time in every depth map.
 constexpr int kMinSkyCount = 16, kMaxSkyCount = 96, kSkyPerLamp = 4;
-constexpr size_t kFacesPerTexel = 48'000;  ///< Of the side of a map: faces that all maps of the sky draw.
+constexpr size_t kFacesPerTexel = 48'000;  ///< Faces that all maps of the sky draw, per texel of the side of a map.
 constexpr int kMaxMapSide = 512;           ///< Texels of a depth map.
 /// Distance in texels by which points are lifted from their surface: above the greatest distance of a point from the
 /// texels that it is compared with, sqrt(2), so that no plane shades itself.

@@ -26,7 +26,7 @@ class SkyLight {
     SampleGrid grid;
     double radiance = 0;
     double reach = 0;           ///< Shadows fade with the distance between their surface and the point, up to this one.
-    std::vector<float> depths;  ///< Of the surface that is nearest to the light.
+    std::vector<float> depths;  ///< Depths of the surface that is nearest to the light.
   };
 
   /// 1 where the point is not behind the surface; behind it less, see reach. Bilinear between the texels.

@@ -27,7 +27,7 @@ double edgeCost(double length, double angle) {
 /// A label that a face may take.
 struct Choice {
   uint32_t face, label;
-  float distance;  ///< From the label.
+  float distance;  ///< Distance from the label.
 };
 
 /// Ascending by label. Faces of their own label are left out.

@@ -82,7 +82,7 @@ CgalSegmentation segmentLikeCgal(const FaceGeometry& geometry, const TriangleMes
   std::vector<double>& costs = clustering.probabilities;
   CgalSegmentation result;
   result.clusters.resize(values.size());
-  // In an order in which faces close to each other have near numbers: the cut takes two thirds of the time or less.
+  // Faces close to each other have near numbers in this order: the cut takes two thirds of the time or less.
   const std::vector<uint32_t> order = orderByBlocks(neighbours, kFacesPerCutBlock);
   std::vector<double> orderedCosts(costs.size());
   std::vector<uint32_t> labels(values.size());

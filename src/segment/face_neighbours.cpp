@@ -54,7 +54,7 @@ FaceNeighbours findFaceNeighbours(const TriangleMesh& mesh) {
   });
   std::vector<CornerPair> joined;
   const auto joinCrowded = [&](const std::vector<uint32_t>& corners) {
-    // By the umbrellas of both ends, the one at the lower vertex first.
+    // Sorted by the umbrellas of both ends, the one at the lower vertex first.
     std::vector<std::pair<CornerPair, uint32_t>> sorted;
     for (const uint32_t corner : corners) {
       CornerPair ends{umbrellaOf(mesh, neighbours, corner),

@@ -47,7 +47,7 @@ class MaxFlow::Search {
   void plant();
   /// Joins ranges of this size, which have been solved.
   void join(size_t partSize);
-  /// Until the trees cannot grow.
+  /// Searches until the trees cannot grow.
   void run();
 
   [[nodiscard]] double flow() const { return flow_; }

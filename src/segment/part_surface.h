@@ -21,7 +21,7 @@ struct PartSurface {
   std::span<const uint32_t> offsets;  ///< #F+1, of the dual graph; views the caller's graph.
   /// #arcs, aligned with DualGraph::neighbours, with the length of the path between the barycentres across the edge.
   std::vector<Arc> arcs;
-  /// #arcs: length of that path plus kCreaseLength (3 max(0, angle) + |difference of the log values|).
+  /// #arcs: that length plus kCreaseLength (3 max(0, angle) + |difference of the log values|).
   std::vector<Arc> creasedArcs;
   std::vector<float> edgeLengths;  ///< #arcs
   std::vector<float> angles;       ///< #arcs: dihedral angle in radians, positive on a concave edge.

@@ -25,21 +25,21 @@ class Rand48 {
  public:
   Rand48() { static_cast<void>(next()); }  // CGAL does not use the first number.
 
-  /// 31 bits.
+  /// A number of 31 bits.
   uint32_t next() {
     constexpr uint64_t kMask = (uint64_t{1} << 48) - 1;
     state_ = (state_ * 0x5DEECE66D + 11) & kMask;
     return static_cast<uint32_t>(state_ >> 17);
   }
 
-  /// In [0, count), as boost::uniform_int draws it.
+  /// A number in [0, count), as boost::uniform_int draws it.
   size_t index(size_t count) {
     const size_t bucket = kRange / count;
     for (;;)
       if (const size_t drawn = next() / bucket; drawn < count) return drawn;
   }
 
-  /// In [0, 1).
+  /// A number in [0, 1).
   double real() { return next() / static_cast<double>(kRange); }
 
  private:
@@ -118,7 +118,7 @@ struct Gaussian {
   double mean, deviation, weight;
   double factor = weight / deviation, exponent = -0.5 / (deviation * deviation);
 
-  /// Up to the factor 1 / sqrt(2 pi). A deviation of 0 is 1 at the mean.
+  /// The density without the factor 1 / sqrt(2 pi). A deviation of 0 is 1 at the mean.
   [[nodiscard]] double density(double value) const {
     const double distance = value - mean;
     if (std::isinf(exponent)) return distance == 0 ? weight : 0;

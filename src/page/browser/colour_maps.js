@@ -5,7 +5,7 @@ const kStops = {
   cividis: '00224e002e6a1a386f32436d434e6c535a6d61656f6f70737d7c788c88789b9476aba072bcae6ccdbb63dec958f0d846fee838',
   turbo: '30123b4040a2466be34294ff28bceb18ddc232f2986dfe62a4fc3ccdec34eecf3afdac34fb7e21eb500ed02f05a916017a0403',
   grey: '141414fafafa',
-  // Of differences, blue to red; not offered for values.
+  // For differences, blue to red; not offered for values.
   difference: '2166ac67a9cfd1e5f0f7f7f7fddbc7ef8a62b2182b',
 };
 export const kColourMapNames = ['viridis', 'cividis', 'turbo', 'grey'];

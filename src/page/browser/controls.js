@@ -98,7 +98,7 @@ export class Controls {
     this.showPicked();
   }
 
-  /** Of the values that the limit refers to; null without any. */
+  /** Range of the values that the limit refers to; null without any. */
   limitedRange(look) {
     const { layers } = this.viewer;
     if (this.given !== null && layers.has('least_thickness')) return layers.rangeOf('least_thickness');

@@ -3,7 +3,7 @@ import { colourTable, kLabelColours } from './colour_maps.js';
 import { facesBelow, histogramOf, rangeOf } from './statistics.js';
 
 const kHistogramBinCount = 60;
-const kMargin = 0.2;  // Of the range, beyond each end of the colours.
+const kMargin = 0.2;  // Share of the range, beyond each end of the colours.
 
 export class Layers {
   constructor(models) {

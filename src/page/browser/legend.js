@@ -3,7 +3,7 @@ import { cssColour, kAlarmColour, kFlagColours, kRestColour, packedColour, table
 import { formatShare, formatValue, ticksWithin } from './format.js';
 
 const kBarWidth = 18, kTop = 76, kBottom = 40, kLine = 16;
-/** Beside a wide view, and beside a narrow one, without the histogram. */
+/** Sizes beside a wide view, and beside a narrow one, without the histogram. */
 export const kWideLegend = { width: 168, barLeft: 58 }, kNarrowLegend = { width: 92, barLeft: 8 };
 const kFont = '13px system-ui, sans-serif';
 
@@ -103,7 +103,7 @@ function drawClasses(context, { look, colourOfLabel }, height, size, ink) {
     context.fillText(`and ${look.classes.length - rows.length} more`, 28, kTop + 20 * rows.length);
 }
 
-/** The same in words. */
+/** What the legend shows, in words. */
 export function legendSentence(look, thin) {
   if (thin) return `${thinTitle(thin)}, ${formatShare(thin.share)} of the area`;
   const unit = look.unit ? ` ${look.unit}` : '';

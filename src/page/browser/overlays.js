@@ -3,7 +3,7 @@ import { formatValue } from './format.js';
 import { markedRegions, regionValue } from './thin_places.js';
 import { subtract } from './vectors.js';
 
-const kTextWidth = 60, kTextHeight = 17;  // Of the text at a marker, at most, in pixels.
+const kTextWidth = 60, kTextHeight = 17;  // Greatest size of the text at a marker, in pixels.
 
 /** The longest round length that takes at most a third of the pane: {value, pixels}. */
 export function scaleOf(camera) {

@@ -17,7 +17,7 @@ export class Renderer {
     this.restore();
   }
 
-  /** Also after a lost context; meshes have to be added again. */
+  /** Sets the context up, at first and after a loss; meshes have to be added again. */
   restore() {
     const { gl } = this;
     this.programs = new Map();
@@ -97,7 +97,7 @@ export class Renderer {
     return coarse;
   }
 
-  // Of all faces, or without those that are the rest.
+  // The edges of all faces, or of those that are not the rest.
   edgesOf(mesh, hidesRest) {
     const { gl } = this, hasHidden = hidesRest && mesh.hasRest;
     if (mesh.edgesOfColouring === (hasHidden ? mesh.colouring : true)) return mesh.edges;

@@ -10,7 +10,7 @@ const kParts = {
   layer: text(null, /./),
   show: text('all', /^(\d+|\d+-\d+|all)$/),  // All meshes, one of them, or the difference of two.
   map: choice(...kColourMapNames),
-  low: number(null), high: number(null),     // Of the colours; null: percentiles.
+  low: number(null), high: number(null),     // Ends of the colours; null: percentiles.
   none: text('d48fb8', /^[0-9a-f]{6}$/),     // Colour of faces without a value.
   thin: flag, thinAt: number(null),          // Null: the given limit, or the lower end of the colours.
   rest: choice('glass', 'grey', 'hidden'),   // Faces that are not thin, or not of the part.

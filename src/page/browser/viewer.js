@@ -12,7 +12,7 @@ const kColourKeys = ['layer', 'show', 'map', 'low', 'high', 'none', 'thin', 'thi
 const kCameraKeys = ['up', 'az', 'el', 'zoom', 'x', 'y', 'z', 'clipAt'];
 const kRestMilliseconds = 180;  // Without motion, before a frame in full quality.
 const kSlowMilliseconds = 36, kSlowCount = 3;
-// Of frames while the view moves, on ever slower devices: resolution, and whether the mesh is a coarse copy.
+// Frames while the view moves, on ever slower devices: resolution, and whether the mesh is a coarse copy.
 const kLevels = [[1, false], [1, true], [0.7, true], [0.5, true], [0.35, true]];
 const kFlightMilliseconds = 350;
 
@@ -158,7 +158,7 @@ export class Viewer {
     }));
   }
 
-  /** With cameras and clip planes, in the order of look.panes. */
+  /** The panes with cameras and clip planes, in the order of look.panes. */
   panes() {
     const { panes } = this.look, rectangles = this.rectangles(panes.length);
     return panes.map(({ index, values }, i) => {
@@ -216,7 +216,7 @@ export class Viewer {
     this.slowCount = 0;
   }
 
-  /** In full quality, or in that of motion. */
+  /** Draws in full quality, or in that of motion. */
   draw(isStill, isFirst = false) {
     const { canvas, state } = this;
     const [share, isCoarse] = isStill ? [1, false] : kLevels[this.level];
