@@ -5,11 +5,9 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <atomic>
 #include <bit>
 #include <utility>
 
-#include "core/parallel.h"
 #include "core/text.h"
 #include "io/formats.h"
 #include "io/input_failure.h"
@@ -47,14 +45,6 @@ class TriangleStrip {
   uint32_t first_ = 0, second_ = 0;  ///< The last two indices.
 };
 
-/// Calls decode(first, end) for parts of [0, count), in parallel where there are several.
-template <typename Decode>
-void forRows(uint64_t count, const Decode& decode) {
-  constexpr uint64_t kRowsPerTask = 1 << 15;
-  if (count <= kRowsPerTask) return decode(uint64_t{0}, count);
-  forEachRange(count, kRowsPerTask, decode);
-}
-
 /// Reads the rows of all elements. Allocates memory for an element only after a check of its count against the rest of
 /// the file.
 template <typename Source>
@@ -79,71 +69,8 @@ class PlyBody {
                       "is wrong",
                       counted(element.count, "row"), quoted(element.name), counted(source_.remaining(), "byte")));
     if (element.role == PlyRole::Vertices) mesh_.vertices.resize(element.count);
-    if constexpr (Source::kIsBinary)
-      if (readUniformRows(element, minRowSize)) return;
     if (element.role == PlyRole::Faces) faces_.reserve(element.count);
     for (uint64_t row = 0; row < element.count; ++row) readRow(element, row);
-  }
-
-  /// Reads the rows of a binary element in parallel where all have one size: without lists, or faces that are all
-  /// triangles and have no other list. Otherwise reads nothing and returns false.
-  bool readUniformRows(const PlyElement& element, uint64_t minRowSize) {
-    size_t listCount = 0;
-    for (const PlyProperty& property : element.properties) listCount += property.list ? 1 : 0;
-    if (element.role == PlyRole::Faces && listCount == 1) return readTriangles(element, minRowSize);
-    if (listCount > 0) return false;
-    if (element.role == PlyRole::Vertices) readUniformVertices(element, minRowSize);
-    source_.skipBytes(element.count * minRowSize);
-    return true;
-  }
-
-  void readUniformVertices(const PlyElement& element, uint64_t rowSize) {
-    std::array<uint64_t, 3> offsets{};
-    std::array<PlyType, 3> types{};
-    for (size_t axis = 0; axis < 3; ++axis) {
-      offsets[axis] = offsetOf(element, element.coordinates[axis]);
-      types[axis] = element.properties[element.coordinates[axis]].type;
-    }
-    forRows(element.count, [&](uint64_t first, uint64_t end) {
-      for (uint64_t row = first; row < end; ++row)
-        for (size_t axis = 0; axis < 3; ++axis)
-          mesh_.vertices[row][axis] = source_.template load<double>(row * rowSize + offsets[axis], types[axis]);
-    });
-  }
-
-  /// False where a face is not a triangle or has an index out of range; the rows are then read one by one, which finds
-  /// the place of an error.
-  bool readTriangles(const PlyElement& element, uint64_t minRowSize) {
-    const PlyProperty& indices = element.properties[element.indices];
-    const uint64_t indexSize = sizeOf(indices.type), lengthSize = sizeOf(*indices.list);
-    const uint64_t rowSize = minRowSize + 3 * indexSize;
-    if (!source_.canHoldRows(element.count, rowSize)) return false;
-    const uint64_t offset = offsetOf(element, element.indices);
-    std::vector<Face> faces(element.count);
-    std::atomic<bool> isValid = true;
-    forRows(element.count, [&](uint64_t first, uint64_t end) {
-      for (uint64_t row = first; row < end && isValid.load(std::memory_order_relaxed); ++row) {
-        const uint64_t list = row * rowSize + offset;
-        bool isRowValid = source_.template load<int64_t>(list, *indices.list) == 3;
-        for (size_t c = 0; c < 3; ++c) {
-          const auto index = source_.template load<int64_t>(list + lengthSize + c * indexSize, indices.type);
-          isRowValid = isRowValid && static_cast<uint64_t>(index) < header_.vertexCount;
-          faces[row][c] = static_cast<uint32_t>(index);
-        }
-        if (!isRowValid) isValid = false;
-      }
-    });
-    if (!isValid) return false;
-    faces_.addTriangles(std::move(faces));
-    source_.skipBytes(element.count * rowSize);
-    return true;
-  }
-
-  /// Byte of a property in the row of its element. Precondition: no list precedes it.
-  [[nodiscard]] static uint64_t offsetOf(const PlyElement& element, size_t property) {
-    uint64_t offset = 0;
-    for (size_t i = 0; i < property; ++i) offset += sizeOf(element.properties[i].type);
-    return offset;
   }
 
   void readRow(const PlyElement& element, uint64_t row) {

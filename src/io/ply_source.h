@@ -56,8 +56,6 @@ template <typename Out, bool kIsSwapped>
 /// wrong number of values is therefore known.
 class PlyAsciiSource {
  public:
-  static constexpr bool kIsBinary = false;
-
   PlyAsciiSource(std::span<const char> bytes, const PlyHeader& header)
       : text_(bytes.subspan(header.bodyOffset), {}, header.bodyLine) {}
 
@@ -90,8 +88,6 @@ class PlyAsciiSource {
 template <bool kIsSwapped>
 class PlyBinarySource {
  public:
-  static constexpr bool kIsBinary = true;
-
   PlyBinarySource(std::span<const char> bytes, const PlyHeader& header)
       : bytes_(bytes), at_(header.bodyOffset), last_(at_) {}
 
@@ -112,27 +108,20 @@ class PlyBinarySource {
 
   [[noreturn]] void fail(std::string_view reason) const { failAtByte(last_, reason); }
 
-  // Random access, for rows of one size: offset: bytes from the next number. Precondition: within remaining().
-  template <typename Out>
-  [[nodiscard]] Out load(uint64_t offset, PlyType type) const {
-    return loadPly<Out, kIsSwapped>(bytes_.data() + at_ + offset, type);
-  }
-  void skipBytes(uint64_t count) { last_ = at_ += count; }
-
  private:
   template <typename Out>
   Out take(PlyType type, std::string_view expected) {
     last_ = at_;
     if (remaining() < sizeOf(type))
       fail(fmt::format("the file ends where {} is expected; it is truncated", printable(expected)));
-    const Out value = load<Out>(0, type);
+    const Out value = loadPly<Out, kIsSwapped>(bytes_.data() + at_, type);
     at_ += sizeOf(type);
     return value;
   }
 
   std::span<const char> bytes_;
   uint64_t at_;    ///< The next byte.
-  uint64_t last_;  ///< First byte of the last number, or the byte after skipBytes().
+  uint64_t last_;  ///< First byte of the last number.
 };
 
 }  // namespace asdfvk
