@@ -107,27 +107,29 @@ def backends(case: Case) -> None:
 
 
 def assembly(case: Case) -> None:
-    """Parts that touch have the values of the same parts apart."""
+    """Parts that touch have the values of the same parts apart; parts that cross, the thickness."""
     rng = case.rng
+    crosses = rng.random() < 0.2
     arguments = ["assembly", "--rng-seed", str(rng.randrange(10**6))]
-    touching = shapes.by_generator(case.program, arguments, case.folder)
+    arguments += ["--interpenetrate"] if crosses else []
+    together = shapes.by_generator(case.program, arguments, case.folder)
     distance = str(round(rng.uniform(0.5, 5), 2))
     apart = shapes.by_generator(case.program, [*arguments, "--apart", distance], case.folder)
     if rng.random() < 0.3:
         factor = 10 ** rng.uniform(-6, 6)
-        touching, apart = shapes.scaled(touching, factor), shapes.scaled(apart, factor)
-    names = (case.write(touching, "touching.off"), case.write(apart, "apart.off"))
+        together, apart = shapes.scaled(together, factor), shapes.scaled(apart, factor)
+    names = (case.write(together, "together.off"), case.write(apart, "apart.off"))
     backend = rng.choice(BACKENDS)
-    measures = rng.random() < 0.4
-    chosen = ["--backend", backend, "--seeds", "all", "--no-estimate"]
-    chosen += ["--measure", "both"] if measures else []
+    measure = "thickness" if crosses else rng.choice(("sdf", "both"))
+    chosen = ["--backend", backend, "--measure", measure]
+    chosen += [] if crosses else ["--seeds", "all", "--no-estimate"]
     both = [case.values(name, name.replace(".off", ".npz"), *chosen) for name in names]
     if both[0] is None or both[1] is None:
         return
-    for field in ("sdf", "thickness", "least_thickness") if measures else ("sdf",):
-        least = oracles.rounding(field, touching.diagonal())
+    for field in sorted(both[0].keys() & {"sdf", "thickness", "least_thickness"}):
+        least = oracles.rounding(field, together.diagonal())
         wrong = oracles.same_values(both[0][field], both[1][field], least)
-        case.note([f"touching and apart, {field}, {backend}: {w}" for w in wrong])
+        case.note([f"together and apart, {field}, {backend}: {w}" for w in wrong])
 
 
 def _hangs_on_rounding(

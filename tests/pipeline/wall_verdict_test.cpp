@@ -193,12 +193,18 @@ TEST_CASE("session and scene give one verdict, and a region of faces that of the
   CHECK(middle.min >= 0.8);
 }
 
-TEST_CASE("parts that touch have the thickness of the same parts apart") {
-  for (const uint64_t seed : {1, 2, 3, 4, 5, 6, 7, 53}) {
-    CAPTURE(seed);
+TEST_CASE("parts that touch or cross have the thickness of the same parts apart") {
+  struct Case {
+    uint64_t seed;
+    bool crosses = false;
+  };
+  for (const Case& each : {Case{1}, Case{2}, Case{3}, Case{4}, Case{5}, Case{6}, Case{7}, Case{53}, Case{1, true},
+                           Case{22, true}, Case{23, true}}) {
+    CAPTURE(each.seed);
+    CAPTURE(each.crosses);
     std::vector<std::vector<double>> values;
     for (const std::optional<double> apart : {std::optional<double>(), std::optional(1.0)}) {
-      const Mesh mesh = makeAssembly({.seed = seed, .apart = apart}).mesh;
+      const Mesh mesh = makeAssembly({each.seed, each.crosses, apart}).mesh;
       values.push_back(*referenceSession().compute(mesh, limitedTo(std::nullopt)).field("least_thickness")->reals());
     }
     REQUIRE(values[0].size() == values[1].size());
