@@ -196,8 +196,7 @@ void predictOnCpu(const PredictionInput& input, std::vector<double>& values) {
 std::vector<uint32_t> claimFaces(const DualGraph& graph, const FaceGeometry& geometry, std::span<const uint32_t> seeds,
                                  std::span<const uint32_t> newCells, std::vector<uint32_t>& cellOf) {
   const auto squaredDistance = [&](uint32_t face, uint32_t cell) {
-    const Vec3d between = geometry.barycentres[face] - geometry.barycentres[seeds[cell]];
-    return dot(between, between);
+    return comparableSquare(geometry.barycentres[face] - geometry.barycentres[seeds[cell]]);
   };
   for (const uint32_t cell : newCells) cellOf[seeds[cell]] = cell;
   std::vector<uint32_t> claimed, queue;

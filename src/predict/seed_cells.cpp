@@ -82,8 +82,7 @@ class NearestCells::RowBuilder {
     byDistance_.clear();
     const Vec3d centre = centreOf(cell);
     for (const uint32_t other : touching_) {
-      const Vec3d between = centreOf(other) - centre;
-      byDistance_.emplace_back(dot(between, between), other);
+      byDistance_.emplace_back(comparableSquare(centreOf(other) - centre), other);
     }
     std::sort(byDistance_.begin(), byDistance_.end());
     if (byDistance_.size() > stride_ - 1) byDistance_.resize(stride_ - 1);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bit>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -12,6 +13,15 @@
 namespace asdfvk {
 
 inline constexpr uint32_t kNoCell = std::numeric_limits<uint32_t>::max();
+
+/// The squared length to 24 bits: equal distances of regular meshes remain equal, so that neither rounding nor the unit
+/// of the mesh decides their order.
+[[nodiscard]] inline double comparableSquare(const Vec3d& between) {
+  constexpr uint64_t kLast = uint64_t{1} << 29;  // The last of the 24 bits.
+  const double square = dot(between, between);
+  if (square < std::numeric_limits<double>::min()) return square;  // It has few bits already.
+  return std::bit_cast<double>((std::bit_cast<uint64_t>(square) + kLast / 2) & ~(kLast - 1));
+}
 
 /// Voronoi cells of the seeds on the dual graph: each face belongs to the seed that is the fewest steps away. A cell
 /// has the index of its seed.

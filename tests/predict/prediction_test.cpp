@@ -353,6 +353,20 @@ TEST_CASE("added seeds have cells of the faces that are nearer to them, and othe
   CHECK(error < 0.95 * earlierError);
 }
 
+TEST_CASE("faces as far from an added seed as from their own are claimed alike in every unit") {
+  std::vector<std::vector<uint32_t>> cells;
+  for (const double unit : {1.0, 0.001, 25.4, 1 + 1e-13}) {
+    const SeededMesh seeded(shapes::scaledAndShifted(shapes::box({3, 2, 1}, 20), unit), 300);
+    std::vector<uint32_t> fewer = seeded.seeds;
+    for (size_t i = 0; i < fewer.size(); i += 4) fewer[i] = kNoFace;
+    Prediction prediction =
+        predictValues(seeded.scene(), seeded.graph, seeded.cone, {fewer, seeded.hits}, PredictionOptions());
+    CHECK_FALSE(addSeeds(seeded.scene(), seeded.graph, seeded.cone, seeded.seedHits(), {}, prediction).empty());
+    cells.push_back(prediction.cellOf);
+    CHECK(cells.back() == cells.front());
+  }
+}
+
 TEST_CASE("a failure of the device leaves a prediction unchanged when seeds are added") {
   class FailingPredictor final : public DevicePredictor {
    public:
