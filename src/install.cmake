@@ -1,4 +1,4 @@
-# Programs with their man pages and completions, library, headers, CMake package and pkg-config file, in the folders of
+# Programs with their man pages and a completion, library, headers, CMake package and pkg-config file, in the folders of
 # GNUInstallDirs. Components: program, development, and python (python/CMakeLists.txt).
 include(CMakePackageConfigHelpers)
 
@@ -9,16 +9,18 @@ if(ASDF_VK_PROGRAM)
 
   find_program(ASDF_VK_GZIP gzip REQUIRED)
   mark_as_advanced(ASDF_VK_GZIP)
-  set(documents ${PROJECT_BINARY_DIR}/documents)
-  set(manPages ${documents}/man/man1/asdf-vk.1 ${documents}/man/man1/asdf-vk-summarize.1
-               ${documents}/man/man1/asdf-vk-generate.1)
-  add_custom_command(OUTPUT ${documents}/written
-                     COMMAND asdfvk-write-documents ${documents}
-                     COMMAND ${ASDF_VK_GZIP} -9nf ${manPages}
-                     COMMAND ${CMAKE_COMMAND} -E touch ${documents}/written
-                     COMMENT "Writing man pages and completions" VERBATIM)
-  add_custom_target(asdfvk-documents-files ALL DEPENDS ${documents}/written)
-  install(DIRECTORY ${documents}/man ${documents}/bash-completion DESTINATION ${CMAKE_INSTALL_DATADIR} COMPONENT program)
+  set(manPages ${PROJECT_BINARY_DIR}/man1)
+  set(pageSources ${PROJECT_SOURCE_DIR}/docs/man/asdf-vk.1 ${PROJECT_SOURCE_DIR}/docs/man/asdf-vk-generate.1)
+  add_custom_command(OUTPUT ${manPages}/asdf-vk.1.gz
+                     COMMAND asdfvk-write-documents ${PROJECT_SOURCE_DIR} ${manPages}
+                     COMMAND ${ASDF_VK_GZIP} -9nf ${manPages}/asdf-vk.1 ${manPages}/asdf-vk-generate.1
+                     DEPENDS ${pageSources} COMMENT "Writing man pages" VERBATIM)
+  add_custom_target(asdfvk-documents-files ALL DEPENDS ${manPages}/asdf-vk.1.gz)
+  install(DIRECTORY ${manPages} DESTINATION ${CMAKE_INSTALL_MANDIR} COMPONENT program)
+  foreach(program asdf-vk asdf-vk-generate)
+    install(FILES documents/completion.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
+            RENAME ${program} COMPONENT program)
+  endforeach()
 endif()
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/asdf_vk ${PROJECT_BINARY_DIR}/include/asdf_vk
         DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development FILES_MATCHING PATTERN "*.h")

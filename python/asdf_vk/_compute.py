@@ -20,7 +20,9 @@ def split_progress(options: dict[str, Any], allowed: Collection[str]) -> Progres
     progress = checked_progress(options.pop("progress", None))
     for name in options:
         if name not in allowed:
-            raise error_of("unknownName", f"there is no option '{name}'", {"option": name})
+            similar = _core.similar_names(name, [*allowed, "progress"])
+            hint = f"; did you mean {similar}?" if similar else ""
+            raise error_of("unknownName", f"there is no option '{name}'{hint}", {"option": name})
     return progress
 
 

@@ -5,6 +5,7 @@
 
 #include "asdf_vk/asdf_vk.h"
 #include "cgal.h"
+#include "describe/similar_names.h"
 #include "files.h"
 #include "gil.h"
 #include "interruptible.h"
@@ -85,6 +86,7 @@ PYBIND11_MODULE(_core, module) {
   module.attr("error_kinds") = errorKinds();
   py::register_local_exception_translator(translate);
   module.def("option_names", optionNames);
+  module.def("similar_names", similarNames);
   module.def("session_key", [](const py::dict& values) {
     const SessionSettings session = sessionOf(values);
     return py::make_tuple(session.backend, session.device, session.requireGpu, session.threadCount);

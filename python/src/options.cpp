@@ -53,14 +53,12 @@ OptionValue valueOf(const py::handle& object) {
   return {};
 }
 
-/// Sets the options in the order of the rows.
+/// Sets the options in the order of the rows. The package has checked their names.
 GivenOptions setOptions(OptionRows rows, void* target, const py::dict& values) {
   GivenOptions given{.names = {}, .spelling = kSpelling};
-  size_t usedCount = 0;
   for (const OptionRow& row : rows) {
     const std::string name = spelled(row, kSpelling);
     if (name.empty() || !values.contains(name)) continue;
-    ++usedCount;
     const py::object object = values[name.c_str()];
     if (object.is_none()) continue;
     OptionValue value = valueOf(object);
@@ -68,13 +66,6 @@ GivenOptions setOptions(OptionRows rows, void* target, const py::dict& values) {
     if (isNumberOfDevice) value = std::to_string(std::get<uint64_t>(value));
     setOption(row, target, value, py::repr(object), kSpelling);
     given.names.insert(row.name);
-  }
-  if (usedCount == values.size()) return given;
-  for (const auto& [key, value] : values) {
-    const auto name = py::str(key).cast<std::string>();
-    bool isKnown = false;
-    for (const OptionRow& row : rows) isKnown = isKnown || spelled(row, kSpelling) == name;
-    if (!isKnown) throw Error(ErrorCode::UnknownName, "there is no option '" + name + "'", {{"option", name}});
   }
   return given;
 }

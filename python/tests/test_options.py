@@ -50,3 +50,10 @@ def test_what_options_imply(reference: asdf_vk.Session) -> None:
     assert asdf_vk.shape_diameter(*cube(), session=reference, thinner_than=0.5).shape == (12,)
     segmented = asdf_vk.compute(*cube(), session=reference, segment="cgal", seeds="all", clusters=2)
     assert "normalized" in segmented.fields
+
+
+def test_an_unknown_option_has_a_hint() -> None:
+    for name, hint in (("seed", "; did you mean seeds or random_seed?"), ("bogus", "")):
+        with pytest.raises(asdf_vk.UsageError) as error:
+            asdf_vk.shape_diameter(*cube(), **{name: 3})  # type: ignore[arg-type]
+        assert str(error.value) == f"there is no option '{name}'{hint}"

@@ -3,95 +3,77 @@
 #include <array>
 #include <cstdint>
 #include <functional>
-#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
-namespace CLI {
-class App;
-class Option;
-}  // namespace CLI
-
-/// Command lines of the programs. CLI11, which compiles slowly, is in arguments.cpp only.
+/// Command lines of the programs.
 namespace asdfvk {
 
-/// An option or a positional argument, as documents describe it.
-struct ArgumentDescription {
-  std::vector<std::string> names;  ///< "-o", "--output"; none for a positional argument.
-  std::string placeholder;         ///< Stands for the value in the help.
-  std::string completions;         ///< Set by Argument::completions(); otherwise the type of the value.
-  uint32_t valueCount = 0;         ///< 0 for a flag; 1 for a list.
-  std::string text;
-  std::string group;
-  std::vector<std::string> needs;  ///< Names of options.
-  bool isRequired = false;
+/// An option or a positional argument.
+struct Argument {
+  using Values = std::vector<std::string>;
+
+  std::string names;  ///< "--rays" or "-o,--output"; without dashes: positional.
+  std::string placeholder =
+      {};                 ///< Stands for the value in the help; empty: a flag. "[=N]": an optional, attached value.
+  std::string text = {};  ///< In the help.
+  /// Gets the values, all those of a list at once, none of a flag and of an optional value. Called where the argument
+  /// is given.
+  std::function<void(const Values&)> receive;
+  std::string group = "Options";  ///< Heading in the help.
+  bool isRequired = false, isList = false;
+  size_t valueCount = 1;
+  /// Whether the next argument is the value of an option whose value is optional; null: only an attached one is.
+  std::function<bool(const std::string& next)> takesNext = {};
+
+  /// The long name.
+  [[nodiscard]] std::string name() const { return names.substr(names.find(',') + 1); }
 };
 
-/// An option or a positional argument of an ArgumentParser.
-class Argument {
- public:
-  explicit Argument(CLI::Option* option) : option_(option) {}
+/// Argument::receive that converts into a variable, which outlives the parsing.
+[[nodiscard]] std::function<void(const Argument::Values&)> into(std::string& target);
+[[nodiscard]] std::function<void(const Argument::Values&)> into(uint64_t& target);
+[[nodiscard]] std::function<void(const Argument::Values&)> into(double& target);
+[[nodiscard]] std::function<void(const Argument::Values&)> into(std::array<double, 3>& target);
+[[nodiscard]] std::function<void(const Argument::Values&)> into(bool& target);
 
-  Argument group(std::string_view heading) const;  ///< Heading in the help; "Options" if not set.
-  Argument needs(Argument other) const;            ///< An error if it is given without the other one.
-  Argument require() const;                        ///< An error if it is not given.
-  /// Lists the values for completions, where the placeholder in the help is only a name for them: "sdf|seed",
-  /// "FILE.ply|FILE.off".
-  Argument completions(std::string_view values) const;
-
- private:
-  CLI::Option* option_;
-};
-
-/// Result of ArgumentParser::parse(). If all members are empty, the options are set.
-struct ParseResult {
-  std::string answer;      ///< The text of --help or --version, if given.
-  std::string refusal;     ///< Why the arguments do not fit the options.
-  std::string miscounted;  ///< Name of the option whose number of values is wrong; empty for other refusals.
-};
-
-/// The arguments of a program. An option has a name such as "--rays" or "-o,--output", a positional argument a name
-/// without dashes. The targets and functions that receive values must outlive parse(), which calls them in the order in
-/// which the arguments were added.
+/// The arguments of a program, -h,--help and --version.
 class ArgumentParser {
  public:
-  ArgumentParser();
-  ~ArgumentParser();
+  /// version: the answer to --version; empty: there is no such option. The arguments receive their values in their
+  /// order.
+  ArgumentParser(std::string_view name, std::string_view description, std::string_view version,
+                 std::vector<Argument> arguments);
 
-  void setProgram(std::string_view name, std::string_view description);
-  void setFooter(std::string_view footer);  ///< Below the options in the help.
-  void setHelp(std::string_view text);      ///< Help text of the option -h,--help, which exists by default.
-  void addVersion(std::string_view version);
+  std::string shortHelp;  ///< The answer to --help, where it differs from that to --help=all, which is help().
+  std::string footer;     ///< Below the options in help().
 
-  Argument addValue(std::string_view name, std::string_view placeholder, std::string_view text,
-                    const std::function<void(const std::string&)>& receive);
-  Argument addNumber(std::string_view name, std::string_view placeholder, std::string_view text, uint64_t& target);
-  Argument addNumber(std::string_view name, std::string_view placeholder, std::string_view text, double& target);
-  Argument addNumbers(std::string_view name, std::string_view placeholder, std::string_view text,
-                      std::array<double, 3>& target);
-  Argument addList(std::string_view name, std::string_view placeholder, std::string_view text,
-                   std::vector<std::string>& target);
-  Argument addFlag(std::string_view name, bool& target, std::string_view text);
-  Argument addFlag(std::string_view name, std::function<void()> receive, std::string_view text);
-
-  /// arguments: those after the name of the program. Throws what the functions that receive values throw.
-  [[nodiscard]] ParseResult parse(std::vector<std::string> arguments);
-  [[nodiscard]] bool isGiven(const std::string& name) const;  ///< After parse().
-  /// After parse(): the names of the given options and positional arguments, the long name where there are two.
+  /// arguments: those after the name of the program. Returns the text of --help or --version, else an empty one. Throws
+  /// Error{OptionOutOfRange} where they do not fit, and what the arguments throw that receive values.
+  [[nodiscard]] std::string parse(const std::vector<std::string>& arguments);
+  /// After parse(): the long names of the arguments that were given.
   [[nodiscard]] std::vector<std::string> givenNames() const;
+  [[nodiscard]] bool isGiven(std::string_view name) const;
 
-  void setHelpGroup(std::string_view group);  ///< help() shows the options of this group only.
-  /// With a help group, also removes the group of all other options from describe().
-  [[nodiscard]] std::string help();
-
-  [[nodiscard]] std::string name() const;
-  [[nodiscard]] std::string description() const;
-  [[nodiscard]] std::vector<ArgumentDescription> describe() const;  ///< In the order of the help.
+  /// All arguments by group, in lines of 80 columns, and the footer.
+  [[nodiscard]] std::string help() const;
 
  private:
-  std::unique_ptr<CLI::App> app_;
-  std::string helpGroup_;  ///< Empty: all.
+  struct Entry {
+    Argument argument;
+    std::vector<Argument::Values> given = {};  ///< The values of each occurrence.
+  };
+  [[nodiscard]] Entry& find(std::string_view name);
+  /// Returns the number of arguments that are read.
+  size_t readOption(const std::vector<std::string>& arguments, size_t at);
+  void read(const std::vector<std::string>& arguments);
+
+  std::string name_, description_, version_;
+  std::vector<Entry> entries_;
 };
+
+/// Lines of at most `width` columns, each after the indentation.
+[[nodiscard]] std::string wrapped(std::string_view text, size_t width, std::string_view indent);
 
 }  // namespace asdfvk

@@ -1,11 +1,9 @@
 #include "batch/content_hash.h"
 
-#include <fcntl.h>
 #include <fmt/core.h>
-#include <unistd.h>
 #include <xxhash.h>
 
-#include <cerrno>
+#include <fstream>
 #include <memory>
 #include <vector>
 
@@ -21,20 +19,14 @@ std::string contentHash(std::span<const char> bytes) { return textOf(XXH3_128bit
 std::optional<std::string> contentHashOf(const std::filesystem::path& path) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored)) return std::nullopt;  // Opening a FIFO waits for a writer.
-  constexpr size_t kPiece = size_t{1} << 18;
-  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0) return std::nullopt;
+  std::ifstream in(path, std::ios::binary);
+  if (!in) return std::nullopt;
   const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state(XXH3_createState(), &XXH3_freeState);
   XXH3_128bits_reset(state.get());
-  std::vector<char> piece(kPiece);
-  ssize_t count = 0;
-  while ((count = ::read(descriptor, piece.data(), piece.size())) != 0) {
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) break;
-    XXH3_128bits_update(state.get(), piece.data(), static_cast<size_t>(count));
-  }
-  ::close(descriptor);
-  if (count < 0) return std::nullopt;
+  std::vector<char> piece(size_t{1} << 18);
+  while (in.read(piece.data(), static_cast<std::streamsize>(piece.size())), in.gcount() > 0)
+    XXH3_128bits_update(state.get(), piece.data(), static_cast<size_t>(in.gcount()));
+  if (in.bad()) return std::nullopt;
   return textOf(XXH3_128bits_digest(state.get()));
 }
 

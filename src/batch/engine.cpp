@@ -9,7 +9,8 @@
 #include <utility>
 
 #include "batch/job_plan.h"
-#include "batch/messages.h"
+#include "batch/message_channel.h"
+#include "batch/worker.h"
 #include "core/atomic_file.h"
 #include "core/parallel.h"
 #include "process/interrupt.h"
@@ -84,22 +85,22 @@ class Engine {
     const Greeting greeting{client_.workerSettings, phase.threadCount, phase.threadCount * phase.atOnce / onGpu};
     const WorkerPoolOptions pool{.program = "/proc/self/exe",  // The running program, also if its file was replaced.
                                  .arguments = client_.workerArguments,
-                                 .greeting = encode(toJson(greeting)),
+                                 .greeting = encode(greeting),
                                  .workerCount = phase.atOnce,
                                  .timeoutSeconds = options_.timeoutSeconds,
                                  .memoryBytes = options_.memoryBytes};
     std::optional<OpenFailure> failure;  // That of the last worker that could not start.
     size_t endedCount = 0;
-    const WorkerPoolClient client{.request = [&](size_t i) { return encode(toJson(jobs_[phase.jobs[i]])); },
+    const WorkerPoolClient client{.request = [&](size_t i) { return encode(jobs_[phase.jobs[i]]); },
                                   .ready = [&](const std::string& answer) -> uint32_t {
-                                    try {
-                                      const ComputerDescription description = descriptionOf(decode(answer));
-                                      monitor_.announce(description);
-                                      return description.isCpu ? phase.atOnce : onGpu;
-                                    } catch (const OpenFailure& reason) {
-                                      failure = reason;
+                                    const Json json = decode(answer);
+                                    if (json.contains("failure")) {
+                                      failure.emplace(json["code"], json["name"], json["failure"]);
                                       return 0;
                                     }
+                                    const auto description = json.get<ComputerDescription>();
+                                    monitor_.announce(description);
+                                    return description.isCpu ? phase.atOnce : onGpu;
                                   },
                                   .finished =
                                       [&](const JobOutcome& outcome) {
@@ -120,7 +121,7 @@ class Engine {
         outcome.end == JobEnd::Crashed && outcome.workerEnd.signal == 0 && outcome.workerEnd.exitCode == kCancelledCode;
     if (outcome.end == JobEnd::Answered) {
       const Json answer = decode(outcome.answer);
-      JobResult result = resultOf(answer.at("result"));
+      auto result = answer.at("result").get<JobResult>();
       result.record.options = client_.recordOptions;
       isDropped = result.record.status == MeshStatus::Dropped;
       if (!isDropped || isStopping(stop_)) {

@@ -4,7 +4,6 @@
 #include <functional>
 #include <limits>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -34,8 +33,8 @@ struct EngineClient {
   std::function<JobResult(const Job&, const JobOutcome&)> fail;
   /// Arguments with which this program is a worker, see serveJobs(), and the settings that it gets.
   std::vector<std::string> workerArguments;
-  nlohmann::ordered_json workerSettings;
-  SharedJson recordOptions;  ///< MeshRecord::options of all jobs.
+  Json workerSettings;
+  Json recordOptions;  ///< MeshRecord::options of all jobs.
 };
 
 /// Computes the jobs in the order of planJobs(): one after another in this process, several at once in workers. Adds

@@ -30,6 +30,10 @@ struct ComputerDescription {
   bool isCpu = true;
 };
 
+ASDFVK_JSON(Job, input, output)  // What a worker needs.
+ASDFVK_JSON(JobResult, record, report, messages)
+ASDFVK_JSON(ComputerDescription, backend, deviceLines, isCpu)
+
 /// Computes jobs with a device that it keeps open.
 class JobComputer {
  public:

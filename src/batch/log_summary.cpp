@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <tuple>
 #include <unordered_map>
@@ -19,8 +18,7 @@ bool isComputed(const MeshRecord& record) {
 }
 
 std::optional<double> averageErrorOf(const MeshRecord& record) {
-  if (!record.estimatedError) return std::nullopt;
-  const nlohmann::ordered_json& estimate = *record.estimatedError;
+  const Json& estimate = record.estimatedError;
   if (!estimate.is_object() || !estimate.contains("average") || !estimate["average"].is_number()) return std::nullopt;
   return estimate["average"].get<double>();
 }
@@ -34,24 +32,6 @@ std::vector<std::pair<std::string, uint64_t>> descending(const std::map<std::str
 std::string spreadText(const Spread& spread, double factor, const char* unit) {
   return fmt::format("min {:.3g}, median {:.3g}, 90 % {:.3g}, max {:.3g}{}", factor * spread.min,
                      factor * spread.median, factor * spread.percentile90, factor * spread.max, unit);
-}
-
-/// A cell of a table with comma-separated values.
-std::string quoted(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string cell = "\"";
-  for (const char c : text) cell += c == '"' ? "\"\"" : std::string(1, c);
-  return cell + "\"";
-}
-
-nlohmann::ordered_json jsonOf(const Spread& spread) {
-  return {{"min", spread.min}, {"median", spread.median}, {"percentile90", spread.percentile90}, {"max", spread.max}};
-}
-
-nlohmann::ordered_json jsonOf(const std::vector<std::pair<std::string, uint64_t>>& counts) {
-  nlohmann::ordered_json json = nlohmann::ordered_json::object();
-  for (const auto& [name, count] : counts) json[name] = count;
-  return json;
 }
 
 }  // namespace
@@ -147,45 +127,24 @@ std::string textOf(const LogSummary& summary) {
 }
 
 std::string jsonOf(const LogSummary& summary) {
-  nlohmann::ordered_json json{{"meshCount", summary.meshes.size()},
-                              {"recordCount", summary.recordCount},
-                              {"invalidLineCount", summary.invalidLineCount}};
+  Json json{{"meshCount", summary.meshes.size()},
+            {"recordCount", summary.recordCount},
+            {"invalidLineCount", summary.invalidLineCount}};
   for (const auto& [status, name] : kMeshStatuses) {
     const auto found = summary.statusCounts.find(status);
     json[std::string(name) + "Count"] = found == summary.statusCounts.end() ? 0 : found->second;
   }
   json["faceCount"] = summary.faceCount;
   json["meshSeconds"] = summary.meshSeconds;
-  json["seconds"] = jsonOf(summary.seconds);
-  json["averageError"] = jsonOf(summary.averageErrors);
+  json["seconds"] = summary.seconds;
+  json["averageError"] = summary.averageErrors;
   json["peakMemoryBytes"] = summary.peakMemoryBytes;
-  json["stageSeconds"] = nlohmann::ordered_json::object();
+  for (const char* key : {"stageSeconds", "devices", "warnings"}) json[key] = Json::object();
   for (const auto& [stage, seconds] : summary.stageSeconds) json["stageSeconds"][stage] = seconds;
-  json["devices"] = jsonOf(summary.devices);
-  json["warnings"] = jsonOf(summary.warnings);
-  json["failures"] = nlohmann::ordered_json::array();
-  for (const FailureGroup& group : summary.failures)
-    json["failures"].push_back({{"status", nameOf(group.status)},
-                                {"code", group.code},
-                                {"error", group.error},
-                                {"count", group.count},
-                                {"exampleInput", group.exampleInput},
-                                {"exampleMessage", group.exampleMessage}});
-  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
-}
-
-std::string csvOf(const LogSummary& summary) {
-  std::string text =
-      "input,output,status,code,error,faceCount,totalSeconds,peakMemoryBytes,averageError,segmentCount,device,"
-      "message\n";
-  for (const MeshRecord& mesh : summary.meshes) {
-    const auto orEmpty = [](const auto& value) { return value ? fmt::format("{}", *value) : std::string(); };
-    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n", quoted(mesh.input), quoted(orEmpty(mesh.output)),
-                        nameOf(mesh.status), mesh.code, quoted(mesh.error), orEmpty(mesh.faceCount), mesh.totalSeconds,
-                        mesh.peakMemoryBytes, orEmpty(averageErrorOf(mesh)), orEmpty(mesh.segmentCount),
-                        quoted(mesh.device), quoted(mesh.message));
-  }
-  return text;
+  for (const auto& [device, count] : summary.devices) json["devices"][device] = count;
+  for (const auto& [warning, count] : summary.warnings) json["warnings"][warning] = count;
+  json["failures"] = summary.failures;
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace asdfvk

@@ -15,6 +15,7 @@ namespace asdfvk {
 struct Spread {
   double min = 0, median = 0, percentile90 = 0, max = 0;
 };
+ASDFVK_JSON(Spread, min, median, percentile90, max)
 [[nodiscard]] Spread spreadOf(std::vector<double> numbers);
 
 /// Meshes that failed, or were dropped, with the same code and error.
@@ -25,6 +26,8 @@ struct FailureGroup {
   uint64_t count = 0;
   std::string exampleInput, exampleMessage;
 };
+
+ASDFVK_JSON(FailureGroup, status, code, error, count, exampleInput, exampleMessage)
 
 /// Counts, times and failures from the logs of a batch. If a mesh has several records, the one with the latest time
 /// counts; of equal times, or without times, the last one.
@@ -48,7 +51,5 @@ struct LogSummary {
 [[nodiscard]] std::string textOf(const LogSummary& summary);
 /// One document.
 [[nodiscard]] std::string jsonOf(const LogSummary& summary);
-/// A row per mesh.
-[[nodiscard]] std::string csvOf(const LogSummary& summary);
 
 }  // namespace asdfvk

@@ -2,18 +2,16 @@
 
 #include <array>
 #include <cstdint>
-#include <memory>
-#include <nlohmann/json_fwd.hpp>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
-namespace asdfvk {
+#include "core/json.h"
 
-/// A JSON value that several records share; a null pointer is JSON's null.
-using SharedJson = std::shared_ptr<const nlohmann::ordered_json>;
+namespace asdfvk {
 
 enum class MeshStatus {
   Done,
@@ -35,12 +33,12 @@ struct MeshRecord {
   std::optional<std::string> output;               ///< Unset where no output was written.
   std::string inputHash, optionsHash, outputHash;  ///< contentHash() of each; empty where unknown.
   std::optional<uint64_t> faceCount;               ///< Input faces.
-  SharedJson options;                              ///< The key "options" of the JSON report.
+  Json options;                                    ///< The key "options" of the JSON report.
   std::string version, commit, device, backend;
-  std::vector<std::pair<std::string, double>> seconds;  ///< Name and time of each stage that ran.
-  double totalSeconds = 0;                              ///< From the start of reading to the end of writing.
+  std::map<std::string, double> seconds;  ///< Time of each stage that ran.
+  double totalSeconds = 0;                ///< From the start of reading to the end of writing.
   uint64_t peakMemoryBytes = 0;
-  SharedJson estimatedError;  ///< The key of the JSON report.
+  Json estimatedError;  ///< The key of the JSON report.
   std::optional<uint32_t> segmentCount;
   std::vector<std::string> warnings;  ///< The codes of the warnings.
   MeshStatus status = MeshStatus::Done;
@@ -52,7 +50,7 @@ struct MeshRecord {
 /// The current time in ISO 8601, "2026-05-31T12:34:56.789Z". The alphabetical order of such texts is that of the times.
 [[nodiscard]] std::string utcTime();
 
-[[nodiscard]] nlohmann::ordered_json toJson(const MeshRecord& record);
+[[nodiscard]] Json toJson(const MeshRecord& record);
 
 /// One line without the line end. Bytes that are not UTF-8 are replaced. If the input has such bytes, the key
 /// inputBytes has all bytes of the input as hexadecimal digits.
@@ -61,7 +59,11 @@ struct MeshRecord {
 /// Unset where the text is not a record, for example an incomplete line. Only the keys input, status, code and message
 /// are required, so that other programs can write records. Unknown keys are ignored.
 [[nodiscard]] std::optional<MeshRecord> parseRecord(std::string_view json);
-/// The inverse of toJson(); unset where the value is not a record.
-[[nodiscard]] std::optional<MeshRecord> recordOf(const nlohmann::ordered_json& json);
+
+void to_json(Json& json, MeshStatus status);
+void from_json(const Json& json, MeshStatus& status);
+ASDFVK_JSON(MeshRecord, input, output, time, status, code, error, message, inputHash, optionsHash, outputHash,
+            faceCount, version, commit, device, backend, seconds, totalSeconds, peakMemoryBytes, estimatedError,
+            segmentCount, warnings, options)
 
 }  // namespace asdfvk

@@ -4,7 +4,17 @@
 #include <string>
 #include <string_view>
 
+#include "core/json.h"
+
 namespace asdfvk {
+
+/// A message in CBOR. Strings may have any bytes.
+[[nodiscard]] inline std::string encode(const Json& json) {
+  std::string message;
+  Json::to_cbor(json, message);
+  return message;
+}
+[[nodiscard]] inline Json decode(std::string_view message) { return Json::from_cbor(message); }
 
 /// Messages of any bytes over a connected stream socket, in both directions. A message is its size in decimal digits, a
 /// line end, and its bytes. Does not own the descriptor.

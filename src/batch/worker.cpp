@@ -24,17 +24,17 @@ void serveJobs(const std::function<std::unique_ptr<JobComputer>(const Greeting&)
   if (!greeting) return;
   std::unique_ptr<JobComputer> computer;
   try {
-    computer = open(greetingOf(decode(*greeting)));
+    computer = open(decode(*greeting).get<Greeting>());
   } catch (const OpenFailure& failure) {
-    messages.send(encode(toJson(failure)));
+    messages.send(encode({{"failure", failure.what()}, {"name", failure.name}, {"code", failure.code}}));
     return;
   }
-  messages.send(encode(toJson(computer->describe())));
+  messages.send(encode(computer->describe()));
   while (const std::optional<std::string> request = messages.wait()) {
-    JobResult result = computer->compute(jobOf(decode(*request)), nullptr);
+    JobResult result = computer->compute(decode(*request).get<Job>(), nullptr);
     result.record.options = nullptr;           // The main process has them.
     const bool isSpent = computer->isSpent();  // Another worker opens the device anew.
-    if (!messages.send(encode({{"result", toJson(result)}, {"isSpent", isSpent}})) || isSpent) return;
+    if (!messages.send(encode({{"result", result}, {"isSpent", isSpent}})) || isSpent) return;
   }
 }
 

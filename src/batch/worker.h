@@ -4,9 +4,15 @@
 #include <memory>
 
 #include "batch/job.h"
-#include "batch/messages.h"
 
 namespace asdfvk {
+
+/// The first message to a worker. settings: those of the front end.
+struct Greeting {
+  Json settings;
+  uint32_t threadCount = 1, threadCountOnGpu = 1;
+};
+ASDFVK_JSON(Greeting, settings, threadCount, threadCountOnGpu)
 
 /// Runs a worker process: computes the jobs that arrive on its standard input, a socket, until the socket is closed or
 /// the computer is spent. The process is killed when its parent ends. Its standard output becomes standard error, so

@@ -19,7 +19,6 @@
 #include "cli/report.h"
 #include "core/atomic_file.h"
 #include "core/parallel.h"
-#include "process/browser.h"
 #include "process/interrupt.h"
 #include "process/terminal.h"
 
@@ -152,7 +151,6 @@ ExitCode computeBatch(const std::vector<std::string>& meshes, const MeshSettings
   const std::vector<Job> jobs = jobsOf(inputsOf(meshes, outputs.path, batch), outputs, batch);
   std::optional<Page> page;
   if (writesOnePage(outputs)) page = emptyPage();
-  if (outputs.opensPage) requireBrowser();
   std::optional<Interrupt::Listening> listening;  // In a batch, a signal drops the current meshes; the log has them.
   if (batch.isBatch()) {
     listening.emplace();

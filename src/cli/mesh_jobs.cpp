@@ -22,8 +22,8 @@ void fillRecord(MeshRecord& record, const Report& report) {
   record.backend = report.backend;
   for (size_t i = 0; i < kStageCount; ++i)
     if (const double seconds = report.stageSeconds.seconds[i]; seconds > 0)
-      record.seconds.emplace_back(nameOf(static_cast<Stage>(i)), seconds);
-  if (report.estimatedError) record.estimatedError = std::make_shared<const Json>(toJson(*report.estimatedError));
+      record.seconds[nameOf(static_cast<Stage>(i))] = seconds;
+  record.estimatedError = toJson(report).at("estimatedError");
   record.segmentCount = report.segmentCount;
   for (const Warning& warning : report.warnings) record.warnings.emplace_back(nameOf(warning.code));
 }
@@ -55,7 +55,7 @@ bool isReadAhead(const Job& job) {
 JobRecords::JobRecords(const MeshSettings& settings)
     : settings_(settings),
       optionsHash_(optionsHash(settings.computation, settings.session, settings.outputs)),
-      options_(std::make_shared<const Json>(optionValues(settings.computation, settings.session))) {}
+      options_(optionValues(settings.computation, settings.session)) {}
 
 MeshRecord JobRecords::begin(const Job& job) const {
   MeshRecord record;

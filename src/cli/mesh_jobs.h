@@ -18,7 +18,7 @@ class JobRecords {
   /// The settings must outlive this object.
   explicit JobRecords(const MeshSettings& settings);
 
-  [[nodiscard]] const SharedJson& options() const { return options_; }
+  [[nodiscard]] const Json& options() const { return options_; }
 
   /// That of a job whose computation begins.
   [[nodiscard]] MeshRecord begin(const Job& job) const;
@@ -37,7 +37,7 @@ class JobRecords {
  private:
   const MeshSettings& settings_;
   std::string optionsHash_;
-  SharedJson options_;
+  Json options_;
 };
 
 /// Throws the failure as OpenFailure.

@@ -78,9 +78,11 @@ std::vector<Failure> failedChecks(const ComputationSettings& computation, const 
     failures.push_back({ExitCode::CheckFailed, checkFailure(*report.check), "checkFailed"});
   if (!computation.failIfThinner) return failures;
   const ExitCode code = exitCodeOf(*report.thickness);
-  if (code != ExitCode::Done)
-    failures.push_back(
-        {code, thicknessVerdict(*report.thickness), code == ExitCode::TooThin ? "tooThin" : "notJudged"});
+  const bool isTooThin = code == ExitCode::TooThin;
+  const ReportRows rows = shortThicknessRows(*report.thickness);
+  std::string message = rows.front().second;
+  if (!isTooThin && rows.size() > 1) message += fmt::format("; {} {}", rows[1].first, rows[1].second);
+  if (code != ExitCode::Done) failures.push_back({code, message, isTooThin ? "tooThin" : "notJudged"});
   return failures;
 }
 
@@ -255,6 +257,9 @@ MeshRun computeMesh(Session& session, const std::string& input, const std::strin
     Failure failure = currentFailure(settings.session.requireGpu, valueOptionsOf(settings.computation.options));
     if (failure.code == ExitCode::Cancelled && deadline.hasExpired())
       failure = timeLimitFailure(settings.timeoutSeconds);
+    std::error_code ignored;
+    if (loaded.failure && fs::is_directory(input, ignored))
+      failure.message += "; -r computes all meshes below a folder";
     run.add(std::move(failure), input, settings.outputs.json);
   }
   return run;
@@ -269,7 +274,6 @@ void finishPage(const Page& page, const std::string& output, bool opensBrowser, 
 ExitCode computeOneMesh(const std::string& input, const MeshSettings& settings, const std::stop_token& stop) {
   const InputFile file{.path = input};
   const std::string output = planOutputs(settings.outputs, {}, {&file, 1}).front();
-  if (settings.outputs.opensPage) requireBrowser();
   std::optional<Session> session;
   try {
     session.emplace(settings.session);

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <filesystem>
 #include <set>
-#include <sstream>
 #include <utility>
 
 #include "asdf_vk/error.h"
@@ -22,76 +21,72 @@ namespace asdfvk {
 namespace {
 
 constexpr const char* kDescription =
-    "Computes the shape diameter function of triangle meshes (how thick the shape is, seen from each face): rays\n"
-    "from seed faces on a Vulkan device, interpolation for the other faces.";
+    "Computes the shape diameter function of triangle meshes (how thick the shape is, seen from each face): rays from "
+    "seed faces on a Vulkan device, interpolation for the other faces.";
 
-constexpr size_t kHelpWidth = 80, kFooterWidth = 110;
+constexpr const char* kHelp = R"(asdf-vk: local thickness of triangle meshes, by rays on Vulkan or the CPU
 
-std::string wrapped(const std::string& text, size_t lineWidth) {
-  std::string lines;
-  size_t width = 0;
-  std::istringstream words(text);
-  for (std::string word; words >> word; width += word.size() + 1) {
-    if (width + word.size() > lineWidth) width = 0;
-    if (!lines.empty()) lines += width == 0 ? '\n' : ' ';
-    lines += word;
-  }
-  return lines;
-}
+  asdf-vk horse.ply               shape diameter of each face, in horse.asdf.ply
+  asdf-vk horse.ply -o horse.html --open       a page, shown in a browser
+    --fields NAME,...             what is written: sdf, seed, error, ...
+    --picture FILE.png            also a picture
+
+Walls
+  asdf-vk part.stl --thinner-than 0.8          where it is thinner, in its unit
+  asdf-vk part.stl --fail-if-thinner 0.8       the same, and exit code 6
+    --measure thickness           wall thickness of each face, without a limit
+    --allow-sharp-edges           leave sharp edges out of the verdict
+
+Parts
+  asdf-vk horse.ply --segment                  a label for each face
+    --parts N                     that many; without it the number is found
+    --detail X                    from 0.1 (few parts) to 10 (many)
+
+Accuracy and time
+  asdf-vk horse.ply --max-error 1%             rays until the error is below 1 %
+    --seeds N%|N|all              faces that cast rays; default 10%
+    --recipe paper|balanced|quality            quality: pooled rays, slower
+    --check                       compare 2,000 faces with the reference
+
+Many meshes
+  asdf-vk -r parts -o results --log log.jsonl  all meshes below a folder
+  asdf-vk summarize log.jsonl                  counts, times and failures
+    --skip-existing               resume: skip meshes whose result is up to date
+    --jobs N                      meshes at once
+
+Input and output
+  asdf-vk scan.stl --orient auto -o scan.csv   also .ply .vtu .npy .npz .html
+    -o FILE|DIR|-                 the result; - is standard output
+    --json                        the report as JSON on standard output
+    --backend auto|vulkan|cpu|reference        which device; see --list-devices
+
+--help=all lists all options. man asdf-vk has the exit codes.
+)";
 
 std::string footer() {
   std::string codes;
   for (const auto& [code, meaning] : kExitCodes)
     codes += fmt::format("{}{} {}", codes.empty() ? "" : ", ", static_cast<int>(code), meaning);
-  return wrapped(fmt::format("Exit codes: {}. {}", codes, kExitCodeOfSeveralMeshes), kFooterWidth);
+  return fmt::format("Exit codes: {}. {}", codes, kExitCodeOfSeveralMeshes);
 }
 
-bool isCheckCount(const std::string& text) {
-  return text == "all" || (!text.empty() && text.find_first_not_of("0123456789") == std::string::npos);
+bool exists(const std::string& path) {
+  std::error_code ignored;
+  return std::filesystem::exists(path, ignored);
 }
 
-/// The value of --check must be attached with an equals sign, so that `--check mesh.ply` does not take the mesh as its
-/// value. A number after a space is an error unless a file has that name.
-void expandBareCheck(std::vector<std::string>& arguments) {
-  for (size_t i = 0; i < arguments.size() && arguments[i] != "--"; ++i) {
-    if (arguments[i] != "--check") continue;
-    std::error_code ignored;
-    if (i + 1 < arguments.size() && isCheckCount(arguments[i + 1]) &&
-        !std::filesystem::exists(arguments[i + 1], ignored))
-      throw Error(ErrorCode::OptionOutOfRange,
-                  fmt::format("--check takes its number with an equals sign: --check={}", arguments[i + 1]));
-    arguments[i] = fmt::format("--check={}", kDefaultCheckCount);
-  }
-}
-
-/// Replaces --help=all by --help; returns whether it was there.
-bool takeHelpAll(std::vector<std::string>& arguments) {
-  constexpr std::string_view kPrefix = "--help=";
-  bool showsAll = false;
-  for (std::string& argument : arguments) {
-    if (argument == "--") break;
-    if (!argument.starts_with(kPrefix)) continue;
-    const std::string value = argument.substr(kPrefix.size());
-    if (value != "all") throw Error(ErrorCode::OptionOutOfRange, fmt::format("--help: '{}' is not all", value));
-    argument = "--help";
-    showsAll = true;
-  }
-  return showsAll;
-}
-
-/// --segment without a value, at the end or before an option or a file, becomes --segment=parts. A file is a name that
-/// has a dot or a slash, is "-", or exists; the names of kSegmentations are values, also where such a file exists.
-void expandBareSegment(std::vector<std::string>& arguments) {
-  const auto looksLikeFile = [](const std::string& text) {
-    std::error_code ignored;
-    return text == "-" || text.find_first_of("./") != std::string::npos || std::filesystem::exists(text, ignored);
-  };
-  for (size_t i = 0; i < arguments.size() && arguments[i] != "--"; ++i) {
-    if (arguments[i] != "--segment") continue;
-    const bool isLast = i + 1 == arguments.size();
-    if (!isLast && findChoice(kSegmentations, arguments[i + 1]) != nullptr) continue;
-    if (isLast || arguments[i + 1].starts_with("-") || looksLikeFile(arguments[i + 1])) arguments[i] += "=parts";
-  }
+/// Whether an option whose value is optional takes the next argument as its value. --segment takes a word that is not
+/// the name of a file: a name that has a dot or a slash, is "-", or exists. --check takes no argument, so that it can
+/// precede a mesh; a number that is no file is an error.
+bool takesNext(const OptionRow& row, const std::string& next) {
+  const std::vector<std::string> names = namesOf(row);
+  if (std::find(names.begin(), names.end(), next) != names.end()) return true;
+  if (next.starts_with('-') || next.find_first_of("./") != std::string::npos || exists(next)) return false;
+  if (!names.empty()) return true;
+  if (next == "all" || next.find_first_not_of("0123456789") == std::string::npos)
+    throw Error(ErrorCode::OptionOutOfRange,
+                fmt::format("--{0} takes its number with an equals sign: --{0}={1}", row.name, next));
+  return false;
 }
 
 /// Throws where options are given that --list-devices or --device-report ignores.
@@ -104,6 +99,39 @@ void requireNoIgnoredOption(const std::vector<std::string>& given, const Command
     if (!used.contains(option))
       refuseOptions(fmt::format("{} is about devices only: {} has no effect; drop one of the two", name,
                                 option == "meshes" ? "a mesh" : option));
+}
+
+std::string helpText(const OptionRow& row, const OptionTable& table) {
+  std::string text = row.text;
+  if (const std::string range = rangeText(row); !range.empty()) text += "; " + range;
+  if (*row.needs != 0) text += "; needs " + neededText(row, table.rows, OptionSpelling::Flag);
+  if (isFlag(row)) return text;
+  const std::string value = defaultText(row, table.target);
+  return value == "-" ? text : text + "; default " + value;
+}
+
+/// Adds an argument for each row with a flag, which sets its member in the target.
+void addArguments(const OptionTable& table, std::vector<Argument>& arguments) {
+  for (const OptionRow& row : table.rows) {
+    const std::string flag = spelled(row, OptionSpelling::Flag);
+    if (flag.empty()) continue;
+    void* const target = table.target;
+    Argument argument{.names = row.flags != nullptr ? row.flags : flag,
+                      .placeholder = isFlag(row) ? "" : placeholderOf(row),
+                      .text = helpText(row, table),
+                      .receive = {},
+                      .group = row.group};
+    if (isFlag(row))
+      argument.receive = [&row, target, value = !flag.starts_with("--no-")](const Argument::Values&) {
+        setOption(row, target, value, "", OptionSpelling::Flag);
+      };
+    else
+      argument.receive = [&row, target](const Argument::Values& values) {
+        setOptionText(row, target, values.empty() ? row.bareValue : values.front());
+      };
+    if (row.bareValue != nullptr) argument.takesNext = [&row](const std::string& next) { return takesNext(row, next); };
+    arguments.push_back(std::move(argument));
+  }
 }
 
 bool estimates(const Options& options) {
@@ -145,11 +173,9 @@ void completePage(CommandLine& line) {
   Outputs& outputs = line.outputs;
   if (outputs.opensPage && outputs.path.empty() && outputs.format.empty()) outputs.format = kPageFormat;
   const bool isPage = writesPages(outputs);
-  if (outputs.opensPage && !isPage) refuseOptions("--open opens a page; give -o FILE.html, or drop --open");
-  if (outputs.opensPage && outputs.path == "-")
-    refuseOptions("--open opens a file, which -o - does not write; give -o FILE.html");
-  if (outputs.opensPage && line.meshes.size() > 1 && !writesOnePage(outputs))
-    refuseOptions("--open opens one page; give -o FILE.html, which shows all meshes");
+  const bool isOnePage = isPage && (line.meshes.size() == 1 || writesOnePage(outputs));
+  if (outputs.opensPage && (!isOnePage || outputs.path == "-"))
+    refuseOptions("--open opens one page; give -o FILE.html, which shows all meshes, or drop --open");
   if (isPage && std::count(outputs.fields.begin(), outputs.fields.end(), "centre") > 0)
     refuseOptions("--fields centre has three components; a page shows fields of one component");
   line.computation.options.keepsScene = isPage || !outputs.picture.empty();
@@ -209,37 +235,27 @@ void validateOptions(const CommandLine& line) {
 
 }  // namespace
 
-void addOptions(ArgumentParser& parser, CommandLine& line) {
-  parser.setProgram("asdf-vk", kDescription);
-  parser.setFooter(footer());
-  parser.setHelp("Print the most needed options; --help=all prints all");
-  parser.addVersion(fmt::format("asdf-vk {} ({})", ASDFVK_VERSION, ASDFVK_COMMIT));
-  parser
-      .addList("meshes", "MESH...", fmt::format("Meshes: .{}; - is standard input", joined(meshFormats(), " .")),
-               line.meshes)
-      .completions(fmt::format("FILE.{}|-", joined(meshFormats(), "|FILE.")));
-  for (const OptionTable& table : optionTables(line)) addRows(parser, table);
+ArgumentParser parserOf(CommandLine& line) {
+  std::vector<Argument> arguments{{.names = "meshes",
+                                   .placeholder = "MESH...",
+                                   .text = fmt::format("Meshes: .{}; - is standard input", joined(meshFormats(), " .")),
+                                   .receive = [&line](const Argument::Values& values) { line.meshes = values; },
+                                   .isList = true}};
+  for (const OptionTable& table : optionTables(line)) addArguments(table, arguments);
+  ArgumentParser parser("asdf-vk", kDescription, fmt::format("asdf-vk {} ({})", ASDFVK_VERSION, ASDFVK_COMMIT),
+                        std::move(arguments));
+  parser.shortHelp = kHelp;
+  parser.footer = footer();
+  return parser;
 }
 
-CommandLine parseCommandLine(std::vector<std::string> arguments) {
+CommandLine parseCommandLine(const std::vector<std::string>& arguments) {
   CommandLine line;
-  ArgumentParser parser;
-  addOptions(parser, line);
-  expandBareCheck(arguments);
-  expandBareSegment(arguments);
-  if (!takeHelpAll(arguments)) {
-    parser.setHelpGroup(kBasicGroup);
-    parser.setFooter("--help=all lists all options.\n" + footer());
-  }
-  const ParseResult result = parser.parse(std::move(arguments));
-  if (!result.answer.empty()) {
-    line.answer = result.answer;
+  ArgumentParser parser = parserOf(line);
+  if (std::string answer = parser.parse(arguments); !answer.empty()) {
+    line.answer = std::move(answer);
     return line;
   }
-  if (!result.miscounted.empty())
-    throw Error(ErrorCode::OptionOutOfRange, result.miscounted + " takes exactly one value, once");
-  if (!result.refusal.empty())
-    throw Error(ErrorCode::OptionOutOfRange, result.refusal + "; asdf-vk --help=all lists the options");
   requireNoIgnoredOption(parser.givenNames(), line);
   GivenOptions given{.names = {}, .spelling = OptionSpelling::Flag};
   for (const OptionTable& table : optionTables(line))
@@ -258,37 +274,10 @@ CommandLine parseCommandLine(std::vector<std::string> arguments) {
 
 void refuseOptions(const std::string& message) { throw Error(ErrorCode::OptionConflict, message); }
 
-std::string helpText(const OptionRow& row, const OptionTable& table) {
-  std::string text = row.text;
-  if (const std::string range = rangeText(row); !range.empty()) text += "; " + range;
-  if (*row.needs != 0) text += "; needs " + neededText(row, table.rows, OptionSpelling::Flag);
-  if (isFlag(row)) return text;
-  const std::string value = defaultText(row, table.target);
-  return value == "-" ? text : text + "; default " + value;
-}
-
-void addRows(ArgumentParser& parser, const OptionTable& table) {
-  for (const OptionRow& row : table.rows) {
-    const std::string flag = spelled(row, OptionSpelling::Flag);
-    if (flag.empty()) continue;
-    const std::string names = row.flags != nullptr ? row.flags : flag, text = wrapped(helpText(row, table), kHelpWidth);
-    void* const target = table.target;
-    const auto setFlag = [&row, target, value = !flag.starts_with("--no-")] {
-      setOption(row, target, value, "", OptionSpelling::Flag);
-    };
-    const auto setValue = [&row, target](const std::string& value) { setOptionText(row, target, value); };
-    const Argument argument =
-        isFlag(row) ? parser.addFlag(names, setFlag, text) : parser.addValue(names, placeholderOf(row), text, setValue);
-    (void)argument.group(row.isBasic ? kBasicGroup : row.group);
-    if (const std::vector<std::string> all = namesOf(row); *row.placeholder != 0 && !all.empty())
-      (void)argument.completions(joined(all, "|"));
-  }
-}
-
 std::string shortUsage() {
   return "Usage: asdf-vk MESH... [OPTIONS]\n"
          "Computes the shape diameter function of triangle meshes; writes NAME.asdf.ply beside each.\n"
-         "asdf-vk --help lists the options.\n";
+         "asdf-vk --help has examples and the options.\n";
 }
 
 }  // namespace asdfvk

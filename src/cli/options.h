@@ -34,24 +34,12 @@ struct OptionTable {
 [[nodiscard]] std::vector<OptionTable> optionTables(CommandLine& line);
 [[nodiscard]] OptionRows outputRows();
 
-/// Heading of the options of --help; --help=all has the other ones under OptionRow::group.
-inline constexpr const char* kBasicGroup = "Options";
-
 /// Name, description and every option of the program, which set `line`.
-void addOptions(ArgumentParser& parser, CommandLine& line);
-
-/// Adds an argument per row with a flag, which sets its member in the target. The target outlives the parsing.
-void addRows(ArgumentParser& parser, const OptionTable& table);
-
-/// "Rays per cone, from 1 to 1024; default 30".
-[[nodiscard]] std::string helpText(const OptionRow& row, const OptionTable& table);
-
-/// Number of faces of --check without a value.
-inline constexpr uint64_t kDefaultCheckCount = 2000;
+[[nodiscard]] ArgumentParser parserOf(CommandLine& line);
 
 /// Reads the arguments after the name of the program. Throws Error of kind Usage; the message contains the name of the
 /// option.
-[[nodiscard]] CommandLine parseCommandLine(std::vector<std::string> arguments);
+[[nodiscard]] CommandLine parseCommandLine(const std::vector<std::string>& arguments);
 
 /// Throws Error{OptionConflict}.
 [[noreturn]] void refuseOptions(const std::string& message);

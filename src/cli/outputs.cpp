@@ -8,10 +8,8 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <optional>
-#include <set>
+#include <map>
 #include <unordered_map>
-#include <unordered_set>
 #include <utility>
 
 #include "asdf_vk/error.h"
@@ -89,43 +87,25 @@ std::string normalised(const fs::path& path) {
   return fs::absolute(followLinks(path), ignored).lexically_normal().string();
 }
 
-/// Set of files, compared by device and inode, which follows links, and by normalised path for files that do not exist.
-class FileSet {
+/// What files are for. Files are compared by device and inode, which follows links, and by normalised path where they
+/// do not exist.
+class FileUses {
  public:
-  void insert(const std::string& path) {
-    names_.insert(normalised(path));
-    if (const auto identity = identityOf(path)) identities_.insert(*identity);
-  }
-  [[nodiscard]] bool holds(const std::string& path) const {
-    if (names_.contains(normalised(path))) return true;
-    const auto identity = identityOf(path);
-    return identity && identities_.contains(*identity);
+  /// Returns the use that the file has already, or adds this one and returns an empty text.
+  std::string add(const std::string& path, const std::string& use) {
+    std::string& ofName = useOfName_[normalised(path)];
+    struct stat status {};
+    std::string& ofFile = ::stat(path.c_str(), &status) == 0 ? useOfFile_[{status.st_dev, status.st_ino}] : ofName;
+    if (!ofName.empty()) return ofName;
+    if (!ofFile.empty()) return ofFile;
+    ofName = ofFile = use;
+    return {};
   }
 
  private:
-  using Identity = std::pair<dev_t, ino_t>;
-  static std::optional<Identity> identityOf(const std::string& path) {
-    struct stat status {};
-    if (::stat(path.c_str(), &status) != 0) return std::nullopt;
-    return Identity{status.st_dev, status.st_ino};
-  }
-
-  std::unordered_set<std::string> names_;
-  std::set<Identity> identities_;
+  std::unordered_map<std::string, std::string> useOfName_;
+  std::map<std::pair<dev_t, ino_t>, std::string> useOfFile_;
 };
-
-void checkLog(const std::string& path, const FileSet& inputs, const FileSet& lists,
-              const std::vector<std::string>& outputs) {
-  if (inputs.holds(path)) usageError(fmt::format("{} is an input; choose another --log", path));
-  if (lists.holds(path)) usageError(fmt::format("{} is the list of --files-from; choose another --log", path));
-  FileSet log;
-  log.insert(path);
-  for (const std::string& output : outputs) {
-    if (log.holds(output)) usageError(fmt::format("{} is the path of two outputs; choose another --log", path));
-    if (log.holds(outputRecordPath(output).string()))
-      usageError(fmt::format("{} is the record of {}; choose another --log", path, output));
-  }
-}
 
 }  // namespace
 
@@ -190,35 +170,22 @@ std::vector<std::string> planOutputs(const Outputs& outputs, const BatchOptions&
     }
     paths.push_back(output);
   }
-  FileSet inputs;
+  FileUses uses;
   for (const InputFile& file : files)
-    if (file.path != "-") inputs.insert(file.path);
-  for (const std::string& output : paths)
-    if (output != "-" && inputs.holds(output))
-      usageError(fmt::format("{} is an input and would be overwritten; choose another -o", output));
-  FileSet planned;
-  if (!outputs.picture.empty() || !outputs.points.empty())
-    for (const std::string& output : paths)
-      if (output != "-") planned.insert(output);
-  const auto planFurther = [&](const std::string& path, const char* option) {
+    if (file.path != "-") uses.add(file.path, "an input");
+  if (!batch.list.empty() && batch.list != "-") uses.add(batch.list, "the list of --files-from");
+  const auto plan = [&uses](const std::string& path, const std::string& use, const char* option) {
     if (path.empty() || path == "-") return;
-    if (inputs.holds(path))
-      usageError(fmt::format("{} is an input and would be overwritten; choose another {}", path, option));
-    if (planned.holds(path)) usageError(fmt::format("{} is the path of two outputs; choose another {}", path, option));
-    planned.insert(path);
+    if (const std::string other = uses.add(path, use); !other.empty())
+      usageError(fmt::format("{} is {} and would be overwritten by {}; choose another {}", path, other, use, option));
   };
-  planFurther(outputs.picture, "--picture");
-  planFurther(outputs.points, "--points");
-  FileSet lists;
-  if (!batch.list.empty() && batch.list != "-") lists.insert(batch.list);
-  if (batch.isBatch())
-    for (const std::string& output : paths) {  // Not "-", which a batch refuses.
-      const std::string record = outputRecordPath(output).string();
-      if (inputs.holds(record) || lists.holds(record))
-        usageError(fmt::format("{} is an input and would be overwritten by the record of {}; choose another -o", record,
-                               output));
-    }
-  if (!batch.log.empty()) checkLog(batch.log, inputs, lists, paths);
+  for (size_t i = 0; i < (sharePage ? 1 : paths.size()); ++i) {
+    plan(paths[i], "the result of " + files[i].path, "-o");
+    if (batch.isBatch()) plan(outputRecordPath(paths[i]).string(), "the record of " + paths[i], "-o");
+  }
+  plan(outputs.picture, "the picture", "--picture");
+  plan(outputs.points, "the points", "--points");
+  plan(batch.log, "the log", "--log");
   return paths;
 }
 

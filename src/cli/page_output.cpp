@@ -59,8 +59,9 @@ std::string labelOf(const std::string& name, const MeshOutcome& outcome) {
 std::vector<std::pair<std::string, std::string>> summaryOf(const MeshOutcome& outcome, bool showsTimes) {
   std::vector<std::pair<std::string, std::string>> summary;
   bool isThinRow = false;
-  for (auto& [title, text] : reportRows(outcome)) {
-    if (!showsTimes && (title == "time" || title == "speed")) continue;
+  for (auto& [title, text] : reportRows(outcome.result.report)) {
+    if (!showsTimes && (title == "stage seconds" || title == "rays per second" || title == "trace device seconds"))
+      continue;
     if (!title.empty()) isThinRow = title == "thin";
     if (title.empty()) {
       if (!isThinRow) summary.back().second += "; " + text;

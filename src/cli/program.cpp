@@ -5,11 +5,12 @@
 #include <algorithm>
 
 #include "asdf_vk/run_control.h"
+#include "batch/log_summary.h"
+#include "batch/record_log.h"
 #include "cli/batch_run.h"
 #include "cli/one_mesh.h"
 #include "cli/options.h"
 #include "cli/report.h"
-#include "cli/summarize.h"
 #include "process/interrupt.h"
 #include "process/terminal.h"
 
@@ -45,6 +46,34 @@ MeshSettings settingsOf(const CommandLine& line) {
           .isOfBatch = line.batch.isBatch()};
 }
 
+/// asdf-vk summarize LOG.jsonl...; arguments: those after the command.
+ExitCode summarize(const std::vector<std::string>& arguments) {
+  std::vector<std::string> logs;
+  bool isJson = false;
+  ArgumentParser parser("asdf-vk summarize",
+                        "Summarises the logs of batches: times, estimated errors, failures by code. Of several records "
+                        "of a mesh the latest one counts.",
+                        "",
+                        {{.names = "logs",
+                          .placeholder = "LOG.jsonl...",
+                          .text = "Logs of --log",
+                          .receive = [&logs](const Argument::Values& values) { logs = values; },
+                          .isRequired = true,
+                          .isList = true},
+                         {.names = "--json", .text = "Print one JSON document", .receive = into(isJson)}});
+  if (const std::string answer = parser.parse(arguments); !answer.empty()) {
+    writeStandardOutput(answer);
+    return ExitCode::Done;
+  }
+  std::vector<MeshRecord> records;
+  size_t invalidCount = 0;
+  for (const std::string& log : logs)
+    for (MeshRecord& record : readLog(log, invalidCount)) records.push_back(std::move(record));
+  const LogSummary summary = summarizeRecords(std::move(records), invalidCount);
+  writeStandardOutput(isJson ? jsonOf(summary) : textOf(summary));
+  return ExitCode::Done;
+}
+
 ExitCode runCommand(const std::vector<std::string>& arguments) {
   if (arguments.empty()) {
     writeStandardError(shortUsage());
@@ -54,7 +83,7 @@ ExitCode runCommand(const std::vector<std::string>& arguments) {
     runWorker();
     return ExitCode::Done;
   }
-  if (arguments.front() == kSummarizeCommand) return summarize({arguments.begin() + 1, arguments.end()});
+  if (arguments.front() == "summarize") return summarize({arguments.begin() + 1, arguments.end()});
   const CommandLine line = parseCommandLine(arguments);
   if (line.answer) {
     writeStandardOutput(*line.answer);

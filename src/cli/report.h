@@ -27,8 +27,9 @@ struct MeshOutcome {
 /// Title and text; a row without a title continues the one before.
 using ReportRows = std::vector<std::pair<std::string, std::string>>;
 
-/// Thickness where it is measured, its verdict first; mesh, device, computation and values; without warnings and files.
-[[nodiscard]] ReportRows reportRows(const MeshOutcome& outcome);
+/// Thickness where it is measured, its verdict first, or the rows of the short report; then all other keys of the
+/// report with a value, in words.
+[[nodiscard]] ReportRows reportRows(const Report& report);
 
 /// A title with the mesh or the verdict, rows and files, as aligned lines. Without --verbose at most six lines of at
 /// most 100 columns, longer names of files apart; else all of reportRows().
@@ -37,15 +38,12 @@ using ReportRows = std::vector<std::pair<std::string, std::string>>;
 /// "the check failed: ..." with the reason, one line.
 [[nodiscard]] std::string checkFailure(const CheckReport& check);
 
-/// "FAIL: 0.3 at (0, 1, 2), face 12, is thinner than 0.8", "PASS: ..." or "NOT JUDGED: ...", one line. Without a limit
-/// the least thickness, or why there is none.
-[[nodiscard]] std::string thicknessVerdict(const ThicknessReport& thickness);
-
 /// The verdict, then unjudged faces, size, thin regions, sharp edges, greatest section, percentiles. Precondition:
 /// report.thickness.
 [[nodiscard]] ReportRows thicknessRows(const Report& report);
 
-/// Verdict, thin regions, unjudged faces: at most three rows. The first one is the verdict.
+/// At most three rows: the verdict, such as "FAIL: thinner than 0.8: 0.3 at (0, 1, 2), face 12", or without a limit the
+/// least thickness; where faces are not judged, how many; the thickness and the thin regions.
 [[nodiscard]] ReportRows shortThicknessRows(const ThicknessReport& thickness);
 
 /// "1 face", "1,234 faces".
@@ -64,8 +62,8 @@ using ReportRows = std::vector<std::pair<std::string, std::string>>;
 /// One line of JSON with the keys of docs/formats.md.
 [[nodiscard]] std::string jsonReport(const MeshOutcome& outcome);
 
-/// As the key "estimatedError" of the report.
-[[nodiscard]] nlohmann::ordered_json toJson(const ErrorEstimate& estimate);
+/// The keys of jsonReport() that are members of a report.
+[[nodiscard]] nlohmann::ordered_json toJson(const Report& report);
 
 /// One line with the keys "mesh", "error" and "code".
 [[nodiscard]] std::string jsonFailure(const std::string& mesh, const std::string& code, const std::string& message);

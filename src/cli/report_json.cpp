@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 
 #include <cmath>
-#include <type_traits>
 #include <utility>
 
 #include "asdf_vk/version.h"
@@ -14,11 +13,42 @@
 #include "process/terminal.h"
 
 namespace asdfvk {
+
+// What the keys of a report are made of.
+void to_json(Json& json, const Vec3d& point) { json = arrayOf(point); }
+void to_json(Json& json, WarningCode code) { json = nameOf(code); }
+void to_json(Json& json, ThicknessVerdict verdict) { json = nameOf(verdict); }
+void to_json(Json& json, const StageSeconds& seconds) {
+  for (size_t i = 0; i < kStageCount; ++i) json[nameOf(static_cast<Stage>(i))] = seconds.seconds[i];
+}
+void to_json(Json& json, const std::vector<ErrorDetail>& details) {
+  json = Json::object();
+  for (const ErrorDetail& detail : details) json[detail.name] = detail.value;
+}
+template <typename Structure>
+requires requires(const Structure& value) { structureName(value); }
+void to_json(Json& json, const Structure& value) {
+  visitKeys(value, [&](const std::string& key, const auto& member) { json[key] = member; });
+}
+
+void to_json(Json& json, const TracerReport& tracer) {
+  json = {{"backend", tracer.backend},
+          {"variant", tracer.variant},
+          {"isDefault", tracer.isDefault},
+          {"passed", tracer.passed},
+          {"refusal", tracer.refusal},
+          {"failure", tracer.failure},
+          {"comparedCount", tracer.comparedCount},
+          {"differingCount", tracer.differingCount},
+          {"raysPerSecond", std::round(tracer.raysPerSecond)}};
+}
+ASDFVK_JSON(SolverCheckReport, name, passed, refusal, failure, unknownCount, iterations, finishedOnCpu, difference,
+            seconds)
+ASDFVK_JSON(DeviceInfo, name, driver, kind, usable, reason)
+
 namespace {
 
-std::string oneLineOf(const Json& json) {
-  return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
-}
+std::string oneLineOf(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n"; }
 
 /// {"name": "sdf", "unit": "length", "per": "face", "components": 1, "type": "float64", "min": ...}
 Json fieldOf(const Field& field) {
@@ -29,55 +59,10 @@ Json fieldOf(const Field& field) {
           {"per", field.location == FieldLocation::PerFace ? "face" : "vertex"},
           {"components", field.componentCount},
           {"type", kTypes[field.values.index()]},
-          {"min", number(summary.min)},
-          {"median", number(summary.median)},
-          {"max", number(summary.max)},
+          {"min", summary.min},
+          {"median", summary.median},
+          {"max", summary.max},
           {"missingCount", summary.missingCount}};
-}
-
-Json jsonOf(double value) { return number(value); }
-Json jsonOf(const std::string& text) { return text; }
-Json jsonOf(const Vec3d& point) { return arrayOf(point); }
-Json jsonOf(WarningCode code) { return nameOf(code); }
-Json jsonOf(ThicknessVerdict verdict) { return nameOf(verdict); }
-
-Json jsonOf(const StageSeconds& seconds) {
-  Json json;
-  for (size_t i = 0; i < kStageCount; ++i) json[nameOf(static_cast<Stage>(i))] = number(seconds.seconds[i]);
-  return json;
-}
-
-Json jsonOf(const std::vector<ErrorDetail>& details) {
-  Json json = Json::object();
-  for (const ErrorDetail& detail : details) json[detail.name] = detail.value;
-  return json;
-}
-
-template <typename T>
-Json jsonOf(const T& value);
-
-template <typename T>
-Json jsonOf(const std::optional<T>& value) {
-  return value ? jsonOf(*value) : Json(nullptr);
-}
-
-template <typename T>
-Json jsonOf(const std::vector<T>& items) {
-  Json list = Json::array();
-  for (const T& item : items) list.push_back(jsonOf(item));
-  return list;
-}
-
-/// Numbers and flags, and an object of the members of a structure of the report.
-template <typename T>
-Json jsonOf(const T& value) {
-  if constexpr (std::is_arithmetic_v<T>) {
-    return value;
-  } else {
-    Json json = Json::object();
-    visitKeys(value, [&](const std::string& key, const auto& member) { json[key] = jsonOf(member); });
-    return json;
-  }
 }
 
 std::string versionText(uint32_t packed) {
@@ -92,68 +77,23 @@ Json deviceOf(const DeviceFacts& device) {
           {"subgroupSize", device.subgroupSize}};
 }
 
-Json variantJson(const TraceVariant& variant) { return {{"kernel", variant.kernel}, {"fetch", variant.fetch}}; }
-
 Json defaultsOf(const DeviceReport& report) {
-  Json json = variantJson(variantOf(report.choice));
-  json["reason"] = defaultTraceReason(*report.device);
-  json["solver"] = report.defaultSolver;
-  return json;
-}
-
-/// null: not run, because the device excludes it.
-template <typename Report>
-Json passedOf(const Report& report) {
-  return report.refusal.empty() ? Json(report.passed) : Json(nullptr);
-}
-
-template <typename Report>
-std::string reasonOf(const Report& report) {
-  return report.refusal.empty() ? report.failure : report.refusal;
-}
-
-Json tracerOf(const TracerReport& tracer) {
-  Json json{{"backend", tracer.backend}};
-  if (tracer.variant) json.update(variantJson(*tracer.variant));
-  json["default"] = tracer.isDefault;
-  json["passed"] = passedOf(tracer);
-  json["reason"] = reasonOf(tracer);
-  json["comparedCount"] = tracer.comparedCount;
-  json["differingCount"] = tracer.differingCount;
-  json["raysPerSecond"] = number(std::round(tracer.raysPerSecond));
-  return json;
-}
-
-Json solverOf(const SolverCheckReport& solver) {
-  return {{"name", solver.name},
-          {"passed", passedOf(solver)},
-          {"reason", reasonOf(solver)},
-          {"unknownCount", solver.unknownCount},
-          {"iterations", solver.iterations},
-          {"finishedOnCpu", solver.finishedOnCpu},
-          {"difference", number(solver.difference)},
-          {"seconds", number(solver.seconds)}};
-}
-
-Json fastestOf(const DeviceReport& report) {
-  const TracerReport* fastest = report.fastest();
-  if (fastest == nullptr) return nullptr;
-  Json json = variantJson(*fastest->variant);
-  json["default"] = fastest->isDefault;
-  return json;
+  return {{"variant", variantOf(report.choice)},
+          {"reason", defaultTraceReason(*report.device)},
+          {"solver", report.defaultSolver}};
 }
 
 }  // namespace
 
 std::string jsonReport(const MeshOutcome& outcome) {
-  Json json;
-  json["mesh"] = outcome.mesh;
-  json["output"] = outcome.output;
-  json["picture"] = outcome.outputs.picture.empty() ? Json(nullptr) : Json(outcome.outputs.picture);
-  json["points"] = outcome.outputs.points.empty() ? Json(nullptr) : Json(outcome.outputs.points);
+  const auto orNull = [](const std::string& path) { return path.empty() ? Json(nullptr) : Json(path); };
+  Json json{{"mesh", outcome.mesh},
+            {"output", outcome.output},
+            {"picture", orNull(outcome.outputs.picture)},
+            {"points", orNull(outcome.outputs.points)}};
   Report report = outcome.result.report;
   for (Warning& warning : report.warnings) warning.message = textWarning(warning);
-  json.update(jsonOf(report));
+  json.update(toJson(report));
   json["fields"] = Json::array();
   for (const Field& field : outcome.result.fields) json["fields"].push_back(fieldOf(field));
   json["version"] = ASDFVK_VERSION;
@@ -162,59 +102,38 @@ std::string jsonReport(const MeshOutcome& outcome) {
   return oneLineOf(json);
 }
 
-Json toJson(const ErrorEstimate& estimate) { return jsonOf(estimate); }
+Json toJson(const Report& report) { return report; }
 
 std::string jsonFailure(const std::string& mesh, const std::string& code, const std::string& message) {
-  Json json;
-  json["mesh"] = mesh;
-  json["error"] = message;
-  json["code"] = code;
-  return oneLineOf(json);
+  return oneLineOf({{"mesh", mesh}, {"error", message}, {"code", code}});
 }
 
 std::string jsonSkipped(const std::string& mesh, const MeshRecord& record) {
-  Json json;
-  json["mesh"] = mesh;
-  json["output"] = record.output ? Json(*record.output) : Json(nullptr);
-  json["status"] = nameOf(record.status);
-  json["record"] = toJson(record);
-  return oneLineOf(json);
+  return oneLineOf({{"mesh", mesh}, {"output", record.output}, {"status", record.status}, {"record", toJson(record)}});
 }
 
 std::string jsonDevices(std::span<const DeviceInfo> devices, const std::string& reason) {
   Json list = Json::array();
-  for (size_t i = 0; i < devices.size(); ++i)
-    list.push_back({{"index", i},
-                    {"name", devices[i].name},
-                    {"driver", devices[i].driver},
-                    {"kind", devices[i].kind},
-                    {"usable", devices[i].usable},
-                    {"reason", devices[i].reason}});
-  Json json;
-  json["devices"] = std::move(list);
-  json["reason"] = reason;
-  return oneLineOf(json);
+  for (const DeviceInfo& device : devices) {
+    list.push_back({{"index", list.size()}});
+    list.back().update(Json(device));
+  }
+  return oneLineOf({{"devices", list}, {"reason", reason}});
 }
 
 std::string jsonDeviceReport(const DeviceReport& report) {
-  Json json;
-  json["version"] = ASDFVK_VERSION;
-  json["commit"] = ASDFVK_COMMIT;
-  json["passed"] = report.passed();
-  json["reason"] = report.failure ? report.failure->what() : "";
-  json["devices"] = report.deviceLines;
-  if (report.device) {
-    json["device"] = deviceOf(*report.device);
-    json["defaults"] = defaultsOf(report);
-  } else {
-    json["device"] = nullptr;
-  }
-  json["mesh"] = {{"faceCount", report.faceCount}, {"raysPerCone", report.rayCount}};
-  json["fastest"] = fastestOf(report);
-  json["tracers"] = Json::array();
-  for (const TracerReport& tracer : report.tracers) json["tracers"].push_back(tracerOf(tracer));
-  json["solvers"] = Json::array();
-  for (const SolverCheckReport& solver : report.solvers) json["solvers"].push_back(solverOf(solver));
+  const TracerReport* const fastest = report.fastest();
+  const Json json{{"version", ASDFVK_VERSION},
+                  {"commit", ASDFVK_COMMIT},
+                  {"passed", report.passed()},
+                  {"reason", report.failure ? report.failure->what() : ""},
+                  {"devices", report.deviceLines},
+                  {"device", report.device ? deviceOf(*report.device) : Json(nullptr)},
+                  {"defaults", report.device ? defaultsOf(report) : Json(nullptr)},
+                  {"mesh", {{"faceCount", report.faceCount}, {"raysPerCone", report.rayCount}}},
+                  {"fastest", fastest == nullptr ? Json(nullptr) : Json(*fastest)},
+                  {"tracers", report.tracers},
+                  {"solvers", report.solvers}};
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

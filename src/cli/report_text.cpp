@@ -8,13 +8,14 @@
 
 #include "asdf_vk/choices.h"
 #include "cli/exit_code.h"
+#include "core/json.h"
 #include "core/text.h"
 
 namespace asdfvk {
 namespace {
 
-/// Parts whose areas are listed.
-constexpr size_t kMaxListedParts = 12, kMaxShortParts = 3;
+/// Parts whose areas are listed in the short report, and items of a list in the full one.
+constexpr size_t kMaxShortParts = 3, kMaxListedItems = 5;
 
 /// 99.95 % of 1999 agreeing of 2000; never rounded up to 100.
 std::string percent(uint64_t part, uint64_t whole) {
@@ -31,47 +32,6 @@ std::string meshRow(const Report& report) {
                             groupedCount(report.componentCount, "component"));
 }
 
-std::string seedRow(const MeshOutcome& outcome) {
-  const Report& report = outcome.result.report;
-  std::string text = fmt::format(
-      "{} cast{} rays ({}), {} in all, recipe {}, random seed {}", groupedCount(report.seedCount, "face"),
-      report.seedCount == 1 ? "s" : "", percent(report.seedCount, std::max<uint64_t>(1, report.triangleCount)),
-      groupedCount(report.rayCount, "ray"), nameOf(kRecipes, outcome.computation.recipe), report.randomSeed);
-  if (report.redoneConeCount > 0)
-    text += fmt::format("; {} redone by the reference", groupedCount(report.redoneConeCount, "cone"));
-  return text;
-}
-
-/// A stage with 0 s did not run.
-std::string timeRow(const StageSeconds& seconds) {
-  std::string text;
-  for (size_t i = 0; i < kStageCount; ++i)
-    if (const auto stage = static_cast<Stage>(i); seconds[stage] > 0)
-      text += text.empty() ? fmt::format("{} {:.3f} s", nameOf(stage), seconds[stage])
-                           : fmt::format(", {} {:.3f}", nameOf(stage), seconds[stage]);
-  return text;
-}
-
-std::string kernelText(const TraceVariant& variant) {
-  return fmt::format(", kernel {} {}", variant.kernel, variant.fetch);
-}
-
-std::string solverRow(const SolverReport& solver) {
-  if (solver.name == "none") return "none: nothing to interpolate";
-  return fmt::format("{}, {}, relative residual {:.2g}{}", solver.name, groupedCount(solver.iterations, "iteration"),
-                     solver.relativeResidual, solver.converged ? "" : ", NOT CONVERGED");
-}
-
-std::string valueRow(const Report& report) {
-  std::string text = std::isfinite(report.sdf.median) ? fmt::format("min {:.6g}, median {:.6g}, max {:.6g}",
-                                                                    report.sdf.min, report.sdf.median, report.sdf.max)
-                                                      : std::string("none");
-  if (report.noValueCount > 0) text += fmt::format("; {} without a value", groupedCount(report.noValueCount, "face"));
-  if (report.clampedCount > 0)
-    text += fmt::format("; {} limited to the values of the seeds", groupedCount(report.clampedCount, "face"));
-  return text;
-}
-
 std::string shortValueRow(const Report& report) {
   std::string text = std::isfinite(report.sdf.median) ? fmt::format("{:.4g} to {:.4g}, median {:.4g}", report.sdf.min,
                                                                     report.sdf.max, report.sdf.median)
@@ -83,54 +43,6 @@ std::string shortValueRow(const Report& report) {
 /// A share in percent: two digits, or all before the point.
 std::string twoDigits(double share) {
   return std::abs(share) < 0.1 ? fmt::format("{:.2g}", 100 * share) : fmt::format("{:.0f}", 100 * share);
-}
-
-/// "41, 12 and 8.5", the largest first; at most kMaxListedParts.
-std::string areaText(std::vector<double> shares) {
-  std::sort(shares.begin(), shares.end(), std::greater<>());
-  const size_t count = std::min(shares.size(), kMaxListedParts);
-  std::string text;
-  for (size_t i = 0; i < count; ++i) {
-    const char* separator = i == 0 ? "" : i + 1 == shares.size() ? " and " : ", ";
-    text += separator + twoDigits(shares[i]);
-  }
-  if (shares.size() > count) text += fmt::format(" and {} more", groupDigits(shares.size() - count));
-  return text;
-}
-
-ReportRows segmentRows(const Report& report, const Options& options) {
-  const std::string count = groupDigits(*report.segmentCount);
-  if (!report.parts)
-    return {{"segments", fmt::format("{} from {} clusters, smoothness {:g}", count,
-                                     options.cgalSegmentation.clusterCount, options.cgalSegmentation.smoothness)}};
-  const PartsReport& parts = *report.parts;
-  const std::string range = parts.fewestCount == parts.mostCount
-                                ? groupDigits(parts.fewestCount)
-                                : groupDigits(parts.fewestCount) + " to " + groupDigits(parts.mostCount);
-  const double detail = options.parts.detail;
-  const std::string when =
-      options.parts.partCount
-          ? fmt::format("if the cost limit changes by {:.0f} %", 100 * (kPartStabilityFactor - 1))
-          : fmt::format("at --detail {:.3g} to {:.3g}", detail / kPartStabilityFactor, detail * kPartStabilityFactor);
-  const std::string agreement = parts.agreement ? fmt::format("; agreement {:.2f}", *parts.agreement) : "";
-  ReportRows rows{{"parts", fmt::format("{}; {} {}{}", count, range, when, agreement)}};
-  if (parts.areaShares.size() > 1)
-    rows.emplace_back("", fmt::format("of {} % of the area", areaText(parts.areaShares)));
-  return rows;
-}
-
-std::string estimateRow(const Report& report) {
-  const ErrorEstimate& estimate = *report.estimatedError;
-  std::string text = fmt::format(
-      "{:.2f} % +- {:.2f} of the range on average; relative error {} % +- {} in the median, {} % at the 90th "
-      "percentile; from {} held-out faces",
-      100 * estimate.average, 100 * estimate.standardError, twoDigits(estimate.relativeMedian),
-      twoDigits(estimate.relativeMedianStandardError), twoDigits(estimate.relativePercentile90),
-      groupDigits(estimate.heldOutCount));
-  if (!estimate.worstFaces.empty())
-    text += fmt::format("; {:.0f} % of the range at face {}", 100 * estimate.worstFaces[0].error,
-                        estimate.worstFaces[0].face);
-  return text + (report.roundCount > 1 ? fmt::format("; {} rounds", report.roundCount) : "");
 }
 
 std::string tracedCheck(const CheckReport& check) {
@@ -147,13 +59,6 @@ std::string tracedCheck(const CheckReport& check) {
   if (check.noValueAgreeCount > 0)
     text += fmt::format("; {} more without a value in either computation", groupDigits(check.noValueAgreeCount));
   return text;
-}
-
-std::string errorCheck(const CheckReport& check) {
-  return fmt::format("average error {:.4f}, maximum {:.4f} of the range over {}; {:.4f} and {:.4f} over the {}",
-                     check.averageError, check.maximumError, groupedCount(check.comparedCount, "face"),
-                     check.interpolatedAverageError, check.interpolatedMaximumError,
-                     groupedCount(check.interpolatedCount, "interpolated face"));
 }
 
 std::string shortErrorRow(const Report& report) {
@@ -181,9 +86,11 @@ std::string shortSegmentRow(const Report& report) {
   std::vector<double> shares = parts.areaShares;
   if (shares.size() < 2) return text;
   std::sort(shares.begin(), shares.end(), std::greater<>());
-  const bool isLonger = shares.size() > kMaxShortParts;
-  shares.resize(std::min(shares.size(), kMaxShortParts));
-  return text + fmt::format("; {}{} % of the area", isLonger ? "the largest " : "", areaText(std::move(shares)));
+  const size_t count = std::min(shares.size(), kMaxShortParts);
+  text += shares.size() > count ? "; the largest " : "; ";
+  for (size_t i = 0; i < count; ++i)
+    text += fmt::format("{}{}", i == 0 ? "" : i + 1 == count ? " and " : ", ", twoDigits(shares[i]));
+  return text + " % of the area";
 }
 
 /// At most four rows: with title and files, six lines.
@@ -205,10 +112,32 @@ ReportRows shortRows(const Report& report) {
   return rows;
 }
 
-/// A GPU gains little where most of the time is not spent on rays. Estimated, not measured.
-bool isTooSmallForGpu(const Report& report) {
-  constexpr uint64_t kFewRays = 10'000'000;
-  return report.traceChoice && !report.runsOnCpu && report.rayCount < kFewRays && isBackendBuilt("cpu");
+/// "stage seconds" for the key "stageSeconds".
+std::string wordsOf(const std::string& key) {
+  std::string words;
+  for (const char c : key)
+    words += 'A' <= c && c <= 'Z' ? std::string(" ") + static_cast<char>(c - 'A' + 'a') : std::string(1, c);
+  return words;
+}
+
+/// "min 0.5, median 1.5": the members of an object that are set, and of lists the first ones.
+std::string textOf(const Json& value) {
+  if (value.is_string()) return value.get<std::string>();
+  if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
+  if (value.is_number_float()) return fmt::format("{:.6g}", value.get<double>());
+  if (value.is_number()) return value.dump();
+  std::string text;
+  size_t count = 0;
+  for (const auto& [key, member] : value.items()) {
+    if (member.is_null() || (member.is_number_float() && !std::isfinite(member.get<double>()))) continue;
+    if (value.is_array() && count == kMaxListedItems) return text + fmt::format("; {} in all", value.size());
+    text += fmt::format("{}{}{}",
+                        count++ == 0       ? ""
+                        : value.is_array() ? "; "
+                                           : ", ",
+                        value.is_array() ? "" : wordsOf(key) + " ", textOf(member));
+  }
+  return text;
 }
 
 }  // namespace
@@ -218,41 +147,22 @@ std::string groupedCount(uint64_t count, const char* singular, const char* plura
   return fmt::format("{} {}{}", groupDigits(count), singular, count == 1 ? "" : "s");
 }
 
-ReportRows reportRows(const MeshOutcome& outcome) {
-  const Report& report = outcome.result.report;
-  ReportRows rows;
-  const auto append = [&rows](ReportRows further) {
-    for (auto& row : further) rows.push_back(std::move(row));
-  };
-  if (report.thickness) append(thicknessRows(report));
-  rows.emplace_back("mesh", meshRow(report));
-  if (!outcome.computation.options.measuresDiameter()) {
-    rows.emplace_back("time", timeRow(report.stageSeconds));
-    return rows;
-  }
-  rows.emplace_back("device",
-                    fmt::format("{} on {}{}{}", report.backend, report.device,
-                                report.traceChoice ? kernelText(*report.traceChoice) : "",
-                                isTooSmallForGpu(report) ? "; so few rays may be faster with --backend cpu" : ""));
-  rows.emplace_back("seeds", seedRow(outcome));
-  rows.emplace_back("time", timeRow(report.stageSeconds));
-  rows.emplace_back("speed", fmt::format("{:.3g} Mrays/s", report.raysPerSecond / 1e6));
-  rows.emplace_back("solver", solverRow(report.solver));
-  rows.emplace_back("diameter", valueRow(report));
-  if (report.postprocess)
-    rows.emplace_back("smoothed", fmt::format("min {:.6g}, max {:.6g}, mapped to 0 and 1", report.postprocess->min,
-                                              report.postprocess->max));
-  if (report.segmentCount) append(segmentRows(report, outcome.computation.options));
-  if (report.estimatedError) rows.emplace_back("error", estimateRow(report));
-  if (report.check) {
-    rows.emplace_back("check", tracedCheck(*report.check));
-    if (report.check->interpolatedCount > 0) rows.emplace_back("", errorCheck(*report.check));
+ReportRows reportRows(const Report& report) {
+  ReportRows rows = report.thickness ? thicknessRows(report) : shortRows(report);
+  if (report.thickness) rows.emplace_back("mesh", meshRow(report));
+  Json json = toJson(report);
+  for (Json& seconds : json.at("stageSeconds"))
+    if (seconds == 0.0) seconds = nullptr;  // The stage did not run.
+  for (const auto& [key, value] : json.items()) {
+    // The thickness has its own rows, and warnings and defects are lines of their own.
+    if (key == "thickness" || key == "warnings" || key == "defects" || value.is_null()) continue;
+    if (std::string text = textOf(value); !text.empty()) rows.emplace_back(wordsOf(key), std::move(text));
   }
   return rows;
 }
 
 std::string textReport(const MeshOutcome& outcome) {
-  ReportRows rows = outcome.outputs.verbose ? reportRows(outcome) : shortRows(outcome.result.report);
+  ReportRows rows = outcome.outputs.verbose ? reportRows(outcome.result.report) : shortRows(outcome.result.report);
   const auto placeText = [](const std::string& place) { return place == "-" ? "standard output" : place; };
   std::string files = placeText(outcome.output);
   if (!outcome.outputs.points.empty()) files += ", points " + placeText(outcome.outputs.points);

@@ -24,17 +24,6 @@ const char* sharpException(const ThicknessReport& thickness) {
   return thickness.allowsSharpEdges && !thickness.sharpEdges.empty() ? " but at sharp edges" : "";
 }
 
-/// Why a limit is not judged.
-std::string causeText(const UnjudgedFaces& unjudged) {
-  std::vector<std::string> causes;
-  if (unjudged.openCount > 0) causes.push_back(groupedCount(unjudged.openCount, "face") + " of open components");
-  if (unjudged.invertedCount > 0)
-    causes.push_back(groupedCount(unjudged.invertedCount, "face") + " oriented inwards or inconsistently");
-  if (unjudged.selfCrossedCount > 0)
-    causes.push_back(groupedCount(unjudged.selfCrossedCount, "face") + " crossed by the same part");
-  return causes.empty() ? "no face has a thickness" : joined(causes, " and ") + " cannot be judged";
-}
-
 /// A sentence for each kind of faces that are not judged, or not with certainty.
 ReportRows unjudgedRows(const UnjudgedFaces& unjudged) {
   ReportRows rows;
@@ -65,6 +54,20 @@ std::string edgeText(const SharpEdge& edge) {
   return fmt::format("edge of {:.3g} degrees, length {:.4g}, {}", edge.angleDegrees, edge.length, place);
 }
 
+/// "FAIL: thinner than 0.8: 0.3 at (1, 2, 3), face 12".
+std::string verdictOf(const ThicknessReport& thickness) {
+  if (!thickness.verdict) return std::isnan(thickness.min) ? "no thickness" : "least thickness " + leastText(thickness);
+  switch (*thickness.verdict) {
+    case ThicknessVerdict::Failed:
+      return fmt::format("FAIL: thinner than {:g}: {}", *thickness.thinnerThan, leastText(thickness));
+    case ThicknessVerdict::Passed:
+      return fmt::format("PASS: nowhere thinner than {:g}{}", *thickness.thinnerThan, sharpException(thickness));
+    case ThicknessVerdict::NotJudged:
+      break;
+  }
+  return fmt::format("NOT JUDGED: none of the judged faces is thinner than {:g}", *thickness.thinnerThan);
+}
+
 /// A row with the title, then at most kListedCount items.
 template <typename Item>
 void addList(const char* title, const std::string& heading, const std::vector<Item>& items,
@@ -82,24 +85,10 @@ std::string sharpHeading(const ThicknessReport& thickness) {
                                              : ": thinner than any limit; --allow-sharp-edges leaves them out");
 }
 
-/// "FAIL: thinner than 0.8: 0.3 at (1, 2, 3), face 12".
-std::string shortVerdict(const ThicknessReport& thickness) {
-  if (!thickness.verdict) return std::isnan(thickness.min) ? "no thickness" : "least thickness " + leastText(thickness);
-  switch (*thickness.verdict) {
-    case ThicknessVerdict::Failed:
-      return fmt::format("FAIL: thinner than {:g}: {}", *thickness.thinnerThan, leastText(thickness));
-    case ThicknessVerdict::Passed:
-      return fmt::format("PASS: nowhere thinner than {:g}{}", *thickness.thinnerThan, sharpException(thickness));
-    case ThicknessVerdict::NotJudged:
-      break;
-  }
-  return fmt::format("NOT JUDGED: none of the judged faces is thinner than {:g}", *thickness.thinnerThan);
-}
-
 }  // namespace
 
 ReportRows shortThicknessRows(const ThicknessReport& thickness) {
-  ReportRows rows{{"verdict", shortVerdict(thickness)}};
+  ReportRows rows{{"verdict", verdictOf(thickness)}};
   const bool hasValues = !std::isnan(thickness.median);
   const UnjudgedFaces& unjudged = thickness.unjudged;
   if (!hasValues || unjudged.preventVerdict())
@@ -118,26 +107,9 @@ ReportRows shortThicknessRows(const ThicknessReport& thickness) {
   return rows;
 }
 
-std::string thicknessVerdict(const ThicknessReport& thickness) {
-  const bool hasMin = !std::isnan(thickness.min);
-  if (!thickness.verdict) return hasMin ? "least thickness " + leastText(thickness) : causeText(thickness.unjudged);
-  const double limit = *thickness.thinnerThan;
-  const std::string least = hasMin ? "; least " + leastText(thickness) : "";
-  switch (*thickness.verdict) {
-    case ThicknessVerdict::Failed:
-      return fmt::format("FAIL: {}, is thinner than {:g}", leastText(thickness), limit);
-    case ThicknessVerdict::Passed:
-      return fmt::format("PASS: nowhere thinner than {:g}{}{}", limit, sharpException(thickness), least);
-    case ThicknessVerdict::NotJudged:
-      break;
-  }
-  return fmt::format("NOT JUDGED: {}; nothing else is thinner than {:g}{}", causeText(thickness.unjudged), limit,
-                     least);
-}
-
 ReportRows thicknessRows(const Report& report) {
   const ThicknessReport& thickness = *report.thickness;
-  ReportRows rows{{"verdict", thicknessVerdict(thickness)}};
+  ReportRows rows{{"verdict", verdictOf(thickness)}};
   for (auto& row : unjudgedRows(thickness.unjudged)) rows.push_back(std::move(row));
   rows.emplace_back("size", fmt::format("{:.6g} x {:.6g} x {:.6g}, bounding box in the unit of the mesh", report.size.x,
                                         report.size.y, report.size.z));

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "core/vec3.h"
 
@@ -16,3 +17,23 @@ using Json = nlohmann::ordered_json;
 [[nodiscard]] inline Json arrayOf(const Vec3d& v) { return {number(v.x), number(v.y), number(v.z)}; }
 
 }  // namespace asdfvk
+
+/// Conversions of a struct from and to a JSON object with these members, all of which it needs.
+#define ASDFVK_JSON(Struct, ...)                                                        \
+  inline void to_json(asdfvk::Json& nlohmann_json_j, const Struct& nlohmann_json_t) {   \
+    NLOHMANN_JSON_EXPAND(NLOHMANN_JSON_PASTE(NLOHMANN_JSON_TO, __VA_ARGS__))            \
+  }                                                                                     \
+  inline void from_json(const asdfvk::Json& nlohmann_json_j, Struct& nlohmann_json_t) { \
+    NLOHMANN_JSON_EXPAND(NLOHMANN_JSON_PASTE(NLOHMANN_JSON_FROM, __VA_ARGS__))          \
+  }
+
+/// Null without a value.
+template <typename T>
+struct nlohmann::adl_serializer<std::optional<T>> {
+  static void to_json(asdfvk::Json& json, const std::optional<T>& value) {
+    json = value ? asdfvk::Json(*value) : asdfvk::Json(nullptr);
+  }
+  static void from_json(const asdfvk::Json& json, std::optional<T>& value) {
+    value = json.is_null() ? std::nullopt : std::optional(json.get<T>());
+  }
+};

@@ -128,7 +128,6 @@ const std::array kComputationRows{
               .text = "Set of options; single options override it. paper: as the ASDF paper. balanced: half of the "
                       "error of paper. quality: rays pooled over neighbouring seeds, least error against many rays",
               .more = "[method.md](method.md#recipes) has the sets.",
-              .isBasic = true,
               .apply = [](void* t) { applyRecipe(static_cast<ComputationSettings*>(t)->recipe, optionsOf(t)); }},
     OptionRow{.name = "definition",
               .group = kSeedGroup,
@@ -145,7 +144,6 @@ const std::array kComputationRows{
                   "The minimum, or all faces of a smaller mesh, belongs to guidance by prediction, not to `--recipe "
                   "paper`. A mesh whose faces all cast rays has no estimate of the error.",
               .placeholder = "N%|N|all|auto",
-              .isBasic = true,
               .keywordType = "int | float | str",
               .wanted = "a share such as 10% (above 0%, at most 100%), a count of at least 1, all, or auto",
               .read = readSeeds,
@@ -158,7 +156,6 @@ const std::array kComputationRows{
                       "their value, whatever the range is ([accuracy.md](accuracy.md)); fulfilled where half of the "
                       "faces cast rays. Excludes `--no-estimate` and `--seeds all`.",
               .placeholder = "E%[rel]",
-              .isBasic = true,
               .keywordType = "float | str",
               .wanted = "an error above 0% and below 100%, such as 1% (of the range) or 5%rel (of the value)",
               .read = readMaxError,
@@ -174,8 +171,7 @@ const std::array kComputationRows{
               .group = kOutputGroup,
               .access = COMPUTATION_CHOICE(options.orientation, kOrientations),
               .text = "Inverted closed components: report them (keep), reverse them, or reverse all faces",
-              .more = "`auto`: outer shells point outwards, shells inside another one (cavities) inwards.",
-              .isBasic = true},
+              .more = "`auto`: outer shells point outwards, shells inside another one (cavities) inwards."},
     OptionRow{.name = "sampler",
               .group = kSeedGroup,
               .access = COMPUTATION_MEMBER(options.sampler),
@@ -257,7 +253,9 @@ const std::array kComputationRows{
               .group = kSegmentGroup,
               .access = COMPUTATION_CHOICE(options.segmentation, kSegmentations),
               .text = "Field segment. parts: the parts that people see, also --segment without a value. cgal: soft "
-                      "clustering and graph cut, as CGAL does; implies --postprocess cgal; for --seeds all"},
+                      "clustering and graph cut, as CGAL does; implies --postprocess cgal; for --seeds all",
+              .bareValue = "parts",
+              .wanted = "one of none|parts|cgal; the number of parts is an option of its own, parts"},
     OptionRow{.name = "parts",
               .group = kSegmentGroup,
               .access = COMPUTATION_MEMBER(options.parts.partCount),
@@ -332,8 +330,8 @@ const std::array kComputationRows{
                       "number); exit code "
                       "5 where traced faces disagree",
               .placeholder = "[=N|all]",
-              .isBasic = true,
               .keywordType = "int | str",
+              .bareValue = "2000",
               .wanted = "a count of at least 1 or all",
               .read = readCheck,
               .write = writeCheck},
@@ -396,7 +394,6 @@ const std::array kSessionRows{
               .text =
                   "A Vulkan device, Embree on the CPU, the double-precision reference, or the first of them that is "
                   "available",
-              .isBasic = true,
               .valueNames = "auto|vulkan|cpu|reference"},
     OptionRow{.name = "device",
               .group = kDeviceGroup,

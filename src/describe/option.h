@@ -97,14 +97,13 @@ struct OptionRow {
   const char* placeholder = "";  ///< Stands for the value; not of flags, nor of options with names.
   const char* needs = "";        ///< Without it the option has no effect: "measure=thickness|both", "thinner-than".
   const char* defaultText = nullptr;  ///< Replaces that of the default value.
-  bool isBasic = false;               ///< --help shows it.
   const char* flags = nullptr;        ///< "-o,--output"; null: -- and the name; empty: no flag.
   const char* keyword = nullptr;      ///< The keyword of Python; null: the name of the option; empty: there is none.
   const char* keywordType = nullptr;  ///< Its type in Python; null: that of the member.
   const char* valueNames = nullptr;   ///< Names of a string: "auto|seed|ray".
   bool emptyIsAuto = false;           ///< The member of the name "auto" is empty.
   std::vector<std::string> (*moreNames)() = nullptr;               ///< Further names of a string.
-  const char* completions = nullptr;                               ///< See Argument::completions().
+  const char* bareValue = nullptr;                                 ///< The value of a flag without one; null: a value is needed.
   const char* wanted = nullptr;                                    ///< What is not read: "an error such as 1%".
   bool (*read)(void* target, const OptionValue& value) = nullptr;  ///< False, or throws, for a wrong value.
   OptionValue (*write)(const void* target) = nullptr;
@@ -142,13 +141,13 @@ ASDFVK_API void setOption(const OptionRow& row, void* target, const OptionValue&
 [[nodiscard]] std::string toText(const OptionValue& value);
 
 /// The default as documents show it. defaults: the target as it is constructed.
-[[nodiscard]] std::string defaultText(const OptionRow& row, const void* defaults);
+[[nodiscard]] ASDFVK_API std::string defaultText(const OptionRow& row, const void* defaults);
 
 /// Whether the option that `row` needs has one of the values it needs.
 [[nodiscard]] bool isNeedMet(const OptionRow& row, OptionRows rows, const void* target);
 
 /// "--segment cgal"; empty where the row needs none.
-[[nodiscard]] std::string neededText(const OptionRow& row, OptionRows rows, OptionSpelling spelling);
+[[nodiscard]] ASDFVK_API std::string neededText(const OptionRow& row, OptionRows rows, OptionSpelling spelling);
 
 /// The options that the caller named.
 struct GivenOptions {

@@ -1,44 +1,58 @@
-// Writes the man pages and completions of all programs; run by the build, not installed.
-//   asdfvk-write-documents FOLDER [SOURCES]
-// The files have the paths in FOLDER that they have below share: man/man1/asdf-vk.1 and so on. With the folder of the
-// sources also docs/options.md and python/asdf_vk/_keywords.py, which a test compares.
+// asdfvk-write-documents SOURCES          writes docs/options.md, which a test compares
+// asdfvk-write-documents SOURCES FOLDER   writes the man pages into FOLDER; run by the build, not installed
 #include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 
+#include "asdf_vk/version.h"
+#include "cli/exit_code.h"
+#include "cli/options.h"
 #include "core/atomic_file.h"
-#include "documents/program.h"
+#include "documents/documents.h"
+#include "generate/generator_options.h"
 
 namespace {
 
+using namespace asdfvk;
+
+std::string textOf(const std::filesystem::path& path) {
+  std::ifstream in(path);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
 void writeText(const std::filesystem::path& path, const std::string& text) {
-  std::filesystem::create_directories(path.parent_path());
-  asdfvk::AtomicFile file(path);
+  AtomicFile file(path);
   file.write(text);
   file.commit();
+}
+
+void writePages(const std::filesystem::path& sources, const std::filesystem::path& folder) {
+  std::vector<std::pair<int, std::string>> codes;
+  for (const auto& [code, meaning] : kExitCodes) codes.emplace_back(static_cast<int>(code), meaning);
+  codes.back().second += std::string(". ") + kExitCodeOfSeveralMeshes;
+  CommandLine line;
+  GeneratorOptions generator;
+  const auto write = [&](const char* name, const std::string& help, const auto& exitCodes) {
+    writeText(folder / name, manPage(textOf(sources / "docs/man" / name), ASDFVK_VERSION, help, exitCodes));
+  };
+  std::filesystem::create_directories(folder);
+  write("asdf-vk.1", parserOf(line).help(), codes);
+  write("asdf-vk-generate.1", parserOf(generator).help(),
+        std::vector<std::pair<int, std::string>>(kGeneratorExitCodes.begin(), kGeneratorExitCodes.end()));
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   if (argc != 2 && argc != 3) return 1;
-  const std::filesystem::path folder = argv[1];
   try {
-    writeText(folder / "man/man1/asdf-vk-summarize.1", manPage(asdfvk::documentedSummarize()));
-    for (const asdfvk::Program& program : asdfvk::documentedPrograms()) {
-      const std::string& name = program.name;
-      writeText(folder / "man/man1" / (name + ".1"), manPage(program));
-      writeText(folder / "bash-completion/completions" / name, bashCompletion(program));
-    }
-    if (argc == 3) {
-      const std::filesystem::path sources = argv[2], options = sources / "docs/options.md";
-      std::ifstream in(options);
-      const std::string page{std::istreambuf_iterator<char>(in), {}};
-      writeText(options, asdfvk::optionPage(page));
-      writeText(sources / "python/asdf_vk/_keywords.py", asdfvk::keywordModule());
-    }
+    const std::filesystem::path sources = argv[1], options = sources / "docs/options.md";
+    if (argc == 2)
+      writeText(options, optionPage(textOf(options)));
+    else
+      writePages(sources, argv[2]);
     return 0;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "asdfvk-write-documents: %s\n", error.what());

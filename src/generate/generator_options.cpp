@@ -9,32 +9,31 @@
 
 namespace asdfvk {
 
-void addOptions(ArgumentParser& parser, GeneratorOptions& options) {
-  parser.setProgram("asdf-vk-generate",
-                    "Generates closed triangle meshes as binary PLY: shapes whose parts and local diameters are "
-                    "known, and mechanical parts whose least wall thickness is known.");
-  parser.addVersion(fmt::format("asdf-vk-generate {} ({})", ASDFVK_VERSION, ASDFVK_COMMIT));
-  parser
-      .addValue("shape", "SHAPE",
-                fmt::format("One of {}; or a part: {}", joined(shapeNames(), ", "), joined(thicknessPartNames(), ", ")),
-                [&](const std::string& text) { options.shape = text; })
-      .completions(joined(shapeNames(), "|") + "|" + joined(thicknessPartNames(), "|"))
-      .require();
-  parser
-      .addValue("-o,--output", "FILE.ply|-", "The PLY file to write; - is standard output",
-                [&](const std::string& text) { options.output = text; })
-      .require();
-  parser.addNumber(
-      "--faces", "N",
-      fmt::format("Approximate number of faces; default {}; of a shape of known diameter", options.faceCount),
-      options.faceCount);
-  parser.addNumber("--longest-edge", "L",
-                   "Divide the edges of a part until they are at most this long, before the scaling; default: as few "
-                   "faces as possible",
-                   options.longestEdge);
-  parser.addNumber("--scale", "S", fmt::format("Factor on all lengths; default {}", options.scale), options.scale);
-  parser.addNumbers("--translate", "X Y Z", "Shift, after the scaling", options.translate);
-  parser.addFlag("--double", options.doubleVertices, "Write vertices as double instead of float");
+ArgumentParser parserOf(GeneratorOptions& options) {
+  std::vector<Argument> arguments{
+      {"shape", "SHAPE",
+       fmt::format("One of {}; or a part: {}", joined(shapeNames(), ", "), joined(thicknessPartNames(), ", ")),
+       into(options.shape)},
+      {"-o,--output", "FILE.ply|-", "The PLY file to write; - is standard output", into(options.output)},
+      {"--faces", "N",
+       fmt::format("Approximate number of faces; default {}; of a shape of known diameter", options.faceCount),
+       into(options.faceCount)},
+      {"--longest-edge", "L",
+       "Divide the edges of a part until they are at most this long, before the scaling; default: as few faces as "
+       "possible",
+       into(options.longestEdge)},
+      {"--scale", "S", fmt::format("Factor on all lengths; default {}", options.scale), into(options.scale)},
+      {"--translate", "X Y Z", "Shift, after the scaling", into(options.translate)},
+      {"--double", "", "Write vertices as double instead of float", into(options.doubleVertices)}};
+  for (Argument& argument : arguments) {
+    argument.isRequired = argument.names == "shape" || argument.names == "-o,--output";
+    if (argument.names == "--translate") argument.valueCount = options.translate.size();
+  }
+  return ArgumentParser(
+      "asdf-vk-generate",
+      "Generates closed triangle meshes as binary PLY: shapes whose parts and local diameters are known, and "
+      "mechanical parts whose least wall thickness is known.",
+      fmt::format("asdf-vk-generate {} ({})", ASDFVK_VERSION, ASDFVK_COMMIT), std::move(arguments));
 }
 
 }  // namespace asdfvk

@@ -25,6 +25,6 @@ inline constexpr std::array<std::pair<int, const char*>, 3> kGeneratorExitCodes{
     {{0, "done"}, {kGeneratorUsage, "usage"}, {kGeneratorOutput, "output not writable"}}};
 
 /// Name, description and every option of the program, which set `options`.
-void addOptions(ArgumentParser& parser, GeneratorOptions& options);
+[[nodiscard]] ArgumentParser parserOf(GeneratorOptions& options);
 
 }  // namespace asdfvk

@@ -56,16 +56,10 @@ void run(const ArgumentParser& parser, const GeneratorOptions& options) {
 
 int main(int argc, char** argv) {
   GeneratorOptions options;
-  ArgumentParser parser;
-  addOptions(parser, options);
+  ArgumentParser parser = parserOf(options);
   try {
-    const ParseResult result = parser.parse({argv + 1, argv + argc});
-    if (!result.refusal.empty()) {
-      fmt::print(stderr, "{}\nRun with --help for more information.\n", result.refusal);
-      return kGeneratorUsage;
-    }
-    if (!result.answer.empty()) {
-      std::fputs(result.answer.c_str(), stdout);
+    if (const std::string answer = parser.parse({argv + 1, argv + argc}); !answer.empty()) {
+      std::fputs(answer.c_str(), stdout);
       return 0;
     }
     run(parser, options);

@@ -21,7 +21,7 @@ MeshRecord recordOf(const std::string& input, MeshStatus status, double seconds,
   }
   record.faceCount = 100;
   record.seconds = {{"read", seconds / 4}, {"trace", seconds / 2}};
-  record.estimatedError = std::make_shared<nlohmann::ordered_json>(nlohmann::ordered_json{{"average", 0.01}});
+  record.estimatedError = {{"average", 0.01}};
   record.device = "a device";
   return record;
 }
@@ -90,11 +90,8 @@ TEST_CASE("meshes whose names differ only in bytes that are not UTF-8 are two me
   CHECK_EQ(summarizeRecords(records, 0).meshes.size(), 2);
 }
 
-TEST_CASE("the table quotes what meshes and messages hold") {
+TEST_CASE("the summary has counts and failures") {
   const LogSummary summary = sample();
-  const std::string table = csvOf(summary);
-  CHECK_EQ(std::count(table.begin(), table.end(), '\n'), 5);
-  CHECK_NE(table.find("\"<broken> & \"\"quoted\"\", with a comma\""), std::string::npos);
   CHECK_NE(textOf(summary).find("4: 1 done, 1 skipped, 2 failed"), std::string::npos);
   CHECK_EQ(nlohmann::json::parse(jsonOf(summary)).at("failures").size(), 2);
 }

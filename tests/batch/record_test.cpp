@@ -30,7 +30,7 @@ MeshRecord sampleRecord() {
   record.seconds = {{"read", 0.5}, {"trace", 1.5}};
   record.totalSeconds = 2.25;
   record.peakMemoryBytes = 1000;
-  record.estimatedError = std::make_shared<nlohmann::ordered_json>(nlohmann::ordered_json{{"average", 0.01}});
+  record.estimatedError = {{"average", 0.01}};
   record.segmentCount = 3;
   record.warnings = {"missingValues"};
   record.status = MeshStatus::Failed;

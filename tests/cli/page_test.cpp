@@ -155,9 +155,9 @@ TEST_CASE("--open starts xdg-open with the page and does not wait for it") {
   for (int i = 0; i < 500 && !std::filesystem::exists(folder / "opened"); ++i)
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   CHECK_EQ(folder.read("opened"), (folder / "a.asdf.html") + "\n");
-  checkFailure(runQuick({mesh, "-o", folder / "b.html", "--open"}, {.environment = {{"PATH", folder / "none"}}}), 1,
-               "xdg-open");
-  CHECK_FALSE(std::filesystem::exists(folder / "b.html"));
+  checkFailure(runQuick({mesh, "-o", folder / "b.html", "--open"}, {.environment = {{"PATH", folder / "none"}}}), 4,
+               "b.html is written, but xdg-open (package xdg-utils) cannot be started");
+  CHECK(std::filesystem::exists(folder / "b.html"));
 }
 
 std::vector<std::string> plannedPages(const CommandLine& line) {
@@ -194,7 +194,7 @@ TEST_CASE("options of a page") {
   CHECK(isRefused({"a.ply", "-o", "a.html", "--ascii"}));
   CHECK(isRefused({"a.ply", "-o", "a.html", "--picture", "b.png", "--points", "b.png"}));
   CHECK(refusal({"a.ply", "-o", "a.vtu", "--open"}).find("-o FILE.html") != std::string::npos);
-  CHECK(refusal({"a.ply", "-o", "-", "--format", "html", "--open"}).find("-o -") != std::string::npos);
+  CHECK(refusal({"a.ply", "-o", "-", "--format", "html", "--open"}).find("-o FILE.html") != std::string::npos);
   CHECK(refusal({"a.ply", "b.ply", "--open"}).find("-o FILE.html") != std::string::npos);
   CHECK(refusal({"a.ply", "-o", "a.html", "--fields", "centre"}).find("centre") != std::string::npos);
 }

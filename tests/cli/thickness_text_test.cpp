@@ -48,21 +48,20 @@ void checkHolds(const std::string& text, const std::string& part) {
   CHECK_MESSAGE(text.find(part) != std::string::npos, text);
 }
 
-TEST_CASE("the first line is the verdict with the least thickness, its place and the limit") {
-  CHECK(
-      textOf(soundResult(0.8)).starts_with("part.stl: PASS: nowhere thinner than 0.8; least 1 at (1, 2, 3), face 3\n"));
-  CHECK(textOf(soundResult(1.5)).starts_with("part.stl: FAIL: 1 at (1, 2, 3), face 3, is thinner than 1.5\n"));
+TEST_CASE("the first line is the verdict with the limit, the least thickness and its place") {
+  CHECK(textOf(soundResult(0.8)).starts_with("part.stl: PASS: nowhere thinner than 0.8\n"));
+  CHECK(textOf(soundResult(1.5)).starts_with("part.stl: FAIL: thinner than 1.5: 1 at (1, 2, 3), face 3\n"));
   CHECK(textOf(soundResult({})).starts_with("part.stl: least thickness 1 at (1, 2, 3), face 3\n"));
   Result sharp = soundResult(0.8);
   ThicknessReport& thickness = *sharp.report.thickness;
   thickness.verdict = ThicknessVerdict::Failed;
   thickness.min = 0;
-  CHECK(textOf(sharp).starts_with("part.stl: FAIL: 0 at (1, 2, 3), face 3, a sharp edge, is thinner than 0.8\n"));
+  CHECK(textOf(sharp).starts_with("part.stl: FAIL: thinner than 0.8: 0 at (1, 2, 3), face 3, a sharp edge\n"));
   thickness.verdict = ThicknessVerdict::Passed;
   thickness.min = 1;
   thickness.allowsSharpEdges = true;
   thickness.sharpEdges.resize(1);
-  CHECK(textOf(sharp).starts_with("part.stl: PASS: nowhere thinner than 0.8 but at sharp edges; least 1 at ("));
+  CHECK(textOf(sharp).starts_with("part.stl: PASS: nowhere thinner than 0.8 but at sharp edges\n"));
 }
 
 TEST_CASE("what is not judged is named, also where the verdict is another one") {
@@ -81,15 +80,7 @@ TEST_CASE("what is not judged is named, also where the verdict is another one") 
   checkSentences();
   thickness.verdict = ThicknessVerdict::NotJudged;
   checkSentences();
-  CHECK(
-      textOf(result).starts_with("part.stl: NOT JUDGED: 1,200 faces of open components and 1 face oriented inwards or "
-                                 "inconsistently cannot be judged; nothing else is thinner than 0.8; least 1 at ("));
-  thickness.min = kNoValue;
-  thickness.unjudged = {.openCount = 1};
-  CHECK(textOf(result).starts_with(
-      "part.stl: NOT JUDGED: 1 face of open components cannot be judged; nothing else is thinner than 0.8\n"));
-  thickness.unjudged = {};
-  CHECK(textOf(result).starts_with("part.stl: NOT JUDGED: no face has a thickness; "));
+  CHECK(textOf(result).starts_with("part.stl: NOT JUDGED: none of the judged faces is thinner than 0.8\n"));
 }
 
 TEST_CASE("size, regions, sharp edges, greatest section and percentiles follow, five of a list") {
