@@ -1,20 +1,10 @@
-from typing import Any, Callable
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ._report import Report, Warning
-
 version: str
 commit: str
-error_kinds: dict[str, str]
-
-def option_names() -> list[str]: ...
-def session_key(options: dict[str, Any]) -> tuple[str, str, bool, int]: ...
-def devices() -> list[dict[str, Any]]: ...
-
-_MeshArgument = Mesh | tuple[NDArray[Any], NDArray[np.uint32]]
-_Progress = Callable[[float, str], bool | None] | None
 
 class Mesh:
     @property
@@ -26,55 +16,5 @@ class Mesh:
     @property
     def face_of_triangle(self) -> NDArray[np.int32] | None: ...
 
-class ComputedFields:
-    def names(self, per_vertex: bool) -> list[str]: ...
-    def array(self, name: str, per_vertex: bool = False, single: bool = True) -> NDArray[Any]: ...
-    def warnings(self) -> tuple[Warning, ...]: ...
-    def report(self) -> Report: ...
-    def reversed_faces(self) -> NDArray[np.int64]: ...
-
-class Session:
-    def __init__(self, options: dict[str, Any]) -> None: ...
-    @property
-    def backend(self) -> str: ...
-    @property
-    def device_lines(self) -> list[str]: ...
-    @property
-    def runs_on_cpu(self) -> bool: ...
-    def compute(self, mesh: _MeshArgument, options: dict[str, Any], progress: _Progress) -> ComputedFields: ...
-
-class Scene:
-    def __init__(
-        self, session: Session, mesh: _MeshArgument, options: dict[str, Any], progress: _Progress
-    ) -> None: ...
-    def compute(
-        self, options: dict[str, Any], region: NDArray[np.uint8] | None, progress: _Progress
-    ) -> ComputedFields: ...
-    def values_at(
-        self,
-        points: NDArray[np.float64],
-        normals: NDArray[np.float64],
-        options: dict[str, Any],
-        progress: _Progress,
-    ) -> NDArray[np.float32]: ...
-    def thickness_at(
-        self,
-        points: NDArray[np.float64],
-        normals: NDArray[np.float64],
-        options: dict[str, Any],
-        progress: _Progress,
-    ) -> NDArray[np.float64]: ...
-    def nearest_faces(self, points: NDArray[np.float64], progress: _Progress) -> NDArray[np.uint32]: ...
-
-def read_mesh(path: str) -> Mesh: ...
-def write(
-    path: str, mesh: _MeshArgument, fields: dict[str, NDArray[Any]], vertex_fields: dict[str, NDArray[Any]],
-    format: str, ascii: bool,
-) -> None: ...
-def postprocess_sdf(
-    mesh: _MeshArgument, values: NDArray[np.float64], threads: int, progress: _Progress
-) -> tuple[NDArray[np.float64], float, float]: ...
-def segment_sdf(
-    mesh: _MeshArgument, values: NDArray[np.float64], options: dict[str, Any], returns_clusters: bool,
-    threads: int, progress: _Progress,
-) -> tuple[NDArray[np.int32], int]: ...
+# The rest is used by this package only.
+def __getattr__(name: str) -> Any: ...
