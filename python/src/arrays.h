@@ -33,7 +33,7 @@ template <typename T>
   return array;
 }
 
-/// As float32. Errors: see requireSingles().
+/// The numbers as float32. Errors: see requireSingles().
 [[nodiscard]] pybind11::array_t<float> singles(std::span<const double> numbers, const std::string& name);
 
 /// The array of a field, (items,) or (items, components), with memory of its own. Real numbers become float32 where

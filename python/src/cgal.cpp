@@ -1,4 +1,4 @@
-#include "cgal.h"
+#include "bindings.h"
 
 #include <cstdint>
 #include <utility>
@@ -44,7 +44,7 @@ py::tuple segment(const py::object& mesh, const py::array& values, const py::dic
         result = segmentSdf(view, numbers, parsed, kind, control);
       },
       progress);
-  // As int32, in which kNoSegment is -1.
+  // In int32, kNoSegment is -1.
   return py::make_tuple(asArray(std::vector<int32_t>(result.labels.begin(), result.labels.end())), result.count);
 }
 

@@ -1,4 +1,4 @@
-#include "files.h"
+#include "bindings.h"
 
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>

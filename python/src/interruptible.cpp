@@ -4,15 +4,18 @@
 
 #include <atomic>
 #include <chrono>
+#include <condition_variable>
 #include <exception>
 #include <future>
+#include <mutex>
+#include <queue>
+#include <thread>
 #include <utility>
 
 #include "arrays.h"
 #include "asdf_vk/error.h"
 #include "asdf_vk/report.h"
 #include "gil.h"
-#include "worker_threads.h"
 
 namespace py = pybind11;
 
@@ -51,7 +54,56 @@ class ProgressCall {
   const char* lastStage_ = nullptr;
 };
 
-/// Its stop is requested at the end of the process.
+/// Threads that run tasks. They are kept to the end of the process, as many as were ever busy at once: TBB 2021.8 loses
+/// some 10 KB with each thread that used it while the processors were busy, and then ended.
+class Workers {
+ public:
+  /// `task` may be destroyed later than its future is ready.
+  void run(std::packaged_task<void()> task) {
+    {
+      const std::lock_guard lock(mutex_);
+      if (idle_ <= tasks_.size()) std::thread([this] { work(); }).detach();
+      tasks_.push(std::move(task));
+      ++unfinished_;
+    }
+    ready_.notify_one();
+  }
+
+  void wait() {
+    std::unique_lock lock(mutex_);
+    finished_.wait(lock, [this] { return unfinished_ == 0; });
+  }
+
+ private:
+  [[noreturn]] void work() {
+    for (std::unique_lock lock(mutex_);;) {
+      ++idle_;
+      ready_.wait(lock, [this] { return !tasks_.empty(); });
+      --idle_;
+      std::packaged_task<void()> task = std::move(tasks_.front());
+      tasks_.pop();
+      lock.unlock();
+      task();
+      lock.lock();
+      --unfinished_;
+      finished_.notify_all();
+    }
+  }
+
+  std::mutex mutex_;
+  std::condition_variable ready_, finished_;
+  std::queue<std::packaged_task<void()>> tasks_;
+  size_t idle_ = 0;
+  size_t unfinished_ = 0;  ///< Tasks that wait or run.
+};
+
+Workers& workers() {
+  // Not destroyed at exit, when threads still wait in it.
+  static auto* workers = new Workers;
+  return *workers;
+}
+
+/// The source whose stop is requested at the end of the process.
 std::stop_source& endOfProcess() {
   static auto* source = new std::stop_source;
   return *source;
@@ -69,7 +121,7 @@ void runInterruptibly(const std::function<void(const RunControl&)>& work, const 
   std::packaged_task<void()> task([&] { work(control); });
   std::future<void> done = task.get_future();
   std::exception_ptr raised;
-  runOnWorker(std::move(task));
+  workers().run(std::move(task));
   const auto isDone = [&] {
     const GilRelease released;
     return done.wait_for(kPollInterval) == std::future_status::ready;
@@ -93,7 +145,7 @@ void runInterruptibly(const std::function<void(const RunControl&)>& work, const 
 void stopAtExit() {
   if (isForkedProcess()) return;
   endOfProcess().request_stop();
-  waitForWorkers();
+  workers().wait();
 }
 
 bool isForkedProcess() {

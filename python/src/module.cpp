@@ -4,14 +4,12 @@
 #include <pybind11/stl/filesystem.h>
 
 #include "asdf_vk/asdf_vk.h"
-#include "cgal.h"
-#include "describe/similar_names.h"
-#include "files.h"
+#include "bindings.h"
+#include "describe/option.h"
 #include "gil.h"
 #include "interruptible.h"
 #include "options.h"
 #include "report.h"
-#include "scene.h"
 
 namespace py = pybind11;
 using namespace pybind11::literals;

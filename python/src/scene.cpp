@@ -1,4 +1,4 @@
-#include "scene.h"
+#include "bindings.h"
 
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>

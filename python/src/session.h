@@ -48,7 +48,7 @@ class SharedSession {
   std::unique_ptr<Session> session_;
   uint32_t threadCount_;
   std::timed_mutex mutex_;
-  std::mutex releasedMutex_;  ///< Of `released_`; locked before `mutex_` is tried, never while it is waited for.
+  std::mutex releasedMutex_;  ///< Guards `released_`; locked before `mutex_` is tried, never while it is waited for.
   std::vector<std::unique_ptr<Scene>> released_;  ///< Destroyed before the session.
 };
 

@@ -3,14 +3,13 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <charconv>
 #include <optional>
 #include <stdexcept>
 #include <type_traits>
 #include <utility>
 
 #include "asdf_vk/error.h"
-#include "describe/similar_names.h"
+#include "describe/option.h"
 
 namespace asdfvk {
 namespace {
@@ -20,9 +19,10 @@ namespace {
 /// Throws std::invalid_argument.
 template <typename T>
 void readNumber(const std::string& text, T& target) {
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), target);
-  if (error != std::errc() || end != text.data() + text.size() || text.empty())
+  const std::optional<T> number = numberIn<T>(text);
+  if (!number)
     throw std::invalid_argument(fmt::format("'{}' is not a {}number", text, std::is_integral_v<T> ? "whole " : ""));
+  target = *number;
 }
 
 bool isPositional(const Argument& argument) { return !argument.names.starts_with('-'); }

@@ -8,8 +8,8 @@ namespace asdfvk {
 
 /// A mesh of a batch.
 struct InputFile {
-  std::string path;        ///< As given, or a folder of the call and the path below it; "-" for standard input.
-  std::string folder;      ///< Of its output, below the folder of the outputs; empty: that folder itself.
+  std::string path;        ///< The argument, or a folder of the call and the path below it; "-" for standard input.
+  std::string folder;      ///< Folder of its output, below the folder of the outputs; empty: that folder itself.
   uint64_t byteCount = 0;  ///< 0 where it is unknown.
 };
 
@@ -31,5 +31,21 @@ struct InputRequest {
 /// not exist is an input, and so is a dangling link below a folder. Throws Error{UnreadableInput} for a folder or list
 /// that cannot be read.
 [[nodiscard]] std::vector<InputFile> listInputs(const InputRequest& request);
+
+/// One of `count` parts of a batch.
+struct Shard {
+  uint32_t index = 1;  ///< 1 to count.
+  uint32_t count = 1;
+};
+
+inline constexpr uint32_t kMaxShardCount = 1'000'000;
+
+/// "2/7". Throws Error{OptionOutOfRange}.
+[[nodiscard]] Shard parseShard(const std::string& text);
+
+/// The indices of the inputs of the shard, ascending. Every input is in exactly one shard. The inputs are assigned from
+/// the largest file to the smallest, each to the shard with the fewest bytes so far, so that the shards have about the
+/// same size; kBytesPerMesh is added to each file. The result depends on the paths and sizes only.
+[[nodiscard]] std::vector<size_t> selectShard(const std::vector<InputFile>& inputs, const Shard& shard);
 
 }  // namespace asdfvk

@@ -12,7 +12,7 @@ namespace asdfvk {
 /// A mesh of a batch and the path of its result.
 struct Job {
   std::string input, output;  ///< "-" for the standard streams.
-  uint64_t byteCount = 0;     ///< Of the input; 0 where it is unknown.
+  uint64_t byteCount = 0;     ///< Size of the input; 0 where it is unknown.
   bool isStream = false;      ///< The input is no regular file, so that another process may not be able to read it.
 };
 
@@ -50,7 +50,7 @@ struct OpenFailure : std::runtime_error {
   OpenFailure(int exitCode, std::string errorName, const std::string& message)
       : std::runtime_error(message), code(exitCode), name(std::move(errorName)) {}
   int code;          ///< Exit code.
-  std::string name;  ///< As MeshRecord::error.
+  std::string name;  ///< See MeshRecord::error.
 };
 
 }  // namespace asdfvk

@@ -34,9 +34,9 @@ ASDFVK_JSON(FailureGroup, status, code, error, count, exampleInput, exampleMessa
 struct LogSummary {
   size_t recordCount = 0, invalidLineCount = 0;
   std::map<MeshStatus, uint64_t> statusCounts;
-  uint64_t faceCount = 0;         ///< Of the meshes that were computed, also by earlier runs.
+  uint64_t faceCount = 0;         ///< Sum over the meshes that were computed, also by earlier runs.
   double meshSeconds = 0;         ///< Sum of their times.
-  Spread seconds, averageErrors;  ///< Of these meshes: total times; estimated average errors, shares of the range.
+  Spread seconds, averageErrors;  ///< Over these meshes: total times; estimated average errors, shares of the range.
   uint64_t peakMemoryBytes = 0;   ///< The greatest.
   std::vector<std::pair<std::string, double>> stageSeconds;  ///< Sums, descending.
   std::vector<FailureGroup> failures;                        ///< By descending count.

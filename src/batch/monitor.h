@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "batch/job.h"
+#include "batch/mesh_record.h"
 #include "batch/progress.h"
-#include "batch/record_log.h"
 #include "core/stopwatch.h"
 
 namespace asdfvk {

@@ -30,9 +30,9 @@ void removeOutputRecord(const std::filesystem::path& output);
 /// Removes the output, if its bytes are those of the record, and the record beside it.
 void removeOutput(const MeshRecord& record, const std::filesystem::path& output);
 
-/// The same for the output of an earlier run where the mesh failed now. `old`: the record that lay beside the output
-/// before. Keeps the output of another mesh, one of the same input, options, version and commit, and each output where
-/// the input was not read, because it may be up to date then.
+/// Removes the output of an earlier run, and its record, where the mesh failed now. `old`: the record that lay beside
+/// the output before. Keeps the output of another mesh, one of the same input, options, version and commit, and each
+/// output where the input was not read, because it may be up to date then.
 void removeOutdatedOutput(const MeshRecord& old, const MeshRecord& failed, const std::filesystem::path& output);
 
 /// Writes the record atomically, with the hash of the output. Throws Error{OutputNotWritable}.

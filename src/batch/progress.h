@@ -9,11 +9,11 @@ namespace asdfvk {
 
 /// Counts of a batch that runs, by which its rate and the time left are estimated. Bytes are those of the input files.
 struct BatchProgress {
-  uint64_t meshCount = 0, byteCount = 0;  ///< Of the whole batch.
+  uint64_t meshCount = 0, byteCount = 0;  ///< Meshes of the whole batch, and bytes of their files.
   uint64_t doneCount = 0, skippedCount = 0, failedCount = 0, droppedCount = 0;
-  uint64_t doneBytes = 0;  ///< Of the meshes that were computed or failed.
+  uint64_t doneBytes = 0;  ///< Bytes of the meshes that were computed or failed.
   uint64_t skippedBytes = 0;
-  uint64_t faceCount = 0;  ///< Of the meshes that were computed.
+  uint64_t faceCount = 0;  ///< Faces of the meshes that were computed.
 
   void count(const MeshRecord& record, uint64_t bytes);
 

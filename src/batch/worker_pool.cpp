@@ -204,7 +204,7 @@ class WorkerPool {
   uint32_t allowedCount_ = 1;  ///< Workers at once.
   bool hasStarted_ = false;    ///< Whether any worker was ready.
   std::optional<Stopwatch> stopWatch_;
-  std::string failure_;  ///< Of the last worker that could not start.
+  std::string failure_;  ///< Why the last worker could not start.
 };
 
 }  // namespace

@@ -20,7 +20,7 @@ enum class ExitCode : int {
   CheckFailed = 5,  ///< --check found traced faces that disagree with the reference, or no traced face at all; or
                     ///< --fail-if-thinner could not be judged.
   TooThin = 6,      ///< --fail-if-thinner: a point of the surface is thinner.
-  SomeFailed = 7,   ///< Of several meshes some could not be computed; the others are done.
+  SomeFailed = 7,   ///< Some of several meshes could not be computed; the others are done.
   Limit = 8,        ///< A mesh exceeded --timeout or --memory-limit, or the system allows no further file or thread.
   Internal = 70,    ///< A defect of the program.
   Cancelled = kCancelledCode,  ///< SIGINT, SIGTERM or SIGHUP.
@@ -73,9 +73,9 @@ struct Failure {
   std::string name = "internal";  ///< nameOf(ErrorCode).
 };
 
-/// Of a mesh that took longer than --timeout.
+/// The failure of a mesh that took longer than --timeout.
 [[nodiscard]] Failure timeLimitFailure(double timeoutSeconds);
-/// Of a mesh that a stop request ended.
+/// The failure of a mesh that a stop request ended.
 [[nodiscard]] Failure cancelledFailure();
 
 /// Describes the exception being handled; to be called in a catch block. requiresGpu: do not propose the CPU.

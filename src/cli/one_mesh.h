@@ -11,7 +11,7 @@
 #include "cli/exit_code.h"
 #include "cli/options.h"
 #include "page/page.h"
-#include "process/deadline.h"
+#include "process/interrupt.h"
 
 namespace asdfvk {
 
@@ -40,7 +40,7 @@ struct MeshSettings {
 struct LoadedMesh {
   Mesh mesh;
   std::string hash;    ///< contentHash() of the file; empty unless requested.
-  double seconds = 0;  ///< Of the reading.
+  double seconds = 0;  ///< Time of the reading.
   std::exception_ptr failure;
 };
 
@@ -62,7 +62,7 @@ struct MeshRun {
 /// A page of several meshes, which the caller writes.
 struct SharedPage {
   Page& page;
-  std::string name;  ///< Of the mesh in the page.
+  std::string name;  ///< Name of the mesh in the page.
 };
 
 /// Computes and writes a mesh. A failure is part of the MeshRun. sharedPage: takes the result instead of the output, or

@@ -10,16 +10,15 @@
 #include "asdf_vk/files.h"
 #include "asdf_vk/options.h"
 #include "batch/input_list.h"
-#include "batch/shard.h"
 #include "render/camera.h"
 
 namespace asdfvk {
 
 /// What is written and printed, and where.
 struct Outputs {
-  std::string path;                 ///< Of the result: a file, a directory, "-"; empty: beside each input.
+  std::string path;                 ///< Path of the result: a file, a directory, "-"; empty: beside each input.
   std::string format;               ///< A name of outputFormats(); empty: by `path`, else ply.
-  std::vector<std::string> fields;  ///< Those of --fields, in this order; empty: those of fieldNames().
+  std::vector<std::string> fields;  ///< Names of --fields, in this order; empty: the default ones, see fieldNames().
   bool ascii = false;
   std::string picture;            ///< A .png, "-" for standard output; empty: none.
   std::string pictureOf = "sdf";  ///< Name of the field to show; empty: the thin places.
@@ -36,7 +35,7 @@ struct Outputs {
 struct BatchOptions {
   bool recurses = false;         ///< Folders are inputs.
   std::string list;              ///< File with the paths of meshes, "-" for standard input; empty: none.
-  bool isNullSeparated = false;  ///< Of the list.
+  bool isNullSeparated = false;  ///< The paths of the list end with a zero byte.
   std::string log;               ///< File to which a record per mesh is appended; empty: none.
   bool skipsExisting = false;
   std::optional<Shard> shard;

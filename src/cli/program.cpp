@@ -6,7 +6,7 @@
 
 #include "asdf_vk/run_control.h"
 #include "batch/log_summary.h"
-#include "batch/record_log.h"
+#include "batch/mesh_record.h"
 #include "cli/batch_run.h"
 #include "cli/one_mesh.h"
 #include "cli/options.h"

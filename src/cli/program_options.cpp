@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 
@@ -25,13 +24,6 @@ constexpr double kMaxSeconds = 1e9, kMaxJobCount = 1024;
 
 /// Texts only come from the command line.
 const std::string& textOf(const OptionValue& value) { return std::get<std::string>(value); }
-
-std::optional<double> numberIn(std::string_view text) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
-  return value;
-}
 
 void requireFieldName(const std::string& name) {
   const std::vector<std::string> known = resultFieldNames();
@@ -61,11 +53,11 @@ bool readFields(void* target, const OptionValue& value) {
 bool readView(void* target, const OptionValue& value) {
   const std::string& text = textOf(value);
   const size_t comma = std::min(text.find(','), text.size());
-  const auto azimuth = numberIn(text.substr(0, comma)),
-             elevation = numberIn(text.substr(std::min(comma + 1, text.size())));
+  const auto azimuth = numberIn<double>(text.substr(0, comma)),
+             elevation = numberIn<double>(text.substr(std::min(comma + 1, text.size())));
   if (!azimuth || !elevation) return false;
-  if (std::abs(*azimuth) > 360) reject(fmt::format("the azimuth in '{}' is not from -360 to 360", text));
-  if (std::abs(*elevation) > 90) reject(fmt::format("the elevation in '{}' is not from -90 to 90", text));
+  if (!(std::abs(*azimuth) <= 360)) reject(fmt::format("the azimuth in '{}' is not from -360 to 360", text));
+  if (!(std::abs(*elevation) <= 90)) reject(fmt::format("the elevation in '{}' is not from -90 to 90", text));
   auto& outputs = *static_cast<Outputs*>(target);
   outputs.pictureView.azimuthDegrees = *azimuth;
   outputs.pictureView.elevationDegrees = *elevation;
@@ -305,7 +297,7 @@ std::optional<uint64_t> parseByteCount(const std::string& text) {
   constexpr std::string_view kUnits = "kmgt";
   const size_t unit = text.empty() ? std::string_view::npos : kUnits.find(lowerCase(text).back());
   const bool hasUnit = unit != std::string_view::npos;
-  const auto number = numberIn(std::string_view(text).substr(0, text.size() - (hasUnit ? 1 : 0)));
+  const auto number = numberIn<double>(std::string_view(text).substr(0, text.size() - (hasUnit ? 1 : 0)));
   if (!number) return std::nullopt;
   const double bytes = hasUnit ? std::ldexp(*number, 10 * (static_cast<int>(unit) + 1)) : *number;
   return bytes >= 1 && bytes < 0x1p63 ? std::optional(static_cast<uint64_t>(bytes)) : std::nullopt;

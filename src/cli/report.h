@@ -16,7 +16,7 @@ namespace asdfvk {
 
 /// One computed mesh, the input of both reports. Views only.
 struct MeshOutcome {
-  const std::string& mesh;    ///< As on the command line.
+  const std::string& mesh;    ///< The argument of the command line.
   const std::string& output;  ///< Path of the result; "-" for standard output.
   const ComputationSettings& computation;
   const SessionSettings& session;

@@ -5,7 +5,6 @@
 #include <fmt/core.h>
 
 #include <array>
-#include <charconv>
 
 #include "core/text.h"
 
@@ -21,14 +20,6 @@ constexpr const char* kOutputGroup = "Output";
 
 constexpr double kMaxSeconds = 1e9;  // More would overflow the clocks that count them.
 constexpr uint64_t kAllFaces = std::numeric_limits<uint64_t>::max();
-
-template <typename T>
-std::optional<T> numberIn(std::string_view text) {
-  T value{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return value;
-}
 
 /// "10%" as 0.1, "0.1" as 0.1.
 std::optional<double> shareIn(std::string_view text) {

@@ -9,7 +9,7 @@ namespace asdfvk {
 struct ComputationSettings {
   Recipe recipe = Recipe::Balanced;  ///< Applied to `options` before other options.
   Options options;
-  std::optional<double> failIfThinner;  ///< Also thickness.thinnerThan; exit code by its verdict.
+  std::optional<double> failIfThinner;  ///< Sets thickness.thinnerThan, and the exit code by its verdict.
 };
 
 /// What the options of a session set.
@@ -24,7 +24,7 @@ struct SessionSettings : SessionOptions {
 /// Applies what the options imply. Throws Error{OptionOutOfRange}, Error{UnknownName} and, where options have no effect
 /// or contradict each other, Error{OptionConflict}. A completed computation is not changed.
 ASDFVK_API void complete(ComputationSettings& computation, const GivenOptions& given);
-/// The same for a caller of the library: the given options are those that differ from their defaults.
+/// Completes the options of a caller of the library, who gave those that differ from their defaults.
 [[nodiscard]] Options completed(const Options& options);
 
 /// Throws as complete() does.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <charconv>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -86,6 +87,15 @@ struct OptionRange {
 [[nodiscard]] constexpr OptionRange aboveAndBelow(double min, double max) { return {min, max, true, true}; }
 [[nodiscard]] constexpr OptionRange aboveUpTo(double min, double max) { return {min, max, true, false}; }
 
+/// The number that is all of the text.
+template <typename T>
+[[nodiscard]] std::optional<T> numberIn(std::string_view text) {
+  T value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
 /// An option. `target` is the struct of the table that has the row, for example ComputationSettings.
 struct OptionRow {
   const char* name;  ///< "time-budget"
@@ -166,5 +176,9 @@ void requireInRange(OptionRows rows, void* target, OptionSpelling spelling);
 
 /// Throws Error{OptionConflict} with the option. message: names of rows in braces are spelled.
 [[noreturn]] ASDFVK_API void refuse(OptionRows rows, std::string_view message, OptionSpelling spelling);
+
+/// "--seeds or --rng-seed" for "--seed": at most three names that differ in few letters, or one of whose words begins
+/// with the name. Empty where there is none.
+[[nodiscard]] ASDFVK_API std::string similarNames(std::string_view name, const std::vector<std::string>& names);
 
 }  // namespace asdfvk

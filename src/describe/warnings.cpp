@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/text.h"
+#include "describe/report_keys.h"
 
 namespace asdfvk {
 namespace {
@@ -22,6 +23,12 @@ std::vector<ErrorDetail> detailsOf(const SolverReport& solver) {
 }
 
 }  // namespace
+
+static_assert(kStageNames.size() == kStageCount);
+
+const char* nameOf(Stage stage) { return kStageNames[static_cast<size_t>(stage)]; }
+const char* nameOf(ThicknessVerdict verdict) { return kThicknessVerdictNames[static_cast<size_t>(verdict)]; }
+const char* nameOf(WarningCode code) { return kWarningCodeNames[static_cast<size_t>(code)]; }
 
 std::vector<Warning> warningsOf(const MeshDefects& defects, bool isOfPolygons) {
   std::vector<Warning> warnings;

@@ -1,4 +1,4 @@
-#include "batch/job_plan.h"
+#include "batch/engine.h"
 
 #include <doctest/doctest.h>
 

@@ -8,8 +8,8 @@
 
 #include "asdf_vk/error.h"
 #include "batch/content_hash.h"
+#include "batch/mesh_record.h"
 #include "batch/output_record.h"
-#include "batch/record_log.h"
 #include "cli/scratch_folder.h"
 
 namespace asdfvk {

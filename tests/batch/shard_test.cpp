@@ -1,4 +1,4 @@
-#include "batch/shard.h"
+#include "batch/input_list.h"
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>

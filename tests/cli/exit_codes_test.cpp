@@ -183,6 +183,7 @@ TEST_CASE("an unreadable mesh ends with 2 and its name") {
     return runAsdf(arguments);
   };
   checkFailure(run(folder / "missing.ply"), 2, "missing.ply: ");
+  checkFailure(run(folder / ""), 2, "is a directory, not a file; -r computes all meshes below a folder");
   checkFailure(run(folder.write("empty.ply", "")), 2, "empty.ply: ");
   checkFailure(run(folder.write("half.ply", cubeBinaryPly().substr(0, 300))), 2, "half.ply: ");
   checkFailure(run(folder.write("two\nlines.off", "OFF\nx")), 2, "two lines.off: ");

@@ -4,6 +4,12 @@
 
 namespace asdfvk::python {
 
+/// Mesh, readers and writers.
+void bindFiles(pybind11::module_& module);
+
+/// ComputedFields, Session and Scene.
+void bindScenes(pybind11::module_& module);
+
 /// Adds the functions of asdf_vk/cgal.h: postprocess_sdf(mesh, values, threads, progress) -> (normalized, min, max) and
 /// segment_sdf(mesh, values, options, returns_clusters, threads, progress) -> (labels, count). mesh: see viewOf();
 /// values: double; options: clusters, smoothness and expansion as in optionsOf(); threads: see ThreadLimit.

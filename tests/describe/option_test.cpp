@@ -1,4 +1,4 @@
-#include "describe/similar_names.h"
+#include "describe/option.h"
 
 #include <doctest/doctest.h>
 
