@@ -107,6 +107,9 @@ bool readName(void* target, const OptionValue& value) {
   return !textOf(value).empty();
 }
 
+const std::string kFieldsText =
+    "Fields to write: " + joined(resultFieldNames(), ", ") + "; in a page all of one component";
+
 const std::array kOutputRows{
     OptionRow{.name = "output",
               .group = kOutputGroup,
@@ -121,9 +124,7 @@ const std::array kOutputRows{
               .write = [](const void* t) { return nameOrNone(static_cast<const Outputs*>(t)->path); }},
     OptionRow{.name = "fields",
               .group = kOutputGroup,
-              .text =
-                  "Fields to write: sdf, seed, error, normalized, segment, thickness, least_thickness, centre; in a "
-                  "page all of one component",
+              .text = kFieldsText.c_str(),
               .more = "The first one is the `quality` and the colour of `.ply`, and the only one of `.npy` "
                       "([formats.md](formats.md)).",
               .placeholder = "NAME,...",
