@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <optional>
 #include <stdexcept>
@@ -13,6 +14,10 @@
 
 namespace asdfvk {
 namespace {
+
+constexpr const char* kEndOfOptions = "--";
+/// Stands for the value of an option without one; no argument of a program holds it.
+const std::string kNoValue(1, '\0');
 
 [[noreturn]] void refuse(const std::string& message) { throw Error(ErrorCode::OptionOutOfRange, message); }
 
@@ -70,75 +75,85 @@ ArgumentParser::Entry& ArgumentParser::find(std::string_view name) {
                      similar.empty() ? name_ + " --help lists the options" : "did you mean " + similar + "?"));
 }
 
-size_t ArgumentParser::readOption(const std::vector<std::string>& arguments, size_t at) {
-  const std::string& text = arguments[at];
-  const bool isLong = text.starts_with("--");
-  const size_t nameSize = isLong ? std::min(text.find('='), text.size()) : 2;
-  Entry& entry = find(std::string_view(text).substr(0, nameSize));
-  const Argument& argument = entry.argument;
-  bool isAttached = text.size() > nameSize;
-  if (isFlag(argument)) {
-    if (isAttached && isLong) refuse(argument.name() + " takes no value");
-    entry.given.emplace_back();
-    // "-r0" is -r -0.
-    return isAttached ? readOption({"-" + text.substr(2)}, 0) : 1;
+const ArgumentParser::Entry* ArgumentParser::withOptionalValue(const std::string& text) const {
+  const auto entry = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& e) {
+    return hasOptionalValue(e.argument) && (e.argument.name() == text || e.argument.names.starts_with(text + ","));
+  });
+  return entry == entries_.end() ? nullptr : &*entry;
+}
+
+std::vector<std::string> ArgumentParser::withAttachedValues(const std::vector<std::string>& arguments) const {
+  std::vector<std::string> attached;
+  bool hasEnded = false;
+  for (size_t i = 0; i < arguments.size(); ++i) {
+    const Entry* const entry = hasEnded ? nullptr : withOptionalValue(arguments[i]);
+    hasEnded |= arguments[i] == kEndOfOptions;
+    if (entry == nullptr) {
+      attached.push_back(arguments[i]);
+      continue;
+    }
+    const Argument& argument = entry->argument;
+    const bool takesNext = argument.takesNext && i + 1 < arguments.size() && argument.takesNext(arguments[i + 1]);
+    attached.push_back(argument.name() + "=" + (takesNext ? arguments[++i] : kNoValue));
   }
-  if (!entry.given.empty()) refuse(argument.name() + " takes exactly one value, once");
-  if (isAttached) {
-    entry.given.push_back({text.substr(nameSize + (isLong ? 1 : 0))});
-    return 1;
-  }
-  const bool hasNext = at + 1 < arguments.size();
-  if (hasOptionalValue(argument) && !(hasNext && argument.takesNext && argument.takesNext(arguments[at + 1]))) {
-    entry.given.emplace_back();
-    return 1;
-  }
-  const size_t count = argument.valueCount;
-  if (arguments.size() - at <= count)
-    refuse(fmt::format("{} takes exactly {}, once", argument.name(),
-                       count == 1 ? "one value" : std::to_string(count) + " values"));
-  const auto begin = arguments.begin() + static_cast<std::ptrdiff_t>(at) + 1;
-  entry.given.emplace_back(begin, begin + static_cast<std::ptrdiff_t>(count));
-  return 1 + count;
+  return attached;
 }
 
 void ArgumentParser::read(const std::vector<std::string>& arguments) {
-  const auto positional =
-      std::find_if(entries_.begin(), entries_.end(), [](const Entry& entry) { return isPositional(entry.argument); });
-  bool hasEnded = false;
-  std::optional<Error> refusal;  // The first one. What follows may be --help.
-  for (size_t i = 0; i < arguments.size();) {
-    const std::string& text = arguments[i];
-    const bool isOption = !hasEnded && text.size() > 1 && text[0] == '-';
-    try {
-      if (isOption && text != "--") {
-        i += readOption(arguments, i);
-        continue;
-      }
-      if (isOption) {
-        hasEnded = true;
-      } else if (positional == entries_.end() || (!positional->given.empty() && !positional->argument.isList)) {
-        refuse(fmt::format("'{}' is one argument too many", text));
-      } else {
-        positional->given.resize(1);
-        positional->given.front().push_back(text);
-      }
-    } catch (const Error& error) {
-      if (!refusal) refusal = error;
-    }
-    ++i;
+  CLI::App app;
+  app.set_help_flag();
+  app.allow_extras();
+  std::vector<const CLI::Option*> options;
+  for (const Entry& entry : entries_) {
+    const Argument& argument = entry.argument;
+    const auto count = static_cast<int>(argument.valueCount);
+    CLI::Option* const option = isFlag(argument) ? app.add_flag(argument.names)->disable_flag_override()
+                                                 : app.add_option(argument.names)->expected(count);
+    if (argument.isList) option->expected(count, -1)->allow_extra_args();
+    options.push_back(option);
   }
-  if (refusal && !isGiven("--help") && !isGiven("--version")) throw Error(*refusal);
+  std::vector<std::string> reversed = withAttachedValues(arguments);
+  std::reverse(reversed.begin(), reversed.end());  // CLI11 takes them from the back.
+  try {
+    app.parse(std::move(reversed));
+  } catch (const CLI::ArgumentMismatch& mismatch) {
+    // The message begins with the name; that of a flag has no dashes.
+    const std::string message = mismatch.what(), name = message.substr(0, message.find_first_of(": "));
+    for (const Entry& entry : entries_) {
+      const Argument& argument = entry.argument;
+      if (isFlag(argument) && argument.name() == "--" + name) refuse(argument.name() + " takes no value");
+      if (argument.name() == name)
+        refuse(fmt::format("{} takes exactly {}, once", name,
+                           argument.valueCount == 1 ? "one value" : std::to_string(argument.valueCount) + " values"));
+    }
+    refuse(message);
+  } catch (const CLI::ParseError& error) {
+    refuse(error.what());
+  }
+  for (const std::string& extra : app.remaining()) {
+    if (extra == kEndOfOptions) continue;
+    if (extra.size() > 1 && extra.starts_with('-')) (void)find(extra.substr(0, extra.find('=')));
+    refuse(fmt::format("'{}' is one argument too many", extra));
+  }
+  for (size_t i = 0; i < entries_.size(); ++i) {
+    std::vector<Argument::Values>& given = entries_[i].given;
+    const std::vector<std::string>& values = options[i]->results();
+    if (isFlag(entries_[i].argument))
+      given.resize(values.size());
+    else if (!values.empty())
+      given = {values.front() == kNoValue ? Argument::Values{} : values};
+  }
 }
 
 std::string ArgumentParser::parse(const std::vector<std::string>& arguments) {
-  read(arguments);
-  if (isGiven("--help")) {
-    const Argument::Values& values = find("--help").given.front();
-    if (!values.empty() && values.front() != "all") refuse(fmt::format("--help: '{}' is not all", values.front()));
-    return values.empty() && !shortHelp.empty() ? shortHelp : help();
+  for (const std::string& text : arguments) {  // Before CLI11 refuses another one.
+    if (text == kEndOfOptions) break;
+    if (text == "-h" || text == "--help") return shortHelp.empty() ? help() : shortHelp;
+    if (text == "--help=all") return help();
+    if (text == "--version" && !version_.empty()) return version_ + "\n";
   }
-  if (isGiven("--version")) return version_ + "\n";
+  read(arguments);
+  if (isGiven("--help")) refuse(fmt::format("--help: '{}' is not all", find("--help").given.front().front()));
   for (const auto& [argument, given] : entries_) {
     if (argument.isRequired && given.empty())
       refuse(fmt::format("{} is missing; {} --help lists the options", argument.name(), name_));

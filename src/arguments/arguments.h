@@ -65,8 +65,10 @@ class ArgumentParser {
     std::vector<Argument::Values> given = {};  ///< The values of each occurrence.
   };
   [[nodiscard]] Entry& find(std::string_view name);
-  /// Returns the number of arguments that are read.
-  size_t readOption(const std::vector<std::string>& arguments, size_t at);
+  /// Null where the text is no option with an optional value.
+  [[nodiscard]] const Entry* withOptionalValue(const std::string& text) const;
+  /// CLI11 takes the next argument as an optional value, whatever it is.
+  [[nodiscard]] std::vector<std::string> withAttachedValues(const std::vector<std::string>& arguments) const;
   void read(const std::vector<std::string>& arguments);
 
   std::string name_, description_, version_;

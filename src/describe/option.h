@@ -112,9 +112,9 @@ struct OptionRow {
   const char* keywordType = nullptr;  ///< Its type in Python; null: that of the member.
   const char* valueNames = nullptr;   ///< Names of a string: "auto|seed|ray".
   bool emptyIsAuto = false;           ///< The member of the name "auto" is empty.
-  std::vector<std::string> (*moreNames)() = nullptr;               ///< Further names of a string.
-  const char* bareValue = nullptr;                                 ///< The value of a flag without one; null: a value is needed.
-  const char* wanted = nullptr;                                    ///< What is not read: "an error such as 1%".
+  std::vector<std::string> (*moreNames)() = nullptr;  ///< Further names of a string.
+  const char* bareValue = nullptr;                    ///< The value of a flag without one; null: a value is needed.
+  const char* wanted = nullptr;                       ///< What is not read: "an error such as 1%".
   bool (*read)(void* target, const OptionValue& value) = nullptr;  ///< False, or throws, for a wrong value.
   OptionValue (*write)(const void* target) = nullptr;
   void (*apply)(void* target) = nullptr;  ///< Called after the member is set.

@@ -109,7 +109,7 @@ TEST_CASE("arguments that do not fit are refused with the reason") {
   CHECK_EQ(parse({"--odd"}).refusal, "--odd is unknown; odd --help lists the options");
   CHECK_EQ(parse({"--frist", "x"}).refusal, "--frist is unknown; did you mean --first?");
   CHECK_EQ(parse({"--count", "x"}).refusal, "--count: 'x' is not a whole number");
-  CHECK_EQ(parse({"--scale="}).refusal, "--scale: '' is not a number");
+  CHECK_EQ(parse({"--scale", ""}).refusal, "--scale: '' is not a number");
   CHECK_EQ(parse({"--shift", "1", "2"}).refusal, "--shift takes exactly 3 values, once");
   CHECK_EQ(parse({"--quiet=yes"}).refusal, "--quiet takes no value");
   for (const std::vector<std::string>& arguments : {std::vector<std::string>{"--first"}, {"-f", "x", "-f", "y"}})
