@@ -155,7 +155,8 @@ ReportRows reportRows(const Report& report) {
     if (seconds == 0.0) seconds = nullptr;  // The stage did not run.
   for (const auto& [key, value] : json.items()) {
     // The thickness has its own rows, and warnings and defects are lines of their own.
-    if (key == "thickness" || key == "warnings" || key == "defects" || value.is_null()) continue;
+    if (key == "thickness" || key == "warnings" || key == "defects" || value.is_null() || value == 0) continue;
+    if (key == "solver" && report.solver.name.empty()) continue;  // Nothing was interpolated.
     if (std::string text = textOf(value); !text.empty()) rows.emplace_back(wordsOf(key), std::move(text));
   }
   return rows;
