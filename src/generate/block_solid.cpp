@@ -131,7 +131,7 @@ void BlockSolid::addLattice(const std::array<uint32_t, 3>& cellCounts,
   for (uint32_t k = 0; k < cellCounts[2]; ++k)
     for (uint32_t j = 0; j < cellCounts[1]; ++j)
       for (uint32_t i = 0; i < cellCounts[0]; ++i) {
-        if (!isFilled(i, j, k)) continue;
+        if (isFilled && !isFilled(i, j, k)) continue;
         Block block{};
         for (uint32_t c = 0; c < 8; ++c) block[c] = cornerAt(position(i + (c & 1), j + (c >> 1 & 1), k + (c >> 2)));
         addBlock(block);

@@ -25,11 +25,12 @@ struct SurfaceDivision {
 class BlockSolid {
  public:
   /// Adds the blocks of a lattice. Its points are at `position`(i, j, k), from (0, 0, 0) to the three cell counts;
-  /// cells are left out where `isFilled` is false. Equal positions are one corner of the solid: a lattice can close to
-  /// a ring, continue an earlier one, or collapse sides of its blocks to an edge or a point. It may be mirrored.
+  /// cells are left out where `isFilled` is given and false. Equal positions are one corner of the solid: a lattice can
+  /// close to a ring, continue an earlier one, or collapse sides of its blocks to an edge or a point. It may be
+  /// mirrored.
   void addLattice(const std::array<uint32_t, 3>& cellCounts,
                   const std::function<Vec3d(uint32_t i, uint32_t j, uint32_t k)>& position,
-                  const std::function<bool(uint32_t i, uint32_t j, uint32_t k)>& isFilled);
+                  const std::function<bool(uint32_t i, uint32_t j, uint32_t k)>& isFilled = {});
 
   /// Closed and oriented outwards, with one vertex per position.
   [[nodiscard]] Mesh surface(const SurfaceDivision& division = {}) const;
@@ -56,6 +57,6 @@ struct DraftedPlane {
 /// A lattice between planes, in ascending order: those of the walls and horizontal ones.
 void addDraftedLattice(BlockSolid& solid, const std::vector<DraftedPlane>& xs, const std::vector<DraftedPlane>& ys,
                        const std::vector<double>& zs,
-                       const std::function<bool(uint32_t i, uint32_t j, uint32_t k)>& isFilled);
+                       const std::function<bool(uint32_t i, uint32_t j, uint32_t k)>& isFilled = {});
 
 }  // namespace asdfvk

@@ -7,7 +7,6 @@
 #include <functional>
 
 #include "core/check.h"
-#include "core/parallel.h"
 
 namespace asdfvk {
 namespace {
@@ -42,13 +41,6 @@ using Coordinates = std::array<int32_t, 3>;
 uint64_t keyOf(int32_t x, int32_t y, int32_t z) {
   const auto bits = [](int32_t c) { return static_cast<uint64_t>(static_cast<uint32_t>(c + 1) & 0x1fffffu); };
   return bits(x) | bits(y) << 21 | bits(z) << 42;
-}
-
-template <typename Body>
-void forEachIndex(size_t count, Body body) {
-  forEachRange(count, kBricksPerTask, [&](size_t begin, size_t end) {
-    for (size_t i = begin; i < end; ++i) body(i);
-  });
 }
 
 // Below this number of points in all no brick is left out, so that repairs of coarse lattices may add points anywhere.
@@ -106,7 +98,7 @@ void BrickLattice::refine() {
     std::vector<char> isKept(nodes.size());
     const double edge = std::ldexp(kBrickEdge * spacing_, level);
     const double reach = edge * kSqrt3 / 2 + 3 * spacing_;
-    forEachIndex(nodes.size(), [&](size_t i) {
+    forEachBrick(nodes.size(), [&](size_t i) {
       const auto [x, y, z] = nodes[i];
       if (x << level >= size_[0] || y << level >= size_[1] || z << level >= size_[2]) return;
       const Vec3d centre = origin_ + Vec3d{x + 0.5, y + 0.5, z + 0.5} * edge;
@@ -135,7 +127,7 @@ void BrickLattice::refine() {
 }
 
 void BrickLattice::evaluateSigns() {
-  forEachIndex(bricks_.size(), [&](size_t i) {
+  forEachBrick(bricks_.size(), [&](size_t i) {
     Brick& brick = bricks_[i];
     const double half = 0.5 * kBrickEdge;
     brick.selection = field_.near(position(brick, half, half, half), (half + 2) * kSqrt3 * spacing_);
@@ -172,7 +164,7 @@ void BrickLattice::makeWellComposed() {
   // Terminates: every round adds points.
   for (;;) {
     std::vector<Flips> flipsOf(bricks_.size());
-    forEachIndex(bricks_.size(), [&](size_t i) {
+    forEachBrick(bricks_.size(), [&](size_t i) {
       const CellCorners signs = corners(bricks_[i]);
       for (int32_t z = 0; z < kBrickEdge; ++z)
         for (int32_t y = 0; y < kBrickEdge; ++y)

@@ -5,6 +5,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "core/parallel.h"
 #include "core/vec3.h"
 #include "generate/capsule_union.h"
 
@@ -19,6 +20,14 @@ namespace asdfvk {
 /// Lattice points per brick and axis.
 inline constexpr int32_t kBrickEdge = 8;
 inline constexpr size_t kBricksPerTask = 16;
+
+/// Calls body(i) for each index below `count`, in parallel.
+template <typename Body>
+void forEachBrick(size_t count, const Body& body) {
+  forEachRange(count, kBricksPerTask, [&](size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) body(i);
+  });
+}
 
 /// 8^3 lattice points near the surface. Point (x, y, z) of the brick is bit x + 8 y of word z.
 struct Brick {

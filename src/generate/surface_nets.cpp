@@ -39,13 +39,6 @@ class SurfaceNets {
   GeneratedShape take() { return std::move(shape_); }
 
  private:
-  template <typename Body>
-  void forEachBrick(Body body) const {
-    forEachRange(lattice_.bricks().size(), kBricksPerTask, [&](size_t begin, size_t end) {
-      for (size_t i = begin; i < end; ++i) body(i);
-    });
-  }
-
   /// Calls use(x, y, z) for the crossed cells of a brick in the order of their vertices.
   template <typename Use>
   void forEachCell(size_t brick, Use use) const {
@@ -71,7 +64,7 @@ class SurfaceNets {
 
   void findCells() {
     cells_.resize(lattice_.bricks().size());
-    forEachBrick([&](size_t i) {
+    forEachBrick(cells_.size(), [&](size_t i) {
       const CellCorners signs = lattice_.corners(lattice_.bricks()[i]);
       BrickCells& cells = cells_[i];
       for (int32_t z = 0; z < kBrickEdge; ++z) {
@@ -118,7 +111,7 @@ class SurfaceNets {
 
   void placeVertices() {
     neighbours_.resize(shape_.mesh.vertices.size());
-    forEachBrick([&](size_t i) {
+    forEachBrick(cells_.size(), [&](size_t i) {
       const Brick& brick = lattice_.bricks()[i];
       const CellCorners signs = lattice_.corners(brick);
       uint32_t vertex = cells_[i].firstVertex;
@@ -145,7 +138,7 @@ class SurfaceNets {
   void moveVertices(double share, int newtonSteps) {
     const std::vector<Vec3d>& from = shape_.mesh.vertices;
     std::vector<Vec3d> to(from.size());
-    forEachBrick([&](size_t i) {
+    forEachBrick(cells_.size(), [&](size_t i) {
       const Brick& brick = lattice_.bricks()[i];
       uint32_t vertex = cells_[i].firstVertex;
       forEachCell(i, [&](int32_t x, int32_t y, int32_t z) {
@@ -178,7 +171,7 @@ class SurfaceNets {
   }
 
   void addFaces() {
-    forEachBrick([&](size_t i) {
+    forEachBrick(cells_.size(), [&](size_t i) {
       const Brick& brick = lattice_.bricks()[i];
       size_t face = 2 * size_t{cells_[i].firstQuad};
       forEachCrossedEdge(lattice_.corners(brick), [&](int axis, int32_t x, int32_t y, int32_t z, bool isInside) {

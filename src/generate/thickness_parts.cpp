@@ -19,8 +19,6 @@ namespace {
 
 constexpr double kRadiansPerDegree = std::numbers::pi / 180;
 
-bool isAlways(uint32_t, uint32_t, uint32_t) { return true; }
-
 ThicknessPart soundPart(BlockSolid solid, double leastThickness) {
   return {.solid = std::move(solid), .leastThickness = leastThickness, .leastWall = leastThickness};
 }
@@ -28,12 +26,9 @@ ThicknessPart soundPart(BlockSolid solid, double leastThickness) {
 /// 60 long, 20 wide, with a flat bottom and ends of these heights; an end of height 0 is a sharp edge.
 ThicknessPart makeWedge(double firstHeight, double lastHeight) {
   BlockSolid solid;
-  solid.addLattice(
-      {1, 1, 1},
-      [&](uint32_t i, uint32_t j, uint32_t k) {
-        return Vec3d{60.0 * i, 20.0 * j, k == 0 ? 0 : i == 0 ? firstHeight : lastHeight};
-      },
-      isAlways);
+  solid.addLattice({1, 1, 1}, [&](uint32_t i, uint32_t j, uint32_t k) {
+    return Vec3d{60.0 * i, 20.0 * j, k == 0 ? 0 : i == 0 ? firstHeight : lastHeight};
+  });
   if (firstHeight > 0) return soundPart(std::move(solid), std::min(firstHeight, lastHeight));
   return {.solid = std::move(solid),
           .sharpAngleDegrees = std::atan(lastHeight / 60) / kRadiansPerDegree,
@@ -57,18 +52,15 @@ ThicknessPart makeBlade() {
 /// A pyramid with its tip at the top.
 ThicknessPart makeSpike() {
   BlockSolid solid;
-  solid.addLattice(
-      {1, 1, 1},
-      [](uint32_t i, uint32_t j, uint32_t k) {
-        return k == 1 ? Vec3d{0, 0, 20} : Vec3d{4.0 * i - 2, 4.0 * j - 2, 0};
-      },
-      isAlways);
+  solid.addLattice({1, 1, 1}, [](uint32_t i, uint32_t j, uint32_t k) {
+    return k == 1 ? Vec3d{0, 0, 20} : Vec3d{4.0 * i - 2, 4.0 * j - 2, 0};
+  });
   return {.solid = std::move(solid), .sharpAngleDegrees = 2 * std::atan(2.0 / 20) / kRadiansPerDegree};
 }
 
 ThicknessPart makeThickCube() {
   BlockSolid solid;
-  addDraftedLattice(solid, {{0}, {60}}, {{0}, {60}}, {0, 60}, isAlways);
+  addDraftedLattice(solid, {{0}, {60}}, {{0}, {60}}, {0, 60});
   return soundPart(std::move(solid), 60);
 }
 
@@ -183,7 +175,7 @@ ThicknessPart makeBracket(uint32_t sideCount) {
     return Vec3d{kCentre * std::max(0.0, 1 - 2 * share), kCentre * std::max(0.0, 2 * share - 1), z};
   };
   BlockSolid solid;
-  solid.addLattice({sideCount + 2, 1, 1}, position, isAlways);
+  solid.addLattice({sideCount + 2, 1, 1}, position);
   return soundPart(std::move(solid), kWall);
 }
 
@@ -205,7 +197,7 @@ ThicknessPart makeLigament(uint32_t sideCount) {
     return (i == 0 ? onHole : onOutline) + Vec3d{0, 0, kThickness * k};
   };
   BlockSolid solid;
-  solid.addLattice({1, sideCount, 1}, position, isAlways);
+  solid.addLattice({1, sideCount, 1}, position);
   return soundPart(std::move(solid), kLigament);
 }
 

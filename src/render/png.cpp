@@ -18,16 +18,11 @@ std::vector<char> encodePng(const Image& image) {
   description.height = static_cast<png_uint_32>(image.height());
   description.format = PNG_FORMAT_RGB;
   const void* pixels = image.pixels().data();
-  png_alloc_size_t size = 0;
-  std::vector<char> bytes;
-  const auto encode = [&](void* memory) {
-    if (png_image_write_to_memory(&description, memory, &size, 0, pixels, 0, nullptr) == 0)
-      throw Error(ErrorCode::OutputNotWritable,
-                  fmt::format("the picture cannot be encoded: {}", std::as_const(description.message)));
-  };
-  encode(nullptr);
-  bytes.resize(size);
-  encode(bytes.data());
+  png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(description);
+  std::vector<char> bytes(size);
+  if (png_image_write_to_memory(&description, bytes.data(), &size, 0, pixels, 0, nullptr) == 0)
+    throw Error(ErrorCode::OutputNotWritable,
+                fmt::format("the picture cannot be encoded: {}", std::as_const(description.message)));
   bytes.resize(size);
   return bytes;
 }

@@ -1,7 +1,5 @@
 #include "segment/cgal_segmentation.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -60,17 +58,12 @@ std::vector<LabelEdge> reordered(const std::vector<LabelEdge>& edges, std::span<
   return result;
 }
 
-void requireValid(const CgalSegmentationOptions& options) {
-  if (!std::isfinite(options.smoothness))
-    throw Error(ErrorCode::OptionOutOfRange, fmt::format("a smoothness of {} is no number", options.smoothness));
-}
-
 }  // namespace
 
 CgalSegmentation segmentLikeCgal(const FaceGeometry& geometry, const TriangleMesh& mesh,
                                  const FaceNeighbours& neighbours, std::span<const double> values,
                                  const CgalSegmentationOptions& options, const RunControl& control) {
-  requireValid(options);
+  ASDFVK_CHECK(std::isfinite(options.smoothness));
   ASDFVK_CHECK_OP(values.size(), ==, mesh.faces.size());
   ASDFVK_CHECK_OP(neighbours.size(), ==, mesh.faces.size());
   if (values.empty()) throw Error(ErrorCode::NoValues, "there are no values to cluster");

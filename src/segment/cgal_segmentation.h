@@ -23,9 +23,9 @@ struct CgalSegmentation {
 
 /// values: #F, finite, not negative, normalised by postprocessLikeCgal(). From equal values on manifold meshes the
 /// labels are those of CGAL. The result does not depend on the number of threads. One cluster is allowed here, and so
-/// is a smoothness below 0, which counts as 0. Throws Error{NoValues} without faces, Error{OptionOutOfRange}, and
-/// Error{TooFewValues} where there are fewer different values than clusters. Noise of 1e-3 of the range may change many
-/// labels: the clustering is not stable. Throws Error{Cancelled} between expansions.
+/// is a smoothness below 0, which counts as 0. Throws Error{NoValues} without faces, and Error{TooFewValues} where
+/// there are fewer different values than clusters. Noise of 1e-3 of the range may change many labels: the clustering is
+/// not stable. Throws Error{Cancelled} between expansions.
 [[nodiscard]] CgalSegmentation segmentLikeCgal(const FaceGeometry& geometry, const TriangleMesh& mesh,
                                                const FaceNeighbours& neighbours, std::span<const double> values,
                                                const CgalSegmentationOptions& options, const RunControl& control = {});

@@ -11,6 +11,7 @@
 
 #include "asdf_vk/error.h"
 #include "asdf_vk/options.h"
+#include "core/check.h"
 #include "core/parallel.h"
 
 namespace asdfvk {
@@ -237,9 +238,7 @@ class Mixture {
 }  // namespace
 
 HardClustering clusterByMeans(std::span<const double> values, uint32_t clusterCount) {
-  if (clusterCount < 1 || clusterCount > kMaxClusterCount)
-    throw Error(ErrorCode::OptionOutOfRange,
-                fmt::format("{} clusters is out of range (1 to {})", clusterCount, kMaxClusterCount));
+  ASDFVK_CHECK(1 <= clusterCount && clusterCount <= kMaxClusterCount);
   requireDifferentValues(values, clusterCount);
   HardClustering result{chooseSeeds(values, clusterCount), std::vector<uint32_t>(values.size())};
   assignToNearest(values, result.centres, result.clusterOf);

@@ -18,8 +18,8 @@ struct SoftClustering {
 
 /// Expectation and maximization (A. Dempster, N. Laird, D. Rubin: Maximum Likelihood from Incomplete Data via the EM
 /// Algorithm, 1977), at most 10 steps, from the clusters of clusterByMeans(). values: finite. The result has the same
-/// bits on any number of threads. Throws Error{OptionOutOfRange} for a number of clusters outside 1 ..
-/// kMaxClusterCount, and Error{TooFewValues} where there are fewer different values than clusters.
+/// bits on any number of threads. clusterCount: 1 to kMaxClusterCount. Throws Error{TooFewValues} where there are fewer
+/// different values than clusters.
 [[nodiscard]] SoftClustering clusterSoftly(std::span<const double> values, uint32_t clusterCount);
 
 /// k-means (at most 10 steps) from the seeds of k-means++ (D. Arthur, S. Vassilvitskii: k-means++: The Advantages of

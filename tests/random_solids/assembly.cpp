@@ -14,8 +14,6 @@
 namespace asdfvk {
 namespace {
 
-bool isEveryCell(uint32_t, uint32_t, uint32_t) { return true; }
-
 /// Radii over heights, of a solid with `sideCount` planar sides around the z axis.
 struct Profile {
   uint32_t sideCount;
@@ -31,9 +29,8 @@ struct Profile {
 /// Between the two profiles, which have as many heights.
 BlockSolid solidBetween(const Profile& inner, const Profile& outer) {
   BlockSolid solid;
-  solid.addLattice(
-      {1, outer.sideCount, static_cast<uint32_t>(outer.heights.size()) - 1},
-      [&](uint32_t i, uint32_t j, uint32_t k) { return (i == 0 ? inner : outer).at(j, k); }, isEveryCell);
+  solid.addLattice({1, outer.sideCount, static_cast<uint32_t>(outer.heights.size()) - 1},
+                   [&](uint32_t i, uint32_t j, uint32_t k) { return (i == 0 ? inner : outer).at(j, k); });
   return solid;
 }
 
@@ -45,12 +42,7 @@ BlockSolid solidWithin(const Profile& outer) {
 
 BlockSolid solidBox(const std::array<double, 2>& xs, const std::array<double, 2>& ys, const std::array<double, 2>& zs) {
   BlockSolid solid;
-  solid.addLattice(
-      {1, 1, 1},
-      [&](uint32_t i, uint32_t j, uint32_t k) {
-        return Vec3d{xs[i], ys[j], zs[k]};
-      },
-      isEveryCell);
+  solid.addLattice({1, 1, 1}, [&](uint32_t i, uint32_t j, uint32_t k) { return Vec3d{xs[i], ys[j], zs[k]}; });
   return solid;
 }
 

@@ -117,13 +117,6 @@ TEST_CASE("faces without neighbours are segments of their own") {
   CHECK(segmentsOf(sample, {.clusterCount = 2}).segments == Labels{0, 3, 2, 4, 7, 5, 1, 6});
 }
 
-TEST_CASE("a smoothness that is no number is refused") {
-  const test::SampleMesh sample = test::sampleMesh("torus", 600);
-  for (const double smoothness : {NAN, INFINITY})
-    test::requireFailure([&] { static_cast<void>(segmentsOf(sample, {.smoothness = smoothness})); },
-                         ErrorCode::OptionOutOfRange);
-}
-
 TEST_CASE("all labels expanded: the energy of the slow twin, never above that of the first label only") {
   for (const std::string shape : {"animal", "hand", "figure"})
     for (const uint64_t faceCount : {400u, 5000u})

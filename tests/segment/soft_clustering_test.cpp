@@ -127,8 +127,3 @@ TEST_CASE("fewer different values than clusters are refused") {
   test::requireFailure([&] { static_cast<void>(clusterSoftly({}, 1)); }, ErrorCode::TooFewValues);
   test::requireFailure([&] { static_cast<void>(clusterSoftly(Values{0, 1e-200}, 2)); }, ErrorCode::TooFewValues);
 }
-
-TEST_CASE("a number of clusters out of range is refused") {
-  for (const uint32_t count : {0u, kMaxClusterCount + 1})
-    test::requireFailure([&] { static_cast<void>(clusterSoftly(Values{1, 2}, count)); }, ErrorCode::OptionOutOfRange);
-}
