@@ -22,7 +22,7 @@ def version() -> str:
 
 
 class BuildWithCMake(build_ext):
-    """Further CMake arguments, for example -DASDF_VK_EMBREE=OFF: in the environment variable CMAKE_ARGS."""
+    """Further CMake arguments, for example -DCMAKE_BUILD_TYPE=Debug: in the environment variable CMAKE_ARGS."""
 
     def build_extension(self, extension: Extension) -> None:
         import pybind11

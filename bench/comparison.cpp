@@ -21,9 +21,7 @@ namespace asdfvk::bench {
 namespace {
 
 /// The backends whose whole computations are timed; the reference is too slow.
-std::vector<std::string> fastBackends() {
-  return hasEmbree() ? std::vector<std::string>{"vulkan", "cpu"} : std::vector<std::string>{"vulkan"};
-}
+std::vector<std::string> fastBackends() { return {"vulkan", "cpu"}; }
 
 /// Every backend by its name, and Vulkan with each kernel that is not the device's default.
 std::map<std::string, std::unique_ptr<Backend>> openBackends(const std::string& device) {

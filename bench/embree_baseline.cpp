@@ -8,7 +8,7 @@
 #include <numeric>
 #include <vector>
 
-#include "trace/embree/embree_api.h"
+#include "embree_api.h"
 #endif
 
 namespace asdfvk::bench {

@@ -42,15 +42,10 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "${vulkan}")
 set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "shape diameter function of triangle meshes by Vulkan compute
 ${description}This package has the programs asdf-vk and asdf-vk-generate.")
 
-# What asdf-vk-config.cmake finds. The static library is bound to the symbols of one major version of fmt
-# and of Embree.
+# What asdf-vk-config.cmake finds. The static library is bound to the symbols of one major version of fmt.
 string(REGEX MATCH "^[0-9]+" fmtMajor "${fmt_VERSION}")
 math(EXPR fmtNext "${fmtMajor} + 1")
 set(depends "libfmt-dev (>= ${fmtMajor}), libfmt-dev (<< ${fmtNext}), libtbb-dev (>= 2021), zlib1g-dev")
-if(TARGET embree)
-  math(EXPR embreeNext "${embree_VERSION_MAJOR} + 1")
-  string(APPEND depends ", libembree-dev (>= ${embree_VERSION_MAJOR}), libembree-dev (<< ${embreeNext})")
-endif()
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libasdf-vk-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "${depends}")

@@ -40,12 +40,10 @@ enum class ErrorCode {
   ValueOutOfRange,  ///< A value per face that the caller passed is negative, infinite, missing or too large; or a
                     ///< value of a result does not fit into float32.
   // Device
-  NoVulkanLoader,  ///< libvulkan.so.1 is not installed.
-  NoVulkanDriver,  ///< No driver, or none that the loader can start.
-  NoUsableDevice,  ///< Every device was rejected; the message contains the reasons.
-  GpuRequired,     ///< A GPU was required and the backend runs on the CPU.
-  NoEmbree,        ///< The library was built without Embree.
-  EmbreeFailed,
+  NoVulkanLoader,     ///< libvulkan.so.1 is not installed.
+  NoVulkanDriver,     ///< No driver, or none that the loader can start.
+  NoUsableDevice,     ///< Every device was rejected; the message contains the reasons.
+  GpuRequired,        ///< A GPU was required and the backend runs on the CPU.
   NoDeviceForKernel,  ///< A kernel variant or solver of the device was requested from a backend without a device.
   KernelUnsupported,  ///< The device lacks a feature that the requested kernel needs.
   DeviceLimit,        ///< The mesh exceeds a limit of the device.

@@ -23,7 +23,7 @@ enum class Stage {
   Geometry,   ///< Normals, areas, components, defects, orientation.
   Graph,      ///< Dual graph and edge defects.
   Bvh,        ///< Hierarchy.
-  Encode,     ///< Conversion of the hierarchy to the layout of the device, or the Embree scenes.
+  Encode,     ///< Conversion of the hierarchy to the layout of the device or of the CPU.
   Upload,     ///< Creation and release of kernels and buffers of the device; 0 without Vulkan.
   Sample,     ///< Selection of the seeds.
   Trace,      ///< Rays.
@@ -270,7 +270,7 @@ struct Report {
   uint32_t roundCount = 1;         ///< Rounds of seeds.
   std::string backend;             ///< "vulkan", "cpu" or "reference".
   std::string device;              ///< Device and driver, or the CPU.
-  bool runsOnCpu = false;          ///< The CPU traces: reference, Embree, or a CPU device of Vulkan.
+  bool runsOnCpu = false;          ///< The CPU traces: "cpu", "reference", or a CPU device of Vulkan.
   std::optional<TraceVariant> traceChoice;  ///< The variant of the Vulkan kernels; unset without Vulkan.
   StageSeconds stageSeconds;                ///< Seconds by stage; 0 for a stage that did not run.
   double raysPerSecond = 0;                 ///< Rays over the seconds of the stage "trace".

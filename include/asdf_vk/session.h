@@ -18,13 +18,14 @@ namespace asdfvk {
 
 /// The backend that traces the rays. Backends and kernel variants are names, listed by backendNames().
 struct SessionOptions {
-  /// "auto": a Vulkan device (GPUs first, CPU devices such as lavapipe included), else Embree, else the reference.
+  /// "auto": a Vulkan device (GPUs first, CPU devices such as lavapipe included), else "cpu".
   /// If the device of "auto" is lost, computes wrong values or is out of memory, the next backend computes the mesh.
   /// Unless memory was short, it also computes all later meshes. Each has WarningCode::BackendReplaced.
-  /// "vulkan", "cpu" (Embree) and "reference" (double precision) fail with Error{Device} where they are not available.
+  /// "vulkan", "cpu" (float32 in lanes) and "reference" (double precision) fail with Error{Device} where they are not
+  /// available.
   std::string backend = "auto";
   std::string device;       ///< Vulkan device: an index in listDevices() or a part of a name; empty: the highest rank.
-  bool requireGpu = false;  ///< Reject CPU devices, Embree and the reference.
+  bool requireGpu = false;  ///< Reject CPU devices, "cpu" and "reference".
   TraceVariant variant;     ///< Empty members: the default of the device. Other values require Vulkan.
 };
 
@@ -78,8 +79,6 @@ struct DeviceInfo {
 [[nodiscard]] ASDFVK_API std::vector<DeviceInfo> listDevices(std::string* reason = nullptr, bool requireGpu = false);
 
 [[nodiscard]] ASDFVK_API std::vector<std::string> backendNames();
-/// Whether this build has the backend: Embree is optional.
-[[nodiscard]] ASDFVK_API bool isBackendBuilt(std::string_view name);
 
 /// A device with its pipelines, for any number of meshes one after another. Not thread-safe.
 class ASDFVK_API Session {
@@ -94,7 +93,7 @@ class ASDFVK_API Session {
   [[nodiscard]] const std::vector<std::string>& deviceLines() const;
   /// "vulkan", "cpu" or "reference"; changes where "auto" replaces a backend, as deviceLines() and runsOnCpu().
   [[nodiscard]] const std::string& backend() const;
-  /// Whether the CPU traces: Embree, the reference, or a CPU device of Vulkan.
+  /// Whether the CPU traces: "cpu", "reference", or a CPU device of Vulkan.
   [[nodiscard]] bool runsOnCpu() const;
 
   /// For several computations on one mesh see Scene. Does not change the mesh. Throws Error of kind Input (no face,

@@ -34,7 +34,7 @@ def devices() -> list[Device]:
 class Session:
     """A device with its pipelines, kept for any number of meshes.
 
-    backend: "auto" (Vulkan, else Embree, else the reference), "vulkan", "cpu" (Embree) or "reference".
+    backend: "auto" (Vulkan, else the CPU), "vulkan", "cpu" (single precision) or "reference" (double precision).
     device: Vulkan device, an index or a part of a name; empty: the highest rank.
     require_gpu: fail where the CPU would trace.
     threads: CPU threads; 0: the number of cores. Results do not depend on it.
@@ -67,7 +67,7 @@ class Session:
 
     @property
     def runs_on_cpu(self) -> bool:
-        """Whether the CPU traces: Embree, the reference, or a CPU device of Vulkan."""
+        """Whether the CPU traces: "cpu", "reference", or a CPU device of Vulkan."""
         return self._opened.runs_on_cpu
 
     def close(self) -> None:

@@ -162,7 +162,8 @@ class WideEncoder {
 
 }  // namespace
 
-WideCollapse::WideCollapse(std::span<const BvhNode> nodes) : nodes_(nodes), choices_(nodes.size()) {
+WideCollapse::WideCollapse(std::span<const BvhNode> nodes, const WideCosts& costs)
+    : nodes_(nodes), costs_(costs), choices_(nodes.size()) {
   ASDFVK_CHECK(!nodes.empty());
   Forests forests;
   chooseFrom(0, 0, forests);
@@ -170,8 +171,8 @@ WideCollapse::WideCollapse(std::span<const BvhNode> nodes) : nodes_(nodes), choi
 
 void WideCollapse::chooseFrom(uint32_t node, uint32_t level, Forests& forests) {
   if (nodes_[node].isLeaf()) {
-    ASDFVK_CHECK_OP(nodes_[node].triangleCount, <=, kMaxWideLeafTriangleCount);
-    forests.costs.fill(halfAreaOf(nodes_[node]) * static_cast<float>(nodes_[node].triangleCount));
+    ASDFVK_CHECK_OP(nodes_[node].triangleCount, <=, costs_.maxLeafTriangleCount);
+    forests.costs.fill(halfAreaOf(nodes_[node]) * costs_.ofLeaf(nodes_[node].triangleCount));
     forests.nodeCounts.fill(0);
     return;
   }
@@ -198,12 +199,12 @@ void WideCollapse::choose(uint32_t node, const Forests& left, const Forests& rig
     const auto k = static_cast<uint32_t>(sharing.leftCounts[childCount - 1]);
     return left.nodeCounts[k - 1] + right.nodeCounts[childCount - k - 1];
   };
-  const float area = halfAreaOf(nodes_[node]), leafCost = area * static_cast<float>(choice.primitives.count);
+  const float area = halfAreaOf(nodes_[node]), leafCost = area * costs_.ofLeaf(choice.primitives.count);
   choice.nodeCountBelow = nodeCount(kWideChildCount);
   choice.leftCounts = static_cast<uint32_t>(sharing.leftCounts.back()) << 4 * (kWideChildCount - 1);
-  forests.costs[0] = sharing.costs.back() + area * kWideNodeCost;
+  forests.costs[0] = sharing.costs.back() + area * costs_.node;
   forests.nodeCounts[0] = 1 + choice.nodeCountBelow;
-  if (choice.primitives.count <= kMaxWideLeafTriangleCount && leafCost <= forests.costs[0]) {
+  if (choice.primitives.count <= costs_.maxLeafTriangleCount && leafCost <= forests.costs[0]) {
     choice.leftCounts |= 1;
     forests.costs[0] = leafCost;
     forests.nodeCounts[0] = 0;

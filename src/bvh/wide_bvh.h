@@ -11,8 +11,17 @@
 
 namespace asdfvk {
 
-/// Cost of a wide node in the surface-area heuristic, in triangle tests.
-inline constexpr float kWideNodeCost = 2.0f;
+/// Costs of the surface-area heuristic for wide nodes, in triangle tests of a device.
+struct WideCosts {
+  float node = 2;
+  float leaf = 0;      ///< Of a leaf, for any number of triangles.
+  float triangle = 1;  ///< Added for each of its triangles.
+  uint32_t maxLeafTriangleCount = kMaxWideLeafTriangleCount;
+
+  [[nodiscard]] float ofLeaf(uint32_t triangleCount) const {
+    return leaf + triangle * static_cast<float>(triangleCount);
+  }
+};
 
 /// A child of a wide node: a node of the binary hierarchy that becomes a wide node or, with all nodes below it, a leaf.
 struct WideChild {
@@ -32,9 +41,9 @@ struct WideChildren {
 /// nodes or leaves. Minimises the cost by the surface-area heuristic (Ylitie, Karras and Laine 2017, section 3.1).
 class WideCollapse {
  public:
-  /// nodes: as in Bvh, at least one, leaves of at most kMaxWideLeafTriangleCount triangles; must outlive this object.
+  /// nodes: as in Bvh, at least one, leaves of at most costs.maxLeafTriangleCount triangles; must outlive this object.
   /// Parallel, with the same result for any thread count.
-  explicit WideCollapse(std::span<const BvhNode> nodes);
+  explicit WideCollapse(std::span<const BvhNode> nodes, const WideCosts& costs = {});
 
   /// Children of the wide node that replaces a binary node. A root that is a leaf becomes a wide node with itself as
   /// the only child.
@@ -74,6 +83,7 @@ class WideCollapse {
   void addRoots(uint32_t node, uint32_t rootCount, WideChildren& children) const;
 
   std::span<const BvhNode> nodes_;
+  WideCosts costs_;
   UnsetVector<Choice> choices_;  // Per binary node; unset for leaves.
 };
 

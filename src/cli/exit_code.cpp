@@ -33,9 +33,6 @@ std::string remedyFor(ErrorCode code, bool requiresGpu, const std::string& value
       return "see --list-devices";
     case ErrorCode::GpuRequired:
       return "see --list-devices, or drop --require-gpu";
-    case ErrorCode::NoEmbree:
-      return "use another --backend, or install libembree-dev and build again";
-    case ErrorCode::EmbreeFailed:
       return "use --backend reference";
     case ErrorCode::NoDeviceForKernel:
       return "use --backend vulkan, or drop --solver, --kernel and --fetch";

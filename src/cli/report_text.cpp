@@ -197,8 +197,8 @@ std::string deviceLinesOf(const Session& session, const SessionOptions& options,
   const bool isReplaced = options.backend == "auto" && session.backend() != "vulkan";
   const bool isOtherPossible = options.device.empty() && session.runsOnCpu() && lines.size() > 1;
   if (!isVerbose && !isReplaced && !isOtherPossible) return {};
-  if (session.backend() == "vulkan" && session.runsOnCpu() && isBackendBuilt("cpu"))
-    lines.front() += "; a CPU device: --backend cpu (Embree) may be faster";
+  if (session.backend() == "vulkan" && session.runsOnCpu())
+    lines.front() += "; a CPU device: --backend cpu may be faster";
   std::string text;
   for (const std::string& line : lines) text += oneLine("asdf-vk: " + line) + "\n";
   return text;

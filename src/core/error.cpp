@@ -35,8 +35,6 @@ constexpr std::array kErrors{
     ErrorRow{ErrorCode::NoVulkanDriver, ErrorKind::Device, "noVulkanDriver"},
     ErrorRow{ErrorCode::NoUsableDevice, ErrorKind::Device, "noUsableDevice"},
     ErrorRow{ErrorCode::GpuRequired, ErrorKind::Device, "gpuRequired"},
-    ErrorRow{ErrorCode::NoEmbree, ErrorKind::Device, "noEmbree"},
-    ErrorRow{ErrorCode::EmbreeFailed, ErrorKind::Device, "embreeFailed"},
     ErrorRow{ErrorCode::NoDeviceForKernel, ErrorKind::Device, "noDeviceForKernel"},
     ErrorRow{ErrorCode::KernelUnsupported, ErrorKind::Device, "kernelUnsupported"},
     ErrorRow{ErrorCode::DeviceLimit, ErrorKind::Device, "deviceLimit"},

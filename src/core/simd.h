@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -90,6 +91,35 @@ template <typename V>
 template <typename V>
 [[nodiscard]] ASDFVK_ALWAYS_INLINE inline V select(const IntsOf<V>& mask, const V& a) {
   return reinterpret_cast<V>(mask & reinterpret_cast<IntsOf<V>>(a));
+}
+
+/// The bitwise or of all lanes; that of the odd ones is in the upper half.
+template <typename Ints>
+ASDFVK_ALWAYS_INLINE inline uint64_t orLanes(const Ints& lanes) {
+  if constexpr (sizeof(Ints) > 16) {
+    using Half = std::conditional_t<sizeof(Ints) == 64, IntsOf<Float8>, IntsOf<Float4>>;
+    std::array<Half, 2> halves;
+    std::memcpy(halves.data(), &lanes, sizeof lanes);
+    return orLanes<Half>(halves[0] | halves[1]);
+  } else {
+    std::array<uint64_t, 2> words;
+    std::memcpy(words.data(), &lanes, sizeof lanes);
+    return words[0] | words[1];
+  }
+}
+
+template <typename Mask>
+ASDFVK_ALWAYS_INLINE inline bool anyLane(const Mask& mask) {
+  return orLanes(mask) != 0;
+}
+
+/// A bit for each lane.
+template <typename Mask>
+ASDFVK_ALWAYS_INLINE inline uint32_t bitsOf(const Mask& mask) {
+  Mask bits;
+  for (size_t lane = 0; lane < kLaneCount<Mask>; ++lane) bits[lane] = 1 << lane;
+  const uint64_t both = orLanes<Mask>(mask & bits);
+  return static_cast<uint32_t>(both | both >> 32);
 }
 
 /// 1 / sqrt(x) for positive x, relative error 1e-3; a large number for 0. The first approximation halves the exponent

@@ -383,7 +383,7 @@ const std::array kSessionRows{
               .group = kDeviceGroup,
               .access = ASDFVK_MEMBER(SessionSettings, backend),
               .text =
-                  "A Vulkan device, Embree on the CPU, the double-precision reference, or the first of them that is "
+                  "A Vulkan device, the cores of the CPU, the double-precision reference, or the first of them that is "
                   "available",
               .valueNames = "auto|vulkan|cpu|reference"},
     OptionRow{.name = "device",
@@ -397,7 +397,7 @@ const std::array kSessionRows{
               .group = kDeviceGroup,
               .access = ASDFVK_MEMBER(SessionSettings, requireGpu),
               .text = "Fail where no GPU is usable",
-              .more = "Exit code 3 instead of a CPU device, Embree or the reference."},
+              .more = "Exit code 3 instead of a CPU device, `cpu` or the reference."},
     OptionRow{.name = "threads",
               .group = kDeviceGroup,
               .access = ASDFVK_MEMBER(SessionSettings, threadCount),

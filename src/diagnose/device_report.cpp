@@ -217,13 +217,13 @@ DeviceReport reportDevice(const SessionOptions& options, const RunControl& contr
       report.failure = error;
     }
   }
-  if (isAutomatic && isBackendBuilt("cpu") && !options.requireGpu) {
-    NamedBackend embree;
+  if (isAutomatic && !options.requireGpu) {
+    NamedBackend cpu;
     testOther(report, "cpu", test, control, [&]() -> Backend& {
-      SessionOptions embreeOptions;
-      embreeOptions.backend = "cpu";
-      embree = openBackend(embreeOptions);
-      return *embree.backend;
+      SessionOptions cpuOptions;
+      cpuOptions.backend = "cpu";
+      cpu = openBackend(cpuOptions);
+      return *cpu.backend;
     });
   }
   return report;

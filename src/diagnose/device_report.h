@@ -57,7 +57,7 @@ struct DeviceReport {
   [[nodiscard]] bool passed() const;
 };
 
-/// Measures the Vulkan device of the options with every variant of its kernels and every solver, and Embree for
+/// Measures the Vulkan device of the options with every variant of its kernels and every solver, and the CPU for
 /// comparison with the backend "auto"; with another backend that one only. SessionOptions::variant is ignored.
 /// secondsPerRun: runs that are shorter trace more faces, up to all of the mesh. Throws Error of kind Device where the
 /// options exclude every device and backend, Error{Cancelled}.

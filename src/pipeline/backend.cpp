@@ -17,17 +17,16 @@ namespace {
 
 std::string cpuThreads() { return counted(threadLimit(), "thread"); }
 
-class EmbreeBackend final : public Backend {
+class CpuBackend final : public Backend {
  public:
-  [[nodiscard]] std::string deviceName() const override { return fmt::format("{} on {}", library_, cpuThreads()); }
-  [[nodiscard]] std::vector<std::string> deviceLines() const override { return {deviceName()}; }
+  [[nodiscard]] std::string deviceName() const override {
+    return fmt::format("CPU, {}, single precision", cpuThreads());
+  }
+  [[nodiscard]] std::vector<std::string> deviceLines() const override { return {fmt::format("cpu: {}", deviceName())}; }
   [[nodiscard]] std::unique_ptr<ConeTracer> makeTracer(const TraceScene& scene, const Cone& cone,
                                                        const TracerNeeds&) override {
-    return makeEmbreeTracer(scene, cone);
+    return makeCpuTracer(scene, cone);
   }
-
- private:
-  std::string library_ = embreeName();
 };
 
 class ReferenceBackend final : public Backend {
@@ -54,15 +53,14 @@ std::unique_ptr<Backend> makeOnCpu(const SessionOptions&) {
 struct BackendRow {
   const char* name;
   bool usesVulkan;
-  bool (*isBuilt)();
   std::unique_ptr<Backend> (*make)(const SessionOptions& options);
 };
 
 /// In the order in which "auto" tries them.
 constexpr std::array kBackends{
-    BackendRow{"vulkan", true, [] { return true; }, makeVulkanBackend},
-    BackendRow{"cpu", false, hasEmbree, makeOnCpu<EmbreeBackend>},
-    BackendRow{"reference", false, [] { return true; }, makeOnCpu<ReferenceBackend>},
+    BackendRow{"vulkan", true, makeVulkanBackend},
+    BackendRow{"cpu", false, makeOnCpu<CpuBackend>},
+    BackendRow{"reference", false, makeOnCpu<ReferenceBackend>},
 };
 
 constexpr std::string_view kAutomaticBackend = "auto";
@@ -118,11 +116,6 @@ std::optional<NamedBackend> openNextBackend(const SessionOptions& options, std::
                                 [&](const BackendRow& candidate) { return candidate.name == failed; });
   if (row == kBackends.end() || row + 1 == kBackends.end()) return std::nullopt;
   return openFirst(std::span(row + 1, kBackends.end()), options);
-}
-
-bool isBackendBuilt(std::string_view name) {
-  return std::any_of(kBackends.begin(), kBackends.end(),
-                     [&](const BackendRow& row) { return row.name == name && row.isBuilt(); });
 }
 
 std::vector<std::string> backendNames() {

@@ -21,7 +21,7 @@ struct TracerNeeds {
   bool hits = false;  ///< The hits of the rays.
 };
 
-/// Traces the rays and owns the solvers: a Vulkan device with its pipelines, Embree, or the reference.
+/// Traces the rays and owns the solvers: a Vulkan device with its pipelines, the CPU, or the reference.
 class Backend {
  public:
   virtual ~Backend() = default;

@@ -185,7 +185,7 @@ void computeOn(const ComputationInput& input, const Options& requested, StageClo
   const Computation computation{options, prepared,        domain, scene,          cone,
                                 backend, session.solvers, clock,  report.warnings};
   const bool keepsNodes = !isLast || options.checkCount || options.keepsScene || options.measuresThickness() ||
-                          sightNeedsNodes(options, backend.isReference());
+                          options.segmentation == Segmentation::Parts;
   if (options.measuresDiameter())
     measureDiameter(result, computation, input.tracers, keepsNodes ? nullptr : &input.scene->bvh, control);
   if (options.measuresThickness())

@@ -78,16 +78,11 @@ LineOfSight makeLineOfSight(const TraceScene& scene, bool usesReference, const R
   std::shared_ptr<SightTracer> tracer;
   return [=](std::span<const LineSegment> segments) mutable {
     control.checkpoint(0);
-    if (!tracer)
-      tracer = usesReference || !hasEmbree() ? makeReferenceSightTracer(scene) : makeEmbreeSightTracer(scene);
+    if (!tracer) tracer = usesReference ? makeReferenceSightTracer(scene) : makeCpuSightTracer(scene);
     std::vector<uint8_t> isClear(segments.size());
     tracer->trace(segments, isClear);
     return isClear;
   };
-}
-
-bool sightNeedsNodes(const Options& options, bool usesReference) {
-  return options.segmentation == Segmentation::Parts && (usesReference || !hasEmbree());
 }
 
 }  // namespace asdfvk

@@ -26,11 +26,8 @@ struct SegmentedValues {
                                             const Options& options, const LineOfSight& sight, StageClock& clock,
                                             Report& report, const RunControl& control);
 
-/// Lines of sight in the scene, which must outlive the result: by Embree where this build has it and `usesReference` is
-/// false, else by the reference. A tracer is made at the first call.
+/// Lines of sight in the scene, which must outlive the result with the nodes of its hierarchy: by the tracer of the
+/// CPU, or by the reference. A tracer is made at the first call.
 [[nodiscard]] LineOfSight makeLineOfSight(const TraceScene& scene, bool usesReference, const RunControl& control);
-
-/// Whether makeLineOfSight() needs the nodes of the hierarchy.
-[[nodiscard]] bool sightNeedsNodes(const Options& options, bool usesReference);
 
 }  // namespace asdfvk

@@ -36,35 +36,6 @@ ASDFVK_ALWAYS_INLINE inline Floats dotLanes(const Vec3f& a, const Vec3Lanes<Floa
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-/// The bitwise or of all lanes; that of the odd ones is in the upper half.
-template <typename Ints>
-ASDFVK_ALWAYS_INLINE inline uint64_t orLanes(const Ints& lanes) {
-  if constexpr (sizeof(Ints) > 16) {
-    using Half = std::conditional_t<sizeof(Ints) == 64, IntsOf<Float8>, IntsOf<Float4>>;
-    std::array<Half, 2> halves;
-    std::memcpy(halves.data(), &lanes, sizeof lanes);
-    return orLanes<Half>(halves[0] | halves[1]);
-  } else {
-    std::array<uint64_t, 2> words;
-    std::memcpy(words.data(), &lanes, sizeof lanes);
-    return words[0] | words[1];
-  }
-}
-
-template <typename Mask>
-ASDFVK_ALWAYS_INLINE inline bool anyLane(const Mask& mask) {
-  return orLanes(mask) != 0;
-}
-
-/// A bit for each lane.
-template <typename Mask>
-ASDFVK_ALWAYS_INLINE inline uint32_t bitsOf(const Mask& mask) {
-  Mask bits;
-  for (size_t lane = 0; lane < kLaneCount<Mask>; ++lane) bits[lane] = 1 << lane;
-  const uint64_t both = orLanes<Mask>(mask & bits);
-  return static_cast<uint32_t>(both | both >> 32);
-}
-
 /// Squared distance between a box and the boxes [low, high] of the lanes.
 template <typename Floats>
 ASDFVK_ALWAYS_INLINE inline Floats squaredDistance(const Vec3f& boxMin, const Vec3f& boxMax,

@@ -89,16 +89,11 @@ class ConeTracer {
 /// on the number of threads.
 [[nodiscard]] std::unique_ptr<ConeTracer> makeReferenceTracer(const TraceScene& scene, const Cone& cone);
 
-/// Embree (Wald et al. 2014) on all cores of the CPU, in float32; lengths are recomputed in double. Values do not
-/// depend on the number of threads. Cones too small for float32 are traced by the reference. The cone must outlive the
-/// tracer. Throws Error{Device} when Embree fails or this build has none.
-[[nodiscard]] std::unique_ptr<ConeTracer> makeEmbreeTracer(const TraceScene& scene, const Cone& cone);
-
-/// Whether this build has Embree, which is optional.
-[[nodiscard]] bool hasEmbree();
-
-/// Name and version of the loaded library, as "Embree 3.13.5". Throws Error{NoEmbree}, Error{EmbreeFailed}.
-[[nodiscard]] std::string embreeName();
+/// float32 in lanes (trace/cpu/ray_walk.h), on all cores of the CPU; lengths are recomputed in double. Values do not
+/// depend on the number of threads, nor on the instruction set. Cones too small for float32 are traced by the
+/// reference. The nodes of the hierarchy are not used after the call; the rest of the scene and the cone must outlive
+/// the tracer.
+[[nodiscard]] std::unique_ptr<ConeTracer> makeCpuTracer(const TraceScene& scene, const Cone& cone);
 
 // In normalised units. Tracers in float32 (resolution 2^-24 at the rim of the bounding box) delegate cones of smaller
 // faces, or with a smaller diameter, to the reference.

@@ -25,8 +25,8 @@ inline constexpr double kSightMargin = 1e-4;
 /// Double precision, on all cores of the CPU. The scene, and the nodes of its hierarchy, must outlive it.
 [[nodiscard]] std::unique_ptr<SightTracer> makeReferenceSightTracer(const TraceScene& scene);
 
-/// Embree in float32 on all cores of the CPU; ten to thirty times as fast. Throws Error{Device} where Embree fails or
-/// this build has none.
-[[nodiscard]] std::unique_ptr<SightTracer> makeEmbreeSightTracer(const TraceScene& scene);
+/// float32 in lanes, on all cores of the CPU; segments that end outside of the box of the mesh are the reference's. The
+/// scene, and the nodes of its hierarchy, must outlive it.
+[[nodiscard]] std::unique_ptr<SightTracer> makeCpuSightTracer(const TraceScene& scene);
 
 }  // namespace asdfvk

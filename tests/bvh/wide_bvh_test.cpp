@@ -111,13 +111,13 @@ double leastCost(std::span<const BvhNode> nodes, uint32_t node, uint32_t rootCou
   const uint32_t count = slotCount(slotCount, node);
   if (count <= kMaxWideLeafTriangleCount) least = halfArea(nodes[node]) * count;
   if (nodes[node].isLeaf()) return least;
-  least = std::min(least, halfArea(nodes[node]) * kWideNodeCost + shared(kWideChildCount));
+  least = std::min(least, halfArea(nodes[node]) * WideCosts{}.node + shared(kWideChildCount));
   for (uint32_t i = 2; i <= rootCount; ++i) least = std::min(least, shared(i));
   return least;
 }
 
 double costOf(std::span<const BvhNode> nodes, const WideCollapse& collapse, uint32_t node) {
-  double cost = halfArea(nodes[node]) * kWideNodeCost;
+  double cost = halfArea(nodes[node]) * WideCosts{}.node;
   const WideChildren children = collapse.childrenOf(node);
   for (const WideChild& child : children.all())
     cost += child.isLeaf ? halfArea(nodes[child.node]) * collapse.primitivesOf(child.node).count
@@ -182,7 +182,7 @@ TEST_CASE("the collapse is the cheapest there is") {
     const Mesh mesh = soup(22, seed, 0.4);
     const Bvh bvh = buildOver(mesh, {1, 16});
     const WideCollapse collapse(bvh.nodes);
-    const double own = halfArea(bvh.nodes[0]) * kWideNodeCost, cost = costOf(bvh.nodes, collapse, 0);
+    const double own = halfArea(bvh.nodes[0]) * WideCosts{}.node, cost = costOf(bvh.nodes, collapse, 0);
     double least = 1e30;
     for (uint32_t k = 1; k < 8; ++k)
       least = std::min(least, own + leastCost(bvh.nodes, 1, k) + leastCost(bvh.nodes, 2, 8 - k));

@@ -38,8 +38,6 @@ const std::vector<Row> kRows{
     {ErrorCode::NoVulkanDriver, ErrorKind::Device, "noVulkanDriver"},
     {ErrorCode::NoUsableDevice, ErrorKind::Device, "noUsableDevice"},
     {ErrorCode::GpuRequired, ErrorKind::Device, "gpuRequired"},
-    {ErrorCode::NoEmbree, ErrorKind::Device, "noEmbree"},
-    {ErrorCode::EmbreeFailed, ErrorKind::Device, "embreeFailed"},
     {ErrorCode::NoDeviceForKernel, ErrorKind::Device, "noDeviceForKernel"},
     {ErrorCode::KernelUnsupported, ErrorKind::Device, "kernelUnsupported"},
     {ErrorCode::DeviceLimit, ErrorKind::Device, "deviceLimit"},

@@ -93,7 +93,7 @@ std::string objection(const std::string& layer, const fs::path& file, const std:
   if (top == "tbb" && !(layer == "core" && file.filename() == "parallel.cpp"))
     return "TBB belongs in core/parallel.cpp";
   if (top == "CLI" && layer != "arguments") return "CLI11 belongs in arguments";
-  if ((top == "embree3" || top == "embree4") && !isIn("embree", file)) return "Embree belongs in the folders embree/";
+  if (top == "embree3" || top == "embree4") return "Embree belongs in bench";
   const bool isOurs = layers().count(top) || top == "shared";
   if (!isOurs || top == layer) return {};
   if (top == "vk" && isVulkan) return {};
@@ -196,10 +196,8 @@ TEST_CASE("the table objects to includes against it") {
 
   CHECK(objection("trace", "src/trace/vulkan/tracer.cpp", "vk/buffer.h").empty());
   CHECK(objection("trace", "src/trace/vulkan/tracer.cpp", "volk.h").empty());
-  for (const char* header : {"embree3/rtcore.h", "embree4/rtcore.h"}) {
+  for (const char* header : {"embree3/rtcore.h", "embree4/rtcore.h"})
     CHECK_FALSE(objection("trace", "src/trace/seed_order.h", header).empty());
-    CHECK(objection("trace", "src/trace/embree/scene.h", header).empty());
-  }
   CHECK(objection("poisson", "src/poisson/eigen.cpp", "Eigen/Sparse").empty());
   CHECK(objection("arguments", "src/arguments/arguments.cpp", "CLI/CLI.hpp").empty());
   CHECK_FALSE(objection("mesh", "src/mesh/dual_graph.cpp", "tbb/parallel_for.h").empty());

@@ -77,7 +77,7 @@ struct WrongPredictions : ChangedPush<PredictionPush> {
   WrongPredictions() : ChangedPush([](PredictionPush& push) { push.maxNormalCosine = -2; }) {}
 };
 
-const std::string kNextBackend = hasEmbree() ? "cpu" : "reference";
+const std::string kNextBackend = "cpu";
 
 /// Two meshes with their values on the device, and on the backend that comes after it.
 struct Expected {

@@ -31,9 +31,8 @@ Options withParts(double seedShare = 1) {
   return options;
 }
 
-/// Embree where this build has it: it is faster.
 Session& fastSession() {
-  static Session session({.backend = hasEmbree() ? "cpu" : "reference"});
+  static Session session({.backend = "cpu"});
   return session;
 }
 
@@ -88,8 +87,7 @@ TEST_CASE("parts from few seeds, and beside normalised values") {
   CHECK(result.field("normalized") != nullptr);
 }
 
-TEST_CASE("the reference gives nearly the same parts as Embree" * doctest::test_suite("slow")) {
-  if (!hasEmbree()) return;
+TEST_CASE("the reference gives nearly the same parts as the CPU tracer" * doctest::test_suite("slow")) {
   const Mesh mesh = generateShape("figure", 1500).mesh;
   const Result expected = referenceSession().compute(mesh, withParts()),
                fast = fastSession().compute(mesh, withParts());

@@ -18,7 +18,7 @@ using namespace std::string_view_literals;
 
 namespace {
 
-Session& partSession() { return isBackendBuilt("cpu") ? *test::allSessions().back() : test::referenceSession(); }
+Session& partSession() { return *test::allSessions().back(); }
 
 Options limitedTo(double limit, bool allowsSharpEdges = false) {
   Options options;

@@ -1,34 +1,26 @@
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <atomic>
 
-#include "asdf_vk/error.h"
 #include "core/check.h"
 #include "core/parallel.h"
 #include "trace/chunks.h"
-#include "trace/embree/embree_cones.h"
+#include "trace/cpu/cone_group.h"
 #include "trace/reference_tracer.h"
 #include "trace/seed_order.h"
 
 namespace asdfvk {
 namespace {
 
-constexpr size_t kFirstEmbreeChunkRayCount = 1u << 16;  // 0.01 to 0.03 s on two cores.
+constexpr size_t kFirstCpuChunkRayCount = 1u << 16;  // 0.01 to 0.03 s on two cores.
 
-class EmbreeTracer final : public ConeTracer {
+class CpuTracer final : public ConeTracer {
  public:
-  EmbreeTracer(const TraceScene& scene, const Cone& cone)
+  CpuTracer(const TraceScene& scene, const Cone& cone)
       : scene_(scene),
         cone_(cone),
         seedOrder_(scene),
         planes_(trianglePlanes(scene)),
-        embree_(std::make_unique<EmbreeScene>(scene, EmbreeMode::Fastest)),
-        contacts_(scene, cone.contactDistance) {
-    if (!needsRobustMode()) return;
-    embree_.reset();  // Before the second one is built: less memory at the peak.
-    embree_ = std::make_unique<EmbreeScene>(scene, EmbreeMode::Robust);
-  }
+        bvh_(encodeLaneBvh(scene.bvh, scene.mesh)) {}
 
   TraceStatistics trace(std::span<const uint32_t> seedFaces, const ConeResults& results,
                         const RunControl& control) override {
@@ -40,16 +32,16 @@ class EmbreeTracer final : public ConeTracer {
   TraceStatistics traceAt(std::span<const ConeStart> starts, const ConeResults& results,
                           const RunControl& control) override {
     if (planes_.empty()) return makeReferenceTracer(scene_, cone_)->traceAt(starts, results, control);
-    const auto seedOf = [&](uint32_t i) { return EmbreeSeed{starts[i], kNoFace, isNearBox(starts[i].origin), {}}; };
+    const auto seedOf = [&](uint32_t i) { return CpuSeed{starts[i], kNoFace, isNearBox(starts[i].origin), {}}; };
     const auto prefetchSeed = [&](uint32_t i) { __builtin_prefetch(&starts[i]); };
     return traceAll(spatialOrder(starts), seedOf, prefetchSeed, results, control);
   }
 
  private:
-  static constexpr size_t kGroupSize = EmbreeConeGroup::kWidth;
+  static constexpr size_t kGroupSize = ConeGroup::kWidth;
 
   /// The cone of a face, without its output array.
-  [[nodiscard]] EmbreeSeed seedAt(uint32_t face) const {
+  [[nodiscard]] CpuSeed seedAt(uint32_t face) const {
     ASDFVK_CHECK(!scene_.geometry.isDegenerate(face));
     const uint32_t primitive = seedOrder_.primitiveOf(face);
     return {
@@ -73,26 +65,26 @@ class EmbreeTracer final : public ConeTracer {
     const size_t hitCount = results.hits.empty() ? 0 : rayCount;  // Per cone.
     const auto hitsOf = [&](uint32_t cone) { return results.hits.subspan(cone * hitCount, hitCount); };
     std::atomic<uint64_t> redoneConeCount = 0;
-    const EmbreeCones cones{scene_, cone_, planes_, *embree_, contacts_};
-    PerThread<EmbreeConeGroup> groups([&] { return EmbreeConeGroup(cones); });
+    const CpuCones cones{scene_, cone_, planes_, bvh_};
+    PerThread<ConeGroup> groups([&] { return ConeGroup(cones); });
     const size_t groupCount = (order.size() + kGroupSize - 1) / kGroupSize;
-    const auto traceGroup = [&](size_t index, EmbreeConeGroup& group) {
+    const auto traceGroup = [&](size_t index, ConeGroup& group) {
       const size_t begin = index * kGroupSize, end = std::min(begin + kGroupSize, order.size());
       // The scattered data of the next group, while this one is traced.
       for (size_t i = end; i < std::min(end + kGroupSize, order.size()); ++i) prefetchSeed(order[i]);
       group.clear();
       for (size_t i = begin; i < end; ++i) {
-        EmbreeSeed seed = seedOf(order[i]);
+        CpuSeed seed = seedOf(order[i]);
         seed.hits = hitsOf(order[i]);
         group.add(seed);
       }
       group.trace();
       redoneConeCount += takeValues(group, std::span(order).subspan(begin, end - begin), results.values);
     };
-    const ChunkSize chunk(std::max<size_t>(1, kFirstEmbreeChunkRayCount / (kGroupSize * rayCount)), groupCount);
+    const ChunkSize chunk(std::max<size_t>(1, kFirstCpuChunkRayCount / (kGroupSize * rayCount)), groupCount);
     forEachChunk(groupCount, chunk, control, [&](size_t begin, size_t end) {
       forEachRange(end - begin, 1, [&](size_t first, size_t last) {
-        EmbreeConeGroup& group = groups.local();
+        ConeGroup& group = groups.local();
         for (size_t i = begin + first; i < begin + last; ++i) traceGroup(i, group);
       });
     });
@@ -100,12 +92,12 @@ class EmbreeTracer final : public ConeTracer {
   }
 
   /// Sets the values of the cones of a group. Returns the number of those that the reference traced.
-  uint64_t takeValues(const EmbreeConeGroup& group, std::span<const uint32_t> cones, std::span<double> values) const {
+  uint64_t takeValues(const ConeGroup& group, std::span<const uint32_t> cones, std::span<double> values) const {
     uint64_t redoneConeCount = 0;
     for (size_t lane = 0; lane < cones.size(); ++lane) {
       double& value = values[cones[lane]];
       if (group.isDoubtful(lane)) {
-        const EmbreeSeed& seed = group.seed(lane);
+        const CpuSeed& seed = group.seed(lane);
         value = referenceCone(scene_, cone_, seed.start, seed.hits);
         ++redoneConeCount;
       } else {
@@ -115,48 +107,17 @@ class EmbreeTracer final : public ConeTracer {
     return redoneConeCount;
   }
 
-  /// Whether many cones of a sample leave the surface, as on an open or self-intersecting mesh, so that tracing them
-  /// again with the reference would take longer than robust mode.
-  [[nodiscard]] bool needsRobustMode() {
-    constexpr size_t kSampleSize = 64, kMaxLeavingCount = 1;
-    EmbreeConeGroup group({scene_, cone_, planes_, *embree_, contacts_});
-    const std::vector<uint32_t>& faces = scene_.bvh.primitiveFaces;
-    const size_t count = std::min(kSampleSize, faces.size());
-    size_t leavingCount = 0;
-    for (size_t i = 0; i < count;) {
-      group.clear();
-      for (; i < count && group.size() < kGroupSize; ++i) {
-        const size_t primitive = i * faces.size() / count;
-        group.add(seedAt(faces[primitive]));
-      }
-      group.trace();
-      for (size_t lane = 0; lane < group.size(); ++lane) leavingCount += group.leavesSurface(lane);
-    }
-    return leavingCount > kMaxLeavingCount;
-  }
-
   TraceScene scene_;
   const Cone& cone_;
   SeedOrder seedOrder_;
   std::vector<TrianglePlane> planes_;
-  std::unique_ptr<EmbreeScene> embree_;
-  ContactFaces contacts_;
+  LaneBvh bvh_;
 };
 
 }  // namespace
 
-bool hasEmbree() { return true; }
-
-std::string embreeName() {
-  const EmbreeDevice device(rtcNewDevice(nullptr));
-  if (!device) throw Error(ErrorCode::EmbreeFailed, "Embree cannot create a device");
-  const auto part = [&](RTCDeviceProperty property) { return rtcGetDeviceProperty(device.get(), property); };
-  return fmt::format("Embree {}.{}.{}", part(RTC_DEVICE_PROPERTY_VERSION_MAJOR),
-                     part(RTC_DEVICE_PROPERTY_VERSION_MINOR), part(RTC_DEVICE_PROPERTY_VERSION_PATCH));
-}
-
-std::unique_ptr<ConeTracer> makeEmbreeTracer(const TraceScene& scene, const Cone& cone) {
-  return std::make_unique<EmbreeTracer>(scene, cone);
+std::unique_ptr<ConeTracer> makeCpuTracer(const TraceScene& scene, const Cone& cone) {
+  return std::make_unique<CpuTracer>(scene, cone);
 }
 
 }  // namespace asdfvk

@@ -18,21 +18,15 @@ using namespace asdfvk;
 
 namespace {
 
-/// Without Embree in this build the test prints that and ends.
-bool isEmbreeThere() {
-  if (!hasEmbree()) MESSAGE("skipped: built without Embree");
-  return hasEmbree();
-}
-
-TraceResults traceByEmbree(const TracedMesh& traced, const ConeOptions& options = {}, Wanted wanted = Wanted::Values,
-                           const RunControl& control = {}) {
+TraceResults traceByCpu(const TracedMesh& traced, const ConeOptions& options = {}, Wanted wanted = Wanted::Values,
+                        const RunControl& control = {}) {
   const Cone cone = makeCone(options);
-  return traceAll(*makeEmbreeTracer(traced.scene(), cone), traced, options.rayCount, wanted, control);
+  return traceAll(*makeCpuTracer(traced.scene(), cone), traced, options.rayCount, wanted, control);
 }
 
 void checkParity(const TracedMesh& traced, const ConeOptions& options = {}) {
   const TraceResults reference = traceByReference(traced, options, Wanted::ValuesAndHits);
-  const TraceResults results = traceByEmbree(traced, options, Wanted::ValuesAndHits);
+  const TraceResults results = traceByCpu(traced, options, Wanted::ValuesAndHits);
   const double diagonal = traced.geometry.bounds.diagonal();
   REQUIRE(!reference.values.empty());
   CHECK(differingCount(results.values, reference.values, diagonal) <= reference.values.size() / 1000);
@@ -40,7 +34,7 @@ void checkParity(const TracedMesh& traced, const ConeOptions& options = {}) {
   CHECK(missCount(results.hits) == missCount(reference.hits));
   CHECK(results.statistics.redoneConeCount <= reference.values.size() / 100);
   CHECK(results.statistics.rayCount == reference.hits.size());
-  CHECK(test::haveSameBits(traceByEmbree(traced, options).values, results.values));  // With and without requested hits.
+  CHECK(test::haveSameBits(traceByCpu(traced, options).values, results.values));  // With and without requested hits.
 }
 
 /// Two layers of the same square, cut along the other diagonals, with opposite orientations: every ray from one hits
@@ -60,16 +54,15 @@ Mesh twoLayersOfAWall(uint32_t side) {
 
 }  // namespace
 
-TEST_CASE("Embree gives the reference's values and hits on every generated shape" * doctest::test_suite("slow")) {
-  if (!isEmbreeThere()) return;
+TEST_CASE("the CPU tracer gives the reference's values and hits on every generated shape" *
+          doctest::test_suite("slow")) {
   for (const std::string_view name : shapeNames()) {
     CAPTURE(name);
     checkParity(TracedMesh(shapes::jittered(generateShape(name, 3000).mesh, 1e-4, 9)));
   }
 }
 
-TEST_CASE("Embree gives the reference's values and hits on open, crossing, nested and non-manifold meshes") {
-  if (!isEmbreeThere()) return;
+TEST_CASE("the CPU tracer gives the reference's values and hits on open, crossing, nested and non-manifold meshes") {
   checkParity(TracedMesh(shapes::jittered(shapes::openBox({1, 2, 3}, 8), 0.01, 2)));
   checkParity(TracedMesh(shapes::soup(2000, 5)));
   checkParity(TracedMesh(shapes::shell(2, 1)));
@@ -77,8 +70,7 @@ TEST_CASE("Embree gives the reference's values and hits on open, crossing, neste
   checkParity(TracedMesh(shapes::inverted(shapes::icosphere(3))));
 }
 
-TEST_CASE("Embree obeys every option of the cone") {
-  if (!isEmbreeThere()) return;
+TEST_CASE("the CPU tracer obeys every option of the cone") {
   const TracedMesh traced(generateShape("animal", 1500).mesh), small(generateShape("animal", 300).mesh);
   for (const uint32_t rayCount : {1u, 2u, 7u, 8u, 9u, 33u}) checkParity(traced, {.rayCount = rayCount});
   for (const uint32_t rayCount : {257u, 1024u}) checkParity(small, {.rayCount = rayCount});
@@ -88,8 +80,7 @@ TEST_CASE("Embree obeys every option of the cone") {
   checkParity(traced, {.rotation = ConeRotation::Hashed});
 }
 
-TEST_CASE("Embree gives the reference's values by CGAL's definition") {
-  if (!isEmbreeThere()) return;
+TEST_CASE("the CPU tracer gives the reference's values by CGAL's definition") {
   for (const std::string_view name : shapeNames()) {
     CAPTURE(name);
     checkParity(TracedMesh(shapes::jittered(generateShape(name, 2000).mesh, 1e-4, 9)),
@@ -101,20 +92,18 @@ TEST_CASE("Embree gives the reference's values by CGAL's definition") {
 }
 
 TEST_CASE("cones of nearly 180 degrees do not end at their own face" * doctest::test_suite("slow")) {
-  if (!isEmbreeThere()) return;
   const ConeOptions wide{.rayCount = 1024, .openingAngleDegrees = 179.9999};
   const TracedMesh traced(shapes::icosphere(3));
-  const TraceResults results = traceByEmbree(traced, wide, Wanted::ValuesAndHits);
+  const TraceResults results = traceByCpu(traced, wide, Wanted::ValuesAndHits);
   size_t ownFaceCount = 0;
   for (size_t i = 0; i < results.hits.size(); ++i) ownFaceCount += results.hits[i].face == i / wide.rayCount;
   CHECK(ownFaceCount == 0);
   CHECK(differingCount(results.values, traceByReference(traced, wide, Wanted::Values).values, 2) == 0);
 }
 
-TEST_CASE("where only Embree traces, lengths equal those of the reference to the resolution of double") {
-  if (!isEmbreeThere()) return;
+TEST_CASE("where float32 suffices, lengths equal those of the reference to the resolution of double") {
   const TracedMesh traced(shapes::jittered(shapes::icosphere(3), 0.03, 7));
-  const TraceResults results = traceByEmbree(traced);
+  const TraceResults results = traceByCpu(traced);
   const std::vector<double> reference = traceByReference(traced, {}, Wanted::Values).values;
   CHECK(results.statistics.redoneConeCount == 0);
   size_t differing = 0;
@@ -123,65 +112,59 @@ TEST_CASE("where only Embree traces, lengths equal those of the reference to the
 }
 
 TEST_CASE("details too small for float32 are the reference's to the bit, and counted") {
-  if (!isEmbreeThere()) return;
   const Mesh large = generateShape("sphere", 500).mesh;
   const Mesh tiny = shapes::scaledAndShifted(large, 1e-6, {0.9, 0.9, 0.9});
   const TracedMesh traced(shapes::joined(large, tiny));
   const std::vector<double> reference = traceByReference(traced, {}, Wanted::Values).values;
-  const TraceResults results = traceByEmbree(traced);
+  const TraceResults results = traceByCpu(traced);
   CHECK(results.statistics.redoneConeCount == tiny.faces.size());
   for (size_t i = large.faces.size(); i < reference.size(); ++i) CHECK(results.values[i] == reference[i]);
 
   Mesh flat = generateShape("slab", 500).mesh;  // its faces are large, its thickness is not
   for (Vec3d& v : flat.vertices) v.z *= 1e-5;
   const TracedMesh flattened(flat);
-  const TraceResults thin = traceByEmbree(flattened);
+  const TraceResults thin = traceByCpu(flattened);
   CHECK(thin.statistics.redoneConeCount > thin.values.size() / 2);
   CHECK(differingCount(thin.values, traceByReference(flattened, {}, Wanted::Values).values, 1e-9) == 0);
 }
 
-TEST_CASE("Embree leaks no ray along the sides of boxes, nor through vertices and edges") {
-  if (!isEmbreeThere()) return;
+TEST_CASE("no ray leaks along the sides of boxes, nor through vertices and edges") {
   for (const uint32_t side : {1u, 3u, 10u}) {
     const TracedMesh traced(shapes::box({2, 3, 0.01}, side));
-    const TraceResults results = traceByEmbree(traced, {}, Wanted::ValuesAndHits);
+    const TraceResults results = traceByCpu(traced, {}, Wanted::ValuesAndHits);
     CHECK(missCount(results.hits) == 0);
     CHECK(differingCount(results.values, traceByReference(traced, {}, Wanted::Values).values, 4) == 0);
   }
 }
 
-TEST_CASE("rays that fall between two triangles are noticed, and the reference traces their cones") {
-  if (!isEmbreeThere()) return;
-  // With float vertices, as in files, 26 of these 600,000 rays pass between triangles in Embree's fast mode.
+TEST_CASE("no ray passes between the triangles of a closed surface with vertices in float32") {
   Mesh mesh = generateShape("cylinder", 20'000).mesh;
   for (Vec3d& vertex : mesh.vertices) vertex = Vec3d(Vec3f(vertex));
   const TracedMesh traced(mesh);
-  const TraceResults results = traceByEmbree(traced, {}, Wanted::ValuesAndHits);
+  const TraceResults results = traceByCpu(traced, {}, Wanted::ValuesAndHits);
   CHECK(missCount(results.hits) == 0);
-  CHECK(results.statistics.redoneConeCount < results.values.size() / 500);
+  CHECK(results.statistics.redoneConeCount == 0);
   CHECK(differingCount(results.values, traceByReference(traced, {}, Wanted::Values).values, 1e-6) <= 1);
 }
 
-TEST_CASE("open surfaces and such as cross are Embree's all the same, though rays leave them") {
-  if (!isEmbreeThere()) return;
+TEST_CASE("open surfaces and such as cross are not traced again by the reference, though rays leave them") {
   for (const Mesh& mesh : {shapes::jittered(shapes::openBox({1, 2, 3}, 8), 0.01, 2), shapes::soup(2000, 5),
                            shapes::inverted(shapes::icosphere(3))}) {
-    const TraceResults results = traceByEmbree(TracedMesh(mesh), {}, Wanted::ValuesAndHits);
+    const TraceResults results = traceByCpu(TracedMesh(mesh), {}, Wanted::ValuesAndHits);
     CHECK(missCount(results.hits) > 0);
-    CHECK(results.statistics.redoneConeCount <= 1);
+    CHECK(results.statistics.redoneConeCount == 0);
   }
 }
 
-TEST_CASE("copies of faces, and degenerate ones beside them, change no value of Embree's") {
-  if (!isEmbreeThere()) return;
+TEST_CASE("copies of faces, and degenerate ones beside them, change no value of the CPU tracer") {
   Mesh mesh = generateShape("torus", 600).mesh;
-  const std::vector<double> expected = traceByEmbree(TracedMesh(mesh)).values;
+  const std::vector<double> expected = traceByCpu(TracedMesh(mesh)).values;
   const size_t count = mesh.faces.size();
   for (size_t f = 0; f < count; f += 7) mesh.faces.push_back(mesh.faces[f]);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   mesh.vertices.push_back({nan, 0, 0});
   mesh.faces.insert(mesh.faces.end(), {{0, 0, 1}, {0, 1, static_cast<uint32_t>(mesh.vertices.size() - 1)}});
-  const TraceResults results = traceByEmbree(TracedMesh(mesh), {}, Wanted::ValuesAndHits);
+  const TraceResults results = traceByCpu(TracedMesh(mesh), {}, Wanted::ValuesAndHits);
   for (size_t f = 0; f < count; ++f) CHECK(results.values[f] == doctest::Approx(expected[f]).epsilon(1e-6));
   REQUIRE(results.values.size() == count + (count + 6) / 7);
   for (size_t i = 0; count + i < results.values.size(); ++i)
@@ -189,8 +172,7 @@ TEST_CASE("copies of faces, and degenerate ones beside them, change no value of 
   for (const ConeHit& hit : results.hits) REQUIRE(hit.face < count);
 }
 
-TEST_CASE("Embree's values have the same bits with one thread and with two, among equally near faces too") {
-  if (!isEmbreeThere()) return;
+TEST_CASE("values of the CPU tracer have the same bits with one thread and with two, among equally near faces too") {
   for (const Mesh& mesh :
        {generateShape("hand", 8000).mesh,
         shapes::joined(twoLayersOfAWall(60), shapes::scaledAndShifted(twoLayersOfAWall(60), 1, {0, 0, 0.5}))}) {
@@ -198,20 +180,19 @@ TEST_CASE("Embree's values have the same bits with one thread and with two, amon
     TraceResults results[2];
     for (const size_t threadCount : {1, 2}) {
       const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threadCount);
-      results[threadCount - 1] = traceByEmbree(traced, {}, Wanted::ValuesAndHits);
+      results[threadCount - 1] = traceByCpu(traced, {}, Wanted::ValuesAndHits);
     }
     CHECK(test::haveSameBits(results[0].values, results[1].values));
     CHECK(test::haveSameBits(results[0].hits, results[1].hits));
   }
 }
 
-TEST_CASE("Embree's values do not depend on the order of the seeds, nor on earlier traces") {
-  if (!isEmbreeThere()) return;
+TEST_CASE("values of the CPU tracer do not depend on the order of the seeds, nor on earlier traces") {
   const TracedMesh traced(generateShape("hand", 4000).mesh);
   const Cone cone = makeCone({});
   std::vector<uint32_t> seeds = traced.seedFaces();
   std::vector<double> forward(seeds.size()), backward(seeds.size());
-  const auto tracer = makeEmbreeTracer(traced.scene(), cone);
+  const auto tracer = makeCpuTracer(traced.scene(), cone);
   tracer->trace(seeds, {forward}, {});
   std::reverse(seeds.begin(), seeds.end());
   tracer->trace(seeds, {backward}, {});
@@ -220,21 +201,19 @@ TEST_CASE("Embree's values do not depend on the order of the seeds, nor on earli
 }
 
 TEST_CASE("meshes without a face, or with one, have no value") {
-  if (!isEmbreeThere()) return;
-  CHECK(traceByEmbree(TracedMesh(Mesh{})).values.empty());
+  CHECK(traceByCpu(TracedMesh(Mesh{})).values.empty());
   const TracedMesh alone(Mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}, {}});
-  const TraceResults none = traceByEmbree(alone, {}, Wanted::ValuesAndHits);
+  const TraceResults none = traceByCpu(alone, {}, Wanted::ValuesAndHits);
   CHECK(std::isnan(none.values.front()));
   CHECK(missCount(none.hits) == none.hits.size());
 }
 
-TEST_CASE("a trace by Embree reports its progress and stops between chunks on request") {
-  if (!isEmbreeThere()) return;
+TEST_CASE("a trace on the CPU reports its progress and stops between chunks on request") {
   const TracedMesh traced(generateShape("torus", 10'000).mesh);
   std::vector<double> fractions;
   std::stop_source stop;
   RunControl control{stop.get_token(), [&](double fraction) { fractions.push_back(fraction); }};
-  (void)traceByEmbree(traced, {}, Wanted::Values, control);
+  (void)traceByCpu(traced, {}, Wanted::Values, control);
   CHECK(std::is_sorted(fractions.begin(), fractions.end()));
   CHECK(fractions.size() > 2);
   CHECK(fractions.front() == 0);
@@ -243,32 +222,20 @@ TEST_CASE("a trace by Embree reports its progress and stops between chunks on re
     if (fraction > 0) stop.request_stop();
   };
   try {
-    (void)traceByEmbree(traced, {}, Wanted::Values, control);
+    (void)traceByCpu(traced, {}, Wanted::Values, control);
     FAIL("it ran to the end");
   } catch (const Error& error) {
     CHECK(error.kind() == ErrorKind::Cancelled);
   }
 }
 
-TEST_CASE("results without room for the cones, and degenerate seeds, are refused by Embree's tracer too") {
-  if (!isEmbreeThere()) return;
+TEST_CASE("results without room for the cones, and degenerate seeds, are refused by the CPU tracer too") {
   Mesh mesh = shapes::icosphere(0);
   mesh.faces.push_back({0, 0, 1});
   const TracedMesh traced(mesh);
   const Cone cone = makeCone({});
-  const auto tracer = makeEmbreeTracer(traced.scene(), cone);
+  const auto tracer = makeCpuTracer(traced.scene(), cone);
   std::vector<double> values(2);
   CHECK_THROWS_AS(tracer->trace(std::vector<uint32_t>{0}, {values}, {}), CheckFailure);
   CHECK_THROWS_AS(tracer->trace(std::vector<uint32_t>{0, 20}, {values}, {}), CheckFailure);
-}
-
-TEST_CASE("Embree has a version, and a build without it reports that") {
-  if (hasEmbree()) {
-    CHECK((embreeName().starts_with("Embree 3.") || embreeName().starts_with("Embree 4.")));
-    return;
-  }
-  const TracedMesh traced(shapes::icosphere(0));
-  const Cone cone = makeCone({});
-  CHECK_THROWS_WITH_AS((void)makeEmbreeTracer(traced.scene(), cone), doctest::Contains("without Embree"), Error);
-  CHECK_THROWS_WITH_AS((void)embreeName(), doctest::Contains("without Embree"), Error);
 }

@@ -1,4 +1,4 @@
-#include "trace/embree/lane_cones.h"
+#include "trace/cpu/lane_cones.h"
 
 #include <bit>
 #include <cmath>

@@ -11,7 +11,7 @@
 #include "trace/cone_tracer.h"
 #include "trace/triangle_planes.h"
 
-// Computes the values of eight cones, one per lane, from the hits of their rays, in double and without Embree.
+// Computes the values of eight cones, one per lane, from the hits of their rays, in double.
 // Coordinates are normalised.
 namespace asdfvk {
 

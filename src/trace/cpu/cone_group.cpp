@@ -1,0 +1,63 @@
+#include "trace/cpu/cone_group.h"
+
+#include <limits>
+
+namespace asdfvk {
+
+ConeGroup::ConeGroup(const CpuCones& cones)
+    : cones_(cones),
+      walk_(cones.bvh, cones.planes),
+      lanes_(cones.cone, cones.planes),
+      hits_(cones.cone.directions.size()) {
+  const auto contactDistance = static_cast<float>(cones.cone.contactDistance);
+  rays_.begins.fill(contactDistance);
+  rays_.outerSideAddition = kOuterSideFactor * contactDistance;
+  rays_.ends.fill(std::numeric_limits<float>::max());
+}
+
+void ConeGroup::add(const CpuSeed& seed) {
+  const size_t lane = size_++;
+  seeds_[lane] = seed;
+  frames_.set(lane, seed.start.frame, seed.start.origin, seed.start.normal);
+  rays_.skipped[lane] = seed.primitive;
+  for (size_t axis = 0; axis < 3; ++axis) rays_.origins[axis][lane] = static_cast<float>(seed.start.origin[axis]);
+  if (seed.fitsFloat) rays_.active |= 1U << lane;
+}
+
+void ConeGroup::clear() {
+  rays_.active = 0;
+  size_ = 0;
+}
+
+void ConeGroup::trace() {
+  for (size_t ray = 0; ray < hits_.size(); ++ray) {
+    cast(cones_.cone.directions[ray], hits_[ray]);
+    for (const uint32_t primitive : hits_[ray].primitives)
+      if (primitive != kNoFace) __builtin_prefetch(&cones_.planes[primitive]);
+  }
+  lanes_.measure(frames_, hits_);
+  values_ = lanes_.values();
+  for (size_t lane = 0; lane < size_; ++lane)
+    if (!seeds_[lane].hits.empty()) writeHits(lane);
+}
+
+/// Casts one ray of all cones; coneDirection: one of Cone::directions.
+void ConeGroup::cast(const Vec3d& coneDirection, LaneHits& hits) {
+  const Vec3d& d = coneDirection;
+  for (size_t axis = 0; axis < 3; ++axis)
+    for (size_t lane = 0; lane < kWidth; ++lane)
+      rays_.directions[axis][lane] = static_cast<float>(
+          d.x * frames_.tangents[axis][lane] + d.y * frames_.bitangents[axis][lane] + d.z * frames_.axes[axis][lane]);
+  walk_.findNearest(rays_);
+  hits = {rays_.primitives, rays_.distances};
+}
+
+void ConeGroup::writeHits(size_t lane) const {
+  for (size_t ray = 0; ray < hits_.size(); ++ray) {
+    const uint32_t primitive = hits_[ray].primitives[lane];
+    seeds_[lane].hits[ray] =
+        primitive == kNoFace ? kMiss : ConeHit{hits_[ray].distances[lane], cones_.scene.bvh.primitiveFaces[primitive]};
+  }
+}
+
+}  // namespace asdfvk

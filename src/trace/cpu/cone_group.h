@@ -1,0 +1,69 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "trace/cpu/lane_cones.h"
+#include "trace/cpu/ray_walk.h"
+
+namespace asdfvk {
+
+/// Data shared by all cones of a trace. Views only.
+struct CpuCones {
+  const TraceScene& scene;
+  const Cone& cone;
+  std::span<const TrianglePlane> planes;
+  const LaneBvh& bvh;
+};
+
+/// A cone to trace, and the output array of its hits.
+struct CpuSeed {
+  ConeStart start;
+  uint32_t primitive = kNoFace;  ///< The face that the origin lies on; kNoFace: none.
+  bool fitsFloat = true;         ///< Otherwise the cone is not cast, and isDoubtful().
+  std::span<ConeHit> hits;       ///< One per ray, or empty.
+};
+
+/// Traces up to eight neighbouring cones together, the same ray of all of them at a time. Lengths are in normalised
+/// units. Keeps its memory from call to call.
+class ConeGroup {
+ public:
+  static constexpr size_t kWidth = LaneHits::kWidth;
+  static_assert(kWidth == RayGroup::kWidth);
+
+  explicit ConeGroup(const CpuCones& cones);
+
+  /// Adds a cone for the next trace(). Precondition: fewer than kWidth cones.
+  void add(const CpuSeed& seed);
+  [[nodiscard]] size_t size() const { return size_; }
+  [[nodiscard]] const CpuSeed& seed(size_t lane) const { return seeds_[lane]; }
+
+  /// Computes the values of all cones that were added.
+  void trace();
+  void clear();
+
+  /// In normalised units, or kNoValue. Meaningless when isDoubtful().
+  [[nodiscard]] double value(size_t lane) const { return values_[lane]; }
+  /// Whether float32 may be too coarse for the cone, so that the reference must trace it: without CpuSeed::fitsFloat,
+  /// or if the value is too small.
+  [[nodiscard]] bool isDoubtful(size_t lane) const {
+    return !seeds_[lane].fitsFloat || values_[lane] < kMinFloatDiameter;
+  }
+
+ private:
+  void cast(const Vec3d& coneDirection, LaneHits& hits);
+  void writeHits(size_t lane) const;
+
+  CpuCones cones_;
+  RayWalk walk_;
+  RayGroup rays_;
+  LaneFrames frames_;
+  LaneCones lanes_;
+  size_t size_ = 0;
+  std::array<CpuSeed, kWidth> seeds_;
+  std::array<double, kWidth> values_{};
+  std::vector<LaneHits> hits_;  // Per ray.
+};
+
+}  // namespace asdfvk
