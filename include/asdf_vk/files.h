@@ -12,10 +12,10 @@
 
 namespace asdfvk {
 
-/// Reads a mesh of PLY, OFF, OBJ or STL, "-" from standard input. The format is detected from the content, or from the
-/// extension where the content is ambiguous (OBJ and binary STL have no magic number). Files that the mesh refers to
-/// are not opened. Throws Error{UnreadableInput}: one line with the file, the line or byte, and the reason;
-/// Error{MeshTooLarge}, Error{InputTooLarge}.
+/// Reads a mesh of PLY, OFF, OBJ, STL, GLB, glTF or 3MF, "-" from standard input. The format is detected from the
+/// content, or from the extension where the content is ambiguous (OBJ and binary STL have no magic number). Files that
+/// the mesh refers to are not opened. Throws Error{UnreadableInput}: one line with the file, the line or byte, and the
+/// reason; Error{MeshTooLarge}, Error{InputTooLarge}.
 [[nodiscard]] ASDFVK_API Mesh readMesh(const std::filesystem::path& path);
 
 /// readMesh() from memory. extension: "ply", ".OBJ", or empty; used where the content is ambiguous.
@@ -29,6 +29,10 @@ struct WriteOptions {
   /// Names of the fields to write, in this order, each with all its locations; empty: all.
   std::vector<std::string> fields = {};
   bool ascii = false;  ///< PLY only; other formats ignore it.
+  /// Field of one component whose colours the file shows, in .ply, .glb and .obj; empty: "segment" where it is written,
+  /// else the first real field.
+  std::string colourOf = {};
+  bool coloursVertices = false;  ///< PLY only: colours of the vertices, too. GLB and OBJ have them anyway.
 };
 
 /// Names of the formats that writeResult() writes.
@@ -39,18 +43,19 @@ struct WriteOptions {
 [[nodiscard]] ASDFVK_API std::string resultFormatOf(const std::filesystem::path& path,
                                                     const WriteOptions& options = {});
 
-/// Writes the fields, and in .ply and .vtu also the mesh. The file is replaced atomically; "-" is standard output.
-/// Vertices are float if every coordinate is exactly representable as float, else double.
-/// PLY: the first real-valued face field with one component is the property `quality` of the faces and determines their
-/// colour; the first such vertex field does so for the vertices. The other fields are properties with their own names.
-/// VTU and NPZ have all fields; in NPZ a vertex field with the name of a face field is stored as vertex_NAME. NPY has
-/// the first field. CSV has one row per face with the first column `face`, or, if no field is per face, one row per
-/// vertex with the first column `vertex`. PLY and CSV split three components into NAME_x, NAME_y and NAME_z. A missing
-/// value is NaN in .npy, .npz and .csv, 0 in .ply and .vtu. Throws Error{OutputNotWritable}; Error{UnknownFormat};
-/// Error{ValueOutOfRange} for real numbers that do not fit into float32 (requireSingles()), but in .csv;
-/// Error{UnknownField} for a name that no field has; Error{OptionConflict} for a field whose size does not fit the
-/// mesh, an invalid or repeated name, and fields that the format cannot hold; Error{ArraySize}, Error{IndexOutOfRange}
-/// for an invalid mesh.
+/// Writes the fields, and in .ply, .vtu, .glb and .obj also the mesh. The file is replaced atomically; "-" is standard
+/// output. Vertices are float if every coordinate is exactly representable as float, else double. PLY: the first
+/// real-valued face field with one component is the property `quality` of the faces and determines their colour; the
+/// first such vertex field does so for the vertices. The other fields are properties with their own names. VTU and NPZ
+/// have all fields; in NPZ a vertex field with the name of a face field is stored as vertex_NAME. NPY has the first
+/// field. GLB has a vertex per corner, with the fields as attributes _NAME; a segment is a primitive with a material of
+/// its own. OBJ has colours of the vertices only; segments are materials, in PATH.mtl. CSV has one row per face with
+/// the first column `face`, or, if no field is per face, one row per vertex with the first column `vertex`. PLY and CSV
+/// split three components into NAME_x, NAME_y and NAME_z. A missing value is NaN in .npy, .npz and .csv, 0 in .ply,
+/// .vtu and .glb. Throws Error{OutputNotWritable}; Error{UnknownFormat}; Error{ValueOutOfRange} for real numbers that
+/// do not fit into float32 (requireSingles()), but in .csv; Error{UnknownField} for a name that no field has;
+/// Error{OptionConflict} for a field whose size does not fit the mesh, an invalid or repeated name, and fields that the
+/// format cannot hold; Error{ArraySize}, Error{IndexOutOfRange} for an invalid mesh.
 ASDFVK_API void writeResult(const std::filesystem::path& path, const MeshView& mesh, std::span<const Field> fields,
                             const WriteOptions& options = {});
 

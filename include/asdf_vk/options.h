@@ -142,6 +142,9 @@ struct ThicknessOptions {
   /// Report the connected parts of the surface below this thickness, in the unit of the mesh; above 0. Implies
   /// Measure::Thickness.
   std::optional<double> thinnerThan;
+  /// Unit of thinnerThan: "um", "mm", "cm", "m", "in" or "ft"; empty: that of the mesh. Needs a mesh that states its
+  /// unit (Mesh::unit).
+  std::string limitUnit = {};
   /// Leave thin regions that contain a sharp edge or tip out of the verdict and of the minimum. Requires thinnerThan.
   bool allowsSharpEdges = false;
 };

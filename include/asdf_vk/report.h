@@ -76,6 +76,9 @@ enum class WarningCode {
   ThinShell,            ///< The shape is a thin wall around a cavity: its parts are uncertain.
   PartCountDiffers,     ///< The number of parts is not the requested one.
   OnlySmallComponents,  ///< No component has 1 % of the area: each is a part.
+  SkippedContent,       ///< The file has more than a surface, which was left out.
+  UncertainParts,       ///< Other numbers of patches give other parts.
+  CoarseParts,          ///< The faces are too large for parts.
 };
 /// "missingValues"
 [[nodiscard]] ASDFVK_API const char* nameOf(WarningCode code);
@@ -260,6 +263,7 @@ struct Report {
   uint64_t vertexCount = 0;        ///< Vertices of the input.
   uint64_t componentCount = 0;     ///< Connected components.
   Vec3d size;                      ///< Sides of the bounding box along x, y, z, in the unit of the mesh.
+  std::string unit;                ///< Unit of length that the file states: "mm"; empty where it states none.
   uint64_t seedCount = 0;          ///< Triangles that cast rays.
   uint64_t rayCount = 0;           ///< Rays of all seeds.
   uint64_t redoneConeCount = 0;    ///< Cones beyond the limits of the device or of float32, traced by the reference.

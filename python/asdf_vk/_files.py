@@ -16,7 +16,7 @@ Mesh = _core.Mesh
 
 
 def read_mesh(path: str | os.PathLike[str]) -> Mesh:
-    """Reads PLY, OFF, OBJ or STL. All faces, in file order.
+    """Reads PLY, OFF, OBJ, STL, GLB, glTF or 3MF. All faces, in file order.
 
     The result has `vertices` (n, 3) float64 and `faces` (m, 3) int32, both read-only views. Of a file with other
     faces than triangles, `faces` is a triangulation, `face_of_triangle` (m,) the face of the file of each triangle,

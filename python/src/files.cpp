@@ -87,11 +87,12 @@ py::tuple stateOf(const Mesh& mesh) {
   };
   const Polygons& polygons = mesh.polygons;
   return py::make_tuple(bytesOf(mesh.vertices), bytesOf(mesh.faces), bytesOf(polygons.firstCorner),
-                        bytesOf(polygons.corners), bytesOf(polygons.inputFaceOf));
+                        bytesOf(polygons.corners), bytesOf(polygons.inputFaceOf), mesh.unit, mesh.statedPartCount,
+                        mesh.skipped);
 }
 
 Mesh meshOf(const py::tuple& state) {
-  if (state.size() != 5) throw Error(ErrorCode::ArraySize, "the pickled mesh has not five arrays");
+  if (state.size() != 8) throw Error(ErrorCode::ArraySize, "the pickled mesh has not eight members");
   size_t i = 0;
   const auto read = [&](auto& entries) {
     const auto bytes = state[i++].cast<std::string_view>();
@@ -104,6 +105,9 @@ Mesh meshOf(const py::tuple& state) {
   read(mesh.polygons.firstCorner);
   read(mesh.polygons.corners);
   read(mesh.polygons.inputFaceOf);
+  mesh.unit = state[5].cast<std::string>();
+  mesh.statedPartCount = state[6].cast<uint32_t>();
+  mesh.skipped = state[7].cast<std::vector<std::string>>();
   return mesh;
 }
 
@@ -118,6 +122,9 @@ void bindFiles(py::module_& module) {
                              "Faces of the file. Functions return a value for each.")
       .def_property_readonly("face_of_triangle", faceOfTriangle,
                              "(m,) int32, the face of the file of each triangle; None where all are triangles.")
+      .def_property_readonly(
+          "unit", [](const Mesh& self) { return self.unit; },
+          "Unit of length that the file states (3MF, glTF), as \"mm\"; empty for the others.")
       .def("__repr__",
            [](const Mesh& self) {
              return "<asdf_vk.Mesh, " + std::to_string(self.vertices.size()) + " vertices, " +

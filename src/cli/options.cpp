@@ -149,6 +149,7 @@ void completeFields(CommandLine& line, bool choosesPicture) {
     return std::any_of(shown.begin(), shown.end(), [&](const auto& field) { return field.second == name; });
   };
   if (shows("centre") || !outputs.points.empty()) options.computesCentres = true;
+  if (options.segmentation != Segmentation::None && !choosesPicture) outputs.pictureOf = "segment";
   if (options.measuresThickness()) {
     if (shows("sdf") || shows("seed") || shows("error")) options.measure = Measure::Both;
     if (!choosesPicture) outputs.pictureOf = options.thickness.thinnerThan ? "" : "thickness";

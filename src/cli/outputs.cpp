@@ -156,6 +156,7 @@ std::vector<std::string> planOutputs(const Outputs& outputs, const BatchOptions&
     const std::string output = planOutput(file, outputs, batch);
     const std::string format = writesPages(outputs) ? kPageFormat : plannedFormat(output, options);
     if (outputs.ascii && format != "ply") usageError("--ascii is for PLY only; drop it");
+    if (outputs.coloursVertices && format != "ply") usageError("--vertex-colours is for PLY only; drop it");
     if (output != "-") {
       if (contradicts(output, format))
         usageError(fmt::format("-o {} and --format {} contradict each other; drop one", output, outputs.format));
@@ -192,7 +193,9 @@ std::vector<std::string> planOutputs(const Outputs& outputs, const BatchOptions&
 WriteOptions writeOptionsOf(const Outputs& outputs, const Options& options) {
   return {.format = outputs.path == "-" && outputs.format.empty() ? "ply" : outputs.format,
           .fields = fieldNames(outputs, options),
-          .ascii = outputs.ascii};
+          .ascii = outputs.ascii,
+          .colourOf = outputs.colourOf,
+          .coloursVertices = outputs.coloursVertices};
 }
 
 std::span<const Field> writableFields(const WriteOptions& options, PerElement per, const std::string& output,

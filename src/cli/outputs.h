@@ -20,6 +20,8 @@ struct Outputs {
   std::string format;               ///< A name of outputFormats(); empty: by `path`, else ply.
   std::vector<std::string> fields;  ///< Names of --fields, in this order; empty: the default ones, see fieldNames().
   bool ascii = false;
+  std::string colourOf = {};  ///< See WriteOptions.
+  bool coloursVertices = false;
   std::string picture;            ///< A .png, "-" for standard output; empty: none.
   std::string pictureOf = "sdf";  ///< Name of the field to show; empty: the thin places.
   View pictureView;

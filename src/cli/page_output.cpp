@@ -38,6 +38,8 @@ FieldList shownFields(const MeshOutcome& outcome) {
     const bool isShown = std::any_of(shown.begin(), shown.end(), [&](const Field& other) { return &other == &field; });
     if (field.location == FieldLocation::PerFace && field.componentCount == 1 && !isShown) shown.emplace_back(field);
   }
+  // The first one is what the page shows when it is opened.
+  std::stable_partition(shown.begin(), shown.end(), [](const Field& field) { return field.name == "segment"; });
   return shown;
 }
 

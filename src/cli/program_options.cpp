@@ -149,6 +149,24 @@ const std::array kOutputRows{
               .moreNames = outputFormats},
     OptionRow{
         .name = "ascii", .group = kOutputGroup, .access = ASDFVK_MEMBER(Outputs, ascii), .text = "Write PLY as text"},
+    OptionRow{.name = "colour-of",
+              .group = kOutputGroup,
+              .text = "Field whose colours a viewer of .ply, .glb and .obj shows",
+              .more = "It must be written, and have one component.",
+              .defaultText = "segment with --segment, else the first real one",
+              .moreNames = pictureFields,
+              .read =
+                  [](void* t, const OptionValue& value) {
+                    requireFieldName(textOf(value));
+                    static_cast<Outputs*>(t)->colourOf = textOf(value);
+                    return true;
+                  },
+              .write = [](const void* t) { return nameOrNone(static_cast<const Outputs*>(t)->colourOf); }},
+    OptionRow{.name = "vertex-colours",
+              .group = kOutputGroup,
+              .access = ASDFVK_MEMBER(Outputs, coloursVertices),
+              .text = "Colour the vertices of PLY, too: Blender shows these",
+              .more = "`.glb` and `.obj` have them anyway."},
     OptionRow{.name = "points",
               .group = kOutputGroup,
               .text = "Also write the skeleton points of the faces, half of the shape diameter below each, with radius "
@@ -181,7 +199,9 @@ const std::array kOutputRows{
               .group = kPictureGroup,
               .text = "Field to show",
               .needs = "picture",
-              .defaultText = "sdf, thickness with --measure thickness, or the places thinner than a limit",
+              .defaultText =
+                  "sdf, segment with --segment, thickness with --measure thickness, or the places thinner than "
+                  "a limit",
               .moreNames = pictureFields,
               .read = readPictureOf,
               .write = noValue},
@@ -197,7 +217,7 @@ const std::array kOutputRows{
     OptionRow{.name = "picture-up",
               .group = kPictureGroup,
               .access = ASDFVK_CHOICE(Outputs, pictureView.up, kUps),
-              .text = "Up axis of the picture. auto: z of an STL file, else y, unless the mesh stands more stably on "
+              .text = "Up axis of the picture. auto: z of STL and 3MF, else y, unless the mesh stands more stably on "
                       "another axis",
               .needs = "picture"},
 };

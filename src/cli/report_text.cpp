@@ -27,9 +27,10 @@ std::string meshRow(const Report& report) {
   std::string text = groupedCount(report.faceCount, "face");
   if (report.triangleCount != report.faceCount)
     text += fmt::format(" ({})", groupedCount(report.triangleCount, "triangle"));
-  return text + fmt::format(", {}, {}",
-                            report.vertexCount == 1 ? "1 vertex" : groupDigits(report.vertexCount) + " vertices",
-                            groupedCount(report.componentCount, "component"));
+  return text +
+         fmt::format(", {}, {}", report.vertexCount == 1 ? "1 vertex" : groupDigits(report.vertexCount) + " vertices",
+                     groupedCount(report.componentCount, "component")) +
+         (report.unit.empty() ? "" : ", unit " + report.unit);
 }
 
 std::string shortValueRow(const Report& report) {
@@ -98,9 +99,9 @@ ReportRows shortRows(const Report& report) {
   ReportRows rows;
   if (report.thickness) {
     rows = shortThicknessRows(*report.thickness);
-    rows.emplace_back("mesh",
-                      fmt::format("{}, bounding box {:.4g} x {:.4g} x {:.4g}", groupedCount(report.faceCount, "face"),
-                                  report.size.x, report.size.y, report.size.z));
+    rows.emplace_back(
+        "mesh", fmt::format("{}, bounding box {:.4g} x {:.4g} x {:.4g}{}", groupedCount(report.faceCount, "face"),
+                            report.size.x, report.size.y, report.size.z, report.unit.empty() ? "" : " " + report.unit));
   } else {
     rows = {{"mesh", meshRow(report)}, {"diameter", shortValueRow(report)}};
   }
@@ -183,6 +184,8 @@ std::string textWarning(const Warning& warning) {
   }
   if (warning.code == WarningCode::InvertedComponents) text += "; --orient auto reverses inverted components";
   if (warning.code == WarningCode::ThinShell) text += "; fewer parts: --detail 0.5, more: --detail 2";
+  if (warning.code == WarningCode::UncertainParts) text += "; look at them, and choose --parts N or --detail X";
+  if (warning.code == WarningCode::CoarseParts) text += "; subdivide or remesh the mesh";
   if (warning.code == WarningCode::OnlySmallComponents) text += "; weld equal vertices if they are one surface";
   if (warning.code == WarningCode::FinishedOnCpu) text += "; --solver cpu may be faster here";
   if (warning.code == WarningCode::RangeDominated) text += "; use the relative error, as --max-error E%rel does";

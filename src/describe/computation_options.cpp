@@ -5,7 +5,9 @@
 #include <fmt/core.h>
 
 #include <array>
+#include <cmath>
 
+#include "core/length_unit.h"
 #include "core/text.h"
 
 namespace asdfvk {
@@ -35,6 +37,29 @@ std::string_view textIn(const OptionValue& value) {
 
 Options& optionsOf(void* target) { return static_cast<ComputationSettings*>(target)->options; }
 const Options& optionsOf(const void* target) { return static_cast<const ComputationSettings*>(target)->options; }
+
+constexpr const char* kLengthWanted = "a number above 0, or one with a unit, such as 0.8mm";
+
+/// 0.8, "0.8" or "0.8mm".
+bool readLength(const OptionValue& value, std::optional<double>& length, std::string& unit) {
+  std::string_view text = textIn(value), unitName;
+  for (const LengthUnit& known : kLengthUnits)
+    if (text.ends_with(known.name) && known.name.size() > unitName.size()) unitName = known.name;
+  text.remove_suffix(unitName.size());
+  while (text.ends_with(' ')) text.remove_suffix(1);
+  std::optional<double> number = numberIn<double>(text);
+  if (const auto* real = std::get_if<double>(&value)) number = *real;
+  if (const auto* whole = std::get_if<uint64_t>(&value)) number = static_cast<double>(*whole);
+  if (!number || !(*number > 0) || !std::isfinite(*number)) return false;
+  length = number;
+  unit = unitName;
+  return true;
+}
+
+OptionValue lengthValue(const std::optional<double>& length, const std::string& unit) {
+  if (!length) return {};
+  return unit.empty() ? OptionValue(*length) : OptionValue(fmt::format("{}{}", *length, unit));
+}
 
 bool readSeeds(void* target, const OptionValue& value) {
   SeedCount& seeds = optionsOf(target).seeds;
@@ -290,19 +315,44 @@ const std::array kComputationRows{
               .more = "All faces are measured, whatever `--seeds` is; without the shape diameter no rays are traced."},
     OptionRow{.name = "thinner-than",
               .group = kThicknessGroup,
-              .access = COMPUTATION_MEMBER(options.thickness.thinnerThan),
               .range = above(0),
               .text = "Whether any point of the surface is thinner than T, in the unit of the mesh, and where; implies "
                       "--measure thickness",
-              .placeholder = "T"},
+              .more = "With a unit, such as `0.8mm`, where the file states its own (3MF, glTF): `um`, `mm`, `cm`, `m`, "
+                      "`in` or `ft`.",
+              .placeholder = "T",
+              .defaultText = "-",
+              .keywordType = "float | str",
+              .wanted = kLengthWanted,
+              .read =
+                  [](void* target, const OptionValue& value) {
+                    ThicknessOptions& thickness = optionsOf(target).thickness;
+                    return readLength(value, thickness.thinnerThan, thickness.limitUnit);
+                  },
+              .write =
+                  [](const void* target) {
+                    const ThicknessOptions& thickness = optionsOf(target).thickness;
+                    return lengthValue(thickness.thinnerThan, thickness.limitUnit);
+                  }},
     OptionRow{.name = "fail-if-thinner",
               .group = kThicknessGroup,
-              .access = COMPUTATION_MEMBER(failIfThinner),
               .range = above(0),
               .text = "The same, and exit code 6 where a point is thinner than T, 5 where parts of the surface cannot "
                       "be judged",
               .placeholder = "T",
-              .keyword = ""},
+              .defaultText = "-",
+              .keyword = "",
+              .wanted = kLengthWanted,
+              .read =
+                  [](void* target, const OptionValue& value) {
+                    auto& settings = *static_cast<ComputationSettings*>(target);
+                    return readLength(value, settings.failIfThinner, settings.failIfThinnerUnit);
+                  },
+              .write =
+                  [](const void* target) {
+                    const auto& settings = *static_cast<const ComputationSettings*>(target);
+                    return lengthValue(settings.failIfThinner, settings.failIfThinnerUnit);
+                  }},
     OptionRow{.name = "allow-sharp-edges",
               .group = kThicknessGroup,
               .access = COMPUTATION_MEMBER(options.thickness.allowsSharpEdges),

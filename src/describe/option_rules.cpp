@@ -16,9 +16,10 @@ void applyLimit(ComputationSettings& computation, const GivenOptions& given) {
   Options& options = computation.options;
   std::optional<double>& limit = options.thickness.thinnerThan;
   if (computation.failIfThinner) {
-    if (limit && *limit != *computation.failIfThinner)
+    if (limit && (*limit != *computation.failIfThinner || options.thickness.limitUnit != computation.failIfThinnerUnit))
       refuseOption("{thinner-than} and {fail-if-thinner} have different limits; give one of them", given.spelling);
     limit = computation.failIfThinner;
+    options.thickness.limitUnit = computation.failIfThinnerUnit;
   }
   if (!limit || options.measuresThickness()) return;
   if (given.has("measure"))

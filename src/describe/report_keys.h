@@ -15,7 +15,7 @@ inline constexpr std::array kStageNames{"read", "geometry", "graph", "bvh", "enc
     "thickness", "predict", "solve", "estimate", "smooth", "postprocess", "segment", "write"};
 inline constexpr std::array kWarningCodeNames{"meshDefect", "invertedComponents", "componentsReversed", "missingValues",
     "finishedOnCpu", "backendReplaced", "predictedOnCpu", "solvedOnCpu", "notConverged", "rangeDominated", "thinShell",
-    "partCountDiffers", "onlySmallComponents"};
+    "partCountDiffers", "onlySmallComponents", "skippedContent", "uncertainParts", "coarseParts"};
 inline constexpr std::array kThicknessVerdictNames{"passed", "failed", "notJudged"};
 
 /// Calls visit(key, member) for each member; names: the keys, separated by ", ".
@@ -58,9 +58,9 @@ ASDFVK_KEYS(CheckReport, passed, independent, tracedCount, agreeingCount, noValu
 ASDFVK_KEYS(MeshDefects, zeroAreaFaceCount, duplicateFaceCount, nonFiniteVertexCount, nonFiniteFaceCount,
             boundaryEdgeCount, nonManifoldEdgeCount, inconsistentEdgeCount, unreferencedVertexCount, shortPolygonCount)
 ASDFVK_KEYS(Warning, code, message, details)
-ASDFVK_KEYS(Report, faceCount, regionFaceCount, triangleCount, vertexCount, componentCount, size, seedCount, rayCount,
-            redoneConeCount, noValueCount, clampedCount, reversedFaceCount, randomSeed, roundCount, backend, device,
-            runsOnCpu, traceChoice, stageSeconds, raysPerSecond, traceDeviceSeconds, solver, sdf, postprocess,
+ASDFVK_KEYS(Report, faceCount, regionFaceCount, triangleCount, vertexCount, componentCount, size, unit, seedCount,
+            rayCount, redoneConeCount, noValueCount, clampedCount, reversedFaceCount, randomSeed, roundCount, backend,
+            device, runsOnCpu, traceChoice, stageSeconds, raysPerSecond, traceDeviceSeconds, solver, sdf, postprocess,
             segmentCount, parts, thickness, estimatedError, check, defects, warnings)
 #undef ASDFVK_KEYS
 

@@ -152,6 +152,27 @@ Warning partCountDiffers(uint32_t requested, uint32_t found) {
           {{"requested", std::to_string(requested)}, {"found", std::to_string(found)}}};
 }
 
+Warning skippedContent(const std::vector<std::string>& skipped) {
+  return {WarningCode::SkippedContent,
+          fmt::format("the file also has {}, which was left out", joined(skipped, ", ")),
+          {{"skipped", joined(skipped, ", ")}}};
+}
+
+Warning uncertainParts(double agreement) {
+  return {WarningCode::UncertainParts,
+          fmt::format("the parts are uncertain: divisions of other sizes agree by {:.2f} only", agreement),
+          {{"agreement", numberText(agreement)}}};
+}
+
+Warning coarseParts(double areaShare) {
+  return {
+      WarningCode::CoarseParts,
+      fmt::format("faces that are longer than the shape is thick have {:.0f} % of the area: the boundaries of parts "
+                  "there are coarse, and parts may be missing",
+                  100 * areaShare),
+      {{"areaShare", numberText(areaShare)}}};
+}
+
 Warning onlySmallComponents(double minShare, uint64_t partCount) {
   return {WarningCode::OnlySmallComponents,
           fmt::format("no component has {:g} % of the area, so each of the {} components is a part", 100 * minShare,

@@ -40,6 +40,15 @@ struct MissingValues {
 [[nodiscard]] Warning thinShell(double clearShare);
 [[nodiscard]] Warning partCountDiffers(uint32_t requested, uint32_t found);
 /// minShare: of the area, which no component has.
+/// skipped: Mesh::skipped.
+[[nodiscard]] Warning skippedContent(const std::vector<std::string>& skipped);
+
+/// agreement: PartsReport::agreement.
+[[nodiscard]] Warning uncertainParts(double agreement);
+
+/// areaShare: of faces that are longer than the shape is thick.
+[[nodiscard]] Warning coarseParts(double areaShare);
+
 [[nodiscard]] Warning onlySmallComponents(double minShare, uint64_t partCount);
 
 }  // namespace asdfvk

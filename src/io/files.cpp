@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <cstring>
 #include <new>
+#include <optional>
 
 #include "asdf_vk/error.h"
 #include "core/atomic_file.h"
@@ -130,12 +131,23 @@ std::string resultFormatOf(const std::filesystem::path& path, const WriteOptions
 void writeResult(const std::filesystem::path& path, const MeshView& mesh, std::span<const Field> fields,
                  const WriteOptions& options) {
   const FileFormat& format = findResultFormat(path, options.format);
-  const ResultView result(mesh, fields, options.fields, options.ascii);
+  ResultView result(mesh, fields, options.fields, {options.ascii, options.colourOf, options.coloursVertices});
   if (!format.writesDoubles)
     for (const Field& field : result.fields())
       if (field.reals() != nullptr) requireSingles(*field.reals(), "'" + field.name + "'");
+  std::error_code ignored;
+  const bool isNamed =
+      path != "-" && (std::filesystem::is_regular_file(path, ignored) || !std::filesystem::exists(path, ignored));
+  std::optional<AtomicFile> beside;
+  if (format.needsBeside != nullptr && isNamed && format.needsBeside(result)) {
+    const std::filesystem::path besidePath = path.string() + ".mtl";
+    result.setBesideName(besidePath.filename().string());
+    beside.emplace(besidePath);
+    format.writeBeside(*beside, result);
+  }
   AtomicFile file(path);
   format.write(file, result);
+  if (beside) beside->commit();  // First: the other file refers to it.
   file.commit();
 }
 

@@ -33,6 +33,10 @@ struct FileFormat {
 
   /// Writes a result by the rules of writeResult() (asdf_vk/files.h). The caller commits the file.
   void (*write)(AtomicFile& file, const ResultView& result) = nullptr;
+  /// Writes a second file, PATH.mtl, to which the first refers by ResultView::besideName(); null for a format without
+  /// one. It is written where needsBeside(result) is true and the first is a file with a name.
+  void (*writeBeside)(AtomicFile& file, const ResultView& result) = nullptr;
+  bool (*needsBeside)(const ResultView& result) = nullptr;
   bool writesDoubles = false;  ///< Real numbers of fields are double in the file, not float32.
 };
 

@@ -290,6 +290,6 @@ Mesh parseGltf(std::span<const char> bytes) { return GltfReader(bytes).read(); }
 void writeGlb(AtomicFile& file, const ResultView& result);
 
 extern const FileFormat kGlbFormat{
-    .name = "glb", .extensions = {"glb", "gltf"}, .detect = detectGltf, .parseMesh = parseGltf};
+    .name = "glb", .extensions = {"glb", "gltf"}, .detect = detectGltf, .parseMesh = parseGltf, .write = writeGlb};
 
 }  // namespace asdfvk

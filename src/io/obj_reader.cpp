@@ -131,6 +131,17 @@ Mesh parseObj(std::span<const char> bytes) { return ObjReader(bytes).read(); }
 
 }  // namespace
 
-extern const FileFormat kObjFormat{.name = "obj", .extensions = {"obj"}, .detect = detectObj, .parseMesh = parseObj};
+// In obj_writer.cpp.
+void writeObj(AtomicFile& file, const ResultView& result);
+void writeObjMaterials(AtomicFile& file, const ResultView& result);
+bool hasObjMaterials(const ResultView& result);
+
+extern const FileFormat kObjFormat{.name = "obj",
+                                   .extensions = {"obj"},
+                                   .detect = detectObj,
+                                   .parseMesh = parseObj,
+                                   .write = writeObj,
+                                   .writeBeside = writeObjMaterials,
+                                   .needsBeside = hasObjMaterials};
 
 }  // namespace asdfvk

@@ -1,6 +1,6 @@
 // Vertices with their fields, then faces: the list `uchar int vertex_indices` (`int int` above 255 corners) and their
-// fields. Fields: of the main one `float quality` and its colour `uchar red green blue alpha`, then the others by name:
-// float, uchar or uint.
+// fields. Fields: of the main one `float quality`, then the colour `uchar red green blue alpha` of the shown one, then
+// the others by name: float, uchar or uint.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -12,10 +12,10 @@
 #include "asdf_vk/error.h"
 #include "core/atomic_file.h"
 #include "core/text.h"
-#include "io/colour_map.h"
 #include "io/formats.h"
 #include "io/input_failure.h"
 #include "io/ply_header.h"
+#include "io/result_colours.h"
 #include "io/stored_fields.h"
 
 namespace asdfvk {
@@ -59,7 +59,17 @@ class ElementFields {
  public:
   ElementFields(const ResultView& result, FieldLocation location, std::initializer_list<std::string_view> reservedNames)
       : main_(result.mainField(location)), columns_(columnsOf(result.fields(), location, main_, reservedNames)) {
-    if (main_ != nullptr) range_ = percentileRange(*main_->reals());
+    const Field* const shown = result.shownField();
+    const bool isVertex = location == FieldLocation::PerVertex;
+    const Field* own = nullptr;
+    for (const Field& field : result.fields())
+      if (shown != nullptr && field.name == shown->name && field.location == location) own = &field;
+    if (own != nullptr)
+      colours_ = coloursOf(*own);
+    else if (main_ != nullptr)
+      colours_ = coloursOf(*main_);
+    else if (shown != nullptr && isVertex && result.coloursVertices())
+      colours_ = vertexColoursOf(result, *shown);
   }
 
   /// No line without a main field.
@@ -72,27 +82,24 @@ class ElementFields {
   void writeProperties(AtomicFile& file) const {
     // One for each alternative of Values.
     constexpr std::array<std::string_view, 3> kPlyTypes{"float", "uchar", "uint"};
-    if (main_ != nullptr)
-      file.write(
-          "property float quality\n"
-          "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty uchar alpha\n");
+    if (main_ != nullptr) file.write("property float quality\n");
+    if (!colours_.empty())
+      file.write("property uchar red\nproperty uchar green\nproperty uchar blue\nproperty uchar alpha\n");
     for (const FieldColumn& column : columns_)
       file.write(fmt::format("property {} {}\n", kPlyTypes[column.field->values.index()], column.name));
   }
 
   void put(RowWriter& row, uint64_t item) const {
-    if (main_ != nullptr) {
-      const double value = (*main_->reals())[item];
-      row.put(withoutNan(value));
-      for (const uint8_t channel : colourOf(value, range_)) row.put(channel);
-    }
+    if (main_ != nullptr) row.put(withoutNan((*main_->reals())[item]));
+    if (!colours_.empty())
+      for (const uint8_t channel : colours_[item]) row.put(channel);
     for (const FieldColumn& column : columns_) row.put(column, item);
   }
 
  private:
   const Field* main_;  ///< May be null.
   std::vector<FieldColumn> columns_;
-  ColourRange range_;
+  std::vector<Rgba> colours_;  ///< Empty where the element has none.
 };
 
 class PlyWriter {

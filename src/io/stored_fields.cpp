@@ -63,8 +63,8 @@ std::vector<FieldColumn> columnsOf(FieldReferences fields, FieldLocation locatio
 }
 
 ResultView::ResultView(const MeshView& mesh, std::span<const Field> fields, std::span<const std::string> names,
-                       bool ascii)
-    : mesh_(mesh), isAscii_(ascii) {
+                       const ResultStyle& style)
+    : mesh_(mesh), style_(style) {
   requireValidArrays(mesh);
   if (names.empty()) fields_.assign(fields.begin(), fields.end());
   for (const std::string& name : names) {
@@ -84,6 +84,29 @@ ResultView::ResultView(const MeshView& mesh, std::span<const Field> fields, std:
 bool ResultView::hasFloatVertices() const {
   return std::all_of(mesh_.doubles().begin(), mesh_.doubles().end(),
                      [](double c) { return !std::isfinite(c) || static_cast<double>(static_cast<float>(c)) == c; });
+}
+
+const std::vector<uint32_t>* ResultView::parts() const {
+  for (const Field& field : fields_)
+    if (field.name == "segment" && field.location == FieldLocation::PerFace)
+      return std::get_if<std::vector<uint32_t>>(&field.values);
+  return nullptr;
+}
+
+const Field* ResultView::shownField() const {
+  const std::string& wanted = style_.colourOf;
+  for (const Field& field : fields_) {
+    if (field.name != (wanted.empty() ? "segment" : wanted)) continue;
+    if (field.componentCount == 1) return &field;
+    if (!wanted.empty())
+      failConflict(fmt::format("field {} has {} components; colours show a field of one component", wanted,
+                               field.componentCount));
+  }
+  if (!wanted.empty())
+    throw Error(ErrorCode::UnknownField,
+                fmt::format("colours of the field {}, which is not written", printable(wanted)));
+  const Field* const ofFaces = mainField(FieldLocation::PerFace);
+  return ofFaces != nullptr ? ofFaces : mainField(FieldLocation::PerVertex);
 }
 
 const Field* ResultView::mainField(FieldLocation location) const {

@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -41,6 +42,13 @@ struct FieldColumn {
 [[nodiscard]] inline uint8_t withoutNan(uint8_t value) { return value; }
 [[nodiscard]] inline uint32_t withoutNan(uint32_t value) { return value; }
 
+/// How a writer shows a result; see WriteOptions.
+struct ResultStyle {
+  bool isAscii = false;
+  std::string colourOf = {};
+  bool coloursVertices = false;
+};
+
 /// The arguments of a writer: a mesh of input faces and the fields on it.
 class ResultView {
  public:
@@ -48,10 +56,21 @@ class ResultView {
   /// no field has; Error{OptionConflict} for a field with an invalid or repeated name, with other than 1 or 3
   /// components, or whose size does not fit the mesh; the errors of requireValidArrays() for an invalid mesh. The
   /// arrays must outlive the view.
-  ResultView(const MeshView& mesh, std::span<const Field> fields, std::span<const std::string> names, bool ascii);
+  ResultView(const MeshView& mesh, std::span<const Field> fields, std::span<const std::string> names,
+             const ResultStyle& style);
 
   [[nodiscard]] FieldReferences fields() const { return fields_; }
-  [[nodiscard]] bool isAscii() const { return isAscii_; }
+  [[nodiscard]] bool isAscii() const { return style_.isAscii; }
+  [[nodiscard]] bool coloursVertices() const { return style_.coloursVertices; }
+  /// The field whose colours a viewer shows first; null without a field that has colours. Throws Error{UnknownField},
+  /// Error{OptionConflict}.
+  [[nodiscard]] const Field* shownField() const;
+  /// The field "segment" of the faces, where it is written.
+  [[nodiscard]] const std::vector<uint32_t>* parts() const;
+  /// Name of the second file; empty where there is none.
+  [[nodiscard]] const std::string& besideName() const { return besideName_; }
+  void setBesideName(std::string name) { besideName_ = std::move(name); }
+  [[nodiscard]] const MeshView& mesh() const { return mesh_; }
 
   [[nodiscard]] uint64_t vertexCount() const { return mesh_.vertexCount(); }
   [[nodiscard]] uint64_t faceCount() const { return mesh_.inputFaceCount(); }
@@ -77,7 +96,8 @@ class ResultView {
  private:
   MeshView mesh_;
   std::vector<std::reference_wrapper<const Field>> fields_;
-  bool isAscii_;
+  ResultStyle style_;
+  std::string besideName_;
 };
 
 }  // namespace asdfvk

@@ -1,9 +1,13 @@
 #include "pipeline/compute.h"
 
+#include <fmt/core.h>
+
 #include <cmath>
 #include <iterator>
 #include <utility>
 
+#include "asdf_vk/error.h"
+#include "core/length_unit.h"
 #include "core/parallel.h"
 #include "describe/fields.h"
 #include "estimate/reference_check.h"
@@ -41,6 +45,7 @@ void describeMesh(Report& report, const PreparedMesh& prepared, const FaceDomain
   report.vertexCount = prepared.mesh.vertices.size();
   report.componentCount = prepared.components.components.size();
   report.size = prepared.geometry.bounds.size();
+  report.unit = prepared.unit;
   report.defects = prepared.defects;
   report.reversedFaceCount = prepared.reversedFaces.size();
   report.warnings = prepared.warnings;
@@ -153,6 +158,20 @@ std::shared_ptr<const SceneData> sceneData(const std::shared_ptr<PreparedScene>&
   return std::make_shared<SceneData>(SceneData{scene, scene->view()});
 }
 
+/// The limit in the unit of the mesh.
+ThicknessOptions inUnitOfMesh(ThicknessOptions thickness, const std::string& unit) {
+  if (!thickness.thinnerThan || thickness.limitUnit.empty()) return thickness;
+  const LengthUnit *const from = findLengthUnit(thickness.limitUnit), *const to = findLengthUnit(unit);
+  if (to == nullptr)
+    throw Error(ErrorCode::OptionConflict,
+                fmt::format("the limit is in {}, and the mesh states no unit; give a plain number, in the unit of the "
+                            "mesh (3MF and glTF state theirs)",
+                            thickness.limitUnit));
+  thickness.thinnerThan = *thickness.thinnerThan * from->micrometres / to->micrometres;
+  thickness.limitUnit.clear();
+  return thickness;
+}
+
 /// Where every face becomes a seed nothing is interpolated, and no hit has to be kept.
 Options withAllSeeds(Options options, const FaceDomain& domain) {
   const uint64_t faceCount = domain.traceableFaces.size();
@@ -173,7 +192,8 @@ void computeOn(const ComputationInput& input, const Options& requested, StageClo
   Backend& backend = *session.named.backend;
   const PreparedMesh& prepared = sharedScene->prepared;
   if (session.named.backend->device() == nullptr) (void)completed(session, requested);  // Another backend than before.
-  const Options options = withAllSeeds(requested, domain);
+  Options options = withAllSeeds(requested, domain);
+  options.thickness = inUnitOfMesh(options.thickness, prepared.unit);
   const Cone cone = makeCone(options.cone);
   describeBackend(report, session.named);
   report.randomSeed = options.randomSeed;

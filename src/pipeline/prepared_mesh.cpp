@@ -138,6 +138,11 @@ PreparedMesh prepareMesh(const MeshView& view, Orientation orientation, StageClo
   prepared.defects = findDefects(mesh, prepared.geometry, prepared.representatives, edges);
   prepared.graph = std::move(edges.graph);
   prepared.warnings = warningsOf(prepared.defects, !mesh.polygons.isEmpty());
+  if (const Mesh* const source = view.mesh()) {
+    prepared.unit = source->unit;
+    prepared.statedPartCount = source->statedPartCount;
+    if (!source->skipped.empty()) prepared.warnings.push_back(skippedContent(source->skipped));
+  }
   orient(prepared, orientation);
   prepared.traceableFaces.reserve(mesh.faces.size());
   for (uint32_t face = 0; face < mesh.faceCount(); ++face)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "asdf_vk/options.h"
@@ -24,6 +25,8 @@ struct PreparedMesh {
   std::vector<uint32_t> invertedComponents;  ///< Inverted components that were left unchanged. Ascending.
   std::vector<uint64_t> reversedFaces;       ///< Input faces, ascending.
   MeshDefects defects;
+  std::string unit;              ///< Mesh::unit.
+  uint32_t statedPartCount = 0;  ///< Mesh::statedPartCount.
   std::vector<Warning> warnings;
   std::vector<uint32_t> traceableFaces;  ///< Faces that are not degenerate: they can cast rays. Ascending.
 };

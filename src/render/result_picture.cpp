@@ -67,7 +67,9 @@ View viewOf(const View& requested, const std::string& input, const Result& resul
   const TraceScene& scene = result.scene->scene;
   if (!view.up) {
     const FileFormat* const format = formatOfExtension(std::filesystem::path(input).extension().string());
-    view.up = format != nullptr && format->name == "stl" ? Up::Z : guessUp(verticesOfHitFaces(scene));
+    view.up = format != nullptr && (format->name == "stl" || format->name == "3mf")
+                  ? Up::Z
+                  : guessUp(verticesOfHitFaces(scene));
   }
   const ThinSurface& surface = result.thinSurface;
   return findsThin ? bestViewOf(scene, surface.triangles, surface.regions, view) : view;

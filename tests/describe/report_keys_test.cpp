@@ -45,7 +45,7 @@ TEST_CASE("stages, verdicts and warnings have a name each") {
   CHECK_EQ(std::string(nameOf(WarningCode::OnlySmallComponents)), "onlySmallComponents");
   CHECK_EQ(namesUpTo(Stage::Write).size(), kStageNames.size());
   CHECK_EQ(namesUpTo(ThicknessVerdict::NotJudged).size(), kThicknessVerdictNames.size());
-  CHECK_EQ(namesUpTo(WarningCode::OnlySmallComponents).size(), kWarningCodeNames.size());
+  CHECK_EQ(namesUpTo(WarningCode::CoarseParts).size(), kWarningCodeNames.size());
 }
 
 }  // namespace

@@ -52,7 +52,7 @@ TEST_CASE("numbers that do not fit into float32 are refused, except by CSV") {
 }
 
 TEST_CASE("the options decide the format, then the extension in any case") {
-  CHECK(resultFormats() == std::vector<std::string>{"ply", "vtu", "npy", "npz", "csv"});
+  CHECK(resultFormats() == std::vector<std::string>{"ply", "obj", "glb", "vtu", "npy", "npz", "csv"});
   CHECK(resultFormatOf("a.ply") == "ply");
   CHECK(resultFormatOf("a.b.VTU") == "vtu");
   CHECK(resultFormatOf("dir.csv/a.NpY") == "npy");
@@ -61,16 +61,16 @@ TEST_CASE("the options decide the format, then the extension in any case") {
 }
 
 TEST_CASE("an unknown format is an error that lists the formats") {
-  for (const char* path : {"a.obj", "a", "ply", ".ply", "", "-", "a.ply.gz"}) {
+  for (const char* path : {"a.stl", "a", "ply", ".ply", "", "-", "a.ply.gz"}) {
     CAPTURE(path);
     CHECK(codeOf([&] { (void)resultFormatOf(path); }) == ErrorCode::UnknownFormat);
   }
-  for (const char* name : {"obj", "PNG", "?"})
+  for (const char* name : {"off", "PNG", "?"})
     CHECK(codeOf([&] { (void)resultFormatOf("a.ply", {.format = name}); }) == ErrorCode::UnknownFormat);
   try {
     (void)resultFormatOf("-");
   } catch (const Error& error) {
-    CHECK(std::string(error.what()).find("ply, vtu, npy, npz or csv") != std::string::npos);
+    CHECK(std::string(error.what()).find("ply, obj, glb, vtu, npy, npz or csv") != std::string::npos);
   }
 }
 

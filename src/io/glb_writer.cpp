@@ -1,0 +1,303 @@
+// Binary glTF 2.0: a vertex for each corner of each triangle, because the fields belong to faces and viewers show them
+// flat. Without parts one primitive, whose COLOR_0 shows the field. With the field "segment" a primitive and a material
+// per part, in the order of their numbers: viewers multiply COLOR_0 with the material, so it is white, and COLOR_1 has
+// the colours of the first real field. The other fields are attributes _NAME in float32, 0 for no value. _FACE is the
+// input face where triangles are not in its order; it is exact up to 16,777,216.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numeric>
+
+#include "asdf_vk/error.h"
+#include "core/atomic_file.h"
+#include "core/json.h"
+#include "core/length_unit.h"
+#include "core/text.h"
+#include "io/formats.h"
+#include "io/result_colours.h"
+#include "mesh/input_faces.h"
+
+namespace asdfvk {
+namespace {
+
+constexpr uint32_t kFloatComponent = 5126, kByteComponent = 5121, kShortComponent = 5123;
+
+/// The triangles of a result, and their input faces.
+class ResultTriangles {
+ public:
+  explicit ResultTriangles(const ResultView& result) {
+    vertices_.reserve(result.vertexCount());
+    std::array<double, 3> point{};
+    uint64_t numberCount = 0;
+    result.putCoordinates<double>([&](double coordinate) {
+      point[numberCount++ % 3] = coordinate;
+      if (numberCount % 3 == 0) vertices_.push_back({point[0], point[1], point[2]});
+    });
+    bool hasTriangles = false;
+    for (uint64_t face = 0; face < result.faceCount(); ++face)
+      hasTriangles = hasTriangles || result.cornersOf(face).size() >= 3;
+    if (!hasTriangles) return;
+    InputFaces faces;
+    faces.reserve(result.faceCount());
+    for (uint64_t face = 0; face < result.faceCount(); ++face) faces.add(result.cornersOf(face));
+    faces.moveTo(vertices_, mesh_);
+  }
+  [[nodiscard]] TriangleMesh view() const {
+    TriangleMesh mesh = mesh_;
+    mesh.vertices = vertices_;
+    return mesh;
+  }
+
+ private:
+  std::vector<Vec3d> vertices_;
+  Mesh mesh_;
+};
+
+/// Triangles of one part.
+struct GlbGroup {
+  uint32_t part = 0;
+  uint64_t begin = 0, end = 0;  ///< In GlbWriter::order_.
+};
+
+/// An attribute of the vertices: `components` of a type, and a function that writes them for a corner.
+struct GlbAttribute {
+  std::string name;
+  uint32_t componentType = kFloatComponent;
+  uint32_t componentCount = 1;
+  bool isNormalized = false;
+  std::function<void(uint32_t triangle, uint32_t corner)> put;
+
+  [[nodiscard]] uint64_t elementSize() const {
+    return uint64_t{componentCount} * (componentType == kFloatComponent ? 4 : componentType == kShortComponent ? 2 : 1);
+  }
+};
+
+std::string upperCase(std::string_view text) {
+  std::string upper;
+  for (const char c : text) upper += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  return upper;
+}
+
+class GlbWriter {
+ public:
+  GlbWriter(AtomicFile& file, const ResultView& result)
+      : file_(file), result_(result), triangles_(result), mesh_(triangles_.view()) {
+    if (mesh_.faces.empty()) return;  // glTF has no empty mesh: a scene of nothing.
+    groupByPart();
+    placeAtOrigin();
+    addAttributes();
+  }
+
+  void write() {
+    const uint64_t cornerCount = uint64_t{3} * mesh_.faceCount();
+    uint64_t binarySize = 0;
+    for (const GlbAttribute& attribute : attributes_) binarySize += cornerCount * attribute.elementSize();
+    std::string json = document(binarySize).dump();
+    json.append((4 - json.size() % 4) % 4, ' ');
+    const uint64_t size = 12 + 8 + json.size() + (binarySize > 0 ? 8 + binarySize : 0);
+    if (size > std::numeric_limits<uint32_t>::max())
+      throw Error(
+          ErrorCode::OutputNotWritable,
+          fmt::format("the result takes {} MiB, a GLB file at most 4096; write .ply, or fewer fields", size >> 20));
+    file_.write("glTF");
+    file_.put(uint32_t{2});
+    file_.put(static_cast<uint32_t>(size));
+    file_.put(static_cast<uint32_t>(json.size()));
+    file_.write("JSON");
+    file_.write(json);
+    if (binarySize == 0) return;
+    file_.put(static_cast<uint32_t>(binarySize));
+    file_.write(std::string_view("BIN\0", 4));
+    for (const GlbAttribute& attribute : attributes_)
+      for (const uint32_t triangle : order_)
+        for (uint32_t corner = 0; corner < 3; ++corner) attribute.put(triangle, corner);
+  }
+
+ private:
+  void groupByPart() {
+    order_.resize(mesh_.faceCount());
+    std::iota(order_.begin(), order_.end(), 0u);
+    parts_ = result_.parts();
+    if (parts_ == nullptr) {
+      groups_.push_back({0, 0, order_.size()});
+      return;
+    }
+    const auto partOf = [&](uint32_t triangle) { return (*parts_)[mesh_.inputFaceOf(triangle)]; };
+    std::stable_sort(order_.begin(), order_.end(), [&](uint32_t a, uint32_t b) { return partOf(a) < partOf(b); });
+    for (uint64_t i = 0; i < order_.size(); ++i) {
+      if (i == 0 || partOf(order_[i]) != groups_.back().part) groups_.push_back({partOf(order_[i]), i, i});
+      groups_.back().end = i + 1;
+    }
+  }
+
+  /// Coordinates that float32 does not hold exactly are relative to the middle of the mesh.
+  void placeAtOrigin() {
+    Vec3d low{1, 1, 1}, high{-1, -1, -1};
+    bool isFirst = true;
+    for (const Vec3d& p : mesh_.vertices) {
+      if (!isFinite(p)) continue;
+      for (size_t axis = 0; axis < 3; ++axis) {
+        low[axis] = isFirst ? p[axis] : std::min(low[axis], p[axis]);
+        high[axis] = isFirst ? p[axis] : std::max(high[axis], p[axis]);
+      }
+      isFirst = false;
+    }
+    middle_ = isFirst ? Vec3d{} : (low + high) / 2.0;
+    if (!result_.hasFloatVertices()) origin_ = middle_;
+  }
+
+  /// A triangle with a corner that is not finite, which glTF does not allow, collapses to a point.
+  [[nodiscard]] Vec3f pointOf(uint32_t triangle, uint32_t corner) const {
+    const bool isWhole = mesh_.hasFiniteCorners(triangle);
+    return static_cast<Vec3f>((isWhole ? mesh_.vertices[mesh_.faces[triangle][corner]] : middle_) - origin_);
+  }
+
+  void addColours(const char* name, const Field& field) {
+    std::vector<std::array<uint16_t, 3>> linear;
+    for (const Rgba& colour : coloursOf(field)) {
+      std::array<uint16_t, 3>& to = linear.emplace_back();
+      const std::array<double, 3> shares = linearColour(colour);
+      for (size_t channel = 0; channel < 3; ++channel)
+        to[channel] = static_cast<uint16_t>(std::lround(65535 * shares[channel]));
+    }
+    attributes_.push_back({name, kShortComponent, 4, true, [this, &field, colours = std::move(linear)](auto t, auto c) {
+                             for (const uint16_t channel : colours[itemOf(field, t, c)]) file_.put(channel);
+                             file_.put(std::numeric_limits<uint16_t>::max());
+                           }});
+  }
+
+  [[nodiscard]] uint64_t itemOf(const Field& field, uint32_t triangle, uint32_t corner) const {
+    return field.location == FieldLocation::PerVertex ? mesh_.faces[triangle][corner] : mesh_.inputFaceOf(triangle);
+  }
+
+  void addAttributes() {
+    attributes_.push_back({"POSITION", kFloatComponent, 3, false, [this](uint32_t triangle, uint32_t corner) {
+                             const Vec3f p = pointOf(triangle, corner);
+                             for (size_t axis = 0; axis < 3; ++axis) file_.put(p[axis]);
+                           }});
+    const Field* shown = result_.shownField();
+    if (parts_ != nullptr) {
+      attributes_.push_back(
+          {"COLOR_0", kByteComponent, 4, true, [this](uint32_t, uint32_t) { file_.put(uint32_t{0xffffffff}); }});
+      if (shown == nullptr || shown->name == "segment") shown = result_.mainField(FieldLocation::PerFace);
+      if (shown != nullptr) addColours("COLOR_1", *shown);
+    } else if (shown != nullptr) {
+      addColours("COLOR_0", *shown);
+    }
+    for (const Field& field : result_.fields()) {
+      const bool isSecond = field.location == FieldLocation::PerVertex &&
+                            std::any_of(result_.fields().begin(), result_.fields().end(), [&](const Field& other) {
+                              return other.name == field.name && other.location == FieldLocation::PerFace;
+                            });
+      attributes_.push_back({(isSecond ? "_VERTEX_" : "_") + upperCase(field.name), kFloatComponent,
+                             field.componentCount, false, [this, &field](uint32_t triangle, uint32_t corner) {
+                               const uint64_t item = itemOf(field, triangle, corner);
+                               for (uint32_t i = 0; i < field.componentCount; ++i)
+                                 file_.put(withoutNan(field.at(item * field.componentCount + i)));
+                             }});
+    }
+    if (parts_ != nullptr || !mesh_.polygons.isEmpty())
+      attributes_.push_back({"_FACE", kFloatComponent, 1, false, [this](uint32_t triangle, uint32_t) {
+                               file_.put(static_cast<float>(mesh_.inputFaceOf(triangle)));
+                             }});
+  }
+
+  /// Least and greatest coordinates of a group, as they are written.
+  [[nodiscard]] std::pair<Vec3f, Vec3f> boundsOf(const GlbGroup& group) const {
+    Vec3f low = pointOf(order_[group.begin], 0), high = low;
+    for (uint64_t i = group.begin; i < group.end; ++i)
+      for (uint32_t corner = 0; corner < 3; ++corner) {
+        const Vec3f p = pointOf(order_[i], corner);
+        for (size_t axis = 0; axis < 3; ++axis) {
+          low[axis] = std::min(low[axis], p[axis]);
+          high[axis] = std::max(high[axis], p[axis]);
+        }
+      }
+    return {low, high};
+  }
+
+  [[nodiscard]] Json materialOf(const GlbGroup& group, const Field* shown) const {
+    Json factor = {1, 1, 1, 1};
+    if (parts_ != nullptr) {
+      const std::array<double, 3> colour = linearColour(colourOfPart(group.part));
+      for (size_t channel = 0; channel < 3; ++channel) factor[channel] = colour[channel];
+    }
+    const std::string name = parts_ != nullptr ? nameOfPart(group.part) : shown != nullptr ? shown->name : "mesh";
+    return {{"name", name},
+            {"doubleSided", true},
+            {"pbrMetallicRoughness", {{"baseColorFactor", factor}, {"metallicFactor", 0}, {"roughnessFactor", 0.8}}}};
+  }
+
+  [[nodiscard]] Json nodeOf() const {
+    Json node = {{"name", "asdf-vk"}, {"mesh", 0}};
+    const Mesh* const source = result_.mesh().mesh();
+    const LengthUnit* const unit = source == nullptr ? nullptr : findLengthUnit(source->unit);
+    const double scale = unit == nullptr ? 1 : unit->micrometres / 1e6;  // The unit of glTF is the metre.
+    if (origin_ != Vec3d{}) node["translation"] = {origin_.x * scale, origin_.y * scale, origin_.z * scale};
+    if (scale != 1) node["scale"] = {scale, scale, scale};
+    return node;
+  }
+
+  [[nodiscard]] Json document(uint64_t binarySize) const {
+    if (mesh_.faces.empty()) return {{"asset", {{"version", "2.0"}, {"generator", "asdf-vk"}}}};
+    Json views = Json::array(), accessors = Json::array(), primitives = Json::array(), materials = Json::array();
+    uint64_t offset = 0;
+    for (const GlbAttribute& attribute : attributes_) {
+      const uint64_t size = uint64_t{3} * mesh_.faceCount() * attribute.elementSize();
+      views.push_back({{"buffer", 0}, {"byteOffset", offset}, {"byteLength", size}, {"target", 34962}});
+      offset += size;
+    }
+    for (const GlbGroup& group : groups_) {
+      Json attributes = Json::object();
+      for (size_t i = 0; i < attributes_.size(); ++i) {
+        const GlbAttribute& attribute = attributes_[i];
+        attributes[attribute.name] = accessors.size();
+        Json accessor = {{"bufferView", i},
+                         {"byteOffset", 3 * group.begin * attribute.elementSize()},
+                         {"componentType", attribute.componentType},
+                         {"count", 3 * (group.end - group.begin)},
+                         {"type", attribute.componentCount == 1   ? "SCALAR"
+                                  : attribute.componentCount == 3 ? "VEC3"
+                                                                  : "VEC4"}};
+        if (attribute.isNormalized) accessor["normalized"] = true;
+        if (i == 0) {
+          const auto [low, high] = boundsOf(group);
+          accessor["min"] = {low.x, low.y, low.z};
+          accessor["max"] = {high.x, high.y, high.z};
+        }
+        accessors.push_back(std::move(accessor));
+      }
+      primitives.push_back({{"attributes", std::move(attributes)}, {"material", materials.size()}});
+      materials.push_back(materialOf(group, result_.shownField()));
+    }
+    return {{"asset", {{"version", "2.0"}, {"generator", "asdf-vk"}}},
+            {"scene", 0},
+            {"scenes", Json::array({{{"nodes", {0}}}})},
+            {"nodes", Json::array({nodeOf()})},
+            {"meshes", Json::array({{{"name", "asdf-vk"}, {"primitives", std::move(primitives)}}})},
+            {"materials", std::move(materials)},
+            {"accessors", std::move(accessors)},
+            {"bufferViews", std::move(views)},
+            {"buffers", Json::array({{{"byteLength", binarySize}}})}};
+  }
+
+  AtomicFile& file_;
+  const ResultView& result_;
+  ResultTriangles triangles_;
+  TriangleMesh mesh_;
+  const std::vector<uint32_t>* parts_ = nullptr;
+  std::vector<uint32_t> order_;  ///< Of the triangles.
+  std::vector<GlbGroup> groups_;
+  std::vector<GlbAttribute> attributes_;
+  Vec3d middle_, origin_;
+};
+
+}  // namespace
+
+void writeGlb(AtomicFile& file, const ResultView& result) { GlbWriter(file, result).write(); }
+
+}  // namespace asdfvk

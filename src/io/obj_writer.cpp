@@ -1,0 +1,77 @@
+// Wavefront OBJ: vertices with a colour each, and the faces in the order of the file. A part is a material (usemtl);
+// the materials are in a second file. OBJ has no place for the values of fields.
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "core/atomic_file.h"
+#include "core/text.h"
+#include "io/formats.h"
+#include "io/result_colours.h"
+
+namespace asdfvk {
+namespace {
+
+/// "part_3": some readers end a name at a blank.
+std::string materialOf(uint32_t part) {
+  std::string name = nameOfPart(part);
+  std::replace(name.begin(), name.end(), ' ', '_');
+  return name;
+}
+
+template <typename T>
+void putWord(AtomicFile& file, char separator, T number) {
+  char* const word = file.reserve(kNumberTextSize + 1);
+  *word = separator;
+  file.advance(static_cast<size_t>(appendNumber(word + 1, number) - word));
+}
+
+void putColour(AtomicFile& file, const Rgba& colour) {
+  for (size_t channel = 0; channel < 3; ++channel) file.write(fmt::format(" {:.4f}", colour[channel] / 255.0));
+}
+
+void writeVertices(AtomicFile& file, const ResultView& result, const std::vector<Rgba>& colours) {
+  uint64_t numberCount = 0;
+  const auto put = [&](auto coordinate) {
+    if (numberCount % 3 == 0) file.put('v');
+    putWord(file, ' ', coordinate);
+    if (++numberCount % 3 != 0) return;
+    if (!colours.empty()) putColour(file, colours[numberCount / 3 - 1]);
+    file.put('\n');
+  };
+  result.hasFloatVertices() ? result.putCoordinates<float>(put) : result.putCoordinates<double>(put);
+}
+
+}  // namespace
+
+void writeObj(AtomicFile& file, const ResultView& result) {
+  const Field* const shown = result.shownField();
+  file.write(fmt::format("# asdf-vk: {}{}\n", shown == nullptr ? "no colours" : "colours show ",
+                         shown == nullptr ? "" : shown->name));
+  if (!result.besideName().empty()) file.write(fmt::format("mtllib {}\n", result.besideName()));
+  file.write("o asdf-vk\n");
+  writeVertices(file, result, shown == nullptr ? std::vector<Rgba>() : vertexColoursOf(result, *shown));
+  const std::vector<uint32_t>* const parts = result.parts();
+  for (uint64_t face = 0; face < result.faceCount(); ++face) {
+    if (parts != nullptr && (face == 0 || (*parts)[face] != (*parts)[face - 1]))
+      file.write(fmt::format("usemtl {}\n", materialOf((*parts)[face])));
+    file.put('f');
+    for (const uint32_t corner : result.cornersOf(face)) putWord(file, ' ', uint64_t{corner} + 1);
+    file.put('\n');
+  }
+}
+
+void writeObjMaterials(AtomicFile& file, const ResultView& result) {
+  std::vector<uint32_t> parts = *result.parts();
+  std::sort(parts.begin(), parts.end());
+  parts.erase(std::unique(parts.begin(), parts.end()), parts.end());
+  for (const uint32_t part : parts) {
+    file.write(fmt::format("newmtl {}\nKd", materialOf(part)));
+    putColour(file, colourOfPart(part));
+    file.write("\nKa 0 0 0\nKs 0 0 0\nillum 1\n\n");
+  }
+}
+
+bool hasObjMaterials(const ResultView& result) { return result.parts() != nullptr; }
+
+}  // namespace asdfvk

@@ -1,0 +1,37 @@
+// Units of limits and the colours of results, from the command line.
+#include <doctest/doctest.h>
+
+#include "asdf_vk/error.h"
+#include "cli/options.h"
+#include "describe/computation_options.h"
+
+using namespace asdfvk;
+
+TEST_CASE("a limit has the unit of the mesh or its own") {
+  const auto lineOf = [](const std::string& limit) {
+    return parseCommandLine({"a.3mf", "--fail-if-thinner", limit}).computation;
+  };
+  CHECK(lineOf("0.8").options.thickness.limitUnit.empty());
+  for (const char* const text : {"0.8mm", "0.8 mm"}) {
+    CAPTURE(text);
+    const ComputationSettings computation = lineOf(text);
+    CHECK(*computation.options.thickness.thinnerThan == 0.8);
+    CHECK(computation.options.thickness.limitUnit == "mm");
+    CHECK(std::get<std::string>(valueOf(*findOption(computationRows(), "fail-if-thinner"), &computation)) == "0.8mm");
+  }
+  CHECK(lineOf("3m").options.thickness.limitUnit == "m");
+  for (const char* const text : {"0.8km", "mm", "-1mm", "0mm", "0.8 m m", "nan", "infmm"}) {
+    CAPTURE(text);
+    CHECK_THROWS_WITH_AS((void)lineOf(text), doctest::Contains("a number above 0, or one with a unit, such as 0.8mm"),
+                         Error);
+  }
+  CHECK_THROWS_WITH_AS((void)parseCommandLine({"a.3mf", "--thinner-than", "1mm", "--fail-if-thinner", "1cm"}),
+                       doctest::Contains("have different limits"), Error);
+}
+
+TEST_CASE("with segments a picture shows them") {
+  CHECK(parseCommandLine({"a.ply", "--segment", "--picture", "a.png"}).outputs.pictureOf == "segment");
+  CHECK(parseCommandLine({"a.ply", "--segment", "--picture", "a.png", "--picture-of", "sdf"}).outputs.pictureOf ==
+        "sdf");
+  CHECK(parseCommandLine({"a.ply", "--picture", "a.png"}).outputs.pictureOf == "sdf");
+}
