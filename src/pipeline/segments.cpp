@@ -1,17 +1,22 @@
 #include "pipeline/segments.h"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <utility>
 
 #include "describe/warnings.h"
 #include "pipeline/input_face_values.h"
+#include "segment/assembly_parts.h"
 #include "segment/cgal_postprocess.h"
 #include "segment/cgal_segmentation.h"
 #include "trace/sight_tracer.h"
 
 namespace asdfvk {
 namespace {
+
+constexpr double kMinAgreement = 0.9;     // PartsReport::agreement.
+constexpr double kMaxCoarseShare = 0.05;  // Of the area.
 
 /// Sums of the areas of the triangles (#F), by the segment of their input face; divided by the sum of all.
 std::vector<double> areaSharesOf(const TriangleMesh& mesh, std::span<const double> areas,
@@ -26,7 +31,25 @@ std::vector<double> areaSharesOf(const TriangleMesh& mesh, std::span<const doubl
   return shares;
 }
 
-void warnAboutParts(const Parts& parts, const Options& options, Report& report) {
+/// Share of the area of faces whose longest edge is longer than their value.
+double coarseShareOf(const PreparedMesh& prepared, std::span<const double> values, std::span<const double> areas) {
+  double share = 0;
+  for (uint32_t face = 0; face < values.size(); ++face) {
+    if (std::isnan(values[face]) || prepared.geometry.isDegenerate(face)) continue;
+    const auto& vertices = prepared.mesh.vertices;
+    const auto& [a, b, c] = prepared.mesh.faces[face];
+    const double longest = std::max(
+        {length(vertices[a] - vertices[b]), length(vertices[b] - vertices[c]), length(vertices[c] - vertices[a])});
+    if (longest > values[face]) share += areas[face];
+  }
+  return share;
+}
+
+void warnAboutParts(const PreparedMesh& prepared, std::span<const double> values, const Parts& parts,
+                    const Options& options, Report& report) {
+  if (parts.agreement && *parts.agreement < kMinAgreement) report.warnings.push_back(uncertainParts(*parts.agreement));
+  if (const double share = coarseShareOf(prepared, values, parts.areas); share > kMaxCoarseShare)
+    report.warnings.push_back(coarseParts(share));
   if (parts.isThinShell) report.warnings.push_back(thinShell(parts.meanSight));
   if (!parts.agreement) report.warnings.push_back(onlySmallComponents(kMinPartArea, parts.partCount));
   const auto requested = options.parts.partCount;
@@ -36,14 +59,16 @@ void warnAboutParts(const Parts& parts, const Options& options, Report& report) 
 
 void segmentByParts(const PreparedMesh& prepared, std::span<const double> values, const Options& options,
                     const LineOfSight& sight, const RunControl& control, Report& report, SegmentedValues& result) {
-  const Parts parts = segmentIntoParts({prepared.mesh, prepared.geometry, prepared.graph, prepared.components, values},
-                                       options.parts, sight, control);
+  const PartsInput input{prepared.mesh, prepared.geometry, prepared.graph, prepared.components, values};
+  const bool isAssembly = prepared.statedPartCount > 1 && !options.parts.partCount;
+  const Parts parts = isAssembly ? segmentAssembly(input, options.parts, sight, control)
+                                 : segmentIntoParts(input, options.parts, sight, control);
   result.segments = segmentsOfInputFaces(prepared.mesh, parts.partOf, parts.areas);
   const uint32_t count = countSegments(result.segments);
   report.segmentCount = count;
   report.parts = PartsReport{parts.fewest, parts.most, parts.agreement, parts.isThinShell,
                              areaSharesOf(prepared.mesh, parts.areas, result.segments, count)};
-  warnAboutParts(parts, options, report);
+  warnAboutParts(prepared, values, parts, options, report);
 }
 
 }  // namespace
