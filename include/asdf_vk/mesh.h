@@ -50,6 +50,8 @@ struct Mesh {
   Polygons polygons;            ///< Empty unless an input face was not a triangle.
   /// Unit of length that the file states (3MF, glTF): "um", "mm", "cm", "m", "in" or "ft"; empty for the others.
   std::string unit = {};
+  /// Parts that the file states: instances of meshes of 3MF and glTF, which share no vertices; 0 for the others.
+  uint32_t statedPartCount = 0;
   /// What the file has beside the surface, and was left out: "12 points".
   std::vector<std::string> skipped = {};
 

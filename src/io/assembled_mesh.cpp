@@ -38,6 +38,8 @@ AssembledMesh::AssembledMesh(uint64_t vertexCount, uint64_t faceCount, uint64_t 
 }
 
 void AssembledMesh::add(const PartMesh& part, const Placement& placement) {
+  if (part.faces.empty()) return;
+  ++partCount_;
   const auto first = static_cast<uint32_t>(vertices_.size());
   for (const Vec3d& p : part.vertices) vertices_.push_back(placement.point(p));
   const bool mirrors = placement.mirrors();
@@ -53,6 +55,7 @@ Mesh AssembledMesh::finish() {
   InputFaces faces;
   faces.addTriangles(std::move(faces_));
   faces.moveTo(mesh);
+  mesh.statedPartCount = partCount_;
   return mesh;
 }
 

@@ -48,6 +48,7 @@ class AssembledMesh {
  private:
   std::vector<Vec3d> vertices_;
   std::vector<Face> faces_;
+  uint32_t partCount_ = 0;
 };
 
 }  // namespace asdfvk

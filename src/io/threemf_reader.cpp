@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "asdf_vk/error.h"
+#include "core/length_unit.h"
 #include "core/text.h"
 #include "io/assembled_mesh.h"
 #include "io/corner_welder.h"
@@ -20,6 +21,7 @@
 #include "io/input_failure.h"
 #include "io/xml_scanner.h"
 #include "io/zip_archive.h"
+#include "mesh/dual_graph.h"
 
 namespace asdfvk {
 namespace {
@@ -30,15 +32,11 @@ constexpr uint32_t kMaxNesting = 64;  // Of components.
 
 struct UnitRow {
   std::string_view name;  // In the file.
-  std::string_view unit;
-  double metres;
+  std::string_view unit;  // Of kLengthUnits.
 };
-constexpr std::array<UnitRow, 6> kModelUnits{{{"millimeter", "mm", 1e-3},
-                                              {"micron", "um", 1e-6},
-                                              {"centimeter", "cm", 1e-2},
-                                              {"meter", "m", 1},
-                                              {"inch", "in", 0.0254},
-                                              {"foot", "ft", 0.3048}}};
+constexpr std::array<UnitRow, 6> kModelUnits{
+    {{"millimeter", "mm"}, {"micron", "um"}, {"centimeter", "cm"}, {"meter", "m"}, {"inch", "in"}, {"foot", "ft"}}};
+double micrometresOf(const UnitRow& row) { return findLengthUnit(row.unit)->micrometres; }
 
 /// An object that is placed: by a build item, or as a component of another object.
 struct ObjectUse {
@@ -252,7 +250,7 @@ class ModelReader {
       else
         xml_.skipElement();
     });
-    weldSeparateCorners(object.mesh);
+    weldIfOpen(object.mesh);
     if (!model().objects.emplace(id, std::move(object)).second) xml_.fail(fmt::format("object {} is there twice", id));
   }
 
@@ -283,7 +281,8 @@ class ModelReader {
   }
 
   void readTriangle(PartMesh& mesh) {
-    archive_.charge(sizeof(Face));
+    constexpr uint64_t kSurveyBytes = 60;  // Of weldIfOpen(), per face.
+    archive_.charge(sizeof(Face) + kSurveyBytes);
     Face face;
     constexpr std::array<std::string_view, 3> kNames{"v1", "v2", "v3"};
     for (size_t c = 0; c < 3; ++c) {
@@ -297,16 +296,13 @@ class ModelReader {
     xml_.skipElement();
   }
 
-  /// Some writers give each triangle corners of its own, as STL does; then no face would have a neighbour.
-  static void weldSeparateCorners(PartMesh& mesh) {
-    if (mesh.vertices.size() != 3 * mesh.faces.size()) return;
-    std::vector<bool> isUsed(mesh.vertices.size(), false);
-    for (const Face& face : mesh.faces)
-      for (const uint32_t corner : face) {
-        if (isUsed[corner]) return;
-        isUsed[corner] = true;
-      }
-    CornerWelder welder(mesh.vertices.size() / 6);
+  /// The format wants shared vertices, but some writers split them, as STL does; then faces would have no neighbours.
+  static void weldIfOpen(PartMesh& mesh) {
+    TriangleMesh view;
+    view.vertices = mesh.vertices;
+    view.faces = mesh.faces;
+    if (mesh.faces.empty() || surveyEdges(view).isClosed) return;
+    CornerWelder welder(mesh.vertices.size() / 3);
     for (Face& face : mesh.faces)
       for (uint32_t& corner : face) corner = welder.indexOf(mesh.vertices[corner]);
     mesh.vertices = std::move(welder.points());
@@ -397,7 +393,7 @@ void ThreeMfReader::place(const ObjectUse& use, const Placement& outer, double s
   const ModelObject& object = objectOf(use);
   Placement placement = outer.after(use.placement);
   if (!placement.isFinite()) failInput(fmt::format("the place of {} is beyond all numbers", nameOf(use)));
-  const double unit = models_[use.model].unit->metres;
+  const double unit = micrometresOf(*models_[use.model].unit);
   if (unit != scale) {  // Of another file of the archive.
     for (Vec3d& column : placement.columns) column = column * (unit / scale);
   }
@@ -421,7 +417,7 @@ Mesh ThreeMfReader::read() {
                                           : fmt::format("has {} and no triangle: nothing to compute on",
                                                         skipped.empty() ? "build items" : joined(skipped, " and ")));
   AssembledMesh assembled(all.vertices, all.faces, archive_.bytes().size());
-  for (const ObjectUse& item : models_[root].items) place(item, {}, models_[root].unit->metres, assembled);
+  for (const ObjectUse& item : models_[root].items) place(item, {}, micrometresOf(*models_[root].unit), assembled);
   Mesh mesh = assembled.finish();
   mesh.unit = models_[root].unit->unit;
   mesh.skipped = std::move(skipped);

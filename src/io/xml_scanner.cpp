@@ -33,10 +33,10 @@ std::string_view takeName(std::string_view& text) {
 }  // namespace
 
 XmlScanner::XmlScanner(Read read, std::string name) : read_(std::move(read)), document_(std::move(name)) {
-  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+  constexpr std::string_view kUtf8Mark = "\xef\xbb\xbf";
   buffer_.reserve(2 * kBufferSize);
   fill();
-  if (buffer_.starts_with(kByteOrderMark)) at_ = kByteOrderMark.size();
+  if (buffer_.starts_with(kUtf8Mark)) at_ = kUtf8Mark.size();
   if (buffer_.starts_with("\xff\xfe") || buffer_.starts_with("\xfe\xff")) fail("is UTF-16; UTF-8 is read");
 }
 

@@ -1,11 +1,8 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <string>
 #include <string_view>
-#include <utility>
-#include <vector>
 
 namespace asdfvk {
 
@@ -16,36 +13,34 @@ inline std::string storedArchive(std::string_view model) {
       "Type='http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel'/></Relationships>";
   std::string archive, directory;
   const auto put = [](std::string& to, uint64_t number, size_t size) {
-    for (size_t i = 0; i < size; ++i) to += static_cast<char>(number >> (8 * i) & 0xff);
+    for (size_t i = 0; i < size; ++i) to += static_cast<char>(i < sizeof number ? number >> (8 * i) & 0xff : 0);
   };
-  const std::vector<std::pair<std::string_view, std::string_view>> files{{"_rels/.rels", kRelationships},
-                                                                         {"3D/3dmodel.model", model}};
-  for (const auto& [name, contents] : files) {
+  const auto add = [&](std::string_view name, std::string_view contents) {
     const uint64_t offset = archive.size();
-    const auto putCommon = [&](std::string& to) {
-      put(to, 20, 2);
-      put(to, 0, 12);  // Flags, method, time and date, checksum.
-      put(to, contents.size(), 4);
-      put(to, contents.size(), 4);
-      put(to, name.size(), 2);
-      put(to, 0, 2);
-    };
+    std::string common;
+    put(common, 20, 2);
+    put(common, 0, 12);  // Flags, method, time and date, checksum.
+    put(common, contents.size(), 4);
+    put(common, contents.size(), 4);
+    put(common, name.size(), 2);
+    put(common, 0, 2);
     put(archive, 0x04034b50, 4);
-    putCommon(archive);
-    archive.append(name).append(contents);
+    archive.append(common).append(name).append(contents);
     put(directory, 0x02014b50, 4);
     put(directory, 20, 2);
-    putCommon(directory);
+    directory += common;
     put(directory, 0, 10);
     put(directory, offset, 4);
     directory.append(name);
-  }
+  };
+  add("_rels/.rels", kRelationships);
+  add("3D/3dmodel.model", model);
   const uint64_t offset = archive.size();
   archive += directory;
   put(archive, 0x06054b50, 4);
   put(archive, 0, 4);
-  put(archive, files.size(), 2);
-  put(archive, files.size(), 2);
+  put(archive, 2, 2);
+  put(archive, 2, 2);
   put(archive, directory.size(), 4);
   put(archive, offset, 4);
   put(archive, 0, 2);

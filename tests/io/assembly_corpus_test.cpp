@@ -6,6 +6,7 @@
 #include "core/text.h"
 #include "core/vec3.h"
 #include "reading.h"
+#include "written_file.h"
 
 using namespace asdfvk;
 using asdfvk::test::holds;
@@ -237,7 +238,7 @@ TEST_CASE("a file cut at any byte is an error of the reader") {
   for (const char* const name : {"glb_instances.glb", "gltf_tetrahedron.gltf", "3mf_zip64.3mf", "3mf_components.3mf"}) {
     CAPTURE(name);
     const std::filesystem::path path = std::filesystem::path(ASDFVK_TEST_DIR "/io/assembly_corpus") / name;
-    const std::string bytes = test::fileText(path);
+    const std::string bytes = contentOf(path);
     const std::string format = path.extension().string();
     for (size_t size = 1; size < bytes.size(); ++size) {
       CAPTURE(size);

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,11 +23,6 @@ inline std::string errorOf(std::string_view format, std::string_view text) {
     return error.kind() == ErrorKind::Input ? error.what() : "an error of another kind";
   }
   return "no error";
-}
-
-inline std::string fileText(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 /// The corners of a unit square, as lines of text that each begin with `prefix` and end with `suffix`, and as points.

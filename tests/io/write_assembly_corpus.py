@@ -226,6 +226,11 @@ RELATIONSHIPS = ('<?xml version="1.0" encoding="UTF-8"?>\n<Relationships xmlns="
                  '2006/relationships"><Relationship Target="/3D/3dmodel.model" Id="rel0" Type='
                  '"http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/></Relationships>')
 
+CONTENT_TYPES = ('<?xml version="1.0" encoding="UTF-8"?>\n<Types xmlns="http://schemas.openxmlformats.org/package/2006/'
+                 'content-types"><Default Extension="rels" ContentType="application/vnd.openxmlformats-package.'
+                 'relationships+xml"/><Default Extension="model" ContentType="application/vnd.ms-package.'
+                 '3dmanufacturing-3dmodel+xml"/></Types>')
+
 
 def mesh(corners=CORNERS, faces=FACES):
     vertices = "".join(f'<vertex x="{x}" y="{y}" z="{z}"/>' for x, y, z in corners)
@@ -242,7 +247,8 @@ def model(resources=None, build='<item objectid="1"/>', attributes='unit="millim
 def archive(text, relationships=RELATIONSHIPS, method=zipfile.ZIP_DEFLATED, wide=False, others=()):
     stream = io.BytesIO()
     with zipfile.ZipFile(stream, "w", method) as files:
-        for name, contents in [("_rels/.rels", relationships), ("3D/3dmodel.model", text), *others]:
+        for name, contents in [("_rels/.rels", relationships), ("3D/3dmodel.model", text), *others,
+                               ("[Content_Types].xml", CONTENT_TYPES)]:
             if contents is None:
                 continue
             entry = zipfile.ZipInfo(name, (2026, 1, 1, 0, 0, 0))

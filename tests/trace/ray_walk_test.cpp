@@ -70,7 +70,8 @@ TEST_CASE("the walk of the CPU finds the nearest hits of the reference, with the
         const uint32_t primitive = group.primitives[ray];
         const uint32_t face = primitive == kNoFace ? kNoFace : traced.bvh.primitiveFaces[primitive];
         hitCount += face == kNoFace ? 0 : 1;
-        differing += face != expected.face || (face != kNoFace && std::abs(group.distances[ray] - expected.distance) > 1e-5);
+        differing +=
+            face != expected.face || (face != kNoFace && std::abs(group.distances[ray] - expected.distance) > 1e-5);
         if (results[1].empty()) continue;
         CHECK(results[1][i].primitives[ray] == primitive);
         CHECK(std::bit_cast<uint32_t>(results[1][i].distances[ray]) == std::bit_cast<uint32_t>(group.distances[ray]));
