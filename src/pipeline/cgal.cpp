@@ -52,7 +52,10 @@ PostprocessedSdf postprocessSdf(const MeshView& view, std::span<const double> va
 
 LabelledFaces segmentSdf(const MeshView& view, std::span<const double> values, const CgalSegmentationOptions& options,
                          CgalLabels labels, const RunControl& control) {
-  (void)completed({.segmentation = Segmentation::Cgal, .cgalSegmentation = options});
+  Options checked;
+  checked.segmentation = Segmentation::Cgal;
+  checked.cgalSegmentation = options;
+  (void)completed(checked);
   control.checkpoint(0);
   Mesh storage;
   const TriangleMesh mesh = trianglesOf(view, storage);

@@ -10,8 +10,6 @@ namespace {
 
 using Ints8 = IntsOf<Float8>;
 constexpr int32_t kSignBit = std::numeric_limits<int32_t>::min();
-/// Margin of the boxes: covers the rounding of the triangle test and of the distances to planes, see kWideBoxMargin.
-constexpr float kBoxMargin = kWideBoxMargin;
 constexpr float kTinyDirection = 1e-20F;
 
 // GCC has the instructions of AVX2 as functions, also where they are not the baseline.
@@ -83,7 +81,7 @@ ASDFVK_ALWAYS_INLINE inline void prepare(const RayGroup& rays, RayRows& rows) {
     const Ints8 sign = reinterpret_cast<Ints8>(d[axis]) & kSignBit;
     const Float8 tiny = reinterpret_cast<Float8>(sign | std::bit_cast<int32_t>(kTinyDirection));
     const Float8 inverse = 1.0F / (absolute(d[axis]) < kTinyDirection ? tiny : d[axis]);
-    const Float8 lower = -(origin + kBoxMargin) * inverse, upper = -(origin - kBoxMargin) * inverse;
+    const Float8 lower = -(origin + kWideBoxMargin) * inverse, upper = -(origin - kWideBoxMargin) * inverse;
     store(rows.inverses[axis].data(), inverse);
     store(rows.nears[axis].data(), sign != 0 ? upper : lower);
     store(rows.fars[axis].data(), sign != 0 ? lower : upper);
