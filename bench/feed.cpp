@@ -1,5 +1,5 @@
 // How many rays per second can the host feed to a device, and where does its time go? The tracer alone, with a device
-// that takes no time, and the whole computation with a kernel that writes a constant per cone instead of tracing.
+// that takes no time, and the whole computation with a kernel that writes lengths instead of tracing.
 #include <fmt/format.h>
 #include <volk.h>
 
@@ -8,6 +8,7 @@
 #include <map>
 #include <memory>
 #include <set>
+#include <span>
 #include <utility>
 
 #include "asdf_vk/files.h"
@@ -17,6 +18,8 @@
 #include "pipeline/compute.h"
 #include "predict/vulkan/vulkan_prediction.h"
 #include "seeds/samplers.h"
+#include "spirv/constant_lengths.comp.h"
+#include "spirv/trace_rays.comp.h"
 #include "support/computation.h"
 #include "support/measurement.h"
 #include "support/program.h"
@@ -158,6 +161,29 @@ class IdleDevice {
   static inline uint64_t byteCount_ = 0;  // Of the last allocation.
 };
 
+/// While it exists, kernels are compiled from constant_lengths.comp instead of trace_rays.comp.
+class ConstantLengths {
+ public:
+  ConstantLengths() {
+    create_ = vkCreateShaderModule;
+    vkCreateShaderModule = [](VkDevice device, const VkShaderModuleCreateInfo* info,
+                              const VkAllocationCallbacks* callbacks, VkShaderModule* module) {
+      VkShaderModuleCreateInfo used = *info;
+      if (std::ranges::equal(std::span(info->pCode, info->codeSize / sizeof(uint32_t)), k_trace_rays_comp)) {
+        used.pCode = k_constant_lengths_comp;
+        used.codeSize = sizeof k_constant_lengths_comp;
+      }
+      return create_(device, &used, callbacks, module);
+    };
+  }
+  ~ConstantLengths() { vkCreateShaderModule = create_; }
+  ConstantLengths(const ConstantLengths&) = delete;
+  ConstantLengths& operator=(const ConstantLengths&) = delete;
+
+ private:
+  static inline PFN_vkCreateShaderModule create_ = nullptr;
+};
+
 /// A Vulkan backend whose kernels trace nothing.
 class ConstantBackend final : public Backend {
  public:
@@ -175,12 +201,12 @@ class ConstantBackend final : public Backend {
                                                        const TracerNeeds& needs) override {
     const ConeKernelRequest request{.rayCount = static_cast<uint32_t>(cone.directions.size()),
                                     .writesHits = needs.hits,
-                                    .choice = traceChoiceFor(facts(), {}, scene.bvh),
-                                    .isConstant = true};
+                                    .choice = traceChoiceFor(facts(), {}, scene.bvh)};
     std::unique_ptr<VulkanConeKernel>& kernel = kernels_[request];
-    if (!kernel)
-      kernel = runsOnCpu() ? std::make_unique<VulkanConeKernel>(*opened_.device, request, kCpuShape)
-                           : std::make_unique<VulkanConeKernel>(*opened_.device, request);
+    if (!kernel) {
+      const ConstantLengths constant;
+      kernel = std::make_unique<VulkanConeKernel>(*opened_.device, request);
+    }
     return makeVulkanTracer(*kernel, scene, cone);
   }
 
@@ -192,9 +218,6 @@ class ConstantBackend final : public Backend {
   }
 
  private:
-  // A cone per lane: CPU devices have a high cost per workgroup.
-  static constexpr VulkanWorkgroupShape kCpuShape{1, 64};
-
   [[nodiscard]] const DeviceFacts& facts() const { return opened_.device->facts(); }
 
   Instance instance_;

@@ -4,13 +4,14 @@
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #extension GL_KHR_shader_subgroup_ballot : require
 
-Hit findNearestHitTogether(Query query, inout uint iterationCount) {
+Hit findNearestHitTogether(Query query) {
   const bvec3 isNegative = bvec3(subgroupBroadcastFirst(uvec3(query.isNegative)));
   uint stackBases[kMaxBvhDepth];
   uint stackBits[kMaxBvhDepth];
   uint stackSize = 0u;
   Group group = Group(0u, 8u);
   Hit hit = Hit(kFarAway, kNoPrimitive, true);
+  uint iterationCount = 0u;
   while (group.bits != 0u && iterationCount <= kIterationLimit) {
     const uint index = takeNearest(group, isNegative);
     if (hasMore(group)) {

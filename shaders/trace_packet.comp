@@ -4,4 +4,4 @@
 #extension GL_GOOGLE_include_directive : require
 #define FIND_NEAREST_HIT findNearestHitTogether
 #define WALKS_TOGETHER
-#include "cone_lanes.glsl"
+#include "trace_rays.glsl"

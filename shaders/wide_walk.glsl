@@ -2,8 +2,8 @@
 #extension GL_KHR_shader_subgroup_vote : require
 
 // See VulkanWalkShape in src/trace/vulkan/vulkan_trace_choice.h. The defaults suffice too.
-layout(constant_id = 6) const uint kStackSize = kMaxBvhDepth;
-layout(constant_id = 10) const bool kPostponesTriangles = true;
+layout(constant_id = 8) const uint kStackSize = kMaxBvhDepth;
+layout(constant_id = 9) const bool kPostponesTriangles = true;
 
 DeviceWideNode loadWideNode(uint index) {
   const uint t = index * kWideNodeTexelCount;
@@ -89,13 +89,14 @@ uint takePrimitive(inout LeafQueue queue, uint otherwise) {
 // with tests after each node, most lanes would be idle while a few lanes test triangles. Two triangles are tested at a
 // time, which hides the latency of loading them. Otherwise a lane with triangles waits until each lane of the subgroup
 // has some or has no node left (Aila and Laine 2009), which needs fewer registers.
-Hit findNearestHit(Query query, inout uint iterationCount) {
+Hit findNearestHit(Query query) {
   uint stackBases[kStackSize];
   uint stackBits[kStackSize];
   uint stackSize = 0u;
   Group group = Group(0u, 8u);  // The root.
   LeafQueue queue = LeafQueue(kNoLeaves, kNoLeaves, kNoLeaves);
   Hit hit = Hit(kFarAway, kNoPrimitive, true);
+  uint iterationCount = 0u;
 
   while (group.bits != 0u) {
     while (group.bits != 0u) {

@@ -278,9 +278,6 @@ struct Report {
   std::optional<TraceVariant> traceChoice;  ///< The variant of the Vulkan kernels; unset without Vulkan.
   StageSeconds stageSeconds;                ///< Seconds by stage; 0 for a stage that did not run.
   double raysPerSecond = 0;                 ///< Rays over the seconds of the stage "trace".
-  /// Part of the stage "trace" in which the Vulkan device was busy with the rays of the seeds, by its timestamps. Unset
-  /// without Vulkan, and where the device has no timestamps.
-  std::optional<double> traceDeviceSeconds;
   SolverReport solver;                           ///< The solution of the Poisson equation.
   ValueRange sdf;                                ///< The shape diameters.
   std::optional<PostprocessReport> postprocess;  ///< Set where the result has the field "normalized".

@@ -3,7 +3,7 @@
 // lane. The twin of src/predict/hit_points.cpp.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/cone_hit.h"
-#include "shared/cone_layout.h"
+#include "shared/cone_rules.h"
 #include "shared/prediction_layout.h"
 
 layout(local_size_x_id = 3) in;  // kLanesPerCone: an id is used once only.
@@ -14,29 +14,73 @@ layout(constant_id = 4) const uint kLengthCount = 30u;  // kRayCount.
 
 layout(set = 0, binding = 0) readonly buffer Faces { uvec4 faceBlocks[]; };
 layout(set = 0, binding = 1) readonly buffer Table { uvec4 tableBlocks[]; };  // The rays, then the seeds.
-layout(set = 0, binding = 2) readonly buffer Hits { uvec2 hits[]; };          // The bits of each ConeHit.
+layout(set = 0, binding = 2) readonly buffer Hits { uvec2 hits[]; };          // The bits of each ConeHit, by seed.
 layout(set = 0, binding = 3) writeonly buffer Points { uvec4 pointBlocks[]; };
 layout(push_constant) uniform Push { PointPush push; };
 
 shared float lengths[kLengthCount];
 shared float middles[2];
 
-ConeRay loadRay(uint ray) {
-  const PredictionRay decoded = decodePredictionRay(tableBlocks[ray]);
-  return ConeRay(decoded.direction, 1.0);
+PredictionRay loadRay(uint ray) { return decodePredictionRay(tableBlocks[ray]); }
+
+// Each lane computes the ranks of its rays among all; the rays of the two middle ranks determine the median (the same
+// ray twice for an odd count). Returns the number of valid rays and their mean.
+void findMiddles(uint lane, out uint validCount, out float mean) {
+  validCount = 0u;
+  mean = 0.0;
+  for (uint other = 0u; other < kRayCount; ++other) {
+    validCount += lengths[other] >= 0.0 ? 1u : 0u;
+    mean += max(lengths[other], 0.0);
+  }
+  mean /= float(max(validCount, 1u));
+  for (uint ray = lane; ray < kRayCount; ray += kLanesPerCone) {
+    const float own = lengths[ray];
+    uint rank = 0u;
+    for (uint other = 0u; other < kRayCount; ++other) {
+      const float l = lengths[other];
+      rank += l >= 0.0 && (l < own || (l == own && other < ray)) ? 1u : 0u;
+    }
+    if (own >= 0.0 && rank == (validCount - 1u) / 2u) middles[0] = own;
+    if (own >= 0.0 && rank == validCount / 2u) middles[1] = own;
+  }
 }
 
-#include "cone_value.glsl"
+float medianOfMiddles() { return 0.5 * (middles[0] + middles[1]); }
+
+// Like findMiddles(), for the absolute differences from the median.
+void findMiddleDeviations(uint lane, uint validCount, float median) {
+  for (uint ray = lane; ray < kRayCount; ray += kLanesPerCone) {
+    if (lengths[ray] < 0.0) continue;
+    const float own = abs(lengths[ray] - median);
+    uint rank = 0u;
+    for (uint other = 0u; other < kRayCount; ++other) {
+      const float difference = abs(lengths[other] - median);
+      rank += lengths[other] >= 0.0 && (difference < own || (difference == own && other < ray)) ? 1u : 0u;
+    }
+    if (rank == (validCount - 1u) / 2u) middles[0] = own;
+    if (rank == validCount / 2u) middles[1] = own;
+  }
+}
+
+// The largest difference from the median of a length that is kept. Called after a barrier, which follows
+// findMiddleDeviations() if kIsCgal.
+float outlierBound(uint validCount, float mean, float median) {
+  if (kIsCgal) return push.outlierDeviations * medianOfMiddles();
+  float variance = 0.0;
+  for (uint ray = 0u; ray < kRayCount; ++ray) {
+    const float l = lengths[ray];
+    variance += l >= 0.0 ? (l - mean) * (l - mean) : 0.0;
+  }
+  const float deviation = sqrt(variance / float(validCount));
+  return push.outlierDeviations * deviation + kOutlierSlack * median;
+}
 
 PredictionFace loadFace(uint face) {
   const uint block = face * kPredictionFaceBlockCount;
   return decodePredictionFace(faceBlocks[block], faceBlocks[block + 1u]);
 }
 
-PredictionSeed loadSeed(uint seed) {
-  const uint block = kRayCount + seed * kPredictionSeedBlockCount;
-  return decodePredictionSeed(tableBlocks[block], tableBlocks[block + 1u]);
-}
+PredictionSeed loadSeed(uint seed) { return decodePredictionSeed(tableBlocks[kRayCount + seed]); }
 
 void storePoint(uint index, PredictionPoint point) {
   const uint block = index * kPredictionPointBlockCount;
@@ -48,10 +92,11 @@ void main() {
   const uint lane = gl_LocalInvocationID.x;
   const PredictionSeed seed = loadSeed(gl_WorkGroupID.x);
   const PredictionFace face = loadFace(seed.face);
+  const uint firstHit = gl_WorkGroupID.x * kRayCount;
   const vec3 axis = -face.normal;
   const mat3 frame = mat3(seed.tangent, cross(axis, seed.tangent), axis);
   for (uint ray = lane; ray < kRayCount; ray += kLanesPerCone) {
-    const uvec2 hit = hits[seed.firstHit + ray];
+    const uvec2 hit = hits[firstHit + ray];
     float validLength = -1.0;
     if (hit.y != kNoFace) {
       const vec3 normal = loadFace(hit.y).normal;
@@ -67,22 +112,22 @@ void main() {
   barrier();
   uint validCount;
   float mean;
-  findMiddles(0u, 0u, lane, validCount, mean);
+  findMiddles(lane, validCount, mean);
   barrier();
-  const float median = medianOf(0u);
+  const float median = medianOfMiddles();
   barrier();
   if (kIsCgal) {
-    findMiddleDeviations(0u, 0u, lane, validCount, median);
+    findMiddleDeviations(lane, validCount, median);
     barrier();
   }
-  const float bound = outlierBound(0u, 0u, validCount, mean, median);
+  const float bound = outlierBound(validCount, mean, median);
   const uint firstPoint = gl_WorkGroupID.x * (kRayCount + 1u);
   if (lane == 0u) storePoint(firstPoint, PredictionPoint(face.barycentre, seed.face, face.normal, median));
   for (uint ray = lane; ray < kRayCount; ray += kLanesPerCone) {
-    const uvec2 hit = hits[seed.firstHit + ray];
+    const uvec2 hit = hits[firstHit + ray];
     PredictionPoint point = PredictionPoint(vec3(0.0), kNoFace, vec3(0.0), -1.0);
     if (hit.y != kNoFace) {
-      const PredictionRay coneRay = decodePredictionRay(tableBlocks[ray]);
+      const PredictionRay coneRay = loadRay(ray);
       const float distance = uintBitsToFloat(hit.x);
       const float ratio = distance * distance * coneRay.solidAngle;
       const bool isInlier = lengths[ray] >= 0.0 && abs(distance - median) <= bound;

@@ -13,14 +13,6 @@ using glsl::uint;
 const uint kNoFace = 0xffffffffu;            // The face of a ray without a hit.
 const uint kMissDistanceBits = 0x7f800000u;  // The distance of a ray without a hit: infinity.
 
-// Operands of store_hits.comp.
-const uint kStoredHitsPerLane = 4u;  // Keeps the number of workgroups of a chunk below 65,535, which every device has.
-struct HitStorePush {
-  uint hitCount;  // Hits of the chunk.
-  uint rayCount;
-  uint seedCount;  // Seeds before those of the batch.
-};
-
 #ifdef __cplusplus
 // 8 bytes.
 struct ConeHit {
@@ -29,9 +21,6 @@ struct ConeHit {
 };
 static_assert(sizeof(ConeHit) == 8);
 static_assert(offsetof(ConeHit, distance) == 0 && offsetof(ConeHit, face) == 4);
-static_assert(sizeof(HitStorePush) == 12);
-static_assert(offsetof(HitStorePush, hitCount) == 0 && offsetof(HitStorePush, rayCount) == 4);
-static_assert(offsetof(HitStorePush, seedCount) == 8);
 }  // namespace asdfvk
 #endif
 

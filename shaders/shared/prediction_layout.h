@@ -56,15 +56,10 @@ struct PredictionRay {
   float solidAngle;  // See Cone in src/cone/cone.h.
 };
 
-// A seed, 32 bytes. The axis of its cone is minus the normal of the face; the bitangent is cross(axis, tangent).
-const uint kPredictionSeedBlockCount = 2u;
+// A seed, 16 bytes. The axis of its cone is minus the normal of the face; the bitangent is cross(axis, tangent).
 struct PredictionSeed {
   vec3 tangent;
   uint face;
-  uint firstHit;  // Index of the hit of its first ray.
-  uint unused0;
-  uint unused1;
-  uint unused2;
 };
 
 // The hit point of a ray, 32 bytes. A seed has as many as rays, after one that describes the seed: its barycentre, its
@@ -103,9 +98,8 @@ static_assert(sizeof(PredictionFace) == 16 * kPredictionFaceBlockCount);
 static_assert(offsetof(PredictionFace, barycentre) == 0 && offsetof(PredictionFace, representative) == 12);
 static_assert(offsetof(PredictionFace, normal) == 16 && offsetof(PredictionFace, unused) == 28);
 static_assert(sizeof(PredictionRay) == 16 && offsetof(PredictionRay, solidAngle) == 12);
-static_assert(sizeof(PredictionSeed) == 16 * kPredictionSeedBlockCount);
+static_assert(sizeof(PredictionSeed) == 16);
 static_assert(offsetof(PredictionSeed, tangent) == 0 && offsetof(PredictionSeed, face) == 12);
-static_assert(offsetof(PredictionSeed, firstHit) == 16);
 static_assert(sizeof(PredictionPoint) == 16 * kPredictionPointBlockCount);
 static_assert(sizeof(PointPush) == 8 && offsetof(PointPush, outlierDeviations) == 4);
 static_assert(sizeof(PredictionPush) == 32);
@@ -121,9 +115,7 @@ PredictionFace decodePredictionFace(uvec4 b0, uvec4 b1) {
 
 PredictionRay decodePredictionRay(uvec4 b0) { return PredictionRay(uintBitsToFloat(b0.xyz), uintBitsToFloat(b0.w)); }
 
-PredictionSeed decodePredictionSeed(uvec4 b0, uvec4 b1) {
-  return PredictionSeed(uintBitsToFloat(b0.xyz), b0.w, b1.x, b1.y, b1.z, b1.w);
-}
+PredictionSeed decodePredictionSeed(uvec4 b0) { return PredictionSeed(uintBitsToFloat(b0.xyz), b0.w); }
 
 PredictionPoint decodePredictionPoint(uvec4 b0, uvec4 b1) {
   return PredictionPoint(uintBitsToFloat(b0.xyz), b0.w, uintBitsToFloat(b1.xyz), uintBitsToFloat(b1.w));

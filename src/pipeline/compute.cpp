@@ -57,7 +57,6 @@ void describeRounds(Report& report, const RoundsResult& rounds) {
   report.redoneConeCount = rounds.traced.statistics.redoneConeCount;
   const double traceSeconds = report.stageSeconds[Stage::Trace];
   report.raysPerSecond = traceSeconds > 0 ? static_cast<double>(report.rayCount) / traceSeconds : 0;
-  report.traceDeviceSeconds = rounds.traced.statistics.deviceSeconds;
   report.traceChoice = rounds.traceVariant;
   report.solver = rounds.interpolated.solver;
   report.clampedCount = rounds.interpolated.clampedCount;

@@ -64,8 +64,8 @@ class Rounds {
         prediction_(computation),
         solver_(computation.options, computation.backend, computation.solvers, computation.warnings),
         interpolation_(computation.domain, computation.prepared, computation.options, solver_),
-        hits_(computation.keepsHits() ? computation.cone.directions.size() : 0),
-        traced_(computation.prepared.geometry.areas.size()) {}
+        traced_(computation.prepared.geometry.areas.size(),
+                computation.keepsHits() ? computation.cone.directions.size() : 0) {}
 
   RoundsResult run(const RunControl& control) {
     const uint64_t traceableCount = computation_.domain.traceableFaces.size();
@@ -109,7 +109,6 @@ class Rounds {
   Interpolation interpolation_;
 
   SeedChoice sampled_;  ///< All seeds: those of the sampler and of extremes, and held-out faces.
-  SeedHits hits_;       ///< In the order of traced_.faces.
   TracedSeeds traced_;
   HeldOutFaces heldOut_;
   Interpolated result_;
@@ -132,7 +131,7 @@ void Rounds::runRound(uint64_t count, bool isLast, const RunControl& control) {
   SeedChoice choice = roundCount_ == 0 ? chooseWhileOpening(first) : timedChoice(first, {});
   const double begin = clock_.elapsed(), earlierRays = raySeconds();
   traced_.faces.reserve(traced_.faces.size() + count);
-  hits_.reserve(count);
+  traced_.hits.reserve(traced_.hits.size() + count * traced_.hitsPerSeed);
   traceChosen(std::move(choice), control.part(0, refines ? kTracedProgress / 2 : kTracedProgress));
   if (refines) {
     const std::vector<double> density =
@@ -162,9 +161,9 @@ void Rounds::interpolate(std::span<const uint32_t> extremes, std::span<const dou
     const auto scope = clock_.time(hasPrediction ? Stage::Estimate : Stage::Predict);
     const RunControl predicting = control.part(0, kPredictedProgress);
     if (hasPrediction)
-      replaced = prediction_.addSeeds(traced_.faces, hits_, predicting);
+      replaced = prediction_.addSeeds({traced_.faces, traced_.hits}, predicting);
     else
-      prediction_.predict(traced_.faces, hits_, predicting);
+      prediction_.predict({traced_.faces, traced_.hits}, predicting);
   }
   control.checkpoint(kPredictedProgress);
   {
@@ -210,7 +209,6 @@ SeedChoice Rounds::chooseWhileOpening(const SeedShares& shares) {
   callIsolated([&] {
     tracing_ = makeTracing_();
     traceVariant_ = tracing_->traceVariant();
-    hits_.keepIn(prediction_.hitStore());
   });
   const Stopwatch watch;
   const auto scope = clock_.time(Stage::Sample);
@@ -225,13 +223,13 @@ void Rounds::traceChosen(SeedChoice choice, const RunControl& control) {
   const auto sampledCount = static_cast<double>(choice.sampled.size()),
              heldOutCount = static_cast<double>(choice.heldOut.size());
   const double sampledShare = sampledCount / std::max(1.0, sampledCount + heldOutCount);
-  tracing_->trace(choice.sampled, traced_, hits_, control.part(0, sampledShare));
-  tracing_->trace(choice.heldOut, traced_, hits_, control.part(sampledShare, 1));
+  tracing_->trace(choice.sampled, traced_, control.part(0, sampledShare));
+  tracing_->trace(choice.heldOut, traced_, control.part(sampledShare, 1));
   std::vector<double> equalWeights(choice.heldOut.size(), 1.0);
   heldOut_.append({std::move(choice.heldOut), std::move(equalWeights)});
   {  // The interpolation without held-out faces needs a value in each component, too.
     const HiddenValues hidden(traced_.values, heldOut_.faces);
-    tracing_->traceComponentsWithoutValue(traced_, hits_, control);
+    tracing_->traceComponentsWithoutValue(traced_, control);
   }
   sortSampled();
 }
@@ -250,7 +248,7 @@ std::vector<uint32_t> Rounds::predictWithoutHeldOut(Stage stage, const RunContro
   std::vector<uint32_t> faces = traced_.faces;
   for (uint32_t& face : faces)
     if (std::binary_search(sampled_.heldOut.begin(), sampled_.heldOut.end(), face)) face = kNoFace;
-  prediction_.predict(faces, hits_, control);
+  prediction_.predict({faces, traced_.hits}, control);
   return faces;
 }
 
@@ -282,7 +280,7 @@ std::vector<uint32_t> Rounds::traceByPrediction(const SeedShares& shares, std::s
     faces.insert(faces.end(), heldOut.faces.begin(), heldOut.faces.end());
   }
   const auto scope = clock_.time(Stage::Trace);
-  tracing_->trace(sorted(std::move(faces)), traced_, hits_, control);
+  tracing_->trace(sorted(std::move(faces)), traced_, control);
   heldOut_.append(heldOut);
   sortSampled();
   return extremes;

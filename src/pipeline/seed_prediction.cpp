@@ -40,39 +40,32 @@ void SeedPrediction::continueOnCpu(const Error& failure) {
   computation_.warnings.push_back(predictedOnCpu(failure));
 }
 
-HitStore* SeedPrediction::hitStore() {
-  DevicePredictor* const device = devicePredictor();
-  return device != nullptr ? device->hitStore() : nullptr;
-}
-
 template <typename Run>
-void SeedPrediction::runWithDevice(std::span<const uint32_t> seeds, SeedHits& hits, const Run& run) {
+void SeedPrediction::runWithDevice(const Run& run) {
   if (DevicePredictor* const device = devicePredictor()) {
     try {
-      return run(device, SeedHitsView{seeds, hits.onHost()});
+      return run(device);
     } catch (const Error& error) {
       continueOnCpu(error);
     }
-    hits.moveToHost();
     predictor_.reset();
   }
-  run(nullptr, SeedHitsView{seeds, hits.onHost()});
+  run(nullptr);
 }
 
-void SeedPrediction::predict(std::span<const uint32_t> seeds, SeedHits& hits, const RunControl& control) {
-  if (!hits.areKept() || seeds.empty()) return;
-  runWithDevice(seeds, hits, [&](DevicePredictor* device, const SeedHitsView& view) {
-    last_ = predictValues(computation_.scene, computation_.domain.graph, computation_.cone, view, {},
+void SeedPrediction::predict(const SeedHitsView& hits, const RunControl& control) {
+  if (hits.hits.empty()) return;
+  runWithDevice([&](DevicePredictor* device) {
+    last_ = predictValues(computation_.scene, computation_.domain.graph, computation_.cone, hits, {},
                           std::exchange(last_, {}), device, control);
   });
 }
 
-std::vector<ReplacedValue> SeedPrediction::addSeeds(std::span<const uint32_t> seeds, SeedHits& hits,
-                                                    const RunControl& control) {
+std::vector<ReplacedValue> SeedPrediction::addSeeds(const SeedHitsView& hits, const RunControl& control) {
   std::vector<ReplacedValue> replaced;
-  if (!hits.areKept() || seeds.empty()) return replaced;
-  runWithDevice(seeds, hits, [&](DevicePredictor* device, const SeedHitsView& view) {
-    replaced = asdfvk::addSeeds(computation_.scene, computation_.domain.graph, computation_.cone, view, {}, last_,
+  if (hits.hits.empty()) return replaced;
+  runWithDevice([&](DevicePredictor* device) {
+    replaced = asdfvk::addSeeds(computation_.scene, computation_.domain.graph, computation_.cone, hits, {}, last_,
                                 device, control);
   });
   return replaced;

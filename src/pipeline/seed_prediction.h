@@ -18,16 +18,12 @@ class SeedPrediction {
   /// The computation must outlive it.
   explicit SeedPrediction(const Computation& computation) : computation_(computation) {}
 
-  /// Where the device that predicts keeps the hits of seeds; null where the host must keep them.
-  [[nodiscard]] HitStore* hitStore();
-  /// Predicts all faces from the hits of these seeds; where hits are not kept it does nothing. Hits of a device that
-  /// fails move to the host. Seeds of an earlier call must be at the same indices; kNoFace: the hits are ignored.
-  /// Throws Error{Cancelled}.
-  void predict(std::span<const uint32_t> seeds, SeedHits& hits, const RunControl& control);
+  /// Predicts all faces from the hits of these seeds; where hits are not kept it does nothing. Seeds of an earlier call
+  /// must be at the same indices. Throws Error{Cancelled}.
+  void predict(const SeedHitsView& hits, const RunControl& control);
   /// Adds the seeds that have no cell yet to the last prediction. Returns its earlier values; see asdfvk::addSeeds().
   /// Throws as predict().
-  [[nodiscard]] std::vector<ReplacedValue> addSeeds(std::span<const uint32_t> seeds, SeedHits& hits,
-                                                    const RunControl& control);
+  [[nodiscard]] std::vector<ReplacedValue> addSeeds(const SeedHitsView& hits, const RunControl& control);
   /// Exchanges these values of the last prediction with those in it.
   void exchange(std::vector<ReplacedValue>& replaced);
   /// The last prediction; empty without Guidance::Prediction.
@@ -37,9 +33,9 @@ class SeedPrediction {
   [[nodiscard]] bool predictsOnDevice() const;
   DevicePredictor* devicePredictor();
   void continueOnCpu(const Error& failure);
-  /// Calls run(device, hits), on the CPU where the device fails.
+  /// Calls run(device), with null where the CPU predicts or the device fails.
   template <typename Run>
-  void runWithDevice(std::span<const uint32_t> seeds, SeedHits& hits, const Run& run);
+  void runWithDevice(const Run& run);
 
   const Computation& computation_;
   Prediction last_;

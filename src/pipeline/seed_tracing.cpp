@@ -39,14 +39,14 @@ SeedTracing::~SeedTracing() {
   if (isLarge) returnFreedMemory();
 }
 
-void SeedTracing::trace(std::span<const uint32_t> faces, TracedSeeds& traced, SeedHits& hits,
-                        const RunControl& control) {
+void SeedTracing::trace(std::span<const uint32_t> faces, TracedSeeds& traced, const RunControl& control) {
   std::vector<double> values(faces.size());
-  const TraceStatistics statistics = tracer_->tracer->trace(faces, hits.resultsFor(values), control);
+  const size_t earlierHitCount = traced.hits.size();
+  traced.hits.resize(earlierHitCount + faces.size() * traced.hitsPerSeed);
+  const TraceStatistics statistics =
+      tracer_->tracer->trace(faces, {values, std::span(traced.hits).subspan(earlierHitCount)}, control);
   traced.statistics.rayCount += statistics.rayCount;
   traced.statistics.redoneConeCount += statistics.redoneConeCount;
-  if (statistics.deviceSeconds)
-    traced.statistics.deviceSeconds = traced.statistics.deviceSeconds.value_or(0) + *statistics.deviceSeconds;
   traced.faces.insert(traced.faces.end(), faces.begin(), faces.end());
   for (size_t i = 0; i < faces.size(); ++i) {
     traced.values[faces[i]] = values[i];
@@ -54,14 +54,14 @@ void SeedTracing::trace(std::span<const uint32_t> faces, TracedSeeds& traced, Se
   }
 }
 
-void SeedTracing::traceComponentsWithoutValue(TracedSeeds& traced, SeedHits& hits, const RunControl& control) {
+void SeedTracing::traceComponentsWithoutValue(TracedSeeds& traced, const RunControl& control) {
   std::vector<uint32_t> untried;
   for (const uint32_t face : computation_.domain.traceableFaces)
     if (!traced.isSeed[face]) untried.push_back(face);
   if (untried.empty()) return;
   ComponentSeeds further(computation_.domain.componentOf, traced.values, untried, computation_.options.randomSeed);
   for (auto batch = further.next(traced.values); !batch.empty(); batch = further.next(traced.values))
-    trace(batch, traced, hits, control.withoutProgress());
+    trace(batch, traced, control.withoutProgress());
 }
 
 }  // namespace asdfvk

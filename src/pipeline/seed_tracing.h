@@ -7,7 +7,6 @@
 #include "pipeline/computation.h"
 #include "pipeline/kept_tracers.h"
 #include "trace/cone_tracer.h"
-#include "trace/seed_hits.h"
 #include "trace/traced_seeds.h"
 
 namespace asdfvk {
@@ -25,9 +24,9 @@ class SeedTracing {
   /// The variant of the kernels; unset without Vulkan.
   [[nodiscard]] const std::optional<TraceVariant>& traceVariant() const { return tracer_->variant; }
   /// Adds `faces`, none of which may be in `traced`, and their hits.
-  void trace(std::span<const uint32_t> faces, TracedSeeds& traced, SeedHits& hits, const RunControl& control);
+  void trace(std::span<const uint32_t> faces, TracedSeeds& traced, const RunControl& control);
   /// Adds seeds to each component without a value until it has one or no face is left.
-  void traceComponentsWithoutValue(TracedSeeds& traced, SeedHits& hits, const RunControl& control);
+  void traceComponentsWithoutValue(TracedSeeds& traced, const RunControl& control);
 
  private:
   const Computation& computation_;

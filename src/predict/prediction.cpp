@@ -226,8 +226,7 @@ bool PredictionInput::hasEarlierSeeds(uint32_t cell) const {
 Prediction predictValues(const TraceScene& scene, const DualGraph& graph, const Cone& cone, const SeedHitsView& hits,
                          const PredictionOptions& options, Prediction earlier, DevicePredictor* device,
                          const RunControl& control) {
-  if (device == nullptr || !hits.hits.empty())
-    ASDFVK_CHECK_OP(hits.hits.size(), ==, hits.seeds.size() * cone.directions.size());
+  ASDFVK_CHECK_OP(hits.hits.size(), ==, hits.seeds.size() * cone.directions.size());
   SeedCells cells = buildSeedCells(graph, hits.seeds);
   Prediction prediction{std::vector<double>(scene.geometry.areas.size(), kNoValue),
                         {},

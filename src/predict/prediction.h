@@ -53,9 +53,6 @@ class DevicePredictor {
  public:
   virtual ~DevicePredictor() = default;
 
-  /// Where the hits of the seeds can be kept, in the order of SeedHitsView::seeds; null where the host must keep them.
-  [[nodiscard]] virtual HitStore* hitStore() { return nullptr; }
-
   /// Writes the values of all faces that belong to a cell. values: #F. Two calls with the same hits give the same bits.
   /// Throws Error{Cancelled} between submissions, and Error of kind Device, also for more neighbours than the device
   /// supports.

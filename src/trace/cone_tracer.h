@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
 
@@ -40,10 +39,7 @@ struct TraceStatistics {
   uint64_t rayCount = 0;
   /// Cones traced by the reference instead: iteration limit of the device reached, or too small for float32.
   uint64_t redoneConeCount = 0;
-  std::optional<double> deviceSeconds = {};  ///< Time that the device was busy. Unset without timestamps or a device.
 };
-
-class HitStore;  // seed_hits.h
 
 /// Output arrays for N cones of R rays.
 struct ConeResults {
@@ -51,9 +47,6 @@ struct ConeResults {
   /// The nearest hit of each ray, rejected hits included: N x R, ray r of cone i (in the order of Cone::directions) at
   /// i R + r. Empty: hits are not written.
   std::span<ConeHit> hits = {};
-  /// Null, or receives the hits of the cones as further seeds, in their order. Only for a tracer on the device of the
-  /// store. Precondition: memory for N seeds is reserved.
-  HitStore* store = nullptr;
 };
 
 inline constexpr ConeHit kMiss{std::bit_cast<float>(kMissDistanceBits), kNoFace};

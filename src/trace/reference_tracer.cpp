@@ -71,7 +71,6 @@ class ReferenceTracer final : public ConeTracer {
   TraceStatistics traceAll(const Cones& cones, const ConeResults& results, const RunControl& control) const {
     const size_t rayCount = cone_.directions.size();
     checkSizes(results, cones.size(), rayCount);
-    ASDFVK_CHECK(results.store == nullptr);
     const size_t hitCount = results.hits.empty() ? 0 : rayCount;  // per cone
     forEachChunk(cones.size(), ChunkSize(64, cones.size()), control, [&](size_t begin, size_t end) {
       forEachRange(end - begin, 8, [&](size_t first, size_t last) {

@@ -43,13 +43,12 @@ DeviceVendor vendorOf(uint32_t pciId) {
   }
 }
 
-void describeQueue(VkPhysicalDevice device, DeviceFacts& facts) {
+std::vector<VkQueueFamilyProperties> queueFamilies(VkPhysicalDevice device) {
   uint32_t count = 0;
   vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
   std::vector<VkQueueFamilyProperties> families(count);
   vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
-  facts.computeQueueFamily = chooseComputeQueueFamily(families);
-  if (facts.computeQueueFamily) facts.timestampValidBits = families[*facts.computeQueueFamily].timestampValidBits;
+  return families;
 }
 
 /// A device with VK_KHR_portability_subset must be opened with it.
@@ -102,8 +101,7 @@ DeviceFacts describeDevice(VkPhysicalDevice device) {
   facts.kind = kindOf(basic.deviceType);
   facts.vendor = vendorOf(basic.vendorID);
   facts.apiVersion = basic.apiVersion;
-  describeQueue(device, facts);
-  facts.timestampPeriod = static_cast<double>(basic.limits.timestampPeriod);
+  facts.computeQueueFamily = chooseComputeQueueFamily(queueFamilies(device));
   facts.maxWorkgroupInvocations = basic.limits.maxComputeWorkGroupInvocations;
   facts.maxWorkgroupSize = basic.limits.maxComputeWorkGroupSize[0];
   facts.maxStorageBuffersPerStage = basic.limits.maxPerStageDescriptorStorageBuffers;

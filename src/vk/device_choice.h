@@ -32,8 +32,6 @@ struct DeviceFacts {
   uint64_t maxTexelBufferElements = 0;
   uint64_t maxMemoryAllocationSize = 0;  ///< Bytes.
   bool mapsDeviceMemory = true;          ///< False: as on a device with separate memory, for tests.
-  uint32_t timestampValidBits = 0;       ///< Property of the compute queue family; 0: it has no timestamps.
-  double timestampPeriod = 0;            ///< Nanoseconds.
   bool endsLongLoops = false;            ///< Kernels must stay below kMaxLoopIterationCount: llvmpipe before Mesa 25.
 };
 

@@ -112,8 +112,6 @@ TEST_CASE("a requested kernel variant runs, on Vulkan, and is in the report") {
     INFO(outcome.error);
     CHECK_EQ(outcome.exitCode, 0);
     const nlohmann::json report = nlohmann::json::parse(outcome.output);
-    CHECK(report.at("traceDeviceSeconds").get<double>() > 0);
-    CHECK(report.at("traceDeviceSeconds").get<double>() <= report.at("stageSeconds").at("trace").get<double>());
     const nlohmann::json choice = report.at("traceChoice");
     return choice.at("kernel").get<std::string>() + " " + choice.at("fetch").get<std::string>();
   };

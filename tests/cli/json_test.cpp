@@ -41,7 +41,6 @@ TEST_CASE("--json is exactly one document with every documented key and its type
     CHECK(json.at("stageSeconds").at(stage).get<double>() >= 0);
   }
   CHECK(json.at("raysPerSecond").get<double>() > 0);
-  CHECK(json.at("traceDeviceSeconds").is_null());
   CHECK(json.at("solver").at("name").is_string());
   CHECK(json.at("solver").at("iterations").is_number_unsigned());
   CHECK(json.at("solver").at("relativeResidual").get<double>() < 1e-4);

@@ -22,7 +22,7 @@ namespace {
 /// The Vulkan backend as one on a GPU, where "auto" selects the device for predictions and for the equation.
 class GpuBackend final : public Backend {
  public:
-  enum class Predictor { Works, IsMissing, Fails, FailsWithHits, HasNoMemory };
+  enum class Predictor { Works, IsMissing, Fails };
 
   explicit GpuBackend(Predictor predictor) : predictor_(predictor) {
     SessionOptions options;
@@ -41,43 +41,18 @@ class GpuBackend final : public Backend {
   [[nodiscard]] std::unique_ptr<DevicePredictor> makePredictor(const TraceScene& scene, const Cone& cone) override {
     ++requestCount;
     if (predictor_ == Predictor::IsMissing) throw Error(ErrorCode::DeviceLimit, "this device is too small");
-    return std::make_unique<WatchedPredictor>(predictor_, vulkan_->makePredictor(scene, cone), hitCount);
+    return std::make_unique<WatchedPredictor>(predictor_, vulkan_->makePredictor(scene, cone));
   }
 
   int requestCount = 0;
-  size_t hitCount = 0;  ///< Hits that the last prediction of the device received from the host.
 
  private:
-  /// Keeps few hits, so that the host receives those of the first seeds from it.
-  class SmallStore final : public HitStore {
-   public:
-    explicit SmallStore(HitStore& store) : store_(store) {}
-    void reserve(size_t furtherSeedCount) override {
-      if (furtherSeedCount < 100) throw Error(ErrorCode::OutOfDeviceMemory, "no memory is left");
-      store_.reserve(furtherSeedCount);
-    }
-    [[nodiscard]] std::vector<ConeHit> download() const override { return store_.download(); }
-    void release() override { store_.release(); }
-    [[nodiscard]] VulkanHitStore* onVulkan() override { return store_.onVulkan(); }
-
-   private:
-    HitStore& store_;
-  };
-
   class WatchedPredictor final : public DevicePredictor {
    public:
-    WatchedPredictor(Predictor kind, std::unique_ptr<DevicePredictor> predictor, size_t& hitCount)
-        : kind_(kind), predictor_(std::move(predictor)), smallStore_(*predictor_->hitStore()), hitCount_(hitCount) {}
-    HitStore* hitStore() override {
-      if (kind_ == Predictor::Fails) return nullptr;
-      return kind_ == Predictor::HasNoMemory ? &smallStore_ : predictor_->hitStore();
-    }
+    WatchedPredictor(Predictor kind, std::unique_ptr<DevicePredictor> predictor)
+        : kind_(kind), predictor_(std::move(predictor)) {}
     void predict(const PredictionInput& input, std::span<double> values, const RunControl& control) override {
-      hitCount_ = input.hits.hits.size();
-      if (kind_ == Predictor::HasNoMemory) CHECK(predictor_->hitStore()->download().empty());  // Released.
-      if (kind_ == Predictor::HasNoMemory || kind_ == Predictor::Works)
-        return predictor_->predict(input, values, control);
-      CHECK(input.hits.hits.empty() == (kind_ == Predictor::FailsWithHits));
+      if (kind_ == Predictor::Works) return predictor_->predict(input, values, control);
       std::fill(values.begin(), values.end(), 1.0);
       throw Error(ErrorCode::DeviceLost, "this device was lost");
     }
@@ -85,8 +60,6 @@ class GpuBackend final : public Backend {
    private:
     Predictor kind_;
     std::unique_ptr<DevicePredictor> predictor_;
-    SmallStore smallStore_;
-    size_t& hitCount_;
   };
 
   Predictor predictor_;
@@ -97,7 +70,6 @@ struct DeviceOutcome {
   std::vector<double> values;
   std::vector<Warning> warnings;
   int predictorCount = 0;
-  size_t hitCount = 0, seedCount = 0;  ///< hitCount: see GpuBackend.
 };
 
 DeviceOutcome runWith(GpuBackend::Predictor predictor, const std::string& solver) {
@@ -119,8 +91,6 @@ DeviceOutcome runWith(GpuBackend::Predictor predictor, const std::string& solver
   const RoundsResult result =
       runRounds(computation, [&] { return std::make_unique<SeedTracing>(computation, tracers, nullptr); }, {});
   outcome.values = result.interpolated.values;
-  outcome.hitCount = backend.hitCount;
-  outcome.seedCount = result.traced.faces.size();
   outcome.predictorCount = backend.requestCount;
   return outcome;
 }
@@ -134,7 +104,7 @@ TEST_CASE("on a GPU the device predicts; where it cannot, the CPU does, with one
   CHECK(device.predictorCount == 1);
   CHECK(cpu.predictorCount == 0);
   CHECK(test::haveSameBits(device.values, runWith(Works, "cg").values));
-  for (const GpuBackend::Predictor predictor : {IsMissing, Fails, FailsWithHits}) {
+  for (const GpuBackend::Predictor predictor : {IsMissing, Fails}) {
     const DeviceOutcome outcome = runWith(predictor, "auto");
     REQUIRE(outcome.warnings.size() == 1);
     CHECK(outcome.warnings[0].code == WarningCode::PredictedOnCpu);
@@ -148,16 +118,6 @@ TEST_CASE("on a GPU the device predicts; where it cannot, the CPU does, with one
       CHECK(sum / static_cast<double>(other->size()) < 1e-3 * high);
     }
   }
-}
-
-TEST_CASE(
-    "where the device has no memory for further hits, the host keeps them, and the device predicts the same values") {
-  using enum GpuBackend::Predictor;
-  const DeviceOutcome outcome = runWith(HasNoMemory, "auto"), expected = runWith(Works, "auto");
-  CHECK(outcome.hitCount == 30 * outcome.seedCount);
-  CHECK(expected.hitCount == 0);
-  CHECK(outcome.warnings.empty());
-  CHECK(test::haveSameBits(outcome.values, expected.values));
 }
 
 TEST_CASE("with a named solver of the device a prediction that fails there is an error") {

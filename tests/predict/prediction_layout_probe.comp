@@ -23,9 +23,9 @@ void main() {
   put(face.barycentre), put(face.representative), put(face.normal), put(face.unused);
   const PredictionRay ray = decodePredictionRay(blocks[2]);
   put(ray.direction), put(ray.solidAngle);
-  const PredictionSeed seed = decodePredictionSeed(blocks[3], blocks[4]);
-  put(seed.tangent), put(seed.face), put(seed.firstHit), put(seed.unused0), put(seed.unused1), put(seed.unused2);
-  const PredictionPoint point = decodePredictionPoint(blocks[5], blocks[6]);
+  const PredictionSeed seed = decodePredictionSeed(blocks[3]);
+  put(seed.tangent), put(seed.face);
+  const PredictionPoint point = decodePredictionPoint(blocks[4], blocks[5]);
   put(point.position), put(point.face), put(point.normal), put(point.solidAngleRatio);
   put(push.itemCount), put(push.rayCount), put(push.minCosine), put(push.maxNormalCosine);
   put(push.minVersine), put(push.outlierDeviations), put(push.outlierSlack), put(push.distanceDeviation);

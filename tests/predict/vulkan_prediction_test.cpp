@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "asdf_vk/error.h"
-#include "core/check.h"
 #include "generate/shapes.h"
 #include "predict/seeded_mesh.h"
 #include "shared/prediction_layout.h"
@@ -185,62 +184,6 @@ TEST_CASE("predictions of the device scale with the mesh") {
   const std::vector<double> expected = valuesOf(1);
   for (const double scale : {0.125, std::ldexp(1, -500), std::ldexp(1, 500)})
     CHECK(test::haveSameBits(valuesOf(scale), expected));
-}
-
-TEST_CASE("hits on the device, added in parts, give the predictions of hits on the host, and return unchanged") {
-  const test::ValidatedDevice device;
-  const SeededMesh seeded(makeAnimal(3000).mesh, 300);
-  const VulkanPredictionKernels kernels = kernelsFor(*device, seeded.cone);
-  const auto predictor = makeVulkanPredictor(kernels, seeded.scene(), seeded.cone, {50, 1000});
-  const std::vector<double> expected = predictOn(seeded, {}, predictor.get());
-  VulkanHitStore& store = *predictor->hitStore()->onVulkan();
-  CHECK(store.download().empty());
-  const size_t rayCount = seeded.cone.directions.size();
-  store.write({}, {});
-  for (size_t begin = 0, count = 1; begin < 300; begin += count, count = std::min(2 * count, 300 - begin)) {
-    std::vector<uint32_t> places(count);  // In reverse order.
-    std::vector<ConeHit> hits;
-    for (size_t i = 0; i < count; ++i) {
-      places[i] = static_cast<uint32_t>(count - 1 - i);
-      const std::span<const ConeHit> own = seeded.seedHits().of(static_cast<uint32_t>(begin + places[i]));
-      hits.insert(hits.end(), own.begin(), own.end());
-    }
-    store.reserve(count);
-    store.write(places, hits);
-    store.addSeeds(count);
-  }
-  CHECK_THROWS_AS(store.addSeeds(300), CheckFailure);
-  const std::vector<ConeHit> stored = store.download();
-  REQUIRE(stored.size() == seeded.hits.size());
-  CHECK(test::haveSameBits(stored, seeded.hits));
-  const SeedHitsView hits{seeded.seeds, {}};
-  const auto values = [&] {
-    return predictValues(seeded.scene(), seeded.graph, seeded.cone, hits, {}, {}, predictor.get()).values;
-  };
-  CHECK(test::haveSameBits(values(), expected));
-  CHECK(test::haveSameBits(predictOn(seeded, {}, predictor.get()), expected));
-  CHECK(test::haveSameBits(values(), expected));
-  test::requireFailure([&] { store.reserve(device->facts().maxStorageBufferRange); }, ErrorCode::DeviceLimit,
-                       "hits are too many");
-  CHECK(store.download().size() == seeded.hits.size());
-  CHECK(store.buffer().byteCount() >= 300 * rayCount * sizeof(ConeHit));
-  store.release();
-  CHECK(store.download().empty());
-  CHECK(store.buffer().byteCount() == 0);
-}
-
-TEST_CASE("a store of hits grows to the largest allocation of the device") {
-  const Instance instance({.validation = true});
-  DeviceFacts facts = describeDevice(instance.physicalDevices().front());
-  facts.maxMemoryAllocationSize = 1000 * 30 * sizeof(ConeHit);
-  const Device device(instance.physicalDevices().front(), facts);
-  const VulkanHitStoreKernel kernel(device);
-  VulkanHitStore store(kernel, 30);
-  store.reserve(900);
-  store.addSeeds(900);
-  store.reserve(100);  // A quarter more than 900 would be too large.
-  test::requireFailure([&] { store.reserve(101); }, ErrorCode::DeviceLimit, "30030 hits are too many");
-  CHECK(instance.validationLog()->messages().empty());
 }
 
 TEST_CASE("the device, too, copies the values of faces whose seeds are the same as before, and predicts the others") {

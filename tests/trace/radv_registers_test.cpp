@@ -146,7 +146,7 @@ ComputePipelineDescription conesOn(const DeviceFacts& facts, TraceKernel kernel,
   const ConeKernelRequest request{.rayCount = 30, .writesHits = true};
   VulkanTraceChoice choice = defaultTraceChoice(facts);
   choice.kernel = kernel;
-  return describeCones(request, choice, workgroupShapeFor(facts, request.rayCount, kernel), walk);
+  return describeRays(request, choice, workgroupShapeFor(facts, request.rayCount, kernel), walk);
 }
 
 constexpr const char* kOccupancy = "Subgroups per SIMD";

@@ -9,10 +9,9 @@
 #include "asdf_vk/error.h"
 #include "core/random.h"
 #include "generate/shapes.h"
-#include "spirv/trace_cone.comp.h"
 #include "spirv/trace_packet.comp.h"
+#include "spirv/trace_rays.comp.h"
 #include "spirv/trace_reduce.comp.h"
-#include "spirv/trace_seed.comp.h"
 #include "support/require_failure.h"
 #include "support/shapes.h"
 #include "support/specialization_ids.h"
@@ -163,25 +162,19 @@ TEST_CASE("the device's own iteration guard suffices for its workgroup shape") {
   cpu.maxWorkgroupInvocations = 1024;
   cpu.maxWorkgroupSize = 1024;
   for (uint32_t rayCount = 1; rayCount <= kMaxRayCount; ++rayCount) {
-    const VulkanWorkgroupShape shape = workgroupShapeFor(cpu, rayCount);
-    const uint32_t raysPerLane = (rayCount + shape.lanesPerCone - 1) / shape.lanesPerCone;
-    const uint64_t reduction = uint64_t{rayCount} * (3 + raysPerLane) + 2 * raysPerLane;
-    REQUIRE(8ull * shape.iterationLimit + reduction <= 65'535);
-    REQUIRE(shape.iterationLimit > 5000);
-    REQUIRE(shape.lanesPerCone % 8 == 0);
+    const VulkanWorkgroupShape rays = workgroupShapeFor(cpu, rayCount, TraceKernel::Ray);
+    REQUIRE(8ull * rays.iterationLimit <= 65'535);
+    REQUIRE(rays.lanesPerCone % 8 == 0);
     const VulkanWorkgroupShape seeds = workgroupShapeFor(cpu, rayCount, TraceKernel::Seed);
     REQUIRE(8ull * seeds.iterationLimit <= 65'535);
     REQUIRE(seeds.lanesPerCone * seeds.conesPerWorkgroup % 8 == 0);
+    // An iteration of a packet counts 2 and a triangle of each of eight leaves.
+    REQUIRE(workgroupShapeFor(cpu, rayCount, TraceKernel::Packet).iterationLimit + 2 + 24 <= 65'535);
     // The iterations of the loops of trace_reduce.comp, by either definition.
     REQUIRE(31ull * rayCount + 5 * rayCount + 31 + 17 * rayCount + 16 <= 65'535);
-    const VulkanWorkgroupShape cgal = workgroupShapeFor(cpu, rayCount, TraceKernel::Ray, Definition::Cgal);
-    REQUIRE(8ull * cgal.iterationLimit + reduction + uint64_t{rayCount} * raysPerLane + 2 * raysPerLane <= 65'535);
-    REQUIRE(cgal.iterationLimit > 5000);
     DeviceFacts gpu = cpu;
     gpu.kind = DeviceKind::Discrete;
-    const VulkanWorkgroupShape onGpu = workgroupShapeFor(gpu, rayCount);
-    const uint32_t raysPerGpuLane = (rayCount + onGpu.lanesPerCone - 1) / onGpu.lanesPerCone;
-    REQUIRE(8ull * onGpu.iterationLimit + uint64_t{rayCount} * (3 + raysPerGpuLane) + 2 * raysPerGpuLane <= 65'535);
+    REQUIRE(8ull * workgroupShapeFor(gpu, rayCount, TraceKernel::Ray).iterationLimit <= 65'535);
   }
 }
 
@@ -277,12 +270,12 @@ TEST_CASE("a GPU's workgroups hold several cones") {
   gpu.subgroupSize = 32;
   gpu.maxWorkgroupInvocations = 1024;
   gpu.maxWorkgroupSize = 1024;
-  CHECK(workgroupShapeFor(gpu, 30).lanesPerCone == 32);
-  CHECK(workgroupShapeFor(gpu, 30).conesPerWorkgroup == 4);
-  CHECK(workgroupShapeFor(gpu, 1024).lanesPerCone == 256);
-  CHECK(workgroupShapeFor(gpu, 1024).conesPerWorkgroup == 1);
+  CHECK(workgroupShapeFor(gpu, 30, TraceKernel::Ray).lanesPerCone == 32);
+  CHECK(workgroupShapeFor(gpu, 30, TraceKernel::Ray).conesPerWorkgroup == 4);
+  CHECK(workgroupShapeFor(gpu, 1024, TraceKernel::Ray).lanesPerCone == 256);
+  CHECK(workgroupShapeFor(gpu, 1024, TraceKernel::Ray).conesPerWorkgroup == 1);
   gpu.maxWorkgroupInvocations = gpu.maxWorkgroupSize = 128;  // the least that Vulkan allows
-  CHECK(workgroupShapeFor(gpu, 1024).lanesPerCone == 128);
+  CHECK(workgroupShapeFor(gpu, 1024, TraceKernel::Ray).lanesPerCone == 128);
 }
 
 TEST_CASE("the kernel is chosen by the class of the device, or as requested") {
@@ -312,9 +305,8 @@ TEST_CASE("the kernel is chosen by the class of the device, or as requested") {
 }
 
 TEST_CASE("each specialization constant of the tracing shaders has an id of its own") {
-  CHECK(test::hasDistinctSpecializationIds(k_trace_cone_comp));
   CHECK(test::hasDistinctSpecializationIds(k_trace_packet_comp));
-  CHECK(test::hasDistinctSpecializationIds(k_trace_seed_comp));
+  CHECK(test::hasDistinctSpecializationIds(k_trace_rays_comp));
   CHECK(test::hasDistinctSpecializationIds(k_trace_reduce_comp));
 }
 

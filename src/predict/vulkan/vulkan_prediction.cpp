@@ -89,7 +89,6 @@ class VulkanPredictor final : public DevicePredictor {
         cone_(cone),
         batchSize_(batchSize),
         rules_(PredictionKernel::rulesOf(cone)),
-        store_(kernels.store(), kernels.rayCount()),
         faces_(uploadFaces(kernels.device(), scene)),
         values_(kernels.device(), std::max<uint64_t>(16, scene.geometry.areas.size() * sizeof(uint32_t)),
                 kStorage | VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryKind::DeviceLocal),
@@ -99,8 +98,6 @@ class VulkanPredictor final : public DevicePredictor {
     ASDFVK_CHECK_OP(batchSize.maxSeedCount, >=, size_t{kMaxContributingSeedCount});
     ASDFVK_CHECK_OP(batchSize.maxFaceCount, >, size_t{0});
   }
-
-  HitStore* hitStore() override { return &store_; }
 
   void predict(const PredictionInput& input, std::span<double> values, const RunControl& control) override {
     if (input.options.neighbourCount >= kMaxContributingSeedCount)
@@ -129,16 +126,18 @@ class VulkanPredictor final : public DevicePredictor {
                 SharedBuffer::Host::Writes),
           work(kernels.device(), (2 * items + kMaxContributingSeedCount * seeds) * sizeof(uint32_t), kStorage,
                SharedBuffer::Host::Writes),
+          hits(kernels.device(), seeds * kernels.rayCount() * sizeof(ConeHit), kStorage, SharedBuffer::Host::Writes),
           points(kernels.device(), seeds * (kernels.rayCount() + 1) * sizeof(PredictionPoint), kStorage,
                  MemoryKind::DeviceLocal),
+          pointBindings(kernels.device(), kernels.points(),
+                        std::array<Binding, 4>{faces, table.onDevice(), hits.onDevice(), points}),
           faceBindings(kernels.device(), kernels.faces(),
                        std::array<Binding, 4>{faces, points, work.onDevice(), values}) {}
 
     size_t seedCount, faceCount;
-    SharedBuffer table, work;
-    std::optional<SharedBuffer> hits;  // Hits of the seeds of the batch, where the host keeps the hits.
+    SharedBuffer table, work, hits;
     Buffer points;
-    BindingSet faceBindings;
+    BindingSet pointBindings, faceBindings;
   };
 
   /// Small meshes need little.
@@ -155,22 +154,14 @@ class VulkanPredictor final : public DevicePredictor {
   }
 
   void predictBatches(const PredictionInput& input, PredictionBatches& batches, const RunControl& control) {
-    const bool isStored = input.hits.hits.empty();
-    if (isStored) ASDFVK_CHECK_OP(store_.seedCount(), ==, input.hits.seeds.size());
     reserve(input);
-    if (!isStored && !memory_->hits)
-      memory_->hits.emplace(kernels_.device(), memory_->seedCount * kernels_.rayCount() * sizeof(ConeHit), kStorage,
-                            SharedBuffer::Host::Writes);
-    const Buffer& hits = isStored ? store_.buffer() : memory_->hits->onDevice();
-    const BindingSet pointBindings(kernels_.device(), kernels_.points(),
-                                   std::array<Binding, 4>{faces_, memory_->table.onDevice(), hits, memory_->points});
     ChunkSize size(std::max<size_t>(1, kFirstBatchRayCount / kernels_.rayCount()), memory_->faceCount);
     while (batches.next({memory_->seedCount, size.current()})) {
       control.checkpoint(batches.progress());
       writeSeeds(input, batches.seeds());
       batches.write(memory_->work.onHost<uint32_t>());
       const Stopwatch stopwatch;
-      dispatch(input, batches, pointBindings);
+      dispatch(input, batches);
       size.adapt(batches.faceCount(), stopwatch.seconds());
     }
     control.checkpoint(1);
@@ -179,18 +170,16 @@ class VulkanPredictor final : public DevicePredictor {
   void writeSeeds(const PredictionInput& input, std::span<const uint32_t> seeds) {
     const size_t rayCount = kernels_.rayCount();
     const std::span<std::byte> table = memory_->table.onHost<std::byte>().subspan(rayCount * sizeof(PredictionRay));
-    const bool isStored = input.hits.hits.empty();
-    const std::span<ConeHit> hits = isStored ? std::span<ConeHit>{} : memory_->hits->onHost<ConeHit>();
+    const std::span<ConeHit> hits = memory_->hits.onHost<ConeHit>();
     forEachInParallel(seeds.size(), [&](uint32_t i) {
       const uint32_t face = input.hits.seeds[seeds[i]];
-      const auto firstHit = static_cast<uint32_t>((isStored ? seeds[i] : i) * rayCount);
-      const PredictionSeed seed{toGlsl(seedConeFrame(scene_, cone_, face).tangent), face, firstHit, 0, 0, 0};
+      const PredictionSeed seed{toGlsl(seedConeFrame(scene_, cone_, face).tangent), face};
       std::memcpy(&table[i * sizeof seed], &seed, sizeof seed);
-      if (!isStored) std::ranges::copy(input.hits.of(seeds[i]), hits.begin() + firstHit);
+      std::ranges::copy(input.hits.of(seeds[i]), hits.subspan(i * rayCount).begin());
     });
   }
 
-  void dispatch(const PredictionInput& input, const PredictionBatches& batch, const BindingSet& pointBindings) {
+  void dispatch(const PredictionInput& input, const PredictionBatches& batch) {
     const auto seedCount = static_cast<uint32_t>(batch.seeds().size());
     const PointPush pointPush{static_cast<float>(cone_.falseHitCosine), static_cast<float>(cone_.outliers.deviations)};
     const PredictionPush push{static_cast<uint32_t>(batch.faceCount()),
@@ -204,12 +193,11 @@ class VulkanPredictor final : public DevicePredictor {
     commands_.begin();
     memory_->table.recordCopy(commands_,
                               kernels_.rayCount() * sizeof(PredictionRay) + seedCount * sizeof(PredictionSeed));
-    if (!input.hits.hits.empty())
-      memory_->hits->recordCopy(commands_, uint64_t{seedCount} * kernels_.rayCount() * sizeof(ConeHit));
+    memory_->hits.recordCopy(commands_, uint64_t{seedCount} * kernels_.rayCount() * sizeof(ConeHit));
     memory_->work.recordCopy(
         commands_, (2 * batch.faceCount() + kMaxContributingSeedCount * batch.cellCount()) * sizeof(uint32_t));
     commands_.barrier();
-    commands_.dispatch(kernels_.points(), pointBindings, bytesOf(pointPush), seedCount);
+    commands_.dispatch(kernels_.points(), memory_->pointBindings, bytesOf(pointPush), seedCount);
     commands_.barrier();
     commands_.dispatch(kernels_.faces(), memory_->faceBindings, bytesOf(push),
                        divideUp(batch.faceCount(), VulkanPredictionKernels::kFaceLaneCount));
@@ -222,7 +210,6 @@ class VulkanPredictor final : public DevicePredictor {
   const Cone& cone_;
   PredictionBatchSize batchSize_;
   PredictionKernel::Rules rules_;
-  VulkanHitStore store_;
   Buffer faces_;   // A PredictionFace per face.
   Buffer values_;  // Per face, see predict_faces.comp.
   std::optional<Memory> memory_;
@@ -236,8 +223,7 @@ VulkanPredictionKernels::VulkanPredictionKernels(const Device& device, Definitio
       definition_(definition),
       rayCount_(rayCount),
       points_(device, describePoints(definition, rayCount)),
-      faces_(device, describeFaces(definition)),
-      store_(device) {}
+      faces_(device, describeFaces(definition)) {}
 
 PredictionBatchSize predictionBatchSize(const VulkanPredictionKernels& kernels) {
   const DeviceFacts& facts = kernels.device().facts();

@@ -6,7 +6,6 @@
 #include "cone/cone.h"
 #include "predict/prediction.h"
 #include "predict/vulkan/prediction_batches.h"
-#include "trace/vulkan/vulkan_hit_store.h"
 #include "vk/compute_pipeline.h"
 #include "vk/device.h"
 
@@ -26,15 +25,12 @@ class VulkanPredictionKernels {
   /// Binds faces, points, work, values. A workgroup per kFaceLaneCount items.
   [[nodiscard]] const ComputePipeline& faces() const { return faces_; }
   static constexpr uint32_t kFaceLaneCount = 64;
-  /// The kernel of the stores of hits.
-  [[nodiscard]] const VulkanHitStoreKernel& store() const { return store_; }
 
  private:
   const Device& device_;
   Definition definition_;
   uint32_t rayCount_;
   ComputePipeline points_, faces_;
-  VulkanHitStoreKernel store_;
 };
 
 /// Bounded by 32 MiB of hit points, by the limits of the device, and, for the length of a submission, by the number of

@@ -61,7 +61,6 @@ class CpuTracer final : public ConeTracer {
                            const ConeResults& results, const RunControl& control) {
     const size_t rayCount = cone_.directions.size();
     checkSizes(results, order.size(), rayCount);
-    ASDFVK_CHECK(results.store == nullptr);
     const size_t hitCount = results.hits.empty() ? 0 : rayCount;  // Per cone.
     const auto hitsOf = [&](uint32_t cone) { return results.hits.subspan(cone * hitCount, hitCount); };
     std::atomic<uint64_t> redoneConeCount = 0;

@@ -15,69 +15,59 @@ std::vector<Binding> joined(std::vector<Binding> first, const std::vector<Bindin
   return first;
 }
 
+/// Bytes of an entry per ray and cone.
+uint64_t byteCountPerRay(const VulkanConeKernel& kernel, uint64_t capacity, size_t entryByteCount) {
+  return capacity * kernel.rayCount() * entryByteCount;
+}
+
+std::optional<SharedBuffer> makeHits(const VulkanConeKernel& kernel, uint64_t capacity) {
+  if (!kernel.writesHits()) return std::nullopt;
+  return SharedBuffer(kernel.device(), byteCountPerRay(kernel, capacity, sizeof(ConeHit)), kChunkUsage,
+                      SharedBuffer::Host::Reads);
+}
+
 }  // namespace
 
-ConeChunk::ConeChunk(const VulkanConeKernel& kernel, const ConeBuffers& scene, uint64_t capacity, const Timing& timing,
-                     const VulkanHitStore* store)
+ConeChunk::ConeChunk(const VulkanConeKernel& kernel, const ConeBuffers& scene, uint64_t capacity)
     : kernel_(kernel),
       capacity_(capacity),
-      timing_(timing),
-      store_(store),
       origins_(kernel.device(), capacity * sizeof(ConeOrigin), kOriginUsage, SharedBuffer::Host::Writes),
+      lengths_(kernel.device(), byteCountPerRay(kernel, capacity, sizeof(uint32_t)), kChunkUsage,
+               MemoryKind::DeviceOnly),
       results_(kernel.device(), capacity * sizeof(uint32_t), kChunkUsage, SharedBuffer::Host::Reads),
+      hits_(makeHits(kernel, capacity)),
       originTexels_(kernel.device(), origins_.onDevice()),
+      rayBindings_(kernel.device(), kernel.rays(),
+                   joined(scene.hierarchyBindings(),
+                          {scene.rayTexels(), originTexels_, *lengths_, hits_ ? hits_->onDevice() : scene.nothing()})),
+      reductionBindings_(kernel.device(), kernel.reduction(),
+                         std::vector<Binding>{scene.rayTexels(), *lengths_, results_.onDevice()}),
       commands_(kernel.device()) {
-  const Device& device = kernel.device();
-  const uint64_t rayCount = kernel.rayCount();
-  if (kernel.writesHits())
-    hits_.emplace(device, capacity * rayCount * sizeof(ConeHit), kChunkUsage, SharedBuffer::Host::Reads);
-  if (kernel.reduction())
-    lengths_ = PooledBuffer(device, capacity * rayCount * sizeof(uint32_t), kChunkUsage, MemoryKind::DeviceOnly);
-  bindings_.emplace(device, kernel.pipeline(),
-                    joined(scene.hierarchyBindings(),
-                           {scene.rayTexels(), originTexels_, kernel.reduction() ? *lengths_ : results_.onDevice(),
-                            hits_ ? hits_->onDevice() : scene.nothing()}));
-  if (kernel.reduction())
-    reductionBindings_.emplace(device, *kernel.reduction(),
-                               std::vector<Binding>{scene.rayTexels(), *lengths_, results_.onDevice()});
-  if (store != nullptr) {
-    places_ = PooledBuffer(device, capacity * sizeof(uint32_t), kChunkUsage, MemoryKind::HostVisible);
-    storeBindings_.emplace(device, store->pipeline(), store->bindings(hits_->onDevice(), *places_));
-  }
-  if (!kernel.origins()) return;
-  seeds_ = PooledBuffer(device, capacity * sizeof(ConeSeed), kChunkUsage, MemoryKind::HostVisible);
-  originBindings_.emplace(device, *kernel.origins(), joined(scene.hierarchyBindings(), {*seeds_, origins_.onDevice()}));
+  if (kernel.origins() == nullptr) return;
+  seeds_ = PooledBuffer(kernel.device(), capacity * sizeof(ConeSeed), kChunkUsage, MemoryKind::HostVisible);
+  originBindings_.emplace(kernel.device(), *kernel.origins(),
+                          joined(scene.hierarchyBindings(), {*seeds_, origins_.onDevice()}));
 }
 
 void ConeChunk::submit(const ConePush& push, Input input, bool readsHits) {
   const VulkanWorkgroupShape& shape = kernel_.shape();
   commands_.begin();
-  timing_.timer.begin(commands_.handle(), timing_.slot);
   if (input == Input::Seeds)
     commands_.dispatch(*kernel_.origins(), *originBindings_, bytesOf(push),
                        groupCount(push.coneCount, VulkanConeKernel::kOriginLaneCount));
   else
     origins_.recordCopy(commands_, push.coneCount * sizeof(ConeOrigin));
   commands_.barrier();
-  commands_.dispatch(kernel_.pipeline(), *bindings_, bytesOf(push), groupCount(push.coneCount, shape.conesPerWorkgroup),
-                     kernel_.reduction() ? groupCount(kernel_.rayCount(), shape.lanesPerCone) : 1);
+  commands_.dispatch(kernel_.rays(), rayBindings_, bytesOf(push), groupCount(push.coneCount, shape.conesPerWorkgroup),
+                     groupCount(kernel_.rayCount(), shape.lanesPerCone));
   commands_.barrier();
-  if (kernel_.reduction()) {
-    commands_.dispatch(*kernel_.reduction(), *reductionBindings_, bytesOf(push),
-                       groupCount(push.coneCount, VulkanConeKernel::kReductionLaneCount));
-    commands_.barrier();
-  }
-  if (store_ != nullptr) store_->recordWrite(commands_, *storeBindings_, push.coneCount);
+  commands_.dispatch(kernel_.reduction(), reductionBindings_, bytesOf(push),
+                     groupCount(push.coneCount, VulkanConeKernel::kReductionLaneCount));
+  commands_.barrier();
   results_.recordCopy(commands_, push.coneCount * sizeof(uint32_t));
-  if (readsHits) hits_->recordCopy(commands_, uint64_t{push.coneCount} * kernel_.rayCount() * sizeof(ConeHit));
+  if (readsHits) hits_->recordCopy(commands_, byteCountPerRay(kernel_, push.coneCount, sizeof(ConeHit)));
   commands_.barrier();
-  timing_.timer.end(commands_.handle(), timing_.slot);
   commands_.submit();
-}
-
-void ConeChunk::wait() {
-  commands_.wait();
-  timing_.timer.add(timing_.slot);
 }
 
 }  // namespace asdfvk

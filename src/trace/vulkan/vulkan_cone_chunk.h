@@ -7,9 +7,7 @@
 #include "shared/cone_hit.h"
 #include "shared/cone_layout.h"
 #include "trace/vulkan/vulkan_cone_kernel.h"
-#include "trace/vulkan/vulkan_hit_store.h"
 #include "vk/command_list.h"
-#include "vk/device_timer.h"
 #include "vk/shared_buffer.h"
 
 namespace asdfvk {
@@ -18,16 +16,8 @@ namespace asdfvk {
 /// results() and hits(). Its buffers come from Device::pool(); the destructor waits and gives them back.
 class ConeChunk {
  public:
-  /// The timer of the submissions, and the slot that they have in it.
-  struct Timing {
-    DeviceTimer& timer;
-    uint32_t slot;
-  };
-
-  /// capacity: number of cones, at most largestConeChunk(). store: null, or receives the hits; its memory is reserved.
-  /// All arguments must outlive it.
-  ConeChunk(const VulkanConeKernel& kernel, const ConeBuffers& scene, uint64_t capacity, const Timing& timing,
-            const VulkanHitStore* store);
+  /// capacity: number of cones, at most largestConeChunk(). All arguments must outlive it.
+  ConeChunk(const VulkanConeKernel& kernel, const ConeBuffers& scene, uint64_t capacity);
   ~ConeChunk() { commands_.finish(); }
   ConeChunk(const ConeChunk&) = delete;
   ConeChunk& operator=(const ConeChunk&) = delete;
@@ -37,14 +27,11 @@ class ConeChunk {
   [[nodiscard]] std::span<ConeSeed> seeds() { return seeds_->mappedAs<ConeSeed>(); }
   /// Starts of cones anywhere.
   [[nodiscard]] std::span<ConeOrigin> starts() { return origins_.onHost<ConeOrigin>(); }
-  /// With a store only: the place of each cone in the batch that is traced.
-  [[nodiscard]] std::span<uint32_t> places() { return places_->mappedAs<uint32_t>(); }
 
   enum class Input { Seeds, Starts };
   /// readsHits: whether hits() are read.
   void submit(const ConePush& push, Input input, bool readsHits);
-  /// Call it once per submission.
-  void wait();
+  void wait() { commands_.wait(); }
 
   /// See shared/cone_layout.h.
   [[nodiscard]] std::span<const uint32_t> results() { return results_.onHost<uint32_t>(); }
@@ -54,15 +41,14 @@ class ConeChunk {
  private:
   const VulkanConeKernel& kernel_;
   uint64_t capacity_;
-  Timing timing_;
-  const VulkanHitStore* store_;
-  PooledBuffer seeds_, places_;  // Mapped: kernels read each entry once.
-  SharedBuffer origins_;         // A ConeOrigin per cone.
-  PooledBuffer lengths_;         // Bits of a float per ray and cone, if there is a reduction.
+  PooledBuffer seeds_;    // Mapped: kernels read each entry once. Exists if the kernel has origins().
+  SharedBuffer origins_;  // A ConeOrigin per cone.
+  PooledBuffer lengths_;  // Bits of a float per ray and cone.
   SharedBuffer results_;
   std::optional<SharedBuffer> hits_;  // If the kernel writes them.
   TexelView originTexels_;
-  std::optional<BindingSet> bindings_, originBindings_, reductionBindings_, storeBindings_;
+  BindingSet rayBindings_, reductionBindings_;
+  std::optional<BindingSet> originBindings_;
   CommandList commands_;  // Destroyed first: waits.
 };
 

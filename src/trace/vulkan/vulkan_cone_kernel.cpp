@@ -8,11 +8,9 @@
 #include "asdf_vk/error.h"
 #include "shared/cone_hit.h"
 #include "spirv/cone_origins.comp.h"
-#include "spirv/trace_cone.comp.h"
-#include "spirv/trace_constant.comp.h"
 #include "spirv/trace_packet.comp.h"
+#include "spirv/trace_rays.comp.h"
 #include "spirv/trace_reduce.comp.h"
-#include "spirv/trace_seed.comp.h"
 
 namespace asdfvk {
 namespace {
@@ -21,24 +19,20 @@ constexpr VkDescriptorType kTexels = VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER;
 constexpr VkDescriptorType kStorage = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
 
 VulkanTraceChoice choiceFor(const Device& device, const ConeKernelRequest& request) {
-  VulkanTraceChoice choice = request.choice.value_or(defaultTraceChoice(device.facts()));
-  if (request.isConstant) choice.kernel = TraceKernel::Ray;  // It has the same bindings and workgroups.
-  return choice;
-}
-
-struct Shader {
-  std::string name;
-  std::span<const uint32_t> spirv;
-};
-
-Shader shaderOf(TraceKernel kernel) {
-  if (kernel == TraceKernel::Packet) return {"trace_packet.comp", k_trace_packet_comp};
-  if (kernel == TraceKernel::Ray) return {"trace_cone.comp", k_trace_cone_comp};
-  return {"trace_seed.comp", k_trace_seed_comp};
+  return request.choice.value_or(defaultTraceChoice(device.facts()));
 }
 
 VkBool32 isCgal(const ConeKernelRequest& request) {
   return request.definition == Definition::Cgal ? VK_TRUE : VK_FALSE;
+}
+
+ComputePipelineDescription describeReduction(const ConeKernelRequest& request) {
+  return {.name = "trace_reduce.comp",
+          .spirv = k_trace_reduce_comp,
+          .bindings = {kTexels, kStorage, kStorage},
+          .pushConstantByteCount = sizeof(ConePush),
+          .specializationConstants = {/* LOCAL_SIZE_X= */ VulkanConeKernel::kReductionLaneCount,
+                                      /* RAY_COUNT= */ request.rayCount, isCgal(request)}};
 }
 
 ComputePipelineDescription describeOrigins(const VulkanTraceChoice& choice) {
@@ -87,12 +81,11 @@ uint64_t hitByteCount(const VulkanConeKernel& kernel) { return kernel.rayCount()
 
 }  // namespace
 
-ComputePipelineDescription describeCones(const ConeKernelRequest& request, const VulkanTraceChoice& choice,
-                                         const VulkanWorkgroupShape& shape, const VulkanWalkShape& walk) {
-  const Shader shader =
-      request.isConstant ? Shader{"trace_constant.comp", k_trace_constant_comp} : shaderOf(choice.kernel);
-  return {.name = shader.name,
-          .spirv = shader.spirv,
+ComputePipelineDescription describeRays(const ConeKernelRequest& request, const VulkanTraceChoice& choice,
+                                        const VulkanWorkgroupShape& shape, const VulkanWalkShape& walk) {
+  const bool isPacket = choice.kernel == TraceKernel::Packet;
+  return {.name = isPacket ? "trace_packet.comp" : "trace_rays.comp",
+          .spirv = isPacket ? std::span<const uint32_t>(k_trace_packet_comp) : k_trace_rays_comp,
           .bindings = {kTexels, kTexels, kStorage, kStorage, kTexels, kTexels, kStorage, kStorage},
           .pushConstantByteCount = sizeof(ConePush),
           .specializationConstants = {/* LANES_PER_CONE= */ shape.lanesPerCone,
@@ -101,18 +94,15 @@ ComputePipelineDescription describeCones(const ConeKernelRequest& request, const
                                       /* ITERATION_LIMIT= */ shape.iterationLimit,
                                       /* WRITES_HITS= */ request.writesHits ? VK_TRUE : VK_FALSE,
                                       /* FETCHES_TEXELS= */ choice.fetch == BvhFetch::Texel ? VK_TRUE : VK_FALSE,
-                                      /* STACK_SIZE= */ walk.stackSize,
-                                      /* LOCAL_SIZE_X= */ shape.lanesPerCone *
-                                          (choice.kernel == TraceKernel::Seed ? shape.conesPerWorkgroup : 1),
+                                      /* LOCAL_SIZE_X= */ shape.lanesPerCone * shape.conesPerWorkgroup,
                                       /* IS_CGAL= */ isCgal(request),
-                                      /* LOCAL_SIZE_Y= */ shape.conesPerWorkgroup,
+                                      /* STACK_SIZE= */ walk.stackSize,
                                       /* POSTPONES_TRIANGLES= */ walk.postponesTriangles ? VK_TRUE : VK_FALSE}};
 }
 
 VulkanConeKernel::VulkanConeKernel(const Device& device, const ConeKernelRequest& request)
-    : VulkanConeKernel(
-          device, request,
-          workgroupShapeFor(device.facts(), request.rayCount, choiceFor(device, request).kernel, request.definition)) {}
+    : VulkanConeKernel(device, request,
+                       workgroupShapeFor(device.facts(), request.rayCount, choiceFor(device, request).kernel)) {}
 
 VulkanConeKernel::VulkanConeKernel(const Device& device, const ConeKernelRequest& request,
                                    const VulkanWorkgroupShape& shape)
@@ -124,15 +114,9 @@ VulkanConeKernel::VulkanConeKernel(const Device& device, const ConeKernelRequest
       request_(request),
       choice_(choiceFor(device, request)),
       shape_(shape),
-      pipeline_(device, describeCones(request_, choice_, shape_, walk)) {
+      rays_(device, describeRays(request_, choice_, shape_, walk)),
+      reduction_(device, describeReduction(request_)) {
   if (request.definition == Definition::Paper) origins_.emplace(device, describeOrigins(choice_));
-  if (choice_.kernel == TraceKernel::Seed)
-    reduction_.emplace(device, ComputePipelineDescription{.name = "trace_reduce.comp",
-                                                          .spirv = k_trace_reduce_comp,
-                                                          .bindings = {kTexels, kStorage, kStorage},
-                                                          .pushConstantByteCount = sizeof(ConePush),
-                                                          .specializationConstants = {
-                                                              kReductionLaneCount, request.rayCount, isCgal(request)}});
 }
 
 uint64_t largestConeChunk(const VulkanConeKernel& kernel) {
@@ -143,7 +127,7 @@ uint64_t largestConeChunk(const VulkanConeKernel& kernel) {
   const auto boundBy = [&](uint64_t byteCount, uint64_t byteCountPerCone) {
     largest = std::min(largest, std::min(byteCount, facts.maxStorageBufferRange) / byteCountPerCone);
   };
-  if (kernel.reduction()) boundBy(kMaxLengthBufferByteCount, kernel.rayCount() * sizeof(uint32_t));
+  boundBy(kMaxLengthBufferByteCount, kernel.rayCount() * sizeof(uint32_t));
   if (kernel.writesHits()) boundBy(kMaxHitBufferByteCount, hitByteCount(kernel));
   return largest;
 }

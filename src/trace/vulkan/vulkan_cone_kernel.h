@@ -20,14 +20,12 @@ struct ConeKernelRequest {
   bool writesHits = false;
   std::optional<VulkanTraceChoice> choice = {};  ///< None: defaultTraceChoice().
   Definition definition = Definition::Paper;
-  bool isConstant = false;  ///< For benchmarks: shaders/trace_constant.comp instead of a kernel that traces.
   auto operator<=>(const ConeKernelRequest&) const = default;
 };
 
-/// The pipeline of the cones of a kernel.
-[[nodiscard]] ComputePipelineDescription describeCones(const ConeKernelRequest& request,
-                                                       const VulkanTraceChoice& choice,
-                                                       const VulkanWorkgroupShape& shape, const VulkanWalkShape& walk);
+/// The pipeline of a kernel that traces rays.
+[[nodiscard]] ComputePipelineDescription describeRays(const ConeKernelRequest& request, const VulkanTraceChoice& choice,
+                                                      const VulkanWorkgroupShape& shape, const VulkanWalkShape& walk);
 
 /// The compiled shaders/trace_*.comp for one device and request; serves any number of meshes.
 class VulkanConeKernel {
@@ -40,14 +38,13 @@ class VulkanConeKernel {
 
   [[nodiscard]] const Device& device() const { return device_; }
   [[nodiscard]] const VulkanTraceChoice& choice() const { return choice_; }
-  /// Binds nodes and triangles (texels, then storage), rays, origins, results or lengths, hits.
-  [[nodiscard]] const ComputePipeline& pipeline() const { return pipeline_; }
+  /// Traces rays. Binds nodes and triangles (texels, then storage), rays, origins, lengths, hits.
+  [[nodiscard]] const ComputePipeline& rays() const { return rays_; }
   /// Makes the starts of cones from their seeds; null unless the definition is the paper's, because the frames of
-  /// CGAL's depend on corners in double precision. Binds nodes and triangles as pipeline(), seeds, starts.
+  /// CGAL's depend on corners in double precision. Binds nodes and triangles as rays(), seeds, starts.
   [[nodiscard]] const ComputePipeline* origins() const { return origins_ ? &*origins_ : nullptr; }
-  /// Computes results from lengths; null unless pipeline() writes lengths, one per ray and cone. Binds rays, lengths,
-  /// results.
-  [[nodiscard]] const ComputePipeline* reduction() const { return reduction_ ? &*reduction_ : nullptr; }
+  /// Computes results from lengths, one per ray and cone. Binds rays, lengths, results.
+  [[nodiscard]] const ComputePipeline& reduction() const { return reduction_; }
   [[nodiscard]] uint32_t rayCount() const { return request_.rayCount; }
   [[nodiscard]] Definition definition() const { return request_.definition; }
   [[nodiscard]] bool writesHits() const { return request_.writesHits; }
@@ -59,8 +56,8 @@ class VulkanConeKernel {
   ConeKernelRequest request_;
   VulkanTraceChoice choice_;
   VulkanWorkgroupShape shape_;
-  ComputePipeline pipeline_;
-  std::optional<ComputePipeline> origins_, reduction_;
+  ComputePipeline rays_, reduction_;
+  std::optional<ComputePipeline> origins_;
 };
 
 /// Largest number of cones of one dispatch: each buffer stays within the limits of the device and at most 32 MiB.

@@ -37,13 +37,6 @@ std::string nameIn(VariantNames<T> names, T value) {
   return {};
 }
 
-// One ray per lane.
-VulkanWorkgroupShape seedShape(const DeviceFacts& device) {
-  VulkanWorkgroupShape shape{1, std::min({64u, device.maxWorkgroupInvocations, device.maxWorkgroupSize})};
-  if (device.endsLongLoops) shape.iterationLimit = kMaxLoopIterationCount / std::max(1u, device.subgroupSize);
-  return shape;
-}
-
 struct Rule {
   VulkanTraceChoice choice;
   const char* reason;
@@ -105,27 +98,24 @@ TraceVariant variantOf(const VulkanTraceChoice& choice) {
   return {nameIn(kernelNames(), choice.kernel), nameIn(fetchNames(), choice.fetch)};
 }
 
-VulkanWorkgroupShape workgroupShapeFor(const DeviceFacts& device, uint32_t rayCount, TraceKernel kernel,
-                                       Definition definition) {
-  if (kernel == TraceKernel::Seed) return seedShape(device);
+VulkanWorkgroupShape workgroupShapeFor(const DeviceFacts& device, uint32_t rayCount, TraceKernel kernel) {
+  const auto atMost = [&](uint32_t laneCount) {
+    return std::min({laneCount, device.maxWorkgroupInvocations, device.maxWorkgroupSize});
+  };
+  const bool isCpu = device.kind == DeviceKind::Cpu;
   VulkanWorkgroupShape shape;
-  const uint32_t widest = std::min({256u, device.maxWorkgroupInvocations, device.maxWorkgroupSize});
-  if (device.kind != DeviceKind::Cpu) {
-    shape.lanesPerCone = std::min(widest, roundUp(rayCount, std::clamp(device.subgroupSize, 8u, 32u)));
-    shape.conesPerWorkgroup = std::max(1u, std::min(128u, device.maxWorkgroupInvocations) / shape.lanesPerCone);
+  if (kernel == TraceKernel::Seed) {
+    shape.lanesPerCone = 1;
+    shape.conesPerWorkgroup = atMost(64);
   } else {
-    shape.lanesPerCone = std::min(widest, roundUp(rayCount, 8));
+    shape.lanesPerCone = std::min(atMost(256), roundUp(rayCount, isCpu ? 8 : std::clamp(device.subgroupSize, 8u, 32u)));
+    if (!isCpu) shape.conesPerWorkgroup = std::max(1u, atMost(128) / shape.lanesPerCone);
   }
-  if (!device.endsLongLoops) return shape;
-  // Iterations of the reduction: three loops over all rays, and one over all rays for each ray of the lane; in the
-  // definition of CGAL another one of these.
-  const uint32_t raysPerLane = (rayCount + shape.lanesPerCone - 1) / shape.lanesPerCone;
-  const uint32_t rankCount = definition == Definition::Cgal ? 2 * raysPerLane : raysPerLane;
-  const uint32_t reductionCount = rayCount * (3 + rankCount) + 2 * rankCount + 64;
-  // The limit counts the lanes of a subgroup together. Lanes of a packet run every loop together; those of other
-  // kernels may run different iterations.
-  const uint32_t sharingCount = kernel == TraceKernel::Packet ? 1 : std::max(1u, device.subgroupSize);
-  shape.iterationLimit = (kMaxLoopIterationCount - reductionCount) / sharingCount;
+  // The limit counts the lanes of a subgroup together. Lanes of a packet run every loop together.
+  constexpr uint32_t kPacketMargin = 64;  // Above the count of one iteration of a packet.
+  if (device.endsLongLoops)
+    shape.iterationLimit = kernel == TraceKernel::Packet ? kMaxLoopIterationCount - kPacketMargin
+                                                         : kMaxLoopIterationCount / std::max(1u, device.subgroupSize);
   return shape;
 }
 

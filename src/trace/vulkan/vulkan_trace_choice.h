@@ -17,8 +17,8 @@ namespace asdfvk {
 /// Assignment of rays to the lanes of a device.
 enum class TraceKernel {
   Packet,  ///< shaders/trace_packet.comp: as Ray, but the lanes of a subgroup traverse the hierarchy together.
-  Ray,     ///< shaders/trace_cone.comp: a workgroup per cone or a few cones; each lane traces its own rays.
-  Seed,    ///< shaders/trace_seed.comp: neighbouring lanes trace the same ray of neighbouring seeds.
+  Ray,     ///< shaders/trace_rays.comp: neighbouring lanes trace the rays of one seed.
+  Seed,    ///< shaders/trace_rays.comp: neighbouring lanes trace the same ray of neighbouring seeds.
 };
 
 /// How kernels read the hierarchy.
@@ -63,18 +63,14 @@ using VariantNames = std::span<const std::pair<const char*, T>>;
 [[nodiscard]] VulkanTraceRequest traceRequestOf(const TraceVariant& variant);
 [[nodiscard]] TraceVariant variantOf(const VulkanTraceChoice& choice);
 
-/// Workgroups of the cone kernel.
+/// Workgroups of the kernels that trace rays, one ray per lane.
 struct VulkanWorkgroupShape {
-  /// Ray, Packet: each lane traces rayCount / lanesPerCone rays, rounded up. Seed: number of rays of a cone in
-  /// neighbouring lanes.
-  uint32_t lanesPerCone = 32;
+  uint32_t lanesPerCone = 32;  ///< Number of rays of a cone in neighbouring lanes.
   uint32_t conesPerWorkgroup = 1;
-  uint32_t iterationLimit = 60'000;  ///< Per lane; cones that exceed it are traced by the reference.
+  uint32_t iterationLimit = 60'000;  ///< Per ray; the reference traces the cones of rays that exceed it.
 };
 
-[[nodiscard]] VulkanWorkgroupShape workgroupShapeFor(const DeviceFacts& device, uint32_t rayCount,
-                                                     TraceKernel kernel = TraceKernel::Ray,
-                                                     Definition definition = Definition::Paper);
+[[nodiscard]] VulkanWorkgroupShape workgroupShapeFor(const DeviceFacts& device, uint32_t rayCount, TraceKernel kernel);
 
 /// Traversal of the hierarchy by single lanes (shaders/wide_walk.glsl). Values are the same with every shape, up to
 /// ties of equally near triangles.

@@ -5,7 +5,6 @@
 #include <bit>
 #include <cmath>
 #include <iterator>
-#include <numeric>
 #include <optional>
 #include <vector>
 
@@ -19,8 +18,6 @@
 #include "trace/vulkan/device_seeds.h"
 #include "trace/vulkan/vulkan_cone_chunk.h"
 #include "trace/vulkan/vulkan_cone_kernel.h"
-#include "trace/vulkan/vulkan_hit_store.h"
-#include "vk/device_timer.h"
 
 namespace asdfvk {
 namespace {
@@ -86,14 +83,11 @@ class VulkanTracer final : public ConeTracer {
   TraceStatistics traceAll(size_t coneCount, const Sorted& sorted, const Submit& submit, const StartOf& startOf,
                            const ConeResults& results, const RunControl& control) {
     checkSizes(results, coneCount, kernel_.rayCount());
-    VulkanHitStore* const store = storeOf(results);
-    ASDFVK_CHECK((results.hits.empty() && store == nullptr) || kernel_.writesHits());
-    if (store != nullptr) ASDFVK_CHECK_OP(coneCount, <=, store->reservedCount());
+    ASDFVK_CHECK(results.hits.empty() || kernel_.writesHits());
     const uint64_t rayCount = coneCount * cone_.directions.size();
     if (scene_.bvh.nodes.empty()) {
       std::fill(results.values.begin(), results.values.end(), kNoValue);
       std::fill(results.hits.begin(), results.hits.end(), kMiss);
-      if (store != nullptr) storeMisses(*store, coneCount);
       return {rayCount, 0};
     }
     UnsetVector<DeviceCone> cones = sorted();
@@ -106,37 +100,14 @@ class VulkanTracer final : public ConeTracer {
       cones.erase(firstUnfit, cones.end());
     }
     const double deviceShare = static_cast<double>(cones.size()) / static_cast<double>(std::max<size_t>(1, coneCount));
-    timer_.emplace(kernel_.device(), uint32_t{kChunksInFlight});
     traceOnDevice(cones, submit, results, redone, control.part(0, deviceShare));
     redo(redone, startOf, results, control.part(deviceShare, 1));
-    if (store != nullptr) store->addSeeds(coneCount);
-    return {rayCount, redone.size(), timer_->seconds()};
-  }
-
-  /// Null if the hits are not stored.
-  [[nodiscard]] VulkanHitStore* storeOf(const ConeResults& results) const {
-    if (results.store == nullptr) return nullptr;
-    VulkanHitStore* const store = results.store->onVulkan();
-    ASDFVK_CHECK(&store->device() == &kernel_.device());
-    ASDFVK_CHECK_OP(store->rayCount(), ==, kernel_.rayCount());
-    return store;
-  }
-
-  void storeMisses(VulkanHitStore& store, size_t coneCount) const {
-    const size_t blockSize = largestConeChunk(kernel_);
-    for (size_t begin = 0; begin < coneCount; begin += blockSize) {
-      std::vector<uint32_t> places(std::min(blockSize, coneCount - begin));
-      std::iota(places.begin(), places.end(), static_cast<uint32_t>(begin));
-      const std::vector<ConeHit> misses(places.size() * kernel_.rayCount(), kMiss);
-      store.write(places, misses);
-    }
-    store.addSeeds(coneCount);
+    return {rayCount, redone.size()};
   }
 
   template <typename Submit>
   void traceOnDevice(std::span<const DeviceCone> cones, const Submit& submit, const ConeResults& results,
                      std::vector<uint32_t>& redone, const RunControl& control) {
-    const VulkanHitStore* const store = storeOf(results);
     const uint64_t largest = largestConeChunk(kernel_);
     const ChunkSize size(std::max<uint64_t>(1, kFirstChunkRayCount / kernel_.rayCount()), largest,
                          ChunkSize::kTargetSeconds / kChunksInFlight);
@@ -145,13 +116,9 @@ class VulkanTracer final : public ConeTracer {
       std::optional<ConeChunk>& chunk = chunks[slot];
       if (!chunk || chunk->capacity() < end - begin) {
         chunk.reset();
-        chunk.emplace(kernel_, buffers_, std::min<uint64_t>(std::bit_ceil(end - begin), largest),
-                      ConeChunk::Timing{*timer_, static_cast<uint32_t>(slot)}, store);
+        chunk.emplace(kernel_, buffers_, std::min<uint64_t>(std::bit_ceil(end - begin), largest));
       }
-      const std::span<const DeviceCone> own = cones.subspan(begin, end - begin);
-      if (store != nullptr)
-        std::ranges::transform(own, chunk->places().begin(), [](const DeviceCone& cone) { return cone.index; });
-      submit(*chunk, own);
+      submit(*chunk, cones.subspan(begin, end - begin));
     };
     const auto read = [&](size_t slot, size_t begin, size_t end) {
       readChunk(*chunks[slot], cones.subspan(begin, end - begin), results, redone);
@@ -209,9 +176,8 @@ class VulkanTracer final : public ConeTracer {
   void redo(const std::vector<uint32_t>& redone, const StartOf& startOf, const ConeResults& results,
             const RunControl& control) const {
     const std::unique_ptr<ConeTracer> reference = makeReferenceTracer(scene_, cone_);
-    const VulkanHitStore* const store = storeOf(results);
-    const size_t hitCount = results.hits.empty() && store == nullptr ? 0 : kernel_.rayCount();  // per cone
-    const size_t blockSize = largestConeChunk(kernel_);  // bounds the copies of starts and hits
+    const size_t hitCount = results.hits.empty() ? 0 : kernel_.rayCount();  // per cone
+    const size_t blockSize = largestConeChunk(kernel_);                     // bounds the copies of starts and hits
     const auto total = static_cast<double>(redone.size());
     for (size_t begin = 0; begin < redone.size(); begin += blockSize) {
       const std::span<const uint32_t> block =
@@ -228,7 +194,6 @@ class VulkanTracer final : public ConeTracer {
       if (!results.hits.empty())
         copyHits(
             block.size(), [&](uint32_t i) { return block[i]; }, hits, results.hits);
-      if (store != nullptr) store->write(block, hits);
     }
   }
 
@@ -238,7 +203,6 @@ class VulkanTracer final : public ConeTracer {
   double encodeSeconds_ = 0;
   std::optional<DeviceSeeds> seeds_;
   ConeBuffers buffers_;
-  std::optional<DeviceTimer> timer_;  // Measures the last call.
 };
 
 }  // namespace

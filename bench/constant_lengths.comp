@@ -1,0 +1,27 @@
+#version 450
+// In place of shaders/trace_rays.comp: lengths and hits that are a smooth function of the origin instead of those of
+// rays, in the time that writing them takes.
+#extension GL_GOOGLE_include_directive : require
+#include "shared/cone_layout.h"
+
+layout(local_size_x_id = 6) in;
+layout(constant_id = 0) const uint kLanesPerCone = 1;
+layout(constant_id = 1) const uint kConesPerWorkgroup = 64;
+layout(constant_id = 2) const uint kRayCount = 30;
+layout(constant_id = 4) const bool kWritesHits = false;
+
+layout(set = 0, binding = 5, rgba32ui) uniform readonly uimageBuffer originTexels;
+layout(set = 0, binding = 6) writeonly buffer Lengths { uint lengths[]; };
+layout(set = 0, binding = 7) writeonly buffer Hits { uvec2 hits[]; };
+layout(push_constant) uniform Push { ConePush push; };
+
+void main() {
+  const uint lane = gl_LocalInvocationID.x;
+  const uint cone = gl_WorkGroupID.x * kConesPerWorkgroup + lane / kLanesPerCone;
+  const uint ray = gl_WorkGroupID.y * kLanesPerCone + lane % kLanesPerCone;
+  if (cone >= push.coneCount || ray >= kRayCount) return;
+  const uvec4 origin = imageLoad(originTexels, int(cone * kConeOriginTexelCount));
+  const uint length = floatBitsToUint(0.25 + 0.125 * uintBitsToFloat(origin.x));
+  lengths[ray * push.coneCount + cone] = length;
+  if (kWritesHits) hits[cone * kRayCount + ray] = uvec2(length, origin.w);
+}

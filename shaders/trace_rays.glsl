@@ -1,0 +1,70 @@
+// The lengths of the rays of cones, which trace_reduce.comp reduces to values. Workgroup (x, y) traces kLanesPerCone
+// rays, from ray y kLanesPerCone on, of kConesPerWorkgroup cones: with one lane per cone, neighbouring lanes have the
+// same ray of neighbouring seeds, which visit nearly the same nodes.
+#include "shared/cone_hit.h"
+#include "shared/cone_layout.h"
+#include "shared/cone_rules.h"
+
+layout(local_size_x_id = 6) in;  // kLanesPerCone * kConesPerWorkgroup: an id is used once only.
+layout(constant_id = 0) const uint kLanesPerCone = 1;
+layout(constant_id = 1) const uint kConesPerWorkgroup = 64;
+layout(constant_id = 2) const uint kRayCount = 30;
+layout(constant_id = 3) const uint kIterationLimit = 8000;
+layout(constant_id = 4) const bool kWritesHits = false;
+layout(constant_id = 7) const bool kIsCgal = false;  // The definition of the shape diameter; otherwise the paper's.
+
+layout(set = 0, binding = 4, rgba32ui) uniform readonly uimageBuffer rayTexels;
+layout(set = 0, binding = 5, rgba32ui) uniform readonly uimageBuffer originTexels;
+layout(set = 0, binding = 6) writeonly buffer Lengths { uint lengths[]; };  // Bits, coneCount per ray.
+layout(set = 0, binding = 7) writeonly buffer Hits { uvec2 hits[]; };  // ConeHit, kRayCount per cone, if kWritesHits.
+layout(push_constant) uniform Push { ConePush push; };
+
+#include "ray_query.glsl"
+
+#include "wide_walk.glsl"
+#ifdef WALKS_TOGETHER
+#include "packet_walk.glsl"
+#endif
+
+const float kDropped = -1.0;  // The length of an invalid ray.
+
+ConeOrigin loadOrigin(uint cone) {
+  const int t = int(cone * kConeOriginTexelCount);
+  return decodeConeOrigin(imageLoad(originTexels, t), imageLoad(originTexels, t + 1), imageLoad(originTexels, t + 2));
+}
+
+// Without what intersectTriangle() adds on the outer side.
+float distanceOf(Hit hit, vec3 normal, vec3 direction) {
+  return dot(normal, direction) < 0.0 ? hit.distance - kOuterSideFactor * push.contactDistance : hit.distance;
+}
+
+// The length of a ray; kDropped where it hits nothing, or where the hit is false: by the angle between the normal of
+// the face and that of the seed (minus the axis), or between the normal of the face and the ray.
+float validLength(Hit hit, vec3 axis, vec3 direction) {
+  if (hit.primitive == kNoPrimitive) return kDropped;
+  const DeviceTriangle triangle = loadTriangle(hit.primitive);
+  const vec3 normal = decodeNormal(triangle.normalU, triangle.normalV);
+  return -dot(normal, kIsCgal ? direction : axis) > push.falseHitCosine ? kDropped : distanceOf(hit, normal, direction);
+}
+
+uvec2 encodeHit(Hit hit, vec3 direction) {
+  if (hit.primitive == kNoPrimitive) return uvec2(kMissDistanceBits, kNoFace);
+  const DeviceTriangle triangle = loadTriangle(hit.primitive);
+  const vec3 normal = decodeNormal(triangle.normalU, triangle.normalV);
+  return uvec2(floatBitsToUint(distanceOf(hit, normal, direction)), triangle.faceIndex);
+}
+
+void main() {
+  const uint lane = gl_LocalInvocationID.x;
+  const uint cone = gl_WorkGroupID.x * kConesPerWorkgroup + lane / kLanesPerCone;
+  const uint ray = gl_WorkGroupID.y * kLanesPerCone + lane % kLanesPerCone;
+  if (cone >= push.coneCount || ray >= kRayCount) return;
+  const ConeOrigin start = loadOrigin(cone);
+  const vec3 axis = cross(start.tangent, start.bitangent);
+  const vec3 local = decodeConeRay(imageLoad(rayTexels, int(ray))).direction;
+  const vec3 direction = local.x * start.tangent + local.y * start.bitangent + local.z * axis;
+  const Hit hit = FIND_NEAREST_HIT(makeQuery(start.origin, direction, start.excludedFace));
+  const float length = validLength(hit, axis, direction);
+  lengths[ray * push.coneCount + cone] = hit.isComplete ? floatBitsToUint(length) : kIterationLimitBits;
+  if (kWritesHits) hits[cone * kRayCount + ray] = encodeHit(hit, direction);
+}
