@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
 #include <utility>
 #include <vector>
@@ -10,8 +11,8 @@
 #include "asdf_vk/error.h"
 #include "core/parallel.h"
 #include "vk/buffer_pool.h"
+#include "vk/command_list.h"
 #include "vk/result.h"
-#include "vk/staging_ring.h"
 
 namespace asdfvk {
 namespace {
@@ -48,13 +49,28 @@ VkResult allocate(const Device& device, VkMemoryAllocateInfo& info, std::span<co
   return result;
 }
 
-/// The first write to each page of fresh memory costs more than the copy.
+/// On several threads: one does not saturate the memory, and the first write to each page of fresh memory costs more
+/// than the copy.
 void copyInParallel(std::span<const std::byte> from, std::byte* to) {
-  constexpr size_t kBlockByteCount = size_t{4} << 20;
+  constexpr size_t kBlockByteCount = size_t{1} << 20;
   forEachTask((from.size() + kBlockByteCount - 1) / kBlockByteCount, [&](size_t block) {
     const std::span<const std::byte> own = from.subspan(block * kBlockByteCount);
     std::memcpy(to + block * kBlockByteCount, own.data(), std::min(own.size(), kBlockByteCount));
   });
+}
+
+/// Calls copyPiece(commands, staging, begin, byteCount) for each piece; staging: mapped memory for one.
+template <typename CopyPiece>
+void forEachPiece(const Device& device, uint64_t byteCount, const CopyPiece& copyPiece) {
+  constexpr uint64_t kMinPieceByteCount = 64u << 10;
+  if (byteCount == 0) return;
+  const uint64_t pieceByteCount = std::bit_ceil(std::clamp(byteCount, kMinPieceByteCount, kMaxPieceByteCount));
+  const PooledBuffer staging(device, pieceByteCount,
+                             VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                             MemoryKind::HostVisible);
+  CommandList commands(device);
+  for (uint64_t begin = 0; begin < byteCount; begin += kMaxPieceByteCount)
+    copyPiece(commands, *staging, begin, std::min(kMaxPieceByteCount, byteCount - begin));
 }
 
 }  // namespace
@@ -148,20 +164,32 @@ TexelView& TexelView::operator=(TexelView&& other) noexcept {
 
 Buffer uploadBuffer(const Device& device, std::span<const std::byte> bytes, VkBufferUsageFlags usage, MemoryKind kind) {
   Buffer buffer(device, std::max<uint64_t>(bytes.size(), 16), usage | VK_BUFFER_USAGE_TRANSFER_DST_BIT, kind);
-  if (bytes.empty()) return buffer;
-  if (buffer.mapped() != nullptr)
-    copyInParallel(bytes, static_cast<std::byte*>(buffer.mapped()));
-  else
-    device.staging().upload(bytes, buffer);
+  if (buffer.mapped() != nullptr) {
+    copyInParallel(bytes, buffer.mapped());
+    return buffer;
+  }
+  forEachPiece(device, bytes.size(), [&](CommandList& commands, const Buffer& staging, uint64_t begin, uint64_t count) {
+    copyInParallel(bytes.subspan(begin, count), staging.mapped());
+    commands.begin();
+    commands.copy(staging, 0, buffer, begin, count);
+    commands.barrier();
+    commands.submitAndWait();
+  });
   return buffer;
 }
 
 void downloadBuffer(const Device& device, const Buffer& buffer, std::span<std::byte> bytes) {
-  if (bytes.empty()) return;
-  if (buffer.mapped() != nullptr)
-    std::memcpy(bytes.data(), buffer.mapped(), bytes.size());
-  else
-    device.staging().download(buffer, bytes);
+  if (buffer.mapped() != nullptr) {
+    std::ranges::copy(std::span(buffer.mapped(), bytes.size()), bytes.begin());
+    return;
+  }
+  forEachPiece(device, bytes.size(), [&](CommandList& commands, const Buffer& staging, uint64_t begin, uint64_t count) {
+    commands.begin();
+    commands.copy(buffer, begin, staging, 0, count);
+    commands.barrier();
+    commands.submitAndWait();
+    copyInParallel(std::span(staging.mapped(), count), &bytes[begin]);
+  });
 }
 
 }  // namespace asdfvk

@@ -64,8 +64,10 @@ class TexelView {
   VkBufferView view_ = VK_NULL_HANDLE;
 };
 
-/// A device-local buffer filled with `bytes`, through Device::staging() where the host cannot write to it. At least 16
-/// bytes are allocated, because an empty buffer cannot be bound.
+/// Copies between host memory and buffers that are not mapped pass through mapped memory in pieces of this size.
+inline constexpr uint64_t kMaxPieceByteCount = 8u << 20;
+
+/// A device-local buffer filled with `bytes`. At least 16 bytes are allocated, because an empty buffer cannot be bound.
 [[nodiscard]] Buffer uploadBuffer(const Device& device, std::span<const std::byte> bytes, VkBufferUsageFlags usage,
                                   MemoryKind kind = MemoryKind::DeviceLocal);
 

@@ -10,7 +10,6 @@
 #include "core/text.h"
 #include "vk/buffer_pool.h"
 #include "vk/result.h"
-#include "vk/staging_ring.h"
 
 namespace asdfvk {
 namespace {
@@ -152,11 +151,9 @@ Device::Device(VkPhysicalDevice physical, DeviceFacts facts) : facts_(std::move(
     requireSuccess(result, "creating a command pool");
   }
   pool_ = std::make_unique<BufferPool>(*this);
-  staging_ = std::make_unique<StagingRing>(*this);
 }
 
 Device::~Device() {
-  staging_.reset();
   pool_.reset();
   vkDestroyCommandPool(device_, commandPool_, nullptr);
   vkDestroyDevice(device_, nullptr);

@@ -14,7 +14,6 @@
 namespace asdfvk {
 
 class BufferPool;
-class StagingRing;
 
 /// The first family with compute and without graphics, which does not delay the desktop and on some systems has a
 /// longer watchdog; else the first with compute.
@@ -36,7 +35,6 @@ class Device {
   [[nodiscard]] VkCommandPool commandPool() const { return commandPool_; }
   [[nodiscard]] const DeviceFacts& facts() const { return facts_; }
   [[nodiscard]] BufferPool& pool() const { return *pool_; }
-  [[nodiscard]] StagingRing& staging() const { return *staging_; }
   /// The first memory type among `allowedTypes` with all of `wanted`; unset when there is none.
   [[nodiscard]] std::optional<uint32_t> findMemoryType(uint32_t allowedTypes, VkMemoryPropertyFlags wanted) const;
   [[nodiscard]] VkMemoryPropertyFlags memoryFlags(uint32_t type) const {
@@ -50,7 +48,6 @@ class Device {
   VkQueue queue_ = VK_NULL_HANDLE;
   VkCommandPool commandPool_ = VK_NULL_HANDLE;
   std::unique_ptr<BufferPool> pool_;
-  std::unique_ptr<StagingRing> staging_;
 };
 
 struct OpenedDevice {

@@ -9,7 +9,6 @@
 #include "support/require_failure.h"
 #include "support/test_device.h"
 #include "vk/shared_buffer.h"
-#include "vk/staging_ring.h"
 
 using namespace asdfvk;
 
@@ -83,10 +82,10 @@ TEST_CASE("idle buffers are freed before a device counts as out of memory") {
   vkAllocateMemory = allocate;
 }
 
-TEST_CASE("copies through the staging ring are exact for all sizes, and the ring keeps its memory") {
+TEST_CASE("copies in pieces are exact for all sizes, and the pool keeps their memory") {
   const auto separate = test::ValidatedDevice::changed(test::useSeparateMemory);
   const Device& device = *separate;
-  constexpr uint64_t kPiece = StagingRing::kMaxPieceByteCount;
+  constexpr uint64_t kPiece = kMaxPieceByteCount;
   const std::vector<uint32_t> all = numbers((3 * kPiece + 20) / 4);
   const auto checkCopy = [&](uint64_t byteCount) {
     const std::vector<uint32_t> words(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(byteCount / 4));
@@ -96,7 +95,8 @@ TEST_CASE("copies through the staging ring are exact for all sizes, and the ring
     downloadBuffer(device, buffer, std::as_writable_bytes(std::span(back)));
     CHECK(back == words);
   };
-  for (const uint64_t byteCount : {uint64_t{4}, kPiece - 4, kPiece, kPiece + 4, 2 * kPiece, 3 * kPiece + 20})
+  for (const uint64_t byteCount :
+       {uint64_t{0}, uint64_t{4}, kPiece - 4, kPiece, kPiece + 4, 2 * kPiece, 3 * kPiece + 20})
     checkCopy(byteCount);
   const test::CountedMemory counted;
   checkCopy(3 * kPiece + 20);
